@@ -1,0 +1,32 @@
+#pragma once
+#include <vector>
+
+#include "app/load_body.h"
+#include "core/bricks/embedding.h"
+#include "core/skin/skin.h"
+#include "core/world/world.h"
+
+namespace sprung {
+
+/// The skin of one actor and how it rides on its bricks.
+struct DrawnSkin {
+  Skin skin;
+  Embedding embedding;
+  Color color;
+};
+
+/// What moves and what is seen of it: skins[i] belongs to world.actors[i].
+struct Production {
+  World world;
+  std::vector<DrawnSkin> skins;
+  double size = 0;  // m, longest side of the largest body
+};
+
+/// Fills the bodies' solids with bricks, places them and finds what is held.
+/// Throws Error(kBadInput) where a pin holds no node.
+[[nodiscard]] Production build_world(const Scene& scene, const std::vector<LoadedBody>& bodies, const Console& console);
+
+/// Skin vertices of actor i for these positions of its nodes, m.
+[[nodiscard]] Points skin_positions(const Production& production, std::size_t actor, const Points& nodes);
+
+}  // namespace sprung

@@ -1,0 +1,197 @@
+#include "app/command_line.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <sstream>
+
+#include "app/scene_keys.h"
+#include "app/scene_values.h"
+#include "core/error.h"
+#include "core/nearest.h"
+
+namespace sprung {
+namespace {
+
+constexpr const char* kVersion = SPRUNG_VERSION;
+
+/// An option for a key of the scene; its help is that of the key.
+struct SceneOption {
+  const char* option;
+  std::string_view key;
+  const char* example;
+};
+
+constexpr std::array<SceneOption, 14> kSceneOptions{{
+    {"--material", "body.material", "NAME"},
+    {"--young", "body.material.young", "20kPa"},
+    {"--poisson", "body.material.poisson", "0.45"},
+    {"--density", "body.material.density", "1.1g/cm3"},
+    {"--damping", "body.material.damping", "0.03"},
+    {"--size", "body.size", "12cm"},
+    {"--bricks", "body.bricks", "N"},
+    {"--brick-size", "body.brick_size", "5mm"},
+    {"--model", "body.model", "NAME"},
+    {"--scheme", "scheme", "NAME"},
+    {"--fps", "fps", "N"},
+    {"--duration", "duration", "3s"},
+    {"--resolution", "render.resolution", "WxH"},
+    {"--samples", "render.samples", "N"},
+}};
+
+template <class Owner>
+std::string key_help(std::string_view path);
+
+template <class Value>
+std::string help_below(const Value*, std::string_view) {
+  return "";
+}
+std::string help_below(const Material*, std::string_view rest) { return key_help<Material>(rest); }
+std::string help_below(const SceneRender*, std::string_view rest) { return key_help<SceneRender>(rest); }
+std::string help_below(const std::vector<SceneBody>*, std::string_view rest) { return key_help<SceneBody>(rest); }
+
+template <class Owner>
+std::string key_help(std::string_view path) {
+  const auto dot = path.find('.');
+  const Key<Owner>* key = find_key<Owner>(path.substr(0, dot));
+  if (dot == std::string_view::npos) return std::string(key->help);
+  const auto below = [&](auto field) {
+    return help_below(static_cast<std::remove_cvref_t<decltype(Owner{}.*field)>*>(nullptr), path.substr(dot + 1));
+  };
+  return std::visit(below, key->member);
+}
+
+/// Everything that CLI11 fills in.
+struct Words {
+  AnimateOptions animate;
+  std::array<std::string, kSceneOptions.size()> scene_values;
+  std::string scenario;
+  std::string threads;
+};
+
+void add_animate(CLI::App& app, Words& words) {
+  CLI::App* animate = app.add_subcommand("animate", "mesh or scene in, pictures or film out");
+  animate->add_option("INPUT", words.animate.input, "a mesh file, or a scene (.toml)");
+  animate
+      ->add_option("-o,--output", words.animate.outputs,
+                   "folder/, folder/frame_{:04}.png, or film.mp4, .webm, .gif; may be given several times")
+      ->allow_extra_args(false)
+      ->option_text("OUT");
+  for (std::size_t i = 0; i < kSceneOptions.size(); ++i) {
+    animate->add_option(kSceneOptions[i].option, words.scene_values[i], key_help<Scene>(kSceneOptions[i].key))
+        ->option_text(kSceneOptions[i].example);
+  }
+  animate->add_option("--scenario", words.scenario, "what a bare mesh does: drop or hang")->option_text("NAME");
+  animate->add_option("--threads", words.threads, "threads of the simulation; default: all cores")->option_text("N");
+  animate->add_flag("--overwrite", words.animate.overwrite, "replace pictures and films that exist");
+  animate->add_flag("--print-scene", words.animate.print_scene, "write the scene as resolved to stdout, and stop");
+  animate->add_flag("--quiet", words.animate.quiet, "warnings and errors only");
+  animate->add_flag("--verbose", words.animate.verbose, "more about every stage");
+  animate->footer(
+      "Lengths, times, pressures and densities take a unit (\"3 cm\", 20kPa, 1.2g/cm3); a bare number is SI.\n"
+      "Options override the scene file, which overrides the defaults.");
+  animate->allow_extras();
+}
+
+/// The first word that nothing was made for.
+void refuse_extras(const CLI::App& app, std::string_view kind) {
+  const std::vector<std::string> extras = app.remaining();
+  if (extras.empty()) return;
+  std::string word = extras.front();
+  for (const std::string& extra : extras) {
+    if (extra.starts_with('-')) {
+      word = extra.substr(0, extra.find('='));
+      break;
+    }
+  }
+  std::vector<std::string> known;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+  }
+  const bool is_option = word.starts_with('-');
+  if (!is_option) {
+    known.clear();
+    for (const CLI::App* command : app.get_subcommands({})) known.push_back(command->get_name());
+  }
+  const std::vector<std::string_view> views(known.begin(), known.end());
+  const std::string hint = views.empty() ? "" : did_you_mean(word, views);
+  throw Error(ErrorKind::kUsage, fmt::format("{} '{}'{}", is_option ? "unknown option" : kind, word, hint));
+}
+
+Scenario scenario_from_name(const std::string& name) {
+  constexpr std::array<std::string_view, 2> kNames{"drop", "hang"};
+  if (name == kNames[0]) return Scenario::kDrop;
+  if (name == kNames[1]) return Scenario::kHang;
+  throw Error(ErrorKind::kUsage, fmt::format("there is no scenario '{}'{}", name, did_you_mean(name, kNames)));
+}
+
+int thread_count(const std::string& text) {
+  int threads = 0;
+  try {
+    parse_value(text, {.name = "threads", .help = "", .range = {1, 4096}}, threads);
+  } catch (const Error& error) {
+    throw Error(ErrorKind::kUsage, fmt::format("--threads: {}", error.what()));
+  }
+  return threads;
+}
+
+AnimateOptions animate_options(const CLI::App& command, Words& words) {
+  refuse_extras(command, "more than one input; what is");
+  AnimateOptions options = std::move(words.animate);
+  for (std::size_t i = 0; i < kSceneOptions.size(); ++i) {
+    const auto& [option, key, example] = kSceneOptions[i];
+    if (command.count(option) > 0) options.settings.push_back({option, std::string(key), words.scene_values[i]});
+  }
+  if (command.count("--bricks") > 0 && command.count("--brick-size") > 0) {
+    throw Error(ErrorKind::kUsage, "give --bricks or --brick-size, not both");
+  }
+  if (!words.scenario.empty()) options.scenario = scenario_from_name(words.scenario);
+  if (!words.threads.empty()) options.threads = thread_count(words.threads);
+  if (options.input.empty())
+    throw Error(ErrorKind::kUsage, "animate needs a mesh or a scene; see sprung animate --help");
+  if (options.outputs.empty() && !options.print_scene) {
+    throw Error(ErrorKind::kUsage, "animate needs an output: -o folder/, -o frame_{:04}.png or -o film.mp4");
+  }
+  return options;
+}
+
+}  // namespace
+
+CommandLine parse_command_line(int argc, const char* const* argv) {
+  CLI::App app("Soft bodies of real materials, from a surface mesh to a film.", "sprung");
+  app.set_version_flag("--version", std::string("sprung ") + kVersion);
+  app.get_formatter()->column_width(34);
+  app.allow_extras();
+  app.footer(
+      "Try: sprung animate bunny.obj -o bunny.mp4\nHelp on a command: sprung COMMAND --help\n"
+      "Exit codes: 0 done, 1 failed, 2 wrong usage, 3 bad input, 4 diverged, 130 interrupted.");
+  Words words;
+  add_animate(app, words);
+  CLI::App* materials = app.add_subcommand("materials", "the library of materials, with sources");
+  materials->allow_extras();
+  CommandLine line;
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& help) {
+    std::ostringstream text;
+    app.exit(help, text, text);
+    line.text = text.str();
+    return line;
+  } catch (const CLI::ParseError& error) {
+    throw Error(ErrorKind::kUsage, error.what());
+  }
+  refuse_extras(app, "unknown command");
+  if (app.got_subcommand(materials)) {
+    refuse_extras(*materials, "unexpected");
+    line.command = CommandLine::Command::kMaterials;
+  } else if (app.got_subcommand("animate")) {
+    line.animate = animate_options(*app.get_subcommand("animate"), words);
+    line.command = CommandLine::Command::kAnimate;
+  } else {
+    line.text = app.help();
+  }
+  return line;
+}
+
+}  // namespace sprung

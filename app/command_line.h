@@ -1,0 +1,40 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/scene.h"
+
+namespace sprung {
+
+/// One option that stands for a key of the scene, as it was typed.
+struct Setting {
+  std::string option;  // "--young"
+  std::string key;     // "body.material.young"
+  std::string value;
+};
+
+/// What `sprung animate` was asked to do.
+struct AnimateOptions {
+  std::string input;                 // a mesh or a scene
+  std::vector<std::string> outputs;  // as typed
+  std::vector<Setting> settings;
+  std::optional<Scenario> scenario;
+  int threads = 0;  // 0: as many as there are cores
+  bool overwrite = false;
+  bool print_scene = false;
+  bool quiet = false;
+  bool verbose = false;
+};
+
+struct CommandLine {
+  enum class Command { kShowText, kMaterials, kAnimate };
+  Command command = Command::kShowText;
+  std::string text;  // of kShowText: help or version
+  AnimateOptions animate;
+};
+
+/// Throws Error(kUsage), with the nearest word for a mistyped command or option.
+[[nodiscard]] CommandLine parse_command_line(int argc, const char* const* argv);
+
+}  // namespace sprung

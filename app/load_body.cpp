@@ -1,0 +1,101 @@
+#include "app/load_body.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <span>
+
+#include "core/error.h"
+#include "core/mesh/read_mesh.h"
+
+namespace sprung {
+namespace {
+
+/// In double and before anything else, so that a mesh far from its origin loses nothing later.
+Vec3 recentre(SurfaceMesh& mesh) {
+  const Vec3 low = mesh.positions.colwise().minCoeff();
+  const Vec3 high = mesh.positions.colwise().maxCoeff();
+  const Vec3 middle = low + (high - low) / 2;
+  mesh.positions.rowwise() -= middle.transpose();
+  return high - low;
+}
+
+/// Metres per unit of the file.
+double scale_of(const SceneBody& body, const std::string& name, double length, const Console& console) {
+  if (body.scale) return *body.scale;
+  if (!body.size) {
+    console.note(fmt::format("size: {} is {:.4g} file units long, drawn {} m long; say --size to choose", name, length,
+                             kDefaultSize));
+  }
+  return body.size.value_or(kDefaultSize) / length;
+}
+
+template <class Rows>
+void take_rows(Rows& rows, const std::vector<int>& wanted) {
+  if (rows.rows() > 0) rows = Rows(rows(wanted, Eigen::all));
+}
+
+/// The parts of the chosen triangles, which are in ascending order.
+std::vector<Part> parts_of(const std::vector<Part>& parts, const std::vector<int>& triangles) {
+  std::vector<Part> chosen;
+  for (const Part& part : parts) {
+    const auto first = std::lower_bound(triangles.begin(), triangles.end(), part.first_triangle);
+    const auto last = std::lower_bound(first, triangles.end(), part.first_triangle + part.triangle_count);
+    if (first == last) continue;
+    chosen.push_back(part);
+    chosen.back().first_triangle = static_cast<int>(first - triangles.begin());
+    chosen.back().triangle_count = static_cast<int>(last - first);
+  }
+  return chosen;
+}
+
+}  // namespace
+
+SurfaceMesh submesh(const SurfaceMesh& mesh, const std::vector<int>& triangles) {
+  std::vector<int> rows = triangles;
+  std::sort(rows.begin(), rows.end());
+  SurfaceMesh part;
+  part.triangles = mesh.triangles(rows, Eigen::all);
+  std::vector<int> new_vertex(static_cast<std::size_t>(mesh.positions.rows()), -1);
+  std::vector<int> vertices;
+  for (int& vertex : std::span(part.triangles.data(), static_cast<std::size_t>(part.triangles.size()))) {
+    int& number = new_vertex[static_cast<std::size_t>(vertex)];
+    if (number < 0) {
+      number = static_cast<int>(vertices.size());
+      vertices.push_back(vertex);
+    }
+    vertex = number;
+  }
+  part.positions = mesh.positions(vertices, Eigen::all);
+  part.normals = mesh.normals;
+  part.uvs = mesh.uvs;
+  part.colors = mesh.colors;
+  take_rows(part.normals, vertices);
+  take_rows(part.uvs, vertices);
+  take_rows(part.colors, vertices);
+  part.parts = parts_of(mesh.parts, rows);
+  part.materials = mesh.materials;
+  return part;
+}
+
+LoadedBody load_body(const SceneBody& body, const Console& console) {
+  LoadedBody loaded;
+  loaded.name = body.mesh.filename().string();
+  loaded.mesh = read_mesh(body.mesh);
+  const Vec3 extent = recentre(loaded.mesh);
+  const double length = extent.maxCoeff();
+  if (!(length > 0)) {
+    throw Error(ErrorKind::kBadInput, fmt::format("{}: all points of the mesh fall together", body.mesh.string()));
+  }
+  const double scale = scale_of(body, loaded.name, length, console);
+  loaded.mesh.positions *= scale;
+  loaded.extent = extent * scale;
+  loaded.brick_size =
+      body.brick_size ? *body.brick_size : scale * length / static_cast<double>(body.bricks.value_or(kDefaultBricks));
+  Solids found = find_solids(loaded.mesh, body.mesh.string());
+  for (const std::string& note : found.notes) console.warn(fmt::format("{}: {}", loaded.name, note));
+  loaded.solids = std::move(found.solids);
+  return loaded;
+}
+
+}  // namespace sprung

@@ -1,0 +1,34 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sprung {
+
+/// Where pictures go: numbered PNG files in a folder, or a film.
+struct Output {
+  enum class Kind { kPictures, kFilm };
+  Kind kind = Kind::kPictures;
+  std::filesystem::path folder{};  // that the pictures or the film lie in
+  std::string before{};            // a picture's name is before + number + after
+  std::string after{};
+  int digits = 0;                // leading zeros up to that many digits
+  std::filesystem::path film{};  // the file of a film
+
+  /// Of the picture with this number; the first is 1.
+  [[nodiscard]] std::filesystem::path picture(int number) const;
+};
+
+/// What the words after --output mean: "dir/" or "dir" (frame_0001.png ... in it), "dir/f_{:04}.png" or "{:04d}" or
+/// "{}", "film.mp4", ".webm", ".gif". Throws Error(kUsage) for anything else that looks like a file.
+[[nodiscard]] Output parse_output(std::string_view words);
+
+/// The numbered pictures of this output that exist, in order of their names.
+[[nodiscard]] std::vector<std::filesystem::path> existing_pictures(const Output& output);
+
+/// Throws where the output cannot be made, before any work is lost: Error(kUsage) where it exists and `overwrite` is
+/// not set, Error(kFailed) where its folder cannot be made or written, or a film's ffmpeg is missing.
+void check_output(const Output& output, bool overwrite);
+
+}  // namespace sprung

@@ -1,0 +1,104 @@
+#include "app/picture_writer.h"
+
+#include <fmt/format.h>
+
+#include <set>
+
+#include "core/error.h"
+#include "render/png.h"
+
+namespace sprung {
+namespace {
+
+constexpr std::size_t kMostWaiting = 4;
+
+void make_folder(const std::filesystem::path& folder) {
+  if (folder.empty()) return;
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) {
+    throw Error(ErrorKind::kFailed, fmt::format("cannot make the folder '{}': {}", folder.string(), error.message()));
+  }
+}
+
+}  // namespace
+
+PictureWriter::PictureWriter(std::vector<Output> outputs, int width, int height, double fps)
+    : outputs_(std::move(outputs)) {
+  for (const Output& output : outputs_) {
+    make_folder(output.folder);
+    if (output.kind != Output::Kind::kFilm) continue;
+    films_.push_back(std::make_unique<FilmWriter>(output.film, width, height, fps));
+  }
+  thread_ = std::thread([this] { run(); });
+}
+
+PictureWriter::~PictureWriter() {
+  {
+    const std::lock_guard lock(mutex_);
+    waiting_.clear();
+    is_closed_ = true;
+  }
+  changed_.notify_all();
+  if (thread_.joinable()) thread_.join();
+}
+
+void PictureWriter::write(Image image) {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [this] { return waiting_.size() < kMostWaiting || failure_; });
+  if (failure_) std::rethrow_exception(failure_);
+  waiting_.push_back(std::move(image));
+  changed_.notify_all();
+}
+
+void PictureWriter::close() {
+  {
+    const std::lock_guard lock(mutex_);
+    is_closed_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+  if (failure_) std::rethrow_exception(failure_);
+  for (const auto& film : films_) film->close();
+  remove_leftovers();
+}
+
+void PictureWriter::run() {
+  while (true) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return !waiting_.empty() || is_closed_; });
+    if (waiting_.empty()) return;
+    const Image image = std::move(waiting_.front());
+    waiting_.pop_front();
+    lock.unlock();
+    changed_.notify_all();
+    try {
+      write_everywhere(image);
+    } catch (...) {
+      lock.lock();
+      failure_ = std::current_exception();
+      changed_.notify_all();
+      return;
+    }
+  }
+}
+
+void PictureWriter::write_everywhere(const Image& image) {
+  ++written_;
+  for (const Output& output : outputs_) {
+    if (output.kind == Output::Kind::kPictures) write_png(image, output.picture(written_));
+  }
+  for (const auto& film : films_) film->write(image);
+}
+
+void PictureWriter::remove_leftovers() const {
+  for (const Output& output : outputs_) {
+    std::set<std::filesystem::path> kept;
+    for (int number = 1; number <= written_; ++number) kept.insert(output.picture(number).filename());
+    for (const std::filesystem::path& picture : existing_pictures(output)) {
+      if (!kept.contains(picture.filename())) std::filesystem::remove(picture);
+    }
+  }
+}
+
+}  // namespace sprung

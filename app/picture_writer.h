@@ -1,0 +1,48 @@
+#pragma once
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "app/output.h"
+#include "render/film.h"
+#include "render/image.h"
+
+namespace sprung {
+
+/// Encodes pictures in a thread of its own, so that drawing does not wait for it. Pictures go to every output in the
+/// order in which they come.
+class PictureWriter {
+ public:
+  /// Makes the folders. Throws Error(kFailed).
+  PictureWriter(std::vector<Output> outputs, int width, int height, double fps);
+  /// Stops; films that are not finished disappear.
+  ~PictureWriter();
+  PictureWriter(const PictureWriter&) = delete;
+  PictureWriter& operator=(const PictureWriter&) = delete;
+
+  /// Waits where too many pictures are waiting already. Throws what went wrong in the thread.
+  void write(Image image);
+  /// Finishes the films, and takes away pictures that an earlier, longer run left behind.
+  void close();
+
+ private:
+  void run();
+  void write_everywhere(const Image& image);
+  void remove_leftovers() const;
+
+  std::vector<Output> outputs_;
+  std::vector<std::unique_ptr<FilmWriter>> films_;
+  std::deque<Image> waiting_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::exception_ptr failure_;
+  bool is_closed_ = false;
+  int written_ = 0;
+  std::thread thread_;
+};
+
+}  // namespace sprung

@@ -1,0 +1,122 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "app/scene_file.h"
+#include "app/scene_values.h"
+
+namespace sprung {
+namespace {
+
+/// Types that need a [section] of their own; they follow the plain keys of their table.
+template <class Value>
+constexpr bool kIsSection = std::is_same_v<Value, SceneCamera> || std::is_same_v<Value, SceneRender> ||
+                            std::is_same_v<Value, std::vector<Pin>> || std::is_same_v<Value, std::vector<SceneBody>> ||
+                            std::is_same_v<Value, std::vector<Obstacle>>;
+
+template <class Owner>
+std::string inline_table(const Owner& owner);
+
+bool is_from_library(const Material& material) {
+  const auto same = [&](const Material& known) {
+    return known.name == material.name && known.young == material.young && known.poisson == material.poisson &&
+           known.density == material.density && known.damping == material.damping;
+  };
+  return std::any_of(material_library().begin(), material_library().end(), same);
+}
+
+template <class Value>
+std::string value_text(const Value& value) {
+  return toml_text(value);
+}
+template <>
+std::string value_text(const Material& material) {
+  return is_from_library(material) ? toml_text(std::string_view(material.name)) : inline_table(material);
+}
+template <>
+std::string value_text(const Box& box) {
+  return inline_table(box);
+}
+template <>
+std::string value_text(const Plane& plane) {
+  return inline_table(plane);
+}
+
+/// " name = value", or nothing for an optional value that is not there.
+template <class Value>
+std::string assignment(std::string_view name, const Value& value) {
+  return fmt::format("{} = {}", name, value_text(value));
+}
+template <class Value>
+std::string assignment(std::string_view name, const std::optional<Value>& value) {
+  return value ? assignment(name, *value) : "";
+}
+
+template <class Owner>
+std::vector<std::string> assignments(const Owner& owner) {
+  std::vector<std::string> lines;
+  for (const Key<Owner>& key : keys<Owner>()) {
+    std::visit(
+        [&](auto field) {
+          using Value = std::remove_cvref_t<decltype(owner.*field)>;
+          if constexpr (!kIsSection<Value>) lines.push_back(assignment(key.name, owner.*field));
+        },
+        key.member);
+  }
+  std::erase(lines, "");
+  return lines;
+}
+
+template <class Owner>
+std::string inline_table(const Owner& owner) {
+  std::string text;
+  for (const std::string& line : assignments(owner)) text += (text.empty() ? "" : ", ") + line;
+  return fmt::format("{{ {} }}", text);
+}
+
+/// Writes tables, parents before children.
+class Printer {
+ public:
+  template <class Owner>
+  void print(const Owner& owner, const std::string& path) {
+    for (const std::string& line : assignments(owner)) text_ += line + "\n";
+    for (const Key<Owner>& key : keys<Owner>()) {
+      const std::string full = path.empty() ? std::string(key.name) : fmt::format("{}.{}", path, key.name);
+      std::visit(
+          [&](auto field) {
+            using Value = std::remove_cvref_t<decltype(owner.*field)>;
+            if constexpr (kIsSection<Value>) section(owner.*field, full);
+          },
+          key.member);
+    }
+  }
+
+  [[nodiscard]] const std::string& text() const { return text_; }
+
+ private:
+  template <class Value>
+  void section(const Value& value, const std::string& path) {
+    text_ += fmt::format("\n[{}]\n", path);
+    print(value, path);
+  }
+  template <class Value>
+  void section(const std::vector<Value>& values, const std::string& path) {
+    for (const Value& value : values) {
+      text_ += fmt::format("\n[[{}]]\n", path);
+      print(value, path);
+    }
+  }
+
+  std::string text_;
+};
+
+}  // namespace
+
+std::string print_scene(const Scene& scene) {
+  Printer printer;
+  printer.print(scene, "");
+  return printer.text();
+}
+
+}  // namespace sprung

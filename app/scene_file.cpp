@@ -1,0 +1,253 @@
+#include "app/scene_file.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <sstream>
+#include <tuple>
+
+#include "app/scene_values.h"
+#include "core/error.h"
+#include "core/nearest.h"
+
+namespace sprung {
+namespace {
+
+/// Everything that is wrong with a file, each with its place.
+class Mistakes {
+ public:
+  explicit Mistakes(std::string file) : file_(std::move(file)) {}
+
+  void add(const toml::source_region& place, std::string text) {
+    list_.emplace_back(place.begin.line, place.begin.column, std::move(text));
+  }
+
+  void throw_if_any() {
+    if (list_.empty()) return;
+    std::sort(list_.begin(), list_.end());
+    std::vector<std::string> lines;
+    for (const auto& [line, column, text] : list_)
+      lines.push_back(fmt::format("{}:{}:{}: {}", file_, line, column, text));
+    throw Error(ErrorKind::kBadInput, fmt::format("{}", fmt::join(lines, "\n")));
+  }
+
+ private:
+  std::string file_;
+  std::vector<std::tuple<toml::source_index, toml::source_index, std::string>> list_;
+};
+
+std::string_view kind_of(const toml::node& node) {
+  switch (node.type()) {
+    case toml::node_type::string:
+      return "a string";
+    case toml::node_type::integer:
+    case toml::node_type::floating_point:
+      return "a number";
+    case toml::node_type::boolean:
+      return "true or false";
+    case toml::node_type::array:
+      return "an array";
+    case toml::node_type::table:
+      return "a table";
+    default:
+      return "a date or time";
+  }
+}
+
+/// What is written as one word.
+template <class Value>
+concept Word = requires(std::string_view text, const KeyInfo& key, Value& value) {
+  parse_value(text, key, value);
+};
+
+/// Reads tables into the structs of scene.h by the table of keys.
+class Reader {
+ public:
+  Reader(Mistakes& mistakes, std::filesystem::path folder) : mistakes_(mistakes), folder_(std::move(folder)) {}
+
+  template <class Owner>
+  void read(const toml::table& table, const std::string& path, Owner& owner) {
+    for (const auto& [name, node] : table) read_entry(name, node, path, owner);
+    for (const Key<Owner>& key : keys<Owner>()) {
+      if (key.required && !table.contains(key.name)) {
+        const std::string where = path.empty() ? "the scene" : path;
+        mistakes_.add(table.source(), fmt::format("{} lacks the key '{}': {}", where, key.name, key.help));
+      }
+    }
+    check(table, path, owner);
+  }
+
+ private:
+  template <class Owner>
+  void read_entry(const toml::key& name, const toml::node& node, const std::string& path, Owner& owner) {
+    const std::string full = path.empty() ? std::string(name.str()) : fmt::format("{}.{}", path, name.str());
+    const Key<Owner>* key = find_key<Owner>(name.str());
+    if (key == nullptr) {
+      const std::string hint = did_you_mean(name.str(), key_names<Owner>());
+      mistakes_.add(name.source(), fmt::format("unknown key '{}'{}", full, hint));
+      return;
+    }
+    std::visit([&](auto field) { try_value(node, full, *key, owner.*field); }, key->member);
+  }
+
+  template <class Value>
+  void try_value(const toml::node& node, const std::string& path, const KeyInfo& key, Value& value) {
+    try {
+      value_of(node, path, key, value);
+    } catch (const Error& error) {
+      mistakes_.add(node.source(), fmt::format("{}: {}", path, error.what()));
+    }
+  }
+
+  [[noreturn]] static void refuse_type(const toml::node& node, std::string_view expected) {
+    throw Error(ErrorKind::kBadInput, fmt::format("must be {}, not {}", expected, kind_of(node)));
+  }
+
+  static const toml::array& array_of(const toml::node& node, std::size_t size, std::string_view expected) {
+    const toml::array* array = node.as_array();
+    if (array == nullptr || array->size() != size) refuse_type(node, expected);
+    return *array;
+  }
+
+  static void value_of(const toml::node& node, const std::string&, const KeyInfo& key, double& value) {
+    if (const auto* text = node.as_string()) return parse_value(text->get(), key, value);
+    const bool takes_unit = key.dimension != Dimension::kNone;
+    if (!node.is_number()) refuse_type(node, takes_unit ? "a number or a string with a unit" : "a number");
+    value = *node.value<double>();
+    check_range(value, key);
+  }
+
+  static void value_of(const toml::node& node, const std::string&, const KeyInfo& key, int& value) {
+    const auto* number = node.as_integer();
+    if (number == nullptr) refuse_type(node, "a whole number");
+    check_range(static_cast<double>(number->get()), key);
+    value = static_cast<int>(number->get());
+  }
+
+  void value_of(const toml::node& node, const std::string& path, const KeyInfo& key, Vec3& value) {
+    const toml::array& array = array_of(node, 3, "an array of 3 numbers");
+    for (int i = 0; i < 3; ++i)
+      try_value(array[static_cast<std::size_t>(i)], fmt::format("{}[{}]", path, i), key, value[i]);
+  }
+
+  void value_of(const toml::node& node, const std::string& path, const KeyInfo& key, std::array<int, 2>& value) {
+    const toml::array& array = array_of(node, 2, "an array of 2 whole numbers");
+    for (std::size_t i = 0; i < 2; ++i) try_value(array[i], fmt::format("{}[{}]", path, i), key, value[i]);
+  }
+
+  void value_of(const toml::node& node, const std::string&, const KeyInfo& key, std::filesystem::path& value) {
+    const auto* text = node.as_string();
+    if (text == nullptr) refuse_type(node, "a string");
+    parse_value(text->get(), key, value);
+    value = std::filesystem::absolute(folder_ / value).lexically_normal();
+    if (!std::filesystem::exists(value)) {
+      throw Error(ErrorKind::kBadInput, fmt::format("there is no file '{}'", value.string()));
+    }
+  }
+
+  void value_of(const toml::node& node, const std::string& path, const KeyInfo& key, Material& value) {
+    if (const auto* text = node.as_string()) return parse_value(text->get(), key, value);
+    if (!node.is_table()) refuse_type(node, "the name of a material or a table");
+    value = Material{};
+    read(*node.as_table(), path, value);
+  }
+
+  template <class Value>
+  void value_of(const toml::node& node, const std::string& path, const KeyInfo& key, std::optional<Value>& value) {
+    value_of(node, path, key, value.emplace());
+  }
+
+  /// Scheme, Model, Color.
+  template <Word Value>
+  void value_of(const toml::node& node, const std::string&, const KeyInfo& key, Value& value) {
+    const auto* text = node.as_string();
+    if (text == nullptr) refuse_type(node, "a string");
+    parse_value(text->get(), key, value);
+  }
+
+  /// Box, Plane, camera, render: tables.
+  template <class Owner>
+  requires(!Word<Owner>) void value_of(const toml::node& node, const std::string& path, const KeyInfo&, Owner& value) {
+    if (!node.is_table()) refuse_type(node, "a table");
+    read(*node.as_table(), path, value);
+  }
+
+  template <class Owner>
+  void value_of(const toml::node& node, const std::string& path, const KeyInfo& key, std::vector<Owner>& values) {
+    const toml::array* array = node.as_array();
+    if (array == nullptr || !array->is_array_of_tables()) {
+      refuse_type(node, fmt::format("written as [[{}]]", path));
+    }
+    for (const toml::node& element : *array) value_of(element, path, key, values.emplace_back());
+  }
+
+  template <class Owner>
+  void check(const toml::table&, const std::string&, const Owner&) {}
+
+  void check(const toml::table& table, const std::string& path, const SceneBody&) {
+    refuse_both(table, path, "size", "scale");
+    refuse_both(table, path, "bricks", "brick_size");
+  }
+
+  void check(const toml::table& table, const std::string& path, const Box& box) {
+    if ((box.min.array() < box.max.array()).all()) return;
+    mistakes_.add(table.source(), fmt::format("{}: min must be below max along every axis", path));
+  }
+
+  void check(const toml::table& table, const std::string&, const Scene& scene) {
+    if (scene.obstacles.size() < 2) return;
+    mistakes_.add((*table.get("obstacle")->as_array())[1].source(), "a scene can have one [[obstacle]] only");
+  }
+
+  void refuse_both(const toml::table& table, const std::string& path, std::string_view first, std::string_view second) {
+    if (!table.contains(first) || !table.contains(second)) return;
+    mistakes_.add(table.get(second)->source(), fmt::format("{}: give {} or {}, not both", path, first, second));
+  }
+
+  Mistakes& mistakes_;
+  std::filesystem::path folder_;
+};
+
+toml::table parse_toml(std::string_view text, Mistakes& mistakes) {
+  try {
+    return toml::parse(text);
+  } catch (const toml::parse_error& error) {
+    mistakes.add(error.source(), std::string(error.description()));
+    mistakes.throw_if_any();
+    throw;
+  }
+}
+
+}  // namespace
+
+bool is_scene_file(const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return ending == ".toml";
+}
+
+Scene parse_scene(std::string_view text, const std::filesystem::path& file) {
+  Mistakes mistakes(file.string());
+  const toml::table table = parse_toml(text, mistakes);
+  Scene scene;
+  Reader(mistakes, file.parent_path()).read(table, "", scene);
+  mistakes.throw_if_any();
+  return scene;
+}
+
+Scene read_scene(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  if (!stream || std::filesystem::is_directory(file)) {
+    throw Error(ErrorKind::kBadInput, fmt::format("cannot read the scene '{}'", file.string()));
+  }
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return parse_scene(text.str(), file);
+}
+
+}  // namespace sprung

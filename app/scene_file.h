@@ -1,0 +1,28 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "app/scene.h"
+
+namespace sprung {
+
+/// True where the file's name ends in .toml.
+[[nodiscard]] bool is_scene_file(const std::filesystem::path& file);
+
+/// The scene in a TOML file. Throws one Error(kBadInput) with a line "file:line:column: key: what is wrong" for every
+/// mistake in it.
+[[nodiscard]] Scene read_scene(const std::filesystem::path& file);
+
+/// The same for text that stands in (or for) a file; mesh paths are relative to the file's folder.
+[[nodiscard]] Scene parse_scene(std::string_view text, const std::filesystem::path& file);
+
+/// The scene as TOML in SI units that parses to the same scene. A material from the library is written by its name.
+[[nodiscard]] std::string print_scene(const Scene& scene);
+
+/// Sets one key by its path and the words for its value: "render.resolution", "1280x720". Below "body" the key of
+/// every body is set; "body.material.young" makes the material a custom one. Of two keys that exclude each other the
+/// one set here stays. Throws Error(kBadInput).
+void set_scene_key(Scene& scene, std::string_view path, std::string_view text);
+
+}  // namespace sprung

@@ -1,0 +1,83 @@
+#pragma once
+#include <limits>
+#include <span>
+#include <string_view>
+#include <variant>
+
+#include "app/scene.h"
+#include "app/units.h"
+
+namespace sprung {
+
+/// The numbers that a key takes.
+struct Range {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  bool without_low = false;  // low itself is outside
+  bool without_high = false;
+};
+
+/// What is known of a key, whatever it belongs to.
+struct KeyInfo {
+  std::string_view name;
+  std::string_view help;
+  Dimension dimension = Dimension::kNone;
+  Range range{};
+  bool required = false;
+  std::span<const int> choices{};  // where not empty: the only numbers it takes
+};
+
+/// The field that a key sets. Its type is the type of the key, its value in a new Owner the default.
+template <class Owner>
+using Member = std::variant<double Owner::*, std::optional<double> Owner::*, int Owner::*, std::optional<int> Owner::*,
+                            Vec3 Owner::*, std::array<int, 2> Owner::*, std::filesystem::path Owner::*, Scheme Owner::*,
+                            Model Owner::*, std::optional<Color> Owner::*, Material Owner::*, Box Owner::*,
+                            Plane Owner::*, SceneCamera Owner::*, SceneRender Owner::*, std::vector<Pin> Owner::*,
+                            std::vector<SceneBody> Owner::*, std::vector<Obstacle> Owner::*>;
+
+template <class Owner>
+struct Key : KeyInfo {
+  Member<Owner> member;
+};
+
+/// The one table of what a scene file may say; parser, printer and options are built on it. One part for each struct
+/// of scene.h, and Material for what a material written out in a scene may say.
+template <class Owner>
+[[nodiscard]] std::span<const Key<Owner>> keys();
+
+template <>
+std::span<const Key<Scene>> keys();
+template <>
+std::span<const Key<SceneBody>> keys();
+template <>
+std::span<const Key<Material>> keys();
+template <>
+std::span<const Key<Pin>> keys();
+template <>
+std::span<const Key<Box>> keys();
+template <>
+std::span<const Key<Obstacle>> keys();
+template <>
+std::span<const Key<Plane>> keys();
+template <>
+std::span<const Key<SceneCamera>> keys();
+template <>
+std::span<const Key<SceneRender>> keys();
+
+/// The key of that name, or null.
+template <class Owner>
+[[nodiscard]] const Key<Owner>* find_key(std::string_view name) {
+  for (const Key<Owner>& key : keys<Owner>()) {
+    if (key.name == name) return &key;
+  }
+  return nullptr;
+}
+
+template <class Owner>
+[[nodiscard]] std::vector<std::string_view> key_names() {
+  std::vector<std::string_view> names;
+  for (const Key<Owner>& key : keys<Owner>()) names.push_back(key.name);
+  return names;
+}
+
+}  // namespace sprung

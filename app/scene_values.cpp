@@ -1,0 +1,134 @@
+#include "app/scene_values.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+#include "core/error.h"
+#include "core/nearest.h"
+
+namespace sprung {
+namespace {
+
+constexpr std::array<std::pair<std::string_view, Scheme>, 2> kSchemes{
+    {{"euler", Scheme::kSymplecticEuler}, {"verlet", Scheme::kVerlet}}};
+
+std::string range_text(const KeyInfo& key) {
+  const Range& range = key.range;
+  const std::string low = with_unit(range.low, key.dimension);
+  const std::string high = with_unit(range.high, key.dimension);
+  const bool has_high = std::isfinite(range.high);
+  if (!std::isfinite(range.low)) return fmt::format("{} {}", range.without_high ? "below" : "at most", high);
+  std::string text = fmt::format("{} {}", range.without_low ? "above" : "at least", low);
+  if (has_high) text += fmt::format(" and {} {}", range.without_high ? "below" : "at most", high);
+  return text;
+}
+
+std::uint8_t hex_byte(std::string_view text, std::size_t at) {
+  unsigned value = 0;
+  const char* first = text.data() + at;
+  const auto [end, error] = std::from_chars(first, first + 2, value, 16);
+  if (error != std::errc{} || end != first + 2) {
+    throw Error(ErrorKind::kBadInput, fmt::format("'{}' is no colour; write it as \"#rrggbb\"", text));
+  }
+  return static_cast<std::uint8_t>(value);
+}
+
+}  // namespace
+
+void check_range(double value, const KeyInfo& key) {
+  const Range& range = key.range;
+  const bool is_low = range.without_low ? value <= range.low : value < range.low;
+  const bool is_high = range.without_high ? value >= range.high : value > range.high;
+  if (!std::isfinite(value)) throw Error(ErrorKind::kBadInput, fmt::format("{} is not a finite number", value));
+  if (is_low || is_high) {
+    throw Error(ErrorKind::kBadInput,
+                fmt::format("{} is out of range; it must be {}", with_unit(value, key.dimension), range_text(key)));
+  }
+  const auto is_value = [&](int choice) { return choice == value; };
+  if (!key.choices.empty() && std::none_of(key.choices.begin(), key.choices.end(), is_value)) {
+    throw Error(ErrorKind::kBadInput, fmt::format("{} is not one of {}", value, fmt::join(key.choices, ", ")));
+  }
+}
+
+void parse_value(std::string_view text, const KeyInfo& key, double& value) {
+  value = parse_quantity(text, key.dimension);
+  check_range(value, key);
+}
+
+void parse_value(std::string_view text, const KeyInfo& key, int& value) {
+  value = parse_whole(text);
+  check_range(value, key);
+}
+
+void parse_value(std::string_view text, const KeyInfo& key, std::array<int, 2>& value) {
+  const auto cross = text.find_first_of("xX");
+  if (cross == std::string_view::npos) {
+    throw Error(ErrorKind::kBadInput, fmt::format("'{}' is no resolution; write it as 1280x720", text));
+  }
+  parse_value(text.substr(0, cross), key, value[0]);
+  parse_value(text.substr(cross + 1), key, value[1]);
+}
+
+void parse_value(std::string_view text, const KeyInfo&, std::filesystem::path& value) { value = text; }
+
+void parse_value(std::string_view text, const KeyInfo&, Scheme& value) {
+  std::vector<std::string_view> names;
+  for (const auto& [name, scheme] : kSchemes) {
+    names.push_back(name);
+    if (name == text) {
+      value = scheme;
+      return;
+    }
+  }
+  throw Error(ErrorKind::kBadInput, fmt::format("there is no scheme '{}'{}", text, did_you_mean(text, names)));
+}
+
+void parse_value(std::string_view text, const KeyInfo&, Model& value) { value = model_from_name(text); }
+
+void parse_value(std::string_view text, const KeyInfo&, Color& value) {
+  if (text.size() != 7 || text[0] != '#') {
+    throw Error(ErrorKind::kBadInput, fmt::format("'{}' is no colour; write it as \"#rrggbb\"", text));
+  }
+  value = {.red = hex_byte(text, 1), .green = hex_byte(text, 3), .blue = hex_byte(text, 5)};
+}
+
+void parse_value(std::string_view text, const KeyInfo&, Material& value) { value = find_material(text); }
+
+std::string toml_text(double value) { return fmt::format("{}", value); }
+std::string toml_text(int value) { return fmt::format("{}", value); }
+std::string toml_text(const Vec3& value) { return fmt::format("[{}, {}, {}]", value.x(), value.y(), value.z()); }
+std::string toml_text(const std::array<int, 2>& value) { return fmt::format("[{}, {}]", value[0], value[1]); }
+
+std::string toml_text(std::string_view value) {
+  std::string text = "\"";
+  for (const char letter : value) {
+    if (letter == '"' || letter == '\\') text += '\\';
+    if (static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f) {
+      text += fmt::format("\\u{:04x}", static_cast<unsigned>(letter));
+    } else {
+      text += letter;
+    }
+  }
+  return text + '"';
+}
+
+std::string toml_text(const std::filesystem::path& value) { return toml_text(std::string_view(value.native())); }
+std::string toml_text(Model value) { return toml_text(model_name(value)); }
+
+std::string toml_text(Scheme value) {
+  for (const auto& [name, scheme] : kSchemes) {
+    if (scheme == value) return toml_text(name);
+  }
+  return "";
+}
+
+std::string toml_text(const Color& value) {
+  return fmt::format("\"#{:02x}{:02x}{:02x}\"", value.red, value.green, value.blue);
+}
+
+}  // namespace sprung

@@ -1,0 +1,39 @@
+#pragma once
+#include <string>
+#include <string_view>
+
+#include "app/scene_keys.h"
+
+namespace sprung {
+
+/// Throws Error(kBadInput) naming the value and the range where the number is outside it.
+void check_range(double value, const KeyInfo& key);
+
+/// One value from the words of a person: quantities with units, names, "#rrggbb", "1280x720".
+/// Each throws Error(kBadInput) naming the text and what is expected.
+void parse_value(std::string_view text, const KeyInfo& key, double& value);
+void parse_value(std::string_view text, const KeyInfo& key, int& value);
+void parse_value(std::string_view text, const KeyInfo& key, std::array<int, 2>& value);
+void parse_value(std::string_view text, const KeyInfo& key, std::filesystem::path& value);
+void parse_value(std::string_view text, const KeyInfo& key, Scheme& value);
+void parse_value(std::string_view text, const KeyInfo& key, Model& value);
+void parse_value(std::string_view text, const KeyInfo& key, Color& value);
+void parse_value(std::string_view text, const KeyInfo& key, Material& value);
+
+template <class Value>
+void parse_value(std::string_view text, const KeyInfo& key, std::optional<Value>& value) {
+  parse_value(text, key, value.emplace());
+}
+
+/// The value as TOML that reads back as the same value.
+[[nodiscard]] std::string toml_text(double value);
+[[nodiscard]] std::string toml_text(int value);
+[[nodiscard]] std::string toml_text(const Vec3& value);
+[[nodiscard]] std::string toml_text(const std::array<int, 2>& value);
+[[nodiscard]] std::string toml_text(std::string_view value);
+[[nodiscard]] std::string toml_text(const std::filesystem::path& value);
+[[nodiscard]] std::string toml_text(Scheme value);
+[[nodiscard]] std::string toml_text(Model value);
+[[nodiscard]] std::string toml_text(const Color& value);
+
+}  // namespace sprung

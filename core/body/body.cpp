@@ -1,0 +1,102 @@
+#include "core/body/body.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/body/brick_kernel.h"
+#include "core/law/hexahedron.h"
+
+namespace sprung {
+namespace {
+
+/// Lists for every node the brick corners at it, in the order of the bricks.
+void list_corners(Body& body) {
+  const auto nodes = static_cast<std::size_t>(body.grid.node_count());
+  body.first_corner.assign(nodes + 1, 0);
+  for (const auto& brick : body.grid.nodes) {
+    for (const int node : brick) ++body.first_corner[static_cast<std::size_t>(node) + 1];
+  }
+  for (std::size_t i = 0; i < nodes; ++i) body.first_corner[i + 1] += body.first_corner[i];
+  std::vector<int> next(body.first_corner.begin(), body.first_corner.end() - 1);
+  body.corners.resize(8 * body.grid.nodes.size());
+  int corner = 0;
+  for (const auto& brick : body.grid.nodes) {
+    for (const int node : brick)
+      body.corners[static_cast<std::size_t>(next[static_cast<std::size_t>(node)]++)] = corner++;
+  }
+}
+
+Eigen::VectorXd lump_masses(const Body& body) {
+  const BrickGrid& grid = body.grid;
+  Eigen::VectorXd masses = Eigen::VectorXd::Zero(grid.node_count());
+  for (std::size_t brick = 0; brick < grid.nodes.size(); ++brick) {
+    for (const int node : grid.nodes[brick]) masses[node] += body.stiffness_scale[brick];
+  }
+  return masses * (body.material.density * grid.volume() / masses.sum());
+}
+
+double volume_ratio(const Body& body, std::size_t brick) {
+  return brick_volume(brick_corners(body, brick)) / body.grid.brick_volume();
+}
+
+}  // namespace
+
+Rayleigh rayleigh_from_damping(const Material& material, double length) {
+  const double frequency = std::sqrt(material.shear_modulus() / material.density) / (2 * length);
+  return {.alpha = 0, .beta = 2 * material.damping / (2 * std::numbers::pi * frequency)};
+}
+
+Body make_body(BrickGrid grid, Model model, const Material& material) {
+  Body body;
+  body.law = brick_law(model, material, grid.brick_size);
+  if (model == Model::kFem) body.small_strain_stiffness = hexahedron_stiffness(material, grid.brick_size);
+  body.grid = std::move(grid);
+  body.model = model;
+  body.material = material;
+  for (const double fill : body.grid.fill) body.stiffness_scale.push_back(std::max(fill, kStiffnessFloor));
+  body.masses = lump_masses(body);
+  body.rest_positions = body.grid.rest_positions();
+  body.positions = body.rest_positions;
+  body.velocities = Points::Zero(body.grid.node_count(), 3);
+  const Vec3 extent = body.positions.colwise().maxCoeff() - body.positions.colwise().minCoeff();
+  body.damping = rayleigh_from_damping(material, extent.maxCoeff());
+  list_corners(body);
+  return body;
+}
+
+void place(Body& body, const Mat3& rotation, const Vec3& translation) {
+  const auto move = [&](Points& points) {
+    points = (points * rotation.transpose()).rowwise() + translation.transpose();
+  };
+  move(body.rest_positions);
+  move(body.positions);
+  body.velocities = body.velocities * rotation.transpose();
+}
+
+std::array<double, 24> brick_corners(const Body& body, std::size_t brick) {
+  std::array<double, 24> x{};
+  for (std::size_t corner = 0; corner < 8; ++corner) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      x[3 * corner + k] = body.positions(body.grid.nodes[brick][corner], static_cast<int>(k));
+    }
+  }
+  return x;
+}
+
+double smallest_volume_ratio(const Body& body) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (std::size_t brick = 0; brick < body.grid.nodes.size(); ++brick) {
+    smallest = std::min(smallest, volume_ratio(body, brick));
+  }
+  return smallest;
+}
+
+int inverted_bricks(const Body& body) {
+  int count = 0;
+  for (std::size_t brick = 0; brick < body.grid.nodes.size(); ++brick) count += volume_ratio(body, brick) <= 0 ? 1 : 0;
+  return count;
+}
+
+}  // namespace sprung

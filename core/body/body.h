@@ -1,0 +1,58 @@
+#pragma once
+#include <array>
+#include <vector>
+
+#include "core/bricks/brick_grid.h"
+#include "core/law/brick_law.h"
+#include "core/law/material.h"
+
+namespace sprung {
+
+/// Rayleigh damping: force -alpha m v on every node and a tension beta times the rate of stretch law on every spring.
+struct Rayleigh {
+  double alpha = 0;  // 1/s, on the masses; slows rigid motion too
+  double beta = 0;   // s, along the springs; does not see rigid motion
+};
+
+/// The beta that damps the slowest vibration of a body of that length (estimated as a shear wave crossing it there and
+/// back, f = sqrt(G/rho) / (2 length)) at material.damping of critical.
+[[nodiscard]] Rayleigh rayleigh_from_damping(const Material& material, double length);
+
+/// One soft body: bricks, their law, and the state of their nodes, in world coordinates.
+struct Body {
+  BrickGrid grid;
+  Model model = Model::kCalibrated;
+  Material material;
+  BrickLaw law;                            // of a full brick
+  Eigen::MatrixXd small_strain_stiffness;  // 24 x 24, N/m, of a full brick: model kFem only, else empty
+  Rayleigh damping;
+  std::vector<double> stiffness_scale;  // per brick: its fill, at least kStiffnessFloor
+  Eigen::VectorXd masses;               // per node, kg; sum = density * volume
+  Points rest_positions;                // m x 3, m: the grid's nodes moved to where the body starts
+  Points positions;                     // m x 3, m
+  Points velocities;                    // m x 3, m/s
+  std::vector<int> corners;             // 8 brick + corner of every brick corner, grouped by the node it is at
+  std::vector<int> first_corner;        // m + 1; those of node i: corners[first_corner[i]] .. first_corner[i + 1]
+
+  [[nodiscard]] int node_count() const { return static_cast<int>(positions.rows()); }
+};
+
+/// A brick keeps at least this share of a full brick's stiffness and mass: slivers would cost step size for nothing.
+inline constexpr double kStiffnessFloor = 0.01;
+
+/// A body at rest at its grid's place. Masses are lumped, fill rho h^3 / 8 a corner, and scaled so that their sum is
+/// density * grid.volume().
+[[nodiscard]] Body make_body(BrickGrid grid, Model model, const Material& material);
+
+/// Turns (then moves) the whole body, rest shape and state; rotation is applied about the origin.
+void place(Body& body, const Mat3& rotation, const Vec3& translation);
+
+/// Where a brick's corners are, x y z corner by corner, m.
+[[nodiscard]] std::array<double, 24> brick_corners(const Body& body, std::size_t brick);
+
+/// Smallest signed volume of any brick over its rest volume, by the mean axes; below zero: inverted.
+[[nodiscard]] double smallest_volume_ratio(const Body& body);
+/// How many bricks are turned inside out.
+[[nodiscard]] int inverted_bricks(const Body& body);
+
+}  // namespace sprung

@@ -1,0 +1,170 @@
+#pragma once
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "core/body/brick_topology.h"
+#include "core/law/brick_law.h"
+
+namespace sprung {
+
+/// One brick, or several side by side: T is double or a pack of doubles. Coordinates run corner by corner, x y z.
+template <class T>
+using CornerVectors = std::array<T, 24>;
+
+namespace detail {
+
+template <class T>
+struct Spring {
+  std::array<T, 3> direction;  // unit, from the first corner to the second
+  T stretch;                   // m
+};
+
+template <class T>
+std::array<T, 3> between(const CornerVectors<T>& x, CornerPair pair) {
+  const auto a = static_cast<std::size_t>(3 * pair.from);
+  const auto b = static_cast<std::size_t>(3 * pair.to);
+  return {x[b] - x[a], x[b + 1] - x[a + 1], x[b + 2] - x[a + 2]};
+}
+
+template <class T>
+T dot(const std::array<T, 3>& a, const std::array<T, 3>& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+template <class T>
+std::array<T, 3> cross(const std::array<T, 3>& a, const std::array<T, 3>& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// Stretch as (L^2 - rest^2) / (L + rest): the difference of two nearly equal lengths would lose half its digits.
+template <class T>
+Spring<T> measure(const std::array<T, 3>& vector, double rest) {
+  using std::sqrt;
+  const T squared = dot(vector, vector);
+  const T length = sqrt(squared);
+  const T inverse = T(1.0) / length;
+  return {{vector[0] * inverse, vector[1] * inverse, vector[2] * inverse}, (squared - rest * rest) / (length + rest)};
+}
+
+template <class T>
+void pull(CornerVectors<T>& force, CornerPair pair, const std::array<T, 3>& direction, const T& tension) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const T part = tension * direction[k];
+    force[static_cast<std::size_t>(3 * pair.from) + k] += part;
+    force[static_cast<std::size_t>(3 * pair.to) + k] -= part;
+  }
+}
+
+/// Tensions of the twelve edges for their stretches (both N and m, edge by edge): the springs, the axial correction on
+/// the mean stretches and the bending correction on the bending stretches. Linear and symmetric.
+template <class T>
+std::array<T, 12> edge_tensions(const BrickLaw& law, const std::array<T, 12>& stretch) {
+  std::array<T, 3> mean;
+  std::array<std::array<T, 2>, 3> bend;  // [axis][0: gradient in j = axis + 1, 1: in k = axis + 2]
+  for (std::size_t i = 0; i < 3; ++i) {
+    const T* s = &stretch[4 * i];
+    mean[i] = 0.25 * ((s[0] + s[1]) + (s[2] + s[3]));
+    bend[i][0] = 0.25 * ((s[1] - s[0]) + (s[3] - s[2]));
+    bend[i][1] = 0.25 * ((s[2] - s[0]) + (s[3] - s[1]));
+  }
+  std::array<T, 12> tension;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;
+    const std::size_t k = (i + 2) % 3;
+    const T axial = 0.25 * (law.axial_self * mean[i] + law.axial_cross * (mean[j] + mean[k]));
+    // The partner of b_ij is b_kj: the other axis that sees the gradient j, where j is its axis + 2.
+    const T in_j = 0.25 * (law.bending_self * bend[i][0] + law.bending_cross * bend[k][1]);
+    const T in_k = 0.25 * (law.bending_self * bend[i][1] + law.bending_cross * bend[j][0]);
+    tension[4 * i] = law.edge * stretch[4 * i] + (axial - in_j - in_k);
+    tension[4 * i + 1] = law.edge * stretch[4 * i + 1] + (axial + in_j - in_k);
+    tension[4 * i + 2] = law.edge * stretch[4 * i + 2] + (axial - in_j + in_k);
+    tension[4 * i + 3] = law.edge * stretch[4 * i + 3] + (axial + in_j + in_k);
+  }
+  return tension;
+}
+
+/// The brick's mean axes: for each direction the mean of its four edges, m.
+template <class T>
+std::array<std::array<T, 3>, 3> mean_axes(const CornerVectors<T>& x) {
+  std::array<std::array<T, 3>, 3> axes;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t c = 0; c < 3; ++c) axes[i][c] = T(0.0);
+    for (int side = 0; side < 4; ++side) {
+      const auto edge = between(x, brick_edge(static_cast<int>(i), side));
+      for (std::size_t c = 0; c < 3; ++c) axes[i][c] += 0.25 * edge[c];
+    }
+  }
+  return axes;
+}
+
+/// The volume guard's energy; adds its forces.
+template <class T>
+T guard_energy(const BrickLaw& law, double volume, const CornerVectors<T>& x, CornerVectors<T>& force) {
+  using std::max;
+  const auto axes = mean_axes(x);
+  const std::array<std::array<T, 3>, 3> areas{cross(axes[1], axes[2]), cross(axes[2], axes[0]),
+                                              cross(axes[0], axes[1])};
+  const T ratio = dot(axes[0], areas[0]) * (1 / volume);
+  const T lack = max(law.guard_ratio - ratio, T(0.0));
+  const T push = 0.25 / volume * law.guard * lack;
+  for (int corner = 0; corner < 8; ++corner) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double side = on_high_side(corner, axis) ? 1.0 : -1.0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        force[static_cast<std::size_t>(3 * corner) + k] += side * push * areas[static_cast<std::size_t>(axis)][k];
+      }
+    }
+  }
+  return 0.5 * law.guard * lack * lack;
+}
+
+}  // namespace detail
+
+/// Elastic energy (J) of full bricks of side h with corners at x (m), guard included; adds the forces (N) to `force`.
+/// Where `rates` is given, it holds beta times the corner velocities (m): each spring's tension then follows stretch +
+/// beta * rate of stretch. The energy does not count that part.
+template <class T>
+T brick_forces(const BrickLaw& law, double h, const CornerVectors<T>& x, const CornerVectors<T>* rates,
+               CornerVectors<T>& force) {
+  const auto lagged = [rates](const detail::Spring<T>& spring, CornerPair pair) {
+    return rates == nullptr ? spring.stretch
+                            : spring.stretch + detail::dot(spring.direction, detail::between(*rates, pair));
+  };
+  T energy(0.0);
+
+  std::array<detail::Spring<T>, 12> edges;
+  std::array<T, 12> stretch;
+  std::array<T, 12> driving;
+  for (std::size_t e = 0; e < 12; ++e) {
+    edges[e] = detail::measure(detail::between(x, kEdges[e]), h);
+    stretch[e] = edges[e].stretch;
+    driving[e] = lagged(edges[e], kEdges[e]);
+  }
+  const std::array<T, 12> elastic = detail::edge_tensions(law, stretch);
+  for (std::size_t e = 0; e < 12; ++e) energy += 0.5 * elastic[e] * stretch[e];
+  const std::array<T, 12> tension = rates == nullptr ? elastic : detail::edge_tensions(law, driving);
+  for (std::size_t e = 0; e < 12; ++e) detail::pull(force, kEdges[e], edges[e].direction, tension[e]);
+
+  const auto diagonals = [&](const auto& pairs, double rest, double stiffness) {
+    if (stiffness == 0) return;
+    for (const CornerPair pair : pairs) {
+      const detail::Spring<T> spring = detail::measure(detail::between(x, pair), rest);
+      energy += 0.5 * stiffness * spring.stretch * spring.stretch;
+      detail::pull(force, pair, spring.direction, T(stiffness * lagged(spring, pair)));
+    }
+  };
+  diagonals(kFaceDiagonals, std::numbers::sqrt2 * h, law.face);
+  diagonals(kInnerDiagonals, std::numbers::sqrt3 * h, law.inner);
+
+  return energy + detail::guard_energy(law, h * h * h, x, force);
+}
+
+/// Signed volume of a brick by its mean axes, m^3.
+template <class T>
+T brick_volume(const CornerVectors<T>& x) {
+  const auto axes = detail::mean_axes(x);
+  return detail::dot(axes[0], detail::cross(axes[1], axes[2]));
+}
+
+}  // namespace sprung

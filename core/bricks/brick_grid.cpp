@@ -1,0 +1,105 @@
+#include "core/bricks/brick_grid.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <iterator>
+#include <numeric>
+
+namespace sprung {
+namespace {
+
+/// Lattice points as single numbers that keep their order: by z, then y, then x.
+class LatticeOrder {
+ public:
+  explicit LatticeOrder(const std::vector<Eigen::Vector3i>& cells) {
+    low_ = high_ = cells.front();
+    for (const Eigen::Vector3i& cell : cells) {
+      low_ = low_.cwiseMin(cell);
+      high_ = high_.cwiseMax(cell);
+    }
+    high_.array() += 1;
+  }
+  [[nodiscard]] std::int64_t step(int axis) const {
+    std::int64_t product = 1;
+    for (int i = 0; i < axis; ++i) product *= high_[i] - low_[i] + 1;
+    return product;
+  }
+  [[nodiscard]] std::int64_t key(const Eigen::Vector3i& point) const {
+    std::int64_t sum = 0;
+    for (int i = 0; i < 3; ++i) sum += step(i) * (point[i] - low_[i]);
+    return sum;
+  }
+  [[nodiscard]] Eigen::Vector3i point(std::int64_t key) const {
+    const std::int64_t row = key / step(1);
+    const std::int64_t rows = step(2) / step(1);
+    return low_ +
+           Eigen::Vector3i(static_cast<int>(key % step(1)), static_cast<int>(row % rows), static_cast<int>(row / rows));
+  }
+
+ private:
+  Eigen::Vector3i low_;
+  Eigen::Vector3i high_;
+};
+
+/// The sorted keys together with themselves moved by `step`, each once.
+std::vector<std::int64_t> with_moved(const std::vector<std::int64_t>& keys, std::int64_t step) {
+  std::vector<std::int64_t> moved(keys);
+  for (std::int64_t& key : moved) key += step;
+  std::vector<std::int64_t> both;
+  both.reserve(keys.size() + keys.size() / 4);
+  std::set_union(keys.begin(), keys.end(), moved.begin(), moved.end(), std::back_inserter(both));
+  return both;
+}
+
+}  // namespace
+
+double BrickGrid::volume() const { return std::accumulate(fill.begin(), fill.end(), 0.0) * brick_volume(); }
+
+Points BrickGrid::rest_positions() const {
+  Points positions(node_count(), 3);
+  for (int m = 0; m < node_count(); ++m) {
+    positions.row(m) = origin + brick_size * lattice[static_cast<std::size_t>(m)].cast<double>();
+  }
+  return positions;
+}
+
+void number_nodes(BrickGrid& grid) {
+  grid.nodes.assign(grid.cells.size(), {});
+  grid.lattice.clear();
+  if (grid.cells.empty()) return;
+  const LatticeOrder order(grid.cells);
+  std::vector<std::int64_t> cell_keys;
+  cell_keys.reserve(grid.cells.size());
+  for (const Eigen::Vector3i& cell : grid.cells) cell_keys.push_back(order.key(cell));
+
+  std::vector<std::int64_t> node_keys = cell_keys;
+  for (int axis = 0; axis < 3; ++axis) node_keys = with_moved(node_keys, order.step(axis));
+  grid.lattice.reserve(node_keys.size());
+  for (const std::int64_t key : node_keys) grid.lattice.push_back(order.point(key));
+
+  // Both lists ascend, so one pass over the nodes finds a given corner of every cell.
+  for (std::size_t corner = 0; corner < 8; ++corner) {
+    std::int64_t step = 0;
+    for (int axis = 0; axis < 3; ++axis) step += (corner >> axis & 1) != 0 ? order.step(axis) : 0;
+    std::size_t node = 0;
+    for (std::size_t i = 0; i < cell_keys.size(); ++i) {
+      while (node_keys[node] != cell_keys[i] + step) ++node;
+      grid.nodes[i][corner] = static_cast<int>(node);
+    }
+  }
+}
+
+BrickGrid make_box_grid(const Eigen::Vector3i& counts, double brick_size) {
+  BrickGrid grid;
+  grid.brick_size = brick_size;
+  for (int z = 0; z < counts.z(); ++z) {
+    for (int y = 0; y < counts.y(); ++y) {
+      for (int x = 0; x < counts.x(); ++x) grid.cells.emplace_back(x, y, z);
+    }
+  }
+  grid.fill.assign(grid.cells.size(), 1.0);
+  number_nodes(grid);
+  return grid;
+}
+
+}  // namespace sprung

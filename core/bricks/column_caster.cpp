@@ -1,0 +1,199 @@
+#include "core/bricks/column_caster.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+namespace sprung {
+namespace {
+
+constexpr std::int64_t kSnap = 4096;  // whole numbers a cell, across the rays
+// The rays of a cell stand one in each of 16 rows, at 16 different places along the rows (a rank-1 lattice): a wall
+// along an axis is then met at 16 levels and not at 4, as with a 4 x 4 grid.
+constexpr std::int64_t kRays = 16;
+constexpr std::int64_t kPitch = kSnap / kRays;
+constexpr std::int64_t kShuffle = 5;
+
+/// Weight of a direction that does not cross the surface in a cell at all: decides only where none does.
+constexpr float kLeastWeight = 1e-6F;
+
+/// A place across the rays.
+struct Place {
+  std::int64_t u;
+  std::int64_t v;
+};
+
+/// Twice the signed area of a, b, p: positive where p is left of the line from a to b.
+std::int64_t side_of(Place a, Place b, Place p) { return (b.u - a.u) * (p.v - a.v) - (b.v - a.v) * (p.u - a.u); }
+
+/// Of the two triangles that share an edge, which run along it in opposite directions, just one owns the points on it.
+bool owns_edge(Place a, Place b) { return b.v < a.v || (b.v == a.v && b.u < a.u); }
+
+struct Crossing {
+  std::int64_t ray;  // rays of one column of cells are consecutive
+  double depth;      // cells from the box's low side
+  int turn;          // +1 entering, -1 leaving
+};
+
+/// A column of cells along the rays.
+struct Column {
+  std::vector<float> lengths;    // inside, summed over the rays
+  std::vector<float> crossings;  // of the surface, within each cell
+};
+
+class Caster {
+ public:
+  Caster(const CellSurface& surface, int axis)
+      : surface_(surface), axis_(axis), axis_u_((axis + 1) % 3), axis_v_((axis + 2) % 3) {}
+
+  /// All crossings, ordered by ray and depth.
+  std::vector<Crossing> crossings() {
+    for (int t = 0; t < surface_.triangles.rows(); ++t) cross_triangle(t);
+    sort_by_ray();
+    return std::move(crossings_);
+  }
+
+  void add_sums(const std::vector<Crossing>& crossings, CellSums& sums) const {
+    const auto length = static_cast<std::size_t>(surface_.counts[axis_]);
+    Column column{std::vector<float>(length), std::vector<float>(length)};
+    for (std::int64_t cell = 0, i = 0; cell < std::int64_t{surface_.counts[axis_u_]} * surface_.counts[axis_v_];
+         ++cell) {
+      std::fill(column.lengths.begin(), column.lengths.end(), 0.0F);
+      std::fill(column.crossings.begin(), column.crossings.end(), 0.0F);
+      auto at = static_cast<std::size_t>(i);
+      while (at < crossings.size() && crossings[at].ray / kRays == cell) at = add_ray(crossings, at, column);
+      i = static_cast<std::int64_t>(at);
+      add_column(cell, column, sums);
+    }
+  }
+
+ private:
+  [[nodiscard]] Place snapped(int point) const {
+    return {std::llround(surface_.points(point, axis_u_) * static_cast<double>(kSnap)),
+            std::llround(surface_.points(point, axis_v_) * static_cast<double>(kSnap))};
+  }
+
+  /// Where the ray of row `row` stands in the cell `cell_u` of that row.
+  static Place place_of(std::int64_t cell_u, std::int64_t row) {
+    return {cell_u * kSnap + (row * kShuffle % kRays) * kPitch + kPitch / 2, row * kPitch + kPitch / 2};
+  }
+
+  [[nodiscard]] std::int64_t ray_number(std::int64_t cell_u, std::int64_t row) const {
+    return ((row / kRays) * surface_.counts[axis_u_] + cell_u) * kRays + row % kRays;
+  }
+
+  void cross_triangle(int t) {
+    std::array<int, 3> corners{surface_.triangles(t, 0), surface_.triangles(t, 1), surface_.triangles(t, 2)};
+    std::array<Place, 3> p{snapped(corners[0]), snapped(corners[1]), snapped(corners[2])};
+    const std::int64_t area = side_of(p[0], p[1], p[2]);
+    if (area == 0) return;
+    // An outward triangle seen counter-clockwise along the ray's axis faces forward: the ray leaves there.
+    const int turn = area > 0 ? -1 : 1;
+    if (area < 0) {
+      std::swap(p[1], p[2]);
+      std::swap(corners[1], corners[2]);
+    }
+    const auto [low_u, high_u] = std::minmax({p[0].u, p[1].u, p[2].u});
+    const auto [low_v, high_v] = std::minmax({p[0].v, p[1].v, p[2].v});
+    // Rows half a pitch or more outside the triangle's extent cannot meet it, nor can the cells beside it.
+    const std::int64_t last_row = std::min<std::int64_t>(high_v / kPitch, surface_.counts[axis_v_] * kRays - 1);
+    const std::int64_t last_cell = std::min<std::int64_t>(high_u / kSnap, surface_.counts[axis_u_] - 1);
+    for (std::int64_t row = low_v / kPitch; row <= last_row; ++row) {
+      for (std::int64_t cell = low_u / kSnap; cell <= last_cell; ++cell) cross_ray(p, corners, turn, cell, row);
+    }
+  }
+
+  void cross_ray(const std::array<Place, 3>& p, const std::array<int, 3>& corners, int turn, std::int64_t cell_u,
+                 std::int64_t row) {
+    const Place ray = place_of(cell_u, row);
+    double weighted = 0;
+    double sum = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Place& a = p[(k + 1) % 3];
+      const Place& b = p[(k + 2) % 3];
+      const std::int64_t side = side_of(a, b, ray);
+      if (side < 0 || (side == 0 && !owns_edge(a, b))) return;
+      weighted += static_cast<double>(side) * surface_.points(corners[k], axis_);
+      sum += static_cast<double>(side);
+    }
+    crossings_.push_back({ray_number(cell_u, row), weighted / sum, turn});
+  }
+
+  /// By counting, since rays are dense; then the few crossings of each ray by depth.
+  void sort_by_ray() {
+    const std::int64_t cells = std::int64_t{surface_.counts[axis_u_]} * surface_.counts[axis_v_];
+    std::vector<std::size_t> next(static_cast<std::size_t>(cells * kRays) + 1, 0);
+    for (const Crossing& crossing : crossings_) ++next[static_cast<std::size_t>(crossing.ray) + 1];
+    for (std::size_t i = 1; i < next.size(); ++i) next[i] += next[i - 1];
+    std::vector<Crossing> sorted(crossings_.size());
+    for (const Crossing& crossing : crossings_) sorted[next[static_cast<std::size_t>(crossing.ray)]++] = crossing;
+    crossings_.swap(sorted);
+    const auto deeper = [](const Crossing& a, const Crossing& b) { return a.depth < b.depth; };
+    for (std::size_t begin = 0, end = 0; begin < crossings_.size(); begin = end) {
+      while (end < crossings_.size() && crossings_[end].ray == crossings_[begin].ray) ++end;
+      std::stable_sort(crossings_.begin() + static_cast<std::ptrdiff_t>(begin),
+                       crossings_.begin() + static_cast<std::ptrdiff_t>(end), deeper);
+    }
+  }
+
+  /// Adds one ray to its column of cells; returns where the next ray's crossings begin.
+  static std::size_t add_ray(const std::vector<Crossing>& crossings, std::size_t begin, Column& column) {
+    const std::int64_t ray = crossings[begin].ray;
+    int winding = 0;
+    std::size_t i = begin;
+    for (; i < crossings.size() && crossings[i].ray == ray; ++i) {
+      const double depth = crossings[i].depth;
+      if (winding != 0) add_length(crossings[i - 1].depth, depth, column.lengths);
+      winding += crossings[i].turn;
+      // A crossing just between two cells measures neither.
+      if (const double cell = std::floor(depth); cell != depth)
+        column.crossings[static_cast<std::size_t>(cell)] += 1.0F;
+    }
+    return i;
+  }
+
+  static void add_length(double from, double to, std::vector<float>& lengths) {
+    const auto last = static_cast<std::ptrdiff_t>(lengths.size()) - 1;
+    const std::ptrdiff_t first_cell = std::min(static_cast<std::ptrdiff_t>(from), last);
+    const std::ptrdiff_t last_cell = std::min(static_cast<std::ptrdiff_t>(to), last);
+    float* cells = lengths.data();
+    if (first_cell == last_cell) {
+      cells[first_cell] += static_cast<float>(to - from);
+      return;
+    }
+    cells[first_cell] += static_cast<float>(static_cast<double>(first_cell + 1) - from);
+    for (std::ptrdiff_t i = first_cell + 1; i < last_cell; ++i) cells[i] += 1.0F;
+    cells[last_cell] += static_cast<float>(to - static_cast<double>(last_cell));
+  }
+
+  void add_column(std::int64_t cell, const Column& column, CellSums& sums) const {
+    const std::array<std::int64_t, 3> strides{1, surface_.counts[0],
+                                              std::int64_t{surface_.counts[0]} * surface_.counts[1]};
+    const auto stride_of = [&](int axis) { return strides[static_cast<std::size_t>(axis)]; };
+    auto at = static_cast<std::size_t>(cell % surface_.counts[axis_u_] * stride_of(axis_u_) +
+                                       cell / surface_.counts[axis_u_] * stride_of(axis_v_));
+    for (std::size_t i = 0; i < column.lengths.size(); ++i) {
+      const float weight = column.crossings[i] * column.crossings[i] + kLeastWeight;
+      sums.weighted[at] += weight * column.lengths[i] / static_cast<float>(kRays);
+      sums.weight[at] += weight;
+      at += static_cast<std::size_t>(stride_of(axis_));
+    }
+  }
+
+  const CellSurface& surface_;
+  int axis_;
+  int axis_u_;
+  int axis_v_;
+  std::vector<Crossing> crossings_;
+};
+
+}  // namespace
+
+void cast_columns(const CellSurface& surface, int axis, CellSums& sums) {
+  Caster caster(surface, axis);
+  caster.add_sums(caster.crossings(), sums);
+}
+
+}  // namespace sprung

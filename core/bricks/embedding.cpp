@@ -1,0 +1,168 @@
+#include "core/bricks/embedding.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <unordered_map>
+
+namespace sprung {
+namespace {
+
+using Cell = Eigen::Vector3i;
+
+std::uint64_t cell_key(const Cell& cell) {
+  const auto part = [&](int axis) { return static_cast<std::uint64_t>(cell[axis] + (1 << 20)) & 0x1fffffU; };
+  return part(0) | part(1) << 21 | part(2) << 42;
+}
+
+/// Finds the brick that holds a point, or the nearest one.
+class BrickFinder {
+ public:
+  explicit BrickFinder(const BrickGrid& grid) : grid_(grid) {
+    for (std::size_t i = 0; i < grid.cells.size(); ++i)
+      brick_of_cell_.emplace(cell_key(grid.cells[i]), static_cast<int>(i));
+  }
+
+  /// `place` in lattice units. -1: no brick holds it.
+  [[nodiscard]] int holding(const Vec3& place) const {
+    const Cell cell = place.array().floor().cast<int>();
+    if (const int brick = at(cell); brick >= 0) return brick;
+    // A point on a face, an edge or a corner belongs to the cells on both sides.
+    for (int side = 1; side < 8; ++side) {
+      Cell neighbour = cell;
+      bool on_border = true;
+      for (int axis = 0; axis < 3; ++axis) {
+        if (((side >> axis) & 1) == 0) continue;
+        const double rounded = std::round(place[axis]);
+        on_border = on_border && std::abs(place[axis] - rounded) < 1e-9;
+        neighbour[axis] = rounded > place[axis] ? cell[axis] + 1 : cell[axis] - 1;
+      }
+      if (const int brick = on_border ? at(neighbour) : -1; brick >= 0) return brick;
+    }
+    return -1;
+  }
+
+  [[nodiscard]] int nearest(const Vec3& place) const {
+    const Cell centre = place.array().floor().cast<int>();
+    constexpr int kRings = 3;
+    int best = -1;
+    double best_distance = std::numeric_limits<double>::infinity();
+    const auto consider = [&](int brick) {
+      const double distance = distance_squared(place, grid_.cells[static_cast<std::size_t>(brick)]);
+      if (distance < best_distance) {
+        best = brick;
+        best_distance = distance;
+      }
+    };
+    for (int z = -kRings; z <= kRings; ++z) {
+      for (int y = -kRings; y <= kRings; ++y) {
+        for (int x = -kRings; x <= kRings; ++x) {
+          if (const int brick = at(centre + Cell(x, y, z)); brick >= 0) consider(brick);
+        }
+      }
+    }
+    if (best >= 0) return best;
+    for (int brick = 0; brick < grid_.brick_count(); ++brick) consider(brick);
+    return best;
+  }
+
+ private:
+  [[nodiscard]] int at(const Cell& cell) const {
+    const auto found = brick_of_cell_.find(cell_key(cell));
+    return found == brick_of_cell_.end() ? -1 : found->second;
+  }
+
+  static double distance_squared(const Vec3& place, const Cell& cell) {
+    const Vec3 low = cell.cast<double>();
+    return (place - place.cwiseMax(low).cwiseMin(low + Vec3::Ones())).squaredNorm();
+  }
+
+  const BrickGrid& grid_;
+  std::unordered_map<std::uint64_t, int> brick_of_cell_;
+};
+
+Eigen::Matrix<double, 3, 8> corner_positions(const BrickGrid& grid, int brick, const Points& node_positions) {
+  Eigen::Matrix<double, 3, 8> corners;
+  const auto& nodes = grid.nodes[static_cast<std::size_t>(brick)];
+  for (int corner = 0; corner < 8; ++corner) {
+    corners.col(corner) = node_positions.row(nodes[static_cast<std::size_t>(corner)]).transpose();
+  }
+  return corners;
+}
+
+}  // namespace
+
+Eigen::Matrix<double, 8, 1> trilinear_weights(const Vec3& local) {
+  Eigen::Matrix<double, 8, 1> weights;
+  for (int corner = 0; corner < 8; ++corner) {
+    double weight = 1;
+    for (int axis = 0; axis < 3; ++axis) weight *= on_high_side(corner, axis) ? local[axis] : 1 - local[axis];
+    weights[corner] = weight;
+  }
+  return weights;
+}
+
+Eigen::Matrix<double, 8, 3> trilinear_gradients(const Vec3& local) {
+  Eigen::Matrix<double, 8, 3> gradients;
+  for (int corner = 0; corner < 8; ++corner) {
+    for (int axis = 0; axis < 3; ++axis) {
+      double value = 1;
+      for (int k = 0; k < 3; ++k) {
+        const bool high = on_high_side(corner, k);
+        value *= k == axis ? (high ? 1.0 : -1.0) : (high ? local[k] : 1 - local[k]);
+      }
+      gradients(corner, axis) = value;
+    }
+  }
+  return gradients;
+}
+
+Embedding embed(const BrickGrid& grid, const Points& points) {
+  const BrickFinder finder(grid);
+  Embedding embedding;
+  embedding.brick.resize(static_cast<std::size_t>(points.rows()));
+  embedding.local.resize(points.rows(), 3);
+  for (int i = 0; i < points.rows(); ++i) {
+    const Vec3 place = (points.row(i).transpose() - grid.origin) / grid.brick_size;
+    int brick = finder.holding(place);
+    if (brick < 0) {
+      brick = finder.nearest(place);
+      ++embedding.outside;
+    }
+    embedding.brick[static_cast<std::size_t>(i)] = brick;
+    embedding.local.row(i) = place - grid.cells[static_cast<std::size_t>(brick)].cast<double>();
+  }
+  return embedding;
+}
+
+Points deform_points(const BrickGrid& grid, const Embedding& embedding, const Points& node_positions) {
+  Points deformed(embedding.local.rows(), 3);
+  tbb::parallel_for(tbb::blocked_range<int>(0, static_cast<int>(deformed.rows()), 2048), [&](const auto& range) {
+    for (int i = range.begin(); i < range.end(); ++i) {
+      const auto corners = corner_positions(grid, embedding.brick[static_cast<std::size_t>(i)], node_positions);
+      deformed.row(i) = corners * trilinear_weights(embedding.local.row(i));
+    }
+  });
+  return deformed;
+}
+
+Points deform_normals(const BrickGrid& grid, const Embedding& embedding, const Points& normals,
+                      const Points& node_positions) {
+  Points deformed(normals.rows(), 3);
+  tbb::parallel_for(tbb::blocked_range<int>(0, static_cast<int>(deformed.rows()), 2048), [&](const auto& range) {
+    for (int i = range.begin(); i < range.end(); ++i) {
+      const auto corners = corner_positions(grid, embedding.brick[static_cast<std::size_t>(i)], node_positions);
+      const Mat3 gradient = corners * trilinear_gradients(embedding.local.row(i)) / grid.brick_size;
+      // The cofactor matrix is the inverse transpose up to a positive factor, and finite for a flattened brick.
+      Mat3 cofactors;
+      cofactors << gradient.col(1).cross(gradient.col(2)), gradient.col(2).cross(gradient.col(0)),
+          gradient.col(0).cross(gradient.col(1));
+      deformed.row(i) = cofactors * normals.row(i).transpose();
+    }
+  });
+  return deformed;
+}
+
+}  // namespace sprung

@@ -1,0 +1,34 @@
+#pragma once
+#include <vector>
+
+#include "core/bricks/brick_grid.h"
+#include "core/bricks/corner.h"
+
+namespace sprung {
+
+/// Where points ride: each in one brick, by trilinear weights of its eight corners. Outside every brick the nearest
+/// brick's weights are continued, and counted in `outside`.
+struct Embedding {
+  std::vector<int> brick;  // n
+  Points local;            // n x 3; place in the brick, 0..1 along each axis where the point is inside
+  int outside = 0;
+};
+
+/// The shares of a brick's eight corners in the point at `local` (0..1 along each axis); their sum is 1.
+[[nodiscard]] Eigen::Matrix<double, 8, 1> trilinear_weights(const Vec3& local);
+
+/// Their derivatives by the place in the brick: 8 x 3.
+[[nodiscard]] Eigen::Matrix<double, 8, 3> trilinear_gradients(const Vec3& local);
+
+/// `points` in the grid's frame, m.
+[[nodiscard]] Embedding embed(const BrickGrid& grid, const Points& points);
+
+/// Where the embedded points are for these node positions; n x 3, m. A rigid or affine motion of the nodes moves them
+/// in exactly the same way.
+[[nodiscard]] Points deform_points(const BrickGrid& grid, const Embedding& embedding, const Points& node_positions);
+
+/// Rest normals carried by the inverse transpose of the deformation gradient at each point; n x 3, not normalised.
+[[nodiscard]] Points deform_normals(const BrickGrid& grid, const Embedding& embedding, const Points& normals,
+                                    const Points& node_positions);
+
+}  // namespace sprung

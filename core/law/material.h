@@ -1,0 +1,30 @@
+#pragma once
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace sprung {
+
+/// A homogeneous, isotropic elastic solid. SI units.
+struct Material {
+  std::string name = "custom";
+  double young = 20e3;    // Young's modulus E, Pa, > 0
+  double poisson = 0.45;  // Poisson's ratio nu, -1 < nu < 1/2
+  double density = 1000;  // kg/m^3, > 0
+  double damping = 0.02;  // ratio of critical damping at the body's slowest vibration (see rayleigh_from_damping)
+  std::string source;     // where the figures come from
+
+  [[nodiscard]] double shear_modulus() const { return young / (2 * (1 + poisson)); }                          // G, Pa
+  [[nodiscard]] double lame_lambda() const { return young * poisson / ((1 + poisson) * (1 - 2 * poisson)); }  // Pa
+};
+
+/// The built-in materials, ordered by name, each with its source.
+[[nodiscard]] std::span<const Material> material_library();
+
+/// The built-in material of that name. Throws Error(kBadInput) with the nearest name where there is none.
+[[nodiscard]] const Material& find_material(std::string_view name);
+
+/// Throws Error(kBadInput) naming the quantity, its value and its range.
+void check_material(const Material& material);
+
+}  // namespace sprung

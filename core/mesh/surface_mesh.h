@@ -1,0 +1,38 @@
+#pragma once
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "core/types.h"
+
+namespace sprung {
+
+/// How the triangles of a part look. Colours are sRGB-encoded, as artists write them, in [0, 1].
+struct SurfaceMaterial {
+  std::string name;
+  Eigen::Vector4f color{0.8F, 0.8F, 0.8F, 1.0F};
+  std::vector<std::byte> texture;  // an encoded picture (PNG, JPEG, ...) that multiplies color; empty: none
+  std::string texture_name;        // for messages
+};
+
+/// A named piece of the file: consecutive triangles that share one material.
+struct Part {
+  std::string name;
+  int first_triangle = 0;
+  int triangle_count = 0;
+  int material = -1;  // index into materials; -1: none given
+};
+
+/// A triangle mesh as a file holds it, all node transforms applied: vertices are split where normals or UVs differ.
+struct SurfaceMesh {
+  Points positions;                                                  // n x 3, file units
+  Triangles triangles;                                               // t x 3
+  Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> normals;  // n x 3, unit; 0 rows: none given
+  Eigen::Matrix<float, Eigen::Dynamic, 2, Eigen::RowMajor> uvs;      // n x 2, v up; 0 rows: none
+  Eigen::Matrix<float, Eigen::Dynamic, 4, Eigen::RowMajor> colors;   // n x 4, sRGB in [0, 1]; 0 rows: none
+  std::vector<Part> parts;                                           // cover all triangles, in order
+  std::vector<SurfaceMaterial> materials;
+  std::vector<std::string> notes;  // what the reader left out, one sentence each: a texture not found, loose lines, ...
+};
+
+}  // namespace sprung

@@ -1,0 +1,23 @@
+#pragma once
+#include <vector>
+
+#include "core/mesh/surface_mesh.h"
+
+namespace sprung {
+
+/// The triangles of a mesh on points that are each there once.
+struct WeldedMesh {
+  Points points;            // p x 3, in the order of their first use
+  Triangles triangles;      // t x 3
+  std::vector<int> source;  // for each triangle, its row in SurfaceMesh::triangles
+  int without_area = 0;     // triangles left out because two of their corners fall together
+  int repeated = 0;         // triangles left out because others have the same three corners
+};
+
+/// Joins vertices of exactly equal position and leaves out what then is no triangle. A sliver with three different
+/// corners in a line stays: without it its neighbours would have open edges. Of triangles with the same three corners
+/// one stays, but none of two that face each other, since there is nothing between them (unless most of the mesh is so:
+/// then it was given with a front and a back).
+[[nodiscard]] WeldedMesh weld(const SurfaceMesh& mesh);
+
+}  // namespace sprung

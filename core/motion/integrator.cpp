@@ -1,0 +1,92 @@
+#include "core/motion/integrator.h"
+
+#include <fmt/format.h>
+
+#include "core/body/forces.h"
+#include "core/error.h"
+#include "core/world/ground_contact.h"
+
+namespace sprung {
+namespace {
+
+/// One actor on its way through a number of steps.
+class Mover {
+ public:
+  Mover(Actor& actor, const World& world)
+      : actor_(actor), world_(world), inverse_masses_(inverse_masses(actor)), contact_(actor, inverse_masses_) {}
+
+  /// velocities += dt (forces / m + gravity - alpha v); held nodes stay.
+  void kick(double dt) {
+    Body& body = actor_.body;
+    spring_forces(body, workspace_, forces_);
+    body.velocities *= 1 - dt * body.damping.alpha;
+    body.velocities += dt * (inverse_masses_.asDiagonal() * forces_);
+    body.velocities.rowwise() += dt * world_.gravity.transpose();
+    for (const int node : actor_.pinned) body.velocities.row(node).setZero();
+  }
+
+  void touch_ground(double dt) {
+    if (world_.ground) contact_.apply(*world_.ground, dt, actor_);
+  }
+
+  void drift(double dt) { actor_.body.positions += dt * actor_.body.velocities; }
+
+ private:
+  static Eigen::VectorXd inverse_masses(const Actor& actor) {
+    Eigen::VectorXd inverse = actor.body.masses.cwiseInverse();
+    for (const int node : actor.pinned) inverse[node] = 0;
+    return inverse;
+  }
+
+  Actor& actor_;
+  const World& world_;
+  Eigen::VectorXd inverse_masses_;
+  GroundContact contact_;
+  ForceWorkspace workspace_;
+  Points forces_;
+};
+
+void check_finite(const World& world, double time) {
+  for (std::size_t i = 0; i < world.actors.size(); ++i) {
+    if (world.actors[i].body.positions.allFinite()) continue;
+    throw Error(ErrorKind::kDiverged,
+                fmt::format("body {} has a position that is not finite at t = {:.6g} s: the motion diverged; use more "
+                            "bricks, a stiffer material or a shorter fall",
+                            i + 1, time));
+  }
+}
+
+/// v += dt a; x += dt v. First order, symplectic.
+void euler(Mover& mover, double dt, long steps) {
+  for (long step = 0; step < steps; ++step) {
+    mover.kick(dt);
+    mover.touch_ground(dt);
+    mover.drift(dt);
+  }
+}
+
+/// Half a kick, drift, half a kick; the half kicks that meet between two steps are one. Second order, symplectic.
+void verlet(Mover& mover, double dt, long steps) {
+  for (long step = 0; step < steps; ++step) {
+    mover.kick(step == 0 ? dt / 2 : dt);
+    mover.touch_ground(dt);
+    mover.drift(dt);
+  }
+  if (steps > 0) mover.kick(dt / 2);
+}
+
+}  // namespace
+
+void advance(World& world, Scheme scheme, double dt, long steps, double time) {
+  for (Actor& actor : world.actors) {
+    Mover mover(actor, world);
+    if (scheme == Scheme::kVerlet) {
+      verlet(mover, dt, steps);
+    } else {
+      euler(mover, dt, steps);
+    }
+  }
+  check_finite(world, time + dt * static_cast<double>(steps));
+}
+
+}  // namespace sprung

@@ -1,0 +1,40 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/body/brick_hessian.h"
+#include "core/motion/integrator.h"
+
+namespace sprung {
+namespace {
+
+/// What the volume guard can add to a brick's stiffness, in units of guard / h^2: the squared gradient of the volume
+/// ratio of a brick pressed flat to the guard's threshold along one axis.
+constexpr double kGuardGradient = 0.6;
+
+/// The square of the fastest frequency (1/s^2) that any node of the body can see.
+double largest_frequency_squared(const Body& body) {
+  const double h = body.grid.brick_size;
+  const double stiffness = largest_brick_stiffness(body) + kGuardGradient * body.law.guard / (h * h);
+  double share = 0;
+  for (const double scale : body.stiffness_scale) share += scale;
+  const double corner_mass = body.masses.sum() / share / 8;
+  return stiffness / corner_mass;
+}
+
+/// Leapfrog with damping c = alpha + beta omega^2 is stable while omega^2 dt^2 + 2 c dt < 4.
+double stable_step_of(const Body& body) {
+  const double squared = largest_frequency_squared(body);
+  const double damping = body.damping.alpha + body.damping.beta * squared;
+  return 4 / (damping + std::sqrt(damping * damping + 4 * squared));
+}
+
+}  // namespace
+
+double stable_step(const World& world, double safety) {
+  double step = std::numeric_limits<double>::infinity();
+  for (const Actor& actor : world.actors) step = std::min(step, stable_step_of(actor.body));
+  return safety * step;
+}
+
+}  // namespace sprung

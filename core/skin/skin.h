@@ -1,0 +1,34 @@
+#pragma once
+#include <vector>
+
+#include "core/mesh/surface_mesh.h"
+#include "core/types.h"
+
+namespace sprung {
+
+using Floats3 = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
+using Floats2 = Eigen::Matrix<float, Eigen::Dynamic, 2, Eigen::RowMajor>;
+using Floats4 = Eigen::Matrix<float, Eigen::Dynamic, 4, Eigen::RowMajor>;
+
+/// The triangles that are drawn and that touch other things, at rest. Finer than the mesh: creases are split so that
+/// every vertex has one normal, and long edges are halved until they can follow the bend of a brick.
+struct Skin {
+  Points positions;         // n x 3, m, body's rest frame
+  Points normals;           // n x 3, unit, outward
+  Floats2 uvs;              // n x 2; 0 rows: none
+  Floats4 colors;           // n x 4, sRGB in [0, 1]; 0 rows: none
+  Triangles triangles;      // t x 3; grouped by part, in the order of the mesh
+  std::vector<Part> parts;  // cover all triangles, in order
+  std::vector<SurfaceMaterial> materials;
+};
+
+struct SkinOptions {
+  double max_edge = 0;       // m; edges longer than this are halved; 0: never
+  double crease_angle = 40;  // degrees between neighbouring triangles; sharper edges stay sharp. Used where the mesh
+                             // brings no normals of its own
+};
+
+/// Makes the skin of a mesh (already in metres). Deterministic.
+[[nodiscard]] Skin make_skin(const SurfaceMesh& mesh, const SkinOptions& options);
+
+}  // namespace sprung

@@ -1,0 +1,93 @@
+#include "render/camera.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+namespace sprung {
+
+namespace {
+
+constexpr double kMargin = 0.12;            // of the half picture, kept free at each side
+constexpr double kFloorMargin = 0.06;       // of the sides: floor seen around the lowest points, where the shadow falls
+constexpr double kSmallestDistance = 1e-9;  // m; even a single point is looked at from somewhere
+
+double radians(double degrees) { return degrees * std::numbers::pi / 180; }
+
+/// Columns: right, up and backwards (towards the viewer).
+Mat3 camera_axes(double azimuth, double elevation) {
+  const double a = radians(azimuth);
+  const double e = radians(std::clamp(elevation, -89.0, 89.0));
+  const Vec3 backwards(std::sin(a) * std::cos(e), std::sin(e), std::cos(a) * std::cos(e));
+  Mat3 axes;
+  axes.col(0) = Vec3(std::cos(a), 0, -std::sin(a));
+  axes.col(1) = backwards.cross(axes.col(0));
+  axes.col(2) = backwards;
+  return axes;
+}
+
+/// The corners of the bounds and, a little further out, those of the floor below.
+std::array<Vec3, 12> points_to_see(const Bounds& bounds) {
+  std::array<Vec3, 12> points;
+  for (std::size_t c = 0; c < 8; ++c) {
+    for (int k = 0; k < 3; ++k) points[c][k] = ((c >> k) & 1U) != 0 ? bounds.high[k] : bounds.low[k];
+  }
+  const Vec3 sides = bounds.high - bounds.low;
+  const double x = kFloorMargin * std::max(sides.x(), sides.y());
+  const double z = kFloorMargin * std::max(sides.z(), sides.y());
+  for (std::size_t c = 0; c < 4; ++c) {
+    points[8 + c] = Vec3((c & 1U) != 0 ? bounds.high.x() + x : bounds.low.x() - x, bounds.low.y(),
+                         (c & 2U) != 0 ? bounds.high.z() + z : bounds.low.z() - z);
+  }
+  return points;
+}
+
+/// Along one picture axis: the points' extremes measured at the viewer's depth, along the lines of sight at the edges.
+struct Extent {
+  double low = 1e300;
+  double high = -1e300;
+};
+
+}  // namespace
+
+void Bounds::include(const Points& points) {
+  if (points.rows() == 0) return;
+  low = low.cwiseMin(points.colwise().minCoeff().transpose());
+  high = high.cwiseMax(points.colwise().maxCoeff().transpose());
+}
+
+Camera frame_bounds(const Bounds& bounds, double aspect, double azimuth, double elevation) {
+  assert(!bounds.empty() && aspect > 0);
+  Camera camera;
+  const Vec3 center = 0.5 * (bounds.low + bounds.high);
+  const Mat3 axes = camera_axes(azimuth, elevation);
+  const double slope_y = std::tan(radians(camera.vertical_field_of_view / 2)) * (1 - kMargin);
+  const Eigen::Vector2d slope(slope_y * aspect, slope_y);
+
+  // A point q is in view where |q_k - eye_k| <= slope_k (eye_z - q_z): per axis two lines that the eye has to satisfy.
+  std::array<Extent, 2> extent;
+  for (const Vec3& point : points_to_see(bounds)) {
+    const Vec3 q = axes.transpose() * (point - center);
+    for (int k = 0; k < 2; ++k) {
+      Extent& e = extent[static_cast<std::size_t>(k)];
+      e.high = std::max(e.high, q[k] + slope[k] * q.z());
+      e.low = std::min(e.low, q[k] - slope[k] * q.z());
+    }
+  }
+  Vec3 eye;
+  for (int k = 0; k < 2; ++k) {
+    eye[k] = 0.5 * (extent[static_cast<std::size_t>(k)].high + extent[static_cast<std::size_t>(k)].low);
+  }
+  eye.z() =
+      std::max((extent[0].high - extent[0].low) / (2 * slope.x()), (extent[1].high - extent[1].low) / (2 * slope.y()));
+
+  eye.z() = std::max(eye.z(), kSmallestDistance);
+
+  camera.eye = center + axes * eye;
+  camera.target = center + axes * Vec3(eye.x(), eye.y(), 0);
+  return camera;
+}
+
+}  // namespace sprung

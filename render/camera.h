@@ -1,0 +1,25 @@
+#pragma once
+#include "core/types.h"
+
+namespace sprung {
+
+/// A pinhole camera. World: right-handed, y up, metres.
+struct Camera {
+  Vec3 eye{0, 0, 1};
+  Vec3 target = Vec3::Zero();
+  Vec3 up = Vec3::UnitY();
+  double vertical_field_of_view = 30;  // degrees
+};
+
+struct Bounds {
+  Vec3 low = Vec3::Constant(1e300);
+  Vec3 high = Vec3::Constant(-1e300);
+  void include(const Points& points);
+  [[nodiscard]] bool empty() const { return low.x() > high.x(); }
+};
+
+/// A camera that sees all of `bounds` with a margin at the given width / height, from azimuth (degrees about y, 0 looks
+/// along -z) and elevation (degrees above the horizon).
+[[nodiscard]] Camera frame_bounds(const Bounds& bounds, double aspect, double azimuth = 30, double elevation = 14);
+
+}  // namespace sprung

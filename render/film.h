@@ -1,0 +1,33 @@
+#pragma once
+#include <filesystem>
+#include <memory>
+
+#include "render/image.h"
+
+namespace sprung {
+
+/// True where `file` names a film by its ending: .mp4, .webm, .gif (any case).
+[[nodiscard]] bool is_film(const std::filesystem::path& file);
+
+/// Throws Error(kFailed) with the remedy where the ffmpeg program is not on the path.
+void require_ffmpeg();
+
+/// A film being written by an ffmpeg child process that is fed raw pictures through a pipe. BT.709, odd sizes padded.
+/// The film appears under its name when close() returns; an unfinished film is removed.
+class FilmWriter {
+ public:
+  FilmWriter(const std::filesystem::path& file, int width, int height, double fps);
+  ~FilmWriter();
+  FilmWriter(const FilmWriter&) = delete;
+  FilmWriter& operator=(const FilmWriter&) = delete;
+
+  /// Throws Error(kFailed) with ffmpeg's last words where the child has died.
+  void write(const Image& image);
+  void close();
+
+ private:
+  struct Process;
+  std::unique_ptr<Process> process_;
+};
+
+}  // namespace sprung

@@ -1,0 +1,101 @@
+#pragma once
+#include <Eigen/Core>
+#include <string>
+#include <utility>
+
+#include "render/gl/functions.h"
+
+namespace sprung {
+
+/// Owns the name of one OpenGL object. Needs the context current when it goes.
+template <void (*Destroy)(const GlFunctions&, GLuint)>
+class GlObject {
+ public:
+  GlObject() = default;
+  GlObject(const GlFunctions& gl, GLuint name) : gl_(&gl), name_(name) {}
+  GlObject(GlObject&& other) noexcept : gl_(other.gl_), name_(std::exchange(other.name_, 0)) {}
+  GlObject& operator=(GlObject&& other) noexcept {
+    std::swap(gl_, other.gl_);
+    std::swap(name_, other.name_);
+    return *this;
+  }
+  GlObject(const GlObject&) = delete;
+  GlObject& operator=(const GlObject&) = delete;
+  ~GlObject() {
+    if (name_ != 0) Destroy(*gl_, name_);
+  }
+  [[nodiscard]] GLuint name() const { return name_; }
+
+ private:
+  const GlFunctions* gl_ = nullptr;
+  GLuint name_ = 0;
+};
+
+namespace detail {
+inline void delete_buffer(const GlFunctions& gl, GLuint name) { gl.DeleteBuffers(1, &name); }
+inline void delete_texture(const GlFunctions& gl, GLuint name) { gl.DeleteTextures(1, &name); }
+inline void delete_sampler(const GlFunctions& gl, GLuint name) { gl.DeleteSamplers(1, &name); }
+inline void delete_vertex_array(const GlFunctions& gl, GLuint name) { gl.DeleteVertexArrays(1, &name); }
+inline void delete_framebuffer(const GlFunctions& gl, GLuint name) { gl.DeleteFramebuffers(1, &name); }
+inline void delete_renderbuffer(const GlFunctions& gl, GLuint name) { gl.DeleteRenderbuffers(1, &name); }
+inline void delete_program(const GlFunctions& gl, GLuint name) { gl.DeleteProgram(name); }
+inline void delete_shader(const GlFunctions& gl, GLuint name) { gl.DeleteShader(name); }
+}  // namespace detail
+
+using GlBuffer = GlObject<detail::delete_buffer>;
+using GlTexture = GlObject<detail::delete_texture>;
+using GlSampler = GlObject<detail::delete_sampler>;
+using GlVertexArray = GlObject<detail::delete_vertex_array>;
+using GlFramebuffer = GlObject<detail::delete_framebuffer>;
+using GlRenderbuffer = GlObject<detail::delete_renderbuffer>;
+
+[[nodiscard]] GlBuffer make_buffer(const GlFunctions& gl);
+[[nodiscard]] GlVertexArray make_vertex_array(const GlFunctions& gl);
+[[nodiscard]] GlFramebuffer make_framebuffer(const GlFunctions& gl);
+
+/// How a texture is stored and read. Levels beyond the first are made by GenerateMipmap.
+struct TextureFormat {
+  GLenum internal = GL_RGBA8;
+  GLenum pixels = GL_RGBA;  // layout of the data given, if any
+  GLenum type = GL_UNSIGNED_BYTE;
+  bool mipmaps = false;
+  bool linear = true;
+  GLenum wrap = GL_CLAMP_TO_EDGE;
+};
+/// Left bound to the active unit; storage for mipmaps is made at once.
+[[nodiscard]] GlTexture make_texture(const GlFunctions& gl, int width, int height, const TextureFormat& format,
+                                     const void* data = nullptr);
+
+[[nodiscard]] GlRenderbuffer make_renderbuffer(const GlFunctions& gl, GLenum format, int width, int height,
+                                               int samples);
+
+/// A framebuffer that draws into level 0 of the textures; 0 for none. Throws Error(kFailed) where it is not complete.
+[[nodiscard]] GlFramebuffer make_texture_target(const GlFunctions& gl, const GlTexture* color, const GlTexture* depth);
+void check_framebuffer(const GlFunctions& gl, const char* what);
+
+/// A linked program. set() needs it in use; a name that the compiler has dropped is ignored.
+class GlProgram {
+ public:
+  GlProgram() = default;
+  /// Throws Error(kFailed) with the compiler's words; `name` is for them.
+  GlProgram(const GlFunctions& gl, const std::string& name, const std::string& vertex, const std::string& fragment);
+
+  void use() const { gl_->UseProgram(program_.name()); }
+  void set(const char* name, int value) const;
+  void set(const char* name, float value) const;
+  void set(const char* name, const Eigen::Vector2f& value) const;
+  void set(const char* name, const Eigen::Vector3f& value) const;
+  void set(const char* name, const Eigen::Vector4f& value) const;
+  void set(const char* name, const Eigen::Matrix4f& value) const;
+
+ private:
+  [[nodiscard]] GLint place(const char* name) const { return gl_->GetUniformLocation(program_.name(), name); }
+
+  const GlFunctions* gl_ = nullptr;
+  GlObject<detail::delete_program> program_;
+};
+
+/// Binds a texture, and a sampler that overrides its own way of reading, to a unit.
+void bind_texture(const GlFunctions& gl, int unit, const GlTexture& texture, GLuint sampler = 0);
+
+}  // namespace sprung

@@ -1,0 +1,57 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/skin/skin.h"
+#include "render/camera.h"
+#include "render/image.h"
+
+namespace sprung {
+
+/// One skin as it stands in the frame to draw.
+struct SkinShape {
+  Floats3 positions;  // n x 3, m, world
+  Floats3 normals;    // n x 3, any length
+};
+
+struct GroundPlane {
+  double height = 0;  // y, m
+};
+
+struct RenderOptions {
+  int width = 1280;
+  int height = 720;
+  int samples = 4;  // 1 or 4: multisampling
+};
+
+/// What stays the same through a film: the skins at rest (indices, UVs, colours, textures), ground and light.
+struct Stage {
+  std::vector<const Skin*> skins;               // outlive the renderer
+  std::vector<Eigen::Vector3f> default_colors;  // one a skin, sRGB: for parts without material, colours or texture
+  bool has_ground = true;
+  GroundPlane ground;
+  Bounds bounds;  // of the whole motion: sizes shadow map, ground fade and light
+};
+
+/// Draws a stage off-screen with OSMesa: no display, no GPU. Deterministic on one machine for any number of threads.
+class Renderer {
+ public:
+  /// Throws Error(kFailed) where no OpenGL 3.3 context can be made.
+  Renderer(const Stage& stage, const RenderOptions& options);
+  ~Renderer();
+  Renderer(const Renderer&) = delete;
+  Renderer& operator=(const Renderer&) = delete;
+
+  /// One shape for each skin of the stage, in order.
+  [[nodiscard]] Image draw(const std::vector<SkinShape>& shapes, const Camera& camera);
+
+  /// Name and version of the driver, for reports.
+  [[nodiscard]] std::string driver() const;
+
+ private:
+  struct Device;
+  std::unique_ptr<Device> device_;
+};
+
+}  // namespace sprung

@@ -1,0 +1,15 @@
+#pragma once
+#include <string_view>
+
+#include "render/gl/objects.h"
+
+namespace sprung {
+
+/// The text of a file in render/shaders; empty where there is none of that name.
+[[nodiscard]] std::string_view shader_text(std::string_view name);
+
+/// A program of two files in render/shaders. Both begin with the version, color.glsl and light.glsl, the
+/// second with picture.glsl too; a line "//!include NAME" stands for another file.
+[[nodiscard]] GlProgram load_program(const GlFunctions& gl, std::string_view vertex, std::string_view fragment);
+
+}  // namespace sprung

@@ -1,0 +1,57 @@
+// Light on the ground, by place: the key with its shadow, what is left of the sky, light from the undersides.
+// The shadow of a plane is the mask of what the key light hits, averaged over the part of it that the lamp is seen through; so it is
+// sharp where the body touches and wide where it is high up.
+in vec2 screen_place;
+uniform vec4 ground_rectangle;
+uniform float ground_height;
+uniform mat4 light_from_stage;
+uniform float mask_texels;      // per unit of length
+uniform vec2 mask_texel_size;   // in u and v
+uniform float body_radius;
+uniform bool has_ground;
+uniform sampler2D key_mask;
+uniform sampler2D ground_sky;
+out vec4 result;
+
+const int kSearch = 6;
+const int kTaps = 14;
+const mat2 kGoldenTurn = mat2(-0.7373688, 0.6754903, -0.6754903, -0.7373688);  // 137.5 degrees, for spirals
+
+float key_shadow(vec2 point) {
+  vec2 uv = (light_from_stage * vec4(point.x, ground_height, point.y, 1.0)).xy * 0.5 + 0.5;
+  float reach = 1.2 * kLightRadius * body_radius * mask_texels;
+  // Most of the ground has nothing above it: a loop that runs no times is skipped, an if is not.
+  int search = textureLod(key_mask, uv, log2(4.0 * reach)).r > 0.0 ? kSearch : 0;
+  vec2 found = vec2(0.0);
+  vec2 direction = vec2(1.0, 0.0);
+  for (int k = 0; k < search; ++k) {
+    vec2 offset = reach * sqrt((float(k) + 0.5) / float(kSearch)) * direction;
+    found += textureLod(key_mask, uv + offset * mask_texel_size, log2(max(0.8 * reach, 1.0))).rg;
+    direction = kGoldenTurn * direction;
+  }
+  int taps = found.r > 1e-4 ? kTaps : 0;
+  float radius = max(kLightRadius * found.g / max(found.r, 1e-4) * mask_texels, 0.75);
+  float lod = log2(max(0.55 * radius, 1.0));
+  float hidden = 0.0;
+  for (int k = 0; k < taps; ++k) {
+    vec2 offset = radius * sqrt((float(k) + 0.5) / float(kTaps)) * direction;
+    hidden += textureLod(key_mask, uv + offset * mask_texel_size, lod).r;
+    direction = kGoldenTurn * direction;
+  }
+  return hidden / float(kTaps);
+}
+
+void main() {
+  if (!has_ground) {  // a floor far below, which nothing shades
+    result = vec4(open_ground_light(), 1.0);
+    return;
+  }
+  vec2 point = ground_rectangle.xy + screen_place * ground_rectangle.zw;
+  vec4 sky = texture(ground_sky, screen_place);
+  vec2 border = smoothstep(0.0, 0.12, min(screen_place, 1.0 - screen_place));
+  sky *= border.x * border.y;
+  vec3 key = kKey * to_key.y * (1.0 - key_shadow(point));
+  // What hides the sky is itself lit by the ground around it: no place is quite black.
+  vec3 light = key + kSky * (1.0 - 0.94 * sky.a) + sky.rgb * (0.16 - 0.10 * sky.a) * open_ground_light();
+  result = vec4(light, 1.0);
+}

@@ -1,0 +1,136 @@
+in vec3 place;
+in vec3 surface_normal;
+in vec2 texture_place;
+in vec3 vertex_color;
+
+uniform vec3 eye;
+uniform mat4 light_from_stage;     // the key light's clip space
+uniform vec2 light_texel;          // texture coordinates per unit of length, across the light
+uniform float body_radius;
+uniform sampler2DShadow key_shadow_map;
+uniform sampler2D key_depth;
+uniform float key_depth_range;     // units of length
+uniform vec4 zenith_rectangle;     // low corner x, z; 1 / sides
+uniform vec2 zenith_heights;       // low, 1 / range
+uniform sampler2D zenith;
+uniform vec4 ground_rectangle;     // low corner x, z; sides
+uniform float ground_height;
+uniform float ground_texels;       // per unit of length
+uniform sampler2D ground_light;
+out vec4 result;
+//!include albedo.glsl
+
+const float kRoughness = 0.42;
+const float kReflectance = 0.04;
+const int kSearch = 6;
+const int kTaps = 16;
+const mat2 kGoldenTurn = mat2(-0.7373688, 0.6754903, -0.6754903, -0.7373688);  // 137.5 degrees, for spirals
+
+// The share of the key light that reaches a point. The point is first moved outwards and into the light by a small
+// part of the body: soft matter lets light in that far, and it keeps the surface from shadowing itself.
+float key_light(vec3 point, vec3 n, float facing) {
+  vec3 moved = point + body_radius * (0.012 * n + 0.028 * to_key);
+  vec3 uvd = (light_from_stage * vec4(moved, 1.0)).xyz * 0.5 + 0.5;
+  vec2 reach = 0.6 * kLightRadius * body_radius * light_texel;
+  int search = facing > -0.35 ? kSearch : 0;
+  float blockers = 0.0;
+  float way = 0.0;
+  // Four turns in blocks of 2 x 2 pixels: finer than the eye sees, where a fixed pattern would show as stripes.
+  float turn = 0.3926991 * float((int(gl_FragCoord.x) & 1) + 2 * (int(gl_FragCoord.y) & 1));
+  vec2 direction = vec2(cos(turn), sin(turn));
+  for (int k = 0; k < search; ++k) {
+    float depth = texture(key_depth, uvd.xy + reach * sqrt((float(k) + 0.5) / float(kSearch)) * direction).r;
+    float above = step(depth, uvd.z);
+    blockers += above;
+    way += above * (uvd.z - depth);
+    direction = kGoldenTurn * direction;
+  }
+  // A loop that runs no times is skipped, an if is not: only the edges of shadows pay for the filter.
+  int taps = blockers > 0.0 ? kTaps : 0;
+  float radius = clamp(kLightRadius * key_depth_range * way / max(blockers, 1.0), 0.02 * body_radius,
+                       0.6 * kLightRadius * body_radius);
+  float lit = 0.0;
+  for (int k = 0; k < taps; ++k) {
+    vec2 offset = radius * sqrt((float(k) + 0.5) / float(kTaps)) * direction;
+    lit += texture(key_shadow_map, vec3(uvd.xy + offset * light_texel, uvd.z));
+    direction = kGoldenTurn * direction;
+  }
+  return taps > 0 ? lit / float(kTaps) : (search > 0 ? 1.0 : 0.0);
+}
+
+// How much of the sky is open above a point: the chance that the blurred map of heights does not exceed it (Chebyshev).
+float open_sky(vec3 point, vec3 n) {
+  vec3 moved = point + 0.16 * body_radius * n;
+  vec2 moments = texture(zenith, (moved.xz - zenith_rectangle.xy) * zenith_rectangle.zw).rg;
+  float height = (moved.y - zenith_heights.x) * zenith_heights.y;
+  float variance = max(moments.y - moments.x * moments.x, 2e-4);
+  float below = max(moments.x - height, 0.0);
+  return variance / (variance + below * below);
+}
+
+vec3 ground_bounce(vec3 point, vec3 n) {
+  float height = max(point.y - ground_height, 0.0);
+  vec2 uv = (point.xz + 0.6 * height * n.xz - ground_rectangle.xy) / ground_rectangle.zw;
+  return kGroundAlbedo * textureLod(ground_light, uv, log2(max(height * ground_texels, 4.0))).rgb;
+}
+
+// What a reflection sees: floor below, a bright overhead panel fading into the room above.
+vec3 room(vec3 direction, vec3 floor_light) {
+  vec3 walls = mix(floor_light, vec3(0.40, 0.41, 0.43), smoothstep(-0.25, 0.25, direction.y));
+  return walls + vec3(0.42, 0.43, 0.45) * smoothstep(0.35, 0.95, direction.y);
+}
+
+float ggx(float nh, float nv, float nl, float alpha) {
+  float a2 = alpha * alpha;
+  float d = nh * nh * (a2 - 1.0) + 1.0;
+  float v = 0.5 / (nl * sqrt(nv * nv * (1.0 - a2) + a2) + nv * sqrt(nl * nl * (1.0 - a2) + a2));
+  return a2 / (d * d) * v;
+}
+
+// Integral of the specular lobe over a uniform surrounding (Karis's fit).
+float surrounding_share(float nv) {
+  vec4 r = kRoughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
+  float a = min(r.x * r.x, exp2(-9.28 * nv)) * r.x + r.y;
+  return kReflectance * (-1.04 * a + r.z) + 1.04 * a + r.w;
+}
+
+vec3 facing_normal() {
+  vec3 flat_normal = cross(dFdx(place), dFdy(place));
+  vec3 n = dot(surface_normal, surface_normal) > 0.0 ? surface_normal : flat_normal;
+  n = normalize(n);
+  return gl_FrontFacing || dot(surface_normal, surface_normal) == 0.0 ? n : -n;
+}
+
+float power5(float x) {
+  float x2 = x * x;
+  return x2 * x2 * x;
+}
+
+void main() {
+  vec3 base = albedo();
+  vec3 n = facing_normal();
+  vec3 v = normalize(eye - place);
+  vec3 h = normalize(v + to_key);
+  float nl = dot(n, to_key);
+  float nv = max(dot(n, v), 1e-3);
+  float lit = key_light(place, n, nl);
+
+  // Light that enters leaves a little further on, in the body's own colour: it creeps past the edge of the shadow.
+  vec3 wrap = 0.06 + 0.20 * base;
+  vec3 soft = clamp((nl + wrap) / (1.0 + wrap), 0.0, 1.0);
+  vec3 diffuse = mix(soft, soft * soft, 2.0 * wrap);
+
+  float open = open_sky(place, n);
+  vec3 bounce = ground_bounce(place, n);
+  vec3 sky = kSky * 1.1 * mix(0.4, 1.0, open);
+  vec3 surrounding = mix(bounce, sky, 0.5 + 0.5 * n.y) + 0.06 * base * open;
+
+  vec3 reflected = room(reflect(-v, n), bounce) * mix(0.3, 1.0, open);
+  float clear = max(nl, 0.0);
+  float fresnel = kReflectance + (1.0 - kReflectance) * power5(1.0 - max(dot(v, h), 0.0));
+  float gloss = ggx(max(dot(n, h), 0.0), nv, max(clear, 1e-3), kRoughness * kRoughness) * fresnel * clear;
+
+  vec3 light = base * (kKey * diffuse * lit + surrounding);
+  light += kKey * gloss * lit + reflected * surrounding_share(nv);
+  result = picture_color(light);
+}

@@ -1,0 +1,23 @@
+// A skin in stage space: the middle of the motion at the origin, its radius 1, whatever its size in metres.
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec2 uv;
+layout(location = 3) in vec4 color;  // sRGB
+
+uniform vec3 stage_center;  // m
+uniform float stage_scale;  // 1/m
+uniform mat4 clip_from_stage;
+
+invariant gl_Position;  // as in the depth pass before
+out vec3 place;
+out vec3 surface_normal;
+out vec2 texture_place;
+out vec3 vertex_color;  // linear
+
+void main() {
+  place = (position - stage_center) * stage_scale;
+  surface_normal = normal;
+  texture_place = vec2(uv.x, 1.0 - uv.y);  // v runs up, rows of pictures run down
+  vertex_color = linear_from_srgb(color.rgb);
+  gl_Position = clip_from_stage * vec4(place, 1.0);
+}

@@ -1,0 +1,61 @@
+#include "app/output.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/error_message.h"
+#include "tests/support/temp_folder.h"
+
+namespace sprung {
+namespace {
+
+TEST(Output, FolderTakesNumberedFrames) {
+  for (const std::string_view words : {"out", "out/"}) {
+    const Output output = parse_output(words);
+    EXPECT_EQ(output.kind, Output::Kind::kPictures);
+    EXPECT_EQ(output.picture(1), std::filesystem::path("out/frame_0001.png"));
+  }
+  EXPECT_EQ(parse_output("out").picture(12345).filename(), "frame_12345.png");
+}
+
+TEST(Output, PatternsSayWhereTheNumberGoes) {
+  EXPECT_EQ(parse_output("a/f_{:04}.png").picture(7), std::filesystem::path("a/f_0007.png"));
+  EXPECT_EQ(parse_output("f_{:03d}x.PNG").picture(7), std::filesystem::path("f_007x.PNG"));
+  EXPECT_EQ(parse_output("{}.png").picture(7), std::filesystem::path("7.png"));
+}
+
+TEST(Output, FilmsAreKnownByTheirEnding) {
+  for (const std::string_view words : {"a/film.mp4", "film.webm", "film.GIF"}) {
+    EXPECT_EQ(parse_output(words).kind, Output::Kind::kFilm) << words;
+    EXPECT_EQ(parse_output(words).film, std::filesystem::path(words));
+  }
+}
+
+TEST(Output, RefusesWhatItCannotMake) {
+  for (const std::string_view words :
+       {"film.avi", "one.png", "f_{:04}.jpg", "f_{:x}.png", "f_{}{}.png", "f_{.png", "{:04}/a.png", ""}) {
+    EXPECT_NE(error_message([&] { static_cast<void>(parse_output(words)); }).find("--output"), std::string::npos)
+        << words;
+  }
+}
+
+TEST(Output, ExistingPicturesAreKeptUnlessTold) {
+  const TempFolder folder;
+  const Output output = parse_output(folder.path().string());
+  static_cast<void>(folder.write("frame_notes.png", ""));
+  static_cast<void>(folder.write("frame_.png", ""));
+  EXPECT_NO_THROW(check_output(output, false));
+  static_cast<void>(folder.write("frame_0002.png", ""));
+  EXPECT_EQ(existing_pictures(output).size(), 1U);
+  EXPECT_NE(error_message([&] { check_output(output, false); }).find("--overwrite"), std::string::npos);
+  EXPECT_NO_THROW(check_output(output, true));
+}
+
+TEST(Output, FolderBelowAFileCannotBeMade) {
+  const TempFolder folder;
+  const std::string file = folder.write("file", "").string();
+  EXPECT_NE(error_message([&] { check_output(parse_output(file + "/out"), false); }).find("is not a folder"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace sprung

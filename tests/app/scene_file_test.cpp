@@ -1,0 +1,198 @@
+#include "app/scene_file.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/error_message.h"
+#include "tests/support/temp_folder.h"
+
+namespace sprung {
+namespace {
+
+const std::string kWholeScene = R"(duration = "1500 ms"
+fps = 30
+gravity = [0, "-1.62 m/s2", 0]
+scheme = "verlet"
+
+[[body]]
+mesh = "cube.obj"
+size = "12 cm"
+position = [0, 0.3, "-2 cm"]
+rotation = [0, 30, 15.5]
+bricks = 12
+material = { young = "20 kPa", poisson = 0.4, density = "1.1 g/cm3", damping = 0.01 }
+model = "tensile"
+color = "#d8322a"
+velocity = [1, 0, 0]
+  [[body.pin]]
+  box = { min = [0, 0, 0], max = [1, 0.1, 1] }
+
+[[body]]
+mesh = "cube.obj"
+scale = 0.01
+brick_size = "5 mm"
+material = "rubber"
+
+[[obstacle]]
+plane = { y = -1 }
+friction = 0.7
+restitution = 0.1
+
+[camera]
+azimuth = 10
+elevation = 20
+orbit = 30
+[render]
+resolution = [320, 240]
+samples = 1
+)";
+
+class SceneFile : public testing::Test {
+ protected:
+  [[nodiscard]] Scene parse(const std::string& text) const { return parse_scene(text, folder_.path() / "scene.toml"); }
+
+  [[nodiscard]] std::string mistakes(const std::string& text) const {
+    return error_message([&] { static_cast<void>(parse(text)); });
+  }
+
+  /// The scene with one body whose table has these further lines; they begin in line 3.
+  [[nodiscard]] std::string body_mistakes(const std::string& lines) const {
+    return mistakes("[[body]]\nmesh = \"cube.obj\"\n" + lines);
+  }
+
+  TempFolder folder_;
+  std::filesystem::path cube_ = folder_.write("cube.obj", kCubeObj);
+};
+
+TEST_F(SceneFile, ReadsEveryKey) {
+  const Scene scene = parse(kWholeScene);
+  EXPECT_DOUBLE_EQ(scene.duration, 1.5);
+  EXPECT_DOUBLE_EQ(scene.fps, 30);
+  EXPECT_DOUBLE_EQ(scene.gravity.y(), -1.62);
+  EXPECT_EQ(scene.scheme, Scheme::kVerlet);
+  ASSERT_EQ(scene.bodies.size(), 2U);
+  const SceneBody& body = scene.bodies[0];
+  EXPECT_EQ(body.mesh, cube_);
+  EXPECT_DOUBLE_EQ(body.size.value(), 0.12);
+  EXPECT_EQ(body.position, Vec3(0, 0.3, -0.02));
+  EXPECT_EQ(body.rotation, Vec3(0, 30, 15.5));
+  EXPECT_EQ(body.bricks, 12);
+  EXPECT_DOUBLE_EQ(body.material.young, 20e3);
+  EXPECT_DOUBLE_EQ(body.material.density, 1100);
+  EXPECT_EQ(body.model, Model::kTensile);
+  EXPECT_EQ(body.color.value().red, 0xd8);
+  EXPECT_EQ(body.velocity, Vec3(1, 0, 0));
+  ASSERT_EQ(body.pins.size(), 1U);
+  EXPECT_EQ(body.pins[0].box.max, Vec3(1, 0.1, 1));
+  EXPECT_DOUBLE_EQ(scene.bodies[1].scale.value(), 0.01);
+  EXPECT_DOUBLE_EQ(scene.bodies[1].brick_size.value(), 0.005);
+  EXPECT_EQ(scene.bodies[1].material.name, "rubber");
+  ASSERT_EQ(scene.obstacles.size(), 1U);
+  EXPECT_DOUBLE_EQ(scene.obstacles[0].plane.y, -1);
+  EXPECT_DOUBLE_EQ(scene.obstacles[0].friction, 0.7);
+  EXPECT_DOUBLE_EQ(scene.camera.orbit, 30);
+  EXPECT_EQ(scene.render.resolution, (std::array<int, 2>{320, 240}));
+  EXPECT_EQ(scene.render.samples, 1);
+}
+
+TEST_F(SceneFile, PrintedSceneParsesToTheSameScene) {
+  const std::string printed = print_scene(parse(kWholeScene));
+  const Scene again = parse(printed);
+  EXPECT_EQ(print_scene(again), printed);
+  EXPECT_EQ(again.bodies[0].mesh, cube_);
+  EXPECT_EQ(again.bodies[0].position, Vec3(0, 0.3, -0.02));
+  EXPECT_DOUBLE_EQ(again.bodies[0].material.young, 20e3);
+  EXPECT_EQ(again.bodies[1].material.source, find_material("rubber").source);
+  EXPECT_EQ(again.bodies[0].pins.size(), 1U);
+  EXPECT_EQ(again.scheme, Scheme::kVerlet);
+  EXPECT_DOUBLE_EQ(again.obstacles.at(0).restitution, 0.1);
+}
+
+TEST_F(SceneFile, PrintedPathsWithQuotesParse) {
+  const auto odd = folder_.write("a \"b\\c.obj", kCubeObj);
+  Scene scene = parse(kWholeScene);
+  scene.bodies[0].mesh = odd;
+  EXPECT_EQ(parse(print_scene(scene)).bodies[0].mesh, odd);
+}
+
+TEST_F(SceneFile, AllMistakesInOneRunWithTheirPlaces) {
+  const std::string text = mistakes(
+      "duration = \"3 parsec\"\n"
+      "fbs = 24\n"
+      "[[body]]\n"
+      "mesh = \"missing.obj\"\n"
+      "bricks = 0\n"
+      "material = \"gelatine\"\n"
+      "  [body.pim]\n");
+  EXPECT_NE(text.find("scene.toml:1:12: duration: '3 parsec'"), std::string::npos) << text;
+  EXPECT_NE(text.find("scene.toml:2:1: unknown key 'fbs'; did you mean 'fps'?"), std::string::npos) << text;
+  EXPECT_NE(text.find("scene.toml:4:8: body.mesh: there is no file"), std::string::npos) << text;
+  EXPECT_NE(text.find("scene.toml:5:10: body.bricks: 0 is out of range"), std::string::npos) << text;
+  EXPECT_NE(text.find("scene.toml:6:12: body.material: there is no material 'gelatine'; did you mean 'gelatin'?"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("unknown key 'body.pim'; did you mean 'pin'?"), std::string::npos) << text;
+}
+
+TEST_F(SceneFile, WrongTypesAreNamed) {
+  EXPECT_NE(body_mistakes("bricks = 2.5").find(":3:10: body.bricks: must be a whole number, not a number"),
+            std::string::npos);
+  EXPECT_NE(body_mistakes("size = true").find("must be a number or a string with a unit, not true or false"),
+            std::string::npos);
+  EXPECT_NE(body_mistakes("position = [1, 2]").find("must be an array of 3 numbers"), std::string::npos);
+  EXPECT_NE(body_mistakes("color = \"red\"").find("\"#rrggbb\""), std::string::npos);
+  EXPECT_NE(body_mistakes("material = 3").find("the name of a material or a table"), std::string::npos);
+  EXPECT_NE(mistakes("body = 3").find("[[body]]"), std::string::npos);
+  EXPECT_NE(mistakes("fps = [").find("scene.toml:1:"), std::string::npos);
+}
+
+TEST_F(SceneFile, WhatExcludesEachOtherOrIsMissing) {
+  EXPECT_NE(body_mistakes("size = 1\nscale = 2").find(":4:9: body: give size or scale, not both"), std::string::npos);
+  EXPECT_NE(body_mistakes("bricks = 1\nbrick_size = 2").find("give bricks or brick_size"), std::string::npos);
+  EXPECT_NE(body_mistakes("material = { young = 3 }").find("body.material lacks the key 'poisson'"), std::string::npos);
+  EXPECT_NE(mistakes("[[body]]\n").find(":1:1: body lacks the key 'mesh'"), std::string::npos);
+  EXPECT_NE(mistakes("fps = 24").find("the scene lacks the key 'body'"), std::string::npos);
+  EXPECT_NE(body_mistakes("[render]\nsamples = 3").find("3 is not one of 1, 4"), std::string::npos);
+  EXPECT_NE(body_mistakes("pin = [{ box = { min = [0, 0, 0], max = [0, 1, 1] } }]").find("min must be below max"),
+            std::string::npos);
+  const std::string plane = "[[obstacle]]\nplane = { y = 0 }\n";
+  EXPECT_EQ(body_mistakes(plane), "");
+  EXPECT_NE(body_mistakes(plane + plane).find("one [[obstacle]] only"), std::string::npos);
+}
+
+TEST_F(SceneFile, RangesAreKept) {
+  EXPECT_NE(mistakes("fps = 0").find("above 0 fps"), std::string::npos);
+  EXPECT_NE(mistakes("duration = nan").find("not a finite number"), std::string::npos);
+  EXPECT_NE(body_mistakes("material = { young = 1, poisson = 0.5, density = 1 }").find("above -1 and below 0.5"),
+            std::string::npos);
+  EXPECT_NE(body_mistakes("size = \"-3 cm\"").find("above 0 m"), std::string::npos);
+}
+
+TEST_F(SceneFile, SetsOneKeyOfEveryBody) {
+  Scene scene = parse(kWholeScene);
+  set_scene_key(scene, "render.resolution", "640x360");
+  set_scene_key(scene, "body.size", "30 cm");
+  set_scene_key(scene, "body.material.young", "5 kPa");
+  EXPECT_EQ(scene.render.resolution, (std::array<int, 2>{640, 360}));
+  for (const SceneBody& body : scene.bodies) {
+    EXPECT_DOUBLE_EQ(body.size.value(), 0.3);
+    EXPECT_FALSE(body.scale.has_value());
+    EXPECT_DOUBLE_EQ(body.material.young, 5e3);
+  }
+  EXPECT_EQ(scene.bodies[1].material.name, "custom");
+  EXPECT_DOUBLE_EQ(scene.bodies[1].material.density, find_material("rubber").density);
+  EXPECT_NE(error_message([&] { set_scene_key(scene, "body.sise", "1"); }).find("did you mean 'size'"),
+            std::string::npos);
+  EXPECT_THROW(set_scene_key(scene, "body", "1"), Error);
+}
+
+TEST(Scene, FramesShowTimesFromZero) {
+  Scene scene;
+  scene.duration = 1;
+  scene.fps = 24;
+  EXPECT_EQ(frame_count(scene), 24);
+  scene.duration = 0.001;
+  EXPECT_EQ(frame_count(scene), 1);
+}
+
+}  // namespace
+}  // namespace sprung

@@ -1,0 +1,169 @@
+#include "core/law/brick_law.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+
+#include "core/error.h"
+#include "tests/support/bodies.h"
+
+namespace sprung {
+namespace {
+
+using test::corner_displacements;
+using test::kCorrectedModels;
+using test::kPoissonRatios;
+using test::rest_brick;
+using test::rest_stiffness;
+using test::test_material;
+
+constexpr double kSide = 0.05;
+
+/// Stress of isotropic elasticity, Pa.
+Mat3 stress(const Material& material, const Mat3& strain) {
+  return material.lame_lambda() * strain.trace() * Mat3::Identity() + 2 * material.shear_modulus() * strain;
+}
+
+/// A unit strain in one entry of Voigt's list: 3 stretches, then 3 shears.
+Mat3 unit_strain(int which) {
+  Mat3 strain = Mat3::Zero();
+  if (which < 3) {
+    strain(which, which) = 1;
+  } else {
+    const int i = which - 3;
+    const int j = (i + 1) % 3;
+    strain(i, j) = strain(j, i) = 0.5;
+  }
+  return strain;
+}
+
+/// The force that each face exerts: the sum over its four corners, one column for each of +x, +y, +z.
+Mat3 face_forces(const Eigen::Matrix<double, 24, 1>& force) {
+  Mat3 sums = Mat3::Zero();
+  for (int corner = 0; corner < 8; ++corner) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (on_high_side(corner, axis)) sums.col(axis) += force.segment<3>(3 * corner);
+    }
+  }
+  return sums;
+}
+
+/// A sheared brick with inner diagonals also presses its corners in a pattern that sums to nothing on every face and
+/// that its neighbours cancel, so forces are compared face by face.
+TEST(BrickLaw, UniformStrainAnswersLikeIsotropicElasticity) {
+  for (const Model model : kCorrectedModels) {
+    for (const double poisson : kPoissonRatios) {
+      const Material material = test_material(poisson);
+      const BrickMatrix stiffness = rest_stiffness(model, material, kSide);
+      for (int which = 0; which < 6; ++which) {
+        const Mat3 strain = unit_strain(which);
+        const auto u = corner_displacements(kSide, [&](const Vec3& p) -> Vec3 { return strain * p; });
+        const Eigen::Matrix<double, 24, 1> force = stiffness * u;
+        const Mat3 expected_stress = stress(material, strain);
+        const Mat3 expected = expected_stress * kSide * kSide;
+        const double energy = (expected_stress.array() * strain.array()).sum() * kSide * kSide * kSide;
+        EXPECT_LT((face_forces(force) - expected).norm(), 1e-12 * expected.norm())
+            << model_name(model) << " nu " << poisson;
+        EXPECT_NEAR(u.dot(force), energy, 1e-12 * energy) << model_name(model) << " nu " << poisson;
+      }
+    }
+  }
+}
+
+TEST(BrickLaw, TensileNeedsNoCorrectionOnlyAtOneQuarter) {
+  for (const double poisson : kPoissonRatios) {
+    const BrickLaw law = brick_law(Model::kTensile, test_material(poisson), kSide);
+    const double scale = test_material(poisson).young * kSide;
+    const bool plain = std::abs(law.axial_self) + std::abs(law.axial_cross) < 1e-12 * scale;
+    EXPECT_EQ(plain, poisson == 0.25) << poisson;
+  }
+}
+
+TEST(BrickLaw, TensileConstantsAreThePapers) {
+  const double nu = 0.37;
+  const BrickLaw law = brick_law(Model::kTensile, test_material(nu, 1e4), 0.1);
+  EXPECT_NEAR(law.inner, 3 * 1e4 * 0.1 / (8 * 1.37), 1e-9);
+  EXPECT_NEAR(law.edge, 1e4 * 0.1 * (4 * nu + 1) / (8 * 1.37), 1e-9);
+  EXPECT_EQ(law.face, 0);
+  EXPECT_EQ(law.bending_self, 0);
+}
+
+/// The correction's share of each corner's force in a uniform stretch along x equals the paper's 2 F_perp, with
+/// F_perp = -F (4 nu - 1) / 16 for the elongation force F on a face.
+TEST(BrickLaw, CorrectionIsThePapersPerpendicularForce) {
+  const double strain = 1e-3;
+  for (const double poisson : kPoissonRatios) {
+    const Material material = test_material(poisson);
+    const BrickLaw law = brick_law(Model::kTensile, material, kSide);
+    const double force = material.young * strain * kSide * kSide;
+    const double perpendicular = -force * (4 * poisson - 1) / 16;
+    // Uniaxial stress: e = h (strain, -nu strain, -nu strain); a mean stretch tension acts as a quarter on each edge.
+    const Vec3 mean = kSide * strain * Vec3(1, -poisson, -poisson);
+    const double sideways = (law.axial_self * mean.y() + law.axial_cross * (mean.x() + mean.z())) / 4;
+    // A tension pulls inwards, F_perp is counted outwards.
+    EXPECT_NEAR(-sideways, 2 * perpendicular, 1e-12 * force) << poisson;
+  }
+}
+
+TEST(BrickLaw, ZeroModesAreSixCalibratedAndNineTensile) {
+  for (const double poisson : kPoissonRatios) {
+    for (const Model model : kCorrectedModels) {
+      const Material material = test_material(poisson);
+      const Eigen::SelfAdjointEigenSolver<BrickMatrix> solver(rest_stiffness(model, material, kSide));
+      const double tiny = 1e-10 * material.young * kSide;
+      const auto zeros = (solver.eigenvalues().array().abs() < tiny).count();
+      EXPECT_EQ(zeros, model == Model::kCalibrated ? 6 : 9) << model_name(model) << " nu " << poisson;
+      EXPECT_GT(solver.eigenvalues().minCoeff(), -tiny) << model_name(model) << " nu " << poisson;
+    }
+  }
+}
+
+TEST(BrickLaw, CalibratedIsStableForAuxeticMaterials) {
+  for (const double poisson : {-0.9, -0.5, 0.499}) {
+    const Material material = test_material(poisson);
+    const Eigen::SelfAdjointEigenSolver<BrickMatrix> solver(rest_stiffness(Model::kCalibrated, material, kSide));
+    EXPECT_GT(solver.eigenvalues().minCoeff(), -1e-10 * material.young * kSide) << poisson;
+  }
+  EXPECT_THROW((void)brick_law(Model::kTensile, test_material(-0.3), kSide), Error);
+}
+
+/// Energy density integrals over a cube of side h: those of bending with curvature 1 / m, of two crossed curvatures
+/// (anticlastic), and of a bar of square section that twists freely (u = twist y z ..., no warping inside one brick).
+TEST(BrickLaw, CalibratedBendsAndTwistsLikeTheContinuum) {
+  for (const double poisson : kPoissonRatios) {
+    const Material material = test_material(poisson);
+    const BrickMatrix stiffness = rest_stiffness(Model::kCalibrated, material, kSide);
+    const double plate = material.young / (1 - poisson * poisson);
+    const double fifth = std::pow(kSide, 5) / 12;  // integral of y^2 over the cube
+    for (int axis = 0; axis < 3; ++axis) {
+      const int x = axis;
+      const int y = (axis + 1) % 3;
+      const int z = (axis + 2) % 3;
+      const auto cylindrical = corner_displacements(kSide, [&](const Vec3& p) {
+        Vec3 u = Vec3::Zero();
+        u[x] = p[x] * p[y];  // the quadratic terms are the same at every corner: a translation
+        return u;
+      });
+      EXPECT_NEAR(cylindrical.dot(stiffness * cylindrical) / (plate * fifth), 1, 1e-12) << poisson;
+
+      const auto anticlastic = corner_displacements(kSide, [&](const Vec3& p) {
+        Vec3 u = Vec3::Zero();
+        u[x] = p[x] * p[y];
+        u[z] = -poisson * p[z] * p[y];
+        return u;
+      });
+      EXPECT_NEAR(anticlastic.dot(stiffness * anticlastic) / (material.young * fifth), 1, 1e-12) << poisson;
+
+      const auto twist = corner_displacements(kSide, [&](const Vec3& p) {
+        Vec3 u = Vec3::Zero();
+        u[y] = -p[x] * p[z];
+        u[z] = p[x] * p[y];
+        return u;
+      });
+      EXPECT_NEAR(twist.dot(stiffness * twist) / (material.shear_modulus() * 2 * fifth), 1, 1e-12) << poisson;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sprung

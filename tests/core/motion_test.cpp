@@ -1,0 +1,205 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "core/body/brick_hessian.h"
+#include "core/body/forces.h"
+#include "core/error.h"
+#include "core/motion/integrator.h"
+#include "tests/support/bodies.h"
+
+namespace sprung {
+namespace {
+
+using test::kCorrectedModels;
+using test::shake;
+using test::test_material;
+
+World world_of(Body body, const Vec3& gravity = Vec3::Zero()) {
+  World world;
+  Embedding contacts = embed(body.grid, body.grid.rest_positions());
+  world.actors.push_back({.body = std::move(body), .contacts = std::move(contacts), .pinned = {}});
+  world.gravity = gravity;
+  return world;
+}
+
+Body box_body(const Eigen::Vector3i& counts, double h, Model model, double poisson) {
+  return make_body(make_box_grid(counts, h), model, test_material(poisson));
+}
+
+TEST(StableStep, IsTheFrequencyLimitOfOneBrick) {
+  // Plain springs alone: a brick whose fastest mode is known from its own eigenvalues.
+  World world = world_of(box_body({4, 4, 4}, 0.01, Model::kCalibrated, 0.3));
+  Body& body = world.actors[0].body;
+  body.law.guard = 0;
+  const double omega = std::sqrt(largest_brick_stiffness(body) / (1000 * 1e-6 / 8));
+  EXPECT_NEAR(stable_step(world, 1), 2 / omega, 1e-12 / omega);
+  body.damping.beta = 0.5 / omega;  // damping ratio 1/4 at omega
+  EXPECT_NEAR(stable_step(world, 1), 2 / omega * (std::sqrt(1 + 1.0 / 16) - 0.25), 1e-12 / omega);
+}
+
+TEST(StableStep, StaysStableAndGrowsBeyondIt) {
+  for (const double safety : {0.99, 1.6}) {
+    std::mt19937 random(2);
+    World world = world_of(box_body({3, 3, 3}, 0.01, Model::kCalibrated, 0.3));
+    world.actors[0].body.law.guard = 0;
+    shake(world.actors[0].body, 1e-6, random);
+    const double before = elastic_energy(world.actors[0].body);
+    advance(world, Scheme::kSymplecticEuler, stable_step(world, safety), 60, 0);
+    const double after = elastic_energy(world.actors[0].body) + kinetic_energy(world.actors[0].body);
+    EXPECT_EQ(after < 10 * before, safety < 1) << after / before;
+  }
+}
+
+TEST(Motion, FreeFallIsTheClosedForm) {
+  const double dt = 1e-3;
+  const long steps = 300;
+  const double g = 9.81;
+  for (const Scheme scheme : {Scheme::kSymplecticEuler, Scheme::kVerlet}) {
+    World world = world_of(box_body({2, 2, 2}, 0.1, Model::kCalibrated, 0.3), {0, -g, 0});
+    const Points start = world.actors[0].body.positions;
+    advance(world, scheme, dt, steps, 0);
+    const auto n = static_cast<double>(steps);
+    // Symplectic Euler's sum of an arithmetic series; Verlet is exact for a constant force.
+    const double drop = scheme == Scheme::kVerlet ? g * n * n * dt * dt / 2 : g * dt * dt * n * (n + 1) / 2;
+    const Points fall = start - world.actors[0].body.positions;
+    EXPECT_LT((fall.col(1).array() - drop).abs().maxCoeff(), 1e-12 * n);
+    EXPECT_NEAR(world.actors[0].body.velocities(0, 1), -g * n * dt, 1e-12 * n);
+  }
+}
+
+TEST(Motion, FreeBodyKeepsItsMomentum) {
+  for (const Model model : kCorrectedModels) {
+    std::mt19937 random(9);
+    World world = world_of(box_body({4, 2, 3}, 0.02, model, 0.4));
+    Body& body = world.actors[0].body;
+    shake(body, 0.2, random);
+    body.damping.beta = 1e-4;
+    body.velocities.rowwise() = Eigen::RowVector3d(0.3, 0.1, -0.2);
+    const Vec3 linear = linear_momentum(body);
+    const Vec3 angular = angular_momentum(body);
+    const double spread = std::sqrt(2 * elastic_energy(body) * body.masses.sum());
+    advance(world, Scheme::kVerlet, stable_step(world), 2000, 0);
+    EXPECT_LT((linear_momentum(body) - linear).norm(), 1e-11 * spread);
+    EXPECT_LT((angular_momentum(body) - angular).norm(), 1e-11 * spread);
+  }
+}
+
+/// The energy of an undamped body wavers with the step: the wavering falls with the square of it for Verlet and with
+/// the step itself for symplectic Euler.
+TEST(Motion, EnergyIsKeptToTheSchemesOrder) {
+  const auto wavering = [](Scheme scheme, double share) {
+    World world = world_of(box_body({3, 2, 2}, 0.02, Model::kCalibrated, 0.3));
+    Body& body = world.actors[0].body;
+    for (int i = 0; i < body.node_count(); ++i) body.positions(i, 0) *= 1.05;
+    const double start = elastic_energy(body);
+    const double dt = share * stable_step(world, 1);
+    double worst = 0;
+    for (int i = 0; i < static_cast<int>(40 / share); ++i) {
+      advance(world, scheme, dt, 1, 0);
+      worst = std::max(worst, std::abs(elastic_energy(body) + kinetic_energy(body) - start) / start);
+    }
+    return worst;
+  };
+  const double verlet = wavering(Scheme::kVerlet, 0.2) / wavering(Scheme::kVerlet, 0.1);
+  const double euler = wavering(Scheme::kSymplecticEuler, 0.2) / wavering(Scheme::kSymplecticEuler, 0.1);
+  EXPECT_NEAR(verlet, 4, 0.6);
+  EXPECT_NEAR(euler, 2, 0.4);
+}
+
+/// A bar of nu = 0 that hits a rigid wall end on leaves it after 2 L / c with its own speed, c = sqrt(E / rho)
+/// (Saint-Venant's impact of an elastic bar).
+TEST(Motion, ElasticBarBouncesAsInClosedForm) {
+  const int n = 80;
+  const double length = 0.4;
+  const double h = length / n;
+  const double speed = 0.02;
+  World world = world_of(box_body({1, n, 1}, h, Model::kCalibrated, 0));
+  world.ground = Ground{.height = 0, .friction = 0, .restitution = 0};
+  Body& body = world.actors[0].body;
+  body.velocities.col(1).setConstant(-speed);
+  const double contact_time = 2 * length / std::sqrt(body.material.young / body.material.density);
+  const double dt = stable_step(world);
+  const auto centre_speed = [&] { return linear_momentum(body).y() / body.masses.sum(); };
+  double turned = 0;
+  double time = 0;
+  while (time < 0.5 * contact_time || (centre_speed() < 0.5 * speed && time < 2 * contact_time)) {
+    advance(world, Scheme::kVerlet, dt, 1, time);
+    time += dt;
+    if (turned == 0 && centre_speed() >= 0) turned = time;
+  }
+  EXPECT_NEAR(turned, contact_time / 2, 0.01 * contact_time);
+  advance(world, Scheme::kVerlet, dt, static_cast<long>(contact_time / dt), time);
+  EXPECT_NEAR(centre_speed(), speed, 0.03 * speed);
+  EXPECT_GT(body.positions.col(1).minCoeff(), 0);
+}
+
+/// Gravity tilted by 0.3 rad is a slope. A nearly rigid block slides down with g (sin - mu cos) or stays.
+TEST(Motion, FrictionSticksBelowItsAngleAndSlidesAboveIt) {
+  const double tilt = 0.3;
+  const double g = 9.81;
+  for (const double friction : {0.2, 0.5}) {
+    Body block = make_body(make_box_grid({6, 3, 6}, 0.02), Model::kCalibrated, test_material(0.3, 3e5));
+    block.damping.beta = 1e-3;
+    World world = world_of(std::move(block), {g * std::sin(tilt), -g * std::cos(tilt), 0});
+    world.ground = Ground{.height = 0, .friction = friction, .restitution = 0};
+    const Body& body = world.actors[0].body;
+    const auto centre = [&] { return (body.positions.transpose() * body.masses).x() / body.masses.sum(); };
+    const double dt = stable_step(world);
+    const long settle = static_cast<long>(0.2 / dt);
+    advance(world, Scheme::kSymplecticEuler, dt, settle, 0);
+    const double x0 = centre();
+    const double v0 = linear_momentum(body).x() / body.masses.sum();
+    const long steps = static_cast<long>(0.5 / dt);
+    advance(world, Scheme::kSymplecticEuler, dt, steps, 0);
+    const double t = static_cast<double>(steps) * dt;
+    const double a = g * (std::sin(tilt) - friction * std::cos(tilt));
+    const double expected = friction < std::tan(tilt) ? v0 * t + a * t * t / 2 : 0;
+    EXPECT_NEAR(centre() - x0, expected, friction < std::tan(tilt) ? 0.03 * expected : 1e-3 * 0.12) << friction;
+  }
+}
+
+TEST(Motion, DroppedCubeOnItsCornerKeepsNoBrickInverted) {
+  Body cube = make_body(make_box_grid({6, 6, 6}, 0.1 / 6), Model::kCalibrated, test_material(0.3, 2e4));
+  const Mat3 on_corner = Eigen::Quaterniond::FromTwoVectors(Vec3(1, 1, 1), Vec3::UnitY()).toRotationMatrix();
+  place(cube, on_corner, Vec3(0, 0.001, 0));
+  cube.damping.beta = 2e-4;
+  for (const double speed : {1.0, 6.0}) {
+    World world = world_of(cube, {0, -9.81, 0});
+    world.ground = Ground{};
+    world.actors[0].body.velocities.col(1).setConstant(-speed);
+    const double dt = stable_step(world);
+    advance(world, Scheme::kSymplecticEuler, dt, static_cast<long>(0.4 / dt), 0);
+    EXPECT_EQ(inverted_bricks(world.actors[0].body), 0) << speed;
+    EXPECT_GT(world.actors[0].body.positions.col(1).minCoeff(), -0.002) << speed;
+  }
+}
+
+TEST(Motion, PinnedNodesStay) {
+  World world = world_of(box_body({4, 1, 1}, 0.02, Model::kCalibrated, 0.3), {0, -9.81, 0});
+  Actor& actor = world.actors[0];
+  for (int i = 0; i < actor.body.node_count(); ++i) {
+    if (actor.body.rest_positions(i, 0) < 1e-9) actor.pinned.push_back(i);
+  }
+  ASSERT_EQ(actor.pinned.size(), 4U);
+  const Points rest = actor.body.positions;
+  advance(world, Scheme::kVerlet, stable_step(world), 500, 0);
+  for (const int node : actor.pinned) EXPECT_EQ(actor.body.positions.row(node), rest.row(node));
+  EXPECT_LT(actor.body.positions.col(1).minCoeff(), -1e-5);
+}
+
+TEST(Motion, NonFiniteStateIsNamed) {
+  World world = world_of(box_body({2, 1, 1}, 0.02, Model::kCalibrated, 0.3));
+  world.actors[0].body.positions(3, 1) = std::nan("");
+  try {
+    advance(world, Scheme::kVerlet, 1e-5, 1, 0.25);
+    FAIL() << "a position that is not finite went by unseen";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kDiverged);
+    EXPECT_NE(std::string(error.what()).find("body 1"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("0.25"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace sprung

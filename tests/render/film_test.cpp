@@ -1,0 +1,167 @@
+#include "render/film.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+#include "core/error.h"
+#include "render/process.h"
+#include "tests/support/temp_folder.h"
+
+namespace sprung {
+namespace {
+
+std::string output_of(const std::string& command) {
+  std::string text;
+  std::FILE* pipe = popen(command.c_str(), "r");
+  std::array<char, 256> part{};
+  while (pipe != nullptr && std::fgets(part.data(), static_cast<int>(part.size()), pipe) != nullptr)
+    text += part.data();
+  if (pipe != nullptr) pclose(pipe);
+  return text;
+}
+
+/// One value a line, "key=value".
+std::string probe(const std::filesystem::path& file) {
+  return output_of(
+      "ffprobe -v error -count_frames -select_streams v -show_entries stream=codec_name,width,height,"
+      "nb_read_frames,pix_fmt,color_space,color_primaries,color_transfer,color_range,r_frame_rate "
+      "-of default=noprint_wrappers=1 " +
+      file.string());
+}
+
+/// The first pixel of the first frame, as RGB.
+std::array<int, 3> first_pixel(const std::filesystem::path& file) {
+  const std::string bytes = output_of("ffmpeg -v error -i " + file.string() +
+                                      " -vf scale=in_color_matrix=bt709,format=rgb24,crop=1:1:8:8 -frames:v 1 -f "
+                                      "rawvideo - | od -An -tu1");
+  std::array<int, 3> rgb{-1, -1, -1};
+  std::sscanf(bytes.c_str(), "%d %d %d", &rgb[0], &rgb[1], &rgb[2]);  // NOLINT(cert-err34-c)
+  return rgb;
+}
+
+Image plain(int width, int height, std::array<int, 3> color) {
+  Image image(width, height);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = static_cast<std::uint8_t>(color[i % 3]);
+  return image;
+}
+
+class Film : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!find_program("ffmpeg") || !find_program("ffprobe")) GTEST_SKIP() << "no ffmpeg";
+  }
+
+  void write(const std::string& name, int width, int height, int frames, std::array<int, 3> color = {200, 60, 40}) {
+    FilmWriter film(folder_ / name, width, height, 24);
+    for (int i = 0; i < frames; ++i) film.write(plain(width, height, color));
+    film.close();
+  }
+  [[nodiscard]] long files() const { return std::distance(std::filesystem::directory_iterator(folder_), {}); }
+
+  TempFolder temp_;
+  std::filesystem::path folder_ = temp_.path();
+};
+
+TEST_F(Film, Mp4HasItsFramesSizeAndColourTags) {
+  write("a.mp4", 64, 48, 10);
+  const std::string facts = probe(folder_ / "a.mp4");
+  for (const char* fact : {"codec_name=h264\n", "width=64\n", "height=48\n", "pix_fmt=yuv420p\n", "color_space=bt709\n",
+                           "color_primaries=bt709\n", "color_transfer=bt709\n", "color_range=tv\n",
+                           "nb_read_frames=10\n", "r_frame_rate=24/1\n"}) {
+    EXPECT_NE(facts.find(fact), std::string::npos) << fact << facts;
+  }
+  EXPECT_EQ(files(), 1);
+}
+
+TEST_F(Film, KeepsColoursUnderItsTags) {
+  const std::array<int, 3> color{200, 60, 40};
+  for (const char* name : {"a.mp4", "a.webm"}) {
+    write(name, 64, 48, 3, color);
+    const std::array<int, 3> seen = first_pixel(folder_ / name);
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(seen[k], color[k], 4) << name;  // BT.601 would be off by 15
+  }
+}
+
+TEST_F(Film, PadsOddSides) {
+  write("odd.mp4", 63, 47, 3);
+  const std::string facts = probe(folder_ / "odd.mp4");
+  EXPECT_NE(facts.find("width=64\nheight=48\n"), std::string::npos) << facts;
+}
+
+TEST_F(Film, WritesWebmAndGif) {
+  write("a.webm", 64, 48, 5);
+  EXPECT_NE(probe(folder_ / "a.webm").find("codec_name=vp9\n"), std::string::npos);
+  EXPECT_NE(probe(folder_ / "a.webm").find("nb_read_frames=5\n"), std::string::npos);
+  write("a.GIF", 64, 48, 5);
+  EXPECT_NE(probe(folder_ / "a.GIF").find("codec_name=gif\n"), std::string::npos);
+}
+
+TEST_F(Film, NamesFilmsByTheirEnding) {
+  EXPECT_TRUE(is_film("a/b.mp4"));
+  EXPECT_TRUE(is_film("B.WebM"));
+  EXPECT_TRUE(is_film("c.gif"));
+  EXPECT_FALSE(is_film("frame_{:04}.png"));
+  EXPECT_FALSE(is_film("mp4"));
+  EXPECT_THROW(FilmWriter(folder_ / "a.avi", 8, 8, 24), Error);
+}
+
+TEST_F(Film, MissingFolderIsSaidAtOnce) {
+  try {
+    FilmWriter film(folder_ / "nowhere" / "a.mp4", 8, 8, 24);
+    FAIL() << "nothing was thrown";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kFailed);
+    EXPECT_NE(std::string(error.what()).find("No such file or directory"), std::string::npos) << error.what();
+  }
+}
+
+TEST_F(Film, AnUnfinishedFilmIsRemoved) {
+  {
+    FilmWriter film(folder_ / "a.mp4", 64, 48, 24);
+    film.write(plain(64, 48, {1, 2, 3}));
+  }
+  EXPECT_EQ(files(), 0);
+}
+
+TEST_F(Film, SaysWhatFfmpegSaid) {
+  try {
+    FilmWriter film(folder_ / "a.mp4", 64, 48, -1);  // no such frame rate: ffmpeg gives up
+    for (int i = 0; i < 200; ++i) film.write(plain(64, 48, {1, 2, 3}));
+    film.close();
+    FAIL() << "nothing was thrown";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("framerate"), std::string::npos) << error.what();
+  }
+  EXPECT_EQ(files(), 0);
+}
+
+TEST_F(Film, TellsWhereFfmpegIsMissing) {
+  const std::string path = getenv("PATH");
+  setenv("PATH", folder_.c_str(), 1);
+  EXPECT_THROW(require_ffmpeg(), Error);
+  setenv("PATH", path.c_str(), 1);
+  EXPECT_NO_THROW(require_ffmpeg());
+}
+
+TEST(ChildProcess, ADeadReaderIsNoSignal) {
+  ChildProcess child({"false"});
+  const std::vector<std::byte> data(1 << 22);
+  EXPECT_FALSE(child.write(data));  // SIGPIPE would end this test
+  EXPECT_EQ(child.finish(), 1);
+}
+
+TEST(ChildProcess, KeepsTheLastWords) {
+  ChildProcess child({"sh", "-c", "cat >/dev/null; echo 'it broke' >&2; exit 7"});
+  EXPECT_EQ(child.finish(), 7);
+  EXPECT_EQ(child.last_words(), "it broke");
+}
+
+TEST(ChildProcess, AProgramThatIsMissingIsAnError) { EXPECT_THROW(ChildProcess({"sprung-no-such-program"}), Error); }
+
+}  // namespace
+}  // namespace sprung

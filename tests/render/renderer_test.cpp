@@ -1,0 +1,260 @@
+#include "render/renderer.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+#include "core/error.h"
+#include "tests/support/golden.h"
+#include "tests/support/still_life.h"
+
+namespace sprung {
+namespace {
+
+constexpr RenderOptions kSmall{320, 180, 4};
+const Eigen::Vector3f kRed(0.85F, 0.20F, 0.16F);
+const Eigen::Vector3f kBlue(0.23F, 0.49F, 0.65F);
+const Eigen::Vector3f kCream(0.95F, 0.93F, 0.88F);
+const Eigen::Vector3f kAmber(0.91F, 0.64F, 0.24F);
+
+StillLife ball_on_ground() {
+  StillLife scene;
+  scene.add(make_sphere_skin({0, 0.5, 0}, 0.5), kRed);
+  return scene;
+}
+
+Eigen::Vector3d pixel(const Image& image, int x, int y) {
+  const auto at = 3 * static_cast<std::size_t>(y * image.width + x);
+  return {double(image.pixels[at]), double(image.pixels[at + 1]), double(image.pixels[at + 2])};
+}
+
+double psnr(const Image& a, const Image& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.pixels.size(); ++i) sum += std::pow(double(a.pixels[i]) - double(b.pixels[i]), 2);
+  return sum == 0 ? 1e9 : 10 * std::log10(255.0 * 255.0 * static_cast<double>(a.pixels.size()) / sum);
+}
+
+std::uint64_t hash(const Image& image) {  // FNV-1a
+  std::uint64_t value = 14695981039346656037ULL;
+  for (const std::uint8_t byte : image.pixels) value = (value ^ byte) * 1099511628211ULL;
+  return value;
+}
+
+/// Two rows: the upper half of the first colour.
+Image two_halves(std::array<std::uint8_t, 3> upper, std::array<std::uint8_t, 3> lower) {
+  Image image(16, 16);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+    image.pixels[i] = i < image.pixels.size() / 2 ? upper[i % 3] : lower[i % 3];
+  }
+  return image;
+}
+
+TEST(Renderer, SameInputGivesTheSameBytes) {
+  const Image first = draw_scene(ball_on_ground(), kSmall);
+  EXPECT_EQ(first.pixels, draw_scene(ball_on_ground(), kSmall).pixels);
+
+  const StillLife scene = ball_on_ground();
+  const Stage stage = scene.stage();
+  Renderer renderer(stage, kSmall);
+  const Camera camera = frame_bounds(stage.bounds, 16.0 / 9);
+  (void)renderer.draw(scene.shapes(), frame_bounds(stage.bounds, 16.0 / 9, 120));  // leaves no trace
+  EXPECT_EQ(first.pixels, renderer.draw(scene.shapes(), camera).pixels);
+}
+
+TEST(RendererChild, DISABLED_PrintsTheHash) { std::printf("hash=%lx\n", hash(draw_scene(ball_on_ground(), kSmall))); }
+
+// llvmpipe reads the number of threads once a process, so each number needs its own.
+TEST(Renderer, TheNumberOfThreadsDoesNotMatter) {
+  const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
+  std::array<char, 64> expected{};
+  std::snprintf(expected.data(), expected.size(), "hash=%lx", hash(draw_scene(ball_on_ground(), kSmall)));
+  for (const char* threads : {"0", "1", "3"}) {
+    const std::string command = std::string("LP_NUM_THREADS=") + threads + " '" + program +
+                                "' --gtest_also_run_disabled_tests --gtest_filter=RendererChild.* | grep -q " +
+                                expected.data();
+    EXPECT_EQ(std::system(command.c_str()), 0) << threads << " threads";
+  }
+}
+
+TEST(Renderer, HostileSettingsAreIgnored) {
+  setenv("GALLIUM_DRIVER", "no-such-driver", 1);
+  setenv("LP_NATIVE_VECTOR_WIDTH", "512", 1);
+  setenv("MESA_GL_VERSION_OVERRIDE", "2.1", 1);
+  const StillLife scene = ball_on_ground();
+  const Stage stage = scene.stage();
+  EXPECT_NE(Renderer(stage, kSmall).driver().find("OpenGL"), std::string::npos);
+}
+
+// Every bias is a part of the scene's size; what is left is single precision at other numbers.
+TEST(Renderer, ThePictureDoesNotDependOnTheScale) {
+  const Image one = draw_scene(ball_on_ground(), kSmall);
+  for (const double scale : {1e-3, 1e3}) {
+    EXPECT_GT(psnr(one, draw_scene(ball_on_ground().scaled(scale), kSmall)), 50) << scale;
+  }
+}
+
+// The key light comes from the left of the default camera.
+TEST(Renderer, TheLitSideIsLighterThanTheOther) {
+  const Image image = draw_scene(ball_on_ground(), kSmall);
+  const Eigen::Vector3d lit = pixel(image, 145, 60);
+  const Eigen::Vector3d dark = pixel(image, 195, 105);
+  EXPECT_GT(lit.x(), 1.25 * dark.x());
+  EXPECT_GT(lit.x(), 2 * lit.y());  // red stays red
+  EXPECT_GT(dark.x(), 2 * dark.y());
+  EXPECT_GT(dark.x(), 90);  // and is not black: the sky and the ground light it
+}
+
+TEST(Renderer, TheBodyCastsItsShadowOnTheGround) {
+  const Image with = draw_scene(ball_on_ground(), kSmall);
+  StillLife scene = ball_on_ground();
+  scene.has_ground = false;
+  const Image without = draw_scene(scene, kSmall);
+  const double shadow = pixel(with, 240, 121).sum() / pixel(without, 240, 121).sum();
+  const double open = pixel(with, 40, 121).sum() / pixel(without, 40, 121).sum();
+  EXPECT_LT(shadow, 0.75);
+  EXPECT_NEAR(open, 1, 0.01);  // the floor far from the body is the background
+}
+
+TEST(Renderer, TheBackgroundIsNeutralAndSmooth) {
+  const Image image = draw_scene(ball_on_ground(), kSmall);
+  for (int y = 0; y < image.height; ++y) {
+    const Eigen::Vector3d color = pixel(image, 3, y);
+    EXPECT_LT(color.maxCoeff() - color.minCoeff(), 24) << y;
+    EXPECT_GT(color.minCoeff(), 150) << y;
+    EXPECT_LT((color - pixel(image, 3, std::max(y - 1, 0))).cwiseAbs().maxCoeff(), 5) << y;
+  }
+}
+
+TEST(Renderer, TextureRowsRunFromTheTop) {
+  StillLife scene;
+  Skin box = make_box_skin({-0.5, 0, -0.5}, {0.5, 1, 0.5});
+  set_texture(box, two_halves({220, 30, 30}, {30, 30, 220}));
+  scene.add(box, kCream);
+  const Image image = draw_scene(scene, kSmall, 0);
+  const Eigen::Vector3d upper = pixel(image, 160, 75);
+  const Eigen::Vector3d lower = pixel(image, 160, 135);
+  EXPECT_GT(upper.x(), 2 * upper.z());
+  EXPECT_GT(lower.z(), 2 * lower.x());
+}
+
+TEST(Renderer, VertexColoursAreInterpolated) {
+  StillLife scene;
+  Skin box = make_box_skin({-0.5, 0, -0.5}, {0.5, 1, 0.5});
+  box.colors.resize(24, 4);
+  for (int i = 0; i < 24; ++i) {
+    const bool right = box.positions(i, 0) > 0;
+    box.colors.row(i) << (right ? 0.1F : 0.9F), 0.1F, (right ? 0.9F : 0.1F), 1.0F;
+  }
+  scene.add(box, kCream);
+  const Image image = draw_scene(scene, kSmall, 0);
+  EXPECT_GT(pixel(image, 115, 100).x(), 1.5 * pixel(image, 115, 100).z());
+  EXPECT_GT(pixel(image, 205, 100).z(), 1.5 * pixel(image, 205, 100).x());
+  const Eigen::Vector3d middle = pixel(image, 160, 100);
+  EXPECT_LT(std::abs(middle.x() - middle.z()), 0.25 * middle.maxCoeff());
+}
+
+TEST(Renderer, PartsHaveTheirMaterials) {
+  StillLife scene;
+  Skin box = make_box_skin({-0.5, 0, -0.5}, {0.5, 1, 0.5});
+  SurfaceMaterial green;
+  green.color = {0.1F, 0.7F, 0.1F, 1.0F};
+  box.materials = {green};
+  box.parts = {{"sides", 0, 8, 0}, {"rest", 8, 4, -1}};
+  scene.add(box, kRed);
+  const Image image = draw_scene(scene, kSmall, 0, 50);
+  EXPECT_GT(pixel(image, 160, 130).y(), 1.5 * pixel(image, 160, 130).x());
+  EXPECT_GT(pixel(image, 160, 60).x(), 1.5 * pixel(image, 160, 60).y());  // the top
+}
+
+TEST(Renderer, BackFacesAreLitLikeFrontFaces) {
+  StillLife scene = ball_on_ground();
+  const Image outside = draw_scene(scene, kSmall);
+  Skin& skin = scene.skins[0];
+  skin.triangles.col(1).swap(skin.triangles.col(2));
+  skin.normals *= -1;
+  EXPECT_GT(psnr(outside, draw_scene(scene, kSmall)), 40);
+}
+
+TEST(Renderer, WithoutMultisamplingOnlyEdgesChange) {
+  const Image smooth = draw_scene(ball_on_ground(), kSmall);
+  const Image rough = draw_scene(ball_on_ground(), {320, 180, 1});
+  EXPECT_GT(psnr(smooth, rough), 33);
+  EXPECT_NE(smooth.pixels, rough.pixels);
+}
+
+TEST(Renderer, RefusesWhatItCannotDraw) {
+  const StillLife scene = ball_on_ground();
+  EXPECT_THROW(Renderer(scene.stage(), RenderOptions{0, 180, 4}), Error);
+  EXPECT_THROW(Renderer(scene.stage(), RenderOptions{320, 20000, 4}), Error);
+  EXPECT_THROW(Renderer(scene.stage(), RenderOptions{320, 180, 3}), Error);
+  StillLife broken = ball_on_ground();
+  broken.skins[0].materials = {SurfaceMaterial{}};
+  broken.skins[0].materials[0].texture.resize(10);
+  broken.skins[0].parts = {{"all", 0, 12, 0}};
+  EXPECT_THROW(draw_scene(broken, kSmall), Error);
+}
+
+TEST(RenderGolden, BallOnGround) { expect_golden(draw_scene(ball_on_ground(), kSmall), "render_ball_on_ground"); }
+
+TEST(RenderGolden, BallInTheAir) {
+  StillLife scene;
+  scene.add(make_sphere_skin({0, 1.1, 0}, 0.5), kBlue);
+  Skin low = make_box_skin({-0.4, 0, -0.4}, {0.4, 0.3, 0.4});
+  scene.add(low, kCream);
+  expect_golden(draw_scene(scene, kSmall), "render_ball_in_the_air");
+}
+
+TEST(RenderGolden, TexturedBox) {
+  Image picture(64, 64);  // checks, darker towards the lower right
+  for (int y = 0; y < 64; ++y) {
+    for (int x = 0; x < 64; ++x) {
+      const auto at = 3 * static_cast<std::size_t>(64 * y + x);
+      const bool light = ((x / 8) + (y / 8)) % 2 == 0;
+      picture.pixels[at] = static_cast<std::uint8_t>(light ? 230 : 40);
+      picture.pixels[at + 1] = static_cast<std::uint8_t>(250 - 3 * x);
+      picture.pixels[at + 2] = static_cast<std::uint8_t>(250 - 3 * y);
+    }
+  }
+  StillLife scene;
+  Skin box = make_box_skin({-0.6, 0, -0.4}, {0.6, 0.8, 0.4});
+  set_texture(box, picture);
+  scene.add(box, kCream);
+  expect_golden(draw_scene(scene, kSmall), "render_textured_box");
+}
+
+TEST(RenderGolden, RingWithVertexColours) {
+  StillLife scene;
+  Skin ring = make_ring_skin({0, 0.2, 0}, 0.6, 0.2);
+  ring.colors.resize(ring.positions.rows(), 4);
+  for (int i = 0; i < ring.positions.rows(); ++i) {
+    const float a = 6.2831853F * ring.uvs(i, 0);
+    ring.colors.row(i) << 0.6F + 0.35F * std::cos(a), 0.5F + 0.3F * std::cos(a + 2.1F),
+        0.55F + 0.4F * std::cos(a + 4.2F), 1.0F;
+  }
+  scene.add(ring, kCream);
+  expect_golden(draw_scene(scene, kSmall), "render_ring_with_vertex_colours");
+}
+
+TEST(RenderGolden, ManyBodies) {
+  StillLife scene;
+  const std::array<Eigen::Vector3f, 4> colors{kRed, kAmber, kBlue, kCream};
+  for (int i = 0; i < 7; ++i) {
+    const double angle = 6.283185307 * i / 7;
+    const Vec3 place(0.8 * std::cos(angle), 0, 0.8 * std::sin(angle));
+    const Vec3 up(0, 0.2 + (i == 3 ? 0.4 : 0.0), 0);
+    scene.add(i % 2 == 0 ? make_sphere_skin(place + up, 0.2)
+                         : make_box_skin(place - Vec3(0.18, 0, 0.18), place + Vec3(0.18, 0.36, 0.18)),
+              colors[static_cast<std::size_t>(i % 4)]);
+  }
+  scene.add(make_ring_skin({0, 0.12, 0}, 0.3, 0.12), kCream);
+  expect_golden(draw_scene(scene, kSmall), "render_many_bodies");
+}
+
+}  // namespace
+}  // namespace sprung

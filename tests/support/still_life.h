@@ -1,0 +1,34 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "render/renderer.h"
+
+namespace sprung {
+
+/// Skins for pictures in tests, in metres.
+[[nodiscard]] Skin make_sphere_skin(const Vec3& center, double radius);
+/// A ring around the y axis.
+[[nodiscard]] Skin make_ring_skin(const Vec3& center, double radius, double thickness);
+/// A box with uvs that show the whole picture on each side, upright on the four around.
+[[nodiscard]] Skin make_box_skin(const Vec3& low, const Vec3& high);
+/// One material with a texture for all triangles.
+void set_texture(Skin& skin, const Image& picture);
+
+/// Some skins at rest as a stage, with their shapes.
+struct StillLife {
+  std::vector<Skin> skins;
+  std::vector<Eigen::Vector3f> colors;  // sRGB
+  bool has_ground = true;               // at y = 0
+
+  void add(Skin skin, const Eigen::Vector3f& color);
+  [[nodiscard]] Stage stage() const;
+  [[nodiscard]] std::vector<SkinShape> shapes() const;
+  /// Everything multiplied by that factor.
+  [[nodiscard]] StillLife scaled(double factor) const;
+};
+
+[[nodiscard]] Image draw_scene(const StillLife& scene, const RenderOptions& options, double azimuth = 30,
+                               double elevation = 14);
+
+}  // namespace sprung
