@@ -8,6 +8,7 @@
 #include <set>
 
 #include "app/units.h"
+#include "core/bricks/slivers.h"
 #include "core/bricks/voxelize.h"
 #include "core/error.h"
 #include "core/skin/corner_normals.h"
@@ -81,10 +82,12 @@ class BodyBuilder {
         translation_(translation_of(body, loaded, rotation_)) {}
 
   void add(const Solid& solid) {
+    BrickGrid grid = voxelize(solid, loaded_.brick_size);
+    slivers_ += absorb_slivers(grid);
     Actor actor;
-    actor.body = make_body(voxelize(solid, loaded_.brick_size), body_.model, body_.material);
+    actor.body = make_body(std::move(grid), body_.model, body_.material);
     DrawnSkin drawn;
-    drawn.skin = make_skin(submesh(loaded_.mesh, solid.source), {.max_edge = kLongestSkinEdge * loaded_.brick_size});
+    drawn.skin = make_skin(submesh(loaded_.mesh, solid), {.max_edge = kLongestSkinEdge * loaded_.brick_size});
     drawn.embedding = embed(actor.body.grid, drawn.skin.positions);
     drawn.color = body_.color.value_or(kPalette[production_.skins.size() % kPalette.size()]);
     actor.contacts = embed(actor.body.grid, contact_points(drawn.skin));
@@ -102,6 +105,10 @@ class BodyBuilder {
     if (outside_ > 0) {
       console.detail(fmt::format("{}: {} skin vertices lie outside every brick and ride on the nearest one",
                                  loaded_.name, outside_));
+    }
+    if (slivers_ > 0) {
+      console.detail(
+          fmt::format("{}: {} nearly empty bricks were given to their full neighbours", loaded_.name, slivers_));
     }
     if (body_.pins.empty()) return;
     if (held_solids_ == 0) {
@@ -123,6 +130,7 @@ class BodyBuilder {
   Mat3 rotation_;
   Vec3 translation_;
   int outside_ = 0;
+  int slivers_ = 0;
   int held_solids_ = 0;
 };
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 #include <span>
 
 #include "core/error.h"
@@ -49,13 +50,34 @@ std::vector<Part> parts_of(const std::vector<Part>& parts, const std::vector<int
   return chosen;
 }
 
+/// Whether finding the solid turned its triangle `t` over.
+bool is_turned(const SurfaceMesh& mesh, const Solid& solid, int t) {
+  const auto original = [&](int corner) {
+    return mesh.positions.row(mesh.triangles(solid.source[static_cast<std::size_t>(t)], corner % 3));
+  };
+  const auto oriented = [&](int corner) { return solid.points.row(solid.triangles(t, corner)); };
+  for (int corner = 0; corner < 3; ++corner) {
+    if (original(corner) == oriented(0)) return original(corner + 1) != oriented(1);
+  }
+  return false;
+}
+
 }  // namespace
 
-SurfaceMesh submesh(const SurfaceMesh& mesh, const std::vector<int>& triangles) {
-  std::vector<int> rows = triangles;
-  std::sort(rows.begin(), rows.end());
+SurfaceMesh submesh(const SurfaceMesh& mesh, const Solid& solid) {
+  std::vector<int> order(solid.source.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](int a, int b) {
+    return solid.source[static_cast<std::size_t>(a)] < solid.source[static_cast<std::size_t>(b)];
+  });
+  std::vector<int> rows;
+  for (const int t : order) rows.push_back(solid.source[static_cast<std::size_t>(t)]);
   SurfaceMesh part;
   part.triangles = mesh.triangles(rows, Eigen::all);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    if (is_turned(mesh, solid, order[i])) std::swap(part.triangles(row, 1), part.triangles(row, 2));
+  }
   std::vector<int> new_vertex(static_cast<std::size_t>(mesh.positions.rows()), -1);
   std::vector<int> vertices;
   for (int& vertex : std::span(part.triangles.data(), static_cast<std::size_t>(part.triangles.size()))) {

@@ -21,7 +21,8 @@ struct LoadedBody {
 /// Throws Error(kBadInput).
 [[nodiscard]] LoadedBody load_body(const SceneBody& body, const Console& console);
 
-/// The triangles of a mesh with these rows, and the vertices, parts and materials that they need.
-[[nodiscard]] SurfaceMesh submesh(const SurfaceMesh& mesh, const std::vector<int>& triangles);
+/// The triangles of a mesh that bound a solid, turned outward as the solid has them, and the vertices, parts and
+/// materials that they need.
+[[nodiscard]] SurfaceMesh submesh(const SurfaceMesh& mesh, const Solid& solid);
 
 }  // namespace sprung

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numbers>
 
 #include "app/interrupt.h"
 #include "app/picture_writer.h"
@@ -13,14 +14,41 @@
 namespace sprung {
 namespace {
 
-Bounds bounds_of(const Production& production, const Recording& recording) {
+/// What the camera has to see: the bounds of the whole motion, and for each frame and body the points that reach
+/// furthest in 26 directions.
+struct Reach {
   Bounds bounds;
+  Points points;
+};
+
+/// Rows: the centre of each face, edge and corner of a cube.
+Eigen::Matrix<double, 26, 3> directions() {
+  Eigen::Matrix<double, 26, 3> rows;
+  int row = 0;
+  for (int i = 0; i < 27; ++i) {
+    if (i == 13) continue;
+    rows.row(row++) << i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1;
+  }
+  return rows;
+}
+
+Reach reach_of(const Production& production, const Recording& recording) {
+  const Eigen::Matrix<double, 26, 3> ways = directions();
+  Reach reach;
+  reach.points.resize(static_cast<Eigen::Index>(26 * recording.frames.size() * production.skins.size()), 3);
+  Eigen::Index next = 0;
   for (const std::vector<Floats3>& frame : recording.frames) {
     for (std::size_t actor = 0; actor < frame.size(); ++actor) {
-      bounds.include(skin_positions(production, actor, frame[actor].cast<double>()));
+      const Points skin = skin_positions(production, actor, frame[actor].cast<double>());
+      reach.bounds.include(skin);
+      for (int way = 0; way < 26; ++way) {
+        Eigen::Index furthest = 0;
+        (skin * ways.row(way).transpose()).maxCoeff(&furthest);
+        reach.points.row(next++) = skin.row(furthest);
+      }
     }
   }
-  return bounds;
+  return reach;
 }
 
 Stage stage_of(const Production& production, const Bounds& bounds) {
@@ -55,10 +83,27 @@ std::string ground_report(const Production& production, const Bounds& bounds) {
                      100 * depth / production.size);
 }
 
-Camera camera_of(const Scene& scene, const Bounds& bounds, std::size_t frame, std::size_t frames) {
-  const double way = frames > 1 ? static_cast<double>(frame) / static_cast<double>(frames - 1) : 0;
+/// The camera of every frame: one that sees the whole motion from everywhere on its way, carried around it.
+std::vector<Camera> cameras_of(const Scene& scene, const Reach& reach, std::size_t frames) {
+  constexpr int kStops = 16;
+  const Vec3 center = 0.5 * (reach.bounds.low + reach.bounds.high);
+  const int stops = scene.camera.orbit == 0 ? 1 : kStops;
+  Points seen(reach.points.rows() * stops, 3);
+  for (int stop = 0; stop < stops; ++stop) {
+    const double way = stops > 1 ? static_cast<double>(stop) / (stops - 1) : 0;
+    const double angle = way * scene.camera.orbit * std::numbers::pi / 180;
+    const Mat3 back = Eigen::AngleAxisd(-angle, Vec3::UnitY()).toRotationMatrix();
+    seen.middleRows(stop * reach.points.rows(), reach.points.rows()) =
+        ((reach.points.rowwise() - center.transpose()) * back.transpose()).rowwise() + center.transpose();
+  }
   const double aspect = static_cast<double>(scene.render.resolution[0]) / scene.render.resolution[1];
-  return frame_bounds(bounds, aspect, scene.camera.azimuth + way * scene.camera.orbit, scene.camera.elevation);
+  const Camera first = frame_points(seen, aspect, scene.camera.azimuth, scene.camera.elevation);
+  std::vector<Camera> cameras;
+  for (std::size_t frame = 0; frame < frames; ++frame) {
+    const double way = frames > 1 ? static_cast<double>(frame) / static_cast<double>(frames - 1) : 0;
+    cameras.push_back(carried_around(first, center, way * scene.camera.orbit));
+  }
+  return cameras;
 }
 
 }  // namespace
@@ -68,18 +113,21 @@ void render_film(const Production& production, const Recording& recording, const
   const std::size_t frames = recording.frames.size();
   const auto [width, height] = scene.render.resolution;
   Progress progress(console, "render", static_cast<double>(frames), 1, "frames/s");
-  const Bounds bounds = bounds_of(production, recording);
-  Renderer renderer(stage_of(production, bounds), {.width = width, .height = height, .samples = scene.render.samples});
+  const Reach reach = reach_of(production, recording);
+  const std::vector<Camera> cameras = cameras_of(scene, reach, frames);
+  Renderer renderer(stage_of(production, reach.bounds),
+                    {.width = width, .height = height, .samples = scene.render.samples});
   console.detail(fmt::format("drawn by {}", renderer.driver()));
   PictureWriter writer(outputs, width, height, scene.fps);
   for (std::size_t frame = 0; frame < frames; ++frame) {
     stop_if_interrupted();
     const std::vector<SkinShape> shapes = shapes_of(production, recording.frames[frame]);
-    writer.write(renderer.draw(shapes, camera_of(scene, bounds, frame, frames)));
+    writer.write(renderer.draw(shapes, cameras[frame]));
     progress.update(static_cast<double>(frame + 1));
   }
   writer.close();
-  progress.finish(fmt::format("{} pictures of {} x {}{}", frames, width, height, ground_report(production, bounds)));
+  progress.finish(
+      fmt::format("{} pictures of {} x {}{}", frames, width, height, ground_report(production, reach.bounds)));
 }
 
 }  // namespace sprung

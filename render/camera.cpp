@@ -10,7 +10,7 @@ namespace sprung {
 
 namespace {
 
-constexpr double kMargin = 0.12;            // of the half picture, kept free at each side
+constexpr double kMargin = 0.1;             // of the half picture, kept free at each side
 constexpr double kFloorMargin = 0.06;       // of the sides: floor seen around the lowest points, where the shadow falls
 constexpr double kSmallestDistance = 1e-9;  // m; even a single point is looked at from somewhere
 
@@ -29,17 +29,17 @@ Mat3 camera_axes(double azimuth, double elevation) {
 }
 
 /// The corners of the bounds and, a little further out, those of the floor below.
-std::array<Vec3, 12> points_to_see(const Bounds& bounds) {
-  std::array<Vec3, 12> points;
-  for (std::size_t c = 0; c < 8; ++c) {
-    for (int k = 0; k < 3; ++k) points[c][k] = ((c >> k) & 1U) != 0 ? bounds.high[k] : bounds.low[k];
+Points points_to_see(const Bounds& bounds) {
+  Points points(12, 3);
+  for (int c = 0; c < 8; ++c) {
+    for (int k = 0; k < 3; ++k) points(c, k) = ((c >> k) & 1) != 0 ? bounds.high[k] : bounds.low[k];
   }
   const Vec3 sides = bounds.high - bounds.low;
   const double x = kFloorMargin * std::max(sides.x(), sides.y());
   const double z = kFloorMargin * std::max(sides.z(), sides.y());
-  for (std::size_t c = 0; c < 4; ++c) {
-    points[8 + c] = Vec3((c & 1U) != 0 ? bounds.high.x() + x : bounds.low.x() - x, bounds.low.y(),
-                         (c & 2U) != 0 ? bounds.high.z() + z : bounds.low.z() - z);
+  for (int c = 0; c < 4; ++c) {
+    points.row(8 + c) << ((c & 1) != 0 ? bounds.high.x() + x : bounds.low.x() - x), bounds.low.y(),
+        ((c & 2) != 0 ? bounds.high.z() + z : bounds.low.z() - z);
   }
   return points;
 }
@@ -58,18 +58,18 @@ void Bounds::include(const Points& points) {
   high = high.cwiseMax(points.colwise().maxCoeff().transpose());
 }
 
-Camera frame_bounds(const Bounds& bounds, double aspect, double azimuth, double elevation) {
-  assert(!bounds.empty() && aspect > 0);
+Camera frame_points(const Points& points, double aspect, double azimuth, double elevation) {
+  assert(points.rows() > 0 && aspect > 0);
   Camera camera;
-  const Vec3 center = 0.5 * (bounds.low + bounds.high);
+  const Vec3 center = 0.5 * (points.colwise().minCoeff() + points.colwise().maxCoeff());
   const Mat3 axes = camera_axes(azimuth, elevation);
   const double slope_y = std::tan(radians(camera.vertical_field_of_view / 2)) * (1 - kMargin);
   const Eigen::Vector2d slope(slope_y * aspect, slope_y);
 
   // A point q is in view where |q_k - eye_k| <= slope_k (eye_z - q_z): per axis two lines that the eye has to satisfy.
   std::array<Extent, 2> extent;
-  for (const Vec3& point : points_to_see(bounds)) {
-    const Vec3 q = axes.transpose() * (point - center);
+  for (const auto& point : points.rowwise()) {
+    const Vec3 q = axes.transpose() * (point.transpose() - center);
     for (int k = 0; k < 2; ++k) {
       Extent& e = extent[static_cast<std::size_t>(k)];
       e.high = std::max(e.high, q[k] + slope[k] * q.z());
@@ -88,6 +88,20 @@ Camera frame_bounds(const Bounds& bounds, double aspect, double azimuth, double 
   camera.eye = center + axes * eye;
   camera.target = center + axes * Vec3(eye.x(), eye.y(), 0);
   return camera;
+}
+
+Camera frame_bounds(const Bounds& bounds, double aspect, double azimuth, double elevation) {
+  assert(!bounds.empty());
+  return frame_points(points_to_see(bounds), aspect, azimuth, elevation);
+}
+
+Camera carried_around(const Camera& camera, const Vec3& center, double degrees) {
+  const Eigen::AngleAxisd turn(radians(degrees), Vec3::UnitY());
+  Camera carried = camera;
+  carried.eye = center + turn * (camera.eye - center);
+  carried.target = center + turn * (camera.target - center);
+  carried.up = turn * camera.up;
+  return carried;
 }
 
 }  // namespace sprung

@@ -2,56 +2,16 @@
 
 #include <tbb/parallel_for.h>
 
-#include <experimental/simd>
 #include <numeric>
 
-#include "core/body/brick_kernel.h"
+#include "core/body/brick_block.h"
 
 namespace sprung {
 namespace {
 
-namespace stdx = std::experimental;
-constexpr int kLanes = 8;
-using Pack = stdx::fixed_size_simd<double, kLanes>;
-
 constexpr int kBlocksPerTask = 32;
 
-/// The bricks first .. first + kLanes - 1 side by side; the last brick is repeated where there are fewer.
-CornerVectors<Pack> gather(const BrickGrid& grid, const Points& values, int first, double factor) {
-  CornerVectors<Pack> packed;
-  for (int lane = 0; lane < kLanes; ++lane) {
-    const auto brick = static_cast<std::size_t>(std::min(first + lane, grid.brick_count() - 1));
-    for (std::size_t corner = 0; corner < 8; ++corner) {
-      const double* value = values.data() + 3 * static_cast<std::ptrdiff_t>(grid.nodes[brick][corner]);
-      for (std::size_t k = 0; k < 3; ++k) packed[3 * corner + k][static_cast<std::size_t>(lane)] = factor * value[k];
-    }
-  }
-  return packed;
-}
-
-void compute_block(const Body& body, int first, ForceWorkspace& workspace) {
-  const BrickGrid& grid = body.grid;
-  const CornerVectors<Pack> x = gather(grid, body.positions, first, 1);
-  CornerVectors<Pack> force;
-  force.fill(Pack(0.0));
-  Pack energy;
-  if (body.damping.beta > 0) {
-    const CornerVectors<Pack> rates = gather(grid, body.velocities, first, body.damping.beta);
-    energy = brick_forces<Pack>(body.law, grid.brick_size, x, &rates, force);
-  } else {
-    energy = brick_forces<Pack>(body.law, grid.brick_size, x, nullptr, force);
-  }
-  const int lanes = std::min(kLanes, grid.brick_count() - first);
-  for (int lane = 0; lane < lanes; ++lane) {
-    const auto brick = static_cast<std::size_t>(first + lane);
-    const double scale = body.stiffness_scale[brick];
-    const auto l = static_cast<std::size_t>(lane);
-    for (std::size_t i = 0; i < 24; ++i) workspace.corner_forces[24 * brick + i] = scale * force[i][l];
-    workspace.energies[brick] = scale * energy[l];
-  }
-}
-
-/// The same for a body of trilinear hexahedra, whose force is linear in the displacement from rest.
+/// A body of trilinear hexahedra, whose force is linear in the displacement from rest.
 void compute_hexahedron(const Body& body, std::size_t brick, ForceWorkspace& workspace) {
   Eigen::Matrix<double, 24, 1> displacement;
   Eigen::Matrix<double, 24, 1> rates;
@@ -75,13 +35,28 @@ void compute_corner_forces(const Body& body, ForceWorkspace& workspace) {
     tbb::parallel_for(std::size_t{0}, bricks, [&](std::size_t brick) { compute_hexahedron(body, brick, workspace); });
     return;
   }
-  const int blocks = (body.grid.brick_count() + kLanes - 1) / kLanes;
+  const BlockForces compute_block = block_forces();
+  const BlockInput input = block_input(body);
+  const int blocks = (body.grid.brick_count() + kBricksPerBlock - 1) / kBricksPerBlock;
   tbb::parallel_for(tbb::blocked_range<int>(0, blocks, kBlocksPerTask), [&](const tbb::blocked_range<int>& range) {
-    for (int block = range.begin(); block < range.end(); ++block) compute_block(body, block * kLanes, workspace);
+    for (int block = range.begin(); block < range.end(); ++block) {
+      compute_block(input, block * kBricksPerBlock, workspace.corner_forces.data(), workspace.energies.data());
+    }
   });
 }
 
 }  // namespace
+
+BlockInput block_input(const Body& body) {
+  return {.law = &body.law,
+          .brick_size = body.grid.brick_size,
+          .brick_count = body.grid.brick_count(),
+          .nodes = body.grid.nodes.data(),
+          .stiffness_scale = body.stiffness_scale.data(),
+          .positions = body.positions.data(),
+          .velocities = body.velocities.data(),
+          .beta = body.damping.beta};
+}
 
 void spring_forces(const Body& body, ForceWorkspace& workspace, Points& forces) {
   compute_corner_forces(body, workspace);

@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "core/body/body.h"
+#include "core/body/brick_block.h"
 
 namespace sprung {
 
@@ -15,6 +16,9 @@ struct ForceWorkspace {
 /// and alpha damping. Bricks are computed in parallel and summed in a fixed order: the same bits for any number of
 /// threads.
 void spring_forces(const Body& body, ForceWorkspace& workspace, Points& forces);
+
+/// The arrays of a body that the innermost loop reads; they must outlive it.
+[[nodiscard]] BlockInput block_input(const Body& body);
 
 /// Elastic energy stored in the springs, J, guard included.
 [[nodiscard]] double elastic_energy(const Body& body);

@@ -9,10 +9,10 @@ namespace sprung {
 /// The bricks of one body: the cells of a cubic lattice that hold solid, and the nodes at their corners.
 /// Corner c of a brick lies at cell + (c & 1, c >> 1 & 1, c >> 2 & 1): x runs fastest.
 struct BrickGrid {
-  Vec3 origin = Vec3::Zero();             // corner of cell (0, 0, 0), m, in the body's rest frame
-  double brick_size = 0;                  // side h, m
-  std::vector<Eigen::Vector3i> cells;     // n; ordered by z, then y, then x
-  std::vector<double> fill;               // n; the fraction of the brick inside the solid, in (0, 1]
+  Vec3 origin = Vec3::Zero();          // corner of cell (0, 0, 0), m, in the body's rest frame
+  double brick_size = 0;               // side h, m
+  std::vector<Eigen::Vector3i> cells;  // n; ordered by z, then y, then x
+  std::vector<double> fill;            // n; solid in the brick over its volume, in (0, 1], a little more at slivers.h
   std::vector<std::array<int, 8>> nodes;  // n; rows of lattice, by corner
   std::vector<Eigen::Vector3i> lattice;   // m; lattice coordinates of each node, ordered by z, then y, then x
 

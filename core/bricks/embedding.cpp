@@ -3,32 +3,24 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <limits>
-#include <unordered_map>
+
+#include "core/bricks/cell_index.h"
 
 namespace sprung {
 namespace {
 
 using Cell = Eigen::Vector3i;
 
-std::uint64_t cell_key(const Cell& cell) {
-  const auto part = [&](int axis) { return static_cast<std::uint64_t>(cell[axis] + (1 << 20)) & 0x1fffffU; };
-  return part(0) | part(1) << 21 | part(2) << 42;
-}
-
 /// Finds the brick that holds a point, or the nearest one.
 class BrickFinder {
  public:
-  explicit BrickFinder(const BrickGrid& grid) : grid_(grid) {
-    for (std::size_t i = 0; i < grid.cells.size(); ++i)
-      brick_of_cell_.emplace(cell_key(grid.cells[i]), static_cast<int>(i));
-  }
+  explicit BrickFinder(const BrickGrid& grid) : grid_(grid), index_(grid) {}
 
   /// `place` in lattice units. -1: no brick holds it.
   [[nodiscard]] int holding(const Vec3& place) const {
     const Cell cell = place.array().floor().cast<int>();
-    if (const int brick = at(cell); brick >= 0) return brick;
+    if (const int brick = index_.at(cell); brick >= 0) return brick;
     // A point on a face, an edge or a corner belongs to the cells on both sides.
     for (int side = 1; side < 8; ++side) {
       Cell neighbour = cell;
@@ -39,7 +31,7 @@ class BrickFinder {
         on_border = on_border && std::abs(place[axis] - rounded) < 1e-9;
         neighbour[axis] = rounded > place[axis] ? cell[axis] + 1 : cell[axis] - 1;
       }
-      if (const int brick = on_border ? at(neighbour) : -1; brick >= 0) return brick;
+      if (const int brick = on_border ? index_.at(neighbour) : -1; brick >= 0) return brick;
     }
     return -1;
   }
@@ -59,7 +51,7 @@ class BrickFinder {
     for (int z = -kRings; z <= kRings; ++z) {
       for (int y = -kRings; y <= kRings; ++y) {
         for (int x = -kRings; x <= kRings; ++x) {
-          if (const int brick = at(centre + Cell(x, y, z)); brick >= 0) consider(brick);
+          if (const int brick = index_.at(centre + Cell(x, y, z)); brick >= 0) consider(brick);
         }
       }
     }
@@ -69,18 +61,13 @@ class BrickFinder {
   }
 
  private:
-  [[nodiscard]] int at(const Cell& cell) const {
-    const auto found = brick_of_cell_.find(cell_key(cell));
-    return found == brick_of_cell_.end() ? -1 : found->second;
-  }
-
   static double distance_squared(const Vec3& place, const Cell& cell) {
     const Vec3 low = cell.cast<double>();
     return (place - place.cwiseMax(low).cwiseMin(low + Vec3::Ones())).squaredNorm();
   }
 
   const BrickGrid& grid_;
-  std::unordered_map<std::uint64_t, int> brick_of_cell_;
+  CellIndex index_;
 };
 
 Eigen::Matrix<double, 3, 8> corner_positions(const BrickGrid& grid, int brick, const Points& node_positions) {
