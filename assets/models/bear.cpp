@@ -7,7 +7,7 @@ const Vec3 kHead(0, 14.0, 0.9);
 const Vec3 kEye(2.4, 14.75, 5.2);
 const Vec3 kNose(0, 13.55, 7.6);
 const Vec3 kEar(5.0, 18.2, 0.3);
-const Vec3 kFoot(5.3, 2.75, 7.9);
+const Vec3 kFoot(5.3, 2.35, 7.9);
 const Vec3 kHand(8.0, 7.7, 4.2);
 
 /// The outer ear leans outwards and a little to the front.
@@ -29,11 +29,11 @@ Shape head() {
 }
 
 Shape trunk() {
-  Shape shape = ellipsoid(Vec3(0, 4.9, 0), Vec3(5.4, 6.2, 5.0));
+  Shape shape = ellipsoid(Vec3(0, 4.6, 0), Vec3(5.4, 6.4, 5.0));
   shape = join(shape, ball(Vec3(0, 5.1, 1.2), 4.7), 2.0);                        // belly
-  shape = join(shape, ellipsoid(Vec3(0, 3.1, -0.5), Vec3(6.0, 4.1, 5.5)), 2.0);  // seat, broad enough not to tip over
+  shape = join(shape, ellipsoid(Vec3(0, 2.1, -0.5), Vec3(6.0, 4.3, 5.6)), 2.0);  // seat, broad enough not to tip over
   shape = join(shape, limb(Vec3(0, 7, 0), 4.2, Vec3(0, 11, 0.5), 3.7), 1.0);     // neck, to carry the heavy head
-  return join(shape, ball(Vec3(0, 1.5, -6.0), 1.6), 0.6);                        // tail, a prop from behind
+  return join(shape, ball(Vec3(0, 1.4, -6.0), 1.6), 0.6);                        // tail, a prop from behind
 }
 
 /// The feet turn out a little.
@@ -41,7 +41,7 @@ Shape foot_turned(Shape shape) { return turned(std::move(shape), kFoot, Vec3::Un
 
 Shape legs() {
   const Shape sole = foot_turned(ellipsoid(kFoot, Vec3(2.5, 2.85, 1.7)));
-  return mirrored(join(limb(Vec3(2.9, 2.7, 1.0), 2.7, kFoot - Vec3(0.2, 0.3, 0.8), 2.2), sole, 0.7));
+  return mirrored(join(limb(Vec3(2.9, 2.1, 1.0), 2.7, kFoot - Vec3(0.2, 0.4, 0.8), 2.2), sole, 0.7));
 }
 
 Shape arms() { return mirrored(join(limb(Vec3(3.6, 9.3, 0.4), 1.8, kHand, 2.05), ball(kHand, 2.15), 0.8)); }

@@ -48,6 +48,27 @@ TEST(FrameBounds, SeesEveryCornerWithAMarginAndNotFromAfar) {
   }
 }
 
+TEST(FramePoints, ComesAsNearAsThePointsAllow) {
+  Points points(3, 3);
+  points << 0, 0, 0, 1, 0, 0, 0.5, 1, 0.2;
+  const Camera camera = frame_points(points, 1, 20, 10);
+  double most = 0;
+  for (const auto& point : points.rowwise()) {
+    const Vec3 seen = project(camera, 1, point.transpose());
+    most = std::max({most, std::abs(seen.x()), std::abs(seen.y())});
+  }
+  EXPECT_NEAR(most, 0.9, 1e-9);
+}
+
+TEST(CarriedAround, KeepsDistanceAndHeight) {
+  const Vec3 center(0.3, 0.2, -1);
+  const Camera camera = frame_bounds({Vec3(0, 0, -2), Vec3(1, 1, 0)}, 1.5);
+  const Camera carried = carried_around(camera, center, 75);
+  EXPECT_NEAR((carried.eye - center).norm(), (camera.eye - center).norm(), 1e-12);
+  EXPECT_NEAR(carried.eye.y(), camera.eye.y(), 1e-12);
+  EXPECT_GT((carried.eye - camera.eye).norm(), 1);
+}
+
 TEST(FrameBounds, LooksFromWhereItIsTold) {
   const Bounds bounds{Vec3(-1, 0, -1), Vec3(1, 2, 1)};
   const Camera front = frame_bounds(bounds, 1, 0, 0);
