@@ -15,7 +15,7 @@ namespace sprung {
 namespace {
 
 /// What the camera has to see: the bounds of the whole motion, and for each frame and body the points that reach
-/// furthest in 26 directions.
+/// furthest in 26 directions, with the ground below them, where shadows fall.
 struct Reach {
   Bounds bounds;
   Points points;
@@ -35,7 +35,8 @@ Eigen::Matrix<double, 26, 3> directions() {
 Reach reach_of(const Production& production, const Recording& recording) {
   const Eigen::Matrix<double, 26, 3> ways = directions();
   Reach reach;
-  reach.points.resize(static_cast<Eigen::Index>(26 * recording.frames.size() * production.skins.size()), 3);
+  const auto count = static_cast<Eigen::Index>(26 * recording.frames.size() * production.skins.size());
+  reach.points.resize(count, 3);
   Eigen::Index next = 0;
   for (const std::vector<Floats3>& frame : recording.frames) {
     for (std::size_t actor = 0; actor < frame.size(); ++actor) {
@@ -47,6 +48,12 @@ Reach reach_of(const Production& production, const Recording& recording) {
         reach.points.row(next++) = skin.row(furthest);
       }
     }
+  }
+  if (production.world.ground) {
+    Points below = reach.points;
+    below.col(1).setConstant(production.world.ground->height);
+    reach.points.conservativeResize(2 * count, 3);
+    reach.points.bottomRows(count) = below;
   }
   return reach;
 }

@@ -58,6 +58,13 @@ float key_light(vec3 point, vec3 n, float facing) {
   return taps > 0 ? lit / float(kTaps) : (search > 0 ? 1.0 : 0.0);
 }
 
+// The mean over the block of 2 x 2 pixels that are shaded together, so that the four turns do not show as dots.
+float over_block(float value) {
+  vec2 towards = 0.5 - vec2(ivec2(gl_FragCoord.xy) & 1);
+  value += towards.x * dFdxFine(value);
+  return value + towards.y * dFdyFine(value);
+}
+
 // How much of the sky is open above a point: the chance that the blurred map of heights does not exceed it (Chebyshev).
 float open_sky(vec3 point, vec3 n) {
   vec3 moved = point + 0.16 * body_radius * n;
@@ -113,7 +120,7 @@ void main() {
   vec3 h = normalize(v + to_key);
   float nl = dot(n, to_key);
   float nv = max(dot(n, v), 1e-3);
-  float lit = key_light(place, n, nl);
+  float lit = clamp(over_block(key_light(place, n, nl)), 0.0, 1.0);
 
   // Light that enters leaves a little further on, in the body's own colour: it creeps past the edge of the shadow.
   vec3 wrap = 0.06 + 0.20 * base;

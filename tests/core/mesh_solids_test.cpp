@@ -170,6 +170,8 @@ struct Known {
   double volume;
 };
 
+void PrintTo(const Known& known, std::ostream* out) { *out << known.file; }
+
 class KnownSolids : public ::testing::TestWithParam<Known> {};
 
 TEST_P(KnownSolids, HaveTheirCountAndVolume) {
@@ -203,6 +205,8 @@ struct Broken {
   const char* file;
   const char* reason;
 };
+
+void PrintTo(const Broken& broken, std::ostream* out) { *out << broken.file; }
 
 class BrokenSurfaces : public ::testing::TestWithParam<Broken> {};
 
