@@ -10,7 +10,7 @@ namespace sprung {
 
 namespace {
 
-constexpr double kMargin = 0.12;             // of the half picture, kept free at each side
+constexpr double kMargin = 0.12;            // of the half picture, kept free at each side
 constexpr double kFloorMargin = 0.06;       // of the sides: floor seen around the lowest points, where the shadow falls
 constexpr double kSmallestDistance = 1e-9;  // m; even a single point is looked at from somewhere
 

@@ -21,8 +21,8 @@ std::string with_includes(std::string_view name) {
 }
 
 std::string source(std::string_view name, bool fragment) {
-  return "#version 330 core\n#extension GL_ARB_derivative_control : require\n" + with_includes("color.glsl") + with_includes("light.glsl") +
-         (fragment ? with_includes("picture.glsl") : "") + with_includes(name);
+  return "#version 330 core\n#extension GL_ARB_derivative_control : require\n" + with_includes("color.glsl") +
+         with_includes("light.glsl") + (fragment ? with_includes("picture.glsl") : "") + with_includes(name);
 }
 
 }  // namespace

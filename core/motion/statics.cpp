@@ -14,7 +14,7 @@ namespace sprung {
 namespace {
 
 constexpr double kLongestStep = 0.5;  // body lengths; a longer one leads nowhere
-constexpr double kFree = 1e4;         // a displacement of that many body lengths is no deformation
+constexpr double kFree = 100;         // a displacement of that many body lengths is no deformation
 
 Eigen::Map<const Eigen::VectorXd> flat(const Points& points) { return {points.data(), points.size()}; }
 
@@ -116,14 +116,14 @@ class Equilibrium {
 }  // namespace
 
 Eigen::VectorXd solve_linear(const Body& body, const Supports& supports, const Points& loads, NewtonSystem& system) {
-  if (system.linearize(body, supports, false)) return system.solve(flat(loads));
-  // A motion without resistance (plain springs let a thin bar twist) does no harm where no load drives it.
-  Eigen::VectorXd displacement;
-  if (system.linearize(body, supports, true)) displacement = system.solve(flat(loads));
-  if (displacement.size() == 0 || displacement.cwiseAbs().maxCoeff() > kFree * extent(body)) {
-    throw Error(ErrorKind::kBadInput, "the supports leave the body free to move under its loads: hold more of it");
+  // A motion without resistance (plain springs let a thin bar twist) does no harm where no load drives it: then the
+  // second, slightly held system answers.
+  for (const bool definite : {false, true}) {
+    if (!system.linearize(body, supports, definite)) continue;
+    Eigen::VectorXd displacement = system.solve(flat(loads));
+    if (displacement.cwiseAbs().maxCoeff() < kFree * extent(body)) return displacement;
   }
-  return displacement;
+  throw Error(ErrorKind::kBadInput, "the supports leave the body free to move under its loads: hold more of it");
 }
 
 StaticReport solve_static(Body& body, const Supports& supports, const Points& loads, const Points& start,

@@ -1,0 +1,135 @@
+#include "core/motion/statics.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "core/body/forces.h"
+#include "core/error.h"
+#include "core/motion/modes.h"
+#include "tests/support/bodies.h"
+
+namespace sprung {
+namespace {
+
+using test::shake;
+using test::test_material;
+
+/// The paper's cantilever, 0.4 x 0.1 x 0.1 m, E = 1 kPa, clamped at x = 0, under 1 N/m^3 along -y.
+class Cantilever {
+ public:
+  Cantilever(Model model, double poisson, int across, double density = 1, double young = 1000)
+      : body(make_body(
+            make_box_grid({4 * across, across, across}, 0.1 / across), model,
+            {.name = "test", .young = young, .poisson = poisson, .density = density, .damping = 0, .source = ""})),
+        supports(body.node_count()),
+        loads(Points::Zero(body.node_count(), 3)) {
+    loads.col(1) = -body.masses;
+    for (int node = 0; node < body.node_count(); ++node) {
+      const Eigen::Vector3i& place = body.grid.lattice[static_cast<std::size_t>(node)];
+      if (place.x() == 0) supports.fix(node);
+      const bool is_corner = place.y() % across == 0 && place.z() % across == 0;
+      if (place.x() == 4 * across && is_corner) tip.push_back(node);
+    }
+  }
+
+  [[nodiscard]] double linear_sag() const {
+    const auto system = make_direct_system();
+    const Eigen::VectorXd u = solve_linear(body, supports, loads, *system);
+    double sum = 0;
+    for (const int node : tip) sum -= u[3 * node + 1];
+    return sum / static_cast<double>(tip.size());
+  }
+
+  Body body;
+  Supports supports;
+  Points loads;
+  std::vector<int> tip;  // the four corners of the free end
+};
+
+/// Expected: mean sag of the four end corners by CalculiX 2.20, 20-node bricks, converged to 0.02 %.
+constexpr double kSagAtThreeTenths = 0.004004923;
+/// Sags over that value, as an independent prototype of the brick found them.
+TEST(Statics, CalibratedCantileverIsRightOnEveryGrid) {
+  EXPECT_NEAR(Cantilever(Model::kCalibrated, 0.3, 1).linear_sag() / kSagAtThreeTenths, 0.982, 1e-3);
+  EXPECT_NEAR(Cantilever(Model::kCalibrated, 0.3, 2).linear_sag() / kSagAtThreeTenths, 0.976, 1e-3);
+  EXPECT_NEAR(Cantilever(Model::kCalibrated, 0.3, 4).linear_sag() / kSagAtThreeTenths, 0.990, 1e-3);
+  EXPECT_NEAR(Cantilever(Model::kCalibrated, 0, 1).linear_sag() / 0.00403096, 0.993, 1e-3);
+}
+
+TEST(Statics, OtherModelsAreAsStiffAsTheyAreKnownToBe) {
+  EXPECT_NEAR(Cantilever(Model::kTensile, 0.3, 2).linear_sag() / kSagAtThreeTenths, 0.710, 1e-3);
+  EXPECT_NEAR(Cantilever(Model::kM2Plain, 0.3, 2).linear_sag() / kSagAtThreeTenths, 0.707, 1e-3);
+  EXPECT_NEAR(Cantilever(Model::kFem, 0.3, 1).linear_sag() / kSagAtThreeTenths, 0.655, 1e-3);
+  EXPECT_NEAR(Cantilever(Model::kFem, 0.3, 2).linear_sag() / kSagAtThreeTenths, 0.864, 1e-3);
+}
+
+TEST(Statics, SmallLoadsGiveTheLinearAnswer) {
+  Cantilever beam(Model::kCalibrated, 0.3, 2);
+  const auto system = make_direct_system();
+  const Eigen::VectorXd linear = solve_linear(beam.body, beam.supports, 1e-4 * beam.loads, *system);
+  const Points start = beam.body.positions;
+  solve_static(beam.body, beam.supports, 1e-4 * beam.loads, start, *system);
+  const Points moved = beam.body.positions - start;
+  EXPECT_LT((Eigen::Map<const Eigen::VectorXd>(moved.data(), moved.size()) - linear).norm(), 1e-5 * linear.norm());
+}
+
+TEST(Statics, LargeLoadsReachEquilibrium) {
+  Cantilever beam(Model::kCalibrated, 0.3, 2);
+  const auto system = make_direct_system();
+  const Points start = beam.body.positions;
+  const Points loads = 78 * beam.loads;
+  const StaticReport report = solve_static(beam.body, beam.supports, loads, start, *system);
+  EXPECT_LT(report.residual, 1e-9);
+  double drop = 0;
+  for (const int node : beam.tip) drop += (start(node, 1) - beam.body.positions(node, 1)) / 4;
+  EXPECT_NEAR(drop / 0.2407501, 0.968, 1e-3);  // neo-Hooke by CalculiX: 60 % of the length
+  const Points held = reactions(beam.body, beam.supports, loads);
+  EXPECT_NEAR(held.col(1).sum(), -loads.col(1).sum(), 1e-9 * -loads.col(1).sum());
+  EXPECT_NEAR(held.col(0).sum(), 0, 1e-9 * -loads.col(1).sum());
+}
+
+TEST(Statics, MovedSupportsPullTheBodyAlong) {
+  Body bar = make_body(make_box_grid({4, 1, 1}, 0.1), Model::kCalibrated, test_material(0, 1000));
+  Supports supports(bar.node_count());
+  const Points start = bar.positions;
+  for (int node = 0; node < bar.node_count(); ++node) {
+    const int x = bar.grid.lattice[static_cast<std::size_t>(node)].x();
+    if (x == 0 || x == 4) supports.fix(node);
+    if (x == 4) bar.positions(node, 0) += 4e-6;
+  }
+  const auto system = make_direct_system();
+  const Points no_loads = Points::Zero(bar.node_count(), 3);
+  solve_static(bar, supports, no_loads, start, *system);
+  double pull = 0;
+  const Points held = reactions(bar, supports, no_loads);
+  for (int node = 0; node < bar.node_count(); ++node) {
+    EXPECT_NEAR(bar.positions(node, 0), (1 + 1e-5) * start(node, 0), 1e-12);
+    if (bar.grid.lattice[static_cast<std::size_t>(node)].x() == 4) pull += held(node, 0);
+  }
+  EXPECT_NEAR(pull, 1000 * 0.01 * 1e-5, 1e-5 * 1e-4);  // E A strain
+}
+
+TEST(Statics, FreeBodiesAreRefused) {
+  Cantilever beam(Model::kCalibrated, 0.3, 1);
+  const Supports none(beam.body.node_count());
+  const auto system = make_direct_system();
+  EXPECT_THROW((void)solve_linear(beam.body, none, beam.loads, *system), Error);
+}
+
+TEST(Modes, CantileverSwingsAtItsReferenceFrequencies) {
+  // CalculiX 2.20, E = 100 kPa, nu = 0.3, 1000 kg/m^3: 0.97372 Hz twice (bending), 6.28983 Hz (stretch).
+  const Cantilever beam(Model::kCalibrated, 0.3, 2, 1000, 1e5);
+  const Modes modes = natural_modes(beam.body, beam.supports, 6);
+  EXPECT_NEAR(modes.frequencies[0] / 0.97372, 1, 0.01);
+  EXPECT_NEAR(modes.frequencies[1] / modes.frequencies[0], 1, 1e-6);
+  EXPECT_NEAR(modes.frequencies[5] / 6.28983, 1, 0.01);
+  for (int k = 1; k < 6; ++k) EXPECT_GE(modes.frequencies[k], modes.frequencies[k - 1] * (1 - 1e-9));
+  // Rayleigh's quotient of each shape gives its frequency back.
+  Eigen::VectorXd masses(3 * beam.body.node_count());
+  for (int i = 0; i < masses.size(); ++i) masses[i] = beam.body.masses[i / 3];
+  for (int k = 0; k < 6; ++k) EXPECT_NEAR(modes.shapes.col(k).cwiseAbs2().dot(masses), 1, 1e-9);
+}
+
+}  // namespace
+}  // namespace sprung
