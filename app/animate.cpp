@@ -3,58 +3,17 @@
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
-#include <algorithm>
-
+#include "app/make_production.h"
 #include "app/make_scene.h"
 #include "app/output.h"
-#include "app/progress.h"
 #include "app/render_film.h"
 #include "app/scene_file.h"
-#include "app/units.h"
+#include "app/simulate.h"
 
 namespace sprung {
 namespace {
 
-std::vector<LoadedBody> load_bodies(const Scene& scene, const Console& console) {
-  Progress progress(console, "read");
-  std::vector<LoadedBody> bodies;
-  std::size_t triangles = 0;
-  std::size_t solids = 0;
-  for (const SceneBody& body : scene.bodies) {
-    const LoadedBody& loaded = bodies.emplace_back(load_body(body, console));
-    triangles += static_cast<std::size_t>(loaded.mesh.triangles.rows());
-    solids += loaded.solids.size();
-  }
-  progress.finish(fmt::format("{} triangles, {} {}", triangles, solids, solids == 1 ? "solid" : "solids"));
-  return bodies;
-}
-
-/// "1.2 cm", or "1.1 cm to 1.2 cm" where the bodies differ.
-std::string brick_sizes(const std::vector<LoadedBody>& bodies) {
-  const auto by_size = [](const LoadedBody& a, const LoadedBody& b) { return a.brick_size < b.brick_size; };
-  const auto [smallest, largest] = std::minmax_element(bodies.begin(), bodies.end(), by_size);
-  const std::string low = readable(smallest->brick_size, Dimension::kLength);
-  const std::string high = readable(largest->brick_size, Dimension::kLength);
-  return low == high ? low : fmt::format("{} to {}", low, high);
-}
-
-Production make_production(const Scene& scene, const Console& console) {
-  const std::vector<LoadedBody> bodies = load_bodies(scene, console);
-  Progress progress(console, "bricks");
-  Production production = build_world(scene, bodies, console);
-  int bricks = 0;
-  int nodes = 0;
-  double mass = 0;
-  for (const Actor& actor : production.world.actors) {
-    bricks += actor.body.grid.brick_count();
-    nodes += actor.body.node_count();
-    mass += actor.body.masses.sum();
-  }
-  progress.finish(fmt::format("{} bricks of {}, {} nodes, {:.4g} kg", bricks, brick_sizes(bodies), nodes, mass));
-  return production;
-}
-
-std::vector<Output> parse_outputs(const AnimateOptions& options) {
+std::vector<Output> parse_outputs(const SceneOptions& options) {
   std::vector<Output> outputs;
   for (const std::string& words : options.outputs) {
     outputs.push_back(parse_output(words));
@@ -65,7 +24,7 @@ std::vector<Output> parse_outputs(const AnimateOptions& options) {
 
 }  // namespace
 
-void animate(const AnimateOptions& options, const Console& console) {
+void animate(const SceneOptions& options, const Console& console) {
   const Scene scene = make_scene(options);
   if (options.print_scene) {
     fmt::print("{}", print_scene(with_defaults(scene)));
@@ -77,7 +36,7 @@ void animate(const AnimateOptions& options, const Console& console) {
   }
   const std::vector<Output> outputs = parse_outputs(options);
   Production production = make_production(scene, console);
-  const Recording recording = simulate(production.world, scene, console);
+  const Recording recording = simulate(production, scene, console);
   render_film(production, recording, scene, outputs, console);
   for (const std::string& output : options.outputs) fmt::print("{}\n", output);
 }

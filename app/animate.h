@@ -5,6 +5,6 @@
 namespace sprung {
 
 /// From a mesh or a scene to pictures and films; the outputs' names go to stdout. Throws Error, Interrupted.
-void animate(const AnimateOptions& options, const Console& console);
+void animate(const SceneOptions& options, const Console& console);
 
 }  // namespace sprung

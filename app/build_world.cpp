@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <array>
-#include <numbers>
+#include <map>
 #include <set>
 
 #include "app/units.h"
@@ -29,14 +29,6 @@ constexpr std::array<Color, 8> kPalette{{{0xd8, 0x32, 0x2a},
                                          {0xc7, 0x6b, 0x8f},
                                          {0x4f, 0x6d, 0xb8}}};
 
-Mat3 rotation_matrix(const Vec3& degrees) {
-  const Vec3 angles = degrees * std::numbers::pi / 180;
-  const Eigen::AngleAxisd about_x(angles.x(), Vec3::UnitX());
-  const Eigen::AngleAxisd about_y(angles.y(), Vec3::UnitY());
-  const Eigen::AngleAxisd about_z(angles.z(), Vec3::UnitZ());
-  return (about_z * about_y * about_x).toRotationMatrix();
-}
-
 /// What takes the turned body to its position: the middle of the bottom of its bounding box goes there.
 Vec3 translation_of(const SceneBody& body, const LoadedBody& loaded, const Mat3& rotation) {
   const Points turned = loaded.mesh.positions * rotation.transpose();
@@ -57,47 +49,88 @@ Points contact_points(const Skin& skin) {
   return skin.positions(rows, Eigen::all);
 }
 
-/// Nodes of a grid in the rest frame that lie in one of the boxes. The lattice reaches a little beyond the body, so
+bool is_inside(const Eigen::Array3d& fractions, const Box& box) {
+  constexpr double kRounding = 1e-9;
+  return (fractions >= box.min.array() - kRounding).all() && (fractions <= box.max.array() + kRounding).all();
+}
+
+/// Nodes (at rest, m) that lie in a box or within half a brick of it: where the bricks do not follow a face of the box,
+/// the steps of what is held then lie as often before it as behind it. The lattice reaches a little beyond the body, so
 /// nodes outside its bounding box count as on it.
-std::vector<int> pinned_nodes(const Points& nodes, const std::vector<Pin>& pins, const Vec3& extent) {
-  std::vector<int> pinned;
+std::vector<int> nodes_in(const Box& exact, const Points& nodes, const Vec3& extent, double brick_size) {
+  const Eigen::Array3d margin = 0.49 * brick_size / extent.array();  // not quite half: a tie would be rounding's choice
+  const Box box{.min = exact.min.array() - margin, .max = exact.max.array() + margin};
+  std::vector<int> inside;
   for (int node = 0; node < nodes.rows(); ++node) {
     const Eigen::Array3d place = (nodes.row(node).transpose().array() / extent.array() + 0.5).max(0).min(1);
-    const auto holds = [&](const Pin& pin) {
-      return (place >= pin.box.min.array()).all() && (place <= pin.box.max.array()).all();
-    };
-    if (std::any_of(pins.begin(), pins.end(), holds)) pinned.push_back(node);
+    if (is_inside(place, box)) inside.push_back(node);
   }
-  return pinned;
+  return inside;
+}
+
+/// Every node that a pin holds, once, with the axes of all its pins.
+std::vector<HeldNode> held_nodes(const std::vector<PinnedNodes>& pinned, const std::vector<Pin>& pins) {
+  std::map<int, HeldNode> held;
+  for (const PinnedNodes& group : pinned) {
+    for (const int node : group.nodes) {
+      const auto [place, is_new] = held.try_emplace(node, HeldNode{.node = node, .axes = {false, false, false}});
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (pins[group.pin].axes.held[axis]) place->second.axes[axis] = true;
+      }
+    }
+  }
+  std::vector<HeldNode> list;
+  list.reserve(held.size());
+  for (const auto& [node, entry] : held) list.push_back(entry);
+  return list;
+}
+
+/// Gives the bricks of the regions their stiffness and mass; where regions overlap the last one counts.
+void apply_regions(const SceneBody& scene_body, const Vec3& extent, const Mat3& rest_from_bricks, Body& body) {
+  const double corner_mass = body.material.density * body.grid.brick_volume() / 8;
+  for (std::size_t brick = 0; brick < body.grid.cells.size(); ++brick) {
+    const Vec3 cell = body.grid.cells[brick].cast<double>().array() + 0.5;
+    const Vec3 middle = rest_from_bricks * (body.grid.origin + body.grid.brick_size * cell);
+    const Region* found = nullptr;
+    for (const Region& region : scene_body.regions) {
+      if (is_inside(middle.array() / extent.array() + 0.5, region.box)) found = &region;
+    }
+    if (found == nullptr) continue;
+    const double more_mass = (found->material.density / body.material.density - 1) * corner_mass;
+    for (const int node : body.grid.nodes[brick]) body.masses[node] += more_mass * body.stiffness_scale[brick];
+    body.stiffness_scale[brick] *= found->material.young / body.material.young;
+  }
 }
 
 /// Adds the solids of one body.
 class BodyBuilder {
  public:
-  BodyBuilder(const SceneBody& body, const LoadedBody& loaded, Production& production)
-      : body_(body),
+  BodyBuilder(const Scene& scene, std::size_t index, const LoadedBody& loaded, Production& production)
+      : body_(scene.bodies[index]),
+        index_(index),
         loaded_(loaded),
         production_(production),
-        rotation_(rotation_matrix(body.rotation)),
-        translation_(translation_of(body, loaded, rotation_)) {}
+        rotation_(rotation_matrix(body_.rotation) * loaded.bricks_from_rest.transpose()),
+        translation_(translation_of(body_, loaded, rotation_)) {}
 
   void add(const Solid& solid) {
-    BrickGrid grid = voxelize(solid, loaded_.brick_size);
-    slivers_ += absorb_slivers(grid);
     Actor actor;
-    actor.body = make_body(std::move(grid), body_.model, body_.material);
+    actor.body = make_body(make_grid(solid), body_.model, body_.material);
+    apply_regions(body_, loaded_.extent, loaded_.bricks_from_rest.transpose(), actor.body);
     DrawnSkin drawn;
     drawn.skin = make_skin(submesh(loaded_.mesh, solid), {.max_edge = kLongestSkinEdge * loaded_.brick_size});
     drawn.embedding = embed(actor.body.grid, drawn.skin.positions);
     drawn.color = body_.color.value_or(kPalette[production_.skins.size() % kPalette.size()]);
     actor.contacts = embed(actor.body.grid, contact_points(drawn.skin));
-    actor.pinned = pinned_nodes(actor.body.rest_positions, body_.pins, loaded_.extent);
+    Origin origin{.body = index_, .bricks_from_rest = loaded_.bricks_from_rest, .pins = find_pins(actor.body)};
+    actor.pinned = held_nodes(origin.pins, body_.pins);
     place(actor.body, rotation_, translation_);
     actor.body.velocities.rowwise() = body_.velocity.transpose();
-    for (const int node : actor.pinned) actor.body.velocities.row(node).setZero();
+    for (const HeldNode& held : actor.pinned) actor.body.velocities.row(held.node).setZero();
     outside_ += drawn.embedding.outside;
     held_solids_ += actor.pinned.empty() ? 0 : 1;
     production_.world.actors.push_back(std::move(actor));
+    production_.origins.push_back(std::move(origin));
     production_.skins.push_back(std::move(drawn));
   }
 
@@ -124,7 +157,30 @@ class BodyBuilder {
   }
 
  private:
+  BrickGrid make_grid(const Solid& solid) {
+    if (loaded_.grid) return *loaded_.grid;
+    BrickGrid grid = voxelize(solid, loaded_.brick_size);
+    slivers_ += absorb_slivers(grid);
+    return grid;
+  }
+
+  /// The body is still where its grid is.
+  [[nodiscard]] std::vector<PinnedNodes> find_pins(const Body& body) const {
+    const Points rest = body.rest_positions * loaded_.bricks_from_rest;
+    std::vector<PinnedNodes> pinned;
+    for (std::size_t pin = 0; pin < body_.pins.size(); ++pin) {
+      const Box& box = body_.pins[pin].box;
+      std::vector<int> nodes = nodes_in(box, rest, loaded_.extent, loaded_.brick_size);
+      if (nodes.empty()) continue;
+      const Eigen::Array3d middle = (box.min.array().max(0) + box.max.array().min(1)) / 2 - 0.5;
+      const Vec3 centre = loaded_.bricks_from_rest * (middle * loaded_.extent.array()).matrix();
+      pinned.push_back({.pin = pin, .nodes = std::move(nodes), .centre = rotation_ * centre + translation_});
+    }
+    return pinned;
+  }
+
   const SceneBody& body_;
+  std::size_t index_;
   const LoadedBody& loaded_;
   Production& production_;
   Mat3 rotation_;
@@ -145,7 +201,7 @@ Production build_world(const Scene& scene, const std::vector<LoadedBody>& bodies
         Ground{.height = ground.plane.y, .friction = ground.friction, .restitution = ground.restitution};
   }
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    BodyBuilder builder(scene.bodies[i], bodies[i], production);
+    BodyBuilder builder(scene, i, bodies[i], production);
     for (const Solid& solid : bodies[i].solids) builder.add(solid);
     builder.report(console);
     production.size = std::max(production.size, bodies[i].extent.maxCoeff());

@@ -15,10 +15,25 @@ struct DrawnSkin {
   Color color;
 };
 
-/// What moves and what is seen of it: skins[i] belongs to world.actors[i].
+/// The nodes of one actor that a pin of the scene holds.
+struct PinnedNodes {
+  std::size_t pin = 0;  // row in SceneBody::pins
+  std::vector<int> nodes;
+  Vec3 centre = Vec3::Zero();  // m, in the world: what the pin turns about
+};
+
+/// Which body of the scene an actor is made from, and how it was placed.
+struct Origin {
+  std::size_t body = 0;  // row in Scene::bodies
+  Mat3 bricks_from_rest = Mat3::Identity();
+  std::vector<PinnedNodes> pins;  // those that hold any node of this actor
+};
+
+/// What moves and what is seen of it: skins[i] and origins[i] belong to world.actors[i].
 struct Production {
   World world;
   std::vector<DrawnSkin> skins;
+  std::vector<Origin> origins;
   double size = 0;  // m, longest side of the largest body
 };
 

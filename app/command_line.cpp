@@ -33,7 +33,7 @@ constexpr std::array<SceneOption, 14> kSceneOptions{{
     {"--bricks", "body.bricks", "N"},
     {"--brick-size", "body.brick_size", "5mm"},
     {"--model", "body.model", "NAME"},
-    {"--scheme", "scheme", "NAME"},
+    {"--scheme", "solver.scheme", "NAME"},
     {"--fps", "fps", "N"},
     {"--duration", "duration", "3s"},
     {"--resolution", "render.resolution", "WxH"},
@@ -48,6 +48,7 @@ std::string help_below(const Value*, std::string_view) {
   return "";
 }
 std::string help_below(const Material*, std::string_view rest) { return key_help<Material>(rest); }
+std::string help_below(const SceneSolver*, std::string_view rest) { return key_help<SceneSolver>(rest); }
 std::string help_below(const SceneRender*, std::string_view rest) { return key_help<SceneRender>(rest); }
 std::string help_below(const std::vector<SceneBody>*, std::string_view rest) { return key_help<SceneBody>(rest); }
 
@@ -64,34 +65,69 @@ std::string key_help(std::string_view path) {
 
 /// Everything that CLI11 fills in.
 struct Words {
-  AnimateOptions animate;
+  SceneOptions scene;
+  ValidateOptions validate;
+  std::string model;
+  std::string poisson;
+  std::string bricks;
   std::array<std::string, kSceneOptions.size()> scene_values;
   std::string scenario;
   std::string threads;
 };
 
+void add_scene_options(CLI::App& command, Words& words) {
+  command.add_option("INPUT", words.scene.input, "a mesh file, or a scene (.toml)");
+  for (std::size_t i = 0; i < kSceneOptions.size(); ++i) {
+    command.add_option(kSceneOptions[i].option, words.scene_values[i], key_help<Scene>(kSceneOptions[i].key))
+        ->option_text(kSceneOptions[i].example);
+  }
+  command.add_option("--scenario", words.scenario, "what a bare mesh does: drop or hang")->option_text("NAME");
+  command.add_option("--threads", words.threads, "threads of the simulation; default: all cores")->option_text("N");
+  command.add_flag("--print-scene", words.scene.print_scene, "write the scene as resolved to stdout, and stop");
+  command.add_flag("--quiet", words.scene.quiet, "warnings and errors only");
+  command.add_flag("--verbose", words.scene.verbose, "more about every stage");
+  command.footer(
+      "Lengths, times, pressures and densities take a unit (\"3 cm\", 20kPa, 1.2g/cm3); a bare number is SI.\n"
+      "Options override the scene file, which overrides the defaults.");
+  command.allow_extras();
+}
+
 void add_animate(CLI::App& app, Words& words) {
   CLI::App* animate = app.add_subcommand("animate", "mesh or scene in, pictures or film out");
-  animate->add_option("INPUT", words.animate.input, "a mesh file, or a scene (.toml)");
   animate
-      ->add_option("-o,--output", words.animate.outputs,
+      ->add_option("-o,--output", words.scene.outputs,
                    "folder/, folder/frame_{:04}.png, or film.mp4, .webm, .gif; may be given several times")
       ->allow_extra_args(false)
       ->option_text("OUT");
-  for (std::size_t i = 0; i < kSceneOptions.size(); ++i) {
-    animate->add_option(kSceneOptions[i].option, words.scene_values[i], key_help<Scene>(kSceneOptions[i].key))
-        ->option_text(kSceneOptions[i].example);
-  }
-  animate->add_option("--scenario", words.scenario, "what a bare mesh does: drop or hang")->option_text("NAME");
-  animate->add_option("--threads", words.threads, "threads of the simulation; default: all cores")->option_text("N");
-  animate->add_flag("--overwrite", words.animate.overwrite, "replace pictures and films that exist");
-  animate->add_flag("--print-scene", words.animate.print_scene, "write the scene as resolved to stdout, and stop");
-  animate->add_flag("--quiet", words.animate.quiet, "warnings and errors only");
-  animate->add_flag("--verbose", words.animate.verbose, "more about every stage");
-  animate->footer(
-      "Lengths, times, pressures and densities take a unit (\"3 cm\", 20kPa, 1.2g/cm3); a bare number is SI.\n"
-      "Options override the scene file, which overrides the defaults.");
-  animate->allow_extras();
+  animate->add_flag("--overwrite", words.scene.overwrite, "replace pictures and films that exist");
+  add_scene_options(*animate, words);
+}
+
+void add_simulate(CLI::App& app, Words& words) {
+  CLI::App* simulate = app.add_subcommand("simulate", "mesh or scene in, measurements of its probes out");
+  simulate->add_option("-o,--output", words.scene.outputs, "folder for probes.csv and probes.json")
+      ->allow_extra_args(false)
+      ->option_text("DIR");
+  simulate->add_flag("--overwrite", words.scene.overwrite, "replace files that exist");
+  add_scene_options(*simulate, words);
+}
+
+void add_validate(CLI::App& app, Words& words) {
+  CLI::App* validate = app.add_subcommand("validate", "experiments, measured against theory and reference");
+  validate->add_option("FILES", words.validate.cases, "scenes with [[expect]]; default: the built-in experiments");
+  validate->add_option("--case", words.validate.cases, "a built-in experiment; may be given several times")
+      ->allow_extra_args(false)
+      ->option_text("NAME");
+  validate->add_flag("--list", words.validate.list, "name the built-in experiments, and stop");
+  validate->add_option("--model", words.model, "this law of the bricks only")->option_text("NAME");
+  validate->add_option("--poisson", words.poisson, "this Poisson's ratio only")->option_text("NU");
+  validate->add_option("--bricks", words.bricks, "this grid only, by the bricks along the longest side")
+      ->option_text("N");
+  validate->add_flag("--json", words.validate.json, "checks as JSON");
+  validate->add_option("--report", words.validate.report, "folder for report.html")->option_text("DIR");
+  validate->add_flag("--quiet", words.scene.quiet, "warnings and errors only");
+  validate->add_flag("--verbose", words.scene.verbose, "say why a model could not be carried through");
+  validate->allow_extras();
 }
 
 /// The first word that nothing was made for.
@@ -136,9 +172,9 @@ int thread_count(const std::string& text) {
   return threads;
 }
 
-AnimateOptions animate_options(const CLI::App& command, Words& words) {
+SceneOptions scene_options(const CLI::App& command, Words& words) {
   refuse_extras(command, "more than one input; what is");
-  AnimateOptions options = std::move(words.animate);
+  SceneOptions options = std::move(words.scene);
   for (std::size_t i = 0; i < kSceneOptions.size(); ++i) {
     const auto& [option, key, example] = kSceneOptions[i];
     if (command.count(option) > 0) options.settings.push_back({option, std::string(key), words.scene_values[i]});
@@ -148,11 +184,36 @@ AnimateOptions animate_options(const CLI::App& command, Words& words) {
   }
   if (!words.scenario.empty()) options.scenario = scenario_from_name(words.scenario);
   if (!words.threads.empty()) options.threads = thread_count(words.threads);
-  if (options.input.empty())
-    throw Error(ErrorKind::kUsage, "animate needs a mesh or a scene; see sprung animate --help");
-  if (options.outputs.empty() && !options.print_scene) {
-    throw Error(ErrorKind::kUsage, "animate needs an output: -o folder/, -o frame_{:04}.png or -o film.mp4");
+  const std::string name = command.get_name();
+  if (options.input.empty()) {
+    throw Error(ErrorKind::kUsage, fmt::format("{0} needs a mesh or a scene; see sprung {0} --help", name));
   }
+  if (options.outputs.empty() && !options.print_scene) {
+    throw Error(ErrorKind::kUsage, name == "animate"
+                                       ? "animate needs an output: -o folder/, -o frame_{:04}.png or -o film.mp4"
+                                       : "simulate needs an output: -o folder");
+  }
+  return options;
+}
+
+/// One value of a key of the scene, from the words after an option.
+template <class Value, class Owner>
+void read_choice(const CLI::App& command, const char* option, const char* key, const std::string& text,
+                 std::optional<Value>& value) {
+  if (command.count(option) == 0) return;
+  try {
+    parse_value(text, *find_key<Owner>(key), value);
+  } catch (const Error& error) {
+    throw Error(ErrorKind::kUsage, fmt::format("{}: {}", option, error.what()));
+  }
+}
+
+ValidateOptions validate_options(const CLI::App& command, Words& words) {
+  refuse_extras(command, "unexpected");
+  ValidateOptions options = std::move(words.validate);
+  read_choice<Model, SceneBody>(command, "--model", "model", words.model, options.choice.model);
+  read_choice<double, Material>(command, "--poisson", "poisson", words.poisson, options.choice.poisson);
+  read_choice<int, SceneBody>(command, "--bricks", "bricks", words.bricks, options.choice.bricks);
   return options;
 }
 
@@ -168,6 +229,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
       "Exit codes: 0 done, 1 failed, 2 wrong usage, 3 bad input, 4 diverged, 130 interrupted.");
   Words words;
   add_animate(app, words);
+  add_simulate(app, words);
+  add_validate(app, words);
   CLI::App* materials = app.add_subcommand("materials", "the library of materials, with sources");
   materials->allow_extras();
   CommandLine line;
@@ -186,8 +249,16 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     refuse_extras(*materials, "unexpected");
     line.command = CommandLine::Command::kMaterials;
   } else if (app.got_subcommand("animate")) {
-    line.animate = animate_options(*app.get_subcommand("animate"), words);
+    line.scene = scene_options(*app.get_subcommand("animate"), words);
     line.command = CommandLine::Command::kAnimate;
+  } else if (app.got_subcommand("simulate")) {
+    line.scene = scene_options(*app.get_subcommand("simulate"), words);
+    line.command = CommandLine::Command::kSimulate;
+  } else if (app.got_subcommand("validate")) {
+    line.validate = validate_options(*app.get_subcommand("validate"), words);
+    line.scene.quiet = words.scene.quiet;
+    line.scene.verbose = words.scene.verbose;
+    line.command = CommandLine::Command::kValidate;
   } else {
     line.text = app.help();
   }

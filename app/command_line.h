@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "app/scene.h"
+#include "app/validate/validate.h"
 
 namespace sprung {
 
@@ -14,8 +15,8 @@ struct Setting {
   std::string value;
 };
 
-/// What `sprung animate` was asked to do.
-struct AnimateOptions {
+/// What `sprung animate` and `sprung simulate` were asked to do.
+struct SceneOptions {
   std::string input;                 // a mesh or a scene
   std::vector<std::string> outputs;  // as typed
   std::vector<Setting> settings;
@@ -28,10 +29,11 @@ struct AnimateOptions {
 };
 
 struct CommandLine {
-  enum class Command { kShowText, kMaterials, kAnimate };
+  enum class Command { kShowText, kMaterials, kAnimate, kSimulate, kValidate };
   Command command = Command::kShowText;
-  std::string text;  // of kShowText: help or version
-  AnimateOptions animate;
+  std::string text;          // of kShowText: help or version
+  SceneOptions scene;        // of kAnimate and kSimulate
+  ValidateOptions validate;  // of kValidate
 };
 
 /// Throws Error(kUsage), with the nearest word for a mistyped command or option.

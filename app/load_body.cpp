@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numbers>
 #include <numeric>
 #include <span>
 
+#include "app/box_shape.h"
 #include "core/error.h"
 #include "core/mesh/read_mesh.h"
 
@@ -62,6 +64,40 @@ bool is_turned(const SurfaceMesh& mesh, const Solid& solid, int t) {
   return false;
 }
 
+void load_mesh(const SceneBody& body, LoadedBody& loaded, const Console& console) {
+  loaded.name = body.mesh.filename().string();
+  loaded.mesh = read_mesh(body.mesh);
+  const Vec3 extent = recentre(loaded.mesh);
+  const double length = extent.maxCoeff();
+  if (!(length > 0)) {
+    throw Error(ErrorKind::kBadInput, fmt::format("{}: all points of the mesh fall together", body.mesh.string()));
+  }
+  const double scale = scale_of(body, loaded.name, length, console);
+  loaded.mesh.positions *= scale;
+  loaded.extent = extent * scale;
+  loaded.brick_size =
+      body.brick_size ? *body.brick_size : scale * length / static_cast<double>(body.bricks.value_or(kDefaultBricks));
+}
+
+void load_box(const SceneBody& body, LoadedBody& loaded) {
+  loaded.name = "box";
+  loaded.extent = *body.box;
+  loaded.brick_size = body.brick_size
+                          ? *body.brick_size
+                          : loaded.extent.maxCoeff() / static_cast<double>(body.bricks.value_or(kDefaultBricks));
+  loaded.grid = box_grid(loaded.extent, loaded.brick_size, body.cuts);
+  loaded.mesh = surface_of(*loaded.grid);
+}
+
+/// Bricks found already do not turn with the body.
+void turn(const Mat3& rotation, LoadedBody& loaded) {
+  if (rotation.isIdentity(0)) return;
+  loaded.bricks_from_rest = rotation;
+  loaded.mesh.positions = loaded.mesh.positions * rotation.transpose();
+  loaded.mesh.normals = loaded.mesh.normals * rotation.transpose().cast<float>();
+  loaded.grid.reset();
+}
+
 }  // namespace
 
 SurfaceMesh submesh(const SurfaceMesh& mesh, const Solid& solid) {
@@ -71,6 +107,7 @@ SurfaceMesh submesh(const SurfaceMesh& mesh, const Solid& solid) {
     return solid.source[static_cast<std::size_t>(a)] < solid.source[static_cast<std::size_t>(b)];
   });
   std::vector<int> rows;
+  rows.reserve(order.size());
   for (const int t : order) rows.push_back(solid.source[static_cast<std::size_t>(t)]);
   SurfaceMesh part;
   part.triangles = mesh.triangles(rows, Eigen::all);
@@ -100,23 +137,27 @@ SurfaceMesh submesh(const SurfaceMesh& mesh, const Solid& solid) {
   return part;
 }
 
+Mat3 rotation_matrix(const Vec3& degrees) {
+  const Vec3 angles = degrees * std::numbers::pi / 180;
+  const Eigen::AngleAxisd about_x(angles.x(), Vec3::UnitX());
+  const Eigen::AngleAxisd about_y(angles.y(), Vec3::UnitY());
+  const Eigen::AngleAxisd about_z(angles.z(), Vec3::UnitZ());
+  return (about_z * about_y * about_x).toRotationMatrix();
+}
+
 LoadedBody load_body(const SceneBody& body, const Console& console) {
   LoadedBody loaded;
-  loaded.name = body.mesh.filename().string();
-  loaded.mesh = read_mesh(body.mesh);
-  const Vec3 extent = recentre(loaded.mesh);
-  const double length = extent.maxCoeff();
-  if (!(length > 0)) {
-    throw Error(ErrorKind::kBadInput, fmt::format("{}: all points of the mesh fall together", body.mesh.string()));
+  if (body.box) {
+    load_box(body, loaded);
+  } else {
+    load_mesh(body, loaded, console);
   }
-  const double scale = scale_of(body, loaded.name, length, console);
-  loaded.mesh.positions *= scale;
-  loaded.extent = extent * scale;
-  loaded.brick_size =
-      body.brick_size ? *body.brick_size : scale * length / static_cast<double>(body.bricks.value_or(kDefaultBricks));
-  Solids found = find_solids(loaded.mesh, body.mesh.string());
+  const std::string file = body.box ? loaded.name : body.mesh.string();
+  turn(rotation_matrix(body.brick_rotation), loaded);
+  Solids found = find_solids(loaded.mesh, file);
   for (const std::string& note : found.notes) console.warn(fmt::format("{}: {}", loaded.name, note));
   loaded.solids = std::move(found.solids);
+  if (loaded.solids.size() > 1) loaded.grid.reset();
   return loaded;
 }
 

@@ -1,23 +1,31 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/console.h"
 #include "app/scene.h"
+#include "core/bricks/brick_grid.h"
 #include "core/mesh/solids.h"
 
 namespace sprung {
 
-/// A body of the scene in its rest frame: metres, the middle of its bounding box at the origin, not yet turned.
+/// A body of the scene at rest: metres, the middle of its bounding box at the origin, turned so that its bricks are
+/// straight.
 struct LoadedBody {
   std::string name;  // of the file, for messages
   SurfaceMesh mesh;
   std::vector<Solid> solids;
-  Vec3 extent = Vec3::Zero();  // m, sides of the bounding box
-  double brick_size = 0;       // m
+  Mat3 bricks_from_rest = Mat3::Identity();  // how it was turned for that
+  Vec3 extent = Vec3::Zero();                // m, sides of the bounding box before that
+  double brick_size = 0;                     // m
+  std::optional<BrickGrid> grid;             // of a box; of a mesh the bricks are yet to be found
 };
 
-/// Reads the mesh, brings it to its size and finds its solids; says what it had to choose or to mend.
+/// The rotation about x, then y, then z, by degrees.
+[[nodiscard]] Mat3 rotation_matrix(const Vec3& degrees);
+
+/// Makes the box, or reads the mesh, brings it to its size and finds its solids; says what it had to choose or to mend.
 /// Throws Error(kBadInput).
 [[nodiscard]] LoadedBody load_body(const SceneBody& body, const Console& console);
 

@@ -7,6 +7,7 @@
 #include "app/command_line.h"
 #include "app/interrupt.h"
 #include "app/materials.h"
+#include "app/run_simulation.h"
 #include "core/error.h"
 
 namespace sprung {
@@ -15,10 +16,11 @@ namespace {
 constexpr int kFailed = static_cast<int>(ErrorKind::kFailed);
 constexpr int kInterrupted = 130;
 
-void run(int argc, const char* const* argv, Console& console) {
+/// The exit code.
+int run(int argc, const char* const* argv, Console& console) {
   const CommandLine line = parse_command_line(argc, argv);
-  console.quiet = line.animate.quiet;
-  console.verbose = line.animate.verbose;
+  console.quiet = line.scene.quiet;
+  console.verbose = line.scene.verbose;
   switch (line.command) {
     case CommandLine::Command::kShowText:
       fmt::print("{}", line.text);
@@ -27,9 +29,15 @@ void run(int argc, const char* const* argv, Console& console) {
       fmt::print("{}", materials_table());
       break;
     case CommandLine::Command::kAnimate:
-      animate(line.animate, console);
+      animate(line.scene, console);
       break;
+    case CommandLine::Command::kSimulate:
+      run_simulation(line.scene, console);
+      break;
+    case CommandLine::Command::kValidate:
+      return validate(line.validate, console) ? 0 : kFailed;
   }
+  return 0;
 }
 
 /// The exit code that fits how it ended.
@@ -37,8 +45,7 @@ int exit_code(int argc, const char* const* argv) {
   Console console = Console::of_process();
   catch_interrupts();
   try {
-    run(argc, argv, console);
-    return 0;
+    return run(argc, argv, console);
   } catch (const Interrupted&) {
     console.warn("interrupted");
     return kInterrupted;

@@ -26,7 +26,7 @@ void apply(const Setting& setting, Scene& scene) {
 
 }  // namespace
 
-Scene make_scene(const AnimateOptions& options) {
+Scene make_scene(const SceneOptions& options) {
   const bool is_scene = is_scene_file(options.input);
   if (is_scene && options.scenario) {
     throw Error(ErrorKind::kUsage, "--scenario is for a bare mesh; a scene file says itself what happens");

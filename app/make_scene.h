@@ -5,6 +5,6 @@ namespace sprung {
 
 /// The scene of a command line: options before scene file before defaults. Throws Error(kUsage) naming the option
 /// whose value is wrong, Error(kBadInput) for what is wrong in the scene file and for an unknown material.
-[[nodiscard]] Scene make_scene(const AnimateOptions& options);
+[[nodiscard]] Scene make_scene(const SceneOptions& options);
 
 }  // namespace sprung

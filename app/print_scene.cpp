@@ -9,11 +9,12 @@
 namespace sprung {
 namespace {
 
-/// Types that need a [section] of their own; they follow the plain keys of their table.
+/// Types that need a [section] or [[sections]] of their own; they follow the plain keys of their table.
 template <class Value>
 constexpr bool kIsSection = std::is_same_v<Value, SceneCamera> || std::is_same_v<Value, SceneRender> ||
-                            std::is_same_v<Value, std::vector<Pin>> || std::is_same_v<Value, std::vector<SceneBody>> ||
-                            std::is_same_v<Value, std::vector<Obstacle>>;
+                            std::is_same_v<Value, SceneSolver> || std::is_same_v<Value, Experiment>;
+template <class Owner>
+constexpr bool kIsSection<std::vector<Owner>> = std::is_class_v<Owner>;
 
 template <class Owner>
 std::string inline_table(const Owner& owner);
@@ -51,6 +52,11 @@ std::string assignment(std::string_view name, const Value& value) {
 template <class Value>
 std::string assignment(std::string_view name, const std::optional<Value>& value) {
   return value ? assignment(name, *value) : "";
+}
+template <class Value>
+requires requires(const Value& value) { value.empty(); }
+std::string assignment(std::string_view name, const Value& value) {
+  return value.empty() ? "" : fmt::format("{} = {}", name, value_text(value));
 }
 
 template <class Owner>
@@ -97,6 +103,7 @@ class Printer {
  private:
   template <class Value>
   void section(const Value& value, const std::string& path) {
+    if (assignments(value).empty()) return;
     text_ += fmt::format("\n[{}]\n", path);
     print(value, path);
   }

@@ -23,13 +23,13 @@ struct Reach {
 
 /// Rows: the centre of each face, edge and corner of a cube.
 Eigen::Matrix<double, 26, 3> directions() {
-  Eigen::Matrix<double, 26, 3> rows;
+  Eigen::Matrix<int, 26, 3> rows;
   int row = 0;
   for (int i = 0; i < 27; ++i) {
     if (i == 13) continue;
     rows.row(row++) << i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1;
   }
-  return rows;
+  return rows.cast<double>();
 }
 
 Reach reach_of(const Production& production, const Recording& recording) {

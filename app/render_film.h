@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "app/output.h"
-#include "app/simulate.h"
+#include "app/recording.h"
 
 namespace sprung {
 

@@ -12,11 +12,19 @@ constexpr double kHeldFraction = 0.08;
 
 }  // namespace
 
-int frame_count(const Scene& scene) { return std::max(1, static_cast<int>(std::lround(scene.duration * scene.fps))); }
+bool is_motion(const Scene& scene) {
+  return scene.solver.scheme == Solver::kEuler || scene.solver.scheme == Solver::kVerlet;
+}
+
+int frame_count(const Scene& scene) {
+  const bool has_loads = scene.solver.scheme == Solver::kStatic || scene.solver.scheme == Solver::kLinear;
+  if (has_loads && scene.solver.load_steps) return *scene.solver.load_steps + 1;
+  return std::max(1, static_cast<int>(std::lround(scene.duration * scene.fps)));
+}
 
 Scene with_defaults(Scene scene) {
   for (SceneBody& body : scene.bodies) {
-    if (!body.size && !body.scale) body.size = kDefaultSize;
+    if (!body.size && !body.scale && !body.box) body.size = kDefaultSize;
     if (!body.bricks && !body.brick_size) body.bricks = kDefaultBricks;
   }
   return scene;
@@ -25,13 +33,13 @@ Scene with_defaults(Scene scene) {
 void stage_scenario(Scene& scene, Scenario scenario) {
   scene.obstacles = {Obstacle{}};
   for (SceneBody& body : scene.bodies) {
-    const double size = body.size.value_or(kDefaultSize);
+    const double size = body.box ? body.box->maxCoeff() : body.size.value_or(kDefaultSize);
     if (scenario == Scenario::kDrop) {
       body.position.y() = kDropHeight * size;
       body.rotation = Vec3(12, 0, 9);
     } else {
       body.position.y() = kHangHeight * size;
-      body.pins = {Pin{.box = {.min = Vec3(0, 1 - kHeldFraction, 0)}}};
+      body.pins = {Pin{.name = "top", .box = {.min = Vec3(0, 1 - kHeldFraction, 0)}}};
     }
   }
 }

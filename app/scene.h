@@ -3,11 +3,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/law/brick_law.h"
 #include "core/law/material.h"
-#include "core/motion/integrator.h"
 #include "core/types.h"
 
 namespace sprung {
@@ -29,25 +29,102 @@ struct Box {
   Vec3 max = Vec3::Ones();
 };
 
-/// The nodes in the box are held where they start.
+/// Directions of the world, x y z.
+struct Axes {
+  std::array<bool, 3> held{true, true, true};
+};
+
+/// The nodes in the box are held along some directions, and carried along those by a movement that grows evenly from
+/// nothing at the start to this at the end of the film: a rotation about the middle of the box, then a shift. The box
+/// is placed in the body at rest, the directions are those of the world.
 struct Pin {
+  std::string name{};
+  Box box{};
+  Axes axes{};
+  Vec3 translate = Vec3::Zero();  // m
+  Vec3 rotate = Vec3::Zero();     // degrees about x, then y, then z
+};
+
+/// A part of a body made of another material: the bricks whose middles are in the box.
+struct Region {
+  Box box;
+  Material material;
+};
+
+/// A part taken out of a box: the bricks whose middles are in it.
+struct Cut {
   Box box;
 };
 
-/// A mesh file and how it enters the scene. Every solid in the file becomes a soft body of its own.
+/// A mesh file or a box, and how it enters the scene. Every solid in a file becomes a soft body of its own.
 struct SceneBody {
-  std::filesystem::path mesh;        // absolute
-  std::optional<double> size;        // m, longest side of the bounding box; or
-  std::optional<double> scale;       // m per unit of the file
-  Vec3 position = Vec3::Zero();      // m; where the middle of the bottom of the bounding box goes, after the rotation
-  Vec3 rotation = Vec3::Zero();      // degrees about x, then y, then z, around the middle of the bounding box
-  std::optional<int> bricks;         // along the longest side; or
-  std::optional<double> brick_size;  // m
+  std::filesystem::path mesh;          // absolute; or
+  std::optional<Vec3> box;             // m, sides of a box that is exactly as many bricks as fit in it
+  std::vector<Cut> cuts;               // of a box
+  std::optional<double> size;          // m, longest side of the bounding box; or
+  std::optional<double> scale;         // m per unit of the file
+  Vec3 position = Vec3::Zero();        // m; where the middle of the bottom of the bounding box goes, after the rotation
+  Vec3 rotation = Vec3::Zero();        // degrees about x, then y, then z, around the middle of the bounding box
+  std::optional<int> bricks;           // along the longest side; or
+  std::optional<double> brick_size;    // m
+  Vec3 brick_rotation = Vec3::Zero();  // degrees, about x, then y, then z: how the bricks are turned in the body
   Material material = find_material(kDefaultMaterial);
   Model model = Model::kCalibrated;
   std::optional<Color> color;    // of what the file leaves without colour
   Vec3 velocity = Vec3::Zero();  // m/s
   std::vector<Pin> pins;
+  std::vector<Region> regions;
+};
+
+/// How the frames come about.
+enum class Solver {
+  kEuler,   // motion in time, symplectic Euler
+  kVerlet,  // motion in time, velocity Verlet
+  kStatic,  // equilibrium, the load (gravity and the pins' movements) growing from frame to frame
+  kLinear,  // the same for small displacements
+  kModes    // the slowest natural vibrations, one after the other
+};
+
+struct SceneSolver {
+  Solver scheme = Solver::kEuler;
+  std::optional<int> load_steps;  // of kStatic and kLinear, one a frame; as many as the film has time for
+  int modes = 6;
+};
+
+/// What is measured in every frame: where a point of a body goes, or what a pin does.
+struct Probe {
+  std::string name;
+  int body = 1;               // counted from 1
+  std::optional<Vec3> point;  // m, from the middle of the bounding box of the body at rest, before it is turned; or
+  std::string pin;            // the name of one of the body's pins
+};
+
+/// What to vary where a scene is used as an experiment; empty: as the scene has it.
+struct Experiment {
+  std::string title;
+  std::vector<Model> models;
+  std::vector<double> poisson;
+  std::vector<int> bricks;  // along the longest side
+};
+
+/// How near an expectation has to be met, by these models (none: calibrated) on these grids (none: all).
+struct Gate {
+  std::vector<Model> models;
+  std::vector<int> bricks;
+  std::optional<double> tolerance;     // relative; absolute where 0 is expected; or
+  std::optional<Model> no_worse_than;  // the error that this model makes on the same grid
+};
+
+/// What a quantity should be in the last frame: "tip.displacement.y", "end.torque.x", "frequency.1". Where it speaks
+/// of Poisson's ratios, grids or models, for those only.
+struct Expectation {
+  std::string quantity;
+  double value = 0;  // SI
+  std::string source;
+  std::vector<double> poisson;
+  std::vector<int> bricks;
+  std::vector<Model> models;
+  std::vector<Gate> gates;
 };
 
 struct Plane {
@@ -78,14 +155,20 @@ struct Scene {
   double duration = 3;  // s
   double fps = 24;
   Vec3 gravity{0, -9.81, 0};
-  Scheme scheme = Scheme::kSymplecticEuler;
+  SceneSolver solver;
   SceneCamera camera;
   SceneRender render;
   std::vector<SceneBody> bodies;
   std::vector<Obstacle> obstacles;
+  std::vector<Probe> probes;
+  Experiment experiment;
+  std::vector<Expectation> expectations;
 };
 
-/// Pictures of the film: frame i (from 0) shows t = i / fps. At least 1.
+/// Whether the scene is moved through time; else its frames are states of rest or shapes.
+[[nodiscard]] bool is_motion(const Scene& scene);
+
+/// Pictures of the film: frame i (from 0) shows t = i / fps. At least 1; with load steps one more than those.
 [[nodiscard]] int frame_count(const Scene& scene);
 
 /// The scene with the size and the bricks of its bodies filled in where it leaves them open.

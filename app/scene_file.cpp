@@ -161,7 +161,7 @@ class Reader {
     value_of(node, path, key, value.emplace());
   }
 
-  /// Scheme, Model, Color.
+  /// Solver, Model, Axes, Color, names.
   template <Word Value>
   void value_of(const toml::node& node, const std::string&, const KeyInfo& key, Value& value) {
     const auto* text = node.as_string();
@@ -176,8 +176,19 @@ class Reader {
     read(*node.as_table(), path, value);
   }
 
+  template <Word Value>
+  void value_of(const toml::node& node, const std::string& path, const KeyInfo& key, std::vector<Value>& values) {
+    const toml::array* array = node.as_array();
+    if (array == nullptr) refuse_type(node, "an array");
+    values.resize(array->size());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      try_value((*array)[i], fmt::format("{}[{}]", path, i), key, values[i]);
+    }
+  }
+
   template <class Owner>
-  void value_of(const toml::node& node, const std::string& path, const KeyInfo& key, std::vector<Owner>& values) {
+  requires(!Word<Owner>) void value_of(const toml::node& node, const std::string& path, const KeyInfo& key,
+                                       std::vector<Owner>& values) {
     const toml::array* array = node.as_array();
     if (array == nullptr || !array->is_array_of_tables()) {
       refuse_type(node, fmt::format("written as [[{}]]", path));
@@ -188,9 +199,33 @@ class Reader {
   template <class Owner>
   void check(const toml::table&, const std::string&, const Owner&) {}
 
-  void check(const toml::table& table, const std::string& path, const SceneBody&) {
+  void check(const toml::table& table, const std::string& path, const SceneBody& body) {
+    require_one(table, path, "mesh", "box");
     refuse_both(table, path, "size", "scale");
+    refuse_both(table, path, "box", "size");
+    refuse_both(table, path, "box", "scale");
+    refuse_both(table, path, "mesh", "cut");
     refuse_both(table, path, "bricks", "brick_size");
+    if (!body.regions.empty()) check_regions(*table.get("region")->as_array(), path, body);
+  }
+
+  /// A brick's law depends on its Poisson's ratio in many constants, on its stiffness in one factor.
+  void check_regions(const toml::array& regions, const std::string& path, const SceneBody& body) {
+    for (std::size_t i = 0; i < body.regions.size(); ++i) {
+      if (body.regions[i].material.poisson == body.material.poisson) continue;
+      mistakes_.add(regions[i].source(),
+                    fmt::format("{}.region: its Poisson's ratio {} is not that of the body, {}; the materials of one "
+                                "body may differ in stiffness and density only",
+                                path, body.regions[i].material.poisson, body.material.poisson));
+    }
+  }
+
+  void check(const toml::table& table, const std::string& path, const Gate&) {
+    require_one(table, path, "tolerance", "no_worse_than");
+  }
+
+  void check(const toml::table& table, const std::string& path, const Probe&) {
+    require_one(table, path, "point", "pin");
   }
 
   void check(const toml::table& table, const std::string& path, const Box& box) {
@@ -199,8 +234,38 @@ class Reader {
   }
 
   void check(const toml::table& table, const std::string&, const Scene& scene) {
-    if (scene.obstacles.size() < 2) return;
-    mistakes_.add((*table.get("obstacle")->as_array())[1].source(), "a scene can have one [[obstacle]] only");
+    if (!scene.probes.empty()) check_probes(*table.get("probe")->as_array(), scene);
+    if (scene.obstacles.empty()) return;
+    const toml::array& obstacles = *table.get("obstacle")->as_array();
+    if (scene.obstacles.size() > 1) mistakes_.add(obstacles[1].source(), "a scene can have one [[obstacle]] only");
+    if (!is_motion(scene)) {
+      mistakes_.add(obstacles[0].source(), "only a motion (solver.scheme euler or verlet) meets an [[obstacle]]");
+    }
+  }
+
+  void check_probes(const toml::array& probes, const Scene& scene) {
+    for (std::size_t i = 0; i < scene.probes.size(); ++i) {
+      const Probe& probe = scene.probes[i];
+      const auto body = static_cast<std::size_t>(probe.body - 1);
+      if (body >= scene.bodies.size()) {
+        mistakes_.add(probes[i].source(), fmt::format("probe.body: there is no body {}", probe.body));
+      } else if (!probe.pin.empty()) {
+        check_pin(probes[i], probe.pin, scene.bodies[body]);
+      }
+    }
+  }
+
+  void check_pin(const toml::node& node, const std::string& name, const SceneBody& body) {
+    std::vector<std::string_view> names;
+    for (const Pin& pin : body.pins) names.push_back(pin.name);
+    if (std::find(names.begin(), names.end(), name) != names.end()) return;
+    mistakes_.add(node.source(), fmt::format("probe.pin: the body has no pin '{}'{}", name, did_you_mean(name, names)));
+  }
+
+  void require_one(const toml::table& table, const std::string& path, std::string_view first, std::string_view second) {
+    refuse_both(table, path, first, second);
+    if (table.contains(first) || table.contains(second)) return;
+    mistakes_.add(table.source(), fmt::format("{} lacks the key '{}' or '{}'", path, first, second));
   }
 
   void refuse_both(const toml::table& table, const std::string& path, std::string_view first, std::string_view second) {

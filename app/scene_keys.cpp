@@ -12,15 +12,27 @@ const Key<Scene> kScene[] = {
     {{"duration", "length of the film", Dimension::kTime, {0, 3600, true}}, &Scene::duration},
     {{"fps", "pictures a second", Dimension::kRate, {0, 10000, true}}, &Scene::fps},
     {{"gravity", "acceleration of everything", Dimension::kAcceleration}, &Scene::gravity},
-    {{"scheme", "how the motion is stepped: euler (symplectic) or verlet"}, &Scene::scheme},
+    {{"solver", "how the frames come about"}, &Scene::solver},
     {{"camera", "where the film is seen from"}, &Scene::camera},
     {{"render", "the pictures"}, &Scene::render},
-    {{"body", "a mesh made of a soft material", Dimension::kNone, {}, true}, &Scene::bodies},
+    {{"body", "a mesh or a box made of a soft material", Dimension::kNone, {}, true}, &Scene::bodies},
     {{"obstacle", "the ground"}, &Scene::obstacles},
+    {{"probe", "what is measured in every frame"}, &Scene::probes},
+    {{"experiment", "what `sprung validate` varies"}, &Scene::experiment},
+    {{"expect", "what `sprung validate` compares with"}, &Scene::expectations},
+};
+
+const Key<SceneSolver> kSolver[] = {
+    {{"scheme", "motion by euler (symplectic) or verlet; static or linear equilibrium; or modes of vibration"},
+     &SceneSolver::scheme},
+    {{"load_steps", "frames in which a static load grows", Dimension::kNone, {1, 100000}}, &SceneSolver::load_steps},
+    {{"modes", "how many of the slowest vibrations", Dimension::kNone, {1, 1000}}, &SceneSolver::modes},
 };
 
 const Key<SceneBody> kBody[] = {
-    {{"mesh", "file of the surface, relative to the scene file", Dimension::kNone, {}, true}, &SceneBody::mesh},
+    {{"mesh", "file of the surface, relative to the scene file"}, &SceneBody::mesh},
+    {{"box", "sides of a box; instead of mesh", Dimension::kLength, kPositive}, &SceneBody::box},
+    {{"cut", "parts taken out of a box"}, &SceneBody::cuts},
     {{"size", "longest side of the body", Dimension::kLength, kPositive}, &SceneBody::size},
     {{"scale", "length of one unit of the mesh file; instead of size", Dimension::kLength, kPositive},
      &SceneBody::scale},
@@ -28,12 +40,16 @@ const Key<SceneBody> kBody[] = {
     {{"rotation", "about x, then y, then z, around its middle", Dimension::kAngle}, &SceneBody::rotation},
     {{"bricks", "number of bricks along the longest side", Dimension::kNone, {1, 1024}}, &SceneBody::bricks},
     {{"brick_size", "side of a brick; instead of bricks", Dimension::kLength, kPositive}, &SceneBody::brick_size},
+    {{"brick_rotation", "how the bricks are turned in the body, about x, then y, then z", Dimension::kAngle},
+     &SceneBody::brick_rotation},
     {{"material", "a name from `sprung materials`; in a scene also { young, poisson, density, damping }"},
      &SceneBody::material},
-    {{"model", "law of the bricks: calibrated or tensile (Baudet et al. 2009)"}, &SceneBody::model},
+    {{"model", "law of the bricks: calibrated, tensile (Baudet et al. 2009), m1, m2-plain, m1-plain or fem"},
+     &SceneBody::model},
     {{"color", "of what the mesh file leaves without colour: \"#rrggbb\""}, &SceneBody::color},
     {{"velocity", "at the start", Dimension::kSpeed}, &SceneBody::velocity},
     {{"pin", "nodes that are held"}, &SceneBody::pins},
+    {{"region", "parts of another material"}, &SceneBody::regions},
 };
 
 const Key<Material> kMaterial[] = {
@@ -44,7 +60,57 @@ const Key<Material> kMaterial[] = {
 };
 
 const Key<Pin> kPin[] = {
+    {{"name", "for probes"}, &Pin::name},
     {{"box", "which nodes, in fractions of the body's bounding box", Dimension::kNone, {}, true}, &Pin::box},
+    {{"axes", "the directions that are held: \"xyz\", \"x\", \"yz\" ..."}, &Pin::axes},
+    {{"translate", "how far they are carried by the end of the film", Dimension::kLength}, &Pin::translate},
+    {{"rotate", "how far they are turned about the middle of the box by then", Dimension::kAngle}, &Pin::rotate},
+};
+
+const Key<Region> kRegion[] = {
+    {{"box", "which bricks, in fractions of the body's bounding box", Dimension::kNone, {}, true}, &Region::box},
+    {{"material", "what they are made of", Dimension::kNone, {}, true}, &Region::material},
+};
+
+const Key<Cut> kCut[] = {
+    {{"box", "which bricks, in fractions of the body's bounding box", Dimension::kNone, {}, true}, &Cut::box},
+};
+
+const Key<Probe> kProbe[] = {
+    {{"name", "of its columns", Dimension::kNone, {}, true}, &Probe::name},
+    {{"body", "which one, counted from 1", Dimension::kNone, {1, kInfinity}}, &Probe::body},
+    {{"point", "place in the body, from the middle of its bounding box", Dimension::kLength}, &Probe::point},
+    {{"pin", "name of a pin of the body; instead of point"}, &Probe::pin},
+};
+
+const Key<Experiment> kExperiment[] = {
+    {{"title", "of the experiment"}, &Experiment::title},
+    {{"models", "laws of the bricks"}, &Experiment::models},
+    {{"poisson", "Poisson's ratios", Dimension::kNone, {-1, 0.5, true, true}}, &Experiment::poisson},
+    {{"bricks", "numbers of bricks along the longest side", Dimension::kNone, {1, 1024}}, &Experiment::bricks},
+};
+
+const Key<Expectation> kExpectation[] = {
+    {{"quantity", "\"tip.displacement.y\", \"end.torque.x\", \"frequency.1\" ...", Dimension::kNone, {}, true},
+     &Expectation::quantity},
+    {{"value", "in SI units, in the last frame", Dimension::kNone, {}, true}, &Expectation::value},
+    {{"source", "where the value is from", Dimension::kNone, {}, true}, &Expectation::source},
+    {{"poisson", "Poisson's ratios that it holds for; all", Dimension::kNone, {-1, 0.5, true, true}},
+     &Expectation::poisson},
+    {{"bricks", "grids that it holds for, by the bricks along the longest side; all", Dimension::kNone, {1, 1024}},
+     &Expectation::bricks},
+    {{"models", "laws of the bricks that it holds for; all"}, &Expectation::models},
+    {{"gate", "how near it has to be met"}, &Expectation::gates},
+};
+
+const Key<Gate> kGate[] = {
+    {{"models", "who has to meet it; calibrated"}, &Gate::models},
+    {{"bricks", "on which grids, by the bricks along the longest side; all", Dimension::kNone, {1, 1024}},
+     &Gate::bricks},
+    {{"tolerance", "relative error allowed; absolute where 0 is expected", Dimension::kRatio, {0, kInfinity}},
+     &Gate::tolerance},
+    {{"no_worse_than", "a model whose error on the same grid is the tolerance; instead of tolerance"},
+     &Gate::no_worse_than},
 };
 
 const Key<Box> kBox[] = {
@@ -114,6 +180,34 @@ std::span<const Key<SceneCamera>> keys() {
 template <>
 std::span<const Key<SceneRender>> keys() {
   return kRender;
+}
+template <>
+std::span<const Key<SceneSolver>> keys() {
+  return kSolver;
+}
+template <>
+std::span<const Key<Region>> keys() {
+  return kRegion;
+}
+template <>
+std::span<const Key<Cut>> keys() {
+  return kCut;
+}
+template <>
+std::span<const Key<Probe>> keys() {
+  return kProbe;
+}
+template <>
+std::span<const Key<Experiment>> keys() {
+  return kExperiment;
+}
+template <>
+std::span<const Key<Gate>> keys() {
+  return kGate;
+}
+template <>
+std::span<const Key<Expectation>> keys() {
+  return kExpectation;
 }
 
 }  // namespace sprung

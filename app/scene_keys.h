@@ -29,11 +29,16 @@ struct KeyInfo {
 
 /// The field that a key sets. Its type is the type of the key, its value in a new Owner the default.
 template <class Owner>
-using Member = std::variant<double Owner::*, std::optional<double> Owner::*, int Owner::*, std::optional<int> Owner::*,
-                            Vec3 Owner::*, std::array<int, 2> Owner::*, std::filesystem::path Owner::*, Scheme Owner::*,
-                            Model Owner::*, std::optional<Color> Owner::*, Material Owner::*, Box Owner::*,
-                            Plane Owner::*, SceneCamera Owner::*, SceneRender Owner::*, std::vector<Pin> Owner::*,
-                            std::vector<SceneBody> Owner::*, std::vector<Obstacle> Owner::*>;
+using Member =
+    std::variant<double Owner::*, std::optional<double> Owner::*, int Owner::*, std::optional<int> Owner::*,
+                 Vec3 Owner::*, std::optional<Vec3> Owner::*, std::array<int, 2> Owner::*, std::string Owner::*,
+                 std::filesystem::path Owner::*, Solver Owner::*, Model Owner::*, std::optional<Model> Owner::*,
+                 Axes Owner::*, std::optional<Color> Owner::*, Material Owner::*, Box Owner::*, Plane Owner::*,
+                 SceneCamera Owner::*, SceneRender Owner::*, SceneSolver Owner::*, Experiment Owner::*,
+                 std::vector<double> Owner::*, std::vector<int> Owner::*, std::vector<Model> Owner::*,
+                 std::vector<Pin> Owner::*, std::vector<Region> Owner::*, std::vector<Cut> Owner::*,
+                 std::vector<SceneBody> Owner::*, std::vector<Obstacle> Owner::*, std::vector<Probe> Owner::*,
+                 std::vector<Gate> Owner::*, std::vector<Expectation> Owner::*>;
 
 template <class Owner>
 struct Key : KeyInfo {
@@ -63,6 +68,20 @@ template <>
 std::span<const Key<SceneCamera>> keys();
 template <>
 std::span<const Key<SceneRender>> keys();
+template <>
+std::span<const Key<SceneSolver>> keys();
+template <>
+std::span<const Key<Region>> keys();
+template <>
+std::span<const Key<Cut>> keys();
+template <>
+std::span<const Key<Probe>> keys();
+template <>
+std::span<const Key<Experiment>> keys();
+template <>
+std::span<const Key<Gate>> keys();
+template <>
+std::span<const Key<Expectation>> keys();
 
 /// The key of that name, or null.
 template <class Owner>

@@ -14,8 +14,13 @@
 namespace sprung {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, Scheme>, 2> kSchemes{
-    {{"euler", Scheme::kSymplecticEuler}, {"verlet", Scheme::kVerlet}}};
+constexpr std::array<std::pair<std::string_view, Solver>, 5> kSolvers{{{"euler", Solver::kEuler},
+                                                                       {"verlet", Solver::kVerlet},
+                                                                       {"static", Solver::kStatic},
+                                                                       {"linear", Solver::kLinear},
+                                                                       {"modes", Solver::kModes}}};
+
+constexpr std::string_view kAxisNames = "xyz";
 
 std::string range_text(const KeyInfo& key) {
   const Range& range = key.range;
@@ -76,12 +81,26 @@ void parse_value(std::string_view text, const KeyInfo& key, std::array<int, 2>& 
 
 void parse_value(std::string_view text, const KeyInfo&, std::filesystem::path& value) { value = text; }
 
-void parse_value(std::string_view text, const KeyInfo&, Scheme& value) {
+void parse_value(std::string_view text, const KeyInfo&, std::string& value) { value = text; }
+
+void parse_value(std::string_view text, const KeyInfo&, Axes& value) {
+  value.held = {false, false, false};
+  for (const char letter : text) {
+    const auto axis = kAxisNames.find(letter);
+    if (axis == std::string_view::npos || value.held[axis]) {
+      throw Error(ErrorKind::kBadInput, fmt::format("'{}' are no directions; write some of \"xyz\"", text));
+    }
+    value.held[axis] = true;
+  }
+  if (text.empty()) throw Error(ErrorKind::kBadInput, "must name a direction at least: some of \"xyz\"");
+}
+
+void parse_value(std::string_view text, const KeyInfo&, Solver& value) {
   std::vector<std::string_view> names;
-  for (const auto& [name, scheme] : kSchemes) {
+  for (const auto& [name, solver] : kSolvers) {
     names.push_back(name);
     if (name == text) {
-      value = scheme;
+      value = solver;
       return;
     }
   }
@@ -117,14 +136,23 @@ std::string toml_text(std::string_view value) {
   return text + '"';
 }
 
+std::string toml_text(const std::string& value) { return toml_text(std::string_view(value)); }
 std::string toml_text(const std::filesystem::path& value) { return toml_text(std::string_view(value.native())); }
 std::string toml_text(Model value) { return toml_text(model_name(value)); }
 
-std::string toml_text(Scheme value) {
-  for (const auto& [name, scheme] : kSchemes) {
-    if (scheme == value) return toml_text(name);
+std::string toml_text(Solver value) {
+  for (const auto& [name, solver] : kSolvers) {
+    if (solver == value) return toml_text(name);
   }
   return "";
+}
+
+std::string toml_text(const Axes& value) {
+  std::string names;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (value.held[axis]) names += kAxisNames[axis];
+  }
+  return toml_text(std::string_view(names));
 }
 
 std::string toml_text(const Color& value) {

@@ -15,12 +15,15 @@ void parse_value(std::string_view text, const KeyInfo& key, double& value);
 void parse_value(std::string_view text, const KeyInfo& key, int& value);
 void parse_value(std::string_view text, const KeyInfo& key, std::array<int, 2>& value);
 void parse_value(std::string_view text, const KeyInfo& key, std::filesystem::path& value);
-void parse_value(std::string_view text, const KeyInfo& key, Scheme& value);
+void parse_value(std::string_view text, const KeyInfo& key, std::string& value);
+void parse_value(std::string_view text, const KeyInfo& key, Solver& value);
+void parse_value(std::string_view text, const KeyInfo& key, Axes& value);
 void parse_value(std::string_view text, const KeyInfo& key, Model& value);
 void parse_value(std::string_view text, const KeyInfo& key, Color& value);
 void parse_value(std::string_view text, const KeyInfo& key, Material& value);
 
 template <class Value>
+requires requires(std::string_view text, const KeyInfo& key, Value& value) { parse_value(text, key, value); }
 void parse_value(std::string_view text, const KeyInfo& key, std::optional<Value>& value) {
   parse_value(text, key, value.emplace());
 }
@@ -31,9 +34,18 @@ void parse_value(std::string_view text, const KeyInfo& key, std::optional<Value>
 [[nodiscard]] std::string toml_text(const Vec3& value);
 [[nodiscard]] std::string toml_text(const std::array<int, 2>& value);
 [[nodiscard]] std::string toml_text(std::string_view value);
+[[nodiscard]] std::string toml_text(const std::string& value);
 [[nodiscard]] std::string toml_text(const std::filesystem::path& value);
-[[nodiscard]] std::string toml_text(Scheme value);
+[[nodiscard]] std::string toml_text(Solver value);
+[[nodiscard]] std::string toml_text(const Axes& value);
 [[nodiscard]] std::string toml_text(Model value);
 [[nodiscard]] std::string toml_text(const Color& value);
+
+template <class Value>
+[[nodiscard]] std::string toml_text(const std::vector<Value>& values) {
+  std::string text;
+  for (const Value& value : values) text += (text.empty() ? "" : ", ") + toml_text(value);
+  return "[" + text + "]";
+}
 
 }  // namespace sprung

@@ -27,6 +27,17 @@ void set_field(Value& value, const KeyInfo& key, std::string_view rest, std::str
 }
 
 void set_field(Vec3&, const KeyInfo& key, std::string_view, std::string_view) { refuse(key.name); }
+void set_field(std::optional<Vec3>&, const KeyInfo& key, std::string_view, std::string_view) { refuse(key.name); }
+
+template <class Value>
+concept Word = requires(std::string_view text, const KeyInfo& key, Value& value) {
+  parse_value(text, key, value);
+};
+
+template <Word Value>
+void set_field(std::vector<Value>&, const KeyInfo& key, std::string_view, std::string_view) {
+  refuse(key.name);
+}
 
 void set_field(Material& material, const KeyInfo& key, std::string_view rest, std::string_view text) {
   if (rest.empty()) return parse_value(text, key, material);
@@ -36,7 +47,8 @@ void set_field(Material& material, const KeyInfo& key, std::string_view rest, st
 }
 
 template <class Owner>
-void set_field(std::vector<Owner>& owners, const KeyInfo&, std::string_view rest, std::string_view text) {
+requires(!Word<Owner>) void set_field(std::vector<Owner>& owners, const KeyInfo&, std::string_view rest,
+                                      std::string_view text) {
   for (Owner& owner : owners) set_key(owner, rest, text);
 }
 

@@ -5,9 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/equilibrium.h"
 #include "app/interrupt.h"
+#include "app/pin_movements.h"
 #include "app/progress.h"
 #include "app/units.h"
+#include "core/motion/integrator.h"
+#include "core/motion/statics.h"
 
 namespace sprung {
 namespace {
@@ -23,12 +27,6 @@ double brick_count(const World& world) {
   double count = 0;
   for (const Actor& actor : world.actors) count += actor.body.grid.brick_count();
   return count;
-}
-
-std::vector<Floats3> node_positions(const World& world) {
-  std::vector<Floats3> positions;
-  for (const Actor& actor : world.actors) positions.emplace_back(actor.body.positions.cast<float>());
-  return positions;
 }
 
 int inverted_bricks(const World& world) {
@@ -64,27 +62,46 @@ void forecast(const Steps& steps, double brick_steps, const Console& console) {
 /// One frame of motion in chunks.
 class Runner {
  public:
-  Runner(World& world, const Scene& scene, const Console& console)
-      : world_(world),
-        scheme_(scene.scheme),
+  Runner(Production& production, const Scene& scene, const Console& console)
+      : production_(production),
+        world_(production.world),
+        scene_(scene),
         console_(console),
-        steps_(steps_of(world, scene)),
-        bricks_(brick_count(world)),
+        steps_(steps_of(world_, scene)),
+        bricks_(brick_count(world_)),
         total_(bricks_ * static_cast<double>(steps_.per_frame) * (frame_count(scene) - 1)),
         progress_(console, "simulate", total_, 1e-6, "M brick-steps/s") {
     forecast(steps_, total_, console);
   }
 
-  void run_frame() {
+  /// From the frame before to this one.
+  void run_frame(int frame) {
+    aim_pins(share_of(frame));
     for (long left = steps_.per_frame; left > 0;) {
       stop_if_interrupted();
       const long steps = std::min(left, steps_.per_chunk);
-      advance(world_, scheme_, steps_.dt, steps, steps_.dt * static_cast<double>(steps_done_));
+      advance(world_, scheme(), steps_.dt, steps, steps_.dt * static_cast<double>(steps_done_));
       steps_done_ += steps;
       left -= steps;
       progress_.update(bricks_ * static_cast<double>(steps_done_));
       warn_of_long_run();
     }
+  }
+
+  /// Of the pins' movement, done at a frame.
+  [[nodiscard]] double share_of(int frame) const {
+    return static_cast<double>(frame) / std::max(1, frame_count(scene_) - 1);
+  }
+
+  /// Of the pins, as the bodies stand: what accelerates a held node's own mass is left out.
+  [[nodiscard]] std::vector<Points> pin_reactions() const {
+    std::vector<Points> all;
+    if (scene_.probes.empty()) return all;
+    for (const Actor& actor : world_.actors) {
+      const Points weight = actor.body.masses * world_.gravity.transpose();
+      all.push_back(reactions(actor.body, supports_of(actor), weight));
+    }
+    return all;
   }
 
   void finish(int frames) {
@@ -101,8 +118,26 @@ class Runner {
         fmt::format("the simulation needs about {} more; {}", duration_text(progress_.seconds_to_go()), kRemedy));
   }
 
+  [[nodiscard]] Scheme scheme() const {
+    return scene_.solver.scheme == Solver::kVerlet ? Scheme::kVerlet : Scheme::kSymplecticEuler;
+  }
+
+  /// Gives held nodes the velocities that bring them along in a frame's time.
+  void aim_pins(double share) {
+    const double time = steps_.dt * static_cast<double>(steps_.per_frame);
+    for (std::size_t i = 0; i < world_.actors.size(); ++i) {
+      if (!has_moving_pins(scene_, production_, i)) continue;
+      Actor& actor = world_.actors[i];
+      const Points goal = actor.body.rest_positions + pin_movements(scene_, production_, i, share, false);
+      for (HeldNode& held : actor.pinned) {
+        held.velocity = (goal.row(held.node) - actor.body.positions.row(held.node)).transpose() / time;
+      }
+    }
+  }
+
+  Production& production_;
   World& world_;
-  Scheme scheme_;
+  const Scene& scene_;
   const Console& console_;
   Steps steps_;
   double bricks_;
@@ -112,20 +147,32 @@ class Runner {
   bool is_warned_ = false;
 };
 
-}  // namespace
-
-Recording simulate(World& world, const Scene& scene, const Console& console) {
+Recording record_motion(Production& production, const Scene& scene, const Console& console) {
   const int frames = frame_count(scene);
-  Recording recording;
-  recording.frames.reserve(static_cast<std::size_t>(frames));
-  Runner runner(world, scene, console);
-  recording.frames.push_back(node_positions(world));
-  for (int frame = 1; frame < frames; ++frame) {
-    runner.run_frame();
-    recording.frames.push_back(node_positions(world));
+  Recorder recorder(scene, production, "time_s");
+  Runner runner(production, scene, console);
+  for (int frame = 0; frame < frames; ++frame) {
+    if (frame > 0) runner.run_frame(frame);
+    recorder.add(frame / scene.fps, runner.pin_reactions(), runner.share_of(frame), false);
   }
   runner.finish(frames);
-  return recording;
+  return recorder.finish();
+}
+
+}  // namespace
+
+Recording simulate(Production& production, const Scene& scene, const Console& console) {
+  switch (scene.solver.scheme) {
+    case Solver::kStatic:
+    case Solver::kLinear:
+      return record_equilibria(production, scene, console);
+    case Solver::kModes:
+      return record_modes(production, scene, console);
+    case Solver::kEuler:
+    case Solver::kVerlet:
+      break;
+  }
+  return record_motion(production, scene, console);
 }
 
 }  // namespace sprung

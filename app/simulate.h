@@ -1,17 +1,12 @@
 #pragma once
-#include <vector>
-
-#include "app/build_world.h"
+#include "app/console.h"
+#include "app/recording.h"
 
 namespace sprung {
 
-/// Where every node is in every frame: frames[frame][actor], nodes x 3, m. Single precision: the picture needs no more.
-struct Recording {
-  std::vector<std::vector<Floats3>> frames;
-};
-
-/// Moves the world through the scene, frame 0 at t = 0. Says how far it is and what came out.
-/// Throws Error(kDiverged), Interrupted.
-[[nodiscard]] Recording simulate(World& world, const Scene& scene, const Console& console);
+/// Takes a production through its scene in the way that scene.solver says, and says how far it is and what came out.
+/// Deterministic for any number of threads.
+/// Throws Error(kDiverged), Error(kBadInput) where the pins leave a body free that should come to rest, Interrupted.
+[[nodiscard]] Recording simulate(Production& production, const Scene& scene, const Console& console);
 
 }  // namespace sprung

@@ -13,16 +13,23 @@ namespace {
 class Mover {
  public:
   Mover(Actor& actor, const World& world)
-      : actor_(actor), world_(world), inverse_masses_(inverse_masses(actor)), contact_(actor, inverse_masses_) {}
+      : actor_(actor),
+        world_(world),
+        inverse_masses_(actor.body.masses.cwiseInverse()),
+        contact_(actor, without_held(inverse_masses_, actor)) {}
 
-  /// velocities += dt (forces / m + gravity - alpha v); held nodes stay.
+  /// velocities += dt (forces / m + gravity - alpha v); held nodes keep their velocity.
   void kick(double dt) {
     Body& body = actor_.body;
     spring_forces(body, workspace_, forces_);
     body.velocities *= 1 - dt * body.damping.alpha;
     body.velocities += dt * (inverse_masses_.asDiagonal() * forces_);
     body.velocities.rowwise() += dt * world_.gravity.transpose();
-    for (const int node : actor_.pinned) body.velocities.row(node).setZero();
+    for (const HeldNode& held : actor_.pinned) {
+      for (int axis = 0; axis < 3; ++axis) {
+        if (held.axes[static_cast<std::size_t>(axis)]) body.velocities(held.node, axis) = held.velocity[axis];
+      }
+    }
   }
 
   void touch_ground(double dt) {
@@ -32,10 +39,9 @@ class Mover {
   void drift(double dt) { actor_.body.positions += dt * actor_.body.velocities; }
 
  private:
-  static Eigen::VectorXd inverse_masses(const Actor& actor) {
-    Eigen::VectorXd inverse = actor.body.masses.cwiseInverse();
-    for (const int node : actor.pinned) inverse[node] = 0;
-    return inverse;
+  static Eigen::VectorXd without_held(Eigen::VectorXd inverse_masses, const Actor& actor) {
+    for (const HeldNode& held : actor.pinned) inverse_masses[held.node] = 0;
+    return inverse_masses;
   }
 
   Actor& actor_;

@@ -1,5 +1,7 @@
 #include "core/motion/linear_response.h"
 
+#include <algorithm>
+
 #include "core/body/brick_hessian.h"
 #include "core/motion/statics.h"
 
@@ -25,16 +27,18 @@ Points holding_forces(const Body& body, const Points& displacements) {
 
 }  // namespace
 
-LinearResponse linear_response(const Body& body, const Supports& supports, const Points& loads,
-                               const Points& movements, NewtonSystem& system) {
+LinearResponse linear_response(const Body& body, const Supports& supports, const Points& loads, const Points& movements,
+                               NewtonSystem& system) {
   LinearResponse response;
   response.displacements = Points::Zero(body.node_count(), 3);
   for (Eigen::Index i = 0; i < movements.size(); ++i) {
     if (supports.fixed[static_cast<std::size_t>(i)]) response.displacements.data()[i] = movements.data()[i];
   }
-  const Points driving = loads - holding_forces(body, response.displacements);
-  const Eigen::VectorXd free = solve_linear(body, supports, driving, system);
-  response.displacements += Eigen::Map<const Points>(free.data(), body.node_count(), 3);
+  if (std::find(supports.fixed.begin(), supports.fixed.end(), false) != supports.fixed.end()) {
+    const Points driving = loads - holding_forces(body, response.displacements);
+    const Eigen::VectorXd free = solve_linear(body, supports, driving, system);
+    response.displacements += Eigen::Map<const Points>(free.data(), body.node_count(), 3);
+  }
   response.reactions = holding_forces(body, response.displacements) - loads;
   for (Eigen::Index i = 0; i < movements.size(); ++i) {
     if (!supports.fixed[static_cast<std::size_t>(i)]) response.reactions.data()[i] = 0;

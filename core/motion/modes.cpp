@@ -26,6 +26,10 @@ Modes natural_modes(const Body& body, const Supports& supports, int count) {
   Eigen::SparseMatrix<double> matrix = stiffness_matrix(body, dofs, false);
   matrix = scale.asDiagonal() * matrix * scale.asDiagonal();
   const Eigen::SparseMatrix<double> whole = matrix.selfadjointView<Eigen::Lower>();
+  // The solver would say so on stdout itself.
+  if (Eigen::SimplicialLLT<Eigen::SparseMatrix<double>>(whole).info() != Eigen::Success) {
+    throw Error(ErrorKind::kBadInput, "the supports leave the body free to move: hold more of it");
+  }
   Eigen::ArpackGeneralizedSelfAdjointEigenSolver<Eigen::SparseMatrix<double>,
                                                  Eigen::SimplicialLLT<Eigen::SparseMatrix<double>>>
       solver;

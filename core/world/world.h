@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -14,11 +15,18 @@ struct Ground {
   double restitution = 0;  // of a single contact point; a soft body bounces by its own elasticity
 };
 
+/// A node that is held along some axes of the world: there it moves with the velocity given, whatever pulls at it.
+struct HeldNode {
+  int node = 0;
+  std::array<bool, 3> axes{true, true, true};
+  Vec3 velocity = Vec3::Zero();  // m/s
+};
+
 /// A body in the world with what touches on its behalf and what is held.
 struct Actor {
   Body body;
-  Embedding contacts;       // points of the skin, each position once
-  std::vector<int> pinned;  // nodes held where they are
+  Embedding contacts;            // points of the skin, each position once
+  std::vector<HeldNode> pinned;  // each node once; the ground cannot push them
 };
 
 struct World {

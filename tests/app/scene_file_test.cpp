@@ -11,7 +11,6 @@ namespace {
 const std::string kWholeScene = R"(duration = "1500 ms"
 fps = 30
 gravity = [0, "-1.62 m/s2", 0]
-scheme = "verlet"
 
 [[body]]
 mesh = "cube.obj"
@@ -24,7 +23,14 @@ model = "tensile"
 color = "#d8322a"
 velocity = [1, 0, 0]
   [[body.pin]]
+  name = "foot"
   box = { min = [0, 0, 0], max = [1, 0.1, 1] }
+  axes = "xz"
+  translate = [0, 0, "1 cm"]
+  rotate = [0, 90, 0]
+  [[body.region]]
+  box = { min = [0, 0.5, 0], max = [1, 1, 1] }
+  material = { young = "80 kPa", poisson = 0.4, density = 1300 }
 
 [[body]]
 mesh = "cube.obj"
@@ -32,10 +38,46 @@ scale = 0.01
 brick_size = "5 mm"
 material = "rubber"
 
+[[body]]
+box = [0.3, "20 cm", 0.1]
+bricks = 3
+  [[body.cut]]
+  box = { min = [0.34, 0, 0], max = [1, 0.5, 1] }
+
 [[obstacle]]
 plane = { y = -1 }
 friction = 0.7
 restitution = 0.1
+
+[[probe]]
+name = "foot"
+pin = "foot"
+[[probe]]
+name = "middle"
+body = 3
+point = [0, 0, 0]
+
+[experiment]
+title = "all keys"
+models = ["calibrated", "fem"]
+poisson = [0.3, 0.4]
+bricks = [4, 8]
+
+[[expect]]
+quantity = "foot.force.y"
+value = 2.5
+source = "nowhere"
+poisson = [0.4]
+  [[expect.gate]]
+  bricks = [8]
+  tolerance = 0.03
+  [[expect.gate]]
+  no_worse_than = "fem"
+
+[solver]
+scheme = "verlet"
+load_steps = 7
+modes = 3
 
 [camera]
 azimuth = 10
@@ -68,8 +110,8 @@ TEST_F(SceneFile, ReadsEveryKey) {
   EXPECT_DOUBLE_EQ(scene.duration, 1.5);
   EXPECT_DOUBLE_EQ(scene.fps, 30);
   EXPECT_DOUBLE_EQ(scene.gravity.y(), -1.62);
-  EXPECT_EQ(scene.scheme, Scheme::kVerlet);
-  ASSERT_EQ(scene.bodies.size(), 2U);
+  EXPECT_EQ(scene.solver.scheme, Solver::kVerlet);
+  ASSERT_EQ(scene.bodies.size(), 3U);
   const SceneBody& body = scene.bodies[0];
   EXPECT_EQ(body.mesh, cube_);
   EXPECT_DOUBLE_EQ(body.size.value(), 0.12);
@@ -94,6 +136,48 @@ TEST_F(SceneFile, ReadsEveryKey) {
   EXPECT_EQ(scene.render.samples, 1);
 }
 
+TEST_F(SceneFile, ReadsWhatIsMeasuredAndExpected) {
+  const Scene scene = parse(kWholeScene);
+  EXPECT_EQ(scene.solver.load_steps, 7);
+  EXPECT_EQ(scene.solver.modes, 3);
+  const Pin& pin = scene.bodies[0].pins.at(0);
+  EXPECT_EQ(pin.name, "foot");
+  EXPECT_EQ(pin.axes.held, (std::array<bool, 3>{true, false, true}));
+  EXPECT_EQ(pin.translate, Vec3(0, 0, 0.01));
+  EXPECT_EQ(pin.rotate, Vec3(0, 90, 0));
+  EXPECT_DOUBLE_EQ(scene.bodies[0].regions.at(0).material.young, 80e3);
+  EXPECT_EQ(scene.bodies[2].box, Vec3(0.3, 0.2, 0.1));
+  EXPECT_EQ(scene.bodies[2].cuts.at(0).box.max, Vec3(1, 0.5, 1));
+  ASSERT_EQ(scene.probes.size(), 2U);
+  EXPECT_EQ(scene.probes[0].pin, "foot");
+  EXPECT_EQ(scene.probes[1].point, Vec3(0, 0, 0));
+  EXPECT_EQ(scene.experiment.models, (std::vector<Model>{Model::kCalibrated, Model::kFem}));
+  EXPECT_EQ(scene.experiment.bricks, (std::vector<int>{4, 8}));
+  const Expectation& expectation = scene.expectations.at(0);
+  EXPECT_DOUBLE_EQ(expectation.value, 2.5);
+  EXPECT_EQ(expectation.gates.at(0).tolerance, 0.03);
+  EXPECT_EQ(expectation.gates.at(1).no_worse_than, Model::kFem);
+}
+
+TEST_F(SceneFile, RefusesWhatCannotBeMeasuredOrHeld) {
+  const std::string probe = "[[probe]]\nname = \"a\"\n";
+  EXPECT_NE(body_mistakes(probe).find("probe lacks the key 'point' or 'pin'"), std::string::npos);
+  EXPECT_NE(body_mistakes(probe + "pin = \"fot\"").find("the body has no pin 'fot'"), std::string::npos);
+  EXPECT_NE(body_mistakes(probe + "body = 2\npoint = [0, 0, 0]").find("there is no body 2"), std::string::npos);
+  EXPECT_NE(body_mistakes("box = [1, 1, 1]").find("give mesh or box, not both"), std::string::npos);
+  EXPECT_NE(mistakes("[[body]]\nbox = [1, 0, 1]").find("above 0 m"), std::string::npos);
+  const std::string pin = "[[body.pin]]\nbox = { min = [0, 0, 0], max = [1, 1, 1] }\n";
+  EXPECT_NE(body_mistakes(pin + "axes = \"xx\"").find("'xx' are no directions"), std::string::npos);
+  const std::string region = "[[body.region]]\nbox = { min = [0, 0, 0], max = [1, 1, 1] }\n";
+  EXPECT_NE(body_mistakes(region + "material = { young = 1, poisson = 0.1, density = 1 }").find("Poisson's ratio 0.1"),
+            std::string::npos);
+  EXPECT_NE(mistakes("scheme = \"euler\"\n[[body]]\nmesh = \"cube.obj\"\n").find("unknown key 'scheme'"),
+            std::string::npos);
+  EXPECT_NE(body_mistakes("[solver]\nscheme = \"statc\"").find("did you mean 'static'?"), std::string::npos);
+  EXPECT_NE(body_mistakes("[solver]\nscheme = \"static\"\n[[obstacle]]\nplane = { y = 0 }").find("[[obstacle]]"),
+            std::string::npos);
+}
+
 TEST_F(SceneFile, PrintedSceneParsesToTheSameScene) {
   const std::string printed = print_scene(parse(kWholeScene));
   const Scene again = parse(printed);
@@ -103,7 +187,7 @@ TEST_F(SceneFile, PrintedSceneParsesToTheSameScene) {
   EXPECT_DOUBLE_EQ(again.bodies[0].material.young, 20e3);
   EXPECT_EQ(again.bodies[1].material.source, find_material("rubber").source);
   EXPECT_EQ(again.bodies[0].pins.size(), 1U);
-  EXPECT_EQ(again.scheme, Scheme::kVerlet);
+  EXPECT_EQ(again.solver.scheme, Solver::kVerlet);
   EXPECT_DOUBLE_EQ(again.obstacles.at(0).restitution, 0.1);
 }
 
@@ -149,7 +233,7 @@ TEST_F(SceneFile, WhatExcludesEachOtherOrIsMissing) {
   EXPECT_NE(body_mistakes("size = 1\nscale = 2").find(":4:9: body: give size or scale, not both"), std::string::npos);
   EXPECT_NE(body_mistakes("bricks = 1\nbrick_size = 2").find("give bricks or brick_size"), std::string::npos);
   EXPECT_NE(body_mistakes("material = { young = 3 }").find("body.material lacks the key 'poisson'"), std::string::npos);
-  EXPECT_NE(mistakes("[[body]]\n").find(":1:1: body lacks the key 'mesh'"), std::string::npos);
+  EXPECT_NE(mistakes("[[body]]\n").find(":1:1: body lacks the key 'mesh' or 'box'"), std::string::npos);
   EXPECT_NE(mistakes("fps = 24").find("the scene lacks the key 'body'"), std::string::npos);
   EXPECT_NE(body_mistakes("[render]\nsamples = 3").find("3 is not one of 1, 4"), std::string::npos);
   EXPECT_NE(body_mistakes("pin = [{ box = { min = [0, 0, 0], max = [0, 1, 1] } }]").find("min must be below max"),

@@ -182,6 +182,17 @@ TEST(Body, FillScalesTheWholeLaw) {
   EXPECT_NEAR(elastic_energy(part), 0.25 * elastic_energy(full), 1e-12 * elastic_energy(full));
 }
 
+TEST(Body, TurnedHexahedraAnswerLikeUnturnedOnes) {
+  std::mt19937 random(4);
+  Body still = make_body(make_box_grid({2, 1, 1}, 0.1), Model::kFem, test_material(0.3));
+  Body turned = still;
+  const Mat3 turn = Eigen::AngleAxisd(0.7, Vec3(1, 2, -1).normalized()).toRotationMatrix();
+  place(turned, turn, Vec3(1, 0, 0));
+  shake(still, 0.01, random);
+  turned.positions += (still.positions - still.rest_positions) * turn.transpose();
+  EXPECT_NEAR(elastic_energy(turned) / elastic_energy(still), 1, 1e-9);
+}
+
 TEST(Body, CountsInvertedBricks) {
   Body body = make_body(make_box_grid({2, 1, 1}, 0.1), Model::kCalibrated, test_material(0.3));
   EXPECT_EQ(inverted_bricks(body), 0);

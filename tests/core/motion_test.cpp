@@ -179,12 +179,12 @@ TEST(Motion, PinnedNodesStay) {
   World world = world_of(box_body({4, 1, 1}, 0.02, Model::kCalibrated, 0.3), {0, -9.81, 0});
   Actor& actor = world.actors[0];
   for (int i = 0; i < actor.body.node_count(); ++i) {
-    if (actor.body.rest_positions(i, 0) < 1e-9) actor.pinned.push_back(i);
+    if (actor.body.rest_positions(i, 0) < 1e-9) actor.pinned.push_back({.node = i});
   }
   ASSERT_EQ(actor.pinned.size(), 4U);
   const Points rest = actor.body.positions;
   advance(world, Scheme::kVerlet, stable_step(world), 500, 0);
-  for (const int node : actor.pinned) EXPECT_EQ(actor.body.positions.row(node), rest.row(node));
+  for (const HeldNode& held : actor.pinned) EXPECT_EQ(actor.body.positions.row(held.node), rest.row(held.node));
   EXPECT_LT(actor.body.positions.col(1).minCoeff(), -1e-5);
 }
 

@@ -1,0 +1,131 @@
+#include "app/equilibrium.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "app/interrupt.h"
+#include "app/pin_movements.h"
+#include "app/progress.h"
+#include "core/error.h"
+#include "core/motion/linear_response.h"
+#include "core/motion/modes.h"
+#include "core/motion/statics.h"
+
+namespace sprung {
+namespace {
+
+constexpr double kModeSwing = 0.1;  // of the body's size
+
+/// Brings the actors to rest under a share of the load.
+class Loading {
+ public:
+  Loading(Production& production, const Scene& scene)
+      : production_(production), scene_(scene), is_linear_(scene.solver.scheme == Solver::kLinear) {
+    for (const Actor& actor : production.world.actors) {
+      if (!actor.pinned.empty()) continue;
+      throw Error(ErrorKind::kBadInput,
+                  "a body without pins cannot come to rest; give it a [[body.pin]], or use "
+                  "solver.scheme euler or verlet");
+    }
+  }
+
+  /// Reactions by actor, m x 3, N.
+  std::vector<Points> apply(double share) {
+    std::vector<Points> reactions_of_all;
+    for (std::size_t actor = 0; actor < production_.world.actors.size(); ++actor) {
+      Body& body = production_.world.actors[actor].body;
+      const Supports supports = supports_of(production_.world.actors[actor]);
+      const Points loads = share * (body.masses * production_.world.gravity.transpose());
+      const Points movements = pin_movements(scene_, production_, actor, share, is_linear_);
+      reactions_of_all.push_back(is_linear_ ? answer(body, supports, loads, movements)
+                                            : settle(body, supports, loads, movements));
+    }
+    return reactions_of_all;
+  }
+
+  [[nodiscard]] bool is_linear() const { return is_linear_; }
+  [[nodiscard]] int iterations() const { return iterations_; }
+
+ private:
+  Points answer(Body& body, const Supports& supports, const Points& loads, const Points& movements) {
+    body.positions = body.rest_positions;
+    const LinearResponse response = linear_response(body, supports, loads, movements, *system_);
+    body.positions += response.displacements;
+    return response.reactions;
+  }
+
+  Points settle(Body& body, const Supports& supports, const Points& loads, const Points& movements) {
+    const Points start = body.positions;
+    for (Eigen::Index i = 0; i < start.size(); ++i) {
+      if (!supports.fixed[static_cast<std::size_t>(i)]) continue;
+      body.positions.data()[i] = body.rest_positions.data()[i] + movements.data()[i];
+    }
+    iterations_ += solve_static(body, supports, loads, start, *system_).iterations;
+    return reactions(body, supports, loads);
+  }
+
+  Production& production_;
+  const Scene& scene_;
+  bool is_linear_;
+  std::unique_ptr<NewtonSystem> system_ = make_direct_system();
+  int iterations_ = 0;
+};
+
+void check_no_ground(const Scene& scene) {
+  if (scene.obstacles.empty()) return;
+  throw Error(ErrorKind::kBadInput,
+              "only a motion (scheme euler or verlet) meets the ground; use --scenario hang, or a "
+              "scene without [[obstacle]]");
+}
+
+}  // namespace
+
+Recording record_equilibria(Production& production, const Scene& scene, const Console& console) {
+  check_no_ground(scene);
+  const int frames = frame_count(scene);
+  Loading loading(production, scene);
+  Recorder recorder(scene, production, "load");
+  Progress progress(console, loading.is_linear() ? "linear" : "static", frames);
+  for (int frame = 0; frame < frames; ++frame) {
+    stop_if_interrupted();
+    const double share = frames == 1 ? 1.0 : static_cast<double>(frame) / (frames - 1);
+    // Nothing is solved for the first of several: no load, no displacement.
+    const std::vector<Points> reactions = share == 0 ? std::vector<Points>{} : loading.apply(share);
+    recorder.add(share, reactions, share, loading.is_linear());
+    progress.update(frame + 1);
+  }
+  progress.finish(loading.is_linear() ? fmt::format("{} frames", frames)
+                                      : fmt::format("{} frames, {} Newton steps", frames, loading.iterations()));
+  return recorder.finish();
+}
+
+Recording record_modes(Production& production, const Scene& scene, const Console& console) {
+  check_no_ground(scene);
+  if (production.world.actors.size() != 1) {
+    throw Error(ErrorKind::kBadInput,
+                fmt::format("modes are those of one body, the scene has {}", production.world.actors.size()));
+  }
+  Progress progress(console, "modes");
+  Actor& actor = production.world.actors[0];
+  const Modes modes = natural_modes(actor.body, supports_of(actor), scene.solver.modes);
+  const int frames = frame_count(scene);
+  const int count = scene.solver.modes;
+  Recorder recorder(scene, production, "mode");
+  for (int frame = 0; frame < frames; ++frame) {
+    const double place = static_cast<double>(frame) * count / frames;
+    const int mode = std::min(static_cast<int>(place), count - 1);
+    const Eigen::VectorXd shape = modes.shapes.col(mode) / modes.shapes.col(mode).cwiseAbs().maxCoeff();
+    const double swing = kModeSwing * production.size * std::sin(2 * std::numbers::pi * (place - mode));
+    actor.body.positions = actor.body.rest_positions;
+    Eigen::Map<Eigen::VectorXd>(actor.body.positions.data(), shape.size()) += swing * shape;
+    recorder.add(mode + 1, {}, 0, true);
+  }
+  recorder.recording().frequencies = modes.frequencies;
+  progress.finish(fmt::format("{} modes, the slowest at {:.6g} Hz", count, modes.frequencies[0]));
+  return recorder.finish();
+}
+
+}  // namespace sprung

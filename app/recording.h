@@ -1,0 +1,72 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "app/build_world.h"
+
+namespace sprung {
+
+/// What a probe saw in one frame: a point's place, or the mean place of a pin's nodes with the force that the pin
+/// exerts on them and its torque about the middle of the pin's box.
+struct ProbeSample {
+  Vec3 position = Vec3::Zero();      // m
+  Vec3 displacement = Vec3::Zero();  // m, from the start
+  Vec3 force = Vec3::Zero();         // N; zero for points
+  Vec3 torque = Vec3::Zero();        // N m; zero for points
+};
+
+/// One probe through all frames.
+struct ProbeTrack {
+  std::string name;
+  bool is_pin = false;
+  std::vector<ProbeSample> samples;  // frame by frame
+};
+
+/// Everything that a scene gave.
+struct Recording {
+  std::vector<std::vector<Floats3>> frames;  // [frame][actor], nodes x 3, m; the picture needs no more than floats
+  std::vector<double> progress;              // of every frame: time (s), or share of the load, or number of the mode
+  std::string progress_name;                 // "time_s", "load", "mode"
+  std::vector<ProbeTrack> probes;
+  Eigen::VectorXd frequencies;   // Hz, of modes
+  std::uint64_t state_hash = 0;  // of the last frame's node positions and velocities, every bit of them
+};
+
+/// Takes down frames as a production goes through them.
+class Recorder {
+ public:
+  /// Throws Error(kBadInput) where a probe's point is in no brick or its pin holds nothing.
+  Recorder(const Scene& scene, const Production& production, std::string progress_name);
+
+  /// The production as it stands. `reactions` of the pins' nodes by actor (m x 3, N); none: no forces. `share` of the
+  /// pins' movement; with `small`, torques are those of the shape at rest.
+  void add(double progress, const std::vector<Points>& reactions, double share, bool small);
+
+  /// The recording, complete.
+  [[nodiscard]] Recording finish();
+  [[nodiscard]] Recording& recording() { return recording_; }
+
+ private:
+  struct PointSeat {
+    std::size_t actor = 0;
+    Embedding embedding;
+    Vec3 start = Vec3::Zero();
+  };
+
+  [[nodiscard]] PointSeat seat_of(const Probe& probe) const;
+  [[nodiscard]] ProbeSample point_sample(const PointSeat& seat) const;
+  [[nodiscard]] ProbeSample pin_sample(const Probe& probe, const std::vector<Points>& reactions, double share,
+                                       bool small) const;
+
+  const Scene& scene_;
+  const Production& production_;
+  std::vector<PointSeat> seats_;  // by probe; unused for pins
+  Recording recording_;
+};
+
+/// Every bit of the positions and velocities of all nodes (FNV-1a, 64 bits).
+[[nodiscard]] std::uint64_t state_hash(const World& world);
+
+}  // namespace sprung

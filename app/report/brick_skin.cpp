@@ -1,0 +1,140 @@
+#include "app/report/brick_skin.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <tuple>
+
+#include "core/bricks/corner.h"
+
+namespace sprung {
+
+namespace {
+
+constexpr double kRimShade = 0.64;   // of a face's colour
+constexpr double kWidestRim = 0.08;  // of a face
+constexpr int kFinestSplit = 8;      // cells of a face along a side, rim left out
+constexpr int kWantedSplit = 48;     // the same over all bricks along a body
+
+/// An outer face: its corners counter-clockwise from outside.
+struct Face {
+  std::array<int, 4> nodes;
+  int side;  // 2 axis + (1 on the high side)
+};
+
+std::vector<Face> outer_faces(const BrickGrid& grid) {
+  std::set<std::tuple<int, int, int>> solid;
+  for (const auto& cell : grid.cells) solid.emplace(cell.x(), cell.y(), cell.z());
+  std::vector<Face> faces;
+  for (std::size_t brick = 0; brick < grid.cells.size(); ++brick) {
+    for (int side = 0; side < 6; ++side) {
+      const int axis = side / 2;
+      const bool high = side % 2 != 0;
+      Eigen::Vector3i beside = grid.cells[brick];
+      beside[axis] += high ? 1 : -1;
+      if (solid.contains({beside.x(), beside.y(), beside.z()})) continue;
+      const int base = high ? 1 << axis : 0;
+      const int j = 1 << ((axis + 1) % 3);
+      const int k = 1 << ((axis + 2) % 3);
+      std::array<int, 4> corners{base, base | j, base | j | k, base | k};
+      if (!high) std::swap(corners[1], corners[3]);
+      Face face{{}, side};
+      for (std::size_t c = 0; c < 4; ++c) face.nodes[c] = grid.nodes[brick][static_cast<std::size_t>(corners[c])];
+      faces.push_back(face);
+    }
+  }
+  return faces;
+}
+
+/// Sums of the normals of the faces at each node, one sum for each side that faces can look to: 6 m x 3.
+Points node_normals(const std::vector<Face>& faces, const Points& positions) {
+  Points normals = Points::Zero(6 * positions.rows(), 3);
+  for (const Face& face : faces) {
+    const Vec3 across = positions.row(face.nodes[2]) - positions.row(face.nodes[0]);
+    const Vec3 other = positions.row(face.nodes[3]) - positions.row(face.nodes[1]);
+    for (const int node : face.nodes) normals.row(6 * node + face.side) += across.cross(other);
+  }
+  return normals;
+}
+
+/// Where the cells of a face begin and end, from 0 to 1; the first and last are the rim.
+std::vector<double> cell_borders(int split, double rim) {
+  std::vector<double> borders{0};
+  for (int i = 0; i <= split; ++i) borders.push_back(rim + (1 - 2 * rim) * i / split);
+  borders.push_back(1);
+  return borders;
+}
+
+/// What a face's corners carry, mixed at (u, v) in it.
+template <class Values>
+auto mixed(const Values& corner, double u, double v) {
+  return ((1 - u) * (1 - v) * corner(0) + u * (1 - v) * corner(1) + u * v * corner(2) + (1 - u) * v * corner(3)).eval();
+}
+
+/// Appends faces to a skin that is large enough for all of them.
+class FaceWriter {
+ public:
+  FaceWriter(Skin& skin, std::vector<double> borders) : skin_(skin), borders_(std::move(borders)) {}
+
+  [[nodiscard]] Eigen::Index cells_per_face() const {
+    const auto cells = static_cast<Eigen::Index>(borders_.size() - 1);
+    return cells * cells;
+  }
+
+  void add(const Face& face, const Points& positions, const Points& normals,
+           const std::vector<Eigen::Vector3f>& colors) {
+    const auto place = [&](std::size_t c) { return Vec3(positions.row(face.nodes[c])); };
+    const auto normal = [&](std::size_t c) { return Vec3(normals.row(6 * face.nodes[c] + face.side)).normalized(); };
+    const auto color = [&](std::size_t c) {
+      return Vec3(colors[static_cast<std::size_t>(face.nodes[c])].cast<double>());
+    };
+    const std::size_t cells = borders_.size() - 1;
+    for (std::size_t i = 0; i < cells; ++i) {
+      for (std::size_t j = 0; j < cells; ++j) {
+        const bool rim = i == 0 || j == 0 || i + 1 == cells || j + 1 == cells;
+        for (const auto& [di, dj] : {std::pair{0U, 0U}, {1U, 0U}, {1U, 1U}, {0U, 1U}}) {
+          const double u = borders_[i + di];
+          const double v = borders_[j + dj];
+          skin_.positions.row(vertex_) = mixed(place, u, v);
+          skin_.normals.row(vertex_) = mixed(normal, u, v).normalized();
+          const Vec3 tint = (rim ? kRimShade : 1.0) * mixed(color, u, v);
+          for (int c = 0; c < 3; ++c) skin_.colors(vertex_, c) = static_cast<float>(tint[c]);
+          skin_.colors(vertex_++, 3) = 1;
+        }
+        const auto first = static_cast<int>(vertex_ - 4);
+        skin_.triangles.row(triangle_++) << first, first + 1, first + 2;
+        skin_.triangles.row(triangle_++) << first, first + 2, first + 3;
+      }
+    }
+  }
+
+ private:
+  Skin& skin_;
+  std::vector<double> borders_;
+  Eigen::Index vertex_ = 0;
+  Eigen::Index triangle_ = 0;
+};
+
+}  // namespace
+
+Skin brick_skin(const Body& body, const Points& positions, const std::vector<Eigen::Vector3f>& colors, double line) {
+  const std::vector<Face> faces = outer_faces(body.grid);
+  const Eigen::Vector3i size = Eigen::Map<const Eigen::Matrix<int, 3, Eigen::Dynamic>>(body.grid.lattice.front().data(),
+                                                                                       3, body.grid.node_count())
+                                   .rowwise()
+                                   .maxCoeff();
+  const int split = std::clamp(kWantedSplit / std::max(1, size.maxCoeff()), 1, kFinestSplit);
+  Skin skin;
+  FaceWriter writer(skin, cell_borders(split, std::min(line / body.grid.brick_size, kWidestRim)));
+  const Eigen::Index cells = writer.cells_per_face() * static_cast<Eigen::Index>(faces.size());
+  skin.positions.resize(4 * cells, 3);
+  skin.normals.resize(4 * cells, 3);
+  skin.colors.resize(4 * cells, 4);
+  skin.triangles.resize(2 * cells, 3);
+  const Points normals = node_normals(faces, positions);
+  for (const Face& face : faces) writer.add(face, positions, normals, colors);
+  return skin;
+}
+
+}  // namespace sprung

@@ -1,0 +1,109 @@
+#include "app/report/experiment_picture.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "app/report/brick_skin.h"
+#include "core/body/brick_kernel.h"
+#include "render/renderer.h"
+
+namespace sprung {
+
+namespace {
+
+constexpr double kLine = 0.0022;  // half the width of the lines between bricks over the size of the body
+
+Eigen::VectorXd displacements(const Body& body) { return (body.positions - body.rest_positions).rowwise().norm(); }
+
+double brick_strain(const Body& body, std::size_t brick) {
+  const auto axes = detail::mean_axes(brick_corners(body, brick));
+  Mat3 gradient;
+  for (int i = 0; i < 3; ++i) {
+    for (int c = 0; c < 3; ++c) gradient(c, i) = axes[static_cast<std::size_t>(i)][static_cast<std::size_t>(c)];
+  }
+  gradient /= body.grid.brick_size;
+  return (0.5 * (gradient.transpose() * gradient - Mat3::Identity())).norm();
+}
+
+Eigen::VectorXd strains(const Body& body) {
+  Eigen::VectorXd sums = Eigen::VectorXd::Zero(body.node_count());
+  Eigen::VectorXd counts = Eigen::VectorXd::Zero(body.node_count());
+  for (std::size_t brick = 0; brick < body.grid.cells.size(); ++brick) {
+    const double strain = brick_strain(body, brick);
+    for (const int node : body.grid.nodes[brick]) {
+      sums[node] += strain;
+      counts[node] += 1;
+    }
+  }
+  return sums.cwiseQuotient(counts);
+}
+
+ColorBar color_bar(ColorBy by, const Eigen::VectorXd& values) {
+  return by == ColorBy::kDisplacement ? ColorBar{"displacement (mm)", 0, 1000 * values.maxCoeff()}
+                                      : ColorBar{"strain (%)", 0, 100 * values.maxCoeff()};
+}
+
+Image draw(const Stage& stage, const std::vector<SkinShape>& shapes, const Camera& camera,
+           const ExperimentPictureOptions& options) {
+  Renderer renderer(stage, {options.width, options.height, 4});
+  return renderer.draw(shapes, camera);
+}
+
+/// The picture as if the studio that is seen in `backdrop` were white: every pixel over what stands behind it.
+void make_white(Image& image, const Image& backdrop) {
+  constexpr int kWhite = 255;
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+    const int behind = std::max<int>(1, backdrop.pixels[i]);
+    image.pixels[i] = static_cast<std::uint8_t>(std::min(kWhite, (image.pixels[i] * kWhite + behind / 2) / behind));
+  }
+}
+
+Image draw_on_white(const Skin& skin, const ExperimentPictureOptions& options) {
+  Stage stage;
+  stage.bounds.include(skin.positions);
+  stage.has_ground = options.has_ground;
+  stage.ground.height = stage.bounds.low.y();
+  const double aspect = static_cast<double>(options.width) / options.height;
+  const Camera camera = frame_points(skin.positions, aspect, options.azimuth, options.elevation);
+  const Image backdrop = draw(stage, {}, camera, options);
+  stage.skins = {&skin};
+  stage.default_colors = {Eigen::Vector3f::Ones()};
+  Image image = draw(stage, {{skin.positions.cast<float>(), skin.normals.cast<float>()}}, camera, options);
+  make_white(image, backdrop);
+  return image;
+}
+
+}  // namespace
+
+ExperimentPicture draw_experiment(const Body& body, const ExperimentPictureOptions& options) {
+  const Eigen::VectorXd values = options.color_by == ColorBy::kDisplacement ? displacements(body) : strains(body);
+  const double highest = std::max(values.maxCoeff(), 1e-300);
+  std::vector<Eigen::Vector3f> colors;
+  for (const double value : values) colors.push_back(color_scale(value / highest));
+  const Points shown = body.rest_positions + options.magnification * (body.positions - body.rest_positions);
+  Bounds bounds;
+  bounds.include(shown);
+  const Skin skin = brick_skin(body, shown, colors, kLine * (bounds.high - bounds.low).norm());
+  return {draw_on_white(skin, options), color_bar(options.color_by, values)};
+}
+
+Eigen::Vector3f color_scale(double share) {
+  constexpr std::array<std::array<float, 3>, 9> kColors{{{0.267F, 0.005F, 0.329F},
+                                                         {0.279F, 0.175F, 0.483F},
+                                                         {0.230F, 0.322F, 0.546F},
+                                                         {0.173F, 0.449F, 0.558F},
+                                                         {0.128F, 0.567F, 0.551F},
+                                                         {0.158F, 0.684F, 0.502F},
+                                                         {0.369F, 0.789F, 0.383F},
+                                                         {0.678F, 0.864F, 0.190F},
+                                                         {0.993F, 0.906F, 0.144F}}};
+  const double at = std::clamp(share, 0.0, 1.0) * static_cast<double>(kColors.size() - 1);
+  const auto from = std::min(static_cast<std::size_t>(at), kColors.size() - 2);
+  const auto part = static_cast<float>(at - static_cast<double>(from));
+  return (1 - part) * Eigen::Map<const Eigen::Vector3f>(kColors[from].data()) +
+         part * Eigen::Map<const Eigen::Vector3f>(kColors[from + 1].data());
+}
+
+}  // namespace sprung

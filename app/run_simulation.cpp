@@ -1,0 +1,74 @@
+#include "app/run_simulation.h"
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
+#include <filesystem>
+
+#include "app/make_production.h"
+#include "app/make_scene.h"
+#include "app/probe_files.h"
+#include "app/report/whole_file.h"
+#include "app/scene_file.h"
+#include "app/simulate.h"
+#include "core/error.h"
+
+namespace sprung {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The output folder, made if it is not there.
+fs::path make_folder(const SceneOptions& options) {
+  if (options.outputs.size() != 1) throw Error(ErrorKind::kUsage, "simulate writes into one folder: -o DIR");
+  const fs::path folder = options.outputs.front();
+  for (const char* name : {"probes.csv", "probes.json"}) {
+    if (options.overwrite || !fs::exists(folder / name)) continue;
+    throw Error(ErrorKind::kUsage, fmt::format("'{}' exists; say --overwrite to replace it", (folder / name).string()));
+  }
+  std::error_code failure;
+  fs::create_directories(folder, failure);
+  if (!failure && fs::is_directory(folder)) return folder;
+  throw Error(ErrorKind::kFailed, fmt::format("cannot make the folder '{}'", folder.string()));
+}
+
+void print_vector(std::string_view probe, std::string_view what, const Vec3& value, std::string_view unit) {
+  fmt::print("{} {} [{:.6g}, {:.6g}, {:.6g}] {}\n", probe, what, value.x(), value.y(), value.z(), unit);
+}
+
+void print_summary(const Recording& recording) {
+  fmt::print("state {:016x}\n", recording.state_hash);
+  for (int i = 0; i < recording.frequencies.size(); ++i) {
+    fmt::print("frequency {} {:.6g} Hz\n", i + 1, recording.frequencies[i]);
+  }
+  for (const ProbeTrack& track : recording.probes) {
+    const ProbeSample& last = track.samples.back();
+    print_vector(track.name, "position", last.position, "m");
+    print_vector(track.name, "displacement", last.displacement, "m");
+    if (!track.is_pin) continue;
+    print_vector(track.name, "force", last.force, "N");
+    print_vector(track.name, "torque", last.torque, "N m");
+  }
+}
+
+}  // namespace
+
+void run_simulation(const SceneOptions& options, const Console& console) {
+  const Scene scene = make_scene(options);
+  if (options.print_scene) {
+    fmt::print("{}", print_scene(with_defaults(scene)));
+    return;
+  }
+  std::optional<tbb::global_control> threads;
+  if (options.threads > 0) {
+    threads.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
+  }
+  const fs::path folder = make_folder(options);
+  Production production = make_production(scene, console);
+  const Recording recording = simulate(production, scene, console);
+  write_whole_file(folder / "probes.csv", probes_csv(recording));
+  write_whole_file(folder / "probes.json", probes_json(recording));
+  print_summary(recording);
+}
+
+}  // namespace sprung

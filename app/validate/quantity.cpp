@@ -1,0 +1,58 @@
+#include "app/validate/quantity.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "app/units.h"
+#include "core/error.h"
+
+namespace sprung {
+namespace {
+
+struct Field {
+  std::string_view name;
+  std::string_view unit;
+  Vec3 ProbeSample::*value;
+};
+
+constexpr std::array<Field, 4> kFields{{{"position", "m", &ProbeSample::position},
+                                        {"displacement", "m", &ProbeSample::displacement},
+                                        {"force", "N", &ProbeSample::force},
+                                        {"torque", "N m", &ProbeSample::torque}}};
+
+[[noreturn]] void refuse(const std::string& quantity) {
+  throw Error(
+      ErrorKind::kBadInput,
+      fmt::format("expect.quantity: the scene measures no '{}'; write PROBE.displacement.y (or position, force, "
+                  "torque), or frequency.1 with solver.scheme modes",
+                  quantity));
+}
+
+}  // namespace
+
+Quantity measure(const Recording& recording, const std::string& quantity) {
+  const auto last_dot = quantity.rfind('.');
+  if (last_dot == std::string::npos) refuse(quantity);
+  const std::string end = quantity.substr(last_dot + 1);
+  const std::string start = quantity.substr(0, last_dot);
+  if (start == "frequency") {
+    const int mode = parse_whole(end);
+    if (mode < 1 || mode > recording.frequencies.size()) refuse(quantity);
+    return {.value = recording.frequencies[mode - 1], .unit = "Hz"};
+  }
+  const auto axis = std::string_view("xyz").find(end);
+  const auto field_dot = start.rfind('.');
+  if (end.size() != 1 || axis == std::string_view::npos || field_dot == std::string::npos) refuse(quantity);
+  for (const ProbeTrack& track : recording.probes) {
+    if (track.name != start.substr(0, field_dot)) continue;
+    for (const Field& field : kFields) {
+      if (field.name != start.substr(field_dot + 1)) continue;
+      const Vec3& value = track.samples.back().*field.value;
+      return {.value = value[static_cast<int>(axis)], .unit = std::string(field.unit)};
+    }
+  }
+  refuse(quantity);
+}
+
+}  // namespace sprung

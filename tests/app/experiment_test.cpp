@@ -1,0 +1,224 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "app/make_production.h"
+#include "app/pin_movements.h"
+#include "app/scene_file.h"
+#include "app/simulate.h"
+#include "core/motion/statics.h"
+#include "tests/support/error_message.h"
+#include "tests/support/run_program.h"
+
+/// Scenes as experiments: what pins, regions, probes and solvers of a scene do, and what `validate` makes of it.
+namespace sprung {
+namespace {
+
+const std::string kBeam = R"(
+gravity = [0, -1, 0]
+[[body]]
+box = [0.4, 0.1, 0.1]
+bricks = 4
+material = { young = 1000, poisson = 0.3, density = 40 }
+  [[body.pin]]
+  name = "root"
+  box = { min = [0, 0, 0], max = [0.01, 1, 1] }
+[[probe]]
+name = "tip"
+point = [0.2, 0, 0]
+[[probe]]
+name = "root"
+pin = "root"
+)";
+
+Scene scene_of(const std::string& text) { return parse_scene(text, "/scene.toml"); }
+
+/// What simulate() makes of a scene.
+Recording record(const Scene& scene, Production& production) {
+  const Console silent{.quiet = true};
+  production = make_production(scene, silent);
+  return simulate(production, scene, silent);
+}
+Recording record(const std::string& text) {
+  Production production;
+  return record(scene_of(text), production);
+}
+
+TEST(Experiment, StaticSceneIsTheStaticSolution) {
+  Production production;
+  const Recording recording = record(scene_of(kBeam + "[solver]\nscheme = \"static\"\nload_steps = 1\n"), production);
+  Material material;
+  material.young = 1000;
+  material.poisson = 0.3;
+  material.density = 40;
+  Body body = make_body(make_box_grid({4, 1, 1}, 0.1), Model::kCalibrated, material);
+  Supports supports(body.node_count());
+  for (int i = 0; i < body.node_count(); ++i) {
+    if (body.rest_positions(i, 0) < 1e-9) supports.fix(i);
+  }
+  const Points loads = body.masses * Vec3(0, -1, 0).transpose();
+  const auto system = make_direct_system();
+  solve_static(body, supports, loads, body.positions, *system);
+  const Points moved = body.positions - body.rest_positions;
+  const Body& made = production.world.actors.at(0).body;
+  EXPECT_GT(moved.cwiseAbs().maxCoeff(), 0.1);
+  EXPECT_LT((made.positions - made.rest_positions - moved).cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_EQ(recording.frames.size(), 2U);
+  EXPECT_EQ(recording.progress, (std::vector<double>{0, 1}));
+}
+
+TEST(Experiment, PinsCarryTheWeight) {
+  const Recording recording = record(kBeam + "[solver]\nscheme = \"static\"\nload_steps = 2\n");
+  const ProbeTrack& root = recording.probes.at(1);
+  const double free_weight = 0.4 * 0.1 * 0.1 * 40;  // in the reaction: all of it, held nodes included
+  EXPECT_NEAR(root.samples.at(2).force.y(), free_weight, 1e-9);
+  EXPECT_NEAR(root.samples.at(1).force.y(), free_weight / 2, 1e-9);
+  EXPECT_NEAR(root.samples.at(2).force.x(), 0, 1e-9);
+  EXPECT_GT(root.samples.at(2).torque.z(), 0);
+  EXPECT_EQ(root.samples.at(2).displacement, Vec3(0, 0, 0));
+}
+
+TEST(Experiment, LinearAnswerGrowsWithTheLoad) {
+  const Recording recording = record(kBeam + "[solver]\nscheme = \"linear\"\nload_steps = 4\n");
+  const ProbeTrack& tip = recording.probes.at(0);
+  const double whole = tip.samples.at(4).displacement.y();
+  EXPECT_NEAR(whole / 40, -0.98188 * 0.004004546, 1e-6);  // the calibrated brick's 0.982 of the reference
+  for (std::size_t frame = 0; frame <= 4; ++frame) {
+    EXPECT_NEAR(tip.samples.at(frame).displacement.y(), static_cast<double>(frame) / 4 * whole, 1e-12);
+  }
+}
+
+TEST(Experiment, StiffRegionHoldsBetter) {
+  const std::string linear = "[solver]\nscheme = \"linear\"\nload_steps = 1\n";
+  const auto with_region = [&](const std::string& young, const std::string& density) {
+    std::string text = kBeam;
+    const std::string region =
+        "  [[body.region]]\n  box = { min = [0, 0, 0], max = [1, 1, 1] }\n  material = { young = " + young +
+        ", poisson = 0.3, density = " + density + " }\n";
+    text.insert(text.find("[[probe]]"), region);
+    return record(text + linear);
+  };
+  const double plain = record(kBeam + linear).probes.at(0).samples.back().displacement.y();
+  EXPECT_NEAR(with_region("4000", "40").probes.at(0).samples.back().displacement.y(), plain / 4, 1e-12);
+  EXPECT_NEAR(with_region("1000", "80").probes.at(0).samples.back().displacement.y(), plain * 2, 1e-12);
+}
+
+TEST(Experiment, MovedPinsArriveInMotionAndAtRest) {
+  std::string text = kBeam;
+  text.insert(text.find("[[probe]]"), "  translate = [0.1, 0.2, 0]\n  rotate = [90, 0, 0]\n");
+  for (const std::string scheme : {"euler", "verlet", "static"}) {
+    Production production;
+    const Recording recording =
+        record(scene_of("duration = 0.25\n" + text + "[solver]\nscheme = \"" + scheme + "\"\n"), production);
+    const Vec3 shift = recording.probes.at(1).samples.back().displacement;
+    EXPECT_LT((shift - Vec3(0.1, 0.2, 0)).norm(), 1e-9) << scheme;
+    const Body& body = production.world.actors.at(0).body;
+    const Points goal = body.rest_positions + pin_movements(scene_of(text), production, 0, 1, false);
+    for (const HeldNode& held : production.world.actors.at(0).pinned) {
+      EXPECT_LT((body.positions.row(held.node) - goal.row(held.node)).norm(), 1e-9) << scheme;
+    }
+  }
+}
+
+TEST(Experiment, FreeAxesOfAPinAreFree) {
+  std::string text = kBeam;
+  text.insert(text.find("[[probe]]"), R"(  [[body.pin]]
+  name = "end"
+  box = { min = [0.99, 0, 0], max = [1, 1, 1] }
+  axes = "x"
+  translate = [0.004, 0, 0]
+)");
+  const Recording recording = record(text + "[solver]\nscheme = \"linear\"\nload_steps = 1\n");
+  const Vec3 tip = recording.probes.at(0).samples.back().displacement;
+  EXPECT_NEAR(tip.x(), 0.004, 1e-12);
+  EXPECT_LT(tip.y(), -0.01);
+}
+
+TEST(Experiment, CutBoxHasTheBricksThatAreLeft) {
+  Production production;
+  static_cast<void>(record(scene_of(R"([[body]]
+box = [0.3, 0.2, 0.1]
+bricks = 6
+  [[body.cut]]
+  box = { min = [0.334, 0, 0], max = [1, 0.5, 1] }
+  [[body.pin]]
+  box = { min = [0, 0, 0], max = [1, 0.01, 1] }
+[solver]
+scheme = "linear"
+load_steps = 1
+)"),
+                           production));
+  EXPECT_EQ(production.world.actors.at(0).body.grid.brick_count(), 6 * 4 * 2 - 4 * 2 * 2);
+}
+
+TEST(Experiment, BricksMustFitIntoABox) {
+  EXPECT_NE(error_message([] { record("[[body]]\nbox = [0.4, 0.1, 0.1]\nbricks = 5\n"); }).find("0.08"),
+            std::string::npos);
+}
+
+class ExperimentProgram : public testing::Test {
+ protected:
+  [[nodiscard]] ProgramRun run(const std::string& words) const { return run_program(folder_, words); }
+  void write_beam(const std::string& name, double expected) const {
+    static_cast<void>(folder_.write(name, kBeam + "[solver]\nscheme = \"linear\"\nload_steps = 1\n[[expect]]\n" +
+                                              "quantity = \"tip.displacement.y\"\nsource = \"a book\"\nvalue = " +
+                                              std::to_string(expected) + "\n[[expect.gate]]\ntolerance = 0.03\n"));
+  }
+
+  TempFolder folder_;
+};
+
+TEST_F(ExperimentProgram, SimulateWritesItsProbes) {
+  static_cast<void>(folder_.write("beam.toml", kBeam + "[solver]\nscheme = \"static\"\nload_steps = 3\n"));
+  const ProgramRun made = run("simulate beam.toml -o out");
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_EQ(made.out.rfind("state ", 0), 0U) << made.out;
+  EXPECT_NE(made.out.find("tip displacement ["), std::string::npos) << made.out;
+  const std::string csv = text_of(folder_.path() / "out/probes.csv");
+  EXPECT_EQ(csv.rfind("load,tip.position.x_m,tip.position.y_m,tip.position.z_m,tip.displacement.x_m,", 0), 0U) << csv;
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 5) << csv;
+  EXPECT_NE(csv.find("root.torque.z_Nm"), std::string::npos);
+  EXPECT_NE(text_of(folder_.path() / "out/probes.json").find("\"state_hash\": \"" + made.out.substr(6, 16)),
+            std::string::npos);
+  EXPECT_EQ(run("simulate beam.toml -o out").exit_code, 2);
+  EXPECT_EQ(run("simulate beam.toml -o out --overwrite --threads 1").out, made.out);
+}
+
+TEST_F(ExperimentProgram, SchemeOptionReachesTheSolver) {
+  static_cast<void>(folder_.write("beam.toml", kBeam));
+  const ProgramRun made = run("simulate beam.toml -o out --scheme modes");
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_NE(made.out.find("frequency 6 "), std::string::npos) << made.out;
+}
+
+TEST_F(ExperimentProgram, ValidatePassesAndFailsByItsGates) {
+  write_beam("right.toml", -0.004004546 * 40);
+  write_beam("wrong.toml", -0.004004546 * 40 * 1.05);
+  const ProgramRun right = run("validate right.toml");
+  EXPECT_EQ(right.exit_code, 0) << right.out << right.err;
+  EXPECT_NE(right.out.find("pass  a book"), std::string::npos) << right.out;
+  const ProgramRun wrong = run("validate right.toml wrong.toml");
+  EXPECT_EQ(wrong.exit_code, 1) << wrong.out;
+  EXPECT_NE(wrong.out.find("FAIL  a book"), std::string::npos) << wrong.out;
+  const ProgramRun json = run("validate wrong.toml --json");
+  EXPECT_EQ(json.exit_code, 1);
+  EXPECT_NE(json.out.find("\"passed\": false"), std::string::npos) << json.out;
+}
+
+TEST_F(ExperimentProgram, ValidateNamesWhatItDoesNotKnow) {
+  EXPECT_EQ(run("validate --case cantilevr").exit_code, 2);
+  EXPECT_NE(run("validate --case cantilevr").err.find("did you mean 'cantilever'?"), std::string::npos);
+  static_cast<void>(folder_.write("beam.toml", kBeam));
+  EXPECT_EQ(run("validate beam.toml").exit_code, 3);
+  EXPECT_EQ(run("validate --model tensil").exit_code, 2);
+  EXPECT_NE(run("validate --list").out.find("torsion"), std::string::npos);
+}
+
+TEST_F(ExperimentProgram, BuiltInExperimentsHold) {
+  const ProgramRun made = run("validate --case stretch --case shear --case cantilever_c3d8i");
+  EXPECT_EQ(made.exit_code, 0) << made.out << made.err;
+  EXPECT_EQ(made.out.find("FAIL"), std::string::npos) << made.out;
+}
+
+}  // namespace
+}  // namespace sprung
