@@ -184,7 +184,7 @@ SceneOptions scene_options(const CLI::App& command, Words& words) {
   }
   if (!words.scenario.empty()) options.scenario = scenario_from_name(words.scenario);
   if (!words.threads.empty()) options.threads = thread_count(words.threads);
-  const std::string name = command.get_name();
+  const std::string& name = command.get_name();
   if (options.input.empty()) {
     throw Error(ErrorKind::kUsage, fmt::format("{0} needs a mesh or a scene; see sprung {0} --help", name));
   }

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 /// The output folder, made if it is not there.
 fs::path make_folder(const SceneOptions& options) {
   if (options.outputs.size() != 1) throw Error(ErrorKind::kUsage, "simulate writes into one folder: -o DIR");
-  const fs::path folder = options.outputs.front();
+  fs::path folder = options.outputs.front();
   for (const char* name : {"probes.csv", "probes.json"}) {
     if (options.overwrite || !fs::exists(folder / name)) continue;
     throw Error(ErrorKind::kUsage, fmt::format("'{}' exists; say --overwrite to replace it", (folder / name).string()));

@@ -49,6 +49,7 @@ std::string check_line(const Check& check) {
 
 std::string checks_json(const std::vector<Check>& checks) {
   std::vector<std::string> objects;
+  objects.reserve(checks.size());
   for (const Check& check : checks) objects.push_back(json_object(check));
   return fmt::format("[\n{}\n]\n", fmt::join(objects, ",\n"));
 }

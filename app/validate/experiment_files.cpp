@@ -60,6 +60,7 @@ std::vector<NamedScene> read_experiments(const std::vector<std::string>& cases) 
   std::vector<fs::path> files = cases.empty() ? known : std::vector<fs::path>{};
   for (const std::string& word : cases) files.push_back(file_of(word, known));
   std::vector<NamedScene> experiments;
+  experiments.reserve(files.size());
   for (const fs::path& file : files) experiments.push_back(read_experiment(file));
   return experiments;
 }
