@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <set>
-
 #include "core/error.h"
 #include "render/png.h"
 
@@ -60,7 +58,6 @@ void PictureWriter::close() {
   thread_.join();
   if (failure_) std::rethrow_exception(failure_);
   for (const auto& film : films_) film->close();
-  remove_leftovers();
 }
 
 void PictureWriter::run() {
@@ -89,16 +86,6 @@ void PictureWriter::write_everywhere(const Image& image) {
     if (output.kind == Output::Kind::kPictures) write_png(image, output.picture(written_));
   }
   for (const auto& film : films_) film->write(image);
-}
-
-void PictureWriter::remove_leftovers() const {
-  for (const Output& output : outputs_) {
-    std::set<std::filesystem::path> kept;
-    for (int number = 1; number <= written_; ++number) kept.insert(output.picture(number).filename());
-    for (const std::filesystem::path& picture : existing_pictures(output)) {
-      if (!kept.contains(picture.filename())) std::filesystem::remove(picture);
-    }
-  }
 }
 
 }  // namespace sprung

@@ -26,13 +26,12 @@ class PictureWriter {
 
   /// Waits where too many pictures are waiting already. Throws what went wrong in the thread.
   void write(Image image);
-  /// Finishes the films, and takes away pictures that an earlier, longer run left behind.
+  /// Finishes the films. Pictures that this run did not write are left alone, whatever their names.
   void close();
 
  private:
   void run();
   void write_everywhere(const Image& image);
-  void remove_leftovers() const;
 
   std::vector<Output> outputs_;
   std::vector<std::unique_ptr<FilmWriter>> films_;

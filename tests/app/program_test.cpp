@@ -114,7 +114,7 @@ TEST_F(Program, KeepsWhatExistsUnlessTold) {
   const std::string shorter = "animate cube.obj --bricks 6 --duration 0.5 --fps 4 --resolution 160x120 -o out";
   ASSERT_EQ(run(shorter + " --overwrite").exit_code, 0);
   EXPECT_TRUE(exists("out/frame_0002.png"));
-  EXPECT_FALSE(exists("out/frame_0003.png"));
+  EXPECT_TRUE(exists("out/frame_0003.png"));  // never its own to remove
 }
 
 TEST_F(Program, PrintedSceneMakesTheSameFilm) {
