@@ -1,0 +1,152 @@
+// What a brick's constants can and cannot mend: the figures of core/law/brick_law.h.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <utility>
+#include <vector>
+
+#include "core/law/hexahedron.h"
+#include "core/motion/statics.h"
+#include "tests/support/bodies.h"
+
+namespace sprung {
+namespace {
+
+using CornerRow = Eigen::Matrix<double, 1, 24>;
+
+/// How much of u_axis = f there is in a brick's corner displacements, f the product of the coordinates (-1 or 1 at a
+/// corner) whose bits are set in `product`.
+CornerRow share_of_mode(int axis, int product) {
+  CornerRow row = CornerRow::Zero();
+  for (int corner = 0; corner < 8; ++corner) {
+    double value = 0.125;
+    for (int k = 0; k < 3; ++k) {
+      if ((product >> k & 1) != 0 && !on_high_side(corner, k)) value = -value;
+    }
+    row[3 * corner + axis] = value;
+  }
+  return row;
+}
+
+constexpr int kXyz = 7;
+
+/// The same brick with the xyz modes of the trilinear hexahedron: no coupling with shear, 11/12 of their stiffness.
+BrickMatrix without_corner_coupling(const BrickMatrix& stiffness) {
+  BrickMatrix changed = stiffness;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int j = (axis + 1) % 3;
+    const int k = (axis + 2) % 3;
+    const CornerRow xyz = share_of_mode(axis, kXyz);
+    const CornerRow shear = share_of_mode(j, 1 << k) + share_of_mode(k, 1 << j);
+    const double own = 64 * xyz * stiffness * xyz.transpose();
+    const double coupling = 32 * xyz * stiffness * shear.transpose();
+    changed -= own / 12 * xyz.transpose() * xyz;
+    changed -= coupling * (xyz.transpose() * shear + shear.transpose() * xyz);
+  }
+  return changed;
+}
+
+const Material kMaterial{.name = "test", .young = 1000, .poisson = 0.3, .density = 1, .damping = 0, .source = ""};
+
+Body body_of(BrickGrid grid, bool corner_coupling) {
+  Body body = make_body(std::move(grid), Model::kFem, kMaterial);
+  const BrickMatrix stiffness = test::rest_stiffness(Model::kCalibrated, kMaterial, body.grid.brick_size);
+  body.small_strain_stiffness = corner_coupling ? stiffness : without_corner_coupling(stiffness);
+  return body;
+}
+
+/// The work of unit shear stress on the faces of a free unit cube, over that of an elastic one.
+double sheared_cube_yield(int bricks, bool corner_coupling) {
+  const double h = 1.0 / bricks;
+  const Body body = body_of(make_box_grid({bricks, bricks, bricks}, h), corner_coupling);
+  Points loads = Points::Zero(body.node_count(), 3);
+  for (std::size_t brick = 0; brick < body.grid.nodes.size(); ++brick) {
+    for (int corner = 0; corner < 8; ++corner) {
+      for (int axis = 0; axis < 2; ++axis) {
+        const bool high = on_high_side(corner, axis);
+        if (body.grid.cells[brick][axis] != (high ? bricks - 1 : 0)) continue;
+        loads(body.grid.nodes[brick][static_cast<std::size_t>(corner)], 1 - axis) += (high ? 1 : -1) * h * h / 4;
+      }
+    }
+  }
+  Supports supports(body.node_count());
+  for (int node = 0; node < body.node_count(); ++node) {  // against rigid motion only: no forces there
+    const Eigen::Vector3i& place = body.grid.lattice[static_cast<std::size_t>(node)];
+    if (place == Eigen::Vector3i(0, 0, 0)) supports.fix(node);
+    if (place == Eigen::Vector3i(bricks, 0, 0)) supports.fix(node, 1);
+    if (place == Eigen::Vector3i(bricks, 0, 0) || place == Eigen::Vector3i(0, bricks, 0)) supports.fix(node, 2);
+  }
+  const Eigen::VectorXd u = solve_linear(body, supports, loads, *make_direct_system());
+  return u.dot(Eigen::Map<const Eigen::VectorXd>(loads.data(), loads.size())) * kMaterial.shear_modulus();
+}
+
+/// Tip sag of the L-bracket of assets/experiments/l_bracket.toml, `across` bricks thick, over that of converged finite
+/// elements. `corner_stiffness`: share of a full brick's that the three columns at the re-entrant edge have.
+double bracket_sag(int across, bool corner_coupling, double corner_stiffness) {
+  BrickGrid grid;
+  grid.brick_size = 0.1 / across;
+  for (int z = 0; z < across; ++z) {
+    for (int y = 0; y < 2 * across; ++y) {
+      for (int x = 0; x < (y < across ? across : 3 * across); ++x) grid.cells.emplace_back(x, y, z);
+    }
+  }
+  grid.fill.assign(grid.cells.size(), 1);
+  number_nodes(grid);
+  Body body = body_of(std::move(grid), corner_coupling);
+  for (std::size_t brick = 0; brick < body.grid.cells.size(); ++brick) {
+    const auto at_edge = [&](int cell) { return cell == across - 1 || cell == across; };
+    const Eigen::Vector3i& cell = body.grid.cells[brick];
+    if (at_edge(cell.x()) && at_edge(cell.y())) body.stiffness_scale[brick] = corner_stiffness;
+  }
+  Supports supports(body.node_count());
+  Points loads = Points::Zero(body.node_count(), 3);
+  loads.col(1) = -body.masses;
+  std::vector<int> tip;  // the node in the middle of the end, or the four around it
+  for (int node = 0; node < body.node_count(); ++node) {
+    const Eigen::Vector3i& place = body.grid.lattice[static_cast<std::size_t>(node)];
+    if (place.y() == 0) supports.fix(node);
+    const int off = std::max(std::abs(2 * place.y() - 3 * across), std::abs(2 * place.z() - across));
+    if (place.x() == 3 * across && off <= across % 2) tip.push_back(node);
+  }
+  const Eigen::VectorXd u = solve_linear(body, supports, loads, *make_direct_system());
+  double sum = 0;
+  for (const int node : tip) sum -= u[3 * node + 1];
+  return sum / static_cast<double>(tip.size()) / 0.00168401;
+}
+
+TEST(BrickLimits, WithoutTheCornerCouplingTheXyzModesAreTheHexahedrons) {
+  const BrickMatrix hexahedron = hexahedron_stiffness(kMaterial, 0.1);
+  const BrickMatrix brick = test::rest_stiffness(Model::kCalibrated, kMaterial, 0.1);
+  for (int axis = 0; axis < 3; ++axis) {
+    const Eigen::Matrix<double, 24, 1> mode = 8 * share_of_mode(axis, kXyz).transpose();
+    const double size = (hexahedron * mode).norm();
+    EXPECT_LT((without_corner_coupling(brick) * mode - hexahedron * mode).norm(), 1e-12 * size);
+    EXPECT_GT((brick * mode - hexahedron * mode).norm(), 0.1 * size);
+  }
+}
+
+TEST(BrickLimits, AFreeCubeUnderShearYieldsAtItsCorners) {
+  EXPECT_NEAR(sheared_cube_yield(1, true), 3.00, 0.005);
+  EXPECT_NEAR(sheared_cube_yield(2, true), 1.08, 0.005);
+  EXPECT_NEAR(sheared_cube_yield(4, true), 1.01, 0.005);
+  EXPECT_NEAR(sheared_cube_yield(1, false), 1, 1e-10);
+  EXPECT_NEAR(sheared_cube_yield(2, false), 1, 1e-10);
+}
+
+TEST(BrickLimits, TheBracketWouldBeStifferWithoutTheCornerCoupling) {
+  EXPECT_NEAR(bracket_sag(1, true, 1), 0.998, 1e-3);
+  EXPECT_NEAR(bracket_sag(2, true, 1), 0.921, 1e-3);
+  EXPECT_NEAR(bracket_sag(4, true, 1), 0.957, 1e-3);
+  EXPECT_NEAR(bracket_sag(1, false, 1), 0.858, 1e-3);
+  EXPECT_NEAR(bracket_sag(2, false, 1), 0.899, 1e-3);
+  EXPECT_NEAR(bracket_sag(4, false, 1), 0.951, 1e-3);
+}
+
+/// One number for all grids: the error is the singularity's, not the brick's.
+TEST(BrickLimits, SofterBricksAtTheReentrantEdgeMendTheBracketOnEveryGrid) {
+  for (const int across : {2, 4}) EXPECT_NEAR(bracket_sag(across, true, 0.8), 1, 0.01) << across;
+}
+
+}  // namespace
+}  // namespace sprung
