@@ -70,6 +70,11 @@ class BrickFinder {
   CellIndex index_;
 };
 
+/// Of a point from the brick that it rides in, in bricks; 0 inside.
+double distance_from_brick(const Vec3& local) {
+  return (local - local.cwiseMax(Vec3::Zero()).cwiseMin(Vec3::Ones())).norm();
+}
+
 Eigen::Matrix<double, 3, 8> corner_positions(const BrickGrid& grid, int brick, const Points& node_positions) {
   Eigen::Matrix<double, 3, 8> corners;
   const auto& nodes = grid.nodes[static_cast<std::size_t>(brick)];
@@ -114,12 +119,14 @@ Embedding embed(const BrickGrid& grid, const Points& points) {
   for (int i = 0; i < points.rows(); ++i) {
     const Vec3 place = (points.row(i).transpose() - grid.origin) / grid.brick_size;
     int brick = finder.holding(place);
-    if (brick < 0) {
-      brick = finder.nearest(place);
-      ++embedding.outside;
-    }
+    const bool is_outside = brick < 0;
+    if (is_outside) brick = finder.nearest(place);
+    const Vec3 local = place - grid.cells[static_cast<std::size_t>(brick)].cast<double>();
     embedding.brick[static_cast<std::size_t>(i)] = brick;
-    embedding.local.row(i) = place - grid.cells[static_cast<std::size_t>(brick)].cast<double>();
+    embedding.local.row(i) = local;
+    if (!is_outside) continue;
+    ++embedding.outside;
+    embedding.furthest = std::max(embedding.furthest, distance_from_brick(local));
   }
   return embedding;
 }

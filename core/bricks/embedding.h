@@ -7,11 +7,12 @@
 namespace sprung {
 
 /// Where points ride: each in one brick, by trilinear weights of its eight corners. Outside every brick the nearest
-/// brick's weights are continued, and counted in `outside`.
+/// brick's weights are continued; `outside` counts them.
 struct Embedding {
   std::vector<int> brick;  // n
   Points local;            // n x 3; place in the brick, 0..1 along each axis where the point is inside
   int outside = 0;
+  double furthest = 0;  // distance of those from their bricks at most, in bricks
 };
 
 /// The shares of a brick's eight corners in the point at `local` (0..1 along each axis); their sum is 1.

@@ -25,7 +25,6 @@ constexpr std::size_t kLongestHeader = 1 << 16;  // bytes; of the text headers o
 
 std::string read_bytes(const std::filesystem::path& file, std::size_t most) {
   std::ifstream stream(file, std::ios::binary);
-  if (!stream) refuse(file, "cannot be opened for reading; check its permissions");
   std::string bytes(most, '\0');
   stream.read(bytes.data(), static_cast<std::streamsize>(most));
   bytes.resize(static_cast<std::size_t>(stream.gcount()));
@@ -157,12 +156,19 @@ std::string lower_extension(const std::filesystem::path& file) {
   return extension;
 }
 
-void check_mesh_file(const std::filesystem::path& file) {
+void check_readable(const std::filesystem::path& file) {
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
+  if (!std::filesystem::status_known(status)) refuse(file, error.message());
   if (!std::filesystem::exists(status)) refuse(file, "no such file");
-  if (std::filesystem::is_directory(status)) refuse(file, "is a directory, not a mesh file");
-  if (!std::filesystem::is_regular_file(status)) refuse(file, "is not a regular file");
+  if (std::filesystem::is_directory(status)) refuse(file, "is a directory, not a file");
+  if (!std::filesystem::is_regular_file(status)) refuse(file, "is a pipe or a device, not a regular file");
+  if (!std::ifstream(file)) refuse(file, "cannot be opened for reading; check its permissions");
+}
+
+void check_mesh_file(const std::filesystem::path& file) {
+  check_readable(file);
+  std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(file, error);
   if (error) refuse(file, error.message());
   if (size == 0) refuse(file, "empty file");

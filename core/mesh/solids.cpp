@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "core/count_of.h"
 #include "core/error.h"
 #include "core/mesh/shells.h"
 #include "core/mesh/weld.h"
@@ -19,11 +20,6 @@ constexpr double kNoVolume = 1e-12;
 
 [[noreturn]] void refuse(const std::string& name, const std::string& reason) {
   throw Error(ErrorKind::kBadInput, fmt::format("{}: {}", name, reason));
-}
-
-/// "1 triangle", "2 triangles".
-std::string count_of(int count, const char* thing) {
-  return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
 }
 
 void refuse_flat(const Points& points, const std::string& name) {
@@ -139,7 +135,7 @@ void add_notes(const WeldedMesh& mesh, const Shells& found, const std::vector<Ne
     notes.push_back("turned " + count_of(found.turned, "triangle") + " to agree with their neighbours");
   const auto inverted =
       std::count_if(nests.begin(), nests.end(), [](const Nest& nest) { return nest.outer->volume < 0; });
-  if (inverted > 0) notes.push_back("turned " + count_of(static_cast<int>(inverted), "inside-out solid") + " outwards");
+  if (inverted > 0) notes.push_back("turned " + count_of(inverted, "inside-out solid") + " outwards");
 }
 
 }  // namespace

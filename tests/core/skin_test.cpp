@@ -120,6 +120,8 @@ class Riding : public ::testing::Test {
 TEST_F(Riding, RestNodesLeaveEveryPointWhereItIs) {
   EXPECT_GT(embedding_.outside, 0);
   EXPECT_LT(embedding_.outside, 500);
+  EXPECT_GT(embedding_.furthest, 2);  // the box ends at 0.06 of 0.11 along y, in bricks of 0.02
+  EXPECT_LT(embedding_.furthest, std::hypot(2.5, 1.5, 0.5));
   const Points at_rest = deform_points(grid_, embedding_, grid_.rest_positions());
   EXPECT_LT((at_rest - points_).cwiseAbs().maxCoeff(), 1e-15);
 }

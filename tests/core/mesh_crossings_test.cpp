@@ -1,0 +1,65 @@
+#include <gtest/gtest.h>
+
+#include "core/mesh/crossings.h"
+#include "core/mesh/read_mesh.h"
+#include "core/mesh/solids.h"
+#include "tests/support/meshes.h"
+
+namespace sprung {
+namespace {
+
+using test::box_mesh;
+using test::joined;
+
+Crossings crossings_of(const SurfaceMesh& mesh) { return find_crossings(mesh.positions, mesh.triangles); }
+
+/// Triangles with these corners, 5 points.
+Crossings crossings_of(const std::array<Vec3, 5>& points, std::initializer_list<Eigen::RowVector3i> rows) {
+  Points positions(5, 3);
+  for (int i = 0; i < 5; ++i) positions.row(i) = points[static_cast<std::size_t>(i)];
+  Triangles triangles(static_cast<int>(rows.size()), 3);
+  int next = 0;
+  for (const Eigen::RowVector3i& row : rows) triangles.row(next++) = row;
+  return find_crossings(positions, triangles);
+}
+
+TEST(Crossings, NeighboursOfAnEmbeddedSurfaceDoNotCross) {
+  EXPECT_EQ(crossings_of(box_mesh(Vec3::Zero(), Vec3::Ones())).pairs, 0);
+  EXPECT_EQ(crossings_of(test::torus_mesh(1, 0.3)).pairs, 0);
+}
+
+TEST(Crossings, OfTrianglesThatShareACorner) {
+  const Vec3 tip(0, 0, 0);
+  const std::array<Vec3, 5> through{tip, Vec3(1, -1, 0), Vec3(1, 1, 0), Vec3(0.5, 0, -1), Vec3(0.5, 0, 1)};
+  EXPECT_EQ(crossings_of(through, {{0, 1, 2}, {0, 3, 4}}).pairs, 1);
+  const std::array<Vec3, 5> beside{tip, Vec3(1, -1, 0), Vec3(1, 1, 0), Vec3(-0.5, 0, -1), Vec3(-0.5, 0, 1)};
+  EXPECT_EQ(crossings_of(beside, {{0, 1, 2}, {0, 3, 4}}).pairs, 0);
+}
+
+TEST(Crossings, OfTrianglesFoldedOntoEachOther) {
+  const std::array<Vec3, 5> points{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(1, 1, 0), Vec3(0, -1, 0)};
+  EXPECT_EQ(crossings_of(points, {{0, 1, 2}, {1, 0, 3}}).pairs, 1);
+  EXPECT_EQ(crossings_of(points, {{0, 1, 2}, {1, 0, 4}}).pairs, 0);
+}
+
+TEST(Crossings, OfTwoBoxesThatRunIntoEachOther) {
+  const SurfaceMesh apart = joined(box_mesh(Vec3::Zero(), Vec3::Ones()), box_mesh(Vec3(2, 0, 0), Vec3(3, 1, 1)));
+  EXPECT_EQ(crossings_of(apart).pairs, 0);
+  const SurfaceMesh through =
+      joined(box_mesh(Vec3::Zero(), Vec3::Ones()), box_mesh(Vec3(0.5, 0.1, 0.2), Vec3(1.5, 0.3, 0.3)));
+  const Crossings found = crossings_of(through);
+  EXPECT_GT(found.pairs, 3);
+  EXPECT_LT(found.first[0], 12);
+  EXPECT_GE(found.first[1], 12);
+}
+
+TEST(Crossings, AsManyAsAnotherProgramCounts) {
+  const auto file = test::shared_mesh("self_intersectA.obj");
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "the shared meshes are not there";
+  const Solids found = find_solids(read_mesh(file), "band");
+  ASSERT_EQ(found.solids.size(), 1U);
+  EXPECT_EQ(find_crossings(found.solids[0].points, found.solids[0].triangles).pairs, 338);
+}
+
+}  // namespace
+}  // namespace sprung
