@@ -24,7 +24,7 @@ struct Skin {
 
 struct SkinOptions {
   double max_edge = 0;       // m; edges longer than this are halved; 0: never
-  double crease_angle = 40;  // degrees between neighbouring triangles; sharper edges stay sharp. Used where the mesh
+  double crease_angle = 60;  // degrees between neighbouring triangles; sharper edges stay sharp. Used where the mesh
                              // brings no normals of its own
 };
 
