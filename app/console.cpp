@@ -13,15 +13,18 @@ constexpr std::string_view kRed = "\033[1;31m";
 constexpr std::string_view kYellow = "\033[1;33m";
 constexpr std::string_view kPlain = "\033[0m";
 
-void say(std::string_view label, std::string_view color, bool has_color, std::string_view message) {
+constexpr std::string_view kClearLine = "\r\033[K";
+
+void print_line(const Console& console, std::string_view line) {
+  fmt::print(stderr, "{}{}\n", console.is_terminal ? kClearLine : "", line);
+}
+
+void say(const Console& console, std::string_view label, std::string_view color, std::string_view message) {
+  const std::string start =
+      console.has_color ? fmt::format("sprung: {}{}:{} ", color, label, kPlain) : fmt::format("sprung: {}: ", label);
   while (true) {
     const auto end = message.find('\n');
-    const std::string_view line = message.substr(0, end);
-    if (has_color) {
-      fmt::print(stderr, "sprung: {}{}:{} {}\n", color, label, kPlain, line);
-    } else {
-      fmt::print(stderr, "sprung: {}: {}\n", label, line);
-    }
+    print_line(console, fmt::format("{}{}", start, message.substr(0, end)));
     if (end == std::string_view::npos) return;
     message.remove_prefix(end + 1);
   }
@@ -31,18 +34,19 @@ void say(std::string_view label, std::string_view color, bool has_color, std::st
 
 Console Console::of_process() {
   const char* no_color = std::getenv("NO_COLOR");
+  const char* terminal = std::getenv("TERM");
   Console console;
-  console.is_terminal = isatty(STDERR_FILENO) == 1;
+  console.is_terminal = isatty(STDERR_FILENO) == 1 && terminal != nullptr && std::string_view(terminal) != "dumb";
   console.has_color = console.is_terminal && (no_color == nullptr || *no_color == '\0');
   return console;
 }
 
-void Console::error(std::string_view message) const { say("error", kRed, has_color, message); }
+void Console::error(std::string_view message) const { say(*this, "error", kRed, message); }
 
-void Console::warn(std::string_view message) const { say("warning", kYellow, has_color, message); }
+void Console::warn(std::string_view message) const { say(*this, "warning", kYellow, message); }
 
 void Console::note(std::string_view message) const {
-  if (!quiet) fmt::print(stderr, "{}\n", message);
+  if (!quiet) print_line(*this, message);
 }
 
 void Console::detail(std::string_view message) const {

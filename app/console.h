@@ -4,10 +4,11 @@
 
 namespace sprung {
 
-/// What the program says on stderr. Results go to stdout and do not pass here.
+/// What the program says on stderr. Results go to stdout and do not pass here. On a terminal every message takes the
+/// place of a bar that stands there.
 struct Console {
-  bool is_terminal = false;  // stderr is one: bars may be redrawn in place
-  bool has_color = false;    // a terminal, and NO_COLOR is not set
+  bool is_terminal = false;  // stderr is one that can redraw a line in place (TERM is not "dumb")
+  bool has_color = false;    // such a terminal, and NO_COLOR is not set
   bool quiet = false;        // errors and warnings only
   bool verbose = false;
 

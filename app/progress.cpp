@@ -18,7 +18,9 @@ std::string duration_text(double seconds) {
   const long whole = std::lround(seconds);
   if (whole < 60) return fmt::format("{} s", whole);
   if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
-  return fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
+  if (whole < 3 * 86400) return fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
+  return whole < 3 * 365 * 86400L ? fmt::format("{} days", whole / 86400)
+                                  : fmt::format("{} years", whole / (365 * 86400L));
 }
 
 Progress::Progress(const Console& console, std::string stage, double total, double scale, std::string rate_unit)

@@ -42,7 +42,7 @@ class Progress {
   bool is_drawn_ = false;
 };
 
-/// "12 s", "3 min 05 s", "2 h 10 min".
+/// "12 s", "3 min 05 s", "2 h 10 min", "5 days", "12 years".
 [[nodiscard]] std::string duration_text(double seconds);
 
 }  // namespace sprung
