@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "app/units.h"
 #include "core/bricks/slivers.h"
 #include "core/bricks/voxelize.h"
+#include "core/count_of.h"
 #include "core/error.h"
 #include "core/skin/corner_normals.h"
 
@@ -102,6 +105,20 @@ void apply_regions(const SceneBody& scene_body, const Vec3& extent, const Mat3& 
   }
 }
 
+/// The bricks' volume may differ from the mesh's by this share before it is worth a warning.
+constexpr double kVolumeError = 0.02;
+
+double volume_error(const BrickGrid& grid, const Solid& solid) { return std::abs(grid.volume() / solid.volume - 1); }
+
+/// Half of the brick size, or a quarter, ... : the first that holds the solid's volume; none down to a 64th.
+std::optional<double> brick_size_for(const Solid& solid, double brick_size) {
+  for (int halving = 0; halving < 6; ++halving) {
+    brick_size /= 2;
+    if (volume_error(voxelize(solid, brick_size), solid) <= kVolumeError) return brick_size;
+  }
+  return std::nullopt;
+}
+
 /// Adds the solids of one body.
 class BodyBuilder {
  public:
@@ -128,6 +145,7 @@ class BodyBuilder {
     actor.body.velocities.rowwise() = body_.velocity.transpose();
     for (const HeldNode& held : actor.pinned) actor.body.velocities.row(held.node).setZero();
     outside_ += drawn.embedding.outside;
+    furthest_outside_ = std::max(furthest_outside_, drawn.embedding.furthest);
     held_solids_ += actor.pinned.empty() ? 0 : 1;
     production_.world.actors.push_back(std::move(actor));
     production_.origins.push_back(std::move(origin));
@@ -136,12 +154,18 @@ class BodyBuilder {
 
   void report(const Console& console) const {
     if (outside_ > 0) {
-      console.detail(fmt::format("{}: {} skin vertices lie outside every brick and ride on the nearest one",
-                                 loaded_.name, outside_));
+      console.note(fmt::format("{}: {} outside every brick, {:.2g} bricks away at most, on the nearest one",
+                               loaded_.name, count_of(outside_, "skin vertex rides", "skin vertices ride"),
+                               furthest_outside_));
     }
     if (slivers_ > 0) {
       console.detail(
-          fmt::format("{}: {} nearly empty bricks were given to their full neighbours", loaded_.name, slivers_));
+          fmt::format("{}: {} given to fuller neighbours", loaded_.name, count_of(slivers_, "nearly empty brick")));
+    }
+    if (wrong_volumes_ > 0) {
+      const int more = wrong_volumes_ - 1;
+      console.warn(fmt::format("{}: {}{}", loaded_.name, volume_warning_,
+                               more > 0 ? fmt::format("; so are those of {} more", count_of(more, "solid")) : ""));
     }
     if (body_.pins.empty()) return;
     if (held_solids_ == 0) {
@@ -161,7 +185,21 @@ class BodyBuilder {
     if (loaded_.grid) return *loaded_.grid;
     BrickGrid grid = voxelize(solid, loaded_.brick_size);
     slivers_ += absorb_slivers(grid);
+    note_volume(grid, solid);
     return grid;
+  }
+
+  /// A surface that crosses itself has no one volume to hold the bricks against.
+  void note_volume(const BrickGrid& grid, const Solid& solid) {
+    if (loaded_.crosses_itself || volume_error(grid, solid) <= kVolumeError) return;
+    ++wrong_volumes_;
+    if (wrong_volumes_ > 1) return;  // the largest solid comes first
+    const double density = body_.material.density;
+    const std::optional<double> better = brick_size_for(solid, loaded_.brick_size);
+    volume_warning_ = fmt::format(
+        "bricks of {} are too coarse: they hold {:.4g} kg where the mesh holds {:.4g} kg; {}",
+        readable(loaded_.brick_size, Dimension::kLength), grid.volume() * density, solid.volume * density,
+        better ? fmt::format("bricks of {} would do", readable(*better, Dimension::kLength)) : "use much smaller ones");
   }
 
   /// The body is still where its grid is.
@@ -186,7 +224,10 @@ class BodyBuilder {
   Mat3 rotation_;
   Vec3 translation_;
   int outside_ = 0;
+  double furthest_outside_ = 0;  // bricks
   int slivers_ = 0;
+  int wrong_volumes_ = 0;       // solids
+  std::string volume_warning_;  // of the first of them
   int held_solids_ = 0;
 };
 

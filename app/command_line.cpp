@@ -8,6 +8,7 @@
 
 #include "app/scene_keys.h"
 #include "app/scene_values.h"
+#include "app/wrong_words.h"
 #include "core/error.h"
 #include "core/nearest.h"
 
@@ -21,9 +22,10 @@ struct SceneOption {
   const char* option;
   std::string_view key;
   const char* example;
+  bool is_of_pictures = false;  // of no use where none are drawn
 };
 
-constexpr std::array<SceneOption, 14> kSceneOptions{{
+constexpr std::array<SceneOption, 16> kSceneOptions{{
     {"--material", "body.material", "NAME"},
     {"--young", "body.material.young", "20kPa"},
     {"--poisson", "body.material.poisson", "0.45"},
@@ -32,12 +34,14 @@ constexpr std::array<SceneOption, 14> kSceneOptions{{
     {"--size", "body.size", "12cm"},
     {"--bricks", "body.bricks", "N"},
     {"--brick-size", "body.brick_size", "5mm"},
+    {"--texture", "body.texture", "FILE.png", true},
     {"--model", "body.model", "NAME"},
     {"--scheme", "solver.scheme", "NAME"},
+    {"--time-limit", "solver.time_limit", "24h"},
     {"--fps", "fps", "N"},
     {"--duration", "duration", "3s"},
-    {"--resolution", "render.resolution", "WxH"},
-    {"--samples", "render.samples", "N"},
+    {"--resolution", "render.resolution", "WxH", true},
+    {"--samples", "render.samples", "N", true},
 }};
 
 template <class Owner>
@@ -75,9 +79,10 @@ struct Words {
   std::string threads;
 };
 
-void add_scene_options(CLI::App& command, Words& words) {
+void add_scene_options(CLI::App& command, Words& words, bool has_pictures) {
   command.add_option("INPUT", words.scene.input, "a mesh file, or a scene (.toml)");
   for (std::size_t i = 0; i < kSceneOptions.size(); ++i) {
+    if (kSceneOptions[i].is_of_pictures && !has_pictures) continue;
     command.add_option(kSceneOptions[i].option, words.scene_values[i], key_help<Scene>(kSceneOptions[i].key))
         ->option_text(kSceneOptions[i].example);
   }
@@ -100,7 +105,7 @@ void add_animate(CLI::App& app, Words& words) {
       ->allow_extra_args(false)
       ->option_text("OUT");
   animate->add_flag("--overwrite", words.scene.overwrite, "replace pictures and films that exist");
-  add_scene_options(*animate, words);
+  add_scene_options(*animate, words, true);
 }
 
 void add_simulate(CLI::App& app, Words& words) {
@@ -109,7 +114,7 @@ void add_simulate(CLI::App& app, Words& words) {
       ->allow_extra_args(false)
       ->option_text("DIR");
   simulate->add_flag("--overwrite", words.scene.overwrite, "replace files that exist");
-  add_scene_options(*simulate, words);
+  add_scene_options(*simulate, words, false);
 }
 
 void add_validate(CLI::App& app, Words& words) {
@@ -128,31 +133,6 @@ void add_validate(CLI::App& app, Words& words) {
   validate->add_flag("--quiet", words.scene.quiet, "warnings and errors only");
   validate->add_flag("--verbose", words.scene.verbose, "say why a model could not be carried through");
   validate->allow_extras();
-}
-
-/// The first word that nothing was made for.
-void refuse_extras(const CLI::App& app, std::string_view kind) {
-  const std::vector<std::string> extras = app.remaining();
-  if (extras.empty()) return;
-  std::string word = extras.front();
-  for (const std::string& extra : extras) {
-    if (extra.starts_with('-')) {
-      word = extra.substr(0, extra.find('='));
-      break;
-    }
-  }
-  std::vector<std::string> known;
-  for (const CLI::Option* option : app.get_options()) {
-    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
-  }
-  const bool is_option = word.starts_with('-');
-  if (!is_option) {
-    known.clear();
-    for (const CLI::App* command : app.get_subcommands({})) known.push_back(command->get_name());
-  }
-  const std::vector<std::string_view> views(known.begin(), known.end());
-  const std::string hint = views.empty() ? "" : did_you_mean(word, views);
-  throw Error(ErrorKind::kUsage, fmt::format("{} '{}'{}", is_option ? "unknown option" : kind, word, hint));
 }
 
 Scenario scenario_from_name(const std::string& name) {
@@ -174,10 +154,13 @@ int thread_count(const std::string& text) {
 
 SceneOptions scene_options(const CLI::App& command, Words& words) {
   refuse_extras(command, "more than one input; what is");
+  refuse_repeated(command);
   SceneOptions options = std::move(words.scene);
   for (std::size_t i = 0; i < kSceneOptions.size(); ++i) {
-    const auto& [option, key, example] = kSceneOptions[i];
-    if (command.count(option) > 0) options.settings.push_back({option, std::string(key), words.scene_values[i]});
+    const auto& [option, key, example, is_of_pictures] = kSceneOptions[i];
+    const CLI::Option* given = command.get_option_no_throw(option);
+    if (given == nullptr || given->count() == 0) continue;
+    options.settings.push_back({option, std::string(key), words.scene_values[i]});
   }
   if (command.count("--bricks") > 0 && command.count("--brick-size") > 0) {
     throw Error(ErrorKind::kUsage, "give --bricks or --brick-size, not both");
@@ -210,6 +193,7 @@ void read_choice(const CLI::App& command, const char* option, const char* key, c
 
 ValidateOptions validate_options(const CLI::App& command, Words& words) {
   refuse_extras(command, "unexpected");
+  refuse_repeated(command);
   ValidateOptions options = std::move(words.validate);
   read_choice<Model, SceneBody>(command, "--model", "model", words.model, options.choice.model);
   read_choice<double, Material>(command, "--poisson", "poisson", words.poisson, options.choice.poisson);
@@ -226,13 +210,15 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   app.allow_extras();
   app.footer(
       "Try: sprung animate bunny.obj -o bunny.mp4\nHelp on a command: sprung COMMAND --help\n"
-      "Exit codes: 0 done, 1 failed, 2 wrong usage, 3 bad input, 4 diverged, 130 interrupted.");
+      "Exit codes: 0 done, 1 failed, 2 wrong usage, 3 bad input, 4 diverged,\n130 interrupted (143 by SIGTERM, 129 by "
+      "SIGHUP).");
   Words words;
   add_animate(app, words);
   add_simulate(app, words);
   add_validate(app, words);
   CLI::App* materials = app.add_subcommand("materials", "the library of materials, with sources");
   materials->allow_extras();
+  for (CLI::App* command : app.get_subcommands({})) accept_repeated(*command);
   CommandLine line;
   try {
     app.parse(argc, argv);
@@ -241,6 +227,9 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     app.exit(help, text, text);
     line.text = text.str();
     return line;
+  } catch (const CLI::ArgumentMismatch& error) {
+    const std::string reason = error.what();
+    throw Error(ErrorKind::kUsage, fmt::format("{} needs a value", reason.substr(0, reason.find(':'))));
   } catch (const CLI::ParseError& error) {
     throw Error(ErrorKind::kUsage, error.what());
   }

@@ -16,10 +16,12 @@ struct LoadedBody {
   std::string name;  // of the file, for messages
   SurfaceMesh mesh;
   std::vector<Solid> solids;
-  Mat3 bricks_from_rest = Mat3::Identity();  // how it was turned for that
-  Vec3 extent = Vec3::Zero();                // m, sides of the bounding box before that
-  double brick_size = 0;                     // m
-  std::optional<BrickGrid> grid;             // of a box; of a mesh the bricks are yet to be found
+  Mat3 bricks_from_rest = Mat3::Identity();                     // how it was turned for that
+  Vec3 extent = Vec3::Zero();                                   // m, sides of the bounding box before that
+  double brick_size = 0;                                        // m
+  Eigen::Affine3d file_from_rest{Eigen::Affine3d::Identity()};  // before it was turned; in the units of the file
+  bool crosses_itself = false;
+  std::optional<BrickGrid> grid;  // of a box; of a mesh the bricks are yet to be found
 };
 
 /// The rotation about x, then y, then z, by degrees.

@@ -8,13 +8,13 @@
 #include "app/interrupt.h"
 #include "app/materials.h"
 #include "app/run_simulation.h"
+#include "app/standard_files.h"
 #include "core/error.h"
 
 namespace sprung {
 namespace {
 
 constexpr int kFailed = static_cast<int>(ErrorKind::kFailed);
-constexpr int kInterrupted = 130;
 
 /// The exit code.
 int run(int argc, const char* const* argv, Console& console) {
@@ -44,13 +44,16 @@ int run(int argc, const char* const* argv, Console& console) {
 int exit_code(int argc, const char* const* argv) {
   Console console = Console::of_process();
   catch_interrupts();
+  hold_standard_files();
   try {
-    return run(argc, argv, console);
+    const int code = run(argc, argv, console);
+    flush_results();
+    return code;
   } catch (const Interrupted&) {
     console.warn("interrupted");
-    return kInterrupted;
+    return interrupted_exit_code();
   } catch (const Error& error) {
-    if (is_interrupted()) return kInterrupted;  // the film's child process hears Ctrl-C too
+    if (is_interrupted()) return interrupted_exit_code();  // whatever failed, it was told to stop
     console.error(error.what());
     return static_cast<int>(error.kind());
   } catch (const std::bad_alloc&) {

@@ -6,6 +6,7 @@
 
 #include "app/progress.h"
 #include "app/units.h"
+#include "core/count_of.h"
 
 namespace sprung {
 namespace {
@@ -13,14 +14,14 @@ namespace {
 std::vector<LoadedBody> load_bodies(const Scene& scene, const Console& console) {
   Progress progress(console, "read");
   std::vector<LoadedBody> bodies;
-  std::size_t triangles = 0;
-  std::size_t solids = 0;
+  long triangles = 0;
+  long solids = 0;
   for (const SceneBody& body : scene.bodies) {
     const LoadedBody& loaded = bodies.emplace_back(load_body(body, console));
-    triangles += static_cast<std::size_t>(loaded.mesh.triangles.rows());
-    solids += loaded.solids.size();
+    triangles += loaded.mesh.triangles.rows();
+    solids += static_cast<long>(loaded.solids.size());
   }
-  progress.finish(fmt::format("{} triangles, {} {}", triangles, solids, solids == 1 ? "solid" : "solids"));
+  progress.finish(fmt::format("{}, {}", count_of(triangles, "triangle"), count_of(solids, "solid")));
   return bodies;
 }
 
@@ -47,7 +48,8 @@ Production make_production(const Scene& scene, const Console& console) {
     nodes += actor.body.node_count();
     mass += actor.body.masses.sum();
   }
-  progress.finish(fmt::format("{} bricks of {}, {} nodes, {:.4g} kg", bricks, brick_sizes(bodies), nodes, mass));
+  progress.finish(
+      fmt::format("{} of {}, {} nodes, {:.4g} kg", count_of(bricks, "brick"), brick_sizes(bodies), nodes, mass));
   return production;
 }
 

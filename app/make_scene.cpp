@@ -18,9 +18,7 @@ void apply(const Setting& setting, Scene& scene) {
   try {
     set_scene_key(scene, setting.key, setting.value);
   } catch (const Error& error) {
-    const bool is_unknown_material = setting.option == "--material";
-    throw Error(is_unknown_material ? ErrorKind::kBadInput : ErrorKind::kUsage,
-                fmt::format("{}: {}", setting.option, error.what()));
+    throw Error(ErrorKind::kUsage, fmt::format("{}: {}", setting.option, error.what()));
   }
 }
 

@@ -1,13 +1,15 @@
 #include "app/output.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
 
+#include "app/writable.h"
+#include "core/count_of.h"
 #include "core/error.h"
+#include "core/nearest.h"
 #include "render/film.h"
 
 namespace sprung {
@@ -15,8 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 14> kOtherFiles{".avi", ".mov",  ".mkv",  ".jpg",  ".jpeg", ".exr", ".bmp",
-                                                       ".tga", ".tiff", ".webp", ".apng", ".m4v",  ".h5",  ".obj"};
+constexpr std::array<std::string_view, 3> kFilms{".mp4", ".webm", ".gif"};
 
 [[noreturn]] void refuse(std::string_view words, std::string_view reason) {
   throw Error(ErrorKind::kUsage,
@@ -68,20 +69,34 @@ bool is_number(std::string_view text) {
 
 fs::path or_here(const fs::path& folder) { return folder.empty() ? fs::path(".") : folder; }
 
-/// Without making anything: the folder, or the nearest one above it that exists, can be written.
-void check_folder(const fs::path& folder) {
-  fs::path existing = fs::absolute(or_here(folder)).lexically_normal();
-  while (!fs::exists(existing) && existing.has_parent_path() && existing != existing.parent_path()) {
-    existing = existing.parent_path();
-  }
-  if (!fs::is_directory(existing)) {
-    throw Error(ErrorKind::kFailed,
-                fmt::format("cannot write to '{}': '{}' is not a folder", folder.string(), existing.string()));
-  }
-  if (access(existing.c_str(), W_OK) != 0) {
-    throw Error(ErrorKind::kFailed,
-                fmt::format("cannot write to '{}': no permission in '{}'", folder.string(), existing.string()));
-  }
+/// "film.xyz": not a folder, unless there is one of that name.
+void refuse_unknown_ending(std::string_view words, const fs::path& path) {
+  const std::string ending = lower(path.extension().string());
+  if (ending.empty() || fs::is_directory(path)) return;
+  if (ending == ".png") refuse(words, "a single picture cannot hold a film");
+  refuse(words, fmt::format("'{}' files cannot be written{} (a folder of that name: {}/)", ending,
+                            did_you_mean(ending, kFilms), words));
+}
+
+/// The place in the file system, whatever the words for it.
+fs::path place_of(const fs::path& path) {
+  std::error_code ignored;
+  fs::path place = fs::weakly_canonical(fs::absolute(path, ignored), ignored).lexically_normal();
+  return place.has_filename() ? place : place.parent_path();
+}
+
+bool is_below(const fs::path& path, const fs::path& above) {
+  return std::mismatch(above.begin(), above.end(), path.begin(), path.end()).first == above.end();
+}
+
+/// Whether one would replace the other or stand in its way.
+bool collide(const Output& a, const Output& b) {
+  const bool a_is_film = a.kind == Output::Kind::kFilm;
+  const bool b_is_film = b.kind == Output::Kind::kFilm;
+  if (a_is_film && b_is_film) return place_of(a.film) == place_of(b.film);
+  if (a_is_film) return is_below(place_of(or_here(b.folder)), place_of(a.film));
+  if (b_is_film) return collide(b, a);
+  return place_of(or_here(a.folder)) == place_of(or_here(b.folder)) && a.before == b.before && a.after == b.after;
 }
 
 }  // namespace
@@ -94,11 +109,7 @@ Output parse_output(std::string_view words) {
   if (!is_folder && words.find_first_of("{}") != std::string_view::npos) return parse_pattern(words);
   const fs::path path(words);
   if (!is_folder && is_film(path)) return {.kind = Output::Kind::kFilm, .folder = path.parent_path(), .film = path};
-  const std::string ending = lower(path.extension().string());
-  if (!is_folder && ending == ".png") refuse(words, "a single picture cannot hold a film");
-  if (!is_folder && std::find(kOtherFiles.begin(), kOtherFiles.end(), ending) != kOtherFiles.end()) {
-    refuse(words, fmt::format("'{}' files cannot be written", ending));
-  }
+  if (!is_folder) refuse_unknown_ending(words, path);
   return {.kind = Output::Kind::kPictures, .folder = path, .before = "frame_", .after = ".png", .digits = 4};
 }
 
@@ -116,21 +127,39 @@ std::vector<fs::path> existing_pictures(const Output& output) {
   return found;
 }
 
+std::vector<Output> parse_outputs(const std::vector<std::string>& words) {
+  std::vector<Output> outputs;
+  for (const std::string& word : words) {
+    outputs.push_back(parse_output(word));
+    for (std::size_t other = 0; other + 1 < outputs.size(); ++other) {
+      if (!collide(outputs[other], outputs.back())) continue;
+      throw Error(
+          ErrorKind::kUsage,
+          fmt::format("--output {} and --output {} are in each other's way; give one of them", words[other], word));
+    }
+  }
+  return outputs;
+}
+
 void check_output(const Output& output, bool overwrite) {
-  check_folder(output.folder);
   if (output.kind == Output::Kind::kFilm) {
     require_ffmpeg();
     if (fs::is_directory(output.film)) refuse(output.film.string(), "it is a folder");
     if (!overwrite && fs::exists(output.film)) {
       throw Error(ErrorKind::kUsage, fmt::format("'{}' exists; say --overwrite to replace it", output.film.string()));
     }
+    check_writable(output.film);
     return;
   }
   const std::vector<fs::path> pictures = existing_pictures(output);
   if (!overwrite && !pictures.empty()) {
-    throw Error(ErrorKind::kUsage, fmt::format("'{}' and {} more pictures exist; say --overwrite to replace them",
-                                               pictures.front().string(), pictures.size() - 1));
+    const auto more = static_cast<long>(pictures.size()) - 1;
+    throw Error(ErrorKind::kUsage,
+                more == 0 ? fmt::format("'{}' exists; say --overwrite to replace it", pictures.front().string())
+                          : fmt::format("'{}' and {} exist; say --overwrite to replace them", pictures.front().string(),
+                                        count_of(more, "more picture")));
   }
+  check_writable(output.picture(1));
 }
 
 }  // namespace sprung

@@ -21,14 +21,18 @@ struct Output {
 };
 
 /// What the words after --output mean: "dir/" or "dir" (frame_0001.png ... in it), "dir/f_{:04}.png" or "{:04d}" or
-/// "{}", "film.mp4", ".webm", ".gif". Throws Error(kUsage) for anything else that looks like a file.
+/// "{}", "film.mp4", ".webm", ".gif". Throws Error(kUsage) for a name with any other ending, unless such a folder
+/// exists.
 [[nodiscard]] Output parse_output(std::string_view words);
+
+/// All of them. Throws Error(kUsage) where two are the same place in whatever spelling.
+[[nodiscard]] std::vector<Output> parse_outputs(const std::vector<std::string>& words);
 
 /// The numbered pictures of this output that exist, in order of their names.
 [[nodiscard]] std::vector<std::filesystem::path> existing_pictures(const Output& output);
 
 /// Throws where the output cannot be made, before any work is lost: Error(kUsage) where it exists and `overwrite` is
-/// not set, Error(kFailed) where its folder cannot be made or written, or a film's ffmpeg is missing.
+/// not set, Error(kFailed) where its folder cannot be made or written, or a film's ffmpeg is missing. Leaves nothing.
 void check_output(const Output& output, bool overwrite);
 
 }  // namespace sprung

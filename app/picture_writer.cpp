@@ -1,23 +1,12 @@
 #include "app/picture_writer.h"
 
-#include <fmt/format.h>
-
-#include "core/error.h"
+#include "app/writable.h"
 #include "render/png.h"
 
 namespace sprung {
 namespace {
 
 constexpr std::size_t kMostWaiting = 4;
-
-void make_folder(const std::filesystem::path& folder) {
-  if (folder.empty()) return;
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) {
-    throw Error(ErrorKind::kFailed, fmt::format("cannot make the folder '{}': {}", folder.string(), error.message()));
-  }
-}
 
 }  // namespace
 

@@ -9,6 +9,7 @@
 #include "app/picture_writer.h"
 #include "app/progress.h"
 #include "app/units.h"
+#include "core/count_of.h"
 #include "render/renderer.h"
 
 namespace sprung {
@@ -133,8 +134,8 @@ void render_film(const Production& production, const Recording& recording, const
     progress.update(static_cast<double>(frame + 1));
   }
   writer.close();
-  progress.finish(
-      fmt::format("{} pictures of {} x {}{}", frames, width, height, ground_report(production, reach.bounds)));
+  progress.finish(fmt::format("{} of {} x {} pixels{}", count_of(static_cast<long>(frames), "picture"), width, height,
+                              ground_report(production, reach.bounds)));
 }
 
 }  // namespace sprung

@@ -1,16 +1,15 @@
 #include "app/run_simulation.h"
 
 #include <fmt/format.h>
-#include <tbb/global_control.h>
 
 #include <filesystem>
 
 #include "app/make_production.h"
-#include "app/make_scene.h"
 #include "app/probe_files.h"
 #include "app/report/whole_file.h"
-#include "app/scene_file.h"
 #include "app/simulate.h"
+#include "app/with_scene.h"
+#include "app/writable.h"
 #include "core/error.h"
 
 namespace sprung {
@@ -18,18 +17,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The output folder, made if it is not there.
-fs::path make_folder(const SceneOptions& options) {
+/// Where the files can be written, and would replace nothing that they may not.
+fs::path output_folder(const SceneOptions& options) {
   if (options.outputs.size() != 1) throw Error(ErrorKind::kUsage, "simulate writes into one folder: -o DIR");
   fs::path folder = options.outputs.front();
   for (const char* name : {"probes.csv", "probes.json"}) {
     if (options.overwrite || !fs::exists(folder / name)) continue;
     throw Error(ErrorKind::kUsage, fmt::format("'{}' exists; say --overwrite to replace it", (folder / name).string()));
   }
-  std::error_code failure;
-  fs::create_directories(folder, failure);
-  if (!failure && fs::is_directory(folder)) return folder;
-  throw Error(ErrorKind::kFailed, fmt::format("cannot make the folder '{}'", folder.string()));
+  check_writable(folder / "probes.json");
+  return folder;
 }
 
 void print_vector(std::string_view probe, std::string_view what, const Vec3& value, std::string_view unit) {
@@ -54,21 +51,15 @@ void print_summary(const Recording& recording) {
 }  // namespace
 
 void run_simulation(const SceneOptions& options, const Console& console) {
-  const Scene scene = make_scene(options);
-  if (options.print_scene) {
-    fmt::print("{}", print_scene(with_defaults(scene)));
-    return;
-  }
-  std::optional<tbb::global_control> threads;
-  if (options.threads > 0) {
-    threads.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
-  }
-  const fs::path folder = make_folder(options);
-  Production production = make_production(scene, console);
-  const Recording recording = simulate(production, scene, console);
-  write_whole_file(folder / "probes.csv", probes_csv(recording));
-  write_whole_file(folder / "probes.json", probes_json(recording));
-  print_summary(recording);
+  with_scene(options, [&](const Scene& scene) {
+    const fs::path folder = output_folder(options);
+    Production production = make_production(scene, console);
+    const Recording recording = simulate(production, scene, console);
+    make_folder(folder);
+    write_whole_file(folder / "probes.csv", probes_csv(recording));
+    write_whole_file(folder / "probes.json", probes_json(recording));
+    print_summary(recording);
+  });
 }
 
 }  // namespace sprung

@@ -59,6 +59,7 @@ struct Cut {
 /// A mesh file or a box, and how it enters the scene. Every solid in a file becomes a soft body of its own.
 struct SceneBody {
   std::filesystem::path mesh;          // absolute; or
+  std::filesystem::path texture;       // absolute; a picture on the whole skin, in place of what the file names
   std::optional<Vec3> box;             // m, sides of a box that is exactly as many bricks as fit in it
   std::vector<Cut> cuts;               // of a box
   std::optional<double> size;          // m, longest side of the bounding box; or
@@ -89,6 +90,7 @@ struct SceneSolver {
   Solver scheme = Solver::kEuler;
   std::optional<int> load_steps;  // of kStatic and kLinear, one a frame; as many as the film has time for
   int modes = 6;
+  double time_limit = 24 * 3600;  // s of computing that a motion may take by its forecast
 };
 
 /// What is measured in every frame: where a point of a body goes, or what a pin does.

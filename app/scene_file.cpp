@@ -1,44 +1,22 @@
 #include "app/scene_file.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <toml++/toml.h>
 
 #include <algorithm>
 #include <cctype>
 #include <fstream>
 #include <sstream>
-#include <tuple>
 
+#include "app/scene_checks.h"
+#include "app/scene_mistakes.h"
 #include "app/scene_values.h"
 #include "core/error.h"
+#include "core/mesh/file_checks.h"
 #include "core/nearest.h"
 
 namespace sprung {
 namespace {
-
-/// Everything that is wrong with a file, each with its place.
-class Mistakes {
- public:
-  explicit Mistakes(std::string file) : file_(std::move(file)) {}
-
-  void add(const toml::source_region& place, std::string text) {
-    list_.emplace_back(place.begin.line, place.begin.column, std::move(text));
-  }
-
-  void throw_if_any() {
-    if (list_.empty()) return;
-    std::sort(list_.begin(), list_.end());
-    std::vector<std::string> lines;
-    for (const auto& [line, column, text] : list_)
-      lines.push_back(fmt::format("{}:{}:{}: {}", file_, line, column, text));
-    throw Error(ErrorKind::kBadInput, fmt::format("{}", fmt::join(lines, "\n")));
-  }
-
- private:
-  std::string file_;
-  std::vector<std::tuple<toml::source_index, toml::source_index, std::string>> list_;
-};
 
 std::string_view kind_of(const toml::node& node) {
   switch (node.type()) {
@@ -67,7 +45,7 @@ concept Word = requires(std::string_view text, const KeyInfo& key, Value& value)
 /// Reads tables into the structs of scene.h by the table of keys.
 class Reader {
  public:
-  Reader(Mistakes& mistakes, std::filesystem::path folder) : mistakes_(mistakes), folder_(std::move(folder)) {}
+  Reader(SceneMistakes& mistakes, std::filesystem::path folder) : mistakes_(mistakes), folder_(std::move(folder)) {}
 
   template <class Owner>
   void read(const toml::table& table, const std::string& path, Owner& owner) {
@@ -78,7 +56,7 @@ class Reader {
         mistakes_.add(table.source(), fmt::format("{} lacks the key '{}': {}", where, key.name, key.help));
       }
     }
-    check(table, path, owner);
+    check_together(table, path, owner, mistakes_);
   }
 
  private:
@@ -144,9 +122,7 @@ class Reader {
     if (text == nullptr) refuse_type(node, "a string");
     parse_value(text->get(), key, value);
     value = std::filesystem::absolute(folder_ / value).lexically_normal();
-    if (!std::filesystem::exists(value)) {
-      throw Error(ErrorKind::kBadInput, fmt::format("there is no file '{}'", value.string()));
-    }
+    check_readable(value);
   }
 
   void value_of(const toml::node& node, const std::string& path, const KeyInfo& key, Material& value) {
@@ -196,88 +172,11 @@ class Reader {
     for (const toml::node& element : *array) value_of(element, path, key, values.emplace_back());
   }
 
-  template <class Owner>
-  void check(const toml::table&, const std::string&, const Owner&) {}
-
-  void check(const toml::table& table, const std::string& path, const SceneBody& body) {
-    require_one(table, path, "mesh", "box");
-    refuse_both(table, path, "size", "scale");
-    refuse_both(table, path, "box", "size");
-    refuse_both(table, path, "box", "scale");
-    refuse_both(table, path, "mesh", "cut");
-    refuse_both(table, path, "bricks", "brick_size");
-    if (!body.regions.empty()) check_regions(*table.get("region")->as_array(), path, body);
-  }
-
-  /// A brick's law depends on its Poisson's ratio in many constants, on its stiffness in one factor.
-  void check_regions(const toml::array& regions, const std::string& path, const SceneBody& body) {
-    for (std::size_t i = 0; i < body.regions.size(); ++i) {
-      if (body.regions[i].material.poisson == body.material.poisson) continue;
-      mistakes_.add(regions[i].source(),
-                    fmt::format("{}.region: its Poisson's ratio {} is not that of the body, {}; the materials of one "
-                                "body may differ in stiffness and density only",
-                                path, body.regions[i].material.poisson, body.material.poisson));
-    }
-  }
-
-  void check(const toml::table& table, const std::string& path, const Gate&) {
-    require_one(table, path, "tolerance", "no_worse_than");
-  }
-
-  void check(const toml::table& table, const std::string& path, const Probe&) {
-    require_one(table, path, "point", "pin");
-  }
-
-  void check(const toml::table& table, const std::string& path, const Box& box) {
-    if ((box.min.array() < box.max.array()).all()) return;
-    mistakes_.add(table.source(), fmt::format("{}: min must be below max along every axis", path));
-  }
-
-  void check(const toml::table& table, const std::string&, const Scene& scene) {
-    if (!scene.probes.empty()) check_probes(*table.get("probe")->as_array(), scene);
-    if (scene.obstacles.empty()) return;
-    const toml::array& obstacles = *table.get("obstacle")->as_array();
-    if (scene.obstacles.size() > 1) mistakes_.add(obstacles[1].source(), "a scene can have one [[obstacle]] only");
-    if (!is_motion(scene)) {
-      mistakes_.add(obstacles[0].source(), "only a motion (solver.scheme euler or verlet) meets an [[obstacle]]");
-    }
-  }
-
-  void check_probes(const toml::array& probes, const Scene& scene) {
-    for (std::size_t i = 0; i < scene.probes.size(); ++i) {
-      const Probe& probe = scene.probes[i];
-      const auto body = static_cast<std::size_t>(probe.body - 1);
-      if (body >= scene.bodies.size()) {
-        mistakes_.add(probes[i].source(), fmt::format("probe.body: there is no body {}", probe.body));
-      } else if (!probe.pin.empty()) {
-        check_pin(probes[i], probe.pin, scene.bodies[body]);
-      }
-    }
-  }
-
-  void check_pin(const toml::node& node, const std::string& name, const SceneBody& body) {
-    std::vector<std::string_view> names;
-    for (const Pin& pin : body.pins) names.push_back(pin.name);
-    if (std::find(names.begin(), names.end(), name) != names.end()) return;
-    mistakes_.add(node.source(), fmt::format("probe.pin: the body has no pin '{}'{}", name, did_you_mean(name, names)));
-  }
-
-  void require_one(const toml::table& table, const std::string& path, std::string_view first, std::string_view second) {
-    refuse_both(table, path, first, second);
-    if (table.contains(first) || table.contains(second)) return;
-    mistakes_.add(table.source(), fmt::format("{} lacks the key '{}' or '{}'", path, first, second));
-  }
-
-  void refuse_both(const toml::table& table, const std::string& path, std::string_view first, std::string_view second) {
-    if (!table.contains(first) || !table.contains(second)) return;
-    mistakes_.add(table.get(second)->source(), fmt::format("{}: give {} or {}, not both", path, first, second));
-  }
-
-  Mistakes& mistakes_;
+  SceneMistakes& mistakes_;
   std::filesystem::path folder_;
 };
 
-toml::table parse_toml(std::string_view text, Mistakes& mistakes) {
+toml::table parse_toml(std::string_view text, SceneMistakes& mistakes) {
   try {
     return toml::parse(text);
   } catch (const toml::parse_error& error) {
@@ -297,7 +196,7 @@ bool is_scene_file(const std::filesystem::path& file) {
 }
 
 Scene parse_scene(std::string_view text, const std::filesystem::path& file) {
-  Mistakes mistakes(file.string());
+  SceneMistakes mistakes(file.string());
   const toml::table table = parse_toml(text, mistakes);
   Scene scene;
   Reader(mistakes, file.parent_path()).read(table, "", scene);
@@ -306,10 +205,8 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& file) {
 }
 
 Scene read_scene(const std::filesystem::path& file) {
+  check_readable(file);
   std::ifstream stream(file);
-  if (!stream || std::filesystem::is_directory(file)) {
-    throw Error(ErrorKind::kBadInput, fmt::format("cannot read the scene '{}'", file.string()));
-  }
   std::ostringstream text;
   text << stream.rdbuf();
   return parse_scene(text.str(), file);

@@ -27,10 +27,14 @@ const Key<SceneSolver> kSolver[] = {
      &SceneSolver::scheme},
     {{"load_steps", "frames in which a static load grows", Dimension::kNone, {1, 100000}}, &SceneSolver::load_steps},
     {{"modes", "how many of the slowest vibrations", Dimension::kNone, {1, 1000}}, &SceneSolver::modes},
+    {{"time_limit", "longest time that a motion may take to compute, by a forecast", Dimension::kTime, kPositive},
+     &SceneSolver::time_limit},
 };
 
 const Key<SceneBody> kBody[] = {
     {{"mesh", "file of the surface, relative to the scene file"}, &SceneBody::mesh},
+    {{"texture", "picture on the skin, placed by the mesh's UVs, in place of what its file names"},
+     &SceneBody::texture},
     {{"box", "sides of a box; instead of mesh", Dimension::kLength, kPositive}, &SceneBody::box},
     {{"cut", "parts taken out of a box"}, &SceneBody::cuts},
     {{"size", "longest side of the body", Dimension::kLength, kPositive}, &SceneBody::size},

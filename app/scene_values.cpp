@@ -79,9 +79,16 @@ void parse_value(std::string_view text, const KeyInfo& key, std::array<int, 2>& 
   parse_value(text.substr(cross + 1), key, value[1]);
 }
 
-void parse_value(std::string_view text, const KeyInfo&, std::filesystem::path& value) { value = text; }
+void parse_value(std::string_view text, const KeyInfo&, std::filesystem::path& value) {
+  if (text.empty()) throw Error(ErrorKind::kBadInput, "is empty; name a file");
+  if (text.find('\0') != std::string_view::npos) throw Error(ErrorKind::kBadInput, "no file's name has a zero in it");
+  value = text;
+}
 
-void parse_value(std::string_view text, const KeyInfo&, std::string& value) { value = text; }
+void parse_value(std::string_view text, const KeyInfo&, std::string& value) {
+  if (text.empty()) throw Error(ErrorKind::kBadInput, "is empty");
+  value = text;
+}
 
 void parse_value(std::string_view text, const KeyInfo&, Axes& value) {
   value.held = {false, false, false};

@@ -3,6 +3,7 @@
 #include "app/scene_file.h"
 #include "app/scene_values.h"
 #include "core/error.h"
+#include "core/mesh/file_checks.h"
 #include "core/nearest.h"
 
 namespace sprung {
@@ -37,6 +38,14 @@ concept Word = requires(std::string_view text, const KeyInfo& key, Value& value)
 template <Word Value>
 void set_field(std::vector<Value>&, const KeyInfo& key, std::string_view, std::string_view) {
   refuse(key.name);
+}
+
+/// From where the program runs; a scene file's own paths are from where it lies.
+void set_field(std::filesystem::path& path, const KeyInfo& key, std::string_view rest, std::string_view text) {
+  if (!rest.empty()) refuse(rest);
+  parse_value(text, key, path);
+  path = std::filesystem::absolute(path).lexically_normal();
+  check_readable(path);
 }
 
 void set_field(Material& material, const KeyInfo& key, std::string_view rest, std::string_view text) {

@@ -10,6 +10,7 @@
 #include "app/pin_movements.h"
 #include "app/progress.h"
 #include "app/units.h"
+#include "core/error.h"
 #include "core/motion/integrator.h"
 #include "core/motion/statics.h"
 
@@ -84,7 +85,7 @@ class Runner {
       steps_done_ += steps;
       left -= steps;
       progress_.update(bricks_ * static_cast<double>(steps_done_));
-      warn_of_long_run();
+      judge_long_run();
     }
   }
 
@@ -110,12 +111,18 @@ class Runner {
   }
 
  private:
-  void warn_of_long_run() {
-    if (is_warned_ || progress_.seconds() < kSecondsToEstimate) return;
-    is_warned_ = true;
-    if (progress_.seconds_to_go() < kLongRun) return;
-    console_.warn(
-        fmt::format("the simulation needs about {} more; {}", duration_text(progress_.seconds_to_go()), kRemedy));
+  /// Once, when enough is done to tell.
+  void judge_long_run() {
+    if (is_judged_ || progress_.seconds() < kSecondsToEstimate) return;
+    is_judged_ = true;
+    const double seconds = progress_.seconds_to_go();
+    if (seconds > scene_.solver.time_limit) {
+      throw Error(ErrorKind::kBadInput,
+                  fmt::format("the simulation would take about {}, longer than --time-limit ({}); {}",
+                              duration_text(seconds), duration_text(scene_.solver.time_limit), kRemedy));
+    }
+    if (seconds < kLongRun) return;
+    console_.warn(fmt::format("the simulation needs about {} more; {}", duration_text(seconds), kRemedy));
   }
 
   [[nodiscard]] Scheme scheme() const {
@@ -144,7 +151,7 @@ class Runner {
   double total_;
   Progress progress_;
   long steps_done_ = 0;
-  bool is_warned_ = false;
+  bool is_judged_ = false;
 };
 
 Recording record_motion(Production& production, const Scene& scene, const Console& console) {

@@ -25,7 +25,7 @@ struct Unit {
 constexpr double kDegreesPerRadian = 180 / std::numbers::pi;
 
 /// The first unit of a dimension is its base unit; usual units grow from there in the order of the table.
-constexpr std::array<Unit, 58> kUnits{{
+constexpr std::array<Unit, 59> kUnits{{
     {Dimension::kRatio, "", 1},
     {Dimension::kRatio, "%", 0.01},
     {Dimension::kLength, "m", 1, true},
@@ -42,6 +42,7 @@ constexpr std::array<Unit, 58> kUnits{{
     {Dimension::kTime, "µs", 1e-6},
     {Dimension::kTime, "ms", 1e-3, true},
     {Dimension::kTime, "min", 60},
+    {Dimension::kTime, "h", 3600},
     {Dimension::kRate, "fps", 1, true},
     {Dimension::kRate, "Hz", 1},
     {Dimension::kRate, "1/s", 1},

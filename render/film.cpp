@@ -104,6 +104,10 @@ bool is_film(const std::filesystem::path& file) {
   return extension == ".mp4" || extension == ".webm" || extension == ".gif";
 }
 
+bool is_padded(const std::filesystem::path& file, int width, int height) {
+  return lower_extension(file) != ".gif" && (width % 2 != 0 || height % 2 != 0);
+}
+
 void require_ffmpeg() {
   if (find_program("ffmpeg")) return;
   throw Error(ErrorKind::kFailed,

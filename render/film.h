@@ -9,6 +9,9 @@ namespace sprung {
 /// True where `file` names a film by its ending: .mp4, .webm, .gif (any case).
 [[nodiscard]] bool is_film(const std::filesystem::path& file);
 
+/// True where a film of pictures of that size would be a column or a row larger: MP4 and WebM take even sides only.
+[[nodiscard]] bool is_padded(const std::filesystem::path& file, int width, int height);
+
 /// Throws Error(kFailed) with the remedy where the ffmpeg program is not on the path.
 void require_ffmpeg();
 

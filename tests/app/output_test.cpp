@@ -53,8 +53,35 @@ TEST(Output, ExistingPicturesAreKeptUnlessTold) {
 TEST(Output, FolderBelowAFileCannotBeMade) {
   const TempFolder folder;
   const std::string file = folder.write("file", "").string();
-  EXPECT_NE(error_message([&] { check_output(parse_output(file + "/out"), false); }).find("is not a folder"),
+  EXPECT_NE(error_message([&] { check_output(parse_output(file + "/out"), false); }).find("cannot make the folder"),
             std::string::npos);
+}
+
+TEST(Output, NamesWithAnUnknownEndingAreFoldersOnlyWhereThereIsOne) {
+  const TempFolder folder;
+  const std::string name = (folder.path() / "take.2").string();
+  EXPECT_NE(error_message([&] { static_cast<void>(parse_output(name)); }).find("take.2/"), std::string::npos);
+  EXPECT_EQ(parse_output(name + "/").kind, Output::Kind::kPictures);
+  std::filesystem::create_directory(name);
+  EXPECT_EQ(parse_output(name).kind, Output::Kind::kPictures);
+}
+
+TEST(Output, TwoThatMeanTheSamePlaceAreRefused) {
+  const auto are_refused = [](const std::vector<std::string>& words) {
+    return error_message([&] { static_cast<void>(parse_outputs(words)); }).find("way") != std::string::npos;
+  };
+  EXPECT_TRUE(are_refused({"a", "./a/"}));
+  EXPECT_TRUE(are_refused({"a", "b/../a/frame_{:02}.png"}));
+  EXPECT_TRUE(are_refused({"f.gif", "./f.gif"}));
+  EXPECT_TRUE(are_refused({"f.gif", "f.gif/"}));
+  EXPECT_TRUE(are_refused({"f.gif/b/", "f.gif"}));
+  EXPECT_FALSE(are_refused({"a", "b", "a/f.gif", "a/f_{}.png", "f.gif", "f.mp4"}));
+}
+
+TEST(Output, CheckingLeavesNothingBehind) {
+  const TempFolder folder;
+  check_output(parse_output((folder.path() / "a/b/c").string()), false);
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
 }  // namespace

@@ -51,18 +51,95 @@ TEST_F(Program, WrongUsageIsTwo) {
   expect_error("animate cube.obj -o out --model tensil", 2, "did you mean 'tensile'?");
   expect_error("animate cube.obj -o film.avi", 2, "film (.mp4");
   expect_error("animate cube.obj -o out --threads 0", 2, "--threads: 0 is out of range");
+  expect_error("animate cube.obj -o out --material gelatine", 2, "did you mean 'gelatin'?");
+  expect_error("animate cube.obj -o out --texture none.png", 2, "no such file");
+  expect_error("animate cube.obj -o out --fps 3 --fps 4", 2, "--fps is given 2 times");
+  expect_error("animate cube.obj -o out --fps", 2, "--fps needs a value");
+  expect_error("animate cube.obj -o film.mp5", 2, "did you mean '.mp4'?");
+  expect_error("animate cube.obj -o out -o ./out/frame_{:04}.png", 2, "in each other's way");
+  expect_error("simulate cube.obj -o out --samples 1", 2, "it is an option of sprung animate");
 }
 
 TEST_F(Program, BadInputIsThree) {
   expect_error("animate missing.obj -o out", 3, "missing.obj");
   expect_error("animate missing.toml -o out", 3, "missing.toml");
-  expect_error("animate cube.obj -o out --material gelatine", 3, "did you mean 'gelatin'?");
   static_cast<void>(folder_.write("empty.obj", ""));
   expect_error("animate empty.obj -o out", 3, "empty.obj");
   static_cast<void>(folder_.write("bad.toml", "fbs = 3\n[[body]]\nmesh = \"nothing.obj\"\n"));
   expect_error("animate bad.toml -o out", 3, "sprung: error: bad.toml:1:1: unknown key 'fbs'");
   expect_error("animate bad.toml -o out", 3, "sprung: error: bad.toml:3:8: body.mesh");
+  static_cast<void>(folder_.write("nameless.toml", "[[body]]\nmesh = \"\"\n"));
+  expect_error("animate nameless.toml -o out", 3, "nameless.toml:2:8: body.mesh: is empty");
+  expect_error("animate nameless.toml/ -o out", 3, "nameless.toml");
+  expect_error("animate . -o out", 3, "is a directory");
+  expect_error("animate /dev/null -o out", 3, "a device");
+  expect_error("animate cube.obj -o out --brick-size 1m", 3, "larger than the body");
+  expect_error("animate cube.obj -o out --texture cube.obj", 3, "has no UVs");
   EXPECT_FALSE(exists("out"));
+}
+
+TEST_F(Program, OutputsThatCannotBeWrittenAreSaidBeforeTheWork) {
+  for (const std::string& output : {std::string("/proc/sprung/out"), "new/" + std::string(300, 'x') + "_{}.png"}) {
+    const ProgramRun ended = run(kTiny + " -o " + output);
+    EXPECT_EQ(ended.exit_code, 1) << ended.err;
+    EXPECT_EQ(ended.err.find("simulate"), std::string::npos) << ended.err;
+  }
+  EXPECT_FALSE(exists("new"));
+  expect_error(kTiny + " --bricks 6", 2, "--bricks is given 2 times");
+}
+
+TEST_F(Program, SaysWhereASurfaceCrossesItself) {
+  std::string text = kCubeObj;
+  text.replace(text.find("v 1 1 1"), 7, "v .5 .5 -.5");
+  static_cast<void>(folder_.write("crossing.obj", text));
+  const ProgramRun made = run("simulate crossing.obj -o out --bricks 12 --duration 0.05");
+  EXPECT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_NE(made.err.find("the surface crosses itself: "), std::string::npos) << made.err;
+  const ProgramRun plain = run("simulate cube.obj -o plain --bricks 12 --duration 0.05");
+  EXPECT_EQ(plain.exit_code, 0) << plain.err;
+  EXPECT_EQ(plain.err.find("crosses"), std::string::npos) << plain.err;
+}
+
+TEST_F(Program, WarnsOfBricksThatDoNotHoldTheMass) {
+  const std::string knot = std::string("simulate ") + SPRUNG_SOURCE_DIR "/assets/models/knot.ply --duration 0.05 ";
+  const ProgramRun coarse = run(knot + "-o coarse --bricks 1");
+  EXPECT_NE(coarse.err.find("are too coarse: they hold "), std::string::npos) << coarse.err;
+  const ProgramRun fine = run(knot + "-o fine --bricks 24");
+  EXPECT_EQ(fine.exit_code, 0) << fine.err;
+  EXPECT_EQ(fine.err.find("too coarse"), std::string::npos) << fine.err;
+}
+
+TEST_F(Program, RefusesWhatWouldTakeTooLong) {
+  const ProgramRun ended = run("animate cube.obj -o out --size 1e-6 --time-limit 1h");
+  EXPECT_EQ(ended.exit_code, 3) << ended.err;
+  EXPECT_NE(ended.err.find("longer than --time-limit (1 h 00 min)"), std::string::npos) << ended.err;
+}
+
+TEST_F(Program, ASignalLeavesNoHalfFilm) {
+  const std::string film = "animate cube.obj --bricks 2 --duration 100 --fps 100 --resolution 640x480 -o film.mp4";
+  const ProgramRun ended = run_program(folder_, film, "timeout --preserve-status -s TERM 2");
+  EXPECT_EQ(ended.exit_code, 143) << ended.err;
+  EXPECT_NE(ended.err.find("interrupted"), std::string::npos) << ended.err;
+  EXPECT_FALSE(exists("film.mp4"));
+  EXPECT_FALSE(exists("film.partial.mp4"));
+}
+
+TEST_F(Program, ResultsThatCannotBeWrittenAreAnError) {
+  for (const std::string target : {">/dev/full", ">&-"}) {
+    EXPECT_EQ(run("materials " + target + " 2>program.err #").exit_code, 1) << target;
+    EXPECT_NE(text_of(folder_.path() / "program.err").find("stdout"), std::string::npos) << target;
+  }
+}
+
+/// In a terminal of its own; what it shows is `out`.
+TEST_F(Program, ColourAndBarsOnlyWhereTheTerminalHasThem) {
+  const auto shown = [&](const std::string& environment, const std::string& words) {
+    return run_program(folder_, words + "\" /dev/null", environment + " script -qec \"").out;
+  };
+  EXPECT_NE(shown("TERM=xterm NO_COLOR=", "animate missing.obj -o out").find("\033[1;31m"), std::string::npos);
+  EXPECT_EQ(shown("TERM=xterm NO_COLOR=1", "animate missing.obj -o out").find("\033[1;"), std::string::npos);
+  EXPECT_EQ(shown("TERM=dumb", kTiny + " -o dumb").find('\033'), std::string::npos);
+  EXPECT_NE(shown("TERM=xterm", kTiny + " -o bars").find("\r\033[Ksize: cube.obj"), std::string::npos);
 }
 
 TEST_F(Program, NoColourInAFile) {
@@ -110,7 +187,6 @@ TEST_F(Program, HangsByItsTop) {
 TEST_F(Program, KeepsWhatExistsUnlessTold) {
   ASSERT_EQ(run(kTiny + " -o out").exit_code, 0);
   expect_error(kTiny + " -o out", 2, "--overwrite");
-  ASSERT_EQ(run(kTiny + " -o out --overwrite --duration 0.5").exit_code, 2);  // twice the same option
   const std::string shorter = "animate cube.obj --bricks 6 --duration 0.5 --fps 4 --resolution 160x120 -o out";
   ASSERT_EQ(run(shorter + " --overwrite").exit_code, 0);
   EXPECT_TRUE(exists("out/frame_0002.png"));
@@ -125,6 +201,20 @@ TEST_F(Program, PrintedSceneMakesTheSameFilm) {
   ASSERT_EQ(run(kTiny + " --young 30kPa -o a").exit_code, 0);
   ASSERT_EQ(run("animate printed.toml -o b").exit_code, 0);
   EXPECT_EQ(text_of(folder_.path() / "a/frame_0004.png"), text_of(folder_.path() / "b/frame_0004.png"));
+}
+
+TEST_F(Program, PrintedSceneKeepsWhatWasSet) {
+  static_cast<void>(folder_.write("scene.toml",
+                                  "duration = 0.5\nfps = 4\n[[body]]\nmesh = \"cube.obj\"\nscale = 0.07\n"
+                                  "brick_size = 0.0175\ncolor = \"#123456\"\n"));
+  const ProgramRun printed = run("simulate scene.toml --print-scene");
+  for (const char* line : {"scale = 0.07", "brick_size = 0.0175", "color = \"#123456\""}) {
+    EXPECT_NE(printed.out.find(line), std::string::npos) << printed.out;
+  }
+  static_cast<void>(folder_.write("printed.toml", printed.out));
+  const ProgramRun first = run("simulate scene.toml -o a");
+  EXPECT_EQ(first.exit_code, 0) << first.err;
+  EXPECT_EQ(first.out, run("simulate printed.toml -o b").out);
 }
 
 TEST_F(Program, QuietSaysNothingButResults) {

@@ -1,0 +1,92 @@
+#include "app/scene_checks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/nearest.h"
+
+namespace sprung {
+namespace {
+
+void refuse_both(const toml::table& table, const std::string& path, std::string_view first, std::string_view second,
+                 SceneMistakes& mistakes) {
+  if (!table.contains(first) || !table.contains(second)) return;
+  mistakes.add(table.get(second)->source(), fmt::format("{}: give {} or {}, not both", path, first, second));
+}
+
+void require_one(const toml::table& table, const std::string& path, std::string_view first, std::string_view second,
+                 SceneMistakes& mistakes) {
+  refuse_both(table, path, first, second, mistakes);
+  if (table.contains(first) || table.contains(second)) return;
+  mistakes.add(table.source(), fmt::format("{} lacks the key '{}' or '{}'", path, first, second));
+}
+
+/// A brick's law depends on its Poisson's ratio in many constants, on its stiffness in one factor.
+void check_regions(const toml::array& regions, const std::string& path, const SceneBody& body,
+                   SceneMistakes& mistakes) {
+  for (std::size_t i = 0; i < body.regions.size(); ++i) {
+    if (body.regions[i].material.poisson == body.material.poisson) continue;
+    mistakes.add(regions[i].source(),
+                 fmt::format("{}.region: its Poisson's ratio {} is not that of the body, {}; the materials of one "
+                             "body may differ in stiffness and density only",
+                             path, body.regions[i].material.poisson, body.material.poisson));
+  }
+}
+
+void check_pin(const toml::node& node, const std::string& name, const SceneBody& body, SceneMistakes& mistakes) {
+  std::vector<std::string_view> names;
+  for (const Pin& pin : body.pins) names.push_back(pin.name);
+  if (std::find(names.begin(), names.end(), name) != names.end()) return;
+  mistakes.add(node.source(), fmt::format("probe.pin: the body has no pin '{}'{}", name, did_you_mean(name, names)));
+}
+
+void check_probes(const toml::array& probes, const Scene& scene, SceneMistakes& mistakes) {
+  for (std::size_t i = 0; i < scene.probes.size(); ++i) {
+    const Probe& probe = scene.probes[i];
+    const auto body = static_cast<std::size_t>(probe.body - 1);
+    if (body >= scene.bodies.size()) {
+      mistakes.add(probes[i].source(), fmt::format("probe.body: there is no body {}", probe.body));
+    } else if (!probe.pin.empty()) {
+      check_pin(probes[i], probe.pin, scene.bodies[body], mistakes);
+    }
+  }
+}
+
+}  // namespace
+
+void check_together(const toml::table& table, const std::string& path, const SceneBody& body, SceneMistakes& mistakes) {
+  require_one(table, path, "mesh", "box", mistakes);
+  refuse_both(table, path, "size", "scale", mistakes);
+  refuse_both(table, path, "box", "size", mistakes);
+  refuse_both(table, path, "box", "scale", mistakes);
+  refuse_both(table, path, "mesh", "cut", mistakes);
+  refuse_both(table, path, "box", "texture", mistakes);
+  refuse_both(table, path, "bricks", "brick_size", mistakes);
+  if (!body.regions.empty()) check_regions(*table.get("region")->as_array(), path, body, mistakes);
+}
+
+void check_together(const toml::table& table, const std::string& path, const Gate&, SceneMistakes& mistakes) {
+  require_one(table, path, "tolerance", "no_worse_than", mistakes);
+}
+
+void check_together(const toml::table& table, const std::string& path, const Probe&, SceneMistakes& mistakes) {
+  require_one(table, path, "point", "pin", mistakes);
+}
+
+void check_together(const toml::table& table, const std::string& path, const Box& box, SceneMistakes& mistakes) {
+  if ((box.min.array() < box.max.array()).all()) return;
+  mistakes.add(table.source(), fmt::format("{}: min must be below max along every axis", path));
+}
+
+void check_together(const toml::table& table, const std::string&, const Scene& scene, SceneMistakes& mistakes) {
+  if (!scene.probes.empty()) check_probes(*table.get("probe")->as_array(), scene, mistakes);
+  if (scene.obstacles.empty()) return;
+  const toml::array& obstacles = *table.get("obstacle")->as_array();
+  if (scene.obstacles.size() > 1) mistakes.add(obstacles[1].source(), "a scene can have one [[obstacle]] only");
+  if (!is_motion(scene)) {
+    mistakes.add(obstacles[0].source(), "only a motion (solver.scheme euler or verlet) meets an [[obstacle]]");
+  }
+}
+
+}  // namespace sprung

@@ -1,0 +1,26 @@
+#include "app/with_scene.h"
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
+#include <optional>
+
+#include "app/make_scene.h"
+#include "app/scene_file.h"
+
+namespace sprung {
+
+void with_scene(const SceneOptions& options, const std::function<void(const Scene&)>& work) {
+  const Scene scene = make_scene(options);
+  if (options.print_scene) {
+    fmt::print("{}", print_scene(with_defaults(scene)));
+    return;
+  }
+  std::optional<tbb::global_control> threads;
+  if (options.threads > 0) {
+    threads.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
+  }
+  work(scene);
+}
+
+}  // namespace sprung
