@@ -90,7 +90,7 @@ TEST_F(Program, OutputsThatCannotBeWrittenAreSaidBeforeTheWork) {
 
 TEST_F(Program, SaysWhereASurfaceCrossesItself) {
   std::string text = kCubeObj;
-  text.replace(text.find("v 1 1 1"), 7, "v .5 .5 -.5");
+  text.replace(text.find("v 1 1 1"), 7, "v 0.5 0.5 -0.5");
   static_cast<void>(folder_.write("crossing.obj", text));
   const ProgramRun made = run("simulate crossing.obj -o out --bricks 12 --duration 0.05");
   EXPECT_EQ(made.exit_code, 0) << made.err;
