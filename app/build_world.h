@@ -38,7 +38,7 @@ struct Production {
 };
 
 /// Fills the bodies' solids with bricks, places them and finds what is held.
-/// Throws Error(kBadInput) where a pin holds no node.
+/// Throws Error(kBadInput) where a pin holds no node or a body starts more than a brick below the ground.
 [[nodiscard]] Production build_world(const Scene& scene, const std::vector<LoadedBody>& bodies, const Console& console);
 
 /// Skin vertices of actor i for these positions of its nodes, m.

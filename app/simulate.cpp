@@ -11,16 +11,16 @@
 #include "app/progress.h"
 #include "app/units.h"
 #include "core/error.h"
-#include "core/motion/integrator.h"
+#include "core/motion/careful_motion.h"
 #include "core/motion/statics.h"
 
 namespace sprung {
 namespace {
 
-constexpr double kChunkBrickSteps = 2e6;  // between two looks at Ctrl-C and the clock
-constexpr double kManySteps = 20000;      // a frame, from which on a warning is due
-constexpr double kLongRun = 3600;         // s to go, from which on a warning is due
+constexpr double kManySteps = 20000;  // a frame, from which on a warning is due
+constexpr double kLongRun = 3600;     // s to go, from which on a warning is due
 constexpr double kSecondsToEstimate = 3;
+constexpr double kCrushedVolume = 0.15;  // of a brick's volume at rest, from which on a warning is due
 
 constexpr std::string_view kRemedy = "fewer bricks, a softer material or a shorter --duration make it quicker";
 
@@ -36,28 +36,28 @@ int inverted_bricks(const World& world) {
   return count;
 }
 
-/// The steps of one frame are of equal length and fill it exactly.
-struct Steps {
-  long per_frame = 1;
-  double dt = 0;       // s
-  long per_chunk = 1;  // depends on the scene only, so that the same scene is always cut in the same way
-};
-
-Steps steps_of(const World& world, const Scene& scene) {
-  const double frame = 1 / scene.fps;
-  Steps steps;
-  steps.per_frame = std::max(1L, static_cast<long>(std::ceil(frame / stable_step(world))));
-  steps.dt = frame / static_cast<double>(steps.per_frame);
-  steps.per_chunk = std::clamp(static_cast<long>(kChunkBrickSteps / brick_count(world)), 1L, steps.per_frame);
-  return steps;
+/// A material that cannot carry its own weight, or a fall it cannot take, ends with bricks pressed flat: the picture is
+/// then not what the material would do.
+void warn_of_crushed_bodies(const World& world, const Console& console) {
+  for (std::size_t i = 0; i < world.actors.size(); ++i) {
+    const Body& body = world.actors[i].body;
+    const int inverted = inverted_bricks(body);
+    const double smallest = smallest_volume_ratio(body);
+    if (inverted == 0 && smallest > kCrushedVolume) continue;
+    console.warn(
+        fmt::format("body {}: {} of {} bricks are inside out at the end, the flattest keeps {:.2g} of its volume: "
+                    "the material is too soft for its weight or its fall; a stiffer or lighter material (young, "
+                    "density) or a smaller body carries itself",
+                    i + 1, inverted, body.grid.brick_count(), smallest));
+  }
 }
 
 void forecast(const Steps& steps, double brick_steps, const Console& console) {
   console.detail(fmt::format("step {}, {} steps a frame, {:.3g} brick-steps in all",
-                             readable(steps.dt, Dimension::kTime), steps.per_frame, brick_steps));
-  if (static_cast<double>(steps.per_frame) < kManySteps) return;
-  console.warn(fmt::format("the material is so stiff for its bricks that a frame takes {} steps of {}; {}",
-                           steps.per_frame, readable(steps.dt, Dimension::kTime), kRemedy));
+                             readable(steps.dt, Dimension::kTime), steps.count, brick_steps));
+  if (static_cast<double>(steps.count) < kManySteps) return;
+  console.warn(fmt::format("the material is so stiff for its bricks that a frame takes {} steps of {}; {}", steps.count,
+                           readable(steps.dt, Dimension::kTime), kRemedy));
 }
 
 /// One frame of motion in chunks.
@@ -68,25 +68,25 @@ class Runner {
         world_(production.world),
         scene_(scene),
         console_(console),
-        steps_(steps_of(world_, scene)),
+        frame_time_(1 / scene.fps),
+        steps_(choose_steps(world_, frame_time_)),
         bricks_(brick_count(world_)),
-        total_(bricks_ * static_cast<double>(steps_.per_frame) * (frame_count(scene) - 1)),
-        progress_(console, "simulate", total_, 1e-6, "M brick-steps/s") {
+        total_(bricks_ * static_cast<double>(steps_.count) * (frame_count(scene) - 1)),
+        progress_(console, "simulate", total_, 1e-6, "M brick-steps/s"),
+        motion_(world_, scene.solver.scheme == Solver::kVerlet ? Scheme::kVerlet : Scheme::kSymplecticEuler) {
     forecast(steps_, total_, console);
   }
 
   /// From the frame before to this one.
   void run_frame(int frame) {
     aim_pins(share_of(frame));
-    for (long left = steps_.per_frame; left > 0;) {
+    const auto between = [&](double share) {
       stop_if_interrupted();
-      const long steps = std::min(left, steps_.per_chunk);
-      advance(world_, scheme(), steps_.dt, steps, steps_.dt * static_cast<double>(steps_done_));
-      steps_done_ += steps;
-      left -= steps;
-      progress_.update(bricks_ * static_cast<double>(steps_done_));
+      progress_.update(total_ * (frame - 1 + share) / (frame_count(scene_) - 1));
       judge_long_run();
-    }
+    };
+    steps_ = motion_.advance_frame(frame_time_ * (frame - 1), frame_time_, between,
+                                   [&](const std::string& message) { console_.warn(message); });
   }
 
   /// Of the pins' movement, done at a frame.
@@ -106,8 +106,10 @@ class Runner {
   }
 
   void finish(int frames) {
+    const int inverted = inverted_bricks(world_);
     progress_.finish(fmt::format("{} frames, {} steps of {} a frame, {} inverted bricks at the end", frames,
-                                 steps_.per_frame, readable(steps_.dt, Dimension::kTime), inverted_bricks(world_)));
+                                 steps_.count, readable(steps_.dt, Dimension::kTime), inverted));
+    warn_of_crushed_bodies(world_, console_);
   }
 
  private:
@@ -125,19 +127,14 @@ class Runner {
     console_.warn(fmt::format("the simulation needs about {} more; {}", duration_text(seconds), kRemedy));
   }
 
-  [[nodiscard]] Scheme scheme() const {
-    return scene_.solver.scheme == Solver::kVerlet ? Scheme::kVerlet : Scheme::kSymplecticEuler;
-  }
-
   /// Gives held nodes the velocities that bring them along in a frame's time.
   void aim_pins(double share) {
-    const double time = steps_.dt * static_cast<double>(steps_.per_frame);
     for (std::size_t i = 0; i < world_.actors.size(); ++i) {
       if (!has_moving_pins(scene_, production_, i)) continue;
       Actor& actor = world_.actors[i];
       const Points goal = actor.body.rest_positions + pin_movements(scene_, production_, i, share, false);
       for (HeldNode& held : actor.pinned) {
-        held.velocity = (goal.row(held.node) - actor.body.positions.row(held.node)).transpose() / time;
+        held.velocity = (goal.row(held.node) - actor.body.positions.row(held.node)).transpose() / frame_time_;
       }
     }
   }
@@ -146,11 +143,12 @@ class Runner {
   World& world_;
   const Scene& scene_;
   const Console& console_;
-  Steps steps_;
+  double frame_time_;  // s
+  Steps steps_;        // of the last frame
   double bricks_;
   double total_;
   Progress progress_;
-  long steps_done_ = 0;
+  CarefulMotion motion_;
   bool is_judged_ = false;
 };
 

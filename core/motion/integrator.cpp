@@ -4,7 +4,7 @@
 
 #include "core/body/forces.h"
 #include "core/error.h"
-#include "core/world/ground_contact.h"
+#include "core/world/impulses.h"
 
 namespace sprung {
 namespace {
@@ -16,7 +16,7 @@ class Mover {
       : actor_(actor),
         world_(world),
         inverse_masses_(actor.body.masses.cwiseInverse()),
-        contact_(actor, without_held(inverse_masses_, actor)) {}
+        impulses_(actor, without_held(inverse_masses_, actor)) {}
 
   /// velocities += dt (forces / m + gravity - alpha v); held nodes keep their velocity.
   void kick(double dt) {
@@ -32,9 +32,7 @@ class Mover {
     }
   }
 
-  void touch_ground(double dt) {
-    if (world_.ground) contact_.apply(*world_.ground, dt, actor_);
-  }
+  void keep_limits(double dt) { impulses_.apply(world_, dt, actor_); }
 
   void drift(double dt) { actor_.body.positions += dt * actor_.body.velocities; }
 
@@ -47,7 +45,7 @@ class Mover {
   Actor& actor_;
   const World& world_;
   Eigen::VectorXd inverse_masses_;
-  GroundContact contact_;
+  Impulses impulses_;
   ForceWorkspace workspace_;
   Points forces_;
 };
@@ -66,7 +64,7 @@ void check_finite(const World& world, double time) {
 void euler(Mover& mover, double dt, long steps) {
   for (long step = 0; step < steps; ++step) {
     mover.kick(dt);
-    mover.touch_ground(dt);
+    mover.keep_limits(dt);
     mover.drift(dt);
   }
 }
@@ -75,7 +73,7 @@ void euler(Mover& mover, double dt, long steps) {
 void verlet(Mover& mover, double dt, long steps) {
   for (long step = 0; step < steps; ++step) {
     mover.kick(step == 0 ? dt / 2 : dt);
-    mover.touch_ground(dt);
+    mover.keep_limits(dt);
     mover.drift(dt);
   }
   if (steps > 0) mover.kick(dt / 2);

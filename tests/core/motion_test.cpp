@@ -5,7 +5,9 @@
 #include "core/body/brick_hessian.h"
 #include "core/body/forces.h"
 #include "core/error.h"
+#include "core/motion/careful_motion.h"
 #include "core/motion/integrator.h"
+#include "core/world/squeeze.h"
 #include "tests/support/bodies.h"
 
 namespace sprung {
@@ -173,6 +175,96 @@ TEST(Motion, DroppedCubeOnItsCornerKeepsNoBrickInverted) {
     EXPECT_EQ(inverted_bricks(world.actors[0].body), 0) << speed;
     EXPECT_GT(world.actors[0].body.positions.col(1).minCoeff(), -0.002) << speed;
   }
+}
+
+/// A cube that falls flat is pushed by the ground in the same way at all four corners: it bounces without turning.
+TEST(Motion, SymmetricCubeBouncesWithoutTumbling) {
+  World world = world_of(box_body({2, 2, 2}, 0.05, Model::kCalibrated, 0.3), {0, -9.81, 0});
+  world.ground = Ground{.height = 0, .friction = 0, .restitution = 0};
+  Body& body = world.actors[0].body;
+  place(body, Mat3::Identity(), Vec3(0, 0.05, 0));
+  const double dt = stable_step(world);
+  for (int look = 0; look < 20; ++look) {
+    advance(world, Scheme::kSymplecticEuler, dt, static_cast<long>(0.1 / dt), 0.1 * look);
+    for (int node = 0; node < body.node_count(); ++node) {
+      const Eigen::Vector3i& place = body.grid.lattice[static_cast<std::size_t>(node)];
+      const int mirror = (2 - place.x()) + 3 * place.y() + 9 * place.z();
+      EXPECT_NEAR(body.positions(node, 1), body.positions(mirror, 1), 1e-9) << "t = " << 0.1 * (look + 1);
+    }
+  }
+}
+
+/// Bricks far too soft for their own weight are pressed to the limit, not through themselves.
+TEST(Motion, CollapsingBodyKeepsNoBrickInverted) {
+  for (const double poisson : {0.1, 0.3, 0.45}) {
+    World world = world_of(make_body(make_box_grid({4, 4, 4}, 0.05), Model::kCalibrated, test_material(poisson, 100)),
+                           {0, -9.81, 0});
+    world.ground = Ground{};
+    world.actors[0].body.damping.beta = 0.01;
+    brace(world.actors[0].body, 9.81, 0.0);
+    CarefulMotion motion(world, Scheme::kSymplecticEuler);
+    for (int frame = 0; frame < 30; ++frame) {
+      static_cast<void>(motion.advance_frame(
+          frame * 0.04, 0.04, [](double) {}, [](const std::string&) {}));
+    }
+    EXPECT_EQ(inverted_bricks(world.actors[0].body), 0) << poisson;
+    EXPECT_LT(smallest_volume_ratio(world.actors[0].body), 0.3) << poisson;
+  }
+}
+
+/// What starts a little below the ground comes up, and no higher than a throw from there would.
+TEST(Motion, SlightOverlapWithTheGroundIsLiftedGently) {
+  const double h = 0.02;
+  World world = world_of(box_body({4, 4, 4}, h, Model::kCalibrated, 0.3), {0, -9.81, 0});
+  world.ground = Ground{};
+  Body& body = world.actors[0].body;
+  body.damping.beta = 1e-3;
+  place(body, Mat3::Identity(), Vec3(0, -0.9 * h, 0));
+  const double dt = stable_step(world);
+  double highest = -h;
+  for (int look = 0; look < 100; ++look) {
+    advance(world, Scheme::kSymplecticEuler, dt, static_cast<long>(0.01 / dt), 0.01 * look);
+    highest = std::max(highest, body.positions.col(1).minCoeff());
+  }
+  EXPECT_LT(highest, h);
+  EXPECT_GT(body.positions.col(1).minCoeff(), -0.01 * h);
+}
+
+/// A node with hardly any mass makes the step, which counts on lumped masses, too long: found within the frame, said,
+/// and cured by halving it.
+TEST(CarefulMotion, HalvesTheStepWhereEnergyComesFromNowhere) {
+  World world = world_of(box_body({3, 2, 2}, 0.02, Model::kCalibrated, 0.3));
+  Body& body = world.actors[0].body;
+  std::mt19937 random(4);
+  shake(body, 0.01, random);
+  body.masses[0] /= 40;
+  const double before = energy_of(body, world.gravity).sum();
+  std::vector<std::string> said;
+  CarefulMotion motion(world, Scheme::kSymplecticEuler);
+  const double frame = 200 * stable_step(world);
+  static_cast<void>(motion.advance_frame(
+      0, frame, [](double) {}, [&](const std::string& line) { said.push_back(line); }));
+  ASSERT_FALSE(said.empty());
+  EXPECT_NE(said[0].find("body 1, brick"), std::string::npos) << said[0];
+  EXPECT_LT(energy_of(body, world.gravity).sum(), 1.5 * before);
+}
+
+TEST(CarefulMotion, GivesUpWithTimeBodyAndRemedy) {
+  World world = world_of(box_body({2, 1, 1}, 0.02, Model::kCalibrated, 0.3));
+  world.actors[0].body.velocities(3, 1) = std::nan("");
+  CarefulMotion motion(world, Scheme::kVerlet);
+  int said = 0;
+  try {
+    static_cast<void>(motion.advance_frame(
+        0.25, 0.01, [](double) {}, [&](const std::string&) { ++said; }));
+    FAIL() << "a velocity that is not finite went by unseen";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kDiverged);
+    for (const char* part : {"body 1, brick", "0.25", "stiffer"}) {
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+    }
+  }
+  EXPECT_EQ(said, 4);
 }
 
 TEST(Motion, PinnedNodesStay) {

@@ -1,0 +1,54 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/motion/integrator.h"
+
+namespace sprung {
+
+/// Equal steps that fill a time exactly.
+struct Steps {
+  long count = 1;
+  double dt = 0;  // s
+};
+
+/// The longest steps that are stable and in which no brick that meets the ground can run through itself: at the speed
+/// the world has, with what gravity can add in that time, no node moves further than a quarter of a brick in a step.
+[[nodiscard]] Steps choose_steps(const World& world, double time);
+
+/// Moves a world frame by frame and lets no trouble pass: a number that is not finite, or energy from nowhere, is found
+/// in the frame it appears in. The frame is then taken back and done again in steps half as long, up to a few times.
+class CarefulMotion {
+ public:
+  /// Called every now and then with the share of the frame that is done; may throw.
+  using Between = std::function<void(double share)>;
+  /// Hears why a frame is taken back.
+  using Tell = std::function<void(const std::string& message)>;
+
+  CarefulMotion(World& world, Scheme scheme) : world_(world), scheme_(scheme) {}
+
+  /// From `time` on by `duration` (s). Returns the steps it took. Deterministic for any number of threads.
+  /// Throws Error(kDiverged) naming time, body, the brick's place and what to change where no step is short enough.
+  Steps advance_frame(double time, double duration, const Between& between, const Tell& tell);
+
+ private:
+  /// Whether it came through with finite positions.
+  bool run(const Steps& steps, double time, const Between& between);
+
+  World& world_;
+  Scheme scheme_;
+  int halvings_ = 0;  // kept from frame to frame
+};
+
+/// Energy of an actor without what the ground is the zero of: kinetic + elastic + potential in the world's gravity
+/// (about y = 0), J.
+struct Energy {
+  double kinetic = 0;
+  double elastic = 0;
+  double potential = 0;
+  [[nodiscard]] double sum() const { return kinetic + elastic + potential; }
+};
+[[nodiscard]] Energy energy_of(const Body& body, const Vec3& gravity);
+
+}  // namespace sprung

@@ -1,0 +1,91 @@
+#include "core/world/squeeze.h"
+
+#include <algorithm>
+
+#include "core/body/brick_topology.h"
+
+namespace sprung {
+namespace {
+
+constexpr int kStepsBetweenLooks = 8;
+constexpr double kSuspectVolume = 0.4;
+constexpr double kRecoverySteps = 20;  // a brick found too flat or inside out comes back within about that many steps
+constexpr double kFastestRecovery = 0.01;  // its corners come apart by no more than that share of a brick in a step
+
+using Corners = Eigen::Matrix<double, 3, 8>;
+
+Corners corners_of(const std::array<int, 8>& nodes, const Points& values) {
+  Corners corners;
+  for (int corner = 0; corner < 8; ++corner) {
+    corners.col(corner) = values.row(nodes[static_cast<std::size_t>(corner)]).transpose();
+  }
+  return corners;
+}
+
+/// The three edges at a corner as columns, each from its low to its high end.
+Mat3 edges_at(int corner, const Corners& x) {
+  Mat3 edges;
+  for (int axis = 0; axis < 3; ++axis) edges.col(axis) = x.col(corner | 1 << axis) - x.col(corner & ~(1 << axis));
+  return edges;
+}
+
+/// Areas that the axes span two by two: the gradient of their determinant.
+Mat3 areas_of(const Mat3& axes) {
+  Mat3 areas;
+  areas << axes.col(1).cross(axes.col(2)), axes.col(2).cross(axes.col(0)), axes.col(0).cross(axes.col(1));
+  return areas;
+}
+
+/// Of the volumes that the edges span at the eight corners.
+double smallest_volume(const Corners& x) {
+  double smallest = edges_at(0, x).determinant();
+  for (int corner = 1; corner < 8; ++corner) smallest = std::min(smallest, edges_at(corner, x).determinant());
+  return smallest;
+}
+
+}  // namespace
+
+void brace(Body& body, double gravity, std::optional<double> ground) {
+  const Vec3 low = body.positions.colwise().minCoeff();
+  const Vec3 extent = body.positions.colwise().maxCoeff().transpose() - low;
+  const double height = ground ? std::max(0.0, low.y() - *ground) : 0;
+  const double speed_squared = ground ? body.velocities.rowwise().squaredNorm().maxCoeff() + 2 * gravity * height : 0;
+  const double pressure = body.material.density * (gravity * extent.maxCoeff() + speed_squared);
+  body.law.guard *= std::max(1.0, pressure / body.material.young);
+}
+
+void SqueezeWatch::look(const Body& body, double dt) {
+  suspects_.clear();
+  const double least = kSuspectVolume * body.grid.brick_volume();
+  for (int brick = 0; brick < body.grid.brick_count(); ++brick) {
+    const auto& nodes = body.grid.nodes[static_cast<std::size_t>(brick)];
+    const Corners now = corners_of(nodes, body.positions);
+    const Corners later = now + kStepsBetweenLooks * dt * corners_of(nodes, body.velocities);
+    if (std::min(smallest_volume(now), smallest_volume(later)) < least) suspects_.push_back(brick);
+  }
+}
+
+const std::vector<Squeeze>& SqueezeWatch::find(const Body& body, double dt) {
+  if (steps_to_look_ == 0) look(body, dt);
+  steps_to_look_ = (steps_to_look_ + 1) % kStepsBetweenLooks;
+  found_.clear();
+  const double volume = body.grid.brick_volume();
+  for (const int brick : suspects_) {
+    const auto& nodes = body.grid.nodes[static_cast<std::size_t>(brick)];
+    const Corners x = corners_of(nodes, body.positions);
+    const Corners v = corners_of(nodes, body.velocities);
+    for (int corner = 0; corner < 8; ++corner) {
+      const Mat3 edges = edges_at(corner, x);
+      const Mat3 areas = areas_of(edges) / volume;
+      const double lack = kLeastVolume - edges.col(0).dot(areas.col(0));
+      const double rate = edges_at(corner, v).cwiseProduct(areas).sum();
+      const double recovery = std::min(lack / kRecoverySteps, kFastestRecovery * body.grid.brick_size * areas.norm());
+      const double least_rate = (lack > 0 ? recovery : lack) / dt;
+      if (!(rate < least_rate)) continue;  // nor where a number is not finite
+      found_.push_back({.brick = brick, .corner = corner, .gradient = areas, .least_rate = least_rate});
+    }
+  }
+  return found_;
+}
+
+}  // namespace sprung

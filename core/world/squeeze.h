@@ -1,0 +1,43 @@
+#pragma once
+#include <vector>
+
+#include "core/world/world.h"
+
+namespace sprung {
+
+/// At each of its corners a brick keeps at least this share of its volume: like a sponge whose pores are closed, it
+/// yields no further. The volume guard of its law works below 0.3 and grows with the stiffness; this does not. It looks
+/// at the corners because springs do not know left from right there either: a brick that is only folded, its mean axes
+/// in order, has found a state that the springs' corrections can push on without end.
+inline constexpr double kLeastVolume = 0.1;
+
+/// Makes the volume guard of a body strong enough for what it meets, where its material is softer than that: the
+/// pressure of its own weight, density g length, and that of stopping from its speed and its fall, density (v^2 + 2 g
+/// height). Call before the first step is chosen; a guard costs step size. Bodies that are stiff enough stay as they
+/// are. `ground` (m, y) or none.
+void brace(Body& body, double gravity, std::optional<double> ground);
+
+/// A corner of a brick that would be pressed too far in the step to come.
+struct Squeeze {
+  int brick;
+  int corner;
+  Mat3 gradient;      // of the volume ratio there by the three edges at the corner (columns, low to high end), 1/m
+  double least_rate;  // of the volume ratio that is allowed, 1/s
+};
+
+/// Watches for bricks that are about to be turned inside out. All bricks are looked at every few steps only, those
+/// found flat or collapsing then in every step: in ordinary motion it costs little.
+class SqueezeWatch {
+ public:
+  /// What moving by dt would press too far; call once a step.
+  [[nodiscard]] const std::vector<Squeeze>& find(const Body& body, double dt);
+
+ private:
+  void look(const Body& body, double dt);
+
+  std::vector<int> suspects_;
+  std::vector<Squeeze> found_;
+  int steps_to_look_ = 0;
+};
+
+}  // namespace sprung

@@ -1,0 +1,155 @@
+#include "tests/soak/drop.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "core/bricks/slivers.h"
+#include "core/bricks/voxelize.h"
+#include "core/error.h"
+#include "core/mesh/read_mesh.h"
+#include "core/motion/careful_motion.h"
+#include "core/world/squeeze.h"
+#include "tests/support/meshes.h"
+
+namespace sprung::test {
+namespace {
+
+constexpr double kGravity = 9.81;
+constexpr double kPeriods = 8;  // after the fall
+constexpr double kFramesPerPeriod = 4;
+constexpr double kMostDepth = 0.02;  // of the size
+constexpr double kMostGain = 0.05;   // of the energy at the start
+
+enum class Shape { kBricks, kBox, kTorus, kBear };
+constexpr std::array kShapeNames{"bricks", "box", "torus", "bear"};
+
+/// std::uniform_real_distribution may differ between libraries; this does not.
+class Dice {
+ public:
+  Dice(std::uint32_t seed, std::uint32_t index) : engine_(seed * 1000003U + index) {}
+  double between(double low, double high) {
+    return low + (high - low) * (static_cast<double>(engine_()) / 4294967296.0);
+  }
+  double log_between(double low, double high) { return std::exp(between(std::log(low), std::log(high))); }
+  int whole(int low, int high) { return low + static_cast<int>(engine_() % static_cast<unsigned>(high - low + 1)); }
+  Mat3 rotation() {
+    const auto angle = [&] { return between(0, 2 * std::numbers::pi); };
+    return (Eigen::AngleAxisd(angle(), Vec3::UnitX()) * Eigen::AngleAxisd(angle(), Vec3::UnitY()) *
+            Eigen::AngleAxisd(angle(), Vec3::UnitZ()))
+        .toRotationMatrix();
+  }
+
+ private:
+  std::mt19937 engine_;
+};
+
+SurfaceMesh mesh_of_shape(Shape shape, Dice& dice) {
+  switch (shape) {
+    case Shape::kBear:
+      return read_mesh(std::filesystem::path(SPRUNG_SOURCE_DIR) / "assets/models/bear.ply");
+    case Shape::kTorus:
+      return torus_mesh(1, dice.between(0.2, 0.6), 48, 24);
+    case Shape::kBricks:
+    case Shape::kBox:
+      break;
+  }
+  return box_mesh(Vec3::Zero(), Vec3(1, dice.between(0.2, 1), dice.between(0.2, 1)));
+}
+
+/// Grid and contact points of a body of that size (m).
+Actor make_actor(Shape shape, double size, const Material& material, Dice& dice) {
+  if (shape == Shape::kBricks) {
+    const Eigen::Vector3i counts(dice.whole(1, 5), dice.whole(1, 5), dice.whole(1, 5));
+    Actor actor;
+    actor.body = make_body(make_box_grid(counts, size / counts.maxCoeff()), Model::kCalibrated, material);
+    actor.contacts = embed(actor.body.grid, actor.body.grid.rest_positions());
+    return actor;
+  }
+  SurfaceMesh mesh = mesh_of_shape(shape, dice);
+  mesh.positions = mesh.positions * dice.rotation().transpose();
+  const Vec3 extent = mesh.positions.colwise().maxCoeff() - mesh.positions.colwise().minCoeff();
+  mesh.positions *= size / extent.maxCoeff();
+  const Solid solid = find_solids(mesh, "drop").solids.front();
+  BrickGrid grid = voxelize(solid, size / dice.between(2, 7));
+  absorb_slivers(grid);
+  Actor actor;
+  actor.contacts = embed(grid, solid.points);
+  actor.body = make_body(std::move(grid), Model::kCalibrated, material);
+  return actor;
+}
+
+double lowest_point(const Actor& actor) {
+  return deform_points(actor.body.grid, actor.contacts, actor.body.positions).col(1).minCoeff();
+}
+
+}  // namespace
+
+Drop random_drop(std::uint32_t seed, std::uint32_t index, double least_poisson) {
+  Dice dice(seed, index);
+  const Material material{.name = "random",
+                          .young = dice.log_between(1e3, 1e9),
+                          .poisson = dice.between(least_poisson, 0.49),
+                          .density = dice.log_between(100, 5000),
+                          .damping = dice.whole(0, 3) == 0 ? 0 : dice.log_between(1e-3, 1),
+                          .source = ""};
+  const double size = dice.log_between(1e-3, 10);
+  const auto shape = static_cast<Shape>(dice.whole(0, 3));
+  Drop drop;
+  drop.world.gravity = Vec3(0, -kGravity, 0);
+  drop.world.ground = Ground{.height = 0, .friction = dice.between(0, 1), .restitution = 0};
+  drop.world.actors.push_back(make_actor(shape, size, material, dice));
+  Actor& actor = drop.world.actors.front();
+  place(actor.body, dice.rotation(), Vec3::Zero());
+  const double gap = dice.between(0, 0.02) * size;
+  place(actor.body, Mat3::Identity(), Vec3(0, gap - lowest_point(actor), 0));
+  const double speed = dice.whole(0, 4) == 0 ? 0 : dice.between(0, 10);
+  const Vec3 velocity = speed * Vec3(dice.between(-0.5, 0.5), -1, dice.between(-0.5, 0.5));
+  actor.body.velocities.rowwise() = velocity.transpose();
+  brace(actor.body, kGravity, drop.world.ground->height);
+  drop.size = size;
+  drop.period = 2 * size / std::sqrt(material.shear_modulus() / material.density);
+  const double fall = gap / std::max(speed, std::sqrt(kGravity * gap / 2));
+  drop.duration = fall + kPeriods * drop.period;
+  drop.description = fmt::format(
+      "{} of {} bricks, {:.3g} m, E {:.3g} Pa, nu {:.3g}, {:.4g} kg/m^3, damping {:.3g}, {:.3g} m/s, friction {:.2g}",
+      kShapeNames[static_cast<std::size_t>(shape)], actor.body.grid.brick_count(), size, material.young,
+      material.poisson, material.density, material.damping, speed, drop.world.ground->friction);
+  return drop;
+}
+
+DropResult run_drop(Drop& drop) {
+  DropResult result;
+  const Actor& actor = drop.world.actors.front();
+  const int frames = static_cast<int>(std::ceil(drop.duration / drop.period * kFramesPerPeriod));
+  const double frame = drop.duration / frames;
+  const double scale = actor.body.masses.sum() * kGravity * actor.body.grid.brick_size;
+  const double first = energy_of(actor.body, drop.world.gravity).sum();
+  CarefulMotion motion(drop.world, Scheme::kSymplecticEuler);
+  try {
+    for (int i = 0; i < frames; ++i) {
+      const Steps steps = motion.advance_frame(
+          i * frame, frame, [](double) {}, [&](const std::string&) { ++result.halvings; });
+      result.brick_steps += steps.count * actor.body.grid.brick_count();
+      result.deepest = std::max(result.deepest, -lowest_point(actor) / drop.size);
+      result.energy_gain =
+          std::max(result.energy_gain, (energy_of(actor.body, drop.world.gravity).sum() - first) / (first + scale));
+      result.inverted_on_the_way = std::max(result.inverted_on_the_way, inverted_bricks(actor.body));
+    }
+  } catch (const Error& error) {
+    result.fault = error.what();
+    return result;
+  }
+  result.inverted_bricks = inverted_bricks(actor.body);
+  result.smallest_volume = smallest_volume_ratio(actor.body);
+  if (result.inverted_bricks > 0) result.fault = fmt::format("{} inverted bricks at the end", result.inverted_bricks);
+  if (result.deepest > kMostDepth) result.fault += fmt::format("; {:.3g} of its size below the ground", result.deepest);
+  if (result.energy_gain > kMostGain) result.fault += fmt::format("; {:.3g} more energy", result.energy_gain);
+  return result;
+}
+
+}  // namespace sprung::test

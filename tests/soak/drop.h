@@ -1,0 +1,35 @@
+#pragma once
+#include <cstdint>
+#include <string>
+
+#include "core/world/world.h"
+
+namespace sprung::test {
+
+/// A body of random shape, size, material, damping, place and speed over the ground.
+struct Drop {
+  World world;          // one actor
+  double size = 0;      // m, longest side of the body
+  double period = 0;    // s, of its slowest vibration, estimated
+  double duration = 0;  // s: the fall, and a few periods
+  std::string description;
+};
+
+/// Drop number `index` of a series; the same for the same numbers. Poisson's ratio is `least_poisson` to 0.49.
+[[nodiscard]] Drop random_drop(std::uint32_t seed, std::uint32_t index, double least_poisson);
+
+/// What a drop did.
+struct DropResult {
+  std::string fault;            // empty: none
+  double deepest = 0;           // share of the size that a contact point was below the ground
+  double energy_gain = 0;       // highest energy over the first, share of the first
+  int inverted_bricks = 0;      // at the end
+  int inverted_on_the_way = 0;  // most, at the looks
+  double smallest_volume = 0;   // of a brick over that at rest, at the end
+  int halvings = 0;             // frames taken back
+  long brick_steps = 0;
+};
+
+[[nodiscard]] DropResult run_drop(Drop& drop);
+
+}  // namespace sprung::test
