@@ -68,27 +68,53 @@ Mat3 cross_matrix(const Vec3& v) {
   return m;
 }
 
-void add_guard(BrickMatrix& hessian, const BrickLaw& law, double volume, const CornerVectors<double>& x) {
-  const auto mean = detail::mean_axes(x);
-  const std::array<Vec3, 3> axes{to_vector(mean[0]), to_vector(mean[1]), to_vector(mean[2])};
+using AxesMatrix = Eigen::Matrix<double, 9, 9>;  // by the three mean axes
+
+void add_axial(AxesMatrix& second, const BrickLaw& law, double h, const std::array<std::array<double, 3>, 3>& axes) {
+  std::array<double, 3> stretch{};
+  std::array<Vec3, 3> directions;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto spring = detail::measure(axes[i], h);
+    stretch[i] = spring.stretch;
+    directions[i] = to_vector(spring.direction);
+  }
+  const std::array<double, 3> tension = detail::axial_tensions(law, stretch);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const int row = 3 * static_cast<int>(i);
+    for (std::size_t j = 0; j < 3; ++j) {
+      const double coupling = i == j ? law.axial_self : law.axial_cross;
+      second.block<3, 3>(row, 3 * static_cast<int>(j)) += coupling * directions[i] * directions[j].transpose();
+    }
+    second.block<3, 3>(row, row) += sideways(directions[i], tension[i], h + stretch[i]);
+  }
+}
+
+void add_guard(AxesMatrix& second, const BrickLaw& law, double volume, const std::array<Vec3, 3>& axes) {
   const double lack = law.guard_ratio - axes[0].dot(axes[1].cross(axes[2])) / volume;
   if (lack <= 0) return;
-  Eigen::Matrix<double, 9, 24> axes_by_corner = Eigen::Matrix<double, 9, 24>::Zero();
-  for (int corner = 0; corner < 8; ++corner) {
-    for (int axis = 0; axis < 3; ++axis) {
-      axes_by_corner.block<3, 3>(3 * axis, 3 * corner) = (on_high_side(corner, axis) ? 0.25 : -0.25) * Mat3::Identity();
-    }
-  }
   Eigen::Matrix<double, 9, 1> slope;
   slope << axes[1].cross(axes[2]), axes[2].cross(axes[0]), axes[0].cross(axes[1]);
   slope /= volume;
-  Eigen::Matrix<double, 9, 9> second = law.guard * slope * slope.transpose();
+  second += law.guard * slope * slope.transpose();
   // d(a_{i+1} x a_{i+2}) / d a_{i+1} = -[a_{i+2}], and the transposed block opposite.
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3;
     const Mat3 block = law.guard * lack / volume * cross_matrix(axes[static_cast<std::size_t>((i + 2) % 3)]);
     second.block<3, 3>(3 * i, 3 * j) += block;
     second.block<3, 3>(3 * j, 3 * i) += block.transpose();
+  }
+}
+
+void add_axes(BrickMatrix& hessian, const BrickLaw& law, double h, const CornerVectors<double>& x) {
+  const auto axes = detail::mean_axes(x);
+  AxesMatrix second = AxesMatrix::Zero();
+  add_axial(second, law, h, axes);
+  add_guard(second, law, h * h * h, {to_vector(axes[0]), to_vector(axes[1]), to_vector(axes[2])});
+  Eigen::Matrix<double, 9, 24> axes_by_corner = Eigen::Matrix<double, 9, 24>::Zero();
+  for (int corner = 0; corner < 8; ++corner) {
+    for (int axis = 0; axis < 3; ++axis) {
+      axes_by_corner.block<3, 3>(3 * axis, 3 * corner) = (on_high_side(corner, axis) ? 0.25 : -0.25) * Mat3::Identity();
+    }
   }
   hessian += axes_by_corner.transpose() * second * axes_by_corner;
 }
@@ -102,7 +128,7 @@ BrickMatrix brick_hessian(const BrickLaw& law, double h, const CornerVectors<dou
   add_coupled(hessian, kEdges, h, edges, x);
   add_coupled(hessian, kFaceDiagonals, std::numbers::sqrt2 * h, faces, x);
   add_inner_diagonals(hessian, law, h, x);
-  add_guard(hessian, law, h * h * h, x);
+  add_axes(hessian, law, h, x);
   return hessian;
 }
 

@@ -22,7 +22,7 @@ enum class Model {
 
 /// The constants of one full brick, all in N/m. A brick is 12 edges, 12 face diagonals and 4 inner diagonals; a
 /// stretch is a current length minus the rest length, s_e that of edge e along axis i. With
-///   e_i  = mean of the four s_e along i                               mean stretch
+///   e_i  = |mean of the four edge vectors along i| - h                mean stretch
 ///   b_ij = mean of the four s_e along i, signed by their side in j    bending stretch, j != i
 ///   t_i  = mean of the stretches of the four diagonals of the faces normal to i, signed + on the high face's rising
 ///          and the low face's falling diagonal, - on the others        twist stretch
@@ -31,7 +31,11 @@ enum class Model {
 ///     + 1/2 sum_ij axial_ij e_i e_j                 axial_ii = axial_self, axial_ij = axial_cross
 ///     + 1/2 sum over the gradient direction j of (b_ij, b_kj) bending (b_ij, b_kj)^T      i, k != j
 ///     + twist_cross (t_x t_y + t_y t_z + t_z t_x)
-/// Every term is a set of tensions along edges and diagonals, so momentum is conserved whatever the constants.
+/// Every term is a set of tensions along edges, mean axes and diagonals, so momentum is conserved whatever the
+/// constants. To first order, and in every homogeneous deformation, e_i is the mean of the four s_e. It is not taken as
+/// that because axial has negative eigenvalues where nu is low: a brick that folds like an hourglass lengthens its
+/// edges, but not the mean of their vectors nor, as much, its diagonals, and energy without a lower bound would pull it
+/// apart.
 struct BrickLaw {
   double edge = 0;
   double face = 0;

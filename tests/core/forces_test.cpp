@@ -56,6 +56,27 @@ TEST(BrickForces, AreTheGradientOfTheEnergy) {
   }
 }
 
+TEST(BrickForces, HoldABrickTogetherHoweverFarItIsPulledApart) {
+  std::mt19937 random(5);
+  const double h = 0.1;
+  std::normal_distribution<double> distance(0, h);
+  for (const Model model : kCorrectedModels) {
+    for (const double poisson : {0.0, 0.1, 0.3, 0.49}) {
+      const BrickLaw law = brick_law(model, test_material(poisson), h);
+      for (int trial = 0; trial < 2000; ++trial) {
+        CornerVectors<double> shape;
+        for (double& value : shape) value = distance(random);
+        const auto energy = [&](double scale) {
+          CornerVectors<double> x = shape;
+          for (double& value : x) value *= scale;
+          return brick_energy(law, h, x);
+        };
+        EXPECT_GT(energy(1000), energy(100)) << model_name(model) << ", nu " << poisson << ", trial " << trial;
+      }
+    }
+  }
+}
+
 TEST(BrickForces, HaveTheHessianAsTheirDerivative) {
   std::mt19937 random(11);
   const double h = 0.1;
