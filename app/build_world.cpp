@@ -89,6 +89,15 @@ std::vector<HeldNode> held_nodes(const std::vector<PinnedNodes>& pinned, const s
   return list;
 }
 
+/// A brick's law depends on its Poisson's ratio in many constants, on its stiffness in one factor.
+void check_region(const Material& region, const Material& body) {
+  if (region.poisson == body.poisson) return;
+  throw Error(ErrorKind::kBadInput,
+              fmt::format("a region has the Poisson's ratio {}, its body {}: the materials of one body may differ in "
+                          "stiffness and density only; give both the same ratio",
+                          region.poisson, body.poisson));
+}
+
 /// Gives the bricks of the regions their stiffness and mass; where regions overlap the last one counts.
 void apply_regions(const SceneBody& scene_body, const Vec3& extent, const Mat3& rest_from_bricks, Body& body) {
   const double corner_mass = body.material.density * body.grid.brick_volume() / 8;
@@ -100,6 +109,7 @@ void apply_regions(const SceneBody& scene_body, const Vec3& extent, const Mat3& 
       if (is_inside(middle.array() / extent.array() + 0.5, region.box)) found = &region;
     }
     if (found == nullptr) continue;
+    check_region(found->material, body.material);
     const double more_mass = (found->material.density / body.material.density - 1) * corner_mass;
     for (const int node : body.grid.nodes[brick]) body.masses[node] += more_mass * body.stiffness_scale[brick];
     body.stiffness_scale[brick] *= found->material.young / body.material.young;

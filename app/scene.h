@@ -104,6 +104,8 @@ struct Probe {
 /// What to vary where a scene is used as an experiment; empty: as the scene has it.
 struct Experiment {
   std::string title;
+  std::string about;            // sentences for the report
+  std::filesystem::path nodes;  // absolute; table of displacements known node by node, or empty
   std::vector<Model> models;
   std::vector<double> poisson;
   std::vector<int> bricks;  // along the longest side

@@ -89,6 +89,8 @@ const Key<Probe> kProbe[] = {
 
 const Key<Experiment> kExperiment[] = {
     {{"title", "of the experiment"}, &Experiment::title},
+    {{"about", "what the report says about it"}, &Experiment::about},
+    {{"nodes", "table of displacements known at points: poisson,x,y,z,ux,uy,uz"}, &Experiment::nodes},
     {{"models", "laws of the bricks"}, &Experiment::models},
     {{"poisson", "Poisson's ratios", Dimension::kNone, {-1, 0.5, true, true}}, &Experiment::poisson},
     {{"bricks", "numbers of bricks along the longest side", Dimension::kNone, {1, 1024}}, &Experiment::bricks},

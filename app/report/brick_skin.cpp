@@ -116,17 +116,11 @@ class FaceWriter {
   Eigen::Index triangle_ = 0;
 };
 
-}  // namespace
-
-Skin brick_skin(const Body& body, const Points& positions, const std::vector<Eigen::Vector3f>& colors, double line) {
-  const std::vector<Face> faces = outer_faces(body.grid);
-  const Eigen::Vector3i size = Eigen::Map<const Eigen::Matrix<int, 3, Eigen::Dynamic>>(body.grid.lattice.front().data(),
-                                                                                       3, body.grid.node_count())
-                                   .rowwise()
-                                   .maxCoeff();
-  const int split = std::clamp(kWantedSplit / std::max(1, size.maxCoeff()), 1, kFinestSplit);
+/// Faces as a skin; `split` cells along each, a rim of that share of a face.
+Skin skin_of(const std::vector<Face>& faces, const Points& positions, const std::vector<Eigen::Vector3f>& colors,
+             int split, double rim) {
   Skin skin;
-  FaceWriter writer(skin, cell_borders(split, std::min(line / body.grid.brick_size, kWidestRim)));
+  FaceWriter writer(skin, cell_borders(split, std::min(rim, kWidestRim)));
   const Eigen::Index cells = writer.cells_per_face() * static_cast<Eigen::Index>(faces.size());
   skin.positions.resize(4 * cells, 3);
   skin.normals.resize(4 * cells, 3);
@@ -135,6 +129,30 @@ Skin brick_skin(const Body& body, const Points& positions, const std::vector<Eig
   const Points normals = node_normals(faces, positions);
   for (const Face& face : faces) writer.add(face, positions, normals, colors);
   return skin;
+}
+
+int split_for(int faces_along) { return std::clamp(kWantedSplit / std::max(1, faces_along), 1, kFinestSplit); }
+
+}  // namespace
+
+Skin brick_skin(const Body& body, const Points& positions, const std::vector<Eigen::Vector3f>& colors, double line) {
+  const Eigen::Vector3i size = Eigen::Map<const Eigen::Matrix<int, 3, Eigen::Dynamic>>(body.grid.lattice.front().data(),
+                                                                                       3, body.grid.node_count())
+                                   .rowwise()
+                                   .maxCoeff();
+  return skin_of(outer_faces(body.grid), positions, colors, split_for(size.maxCoeff()), line / body.grid.brick_size);
+}
+
+Skin sheet_skin(const Sheet& sheet, const Points& positions, const std::vector<Eigen::Vector3f>& colors, double line) {
+  constexpr int kTowardsViewer = 5;  // +z
+  std::vector<Face> faces;
+  for (const auto& nodes : sheet.rectangles) {
+    faces.push_back({.nodes = {nodes[0], nodes[1], nodes[3], nodes[2]}, .side = kTowardsViewer});
+  }
+  const double longest =
+      (sheet.rest_positions.colwise().maxCoeff() - sheet.rest_positions.colwise().minCoeff()).maxCoeff();
+  const int faces_along = static_cast<int>(std::lround(longest / sheet.law.sides[0]));
+  return skin_of(faces, positions, colors, split_for(faces_along), line / sheet.law.sides[0]);
 }
 
 }  // namespace sprung

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/body/body.h"
+#include "core/body/sheet.h"
 #include "core/skin/skin.h"
 
 namespace sprung {
@@ -11,6 +12,10 @@ namespace sprung {
 /// Each face is a fine mesh of its own whose rim, `line` metres wide, is darker, so that bricks can be told apart.
 /// Normals are smooth over faces that look the same way at rest, so box edges stay sharp.
 [[nodiscard]] Skin brick_skin(const Body& body, const Points& positions, const std::vector<Eigen::Vector3f>& colors,
+                              double line);
+
+/// The rectangles of a sheet as such a skin, facing +z, at those node positions (m x 3, m).
+[[nodiscard]] Skin sheet_skin(const Sheet& sheet, const Points& positions, const std::vector<Eigen::Vector3f>& colors,
                               double line);
 
 }  // namespace sprung

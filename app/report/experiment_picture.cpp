@@ -15,7 +15,10 @@ namespace {
 
 constexpr double kLine = 0.0022;  // half the width of the lines between bricks over the size of the body
 
-Eigen::VectorXd displacements(const Body& body) { return (body.positions - body.rest_positions).rowwise().norm(); }
+template <class Nodes>
+Eigen::VectorXd displacements(const Nodes& body) {
+  return (body.positions - body.rest_positions).rowwise().norm();
+}
 
 double brick_strain(const Body& body, std::size_t brick) {
   const auto axes = detail::mean_axes(brick_corners(body, brick));
@@ -75,18 +78,36 @@ Image draw_on_white(const Skin& skin, const ExperimentPictureOptions& options) {
   return image;
 }
 
+std::vector<Eigen::Vector3f> colors_of(const Eigen::VectorXd& values) {
+  const double highest = std::max(values.maxCoeff(), 1e-300);
+  std::vector<Eigen::Vector3f> colors;
+  for (const double value : values) colors.push_back(color_scale(value / highest));
+  return colors;
+}
+
+double line_width(const Points& shown) {
+  Bounds bounds;
+  bounds.include(shown);
+  return kLine * (bounds.high - bounds.low).norm();
+}
+
 }  // namespace
 
 ExperimentPicture draw_experiment(const Body& body, const ExperimentPictureOptions& options) {
   const Eigen::VectorXd values = options.color_by == ColorBy::kDisplacement ? displacements(body) : strains(body);
-  const double highest = std::max(values.maxCoeff(), 1e-300);
-  std::vector<Eigen::Vector3f> colors;
-  for (const double value : values) colors.push_back(color_scale(value / highest));
   const Points shown = body.rest_positions + options.magnification * (body.positions - body.rest_positions);
-  Bounds bounds;
-  bounds.include(shown);
-  const Skin skin = brick_skin(body, shown, colors, kLine * (bounds.high - bounds.low).norm());
+  const Skin skin = brick_skin(body, shown, colors_of(values), line_width(shown));
   return {draw_on_white(skin, options), color_bar(options.color_by, values)};
+}
+
+ExperimentPicture draw_experiment(const Sheet& sheet, const ExperimentPictureOptions& options) {
+  const Eigen::VectorXd values = displacements(sheet);
+  Points shown = sheet_surface(sheet).positions;
+  shown.leftCols<2>() = sheet.rest_positions + options.magnification * (sheet.positions - sheet.rest_positions);
+  ExperimentPictureOptions frontal = options;
+  frontal.azimuth = frontal.elevation = 0;
+  const Skin skin = sheet_skin(sheet, shown, colors_of(values), line_width(shown));
+  return {draw_on_white(skin, frontal), color_bar(ColorBy::kDisplacement, values)};
 }
 
 Eigen::Vector3f color_scale(double share) {

@@ -2,6 +2,7 @@
 #include <string>
 
 #include "core/body/body.h"
+#include "core/body/sheet.h"
 #include "render/image.h"
 
 namespace sprung {
@@ -36,6 +37,9 @@ struct ExperimentPicture {
 /// The outer faces of a body's bricks where they are, coloured on the scale of color_scale(), the edges of each brick a
 /// little darker. Bricks cut by the surface are drawn whole. Throws Error(kFailed) where no picture can be drawn.
 [[nodiscard]] ExperimentPicture draw_experiment(const Body& body, const ExperimentPictureOptions& options = {});
+
+/// A sheet where it is, seen from the front, coloured by its displacement.
+[[nodiscard]] ExperimentPicture draw_experiment(const Sheet& sheet, const ExperimentPictureOptions& options = {});
 
 /// sRGB in [0, 1] for a share from 0 to 1: dark blue over green to yellow, evenly spaced to the eye and told apart by
 /// colour-blind people. Source: the map "viridis" of matplotlib (CC0), by linear interpolation of nine of its colours.

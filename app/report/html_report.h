@@ -5,7 +5,7 @@
 
 #include "app/report/experiment_picture.h"
 #include "app/report/svg_plot.h"
-#include "app/validate/check.h"
+#include "app/validate/case_result.h"
 
 namespace sprung {
 
@@ -31,11 +31,18 @@ struct ReportPlot {
   Figure figure{};
 };
 
+/// A table of an experiment.
+struct ReportTable {
+  std::string experiment{};
+  TextTable table{};
+};
+
 struct Report {
   std::vector<Check> checks{};
   std::vector<ReportExperiment> experiments{};  // in the order of the page; others follow as their checks do
   std::vector<ReportPicture> pictures{};
   std::vector<ReportPlot> plots{};
+  std::vector<ReportTable> tables{};
   std::string made{};  // date and time of the run, for the header
   double seconds = 0;  // that the run took
 };

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <span>
 #include <utility>
 
 #include "app/report/locking.h"
@@ -35,6 +37,8 @@ constexpr std::array<ModelStyle, 6> kStyles{
      {"m1", "m1 (the paper)", ink::kPurple, Marker::kTriangle, false, 2},
      {"m2-plain", "m2-plain", ink::kGrey, Marker::kCross, true, 1.6},
      {"m1-plain", "m1-plain", ink::kOrange, Marker::kCross, true, 1.6}}};
+
+constexpr std::size_t kCompared = 3;  // the first of them, where there is no room for all
 
 Curve styled_curve(const ModelStyle& style) {
   return {.name = std::string(style.name),
@@ -107,12 +111,20 @@ std::string with_crosses(const std::string& grid) {
   return text;
 }
 
-Curve centreline_curve(const CentrelineErrors& errors, std::size_t nth) {
-  Curve curve{.name = with_crosses(errors.grid), .points = {}, .color = grid_color(nth), .marker = grid_marker(nth)};
-  for (std::size_t i = 0; i < errors.x_over_length.size(); ++i) {
-    curve.points.emplace_back(errors.x_over_length[i], 100 * errors.error[i]);
+/// The deflection's error in per cent, below zero where it is too small: at every node, and the mean of each section.
+std::array<Curve, 2> node_error_curves(const NodeErrors& errors, std::size_t nth) {
+  Curve means{.name = with_crosses(errors.grid), .points = {}, .color = grid_color(nth), .marker = grid_marker(nth)};
+  Curve nodes{.name = "", .points = {}, .color = grid_color(nth), .marker = Marker::kDot, .width = 0};
+  std::map<double, Eigen::Vector2d> sections;  // sum of errors, count
+  for (const NodeError& node : errors.nodes) {
+    const double sign = node.known.y() < 0 ? -1 : 1;
+    const double percent = 100 * sign * node.error.y() / errors.largest;
+    nodes.points.emplace_back(node.along, percent);
+    auto [place, is_new] = sections.try_emplace(std::round(1e6 * node.along) / 1e6, 0, 0);
+    place->second += Eigen::Vector2d(percent, 1);
   }
-  return curve;
+  for (const auto& [along, sum] : sections) means.points.emplace_back(along, sum.x() / sum.y());
+  return {std::move(means), std::move(nodes)};
 }
 
 Curve deflection_curve(const ModelStyle& style, int across) {
@@ -206,10 +218,13 @@ Figure convergence_figure(const std::vector<Check>& checks) {
                 .height = 560};
   const double top = kHeadingHeight + 4;
   const double height = figure.height - top - 6;
-  figure.panels = {{convergence_plot(checks, 0.3), 12, top, 622, height},
-                   {convergence_plot(checks, 0), 644, top, 324, 0.46 * height},
-                   {convergence_plot(checks, 0.49), 644, top + 0.46 * height, 324, 0.54 * height}};
+  figure.panels = {{convergence_plot(checks, 0.3), 12, top, 600, height},
+                   {convergence_plot(checks, 0), 624, top, 344, 0.46 * height},
+                   {convergence_plot(checks, 0.49), 624, top + 0.46 * height, 344, 0.54 * height}};
   share_y_axis(figure.panels);
+  for (Curve& curve : figure.panels.front().plot.curves) {
+    curve.shows_values = curve.name.starts_with("calibrated") || curve.name.starts_with("fem");
+  }
   for (std::size_t i = 1; i < figure.panels.size(); ++i) {
     figure.panels[i].plot.names_curves = false;
     figure.panels[i].plot.y.label.clear();
@@ -218,30 +233,36 @@ Figure convergence_figure(const std::vector<Check>& checks) {
   return figure;
 }
 
-Figure centreline_figure(const std::vector<CentrelineErrors>& errors, const std::string& measure) {
-  std::vector<std::pair<std::string, double>> groups;
-  for (const CentrelineErrors& one : errors) {
-    const std::pair<std::string, double> group(one.model, one.poisson);
-    if (std::find(groups.begin(), groups.end(), group) == groups.end()) groups.push_back(group);
-  }
-  Figure figure{.title = "Error at every node of the centreline",
-                .subtitle = "clamped at x = 0, free at x = L; below zero: too stiff",
-                .width = 980};
-  const double wide = (figure.width - 24) / static_cast<double>(std::max<std::size_t>(1, groups.size()));
-  for (const auto& [model, poisson] : groups) {
-    Plot plot{.title = model + ", " + poisson_text(poisson)};
-    plot.x = {.label = "x / L", .ticks = {0, 0.5, 1}};
-    plot.y = {.label = figure.panels.empty() ? fmt::format("error ({})", measure) : std::string(), .low = 0, .high = 0};
-    for (const CentrelineErrors& one : errors) {
-      if (one.model == model && one.poisson == poisson) {
-        plot.curves.push_back(centreline_curve(one, plot.curves.size()));
-      }
+Figure node_error_figure(const std::vector<NodeErrors>& errors, double poisson) {
+  Figure figure{
+      .title = "How far off is every node of a clamped beam?",
+      .subtitle = fmt::format("error of the deflection at every node, {}, over the largest displacement; below "
+                              "zero: too stiff; lines: means of the sections",
+                              poisson_text(poisson)),
+      .width = 980};
+  for (const ModelStyle& style : std::span(kStyles).first(kCompared)) {
+    Plot plot{.title = std::string(style.name)};
+    plot.x = {.label = "place along the beam, x / L", .ticks = {0, 0.5, 1}};
+    std::vector<Curve> nodes;
+    for (const NodeErrors& one : errors) {
+      if (one.model != style.model || std::abs(one.poisson - poisson) > 1e-9) continue;
+      auto [means, all] = node_error_curves(one, nodes.size());
+      plot.curves.push_back(std::move(means));
+      nodes.push_back(std::move(all));
     }
-    figure.panels.push_back({std::move(plot), 12 + wide * static_cast<double>(figure.panels.size()), kHeadingHeight,
-                             wide, figure.height - kHeadingHeight - 6});
+    if (nodes.empty()) continue;
+    plot.curves.insert(plot.curves.end(), nodes.begin(), nodes.end());
+    plot.guide = GuideLine{0, ""};
+    figure.panels.push_back({.plot = std::move(plot)});
+  }
+  const double wide = (figure.width - 24) / static_cast<double>(std::max<std::size_t>(1, figure.panels.size()));
+  double left = 12;
+  for (Panel& panel : figure.panels) {
+    panel = {std::move(panel.plot), left, kHeadingHeight, wide, figure.height - kHeadingHeight - 6};
+    if (left == 12) panel.plot.y.label = "error (% of the largest displacement)";
+    left += wide;
   }
   share_y_axis(figure.panels);
-  for (Panel& panel : figure.panels) panel.plot.guide = GuideLine{0, ""};
   return figure;
 }
 
@@ -262,7 +283,7 @@ Figure stress_stretch_figure() {
   plot.x = {.label = "stretch (length / rest length)", .ticks = kStretchTicks};
   plot.y = {.label = "nominal stress / E"};
   const auto stress = [](double, const UniaxialResponse& response) { return response.stress; };
-  plot.curves = stretch_curves(unit_material(0.3), {Model::kCalibrated, Model::kTensile}, stress);
+  plot.curves = stretch_curves(unit_material(0.3), {Model::kCalibrated, Model::kTensile, Model::kM1}, stress);
   plot.guide = GuideLine{0, ""};
   return single_plot("A brick of springs at large strains",
                      "uniaxial stretch with free sides, ν = 0.3; all laws share E and ν at rest", std::move(plot));

@@ -5,6 +5,7 @@
 
 #include "app/report/svg_plot.h"
 #include "app/validate/check.h"
+#include "app/validate/node_errors.h"
 
 namespace sprung {
 
@@ -13,17 +14,10 @@ namespace sprung {
 /// left out. Those below 0.02 %, which is what the reference itself is good for, are drawn there.
 [[nodiscard]] Figure convergence_figure(const std::vector<Check>& checks);
 
-/// Errors of the nodes along a centreline, as the paper's Figure 5 shows them.
-struct CentrelineErrors {
-  std::string model;
-  double poisson = 0;
-  std::string grid;                   // "8x2x2"
-  std::vector<double> x_over_length;  // ascending
-  std::vector<double> error;          // of the deflection; relative: 0.01 is 1 %
-};
-
-/// A panel a model, a curve a grid. `measure` says what the error is relative to: "% of the tip's deflection".
-[[nodiscard]] Figure centreline_figure(const std::vector<CentrelineErrors>& errors, const std::string& measure);
+/// Errors of the deflection (along y) at every node, at its place along x, as the paper's Figure 5 shows them: over the
+/// largest known displacement. A panel a model, a colour a grid; lines go through the means of the sections. Takes
+/// those of one Poisson's ratio.
+[[nodiscard]] Figure node_error_figure(const std::vector<NodeErrors>& errors, double poisson);
 
 /// Towards nu = 1/2: the deflection of the cantilever against the classical hexahedron, which locks, and the volume of
 /// a stretched brick, which its springs do not keep. Computes its data; under a second.

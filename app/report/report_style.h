@@ -20,6 +20,7 @@ p { margin: 0 0 12px; max-width: 76ch; }
 nav { margin: 0 0 26px; columns: 2; column-gap: 40px; font-size: 15px; }
 nav a { display: flex; justify-content: space-between; gap: 12px; padding: 3px 0; color: var(--ink);
   text-decoration: none; border-bottom: 1px solid #efefef; break-inside: avoid; }
+nav a > :last-child { white-space: nowrap; }
 nav a:hover { text-decoration: underline; }
 section { margin: 44px 0 0; padding: 22px 0 0; border-top: 2px solid var(--ink); }
 table { width: 100%; margin: 14px 0 8px; border-collapse: collapse; font-size: 14px; line-height: 1.35;
@@ -31,6 +32,14 @@ th.n, td.n { text-align: right; white-space: nowrap; }
 td.v { white-space: nowrap; font-weight: 600; }
 tr.info td { color: var(--soft); } tr.info td.v { font-weight: 400; }
 tr.fail td { background: #fdf0ef; }
+.matrix { width: auto; } .matrix td { border-bottom: 0; padding: 2px 22px 2px 0; }
+.matrix tr.first td { border-top: 1px solid #e2e2e2; } .matrix tbody tr:first-child td { border-top: 0; }
+.matrix tr.of td { padding: 12px 0 4px; color: var(--soft); border-bottom: 1px solid #ececec; }
+.matrix tr.of b { color: var(--ink); } td.info { color: var(--soft); }
+td.n.good, td.n.bad { font-weight: 600; }
+.key { margin: 4px 0 0; color: var(--soft); font-size: 13px; }
+details { margin: 10px 0 0; } summary { cursor: pointer; color: var(--soft); font-size: 14px; }
+summary:hover { color: var(--ink); }
 .sources { margin: 0 0 16px; padding: 0; list-style: none; color: var(--soft); font-size: 13px; }
 figure { margin: 20px 0 0; break-inside: avoid; }
 figure svg { display: block; width: 100%; height: auto; }

@@ -146,6 +146,9 @@ std::string marker_shape(Marker marker, const Eigen::Vector2d& p, std::string_vi
   switch (marker) {
     case Marker::kNone:
       return "";
+    case Marker::kDot:
+      return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"1.5\" fill=\"{}\" opacity=\"0.5\"/>\n", p.x(), p.y(),
+                         color);
     case Marker::kCircle:
       return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" {}/>\n", p.x(), p.y(), r, style);
     case Marker::kSquare:
@@ -175,12 +178,30 @@ std::string curve_shape(const Field& f, const Curve& curve) {
     }
     goes_on = shown;
   }
-  if (path.empty()) return "";
+  if (path.empty() || curve.width <= 0) return markers;
   return fmt::format(
              R"(<path d="{}" fill="none" stroke="{}" stroke-width="{}" stroke-linejoin="round" stroke-linecap="round"{}/>)"
              "\n",
              path, curve.color, curve.width, curve.dashed ? R"( stroke-dasharray="6 5")" : "") +
          markers;
+}
+
+/// "34", "1.8", "0.42".
+std::string two_digits(double value) {
+  const int decimals = value == 0 ? 0 : std::clamp(1 - static_cast<int>(std::floor(std::log10(std::abs(value)))), 0, 6);
+  return fmt::format("{:.{}f}", value, decimals);
+}
+
+std::string values_at_points(const Field& f, const Curve& curve) {
+  if (!curve.shows_values) return "";
+  constexpr std::string_view kHalo = R"( font-weight="600" stroke="#fff" stroke-width="4" paint-order="stroke")";
+  std::string out;
+  for (const Eigen::Vector2d& value : curve.points) {
+    if (!value.allFinite()) continue;
+    const Eigen::Vector2d p = f.at(value.x(), value.y());
+    out += words(p.x(), p.y() + 20, kTickSize, "middle", curve.color, two_digits(value.y()), kHalo);
+  }
+  return out;
 }
 
 struct CurveName {
@@ -233,6 +254,7 @@ std::string panel_shape(const Panel& panel) {
   for (auto curve = panel.plot.curves.rbegin(); curve != panel.plot.curves.rend(); ++curve) {
     out += curve_shape(field, *curve);
   }
+  for (const Curve& curve : panel.plot.curves) out += values_at_points(field, curve);
   return panel.plot.names_curves ? out + curve_names(field, panel.plot) : out;
 }
 

@@ -22,7 +22,7 @@ inline constexpr std::string_view kGrey = "#6e6e6e";
 inline constexpr std::string_view kBlack = "#1b1b1b";
 }  // namespace ink
 
-enum class Marker { kNone, kCircle, kSquare, kDiamond, kTriangle, kCross };
+enum class Marker { kNone, kDot, kCircle, kSquare, kDiamond, kTriangle, kCross };
 
 struct Curve {
   std::string name{};                     // stands at the curve's right end; empty: none
@@ -30,7 +30,8 @@ struct Curve {
   std::string_view color = ink::kBlack;
   Marker marker = Marker::kNone;
   bool dashed = false;
-  double width = 2;  // px
+  double width = 2;           // px; 0: markers only
+  bool shows_values = false;  // y is written below every point, in two digits
 };
 
 /// A dashed horizontal line with a word over its left end.

@@ -4,7 +4,10 @@
 
 namespace sprung {
 
-double Check::error() const { return expected == 0 ? measured : measured / expected - 1; }
+double Check::error() const {
+  if (is_least && measured >= expected) return 0;
+  return expected == 0 ? measured : measured / expected - 1;
+}
 
 bool Check::is_gate() const { return !std::isnan(tolerance); }
 

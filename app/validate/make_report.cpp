@@ -18,12 +18,17 @@
 namespace sprung {
 namespace {
 
+constexpr double kShownRatio = 0.3;   // Poisson's, of the node errors
 constexpr double kShownSwing = 0.15;  // of the body's size: smaller displacements are drawn larger
 
-/// The same scene with its middle grid, and of modes the first one at its widest.
+/// The same scene with its middle grid, at a ratio that it is an experiment on, and of modes the first one at its
+/// widest.
 Scene scene_to_draw(Scene scene) {
   const std::vector<int>& grids = scene.experiment.bricks;
   if (!grids.empty()) scene.bodies.front().bricks = grids[grids.size() / 2];
+  const std::vector<double>& ratios = scene.experiment.poisson;
+  double& own = scene.bodies.front().material.poisson;
+  if (!ratios.empty() && std::find(ratios.begin(), ratios.end(), own) == ratios.end()) own = ratios.front();
   if (scene.solver.scheme == Solver::kModes) {
     scene.solver.modes = 1;
     scene.duration = 4 / scene.fps;
@@ -40,58 +45,90 @@ double magnification_of(const Body& body, double size) {
   return std::max(1.0, decade * (most >= 5 * decade ? 5 : most >= 2 * decade ? 2 : 1));
 }
 
-ReportPicture picture_of(const NamedScene& experiment) {
+ReportPicture picture_of(const std::string& name, const Scene& scene_as_it_is) {
   const Console silent{.quiet = true};
-  const Scene scene = scene_to_draw(experiment.scene);
+  const Scene scene = scene_to_draw(scene_as_it_is);
   Production production = make_production(scene, silent);
   static_cast<void>(simulate(production, scene, silent));
   const Body& body = production.world.actors.front().body;
   const double magnification = magnification_of(body, production.size);
   ExperimentPicture drawn = draw_experiment(body, {.magnification = magnification});
   const std::string caption =
-      fmt::format("{} bricks, nu = {}{}", body.grid.brick_count(), scene.bodies.front().material.poisson,
+      fmt::format("{} bricks, ν = {}{}", body.grid.brick_count(), scene.bodies.front().material.poisson,
                   magnification > 1 ? fmt::format(", displacements drawn {:g} times as large", magnification) : "");
-  return {.experiment = experiment.name,
-          .caption = caption,
-          .image = std::move(drawn.image),
-          .colors = std::move(drawn.colors)};
+  return {.experiment = name, .caption = caption, .image = std::move(drawn.image), .colors = std::move(drawn.colors)};
 }
 
-std::vector<Check> checks_of(const std::vector<Check>& checks, std::string_view experiment) {
-  std::vector<Check> chosen;
-  for (const Check& check : checks) {
-    if (check.experiment == experiment) chosen.push_back(check);
+void add_picture(const FinishedCase& one, Report& report) {
+  if (one.scene != nullptr) {
+    report.pictures.push_back(picture_of(one.name, *one.scene));
+  } else if (one.built_in->draw != nullptr) {
+    ReportPicture picture = one.built_in->draw();
+    picture.experiment = one.name;
+    report.pictures.push_back(std::move(picture));
   }
-  return chosen;
+}
+
+ReportExperiment described(const FinishedCase& one) {
+  if (one.scene != nullptr) {
+    return {.name = one.name, .title = one.scene->experiment.title, .what = one.scene->experiment.about};
+  }
+  return {.name = one.name, .title = std::string(one.built_in->title), .what = std::string(one.built_in->about)};
+}
+
+/// The figure goes into the page and beside it.
+void add_plot(Report& report, const std::filesystem::path& file, ReportPlot plot) {
+  write_svg(plot.figure, file);
+  report.plots.push_back(std::move(plot));
+}
+
+void add_plots(const std::vector<FinishedCase>& cases, const std::filesystem::path& folder, Report& report) {
+  for (const FinishedCase& one : cases) {
+    if (one.name == "cantilever") {
+      std::vector<Check> tips = one.result.checks;
+      std::erase_if(tips, [](const Check& check) { return check.quantity != "tip.displacement.y"; });
+      add_plot(
+          report, folder / "convergence.svg",
+          {.caption = "Error of the tip's deflection over the bricks across the beam. Corrected springs converge to "
+                      "the right answer, plain ones to a wrong one unless ν = 1/4.",
+           .figure = convergence_figure(tips)});
+      add_plot(report, folder / "node_errors.svg",
+               {.experiment = one.name,
+                .caption = "Every node, as the paper's Figure 5 shows it",
+                .figure = node_error_figure(one.result.node_errors, kShownRatio)});
+    }
+    if (one.name == "uniaxial") {
+      add_plot(report, folder / "stress_stretch.svg",
+               {.experiment = one.name,
+                .caption = "Large strain: the brick as a hyperelastic law",
+                .figure = stress_stretch_figure()});
+    }
+  }
+  add_plot(
+      report, folder / "incompressibility.svg",
+      {.caption = "Towards a Poisson's ratio of 1/2: the hexahedron locks, the brick does not; springs do not keep "
+                  "the volume at large strain",
+       .figure = incompressibility_figure()});
 }
 
 }  // namespace
 
-void make_report(const std::filesystem::path& folder, const std::vector<NamedScene>& experiments,
-                 const std::vector<Check>& checks, double seconds, const Console& console) {
-  Progress progress(console, "report", static_cast<double>(experiments.size()));
+void make_report(const std::filesystem::path& folder, const std::vector<FinishedCase>& cases, double seconds,
+                 const Console& console) {
+  Progress progress(console, "report", static_cast<double>(cases.size()));
   std::error_code failure;
   std::filesystem::create_directories(folder, failure);
   if (failure) throw Error(ErrorKind::kFailed, fmt::format("cannot make the folder '{}'", folder.string()));
-  Report report{.checks = checks,
-                .made = fmt::format("{:%Y-%m-%d %H:%M}", fmt::localtime(std::time(nullptr))),
-                .seconds = seconds};
-  for (const NamedScene& experiment : experiments) {
+  Report report{.made = fmt::format("{:%Y-%m-%d %H:%M}", fmt::localtime(std::time(nullptr))), .seconds = seconds};
+  for (const FinishedCase& one : cases) {
     stop_if_interrupted();
-    report.experiments.push_back({.name = experiment.name, .title = experiment.scene.experiment.title});
-    report.pictures.push_back(picture_of(experiment));
+    report.checks.insert(report.checks.end(), one.result.checks.begin(), one.result.checks.end());
+    report.experiments.push_back(described(one));
+    report.tables.push_back({.experiment = one.name, .table = one.result.table});
+    add_picture(one, report);
     progress.update(static_cast<double>(report.experiments.size()));
   }
-  const std::vector<Check> cantilever = checks_of(checks, "cantilever");
-  if (!cantilever.empty()) {
-    const Figure convergence = convergence_figure(cantilever);
-    write_svg(convergence, folder / "convergence.svg");
-    report.plots.push_back(
-        {.caption = "Error of the tip's deflection over the bricks across the beam", .figure = convergence});
-  }
-  report.plots.push_back({.caption = "Towards a Poisson's ratio of 1/2", .figure = incompressibility_figure()});
-  report.plots.push_back(
-      {.caption = "Large strain: the brick as a hyperelastic law", .figure = stress_stretch_figure()});
+  add_plots(cases, folder, report);
   write_html_report(report, folder / "report.html");
   progress.finish((folder / "report.html").string());
 }

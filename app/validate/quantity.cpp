@@ -25,17 +25,26 @@ constexpr std::array<Field, 4> kFields{{{"position", "m", &ProbeSample::position
   throw Error(
       ErrorKind::kBadInput,
       fmt::format("expect.quantity: the scene measures no '{}'; write PROBE.displacement.y (or position, force, "
-                  "torque), or frequency.1 with solver.scheme modes",
+                  "torque), frequency.1 with solver.scheme modes, or nodes.max_error (or mean_error, rms_error) with "
+                  "experiment.nodes",
                   quantity));
+}
+
+Quantity measure_nodes(const NodeErrors& errors, const std::string& which, const std::string& quantity) {
+  if (which == "mean_error") return {.value = 100 * errors.mean_error(), .unit = "%"};
+  if (which == "max_error") return {.value = 100 * errors.max_error(), .unit = "%"};
+  if (which == "rms_error") return {.value = 100 * errors.rms_error(), .unit = "%"};
+  refuse(quantity);
 }
 
 }  // namespace
 
-Quantity measure(const Recording& recording, const std::string& quantity) {
+Quantity measure(const Recording& recording, const NodeErrors* errors, const std::string& quantity) {
   const auto last_dot = quantity.rfind('.');
   if (last_dot == std::string::npos) refuse(quantity);
   const std::string end = quantity.substr(last_dot + 1);
   const std::string start = quantity.substr(0, last_dot);
+  if (start == "nodes" && errors != nullptr) return measure_nodes(*errors, end, quantity);
   if (start == "frequency") {
     const int mode = parse_whole(end);
     if (mode < 1 || mode > recording.frequencies.size()) refuse(quantity);

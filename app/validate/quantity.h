@@ -2,6 +2,7 @@
 #include <string>
 
 #include "app/recording.h"
+#include "app/validate/node_errors.h"
 
 namespace sprung {
 
@@ -10,8 +11,9 @@ struct Quantity {
   std::string unit{};
 };
 
-/// What "tip.displacement.y" (also position, force, torque) or "frequency.1" is in the last frame.
+/// What "tip.displacement.y" (also position, force, torque), "frequency.1" or "nodes.max_error" (also mean_error,
+/// rms_error) is in the last frame; `errors` of its nodes, null where no solution is known to hold them against.
 /// Throws Error(kBadInput) where the recording has no such quantity.
-[[nodiscard]] Quantity measure(const Recording& recording, const std::string& quantity);
+[[nodiscard]] Quantity measure(const Recording& recording, const NodeErrors* errors, const std::string& quantity);
 
 }  // namespace sprung

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "app/interrupt.h"
 #include "app/make_production.h"
@@ -61,6 +62,7 @@ Scene with_variant(Scene scene, const Variant& variant) {
     for (Region& region : body.regions) region.material.poisson = variant.poisson;
     body.bricks = variant.bricks;
     body.brick_size.reset();
+    for (Region& region : body.regions) region.material.poisson = variant.poisson;
   }
   return scene;
 }
@@ -71,92 +73,164 @@ Eigen::Vector3i grid_counts(const Scene& scene, const Variant& variant) {
   return (*body.box * variant.bricks / body.box->maxCoeff()).array().round().cast<int>();
 }
 
+std::string grid_text(const Eigen::Vector3i& counts) {
+  return fmt::format("{}x{}x{}", counts.x(), counts.y(), counts.z());
+}
+
+/// What a run left behind; nothing but the trouble where it could not be carried through.
+struct Outcome {
+  std::optional<Recording> recording;
+  std::optional<NodeErrors> node_errors;
+  std::string trouble;
+};
+
+/// Smallest volume ratio of any brick in any frame; leaves the bodies in the last one.
+double most_crushed(Production& production, const Recording& recording) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const std::vector<Floats3>& frame : recording.frames) {
+    for (std::size_t actor = 0; actor < frame.size(); ++actor) {
+      Body& body = production.world.actors[actor].body;
+      body.positions = frame[actor].cast<double>();
+      smallest = std::min(smallest, smallest_volume_ratio(body));
+    }
+  }
+  return smallest;
+}
+
 /// The experiment's checks, run after run.
 class Runs {
  public:
   Runs(const std::string& name, const Scene& scene, bool is_chosen, const Console& console)
       : name_(name), scene_(scene), is_chosen_(is_chosen), console_(console) {
     silent_.quiet = true;
+    if (!scene.experiment.nodes.empty()) known_ = read_known_solutions(scene.experiment.nodes);
   }
 
   void run(const Variant& variant) {
     stop_if_interrupted();
-    std::optional<Recording> recording;
-    std::string trouble;
-    try {
-      const Scene scene = with_variant(scene_, variant);
-      Production production = make_production(scene, silent_);
-      recording = simulate(production, scene, silent_);
-    } catch (const Error& error) {
-      trouble = error.what();
-      console_.detail(fmt::format("{}, {}, nu {}: {}", name_, model_name(variant.model), variant.poisson, trouble));
-    }
+    const Outcome outcome = outcome_of(variant);
     for (const Expectation& expectation : scene_.expectations) {
-      if (applies(expectation, variant)) add(expectation, variant, recording, trouble);
+      if (applies(expectation, variant)) add(expectation, variant, outcome);
     }
-    if (is_chosen_) add_unexpected(variant, recording, trouble);
+    if (is_chosen_) add_unexpected(variant, outcome);
+    if (outcome.node_errors) result_.node_errors.push_back(*outcome.node_errors);
   }
 
-  std::vector<Check> finish() {
+  CaseResult finish() {
     for (const auto& [check, rival] : rivals_) {
-      for (const Check& other : checks_) {
-        if (is_same_run(checks_[check], other) && other.model == model_name(rival)) {
-          checks_[check].tolerance = std::fmin(checks_[check].tolerance, std::abs(other.error()) * (1 + kAsGood));
+      for (const Check& other : result_.checks) {
+        if (is_same_run(result_.checks[check], other) && other.model == model_name(rival)) {
+          double& tolerance = result_.checks[check].tolerance;
+          tolerance = std::fmin(tolerance, std::abs(other.error()) * (1 + kAsGood));
         }
       }
     }
-    return std::move(checks_);
+    for (const auto& [model, crushed] : most_crushed_) add_guard(crushed);
+    return std::move(result_);
   }
 
  private:
+  struct Crushed {
+    Variant variant;
+    double volume;  // over the volume at rest
+    double bound;
+  };
+
   static bool is_same_run(const Check& a, const Check& b) {
     return a.quantity == b.quantity && a.poisson == b.poisson && a.grid == b.grid && a.expected == b.expected;
   }
 
-  Check& add_check(const std::string& quantity, const Variant& variant, const std::optional<Recording>& recording) {
+  Outcome outcome_of(const Variant& variant) {
+    Outcome outcome;
+    try {
+      const Scene scene = with_variant(scene_, variant);
+      Production production = make_production(scene, silent_);
+      outcome.recording = simulate(production, scene, silent_);
+      compare_nodes(production, variant, outcome);
+      note_volume(production, variant, *outcome.recording);
+    } catch (const Error& error) {
+      outcome.recording.reset();
+      outcome.trouble = error.what();
+      console_.detail(
+          fmt::format("{}, {}, nu {}: {}", name_, model_name(variant.model), variant.poisson, error.what()));
+    }
+    return outcome;
+  }
+
+  void compare_nodes(const Production& production, const Variant& variant, Outcome& outcome) const {
+    for (const KnownSolution& known : known_) {
+      if (known.poisson != variant.poisson) continue;
+      const Mat3& turn = production.origins.front().bricks_from_rest;
+      NodeErrors& errors = outcome.node_errors.emplace(node_errors(production.world.actors.front().body, turn, known));
+      errors.model = model_name(variant.model);
+      errors.poisson = variant.poisson;
+      errors.grid = grid_text(grid_counts(scene_, variant));
+    }
+  }
+
+  void note_volume(Production& production, const Variant& variant, const Recording& recording) {
+    if (variant.model == Model::kFem) return;
+    const double bound = production.world.actors.front().body.law.guard_ratio;
+    const Crushed now{.variant = variant, .volume = most_crushed(production, recording), .bound = bound};
+    const auto [place, is_new] = most_crushed_.try_emplace(variant.model, now);
+    if (now.volume < place->second.volume) place->second = now;
+  }
+
+  Check& add_check(const std::string& quantity, const Variant& variant, const Outcome& outcome) {
     const Eigen::Vector3i counts = grid_counts(scene_, variant);
-    Check& check = checks_.emplace_back();
+    Check& check = result_.checks.emplace_back();
     check.experiment = name_;
     check.quantity = quantity;
     check.model = model_name(variant.model);
     check.poisson = variant.poisson;
-    check.grid = fmt::format("{}x{}x{}", counts.x(), counts.y(), counts.z());
+    check.grid = grid_text(counts);
     check.bricks_across = counts.minCoeff();
     check.measured = kNone;
     check.expected = kNone;
     check.tolerance = kNone;
-    if (!recording) return check;
-    const Quantity measured = measure(*recording, quantity);
+    check.trouble = outcome.trouble;
+    if (!outcome.recording) return check;
+    const NodeErrors* errors = outcome.node_errors ? &*outcome.node_errors : nullptr;
+    const Quantity measured = measure(*outcome.recording, errors, quantity);
     check.measured = measured.value;
     check.unit = measured.unit;
     return check;
   }
 
-  void add(const Expectation& expectation, const Variant& variant, const std::optional<Recording>& recording,
-           const std::string& trouble) {
-    Check& check = add_check(expectation.quantity, variant, recording);
+  void add(const Expectation& expectation, const Variant& variant, const Outcome& outcome) {
+    Check& check = add_check(expectation.quantity, variant, outcome);
     check.expected = expectation.value;
     check.source = expectation.source;
-    if (!trouble.empty()) check.source += "; not measured: " + trouble;
     for (const Gate& gate : expectation.gates) {
       if (!applies(gate, variant)) continue;
       if (gate.tolerance) check.tolerance = std::fmin(check.tolerance, *gate.tolerance);
-      if (gate.no_worse_than) rivals_.emplace_back(checks_.size() - 1, *gate.no_worse_than);
+      if (gate.no_worse_than) rivals_.emplace_back(result_.checks.size() - 1, *gate.no_worse_than);
     }
   }
 
   /// What nothing is known to compare with at the ratio or on the grid that a person chose.
-  void add_unexpected(const Variant& variant, const std::optional<Recording>& recording, const std::string& trouble) {
+  void add_unexpected(const Variant& variant, const Outcome& outcome) {
     std::vector<std::string> seen;
     for (const Expectation& expectation : scene_.expectations) {
       if (applies(expectation, variant)) seen.push_back(expectation.quantity);
     }
     for (const Expectation& expectation : scene_.expectations) {
-      if (std::find(seen.begin(), seen.end(), expectation.quantity) != seen.end()) continue;
-      seen.push_back(expectation.quantity);
-      add_check(expectation.quantity, variant, recording).source =
-          trouble.empty() ? "nothing known to compare with" : trouble;
+      const std::string& quantity = expectation.quantity;
+      if (std::find(seen.begin(), seen.end(), quantity) != seen.end()) continue;
+      seen.push_back(quantity);
+      if (quantity.starts_with("nodes.") && !outcome.node_errors) continue;
+      add_check(quantity, variant, outcome).source = "nothing known to compare with";
     }
+  }
+
+  void add_guard(const Crushed& crushed) {
+    Check& check = add_check("smallest.volume", crushed.variant, {});
+    check.measured = crushed.volume;
+    check.expected = crushed.bound;
+    check.is_least = true;
+    check.tolerance = 0;
+    check.source =
+        "the guard acts on bricks of less than this share of their volume at rest; the worst run of the model";
   }
 
   const std::string& name_;
@@ -164,14 +238,15 @@ class Runs {
   bool is_chosen_;
   const Console& console_;
   Console silent_;
-  std::vector<Check> checks_;
+  std::vector<KnownSolution> known_;
+  CaseResult result_;
   std::vector<std::pair<std::size_t, Model>> rivals_;  // checks whose tolerance is another model's error
+  std::map<Model, Crushed> most_crushed_;
 };
 
 }  // namespace
 
-std::vector<Check> run_experiment(const std::string& name, const Scene& scene, const Choice& choice,
-                                  const Console& console) {
+CaseResult run_experiment(const std::string& name, const Scene& scene, const Choice& choice, const Console& console) {
   const SceneBody& body = scene.bodies.front();
   const bool is_chosen = choice.model || choice.poisson || choice.bricks;
   Runs runs(name, scene, is_chosen, console);

@@ -4,37 +4,37 @@
 
 #include <algorithm>
 
+#include "app/interrupt.h"
 #include "app/progress.h"
+#include "app/validate/built_in_cases.h"
 #include "app/validate/check_text.h"
 #include "app/validate/experiment_files.h"
 #include "app/validate/make_report.h"
-#include "app/validate/sheet_experiments.h"
+#include "app/validate/run_experiment.h"
 
 namespace sprung {
 namespace {
 
 /// What to run.
 struct Selection {
-  std::vector<SheetExperiment> sheets;
   std::vector<NamedScene> scenes;
+  std::vector<BuiltInCase> built_in;
 };
 
 Selection select(const ValidateOptions& options) {
   Selection selection;
   std::vector<std::string> scenes;
   for (const std::string& word : options.cases) {
-    const auto is_word = [&](const SheetExperiment& sheet) { return sheet.name == word; };
-    const auto found = std::find_if(sheet_experiments().begin(), sheet_experiments().end(), is_word);
-    if (found == sheet_experiments().end()) {
+    const auto is_word = [&](const BuiltInCase& known) { return known.name == word; };
+    const auto found = std::find_if(built_in_cases().begin(), built_in_cases().end(), is_word);
+    if (found == built_in_cases().end()) {
       scenes.push_back(word);
     } else {
-      selection.sheets.push_back(*found);
+      selection.built_in.push_back(*found);
     }
   }
   const bool is_all = options.cases.empty();
-  // A choice speaks of bricks, which sheets have none of.
-  const bool is_of_bricks = options.choice.model || options.choice.poisson || options.choice.bricks;
-  if (is_all && !is_of_bricks) selection.sheets.assign(sheet_experiments().begin(), sheet_experiments().end());
+  if (is_all) selection.built_in.assign(built_in_cases().begin(), built_in_cases().end());
   if (is_all || !scenes.empty()) selection.scenes = read_experiments(scenes);
   return selection;
 }
@@ -42,7 +42,13 @@ Selection select(const ValidateOptions& options) {
 void print_list() {
   const Selection all = select({});
   for (const NamedScene& scene : all.scenes) fmt::print("{:<24}{}\n", scene.name, scene.scene.experiment.title);
-  for (const SheetExperiment& sheet : all.sheets) fmt::print("{:<24}{}\n", sheet.name, sheet.title);
+  for (const BuiltInCase& known : all.built_in) fmt::print("{:<24}{}\n", known.name, known.title);
+}
+
+void print(const CaseResult& result) {
+  for (const Check& check : result.checks) fmt::print("{}\n", check_line(check));
+  fmt::print("{}", table_text(result.table));
+  std::fflush(stdout);
 }
 
 }  // namespace
@@ -53,24 +59,29 @@ bool validate(const ValidateOptions& options, const Console& console) {
     return true;
   }
   const Selection selection = select(options);
+  std::vector<FinishedCase> finished;
   std::vector<Check> checks;
-  const auto add = [&](const std::vector<Check>& more) {
-    for (const Check& check : more) {
-      if (!options.json) fmt::print("{}\n", check_line(check));
-      checks.push_back(check);
-    }
-    std::fflush(stdout);
+  const auto add = [&](FinishedCase one) {
+    if (one.result.checks.empty()) console.note(fmt::format("{} has no answer to that choice", one.name));
+    if (!options.json) print(one.result);
+    checks.insert(checks.end(), one.result.checks.begin(), one.result.checks.end());
+    finished.push_back(std::move(one));
   };
   Progress progress(console, "validate");
   for (const NamedScene& scene : selection.scenes) {
-    add(run_experiment(scene.name, scene.scene, options.choice, console));
+    add({.name = scene.name,
+         .result = run_experiment(scene.name, scene.scene, options.choice, console),
+         .scene = &scene.scene});
   }
-  for (const SheetExperiment& sheet : selection.sheets) add(sheet.run());
+  for (const BuiltInCase& known : selection.built_in) {
+    stop_if_interrupted();
+    add({.name = std::string(known.name), .result = known.run(options.choice), .built_in = &known});
+  }
   if (options.json) fmt::print("{}", checks_json(checks));
   const auto gates = std::count_if(checks.begin(), checks.end(), [](const Check& check) { return check.is_gate(); });
   const auto failed = std::count_if(checks.begin(), checks.end(), [](const Check& check) { return !check.passed(); });
   progress.finish(fmt::format("{} checks, {} of them gates, {} failed", checks.size(), gates, failed));
-  if (!options.report.empty()) make_report(options.report, selection.scenes, checks, progress.seconds(), console);
+  if (!options.report.empty()) make_report(options.report, finished, progress.seconds(), console);
   return failed == 0;
 }
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "app/console.h"
-#include "app/validate/run_experiment.h"
+#include "app/validate/case_result.h"
 
 namespace sprung {
 

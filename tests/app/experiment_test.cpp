@@ -205,6 +205,79 @@ TEST_F(ExperimentProgram, ValidatePassesAndFailsByItsGates) {
   EXPECT_NE(json.out.find("\"passed\": false"), std::string::npos) << json.out;
 }
 
+TEST_F(ExperimentProgram, ValidateAssertsThatTheGuardIsAsleep) {
+  write_beam("right.toml", -0.004004546 * 40);
+  const ProgramRun asleep = run("validate right.toml");
+  EXPECT_NE(asleep.out.find("smallest.volume"), std::string::npos) << asleep.out;
+  static_cast<void>(folder_.write("crushed.toml", R"([solver]
+scheme = "linear"
+load_steps = 1
+[[body]]
+box = [0.1, 0.1, 0.1]
+bricks = 1
+  [[body.pin]]
+  name = "bottom"
+  box = { min = [0, 0, 0], max = [1, 0.01, 1] }
+  [[body.pin]]
+  name = "top"
+  box = { min = [0, 0.99, 0], max = [1, 1, 1] }
+  translate = [0, -0.08, 0]
+[[probe]]
+name = "top"
+pin = "top"
+[[expect]]
+quantity = "top.displacement.y"
+value = -0.08
+source = "the pin"
+)"));
+  const ProgramRun awake = run("validate crushed.toml");
+  EXPECT_EQ(awake.exit_code, 1) << awake.out;
+  EXPECT_NE(awake.out.find("FAIL  the guard acts"), std::string::npos) << awake.out;
+}
+
+TEST_F(ExperimentProgram, ValidateSaysHowFarABodyCarriedItsLoad) {
+  std::string text = kBeam;
+  text.replace(text.find("young = 1000"), 12, "young = 0.10");
+  static_cast<void>(
+      folder_.write("weak.toml", text + "[solver]\nscheme = \"static\"\nload_steps = 1\n[experiment]\nmodels = "
+                                        "[\"tensile\"]\n[[expect]]\nquantity = \"tip.displacement.y\"\n"
+                                        "source = \"none\"\nvalue = 1\n"));
+  const ProgramRun made = run("validate weak.toml");
+  EXPECT_NE(made.out.find("not measured: no equilibrium found beyond"), std::string::npos) << made.out << made.err;
+}
+
+TEST_F(ExperimentProgram, ValidatePrintsTheTableOfEquations) {
+  const ProgramRun made = run("validate --case equations");
+  EXPECT_EQ(made.exit_code, 0) << made.out;
+  EXPECT_NE(made.out.find("M1 cube, corrected"), std::string::npos) << made.out;
+  EXPECT_NE(run("validate --case equations --model m1").err.find("no answer to that choice"), std::string::npos);
+}
+
+TEST_F(ExperimentProgram, RefusesWhatItsSolversCannotDo) {
+  const std::string two_bodies = kBeam + "[[body]]\nbox = [0.4, 0.1, 0.1]\nbricks = 4\n";
+  static_cast<void>(folder_.write("two.toml", two_bodies + "[solver]\nscheme = \"modes\"\n"));
+  const ProgramRun modes = run("simulate two.toml -o out");
+  EXPECT_EQ(modes.exit_code, 3);
+  EXPECT_NE(modes.err.find("modes are those of one body, the scene has 2"), std::string::npos) << modes.err;
+  static_cast<void>(folder_.write("ground.toml", kBeam + "[[obstacle]]\nplane = { y = 0 }\n"));
+  const ProgramRun ground = run("simulate ground.toml -o out --scheme static");
+  EXPECT_EQ(ground.exit_code, 3);
+  EXPECT_NE(ground.err.find("only a motion (scheme euler or verlet) meets the ground"), std::string::npos)
+      << ground.err;
+}
+
+TEST_F(ExperimentProgram, OneRatioForAllMaterialsOfABody) {
+  std::string text = kBeam;
+  text.insert(
+      text.find("[[probe]]"),
+      "  [[body.region]]\n  box = { min = [0, 0, 0], max = [0.5, 1, 1] }\n  material = { young = 1000, poisson = "
+      "0.3, density = 40 }\n");
+  static_cast<void>(folder_.write("parts.toml", text));
+  const ProgramRun made = run("simulate parts.toml -o out --scheme linear --poisson 0.4");
+  EXPECT_EQ(made.exit_code, 3);
+  EXPECT_NE(made.err.find("a region has the Poisson's ratio 0.3, its body 0.4"), std::string::npos) << made.err;
+}
+
 TEST_F(ExperimentProgram, ValidateNamesWhatItDoesNotKnow) {
   EXPECT_EQ(run("validate --case cantilevr").exit_code, 2);
   EXPECT_NE(run("validate --case cantilevr").err.find("did you mean 'cantilever'?"), std::string::npos);
@@ -215,7 +288,7 @@ TEST_F(ExperimentProgram, ValidateNamesWhatItDoesNotKnow) {
 }
 
 TEST_F(ExperimentProgram, BuiltInExperimentsHold) {
-  const ProgramRun made = run("validate --case stretch --case shear --case cantilever_c3d8i");
+  const ProgramRun made = run("validate --case stretch --case shear --case cantilever_c3d8i --case cantilever_c3d8");
   EXPECT_EQ(made.exit_code, 0) << made.out << made.err;
   EXPECT_EQ(made.out.find("FAIL"), std::string::npos) << made.out;
 }
