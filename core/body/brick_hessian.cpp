@@ -24,41 +24,40 @@ Mat3 sideways(const Vec3& direction, double tension, double length) {
   return tension / length * (Mat3::Identity() - direction * direction.transpose());
 }
 
-/// Twelve springs whose tensions are coupled: `tensions` gives them for the stretches, linear and symmetric.
-template <class Tensions>
-void add_coupled(BrickMatrix& hessian, const std::array<CornerPair, 12>& pairs, double rest, const Tensions& tensions,
-                 const CornerVectors<double>& x) {
+void add_edges(BrickMatrix& hessian, const BrickLaw& law, double h, const CornerVectors<double>& x) {
   Eigen::Matrix<double, 12, 24> stretch_by_corner = Eigen::Matrix<double, 12, 24>::Zero();
   std::array<double, 12> stretch{};
   std::array<Vec3, 12> directions;
   for (std::size_t e = 0; e < 12; ++e) {
-    const auto spring = detail::measure(detail::between(x, pairs[e]), rest);
+    const auto spring = detail::measure(detail::between(x, kEdges[e]), h);
     stretch[e] = spring.stretch;
     directions[e] = to_vector(spring.direction);
-    stretch_by_corner.block<1, 3>(static_cast<int>(e), 3 * pairs[e].from) = -directions[e].transpose();
-    stretch_by_corner.block<1, 3>(static_cast<int>(e), 3 * pairs[e].to) = directions[e].transpose();
+    stretch_by_corner.block<1, 3>(static_cast<int>(e), 3 * kEdges[e].from) = -directions[e].transpose();
+    stretch_by_corner.block<1, 3>(static_cast<int>(e), 3 * kEdges[e].to) = directions[e].transpose();
   }
   Eigen::Matrix<double, 12, 12> coupling;
   for (std::size_t e = 0; e < 12; ++e) {
     std::array<double, 12> unit{};
     unit[e] = 1;
-    coupling.col(static_cast<int>(e)) = Eigen::Map<const Eigen::Matrix<double, 12, 1>>(tensions(unit).data());
+    coupling.col(static_cast<int>(e)) =
+        Eigen::Map<const Eigen::Matrix<double, 12, 1>>(detail::edge_tensions(law, unit).data());
   }
   hessian += stretch_by_corner.transpose() * coupling * stretch_by_corner;
-  const std::array<double, 12> tension = tensions(stretch);
+  const std::array<double, 12> tension = detail::edge_tensions(law, stretch);
   for (std::size_t e = 0; e < 12; ++e) {
-    add_block(hessian, pairs[e], sideways(directions[e], tension[e], rest + stretch[e]));
+    add_block(hessian, kEdges[e], sideways(directions[e], tension[e], h + stretch[e]));
   }
 }
 
-void add_inner_diagonals(BrickMatrix& hessian, const BrickLaw& law, double h, const CornerVectors<double>& x) {
-  const double rest = std::numbers::sqrt3 * h;
-  for (const CornerPair pair : kInnerDiagonals) {
+template <class Pairs>
+void add_diagonals(BrickMatrix& hessian, const Pairs& pairs, double rest, double stiffness,
+                   const CornerVectors<double>& x) {
+  for (const CornerPair pair : pairs) {
     const auto spring = detail::measure(detail::between(x, pair), rest);
     const Vec3 direction = to_vector(spring.direction);
     add_block(hessian, pair,
-              law.inner * direction * direction.transpose() +
-                  sideways(direction, law.inner * spring.stretch, rest + spring.stretch));
+              stiffness * direction * direction.transpose() +
+                  sideways(direction, stiffness * spring.stretch, rest + spring.stretch));
   }
 }
 
@@ -123,11 +122,9 @@ void add_axes(BrickMatrix& hessian, const BrickLaw& law, double h, const CornerV
 
 BrickMatrix brick_hessian(const BrickLaw& law, double h, const CornerVectors<double>& x) {
   BrickMatrix hessian = BrickMatrix::Zero();
-  const auto edges = [&law](const auto& stretch) { return detail::edge_tensions(law, stretch); };
-  const auto faces = [&law](const auto& stretch) { return detail::face_tensions(law, stretch); };
-  add_coupled(hessian, kEdges, h, edges, x);
-  add_coupled(hessian, kFaceDiagonals, std::numbers::sqrt2 * h, faces, x);
-  add_inner_diagonals(hessian, law, h, x);
+  add_edges(hessian, law, h, x);
+  add_diagonals(hessian, kFaceDiagonals, std::numbers::sqrt2 * h, law.face, x);
+  add_diagonals(hessian, kInnerDiagonals, std::numbers::sqrt3 * h, law.inner, x);
   add_axes(hessian, law, h, x);
   return hessian;
 }

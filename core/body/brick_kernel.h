@@ -91,26 +91,6 @@ std::array<T, 3> axial_tensions(const BrickLaw& law, const std::array<T, 3>& str
   return tension;
 }
 
-/// Tensions of the twelve face diagonals for their stretches (N and m): the springs and the twist correction. Linear
-/// and symmetric.
-template <class T>
-std::array<T, 12> face_tensions(const BrickLaw& law, const std::array<T, 12>& stretch) {
-  std::array<T, 3> twist;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const T* s = &stretch[4 * i];
-    twist[i] = 0.25 * ((s[2] - s[3]) - (s[0] - s[1]));
-  }
-  std::array<T, 12> tension;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const T correction = 0.25 * law.twist_cross * (twist[(i + 1) % 3] + twist[(i + 2) % 3]);
-    tension[4 * i] = law.face * stretch[4 * i] - correction;
-    tension[4 * i + 1] = law.face * stretch[4 * i + 1] + correction;
-    tension[4 * i + 2] = law.face * stretch[4 * i + 2] + correction;
-    tension[4 * i + 3] = law.face * stretch[4 * i + 3] - correction;
-  }
-  return tension;
-}
-
 /// The brick's mean axes: for each direction the mean of its four edges, m.
 template <class T>
 std::array<std::array<T, 3>, 3> mean_axes(const CornerVectors<T>& x) {
@@ -186,33 +166,29 @@ T brick_forces(const BrickLaw& law, double h, const CornerVectors<T>& x, const C
   };
   T energy(0.0);
 
-  const auto coupled = [&](const std::array<CornerPair, 12>& pairs, double rest, const auto& tensions) {
-    std::array<detail::Spring<T>, 12> springs;
-    std::array<T, 12> stretch;
-    std::array<T, 12> driving;
-    for (std::size_t e = 0; e < 12; ++e) {
-      springs[e] = detail::measure(detail::between(x, pairs[e]), rest);
-      stretch[e] = springs[e].stretch;
-      driving[e] = lagged(springs[e], pairs[e]);
+  std::array<detail::Spring<T>, 12> edges;
+  std::array<T, 12> stretch;
+  std::array<T, 12> driving;
+  for (std::size_t e = 0; e < 12; ++e) {
+    edges[e] = detail::measure(detail::between(x, kEdges[e]), h);
+    stretch[e] = edges[e].stretch;
+    driving[e] = lagged(edges[e], kEdges[e]);
+  }
+  const std::array<T, 12> elastic = detail::edge_tensions(law, stretch);
+  for (std::size_t e = 0; e < 12; ++e) energy += 0.5 * elastic[e] * stretch[e];
+  const std::array<T, 12> tension = rates == nullptr ? elastic : detail::edge_tensions(law, driving);
+  for (std::size_t e = 0; e < 12; ++e) detail::pull(force, kEdges[e], edges[e].direction, tension[e]);
+
+  const auto diagonals = [&](const auto& pairs, double rest, double stiffness) {
+    if (stiffness == 0) return;
+    for (const CornerPair pair : pairs) {
+      const detail::Spring<T> spring = detail::measure(detail::between(x, pair), rest);
+      energy += 0.5 * stiffness * spring.stretch * spring.stretch;
+      detail::pull(force, pair, spring.direction, T(stiffness * lagged(spring, pair)));
     }
-    const std::array<T, 12> elastic = tensions(stretch);
-    for (std::size_t e = 0; e < 12; ++e) energy += 0.5 * elastic[e] * stretch[e];
-    const std::array<T, 12> tension = rates == nullptr ? elastic : tensions(driving);
-    for (std::size_t e = 0; e < 12; ++e) detail::pull(force, pairs[e], springs[e].direction, tension[e]);
   };
-  // Lambdas, not the functions themselves: each is a type of its own, so that both are inlined.
-  coupled(kEdges, h, [&law](const auto& stretch) { return detail::edge_tensions(law, stretch); });
-  if (law.face != 0) {
-    coupled(kFaceDiagonals, std::numbers::sqrt2 * h,
-            [&law](const auto& stretch) { return detail::face_tensions(law, stretch); });
-  }
-  if (law.inner != 0) {
-    for (const CornerPair pair : kInnerDiagonals) {
-      const detail::Spring<T> spring = detail::measure(detail::between(x, pair), std::numbers::sqrt3 * h);
-      energy += 0.5 * law.inner * spring.stretch * spring.stretch;
-      detail::pull(force, pair, spring.direction, T(law.inner * lagged(spring, pair)));
-    }
-  }
+  diagonals(kFaceDiagonals, std::numbers::sqrt2 * h, law.face);
+  diagonals(kInnerDiagonals, std::numbers::sqrt3 * h, law.inner);
 
   return energy + detail::axes_energy(law, h, x, rates, force);
 }

@@ -24,16 +24,11 @@ void calibrate_stretch(BrickLaw& law, const Material& material, double h) {
   law.axial_self = h * (material.lame_lambda() + 2 * material.shear_modulus()) - springs_self;
 }
 
-/// Torsion constant of a square bar over that of the same section without warping, J = h^4 / 6: Saint-Venant's
-/// 6 (1/3 - 64/pi^5 sum over odd n of tanh(n pi / 2) / n^5).
-constexpr double kWarpingShare = 0.843462;
-
 BrickLaw calibrated_law(const Material& material, double h) {
   const double plate = material.young / (1 - material.poisson * material.poisson);
   BrickLaw law;
   law.face = material.shear_modulus() * h / 6;
   law.inner = material.shear_modulus() * h / 2;
-  law.twist_cross = 4 * (1 - kWarpingShare) * law.face;
   law.bending_self = h / 3 * plate - 2 * law.face;
   law.bending_cross = h / 3 * plate * material.poisson - 2 * law.face;
   calibrate_stretch(law, material, h);
