@@ -69,22 +69,20 @@ Mat3 cross_matrix(const Vec3& v) {
 
 using AxesMatrix = Eigen::Matrix<double, 9, 9>;  // by the three mean axes
 
-void add_axial(AxesMatrix& second, const BrickLaw& law, double h, const std::array<std::array<double, 3>, 3>& axes) {
-  std::array<double, 3> stretch{};
-  std::array<Vec3, 3> directions;
+void add_axes_correction(AxesMatrix& second, const BrickLaw& law, double h,
+                         const std::array<std::array<double, 3>, 3>& axes) {
+  if (law.axes == 0) return;
+  Eigen::Matrix<double, 9, 1> slope;
+  double stretch = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto spring = detail::measure(axes[i], h);
-    stretch[i] = spring.stretch;
-    directions[i] = to_vector(spring.direction);
+    slope.segment<3>(3 * static_cast<int>(i)) = to_vector(spring.direction);
+    stretch += spring.stretch;
   }
-  const std::array<double, 3> tension = detail::axial_tensions(law, stretch);
+  second += law.axes * slope * slope.transpose();
   for (std::size_t i = 0; i < 3; ++i) {
     const int row = 3 * static_cast<int>(i);
-    for (std::size_t j = 0; j < 3; ++j) {
-      const double coupling = i == j ? law.axial_self : law.axial_cross;
-      second.block<3, 3>(row, 3 * static_cast<int>(j)) += coupling * directions[i] * directions[j].transpose();
-    }
-    second.block<3, 3>(row, row) += sideways(directions[i], tension[i], h + stretch[i]);
+    second.block<3, 3>(row, row) += sideways(slope.segment<3>(row), law.axes * stretch, to_vector(axes[i]).norm());
   }
 }
 
@@ -107,7 +105,7 @@ void add_guard(AxesMatrix& second, const BrickLaw& law, double volume, const std
 void add_axes(BrickMatrix& hessian, const BrickLaw& law, double h, const CornerVectors<double>& x) {
   const auto axes = detail::mean_axes(x);
   AxesMatrix second = AxesMatrix::Zero();
-  add_axial(second, law, h, axes);
+  add_axes_correction(second, law, h, axes);
   add_guard(second, law, h * h * h, {to_vector(axes[0]), to_vector(axes[1]), to_vector(axes[2])});
   Eigen::Matrix<double, 9, 24> axes_by_corner = Eigen::Matrix<double, 9, 24>::Zero();
   for (int corner = 0; corner < 8; ++corner) {

@@ -56,13 +56,15 @@ void pull(CornerVectors<T>& force, CornerPair pair, const std::array<T, 3>& dire
   }
 }
 
-/// Tensions of the twelve edges for their stretches (both N and m, edge by edge): the springs and the bending
-/// correction on the bending stretches. Linear and symmetric.
+/// Tensions of the twelve edges for their stretches (both N and m, edge by edge): the springs, the axial correction on
+/// the mean stretches and the bending correction on the bending stretches. Linear and symmetric.
 template <class T>
 std::array<T, 12> edge_tensions(const BrickLaw& law, const std::array<T, 12>& stretch) {
+  std::array<T, 3> mean;
   std::array<std::array<T, 2>, 3> bend;  // [axis][0: gradient in j = axis + 1, 1: in k = axis + 2]
   for (std::size_t i = 0; i < 3; ++i) {
     const T* s = &stretch[4 * i];
+    mean[i] = 0.25 * ((s[0] + s[1]) + (s[2] + s[3]));
     bend[i][0] = 0.25 * ((s[1] - s[0]) + (s[3] - s[2]));
     bend[i][1] = 0.25 * ((s[2] - s[0]) + (s[3] - s[1]));
   }
@@ -70,23 +72,14 @@ std::array<T, 12> edge_tensions(const BrickLaw& law, const std::array<T, 12>& st
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3;
     const std::size_t k = (i + 2) % 3;
+    const T axial = 0.25 * (law.axial_self * mean[i] + law.axial_cross * (mean[j] + mean[k]));
     // The partner of b_ij is b_kj: the other axis that sees the gradient j, where j is its axis + 2.
     const T in_j = 0.25 * (law.bending_self * bend[i][0] + law.bending_cross * bend[k][1]);
     const T in_k = 0.25 * (law.bending_self * bend[i][1] + law.bending_cross * bend[j][0]);
-    tension[4 * i] = law.edge * stretch[4 * i] - in_j - in_k;
-    tension[4 * i + 1] = law.edge * stretch[4 * i + 1] + in_j - in_k;
-    tension[4 * i + 2] = law.edge * stretch[4 * i + 2] - in_j + in_k;
-    tension[4 * i + 3] = law.edge * stretch[4 * i + 3] + in_j + in_k;
-  }
-  return tension;
-}
-
-/// Tensions of the three mean axes for their stretches (N and m): the axial correction. Linear and symmetric.
-template <class T>
-std::array<T, 3> axial_tensions(const BrickLaw& law, const std::array<T, 3>& stretch) {
-  std::array<T, 3> tension;
-  for (std::size_t i = 0; i < 3; ++i) {
-    tension[i] = law.axial_self * stretch[i] + law.axial_cross * (stretch[(i + 1) % 3] + stretch[(i + 2) % 3]);
+    tension[4 * i] = law.edge * stretch[4 * i] + (axial - in_j - in_k);
+    tension[4 * i + 1] = law.edge * stretch[4 * i + 1] + (axial + in_j - in_k);
+    tension[4 * i + 2] = law.edge * stretch[4 * i + 2] + (axial - in_j + in_k);
+    tension[4 * i + 3] = law.edge * stretch[4 * i + 3] + (axial + in_j + in_k);
   }
   return tension;
 }
@@ -118,38 +111,38 @@ void pull_axes(CornerVectors<T>& force, const std::array<std::array<T, 3>, 3>& p
   }
 }
 
-/// The energy of what depends on the mean axes only, the axial correction and the volume guard; adds their forces.
+/// The energy of what depends on the mean axes only, their own correction and the volume guard; adds their forces.
 /// `rates` as in brick_forces.
 template <class T>
 T axes_energy(const BrickLaw& law, double h, const CornerVectors<T>& x, const CornerVectors<T>* rates,
               CornerVectors<T>& force) {
   using std::max;
   const auto axes = mean_axes(x);
-  std::array<Spring<T>, 3> springs;
-  std::array<T, 3> stretch;
-  for (std::size_t i = 0; i < 3; ++i) {
-    springs[i] = measure(axes[i], h);
-    stretch[i] = springs[i].stretch;
-  }
-  const std::array<T, 3> elastic = axial_tensions(law, stretch);
-  const T energy = 0.5 * (elastic[0] * stretch[0] + elastic[1] * stretch[1] + elastic[2] * stretch[2]);
-  std::array<T, 3> tension = elastic;
-  if (rates != nullptr) {
-    const auto rate_axes = mean_axes(*rates);
-    for (std::size_t i = 0; i < 3; ++i) stretch[i] += dot(springs[i].direction, rate_axes[i]);
-    tension = axial_tensions(law, stretch);
-  }
   const double volume = h * h * h;
   const std::array<std::array<T, 3>, 3> areas{cross(axes[1], axes[2]), cross(axes[2], axes[0]),
                                               cross(axes[0], axes[1])};
   const T lack = max(law.guard_ratio - dot(axes[0], areas[0]) * (1 / volume), T(0.0));
   const T push = law.guard / volume * lack;
+  T energy = 0.5 * law.guard * lack * lack;
   std::array<std::array<T, 3>, 3> pulls;
   for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t k = 0; k < 3; ++k) pulls[i][k] = tension[i] * springs[i].direction[k] - push * areas[i][k];
+    for (std::size_t k = 0; k < 3; ++k) pulls[i][k] = T(0.0) - push * areas[i][k];
+  }
+  if (law.axes != 0) {
+    const std::array<Spring<T>, 3> springs{measure(axes[0], h), measure(axes[1], h), measure(axes[2], h)};
+    const T stretch = springs[0].stretch + springs[1].stretch + springs[2].stretch;
+    energy += 0.5 * law.axes * stretch * stretch;
+    T driving = stretch;
+    if (rates != nullptr) {
+      const auto rate_axes = mean_axes(*rates);
+      for (std::size_t i = 0; i < 3; ++i) driving += dot(springs[i].direction, rate_axes[i]);
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t k = 0; k < 3; ++k) pulls[i][k] += law.axes * driving * springs[i].direction[k];
+    }
   }
   pull_axes(force, pulls);
-  return energy + 0.5 * law.guard * lack * lack;
+  return energy;
 }
 
 }  // namespace detail

@@ -22,23 +22,25 @@ enum class Model {
 
 /// The constants of one full brick, all in N/m. A brick is 12 edges, 12 face diagonals and 4 inner diagonals; a
 /// stretch is a current length minus the rest length, s_e that of edge e along axis i. With
-///   e_i  = |mean of the four edge vectors along i| - h                mean stretch
+///   e_i  = mean of the four s_e along i                               mean stretch
+///   a_i  = |mean of the four edge vectors along i| - h                stretch of the mean axis
 ///   b_ij = mean of the four s_e along i, signed by their side in j    bending stretch, j != i
 /// its energy is
 ///   W = 1/2 edge   sum_edges s^2 + 1/2 face sum_faces s^2 + 1/2 inner sum_inner s^2
 ///     + 1/2 sum_ij axial_ij e_i e_j                 axial_ii = axial_self, axial_ij = axial_cross
+///     + 1/2 axes (a_x + a_y + a_z)^2
 ///     + 1/2 sum over the gradient direction j of (b_ij, b_kj) bending (b_ij, b_kj)^T      i, k != j
 /// Every term is a set of tensions along edges, mean axes and diagonals, so momentum is conserved whatever the
-/// constants. To first order, and in every homogeneous deformation, e_i is the mean of the four s_e. It is not taken as
-/// that because axial has negative eigenvalues where nu is low: a brick that folds like an hourglass lengthens its
-/// edges, but not the mean of their vectors nor, as much, its diagonals, and energy without a lower bound would pull it
-/// apart.
+/// constants. To first order, and in every homogeneous deformation, a_i = e_i. Only what is left to correct of (e_x +
+/// e_y + e_z)^2 below zero (where nu is low) goes to the mean axes: a brick that folds like an hourglass lengthens its
+/// edges, but not the mean of their vectors, and on edges that part would pull it apart without end.
 struct BrickLaw {
   double edge = 0;
   double face = 0;
   double inner = 0;
   double axial_self = 0;
   double axial_cross = 0;
+  double axes = 0;  // never positive
   double bending_self = 0;
   double bending_cross = 0;
   double guard = 0;          // energy of the volume guard, J: W = guard/2 (guard_ratio - V)^2 where V < guard_ratio

@@ -148,7 +148,8 @@ TEST(BrickLaw, CorrectionIsThePapersPerpendicularForce) {
     const double perpendicular = -force * (4 * poisson - 1) / 16;
     // Uniaxial stress: e = h (strain, -nu strain, -nu strain); a mean stretch tension acts as a quarter on each edge.
     const Vec3 mean = kSide * strain * Vec3(1, -poisson, -poisson);
-    const double sideways = (law.axial_self * mean.y() + law.axial_cross * (mean.x() + mean.z())) / 4;
+    const double sideways =
+        (law.axial_self * mean.y() + law.axial_cross * (mean.x() + mean.z()) + law.axes * mean.sum()) / 4;
     // A tension pulls inwards, F_perp is counted outwards.
     EXPECT_NEAR(-sideways, 2 * perpendicular, 1e-12 * force) << poisson;
   }
