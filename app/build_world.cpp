@@ -114,6 +114,7 @@ void apply_regions(const SceneBody& scene_body, const Vec3& extent, const Mat3& 
     for (const int node : body.grid.nodes[brick]) body.masses[node] += more_mass * body.stiffness_scale[brick];
     body.stiffness_scale[brick] *= found->material.young / body.material.young;
   }
+  if (!scene_body.regions.empty()) lay_tiles(body);
 }
 
 /// The bricks' volume may differ from the mesh's by this share before it is worth a warning.

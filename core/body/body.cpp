@@ -63,7 +63,12 @@ Body make_body(BrickGrid grid, Model model, const Material& material) {
   const Vec3 extent = body.positions.colwise().maxCoeff() - body.positions.colwise().minCoeff();
   body.damping = rayleigh_from_damping(material, extent.maxCoeff());
   list_corners(body);
+  lay_tiles(body);
   return body;
+}
+
+void lay_tiles(Body& body) {
+  body.tiles = std::make_shared<const BrickTiles>(make_brick_tiles(body.grid, body.stiffness_scale));
 }
 
 void place(Body& body, const Mat3& rotation, const Vec3& translation) {

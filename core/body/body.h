@@ -1,7 +1,9 @@
 #pragma once
 #include <array>
+#include <memory>
 #include <vector>
 
+#include "core/body/brick_tiles.h"
 #include "core/bricks/brick_grid.h"
 #include "core/law/brick_law.h"
 #include "core/law/material.h"
@@ -26,13 +28,14 @@ struct Body {
   BrickLaw law;                            // of a full brick
   Eigen::MatrixXd small_strain_stiffness;  // 24 x 24, N/m, of a full brick: model kFem only, else empty
   Rayleigh damping;
-  std::vector<double> stiffness_scale;  // per brick: its fill, at least kStiffnessFloor
-  Eigen::VectorXd masses;               // per node, kg; sum = density * volume
-  Points rest_positions;                // m x 3, m: the grid's nodes moved to where the body starts
-  Points positions;                     // m x 3, m
-  Points velocities;                    // m x 3, m/s
-  std::vector<int> corners;             // 8 brick + corner of every brick corner, grouped by the node it is at
-  std::vector<int> first_corner;        // m + 1; those of node i: corners[first_corner[i]] .. first_corner[i + 1]
+  std::vector<double> stiffness_scale;      // per brick: its fill, at least kStiffnessFloor
+  Eigen::VectorXd masses;                   // per node, kg; sum = density * volume
+  Points rest_positions;                    // m x 3, m: the grid's nodes moved to where the body starts
+  Points positions;                         // m x 3, m
+  Points velocities;                        // m x 3, m/s
+  std::vector<int> corners;                 // 8 brick + corner of every brick corner, grouped by the node it is at
+  std::vector<int> first_corner;            // m + 1; those of node i: corners[first_corner[i]] .. first_corner[i + 1]
+  std::shared_ptr<const BrickTiles> tiles;  // how the springs are computed, see lay_tiles()
 
   [[nodiscard]] int node_count() const { return static_cast<int>(positions.rows()); }
 };
@@ -43,6 +46,9 @@ inline constexpr double kStiffnessFloor = 0.01;
 /// A body at rest at its grid's place. Masses are lumped, fill rho h^3 / 8 a corner, and scaled so that their sum is
 /// density * grid.volume().
 [[nodiscard]] Body make_body(BrickGrid grid, Model model, const Material& material);
+
+/// Cuts the body's bricks into tiles anew: due after a change of its stiffness_scale. make_body() has done it already.
+void lay_tiles(Body& body);
 
 /// Turns (then moves) the whole body, rest shape and state; rotation is applied about the origin.
 void place(Body& body, const Mat3& rotation, const Vec3& translation);

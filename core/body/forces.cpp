@@ -4,62 +4,45 @@
 
 #include <numeric>
 
-#include "core/body/brick_block.h"
+#include "core/body/brick_kernel.h"
 
 namespace sprung {
 namespace {
 
-constexpr int kBlocksPerTask = 32;
+using BrickVector = Eigen::Matrix<double, 24, 1>;
+
+bool is_hexahedral(const Body& body) { return body.small_strain_stiffness.size() > 0; }
+
+BrickVector at_corners(const Body& body, std::size_t brick, const Points& values) {
+  BrickVector gathered;
+  for (std::size_t corner = 0; corner < 8; ++corner) {
+    gathered.segment<3>(static_cast<Eigen::Index>(3 * corner)) = values.row(body.grid.nodes[brick][corner]);
+  }
+  return gathered;
+}
+
+BrickVector displacement(const Body& body, std::size_t brick) {
+  return at_corners(body, brick, body.positions) - at_corners(body, brick, body.rest_positions);
+}
 
 /// A body of trilinear hexahedra, whose force is linear in the displacement from rest.
-void compute_hexahedron(const Body& body, std::size_t brick, ForceWorkspace& workspace) {
-  Eigen::Matrix<double, 24, 1> displacement;
-  Eigen::Matrix<double, 24, 1> rates;
-  for (std::size_t corner = 0; corner < 8; ++corner) {
-    const int node = body.grid.nodes[brick][corner];
-    const auto row = static_cast<Eigen::Index>(3 * corner);
-    displacement.segment<3>(row) = body.positions.row(node) - body.rest_positions.row(node);
-    rates.segment<3>(row) = body.damping.beta * body.velocities.row(node);
-  }
-  const double scale = body.stiffness_scale[brick];
-  Eigen::Map<Eigen::Matrix<double, 24, 1>> force(&workspace.corner_forces[24 * brick]);
-  force = -scale * (body.small_strain_stiffness * (displacement + rates));
-  workspace.energies[brick] = 0.5 * scale * displacement.dot(body.small_strain_stiffness * displacement);
+BrickVector hexahedron_forces(const Body& body, std::size_t brick) {
+  const BrickVector lagged = displacement(body, brick) + body.damping.beta * at_corners(body, brick, body.velocities);
+  return -body.stiffness_scale[brick] * (body.small_strain_stiffness * lagged);
 }
 
-void compute_corner_forces(const Body& body, ForceWorkspace& workspace) {
+double hexahedron_energy(const Body& body, std::size_t brick) {
+  const BrickVector u = displacement(body, brick);
+  return 0.5 * body.stiffness_scale[brick] * u.dot(body.small_strain_stiffness * u);
+}
+
+void sum_hexahedra(const Body& body, std::vector<double>& corner_forces, Points& forces) {
   const auto bricks = static_cast<std::size_t>(body.grid.brick_count());
-  workspace.corner_forces.resize(24 * bricks);
-  workspace.energies.resize(bricks);
-  if (body.small_strain_stiffness.size() > 0) {
-    tbb::parallel_for(std::size_t{0}, bricks, [&](std::size_t brick) { compute_hexahedron(body, brick, workspace); });
-    return;
-  }
-  const BlockForces compute_block = block_forces();
-  const BlockInput input = block_input(body);
-  const int blocks = (body.grid.brick_count() + kBricksPerBlock - 1) / kBricksPerBlock;
-  tbb::parallel_for(tbb::blocked_range<int>(0, blocks, kBlocksPerTask), [&](const tbb::blocked_range<int>& range) {
-    for (int block = range.begin(); block < range.end(); ++block) {
-      compute_block(input, block * kBricksPerBlock, workspace.corner_forces.data(), workspace.energies.data());
-    }
+  corner_forces.resize(24 * bricks);
+  tbb::parallel_for(std::size_t{0}, bricks, [&](std::size_t brick) {
+    Eigen::Map<BrickVector> corner_force(&corner_forces[24 * brick]);
+    corner_force = hexahedron_forces(body, brick);
   });
-}
-
-}  // namespace
-
-BlockInput block_input(const Body& body) {
-  return {.law = &body.law,
-          .brick_size = body.grid.brick_size,
-          .brick_count = body.grid.brick_count(),
-          .nodes = body.grid.nodes.data(),
-          .stiffness_scale = body.stiffness_scale.data(),
-          .positions = body.positions.data(),
-          .velocities = body.velocities.data(),
-          .beta = body.damping.beta};
-}
-
-void spring_forces(const Body& body, ForceWorkspace& workspace, Points& forces) {
-  compute_corner_forces(body, workspace);
   forces.resize(body.node_count(), 3);
   tbb::parallel_for(tbb::blocked_range<int>(0, body.node_count(), 512), [&](const tbb::blocked_range<int>& range) {
     for (int node = range.begin(); node < range.end(); ++node) {
@@ -67,17 +50,52 @@ void spring_forces(const Body& body, ForceWorkspace& workspace, Points& forces) 
       const auto n = static_cast<std::size_t>(node);
       for (int i = body.first_corner[n]; i < body.first_corner[n + 1]; ++i) {
         const auto corner = static_cast<std::size_t>(body.corners[static_cast<std::size_t>(i)]);
-        sum += Eigen::Map<const Vec3>(&workspace.corner_forces[3 * corner]);
+        sum += Eigen::Map<const Vec3>(&corner_forces[3 * corner]);
       }
       forces.row(node) = sum;
     }
   });
 }
 
+BrickVector elastic_forces(const Body& body, std::size_t brick) {
+  if (is_hexahedral(body)) {
+    return -body.stiffness_scale[brick] * (body.small_strain_stiffness * displacement(body, brick));
+  }
+  CornerVectors<double> force{};
+  brick_forces<double>(body.law, body.grid.brick_size, brick_corners(body, brick), nullptr, force);
+  return body.stiffness_scale[brick] * Eigen::Map<const BrickVector>(force.data());
+}
+
+/// A number of each brick, summed in their order.
+template <class Number>
+double sum_over_bricks(const Body& body, const Number& number) {
+  std::vector<double> numbers(body.grid.cells.size());
+  tbb::parallel_for(std::size_t{0}, numbers.size(), [&](std::size_t brick) { numbers[brick] = number(brick); });
+  return std::accumulate(numbers.begin(), numbers.end(), 0.0);
+}
+
+}  // namespace
+
+void spring_forces(const Body& body, ForceWorkspace& workspace, Points& forces) {
+  if (is_hexahedral(body)) {
+    sum_hexahedra(body, workspace.corner_forces, forces);
+  } else {
+    workspace.springs.forces(body, forces);
+  }
+}
+
+double elastic_energy(const Body& body, ForceWorkspace& workspace) {
+  if (!is_hexahedral(body)) return workspace.springs.energy(body);
+  return sum_over_bricks(body, [&](std::size_t brick) { return hexahedron_energy(body, brick); });
+}
+
 double elastic_energy(const Body& body) {
   ForceWorkspace workspace;
-  compute_corner_forces(body, workspace);
-  return std::accumulate(workspace.energies.begin(), workspace.energies.end(), 0.0);
+  return elastic_energy(body, workspace);
+}
+
+double corner_force_sum(const Body& body) {
+  return sum_over_bricks(body, [&](std::size_t brick) { return elastic_forces(body, brick).lpNorm<1>(); });
 }
 
 double kinetic_energy(const Body& body) { return 0.5 * body.masses.dot(body.velocities.rowwise().squaredNorm()); }

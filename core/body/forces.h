@@ -2,26 +2,26 @@
 #include <vector>
 
 #include "core/body/body.h"
-#include "core/body/brick_block.h"
+#include "core/body/spring_system.h"
 
 namespace sprung {
 
-/// Room for the forces of every brick on its corners before they are summed node by node; kept between steps.
+/// Room for the forces of a body, kept between steps.
 struct ForceWorkspace {
-  std::vector<double> corner_forces;  // 24 a brick
-  std::vector<double> energies;       // a brick, J
+  SpringSystem springs;
+  std::vector<double> corner_forces;  // Model::kFem only: 24 a brick
 };
 
 /// Forces of all springs on the nodes, m x 3, N: elastic, guard, and beta damping (at body.velocities), without gravity
-/// and alpha damping. Bricks are computed in parallel and summed in a fixed order: the same bits for any number of
-/// threads.
+/// and alpha damping. The same bits for any number of threads.
 void spring_forces(const Body& body, ForceWorkspace& workspace, Points& forces);
 
-/// The arrays of a body that the innermost loop reads; they must outlive it.
-[[nodiscard]] BlockInput block_input(const Body& body);
-
 /// Elastic energy stored in the springs, J, guard included.
+[[nodiscard]] double elastic_energy(const Body& body, ForceWorkspace& workspace);
 [[nodiscard]] double elastic_energy(const Body& body);
+
+/// Sum of the sizes of what every brick pulls at its corners, component by component, N.
+[[nodiscard]] double corner_force_sum(const Body& body);
 
 /// 1/2 sum m v^2, J.
 [[nodiscard]] double kinetic_energy(const Body& body);

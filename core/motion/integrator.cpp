@@ -21,10 +21,16 @@ class Mover {
   /// velocities += dt (forces / m + gravity - alpha v); held nodes keep their velocity.
   void kick(double dt) {
     Body& body = actor_.body;
-    spring_forces(body, workspace_, forces_);
-    body.velocities *= 1 - dt * body.damping.alpha;
-    body.velocities += dt * (inverse_masses_.asDiagonal() * forces_);
-    body.velocities.rowwise() += dt * world_.gravity.transpose();
+    if (body.model == Model::kFem) {
+      settle();
+      spring_forces(body, workspace_, forces_);
+      body.velocities *= 1 - dt * body.damping.alpha;
+      body.velocities += dt * (inverse_masses_.asDiagonal() * forces_);
+      body.velocities.rowwise() += dt * world_.gravity.transpose();
+    } else {
+      workspace_.springs.move(body, pending_drift_, dt, world_.gravity, inverse_masses_);
+      pending_drift_ = 0;
+    }
     for (const HeldNode& held : actor_.pinned) {
       for (int axis = 0; axis < 3; ++axis) {
         if (held.axes[static_cast<std::size_t>(axis)]) body.velocities(held.node, axis) = held.velocity[axis];
@@ -34,7 +40,14 @@ class Mover {
 
   void keep_limits(double dt) { impulses_.apply(world_, dt, actor_); }
 
-  void drift(double dt) { actor_.body.positions += dt * actor_.body.velocities; }
+  /// positions += dt velocities: put off to the next kick, which has them at hand anyway.
+  void drift(double dt) { pending_drift_ += dt; }
+
+  /// Does what was put off.
+  void settle() {
+    if (pending_drift_ != 0) actor_.body.positions += pending_drift_ * actor_.body.velocities;
+    pending_drift_ = 0;
+  }
 
  private:
   static Eigen::VectorXd without_held(Eigen::VectorXd inverse_masses, const Actor& actor) {
@@ -48,6 +61,7 @@ class Mover {
   Impulses impulses_;
   ForceWorkspace workspace_;
   Points forces_;
+  double pending_drift_ = 0;  // s
 };
 
 void check_finite(const World& world, double time) {
@@ -89,6 +103,7 @@ void advance(World& world, Scheme scheme, double dt, long steps, double time) {
     } else {
       euler(mover, dt, steps);
     }
+    mover.settle();
   }
   check_finite(world, time + dt * static_cast<double>(steps));
 }

@@ -62,7 +62,7 @@ class Equilibrium {
     return total;
   }
 
-  double potential() const { return elastic_energy(body_) - flat(loads_).dot(flat(body_.positions)); }
+  double potential() { return elastic_energy(body_, workspace_) - flat(loads_).dot(flat(body_.positions)); }
 
   /// One step downhill. False where no step lowers the energy any more.
   bool step(const Eigen::VectorXd& residual) {
@@ -71,8 +71,9 @@ class Equilibrium {
     const double slope = direction.dot(residual);
     const Points before = body_.positions;
     const double energy = potential();
-    // Close to the minimum the energy no longer resolves a step; a full Newton step is then right.
-    const double noise = rounding_ * (flat(loads_).lpNorm<1>() + corner_forces_sum());
+    // Close to the minimum the energy no longer resolves a step (what a rounded position costs in energy); a full
+    // Newton step is then right.
+    const double noise = rounding_ * (flat(loads_).lpNorm<1>() + corner_force_sum(body_));
     for (double share = 1; share > 1e-8; share /= 2) {
       body_.positions = before;
       Eigen::Map<Eigen::VectorXd>(body_.positions.data(), body_.positions.size()) += share * direction;
@@ -92,13 +93,6 @@ class Equilibrium {
       return direction / std::max(1.0, longest);
     }
     return {};
-  }
-
-  /// Sum of the sizes of all brick corner forces, N: what a rounded position costs in energy.
-  [[nodiscard]] double corner_forces_sum() const {
-    return Eigen::Map<const Eigen::VectorXd>(workspace_.corner_forces.data(),
-                                             static_cast<Eigen::Index>(workspace_.corner_forces.size()))
-        .lpNorm<1>();
   }
 
   Body& body_;

@@ -5,7 +5,6 @@
 
 #include <Eigen/Geometry>
 
-#include "core/body/brick_block.h"
 #include "tests/support/bodies.h"
 
 namespace sprung {
@@ -166,25 +165,6 @@ TEST(SpringForces, AreTheSameBitsForAnyNumberOfThreads) {
     if (first.rows() == 0) first = forces;
     EXPECT_EQ(forces, first) << threads;
   }
-}
-
-TEST(SpringForces, AreTheSameBitsForAnyInstructionSet) {
-  Body body = shaken_body(Model::kCalibrated);
-  body.damping.beta = 1e-3;
-  for (int i = 0; i < body.node_count(); ++i) body.velocities.row(i).setConstant(std::sin(i));
-  const auto bricks = static_cast<std::size_t>(body.grid.brick_count());
-  std::vector<double> first;
-  for (const NamedBlockForces& version : all_block_forces()) {
-    if (version.forces == nullptr) continue;
-    std::vector<double> forces(24 * bricks);
-    std::vector<double> energies(bricks);
-    for (int block = 0; block < body.grid.brick_count(); block += kBricksPerBlock) {
-      version.forces(block_input(body), block, forces.data(), energies.data());
-    }
-    if (first.empty()) first = forces;
-    EXPECT_EQ(forces, first) << version.name;
-  }
-  EXPECT_FALSE(first.empty());
 }
 
 TEST(Body, MassIsDensityTimesVolume) {

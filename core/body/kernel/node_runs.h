@@ -1,0 +1,64 @@
+#pragma once
+#include <array>
+#include <cstddef>
+
+#include "core/body/kernel/pack.h"
+#include "core/body/kernel/tile_pass.h"
+
+namespace sprung::SPRUNG_INSTRUCTION_SET {
+
+/// Three components in arrays of their own.
+template <class Number>
+struct Three {
+  Number* x;
+  Number* y;
+  Number* z;
+};
+
+/// Takes x y z x y z ... apart.
+inline void take_apart(const double* __restrict points, int count, const Three<double>& to) {
+  double* __restrict x = to.x;
+  double* __restrict y = to.y;
+  double* __restrict z = to.z;
+  for (int i = 0; i < count; ++i) {
+    x[i] = points[3 * i];
+    y[i] = points[3 * i + 1];
+    z[i] = points[3 * i + 2];
+  }
+}
+
+/// values += factor * rates
+inline void add_rates(double* __restrict values, const double* __restrict rates, double factor, int count) {
+  for (int i = 0; i < count; ++i) values[i] += factor * rates[i];
+}
+
+/// What is left to do for nodes once their forces are known.
+inline void finish_nodes(const PassInput& input, int node, int count, const Three<const double>& forces) {
+  const std::ptrdiff_t first = 3 * static_cast<std::ptrdiff_t>(node);
+  const double* __restrict x = forces.x;
+  const double* __restrict y = forces.y;
+  const double* __restrict z = forces.z;
+  if (input.pass == Pass::kForces) {
+    double* __restrict to = input.forces + first;
+    for (int i = 0; i < count; ++i) {
+      to[3 * i] = x[i];
+      to[3 * i + 1] = y[i];
+      to[3 * i + 2] = z[i];
+    }
+    return;
+  }
+  double* __restrict velocities = input.velocities + first;
+  if (input.drift != 0) add_rates(input.positions + first, velocities, input.drift, 3 * count);
+  const double* __restrict inverse_masses = input.inverse_masses + node;
+  const double keep = input.keep;
+  const double kick = input.kick;
+  const std::array<double, 3> gravity = input.gravity_kick;
+  for (int i = 0; i < count; ++i) {
+    const double by_force = kick * inverse_masses[i];
+    velocities[3 * i] = keep * velocities[3 * i] + by_force * x[i] + gravity[0];
+    velocities[3 * i + 1] = keep * velocities[3 * i + 1] + by_force * y[i] + gravity[1];
+    velocities[3 * i + 2] = keep * velocities[3 * i + 2] + by_force * z[i] + gravity[2];
+  }
+}
+
+}  // namespace sprung::SPRUNG_INSTRUCTION_SET

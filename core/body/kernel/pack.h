@@ -1,0 +1,54 @@
+// Compiled once for each instruction set: SPRUNG_INSTRUCTION_SET names the one at hand and the namespace of all that is
+// made for it, so that the linker cannot take a function made for another.
+#pragma once
+#include <experimental/simd>
+
+#ifndef SPRUNG_INSTRUCTION_SET
+#define SPRUNG_INSTRUCTION_SET plain
+#endif
+
+namespace sprung::SPRUNG_INSTRUCTION_SET {
+
+namespace simd = std::experimental;
+
+/// As many neighbours along x as this processor computes at once. Each lane is computed by itself and only with
+/// operations that IEEE 754 defines to the last bit, so the width never shows in a result.
+using Pack = simd::native_simd<double>;
+using FloatPack = simd::rebind_simd_t<float, Pack>;
+inline constexpr int kLanes = static_cast<int>(Pack::size());
+
+struct Pack3 {
+  Pack x, y, z;
+};
+
+[[gnu::always_inline]] inline Pack load(const double* values) { return {values, simd::element_aligned}; }
+[[gnu::always_inline]] inline void store(const Pack& pack, double* values) {
+  pack.copy_to(values, simd::element_aligned);
+}
+[[gnu::always_inline]] inline void add(const Pack& pack, double* values) { store(load(values) + pack, values); }
+
+[[gnu::always_inline]] inline Pack3 operator+(const Pack3& a, const Pack3& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+[[gnu::always_inline]] inline Pack3 operator-(const Pack3& a, const Pack3& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+[[gnu::always_inline]] inline Pack3 operator*(const Pack& a, const Pack3& b) { return {a * b.x, a * b.y, a * b.z}; }
+[[gnu::always_inline]] inline Pack dot(const Pack3& a, const Pack3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+[[gnu::always_inline]] inline Pack3 cross(const Pack3& a, const Pack3& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/// 1 / sqrt(q), rounding error below 2e-16 of it. Square root and division in single precision, which IEEE 754 defines
+/// to the bit (the processor's own estimates differ from maker to maker), then one step of third order: an error d of
+/// the first guess leaves 5/2 d^3. Below 1e-30 as if q were 1e-30, so that nodes that meet pull with no force instead
+/// of none that is a number.
+[[gnu::always_inline]] inline Pack inverse_root(const Pack& q) {
+  const Pack safe = simd::max(q, Pack(1e-30));
+  const FloatPack guess = 1.0F / simd::sqrt(simd::static_simd_cast<FloatPack>(safe));
+  const Pack first = simd::static_simd_cast<Pack>(guess);
+  const Pack lack = 1.0 - safe * (first * first);
+  return first + first * (lack * (0.5 + 0.375 * lack));
+}
+
+}  // namespace sprung::SPRUNG_INSTRUCTION_SET

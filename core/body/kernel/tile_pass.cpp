@@ -1,0 +1,211 @@
+#include "core/body/kernel/tile_pass.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "core/body/kernel/brick_run.h"
+#include "core/body/kernel/node_runs.h"
+#include "core/body/kernel/spring_runs.h"
+
+#define SPRUNG_QUOTE(name) #name
+#define SPRUNG_NAME_OF(name) SPRUNG_QUOTE(name)
+
+namespace sprung::SPRUNG_INSTRUCTION_SET {
+
+[[nodiscard]] SpringKernel spring_kernel();
+
+namespace {
+
+/// Goes through the planes of a tile from low to high z with two planes of nodes at hand, which stay in the cache:
+/// edges first, then the bricks between two planes, then the lower plane is done.
+template <bool kFaces, bool kInner, bool kBends, bool kDamped, bool kEnergy>
+class Walk {
+ public:
+  Walk(const TileView& tile, const PassInput& input, double* scratch, double* shared, Energy& energy)
+      : tile_(tile),
+        input_(input),
+        scratch_(scratch),
+        shared_(shared),
+        energy_(energy),
+        edge_(input.brick_size * input.brick_size, input.beta),
+        springs_(input.law, input.brick_size, input.beta),
+        edge_shares_(input.law.edge != 0 ? tile.shares : nullptr) {}
+
+  void run() {
+    for (int plane = 0; plane < tile_.planes; ++plane) {
+      enter_plane(plane);
+      if (plane == 0) continue;
+      layer(plane - 1);
+      leave_plane(plane - 1);
+    }
+    leave_plane(tile_.planes - 1);
+  }
+
+ private:
+  template <class Visit>
+  void each_run(int plane, RunKind kind, const Visit& visit) const {
+    const int* first = tile_.first_run + plane * kRunKinds + kind;
+    for (const Run* run = tile_.runs + first[0]; run != tile_.runs + first[1]; ++run) visit(*run);
+  }
+
+  [[nodiscard]] Row row(int plane, int y) const { return {scratch_ + ((plane & 1) * tile_.rows + y) * kRowSize}; }
+
+  template <int kAxis>
+  [[nodiscard]] EdgeEnds<kAxis> edges(int plane, int y) const {
+    return {row(plane, y), row(kAxis == 2 ? plane + 1 : plane, kAxis == 1 ? y + 1 : y)};
+  }
+
+  void enter_plane(int plane) {
+    const auto clear = [&](const Run& run) {
+      for (int array = 0; array < kSums; ++array) {
+        std::memset(row(plane, run.row).at(array, run.x - 1), 0,
+                    static_cast<std::size_t>(run.count + kRunPadding + 1) * sizeof(double));
+      }
+    };
+    each_run(plane, kNodes, clear);
+    each_run(plane, kSharedNodes, clear);
+    each_run(plane, kNodes, [&](const Run& run) { copy_in(row(plane, run.row), run); });
+    each_run(plane, kSharedNodes, [&](const Run& run) { copy_in(row(plane, run.row), run); });
+    each_run(plane, kXEdges, [&](const Run& run) { measure<0>(plane, run); });
+    each_run(plane, kYEdges, [&](const Run& run) { measure<1>(plane, run); });
+  }
+
+  void copy_in(const Row& to, const Run& run) const {
+    const std::ptrdiff_t first = 3 * static_cast<std::ptrdiff_t>(run.node);
+    take_apart(input_.positions + first, run.count, three(to, kPosition, run.x));
+    take_apart(input_.velocities + first, run.count, three(to, kVelocity, run.x));
+    if (input_.drift == 0) return;
+    for (int axis = 0; axis < 3; ++axis) {
+      add_rates(to.at(kPosition + axis, run.x), to.at(kVelocity + axis, run.x), input_.drift, run.count);
+    }
+  }
+
+  static Three<double> three(const Row& row, int array, int x) {
+    return {row.at(array, x), row.at(array + 1, x), row.at(array + 2, x)};
+  }
+
+  template <int kAxis>
+  void measure(int plane, const Run& run) const {
+    measure_edges<kDamped, kAxis>(edge_, edges<kAxis>(plane, run.row), run);
+  }
+
+  template <int kAxis>
+  void pull(int plane, const Run& run) {
+    pull_edges<kEnergy, kAxis>(input_.law.edge, springs_.size_squared, edges<kAxis>(plane, run.row), run, edge_shares_,
+                               energy_);
+  }
+
+  template <Shift kShift>
+  void pull_diagonals_of(const Ends<kShift>& diagonals, const Run& run) {
+    pull_diagonals<kDamped, kEnergy>(springs_.face, input_.law.face, diagonals, run, tile_.shares, energy_);
+  }
+
+  /// Both diagonals of faces along x.
+  void pull_faces(const Row& low, const Row& high, const Run& run) {
+    pull_diagonals_of(Ends<Shift::kTo>{low, high}, run);
+    pull_diagonals_of(Ends<Shift::kFrom>{low, high}, run);
+  }
+
+  /// What lies between a plane and the next.
+  void layer(int plane) {
+    const int up = plane + 1;
+    each_run(plane, kZEdges, [&](const Run& run) { measure<2>(plane, run); });
+    each_run(plane, kBricks, [&](const Run& run) {
+      const BrickRows rows{row(plane, run.row), row(up, run.row)};
+      brick_run<kFaces, kInner, kBends, kDamped, kEnergy>(springs_, rows, run, tile_.shares, energy_);
+    });
+    if constexpr (kFaces) {
+      each_run(plane, kZxFaces, [&](const Run& run) { pull_faces(row(plane, run.row), row(up, run.row), run); });
+      each_run(plane, kYzFaces, [&](const Run& run) {
+        pull_diagonals_of(Ends<Shift::kNone>{row(plane, run.row), row(up, run.row + 1)}, run);
+        pull_diagonals_of(Ends<Shift::kNone>{row(plane, run.row + 1), row(up, run.row)}, run);
+      });
+    }
+    each_run(plane, kZEdges, [&](const Run& run) { pull<2>(plane, run); });
+  }
+
+  void leave_plane(int plane) {
+    if constexpr (kFaces) {
+      each_run(plane, kXyFaces, [&](const Run& run) { pull_faces(row(plane, run.row), row(plane, run.row + 1), run); });
+    }
+    each_run(plane, kXEdges, [&](const Run& run) { pull<0>(plane, run); });
+    each_run(plane, kYEdges, [&](const Run& run) { pull<1>(plane, run); });
+    if constexpr (kEnergy) return;
+    each_run(plane, kNodes, [&](const Run& run) {
+      const Three<double> forces = three(row(plane, run.row), kForceLow, run.x);
+      sum_forces(row(plane, run.row), run, forces);
+      finish_nodes(input_, run.node, run.count, {forces.x, forces.y, forces.z});
+    });
+    each_run(plane, kSharedNodes, [&](const Run& run) {
+      double* part = shared_ + run.first;
+      sum_forces(row(plane, run.row), run, {part, part + run.count, part + 2 * static_cast<std::ptrdiff_t>(run.count)});
+    });
+  }
+
+  static void sum_forces(const Row& from, const Run& run, const Three<double>& to) {
+    int axis = 0;
+    for (double* sum : {to.x, to.y, to.z}) {
+      const double* low = from.at(kForceLow + axis, run.x);
+      const double* high = from.at(kForceHigh + axis, run.x - 1);
+      for (int i = 0; i < run.count; ++i) sum[i] = low[i] + high[i];
+      ++axis;
+    }
+  }
+
+  const TileView& tile_;
+  const PassInput& input_;
+  double* scratch_;
+  double* shared_;
+  Energy& energy_;
+  Kind edge_;
+  BrickSprings springs_;
+  const double* edge_shares_;
+};
+
+template <bool kFaces, bool kInner, bool kBends>
+void walk(const TileView& tile, const PassInput& input, double* scratch, double* shared, Energy& energy) {
+  if (input.pass == Pass::kEnergy) {
+    Walk<kFaces, kInner, kBends, false, true>(tile, input, scratch, shared, energy).run();
+  } else if (input.beta > 0) {
+    Walk<kFaces, kInner, kBends, true, false>(tile, input, scratch, shared, energy).run();
+  } else {
+    Walk<kFaces, kInner, kBends, false, false>(tile, input, scratch, shared, energy).run();
+  }
+}
+
+/// One walk for each layout of springs; the law's zeros tell them apart.
+void run_tile(const TileView& tile, const PassInput& input, double* scratch, double* shared, Energy& energy) {
+  const BrickLaw& law = input.law;
+  const bool bends = law.bending_self != 0 || law.bending_cross != 0;
+  if (law.face == 0 && !bends) return walk<false, true, false>(tile, input, scratch, shared, energy);
+  if (law.inner == 0 && !bends) return walk<true, false, false>(tile, input, scratch, shared, energy);
+  walk<true, true, true>(tile, input, scratch, shared, energy);
+}
+
+constexpr int kSharedAtOnce = 64;
+
+void finish_shared(const SharedNodes& nodes, const SharedPart* parts, const double* shared, const PassInput& input) {
+  for (int done = 0; done < nodes.count; done += kSharedAtOnce) {
+    const int first = nodes.node + done;
+    const int last = first + std::min(kSharedAtOnce, nodes.count - done);
+    std::array<std::array<double, kSharedAtOnce>, 3> sums{};
+    for (std::size_t i = nodes.first_part; i < nodes.last_part; ++i) {
+      const SharedPart& part = parts[i];
+      const int begin = std::max(first, part.node);
+      const int end = std::min(last, part.node + part.count);
+      for (std::size_t axis = 0; begin < end && axis < 3; ++axis) {
+        const double* from = shared + part.offset + axis * static_cast<std::size_t>(part.count) + (begin - part.node);
+        add_rates(&sums[axis][static_cast<std::size_t>(begin - first)], from, 1, end - begin);
+      }
+    }
+    finish_nodes(input, first, last - first, {sums[0].data(), sums[1].data(), sums[2].data()});
+  }
+}
+
+}  // namespace
+
+SpringKernel spring_kernel() {
+  return {.name = SPRUNG_NAME_OF(SPRUNG_INSTRUCTION_SET), .tile = run_tile, .shared = finish_shared};
+}
+
+}  // namespace sprung::SPRUNG_INSTRUCTION_SET

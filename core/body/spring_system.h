@@ -1,0 +1,35 @@
+#pragma once
+#include <vector>
+
+#include "core/body/body.h"
+#include "core/body/kernel/tile_pass.h"
+
+namespace sprung {
+
+/// The springs of a body at work, with the room they need, kept from step to step. Tiles are computed in parallel and
+/// what they add to shared nodes is summed in a fixed order: the same bits for any number of threads. Not for the
+/// trilinear hexahedra of Model::kFem, which are no springs.
+class SpringSystem {
+ public:
+  explicit SpringSystem(const SpringKernel& kernel = best_spring_kernel()) : kernel_(kernel) {}
+
+  /// Forces on the nodes, m x 3, N, as spring_forces().
+  void forces(const Body& body, Points& forces);
+
+  /// J, as elastic_energy().
+  [[nodiscard]] double energy(const Body& body);
+
+  /// body.positions += drift * velocities, then body.velocities += kick * (forces / m + gravity - alpha velocities).
+  /// `drift` and `kick` in s, gravity in m/s^2, inverse masses per node in 1/kg.
+  void move(Body& body, double drift, double kick, const Vec3& gravity, const Eigen::VectorXd& inverse_masses);
+
+ private:
+  void run(const BrickTiles& tiles, const PassInput& input);
+
+  SpringKernel kernel_;
+  std::vector<double> shared_;                // forces
+  std::vector<EnergyLanes> energies_;         // a tile
+  std::vector<std::vector<double>> scratch_;  // a thread
+};
+
+}  // namespace sprung

@@ -1,0 +1,184 @@
+#include "core/body/spring_system.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include "core/body/forces.h"
+#include "tests/bench/spring_list.h"
+#include "tests/support/bodies.h"
+
+namespace sprung {
+namespace {
+
+using test::shake;
+using test::SpringList;
+using test::test_material;
+
+/// Holes, gaps in rows, thin sheets and single bricks, cut into several tiles along every axis.
+BrickGrid ragged_grid(std::mt19937& random) {
+  BrickGrid grid = make_box_grid({70, 19, 35}, 0.02);
+  std::uniform_real_distribution<double> chance(0, 1);
+  BrickGrid ragged;
+  ragged.brick_size = grid.brick_size;
+  for (const Eigen::Vector3i& cell : grid.cells) {
+    const double solid = cell.z() < 10 ? 0.97 : (cell.y() == 7 ? 1 : 0.1);
+    if (chance(random) < solid) ragged.cells.push_back(cell - Eigen::Vector3i(3, 40, 1));
+  }
+  for (std::size_t i = 0; i < ragged.cells.size(); ++i) ragged.fill.push_back(i % 3 == 0 ? 0.37 : 1.0);
+  number_nodes(ragged);
+  return ragged;
+}
+
+/// Far out of shape, some bricks far enough for the volume guard to act, and on the move.
+Body shaken_body(Model model) {
+  std::mt19937 random(5);
+  Body body = make_body(ragged_grid(random), model, test_material(0.4));
+  shake(body, 0.25, random);
+  for (int i = 0; i < body.node_count(); i += 50) body.positions.row(i) += Eigen::RowVector3d(0.01, 0.015, -0.012);
+  std::uniform_real_distribution<double> speed(-1, 1);
+  for (double& velocity : body.velocities.reshaped()) velocity = speed(random);
+  return body;
+}
+
+constexpr std::array<Model, 5> kSpringModels{Model::kCalibrated, Model::kTensile, Model::kM1, Model::kM2Plain,
+                                             Model::kM1Plain};
+
+TEST(SpringSystem, PullsLikeTheListOfSprings) {
+  for (const Model model : kSpringModels) {
+    Body body = shaken_body(model);
+    EXPECT_GT(body.tiles->tiles.size(), 10U);
+    EXPECT_LT(smallest_volume_ratio(body), body.law.guard_ratio);
+    for (const double beta : {0.0, 1e-3}) {
+      body.damping.beta = beta;
+      Points expected;
+      SpringList(body).forces(body, expected);
+      Points forces;
+      SpringSystem().forces(body, forces);
+      EXPECT_LT((forces - expected).cwiseAbs().maxCoeff(), 1e-12 * expected.cwiseAbs().maxCoeff())
+          << model_name(model) << ' ' << beta;
+    }
+  }
+}
+
+TEST(SpringSystem, HasTheEnergyOfItsBricks) {
+  for (const Model model : kSpringModels) {
+    const Body body = shaken_body(model);
+    double expected = 0;
+    for (std::size_t brick = 0; brick < body.grid.cells.size(); ++brick) {
+      CornerVectors<double> force{};
+      expected += body.stiffness_scale[brick] *
+                  brick_forces<double>(body.law, body.grid.brick_size, brick_corners(body, brick), nullptr, force);
+    }
+    EXPECT_NEAR(SpringSystem().energy(body) / expected, 1, 1e-12) << model_name(model);
+  }
+}
+
+/// A few steps of motion with everything in it.
+void move(Body& body, const SpringKernel& kernel) {
+  SpringSystem springs(kernel);
+  body.damping = {.alpha = 0.3, .beta = 1e-4};
+  const Eigen::VectorXd inverse_masses = body.masses.cwiseInverse();
+  for (int step = 0; step < 5; ++step) {
+    springs.move(body, step == 0 ? 0 : 1e-5, 1e-5, Vec3(0.1, -9.81, 0.2), inverse_masses);
+  }
+}
+
+TEST(SpringSystem, MovesToTheSameBitsOnAnyNumberOfThreads) {
+  Body first = shaken_body(Model::kCalibrated);
+  Body start = first;
+  move(first, best_spring_kernel());
+  for (const std::size_t threads : {1U, 2U, 4U, 8U}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    Body body = start;
+    move(body, best_spring_kernel());
+    EXPECT_EQ(body.positions, first.positions) << threads;
+    EXPECT_EQ(body.velocities, first.velocities) << threads;
+  }
+}
+
+TEST(SpringSystem, MovesToTheSameBitsOnAnyInstructionSet) {
+  for (const Model model : kSpringModels) {
+    const Body start = shaken_body(model);
+    Body plain = start;
+    move(plain, all_spring_kernels().back());
+    EXPECT_NE(plain.positions, start.positions);
+    for (const SpringKernel& kernel : all_spring_kernels()) {
+      if (kernel.tile == nullptr) continue;
+      Body body = start;
+      move(body, kernel);
+      EXPECT_EQ(body.positions, plain.positions) << kernel.name;
+      EXPECT_EQ(body.velocities, plain.velocities) << kernel.name;
+    }
+  }
+}
+
+TEST(SpringSystem, MoveIsDriftThenKick) {
+  Body moved = shaken_body(Model::kCalibrated);
+  moved.damping = {.alpha = 2, .beta = 1e-4};
+  Body expected = moved;
+  const double drift = 1e-4;
+  const double kick = 2e-4;
+  const Vec3 gravity(1, -9.81, 3);
+  const Eigen::VectorXd inverse_masses = moved.masses.cwiseInverse();
+  expected.positions += drift * expected.velocities;
+  ForceWorkspace workspace;
+  Points forces;
+  spring_forces(expected, workspace, forces);
+  expected.velocities *= 1 - kick * expected.damping.alpha;
+  expected.velocities += kick * (inverse_masses.asDiagonal() * forces);
+  expected.velocities.rowwise() += kick * gravity.transpose();
+  SpringSystem().move(moved, drift, kick, gravity, inverse_masses);
+  EXPECT_EQ(moved.positions, expected.positions);
+  EXPECT_LT((moved.velocities - expected.velocities).cwiseAbs().maxCoeff(),
+            1e-14 * expected.velocities.cwiseAbs().maxCoeff());
+}
+
+/// A stretch of 1e-9 has seven digits left where the body is near the origin: what its positions themselves resolve.
+TEST(SpringSystem, SmallStrainsSurviveRounding) {
+  Body body = make_body(make_box_grid({4, 3, 2}, 1), Model::kCalibrated, test_material(0.3));
+  const double strain = 1e-9;
+  const double h = body.grid.brick_size;
+  body.positions.col(0) *= 1 + strain;
+  const double lame = body.material.lame_lambda() + 2 * body.material.shear_modulus();
+  Points forces;
+  SpringSystem().forces(body, forces);
+  double pull = 0;
+  for (int i = 0; i < body.node_count(); ++i) pull += body.rest_positions(i, 0) > 3.5 * h ? -forces(i, 0) : 0;
+  EXPECT_NEAR(pull / (lame * strain * 6), 1, 1e-6);
+}
+
+TEST(SpringSystem, IsWellAgainAfterNumbersThatAreNotFinite) {
+  Body body = shaken_body(Model::kCalibrated);
+  SpringSystem springs;
+  Points expected;
+  springs.forces(body, expected);
+  const Points good = body.positions;
+  body.positions.row(77).setConstant(std::nan(""));
+  Points forces;
+  springs.forces(body, forces);
+  EXPECT_FALSE(forces.allFinite());
+  EXPECT_FALSE(std::isfinite(springs.energy(body)));
+  body.positions = good;
+  springs.forces(body, forces);
+  EXPECT_EQ(forces, expected);
+}
+
+TEST(SpringSystem, BricksFlattenedToNothingPullWithFiniteForces) {
+  Body body = make_body(make_box_grid({3, 2, 2}, 0.1), Model::kCalibrated, test_material(0.3));
+  body.positions.setZero();
+  Points forces;
+  SpringSystem().forces(body, forces);
+  EXPECT_TRUE(forces.allFinite());
+}
+
+TEST(BrickTiles, FollowAChangeOfStiffness) {
+  Body body = make_body(make_box_grid({3, 2, 2}, 0.1), Model::kCalibrated, test_material(0.3));
+  body.positions *= 1.1;
+  const double energy = elastic_energy(body);
+  for (double& scale : body.stiffness_scale) scale *= 3;
+  lay_tiles(body);
+  EXPECT_NEAR(elastic_energy(body) / energy, 3, 1e-12);
+}
+
+}  // namespace
+}  // namespace sprung
