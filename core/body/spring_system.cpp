@@ -49,9 +49,9 @@ void SpringSystem::run(const BrickTiles& tiles, const PassInput& input) {
     const BrickTile& tile = tiles.tiles[i];
     // Below 0: a thread that has met no task yet.
     const int thread = std::max(0, tbb::this_task_arena::current_thread_index());
-    std::vector<double>& scratch = scratch_[static_cast<std::size_t>(thread)];
-    if (scratch.size() < tiles.scratch_size) scratch.assign(tiles.scratch_size, 0);
-    kernel_.tile(tile.view(), input, scratch.data(), shared_.data() + tile.shared_offset, energies_[i]);
+    std::vector<CacheLine>& scratch = scratch_[static_cast<std::size_t>(thread)];
+    if (8 * scratch.size() < tiles.scratch_size) scratch.assign(tiles.scratch_size / 8, {});
+    kernel_.tile(tile.view(), input, scratch.front().values, shared_.data() + tile.shared_offset, energies_[i]);
   });
   if (input.pass == Pass::kEnergy) return;
   each(tiles.shared.size(), kSharedPerTask,

@@ -26,10 +26,15 @@ class SpringSystem {
  private:
   void run(const BrickTiles& tiles, const PassInput& input);
 
+  /// Scratch in whole cache lines: a pack that lies across two costs twice.
+  struct alignas(64) CacheLine {
+    double values[8] = {};
+  };
+
   SpringKernel kernel_;
-  std::vector<double> shared_;                // forces
-  std::vector<EnergyLanes> energies_;         // a tile
-  std::vector<std::vector<double>> scratch_;  // a thread
+  std::vector<double> shared_;                   // forces
+  std::vector<EnergyLanes> energies_;            // a tile
+  std::vector<std::vector<CacheLine>> scratch_;  // a thread
 };
 
 }  // namespace sprung

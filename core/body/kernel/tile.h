@@ -66,7 +66,7 @@ inline constexpr int kFirstPlace = 8;  // along x: what is before it belongs to 
 inline constexpr int kPitch = 88;
 inline constexpr int kRowArrays = 23;
 inline constexpr int kRowSize = kRowArrays * kPitch;
-static_assert(kPitch > kFirstPlace + kTileWidth + 1 + kRunPadding && kPitch / 8 % 2 == 1);
+static_assert(kPitch > kFirstPlace + kTileWidth + 1 + kRunPadding && kPitch % 16 == 8);
 
 /// Doubles of scratch for a tile.
 [[nodiscard]] constexpr int scratch_size(int rows) { return 2 * rows * kRowSize; }

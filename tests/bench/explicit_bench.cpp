@@ -1,0 +1,90 @@
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
+#include "core/body/spring_system.h"
+#include "tests/bench/bench_bodies.h"
+#include "tests/bench/spring_list.h"
+
+namespace sprung::test {
+namespace {
+
+constexpr double kStep = 1e-6;  // s
+constexpr double kBeta = 1e-5;  // s
+
+struct Case {
+  std::string shape;
+  double bricks;
+  Model model;
+  bool damped;
+  int threads;
+};
+
+Body body_of(const Case& test) {
+  Body body = bench_body(test.shape, test.bricks, test.model);
+  body.damping.beta = test.damped ? kBeta : 0;
+  return body;
+}
+
+void count(benchmark::State& state, const Body& body) {
+  const auto bricks = static_cast<double>(body.grid.brick_count());
+  state.counters["bricks"] = bricks;
+  state.counters["brick_steps"] =
+      benchmark::Counter(bricks * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+}
+
+void explicit_step(benchmark::State& state, const Case& test) {
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(test.threads));
+  Body body = body_of(test);
+  const Eigen::VectorXd inverse_masses = body.masses.cwiseInverse();
+  SpringSystem springs;
+  for (auto _ : state) springs.move(body, kStep, kStep, Vec3(0, -9.81, 0), inverse_masses);
+  count(state, body);
+  state.counters["bytes"] = bytes_per_brick(body);
+}
+
+void spring_list_step(benchmark::State& state, const Case& test) {
+  Body body = body_of(test);
+  const Eigen::VectorXd inverse_masses = body.masses.cwiseInverse();
+  SpringList springs(body);
+  Points forces;
+  for (auto _ : state) {
+    springs.forces(body, forces);
+    body.velocities += kStep * (inverse_masses.asDiagonal() * forces);
+    body.velocities.rowwise() += kStep * Eigen::RowVector3d(0, -9.81, 0);
+    body.positions += kStep * body.velocities;
+  }
+  count(state, body);
+}
+
+void add(const char* kind, const Case& test, void (*run)(benchmark::State&, const Case&)) {
+  const std::string shape =
+      test.shape == "box" ? box_name(static_cast<int>(std::round(std::cbrt(test.bricks)))) : test.shape;
+  benchmark::RegisterBenchmark(fmt::format("{}/{}/{}/{}/{}", kind, shape, model_name(test.model),
+                                           test.damped ? "damped" : "undamped", test.threads)
+                                   .c_str(),
+                               [=](benchmark::State& state) { run(state, test); })
+      ->UseRealTime()
+      ->MinTime(0.3)
+      ->Unit(benchmark::kMillisecond);
+}
+
+}  // namespace
+
+void register_explicit_benchmarks() {
+  for (const Model model : {Model::kCalibrated, Model::kTensile}) {
+    for (const bool damped : {false, true}) {
+      add("list", {"box", 32.0 * 32 * 32, model, damped, 1}, spring_list_step);
+      for (const int threads : {1, 2}) {
+        for (const double side : {8.0, 32.0, 64.0, 128.0}) {
+          add("explicit", {"box", side * side * side, model, damped, threads}, explicit_step);
+        }
+        for (const char* shape : {"bear", "octopus", "shell"}) {
+          add("explicit", {shape, 100000, model, damped, threads}, explicit_step);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace sprung::test
