@@ -121,40 +121,38 @@ class TileMaker {
   BrickTile make(std::vector<SharedPart>& parts, std::size_t& shared_size) {
     tile_.shared_offset = shared_size;
     for (int z = box_.low().z(); z <= box_.high().z(); ++z) {
-      list_nodes(z, false, parts, shared_size);
-      list_nodes(z, true, parts, shared_size);
-      list_edges(z);
-      list_bricks(z);
-      list_faces(z);
+      for (int y = box_.low().y(); y <= box_.high().y(); ++y) {
+        list_nodes(y, z, false, parts, shared_size);
+        list_nodes(y, z, true, parts, shared_size);
+        list_edges(y, z);
+        list_bricks(y, z);
+        list_faces(y, z);
+      }
     }
     close_list();
     return std::move(tile_);
   }
 
  private:
-  /// Lists are made in the order of RunKind, plane by plane.
+  /// Lists are made in the order of RunKind, row by row and plane by plane.
   void close_list() { tile_.first_run.push_back(static_cast<int>(tile_.runs.size())); }
 
-  /// One list of runs where share(x, y) is above 0, whose numbers go to `shares`.
+  /// One list of runs where share(x) is above 0, whose numbers go to `shares`.
   template <class Share>
   void list(const Share& share) {
     close_list();
-    for (int y = box_.low().y(); y <= box_.high().y(); ++y) {
-      each_run([&](int x) { return share(x, y) > 0; },
-               [&](int x, int count) {
-                 const int first = static_cast<int>(tile_.shares.size());
-                 tile_.runs.push_back(run(x, y, count, first));
-                 for (int i = 0; i < count; ++i) tile_.shares.push_back(share(x + i, y));
-                 pad();
-               });
-    }
+    each_run([&](int x) { return share(x) > 0; },
+             [&](int x, int count) {
+               tile_.runs.push_back(run(x, count, static_cast<int>(tile_.shares.size())));
+               for (int i = 0; i < count; ++i) tile_.shares.push_back(share(x + i));
+               pad();
+             });
   }
 
   void pad() { tile_.shares.resize((tile_.shares.size() + kRunPadding - 1) / kRunPadding * kRunPadding, 0); }
 
-  [[nodiscard]] Run run(int x, int y, int count, int first) const {
-    return {
-        .row = y - box_.low().y(), .x = x - box_.low().x() + kFirstPlace, .count = count, .first = first, .node = 0};
+  [[nodiscard]] Run run(int x, int count, int first) const {
+    return {.x = x - box_.low().x() + kFirstPlace, .count = count, .first = first, .node = 0};
   }
 
   template <class IsIn, class Visit>
@@ -173,69 +171,55 @@ class TileMaker {
     return (on_cut || on_high_cut).any();
   }
 
-  void list_nodes(int z, bool shared, std::vector<SharedPart>& parts, std::size_t& shared_size) {
+  void list_nodes(int y, int z, bool shared, std::vector<SharedPart>& parts, std::size_t& shared_size) {
     close_list();
-    const auto has_brick = [&](int x, int y) {
-      return box_.inside(x - 1, y - 1, z - 1) + box_.inside(x, y - 1, z - 1) + box_.inside(x - 1, y, z - 1) +
-                 box_.inside(x, y, z - 1) + box_.inside(x - 1, y - 1, z) + box_.inside(x, y - 1, z) +
-                 box_.inside(x - 1, y, z) + box_.inside(x, y, z) >
-             0;
+    const auto around = [&](int x) {
+      return box_.inside(x, y - 1, z - 1) + box_.inside(x, y, z - 1) + box_.inside(x, y - 1, z) + box_.inside(x, y, z);
     };
-    for (int y = box_.low().y(); y <= box_.high().y(); ++y) {
-      each_run(
-          [&](int x) {
-            return is_shared({x, y, z}) == shared && has_brick(x, y);
-          },
-          [&](int x, int count) {
-            Run nodes = run(x, y, count, static_cast<int>(shared_size - tile_.shared_offset));
-            nodes.node = nodes_.lower_bound(x, y, z);
-            tile_.runs.push_back(nodes);
-            if (!shared) return;
-            parts.push_back({nodes.node, count, shared_size});
-            shared_size += 3 * static_cast<std::size_t>(count);
-          });
-    }
+    each_run(
+        [&](int x) {
+          return around(x - 1) + around(x) > 0 && is_shared({x, y, z}) == shared;
+        },
+        [&](int x, int count) {
+          Run nodes = run(x, count, static_cast<int>(shared_size - tile_.shared_offset));
+          nodes.node = nodes_.lower_bound(x, y, z);
+          tile_.runs.push_back(nodes);
+          if (!shared) return;
+          parts.push_back({nodes.node, count, shared_size});
+          shared_size += 3 * static_cast<std::size_t>(count);
+        });
   }
 
-  void list_edges(int z) {
-    const auto brick = [&](int x, int y, int at) { return box_.inside(x, y, at); };
-    list([&](int x, int y) {
-      return brick(x, y - 1, z - 1) + brick(x, y, z - 1) + brick(x, y - 1, z) + brick(x, y, z);
-    });
-    list([&](int x, int y) {
-      return brick(x - 1, y, z - 1) + brick(x, y, z - 1) + brick(x - 1, y, z) + brick(x, y, z);
-    });
-    list([&](int x, int y) {
-      return brick(x - 1, y - 1, z) + brick(x, y - 1, z) + brick(x - 1, y, z) + brick(x, y, z);
-    });
+  void list_edges(int y, int z) {
+    const auto brick = [&](int x, int row, int layer) { return box_.inside(x, row, layer); };
+    list([&](int x) { return brick(x, y - 1, z - 1) + brick(x, y, z - 1) + brick(x, y - 1, z) + brick(x, y, z); });
+    list([&](int x) { return brick(x - 1, y, z - 1) + brick(x, y, z - 1) + brick(x - 1, y, z) + brick(x, y, z); });
+    list([&](int x) { return brick(x - 1, y - 1, z) + brick(x, y - 1, z) + brick(x - 1, y, z) + brick(x, y, z); });
   }
 
-  void list_bricks(int z) {
+  void list_bricks(int y, int z) {
     close_list();
-    for (int y = box_.low().y(); y < box_.high().y(); ++y) {
-      each_run([&](int x) { return box_.inside(x, y, z) > 0; },
-               [&](int x, int count) {
-                 tile_.runs.push_back(run(x, y, count, static_cast<int>(tile_.shares.size())));
-                 for (const Cell& below : {Cell(0, 0, 0), Cell(0, 0, 1), Cell(0, 1, 0), Cell(1, 0, 0)}) {
-                   for (int i = x; i < x + count; ++i) {
-                     const double other = below.isZero() ? 0 : box_.at(i - below.x(), y - below.y(), z - below.z());
-                     tile_.shares.push_back(box_.at(i, y, z) + other);
-                   }
-                   pad();
+    each_run([&](int x) { return box_.inside(x, y, z) > 0; },
+             [&](int x, int count) {
+               tile_.runs.push_back(run(x, count, static_cast<int>(tile_.shares.size())));
+               for (const Cell& below : {Cell(0, 0, 0), Cell(0, 0, 1), Cell(0, 1, 0), Cell(1, 0, 0)}) {
+                 for (int i = x; i < x + count; ++i) {
+                   const double other = below.isZero() ? 0 : box_.at(i - below.x(), y - below.y(), z - below.z());
+                   tile_.shares.push_back(box_.at(i, y, z) + other);
                  }
-               });
-    }
+                 pad();
+               }
+             });
   }
 
   /// Faces on the high side of a brick where no brick follows.
-  void list_faces(int z) {
-    const auto last = [&](const Cell& face, const Cell& below) {
-      if (box_.inside(face.x(), face.y(), face.z()) > 0 || box_.at(face.x(), face.y(), face.z()) > 0) return 0.0;
-      return box_.inside(face.x() - below.x(), face.y() - below.y(), face.z() - below.z());
+  void list_faces(int y, int z) {
+    const auto last = [&](int x, const Cell& below) {
+      return box_.at(x, y, z) > 0 ? 0.0 : box_.inside(x - below.x(), y - below.y(), z - below.z());
     };
-    list([&](int x, int y) { return last({x, y, z}, {0, 0, 1}); });
-    list([&](int x, int y) { return last({x, y, z}, {0, 1, 0}); });
-    list([&](int x, int y) { return last({x, y, z}, {1, 0, 0}); });
+    list([&](int x) { return last(x, {0, 0, 1}); });
+    list([&](int x) { return last(x, {0, 1, 0}); });
+    list([&](int x) { return last(x, {1, 0, 0}); });
   }
 
   const ShareBox& box_;

@@ -25,22 +25,12 @@ double operations(long rounds) {
   return repeat(rounds, [](const Pack& value) { return value * 0.999999 + 1e-6; });
 }
 
-[[maybe_unused]] double fused(long rounds) {
-  return repeat(rounds, [](const Pack& value) { return simd::fma(value, Pack(0.999999), Pack(1e-6)); });
-}
-
 double roots(long rounds) {
   return repeat(rounds, [](const Pack& value) { return Pack(2.0 / simd::sqrt(value)); });
 }
 
 }  // namespace
 
-test::LimitLoops limit_loops() {
-#if defined(__FMA__) || defined(__aarch64__)
-  return {.lanes = kLanes, .operations = operations, .fused = fused, .roots = roots};
-#else
-  return {.lanes = kLanes, .operations = operations, .fused = nullptr, .roots = roots};
-#endif
-}
+test::LimitLoops limit_loops() { return {.lanes = kLanes, .operations = operations, .roots = roots}; }
 
 }  // namespace sprung::SPRUNG_INSTRUCTION_SET

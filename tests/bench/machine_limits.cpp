@@ -35,7 +35,7 @@ LimitLoops best_loops() {
 #ifdef __x86_64__
   const std::string_view name = best_spring_kernel().name;
   if (name == "avx512") return avx512::limit_loops();
-  if (name == "avx2" && __builtin_cpu_supports("fma")) return avx2::limit_loops();
+  if (name == "avx2") return avx2::limit_loops();
 #endif
   return plain::limit_loops();
 }
@@ -57,7 +57,6 @@ double shortest(int threads, const Work& work) {
 
 /// Packs a second of one of the loops.
 double rate(int threads, double (*loop)(long), long rounds) {
-  if (loop == nullptr) return 0;
   std::vector<double> results(static_cast<std::size_t>(threads));
   const double time = shortest(threads, [&](int thread) { results[static_cast<std::size_t>(thread)] = loop(rounds); });
   return static_cast<double>(rounds) * kChains * threads / time;
@@ -85,7 +84,6 @@ MachineLimits measure_limits(int threads) {
   const double lanes = loops.lanes;
   return {.bandwidth = bandwidth(threads),
           .operations = 2 * lanes * rate(threads, loops.operations, kRounds),
-          .fused = 2 * lanes * rate(threads, loops.fused, kRounds),
           .roots = lanes * rate(threads, loops.roots, kRootRounds)};
 }
 

@@ -6,7 +6,6 @@ namespace sprung::test {
 struct MachineLimits {
   double bandwidth = 0;   // bytes/s, two arrays read and one written, far beyond the caches
   double operations = 0;  // additions and multiplications in double a second, as many of each, not fused
-  double fused = 0;       // floating point operations a second by fused multiply-adds, two each
   double roots = 0;       // pairs of a square root and a division in double a second
 };
 
@@ -17,7 +16,6 @@ struct MachineLimits {
 struct LimitLoops {
   int lanes = 0;
   double (*operations)(long rounds) = nullptr;  // an addition and a multiplication
-  double (*fused)(long rounds) = nullptr;       // null: this instruction set has none
   double (*roots)(long rounds) = nullptr;       // a square root and a division
 };
 inline constexpr int kChains = 10;  // enough to hide what one operation takes, few enough for the registers

@@ -27,7 +27,6 @@ int main(int argc, char** argv) {
     MachineLimits& limit = limits[threads];
     limit = {.bandwidth = std::max(limit.bandwidth, later.bandwidth),
              .operations = std::max(limit.operations, later.operations),
-             .fused = std::max(limit.fused, later.fused),
              .roots = std::max(limit.roots, later.roots)};
   }
   table.print(limits);

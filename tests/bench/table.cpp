@@ -95,11 +95,11 @@ void TableReporter::print_stages() const {
 
 void TableReporter::print(const std::map<int, MachineLimits>& limits) const {
   fmt::print(
-      "| threads | GB/s | G operations/s | G fused operations/s | G root-and-divisions/s |\n"
+      "| threads | GB/s | G operations/s | G root-and-divisions/s |\n"
       "| --- | --- | --- | --- | --- |\n");
   for (const auto& [threads, limit] : limits) {
-    fmt::print("| {} | {:.1f} | {:.1f} | {:.1f} | {:.2f} |\n", threads, 1e-9 * limit.bandwidth, 1e-9 * limit.operations,
-               1e-9 * limit.fused, 1e-9 * limit.roots);
+    fmt::print("| {} | {:.1f} | {:.1f} | {:.2f} |\n", threads, 1e-9 * limit.bandwidth, 1e-9 * limit.operations,
+               1e-9 * limit.roots);
   }
   print_explicit(limits);
   print_stages();

@@ -5,14 +5,13 @@ namespace sprung {
 
 /// Bricks, springs or nodes side by side along x.
 struct Run {
-  int row;    // of the tile, along y
   int x;      // where the first is, in the rows of the scratch
   int count;  //
   int first;  // in `shares`; of shared nodes: in the shared forces
   int node;   // runs of nodes: the body's node that comes first
 };
 
-/// The kinds of runs, each kept by the plane of nodes that it lies in or begins at.
+/// The kinds of runs, each kept by the row of nodes that it lies in or begins at.
 enum RunKind : int {
   kNodes,        // no other tile pulls at them
   kSharedNodes,  // other tiles may
@@ -39,7 +38,7 @@ struct TileView {
   int rows;    // of nodes
   int planes;  // of nodes
   const Run* runs;
-  const int* first_run;  // of kind k at plane p: first_run[p * kRunKinds + k], up to the next
+  const int* first_run;  // of kind k in row y of plane p: first_run[(p * rows + y) * kRunKinds + k], up to the next
   const double* shares;
 };
 

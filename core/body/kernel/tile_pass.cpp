@@ -16,8 +16,9 @@ namespace sprung::SPRUNG_INSTRUCTION_SET {
 
 namespace {
 
-/// Goes through the planes of a tile from low to high z with two planes of nodes at hand, which stay in the cache:
-/// edges first, then the bricks between two planes, then the lower plane is done.
+/// Goes through the planes of a tile from low to high z and through their rows from low to high y, with two planes of
+/// nodes in the core's own cache and four rows in its nearest one. Bricks follow once the last of their four rows is
+/// in; then the first of them is done.
 template <bool kFaces, bool kInner, bool kBends, bool kDamped, bool kEnergy>
 class Walk {
  public:
@@ -32,19 +33,25 @@ class Walk {
         edge_shares_(input.law.edge != 0 ? tile.shares : nullptr) {}
 
   void run() {
-    for (int plane = 0; plane < tile_.planes; ++plane) {
-      enter_plane(plane);
-      if (plane == 0) continue;
-      layer(plane - 1);
-      leave_plane(plane - 1);
+    for (int y = 0; y < tile_.rows; ++y) enter_row(0, y);
+    for (int plane = 0; plane + 1 < tile_.planes; ++plane) {
+      for (int y = 0; y < tile_.rows; ++y) {
+        enter_row(plane + 1, y);
+        each_run(plane, y, kZEdges, [&](const Run& run) { measure<2>(plane, y, run); });
+        if (y == 0) continue;
+        layer_row(plane, y - 1);
+        leave_row(plane, y - 1);
+      }
+      layer_row(plane, tile_.rows - 1);
+      leave_row(plane, tile_.rows - 1);
     }
-    leave_plane(tile_.planes - 1);
+    for (int y = 0; y < tile_.rows; ++y) leave_row(tile_.planes - 1, y);
   }
 
  private:
   template <class Visit>
-  void each_run(int plane, RunKind kind, const Visit& visit) const {
-    const int* first = tile_.first_run + plane * kRunKinds + kind;
+  void each_run(int plane, int y, RunKind kind, const Visit& visit) const {
+    const int* first = tile_.first_run + (plane * tile_.rows + y) * kRunKinds + kind;
     for (const Run* run = tile_.runs + first[0]; run != tile_.runs + first[1]; ++run) visit(*run);
   }
 
@@ -55,19 +62,19 @@ class Walk {
     return {row(plane, y), row(kAxis == 2 ? plane + 1 : plane, kAxis == 1 ? y + 1 : y)};
   }
 
-  void enter_plane(int plane) {
+  void enter_row(int plane, int y) {
+    const Row to = row(plane, y);
     const auto clear = [&](const Run& run) {
       for (int array = 0; array < kSums; ++array) {
-        std::memset(row(plane, run.row).at(array, run.x - 1), 0,
-                    static_cast<std::size_t>(run.count + kRunPadding + 1) * sizeof(double));
+        std::memset(to.at(array, run.x - 1), 0, static_cast<std::size_t>(run.count + kRunPadding + 1) * sizeof(double));
       }
     };
-    each_run(plane, kNodes, clear);
-    each_run(plane, kSharedNodes, clear);
-    each_run(plane, kNodes, [&](const Run& run) { copy_in(row(plane, run.row), run); });
-    each_run(plane, kSharedNodes, [&](const Run& run) { copy_in(row(plane, run.row), run); });
-    each_run(plane, kXEdges, [&](const Run& run) { measure<0>(plane, run); });
-    each_run(plane, kYEdges, [&](const Run& run) { measure<1>(plane, run); });
+    each_run(plane, y, kNodes, clear);
+    each_run(plane, y, kSharedNodes, clear);
+    each_run(plane, y, kNodes, [&](const Run& run) { copy_in(to, run); });
+    each_run(plane, y, kSharedNodes, [&](const Run& run) { copy_in(to, run); });
+    each_run(plane, y, kXEdges, [&](const Run& run) { measure<0>(plane, y, run); });
+    if (y > 0) each_run(plane, y - 1, kYEdges, [&](const Run& run) { measure<1>(plane, y - 1, run); });
   }
 
   void copy_in(const Row& to, const Run& run) const {
@@ -85,13 +92,13 @@ class Walk {
   }
 
   template <int kAxis>
-  void measure(int plane, const Run& run) const {
-    measure_edges<kDamped, kAxis>(edge_, edges<kAxis>(plane, run.row), run);
+  void measure(int plane, int y, const Run& run) const {
+    measure_edges<kDamped, kAxis>(edge_, edges<kAxis>(plane, y), run);
   }
 
   template <int kAxis>
-  void pull(int plane, const Run& run) {
-    pull_edges<kEnergy, kAxis>(input_.law.edge, springs_.size_squared, edges<kAxis>(plane, run.row), run, edge_shares_,
+  void pull(int plane, int y, const Run& run) {
+    pull_edges<kEnergy, kAxis>(input_.law.edge, springs_.size_squared, edges<kAxis>(plane, y), run, edge_shares_,
                                energy_);
   }
 
@@ -106,39 +113,39 @@ class Walk {
     pull_diagonals_of(Ends<Shift::kFrom>{low, high}, run);
   }
 
-  /// What lies between a plane and the next.
-  void layer(int plane) {
+  /// What lies between a row and those above it in the next plane.
+  void layer_row(int plane, int y) {
     const int up = plane + 1;
-    each_run(plane, kZEdges, [&](const Run& run) { measure<2>(plane, run); });
-    each_run(plane, kBricks, [&](const Run& run) {
-      const BrickRows rows{row(plane, run.row), row(up, run.row)};
-      brick_run<kFaces, kInner, kBends, kDamped, kEnergy>(springs_, rows, run, tile_.shares, energy_);
+    each_run(plane, y, kBricks, [&](const Run& run) {
+      brick_run<kFaces, kInner, kBends, kDamped, kEnergy>(springs_, {row(plane, y), row(up, y)}, run, tile_.shares,
+                                                          energy_);
     });
     if constexpr (kFaces) {
-      each_run(plane, kZxFaces, [&](const Run& run) { pull_faces(row(plane, run.row), row(up, run.row), run); });
-      each_run(plane, kYzFaces, [&](const Run& run) {
-        pull_diagonals_of(Ends<Shift::kNone>{row(plane, run.row), row(up, run.row + 1)}, run);
-        pull_diagonals_of(Ends<Shift::kNone>{row(plane, run.row + 1), row(up, run.row)}, run);
+      each_run(plane, y, kZxFaces, [&](const Run& run) { pull_faces(row(plane, y), row(up, y), run); });
+      each_run(plane, y, kYzFaces, [&](const Run& run) {
+        pull_diagonals_of(Ends<Shift::kNone>{row(plane, y), row(up, y + 1)}, run);
+        pull_diagonals_of(Ends<Shift::kNone>{row(plane, y + 1), row(up, y)}, run);
       });
     }
-    each_run(plane, kZEdges, [&](const Run& run) { pull<2>(plane, run); });
+    each_run(plane, y, kZEdges, [&](const Run& run) { pull<2>(plane, y, run); });
   }
 
-  void leave_plane(int plane) {
+  void leave_row(int plane, int y) {
+    const Row from = row(plane, y);
     if constexpr (kFaces) {
-      each_run(plane, kXyFaces, [&](const Run& run) { pull_faces(row(plane, run.row), row(plane, run.row + 1), run); });
+      each_run(plane, y, kXyFaces, [&](const Run& run) { pull_faces(from, row(plane, y + 1), run); });
     }
-    each_run(plane, kXEdges, [&](const Run& run) { pull<0>(plane, run); });
-    each_run(plane, kYEdges, [&](const Run& run) { pull<1>(plane, run); });
+    each_run(plane, y, kXEdges, [&](const Run& run) { pull<0>(plane, y, run); });
+    each_run(plane, y, kYEdges, [&](const Run& run) { pull<1>(plane, y, run); });
     if constexpr (kEnergy) return;
-    each_run(plane, kNodes, [&](const Run& run) {
-      const Three<double> forces = three(row(plane, run.row), kForceLow, run.x);
-      sum_forces(row(plane, run.row), run, forces);
+    each_run(plane, y, kNodes, [&](const Run& run) {
+      const Three<double> forces = three(from, kForceLow, run.x);
+      sum_forces(from, run, forces);
       finish_nodes(input_, run.node, run.count, {forces.x, forces.y, forces.z});
     });
-    each_run(plane, kSharedNodes, [&](const Run& run) {
+    each_run(plane, y, kSharedNodes, [&](const Run& run) {
       double* part = shared_ + run.first;
-      sum_forces(row(plane, run.row), run, {part, part + run.count, part + 2 * static_cast<std::ptrdiff_t>(run.count)});
+      sum_forces(from, run, {part, part + run.count, part + 2 * static_cast<std::ptrdiff_t>(run.count)});
     });
   }
 
