@@ -71,12 +71,16 @@ void SpringList::couple(const Body& body, const Brick& brick, Points& forces) {
     edges_[static_cast<std::size_t>(brick.edges[e])].tension += brick.share * tensions[e];
   }
   CornerVectors<double> x{};
-  for (std::size_t corner = 0; corner < 8; ++corner) {
-    for (std::size_t k = 0; k < 3; ++k) x[3 * corner + k] = body.positions(brick.nodes[corner], static_cast<int>(k));
-  }
-  if (brick_volume(x) >= body.law.guard_ratio * body.grid.brick_volume()) return;
+  CornerVectors<double> rates{};
   CornerVectors<double> force{};
-  detail::guard_energy(body.law, body.grid.brick_volume(), x, force);
+  for (std::size_t corner = 0; corner < 8; ++corner) {
+    for (int k = 0; k < 3; ++k) {
+      const std::size_t place = 3 * corner + static_cast<std::size_t>(k);
+      x[place] = body.positions(brick.nodes[corner], k);
+      rates[place] = body.damping.beta * body.velocities(brick.nodes[corner], k);
+    }
+  }
+  detail::axes_energy(body.law, body.grid.brick_size, x, body.damping.beta > 0 ? &rates : nullptr, force);
   for (std::size_t corner = 0; corner < 8; ++corner) {
     forces.row(brick.nodes[corner]) += brick.share * Eigen::Map<const Vec3>(&force[3 * corner]).transpose();
   }

@@ -7,7 +7,7 @@
 namespace sprung::test {
 
 /// The plainest way to compute a body's springs: a list of them, each adding its force to its two nodes, and for every
-/// brick the coupling of its twelve edges. One thread, one spring at a time. The oracle of the kernels and what their
+/// brick its corrections. One thread, one spring at a time. The oracle of the kernels and what their
 /// speed is compared with.
 class SpringList {
  public:
