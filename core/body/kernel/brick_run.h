@@ -23,7 +23,9 @@ struct BrickSprings {
   Kind axis;             // four mean axes together
   double per_volume;     // 1 / h^3
   double size_squared;   // h^2
-  double bending_self;   // over 16: bending stretches and their shares are sums of four here
+  double axial_cross;    // over 16: mean and bending stretches and their shares are sums of four here
+  double axial_rest;     // (self - cross) / 16
+  double bending_self;   // over 16
   double bending_cross;  // over 16
 
   BrickSprings(const BrickLaw& brick_law, double h, double beta)
@@ -33,37 +35,52 @@ struct BrickSprings {
         axis(16 * h * h, beta),
         per_volume(1 / (h * h * h)),
         size_squared(h * h),
+        axial_cross(law.axial_cross / 16),
+        axial_rest((law.axial_self - law.axial_cross) / 16),
         bending_self(law.bending_self / 16),
         bending_cross(law.bending_cross / 16) {}
 };
 
-/// Signed sums over the four edges along an axis.
+/// Sums and signed sums over the four edges along an axis.
 struct FourEdges {
+  Pack sum;
   Pack in_j;
   Pack in_k;
 
-  [[gnu::always_inline]] FourEdges(const Pack& s0, const Pack& s1, const Pack& s2, const Pack& s3)
-      : in_j((s1 - s0) + (s3 - s2)), in_k((s2 + s3) - (s0 + s1)) {}
+  [[gnu::always_inline]] FourEdges(const Pack& s0, const Pack& s1, const Pack& s2, const Pack& s3) {
+    const Pack low = s0 + s1;
+    const Pack high = s2 + s3;
+    sum = low + high;
+    in_k = high - low;
+    in_j = (s1 - s0) + (s3 - s2);
+  }
 };
 
-/// Adds the tensions that a brick's bending correction gives its edges (brick_law.h), see edge_tensions() of
+/// Adds the tensions that a brick's axial and bending corrections give its edges (brick_law.h), see edge_tensions() of
 /// brick_kernel.h for the numbering.
-[[gnu::always_inline]] inline void bend(const BrickSprings& springs, const BrickRows& rows, const Pack& share) {
+template <bool kBends>
+[[gnu::always_inline]] inline void couple_edges(const BrickSprings& springs, const BrickRows& rows, const Pack& share) {
   const auto stretch = [&](std::size_t row, int axis, int shift) { return load(rows[row].at(kStretch + axis, shift)); };
   const FourEdges along_x(stretch(0, 0, 0), stretch(1, 0, 0), stretch(2, 0, 0), stretch(3, 0, 0));
   const FourEdges along_y(stretch(0, 1, 0), stretch(2, 1, 0), stretch(0, 1, 1), stretch(2, 1, 1));
   const FourEdges along_z(stretch(0, 2, 0), stretch(0, 2, 1), stretch(1, 2, 0), stretch(1, 2, 1));
+  const Pack all = springs.axial_cross * (along_x.sum + along_y.sum + along_z.sum);
   // Tension of the edges on sides (j, k) = (-, -), (+, -), (-, +), (+, +).
   const auto give = [&](const FourEdges& own, const Pack& partner_j, const Pack& partner_k,
                         const std::array<double*, 4>& tensions) {
-    const Pack in_j = share * (springs.bending_self * own.in_j + springs.bending_cross * partner_j);
-    const Pack in_k = share * (springs.bending_self * own.in_k + springs.bending_cross * partner_k);
-    const Pack both = in_j + in_k;
-    const Pack difference = in_j - in_k;
-    store(load(tensions[0]) - both, tensions[0]);
-    add(difference, tensions[1]);
-    store(load(tensions[2]) - difference, tensions[2]);
-    add(both, tensions[3]);
+    const Pack axial = share * (all + springs.axial_rest * own.sum);
+    if constexpr (kBends) {
+      const Pack in_j = share * (springs.bending_self * own.in_j + springs.bending_cross * partner_j);
+      const Pack in_k = share * (springs.bending_self * own.in_k + springs.bending_cross * partner_k);
+      const Pack low = axial - in_k;
+      const Pack high = axial + in_k;
+      add(low - in_j, tensions[0]);
+      add(low + in_j, tensions[1]);
+      add(high - in_j, tensions[2]);
+      add(high + in_j, tensions[3]);
+    } else {
+      for (double* tension : tensions) add(axial, tension);
+    }
   };
   give(along_x, along_z.in_k, along_y.in_j,
        {rows[0].at(kTensionX), rows[1].at(kTensionX), rows[2].at(kTensionX), rows[3].at(kTensionX)});
@@ -85,15 +102,9 @@ class Corners {
  public:
   [[gnu::always_inline]] explicit Corners(const BrickRows& rows) : rows_(rows) {}
 
-  /// What pulls at all corners along the mean axes: added by open(), taken off on the high side of an axis.
-  [[gnu::always_inline]] void pull_axes(const Axes& pulls) {
-    const Pack3 sum = pulls.x + pulls.y;
-    const Pack3 difference = pulls.x - pulls.y;
-    signed_sums_ = {sum + pulls.z, sum - pulls.z, difference + pulls.z, difference - pulls.z};
-  }
   template <std::size_t... kCorners>
   [[gnu::always_inline]] void open() {
-    (open_one<kCorners>(), ...);
+    ((forces_[kCorners] = rows_[kCorners >> 1].three(array(kCorners))), ...);
   }
   template <std::size_t... kCorners>
   [[gnu::always_inline]] void close() const {
@@ -119,66 +130,62 @@ class Corners {
     return {(d07 - d16) + (d25 - d34), low - high, low + high};
   }
 
+  /// Takes what pulls along the mean axes off all corners on the high side of each axis, adds it to those on the low.
+  void pull_axes(const Axes& pulls) const {
+    for (std::size_t corner = 0; corner < 8; ++corner) {
+      const Row row = rows_[corner >> 1];
+      const Pack3 before = row.three(array(corner));
+      const Pack3 in_x = (corner & 1) != 0 ? before - pulls.x : before + pulls.x;
+      const Pack3 in_xy = (corner & 2) != 0 ? in_x - pulls.y : in_x + pulls.y;
+      row.set_three(array(corner), (corner & 4) != 0 ? in_xy - pulls.z : in_xy + pulls.z);
+    }
+  }
+
  private:
   static constexpr int array(std::size_t corner) { return (corner & 1) == 0 ? kForceLow : kForceHigh; }
 
-  template <std::size_t kCorner>
-  [[gnu::always_inline]] void open_one() {
-    // Opposite corners are pulled by opposite forces.
-    constexpr std::array<std::size_t, 8> kSum{0, 3, 2, 1, 1, 2, 3, 0};
-    constexpr bool kIsAdded = kCorner == 0 || kCorner == 2 || kCorner == 4 || kCorner == 6;
-    const Pack3 before = rows_[kCorner >> 1].three(array(kCorner));
-    const Pack3& pull = signed_sums_[kSum[kCorner]];
-    forces_[kCorner] = kIsAdded ? before + pull : before - pull;
-  }
-
   BrickRows rows_;
-  std::array<Pack3, 4> signed_sums_;  // x + y + z, x + y - z, x - y + z, x - y - z
   std::array<Pack3, 8> forces_;
 };
 
-/// What the axial correction and the volume guard of a pack of bricks (brick_kernel.h) pull at each corner, for each
-/// mean axis. Where no brick of the pack is squeezed that far, the guard ends with the one comparison.
+/// The law's own spring of the three mean axes together.
 template <bool kDamped, bool kEnergy>
-[[gnu::always_inline]] inline Axes axes_pulls(const BrickSprings& springs, const Corners& corners, const Pack& share,
-                                              int place, Energy& energy) {
-  const BrickLaw& law = springs.law;
-  const Axes axes = corners.axes(kPosition);
-  const auto square = [&](const Pack3& axis) { return Pack(dot(axis, axis) * springs.axis.per_rest_squared); };
-  const Pack qx = square(axes.x);
-  const Pack qy = square(axes.y);
-  const Pack qz = square(axes.z);
-  const Pack wx = inverse_root(qx);
-  const Pack wy = inverse_root(qy);
-  const Pack wz = inverse_root(qz);
-  Pack ex = qx * wx - 1.0;
-  Pack ey = qy * wy - 1.0;
-  Pack ez = qz * wz - 1.0;
+void pull_mean_axes(const BrickSprings& springs, const Corners& corners, const Axes& axes, const Pack& share, int place,
+                    Energy& energy) {
+  const auto inverse = [&](const Pack3& axis) {
+    return inverse_root(Pack(dot(axis, axis) * springs.axis.per_rest_squared));
+  };
+  const Pack x = inverse(axes.x);
+  const Pack y = inverse(axes.y);
+  const Pack z = inverse(axes.z);
+  const auto stretch_of = [&](const Pack3& axis, const Pack& inverse_length) {
+    return Pack(dot(axis, axis) * springs.axis.per_rest_squared * inverse_length - 1.0);
+  };
+  Pack stretch = stretch_of(axes.x, x) + stretch_of(axes.y, y) + stretch_of(axes.z, z);
   if constexpr (kDamped) {
     const Axes rates = corners.axes(kVelocity);
-    ex += springs.axis.lag * wx * dot(axes.x, rates.x);
-    ey += springs.axis.lag * wy * dot(axes.y, rates.y);
-    ez += springs.axis.lag * wz * dot(axes.z, rates.z);
+    stretch += springs.axis.lag * (x * dot(axes.x, rates.x) + y * dot(axes.y, rates.y) + z * dot(axes.z, rates.z));
   }
-  const Pack all = law.axial_cross * (ex + ey + ez);
-  const double rest = law.axial_self - law.axial_cross;
-  const Pack tx = share * (all + rest * ex);
-  const Pack ty = share * (all + rest * ey);
-  const Pack tz = share * (all + rest * ez);
-  if constexpr (kEnergy) add_energy(energy, place, 0.5 * springs.size_squared * (tx * ex + ty * ey + tz * ez));
+  const Pack tension = share * springs.law.axes * stretch;
+  if constexpr (kEnergy) add_energy(energy, place, 0.5 * springs.size_squared * tension * stretch);
   // A quarter for each edge of an axis, and a quarter for the axes being four together.
-  Axes pulls{0.0625 * tx * wx * axes.x, 0.0625 * ty * wy * axes.y, 0.0625 * tz * wz * axes.z};
+  const Pack quarter = 0.0625 * tension;
+  corners.pull_axes({quarter * x * axes.x, quarter * y * axes.y, quarter * z * axes.z});
+}
 
+/// The guard of brick_kernel.h. Where no brick of the pack is squeezed that far, it ends with the one comparison.
+template <bool kEnergy>
+[[gnu::always_inline]] inline void guard(const BrickSprings& springs, const Corners& corners, const Axes& axes,
+                                         const Pack& share, int place, Energy& energy) {
   const Pack3 area_x = cross(axes.y, axes.z);
-  const Pack lack = law.guard_ratio - dot(axes.x, area_x) * (springs.per_volume / 64);
+  const Pack lack = springs.law.guard_ratio - dot(axes.x, area_x) * (springs.per_volume / 64);
   if (simd::none_of(lack > 0.0)) [[likely]]
-    return pulls;
+    return;
   const Pack active = simd::max(lack, Pack(0.0));
-  const Pack strength = share * law.guard;
-  const Pack size = strength * active * (0.25 / 16 * springs.per_volume);
-  pulls = {pulls.x - size * area_x, pulls.y - size * cross(axes.z, axes.x), pulls.z - size * cross(axes.x, axes.y)};
+  const Pack strength = share * springs.law.guard;
+  const Pack size = -0.25 / 16 * springs.per_volume * strength * active;
+  corners.pull_axes({size * area_x, size * cross(axes.z, axes.x), size * cross(axes.x, axes.y)});
   if constexpr (kEnergy) add_energy(energy, place, 0.5 * strength * active * active);
-  return pulls;
 }
 
 /// The springs of a pack of bricks, three low faces of each among them, in an order that holds few corners open.
@@ -189,9 +196,7 @@ class PackSprings {
       : springs_(springs), corners_(rows), place_(place), energy_(energy) {}
 
   /// Stiffnesses in N/m.
-  [[gnu::always_inline]] void pull(const Pack& share, const Pack& xy, const Pack& zx, const Pack& yz,
-                                   const Pack& inner) {
-    corners_.pull_axes(axes_pulls<kDamped, kEnergy>(springs_, corners_, share, place_, energy_));
+  [[gnu::always_inline]] void pull(const Pack& xy, const Pack& zx, const Pack& yz, const Pack& inner) {
     corners_.template open<0, 7>();
     pull_inner<0, 7>(inner);
     corners_.template close<7>();
@@ -242,7 +247,7 @@ class PackSprings {
 };
 
 /// A row of bricks: their corrections, springs and guard.
-template <bool kFaces, bool kInner, bool kBends, bool kDamped, bool kEnergy>
+template <bool kFaces, bool kInner, bool kBends, bool kAxes, bool kDamped, bool kEnergy>
 void brick_run(const BrickSprings& springs, const BrickRows& rows, const Run& run, const double* shares,
                Energy& energy) {
   const int padded = (run.count + kRunPadding - 1) / kRunPadding * kRunPadding;
@@ -250,10 +255,14 @@ void brick_run(const BrickSprings& springs, const BrickRows& rows, const Run& ru
     const BrickRows here = rows.seen_from(run.x + place);
     const double* own = shares + run.first + place;
     const Pack share = load(own);
-    if constexpr (kBends) bend(springs, here, share);
+    couple_edges<kBends>(springs, here, share);
     const auto face = [&](int list) { return kFaces ? Pack(springs.law.face * load(own + list * padded)) : Pack(); };
     PackSprings<kFaces, kInner, kDamped, kEnergy>(springs, here, place, energy)
-        .pull(share, face(1), face(2), face(3), springs.law.inner * share);
+        .pull(face(1), face(2), face(3), springs.law.inner * share);
+    const Corners corners(here);
+    const Axes axes = corners.axes(kPosition);
+    if constexpr (kAxes) pull_mean_axes<kDamped, kEnergy>(springs, corners, axes, share, place, energy);
+    guard<kEnergy>(springs, corners, axes, share, place, energy);
   }
 }
 

@@ -19,7 +19,7 @@ namespace {
 /// Goes through the planes of a tile from low to high z and through their rows from low to high y, with two planes of
 /// nodes in the core's own cache and four rows in its nearest one. Bricks follow once the last of their four rows is
 /// in; then the first of them is done.
-template <bool kFaces, bool kInner, bool kBends, bool kDamped, bool kEnergy>
+template <bool kFaces, bool kInner, bool kBends, bool kAxes, bool kDamped, bool kEnergy>
 class Walk {
  public:
   Walk(const TileView& tile, const PassInput& input, double* scratch, double* shared, Energy& energy)
@@ -117,8 +117,8 @@ class Walk {
   void layer_row(int plane, int y) {
     const int up = plane + 1;
     each_run(plane, y, kBricks, [&](const Run& run) {
-      brick_run<kFaces, kInner, kBends, kDamped, kEnergy>(springs_, {row(plane, y), row(up, y)}, run, tile_.shares,
-                                                          energy_);
+      brick_run<kFaces, kInner, kBends, kAxes, kDamped, kEnergy>(springs_, {row(plane, y), row(up, y)}, run,
+                                                                 tile_.shares, energy_);
     });
     if constexpr (kFaces) {
       each_run(plane, y, kZxFaces, [&](const Run& run) { pull_faces(row(plane, y), row(up, y), run); });
@@ -169,14 +169,14 @@ class Walk {
   const double* edge_shares_;
 };
 
-template <bool kFaces, bool kInner, bool kBends>
+template <bool kFaces, bool kInner, bool kBends, bool kAxes>
 void walk(const TileView& tile, const PassInput& input, double* scratch, double* shared, Energy& energy) {
   if (input.pass == Pass::kEnergy) {
-    Walk<kFaces, kInner, kBends, false, true>(tile, input, scratch, shared, energy).run();
+    Walk<kFaces, kInner, kBends, kAxes, false, true>(tile, input, scratch, shared, energy).run();
   } else if (input.beta > 0) {
-    Walk<kFaces, kInner, kBends, true, false>(tile, input, scratch, shared, energy).run();
+    Walk<kFaces, kInner, kBends, kAxes, true, false>(tile, input, scratch, shared, energy).run();
   } else {
-    Walk<kFaces, kInner, kBends, false, false>(tile, input, scratch, shared, energy).run();
+    Walk<kFaces, kInner, kBends, kAxes, false, false>(tile, input, scratch, shared, energy).run();
   }
 }
 
@@ -184,9 +184,10 @@ void walk(const TileView& tile, const PassInput& input, double* scratch, double*
 void run_tile(const TileView& tile, const PassInput& input, double* scratch, double* shared, Energy& energy) {
   const BrickLaw& law = input.law;
   const bool bends = law.bending_self != 0 || law.bending_cross != 0;
-  if (law.face == 0 && !bends) return walk<false, true, false>(tile, input, scratch, shared, energy);
-  if (law.inner == 0 && !bends) return walk<true, false, false>(tile, input, scratch, shared, energy);
-  walk<true, true, true>(tile, input, scratch, shared, energy);
+  if (law.axes != 0) return walk<true, true, true, true>(tile, input, scratch, shared, energy);
+  if (law.face == 0 && !bends) return walk<false, true, false, false>(tile, input, scratch, shared, energy);
+  if (law.inner == 0 && !bends) return walk<true, false, false, false>(tile, input, scratch, shared, energy);
+  walk<true, true, true, false>(tile, input, scratch, shared, energy);
 }
 
 constexpr int kSharedAtOnce = 64;
