@@ -30,6 +30,7 @@ class Loading {
                   "a body without pins cannot come to rest; give it a [[body.pin]], or use "
                   "solver.scheme euler or verlet");
     }
+    for (std::size_t i = 0; i < production.world.actors.size(); ++i) systems_.push_back(make_quick_system());
   }
 
   /// Reactions by actor, m x 3, N.
@@ -40,8 +41,8 @@ class Loading {
       const Supports supports = supports_of(production_.world.actors[actor]);
       const Points loads = share * (body.masses * production_.world.gravity.transpose());
       const Points movements = pin_movements(scene_, production_, actor, share, is_linear_);
-      reactions_of_all.push_back(is_linear_ ? answer(body, supports, loads, movements)
-                                            : settle(body, supports, loads, movements));
+      reactions_of_all.push_back(is_linear_ ? answer(body, supports, loads, movements, *systems_[actor])
+                                            : settle(body, supports, loads, movements, *systems_[actor]));
     }
     return reactions_of_all;
   }
@@ -49,28 +50,44 @@ class Loading {
   [[nodiscard]] bool is_linear() const { return is_linear_; }
   [[nodiscard]] int iterations() const { return iterations_; }
 
+  /// What the linear solvers had to do, where they had to give up.
+  void note_trouble(const Console& console) const {
+    for (std::size_t i = 0; i < systems_.size(); ++i) {
+      const SolveReport report = systems_[i]->report();
+      console.detail(fmt::format("body {}: {} linear solves, {} multigrid iterations, at most {} in one", i + 1,
+                                 report.solves, report.iterations, report.most));
+      if (report.gone_direct == 0) continue;
+      console.note(
+          fmt::format("body {}: multigrid did not converge in {} of {} linear solves; the slower direct solver "
+                      "took over",
+                      i + 1, report.gone_direct, report.solves));
+    }
+  }
+
  private:
-  Points answer(Body& body, const Supports& supports, const Points& loads, const Points& movements) {
+  static Points answer(Body& body, const Supports& supports, const Points& loads, const Points& movements,
+                       NewtonSystem& system) {
     body.positions = body.rest_positions;
-    const LinearResponse response = linear_response(body, supports, loads, movements, *system_);
+    const LinearResponse response = linear_response(body, supports, loads, movements, system);
     body.positions += response.displacements;
     return response.reactions;
   }
 
-  Points settle(Body& body, const Supports& supports, const Points& loads, const Points& movements) {
+  Points settle(Body& body, const Supports& supports, const Points& loads, const Points& movements,
+                NewtonSystem& system) {
     const Points start = body.positions;
     for (Eigen::Index i = 0; i < start.size(); ++i) {
       if (!supports.fixed[static_cast<std::size_t>(i)]) continue;
       body.positions.data()[i] = body.rest_positions.data()[i] + movements.data()[i];
     }
-    iterations_ += solve_static(body, supports, loads, start, *system_).iterations;
+    iterations_ += solve_static(body, supports, loads, start, system).iterations;
     return reactions(body, supports, loads);
   }
 
   Production& production_;
   const Scene& scene_;
   bool is_linear_;
-  std::unique_ptr<NewtonSystem> system_ = make_direct_system();
+  std::vector<std::unique_ptr<NewtonSystem>> systems_;  // by actor
   int iterations_ = 0;
 };
 
@@ -97,6 +114,7 @@ Recording record_equilibria(Production& production, const Scene& scene, const Co
     recorder.add(share, reactions, share, loading.is_linear());
     progress.update(frame + 1);
   }
+  loading.note_trouble(console);
   progress.finish(loading.is_linear() ? fmt::format("{} frames", frames)
                                       : fmt::format("{} frames, {} Newton steps", frames, loading.iterations()));
   return recorder.finish();

@@ -138,20 +138,21 @@ BrickMatrix body_brick_hessian(const Body& body, std::size_t brick) {
   return body.stiffness_scale[brick] * brick_hessian(body.law, body.grid.brick_size, brick_corners(body, brick));
 }
 
-double largest_brick_stiffness(const Body& body) {
-  BrickMatrix stiffness;
-  if (body.small_strain_stiffness.size() > 0) {
-    stiffness = body.small_strain_stiffness;
-  } else {
-    CornerVectors<double> rest{};
-    for (int corner = 0; corner < 8; ++corner) {
-      for (int axis = 0; axis < 3; ++axis) {
-        rest[static_cast<std::size_t>(3 * corner + axis)] = on_high_side(corner, axis) ? body.grid.brick_size : 0;
-      }
+BrickMatrix rest_brick_hessian(const Body& body) {
+  if (body.small_strain_stiffness.size() > 0) return body.small_strain_stiffness;
+  CornerVectors<double> rest{};
+  for (int corner = 0; corner < 8; ++corner) {
+    for (int axis = 0; axis < 3; ++axis) {
+      rest[static_cast<std::size_t>(3 * corner + axis)] = on_high_side(corner, axis) ? body.grid.brick_size : 0;
     }
-    stiffness = brick_hessian(body.law, body.grid.brick_size, rest);
   }
-  return Eigen::SelfAdjointEigenSolver<BrickMatrix>(stiffness, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+  return brick_hessian(body.law, body.grid.brick_size, rest);
+}
+
+double largest_brick_stiffness(const Body& body) {
+  return Eigen::SelfAdjointEigenSolver<BrickMatrix>(rest_brick_hessian(body), Eigen::EigenvaluesOnly)
+      .eigenvalues()
+      .maxCoeff();
 }
 
 }  // namespace sprung

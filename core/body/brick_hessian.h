@@ -18,6 +18,9 @@ using BrickMatrix = Eigen::Matrix<double, 24, 24>;
 /// The same matrix with its negative eigenvalues set to zero, so that Newton's direction stays downhill.
 [[nodiscard]] BrickMatrix without_negative_curvature(const BrickMatrix& hessian);
 
+/// That of a full brick of the body at rest.
+[[nodiscard]] BrickMatrix rest_brick_hessian(const Body& body);
+
 /// The largest eigenvalue (N/m) of a full brick's stiffness at rest, guard left out. Over the mass of a corner it is
 /// the square of the fastest frequency any body of such bricks can have.
 [[nodiscard]] double largest_brick_stiffness(const Body& body);

@@ -14,21 +14,25 @@ class DirectSystem : public NewtonSystem {
  public:
   DirectSystem() { cholesky_.cholmod().print = 0; }
 
-  bool linearize(const Body& body, const Supports& supports, bool definite) override {
+  bool linearize(const Body& body, const Supports& supports, bool definite, const StepTerms& terms) override {
     dofs_.emplace(supports);
-    const Eigen::SparseMatrix<double> matrix = stiffness_matrix(body, *dofs_, definite);
+    const Eigen::SparseMatrix<double> matrix = stiffness_matrix(body, *dofs_, definite, terms);
     cholesky_.setShift(definite ? kShift * matrix.diagonal().maxCoeff() : 0);
     cholesky_.compute(matrix);
     return cholesky_.info() == Eigen::Success;
   }
 
-  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& forces) const override {
+  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& forces, double /*tolerance*/) override {
+    ++report_.solves;
     return dofs_->scatter(cholesky_.solve(dofs_->gather(forces)));
   }
+
+  [[nodiscard]] SolveReport report() const override { return report_; }
 
  private:
   std::optional<FreeDofs> dofs_;
   Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>, Eigen::Lower> cholesky_;
+  SolveReport report_;
 };
 
 }  // namespace

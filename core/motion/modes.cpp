@@ -23,7 +23,7 @@ Modes natural_modes(const Body& body, const Supports& supports, int count) {
   const Eigen::VectorXd scale = dofs.gather(masses).cwiseSqrt().cwiseInverse();
 
   // With shape = M^-1/2 y the problem becomes an ordinary symmetric one.
-  Eigen::SparseMatrix<double> matrix = stiffness_matrix(body, dofs, false);
+  Eigen::SparseMatrix<double> matrix = stiffness_matrix(body, dofs, false, {});
   matrix = scale.asDiagonal() * matrix * scale.asDiagonal();
   const Eigen::SparseMatrix<double> whole = matrix.selfadjointView<Eigen::Lower>();
   // The solver would say so on stdout itself.

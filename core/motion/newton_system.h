@@ -18,24 +18,62 @@ struct Supports {
   }
 };
 
-/// The linear systems that Newton's method and linear statics meet: K u = f, with K the second derivative of the
-/// elastic energy at a body's positions and u zero where it is supported. The seam between the equations and the ways
-/// to solve them.
+/// Something that holds a point of a brick, such as a contact.
+struct PointStiffness {
+  int brick = 0;
+  Eigen::Matrix<double, 8, 1> weights;  // of the brick's corners in the point
+  Mat3 stiffness = Mat3::Zero();        // N/m, symmetric, no negative eigenvalue
+};
+
+/// What a step in time adds to the stiffness K of a body; as it comes, nothing.
+struct StepTerms {
+  double mass_factor = 0;              // 1/s^2: times the masses
+  double damping = 0;                  // times the springs' stiffness along themselves, without the guard ...
+  Points damping_positions;            // ... where the nodes are here (m x 3, m); not read where damping is zero
+  std::vector<PointStiffness> points;  // contacts
+};
+
+/// How the solving went so far.
+struct SolveReport {
+  long solves = 0;
+  long iterations = 0;   // of an iterative solver, all solves
+  int most = 0;          // iterations of one solve
+  long indefinite = 0;   // solves that found the matrix not positive definite
+  long gone_direct = 0;  // solves that the iterative solver had to leave to the direct one
+};
+
+/// The linear systems that Newton's method and linear statics meet: (K + terms) u = f, with K the second derivative of
+/// the elastic energy at a body's positions and u zero where it is supported. The seam between the equations and the
+/// ways to solve them. The same bits for any number of threads.
 class NewtonSystem {
  public:
   virtual ~NewtonSystem() = default;
 
   /// Takes K at body.positions; with `definite`, each brick's K without its negative curvature, and
-  /// motions that meet no resistance held by a stiffness below rounding.
-  /// False where K is not positive definite, and then solve() must not be called.
-  virtual bool linearize(const Body& body, const Supports& supports, bool definite) = 0;
+  /// motions that meet no resistance held by a stiffness below rounding. Body and terms have to stay as they are until
+  /// the last solve(). False where the matrix is seen not to be positive definite, and then solve() must not be called.
+  virtual bool linearize(const Body& body, const Supports& supports, bool definite, const StepTerms& terms) = 0;
 
-  /// u (3 m, m) for the forces f (3 m, N); entries of f at supports are ignored.
-  [[nodiscard]] virtual Eigen::VectorXd solve(const Eigen::VectorXd& forces) const = 0;
+  /// u (3 m, m) for the forces f (3 m, N); entries of f at supports are ignored. An iterative solver stops where the
+  /// forces left over are `tolerance` of f (Euclidean norms). Empty where the matrix turns out not to be positive
+  /// definite, or no answer is found.
+  [[nodiscard]] virtual Eigen::VectorXd solve(const Eigen::VectorXd& forces, double tolerance) = 0;
+
+  [[nodiscard]] virtual SolveReport report() const = 0;
 };
 
 /// Sparse Cholesky (CHOLMOD, supernodal): exact, for small bodies and as the oracle of others. Memory and time grow
 /// faster than the body: some 250 MB and 2 s at 16 000 bricks.
 [[nodiscard]] std::unique_ptr<NewtonSystem> make_direct_system();
+
+/// Conjugate gradients preconditioned by geometric multigrid on the hierarchy of bricks: Galerkin's coarse bricks, each
+/// of up to eight children that hang together, Chebyshev-Jacobi smoothing, the cycle in single precision, the products
+/// outside it exact and in double. Time and memory (some 1.7 kB a brick) grow with the body. Gives up after
+/// `max_iterations` of a solve.
+[[nodiscard]] std::unique_ptr<NewtonSystem> make_multigrid_system(int max_iterations = 150);
+
+/// The quicker of the two for the body's size; where multigrid gives up the direct solver answers, if the body is not
+/// too large for it.
+[[nodiscard]] std::unique_ptr<NewtonSystem> make_quick_system();
 
 }  // namespace sprung

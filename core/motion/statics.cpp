@@ -13,8 +13,10 @@
 namespace sprung {
 namespace {
 
-constexpr double kLongestStep = 0.5;  // body lengths; a longer one leads nowhere
-constexpr double kFree = 100;         // a displacement of that many body lengths is no deformation
+constexpr double kLongestStep = 0.5;       // body lengths; a longer one leads nowhere
+constexpr double kFree = 100;              // a displacement of that many body lengths is no deformation
+constexpr double kNewtonTolerance = 1e-4;  // of a direction; Newton's method takes care of what is left
+constexpr double kLinearTolerance = 1e-11;
 
 Eigen::Map<const Eigen::VectorXd> flat(const Points& points) { return {points.data(), points.size()}; }
 
@@ -86,8 +88,9 @@ class Equilibrium {
   /// Newton's direction, from the true curvature where that is positive, else from its positive part; empty: neither.
   Eigen::VectorXd downhill(const Eigen::VectorXd& residual) {
     for (const bool definite : {false, true}) {
-      if (!system_.linearize(body_, supports_, definite)) continue;
-      Eigen::VectorXd direction = system_.solve(residual);
+      if (!system_.linearize(body_, supports_, definite, no_terms_)) continue;
+      Eigen::VectorXd direction = system_.solve(residual, kNewtonTolerance);
+      if (direction.size() == 0) continue;
       const double longest = direction.cwiseAbs().maxCoeff() / (kLongestStep * extent(body_));
       if (!direction.allFinite() || (longest > 1 && !definite)) continue;
       return direction / std::max(1.0, longest);
@@ -99,6 +102,7 @@ class Equilibrium {
   const Supports& supports_;
   const Points& loads_;
   NewtonSystem& system_;
+  const StepTerms no_terms_;
   const StaticOptions& options_;
   double rounding_;        // of a position, m
   double rounding_force_;  // that it makes, N
@@ -112,10 +116,11 @@ class Equilibrium {
 Eigen::VectorXd solve_linear(const Body& body, const Supports& supports, const Points& loads, NewtonSystem& system) {
   // A motion without resistance (plain springs let a thin bar twist) does no harm where no load drives it: then the
   // second, slightly held system answers.
+  const StepTerms no_terms;
   for (const bool definite : {false, true}) {
-    if (!system.linearize(body, supports, definite)) continue;
-    Eigen::VectorXd displacement = system.solve(flat(loads));
-    if (displacement.cwiseAbs().maxCoeff() < kFree * extent(body)) return displacement;
+    if (!system.linearize(body, supports, definite, no_terms)) continue;
+    Eigen::VectorXd displacement = system.solve(flat(loads), kLinearTolerance);
+    if (displacement.size() > 0 && displacement.cwiseAbs().maxCoeff() < kFree * extent(body)) return displacement;
   }
   throw Error(ErrorKind::kBadInput, "the supports leave the body free to move under its loads: hold more of it");
 }

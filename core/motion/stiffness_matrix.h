@@ -16,7 +16,9 @@ struct FreeDofs {
   [[nodiscard]] Eigen::VectorXd scatter(const Eigen::VectorXd& free) const;
 };
 
-/// Lower triangle of the second derivative of the elastic energy at body.positions, free degrees of freedom only, N/m.
-[[nodiscard]] Eigen::SparseMatrix<double> stiffness_matrix(const Body& body, const FreeDofs& dofs, bool definite);
+/// Lower triangle of the second derivative of the elastic energy at body.positions and of what a step adds to it, free
+/// degrees of freedom only, N/m.
+[[nodiscard]] Eigen::SparseMatrix<double> stiffness_matrix(const Body& body, const FreeDofs& dofs, bool definite,
+                                                           const StepTerms& terms);
 
 }  // namespace sprung

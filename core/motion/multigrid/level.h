@@ -1,0 +1,81 @@
+#pragma once
+#include <Eigen/Core>
+
+#include "core/motion/multigrid/hierarchy.h"
+
+namespace sprung::multigrid {
+
+using Floats = Eigen::VectorXf;  // 3 a node
+
+/// The matrix of one level, brick by brick, and the products with it: the same bits for any number of threads.
+/// A = sum of the bricks' matrices + diagonal. The layout must outlive it.
+class Level {
+ public:
+  explicit Level(const Layout& layout);
+
+  [[nodiscard]] const Layout& layout() const { return *layout_; }
+  [[nodiscard]] int block_count() const { return static_cast<int>(pull_of_block_.size()); }
+  [[nodiscard]] float* matrix(int block) {
+    return &matrices_[kAnchoredSize * kLanes * static_cast<std::size_t>(block)];
+  }
+  [[nodiscard]] FineMatrices matrices() const;
+
+  /// Gives a block room for pulls (zero), if it has none yet.
+  float* add_pull(int block);
+  void clear_pulls();
+
+  /// Takes on Galerkin's matrices of the finer level, its diagonal lumped, and what of it is held entirely.
+  void coarsen(const Level& fine);
+
+  /// Per node, N/m: added to the matrix. Masses over the step squared, and what keeps a free body from drifting.
+  std::vector<double> diagonal;
+
+  /// 3 m, degrees of freedom that do not move. (Rounding leaves them traces of stiffness.)
+  std::vector<char> held;
+  void release_held(Floats& x) const;
+
+  /// To be called when matrices and diagonal are set: the inverse of the nodes' own 3 x 3 blocks, and the fastest
+  /// eigenvalue of the matrix scaled by them. `fastest_of_brick` is that of a single brick, which bounds it; 0: it is
+  /// found by power iteration.
+  void prepare_smoother(double fastest_of_brick);
+
+  void multiply(const Floats& x, Floats& product) const;
+  void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& product) const;
+
+  /// `steps` of Chebyshev's polynomial of the fourth kind (Lottes, "Optimal polynomial smoothers for multigrid
+  /// V-cycles", 2023) in block-Jacobi's matrix. `residual` goes with x: it is that of x before and after.
+  void smooth(int steps, Floats& x, Floats& residual) const;
+
+  /// The same for a residual that is not needed afterwards: one product less.
+  void smooth_last(int steps, Floats& x, Floats& residual) const { smooth(steps, x, residual, false); }
+
+  /// The dense matrix, 3 m x 3 m, of a small level.
+  [[nodiscard]] Eigen::MatrixXd dense() const;
+
+ private:
+  void smooth(int steps, Floats& x, Floats& residual, bool with_residual) const;
+  template <class Vector, class Apply>
+  void multiply_bricks(const Vector& x, Vector& product, Apply apply) const;
+  void find_fastest();
+  [[nodiscard]] LevelBlock input(int block) const;
+  [[nodiscard]] double entry(std::size_t brick, std::size_t row, std::size_t column) const;
+
+  const Layout* layout_;
+  std::vector<float> matrices_;
+  std::vector<float> pulls_;
+  std::vector<int> pull_of_block_;
+  std::vector<Eigen::Matrix3f> inverse_blocks_;  // per node; zero where nothing holds the node
+  float fastest_ = 1;
+  std::vector<std::size_t> corner_places_;  // of the x component, in corner forces, as layout.corners.corners
+  mutable Eigen::VectorXf corner_forces_;
+  mutable Eigen::VectorXd corner_forces_double_;
+  mutable Floats direction_;
+  mutable Floats product_;
+};
+
+/// Fine to coarse: the transpose of the interpolation.
+void restrict_to_coarse(const Interpolation& hang, const Floats& fine, Floats& coarse);
+/// Coarse to fine: adds.
+void add_from_coarse(const Interpolation& hang, const Floats& coarse, Floats& fine);
+
+}  // namespace sprung::multigrid

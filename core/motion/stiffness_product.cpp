@@ -1,0 +1,67 @@
+#include "core/motion/stiffness_product.h"
+
+#include <tbb/parallel_for.h>
+
+#include "core/body/forces.h"
+#include "core/motion/multigrid/kernels.h"
+
+namespace sprung {
+namespace {
+
+constexpr int kBlocksPerTask = 32;
+constexpr int kNodesPerTask = 512;
+
+void multiply_hexahedra(const Body& body, double factor, const Eigen::VectorXd& u, std::vector<double>& products) {
+  tbb::parallel_for(0, body.grid.brick_count(), [&](int brick) {
+    const auto b = static_cast<std::size_t>(brick);
+    Eigen::Matrix<double, 24, 1> moves;
+    for (int c = 0; c < 8; ++c) {
+      moves.segment<3>(Eigen::Index{3} * c) =
+          u.segment<3>(Eigen::Index{3} * body.grid.nodes[b][static_cast<std::size_t>(c)]);
+    }
+    Eigen::Map<Eigen::Matrix<double, 24, 1>> product(&products[24 * b]);
+    product = factor * body.stiffness_scale[b] * (body.small_strain_stiffness * moves);
+  });
+}
+
+void multiply_springs(const Body& body, const multigrid::ProductInput& input, std::vector<double>& products) {
+  const int blocks = (body.grid.brick_count() + kBricksPerBlock - 1) / kBricksPerBlock;
+  tbb::parallel_for(tbb::blocked_range<int>(0, blocks, kBlocksPerTask), [&](const tbb::blocked_range<int>& range) {
+    for (int block = range.begin(); block < range.end(); ++block) {
+      multigrid::kernels().stiffness_product(input, block * kBricksPerBlock, products.data());
+    }
+  });
+}
+
+}  // namespace
+
+void multiply_stiffness(const Body& body, const StiffnessFactors& factors, const Points& damping_positions,
+                        const Eigen::VectorXd& u, std::vector<double>& room, Eigen::VectorXd& product) {
+  room.resize(24 * body.grid.nodes.size());
+  if (body.small_strain_stiffness.size() > 0) {
+    multiply_hexahedra(body, factors.stiffness + factors.damping, u, room);
+  } else {
+    multiply_springs(body,
+                     {.block = block_input(body),
+                      .moves = u.data(),
+                      .stiffness = factors.stiffness,
+                      .damping = factors.damping,
+                      .damping_positions = damping_positions.data()},
+                     room);
+  }
+  product.resize(u.size());
+  tbb::parallel_for(tbb::blocked_range<int>(0, body.node_count(), kNodesPerTask),
+                    [&](const tbb::blocked_range<int>& range) {
+                      for (int node = range.begin(); node < range.end(); ++node) {
+                        const auto n = static_cast<std::size_t>(node);
+                        Vec3 sum = Vec3::Zero();
+                        for (int i = body.first_corner[n]; i < body.first_corner[n + 1]; ++i) {
+                          const auto corner = static_cast<std::size_t>(body.corners[static_cast<std::size_t>(i)]);
+                          sum += Eigen::Map<const Vec3>(&room[3 * corner]);
+                        }
+                        product.segment<3>(Eigen::Index{3} * node) = sum;
+                      }
+                    });
+}
+
+}  // namespace sprung

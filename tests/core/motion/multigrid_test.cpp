@@ -1,0 +1,263 @@
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include "core/body/forces.h"
+#include "core/motion/multigrid/level.h"
+#include "core/motion/newton_system.h"
+#include "tests/support/bodies.h"
+
+namespace sprung {
+namespace {
+
+using test::test_material;
+
+/// A bracket with a slot, cut bricks and two materials: everything that a box is not.
+BrickGrid bracket(int n) {
+  BrickGrid grid;
+  grid.brick_size = 0.3 / n;
+  for (int z = 0; z < n / 3; ++z) {
+    for (int y = 0; y < n; ++y) {
+      for (int x = 0; x < n; ++x) {
+        const bool is_upright = x < n / 3;
+        const bool is_slot = y > n / 6 && x > 1 && z == n / 6;
+        if ((y < n / 3 || is_upright) && !is_slot) grid.cells.emplace_back(x - 3, y - 5, z);
+      }
+    }
+  }
+  for (const Eigen::Vector3i& cell : grid.cells) grid.fill.push_back(cell.y() == n - 6 ? 0.02 : 1.0);
+  number_nodes(grid);
+  return grid;
+}
+
+struct Problem {
+  Body body;
+  Supports supports;
+  StepTerms terms;
+  Eigen::VectorXd forces;
+
+  explicit Problem(BrickGrid grid, double poisson = 0.3, Model model = Model::kCalibrated)
+      : body(make_body(std::move(grid), model, test_material(poisson, 1e5))), supports(body.node_count()) {
+    const int low = body.grid.lattice.front().z();
+    for (int node = 0; node < body.node_count(); ++node) {
+      if (body.grid.lattice[static_cast<std::size_t>(node)].z() == low) supports.fix(node);
+    }
+    forces = Eigen::VectorXd::Zero(3 * body.node_count());
+    for (int node = 0; node < body.node_count(); ++node) forces[3 * node + 1] = -9.81 * body.masses[node];
+  }
+};
+
+/// Clamped at its left end.
+Problem cantilever(int n, double poisson) {
+  Problem problem(make_box_grid({n, n / 4, n / 4}, 0.4 / n), poisson);
+  problem.supports = Supports(problem.body.node_count());
+  for (int node = 0; node < problem.body.node_count(); ++node) {
+    if (problem.body.grid.lattice[static_cast<std::size_t>(node)].x() == 0) problem.supports.fix(node);
+  }
+  return problem;
+}
+
+Eigen::VectorXd solve(NewtonSystem& system, const Problem& problem, double tolerance, bool definite = false) {
+  EXPECT_TRUE(system.linearize(problem.body, problem.supports, definite, problem.terms));
+  return system.solve(problem.forces, tolerance);
+}
+
+void expect_same(const Problem& problem, double error) {
+  const auto direct = make_direct_system();
+  const auto multigrid = make_multigrid_system();
+  const Eigen::VectorXd right = solve(*direct, problem, 0);
+  const Eigen::VectorXd found = solve(*multigrid, problem, 1e-11);
+  ASSERT_EQ(found.size(), right.size());
+  EXPECT_LT((found - right).norm(), error * right.norm());
+  EXPECT_LE(multigrid->report().most, 70);  // to 1e-11
+}
+
+TEST(Multigrid, EqualsTheDirectSolver) {
+  expect_same(cantilever(8, 0.3), 1e-8);  // one level
+  expect_same(cantilever(24, 0.3), 1e-8);
+  Problem slotted(bracket(15));
+  for (std::size_t i = 0; i < slotted.body.stiffness_scale.size(); i += 3) slotted.body.stiffness_scale[i] *= 100;
+  expect_same(slotted, 1e-8);
+  expect_same(Problem(bracket(12), 0.3, Model::kFem), 1e-8);
+}
+
+TEST(Multigrid, EqualsTheDirectSolverFarFromRest) {
+  std::mt19937 random(4);
+  Problem problem(bracket(12));
+  test::shake(problem.body, 0.1, random);
+  problem.terms.mass_factor = 1e4;
+  problem.terms.damping = 0.7;
+  problem.terms.damping_positions = problem.body.rest_positions;
+  PointStiffness point{.brick = 40, .weights = Eigen::Matrix<double, 8, 1>::Constant(0.125)};
+  point.stiffness = 1e3 * Mat3::Identity();
+  problem.terms.points.push_back(point);
+  // Half turned over: the guard is at work.
+  const auto& nodes = problem.body.grid.nodes[60];
+  for (const int corner : {1, 3, 5, 7}) {
+    problem.body.positions(nodes[static_cast<std::size_t>(corner)], 0) -= 0.8 * problem.body.grid.brick_size;
+  }
+  const auto direct = make_direct_system();
+  if (!direct->linearize(problem.body, problem.supports, false, problem.terms)) problem.terms.mass_factor = 1e7;
+  expect_same(problem, 1e-8);
+}
+
+TEST(Multigrid, SaysThatAMatrixIsNotPositiveDefinite) {
+  Problem problem = cantilever(16, 0.3);
+  problem.body.positions.col(0) *= 0.5;  // pressed lengthwise: it would buckle
+  const auto direct = make_direct_system();
+  EXPECT_FALSE(direct->linearize(problem.body, problem.supports, false, problem.terms));
+  const auto multigrid = make_multigrid_system();
+  if (multigrid->linearize(problem.body, problem.supports, false, problem.terms)) {
+    EXPECT_EQ(multigrid->solve(problem.forces, 1e-6).size(), 0);
+    EXPECT_EQ(multigrid->report().indefinite, 1);
+  }
+  EXPECT_GT(solve(*multigrid, problem, 1e-4, true).size(), 0);
+}
+
+TEST(Multigrid, IterationsDoNotGrowWithTheBody) {
+  for (const double poisson : {0.0, 0.3, 0.49}) {
+    std::vector<long> iterations;
+    for (const int n : {16, 32}) {
+      const auto multigrid = make_multigrid_system();
+      EXPECT_GT(solve(*multigrid, cantilever(n, poisson), 1e-6).size(), 0);
+      iterations.push_back(multigrid->report().iterations);
+    }
+    EXPECT_LE(iterations[1], iterations[0] + 4) << poisson;
+    EXPECT_LT(iterations[1], 25) << poisson;
+  }
+}
+
+TEST(Multigrid, ThinPartsAndTwoMaterialsTakeFewIterations) {
+  const auto count = [](const Problem& problem) {
+    const auto multigrid = make_multigrid_system();
+    EXPECT_GT(solve(*multigrid, problem, 1e-6).size(), 0);
+    return multigrid->report().iterations;
+  };
+  EXPECT_LT(count(Problem(make_box_grid({32, 1, 32}, 0.01))), 25);
+  EXPECT_LT(count(Problem(bracket(24))), 25);
+  Problem lumps(make_box_grid({24, 8, 12}, 0.01));
+  for (int i = 0; i < lumps.body.grid.brick_count(); ++i) {
+    const Eigen::Vector3i lump = lumps.body.grid.cells[static_cast<std::size_t>(i)] / 4;
+    if (lump.sum() % 2 == 1) lumps.body.stiffness_scale[static_cast<std::size_t>(i)] *= 1000;
+  }
+  EXPECT_LT(count(lumps), 25);
+}
+
+TEST(Multigrid, SameBitsForAnyNumberOfThreads) {
+  const Problem problem(bracket(24));
+  const auto run = [&](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    const auto multigrid = make_multigrid_system();
+    return solve(*multigrid, problem, 1e-6);
+  };
+  const Eigen::VectorXd one = run(1);
+  EXPECT_EQ(one, run(2));
+  EXPECT_EQ(one, run(5));
+}
+
+/// The coarse bricks' sum is P^T A P, P by the nodes' places.
+TEST(MultigridLevel, CoarseBricksAreGalerkins) {
+  const BrickGrid grid = bracket(6);
+  const std::vector<multigrid::Layout> layouts = multigrid::make_hierarchy(grid, 20);
+  ASSERT_GE(layouts.size(), 2U);
+  multigrid::Level fine(layouts[0]);
+  multigrid::Level coarse(layouts[1]);
+  std::mt19937 random(7);
+  std::uniform_real_distribution<float> value(-1, 1);
+  for (int block = 0; block < fine.block_count(); ++block) {
+    float* pull = fine.add_pull(block);
+    for (std::size_t i = 0; i < kAnchoredSize * multigrid::kLanes; ++i) fine.matrix(block)[i] = value(random);
+    // Pulls of symmetric matrices: the first corner's block is symmetric too.
+    for (std::size_t i = 0; i < multigrid::kPullSize * multigrid::kLanes; ++i) pull[i] = value(random);
+    for (std::size_t lane = 0; lane < multigrid::kLanes; ++lane) {
+      for (std::size_t r = 0; r < 3; ++r) {
+        for (std::size_t c = 0; c < r; ++c) {
+          double skew = 0;  // of the sum of the other corners' pulls
+          for (std::size_t corner = 1; corner < 8; ++corner) {
+            skew += static_cast<double>(pull[(3 * (3 * corner + r) + c) * multigrid::kLanes + lane] -
+                                        pull[(3 * (3 * corner + c) + r) * multigrid::kLanes + lane]);
+          }
+          pull[(3 * r + c) * multigrid::kLanes + lane] =
+              static_cast<float>(static_cast<double>(pull[(3 * c + r) * multigrid::kLanes + lane]) - skew);
+        }
+      }
+    }
+  }
+  const int bricks = grid.brick_count();
+  for (int lane = bricks % multigrid::kLanes; lane > 0 && lane < multigrid::kLanes; ++lane) {
+    float* matrix = fine.matrix(fine.block_count() - 1);
+    float* pull = fine.add_pull(fine.block_count() - 1);
+    for (std::size_t i = 0; i < kAnchoredSize; ++i) matrix[i * multigrid::kLanes + static_cast<std::size_t>(lane)] = 0;
+    for (std::size_t i = 0; i < multigrid::kPullSize; ++i) {
+      pull[i * multigrid::kLanes + static_cast<std::size_t>(lane)] = 0;
+    }
+  }
+  coarse.coarsen(fine);
+  const multigrid::Interpolation& hang = layouts[0].to_coarse;
+  Eigen::MatrixXd interpolation = Eigen::MatrixXd::Zero(3 * layouts[0].node_count, 3 * layouts[1].node_count);
+  for (int node = 0; node < layouts[0].node_count; ++node) {
+    const auto n = static_cast<std::size_t>(node);
+    for (std::size_t i = 0; i < hang.counts[n]; ++i) {
+      interpolation.block<3, 3>(3 * node, 3 * hang.coarse_nodes[n][i]) += Mat3::Identity() / hang.counts[n];
+    }
+  }
+  const Eigen::MatrixXd expected = interpolation.transpose() * fine.dense() * interpolation;
+  EXPECT_LT((coarse.dense() - expected).norm(), 1e-5 * expected.norm());
+  // The products are those of the dense matrix.
+  const Eigen::VectorXf x = Eigen::VectorXf::Random(3 * layouts[0].node_count);
+  Eigen::VectorXf product;
+  fine.multiply(x, product);
+  const Eigen::VectorXd right = fine.dense() * x.cast<double>();
+  EXPECT_LT((product.cast<double>() - right).norm(), 1e-5 * right.norm());
+}
+
+TEST(MultigridHierarchy, PartsDividedByAGapStayFree) {
+  BrickGrid grid;  // a comb: teeth one brick wide, one brick apart, on a back
+  grid.brick_size = 0.01;
+  for (int y = 0; y < 8; ++y) {
+    for (int x = 0; x < 15; ++x) {
+      if (y == 0 || x % 2 == 0) grid.cells.emplace_back(x, y, 0);
+    }
+  }
+  grid.fill.assign(grid.cells.size(), 1.0);
+  number_nodes(grid);
+  const std::vector<multigrid::Layout> layouts = multigrid::make_hierarchy(grid, 1);
+  int tips = 0;  // coarse bricks at the top: one for each of the eight teeth
+  for (const Eigen::Vector3i& cell : layouts[1].cells) tips += cell.y() == 3 ? 1 : 0;
+  EXPECT_EQ(tips, 8);
+  tips = 0;
+  for (const Eigen::Vector3i& cell : layouts[2].cells) tips += cell.y() == 1 ? 1 : 0;
+  EXPECT_EQ(tips, 8);
+  EXPECT_LE(layouts.back().bricks.size(), 2U);
+}
+
+TEST(MultigridKernels, AllInstructionSetsGiveTheSameBits) {
+  std::mt19937 random(11);
+  Problem problem(bracket(9));
+  test::shake(problem.body, 0.1, random);
+  const BlockInput input = block_input(problem.body);
+  const EdgeCoupling coupling = edge_coupling(problem.body.law);
+  const auto results = [&](const multigrid::Kernels& kernels) {
+    std::vector<float> matrix(kAnchoredSize * multigrid::kLanes);
+    std::vector<float> ratios(multigrid::kLanes);
+    kernels.stiffness_matrices(input, coupling, 1.3, 16, matrix.data(), ratios.data());
+    std::vector<float> forces(24 * multigrid::kLanes);
+    const Eigen::VectorXf x = problem.forces.cast<float>();
+    const multigrid::LevelBlock block{.matrix = matrix.data(), .pull = nullptr, .nodes = input.nodes, .count = 16};
+    kernels.apply(block, x.data(), forces.data());
+    matrix.insert(matrix.end(), forces.begin(), forces.end());
+    std::vector<double> products(24 * static_cast<std::size_t>(input.brick_count));
+    kernels.stiffness_product({.block = input,
+                               .moves = problem.forces.data(),
+                               .stiffness = 1,
+                               .damping = 0.1,
+                               .damping_positions = problem.body.rest_positions.data()},
+                              8, products.data());
+    for (const double value : products) matrix.push_back(static_cast<float>(value));
+    return matrix;
+  };
+  const auto all = multigrid::all_kernels();
+  for (const multigrid::Kernels& kernels : all) EXPECT_EQ(results(kernels), results(all.front()));
+}
+
+}  // namespace
+}  // namespace sprung
