@@ -25,7 +25,7 @@ struct SceneOption {
   bool is_of_pictures = false;  // of no use where none are drawn
 };
 
-constexpr std::array<SceneOption, 16> kSceneOptions{{
+constexpr std::array<SceneOption, 17> kSceneOptions{{
     {"--material", "body.material", "NAME"},
     {"--young", "body.material.young", "20kPa"},
     {"--poisson", "body.material.poisson", "0.45"},
@@ -37,6 +37,7 @@ constexpr std::array<SceneOption, 16> kSceneOptions{{
     {"--texture", "body.texture", "FILE.png", true},
     {"--model", "body.model", "NAME"},
     {"--scheme", "solver.scheme", "NAME"},
+    {"--integrator", "solver.scheme", "NAME"},
     {"--time-limit", "solver.time_limit", "24h"},
     {"--fps", "fps", "N"},
     {"--duration", "duration", "3s"},

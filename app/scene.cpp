@@ -13,7 +13,8 @@ constexpr double kHeldFraction = 0.08;
 }  // namespace
 
 bool is_motion(const Scene& scene) {
-  return scene.solver.scheme == Solver::kEuler || scene.solver.scheme == Solver::kVerlet;
+  const Solver scheme = scene.solver.scheme;
+  return scheme != Solver::kStatic && scheme != Solver::kLinear && scheme != Solver::kModes;
 }
 
 int frame_count(const Scene& scene) {

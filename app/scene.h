@@ -79,11 +79,14 @@ struct SceneBody {
 
 /// How the frames come about.
 enum class Solver {
-  kEuler,   // motion in time, symplectic Euler
-  kVerlet,  // motion in time, velocity Verlet
-  kStatic,  // equilibrium, the load (gravity and the pins' movements) growing from frame to frame
-  kLinear,  // the same for small displacements
-  kModes    // the slowest natural vibrations, one after the other
+  kEuler,          // motion in time, symplectic Euler
+  kVerlet,         // motion in time, velocity Verlet
+  kImplicitEuler,  // motion in time by long steps, backward Euler
+  kBdf2,           // the same, second order
+  kAuto,           // kEuler or kBdf2, whichever is forecast to be quicker
+  kStatic,         // equilibrium, the load (gravity and the pins' movements) growing from frame to frame
+  kLinear,         // the same for small displacements
+  kModes           // the slowest natural vibrations, one after the other
 };
 
 struct SceneSolver {

@@ -23,7 +23,8 @@ const Key<Scene> kScene[] = {
 };
 
 const Key<SceneSolver> kSolver[] = {
-    {{"scheme", "motion by euler (symplectic) or verlet; static or linear equilibrium; or modes of vibration"},
+    {{"scheme",
+      "motion by euler (symplectic), verlet, implicit-euler, bdf2 or auto; static or linear equilibrium; or modes"},
      &SceneSolver::scheme},
     {{"load_steps", "frames in which a static load grows", Dimension::kNone, {1, 100000}}, &SceneSolver::load_steps},
     {{"modes", "how many of the slowest vibrations", Dimension::kNone, {1, 1000}}, &SceneSolver::modes},

@@ -14,8 +14,11 @@
 namespace sprung {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, Solver>, 5> kSolvers{{{"euler", Solver::kEuler},
+constexpr std::array<std::pair<std::string_view, Solver>, 8> kSolvers{{{"auto", Solver::kAuto},
+                                                                       {"euler", Solver::kEuler},
                                                                        {"verlet", Solver::kVerlet},
+                                                                       {"implicit-euler", Solver::kImplicitEuler},
+                                                                       {"bdf2", Solver::kBdf2},
                                                                        {"static", Solver::kStatic},
                                                                        {"linear", Solver::kLinear},
                                                                        {"modes", Solver::kModes}}};

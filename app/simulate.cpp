@@ -4,14 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "app/equilibrium.h"
 #include "app/interrupt.h"
 #include "app/pin_movements.h"
 #include "app/progress.h"
+#include "app/step_plan.h"
 #include "app/units.h"
 #include "core/error.h"
 #include "core/motion/careful_motion.h"
+#include "core/motion/implicit_motion.h"
 #include "core/motion/statics.h"
 
 namespace sprung {
@@ -52,7 +55,9 @@ void warn_of_crushed_bodies(const World& world, const Console& console) {
   }
 }
 
-void forecast(const Steps& steps, double brick_steps, const Console& console) {
+void forecast(const StepPlan& plan, double brick_steps, const Console& console) {
+  if (!plan.reason.empty()) console.note("integrator " + plan.reason);
+  const Steps& steps = plan.steps;
   console.detail(fmt::format("step {}, {} steps a frame, {:.3g} brick-steps in all",
                              readable(steps.dt, Dimension::kTime), steps.count, brick_steps));
   if (static_cast<double>(steps.count) < kManySteps) return;
@@ -69,12 +74,16 @@ class Runner {
         scene_(scene),
         console_(console),
         frame_time_(1 / scene.fps),
-        steps_(choose_steps(world_, frame_time_)),
+        plan_(plan_steps(world_, scene)),
+        steps_(plan_.steps),
         bricks_(brick_count(world_)),
         total_(bricks_ * static_cast<double>(steps_.count) * (frame_count(scene) - 1)),
         progress_(console, "simulate", total_, 1e-6, "M brick-steps/s"),
-        motion_(world_, scene.solver.scheme == Solver::kVerlet ? Scheme::kVerlet : Scheme::kSymplecticEuler) {
-    forecast(steps_, total_, console);
+        motion_(world_, plan_.scheme == Solver::kVerlet ? Scheme::kVerlet : Scheme::kSymplecticEuler) {
+    forecast(plan_, total_, console);
+    if (!plan_.is_implicit()) return;
+    implicit_.emplace(world_, ImplicitOptions{.scheme = plan_.scheme == Solver::kBdf2 ? ImplicitScheme::kBdf2
+                                                                                      : ImplicitScheme::kEuler});
   }
 
   /// From the frame before to this one.
@@ -85,6 +94,13 @@ class Runner {
       progress_.update(total_ * (frame - 1 + share) / (frame_count(scene_) - 1));
       judge_long_run();
     };
+    if (implicit_) {
+      for (long step = 0; step < steps_.count; ++step) {
+        implicit_->advance(steps_.dt, 1, frame_time_ * (frame - 1) + steps_.dt * static_cast<double>(step));
+        between(static_cast<double>(step + 1) / static_cast<double>(steps_.count));
+      }
+      return;
+    }
     steps_ = motion_.advance_frame(frame_time_ * (frame - 1), frame_time_, between,
                                    [&](const std::string& message) { console_.warn(message); });
   }
@@ -106,6 +122,7 @@ class Runner {
   }
 
   void finish(int frames) {
+    note_implicit();
     const int inverted = inverted_bricks(world_);
     progress_.finish(fmt::format("{} frames, {} steps of {} a frame, {} inverted bricks at the end", frames,
                                  steps_.count, readable(steps_.dt, Dimension::kTime), inverted));
@@ -113,6 +130,22 @@ class Runner {
   }
 
  private:
+  void note_implicit() const {
+    if (!implicit_) return;
+    const ImplicitMotion::Report report = implicit_->report();
+    console_.detail(fmt::format("{} implicit steps, {} Newton iterations, {} multigrid iterations, at most {} in one",
+                                report.steps, report.newton_iterations, report.solves.iterations, report.solves.most));
+    if (report.halvings > 0) {
+      console_.note(fmt::format("{} implicit steps found no end and were made in halves", report.halvings));
+    }
+    if (report.solves.gone_direct > 0) {
+      console_.note(
+          fmt::format("multigrid did not converge in {} of {} linear solves; the slower direct solver took "
+                      "over",
+                      report.solves.gone_direct, report.solves.solves));
+    }
+  }
+
   /// Once, when enough is done to tell.
   void judge_long_run() {
     if (is_judged_ || progress_.seconds() < kSecondsToEstimate) return;
@@ -144,7 +177,9 @@ class Runner {
   const Scene& scene_;
   const Console& console_;
   double frame_time_;  // s
-  Steps steps_;        // of the last frame
+  StepPlan plan_;
+  Steps steps_;  // of the last frame
+  std::optional<ImplicitMotion> implicit_;
   double bricks_;
   double total_;
   Progress progress_;
@@ -173,8 +208,11 @@ Recording simulate(Production& production, const Scene& scene, const Console& co
       return record_equilibria(production, scene, console);
     case Solver::kModes:
       return record_modes(production, scene, console);
+    case Solver::kAuto:
     case Solver::kEuler:
     case Solver::kVerlet:
+    case Solver::kImplicitEuler:
+    case Solver::kBdf2:
       break;
   }
   return record_motion(production, scene, console);

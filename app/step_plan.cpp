@@ -1,0 +1,59 @@
+#include "app/step_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sprung {
+namespace {
+
+constexpr double kImplicitCost = 150;  // explicit steps that take as long as an implicit one
+constexpr double kStepsAVibration = 20;
+constexpr long kFewestSteps = 2;  // implicit ones, a frame
+constexpr long kMostSteps = 16;
+constexpr double kWorthwhile = 2;  // times quicker, for the damping of what implicit steps do not resolve
+
+/// s; the slowest vibration that any of the bodies has (estimated as in rayleigh_from_damping()).
+double shortest_period(const World& world) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const Actor& actor : world.actors) {
+    const Points& rest = actor.body.rest_positions;
+    const double length = (rest.colwise().maxCoeff() - rest.colwise().minCoeff()).maxCoeff();
+    const Material& material = actor.body.material;
+    shortest = std::min(shortest, 2 * length / std::sqrt(material.shear_modulus() / material.density));
+  }
+  return shortest;
+}
+
+long implicit_steps(const World& world, double frame) {
+  const double wanted = std::ceil(frame * kStepsAVibration / shortest_period(world));
+  return std::clamp(static_cast<long>(std::min(wanted, 1e6)), kFewestSteps, kMostSteps);
+}
+
+}  // namespace
+
+StepPlan plan_steps(const World& world, const Scene& scene) {
+  const double frame = 1 / scene.fps;
+  const Steps short_ones = choose_steps(world, frame);
+  const long long_ones = implicit_steps(world, frame);
+  StepPlan plan;
+  plan.scheme = scene.solver.scheme;
+  if (plan.scheme == Solver::kAuto) {
+    const double dear = kImplicitCost * static_cast<double>(long_ones);
+    const bool bounces = world.ground && world.ground->restitution > 0;
+    const bool is_implicit = !bounces && static_cast<double>(short_ones.count) > kWorthwhile * dear;
+    plan.scheme = is_implicit ? Solver::kBdf2 : Solver::kEuler;
+    plan.reason = fmt::format(
+        "{}: {} explicit steps a frame against {} implicit ones, which take as long as about "
+        "{:.0f} explicit ones{}",
+        is_implicit ? "bdf2" : "euler", short_ones.count, long_ones, dear,
+        bounces ? "; restitution needs explicit ones" : "");
+  }
+  plan.steps =
+      plan.is_implicit() ? Steps{.count = long_ones, .dt = frame / static_cast<double>(long_ones)} : short_ones;
+  return plan;
+}
+
+}  // namespace sprung

@@ -1,0 +1,24 @@
+#pragma once
+#include <string>
+
+#include "app/scene.h"
+#include "core/motion/careful_motion.h"
+
+namespace sprung {
+
+/// How a world is moved from frame to frame.
+struct StepPlan {
+  Solver scheme = Solver::kEuler;  // kEuler, kVerlet, kImplicitEuler or kBdf2
+  Steps steps;                     // of a frame
+  std::string reason;              // why this scheme, where it was left open
+
+  [[nodiscard]] bool is_implicit() const { return scheme == Solver::kImplicitEuler || scheme == Solver::kBdf2; }
+};
+
+/// The steps of the scene's scheme. Explicit ones are as long as the stiffest brick allows, implicit ones follow the
+/// slowest vibration of the bodies, 2 to 16 a frame. Solver::kAuto takes what is forecast to be quicker: explicit steps
+/// (Solver::kEuler), or BDF2 where those would be so many that one implicit step, as dear as some 150 of them, saves
+/// half of the time at least.
+[[nodiscard]] StepPlan plan_steps(const World& world, const Scene& scene);
+
+}  // namespace sprung

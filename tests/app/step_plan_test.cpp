@@ -1,0 +1,57 @@
+#include "app/step_plan.h"
+
+#include <gtest/gtest.h>
+
+#include "core/motion/integrator.h"
+#include "tests/support/bodies.h"
+
+namespace sprung {
+namespace {
+
+World block(double young) {
+  World world;
+  Body body = make_body(make_box_grid({8, 4, 4}, 0.01), Model::kCalibrated, test::test_material(0.3, young));
+  Embedding contacts = embed(body.grid, body.grid.rest_positions());
+  world.actors.push_back({.body = std::move(body), .contacts = std::move(contacts), .pinned = {}});
+  world.ground = Ground{};
+  return world;
+}
+
+Scene scene_by(Solver scheme) {
+  Scene scene;
+  scene.solver.scheme = scheme;
+  return scene;
+}
+
+TEST(StepPlanning, AutoTakesWhatIsForecastToBeQuicker) {
+  const Scene scene = scene_by(Solver::kAuto);
+  const StepPlan soft = plan_steps(block(2e4), scene);
+  EXPECT_EQ(soft.scheme, Solver::kEuler);
+  EXPECT_LE(soft.steps.dt, stable_step(block(2e4)));
+  const StepPlan stiff = plan_steps(block(2e9), scene);
+  EXPECT_EQ(stiff.scheme, Solver::kBdf2);
+  EXPECT_TRUE(stiff.is_implicit());
+  EXPECT_LE(stiff.steps.count, 16);
+  EXPECT_NE(stiff.reason.find("explicit steps a frame"), std::string::npos);
+}
+
+TEST(StepPlanning, RestitutionNeedsExplicitSteps) {
+  World world = block(2e9);
+  world.ground->restitution = 0.5;
+  const StepPlan plan = plan_steps(world, scene_by(Solver::kAuto));
+  EXPECT_EQ(plan.scheme, Solver::kEuler);
+  EXPECT_NE(plan.reason.find("restitution"), std::string::npos);
+}
+
+TEST(StepPlanning, WhatIsNamedIsTakenAndFillsTheFrame) {
+  for (const Solver scheme : {Solver::kEuler, Solver::kVerlet, Solver::kImplicitEuler, Solver::kBdf2}) {
+    const Scene scene = scene_by(scheme);
+    const StepPlan plan = plan_steps(block(1e5), scene);
+    EXPECT_EQ(plan.scheme, scheme);
+    EXPECT_TRUE(plan.reason.empty());
+    EXPECT_NEAR(plan.steps.dt * static_cast<double>(plan.steps.count), 1 / scene.fps, 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace sprung

@@ -1,0 +1,119 @@
+// Solves the stiffness of cantilevers under gravity and prints a table: multigrid beside CHOLMOD and conjugate
+// gradients with the diagonal, all in one run, so that ratios hold on a busy machine. Options: the bricks along the
+// longest sides, and "--direct-up-to N" bricks (default 3000; the direct solver needs a minute and more from 16 000).
+#include <fmt/format.h>
+
+#include <Eigen/IterativeLinearSolvers>
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <string_view>
+
+#include "core/motion/implicit_motion.h"
+#include "core/motion/statics.h"
+#include "core/motion/stiffness_matrix.h"
+
+namespace {
+
+using namespace sprung;
+
+template <class Work>
+double seconds(const Work& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+struct Beam {
+  Actor actor;
+  Supports supports;
+  Points loads;
+
+  /// The paper's cantilever, clamped at x = 0, n bricks long.
+  explicit Beam(int n)
+      : actor{.body = make_body(
+                  make_box_grid({n, n / 4, n / 4}, 0.4 / n), Model::kCalibrated,
+                  {.name = "bench", .young = 1000, .poisson = 0.3, .density = 1, .damping = 0.02, .source = ""}),
+              .contacts = {},
+              .pinned = {}},
+        supports(actor.body.node_count()),
+        loads(actor.body.masses * Vec3(0, -1, 0).transpose()) {
+    for (int node = 0; node < actor.body.node_count(); ++node) {
+      if (actor.body.grid.lattice[static_cast<std::size_t>(node)].x() != 0) continue;
+      supports.fix(node);
+      actor.pinned.push_back({.node = node});
+    }
+  }
+};
+
+double static_solve(int n, NewtonSystem& system) {
+  Beam beam(n);
+  const Points start = beam.actor.body.positions;
+  return seconds([&] { solve_static(beam.actor.body, beam.supports, beam.loads, start, system, {.tolerance = 1e-6}); });
+}
+
+/// Linearize and solve once.
+double linear_solve(int n, NewtonSystem& system, double tolerance) {
+  const Beam beam(n);
+  const StepTerms none;
+  const Eigen::Map<const Eigen::VectorXd> forces(beam.loads.data(), beam.loads.size());
+  return seconds([&] {
+    if (!system.linearize(beam.actor.body, beam.supports, false, none) || system.solve(forces, tolerance).size() == 0) {
+      std::abort();
+    }
+  });
+}
+
+double diagonal_solve(int n) {
+  const Beam beam(n);
+  const FreeDofs dofs(beam.supports);
+  const Eigen::Map<const Eigen::VectorXd> forces(beam.loads.data(), beam.loads.size());
+  return seconds([&] {
+    const Eigen::SparseMatrix<double> matrix = stiffness_matrix(beam.actor.body, dofs, false, {});
+    Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower> solver(matrix);
+    solver.setTolerance(1e-6);
+    if (solver.solve(dofs.gather(forces)).size() == 0) std::abort();
+  });
+}
+
+/// Of the second of two steps, and how many Newton iterations it took.
+std::pair<double, long> implicit_step(int n) {
+  Beam beam(n);
+  World world;
+  world.actors.push_back(std::move(beam.actor));
+  world.gravity = {0, -1, 0};
+  ImplicitMotion motion(world, {});
+  motion.advance(0.01, 1, 0);
+  const long before = motion.report().newton_iterations;
+  const double time = seconds([&] { motion.advance(0.01, 1, 0.01); });
+  return {time, motion.report().newton_iterations - before};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::vector<int> sizes;
+  int direct_up_to = 3000;
+  for (int i = 1; i < argc; ++i) {
+    if (std::string_view(argv[i]) == "--direct-up-to" && i + 1 < argc) {
+      direct_up_to = std::atoi(argv[++i]);
+    } else {
+      sizes.push_back(std::atoi(argv[i]));
+    }
+  }
+  if (sizes.empty()) sizes = {32, 64};
+  fmt::print("{:>8} {:>10} {:>10} {:>10} {:>8} {:>10} {:>12} {:>14}\n", "bricks", "linear, s", "CHOLMOD, s",
+             "CG diag, s", "ratio", "static, s", "CHOLMOD, s", "step, s (its)");
+  for (const int n : sizes) {
+    const int bricks = n * (n / 4) * (n / 4);
+    const auto multigrid = make_multigrid_system();
+    const double linear = linear_solve(n, *multigrid, 1e-6);
+    const double still = static_solve(n, *make_multigrid_system());
+    const auto [step, iterations] = implicit_step(n);
+    const bool has_direct = bricks <= direct_up_to;
+    const double direct = has_direct ? linear_solve(n, *make_direct_system(), 0) : 0;
+    const double still_direct = has_direct ? static_solve(n, *make_direct_system()) : 0;
+    fmt::print("{:>8} {:>10.4f} {:>10.4f} {:>10.4f} {:>8.1f} {:>10.4f} {:>12.4f} {:>9.4f} ({})\n", bricks, linear,
+               direct, diagonal_solve(n), direct / linear, still, still_direct, step, iterations);
+  }
+}
