@@ -24,7 +24,14 @@ namespace detail {
 
 inline double step_above_zero(double value) { return value > 0 ? 1.0 : 0.0; }
 
-/// The mean axes' part of stiffness_product(): axial correction and guard.
+/// Tensions of the three mean axes for their stretches.
+template <class T>
+std::array<T, 3> axes_tensions(const BrickLaw& law, const std::array<T, 3>& stretch) {
+  const T tension = law.axes * (stretch[0] + stretch[1] + stretch[2]);
+  return {tension, tension, tension};
+}
+
+/// The mean axes' part of stiffness_product(): their correction and the guard.
 template <class T>
 void add_axes_product(const BrickLaw& law, double h, const CornerVectors<T>& x, const CornerVectors<T>& u,
                       bool material_only, CornerVectors<T>& product) {
@@ -39,8 +46,8 @@ void add_axes_product(const BrickLaw& law, double h, const CornerVectors<T>& x, 
     stretch[i] = springs[i].stretch;
     rates[i] = dot(springs[i].direction, da[i]);
   }
-  const std::array<T, 3> tensions = axial_tensions(law, stretch);
-  const std::array<T, 3> tension_rates = axial_tensions(law, rates);
+  const std::array<T, 3> tensions = axes_tensions(law, stretch);
+  const std::array<T, 3> tension_rates = axes_tensions(law, rates);
   const double volume = h * h * h;
   const std::array<std::array<T, 3>, 3> areas{cross(a[1], a[2]), cross(a[2], a[0]), cross(a[0], a[1])};
   const T lack = max(law.guard_ratio - dot(a[0], areas[0]) * (1 / volume), T(0.0));
@@ -147,7 +154,7 @@ void add_coupled_edges(const EdgeCoupling& coupling, double material, const std:
   }
 }
 
-/// Adds what the axial correction gives.
+/// Adds what the correction on the mean axes gives.
 template <class T>
 void add_axes(const BrickLaw& law, double h, double material, const CornerVectors<T>& x,
               std::array<T, kAnchoredSize>& matrix) {
@@ -158,13 +165,12 @@ void add_axes(const BrickLaw& law, double h, double material, const CornerVector
     springs[i] = measure(axes[i], h);
     stretch[i] = springs[i].stretch;
   }
-  const std::array<T, 3> tensions = axial_tensions(law, stretch);
+  const std::array<T, 3> tensions = axes_tensions(law, stretch);
   // By the axes, an entry of corner b already summed over the axes j that it is an end of.
   const auto axis_by_corner = [&](std::size_t i, std::size_t r, std::size_t c, int b) {
     T sum(0.0);
     for (std::size_t j = 0; j < 3; ++j) {
-      T entry =
-          material * (i == j ? law.axial_self : law.axial_cross) * springs[i].direction[r] * springs[j].direction[c];
+      T entry = material * law.axes * springs[i].direction[r] * springs[j].direction[c];
       if (i == j) {
         const T sideways = tensions[i] / (stretch[i] + h);
         entry -= sideways * springs[i].direction[r] * springs[i].direction[c];
@@ -240,7 +246,7 @@ void anchored_stiffness(const BrickLaw& law, const EdgeCoupling& coupling, doubl
   };
   diagonals(kFaceDiagonals, std::numbers::sqrt2 * h, law.face);
   diagonals(kInnerDiagonals, std::numbers::sqrt3 * h, law.inner);
-  detail::add_axes(law, h, material, x, matrix);
+  if (law.axes != 0) detail::add_axes(law, h, material, x, matrix);
 }
 
 }  // namespace sprung
