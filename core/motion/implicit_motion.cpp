@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <optional>
 
 #include "core/body/brick_hessian.h"
@@ -190,7 +189,7 @@ bool ImplicitMotion::Stepper::descend_to_minimum() {
 
 double ImplicitMotion::Stepper::evaluate() {
   spring_forces(body_, workspace_, forces_);
-  double energy = std::accumulate(workspace_.energies.begin(), workspace_.energies.end(), 0.0);
+  double energy = elastic_energy(body_, workspace_);
   double work = forces_.norm() + std::sqrt(body_.masses.squaredNorm()) * world_.gravity.norm();
   const Points inertia = mass_factor_ * (body_.masses.asDiagonal() * (body_.positions - goal_));
   energy += 0.5 * flat(inertia).dot(flat(Points(body_.positions - goal_)));
