@@ -243,10 +243,6 @@ class BodyBuilder {
   int held_solids_ = 0;
 };
 
-}  // namespace
-
-namespace {
-
 /// A body may start a little too deep, and is then lifted gently; deeper it would be shot out of the ground.
 /// Throws Error(kBadInput). Nodes that are held are not in the ground's way.
 void check_ground(const Actor& actor, std::size_t index, const SceneBody& scene_body, double height) {
@@ -269,7 +265,7 @@ void check_ground(const Actor& actor, std::size_t index, const SceneBody& scene_
                   "most: raise its position from y = {:.6g} m to {:.6g} m or lower the ground",
                   index + 1, readable(depth, Dimension::kLength), height,
                   readable(actor.body.grid.brick_size, Dimension::kLength), scene_body.position.y(),
-                  scene_body.position.y() + depth));
+                  std::abs(scene_body.position.y() + depth) < 1e-9 * depth ? 0 : scene_body.position.y() + depth));
 }
 
 }  // namespace

@@ -23,7 +23,8 @@ namespace {
 constexpr double kManySteps = 20000;  // a frame, from which on a warning is due
 constexpr double kLongRun = 3600;     // s to go, from which on a warning is due
 constexpr double kSecondsToEstimate = 3;
-constexpr double kCrushedVolume = 0.15;  // of a brick's volume at rest, from which on a warning is due
+constexpr double kCrushedVolume = 0.15;  // of a brick's volume at rest ...
+constexpr double kCrushedShare = 0.05;   // ... in so many of the bricks: from there on a warning is due
 
 constexpr std::string_view kRemedy = "fewer bricks, a softer material or a shorter --duration make it quicker";
 
@@ -45,13 +46,13 @@ void warn_of_crushed_bodies(const World& world, const Console& console) {
   for (std::size_t i = 0; i < world.actors.size(); ++i) {
     const Body& body = world.actors[i].body;
     const int inverted = inverted_bricks(body);
-    const double smallest = smallest_volume_ratio(body);
-    if (inverted == 0 && smallest > kCrushedVolume) continue;
-    console.warn(
-        fmt::format("body {}: {} of {} bricks are inside out at the end, the flattest keeps {:.2g} of its volume: "
-                    "the material is too soft for its weight or its fall; a stiffer or lighter material (young, "
-                    "density) or a smaller body carries itself",
-                    i + 1, inverted, body.grid.brick_count(), smallest));
+    const int flattened = flattened_bricks(body, kCrushedVolume);
+    if (inverted == 0 && flattened <= kCrushedShare * body.grid.brick_count()) continue;
+    console.warn(fmt::format(
+        "body {}: of {} bricks {} are inside out and {} pressed to less than {} of their volume at the end: "
+        "the material is too soft for its weight or its fall; a stiffer or lighter material (young, "
+        "density) or a smaller body carries itself",
+        i + 1, body.grid.brick_count(), inverted, flattened - inverted, kCrushedVolume));
   }
 }
 

@@ -60,5 +60,7 @@ void place(Body& body, const Mat3& rotation, const Vec3& translation);
 [[nodiscard]] double smallest_volume_ratio(const Body& body);
 /// How many bricks are turned inside out.
 [[nodiscard]] int inverted_bricks(const Body& body);
+/// How many bricks keep at most that share of their volume.
+[[nodiscard]] int flattened_bricks(const Body& body, double ratio);
 
 }  // namespace sprung
