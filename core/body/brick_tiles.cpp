@@ -236,7 +236,7 @@ struct Box {
 
 /// The box of lattice cells cut into equal parts that are no larger than kTileSize; those without bricks left out.
 std::vector<Box> cut(const RowIndex& bricks) {
-  const Cell low = bricks.low();
+  const Cell& low = bricks.low();
   const Cell size = bricks.high() + Cell::Ones() - low;
   const Cell counts = (size + kTileSize - Cell::Ones()).cwiseQuotient(kTileSize);
   const auto border = [&](const Cell& index) { return Cell(low + index.cwiseProduct(size).cwiseQuotient(counts)); };
@@ -273,7 +273,7 @@ BrickTiles make_brick_tiles(const BrickGrid& grid, const std::vector<double>& st
   if (grid.cells.empty()) return result;
   const RowIndex bricks(grid.cells);
   const RowIndex nodes(grid.lattice);
-  const Cell low = bricks.low();
+  const Cell& low = bricks.low();
   const Cell high = bricks.high() + Cell::Ones();
   for (const auto& [from, to] : cut(bricks)) {
     const ShareBox box(bricks, stiffness_scale, from, to);
