@@ -120,7 +120,7 @@ void multiply_anchored(const float* matrix, const std::array<P, 24>& v, std::arr
     const std::array<P, 3> moves{v[a + 3], v[a + 4], v[a + 5]};
     std::array<P, 3> sums{P(0.0), P(0.0), P(0.0)};
     for (std::size_t b = 0; b < a; ++b) {
-      const P column = v[b + 3];
+      const P& column = v[b + 3];
       const std::array<P, 3> entries{entry(a, b), entry(a + 1, b), entry(a + 2, b)};
       for (std::size_t k = 0; k < 3; ++k) sums[k] += entries[k] * column;
       y[b + 3] += entries[0] * moves[0] + entries[1] * moves[1] + entries[2] * moves[2];
