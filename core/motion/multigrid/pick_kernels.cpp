@@ -14,7 +14,10 @@ std::span<const Kernels> all_kernels() {
   static const std::vector<Kernels> supported = [] {
     std::vector<Kernels> list;
 #ifdef __x86_64__
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq")) list.push_back(kernels_avx512);
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
+        __builtin_cpu_supports("fma")) {
+      list.push_back(kernels_avx512);
+    }
     if (__builtin_cpu_supports("avx2")) list.push_back(kernels_avx2);
 #endif
     list.push_back(kernels_plain);
