@@ -2,15 +2,31 @@
 
 #include <array>
 #include <csignal>
+#include <ctime>
 
 namespace sprung {
 namespace {
 
-volatile std::sig_atomic_t interrupted_by = 0;
+constexpr double kSameSignal = 0.3;  // s: some senders signal both a process and its group and mean it once
 
+volatile std::sig_atomic_t interrupted_by = 0;
+timespec first_time{};  // of the signal; written and read by the handler alone
+
+double seconds(const timespec& from, const timespec& to) {
+  return static_cast<double>(to.tv_sec - from.tv_sec) + 1e-9 * static_cast<double>(to.tv_nsec - from.tv_nsec);
+}
+
+/// A second signal, meant as such, ends the program at once.
 extern "C" void on_interrupt(int signal) {
-  interrupted_by = signal;
-  std::signal(signal, SIG_DFL);
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  if (interrupted_by == 0) {
+    interrupted_by = signal;
+    first_time = now;
+  } else if (seconds(first_time, now) > kSameSignal) {
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+  }
 }
 
 }  // namespace

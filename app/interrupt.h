@@ -2,9 +2,9 @@
 
 namespace sprung {
 
-/// From here on the first Ctrl-C (SIGINT), SIGTERM or SIGHUP only sets a flag, and the second one kills; signals that
-/// whoever started the program has it ignore stay ignored. A reader that went away is an error of the write instead of
-/// the end of the program.
+/// From here on the first Ctrl-C (SIGINT), SIGTERM or SIGHUP only sets a flag, and one that comes more than a moment
+/// later kills; signals that whoever started the program has it ignore stay ignored. A reader that went away is an
+/// error of the write instead of the end of the program.
 void catch_interrupts();
 
 /// True after the first of these signals.
