@@ -30,11 +30,12 @@ GroundContact::GroundContact(const Actor& actor) {
     first_point_[i + 1] += first_point_[i];
   }
   std::vector<int> next(first_point_.begin(), first_point_.end() - 1);
-  weights_.resize(brick_of_point.size());
+  points_.resize(brick_of_point.size());
   for (std::size_t point = 0; point < brick_of_point.size(); ++point) {
     const int place = next[static_cast<std::size_t>(brick_of_point[point])]++;
-    weights_[static_cast<std::size_t>(place)] =
-        trilinear_weights(actor.contacts.local.row(static_cast<Eigen::Index>(point)));
+    Point& kept = points_[static_cast<std::size_t>(place)];
+    kept.weights = trilinear_weights(actor.contacts.local.row(static_cast<Eigen::Index>(point)));
+    kept.weights.maxCoeff(&kept.corner);
   }
 }
 
@@ -52,13 +53,23 @@ const std::vector<Touch>& GroundContact::find(const Ground& ground, double gravi
     // Embedded points lie in the hull of the corners, or a little outside it where the surface has no brick.
     const double margin = 0.5 * (gaps.maxCoeff() - gaps.minCoeff());
     if ((gaps + dt * speeds).minCoeff() > margin) continue;
+    std::array<Candidate, 8> worst{};
     for (int i = first_point_[b]; i < first_point_[b + 1]; ++i) {
-      const Eigen::Matrix<double, 8, 1>& weights = weights_[static_cast<std::size_t>(i)];
-      const double gap = weights.dot(gaps);
-      const double speed = weights.dot(speeds);
+      const Point& point = points_[static_cast<std::size_t>(i)];
+      const double gap = point.weights.dot(gaps);
+      const double speed = point.weights.dot(speeds);
       if (!(gap + dt * speed <= 0)) continue;  // nor where a number is not finite
-      touches_.push_back(
-          {.brick = brick, .weights = weights, .least_speed = least_speed(gap, speed, ground, gravity, dt)});
+      const double least = least_speed(gap, speed, ground, gravity, dt);
+      const double pull = (least - speed) * point.weights[point.corner];
+      Candidate& candidate = worst[static_cast<std::size_t>(point.corner)];
+      if (candidate.point == nullptr || pull > candidate.pull) candidate = {&point, pull, least};
+    }
+    for (const Candidate& candidate : worst) {
+      if (candidate.point == nullptr) continue;
+      touches_.push_back({.brick = brick,
+                          .corner = static_cast<int>(candidate.point->corner),
+                          .weights = candidate.point->weights,
+                          .least_speed = candidate.least_speed});
     }
   }
   return touches_;

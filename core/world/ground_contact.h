@@ -8,6 +8,7 @@ namespace sprung {
 /// A contact point that is below the ground or about to be.
 struct Touch {
   int brick;                            // that it rides in
+  int corner;                           // of the brick, the nearest
   Eigen::Matrix<double, 8, 1> weights;  // of the brick's corners
   double least_speed;                   // upwards, that it must have at least, m/s
 };
@@ -19,13 +20,24 @@ class GroundContact {
  public:
   explicit GroundContact(const Actor& actor);
 
-  /// Points that moving by dt would leave below the ground. `gravity` in m/s^2, its size.
+  /// Points that moving by dt would leave below the ground, at most one near each corner of a brick: the one that needs
+  /// the strongest push there. The others are held by it or found in the next step. `gravity` in m/s^2, its size.
   [[nodiscard]] const std::vector<Touch>& find(const Ground& ground, double gravity, double dt, const Body& body);
 
  private:
-  std::vector<Eigen::Matrix<double, 8, 1>> weights_;  // of the contact points, grouped by brick
-  std::vector<int> first_point_;                      // per brick, one past the end at the last
-  std::vector<int> bricks_;                           // bricks that hold points
+  struct Point {
+    Eigen::Matrix<double, 8, 1> weights;  // of its brick's corners
+    Eigen::Index corner;                  // the nearest
+  };
+  struct Candidate {
+    const Point* point = nullptr;
+    double pull = 0;  // on its corner, that meeting its limit takes, m/s
+    double least_speed = 0;
+  };
+
+  std::vector<Point> points_;     // grouped by brick
+  std::vector<int> first_point_;  // per brick, one past the end at the last
+  std::vector<int> bricks_;       // bricks that hold points
   std::vector<Touch> touches_;
 };
 

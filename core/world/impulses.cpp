@@ -2,124 +2,223 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 
 #include "core/bricks/corner.h"
 
 namespace sprung {
 namespace {
 
-constexpr int kMostSweeps = 8;
-constexpr int kMostSweepsOfSqueezes = 40;  // rare, and what they miss grows
-constexpr double kTolerance = 1e-5;  // bricks that a point, or volumes that a brick, may miss its limit by in a step
+constexpr int kMostSweeps = 12;
+constexpr int kMostSweepsOfSqueezes = 30;  // rare, and what they miss grows
+constexpr double kTolerance = 1e-4;        // bricks that a point may miss its limit by in a step
+
+/// The impulse of a touch that friction can give: as much sideways as the coefficient allows for what it presses.
+Vec3 rubbing(Vec3 impulse, double friction) {
+  impulse.y() = std::max(0.0, impulse.y());
+  const double most = friction * impulse.y();
+  const double sideways = std::sqrt(impulse.x() * impulse.x() + impulse.z() * impulse.z());
+  if (sideways > most) {
+    impulse.x() *= most / sideways;
+    impulse.z() *= most / sideways;
+  }
+  return impulse;
+}
 
 }  // namespace
 
 Impulses::Impulses(const Actor& actor, Eigen::VectorXd inverse_masses)
     : inverse_masses_(std::move(inverse_masses)),
       contact_(actor),
-      shares_(Eigen::VectorXd::Zero(actor.body.node_count())),
-      changes_(Points::Zero(actor.body.node_count(), 3)) {}
+      places_(static_cast<std::size_t>(actor.body.node_count()), -1) {}
 
-Impulses::Limit Impulses::limit_of(const Touch& touch, const Ground& ground, const Body& body) {
-  Limit limit;
-  for (std::size_t corner = 0; corner < 8; ++corner) {
-    const double weight = touch.weights[static_cast<Eigen::Index>(corner)];
-    if (weight == 0) continue;
-    const int node = body.grid.nodes[static_cast<std::size_t>(touch.brick)][corner];
-    limit.pulls[limit.pull_count++] = {.node = node, .gradient = Vec3(0, weight, 0), .weight = weight};
+int Impulses::place_of(const Body& body, int node) {
+  int& place = places_[static_cast<std::size_t>(node)];
+  if (place < 0) {
+    place = static_cast<int>(nodes_.size());
+    const Vec3 velocity = body.velocities.row(node);
+    nodes_.push_back(
+        {.node = node, .inverse_mass = inverse_masses_[node], .free_velocity = velocity, .velocity = velocity});
   }
-  limit.friction = ground.friction;
-  limit.least_rate = touch.least_speed;
-  limit.tolerance = kTolerance * body.grid.brick_size;
-  return limit;
-}
-
-Impulses::Limit Impulses::limit_of(const Squeeze& squeeze, const Body& body) {
-  Limit limit;
-  const auto& nodes = body.grid.nodes[static_cast<std::size_t>(squeeze.brick)];
-  Pull own{.node = nodes[static_cast<std::size_t>(squeeze.corner)], .gradient = Vec3::Zero(), .weight = 0};
-  for (int axis = 0; axis < 3; ++axis) {
-    const double side = on_high_side(squeeze.corner, axis) ? 1 : -1;
-    own.gradient += side * squeeze.gradient.col(axis);
-    const int node = nodes[static_cast<std::size_t>(squeeze.corner ^ 1 << axis)];
-    limit.pulls[limit.pull_count++] = {.node = node, .gradient = -side * squeeze.gradient.col(axis), .weight = 0};
-  }
-  limit.pulls[limit.pull_count++] = own;
-  limit.least_rate = squeeze.least_rate;
-  limit.tolerance = kTolerance;
-  return limit;
+  return place;
 }
 
 void Impulses::find_limits(const World& world, double dt, const Body& body) {
-  limits_.clear();
+  for (const Pushed& node : nodes_) places_[static_cast<std::size_t>(node.node)] = -1;
+  nodes_.clear();
+  std::swap(touches_, touches_before_);
+  std::swap(squeezed_, squeezed_before_);
+  touches_.clear();
+  squeezed_.clear();
   if (world.ground) {
     for (const Touch& touch : contact_.find(*world.ground, world.gravity.norm(), dt, body)) {
-      limits_.push_back(limit_of(touch, *world.ground, body));
+      TouchLimit limit{.key = touch.brick * 8 + touch.corner,
+                       .nodes = {},
+                       .weights = touch.weights,
+                       .least_speed = touch.least_speed};
+      for (std::size_t corner = 0; corner < 8; ++corner) {
+        limit.nodes[corner] = place_of(body, body.grid.nodes[static_cast<std::size_t>(touch.brick)][corner]);
+      }
+      touches_.push_back(limit);
     }
   }
-  const std::vector<Squeeze>& squeezes = squeezes_.find(body, dt);
-  for (const Squeeze& squeeze : squeezes) limits_.push_back(limit_of(squeeze, body));
-  most_sweeps_ = squeezes.empty() ? kMostSweeps : kMostSweepsOfSqueezes;
-  for (Limit& limit : limits_) limit.tolerance /= dt;
+  for (const Squeeze& squeeze : squeezes_.find(body, dt)) {
+    const auto& nodes = body.grid.nodes[static_cast<std::size_t>(squeeze.brick)];
+    const double size = body.grid.brick_size;  // so that both kinds of limit measure speeds
+    SqueezeLimit limit{.key = squeeze.brick * 8 + squeeze.corner,
+                       .nodes = {},
+                       .gradients = {},
+                       .least_speed = squeeze.least_rate * size};
+    limit.gradients.col(3).setZero();
+    for (int axis = 0; axis < 3; ++axis) {
+      const double side = on_high_side(squeeze.corner, axis) ? size : -size;
+      limit.gradients.col(axis) = -side * squeeze.gradient.col(axis);
+      limit.gradients.col(3) += side * squeeze.gradient.col(axis);
+      limit.nodes[static_cast<std::size_t>(axis)] =
+          place_of(body, nodes[static_cast<std::size_t>(squeeze.corner ^ 1 << axis)]);
+    }
+    limit.nodes[3] = place_of(body, nodes[static_cast<std::size_t>(squeeze.corner)]);
+    squeezed_.push_back(limit);
+  }
 }
 
-void Impulses::share_masses() {
-  for (const int node : touched_) shares_[node] = 0;
-  touched_.clear();
-  for (const Limit& limit : limits_) {
-    for (const Pull& pull : std::span(limit.pulls.data(), limit.pull_count)) {
-      if (shares_[pull.node] == 0) touched_.push_back(pull.node);
-      shares_[pull.node] += 1;
+void Impulses::bound_answers() {
+  const auto at = [&](int place) -> Pushed& { return nodes_[static_cast<std::size_t>(place)]; };
+  for (const TouchLimit& limit : touches_) {
+    for (int i = 0; i < 8; ++i) at(limit.nodes[static_cast<std::size_t>(i)]).pull += std::abs(limit.weights[i]);
+  }
+  for (const SqueezeLimit& limit : squeezed_) {
+    for (int i = 0; i < 4; ++i) at(limit.nodes[static_cast<std::size_t>(i)]).pull += limit.gradients.col(i).norm();
+  }
+  for (TouchLimit& limit : touches_) {
+    for (int i = 0; i < 8; ++i) {
+      const Pushed& node = at(limit.nodes[static_cast<std::size_t>(i)]);
+      limit.inverse_mass += std::abs(limit.weights[i]) * node.inverse_mass * node.pull;
     }
   }
-  for (Limit& limit : limits_) {
-    for (const Pull& pull : std::span(limit.pulls.data(), limit.pull_count)) {
-      limit.inverse_mass += shares_[pull.node] * inverse_masses_[pull.node] * pull.gradient.squaredNorm();
+  for (SqueezeLimit& limit : squeezed_) {
+    for (int i = 0; i < 4; ++i) {
+      const Pushed& node = at(limit.nodes[static_cast<std::size_t>(i)]);
+      limit.inverse_mass += limit.gradients.col(i).norm() * node.inverse_mass * node.pull;
     }
   }
 }
 
-double Impulses::push(const Points& velocities, Limit& limit) {
-  if (limit.inverse_mass <= 0) return 0;
-  const std::span pulls(limit.pulls.data(), limit.pull_count);
-  double rate = 0;
-  Eigen::Vector2d slip = Eigen::Vector2d::Zero();
-  for (const Pull& pull : pulls) {
-    const Vec3 velocity = velocities.row(pull.node);
-    rate += pull.gradient.dot(velocity);
-    slip += pull.weight * Eigen::Vector2d(velocity.x(), velocity.z());
+void Impulses::start_from_before() {
+  const auto take_over = [](const auto& before, auto& limits) {
+    auto old = before.begin();
+    for (auto& limit : limits) {
+      while (old != before.end() && old->key < limit.key) ++old;
+      if (old != before.end() && old->key == limit.key && limit.inverse_mass > 0) limit.impulse = old->impulse;
+    }
+  };
+  take_over(touches_before_, touches_);
+  take_over(squeezed_before_, squeezed_);
+  // Of these impulses that share is best which leaves least energy in what the limits lack: no more than none leaves.
+  double wanted = 0;
+  for (const TouchLimit& limit : touches_) {
+    Vec3 lack(0, limit.least_speed, 0);
+    for (int i = 0; i < 8; ++i) {
+      Pushed& node = nodes_[static_cast<std::size_t>(limit.nodes[static_cast<std::size_t>(i)])];
+      lack -= limit.weights[i] * node.free_velocity;
+      node.now += limit.weights[i] * limit.impulse.last;
+    }
+    wanted += lack.dot(limit.impulse.last);
   }
-  const double normal = std::max(0.0, limit.normal + (limit.least_rate - rate) / limit.inverse_mass);
-  Eigen::Vector2d tangential = limit.tangential - slip / limit.inverse_mass;
-  const double most = limit.friction * normal;
-  if (tangential.norm() > most) tangential *= most / tangential.norm();
-  const double press = normal - limit.normal;
-  const Eigen::Vector2d rub = tangential - limit.tangential;
-  limit.normal = normal;
-  limit.tangential = tangential;
-  for (const Pull& pull : pulls) {
-    const Vec3 impulse = press * pull.gradient + pull.weight * Vec3(rub.x(), 0, rub.y());
-    changes_.row(pull.node) += inverse_masses_[pull.node] * impulse.transpose();
+  for (const SqueezeLimit& limit : squeezed_) {
+    double lack = limit.least_speed;
+    for (int i = 0; i < 4; ++i) {
+      Pushed& node = nodes_[static_cast<std::size_t>(limit.nodes[static_cast<std::size_t>(i)])];
+      lack -= limit.gradients.col(i).dot(node.free_velocity);
+      node.now += limit.impulse.last * limit.gradients.col(i);
+    }
+    wanted += lack * limit.impulse.last;
   }
-  return std::max(std::abs(press), rub.norm()) * limit.inverse_mass / limit.tolerance;
+  double answered = 0;
+  for (const Pushed& node : nodes_) answered += node.inverse_mass * node.now.squaredNorm();
+  const double share = answered > 0 ? std::clamp(wanted / answered, 0.0, 1.0) : 0;
+  for (TouchLimit& limit : touches_) limit.impulse.last *= share;
+  for (SqueezeLimit& limit : squeezed_) limit.impulse.last *= share;
+  for (TouchLimit& limit : touches_) limit.impulse.ahead = limit.impulse.last;
+  for (SqueezeLimit& limit : squeezed_) limit.impulse.ahead = limit.impulse.last;
+  for (Pushed& node : nodes_) {
+    node.last = share * node.now;
+    node.velocity = node.free_velocity + node.inverse_mass * node.last;
+    node.now.setZero();
+  }
 }
 
-double Impulses::sweep(Body& body) {
-  for (const int node : touched_) changes_.row(node).setZero();
-  double worst = 0;
-  for (Limit& limit : limits_) worst = std::max(worst, push(body.velocities, limit));
-  for (const int node : touched_) body.velocities.row(node) += changes_.row(node);
-  return worst;
+Impulses::Sweep Impulses::sweep(double friction) {
+  Sweep result;
+  for (TouchLimit& limit : touches_) {
+    if (limit.inverse_mass <= 0) continue;
+    Vec3 lack(0, limit.least_speed, 0);
+    for (int i = 0; i < 8; ++i) {
+      lack -= limit.weights[i] * nodes_[static_cast<std::size_t>(limit.nodes[static_cast<std::size_t>(i)])].velocity;
+    }
+    const Vec3 impulse = rubbing(limit.impulse.ahead + lack / limit.inverse_mass, friction);
+    for (int i = 0; i < 8; ++i) {
+      nodes_[static_cast<std::size_t>(limit.nodes[static_cast<std::size_t>(i)])].now += limit.weights[i] * impulse;
+    }
+    const Vec3 change = impulse - limit.impulse.ahead;
+    result.furthest = std::max(result.furthest, change.cwiseAbs().maxCoeff() * limit.inverse_mass);
+    result.uphill -= change.dot(impulse - limit.impulse.last) * limit.inverse_mass;
+    limit.impulse.ahead = limit.impulse.last;
+    limit.impulse.last = impulse;
+  }
+  for (SqueezeLimit& limit : squeezed_) {
+    if (limit.inverse_mass <= 0) continue;
+    double lack = limit.least_speed;
+    for (int i = 0; i < 4; ++i) {
+      lack -= limit.gradients.col(i).dot(
+          nodes_[static_cast<std::size_t>(limit.nodes[static_cast<std::size_t>(i)])].velocity);
+    }
+    const double impulse = std::max(0.0, limit.impulse.ahead + lack / limit.inverse_mass);
+    for (int i = 0; i < 4; ++i) {
+      nodes_[static_cast<std::size_t>(limit.nodes[static_cast<std::size_t>(i)])].now +=
+          impulse * limit.gradients.col(i);
+    }
+    const double change = impulse - limit.impulse.ahead;
+    result.furthest = std::max(result.furthest, std::abs(change) * limit.inverse_mass);
+    result.uphill -= change * (impulse - limit.impulse.last) * limit.inverse_mass;
+    limit.impulse.ahead = limit.impulse.last;
+    limit.impulse.last = impulse;
+  }
+  return result;
+}
+
+void Impulses::look_ahead(double lead) {
+  // What is ahead still holds the sweep before.
+  for (TouchLimit& limit : touches_) {
+    limit.impulse.ahead = limit.impulse.last + lead * (limit.impulse.last - limit.impulse.ahead);
+  }
+  for (SqueezeLimit& limit : squeezed_) {
+    limit.impulse.ahead = limit.impulse.last + lead * (limit.impulse.last - limit.impulse.ahead);
+  }
+  for (Pushed& node : nodes_) {
+    node.velocity = node.free_velocity + node.inverse_mass * (node.now + lead * (node.now - node.last));
+    node.last = node.now;
+    node.now.setZero();
+  }
 }
 
 void Impulses::apply(const World& world, double dt, Actor& actor) {
   find_limits(world, dt, actor.body);
-  if (limits_.empty()) return;
-  share_masses();
-  for (int sweeps = 0; sweeps < most_sweeps_; ++sweeps) {
-    if (!(sweep(actor.body) >= 1)) break;
+  if (nodes_.empty()) return;
+  bound_answers();
+  start_from_before();
+  const int most = squeezed_.empty() ? kMostSweeps : kMostSweepsOfSqueezes;
+  const double tolerance = kTolerance * actor.body.grid.brick_size / dt;
+  double momentum = 1;  // Nesterov's sequence
+  for (int i = 0; i < most; ++i) {
+    const Sweep done = sweep(world.ground ? world.ground->friction : 0);
+    if (done.uphill > 0) momentum = 1;
+    const double next = (1 + std::sqrt(1 + 4 * momentum * momentum)) / 2;
+    const bool is_last = i + 1 == most || !(done.furthest >= tolerance);
+    look_ahead(is_last || done.uphill > 0 ? 0 : (momentum - 1) / next);
+    if (is_last) break;
+    momentum = next;
   }
+  for (const Pushed& node : nodes_) actor.body.velocities.row(node.node) = node.velocity.transpose();
 }
 
 }  // namespace sprung
