@@ -28,12 +28,6 @@ constexpr double kCrushedShare = 0.05;   // ... in so many of the bricks: from t
 
 constexpr std::string_view kRemedy = "fewer bricks, a softer material or a shorter --duration make it quicker";
 
-double brick_count(const World& world) {
-  double count = 0;
-  for (const Actor& actor : world.actors) count += actor.body.grid.brick_count();
-  return count;
-}
-
 int inverted_bricks(const World& world) {
   int count = 0;
   for (const Actor& actor : world.actors) count += inverted_bricks(actor.body);
@@ -76,9 +70,7 @@ class Runner {
         console_(console),
         frame_time_(1 / scene.fps),
         plan_(plan_steps(world_, scene)),
-        steps_(plan_.steps),
-        bricks_(brick_count(world_)),
-        total_(bricks_ * static_cast<double>(steps_.count) * (frame_count(scene) - 1)),
+        total_(plan_.brick_steps * (frame_count(scene) - 1)),
         progress_(console, "simulate", total_, 1e-6, "M brick-steps/s"),
         motion_(world_, plan_.scheme == Solver::kVerlet ? Scheme::kVerlet : Scheme::kSymplecticEuler) {
     forecast(plan_, total_, console);
@@ -96,14 +88,17 @@ class Runner {
       judge_long_run();
     };
     if (implicit_) {
-      for (long step = 0; step < steps_.count; ++step) {
-        implicit_->advance(steps_.dt, 1, frame_time_ * (frame - 1) + steps_.dt * static_cast<double>(step));
-        between(static_cast<double>(step + 1) / static_cast<double>(steps_.count));
+      const auto [count, dt] = plan_.steps;
+      for (long step = 0; step < count; ++step) {
+        implicit_->advance(dt, 1, frame_time_ * (frame - 1) + dt * static_cast<double>(step));
+        between(static_cast<double>(step + 1) / static_cast<double>(count));
       }
       return;
     }
-    steps_ = motion_.advance_frame(frame_time_ * (frame - 1), frame_time_, between,
-                                   [&](const std::string& message) { console_.warn(message); });
+    const std::vector<Steps> steps = motion_.advance_frame(frame_time_ * (frame - 1), frame_time_, between,
+                                                           [&](const std::string& message) { console_.warn(message); });
+    plan_.steps =
+        *std::max_element(steps.begin(), steps.end(), [](const Steps& a, const Steps& b) { return a.count < b.count; });
   }
 
   /// Of the pins' movement, done at a frame.
@@ -125,8 +120,10 @@ class Runner {
   void finish(int frames) {
     note_implicit();
     const int inverted = inverted_bricks(world_);
-    progress_.finish(fmt::format("{} frames, {} steps of {} a frame, {} inverted bricks at the end", frames,
-                                 steps_.count, readable(steps_.dt, Dimension::kTime), inverted));
+    const bool has_more = !implicit_ && world_.actors.size() > 1;  // bodies, each with its own steps
+    progress_.finish(fmt::format("{} frames, {}{} steps of {} a frame, {} inverted bricks at the end", frames,
+                                 has_more ? "at most " : "", plan_.steps.count,
+                                 readable(plan_.steps.dt, Dimension::kTime), inverted));
     warn_of_crushed_bodies(world_, console_);
   }
 
@@ -179,9 +176,7 @@ class Runner {
   const Console& console_;
   double frame_time_;  // s
   StepPlan plan_;
-  Steps steps_;  // of the last frame
   std::optional<ImplicitMotion> implicit_;
-  double bricks_;
   double total_;
   Progress progress_;
   CarefulMotion motion_;

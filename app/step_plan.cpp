@@ -36,23 +36,37 @@ long implicit_steps(const World& world, double frame) {
 
 StepPlan plan_steps(const World& world, const Scene& scene) {
   const double frame = 1 / scene.fps;
-  const Steps short_ones = choose_steps(world, frame);
+  const std::vector<Steps> explicit_steps = choose_steps(world, frame);
+  Steps short_ones{.count = 0, .dt = 0};
+  double bricks = 0;
+  double brick_steps = 0;
+  for (std::size_t i = 0; i < world.actors.size(); ++i) {
+    const Steps& steps = explicit_steps[i];
+    const int count = world.actors[i].body.grid.brick_count();
+    bricks += count;
+    brick_steps += count * static_cast<double>(steps.count);
+    if (steps.count > short_ones.count) short_ones = steps;
+  }
   const long long_ones = implicit_steps(world, frame);
   StepPlan plan;
   plan.scheme = scene.solver.scheme;
   if (plan.scheme == Solver::kAuto) {
     const double dear = kImplicitCost * static_cast<double>(long_ones);
     const bool bounces = world.ground && world.ground->restitution > 0;
-    const bool is_implicit = !bounces && static_cast<double>(short_ones.count) > kWorthwhile * dear;
+    const bool is_implicit = !bounces && brick_steps > kWorthwhile * dear * bricks;
     plan.scheme = is_implicit ? Solver::kBdf2 : Solver::kEuler;
     plan.reason = fmt::format(
         "{}: {} explicit steps a frame against {} implicit ones, which take as long as about "
         "{:.0f} explicit ones{}",
-        is_implicit ? "bdf2" : "euler", short_ones.count, long_ones, dear,
+        is_implicit ? "bdf2" : "euler", std::lround(brick_steps / bricks), long_ones, dear,
         bounces ? "; restitution needs explicit ones" : "");
   }
-  plan.steps =
-      plan.is_implicit() ? Steps{.count = long_ones, .dt = frame / static_cast<double>(long_ones)} : short_ones;
+  plan.steps = short_ones;
+  plan.brick_steps = brick_steps;
+  if (plan.is_implicit()) {
+    plan.steps = {.count = long_ones, .dt = frame / static_cast<double>(long_ones)};
+    plan.brick_steps = bricks * static_cast<double>(long_ones);
+  }
   return plan;
 }
 

@@ -9,7 +9,8 @@ namespace sprung {
 /// How a world is moved from frame to frame.
 struct StepPlan {
   Solver scheme = Solver::kEuler;  // kEuler, kVerlet, kImplicitEuler or kBdf2
-  Steps steps;                     // of a frame
+  Steps steps;                     // of a frame; explicit ones: of the body that needs most
+  double brick_steps = 0;          // of a frame
   std::string reason;              // why this scheme, where it was left open
 
   [[nodiscard]] bool is_implicit() const { return scheme == Solver::kImplicitEuler || scheme == Solver::kBdf2; }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "core/body/forces.h"
@@ -113,46 +114,53 @@ Energy energy_of(const Body& body, const Vec3& gravity) {
           .potential = -body.masses.dot(body.positions * gravity)};
 }
 
-Steps choose_steps(const World& world, double time) {
-  double step = stable_step(world);
+std::vector<Steps> choose_steps(const World& world, double time) {
+  std::vector<Steps> all;
   for (const Actor& actor : world.actors) {
-    if (!world.ground) break;
+    double step = stable_step(actor.body);
     const double speed = std::sqrt(actor.body.velocities.rowwise().squaredNorm().maxCoeff());
     const double most = speed + world.gravity.norm() * time;
-    if (most > 0) step = std::min(step, kFurthestMove * actor.body.grid.brick_size / most);
+    if (world.ground && most > 0) step = std::min(step, kFurthestMove * actor.body.grid.brick_size / most);
+    const long count = std::max(1L, static_cast<long>(std::ceil(time / step)));
+    all.push_back({.count = count, .dt = time / static_cast<double>(count)});
   }
-  Steps steps;
-  steps.count = std::max(1L, static_cast<long>(std::ceil(time / step)));
-  steps.dt = time / static_cast<double>(steps.count);
-  return steps;
+  return all;
 }
 
-bool CarefulMotion::run(const Steps& steps, double time, const Between& between) {
-  double bricks = 0;
-  for (const Actor& actor : world_.actors) bricks += actor.body.grid.brick_count();
-  const long chunk = std::clamp(static_cast<long>(kBrickStepsBetween / bricks), 1L, steps.count);
-  for (long done = 0; done < steps.count;) {
-    const long count = std::min(chunk, steps.count - done);
+bool CarefulMotion::run(std::span<const Steps> steps, double time, const Between& between) {
+  double brick_steps = 0;
+  long chunks = std::numeric_limits<long>::max();
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    brick_steps += static_cast<double>(steps[i].count) * world_.actors[i].body.grid.brick_count();
+    chunks = std::min(chunks, steps[i].count);
+  }
+  chunks = std::clamp(static_cast<long>(std::ceil(brick_steps / kBrickStepsBetween)), 1L, chunks);
+  std::vector<Steps> chunk(steps.begin(), steps.end());
+  for (long done = 0; done < chunks; ++done) {
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      chunk[i].count = steps[i].count * (done + 1) / chunks - steps[i].count * done / chunks;
+    }
     try {
-      advance(world_, scheme_, steps.dt, count, time + steps.dt * static_cast<double>(done));
+      advance(world_, scheme_, chunk, time);
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::kDiverged) throw;
       return false;
     }
-    done += count;
-    between(static_cast<double>(done) / static_cast<double>(steps.count));
+    between(static_cast<double>(done + 1) / static_cast<double>(chunks));
   }
   return true;
 }
 
-Steps CarefulMotion::advance_frame(double time, double duration, const Between& between, const Tell& tell) {
+std::vector<Steps> CarefulMotion::advance_frame(double time, double duration, const Between& between,
+                                                const Tell& tell) {
   const std::vector<State> start = state_of(world_);
   std::vector<Energy> before;
   for (const Actor& actor : world_.actors) before.push_back(energy_of(actor.body, world_.gravity));
-  const Steps stable = choose_steps(world_, duration);
+  const std::vector<Steps> stable = choose_steps(world_, duration);
   while (true) {
     const long parts = 1L << halvings_;
-    const Steps steps{.count = stable.count * parts, .dt = stable.dt / static_cast<double>(parts)};
+    std::vector<Steps> steps = stable;
+    for (Steps& of_actor : steps) of_actor = {of_actor.count * parts, of_actor.dt / static_cast<double>(parts)};
     const bool is_through = run(steps, time, between);
     const std::optional<Trouble> trouble = find_trouble(world_, before);
     if (is_through && !trouble) return steps;
@@ -163,10 +171,10 @@ Steps CarefulMotion::advance_frame(double time, double duration, const Between& 
       throw Error(ErrorKind::kDiverged,
                   what + fmt::format(", with steps of {:.3g} s too: the motion diverged; use more bricks, a stiffer "
                                      "material, more damping or a shorter fall",
-                                     steps.dt));
+                                     steps[trouble->actor].dt));
     }
     ++halvings_;
-    tell(what + fmt::format("; the frame is done again in steps half as long, {:.3g} s", steps.dt / 2));
+    tell(what + fmt::format("; the frame is done again in steps half as long, {:.3g} s", steps[trouble->actor].dt / 2));
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -7,15 +8,10 @@
 
 namespace sprung {
 
-/// Equal steps that fill a time exactly.
-struct Steps {
-  long count = 1;
-  double dt = 0;  // s
-};
-
-/// The longest steps that are stable and in which no brick that meets the ground can run through itself: at the speed
-/// the world has, with what gravity can add in that time, no node moves further than a quarter of a brick in a step.
-[[nodiscard]] Steps choose_steps(const World& world, double time);
+/// For each actor the longest steps that are stable and in which no brick that meets the ground can run through itself:
+/// at the speed it has, with what gravity can add in that time, no node moves further than a quarter of a brick in a
+/// step.
+[[nodiscard]] std::vector<Steps> choose_steps(const World& world, double time);
 
 /// Moves a world frame by frame and lets no trouble pass: a number that is not finite, or energy from nowhere, is found
 /// in the frame it appears in. The frame is then taken back and done again in steps half as long, up to a few times.
@@ -28,13 +24,13 @@ class CarefulMotion {
 
   CarefulMotion(World& world, Scheme scheme) : world_(world), scheme_(scheme) {}
 
-  /// From `time` on by `duration` (s). Returns the steps it took. Deterministic for any number of threads.
+  /// From `time` on by `duration` (s). Returns the steps each actor took. Deterministic for any number of threads.
   /// Throws Error(kDiverged) naming time, body, the brick's place and what to change where no step is short enough.
-  Steps advance_frame(double time, double duration, const Between& between, const Tell& tell);
+  std::vector<Steps> advance_frame(double time, double duration, const Between& between, const Tell& tell);
 
  private:
   /// Whether it came through with finite positions.
-  bool run(const Steps& steps, double time, const Between& between);
+  bool run(std::span<const Steps> steps, double time, const Between& between);
 
   World& world_;
   Scheme scheme_;

@@ -1,6 +1,10 @@
 #include "core/motion/integrator.h"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <vector>
 
 #include "core/body/forces.h"
 #include "core/error.h"
@@ -95,17 +99,24 @@ void verlet(Mover& mover, double dt, long steps) {
 
 }  // namespace
 
-void advance(World& world, Scheme scheme, double dt, long steps, double time) {
-  for (Actor& actor : world.actors) {
-    Mover mover(actor, world);
+void advance(World& world, Scheme scheme, std::span<const Steps> steps, double time) {
+  const auto advance_actor = [&](std::size_t i) {
+    Mover mover(world.actors[i], world);
     if (scheme == Scheme::kVerlet) {
-      verlet(mover, dt, steps);
+      verlet(mover, steps[i].dt, steps[i].count);
     } else {
-      euler(mover, dt, steps);
+      euler(mover, steps[i].dt, steps[i].count);
     }
     mover.settle();
-  }
-  check_finite(world, time + dt * static_cast<double>(steps));
+  };
+  // A thread that waits within one actor's steps must not begin another actor's: the first would stand still.
+  tbb::parallel_for(std::size_t{0}, world.actors.size(),
+                    [&](std::size_t i) { tbb::this_task_arena::isolate([&] { advance_actor(i); }); });
+  if (!steps.empty()) check_finite(world, time + steps[0].dt * static_cast<double>(steps[0].count));
+}
+
+void advance(World& world, Scheme scheme, double dt, long steps, double time) {
+  advance(world, scheme, std::vector<Steps>(world.actors.size(), {.count = steps, .dt = dt}), time);
 }
 
 }  // namespace sprung

@@ -22,19 +22,19 @@ double largest_frequency_squared(const Body& body) {
   return stiffness / corner_mass;
 }
 
+}  // namespace
+
 /// Leapfrog with damping c = alpha + beta omega^2 is stable while omega^2 dt^2 + 2 c dt < 4.
-double stable_step_of(const Body& body) {
+double stable_step(const Body& body, double safety) {
   const double squared = largest_frequency_squared(body);
   const double damping = body.damping.alpha + body.damping.beta * squared;
-  return 4 / (damping + std::sqrt(damping * damping + 4 * squared));
+  return safety * 4 / (damping + std::sqrt(damping * damping + 4 * squared));
 }
-
-}  // namespace
 
 double stable_step(const World& world, double safety) {
   double step = std::numeric_limits<double>::infinity();
-  for (const Actor& actor : world.actors) step = std::min(step, stable_step_of(actor.body));
-  return safety * step;
+  for (const Actor& actor : world.actors) step = std::min(step, stable_step(actor.body, safety));
+  return step;
 }
 
 }  // namespace sprung
