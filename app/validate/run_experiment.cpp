@@ -126,7 +126,7 @@ class Runs {
         }
       }
     }
-    std::set<std::string> gated;  // models; the others are shown as they are
+    std::set<std::string, std::less<>> gated;  // models; the others are shown as they are
     for (const Check& check : result_.checks) {
       if (check.is_gate()) gated.insert(check.model);
     }
