@@ -13,6 +13,7 @@
 #include "app/report/html_report.h"
 #include "app/report/plots.h"
 #include "app/simulate.h"
+#include "core/count_of.h"
 #include "core/error.h"
 
 namespace sprung {
@@ -54,7 +55,7 @@ ReportPicture picture_of(const std::string& name, const Scene& scene_as_it_is) {
   const double magnification = magnification_of(body, production.size);
   ExperimentPicture drawn = draw_experiment(body, {.magnification = magnification});
   const std::string caption =
-      fmt::format("{} bricks, ν = {}{}", body.grid.brick_count(), scene.bodies.front().material.poisson,
+      fmt::format("{}, ν = {}{}", count_of(body.grid.brick_count(), "brick"), scene.bodies.front().material.poisson,
                   magnification > 1 ? fmt::format(", displacements drawn {:g} times as large", magnification) : "");
   return {.experiment = name, .caption = caption, .image = std::move(drawn.image), .colors = std::move(drawn.colors)};
 }
