@@ -177,6 +177,24 @@ TEST(BrickLaw, CalibratedIsStableForAuxeticMaterials) {
   EXPECT_THROW((void)brick_law(Model::kTensile, test_material(-0.3), kSide), Error);
 }
 
+/// What the edges' springs and their correction answer to a common stretch of the edges is never below zero: what would
+/// be is on the mean axes, and nothing else is.
+TEST(BrickLaw, OnlyTheNegativePartOfTheAxialCorrectionIsOnTheMeanAxes) {
+  for (const double poisson : {-0.2, 0.0, 0.1, 0.15, 0.16, 0.3, 0.49}) {
+    const Material material = test_material(poisson);
+    for (const Model model : kCorrectedModels) {
+      if (model == Model::kM1 && poisson < 0) continue;
+      const BrickLaw law = brick_law(model, material, kSide);
+      const double on_edges = law.axial_self + 2 * law.axial_cross + 4 * law.edge;
+      // 3 K h less what the diagonals give.
+      const double bulk = material.young / (3 * (1 - 2 * poisson));
+      const double lack = kSide * 3 * bulk - 4 * law.inner - 8 * law.face;
+      EXPECT_NEAR(3 * law.axes, std::min(lack, 0.0), 1e-12 * material.young * kSide) << poisson;
+      EXPECT_NEAR(on_edges, std::max(lack, 0.0), 1e-12 * material.young * kSide) << poisson;
+    }
+  }
+}
+
 /// Energy density integrals over a cube of side h: those of bending with curvature 1 / m, of two crossed curvatures
 /// (anticlastic), and of a bar of square section that twists freely (u = twist y z ..., no warping inside one brick).
 TEST(BrickLaw, CalibratedBendsAndTwistsLikeTheContinuum) {
