@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "app/draw_diverged.h"
 #include "app/make_production.h"
 #include "app/output.h"
 #include "app/render_film.h"
@@ -24,6 +25,11 @@ void note_padding(const std::vector<Output>& outputs, const SceneRender& render,
   }
 }
 
+std::filesystem::path picture_of_diverged(const Output& output) {
+  if (output.kind == Output::Kind::kFilm) return std::filesystem::path(output.film).replace_extension("diverged.png");
+  return output.folder / "diverged.png";
+}
+
 }  // namespace
 
 void animate(const SceneOptions& options, const Console& console) {
@@ -32,7 +38,8 @@ void animate(const SceneOptions& options, const Console& console) {
     for (const Output& output : outputs) check_output(output, options.overwrite);
     note_padding(outputs, scene.render, console);
     Production production = make_production(scene, console);
-    const Recording recording = simulate(production, scene, console);
+    const Recording recording = with_picture_of_diverged(production.world, picture_of_diverged(outputs.front()),
+                                                         [&] { return simulate(production, scene, console); });
     render_film(production, recording, scene, outputs, console);
     for (const std::string& output : options.outputs) fmt::print("{}\n", output);
   });

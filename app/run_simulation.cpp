@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "app/draw_diverged.h"
 #include "app/make_production.h"
 #include "app/probe_files.h"
 #include "app/report/whole_file.h"
@@ -54,7 +55,8 @@ void run_simulation(const SceneOptions& options, const Console& console) {
   with_scene(options, [&](const Scene& scene) {
     const fs::path folder = output_folder(options);
     Production production = make_production(scene, console);
-    const Recording recording = simulate(production, scene, console);
+    const Recording recording = with_picture_of_diverged(production.world, folder / "diverged.png",
+                                                         [&] { return simulate(production, scene, console); });
     make_folder(folder);
     write_whole_file(folder / "probes.csv", probes_csv(recording));
     write_whole_file(folder / "probes.json", probes_json(recording));

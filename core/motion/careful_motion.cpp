@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "core/body/forces.h"
-#include "core/error.h"
+#include "core/motion/diverged.h"
 
 namespace sprung {
 namespace {
@@ -168,10 +168,10 @@ std::vector<Steps> CarefulMotion::advance_frame(double time, double duration, co
                                          time + duration, trouble->what);
     restore(start, world_);
     if (halvings_ == kMostHalvings) {
-      throw Error(ErrorKind::kDiverged,
-                  what + fmt::format(", with steps of {:.3g} s too: the motion diverged; use more bricks, a stiffer "
-                                     "material, more damping or a shorter fall",
-                                     steps[trouble->actor].dt));
+      throw Diverged(trouble->actor,
+                     what + fmt::format(", with steps of {:.3g} s too: the motion diverged; use more bricks, a stiffer "
+                                        "material, more damping or a shorter fall",
+                                        steps[trouble->actor].dt));
     }
     ++halvings_;
     tell(what + fmt::format("; the frame is done again in steps half as long, {:.3g} s", steps[trouble->actor].dt / 2));

@@ -25,7 +25,7 @@ class CarefulMotion {
   CarefulMotion(World& world, Scheme scheme) : world_(world), scheme_(scheme) {}
 
   /// From `time` on by `duration` (s). Returns the steps each actor took. Deterministic for any number of threads.
-  /// Throws Error(kDiverged) naming time, body, the brick's place and what to change where no step is short enough.
+  /// Throws Diverged naming time, body, the brick's place and what to change where no step is short enough.
   std::vector<Steps> advance_frame(double time, double duration, const Between& between, const Tell& tell);
 
  private:

@@ -9,7 +9,7 @@
 
 #include "core/body/brick_hessian.h"
 #include "core/body/forces.h"
-#include "core/error.h"
+#include "core/motion/diverged.h"
 #include "core/motion/ground_potential.h"
 #include "core/motion/stiffness_product.h"
 
@@ -268,10 +268,10 @@ void ImplicitMotion::advance(double dt, long steps, double time) {
         ++halvings_;
         stride /= 2;
         if (++halvings > kMostHalvings) {
-          throw Error(ErrorKind::kDiverged,
-                      fmt::format("body {}: no step of {:.3g} s leads on from t = {:.6g} s; use more bricks, a stiffer "
-                                  "material or a shorter fall",
-                                  actor + 1, stride * dt, time + dt * (static_cast<double>(step) + done)));
+          throw Diverged(
+              actor, fmt::format("body {}: no step of {:.3g} s leads on from t = {:.6g} s; use more bricks, a stiffer "
+                                 "material or a shorter fall",
+                                 actor + 1, stride * dt, time + dt * (static_cast<double>(step) + done)));
         }
       }
     }

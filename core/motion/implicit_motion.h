@@ -33,7 +33,7 @@ class ImplicitMotion {
   ~ImplicitMotion();
 
   /// Moves the world by `steps` of dt seconds. A step that finds no minimum is made in two halves, and so on.
-  /// Throws Error(kDiverged) naming time and body where that does not help.
+  /// Throws Diverged naming time and body where that does not help.
   void advance(double dt, long steps, double time);
 
   struct Report {

@@ -6,6 +6,7 @@
 #include "core/body/forces.h"
 #include "core/error.h"
 #include "core/motion/careful_motion.h"
+#include "core/motion/diverged.h"
 #include "core/motion/integrator.h"
 #include "core/world/squeeze.h"
 #include "tests/support/bodies.h"
@@ -258,8 +259,9 @@ TEST(CarefulMotion, GivesUpWithTimeBodyAndRemedy) {
     static_cast<void>(motion.advance_frame(
         0.25, 0.01, [](double) {}, [&](const std::string&) { ++said; }));
     FAIL() << "a velocity that is not finite went by unseen";
-  } catch (const Error& error) {
+  } catch (const Diverged& error) {
     EXPECT_EQ(error.kind(), ErrorKind::kDiverged);
+    EXPECT_EQ(error.actor(), 0);
     for (const char* part : {"body 1, brick", "0.25", "stiffer"}) {
       EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
     }
