@@ -55,9 +55,11 @@ struct BrickLaw {
 /// Source of kTensile and kM1 (the paper): Baudet, Beuve, Jaillet, Shariat, Zara, "Integrating Tensile Parameters in
 /// Hexahedral Mass-Spring System for Simulation", WSCG 2009: inner = 3 E h / (8 (1+nu)), edge = E h (4 nu + 1) / (8
 /// (1+nu)), and their correction forces as the potential axial = h (lambda J + 2 G I) - 4 edge I - (4/3) inner J - 2
-/// face (I + J). M1: face = G h / 2, edge = nu G h. kCalibrated: torsion gives face = G h / 6, shear then inner = G h /
-/// 2, edge = 0, and two bending experiments give bending = (h/3) E/(1-nu^2) [[1, nu], [nu, 1]] - 2 face [[1, 1], [1,
-/// 1]].
+/// face (I + J). M1: face = G h / 2, edge = nu G h. kCalibrated: torsion gives face = G h / 6, shear then inner = 3/4
+/// (G h - 2 face), edge = 0, and two bending experiments give bending = (h/3) E/(1-nu^2) [[1, nu], [nu, 1]] - 2 face
+/// [[1, 1], [1, 1]]. Where nu < 0 that would be negative for bending in one sense about both axes, and a brick far from
+/// rest could pull itself apart: there face = E h / (12 (1-nu)), the most that leaves it at zero, and the twist of a
+/// brick is (1+nu) / (1-nu) of what it should be; stretch, shear and bending are exact still.
 ///
 /// What is left free. Of a brick's 24 modes 6 are rigid, 6 uniform strain, 6 bending (u_x = xy and the like), 3 are u_x
 /// = a yz, u_y = b zx, u_z = c xy, and 3 xyz. Uniform strain and cylindrical and anticlastic bending fix theirs.

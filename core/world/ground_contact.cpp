@@ -7,6 +7,7 @@ namespace sprung {
 namespace {
 
 constexpr double kRecoverySteps = 20;  // a point found below the ground comes up within about that many steps
+constexpr double kCornerFirst = 0.25;  // of points about as deep the one nearest to the corner holds the others best
 constexpr double kLeastGravity = 0.1;  // m/s^2: without gravity too a point comes up
 
 /// Upwards, that a point at `gap` over the ground must have at least, m/s.
@@ -60,7 +61,7 @@ const std::vector<Touch>& GroundContact::find(const Ground& ground, double gravi
       const double speed = point.weights.dot(speeds);
       if (!(gap + dt * speed <= 0)) continue;  // nor where a number is not finite
       const double least = least_speed(gap, speed, ground, gravity, dt);
-      const double pull = (least - speed) * point.weights[point.corner];
+      const double pull = (least - speed) * (1 + kCornerFirst * point.weights[point.corner]);
       Candidate& candidate = worst[static_cast<std::size_t>(point.corner)];
       if (candidate.point == nullptr || pull > candidate.pull) candidate = {&point, pull, least};
     }

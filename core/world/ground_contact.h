@@ -20,8 +20,8 @@ class GroundContact {
  public:
   explicit GroundContact(const Actor& actor);
 
-  /// Points that moving by dt would leave below the ground, at most one near each corner of a brick: the one that needs
-  /// the strongest push there. The others are held by it or found in the next step. `gravity` in m/s^2, its size.
+  /// Points that moving by dt would leave below the ground, at most one near each corner of a brick: the one that lies
+  /// deepest. The others are held by it or found in the next step. `gravity` in m/s^2, its size.
   [[nodiscard]] const std::vector<Touch>& find(const Ground& ground, double gravity, double dt, const Body& body);
 
  private:
@@ -31,7 +31,7 @@ class GroundContact {
   };
   struct Candidate {
     const Point* point = nullptr;
-    double pull = 0;  // on its corner, that meeting its limit takes, m/s
+    double pull = 0;  // upwards, that meeting its limit takes, m/s; more where it is near its corner
     double least_speed = 0;
   };
 

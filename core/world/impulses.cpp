@@ -8,9 +8,9 @@
 namespace sprung {
 namespace {
 
-constexpr int kMostSweeps = 12;
-constexpr int kMostSweepsOfSqueezes = 30;  // rare, and what they miss grows
-constexpr double kTolerance = 1e-4;        // bricks that a point may miss its limit by in a step
+constexpr int kMostSweeps = 30;
+constexpr int kMostSweepsOfSqueezes = 100;  // rare, and what they miss grows
+constexpr double kTolerance = 1e-4;         // bricks that a point may miss its limit by in a step
 
 /// The impulse of a touch that friction can give: as much sideways as the coefficient allows for what it presses.
 Vec3 rubbing(Vec3 impulse, double friction) {
@@ -22,6 +22,20 @@ Vec3 rubbing(Vec3 impulse, double friction) {
     impulse.z() *= most / sideways;
   }
   return impulse;
+}
+
+/// Of the limited volume ratio by the brick's corners, 1/m.
+Eigen::Matrix<double, 3, 8> corner_gradients(const Squeeze& squeeze) {
+  Eigen::Matrix<double, 3, 8> gradients = Eigen::Matrix<double, 3, 8>::Zero();
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int corner = 0; corner < 8; ++corner) {
+      const bool is_end = squeeze.corner == Squeeze::kMeanAxes || (corner | 1 << axis) == (squeeze.corner | 1 << axis);
+      if (!is_end) continue;
+      const double share = squeeze.corner == Squeeze::kMeanAxes ? 0.25 : 1;
+      gradients.col(corner) += (on_high_side(corner, axis) ? share : -share) * squeeze.gradient.col(axis);
+    }
+  }
+  return gradients;
 }
 
 }  // namespace
@@ -64,19 +78,15 @@ void Impulses::find_limits(const World& world, double dt, const Body& body) {
   for (const Squeeze& squeeze : squeezes_.find(body, dt)) {
     const auto& nodes = body.grid.nodes[static_cast<std::size_t>(squeeze.brick)];
     const double size = body.grid.brick_size;  // so that both kinds of limit measure speeds
-    SqueezeLimit limit{.key = squeeze.brick * 8 + squeeze.corner,
-                       .nodes = {},
-                       .gradients = {},
+    SqueezeLimit limit{.key = squeeze.brick * (Squeeze::kMeanAxes + 1) + squeeze.corner,
+                       .gradients = size * corner_gradients(squeeze),
                        .least_speed = squeeze.least_rate * size};
-    limit.gradients.col(3).setZero();
-    for (int axis = 0; axis < 3; ++axis) {
-      const double side = on_high_side(squeeze.corner, axis) ? size : -size;
-      limit.gradients.col(axis) = -side * squeeze.gradient.col(axis);
-      limit.gradients.col(3) += side * squeeze.gradient.col(axis);
-      limit.nodes[static_cast<std::size_t>(axis)] =
-          place_of(body, nodes[static_cast<std::size_t>(squeeze.corner ^ 1 << axis)]);
+    for (int corner = 0; corner < 8; ++corner) {
+      if (limit.gradients.col(corner).isZero(0)) continue;
+      limit.gradients.col(limit.count) = limit.gradients.col(corner);
+      limit.nodes[static_cast<std::size_t>(limit.count)] = place_of(body, nodes[static_cast<std::size_t>(corner)]);
+      ++limit.count;
     }
-    limit.nodes[3] = place_of(body, nodes[static_cast<std::size_t>(squeeze.corner)]);
     squeezed_.push_back(limit);
   }
 }
@@ -87,7 +97,8 @@ void Impulses::bound_answers() {
     for (int i = 0; i < 8; ++i) at(limit.nodes[static_cast<std::size_t>(i)]).pull += std::abs(limit.weights[i]);
   }
   for (const SqueezeLimit& limit : squeezed_) {
-    for (int i = 0; i < 4; ++i) at(limit.nodes[static_cast<std::size_t>(i)]).pull += limit.gradients.col(i).norm();
+    for (int i = 0; i < limit.count; ++i)
+      at(limit.nodes[static_cast<std::size_t>(i)]).pull += limit.gradients.col(i).norm();
   }
   for (TouchLimit& limit : touches_) {
     for (int i = 0; i < 8; ++i) {
@@ -96,7 +107,7 @@ void Impulses::bound_answers() {
     }
   }
   for (SqueezeLimit& limit : squeezed_) {
-    for (int i = 0; i < 4; ++i) {
+    for (int i = 0; i < limit.count; ++i) {
       const Pushed& node = at(limit.nodes[static_cast<std::size_t>(i)]);
       limit.inverse_mass += limit.gradients.col(i).norm() * node.inverse_mass * node.pull;
     }
@@ -126,7 +137,7 @@ void Impulses::start_from_before() {
   }
   for (const SqueezeLimit& limit : squeezed_) {
     double lack = limit.least_speed;
-    for (int i = 0; i < 4; ++i) {
+    for (int i = 0; i < limit.count; ++i) {
       Pushed& node = nodes_[static_cast<std::size_t>(limit.nodes[static_cast<std::size_t>(i)])];
       lack -= limit.gradients.col(i).dot(node.free_velocity);
       node.now += limit.impulse.last * limit.gradients.col(i);
@@ -168,12 +179,12 @@ Impulses::Sweep Impulses::sweep(double friction) {
   for (SqueezeLimit& limit : squeezed_) {
     if (limit.inverse_mass <= 0) continue;
     double lack = limit.least_speed;
-    for (int i = 0; i < 4; ++i) {
+    for (int i = 0; i < limit.count; ++i) {
       lack -= limit.gradients.col(i).dot(
           nodes_[static_cast<std::size_t>(limit.nodes[static_cast<std::size_t>(i)])].velocity);
     }
     const double impulse = std::max(0.0, limit.impulse.ahead + lack / limit.inverse_mass);
-    for (int i = 0; i < 4; ++i) {
+    for (int i = 0; i < limit.count; ++i) {
       nodes_[static_cast<std::size_t>(limit.nodes[static_cast<std::size_t>(i)])].now +=
           impulse * limit.gradients.col(i);
     }

@@ -41,10 +41,11 @@ class Impulses {
     Iterate<Vec3> impulse{Vec3::Zero(), Vec3::Zero()};
   };
   struct SqueezeLimit {
-    int key;                   // of the place it works at, increasing
-    std::array<int, 4> nodes;  // places in nodes_
-    Eigen::Matrix<double, 3, 4> gradients;
+    int key;                     // of the place it works at, increasing
+    std::array<int, 8> nodes{};  // places in nodes_
+    Eigen::Matrix<double, 3, 8> gradients;
     double least_speed;
+    int count = 0;  // of the nodes
     double inverse_mass = 0;
     Iterate<double> impulse{0, 0};
   };

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/body/brick_topology.h"
+#include "core/bricks/corner.h"
 
 namespace sprung {
 namespace {
@@ -22,10 +23,16 @@ Corners corners_of(const std::array<int, 8>& nodes, const Points& values) {
   return corners;
 }
 
-/// The three edges at a corner as columns, each from its low to its high end.
+/// The three edges at a corner, or the mean axes, as columns, each from its low to its high end.
 Mat3 edges_at(int corner, const Corners& x) {
-  Mat3 edges;
-  for (int axis = 0; axis < 3; ++axis) edges.col(axis) = x.col(corner | 1 << axis) - x.col(corner & ~(1 << axis));
+  Mat3 edges = Mat3::Zero();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (corner != Squeeze::kMeanAxes) {
+      edges.col(axis) = x.col(corner | 1 << axis) - x.col(corner & ~(1 << axis));
+      continue;
+    }
+    for (int i = 0; i < 8; ++i) edges.col(axis) += (on_high_side(i, axis) ? 0.25 : -0.25) * x.col(i);
+  }
   return edges;
 }
 
@@ -36,10 +43,11 @@ Mat3 areas_of(const Mat3& axes) {
   return areas;
 }
 
-/// Of the volumes that the edges span at the eight corners.
+/// Of the volumes that the edges span at the eight corners and the mean axes between them.
 double smallest_volume(const Corners& x) {
   double smallest = edges_at(0, x).determinant();
-  for (int corner = 1; corner < 8; ++corner) smallest = std::min(smallest, edges_at(corner, x).determinant());
+  for (int corner = 1; corner <= Squeeze::kMeanAxes; ++corner)
+    smallest = std::min(smallest, edges_at(corner, x).determinant());
   return smallest;
 }
 
@@ -74,7 +82,7 @@ const std::vector<Squeeze>& SqueezeWatch::find(const Body& body, double dt) {
     const auto& nodes = body.grid.nodes[static_cast<std::size_t>(brick)];
     const Corners x = corners_of(nodes, body.positions);
     const Corners v = corners_of(nodes, body.velocities);
-    for (int corner = 0; corner < 8; ++corner) {
+    for (int corner = 0; corner <= Squeeze::kMeanAxes; ++corner) {
       const Mat3 edges = edges_at(corner, x);
       const Mat3 areas = areas_of(edges) / volume;
       const double lack = kLeastVolume - edges.col(0).dot(areas.col(0));

@@ -5,10 +5,11 @@
 
 namespace sprung {
 
-/// At each of its corners a brick keeps at least this share of its volume: like a sponge whose pores are closed, it
-/// yields no further. The volume guard of its law works below 0.3 and grows with the stiffness; this does not. It looks
-/// at the corners because springs do not know left from right there either: a brick that is only folded, its mean axes
-/// in order, has found a state that the springs' corrections can push on without end.
+/// At each of its corners, and between its mean axes, a brick keeps at least this share of its volume: like a sponge
+/// whose pores are closed, it yields no further. The volume guard of its law works below 0.3 and grows with the
+/// stiffness; this does not. It looks at the corners because springs do not know left from right there either: a brick
+/// that is only folded, its mean axes in order, has found a state that the springs' corrections can push on without
+/// end. And a brick can be turned over between corners that are all in order.
 inline constexpr double kLeastVolume = 0.1;
 
 /// Makes the volume guard of a body strong enough for what it meets, where its material is softer than that: the
@@ -17,12 +18,14 @@ inline constexpr double kLeastVolume = 0.1;
 /// are. `ground` (m, y) or none.
 void brace(Body& body, double gravity, std::optional<double> ground);
 
-/// A corner of a brick that would be pressed too far in the step to come.
+/// A brick that would be pressed too far in the step to come.
 struct Squeeze {
   int brick;
-  int corner;
-  Mat3 gradient;      // of the volume ratio there by the three edges at the corner (columns, low to high end), 1/m
+  int corner;         // where; kMeanAxes: between its mean axes
+  Mat3 gradient;      // of the volume ratio there by the three edges or axes (columns, low to high end), 1/m
   double least_rate;  // of the volume ratio that is allowed, 1/s
+
+  static constexpr int kMeanAxes = 8;
 };
 
 /// Watches for bricks that are about to be turned inside out. All bricks are looked at every few steps only, those
@@ -35,7 +38,7 @@ class SqueezeWatch {
  private:
   void look(const Body& body, double dt);
 
-  std::vector<int> suspects_;
+  std::vector<int> suspects_;  // bricks
   std::vector<Squeeze> found_;
   int steps_to_look_ = 0;
 };

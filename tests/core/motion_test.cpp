@@ -8,6 +8,7 @@
 #include "core/motion/careful_motion.h"
 #include "core/motion/diverged.h"
 #include "core/motion/integrator.h"
+#include "core/world/impulses.h"
 #include "core/world/squeeze.h"
 #include "tests/support/bodies.h"
 
@@ -211,6 +212,34 @@ TEST(Motion, CollapsingBodyKeepsNoBrickInverted) {
     EXPECT_EQ(inverted_bricks(world.actors[0].body), 0) << poisson;
     EXPECT_LT(smallest_volume_ratio(world.actors[0].body), 0.3) << poisson;
   }
+}
+
+/// One face turned against the opposite one by more than a right angle: the corners may be in order, but between the mean
+/// axes no volume is left.
+TEST(Squeeze, BrickTurnedOverBetweenItsCornersIsFound) {
+  World world = world_of(box_body({1, 1, 1}, 0.02, Model::kCalibrated, 0.3));
+  Body& body = world.actors[0].body;
+  const auto& nodes = body.grid.nodes[0];
+  for (int corner = 0; corner < 8; ++corner) {
+    const double turn = (corner & 4) != 0 ? 2.6 : 0;  // rad, of the high face about z
+    const Vec3 middle(0.01, 0.01, 0);
+    const Vec3 place = body.positions.row(nodes[static_cast<std::size_t>(corner)]);
+    const Vec3 turned = middle + Eigen::AngleAxisd(turn, Vec3::UnitZ()) * (place - middle);
+    body.positions.row(nodes[static_cast<std::size_t>(corner)]) = turned.transpose();
+  }
+  SqueezeWatch watch;
+  const std::vector<Squeeze>& found = watch.find(body, 1e-5);
+  EXPECT_TRUE(
+      std::any_of(found.begin(), found.end(), [](const Squeeze& one) { return one.corner == Squeeze::kMeanAxes; }));
+
+  const Vec3 momentum = linear_momentum(body);
+  Impulses impulses(world.actors[0], body.masses.cwiseInverse());
+  impulses.apply(world, 1e-5, world.actors[0]);
+  EXPECT_LT((linear_momentum(body) - momentum).norm(), 1e-12);
+  EXPECT_LT(angular_momentum(body).norm(), 1e-12);
+  const double before = smallest_volume_ratio(body);
+  body.positions += 1e-5 * body.velocities;
+  EXPECT_GT(smallest_volume_ratio(body), before);
 }
 
 /// What starts a little below the ground comes up, and no higher than a throw from there would.
