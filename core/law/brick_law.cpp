@@ -32,8 +32,8 @@ void calibrate_stretch(BrickLaw& law, const Material& material, double h) {
 BrickLaw calibrated_law(const Material& material, double h) {
   const double plate = material.young / (1 - material.poisson * material.poisson);
   BrickLaw law;
-  // Twist asks for G h / 6. Below a ratio of 0 that is more than bending in one sense about both axes allows, plate h (1
-  // + nu) / 12: the bending correction would be negative and the energy without bound.
+  // Twist asks for G h / 6. Below a ratio of 0 bending in one sense about both axes allows only plate h (1 + nu) / 12:
+  // with more its correction would be negative, and the energy without bound.
   law.face = std::min(material.shear_modulus() * h / 6, plate * (1 + material.poisson) * h / 12);
   law.inner = 0.75 * (material.shear_modulus() * h - 2 * law.face);
   law.bending_self = h / 3 * plate - 2 * law.face;

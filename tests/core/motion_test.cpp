@@ -214,8 +214,8 @@ TEST(Motion, CollapsingBodyKeepsNoBrickInverted) {
   }
 }
 
-/// One face turned against the opposite one by more than a right angle: the corners may be in order, but between the mean
-/// axes no volume is left.
+/// One face turned against the opposite one by more than a right angle: the corners may be in order, but between the
+/// mean axes no volume is left.
 TEST(Squeeze, BrickTurnedOverBetweenItsCornersIsFound) {
   World world = world_of(box_body({1, 1, 1}, 0.02, Model::kCalibrated, 0.3));
   Body& body = world.actors[0].body;
