@@ -12,17 +12,10 @@ constexpr int kMostSweeps = 30;
 constexpr int kMostSweepsOfSqueezes = 100;  // rare, and what they miss grows
 constexpr double kTolerance = 1e-4;         // bricks that a point may miss its limit by in a step
 
-/// The impulse of a touch that friction can give: as much sideways as the coefficient allows for what it presses.
-Vec3 rubbing(Vec3 impulse, double friction) {
-  impulse.y() = std::max(0.0, impulse.y());
-  const double most = friction * impulse.y();
-  const double sideways = std::sqrt(impulse.x() * impulse.x() + impulse.z() * impulse.z());
-  if (sideways > most) {
-    impulse.x() *= most / sideways;
-    impulse.z() *= most / sideways;
-  }
-  return impulse;
-}
+double dot(double a, double b) { return a * b; }
+double dot(const Vec3& a, const Vec3& b) { return a.dot(b); }
+double largest(double a) { return std::abs(a); }
+double largest(const Vec3& a) { return a.cwiseAbs().maxCoeff(); }
 
 /// Of the limited volume ratio by the brick's corners, 1/m.
 Eigen::Matrix<double, 3, 8> corner_gradients(const Squeeze& squeeze) {
@@ -45,7 +38,43 @@ Impulses::Impulses(const Actor& actor, Eigen::VectorXd inverse_masses)
       contact_(actor),
       places_(static_cast<std::size_t>(actor.body.node_count()), -1) {}
 
-int Impulses::place_of(const Body& body, int node) {
+Vec3 Impulses::TouchLimit::lack(const Nodes& all, Vec3 Pushed::*velocity) const {
+  Vec3 result(0, least_speed, 0);
+  for (int i = 0; i < 8; ++i) result -= weights[i] * all[nodes[static_cast<std::size_t>(i)]].*velocity;
+  return result;
+}
+
+void Impulses::TouchLimit::push(const Vec3& size, Nodes& all) const {
+  for (int i = 0; i < 8; ++i) all[nodes[static_cast<std::size_t>(i)]].now += weights[i] * size;
+}
+
+/// Friction gives as much sideways as its coefficient allows for what presses.
+Vec3 Impulses::TouchLimit::allowed(Vec3 size, double friction) {
+  size.y() = std::max(0.0, size.y());
+  const double most = friction * size.y();
+  const double sideways = std::sqrt(size.x() * size.x() + size.z() * size.z());
+  if (sideways > most) {
+    size.x() *= most / sideways;
+    size.z() *= most / sideways;
+  }
+  return size;
+}
+
+double Impulses::SqueezeLimit::lack(const Nodes& all, Vec3 Pushed::*velocity) const {
+  double result = least_speed;
+  for (int i = 0; i < node_count; ++i) {
+    result -= gradients.col(i).dot(all[nodes[static_cast<std::size_t>(i)]].*velocity);
+  }
+  return result;
+}
+
+void Impulses::SqueezeLimit::push(double size, Nodes& all) const {
+  for (int i = 0; i < node_count; ++i) all[nodes[static_cast<std::size_t>(i)]].now += size * gradients.col(i);
+}
+
+double Impulses::SqueezeLimit::allowed(double size, double /*friction*/) { return std::max(0.0, size); }
+
+std::size_t Impulses::place_of(const Body& body, int node) {
   int& place = places_[static_cast<std::size_t>(node)];
   if (place < 0) {
     place = static_cast<int>(nodes_.size());
@@ -53,7 +82,7 @@ int Impulses::place_of(const Body& body, int node) {
     nodes_.push_back(
         {.node = node, .inverse_mass = inverse_masses_[node], .free_velocity = velocity, .velocity = velocity});
   }
-  return place;
+  return static_cast<std::size_t>(place);
 }
 
 void Impulses::find_limits(const World& world, double dt, const Body& body) {
@@ -83,35 +112,24 @@ void Impulses::find_limits(const World& world, double dt, const Body& body) {
                        .least_speed = squeeze.least_rate * size};
     for (int corner = 0; corner < 8; ++corner) {
       if (limit.gradients.col(corner).isZero(0)) continue;
-      limit.gradients.col(limit.count) = limit.gradients.col(corner);
-      limit.nodes[static_cast<std::size_t>(limit.count)] = place_of(body, nodes[static_cast<std::size_t>(corner)]);
-      ++limit.count;
+      limit.gradients.col(limit.node_count) = limit.gradients.col(corner);
+      limit.nodes[static_cast<std::size_t>(limit.node_count)] = place_of(body, nodes[static_cast<std::size_t>(corner)]);
+      ++limit.node_count;
     }
     squeezed_.push_back(limit);
   }
 }
 
 void Impulses::bound_answers() {
-  const auto at = [&](int place) -> Pushed& { return nodes_[static_cast<std::size_t>(place)]; };
-  for (const TouchLimit& limit : touches_) {
-    for (int i = 0; i < 8; ++i) at(limit.nodes[static_cast<std::size_t>(i)]).pull += std::abs(limit.weights[i]);
-  }
-  for (const SqueezeLimit& limit : squeezed_) {
-    for (int i = 0; i < limit.count; ++i)
-      at(limit.nodes[static_cast<std::size_t>(i)]).pull += limit.gradients.col(i).norm();
-  }
-  for (TouchLimit& limit : touches_) {
-    for (int i = 0; i < 8; ++i) {
-      const Pushed& node = at(limit.nodes[static_cast<std::size_t>(i)]);
-      limit.inverse_mass += std::abs(limit.weights[i]) * node.inverse_mass * node.pull;
+  each_limit([&](const auto& limit) {
+    for (int i = 0; i < limit.count(); ++i) nodes_[limit.nodes[static_cast<std::size_t>(i)]].pull += limit.pull(i);
+  });
+  each_limit([&](auto& limit) {
+    for (int i = 0; i < limit.count(); ++i) {
+      const Pushed& node = nodes_[limit.nodes[static_cast<std::size_t>(i)]];
+      limit.inverse_mass += limit.pull(i) * node.inverse_mass * node.pull;
     }
-  }
-  for (SqueezeLimit& limit : squeezed_) {
-    for (int i = 0; i < limit.count; ++i) {
-      const Pushed& node = at(limit.nodes[static_cast<std::size_t>(i)]);
-      limit.inverse_mass += limit.gradients.col(i).norm() * node.inverse_mass * node.pull;
-    }
-  }
+  });
 }
 
 void Impulses::start_from_before() {
@@ -126,31 +144,17 @@ void Impulses::start_from_before() {
   take_over(squeezed_before_, squeezed_);
   // Of these impulses that share is best which leaves least energy in what the limits lack: no more than none leaves.
   double wanted = 0;
-  for (const TouchLimit& limit : touches_) {
-    Vec3 lack(0, limit.least_speed, 0);
-    for (int i = 0; i < 8; ++i) {
-      Pushed& node = nodes_[static_cast<std::size_t>(limit.nodes[static_cast<std::size_t>(i)])];
-      lack -= limit.weights[i] * node.free_velocity;
-      node.now += limit.weights[i] * limit.impulse.last;
-    }
-    wanted += lack.dot(limit.impulse.last);
-  }
-  for (const SqueezeLimit& limit : squeezed_) {
-    double lack = limit.least_speed;
-    for (int i = 0; i < limit.count; ++i) {
-      Pushed& node = nodes_[static_cast<std::size_t>(limit.nodes[static_cast<std::size_t>(i)])];
-      lack -= limit.gradients.col(i).dot(node.free_velocity);
-      node.now += limit.impulse.last * limit.gradients.col(i);
-    }
-    wanted += lack * limit.impulse.last;
-  }
+  each_limit([&](const auto& limit) {
+    wanted += dot(limit.lack(nodes_, &Pushed::free_velocity), limit.impulse.last);
+    limit.push(limit.impulse.last, nodes_);
+  });
   double answered = 0;
   for (const Pushed& node : nodes_) answered += node.inverse_mass * node.now.squaredNorm();
   const double share = answered > 0 ? std::clamp(wanted / answered, 0.0, 1.0) : 0;
-  for (TouchLimit& limit : touches_) limit.impulse.last *= share;
-  for (SqueezeLimit& limit : squeezed_) limit.impulse.last *= share;
-  for (TouchLimit& limit : touches_) limit.impulse.ahead = limit.impulse.last;
-  for (SqueezeLimit& limit : squeezed_) limit.impulse.ahead = limit.impulse.last;
+  each_limit([&](auto& limit) {
+    limit.impulse.last *= share;
+    limit.impulse.ahead = limit.impulse.last;
+  });
   for (Pushed& node : nodes_) {
     node.last = share * node.now;
     node.velocity = node.free_velocity + node.inverse_mass * node.last;
@@ -160,51 +164,28 @@ void Impulses::start_from_before() {
 
 Impulses::Sweep Impulses::sweep(double friction) {
   Sweep result;
-  for (TouchLimit& limit : touches_) {
-    if (limit.inverse_mass <= 0) continue;
-    Vec3 lack(0, limit.least_speed, 0);
-    for (int i = 0; i < 8; ++i) {
-      lack -= limit.weights[i] * nodes_[static_cast<std::size_t>(limit.nodes[static_cast<std::size_t>(i)])].velocity;
-    }
-    const Vec3 impulse = rubbing(limit.impulse.ahead + lack / limit.inverse_mass, friction);
-    for (int i = 0; i < 8; ++i) {
-      nodes_[static_cast<std::size_t>(limit.nodes[static_cast<std::size_t>(i)])].now += limit.weights[i] * impulse;
-    }
-    const Vec3 change = impulse - limit.impulse.ahead;
-    result.furthest = std::max(result.furthest, change.cwiseAbs().maxCoeff() * limit.inverse_mass);
-    result.uphill -= change.dot(impulse - limit.impulse.last) * limit.inverse_mass;
-    limit.impulse.ahead = limit.impulse.last;
-    limit.impulse.last = impulse;
-  }
-  for (SqueezeLimit& limit : squeezed_) {
-    if (limit.inverse_mass <= 0) continue;
-    double lack = limit.least_speed;
-    for (int i = 0; i < limit.count; ++i) {
-      lack -= limit.gradients.col(i).dot(
-          nodes_[static_cast<std::size_t>(limit.nodes[static_cast<std::size_t>(i)])].velocity);
-    }
-    const double impulse = std::max(0.0, limit.impulse.ahead + lack / limit.inverse_mass);
-    for (int i = 0; i < limit.count; ++i) {
-      nodes_[static_cast<std::size_t>(limit.nodes[static_cast<std::size_t>(i)])].now +=
-          impulse * limit.gradients.col(i);
-    }
-    const double change = impulse - limit.impulse.ahead;
-    result.furthest = std::max(result.furthest, std::abs(change) * limit.inverse_mass);
-    result.uphill -= change * (impulse - limit.impulse.last) * limit.inverse_mass;
-    limit.impulse.ahead = limit.impulse.last;
-    limit.impulse.last = impulse;
-  }
+  each_limit([&](auto& limit) {
+    if (limit.inverse_mass <= 0) return;
+    auto& [last, ahead] = limit.impulse;
+    using Impulse = std::remove_reference_t<decltype(last)>;
+    const Impulse wanted = ahead + limit.lack(nodes_, &Pushed::velocity) / limit.inverse_mass;
+    const Impulse size = limit.allowed(wanted, friction);
+    limit.push(size, nodes_);
+    const Impulse change = size - ahead;
+    result.furthest = std::max(result.furthest, largest(change) * limit.inverse_mass);
+    result.uphill -= dot(change, Impulse(size - last)) * limit.inverse_mass;
+    ahead = last;
+    last = size;
+  });
   return result;
 }
 
 void Impulses::look_ahead(double lead) {
   // What is ahead still holds the sweep before.
-  for (TouchLimit& limit : touches_) {
-    limit.impulse.ahead = limit.impulse.last + lead * (limit.impulse.last - limit.impulse.ahead);
-  }
-  for (SqueezeLimit& limit : squeezed_) {
-    limit.impulse.ahead = limit.impulse.last + lead * (limit.impulse.last - limit.impulse.ahead);
-  }
+  each_limit([&](auto& limit) {
+    auto& [last, ahead] = limit.impulse;
+    ahead = last + lead * (last - ahead);
+  });
   for (Pushed& node : nodes_) {
     node.velocity = node.free_velocity + node.inverse_mass * (node.now + lead * (node.now - node.last));
     node.last = node.now;

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "core/world/ground_contact.h"
@@ -26,29 +27,6 @@ class Impulses {
   void apply(const World& world, double dt, Actor& actor);
 
  private:
-  /// What a limit pushes, in the sweep before and now.
-  template <class Impulse>
-  struct Iterate {
-    Impulse last;
-    Impulse ahead;  // of where the sweeps lead
-  };
-  struct TouchLimit {
-    int key;                   // of the place it works at, increasing
-    std::array<int, 8> nodes;  // places in nodes_
-    Eigen::Matrix<double, 8, 1> weights;
-    double least_speed;
-    double inverse_mass = 0;  // bounds how all limits together answer an impulse here
-    Iterate<Vec3> impulse{Vec3::Zero(), Vec3::Zero()};
-  };
-  struct SqueezeLimit {
-    int key;                     // of the place it works at, increasing
-    std::array<int, 8> nodes{};  // places in nodes_
-    Eigen::Matrix<double, 3, 8> gradients;
-    double least_speed;
-    int count = 0;  // of the nodes
-    double inverse_mass = 0;
-    Iterate<double> impulse{0, 0};
-  };
   /// One of the nodes that limits push.
   struct Pushed {
     int node;
@@ -59,8 +37,46 @@ class Impulses {
     Vec3 last = Vec3::Zero();  // impulse of the sweep before
     Vec3 now = Vec3::Zero();   // and of this one
   };
+  using Nodes = std::vector<Pushed>;
+  /// What a limit pushes.
+  template <class Impulse>
+  struct Iterate {
+    Impulse last;   // in the sweep before
+    Impulse ahead;  // where the sweeps lead
+  };
+  struct TouchLimit {
+    int key;                           // of the place it works at, increasing
+    std::array<std::size_t, 8> nodes;  // places in nodes_
+    Eigen::Matrix<double, 8, 1> weights;
+    double least_speed;
+    double inverse_mass = 0;  // bounds how all limits together answer an impulse here
+    Iterate<Vec3> impulse{Vec3::Zero(), Vec3::Zero()};
 
-  int place_of(const Body& body, int node);
+    [[nodiscard]] int count() const { return 8; }
+    [[nodiscard]] double pull(int i) const { return std::abs(weights[i]); }
+    /// Of speed to what the limit asks, sideways to rest.
+    [[nodiscard]] Vec3 lack(const Nodes& all, Vec3 Pushed::*velocity) const;
+    void push(const Vec3& size, Nodes& all) const;
+    /// What it may push.
+    [[nodiscard]] static Vec3 allowed(Vec3 size, double friction);
+  };
+  struct SqueezeLimit {
+    int key;                             // of the place it works at, increasing
+    std::array<std::size_t, 8> nodes{};  // places in nodes_
+    Eigen::Matrix<double, 3, 8> gradients;
+    double least_speed;
+    int node_count = 0;
+    double inverse_mass = 0;
+    Iterate<double> impulse{0, 0};
+
+    [[nodiscard]] int count() const { return node_count; }
+    [[nodiscard]] double pull(int i) const { return gradients.col(i).norm(); }
+    [[nodiscard]] double lack(const Nodes& all, Vec3 Pushed::*velocity) const;
+    void push(double size, Nodes& all) const;
+    [[nodiscard]] static double allowed(double size, double friction);
+  };
+
+  std::size_t place_of(const Body& body, int node);
   void find_limits(const World& world, double dt, const Body& body);
   void bound_answers();
   /// Takes over a good share of the step before's impulses.
@@ -71,6 +87,12 @@ class Impulses {
     double uphill = 0;
   };
   [[nodiscard]] Sweep sweep(double friction);
+  /// Does the same to every limit of either kind.
+  template <class Visit>
+  void each_limit(const Visit& visit) {
+    for (TouchLimit& limit : touches_) visit(limit);
+    for (SqueezeLimit& limit : squeezed_) visit(limit);
+  }
   /// The next sweep starts ahead of this one's end by `lead` times what it changed.
   void look_ahead(double lead);
 
@@ -81,7 +103,7 @@ class Impulses {
   std::vector<SqueezeLimit> squeezed_;
   std::vector<TouchLimit> touches_before_;  // in the step before
   std::vector<SqueezeLimit> squeezed_before_;
-  std::vector<Pushed> nodes_;
+  Nodes nodes_;
   std::vector<int> places_;  // per node of the body: in nodes_, or -1
 };
 
