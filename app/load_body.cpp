@@ -240,7 +240,8 @@ LoadedBody load_body(const SceneBody& body, const Console& console) {
   const std::string file = body.box ? loaded.name : body.mesh.string();
   turn(rotation_matrix(body.brick_rotation), loaded);
   Solids found = find_solids(loaded.mesh, file);
-  for (const std::string& note : found.notes) console.warn(fmt::format("{}: {}", loaded.name, note));
+  for (const std::string& note : notes_of(found.repairs)) console.warn(fmt::format("{}: {}", loaded.name, note));
+  loaded.repairs = std::move(found.repairs);
   loaded.solids = std::move(found.solids);
   if (loaded.solids.size() > 1) loaded.grid.reset();
   if (!body.box) report_crossings(console, loaded);

@@ -16,6 +16,7 @@ struct LoadedBody {
   std::string name;  // of the file, for messages
   SurfaceMesh mesh;
   std::vector<Solid> solids;
+  std::vector<Repair> repairs;
   Mat3 bricks_from_rest = Mat3::Identity();                     // how it was turned for that
   Vec3 extent = Vec3::Zero();                                   // m, sides of the bounding box before that
   double brick_size = 0;                                        // m

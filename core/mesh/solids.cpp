@@ -127,15 +127,23 @@ Solid make_solid(const WeldedMesh& mesh, const Nest& nest) {
   return solid;
 }
 
-void add_notes(const WeldedMesh& mesh, const Shells& found, const std::vector<Nest>& nests,
-               std::vector<std::string>& notes) {
-  if (mesh.without_area > 0) notes.push_back("dropped " + count_of(mesh.without_area, "triangle") + " without area");
-  if (mesh.repeated > 0) notes.push_back("dropped " + count_of(mesh.repeated, "repeated triangle"));
-  if (found.turned > 0)
-    notes.push_back("turned " + count_of(found.turned, "triangle") + " to agree with their neighbours");
+std::vector<Repair> list_repairs(const WeldedMesh& mesh, const Shells& found, const std::vector<Nest>& nests,
+                                 int flat) {
+  std::vector<Repair> repairs;
+  const auto add = [&](const char* kind, long count, const std::string& text, bool harmless = false) {
+    if (count > 0) repairs.push_back({kind, static_cast<int>(count), text, harmless});
+  };
+  add("degenerate", mesh.without_area, "dropped " + count_of(mesh.without_area, "triangle") + " without area");
+  add("duplicate", mesh.repeated, "dropped " + count_of(mesh.repeated, "repeated triangle"));
+  add("oriented", found.turned, "turned " + count_of(found.turned, "triangle") + " to agree with their neighbours");
   const auto inverted =
       std::count_if(nests.begin(), nests.end(), [](const Nest& nest) { return nest.outer->volume < 0; });
-  if (inverted > 0) notes.push_back("turned " + count_of(inverted, "inside-out solid") + " outwards");
+  add("inside_out", inverted, "turned " + count_of(inverted, "inside-out solid") + " outwards");
+  long cavities = 0;
+  for (const Nest& nest : nests) cavities += static_cast<long>(nest.cavities.size());
+  add("cavity", cavities, "kept " + count_of(cavities, "cavity", "cavities"), true);
+  add("dropped_flat", flat, "dropped " + count_of(flat, "closed piece") + " without volume");
+  return repairs;
 }
 
 }  // namespace
@@ -158,8 +166,7 @@ Solids find_solids(const SurfaceMesh& mesh, const std::string& name) {
   for (const Nest& nest : nests) result.solids.push_back(make_solid(welded, nest));
   std::stable_sort(result.solids.begin(), result.solids.end(),
                    [](const Solid& a, const Solid& b) { return a.volume > b.volume; });
-  add_notes(welded, found, nests, result.notes);
-  if (flat > 0) result.notes.push_back("dropped " + count_of(flat, "closed piece") + " without volume");
+  result.repairs = list_repairs(welded, found, nests, flat);
   return result;
 }
 

@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "core/mesh/repair.h"
 #include "core/mesh/surface_mesh.h"
 
 namespace sprung {
@@ -16,8 +17,8 @@ struct Solid {
 };
 
 struct Solids {
-  std::vector<Solid> solids;       // largest volume first
-  std::vector<std::string> notes;  // what had to be changed, with counts: "oriented 12 triangles", ...
+  std::vector<Solid> solids;    // largest volume first
+  std::vector<Repair> repairs;  // what had to be changed, with counts
 };
 
 /// Splits a mesh into its closed solids. Points are welded by exact position, so a seam in the index lists is no hole.

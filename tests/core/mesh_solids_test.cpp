@@ -28,7 +28,8 @@ std::string refusal(const SurfaceMesh& mesh) {
 }
 
 bool has_note(const Solids& found, const std::string& text) {
-  return std::any_of(found.notes.begin(), found.notes.end(),
+  const std::vector<std::string> notes = notes_of(found.repairs);
+  return std::any_of(notes.begin(), notes.end(),
                      [&](const std::string& note) { return note.find(text) != std::string::npos; });
 }
 
@@ -49,7 +50,7 @@ TEST(FindSolids, WeldsByPosition) {
   ASSERT_EQ(found.solids.size(), 1U);
   EXPECT_EQ(found.solids[0].points.rows(), 8);
   EXPECT_DOUBLE_EQ(found.solids[0].volume, 6);
-  EXPECT_TRUE(found.notes.empty());
+  EXPECT_TRUE(notes_of(found.repairs).empty());
 }
 
 TEST(FindSolids, TurnsAnInsideOutSurface) {
