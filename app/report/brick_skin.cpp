@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <set>
-#include <tuple>
+#include <map>
+#include <utility>
 
 #include "core/bricks/corner.h"
 
@@ -23,27 +23,35 @@ struct Face {
   int side;  // 2 axis + (1 on the high side)
 };
 
+/// The face of a brick on one side.
+Face face_of(const BrickGrid& grid, std::size_t brick, int side) {
+  const int axis = side / 2;
+  const bool high = side % 2 != 0;
+  const int base = high ? 1 << axis : 0;
+  const int j = 1 << ((axis + 1) % 3);
+  const int k = 1 << ((axis + 2) % 3);
+  std::array<int, 4> corners{base, base | j, base | j | k, base | k};
+  if (!high) std::swap(corners[1], corners[3]);
+  Face face{{}, side};
+  for (std::size_t c = 0; c < 4; ++c) face.nodes[c] = grid.nodes[brick][static_cast<std::size_t>(corners[c])];
+  return face;
+}
+
+/// Those that no two bricks share.
 std::vector<Face> outer_faces(const BrickGrid& grid) {
-  std::set<std::tuple<int, int, int>> solid;
-  for (const auto& cell : grid.cells) solid.emplace(cell.x(), cell.y(), cell.z());
   std::vector<Face> faces;
+  std::map<std::array<int, 4>, int> uses;
+  const auto key = [](Face face) {
+    std::sort(face.nodes.begin(), face.nodes.end());
+    return face.nodes;
+  };
   for (std::size_t brick = 0; brick < grid.cells.size(); ++brick) {
     for (int side = 0; side < 6; ++side) {
-      const int axis = side / 2;
-      const bool high = side % 2 != 0;
-      Eigen::Vector3i beside = grid.cells[brick];
-      beside[axis] += high ? 1 : -1;
-      if (solid.contains({beside.x(), beside.y(), beside.z()})) continue;
-      const int base = high ? 1 << axis : 0;
-      const int j = 1 << ((axis + 1) % 3);
-      const int k = 1 << ((axis + 2) % 3);
-      std::array<int, 4> corners{base, base | j, base | j | k, base | k};
-      if (!high) std::swap(corners[1], corners[3]);
-      Face face{{}, side};
-      for (std::size_t c = 0; c < 4; ++c) face.nodes[c] = grid.nodes[brick][static_cast<std::size_t>(corners[c])];
-      faces.push_back(face);
+      faces.push_back(face_of(grid, brick, side));
+      ++uses[key(faces.back())];
     }
   }
+  std::erase_if(faces, [&](const Face& face) { return uses[key(face)] > 1; });
   return faces;
 }
 

@@ -4,6 +4,10 @@
 #include <cstdint>
 #include <iterator>
 #include <numeric>
+#include <utility>
+
+#include "core/bricks/corner.h"
+#include "core/disjoint_sets.h"
 
 namespace sprung {
 namespace {
@@ -87,6 +91,86 @@ void number_nodes(BrickGrid& grid) {
       grid.nodes[i][corner] = static_cast<int>(node);
     }
   }
+}
+
+void number_nodes(BrickGrid& grid, const std::vector<SharedFace>& faces) {
+  DisjointSets corners(8 * grid.cells.size());
+  for (const SharedFace& face : faces) {
+    for (int corner = 0; corner < 8; ++corner) {
+      if (!on_high_side(corner, face.axis))
+        corners.merge(8 * face.low + corner + (1 << face.axis), 8 * face.high + corner);
+    }
+  }
+  const LatticeOrder order(grid.cells);
+  std::vector<std::pair<std::int64_t, int>> found;  // place and name of each node
+  for (int corner = 0; corner < static_cast<int>(corners.size()); ++corner) {
+    if (corners.find(corner) != corner) continue;
+    const Eigen::Vector3i offset(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
+    found.emplace_back(order.key(grid.cells[static_cast<std::size_t>(corner / 8)] + offset), corner);
+  }
+  std::sort(found.begin(), found.end());
+  std::vector<int> node_of(corners.size(), -1);
+  grid.lattice.clear();
+  for (const auto& [key, corner] : found) {
+    node_of[static_cast<std::size_t>(corner)] = grid.node_count();
+    grid.lattice.push_back(order.point(key));
+  }
+  grid.nodes.resize(grid.cells.size());
+  for (std::size_t corner = 0; corner < corners.size(); ++corner) {
+    grid.nodes[corner / 8][corner % 8] = node_of[static_cast<std::size_t>(corners.find(static_cast<int>(corner)))];
+  }
+}
+
+bool shares_face(const BrickGrid& grid, std::size_t brick, std::size_t other, int side) {
+  const int axis = side / 2;
+  const bool high = side % 2 != 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    if (on_high_side(corner, axis) != high) continue;
+    const auto across = static_cast<std::size_t>(corner ^ (1 << axis));
+    if (grid.nodes[brick][static_cast<std::size_t>(corner)] != grid.nodes[other][across]) return false;
+  }
+  return true;
+}
+
+void remove_bricks(BrickGrid& grid, const std::vector<bool>& gone, const std::vector<int>& heir) {
+  std::vector<int> new_row(grid.cells.size(), -1);
+  std::vector<int> new_node(grid.lattice.size(), -1);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < grid.cells.size(); ++i) {
+    if (gone[i]) continue;
+    grid.cells[kept] = grid.cells[i];
+    grid.fill[kept] = grid.fill[i];
+    grid.nodes[kept] = grid.nodes[i];
+    for (const int node : grid.nodes[i]) new_node[static_cast<std::size_t>(node)] = 0;
+    new_row[i] = static_cast<int>(kept++);
+  }
+  grid.cells.resize(kept);
+  grid.fill.resize(kept);
+  grid.nodes.resize(kept);
+  int nodes = 0;
+  for (std::size_t m = 0; m < grid.lattice.size(); ++m) {
+    if (new_node[m] < 0) continue;
+    grid.lattice[static_cast<std::size_t>(nodes)] = grid.lattice[m];
+    new_node[m] = nodes++;
+  }
+  grid.lattice.resize(static_cast<std::size_t>(nodes));
+  for (auto& corners : grid.nodes) {
+    for (int& node : corners) node = new_node[static_cast<std::size_t>(node)];
+  }
+  for (SolidPatch& patch : grid.patches) {
+    const auto brick = static_cast<std::size_t>(patch.brick);
+    patch.brick = new_row[static_cast<std::size_t>(gone[brick] ? heir[brick] : patch.brick)];
+  }
+}
+
+int count_connected(const BrickGrid& grid) {
+  DisjointSets sets(grid.lattice.size());
+  for (const auto& corners : grid.nodes) {
+    for (const int node : corners) sets.merge(corners[0], node);
+  }
+  int count = 0;
+  for (int node = 0; node < grid.node_count(); ++node) count += sets.find(node) == node ? 1 : 0;
+  return count;
 }
 
 BrickGrid make_box_grid(const Eigen::Vector3i& counts, double brick_size) {

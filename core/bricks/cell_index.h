@@ -6,18 +6,20 @@
 
 namespace sprung {
 
-/// Finds the brick at a cell of the lattice.
+/// Finds the bricks at a cell of the lattice.
 class CellIndex {
  public:
-  explicit CellIndex(const BrickGrid& grid) {
-    brick_of_cell_.reserve(grid.cells.size());
-    for (std::size_t i = 0; i < grid.cells.size(); ++i) brick_of_cell_.emplace(key(grid.cells[i]), static_cast<int>(i));
+  explicit CellIndex(const BrickGrid& grid) : CellIndex(grid.cells) {}
+  /// The same for any rows of cells.
+  explicit CellIndex(const std::vector<Eigen::Vector3i>& cells) {
+    row_of_cell_.reserve(cells.size());
+    for (std::size_t i = 0; i < cells.size(); ++i) row_of_cell_.emplace(key(cells[i]), static_cast<int>(i));
   }
 
-  /// -1: there is none.
+  /// The first one where the cell comes several times; the others follow it. -1: there is none.
   [[nodiscard]] int at(const Eigen::Vector3i& cell) const {
-    const auto found = brick_of_cell_.find(key(cell));
-    return found == brick_of_cell_.end() ? -1 : found->second;
+    const auto found = row_of_cell_.find(key(cell));
+    return found == row_of_cell_.end() ? -1 : found->second;
   }
 
  private:
@@ -27,7 +29,7 @@ class CellIndex {
     return part(0) | part(1) << 21 | part(2) << 42;
   }
 
-  std::unordered_map<std::uint64_t, int> brick_of_cell_;
+  std::unordered_map<std::uint64_t, int> row_of_cell_;
 };
 
 }  // namespace sprung

@@ -6,11 +6,14 @@
 #include <limits>
 
 #include "core/bricks/cell_index.h"
+#include "core/bricks/solid_finder.h"
 
 namespace sprung {
 namespace {
 
 using Cell = Eigen::Vector3i;
+
+constexpr double kRounding = 1e-9;  // bricks
 
 /// Finds the brick that holds a point, or the nearest one.
 class BrickFinder {
@@ -28,7 +31,7 @@ class BrickFinder {
       for (int axis = 0; axis < 3; ++axis) {
         if (((side >> axis) & 1) == 0) continue;
         const double rounded = std::round(place[axis]);
-        on_border = on_border && std::abs(place[axis] - rounded) < 1e-9;
+        on_border = on_border && std::abs(place[axis] - rounded) < kRounding;
         neighbour[axis] = rounded > place[axis] ? cell[axis] + 1 : cell[axis] - 1;
       }
       if (const int brick = on_border ? index_.at(neighbour) : -1; brick >= 0) return brick;
@@ -111,22 +114,25 @@ Eigen::Matrix<double, 8, 3> trilinear_gradients(const Vec3& local) {
   return gradients;
 }
 
-Embedding embed(const BrickGrid& grid, const Points& points) {
+Embedding embed(const BrickGrid& grid, const Points& points, const Points& outward) {
   const BrickFinder finder(grid);
+  const SolidFinder solid(grid);
   Embedding embedding;
   embedding.brick.resize(static_cast<std::size_t>(points.rows()));
   embedding.local.resize(points.rows(), 3);
   for (int i = 0; i < points.rows(); ++i) {
     const Vec3 place = (points.row(i).transpose() - grid.origin) / grid.brick_size;
-    int brick = finder.holding(place);
-    const bool is_outside = brick < 0;
-    if (is_outside) brick = finder.nearest(place);
+    const Vec3 inward = outward.rows() == 0 ? Vec3::Zero() : Vec3(-outward.row(i).transpose().stableNormalized());
+    int brick = solid.under(place, inward);
+    if (brick < 0) brick = finder.holding(place);
+    if (brick < 0) brick = finder.nearest(place);
     const Vec3 local = place - grid.cells[static_cast<std::size_t>(brick)].cast<double>();
     embedding.brick[static_cast<std::size_t>(i)] = brick;
     embedding.local.row(i) = local;
-    if (!is_outside) continue;
+    const double distance = distance_from_brick(local);
+    if (distance < kRounding) continue;
     ++embedding.outside;
-    embedding.furthest = std::max(embedding.furthest, distance_from_brick(local));
+    embedding.furthest = std::max(embedding.furthest, distance);
   }
   return embedding;
 }

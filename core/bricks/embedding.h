@@ -6,8 +6,8 @@
 
 namespace sprung {
 
-/// Where points ride: each in one brick, by trilinear weights of its eight corners. Outside every brick the nearest
-/// brick's weights are continued; `outside` counts them.
+/// Where points ride: each in one brick, by trilinear weights of its eight corners. Outside its brick the weights are
+/// continued; `outside` counts such points.
 struct Embedding {
   std::vector<int> brick;  // n
   Points local;            // n x 3; place in the brick, 0..1 along each axis where the point is inside
@@ -21,8 +21,10 @@ struct Embedding {
 /// Their derivatives by the place in the brick: 8 x 3.
 [[nodiscard]] Eigen::Matrix<double, 8, 3> trilinear_gradients(const Vec3& local);
 
-/// `points` in the grid's frame, m.
-[[nodiscard]] Embedding embed(const BrickGrid& grid, const Points& points);
+/// `points` in the grid's frame, m; `outward` (n x 3, any length; or 0 rows) is where the solid under each ends. Where
+/// a cell holds several pieces of solid (BrickGrid::patches) a point rides in the brick of the nearest solid, of that
+/// which lies inward of it where `outward` is known.
+[[nodiscard]] Embedding embed(const BrickGrid& grid, const Points& points, const Points& outward = Points(0, 3));
 
 /// Where the embedded points are for these node positions; n x 3, m. A rigid or affine motion of the nodes moves them
 /// in exactly the same way.

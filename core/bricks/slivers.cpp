@@ -18,7 +18,12 @@ Neighbours face_neighbours(const BrickGrid& grid, const CellIndex& index, std::s
   for (int side = 0; side < 6; ++side) {
     Eigen::Vector3i cell = grid.cells[brick];
     cell[side / 2] += side % 2 == 0 ? -1 : 1;
-    neighbours[static_cast<std::size_t>(side)] = index.at(cell);
+    int other = index.at(cell);
+    while (other >= 0 && !shares_face(grid, brick, static_cast<std::size_t>(other), side)) {
+      ++other;
+      if (other == grid.brick_count() || grid.cells[static_cast<std::size_t>(other)] != cell) other = -1;
+    }
+    neighbours[static_cast<std::size_t>(side)] = other;
   }
   return neighbours;
 }
@@ -33,19 +38,6 @@ int strongest(const BrickGrid& grid, const Neighbours& neighbours) {
     best_fill = grid.fill[static_cast<std::size_t>(neighbour)];
   }
   return best;
-}
-
-void keep(BrickGrid& grid, const std::vector<bool>& gone) {
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < grid.cells.size(); ++i) {
-    if (gone[i]) continue;
-    grid.cells[kept] = grid.cells[i];
-    grid.fill[kept] = grid.fill[i];
-    ++kept;
-  }
-  grid.cells.resize(kept);
-  grid.fill.resize(kept);
-  number_nodes(grid);
 }
 
 }  // namespace
@@ -72,7 +64,7 @@ int absorb_slivers(BrickGrid& grid, double least_fill) {
     fill[static_cast<std::size_t>(receiver[i])] += grid.fill[i];
   }
   grid.fill = std::move(fill);
-  keep(grid, gone);
+  remove_bricks(grid, gone, receiver);
   return static_cast<int>(std::count(gone.begin(), gone.end(), true));
 }
 

@@ -5,31 +5,10 @@
 #include <unordered_map>
 
 #include "core/bricks/corner.h"
+#include "core/disjoint_sets.h"
 
 namespace sprung::multigrid {
 namespace {
-
-/// Sets of numbers that merge; a set is named by its smallest member.
-class Sets {
- public:
-  explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int find(int item) {
-    while (parent_[static_cast<std::size_t>(item)] != item) {
-      int& up = parent_[static_cast<std::size_t>(item)];
-      up = parent_[static_cast<std::size_t>(up)];
-      item = up;
-    }
-    return item;
-  }
-  void merge(int a, int b) {
-    a = find(a);
-    b = find(b);
-    parent_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
-  }
-
- private:
-  std::vector<int> parent_;
-};
 
 struct CellHash {
   std::size_t operator()(const Eigen::Vector3i& cell) const {
@@ -48,7 +27,7 @@ bool share_a_node(const BrickNodes& a, const BrickNodes& b) {
 
 /// The children of one coarse cell, in groups that hang together.
 std::vector<std::vector<int>> hanging_together(const std::vector<int>& children, const Layout& fine) {
-  Sets sets(children.size());
+  DisjointSets sets(children.size());
   for (std::size_t a = 0; a < children.size(); ++a) {
     for (std::size_t b = 0; b < a; ++b) {
       if (share_a_node(fine.bricks[static_cast<std::size_t>(children[a])],
@@ -137,7 +116,7 @@ void join_nodes(Layout& fine, const std::vector<int>& parents, Layout& coarse) {
   const auto fine_nodes = static_cast<std::size_t>(fine.node_count);
   hang.coarse_nodes.resize(fine_nodes);
   hang.counts.assign(fine_nodes, 0);
-  Sets sets(8 * coarse.cells.size());
+  DisjointSets sets(8 * coarse.cells.size());
   for_each_hanging(fine, parents, [&](std::size_t node, int first, const std::vector<int>& corners) {
     const bool is_new = hang.counts[node] == 0;
     hang.counts[node] = static_cast<std::uint8_t>(corners.size());

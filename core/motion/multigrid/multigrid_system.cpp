@@ -57,7 +57,7 @@ class MultigridSystem : public NewtonSystem {
     body_ = &body;
     terms_ = &terms;
     definite_ = definite;
-    if (!cycle_ || layouts_.front().cells != body.grid.cells) {
+    if (!cycle_ || layouts_.front().bricks != body.grid.nodes) {
       layouts_ = multigrid::make_hierarchy(body.grid, kCoarsestNodes);
       cycle_ = std::make_unique<multigrid::Cycle>(layouts_);
     }

@@ -1,0 +1,241 @@
+#include "core/bricks/solid_samples.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/bricks/sample_lines.h"
+#include "core/disjoint_sets.h"
+
+namespace sprung {
+namespace {
+
+constexpr int kSamples = 512;
+constexpr double kPitch = 1.0 / kSamplesAlong;
+constexpr double kShortest = 1e-3;  // cells: a shorter stretch inside is none
+constexpr double kSpotReach = 2.2;  // pitches: how far a spot looks for what it hangs together with
+constexpr float kLeastPiece = 4;    // samples
+constexpr std::size_t kMostPieces = 100;
+
+constexpr std::array<int, 3> kStride{1, kSamplesAlong, kSamplesAlong* kSamplesAlong};
+
+int inside_bits(const CutCell& cell, int sample) { return cell.lines[static_cast<std::size_t>(sample)] & 7; }
+bool is_inside(const CutCell& cell, int sample) { return inside_bits(cell, sample) == 7; }
+
+int along(int sample, int axis) { return sample / kStride[static_cast<std::size_t>(axis)] % kSamplesAlong; }
+
+/// Calls visit(sample) for the samples of the cell within `reach` pitches of a place along every axis.
+template <class Visit>
+void for_each_near(const Vec3& local, double reach, const Visit& visit) {
+  const Eigen::Array3d middle = local.array() * kSamplesAlong - 0.5;
+  const Eigen::Array3i low = (middle - reach).ceil().cast<int>().max(0);
+  const Eigen::Array3i high = (middle + reach).floor().cast<int>().min(kSamplesAlong - 1);
+  for (int z = low.z(); z <= high.z(); ++z) {
+    for (int y = low.y(); y <= high.y(); ++y) {
+      for (int x = low.x(); x <= high.x(); ++x) visit(x + kSamplesAlong * (y + kSamplesAlong * z));
+    }
+  }
+}
+
+/// Inside samples that hang together along the lines.
+void join_along_lines(const CutCell& cell, DisjointSets& sets) {
+  for (int sample = 0; sample < kSamples; ++sample) {
+    if (!is_inside(cell, sample)) continue;
+    for (int axis = 0; axis < 3; ++axis) {
+      const int next = sample + kStride[static_cast<std::size_t>(axis)];
+      const bool goes_on = (cell.lines[static_cast<std::size_t>(sample)] >> (3 + axis) & 1) != 0;
+      if (goes_on && along(sample, axis) + 1 < kSamplesAlong && is_inside(cell, next)) sets.merge(sample, next);
+    }
+  }
+}
+
+float weight_of(const CutCell& cell, int item) {
+  if (item >= kSamples) return cell.spots[static_cast<std::size_t>(item - kSamples)].weight;
+  return is_inside(cell, item) ? 1.0F : 0.0F;
+}
+
+bool is_solid(const CutCell& cell, int item) { return item >= kSamples || is_inside(cell, item); }
+
+/// Numbers the sets in the order of their first members; too small ones beside a larger one are 0.
+void number_pieces(DisjointSets& sets, CutCell& cell) {
+  const int count = static_cast<int>(sets.size());
+  std::vector<float> weights(sets.size(), 0);
+  for (int item = 0; item < count; ++item) weights[static_cast<std::size_t>(sets.find(item))] += weight_of(cell, item);
+  const float heaviest = *std::max_element(weights.begin(), weights.end());
+  const float least = std::min(heaviest, kLeastPiece);
+  std::vector<std::uint8_t> number(sets.size(), 0);
+  cell.piece.assign(sets.size(), 0);
+  for (int item = 0; item < count; ++item) {
+    if (!is_solid(cell, item)) continue;
+    const auto set = static_cast<std::size_t>(sets.find(item));
+    if (number[set] == 0 && weights[set] >= least && cell.weights.size() < kMostPieces) {
+      cell.weights.push_back(weights[set]);
+      number[set] = static_cast<std::uint8_t>(cell.weights.size());
+    }
+    cell.piece[static_cast<std::size_t>(item)] = number[set];
+  }
+}
+
+}  // namespace
+
+SolidSamples::SolidSamples(const CellSurface& surface, const BrickGrid& grid)
+    : grid_(grid), counts_(surface.counts), triangles_(surface.points, surface.triangles, surface.counts) {
+  brick_at_.assign(static_cast<std::size_t>(counts_.cast<std::int64_t>().prod()), -1);
+  for (int brick = 0; brick < grid.brick_count(); ++brick) {
+    const Eigen::Vector3i& cell = grid.cells[static_cast<std::size_t>(brick)];
+    brick_at_[(static_cast<std::size_t>(cell.z()) * static_cast<std::size_t>(counts_.y()) +
+               static_cast<std::size_t>(cell.y())) *
+                  static_cast<std::size_t>(counts_.x()) +
+              static_cast<std::size_t>(cell.x())] = brick;
+  }
+  cut_cell_of_.assign(grid.cells.size(), -1);
+  std::array<std::vector<InsideRun>, 3> runs;
+  for (int axis = 0; axis < 3; ++axis) {
+    runs[static_cast<std::size_t>(axis)] = inside_runs(surface, axis);
+    mark_cut(runs[static_cast<std::size_t>(axis)], axis);
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const InsideRun& run : runs[static_cast<std::size_t>(axis)]) add_run(run, axis);
+    runs[static_cast<std::size_t>(axis)] = {};
+  }
+  tbb::parallel_for(std::size_t{0}, cut_cells_.size(), [&](std::size_t i) { find_pieces(cut_cells_[i]); });
+}
+
+int SolidSamples::brick_at(const Eigen::Vector3i& cell) const {
+  if ((cell.array() < 0).any() || (cell.array() >= counts_.array()).any()) return -1;
+  return brick_at_[(static_cast<std::size_t>(cell.z()) * static_cast<std::size_t>(counts_.y()) +
+                    static_cast<std::size_t>(cell.y())) *
+                       static_cast<std::size_t>(counts_.x()) +
+                   static_cast<std::size_t>(cell.x())];
+}
+
+Vec3 SolidSamples::place_of(const CutCell& cell, int sample) const {
+  if (sample >= kSamples) return cell.spots[static_cast<std::size_t>(sample - kSamples)].place;
+  const Vec3 local(along(sample, 0) + 0.5, along(sample, 1) + 0.5, along(sample, 2) + 0.5);
+  return grid_.cells[static_cast<std::size_t>(cell.brick)].cast<double>() + local * kPitch;
+}
+
+/// The cells where a run begins or ends, but for those that it only touches.
+void SolidSamples::mark_cut(const std::vector<InsideRun>& runs, int axis) {
+  for (const InsideRun& run : runs) {
+    for (const double end : {run.from, run.to}) {
+      if (end == std::floor(end)) continue;
+      Eigen::Vector3i cell;
+      cell[axis] = static_cast<int>(std::floor(end));
+      cell[(axis + 1) % 3] = run.u / kSamplesAlong;
+      cell[(axis + 2) % 3] = run.v / kSamplesAlong;
+      const int brick = brick_at(cell);
+      if (brick < 0 || cut_cell_of_[static_cast<std::size_t>(brick)] >= 0) continue;
+      cut_cell_of_[static_cast<std::size_t>(brick)] = static_cast<int>(cut_cells_.size());
+      cut_cells_.push_back({.brick = brick, .spots = {}, .piece = {}, .weights = {}});
+    }
+  }
+}
+
+void SolidSamples::add_run(const InsideRun& run, int axis) {
+  const int axis_u = (axis + 1) % 3;
+  const int axis_v = (axis + 2) % 3;
+  const auto first_sample = static_cast<int>(std::ceil(run.from * kSamplesAlong - 0.5));
+  const auto last_sample = static_cast<int>(std::floor(run.to * kSamplesAlong - 0.5));
+  const int across = run.u % kSamplesAlong * kStride[static_cast<std::size_t>(axis_u)] +
+                     run.v % kSamplesAlong * kStride[static_cast<std::size_t>(axis_v)];
+  SpotLink link{.low_cell = -1,
+                .low_sample = 0,
+                .low_brick = -1,
+                .high_cell = -1,
+                .high_sample = 0,
+                .high_brick = -1,
+                .axis = axis};
+  const int last_cell = std::min(static_cast<int>(std::ceil(run.to)), counts_[axis]) - 1;
+  for (int c = static_cast<int>(run.from); c <= last_cell; ++c) {
+    Eigen::Vector3i place;
+    place[axis] = c;
+    place[axis_u] = run.u / kSamplesAlong;
+    place[axis_v] = run.v / kSamplesAlong;
+    link.high_brick = brick_at(place);
+    link.high_cell = link.high_brick < 0 ? -1 : cut_cell_of_[static_cast<std::size_t>(link.high_brick)];
+    link.high_sample = 0;
+    int leaves = 0;
+    bool is_spot = false;
+    if (link.high_cell >= 0) {
+      CutCell& cell = cut_cells_[static_cast<std::size_t>(link.high_cell)];
+      const int begin = std::max(first_sample, c * kSamplesAlong);
+      const int end = std::min(last_sample, c * kSamplesAlong + kSamplesAlong - 1);
+      for (int s = begin; s <= end; ++s) {
+        const auto sample =
+            static_cast<std::size_t>(across + (s - c * kSamplesAlong) * kStride[static_cast<std::size_t>(axis)]);
+        cell.lines[sample] |= static_cast<std::uint8_t>(1U << axis | (s < last_sample ? 8U << axis : 0U));
+        cell.below[sample] |= static_cast<std::uint8_t>(s > first_sample ? 1U << axis : 0U);
+      }
+      link.high_sample = across + (begin - c * kSamplesAlong) * kStride[static_cast<std::size_t>(axis)];
+      leaves = across + (end - c * kSamplesAlong) * kStride[static_cast<std::size_t>(axis)];
+      const double from = std::max(run.from, static_cast<double>(c));
+      const double to = std::min(run.to, c + 1.0);
+      if (begin > end && to - from < kShortest) link.high_brick = -1;
+      if (begin > end && to - from >= kShortest) {
+        Vec3 middle;
+        middle[axis] = (from + to) / 2;
+        middle[axis_u] = (run.u + 0.5) * kPitch;
+        middle[axis_v] = (run.v + 0.5) * kPitch;
+        is_spot = true;
+        leaves = link.high_sample = kSamples + static_cast<int>(cell.spots.size());
+        cell.spots.push_back({middle, static_cast<float>((to - from) / kPitch / 3)});
+      }
+    }
+    const bool low_is_spot = link.low_cell >= 0 && link.low_sample >= kSamples;
+    if (link.low_brick >= 0 && link.high_brick >= 0 && (is_spot || low_is_spot)) spot_links_.push_back(link);
+    link.low_brick = link.high_brick;
+    link.low_cell = link.high_cell;
+    link.low_sample = leaves;
+  }
+}
+
+void SolidSamples::find_pieces(CutCell& cell) const {
+  DisjointSets sets(kSamples + cell.spots.size());
+  join_along_lines(cell, sets);
+  join_diagonally(cell, sets);
+  join_spots(cell, sets);
+  number_pieces(sets, cell);
+}
+
+/// Where the lines leave several sets: neighbours across an edge or a corner of the samples' own lattice.
+void SolidSamples::join_diagonally(const CutCell& cell, DisjointSets& sets) const {
+  int first = -1;
+  bool is_one = true;
+  for (int sample = 0; sample < kSamples && is_one; ++sample) {
+    if (!is_inside(cell, sample)) continue;
+    if (first < 0) first = sample;
+    is_one = sets.find(sample) == sets.find(first);
+  }
+  if (is_one) return;
+  const Vec3 corner = grid_.cells[static_cast<std::size_t>(cell.brick)].cast<double>();
+  for (int sample = 0; sample < kSamples; ++sample) {
+    if (!is_inside(cell, sample)) continue;
+    const Vec3 place = place_of(cell, sample);
+    for_each_near(place - corner, 1.01, [&](int other) {
+      if (other <= sample || !is_inside(cell, other) || sets.find(other) == sets.find(sample)) return;
+      if (sees(place, place_of(cell, other))) sets.merge(sample, other);
+    });
+  }
+}
+
+void SolidSamples::join_spots(const CutCell& cell, DisjointSets& sets) const {
+  const Vec3 corner = grid_.cells[static_cast<std::size_t>(cell.brick)].cast<double>();
+  for (std::size_t i = 0; i < cell.spots.size(); ++i) {
+    const int item = kSamples + static_cast<int>(i);
+    const Vec3& place = cell.spots[i].place;
+    const auto join = [&](int other) {
+      if (sets.find(other) != sets.find(item) && sees(place, place_of(cell, other))) sets.merge(item, other);
+    };
+    for_each_near(place - corner, 1.5, [&](int other) {
+      if (is_inside(cell, other)) join(other);
+    });
+    for (std::size_t j = 0; j < i; ++j) {
+      if ((cell.spots[j].place - place).norm() < kSpotReach * kPitch) join(kSamples + static_cast<int>(j));
+    }
+  }
+}
+
+}  // namespace sprung

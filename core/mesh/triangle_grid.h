@@ -1,0 +1,36 @@
+#pragma once
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "core/types.h"
+
+namespace sprung {
+
+/// Triangles sorted into the cells of a lattice, to find those that a straight line meets. Points are in cells: the box
+/// of `counts` cells begins at 0. Keeps references to what it is made of.
+class TriangleGrid {
+ public:
+  TriangleGrid(const Points& points, const Triangles& triangles, const Eigen::Vector3i& counts);
+
+  /// Whether any triangle lies between the two points, which are at most a few cells apart.
+  [[nodiscard]] bool is_blocked(const Vec3& from, const Vec3& to) const;
+
+  /// How far a ray runs until it meets a triangle other than `without`, in lengths of `direction`; infinite where it
+  /// meets none.
+  [[nodiscard]] double free_way(const Vec3& from, const Vec3& direction, int without) const;
+
+ private:
+  [[nodiscard]] std::span<const int> triangles_of(const Eigen::Vector3i& cell) const;
+  [[nodiscard]] double way_to(int triangle, const Vec3& from, const Vec3& direction) const;
+  template <class Visit>
+  void for_each_cell(int triangle, const Visit& visit) const;
+
+  const Points& points_;
+  const Triangles& triangles_;
+  Eigen::Vector3i counts_;
+  std::vector<std::size_t> first_;  // by cell
+  std::vector<int> sorted_;
+};
+
+}  // namespace sprung
