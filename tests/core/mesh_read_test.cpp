@@ -147,7 +147,7 @@ TEST_F(ReadMesh, AppliesMirroringNodesToWindingAndNormals) {
   EXPECT_EQ(mesh.parts[1].first_triangle, 4);
   const Solids found = find_solids(mesh, "mirror");
   ASSERT_EQ(found.solids.size(), 2U);
-  EXPECT_TRUE(found.notes.empty()) << "the mirrored instance is inside out";
+  EXPECT_TRUE(notes_of(found.repairs).empty()) << "the mirrored instance is inside out";
   EXPECT_NEAR(found.solids[0].volume, 2.0 / 6, 1e-6);
   // The plane x = 0.6, y = 0.8 stretched by -2 along x keeps (0.6 / -2, 0.8) as its normal.
   const Eigen::Vector3f expected = Eigen::Vector3f(-0.3F, 0.8F, 0).normalized();
