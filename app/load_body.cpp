@@ -16,7 +16,7 @@
 #include "core/count_of.h"
 #include "core/error.h"
 #include "core/mesh/crossings.h"
-#include "core/mesh/file_checks.h"
+#include "core/mesh/read/file_checks.h"
 #include "core/mesh/read_mesh.h"
 #include "render/decode.h"
 
@@ -41,12 +41,11 @@ Bounds recentre(SurfaceMesh& mesh) {
   return {.middle = middle, .extent = high - low};
 }
 
-/// All readers but that of OFF keep single precision.
-void warn_if_far_away(const SceneBody& body, double sizes, const Console& console) {
-  if (sizes < kFarAway || lower_extension(body.mesh) == ".off") return;
+void warn_if_far_away(const SceneBody& body, const SurfaceMesh& mesh, double sizes, const Console& console) {
+  if (sizes < kFarAway || !mesh.single_precision) return;
   console.warn(
-      fmt::format("{}: lies {:.2g} times its size from the origin of its file; read in single precision, that moves "
-                  "its points by up to {:.1g} of its size; move it to the origin in a mesh editor",
+      fmt::format("{}: lies {:.2g} times its size from the origin of its file; in the single precision of its format, "
+                  "that moves its points by up to {:.1g} of its size; move it to the origin in a mesh editor",
                   body.mesh.filename().string(), sizes, sizes * std::numeric_limits<float>::epsilon() / 2));
 }
 
@@ -123,7 +122,7 @@ void load_mesh(const SceneBody& body, LoadedBody& loaded, const Console& console
                 fmt::format("{}: all points of the mesh fall together{}", body.mesh.string(),
                             middle.norm() > 0 ? ", perhaps because they lie too far from the origin" : ""));
   }
-  warn_if_far_away(body, middle.norm() / length, console);
+  warn_if_far_away(body, loaded.mesh, middle.norm() / length, console);
   const double scale = scale_of(body, loaded.name, length, console);
   loaded.mesh.positions *= scale;
   loaded.extent = extent * scale;

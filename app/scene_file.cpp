@@ -12,7 +12,7 @@
 #include "app/scene_mistakes.h"
 #include "app/scene_values.h"
 #include "core/error.h"
-#include "core/mesh/file_checks.h"
+#include "core/mesh/read/file_checks.h"
 #include "core/nearest.h"
 
 namespace sprung {

@@ -3,7 +3,7 @@
 #include "app/scene_file.h"
 #include "app/scene_values.h"
 #include "core/error.h"
-#include "core/mesh/file_checks.h"
+#include "core/mesh/read/file_checks.h"
 #include "core/nearest.h"
 
 namespace sprung {

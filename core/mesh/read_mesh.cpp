@@ -1,36 +1,89 @@
 #include "core/mesh/read_mesh.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
 
 #include "core/error.h"
-#include "core/mesh/assimp_reader.h"
-#include "core/mesh/file_checks.h"
-#include "core/mesh/off_reader.h"
+#include "core/mesh/read/assimp_reader.h"
+#include "core/mesh/read/companion_files.h"
+#include "core/mesh/read/file_checks.h"
+#include "core/mesh/read/mesh_bytes.h"
+#include "core/mesh/read/obj_reader.h"
+#include "core/mesh/read/off_reader.h"
+#include "core/mesh/read/ply_reader.h"
+#include "core/mesh/read/reading_child.h"
+#include "core/mesh/read/stl_reader.h"
 
 namespace sprung {
 namespace {
 
-/// What no reader promises: faces at all, indices in range and finite coordinates.
-void check_content(const SurfaceMesh& mesh, const std::string& name) {
-  const auto refuse = [&](const std::string& reason) {
-    throw Error(ErrorKind::kBadInput, fmt::format("{}: {}", name, reason));
-  };
-  const int vertices = static_cast<int>(mesh.positions.rows());
-  for (int v = 0; v < vertices; ++v) {
-    if (!mesh.positions.row(v).allFinite()) refuse(fmt::format("vertex {} has a coordinate that is not finite", v + 1));
+namespace fs = std::filesystem;
+
+constexpr std::uintmax_t kLargestFile = std::uintmax_t{1} << 32;  // bytes
+
+[[noreturn]] void refuse(const fs::path& file, const std::string& reason) {
+  throw Error(ErrorKind::kBadInput, fmt::format("{}: {}", file.string(), reason));
+}
+
+void check_size(const fs::path& file) {
+  const std::uintmax_t size = fs::file_size(file);
+  if (size == 0) refuse(file, "empty file");
+  if (size > kLargestFile) {
+    refuse(file, fmt::format("its {:.1f} GB are more than the {:.1f} GB that are read; simplify the mesh",
+                             static_cast<double>(size) * 1e-9, static_cast<double>(kLargestFile) * 1e-9));
   }
-  if (mesh.triangles.rows() == 0) {
-    refuse(vertices > 0 ? fmt::format("no faces (a point cloud of {} points)", vertices) : "no faces");
+}
+
+/// Bytes that a reader takes in: the file and, of a glTF, the buffers beside it.
+std::uintmax_t bytes_to_read(const fs::path& file) {
+  std::uintmax_t bytes = fs::file_size(file);
+  if (lower_extension(file) != ".gltf") return bytes;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(fs::absolute(file).parent_path(), error)) {
+    if (lower_extension(entry.path()) == ".bin" && entry.is_regular_file(error)) bytes += entry.file_size(error);
   }
-  if (mesh.triangles.minCoeff() < 0 || mesh.triangles.maxCoeff() >= vertices) refuse("a face index is out of range");
+  return bytes;
+}
+
+/// Ten times and more of what sound files were seen to take: 15 bytes a byte of XML, and 10 MB a second.
+ReadingLimits limits_for(const fs::path& file) {
+  constexpr std::uint64_t kBytesPerByte = 64;
+  const std::uintmax_t bytes = std::min(bytes_to_read(file), kLargestFile);
+  const auto physical =
+      static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+  ReadingLimits limits;
+  limits.memory = std::min(limits.memory + kBytesPerByte * bytes, std::max(limits.memory, physical / 4 * 3));
+  limits.cpu_time += static_cast<int>(2 * (bytes >> 20));
+  limits.wall_time = 5 * limits.cpu_time;
+  return limits;
 }
 
 }  // namespace
 
-SurfaceMesh read_mesh(const std::filesystem::path& file) {
-  check_mesh_file(file);
-  SurfaceMesh mesh = lower_extension(file) == ".off" ? read_off(file) : read_by_assimp(file);
-  check_content(mesh, file.string());
+SurfaceMesh read_mesh_here(const fs::path& file) {
+  const std::string name = file.string();
+  const std::string format = lower_extension(file);
+  const std::string bytes = read_bytes(file);
+  if (format == ".obj") {
+    return read_obj(bytes, name, [&](const std::string& companion) { return read_companion(companion, file); });
+  }
+  if (format == ".ply") return read_ply(bytes, name);
+  if (format == ".stl") return read_stl(bytes, name);
+  if (format == ".off") return read_off(bytes, name);
+  if (format == ".glb") check_glb(bytes, name);
+  if (format == ".gltf") check_gltf(bytes, name);
+  if (format == ".3mf") check_3mf(bytes, name);
+  return read_by_assimp(file);
+}
+
+SurfaceMesh read_mesh(const fs::path& file) {
+  check_readable(file);
+  check_size(file);
+  SurfaceMesh mesh = read_in_child(file, limits_for(file), [&] { return read_mesh_here(file); });
+  if (const std::string fault = find_fault(mesh); !fault.empty()) refuse(file, fault);
+  read_textures(mesh, file);
   return mesh;
 }
 

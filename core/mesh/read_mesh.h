@@ -5,10 +5,18 @@
 
 namespace sprung {
 
-/// Reads any mesh format that assimp knows (OFF by CGAL, since assimp drops faces there). Several meshes in a file
-/// become parts; polygons are cut into triangles; textures are looked for beside the file.
-/// Throws Error(kBadInput) naming file, reason and, where known, the place in it: missing, a directory, empty, not a
-/// mesh, no faces, a coordinate that is not finite, an index out of range.
+/// Reads any mesh format that assimp knows, but OBJ, PLY, STL and OFF by readers of our own: in double precision, with
+/// the place of every fault, and right where assimp is not. It does so in a child process with limits of memory and
+/// time that grow with the size of the file (core/mesh/read/reading_child.h): no file can crash, hang or fill up this
+/// one. Several meshes in a file become parts; polygons are cut into triangles; textures are looked for beside the
+/// file; skins and animations are left out with a note. Throws Error(kBadInput) naming file, reason and, where known,
+/// the place in it: missing, a directory, empty, larger than 4 GiB, not a mesh, no faces, cut short, a coordinate that
+/// is not finite, an index out of range, counts that the file cannot hold, a feature that is not supported, a crash or
+/// too long a time of the reader.
 [[nodiscard]] SurfaceMesh read_mesh(const std::filesystem::path& file);
+
+/// The same in this process, without limits and without textures: for tests of the readers. assimp may take the process
+/// down. Precondition: check_readable.
+[[nodiscard]] SurfaceMesh read_mesh_here(const std::filesystem::path& file);
 
 }  // namespace sprung

@@ -32,6 +32,7 @@ struct SurfaceMesh {
   Eigen::Matrix<float, Eigen::Dynamic, 4, Eigen::RowMajor> colors;   // n x 4, sRGB in [0, 1]; 0 rows: none
   std::vector<Part> parts;                                           // cover all triangles, in order
   std::vector<SurfaceMaterial> materials;
+  bool single_precision = false;   // positions were rounded to floats, by the file or on the way from it
   std::vector<std::string> notes;  // what the reader left out, one sentence each: a texture not found, loose lines, ...
 };
 

@@ -75,10 +75,12 @@ TEST_F(ReadMesh, RefusesDamagedFilesByName) {
   expect_refusal(write("b.obj", "v 0 0 0\nv 1 0 0\nf 1 2 -3\nv 0 1 0\n"), "face 1 refers to vertex -3");
   expect_refusal(write("c.obj", "v 0 0 0\nv 1 1e999 0\nv 0 1 0\nf 1 2 3\n"),
                  "vertex 2 has a coordinate that is not finite");
-  expect_refusal(write("d.obj", "v 0 0 0\nv 1 0 0\n"), "no faces (a point cloud of 2 points)");
+  expect_refusal(write("d.obj", "v 0 0 0\nv 1 0 0\n"), "no faces (a point cloud); it holds 2 points");
   expect_refusal(write("e.off", "OFF\n999999999999 1 0\n0 0 0\n"), "declares 999999999999 vertices");
-  expect_refusal(write("f.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n"), "not a valid OFF file");
-  expect_refusal(write("g.off", "OFF\n3 1 0\n0 0 0\n1 0 nan\n0 1 0\n3 0 1 2\n"), "g.off");
+  expect_refusal(write("f.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n"),
+                 "f.off:6: face 1 refers to vertex 7, but they run from 0 to 2 (index out of range)");
+  expect_refusal(write("g.off", "OFF\n3 1 0\n0 0 0\n1 0 nan\n0 1 0\n3 0 1 2\n"),
+                 "vertex 2 has a coordinate that is not finite");
   expect_refusal(write("h.glb", std::string("glTF\2\0\0\0\0\1\0\0JSON", 16)),
                  "file is shorter (16) than its header says (256)");
   expect_refusal(write("i.glb", "not a binary glTF"), "is not a GLB file");
@@ -216,6 +218,10 @@ TEST(ReadSharedMesh, KeepsColoursAndTextures) {
   EXPECT_EQ(read_mesh(test::shared_mesh("scallop.glb")).colors.rows(), 60002);
   EXPECT_EQ(read_mesh(test::shared_mesh("blobby-shuffled.off")).triangles.rows(), 4050);
   EXPECT_EQ(read_mesh(test::shared_mesh("cube_gears.3mf")).parts.size(), 17U);
+  const SurfaceMesh die = read_mesh(test::shared_mesh("MUSTPASS_Chapter2.1_PartsRelationships.3mf"));
+  EXPECT_NEAR(find_solids(die, "die").solids.at(0).volume, 8000, 1e-3);
+  ASSERT_EQ(die.notes.size(), 1U);
+  EXPECT_NE(die.notes[0].find("textures of 3MF"), std::string::npos);
 }
 
 TEST(ReadSharedMesh, RefusesTheMalformedOnes) {
@@ -227,7 +233,6 @@ TEST(ReadSharedMesh, RefusesTheMalformedOnes) {
   expect_refusal(test::shared_mesh("bad/points.ply"), "no faces (a point cloud)");
   expect_refusal(test::shared_mesh("bad/OutOfMemory.off"),
                  "header declares 353535235358 vertices, more than the file can hold");
-  expect_refusal(test::shared_mesh("MUSTPASS_Chapter2.1_PartsRelationships.3mf"), "3MF with textures is not supported");
 }
 
 }  // namespace

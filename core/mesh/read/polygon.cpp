@@ -1,4 +1,4 @@
-#include "core/mesh/polygon.h"
+#include "core/mesh/read/polygon.h"
 
 #include <Eigen/Geometry>
 

@@ -1,4 +1,4 @@
-#include "core/mesh/assimp_reader.h"
+#include "core/mesh/read/assimp_reader.h"
 
 #include <assimp/scene.h>
 #include <fmt/format.h>
@@ -6,16 +6,15 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <assimp/Importer.hpp>
-#include <fstream>
-#include <iterator>
 #include <limits>
-#include <string_view>
+#include <new>
 #include <utility>
 
+#include "core/count_of.h"
 #include "core/error.h"
-#include "core/mesh/assimp_materials.h"
-#include "core/mesh/file_checks.h"
-#include "core/mesh/polygon.h"
+#include "core/mesh/read/assimp_materials.h"
+#include "core/mesh/read/file_checks.h"
+#include "core/mesh/read/polygon.h"
 
 namespace sprung {
 namespace {
@@ -177,19 +176,11 @@ class MeshBuilder {
   int loose_ = 0;
 };
 
-/// A binary PLY whose data begin with a line feed, as one in 256 does: assimp 5.2 takes that byte for a part of the
-/// line end before (its issue 5341). A carriage return at the end of the header gives it a line feed to take. Empty
-/// where the file is to be read as it is.
-std::string repaired_ply(const std::filesystem::path& file) {
-  constexpr std::string_view kEnd = "end_header\n";
-  std::ifstream stream(file, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-  const std::size_t end = bytes.find(kEnd);
-  const std::size_t data = end + kEnd.size();
-  if (end == std::string::npos || data >= bytes.size() || bytes[data] != '\n') return {};
-  if (bytes.substr(0, end).find("format binary") == std::string::npos) return {};
-  bytes.insert(data - 1, 1, '\r');
-  return bytes;
+std::string one_line(std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < ' ') c = ' ';
+  }
+  return text;
 }
 
 const aiScene& read_scene(Assimp::Importer& importer, const std::filesystem::path& file) {
@@ -200,21 +191,45 @@ const aiScene& read_scene(Assimp::Importer& importer, const std::filesystem::pat
                             "fbx, dae, 3ds or x3d",
                             file.string(), extension));
   }
-  const std::string repaired = extension == ".ply" ? repaired_ply(file) : std::string{};
-  const aiScene* scene = repaired.empty() ? importer.ReadFile(file.string(), 0)
-                                          : importer.ReadFileFromMemory(repaired.data(), repaired.size(), 0, "ply");
+  const aiScene* scene = importer.ReadFile(file.string(), 0);
+  const std::string reason = importer.GetErrorString();
+  if (reason.find("bad_alloc") != std::string::npos) throw std::bad_alloc();
   if (scene == nullptr || scene->mRootNode == nullptr) {
-    throw Error(ErrorKind::kBadInput,
-                fmt::format("{}: not a valid mesh file: {}", file.string(), importer.GetErrorString()));
+    throw Error(ErrorKind::kBadInput, fmt::format("{}: not a valid mesh file: {}", file.string(), one_line(reason)));
   }
   return *scene;
+}
+
+/// Of 3MF with textures assimp 5.2 has freed the names and the pictures by now (its issue 5328), and its colours are
+/// black.
+void leave_out_materials(SurfaceMesh& mesh) {
+  for (Part& part : mesh.parts) part.material = -1;
+  mesh.notes.emplace_back(
+      "the textures of 3MF files are not supported; drawn without them; save it as GLB to keep them");
+}
+
+/// The mesh is taken as it stands in the file, whatever moves it there.
+void note_motion(const aiScene& scene, std::vector<std::string>& notes) {
+  unsigned bones = 0;
+  unsigned shapes = 0;
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+    bones += scene.mMeshes[m]->mNumBones;
+    shapes += scene.mMeshes[m]->mNumAnimMeshes;
+  }
+  std::vector<std::string> ignored;
+  if (scene.mNumAnimations > 0) ignored.push_back(count_of(scene.mNumAnimations, "animation"));
+  if (bones > 0) ignored.push_back("a skin of " + count_of(bones, "bone"));
+  if (shapes > 0) ignored.push_back(count_of(shapes, "morph target"));
+  if (ignored.empty()) return;
+  notes.push_back(fmt::format("ignored {}: the mesh is taken as it stands at rest", fmt::join(ignored, " and ")));
 }
 
 }  // namespace
 
 SurfaceMesh read_by_assimp(const std::filesystem::path& file) {
-  Assimp::Importer importer;
-  const aiScene& scene = read_scene(importer, file);
+  // Never destroyed: it would free the textures of 3MF twice and so end the process (its issue 5328).
+  auto* importer = new Assimp::Importer;
+  const aiScene& scene = read_scene(*importer, file);
   const std::string extension = lower_extension(file);
   const bool is_gltf = extension == ".glb" || extension == ".gltf";
 
@@ -227,9 +242,13 @@ SurfaceMesh read_by_assimp(const std::filesystem::path& file) {
   MeshBuilder builder(instances, is_gltf, file.string());
   for (const Instance& instance : instances) builder.add(instance);
   SurfaceMesh mesh = builder.finish();
-  mesh.materials = read_materials(scene, file, is_gltf, mesh.notes);
-  // The facet normals of STL only repeat its triangles; smooth ones are better made from these.
-  if (extension == ".stl") mesh.normals.resize(0, 3);
+  if (extension == ".3mf" && scene.mNumTextures > 0) {
+    leave_out_materials(mesh);
+  } else {
+    mesh.materials = read_materials(scene, is_gltf, mesh.notes);
+  }
+  mesh.single_precision = true;
+  note_motion(scene, mesh.notes);
   return mesh;
 }
 

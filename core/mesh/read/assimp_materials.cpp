@@ -1,63 +1,14 @@
-#include "core/mesh/assimp_materials.h"
+#include "core/mesh/read/assimp_materials.h"
 
 #include <assimp/material.h>
 #include <assimp/scene.h>
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstring>
-#include <fstream>
-#include <optional>
 
 namespace sprung {
 namespace {
-
-namespace fs = std::filesystem;
-
-constexpr std::uintmax_t kLargestTexture = std::uintmax_t{1} << 30;  // bytes, encoded
-
-/// %20 and the like, which stand in the URIs of glTF and Collada.
-std::string decode_percent(const std::string& text) {
-  std::string decoded;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    unsigned code = 0;
-    const char* digits = text.data() + i + 1;
-    if (text[i] == '%' && i + 2 < text.size() && std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2) {
-      decoded += static_cast<char>(code);
-      i += 2;
-    } else {
-      decoded += text[i];
-    }
-  }
-  return decoded;
-}
-
-/// The file a path in a mesh means, which may come from another system: backslashes, absolute, encoded.
-std::optional<fs::path> find_texture(std::string path, const fs::path& folder) {
-  std::replace(path.begin(), path.end(), '\\', '/');
-  if (path.starts_with("file://")) path.erase(0, 7);
-  for (const std::string& spelling : {path, decode_percent(path)}) {
-    const fs::path given(spelling);
-    for (const fs::path& candidate : {folder / given, folder / given.filename()}) {
-      std::error_code error;
-      if (fs::is_regular_file(candidate, error)) return candidate;
-    }
-  }
-  return std::nullopt;
-}
-
-std::vector<std::byte> read_all(const fs::path& file) {
-  std::error_code error;
-  const std::uintmax_t size = fs::file_size(file, error);
-  std::ifstream stream(file, std::ios::binary);
-  if (error || !stream || size > kLargestTexture) return {};
-  std::vector<std::byte> bytes(size);
-  stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
-  if (!stream) return {};
-  return bytes;
-}
 
 /// Raw texels as an uncompressed TGA, whose BGRA order from the top left is that of aiTexel.
 std::vector<std::byte> encode_tga(const aiTexture& texture) {
@@ -92,19 +43,18 @@ std::string texture_path(const aiMaterial& material) {
   return path.C_Str();
 }
 
-void read_texture(const aiScene& scene, const fs::path& mesh_file, const std::string& path, SurfaceMaterial& material,
+void read_texture(const aiScene& scene, const std::string& path, SurfaceMaterial& material,
                   std::vector<std::string>& notes) {
   material.texture_name = path;
-  if (const aiTexture* embedded = scene.GetEmbeddedTexture(path.c_str())) {
+  const aiTexture* embedded = scene.GetEmbeddedTexture(path.c_str());
+  if (embedded == nullptr) return;
+  material.texture = embedded_bytes(*embedded);
+  if (!material.texture.empty()) {
     if (embedded->mFilename.length > 0) material.texture_name = embedded->mFilename.C_Str();
-    material.texture = embedded_bytes(*embedded);
-  } else if (const auto file = find_texture(path, mesh_file.parent_path())) {
-    material.texture = read_all(*file);
-  } else {
-    notes.push_back(fmt::format("texture '{}' of material '{}' is not there; drawn without it", path, material.name));
     return;
   }
-  if (material.texture.empty()) notes.push_back(fmt::format("texture '{}' cannot be read; drawn without it", path));
+  notes.push_back(fmt::format("the texture '{}' in the file cannot be read; drawn without it", path));
+  material.texture_name.clear();
 }
 
 Eigen::Vector4f base_color(const aiMaterial& material, bool linear) {
@@ -126,8 +76,7 @@ float srgb_from_linear(float linear) {
   return linear <= 0.0031308F ? 12.92F * linear : 1.055F * std::pow(linear, 1.0F / 2.4F) - 0.055F;
 }
 
-std::vector<SurfaceMaterial> read_materials(const aiScene& scene, const fs::path& mesh_file, bool is_gltf,
-                                            std::vector<std::string>& notes) {
+std::vector<SurfaceMaterial> read_materials(const aiScene& scene, bool is_gltf, std::vector<std::string>& notes) {
   std::vector<SurfaceMaterial> materials;
   for (unsigned m = 0; m < scene.mNumMaterials; ++m) {
     const aiMaterial& given = *scene.mMaterials[m];
@@ -135,7 +84,7 @@ std::vector<SurfaceMaterial> read_materials(const aiScene& scene, const fs::path
     material.name = given.GetName().C_Str();
     material.color = base_color(given, is_gltf);
     if (const std::string path = texture_path(given); !path.empty()) {
-      read_texture(scene, mesh_file, path, material, notes);
+      read_texture(scene, path, material, notes);
     }
   }
   return materials;

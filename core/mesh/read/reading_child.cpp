@@ -1,0 +1,233 @@
+#include "core/mesh/read/reading_child.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <fstream>
+#include <new>
+#include <optional>
+#include <span>
+
+#include "core/error.h"
+#include "core/mesh/read/mesh_bytes.h"
+
+namespace sprung {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool kIsSanitized = true;
+#elif defined(__has_feature)
+constexpr bool kIsSanitized = __has_feature(address_sanitizer);
+#else
+constexpr bool kIsSanitized = false;
+#endif
+
+constexpr const char* kAdvice =
+    "it is damaged or uses a feature that the reader cannot take; open it in a mesh editor "
+    "and export it as OBJ, PLY or GLB";
+
+/// The first byte that the child sends; the rest is the mesh or the message.
+enum class Answer : char { kMesh = 'M', kError = 'E', kNoMemory = 'N' };
+
+void set_limit(decltype(RLIMIT_AS) resource, rlim_t soft, rlim_t hard) {
+  rlimit given{};
+  getrlimit(resource, &given);
+  const rlimit limit{std::min(soft, given.rlim_max), std::min(hard, given.rlim_max)};
+  setrlimit(resource, &limit);
+}
+
+/// Bytes of address space in use, so that the limit counts from there; 0 where the system does not tell.
+std::uint64_t address_space() {
+  std::uint64_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  return pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+}
+
+void limit_this_process(const ReadingLimits& limits) {
+  const auto cpu_time = static_cast<rlim_t>(limits.cpu_time);
+  set_limit(RLIMIT_CPU, cpu_time, cpu_time + 1);
+  set_limit(RLIMIT_CORE, 0, 0);
+  set_limit(RLIMIT_FSIZE, 0, 0);
+  if (kIsSanitized) return;  // its shadow takes terabytes of addresses, and its reports are worth reading
+  if (const std::uint64_t used = address_space(); used > 0) {
+    set_limit(RLIMIT_AS, used + limits.memory, used + limits.memory);
+  }
+  const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+  dup2(nowhere, STDOUT_FILENO);
+  dup2(nowhere, STDERR_FILENO);
+}
+
+void take_default_signals() {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    if (std::signal(signal, SIG_DFL) == SIG_IGN) std::signal(signal, SIG_IGN);
+  }
+  for (const int signal : {SIGPIPE, SIGXCPU, SIGABRT}) std::signal(signal, SIG_DFL);
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+}
+
+void write_all(int pipe, std::span<const std::byte> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t count = write(pipe, bytes.data(), bytes.size());
+    if (count < 0 && errno != EINTR) _exit(1);
+    bytes = bytes.subspan(static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
+  }
+}
+
+void send(int pipe, Answer answer, std::span<const std::byte> bytes) {
+  write_all(pipe, std::as_bytes(std::span(&answer, 1)));
+  write_all(pipe, bytes);
+}
+
+/// Never returns, and runs no destructor of what was there before the fork.
+[[noreturn]] void run_child(int pipe, pid_t parent, const ReadingLimits& limits,
+                            const std::function<SurfaceMesh()>& read) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(1);
+  take_default_signals();
+  limit_this_process(limits);
+  try {
+    const std::vector<std::byte> bytes = bytes_from_mesh(read());
+    send(pipe, Answer::kMesh, bytes);
+  } catch (const std::bad_alloc&) {
+    send(pipe, Answer::kNoMemory, {});
+  } catch (const std::exception& error) {
+    send(pipe, Answer::kError, std::as_bytes(std::span(error.what(), std::strlen(error.what()))));
+  }
+  _exit(0);
+}
+
+/// The running child and our end of its pipe; both gone when this is.
+class Child {
+ public:
+  Child(pid_t pid, int pipe) : pid_(pid), pipe_(pipe) {}
+  ~Child() {
+    close(pipe_);
+    if (pid_ <= 0) return;
+    kill(pid_, SIGKILL);
+    wait();
+  }
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+
+  /// What it sends until it closes the pipe; nothing where that takes until the deadline.
+  [[nodiscard]] std::optional<std::vector<std::byte>> receive(Clock::time_point deadline) const {
+    std::vector<std::byte> bytes;
+    std::vector<std::byte> chunk(std::size_t{1} << 20);
+    while (wait_for_bytes(deadline)) {
+      const ssize_t count = ::read(pipe_, chunk.data(), chunk.size());
+      if (count == 0 || (count < 0 && errno != EINTR)) return bytes;
+      bytes.insert(bytes.end(), chunk.begin(), chunk.begin() + std::max<ssize_t>(count, 0));
+    }
+    return std::nullopt;
+  }
+
+  /// The status of waitpid; 0 where someone else has taken it.
+  int wait() {
+    int status = 0;
+    pid_t ended = 0;
+    do {
+      ended = waitpid(pid_, &status, 0);
+    } while (ended < 0 && errno == EINTR);
+    pid_ = -1;
+    return ended < 0 ? 0 : status;
+  }
+
+ private:
+  [[nodiscard]] bool wait_for_bytes(Clock::time_point deadline) const {
+    pollfd waiting{.fd = pipe_, .events = POLLIN, .revents = 0};
+    while (true) {
+      const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now()).count();
+      if (left <= 0) return false;
+      const int ready = poll(&waiting, 1, static_cast<int>(std::min<long>(left, 1000)));
+      if (ready > 0 || (ready < 0 && errno != EINTR)) return true;
+    }
+  }
+
+  pid_t pid_;
+  int pipe_;
+};
+
+class Reading {
+ public:
+  Reading(const std::filesystem::path& file, const ReadingLimits& limits) : file_(file), limits_(limits) {}
+
+  SurfaceMesh run(const std::function<SurfaceMesh()>& read) const {
+    std::array<int, 2> pipe{};
+    if (pipe2(pipe.data(), O_CLOEXEC) != 0) refuse_start();
+    const pid_t parent = getpid();
+    const pid_t pid = fork();
+    if (pid == 0) run_child(pipe[1], parent, limits_, read);
+    const int error = errno;
+    close(pipe[1]);
+    Child child(pid, pipe[0]);
+    errno = error;
+    if (pid < 0) refuse_start();
+    const auto bytes = child.receive(Clock::now() + std::chrono::seconds(limits_.wall_time));
+    if (!bytes) refuse(fmt::format("gave up reading it after {} s; {}", limits_.wall_time, kAdvice));
+    check_end(child.wait());
+    return open_answer(*bytes);
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& reason) const {
+    throw Error(ErrorKind::kBadInput, fmt::format("{}: {}", file_.string(), reason));
+  }
+
+  [[noreturn]] void refuse_start() const {
+    throw Error(ErrorKind::kFailed,
+                fmt::format("{}: cannot start a process to read it: {}", file_.string(), std::strerror(errno)));
+  }
+
+  void check_end(int status) const {
+    if (WIFSIGNALED(status)) refuse_signal(WTERMSIG(status));
+    if (WEXITSTATUS(status) != 0) refuse(fmt::format("the reader crashed on this file; {}", kAdvice));
+  }
+
+  [[noreturn]] void refuse_signal(int signal) const {
+    const char* known = sigabbrev_np(signal);
+    const std::string name = known == nullptr ? std::to_string(signal) : fmt::format("SIG{}", known);
+    if (signal == SIGXCPU)
+      refuse(fmt::format("gave up reading it after {} s of computing; {}", limits_.cpu_time, kAdvice));
+    if (signal == SIGINT || signal == SIGTERM || signal == SIGHUP || signal == SIGKILL) {
+      throw Error(ErrorKind::kFailed, fmt::format("{}: reading it was stopped by {}", file_.string(), name));
+    }
+    refuse(fmt::format("the reader crashed on this file (signal {}); {}", name, kAdvice));
+  }
+
+  [[nodiscard]] SurfaceMesh open_answer(std::span<const std::byte> bytes) const {
+    if (bytes.empty()) refuse(fmt::format("the reader gave no answer; {}", kAdvice));
+    const auto answer = static_cast<Answer>(bytes[0]);
+    bytes = bytes.subspan(1);
+    if (answer == Answer::kMesh) return mesh_from_bytes(bytes);
+    if (answer == Answer::kNoMemory) {
+      refuse(fmt::format("reading it takes more than {} MB of memory, too much for a file of its size; {}",
+                         limits_.memory >> 20, kAdvice));
+    }
+    throw Error(ErrorKind::kBadInput, std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+  }
+
+  const std::filesystem::path& file_;
+  const ReadingLimits& limits_;
+};
+
+}  // namespace
+
+SurfaceMesh read_in_child(const std::filesystem::path& file, const ReadingLimits& limits,
+                          const std::function<SurfaceMesh()>& read) {
+  return Reading(file, limits).run(read);
+}
+
+}  // namespace sprung
