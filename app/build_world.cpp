@@ -14,6 +14,7 @@
 #include "core/bricks/voxelize.h"
 #include "core/count_of.h"
 #include "core/error.h"
+#include "core/mesh/submesh.h"
 #include "core/skin/corner_normals.h"
 #include "core/world/squeeze.h"
 
@@ -201,9 +202,8 @@ class BodyBuilder {
     return grid;
   }
 
-  /// A surface that crosses itself has no one volume to hold the bricks against.
   void note_volume(const BrickGrid& grid, const Solid& solid) {
-    if (loaded_.crosses_itself || volume_error(grid, solid) <= kVolumeError) return;
+    if (volume_error(grid, solid) <= kVolumeError) return;
     ++wrong_volumes_;
     if (wrong_volumes_ > 1) return;  // the largest solid comes first
     const double density = body_.material.density;

@@ -25,7 +25,7 @@ struct SceneOption {
   bool is_of_pictures = false;  // of no use where none are drawn
 };
 
-constexpr std::array<SceneOption, 17> kSceneOptions{{
+constexpr std::array<SceneOption, 19> kSceneOptions{{
     {"--material", "body.material", "NAME"},
     {"--young", "body.material.young", "20kPa"},
     {"--poisson", "body.material.poisson", "0.45"},
@@ -34,6 +34,8 @@ constexpr std::array<SceneOption, 17> kSceneOptions{{
     {"--size", "body.size", "12cm"},
     {"--bricks", "body.bricks", "N"},
     {"--brick-size", "body.brick_size", "5mm"},
+    {"--repair", "body.repair", "off|auto|strict"},
+    {"--thickness", "body.thickness", "3mm"},
     {"--texture", "body.texture", "FILE.png", true},
     {"--model", "body.model", "NAME"},
     {"--scheme", "solver.scheme", "NAME"},

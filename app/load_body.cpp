@@ -7,15 +7,12 @@
 #include <fstream>
 #include <limits>
 #include <numbers>
-#include <numeric>
-#include <span>
 #include <sstream>
 
 #include "app/box_shape.h"
 #include "app/units.h"
-#include "core/count_of.h"
+#include "core/bricks/voxelize.h"
 #include "core/error.h"
-#include "core/mesh/crossings.h"
 #include "core/mesh/read/file_checks.h"
 #include "core/mesh/read_mesh.h"
 #include "render/decode.h"
@@ -57,37 +54,6 @@ double scale_of(const SceneBody& body, const std::string& name, double length, c
                              kDefaultSize));
   }
   return body.size.value_or(kDefaultSize) / length;
-}
-
-template <class Rows>
-void take_rows(Rows& rows, const std::vector<int>& wanted) {
-  if (rows.rows() > 0) rows = Rows(rows(wanted, Eigen::all));
-}
-
-/// The parts of the chosen triangles, which are in ascending order.
-std::vector<Part> parts_of(const std::vector<Part>& parts, const std::vector<int>& triangles) {
-  std::vector<Part> chosen;
-  for (const Part& part : parts) {
-    const auto first = std::lower_bound(triangles.begin(), triangles.end(), part.first_triangle);
-    const auto last = std::lower_bound(first, triangles.end(), part.first_triangle + part.triangle_count);
-    if (first == last) continue;
-    chosen.push_back(part);
-    chosen.back().first_triangle = static_cast<int>(first - triangles.begin());
-    chosen.back().triangle_count = static_cast<int>(last - first);
-  }
-  return chosen;
-}
-
-/// Whether finding the solid turned its triangle `t` over.
-bool is_turned(const SurfaceMesh& mesh, const Solid& solid, int t) {
-  const auto original = [&](int corner) {
-    return mesh.positions.row(mesh.triangles(solid.source[static_cast<std::size_t>(t)], corner % 3));
-  };
-  const auto oriented = [&](int corner) { return solid.points.row(solid.triangles(t, corner)); };
-  for (int corner = 0; corner < 3; ++corner) {
-    if (original(corner) == oriented(0)) return original(corner + 1) != oriented(1);
-  }
-  return false;
 }
 
 /// In place of every material of the file.
@@ -152,24 +118,31 @@ void refuse_giant_bricks(const LoadedBody& loaded) {
                                                 readable(longest, Dimension::kLength)));
 }
 
-/// The bricks do not need a surface that keeps clear of itself, but what overlaps becomes one.
-void report_crossings(const Console& console, LoadedBody& loaded) {
-  int pairs = 0;
-  Vec3 place = Vec3::Zero();
-  for (const Solid& solid : loaded.solids) {
-    const Crossings found = find_crossings(solid.points, solid.triangles);
-    if (pairs == 0 && found.pairs > 0) {
-      const Vec3 middle = solid.points(solid.triangles.row(found.first[0]), Eigen::all).colwise().mean();
-      place = loaded.file_from_rest * (loaded.bricks_from_rest.transpose() * middle);
+/// What had to be mended. The bricks do not need a surface that keeps clear of itself, but what overlaps becomes one.
+void report_repairs(const Solids& found, const Console& console, const LoadedBody& loaded) {
+  const Vec3 place = loaded.file_from_rest * (loaded.bricks_from_rest.transpose() * found.crossing);
+  for (const Repair& repair : found.repairs) {
+    const std::string where =
+        repair.kind == "self_intersection"
+            ? fmt::format("; the first near ({:.4g}, {:.4g}, {:.4g}) of the file", place.x(), place.y(), place.z())
+            : "";
+    const std::string text = fmt::format("{}: {}{}", loaded.name, repair.text, where);
+    if (repair.harmless) {
+      console.detail(text);
+    } else {
+      console.warn(text);
     }
-    pairs += found.pairs;
   }
-  loaded.crosses_itself = pairs > 0;
-  if (pairs == 0) return;
+}
+
+/// Bricks larger than a shell is thick hold its mass, but bend like one of their own size.
+void report_thickness(const SceneBody& body, const Console& console, const LoadedBody& loaded) {
+  constexpr double kRounding = 1e-9;
+  if (!body.thickness || loaded.brick_size <= *body.thickness * (1 + kRounding)) return;
   console.warn(fmt::format(
-      "{}: the surface crosses itself: {}, the first near ({:.4g}, {:.4g}, {:.4g}) of the file; "
-      "what overlaps is filled once",
-      loaded.name, count_of(pairs, "pair of triangles", "pairs of triangles"), place.x(), place.y(), place.z()));
+      "{}: bricks of {} are larger than the shell is thick, which bends as if it were as thick as "
+      "they are; bricks of {} would be right (--brick-size)",
+      loaded.name, readable(loaded.brick_size, Dimension::kLength), readable(*body.thickness, Dimension::kLength)));
 }
 
 /// Bricks found already do not turn with the body.
@@ -182,43 +155,6 @@ void turn(const Mat3& rotation, LoadedBody& loaded) {
 }
 
 }  // namespace
-
-SurfaceMesh submesh(const SurfaceMesh& mesh, const Solid& solid) {
-  std::vector<int> order(solid.source.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](int a, int b) {
-    return solid.source[static_cast<std::size_t>(a)] < solid.source[static_cast<std::size_t>(b)];
-  });
-  std::vector<int> rows;
-  rows.reserve(order.size());
-  for (const int t : order) rows.push_back(solid.source[static_cast<std::size_t>(t)]);
-  SurfaceMesh part;
-  part.triangles = mesh.triangles(rows, Eigen::all);
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const auto row = static_cast<Eigen::Index>(i);
-    if (is_turned(mesh, solid, order[i])) std::swap(part.triangles(row, 1), part.triangles(row, 2));
-  }
-  std::vector<int> new_vertex(static_cast<std::size_t>(mesh.positions.rows()), -1);
-  std::vector<int> vertices;
-  for (int& vertex : std::span(part.triangles.data(), static_cast<std::size_t>(part.triangles.size()))) {
-    int& number = new_vertex[static_cast<std::size_t>(vertex)];
-    if (number < 0) {
-      number = static_cast<int>(vertices.size());
-      vertices.push_back(vertex);
-    }
-    vertex = number;
-  }
-  part.positions = mesh.positions(vertices, Eigen::all);
-  part.normals = mesh.normals;
-  part.uvs = mesh.uvs;
-  part.colors = mesh.colors;
-  take_rows(part.normals, vertices);
-  take_rows(part.uvs, vertices);
-  take_rows(part.colors, vertices);
-  part.parts = parts_of(mesh.parts, rows);
-  part.materials = mesh.materials;
-  return part;
-}
 
 Mat3 rotation_matrix(const Vec3& degrees) {
   const Vec3 angles = degrees * std::numbers::pi / 180;
@@ -238,12 +174,13 @@ LoadedBody load_body(const SceneBody& body, const Console& console) {
   refuse_giant_bricks(loaded);
   const std::string file = body.box ? loaded.name : body.mesh.string();
   turn(rotation_matrix(body.brick_rotation), loaded);
-  Solids found = find_solids(loaded.mesh, file);
-  for (const std::string& note : notes_of(found.repairs)) console.warn(fmt::format("{}: {}", loaded.name, note));
+  Solids found = find_solids(loaded.mesh, file, {.repair = body.repair, .thickness = body.thickness.value_or(0)});
+  if (!body.box) report_repairs(found, console, loaded);
+  report_thickness(body, console, loaded);
   loaded.repairs = std::move(found.repairs);
   loaded.solids = std::move(found.solids);
+  for (Solid& solid : loaded.solids) solid.volume = enclosed_volume(solid);
   if (loaded.solids.size() > 1) loaded.grid.reset();
-  if (!body.box) report_crossings(console, loaded);
   return loaded;
 }
 

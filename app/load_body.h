@@ -21,8 +21,7 @@ struct LoadedBody {
   Vec3 extent = Vec3::Zero();                                   // m, sides of the bounding box before that
   double brick_size = 0;                                        // m
   Eigen::Affine3d file_from_rest{Eigen::Affine3d::Identity()};  // before it was turned; in the units of the file
-  bool crosses_itself = false;
-  std::optional<BrickGrid> grid;  // of a box; of a mesh the bricks are yet to be found
+  std::optional<BrickGrid> grid;                                // of a box; of a mesh the bricks are yet to be found
 };
 
 /// The rotation about x, then y, then z, by degrees.
@@ -31,9 +30,5 @@ struct LoadedBody {
 /// Makes the box, or reads the mesh, brings it to its size and finds its solids; says what it had to choose or to mend.
 /// Throws Error(kBadInput).
 [[nodiscard]] LoadedBody load_body(const SceneBody& body, const Console& console);
-
-/// The triangles of a mesh that bound a solid, turned outward as the solid has them, and the vertices, parts and
-/// materials that they need.
-[[nodiscard]] SurfaceMesh submesh(const SurfaceMesh& mesh, const Solid& solid);
 
 }  // namespace sprung

@@ -8,6 +8,7 @@
 
 #include "core/law/brick_law.h"
 #include "core/law/material.h"
+#include "core/mesh/repair.h"
 #include "core/types.h"
 
 namespace sprung {
@@ -58,12 +59,14 @@ struct Cut {
 
 /// A mesh file or a box, and how it enters the scene. Every solid in a file becomes a soft body of its own.
 struct SceneBody {
-  std::filesystem::path mesh;          // absolute; or
-  std::filesystem::path texture;       // absolute; a picture on the whole skin, in place of what the file names
-  std::optional<Vec3> box;             // m, sides of a box that is exactly as many bricks as fit in it
-  std::vector<Cut> cuts;               // of a box
-  std::optional<double> size;          // m, longest side of the bounding box; or
-  std::optional<double> scale;         // m per unit of the file
+  std::filesystem::path mesh;     // absolute; or
+  std::filesystem::path texture;  // absolute; a picture on the whole skin, in place of what the file names
+  std::optional<Vec3> box;        // m, sides of a box that is exactly as many bricks as fit in it
+  std::vector<Cut> cuts;          // of a box
+  std::optional<double> size;     // m, longest side of the bounding box; or
+  std::optional<double> scale;    // m per unit of the file
+  RepairMode repair = RepairMode::kAuto;
+  std::optional<double> thickness;     // m; makes the mesh a shell
   Vec3 position = Vec3::Zero();        // m; where the middle of the bottom of the bounding box goes, after the rotation
   Vec3 rotation = Vec3::Zero();        // degrees about x, then y, then z, around the middle of the bounding box
   std::optional<int> bricks;           // along the longest side; or

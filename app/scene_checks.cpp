@@ -62,6 +62,7 @@ void check_together(const toml::table& table, const std::string& path, const Sce
   refuse_both(table, path, "box", "scale", mistakes);
   refuse_both(table, path, "mesh", "cut", mistakes);
   refuse_both(table, path, "box", "texture", mistakes);
+  refuse_both(table, path, "box", "thickness", mistakes);
   refuse_both(table, path, "bricks", "brick_size", mistakes);
   if (!body.regions.empty()) check_regions(*table.get("region")->as_array(), path, body, mistakes);
 }

@@ -23,7 +23,25 @@ constexpr std::array<std::pair<std::string_view, Solver>, 8> kSolvers{{{"auto", 
                                                                        {"linear", Solver::kLinear},
                                                                        {"modes", Solver::kModes}}};
 
+constexpr std::array<std::pair<std::string_view, RepairMode>, 3> kRepairModes{
+    {{"off", RepairMode::kOff}, {"auto", RepairMode::kAuto}, {"strict", RepairMode::kStrict}}};
+
 constexpr std::string_view kAxisNames = "xyz";
+
+template <class Names, class Value = typename Names::value_type::second_type>
+Value named_value(const Names& values, std::string_view thing, std::string_view text) {
+  std::vector<std::string_view> names;
+  for (const auto& [name, value] : values) {
+    names.push_back(name);
+    if (name == text) return value;
+  }
+  throw Error(ErrorKind::kBadInput, fmt::format("there is no {} '{}'{}", thing, text, did_you_mean(text, names)));
+}
+
+template <class Names, class Value>
+std::string_view name_of(const Names& values, Value wanted) {
+  return std::find_if(values.begin(), values.end(), [&](const auto& named) { return named.second == wanted; })->first;
+}
 
 std::string range_text(const KeyInfo& key) {
   const Range& range = key.range;
@@ -106,15 +124,10 @@ void parse_value(std::string_view text, const KeyInfo&, Axes& value) {
 }
 
 void parse_value(std::string_view text, const KeyInfo&, Solver& value) {
-  std::vector<std::string_view> names;
-  for (const auto& [name, solver] : kSolvers) {
-    names.push_back(name);
-    if (name == text) {
-      value = solver;
-      return;
-    }
-  }
-  throw Error(ErrorKind::kBadInput, fmt::format("there is no scheme '{}'{}", text, did_you_mean(text, names)));
+  value = named_value(kSolvers, "scheme", text);
+}
+void parse_value(std::string_view text, const KeyInfo&, RepairMode& value) {
+  value = named_value(kRepairModes, "way of repair", text);
 }
 
 void parse_value(std::string_view text, const KeyInfo&, Model& value) { value = model_from_name(text); }
@@ -150,12 +163,8 @@ std::string toml_text(const std::string& value) { return toml_text(std::string_v
 std::string toml_text(const std::filesystem::path& value) { return toml_text(std::string_view(value.native())); }
 std::string toml_text(Model value) { return toml_text(model_name(value)); }
 
-std::string toml_text(Solver value) {
-  for (const auto& [name, solver] : kSolvers) {
-    if (solver == value) return toml_text(name);
-  }
-  return "";
-}
+std::string toml_text(Solver value) { return toml_text(name_of(kSolvers, value)); }
+std::string toml_text(RepairMode value) { return toml_text(name_of(kRepairModes, value)); }
 
 std::string toml_text(const Axes& value) {
   std::string names;

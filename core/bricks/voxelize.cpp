@@ -9,6 +9,8 @@
 #include <numeric>
 
 #include "core/bricks/column_caster.h"
+#include "core/bricks/shell_cells.h"
+#include "core/bricks/winding_cells.h"
 #include "core/error.h"
 
 namespace sprung {
@@ -93,26 +95,44 @@ void match_volume(double volume, BrickGrid& grid) {
   }
 }
 
+/// Rays along one axis may miss a wall between them that is thinner than their pitch; those of the other axes do not.
+void fill_columns(const CellSurface& surface, CellSums& sums) {
+  for (int axis = 0; axis < 3; ++axis) cast_columns(surface, axis, sums);
+}
+
 }  // namespace
 
 BrickGrid voxelize(const Solid& solid, double brick_size) {
-  const Vec3 low = solid.points.colwise().minCoeff();
-  const Vec3 high = solid.points.colwise().maxCoeff();
+  const double beyond = solid.thickness > 0 ? std::max(solid.thickness, brick_size) / 2 : 0;
+  const Vec3 low = solid.points.colwise().minCoeff().array() - beyond;
+  const Vec3 high = solid.points.colwise().maxCoeff().array() + beyond;
   const Eigen::Vector3i counts = count_cells(high - low, brick_size);
   const CellSurface surface{in_cells(solid.points, low, high, counts, brick_size), solid.triangles, counts};
 
-  // Rays along one axis may miss a wall between them that is thinner than their pitch; those of the other axes do not.
   const auto cells = static_cast<std::size_t>(counts.cast<std::int64_t>().prod());
   CellSums sums{std::vector<float>(cells, 0.0F), std::vector<float>(cells, 0.0F)};
-  for (int axis = 0; axis < 3; ++axis) cast_columns(surface, axis, sums);
+  if (solid.thickness > 0) {
+    fill_shell(surface, solid.thickness / brick_size, sums);
+  } else if (solid.closed) {
+    fill_columns(surface, sums);
+  } else {
+    fill_by_winding(surface, sums);
+  }
 
   BrickGrid grid;
   grid.origin = low;
   grid.brick_size = brick_size;
   collect_cells(sums, counts, grid);
-  match_volume(solid.volume, grid);
+  if (solid.closed && !solid.overlaps) match_volume(solid.volume, grid);
   number_nodes(grid);
   return grid;
+}
+
+double enclosed_volume(const Solid& solid) {
+  constexpr double kCells = 128;
+  if (solid.thickness > 0 || (solid.closed && !solid.overlaps)) return solid.volume;
+  const Vec3 extent = solid.points.colwise().maxCoeff() - solid.points.colwise().minCoeff();
+  return voxelize(solid, extent.maxCoeff() / kCells).volume();
 }
 
 }  // namespace sprung

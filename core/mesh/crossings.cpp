@@ -93,21 +93,23 @@ std::vector<Pair> near_pairs(const PairTest& test, int triangles) {
 
 }  // namespace
 
-Crossings find_crossings(const Points& points, const Triangles& triangles) {
+std::vector<std::array<int, 2>> find_crossings(const Points& points, const Triangles& triangles) {
   const PairTest test(points, triangles);
   const std::vector<Pair> pairs = near_pairs(test, static_cast<int>(triangles.rows()));
-  const auto add = [](Crossings sum, const Crossings& other) {
-    if (sum.pairs == 0 || (other.pairs > 0 && other.first < sum.first)) sum.first = other.first;
-    sum.pairs += other.pairs;
-    return sum;
+  const auto join = [](std::vector<Pair> all, const std::vector<Pair>& more) {
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
   };
-  const auto look_at = [&](const tbb::blocked_range<std::size_t>& range, Crossings sum) {
+  const auto look_at = [&](const tbb::blocked_range<std::size_t>& range, std::vector<Pair> found) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
-      if (test.cross(pairs[i][0], pairs[i][1])) sum = add(sum, {.pairs = 1, .first = pairs[i]});
+      if (test.cross(pairs[i][0], pairs[i][1])) found.push_back(pairs[i]);
     }
-    return sum;
+    return found;
   };
-  return tbb::parallel_reduce(tbb::blocked_range<std::size_t>(0, pairs.size(), 4096), Crossings{}, look_at, add);
+  std::vector<Pair> crossings =
+      tbb::parallel_reduce(tbb::blocked_range<std::size_t>(0, pairs.size(), 4096), std::vector<Pair>{}, look_at, join);
+  std::sort(crossings.begin(), crossings.end());
+  return crossings;
 }
 
 }  // namespace sprung

@@ -28,6 +28,13 @@ struct Repair {
   bool harmless = false;  // usual in sound files: no warning, and no reason to refuse
 };
 
+/// What to do about a surface that does not bound solids as it is.
+enum class RepairMode {
+  kOff,    // take it as it is; refuse where inside is then undecided
+  kAuto,   // mend it and say what was mended
+  kStrict  // refuse whatever would have to be mended
+};
+
 /// The texts of what is not harmless.
 [[nodiscard]] inline std::vector<std::string> notes_of(const std::vector<Repair>& repairs) {
   std::vector<std::string> notes;

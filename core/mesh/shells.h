@@ -8,8 +8,8 @@ namespace sprung {
 /// A piece of surface whose triangles hang together by their edges, all turned the same way round: the way that most
 /// of its triangles were given.
 struct Shell {
-  std::vector<int> triangles;  // rows of the triangles given
-  double volume = 0;           // signed; negative where the shell was given inside out
+  std::vector<int> triangles;  // rows of the triangles given, ascending
+  double volume = 0;           // signed; negative where the shell was given inside out; of no meaning while it is open
   Vec3 low = Vec3::Zero();
   Vec3 high = Vec3::Zero();
 };
@@ -19,21 +19,30 @@ struct EdgeFaults {
   int loops = 0;         // connected groups of open edges
   int non_manifold = 0;  // edges of more than two triangles
   int one_sided = 0;     // edges where no orientation fits (as on a Moebius strip)
-  [[nodiscard]] bool any() const { return open + non_manifold + one_sided > 0; }
+};
+
+/// The side of a triangle that has no partner: where the surface is open, one-sided, or more than two triangles meet
+/// that do not pair. The sides of one shell make closed loops.
+struct OpenSide {
+  int from;
+  int to;
+  int triangle;
+  int shell;
 };
 
 struct Shells {
   std::vector<Shell> shells;
   EdgeFaults faults;
-  int turned = 0;  // triangles turned over to agree with their neighbours
+  std::vector<OpenSide> open;
+  std::vector<bool> turned;  // for each triangle, whether it was turned over to agree with its neighbours
 };
 
-/// Splits welded triangles into shells and turns them to agree; changes the order of corners of those it turns.
+/// Splits welded triangles into shells and turns them to agree; changes the order of corners of those it turns. Where
+/// more than two triangles meet in an edge, those pair that have matter between them, so that bodies that touch there
+/// come apart.
 [[nodiscard]] Shells find_shells(const Points& points, Triangles& triangles);
 
-/// How often the closed surface winds around the point: 1 inside, 0 outside, by the solid angles of its triangles
-/// (Van Oosterom and Strackee 1983).
-[[nodiscard]] double winding_number(const Points& points, const Triangles& triangles, const std::vector<int>& rows,
-                                    const Vec3& at);
+/// Sets volume and bounds from the shell's triangles.
+void measure(const Points& points, const Triangles& triangles, Shell& shell);
 
 }  // namespace sprung

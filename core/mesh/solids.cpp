@@ -4,12 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <utility>
 
 #include "core/count_of.h"
 #include "core/error.h"
+#include "core/mesh/close_shells.h"
+#include "core/mesh/crossings.h"
+#include "core/mesh/enclosure.h"
+#include "core/mesh/nest.h"
 #include "core/mesh/shells.h"
+#include "core/mesh/stitch.h"
 #include "core/mesh/weld.h"
 
 namespace sprung {
@@ -17,157 +23,342 @@ namespace {
 
 /// Below this share of surface times diagonal, a shell's volume is nothing but rounding.
 constexpr double kNoVolume = 1e-12;
+/// Open pieces that enclose less than this share of the largest one, and little of what is around them, are debris.
+constexpr double kDebris = 0.01;
 
-[[noreturn]] void refuse(const std::string& name, const std::string& reason) {
-  throw Error(ErrorKind::kBadInput, fmt::format("{}: {}", name, reason));
+constexpr const char* kAdvice = "ask for a shell with --thickness 3mm";
+
+double triangle_area(const WeldedMesh& mesh, int t) {
+  const Vec3 a = mesh.points.row(mesh.triangles(t, 0));
+  const Vec3 b = mesh.points.row(mesh.triangles(t, 1)).transpose() - a;
+  const Vec3 c = mesh.points.row(mesh.triangles(t, 2)).transpose() - a;
+  return 0.5 * b.cross(c).norm();
 }
 
-void refuse_flat(const Points& points, const std::string& name) {
-  const Vec3 extent = (points.colwise().maxCoeff() - points.colwise().minCoeff()).transpose();
-  for (int axis = 0; axis < 3; ++axis) {
-    if (extent[axis] > 0) continue;
-    refuse(name,
-           fmt::format("the surface is flat ({} extent 0) and encloses no volume; give it a thickness", "xyz"[axis]));
-  }
-}
-
-void refuse_faults(const EdgeFaults& faults, const std::string& name) {
-  if (!faults.any()) return;
-  std::string found;
-  const auto add = [&](const std::string& text) { found += (found.empty() ? "" : ", ") + text; };
-  if (faults.open > 0) {
-    add(fmt::format("{} in {}", count_of(faults.open, "open edge"), count_of(faults.loops, "loop")));
-  }
-  if (faults.non_manifold > 0)
-    add(count_of(faults.non_manifold, "edge") + " with more than two triangles (non-manifold)");
-  if (faults.one_sided > 0) add(count_of(faults.one_sided, "edge") + " where inside meets outside (one-sided surface)");
-  refuse(name, fmt::format("the surface does not enclose a solid: {}; {}", found,
-                           faults.open > 0 ? "close the holes in a mesh editor first"
-                                           : "make it manifold in a mesh editor first"));
-}
-
-double surface_area(const WeldedMesh& mesh, const Shell& shell) {
+/// Of the triangles that the mesh has, without caps.
+double given_area(const WeldedMesh& mesh, const std::vector<int>& rows) {
   double area = 0;
-  for (const int t : shell.triangles) {
-    const Vec3 a = mesh.points.row(mesh.triangles(t, 0));
-    const Vec3 b = mesh.points.row(mesh.triangles(t, 1)).transpose() - a;
-    const Vec3 c = mesh.points.row(mesh.triangles(t, 2)).transpose() - a;
-    area += 0.5 * std::sqrt(std::max(0.0, b.squaredNorm() * c.squaredNorm() - b.dot(c) * b.dot(c)));
+  for (const int t : rows) {
+    if (mesh.source[static_cast<std::size_t>(t)] >= 0) area += triangle_area(mesh, t);
   }
   return area;
 }
 
 bool has_volume(const WeldedMesh& mesh, const Shell& shell) {
-  return std::abs(shell.volume) > kNoVolume * surface_area(mesh, shell) * (shell.high - shell.low).norm();
+  return std::abs(shell.volume) > kNoVolume * given_area(mesh, shell.triangles) * (shell.high - shell.low).norm();
 }
 
-/// True where most of three of the inner shell's corners, far apart in its list, lie inside the outer shell.
-bool contains(const WeldedMesh& mesh, const Shell& outer, const Shell& inner) {
-  if ((inner.low.array() < outer.low.array()).any() || (inner.high.array() > outer.high.array()).any()) return false;
-  int inside = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const int t = inner.triangles[i * (inner.triangles.size() - 1) / 2];
-    const Vec3 corner = mesh.points.row(mesh.triangles(t, 0));
-    if (std::abs(winding_number(mesh.points, mesh.triangles, outer.triangles, corner)) > 0.5) ++inside;
-  }
-  return inside >= 2;
-}
+/// Finds the solids of one mesh.
+class SolidFinder {
+ public:
+  SolidFinder(const SurfaceMesh& mesh, const std::string& name, const SolidOptions& options)
+      : name_(name), options_(options), mesh_(weld(mesh)) {}
 
-/// A shell that bounds a solid from outside, with the cavities in it.
-struct Nest {
-  const Shell* outer;
-  std::vector<const Shell*> cavities;
-};
-
-/// A shell is a cavity of the solid around it when it is turned the other way and in none of that solid's cavities.
-/// From the largest to the smallest, so that whatever may hold a shell comes before it.
-std::vector<Nest> nest_shells(const WeldedMesh& mesh, const std::vector<Shell>& shells) {
-  std::vector<const Shell*> order;
-  order.reserve(shells.size());
-  for (const Shell& shell : shells) order.push_back(&shell);
-  std::stable_sort(order.begin(), order.end(),
-                   [](const Shell* a, const Shell* b) { return std::abs(a->volume) > std::abs(b->volume); });
-  std::vector<Nest> nests;
-  for (const Shell* shell : order) {
-    const auto holds = [&](const Nest& nest) {
-      const auto inside = [&](const Shell* cavity) { return contains(mesh, *cavity, *shell); };
-      return (nest.outer->volume < 0) != (shell->volume < 0) && contains(mesh, *nest.outer, *shell) &&
-             std::none_of(nest.cavities.begin(), nest.cavities.end(), inside);
-    };
-    // The smallest solid that holds it comes last.
-    const auto home = std::find_if(nests.rbegin(), nests.rend(), holds);
-    if (home != nests.rend()) {
-      home->cavities.push_back(shell);
+  Solids find() {
+    if (mesh_.triangles.rows() == 0) refuse("no triangle has an area");
+    add("welded", mesh_.joined, "joined " + count_of(mesh_.joined, "vertex", "vertices") + " of equal position", true);
+    add("unreferenced", mesh_.unreferenced,
+        "left out " + count_of(mesh_.unreferenced, "vertex", "vertices") + " without a triangle", true);
+    add("degenerate", mesh_.without_area, "dropped " + count_of(mesh_.without_area, "triangle") + " without area");
+    add("duplicate", mesh_.repeated, "dropped " + count_of(mesh_.repeated, "repeated triangle"));
+    if (options_.thickness > 0) {
+      find_sheets();
     } else {
-      nests.push_back({shell, {}});
+      refuse_flat();
+      find_bodies();
+    }
+    if (options_.repair == RepairMode::kStrict) refuse_repairs();
+    std::stable_sort(result_.solids.begin(), result_.solids.end(),
+                     [](const Solid& a, const Solid& b) { return a.volume > b.volume; });
+    return std::move(result_);
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& reason) const {
+    throw Error(ErrorKind::kBadInput, fmt::format("{}: {}", name_, reason));
+  }
+
+  void add(const char* kind, long count, const std::string& text, bool harmless = false) {
+    if (count > 0) result_.repairs.push_back({kind, static_cast<int>(count), text, harmless});
+  }
+
+  void refuse_repairs() const {
+    std::string found;
+    for (const std::string& note : notes_of(result_.repairs)) found += (found.empty() ? "" : ", ") + note;
+    if (!found.empty()) refuse("the surface needs repair, which --repair strict does not allow: " + found);
+  }
+
+  void refuse_flat() const {
+    const Vec3 extent = (mesh_.points.colwise().maxCoeff() - mesh_.points.colwise().minCoeff()).transpose();
+    for (int axis = 0; axis < 3; ++axis) {
+      if (extent[axis] > 0) continue;
+      refuse(fmt::format("the surface is flat ({} extent 0) and encloses no volume; {}", "xyz"[axis], kAdvice));
     }
   }
-  return nests;
-}
 
-Solid make_solid(const WeldedMesh& mesh, const Nest& nest) {
-  std::vector<int> rows = nest.outer->triangles;
-  for (const Shell* cavity : nest.cavities) rows.insert(rows.end(), cavity->triangles.begin(), cavity->triangles.end());
-  std::sort(rows.begin(), rows.end());
-
-  Solid solid;
-  solid.volume = std::abs(nest.outer->volume);
-  for (const Shell* cavity : nest.cavities) solid.volume -= std::abs(cavity->volume);
-  solid.triangles = mesh.triangles(rows, Eigen::all);
-  if (nest.outer->volume < 0) solid.triangles.col(1).swap(solid.triangles.col(2));
-  for (const int row : rows) solid.source.push_back(mesh.source[static_cast<std::size_t>(row)]);
-
-  std::vector<int> used(solid.triangles.data(), solid.triangles.data() + solid.triangles.size());
-  std::sort(used.begin(), used.end());
-  used.erase(std::unique(used.begin(), used.end()), used.end());
-  for (int& corner : solid.triangles.reshaped<Eigen::RowMajor>()) {
-    corner = static_cast<int>(std::lower_bound(used.begin(), used.end(), corner) - used.begin());
+  /// Shells with their triangles turned to agree.
+  void find_oriented_shells() {
+    shells_ = find_shells(mesh_.points, mesh_.triangles);
+    for (std::size_t t = 0; t < shells_.turned.size(); ++t) {
+      if (shells_.turned[t]) mesh_.turned[t] = !mesh_.turned[t];
+    }
   }
-  solid.points = mesh.points(used, Eigen::all);
-  return solid;
-}
 
-std::vector<Repair> list_repairs(const WeldedMesh& mesh, const Shells& found, const std::vector<Nest>& nests,
-                                 int flat) {
-  std::vector<Repair> repairs;
-  const auto add = [&](const char* kind, long count, const std::string& text, bool harmless = false) {
-    if (count > 0) repairs.push_back({kind, static_cast<int>(count), text, harmless});
-  };
-  add("degenerate", mesh.without_area, "dropped " + count_of(mesh.without_area, "triangle") + " without area");
-  add("duplicate", mesh.repeated, "dropped " + count_of(mesh.repeated, "repeated triangle"));
-  add("oriented", found.turned, "turned " + count_of(found.turned, "triangle") + " to agree with their neighbours");
-  const auto inverted =
-      std::count_if(nests.begin(), nests.end(), [](const Nest& nest) { return nest.outer->volume < 0; });
-  add("inside_out", inverted, "turned " + count_of(inverted, "inside-out solid") + " outwards");
-  long cavities = 0;
-  for (const Nest& nest : nests) cavities += static_cast<long>(nest.cavities.size());
-  add("cavity", cavities, "kept " + count_of(cavities, "cavity", "cavities"), true);
-  add("dropped_flat", flat, "dropped " + count_of(flat, "closed piece") + " without volume");
-  return repairs;
-}
+  void find_bodies() {
+    find_oriented_shells();
+    if (options_.repair == RepairMode::kOff) refuse_undecided();
+    faults_ = shells_.faults;
+    if (!shells_.open.empty()) stitch_rims();
+    add("non_manifold_split", faults_.non_manifold,
+        "cut the surface apart at " + count_of(faults_.non_manifold, "edge") +
+            " with more than two triangles (non-manifold)");
+    const auto turned = std::count(mesh_.turned.begin(), mesh_.turned.end(), true);
+    add("oriented", turned, "turned " + count_of(turned, "triangle") + " to agree with their neighbours");
+    const std::vector<bool> encloses = close_holes();
+    const double whole =
+        std::accumulate(shells_.shells.begin(), shells_.shells.end(), 0.0,
+                        [&](double sum, const Shell& shell) { return sum + given_area(mesh_, shell.triangles); });
+    if (drop_empty(encloses) < 0.5 * whole && take_as_soup()) return;
+    if (shells_.shells.empty()) refuse_empty();
+    assemble();
+  }
+
+  void refuse_undecided() const {
+    std::string found;
+    const auto note = [&](long count, const std::string& text) {
+      if (count > 0) found += (found.empty() ? "" : ", ") + text;
+    };
+    const EdgeFaults& faults = shells_.faults;
+    const auto turned = std::count(mesh_.turned.begin(), mesh_.turned.end(), true);
+    note(faults.open, fmt::format("{} in {}", count_of(faults.open, "open edge"), count_of(faults.loops, "loop")));
+    note(faults.one_sided, count_of(faults.one_sided, "edge") + " where inside meets outside (one-sided surface)");
+    note(turned, count_of(turned, "triangle") + " turned against their neighbours");
+    if (found.empty() && !shells_.open.empty()) found = count_of(faults.non_manifold, "edge") + " (non-manifold)";
+    if (!found.empty()) refuse(fmt::format("the surface does not enclose a solid: {}; use --repair auto", found));
+  }
+
+  void stitch_rims() {
+    const int stitched = stitch(shells_.open, mesh_);
+    if (stitched == 0) return;
+    add("stitched", stitched, "stitched " + count_of(stitched, "point") + " of rims that almost meet");
+    find_oriented_shells();
+  }
+
+  /// For each shell whether it is the boundary of something, not counting the caps.
+  std::vector<bool> close_holes() {
+    std::vector<bool> encloses(shells_.shells.size(), true);
+    for (const OpenSide& side : shells_.open) encloses[static_cast<std::size_t>(side.shell)] = false;
+    for (std::size_t i = 0; i < encloses.size(); ++i) {
+      if (encloses[i]) continue;
+      encloses[i] = enclosure(mesh_.points, mesh_.triangles, shells_.shells[i].triangles) >= kEncloses;
+    }
+    const int loops = shells_.faults.loops;
+    const Closing closing = close_shells(mesh_, shells_);
+    const int caps = closing.flat + closing.smooth;
+    add("hole_filled", caps == 0 ? 0 : std::max(loops, 1),
+        fmt::format("filled {} ({} flat, {} smooth)", count_of(std::max(loops, 1), "hole"), closing.flat,
+                    closing.smooth));
+    for (std::size_t i = 0; i < encloses.size(); ++i) {
+      if (!has_volume(mesh_, shells_.shells[i])) encloses[i] = false;
+    }
+    return encloses;
+  }
+
+  /// Drops shells without volume, and open ones that enclose next to nothing beside the others; returns the area of
+  /// those that enclose something by themselves.
+  double drop_empty(const std::vector<bool>& encloses) {
+    double largest = 0;
+    double enclosing = 0;
+    for (std::size_t i = 0; i < encloses.size(); ++i) {
+      if (!encloses[i]) continue;
+      largest = std::max(largest, std::abs(shells_.shells[i].volume));
+      enclosing += given_area(mesh_, shells_.shells[i].triangles);
+    }
+    std::vector<Shell> kept;
+    for (std::size_t i = 0; i < encloses.size(); ++i) {
+      Shell& shell = shells_.shells[i];
+      if (encloses[i] || (largest > 0 && std::abs(shell.volume) > kDebris * largest)) kept.push_back(std::move(shell));
+    }
+    dropped_ = static_cast<int>(shells_.shells.size() - kept.size());
+    shells_.shells = std::move(kept);
+    return enclosing;
+  }
+
+  /// Where the pieces enclose something only together: one solid of all triangles of the mesh.
+  bool take_as_soup() {
+    std::vector<int> rows;
+    for (int t = 0; t < mesh_.triangles.rows(); ++t) {
+      if (mesh_.source[static_cast<std::size_t>(t)] >= 0) rows.push_back(t);
+    }
+    if (dropped_ < 2 || enclosure(mesh_.points, mesh_.triangles, rows) < kEncloses) return false;
+    Shell all;
+    all.triangles = rows;
+    measure(mesh_.points, mesh_.triangles, all);
+    if (!has_volume(mesh_, all)) return false;
+    Solid solid = make_solid({{.outer = &all, .cavities = {}}});
+    solid.closed = false;
+    result_.solids.push_back(std::move(solid));
+    std::erase_if(result_.repairs, [](const Repair& repair) { return repair.kind == "hole_filled"; });
+    add("united", dropped_,
+        "took " + count_of(dropped_, "loose piece") + " that enclose something only together as one solid");
+    return true;
+  }
+
+  [[noreturn]] void refuse_empty() const {
+    if (faults_.one_sided > 0) {
+      refuse(
+          fmt::format("the surface is one-sided ({} where inside meets outside, as on a Moebius band) and encloses "
+                      "no volume; {}",
+                      count_of(faults_.one_sided, "edge"), kAdvice));
+    }
+    if (faults_.open == 0) refuse(fmt::format("the surface is closed but encloses no volume; {}", kAdvice));
+    if (dropped_ > 1) {
+      refuse(fmt::format("the surface is {} loose pieces that enclose no volume ({}); {}", dropped_,
+                         count_of(faults_.open, "open edge"), kAdvice));
+    }
+    refuse(fmt::format("the surface is an open sheet ({} in {}) and encloses no volume; {}",
+                       count_of(faults_.open, "open edge"), count_of(faults_.loops, "loop"), kAdvice));
+  }
+
+  /// The crossings are of all triangles: those of dropped pieces count nothing.
+  void assemble() {
+    std::vector<bool> is_kept(static_cast<std::size_t>(mesh_.triangles.rows()), false);
+    for (const Shell& shell : shells_.shells) {
+      for (const int t : shell.triangles) is_kept[static_cast<std::size_t>(t)] = true;
+    }
+    std::vector<std::array<int, 2>> crossings = find_crossings(mesh_.points, mesh_.triangles);
+    std::erase_if(crossings, [&](const auto& pair) {
+      return !is_kept[static_cast<std::size_t>(pair[0])] || !is_kept[static_cast<std::size_t>(pair[1])];
+    });
+    const std::vector<Nest> nests = nest_shells(mesh_.points, mesh_.triangles, shells_.shells);
+    const auto groups = group_nests(nests, crossings);
+    std::vector<bool> crosses(is_kept.size(), false);
+    for (const auto& [a, b] : crossings) crosses[static_cast<std::size_t>(a)] = true;
+    long united = 0;
+    for (const NestGroup& group : groups) {
+      result_.solids.push_back(make_solid(group));
+      result_.solids.back().overlaps = overlaps(group, crosses);
+      if (group.size() > 1) united += static_cast<long>(group.size());
+    }
+    note_nests(nests);
+    add("united", united,
+        fmt::format("united {} that overlap, touch or lie in one another ({} left)", count_of(united, "body", "bodies"),
+                    count_of(static_cast<long>(groups.size()), "solid")));
+    add("dropped_flat", dropped_, "dropped " + count_of(dropped_, "piece") + " of the surface without volume");
+    note_crossings(crossings);
+  }
+
+  [[nodiscard]] std::vector<NestGroup> group_nests(const std::vector<Nest>& nests,
+                                                   const std::vector<std::array<int, 2>>& crossings) const {
+    if (options_.repair != RepairMode::kOff) return unite_nests(mesh_.points, mesh_.triangles, nests, crossings);
+    std::vector<NestGroup> groups;
+    for (const Nest& nest : nests) groups.push_back({nest});
+    return groups;
+  }
+
+  static bool overlaps(const NestGroup& group, const std::vector<bool>& crosses) {
+    const auto any = [&](const Shell* shell) {
+      return std::any_of(shell->triangles.begin(), shell->triangles.end(),
+                         [&](int t) { return crosses[static_cast<std::size_t>(t)]; });
+    };
+    return std::any_of(group.begin(), group.end(), [&](const Nest& nest) {
+      return any(nest.outer) || std::any_of(nest.cavities.begin(), nest.cavities.end(), any);
+    });
+  }
+
+  void note_nests(const std::vector<Nest>& nests) {
+    const auto inverted =
+        std::count_if(nests.begin(), nests.end(), [](const Nest& nest) { return nest.outer->volume < 0; });
+    add("inside_out", inverted, "turned " + count_of(inverted, "inside-out solid") + " outwards");
+    long cavities = 0;
+    for (const Nest& nest : nests) cavities += static_cast<long>(nest.cavities.size());
+    add("cavity", cavities, "kept " + count_of(cavities, "cavity", "cavities"), true);
+  }
+
+  /// Caps may cross what is near their hole; only what the mesh has itself is worth a word.
+  void note_crossings(std::vector<std::array<int, 2>> crossings) {
+    std::erase_if(crossings, [&](const auto& pair) {
+      return mesh_.source[static_cast<std::size_t>(pair[0])] < 0 || mesh_.source[static_cast<std::size_t>(pair[1])] < 0;
+    });
+    if (crossings.empty()) return;
+    result_.crossing = mesh_.points(mesh_.triangles.row(crossings.front()[0]), Eigen::all).colwise().mean();
+    const auto pairs = static_cast<long>(crossings.size());
+    add("self_intersection", pairs,
+        fmt::format("the surface crosses itself: {}; what overlaps is filled once",
+                    count_of(pairs, "pair of triangles", "pairs of triangles")));
+  }
+
+  [[nodiscard]] Solid make_solid(const NestGroup& group) const {
+    std::vector<std::pair<int, bool>> rows;  // of triangles, and whether they are to be turned
+    Solid solid;
+    for (const Nest& nest : group) {
+      const bool inverted = nest.outer->volume < 0;
+      double volume = std::abs(nest.outer->volume);
+      for (const int t : nest.outer->triangles) rows.emplace_back(t, inverted);
+      for (const Shell* cavity : nest.cavities) {
+        volume -= std::abs(cavity->volume);
+        for (const int t : cavity->triangles) rows.emplace_back(t, inverted);
+      }
+      if (!nest.is_buried) solid.volume += volume;
+    }
+    std::sort(rows.begin(), rows.end());
+    take_triangles(rows, solid);
+    return solid;
+  }
+
+  void take_triangles(const std::vector<std::pair<int, bool>>& rows, Solid& solid) const {
+    solid.triangles.resize(static_cast<int>(rows.size()), 3);
+    for (int t = 0; t < solid.triangles.rows(); ++t) {
+      const auto [row, turn] = rows[static_cast<std::size_t>(t)];
+      solid.triangles.row(t) = mesh_.triangles.row(row);
+      if (turn) std::swap(solid.triangles(t, 1), solid.triangles(t, 2));
+      solid.source.push_back(mesh_.source[static_cast<std::size_t>(row)]);
+      solid.turned.push_back(mesh_.turned[static_cast<std::size_t>(row)] != turn);
+    }
+    std::vector<int> used(solid.triangles.data(), solid.triangles.data() + solid.triangles.size());
+    std::sort(used.begin(), used.end());
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    for (int& corner : solid.triangles.reshaped<Eigen::RowMajor>()) {
+      corner = static_cast<int>(std::lower_bound(used.begin(), used.end(), corner) - used.begin());
+    }
+    solid.points = mesh_.points(used, Eigen::all);
+  }
+
+  /// Every piece as it is, for a shell of the thickness asked for.
+  void find_sheets() {
+    find_oriented_shells();
+    std::vector<double> rims(shells_.shells.size());
+    for (const OpenSide& side : shells_.open) {
+      rims[static_cast<std::size_t>(side.shell)] += (mesh_.points.row(side.from) - mesh_.points.row(side.to)).norm();
+    }
+    const double thickness = options_.thickness;
+    for (std::size_t i = 0; i < rims.size(); ++i) {
+      Shell& shell = shells_.shells[i];
+      shell.volume =
+          given_area(mesh_, shell.triangles) * thickness + rims[i] * std::numbers::pi / 8 * thickness * thickness;
+      if (!(shell.volume > 0)) continue;
+      Solid solid = make_solid({{.outer = &shell, .cavities = {}}});
+      solid.thickness = thickness;
+      result_.solids.push_back(std::move(solid));
+    }
+    if (result_.solids.empty()) refuse("no triangle has an area");
+    const auto count = static_cast<long>(result_.solids.size());
+    add("thickened", count, "made " + count_of(count, "piece") + " of the surface a shell", true);
+  }
+
+  const std::string& name_;
+  const SolidOptions& options_;
+  WeldedMesh mesh_;
+  Shells shells_;
+  EdgeFaults faults_;  // before stitching
+  int dropped_ = 0;    // shells
+  Solids result_;
+};
 
 }  // namespace
 
-Solids find_solids(const SurfaceMesh& mesh, const std::string& name) {
-  WeldedMesh welded = weld(mesh);
-  if (welded.triangles.rows() == 0) refuse(name, "no triangle has an area");
-  refuse_flat(welded.points, name);
-  Shells found = find_shells(welded.points, welded.triangles);
-  refuse_faults(found.faults, name);
-
-  const auto empty = std::stable_partition(found.shells.begin(), found.shells.end(),
-                                           [&](const Shell& shell) { return has_volume(welded, shell); });
-  const auto flat = static_cast<int>(found.shells.end() - empty);
-  found.shells.erase(empty, found.shells.end());
-  if (found.shells.empty()) refuse(name, "the surface is closed but encloses no volume");
-
-  Solids result;
-  const std::vector<Nest> nests = nest_shells(welded, found.shells);
-  for (const Nest& nest : nests) result.solids.push_back(make_solid(welded, nest));
-  std::stable_sort(result.solids.begin(), result.solids.end(),
-                   [](const Solid& a, const Solid& b) { return a.volume > b.volume; });
-  result.repairs = list_repairs(welded, found, nests, flat);
-  return result;
+Solids find_solids(const SurfaceMesh& mesh, const std::string& name, const SolidOptions& options) {
+  return SolidFinder(mesh, name, options).find();
 }
 
 }  // namespace sprung

@@ -82,6 +82,13 @@ void set_rows(const Points& positions, const std::vector<std::array<int, 3>>& tr
   welded.points = positions(used, Eigen::all);
 }
 
+/// Vertices that triangles use.
+int count_used(const SurfaceMesh& mesh) {
+  std::vector<bool> used(static_cast<std::size_t>(mesh.positions.rows()), false);
+  for (const int vertex : mesh.triangles.reshaped()) used[static_cast<std::size_t>(vertex)] = true;
+  return static_cast<int>(std::count(used.begin(), used.end(), true));
+}
+
 }  // namespace
 
 WeldedMesh weld(const SurfaceMesh& mesh) {
@@ -112,6 +119,10 @@ WeldedMesh weld(const SurfaceMesh& mesh) {
     welded.source.push_back(source[t]);
   }
   set_rows(mesh.positions, kept, welded);
+  welded.turned.assign(kept.size(), false);
+  const int used = count_used(mesh);
+  welded.unreferenced = static_cast<int>(mesh.positions.rows()) - used;
+  if (welded.without_area + welded.repeated == 0) welded.joined = used - static_cast<int>(welded.points.rows());
   return welded;
 }
 
