@@ -95,6 +95,11 @@ void match_volume(double volume, BrickGrid& grid) {
   }
 }
 
+/// A shell thinner than a brick is found as if it were one thick, and reaches further than it does at its rims.
+void scale_fill(double factor, BrickGrid& grid) {
+  for (double& fill : grid.fill) fill = std::min(1.0, fill * factor);
+}
+
 /// Rays along one axis may miss a wall between them that is thinner than their pitch; those of the other axes do not.
 void fill_columns(const CellSurface& surface, CellSums& sums) {
   for (int axis = 0; axis < 3; ++axis) cast_columns(surface, axis, sums);
@@ -123,7 +128,8 @@ BrickGrid voxelize(const Solid& solid, double brick_size) {
   grid.origin = low;
   grid.brick_size = brick_size;
   collect_cells(sums, counts, grid);
-  if (solid.closed && !solid.overlaps) match_volume(solid.volume, grid);
+  if (solid.thickness > 0 && solid.thickness < brick_size) scale_fill(solid.volume / grid.volume(), grid);
+  if (solid.thickness == 0 && solid.closed && !solid.overlaps) match_volume(solid.volume, grid);
   number_nodes(grid);
   return grid;
 }

@@ -24,7 +24,7 @@ using Mesh = CGAL::Surface_mesh<Point>;
 using Vertex = Mesh::Vertex_index;
 using Corners = std::array<int, 3>;
 
-constexpr double kFlat = 1e-3;
+constexpr double kFlat = 0.03;
 constexpr int kWorthFairing = 8;  // edges
 
 double extent_of(const Points& points) { return (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm(); }
@@ -173,9 +173,7 @@ std::optional<Cap> smooth_cap(const Hole& hole, const std::vector<Corners>& tria
   }
 }
 
-}  // namespace
-
-Cap fill_hole(const Hole& hole) {
+Cap fill_rounded(const Hole& hole) {
   const bool flat = is_flat(hole.rim);
   const std::vector<Corners> triangles = triangulate(hole, flat);
   if (triangles.empty()) return fan(hole.rim);
@@ -183,6 +181,33 @@ Cap fill_hole(const Hole& hole) {
     if (std::optional<Cap> cap = smooth_cap(hole, triangles)) return *cap;
   }
   return {.points = Points(0, 3), .triangles = rows_of(triangles), .flat = flat};
+}
+
+/// The rim's place and size. In it coordinates are rounded to 1e-9, so that what a scale or a shift of the mesh does to
+/// their last digits cannot change which triangles are chosen.
+class Frame {
+ public:
+  explicit Frame(const Points& rim) : origin_(rim.colwise().mean()), size_(extent_of(rim)) {}
+  [[nodiscard]] Points rounded(const Points& points) const {
+    const Points inside = (points.rowwise() - origin_) / size_;
+    return (inside.array() * kSteps).round() / kSteps;
+  }
+  [[nodiscard]] Points placed(const Points& points) const { return (points * size_).rowwise() + origin_; }
+
+ private:
+  static constexpr double kSteps = 1 << 30;
+  Eigen::RowVector3d origin_;
+  double size_;
+};
+
+}  // namespace
+
+Cap fill_hole(const Hole& given) {
+  const Frame frame(given.rim);
+  const Hole hole{frame.rounded(given.rim), frame.rounded(given.beyond)};
+  Cap cap = fill_rounded(hole);
+  cap.points = frame.placed(cap.points);
+  return cap;
 }
 
 }  // namespace sprung

@@ -13,12 +13,12 @@ struct Hole {
 struct Cap {
   Points points;  // new ones: empty where the cap is flat
   Triangles triangles;
-  bool flat = false;  // the rim lies in a plane up to 1e-3 of its extent
+  bool flat = false;  // the rim lies in a plane up to 3 % of its extent
 };
 
 /// Closes a hole by Delaunay triangles in the rim's plane where it has one, else by the triangles that bend least,
 /// which then (rims of 8 edges or more) are refined to the density of the rim and faired to continue the surface
 /// around it (Liepa 2003). Never fails: a fan closes what CGAL will not. Deterministic.
-[[nodiscard]] Cap fill_hole(const Hole& hole);
+[[nodiscard]] Cap fill_hole(const Hole& given);
 
 }  // namespace sprung

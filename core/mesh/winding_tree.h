@@ -9,8 +9,8 @@ namespace sprung {
 /// outward, a fraction that tells how far a point is enclosed where the surface is torn.
 ///
 /// Far triangles count as one dipole, near ones exactly (Barill, Dickson, Schmidt, Levin and Jacobson, "Fast Winding
-/// Numbers for Soups and Clouds", 2018): error some 1e-2 beside holes, where it does not matter, and 1e-3 elsewhere.
-/// Build: n log n. A point costs about a microsecond. Safe to ask from several threads; deterministic.
+/// Numbers for Soups and Clouds", 2018): error below 0.03.
+/// Build: n log n. A point costs some microseconds. Safe to ask from several threads; deterministic.
 class WindingTree {
  public:
   /// Of the triangles whose rows are given.

@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "core/error.h"
-#include "core/mesh/read_mesh.h"
 #include "core/mesh/solids.h"
 #include "tests/support/meshes.h"
 
@@ -17,9 +16,9 @@ using test::joined;
 
 const Vec3 kOne = Vec3::Ones();
 
-std::string refusal(const SurfaceMesh& mesh) {
+std::string refusal(const SurfaceMesh& mesh, RepairMode repair = RepairMode::kOff) {
   try {
-    (void)find_solids(mesh, "thing.obj");
+    (void)find_solids(mesh, "thing.obj", {.repair = repair});
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::kBadInput);
     return error.what();
@@ -124,10 +123,13 @@ TEST(FindSolids, GivesACavityToTheSolidAroundIt) {
   EXPECT_DOUBLE_EQ(turned.solids.at(1).volume, 1);
 }
 
-TEST(FindSolids, KeepsASolidInsideAnotherThatIsTurnedTheSameWay) {
-  const Solids found = find_solids(joined(box_mesh(Vec3::Zero(), 4 * kOne), box_mesh(kOne, 3 * kOne)), "core");
-  ASSERT_EQ(found.solids.size(), 2U);
+TEST(FindSolids, UnitesASolidWithTheOneAroundItThatIsTurnedTheSameWay) {
+  const SurfaceMesh core = joined(box_mesh(Vec3::Zero(), 4 * kOne), box_mesh(kOne, 3 * kOne));
+  const Solids found = find_solids(core, "core");
+  ASSERT_EQ(found.solids.size(), 1U);
   EXPECT_DOUBLE_EQ(found.solids[0].volume, 64);
+  EXPECT_TRUE(has_note(found, "united 2 bodies"));
+  EXPECT_EQ(find_solids(core, "core", {.repair = RepairMode::kOff}).solids.size(), 2U);
 }
 
 TEST(FindSolids, CountsOpenEdges) {
@@ -138,21 +140,29 @@ TEST(FindSolids, CountsOpenEdges) {
       << refusal(mesh);
 }
 
-TEST(FindSolids, CountsEdgesThatAreNotManifold) {
-  // Two boxes that share one edge.
+TEST(FindSolids, CutsBoxesThatShareAnEdgeApart) {
   const SurfaceMesh mesh = joined(box_mesh(Vec3::Zero(), kOne), box_mesh(Vec3(1, 1, 0), Vec3(2, 2, 1)));
-  EXPECT_NE(refusal(mesh).find("1 edge with more than two triangles"), std::string::npos) << refusal(mesh);
+  for (const SurfaceMesh& given :
+       {mesh, joined(box_mesh(Vec3::Zero(), kOne), inside_out(box_mesh(Vec3(1, 1, 0), Vec3(2, 2, 1))))}) {
+    const Solids found = find_solids(given, "boxes");
+    ASSERT_EQ(found.solids.size(), 2U);
+    EXPECT_DOUBLE_EQ(volume_of(found.solids[0]), 1);
+    EXPECT_DOUBLE_EQ(volume_of(found.solids[1]), 1);
+    EXPECT_TRUE(has_note(found, "1 edge with more than two triangles"));
+  }
 }
 
 TEST(FindSolids, RefusesWhatEnclosesNothing) {
   const SurfaceMesh flat = box_mesh(Vec3::Zero(), Vec3(1, 0, 1));
-  EXPECT_NE(refusal(flat).find("flat (y extent 0)"), std::string::npos) << refusal(flat);
+  EXPECT_NE(refusal(flat, RepairMode::kAuto).find("flat (y extent 0)"), std::string::npos)
+      << refusal(flat, RepairMode::kAuto);
   Points square(4, 3);
   square << 0, 0, 0, 1, 1, 0, 1, 1, 1, 0, 0, 1;
   Triangles folded(4, 3);
   folded << 0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3;
   const SurfaceMesh sheet = test::mesh_of(square, folded);
-  EXPECT_NE(refusal(sheet).find("no volume"), std::string::npos) << refusal(sheet);
+  EXPECT_NE(refusal(sheet, RepairMode::kAuto).find("no volume"), std::string::npos)
+      << refusal(sheet, RepairMode::kAuto);
 }
 
 TEST(FindSolids, HasNoAbsoluteTolerance) {
@@ -164,69 +174,6 @@ TEST(FindSolids, HasNoAbsoluteTolerance) {
   mesh.positions.rowwise() += Eigen::RowVector3d(1e6, -2e6, 3e6);
   EXPECT_NEAR(find_solids(mesh, "far").solids.at(0).volume / volume, 1, 1e-8);
 }
-
-struct Known {
-  const char* file;
-  int solids;
-  double volume;
-};
-
-void PrintTo(const Known& known, std::ostream* out) { *out << known.file; }
-
-class KnownSolids : public ::testing::TestWithParam<Known> {};
-
-TEST_P(KnownSolids, HaveTheirCountAndVolume) {
-  const auto file = test::shared_mesh(GetParam().file);
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "the shared meshes are not here";
-  const Solids found = find_solids(read_mesh(file), GetParam().file);
-  EXPECT_EQ(static_cast<int>(found.solids.size()), GetParam().solids);
-  double volume = 0;
-  for (const Solid& solid : found.solids) {
-    EXPECT_GT(solid.volume, 0);
-    EXPECT_EQ(static_cast<int>(solid.source.size()), solid.triangles.rows());
-    volume += solid.volume;
-  }
-  EXPECT_NEAR(volume / GetParam().volume, 1, 1e-3);
-}
-
-INSTANTIATE_TEST_SUITE_P(Shared, KnownSolids,
-                         ::testing::Values(Known{"spot_triangulated.obj", 1, 0.7183}, Known{"bunny.obj", 1, 0.7493},
-                                           Known{"eight.off", 1, 0.04017}, Known{"bob_small.ply", 1, 0.6791},
-                                           Known{"scorpion_low_resolution.obj", 1, 12.18},
-                                           Known{"cube_gears.3mf", 17, 1.124e5}, Known{"self_intersectA.obj", 1, 0.148},
-                                           Known{"blobby-shuffled.off", 1, 0.05008}, Known{"ellipe0.003.off", 1, 1.474},
-                                           Known{"Duck.glb", 1, 1.196}, Known{"test_pos_color.ply", 1, 3.927},
-                                           Known{"scallop.glb", 1, 41.28}, Known{"unit_cube.STL", 1, 1},
-                                           Known{"large_block_obb.STL", 1, 8.458e8},
-                                           Known{"plate_holes.STL", 1, 7.674e5}, Known{"sphere.dae", 1, 4.095e-6},
-                                           Known{"huesitos.fbx", 1, 1.569e7},
-                                           Known{"double-torus-example.off", 1, 65.0}));
-
-struct Broken {
-  const char* file;
-  const char* reason;
-};
-
-void PrintTo(const Broken& broken, std::ostream* out) { *out << broken.file; }
-
-class BrokenSurfaces : public ::testing::TestWithParam<Broken> {};
-
-TEST_P(BrokenSurfaces, AreRefusedWithCounts) {
-  const auto file = test::shared_mesh(GetParam().file);
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "the shared meshes are not here";
-  const std::string message = refusal(read_mesh(file));
-  EXPECT_NE(message.find(GetParam().reason), std::string::npos) << message;
-}
-
-INSTANTIATE_TEST_SUITE_P(
-    Shared, BrokenSurfaces,
-    ::testing::Values(Broken{"bun_zipper.ply", "223 open edges in 5 loops"},
-                      Broken{"teapot_instancenodes.DAE", "128 open edges in 12 loops"},
-                      Broken{"sphereWithHole.stl", "9 open edges in 1 loop"},
-                      Broken{"Spider_binary.stl", "72 open edges in 6 loops"},
-                      Broken{"hand_lowres.obj", "16 open edges in 1 loop"},
-                      Broken{"lego.ply", "the surface is flat (y extent 0) and encloses no volume"},
-                      Broken{"openscad-nonmanifold-crash.obj", "edges with more than two triangles (non-manifold)"}));
 
 }  // namespace
 }  // namespace sprung
