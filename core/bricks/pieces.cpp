@@ -336,7 +336,8 @@ Eigen::Vector3i counts_of(const BrickGrid& grid) {
 }  // namespace
 
 PieceReport split_pieces(const Solid& solid, BrickGrid& grid) {
-  if (grid.cells.empty()) return {};
+  // What follows lines through the solid needs a surface that they enter as often as they leave it.
+  if (grid.cells.empty() || !solid.closed || solid.thickness > 0) return {};
   const Eigen::Vector3i counts = counts_of(grid);
   Points points = (solid.points.rowwise() - grid.origin.transpose()) / grid.brick_size;
   for (int axis = 0; axis < 3; ++axis) points.col(axis) = points.col(axis).cwiseMax(0.0).cwiseMin(counts[axis]);

@@ -21,7 +21,8 @@ inline constexpr double kSpeckShare = 1e-4;
 /// the surface cuts, the lines between them and, where those say nothing, straight lines that meet no triangle: a gap
 /// counts however narrow, solid down to about a twentieth of a brick. A piece of less than 4 samples beside a larger
 /// one is given to that one's fill. The volume stays. After Nesme, Kry, Jerabkova and Faure, "Preserving topology and
-/// elasticity for embedded deformable models" (2009). `grid` is voxelize()'s for the same solid. Deterministic.
+/// elasticity for embedded deformable models" (2009). `grid` is voxelize()'s for the same solid;
+/// that of a shell or of loose triangles stays as it is. Deterministic.
 PieceReport split_pieces(const Solid& solid, BrickGrid& grid);
 
 }  // namespace sprung

@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-#include "core/mesh/disjoint_sets.h"
+#include "core/disjoint_sets.h"
 #include "core/mesh/winding_tree.h"
 
 namespace sprung {
@@ -80,27 +80,27 @@ std::vector<Nest> nest_shells(const Points& points, const Triangles& triangles, 
 
 std::vector<NestGroup> unite_nests(const Points& points, const Triangles& triangles, std::vector<Nest> nests,
                                    const std::vector<std::array<int, 2>>& crossings) {
-  DisjointSets sets(static_cast<std::ptrdiff_t>(nests.size()));
+  DisjointSets sets(nests.size());
   const std::vector<int> number = nest_of_triangles(nests, triangles.rows());
   std::vector<bool> crosses(nests.size(), false);
   for (const auto& [a, b] : crossings) {
     const int nest_a = number[static_cast<std::size_t>(a)];
     const int nest_b = number[static_cast<std::size_t>(b)];
     if (nest_a < 0 || nest_b < 0 || nest_a == nest_b) continue;
-    sets.join(nest_a, nest_b);
+    sets.merge(nest_a, nest_b);
     crosses[static_cast<std::size_t>(nest_a)] = crosses[static_cast<std::size_t>(nest_b)] = true;
   }
   Containment containment(points, triangles);
   for (std::size_t inner = 0; inner < nests.size(); ++inner) {
     for (std::size_t outer = 0; outer < inner; ++outer) {
       if (!containment.is_in_matter(nests[outer], *nests[inner].outer)) continue;
-      sets.join(static_cast<int>(outer), static_cast<int>(inner));
+      sets.merge(static_cast<int>(outer), static_cast<int>(inner));
       nests[inner].is_buried = !crosses[inner];
     }
   }
   std::map<int, NestGroup> groups;
   for (std::size_t i = 0; i < nests.size(); ++i) {
-    groups[sets.root(static_cast<int>(i))].push_back(std::move(nests[i]));
+    groups[sets.find(static_cast<int>(i))].push_back(std::move(nests[i]));
   }
   std::vector<NestGroup> list;
   for (auto& [root, group] : groups) list.push_back(std::move(group));

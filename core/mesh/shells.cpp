@@ -17,11 +17,11 @@ struct Neighbour {
 };
 
 int count_loops(const std::vector<Side>& open, Eigen::Index points) {
-  DisjointSets sets(points);
-  for (const Side& side : open) sets.join(side.low, side.high);
+  DisjointSets sets(static_cast<std::size_t>(points));
+  for (const Side& side : open) sets.merge(side.low, side.high);
   std::vector<int> roots;
   roots.reserve(open.size());
-  for (const Side& side : open) roots.push_back(sets.root(side.low));
+  for (const Side& side : open) roots.push_back(sets.find(side.low));
   std::sort(roots.begin(), roots.end());
   return static_cast<int>(std::unique(roots.begin(), roots.end()) - roots.begin());
 }

@@ -27,11 +27,11 @@ std::vector<Side> sorted_sides(const Triangles& triangles) {
 }
 
 SidePairs::SidePairs(const Points& points, const Triangles& triangles, const std::vector<int>& pieces)
-    : points_(points), triangles_(triangles), pieces_(pieces), sets_(triangles.rows()) {}
+    : points_(points), triangles_(triangles), pieces_(pieces), sets_(static_cast<std::size_t>(triangles.rows())) {}
 
 void SidePairs::pair(std::span<const Side> edge) {
   if (edge.size() == 2 && edge[0].forward != edge[1].forward) {
-    sets_.join(edge[0].triangle, edge[1].triangle);
+    sets_.merge(edge[0].triangle, edge[1].triangle);
   } else if (edge.size() <= 2) {
     open_.insert(open_.end(), edge.begin(), edge.end());
   } else {
@@ -65,7 +65,7 @@ void SidePairs::pair_around(std::vector<Side>& sides) {
       ++i;
       continue;
     }
-    sets_.join(sides[i].triangle, sides[next].triangle);
+    sets_.merge(sides[i].triangle, sides[next].triangle);
     sides.erase(sides.begin() + static_cast<std::ptrdiff_t>(std::max(i, next)));
     sides.erase(sides.begin() + static_cast<std::ptrdiff_t>(std::min(i, next)));
     i = 0;

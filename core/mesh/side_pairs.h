@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "core/mesh/disjoint_sets.h"
+#include "core/disjoint_sets.h"
 #include "core/types.h"
 
 namespace sprung {
@@ -41,7 +41,7 @@ class SidePairs {
   /// Sides without partners, in the order of their edges.
   [[nodiscard]] const std::vector<Side>& open() const { return open_; }
   /// The same for triangles that hang together by partners.
-  [[nodiscard]] int shell_of(int triangle) { return sets_.root(triangle); }
+  [[nodiscard]] int shell_of(int triangle) { return sets_.find(triangle); }
 
  private:
   void pair_many(std::span<const Side> edge);

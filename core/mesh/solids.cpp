@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "core/mesh/close_shells.h"
 #include "core/mesh/crossings.h"
+#include "core/mesh/cut_solid.h"
 #include "core/mesh/enclosure.h"
 #include "core/mesh/nest.h"
 #include "core/mesh/shells.h"
@@ -28,33 +29,17 @@ constexpr double kDebris = 0.01;
 
 constexpr const char* kAdvice = "ask for a shell with --thickness 3mm";
 
-double triangle_area(const WeldedMesh& mesh, int t) {
-  const Vec3 a = mesh.points.row(mesh.triangles(t, 0));
-  const Vec3 b = mesh.points.row(mesh.triangles(t, 1)).transpose() - a;
-  const Vec3 c = mesh.points.row(mesh.triangles(t, 2)).transpose() - a;
-  return 0.5 * b.cross(c).norm();
-}
-
-/// Of the triangles that the mesh has, without caps.
-double given_area(const WeldedMesh& mesh, const std::vector<int>& rows) {
-  double area = 0;
-  for (const int t : rows) {
-    if (mesh.source[static_cast<std::size_t>(t)] >= 0) area += triangle_area(mesh, t);
-  }
-  return area;
-}
-
 bool has_volume(const WeldedMesh& mesh, const Shell& shell) {
   return std::abs(shell.volume) > kNoVolume * given_area(mesh, shell.triangles) * (shell.high - shell.low).norm();
 }
 
-/// Finds the solids of one mesh.
-class SolidFinder {
+/// Takes one mesh through all repairs to its solids.
+class Mender {
  public:
-  SolidFinder(const SurfaceMesh& mesh, const std::string& name, const SolidOptions& options)
+  Mender(const SurfaceMesh& mesh, const std::string& name, const SolidOptions& options)
       : name_(name), options_(options), mesh_(weld(mesh)) {}
 
-  Solids find() {
+  Solids solids() {
     if (mesh_.triangles.rows() == 0) refuse("no triangle has an area");
     add("welded", mesh_.joined, "joined " + count_of(mesh_.joined, "vertex", "vertices") + " of equal position", true);
     add("unreferenced", mesh_.unreferenced,
@@ -195,7 +180,7 @@ class SolidFinder {
     all.triangles = rows;
     measure(mesh_.points, mesh_.triangles, all);
     if (!has_volume(mesh_, all)) return false;
-    Solid solid = make_solid({{.outer = &all, .cavities = {}}});
+    Solid solid = cut_solid(mesh_, {{.outer = &all, .cavities = {}}});
     solid.closed = false;
     result_.solids.push_back(std::move(solid));
     std::erase_if(result_.repairs, [](const Repair& repair) { return repair.kind == "hole_filled"; });
@@ -236,7 +221,7 @@ class SolidFinder {
     for (const auto& [a, b] : crossings) crosses[static_cast<std::size_t>(a)] = true;
     long united = 0;
     for (const NestGroup& group : groups) {
-      result_.solids.push_back(make_solid(group));
+      result_.solids.push_back(cut_solid(mesh_, group));
       result_.solids.back().overlaps = overlaps(group, crosses);
       if (group.size() > 1) united += static_cast<long>(group.size());
     }
@@ -288,42 +273,6 @@ class SolidFinder {
                     count_of(pairs, "pair of triangles", "pairs of triangles")));
   }
 
-  [[nodiscard]] Solid make_solid(const NestGroup& group) const {
-    std::vector<std::pair<int, bool>> rows;  // of triangles, and whether they are to be turned
-    Solid solid;
-    for (const Nest& nest : group) {
-      const bool inverted = nest.outer->volume < 0;
-      double volume = std::abs(nest.outer->volume);
-      for (const int t : nest.outer->triangles) rows.emplace_back(t, inverted);
-      for (const Shell* cavity : nest.cavities) {
-        volume -= std::abs(cavity->volume);
-        for (const int t : cavity->triangles) rows.emplace_back(t, inverted);
-      }
-      if (!nest.is_buried) solid.volume += volume;
-    }
-    std::sort(rows.begin(), rows.end());
-    take_triangles(rows, solid);
-    return solid;
-  }
-
-  void take_triangles(const std::vector<std::pair<int, bool>>& rows, Solid& solid) const {
-    solid.triangles.resize(static_cast<int>(rows.size()), 3);
-    for (int t = 0; t < solid.triangles.rows(); ++t) {
-      const auto [row, turn] = rows[static_cast<std::size_t>(t)];
-      solid.triangles.row(t) = mesh_.triangles.row(row);
-      if (turn) std::swap(solid.triangles(t, 1), solid.triangles(t, 2));
-      solid.source.push_back(mesh_.source[static_cast<std::size_t>(row)]);
-      solid.turned.push_back(mesh_.turned[static_cast<std::size_t>(row)] != turn);
-    }
-    std::vector<int> used(solid.triangles.data(), solid.triangles.data() + solid.triangles.size());
-    std::sort(used.begin(), used.end());
-    used.erase(std::unique(used.begin(), used.end()), used.end());
-    for (int& corner : solid.triangles.reshaped<Eigen::RowMajor>()) {
-      corner = static_cast<int>(std::lower_bound(used.begin(), used.end(), corner) - used.begin());
-    }
-    solid.points = mesh_.points(used, Eigen::all);
-  }
-
   /// Every piece as it is, for a shell of the thickness asked for.
   void find_sheets() {
     find_oriented_shells();
@@ -337,7 +286,7 @@ class SolidFinder {
       shell.volume =
           given_area(mesh_, shell.triangles) * thickness + rims[i] * std::numbers::pi / 8 * thickness * thickness;
       if (!(shell.volume > 0)) continue;
-      Solid solid = make_solid({{.outer = &shell, .cavities = {}}});
+      Solid solid = cut_solid(mesh_, {{.outer = &shell, .cavities = {}}});
       solid.thickness = thickness;
       result_.solids.push_back(std::move(solid));
     }
@@ -358,7 +307,7 @@ class SolidFinder {
 }  // namespace
 
 Solids find_solids(const SurfaceMesh& mesh, const std::string& name, const SolidOptions& options) {
-  return SolidFinder(mesh, name, options).find();
+  return Mender(mesh, name, options).solids();
 }
 
 }  // namespace sprung

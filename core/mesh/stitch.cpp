@@ -6,7 +6,7 @@
 #include <numeric>
 #include <tuple>
 
-#include "core/mesh/disjoint_sets.h"
+#include "core/disjoint_sets.h"
 
 namespace sprung {
 namespace {
