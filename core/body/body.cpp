@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/body/brick_kernel.h"
+#include "core/body/brick_tiles.h"
 #include "core/law/hexahedron.h"
 
 namespace sprung {

@@ -3,12 +3,13 @@
 #include <memory>
 #include <vector>
 
-#include "core/body/brick_tiles.h"
 #include "core/bricks/brick_grid.h"
 #include "core/law/brick_law.h"
 #include "core/law/material.h"
 
 namespace sprung {
+
+struct BrickTiles;
 
 /// Rayleigh damping: force -alpha m v on every node and a tension beta times the rate of stretch law on every spring.
 struct Rayleigh {

@@ -9,14 +9,14 @@ namespace sprung {
 
 /// A part of a body's bricks for one thread at a time, see TileView.
 struct BrickTile {
-  int rows = 0;
+  int pitch = 0;
   int planes = 0;
   std::vector<Run> runs;
   std::vector<int> first_run;
   std::vector<double> shares;
   std::size_t shared_offset = 0;  // of this tile's part of the shared forces
 
-  [[nodiscard]] TileView view() const { return {rows, planes, runs.data(), first_run.data(), shares.data()}; }
+  [[nodiscard]] TileView view() const { return {pitch, planes, runs.data(), first_run.data(), shares.data()}; }
 };
 
 /// A body's bricks cut into tiles whose nodes stay in a core's cache while they are computed. The cut depends on the
@@ -25,12 +25,11 @@ struct BrickTiles {
   std::vector<BrickTile> tiles;
   std::vector<SharedNodes> shared;
   std::vector<SharedPart> parts;
-  std::size_t shared_size = 0;   // doubles
-  std::size_t scratch_size = 0;  // doubles, of the largest tile
+  std::size_t shared_size = 0;  // doubles
 };
 
-/// `stiffness_scale` per brick: of how many full bricks it has the stiffness, above 0. Cost: linear in the boxes around
-/// the tiles.
+/// `stiffness_scale` per brick: of how many full bricks it has the stiffness, above 0. Bricks and nodes may lie at the
+/// same place several times. Cost: linear in the boxes around the tiles.
 [[nodiscard]] BrickTiles make_brick_tiles(const BrickGrid& grid, const std::vector<double>& stiffness_scale);
 
 }  // namespace sprung

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/body/brick_tiles.h"
 #include "core/body/kernel/flush_denormals.h"
 
 namespace sprung {
@@ -50,7 +51,7 @@ void SpringSystem::run(const BrickTiles& tiles, const PassInput& input) {
     // Below 0: a thread that has met no task yet.
     const int thread = std::max(0, tbb::this_task_arena::current_thread_index());
     std::vector<CacheLine>& scratch = scratch_[static_cast<std::size_t>(thread)];
-    if (8 * scratch.size() < tiles.scratch_size) scratch.assign(tiles.scratch_size / 8, {});
+    if (scratch.empty()) scratch.resize(kScratchSize / 8);
     kernel_.tile(tile.view(), input, scratch.front().values, shared_.data() + tile.shared_offset, energies_[i]);
   });
   if (input.pass == Pass::kEnergy) return;

@@ -4,6 +4,7 @@
 #include <random>
 #include <vector>
 
+#include "core/body/brick_tiles.h"
 #include "core/bricks/voxelize.h"
 #include "core/mesh/read_mesh.h"
 
@@ -55,7 +56,7 @@ double size_of(const std::vector<T>& values) {
 double size_of(const BrickTiles& tiles) {
   double sum = size_of(tiles.tiles) + size_of(tiles.shared) + size_of(tiles.parts);
   for (const BrickTile& tile : tiles.tiles) sum += size_of(tile.runs) + size_of(tile.first_run) + size_of(tile.shares);
-  return sum + static_cast<double>((tiles.shared_size + tiles.scratch_size) * sizeof(double));
+  return sum + static_cast<double>((tiles.shared_size + kScratchSize) * sizeof(double));
 }
 
 }  // namespace

@@ -1,19 +1,22 @@
 #pragma once
+#include "core/body/brick_topology.h"
 #include "core/body/kernel/springs.h"
 
 namespace sprung::SPRUNG_INSTRUCTION_SET {
 
-/// The four rows of nodes of a row of bricks, two on each plane: 0, +y, +z, +y+z.
+/// The four rows of nodes of a row of bricks: 0, +y, +z, +y+z.
 struct BrickRows {
-  Row low;
-  Row high;
+  std::array<Place, 4> rows;
 
-  [[nodiscard]] [[gnu::always_inline]] BrickRows seen_from(int x) const {
-    return {low.seen_from(x), high.seen_from(x)};
+  BrickRows(const Place& low, const Place& high, int pitch)
+      : rows{low, {low.values + pitch}, high, {high.values + pitch}} {}
+
+  [[nodiscard]] [[gnu::always_inline]] BrickRows seen_from(int place) const {
+    BrickRows seen = *this;
+    for (Place& row : seen.rows) row = row.seen_from(place);
+    return seen;
   }
-  [[nodiscard]] [[gnu::always_inline]] Row operator[](std::size_t row) const {
-    return {((row & 2) == 0 ? low : high).values + ((row & 1) == 0 ? 0 : kRowSize)};
-  }
+  [[nodiscard]] [[gnu::always_inline]] Place operator[](std::size_t row) const { return rows[row]; }
 };
 
 struct BrickSprings {
@@ -47,47 +50,49 @@ struct FourEdges {
   Pack in_j;
   Pack in_k;
 
-  [[gnu::always_inline]] FourEdges(const Pack& s0, const Pack& s1, const Pack& s2, const Pack& s3) {
-    const Pack low = s0 + s1;
-    const Pack high = s2 + s3;
+  [[gnu::always_inline]] explicit FourEdges(const Pack* s) {
+    const Pack low = s[0] + s[1];
+    const Pack high = s[2] + s[3];
     sum = low + high;
     in_k = high - low;
-    in_j = (s1 - s0) + (s3 - s2);
+    in_j = (s[1] - s[0]) + (s[3] - s[2]);
   }
 };
 
-/// Adds the tensions that a brick's axial and bending corrections give its edges (brick_law.h), see edge_tensions() of
-/// brick_kernel.h for the numbering.
+/// Tensions of a brick's twelve edges for their stretches: their own springs, and the axial and bending corrections
+/// (brick_law.h), see edge_tensions() of brick_kernel.h for the numbering.
 template <bool kBends>
-[[gnu::always_inline]] inline void couple_edges(const BrickSprings& springs, const BrickRows& rows, const Pack& share) {
-  const auto stretch = [&](std::size_t row, int axis, int shift) { return load(rows[row].at(kStretch + axis, shift)); };
-  const FourEdges along_x(stretch(0, 0, 0), stretch(1, 0, 0), stretch(2, 0, 0), stretch(3, 0, 0));
-  const FourEdges along_y(stretch(0, 1, 0), stretch(2, 1, 0), stretch(0, 1, 1), stretch(2, 1, 1));
-  const FourEdges along_z(stretch(0, 2, 0), stretch(0, 2, 1), stretch(1, 2, 0), stretch(1, 2, 1));
+[[gnu::always_inline]] inline std::array<Pack, 12> edge_tensions(const BrickSprings& springs,
+                                                                 const std::array<Pack, 12>& stretches) {
+  const FourEdges along_x(&stretches[0]);
+  const FourEdges along_y(&stretches[4]);
+  const FourEdges along_z(&stretches[8]);
   const Pack all = springs.axial_cross * (along_x.sum + along_y.sum + along_z.sum);
-  // Tension of the edges on sides (j, k) = (-, -), (+, -), (-, +), (+, +).
-  const auto give = [&](const FourEdges& own, const Pack& partner_j, const Pack& partner_k,
-                        const std::array<double*, 4>& tensions) {
-    const Pack axial = share * (all + springs.axial_rest * own.sum);
+  std::array<Pack, 12> tensions;
+  // Of the edges on sides (j, k) = (-, -), (+, -), (-, +), (+, +).
+  const auto give = [&](std::size_t first, const FourEdges& own, const Pack& partner_j, const Pack& partner_k) {
+    const Pack axial = all + springs.axial_rest * own.sum;
+    const auto set = [&](std::size_t edge, const Pack& corrected) {
+      tensions[edge] = springs.law.edge * stretches[edge] + corrected;
+    };
     if constexpr (kBends) {
-      const Pack in_j = share * (springs.bending_self * own.in_j + springs.bending_cross * partner_j);
-      const Pack in_k = share * (springs.bending_self * own.in_k + springs.bending_cross * partner_k);
+      const Pack in_j = springs.bending_self * own.in_j + springs.bending_cross * partner_j;
+      const Pack in_k = springs.bending_self * own.in_k + springs.bending_cross * partner_k;
       const Pack low = axial - in_k;
       const Pack high = axial + in_k;
-      add(low - in_j, tensions[0]);
-      add(low + in_j, tensions[1]);
-      add(high - in_j, tensions[2]);
-      add(high + in_j, tensions[3]);
+      set(first, low - in_j);
+      set(first + 1, low + in_j);
+      set(first + 2, high - in_j);
+      set(first + 3, high + in_j);
     } else {
-      for (double* tension : tensions) add(axial, tension);
+#pragma GCC unroll 12
+      for (std::size_t edge = first; edge < first + 4; ++edge) set(edge, axial);
     }
   };
-  give(along_x, along_z.in_k, along_y.in_j,
-       {rows[0].at(kTensionX), rows[1].at(kTensionX), rows[2].at(kTensionX), rows[3].at(kTensionX)});
-  give(along_y, along_x.in_k, along_z.in_j,
-       {rows[0].at(kTensionYLow), rows[2].at(kTensionYLow), rows[0].at(kTensionYHigh), rows[2].at(kTensionYHigh)});
-  give(along_z, along_y.in_k, along_x.in_j,
-       {rows[0].at(kTensionZLow), rows[0].at(kTensionZHigh), rows[1].at(kTensionZLow), rows[1].at(kTensionZHigh)});
+  give(0, along_x, along_z.in_k, along_y.in_j);
+  give(4, along_y, along_x.in_k, along_z.in_j);
+  give(8, along_z, along_y.in_k, along_x.in_j);
+  return tensions;
 }
 
 /// Three vectors, one for each mean axis.
@@ -97,172 +102,193 @@ struct Axes {
   Pack3 z;
 };
 
-/// The corners of a pack of bricks and what pulls at them. A corner's force is at hand from open() to close().
+/// Values of a pack of bricks at their eight corners.
 class Corners {
  public:
-  [[gnu::always_inline]] explicit Corners(const BrickRows& rows) : rows_(rows) {}
+  Corners() {
+#pragma GCC unroll 12
+    for (Pack3& value : values_) value = {Pack(0.0), Pack(0.0), Pack(0.0)};
+  }
+  [[gnu::always_inline]] Corners(const BrickRows& rows, int values) {
+#pragma GCC unroll 12
+    for (std::size_t corner = 0; corner < 8; ++corner) {
+      values_[corner] = rows[corner >> 1].three(values, static_cast<int>(corner & 1));
+    }
+  }
 
-  template <std::size_t... kCorners>
-  [[gnu::always_inline]] void open() {
-    ((forces_[kCorners] = rows_[kCorners >> 1].three(array(kCorners))), ...);
+  [[nodiscard]] [[gnu::always_inline]] Pack3 between(CornerPair pair) const {
+    return values_[static_cast<std::size_t>(pair.to)] - values_[static_cast<std::size_t>(pair.from)];
   }
-  template <std::size_t... kCorners>
-  [[gnu::always_inline]] void close() const {
-    (rows_[kCorners >> 1].set_three(array(kCorners), forces_[kCorners]), ...);
-  }
-  template <std::size_t kFrom, std::size_t kTo>
-  [[nodiscard]] [[gnu::always_inline]] Pack3 between(int values) const {
-    return rows_[kTo >> 1].three(values, kTo & 1) - rows_[kFrom >> 1].three(values, kFrom & 1);
-  }
-  template <std::size_t kFrom, std::size_t kTo>
-  [[gnu::always_inline]] void pull(const Pack3& force) {
-    forces_[kFrom] = forces_[kFrom] + force;
-    forces_[kTo] = forces_[kTo] - force;
+  [[gnu::always_inline]] void pull(CornerPair pair, const Pack3& force) {
+    Pack3& from = values_[static_cast<std::size_t>(pair.from)];
+    Pack3& to = values_[static_cast<std::size_t>(pair.to)];
+    from = from + force;
+    to = to - force;
   }
   /// Four times the mean axes, by the differences along the inner diagonals.
-  [[nodiscard]] [[gnu::always_inline]] Axes axes(int values) const {
-    const Pack3 d07 = between<0, 7>(values);
-    const Pack3 d16 = between<1, 6>(values);
-    const Pack3 d25 = between<2, 5>(values);
-    const Pack3 d34 = between<3, 4>(values);
+  [[nodiscard]] [[gnu::always_inline]] Axes axes() const {
+    const Pack3 d07 = between({0, 7});
+    const Pack3 d16 = between({1, 6});
+    const Pack3 d25 = between({2, 5});
+    const Pack3 d34 = between({3, 4});
     const Pack3 low = d07 + d16;
     const Pack3 high = d25 + d34;
     return {(d07 - d16) + (d25 - d34), low - high, low + high};
   }
 
   /// Takes what pulls along the mean axes off all corners on the high side of each axis, adds it to those on the low.
-  void pull_axes(const Axes& pulls) const {
+  [[gnu::always_inline]] void pull_axes(const Axes& pulls) {
+#pragma GCC unroll 12
     for (std::size_t corner = 0; corner < 8; ++corner) {
-      const Row row = rows_[corner >> 1];
-      const Pack3 before = row.three(array(corner));
-      const Pack3 in_x = (corner & 1) != 0 ? before - pulls.x : before + pulls.x;
-      const Pack3 in_xy = (corner & 2) != 0 ? in_x - pulls.y : in_x + pulls.y;
-      row.set_three(array(corner), (corner & 4) != 0 ? in_xy - pulls.z : in_xy + pulls.z);
+      Pack3& force = values_[corner];
+      force = (corner & 1) != 0 ? force - pulls.x : force + pulls.x;
+      force = (corner & 2) != 0 ? force - pulls.y : force + pulls.y;
+      force = (corner & 4) != 0 ? force - pulls.z : force + pulls.z;
+    }
+  }
+
+  /// To the sums at the nodes.
+  [[gnu::always_inline]] void add_to(const BrickRows& rows) const {
+#pragma GCC unroll 12
+    for (std::size_t corner = 0; corner < 8; ++corner) {
+      const int array = (corner & 1) == 0 ? kForceLow : kForceHigh;
+      const Place row = rows[corner >> 1];
+      row.set_three(array, row.three(array) + values_[corner]);
     }
   }
 
  private:
-  static constexpr int array(std::size_t corner) { return (corner & 1) == 0 ? kForceLow : kForceHigh; }
-
-  BrickRows rows_;
-  std::array<Pack3, 8> forces_;
+  std::array<Pack3, 8> values_;
 };
 
-/// The law's own spring of the three mean axes together.
-template <bool kDamped, bool kEnergy>
-void pull_mean_axes(const BrickSprings& springs, const Corners& corners, const Axes& axes, const Pack& share, int place,
-                    Energy& energy) {
-  const auto inverse = [&](const Pack3& axis) {
-    return inverse_root(Pack(dot(axis, axis) * springs.axis.per_rest_squared));
-  };
-  const Pack x = inverse(axes.x);
-  const Pack y = inverse(axes.y);
-  const Pack z = inverse(axes.z);
-  const auto stretch_of = [&](const Pack3& axis, const Pack& inverse_length) {
-    return Pack(dot(axis, axis) * springs.axis.per_rest_squared * inverse_length - 1.0);
-  };
-  Pack stretch = stretch_of(axes.x, x) + stretch_of(axes.y, y) + stretch_of(axes.z, z);
-  if constexpr (kDamped) {
-    const Axes rates = corners.axes(kVelocity);
-    stretch += springs.axis.lag * (x * dot(axes.x, rates.x) + y * dot(axes.y, rates.y) + z * dot(axes.z, rates.z));
-  }
-  const Pack tension = share * springs.law.axes * stretch;
-  if constexpr (kEnergy) add_energy(energy, place, 0.5 * springs.size_squared * tension * stretch);
-  // A quarter for each edge of an axis, and a quarter for the axes being four together.
-  const Pack quarter = 0.0625 * tension;
-  corners.pull_axes({quarter * x * axes.x, quarter * y * axes.y, quarter * z * axes.z});
-}
-
-/// The guard of brick_kernel.h. Where no brick of the pack is squeezed that far, it ends with the one comparison.
-template <bool kEnergy>
-[[gnu::always_inline]] inline void guard(const BrickSprings& springs, const Corners& corners, const Axes& axes,
-                                         const Pack& share, int place, Energy& energy) {
-  const Pack3 area_x = cross(axes.y, axes.z);
-  const Pack lack = springs.law.guard_ratio - dot(axes.x, area_x) * (springs.per_volume / 64);
-  if (simd::none_of(lack > 0.0)) [[likely]]
-    return;
-  const Pack active = simd::max(lack, Pack(0.0));
-  const Pack strength = share * springs.law.guard;
-  const Pack size = -0.25 / 16 * springs.per_volume * strength * active;
-  corners.pull_axes({size * area_x, size * cross(axes.z, axes.x), size * cross(axes.x, axes.y)});
-  if constexpr (kEnergy) add_energy(energy, place, 0.5 * strength * active * active);
-}
-
-/// The springs of a pack of bricks, three low faces of each among them, in an order that holds few corners open.
-template <bool kFaces, bool kInner, bool kDamped, bool kEnergy>
-class PackSprings {
+/// What a pack of bricks pulls at its corners.
+template <bool kFaces, bool kInner, bool kBends, bool kAxes, bool kDamped, bool kEnergy>
+class PackForces {
  public:
-  [[gnu::always_inline]] PackSprings(const BrickSprings& springs, const BrickRows& rows, int place, Energy& energy)
-      : springs_(springs), corners_(rows), place_(place), energy_(energy) {}
+  [[gnu::always_inline]] PackForces(const BrickSprings& springs, const BrickRows& rows, const Pack& share, int place,
+                                    Energy& energy)
+      : springs_(springs), rows_(rows), share_(share), place_(place), energy_(energy), positions_(rows, kPosition) {}
 
-  /// Stiffnesses in N/m.
-  [[gnu::always_inline]] void pull(const Pack& xy, const Pack& zx, const Pack& yz, const Pack& inner) {
-    corners_.template open<0, 7>();
-    pull_inner<0, 7>(inner);
-    corners_.template close<7>();
-    corners_.template open<3, 4>();
-    pull_face<0, 3>(xy);
-    pull_inner<3, 4>(inner);
-    corners_.template close<3>();
-    corners_.template open<2, 5>();
-    pull_face<0, 5>(zx);
-    pull_inner<2, 5>(inner);
-    corners_.template close<5>();
-    corners_.template open<1, 6>();
-    pull_face<0, 6>(yz);
-    corners_.template close<0>();
-    pull_inner<1, 6>(inner);
-    corners_.template close<6>();
-    pull_face<1, 2>(xy);
-    pull_face<1, 4>(zx);
-    corners_.template close<1>();
-    pull_face<2, 4>(yz);
-    corners_.template close<2, 4>();
+  /// Stiffnesses of the low faces in N/m.
+  [[gnu::always_inline]] void pull(const Pack& xy, const Pack& zx, const Pack& yz) {
+    pull_edges();
+    if constexpr (kInner) {
+      const Pack inner = springs_.law.inner * share_;
+#pragma GCC unroll 12
+      for (const CornerPair pair : kInnerDiagonals) pull_one(springs_.inner, pair, inner);
+    }
+    if constexpr (kFaces) {
+      pull_one(springs_.face, {0, 3}, xy);
+      pull_one(springs_.face, {1, 2}, xy);
+      pull_one(springs_.face, {0, 5}, zx);
+      pull_one(springs_.face, {1, 4}, zx);
+      pull_one(springs_.face, {0, 6}, yz);
+      pull_one(springs_.face, {2, 4}, yz);
+    }
+    const Axes axes = positions_.axes();
+    if constexpr (kAxes) pull_mean_axes(axes);
+    guard(axes);
+    forces_.add_to(rows_);
   }
 
  private:
-  template <std::size_t kFrom, std::size_t kTo>
-  [[gnu::always_inline]] void pull_face(const Pack& stiffness) {
-    if constexpr (kFaces) pull_one<kFrom, kTo>(springs_.face, stiffness);
-  }
-  template <std::size_t kFrom, std::size_t kTo>
-  [[gnu::always_inline]] void pull_inner(const Pack& stiffness) {
-    if constexpr (kInner) pull_one<kFrom, kTo>(springs_.inner, stiffness);
-  }
-  template <std::size_t kFrom, std::size_t kTo>
-  [[gnu::always_inline]] void pull_one(const Kind& kind, const Pack& stiffness) {
-    const Pack3 d = corners_.template between<kFrom, kTo>(kPosition);
-    const Answer result =
-        answer<kDamped, kEnergy>(kind, d, [&] { return corners_.template between<kFrom, kTo>(kVelocity); });
-    corners_.template pull<kFrom, kTo>(stiffness * result.pull * d);
-    if constexpr (kEnergy) {
-      add_energy(energy_, place_, (0.5 / kind.per_rest_squared) * stiffness * result.stretch * result.stretch);
+  [[nodiscard]] [[gnu::always_inline]] std::array<Pack, 12> at_edges(int values) const {
+    std::array<Pack, 12> packs;
+#pragma GCC unroll 12
+    for (std::size_t edge = 0; edge < 12; ++edge) {
+      const auto from = static_cast<std::size_t>(kEdges[edge].from);
+      packs[edge] = load(rows_[from >> 1].at(values + static_cast<int>(edge / 4), static_cast<int>(from & 1)));
     }
+    return packs;
+  }
+
+  [[gnu::always_inline]] void pull_edges() {
+    const std::array<Pack, 12> stretches = at_edges(kStretch);
+    const std::array<Pack, 12> tensions = edge_tensions<kBends>(springs_, stretches);
+    const std::array<Pack, 12> inverses = at_edges(kInverseLength);
+#pragma GCC unroll 12
+    for (std::size_t edge = 0; edge < 12; ++edge) {
+      const Pack tension = share_ * tensions[edge];
+      forces_.pull(kEdges[edge], (tension * inverses[edge]) * positions_.between(kEdges[edge]));
+      if constexpr (kEnergy) add_energy(energy_, place_, 0.5 * springs_.size_squared * tension * stretches[edge]);
+    }
+  }
+
+  [[nodiscard]] [[gnu::always_inline]] Pack3 rates_between(CornerPair pair) const {
+    const auto at = [&](int corner) {
+      return rows_[static_cast<std::size_t>(corner) >> 1].three(kVelocity, corner & 1);
+    };
+    return at(pair.to) - at(pair.from);
+  }
+
+  [[gnu::always_inline]] void pull_one(const Kind& kind, CornerPair pair, const Pack& stiffness) {
+    const Pack3 d = positions_.between(pair);
+    const Answer result = answer<kDamped, kEnergy>(kind, d, [&] { return rates_between(pair); });
+    forces_.pull(pair, stiffness * result.pull * d);
+    if constexpr (kEnergy) {
+      add_energy(energy_, place_, (0.5 * kind.rest * kind.rest) * stiffness * result.stretch * result.stretch);
+    }
+  }
+
+  /// The law's own spring of the three mean axes together.
+  [[gnu::always_inline]] void pull_mean_axes(const Axes& axes) {
+    const Kind& kind = springs_.axis;
+    Pack stretch(-3.0);
+    // 1 / length, and what it adds to the stretch.
+    const auto measure = [&](const Pack3& axis) {
+      const Pack squared = simd::max(dot(axis, axis), Pack(kind.shortest));
+      const Pack inverse = inverse_root(squared);
+      stretch += kind.per_rest * (squared * inverse);
+      return inverse;
+    };
+    const Pack x = measure(axes.x);
+    const Pack y = measure(axes.y);
+    const Pack z = measure(axes.z);
+    if constexpr (kDamped) {
+      const Axes rates = Corners(rows_, kVelocity).axes();
+      stretch += kind.lag * (x * dot(axes.x, rates.x) + y * dot(axes.y, rates.y) + z * dot(axes.z, rates.z));
+    }
+    const Pack tension = share_ * springs_.law.axes * stretch;
+    if constexpr (kEnergy) add_energy(energy_, place_, 0.5 * springs_.size_squared * tension * stretch);
+    // A quarter for each edge of an axis, and a quarter for the axes being four together.
+    const Pack quarter = (0.0625 * kind.rest) * tension;
+    forces_.pull_axes({quarter * x * axes.x, quarter * y * axes.y, quarter * z * axes.z});
+  }
+
+  /// The guard of brick_kernel.h. Where no brick of the pack is squeezed that far, it ends with the one comparison.
+  [[gnu::always_inline]] void guard(const Axes& axes) {
+    const Pack3 area_x = cross(axes.y, axes.z);
+    const Pack strength = share_ * springs_.law.guard;
+    const Pack active =
+        simd::max(springs_.law.guard_ratio - dot(axes.x, area_x) * (springs_.per_volume / 64), Pack(0.0));
+    if (simd::none_of(strength * active > 0.0)) [[likely]]
+      return;
+    const Pack size = -0.25 / 16 * springs_.per_volume * strength * active;
+    forces_.pull_axes({size * area_x, size * cross(axes.z, axes.x), size * cross(axes.x, axes.y)});
+    if constexpr (kEnergy) add_energy(energy_, place_, 0.5 * strength * active * active);
   }
 
   const BrickSprings& springs_;
-  Corners corners_;
+  BrickRows rows_;
+  Pack share_;
   int place_;
   Energy& energy_;
+  Corners positions_;
+  Corners forces_;
 };
 
-/// A row of bricks: their corrections, springs and guard.
+/// A run of bricks.
 template <bool kFaces, bool kInner, bool kBends, bool kAxes, bool kDamped, bool kEnergy>
 void brick_run(const BrickSprings& springs, const BrickRows& rows, const Run& run, const double* shares,
                Energy& energy) {
-  const int padded = (run.count + kRunPadding - 1) / kRunPadding * kRunPadding;
-  for (int place = 0; place < run.count; place += kLanes) {
-    const BrickRows here = rows.seen_from(run.x + place);
-    const double* own = shares + run.first + place;
-    const Pack share = load(own);
-    couple_edges<kBends>(springs, here, share);
-    const auto face = [&](int list) { return kFaces ? Pack(springs.law.face * load(own + list * padded)) : Pack(); };
-    PackSprings<kFaces, kInner, kDamped, kEnergy>(springs, here, place, energy)
-        .pull(face(1), face(2), face(3), springs.law.inner * share);
-    const Corners corners(here);
-    const Axes axes = corners.axes(kPosition);
-    if constexpr (kAxes) pull_mean_axes<kDamped, kEnergy>(springs, corners, axes, share, place, energy);
-    guard<kEnergy>(springs, corners, axes, share, place, energy);
+  for (int i = 0; i < run.count; i += kLanes) {
+    const BrickRows here = rows.seen_from(run.place + i);
+    const double* own = shares + run.first + 4 * (i - i % kPackPadding) + i % kPackPadding;
+    const auto face = [&](int list) {
+      return kFaces ? Pack(springs.law.face * load(own + list * kPackPadding)) : Pack();
+    };
+    PackForces<kFaces, kInner, kBends, kAxes, kDamped, kEnergy>(springs, here, load(own), i, energy)
+        .pull(face(1), face(2), face(3));
   }
 }
 

@@ -15,15 +15,25 @@ struct Three {
   Number* z;
 };
 
-/// Takes x y z x y z ... apart.
-inline void take_apart(const double* __restrict points, int count, const Three<double>& to) {
+/// Takes `count` points x y z x y z ... apart, `drift` times their rates added. The rates as well where they are asked.
+template <bool kRates>
+void take_apart(const double* __restrict points, const double* __restrict rates, double drift, int count,
+                const Three<double>& to, const Three<double>& rates_to) {
   double* __restrict x = to.x;
   double* __restrict y = to.y;
   double* __restrict z = to.z;
+  double* __restrict u = rates_to.x;
+  double* __restrict v = rates_to.y;
+  double* __restrict w = rates_to.z;
   for (int i = 0; i < count; ++i) {
-    x[i] = points[3 * i];
-    y[i] = points[3 * i + 1];
-    z[i] = points[3 * i + 2];
+    x[i] = points[3 * i] + drift * rates[3 * i];
+    y[i] = points[3 * i + 1] + drift * rates[3 * i + 1];
+    z[i] = points[3 * i + 2] + drift * rates[3 * i + 2];
+    if constexpr (kRates) {
+      u[i] = rates[3 * i];
+      v[i] = rates[3 * i + 1];
+      w[i] = rates[3 * i + 2];
+    }
   }
 }
 

@@ -12,7 +12,8 @@ namespace sprung::SPRUNG_INSTRUCTION_SET {
 namespace simd = std::experimental;
 
 /// As many neighbours along x as this processor computes at once. Each lane is computed by itself and only with
-/// operations that IEEE 754 defines to the last bit, so the width never shows in a result.
+/// operations that IEEE 754 defines to the last bit, so the width never shows in a result; whether the processor fuses
+/// products and sums does.
 using Pack = simd::native_simd<double>;
 using FloatPack = simd::rebind_simd_t<float, Pack>;
 inline constexpr int kLanes = static_cast<int>(Pack::size());
@@ -39,15 +40,13 @@ struct Pack3 {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// 1 / sqrt(q), rounding error below 2e-16 of it. Square root and division in single precision, which IEEE 754 defines
-/// to the bit (the processor's own estimates differ from maker to maker), then one step of third order: an error d of
-/// the first guess leaves 5/2 d^3. Below 1e-30 as if q were 1e-30, so that nodes that meet pull with no force instead
-/// of none that is a number.
+/// 1 / sqrt(q), rounding error below 2e-16 of it, for q from 1e-37 to 1e37. Square root and division in single
+/// precision, which IEEE 754 defines to the bit (the processor's own estimates differ from maker to maker), then one
+/// step of third order: an error d of the first guess leaves 5/2 d^3.
 [[gnu::always_inline]] inline Pack inverse_root(const Pack& q) {
-  const Pack safe = simd::max(q, Pack(1e-30));
-  const FloatPack guess = 1.0F / simd::sqrt(simd::static_simd_cast<FloatPack>(safe));
+  const FloatPack guess = 1.0F / simd::sqrt(simd::static_simd_cast<FloatPack>(q));
   const Pack first = simd::static_simd_cast<Pack>(guess);
-  const Pack lack = 1.0 - safe * (first * first);
+  const Pack lack = 1.0 - q * (first * first);
   return first + first * (lack * (0.5 + 0.375 * lack));
 }
 

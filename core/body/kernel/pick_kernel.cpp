@@ -17,10 +17,11 @@ namespace {
 std::array<SpringKernel, 3> find_kernels() {
   std::array<SpringKernel, 3> kernels{{{.name = "avx512"}, {.name = "avx2"}, {.name = "plain"}}};
 #ifdef __x86_64__
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl")) {
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
+      __builtin_cpu_supports("fma")) {
     kernels[0] = avx512::spring_kernel();
   }
-  if (__builtin_cpu_supports("avx2")) kernels[1] = avx2::spring_kernel();
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) kernels[1] = avx2::spring_kernel();
 #endif
   kernels[2] = plain::spring_kernel();
   return kernels;

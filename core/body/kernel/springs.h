@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <cmath>
 
 #include "core/body/kernel/pack.h"
 #include "core/body/kernel/tile.h"
@@ -7,38 +8,35 @@
 
 namespace sprung::SPRUNG_INSTRUCTION_SET {
 
-/// The arrays of a row of the scratch, for each node along x. Those it owns are the springs to higher
-/// nodes. What pulls at a brick's or edge's node on the high side in x is kept apart, one place lower, so that no sum
-/// waits for its neighbour's.
-enum RowArray : int {
-  kForceLow = 0,   // x y z
-  kForceHigh = 3,  // x y z; on node x + 1
-  kTensionX = 6,   // of edges along x, over their length at rest, N/m
-  kTensionYLow = 7,
-  kTensionYHigh = 8,  // on the edge at x + 1
-  kTensionZLow = 9,
-  kTensionZHigh = 10,
-  kSums = 11,          // the arrays above begin at zero
-  kPosition = 11,      // x y z
-  kVelocity = 14,      // x y z
-  kStretch = 17,       // of edges along x, y and z, over their length at rest; beta times its rate included
-  kInverseLength = 20  // of edges along x, y and z, times their length at rest
+/// The arrays of a plane of the scratch, for each node. Those it owns are the springs to higher nodes. What pulls at a
+/// brick's node on the high side in x is kept apart, one place lower, so that no sum waits for its neighbour's.
+enum PlaneArray : int {
+  kForceLow = 0,       // x y z
+  kForceHigh = 3,      // x y z; on the next node along x
+  kSums = 6,           // the arrays above begin at zero
+  kPosition = 6,       // x y z
+  kVelocity = 9,       // x y z; where there is damping
+  kStretch = 12,       // of edges along x, y and z, over their length at rest; beta times its rate included
+  kInverseLength = 15  // of edges along x, y and z, times their length at rest
 };
-static_assert(kInverseLength + 3 == kRowArrays);
+static_assert(kInverseLength + 3 == kPlaneArrays);
 
-struct Row {
+/// A plane of nodes as seen from a place in it.
+struct Place {
   double* values;
 
-  /// The row as seen from a place along x. The compiler is kept from knowing where that is: it would keep a hundred
-  /// addresses at hand instead of one and the distances from it.
-  [[nodiscard]] [[gnu::always_inline]] Row seen_from(int x) const {
-    double* place = values + x;
-    asm("" : "+r"(place));
-    return {place};
+  /// The compiler is kept from knowing where that is: it would keep a hundred addresses at hand instead of one and the
+  /// distances from it.
+  [[nodiscard]] [[gnu::always_inline]] Place seen_from(int place) const {
+    double* there = values + place;
+    asm("" : "+r"(there));
+    return {there};
   }
-  [[nodiscard]] [[gnu::always_inline]] double* at(int array, int x = 0) const { return values + array * kPitch + x; }
-  [[nodiscard]] [[gnu::always_inline]] Pack3 three(int array, int x = 0) const {
-    return {load(at(array, x)), load(at(array + 1, x)), load(at(array + 2, x))};
+  [[nodiscard]] [[gnu::always_inline]] double* at(int array, int place = 0) const {
+    return values + array * kArraySize + place;
+  }
+  [[nodiscard]] [[gnu::always_inline]] Pack3 three(int array, int place = 0) const {
+    return {load(at(array, place)), load(at(array + 1, place)), load(at(array + 2, place))};
   }
   [[gnu::always_inline]] void set_three(int array, const Pack3& pack) const {
     store(pack.x, at(array));
@@ -49,15 +47,20 @@ struct Row {
 
 using Energy = EnergyLanes;
 [[gnu::always_inline]] inline void add_energy(Energy& sums, int place, const Pack& energy) {
-  add(energy, sums.data() + place % kRunPadding);
+  add(energy, sums.data() + place % kPackPadding);
 }
 
 /// All springs of one length at rest.
 struct Kind {
-  double per_rest_squared;  // 1/m^2
-  double lag;               // beta / rest^2
+  double rest;      // m
+  double per_rest;  // 1/m
+  double shortest;  // m^2: springs shorter than its root pull as if they were that long
+  double lag;       // beta / rest, s/m
 
-  Kind(double rest_squared, double beta) : per_rest_squared(1 / rest_squared), lag(beta / rest_squared) {}
+  Kind(double rest_squared, double beta)
+      : rest(std::sqrt(rest_squared)), per_rest(1 / rest), shortest(kShortest * rest_squared), lag(beta * per_rest) {}
+
+  static constexpr double kShortest = 1e-20;
 };
 
 /// What a spring without coupling makes of its ends: tension / length over its stiffness, (L - rest) / L + damping. And
@@ -70,11 +73,11 @@ struct Answer {
 /// `rate` gives the ends' difference of velocity, where it is asked.
 template <bool kDamped, bool kEnergy, class Rate>
 [[gnu::always_inline]] inline Answer answer(const Kind& kind, const Pack3& d, const Rate& rate) {
-  const Pack q = dot(d, d) * kind.per_rest_squared;
-  const Pack inverse = inverse_root(q);
-  Answer result{1.0 - inverse, {}};
-  if constexpr (kEnergy) result.stretch = q * inverse - 1.0;
-  if constexpr (kDamped) result.pull += kind.lag * (inverse * inverse) * dot(d, rate());
+  const Pack squared = simd::max(dot(d, d), Pack(kind.shortest));
+  const Pack inverse = inverse_root(squared);
+  Answer result{1.0 - kind.rest * inverse, {}};
+  if constexpr (kEnergy) result.stretch = kind.per_rest * (squared * inverse) - 1.0;
+  if constexpr (kDamped) result.pull += (kind.lag * kind.rest) * (inverse * inverse) * dot(d, rate());
   return result;
 }
 

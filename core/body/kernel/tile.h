@@ -3,42 +3,43 @@
 
 namespace sprung {
 
-/// Bricks, springs or nodes side by side along x.
+/// Places side by side in a plane of a tile.
 struct Run {
-  int x;      // where the first is, in the rows of the scratch
-  int count;  //
+  int place;  // of the first
+  int count;
   int first;  // in `shares`; of shared nodes: in the shared forces
-  int node;   // runs of nodes: the body's node that comes first
+  int node;   // runs of nodes: the body's node that comes first; the others follow it
 };
 
-/// The kinds of runs, each kept by the row of nodes that it lies in or begins at.
+/// The kinds of runs of a plane of nodes. All but those of nodes begin at a multiple of kPackPadding, are as long, and
+/// may hold places that are none of theirs.
 enum RunKind : int {
   kNodes,        // no other tile pulls at them
-  kSharedNodes,  // other tiles may
-  kXEdges,
-  kYEdges,
-  kZEdges,
-  kBricks,
-  kXyFaces,  // those that are no brick's low face: the body ends there
+  kSharedNodes,  // other tiles do
+  kPlaces,       // all that hold nodes
+  kBricks,       // between this plane and the next
+  kXyFaces,      // those that are no brick's low face: the body ends there
   kZxFaces,
   kYzFaces,
   kRunKinds
 };
 
-/// Runs may be read and written up to that far behind their end.
-inline constexpr int kRunPadding = 8;
+/// More than any vector of numbers that is computed at once.
+inline constexpr int kPackPadding = 8;
 
-/// A box of lattice cells with some of a body's bricks; each brick is in one tile. Plain arrays, for code that is
-/// compiled once for each instruction set.
+/// A box of lattice cells with some of a body's bricks; each brick is in one tile. Its planes of nodes lie one row
+/// after the other along x in `pitch` places each, so the places next to one in x, y and z are place + 1, place + pitch
+/// and the same one in the next plane, and runs go on from row to row. Plain arrays, for code that is compiled once for
+/// each instruction set.
 ///
-/// `shares` says of how many full bricks a run's bricks or springs are, each list padded with zeros to a multiple of
-/// kRunPadding. For bricks four lists: their own share and those of their low xy, zx and yz faces, which a face's two
-/// bricks add up to. For faces and edges one; edges count only the bricks of this tile.
+/// `shares` says of how many full bricks a run's bricks or faces are, 0 at the places that are none. Those of bricks
+/// lie pack by pack of kPackPadding places: their own shares, then those of their low xy, zx and yz faces, which a
+/// face's two bricks add up to. Those of faces are one list.
 struct TileView {
-  int rows;    // of nodes
+  int pitch;
   int planes;  // of nodes
   const Run* runs;
-  const int* first_run;  // of kind k in row y of plane p: first_run[(p * rows + y) * kRunKinds + k], up to the next
+  const int* first_run;  // of kind k in plane p: first_run[p * kRunKinds + k], up to the next
   const double* shares;
 };
 
@@ -58,16 +59,16 @@ struct SharedNodes {
   std::size_t last_part;  // one past
 };
 
-/// A tile's rows of nodes in the scratch: kRowArrays arrays of kPitch doubles each, an odd number of cache lines, for
-/// rows that lie powers of two apart would fight for the same places in the cache.
-inline constexpr int kTileWidth = 64;  // bricks along x, at most
-inline constexpr int kFirstPlace = 8;  // along x: what is before it belongs to no node
-inline constexpr int kPitch = 88;
-inline constexpr int kRowArrays = 23;
-inline constexpr int kRowSize = kRowArrays * kPitch;
-static_assert(kPitch > kFirstPlace + kTileWidth + 1 + kRunPadding && kPitch % 16 == 8);
+/// A tile's planes of nodes in the scratch: kPlaneArrays arrays each, an odd number of cache lines long, for arrays
+/// that lie powers of two apart would fight for the same places in the cache. Before kFirstPlace no node lies.
+inline constexpr int kFirstPlace = 8;
+inline constexpr int kMostPlaces = 760;  // of a plane, with room for a pack, a row and a place behind the last brick
+inline constexpr int kArraySize = 776;
+inline constexpr int kPlaneArrays = 18;
+inline constexpr int kPlaneSize = kPlaneArrays * kArraySize;
+static_assert(kArraySize % 16 == 8 && kArraySize >= kFirstPlace + kMostPlaces + kPackPadding);
 
 /// Doubles of scratch for a tile.
-[[nodiscard]] constexpr int scratch_size(int rows) { return 2 * rows * kRowSize; }
+inline constexpr int kScratchSize = 2 * kPlaneSize;
 
 }  // namespace sprung

@@ -1,7 +1,6 @@
 #include "core/body/kernel/tile_pass.h"
 
 #include <algorithm>
-#include <cstring>
 
 #include "core/body/kernel/brick_run.h"
 #include "core/body/kernel/node_runs.h"
@@ -16,9 +15,8 @@ namespace sprung::SPRUNG_INSTRUCTION_SET {
 
 namespace {
 
-/// Goes through the planes of a tile from low to high z and through their rows from low to high y, with two planes of
-/// nodes in the core's own cache and four rows in its nearest one. Bricks follow once the last of their four rows is
-/// in; then the first of them is done.
+/// Goes through the planes of a tile from low to high z with two of them in the core's own cache: bricks follow once
+/// both their planes are in; then the lower one is done.
 template <bool kFaces, bool kInner, bool kBends, bool kAxes, bool kDamped, bool kEnergy>
 class Walk {
  public:
@@ -29,77 +27,60 @@ class Walk {
         shared_(shared),
         energy_(energy),
         edge_(input.brick_size * input.brick_size, input.beta),
-        springs_(input.law, input.brick_size, input.beta),
-        edge_shares_(input.law.edge != 0 ? tile.shares : nullptr) {}
+        springs_(input.law, input.brick_size, input.beta) {}
 
   void run() {
-    for (int y = 0; y < tile_.rows; ++y) enter_row(0, y);
+    enter(0);
     for (int plane = 0; plane + 1 < tile_.planes; ++plane) {
-      for (int y = 0; y < tile_.rows; ++y) {
-        enter_row(plane + 1, y);
-        each_run(plane, y, kZEdges, [&](const Run& run) { measure<2>(plane, y, run); });
-        if (y == 0) continue;
-        layer_row(plane, y - 1);
-        leave_row(plane, y - 1);
-      }
-      layer_row(plane, tile_.rows - 1);
-      leave_row(plane, tile_.rows - 1);
+      enter(plane + 1);
+      fill_layer(plane);
+      leave(plane);
     }
-    for (int y = 0; y < tile_.rows; ++y) leave_row(tile_.planes - 1, y);
+    leave(tile_.planes - 1);
   }
 
  private:
   template <class Visit>
-  void each_run(int plane, int y, RunKind kind, const Visit& visit) const {
-    const int* first = tile_.first_run + (plane * tile_.rows + y) * kRunKinds + kind;
+  void each_run(int plane, RunKind kind, const Visit& visit) const {
+    const int* first = tile_.first_run + plane * kRunKinds + kind;
     for (const Run* run = tile_.runs + first[0]; run != tile_.runs + first[1]; ++run) visit(*run);
   }
 
-  [[nodiscard]] Row row(int plane, int y) const { return {scratch_ + ((plane & 1) * tile_.rows + y) * kRowSize}; }
-
-  template <int kAxis>
-  [[nodiscard]] EdgeEnds<kAxis> edges(int plane, int y) const {
-    return {row(plane, y), row(kAxis == 2 ? plane + 1 : plane, kAxis == 1 ? y + 1 : y)};
+  /// Calls visit(place) for the packs of a kind of runs.
+  template <class Visit>
+  void each_pack(int plane, RunKind kind, const Visit& visit) const {
+    each_run(plane, kind, [&](const Run& run) {
+      for (int place = run.place; place < run.place + run.count; place += kLanes) visit(place);
+    });
   }
 
-  void enter_row(int plane, int y) {
-    const Row to = row(plane, y);
-    const auto clear = [&](const Run& run) {
-      for (int array = 0; array < kSums; ++array) {
-        std::memset(to.at(array, run.x - 1), 0, static_cast<std::size_t>(run.count + kRunPadding + 1) * sizeof(double));
-      }
-    };
-    each_run(plane, y, kNodes, clear);
-    each_run(plane, y, kSharedNodes, clear);
-    each_run(plane, y, kNodes, [&](const Run& run) { copy_in(to, run); });
-    each_run(plane, y, kSharedNodes, [&](const Run& run) { copy_in(to, run); });
-    each_run(plane, y, kXEdges, [&](const Run& run) { measure<0>(plane, y, run); });
-    if (y > 0) each_run(plane, y - 1, kYEdges, [&](const Run& run) { measure<1>(plane, y - 1, run); });
+  [[nodiscard]] Place plane(int index) const { return {scratch_ + (index & 1) * kPlaneSize}; }
+  [[nodiscard]] Place next_row(int index) const { return {plane(index).values + tile_.pitch}; }
+
+  /// With sums of nothing; what pulls at a run's first node from the node before it is kept one place lower.
+  void enter(int index) {
+    const Place to = plane(index);
+    each_run(index, kPlaces, [&](const Run& run) {
+      for (int axis = 0; axis < 3; ++axis) *to.at(kForceHigh + axis, run.place - 1) = 0;
+    });
+    each_run(index, kNodes, [&](const Run& run) { copy_in(to, run); });
+    each_run(index, kSharedNodes, [&](const Run& run) { copy_in(to, run); });
+    each_pack(index, kPlaces, [&](int place) {
+      const Place here = to.seen_from(place);
+      for (int array = 0; array < kSums; ++array) store(Pack(0.0), here.at(array));
+      measure_edges<kDamped, 0>(edge_, {here, here});
+      measure_edges<kDamped, 1>(edge_, {here, next_row(index).seen_from(place)});
+    });
   }
 
-  void copy_in(const Row& to, const Run& run) const {
+  void copy_in(const Place& to, const Run& run) const {
     const std::ptrdiff_t first = 3 * static_cast<std::ptrdiff_t>(run.node);
-    take_apart(input_.positions + first, run.count, three(to, kPosition, run.x));
-    take_apart(input_.velocities + first, run.count, three(to, kVelocity, run.x));
-    if (input_.drift == 0) return;
-    for (int axis = 0; axis < 3; ++axis) {
-      add_rates(to.at(kPosition + axis, run.x), to.at(kVelocity + axis, run.x), input_.drift, run.count);
-    }
+    take_apart<kDamped>(input_.positions + first, input_.velocities + first, input_.drift, run.count,
+                        three(to, kPosition, run.place), three(to, kVelocity, run.place));
   }
 
-  static Three<double> three(const Row& row, int array, int x) {
-    return {row.at(array, x), row.at(array + 1, x), row.at(array + 2, x)};
-  }
-
-  template <int kAxis>
-  void measure(int plane, int y, const Run& run) const {
-    measure_edges<kDamped, kAxis>(edge_, edges<kAxis>(plane, y), run);
-  }
-
-  template <int kAxis>
-  void pull(int plane, int y, const Run& run) {
-    pull_edges<kEnergy, kAxis>(input_.law.edge, springs_.size_squared, edges<kAxis>(plane, y), run, edge_shares_,
-                               energy_);
+  static Three<double> three(const Place& from, int array, int place) {
+    return {from.at(array, place), from.at(array + 1, place), from.at(array + 2, place)};
   }
 
   template <Shift kShift>
@@ -108,52 +89,53 @@ class Walk {
   }
 
   /// Both diagonals of faces along x.
-  void pull_faces(const Row& low, const Row& high, const Run& run) {
+  void pull_faces(const Place& low, const Place& high, const Run& run) {
     pull_diagonals_of(Ends<Shift::kTo>{low, high}, run);
     pull_diagonals_of(Ends<Shift::kFrom>{low, high}, run);
   }
 
-  /// What lies between a row and those above it in the next plane.
-  void layer_row(int plane, int y) {
-    const int up = plane + 1;
-    each_run(plane, y, kBricks, [&](const Run& run) {
-      brick_run<kFaces, kInner, kBends, kAxes, kDamped, kEnergy>(springs_, {row(plane, y), row(up, y)}, run,
-                                                                 tile_.shares, energy_);
+  /// What lies between a plane and the next.
+  void fill_layer(int index) {
+    const Place low = plane(index);
+    const Place high = plane(index + 1);
+    each_pack(index, kPlaces, [&](int place) {
+      measure_edges<kDamped, 2>(edge_, {low.seen_from(place), high.seen_from(place)});
+    });
+    each_run(index, kBricks, [&](const Run& run) {
+      brick_run<kFaces, kInner, kBends, kAxes, kDamped, kEnergy>(springs_, {low, high, tile_.pitch}, run, tile_.shares,
+                                                                 energy_);
     });
     if constexpr (kFaces) {
-      each_run(plane, y, kZxFaces, [&](const Run& run) { pull_faces(row(plane, y), row(up, y), run); });
-      each_run(plane, y, kYzFaces, [&](const Run& run) {
-        pull_diagonals_of(Ends<Shift::kNone>{row(plane, y), row(up, y + 1)}, run);
-        pull_diagonals_of(Ends<Shift::kNone>{row(plane, y + 1), row(up, y)}, run);
+      each_run(index, kZxFaces, [&](const Run& run) { pull_faces(low, high, run); });
+      each_run(index, kYzFaces, [&](const Run& run) {
+        pull_diagonals_of(Ends<Shift::kNone>{low, next_row(index + 1)}, run);
+        pull_diagonals_of(Ends<Shift::kNone>{next_row(index), high}, run);
       });
     }
-    each_run(plane, y, kZEdges, [&](const Run& run) { pull<2>(plane, y, run); });
   }
 
-  void leave_row(int plane, int y) {
-    const Row from = row(plane, y);
+  void leave(int index) {
+    const Place from = plane(index);
     if constexpr (kFaces) {
-      each_run(plane, y, kXyFaces, [&](const Run& run) { pull_faces(from, row(plane, y + 1), run); });
+      each_run(index, kXyFaces, [&](const Run& run) { pull_faces(from, next_row(index), run); });
     }
-    each_run(plane, y, kXEdges, [&](const Run& run) { pull<0>(plane, y, run); });
-    each_run(plane, y, kYEdges, [&](const Run& run) { pull<1>(plane, y, run); });
     if constexpr (kEnergy) return;
-    each_run(plane, y, kNodes, [&](const Run& run) {
-      const Three<double> forces = three(from, kForceLow, run.x);
+    each_run(index, kNodes, [&](const Run& run) {
+      const Three<double> forces = three(from, kForceLow, run.place);
       sum_forces(from, run, forces);
       finish_nodes(input_, run.node, run.count, {forces.x, forces.y, forces.z});
     });
-    each_run(plane, y, kSharedNodes, [&](const Run& run) {
+    each_run(index, kSharedNodes, [&](const Run& run) {
       double* part = shared_ + run.first;
       sum_forces(from, run, {part, part + run.count, part + 2 * static_cast<std::ptrdiff_t>(run.count)});
     });
   }
 
-  static void sum_forces(const Row& from, const Run& run, const Three<double>& to) {
+  static void sum_forces(const Place& from, const Run& run, const Three<double>& to) {
     int axis = 0;
     for (double* sum : {to.x, to.y, to.z}) {
-      const double* low = from.at(kForceLow + axis, run.x);
-      const double* high = from.at(kForceHigh + axis, run.x - 1);
+      const double* low = from.at(kForceLow + axis, run.place);
+      const double* high = from.at(kForceHigh + axis, run.place - 1);
       for (int i = 0; i < run.count; ++i) sum[i] = low[i] + high[i];
       ++axis;
     }
@@ -166,7 +148,6 @@ class Walk {
   Energy& energy_;
   Kind edge_;
   BrickSprings springs_;
-  const double* edge_shares_;
 };
 
 template <bool kFaces, bool kInner, bool kBends, bool kAxes>

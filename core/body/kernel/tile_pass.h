@@ -29,10 +29,10 @@ struct PassInput {
 };
 
 /// Sums of energy, J: always the same bricks' in the same place.
-using EnergyLanes = std::array<double, kRunPadding>;
+using EnergyLanes = std::array<double, kPackPadding>;
 
 /// Computes all springs of a tile. Nodes of its own are then done with; what it adds to the forces on shared nodes goes
-/// to `shared`. `scratch` holds scratch_size() finite numbers. The energy is added lane by lane.
+/// to `shared`. `scratch` holds kScratchSize finite numbers. The energy is added lane by lane.
 using TilePass = void (*)(const TileView& tile, const PassInput& input, double* scratch, double* shared,
                           EnergyLanes& energy);
 

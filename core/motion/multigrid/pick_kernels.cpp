@@ -18,7 +18,7 @@ std::span<const Kernels> all_kernels() {
         __builtin_cpu_supports("fma")) {
       list.push_back(kernels_avx512);
     }
-    if (__builtin_cpu_supports("avx2")) list.push_back(kernels_avx2);
+    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) list.push_back(kernels_avx2);
 #endif
     list.push_back(kernels_plain);
     return list;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include "core/body/brick_tiles.h"
 #include "core/body/forces.h"
 #include "tests/bench/spring_list.h"
 #include "tests/support/bodies.h"
@@ -16,7 +17,7 @@ using test::test_material;
 
 /// Holes, gaps in rows, thin sheets and single bricks, cut into several tiles along every axis.
 BrickGrid ragged_grid(std::mt19937& random) {
-  BrickGrid grid = make_box_grid({70, 19, 35}, 0.02);
+  BrickGrid grid = make_box_grid({110, 19, 35}, 0.02);
   std::uniform_real_distribution<double> chance(0, 1);
   BrickGrid ragged;
   ragged.brick_size = grid.brick_size;
@@ -58,6 +59,45 @@ TEST(SpringSystem, PullsLikeTheListOfSprings) {
           << model_name(model) << ' ' << beta;
     }
   }
+}
+
+/// A fork: two prongs in the same cells, joined to one handle and not to each other.
+BrickGrid fork_grid() {
+  constexpr int kHandle = 2;  // bricks along x
+  BrickGrid fork = make_box_grid({12, 3, 4}, 0.02);
+  const BrickGrid box = fork;
+  fork.cells.clear();
+  fork.nodes.clear();
+  fork.lattice.clear();
+  std::vector<std::array<int, 2>> node_of(box.lattice.size());
+  for (std::size_t node = 0; node < box.lattice.size(); ++node) {
+    for (int prong = 0; prong < (box.lattice[node].x() > kHandle ? 2 : 1); ++prong) {
+      node_of[node][static_cast<std::size_t>(prong)] = fork.node_count();
+      if (prong == 0) node_of[node][1] = fork.node_count();
+      fork.lattice.push_back(box.lattice[node]);
+    }
+  }
+  for (std::size_t brick = 0; brick < box.cells.size(); ++brick) {
+    for (std::size_t prong = 0; prong < (box.cells[brick].x() >= kHandle ? 2U : 1U); ++prong) {
+      fork.cells.push_back(box.cells[brick]);
+      std::array<int, 8>& nodes = fork.nodes.emplace_back(box.nodes[brick]);
+      for (int& node : nodes) node = node_of[static_cast<std::size_t>(node)][prong];
+    }
+  }
+  fork.fill.clear();
+  for (int i = 0; i < fork.brick_count(); ++i) fork.fill.push_back(i % 3 == 0 ? 0.37 : 1.0);
+  return fork;
+}
+
+TEST(SpringSystem, ProngsInTheSameCellsPullLikeTheListOfSprings) {
+  Body body = make_body(fork_grid(), Model::kCalibrated, test_material(0.3));
+  std::mt19937 random(7);
+  shake(body, 0.25, random);
+  Points expected;
+  SpringList(body).forces(body, expected);
+  Points forces;
+  SpringSystem().forces(body, forces);
+  EXPECT_LT((forces - expected).cwiseAbs().maxCoeff(), 1e-12 * expected.cwiseAbs().maxCoeff());
 }
 
 /// Where Poisson's ratio is low, part of the axial correction pulls along the mean axes.
@@ -111,18 +151,20 @@ TEST(SpringSystem, MovesToTheSameBitsOnAnyNumberOfThreads) {
   }
 }
 
+/// But for the plain one of x86-64, which has no fused multiply-add and rounds more often.
 TEST(SpringSystem, MovesToTheSameBitsOnAnyInstructionSet) {
   for (const Model model : kSpringModels) {
     const Body start = shaken_body(model);
-    Body plain = start;
-    move(plain, all_spring_kernels().back());
-    EXPECT_NE(plain.positions, start.positions);
+    Body best = start;
+    move(best, best_spring_kernel());
+    EXPECT_NE(best.positions, start.positions);
     for (const SpringKernel& kernel : all_spring_kernels()) {
       if (kernel.tile == nullptr) continue;
       Body body = start;
       move(body, kernel);
-      EXPECT_EQ(body.positions, plain.positions) << kernel.name;
-      EXPECT_EQ(body.velocities, plain.velocities) << kernel.name;
+      const double most = kernel.name == std::string("plain") ? 1e-13 : 0;
+      EXPECT_LE((body.positions - best.positions).cwiseAbs().maxCoeff(), most) << kernel.name;
+      EXPECT_LE((body.velocities - best.velocities).cwiseAbs().maxCoeff(), 1e5 * most) << kernel.name;
     }
   }
 }
@@ -143,7 +185,7 @@ TEST(SpringSystem, MoveIsDriftThenKick) {
   expected.velocities += kick * (inverse_masses.asDiagonal() * forces);
   expected.velocities.rowwise() += kick * gravity.transpose();
   SpringSystem().move(moved, drift, kick, gravity, inverse_masses);
-  EXPECT_EQ(moved.positions, expected.positions);
+  EXPECT_LT((moved.positions - expected.positions).cwiseAbs().maxCoeff(), 1e-15);
   EXPECT_LT((moved.velocities - expected.velocities).cwiseAbs().maxCoeff(),
             1e-14 * expected.velocities.cwiseAbs().maxCoeff());
 }
