@@ -62,8 +62,8 @@ std::uint64_t near_samples(const Triangle& triangle, const Vec3& low, double rea
   for (int i = 0; i < kSamples * kSamples * kSamples; ++i) {
     const std::uint64_t bit = std::uint64_t{1} << i;
     if ((known & bit) != 0) continue;
-    const Eigen::Array3d place(i % kSamples, i / kSamples % kSamples, i / (kSamples * kSamples));
-    if (triangle.squared_distance(low.array() + (place + 0.5) / kSamples) <= reach * reach) known |= bit;
+    const Eigen::Array3i place(i % kSamples, i / kSamples % kSamples, i / (kSamples * kSamples));
+    if (triangle.squared_distance(low.array() + (place.cast<double>() + 0.5) / kSamples) <= reach * reach) known |= bit;
   }
   return known;
 }

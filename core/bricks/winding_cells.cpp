@@ -76,8 +76,8 @@ class Filler {
   [[nodiscard]] double sampled(const Eigen::Vector3i& cell) const {
     double sum = 0;
     for (int i = 0; i < kSamples * kSamples * kSamples; ++i) {
-      const Eigen::Array3d place(i % kSamples, i / kSamples % kSamples, i / (kSamples * kSamples));
-      sum += inside(cell.cast<double>().array() + (place + 0.5) / kSamples);
+      const Eigen::Array3i place(i % kSamples, i / kSamples % kSamples, i / (kSamples * kSamples));
+      sum += inside(cell.cast<double>().array() + (place.cast<double>() + 0.5) / kSamples);
     }
     return sum / (kSamples * kSamples * kSamples);
   }

@@ -103,6 +103,7 @@ std::vector<NestGroup> unite_nests(const Points& points, const Triangles& triang
     groups[sets.find(static_cast<int>(i))].push_back(std::move(nests[i]));
   }
   std::vector<NestGroup> list;
+  list.reserve(groups.size());
   for (auto& [root, group] : groups) list.push_back(std::move(group));
   return list;
 }

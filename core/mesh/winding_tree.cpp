@@ -12,7 +12,7 @@
 namespace sprung {
 namespace {
 
-constexpr int kLeaf = 8;      // triangles
+constexpr int kLeaf = 4;      // triangles
 constexpr double kFar = 3.0;  // times the reach of a node: the beta of the paper; 2 has twice the error
 constexpr double kInPlane = 1e-12;
 

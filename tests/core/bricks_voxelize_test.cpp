@@ -83,7 +83,7 @@ TEST(Voxelize, HolesAndCavitiesStayOpen) {
 TEST(Voxelize, AnOverlapCountsOnce) {
   // One solid whose two lobes run through each other, joined only for this test: two boxes as one list of triangles.
   const SurfaceMesh both = test::joined(box_mesh(Vec3::Zero(), Vec3(4, 2, 2)), box_mesh(Vec3(2, 0, 0), Vec3(6, 2, 2)));
-  const Solid solid{both.positions, both.triangles, {}, 32};
+  const Solid solid{both.positions, both.triangles, {}, {}, 32};
   const BrickGrid grid = voxelize(solid, 1);
   EXPECT_EQ(grid.brick_count(), 24);
   EXPECT_DOUBLE_EQ(grid.volume(), 24);

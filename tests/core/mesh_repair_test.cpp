@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <set>
 
 #include "core/bricks/voxelize.h"
 #include "core/error.h"
@@ -152,7 +154,8 @@ TEST(Repair, ClosesACurvedHoleSmoothly) {
 TEST(Repair, StitchesRimsThatAlmostMeet) {
   SurfaceMesh cracked = test::unwelded(test::torus_mesh(2, 0.5));
   std::mt19937 random(5);
-  for (double& coordinate : cracked.positions.reshaped()) coordinate += 1e-4 * (static_cast<double>(random()) / 4294967296.0 - 0.5);
+  for (double& coordinate : cracked.positions.reshaped())
+    coordinate += 1e-4 * (static_cast<double>(random()) / 4294967296.0 - 0.5);
   const Solids found = find_solids(cracked, "torus");
   ASSERT_EQ(found.solids.size(), 1U);
   EXPECT_TRUE(found.solids[0].closed);
@@ -245,20 +248,20 @@ TEST(WindingTree, AgreesWithTheSolidAngles) {
 
 /// Whether all bricks hang together by their faces.
 bool hangs_together(const BrickGrid& grid) {
-  std::vector<std::size_t> reached{0};
-  std::vector<bool> seen(grid.cells.size(), false);
-  seen[0] = true;
-  const auto is_neighbour = [&](std::size_t a, std::size_t b) {
-    return (grid.cells[a] - grid.cells[b]).cwiseAbs().sum() == 1;
-  };
-  for (std::size_t i = 0; i < reached.size(); ++i) {
-    for (std::size_t other = 0; other < grid.cells.size(); ++other) {
-      if (seen[other] || !is_neighbour(reached[i], other)) continue;
-      seen[other] = true;
-      reached.push_back(other);
+  std::set<std::array<int, 3>> left;
+  for (const auto& cell : grid.cells) left.insert({cell.x(), cell.y(), cell.z()});
+  std::vector<std::array<int, 3>> reached{*left.begin()};
+  left.erase(left.begin());
+  while (!reached.empty()) {
+    const std::array<int, 3> from = reached.back();
+    reached.pop_back();
+    for (std::size_t side = 0; side < 6; ++side) {
+      std::array<int, 3> to = from;
+      to[side / 2] += side % 2 == 0 ? -1 : 1;
+      if (left.erase(to) > 0) reached.push_back(to);
     }
   }
-  return reached.size() == grid.cells.size();
+  return left.empty();
 }
 
 TEST(Thickness, MakesASheetAShell) {

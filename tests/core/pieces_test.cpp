@@ -211,7 +211,7 @@ TEST(SplitPieces, SpecksAreDroppedAndCountedLargerPiecesSaid) {
   for (const auto& [side, dropped, floating] : {std::tuple{0.2, 1, 0}, {0.9, 0, 1}}) {
     const SurfaceMesh both = test::joined(large, test::box_mesh(Vec3(9, 1, 1), Vec3::Constant(side) + Vec3(9, 1, 1)));
     const double volume = 216 + side * side * side;
-    const Solid solid{both.positions, both.triangles, {}, volume};
+    const Solid solid{both.positions, both.triangles, {}, {}, volume};
     PieceReport report;
     const BrickGrid grid = split(solid, 1, &report);
     EXPECT_EQ(report.dropped, dropped);
