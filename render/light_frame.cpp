@@ -78,6 +78,7 @@ LightFrame fit_light(const std::vector<SkinShape>& shapes, const StageSpace& spa
   frame.key = view(widened(extent(shapes, space, key), Vec3::Constant(0.1 * body_radius), grid), key);
 
   const Bounds box = extent(shapes, space, Mat3::Identity());
+  frame.bodies = box;
   const Vec3 around(0.6 * body_radius, 0.05 * body_radius, 0.6 * body_radius);
   Bounds down = widened(box, around, grid);
   frame.zenith = view({{down.low.x(), down.low.z(), -down.high.y()}, {down.high.x(), down.high.z(), -down.low.y()}},

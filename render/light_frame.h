@@ -35,6 +35,7 @@ struct LightView {
 /// Where the bodies of one frame are, as the light maps need it. Sizes are rounded up to a grid, so that they and the
 /// texels stay put from frame to frame while a body moves a little.
 struct LightFrame {
+  Bounds bodies;           // stage space
   LightView key;           // along the key light
   LightView zenith;        // downwards
   LightView nadir;         // upwards, from the ground

@@ -45,6 +45,19 @@ LightMap make_map(const GlFunctions& gl, int size, const TextureFormat* color, b
   return map;
 }
 
+/// Reads the first level alone, which is half the work.
+GlSampler make_flat_sampler(const GlFunctions& gl) {
+  GLuint name = 0;
+  gl.GenSamplers(1, &name);
+  for (const auto& [key, value] : {std::pair<GLenum, GLint>{GL_TEXTURE_MIN_FILTER, GL_LINEAR},
+                                   {GL_TEXTURE_MAG_FILTER, GL_LINEAR},
+                                   {GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE},
+                                   {GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE}}) {
+    gl.SamplerParameteri(name, key, value);
+  }
+  return {gl, name};
+}
+
 GlSampler make_shadow_sampler(const GlFunctions& gl) {
   GLuint name = 0;
   gl.GenSamplers(1, &name);
@@ -86,6 +99,7 @@ LightMaps::LightMaps(const GlFunctions& gl)
     : gl_(gl),
       no_buffers_(make_vertex_array(gl)),
       shadow_sampler_(make_shadow_sampler(gl)),
+      flat_sampler_(make_flat_sampler(gl)),
       key_(make_map(gl, kKeySize, nullptr, true)),
       key_mask_(make_map(gl, kKeyMaskSize, &kMask, false)),
       zenith_depth_(make_map(gl, kZenithDepthSize, nullptr, true)),
@@ -94,51 +108,60 @@ LightMaps::LightMaps(const GlFunctions& gl)
       underside_color_(make_map(gl, kUndersideColorSize, &kColor, true)),
       underside_(make_map(gl, kUndersideSize, &kMask, false)),
       ground_sky_(make_map(gl, kGroundSkySize, &kFlat, false)),
-      ground_light_(make_map(gl, kGroundLightSize, &kColor, false)),
+      ground_light_(make_map(gl, kGroundLightSize, &kColor, true)),
       depth_program_(load_program(gl, "depth.vert", "depth.frag")),
       zenith_program_(load_program(gl, "screen.vert", "zenith_filter.frag")),
       blur_program_(load_program(gl, "screen.vert", "blur.frag")),
-      underside_program_(load_program(gl, "skin.vert", "underside.frag")),
+      underside_programs_(load_skin_programs(gl, "underside.frag")),
       underside_filter_program_(load_program(gl, "screen.vert", "underside_filter.frag")),
       ground_sky_program_(load_program(gl, "screen.vert", "ground_sky.frag")),
       key_mask_program_(load_program(gl, "screen.vert", "key_mask.frag")),
-      ground_light_program_(load_program(gl, "screen.vert", "ground_light.frag")) {}
+      open_ground_program_(load_program(gl, "screen.vert", "ground_light.frag")),
+      ground_shadow_program_(load_program(gl, "screen.vert", "ground_light.frag", "#define SHADOW\n")) {}
 
-void LightMaps::draw(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const DrawFrame& frame) {
+void LightMaps::draw(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const DrawFrame& frame,
+                     PassClock& clock) {
   gl_.Enable(GL_DEPTH_TEST);
   draw_depth(key_, kKeySize, frame.light.key, skins, frame);
+  clock.stop("key map");
   draw_depth(zenith_depth_, kZenithDepthSize, frame.light.zenith, skins, frame);
+  clock.stop("zenith map");
   if (frame.has_ground) draw_underside(skins, textures, frame);
+  clock.stop("underside map");
   gl_.Disable(GL_DEPTH_TEST);
   blur_zenith(frame);
+  clock.stop("zenith blur");
   if (frame.has_ground) {
     draw_ground_sky(frame);
+    clock.stop("ground sky");
     draw_key_mask(frame);
+    clock.stop("key mask");
+  } else {  // a floor far below, which nothing shades
+    clear(ground_sky_, kGroundSkySize);
+    clear(key_mask_, kKeyMaskSize);
   }
   draw_ground_light(frame);
+  clock.stop("ground light");
 }
 
 void LightMaps::draw_depth(const LightMap& map, int size, const LightView& view, const std::vector<SkinBuffers>& skins,
                            const DrawFrame& frame) const {
-  gl_.BindFramebuffer(GL_FRAMEBUFFER, map.target.name());
-  gl_.Viewport(0, 0, size, size);
-  gl_.Clear(GL_DEPTH_BUFFER_BIT);
+  clear(map, size);
   depth_program_.use();
   frame.set_common(depth_program_);
   depth_program_.set("clip_from_stage", view.clip_from_stage.cast<float>().eval());
-  for (const SkinBuffers& skin : skins) skin.draw();
+  for (const SkinBuffers& skin : skins) skin.draw(Detail::kCoarse);
 }
 
 void LightMaps::draw_underside(const std::vector<SkinBuffers>& skins, const TextureSet& textures,
                                const DrawFrame& frame) const {
-  gl_.BindFramebuffer(GL_FRAMEBUFFER, underside_color_.target.name());
-  gl_.Viewport(0, 0, kUndersideColorSize, kUndersideColorSize);
-  gl_.ClearColor(0, 0, 0, 0);
-  gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-  underside_program_.use();
-  frame.set_common(underside_program_);
-  underside_program_.set("clip_from_stage", frame.light.nadir.clip_from_stage.cast<float>().eval());
-  for (const SkinBuffers& skin : skins) skin.draw(underside_program_, textures, 0);
+  clear(underside_color_, kUndersideColorSize);
+  for (const GlProgram* program : {&underside_programs_.plain, &underside_programs_.textured}) {
+    program->use();
+    frame.set_common(*program);
+    program->set("clip_from_stage", frame.light.nadir.clip_from_stage.cast<float>().eval());
+  }
+  for (const SkinBuffers& skin : skins) skin.draw(underside_programs_, textures, 0, Detail::kCoarse);
   make_mipmaps(underside_color_.color);
 
   underside_filter_program_.use();
@@ -194,20 +217,32 @@ void LightMaps::draw_key_mask(const DrawFrame& frame) const {
   make_mipmaps(key_mask_.color);
 }
 
+/// First the open ground and, in the depth, where there may be shadow. There the light is found once more: an early
+/// depth test keeps llvmpipe from running the costly shader elsewhere.
 void LightMaps::draw_ground_light(const DrawFrame& frame) const {
-  const GlProgram& program = ground_light_program_;
+  constexpr float kShaded = 0.5F;
+  gl_.Enable(GL_DEPTH_TEST);
+  gl_.DepthFunc(GL_ALWAYS);
+  draw_ground_light(open_ground_program_, 1, frame);
+  gl_.DepthFunc(GL_EQUAL);
+  draw_ground_light(ground_shadow_program_, kShaded, frame);
+  gl_.DepthFunc(GL_LESS);
+  gl_.Disable(GL_DEPTH_TEST);
+  make_mipmaps(ground_light_.color);
+}
+
+void LightMaps::draw_ground_light(const GlProgram& program, float depth, const DrawFrame& frame) const {
   program.use();
   frame.set_common(program);
   const Eigen::Vector2f sides = frame.light.key.sides.head<2>().cast<float>();
   program.set("mask_texels", static_cast<float>(kKeyMaskSize) / sides.x());
   program.set("mask_texel_size", (Eigen::Vector2f(1, sides.x() / sides.y()) / kKeyMaskSize).eval());
-  program.set("has_ground", frame.has_ground ? 1 : 0);
   bind_texture(gl_, 0, key_mask_.color);
   program.set("key_mask", 0);
   bind_texture(gl_, 1, ground_sky_.color);
   program.set("ground_sky", 1);
+  program.set("screen_depth", depth);
   fill(ground_light_, kGroundLightSize);
-  make_mipmaps(ground_light_.color);
 }
 
 void LightMaps::bind(const GlProgram& program, const DrawFrame& frame, int first_unit) const {
@@ -228,6 +263,8 @@ void LightMaps::bind(const GlProgram& program, const DrawFrame& frame, int first
   program.set("zenith", first_unit + 2);
   bind_texture(gl_, first_unit + 3, ground_light_.color);
   program.set("ground_light", first_unit + 3);
+  bind_texture(gl_, first_unit + 4, ground_light_.color, flat_sampler_.name());
+  program.set("sharp_ground_light", first_unit + 4);
 }
 
 void LightMaps::fill(const LightMap& map, int size) const {
@@ -235,6 +272,13 @@ void LightMaps::fill(const LightMap& map, int size) const {
   gl_.Viewport(0, 0, size, size);
   gl_.BindVertexArray(no_buffers_.name());
   gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void LightMaps::clear(const LightMap& map, int size) const {
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, map.target.name());
+  gl_.Viewport(0, 0, size, size);
+  gl_.ClearColor(0, 0, 0, 0);
+  gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
 void LightMaps::make_mipmaps(const GlTexture& texture) const {

@@ -32,8 +32,11 @@ struct LightMap {
 /// - ground light: the light on the ground by place, with the shadow of the key and the sky that the bodies hide
 class LightMaps {
  public:
+  static constexpr int kUnits = 5;  // texture units that bind() takes
+
   explicit LightMaps(const GlFunctions& gl);
-  void draw(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const DrawFrame& frame);
+  void draw(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const DrawFrame& frame,
+            PassClock& clock);
   /// Binds the maps from unit `first_unit` on, and sets the uniforms with which a shader reads them.
   void bind(const GlProgram& program, const DrawFrame& frame, int first_unit) const;
 
@@ -44,13 +47,16 @@ class LightMaps {
   void draw_ground_sky(const DrawFrame& frame) const;
   void draw_key_mask(const DrawFrame& frame) const;
   void draw_ground_light(const DrawFrame& frame) const;
+  void draw_ground_light(const GlProgram& program, float depth, const DrawFrame& frame) const;
   void blur_zenith(const DrawFrame& frame) const;
   void fill(const LightMap& map, int size) const;
+  void clear(const LightMap& map, int size) const;
   void make_mipmaps(const GlTexture& texture) const;
 
   const GlFunctions& gl_;
   GlVertexArray no_buffers_;
   GlSampler shadow_sampler_;
+  GlSampler flat_sampler_;
   LightMap key_;
   LightMap key_mask_;
   LightMap zenith_depth_;
@@ -63,11 +69,12 @@ class LightMaps {
   GlProgram depth_program_;
   GlProgram zenith_program_;
   GlProgram blur_program_;
-  GlProgram underside_program_;
+  SkinPrograms underside_programs_;
   GlProgram underside_filter_program_;
   GlProgram ground_sky_program_;
   GlProgram key_mask_program_;
-  GlProgram ground_light_program_;
+  GlProgram open_ground_program_;
+  GlProgram ground_shadow_program_;
 };
 
 }  // namespace sprung

@@ -6,6 +6,7 @@
 #include "core/skin/skin.h"
 #include "render/camera.h"
 #include "render/image.h"
+#include "render/pass_clock.h"
 
 namespace sprung {
 
@@ -22,7 +23,8 @@ struct GroundPlane {
 struct RenderOptions {
   int width = 1280;
   int height = 720;
-  int samples = 4;  // 1 or 4: multisampling
+  int samples = 4;  // of a pixel: 1 or 4
+  bool measure_passes = false;
 };
 
 /// What stays the same through a film: the skins at rest (indices, UVs, colours, textures), ground and light.
@@ -45,6 +47,9 @@ class Renderer {
 
   /// One shape for each skin of the stage, in order.
   [[nodiscard]] Image draw(const std::vector<SkinShape>& shapes, const Camera& camera);
+
+  /// What each pass took, of all pictures so far; empty unless it was to be measured.
+  [[nodiscard]] const std::vector<PassTime>& pass_times() const;
 
   /// Name and version of the driver, for reports.
   [[nodiscard]] std::string driver() const;

@@ -20,15 +20,16 @@ std::string with_includes(std::string_view name) {
   return text;
 }
 
-std::string source(std::string_view name, bool fragment) {
-  return "#version 330 core\n#extension GL_ARB_derivative_control : require\n" + with_includes("color.glsl") +
-         with_includes("light.glsl") + (fragment ? with_includes("picture.glsl") : "") + with_includes(name);
+std::string source(std::string_view name, bool fragment, const std::string& defines) {
+  return "#version 330 core\n" + defines + with_includes("light.glsl") +
+         (fragment ? with_includes("picture.glsl") : "") + with_includes(name);
 }
 
 }  // namespace
 
-GlProgram load_program(const GlFunctions& gl, std::string_view vertex, std::string_view fragment) {
-  return {gl, std::string(fragment), source(vertex, false), source(fragment, true)};
+GlProgram load_program(const GlFunctions& gl, std::string_view vertex, std::string_view fragment,
+                       const std::string& defines) {
+  return {gl, std::string(fragment), source(vertex, false, defines), source(fragment, true, defines)};
 }
 
 }  // namespace sprung

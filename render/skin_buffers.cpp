@@ -5,17 +5,28 @@
 #include <cmath>
 
 #include "render/decode.h"
+#include "render/shaders.h"
 
 namespace sprung {
 
 namespace {
 
-enum Attribute : GLuint { kPosition, kNormal, kUv, kColor };  // as in skin.vert
+enum Attribute : GLuint { kPosition, kNormal, kUv, kColor };  // as in surface.vert
 
 float linear_from_srgb(float c) { return c <= 0.04045F ? c / 12.92F : std::pow((c + 0.055F) / 1.055F, 2.4F); }
 
-Eigen::Vector3f linear_from_srgb(const Eigen::Vector3f& color) {
-  return color.unaryExpr([](float c) { return linear_from_srgb(c); });
+/// The square root of linear light: what the shaders multiply and keep.
+template <class Colors>
+Colors root_from_srgb(const Colors& colors) {
+  return colors.unaryExpr([](float c) { return std::sqrt(linear_from_srgb(c)); });
+}
+
+/// The cells that merge vertices for the light maps, as a part of the skin's radius: finer than their bias and blur.
+constexpr double kCoarseCell = 0.04;
+
+double coarse_cell(const Skin& skin) {
+  const Vec3 sides = skin.positions.colwise().maxCoeff() - skin.positions.colwise().minCoeff();
+  return std::max(0.5 * kCoarseCell * sides.norm(), 1e-12);
 }
 
 constexpr TextureFormat kPicture{GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, true, true, GL_REPEAT};
@@ -51,6 +62,10 @@ int TextureSet::add(const SurfaceMaterial& material) {
   return static_cast<int>(textures_.size()) - 1;
 }
 
+SkinPrograms load_skin_programs(const GlFunctions& gl, std::string_view fragment) {
+  return {load_program(gl, "surface.vert", fragment), load_program(gl, "surface.vert", fragment, "#define TEXTURED\n")};
+}
+
 SkinBuffers::SkinBuffers(const GlFunctions& gl, const Skin& skin, const Eigen::Vector3f& default_color,
                          TextureSet& textures)
     : gl_(gl),
@@ -60,21 +75,29 @@ SkinBuffers::SkinBuffers(const GlFunctions& gl, const Skin& skin, const Eigen::V
       uvs_(make_buffer(gl)),
       colors_(make_buffer(gl)),
       indices_(make_buffer(gl)),
-      triangle_count_(static_cast<int>(skin.triangles.rows())),
+      sides_(visible_sides(skin)),
       has_colors_(skin.colors.rows() > 0) {
-  upload_indices(skin);
+  const CoarseTriangles coarse = coarse_triangles(skin, coarse_cell(skin));
+  full_ = {0, static_cast<int>(skin.triangles.rows())};
+  coarse_ = {full_.count, static_cast<int>(coarse.triangles.rows())};
+  upload_indices(skin, coarse.triangles);
   upload_attributes(skin);
-  const Eigen::Vector3f plain = has_colors_ ? Eigen::Vector3f::Ones().eval() : linear_from_srgb(default_color);
+  const auto look = [&](int first, int count, const Eigen::Vector3f& color) {
+    const int low = coarse.first[static_cast<std::size_t>(first)];
+    const int high = coarse.first[static_cast<std::size_t>(first + count)];
+    return Look{{first, count}, {coarse_.first + low, high - low}, color, 0};
+  };
+  const Eigen::Vector3f plain = has_colors_ ? Eigen::Vector3f::Ones().eval() : root_from_srgb(default_color);
   for (const Part& part : skin.parts) {
-    Look look{part.first_triangle, part.triangle_count, plain, 0};
+    Look next = look(part.first_triangle, part.triangle_count, plain);
     if (part.material >= 0) {
       const SurfaceMaterial& material = skin.materials[static_cast<std::size_t>(part.material)];
-      look.color = linear_from_srgb(material.color.head<3>().eval());
-      if (skin.uvs.rows() > 0) look.texture = textures.add(material);
+      next.color = root_from_srgb(material.color.head<3>().eval());
+      if (skin.uvs.rows() > 0) next.texture = textures.add(material);
     }
-    add_look(look);
+    add_look(next);
   }
-  if (skin.parts.empty()) add_look({0, triangle_count_, plain, 0});
+  if (skin.parts.empty()) add_look(look(0, full_.count, plain));
 }
 
 /// Neighbours that look the same are drawn together.
@@ -82,20 +105,24 @@ void SkinBuffers::add_look(const Look& look) {
   if (!looks_.empty()) {
     Look& last = looks_.back();
     if (last.texture == look.texture && last.color == look.color &&
-        last.first_triangle + last.triangle_count == look.first_triangle) {
-      last.triangle_count += look.triangle_count;
+        last.full.first + last.full.count == look.full.first) {
+      last.full.count += look.full.count;
+      last.coarse.count += look.coarse.count;
       return;
     }
   }
   looks_.push_back(look);
 }
 
-void SkinBuffers::upload_indices(const Skin& skin) {
+void SkinBuffers::upload_indices(const Skin& skin, const Triangles& coarse) {
+  const auto bytes = [](const Triangles& triangles) {
+    return static_cast<GLsizeiptr>(triangles.size() * static_cast<long>(sizeof(int)));
+  };
   gl_.BindVertexArray(array_.name());
   gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.name());
-  gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER,
-                 static_cast<GLsizeiptr>(skin.triangles.size() * static_cast<long>(sizeof(int))), skin.triangles.data(),
-                 GL_STATIC_DRAW);
+  gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER, bytes(skin.triangles) + bytes(coarse), nullptr, GL_STATIC_DRAW);
+  gl_.BufferSubData(GL_ELEMENT_ARRAY_BUFFER, 0, bytes(skin.triangles), skin.triangles.data());
+  gl_.BufferSubData(GL_ELEMENT_ARRAY_BUFFER, bytes(skin.triangles), bytes(coarse), coarse.data());
 }
 
 void SkinBuffers::upload_attributes(const Skin& skin) {
@@ -108,7 +135,7 @@ void SkinBuffers::upload_attributes(const Skin& skin) {
     describe(gl_, kUv, 2);
   }
   if (has_colors_) {
-    upload(gl_, colors_, skin.colors, GL_STATIC_DRAW);
+    upload(gl_, colors_, root_from_srgb(skin.colors), GL_STATIC_DRAW);
     describe(gl_, kColor, 4);
   }
 }
@@ -119,22 +146,28 @@ void SkinBuffers::update(const SkinShape& shape) {
   upload(gl_, normals_, shape.normals, GL_STREAM_DRAW);
 }
 
-void SkinBuffers::draw() const {
-  gl_.BindVertexArray(array_.name());
-  gl_.DrawElements(GL_TRIANGLES, 3 * triangle_count_, GL_UNSIGNED_INT, nullptr);
+void SkinBuffers::draw(const Range& range) const {
+  const auto offset = static_cast<std::uintptr_t>(range.first) * 3 * sizeof(int);
+  gl_.DrawElements(GL_TRIANGLES, 3 * range.count, GL_UNSIGNED_INT,
+                   reinterpret_cast<const void*>(offset));  // NOLINT(performance-no-int-to-ptr): OpenGL's way
 }
 
-void SkinBuffers::draw(const GlProgram& program, const TextureSet& textures, int unit) const {
+void SkinBuffers::draw(Detail detail) const {
+  gl_.BindVertexArray(array_.name());
+  draw(detail == Detail::kFull ? full_ : coarse_);
+}
+
+void SkinBuffers::draw(const SkinPrograms& programs, const TextureSet& textures, int unit, Detail detail) const {
   gl_.BindVertexArray(array_.name());
   gl_.VertexAttrib4f(kUv, 0, 0, 0, 0);
   if (!has_colors_) gl_.VertexAttrib4f(kColor, 1, 1, 1, 1);
-  program.set("base_texture", unit);
   for (const Look& look : looks_) {
+    const GlProgram& program = look.texture == 0 ? programs.plain : programs.textured;
+    program.use();
     program.set("base_color", look.color);
+    program.set("base_texture", unit);
     bind_texture(gl_, unit, textures[look.texture]);
-    const auto offset = static_cast<std::uintptr_t>(look.first_triangle) * 3 * sizeof(int);
-    gl_.DrawElements(GL_TRIANGLES, 3 * look.triangle_count, GL_UNSIGNED_INT,
-                     reinterpret_cast<const void*>(offset));  // NOLINT(performance-no-int-to-ptr): OpenGL's way
+    draw(detail == Detail::kFull ? look.full : look.coarse);
   }
 }
 

@@ -1,6 +1,8 @@
 #pragma once
+#include <string_view>
 #include <vector>
 
+#include "render/coarse_triangles.h"
 #include "render/gl/objects.h"
 #include "render/renderer.h"
 
@@ -21,28 +23,44 @@ class TextureSet {
   std::vector<const std::vector<std::byte>*> sources_;
 };
 
+/// All triangles of a skin, or fewer for what is drawn blurred.
+enum class Detail { kFull, kCoarse };
+
+/// A program for a skin's parts with a texture, and one for those without.
+struct SkinPrograms {
+  GlProgram plain;
+  GlProgram textured;
+};
+[[nodiscard]] SkinPrograms load_skin_programs(const GlFunctions& gl, std::string_view fragment);
+
 /// A skin on the device.
 class SkinBuffers {
  public:
   SkinBuffers(const GlFunctions& gl, const Skin& skin, const Eigen::Vector3f& default_color, TextureSet& textures);
 
   void update(const SkinShape& shape);
-  /// All triangles, for a program that needs places only.
-  void draw() const;
-  /// Part by part, with base_color and base_texture (unit `unit`) of the program set.
-  void draw(const GlProgram& program, const TextureSet& textures, int unit) const;
+  /// For a program that needs places only.
+  void draw(Detail detail) const;
+  /// Part by part, with base_color and base_texture (unit `unit`) of the programs set.
+  void draw(const SkinPrograms& programs, const TextureSet& textures, int unit, Detail detail) const;
+  [[nodiscard]] Sides sides() const { return sides_; }
 
  private:
+  struct Range {  // of triangles in the index buffer
+    int first = 0;
+    int count = 0;
+  };
   struct Look {
-    int first_triangle = 0;
-    int triangle_count = 0;
-    Eigen::Vector3f color;  // linear
+    Range full;
+    Range coarse;
+    Eigen::Vector3f color;  // square root of linear
     int texture = 0;
   };
 
-  void upload_indices(const Skin& skin);
+  void upload_indices(const Skin& skin, const Triangles& coarse);
   void upload_attributes(const Skin& skin);
   void add_look(const Look& look);
+  void draw(const Range& range) const;
 
   const GlFunctions& gl_;
   GlVertexArray array_;
@@ -51,7 +69,9 @@ class SkinBuffers {
   GlBuffer uvs_;
   GlBuffer colors_;
   GlBuffer indices_;
-  int triangle_count_ = 0;
+  Range full_;
+  Range coarse_;
+  Sides sides_;
   bool has_colors_ = false;
   std::vector<Look> looks_;
 };

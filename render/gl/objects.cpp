@@ -41,15 +41,6 @@ GlTexture make_texture(const GlFunctions& gl, int width, int height, const Textu
   return texture;
 }
 
-GlRenderbuffer make_renderbuffer(const GlFunctions& gl, GLenum format, int width, int height, int samples) {
-  GLuint name = 0;
-  gl.GenRenderbuffers(1, &name);
-  GlRenderbuffer buffer(gl, name);
-  gl.BindRenderbuffer(GL_RENDERBUFFER, name);
-  gl.RenderbufferStorageMultisample(GL_RENDERBUFFER, samples > 1 ? samples : 0, format, width, height);
-  return buffer;
-}
-
 void check_framebuffer(const GlFunctions& gl, const char* what) {
   if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE) return;
   throw Error(ErrorKind::kFailed, std::string("OpenGL: no memory or no support for ") + what);

@@ -37,7 +37,6 @@ inline void delete_texture(const GlFunctions& gl, GLuint name) { gl.DeleteTextur
 inline void delete_sampler(const GlFunctions& gl, GLuint name) { gl.DeleteSamplers(1, &name); }
 inline void delete_vertex_array(const GlFunctions& gl, GLuint name) { gl.DeleteVertexArrays(1, &name); }
 inline void delete_framebuffer(const GlFunctions& gl, GLuint name) { gl.DeleteFramebuffers(1, &name); }
-inline void delete_renderbuffer(const GlFunctions& gl, GLuint name) { gl.DeleteRenderbuffers(1, &name); }
 inline void delete_program(const GlFunctions& gl, GLuint name) { gl.DeleteProgram(name); }
 inline void delete_shader(const GlFunctions& gl, GLuint name) { gl.DeleteShader(name); }
 }  // namespace detail
@@ -47,7 +46,6 @@ using GlTexture = GlObject<detail::delete_texture>;
 using GlSampler = GlObject<detail::delete_sampler>;
 using GlVertexArray = GlObject<detail::delete_vertex_array>;
 using GlFramebuffer = GlObject<detail::delete_framebuffer>;
-using GlRenderbuffer = GlObject<detail::delete_renderbuffer>;
 
 [[nodiscard]] GlBuffer make_buffer(const GlFunctions& gl);
 [[nodiscard]] GlVertexArray make_vertex_array(const GlFunctions& gl);
@@ -65,9 +63,6 @@ struct TextureFormat {
 /// Left bound to the active unit; storage for mipmaps is made at once.
 [[nodiscard]] GlTexture make_texture(const GlFunctions& gl, int width, int height, const TextureFormat& format,
                                      const void* data = nullptr);
-
-[[nodiscard]] GlRenderbuffer make_renderbuffer(const GlFunctions& gl, GLenum format, int width, int height,
-                                               int samples);
 
 /// A framebuffer that draws into level 0 of the textures; 0 for none. Throws Error(kFailed) where it is not complete.
 [[nodiscard]] GlFramebuffer make_texture_target(const GlFunctions& gl, const GlTexture* color, const GlTexture* depth);

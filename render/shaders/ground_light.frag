@@ -8,25 +8,29 @@ uniform mat4 light_from_stage;
 uniform float mask_texels;      // per unit of length
 uniform vec2 mask_texel_size;   // in u and v
 uniform float body_radius;
-uniform bool has_ground;
 uniform sampler2D key_mask;
 uniform sampler2D ground_sky;
 out vec4 result;
 
+const float kShaded = 0.5;
 const int kSearch = 6;
 const int kTaps = 14;
 const mat2 kGoldenTurn = mat2(-0.7373688, 0.6754903, -0.6754903, -0.7373688);  // 137.5 degrees, for spirals
 
+float reach() { return 1.2 * kLightRadius * body_radius * mask_texels; }
+
+vec2 mask_place(vec2 point) {
+  return (light_from_stage * vec4(point.x, ground_height, point.y, 1.0)).xy * 0.5 + 0.5;
+}
+
+#ifdef SHADOW
 float key_shadow(vec2 point) {
-  vec2 uv = (light_from_stage * vec4(point.x, ground_height, point.y, 1.0)).xy * 0.5 + 0.5;
-  float reach = 1.2 * kLightRadius * body_radius * mask_texels;
-  // Most of the ground has nothing above it: a loop that runs no times is skipped, an if is not.
-  int search = textureLod(key_mask, uv, log2(4.0 * reach)).r > 0.0 ? kSearch : 0;
+  vec2 uv = mask_place(point);
   vec2 found = vec2(0.0);
   vec2 direction = vec2(1.0, 0.0);
-  for (int k = 0; k < search; ++k) {
-    vec2 offset = reach * sqrt((float(k) + 0.5) / float(kSearch)) * direction;
-    found += textureLod(key_mask, uv + offset * mask_texel_size, log2(max(0.8 * reach, 1.0))).rg;
+  for (int k = 0; k < kSearch; ++k) {
+    vec2 offset = reach() * sqrt((float(k) + 0.5) / float(kSearch)) * direction;
+    found += textureLod(key_mask, uv + offset * mask_texel_size, log2(max(0.8 * reach(), 1.0))).rg;
     direction = kGoldenTurn * direction;
   }
   int taps = found.r > 1e-4 ? kTaps : 0;
@@ -40,12 +44,15 @@ float key_shadow(vec2 point) {
   }
   return hidden / float(kTaps);
 }
+#else
+// Nothing yet: the depth says where SHADOW has to be looked for.
+float key_shadow(vec2 point) {
+  gl_FragDepth = textureLod(key_mask, mask_place(point), log2(6.0 * reach())).r > 0.0 ? kShaded : 1.0;
+  return 0.0;
+}
+#endif
 
 void main() {
-  if (!has_ground) {  // a floor far below, which nothing shades
-    result = vec4(open_ground_light(), 1.0);
-    return;
-  }
   vec2 point = ground_rectangle.xy + screen_place * ground_rectangle.zw;
   vec4 sky = texture(ground_sky, screen_place);
   vec2 border = smoothstep(0.0, 0.12, min(screen_place, 1.0 - screen_place));

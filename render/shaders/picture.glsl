@@ -17,16 +17,15 @@ vec3 tone_map(vec3 c) {
   return mix(c, vec3(new_peak), g);
 }
 
-// Integer hash (pcg) of a pixel and a salt, in [0, 1): the same in every run.
-float pixel_noise(uint salt) {
+// Triangular noise of one level, the same in every run: hides the steps of wide, soft gradients. An integer hash (pcg)
+// of the pixel; its halves are two uniform numbers.
+float picture_noise() {
   uvec2 p = uvec2(gl_FragCoord.xy);
-  uint state = (p.x + 8192u * p.y + 0x9e3779b9u * salt) * 747796405u + 2891336453u;
+  uint state = (p.x + 8192u * p.y + 0x9e3779b9u) * 747796405u + 2891336453u;
   uint word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
-  return float((word >> 22u) ^ word) * (1.0 / 4294967296.0);
+  word = (word >> 22u) ^ word;
+  return (float(word >> 16u) + float(word & 0xffffu) - 65535.0) * (0.75 / 65536.0 / 255.0);
 }
 
-// Linear light to what is stored. Triangular noise of one level hides the steps of wide, soft gradients.
-vec4 picture_color(vec3 light) {
-  float noise = pixel_noise(1u) + pixel_noise(2u) - 1.0;
-  return vec4(srgb_from_linear(tone_map(light)) + noise * (0.75 / 255.0), 1.0);
-}
+// Linear light to what is stored.
+vec4 picture_color(vec3 light) { return vec4(srgb_from_linear(tone_map(light)) + picture_noise(), 1.0); }

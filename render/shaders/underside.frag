@@ -6,4 +6,7 @@ uniform float ground_height;
 out vec4 result;
 //!include albedo.glsl
 
-void main() { result = vec4(albedo(), 1.0 + max(place.y - ground_height, 0.0)); }
+void main() {
+  vec3 root = albedo_root();
+  result = vec4(root * root, 1.0 + max(place.y - ground_height, 0.0));
+}

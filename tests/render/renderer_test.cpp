@@ -67,6 +67,35 @@ TEST(Renderer, SameInputGivesTheSameBytes) {
   EXPECT_EQ(first.pixels, renderer.draw(scene.shapes(), camera).pixels);
 }
 
+// Every bit of consecutive pictures of a scene at rest, after some that moved.
+TEST(Renderer, AStillSceneDoesNotFlicker) {
+  const StillLife scene = ball_on_ground();
+  const Stage stage = scene.stage();
+  Renderer renderer(stage, kSmall);
+  const Camera camera = frame_bounds(stage.bounds, 16.0 / 9);
+  std::vector<SkinShape> shapes = scene.shapes();
+  const Image moving = renderer.draw(shapes, camera);
+  shapes[0].positions.col(1).array() += 0.1F;
+  const Image first = renderer.draw(shapes, camera);
+  EXPECT_NE(first.pixels, moving.pixels);
+  for (int frame = 1; frame < 4; ++frame) {
+    EXPECT_EQ(compare_images(first, renderer.draw(shapes, camera)).mean, 0) << frame;
+  }
+}
+
+TEST(Renderer, MeasuresItsPassesOnRequest) {
+  const StillLife scene = ball_on_ground();
+  const Stage stage = scene.stage();
+  const Camera camera = frame_bounds(stage.bounds, 16.0 / 9);
+  Renderer silent(stage, kSmall);
+  const Image picture = silent.draw(scene.shapes(), camera);
+  EXPECT_TRUE(silent.pass_times().empty());
+  Renderer measured(stage, {.width = 320, .height = 180, .samples = 4, .measure_passes = true});
+  EXPECT_EQ(measured.draw(scene.shapes(), camera).pixels, picture.pixels);
+  EXPECT_GT(measured.pass_times().size(), 5U);
+  for (const PassTime& time : measured.pass_times()) EXPECT_GT(time.wall, 0) << time.pass;
+}
+
 TEST(RendererChild, DISABLED_PrintsTheHash) { std::printf("hash=%lx\n", hash(draw_scene(ball_on_ground(), kSmall))); }
 
 // llvmpipe reads the number of threads once a process, so each number needs its own.
@@ -181,7 +210,7 @@ TEST(Renderer, BackFacesAreLitLikeFrontFaces) {
   EXPECT_GT(psnr(outside, draw_scene(scene, kSmall)), 40);
 }
 
-TEST(Renderer, WithoutMultisamplingOnlyEdgesChange) {
+TEST(Renderer, WithOneSampleAPixelOnlyEdgesChange) {
   const Image smooth = draw_scene(ball_on_ground(), kSmall);
   const Image rough = draw_scene(ball_on_ground(), {320, 180, 1});
   EXPECT_GT(psnr(smooth, rough), 33);
@@ -192,6 +221,7 @@ TEST(Renderer, RefusesWhatItCannotDraw) {
   const StillLife scene = ball_on_ground();
   EXPECT_THROW(Renderer(scene.stage(), RenderOptions{0, 180, 4}), Error);
   EXPECT_THROW(Renderer(scene.stage(), RenderOptions{320, 20000, 4}), Error);
+  EXPECT_THROW(Renderer(scene.stage(), RenderOptions{10000, 180, 4}), Error);  // but not with one sample a pixel
   EXPECT_THROW(Renderer(scene.stage(), RenderOptions{320, 180, 3}), Error);
   StillLife broken = ball_on_ground();
   broken.skins[0].materials = {SurfaceMaterial{}};

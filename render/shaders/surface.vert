@@ -2,22 +2,21 @@
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 uv;
-layout(location = 3) in vec4 color;  // sRGB
+layout(location = 3) in vec4 color;  // square root of linear
 
 uniform vec3 stage_center;  // m
 uniform float stage_scale;  // 1/m
 uniform mat4 clip_from_stage;
 
-invariant gl_Position;  // as in the depth pass before
 out vec3 place;
 out vec3 surface_normal;
 out vec2 texture_place;
-out vec3 vertex_color;  // linear
+out vec3 vertex_color;
 
 void main() {
   place = (position - stage_center) * stage_scale;
-  surface_normal = normal;
+  surface_normal = normal * inversesqrt(max(dot(normal, normal), 1e-30));
   texture_place = vec2(uv.x, 1.0 - uv.y);  // v runs up, rows of pictures run down
-  vertex_color = linear_from_srgb(color.rgb);
+  vertex_color = color.rgb;
   gl_Position = clip_from_stage * vec4(place, 1.0);
 }

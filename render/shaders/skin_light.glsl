@@ -1,29 +1,23 @@
-in vec3 place;
-in vec3 surface_normal;
-in vec2 texture_place;
-in vec3 vertex_color;
-
+// The light that a place on a skin sends to the eye.
 uniform vec3 eye;
+uniform float body_radius;
+uniform float ground_height;
+uniform vec4 ground_rectangle;     // low corner x, z; sides
+uniform sampler2D ground_light;
 uniform mat4 light_from_stage;     // the key light's clip space
 uniform vec2 light_texel;          // texture coordinates per unit of length, across the light
-uniform float body_radius;
 uniform sampler2DShadow key_shadow_map;
 uniform sampler2D key_depth;
 uniform float key_depth_range;     // units of length
 uniform vec4 zenith_rectangle;     // low corner x, z; 1 / sides
 uniform vec2 zenith_heights;       // low, 1 / range
 uniform sampler2D zenith;
-uniform vec4 ground_rectangle;     // low corner x, z; sides
-uniform float ground_height;
 uniform float ground_texels;       // per unit of length
-uniform sampler2D ground_light;
-out vec4 result;
-//!include albedo.glsl
 
 const float kRoughness = 0.42;
 const float kReflectance = 0.04;
-const int kSearch = 6;
-const int kTaps = 16;
+const int kSearch = 10;
+const int kTaps = 28;
 const mat2 kGoldenTurn = mat2(-0.7373688, 0.6754903, -0.6754903, -0.7373688);  // 137.5 degrees, for spirals
 
 // The share of the key light that reaches a point. The point is first moved outwards and into the light by a small
@@ -35,9 +29,7 @@ float key_light(vec3 point, vec3 n, float facing) {
   int search = facing > -0.35 ? kSearch : 0;
   float blockers = 0.0;
   float way = 0.0;
-  // Four turns in blocks of 2 x 2 pixels: finer than the eye sees, where a fixed pattern would show as stripes.
-  float turn = 0.3926991 * float((int(gl_FragCoord.x) & 1) + 2 * (int(gl_FragCoord.y) & 1));
-  vec2 direction = vec2(cos(turn), sin(turn));
+  vec2 direction = vec2(1.0, 0.0);
   for (int k = 0; k < search; ++k) {
     float depth = texture(key_depth, uvd.xy + reach * sqrt((float(k) + 0.5) / float(kSearch)) * direction).r;
     float above = step(depth, uvd.z);
@@ -56,13 +48,6 @@ float key_light(vec3 point, vec3 n, float facing) {
     direction = kGoldenTurn * direction;
   }
   return taps > 0 ? lit / float(kTaps) : (search > 0 ? 1.0 : 0.0);
-}
-
-// The mean over the block of 2 x 2 pixels that are shaded together, so that the four turns do not show as dots.
-float over_block(float value) {
-  vec2 towards = 0.5 - vec2(ivec2(gl_FragCoord.xy) & 1);
-  value += towards.x * dFdxFine(value);
-  return value + towards.y * dFdyFine(value);
 }
 
 // How much of the sky is open above a point: the chance that the blurred map of heights does not exceed it (Chebyshev).
@@ -101,26 +86,17 @@ float surrounding_share(float nv) {
   return kReflectance * (-1.04 * a + r.z) + 1.04 * a + r.w;
 }
 
-vec3 facing_normal() {
-  vec3 flat_normal = cross(dFdx(place), dFdy(place));
-  vec3 n = dot(surface_normal, surface_normal) > 0.0 ? surface_normal : flat_normal;
-  n = normalize(n);
-  return gl_FrontFacing || dot(surface_normal, surface_normal) == 0.0 ? n : -n;
-}
-
 float power5(float x) {
   float x2 = x * x;
   return x2 * x2 * x;
 }
 
-void main() {
-  vec3 base = albedo();
-  vec3 n = facing_normal();
+vec3 skin_light(vec3 place, vec3 n, vec3 base) {
   vec3 v = normalize(eye - place);
   vec3 h = normalize(v + to_key);
   float nl = dot(n, to_key);
   float nv = max(dot(n, v), 1e-3);
-  float lit = clamp(over_block(key_light(place, n, nl)), 0.0, 1.0);
+  float lit = key_light(place, n, nl);
 
   // Light that enters leaves a little further on, in the body's own colour: it creeps past the edge of the shadow.
   vec3 wrap = 0.06 + 0.20 * base;
@@ -138,6 +114,5 @@ void main() {
   float gloss = ggx(max(dot(n, h), 0.0), nv, max(clear, 1e-3), kRoughness * kRoughness) * fresnel * clear;
 
   vec3 light = base * (kKey * diffuse * lit + surrounding);
-  light += kKey * gloss * lit + reflected * surrounding_share(nv);
-  result = picture_color(light);
+  return light + kKey * gloss * lit + reflected * surrounding_share(nv);
 }

@@ -1,0 +1,165 @@
+#include "render/screen.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <array>
+
+#include "render/shaders.h"
+
+namespace sprung {
+
+namespace {
+
+constexpr int kFirstMapUnit = 1;  // unit 0 is the skin's own texture
+constexpr int kFirstSurfaceUnit = kFirstMapUnit + LightMaps::kUnits;
+
+// The kinds of pixels, as depths.
+constexpr float kInside = 0.25F;
+constexpr float kEdge = 0.5F;
+constexpr float kNoSkin = 1;
+
+constexpr double kSmoothDepth = 0.03;  // of a body's radius: less change of depth in a pixel is no edge
+
+constexpr TextureFormat kColor{GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, false, false, GL_CLAMP_TO_EDGE};
+constexpr TextureFormat kNormal{GL_RGB10_A2, GL_RGBA, GL_UNSIGNED_INT_2_10_10_10_REV, false, false, GL_CLAMP_TO_EDGE};
+constexpr TextureFormat kDepth{GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, false, false, GL_CLAMP_TO_EDGE};
+
+GlFramebuffer make_surface_target(const GlFunctions& gl, const GlTexture& color, const GlTexture& normal,
+                                  const GlTexture& depth) {
+  GlFramebuffer target = make_framebuffer(gl);
+  gl.BindFramebuffer(GL_FRAMEBUFFER, target.name());
+  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color.name(), 0);
+  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, GL_TEXTURE_2D, normal.name(), 0);
+  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth.name(), 0);
+  const std::array<GLenum, 2> outputs{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+  gl.DrawBuffers(2, outputs.data());
+  check_framebuffer(gl, "a picture of this size");
+  return target;
+}
+
+}  // namespace
+
+Screen::Screen(const GlFunctions& gl, const RenderOptions& options)
+    : gl_(gl),
+      width_(options.width),
+      height_(options.height),
+      side_(options.samples > 1 ? 2 : 1),
+      surface_color_(make_texture(gl, side_ * width_, side_ * height_, kColor)),
+      surface_normal_(make_texture(gl, side_ * width_, side_ * height_, kNormal)),
+      surface_depth_(make_texture(gl, side_ * width_, side_ * height_, kDepth)),
+      surface_(make_surface_target(gl, surface_color_, surface_normal_, surface_depth_)),
+      picture_(make_texture(gl, width_, height_, kColor)),
+      kinds_(make_texture(gl, width_, height_, kDepth)),
+      developed_(make_texture_target(gl, &picture_, &kinds_)),
+      no_buffers_(make_vertex_array(gl)),
+      surface_programs_(load_skin_programs(gl, "surface.frag")),
+      kinds_program_(load("kinds.frag", "")),
+      surroundings_program_(load("surroundings.frag", "")),
+      inside_program_(load("skins.frag", "")),
+      edge_program_(load("skins.frag", "#define EDGES\n")) {}
+
+GlProgram Screen::load(const char* fragment, const char* defines) const {
+  const std::string kinds =
+      fmt::format("#define SIDE {}\n#define INSIDE {:.3f}\n#define EDGE {:.3f}\n#define NO_SKIN {:.3f}\n", side_,
+                  kInside, kEdge, kNoSkin);
+  return load_program(gl_, "screen.vert", fragment, kinds + defines);
+}
+
+void Screen::draw(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const LightMaps& maps,
+                  const View& view, PassClock& clock) const {
+  draw_surfaces(skins, textures, view);
+  clock.stop("surfaces");
+  sort_pixels(maps, view);
+  clock.stop("kinds of pixels");
+  develop(maps, view, clock);
+}
+
+Image Screen::read() const {
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, developed_.name());
+  gl_.PixelStorei(GL_PACK_ALIGNMENT, 1);
+  Image image(width_, height_);
+  gl_.ReadPixels(0, 0, width_, height_, GL_RGB, GL_UNSIGNED_BYTE, image.pixels.data());
+  return image;
+}
+
+/// The triangles are small: llvmpipe would run the shader of the light for several times the pixels that they have. So
+/// it runs in one triangle over the whole picture, once what is seen has been settled.
+void Screen::draw_surfaces(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const View& view) const {
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, surface_.name());
+  gl_.Viewport(0, 0, side_ * width_, side_ * height_);
+  gl_.Enable(GL_DEPTH_TEST);
+  gl_.DepthFunc(GL_LESS);
+  gl_.FrontFace(GL_CW);  // the top row comes first: a mirror image
+  gl_.Clear(GL_DEPTH_BUFFER_BIT);
+  for (const GlProgram* program : {&surface_programs_.plain, &surface_programs_.textured}) {
+    program->use();
+    view.frame.set_common(*program);
+    program->set("clip_from_stage", view.clip_from_stage.cast<float>().eval());
+  }
+  for (const SkinBuffers& skin : skins) {
+    if (skin.sides() != Sides::kBoth) gl_.Enable(GL_CULL_FACE);
+    gl_.CullFace(skin.sides() == Sides::kFront ? GL_BACK : GL_FRONT);
+    skin.draw(surface_programs_, textures, 0, Detail::kFull);
+    gl_.Disable(GL_CULL_FACE);
+  }
+  gl_.FrontFace(GL_CCW);
+}
+
+/// An early depth test keeps llvmpipe from running a shader; an if does not. So the kind of each pixel is written down
+/// as its depth, and each kind has a program of its own, at that depth.
+void Screen::sort_pixels(const LightMaps& maps, const View& view) const {
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, developed_.name());
+  gl_.Viewport(0, 0, width_, height_);
+  gl_.Clear(GL_DEPTH_BUFFER_BIT);
+  const PixelRectangle seen = seen_rectangle(view, width_, height_);
+  gl_.Enable(GL_SCISSOR_TEST);
+  gl_.Scissor(seen.left, seen.top, seen.width, seen.height);
+  gl_.DepthFunc(GL_ALWAYS);
+  gl_.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  cover(kinds_program_, kNoSkin, maps, view);
+  gl_.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  gl_.Disable(GL_SCISSOR_TEST);
+}
+
+void Screen::develop(const LightMaps& maps, const View& view, PassClock& clock) const {
+  gl_.DepthMask(GL_FALSE);
+  gl_.DepthFunc(GL_EQUAL);
+  cover(inside_program_, kInside, maps, view);
+  clock.stop("skins");
+  gl_.DepthFunc(GL_LEQUAL);
+  cover(surroundings_program_, kEdge, maps, view);
+  clock.stop("surroundings");
+  gl_.DepthFunc(GL_EQUAL);
+  gl_.Enable(GL_BLEND);
+  gl_.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  cover(edge_program_, kEdge, maps, view);
+  clock.stop("edges");
+  gl_.Disable(GL_BLEND);
+  gl_.DepthMask(GL_TRUE);
+  gl_.DepthFunc(GL_LESS);
+}
+
+/// A program over the whole picture, with all that it can read.
+void Screen::cover(const GlProgram& program, float depth, const LightMaps& maps, const View& view) const {
+  const bool floor_in_sight = view.frame.has_ground && view.eye.y() > view.frame.ground_height;
+  const Vec3 end = floor_in_sight ? floor_depth(view) : Vec3(0, 0, 1);
+  program.use();
+  maps.bind(program, view.frame, kFirstMapUnit);
+  bind_texture(gl_, kFirstSurfaceUnit, surface_color_);
+  program.set("surface_color", kFirstSurfaceUnit);
+  bind_texture(gl_, kFirstSurfaceUnit + 1, surface_normal_);
+  program.set("packed_normal", kFirstSurfaceUnit + 1);
+  bind_texture(gl_, kFirstSurfaceUnit + 2, surface_depth_);
+  program.set("surface_depth", kFirstSurfaceUnit + 2);
+  program.set("screen_depth", depth);
+  program.set("eye", view.eye.cast<float>().eval());
+  program.set("stage_from_clip", view.clip_from_stage.inverse().cast<float>().eval());
+  program.set("floor_in_sight", floor_in_sight ? 1 : 0);
+  program.set("end_depth", end.cast<float>().eval());
+  program.set("smooth_depth", static_cast<float>(kSmoothDepth * view.frame.body_radius / view.near));
+  gl_.BindVertexArray(no_buffers_.name());
+  gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+}  // namespace sprung
