@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <future>
 #include <numbers>
 
+#include "app/drawn_stage.h"
 #include "app/interrupt.h"
 #include "app/picture_writer.h"
 #include "app/progress.h"
@@ -59,30 +61,6 @@ Reach reach_of(const Production& production, const Recording& recording) {
   return reach;
 }
 
-Stage stage_of(const Production& production, const Bounds& bounds) {
-  Stage stage;
-  for (const DrawnSkin& drawn : production.skins) {
-    stage.skins.push_back(&drawn.skin);
-    stage.default_colors.emplace_back(Eigen::Vector3f(drawn.color.red, drawn.color.green, drawn.color.blue) / 255.0F);
-  }
-  stage.has_ground = production.world.ground.has_value();
-  if (stage.has_ground) stage.ground.height = production.world.ground->height;
-  stage.bounds = bounds;
-  return stage;
-}
-
-std::vector<SkinShape> shapes_of(const Production& production, const std::vector<Floats3>& nodes) {
-  std::vector<SkinShape> shapes;
-  for (std::size_t actor = 0; actor < nodes.size(); ++actor) {
-    const Points positions = nodes[actor].cast<double>();
-    const DrawnSkin& drawn = production.skins[actor];
-    const BrickGrid& grid = production.world.actors[actor].body.grid;
-    shapes.push_back({.positions = skin_positions(production, actor, positions).cast<float>(),
-                      .normals = deform_normals(grid, drawn.embedding, drawn.skin.normals, positions).cast<float>()});
-  }
-  return shapes;
-}
-
 /// What the ground could not hold: how deep any vertex was below it, in any frame.
 std::string ground_report(const Production& production, const Bounds& bounds) {
   if (!production.world.ground) return "";
@@ -127,9 +105,15 @@ void render_film(const Production& production, const Recording& recording, const
                     {.width = width, .height = height, .samples = scene.render.samples});
   console.detail(fmt::format("drawn by {}", renderer.driver()));
   PictureWriter writer(outputs, width, height, scene.fps);
+  // The skins of the next frame are made ready while this one is drawn and the ones before are encoded.
+  const auto make_ready = [&](std::size_t frame) {
+    return std::async(std::launch::async, [&, frame] { return shapes_of(production, recording.frames[frame]); });
+  };
+  std::future<std::vector<SkinShape>> next = make_ready(0);
   for (std::size_t frame = 0; frame < frames; ++frame) {
     stop_if_interrupted();
-    const std::vector<SkinShape> shapes = shapes_of(production, recording.frames[frame]);
+    const std::vector<SkinShape> shapes = next.get();
+    if (frame + 1 < frames) next = make_ready(frame + 1);
     writer.write(renderer.draw(shapes, cameras[frame]));
     progress.update(static_cast<double>(frame + 1));
   }

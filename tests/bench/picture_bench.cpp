@@ -1,0 +1,132 @@
+// Draws a scene's bodies as they start, some pictures of 1280 x 720, and prints what each stage of a picture takes:
+// skins, every pass of the renderer, PNG, and a film's encoder. Arguments: the scene (a .toml file) and the number of
+// pictures. Measured pass by pass, so that nothing overlaps; the last line is a picture with everything overlapping.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <ctime>
+#include <filesystem>
+
+#include "app/drawn_stage.h"
+#include "app/make_production.h"
+#include "app/output.h"
+#include "app/picture_writer.h"
+#include "app/scene_file.h"
+#include "core/error.h"
+#include "render/film.h"
+#include "render/png.h"
+
+namespace {
+
+using namespace sprung;
+
+constexpr RenderOptions kPicture{.width = 1280, .height = 720, .samples = 4, .measure_passes = true};
+
+class Stopwatch {
+ public:
+  /// Prints the time since the last print, by picture.
+  void print(std::string_view stage, int pictures) {
+    const double processor = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+    const auto wall = std::chrono::steady_clock::now();
+    row(stage, std::chrono::duration<double>(wall - wall_).count() / pictures, (processor - processor_) / pictures);
+    wall_ = std::chrono::steady_clock::now();
+    processor_ = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+  }
+  static void row(std::string_view stage, double wall, double processor) {
+    fmt::print("{:28} {:8.1f} {:8.1f}\n", stage, 1e3 * wall, 1e3 * processor);
+  }
+
+ private:
+  std::chrono::steady_clock::time_point wall_ = std::chrono::steady_clock::now();
+  double processor_ = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+};
+
+struct Subject {
+  Production production;
+  std::vector<Floats3> nodes;
+  std::vector<SkinShape> shapes;
+  Stage stage;
+  Camera camera;
+
+  explicit Subject(const std::filesystem::path& scene)
+      : production(make_production(read_scene(scene), Console{.quiet = true})) {
+    for (const Actor& actor : production.world.actors) nodes.emplace_back(actor.body.positions.cast<float>());
+    shapes = shapes_of(production, nodes);
+    Bounds bounds;
+    for (const SkinShape& shape : shapes) bounds.include(shape.positions.cast<double>().eval());
+    stage = stage_of(production, bounds);
+    camera = frame_bounds(bounds, 16.0 / 9);
+  }
+};
+
+void print_passes(const std::vector<PassTime>& first, const std::vector<PassTime>& all, int pictures) {
+  double wall = 0;
+  double processor = 0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const double w = (all[i].wall - first[i].wall) / pictures;
+    const double p = (all[i].processor - first[i].processor) / pictures;
+    Stopwatch::row(fmt::format("  {}", all[i].pass), w, p);
+    wall += w;
+    processor += p;
+  }
+  Stopwatch::row("drawing, all passes", wall, processor);
+}
+
+/// As a film is made: skins, drawing, PNG and film at once.
+void overlapped(const Subject& subject, const std::filesystem::path& folder, int pictures) {
+  const std::vector<Output> outputs = parse_outputs({(folder / "p").string(), (folder / "q.mp4").string()});
+  RenderOptions options = kPicture;
+  options.measure_passes = false;
+  Renderer renderer(subject.stage, options);
+  Image warm = renderer.draw(subject.shapes, subject.camera);
+  Stopwatch watch;
+  PictureWriter writer(outputs, options.width, options.height, 24);
+  for (int i = 0; i < pictures; ++i) {
+    writer.write(renderer.draw(shapes_of(subject.production, subject.nodes), subject.camera));
+  }
+  writer.close();
+  watch.print("all of it, overlapping", pictures);
+}
+
+void run(const std::filesystem::path& scene, int pictures) {
+  const Subject subject(scene);
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "sprung_picture_bench";
+  std::filesystem::create_directories(folder);
+  fmt::print("{:28} {:>8} {:>8}  ms a picture; processor without the film's encoder\n", "stage", "wall", "processor");
+  Stopwatch watch;
+  for (int i = 0; i < pictures; ++i) (void)shapes_of(subject.production, subject.nodes);
+  watch.print("skins", pictures);
+
+  Renderer renderer(subject.stage, kPicture);
+  Image image = renderer.draw(subject.shapes, subject.camera);  // compiles the shaders
+  const std::vector<PassTime> first = renderer.pass_times();
+  for (int i = 0; i < pictures; ++i) image = renderer.draw(subject.shapes, subject.camera);
+  print_passes(first, renderer.pass_times(), pictures);
+
+  watch = Stopwatch();
+  for (int i = 0; i < pictures; ++i) write_png(image, folder / "picture.png");
+  watch.print("PNG", pictures);
+  FilmWriter film(folder / "film.mp4", image.width, image.height, 24);
+  for (int i = 0; i < pictures; ++i) film.write(image);
+  film.close();
+  watch.print("film", pictures);
+  overlapped(subject, folder, pictures);
+  std::filesystem::remove_all(folder);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int pictures = argc == 3 ? std::atoi(argv[2]) : 0;
+  if (pictures < 1) {
+    fmt::print(stderr, "usage: picture_bench SCENE.toml PICTURES\n");
+    return 2;
+  }
+  try {
+    run(argv[1], pictures);
+  } catch (const Error& error) {
+    fmt::print(stderr, "picture_bench: {}\n", error.what());
+    return 1;
+  }
+}
