@@ -137,12 +137,12 @@ class Mender {
       if (encloses[i]) continue;
       encloses[i] = enclosure(mesh_.points, mesh_.triangles, shells_.shells[i].triangles) >= kEncloses;
     }
-    const int loops = shells_.faults.loops;
+    const int holes = std::max(shells_.faults.loops, 1);
     const Closing closing = close_shells(mesh_, shells_);
     const int caps = closing.flat + closing.smooth;
-    add("hole_filled", caps == 0 ? 0 : std::max(loops, 1),
-        fmt::format("filled {} ({} flat, {} smooth)", count_of(std::max(loops, 1), "hole"), closing.flat,
-                    closing.smooth));
+    add("hole_filled", caps == 0 ? 0 : holes,
+        fmt::format("filled {}{} ({} flat, {} smooth)", count_of(holes, "hole"),
+                    caps == holes ? "" : fmt::format(" in {} pieces", caps), closing.flat, closing.smooth));
     for (std::size_t i = 0; i < encloses.size(); ++i) {
       if (!has_volume(mesh_, shells_.shells[i])) encloses[i] = false;
     }

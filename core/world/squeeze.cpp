@@ -45,9 +45,21 @@ Mat3 areas_of(const Mat3& axes) {
 
 /// Of the volumes that the edges span at the eight corners and the mean axes between them.
 double smallest_volume(const Corners& x) {
-  double smallest = edges_at(0, x).determinant();
-  for (int corner = 1; corner <= Squeeze::kMeanAxes; ++corner)
-    smallest = std::min(smallest, edges_at(corner, x).determinant());
+  std::array<Vec3, 12> edges;
+  for (std::size_t i = 0; i < edges.size(); ++i) edges[i] = x.col(kEdges[i].to) - x.col(kEdges[i].from);
+  const auto volume = [](const Vec3& a, const Vec3& b, const Vec3& c) { return a.dot(b.cross(c)); };
+  const auto mean = [&](std::size_t axis) {
+    const Vec3* four = &edges[4 * axis];
+    return Vec3(0.25 * ((four[0] + four[1]) + (four[2] + four[3])));
+  };
+  double smallest = volume(mean(0), mean(1), mean(2));
+  for (std::size_t corner = 0; corner < 8; ++corner) {
+    const std::size_t high_x = corner & 1;
+    const std::size_t high_y = corner >> 1 & 1;
+    const std::size_t high_z = corner >> 2 & 1;
+    smallest = std::min(
+        smallest, volume(edges[high_y + 2 * high_z], edges[4 + high_z + 2 * high_x], edges[8 + high_x + 2 * high_y]));
+  }
   return smallest;
 }
 
