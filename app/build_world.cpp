@@ -10,6 +10,7 @@
 #include <set>
 
 #include "app/units.h"
+#include "core/bricks/pieces.h"
 #include "core/bricks/slivers.h"
 #include "core/bricks/voxelize.h"
 #include "core/count_of.h"
@@ -43,15 +44,14 @@ Vec3 translation_of(const SceneBody& body, const LoadedBody& loaded, const Mat3&
   return body.position - Vec3(middle.x(), low.y(), middle.z());
 }
 
-/// Each position that triangles use, once.
-Points contact_points(const Skin& skin) {
+/// Each position that triangles use, once: rows of the skin.
+std::vector<int> contact_rows(const Skin& skin) {
   const std::vector<int> point_of = weld_points(skin.positions);
   std::set<int> used;
   for (const int vertex : std::span(skin.triangles.data(), static_cast<std::size_t>(skin.triangles.size()))) {
     used.insert(point_of[static_cast<std::size_t>(vertex)]);
   }
-  const std::vector<int> rows(used.begin(), used.end());
-  return skin.positions(rows, Eigen::all);
+  return {used.begin(), used.end()};
 }
 
 bool is_inside(const Eigen::Array3d& fractions, const Box& box) {
@@ -121,6 +121,10 @@ void apply_regions(const SceneBody& scene_body, const Vec3& extent, const Mat3& 
 /// The bricks' volume may differ from the mesh's by this share before it is worth a warning.
 constexpr double kVolumeError = 0.02;
 
+bool has_repeated_nodes(const BrickGrid& grid) {
+  return std::adjacent_find(grid.lattice.begin(), grid.lattice.end()) != grid.lattice.end();
+}
+
 double volume_error(const BrickGrid& grid, const Solid& solid) { return std::abs(grid.volume() / solid.volume - 1); }
 
 /// Half of the brick size, or a quarter, ... : the first that holds the solid's volume; none down to a 64th.
@@ -149,9 +153,11 @@ class BodyBuilder {
     apply_regions(body_, loaded_.extent, loaded_.bricks_from_rest.transpose(), actor.body);
     DrawnSkin drawn;
     drawn.skin = make_skin(submesh(loaded_.mesh, solid), {.max_edge = kLongestSkinEdge * loaded_.brick_size});
-    drawn.embedding = embed(actor.body.grid, drawn.skin.positions);
+    drawn.embedding = embed(actor.body.grid, drawn.skin.positions, drawn.skin.normals);
     drawn.color = body_.color.value_or(kPalette[production_.skins.size() % kPalette.size()]);
-    actor.contacts = embed(actor.body.grid, contact_points(drawn.skin));
+    const std::vector<int> touching = contact_rows(drawn.skin);
+    actor.contacts =
+        embed(actor.body.grid, drawn.skin.positions(touching, Eigen::all), drawn.skin.normals(touching, Eigen::all));
     Origin origin{.body = index_, .bricks_from_rest = loaded_.bricks_from_rest, .pins = find_pins(actor.body)};
     actor.pinned = held_nodes(origin.pins, body_.pins);
     place(actor.body, rotation_, translation_);
@@ -175,6 +181,7 @@ class BodyBuilder {
       console.detail(
           fmt::format("{}: {} given to fuller neighbours", loaded_.name, count_of(slivers_, "nearly empty brick")));
     }
+    report_pieces(console);
     if (wrong_volumes_ > 0) {
       const int more = wrong_volumes_ - 1;
       console.warn(fmt::format("{}: {}{}", loaded_.name, volume_warning_,
@@ -194,12 +201,41 @@ class BodyBuilder {
   }
 
  private:
+  void report_pieces(const Console& console) const {
+    if (pieces_.divided > 0) {
+      console.detail(fmt::format("{}: {} more than one piece of solid, and a brick for each", loaded_.name,
+                                 count_of(pieces_.divided, "cell holds", "cells hold")));
+    }
+    if (pieces_.dropped > 0) {
+      console.warn(fmt::format("{}: dropped {} of floating specks, {:.2g} kg together", loaded_.name,
+                               count_of(pieces_.dropped, "brick"), pieces_.dropped_volume * body_.material.density));
+    }
+    if (pieces_.floating > 0) {
+      console.warn(fmt::format("{}: {} by parts too thin for bricks of {}; smaller bricks would hold them",
+                               loaded_.name, count_of(pieces_.floating, "piece hangs", "pieces hang"),
+                               readable(loaded_.brick_size, Dimension::kLength)));
+    }
+  }
+
   BrickGrid make_grid(const Solid& solid) {
     if (loaded_.grid) return *loaded_.grid;
     BrickGrid grid = voxelize(solid, loaded_.brick_size);
+    BrickGrid divided = grid;
+    const PieceReport pieces = split_pieces(solid, divided);
+    if (!has_repeated_nodes(divided)) {  // those the force kernel does not take yet
+      grid = std::move(divided);
+      add(pieces);
+    }
     slivers_ += absorb_slivers(grid);
     note_volume(grid, solid);
     return grid;
+  }
+
+  void add(const PieceReport& report) {
+    pieces_.divided += report.divided;
+    pieces_.dropped += report.dropped;
+    pieces_.dropped_volume += report.dropped_volume;
+    pieces_.floating += report.floating;
   }
 
   void note_volume(const BrickGrid& grid, const Solid& solid) {
@@ -238,6 +274,7 @@ class BodyBuilder {
   int outside_ = 0;
   double furthest_outside_ = 0;  // bricks
   int slivers_ = 0;
+  PieceReport pieces_;
   int wrong_volumes_ = 0;       // solids
   std::string volume_warning_;  // of the first of them
   int held_solids_ = 0;

@@ -32,7 +32,7 @@ constexpr std::array<SceneOption, 19> kSceneOptions{{
     {"--density", "body.material.density", "1.1g/cm3"},
     {"--damping", "body.material.damping", "0.03"},
     {"--size", "body.size", "12cm"},
-    {"--bricks", "body.bricks", "N"},
+    {"--bricks", "body.bricks", "N|auto"},
     {"--brick-size", "body.brick_size", "5mm"},
     {"--repair", "body.repair", "off|auto|strict"},
     {"--thickness", "body.thickness", "3mm"},
@@ -120,6 +120,15 @@ void add_simulate(CLI::App& app, Words& words) {
   add_scene_options(*simulate, words, false);
 }
 
+void add_inspect(CLI::App& app, Words& words) {
+  CLI::App* inspect = app.add_subcommand("inspect", "mesh or scene in, what it is and what its film will take out");
+  inspect->add_flag("--json", words.scene.json, "the facts as JSON");
+  inspect->add_option("--picture", words.scene.picture, "draw skin and bricks, thin parts marked")
+      ->option_text("FILE.png");
+  inspect->add_flag("--overwrite", words.scene.overwrite, "replace a picture that exists");
+  add_scene_options(*inspect, words, true);
+}
+
 void add_validate(CLI::App& app, Words& words) {
   CLI::App* validate = app.add_subcommand("validate", "experiments, measured against theory and reference");
   validate->add_option("FILES", words.validate.cases, "scenes with [[expect]]; default: the built-in experiments");
@@ -174,7 +183,7 @@ SceneOptions scene_options(const CLI::App& command, Words& words) {
   if (options.input.empty()) {
     throw Error(ErrorKind::kUsage, fmt::format("{0} needs a mesh or a scene; see sprung {0} --help", name));
   }
-  if (options.outputs.empty() && !options.print_scene) {
+  if (options.outputs.empty() && !options.print_scene && name != "inspect") {
     throw Error(ErrorKind::kUsage, name == "animate"
                                        ? "animate needs an output: -o folder/, -o frame_{:04}.png or -o film.mp4"
                                        : "simulate needs an output: -o folder");
@@ -218,6 +227,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   Words words;
   add_animate(app, words);
   add_simulate(app, words);
+  add_inspect(app, words);
   add_validate(app, words);
   CLI::App* materials = app.add_subcommand("materials", "the library of materials, with sources");
   materials->allow_extras();
@@ -246,6 +256,9 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   } else if (app.got_subcommand("simulate")) {
     line.scene = scene_options(*app.get_subcommand("simulate"), words);
     line.command = CommandLine::Command::kSimulate;
+  } else if (app.got_subcommand("inspect")) {
+    line.scene = scene_options(*app.get_subcommand("inspect"), words);
+    line.command = CommandLine::Command::kInspect;
   } else if (app.got_subcommand("validate")) {
     line.validate = validate_options(*app.get_subcommand("validate"), words);
     line.scene.quiet = words.scene.quiet;

@@ -1,4 +1,5 @@
 #pragma once
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,7 +16,7 @@ struct Setting {
   std::string value;
 };
 
-/// What `sprung animate` and `sprung simulate` were asked to do.
+/// What `sprung animate`, `sprung simulate` and `sprung inspect` were asked to do.
 struct SceneOptions {
   std::string input;                 // a mesh or a scene
   std::vector<std::string> outputs;  // as typed
@@ -26,13 +27,15 @@ struct SceneOptions {
   bool print_scene = false;
   bool quiet = false;
   bool verbose = false;
+  bool json = false;              // of inspect
+  std::filesystem::path picture;  // of inspect; empty: none
 };
 
 struct CommandLine {
-  enum class Command { kShowText, kMaterials, kAnimate, kSimulate, kValidate };
+  enum class Command { kShowText, kMaterials, kAnimate, kSimulate, kInspect, kValidate };
   Command command = Command::kShowText;
   std::string text;          // of kShowText: help or version
-  SceneOptions scene;        // of kAnimate and kSimulate
+  SceneOptions scene;        // of kAnimate, kSimulate and kInspect
   ValidateOptions validate;  // of kValidate
 };
 

@@ -43,7 +43,10 @@ Console Console::of_process() {
 
 void Console::error(std::string_view message) const { say(*this, "error", kRed, message); }
 
-void Console::warn(std::string_view message) const { say(*this, "warning", kYellow, message); }
+void Console::warn(std::string_view message) const {
+  say(*this, "warning", kYellow, message);
+  if (warnings != nullptr) warnings->emplace_back(message);
+}
 
 void Console::note(std::string_view message) const {
   if (!quiet) print_line(*this, message);

@@ -1,6 +1,7 @@
 #pragma once
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace sprung {
 
@@ -11,6 +12,7 @@ struct Console {
   bool has_color = false;    // such a terminal, and NO_COLOR is not set
   bool quiet = false;        // errors and warnings only
   bool verbose = false;
+  std::vector<std::string>* warnings = nullptr;  // where set, keeps what warn() said
 
   /// Colours and terminal as they are for this process.
   [[nodiscard]] static Console of_process();

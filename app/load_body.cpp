@@ -11,6 +11,7 @@
 
 #include "app/box_shape.h"
 #include "app/units.h"
+#include "core/bricks/brick_size.h"
 #include "core/bricks/voxelize.h"
 #include "core/error.h"
 #include "core/mesh/read/file_checks.h"
@@ -22,6 +23,9 @@ namespace {
 
 /// Sizes between a mesh and its origin from which on single precision rounds its shape by more than a thousandth.
 constexpr double kFarAway = 1e4;
+
+/// On the surface of a body: several for each brick that the surface cuts, as long as bricks are not very small.
+constexpr int kWallSamples = 20000;
 
 /// The bounding box of a mesh, in units of its file.
 struct Bounds {
@@ -76,6 +80,12 @@ void put_on_texture(const SceneBody& body, SurfaceMesh& mesh) {
   for (Part& part : mesh.parts) part.material = 0;
 }
 
+/// m; where it is to be chosen the default, for now.
+double wanted_brick_size(const SceneBody& body, const Vec3& extent) {
+  const BrickCount count = body.bricks.value_or(kDefaultBricks);
+  return body.brick_size.value_or(extent.maxCoeff() / (count.is_auto() ? kDefaultBricks : count.along));
+}
+
 void load_mesh(const SceneBody& body, LoadedBody& loaded, const Console& console) {
   loaded.name = body.mesh.filename().string();
   loaded.mesh = read_mesh(body.mesh);
@@ -93,16 +103,16 @@ void load_mesh(const SceneBody& body, LoadedBody& loaded, const Console& console
   loaded.mesh.positions *= scale;
   loaded.extent = extent * scale;
   loaded.file_from_rest = Eigen::Translation3d(middle) * Eigen::Scaling(1 / scale);
-  loaded.brick_size =
-      body.brick_size ? *body.brick_size : scale * length / static_cast<double>(body.bricks.value_or(kDefaultBricks));
+  loaded.brick_size = wanted_brick_size(body, loaded.extent);
 }
 
 void load_box(const SceneBody& body, LoadedBody& loaded) {
   loaded.name = "box";
   loaded.extent = *body.box;
-  loaded.brick_size = body.brick_size
-                          ? *body.brick_size
-                          : loaded.extent.maxCoeff() / static_cast<double>(body.bricks.value_or(kDefaultBricks));
+  if (body.bricks && body.bricks->is_auto()) {
+    throw Error(ErrorKind::kBadInput, "a box is a whole number of bricks; bricks = \"auto\" is for a mesh");
+  }
+  loaded.brick_size = wanted_brick_size(body, loaded.extent);
   loaded.grid = box_grid(loaded.extent, loaded.brick_size, body.cuts);
   loaded.mesh = surface_of(*loaded.grid);
 }
@@ -154,6 +164,30 @@ void turn(const Mat3& rotation, LoadedBody& loaded) {
   loaded.grid.reset();
 }
 
+std::string reason_of(const BrickChoice& choice) {
+  const std::string thickness = readable(choice.thickness, Dimension::kLength);
+  switch (choice.reason) {
+    case BrickChoice::Reason::kThickness:
+      return fmt::format("two across {}, which 95 % of the surface is thicker than", thickness);
+    case BrickChoice::Reason::kShape:
+      return "enough for the shape; no part that counts is thinner than two of them";
+    case BrickChoice::Reason::kBudget:
+      break;
+  }
+  return fmt::format(
+      "the most that {:.0f} bricks allow; {}, which 95 % of the surface is thicker than, is {:.2g} of "
+      "them thick",
+      kBrickBudget, thickness, choice.across);
+}
+
+void choose_bricks(LoadedBody& loaded, const Console& console) {
+  const double longest = loaded.extent.maxCoeff();
+  const BrickChoice choice = choose_brick_size(loaded.solids, loaded.walls, longest);
+  loaded.brick_size = choice.size;
+  console.note(fmt::format("bricks: {} of {} along {}: {}", std::lround(longest / choice.size),
+                           readable(choice.size, Dimension::kLength), loaded.name, reason_of(choice)));
+}
+
 }  // namespace
 
 Mat3 rotation_matrix(const Vec3& degrees) {
@@ -181,6 +215,9 @@ LoadedBody load_body(const SceneBody& body, const Console& console) {
   loaded.solids = std::move(found.solids);
   for (Solid& solid : loaded.solids) solid.volume = enclosed_volume(solid);
   if (loaded.solids.size() > 1) loaded.grid.reset();
+  if (body.box) return loaded;
+  loaded.walls = sample_thickness(loaded.solids, kWallSamples);
+  if (body.bricks && body.bricks->is_auto()) choose_bricks(loaded, console);
   return loaded;
 }
 

@@ -7,6 +7,7 @@
 #include "app/scene.h"
 #include "core/bricks/brick_grid.h"
 #include "core/mesh/solids.h"
+#include "core/mesh/thickness.h"
 
 namespace sprung {
 
@@ -20,6 +21,7 @@ struct LoadedBody {
   Mat3 bricks_from_rest = Mat3::Identity();                     // how it was turned for that
   Vec3 extent = Vec3::Zero();                                   // m, sides of the bounding box before that
   double brick_size = 0;                                        // m
+  std::vector<std::vector<WallSample>> walls;                   // of a mesh, by solid: how thick it is
   Eigen::Affine3d file_from_rest{Eigen::Affine3d::Identity()};  // before it was turned; in the units of the file
   std::optional<BrickGrid> grid;                                // of a box; of a mesh the bricks are yet to be found
 };

@@ -5,6 +5,7 @@
 
 #include "app/animate.h"
 #include "app/command_line.h"
+#include "app/inspect/inspect.h"
 #include "app/interrupt.h"
 #include "app/materials.h"
 #include "app/run_simulation.h"
@@ -33,6 +34,9 @@ int run(int argc, const char* const* argv, Console& console) {
       break;
     case CommandLine::Command::kSimulate:
       run_simulation(line.scene, console);
+      break;
+    case CommandLine::Command::kInspect:
+      run_inspect(line.scene, console);
       break;
     case CommandLine::Command::kValidate:
       return validate(line.validate, console) ? 0 : kFailed;

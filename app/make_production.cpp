@@ -34,23 +34,75 @@ std::string brick_sizes(const std::vector<LoadedBody>& bodies) {
   return low == high ? low : fmt::format("{} to {}", low, high);
 }
 
+/// Which parts of the solids of one body are thinner than its bricks; one warning for all.
+class ThinParts {
+ public:
+  explicit ThinParts(const LoadedBody& body) : body_(body) {}
+
+  std::vector<ThinPart> find(const BrickGrid& grid, std::size_t solid) {
+    if (solid >= body_.walls.size()) return {};
+    std::vector<ThinPart> parts = find_thin_parts(grid, body_.walls[solid]);
+    count_ += static_cast<long>(parts.size());
+    for (const ThinPart& part : parts) {
+      bricks_ += static_cast<long>(part.bricks.size());
+      if (thinnest_.thickness == 0 || part.thickness < thinnest_.thickness) thinnest_ = part;
+    }
+    return parts;
+  }
+
+  void warn(const Console& console) const {
+    if (count_ == 0) return;
+    const Vec3 place = body_.file_from_rest * (body_.bricks_from_rest.transpose() * thinnest_.place);
+    console.warn(fmt::format(
+        "{}: {} thinner than a brick ({}), in {}: stiffer and blunter than they should be; the thinnest, near ({:.4g}, "
+        "{:.4g}, {:.4g}) of the file, is about {} thick: bricks of that size would hold it",
+        body_.name, count_of(count_, "part is", "parts are"), readable(body_.brick_size, Dimension::kLength),
+        count_of(bricks_, "brick"), place.x(), place.y(), place.z(),
+        readable(thinnest_.thickness, Dimension::kLength)));
+  }
+
+ private:
+  const LoadedBody& body_;
+  long count_ = 0;
+  long bricks_ = 0;
+  ThinPart thinnest_;
+};
+
+void find_thin_parts(Preparation& prepared, const Console& console) {
+  const World& world = prepared.production.world;
+  std::size_t actor = 0;
+  for (std::size_t body = 0; body < prepared.bodies.size(); ++body) {
+    ThinParts parts(prepared.bodies[body]);
+    for (std::size_t solid = 0; solid < prepared.bodies[body].solids.size(); ++solid, ++actor) {
+      prepared.thin_parts.push_back(parts.find(world.actors[actor].body.grid, solid));
+    }
+    parts.warn(console);
+  }
+}
+
 }  // namespace
 
-Production make_production(const Scene& scene, const Console& console) {
-  const std::vector<LoadedBody> bodies = load_bodies(scene, console);
+Preparation prepare(const Scene& scene, const Console& console) {
+  Preparation prepared;
+  prepared.bodies = load_bodies(scene, console);
   Progress progress(console, "bricks");
-  Production production = build_world(scene, bodies, console);
+  prepared.production = build_world(scene, prepared.bodies, console);
+  find_thin_parts(prepared, console);
   int bricks = 0;
   int nodes = 0;
   double mass = 0;
-  for (const Actor& actor : production.world.actors) {
+  for (const Actor& actor : prepared.production.world.actors) {
     bricks += actor.body.grid.brick_count();
     nodes += actor.body.node_count();
     mass += actor.body.masses.sum();
   }
-  progress.finish(
-      fmt::format("{} of {}, {} nodes, {:.4g} kg", count_of(bricks, "brick"), brick_sizes(bodies), nodes, mass));
-  return production;
+  progress.finish(fmt::format("{} of {}, {} nodes, {:.4g} kg", count_of(bricks, "brick"), brick_sizes(prepared.bodies),
+                              nodes, mass));
+  return prepared;
+}
+
+Production make_production(const Scene& scene, const Console& console) {
+  return std::move(prepare(scene, console).production);
 }
 
 }  // namespace sprung

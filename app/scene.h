@@ -57,6 +57,14 @@ struct Cut {
   Box box;
 };
 
+/// Bricks along the longest side; or (0) as fine as the thinnest part that counts asks for, see choose_brick_size().
+struct BrickCount {
+  int along = kDefaultBricks;
+  BrickCount(int count = kDefaultBricks) : along(count) {}  // NOLINT(google-explicit-constructor): it is a number
+  [[nodiscard]] bool is_auto() const { return along == 0; }
+  bool operator==(const BrickCount&) const = default;
+};
+
 /// A mesh file or a box, and how it enters the scene. Every solid in a file becomes a soft body of its own.
 struct SceneBody {
   std::filesystem::path mesh;     // absolute; or
@@ -69,7 +77,7 @@ struct SceneBody {
   std::optional<double> thickness;     // m; makes the mesh a shell
   Vec3 position = Vec3::Zero();        // m; where the middle of the bottom of the bounding box goes, after the rotation
   Vec3 rotation = Vec3::Zero();        // degrees about x, then y, then z, around the middle of the bounding box
-  std::optional<int> bricks;           // along the longest side; or
+  std::optional<BrickCount> bricks;    // or
   std::optional<double> brick_size;    // m
   Vec3 brick_rotation = Vec3::Zero();  // degrees, about x, then y, then z: how the bricks are turned in the body
   Material material = find_material(kDefaultMaterial);

@@ -106,6 +106,11 @@ class Reader {
     value = static_cast<int>(number->get());
   }
 
+  static void value_of(const toml::node& node, const std::string& path, const KeyInfo& key, BrickCount& value) {
+    if (const auto* text = node.as_string()) return parse_value(text->get(), key, value);
+    value_of(node, path, key, value.along);
+  }
+
   void value_of(const toml::node& node, const std::string& path, const KeyInfo& key, Vec3& value) {
     const toml::array& array = array_of(node, 3, "an array of 3 numbers");
     for (int i = 0; i < 3; ++i)

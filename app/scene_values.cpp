@@ -123,6 +123,11 @@ void parse_value(std::string_view text, const KeyInfo&, Axes& value) {
   if (text.empty()) throw Error(ErrorKind::kBadInput, "must name a direction at least: some of \"xyz\"");
 }
 
+void parse_value(std::string_view text, const KeyInfo& key, BrickCount& value) {
+  value.along = 0;
+  if (text != "auto") parse_value(text, key, value.along);
+}
+
 void parse_value(std::string_view text, const KeyInfo&, Solver& value) {
   value = named_value(kSolvers, "scheme", text);
 }
@@ -143,6 +148,9 @@ void parse_value(std::string_view text, const KeyInfo&, Material& value) { value
 
 std::string toml_text(double value) { return fmt::format("{}", value); }
 std::string toml_text(int value) { return fmt::format("{}", value); }
+std::string toml_text(const BrickCount& value) {
+  return value.is_auto() ? toml_text(std::string_view("auto")) : toml_text(value.along);
+}
 std::string toml_text(const Vec3& value) { return fmt::format("[{}, {}, {}]", value.x(), value.y(), value.z()); }
 std::string toml_text(const std::array<int, 2>& value) { return fmt::format("[{}, {}]", value[0], value[1]); }
 

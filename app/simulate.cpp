@@ -20,13 +20,10 @@
 namespace sprung {
 namespace {
 
-constexpr double kManySteps = 20000;  // a frame, from which on a warning is due
-constexpr double kLongRun = 3600;     // s to go, from which on a warning is due
+constexpr double kLongRun = 3600;  // s to go, from which on a warning is due
 constexpr double kSecondsToEstimate = 3;
 constexpr double kCrushedVolume = 0.15;  // of a brick's volume at rest ...
 constexpr double kCrushedShare = 0.05;   // ... in so many of the bricks: from there on a warning is due
-
-constexpr std::string_view kRemedy = "fewer bricks, a softer material or a shorter --duration make it quicker";
 
 int inverted_bricks(const World& world) {
   int count = 0;
@@ -55,9 +52,7 @@ void forecast(const StepPlan& plan, double brick_steps, const Console& console) 
   const Steps& steps = plan.steps;
   console.detail(fmt::format("step {}, {} steps a frame, {:.3g} brick-steps in all",
                              readable(steps.dt, Dimension::kTime), steps.count, brick_steps));
-  if (static_cast<double>(steps.count) < kManySteps) return;
-  console.warn(fmt::format("the material is so stiff for its bricks that a frame takes {} steps of {}; {}", steps.count,
-                           readable(steps.dt, Dimension::kTime), kRemedy));
+  if (const std::string warning = warning_of(plan); !warning.empty()) console.warn(warning);
 }
 
 /// One frame of motion in chunks.

@@ -6,9 +6,12 @@
 #include <cmath>
 #include <limits>
 
+#include "app/units.h"
+
 namespace sprung {
 namespace {
 
+constexpr double kManySteps = 20000;   // a frame, from which on a warning is due
 constexpr double kImplicitCost = 150;  // explicit steps that take as long as an implicit one
 constexpr double kStepsAVibration = 20;
 constexpr long kFewestSteps = 2;  // implicit ones, a frame
@@ -33,6 +36,12 @@ long implicit_steps(const World& world, double frame) {
 }
 
 }  // namespace
+
+std::string warning_of(const StepPlan& plan) {
+  if (static_cast<double>(plan.steps.count) < kManySteps) return "";
+  return fmt::format("the material is so stiff for its bricks that a frame takes {} steps of {}; {}", plan.steps.count,
+                     readable(plan.steps.dt, Dimension::kTime), kRemedy);
+}
 
 StepPlan plan_steps(const World& world, const Scene& scene) {
   const double frame = 1 / scene.fps;

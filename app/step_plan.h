@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <string_view>
 
 #include "app/scene.h"
 #include "core/motion/careful_motion.h"
@@ -15,6 +16,12 @@ struct StepPlan {
 
   [[nodiscard]] bool is_implicit() const { return scheme == Solver::kImplicitEuler || scheme == Solver::kBdf2; }
 };
+
+/// What makes a motion quicker.
+inline constexpr std::string_view kRemedy = "fewer bricks, a softer material or a shorter --duration make it quicker";
+
+/// A sentence where a frame takes very many steps; else empty.
+[[nodiscard]] std::string warning_of(const StepPlan& plan);
 
 /// The steps of the scene's scheme. Explicit ones are as long as the stiffest brick allows, implicit ones follow the
 /// slowest vibration of the bodies, 2 to 16 a frame. Solver::kAuto takes what is forecast to be quicker: explicit steps

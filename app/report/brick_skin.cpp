@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <utility>
 
@@ -20,8 +21,16 @@ constexpr int kWantedSplit = 48;     // the same over all bricks along a body
 /// An outer face: its corners counter-clockwise from outside.
 struct Face {
   std::array<int, 4> nodes;
-  int side;  // 2 axis + (1 on the high side)
+  int side;       // 2 axis + (1 on the high side)
+  int brick = 0;  // that it belongs to
 };
+
+/// The colours of a face's corners.
+using CornerColors = std::function<Eigen::Vector3f(const Face& face, std::size_t corner)>;
+
+CornerColors by_node(const std::vector<Eigen::Vector3f>& colors) {
+  return [&](const Face& face, std::size_t corner) { return colors[static_cast<std::size_t>(face.nodes[corner])]; };
+}
 
 /// The face of a brick on one side.
 Face face_of(const BrickGrid& grid, std::size_t brick, int side) {
@@ -32,7 +41,7 @@ Face face_of(const BrickGrid& grid, std::size_t brick, int side) {
   const int k = 1 << ((axis + 2) % 3);
   std::array<int, 4> corners{base, base | j, base | j | k, base | k};
   if (!high) std::swap(corners[1], corners[3]);
-  Face face{{}, side};
+  Face face{{}, side, static_cast<int>(brick)};
   for (std::size_t c = 0; c < 4; ++c) face.nodes[c] = grid.nodes[brick][static_cast<std::size_t>(corners[c])];
   return face;
 }
@@ -90,13 +99,10 @@ class FaceWriter {
     return cells * cells;
   }
 
-  void add(const Face& face, const Points& positions, const Points& normals,
-           const std::vector<Eigen::Vector3f>& colors) {
+  void add(const Face& face, const Points& positions, const Points& normals, const CornerColors& colors) {
     const auto place = [&](std::size_t c) { return Vec3(positions.row(face.nodes[c])); };
     const auto normal = [&](std::size_t c) { return Vec3(normals.row(6 * face.nodes[c] + face.side)).normalized(); };
-    const auto color = [&](std::size_t c) {
-      return Vec3(colors[static_cast<std::size_t>(face.nodes[c])].cast<double>());
-    };
+    const auto color = [&](std::size_t c) { return Vec3(colors(face, c).cast<double>()); };
     const std::size_t cells = borders_.size() - 1;
     for (std::size_t i = 0; i < cells; ++i) {
       for (std::size_t j = 0; j < cells; ++j) {
@@ -125,8 +131,8 @@ class FaceWriter {
 };
 
 /// Faces as a skin; `split` cells along each, a rim of that share of a face.
-Skin skin_of(const std::vector<Face>& faces, const Points& positions, const std::vector<Eigen::Vector3f>& colors,
-             int split, double rim) {
+Skin skin_of(const std::vector<Face>& faces, const Points& positions, const CornerColors& colors, int split,
+             double rim) {
   Skin skin;
   FaceWriter writer(skin, cell_borders(split, std::min(rim, kWidestRim)));
   const Eigen::Index cells = writer.cells_per_face() * static_cast<Eigen::Index>(faces.size());
@@ -143,12 +149,28 @@ int split_for(int faces_along) { return std::clamp(kWantedSplit / std::max(1, fa
 
 }  // namespace
 
-Skin brick_skin(const Body& body, const Points& positions, const std::vector<Eigen::Vector3f>& colors, double line) {
+namespace {
+
+Skin brick_skin(const Body& body, const Points& positions, const CornerColors& colors, double line) {
   const Eigen::Vector3i size = Eigen::Map<const Eigen::Matrix<int, 3, Eigen::Dynamic>>(body.grid.lattice.front().data(),
                                                                                        3, body.grid.node_count())
                                    .rowwise()
                                    .maxCoeff();
   return skin_of(outer_faces(body.grid), positions, colors, split_for(size.maxCoeff()), line / body.grid.brick_size);
+}
+
+}  // namespace
+
+Skin brick_skin(const Body& body, const Points& positions, const std::vector<Eigen::Vector3f>& colors, double line) {
+  return brick_skin(body, positions, by_node(colors), line);
+}
+
+Skin colored_bricks(const Body& body, const Points& positions, const std::vector<Eigen::Vector3f>& colors,
+                    double line) {
+  const CornerColors by_brick = [&](const Face& face, std::size_t) {
+    return colors[static_cast<std::size_t>(face.brick)];
+  };
+  return brick_skin(body, positions, by_brick, line);
 }
 
 Skin sheet_skin(const Sheet& sheet, const Points& positions, const std::vector<Eigen::Vector3f>& colors, double line) {
@@ -160,7 +182,7 @@ Skin sheet_skin(const Sheet& sheet, const Points& positions, const std::vector<E
   const double longest =
       (sheet.rest_positions.colwise().maxCoeff() - sheet.rest_positions.colwise().minCoeff()).maxCoeff();
   const int faces_along = static_cast<int>(std::lround(longest / sheet.law.sides[0]));
-  return skin_of(faces, positions, colors, split_for(faces_along), line / sheet.law.sides[0]);
+  return skin_of(faces, positions, by_node(colors), split_for(faces_along), line / sheet.law.sides[0]);
 }
 
 }  // namespace sprung

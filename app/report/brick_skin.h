@@ -14,6 +14,10 @@ namespace sprung {
 [[nodiscard]] Skin brick_skin(const Body& body, const Points& positions, const std::vector<Eigen::Vector3f>& colors,
                               double line);
 
+/// The same with a colour a brick.
+[[nodiscard]] Skin colored_bricks(const Body& body, const Points& positions, const std::vector<Eigen::Vector3f>& colors,
+                                  double line);
+
 /// The rectangles of a sheet as such a skin, facing +z, at those node positions (m x 3, m).
 [[nodiscard]] Skin sheet_skin(const Sheet& sheet, const Points& positions, const std::vector<Eigen::Vector3f>& colors,
                               double line);

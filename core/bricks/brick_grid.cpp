@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "core/bricks/corner.h"
-#include "core/disjoint_sets.h"
 
 namespace sprung {
 namespace {
@@ -93,14 +92,7 @@ void number_nodes(BrickGrid& grid) {
   }
 }
 
-void number_nodes(BrickGrid& grid, const std::vector<SharedFace>& faces) {
-  DisjointSets corners(8 * grid.cells.size());
-  for (const SharedFace& face : faces) {
-    for (int corner = 0; corner < 8; ++corner) {
-      if (!on_high_side(corner, face.axis))
-        corners.merge(8 * face.low + corner + (1 << face.axis), 8 * face.high + corner);
-    }
-  }
+void number_nodes(BrickGrid& grid, DisjointSets& corners) {
   const LatticeOrder order(grid.cells);
   std::vector<std::pair<std::int64_t, int>> found;  // place and name of each node
   for (int corner = 0; corner < static_cast<int>(corners.size()); ++corner) {
@@ -119,17 +111,6 @@ void number_nodes(BrickGrid& grid, const std::vector<SharedFace>& faces) {
   for (std::size_t corner = 0; corner < corners.size(); ++corner) {
     grid.nodes[corner / 8][corner % 8] = node_of[static_cast<std::size_t>(corners.find(static_cast<int>(corner)))];
   }
-}
-
-bool shares_face(const BrickGrid& grid, std::size_t brick, std::size_t other, int side) {
-  const int axis = side / 2;
-  const bool high = side % 2 != 0;
-  for (int corner = 0; corner < 8; ++corner) {
-    if (on_high_side(corner, axis) != high) continue;
-    const auto across = static_cast<std::size_t>(corner ^ (1 << axis));
-    if (grid.nodes[brick][static_cast<std::size_t>(corner)] != grid.nodes[other][across]) return false;
-  }
-  return true;
 }
 
 void remove_bricks(BrickGrid& grid, const std::vector<bool>& gone, const std::vector<int>& heir) {

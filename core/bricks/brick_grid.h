@@ -3,6 +3,7 @@
 #include <bitset>
 #include <vector>
 
+#include "core/disjoint_sets.h"
 #include "core/types.h"
 
 namespace sprung {
@@ -47,18 +48,9 @@ struct BrickGrid {
 /// coincide. Cost: linear in the cells.
 void number_nodes(BrickGrid& grid);
 
-/// Two bricks that share a face: `high` lies next to `low` in the direction of the axis.
-struct SharedFace {
-  int low;
-  int high;
-  int axis;
-};
-
-/// The same for cells that may come several times: bricks share the corners of the faces given, and no others.
-void number_nodes(BrickGrid& grid, const std::vector<SharedFace>& faces);
-
-/// Whether brick `other` shares the face of `brick` on that side: 2 axis, + 1 on the high side.
-[[nodiscard]] bool shares_face(const BrickGrid& grid, std::size_t brick, std::size_t other, int side);
+/// The same for cells that may come several times: `corners` says which of the bricks' corners (8 brick + corner) are
+/// one node; only corners at the same lattice point may be.
+void number_nodes(BrickGrid& grid, DisjointSets& corners);
 
 /// Takes the bricks out for which `gone` (n) is set, with the nodes that none of the others has; what of their solid
 /// has a patch belongs to `heir` (n; rows before) from then on.

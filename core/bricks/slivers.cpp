@@ -3,30 +3,14 @@
 #include <algorithm>
 #include <array>
 
-#include "core/bricks/cell_index.h"
+#include "core/bricks/neighbours.h"
 
 namespace sprung {
 namespace {
 
 constexpr double kStrongFill = 0.5;
 
-/// The bricks that share a face with each brick; -1: none there.
 using Neighbours = std::array<int, 6>;
-
-Neighbours face_neighbours(const BrickGrid& grid, const CellIndex& index, std::size_t brick) {
-  Neighbours neighbours{};
-  for (int side = 0; side < 6; ++side) {
-    Eigen::Vector3i cell = grid.cells[brick];
-    cell[side / 2] += side % 2 == 0 ? -1 : 1;
-    int other = index.at(cell);
-    while (other >= 0 && !shares_face(grid, brick, static_cast<std::size_t>(other), side)) {
-      ++other;
-      if (other == grid.brick_count() || grid.cells[static_cast<std::size_t>(other)] != cell) other = -1;
-    }
-    neighbours[static_cast<std::size_t>(side)] = other;
-  }
-  return neighbours;
-}
 
 /// The fullest neighbour, or -1 where none is strong enough.
 int strongest(const BrickGrid& grid, const Neighbours& neighbours) {

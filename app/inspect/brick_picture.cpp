@@ -1,0 +1,81 @@
+#include "app/inspect/brick_picture.h"
+
+#include <algorithm>
+
+#include "app/report/brick_skin.h"
+#include "render/renderer.h"
+
+namespace sprung {
+namespace {
+
+constexpr int kSide = 900;        // pixels of each half
+constexpr double kLine = 0.0011;  // half the width of the lines between bricks over the size of what is seen
+constexpr double kHalfFull = 0.5;
+
+const Eigen::Vector3f kSound(0.87F, 0.84F, 0.77F);
+const Eigen::Vector3f kPartlyFull(0.76F, 0.73F, 0.67F);
+const Eigen::Vector3f kThin(0.93F, 0.45F, 0.10F);
+const Eigen::Vector3f kDivided(0.16F, 0.44F, 0.78F);
+
+std::vector<Eigen::Vector3f> brick_colors(const BrickGrid& grid, const std::vector<ThinPart>& thin_parts) {
+  std::vector<Eigen::Vector3f> colors;
+  for (const double fill : grid.fill) colors.push_back(fill < kHalfFull ? kPartlyFull : kSound);
+  for (const ThinPart& part : thin_parts) {
+    for (const int brick : part.bricks) colors[static_cast<std::size_t>(brick)] = kThin;
+  }
+  for (std::size_t i = 0; i + 1 < grid.cells.size(); ++i) {
+    if (grid.cells[i] == grid.cells[i + 1]) colors[i] = colors[i + 1] = kDivided;
+  }
+  return colors;
+}
+
+Image draw(const std::vector<Skin>& skins, const std::vector<Eigen::Vector3f>& colors, const Bounds& bounds,
+           const Camera& camera) {
+  Stage stage;
+  std::vector<SkinShape> shapes;
+  for (const Skin& skin : skins) {
+    stage.skins.push_back(&skin);
+    shapes.push_back({skin.positions.cast<float>(), skin.normals.cast<float>()});
+  }
+  stage.default_colors = colors;
+  stage.bounds = bounds;
+  stage.ground.height = bounds.low.y();
+  Renderer renderer(stage, {.width = kSide, .height = kSide, .samples = 4});
+  return renderer.draw(shapes, camera);
+}
+
+Image side_by_side(const Image& left, const Image& right) {
+  Image both(left.width + right.width, left.height);
+  const auto row_bytes = static_cast<std::ptrdiff_t>(left.width) * 3;
+  for (int row = 0; row < left.height; ++row) {
+    const auto to = both.pixels.begin() + 2 * row * row_bytes;
+    std::copy_n(left.pixels.begin() + row * row_bytes, row_bytes, to);
+    std::copy_n(right.pixels.begin() + row * row_bytes, row_bytes, to + row_bytes);
+  }
+  return both;
+}
+
+}  // namespace
+
+Image draw_bricks(const Preparation& prepared) {
+  const Production& production = prepared.production;
+  Bounds bounds;
+  for (const Actor& actor : production.world.actors) bounds.include(actor.body.positions);
+  const double line = kLine * (bounds.high - bounds.low).norm();
+  std::vector<Skin> skins;
+  std::vector<Skin> bricks;
+  std::vector<Eigen::Vector3f> colors;
+  for (std::size_t i = 0; i < production.world.actors.size(); ++i) {
+    const Body& body = production.world.actors[i].body;
+    const DrawnSkin& drawn = production.skins[i];
+    Skin& skin = skins.emplace_back(drawn.skin);
+    skin.positions = deform_points(body.grid, drawn.embedding, body.positions);
+    skin.normals = deform_normals(body.grid, drawn.embedding, drawn.skin.normals, body.positions);
+    colors.emplace_back(Eigen::Vector3f(drawn.color.red, drawn.color.green, drawn.color.blue) / 255.0F);
+    bricks.push_back(colored_bricks(body, body.positions, brick_colors(body.grid, prepared.thin_parts[i]), line));
+  }
+  const Camera camera = frame_bounds(bounds, 1, 30, 20);
+  return side_by_side(draw(skins, colors, bounds, camera), draw(bricks, colors, bounds, camera));
+}
+
+}  // namespace sprung

@@ -1,0 +1,109 @@
+#include "app/inspect/forecast.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "core/motion/careful_motion.h"
+#include "core/motion/implicit_motion.h"
+#include "render/renderer.h"
+
+namespace sprung {
+namespace {
+
+constexpr double kBytesOfProgram = 130e6;      // libraries, and what the driver compiles
+constexpr double kBytesAPixel = 120;           // colour, depth, light and copies of them, a sample
+constexpr double kBytesABrick = 900;           // grid, patches, state and tiles
+constexpr double kBytesABrickImplicit = 3200;  // the multigrid's matrices and vectors as well
+constexpr double kBytesASkinVertex = 400;      // at rest, embedding, contact and what the driver keeps
+constexpr double kSecondsToMeasure = 0.3;
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+bool is_implicit(const Scene& scene, const World& world) {
+  return !is_motion(scene) || plan_steps(world, scene).is_implicit();
+}
+
+/// Of explicit steps, all bodies together.
+double seconds_a_frame(World world, const StepPlan& plan, const Scene& scene) {
+  const auto start = std::chrono::steady_clock::now();
+  if (plan.is_implicit()) {
+    ImplicitMotion motion(world,
+                          {.scheme = plan.scheme == Solver::kBdf2 ? ImplicitScheme::kBdf2 : ImplicitScheme::kEuler});
+    motion.advance(plan.steps.dt, 1, 0);
+    return seconds_since(start) * static_cast<double>(plan.steps.count);
+  }
+  const Scheme scheme = plan.scheme == Solver::kVerlet ? Scheme::kVerlet : Scheme::kSymplecticEuler;
+  double bricks = 0;
+  for (const Actor& actor : world.actors) bricks += actor.body.grid.brick_count();
+  const double dt = stable_step(world);
+  double brick_steps = 0;
+  for (long steps = 1; seconds_since(start) < kSecondsToMeasure && static_cast<double>(steps) * dt < 1 / scene.fps;
+       steps *= 2) {
+    advance(world, scheme, dt, steps, 0);
+    brick_steps += bricks * static_cast<double>(steps);
+  }
+  return seconds_since(start) * plan.brick_steps / std::max(brick_steps, 1.0);
+}
+
+double seconds_a_picture(const Production& production, const Scene& scene) {
+  Stage stage;
+  std::vector<SkinShape> shapes;
+  for (const DrawnSkin& drawn : production.skins) {
+    stage.skins.push_back(&drawn.skin);
+    stage.default_colors.emplace_back(Eigen::Vector3f::Constant(0.7F));
+    stage.bounds.include(drawn.skin.positions);
+    shapes.push_back({drawn.skin.positions.cast<float>(), drawn.skin.normals.cast<float>()});
+  }
+  stage.has_ground = production.world.ground.has_value();
+  stage.ground.height = stage.bounds.low.y();
+  const auto [width, height] = scene.render.resolution;
+  Renderer renderer(stage, {.width = width, .height = height, .samples = scene.render.samples});
+  const Camera camera = frame_bounds(stage.bounds, static_cast<double>(width) / height);
+  static_cast<void>(renderer.draw(shapes, camera));  // the first one waits for the driver's compiler
+  const auto start = std::chrono::steady_clock::now();
+  static_cast<void>(renderer.draw(shapes, camera));
+  return seconds_since(start);
+}
+
+}  // namespace
+
+double memory_forecast(const Production& production, const Scene& scene) {
+  const double bytes_a_brick = is_implicit(scene, production.world) ? kBytesABrickImplicit : kBytesABrick;
+  double bytes = kBytesOfProgram;
+  double nodes = 0;
+  for (std::size_t i = 0; i < production.world.actors.size(); ++i) {
+    bytes += bytes_a_brick * production.world.actors[i].body.grid.brick_count();
+    bytes += kBytesASkinVertex * static_cast<double>(production.skins[i].skin.positions.rows());
+    nodes += production.world.actors[i].body.node_count();
+  }
+  const auto [width, height] = scene.render.resolution;
+  return bytes + 3 * sizeof(float) * nodes * frame_count(scene) + kBytesAPixel * static_cast<double>(width) * height;
+}
+
+std::string warning_of_memory(double bytes) {
+  const double present = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  if (bytes < present) return "";
+  return fmt::format(
+      "needs about {:.3g} GB of memory, of which this machine has {:.3g} GB; larger bricks or a shorter "
+      "--duration need less",
+      bytes / 1e9, present / 1e9);
+}
+
+Forecast make_forecast(const Production& production, const Scene& scene) {
+  Forecast forecast;
+  forecast.memory = memory_forecast(production, scene);
+  forecast.frames = frame_count(scene);
+  if (is_motion(scene)) {
+    forecast.plan = plan_steps(production.world, scene);
+    forecast.seconds_simulating = seconds_a_frame(production.world, *forecast.plan, scene);
+  }
+  forecast.seconds_drawing = seconds_a_picture(production, scene);
+  return forecast;
+}
+
+}  // namespace sprung

@@ -1,0 +1,106 @@
+#include "core/bricks/thin_parts.h"
+
+#include <algorithm>
+
+#include "core/bricks/embedding.h"
+#include "core/disjoint_sets.h"
+
+namespace sprung {
+namespace {
+
+constexpr double kPartShare = 0.1;  // of a part's samples are thinner than it is said to be
+constexpr int kFewestBricks = 4;    // in a part
+constexpr double kRounding = 1e-6;
+
+using Lists = std::vector<std::vector<int>>;
+
+/// The samples in each brick.
+Lists samples_by_brick(const BrickGrid& grid, const std::vector<WallSample>& samples) {
+  Points places(static_cast<Eigen::Index>(samples.size()), 3);
+  Points normals(places.rows(), 3);
+  for (Eigen::Index i = 0; i < places.rows(); ++i) {
+    places.row(i) = samples[static_cast<std::size_t>(i)].place;
+    normals.row(i) = samples[static_cast<std::size_t>(i)].outward;
+  }
+  const Embedding embedding = embed(grid, places, normals);
+  Lists lists(grid.cells.size());
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    lists[static_cast<std::size_t>(embedding.brick[i])].push_back(static_cast<int>(i));
+  }
+  return lists;
+}
+
+/// Of the samples of the bricks around each of a brick's nodes; infinite where there are none.
+std::vector<double> median_thickness(const BrickGrid& grid, const std::vector<WallSample>& samples,
+                                     const Lists& in_brick) {
+  Lists at_node(grid.lattice.size());
+  for (std::size_t brick = 0; brick < grid.cells.size(); ++brick) {
+    for (const int node : grid.nodes[brick]) {
+      std::vector<int>& list = at_node[static_cast<std::size_t>(node)];
+      list.insert(list.end(), in_brick[brick].begin(), in_brick[brick].end());
+    }
+  }
+  std::vector<double> medians(grid.cells.size(), std::numeric_limits<double>::infinity());
+  std::vector<double> pool;
+  for (std::size_t brick = 0; brick < grid.cells.size(); ++brick) {
+    pool.clear();
+    for (const int node : grid.nodes[brick]) {
+      for (const int sample : at_node[static_cast<std::size_t>(node)]) {
+        pool.push_back(samples[static_cast<std::size_t>(sample)].thickness);
+      }
+    }
+    if (pool.empty()) continue;
+    const auto middle = pool.begin() + static_cast<std::ptrdiff_t>(pool.size() / 2);
+    std::nth_element(pool.begin(), middle, pool.end());
+    medians[brick] = *middle;
+  }
+  return medians;
+}
+
+ThinPart measured(std::vector<int> bricks, const std::vector<WallSample>& samples, const Lists& in_brick) {
+  ThinPart part{.bricks = std::move(bricks)};
+  std::vector<WallSample> own;
+  for (const int brick : part.bricks) {
+    for (const int sample : in_brick[static_cast<std::size_t>(brick)]) {
+      own.push_back(samples[static_cast<std::size_t>(sample)]);
+    }
+  }
+  if (own.empty()) return part;
+  part.thickness = thickness_quantile(own, kPartShare);
+  part.place = std::find_if(own.begin(), own.end(), [&](const WallSample& sample) {
+                 return sample.thickness == part.thickness;
+               })->place;
+  return part;
+}
+
+}  // namespace
+
+std::vector<ThinPart> find_thin_parts(const BrickGrid& grid, const std::vector<WallSample>& samples) {
+  const Lists in_brick = samples_by_brick(grid, samples);
+  const std::vector<double> medians = median_thickness(grid, samples, in_brick);
+  const auto is_thin = [&](std::size_t brick) { return medians[brick] < (1 - kRounding) * grid.brick_size; };
+  DisjointSets sets(grid.lattice.size());
+  for (std::size_t brick = 0; brick < grid.cells.size(); ++brick) {
+    for (const int node : grid.nodes[brick]) {
+      if (is_thin(brick)) sets.merge(grid.nodes[brick][0], node);
+    }
+  }
+  Lists groups(grid.lattice.size());
+  for (std::size_t brick = 0; brick < grid.cells.size(); ++brick) {
+    if (is_thin(brick)) {
+      groups[static_cast<std::size_t>(sets.find(grid.nodes[brick][0]))].push_back(static_cast<int>(brick));
+    }
+  }
+  const auto least = static_cast<std::size_t>(std::min(kFewestBricks, grid.brick_count()));
+  std::vector<ThinPart> parts;
+  for (std::vector<int>& group : groups) {
+    if (group.size() < least) continue;
+    parts.push_back(measured(std::move(group), samples, in_brick));
+  }
+  std::erase_if(parts, [](const ThinPart& part) { return part.thickness == 0; });
+  std::stable_sort(parts.begin(), parts.end(),
+                   [](const ThinPart& a, const ThinPart& b) { return a.thickness < b.thickness; });
+  return parts;
+}
+
+}  // namespace sprung

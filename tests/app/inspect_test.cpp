@@ -1,0 +1,133 @@
+#include <gtest/gtest.h>
+
+#include <regex>
+
+#include "render/png.h"
+#include "tests/support/meshes.h"
+#include "tests/support/run_program.h"
+
+namespace sprung {
+namespace {
+
+/// The number after the last of the keys, each looked for behind the one before.
+double number_at(const std::string& json, const std::vector<std::string>& keys) {
+  std::size_t at = 0;
+  for (const std::string& key : keys) {
+    at = json.find("\"" + key + "\":", at);
+    if (at == std::string::npos) ADD_FAILURE() << "no " << key << " in " << json;
+    if (at == std::string::npos) return std::nan("");
+    at += key.size() + 3;
+  }
+  return std::stod(json.substr(at));
+}
+
+class Inspect : public testing::Test {
+ protected:
+  [[nodiscard]] ProgramRun run(const std::string& words) const { return run_program(folder_, "inspect " + words); }
+
+  TempFolder folder_;
+  std::filesystem::path cube_ = folder_.write("cube.obj", kCubeObj);
+};
+
+TEST_F(Inspect, SaysWhatAMeshIs) {
+  const ProgramRun made = run("cube.obj --bricks 6 --density 1000 --size 10cm --picture cube.png");
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  for (const char* part : {"8 vertices, 12 triangles, 1 part, 1 solid, closed", "216 of ", "343 nodes",
+                           "1 connected piece", "1 kg", "stable step", "forecast"}) {
+    EXPECT_NE(made.out.find(part), std::string::npos) << part << " in " << made.out;
+  }
+  EXPECT_EQ(read_png(folder_.path() / "cube.png").width, 1800);
+  EXPECT_EQ(made.out.find("warning"), std::string::npos);
+  EXPECT_EQ(run("cube.obj --bricks 6 --picture cube.png").exit_code, 2);
+}
+
+TEST_F(Inspect, TheSameAsJson) {
+  const ProgramRun made = run("cube.obj --bricks 6 --size 10cm --density 1000 --json");
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  const std::string& json = made.out;
+  EXPECT_EQ(number_at(json, {"mesh", "vertices"}), 8);
+  EXPECT_EQ(number_at(json, {"mesh", "triangles"}), 12);
+  EXPECT_EQ(number_at(json, {"mesh", "solids"}), 1);
+  EXPECT_NE(json.find("\"closed\": true"), std::string::npos);
+  EXPECT_NE(json.find("\"repairs\": []"), std::string::npos);
+  EXPECT_NEAR(number_at(json, {"mesh", "volume"}), 1, 1e-12);
+  EXPECT_EQ(number_at(json, {"bricks", "count"}), 216);
+  EXPECT_EQ(number_at(json, {"bricks", "nodes"}), 343);
+  EXPECT_EQ(number_at(json, {"bricks", "solids"}), 1);
+  EXPECT_NEAR(number_at(json, {"bricks", "size"}), 0.1 / 6, 1e-12);
+  EXPECT_NEAR(number_at(json, {"bricks", "volume"}), 1, 1e-9);
+  EXPECT_NEAR(number_at(json, {"bricks", "mass"}), 1, 1e-9);
+  EXPECT_GT(number_at(json, {"stable_step"}), 0);
+  EXPECT_GT(number_at(json, {"forecast", "memory_bytes"}), 1e7);
+  EXPECT_GT(number_at(json, {"forecast", "seconds_per_frame"}), 0);
+  EXPECT_NE(json.find("\"warnings\": []"), std::string::npos);
+}
+
+TEST_F(Inspect, WarnsAsAnimateDoesAndBothOnce) {
+  // A plate of a quarter of a brick.
+  std::string text = kCubeObj;
+  text = std::regex_replace(text, std::regex("(v \\S+ \\S+) 1(\\s)"), "$1 0.02$2");
+  static_cast<void>(folder_.write("plate.obj", text));
+  const ProgramRun seen = run("plate.obj --bricks 12 --json");
+  ASSERT_EQ(seen.exit_code, 0) << seen.err;
+  EXPECT_NE(seen.out.find("plate.obj: 1 part is thinner than a brick"), std::string::npos) << seen.out;
+  const ProgramRun made = run_program(
+      folder_, "animate plate.obj --bricks 12 --duration 0.05 --fps 20 --resolution 160x120 --samples 1 -o out");
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  const auto at = made.err.find("is thinner than a brick");
+  EXPECT_NE(at, std::string::npos) << made.err;
+  EXPECT_EQ(made.err.find("is thinner than a brick", at + 1), std::string::npos) << made.err;
+}
+
+TEST_F(Inspect, BricksByThemselves) {
+  const ProgramRun made = run("cube.obj --bricks auto --json");
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_NE(made.err.find("bricks: 12 of "), std::string::npos) << made.err;
+  EXPECT_EQ(number_at(made.out, {"bricks", "count"}), 12 * 12 * 12);
+  static_cast<void>(folder_.write("auto.toml", "[[body]]\nmesh = \"cube.obj\"\nbricks = \"auto\"\n"));
+  EXPECT_EQ(number_at(run("auto.toml --json").out, {"bricks", "count"}), 12 * 12 * 12);
+  EXPECT_NE(run("auto.toml --print-scene").out.find("bricks = \"auto\""), std::string::npos);
+  static_cast<void>(folder_.write("box.toml", "[[body]]\nbox = [1, 1, 1]\nbricks = \"auto\"\n"));
+  EXPECT_EQ(run("box.toml").exit_code, 3);
+  EXPECT_EQ(run("cube.obj --bricks many").exit_code, 2);
+}
+
+TEST_F(Inspect, BadInputIsOneLineAndThree) {
+  const ProgramRun ended = run("missing.obj");
+  EXPECT_EQ(ended.exit_code, 3);
+  EXPECT_EQ(ended.out, "");
+  EXPECT_NE(ended.err.find("sprung: error: "), std::string::npos) << ended.err;
+}
+
+struct TableRow {
+  const char* file;
+  double vertices;
+  double triangles;
+  double solids;
+  double volume;
+};
+
+class InspectShared : public Inspect, public testing::WithParamInterface<TableRow> {};
+
+TEST_P(InspectShared, AgreesWithTheTable) {
+  const TableRow& row = GetParam();
+  const auto file = test::shared_mesh(row.file);
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "the shared meshes are not here";
+  const ProgramRun made = run(file.string() + " --bricks 48 --resolution 160x120 --json");
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_EQ(number_at(made.out, {"mesh", "vertices"}), row.vertices);
+  EXPECT_EQ(number_at(made.out, {"mesh", "triangles"}), row.triangles);
+  EXPECT_EQ(number_at(made.out, {"mesh", "solids"}), row.solids);
+  EXPECT_EQ(number_at(made.out, {"bricks", "solids"}), row.solids);
+  EXPECT_NEAR(number_at(made.out, {"mesh", "volume"}) / row.volume, 1, 1e-3);
+  EXPECT_NEAR(number_at(made.out, {"bricks", "volume"}) / row.volume, 1, 5e-3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Shared, InspectShared,
+                         testing::Values(TableRow{"eight.off", 315, 634, 1, 0.04017},
+                                         TableRow{"scorpion_low_resolution.obj", 6315, 12626, 1, 12.18},
+                                         TableRow{"cube_gears.3mf", 12852, 25692, 17, 1.124e5},
+                                         TableRow{"plate_holes.STL", 618, 1252, 1, 7.674e5}));
+
+}  // namespace
+}  // namespace sprung
