@@ -39,6 +39,15 @@ void for_each_near(const Vec3& local, double reach, const Visit& visit) {
   }
 }
 
+/// The c-th cell along a run.
+Eigen::Vector3i cell_on(const InsideRun& run, int axis, int c) {
+  Eigen::Vector3i cell;
+  cell[axis] = c;
+  cell[(axis + 1) % 3] = run.u / kSamplesAlong;
+  cell[(axis + 2) % 3] = run.v / kSamplesAlong;
+  return cell;
+}
+
 /// Inside samples that hang together along the lines.
 void join_along_lines(const CutCell& cell, DisjointSets& sets) {
   for (int sample = 0; sample < kSamples; ++sample) {
@@ -122,11 +131,7 @@ void SolidSamples::mark_cut(const std::vector<InsideRun>& runs, int axis) {
   for (const InsideRun& run : runs) {
     for (const double end : {run.from, run.to}) {
       if (end == std::floor(end)) continue;
-      Eigen::Vector3i cell;
-      cell[axis] = static_cast<int>(std::floor(end));
-      cell[(axis + 1) % 3] = run.u / kSamplesAlong;
-      cell[(axis + 2) % 3] = run.v / kSamplesAlong;
-      const int brick = brick_at(cell);
+      const int brick = brick_at(cell_on(run, axis, static_cast<int>(std::floor(end))));
       if (brick < 0 || cut_cell_of_[static_cast<std::size_t>(brick)] >= 0) continue;
       cut_cell_of_[static_cast<std::size_t>(brick)] = static_cast<int>(cut_cells_.size());
       cut_cells_.push_back({.brick = brick, .spots = {}, .piece = {}, .weights = {}});
@@ -135,12 +140,6 @@ void SolidSamples::mark_cut(const std::vector<InsideRun>& runs, int axis) {
 }
 
 void SolidSamples::add_run(const InsideRun& run, int axis) {
-  const int axis_u = (axis + 1) % 3;
-  const int axis_v = (axis + 2) % 3;
-  const auto first_sample = static_cast<int>(std::ceil(run.from * kSamplesAlong - 0.5));
-  const auto last_sample = static_cast<int>(std::floor(run.to * kSamplesAlong - 0.5));
-  const int across = run.u % kSamplesAlong * kStride[static_cast<std::size_t>(axis_u)] +
-                     run.v % kSamplesAlong * kStride[static_cast<std::size_t>(axis_v)];
   SpotLink link{.low_cell = -1,
                 .low_sample = 0,
                 .low_brick = -1,
@@ -150,46 +149,55 @@ void SolidSamples::add_run(const InsideRun& run, int axis) {
                 .axis = axis};
   const int last_cell = std::min(static_cast<int>(std::ceil(run.to)), counts_[axis]) - 1;
   for (int c = static_cast<int>(run.from); c <= last_cell; ++c) {
-    Eigen::Vector3i place;
-    place[axis] = c;
-    place[axis_u] = run.u / kSamplesAlong;
-    place[axis_v] = run.v / kSamplesAlong;
-    link.high_brick = brick_at(place);
+    link.high_brick = brick_at(cell_on(run, axis, c));
     link.high_cell = link.high_brick < 0 ? -1 : cut_cell_of_[static_cast<std::size_t>(link.high_brick)];
-    link.high_sample = 0;
-    int leaves = 0;
-    bool is_spot = false;
+    Stretch stretch{0, 0};
     if (link.high_cell >= 0) {
-      CutCell& cell = cut_cells_[static_cast<std::size_t>(link.high_cell)];
-      const int begin = std::max(first_sample, c * kSamplesAlong);
-      const int end = std::min(last_sample, c * kSamplesAlong + kSamplesAlong - 1);
-      for (int s = begin; s <= end; ++s) {
-        const auto sample =
-            static_cast<std::size_t>(across + (s - c * kSamplesAlong) * kStride[static_cast<std::size_t>(axis)]);
-        cell.lines[sample] |= static_cast<std::uint8_t>(1U << axis | (s < last_sample ? 8U << axis : 0U));
-        cell.below[sample] |= static_cast<std::uint8_t>(s > first_sample ? 1U << axis : 0U);
-      }
-      link.high_sample = across + (begin - c * kSamplesAlong) * kStride[static_cast<std::size_t>(axis)];
-      leaves = across + (end - c * kSamplesAlong) * kStride[static_cast<std::size_t>(axis)];
-      const double from = std::max(run.from, static_cast<double>(c));
-      const double to = std::min(run.to, c + 1.0);
-      if (begin > end && to - from < kShortest) link.high_brick = -1;
-      if (begin > end && to - from >= kShortest) {
-        Vec3 middle;
-        middle[axis] = (from + to) / 2;
-        middle[axis_u] = (run.u + 0.5) * kPitch;
-        middle[axis_v] = (run.v + 0.5) * kPitch;
-        is_spot = true;
-        leaves = link.high_sample = kSamples + static_cast<int>(cell.spots.size());
-        cell.spots.push_back({middle, static_cast<float>((to - from) / kPitch / 3)});
-      }
+      stretch = add_stretch(run, axis, c, cut_cells_[static_cast<std::size_t>(link.high_cell)]);
+      if (stretch.first < 0) link.high_brick = -1;
     }
+    link.high_sample = stretch.first;
     const bool low_is_spot = link.low_cell >= 0 && link.low_sample >= kSamples;
-    if (link.low_brick >= 0 && link.high_brick >= 0 && (is_spot || low_is_spot)) spot_links_.push_back(link);
+    if (link.low_brick >= 0 && link.high_brick >= 0 && (stretch.first >= kSamples || low_is_spot)) {
+      spot_links_.push_back(link);
+    }
     link.low_brick = link.high_brick;
     link.low_cell = link.high_cell;
-    link.low_sample = leaves;
+    link.low_sample = stretch.last;
   }
+}
+
+/// The part of a run in the c-th cell along it.
+SolidSamples::Stretch SolidSamples::add_stretch(const InsideRun& run, int axis, int c, CutCell& cell) {
+  const auto first = static_cast<int>(std::ceil(run.from * kSamplesAlong - 0.5));
+  const auto last = static_cast<int>(std::floor(run.to * kSamplesAlong - 0.5));
+  const int begin = std::max(first, c * kSamplesAlong);
+  const int end = std::min(last, c * kSamplesAlong + kSamplesAlong - 1);
+  if (begin > end) return add_spot(run, axis, c, cell);
+  const int across = run.u % kSamplesAlong * kStride[static_cast<std::size_t>((axis + 1) % 3)] +
+                     run.v % kSamplesAlong * kStride[static_cast<std::size_t>((axis + 2) % 3)];
+  const auto sample_at = [&](int s) {
+    return across + (s - c * kSamplesAlong) * kStride[static_cast<std::size_t>(axis)];
+  };
+  for (int s = begin; s <= end; ++s) {
+    const auto sample = static_cast<std::size_t>(sample_at(s));
+    cell.lines[sample] |= static_cast<std::uint8_t>(1U << axis | (s < last ? 8U << axis : 0U));
+    cell.below[sample] |= static_cast<std::uint8_t>(s > first ? 1U << axis : 0U);
+  }
+  return {sample_at(begin), sample_at(end)};
+}
+
+SolidSamples::Stretch SolidSamples::add_spot(const InsideRun& run, int axis, int c, CutCell& cell) {
+  const double from = std::max(run.from, static_cast<double>(c));
+  const double to = std::min(run.to, c + 1.0);
+  if (to - from < kShortest) return {-1, -1};
+  Vec3 middle;
+  middle[axis] = (from + to) / 2;
+  middle[(axis + 1) % 3] = (run.u + 0.5) * kPitch;
+  middle[(axis + 2) % 3] = (run.v + 0.5) * kPitch;
+  const int spot = kSamples + static_cast<int>(cell.spots.size());
+  cell.spots.push_back({middle, static_cast<float>((to - from) / kPitch / 3)});
+  return {spot, spot};
 }
 
 void SolidSamples::find_pieces(CutCell& cell) const {

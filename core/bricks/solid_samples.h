@@ -57,7 +57,14 @@ class SolidSamples {
 
  private:
   void mark_cut(const std::vector<InsideRun>& runs, int axis);
+  /// The first and the last of a run's samples in a cell; its only spot; -1: too short for one.
+  struct Stretch {
+    int first;
+    int last;
+  };
   void add_run(const InsideRun& run, int axis);
+  static Stretch add_stretch(const InsideRun& run, int axis, int c, CutCell& cell);
+  static Stretch add_spot(const InsideRun& run, int axis, int c, CutCell& cell);
   void find_pieces(CutCell& cell) const;
   void join_spots(const CutCell& cell, DisjointSets& sets) const;
   void join_diagonally(const CutCell& cell, DisjointSets& sets) const;

@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kMostCells = 64;  // along the longest side
 constexpr double kFewestCells = 4;
+constexpr double kInside = 1e-7;  // cells: how far under the surface a ray begins, clear of the triangles around it
 
 /// Twice the area, as a vector that looks outward.
 Vec3 area_vector(const Solid& solid, int t) {
@@ -64,7 +65,7 @@ std::vector<WallSample> sample_thickness(const Solid& solid, int count) {
     const auto t = static_cast<int>(found - areas.begin());
     const Vec3 outward = area_vector(solid, t).stableNormalized();
     const Vec3 place = point_in(solid, t, i);
-    const double way = triangles.free_way((place - low) / cell, -outward, t);
+    const double way = kInside + triangles.free_way((place - low) / cell - kInside * outward, -outward);
     if (std::isfinite(way)) samples.push_back({place, outward, way * cell});
   }
   return samples;

@@ -16,9 +16,8 @@ class TriangleGrid {
   /// Whether any triangle lies between the two points, which are at most a few cells apart.
   [[nodiscard]] bool is_blocked(const Vec3& from, const Vec3& to) const;
 
-  /// How far a ray runs until it meets a triangle other than `without`, in lengths of `direction`; infinite where it
-  /// meets none.
-  [[nodiscard]] double free_way(const Vec3& from, const Vec3& direction, int without) const;
+  /// How far a ray runs until it meets a triangle, in lengths of `direction`; infinite where it meets none.
+  [[nodiscard]] double free_way(const Vec3& from, const Vec3& direction) const;
 
  private:
   [[nodiscard]] std::span<const int> triangles_of(const Eigen::Vector3i& cell) const;
