@@ -121,10 +121,6 @@ void apply_regions(const SceneBody& scene_body, const Vec3& extent, const Mat3& 
 /// The bricks' volume may differ from the mesh's by this share before it is worth a warning.
 constexpr double kVolumeError = 0.02;
 
-bool has_repeated_nodes(const BrickGrid& grid) {
-  return std::adjacent_find(grid.lattice.begin(), grid.lattice.end()) != grid.lattice.end();
-}
-
 double volume_error(const BrickGrid& grid, const Solid& solid) { return std::abs(grid.volume() / solid.volume - 1); }
 
 /// Half of the brick size, or a quarter, ... : the first that holds the solid's volume; none down to a 64th.
@@ -220,12 +216,7 @@ class BodyBuilder {
   BrickGrid make_grid(const Solid& solid) {
     if (loaded_.grid) return *loaded_.grid;
     BrickGrid grid = voxelize(solid, loaded_.brick_size);
-    BrickGrid divided = grid;
-    const PieceReport pieces = split_pieces(solid, divided);
-    if (!has_repeated_nodes(divided)) {  // those the force kernel does not take yet
-      grid = std::move(divided);
-      add(pieces);
-    }
+    add(split_pieces(solid, grid));
     slivers_ += absorb_slivers(grid);
     note_volume(grid, solid);
     return grid;
