@@ -47,11 +47,12 @@ class EarClipper {
   }
   [[nodiscard]] std::size_t size() const { return left_.size(); }
 
-  /// Where no corner is an ear (a polygon that crosses itself), the roundest corner goes, so that all are used up.
+  /// Where no corner is an ear (a polygon that crosses itself), the roundest corner goes, so that all are used up. One
+  /// of thousands of corners that crosses itself all over would take hours: it ends as a fan.
   std::array<std::size_t, 3> cut() {
-    std::size_t best = 0;
+    std::size_t best = left_.size() - 1;
     double best_area = -1e300;
-    for (std::size_t i = 0; i < left_.size(); ++i) {
+    for (std::size_t i = 0; i < left_.size() && tests_ < kMostTests; ++i) {
       const auto [a, b, c] = corner(i);
       const double area = cross(flat_[a], flat_[b], flat_[c]);
       if (area > 0 && is_empty(i)) {
@@ -74,9 +75,10 @@ class EarClipper {
     return {left_[(i + n - 1) % n], left_[i], left_[(i + 1) % n]};
   }
 
-  [[nodiscard]] bool is_empty(std::size_t i) const {
+  [[nodiscard]] bool is_empty(std::size_t i) {
     const auto [a, b, c] = corner(i);
     for (const std::size_t p : left_) {
+      ++tests_;
       if (p == a || p == b || p == c) continue;
       if (cross(flat_[a], flat_[b], flat_[p]) >= 0 && cross(flat_[b], flat_[c], flat_[p]) >= 0 &&
           cross(flat_[c], flat_[a], flat_[p]) >= 0) {
@@ -86,8 +88,11 @@ class EarClipper {
     return true;
   }
 
+  static constexpr long kMostTests = 100'000'000;  // half a second
+
   const std::vector<Plane2>& flat_;
   std::vector<std::size_t> left_;
+  long tests_ = 0;
 };
 
 }  // namespace

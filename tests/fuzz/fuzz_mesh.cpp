@@ -1,0 +1,56 @@
+#include <cstdint>
+#include <cstdlib>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "core/error.h"
+#include "core/mesh/read/file_checks.h"
+#include "core/mesh/read/mesh_bytes.h"
+#include "core/mesh/read/obj_reader.h"
+#include "core/mesh/read/off_reader.h"
+#include "core/mesh/read/ply_reader.h"
+#include "core/mesh/read/stl_reader.h"
+
+namespace sprung {
+namespace {
+
+/// Reading may end by an Error of the input; a mesh it gives must be whole.
+template <class Read>
+void expect_mesh_or_error(const Read& read) {
+  try {
+    const SurfaceMesh mesh = read();
+    if (!find_fault(mesh).empty()) std::abort();
+  } catch (const Error& error) {
+    if (std::string_view(error.what()).find('\n') != std::string_view::npos) std::abort();
+  }
+}
+
+template <class Check>
+void expect_error_or_none(const Check& check) {
+  try {
+    check();
+  } catch (const Error&) {
+  }
+}
+
+}  // namespace
+}  // namespace sprung
+
+/// The same bytes to every reader and check that runs in this program's own code; each tells its format by the first
+/// words.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace sprung;
+  const std::string name = "fuzz";
+  const std::string_view bytes(reinterpret_cast<const char*>(data), size);
+  const FindText library = [&](const std::string&) { return std::optional<std::string>(bytes); };
+  expect_mesh_or_error([&] { return read_obj(bytes, name, library); });
+  expect_mesh_or_error([&] { return read_off(bytes, name); });
+  expect_mesh_or_error([&] { return read_ply(bytes, name); });
+  expect_mesh_or_error([&] { return read_stl(bytes, name); });
+  expect_error_or_none([&] { static_cast<void>(mesh_from_bytes(std::as_bytes(std::span(bytes)))); });
+  expect_error_or_none([&] { check_glb(bytes, name); });
+  expect_error_or_none([&] { check_gltf(bytes, name); });
+  expect_error_or_none([&] { check_3mf(bytes, name); });
+  return 0;
+}

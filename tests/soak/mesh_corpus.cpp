@@ -1,0 +1,110 @@
+#include "tests/soak/mesh_corpus.h"
+
+#include <assimp/scene.h>
+#include <fmt/format.h>
+
+#include <assimp/Exporter.hpp>
+#include <fstream>
+#include <stdexcept>
+#include <utility>
+
+#include "tests/support/meshes.h"
+
+namespace sprung::test {
+namespace {
+
+aiVector3D vector_of(const Eigen::Ref<const Eigen::RowVector3d>& v) {
+  return {static_cast<ai_real>(v[0]), static_cast<ai_real>(v[1]), static_cast<ai_real>(v[2])};
+}
+
+aiMesh* assimp_mesh(const SurfaceMesh& mesh) {
+  auto* made = new aiMesh;
+  made->mPrimitiveTypes = aiPrimitiveType_TRIANGLE;
+  const auto vertices = static_cast<std::size_t>(mesh.positions.rows());
+  made->mNumVertices = static_cast<unsigned>(vertices);
+  made->mVertices = new aiVector3D[vertices];
+  made->mNormals = new aiVector3D[vertices];
+  made->mTextureCoords[0] = new aiVector3D[vertices];
+  made->mNumUVComponents[0] = 2;
+  made->mColors[0] = new aiColor4D[vertices];
+  for (std::size_t v = 0; v < vertices; ++v) {
+    const Eigen::RowVector3d position = mesh.positions.row(static_cast<Eigen::Index>(v));
+    made->mVertices[v] = vector_of(position);
+    made->mNormals[v] = vector_of(position.stableNormalized());
+    made->mTextureCoords[0][v] = aiVector3D(made->mVertices[v].x, made->mVertices[v].y, 0);
+    made->mColors[0][v] = aiColor4D(1, 0.5F, 0.25F, 1);
+  }
+  made->mNumFaces = static_cast<unsigned>(mesh.triangles.rows());
+  made->mFaces = new aiFace[made->mNumFaces];
+  for (unsigned f = 0; f < made->mNumFaces; ++f) {
+    made->mFaces[f].mNumIndices = 3;
+    made->mFaces[f].mIndices = new unsigned[3];
+    for (unsigned k = 0; k < 3; ++k) {
+      made->mFaces[f].mIndices[k] =
+          static_cast<unsigned>(mesh.triangles(static_cast<Eigen::Index>(f), static_cast<Eigen::Index>(k)));
+    }
+  }
+  return made;
+}
+
+aiMaterial* red_material() {
+  auto* material = new aiMaterial;
+  const aiString name("red");
+  const aiString texture("skin.png");
+  const aiColor3D color(0.8F, 0.1F, 0.1F);
+  material->AddProperty(&name, AI_MATKEY_NAME);
+  material->AddProperty(&color, 1, AI_MATKEY_COLOR_DIFFUSE);
+  material->AddProperty(&texture, AI_MATKEY_TEXTURE_DIFFUSE(0));
+  return material;
+}
+
+/// Two instances of each mesh, one moved. The scene owns all that it points to.
+void fill_scene(const std::vector<SurfaceMesh>& meshes, aiScene& scene) {
+  scene.mNumMaterials = 1;
+  scene.mMaterials = new aiMaterial* [1] { red_material() };
+  scene.mNumMeshes = static_cast<unsigned>(meshes.size());
+  scene.mMeshes = new aiMesh*[scene.mNumMeshes];
+  scene.mRootNode = new aiNode("root");
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+    scene.mMeshes[m] = assimp_mesh(meshes[m]);
+    for (const float shift : {0.0F, 5.0F}) {
+      auto* node = new aiNode(fmt::format("part{}_{:.0f}", m, shift));
+      node->mTransformation.d4 = 1;
+      node->mTransformation.a4 = shift;
+      node->mNumMeshes = 1;
+      node->mMeshes = new unsigned[1]{m};
+      scene.mRootNode->addChildren(1, &node);
+    }
+  }
+}
+
+void write_off(const SurfaceMesh& mesh, const std::filesystem::path& file) {
+  std::ofstream text(file);
+  text << "OFF\n" << mesh.positions.rows() << ' ' << mesh.triangles.rows() << " 0\n" << mesh.positions << '\n';
+  for (const auto& triangle : mesh.triangles.rowwise()) text << "3 " << triangle << '\n';
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> write_mesh_corpus(const std::filesystem::path& folder) {
+  const std::vector<SurfaceMesh> meshes{box_mesh(-Vec3::Ones(), Vec3::Ones()), torus_mesh(1, 0.4, 8, 5)};
+  aiScene scene;
+  fill_scene(meshes, scene);
+  std::vector<std::filesystem::path> files{folder / "shapes.off"};
+  write_off(meshes.at(1), files.back());
+  Assimp::Exporter exporter;
+  const std::vector<std::pair<const char*, const char*>> formats{
+      {"obj", "shapes.obj"},  {"ply", "text.ply"},    {"plyb", "binary.ply"},   {"stl", "text.stl"},
+      {"stlb", "binary.stl"}, {"glb2", "shapes.glb"}, {"gltf2", "shapes.gltf"}, {"collada", "shapes.dae"},
+      {"fbxa", "shapes.fbx"}, {"3ds", "shapes.3ds"},  {"x", "shapes.x"},        {"x3d", "shapes.x3d"},
+      {"3mf", "shapes.3mf"}};
+  for (const auto& [format, name] : formats) {
+    files.push_back(folder / name);
+    if (exporter.Export(&scene, format, files.back().string()) != aiReturn_SUCCESS) {
+      throw std::runtime_error(fmt::format("cannot write {}: {}", name, exporter.GetErrorString()));
+    }
+  }
+  return files;
+}
+
+}  // namespace sprung::test
