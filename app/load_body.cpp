@@ -210,7 +210,6 @@ LoadedBody load_body(const SceneBody& body, const Console& console) {
   turn(rotation_matrix(body.brick_rotation), loaded);
   Solids found = find_solids(loaded.mesh, file, {.repair = body.repair, .thickness = body.thickness.value_or(0)});
   if (!body.box) report_repairs(found, console, loaded);
-  report_thickness(body, console, loaded);
   loaded.repairs = std::move(found.repairs);
   loaded.solids = std::move(found.solids);
   for (Solid& solid : loaded.solids) solid.volume = enclosed_volume(solid);
@@ -218,6 +217,7 @@ LoadedBody load_body(const SceneBody& body, const Console& console) {
   if (body.box) return loaded;
   loaded.walls = sample_thickness(loaded.solids, kWallSamples);
   if (body.bricks && body.bricks->is_auto()) choose_bricks(loaded, console);
+  report_thickness(body, console, loaded);
   return loaded;
 }
 

@@ -40,7 +40,7 @@ class ThinParts {
   explicit ThinParts(const LoadedBody& body) : body_(body) {}
 
   std::vector<ThinPart> find(const BrickGrid& grid, std::size_t solid) {
-    if (solid >= body_.walls.size()) return {};
+    if (solid >= body_.walls.size() || body_.solids[solid].thickness > 0) return {};  // of shells load_body() warns
     std::vector<ThinPart> parts = find_thin_parts(grid, body_.walls[solid]);
     count_ += static_cast<long>(parts.size());
     for (const ThinPart& part : parts) {

@@ -16,8 +16,28 @@ const Eigen::Vector3f kSound(0.87F, 0.84F, 0.77F);
 const Eigen::Vector3f kPartlyFull(0.76F, 0.73F, 0.67F);
 const Eigen::Vector3f kThin(0.93F, 0.45F, 0.10F);
 const Eigen::Vector3f kDivided(0.16F, 0.44F, 0.78F);
+const Eigen::Vector3f kMended(0.60F, 0.20F, 0.55F);
 
-std::vector<Eigen::Vector3f> brick_colors(const BrickGrid& grid, const std::vector<ThinPart>& thin_parts) {
+/// Points all over the triangles that close holes, n x 3.
+Points cap_points(const Solid& solid) {
+  constexpr int kAlong = 12;
+  std::vector<Vec3> places;
+  for (Eigen::Index t = 0; t < solid.triangles.rows(); ++t) {
+    if (solid.source[static_cast<std::size_t>(t)] >= 0) continue;
+    const Vec3 a = solid.points.row(solid.triangles(t, 0));
+    const Vec3 b = solid.points.row(solid.triangles(t, 1)).transpose() - a;
+    const Vec3 c = solid.points.row(solid.triangles(t, 2)).transpose() - a;
+    for (int i = 0; i <= kAlong; ++i) {
+      for (int j = 0; i + j <= kAlong; ++j) places.emplace_back(a + (i * b + j * c) / kAlong);
+    }
+  }
+  Points points(static_cast<Eigen::Index>(places.size()), 3);
+  for (Eigen::Index i = 0; i < points.rows(); ++i) points.row(i) = places[static_cast<std::size_t>(i)];
+  return points;
+}
+
+std::vector<Eigen::Vector3f> brick_colors(const BrickGrid& grid, const Solid& solid,
+                                          const std::vector<ThinPart>& thin_parts) {
   std::vector<Eigen::Vector3f> colors;
   for (const double fill : grid.fill) colors.push_back(fill < kHalfFull ? kPartlyFull : kSound);
   for (const ThinPart& part : thin_parts) {
@@ -26,6 +46,7 @@ std::vector<Eigen::Vector3f> brick_colors(const BrickGrid& grid, const std::vect
   for (std::size_t i = 0; i + 1 < grid.cells.size(); ++i) {
     if (grid.cells[i] == grid.cells[i + 1]) colors[i] = colors[i + 1] = kDivided;
   }
+  for (const int brick : embed(grid, cap_points(solid)).brick) colors[static_cast<std::size_t>(brick)] = kMended;
   return colors;
 }
 
@@ -65,6 +86,10 @@ Image draw_bricks(const Preparation& prepared) {
   std::vector<Skin> skins;
   std::vector<Skin> bricks;
   std::vector<Eigen::Vector3f> colors;
+  std::vector<const Solid*> solids;
+  for (const LoadedBody& body : prepared.bodies) {
+    for (const Solid& solid : body.solids) solids.push_back(&solid);
+  }
   for (std::size_t i = 0; i < production.world.actors.size(); ++i) {
     const Body& body = production.world.actors[i].body;
     const DrawnSkin& drawn = production.skins[i];
@@ -72,7 +97,8 @@ Image draw_bricks(const Preparation& prepared) {
     skin.positions = deform_points(body.grid, drawn.embedding, body.positions);
     skin.normals = deform_normals(body.grid, drawn.embedding, drawn.skin.normals, body.positions);
     colors.emplace_back(Eigen::Vector3f(drawn.color.red, drawn.color.green, drawn.color.blue) / 255.0F);
-    bricks.push_back(colored_bricks(body, body.positions, brick_colors(body.grid, prepared.thin_parts[i]), line));
+    bricks.push_back(
+        colored_bricks(body, body.positions, brick_colors(body.grid, *solids[i], prepared.thin_parts[i]), line));
   }
   const Camera camera = frame_bounds(bounds, 1, 30, 20);
   return side_by_side(draw(skins, colors, bounds, camera), draw(bricks, colors, bounds, camera));

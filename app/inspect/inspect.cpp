@@ -39,7 +39,8 @@ void run_inspect(const SceneOptions& options, const Console& console) {
     make_folder(options.picture.parent_path());
     write_png(draw_bricks(prepared), options.picture);
     console.note(
-        fmt::format("{}: orange: parts thinner than a brick; blue: bricks that share a cell; darker: less than "
+        fmt::format("{}: orange: parts thinner than a brick; blue: bricks that share a cell; purple: closed holes; "
+                    "darker: less than "
                     "half full",
                     options.picture.string()));
   });

@@ -33,12 +33,6 @@ bool is_closed(const Triangles& triangles, const std::vector<int>& place_of) {
   return true;
 }
 
-bool was_open(const std::vector<Repair>& repairs) {
-  return std::any_of(repairs.begin(), repairs.end(), [](const Repair& repair) {
-    return repair.kind == "hole_filled" || repair.kind == "stitched" || repair.kind == "thickened";
-  });
-}
-
 MeshFacts mesh_facts(const LoadedBody& body, double unit) {
   MeshFacts facts;
   const std::vector<int> place_of = weld_points(body.mesh.positions);
@@ -50,7 +44,7 @@ MeshFacts mesh_facts(const LoadedBody& body, double unit) {
   facts.triangles = body.mesh.triangles.rows();
   facts.parts = static_cast<long>(body.mesh.parts.size());
   facts.solids = static_cast<long>(body.solids.size());
-  facts.is_closed = is_closed(body.mesh.triangles, place_of) && !was_open(body.repairs);
+  facts.is_closed = is_closed(body.mesh.triangles, place_of);
   for (const Solid& solid : body.solids) facts.volume += solid.volume / (unit * unit * unit);
   std::vector<WallSample> all;
   for (const auto& walls : body.walls) all.insert(all.end(), walls.begin(), walls.end());

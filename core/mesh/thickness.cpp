@@ -66,7 +66,8 @@ std::vector<WallSample> sample_thickness(const Solid& solid, int count) {
     const Vec3 outward = area_vector(solid, t).stableNormalized();
     const Vec3 place = point_in(solid, t, i);
     const double way = kInside + triangles.free_way((place - low) / cell - kInside * outward, -outward);
-    if (std::isfinite(way)) samples.push_back({place, outward, way * cell});
+    const double thickness = solid.thickness > 0 ? solid.thickness : way * cell;
+    if (std::isfinite(thickness)) samples.push_back({place, outward, thickness});
   }
   return samples;
 }

@@ -13,7 +13,8 @@ struct WallSample {
 };
 
 /// `count` points spread evenly over the surface by area; those without a far wall (a surface that crosses itself) are
-/// left out. Units of the solid. Deterministic. Cost: like one pass over the triangles and a few hundred tests a point.
+/// left out; a shell has the thickness it was given. Units of the solid. Deterministic. Cost: like one pass over the
+/// triangles and a few hundred tests a point.
 [[nodiscard]] std::vector<WallSample> sample_thickness(const Solid& solid, int count);
 
 /// The same for all solids, each with points by its share of the surface; by solid.

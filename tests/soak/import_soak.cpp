@@ -45,6 +45,7 @@ std::string bytes_of(const fs::path& file) {
 
 std::vector<Sample> samples_in(const TempFolder& folder) {
   std::vector<fs::path> files = write_mesh_corpus(folder.path());
+  for (const fs::path& file : files) static_cast<void>(read_mesh(file));  // throws where one is no sound file at all
   if (fs::exists(shared_mesh(""))) {
     for (const auto& entry : fs::recursive_directory_iterator(shared_mesh(""))) {
       const std::string extension = entry.path().extension().string();

@@ -6,6 +6,7 @@
 #include <assimp/Exporter.hpp>
 #include <fstream>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include "tests/support/meshes.h"
@@ -47,21 +48,22 @@ aiMesh* assimp_mesh(const SurfaceMesh& mesh) {
   return made;
 }
 
-aiMaterial* red_material() {
+/// Without a texture for X3D, whose textures assimp writes so that it cannot read them.
+aiMaterial* red_material(bool has_texture) {
   auto* material = new aiMaterial;
   const aiString name("red");
   const aiString texture("skin.png");
   const aiColor3D color(0.8F, 0.1F, 0.1F);
   material->AddProperty(&name, AI_MATKEY_NAME);
   material->AddProperty(&color, 1, AI_MATKEY_COLOR_DIFFUSE);
-  material->AddProperty(&texture, AI_MATKEY_TEXTURE_DIFFUSE(0));
+  if (has_texture) material->AddProperty(&texture, AI_MATKEY_TEXTURE_DIFFUSE(0));
   return material;
 }
 
 /// Two instances of each mesh, one moved. The scene owns all that it points to.
-void fill_scene(const std::vector<SurfaceMesh>& meshes, aiScene& scene) {
+void fill_scene(const std::vector<SurfaceMesh>& meshes, bool has_texture, aiScene& scene) {
   scene.mNumMaterials = 1;
-  scene.mMaterials = new aiMaterial* [1] { red_material() };
+  scene.mMaterials = new aiMaterial* [1] { red_material(has_texture) };
   scene.mNumMeshes = static_cast<unsigned>(meshes.size());
   scene.mMeshes = new aiMesh*[scene.mNumMeshes];
   scene.mRootNode = new aiNode("root");
@@ -84,25 +86,45 @@ void write_off(const SurfaceMesh& mesh, const std::filesystem::path& file) {
   for (const auto& triangle : mesh.triangles.rowwise()) text << "3 " << triangle << '\n';
 }
 
+/// Here, since assimp declares bytes for colours and then writes floats.
+void write_binary_ply(const SurfaceMesh& mesh, const std::filesystem::path& file) {
+  std::ofstream bytes(file, std::ios::binary);
+  bytes << "ply\nformat binary_little_endian 1.0\nelement vertex " << mesh.positions.rows()
+        << "\nproperty double x\nproperty double y\nproperty double z\nproperty uchar red\nproperty uchar green\n"
+           "property uchar blue\nelement face "
+        << mesh.triangles.rows() << "\nproperty list uchar int vertex_indices\nend_header\n";
+  for (const auto& p : mesh.positions.rowwise()) {
+    const Eigen::RowVector3d position = p;
+    bytes.write(reinterpret_cast<const char*>(position.data()), sizeof position).write("\xFF\x80\x40", 3);
+  }
+  for (const auto& t : mesh.triangles.rowwise()) {
+    const Eigen::RowVector3i triangle = t;
+    bytes.put(3).write(reinterpret_cast<const char*>(triangle.data()), sizeof triangle);
+  }
+}
+
+void export_by_assimp(const aiScene& scene, const char* format, const std::filesystem::path& file) {
+  Assimp::Exporter exporter;
+  if (exporter.Export(&scene, format, file.string()) == aiReturn_SUCCESS) return;
+  throw std::runtime_error(fmt::format("cannot write {}: {}", file.string(), exporter.GetErrorString()));
+}
+
 }  // namespace
 
 std::vector<std::filesystem::path> write_mesh_corpus(const std::filesystem::path& folder) {
   const std::vector<SurfaceMesh> meshes{box_mesh(-Vec3::Ones(), Vec3::Ones()), torus_mesh(1, 0.4, 8, 5)};
-  aiScene scene;
-  fill_scene(meshes, scene);
-  std::vector<std::filesystem::path> files{folder / "shapes.off"};
-  write_off(meshes.at(1), files.back());
-  Assimp::Exporter exporter;
+  std::vector<std::filesystem::path> files{folder / "shapes.off", folder / "binary.ply"};
+  write_off(meshes.at(1), files.at(0));
+  write_binary_ply(meshes.at(1), files.at(1));
   const std::vector<std::pair<const char*, const char*>> formats{
-      {"obj", "shapes.obj"},  {"ply", "text.ply"},    {"plyb", "binary.ply"},   {"stl", "text.stl"},
-      {"stlb", "binary.stl"}, {"glb2", "shapes.glb"}, {"gltf2", "shapes.gltf"}, {"collada", "shapes.dae"},
-      {"fbxa", "shapes.fbx"}, {"3ds", "shapes.3ds"},  {"x", "shapes.x"},        {"x3d", "shapes.x3d"},
-      {"3mf", "shapes.3mf"}};
+      {"obj", "shapes.obj"},  {"ply", "text.ply"},      {"stl", "text.stl"},       {"stlb", "binary.stl"},
+      {"glb2", "shapes.glb"}, {"gltf2", "shapes.gltf"}, {"collada", "shapes.dae"}, {"fbxa", "shapes.fbx"},
+      {"3ds", "shapes.3ds"},  {"x", "shapes.x"},        {"x3d", "shapes.x3d"},     {"3mf", "shapes.3mf"}};
   for (const auto& [format, name] : formats) {
+    aiScene scene;
+    fill_scene(meshes, std::string_view(format) != "x3d", scene);
     files.push_back(folder / name);
-    if (exporter.Export(&scene, format, files.back().string()) != aiReturn_SUCCESS) {
-      throw std::runtime_error(fmt::format("cannot write {}: {}", name, exporter.GetErrorString()));
-    }
+    export_by_assimp(scene, format, files.back());
   }
   return files;
 }

@@ -5,7 +5,8 @@
 namespace sprung::test {
 
 /// Writes small closed shapes with UVs, normals, colours, a material and two instances into a folder, in every format
-/// that assimp can write and the reader takes, and OFF; the files written. Throws std::runtime_error where that fails.
+/// that the reader takes and assimp can write, and OFF and binary PLY; the files written. Throws std::runtime_error
+/// where that fails.
 [[nodiscard]] std::vector<std::filesystem::path> write_mesh_corpus(const std::filesystem::path& folder);
 
 }  // namespace sprung::test
