@@ -70,6 +70,7 @@ std::vector<Corners> triangulate(const Hole& hole, bool flat) {
   }
   const int corners = static_cast<int>(hole.rim.rows());
   std::vector<Corners> triangles;
+  triangles.reserve(found.size());
   for (const auto& t : found) triangles.push_back({t.first, t.second, t.third});
   if (closes(triangles, corners)) return triangles;
   for (Corners& t : triangles) std::swap(t[1], t[2]);

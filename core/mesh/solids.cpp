@@ -237,6 +237,7 @@ class Mender {
                                                    const std::vector<std::array<int, 2>>& crossings) const {
     if (options_.repair != RepairMode::kOff) return unite_nests(mesh_.points, mesh_.triangles, nests, crossings);
     std::vector<NestGroup> groups;
+    groups.reserve(nests.size());
     for (const Nest& nest : nests) groups.push_back({nest});
     return groups;
   }

@@ -86,6 +86,7 @@ std::vector<std::vector<WallSample>> sample_thickness(const std::vector<Solid>& 
 double thickness_quantile(const std::vector<WallSample>& samples, double share) {
   if (samples.empty()) return 0;
   std::vector<double> sorted;
+  sorted.reserve(samples.size());
   for (const WallSample& sample : samples) sorted.push_back(sample.thickness);
   const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(sorted.size() - 1));
   std::nth_element(sorted.begin(), sorted.begin() + rank, sorted.end());
