@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "app/equilibrium.h"
+#include "app/inspect/forecast.h"
 #include "app/interrupt.h"
 #include "app/pin_movements.h"
 #include "app/progress.h"
@@ -193,6 +194,8 @@ Recording record_motion(Production& production, const Scene& scene, const Consol
 }  // namespace
 
 Recording simulate(Production& production, const Scene& scene, const Console& console) {
+  const std::string warning = warning_of_memory(memory_forecast(production, scene));
+  if (!warning.empty()) console.warn(warning);
   switch (scene.solver.scheme) {
     case Solver::kStatic:
     case Solver::kLinear:

@@ -33,6 +33,7 @@ void run_inspect(const SceneOptions& options, const Console& console) {
     if (inspection.forecast.plan) {
       if (const std::string text = warning_of(*inspection.forecast.plan); !text.empty()) listening.warn(text);
     }
+    if (const std::string text = warning_of_memory(inspection.forecast.memory); !text.empty()) listening.warn(text);
     inspection.warnings = std::move(warnings);
     fmt::print("{}", options.json ? inspection_json(inspection) : inspection_text(inspection));
     if (options.picture.empty()) return;
@@ -40,8 +41,7 @@ void run_inspect(const SceneOptions& options, const Console& console) {
     write_png(draw_bricks(prepared), options.picture);
     console.note(
         fmt::format("{}: orange: parts thinner than a brick; blue: bricks that share a cell; purple: closed holes; "
-                    "darker: less than "
-                    "half full",
+                    "darker: less than half full",
                     options.picture.string()));
   });
 }

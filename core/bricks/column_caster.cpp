@@ -1,15 +1,14 @@
 #include "core/bricks/column_caster.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdint>
 #include <utility>
+
+#include "core/bricks/snapped_triangle.h"
 
 namespace sprung {
 namespace {
 
-constexpr std::int64_t kSnap = 4096;  // whole numbers a cell, across the rays
 // The rays of a cell stand one in each of 16 rows, at 16 different places along the rows (a rank-1 lattice): a wall
 // along an axis is then met at 16 levels and not at 4, as with a 4 x 4 grid.
 constexpr std::int64_t kRays = 16;
@@ -18,18 +17,6 @@ constexpr std::int64_t kShuffle = 5;
 
 /// Weight of a direction that does not cross the surface in a cell at all: decides only where none does.
 constexpr float kLeastWeight = 1e-6F;
-
-/// A place across the rays.
-struct Place {
-  std::int64_t u;
-  std::int64_t v;
-};
-
-/// Twice the signed area of a, b, p: positive where p is left of the line from a to b.
-std::int64_t side_of(Place a, Place b, Place p) { return (b.u - a.u) * (p.v - a.v) - (b.v - a.v) * (p.u - a.u); }
-
-/// Of the two triangles that share an edge, which run along it in opposite directions, just one owns the points on it.
-bool owns_edge(Place a, Place b) { return b.v < a.v || (b.v == a.v && b.u < a.u); }
 
 struct Crossing {
   std::int64_t ray;  // rays of one column of cells are consecutive
@@ -70,13 +57,8 @@ class Caster {
   }
 
  private:
-  [[nodiscard]] Place snapped(int point) const {
-    return {std::llround(surface_.points(point, axis_u_) * static_cast<double>(kSnap)),
-            std::llround(surface_.points(point, axis_v_) * static_cast<double>(kSnap))};
-  }
-
   /// Where the ray of row `row` stands in the cell `cell_u` of that row.
-  static Place place_of(std::int64_t cell_u, std::int64_t row) {
+  static SnappedPlace place_of(std::int64_t cell_u, std::int64_t row) {
     return {cell_u * kSnap + (row * kShuffle % kRays) * kPitch + kPitch / 2, row * kPitch + kPitch / 2};
   }
 
@@ -85,40 +67,19 @@ class Caster {
   }
 
   void cross_triangle(int t) {
-    std::array<int, 3> corners{surface_.triangles(t, 0), surface_.triangles(t, 1), surface_.triangles(t, 2)};
-    std::array<Place, 3> p{snapped(corners[0]), snapped(corners[1]), snapped(corners[2])};
-    const std::int64_t area = side_of(p[0], p[1], p[2]);
-    if (area == 0) return;
-    // An outward triangle seen counter-clockwise along the ray's axis faces forward: the ray leaves there.
-    const int turn = area > 0 ? -1 : 1;
-    if (area < 0) {
-      std::swap(p[1], p[2]);
-      std::swap(corners[1], corners[2]);
-    }
-    const auto [low_u, high_u] = std::minmax({p[0].u, p[1].u, p[2].u});
-    const auto [low_v, high_v] = std::minmax({p[0].v, p[1].v, p[2].v});
+    const SnappedTriangle triangle(surface_, t, axis_);
+    if (triangle.is_empty()) return;
+    const auto [low_u, low_v] = triangle.low();
+    const auto [high_u, high_v] = triangle.high();
     // Rows half a pitch or more outside the triangle's extent cannot meet it, nor can the cells beside it.
     const std::int64_t last_row = std::min<std::int64_t>(high_v / kPitch, surface_.counts[axis_v_] * kRays - 1);
     const std::int64_t last_cell = std::min<std::int64_t>(high_u / kSnap, surface_.counts[axis_u_] - 1);
     for (std::int64_t row = low_v / kPitch; row <= last_row; ++row) {
-      for (std::int64_t cell = low_u / kSnap; cell <= last_cell; ++cell) cross_ray(p, corners, turn, cell, row);
+      for (std::int64_t cell = low_u / kSnap; cell <= last_cell; ++cell) {
+        const std::optional<double> depth = triangle.depth_at(place_of(cell, row));
+        if (depth) crossings_.push_back({ray_number(cell, row), *depth, triangle.turn()});
+      }
     }
-  }
-
-  void cross_ray(const std::array<Place, 3>& p, const std::array<int, 3>& corners, int turn, std::int64_t cell_u,
-                 std::int64_t row) {
-    const Place ray = place_of(cell_u, row);
-    double weighted = 0;
-    double sum = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Place& a = p[(k + 1) % 3];
-      const Place& b = p[(k + 2) % 3];
-      const std::int64_t side = side_of(a, b, ray);
-      if (side < 0 || (side == 0 && !owns_edge(a, b))) return;
-      weighted += static_cast<double>(side) * surface_.points(corners[k], axis_);
-      sum += static_cast<double>(side);
-    }
-    crossings_.push_back({ray_number(cell_u, row), weighted / sum, turn});
   }
 
   /// By counting, since rays are dense; then the few crossings of each ray by depth.

@@ -1,26 +1,14 @@
 #include "core/bricks/sample_lines.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdint>
+
+#include "core/bricks/snapped_triangle.h"
 
 namespace sprung {
 namespace {
 
-constexpr std::int64_t kSnap = 4096;  // whole numbers a cell, across the lines
 constexpr std::int64_t kPitch = kSnap / kSamplesAlong;
-
-struct Place {
-  std::int64_t u;
-  std::int64_t v;
-};
-
-/// Twice the signed area of a, b, p: positive where p is left of the line from a to b.
-std::int64_t side_of(Place a, Place b, Place p) { return (b.u - a.u) * (p.v - a.v) - (b.v - a.v) * (p.u - a.u); }
-
-/// Of the two triangles that share an edge, which run along it in opposite directions, just one owns the points on it.
-bool owns_edge(Place a, Place b) { return b.v < a.v || (b.v == a.v && b.u < a.u); }
 
 struct Crossing {
   std::int64_t line;
@@ -36,11 +24,7 @@ std::pair<std::int64_t, std::int64_t> lines_between(std::int64_t low, std::int64
 class LineCaster {
  public:
   LineCaster(const CellSurface& surface, int axis)
-      : surface_(surface),
-        axis_(axis),
-        axis_u_((axis + 1) % 3),
-        axis_v_((axis + 2) % 3),
-        along_u_(std::int64_t{surface.counts[axis_u_]} * kSamplesAlong) {}
+      : surface_(surface), axis_(axis), along_u_(std::int64_t{surface.counts[(axis + 1) % 3]} * kSamplesAlong) {}
 
   std::vector<InsideRun> runs() {
     for (int t = 0; t < surface_.triangles.rows(); ++t) cross_triangle(t);
@@ -52,44 +36,19 @@ class LineCaster {
   }
 
  private:
-  [[nodiscard]] Place snapped(int point) const {
-    return {std::llround(surface_.points(point, axis_u_) * static_cast<double>(kSnap)),
-            std::llround(surface_.points(point, axis_v_) * static_cast<double>(kSnap))};
-  }
-
   void cross_triangle(int t) {
-    std::array<int, 3> corners{surface_.triangles(t, 0), surface_.triangles(t, 1), surface_.triangles(t, 2)};
-    std::array<Place, 3> p{snapped(corners[0]), snapped(corners[1]), snapped(corners[2])};
-    const std::int64_t area = side_of(p[0], p[1], p[2]);
-    if (area == 0) return;
-    const int turn = area > 0 ? -1 : 1;  // outward triangles: see cast_columns()
-    if (area < 0) {
-      std::swap(p[1], p[2]);
-      std::swap(corners[1], corners[2]);
-    }
-    const auto [low_u, high_u] = std::minmax({p[0].u, p[1].u, p[2].u});
-    const auto [low_v, high_v] = std::minmax({p[0].v, p[1].v, p[2].v});
+    const SnappedTriangle triangle(surface_, t, axis_);
+    if (triangle.is_empty()) return;
+    const auto [low_u, low_v] = triangle.low();
+    const auto [high_u, high_v] = triangle.high();
     const auto [first_u, last_u] = lines_between(low_u, high_u);
     const auto [first_v, last_v] = lines_between(low_v, high_v);
     for (std::int64_t v = first_v; v <= last_v; ++v) {
-      for (std::int64_t u = first_u; u <= last_u; ++u) cross_line(p, corners, turn, u, v);
+      for (std::int64_t u = first_u; u <= last_u; ++u) {
+        const std::optional<double> depth = triangle.depth_at({u * kPitch + kPitch / 2, v * kPitch + kPitch / 2});
+        if (depth) crossings_.push_back({v * along_u_ + u, *depth, triangle.turn()});
+      }
     }
-  }
-
-  void cross_line(const std::array<Place, 3>& p, const std::array<int, 3>& corners, int turn, std::int64_t u,
-                  std::int64_t v) {
-    const Place line{u * kPitch + kPitch / 2, v * kPitch + kPitch / 2};
-    double weighted = 0;
-    double sum = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Place& a = p[(k + 1) % 3];
-      const Place& b = p[(k + 2) % 3];
-      const std::int64_t side = side_of(a, b, line);
-      if (side < 0 || (side == 0 && !owns_edge(a, b))) return;
-      weighted += static_cast<double>(side) * surface_.points(corners[k], axis_);
-      sum += static_cast<double>(side);
-    }
-    crossings_.push_back({v * along_u_ + u, weighted / sum, turn});
   }
 
   void sort_crossings() {
@@ -119,8 +78,6 @@ class LineCaster {
 
   const CellSurface& surface_;
   int axis_;
-  int axis_u_;
-  int axis_v_;
   std::int64_t along_u_;
   std::vector<Crossing> crossings_;
 };

@@ -2,6 +2,7 @@
 
 #include <regex>
 
+#include "app/inspect/forecast.h"
 #include "render/png.h"
 #include "tests/support/meshes.h"
 #include "tests/support/run_program.h"
@@ -128,6 +129,12 @@ INSTANTIATE_TEST_SUITE_P(Shared, InspectShared,
                                          TableRow{"scorpion_low_resolution.obj", 6315, 12626, 1, 12.18},
                                          TableRow{"cube_gears.3mf", 12852, 25692, 17, 1.124e5},
                                          TableRow{"plate_holes.STL", 618, 1252, 1, 7.674e5}));
+
+TEST(Forecast, WarnsOfMoreMemoryThanThereIs) {
+  EXPECT_EQ(warning_of_memory(1e6), "");
+  EXPECT_NE(warning_of_memory(1e18).find("needs about 1e+09 GB of memory"), std::string::npos)
+      << warning_of_memory(1e18);
+}
 
 }  // namespace
 }  // namespace sprung
