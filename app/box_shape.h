@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "app/scene.h"
+#include "app/scene/scene.h"
 #include "core/bricks/brick_grid.h"
 #include "core/mesh/surface_mesh.h"
 

@@ -6,8 +6,8 @@
 #include <array>
 #include <sstream>
 
-#include "app/scene_keys.h"
-#include "app/scene_values.h"
+#include "app/scene/scene_keys.h"
+#include "app/scene/scene_values.h"
 #include "app/wrong_words.h"
 #include "core/error.h"
 #include "core/nearest.h"

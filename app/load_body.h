@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "app/console.h"
-#include "app/scene.h"
+#include "app/scene/scene.h"
 #include "core/bricks/brick_grid.h"
 #include "core/mesh/solids.h"
 #include "core/mesh/thickness.h"

@@ -2,7 +2,7 @@
 #include <string>
 #include <string_view>
 
-#include "app/scene.h"
+#include "app/scene/scene.h"
 #include "core/motion/careful_motion.h"
 
 namespace sprung {

@@ -5,8 +5,8 @@
 
 #include <optional>
 
-#include "app/make_scene.h"
-#include "app/scene_file.h"
+#include "app/scene/make_scene.h"
+#include "app/scene/scene_file.h"
 
 namespace sprung {
 

@@ -2,7 +2,7 @@
 #include <optional>
 
 #include "app/build_world.h"
-#include "app/scene.h"
+#include "app/scene/scene.h"
 #include "app/step_plan.h"
 
 namespace sprung {

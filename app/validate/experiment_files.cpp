@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "app/scene_file.h"
+#include "app/scene/scene_file.h"
 #include "core/error.h"
 #include "core/nearest.h"
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "app/scene.h"
+#include "app/scene/scene.h"
 
 namespace sprung {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "app/console.h"
-#include "app/scene.h"
+#include "app/scene/scene.h"
 #include "app/validate/built_in_cases.h"
 
 namespace sprung {

@@ -2,7 +2,7 @@
 #include <string>
 
 #include "app/console.h"
-#include "app/scene.h"
+#include "app/scene/scene.h"
 #include "app/validate/case_result.h"
 
 namespace sprung {

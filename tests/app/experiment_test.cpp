@@ -4,7 +4,7 @@
 
 #include "app/make_production.h"
 #include "app/pin_movements.h"
-#include "app/scene_file.h"
+#include "app/scene/scene_file.h"
 #include "app/simulate.h"
 #include "core/motion/statics.h"
 #include "tests/support/error_message.h"

@@ -12,7 +12,7 @@
 #include "app/make_production.h"
 #include "app/output.h"
 #include "app/picture_writer.h"
-#include "app/scene_file.h"
+#include "app/scene/scene_file.h"
 #include "core/error.h"
 #include "render/film.h"
 #include "render/png.h"

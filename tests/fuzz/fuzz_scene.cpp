@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "app/scene_file.h"
+#include "app/scene/scene_file.h"
 #include "core/error.h"
 
 /// A scene is parsed or refused; one that is parsed can be written, and parses to the same text again.

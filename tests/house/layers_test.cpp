@@ -70,7 +70,7 @@ TEST(Layers, FaultsAreSeen) {
   EXPECT_EQ(fault({"app/main.cpp", "core/error.h"}), "");
   EXPECT_EQ(fault({"core/body/body.h", "core/bricks/brick_grid.h"}), "");
   EXPECT_NE(fault({"core/body/body.h", "render/image.h"}), "");
-  EXPECT_NE(fault({"render/png.cpp", "app/scene.h"}), "");
+  EXPECT_NE(fault({"render/png.cpp", "app/scene/scene.h"}), "");
   EXPECT_NE(fault({"core/bricks/brick_grid.h", "core/body/body.h"}), "");
   EXPECT_NE(fault({"core/bricks/brick_grid.cpp", "brick_grid.h"}), "");
 }

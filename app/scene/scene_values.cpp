@@ -1,4 +1,4 @@
-#include "app/scene_values.h"
+#include "app/scene/scene_values.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -2,7 +2,7 @@
 #include <string>
 #include <string_view>
 
-#include "app/scene_keys.h"
+#include "app/scene/scene_keys.h"
 
 namespace sprung {
 

@@ -1,8 +1,8 @@
-#include "app/make_scene.h"
+#include "app/scene/make_scene.h"
 
 #include <fmt/format.h>
 
-#include "app/scene_file.h"
+#include "app/scene/scene_file.h"
 #include "core/error.h"
 
 namespace sprung {

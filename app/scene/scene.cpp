@@ -1,4 +1,4 @@
-#include "app/scene.h"
+#include "app/scene/scene.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "app/scene_mistakes.h"
+#include "app/scene/scene_mistakes.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

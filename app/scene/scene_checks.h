@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "app/scene.h"
-#include "app/scene_mistakes.h"
+#include "app/scene/scene.h"
+#include "app/scene/scene_mistakes.h"
 
 namespace sprung {
 

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
-#include "app/scene_file.h"
-#include "app/scene_values.h"
+#include "app/scene/scene_file.h"
+#include "app/scene/scene_values.h"
 #include "core/error.h"
 #include "core/mesh/read/file_checks.h"
 #include "core/nearest.h"

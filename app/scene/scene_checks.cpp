@@ -1,4 +1,4 @@
-#include "app/scene_checks.h"
+#include "app/scene/scene_checks.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "app/scene_keys.h"
+#include "app/scene/scene_keys.h"
 
 namespace sprung {
 namespace {

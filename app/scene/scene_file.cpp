@@ -1,4 +1,4 @@
-#include "app/scene_file.h"
+#include "app/scene/scene_file.h"
 
 #include <fmt/format.h>
 
@@ -11,9 +11,9 @@
 #include <fstream>
 #include <sstream>
 
-#include "app/scene_checks.h"
-#include "app/scene_mistakes.h"
-#include "app/scene_values.h"
+#include "app/scene/scene_checks.h"
+#include "app/scene/scene_mistakes.h"
+#include "app/scene/scene_values.h"
 #include "core/error.h"
 #include "core/mesh/read/file_checks.h"
 #include "core/nearest.h"

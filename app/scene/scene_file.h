@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "app/scene.h"
+#include "app/scene/scene.h"
 
 namespace sprung {
 

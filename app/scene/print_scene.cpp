@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <iterator>
 
-#include "app/scene_file.h"
-#include "app/scene_values.h"
+#include "app/scene/scene_file.h"
+#include "app/scene/scene_values.h"
 
 namespace sprung {
 namespace {

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <variant>
 
-#include "app/scene.h"
+#include "app/scene/scene.h"
 #include "app/units.h"
 
 namespace sprung {
