@@ -16,6 +16,7 @@
 #include "core/count_of.h"
 #include "core/error.h"
 #include "core/mesh/submesh.h"
+#include "core/rotation.h"
 #include "core/skin/corner_normals.h"
 #include "core/world/squeeze.h"
 
@@ -73,10 +74,11 @@ std::vector<int> nodes_in(const Box& exact, const Points& nodes, const Vec3& ext
   return inside;
 }
 
-/// Every node that a pin holds, once, with the axes of all its pins.
+/// Every node that a pin holds at the start, once, with the axes of all its pins.
 std::vector<HeldNode> held_nodes(const std::vector<PinnedNodes>& pinned, const std::vector<Pin>& pins) {
   std::map<int, HeldNode> held;
   for (const PinnedNodes& group : pinned) {
+    if (pins[group.pin].from > 0) continue;
     for (const int node : group.nodes) {
       const auto [place, is_new] = held.try_emplace(node, HeldNode{.node = node, .axes = {false, false, false}});
       for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -161,7 +163,7 @@ class BodyBuilder {
     for (const HeldNode& held : actor.pinned) actor.body.velocities.row(held.node).setZero();
     outside_ += drawn.embedding.outside;
     furthest_outside_ = std::max(furthest_outside_, drawn.embedding.furthest);
-    held_solids_ += actor.pinned.empty() ? 0 : 1;
+    held_solids_ += origin.pins.empty() ? 0 : 1;
     production_.world.actors.push_back(std::move(actor));
     production_.origins.push_back(std::move(origin));
     production_.skins.push_back(std::move(drawn));

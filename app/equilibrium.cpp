@@ -33,14 +33,14 @@ class Loading {
     for (std::size_t i = 0; i < production.world.actors.size(); ++i) systems_.push_back(make_quick_system());
   }
 
-  /// Reactions by actor, m x 3, N.
-  std::vector<Points> apply(double share) {
+  /// The shape under a share of the weight, with the pins where they are at a time (s). Reactions by actor, m x 3, N.
+  std::vector<Points> apply(double share, double time) {
     std::vector<Points> reactions_of_all;
     for (std::size_t actor = 0; actor < production_.world.actors.size(); ++actor) {
       Body& body = production_.world.actors[actor].body;
       const Supports supports = supports_of(production_.world.actors[actor]);
       const Points loads = share * (body.masses * production_.world.gravity.transpose());
-      const Points movements = pin_movements(scene_, production_, actor, share, is_linear_);
+      const Points movements = pin_movements(scene_, production_, actor, time, is_linear_);
       reactions_of_all.push_back(is_linear_ ? answer(body, supports, loads, movements, *systems_[actor])
                                             : settle(body, supports, loads, movements, *systems_[actor]));
     }
@@ -110,8 +110,9 @@ Recording record_equilibria(Production& production, const Scene& scene, const Co
     stop_if_interrupted();
     const double share = frames == 1 ? 1.0 : static_cast<double>(frame) / (frames - 1);
     // Nothing is solved for the first of several: no load, no displacement.
-    const std::vector<Points> reactions = share == 0 ? std::vector<Points>{} : loading.apply(share);
-    recorder.add(share, reactions, share, loading.is_linear());
+    const std::vector<Points> reactions =
+        share == 0 ? std::vector<Points>{} : loading.apply(share, time_of(scene, frame));
+    recorder.add(share, reactions, time_of(scene, frame), loading.is_linear());
     progress.update(frame + 1);
   }
   loading.note_trouble(console);

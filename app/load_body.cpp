@@ -6,7 +6,6 @@
 #include <cstring>
 #include <fstream>
 #include <limits>
-#include <numbers>
 #include <sstream>
 
 #include "app/box_shape.h"
@@ -16,6 +15,7 @@
 #include "core/error.h"
 #include "core/mesh/read/file_checks.h"
 #include "core/mesh/read_mesh.h"
+#include "core/rotation.h"
 #include "render/decode.h"
 
 namespace sprung {
@@ -189,14 +189,6 @@ void choose_bricks(LoadedBody& loaded, const Console& console) {
 }
 
 }  // namespace
-
-Mat3 rotation_matrix(const Vec3& degrees) {
-  const Vec3 angles = degrees * std::numbers::pi / 180;
-  const Eigen::AngleAxisd about_x(angles.x(), Vec3::UnitX());
-  const Eigen::AngleAxisd about_y(angles.y(), Vec3::UnitY());
-  const Eigen::AngleAxisd about_z(angles.z(), Vec3::UnitZ());
-  return (about_z * about_y * about_x).toRotationMatrix();
-}
 
 LoadedBody load_body(const SceneBody& body, const Console& console) {
   LoadedBody loaded;

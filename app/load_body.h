@@ -26,9 +26,6 @@ struct LoadedBody {
   std::optional<BrickGrid> grid;                                // of a box; of a mesh the bricks are yet to be found
 };
 
-/// The rotation about x, then y, then z, by degrees.
-[[nodiscard]] Mat3 rotation_matrix(const Vec3& degrees);
-
 /// Makes the box, or reads the mesh, brings it to its size and finds its solids; says what it had to choose or to mend.
 /// Throws Error(kBadInput).
 [[nodiscard]] LoadedBody load_body(const SceneBody& body, const Console& console);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "app/pin_movements.h"
 #include "core/error.h"
 
 namespace sprung {
@@ -41,14 +42,14 @@ Recorder::PointSeat Recorder::seat_of(const Probe& probe) const {
                           probe.name, probe.point->x(), probe.point->y(), probe.point->z(), probe.body));
 }
 
-void Recorder::add(double progress, const std::vector<Points>& reactions, double share, bool small) {
+void Recorder::add(double progress, const std::vector<Points>& reactions, double time, bool small) {
   std::vector<Floats3>& frame = recording_.frames.emplace_back();
   for (const Actor& actor : production_.world.actors) frame.emplace_back(actor.body.positions.cast<float>());
   recording_.progress.push_back(progress);
   for (std::size_t i = 0; i < scene_.probes.size(); ++i) {
     const Probe& probe = scene_.probes[i];
     recording_.probes[i].samples.push_back(probe.point ? point_sample(seats_[i])
-                                                       : pin_sample(probe, reactions, share, small));
+                                                       : pin_sample(probe, reactions, time, small));
   }
 }
 
@@ -60,7 +61,7 @@ ProbeSample Recorder::point_sample(const PointSeat& seat) const {
   return sample;
 }
 
-ProbeSample Recorder::pin_sample(const Probe& probe, const std::vector<Points>& reactions, double share,
+ProbeSample Recorder::pin_sample(const Probe& probe, const std::vector<Points>& reactions, double time,
                                  bool small) const {
   const auto row = static_cast<std::size_t>(probe.body - 1);
   const SceneBody& scene_body = scene_.bodies[row];
@@ -72,7 +73,8 @@ ProbeSample Recorder::pin_sample(const Probe& probe, const std::vector<Points>& 
     for (const PinnedNodes& pinned : production_.origins[actor].pins) {
       if (!is_pin_of(pinned, scene_body, probe.pin)) continue;
       const Pin& pin = scene_body.pins[pinned.pin];
-      const Vec3 centre = small ? pinned.centre : Vec3(pinned.centre + share * pin.translate);
+      const Vec3 shift = movement_of(pin, scene_).placement(time).shift;
+      const Vec3 centre = small ? pinned.centre : Vec3(pinned.centre + shift);
       for (const int node : pinned.nodes) {
         ++count;
         sample.position += body.positions.row(node).transpose();

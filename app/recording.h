@@ -40,9 +40,9 @@ class Recorder {
   /// Throws Error(kBadInput) where a probe's point is in no brick or its pin holds nothing.
   Recorder(const Scene& scene, const Production& production, std::string progress_name);
 
-  /// The production as it stands. `reactions` of the pins' nodes by actor (m x 3, N); none: no forces. `share` of the
-  /// pins' movement; with `small`, torques are those of the shape at rest.
-  void add(double progress, const std::vector<Points>& reactions, double share, bool small);
+  /// The production as it stands. `reactions` of the pins' nodes by actor (m x 3, N); none: no forces. `time` in the
+  /// film (s), for the pins' movement; with `small`, torques are those of the shape at rest.
+  void add(double progress, const std::vector<Points>& reactions, double time, bool small);
 
   /// The recording, complete.
   [[nodiscard]] Recording finish();
@@ -57,7 +57,7 @@ class Recorder {
 
   [[nodiscard]] PointSeat seat_of(const Probe& probe) const;
   [[nodiscard]] ProbeSample point_sample(const PointSeat& seat) const;
-  [[nodiscard]] ProbeSample pin_sample(const Probe& probe, const std::vector<Points>& reactions, double share,
+  [[nodiscard]] ProbeSample pin_sample(const Probe& probe, const std::vector<Points>& reactions, double time,
                                        bool small) const;
 
   const Scene& scene_;

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "app/equilibrium.h"
+#include "app/handles.h"
 #include "app/inspect/forecast.h"
 #include "app/interrupt.h"
 #include "app/pin_movements.h"
@@ -23,6 +24,7 @@ namespace {
 
 constexpr double kLongRun = 3600;  // s to go, from which on a warning is due
 constexpr double kSecondsToEstimate = 3;
+constexpr double kRounding = 1e-6;       // of a step, that a piece of a frame may be longer than whole steps
 constexpr double kCrushedVolume = 0.15;  // of a brick's volume at rest ...
 constexpr double kCrushedShare = 0.05;   // ... in so many of the bricks: from there on a warning is due
 
@@ -60,11 +62,10 @@ void forecast(const StepPlan& plan, double brick_steps, const Console& console) 
 class Runner {
  public:
   Runner(Production& production, const Scene& scene, const Console& console)
-      : production_(production),
-        world_(production.world),
+      : world_(production.world),
         scene_(scene),
         console_(console),
-        frame_time_(1 / scene.fps),
+        handles_(scene, production),
         plan_(plan_steps(world_, scene)),
         total_(plan_.brick_steps * (frame_count(scene) - 1)),
         progress_(console, "simulate", total_, 1e-6, "M brick-steps/s"),
@@ -77,29 +78,13 @@ class Runner {
 
   /// From the frame before to this one.
   void run_frame(int frame) {
-    aim_pins(share_of(frame));
-    const auto between = [&](double share) {
-      stop_if_interrupted();
-      progress_.update(total_ * (frame - 1 + share) / (frame_count(scene_) - 1));
-      judge_long_run();
-    };
-    if (implicit_) {
-      const auto [count, dt] = plan_.steps;
-      for (long step = 0; step < count; ++step) {
-        implicit_->advance(dt, 1, frame_time_ * (frame - 1) + dt * static_cast<double>(step));
-        between(static_cast<double>(step + 1) / static_cast<double>(count));
-      }
-      return;
+    double begin = time_of(scene_, frame - 1);
+    const std::vector<double> ends = handles_.pieces(begin, time_of(scene_, frame));
+    for (const double end : ends) {
+      handles_.aim(begin, end);
+      run_piece(begin, ends.size() == 1 ? 1 / scene_.fps : end - begin);  // whole frames are equal to the last bit
+      begin = end;
     }
-    const std::vector<Steps> steps = motion_.advance_frame(frame_time_ * (frame - 1), frame_time_, between,
-                                                           [&](const std::string& message) { console_.warn(message); });
-    plan_.steps =
-        *std::max_element(steps.begin(), steps.end(), [](const Steps& a, const Steps& b) { return a.count < b.count; });
-  }
-
-  /// Of the pins' movement, done at a frame.
-  [[nodiscard]] double share_of(int frame) const {
-    return static_cast<double>(frame) / std::max(1, frame_count(scene_) - 1);
   }
 
   /// Of the pins, as the bodies stand: what accelerates a held node's own mass is left out.
@@ -124,6 +109,27 @@ class Runner {
   }
 
  private:
+  void run_piece(double begin, double duration) {
+    const auto between = [&](double share) {
+      stop_if_interrupted();
+      progress_.update(total_ * (begin + share * duration) / time_of(scene_, frame_count(scene_) - 1));
+      judge_long_run();
+    };
+    if (implicit_) {
+      const long count = std::max(1L, std::lround(std::ceil(duration / plan_.steps.dt - kRounding)));
+      const double dt = duration / static_cast<double>(count);
+      for (long step = 0; step < count; ++step) {
+        implicit_->advance(dt, 1, begin + dt * static_cast<double>(step));
+        between(static_cast<double>(step + 1) / static_cast<double>(count));
+      }
+      return;
+    }
+    const std::vector<Steps> steps =
+        motion_.advance_frame(begin, duration, between, [&](const std::string& message) { console_.warn(message); });
+    plan_.steps =
+        *std::max_element(steps.begin(), steps.end(), [](const Steps& a, const Steps& b) { return a.count < b.count; });
+  }
+
   void note_implicit() const {
     if (!implicit_) return;
     const ImplicitMotion::Report report = implicit_->report();
@@ -154,23 +160,10 @@ class Runner {
     console_.warn(fmt::format("the simulation needs about {} more; {}", duration_text(seconds), kRemedy));
   }
 
-  /// Gives held nodes the velocities that bring them along in a frame's time.
-  void aim_pins(double share) {
-    for (std::size_t i = 0; i < world_.actors.size(); ++i) {
-      if (!has_moving_pins(scene_, production_, i)) continue;
-      Actor& actor = world_.actors[i];
-      const Points goal = actor.body.rest_positions + pin_movements(scene_, production_, i, share, false);
-      for (HeldNode& held : actor.pinned) {
-        held.velocity = (goal.row(held.node) - actor.body.positions.row(held.node)).transpose() / frame_time_;
-      }
-    }
-  }
-
-  Production& production_;
   World& world_;
   const Scene& scene_;
   const Console& console_;
-  double frame_time_;  // s
+  Handles handles_;
   StepPlan plan_;
   std::optional<ImplicitMotion> implicit_;
   double total_;
@@ -185,7 +178,7 @@ Recording record_motion(Production& production, const Scene& scene, const Consol
   Runner runner(production, scene, console);
   for (int frame = 0; frame < frames; ++frame) {
     if (frame > 0) runner.run_frame(frame);
-    recorder.add(frame / scene.fps, runner.pin_reactions(), runner.share_of(frame), false);
+    recorder.add(frame / scene.fps, runner.pin_reactions(), time_of(scene, frame), false);
   }
   runner.finish(frames);
   return recorder.finish();

@@ -15,6 +15,8 @@ constexpr bool kIsSection = std::is_same_v<Value, SceneCamera> || std::is_same_v
                             std::is_same_v<Value, SceneSolver> || std::is_same_v<Value, Experiment>;
 template <class Owner>
 constexpr bool kIsSection<std::vector<Owner>> = std::is_class_v<Owner>;
+template <>
+constexpr bool kIsSection<std::vector<Keyframe>> = false;
 
 template <class Owner>
 std::string inline_table(const Owner& owner);
@@ -38,6 +40,12 @@ std::string value_text(const Material& material) {
 template <>
 std::string value_text(const Box& box) {
   return inline_table(box);
+}
+template <>
+std::string value_text(const std::vector<Keyframe>& keyframes) {
+  std::string text;
+  for (const Keyframe& keyframe : keyframes) text += (text.empty() ? "" : ", ") + inline_table(keyframe);
+  return fmt::format("[{}]", text);
 }
 template <>
 std::string value_text(const Plane& plane) {

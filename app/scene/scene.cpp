@@ -23,6 +23,12 @@ int frame_count(const Scene& scene) {
   return std::max(1, static_cast<int>(std::lround(scene.duration * scene.fps)));
 }
 
+double time_of(const Scene& scene, int frame) {
+  if (is_motion(scene)) return frame / scene.fps;
+  const int last = frame_count(scene) - 1;
+  return last == 0 ? scene.duration : scene.duration * frame / last;
+}
+
 Scene with_defaults(Scene scene) {
   for (SceneBody& body : scene.bodies) {
     if (!body.size && !body.scale && !body.box) body.size = kDefaultSize;
@@ -40,7 +46,10 @@ void stage_scenario(Scene& scene, Scenario scenario) {
       body.rotation = Vec3(12, 0, 9);
     } else {
       body.position.y() = kHangHeight * size;
-      body.pins = {Pin{.name = "top", .box = {.min = Vec3(0, 1 - kHeldFraction, 0)}}};
+      Pin top;
+      top.name = "top";
+      top.box.min.y() = 1 - kHeldFraction;
+      body.pins = {top};
     }
   }
 }

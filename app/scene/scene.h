@@ -10,6 +10,7 @@
 #include "core/law/material.h"
 #include "core/mesh/repair.h"
 #include "core/types.h"
+#include "core/world/keyframes.h"
 
 namespace sprung {
 
@@ -35,15 +36,20 @@ struct Axes {
   std::array<bool, 3> held{true, true, true};
 };
 
-/// The nodes in the box are held along some directions, and carried along those by a movement that grows evenly from
-/// nothing at the start to this at the end of the film: a rotation about the middle of the box, then a shift. The box
-/// is placed in the body at rest, the directions are those of the world.
+/// The nodes in the box are held along some directions, and carried along those: through keyframes, or by a movement
+/// that grows evenly from nothing at the start to `translate` and `rotate` at the end of the film. They turn and grow
+/// about the middle of the box, then comes the shift. The box is placed in the body at rest, the directions are those
+/// of the world. Before and after its time the pin leaves the nodes free.
 struct Pin {
   std::string name{};
   Box box{};
   Axes axes{};
   Vec3 translate = Vec3::Zero();  // m
   Vec3 rotate = Vec3::Zero();     // degrees about x, then y, then z
+  std::vector<Keyframe> keyframes;
+  Interpolation interpolation = Interpolation::kLinear;
+  double from = 0;              // s, when it takes the nodes, where they then are
+  std::optional<double> until;  // s, when it lets go; never
 };
 
 /// A part of a body made of another material: the bricks whose middles are in the box.
@@ -188,6 +194,10 @@ struct Scene {
 
 /// Pictures of the film: frame i (from 0) shows t = i / fps. At least 1; with load steps one more than those.
 [[nodiscard]] int frame_count(const Scene& scene);
+
+/// When a frame (from 0) is, s: in a motion frame / fps; where frames are states of rest they share the duration
+/// evenly, the last of them at its end.
+[[nodiscard]] double time_of(const Scene& scene, int frame);
 
 /// The scene with the size and the bricks of its bodies filled in where it leaves them open.
 [[nodiscard]] Scene with_defaults(Scene scene);

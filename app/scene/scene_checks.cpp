@@ -41,6 +41,27 @@ void check_pin(const toml::node& node, const std::string& name, const SceneBody&
   mistakes.add(node.source(), fmt::format("probe.pin: the body has no pin '{}'{}", name, did_you_mean(name, names)));
 }
 
+void check_times(const toml::array& places, const std::string& path, const std::vector<Keyframe>& keyframes,
+                 SceneMistakes& mistakes) {
+  for (std::size_t i = 1; i < keyframes.size(); ++i) {
+    if (keyframes[i].time > keyframes[i - 1].time) continue;
+    mistakes.add(places[i].source(), fmt::format("{}.keyframes: t = {} s is not after the keyframe before, {} s", path,
+                                                 keyframes[i].time, keyframes[i - 1].time));
+  }
+}
+
+/// Nothing can fall where there is no time.
+void check_holding(const toml::array& bodies, const Scene& scene, SceneMistakes& mistakes) {
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const std::vector<Pin>& pins = scene.bodies[i].pins;
+    const auto is_short = [](const Pin& pin) { return pin.from > 0 || pin.until; };
+    if (std::none_of(pins.begin(), pins.end(), is_short)) continue;
+    mistakes.add(bodies[i].source(),
+                 "body.pin: only in a motion (solver.scheme euler, verlet, implicit-euler, bdf2 or "
+                 "auto) can a pin take its nodes late or let them go");
+  }
+}
+
 void check_probes(const toml::array& probes, const Scene& scene, SceneMistakes& mistakes) {
   for (std::size_t i = 0; i < scene.probes.size(); ++i) {
     const Probe& probe = scene.probes[i];
@@ -67,6 +88,21 @@ void check_together(const toml::table& table, const std::string& path, const Sce
   if (!body.regions.empty()) check_regions(*table.get("region")->as_array(), path, body, mistakes);
 }
 
+void check_together(const toml::table& table, const std::string& path, const Pin& pin, SceneMistakes& mistakes) {
+  if (!pin.translate.isZero(0)) refuse_both(table, path, "translate", "keyframes", mistakes);
+  if (!pin.rotate.isZero(0)) refuse_both(table, path, "rotate", "keyframes", mistakes);
+  if (pin.until && *pin.until <= pin.from) {
+    mistakes.add(table.get("until")->source(), fmt::format("{}.until: must be after {}.from", path, path));
+  }
+  if (pin.keyframes.empty()) return;
+  const toml::array& places = *table.get("keyframes")->as_array();
+  check_times(places, path, pin.keyframes, mistakes);
+  const Keyframe& first = pin.keyframes.front();
+  if (first.time > 0 || Movement({first}, pin.interpolation).is_still()) return;
+  mistakes.add(places[0].source(),
+               fmt::format("{}.keyframes: at t = 0 the nodes are where the body is; move that, or begin later", path));
+}
+
 void check_together(const toml::table& table, const std::string& path, const Gate&, SceneMistakes& mistakes) {
   require_one(table, path, "tolerance", "no_worse_than", mistakes);
 }
@@ -82,6 +118,7 @@ void check_together(const toml::table& table, const std::string& path, const Box
 
 void check_together(const toml::table& table, const std::string&, const Scene& scene, SceneMistakes& mistakes) {
   if (!scene.probes.empty()) check_probes(*table.get("probe")->as_array(), scene, mistakes);
+  if (!is_motion(scene) && !scene.bodies.empty()) check_holding(*table.get("body")->as_array(), scene, mistakes);
   if (scene.obstacles.empty()) return;
   const toml::array& obstacles = *table.get("obstacle")->as_array();
   if (scene.obstacles.size() > 1) mistakes.add(obstacles[1].source(), "a scene can have one [[obstacle]] only");

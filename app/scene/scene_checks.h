@@ -13,6 +13,7 @@ namespace sprung {
 void check_together(const toml::table& table, const std::string& path, const Scene& scene, SceneMistakes& mistakes);
 void check_together(const toml::table& table, const std::string& path, const SceneBody& body, SceneMistakes& mistakes);
 void check_together(const toml::table& table, const std::string& path, const Box& box, SceneMistakes& mistakes);
+void check_together(const toml::table& table, const std::string& path, const Pin& pin, SceneMistakes& mistakes);
 void check_together(const toml::table& table, const std::string& path, const Probe& probe, SceneMistakes& mistakes);
 void check_together(const toml::table& table, const std::string& path, const Gate& gate, SceneMistakes& mistakes);
 

@@ -142,7 +142,9 @@ class Reader {
 
   template <class Value>
   void value_of(const toml::node& node, const std::string& path, const KeyInfo& key, std::optional<Value>& value) {
-    value_of(node, path, key, value.emplace());
+    Value read{};
+    value_of(node, path, key, read);
+    value = std::move(read);
   }
 
   /// Solver, Model, Axes, Color, names.

@@ -75,6 +75,17 @@ const Key<Pin> kPin[] = {
     {{"axes", "the directions that are held: \"xyz\", \"x\", \"yz\" ..."}, &Pin::axes},
     {{"translate", "how far they are carried by the end of the film", Dimension::kLength}, &Pin::translate},
     {{"rotate", "how far they are turned about the middle of the box by then", Dimension::kAngle}, &Pin::rotate},
+    {{"keyframes", "where they are at which times; instead of translate and rotate"}, &Pin::keyframes},
+    {{"interpolation", "between keyframes: linear, smooth or held"}, &Pin::interpolation},
+    {{"from", "when they are taken, where they then are", Dimension::kTime, {0, kInfinity}}, &Pin::from},
+    {{"until", "when they are let go; never", Dimension::kTime, kPositive}, &Pin::until},
+};
+
+const Key<Keyframe> kKeyframe[] = {
+    {{"t", "when", Dimension::kTime, {0, kInfinity}, true}, &Keyframe::time},
+    {{"translate", "how far from the start", Dimension::kLength}, &Keyframe::translate},
+    {{"rotate", "how far turned about x, then y, then z", Dimension::kAngle}, &Keyframe::rotate},
+    {{"scale", "size over size at the start", Dimension::kRatio, kPositive}, &Keyframe::scale},
 };
 
 const Key<Region> kRegion[] = {
@@ -172,6 +183,10 @@ std::span<const Key<Material>> keys() {
 template <>
 std::span<const Key<Pin>> keys() {
   return kPin;
+}
+template <>
+std::span<const Key<Keyframe>> keys() {
+  return kKeyframe;
 }
 template <>
 std::span<const Key<Box>> keys() {

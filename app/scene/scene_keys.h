@@ -29,16 +29,17 @@ struct KeyInfo {
 
 /// The field that a key sets. Its type is the type of the key, its value in a new Owner the default.
 template <class Owner>
-using Member = std::variant<double Owner::*, std::optional<double> Owner::*, int Owner::*, std::optional<int> Owner::*,
-                            std::optional<BrickCount> Owner::*, Vec3 Owner::*, std::optional<Vec3> Owner::*,
-                            std::array<int, 2> Owner::*, std::string Owner::*, std::filesystem::path Owner::*,
-                            Solver Owner::*, RepairMode Owner::*, Model Owner::*, std::optional<Model> Owner::*,
-                            Axes Owner::*, std::optional<Color> Owner::*, Material Owner::*, Box Owner::*,
-                            Plane Owner::*, SceneCamera Owner::*, SceneRender Owner::*, SceneSolver Owner::*,
-                            Experiment Owner::*, std::vector<double> Owner::*, std::vector<int> Owner::*,
-                            std::vector<Model> Owner::*, std::vector<Pin> Owner::*, std::vector<Region> Owner::*,
-                            std::vector<Cut> Owner::*, std::vector<SceneBody> Owner::*, std::vector<Obstacle> Owner::*,
-                            std::vector<Probe> Owner::*, std::vector<Gate> Owner::*, std::vector<Expectation> Owner::*>;
+using Member =
+    std::variant<double Owner::*, std::optional<double> Owner::*, int Owner::*, std::optional<int> Owner::*,
+                 std::optional<BrickCount> Owner::*, Vec3 Owner::*, std::optional<Vec3> Owner::*,
+                 std::array<int, 2> Owner::*, std::string Owner::*, std::filesystem::path Owner::*, Solver Owner::*,
+                 RepairMode Owner::*, Model Owner::*, std::optional<Model> Owner::*, Axes Owner::*,
+                 Interpolation Owner::*, std::optional<Color> Owner::*, Material Owner::*, Box Owner::*, Plane Owner::*,
+                 SceneCamera Owner::*, SceneRender Owner::*, SceneSolver Owner::*, Experiment Owner::*,
+                 std::vector<double> Owner::*, std::vector<int> Owner::*, std::vector<Model> Owner::*,
+                 std::vector<Pin> Owner::*, std::vector<Keyframe> Owner::*, std::vector<Region> Owner::*,
+                 std::vector<Cut> Owner::*, std::vector<SceneBody> Owner::*, std::vector<Obstacle> Owner::*,
+                 std::vector<Probe> Owner::*, std::vector<Gate> Owner::*, std::vector<Expectation> Owner::*>;
 
 template <class Owner>
 struct Key : KeyInfo {
@@ -58,6 +59,8 @@ template <>
 std::span<const Key<Material>> keys();
 template <>
 std::span<const Key<Pin>> keys();
+template <>
+std::span<const Key<Keyframe>> keys();
 template <>
 std::span<const Key<Box>> keys();
 template <>

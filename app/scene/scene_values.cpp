@@ -26,6 +26,9 @@ constexpr std::array<std::pair<std::string_view, Solver>, 8> kSolvers{{{"auto", 
 constexpr std::array<std::pair<std::string_view, RepairMode>, 3> kRepairModes{
     {{"off", RepairMode::kOff}, {"auto", RepairMode::kAuto}, {"strict", RepairMode::kStrict}}};
 
+constexpr std::array<std::pair<std::string_view, Interpolation>, 3> kInterpolations{
+    {{"linear", Interpolation::kLinear}, {"smooth", Interpolation::kSmooth}, {"held", Interpolation::kHeld}}};
+
 constexpr std::string_view kAxisNames = "xyz";
 
 template <class Names, class Value = typename Names::value_type::second_type>
@@ -135,6 +138,10 @@ void parse_value(std::string_view text, const KeyInfo&, RepairMode& value) {
   value = named_value(kRepairModes, "way of repair", text);
 }
 
+void parse_value(std::string_view text, const KeyInfo&, Interpolation& value) {
+  value = named_value(kInterpolations, "interpolation", text);
+}
+
 void parse_value(std::string_view text, const KeyInfo&, Model& value) { value = model_from_name(text); }
 
 void parse_value(std::string_view text, const KeyInfo&, Color& value) {
@@ -173,6 +180,8 @@ std::string toml_text(Model value) { return toml_text(model_name(value)); }
 
 std::string toml_text(Solver value) { return toml_text(name_of(kSolvers, value)); }
 std::string toml_text(RepairMode value) { return toml_text(name_of(kRepairModes, value)); }
+
+std::string toml_text(Interpolation value) { return toml_text(name_of(kInterpolations, value)); }
 
 std::string toml_text(const Axes& value) {
   std::string names;

@@ -19,6 +19,7 @@ void parse_value(std::string_view text, const KeyInfo& key, std::filesystem::pat
 void parse_value(std::string_view text, const KeyInfo& key, std::string& value);
 void parse_value(std::string_view text, const KeyInfo& key, Solver& value);
 void parse_value(std::string_view text, const KeyInfo& key, RepairMode& value);
+void parse_value(std::string_view text, const KeyInfo& key, Interpolation& value);
 void parse_value(std::string_view text, const KeyInfo& key, Axes& value);
 void parse_value(std::string_view text, const KeyInfo& key, Model& value);
 void parse_value(std::string_view text, const KeyInfo& key, Color& value);
@@ -41,6 +42,7 @@ void parse_value(std::string_view text, const KeyInfo& key, std::optional<Value>
 [[nodiscard]] std::string toml_text(const std::filesystem::path& value);
 [[nodiscard]] std::string toml_text(Solver value);
 [[nodiscard]] std::string toml_text(RepairMode value);
+[[nodiscard]] std::string toml_text(Interpolation value);
 [[nodiscard]] std::string toml_text(const Axes& value);
 [[nodiscard]] std::string toml_text(Model value);
 [[nodiscard]] std::string toml_text(const Color& value);

@@ -113,7 +113,8 @@ TEST(Experiment, MovedPinsArriveInMotionAndAtRest) {
     const Vec3 shift = recording.probes.at(1).samples.back().displacement;
     EXPECT_LT((shift - Vec3(0.1, 0.2, 0)).norm(), 1e-9) << scheme;
     const Body& body = production.world.actors.at(0).body;
-    const Points goal = body.rest_positions + pin_movements(scene_of(text), production, 0, 1, false);
+    const Points goal =
+        body.rest_positions + pin_movements(scene_of("duration = 0.25\n" + text), production, 0, 0.25, false);
     for (const HeldNode& held : production.world.actors.at(0).pinned) {
       EXPECT_LT((body.positions.row(held.node) - goal.row(held.node)).norm(), 1e-9) << scheme;
     }

@@ -28,6 +28,12 @@ velocity = [1, 0, 0]
   axes = "xz"
   translate = [0, 0, "1 cm"]
   rotate = [0, 90, 0]
+  [[body.pin]]
+  box = { min = [0, 0.9, 0], max = [1, 1, 1] }
+  keyframes = [{ t = "500 ms" }, { t = 1, translate = [0, 0.1, 0], rotate = [0, 0, 360], scale = 0.5 }]
+  interpolation = "smooth"
+  from = 0.25
+  until = 1.25
   [[body.region]]
   box = { min = [0, 0.5, 0], max = [1, 1, 1] }
   material = { young = "80 kPa", poisson = 0.4, density = 1300 }
@@ -123,7 +129,7 @@ TEST_F(SceneFile, ReadsEveryKey) {
   EXPECT_EQ(body.model, Model::kTensile);
   EXPECT_EQ(body.color.value().red, 0xd8);
   EXPECT_EQ(body.velocity, Vec3(1, 0, 0));
-  ASSERT_EQ(body.pins.size(), 1U);
+  ASSERT_EQ(body.pins.size(), 2U);
   EXPECT_EQ(body.pins[0].box.max, Vec3(1, 0.1, 1));
   EXPECT_DOUBLE_EQ(scene.bodies[1].scale.value(), 0.01);
   EXPECT_DOUBLE_EQ(scene.bodies[1].brick_size.value(), 0.005);
@@ -186,7 +192,13 @@ TEST_F(SceneFile, PrintedSceneParsesToTheSameScene) {
   EXPECT_EQ(again.bodies[0].position, Vec3(0, 0.3, -0.02));
   EXPECT_DOUBLE_EQ(again.bodies[0].material.young, 20e3);
   EXPECT_EQ(again.bodies[1].material.source, find_material("rubber").source);
-  EXPECT_EQ(again.bodies[0].pins.size(), 1U);
+  const Pin& pin = again.bodies[0].pins.at(1);
+  EXPECT_DOUBLE_EQ(pin.keyframes.at(0).time, 0.5);
+  EXPECT_EQ(pin.keyframes.at(1).rotate, Vec3(0, 0, 360));
+  EXPECT_DOUBLE_EQ(pin.keyframes.at(1).scale, 0.5);
+  EXPECT_EQ(pin.interpolation, Interpolation::kSmooth);
+  EXPECT_DOUBLE_EQ(pin.from, 0.25);
+  EXPECT_DOUBLE_EQ(pin.until.value(), 1.25);
   EXPECT_EQ(again.solver.scheme, Solver::kVerlet);
   EXPECT_DOUBLE_EQ(again.obstacles.at(0).restitution, 0.1);
 }

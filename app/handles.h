@@ -1,0 +1,47 @@
+#pragma once
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "app/build_world.h"
+#include "core/world/keyframes.h"
+
+namespace sprung {
+
+/// Catches nodes, carries them and lets them go, as the pins of a scene say, while a world is in motion. A pin that
+/// catches later than at the start takes its nodes where they then are, and turns them about their middle.
+class Handles {
+ public:
+  /// Both have to outlive it.
+  Handles(const Scene& scene, Production& production);
+
+  /// Ends (s, rising, the last is `end`) of the pieces that the time from `begin` to `end` falls into: between them no
+  /// pin catches, lets go or comes through a keyframe.
+  [[nodiscard]] std::vector<double> pieces(double begin, double end) const;
+
+  /// Sets what is held from `begin` to `end` (s), and the even velocities that bring it exactly to where it belongs.
+  void aim(double begin, double end);
+
+ private:
+  /// Nodes as a pin caught them.
+  struct Catch {
+    double time = 0;             // s
+    Vec3 centre = Vec3::Zero();  // m
+    Points positions;            // m, in the order of the nodes
+  };
+  /// A pin and those of its nodes that belong to one actor.
+  struct Grip {
+    const Pin* pin;
+    const PinnedNodes* pinned;
+    Movement movement;
+    std::optional<Catch> caught{};
+  };
+
+  void carry(Grip& grip, Actor& actor, double begin, double end, std::map<int, HeldNode>& held) const;
+
+  Production& production_;
+  std::vector<std::vector<Grip>> grips_;  // by actor
+  std::vector<double> moments_;           // s, rising: when a pin catches, lets go or comes through a keyframe
+};
+
+}  // namespace sprung
