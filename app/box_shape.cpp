@@ -32,13 +32,6 @@ Eigen::Vector3i brick_counts(const Vec3& sides, double brick_size) {
   return counts.round().cast<int>();
 }
 
-bool is_cut(const Eigen::Vector3i& cell, const Eigen::Vector3i& counts, const std::vector<Cut>& cuts) {
-  const Eigen::Array3d middle = (cell.cast<double>().array() + 0.5) / counts.cast<double>().array();
-  return std::any_of(cuts.begin(), cuts.end(), [&](const Cut& cut) {
-    return (middle >= cut.box.min.array()).all() && (middle <= cut.box.max.array()).all();
-  });
-}
-
 /// Corners of a brick's face on the low or high side of an axis, counter-clockwise seen from outside.
 std::array<std::size_t, 4> face_corners(int axis, bool high) {
   const int j = 1 << ((axis + 1) % 3);
@@ -52,15 +45,9 @@ std::array<std::size_t, 4> face_corners(int axis, bool high) {
 
 }  // namespace
 
-BrickGrid box_grid(const Vec3& sides, double brick_size, const std::vector<Cut>& cuts) {
-  const Eigen::Vector3i counts = brick_counts(sides, brick_size);
-  BrickGrid grid = make_box_grid(counts, brick_size);
+BrickGrid box_grid(const Vec3& sides, double brick_size) {
+  BrickGrid grid = make_box_grid(brick_counts(sides, brick_size), brick_size);
   grid.origin = -sides / 2;
-  if (cuts.empty()) return grid;
-  std::erase_if(grid.cells, [&](const Eigen::Vector3i& cell) { return is_cut(cell, counts, cuts); });
-  if (grid.cells.empty()) throw Error(ErrorKind::kBadInput, "the cuts leave nothing of the box");
-  grid.fill.resize(grid.cells.size());
-  number_nodes(grid);
   return grid;
 }
 

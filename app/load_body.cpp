@@ -9,6 +9,8 @@
 #include <sstream>
 
 #include "app/box_shape.h"
+#include "app/selector.h"
+#include "app/shapes.h"
 #include "app/units.h"
 #include "core/bricks/brick_size.h"
 #include "core/bricks/voxelize.h"
@@ -106,6 +108,25 @@ void load_mesh(const SceneBody& body, LoadedBody& loaded, const Console& console
   loaded.brick_size = wanted_brick_size(body, loaded.extent);
 }
 
+/// What the cuts take of the bricks of a box.
+void take_out(const std::vector<Cut>& cuts, LoadedBody& loaded) {
+  BrickGrid& grid = *loaded.grid;
+  std::vector<bool> is_gone(grid.cells.size());
+  const Selector selector(loaded);
+  for (const Cut& cut : cuts) {
+    for (const int brick : selector.bricks(cut, grid)) is_gone[static_cast<std::size_t>(brick)] = true;
+  }
+  std::vector<Eigen::Vector3i> kept;
+  for (std::size_t brick = 0; brick < is_gone.size(); ++brick) {
+    if (!is_gone[brick]) kept.push_back(grid.cells[brick]);
+  }
+  if (kept.empty()) throw Error(ErrorKind::kBadInput, "the cuts leave nothing of the box");
+  grid.cells = std::move(kept);
+  grid.fill.resize(grid.cells.size());
+  number_nodes(grid);
+  loaded.mesh = surface_of(grid);
+}
+
 void load_box(const SceneBody& body, LoadedBody& loaded) {
   loaded.name = "box";
   loaded.extent = *body.box;
@@ -113,8 +134,18 @@ void load_box(const SceneBody& body, LoadedBody& loaded) {
     throw Error(ErrorKind::kBadInput, "a box is a whole number of bricks; bricks = \"auto\" is for a mesh");
   }
   loaded.brick_size = wanted_brick_size(body, loaded.extent);
-  loaded.grid = box_grid(loaded.extent, loaded.brick_size, body.cuts);
+  loaded.grid = box_grid(loaded.extent, loaded.brick_size);
   loaded.mesh = surface_of(*loaded.grid);
+  if (!body.cuts.empty()) take_out(body.cuts, loaded);
+}
+
+void load_shape(const SceneBody& body, LoadedBody& loaded) {
+  if (body.sphere) loaded.mesh = mesh_of(*body.sphere);
+  if (body.cylinder) loaded.mesh = mesh_of(*body.cylinder);
+  if (body.torus) loaded.mesh = mesh_of(*body.torus);
+  loaded.name = loaded.mesh.parts[0].name;
+  loaded.extent = loaded.mesh.positions.colwise().maxCoeff() - loaded.mesh.positions.colwise().minCoeff();
+  loaded.brick_size = wanted_brick_size(body, loaded.extent);
 }
 
 /// Such bricks would not show the body at all.
@@ -194,11 +225,13 @@ LoadedBody load_body(const SceneBody& body, const Console& console) {
   LoadedBody loaded;
   if (body.box) {
     load_box(body, loaded);
+  } else if (body.mesh.empty()) {
+    load_shape(body, loaded);
   } else {
     load_mesh(body, loaded, console);
   }
   refuse_giant_bricks(loaded);
-  const std::string file = body.box ? loaded.name : body.mesh.string();
+  const std::string file = body.mesh.empty() ? loaded.name : body.mesh.string();
   turn(rotation_matrix(body.brick_rotation), loaded);
   Solids found = find_solids(loaded.mesh, file, {.repair = body.repair, .thickness = body.thickness.value_or(0)});
   if (!body.box) report_repairs(found, console, loaded);

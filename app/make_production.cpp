@@ -68,13 +68,15 @@ class ThinParts {
   ThinPart thinnest_;
 };
 
-void find_thin_parts(Preparation& prepared, const Console& console) {
+void find_thin_parts(const Scene& scene, Preparation& prepared, const Console& console) {
   const World& world = prepared.production.world;
   std::size_t actor = 0;
   for (std::size_t body = 0; body < prepared.bodies.size(); ++body) {
     ThinParts parts(prepared.bodies[body]);
-    for (std::size_t solid = 0; solid < prepared.bodies[body].solids.size(); ++solid, ++actor) {
-      prepared.thin_parts.push_back(parts.find(world.actors[actor].body.grid, solid));
+    const auto copies = static_cast<std::size_t>(copy_count(scene.bodies[body]));
+    for (std::size_t solid = 0; solid < prepared.bodies[body].solids.size(); ++solid, actor += copies) {
+      const std::vector<ThinPart> found = parts.find(world.actors[actor].body.grid, solid);
+      prepared.thin_parts.insert(prepared.thin_parts.end(), copies, found);
     }
     parts.warn(console);
   }
@@ -87,7 +89,7 @@ Preparation prepare(const Scene& scene, const Console& console) {
   prepared.bodies = load_bodies(scene, console);
   Progress progress(console, "bricks");
   prepared.production = build_world(scene, prepared.bodies, console);
-  find_thin_parts(prepared, console);
+  find_thin_parts(scene, prepared, console);
   int bricks = 0;
   int nodes = 0;
   double mass = 0;

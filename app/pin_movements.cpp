@@ -13,7 +13,9 @@ Movement movement_of(const Pin& pin, const Scene& scene) {
   if (!pin.keyframes.empty()) return {pin.keyframes, pin.interpolation};
   const double end = time_of(scene, frame_count(scene) - 1);
   if (!(end > 0)) return {};
-  return {{{.time = end, .translate = pin.translate, .rotate = pin.rotate}}, Interpolation::kLinear};
+  return {
+      {{.time = end, .translate = pin.translate.value_or(Vec3::Zero()), .rotate = pin.rotate.value_or(Vec3::Zero())}},
+      Interpolation::kLinear};
 }
 
 Points pin_movements(const Scene& scene, const Production& production, std::size_t actor, double time, bool small) {

@@ -25,7 +25,7 @@ struct Unit {
 constexpr double kDegreesPerRadian = 180 / std::numbers::pi;
 
 /// The first unit of a dimension is its base unit; usual units grow from there in the order of the table.
-constexpr std::array<Unit, 59> kUnits{{
+constexpr std::array<Unit, 64> kUnits{{
     {Dimension::kRatio, "", 1},
     {Dimension::kRatio, "%", 0.01},
     {Dimension::kLength, "m", 1, true},
@@ -85,15 +85,12 @@ constexpr std::array<Unit, 59> kUnits{{
     {Dimension::kAngle, "deg", 1},
     {Dimension::kAngle, "°", 1},
     {Dimension::kAngle, "rad", kDegreesPerRadian},
+    {Dimension::kTurning, "degrees/s", 1, true},
+    {Dimension::kTurning, "deg/s", 1},
+    {Dimension::kTurning, "°/s", 1},
+    {Dimension::kTurning, "rad/s", kDegreesPerRadian},
+    {Dimension::kTurning, "rpm", 6},
 }};
-
-std::vector<std::string_view> units_of(Dimension dimension) {
-  std::vector<std::string_view> names;
-  for (const Unit& unit : kUnits) {
-    if (unit.dimension == dimension && !unit.name.empty()) names.push_back(unit.name);
-  }
-  return names;
-}
 
 std::string_view trim(std::string_view text) {
   const auto first = text.find_first_not_of(" \t");
@@ -122,6 +119,14 @@ double unit_value(std::string_view text, std::string_view name, Dimension dimens
 }
 
 }  // namespace
+
+std::vector<std::string_view> units_of(Dimension dimension) {
+  std::vector<std::string_view> names;
+  for (const Unit& unit : kUnits) {
+    if (unit.dimension == dimension && !unit.name.empty()) names.push_back(unit.name);
+  }
+  return names;
+}
 
 double parse_quantity(std::string_view text, Dimension dimension) {
   std::string_view rest = trim(text);

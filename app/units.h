@@ -1,11 +1,24 @@
 #pragma once
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace sprung {
 
 /// What a quantity measures, and so the units it may be written in.
-enum class Dimension { kNone, kRatio, kLength, kTime, kRate, kPressure, kDensity, kSpeed, kAcceleration, kAngle };
+enum class Dimension {
+  kNone,
+  kRatio,
+  kLength,
+  kTime,
+  kRate,
+  kPressure,
+  kDensity,
+  kSpeed,
+  kAcceleration,
+  kAngle,
+  kTurning
+};
 
 /// The quantity written as "3 cm", "3cm" or "0.03" in the base unit of its dimension: SI, degrees for angles. A bare
 /// number is in the base unit already. Throws Error(kBadInput) naming the text and the units that would do.
@@ -13,6 +26,9 @@ enum class Dimension { kNone, kRatio, kLength, kTime, kRate, kPressure, kDensity
 
 /// A whole number. Throws Error(kBadInput).
 [[nodiscard]] int parse_whole(std::string_view text);
+
+/// The units it may be written in, the base unit first; none for plain numbers.
+[[nodiscard]] std::vector<std::string_view> units_of(Dimension dimension);
 
 /// "m", "Pa", "degrees" ...; empty for plain numbers.
 [[nodiscard]] std::string_view base_unit(Dimension dimension);

@@ -31,25 +31,21 @@ bool is_from_library(const Material& material) {
 
 template <class Value>
 std::string value_text(const Value& value) {
-  return toml_text(value);
+  if constexpr (requires { toml_text(value); }) {
+    return toml_text(value);
+  } else {
+    return inline_table(value);
+  }
 }
 template <>
 std::string value_text(const Material& material) {
   return is_from_library(material) ? toml_text(std::string_view(material.name)) : inline_table(material);
 }
 template <>
-std::string value_text(const Box& box) {
-  return inline_table(box);
-}
-template <>
 std::string value_text(const std::vector<Keyframe>& keyframes) {
   std::string text;
   for (const Keyframe& keyframe : keyframes) text += (text.empty() ? "" : ", ") + inline_table(keyframe);
   return fmt::format("[{}]", text);
-}
-template <>
-std::string value_text(const Plane& plane) {
-  return inline_table(plane);
 }
 
 /// " name = value", or nothing for an optional value that is not there.

@@ -12,6 +12,15 @@ constexpr double kHeldFraction = 0.08;
 
 }  // namespace
 
+bool is_whole(const Selection& selection) {
+  return !selection.box && !selection.sphere && !selection.half_space && selection.part.empty() && !selection.painted &&
+         !selection.nearest && selection.mesh.empty();
+}
+
+int copy_count(const SceneBody& body) {
+  return body.copies ? body.copies->count[0] * body.copies->count[1] * body.copies->count[2] : 1;
+}
+
 bool is_motion(const Scene& scene) {
   const Solver scheme = scene.solver.scheme;
   return scheme != Solver::kStatic && scheme != Solver::kLinear && scheme != Solver::kModes;
@@ -31,7 +40,7 @@ double time_of(const Scene& scene, int frame) {
 
 Scene with_defaults(Scene scene) {
   for (SceneBody& body : scene.bodies) {
-    if (!body.size && !body.scale && !body.box) body.size = kDefaultSize;
+    if (!body.size && !body.scale && !body.mesh.empty()) body.size = kDefaultSize;
     if (!body.bricks && !body.brick_size) body.bricks = kDefaultBricks;
   }
   return scene;
@@ -48,7 +57,7 @@ void stage_scenario(Scene& scene, Scenario scenario) {
       body.position.y() = kHangHeight * size;
       Pin top;
       top.name = "top";
-      top.box.min.y() = 1 - kHeldFraction;
+      top.box = Box{.min = Vec3(0, 1 - kHeldFraction, 0)};
       body.pins = {top};
     }
   }

@@ -1,98 +1,13 @@
 #pragma once
 #include <array>
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "core/law/brick_law.h"
-#include "core/law/material.h"
-#include "core/mesh/repair.h"
-#include "core/types.h"
-#include "core/world/keyframes.h"
+#include "app/scene/scene_body.h"
 
 namespace sprung {
-
-inline constexpr double kDefaultSize = 0.2;  // m, longest side of a body whose scene names neither size nor scale
-inline constexpr int kDefaultBricks = 24;    // along the longest side
-inline constexpr std::string_view kDefaultMaterial = "gelatin";
-
-/// sRGB, 8 bits a channel.
-struct Color {
-  std::uint8_t red = 0;
-  std::uint8_t green = 0;
-  std::uint8_t blue = 0;
-};
-
-/// A part of a body, in fractions of the bounding box it has before it is turned.
-struct Box {
-  Vec3 min = Vec3::Zero();
-  Vec3 max = Vec3::Ones();
-};
-
-/// Directions of the world, x y z.
-struct Axes {
-  std::array<bool, 3> held{true, true, true};
-};
-
-/// The nodes in the box are held along some directions, and carried along those: through keyframes, or by a movement
-/// that grows evenly from nothing at the start to `translate` and `rotate` at the end of the film. They turn and grow
-/// about the middle of the box, then comes the shift. The box is placed in the body at rest, the directions are those
-/// of the world. Before and after its time the pin leaves the nodes free.
-struct Pin {
-  std::string name{};
-  Box box{};
-  Axes axes{};
-  Vec3 translate = Vec3::Zero();  // m
-  Vec3 rotate = Vec3::Zero();     // degrees about x, then y, then z
-  std::vector<Keyframe> keyframes;
-  Interpolation interpolation = Interpolation::kLinear;
-  double from = 0;              // s, when it takes the nodes, where they then are
-  std::optional<double> until;  // s, when it lets go; never
-};
-
-/// A part of a body made of another material: the bricks whose middles are in the box.
-struct Region {
-  Box box;
-  Material material;
-};
-
-/// A part taken out of a box: the bricks whose middles are in it.
-struct Cut {
-  Box box;
-};
-
-/// Bricks along the longest side; or (0) as fine as the thinnest part that counts asks for, see choose_brick_size().
-struct BrickCount {
-  int along = kDefaultBricks;
-  BrickCount(int count = kDefaultBricks) : along(count) {}  // NOLINT(google-explicit-constructor): it is a number
-  [[nodiscard]] bool is_auto() const { return along == 0; }
-  bool operator==(const BrickCount&) const = default;
-};
-
-/// A mesh file or a box, and how it enters the scene. Every solid in a file becomes a soft body of its own.
-struct SceneBody {
-  std::filesystem::path mesh;     // absolute; or
-  std::filesystem::path texture;  // absolute; a picture on the whole skin, in place of what the file names
-  std::optional<Vec3> box;        // m, sides of a box that is exactly as many bricks as fit in it
-  std::vector<Cut> cuts;          // of a box
-  std::optional<double> size;     // m, longest side of the bounding box; or
-  std::optional<double> scale;    // m per unit of the file
-  RepairMode repair = RepairMode::kAuto;
-  std::optional<double> thickness;     // m; makes the mesh a shell
-  Vec3 position = Vec3::Zero();        // m; where the middle of the bottom of the bounding box goes, after the rotation
-  Vec3 rotation = Vec3::Zero();        // degrees about x, then y, then z, around the middle of the bounding box
-  std::optional<BrickCount> bricks;    // or
-  std::optional<double> brick_size;    // m
-  Vec3 brick_rotation = Vec3::Zero();  // degrees, about x, then y, then z: how the bricks are turned in the body
-  Material material = find_material(kDefaultMaterial);
-  Model model = Model::kCalibrated;
-  std::optional<Color> color;    // of what the file leaves without colour
-  Vec3 velocity = Vec3::Zero();  // m/s
-  std::vector<Pin> pins;
-  std::vector<Region> regions;
-};
 
 /// How the frames come about.
 enum class Solver {

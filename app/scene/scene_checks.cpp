@@ -3,34 +3,48 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "core/nearest.h"
 
 namespace sprung {
 namespace {
 
-void refuse_both(const toml::table& table, const std::string& path, std::string_view first, std::string_view second,
-                 SceneMistakes& mistakes) {
-  if (!table.contains(first) || !table.contains(second)) return;
-  mistakes.add(table.get(second)->source(), fmt::format("{}: give {} or {}, not both", path, first, second));
+std::string list_of(const KeyRule& rule) {
+  std::string text;
+  for (const std::string_view key : rule.keys) text += fmt::format("{}'{}'", text.empty() ? "" : " or ", key);
+  return text;
 }
 
-void require_one(const toml::table& table, const std::string& path, std::string_view first, std::string_view second,
-                 SceneMistakes& mistakes) {
-  refuse_both(table, path, first, second, mistakes);
-  if (table.contains(first) || table.contains(second)) return;
-  mistakes.add(table.source(), fmt::format("{} lacks the key '{}' or '{}'", path, first, second));
+void check_rule(const toml::table& table, const std::string& path, const KeyRule& rule, SceneMistakes& mistakes) {
+  using Kind = KeyRule::Kind;
+  std::vector<std::string_view> given;
+  std::copy_if(rule.keys.begin(), rule.keys.end(), std::back_inserter(given),
+               [&](std::string_view key) { return table.contains(key); });
+  if (rule.kind == Kind::kNeeds) {
+    if (given.size() != 1 || given[0] != rule.keys[0]) return;
+    mistakes.add(table.get(given[0])->source(), fmt::format("{}: '{}' is for a {} with '{}'", path, given[0],
+                                                            path.substr(path.rfind('.') + 1), rule.keys[1]));
+  } else if (given.empty() && rule.kind != Kind::kAtMostOne) {
+    mistakes.add(table.source(), fmt::format("{} lacks the key {}", path, list_of(rule)));
+  } else if (given.size() > 1 && rule.kind != Kind::kAnyOf) {
+    mistakes.add(table.get(given[1])->source(), fmt::format("{}: give {} or {}, not both", path, given[0], given[1]));
+  }
 }
 
 /// A brick's law depends on its Poisson's ratio in many constants, on its stiffness in one factor.
 void check_regions(const toml::array& regions, const std::string& path, const SceneBody& body,
                    SceneMistakes& mistakes) {
-  for (std::size_t i = 0; i < body.regions.size(); ++i) {
-    if (body.regions[i].material.poisson == body.material.poisson) continue;
-    mistakes.add(regions[i].source(),
+  const auto check = [&](const toml::node& place, const Material& material) {
+    if (material.poisson == body.material.poisson) return;
+    mistakes.add(place.source(),
                  fmt::format("{}.region: its Poisson's ratio {} is not that of the body, {}; the materials of one "
                              "body may differ in stiffness and density only",
-                             path, body.regions[i].material.poisson, body.material.poisson));
+                             path, material.poisson, body.material.poisson));
+  };
+  for (std::size_t i = 0; i < body.regions.size(); ++i) {
+    check(regions[i], body.regions[i].material);
+    if (body.regions[i].gradient) check(regions[i], body.regions[i].gradient->material);
   }
 }
 
@@ -76,21 +90,16 @@ void check_probes(const toml::array& probes, const Scene& scene, SceneMistakes& 
 
 }  // namespace
 
+void check_rules(const toml::table& table, const std::string& path, std::span<const KeyRule> rules,
+                 SceneMistakes& mistakes) {
+  for (const KeyRule& rule : rules) check_rule(table, path, rule, mistakes);
+}
+
 void check_together(const toml::table& table, const std::string& path, const SceneBody& body, SceneMistakes& mistakes) {
-  require_one(table, path, "mesh", "box", mistakes);
-  refuse_both(table, path, "size", "scale", mistakes);
-  refuse_both(table, path, "box", "size", mistakes);
-  refuse_both(table, path, "box", "scale", mistakes);
-  refuse_both(table, path, "mesh", "cut", mistakes);
-  refuse_both(table, path, "box", "texture", mistakes);
-  refuse_both(table, path, "box", "thickness", mistakes);
-  refuse_both(table, path, "bricks", "brick_size", mistakes);
   if (!body.regions.empty()) check_regions(*table.get("region")->as_array(), path, body, mistakes);
 }
 
 void check_together(const toml::table& table, const std::string& path, const Pin& pin, SceneMistakes& mistakes) {
-  if (!pin.translate.isZero(0)) refuse_both(table, path, "translate", "keyframes", mistakes);
-  if (!pin.rotate.isZero(0)) refuse_both(table, path, "rotate", "keyframes", mistakes);
   if (pin.until && *pin.until <= pin.from) {
     mistakes.add(table.get("until")->source(), fmt::format("{}.until: must be after {}.from", path, path));
   }
@@ -103,12 +112,21 @@ void check_together(const toml::table& table, const std::string& path, const Pin
                fmt::format("{}.keyframes: at t = 0 the nodes are where the body is; move that, or begin later", path));
 }
 
-void check_together(const toml::table& table, const std::string& path, const Gate&, SceneMistakes& mistakes) {
-  require_one(table, path, "tolerance", "no_worse_than", mistakes);
+void check_together(const toml::table& table, const std::string& path, const HalfSpace& half, SceneMistakes& mistakes) {
+  if (!half.normal.isZero(0)) return;
+  mistakes.add(table.source(), fmt::format("{}.normal: must point somewhere", path));
 }
 
-void check_together(const toml::table& table, const std::string& path, const Probe&, SceneMistakes& mistakes) {
-  require_one(table, path, "point", "pin", mistakes);
+void check_together(const toml::table& table, const std::string& path, const Gradient& change,
+                    SceneMistakes& mistakes) {
+  if (change.from != change.to) return;
+  mistakes.add(table.source(), fmt::format("{}: from and to are the same place", path));
+}
+
+void check_together(const toml::table& table, const std::string& path, const TorusShape& ring,
+                    SceneMistakes& mistakes) {
+  if (ring.tube < ring.radius) return;
+  mistakes.add(table.source(), fmt::format("{}: the tube must be thinner than the radius, or there is no hole", path));
 }
 
 void check_together(const toml::table& table, const std::string& path, const Box& box, SceneMistakes& mistakes) {

@@ -59,6 +59,7 @@ class Reader {
         mistakes_.add(table.source(), fmt::format("{} lacks the key '{}': {}", where, key.name, key.help));
       }
     }
+    check_rules(table, path, rules<Owner>(), mistakes_);
     check_together(table, path, owner, mistakes_);
   }
 
@@ -120,9 +121,10 @@ class Reader {
       try_value(array[static_cast<std::size_t>(i)], fmt::format("{}[{}]", path, i), key, value[i]);
   }
 
-  void value_of(const toml::node& node, const std::string& path, const KeyInfo& key, std::array<int, 2>& value) {
-    const toml::array& array = array_of(node, 2, "an array of 2 whole numbers");
-    for (std::size_t i = 0; i < 2; ++i) try_value(array[i], fmt::format("{}[{}]", path, i), key, value[i]);
+  template <std::size_t count>
+  void value_of(const toml::node& node, const std::string& path, const KeyInfo& key, std::array<int, count>& value) {
+    const toml::array& array = array_of(node, count, fmt::format("an array of {} whole numbers", count));
+    for (std::size_t i = 0; i < count; ++i) try_value(array[i], fmt::format("{}[{}]", path, i), key, value[i]);
   }
 
   void value_of(const toml::node& node, const std::string&, const KeyInfo& key, std::filesystem::path& value) {

@@ -32,71 +32,6 @@ const Key<SceneSolver> kSolver[] = {
      &SceneSolver::time_limit},
 };
 
-const Key<SceneBody> kBody[] = {
-    {{"mesh", "file of the surface, relative to the scene file"}, &SceneBody::mesh},
-    {{"texture", "picture on the skin, placed by the mesh's UVs, in place of what its file names"},
-     &SceneBody::texture},
-    {{"box", "sides of a box; instead of mesh", Dimension::kLength, kPositive}, &SceneBody::box},
-    {{"cut", "parts taken out of a box"}, &SceneBody::cuts},
-    {{"size", "longest side of the body", Dimension::kLength, kPositive}, &SceneBody::size},
-    {{"scale", "length of one unit of the mesh file; instead of size", Dimension::kLength, kPositive},
-     &SceneBody::scale},
-    {{"repair", "of the mesh: auto mends and says what, strict refuses what needs it, off takes it as it is"},
-     &SceneBody::repair},
-    {{"thickness", "makes the surface of the mesh a shell of this thickness", Dimension::kLength, kPositive},
-     &SceneBody::thickness},
-    {{"position", "where the middle of the bottom of its bounding box goes", Dimension::kLength}, &SceneBody::position},
-    {{"rotation", "about x, then y, then z, around its middle", Dimension::kAngle}, &SceneBody::rotation},
-    {{"bricks", "number of bricks along the longest side; or auto: by the thinnest part", Dimension::kNone, {1, 1024}},
-     &SceneBody::bricks},
-    {{"brick_size", "side of a brick; instead of bricks", Dimension::kLength, kPositive}, &SceneBody::brick_size},
-    {{"brick_rotation", "how the bricks are turned in the body, about x, then y, then z", Dimension::kAngle},
-     &SceneBody::brick_rotation},
-    {{"material", "a name from `sprung materials`; in a scene also { young, poisson, density, damping }"},
-     &SceneBody::material},
-    {{"model", "law of the bricks: calibrated, tensile (Baudet et al. 2009), m1, m2-plain, m1-plain or fem"},
-     &SceneBody::model},
-    {{"color", "of what the mesh file leaves without colour: \"#rrggbb\""}, &SceneBody::color},
-    {{"velocity", "at the start", Dimension::kSpeed}, &SceneBody::velocity},
-    {{"pin", "nodes that are held"}, &SceneBody::pins},
-    {{"region", "parts of another material"}, &SceneBody::regions},
-};
-
-const Key<Material> kMaterial[] = {
-    {{"young", "Young's modulus", Dimension::kPressure, kPositive, true}, &Material::young},
-    {{"poisson", "Poisson's ratio", Dimension::kNone, {-1, 0.5, true, true}, true}, &Material::poisson},
-    {{"density", "density", Dimension::kDensity, kPositive, true}, &Material::density},
-    {{"damping", "ratio of critical damping at the slowest vibration", Dimension::kRatio, {0, 10}}, &Material::damping},
-};
-
-const Key<Pin> kPin[] = {
-    {{"name", "for probes"}, &Pin::name},
-    {{"box", "which nodes, in fractions of the body's bounding box", Dimension::kNone, {}, true}, &Pin::box},
-    {{"axes", "the directions that are held: \"xyz\", \"x\", \"yz\" ..."}, &Pin::axes},
-    {{"translate", "how far they are carried by the end of the film", Dimension::kLength}, &Pin::translate},
-    {{"rotate", "how far they are turned about the middle of the box by then", Dimension::kAngle}, &Pin::rotate},
-    {{"keyframes", "where they are at which times; instead of translate and rotate"}, &Pin::keyframes},
-    {{"interpolation", "between keyframes: linear, smooth or held"}, &Pin::interpolation},
-    {{"from", "when they are taken, where they then are", Dimension::kTime, {0, kInfinity}}, &Pin::from},
-    {{"until", "when they are let go; never", Dimension::kTime, kPositive}, &Pin::until},
-};
-
-const Key<Keyframe> kKeyframe[] = {
-    {{"t", "when", Dimension::kTime, {0, kInfinity}, true}, &Keyframe::time},
-    {{"translate", "how far from the start", Dimension::kLength}, &Keyframe::translate},
-    {{"rotate", "how far turned about x, then y, then z", Dimension::kAngle}, &Keyframe::rotate},
-    {{"scale", "size over size at the start", Dimension::kRatio, kPositive}, &Keyframe::scale},
-};
-
-const Key<Region> kRegion[] = {
-    {{"box", "which bricks, in fractions of the body's bounding box", Dimension::kNone, {}, true}, &Region::box},
-    {{"material", "what they are made of", Dimension::kNone, {}, true}, &Region::material},
-};
-
-const Key<Cut> kCut[] = {
-    {{"box", "which bricks, in fractions of the body's bounding box", Dimension::kNone, {}, true}, &Cut::box},
-};
-
 const Key<Probe> kProbe[] = {
     {{"name", "of its columns", Dimension::kNone, {}, true}, &Probe::name},
     {{"body", "which one, counted from 1", Dimension::kNone, {1, kInfinity}}, &Probe::body},
@@ -136,11 +71,6 @@ const Key<Gate> kGate[] = {
      &Gate::no_worse_than},
 };
 
-const Key<Box> kBox[] = {
-    {{"min", "low corner", Dimension::kRatio, {}, true}, &Box::min},
-    {{"max", "high corner", Dimension::kRatio, {}, true}, &Box::max},
-};
-
 const Key<Obstacle> kObstacle[] = {
     {{"plane", "the half-space below it is solid", Dimension::kNone, {}, true}, &Obstacle::plane},
     {{"friction", "Coulomb's coefficient", Dimension::kRatio, {0, kInfinity}}, &Obstacle::friction},
@@ -166,31 +96,13 @@ const Key<SceneRender> kRender[] = {
      &SceneRender::samples},
 };
 
+using Kind = KeyRule::Kind;
+
 }  // namespace
 
 template <>
 std::span<const Key<Scene>> keys() {
   return kScene;
-}
-template <>
-std::span<const Key<SceneBody>> keys() {
-  return kBody;
-}
-template <>
-std::span<const Key<Material>> keys() {
-  return kMaterial;
-}
-template <>
-std::span<const Key<Pin>> keys() {
-  return kPin;
-}
-template <>
-std::span<const Key<Keyframe>> keys() {
-  return kKeyframe;
-}
-template <>
-std::span<const Key<Box>> keys() {
-  return kBox;
 }
 template <>
 std::span<const Key<Obstacle>> keys() {
@@ -213,14 +125,6 @@ std::span<const Key<SceneSolver>> keys() {
   return kSolver;
 }
 template <>
-std::span<const Key<Region>> keys() {
-  return kRegion;
-}
-template <>
-std::span<const Key<Cut>> keys() {
-  return kCut;
-}
-template <>
 std::span<const Key<Probe>> keys() {
   return kProbe;
 }
@@ -235,6 +139,16 @@ std::span<const Key<Gate>> keys() {
 template <>
 std::span<const Key<Expectation>> keys() {
   return kExpectation;
+}
+template <>
+std::span<const KeyRule> rules<Probe>() {
+  static const std::vector<KeyRule> all{{Kind::kOneOf, {"point", "pin"}}};
+  return all;
+}
+template <>
+std::span<const KeyRule> rules<Gate>() {
+  static const std::vector<KeyRule> all{{Kind::kOneOf, {"tolerance", "no_worse_than"}}};
+  return all;
 }
 
 }  // namespace sprung

@@ -29,17 +29,19 @@ struct KeyInfo {
 
 /// The field that a key sets. Its type is the type of the key, its value in a new Owner the default.
 template <class Owner>
-using Member =
-    std::variant<double Owner::*, std::optional<double> Owner::*, int Owner::*, std::optional<int> Owner::*,
-                 std::optional<BrickCount> Owner::*, Vec3 Owner::*, std::optional<Vec3> Owner::*,
-                 std::array<int, 2> Owner::*, std::string Owner::*, std::filesystem::path Owner::*, Solver Owner::*,
-                 RepairMode Owner::*, Model Owner::*, std::optional<Model> Owner::*, Axes Owner::*,
-                 Interpolation Owner::*, std::optional<Color> Owner::*, Material Owner::*, Box Owner::*, Plane Owner::*,
-                 SceneCamera Owner::*, SceneRender Owner::*, SceneSolver Owner::*, Experiment Owner::*,
-                 std::vector<double> Owner::*, std::vector<int> Owner::*, std::vector<Model> Owner::*,
-                 std::vector<Pin> Owner::*, std::vector<Keyframe> Owner::*, std::vector<Region> Owner::*,
-                 std::vector<Cut> Owner::*, std::vector<SceneBody> Owner::*, std::vector<Obstacle> Owner::*,
-                 std::vector<Probe> Owner::*, std::vector<Gate> Owner::*, std::vector<Expectation> Owner::*>;
+using Member = std::variant<
+    double Owner::*, std::optional<double> Owner::*, int Owner::*, std::optional<int> Owner::*,
+    std::optional<BrickCount> Owner::*, Vec3 Owner::*, std::optional<Vec3> Owner::*, std::array<int, 2> Owner::*,
+    std::array<int, 3> Owner::*, std::string Owner::*, std::filesystem::path Owner::*, Solver Owner::*,
+    RepairMode Owner::*, Model Owner::*, std::optional<Model> Owner::*, Axes Owner::*, Interpolation Owner::*,
+    std::optional<Color> Owner::*, Material Owner::*, std::optional<Box> Owner::*, std::optional<Ball> Owner::*,
+    std::optional<HalfSpace> Owner::*, std::optional<Gradient> Owner::*, std::optional<SphereShape> Owner::*,
+    std::optional<CylinderShape> Owner::*, std::optional<TorusShape> Owner::*, std::optional<Copies> Owner::*,
+    Plane Owner::*, SceneCamera Owner::*, SceneRender Owner::*, SceneSolver Owner::*, Experiment Owner::*,
+    std::vector<double> Owner::*, std::vector<int> Owner::*, std::vector<Model> Owner::*,
+    std::vector<Keyframe> Owner::*, std::vector<Pin> Owner::*, std::vector<Region> Owner::*, std::vector<Cut> Owner::*,
+    std::vector<SceneBody> Owner::*, std::vector<Obstacle> Owner::*, std::vector<Probe> Owner::*,
+    std::vector<Gate> Owner::*, std::vector<Expectation> Owner::*>;
 
 template <class Owner>
 struct Key : KeyInfo {
@@ -64,6 +66,20 @@ std::span<const Key<Keyframe>> keys();
 template <>
 std::span<const Key<Box>> keys();
 template <>
+std::span<const Key<Ball>> keys();
+template <>
+std::span<const Key<HalfSpace>> keys();
+template <>
+std::span<const Key<Gradient>> keys();
+template <>
+std::span<const Key<SphereShape>> keys();
+template <>
+std::span<const Key<CylinderShape>> keys();
+template <>
+std::span<const Key<TorusShape>> keys();
+template <>
+std::span<const Key<Copies>> keys();
+template <>
 std::span<const Key<Obstacle>> keys();
 template <>
 std::span<const Key<Plane>> keys();
@@ -85,6 +101,35 @@ template <>
 std::span<const Key<Gate>> keys();
 template <>
 std::span<const Key<Expectation>> keys();
+
+/// What holds between the keys of one table.
+struct KeyRule {
+  enum class Kind {
+    kOneOf,      // exactly one of them
+    kAnyOf,      // one at least
+    kAtMostOne,  // two exclude each other
+    kNeeds       // the first only with the second
+  };
+  Kind kind;
+  std::vector<std::string_view> keys;
+};
+
+template <class Owner>
+[[nodiscard]] std::span<const KeyRule> rules() {
+  return {};
+}
+template <>
+std::span<const KeyRule> rules<SceneBody>();
+template <>
+std::span<const KeyRule> rules<Pin>();
+template <>
+std::span<const KeyRule> rules<Region>();
+template <>
+std::span<const KeyRule> rules<Cut>();
+template <>
+std::span<const KeyRule> rules<Probe>();
+template <>
+std::span<const KeyRule> rules<Gate>();
 
 /// The key of that name, or null.
 template <class Owner>

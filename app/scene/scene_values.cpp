@@ -160,6 +160,7 @@ std::string toml_text(const BrickCount& value) {
 }
 std::string toml_text(const Vec3& value) { return fmt::format("[{}, {}, {}]", value.x(), value.y(), value.z()); }
 std::string toml_text(const std::array<int, 2>& value) { return fmt::format("[{}, {}]", value[0], value[1]); }
+std::string toml_text(const std::array<int, 3>& value) { return fmt::format("[{}]", fmt::join(value, ", ")); }
 
 std::string toml_text(std::string_view value) {
   std::string text = "\"";

@@ -37,6 +37,7 @@ void parse_value(std::string_view text, const KeyInfo& key, std::optional<Value>
 [[nodiscard]] std::string toml_text(const BrickCount& value);
 [[nodiscard]] std::string toml_text(const Vec3& value);
 [[nodiscard]] std::string toml_text(const std::array<int, 2>& value);
+[[nodiscard]] std::string toml_text(const std::array<int, 3>& value);
 [[nodiscard]] std::string toml_text(std::string_view value);
 [[nodiscard]] std::string toml_text(const std::string& value);
 [[nodiscard]] std::string toml_text(const std::filesystem::path& value);

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "app/scene/scene_file.h"
 #include "app/scene/scene_values.h"
 #include "core/error.h"
@@ -16,6 +18,11 @@ namespace {
 template <class Owner>
 void set_key(Owner& owner, std::string_view path, std::string_view text);
 
+template <class Value>
+concept Word = requires(std::string_view text, const KeyInfo& key, Value& value) {
+  parse_value(text, key, value);
+};
+
 /// A plain value has to be the end of the path.
 template <class Value>
 void set_field(Value& value, const KeyInfo& key, std::string_view rest, std::string_view text) {
@@ -27,13 +34,17 @@ void set_field(Value& value, const KeyInfo& key, std::string_view rest, std::str
   }
 }
 
-void set_field(Vec3&, const KeyInfo& key, std::string_view, std::string_view) { refuse(key.name); }
-void set_field(std::optional<Vec3>&, const KeyInfo& key, std::string_view, std::string_view) { refuse(key.name); }
+/// A table that is there.
+template <class Owner>
+requires(!Word<Owner>) void set_field(std::optional<Owner>& owner, const KeyInfo& key, std::string_view rest,
+                                      std::string_view text) {
+  if (!owner) refuse(key.name);
+  set_key(*owner, rest, text);
+}
 
-template <class Value>
-concept Word = requires(std::string_view text, const KeyInfo& key, Value& value) {
-  parse_value(text, key, value);
-};
+void set_field(Vec3&, const KeyInfo& key, std::string_view, std::string_view) { refuse(key.name); }
+void set_field(std::array<int, 3>&, const KeyInfo& key, std::string_view, std::string_view) { refuse(key.name); }
+void set_field(std::optional<Vec3>&, const KeyInfo& key, std::string_view, std::string_view) { refuse(key.name); }
 
 template <Word Value>
 void set_field(std::vector<Value>&, const KeyInfo& key, std::string_view, std::string_view) {
@@ -61,14 +72,28 @@ requires(!Word<Owner>) void set_field(std::vector<Owner>& owners, const KeyInfo&
   for (Owner& owner : owners) set_key(owner, rest, text);
 }
 
-template <class Owner>
-void drop_rival(Owner&, std::string_view) {}
+/// Whether the value is one that can be left out.
+template <class Value>
+concept Droppable = requires(Value& value) {
+  value.reset();
+}
+|| requires(Value& value) { value.clear(); };
 
-void drop_rival(SceneBody& body, std::string_view name) {
-  if (name == "size") body.scale.reset();
-  if (name == "scale") body.size.reset();
-  if (name == "bricks") body.brick_size.reset();
-  if (name == "brick_size") body.bricks.reset();
+/// Of keys that exclude each other the one set last stays.
+template <class Owner>
+void drop_rivals(Owner& owner, std::string_view name) {
+  for (const KeyRule& rule : rules<Owner>()) {
+    const bool is_meant = std::find(rule.keys.begin(), rule.keys.end(), name) != rule.keys.end();
+    if (!is_meant || (rule.kind != KeyRule::Kind::kAtMostOne && rule.kind != KeyRule::Kind::kOneOf)) continue;
+    for (const std::string_view rival : rule.keys) {
+      if (rival == name) continue;
+      const auto drop = [&](auto field) {
+        using Value = std::remove_cvref_t<decltype(owner.*field)>;
+        if constexpr (Droppable<Value>) owner.*field = Value{};
+      };
+      std::visit(drop, find_key<Owner>(rival)->member);
+    }
+  }
 }
 
 template <class Owner>
@@ -81,7 +106,7 @@ void set_key(Owner& owner, std::string_view path, std::string_view text) {
     throw Error(ErrorKind::kBadInput, fmt::format("unknown key '{}'{}", name, did_you_mean(name, key_names<Owner>())));
   }
   std::visit([&](auto field) { set_field(owner.*field, *key, rest, text); }, key->member);
-  drop_rival(owner, name);
+  drop_rivals(owner, name);
 }
 
 }  // namespace

@@ -16,13 +16,13 @@ namespace sprung {
 namespace {
 
 /// What to run.
-struct Selection {
+struct Chosen {
   std::vector<NamedScene> scenes;
   std::vector<BuiltInCase> built_in;
 };
 
-Selection select(const ValidateOptions& options) {
-  Selection selection;
+Chosen select(const ValidateOptions& options) {
+  Chosen chosen;
   std::vector<std::string> scenes;
   for (const std::string& word : options.cases) {
     const auto is_word = [&](const BuiltInCase& known) { return known.name == word; };
@@ -30,17 +30,17 @@ Selection select(const ValidateOptions& options) {
     if (found == built_in_cases().end()) {
       scenes.push_back(word);
     } else {
-      selection.built_in.push_back(*found);
+      chosen.built_in.push_back(*found);
     }
   }
   const bool is_all = options.cases.empty();
-  if (is_all) selection.built_in.assign(built_in_cases().begin(), built_in_cases().end());
-  if (is_all || !scenes.empty()) selection.scenes = read_experiments(scenes);
-  return selection;
+  if (is_all) chosen.built_in.assign(built_in_cases().begin(), built_in_cases().end());
+  if (is_all || !scenes.empty()) chosen.scenes = read_experiments(scenes);
+  return chosen;
 }
 
 void print_list() {
-  const Selection all = select({});
+  const Chosen all = select({});
   for (const NamedScene& scene : all.scenes) fmt::print("{:<24}{}\n", scene.name, scene.scene.experiment.title);
   for (const BuiltInCase& known : all.built_in) fmt::print("{:<24}{}\n", known.name, known.title);
 }
@@ -58,7 +58,7 @@ bool validate(const ValidateOptions& options, const Console& console) {
     print_list();
     return true;
   }
-  const Selection selection = select(options);
+  const Chosen chosen = select(options);
   std::vector<FinishedCase> finished;
   std::vector<Check> checks;
   const auto add = [&](FinishedCase one) {
@@ -68,12 +68,12 @@ bool validate(const ValidateOptions& options, const Console& console) {
     finished.push_back(std::move(one));
   };
   Progress progress(console, "validate");
-  for (const NamedScene& scene : selection.scenes) {
+  for (const NamedScene& scene : chosen.scenes) {
     add({.name = scene.name,
          .result = run_experiment(scene.name, scene.scene, options.choice, console),
          .scene = &scene.scene});
   }
-  for (const BuiltInCase& known : selection.built_in) {
+  for (const BuiltInCase& known : chosen.built_in) {
     stop_if_interrupted();
     add({.name = std::string(known.name), .result = known.run(options.choice), .built_in = &known});
   }

@@ -130,7 +130,7 @@ TEST_F(SceneFile, ReadsEveryKey) {
   EXPECT_EQ(body.color.value().red, 0xd8);
   EXPECT_EQ(body.velocity, Vec3(1, 0, 0));
   ASSERT_EQ(body.pins.size(), 2U);
-  EXPECT_EQ(body.pins[0].box.max, Vec3(1, 0.1, 1));
+  EXPECT_EQ(body.pins[0].box->max, Vec3(1, 0.1, 1));
   EXPECT_DOUBLE_EQ(scene.bodies[1].scale.value(), 0.01);
   EXPECT_DOUBLE_EQ(scene.bodies[1].brick_size.value(), 0.005);
   EXPECT_EQ(scene.bodies[1].material.name, "rubber");
@@ -153,7 +153,7 @@ TEST_F(SceneFile, ReadsWhatIsMeasuredAndExpected) {
   EXPECT_EQ(pin.rotate, Vec3(0, 90, 0));
   EXPECT_DOUBLE_EQ(scene.bodies[0].regions.at(0).material.young, 80e3);
   EXPECT_EQ(scene.bodies[2].box, Vec3(0.3, 0.2, 0.1));
-  EXPECT_EQ(scene.bodies[2].cuts.at(0).box.max, Vec3(1, 0.5, 1));
+  EXPECT_EQ(scene.bodies[2].cuts.at(0).box->max, Vec3(1, 0.5, 1));
   ASSERT_EQ(scene.probes.size(), 2U);
   EXPECT_EQ(scene.probes[0].pin, "foot");
   EXPECT_EQ(scene.probes[1].point, Vec3(0, 0, 0));

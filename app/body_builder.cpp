@@ -1,0 +1,157 @@
+#include "app/body_builder.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include "app/regions.h"
+#include "app/units.h"
+#include "core/bricks/slivers.h"
+#include "core/bricks/voxelize.h"
+#include "core/error.h"
+#include "core/mesh/submesh.h"
+#include "core/skin/corner_normals.h"
+
+namespace sprung {
+namespace {
+
+constexpr double kLongestSkinEdge =
+    0.75;  // in bricks: follows the bend of a brick, and touches the ground often enough
+
+/// For bodies whose scene names no colour; the solids of a file differ.
+constexpr std::array<Color, 8> kPalette{{{0xd8, 0x32, 0x2a},
+                                         {0xf2, 0xa0, 0x3d},
+                                         {0x3b, 0x8e, 0xa5},
+                                         {0x6a, 0x9f, 0x4e},
+                                         {0x8a, 0x5a, 0xa8},
+                                         {0xe8, 0xc5, 0x47},
+                                         {0xc7, 0x6b, 0x8f},
+                                         {0x4f, 0x6d, 0xb8}}};
+
+/// Each position that triangles use, once: rows of the skin.
+std::vector<int> contact_rows(const Skin& skin) {
+  const std::vector<int> point_of = weld_points(skin.positions);
+  std::set<int> used;
+  for (const int vertex : std::span(skin.triangles.data(), static_cast<std::size_t>(skin.triangles.size()))) {
+    used.insert(point_of[static_cast<std::size_t>(vertex)]);
+  }
+  return {used.begin(), used.end()};
+}
+
+/// Every node that a pin holds at the start, once, with the axes of all its pins.
+std::vector<HeldNode> held_nodes(const std::vector<PinnedNodes>& pinned, const std::vector<Pin>& pins) {
+  std::map<int, HeldNode> held;
+  for (const PinnedNodes& group : pinned) {
+    if (pins[group.pin].from > 0) continue;
+    for (const int node : group.nodes) {
+      const auto [place, is_new] = held.try_emplace(node, HeldNode{.node = node, .axes = {false, false, false}});
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (pins[group.pin].axes.held[axis]) place->second.axes[axis] = true;
+      }
+    }
+  }
+  std::vector<HeldNode> list;
+  list.reserve(held.size());
+  for (const auto& [node, entry] : held) list.push_back(entry);
+  return list;
+}
+
+/// m/s, at the start; what is held is at rest.
+Points velocities_of(const SceneBody& scene_body, const Actor& actor, const Vec3& middle) {
+  Points velocities(actor.body.node_count(), 3);
+  const Vec3 spin = scene_body.spin * std::numbers::pi / 180;
+  for (int node = 0; node < velocities.rows(); ++node) {
+    const Vec3 arm = actor.body.positions.row(node).transpose() - middle;
+    velocities.row(node) = (scene_body.velocity + spin.cross(arm)).transpose();
+  }
+  for (const HeldNode& held : actor.pinned) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (held.axes[static_cast<std::size_t>(axis)]) velocities(held.node, axis) = 0;
+    }
+  }
+  return velocities;
+}
+
+}  // namespace
+
+BodyBuilder::BodyBuilder(const Scene& scene, std::size_t index, const LoadedBody& loaded, Production& production)
+    : body_(scene.bodies[index]),
+      index_(index),
+      loaded_(loaded),
+      production_(production),
+      selector_(loaded),
+      report_(loaded, body_.material.density) {}
+
+void BodyBuilder::add_solids() {
+  const std::vector<Pose> poses = poses_of(body_, loaded_);
+  for (std::size_t solid = 0; solid < loaded_.solids.size(); ++solid) {
+    const Filled filled = fill(solid);
+    for (const Pose& pose : poses) put(filled, pose);
+  }
+}
+
+BodyBuilder::Filled BodyBuilder::fill(std::size_t solid) {
+  Filled filled;
+  Body& body = filled.actor.body;
+  body = make_body(make_grid(loaded_.solids[solid]), body_.model, body_.material);
+  apply_regions(body_.regions, selector_, body);
+  Skin& skin = filled.drawn.skin;
+  skin = make_skin(submesh(loaded_.mesh, loaded_.solids[solid]), {.max_edge = kLongestSkinEdge * loaded_.brick_size});
+  filled.drawn.embedding = embed(body.grid, skin.positions, skin.normals);
+  report_.add(filled.drawn.embedding);
+  const std::vector<int> touching = contact_rows(skin);
+  filled.actor.contacts = embed(body.grid, skin.positions(touching, Eigen::all), skin.normals(touching, Eigen::all));
+  filled.pins = find_pins(body, solid);
+  held_solids_ += filled.pins.empty() ? 0 : 1;
+  filled.actor.pinned = held_nodes(filled.pins, body_.pins);
+  return filled;
+}
+
+void BodyBuilder::put(Filled filled, const Pose& pose) {
+  place(filled.actor.body, pose.rotation, pose.translation);
+  filled.actor.body.velocities = velocities_of(body_, filled.actor, pose.translation);
+  for (PinnedNodes& pinned : filled.pins) pinned.centre = pose.rotation * pinned.centre + pose.translation;
+  filled.drawn.color = body_.color.value_or(kPalette[production_.skins.size() % kPalette.size()]);
+  production_.world.actors.push_back(std::move(filled.actor));
+  production_.origins.push_back(
+      {.body = index_, .bricks_from_rest = loaded_.bricks_from_rest, .pins = std::move(filled.pins)});
+  production_.skins.push_back(std::move(filled.drawn));
+}
+
+BrickGrid BodyBuilder::make_grid(const Solid& solid) {
+  if (loaded_.grid) return *loaded_.grid;
+  BrickGrid grid = voxelize(solid, loaded_.brick_size);
+  const PieceReport pieces = split_pieces(solid, grid);
+  report_.add(pieces, absorb_slivers(grid));
+  report_.add_volume(grid, solid);
+  return grid;
+}
+
+std::vector<PinnedNodes> BodyBuilder::find_pins(const Body& body, std::size_t solid) const {
+  std::vector<PinnedNodes> pinned;
+  for (std::size_t pin = 0; pin < body_.pins.size(); ++pin) {
+    std::vector<int> nodes = selector_.nodes(body_.pins[pin], body.rest_positions, solid);
+    if (nodes.empty()) continue;
+    pinned.push_back({.pin = pin, .nodes = std::move(nodes), .centre = selector_.centre(body_.pins[pin])});
+  }
+  return pinned;
+}
+
+void BodyBuilder::tell(const Console& console) const {
+  report_.tell(console);
+  if (body_.pins.empty()) return;
+  if (held_solids_ == 0) {
+    throw Error(ErrorKind::kBadInput,
+                fmt::format("{}: the pins hold no node; make what they choose at least a brick ({}) thick",
+                            loaded_.name, readable(loaded_.brick_size, Dimension::kLength)));
+  }
+  const int free_solids = static_cast<int>(loaded_.solids.size()) - held_solids_;
+  if (free_solids == 0) return;
+  console.warn(fmt::format("{}: {} of {} solids are not held by the pins and will fall", loaded_.name, free_solids,
+                           loaded_.solids.size()));
+}
+
+}  // namespace sprung

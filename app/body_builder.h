@@ -1,0 +1,44 @@
+#pragma once
+#include "app/build_world.h"
+#include "app/copies.h"
+#include "app/fill_report.h"
+#include "app/selector.h"
+
+namespace sprung {
+
+/// Adds one body of a scene to a production: its solids filled with bricks, placed, with what is held of them; as many
+/// times as it has copies, all of one solid one after the other.
+class BodyBuilder {
+ public:
+  /// Body `index` of the scene. All have to outlive it.
+  BodyBuilder(const Scene& scene, std::size_t index, const LoadedBody& loaded, Production& production);
+
+  /// Throws Error(kBadInput) where a region, a pin or a cut speaks of what is not there.
+  void add_solids();
+
+  /// Says how well the bricks fill the body, and what is not held.
+  /// Throws Error(kBadInput) where no pin holds a node.
+  void tell(const Console& console) const;
+
+ private:
+  /// A solid filled with bricks, still where its grid is.
+  struct Filled {
+    Actor actor;
+    DrawnSkin drawn;
+    std::vector<PinnedNodes> pins;  // their centres too
+  };
+  [[nodiscard]] Filled fill(std::size_t solid);
+  [[nodiscard]] BrickGrid make_grid(const Solid& solid);
+  [[nodiscard]] std::vector<PinnedNodes> find_pins(const Body& body, std::size_t solid) const;
+  void put(Filled filled, const Pose& pose);
+
+  const SceneBody& body_;
+  std::size_t index_;
+  const LoadedBody& loaded_;
+  Production& production_;
+  Selector selector_;
+  FillReport report_;
+  int held_solids_ = 0;
+};
+
+}  // namespace sprung

@@ -1,0 +1,12 @@
+#pragma once
+#include "app/selector.h"
+#include "core/body/body.h"
+
+namespace sprung {
+
+/// Gives the bricks of the regions of a body their stiffness and mass; where regions overlap the last one counts. The
+/// body is still where its grid is. Throws Error(kBadInput) where a material has another Poisson's ratio than the body,
+/// and as Selector does.
+void apply_regions(const std::vector<Region>& regions, const Selector& selector, Body& body);
+
+}  // namespace sprung

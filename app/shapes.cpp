@@ -1,0 +1,96 @@
+#include "app/shapes.h"
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+namespace sprung {
+namespace {
+
+constexpr int kAround = 96;  // corners of a circle
+
+/// A point of the line whose turning about the y axis makes a surface.
+struct ProfilePoint {
+  Eigen::Vector2d place;   // m; distance from the axis, height
+  Eigen::Vector2d normal;  // outward, unit
+};
+
+/// Of a full circle in `count` parts; exact at its quarters.
+Eigen::Vector2d on_circle(int step, int count) {
+  const auto cosine = [&](int k) {
+    k = ((k % count) + count) % count;
+    if (4 * k == count || 4 * k == 3 * count) return 0.0;
+    return std::cos(2 * std::numbers::pi * k / count);
+  };
+  return {cosine(step), cosine(step - count / 4)};
+}
+
+/// A circle at each point of the profile (outside on its right, going up), and triangles between two that follow each
+/// other and are not a crease: those are at one place.
+SurfaceMesh revolve(const std::vector<ProfilePoint>& profile, const std::string& name) {
+  const auto rings = static_cast<int>(profile.size());
+  SurfaceMesh mesh;
+  mesh.positions.resize(rings * kAround, 3);
+  mesh.normals.resize(rings * kAround, 3);
+  for (int ring = 0; ring < rings; ++ring) {
+    const auto& [place, normal] = profile[static_cast<std::size_t>(ring)];
+    for (int k = 0; k < kAround; ++k) {
+      const Eigen::Vector2d around = on_circle(k, kAround);
+      mesh.positions.row(ring * kAround + k) << place.x() * around.x(), place.y(), place.x() * around.y();
+      const Eigen::RowVector3d outward(normal.x() * around.x(), normal.y(), normal.x() * around.y());
+      mesh.normals.row(ring * kAround + k) = outward.cast<float>();
+    }
+  }
+  std::vector<Eigen::RowVector3i> triangles;
+  for (int ring = 0; ring + 1 < rings; ++ring) {
+    const Eigen::Vector2d& low = profile[static_cast<std::size_t>(ring)].place;
+    const Eigen::Vector2d& high = profile[static_cast<std::size_t>(ring) + 1].place;
+    if (low == high) continue;
+    for (int k = 0; k < kAround; ++k) {
+      const int here = ring * kAround + k;
+      const int beside = ring * kAround + (k + 1) % kAround;
+      if (high.x() > 0) triangles.emplace_back(here, here + kAround, beside + kAround);
+      if (low.x() > 0) triangles.emplace_back(here, beside + kAround, beside);
+    }
+  }
+  mesh.triangles.resize(static_cast<Eigen::Index>(triangles.size()), 3);
+  for (std::size_t i = 0; i < triangles.size(); ++i) mesh.triangles.row(static_cast<Eigen::Index>(i)) = triangles[i];
+  mesh.parts = {Part{.name = name, .triangle_count = static_cast<int>(triangles.size())}};
+  return mesh;
+}
+
+}  // namespace
+
+SurfaceMesh mesh_of(const SphereShape& sphere) {
+  std::vector<ProfilePoint> profile;
+  for (int step = -kAround / 4; step <= kAround / 4; ++step) {
+    const Eigen::Vector2d outward = on_circle(step, kAround);
+    profile.push_back({.place = sphere.radius * outward, .normal = outward});
+  }
+  return revolve(profile, "sphere");
+}
+
+SurfaceMesh mesh_of(const CylinderShape& cylinder) {
+  const double radius = cylinder.radius;
+  const double high = cylinder.height / 2;
+  return revolve({{{0, -high}, {0, -1}},
+                  {{radius, -high}, {0, -1}},
+                  {{radius, -high}, {1, 0}},
+                  {{radius, high}, {1, 0}},
+                  {{radius, high}, {0, 1}},
+                  {{0, high}, {0, 1}}},
+                 "cylinder");
+}
+
+SurfaceMesh mesh_of(const TorusShape& torus) {
+  constexpr int kAlong = kAround / 2;
+  std::vector<ProfilePoint> profile;
+  for (int step = 0; step <= kAlong; ++step) {
+    const Eigen::Vector2d outward = on_circle(step, kAlong);
+    profile.push_back({.place = Eigen::Vector2d(torus.radius, 0) + torus.tube * outward, .normal = outward});
+  }
+  return revolve(profile, "torus");
+}
+
+}  // namespace sprung
