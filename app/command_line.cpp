@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "app/scene/scene_keys.h"
+#include "app/scene/scene_schema.h"
 #include "app/scene/scene_values.h"
 #include "app/wrong_words.h"
 #include "core/error.h"
@@ -80,6 +81,8 @@ struct Words {
   std::array<std::string, kSceneOptions.size()> scene_values;
   std::string scenario;
   std::string threads;
+  std::string topic;  // of help
+  bool json_schema = false;
 };
 
 void add_scene_options(CLI::App& command, Words& words, bool has_pictures) {
@@ -145,6 +148,31 @@ void add_validate(CLI::App& app, Words& words) {
   validate->add_flag("--quiet", words.scene.quiet, "warnings and errors only");
   validate->add_flag("--verbose", words.scene.verbose, "say why a model could not be carried through");
   validate->allow_extras();
+}
+
+void add_help(CLI::App& app, Words& words) {
+  CLI::App* help = app.add_subcommand("help", "on a command, or on the keys of a scene: sprung help scene");
+  help->add_option("TOPIC", words.topic, "a command, or scene");
+  help->add_flag("--json-schema", words.json_schema, "the keys of a scene as a JSON Schema");
+  help->allow_extras();
+}
+
+std::string help_text(const CLI::App& app, const CLI::App& help, const Words& words) {
+  refuse_extras(help, "unexpected");
+  if (words.topic == "scene") return words.json_schema ? scene_schema() : scene_reference();
+  if (words.json_schema) throw Error(ErrorKind::kUsage, "--json-schema is for sprung help scene");
+  const auto help_on = [](const CLI::App& command, const std::string& name) {
+    return command.get_formatter()->make_help(&command, name, CLI::AppFormatMode::Normal);
+  };
+  // The name of a command after `help` is parsed as that command.
+  for (const CLI::App* command : app.get_subcommands()) {
+    if (command != &help) return help_on(*command, "sprung " + command->get_name());
+  }
+  if (words.topic.empty()) return help_on(app, app.get_name());
+  std::vector<std::string> names{"scene"};
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  const std::vector<std::string_view> known(names.begin(), names.end());
+  throw Error(ErrorKind::kUsage, fmt::format("no help on '{}'{}", words.topic, did_you_mean(words.topic, known)));
 }
 
 Scenario scenario_from_name(const std::string& name) {
@@ -231,6 +259,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   add_validate(app, words);
   CLI::App* materials = app.add_subcommand("materials", "the library of materials, with sources");
   materials->allow_extras();
+  add_help(app, words);
   for (CLI::App* command : app.get_subcommands({})) accept_repeated(*command);
   CommandLine line;
   try {
@@ -247,7 +276,9 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     throw Error(ErrorKind::kUsage, error.what());
   }
   refuse_extras(app, "unknown command");
-  if (app.got_subcommand(materials)) {
+  if (app.got_subcommand("help")) {
+    line.text = help_text(app, *app.get_subcommand("help"), words);
+  } else if (app.got_subcommand(materials)) {
     refuse_extras(*materials, "unexpected");
     line.command = CommandLine::Command::kMaterials;
   } else if (app.got_subcommand("animate")) {

@@ -93,7 +93,7 @@ const Key<Material> kMaterial[] = {
 
 const Key<Pin> kPinOnly[] = {
     {{"name", "for probes"}, &Pin::name},
-    {{"axes", "the directions that are held: \"xyz\", \"x\", \"yz\" ..."}, &Pin::axes},
+    {{"axes", "the directions that are held: \"xyz\", \"x\", \"yz\", and so on"}, &Pin::axes},
     {{"translate", "how far they are carried by the end of the film", Dimension::kLength}, &Pin::translate},
     {{"rotate", "how far they are turned about the middle of the part by then", Dimension::kAngle}, &Pin::rotate},
     {{"keyframes", "where they are at which times"}, &Pin::keyframes},

@@ -15,7 +15,7 @@ const Key<Scene> kScene[] = {
     {{"solver", "how the frames come about"}, &Scene::solver},
     {{"camera", "where the film is seen from"}, &Scene::camera},
     {{"render", "the pictures"}, &Scene::render},
-    {{"body", "a mesh or a box made of a soft material", Dimension::kNone, {}, true}, &Scene::bodies},
+    {{"body", "a mesh or a shape made of a soft material", Dimension::kNone, {}, true}, &Scene::bodies},
     {{"obstacle", "the ground"}, &Scene::obstacles},
     {{"probe", "what is measured in every frame"}, &Scene::probes},
     {{"experiment", "what `sprung validate` varies"}, &Scene::experiment},
@@ -49,7 +49,7 @@ const Key<Experiment> kExperiment[] = {
 };
 
 const Key<Expectation> kExpectation[] = {
-    {{"quantity", "\"tip.displacement.y\", \"end.torque.x\", \"frequency.1\" ...", Dimension::kNone, {}, true},
+    {{"quantity", "\"tip.displacement.y\", \"end.torque.x\", \"frequency.1\", and so on", Dimension::kNone, {}, true},
      &Expectation::quantity},
     {{"value", "in SI units, in the last frame", Dimension::kNone, {}, true}, &Expectation::value},
     {{"source", "where the value is from", Dimension::kNone, {}, true}, &Expectation::source},

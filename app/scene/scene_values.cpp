@@ -46,17 +46,6 @@ std::string_view name_of(const Names& values, Value wanted) {
   return std::find_if(values.begin(), values.end(), [&](const auto& named) { return named.second == wanted; })->first;
 }
 
-std::string range_text(const KeyInfo& key) {
-  const Range& range = key.range;
-  const std::string low = with_unit(range.low, key.dimension);
-  const std::string high = with_unit(range.high, key.dimension);
-  const bool has_high = std::isfinite(range.high);
-  if (!std::isfinite(range.low)) return fmt::format("{} {}", range.without_high ? "below" : "at most", high);
-  std::string text = fmt::format("{} {}", range.without_low ? "above" : "at least", low);
-  if (has_high) text += fmt::format(" and {} {}", range.without_high ? "below" : "at most", high);
-  return text;
-}
-
 std::uint8_t hex_byte(std::string_view text, std::size_t at) {
   unsigned value = 0;
   const char* first = text.data() + at;
@@ -67,7 +56,42 @@ std::uint8_t hex_byte(std::string_view text, std::size_t at) {
   return static_cast<std::uint8_t>(value);
 }
 
+template <class Names>
+std::vector<std::string_view> names_in(const Names& values) {
+  std::vector<std::string_view> names;
+  for (const auto& [name, value] : values) names.push_back(name);
+  return names;
+}
+
 }  // namespace
+
+template <>
+std::vector<std::string_view> value_names<Solver>() {
+  return names_in(kSolvers);
+}
+template <>
+std::vector<std::string_view> value_names<RepairMode>() {
+  return names_in(kRepairModes);
+}
+template <>
+std::vector<std::string_view> value_names<Interpolation>() {
+  return names_in(kInterpolations);
+}
+template <>
+std::vector<std::string_view> value_names<Model>() {
+  return {model_names().begin(), model_names().end()};
+}
+
+std::string range_text(const KeyInfo& key) {
+  const Range& range = key.range;
+  const std::string low = with_unit(range.low, key.dimension);
+  const std::string high = with_unit(range.high, key.dimension);
+  const bool has_high = std::isfinite(range.high);
+  if (!std::isfinite(range.low)) return fmt::format("{} {}", range.without_high ? "below" : "at most", high);
+  std::string text = fmt::format("{} {}", range.without_low ? "above" : "at least", low);
+  if (has_high) text += fmt::format(" and {} {}", range.without_high ? "below" : "at most", high);
+  return text;
+}
 
 void check_range(double value, const KeyInfo& key) {
   const Range& range = key.range;

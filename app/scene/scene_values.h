@@ -9,6 +9,16 @@ namespace sprung {
 /// Throws Error(kBadInput) naming the value and the range where the number is outside it.
 void check_range(double value, const KeyInfo& key);
 
+/// "above 0 m and at most 3600 s"; of a key whose numbers are limited.
+[[nodiscard]] std::string range_text(const KeyInfo& key);
+
+/// The types whose values are written as names, and those names.
+template <class Value>
+concept Named = std::is_same_v<Value, Solver> || std::is_same_v<Value, RepairMode> ||
+    std::is_same_v<Value, Interpolation> || std::is_same_v<Value, Model>;
+template <Named Value>
+[[nodiscard]] std::vector<std::string_view> value_names();
+
 /// One value from the words of a person: quantities with units, names, "#rrggbb", "1280x720".
 /// Each throws Error(kBadInput) naming the text and what is expected.
 void parse_value(std::string_view text, const KeyInfo& key, double& value);
