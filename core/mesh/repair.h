@@ -15,10 +15,10 @@ namespace sprung {
 ///   oriented            triangles were turned to agree with their neighbours
 ///   stitched            pairs of open edges at the same place were joined
 ///   hole_filled         loops of open edges were closed by new triangles
+///   dropped_flat        pieces that enclose no volume were dropped
 ///   inside_out          shells were turned outwards
 ///   cavity              shells inside a solid, turned the other way, bound hollows in it         (harmless)
 ///   united              shells that overlap or lie in one another became one solid
-///   dropped_flat        pieces that enclose no volume were dropped
 ///   thickened           pieces of surface without volume became shells of the thickness asked for
 ///   self_intersection   pairs of triangles cross; what overlaps is filled once
 struct Repair {
@@ -27,6 +27,12 @@ struct Repair {
   std::string text;       // a phrase with the count: "filled 5 holes"
   bool harmless = false;  // usual in sound files: no warning, and no reason to refuse
 };
+
+/// Lists a repair where there was any.
+inline void add_repair(std::vector<Repair>& repairs, const char* kind, long count, const std::string& text,
+                       bool harmless = false) {
+  if (count > 0) repairs.push_back({kind, static_cast<int>(count), text, harmless});
+}
 
 /// What to do about a surface that does not bound solids as it is.
 enum class RepairMode {

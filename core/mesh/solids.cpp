@@ -10,11 +10,10 @@
 
 #include "core/count_of.h"
 #include "core/error.h"
+#include "core/mesh/assemble_solids.h"
 #include "core/mesh/close_shells.h"
-#include "core/mesh/crossings.h"
 #include "core/mesh/cut_solid.h"
 #include "core/mesh/enclosure.h"
-#include "core/mesh/nest.h"
 #include "core/mesh/shells.h"
 #include "core/mesh/stitch.h"
 #include "core/mesh/weld.h"
@@ -64,7 +63,7 @@ class Mender {
   }
 
   void add(const char* kind, long count, const std::string& text, bool harmless = false) {
-    if (count > 0) result_.repairs.push_back({kind, static_cast<int>(count), text, harmless});
+    add_repair(result_.repairs, kind, count, text, harmless);
   }
 
   void refuse_repairs() const {
@@ -105,7 +104,11 @@ class Mender {
                         [&](double sum, const Shell& shell) { return sum + given_area(mesh_, shell.triangles); });
     if (drop_empty(encloses) < 0.5 * whole && take_as_soup()) return;
     if (shells_.shells.empty()) refuse_empty();
-    assemble();
+    add("dropped_flat", dropped_, "dropped " + count_of(dropped_, "piece") + " of the surface without volume");
+    Solids made = assemble_solids(mesh_, shells_.shells, options_.repair);
+    result_.solids = std::move(made.solids);
+    result_.crossing = made.crossing;
+    for (Repair& repair : made.repairs) result_.repairs.push_back(std::move(repair));
   }
 
   void refuse_undecided() const {
@@ -203,75 +206,6 @@ class Mender {
     }
     refuse(fmt::format("the surface is an open sheet ({} in {}) and encloses no volume; {}",
                        count_of(faults_.open, "open edge"), count_of(faults_.loops, "loop"), kAdvice));
-  }
-
-  /// The crossings are of all triangles: those of dropped pieces count nothing.
-  void assemble() {
-    std::vector<bool> is_kept(static_cast<std::size_t>(mesh_.triangles.rows()), false);
-    for (const Shell& shell : shells_.shells) {
-      for (const int t : shell.triangles) is_kept[static_cast<std::size_t>(t)] = true;
-    }
-    std::vector<std::array<int, 2>> crossings = find_crossings(mesh_.points, mesh_.triangles);
-    std::erase_if(crossings, [&](const auto& pair) {
-      return !is_kept[static_cast<std::size_t>(pair[0])] || !is_kept[static_cast<std::size_t>(pair[1])];
-    });
-    const std::vector<Nest> nests = nest_shells(mesh_.points, mesh_.triangles, shells_.shells);
-    const auto groups = group_nests(nests, crossings);
-    std::vector<bool> crosses(is_kept.size(), false);
-    for (const auto& [a, b] : crossings) crosses[static_cast<std::size_t>(a)] = true;
-    long united = 0;
-    for (const NestGroup& group : groups) {
-      result_.solids.push_back(cut_solid(mesh_, group));
-      result_.solids.back().overlaps = overlaps(group, crosses);
-      if (group.size() > 1) united += static_cast<long>(group.size());
-    }
-    note_nests(nests);
-    add("united", united,
-        fmt::format("united {} that overlap, touch or lie in one another ({} left)", count_of(united, "body", "bodies"),
-                    count_of(static_cast<long>(groups.size()), "solid")));
-    add("dropped_flat", dropped_, "dropped " + count_of(dropped_, "piece") + " of the surface without volume");
-    note_crossings(crossings);
-  }
-
-  [[nodiscard]] std::vector<NestGroup> group_nests(const std::vector<Nest>& nests,
-                                                   const std::vector<std::array<int, 2>>& crossings) const {
-    if (options_.repair != RepairMode::kOff) return unite_nests(mesh_.points, mesh_.triangles, nests, crossings);
-    std::vector<NestGroup> groups;
-    groups.reserve(nests.size());
-    for (const Nest& nest : nests) groups.push_back({nest});
-    return groups;
-  }
-
-  static bool overlaps(const NestGroup& group, const std::vector<bool>& crosses) {
-    const auto any = [&](const Shell* shell) {
-      return std::any_of(shell->triangles.begin(), shell->triangles.end(),
-                         [&](int t) { return crosses[static_cast<std::size_t>(t)]; });
-    };
-    return std::any_of(group.begin(), group.end(), [&](const Nest& nest) {
-      return any(nest.outer) || std::any_of(nest.cavities.begin(), nest.cavities.end(), any);
-    });
-  }
-
-  void note_nests(const std::vector<Nest>& nests) {
-    const auto inverted =
-        std::count_if(nests.begin(), nests.end(), [](const Nest& nest) { return nest.outer->volume < 0; });
-    add("inside_out", inverted, "turned " + count_of(inverted, "inside-out solid") + " outwards");
-    long cavities = 0;
-    for (const Nest& nest : nests) cavities += static_cast<long>(nest.cavities.size());
-    add("cavity", cavities, "kept " + count_of(cavities, "cavity", "cavities"), true);
-  }
-
-  /// Caps may cross what is near their hole; only what the mesh has itself is worth a word.
-  void note_crossings(std::vector<std::array<int, 2>> crossings) {
-    std::erase_if(crossings, [&](const auto& pair) {
-      return mesh_.source[static_cast<std::size_t>(pair[0])] < 0 || mesh_.source[static_cast<std::size_t>(pair[1])] < 0;
-    });
-    if (crossings.empty()) return;
-    result_.crossing = mesh_.points(mesh_.triangles.row(crossings.front()[0]), Eigen::all).colwise().mean();
-    const auto pairs = static_cast<long>(crossings.size());
-    add("self_intersection", pairs,
-        fmt::format("the surface crosses itself: {}; what overlaps is filled once",
-                    count_of(pairs, "pair of triangles", "pairs of triangles")));
   }
 
   /// Every piece as it is, for a shell of the thickness asked for.
