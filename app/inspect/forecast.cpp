@@ -28,26 +28,41 @@ bool is_implicit(const Scene& scene, const World& world) {
   return !is_motion(scene) || plan_steps(world, scene).is_implicit();
 }
 
-/// Of explicit steps, all bodies together.
-double seconds_a_frame(World world, const StepPlan& plan, const Scene& scene) {
+double seconds_of_implicit_frame(World world, const StepPlan& plan) {
   const auto start = std::chrono::steady_clock::now();
-  if (plan.is_implicit()) {
-    ImplicitMotion motion(world,
-                          {.scheme = plan.scheme == Solver::kBdf2 ? ImplicitScheme::kBdf2 : ImplicitScheme::kEuler});
-    motion.advance(plan.steps.dt, 1, 0);
-    return seconds_since(start) * static_cast<double>(plan.steps.count);
-  }
+  ImplicitMotion motion(world,
+                        {.scheme = plan.scheme == Solver::kBdf2 ? ImplicitScheme::kBdf2 : ImplicitScheme::kEuler});
+  motion.advance(plan.steps.dt, 1, 0);
+  return seconds_since(start) * static_cast<double>(plan.steps.count);
+}
+
+/// Of explicit steps, all bodies together: what every call takes, and what each of its steps takes beside.
+double seconds_of_explicit_frame(World world, const StepPlan& plan) {
   const Scheme scheme = plan.scheme == Solver::kVerlet ? Scheme::kVerlet : Scheme::kSymplecticEuler;
   double bricks = 0;
   for (const Actor& actor : world.actors) bricks += actor.body.grid.brick_count();
   const double dt = stable_step(world);
-  double brick_steps = 0;
-  for (long steps = 1; seconds_since(start) < kSecondsToMeasure && static_cast<double>(steps) * dt < 1 / scene.fps;
-       steps *= 2) {
+  const auto seconds_of = [&](long steps) {
+    const auto start = std::chrono::steady_clock::now();
     advance(world, scheme, dt, steps, 0);
-    brick_steps += bricks * static_cast<double>(steps);
+    return seconds_since(start);
+  };
+  static_cast<void>(seconds_of(1));  // the first one waits for threads and memory
+  const double one = seconds_of(1);
+  const double whole = plan.brick_steps / bricks;  // steps of the frame
+  double seconds = 0;
+  double a_step = one;
+  for (long steps = 2; seconds < kSecondsToMeasure && static_cast<double>(steps) <= std::max(whole, 2.0); steps *= 2) {
+    const double more = seconds_of(1 + steps);
+    a_step = std::max(more - one, 0.0) / static_cast<double>(steps);
+    seconds += more;
   }
-  return seconds_since(start) * plan.brick_steps / std::max(brick_steps, 1.0);
+  return one + a_step * std::max(whole - 1, 0.0);
+}
+
+/// All bodies together.
+double seconds_a_frame(const World& world, const StepPlan& plan) {
+  return plan.is_implicit() ? seconds_of_implicit_frame(world, plan) : seconds_of_explicit_frame(world, plan);
 }
 
 double seconds_a_picture(const Production& production, const Scene& scene) {
@@ -100,7 +115,7 @@ Forecast make_forecast(const Production& production, const Scene& scene) {
   forecast.frames = frame_count(scene);
   if (is_motion(scene)) {
     forecast.plan = plan_steps(production.world, scene);
-    forecast.seconds_simulating = seconds_a_frame(production.world, *forecast.plan, scene);
+    forecast.seconds_simulating = seconds_a_frame(production.world, *forecast.plan);
   }
   forecast.seconds_drawing = seconds_a_picture(production, scene);
   return forecast;
