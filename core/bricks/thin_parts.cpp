@@ -1,6 +1,8 @@
 #include "core/bricks/thin_parts.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "core/bricks/embedding.h"
 #include "core/disjoint_sets.h"
@@ -8,8 +10,7 @@
 namespace sprung {
 namespace {
 
-constexpr double kPartShare = 0.1;  // of a part's samples are thinner than it is said to be
-constexpr int kFewestBricks = 4;    // in a part
+constexpr int kFewestBricks = 4;  // in a part
 constexpr double kRounding = 1e-6;
 
 using Lists = std::vector<std::vector<int>>;
@@ -57,19 +58,17 @@ std::vector<double> median_thickness(const BrickGrid& grid, const std::vector<Wa
   return medians;
 }
 
-ThinPart measured(std::vector<int> bricks, const std::vector<WallSample>& samples, const Lists& in_brick) {
-  ThinPart part{.bricks = std::move(bricks)};
-  std::vector<WallSample> own;
+/// The thinnest place is taken where the surface around a brick is thinnest in the middle: a few samples at a sharp
+/// edge say nothing.
+ThinPart measured(std::vector<int> bricks, const std::vector<double>& medians, const std::vector<WallSample>& samples,
+                  const Lists& in_brick) {
+  ThinPart part{.bricks = std::move(bricks), .thickness = std::numeric_limits<double>::infinity()};
   for (const int brick : part.bricks) {
-    for (const int sample : in_brick[static_cast<std::size_t>(brick)]) {
-      own.push_back(samples[static_cast<std::size_t>(sample)]);
-    }
+    const auto row = static_cast<std::size_t>(brick);
+    if (medians[row] >= part.thickness || in_brick[row].empty()) continue;
+    part.thickness = medians[row];
+    part.place = samples[static_cast<std::size_t>(in_brick[row].front())].place;
   }
-  if (own.empty()) return part;
-  part.thickness = thickness_quantile(own, kPartShare);
-  part.place = std::find_if(own.begin(), own.end(), [&](const WallSample& sample) {
-                 return sample.thickness == part.thickness;
-               })->place;
   return part;
 }
 
@@ -95,9 +94,9 @@ std::vector<ThinPart> find_thin_parts(const BrickGrid& grid, const std::vector<W
   std::vector<ThinPart> parts;
   for (std::vector<int>& group : groups) {
     if (group.size() < least) continue;
-    parts.push_back(measured(std::move(group), samples, in_brick));
+    parts.push_back(measured(std::move(group), medians, samples, in_brick));
   }
-  std::erase_if(parts, [](const ThinPart& part) { return part.thickness == 0; });
+  std::erase_if(parts, [](const ThinPart& part) { return !std::isfinite(part.thickness); });
   std::stable_sort(parts.begin(), parts.end(),
                    [](const ThinPart& a, const ThinPart& b) { return a.thickness < b.thickness; });
   return parts;

@@ -70,6 +70,22 @@ TEST(ThinParts, AreTheFinsAndNotTheEdgesOfTheBlock) {
   EXPECT_TRUE(find_thin_parts(voxelize(ball, 0.5), sample_thickness(ball, 5000)).empty());
 }
 
+TEST(ThinParts, AreHeldByBricksOfTheSizeNamed) {
+  // A blade of 1 x 1 at its root that tapers to 0.2.
+  SurfaceMesh mesh = test::box_mesh(Vec3(0, 0, 0), Vec3(10, 1, 1));
+  for (int v = 0; v < 8; ++v) {
+    if (mesh.positions(v, 0) > 0) mesh.positions(v, 2) = mesh.positions(v, 2) > 0 ? 0.6 : 0.4;
+  }
+  const Solid solid = only(mesh);
+  const std::vector<WallSample> samples = sample_thickness(solid, 20000);
+  const std::vector<ThinPart> parts = find_thin_parts(voxelize(solid, 0.5), samples);
+  ASSERT_EQ(parts.size(), 1U);
+  EXPECT_GT(parts[0].thickness, 0.15);
+  EXPECT_LT(parts[0].thickness, 0.35);
+  EXPECT_GT(parts[0].place.x(), 8);
+  EXPECT_TRUE(find_thin_parts(voxelize(solid, 0.8 * parts[0].thickness), samples).empty());
+}
+
 TEST(BrickSize, FollowsThinPartsTheShapeOrTheBudget) {
   const auto choose = [](const SurfaceMesh& mesh, double longest, double budget) {
     const std::vector<Solid> solids = find_solids(mesh, "test").solids;
