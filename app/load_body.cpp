@@ -26,8 +26,10 @@ namespace {
 /// Sizes between a mesh and its origin from which on single precision rounds its shape by more than a thousandth.
 constexpr double kFarAway = 1e4;
 
-/// On the surface of a body: several for each brick that the surface cuts, as long as bricks are not very small.
-constexpr int kWallSamples = 20000;
+/// Points of a body's surface where its thickness is measured.
+constexpr double kFewestWallSamples = 20000;
+constexpr double kMostWallSamples = 200000;
+constexpr double kWallSamplesABrick = 4;  // that the surface cuts
 
 /// The bounding box of a mesh, in units of its file.
 struct Bounds {
@@ -35,10 +37,15 @@ struct Bounds {
   Vec3 extent;
 };
 
-/// In double and before anything else, so that a mesh far from its origin loses nothing later.
+/// In double and before anything else, so that a mesh far from its origin loses nothing later. Vertices that no
+/// triangle uses count nothing.
 Bounds recentre(SurfaceMesh& mesh) {
-  const Vec3 low = mesh.positions.colwise().minCoeff();
-  const Vec3 high = mesh.positions.colwise().maxCoeff();
+  Vec3 low = mesh.positions.row(mesh.triangles(0, 0));
+  Vec3 high = low;
+  for (const int vertex : mesh.triangles.reshaped()) {
+    low = low.cwiseMin(mesh.positions.row(vertex).transpose());
+    high = high.cwiseMax(mesh.positions.row(vertex).transpose());
+  }
   const Vec3 middle = low + (high - low) / 2;
   mesh.positions.rowwise() -= middle.transpose();
   return {.middle = middle, .extent = high - low};
@@ -52,14 +59,14 @@ void warn_if_far_away(const SceneBody& body, const SurfaceMesh& mesh, double siz
                   body.mesh.filename().string(), sizes, sizes * std::numeric_limits<float>::epsilon() / 2));
 }
 
-/// Metres per unit of the file.
-double scale_of(const SceneBody& body, const std::string& name, double length, const Console& console) {
-  if (body.scale) return *body.scale;
-  if (!body.size) {
-    console.note(fmt::format("size: {} is {:.4g} file units long, drawn {} m long; say --size to choose", name, length,
-                             kDefaultSize));
-  }
-  return body.size.value_or(kDefaultSize) / length;
+/// Of a mesh that is a body: one that is refused gets a single line.
+void report_reading(const SceneBody& body, const LoadedBody& loaded, const Console& console) {
+  for (const std::string& note : loaded.mesh.notes) console.warn(fmt::format("{}: {}", loaded.name, note));
+  const double length = (loaded.file_from_rest.linear() * loaded.extent).maxCoeff();
+  warn_if_far_away(body, loaded.mesh, loaded.file_from_rest.translation().norm() / length, console);
+  if (body.scale || body.size) return;
+  console.note(fmt::format("size: {} is {:.4g} file units long, drawn {} m long; say --size to choose", loaded.name,
+                           length, kDefaultSize));
 }
 
 /// In place of every material of the file.
@@ -88,10 +95,9 @@ double wanted_brick_size(const SceneBody& body, const Vec3& extent) {
   return body.brick_size.value_or(extent.maxCoeff() / (count.is_auto() ? kDefaultBricks : count.along));
 }
 
-void load_mesh(const SceneBody& body, LoadedBody& loaded, const Console& console) {
+void load_mesh(const SceneBody& body, LoadedBody& loaded) {
   loaded.name = body.mesh.filename().string();
   loaded.mesh = read_mesh(body.mesh);
-  for (const std::string& note : loaded.mesh.notes) console.warn(fmt::format("{}: {}", loaded.name, note));
   if (!body.texture.empty()) put_on_texture(body, loaded.mesh);
   const auto [middle, extent] = recentre(loaded.mesh);
   const double length = extent.maxCoeff();
@@ -100,8 +106,7 @@ void load_mesh(const SceneBody& body, LoadedBody& loaded, const Console& console
                 fmt::format("{}: all points of the mesh fall together{}", body.mesh.string(),
                             middle.norm() > 0 ? ", perhaps because they lie too far from the origin" : ""));
   }
-  warn_if_far_away(body, loaded.mesh, middle.norm() / length, console);
-  const double scale = scale_of(body, loaded.name, length, console);
+  const double scale = body.scale.value_or(body.size.value_or(kDefaultSize) / length);
   loaded.mesh.positions *= scale;
   loaded.extent = extent * scale;
   loaded.file_from_rest = Eigen::Translation3d(middle) * Eigen::Scaling(1 / scale);
@@ -211,6 +216,14 @@ std::string reason_of(const BrickChoice& choice) {
       kBrickBudget, thickness, choice.across);
 }
 
+/// Several for each brick that the surface cuts, as long as the bricks are not very small.
+std::vector<std::vector<WallSample>> sample_walls(const LoadedBody& loaded) {
+  double bricks = 0;
+  for (const Solid& solid : loaded.solids) bricks += surface_area(solid) / (loaded.brick_size * loaded.brick_size);
+  const double count = std::clamp(kWallSamplesABrick * bricks, kFewestWallSamples, kMostWallSamples);
+  return sample_thickness(loaded.solids, static_cast<int>(count));
+}
+
 void choose_bricks(LoadedBody& loaded, const Console& console) {
   const double longest = loaded.extent.maxCoeff();
   const BrickChoice choice = choose_brick_size(loaded.solids, loaded.walls, longest);
@@ -228,20 +241,26 @@ LoadedBody load_body(const SceneBody& body, const Console& console) {
   } else if (body.mesh.empty()) {
     load_shape(body, loaded);
   } else {
-    load_mesh(body, loaded, console);
+    load_mesh(body, loaded);
   }
   refuse_giant_bricks(loaded);
   const std::string file = body.mesh.empty() ? loaded.name : body.mesh.string();
   turn(rotation_matrix(body.brick_rotation), loaded);
   Solids found = find_solids(loaded.mesh, file, {.repair = body.repair, .thickness = body.thickness.value_or(0)});
-  if (!body.box) report_repairs(found, console, loaded);
+  if (!body.box) {
+    report_reading(body, loaded, console);
+    report_repairs(found, console, loaded);
+  }
   loaded.repairs = std::move(found.repairs);
   loaded.solids = std::move(found.solids);
   for (Solid& solid : loaded.solids) solid.volume = enclosed_volume(solid);
   if (loaded.solids.size() > 1) loaded.grid.reset();
   if (body.box) return loaded;
-  loaded.walls = sample_thickness(loaded.solids, kWallSamples);
-  if (body.bricks && body.bricks->is_auto()) choose_bricks(loaded, console);
+  loaded.walls = sample_walls(loaded);
+  if (body.bricks && body.bricks->is_auto()) {
+    choose_bricks(loaded, console);
+    loaded.walls = sample_walls(loaded);
+  }
   report_thickness(body, console, loaded);
   return loaded;
 }

@@ -15,6 +15,7 @@
 #include "core/mesh/read/ply_reader.h"
 #include "core/mesh/read/reading_child.h"
 #include "core/mesh/read/stl_reader.h"
+#include "core/mesh/read/text_scanner.h"
 
 namespace sprung {
 namespace {
@@ -66,12 +67,13 @@ SurfaceMesh read_mesh_here(const fs::path& file) {
   const std::string name = file.string();
   const std::string format = lower_extension(file);
   const std::string bytes = read_bytes(file);
+  const std::string_view text = without_byte_order_mark(bytes);
   if (format == ".obj") {
-    return read_obj(bytes, name, [&](const std::string& companion) { return read_companion(companion, file); });
+    return read_obj(text, name, [&](const std::string& companion) { return read_companion(companion, file); });
   }
-  if (format == ".ply") return read_ply(bytes, name);
-  if (format == ".stl") return read_stl(bytes, name);
-  if (format == ".off") return read_off(bytes, name);
+  if (format == ".ply") return read_ply(text, name);
+  if (format == ".stl") return read_stl(text, name);
+  if (format == ".off") return read_off(text, name);
   if (format == ".glb") check_glb(bytes, name);
   if (format == ".gltf") check_gltf(bytes, name);
   if (format == ".3mf") check_3mf(bytes, name);

@@ -91,6 +91,14 @@ TEST_P(FarMesh, GivesTheSameBricksAtAnyScaleAndPlace) {
   }
 }
 
+TEST_P(FarMesh, GivesTheSameBricksWithVerticesThatNoTriangleUses) {
+  const SurfaceMesh torus = test::torus_mesh(0.37, 0.13, 48, 24);
+  SurfaceMesh littered = torus;
+  littered.positions.conservativeResize(torus.positions.rows() + 1, 3);
+  littered.positions.bottomRows(1).setConstant(1e3);
+  EXPECT_EQ(bricks_of(littered).cells, bricks_of(torus).cells);
+}
+
 INSTANTIATE_TEST_SUITE_P(TextFormats, FarMesh, testing::Values("obj", "off", "ply", "stl"),
                          [](const auto& format) { return format.param; });
 

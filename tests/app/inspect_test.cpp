@@ -4,23 +4,11 @@
 
 #include "app/inspect/forecast.h"
 #include "render/png.h"
-#include "tests/support/meshes.h"
+#include "tests/support/json_number.h"
 #include "tests/support/run_program.h"
 
 namespace sprung {
 namespace {
-
-/// The number after the last of the keys, each looked for behind the one before.
-double number_at(const std::string& json, const std::vector<std::string>& keys) {
-  std::size_t at = 0;
-  for (const std::string& key : keys) {
-    at = json.find("\"" + key + "\":", at);
-    if (at == std::string::npos) ADD_FAILURE() << "no " << key << " in " << json;
-    if (at == std::string::npos) return std::nan("");
-    at += key.size() + 3;
-  }
-  return std::stod(json.substr(at));
-}
 
 class Inspect : public testing::Test {
  protected:
@@ -99,36 +87,6 @@ TEST_F(Inspect, BadInputIsOneLineAndThree) {
   EXPECT_EQ(ended.out, "");
   EXPECT_NE(ended.err.find("sprung: error: "), std::string::npos) << ended.err;
 }
-
-struct TableRow {
-  const char* file;
-  double vertices;
-  double triangles;
-  double solids;
-  double volume;
-};
-
-class InspectShared : public Inspect, public testing::WithParamInterface<TableRow> {};
-
-TEST_P(InspectShared, AgreesWithTheTable) {
-  const TableRow& row = GetParam();
-  const auto file = test::shared_mesh(row.file);
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "the shared meshes are not here";
-  const ProgramRun made = run(file.string() + " --bricks 48 --resolution 160x120 --json");
-  ASSERT_EQ(made.exit_code, 0) << made.err;
-  EXPECT_EQ(number_at(made.out, {"mesh", "vertices"}), row.vertices);
-  EXPECT_EQ(number_at(made.out, {"mesh", "triangles"}), row.triangles);
-  EXPECT_EQ(number_at(made.out, {"mesh", "solids"}), row.solids);
-  EXPECT_EQ(number_at(made.out, {"bricks", "solids"}), row.solids);
-  EXPECT_NEAR(number_at(made.out, {"mesh", "volume"}) / row.volume, 1, 1e-3);
-  EXPECT_NEAR(number_at(made.out, {"bricks", "volume"}) / row.volume, 1, 5e-3);
-}
-
-INSTANTIATE_TEST_SUITE_P(Shared, InspectShared,
-                         testing::Values(TableRow{"eight.off", 315, 634, 1, 0.04017},
-                                         TableRow{"scorpion_low_resolution.obj", 6315, 12626, 1, 12.18},
-                                         TableRow{"cube_gears.3mf", 12852, 25692, 17, 1.124e5},
-                                         TableRow{"plate_holes.STL", 618, 1252, 1, 7.674e5}));
 
 TEST(Forecast, WarnsOfMoreMemoryThanThereIs) {
   EXPECT_EQ(warning_of_memory(1e6), "");

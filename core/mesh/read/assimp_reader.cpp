@@ -5,6 +5,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <assimp/DefaultLogger.hpp>
 #include <assimp/Importer.hpp>
 #include <limits>
 #include <new>
@@ -15,6 +16,7 @@
 #include "core/mesh/read/assimp_materials.h"
 #include "core/mesh/read/file_checks.h"
 #include "core/mesh/read/polygon.h"
+#include "core/mesh/read/polygon_soup.h"
 
 namespace sprung {
 namespace {
@@ -92,7 +94,10 @@ class MeshBuilder {
       const auto& corners = triangles_[static_cast<std::size_t>(t)];
       mesh_.triangles.row(t) = Eigen::Vector3i(corners[0], corners[1], corners[2]);
     }
-    if (loose_ > 0) mesh_.notes.push_back(fmt::format("left out {} loose points and lines", loose_));
+    if (triangles_.empty()) refuse(no_faces(mesh_.positions.rows(), lines_));
+    if (loose_ > 0) {
+      mesh_.notes.push_back("left out " + count_of(loose_, "loose point or line", "loose points and lines"));
+    }
     return std::move(mesh_);
   }
 
@@ -148,6 +153,7 @@ class MeshBuilder {
       const aiFace& face = instance.mesh->mFaces[f];
       if (face.mNumIndices < 3) {
         ++loose_;
+        if (face.mNumIndices == 2) ++lines_;
         continue;
       }
       corners.clear();
@@ -173,7 +179,8 @@ class MeshBuilder {
   bool linear_colors_;
   std::string name_;
   int first_vertex_ = 0;
-  int loose_ = 0;
+  long loose_ = 0;
+  long lines_ = 0;
 };
 
 std::string one_line(std::string text) {
@@ -183,6 +190,15 @@ std::string one_line(std::string text) {
   return text;
 }
 
+/// assimp drops faces of a glTF whose corners are not there, and tells its log alone.
+class DroppedFaces : public Assimp::LogStream {
+ public:
+  void write(const char* message) override {
+    if (std::string_view(message).find("out-of-range indices") != std::string_view::npos) any = true;
+  }
+  bool any = false;
+};
+
 const aiScene& read_scene(Assimp::Importer& importer, const std::filesystem::path& file) {
   const std::string extension = lower_extension(file);
   if (!importer.IsExtensionSupported(extension)) {
@@ -191,11 +207,17 @@ const aiScene& read_scene(Assimp::Importer& importer, const std::filesystem::pat
                             "fbx, dae, 3ds or x3d",
                             file.string(), extension));
   }
+  auto* dropped = new DroppedFaces;  // the logger's own from now on
+  Assimp::DefaultLogger::create(nullptr, Assimp::Logger::NORMAL, 0)->attachStream(dropped, Assimp::Logger::Warn);
   const aiScene* scene = importer.ReadFile(file.string(), 0);
   const std::string reason = importer.GetErrorString();
   if (reason.find("bad_alloc") != std::string::npos) throw std::bad_alloc();
   if (scene == nullptr || scene->mRootNode == nullptr) {
     throw Error(ErrorKind::kBadInput, fmt::format("{}: not a valid mesh file: {}", file.string(), one_line(reason)));
+  }
+  if (dropped->any) {
+    throw Error(ErrorKind::kBadInput,
+                file.string() + ": faces refer to vertices that are not there (index out of range)");
   }
   return *scene;
 }

@@ -36,7 +36,7 @@ void read_color(TextScanner& scanner, Eigen::Vector4f& color) {
 
 std::vector<SurfaceMaterial> read_mtl(std::string_view text) {
   std::vector<SurfaceMaterial> materials;
-  TextScanner scanner(text, "MTL");
+  TextScanner scanner(without_byte_order_mark(text), "MTL");
   while (scanner.next_line()) {
     const std::string_view keyword = scanner.word();
     if (keyword == "newmtl") materials.emplace_back().name = scanner.rest();

@@ -57,7 +57,10 @@ class ObjReader {
       part_ = -1;
     } else if (keyword == "mtllib") {
       take_library(std::string(scanner_.rest()));
-    } else if (keyword == "l" || keyword == "p") {
+    } else if (keyword == "l") {
+      ++loose_;
+      ++soup_.lines;
+    } else if (keyword == "p") {
       ++loose_;
     } else if (keyword == "curv" || keyword == "surf") {
       ++free_form_;

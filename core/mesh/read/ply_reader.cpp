@@ -69,6 +69,7 @@ class PlyReader {
       } else if (element.name == "tristrips") {
         read_strips(element);
       } else {
+        if (element.name == "edge") soup_.lines = element.count;
         read_all(element, [](const Named&) {});
       }
     }

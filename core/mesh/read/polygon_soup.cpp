@@ -125,11 +125,16 @@ void add_normal(PolygonSoup& soup, const Vec3& normal) {
   soup.normals.push_back(normal.allFinite() ? normal.stableNormalized().cast<float>().eval() : Eigen::Vector3f::Zero());
 }
 
+std::string no_faces(long points, long lines) {
+  if (points == 0) return "no vertices and no faces: not a mesh of this format, or an empty one";
+  const std::string held = count_of(points, "point");
+  if (lines == 0) return fmt::format("no faces (a point cloud); it holds {}", held);
+  return fmt::format("no faces (lines only); it holds {} and {}", held, count_of(lines, "line"));
+}
+
 SurfaceMesh mesh_from(PolygonSoup soup, std::string_view name) {
   if (soup.corner_counts.empty()) {
-    refuse(name, soup.positions.empty() ? "no vertices and no faces: not a mesh of this format, or an empty one"
-                                        : fmt::format("no faces (a point cloud); it holds {}",
-                                                      count_of(std::ssize(soup.positions), "point")));
+    refuse(name, no_faces(std::ssize(soup.positions), soup.lines));
   }
   if (soup.corners.size() > std::size_t{std::numeric_limits<int>::max()}) {
     refuse(name, "its faces have more than 2^31 corners; simplify the mesh");

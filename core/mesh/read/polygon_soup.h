@@ -26,6 +26,7 @@ struct PolygonSoup {
   std::vector<Part> parts;         // their triangles are not counted yet
   std::vector<SurfaceMaterial> materials;
   std::vector<std::string> notes;
+  long lines = 0;  // in the file, which are left out
   bool single_precision = false;
 };
 
@@ -35,6 +36,9 @@ void add_position(PolygonSoup& soup, const Vec3& position, std::string_view name
 /// A UV or a normal; what is not finite, which does no harm to the shape, becomes 0. Normals are brought to length 1.
 void add_uv(PolygonSoup& soup, const Eigen::Vector2d& uv);
 void add_normal(PolygonSoup& soup, const Vec3& normal);
+
+/// The reason to refuse a file that holds points and lines at most.
+[[nodiscard]] std::string no_faces(long points, long lines);
 
 /// The soup as a mesh: polygons are cut into triangles and ordered by part, vertices split where UVs or normals
 /// differ. Positions that no polygon uses are kept. Parts without a triangle are left out.

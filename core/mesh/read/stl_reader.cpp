@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cstdint>
 #include <cstring>
@@ -79,6 +80,10 @@ PolygonSoup read_binary(std::string_view bytes, const std::string& name) {
     close_polygon(soup, 3);
   }
   if (!has_colors) soup.colors.clear();
+  if (bytes.size() > binary_size(bytes)) {
+    soup.notes.push_back(fmt::format("left out {} bytes after the {} facets that its header declares",
+                                     bytes.size() - binary_size(bytes), word_at(bytes, 80, 4)));
+  }
   return soup;
 }
 
@@ -148,7 +153,8 @@ class TextReader {
 
 SurfaceMesh read_stl(std::string_view bytes, const std::string& name) {
   if (is_text(bytes)) return mesh_from(TextReader(bytes, name).read(), name);
-  if (bytes.size() < kHeader && bytes.find('\0') == std::string_view::npos) {
+  // A binary file that was cut short has zero bytes all the same: in its attributes.
+  if (bytes.size() < std::max(kHeader, binary_size(bytes)) && bytes.find('\0') == std::string_view::npos) {
     throw Error(ErrorKind::kBadInput, name + ": is not an STL file (it neither begins with 'solid' nor is it binary)");
   }
   return mesh_from(read_binary(bytes, name), name);

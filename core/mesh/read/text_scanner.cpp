@@ -42,6 +42,11 @@ std::optional<double> number_of(std::string_view word) {
   return value;
 }
 
+std::string_view without_byte_order_mark(std::string_view text) {
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  return text.starts_with(kMark) ? text.substr(kMark.size()) : text;
+}
+
 std::string Named::text() const { return number > 0 ? fmt::format("{} {}", thing, number) : std::string(thing); }
 
 TextScanner::TextScanner(std::string_view text, std::string name, long lines_before)

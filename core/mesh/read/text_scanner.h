@@ -9,6 +9,9 @@ namespace sprung {
 /// and one too large is infinite. Nothing where the word is anything else.
 [[nodiscard]] std::optional<double> number_of(std::string_view word);
 
+/// A text without the mark of UTF-8 that some programs put before it.
+[[nodiscard]] std::string_view without_byte_order_mark(std::string_view text);
+
 /// What a message is about: "vertex 12", or the thing alone where it has no number.
 struct Named {
   std::string_view thing;
