@@ -27,7 +27,7 @@ std::string mesh_lines(const BodyFacts& body) {
                                               count_of(mesh.triangles, "triangle"), count_of(mesh.parts, "part"),
                                               count_of(mesh.solids, "solid"), mesh.is_closed ? "closed" : "open"));
   text += line("volume", fmt::format("{:.4g} file units cubed, {}", mesh.volume,
-                                     readable_volume(mesh.volume * body.unit * body.unit * body.unit)));
+                                     readable_volume(body.bricks.volume / (1 + body.bricks.volume_error))));
   const double longest = body.extent.maxCoeff();
   if (mesh.median > 0) {
     text +=

@@ -13,9 +13,6 @@ struct PieceReport {
   int floating = 0;           // larger pieces that hang together with no other
 };
 
-/// A piece of solid that touches no other brick and is smaller than this share of the solid is a speck.
-inline constexpr double kSpeckShare = 1e-4;
-
 /// Gives the pieces of solid that share a cell but do not hang together in it a brick each, and joins bricks only where
 /// solid runs from one to the next through their face. What hangs together is found from 8 x 8 x 8 samples a cell that
 /// the surface cuts, the lines between them and, where those say nothing, straight lines that meet no triangle: a gap

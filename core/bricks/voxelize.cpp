@@ -136,9 +136,10 @@ BrickGrid voxelize(const Solid& solid, double brick_size) {
 
 double enclosed_volume(const Solid& solid) {
   constexpr double kCells = 128;
+  constexpr double kCellsByWinding = 48;  // that is slow, and exact to 1e-3 so
   if (solid.thickness > 0 || (solid.closed && !solid.overlaps)) return solid.volume;
   const Vec3 extent = solid.points.colwise().maxCoeff() - solid.points.colwise().minCoeff();
-  return voxelize(solid, extent.maxCoeff() / kCells).volume();
+  return voxelize(solid, extent.maxCoeff() / (solid.closed ? kCells : kCellsByWinding)).volume();
 }
 
 }  // namespace sprung

@@ -19,6 +19,7 @@ namespace sprung {
 ///   inside_out          shells were turned outwards
 ///   cavity              shells inside a solid, turned the other way, bound hollows in it         (harmless)
 ///   united              shells that overlap or lie in one another became one solid
+///   dropped_speck       solids much smaller than the largest one were dropped
 ///   thickened           pieces of surface without volume became shells of the thickness asked for
 ///   self_intersection   pairs of triangles cross; what overlaps is filled once
 struct Repair {

@@ -109,6 +109,7 @@ class Mender {
     result_.solids = std::move(made.solids);
     result_.crossing = made.crossing;
     for (Repair& repair : made.repairs) result_.repairs.push_back(std::move(repair));
+    if (options_.repair != RepairMode::kOff) drop_specks();
   }
 
   void refuse_undecided() const {
@@ -206,6 +207,16 @@ class Mender {
     }
     refuse(fmt::format("the surface is an open sheet ({} in {}) and encloses no volume; {}",
                        count_of(faults_.open, "open edge"), count_of(faults_.loops, "loop"), kAdvice));
+  }
+
+  void drop_specks() {
+    double largest = 0;
+    for (const Solid& solid : result_.solids) largest = std::max(largest, solid.volume);
+    const auto dropped = static_cast<long>(
+        std::erase_if(result_.solids, [&](const Solid& solid) { return solid.volume < kSpeckShare * largest; }));
+    add("dropped_speck", dropped,
+        fmt::format("dropped {}, smaller than {} of the largest solid", count_of(dropped, "floating speck"),
+                    kSpeckShare));
   }
 
   /// Every piece as it is, for a shell of the thickness asked for.

@@ -21,6 +21,10 @@ struct Solid {
   double thickness = 0;      // > 0: the matter is what lies within half of this from the triangles, which may be open
 };
 
+/// A solid smaller than this share of the largest one, or a piece of solid of this share that touches nothing else, is
+/// a floating speck.
+inline constexpr double kSpeckShare = 1e-4;
+
 struct Solids {
   std::vector<Solid> solids;     // largest volume first
   std::vector<Repair> repairs;   // what had to be changed, with counts
@@ -40,8 +44,8 @@ struct SolidOptions {
 /// bodies that touch there come apart. Rims that almost coincide are stitched (stitch.h), holes are capped: flat where
 /// the rim is, else smoothly (fill_hole.h); what is drawn gets the caps too (submesh.h). A closed piece inside another,
 /// turned the other way, is its cavity; pieces turned the same way that overlap, touch or lie in one another are one
-/// solid. Pieces without volume are dropped. Where most of the surface is loose pieces that enclose something only
-/// together, that is one solid whose inside winding numbers decide.
+/// solid. Pieces without volume and floating specks are dropped. Where most of the surface is loose pieces that enclose
+/// something only together, that is one solid whose inside winding numbers decide.
 ///
 /// Throws Error(kBadInput), naming `name` and the reason, where nothing encloses a volume (flat, an open sheet,
 /// one-sided, triangles without an inside), or where `repair` does not allow what would be needed. No tolerance is

@@ -44,6 +44,17 @@ double volume_of(const Solid& solid) {
   return sum;
 }
 
+TEST(Solids, FloatingSpecksAreDroppedAndCounted) {
+  SurfaceMesh mesh = box_mesh(Vec3::Zero(), kOne);
+  for (const double x : {2.0, 3.0}) mesh = joined(mesh, box_mesh(Vec3(x, 0, 0), Vec3(x + 0.03, 0.03, 0.03)));
+  mesh = joined(mesh, box_mesh(Vec3(4, 0, 0), Vec3(4.1, 0.1, 0.1)));
+  const Solids found = find_solids(mesh, "specks");
+  EXPECT_EQ(found.solids.size(), 2U);
+  EXPECT_TRUE(has_note(found, "dropped 2 floating specks"));
+  EXPECT_EQ(find_solids(mesh, "specks", {.repair = RepairMode::kOff}).solids.size(), 4U);
+  EXPECT_NE(refusal(mesh, RepairMode::kStrict).find("2 floating specks"), std::string::npos);
+}
+
 TEST(FindSolids, WeldsByPosition) {
   const Solids found = find_solids(test::unwelded(box_mesh(Vec3::Zero(), Vec3(1, 2, 3))), "box");
   ASSERT_EQ(found.solids.size(), 1U);
