@@ -1,6 +1,7 @@
 #include "app/command_line.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <array>
@@ -9,6 +10,7 @@
 #include "app/scene/scene_keys.h"
 #include "app/scene/scene_schema.h"
 #include "app/scene/scene_values.h"
+#include "app/scene_options.h"
 #include "app/wrong_words.h"
 #include "core/error.h"
 #include "core/nearest.h"
@@ -18,59 +20,6 @@ namespace {
 
 constexpr const char* kVersion = SPRUNG_VERSION;
 
-/// An option for a key of the scene; its help is that of the key.
-struct SceneOption {
-  const char* option;
-  std::string_view key;
-  const char* example;
-  bool is_of_pictures = false;  // of no use where none are drawn
-};
-
-constexpr std::array<SceneOption, 19> kSceneOptions{{
-    {"--material", "body.material", "NAME"},
-    {"--young", "body.material.young", "20kPa"},
-    {"--poisson", "body.material.poisson", "0.45"},
-    {"--density", "body.material.density", "1.1g/cm3"},
-    {"--damping", "body.material.damping", "0.03"},
-    {"--size", "body.size", "12cm"},
-    {"--bricks", "body.bricks", "N|auto"},
-    {"--brick-size", "body.brick_size", "5mm"},
-    {"--repair", "body.repair", "off|auto|strict"},
-    {"--thickness", "body.thickness", "3mm"},
-    {"--texture", "body.texture", "FILE.png", true},
-    {"--model", "body.model", "NAME"},
-    {"--scheme", "solver.scheme", "NAME"},
-    {"--integrator", "solver.scheme", "NAME"},
-    {"--time-limit", "solver.time_limit", "24h"},
-    {"--fps", "fps", "N"},
-    {"--duration", "duration", "3s"},
-    {"--resolution", "render.resolution", "WxH", true},
-    {"--samples", "render.samples", "N", true},
-}};
-
-template <class Owner>
-std::string key_help(std::string_view path);
-
-template <class Value>
-std::string help_below(const Value*, std::string_view) {
-  return "";
-}
-std::string help_below(const Material*, std::string_view rest) { return key_help<Material>(rest); }
-std::string help_below(const SceneSolver*, std::string_view rest) { return key_help<SceneSolver>(rest); }
-std::string help_below(const SceneRender*, std::string_view rest) { return key_help<SceneRender>(rest); }
-std::string help_below(const std::vector<SceneBody>*, std::string_view rest) { return key_help<SceneBody>(rest); }
-
-template <class Owner>
-std::string key_help(std::string_view path) {
-  const auto dot = path.find('.');
-  const Key<Owner>* key = find_key<Owner>(path.substr(0, dot));
-  if (dot == std::string_view::npos) return std::string(key->help);
-  const auto below = [&](auto field) {
-    return help_below(static_cast<std::remove_cvref_t<decltype(Owner{}.*field)>*>(nullptr), path.substr(dot + 1));
-  };
-  return std::visit(below, key->member);
-}
-
 /// Everything that CLI11 fills in.
 struct Words {
   SceneOptions scene;
@@ -78,7 +27,8 @@ struct Words {
   std::string model;
   std::string poisson;
   std::string bricks;
-  std::array<std::string, kSceneOptions.size()> scene_values;
+  std::vector<std::string> scene_values = std::vector<std::string>(sprung::scene_options().size());
+  std::vector<std::string> set;
   std::string scenario;
   std::string threads;
   std::string topic;  // of help
@@ -87,12 +37,18 @@ struct Words {
 
 void add_scene_options(CLI::App& command, Words& words, bool has_pictures) {
   command.add_option("INPUT", words.scene.input, "a mesh file, or a scene (.toml)");
-  for (std::size_t i = 0; i < kSceneOptions.size(); ++i) {
-    if (kSceneOptions[i].is_of_pictures && !has_pictures) continue;
-    command.add_option(kSceneOptions[i].option, words.scene_values[i], key_help<Scene>(kSceneOptions[i].key))
-        ->option_text(kSceneOptions[i].example);
+  for (std::size_t i = 0; i < words.scene_values.size(); ++i) {
+    const SceneOption& option = scene_options()[i];
+    if (option.is_of_pictures && !has_pictures) continue;
+    command.add_option(option.option, words.scene_values[i], help_of(option))->option_text(option.example);
   }
-  command.add_option("--scenario", words.scenario, "what a bare mesh does: drop or hang")->option_text("NAME");
+  command.add_option("--set", words.set, "any key of a scene (sprung help scene); may be given several times")
+      ->allow_extra_args(false)
+      ->option_text("KEY=VALUE");
+  command
+      .add_option("--scenario", words.scenario,
+                  fmt::format("what a bare mesh does: {}", fmt::join(scenario_names(), ", ")))
+      ->option_text("NAME");
   command.add_option("--threads", words.threads, "threads of the simulation; default: all cores")->option_text("N");
   command.add_flag("--print-scene", words.scene.print_scene, "write the scene as resolved to stdout, and stop");
   command.add_flag("--quiet", words.scene.quiet, "warnings and errors only");
@@ -175,13 +131,6 @@ std::string help_text(const CLI::App& app, const CLI::App& help, const Words& wo
   throw Error(ErrorKind::kUsage, fmt::format("no help on '{}'{}", words.topic, did_you_mean(words.topic, known)));
 }
 
-Scenario scenario_from_name(const std::string& name) {
-  constexpr std::array<std::string_view, 2> kNames{"drop", "hang"};
-  if (name == kNames[0]) return Scenario::kDrop;
-  if (name == kNames[1]) return Scenario::kHang;
-  throw Error(ErrorKind::kUsage, fmt::format("there is no scenario '{}'{}", name, did_you_mean(name, kNames)));
-}
-
 int thread_count(const std::string& text) {
   int threads = 0;
   try {
@@ -192,16 +141,26 @@ int thread_count(const std::string& text) {
   return threads;
 }
 
-SceneOptions scene_options(const CLI::App& command, Words& words) {
+/// "body.spin=[0,0,90]".
+Setting setting(const std::string& text) {
+  const auto sign = text.find('=');
+  if (sign == 0 || sign == std::string::npos) {
+    throw Error(ErrorKind::kUsage, fmt::format("--set: '{}' is not of the form KEY=VALUE", text));
+  }
+  return {"--set " + text.substr(0, sign), text.substr(0, sign), text.substr(sign + 1)};
+}
+
+SceneOptions read_scene_options(const CLI::App& command, Words& words) {
   refuse_extras(command, "more than one input; what is");
   refuse_repeated(command);
   SceneOptions options = std::move(words.scene);
-  for (std::size_t i = 0; i < kSceneOptions.size(); ++i) {
-    const auto& [option, key, example, is_of_pictures] = kSceneOptions[i];
-    const CLI::Option* given = command.get_option_no_throw(option);
+  for (std::size_t i = 0; i < words.scene_values.size(); ++i) {
+    const SceneOption& known = scene_options()[i];
+    const CLI::Option* given = command.get_option_no_throw(known.option);
     if (given == nullptr || given->count() == 0) continue;
-    options.settings.push_back({option, std::string(key), words.scene_values[i]});
+    options.settings.push_back({known.option, std::string(known.key), words.scene_values[i]});
   }
+  for (const std::string& words_of_one : words.set) options.settings.push_back(setting(words_of_one));
   if (command.count("--bricks") > 0 && command.count("--brick-size") > 0) {
     throw Error(ErrorKind::kUsage, "give --bricks or --brick-size, not both");
   }
@@ -282,13 +241,13 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     refuse_extras(*materials, "unexpected");
     line.command = CommandLine::Command::kMaterials;
   } else if (app.got_subcommand("animate")) {
-    line.scene = scene_options(*app.get_subcommand("animate"), words);
+    line.scene = read_scene_options(*app.get_subcommand("animate"), words);
     line.command = CommandLine::Command::kAnimate;
   } else if (app.got_subcommand("simulate")) {
-    line.scene = scene_options(*app.get_subcommand("simulate"), words);
+    line.scene = read_scene_options(*app.get_subcommand("simulate"), words);
     line.command = CommandLine::Command::kSimulate;
   } else if (app.got_subcommand("inspect")) {
-    line.scene = scene_options(*app.get_subcommand("inspect"), words);
+    line.scene = read_scene_options(*app.get_subcommand("inspect"), words);
     line.command = CommandLine::Command::kInspect;
   } else if (app.got_subcommand("validate")) {
     line.validate = validate_options(*app.get_subcommand("validate"), words);

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/scene/scene.h"
+#include "app/scene/scenarios.h"
 #include "app/validate/validate.h"
 
 namespace sprung {

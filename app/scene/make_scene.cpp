@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "app/scene/scenarios.h"
 #include "app/scene/scene_file.h"
 #include "core/error.h"
 

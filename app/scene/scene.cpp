@@ -4,14 +4,6 @@
 #include <cmath>
 
 namespace sprung {
-namespace {
-
-constexpr double kDropHeight = 0.4;  // in sizes above the ground
-constexpr double kHangHeight = 0.5;  // in sizes above the ground: near enough to see, far enough to stretch
-constexpr double kHeldFraction = 0.08;
-
-}  // namespace
-
 bool is_whole(const Selection& selection) {
   return !selection.box && !selection.sphere && !selection.half_space && selection.part.empty() && !selection.painted &&
          !selection.nearest && selection.mesh.empty();
@@ -44,23 +36,6 @@ Scene with_defaults(Scene scene) {
     if (!body.bricks && !body.brick_size) body.bricks = kDefaultBricks;
   }
   return scene;
-}
-
-void stage_scenario(Scene& scene, Scenario scenario) {
-  scene.obstacles = {Obstacle{}};
-  for (SceneBody& body : scene.bodies) {
-    const double size = body.box ? body.box->maxCoeff() : body.size.value_or(kDefaultSize);
-    if (scenario == Scenario::kDrop) {
-      body.position.y() = kDropHeight * size;
-      body.rotation = Vec3(12, 0, 9);
-    } else {
-      body.position.y() = kHangHeight * size;
-      Pin top;
-      top.name = "top";
-      top.box = Box{.min = Vec3(0, 1 - kHeldFraction, 0)};
-      body.pins = {top};
-    }
-  }
 }
 
 }  // namespace sprung

@@ -117,12 +117,4 @@ struct Scene {
 /// The scene with the size and the bricks of its bodies filled in where it leaves them open.
 [[nodiscard]] Scene with_defaults(Scene scene);
 
-enum class Scenario {
-  kDrop,  // falls, a little tilted, from 0.4 of its size
-  kHang   // held by its top 8 %, released under gravity
-};
-
-/// What a mesh without a scene file does. The size has to be set before.
-void stage_scenario(Scene& scene, Scenario scenario);
-
 }  // namespace sprung

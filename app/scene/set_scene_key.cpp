@@ -42,13 +42,43 @@ requires(!Word<Owner>) void set_field(std::optional<Owner>& owner, const KeyInfo
   set_key(*owner, rest, text);
 }
 
-void set_field(Vec3&, const KeyInfo& key, std::string_view, std::string_view) { refuse(key.name); }
-void set_field(std::array<int, 3>&, const KeyInfo& key, std::string_view, std::string_view) { refuse(key.name); }
-void set_field(std::optional<Vec3>&, const KeyInfo& key, std::string_view, std::string_view) { refuse(key.name); }
+/// "[1, 2, 3]", with or without brackets, piece by piece.
+std::vector<std::string_view> items_of(std::string_view text) {
+  if (text.starts_with('[') && text.ends_with(']')) text = text.substr(1, text.size() - 2);
+  std::vector<std::string_view> items;
+  while (true) {
+    const auto comma = text.find(',');
+    items.push_back(text.substr(0, comma));
+    if (comma == std::string_view::npos) return items;
+    text = text.substr(comma + 1);
+  }
+}
+
+template <class Values>
+void set_items(Values& values, std::size_t count, const KeyInfo& key, std::string_view rest, std::string_view text) {
+  if (!rest.empty()) refuse(rest);
+  const std::vector<std::string_view> items = items_of(text);
+  if (items.size() != count) {
+    throw Error(ErrorKind::kBadInput, fmt::format("must be {} numbers: [1, 2, 3]", count));
+  }
+  for (std::size_t i = 0; i < count; ++i) parse_value(items[i], key, values[i]);
+}
+
+void set_field(Vec3& value, const KeyInfo& key, std::string_view rest, std::string_view text) {
+  set_items(value, 3, key, rest, text);
+}
+void set_field(std::array<int, 3>& value, const KeyInfo& key, std::string_view rest, std::string_view text) {
+  set_items(value, 3, key, rest, text);
+}
+void set_field(std::optional<Vec3>& value, const KeyInfo& key, std::string_view rest, std::string_view text) {
+  set_items(value.emplace(), 3, key, rest, text);
+}
 
 template <Word Value>
-void set_field(std::vector<Value>&, const KeyInfo& key, std::string_view, std::string_view) {
-  refuse(key.name);
+void set_field(std::vector<Value>& values, const KeyInfo& key, std::string_view rest, std::string_view text) {
+  if (!rest.empty()) refuse(rest);
+  values.clear();
+  for (const std::string_view item : items_of(text)) parse_value(item, key, values.emplace_back());
 }
 
 /// From where the program runs; a scene file's own paths are from where it lies.

@@ -1,0 +1,116 @@
+#include "app/scene/scenarios.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.h"
+#include "core/nearest.h"
+
+namespace sprung {
+namespace {
+
+constexpr std::array<std::string_view, 6> kNames{"drop", "hang", "stretch", "twist", "wobble", "throw"};
+
+constexpr double kDropHeight = 0.4;  // in sizes above the ground
+constexpr double kHangHeight = 0.5;  // in sizes above the ground: near enough to see, far enough to stretch
+constexpr double kHeldFraction = 0.08;
+constexpr double kStretch = 0.6;  // sizes
+constexpr double kTwist = 180;    // degrees
+constexpr double kBend = 0.3;     // sizes
+constexpr double kThrowHeight = 0.3;
+constexpr double kTumble = 0.6;  // rad in the time that gravity takes for a size
+
+Pin bottom_pin() {
+  Pin pin;
+  pin.name = "bottom";
+  pin.box = Box{.max = Vec3(1, kHeldFraction, 1)};
+  return pin;
+}
+
+Pin top_pin() {
+  Pin pin;
+  pin.name = "top";
+  pin.box = Box{.min = Vec3(0, 1 - kHeldFraction, 0)};
+  pin.interpolation = Interpolation::kSmooth;
+  return pin;
+}
+
+/// There by 40 % of the film, until 60 %, and back at the end.
+std::vector<Keyframe> there_and_back(double duration, Keyframe there) {
+  there.time = 0.4 * duration;
+  Keyframe still = there;
+  still.time = 0.6 * duration;
+  return {Keyframe{}, there, still, Keyframe{.time = duration}};
+}
+
+void stage_stretch(SceneBody& body, double size, double duration) {
+  Pin top = top_pin();
+  top.keyframes = there_and_back(duration, {.translate = Vec3(0, kStretch * size, 0)});
+  body.pins = {bottom_pin(), top};
+}
+
+void stage_twist(SceneBody& body, double duration) {
+  Pin top = top_pin();
+  top.keyframes = there_and_back(duration, {.rotate = Vec3(0, kTwist, 0)});
+  body.pins = {bottom_pin(), top};
+}
+
+void stage_wobble(SceneBody& body, double size, double duration) {
+  Pin top = top_pin();
+  top.keyframes = {Keyframe{}, {.time = 0.15 * duration, .translate = Vec3(kBend * size, 0, 0)}};
+  top.until = 0.2 * duration;
+  body.pins = {bottom_pin(), top};
+}
+
+/// A bow of the same shape whatever the size.
+void stage_throw(SceneBody& body, double size, double gravity) {
+  const double speed = std::sqrt(gravity * size);
+  body.position = Vec3(-size, kThrowHeight * size, 0);
+  body.velocity = speed * Vec3(0.8, 1.4, 0);
+  body.spin = Vec3(0, 0, -kTumble * std::sqrt(gravity / size) * 180 / std::numbers::pi);
+}
+
+}  // namespace
+
+std::span<const std::string_view> scenario_names() { return kNames; }
+
+Scenario scenario_from_name(std::string_view name) {
+  const auto found = std::find(kNames.begin(), kNames.end(), name);
+  if (found != kNames.end()) return static_cast<Scenario>(found - kNames.begin());
+  throw Error(ErrorKind::kUsage, fmt::format("there is no scenario '{}'{}", name, did_you_mean(name, kNames)));
+}
+
+void stage_scenario(Scene& scene, Scenario scenario) {
+  scene.obstacles = {Obstacle{}};
+  for (SceneBody& body : scene.bodies) {
+    const double size = body.size.value_or(kDefaultSize);
+    switch (scenario) {
+      case Scenario::kDrop:
+        body.position.y() = kDropHeight * size;
+        body.rotation = Vec3(12, 0, 9);
+        break;
+      case Scenario::kHang:
+        body.position.y() = kHangHeight * size;
+        body.pins = {top_pin()};
+        break;
+      case Scenario::kStretch:
+        stage_stretch(body, size, scene.duration);
+        break;
+      case Scenario::kTwist:
+        stage_twist(body, scene.duration);
+        break;
+      case Scenario::kWobble:
+        stage_wobble(body, size, scene.duration);
+        break;
+      case Scenario::kThrow:
+        stage_throw(body, size, scene.gravity.norm());
+        break;
+    }
+  }
+}
+
+}  // namespace sprung

@@ -1,0 +1,29 @@
+#pragma once
+#include <span>
+#include <string_view>
+
+#include "app/scene/scene.h"
+
+namespace sprung {
+
+/// What a mesh without a scene file does.
+enum class Scenario {
+  kDrop,     // falls, a little tilted, from 0.4 of its size
+  kHang,     // held by its top 8 %, released under gravity
+  kStretch,  // its top is pulled up by 0.6 of its size, held, and brought back
+  kTwist,    // its top is turned by half a turn, and back
+  kWobble,   // its top is bent to the side and let go
+  kThrow     // flies in a bow, tumbling, and lands
+};
+
+/// By name, in the order above.
+[[nodiscard]] std::span<const std::string_view> scenario_names();
+
+/// Throws Error(kUsage) with the nearest name.
+[[nodiscard]] Scenario scenario_from_name(std::string_view name);
+
+/// Sets what the scenario needs; times are shares of the film's duration. Precondition: duration, gravity and the size
+/// of the bodies are set.
+void stage_scenario(Scene& scene, Scenario scenario);
+
+}  // namespace sprung

@@ -1,0 +1,22 @@
+#pragma once
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace sprung {
+
+/// An option for a key of the scene; its help is that of the key.
+struct SceneOption {
+  const char* option;
+  std::string_view key;
+  const char* example;
+  bool is_of_pictures = false;  // of no use where none are drawn
+};
+
+/// Every such option, in the order of its help.
+[[nodiscard]] std::span<const SceneOption> scene_options();
+
+/// What the key does.
+[[nodiscard]] std::string help_of(const SceneOption& option);
+
+}  // namespace sprung

@@ -1,0 +1,99 @@
+#include "app/scene/scenarios.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "app/make_production.h"
+#include "app/scene/scene_file.h"
+#include "app/simulate.h"
+#include "tests/support/error_message.h"
+#include "tests/support/run_program.h"
+
+namespace sprung {
+namespace {
+
+/// A soft cube of 20 cm that does this for 2 s, with the middle of its upper face, its own and that
+/// of an upper edge watched.
+Recording record(Scenario scenario) {
+  Scene scene;
+  scene.duration = 2;
+  SceneBody& body = scene.bodies.emplace_back();
+  body.box = Vec3::Constant(0.2);
+  body.size = 0.2;
+  body.bricks = 3;
+  body.material = Material{.name = "soft", .young = 2e4, .poisson = 0.3, .density = 500, .damping = 0.05, .source = ""};
+  scene.probes.resize(3);
+  scene.probes[0].name = "face";
+  scene.probes[0].point = Vec3(0, 0.1, 0);
+  scene.probes[1].name = "middle";
+  scene.probes[1].point = Vec3::Zero();
+  scene.probes[2].name = "edge";
+  scene.probes[2].point = Vec3(0.1, 0.1, 0);
+  stage_scenario(scene, scenario);
+  const Console silent{.quiet = true};
+  Production production = make_production(scene, silent);
+  return simulate(production, scene, silent);
+}
+
+/// Where the probe is at a time, from its start, m.
+Vec3 at(const Recording& recording, std::size_t probe, double time) {
+  return recording.probes.at(probe).samples.at(static_cast<std::size_t>(time * 24)).displacement;
+}
+
+TEST(Scenarios, StretchPullsAndBringsBack) {
+  const Recording recording = record(Scenario::kStretch);
+  EXPECT_LT((at(recording, 0, 1) - Vec3(0, 0.12, 0)).norm(), 1e-9);
+  EXPECT_LT(at(recording, 0, 1.999).norm(), 2e-3);  // smoothly to rest, a frame before the end
+  EXPECT_NEAR(at(recording, 1, 1).y(), 0.06, 0.03);
+}
+
+TEST(Scenarios, TwistTurnsAndBringsBack) {
+  const Recording recording = record(Scenario::kTwist);
+  EXPECT_LT(at(recording, 0, 1).norm(), 1e-9);  // on the axis
+  EXPECT_LT((at(recording, 2, 1) - Vec3(-0.2, 0, 0)).norm(), 1e-9);
+  EXPECT_LT(at(recording, 1, 1.999).norm(), 5e-3);
+}
+
+TEST(Scenarios, WobbleSwingsThroughTheMiddleAndDiesDown) {
+  const Recording recording = record(Scenario::kWobble);
+  EXPECT_NEAR(at(recording, 0, 0.34).x(), 0.06, 1e-3);
+  double lowest = 0;
+  for (double time = 0.42; time < 1; time += 1.0 / 24) lowest = std::min(lowest, at(recording, 0, time).x());
+  EXPECT_LT(lowest, -0.005);
+  EXPECT_LT(std::abs(at(recording, 0, 1.999).x()), 0.5 * std::abs(lowest));
+}
+
+TEST(Scenarios, ThrowFliesInABowAndLands) {
+  const Recording recording = record(Scenario::kThrow);
+  const double speed = std::sqrt(9.81 * 0.2);
+  const double top = 1.4 * speed / 9.81;
+  EXPECT_NEAR(at(recording, 1, std::floor(top * 24) / 24).y(), 0.7 * top * speed, 0.01);
+  EXPECT_NEAR(at(recording, 1, 0.25).x(), 0.25 * 0.8 * speed, 0.005);
+  EXPECT_LT(at(recording, 1, 1.999).y(), 0.02);
+}
+
+TEST(Scenarios, AreScenesThatCanBePrintedAndSet) {
+  const TempFolder folder;
+  static_cast<void>(folder.write("cube.obj", kCubeObj));
+  for (const std::string_view name : scenario_names()) {
+    const std::string words = fmt::format("animate cube.obj --print-scene --scenario {}", name);
+    const ProgramRun run = run_program(folder, words + " --set 'body.spin=[0, 0, 1 rad/s]' --set camera.orbit=20");
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const Scene scene = parse_scene(run.out, folder.path() / "scene.toml");
+    EXPECT_EQ(print_scene(scene), run.out) << name;
+    EXPECT_DOUBLE_EQ(scene.camera.orbit, 20);
+    const double spin = name == "throw" ? -240.765 : 57.296;  // degrees/s
+    EXPECT_NEAR(scene.bodies[0].spin.z(), spin, 1e-3);
+  }
+  EXPECT_NE(run_program(folder, "animate cube.obj --print-scene --set orbit").err.find("not of the form KEY=VALUE"),
+            std::string::npos);
+  EXPECT_NE(run_program(folder, "animate cube.obj --print-scene --set body.spin=3").err.find("must be 3 numbers"),
+            std::string::npos);
+  EXPECT_NE(run_program(folder, "animate cube.obj --print-scene --set camera.orbt=3").err.find("did you mean 'orbit'?"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace sprung
