@@ -15,7 +15,7 @@ namespace {
 
 /// The names of the structs of scene.h that are tables; empty for all else.
 template <class Value>
-constexpr std::string_view kTableName = "";
+constexpr std::string_view kTableName{};
 template <>
 constexpr std::string_view kTableName<Scene> = "scene";
 template <>
