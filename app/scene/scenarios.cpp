@@ -18,9 +18,9 @@ constexpr std::array<std::string_view, 6> kNames{"drop", "hang", "stretch", "twi
 constexpr double kDropHeight = 0.4;  // in sizes above the ground
 constexpr double kHangHeight = 0.5;  // in sizes above the ground: near enough to see, far enough to stretch
 constexpr double kHeldFraction = 0.08;
-constexpr double kStretch = 0.6;  // sizes
+constexpr double kStretch = 0.6;  // heights
 constexpr double kTwist = 180;    // degrees
-constexpr double kBend = 0.3;     // sizes
+constexpr double kBend = 0.3;     // heights
 constexpr double kThrowHeight = 0.3;
 constexpr double kTumble = 0.6;  // rad in the time that gravity takes for a size
 
@@ -47,9 +47,9 @@ std::vector<Keyframe> there_and_back(double duration, Keyframe there) {
   return {Keyframe{}, there, still, Keyframe{.time = duration}};
 }
 
-void stage_stretch(SceneBody& body, double size, double duration) {
+void stage_stretch(SceneBody& body, double height, double duration) {
   Pin top = top_pin();
-  top.keyframes = there_and_back(duration, {.translate = Vec3(0, kStretch * size, 0)});
+  top.keyframes = there_and_back(duration, {.translate = Vec3(0, kStretch * height, 0)});
   body.pins = {bottom_pin(), top};
 }
 
@@ -59,9 +59,9 @@ void stage_twist(SceneBody& body, double duration) {
   body.pins = {bottom_pin(), top};
 }
 
-void stage_wobble(SceneBody& body, double size, double duration) {
+void stage_wobble(SceneBody& body, double height, double duration) {
   Pin top = top_pin();
-  top.keyframes = {Keyframe{}, {.time = 0.15 * duration, .translate = Vec3(kBend * size, 0, 0)}};
+  top.keyframes = {Keyframe{}, {.time = 0.15 * duration, .translate = Vec3(kBend * height, 0, 0)}};
   top.until = 0.2 * duration;
   body.pins = {bottom_pin(), top};
 }
@@ -84,7 +84,9 @@ Scenario scenario_from_name(std::string_view name) {
   throw Error(ErrorKind::kUsage, fmt::format("there is no scenario '{}'{}", name, did_you_mean(name, kNames)));
 }
 
-void stage_scenario(Scene& scene, Scenario scenario) {
+bool needs_height(Scenario scenario) { return scenario == Scenario::kStretch || scenario == Scenario::kWobble; }
+
+void stage_scenario(Scene& scene, Scenario scenario, double height) {
   scene.obstacles = {Obstacle{}};
   for (SceneBody& body : scene.bodies) {
     const double size = body.size.value_or(kDefaultSize);
@@ -98,13 +100,13 @@ void stage_scenario(Scene& scene, Scenario scenario) {
         body.pins = {top_pin()};
         break;
       case Scenario::kStretch:
-        stage_stretch(body, size, scene.duration);
+        stage_stretch(body, height, scene.duration);
         break;
       case Scenario::kTwist:
         stage_twist(body, scene.duration);
         break;
       case Scenario::kWobble:
-        stage_wobble(body, size, scene.duration);
+        stage_wobble(body, height, scene.duration);
         break;
       case Scenario::kThrow:
         stage_throw(body, size, scene.gravity.norm());

@@ -10,9 +10,9 @@ namespace sprung {
 enum class Scenario {
   kDrop,     // falls, a little tilted, from 0.4 of its size
   kHang,     // held by its top 8 %, released under gravity
-  kStretch,  // its top is pulled up by 0.6 of its size, held, and brought back
+  kStretch,  // its top is pulled up by 0.6 of its height, held, and brought back
   kTwist,    // its top is turned by half a turn, and back
-  kWobble,   // its top is bent to the side and let go
+  kWobble,   // its top is bent to the side by 0.3 of its height and let go
   kThrow     // flies in a bow, tumbling, and lands
 };
 
@@ -22,8 +22,11 @@ enum class Scenario {
 /// Throws Error(kUsage) with the nearest name.
 [[nodiscard]] Scenario scenario_from_name(std::string_view name);
 
-/// Sets what the scenario needs; times are shares of the film's duration. Precondition: duration, gravity and the size
-/// of the bodies are set.
-void stage_scenario(Scene& scene, Scenario scenario);
+/// Whether it matters to the scenario how high a body is.
+[[nodiscard]] bool needs_height(Scenario scenario);
+
+/// Sets what the scenario needs for bodies that are `height` (m) high; times are shares of the film's duration.
+/// Precondition: duration, gravity and the size of the bodies are set.
+void stage_scenario(Scene& scene, Scenario scenario, double height);
 
 }  // namespace sprung

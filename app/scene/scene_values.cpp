@@ -59,6 +59,7 @@ std::uint8_t hex_byte(std::string_view text, std::size_t at) {
 template <class Names>
 std::vector<std::string_view> names_in(const Names& values) {
   std::vector<std::string_view> names;
+  names.reserve(values.size());
   for (const auto& [name, value] : values) names.push_back(name);
   return names;
 }

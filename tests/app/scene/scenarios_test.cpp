@@ -31,7 +31,7 @@ Recording record(Scenario scenario) {
   scene.probes[1].point = Vec3::Zero();
   scene.probes[2].name = "edge";
   scene.probes[2].point = Vec3(0.1, 0.1, 0);
-  stage_scenario(scene, scenario);
+  stage_scenario(scene, scenario, 0.2);
   const Console silent{.quiet = true};
   Production production = make_production(scene, silent);
   return simulate(production, scene, silent);
@@ -72,6 +72,14 @@ TEST(Scenarios, ThrowFliesInABowAndLands) {
   EXPECT_NEAR(at(recording, 1, std::floor(top * 24) / 24).y(), 0.7 * top * speed, 0.01);
   EXPECT_NEAR(at(recording, 1, 0.25).x(), 0.25 * 0.8 * speed, 0.005);
   EXPECT_LT(at(recording, 1, 1.999).y(), 0.02);
+}
+
+TEST(Scenarios, KnowHowHighAMeshIs) {
+  const TempFolder folder;
+  static_cast<void>(
+      folder.write("tent.obj", "v 0 0 0\nv 4 0 0\nv 0 0 1\nv 1 2 0\nf 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n"));
+  const ProgramRun run = run_program(folder, "animate tent.obj --size 40cm --scenario stretch --print-scene");
+  EXPECT_NE(run.out.find("translate = [0, 0.12, 0]"), std::string::npos) << run.out << run.err;
 }
 
 TEST(Scenarios, AreScenesThatCanBePrintedAndSet) {
