@@ -27,21 +27,80 @@ struct KeyInfo {
   std::span<const int> choices{};  // where not empty: the only numbers it takes
 };
 
+/// The types that the keys of one table may have.
+template <class... Values>
+struct Types {
+  template <class Owner>
+  using Member = std::variant<Values Owner::*...>;
+};
+
+/// The types of the keys of a table, each listed where it is used: code is made for every pair of table and type.
+template <class Owner>
+struct KeyTypes;
+template <>
+struct KeyTypes<Scene> : Types<double, Vec3, SceneSolver, SceneCamera, SceneRender, std::vector<SceneBody>,
+                               std::vector<Obstacle>, std::vector<Probe>, Experiment, std::vector<Expectation>> {};
+template <>
+struct KeyTypes<SceneSolver> : Types<Solver, std::optional<int>, int, double> {};
+template <>
+struct KeyTypes<SceneCamera> : Types<double> {};
+template <>
+struct KeyTypes<SceneRender> : Types<std::array<int, 2>, int> {};
+template <>
+struct KeyTypes<SceneBody> : Types<std::filesystem::path, std::optional<Vec3>, std::optional<SphereShape>,
+                                   std::optional<CylinderShape>, std::optional<TorusShape>, std::vector<Cut>,
+                                   std::optional<double>, RepairMode, Vec3, std::optional<BrickCount>, Material, Model,
+                                   std::optional<Color>, std::optional<Copies>, std::vector<Pin>, std::vector<Region>> {
+};
+template <>
+struct KeyTypes<Material> : Types<double> {};
+template <>
+struct KeyTypes<SphereShape> : Types<double> {};
+template <>
+struct KeyTypes<CylinderShape> : Types<double> {};
+template <>
+struct KeyTypes<TorusShape> : Types<double> {};
+template <>
+struct KeyTypes<Copies> : Types<std::array<int, 3>, Vec3, double, int> {};
+template <>
+struct KeyTypes<Pin> : Types<std::optional<Box>, std::optional<Ball>, std::optional<HalfSpace>, std::string,
+                             std::optional<Color>, std::optional<Vec3>, std::filesystem::path, Axes,
+                             std::vector<Keyframe>, Interpolation, double, std::optional<double>> {};
+template <>
+struct KeyTypes<Keyframe> : Types<double, Vec3> {};
+template <>
+struct KeyTypes<Region>
+    : Types<std::optional<Box>, std::optional<Ball>, std::optional<HalfSpace>, std::string, std::optional<Color>,
+            std::optional<Vec3>, std::filesystem::path, Material, std::optional<Gradient>> {};
+template <>
+struct KeyTypes<Gradient> : Types<Vec3, Material> {};
+template <>
+struct KeyTypes<Cut> : Types<std::optional<Box>, std::optional<Ball>, std::optional<HalfSpace>, std::string,
+                             std::optional<Color>, std::optional<Vec3>, std::filesystem::path> {};
+template <>
+struct KeyTypes<Box> : Types<Vec3> {};
+template <>
+struct KeyTypes<Ball> : Types<Vec3, double> {};
+template <>
+struct KeyTypes<HalfSpace> : Types<Vec3> {};
+template <>
+struct KeyTypes<Obstacle> : Types<Plane, double> {};
+template <>
+struct KeyTypes<Plane> : Types<double> {};
+template <>
+struct KeyTypes<Probe> : Types<std::string, int, std::optional<Vec3>> {};
+template <>
+struct KeyTypes<Experiment>
+    : Types<std::string, std::filesystem::path, std::vector<Model>, std::vector<double>, std::vector<int>> {};
+template <>
+struct KeyTypes<Expectation>
+    : Types<std::string, double, std::vector<double>, std::vector<int>, std::vector<Model>, std::vector<Gate>> {};
+template <>
+struct KeyTypes<Gate> : Types<std::vector<Model>, std::vector<int>, std::optional<double>, std::optional<Model>> {};
+
 /// The field that a key sets. Its type is the type of the key, its value in a new Owner the default.
 template <class Owner>
-using Member = std::variant<
-    double Owner::*, std::optional<double> Owner::*, int Owner::*, std::optional<int> Owner::*,
-    std::optional<BrickCount> Owner::*, Vec3 Owner::*, std::optional<Vec3> Owner::*, std::array<int, 2> Owner::*,
-    std::array<int, 3> Owner::*, std::string Owner::*, std::filesystem::path Owner::*, Solver Owner::*,
-    RepairMode Owner::*, Model Owner::*, std::optional<Model> Owner::*, Axes Owner::*, Interpolation Owner::*,
-    std::optional<Color> Owner::*, Material Owner::*, std::optional<Box> Owner::*, std::optional<Ball> Owner::*,
-    std::optional<HalfSpace> Owner::*, std::optional<Gradient> Owner::*, std::optional<SphereShape> Owner::*,
-    std::optional<CylinderShape> Owner::*, std::optional<TorusShape> Owner::*, std::optional<Copies> Owner::*,
-    Plane Owner::*, SceneCamera Owner::*, SceneRender Owner::*, SceneSolver Owner::*, Experiment Owner::*,
-    std::vector<double> Owner::*, std::vector<int> Owner::*, std::vector<Model> Owner::*,
-    std::vector<Keyframe> Owner::*, std::vector<Pin> Owner::*, std::vector<Region> Owner::*, std::vector<Cut> Owner::*,
-    std::vector<SceneBody> Owner::*, std::vector<Obstacle> Owner::*, std::vector<Probe> Owner::*,
-    std::vector<Gate> Owner::*, std::vector<Expectation> Owner::*>;
+using Member = typename KeyTypes<Owner>::template Member<Owner>;
 
 template <class Owner>
 struct Key : KeyInfo {

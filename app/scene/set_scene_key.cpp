@@ -61,7 +61,8 @@ void set_items(Values& values, std::size_t count, const KeyInfo& key, std::strin
   if (items.size() != count) {
     throw Error(ErrorKind::kBadInput, fmt::format("must be {} numbers: [1, 2, 3]", count));
   }
-  for (std::size_t i = 0; i < count; ++i) parse_value(items[i], key, values[i]);
+  auto value = values.begin();
+  for (const std::string_view item : items) parse_value(item, key, *value++);
 }
 
 void set_field(Vec3& value, const KeyInfo& key, std::string_view rest, std::string_view text) {
