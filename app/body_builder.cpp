@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <numbers>
-#include <set>
 
 #include "app/regions.h"
 #include "app/units.h"
@@ -31,14 +31,20 @@ constexpr std::array<Color, 8> kPalette{{{0xd8, 0x32, 0x2a},
                                          {0xc7, 0x6b, 0x8f},
                                          {0x4f, 0x6d, 0xb8}}};
 
-/// Each position that triangles use, once: rows of the skin.
-std::vector<int> contact_rows(const Skin& skin) {
+/// Lets the skin touch: each position that triangles use, once.
+void add_contacts(const Skin& skin, Actor& actor) {
   const std::vector<int> point_of = weld_points(skin.positions);
-  std::set<int> used;
+  const auto position_of = [&](int vertex) { return point_of[static_cast<std::size_t>(vertex)]; };
+  std::vector<int> rows;
   for (const int vertex : std::span(skin.triangles.data(), static_cast<std::size_t>(skin.triangles.size()))) {
-    used.insert(point_of[static_cast<std::size_t>(vertex)]);
+    rows.push_back(position_of(vertex));
   }
-  return {used.begin(), used.end()};
+  std::sort(rows.begin(), rows.end());
+  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+  actor.contacts = embed(actor.body.grid, skin.positions(rows, Eigen::all), skin.normals(rows, Eigen::all));
+  actor.contact_triangles = skin.triangles.unaryExpr([&](int vertex) {
+    return static_cast<int>(std::lower_bound(rows.begin(), rows.end(), position_of(vertex)) - rows.begin());
+  });
 }
 
 /// Every node that a pin holds at the start, once, with the axes of all its pins.
@@ -82,6 +88,7 @@ BodyBuilder::BodyBuilder(const Scene& scene, std::size_t index, const LoadedBody
       index_(index),
       loaded_(loaded),
       production_(production),
+      touches_itself_(scene.contact.self),
       selector_(loaded),
       report_(loaded, body_.material.density) {}
 
@@ -102,8 +109,10 @@ BodyBuilder::Filled BodyBuilder::fill(std::size_t solid) {
   skin = make_skin(submesh(loaded_.mesh, loaded_.solids[solid]), {.max_edge = kLongestSkinEdge * loaded_.brick_size});
   filled.drawn.embedding = embed(body.grid, skin.positions, skin.normals);
   report_.add(filled.drawn.embedding);
-  const std::vector<int> touching = contact_rows(skin);
-  filled.actor.contacts = embed(body.grid, skin.positions(touching, Eigen::all), skin.normals(touching, Eigen::all));
+  add_contacts(skin, filled.actor);
+  filled.actor.friction = body_.friction;
+  const Solid& outline = loaded_.solids[solid];
+  filled.actor.touches_itself = touches_itself_ && outline.closed && !outline.overlaps && outline.thickness == 0;
   filled.pins = find_pins(body, solid);
   held_solids_ += filled.pins.empty() ? 0 : 1;
   filled.actor.pinned = held_nodes(filled.pins, body_.pins);

@@ -36,6 +36,7 @@ class BodyBuilder {
   std::size_t index_;
   const LoadedBody& loaded_;
   Production& production_;
+  bool touches_itself_;
   Selector selector_;
   FillReport report_;
   int held_solids_ = 0;

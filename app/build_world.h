@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "app/load_body.h"
+#include "app/obstacles.h"
 #include "core/bricks/embedding.h"
 #include "core/skin/skin.h"
 #include "core/world/world.h"
@@ -34,11 +35,13 @@ struct Production {
   World world;
   std::vector<DrawnSkin> skins;
   std::vector<Origin> origins;
-  double size = 0;  // m, longest side of the largest body
+  std::vector<StageObstacle> obstacles;  // of world.obstacles, and of the scene's
+  double size = 0;                       // m, longest side of the largest body
 };
 
 /// Fills the bodies' solids with bricks, places them and finds what is held.
-/// Throws Error(kBadInput) where a pin holds no node or a body starts more than a brick below the ground.
+/// Throws Error(kBadInput) where a pin holds no node or a body starts more than a brick deep in an obstacle or in
+/// another body.
 [[nodiscard]] Production build_world(const Scene& scene, const std::vector<LoadedBody>& bodies, const Console& console);
 
 /// Skin vertices of actor i for these positions of its nodes, m.

@@ -1,20 +1,31 @@
 #include "app/drawn_stage.h"
 
 namespace sprung {
+namespace {
+
+Eigen::Vector3f shade(const Color& color) { return Eigen::Vector3f(color.red, color.green, color.blue) / 255.0F; }
+
+}  // namespace
 
 Stage stage_of(const Production& production, const Bounds& bounds) {
   Stage stage;
   for (const DrawnSkin& drawn : production.skins) {
     stage.skins.push_back(&drawn.skin);
-    stage.default_colors.emplace_back(Eigen::Vector3f(drawn.color.red, drawn.color.green, drawn.color.blue) / 255.0F);
+    stage.default_colors.push_back(shade(drawn.color));
   }
-  stage.has_ground = production.world.ground.has_value();
-  if (stage.has_ground) stage.ground.height = production.world.ground->height;
+  for (const StageObstacle& obstacle : production.obstacles) {
+    if (obstacle.skin.positions.rows() == 0) continue;
+    stage.skins.push_back(&obstacle.skin);
+    stage.default_colors.push_back(shade(obstacle.color));
+  }
+  const std::optional<double> ground = ground_height(production.world.obstacles);
+  stage.has_ground = ground.has_value();
+  if (ground) stage.ground.height = *ground;
   stage.bounds = bounds;
   return stage;
 }
 
-std::vector<SkinShape> shapes_of(const Production& production, const std::vector<Floats3>& nodes) {
+std::vector<SkinShape> shapes_of(const Production& production, const std::vector<Floats3>& nodes, double time) {
   std::vector<SkinShape> shapes;
   for (std::size_t actor = 0; actor < nodes.size(); ++actor) {
     const Points positions = nodes[actor].cast<double>();
@@ -23,7 +34,17 @@ std::vector<SkinShape> shapes_of(const Production& production, const std::vector
     shapes.push_back({.positions = skin_positions(production, actor, positions).cast<float>(),
                       .normals = deform_normals(grid, drawn.embedding, drawn.skin.normals, positions).cast<float>()});
   }
+  for (const StageObstacle& obstacle : production.obstacles) {
+    if (obstacle.skin.positions.rows() == 0) continue;
+    const Points normals = obstacle.skin.normals * pose_at(obstacle, time).rotation.transpose();
+    shapes.push_back({.positions = skin_positions(obstacle, time).cast<float>(), .normals = normals.cast<float>()});
+  }
   return shapes;
+}
+
+Points skin_positions(const StageObstacle& obstacle, double time) {
+  const Pose pose = pose_at(obstacle, time);
+  return (obstacle.skin.positions * pose.rotation.transpose()).rowwise() + pose.translation.transpose();
 }
 
 }  // namespace sprung

@@ -9,7 +9,11 @@ namespace sprung {
 /// What a renderer needs of a production; `bounds` of the whole motion, m. The skins stay where they are.
 [[nodiscard]] Stage stage_of(const Production& production, const Bounds& bounds);
 
-/// The skins of all actors for these positions of their nodes, m.
-[[nodiscard]] std::vector<SkinShape> shapes_of(const Production& production, const std::vector<Floats3>& nodes);
+/// The skins of all actors for these positions of their nodes (m), and of the obstacles at that time of the film (s).
+[[nodiscard]] std::vector<SkinShape> shapes_of(const Production& production, const std::vector<Floats3>& nodes,
+                                               double time);
+
+/// Vertices of an obstacle's skin at that time (s), m.
+[[nodiscard]] Points skin_positions(const StageObstacle& obstacle, double time);
 
 }  // namespace sprung

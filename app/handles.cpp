@@ -32,7 +32,7 @@ void add_moments(const Pin& pin, const Movement& movement, std::vector<double>& 
 }  // namespace
 
 Handles::Handles(const Scene& scene, Production& production)
-    : production_(production), grips_(production.world.actors.size()) {
+    : scene_(scene), production_(production), grips_(production.world.actors.size()) {
   for (std::size_t actor = 0; actor < grips_.size(); ++actor) {
     const Origin& origin = production.origins[actor];
     for (const PinnedNodes& pinned : origin.pins) {
@@ -40,6 +40,9 @@ Handles::Handles(const Scene& scene, Production& production)
       grips_[actor].push_back({.pin = &pin, .pinned = &pinned, .movement = movement_of(pin, scene)});
       add_moments(pin, grips_[actor].back().movement, moments_);
     }
+  }
+  for (const StageObstacle& obstacle : production.obstacles) {
+    for (const Keyframe& keyframe : obstacle.movement.keyframes()) moments_.push_back(keyframe.time);
   }
   std::sort(moments_.begin(), moments_.end());
 }
@@ -57,6 +60,9 @@ std::vector<double> Handles::pieces(double begin, double end) const {
 }
 
 void Handles::aim(double begin, double end) {
+  for (std::size_t i = 0; i < production_.obstacles.size(); ++i) {
+    production_.world.obstacles[i] = obstacle_between(production_.obstacles[i], scene_.obstacles[i], begin, end);
+  }
   for (std::size_t i = 0; i < grips_.size(); ++i) {
     if (grips_[i].empty()) continue;
     Actor& actor = production_.world.actors[i];

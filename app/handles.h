@@ -8,18 +8,20 @@
 
 namespace sprung {
 
-/// Catches nodes, carries them and lets them go, as the pins of a scene say, while a world is in motion. A pin that
-/// catches later than at the start takes its nodes where they then are, and turns them about their middle.
+/// Catches nodes, carries them and lets them go, as the pins of a scene say, while a world is in motion; and moves its
+/// obstacles. A pin that catches later than at the start takes its nodes where they then are, and turns them about
+/// their middle.
 class Handles {
  public:
   /// Both have to outlive it.
   Handles(const Scene& scene, Production& production);
 
   /// Ends (s, rising, the last is `end`) of the pieces that the time from `begin` to `end` falls into: between them no
-  /// pin catches, lets go or comes through a keyframe.
+  /// pin catches, lets go or comes through a keyframe, nor an obstacle through one.
   [[nodiscard]] std::vector<double> pieces(double begin, double end) const;
 
-  /// Sets what is held from `begin` to `end` (s), and the even velocities that bring it exactly to where it belongs.
+  /// Sets what is held from `begin` to `end` (s), and the even velocities that bring it, and obstacles, exactly to
+  /// where they belong.
   void aim(double begin, double end);
 
  private:
@@ -39,9 +41,10 @@ class Handles {
 
   void carry(Grip& grip, Actor& actor, double begin, double end, std::map<int, HeldNode>& held) const;
 
+  const Scene& scene_;
   Production& production_;
   std::vector<std::vector<Grip>> grips_;  // by actor
-  std::vector<double> moments_;           // s, rising: when a pin catches, lets go or comes through a keyframe
+  std::vector<double> moments_;           // s, rising: where pieces end
 };
 
 }  // namespace sprung

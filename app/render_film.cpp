@@ -11,17 +11,21 @@
 #include "app/picture_writer.h"
 #include "app/progress.h"
 #include "app/units.h"
+#include "core/bricks/corner.h"
 #include "core/count_of.h"
 #include "render/renderer.h"
 
 namespace sprung {
 namespace {
 
+constexpr double kNear = 0.25;  // of the motion's size: what of an obstacle is further off need not be seen
+
 /// What the camera has to see: the bounds of the whole motion, and for each frame and body the points that reach
 /// furthest in 26 directions, with the ground below them, where shadows fall.
 struct Reach {
   Bounds bounds;
   Points points;
+  double lowest = 0;  // m, of the bodies
 };
 
 /// Rows: the centre of each face, edge and corner of a cube.
@@ -33,6 +37,36 @@ Eigen::Matrix<double, 26, 3> directions() {
     rows.row(row++) << i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1;
   }
   return rows.cast<double>();
+}
+
+/// What of the obstacles is near the bodies: of large ones no more than that.
+void add_obstacles(const Production& production, const Recording& recording, Reach& reach) {
+  const double near = kNear * (reach.bounds.high - reach.bounds.low).maxCoeff();
+  const Vec3 low = reach.bounds.low.array() - near;
+  const Vec3 high = reach.bounds.high.array() + near;
+  Bounds seen = reach.bounds;
+  for (const StageObstacle& obstacle : production.obstacles) {
+    if (obstacle.skin.positions.rows() == 0) continue;
+    for (const double time : recording.progress) {
+      const Points skin = skin_positions(obstacle, time);
+      const Vec3 from = skin.colwise().minCoeff().transpose().cwiseMax(low);
+      const Vec3 to = skin.colwise().maxCoeff().transpose().cwiseMin(high);
+      if ((from.array() > to.array()).any()) continue;
+      Points corners(2, 3);
+      corners << from.transpose(), to.transpose();
+      seen.include(corners);
+      if (obstacle.movement.is_still()) break;
+    }
+  }
+  Points corners(8, 3);
+  for (int corner = 0; corner < 8; ++corner) {
+    for (int axis = 0; axis < 3; ++axis)
+      corners(corner, axis) = on_high_side(corner, axis) ? seen.high[axis] : seen.low[axis];
+  }
+  if (seen.low == reach.bounds.low && seen.high == reach.bounds.high) return;
+  reach.bounds = seen;
+  reach.points.conservativeResize(reach.points.rows() + 8, 3);
+  reach.points.bottomRows(8) = corners;
 }
 
 Reach reach_of(const Production& production, const Recording& recording) {
@@ -52,19 +86,24 @@ Reach reach_of(const Production& production, const Recording& recording) {
       }
     }
   }
-  if (production.world.ground) {
+  reach.lowest = reach.bounds.low.y();
+  add_obstacles(production, recording, reach);
+  const std::optional<double> ground = ground_height(production.world.obstacles);
+  if (ground) {
+    const Eigen::Index above = reach.points.rows();
     Points below = reach.points;
-    below.col(1).setConstant(production.world.ground->height);
-    reach.points.conservativeResize(2 * count, 3);
-    reach.points.bottomRows(count) = below;
+    below.col(1).setConstant(*ground);
+    reach.points.conservativeResize(2 * above, 3);
+    reach.points.bottomRows(above) = below;
   }
   return reach;
 }
 
 /// What the ground could not hold: how deep any vertex was below it, in any frame.
-std::string ground_report(const Production& production, const Bounds& bounds) {
-  if (!production.world.ground) return "";
-  const double depth = std::max(0.0, production.world.ground->height - bounds.low.y());
+std::string ground_report(const Production& production, double lowest) {
+  const std::optional<double> ground = ground_height(production.world.obstacles);
+  if (!ground) return "";
+  const double depth = std::max(0.0, *ground - lowest);
   return fmt::format(", deepest below the ground {} ({:.2f} % of the size)", readable(depth, Dimension::kLength),
                      100 * depth / production.size);
 }
@@ -107,7 +146,8 @@ void render_film(const Production& production, const Recording& recording, const
   PictureWriter writer(outputs, width, height, scene.fps);
   // The skins of the next frame are made ready while this one is drawn and the ones before are encoded.
   const auto make_ready = [&](std::size_t frame) {
-    return std::async(std::launch::async, [&, frame] { return shapes_of(production, recording.frames[frame]); });
+    return std::async(std::launch::async,
+                      [&, frame] { return shapes_of(production, recording.frames[frame], recording.progress[frame]); });
   };
   std::future<std::vector<SkinShape>> next = make_ready(0);
   for (std::size_t frame = 0; frame < frames; ++frame) {
@@ -119,7 +159,7 @@ void render_film(const Production& production, const Recording& recording, const
   }
   writer.close();
   progress.finish(fmt::format("{} of {} x {} pixels{}", count_of(static_cast<long>(frames), "picture"), width, height,
-                              ground_report(production, reach.bounds)));
+                              ground_report(production, reach.lowest)));
 }
 
 }  // namespace sprung

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "core/bricks/corner.h"
+
 namespace sprung {
 namespace {
 
@@ -91,6 +93,34 @@ SurfaceMesh mesh_of(const TorusShape& torus) {
     profile.push_back({.place = Eigen::Vector2d(torus.radius, 0) + torus.tube * outward, .normal = outward});
   }
   return revolve(profile, "torus");
+}
+
+SurfaceMesh mesh_of(const CapsuleShape& capsule) {
+  std::vector<ProfilePoint> profile;
+  for (const double end : {-0.5, 0.5}) {
+    const int first = end < 0 ? -kAround / 4 : 0;
+    for (int step = first; step <= first + kAround / 4; ++step) {
+      const Eigen::Vector2d outward = on_circle(step, kAround);
+      profile.push_back(
+          {.place = capsule.radius * outward + Eigen::Vector2d(0, end * capsule.height), .normal = outward});
+    }
+  }
+  return revolve(profile, "capsule");
+}
+
+SurfaceMesh box_mesh(const Vec3& sides) {
+  SurfaceMesh mesh;
+  mesh.positions.resize(8, 3);
+  for (int corner = 0; corner < 8; ++corner) {
+    for (int axis = 0; axis < 3; ++axis) {
+      mesh.positions(corner, axis) = (on_high_side(corner, axis) ? 0.5 : -0.5) * sides[axis];
+    }
+  }
+  mesh.triangles.resize(12, 3);
+  mesh.triangles << 0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4, 2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5,
+      3, 7, 5;
+  mesh.parts = {Part{.name = "box", .triangle_count = 12}};
+  return mesh;
 }
 
 }  // namespace sprung

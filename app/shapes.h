@@ -1,5 +1,5 @@
 #pragma once
-#include "app/scene/scene_body.h"
+#include "app/scene/scene.h"
 #include "core/mesh/surface_mesh.h"
 
 namespace sprung {
@@ -9,5 +9,9 @@ namespace sprung {
 [[nodiscard]] SurfaceMesh mesh_of(const SphereShape& sphere);
 [[nodiscard]] SurfaceMesh mesh_of(const CylinderShape& cylinder);
 [[nodiscard]] SurfaceMesh mesh_of(const TorusShape& torus);
+[[nodiscard]] SurfaceMesh mesh_of(const CapsuleShape& capsule);
+
+/// A box with its middle at the origin, m; two triangles a side.
+[[nodiscard]] SurfaceMesh box_mesh(const Vec3& sides);
 
 }  // namespace sprung

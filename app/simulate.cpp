@@ -124,10 +124,10 @@ class Runner {
       }
       return;
     }
-    const std::vector<Steps> steps =
+    const std::vector<GroupSteps> groups =
         motion_.advance_frame(begin, duration, between, [&](const std::string& message) { console_.warn(message); });
-    plan_.steps =
-        *std::max_element(steps.begin(), steps.end(), [](const Steps& a, const Steps& b) { return a.count < b.count; });
+    const auto fewer = [](const GroupSteps& a, const GroupSteps& b) { return a.steps.count < b.steps.count; };
+    plan_.steps = std::max_element(groups.begin(), groups.end(), fewer)->steps;
   }
 
   void note_implicit() const {

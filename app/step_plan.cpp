@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "app/units.h"
+#include "core/motion/implicit_motion.h"
 
 namespace sprung {
 namespace {
@@ -45,30 +46,30 @@ std::string warning_of(const StepPlan& plan) {
 
 StepPlan plan_steps(const World& world, const Scene& scene) {
   const double frame = 1 / scene.fps;
-  const std::vector<Steps> explicit_steps = choose_steps(world, frame);
   Steps short_ones{.count = 0, .dt = 0};
   double bricks = 0;
   double brick_steps = 0;
-  for (std::size_t i = 0; i < world.actors.size(); ++i) {
-    const Steps& steps = explicit_steps[i];
-    const int count = world.actors[i].body.grid.brick_count();
-    bricks += count;
-    brick_steps += count * static_cast<double>(steps.count);
-    if (steps.count > short_ones.count) short_ones = steps;
+  for (const GroupSteps& group : choose_steps(world, frame)) {
+    for (const std::size_t i : group.actors) {
+      const int count = world.actors[i].body.grid.brick_count();
+      bricks += count;
+      brick_steps += count * static_cast<double>(group.steps.count);
+    }
+    if (group.steps.count > short_ones.count) short_ones = group.steps;
   }
   const long long_ones = implicit_steps(world, frame);
   StepPlan plan;
   plan.scheme = scene.solver.scheme;
   if (plan.scheme == Solver::kAuto) {
     const double dear = kImplicitCost * static_cast<double>(long_ones);
-    const bool bounces = world.ground && world.ground->restitution > 0;
-    const bool is_implicit = !bounces && brick_steps > kWorthwhile * dear * bricks;
+    const std::string why_not = why_not_implicit(world);
+    const bool is_implicit = why_not.empty() && brick_steps > kWorthwhile * dear * bricks;
     plan.scheme = is_implicit ? Solver::kBdf2 : Solver::kEuler;
     plan.reason = fmt::format(
         "{}: {} explicit steps a frame against {} implicit ones, which take as long as about "
         "{:.0f} explicit ones{}",
         is_implicit ? "bdf2" : "euler", std::lround(brick_steps / bricks), long_ones, dear,
-        bounces ? "; restitution needs explicit ones" : "");
+        why_not.empty() ? "" : fmt::format("; {}, which needs explicit ones", why_not));
   }
   plan.steps = short_ones;
   plan.brick_steps = brick_steps;

@@ -74,7 +74,7 @@ double seconds_a_picture(const Production& production, const Scene& scene) {
     stage.bounds.include(drawn.skin.positions);
     shapes.push_back({drawn.skin.positions.cast<float>(), drawn.skin.normals.cast<float>()});
   }
-  stage.has_ground = production.world.ground.has_value();
+  stage.has_ground = ground_height(production.world.obstacles).has_value();
   stage.ground.height = stage.bounds.low.y();
   const auto [width, height] = scene.render.resolution;
   Renderer renderer(stage, {.width = width, .height = height, .samples = scene.render.samples});

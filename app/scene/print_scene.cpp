@@ -11,8 +11,9 @@ namespace {
 
 /// Types that need a [section] or [[sections]] of their own; they follow the plain keys of their table.
 template <class Value>
-constexpr bool kIsSection = std::is_same_v<Value, SceneCamera> || std::is_same_v<Value, SceneRender> ||
-                            std::is_same_v<Value, SceneSolver> || std::is_same_v<Value, Experiment>;
+constexpr bool kIsSection =
+    std::is_same_v<Value, SceneCamera> || std::is_same_v<Value, SceneRender> || std::is_same_v<Value, SceneSolver> ||
+    std::is_same_v<Value, SceneContact> || std::is_same_v<Value, Experiment>;
 template <class Owner>
 constexpr bool kIsSection<std::vector<Owner>> = std::is_class_v<Owner>;
 template <>

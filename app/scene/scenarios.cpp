@@ -87,7 +87,9 @@ Scenario scenario_from_name(std::string_view name) {
 bool needs_height(Scenario scenario) { return scenario == Scenario::kStretch || scenario == Scenario::kWobble; }
 
 void stage_scenario(Scene& scene, Scenario scenario, double height) {
-  scene.obstacles = {Obstacle{}};
+  SceneObstacle ground;
+  ground.plane = Plane{};
+  scene.obstacles = {ground};
   for (SceneBody& body : scene.bodies) {
     const double size = body.size.value_or(kDefaultSize);
     switch (scenario) {

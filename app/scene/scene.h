@@ -67,14 +67,39 @@ struct Expectation {
 };
 
 struct Plane {
-  double y = 0;  // m
+  double y = 0;          // m, above the obstacle's position
+  Vec3 normal{0, 1, 0};  // out of the solid; any length
 };
 
-/// Solid ground below a plane.
-struct Obstacle {
-  Plane plane;
+/// Along y, with round ends.
+struct CapsuleShape {
+  double radius = 0;  // m
+  double height = 0;  // m, between the middles of the ends
+};
+
+/// Something solid that is not soft: one of the shapes, in its place, and how it moves from there.
+struct SceneObstacle {
+  std::optional<Plane> plane;  // the half-space behind it; or
+  std::optional<Vec3> box;     // m, sides; or
+  std::optional<SphereShape> sphere;
+  std::optional<CapsuleShape> capsule;
+  std::optional<CylinderShape> cylinder;
+  std::filesystem::path mesh;    // absolute, closed
+  std::optional<double> size;    // m, longest side of the mesh; or
+  std::optional<double> scale;   // m per unit of the file
+  Vec3 position = Vec3::Zero();  // m, of the middle
+  Vec3 rotation = Vec3::Zero();  // degrees about x, then y, then z, around the middle
+  std::vector<Keyframe> keyframes;
+  Interpolation interpolation = Interpolation::kLinear;
   double friction = 0.5;
   double restitution = 0;
+  std::optional<Color> color;
+};
+
+/// What touches what, beside obstacles.
+struct SceneContact {
+  bool bodies = true;  // each other
+  bool self = true;    // a body itself
 };
 
 /// Where the film is seen from; distance and target follow from what is to be seen.
@@ -95,10 +120,11 @@ struct Scene {
   double fps = 24;
   Vec3 gravity{0, -9.81, 0};
   SceneSolver solver;
+  SceneContact contact;
   SceneCamera camera;
   SceneRender render;
   std::vector<SceneBody> bodies;
-  std::vector<Obstacle> obstacles;
+  std::vector<SceneObstacle> obstacles;
   std::vector<Probe> probes;
   Experiment experiment;
   std::vector<Expectation> expectations;

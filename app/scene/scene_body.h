@@ -111,6 +111,7 @@ struct SceneBody {
   std::optional<Color> color;    // of what the file leaves without colour
   Vec3 velocity = Vec3::Zero();  // m/s
   Vec3 spin = Vec3::Zero();      // degrees/s about the axes of the world through the middle of the bounding box
+  double friction = 0.5;         // on other bodies: the geometric mean of both
   std::optional<Copies> copies;
   std::vector<Pin> pins;
   std::vector<Region> regions;

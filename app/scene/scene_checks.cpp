@@ -112,6 +112,24 @@ void check_together(const toml::table& table, const std::string& path, const Pin
                fmt::format("{}.keyframes: at t = 0 the nodes are where the body is; move that, or begin later", path));
 }
 
+void check_together(const toml::table& table, const std::string& path, const SceneObstacle& obstacle,
+                    SceneMistakes& mistakes) {
+  if (obstacle.plane && obstacle.plane->normal.isZero(0)) {
+    mistakes.add(table.get("plane")->source(), fmt::format("{}.plane.normal: must point somewhere", path));
+  }
+  if (obstacle.interpolation == Interpolation::kHeld) {
+    mistakes.add(table.get("interpolation")->source(),
+                 fmt::format("{}.interpolation: an obstacle cannot jump; linear or smooth", path));
+  }
+  if (obstacle.keyframes.empty()) return;
+  const toml::array& places = *table.get("keyframes")->as_array();
+  check_times(places, path, obstacle.keyframes, mistakes);
+  for (std::size_t i = 0; i < obstacle.keyframes.size(); ++i) {
+    if (obstacle.keyframes[i].scale == 1) continue;
+    mistakes.add(places[i].source(), fmt::format("{}.keyframes: an obstacle keeps its size", path));
+  }
+}
+
 void check_together(const toml::table& table, const std::string& path, const HalfSpace& half, SceneMistakes& mistakes) {
   if (!half.normal.isZero(0)) return;
   mistakes.add(table.source(), fmt::format("{}.normal: must point somewhere", path));
@@ -137,12 +155,9 @@ void check_together(const toml::table& table, const std::string& path, const Box
 void check_together(const toml::table& table, const std::string&, const Scene& scene, SceneMistakes& mistakes) {
   if (!scene.probes.empty()) check_probes(*table.get("probe")->as_array(), scene, mistakes);
   if (!is_motion(scene) && !scene.bodies.empty()) check_holding(*table.get("body")->as_array(), scene, mistakes);
-  if (scene.obstacles.empty()) return;
-  const toml::array& obstacles = *table.get("obstacle")->as_array();
-  if (scene.obstacles.size() > 1) mistakes.add(obstacles[1].source(), "a scene can have one [[obstacle]] only");
-  if (!is_motion(scene)) {
-    mistakes.add(obstacles[0].source(), "only a motion (solver.scheme euler or verlet) meets an [[obstacle]]");
-  }
+  if (scene.obstacles.empty() || is_motion(scene)) return;
+  mistakes.add((*table.get("obstacle")->as_array())[0].source(),
+               "only a motion (solver.scheme euler, verlet, implicit-euler, bdf2 or auto) meets an [[obstacle]]");
 }
 
 }  // namespace sprung

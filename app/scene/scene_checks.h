@@ -20,6 +20,8 @@ void check_together(const toml::table& table, const std::string& path, const Box
 void check_together(const toml::table& table, const std::string& path, const HalfSpace& half, SceneMistakes& mistakes);
 void check_together(const toml::table& table, const std::string& path, const Gradient& change, SceneMistakes& mistakes);
 void check_together(const toml::table& table, const std::string& path, const TorusShape& ring, SceneMistakes& mistakes);
+void check_together(const toml::table& table, const std::string& path, const SceneObstacle& obstacle,
+                    SceneMistakes& mistakes);
 void check_together(const toml::table& table, const std::string& path, const Pin& pin, SceneMistakes& mistakes);
 
 template <class Owner>

@@ -110,6 +110,12 @@ class Reader {
     check_range(value, key);
   }
 
+  static void value_of(const toml::node& node, const std::string&, const KeyInfo&, bool& value) {
+    const auto* truth = node.as_boolean();
+    if (truth == nullptr) refuse_type(node, "true or false");
+    value = truth->get();
+  }
+
   static void value_of(const toml::node& node, const std::string&, const KeyInfo& key, int& value) {
     const auto* number = node.as_integer();
     if (number == nullptr) refuse_type(node, "a whole number");

@@ -13,10 +13,11 @@ const Key<Scene> kScene[] = {
     {{"fps", "pictures a second", Dimension::kRate, {0, 10000, true}}, &Scene::fps},
     {{"gravity", "acceleration of everything", Dimension::kAcceleration}, &Scene::gravity},
     {{"solver", "how the frames come about"}, &Scene::solver},
+    {{"contact", "what touches what, beside obstacles"}, &Scene::contact},
     {{"camera", "where the film is seen from"}, &Scene::camera},
     {{"render", "the pictures"}, &Scene::render},
     {{"body", "a mesh or a shape made of a soft material", Dimension::kNone, {}, true}, &Scene::bodies},
-    {{"obstacle", "the ground"}, &Scene::obstacles},
+    {{"obstacle", "the ground and other things that are not soft"}, &Scene::obstacles},
     {{"probe", "what is measured in every frame"}, &Scene::probes},
     {{"experiment", "what `sprung validate` varies"}, &Scene::experiment},
     {{"expect", "what `sprung validate` compares with"}, &Scene::expectations},
@@ -71,15 +72,40 @@ const Key<Gate> kGate[] = {
      &Gate::no_worse_than},
 };
 
-const Key<Obstacle> kObstacle[] = {
-    {{"plane", "the half-space below it is solid", Dimension::kNone, {}, true}, &Obstacle::plane},
-    {{"friction", "Coulomb's coefficient", Dimension::kRatio, {0, kInfinity}}, &Obstacle::friction},
+const Key<SceneObstacle> kObstacle[] = {
+    {{"plane", "all behind it is solid; or another shape: box, sphere, capsule, cylinder, mesh"},
+     &SceneObstacle::plane},
+    {{"box", "sides of a box", Dimension::kLength, kPositive}, &SceneObstacle::box},
+    {{"sphere", "a ball"}, &SceneObstacle::sphere},
+    {{"capsule", "a rod with round ends, along y"}, &SceneObstacle::capsule},
+    {{"cylinder", "a rod with flat ends, along y"}, &SceneObstacle::cylinder},
+    {{"mesh", "file of a closed surface, relative to the scene file"}, &SceneObstacle::mesh},
+    {{"size", "longest side of the mesh", Dimension::kLength, kPositive}, &SceneObstacle::size},
+    {{"scale", "length of one unit of the mesh file; instead of size", Dimension::kLength, kPositive},
+     &SceneObstacle::scale},
+    {{"position", "of its middle", Dimension::kLength}, &SceneObstacle::position},
+    {{"rotation", "about x, then y, then z, around its middle", Dimension::kAngle}, &SceneObstacle::rotation},
+    {{"keyframes", "how it moves from there"}, &SceneObstacle::keyframes},
+    {{"interpolation", "between keyframes: linear or smooth"}, &SceneObstacle::interpolation},
+    {{"friction", "Coulomb's coefficient", Dimension::kRatio, {0, kInfinity}}, &SceneObstacle::friction},
     {{"restitution", "speed after over speed before the impact of a point", Dimension::kRatio, kRatio},
-     &Obstacle::restitution},
+     &SceneObstacle::restitution},
+    {{"color", "\"#rrggbb\""}, &SceneObstacle::color},
 };
 
 const Key<Plane> kPlane[] = {
-    {{"y", "height", Dimension::kLength, {}, true}, &Plane::y},
+    {{"y", "height above the position", Dimension::kLength}, &Plane::y},
+    {{"normal", "direction out of what is solid"}, &Plane::normal},
+};
+
+const Key<CapsuleShape> kCapsule[] = {
+    {{"radius", "of the rod", Dimension::kLength, kPositive, true}, &CapsuleShape::radius},
+    {{"height", "between the middles of its ends", Dimension::kLength, kPositive, true}, &CapsuleShape::height},
+};
+
+const Key<SceneContact> kContact[] = {
+    {{"bodies", "whether bodies touch each other"}, &SceneContact::bodies},
+    {{"self", "whether a body touches itself"}, &SceneContact::self},
 };
 
 const Key<SceneCamera> kCamera[] = {
@@ -105,7 +131,15 @@ std::span<const Key<Scene>> keys() {
   return kScene;
 }
 template <>
-std::span<const Key<Obstacle>> keys() {
+std::span<const Key<CapsuleShape>> keys() {
+  return kCapsule;
+}
+template <>
+std::span<const Key<SceneContact>> keys() {
+  return kContact;
+}
+template <>
+std::span<const Key<SceneObstacle>> keys() {
   return kObstacle;
 }
 template <>
@@ -139,6 +173,14 @@ std::span<const Key<Gate>> keys() {
 template <>
 std::span<const Key<Expectation>> keys() {
   return kExpectation;
+}
+template <>
+std::span<const KeyRule> rules<SceneObstacle>() {
+  static const std::vector<KeyRule> all{{Kind::kOneOf, {"plane", "box", "sphere", "capsule", "cylinder", "mesh"}},
+                                        {Kind::kAtMostOne, {"size", "scale"}},
+                                        {Kind::kNeeds, {"size", "mesh"}},
+                                        {Kind::kNeeds, {"scale", "mesh"}}};
+  return all;
 }
 template <>
 std::span<const KeyRule> rules<Probe>() {

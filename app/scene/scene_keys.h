@@ -38,8 +38,9 @@ struct Types {
 template <class Owner>
 struct KeyTypes;
 template <>
-struct KeyTypes<Scene> : Types<double, Vec3, SceneSolver, SceneCamera, SceneRender, std::vector<SceneBody>,
-                               std::vector<Obstacle>, std::vector<Probe>, Experiment, std::vector<Expectation>> {};
+struct KeyTypes<Scene>
+    : Types<double, Vec3, SceneSolver, SceneContact, SceneCamera, SceneRender, std::vector<SceneBody>,
+            std::vector<SceneObstacle>, std::vector<Probe>, Experiment, std::vector<Expectation>> {};
 template <>
 struct KeyTypes<SceneSolver> : Types<Solver, std::optional<int>, int, double> {};
 template <>
@@ -47,11 +48,11 @@ struct KeyTypes<SceneCamera> : Types<double> {};
 template <>
 struct KeyTypes<SceneRender> : Types<std::array<int, 2>, int> {};
 template <>
-struct KeyTypes<SceneBody> : Types<std::filesystem::path, std::optional<Vec3>, std::optional<SphereShape>,
-                                   std::optional<CylinderShape>, std::optional<TorusShape>, std::vector<Cut>,
-                                   std::optional<double>, RepairMode, Vec3, std::optional<BrickCount>, Material, Model,
-                                   std::optional<Color>, std::optional<Copies>, std::vector<Pin>, std::vector<Region>> {
-};
+struct KeyTypes<SceneBody>
+    : Types<std::filesystem::path, std::optional<Vec3>, std::optional<SphereShape>, std::optional<CylinderShape>,
+            std::optional<TorusShape>, std::vector<Cut>, std::optional<double>, RepairMode, Vec3,
+            std::optional<BrickCount>, Material, Model, std::optional<Color>, std::optional<Copies>, std::vector<Pin>,
+            std::vector<Region>, double> {};
 template <>
 struct KeyTypes<Material> : Types<double> {};
 template <>
@@ -84,9 +85,16 @@ struct KeyTypes<Ball> : Types<Vec3, double> {};
 template <>
 struct KeyTypes<HalfSpace> : Types<Vec3> {};
 template <>
-struct KeyTypes<Obstacle> : Types<Plane, double> {};
+struct KeyTypes<SceneObstacle>
+    : Types<std::optional<Plane>, std::optional<Vec3>, std::optional<SphereShape>, std::optional<CapsuleShape>,
+            std::optional<CylinderShape>, std::filesystem::path, std::optional<double>, Vec3, std::vector<Keyframe>,
+            Interpolation, double, std::optional<Color>> {};
 template <>
-struct KeyTypes<Plane> : Types<double> {};
+struct KeyTypes<Plane> : Types<double, Vec3> {};
+template <>
+struct KeyTypes<CapsuleShape> : Types<double> {};
+template <>
+struct KeyTypes<SceneContact> : Types<bool> {};
 template <>
 struct KeyTypes<Probe> : Types<std::string, int, std::optional<Vec3>> {};
 template <>
@@ -139,7 +147,11 @@ std::span<const Key<TorusShape>> keys();
 template <>
 std::span<const Key<Copies>> keys();
 template <>
-std::span<const Key<Obstacle>> keys();
+std::span<const Key<CapsuleShape>> keys();
+template <>
+std::span<const Key<SceneContact>> keys();
+template <>
+std::span<const Key<SceneObstacle>> keys();
 template <>
 std::span<const Key<Plane>> keys();
 template <>
@@ -185,6 +197,8 @@ template <>
 std::span<const KeyRule> rules<Region>();
 template <>
 std::span<const KeyRule> rules<Cut>();
+template <>
+std::span<const KeyRule> rules<SceneObstacle>();
 template <>
 std::span<const KeyRule> rules<Probe>();
 template <>

@@ -53,7 +53,11 @@ constexpr std::string_view kTableName<Ball> = "ball";
 template <>
 constexpr std::string_view kTableName<HalfSpace> = "half-space";
 template <>
-constexpr std::string_view kTableName<Obstacle> = "obstacle";
+constexpr std::string_view kTableName<SceneObstacle> = "obstacle";
+template <>
+constexpr std::string_view kTableName<CapsuleShape> = "capsule shape";
+template <>
+constexpr std::string_view kTableName<SceneContact> = "contact";
 template <>
 constexpr std::string_view kTableName<Plane> = "plane";
 template <>
@@ -136,6 +140,7 @@ std::string reference(std::string_view table) { return fmt::format(R"({{"$ref": 
 /// What a value of that type may be. The argument only names the type.
 Described describe(const double&, const KeyInfo& key) { return number(key); }
 Described describe(const int&, const KeyInfo& key) { return whole_number(key); }
+Described describe(const bool&, const KeyInfo&) { return {"true or false", R"({"type": "boolean"})"}; }
 Described describe(const BrickCount&, const KeyInfo& key) {
   const Described count = whole_number(key);
   return {count.type + ", or \"auto\"",

@@ -151,6 +151,13 @@ void parse_value(std::string_view text, const KeyInfo&, Axes& value) {
   if (text.empty()) throw Error(ErrorKind::kBadInput, "must name a direction at least: some of \"xyz\"");
 }
 
+void parse_value(std::string_view text, const KeyInfo&, bool& value) {
+  if (text != "true" && text != "false") {
+    throw Error(ErrorKind::kBadInput, fmt::format("must be true or false, not '{}'", text));
+  }
+  value = text == "true";
+}
+
 void parse_value(std::string_view text, const KeyInfo& key, BrickCount& value) {
   value.along = 0;
   if (text != "auto") parse_value(text, key, value.along);
@@ -179,6 +186,8 @@ void parse_value(std::string_view text, const KeyInfo&, Color& value) {
 void parse_value(std::string_view text, const KeyInfo&, Material& value) { value = find_material(text); }
 
 std::string toml_text(double value) { return fmt::format("{}", value); }
+std::string toml_text(bool value) { return value ? "true" : "false"; }
+
 std::string toml_text(int value) { return fmt::format("{}", value); }
 std::string toml_text(const BrickCount& value) {
   return value.is_auto() ? toml_text(std::string_view("auto")) : toml_text(value.along);

@@ -23,6 +23,7 @@ template <Named Value>
 /// Each throws Error(kBadInput) naming the text and what is expected.
 void parse_value(std::string_view text, const KeyInfo& key, double& value);
 void parse_value(std::string_view text, const KeyInfo& key, int& value);
+void parse_value(std::string_view text, const KeyInfo& key, bool& value);
 void parse_value(std::string_view text, const KeyInfo& key, BrickCount& value);
 void parse_value(std::string_view text, const KeyInfo& key, std::array<int, 2>& value);
 void parse_value(std::string_view text, const KeyInfo& key, std::filesystem::path& value);
@@ -44,6 +45,7 @@ void parse_value(std::string_view text, const KeyInfo& key, std::optional<Value>
 /// The value as TOML that reads back as the same value.
 [[nodiscard]] std::string toml_text(double value);
 [[nodiscard]] std::string toml_text(int value);
+[[nodiscard]] std::string toml_text(bool value);
 [[nodiscard]] std::string toml_text(const BrickCount& value);
 [[nodiscard]] std::string toml_text(const Vec3& value);
 [[nodiscard]] std::string toml_text(const std::array<int, 2>& value);

@@ -9,6 +9,7 @@
 
 #include "core/body/forces.h"
 #include "core/motion/diverged.h"
+#include "core/world/contact_groups.h"
 
 namespace sprung {
 namespace {
@@ -71,28 +72,60 @@ bool is_driven(const Actor& actor) {
                      [](const HeldNode& held) { return !held.velocity.isZero(); });
 }
 
-/// The ground and what holds a body still take energy and give none, but for lifting what starts a little too deep.
-bool has_gained(const Energy& before, const Energy& after, const Actor& actor, const Vec3& gravity) {
-  const Body& body = actor.body;
+/// Obstacles at rest and what holds a body still take energy and give none, but for lifting what starts a little too
+/// deep; bodies hand it on to each other.
+bool has_gained(const Energy& before, const Energy& after, const World& world, const GroupSteps& group) {
   const double moving = std::max(before.kinetic + before.elastic, after.kinetic + after.elastic);
-  const double lift = body.masses.sum() * gravity.norm() * body.grid.brick_size;
-  const double rounding = 1e-12 * body.material.young * body.grid.volume();
-  return after.sum() - before.sum() > kEnergyFromNowhere * moving + lift + rounding;
+  double slack = 0;
+  for (const std::size_t i : group.actors) {
+    const Body& body = world.actors[i].body;
+    slack += body.masses.sum() * world.gravity.norm() * body.grid.brick_size;  // lift
+    slack += 1e-12 * body.material.young * body.grid.volume();                 // rounding
+  }
+  return after.sum() - before.sum() > kEnergyFromNowhere * moving + slack;
 }
 
-std::optional<Trouble> find_trouble(const World& world, const std::vector<Energy>& before) {
+Energy sum_of(const std::vector<Energy>& all, const GroupSteps& group) {
+  Energy sum;
+  for (const std::size_t i : group.actors) {
+    sum.kinetic += all[i].kinetic;
+    sum.elastic += all[i].elastic;
+    sum.potential += all[i].potential;
+  }
+  return sum;
+}
+
+std::vector<Energy> energies_of(const World& world) {
+  std::vector<Energy> all;
+  for (const Actor& actor : world.actors) all.push_back(energy_of(actor.body, world.gravity));
+  return all;
+}
+
+std::optional<Trouble> find_trouble(const World& world, const std::vector<Energy>& before,
+                                    std::span<const GroupSteps> groups) {
   for (std::size_t i = 0; i < world.actors.size(); ++i) {
-    const Actor& actor = world.actors[i];
-    const Body& body = actor.body;
-    if (!body.positions.allFinite() || !body.velocities.allFinite()) {
-      return Trouble{i, worst_brick(body), "a number that is not finite"};
-    }
-    if (is_driven(actor)) continue;
-    const Energy after = energy_of(body, world.gravity);
-    if (!has_gained(before[i], after, actor, world.gravity)) continue;
-    return Trouble{i, worst_brick(body),
-                   fmt::format("energy from nowhere, {:.3g} J more than {:.3g} J", after.sum() - before[i].sum(),
-                               before[i].kinetic + before[i].elastic)};
+    const Body& body = world.actors[i].body;
+    if (body.positions.allFinite() && body.velocities.allFinite()) continue;
+    return Trouble{i, worst_brick(body), "a number that is not finite"};
+  }
+  if (std::any_of(world.obstacles.begin(), world.obstacles.end(),
+                  [](const Obstacle& one) { return one.is_moving(); })) {
+    return std::nullopt;
+  }
+  const std::vector<Energy> after = energies_of(world);
+  for (const GroupSteps& group : groups) {
+    const bool is_given = std::any_of(group.actors.begin(), group.actors.end(),
+                                      [&](std::size_t i) { return is_driven(world.actors[i]); });
+    const Energy start = sum_of(before, group);
+    const Energy end = sum_of(after, group);
+    if (is_given || !has_gained(start, end, world, group)) continue;
+    const std::size_t worst =
+        *std::max_element(group.actors.begin(), group.actors.end(), [&](std::size_t a, std::size_t b) {
+          return after[a].sum() - before[a].sum() < after[b].sum() - before[b].sum();
+        });
+    return Trouble{worst, worst_brick(world.actors[worst].body),
+                   fmt::format("energy from nowhere, {:.3g} J more than {:.3g} J", end.sum() - start.sum(),
+                               start.kinetic + start.elastic)};
   }
   return std::nullopt;
 }
@@ -106,6 +139,14 @@ std::string place_of(const World& world, const Trouble& trouble) {
                      middle.x(), middle.y(), middle.z());
 }
 
+/// s, that an actor took.
+double step_of(std::span<const GroupSteps> groups, std::size_t actor) {
+  const auto group = std::find_if(groups.begin(), groups.end(), [&](const GroupSteps& one) {
+    return std::find(one.actors.begin(), one.actors.end(), actor) != one.actors.end();
+  });
+  return group->steps.dt;
+}
+
 }  // namespace
 
 Energy energy_of(const Body& body, const Vec3& gravity) {
@@ -114,31 +155,46 @@ Energy energy_of(const Body& body, const Vec3& gravity) {
           .potential = -body.masses.dot(body.positions * gravity)};
 }
 
-std::vector<Steps> choose_steps(const World& world, double time) {
-  std::vector<Steps> all;
-  for (const Actor& actor : world.actors) {
-    double step = stable_step(actor.body);
-    const double speed = std::sqrt(actor.body.velocities.rowwise().squaredNorm().maxCoeff());
-    const double most = speed + world.gravity.norm() * time;
-    if (world.ground && most > 0) step = std::min(step, kFurthestMove * actor.body.grid.brick_size / most);
+std::vector<GroupSteps> choose_steps(const World& world, double time) {
+  std::vector<GroupSteps> groups;
+  double carried = 0;  // m/s, by obstacles
+  for (const Obstacle& obstacle : world.obstacles) carried = std::max(carried, obstacle.velocity.norm());
+  for (std::vector<std::size_t>& actors : contact_groups(world, time)) {
+    double step = std::numeric_limits<double>::infinity();
+    double brick = step;
+    double speed = 0;
+    for (const std::size_t i : actors) {
+      const Body& body = world.actors[i].body;
+      step = std::min(step, stable_step(body));
+      brick = std::min(brick, body.grid.brick_size);
+      speed = std::max(speed, std::sqrt(body.velocities.rowwise().squaredNorm().maxCoeff()));
+    }
+    const double most = speed + carried + world.gravity.norm() * time;
+    const bool can_meet = !world.obstacles.empty() || actors.size() > 1;
+    if (can_meet && most > 0) step = std::min(step, kFurthestMove * brick / most);
     const long count = std::max(1L, static_cast<long>(std::ceil(time / step)));
-    all.push_back({.count = count, .dt = time / static_cast<double>(count)});
+    groups.push_back({.actors = std::move(actors), .steps = {.count = count, .dt = time / static_cast<double>(count)}});
   }
-  return all;
+  return groups;
 }
 
-bool CarefulMotion::run(std::span<const Steps> steps, double time, const Between& between) {
+bool CarefulMotion::run(std::span<const GroupSteps> groups, double time, const Between& between) {
   double brick_steps = 0;
   long chunks = std::numeric_limits<long>::max();
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    brick_steps += static_cast<double>(steps[i].count) * world_.actors[i].body.grid.brick_count();
-    chunks = std::min(chunks, steps[i].count);
+  for (const GroupSteps& group : groups) {
+    for (const std::size_t i : group.actors) {
+      brick_steps += static_cast<double>(group.steps.count) * world_.actors[i].body.grid.brick_count();
+    }
+    chunks = std::min(chunks, group.steps.count);
   }
   chunks = std::clamp(static_cast<long>(std::ceil(brick_steps / kBrickStepsBetween)), 1L, chunks);
-  std::vector<Steps> chunk(steps.begin(), steps.end());
+  std::vector<GroupSteps> chunk(groups.begin(), groups.end());
   for (long done = 0; done < chunks; ++done) {
-    for (std::size_t i = 0; i < steps.size(); ++i) {
-      chunk[i].count = steps[i].count * (done + 1) / chunks - steps[i].count * done / chunks;
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+      const Steps& all = groups[i].steps;
+      const long first = all.count * done / chunks;
+      chunk[i].steps.count = all.count * (done + 1) / chunks - first;
+      chunk[i].elapsed = all.dt * static_cast<double>(first);
     }
     try {
       advance(world_, scheme_, chunk, time);
@@ -151,30 +207,32 @@ bool CarefulMotion::run(std::span<const Steps> steps, double time, const Between
   return true;
 }
 
-std::vector<Steps> CarefulMotion::advance_frame(double time, double duration, const Between& between,
-                                                const Tell& tell) {
+std::vector<GroupSteps> CarefulMotion::advance_frame(double time, double duration, const Between& between,
+                                                     const Tell& tell) {
   const std::vector<State> start = state_of(world_);
-  std::vector<Energy> before;
-  for (const Actor& actor : world_.actors) before.push_back(energy_of(actor.body, world_.gravity));
-  const std::vector<Steps> stable = choose_steps(world_, duration);
+  const std::vector<Energy> before = energies_of(world_);
+  const std::vector<GroupSteps> stable = choose_steps(world_, duration);
   while (true) {
     const long parts = 1L << halvings_;
-    std::vector<Steps> steps = stable;
-    for (Steps& of_actor : steps) of_actor = {of_actor.count * parts, of_actor.dt / static_cast<double>(parts)};
-    const bool is_through = run(steps, time, between);
-    const std::optional<Trouble> trouble = find_trouble(world_, before);
-    if (is_through && !trouble) return steps;
+    std::vector<GroupSteps> groups = stable;
+    for (GroupSteps& group : groups) {
+      group.steps = {group.steps.count * parts, group.steps.dt / static_cast<double>(parts)};
+    }
+    const bool is_through = run(groups, time, between);
+    const std::optional<Trouble> trouble = find_trouble(world_, before, groups);
+    if (is_through && !trouble) return groups;
     const std::string what = fmt::format("{} between t = {:.6g} s and {:.6g} s: {}", place_of(world_, *trouble), time,
                                          time + duration, trouble->what);
     restore(start, world_);
+    const double dt = step_of(groups, trouble->actor);
     if (halvings_ == kMostHalvings) {
       throw Diverged(trouble->actor,
                      what + fmt::format(", with steps of {:.3g} s too: the motion diverged; use more bricks, a stiffer "
                                         "material, more damping or a shorter fall",
-                                        steps[trouble->actor].dt));
+                                        dt));
     }
     ++halvings_;
-    tell(what + fmt::format("; the frame is done again in steps half as long, {:.3g} s", steps[trouble->actor].dt / 2));
+    tell(what + fmt::format("; the frame is done again in steps half as long, {:.3g} s", dt / 2));
   }
 }
 

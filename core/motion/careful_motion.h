@@ -8,10 +8,10 @@
 
 namespace sprung {
 
-/// For each actor the longest steps that are stable and in which no brick that meets the ground can run through itself:
-/// at the speed it has, with what gravity can add in that time, no node moves further than a quarter of a brick in a
-/// step.
-[[nodiscard]] std::vector<Steps> choose_steps(const World& world, double time);
+/// Who may touch whom within `time` (s), and for each group the longest steps that are stable and in which nothing can
+/// run through what it meets: at the speed it has, with what gravity can add in that time, no node moves further than a
+/// quarter of the group's smallest brick in a step.
+[[nodiscard]] std::vector<GroupSteps> choose_steps(const World& world, double time);
 
 /// Moves a world frame by frame and lets no trouble pass: a number that is not finite, or energy from nowhere, is found
 /// in the frame it appears in. The frame is then taken back and done again in steps half as long, up to a few times.
@@ -24,13 +24,15 @@ class CarefulMotion {
 
   CarefulMotion(World& world, Scheme scheme) : world_(world), scheme_(scheme) {}
 
-  /// From `time` on by `duration` (s). Returns the steps each actor took. Deterministic for any number of threads.
-  /// Throws Diverged naming time, body, the brick's place and what to change where no step is short enough.
-  std::vector<Steps> advance_frame(double time, double duration, const Between& between, const Tell& tell);
+  /// From `time` on by `duration` (s). Obstacles are taken to move evenly, and stay as the
+  /// world has them: it is for the caller to move them on. Returns the steps each group took. Deterministic for any
+  /// number of threads. Throws Diverged naming time, body, the brick's place and what to change where no step is short
+  /// enough.
+  std::vector<GroupSteps> advance_frame(double time, double duration, const Between& between, const Tell& tell);
 
  private:
   /// Whether it came through with finite positions.
-  bool run(std::span<const Steps> steps, double time, const Between& between);
+  bool run(std::span<const GroupSteps> groups, double time, const Between& between);
 
   World& world_;
   Scheme scheme_;

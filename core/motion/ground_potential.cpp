@@ -12,8 +12,8 @@ constexpr double kPointsInContact = 4;  // of a brick, that share its hardness: 
 
 }  // namespace
 
-GroundPotential::GroundPotential(const Actor& actor, const Ground& ground, double slip_speed)
-    : actor_(actor), ground_(ground), slip_speed_(slip_speed) {
+GroundPotential::GroundPotential(const Actor& actor, double height, double friction, double slip_speed)
+    : actor_(actor), height_(height), friction_(friction), slip_speed_(slip_speed) {
   const std::vector<int>& brick = actor.contacts.brick;
   std::vector<int> order(brick.size());
   std::iota(order.begin(), order.end(), 0);
@@ -59,11 +59,11 @@ void GroundPotential::for_low_points(const Points& positions, const Visit& visit
       high = std::max(high, positions(node, 1));
     }
     // Points lie in the hull of the corners, or a little outside where the surface has no brick of its own.
-    const bool is_far = low - 0.5 * (high - low) > ground_.height;
+    const bool is_far = low - 0.5 * (high - low) > height_;
     for (std::size_t p = first_[i]; p < first_[i + 1]; ++p) {
       if (is_far && points_[p].normal == 0) continue;
       const Vec3 at = place(points_[p], positions);
-      const double depth = std::max(0.0, ground_.height - at.y());
+      const double depth = std::max(0.0, height_ - at.y());
       if (depth > 0 || points_[p].normal > 0) visit(p, at, depth);
     }
   }
@@ -84,7 +84,7 @@ double GroundPotential::update_friction(const Points& positions) {
     change = std::max(change, std::abs(normals[p] - points_[p].normal));
     points_[p].normal = normals[p];
   }
-  return ground_.friction > 0 ? change : 0;
+  return friction_ > 0 ? change : 0;
 }
 
 double GroundPotential::largest_normal_force() const {
@@ -94,7 +94,7 @@ double GroundPotential::largest_normal_force() const {
 }
 
 double GroundPotential::grip(const Point& point, const Eigen::Vector2d& moved) const {
-  return ground_.friction * point.normal / std::max(slip_, moved.norm());
+  return friction_ * point.normal / std::max(slip_, moved.norm());
 }
 
 double GroundPotential::add_forces(const Points& positions, Points& forces) const {
@@ -104,7 +104,7 @@ double GroundPotential::add_forces(const Points& positions, Points& forces) cons
     const Eigen::Vector2d moved(at.x() - point.start.x(), at.z() - point.start.z());
     const double r = moved.norm();
     energy += 0.5 * point.stiffness * depth * depth;
-    energy += ground_.friction * point.normal * (r < slip_ ? 0.5 * r * r / slip_ : r - 0.5 * slip_);
+    energy += friction_ * point.normal * (r < slip_ ? 0.5 * r * r / slip_ : r - 0.5 * slip_);
     const double held = grip(point, moved);
     const Vec3 force(-held * moved.x(), point.stiffness * depth, -held * moved.y());
     const auto& nodes = actor_.body.grid.nodes[static_cast<std::size_t>(point.brick)];

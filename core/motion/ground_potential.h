@@ -13,8 +13,8 @@ namespace sprung {
 /// what sticks creeps, by slip_speed at most; no restitution.
 class GroundPotential {
  public:
-  /// `slip_speed` in m/s.
-  GroundPotential(const Actor& actor, const Ground& ground, double slip_speed);
+  /// Level ground at `height` (m) with Coulomb's coefficient `friction`; `slip_speed` in m/s.
+  GroundPotential(const Actor& actor, double height, double friction, double slip_speed);
 
   /// Takes down where the points are; friction is measured from there, over a step of dt.
   void begin(const Points& positions, double dt);
@@ -42,7 +42,8 @@ class GroundPotential {
   void for_low_points(const Points& positions, const Visit& visit) const;
 
   const Actor& actor_;
-  const Ground ground_;
+  double height_;
+  double friction_;
   double slip_speed_;
   double slip_ = 0;                 // m
   std::vector<Point> points_;       // grouped by brick

@@ -24,6 +24,13 @@ constexpr int kMostHalvings = 8;
 
 Eigen::Map<const Eigen::VectorXd> flat(const Points& points) { return {points.data(), points.size()}; }
 
+const Obstacle* highest_ground(const World& world) {
+  const auto highest =
+      std::max_element(world.obstacles.begin(), world.obstacles.end(),
+                       [](const Obstacle& a, const Obstacle& b) { return ground_height(a) < ground_height(b); });
+  return highest == world.obstacles.end() ? nullptr : &*highest;
+}
+
 double longest_side(const Points& points) {
   return (points.colwise().maxCoeff() - points.colwise().minCoeff()).maxCoeff();
 }
@@ -41,7 +48,8 @@ class ImplicitMotion::Stepper {
         supports_(body_.node_count()),
         size_(longest_side(body_.rest_positions)),
         stiffness_(largest_brick_stiffness(body_)) {
-    if (world.ground) ground_.emplace(actor, *world.ground, kSlip * size_);
+    const Obstacle* ground = highest_ground(world);
+    if (ground != nullptr) ground_.emplace(actor, ground->pose.translation.y(), ground->friction, kSlip * size_);
   }
 
   /// False where no minimum was found; the body is then as before.
@@ -241,12 +249,21 @@ Eigen::VectorXd ImplicitMotion::Stepper::direction() {
   return {};
 }
 
+std::string why_not_implicit(const World& world) {
+  if (world.bodies_touch && world.actors.size() > 1) return "bodies touch each other";
+  for (const Obstacle& obstacle : world.obstacles) {
+    if (!ground_height(obstacle)) return "an obstacle is not level ground at rest";
+    if (obstacle.restitution > 0) return fmt::format("an obstacle has a restitution of {:.3g}", obstacle.restitution);
+  }
+  return "";
+}
+
 ImplicitMotion::ImplicitMotion(World& world, const ImplicitOptions& options) : options_(options) {
-  if (world.ground && world.ground->restitution > 0) {
-    throw Error(ErrorKind::kBadInput,
-                fmt::format("implicit steps know no restitution (it is {:.3g}): use an explicit scheme, euler or "
-                            "verlet, or restitution = 0",
-                            world.ground->restitution));
+  const std::string why_not = why_not_implicit(world);
+  if (!why_not.empty()) {
+    throw Error(
+        ErrorKind::kBadInput,
+        fmt::format("{}, which implicit steps know nothing of: use an explicit scheme, euler or verlet", why_not));
   }
   for (Actor& actor : world.actors) steppers_.push_back(std::make_unique<Stepper>(actor, world, options_));
 }

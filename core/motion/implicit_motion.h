@@ -1,4 +1,6 @@
 #pragma once
+#include <string>
+
 #include "core/motion/newton_system.h"
 #include "core/world/world.h"
 
@@ -16,6 +18,10 @@ struct ImplicitOptions {
   int max_iterations = 30;  // of Newton's method
 };
 
+/// What a world has that implicit steps cannot do: bodies that touch each other, obstacles other than level ground at
+/// rest, restitution. Empty: nothing. That a body touches itself is not seen.
+[[nodiscard]] std::string why_not_implicit(const World& world);
+
 /// Moves a world by implicit steps, which may be as long as the motion that is to be seen allows, however stiff the
 /// bricks. Each step is the minimum over the positions x of the incremental potential
 ///   W(x) + 1/(2 s^2) |x - x0 - s v0 - s^2 g|_M^2 + alpha/(2 s) |x - x0|_M^2 + beta/(2 s) |x - x0|_K^2 + ground(x)
@@ -24,11 +30,11 @@ struct ImplicitOptions {
 /// its first step, and one after a step cut short, is backward Euler's.
 /// BDF2 and not generalised-alpha: it needs no accelerations, which jump where contact sets in, it damps the
 /// frequencies it does not resolve without a parameter to choose, and each step is a minimum of the same form.
-/// The ground is GroundPotential's; restitution is not there.
+/// The ground is GroundPotential's, at most; nothing else is touched, see why_not_implicit().
 /// Deterministic for any number of threads. Body velocities are those of the scheme after each step.
 class ImplicitMotion {
  public:
-  /// Throws Error(kBadInput) where the ground has restitution. The world must outlive it.
+  /// Throws Error(kBadInput) for a world that why_not_implicit(). The world must outlive it.
   ImplicitMotion(World& world, const ImplicitOptions& options);
   ~ImplicitMotion();
 

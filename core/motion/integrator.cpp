@@ -4,10 +4,13 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/body/forces.h"
 #include "core/error.h"
+#include "core/world/contact_groups.h"
 #include "core/world/impulses.h"
 
 namespace sprung {
@@ -17,10 +20,7 @@ namespace {
 class Mover {
  public:
   Mover(Actor& actor, const World& world)
-      : actor_(actor),
-        world_(world),
-        inverse_masses_(actor.body.masses.cwiseInverse()),
-        impulses_(actor, without_held(inverse_masses_, actor)) {}
+      : actor_(actor), world_(world), inverse_masses_(actor.body.masses.cwiseInverse()) {}
 
   /// velocities += dt (forces / m + gravity - alpha v); held nodes keep their velocity.
   void kick(double dt) {
@@ -42,8 +42,6 @@ class Mover {
     }
   }
 
-  void keep_limits(double dt) { impulses_.apply(world_, dt, actor_); }
-
   /// positions += dt velocities: put off to the next kick, which has them at hand anyway.
   void drift(double dt) { pending_drift_ += dt; }
 
@@ -54,18 +52,67 @@ class Mover {
   }
 
  private:
-  static Eigen::VectorXd without_held(Eigen::VectorXd inverse_masses, const Actor& actor) {
-    for (const HeldNode& held : actor.pinned) inverse_masses[held.node] = 0;
-    return inverse_masses;
-  }
-
   Actor& actor_;
   const World& world_;
   Eigen::VectorXd inverse_masses_;
-  Impulses impulses_;
   ForceWorkspace workspace_;
   Points forces_;
   double pending_drift_ = 0;  // s
+};
+
+/// 1/kg, per node; nothing pushes what is held.
+Eigen::VectorXd pushed_inverse_masses(const Actor& actor) {
+  Eigen::VectorXd inverse_masses = actor.body.masses.cwiseInverse();
+  for (const HeldNode& held : actor.pinned) inverse_masses[held.node] = 0;
+  return inverse_masses;
+}
+
+/// Actors that touch each other on their way through a number of steps.
+class GroupMover {
+ public:
+  GroupMover(World& world, const GroupSteps& group) : world_(world), elapsed_(group.elapsed) {
+    Group actors;
+    std::vector<Eigen::VectorXd> inverse_masses;
+    for (const std::size_t i : group.actors) {
+      actors.push_back(&world.actors[i]);
+      inverse_masses.push_back(pushed_inverse_masses(world.actors[i]));
+      movers_.push_back(std::make_unique<Mover>(world.actors[i], world));
+    }
+    impulses_.emplace(std::move(actors), std::move(inverse_masses));
+  }
+
+  void kick(double dt) {
+    each([&](Mover& mover) { mover.kick(dt); });
+  }
+
+  void keep_limits(double dt) {
+    impulses_->apply(world_, elapsed_, dt);
+    elapsed_ += dt;
+  }
+
+  void drift(double dt) {
+    for (const auto& mover : movers_) mover->drift(dt);
+  }
+
+  void settle() {
+    each([&](Mover& mover) { mover.settle(); });
+  }
+
+ private:
+  template <class Visit>
+  void each(const Visit& visit) {
+    if (movers_.size() == 1) {
+      visit(*movers_.front());
+      return;
+    }
+    tbb::parallel_for(std::size_t{0}, movers_.size(),
+                      [&](std::size_t i) { tbb::this_task_arena::isolate([&] { visit(*movers_[i]); }); });
+  }
+
+  const World& world_;
+  double elapsed_;
+  std::vector<std::unique_ptr<Mover>> movers_;
+  std::optional<Impulses> impulses_;
 };
 
 void check_finite(const World& world, double time) {
@@ -79,7 +126,7 @@ void check_finite(const World& world, double time) {
 }
 
 /// v += dt a; x += dt v. First order, symplectic.
-void euler(Mover& mover, double dt, long steps) {
+void euler(GroupMover& mover, double dt, long steps) {
   for (long step = 0; step < steps; ++step) {
     mover.kick(dt);
     mover.keep_limits(dt);
@@ -88,7 +135,7 @@ void euler(Mover& mover, double dt, long steps) {
 }
 
 /// Half a kick, drift, half a kick; the half kicks that meet between two steps are one. Second order, symplectic.
-void verlet(Mover& mover, double dt, long steps) {
+void verlet(GroupMover& mover, double dt, long steps) {
   for (long step = 0; step < steps; ++step) {
     mover.kick(step == 0 ? dt / 2 : dt);
     mover.keep_limits(dt);
@@ -99,24 +146,30 @@ void verlet(Mover& mover, double dt, long steps) {
 
 }  // namespace
 
-void advance(World& world, Scheme scheme, std::span<const Steps> steps, double time) {
-  const auto advance_actor = [&](std::size_t i) {
-    Mover mover(world.actors[i], world);
+void advance(World& world, Scheme scheme, std::span<const GroupSteps> groups, double time) {
+  const auto advance_group = [&](const GroupSteps& group) {
+    GroupMover mover(world, group);
     if (scheme == Scheme::kVerlet) {
-      verlet(mover, steps[i].dt, steps[i].count);
+      verlet(mover, group.steps.dt, group.steps.count);
     } else {
-      euler(mover, steps[i].dt, steps[i].count);
+      euler(mover, group.steps.dt, group.steps.count);
     }
     mover.settle();
   };
-  // A thread that waits within one actor's steps must not begin another actor's: the first would stand still.
-  tbb::parallel_for(std::size_t{0}, world.actors.size(),
-                    [&](std::size_t i) { tbb::this_task_arena::isolate([&] { advance_actor(i); }); });
-  if (!steps.empty()) check_finite(world, time + steps[0].dt * static_cast<double>(steps[0].count));
+  // A thread that waits within one group's steps must not begin another group's: the first would stand still.
+  tbb::parallel_for(std::size_t{0}, groups.size(),
+                    [&](std::size_t i) { tbb::this_task_arena::isolate([&] { advance_group(groups[i]); }); });
+  if (!groups.empty()) check_finite(world, time + groups[0].steps.dt * static_cast<double>(groups[0].steps.count));
 }
 
 void advance(World& world, Scheme scheme, double dt, long steps, double time) {
-  advance(world, scheme, std::vector<Steps>(world.actors.size(), {.count = steps, .dt = dt}), time);
+  std::vector<GroupSteps> groups;
+  const double duration = dt * static_cast<double>(steps);
+  for (std::vector<std::size_t>& actors : contact_groups(world, duration)) {
+    groups.push_back({.actors = std::move(actors), .steps = {.count = steps, .dt = dt}});
+  }
+  advance(world, scheme, groups, time);
+  for (Obstacle& obstacle : world.obstacles) obstacle.pose = pose_after(obstacle, duration);
 }
 
 }  // namespace sprung

@@ -1,5 +1,6 @@
 #pragma once
 #include <span>
+#include <vector>
 
 #include "core/world/world.h"
 
@@ -13,17 +14,24 @@ struct Steps {
   double dt = 0;  // s
 };
 
+/// Actors that may touch each other, and the steps they take together.
+struct GroupSteps {
+  std::vector<std::size_t> actors;  // rows of World::actors
+  Steps steps;
+  double elapsed = 0;  // s, since obstacles were where the world has them
+};
+
 /// Largest step (s) that is stable for every actor: from the largest eigenvalue of a single brick with its own lumped
 /// mass, which bounds the assembled one, with damping and `safety` taken off. See stable_step.cpp.
 [[nodiscard]] double stable_step(const World& world, double safety = 0.7);
 [[nodiscard]] double stable_step(const Body& body, double safety = 0.7);
 
-/// Moves each actor of the world by its own steps, all at once: actors do not touch each other. Deterministic for any
-/// number of threads. `steps`: one entry per actor, all filling the same time.
+/// Moves each group of actors by its own steps, all at once: only those of one group touch each other. Obstacles stay
+/// as the world has them: it is for the caller to move them on. Deterministic for any number of threads.
 /// Throws Error(kDiverged) naming time `time` and the body where a position is no longer finite.
-void advance(World& world, Scheme scheme, std::span<const Steps> steps, double time);
+void advance(World& world, Scheme scheme, std::span<const GroupSteps> groups, double time);
 
-/// The same with `steps` steps of `dt` seconds for all.
+/// The same with `steps` steps of `dt` seconds for all; moves the obstacles too.
 void advance(World& world, Scheme scheme, double dt, long steps, double time);
 
 }  // namespace sprung

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/bricks/corner.h"
 
@@ -33,87 +34,108 @@ Eigen::Matrix<double, 3, 8> corner_gradients(const Squeeze& squeeze) {
 
 }  // namespace
 
-Impulses::Impulses(const Actor& actor, Eigen::VectorXd inverse_masses)
-    : inverse_masses_(std::move(inverse_masses)),
-      contact_(actor),
-      places_(static_cast<std::size_t>(actor.body.node_count()), -1) {}
+Impulses::Impulses(Group group, std::vector<Eigen::VectorXd> inverse_masses)
+    : group_(std::move(group)),
+      inverse_masses_(std::move(inverse_masses)),
+      smallest_brick_(std::numeric_limits<double>::infinity()),
+      obstacle_contact_(skins_),
+      skin_contact_(skins_),
+      squeeze_watches_(group_.size()) {
+  for (const Actor* actor : group_) {
+    skins_.emplace_back(*actor);
+    places_.emplace_back(static_cast<std::size_t>(actor->body.node_count()), -1);
+    smallest_brick_ = std::min(smallest_brick_, actor->body.grid.brick_size);
+  }
+}
 
 Vec3 Impulses::TouchLimit::lack(const Nodes& all, Vec3 Pushed::*velocity) const {
-  Vec3 result(0, least_speed, 0);
-  for (int i = 0; i < 8; ++i) result -= weights[i] * all[nodes[static_cast<std::size_t>(i)]].*velocity;
+  Vec3 result = goal;
+  for (const Part& part : parts) result -= part.weight * all[part.place].*velocity;
   return result;
 }
 
 void Impulses::TouchLimit::push(const Vec3& size, Nodes& all) const {
-  for (int i = 0; i < 8; ++i) all[nodes[static_cast<std::size_t>(i)]].now += weights[i] * size;
+  for (const Part& part : parts) all[part.place].now += part.weight * size;
 }
 
 /// Friction gives as much sideways as its coefficient allows for what presses.
-Vec3 Impulses::TouchLimit::allowed(Vec3 size, double friction) {
-  size.y() = std::max(0.0, size.y());
-  const double most = friction * size.y();
-  const double sideways = std::sqrt(size.x() * size.x() + size.z() * size.z());
-  if (sideways > most) {
-    size.x() *= most / sideways;
-    size.z() *= most / sideways;
-  }
-  return size;
+Vec3 Impulses::TouchLimit::allowed(const Vec3& size) const {
+  const double pressing = size.dot(normal);
+  if (!(pressing > 0)) return Vec3::Zero();
+  const Vec3 sideways = size - pressing * normal;
+  const double length = sideways.norm();
+  const double most = friction * pressing;
+  return length > most ? Vec3(pressing * normal + most / length * sideways) : size;
 }
 
 double Impulses::SqueezeLimit::lack(const Nodes& all, Vec3 Pushed::*velocity) const {
   double result = least_speed;
-  for (int i = 0; i < node_count; ++i) {
-    result -= gradients.col(i).dot(all[nodes[static_cast<std::size_t>(i)]].*velocity);
-  }
+  for (std::size_t i = 0; i < node_count; ++i) result -= gradients[i].dot(all[nodes[i]].*velocity);
   return result;
 }
 
 void Impulses::SqueezeLimit::push(double size, Nodes& all) const {
-  for (int i = 0; i < node_count; ++i) all[nodes[static_cast<std::size_t>(i)]].now += size * gradients.col(i);
+  for (std::size_t i = 0; i < node_count; ++i) all[nodes[i]].now += size * gradients[i];
 }
 
-double Impulses::SqueezeLimit::allowed(double size, double /*friction*/) { return std::max(0.0, size); }
+double Impulses::SqueezeLimit::allowed(double size) { return std::max(0.0, size); }
 
-std::size_t Impulses::place_of(const Body& body, int node) {
-  int& place = places_[static_cast<std::size_t>(node)];
+std::size_t Impulses::place_of(std::size_t actor, int node) {
+  int& place = places_[actor][static_cast<std::size_t>(node)];
   if (place < 0) {
     place = static_cast<int>(nodes_.size());
-    const Vec3 velocity = body.velocities.row(node);
-    nodes_.push_back(
-        {.node = node, .inverse_mass = inverse_masses_[node], .free_velocity = velocity, .velocity = velocity});
+    const Vec3 velocity = group_[actor]->body.velocities.row(node);
+    nodes_.push_back({.actor = actor,
+                      .node = node,
+                      .inverse_mass = inverse_masses_[actor][node],
+                      .free_velocity = velocity,
+                      .velocity = velocity});
   }
   return static_cast<std::size_t>(place);
 }
 
-void Impulses::find_limits(const World& world, double dt, const Body& body) {
-  for (const Pushed& node : nodes_) places_[static_cast<std::size_t>(node.node)] = -1;
+void Impulses::forget_limits() {
+  for (const Pushed& node : nodes_) places_[node.actor][static_cast<std::size_t>(node.node)] = -1;
   nodes_.clear();
   std::swap(touches_, touches_before_);
   std::swap(squeezed_, squeezed_before_);
   touches_.clear();
   squeezed_.clear();
-  if (world.ground) {
-    for (const Touch& touch : contact_.find(*world.ground, world.gravity.norm(), dt, body)) {
-      TouchLimit limit{.key = touch.brick * 8 + touch.corner,
-                       .nodes = {},
-                       .weights = touch.weights,
-                       .least_speed = touch.least_speed};
-      for (std::size_t corner = 0; corner < 8; ++corner) {
-        limit.nodes[corner] = place_of(body, body.grid.nodes[static_cast<std::size_t>(touch.brick)][corner]);
-      }
-      touches_.push_back(limit);
-    }
+}
+
+void Impulses::find_touches(const World& world, double elapsed, double dt) {
+  found_.clear();
+  if (!world.obstacles.empty()) {
+    std::vector<Pose> poses;
+    for (const Obstacle& obstacle : world.obstacles) poses.push_back(pose_after(obstacle, elapsed));
+    obstacle_contact_.find(world, poses, dt, group_, found_);
   }
-  for (const Squeeze& squeeze : squeezes_.find(body, dt)) {
+  skin_contact_.find(world, dt, group_, found_);
+  parts_.clear();
+  for (const Share& share : found_.shares) {
+    parts_.push_back({place_of(static_cast<std::size_t>(share.actor), share.node), share.weight});
+  }
+  for (const Touch& touch : found_.list) {
+    touches_.push_back({.key = touch.key,
+                        .parts = std::span(parts_).subspan(touch.first, touch.last - touch.first),
+                        .normal = touch.normal,
+                        .goal = touch.goal,
+                        .friction = touch.friction});
+  }
+}
+
+void Impulses::find_squeezes(std::size_t actor, double dt) {
+  const Body& body = group_[actor]->body;
+  for (const Squeeze& squeeze : squeeze_watches_[actor].find(body, dt)) {
     const auto& nodes = body.grid.nodes[static_cast<std::size_t>(squeeze.brick)];
     const double size = body.grid.brick_size;  // so that both kinds of limit measure speeds
-    SqueezeLimit limit{.key = squeeze.brick * (Squeeze::kMeanAxes + 1) + squeeze.corner,
-                       .gradients = size * corner_gradients(squeeze),
+    const Eigen::Matrix<double, 3, 8> gradients = size * corner_gradients(squeeze);
+    SqueezeLimit limit{.key = touch_key(0, actor, squeeze.brick, 0) * 2 + static_cast<std::uint64_t>(squeeze.corner),
                        .least_speed = squeeze.least_rate * size};
     for (int corner = 0; corner < 8; ++corner) {
-      if (limit.gradients.col(corner).isZero(0)) continue;
-      limit.gradients.col(limit.node_count) = limit.gradients.col(corner);
-      limit.nodes[static_cast<std::size_t>(limit.node_count)] = place_of(body, nodes[static_cast<std::size_t>(corner)]);
+      if (gradients.col(corner).isZero(0)) continue;
+      limit.gradients[limit.node_count] = gradients.col(corner);
+      limit.nodes[limit.node_count] = place_of(actor, nodes[static_cast<std::size_t>(corner)]);
       ++limit.node_count;
     }
     squeezed_.push_back(limit);
@@ -122,11 +144,11 @@ void Impulses::find_limits(const World& world, double dt, const Body& body) {
 
 void Impulses::bound_answers() {
   each_limit([&](const auto& limit) {
-    for (int i = 0; i < limit.count(); ++i) nodes_[limit.nodes[static_cast<std::size_t>(i)]].pull += limit.pull(i);
+    for (std::size_t i = 0; i < limit.count(); ++i) nodes_[limit.place(i)].pull += limit.pull(i);
   });
   each_limit([&](auto& limit) {
-    for (int i = 0; i < limit.count(); ++i) {
-      const Pushed& node = nodes_[limit.nodes[static_cast<std::size_t>(i)]];
+    for (std::size_t i = 0; i < limit.count(); ++i) {
+      const Pushed& node = nodes_[limit.place(i)];
       limit.inverse_mass += limit.pull(i) * node.inverse_mass * node.pull;
     }
   });
@@ -162,14 +184,14 @@ void Impulses::start_from_before() {
   }
 }
 
-Impulses::Sweep Impulses::sweep(double friction) {
+Impulses::Sweep Impulses::sweep() {
   Sweep result;
   each_limit([&](auto& limit) {
     if (limit.inverse_mass <= 0) return;
     auto& [last, ahead] = limit.impulse;
     using Impulse = std::remove_reference_t<decltype(last)>;
     const Impulse wanted = ahead + limit.lack(nodes_, &Pushed::velocity) / limit.inverse_mass;
-    const Impulse size = limit.allowed(wanted, friction);
+    const Impulse size = limit.allowed(wanted);
     limit.push(size, nodes_);
     const Impulse change = size - ahead;
     result.furthest = std::max(result.furthest, largest(change) * limit.inverse_mass);
@@ -193,16 +215,18 @@ void Impulses::look_ahead(double lead) {
   }
 }
 
-void Impulses::apply(const World& world, double dt, Actor& actor) {
-  find_limits(world, dt, actor.body);
+void Impulses::apply(const World& world, double elapsed, double dt) {
+  forget_limits();
+  find_touches(world, elapsed, dt);
+  for (std::size_t actor = 0; actor < group_.size(); ++actor) find_squeezes(actor, dt);
   if (nodes_.empty()) return;
   bound_answers();
   start_from_before();
   const int most = squeezed_.empty() ? kMostSweeps : kMostSweepsOfSqueezes;
-  const double tolerance = kTolerance * actor.body.grid.brick_size / dt;
+  const double tolerance = kTolerance * smallest_brick_ / dt;
   double momentum = 1;  // Nesterov's sequence
   for (int i = 0; i < most; ++i) {
-    const Sweep done = sweep(world.ground ? world.ground->friction : 0);
+    const Sweep done = sweep();
     if (done.uphill > 0) momentum = 1;
     const double next = (1 + std::sqrt(1 + 4 * momentum * momentum)) / 2;
     const bool is_last = i + 1 == most || !(done.furthest >= tolerance);
@@ -210,7 +234,7 @@ void Impulses::apply(const World& world, double dt, Actor& actor) {
     if (is_last) break;
     momentum = next;
   }
-  for (const Pushed& node : nodes_) actor.body.velocities.row(node.node) = node.velocity.transpose();
+  for (const Pushed& node : nodes_) group_[node.actor]->body.velocities.row(node.node) = node.velocity.transpose();
 }
 
 }  // namespace sprung

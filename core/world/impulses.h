@@ -3,16 +3,17 @@
 #include <cmath>
 #include <vector>
 
-#include "core/world/ground_contact.h"
+#include "core/world/obstacle_contact.h"
+#include "core/world/skin_contact.h"
 #include "core/world/squeeze.h"
 
 namespace sprung {
 
-/// Keeps an actor out of the ground and its bricks from being pressed flat or inside out, by impulses on the nodes.
-/// The impulse that stops a point on the ground carries Coulomb friction, which holds the point entirely below the
-/// friction angle. The impulse that stops a brick's collapse goes along the gradient of its volume, which neither moves
-/// nor turns the body: linear and angular momentum are kept exactly; like any inelastic impact it takes energy, never
-/// gives it.
+/// Keeps the actors of a group out of obstacles, each other and themselves, and their bricks from being pressed flat or
+/// inside out, by impulses on the nodes. The impulse that stops a point carries Coulomb friction, which holds the point
+/// entirely below the friction angle; between bodies it pushes both alike. The impulse that stops a brick's collapse
+/// goes along the gradient of its volume, which neither moves nor turns the body: linear and angular momentum are kept
+/// exactly; like any inelastic impact it takes energy, never gives it.
 ///
 /// All limits are met together by accelerated projected gradients (H. Mazhar, T. Heyn, D. Negrut, A. Tasora, "Using
 /// Nesterov's method to accelerate multibody dynamics with friction and contact", ACM Transactions on Graphics 34(3),
@@ -20,15 +21,17 @@ namespace sprung {
 /// that the order of the limits does not matter: a symmetric impact stays symmetric but for rounding. Deterministic.
 class Impulses {
  public:
-  /// `inverse_masses` per node, 1/kg; 0 for nodes that are held.
-  Impulses(const Actor& actor, Eigen::VectorXd inverse_masses);
+  /// `inverse_masses` by actor of the group and node, 1/kg; 0 for nodes that are held.
+  Impulses(Group group, std::vector<Eigen::VectorXd> inverse_masses);
 
-  /// Changes actor.body.velocities so that moving by dt keeps every limit.
-  void apply(const World& world, double dt, Actor& actor);
+  /// Changes the bodies' velocities so that moving by dt keeps every limit. `elapsed`: since the obstacles were where
+  /// the world has them, s.
+  void apply(const World& world, double elapsed, double dt);
 
  private:
   /// One of the nodes that limits push.
   struct Pushed {
+    std::size_t actor;
     int node;
     double inverse_mass;
     double pull = 0;           // of all limits, for a unit of impulse each
@@ -44,40 +47,50 @@ class Impulses {
     Impulse last;   // in the sweep before
     Impulse ahead;  // where the sweeps lead
   };
+  /// A node's share in a touch.
+  struct Part {
+    std::size_t place;  // in nodes_
+    double weight;
+  };
   struct TouchLimit {
-    int key;                           // of the place it works at, increasing
-    std::array<std::size_t, 8> nodes;  // places in nodes_
-    Eigen::Matrix<double, 8, 1> weights;
-    double least_speed;
+    std::uint64_t key;            // of the place it works at, increasing
+    std::span<const Part> parts;  // in parts_
+    Vec3 normal;
+    Vec3 goal;  // m/s
+    double friction;
     double inverse_mass = 0;  // bounds how all limits together answer an impulse here
     Iterate<Vec3> impulse{Vec3::Zero(), Vec3::Zero()};
 
-    [[nodiscard]] int count() const { return 8; }
-    [[nodiscard]] double pull(int i) const { return std::abs(weights[i]); }
-    /// Of speed to what the limit asks, sideways to rest.
+    [[nodiscard]] std::size_t count() const { return parts.size(); }
+    [[nodiscard]] std::size_t place(std::size_t i) const { return parts[i].place; }
+    [[nodiscard]] double pull(std::size_t i) const { return std::abs(parts[i].weight); }
+    /// Of velocity to what the limit asks, sideways too.
     [[nodiscard]] Vec3 lack(const Nodes& all, Vec3 Pushed::*velocity) const;
     void push(const Vec3& size, Nodes& all) const;
     /// What it may push.
-    [[nodiscard]] static Vec3 allowed(Vec3 size, double friction);
+    [[nodiscard]] Vec3 allowed(const Vec3& size) const;
   };
   struct SqueezeLimit {
-    int key;                             // of the place it works at, increasing
+    std::uint64_t key;                   // of the place it works at, increasing
     std::array<std::size_t, 8> nodes{};  // places in nodes_
-    Eigen::Matrix<double, 3, 8> gradients;
+    std::array<Vec3, 8> gradients{};
     double least_speed;
-    int node_count = 0;
+    std::size_t node_count = 0;
     double inverse_mass = 0;
     Iterate<double> impulse{0, 0};
 
-    [[nodiscard]] int count() const { return node_count; }
-    [[nodiscard]] double pull(int i) const { return gradients.col(i).norm(); }
+    [[nodiscard]] std::size_t count() const { return node_count; }
+    [[nodiscard]] std::size_t place(std::size_t i) const { return nodes[i]; }
+    [[nodiscard]] double pull(std::size_t i) const { return gradients[i].norm(); }
     [[nodiscard]] double lack(const Nodes& all, Vec3 Pushed::*velocity) const;
     void push(double size, Nodes& all) const;
-    [[nodiscard]] static double allowed(double size, double friction);
+    [[nodiscard]] static double allowed(double size);
   };
 
-  std::size_t place_of(const Body& body, int node);
-  void find_limits(const World& world, double dt, const Body& body);
+  std::size_t place_of(std::size_t actor, int node);
+  void forget_limits();
+  void find_touches(const World& world, double elapsed, double dt);
+  void find_squeezes(std::size_t actor, double dt);
   void bound_answers();
   /// Takes over a good share of the step before's impulses.
   void start_from_before();
@@ -86,7 +99,7 @@ class Impulses {
     double furthest = 0;
     double uphill = 0;
   };
-  [[nodiscard]] Sweep sweep(double friction);
+  [[nodiscard]] Sweep sweep();
   /// Does the same to every limit of either kind.
   template <class Visit>
   void each_limit(const Visit& visit) {
@@ -96,15 +109,21 @@ class Impulses {
   /// The next sweep starts ahead of this one's end by `lead` times what it changed.
   void look_ahead(double lead);
 
-  Eigen::VectorXd inverse_masses_;
-  GroundContact contact_;
-  SqueezeWatch squeezes_;
+  Group group_;
+  std::vector<Eigen::VectorXd> inverse_masses_;
+  double smallest_brick_;  // m
+  std::vector<ContactSkin> skins_;
+  ObstacleContact obstacle_contact_;
+  SkinContact skin_contact_;
+  std::vector<SqueezeWatch> squeeze_watches_;
+  Touches found_;
+  std::vector<Part> parts_;
   std::vector<TouchLimit> touches_;
   std::vector<SqueezeLimit> squeezed_;
-  std::vector<TouchLimit> touches_before_;  // in the step before
+  std::vector<TouchLimit> touches_before_;  // in the step before, without their parts
   std::vector<SqueezeLimit> squeezed_before_;
   Nodes nodes_;
-  std::vector<int> places_;  // per node of the body: in nodes_, or -1
+  std::vector<std::vector<int>> places_;  // by actor, by node: in nodes_, or -1
 };
 
 }  // namespace sprung

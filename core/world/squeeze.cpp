@@ -1,6 +1,8 @@
 #include "core/world/squeeze.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "core/body/brick_topology.h"
 #include "core/bricks/corner.h"
@@ -65,12 +67,24 @@ double smallest_volume(const Corners& x) {
 
 }  // namespace
 
-void brace(Body& body, double gravity, std::optional<double> ground) {
-  const Vec3 low = body.positions.colwise().minCoeff();
-  const Vec3 extent = body.positions.colwise().maxCoeff().transpose() - low;
-  const double height = ground ? std::max(0.0, low.y() - *ground) : 0;
-  const double speed_squared = ground ? body.velocities.rowwise().squaredNorm().maxCoeff() + 2 * gravity * height : 0;
-  const double pressure = body.material.density * (gravity * extent.maxCoeff() + speed_squared);
+double meeting_speed(const World& world) {
+  const bool is_alone = world.obstacles.empty() && (world.actors.size() < 2 || !world.bodies_touch);
+  if (is_alone) return 0;
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const Actor& actor : world.actors) lowest = std::min(lowest, actor.body.positions.col(1).minCoeff());
+  double highest = lowest;
+  double squared = 0;
+  for (const Actor& actor : world.actors) {
+    highest = std::max(highest, actor.body.positions.col(1).minCoeff());
+    squared = std::max(squared, actor.body.velocities.rowwise().squaredNorm().maxCoeff());
+  }
+  for (const Obstacle& obstacle : world.obstacles) lowest = std::min(lowest, obstacle.pose.translation.y());
+  return std::sqrt(squared + 2 * world.gravity.norm() * (highest - lowest));
+}
+
+void brace(Body& body, double gravity, double speed) {
+  const Vec3 extent = body.positions.colwise().maxCoeff() - body.positions.colwise().minCoeff();
+  const double pressure = body.material.density * (gravity * extent.maxCoeff() + speed * speed);
   body.law.guard *= std::max(1.0, pressure / body.material.young);
 }
 

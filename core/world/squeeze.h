@@ -12,11 +12,14 @@ namespace sprung {
 /// end. And a brick can be turned over between corners that are all in order.
 inline constexpr double kLeastVolume = 0.1;
 
+/// How fast anything in a world may be when it meets something, m/s: as it starts, with the fall from where it is to
+/// the lowest thing there. 0 where there is nothing to meet. Obstacles' later movements are not known to it.
+[[nodiscard]] double meeting_speed(const World& world);
+
 /// Makes the volume guard of a body strong enough for what it meets, where its material is softer than that: the
-/// pressure of its own weight, density g length, and that of stopping from its speed and its fall, density (v^2 + 2 g
-/// height). Call before the first step is chosen; a guard costs step size. Bodies that are stiff enough stay as they
-/// are. `ground` (m, y) or none.
-void brace(Body& body, double gravity, std::optional<double> ground);
+/// pressure of its own weight, density g length, and that of stopping from `speed` (m/s), density speed^2. Call before
+/// the first step is chosen; a guard costs step size. Bodies that are stiff enough stay as they are.
+void brace(Body& body, double gravity, double speed);
 
 /// A brick that would be pressed too far in the step to come.
 struct Squeeze {

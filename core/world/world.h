@@ -1,19 +1,12 @@
 #pragma once
 #include <array>
-#include <optional>
 #include <vector>
 
 #include "core/body/body.h"
 #include "core/bricks/embedding.h"
+#include "core/world/obstacle.h"
 
 namespace sprung {
-
-/// The half-space y < height is solid.
-struct Ground {
-  double height = 0;       // m
-  double friction = 0.5;   // Coulomb's coefficient
-  double restitution = 0;  // of a single contact point; a soft body bounces by its own elasticity
-};
 
 /// A node that is held along some axes of the world: there it moves with the velocity given, whatever pulls at it.
 struct HeldNode {
@@ -25,14 +18,18 @@ struct HeldNode {
 /// A body in the world with what touches on its behalf and what is held.
 struct Actor {
   Body body;
-  Embedding contacts;            // points of the skin, each position once
-  std::vector<HeldNode> pinned;  // each node once; the ground cannot push them
+  Embedding contacts;             // points of the skin, each position once
+  std::vector<HeldNode> pinned;   // each node once; nothing it touches can push it
+  Triangles contact_triangles{};  // rows of contacts; none: it touches obstacles only
+  double friction = 0.5;          // on another body: the geometric mean of both
+  bool touches_itself = true;     // not for what overlaps itself at rest
 };
 
 struct World {
   std::vector<Actor> actors;
   Vec3 gravity{0, -9.81, 0};  // m/s^2
-  std::optional<Ground> ground;
+  std::vector<Obstacle> obstacles;
+  bool bodies_touch = true;  // each other
 };
 
 }  // namespace sprung

@@ -13,7 +13,7 @@ World block(double young) {
   Body body = make_body(make_box_grid({8, 4, 4}, 0.01), Model::kCalibrated, test::test_material(0.3, young));
   Embedding contacts = embed(body.grid, body.grid.rest_positions());
   world.actors.push_back({.body = std::move(body), .contacts = std::move(contacts), .pinned = {}});
-  world.ground = Ground{};
+  world.obstacles = {level_ground(0)};
   return world;
 }
 
@@ -37,7 +37,7 @@ TEST(StepPlanning, AutoTakesWhatIsForecastToBeQuicker) {
 
 TEST(StepPlanning, RestitutionNeedsExplicitSteps) {
   World world = block(2e9);
-  world.ground->restitution = 0.5;
+  world.obstacles[0].restitution = 0.5;
   const StepPlan plan = plan_steps(world, scene_by(Solver::kAuto));
   EXPECT_EQ(plan.scheme, Solver::kEuler);
   EXPECT_NE(plan.reason.find("restitution"), std::string::npos);

@@ -52,7 +52,7 @@ struct Subject {
   explicit Subject(const std::filesystem::path& scene)
       : production(make_production(read_scene(scene), Console{.quiet = true})) {
     for (const Actor& actor : production.world.actors) nodes.emplace_back(actor.body.positions.cast<float>());
-    shapes = shapes_of(production, nodes);
+    shapes = shapes_of(production, nodes, 0);
     Bounds bounds;
     for (const SkinShape& shape : shapes) bounds.include(shape.positions.cast<double>().eval());
     stage = stage_of(production, bounds);
@@ -83,7 +83,7 @@ void overlapped(const Subject& subject, const std::filesystem::path& folder, int
   Stopwatch watch;
   PictureWriter writer(outputs, options.width, options.height, 24);
   for (int i = 0; i < pictures; ++i) {
-    writer.write(renderer.draw(shapes_of(subject.production, subject.nodes), subject.camera));
+    writer.write(renderer.draw(shapes_of(subject.production, subject.nodes, 0), subject.camera));
   }
   writer.close();
   watch.print("all of it, overlapping", pictures);
@@ -95,7 +95,7 @@ void run(const std::filesystem::path& scene, int pictures) {
   std::filesystem::create_directories(folder);
   fmt::print("{:28} {:>8} {:>8}  ms a picture; processor without the film's encoder\n", "stage", "wall", "processor");
   Stopwatch watch;
-  for (int i = 0; i < pictures; ++i) (void)shapes_of(subject.production, subject.nodes);
+  for (int i = 0; i < pictures; ++i) (void)shapes_of(subject.production, subject.nodes, 0);
   watch.print("skins", pictures);
 
   Renderer renderer(subject.stage, kPicture);

@@ -101,7 +101,7 @@ Drop random_drop(std::uint32_t seed, std::uint32_t index, double least_poisson) 
   const auto shape = static_cast<Shape>(dice.whole(0, 3));
   Drop drop;
   drop.world.gravity = Vec3(0, -kGravity, 0);
-  drop.world.ground = Ground{.height = 0, .friction = dice.between(0, 1), .restitution = 0};
+  drop.world.obstacles = {level_ground(0, dice.between(0, 1))};
   drop.world.actors.push_back(make_actor(shape, size, material, dice));
   Actor& actor = drop.world.actors.front();
   place(actor.body, dice.rotation(), Vec3::Zero());
@@ -110,7 +110,7 @@ Drop random_drop(std::uint32_t seed, std::uint32_t index, double least_poisson) 
   const double speed = dice.whole(0, 4) == 0 ? 0 : dice.between(0, 10);
   const Vec3 velocity = speed * Vec3(dice.between(-0.5, 0.5), -1, dice.between(-0.5, 0.5));
   actor.body.velocities.rowwise() = velocity.transpose();
-  brace(actor.body, kGravity, drop.world.ground->height);
+  brace(actor.body, kGravity, meeting_speed(drop.world));
   drop.size = size;
   drop.period = 2 * size / std::sqrt(material.shear_modulus() / material.density);
   const double fall = gap / std::max(speed, std::sqrt(kGravity * gap / 2));
@@ -118,7 +118,7 @@ Drop random_drop(std::uint32_t seed, std::uint32_t index, double least_poisson) 
   drop.description = fmt::format(
       "{} of {} bricks, {:.3g} m, E {:.3g} Pa, nu {:.3g}, {:.4g} kg/m^3, damping {:.3g}, {:.3g} m/s, friction {:.2g}",
       kShapeNames[static_cast<std::size_t>(shape)], actor.body.grid.brick_count(), size, material.young,
-      material.poisson, material.density, material.damping, speed, drop.world.ground->friction);
+      material.poisson, material.density, material.damping, speed, drop.world.obstacles[0].friction);
   return drop;
 }
 

@@ -135,7 +135,7 @@ TEST_F(SceneFile, ReadsEveryKey) {
   EXPECT_DOUBLE_EQ(scene.bodies[1].brick_size.value(), 0.005);
   EXPECT_EQ(scene.bodies[1].material.name, "rubber");
   ASSERT_EQ(scene.obstacles.size(), 1U);
-  EXPECT_DOUBLE_EQ(scene.obstacles[0].plane.y, -1);
+  EXPECT_DOUBLE_EQ(scene.obstacles[0].plane->y, -1);
   EXPECT_DOUBLE_EQ(scene.obstacles[0].friction, 0.7);
   EXPECT_DOUBLE_EQ(scene.camera.orbit, 30);
   EXPECT_EQ(scene.render.resolution, (std::array<int, 2>{320, 240}));

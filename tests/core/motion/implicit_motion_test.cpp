@@ -191,7 +191,7 @@ TEST(Implicit, DroppedCubeBouncesAndComesToRestOnTheGround) {
     const Mat3 tilted = Eigen::AngleAxisd(0.4, Vec3(1, 0.5, 0.2).normalized()).toRotationMatrix();
     place(cube, tilted, Vec3(0, 0.12, 0));
     World world = world_of(std::move(cube), {0, -kGravity, 0});
-    world.ground = Ground{.height = 0, .friction = 0.5, .restitution = 0};
+    world.obstacles = {level_ground(0, 0.5, 0)};
     const Body& body = world.actors[0].body;
     ImplicitMotion motion(world, {.scheme = scheme});
     double deepest = 0;
@@ -220,7 +220,7 @@ TEST(Implicit, FrictionSticksBelowItsAngleAndSlidesAboveIt) {
     Body block = box_body({6, 3, 6}, 0.02, 0.3, 3e5);
     block.damping.beta = 1e-3;
     World world = world_of(std::move(block), {kGravity * std::sin(tilt), -kGravity * std::cos(tilt), 0});
-    world.ground = Ground{.height = 0, .friction = friction, .restitution = 0};
+    world.obstacles = {level_ground(0, friction, 0)};
     const Body& body = world.actors[0].body;
     const auto centre = [&] { return (body.positions.transpose() * body.masses).x() / body.masses.sum(); };
     ImplicitMotion motion(world, {});
@@ -259,7 +259,7 @@ TEST(Implicit, SameBitsForAnyNumberOfThreads) {
   const auto run = [](std::size_t threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     World world = world_of(box_body({10, 6, 6}, 0.02, 0.4), {0, -kGravity, 0});
-    world.ground = Ground{.height = -0.01, .friction = 0.5, .restitution = 0};
+    world.obstacles = {level_ground(-0.01, 0.5, 0)};
     ImplicitMotion(world, {}).advance(0.01, 8, 0);
     return world.actors[0].body.positions;
   };
@@ -268,9 +268,9 @@ TEST(Implicit, SameBitsForAnyNumberOfThreads) {
 
 TEST(Implicit, WhatCannotBeIsRefused) {
   World world = world_of(box_body({2, 1, 1}, 0.02, 0.3));
-  world.ground = Ground{.height = -1, .friction = 0, .restitution = 0.5};
+  world.obstacles = {level_ground(-1, 0, 0.5)};
   EXPECT_THROW(ImplicitMotion(world, {}), Error);
-  world.ground.reset();
+  world.obstacles.clear();
   world.actors[0].body.positions(3, 1) = std::nan("");
   try {
     ImplicitMotion(world, {}).advance(0.01, 1, 0.25);

@@ -1,0 +1,78 @@
+#include "core/world/contact_skin.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+namespace sprung {
+namespace {
+
+/// first[i] .. first[i + 1]: the rows of an ascending list that are equal to values[i].
+std::vector<int> starts_of(const std::vector<int>& values, const std::vector<int>& ascending) {
+  std::vector<int> first{0};
+  for (const int value : values) {
+    const auto end = std::upper_bound(ascending.begin() + first.back(), ascending.end(), value);
+    first.push_back(static_cast<int>(end - ascending.begin()));
+  }
+  return first;
+}
+
+NormalCone cone_of(const Points& normals) {
+  const Vec3 sum = normals.colwise().sum();
+  if (!(sum.norm() > 0)) return {Vec3::UnitX(), std::numbers::pi};
+  const Vec3 axis = sum.normalized();
+  return {axis, std::acos(std::clamp((normals * axis).minCoeff(), -1.0, 1.0))};
+}
+
+}  // namespace
+
+ContactSkin::ContactSkin(const Actor& actor) {
+  const Embedding& embedding = actor.contacts;
+  std::vector<int> order(embedding.brick.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto brick_of = [&](int row) { return embedding.brick[static_cast<std::size_t>(row)]; };
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return brick_of(a) < brick_of(b); });
+  std::vector<int> place_of(order.size());
+  std::vector<int> brick_of_point;
+  for (const int row : order) {
+    place_of[static_cast<std::size_t>(row)] = static_cast<int>(points.size());
+    const auto weights = trilinear_weights(embedding.local.row(row));
+    int corner = 0;
+    weights.maxCoeff(&corner);
+    points.push_back({brick_of(row), corner, weights});
+    brick_of_point.push_back(brick_of(row));
+    if (bricks.empty() || bricks.back() != brick_of(row)) bricks.push_back(brick_of(row));
+  }
+  first_point = starts_of(bricks, brick_of_point);
+  normals = Points::Zero(static_cast<Eigen::Index>(points.size()), 3);
+  for (int row = 0; row < actor.contact_triangles.rows(); ++row) {
+    std::array<int, 3> corners{};
+    for (int i = 0; i < 3; ++i) {
+      corners[static_cast<std::size_t>(i)] = place_of[static_cast<std::size_t>(actor.contact_triangles(row, i))];
+    }
+    triangles.push_back(corners);
+  }
+  const auto owner = [&](const std::array<int, 3>& corners) {
+    return points[static_cast<std::size_t>(corners[0])].brick;
+  };
+  std::stable_sort(triangles.begin(), triangles.end(),
+                   [&](const auto& a, const auto& b) { return owner(a) < owner(b); });
+  std::vector<int> brick_of_triangle;
+  for (const std::array<int, 3>& corners : triangles) {
+    brick_of_triangle.push_back(owner(corners));
+    std::array<Vec3, 3> x;
+    for (std::size_t i = 0; i < 3; ++i) {
+      x[i] = carried(actor.body, points[static_cast<std::size_t>(corners[i])], actor.body.rest_positions);
+    }
+    const Vec3 area = (x[1] - x[0]).cross(x[2] - x[0]);
+    for (const int corner : corners) normals.row(corner) += area.transpose();
+  }
+  first_triangle = starts_of(bricks, brick_of_triangle);
+  normals.rowwise().normalize();
+  for (std::size_t row = 0; row < bricks.size(); ++row) {
+    cones.push_back(cone_of(normals.middleRows(first_point[row], first_point[row + 1] - first_point[row])));
+  }
+}
+
+}  // namespace sprung

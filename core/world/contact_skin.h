@@ -1,0 +1,43 @@
+#pragma once
+#include <array>
+#include <vector>
+
+#include "core/world/world.h"
+
+namespace sprung {
+
+/// A contact point of a body.
+struct ContactPoint {
+  int brick;
+  int corner;                           // of the brick, the nearest
+  Eigen::Matrix<double, 8, 1> weights;  // of the brick's corners
+};
+
+/// The normals of a brick's points at rest: none is further than `spread` (rad) from `axis`.
+struct NormalCone {
+  Vec3 axis;
+  double spread;
+};
+
+/// What touches on a body's behalf, arranged by brick.
+struct ContactSkin {
+  explicit ContactSkin(const Actor& actor);
+
+  std::vector<int> bricks;                    // b; that hold points, ascending
+  std::vector<ContactPoint> points;           // n; grouped by brick
+  std::vector<int> first_point;               // b + 1
+  std::vector<std::array<int, 3>> triangles;  // of points; grouped by the brick of the first of them
+  std::vector<int> first_triangle;            // b + 1
+  Points normals;                             // n x 3, at rest, unit, outward; 0 where no triangle is
+  std::vector<NormalCone> cones;              // b
+};
+
+/// Of what its brick's corners have (m x 3, per node of the body).
+[[nodiscard]] inline Vec3 carried(const Body& body, const ContactPoint& point, const Points& values) {
+  const auto& nodes = body.grid.nodes[static_cast<std::size_t>(point.brick)];
+  Vec3 sum = Vec3::Zero();
+  for (int i = 0; i < 8; ++i) sum += point.weights[i] * values.row(nodes[static_cast<std::size_t>(i)]).transpose();
+  return sum;
+}
+
+}  // namespace sprung

@@ -1,0 +1,15 @@
+#pragma once
+#include <utility>
+#include <vector>
+
+#include "core/types.h"
+
+namespace sprung {
+
+using AlignedBox = Eigen::AlignedBox3d;
+
+/// Rows i < j of boxes that overlap, in a fixed order. A grid with cells as large as the largest box: quick where boxes
+/// are of about one size. Throws nothing; boxes that are not finite overlap nothing.
+[[nodiscard]] std::vector<std::pair<int, int>> overlapping_boxes(const std::vector<AlignedBox>& boxes);
+
+}  // namespace sprung

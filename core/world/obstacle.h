@@ -1,0 +1,76 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "core/types.h"
+#include "core/world/mesh_distance.h"
+#include "core/world/pose.h"
+
+namespace sprung {
+
+/// Solid where y < 0.
+struct SolidHalfSpace {};
+/// Around the origin; half of its sides, m.
+struct SolidBox {
+  Vec3 half{0.5, 0.5, 0.5};
+};
+/// Around the origin, m.
+struct SolidBall {
+  double radius = 0.5;
+};
+/// Around the y axis, from -half_length to half_length without its round ends, m.
+struct SolidCapsule {
+  double radius = 0.25;
+  double half_length = 0.25;
+};
+/// Around the y axis, from -half_length to half_length, m.
+struct SolidCylinder {
+  double radius = 0.25;
+  double half_length = 0.5;
+};
+/// Inside a closed mesh.
+struct MeshSolid {
+  std::shared_ptr<const MeshDistance> distance;
+};
+
+/// In a frame of their own.
+using Shape = std::variant<SolidHalfSpace, SolidBox, SolidBall, SolidCapsule, SolidCylinder, MeshSolid>;
+
+/// Something solid that no body moves. It moves evenly by itself: `pose` is where it is at the start of an advance.
+struct Obstacle {
+  Shape shape = SolidHalfSpace{};
+  Pose pose;
+  Vec3 velocity = Vec3::Zero();  // of pose.translation, m/s
+  Vec3 spin = Vec3::Zero();      // about pose.translation, rad/s
+  double friction = 0.5;         // Coulomb's coefficient
+  double restitution = 0;        // of a single contact point; a soft body bounces by its own elasticity
+
+  [[nodiscard]] bool is_moving() const { return !velocity.isZero(0) || !spin.isZero(0); }
+};
+
+/// The half-space y < height.
+[[nodiscard]] Obstacle level_ground(double height, double friction = 0.5, double restitution = 0);
+
+/// The height of an obstacle that is level ground at rest, m.
+[[nodiscard]] std::optional<double> ground_height(const Obstacle& obstacle);
+
+/// Of the highest level ground among them.
+[[nodiscard]] std::optional<double> ground_height(const std::vector<Obstacle>& obstacles);
+
+/// After it has moved by itself for that time (s).
+[[nodiscard]] Pose pose_after(const Obstacle& obstacle, double time);
+
+/// Of the obstacle's own material at a place of the world while it is at `pose`, m/s.
+[[nodiscard]] Vec3 velocity_at(const Obstacle& obstacle, const Pose& pose, const Vec3& place);
+
+/// How far a place is from what is solid, m: negative inside; the gradient is the normal, outward. Never more than the
+/// true distance.
+struct Gap {
+  double distance;
+  Vec3 normal;
+};
+[[nodiscard]] Gap gap_to(const Shape& shape, const Pose& pose, const Vec3& place);
+
+}  // namespace sprung

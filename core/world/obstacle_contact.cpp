@@ -1,0 +1,128 @@
+#include "core/world/obstacle_contact.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace sprung {
+namespace {
+
+constexpr double kCornerFirst = 0.25;  // of points about as deep the one nearest to the corner holds the others best
+constexpr double kMargin = 0.3;        // bricks: what is nearer than that is watched
+constexpr double kOutside = 1.5;       // embedded points lie in the hull of the corners, or a little outside it where
+                                       // the surface has no brick
+
+using Corners = Eigen::Matrix<double, 3, 8>;
+
+Corners corners_of(const std::array<int, 8>& nodes, const Points& values) {
+  Corners corners;
+  for (int corner = 0; corner < 8; ++corner) {
+    corners.col(corner) = values.row(nodes[static_cast<std::size_t>(corner)]).transpose();
+  }
+  return corners;
+}
+
+/// Around its middle (m), of what rides in a brick.
+double reach_of(const Corners& x, const Vec3& middle) {
+  return kOutside * std::sqrt((x.colwise() - middle).colwise().squaredNorm().maxCoeff());
+}
+
+/// Of the deepest point near a corner of a brick.
+struct Deepest {
+  const ContactPoint* point = nullptr;
+  double pull = 0;  // along the normal, that meeting its limit takes, m/s; more where it is near its corner
+  Vec3 normal;
+  Vec3 goal;
+};
+
+double fastest(const Body& body) { return std::sqrt(body.velocities.rowwise().squaredNorm().maxCoeff()); }
+
+}  // namespace
+
+void ObstacleContact::look_at_brick(const Shape& shape, const Pose& pose, const Body& body, std::size_t place,
+                                    Near near) {
+  const ContactSkin& skin = skins_[near.actor];
+  const double margin = kMargin * body.grid.brick_size;
+  near.brick = skin.bricks[place];
+  const Corners x = corners_of(body.grid.nodes[static_cast<std::size_t>(near.brick)], body.positions);
+  const Vec3 centre = x.rowwise().mean();
+  if (gap_to(shape, pose, centre).distance > reach_of(x, centre) + margin) return;
+  near.first = points_.size();
+  for (int i = skin.first_point[place]; i < skin.first_point[place + 1]; ++i) {
+    const ContactPoint& point = skin.points[static_cast<std::size_t>(i)];
+    if (!(gap_to(shape, pose, x * point.weights).distance > margin)) points_.push_back(&point);
+  }
+  near.last = points_.size();
+  if (near.last > near.first) near_.push_back(near);
+}
+
+void ObstacleContact::look(const World& world, const std::vector<Pose>& poses, double dt, const Group& group) {
+  near_.clear();
+  points_.clear();
+  int steps = steps_until_look(1, 0, dt);
+  for (std::size_t o = 0; o < poses.size(); ++o) {
+    const Obstacle& obstacle = world.obstacles[o];
+    for (std::size_t actor = 0; actor < group.size(); ++actor) {
+      const Body& body = group[actor]->body;
+      const Vec3 middle = body.positions.colwise().mean();
+      const double around =
+          std::sqrt((body.positions.rowwise() - middle.transpose()).rowwise().squaredNorm().maxCoeff());
+      const double speed =
+          fastest(body) + velocity_at(obstacle, poses[o], middle).norm() + obstacle.spin.norm() * around;
+      steps = std::min(steps, steps_until_look(kMargin * body.grid.brick_size, speed, dt));
+      for (std::size_t place = 0; place < skins_[actor].bricks.size(); ++place) {
+        look_at_brick(obstacle.shape, poses[o], body, place, {o, actor, 0, 0, 0});
+      }
+    }
+  }
+  steps_to_look_ = steps;
+}
+
+void ObstacleContact::touch_brick(const World& world, const std::vector<Pose>& poses, double dt, const Group& group,
+                                  const Near& near, Touches& touches) const {
+  const Obstacle& obstacle = world.obstacles[near.obstacle];
+  const Pose& pose = poses[near.obstacle];
+  const Body& body = group[near.actor]->body;
+  const auto& nodes = body.grid.nodes[static_cast<std::size_t>(near.brick)];
+  const Corners x = corners_of(nodes, body.positions);
+  const Corners v = corners_of(nodes, body.velocities);
+  std::array<Deepest, 8> deepest{};
+  for (std::size_t i = near.first; i < near.last; ++i) {
+    const ContactPoint& point = *points_[i];
+    const Vec3 place = x * point.weights;
+    const Gap gap = gap_to(obstacle.shape, pose, place);
+    const Vec3 carrying = velocity_at(obstacle, pose, place);
+    const double speed = gap.normal.dot(v * point.weights - carrying);
+    if (!(gap.distance + dt * speed <= 0)) continue;  // nor where a number is not finite
+    double least = least_speed(gap.distance, world.gravity.norm(), dt);
+    if (gap.distance <= 0 && obstacle.restitution > 0) least = std::max(least, -obstacle.restitution * speed);
+    const double pull = (least - speed) * (1 + kCornerFirst * point.weights[point.corner]);
+    Deepest& found = deepest[static_cast<std::size_t>(point.corner)];
+    if (found.point == nullptr || pull > found.pull) {
+      found = {&point, pull, gap.normal, carrying + least * gap.normal};
+    }
+  }
+  for (const Deepest& found : deepest) {
+    if (found.point == nullptr) continue;
+    const std::size_t first = touches.shares.size();
+    for (std::size_t corner = 0; corner < 8; ++corner) {
+      touches.shares.push_back(
+          {static_cast<int>(near.actor), nodes[corner], found.point->weights[static_cast<Eigen::Index>(corner)]});
+    }
+    touches.list.push_back({.key = touch_key(near.obstacle, near.actor, near.brick, found.point->corner),
+                            .first = first,
+                            .last = touches.shares.size(),
+                            .normal = found.normal,
+                            .goal = found.goal,
+                            .friction = obstacle.friction});
+  }
+}
+
+void ObstacleContact::find(const World& world, const std::vector<Pose>& poses, double dt, const Group& group,
+                           Touches& touches) {
+  if (steps_to_look_ == 0) look(world, poses, dt, group);
+  --steps_to_look_;
+  for (const Near& near : near_) touch_brick(world, poses, dt, group, near, touches);
+}
+
+}  // namespace sprung

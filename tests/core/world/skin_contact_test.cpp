@@ -1,0 +1,139 @@
+#include "core/world/skin_contact.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "core/body/forces.h"
+#include "core/motion/careful_motion.h"
+#include "tests/support/touching.h"
+
+namespace sprung {
+namespace {
+
+using test::test_material;
+using test::touching_box;
+
+/// Of a whole world.
+Vec3 momentum_of(const World& world) {
+  Vec3 sum = Vec3::Zero();
+  for (const Actor& actor : world.actors) sum += linear_momentum(actor.body);
+  return sum;
+}
+
+Vec3 angular_momentum_of(const World& world) {
+  Vec3 sum = Vec3::Zero();
+  for (const Actor& actor : world.actors) sum += angular_momentum(actor.body);
+  return sum;
+}
+
+double energy(const World& world) {
+  double sum = 0;
+  for (const Actor& actor : world.actors) sum += energy_of(actor.body, world.gravity).sum();
+  return sum;
+}
+
+Vec3 centre_of(const Actor& actor) {
+  return actor.body.positions.transpose() * actor.body.masses / actor.body.masses.sum();
+}
+
+void run(World& world, double duration, double fps = 50) {
+  CarefulMotion motion(world, Scheme::kSymplecticEuler);
+  const long frames = std::lround(duration * fps);
+  for (long frame = 0; frame < frames; ++frame) {
+    static_cast<void>(motion.advance_frame(
+        static_cast<double>(frame) / fps, 1 / fps, [](double) {}, [](const std::string& what) { FAIL() << what; }));
+  }
+}
+
+/// Two cubes fly into each other a little off centre, turned so that an edge meets a face.
+TEST(SkinContact, CollisionKeepsMomentumAndMakesNoEnergy) {
+  World world;
+  world.gravity.setZero();
+  world.actors.push_back(touching_box({4, 4, 4}, 0.02, test_material(0.3), Vec3::Zero()));
+  world.actors.push_back(touching_box({4, 4, 4}, 0.02, test_material(0.3, 3e4), Vec3::Zero()));
+  place(world.actors[1].body, Eigen::AngleAxisd(0.7, Vec3(1, 2, 0.5).normalized()).toRotationMatrix(),
+        Vec3(0.13, 0.01, 0.02));
+  world.actors[0].body.velocities.col(0).setConstant(1);
+  world.actors[1].body.velocities.col(0).setConstant(-0.5);
+  const Vec3 momentum = momentum_of(world);
+  const Vec3 turning = angular_momentum_of(world);
+  const double before = energy(world);
+  run(world, 0.3);
+  const double scale = world.actors[0].body.masses.sum();
+  EXPECT_LT((momentum_of(world) - momentum).norm(), 1e-9 * momentum.norm());
+  EXPECT_LT((angular_momentum_of(world) - turning).norm(), 1e-3 * scale * 0.1);
+  EXPECT_LT(energy(world), before * (1 + 1e-6));
+  EXPECT_LT(centre_of(world.actors[0]).x(), centre_of(world.actors[1]).x());
+  EXPECT_LT(linear_momentum(world.actors[0].body).x() / scale, 0.5);  // it has been stopped
+}
+
+/// A cube on a cube on the ground comes to rest there, and each carries what lies on it.
+TEST(SkinContact, StackComesToRest) {
+  World world;
+  world.obstacles = {level_ground(0)};
+  for (int i = 0; i < 3; ++i) {
+    world.actors.push_back(touching_box({4, 3, 4}, 0.02, test_material(0.3, 2e5), Vec3(0, 0.062 * i + 0.001, 0)));
+    world.actors.back().body.damping = {.alpha = 8, .beta = 1e-3};
+  }
+  run(world, 1);
+  for (int i = 0; i < 3; ++i) {
+    const Body& body = world.actors[static_cast<std::size_t>(i)].body;
+    EXPECT_NEAR(centre_of(world.actors[static_cast<std::size_t>(i)]).y(), 0.03 + 0.06 * i, 0.004) << i;
+    EXPECT_LT(std::sqrt(body.velocities.rowwise().squaredNorm().maxCoeff()), 0.002) << i;
+    EXPECT_EQ(inverted_bricks(body), 0);
+  }
+  // No deeper in each other than a small part of a brick.
+  for (int i = 0; i < 2; ++i) {
+    const double top = world.actors[static_cast<std::size_t>(i)].body.positions.col(1).maxCoeff();
+    const double bottom = world.actors[static_cast<std::size_t>(i) + 1].body.positions.col(1).minCoeff();
+    EXPECT_LT(top - bottom, 0.0008) << i;
+  }
+}
+
+/// The arms of a horseshoe swing together: they stop at each other.
+TEST(SkinContact, BodyDoesNotGoThroughItself) {
+  const double h = 0.01;
+  const auto gap_after = [&](bool touches_itself) {
+    BrickGrid grid;
+    grid.brick_size = h;
+    for (int y = 0; y < 12; ++y) {
+      for (int x = 0; x < 6; ++x) {
+        if (y < 2 || x < 2 || x >= 4) grid.cells.emplace_back(x, y, 0);
+      }
+    }
+    grid.fill.assign(grid.cells.size(), 1.0);
+    number_nodes(grid);
+    World world;
+    world.gravity.setZero();
+    Actor actor{.body = make_body(grid, Model::kCalibrated, test_material(0.3, 2e4)), .contacts = {}, .pinned = {}};
+    const SurfaceMesh surface = surface_of(actor.body.grid);
+    actor.contacts = embed(actor.body.grid, surface.positions);
+    actor.contact_triangles = surface.triangles;
+    actor.touches_itself = touches_itself;
+    for (int node = 0; node < actor.body.node_count(); ++node) {
+      const Vec3 x = actor.body.positions.row(node);
+      if (x.y() > 2 * h) actor.body.velocities(node, 0) = (x.x() < 3 * h ? 1.0 : -1.0) * 8 * (x.y() - 2 * h);
+    }
+    world.actors.push_back(std::move(actor));
+    double least = 1;
+    for (int frame = 0; frame < 20; ++frame) {
+      run(world, 0.005, 200);
+      const Body& body = world.actors[0].body;
+      for (int node = 0; node < body.node_count(); ++node) {
+        const Eigen::Vector3i& place = body.grid.lattice[static_cast<std::size_t>(node)];
+        if (place.x() != 2 || place.y() < 4) continue;
+        for (int other = 0; other < body.node_count(); ++other) {
+          if (body.grid.lattice[static_cast<std::size_t>(other)] != Eigen::Vector3i(4, place.y(), place.z())) continue;
+          least = std::min(least, body.positions(other, 0) - body.positions(node, 0));
+        }
+      }
+    }
+    return least;
+  };
+  EXPECT_LT(gap_after(false), -0.2 * h);
+  EXPECT_GT(gap_after(true), -0.05 * h);
+}
+
+}  // namespace
+}  // namespace sprung
