@@ -13,14 +13,18 @@
 namespace sprung {
 namespace {
 
-constexpr std::array<std::string_view, 6> kNames{"drop", "hang", "stretch", "twist", "wobble", "throw"};
+constexpr std::array<std::string_view, 7> kNames{"drop", "hang", "squash", "stretch", "twist", "wobble", "throw"};
 
 constexpr double kDropHeight = 0.4;  // in sizes above the ground
 constexpr double kHangHeight = 0.5;  // in sizes above the ground: near enough to see, far enough to stretch
 constexpr double kHeldFraction = 0.08;
-constexpr double kStretch = 0.6;  // heights
-constexpr double kTwist = 180;    // degrees
-constexpr double kBend = 0.3;     // heights
+constexpr double kStretch = 0.6;      // heights
+constexpr double kPlate = 0.08;       // sizes, thick
+constexpr double kPlateSide = 1.5;    // sizes
+constexpr double kPlateHeight = 0.1;  // sizes above the ground
+constexpr double kSquash = 0.2;       // heights, each plate
+constexpr double kTwist = 180;        // degrees
+constexpr double kBend = 0.3;         // heights
 constexpr double kThrowHeight = 0.3;
 constexpr double kTumble = 0.6;  // rad in the time that gravity takes for a size
 
@@ -51,6 +55,24 @@ void stage_stretch(SceneBody& body, double height, double duration) {
   Pin top = top_pin();
   top.keyframes = there_and_back(duration, {.translate = Vec3(0, kStretch * height, 0)});
   body.pins = {bottom_pin(), top};
+}
+
+/// A plate whose lower face is at `bottom` and that moves by `way` and back (m).
+SceneObstacle plate(double size, double bottom, double way, double duration) {
+  SceneObstacle obstacle;
+  obstacle.box = size * Vec3(kPlateSide, kPlate, kPlateSide);
+  obstacle.position = Vec3(0, bottom + obstacle.box->y() / 2, 0);
+  obstacle.keyframes = there_and_back(duration, {.translate = Vec3(0, way, 0)});
+  obstacle.interpolation = Interpolation::kSmooth;
+  return obstacle;
+}
+
+/// Between two plates that come together.
+void stage_squash(Scene& scene, SceneBody& body, double size, double height) {
+  const double low = kPlateHeight * size;
+  body.position.y() = low + kPlate * size;
+  scene.obstacles.push_back(plate(size, low, kSquash * height, scene.duration));
+  scene.obstacles.push_back(plate(size, body.position.y() + height, -kSquash * height, scene.duration));
 }
 
 void stage_twist(SceneBody& body, double duration) {
@@ -84,7 +106,9 @@ Scenario scenario_from_name(std::string_view name) {
   throw Error(ErrorKind::kUsage, fmt::format("there is no scenario '{}'{}", name, did_you_mean(name, kNames)));
 }
 
-bool needs_height(Scenario scenario) { return scenario == Scenario::kStretch || scenario == Scenario::kWobble; }
+bool needs_height(Scenario scenario) {
+  return scenario == Scenario::kStretch || scenario == Scenario::kWobble || scenario == Scenario::kSquash;
+}
 
 void stage_scenario(Scene& scene, Scenario scenario, double height) {
   SceneObstacle ground;
@@ -100,6 +124,9 @@ void stage_scenario(Scene& scene, Scenario scenario, double height) {
       case Scenario::kHang:
         body.position.y() = kHangHeight * size;
         body.pins = {top_pin()};
+        break;
+      case Scenario::kSquash:
+        stage_squash(scene, body, size, height);
         break;
       case Scenario::kStretch:
         stage_stretch(body, height, scene.duration);

@@ -10,6 +10,7 @@ namespace sprung {
 enum class Scenario {
   kDrop,     // falls, a little tilted, from 0.4 of its size
   kHang,     // held by its top 8 %, released under gravity
+  kSquash,   // two plates press it to 0.6 of its height, and let it go
   kStretch,  // its top is pulled up by 0.6 of its height, held, and brought back
   kTwist,    // its top is turned by half a turn, and back
   kWobble,   // its top is bent to the side by 0.3 of its height and let go

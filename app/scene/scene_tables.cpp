@@ -91,7 +91,7 @@ std::string bounds(const Range& range) {
 /// ", above 0 m": nothing where all numbers do.
 std::string range_suffix(const KeyInfo& key) {
   const bool is_limited = std::isfinite(key.range.low) || std::isfinite(key.range.high);
-  return is_limited ? ", " + range_text(key) : "";
+  return is_limited ? fmt::format(", {}", range_text(key)) : "";
 }
 
 /// A string with a number and a unit; of the range it knows the sign only.
@@ -99,7 +99,8 @@ std::string quantity_pattern(const KeyInfo& key) {
   static const std::regex kSpecial(R"([.^$*+?()\[\]{}|\\])");
   std::string units;
   for (const std::string_view unit : units_of(key.dimension)) {
-    units += (units.empty() ? "" : "|") + std::regex_replace(std::string(unit), kSpecial, R"(\$&)");
+    if (!units.empty()) units += '|';
+    units += std::regex_replace(std::string(unit), kSpecial, R"(\$&)");
   }
   return fmt::format(R"(^\s*{}([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?\s*({})?\s*$)",
                      key.range.low >= 0 ? "[+]?" : "[-+]?", units);

@@ -9,6 +9,8 @@ namespace {
 
 constexpr double kCornerFirst = 0.25;  // of points about as deep the one nearest to the corner holds the others best
 constexpr double kMargin = 0.3;        // bricks: what is nearer than that is watched
+constexpr double kFlat = 0.02;         // bricks that a point may move before the surface under it is asked for anew
+constexpr int kPointsACorner = 2;      // of a brick, the nearest: others are held by them or found when next looked
 constexpr double kOutside = 1.5;       // embedded points lie in the hull of the corners, or a little outside it where
                                        // the surface has no brick
 
@@ -39,21 +41,37 @@ double fastest(const Body& body) { return std::sqrt(body.velocities.rowwise().sq
 
 }  // namespace
 
-void ObstacleContact::look_at_brick(const Shape& shape, const Pose& pose, const Body& body, std::size_t place,
-                                    Near near) {
+void ObstacleContact::look_at_brick(const Shape& shape, const Pose& pose, const Body& body, std::size_t at, Near near) {
   const ContactSkin& skin = skins_[near.actor];
   const double margin = kMargin * body.grid.brick_size;
-  near.brick = skin.bricks[place];
+  near.brick = skin.bricks[at];
   const Corners x = corners_of(body.grid.nodes[static_cast<std::size_t>(near.brick)], body.positions);
   const Vec3 centre = x.rowwise().mean();
   if (gap_to(shape, pose, centre).distance > reach_of(x, centre) + margin) return;
-  near.first = points_.size();
-  for (int i = skin.first_point[place]; i < skin.first_point[place + 1]; ++i) {
+  std::vector<NearPoint> nearest;
+  for (int i = skin.first_point[at]; i < skin.first_point[at + 1]; ++i) {
     const ContactPoint& point = skin.points[static_cast<std::size_t>(i)];
-    if (!(gap_to(shape, pose, x * point.weights).distance > margin)) points_.push_back(&point);
+    const Vec3 place = pose.rotation.transpose() * (x * point.weights - pose.translation);
+    const Gap gap = gap_to(shape, {}, place);
+    if (!(gap.distance > margin)) nearest.push_back({&point, place, gap});
+  }
+  std::stable_sort(nearest.begin(), nearest.end(),
+                   [](const NearPoint& a, const NearPoint& b) { return a.gap.distance < b.gap.distance; });
+  near.first = points_.size();
+  std::array<int, 8> kept{};
+  for (const NearPoint& one : nearest) {
+    if (kept[static_cast<std::size_t>(one.point->corner)]++ < kPointsACorner) points_.push_back(one);
   }
   near.last = points_.size();
   if (near.last > near.first) near_.push_back(near);
+}
+
+Gap ObstacleContact::gap_now(const Shape& shape, double brick_size, const Vec3& place, NearPoint& near) {
+  const Vec3 moved = place - near.place;
+  if (moved.norm() <= kFlat * brick_size) return {near.gap.distance + near.gap.normal.dot(moved), near.gap.normal};
+  near.place = place;
+  near.gap = gap_to(shape, {}, place);
+  return near.gap;
 }
 
 void ObstacleContact::look(const World& world, const std::vector<Pose>& poses, double dt, const Group& group) {
@@ -79,7 +97,7 @@ void ObstacleContact::look(const World& world, const std::vector<Pose>& poses, d
 }
 
 void ObstacleContact::touch_brick(const World& world, const std::vector<Pose>& poses, double dt, const Group& group,
-                                  const Near& near, Touches& touches) const {
+                                  const Near& near, Touches& touches) {
   const Obstacle& obstacle = world.obstacles[near.obstacle];
   const Pose& pose = poses[near.obstacle];
   const Body& body = group[near.actor]->body;
@@ -88,18 +106,23 @@ void ObstacleContact::touch_brick(const World& world, const std::vector<Pose>& p
   const Corners v = corners_of(nodes, body.velocities);
   std::array<Deepest, 8> deepest{};
   for (std::size_t i = near.first; i < near.last; ++i) {
-    const ContactPoint& point = *points_[i];
+    NearPoint& near_point = points_[i];
+    const ContactPoint& point = *near_point.point;
     const Vec3 place = x * point.weights;
-    const Gap gap = gap_to(obstacle.shape, pose, place);
-    const Vec3 carrying = velocity_at(obstacle, pose, place);
-    const double speed = gap.normal.dot(v * point.weights - carrying);
+    const Vec3 velocity = v * point.weights - velocity_at(obstacle, pose, place);
+    const Vec3 there = pose.rotation.transpose() * (place - pose.translation);
+    const double moved = (there - near_point.place).norm();
+    if (near_point.gap.distance - moved > dt * velocity.norm()) continue;
+    Gap gap = gap_now(obstacle.shape, body.grid.brick_size, there, near_point);
+    gap.normal = pose.rotation * gap.normal;
+    const double speed = gap.normal.dot(velocity);
     if (!(gap.distance + dt * speed <= 0)) continue;  // nor where a number is not finite
     double least = least_speed(gap.distance, world.gravity.norm(), dt);
     if (gap.distance <= 0 && obstacle.restitution > 0) least = std::max(least, -obstacle.restitution * speed);
     const double pull = (least - speed) * (1 + kCornerFirst * point.weights[point.corner]);
     Deepest& found = deepest[static_cast<std::size_t>(point.corner)];
     if (found.point == nullptr || pull > found.pull) {
-      found = {&point, pull, gap.normal, carrying + least * gap.normal};
+      found = {&point, pull, gap.normal, velocity_at(obstacle, pose, place) + least * gap.normal};
     }
   }
   for (const Deepest& found : deepest) {

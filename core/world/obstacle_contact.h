@@ -17,6 +17,14 @@ class ObstacleContact {
   void find(const World& world, const std::vector<Pose>& poses, double dt, const Group& group, Touches& touches);
 
  private:
+  /// A point near an obstacle, and what was last asked about it, in the obstacle's frame: from there on the surface is
+  /// taken to be flat while the point moves by no more than a small part of a brick.
+  struct NearPoint {
+    const ContactPoint* point;
+    Vec3 place;  // m
+    Gap gap;
+  };
+  [[nodiscard]] static Gap gap_now(const Shape& shape, double brick_size, const Vec3& place, NearPoint& near);
   /// A brick with points near an obstacle.
   struct Near {
     std::size_t obstacle;
@@ -26,13 +34,13 @@ class ObstacleContact {
     std::size_t last;   // one past them
   };
   void look(const World& world, const std::vector<Pose>& poses, double dt, const Group& group);
-  void look_at_brick(const Shape& shape, const Pose& pose, const Body& body, std::size_t place, Near near);
+  void look_at_brick(const Shape& shape, const Pose& pose, const Body& body, std::size_t at, Near near);
   void touch_brick(const World& world, const std::vector<Pose>& poses, double dt, const Group& group, const Near& near,
-                   Touches& touches) const;
+                   Touches& touches);
 
   const std::vector<ContactSkin>& skins_;  // by actor of the group
   std::vector<Near> near_;
-  std::vector<const ContactPoint*> points_;
+  std::vector<NearPoint> points_;
   int steps_to_look_ = 0;
 };
 

@@ -132,9 +132,9 @@ DropResult run_drop(Drop& drop) {
   CarefulMotion motion(drop.world, Scheme::kSymplecticEuler);
   try {
     for (int i = 0; i < frames; ++i) {
-      const std::vector<Steps> steps = motion.advance_frame(
+      const std::vector<GroupSteps> groups = motion.advance_frame(
           i * frame, frame, [](double) {}, [&](const std::string&) { ++result.halvings; });
-      result.brick_steps += steps[0].count * actor.body.grid.brick_count();
+      result.brick_steps += groups[0].steps.count * actor.body.grid.brick_count();
       result.deepest = std::max(result.deepest, -lowest_point(actor) / drop.size);
       result.energy_gain =
           std::max(result.energy_gain, (energy_of(actor.body, drop.world.gravity).sum() - first) / (first + scale));

@@ -49,6 +49,13 @@ TEST(Scenarios, StretchPullsAndBringsBack) {
   EXPECT_NEAR(at(recording, 1, 1).y(), 0.06, 0.03);
 }
 
+TEST(Scenarios, SquashPressesBetweenPlatesAndLetsGo) {
+  const Recording recording = record(Scenario::kSquash);
+  EXPECT_NEAR(at(recording, 0, 1).y(), -0.04, 0.01);
+  EXPECT_NEAR(at(recording, 1, 1).y(), 0, 0.01);
+  EXPECT_NEAR((at(recording, 0, 1.999) - at(recording, 1, 1.999)).y(), 0, 3e-3);  // its weight presses it a little
+}
+
 TEST(Scenarios, TwistTurnsAndBringsBack) {
   const Recording recording = record(Scenario::kTwist);
   EXPECT_LT(at(recording, 0, 1).norm(), 1e-9);  // on the axis

@@ -253,7 +253,10 @@ TEST_F(SceneFile, WhatExcludesEachOtherOrIsMissing) {
             std::string::npos);
   const std::string plane = "[[obstacle]]\nplane = { y = 0 }\n";
   EXPECT_EQ(body_mistakes(plane), "");
-  EXPECT_NE(body_mistakes(plane + plane).find("one [[obstacle]] only"), std::string::npos);
+  EXPECT_NE(body_mistakes("[[obstacle]]\nplane = { y = 0 }\nbox = [1, 1, 1]\n").find("obstacle"), std::string::npos);
+  EXPECT_NE(body_mistakes("[[obstacle]]\nbox = [1, 1, 1]\nsize = 2\n").find("mesh"), std::string::npos);
+  EXPECT_NE(body_mistakes(plane + "keyframes = [{ t = 1, scale = 2 }]\n").find("keeps its size"), std::string::npos);
+  EXPECT_NE(body_mistakes(plane + "interpolation = \"held\"\n").find("cannot jump"), std::string::npos);
 }
 
 TEST_F(SceneFile, RangesAreKept) {
