@@ -46,21 +46,23 @@ void ObstacleContact::look_at_brick(const Shape& shape, const Pose& pose, const 
   const double margin = kMargin * body.grid.brick_size;
   near.brick = skin.bricks[at];
   const Corners x = corners_of(body.grid.nodes[static_cast<std::size_t>(near.brick)], body.positions);
-  const Vec3 centre = x.rowwise().mean();
-  if (gap_to(shape, pose, centre).distance > reach_of(x, centre) + margin) return;
-  std::vector<NearPoint> nearest;
+  const Vec3 middle = x.rowwise().mean();
+  const Gap from_middle = gap_to(shape, pose, middle);
+  if (from_middle.distance > reach_of(x, middle) + margin) return;
+  // Which points are nearest is told as if the surface were flat across a brick.
+  std::vector<std::pair<double, const ContactPoint*>> nearest;
   for (int i = skin.first_point[at]; i < skin.first_point[at + 1]; ++i) {
     const ContactPoint& point = skin.points[static_cast<std::size_t>(i)];
-    const Vec3 place = pose.rotation.transpose() * (x * point.weights - pose.translation);
-    const Gap gap = gap_to(shape, {}, place);
-    if (!(gap.distance > margin)) nearest.push_back({&point, place, gap});
+    nearest.emplace_back(from_middle.normal.dot(x * point.weights - middle), &point);
   }
-  std::stable_sort(nearest.begin(), nearest.end(),
-                   [](const NearPoint& a, const NearPoint& b) { return a.gap.distance < b.gap.distance; });
+  std::stable_sort(nearest.begin(), nearest.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   near.first = points_.size();
   std::array<int, 8> kept{};
-  for (const NearPoint& one : nearest) {
-    if (kept[static_cast<std::size_t>(one.point->corner)]++ < kPointsACorner) points_.push_back(one);
+  for (const auto& [height, point] : nearest) {
+    if (kept[static_cast<std::size_t>(point->corner)]++ >= kPointsACorner) continue;
+    const Vec3 place = pose.rotation.transpose() * (x * point->weights - pose.translation);
+    const Gap gap = gap_to(shape, {}, place);
+    if (!(gap.distance > margin)) points_.push_back({point, place, gap});
   }
   near.last = points_.size();
   if (near.last > near.first) near_.push_back(near);
