@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kCornerFirst = 0.25;  // of points about as deep the one nearest to the corner holds the others best
 constexpr double kMargin = 0.3;        // bricks: what is nearer than that is watched
+constexpr double kCurved = 0.1;        // bricks that a surface may bend away from flat across a brick
 constexpr double kFlat = 0.02;         // bricks that a point may move before the surface under it is asked for anew
 constexpr int kPointsACorner = 2;      // of a brick, the nearest: others are held by them or found when next looked
 constexpr double kOutside = 1.5;       // embedded points lie in the hull of the corners, or a little outside it where
@@ -47,33 +48,43 @@ void ObstacleContact::look_at_brick(const Shape& shape, const Pose& pose, const 
   near.brick = skin.bricks[at];
   const Corners x = corners_of(body.grid.nodes[static_cast<std::size_t>(near.brick)], body.positions);
   const Vec3 middle = x.rowwise().mean();
-  const Gap from_middle = gap_to(shape, pose, middle);
-  if (from_middle.distance > reach_of(x, middle) + margin) return;
-  // Which points are nearest is told as if the surface were flat across a brick.
-  std::vector<std::pair<double, const ContactPoint*>> nearest;
+  const double far = reach_of(x, middle) + margin;
+  const auto in_frame = [&](const Vec3& place) -> Vec3 {
+    return pose.rotation.transpose() * (place - pose.translation);
+  };
+  Asked& asked = middles_[near.obstacle][near.actor][at];
+  const Vec3 here = in_frame(middle);
+  if (asked.least(here) > far) return;
+  asked = {here, gap_to(shape, {}, here)};
+  if (asked.gap.distance > far) return;
+  // Which points are nearest, and about how near, is told as if the surface were flat across a brick.
+  std::vector<NearPoint> nearest;
   for (int i = skin.first_point[at]; i < skin.first_point[at + 1]; ++i) {
     const ContactPoint& point = skin.points[static_cast<std::size_t>(i)];
-    nearest.emplace_back(from_middle.normal.dot(x * point.weights - middle), &point);
+    const Vec3 place = in_frame(x * point.weights);
+    const double gap = asked.gap.distance + asked.gap.normal.dot(place - here) - kCurved * body.grid.brick_size;
+    nearest.push_back({&point, {place, {gap, asked.gap.normal}}});
   }
-  std::stable_sort(nearest.begin(), nearest.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::stable_sort(nearest.begin(), nearest.end(),
+                   [](const NearPoint& a, const NearPoint& b) { return a.asked.gap.distance < b.asked.gap.distance; });
   near.first = points_.size();
   std::array<int, 8> kept{};
-  for (const auto& [height, point] : nearest) {
-    if (kept[static_cast<std::size_t>(point->corner)]++ >= kPointsACorner) continue;
-    const Vec3 place = pose.rotation.transpose() * (x * point->weights - pose.translation);
-    const Gap gap = gap_to(shape, {}, place);
-    if (!(gap.distance > margin)) points_.push_back({point, place, gap});
+  for (const NearPoint& one : nearest) {
+    if (one.asked.gap.distance > margin) break;
+    if (kept[static_cast<std::size_t>(one.point->corner)]++ < kPointsACorner) points_.push_back(one);
   }
   near.last = points_.size();
   if (near.last > near.first) near_.push_back(near);
 }
 
 Gap ObstacleContact::gap_now(const Shape& shape, double brick_size, const Vec3& place, NearPoint& near) {
-  const Vec3 moved = place - near.place;
-  if (moved.norm() <= kFlat * brick_size) return {near.gap.distance + near.gap.normal.dot(moved), near.gap.normal};
-  near.place = place;
-  near.gap = gap_to(shape, {}, place);
-  return near.gap;
+  const Vec3 moved = place - near.asked.place;
+  if (near.is_exact && moved.norm() <= kFlat * brick_size) {
+    return {near.asked.gap.distance + near.asked.gap.normal.dot(moved), near.asked.gap.normal};
+  }
+  near.asked = {place, gap_to(shape, {}, place)};
+  near.is_exact = true;
+  return near.asked.gap;
 }
 
 void ObstacleContact::look(const World& world, const std::vector<Pose>& poses, double dt, const Group& group) {
@@ -113,8 +124,7 @@ void ObstacleContact::touch_brick(const World& world, const std::vector<Pose>& p
     const Vec3 place = x * point.weights;
     const Vec3 velocity = v * point.weights - velocity_at(obstacle, pose, place);
     const Vec3 there = pose.rotation.transpose() * (place - pose.translation);
-    const double moved = (there - near_point.place).norm();
-    if (near_point.gap.distance - moved > dt * velocity.norm()) continue;
+    if (near_point.asked.least(there) > dt * velocity.norm()) continue;
     Gap gap = gap_now(obstacle.shape, body.grid.brick_size, there, near_point);
     gap.normal = pose.rotation * gap.normal;
     const double speed = gap.normal.dot(velocity);
@@ -145,6 +155,12 @@ void ObstacleContact::touch_brick(const World& world, const std::vector<Pose>& p
 
 void ObstacleContact::find(const World& world, const std::vector<Pose>& poses, double dt, const Group& group,
                            Touches& touches) {
+  if (middles_.empty()) {
+    middles_.resize(poses.size());
+    for (auto& by_actor : middles_) {
+      for (const ContactSkin& skin : skins_) by_actor.emplace_back(skin.bricks.size());
+    }
+  }
   if (steps_to_look_ == 0) look(world, poses, dt, group);
   --steps_to_look_;
   for (const Near& near : near_) touch_brick(world, poses, dt, group, near, touches);

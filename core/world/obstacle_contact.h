@@ -17,12 +17,19 @@ class ObstacleContact {
   void find(const World& world, const std::vector<Pose>& poses, double dt, const Group& group, Touches& touches);
 
  private:
-  /// A point near an obstacle, and what was last asked about it, in the obstacle's frame: from there on the surface is
-  /// taken to be flat while the point moves by no more than a small part of a brick.
+  /// What was last asked about a place, in the obstacle's frame.
+  struct Asked {
+    Vec3 place = Vec3::Zero();  // m
+    Gap gap{-1, Vec3::Zero()};
+    /// No less than the gap is now: it cannot shrink by more than the place has moved.
+    [[nodiscard]] double least(const Vec3& now) const { return gap.distance - (now - place).norm(); }
+  };
+  /// A point near an obstacle. Where it was asked for itself the surface is taken to be flat from there on while the
+  /// point moves by no more than a small part of a brick.
   struct NearPoint {
     const ContactPoint* point;
-    Vec3 place;  // m
-    Gap gap;
+    Asked asked;
+    bool is_exact = false;
   };
   [[nodiscard]] static Gap gap_now(const Shape& shape, double brick_size, const Vec3& place, NearPoint& near);
   /// A brick with points near an obstacle.
@@ -41,6 +48,7 @@ class ObstacleContact {
   const std::vector<ContactSkin>& skins_;  // by actor of the group
   std::vector<Near> near_;
   std::vector<NearPoint> points_;
+  std::vector<std::vector<std::vector<Asked>>> middles_;  // by obstacle, actor and place in the skin's bricks
   int steps_to_look_ = 0;
 };
 

@@ -248,6 +248,56 @@ void SkinContact::add(const Group& group, const Stance& stance, std::uint64_t ke
                           .friction = std::sqrt(group[point.actor]->friction * group[corner.actor]->friction)});
 }
 
+void SkinContact::follow(const Group& group) {
+  for (Watched& watched : watched_) {
+    const ContactPoint& point = skins_[watched.actor].points[static_cast<std::size_t>(watched.point)];
+    const Body& body = group[watched.actor]->body;
+    watched.place = carried(body, point, body.positions);
+    watched.velocity = carried(body, point, body.velocities);
+  }
+}
+
+std::size_t SkinContact::other_of(const Pair& pair) const {
+  return watched_[static_cast<std::size_t>(pair.corners[0])].actor;
+}
+
+std::size_t SkinContact::end_of_run(std::size_t first) const {
+  std::size_t end = first + 1;
+  while (end < pairs_.size() && pairs_[end].point == pairs_[first].point &&
+         other_of(pairs_[end]) == other_of(pairs_[first])) {
+    ++end;
+  }
+  return end;
+}
+
+SkinContact::Stance SkinContact::nearest_stance(std::size_t first, std::size_t end, double depth) const {
+  Stance nearest;
+  for (std::size_t i = first; i < end; ++i) {
+    Stance stance;
+    if (!stand(pairs_[i], depth, stance)) continue;
+    if (nearest.pair == nullptr || std::abs(stance.gap) < std::abs(nearest.gap)) nearest = stance;
+  }
+  return nearest;
+}
+
+void SkinContact::keep_hardest(const World& world, double dt, Stance stance) {
+  const Watched& point = watched_[static_cast<std::size_t>(stance.pair->point)];
+  Vec3 velocity = point.velocity;
+  for (std::size_t i = 0; i < 3; ++i) {
+    velocity -= stance.weights[static_cast<Eigen::Index>(i)] *
+                watched_[static_cast<std::size_t>(stance.pair->corners[i])].velocity;
+  }
+  const double speed = stance.normal.dot(velocity);
+  if (!(stance.gap + dt * speed <= 0)) return;
+  stance.least_speed = least_speed(stance.gap, world.gravity.norm(), dt);
+  stance.pull = stance.least_speed - speed;
+  const ContactPoint& at = skins_[point.actor].points[static_cast<std::size_t>(point.point)];
+  const std::uint64_t key =
+      touch_key(world.obstacles.size() + other_of(*stance.pair), point.actor, at.brick, at.corner);
+  const auto [same, is_new] = hardest_.try_emplace(key, stance);
+  if (!is_new && stance.pull > same->second.pull) same->second = stance;
+}
+
 void SkinContact::find(const World& world, double dt, const Group& group, Touches& touches) {
   const bool has_any =
       (world.bodies_touch && group.size() > 1) ||
@@ -255,65 +305,16 @@ void SkinContact::find(const World& world, double dt, const Group& group, Touche
   if (!has_any) return;
   if (steps_to_look_ == 0) look(world, dt, group);
   --steps_to_look_;
-  for (Watched& watched : watched_) {
-    const ContactPoint& point = skins_[watched.actor].points[static_cast<std::size_t>(watched.point)];
-    const Body& body = group[watched.actor]->body;
-    watched.place = carried(body, point, body.positions);
-    watched.velocity = carried(body, point, body.velocities);
-  }
+  follow(group);
   const double depth = kDeepest * smallest_brick(group);
-  const double gravity = world.gravity.norm();
-  std::vector<std::pair<std::uint64_t, Stance>> hardest;  // of the brick at hand, by key
-  const auto keep = [&](Stance& stance) {
-    const Watched& point = watched_[static_cast<std::size_t>(stance.pair->point)];
-    Vec3 velocity = point.velocity;
-    for (std::size_t i = 0; i < 3; ++i) {
-      velocity -= stance.weights[static_cast<Eigen::Index>(i)] *
-                  watched_[static_cast<std::size_t>(stance.pair->corners[i])].velocity;
-    }
-    const double speed = stance.normal.dot(velocity);
-    if (!(stance.gap + dt * speed <= 0)) return;
-    stance.least_speed = least_speed(stance.gap, gravity, dt);
-    stance.pull = stance.least_speed - speed;
-    const std::size_t other =
-        world.obstacles.size() + watched_[static_cast<std::size_t>(stance.pair->corners[0])].actor;
-    const ContactPoint& at = skins_[point.actor].points[static_cast<std::size_t>(point.point)];
-    const std::uint64_t key = touch_key(other, point.actor, at.brick, at.corner);
-    const auto same =
-        std::find_if(hardest.begin(), hardest.end(), [&](const auto& entry) { return entry.first == key; });
-    if (same == hardest.end()) {
-      hardest.emplace_back(key, stance);
-    } else if (stance.pull > same->second.pull) {
-      same->second = stance;
-    }
-  };
-  const std::size_t begin = touches.list.size();
-  const auto flush = [&] {
-    for (const auto& [key, stance] : hardest) add(group, stance, key, touches);
-    hardest.clear();
-  };
-  // Pairs come point by point and, for each, other body by other body: the nearest triangle counts.
-  const auto brick_of = [&](const Watched& watched) {
-    return std::pair(watched.actor, skins_[watched.actor].points[static_cast<std::size_t>(watched.point)].brick);
-  };
-  const auto other_of = [&](const Pair& pair) { return watched_[static_cast<std::size_t>(pair.corners[0])].actor; };
-  for (std::size_t i = 0; i < pairs_.size();) {
-    Stance nearest;
-    std::size_t j = i;
-    for (; j < pairs_.size() && pairs_[j].point == pairs_[i].point && other_of(pairs_[j]) == other_of(pairs_[i]); ++j) {
-      Stance stance;
-      if (!stand(pairs_[j], depth, stance)) continue;
-      if (nearest.pair == nullptr || std::abs(stance.gap) < std::abs(nearest.gap)) nearest = stance;
-    }
-    if (nearest.pair != nullptr) keep(nearest);
-    const bool is_last_of_brick =
-        j == pairs_.size() || brick_of(watched_[static_cast<std::size_t>(pairs_[j].point)]) !=
-                                  brick_of(watched_[static_cast<std::size_t>(pairs_[i].point)]);
-    if (is_last_of_brick) flush();
-    i = j;
+  hardest_.clear();
+  for (std::size_t first = 0; first < pairs_.size();) {
+    const std::size_t end = end_of_run(first);
+    const Stance nearest = nearest_stance(first, end, depth);
+    if (nearest.pair != nullptr) keep_hardest(world, dt, nearest);
+    first = end;
   }
-  std::sort(touches.list.begin() + static_cast<std::ptrdiff_t>(begin), touches.list.end(),
-            [](const Touch& a, const Touch& b) { return a.key < b.key; });
+  for (const auto& [key, stance] : hardest_) add(group, stance, key, touches);
 }
 
 }  // namespace sprung

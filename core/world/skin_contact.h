@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -61,6 +62,15 @@ class SkinContact {
   int watched_row(const Group& group, std::size_t actor, int point);
   /// False where the point does not stand over the triangle.
   bool stand(const Pair& pair, double depth, Stance& stance) const;
+  /// Takes down where the watched points are, and how fast.
+  void follow(const Group& group);
+  /// The actor that a pair's triangle belongs to.
+  [[nodiscard]] std::size_t other_of(const Pair& pair) const;
+  /// One past the pairs of the same point and the same other actor.
+  [[nodiscard]] std::size_t end_of_run(std::size_t first) const;
+  /// To the nearest of the triangles that the point of these pairs stands over; without a pair where there is none.
+  [[nodiscard]] Stance nearest_stance(std::size_t first, std::size_t end, double depth) const;
+  void keep_hardest(const World& world, double dt, Stance stance);
   void add(const Group& group, const Stance& stance, std::uint64_t key, Touches& touches) const;
   void add_shares(const Group& group, const Watched& watched, double weight, Touches& touches) const;
 
@@ -69,7 +79,8 @@ class SkinContact {
   std::vector<Points> positions_;          // of all points, by actor, when looking
   std::vector<std::vector<int>> rows_;     // by actor, by point: in watched_, or -1
   std::vector<Watched> watched_;
-  std::vector<Pair> pairs_;  // by the point's actor, its place in the skin, the other actor
+  std::map<std::uint64_t, Stance> hardest_;  // of this step, by key
+  std::vector<Pair> pairs_;                  // by the point's actor, its place in the skin, the other actor
   int steps_to_look_ = 0;
 };
 
