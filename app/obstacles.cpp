@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <numeric>
-
 #include "app/shapes.h"
 #include "core/error.h"
 #include "core/mesh/read_mesh.h"
@@ -40,7 +38,7 @@ Made make_mesh(const SceneObstacle& obstacle, const Console& console) {
   }
   const Vec3 low = made.mesh.positions.colwise().minCoeff();
   const Vec3 high = made.mesh.positions.colwise().maxCoeff();
-  const double scale = obstacle.scale.value_or(obstacle.size.value_or(1) / (high - low).maxCoeff());
+  const double scale = obstacle.scale ? *obstacle.scale : obstacle.size.value() / (high - low).maxCoeff();
   const auto placed = [&](const Points& points) {
     return Points((points.rowwise() - ((low + high) / 2).transpose()) * scale);
   };

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "app/units.h"
-#include "core/motion/implicit_motion.h"
+#include "core/motion/why_not_implicit.h"
 
 namespace sprung {
 namespace {

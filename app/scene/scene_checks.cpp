@@ -114,6 +114,9 @@ void check_together(const toml::table& table, const std::string& path, const Pin
 
 void check_together(const toml::table& table, const std::string& path, const SceneObstacle& obstacle,
                     SceneMistakes& mistakes) {
+  if (!obstacle.mesh.empty() && !obstacle.size && !obstacle.scale) {
+    mistakes.add(table.source(), fmt::format("{} lacks the key 'size' or 'scale': how large the mesh is", path));
+  }
   if (obstacle.plane && obstacle.plane->normal.isZero(0)) {
     mistakes.add(table.get("plane")->source(), fmt::format("{}.plane.normal: must point somewhere", path));
   }

@@ -2,6 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <cmath>
 #include <numeric>
 
 #include "core/body/brick_kernel.h"
@@ -99,6 +100,8 @@ double corner_force_sum(const Body& body) {
 }
 
 double kinetic_energy(const Body& body) { return 0.5 * body.masses.dot(body.velocities.rowwise().squaredNorm()); }
+
+double largest_speed(const Body& body) { return std::sqrt(body.velocities.rowwise().squaredNorm().maxCoeff()); }
 
 Vec3 linear_momentum(const Body& body) { return body.velocities.transpose() * body.masses; }
 

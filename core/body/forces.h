@@ -26,6 +26,9 @@ void spring_forces(const Body& body, ForceWorkspace& workspace, Points& forces);
 /// 1/2 sum m v^2, J.
 [[nodiscard]] double kinetic_energy(const Body& body);
 
+/// Of the fastest node, m/s.
+[[nodiscard]] double largest_speed(const Body& body);
+
 /// Sum of m v, kg m/s, and sum of x cross m v about the world's origin, kg m^2/s.
 [[nodiscard]] Vec3 linear_momentum(const Body& body);
 [[nodiscard]] Vec3 angular_momentum(const Body& body);

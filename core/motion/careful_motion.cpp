@@ -167,7 +167,7 @@ std::vector<GroupSteps> choose_steps(const World& world, double time) {
       const Body& body = world.actors[i].body;
       step = std::min(step, stable_step(body));
       brick = std::min(brick, body.grid.brick_size);
-      speed = std::max(speed, std::sqrt(body.velocities.rowwise().squaredNorm().maxCoeff()));
+      speed = std::max(speed, largest_speed(body));
     }
     const double most = speed + carried + world.gravity.norm() * time;
     const bool can_meet = !world.obstacles.empty() || actors.size() > 1;

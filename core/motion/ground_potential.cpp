@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace sprung {
 namespace {
@@ -14,37 +13,19 @@ constexpr double kPointsInContact = 4;  // of a brick, that share its hardness: 
 
 GroundPotential::GroundPotential(const Actor& actor, double height, double friction, double slip_speed)
     : actor_(actor), height_(height), friction_(friction), slip_speed_(slip_speed) {
-  const std::vector<int>& brick = actor.contacts.brick;
-  std::vector<int> order(brick.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-    return brick[static_cast<std::size_t>(a)] < brick[static_cast<std::size_t>(b)];
-  });
-  for (const int point : order) {
-    const int at = brick[static_cast<std::size_t>(point)];
-    if (bricks_.empty() || bricks_.back() != at) {
-      bricks_.push_back(at);
-      first_.push_back(points_.size());
-    }
-    points_.push_back({.brick = at, .weights = trilinear_weights(actor.contacts.local.row(point))});
-  }
-  first_.push_back(points_.size());
+  ContactSkin skin(actor);
+  bricks_ = std::move(skin.bricks);
+  first_ = std::move(skin.first_point);
   const Body& body = actor.body;
   for (std::size_t i = 0; i < bricks_.size(); ++i) {
-    const auto count = static_cast<double>(first_[i + 1] - first_[i]);
+    const double count = first_[i + 1] - first_[i];
     const double scale = std::max(1.0, body.stiffness_scale[static_cast<std::size_t>(bricks_[i])]);
     const double stiffness = kHardness * body.material.young * body.grid.brick_size * scale;
-    for (std::size_t p = first_[i]; p < first_[i + 1]; ++p) {
-      points_[p].stiffness = stiffness / std::max(1.0, count / kPointsInContact);
+    for (int p = first_[i]; p < first_[i + 1]; ++p) {
+      points_.push_back({.contact = skin.points[static_cast<std::size_t>(p)],
+                         .stiffness = stiffness / std::max(1.0, count / kPointsInContact)});
     }
   }
-}
-
-Vec3 GroundPotential::place(const Point& point, const Points& positions) const {
-  const auto& nodes = actor_.body.grid.nodes[static_cast<std::size_t>(point.brick)];
-  Vec3 sum = Vec3::Zero();
-  for (std::size_t c = 0; c < 8; ++c) sum += point.weights[static_cast<int>(c)] * positions.row(nodes[c]).transpose();
-  return sum;
 }
 
 /// Calls visit(index, place, depth) for the points that are below the ground or were when friction was last updated.
@@ -60,9 +41,9 @@ void GroundPotential::for_low_points(const Points& positions, const Visit& visit
     }
     // Points lie in the hull of the corners, or a little outside where the surface has no brick of its own.
     const bool is_far = low - 0.5 * (high - low) > height_;
-    for (std::size_t p = first_[i]; p < first_[i + 1]; ++p) {
+    for (auto p = static_cast<std::size_t>(first_[i]); p < static_cast<std::size_t>(first_[i + 1]); ++p) {
       if (is_far && points_[p].normal == 0) continue;
-      const Vec3 at = place(points_[p], positions);
+      const Vec3 at = carried(actor_.body, points_[p].contact, positions);
       const double depth = std::max(0.0, height_ - at.y());
       if (depth > 0 || points_[p].normal > 0) visit(p, at, depth);
     }
@@ -71,7 +52,7 @@ void GroundPotential::for_low_points(const Points& positions, const Visit& visit
 
 void GroundPotential::begin(const Points& positions, double dt) {
   slip_ = slip_speed_ * dt;
-  for (Point& point : points_) point.start = place(point, positions);
+  for (Point& point : points_) point.start = carried(actor_.body, point.contact, positions);
   update_friction(positions);
 }
 
@@ -107,9 +88,9 @@ double GroundPotential::add_forces(const Points& positions, Points& forces) cons
     energy += friction_ * point.normal * (r < slip_ ? 0.5 * r * r / slip_ : r - 0.5 * slip_);
     const double held = grip(point, moved);
     const Vec3 force(-held * moved.x(), point.stiffness * depth, -held * moved.y());
-    const auto& nodes = actor_.body.grid.nodes[static_cast<std::size_t>(point.brick)];
+    const auto& nodes = actor_.body.grid.nodes[static_cast<std::size_t>(point.contact.brick)];
     for (std::size_t c = 0; c < 8; ++c) {
-      forces.row(nodes[c]) += point.weights[static_cast<int>(c)] * force.transpose();
+      forces.row(nodes[c]) += point.contact.weights[static_cast<int>(c)] * force.transpose();
     }
   });
   return energy;
@@ -119,7 +100,7 @@ void GroundPotential::add_stiffness(const Points& positions, std::vector<PointSt
   for_low_points(positions, [&](std::size_t p, const Vec3& at, double depth) {
     const Point& point = points_[p];
     const Eigen::Vector2d moved(at.x() - point.start.x(), at.z() - point.start.z());
-    PointStiffness held{.brick = point.brick, .weights = point.weights};
+    PointStiffness held{.brick = point.contact.brick, .weights = point.contact.weights};
     const double grip_now = grip(point, moved);
     Eigen::Matrix2d tangential = grip_now * Eigen::Matrix2d::Identity();
     if (moved.norm() > slip_) tangential -= grip_now * moved * moved.transpose() / moved.squaredNorm();

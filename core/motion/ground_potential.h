@@ -1,6 +1,6 @@
 #pragma once
 #include "core/motion/newton_system.h"
-#include "core/world/world.h"
+#include "core/world/contact_skin.h"
 
 namespace sprung {
 
@@ -28,14 +28,12 @@ class GroundPotential {
 
  private:
   struct Point {
-    int brick = 0;
-    Eigen::Matrix<double, 8, 1> weights;
+    ContactPoint contact;
     double stiffness = 0;  // N/m
     Vec3 start = Vec3::Zero();
     double normal = 0;  // N, for friction
   };
 
-  [[nodiscard]] Vec3 place(const Point& point, const Points& positions) const;
   /// Force per length of the tangential movement, and whether the point slides.
   [[nodiscard]] double grip(const Point& point, const Eigen::Vector2d& moved) const;
   template <class Visit>
@@ -45,9 +43,9 @@ class GroundPotential {
   double height_;
   double friction_;
   double slip_speed_;
-  double slip_ = 0;                 // m
-  std::vector<Point> points_;       // grouped by brick
-  std::vector<std::size_t> first_;  // of each brick that holds points
+  double slip_ = 0;            // m
+  std::vector<Point> points_;  // grouped by brick
+  std::vector<int> first_;     // of each brick that holds points
   std::vector<int> bricks_;
 };
 

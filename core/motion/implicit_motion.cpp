@@ -12,6 +12,7 @@
 #include "core/motion/diverged.h"
 #include "core/motion/ground_potential.h"
 #include "core/motion/stiffness_product.h"
+#include "core/motion/why_not_implicit.h"
 
 namespace sprung {
 namespace {
@@ -23,13 +24,6 @@ constexpr double kSettledFriction = 0.05;  // change of a normal force that is n
 constexpr int kMostHalvings = 8;
 
 Eigen::Map<const Eigen::VectorXd> flat(const Points& points) { return {points.data(), points.size()}; }
-
-const Obstacle* highest_ground(const World& world) {
-  const auto highest =
-      std::max_element(world.obstacles.begin(), world.obstacles.end(),
-                       [](const Obstacle& a, const Obstacle& b) { return ground_height(a) < ground_height(b); });
-  return highest == world.obstacles.end() ? nullptr : &*highest;
-}
 
 double longest_side(const Points& points) {
   return (points.colwise().maxCoeff() - points.colwise().minCoeff()).maxCoeff();
@@ -48,7 +42,7 @@ class ImplicitMotion::Stepper {
         supports_(body_.node_count()),
         size_(longest_side(body_.rest_positions)),
         stiffness_(largest_brick_stiffness(body_)) {
-    const Obstacle* ground = highest_ground(world);
+    const Obstacle* ground = highest_ground(world.obstacles);
     if (ground != nullptr) ground_.emplace(actor, ground->pose.translation.y(), ground->friction, kSlip * size_);
   }
 
@@ -247,15 +241,6 @@ Eigen::VectorXd ImplicitMotion::Stepper::direction() {
     if (way.size() > 0 && way.allFinite()) return way;
   }
   return {};
-}
-
-std::string why_not_implicit(const World& world) {
-  if (world.bodies_touch && world.actors.size() > 1) return "bodies touch each other";
-  for (const Obstacle& obstacle : world.obstacles) {
-    if (!ground_height(obstacle)) return "an obstacle is not level ground at rest";
-    if (obstacle.restitution > 0) return fmt::format("an obstacle has a restitution of {:.3g}", obstacle.restitution);
-  }
-  return "";
 }
 
 ImplicitMotion::ImplicitMotion(World& world, const ImplicitOptions& options) : options_(options) {

@@ -1,6 +1,4 @@
 #pragma once
-#include <string>
-
 #include "core/motion/newton_system.h"
 #include "core/world/world.h"
 
@@ -17,10 +15,6 @@ struct ImplicitOptions {
   double tolerance = 1e-4;  // forces left over in a step, relative to those at work (Euclidean norms)
   int max_iterations = 30;  // of Newton's method
 };
-
-/// What a world has that implicit steps cannot do: bodies that touch each other, obstacles other than level ground at
-/// rest, restitution. Empty: nothing. That a body touches itself is not seen.
-[[nodiscard]] std::string why_not_implicit(const World& world);
 
 /// Moves a world by implicit steps, which may be as long as the motion that is to be seen allows, however stiff the
 /// bricks. Each step is the minimum over the positions x of the incremental potential

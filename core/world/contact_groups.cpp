@@ -1,8 +1,8 @@
 #include "core/world/contact_groups.h"
 
-#include <cmath>
 #include <map>
 
+#include "core/body/forces.h"
 #include "core/disjoint_sets.h"
 #include "core/world/near_boxes.h"
 
@@ -13,7 +13,7 @@ constexpr double kFaster = 2;  // than now: what springs back
 
 /// All that a body can reach, m.
 AlignedBox reach_of(const Body& body, double gravity, double time) {
-  const double speed = std::sqrt(body.velocities.rowwise().squaredNorm().maxCoeff());
+  const double speed = largest_speed(body);
   const double way = kFaster * (speed + gravity * time) * time + body.grid.brick_size;
   return {body.positions.colwise().minCoeff().transpose() - Vec3::Constant(way),
           body.positions.colwise().maxCoeff().transpose() + Vec3::Constant(way)};

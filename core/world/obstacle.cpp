@@ -65,13 +65,18 @@ std::optional<double> ground_height(const Obstacle& obstacle) {
   return obstacle.pose.translation.y();
 }
 
-std::optional<double> ground_height(const std::vector<Obstacle>& obstacles) {
-  std::optional<double> highest;
+const Obstacle* highest_ground(const std::vector<Obstacle>& obstacles) {
+  const Obstacle* highest = nullptr;
   for (const Obstacle& obstacle : obstacles) {
     const std::optional<double> height = ground_height(obstacle);
-    if (height && (!highest || *height > *highest)) highest = height;
+    if (height && (highest == nullptr || *height > *ground_height(*highest))) highest = &obstacle;
   }
   return highest;
+}
+
+std::optional<double> ground_height(const std::vector<Obstacle>& obstacles) {
+  const Obstacle* highest = highest_ground(obstacles);
+  return highest == nullptr ? std::nullopt : ground_height(*highest);
 }
 
 Pose pose_after(const Obstacle& obstacle, double time) {

@@ -56,7 +56,8 @@ struct Obstacle {
 /// The height of an obstacle that is level ground at rest, m.
 [[nodiscard]] std::optional<double> ground_height(const Obstacle& obstacle);
 
-/// Of the highest level ground among them.
+/// The highest level ground among them, or null; and its height.
+[[nodiscard]] const Obstacle* highest_ground(const std::vector<Obstacle>& obstacles);
 [[nodiscard]] std::optional<double> ground_height(const std::vector<Obstacle>& obstacles);
 
 /// After it has moved by itself for that time (s).

@@ -4,6 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include "core/body/brick_columns.h"
+#include "core/body/forces.h"
+
 namespace sprung {
 namespace {
 
@@ -15,18 +18,8 @@ constexpr int kPointsACorner = 2;      // of a brick, the nearest: others are he
 constexpr double kOutside = 1.5;       // embedded points lie in the hull of the corners, or a little outside it where
                                        // the surface has no brick
 
-using Corners = Eigen::Matrix<double, 3, 8>;
-
-Corners corners_of(const std::array<int, 8>& nodes, const Points& values) {
-  Corners corners;
-  for (int corner = 0; corner < 8; ++corner) {
-    corners.col(corner) = values.row(nodes[static_cast<std::size_t>(corner)]).transpose();
-  }
-  return corners;
-}
-
 /// Around its middle (m), of what rides in a brick.
-double reach_of(const Corners& x, const Vec3& middle) {
+double reach_of(const BrickColumns& x, const Vec3& middle) {
   return kOutside * std::sqrt((x.colwise() - middle).colwise().squaredNorm().maxCoeff());
 }
 
@@ -38,15 +31,13 @@ struct Deepest {
   Vec3 goal;
 };
 
-double fastest(const Body& body) { return std::sqrt(body.velocities.rowwise().squaredNorm().maxCoeff()); }
-
 }  // namespace
 
 void ObstacleContact::look_at_brick(const Shape& shape, const Pose& pose, const Body& body, std::size_t at, Near near) {
   const ContactSkin& skin = skins_[near.actor];
   const double margin = kMargin * body.grid.brick_size;
   near.brick = skin.bricks[at];
-  const Corners x = corners_of(body.grid.nodes[static_cast<std::size_t>(near.brick)], body.positions);
+  const BrickColumns x = columns_of(body.grid.nodes[static_cast<std::size_t>(near.brick)], body.positions);
   const Vec3 middle = x.rowwise().mean();
   const double far = reach_of(x, middle) + margin;
   const auto in_frame = [&](const Vec3& place) -> Vec3 {
@@ -99,7 +90,7 @@ void ObstacleContact::look(const World& world, const std::vector<Pose>& poses, d
       const double around =
           std::sqrt((body.positions.rowwise() - middle.transpose()).rowwise().squaredNorm().maxCoeff());
       const double speed =
-          fastest(body) + velocity_at(obstacle, poses[o], middle).norm() + obstacle.spin.norm() * around;
+          largest_speed(body) + velocity_at(obstacle, poses[o], middle).norm() + obstacle.spin.norm() * around;
       steps = std::min(steps, steps_until_look(kMargin * body.grid.brick_size, speed, dt));
       for (std::size_t place = 0; place < skins_[actor].bricks.size(); ++place) {
         look_at_brick(obstacle.shape, poses[o], body, place, {o, actor, 0, 0, 0});
@@ -115,8 +106,8 @@ void ObstacleContact::touch_brick(const World& world, const std::vector<Pose>& p
   const Pose& pose = poses[near.obstacle];
   const Body& body = group[near.actor]->body;
   const auto& nodes = body.grid.nodes[static_cast<std::size_t>(near.brick)];
-  const Corners x = corners_of(nodes, body.positions);
-  const Corners v = corners_of(nodes, body.velocities);
+  const BrickColumns x = columns_of(nodes, body.positions);
+  const BrickColumns v = columns_of(nodes, body.velocities);
   std::array<Deepest, 8> deepest{};
   for (std::size_t i = near.first; i < near.last; ++i) {
     NearPoint& near_point = points_[i];

@@ -4,8 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "core/body/brick_columns.h"
 #include "core/body/brick_topology.h"
-#include "core/bricks/corner.h"
+#include "core/body/forces.h"
 
 namespace sprung {
 namespace {
@@ -15,38 +16,16 @@ constexpr double kSuspectVolume = 0.4;
 constexpr double kRecoverySteps = 20;  // a brick found too flat or inside out comes back within about that many steps
 constexpr double kFastestRecovery = 0.01;  // its corners come apart by no more than that share of a brick in a step
 
-using Corners = Eigen::Matrix<double, 3, 8>;
-
-Corners corners_of(const std::array<int, 8>& nodes, const Points& values) {
-  Corners corners;
-  for (int corner = 0; corner < 8; ++corner) {
-    corners.col(corner) = values.row(nodes[static_cast<std::size_t>(corner)]).transpose();
-  }
-  return corners;
-}
-
 /// The three edges at a corner, or the mean axes, as columns, each from its low to its high end.
-Mat3 edges_at(int corner, const Corners& x) {
-  Mat3 edges = Mat3::Zero();
-  for (int axis = 0; axis < 3; ++axis) {
-    if (corner != Squeeze::kMeanAxes) {
-      edges.col(axis) = x.col(corner | 1 << axis) - x.col(corner & ~(1 << axis));
-      continue;
-    }
-    for (int i = 0; i < 8; ++i) edges.col(axis) += (on_high_side(i, axis) ? 0.25 : -0.25) * x.col(i);
-  }
+Mat3 edges_at(int corner, const BrickColumns& x) {
+  if (corner == Squeeze::kMeanAxes) return mean_axes_of(x);
+  Mat3 edges;
+  for (int axis = 0; axis < 3; ++axis) edges.col(axis) = x.col(corner | 1 << axis) - x.col(corner & ~(1 << axis));
   return edges;
 }
 
-/// Areas that the axes span two by two: the gradient of their determinant.
-Mat3 areas_of(const Mat3& axes) {
-  Mat3 areas;
-  areas << axes.col(1).cross(axes.col(2)), axes.col(2).cross(axes.col(0)), axes.col(0).cross(axes.col(1));
-  return areas;
-}
-
 /// Of the volumes that the edges span at the eight corners and the mean axes between them.
-double smallest_volume(const Corners& x) {
+double smallest_volume(const BrickColumns& x) {
   std::array<Vec3, 12> edges;
   for (std::size_t i = 0; i < edges.size(); ++i) edges[i] = x.col(kEdges[i].to) - x.col(kEdges[i].from);
   const auto volume = [](const Vec3& a, const Vec3& b, const Vec3& c) { return a.dot(b.cross(c)); };
@@ -73,13 +52,13 @@ double meeting_speed(const World& world) {
   double lowest = std::numeric_limits<double>::infinity();
   for (const Actor& actor : world.actors) lowest = std::min(lowest, actor.body.positions.col(1).minCoeff());
   double highest = lowest;
-  double squared = 0;
+  double fastest = 0;
   for (const Actor& actor : world.actors) {
     highest = std::max(highest, actor.body.positions.col(1).minCoeff());
-    squared = std::max(squared, actor.body.velocities.rowwise().squaredNorm().maxCoeff());
+    fastest = std::max(fastest, largest_speed(actor.body));
   }
   for (const Obstacle& obstacle : world.obstacles) lowest = std::min(lowest, obstacle.pose.translation.y());
-  return std::sqrt(squared + 2 * world.gravity.norm() * (highest - lowest));
+  return std::sqrt(fastest * fastest + 2 * world.gravity.norm() * (highest - lowest));
 }
 
 void brace(Body& body, double gravity, double speed) {
@@ -93,8 +72,8 @@ void SqueezeWatch::look(const Body& body, double dt) {
   const double least = kSuspectVolume * body.grid.brick_volume();
   for (int brick = 0; brick < body.grid.brick_count(); ++brick) {
     const auto& nodes = body.grid.nodes[static_cast<std::size_t>(brick)];
-    const Corners now = corners_of(nodes, body.positions);
-    const Corners later = now + kStepsBetweenLooks * dt * corners_of(nodes, body.velocities);
+    const BrickColumns now = columns_of(nodes, body.positions);
+    const BrickColumns later = now + kStepsBetweenLooks * dt * columns_of(nodes, body.velocities);
     if (std::min(smallest_volume(now), smallest_volume(later)) < least) suspects_.push_back(brick);
   }
 }
@@ -106,8 +85,8 @@ const std::vector<Squeeze>& SqueezeWatch::find(const Body& body, double dt) {
   const double volume = body.grid.brick_volume();
   for (const int brick : suspects_) {
     const auto& nodes = body.grid.nodes[static_cast<std::size_t>(brick)];
-    const Corners x = corners_of(nodes, body.positions);
-    const Corners v = corners_of(nodes, body.velocities);
+    const BrickColumns x = columns_of(nodes, body.positions);
+    const BrickColumns v = columns_of(nodes, body.velocities);
     for (int corner = 0; corner <= Squeeze::kMeanAxes; ++corner) {
       const Mat3 edges = edges_at(corner, x);
       const Mat3 areas = areas_of(edges) / volume;

@@ -8,28 +8,17 @@
 #include "core/motion/careful_motion.h"
 #include "core/motion/diverged.h"
 #include "core/motion/integrator.h"
-#include "core/world/impulses.h"
-#include "core/world/squeeze.h"
 #include "tests/support/bodies.h"
+#include "tests/support/worlds.h"
 
 namespace sprung {
 namespace {
 
+using test::box_body;
 using test::kCorrectedModels;
 using test::shake;
 using test::test_material;
-
-World world_of(Body body, const Vec3& gravity = Vec3::Zero()) {
-  World world;
-  Embedding contacts = embed(body.grid, body.grid.rest_positions());
-  world.actors.push_back({.body = std::move(body), .contacts = std::move(contacts), .pinned = {}});
-  world.gravity = gravity;
-  return world;
-}
-
-Body box_body(const Eigen::Vector3i& counts, double h, Model model, double poisson) {
-  return make_body(make_box_grid(counts, h), model, test_material(poisson));
-}
+using test::world_of;
 
 TEST(StableStep, IsTheFrequencyLimitOfOneBrick) {
   // Plain springs alone: a brick whose fastest mode is known from its own eigenvalues.
@@ -194,52 +183,6 @@ TEST(Motion, SymmetricCubeBouncesWithoutTumbling) {
       EXPECT_NEAR(body.positions(node, 1), body.positions(mirror, 1), 1e-9) << "t = " << 0.1 * (look + 1);
     }
   }
-}
-
-/// Bricks far too soft for their own weight are pressed to the limit, not through themselves.
-TEST(Motion, CollapsingBodyKeepsNoBrickInverted) {
-  for (const double poisson : {0.1, 0.3, 0.45}) {
-    World world = world_of(make_body(make_box_grid({4, 4, 4}, 0.05), Model::kCalibrated, test_material(poisson, 100)),
-                           {0, -9.81, 0});
-    world.obstacles = {level_ground(0)};
-    world.actors[0].body.damping.beta = 0.01;
-    brace(world.actors[0].body, 9.81, meeting_speed(world));
-    CarefulMotion motion(world, Scheme::kSymplecticEuler);
-    for (int frame = 0; frame < 30; ++frame) {
-      static_cast<void>(motion.advance_frame(
-          frame * 0.04, 0.04, [](double) {}, [](const std::string&) {}));
-    }
-    EXPECT_EQ(inverted_bricks(world.actors[0].body), 0) << poisson;
-    EXPECT_LT(smallest_volume_ratio(world.actors[0].body), 0.3) << poisson;
-  }
-}
-
-/// One face turned against the opposite one by more than a right angle: the corners may be in order, but between the
-/// mean axes no volume is left.
-TEST(Squeeze, BrickTurnedOverBetweenItsCornersIsFound) {
-  World world = world_of(box_body({1, 1, 1}, 0.02, Model::kCalibrated, 0.3));
-  Body& body = world.actors[0].body;
-  const auto& nodes = body.grid.nodes[0];
-  for (int corner = 0; corner < 8; ++corner) {
-    const double turn = (corner & 4) != 0 ? 2.6 : 0;  // rad, of the high face about z
-    const Vec3 middle(0.01, 0.01, 0);
-    const Vec3 place = body.positions.row(nodes[static_cast<std::size_t>(corner)]);
-    const Vec3 turned = middle + Eigen::AngleAxisd(turn, Vec3::UnitZ()) * (place - middle);
-    body.positions.row(nodes[static_cast<std::size_t>(corner)]) = turned.transpose();
-  }
-  SqueezeWatch watch;
-  const std::vector<Squeeze>& found = watch.find(body, 1e-5);
-  EXPECT_TRUE(
-      std::any_of(found.begin(), found.end(), [](const Squeeze& one) { return one.corner == Squeeze::kMeanAxes; }));
-
-  const Vec3 momentum = linear_momentum(body);
-  Impulses impulses({&world.actors[0]}, {body.masses.cwiseInverse()});
-  impulses.apply(world, 0, 1e-5);
-  EXPECT_LT((linear_momentum(body) - momentum).norm(), 1e-12);
-  EXPECT_LT(angular_momentum(body).norm(), 1e-12);
-  const double before = smallest_volume_ratio(body);
-  body.positions += 1e-5 * body.velocities;
-  EXPECT_GT(smallest_volume_ratio(body), before);
 }
 
 /// What starts a little below the ground comes up, and no higher than a throw from there would.

@@ -255,6 +255,7 @@ TEST_F(SceneFile, WhatExcludesEachOtherOrIsMissing) {
   EXPECT_EQ(body_mistakes(plane), "");
   EXPECT_NE(body_mistakes("[[obstacle]]\nplane = { y = 0 }\nbox = [1, 1, 1]\n").find("obstacle"), std::string::npos);
   EXPECT_NE(body_mistakes("[[obstacle]]\nbox = [1, 1, 1]\nsize = 2\n").find("mesh"), std::string::npos);
+  EXPECT_NE(body_mistakes("[[obstacle]]\nmesh = \"torus.ply\"\n").find("'size' or 'scale'"), std::string::npos);
   EXPECT_NE(body_mistakes(plane + "keyframes = [{ t = 1, scale = 2 }]\n").find("keeps its size"), std::string::npos);
   EXPECT_NE(body_mistakes(plane + "interpolation = \"held\"\n").find("cannot jump"), std::string::npos);
 }

@@ -10,22 +10,16 @@
 #include "core/motion/integrator.h"
 #include "core/motion/statics.h"
 #include "tests/support/bodies.h"
+#include "tests/support/worlds.h"
 
 namespace sprung {
 namespace {
 
 using test::shake;
 using test::test_material;
+using test::world_of;
 
 constexpr double kGravity = 9.81;
-
-World world_of(Body body, const Vec3& gravity = Vec3::Zero()) {
-  World world;
-  Embedding contacts = embed(body.grid, body.grid.rest_positions());
-  world.actors.push_back({.body = std::move(body), .contacts = std::move(contacts), .pinned = {}});
-  world.gravity = gravity;
-  return world;
-}
 
 Body box_body(const Eigen::Vector3i& counts, double h, double poisson, double young = 1e4) {
   return make_body(make_box_grid(counts, h), Model::kCalibrated, test_material(poisson, young));

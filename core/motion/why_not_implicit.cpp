@@ -1,0 +1,16 @@
+#include "core/motion/why_not_implicit.h"
+
+#include <fmt/format.h>
+
+namespace sprung {
+
+std::string why_not_implicit(const World& world) {
+  if (world.bodies_touch && world.actors.size() > 1) return "bodies touch each other";
+  for (const Obstacle& obstacle : world.obstacles) {
+    if (!ground_height(obstacle)) return "an obstacle is not level ground at rest";
+    if (obstacle.restitution > 0) return fmt::format("an obstacle has a restitution of {:.3g}", obstacle.restitution);
+  }
+  return "";
+}
+
+}  // namespace sprung

@@ -1,0 +1,161 @@
+#include "core/world/skin_pairs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "core/body/brick_columns.h"
+
+namespace sprung {
+namespace {
+
+constexpr double kFacing = 0.2;  // cosine between the normals of what touches, at most
+constexpr double kBent = 0.3;    // rad, that a brick's normals may turn against each other
+
+/// A normal of the skin at rest carried along by its brick, unit.
+Vec3 carried_normal(const Body& body, int brick, const Vec3& normal) {
+  const auto& nodes = body.grid.nodes[static_cast<std::size_t>(brick)];
+  const Vec3 along = mean_axes_of(columns_of(nodes, body.rest_positions)).transpose() * normal;
+  return (areas_of(mean_axes_of(columns_of(nodes, body.positions))) * along).normalized();
+}
+
+bool hang_together(const Body& body, int a, int b) {
+  const auto brick_a = static_cast<std::size_t>(a);
+  const auto brick_b = static_cast<std::size_t>(b);
+  if ((body.grid.cells[brick_a] - body.grid.cells[brick_b]).cwiseAbs().maxCoeff() > 1) return false;
+  const auto& nodes = body.grid.nodes[brick_b];
+  return std::any_of(body.grid.nodes[brick_a].begin(), body.grid.nodes[brick_a].end(),
+                     [&](int node) { return std::find(nodes.begin(), nodes.end(), node) != nodes.end(); });
+}
+
+Points positions_of(const ContactSkin& skin, const Body& body) {
+  Points all(static_cast<Eigen::Index>(skin.points.size()), 3);
+  for (std::size_t i = 0; i < skin.points.size(); ++i) {
+    all.row(static_cast<Eigen::Index>(i)) = carried(body, skin.points[i], body.positions).transpose();
+  }
+  return all;
+}
+
+/// Of the points and triangles of a skin's brick.
+AlignedBox box_of(const ContactSkin& skin, std::size_t row, const Points& positions) {
+  AlignedBox box;
+  for (int i = skin.first_point[row]; i < skin.first_point[row + 1]; ++i) box.extend(Vec3(positions.row(i)));
+  for (int i = skin.first_triangle[row]; i < skin.first_triangle[row + 1]; ++i) {
+    for (const int corner : skin.triangles[static_cast<std::size_t>(i)]) box.extend(Vec3(positions.row(corner)));
+  }
+  return box;
+}
+
+AlignedBox widened(const AlignedBox& box, double by) {
+  return {box.min() - Vec3::Constant(by), box.max() + Vec3::Constant(by)};
+}
+
+}  // namespace
+
+bool SkinPairs::may_touch(const World& world, const Group& group, const Place& a, const Place& b) const {
+  const NormalCone& cone_a = skins_[a.actor].cones[a.row];
+  const NormalCone& cone_b = skins_[b.actor].cones[b.row];
+  const double angle = std::acos(std::clamp(a.normal.dot(b.normal), -1.0, 1.0));
+  if (angle + cone_a.spread + cone_b.spread + kBent < std::acos(kFacing)) return false;
+  if (a.actor != b.actor) return world.bodies_touch;
+  const Actor& actor = *group[a.actor];
+  const std::vector<int>& bricks = skins_[a.actor].bricks;
+  return actor.touches_itself && !hang_together(actor.body, bricks[a.row], bricks[b.row]);
+}
+
+std::vector<std::pair<int, int>> SkinPairs::near_bricks(const World& world, const Group& group, double margin) {
+  positions_.clear();
+  places_.clear();
+  std::vector<AlignedBox> boxes;
+  for (std::size_t actor = 0; actor < group.size(); ++actor) {
+    const Body& body = group[actor]->body;
+    const ContactSkin& skin = skins_[actor];
+    positions_.push_back(positions_of(skin, body));
+    for (std::size_t row = 0; row < skin.bricks.size(); ++row) {
+      const AlignedBox box = box_of(skin, row, positions_[actor]);
+      places_.push_back({actor, row, box, carried_normal(body, skin.bricks[row], skin.cones[row].axis)});
+      boxes.push_back(widened(box, margin / 2));
+    }
+  }
+  std::vector<std::pair<int, int>> near = overlapping_boxes(boxes);
+  std::erase_if(near, [&](const std::pair<int, int>& pair) {
+    return !may_touch(world, group, places_[static_cast<std::size_t>(pair.first)],
+                      places_[static_cast<std::size_t>(pair.second)]);
+  });
+  return near;
+}
+
+int SkinPairs::watched_row(const Group& group, std::size_t actor, int point) {
+  int& row = rows_[actor][static_cast<std::size_t>(point)];
+  if (row < 0) {
+    row = static_cast<int>(watched_.size());
+    const ContactSkin& skin = skins_[actor];
+    const int brick = skin.points[static_cast<std::size_t>(point)].brick;
+    watched_.push_back({actor, point, carried_normal(group[actor]->body, brick, skin.normals.row(point))});
+  }
+  return row;
+}
+
+void SkinPairs::pair_up(const Group& group, const SkinReach& reach, const Place& facing, std::size_t actor, int point) {
+  const ContactSkin& across = skins_[facing.actor];
+  const Points& corners = positions_[facing.actor];
+  const Vec3 place = positions_[actor].row(point);
+  const int brick = skins_[actor].points[static_cast<std::size_t>(point)].brick;
+  const auto hangs_together = [&](int corner) {
+    return hang_together(group[actor]->body, brick, across.points[static_cast<std::size_t>(corner)].brick);
+  };
+  for (int t = across.first_triangle[facing.row]; t < across.first_triangle[facing.row + 1]; ++t) {
+    const std::array<int, 3>& triangle = across.triangles[static_cast<std::size_t>(t)];
+    const Vec3 a = corners.row(triangle[0]);
+    const Vec3 b = corners.row(triangle[1]);
+    const Vec3 c = corners.row(triangle[2]);
+    if (((a.cwiseMin(b).cwiseMin(c) - place).array() > reach.margin).any()) continue;
+    if (((place - a.cwiseMax(b).cwiseMax(c)).array() > reach.margin).any()) continue;
+    const Vec3 area = (b - a).cross(c - a);
+    if (area.dot(place - a) < -(reach.deepest + reach.margin) * area.norm()) continue;
+    const int row = watched_row(group, actor, point);
+    if (watched(row).normal.dot(area) > kFacing * area.norm()) continue;
+    if (actor == facing.actor && std::any_of(triangle.begin(), triangle.end(), hangs_together)) continue;
+    SkinPair pair{row, {}};
+    for (std::size_t i = 0; i < 3; ++i) pair.corners[i] = watched_row(group, facing.actor, triangle[i]);
+    pairs_.push_back(pair);
+  }
+}
+
+void SkinPairs::pair_up(const Group& group, const Place& place, const Place& facing, const SkinReach& reach) {
+  const ContactSkin& skin = skins_[place.actor];
+  const AlignedBox around = widened(facing.box, reach.margin);
+  for (int point = skin.first_point[place.row]; point < skin.first_point[place.row + 1]; ++point) {
+    if (!around.contains(Vec3(positions_[place.actor].row(point)))) continue;
+    pair_up(group, reach, facing, place.actor, point);
+  }
+}
+
+void SkinPairs::look(const World& world, const Group& group, const SkinReach& reach) {
+  watched_.clear();
+  pairs_.clear();
+  rows_.resize(group.size());
+  for (std::size_t actor = 0; actor < group.size(); ++actor) rows_[actor].assign(skins_[actor].points.size(), -1);
+  for (const auto& [brick, other] : near_bricks(world, group, reach.margin)) {
+    const Place& a = places_[static_cast<std::size_t>(brick)];
+    const Place& b = places_[static_cast<std::size_t>(other)];
+    pair_up(group, a, b, reach);
+    pair_up(group, b, a, reach);
+  }
+  const auto order = [&](const SkinPair& pair) {
+    const WatchedPoint& point = watched(pair.point);
+    return std::tuple(point.actor, point.point, watched(pair.corners[0]).actor, pair.corners);
+  };
+  std::sort(pairs_.begin(), pairs_.end(), [&](const SkinPair& a, const SkinPair& b) { return order(a) < order(b); });
+}
+
+void SkinPairs::follow(const Group& group) {
+  for (WatchedPoint& watched : watched_) {
+    const ContactPoint& point = skins_[watched.actor].points[static_cast<std::size_t>(watched.point)];
+    const Body& body = group[watched.actor]->body;
+    watched.place = carried(body, point, body.positions);
+    watched.velocity = carried(body, point, body.velocities);
+  }
+}
+
+}  // namespace sprung

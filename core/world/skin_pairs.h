@@ -1,0 +1,72 @@
+#pragma once
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "core/world/contact_skin.h"
+#include "core/world/near_boxes.h"
+#include "core/world/touch.h"
+
+namespace sprung {
+
+/// A point of a skin that is watched.
+struct WatchedPoint {
+  std::size_t actor;  // of the group
+  int point;          // of its skin
+  Vec3 normal;        // of the skin there, when last looked
+  Vec3 place = Vec3::Zero();
+  Vec3 velocity = Vec3::Zero();
+};
+
+/// A point and a triangle near it: rows of what is watched.
+struct SkinPair {
+  int point;
+  std::array<int, 3> corners;
+};
+
+/// How far apart points and triangles are that may come to touch, m.
+struct SkinReach {
+  double margin;   // outside
+  double deepest;  // inside: what is deeper came from the other side
+};
+
+/// Points and triangles of a group's skins that are near, face each other, and do not hang together through a common
+/// node of their bricks. Bricks are compared first, by their boxes and by where their normals may point.
+class SkinPairs {
+ public:
+  explicit SkinPairs(const std::vector<ContactSkin>& skins) : skins_(skins) {}
+
+  /// Seeks them anew. Deterministic.
+  void look(const World& world, const Group& group, const SkinReach& reach);
+
+  /// Takes down where the watched points are, and how fast.
+  void follow(const Group& group);
+
+  [[nodiscard]] const WatchedPoint& watched(int row) const { return watched_[static_cast<std::size_t>(row)]; }
+  /// Ordered by the point and, for each, by the actor of the triangle.
+  [[nodiscard]] const std::vector<SkinPair>& pairs() const { return pairs_; }
+
+ private:
+  /// A brick of a skin.
+  struct Place {
+    std::size_t actor;
+    std::size_t row;  // in the skin's bricks
+    AlignedBox box;   // m, of its points and triangles
+    Vec3 normal;      // the axis of its normals
+  };
+
+  [[nodiscard]] std::vector<std::pair<int, int>> near_bricks(const World& world, const Group& group, double margin);
+  [[nodiscard]] bool may_touch(const World& world, const Group& group, const Place& a, const Place& b) const;
+  void pair_up(const Group& group, const Place& place, const Place& facing, const SkinReach& reach);
+  void pair_up(const Group& group, const SkinReach& reach, const Place& facing, std::size_t actor, int point);
+  int watched_row(const Group& group, std::size_t actor, int point);
+
+  const std::vector<ContactSkin>& skins_;  // by actor of the group
+  std::vector<Place> places_;              // of the boxes looked at
+  std::vector<Points> positions_;          // of all points, by actor, when looking
+  std::vector<std::vector<int>> rows_;     // by actor, by point: in watched_, or -1
+  std::vector<WatchedPoint> watched_;
+  std::vector<SkinPair> pairs_;
+};
+
+}  // namespace sprung

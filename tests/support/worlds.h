@@ -1,0 +1,20 @@
+#pragma once
+#include "core/world/world.h"
+#include "tests/support/bodies.h"
+
+namespace sprung::test {
+
+/// One body, every node of which touches obstacles.
+inline World world_of(Body body, const Vec3& gravity = Vec3::Zero()) {
+  World world;
+  Embedding contacts = embed(body.grid, body.grid.rest_positions());
+  world.actors.push_back({.body = std::move(body), .contacts = std::move(contacts), .pinned = {}});
+  world.gravity = gravity;
+  return world;
+}
+
+inline Body box_body(const Eigen::Vector3i& counts, double h, Model model, double poisson) {
+  return make_body(make_box_grid(counts, h), model, test_material(poisson));
+}
+
+}  // namespace sprung::test
