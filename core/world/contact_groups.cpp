@@ -1,5 +1,6 @@
 #include "core/world/contact_groups.h"
 
+#include <cmath>
 #include <map>
 
 #include "core/body/forces.h"
@@ -9,14 +10,19 @@
 namespace sprung {
 namespace {
 
-constexpr double kFaster = 2;  // than now: what springs back
-
-/// All that a body can reach, m.
-AlignedBox reach_of(const Body& body, double gravity, double time) {
-  const double speed = largest_speed(body);
-  const double way = kFaster * (speed + gravity * time) * time + body.grid.brick_size;
-  return {body.positions.colwise().minCoeff().transpose() - Vec3::Constant(way),
-          body.positions.colwise().maxCoeff().transpose() + Vec3::Constant(way)};
+/// All that a body can reach, m: it is carried along as a whole, and its nodes move about in it.
+AlignedBox reach_of(const Body& body, const Vec3& gravity, double time) {
+  const Vec3 mean = linear_momentum(body) / body.masses.sum();
+  const double about = std::sqrt((body.velocities.rowwise() - mean.transpose()).rowwise().squaredNorm().maxCoeff());
+  const Vec3 low = body.positions.colwise().minCoeff();
+  const Vec3 high = body.positions.colwise().maxCoeff();
+  AlignedBox reach(low, high);
+  for (const Vec3& way : {Vec3(mean * time), Vec3((mean + gravity * time) * time)}) {
+    reach.extend(low + way);
+    reach.extend(high + way);
+  }
+  const Vec3 around = Vec3::Constant(about * time + body.grid.brick_size / 2);
+  return {reach.min() - around, reach.max() + around};
 }
 
 }  // namespace
@@ -26,7 +32,7 @@ std::vector<std::vector<std::size_t>> contact_groups(const World& world, double 
   DisjointSets sets(count);
   if (world.bodies_touch && count > 1) {
     std::vector<AlignedBox> boxes;
-    for (const Actor& actor : world.actors) boxes.push_back(reach_of(actor.body, world.gravity.norm(), time));
+    for (const Actor& actor : world.actors) boxes.push_back(reach_of(actor.body, world.gravity, time));
     for (const auto& [a, b] : overlapping_boxes(boxes)) sets.merge(a, b);
   }
   std::map<int, std::vector<std::size_t>> members;  // by the lowest

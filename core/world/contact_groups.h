@@ -7,7 +7,7 @@
 namespace sprung {
 
 /// Rows of world.actors that may come to touch each other within `time` (s), group by group, each ascending: as far as
-/// their nodes' speeds and gravity lead them.
+/// their momentum, the speeds of their nodes about it, and gravity lead them.
 [[nodiscard]] std::vector<std::vector<std::size_t>> contact_groups(const World& world, double time);
 
 }  // namespace sprung

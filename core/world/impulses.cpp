@@ -39,13 +39,16 @@ Impulses::Impulses(Group group, std::vector<Eigen::VectorXd> inverse_masses)
       inverse_masses_(std::move(inverse_masses)),
       smallest_brick_(std::numeric_limits<double>::infinity()),
       obstacle_contact_(skins_),
-      skin_contact_(skins_),
       squeeze_watches_(group_.size()) {
   for (const Actor* actor : group_) {
     skins_.emplace_back(*actor);
     places_.emplace_back(static_cast<std::size_t>(actor->body.node_count()), -1);
     smallest_brick_ = std::min(smallest_brick_, actor->body.grid.brick_size);
   }
+  for (std::size_t actor = 0; actor < group_.size(); ++actor) {
+    if (group_[actor]->touches_itself) skin_contacts_.emplace_back(skins_, actor);
+  }
+  if (group_.size() > 1) skin_contacts_.emplace_back(skins_, std::nullopt);  // only bodies that touch are in one group
 }
 
 Vec3 Impulses::TouchLimit::lack(const Nodes& all, Vec3 Pushed::*velocity) const {
@@ -110,7 +113,8 @@ void Impulses::find_touches(const World& world, double elapsed, double dt) {
     for (const Obstacle& obstacle : world.obstacles) poses.push_back(pose_after(obstacle, elapsed));
     obstacle_contact_.find(world, poses, dt, group_, found_);
   }
-  skin_contact_.find(world, dt, group_, found_);
+  for (SkinContact& contact : skin_contacts_) contact.find(world, dt, group_, found_);
+  std::sort(found_.list.begin(), found_.list.end(), [](const Touch& a, const Touch& b) { return a.key < b.key; });
   parts_.clear();
   for (const Share& share : found_.shares) {
     parts_.push_back({place_of(static_cast<std::size_t>(share.actor), share.node), share.weight});

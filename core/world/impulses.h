@@ -114,7 +114,7 @@ class Impulses {
   double smallest_brick_;  // m
   std::vector<ContactSkin> skins_;
   ObstacleContact obstacle_contact_;
-  SkinContact skin_contact_;
+  std::vector<SkinContact> skin_contacts_;
   std::vector<SqueezeWatch> squeeze_watches_;
   Touches found_;
   std::vector<Part> parts_;

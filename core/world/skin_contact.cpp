@@ -132,15 +132,12 @@ void SkinContact::keep_hardest(const World& world, double dt, Stance stance) {
 }
 
 void SkinContact::find(const World& world, double dt, const Group& group, Touches& touches) {
-  const bool has_any =
-      (world.bodies_touch && group.size() > 1) ||
-      std::any_of(group.begin(), group.end(), [](const Actor* actor) { return actor->touches_itself; });
-  if (!has_any) return;
-  const double brick = smallest_brick(group);
+  const Group watched = self_ ? Group{group[*self_]} : group;
+  const double brick = smallest_brick(watched);
   const double depth = kDeepest * brick;
   if (steps_to_look_ == 0) {
-    steps_to_look_ = steps_until_look(kMargin * brick, fastest(group), dt);
-    pairs_.look(world, group, {.margin = kMargin * brick, .deepest = depth});
+    steps_to_look_ = steps_until_look(kMargin * brick, fastest(watched), dt);
+    pairs_.look(group, {.margin = kMargin * brick, .deepest = depth});
   }
   --steps_to_look_;
   pairs_.follow(group);

@@ -1,5 +1,6 @@
 #pragma once
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "core/world/contact_skin.h"
@@ -8,16 +9,18 @@
 
 namespace sprung {
 
-/// Finds where the skins of a group's bodies touch each other and themselves: contact points against triangles, both
-/// ways. Pairs of them (skin_pairs.h) are sought every few steps only, and then watched in every step. Limits: edges
-/// that cross between their points are held by those points only; what lies deeper in another body than 0.7 bricks is
-/// not found.
+/// Finds where the skins of a group's bodies touch each other, or where one touches itself: contact points against
+/// triangles, both ways. Pairs of them (skin_pairs.h) are sought every few steps only, and then watched in every step.
+/// Limits: edges that cross between their points are held by those points only; what lies deeper in another body than
+/// 0.7 bricks is not found.
 class SkinContact {
  public:
-  explicit SkinContact(const std::vector<ContactSkin>& skins) : skins_(skins), pairs_(skins) {}
+  /// Of `self` (an actor of the group) with itself; without one, of different actors.
+  SkinContact(const std::vector<ContactSkin>& skins, std::optional<std::size_t> self)
+      : skins_(skins), self_(self), pairs_(skins, self) {}
 
-  /// Appends the points that moving by dt would leave inside another skin, at most one near each corner of a brick and
-  /// for each body that it touches: the one that is held hardest.
+  /// Appends, ordered by key, the points that moving by dt would leave inside another skin, at most one near each
+  /// corner of a brick and for each body that it touches: the one that is held hardest.
   void find(const World& world, double dt, const Group& group, Touches& touches);
 
  private:
@@ -44,6 +47,7 @@ class SkinContact {
   void add_shares(const Group& group, const WatchedPoint& watched, double weight, Touches& touches) const;
 
   const std::vector<ContactSkin>& skins_;  // by actor of the group
+  std::optional<std::size_t> self_;
   SkinPairs pairs_;
   std::map<std::uint64_t, Stance> hardest_;  // of this step, by key
   int steps_to_look_ = 0;

@@ -52,25 +52,42 @@ AlignedBox widened(const AlignedBox& box, double by) {
 
 }  // namespace
 
-bool SkinPairs::may_touch(const World& world, const Group& group, const Place& a, const Place& b) const {
-  const NormalCone& cone_a = skins_[a.actor].cones[a.row];
-  const NormalCone& cone_b = skins_[b.actor].cones[b.row];
+bool SkinPairs::may_touch(const Group& group, const Place& a, const Place& b) const {
+  if (!self_ && a.actor == b.actor) return false;
+  const double spread = skins_[a.actor].cones[a.row].spread + skins_[b.actor].cones[b.row].spread;
   const double angle = std::acos(std::clamp(a.normal.dot(b.normal), -1.0, 1.0));
-  if (angle + cone_a.spread + cone_b.spread + kBent < std::acos(kFacing)) return false;
-  if (a.actor != b.actor) return world.bodies_touch;
-  const Actor& actor = *group[a.actor];
+  if (angle + spread + kBent < std::acos(kFacing)) return false;
+  if (!self_) return true;
   const std::vector<int>& bricks = skins_[a.actor].bricks;
-  return actor.touches_itself && !hang_together(actor.body, bricks[a.row], bricks[b.row]);
+  return !hang_together(group[a.actor]->body, bricks[a.row], bricks[b.row]);
 }
 
-std::vector<std::pair<int, int>> SkinPairs::near_bricks(const World& world, const Group& group, double margin) {
-  positions_.clear();
+std::vector<std::size_t> SkinPairs::near_actors(const Group& group, double margin) const {
+  if (self_) return {*self_};
+  std::vector<AlignedBox> boxes;
+  for (const Actor* actor : group) {
+    const Points& x = actor->body.positions;
+    const AlignedBox box(Vec3(x.colwise().minCoeff()), Vec3(x.colwise().maxCoeff()));
+    boxes.push_back(widened(box, margin + actor->body.grid.brick_size));  // skins may lie a little outside the bricks
+  }
+  std::vector<std::size_t> near;
+  for (const auto& [a, b] : overlapping_boxes(boxes)) {
+    near.push_back(static_cast<std::size_t>(a));
+    near.push_back(static_cast<std::size_t>(b));
+  }
+  std::sort(near.begin(), near.end());
+  near.erase(std::unique(near.begin(), near.end()), near.end());
+  return near;
+}
+
+std::vector<std::pair<int, int>> SkinPairs::near_bricks(const Group& group, double margin) {
+  positions_.resize(group.size());
   places_.clear();
   std::vector<AlignedBox> boxes;
-  for (std::size_t actor = 0; actor < group.size(); ++actor) {
+  for (const std::size_t actor : near_actors(group, margin)) {
     const Body& body = group[actor]->body;
     const ContactSkin& skin = skins_[actor];
-    positions_.push_back(positions_of(skin, body));
+    positions_[actor] = positions_of(skin, body);
     for (std::size_t row = 0; row < skin.bricks.size(); ++row) {
       const AlignedBox box = box_of(skin, row, positions_[actor]);
       places_.push_back({actor, row, box, carried_normal(body, skin.bricks[row], skin.cones[row].axis)});
@@ -79,7 +96,7 @@ std::vector<std::pair<int, int>> SkinPairs::near_bricks(const World& world, cons
   }
   std::vector<std::pair<int, int>> near = overlapping_boxes(boxes);
   std::erase_if(near, [&](const std::pair<int, int>& pair) {
-    return !may_touch(world, group, places_[static_cast<std::size_t>(pair.first)],
+    return !may_touch(group, places_[static_cast<std::size_t>(pair.first)],
                       places_[static_cast<std::size_t>(pair.second)]);
   });
   return near;
@@ -131,12 +148,12 @@ void SkinPairs::pair_up(const Group& group, const Place& place, const Place& fac
   }
 }
 
-void SkinPairs::look(const World& world, const Group& group, const SkinReach& reach) {
+void SkinPairs::look(const Group& group, const SkinReach& reach) {
   watched_.clear();
   pairs_.clear();
   rows_.resize(group.size());
   for (std::size_t actor = 0; actor < group.size(); ++actor) rows_[actor].assign(skins_[actor].points.size(), -1);
-  for (const auto& [brick, other] : near_bricks(world, group, reach.margin)) {
+  for (const auto& [brick, other] : near_bricks(group, reach.margin)) {
     const Place& a = places_[static_cast<std::size_t>(brick)];
     const Place& b = places_[static_cast<std::size_t>(other)];
     pair_up(group, a, b, reach);

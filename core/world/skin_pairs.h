@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -30,14 +31,16 @@ struct SkinReach {
   double deepest;  // inside: what is deeper came from the other side
 };
 
-/// Points and triangles of a group's skins that are near, face each other, and do not hang together through a common
-/// node of their bricks. Bricks are compared first, by their boxes and by where their normals may point.
+/// Points and triangles of different skins of a group, or of one skin, that are near and face each other; within one
+/// they must not hang together through a common node of their bricks. Bodies are compared first, by their boxes, then
+/// bricks, by theirs and by where their normals may point.
 class SkinPairs {
  public:
-  explicit SkinPairs(const std::vector<ContactSkin>& skins) : skins_(skins) {}
+  /// Of `self` (an actor of the group) with itself; without one, of different actors.
+  SkinPairs(const std::vector<ContactSkin>& skins, std::optional<std::size_t> self) : skins_(skins), self_(self) {}
 
   /// Seeks them anew. Deterministic.
-  void look(const World& world, const Group& group, const SkinReach& reach);
+  void look(const Group& group, const SkinReach& reach);
 
   /// Takes down where the watched points are, and how fast.
   void follow(const Group& group);
@@ -55,16 +58,19 @@ class SkinPairs {
     Vec3 normal;      // the axis of its normals
   };
 
-  [[nodiscard]] std::vector<std::pair<int, int>> near_bricks(const World& world, const Group& group, double margin);
-  [[nodiscard]] bool may_touch(const World& world, const Group& group, const Place& a, const Place& b) const;
+  /// Those whose boxes are near that of another; or self.
+  [[nodiscard]] std::vector<std::size_t> near_actors(const Group& group, double margin) const;
+  [[nodiscard]] std::vector<std::pair<int, int>> near_bricks(const Group& group, double margin);
+  [[nodiscard]] bool may_touch(const Group& group, const Place& a, const Place& b) const;
   void pair_up(const Group& group, const Place& place, const Place& facing, const SkinReach& reach);
   void pair_up(const Group& group, const SkinReach& reach, const Place& facing, std::size_t actor, int point);
   int watched_row(const Group& group, std::size_t actor, int point);
 
   const std::vector<ContactSkin>& skins_;  // by actor of the group
-  std::vector<Place> places_;              // of the boxes looked at
-  std::vector<Points> positions_;          // of all points, by actor, when looking
-  std::vector<std::vector<int>> rows_;     // by actor, by point: in watched_, or -1
+  std::optional<std::size_t> self_;
+  std::vector<Place> places_;           // of the boxes looked at
+  std::vector<Points> positions_;       // of all points, by actor, when looking
+  std::vector<std::vector<int>> rows_;  // by actor, by point: in watched_, or -1
   std::vector<WatchedPoint> watched_;
   std::vector<SkinPair> pairs_;
 };
