@@ -14,7 +14,8 @@ namespace {
 constexpr int kStepsBetweenLooks = 8;
 constexpr double kSuspectVolume = 0.4;
 constexpr double kRecoverySteps = 20;  // a brick found too flat or inside out comes back within about that many steps
-constexpr double kFastestRecovery = 0.01;  // its corners come apart by no more than that share of a brick in a step
+constexpr double kFastestRecovery =
+    0.02;  // of the speed of sound, that its corners come apart at: that gives no energy worth the name
 
 /// The three edges at a corner, or the mean axes, as columns, each from its low to its high end.
 Mat3 edges_at(int corner, const BrickColumns& x) {
@@ -83,6 +84,7 @@ const std::vector<Squeeze>& SqueezeWatch::find(const Body& body, double dt) {
   steps_to_look_ = (steps_to_look_ + 1) % kStepsBetweenLooks;
   found_.clear();
   const double volume = body.grid.brick_volume();
+  const double fastest = kFastestRecovery * std::sqrt(body.material.young / body.material.density) * dt;  // m
   for (const int brick : suspects_) {
     const auto& nodes = body.grid.nodes[static_cast<std::size_t>(brick)];
     const BrickColumns x = columns_of(nodes, body.positions);
@@ -92,7 +94,7 @@ const std::vector<Squeeze>& SqueezeWatch::find(const Body& body, double dt) {
       const Mat3 areas = areas_of(edges) / volume;
       const double lack = kLeastVolume - edges.col(0).dot(areas.col(0));
       const double rate = edges_at(corner, v).cwiseProduct(areas).sum();
-      const double recovery = std::min(lack / kRecoverySteps, kFastestRecovery * body.grid.brick_size * areas.norm());
+      const double recovery = std::min(lack / kRecoverySteps, fastest * areas.norm());
       const double least_rate = (lack > 0 ? recovery : lack) / dt;
       if (!(rate < least_rate)) continue;  // nor where a number is not finite
       found_.push_back({.brick = brick, .corner = corner, .gradient = areas, .least_rate = least_rate});

@@ -8,6 +8,7 @@
 #include "core/motion/careful_motion.h"
 #include "core/world/impulses.h"
 #include "tests/support/bodies.h"
+#include "tests/support/touching.h"
 #include "tests/support/worlds.h"
 
 namespace sprung {
@@ -15,6 +16,7 @@ namespace {
 
 using test::box_body;
 using test::test_material;
+using test::touching_box;
 using test::world_of;
 
 /// Bricks far too soft for their own weight are pressed to the limit, not through themselves.
@@ -32,6 +34,39 @@ TEST(Motion, CollapsingBodyKeepsNoBrickInverted) {
     }
     EXPECT_EQ(inverted_bricks(world.actors[0].body), 0) << poisson;
     EXPECT_LT(smallest_volume_ratio(world.actors[0].body), 0.3) << poisson;
+  }
+}
+
+/// A wall is struck by what is far too heavy and fast for it: its bricks are crushed and come back, and none of that
+/// gives energy.
+TEST(Squeeze, CrushedBricksGiveNoEnergy) {
+  Material soft = test_material(0.3, 5e3);
+  soft.density = 500;
+  Material heavy = test_material(0.3, 3e5);
+  heavy.density = 8000;
+  World world;
+  world.gravity.setZero();
+  world.actors.push_back(touching_box({3, 12, 12}, 0.01, soft, Vec3::Zero()));
+  world.actors.push_back(touching_box({5, 5, 5}, 0.01, heavy, {-0.06, 0.04, 0.03}));
+  Actor& wall = world.actors[0];
+  for (int node = 0; node < wall.body.node_count(); ++node) {
+    if (wall.body.positions(node, 1) < 0.005) wall.pinned.push_back({.node = node});
+  }
+  world.actors[1].body.velocities.col(0).setConstant(10);
+  for (Actor& actor : world.actors) {
+    actor.body.damping = {};
+    brace(actor.body, 0, meeting_speed(world));
+  }
+  const auto energy = [&] {
+    return energy_of(wall.body, world.gravity).sum() + energy_of(world.actors[1].body, world.gravity).sum();
+  };
+  CarefulMotion motion(world, Scheme::kSymplecticEuler);
+  double before = energy();
+  for (int frame = 0; frame < 6; ++frame) {
+    static_cast<void>(motion.advance_frame(
+        frame * 0.005, 0.005, [](double) {}, [](const std::string& message) { ADD_FAILURE() << message; }));
+    EXPECT_LT(energy(), 1.02 * before) << frame;
+    before = energy();
   }
 }
 
