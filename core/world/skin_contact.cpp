@@ -7,14 +7,24 @@
 namespace sprung {
 namespace {
 
-constexpr double kMargin = 0.3;   // bricks: what is nearer than that is watched
-constexpr double kDeepest = 0.7;  // bricks: what is deeper came from the other side
-constexpr double kBeside = 0.05;  // of a triangle: what stands a little beside it counts as over it
+constexpr double kMargin = 0.3;     // bricks: what is nearer than that is watched
+constexpr double kDeepest = 0.7;    // bricks: what is deeper came from the other side
+constexpr double kBeside = 0.05;    // of a triangle: what stands a little beside it counts as over it
+constexpr double kTouching = 0.15;  // of the depth: what is that near to a triangle that it stands over touches it
 
 double smallest_brick(const Group& group) {
   double size = std::numeric_limits<double>::infinity();
   for (const Actor* actor : group) size = std::min(size, actor->body.grid.brick_size);
   return size;
+}
+
+void add_shares(const Group& group, std::size_t actor, int brick, const Eigen::Matrix<double, 8, 1>& weights,
+                Touches& touches) {
+  const auto& nodes = group[actor]->body.grid.nodes[static_cast<std::size_t>(brick)];
+  for (int i = 0; i < 8; ++i) {
+    if (weights[i] == 0) continue;
+    touches.shares.push_back({static_cast<int>(actor), nodes[static_cast<std::size_t>(i)], weights[i]});
+  }
 }
 
 /// Of any node, m/s, seen from the middle of all.
@@ -53,82 +63,90 @@ bool SkinContact::stand(const SkinPair& pair, double depth, Stance& stance) cons
   return stance.gap > -depth && stance.weights.minCoeff() > -kBeside;  // not where the triangle has no area
 }
 
-void SkinContact::add_shares(const Group& group, const WatchedPoint& watched, double weight, Touches& touches) const {
-  const ContactPoint& point = skins_[watched.actor].points[static_cast<std::size_t>(watched.point)];
-  const auto& nodes = group[watched.actor]->body.grid.nodes[static_cast<std::size_t>(point.brick)];
-  for (int i = 0; i < 8; ++i) {
-    touches.shares.push_back(
-        {static_cast<int>(watched.actor), nodes[static_cast<std::size_t>(i)], weight * point.weights[i]});
+void SkinContact::add_triangle(const Group& group, const Stance& stance, Touches& touches) const {
+  std::array<int, 3> bricks{};
+  std::array<Eigen::Matrix<double, 8, 1>, 3> weights;
+  std::size_t count = 0;
+  const std::size_t actor = other_of(*stance.pair);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const int row = pairs_.watched(stance.pair->corners[i]).point;
+    const ContactPoint& corner = skins_[actor].points[static_cast<std::size_t>(row)];
+    const auto same = static_cast<std::size_t>(
+        std::find(bricks.begin(), bricks.begin() + static_cast<std::ptrdiff_t>(count), corner.brick) - bricks.begin());
+    if (same == count) {
+      bricks[count] = corner.brick;
+      weights[count++].setZero();
+    }
+    weights[same] -= stance.weights[static_cast<Eigen::Index>(i)] * corner.weights;
   }
+  for (std::size_t i = 0; i < count; ++i) add_shares(group, actor, bricks[i], weights[i], touches);
 }
 
-/// Shares of one node are one.
-void SkinContact::add(const Group& group, const Stance& stance, std::uint64_t key, Touches& touches) const {
+void SkinContact::add(const Group& group, const Stance& stance, Touches& touches) const {
   const std::size_t first = touches.shares.size();
   const WatchedPoint& point = pairs_.watched(stance.pair->point);
-  const WatchedPoint& corner = pairs_.watched(stance.pair->corners[0]);
-  add_shares(group, point, 1, touches);
-  for (std::size_t i = 0; i < 3; ++i) {
-    add_shares(group, pairs_.watched(stance.pair->corners[i]), -stance.weights[static_cast<Eigen::Index>(i)], touches);
-  }
-  const auto begin = touches.shares.begin() + static_cast<std::ptrdiff_t>(first);
-  const auto node_of = [](const Share& share) { return std::pair(share.actor, share.node); };
-  std::stable_sort(begin, touches.shares.end(),
-                   [&](const Share& a, const Share& b) { return node_of(a) < node_of(b); });
-  auto kept = begin;
-  for (auto next = begin + 1; next != touches.shares.end(); ++next) {
-    if (node_of(*next) == node_of(*kept)) {
-      kept->weight += next->weight;
-    } else {
-      *++kept = *next;
-    }
-  }
-  touches.shares.erase(kept + 1, touches.shares.end());
-  touches.list.push_back({.key = key,
+  const ContactPoint& at = skins_[point.actor].points[static_cast<std::size_t>(point.point)];
+  add_shares(group, point.actor, at.brick, at.weights, touches);
+  add_triangle(group, stance, touches);
+  const double other_friction = group[other_of(*stance.pair)]->friction;
+  touches.list.push_back({.key = stance.key,
                           .first = first,
                           .last = touches.shares.size(),
                           .normal = stance.normal,
                           .goal = stance.least_speed * stance.normal,
-                          .friction = std::sqrt(group[point.actor]->friction * group[corner.actor]->friction)});
+                          .friction = std::sqrt(group[point.actor]->friction * other_friction)});
 }
 
 std::size_t SkinContact::other_of(const SkinPair& pair) const { return pairs_.watched(pair.corners[0]).actor; }
 
-std::size_t SkinContact::end_of_run(std::size_t first) const {
+std::vector<SkinContact::Run> SkinContact::runs_of_pairs() const {
   const std::vector<SkinPair>& pairs = pairs_.pairs();
-  std::size_t end = first + 1;
-  while (end < pairs.size() && pairs[end].point == pairs[first].point &&
-         other_of(pairs[end]) == other_of(pairs[first])) {
-    ++end;
+  std::vector<Run> runs;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const bool goes_on = i > 0 && pairs[i].point == pairs[i - 1].point && other_of(pairs[i]) == other_of(pairs[i - 1]);
+    if (!goes_on) runs.push_back({.first = i, .end = i, .last = i});
+    runs.back().end = i + 1;
   }
-  return end;
+  return runs;
 }
 
-SkinContact::Stance SkinContact::nearest_stance(std::size_t first, std::size_t end, double depth) const {
+SkinContact::Stance SkinContact::nearest_stance(Run& run, double depth) const {
   Stance nearest;
-  for (std::size_t i = first; i < end; ++i) {
+  const std::vector<SkinPair>& pairs = pairs_.pairs();
+  if (stand(pairs[run.last], depth, nearest) && std::abs(nearest.gap) < kTouching * depth) return nearest;
+  nearest.pair = nullptr;
+  for (std::size_t i = run.first; i < run.end; ++i) {
     Stance stance;
-    if (!stand(pairs_.pairs()[i], depth, stance)) continue;
-    if (nearest.pair == nullptr || std::abs(stance.gap) < std::abs(nearest.gap)) nearest = stance;
+    if (!stand(pairs[i], depth, stance)) continue;
+    if (nearest.pair != nullptr && std::abs(stance.gap) >= std::abs(nearest.gap)) continue;
+    nearest = stance;
+    run.last = i;
   }
   return nearest;
 }
 
-void SkinContact::keep_hardest(const World& world, double dt, Stance stance) {
+bool SkinContact::has_to_be_held(const World& world, double dt, Stance& stance) const {
   const WatchedPoint& point = pairs_.watched(stance.pair->point);
   Vec3 velocity = point.velocity;
   for (std::size_t i = 0; i < 3; ++i) {
     velocity -= stance.weights[static_cast<Eigen::Index>(i)] * pairs_.watched(stance.pair->corners[i]).velocity;
   }
   const double speed = stance.normal.dot(velocity);
-  if (!(stance.gap + dt * speed <= 0)) return;
+  if (!(stance.gap + dt * speed <= 0)) return false;
   stance.least_speed = least_speed(stance.gap, world.gravity.norm(), dt);
   stance.pull = stance.least_speed - speed;
   const ContactPoint& at = skins_[point.actor].points[static_cast<std::size_t>(point.point)];
-  const std::uint64_t key =
-      touch_key(world.obstacles.size() + other_of(*stance.pair), point.actor, at.brick, at.corner);
-  const auto [same, is_new] = hardest_.try_emplace(key, stance);
-  if (!is_new && stance.pull > same->second.pull) same->second = stance;
+  stance.key = touch_key(world.obstacles.size() + other_of(*stance.pair), point.actor, at.brick, at.corner);
+  return true;
+}
+
+void SkinContact::keep_hardest() {
+  std::stable_sort(held_.begin(), held_.end(), [](const Stance& a, const Stance& b) {
+    return std::pair(a.key, -a.pull) < std::pair(b.key, -b.pull);
+  });
+  const auto end =
+      std::unique(held_.begin(), held_.end(), [](const Stance& a, const Stance& b) { return a.key == b.key; });
+  held_.erase(end, held_.end());
 }
 
 void SkinContact::find(const World& world, double dt, const Group& group, Touches& touches) {
@@ -138,17 +156,17 @@ void SkinContact::find(const World& world, double dt, const Group& group, Touche
   if (steps_to_look_ == 0) {
     steps_to_look_ = steps_until_look(kMargin * brick, fastest(watched), dt);
     pairs_.look(group, {.margin = kMargin * brick, .deepest = depth});
+    runs_ = runs_of_pairs();
   }
   --steps_to_look_;
   pairs_.follow(group);
-  hardest_.clear();
-  for (std::size_t first = 0; first < pairs_.pairs().size();) {
-    const std::size_t end = end_of_run(first);
-    const Stance nearest = nearest_stance(first, end, depth);
-    if (nearest.pair != nullptr) keep_hardest(world, dt, nearest);
-    first = end;
+  held_.clear();
+  for (Run& run : runs_) {
+    Stance nearest = nearest_stance(run, depth);
+    if (nearest.pair != nullptr && has_to_be_held(world, dt, nearest)) held_.push_back(nearest);
   }
-  for (const auto& [key, stance] : hardest_) add(group, stance, key, touches);
+  keep_hardest();
+  for (const Stance& stance : held_) add(group, stance, touches);
 }
 
 }  // namespace sprung

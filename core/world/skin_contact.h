@@ -1,5 +1,4 @@
 #pragma once
-#include <map>
 #include <optional>
 #include <vector>
 
@@ -26,6 +25,7 @@ class SkinContact {
  private:
   /// How a point stands to a triangle.
   struct Stance {
+    std::uint64_t key = 0;
     const SkinPair* pair = nullptr;
     double gap = 0;
     double least_speed = 0;
@@ -38,18 +38,28 @@ class SkinContact {
   bool stand(const SkinPair& pair, double depth, Stance& stance) const;
   /// The actor that a pair's triangle belongs to.
   [[nodiscard]] std::size_t other_of(const SkinPair& pair) const;
-  /// One past the pairs of the same point and the same other actor.
-  [[nodiscard]] std::size_t end_of_run(std::size_t first) const;
-  /// To the nearest of the triangles that the point of these pairs stands over; without a pair where there is none.
-  [[nodiscard]] Stance nearest_stance(std::size_t first, std::size_t end, double depth) const;
-  void keep_hardest(const World& world, double dt, Stance stance);
-  void add(const Group& group, const Stance& stance, std::uint64_t key, Touches& touches) const;
-  void add_shares(const Group& group, const WatchedPoint& watched, double weight, Touches& touches) const;
+  /// The pairs of one point with triangles of one actor, and where it stood last.
+  struct Run {
+    std::size_t first;
+    std::size_t end;
+    std::size_t last;
+  };
+  [[nodiscard]] std::vector<Run> runs_of_pairs() const;
+  /// To the nearest of the triangles that the point stands over; without a pair where there is none. While a point
+  /// that touches stays over a triangle, it is not compared with the others.
+  [[nodiscard]] Stance nearest_stance(Run& run, double depth) const;
+  /// Of what stands near the same corner of the same brick, that which is held hardest.
+  void keep_hardest();
+  /// Whether moving by dt would leave it inside; then what it needs.
+  [[nodiscard]] bool has_to_be_held(const World& world, double dt, Stance& stance) const;
+  void add(const Group& group, const Stance& stance, Touches& touches) const;
+  void add_triangle(const Group& group, const Stance& stance, Touches& touches) const;
 
   const std::vector<ContactSkin>& skins_;  // by actor of the group
   std::optional<std::size_t> self_;
   SkinPairs pairs_;
-  std::map<std::uint64_t, Stance> hardest_;  // of this step, by key
+  std::vector<Run> runs_;
+  std::vector<Stance> held_;  // of this step
   int steps_to_look_ = 0;
 };
 
