@@ -7,6 +7,7 @@
 #include <map>
 #include <numbers>
 
+#include "app/placed_loads.h"
 #include "app/regions.h"
 #include "app/units.h"
 #include "core/bricks/slivers.h"
@@ -104,7 +105,7 @@ BodyBuilder::Filled BodyBuilder::fill(std::size_t solid) {
   Filled filled;
   Body& body = filled.actor.body;
   body = make_body(make_grid(loaded_.solids[solid]), body_.model, body_.material);
-  apply_regions(body_.regions, selector_, body);
+  apply_regions(body_.regions, selector_, body, solid);
   Skin& skin = filled.drawn.skin;
   skin = make_skin(submesh(loaded_.mesh, loaded_.solids[solid]), {.max_edge = kLongestSkinEdge * loaded_.brick_size});
   filled.drawn.embedding = embed(body.grid, skin.positions, skin.normals);
@@ -116,6 +117,8 @@ BodyBuilder::Filled BodyBuilder::fill(std::size_t solid) {
   filled.pins = find_pins(body, solid);
   held_solids_ += filled.pins.empty() ? 0 : 1;
   filled.actor.pinned = held_nodes(filled.pins, body_.pins);
+  filled.forces = place_forces(body_.forces, selector_, filled.actor, solid);
+  filled.muscles = place_muscles(body_.muscles, selector_, filled.actor, solid, loaded_.bricks_from_rest);
   return filled;
 }
 
@@ -125,8 +128,11 @@ void BodyBuilder::put(Filled filled, const Pose& pose) {
   for (PinnedNodes& pinned : filled.pins) pinned.centre = pose.rotation * pinned.centre + pose.translation;
   filled.drawn.color = body_.color.value_or(kPalette[production_.skins.size() % kPalette.size()]);
   production_.world.actors.push_back(std::move(filled.actor));
-  production_.origins.push_back(
-      {.body = index_, .bricks_from_rest = loaded_.bricks_from_rest, .pins = std::move(filled.pins)});
+  production_.origins.push_back({.body = index_,
+                                 .bricks_from_rest = loaded_.bricks_from_rest,
+                                 .pins = std::move(filled.pins),
+                                 .forces = std::move(filled.forces),
+                                 .muscles = std::move(filled.muscles)});
   production_.skins.push_back(std::move(filled.drawn));
 }
 

@@ -26,6 +26,8 @@ class BodyBuilder {
     Actor actor;
     DrawnSkin drawn;
     std::vector<PinnedNodes> pins;  // their centres too
+    std::vector<ForcedPart> forces;
+    std::vector<MusclePart> muscles;
   };
   [[nodiscard]] Filled fill(std::size_t solid);
   [[nodiscard]] BrickGrid make_grid(const Solid& solid);

@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "app/body_builder.h"
+#include "app/glue_bodies.h"
+#include "app/placed_loads.h"
 #include "app/start_checks.h"
 #include "core/world/squeeze.h"
 
@@ -21,6 +23,7 @@ Production build_world(const Scene& scene, const std::vector<LoadedBody>& bodies
     BodyBuilder builder(scene, i, bodies[i], production);
     builder.add_solids();
     builder.tell(console);
+    check_loads(scene, i, production.origins);
     production.size = std::max(production.size, bodies[i].extent.maxCoeff());
   }
   production.obstacles = make_obstacles(scene, kDrawnPlane * production.size, console);
@@ -28,6 +31,7 @@ Production build_world(const Scene& scene, const std::vector<LoadedBody>& bodies
     production.world.obstacles.push_back(obstacle_between(production.obstacles[i], scene.obstacles[i], 0, 0));
   }
   if (!is_motion(scene)) return production;
+  for (std::size_t i = 0; i < scene.glue.size(); ++i) glue_bodies(scene, i, production);
   const double speed = meeting_speed(production.world);
   for (Actor& actor : production.world.actors) brace(actor.body, scene.gravity.norm(), speed);
   check_start(scene, production);

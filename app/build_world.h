@@ -23,11 +23,26 @@ struct PinnedNodes {
   Vec3 centre = Vec3::Zero();  // m, in the world: what the pin turns about
 };
 
+/// Where a force of the scene acts on one actor.
+struct ForcedPart {
+  std::size_t force = 0;       // row in SceneBody::forces
+  Eigen::VectorXd volumes;     // per node, m^3: its share of the bricks of the part
+  std::vector<int> triangles;  // of a pressure: rows of Actor::contact_triangles
+};
+
+/// Which bricks of one actor a muscle of the scene is made of.
+struct MusclePart {
+  std::size_t muscle = 0;  // row in SceneBody::muscles
+  Muscle full;             // at full strength
+};
+
 /// Which body of the scene an actor is made from, and how it was placed.
 struct Origin {
   std::size_t body = 0;  // row in Scene::bodies
   Mat3 bricks_from_rest = Mat3::Identity();
   std::vector<PinnedNodes> pins;  // those that hold any node of this actor
+  std::vector<ForcedPart> forces;
+  std::vector<MusclePart> muscles;
 };
 
 /// What moves and what is seen of it: skins[i] and origins[i] belong to world.actors[i].

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "app/interrupt.h"
+#include "app/load_driver.h"
 #include "app/pin_movements.h"
 #include "app/progress.h"
 #include "core/error.h"
@@ -39,7 +40,8 @@ class Loading {
     for (std::size_t actor = 0; actor < production_.world.actors.size(); ++actor) {
       Body& body = production_.world.actors[actor].body;
       const Supports supports = supports_of(production_.world.actors[actor]);
-      const Points loads = share * (body.masses * production_.world.gravity.transpose());
+      const Points forces = steady_forces(scene_, production_, actor);
+      const Points loads = share * (body.masses * production_.world.gravity.transpose() + forces);
       const Points movements = pin_movements(scene_, production_, actor, time, is_linear_);
       reactions_of_all.push_back(is_linear_ ? answer(body, supports, loads, movements, *systems_[actor])
                                             : settle(body, supports, loads, movements, *systems_[actor]));

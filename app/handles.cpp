@@ -1,6 +1,7 @@
 #include "app/handles.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/pin_movements.h"
 
@@ -32,7 +33,11 @@ void add_moments(const Pin& pin, const Movement& movement, std::vector<double>& 
 }  // namespace
 
 Handles::Handles(const Scene& scene, Production& production)
-    : scene_(scene), production_(production), grips_(production.world.actors.size()) {
+    : scene_(scene),
+      production_(production),
+      loads_(scene, production),
+      grips_(production.world.actors.size()),
+      moments_(loads_.moments()) {
   for (std::size_t actor = 0; actor < grips_.size(); ++actor) {
     const Origin& origin = production.origins[actor];
     for (const PinnedNodes& pinned : origin.pins) {
@@ -50,16 +55,21 @@ Handles::Handles(const Scene& scene, Production& production)
 std::vector<double> Handles::pieces(double begin, double end) const {
   std::vector<double> ends;
   double last = begin;
-  for (const double moment : moments_) {
-    if (moment <= last + kMoment || moment >= end - kMoment) continue;
+  const auto add = [&](double moment) {
+    const double parts = std::max(1.0, std::ceil((moment - last) / loads_.longest_piece((last + moment) / 2)));
+    for (double part = 1; part < parts; ++part) ends.push_back(last + part / parts * (moment - last));
     ends.push_back(moment);
     last = moment;
+  };
+  for (const double moment : moments_) {
+    if (moment > last + kMoment && moment < end - kMoment) add(moment);
   }
-  ends.push_back(end);
+  add(end);
   return ends;
 }
 
 void Handles::aim(double begin, double end) {
+  loads_.aim(begin, end);
   for (std::size_t i = 0; i < production_.obstacles.size(); ++i) {
     production_.world.obstacles[i] = obstacle_between(production_.obstacles[i], scene_.obstacles[i], begin, end);
   }

@@ -4,24 +4,25 @@
 #include <vector>
 
 #include "app/build_world.h"
+#include "app/load_driver.h"
 #include "core/world/keyframes.h"
 
 namespace sprung {
 
-/// Catches nodes, carries them and lets them go, as the pins of a scene say, while a world is in motion; and moves its
-/// obstacles. A pin that catches later than at the start takes its nodes where they then are, and turns them about
-/// their middle.
+/// Catches nodes, carries them and lets them go, as the pins of a scene say, while a world is in motion; moves its
+/// obstacles, and lets its loads act. A pin that catches later than at the start takes its nodes where they then are,
+/// and turns them about their middle.
 class Handles {
  public:
   /// Both have to outlive it.
   Handles(const Scene& scene, Production& production);
 
   /// Ends (s, rising, the last is `end`) of the pieces that the time from `begin` to `end` falls into: between them no
-  /// pin catches, lets go or comes through a keyframe, nor an obstacle through one.
+  /// pin catches, lets go or comes through a keyframe, nor anything else through one, and loads hardly change.
   [[nodiscard]] std::vector<double> pieces(double begin, double end) const;
 
-  /// Sets what is held from `begin` to `end` (s), and the even velocities that bring it, and obstacles, exactly to
-  /// where they belong.
+  /// Sets what acts and what is held from `begin` to `end` (s), and the even velocities that bring it, and obstacles,
+  /// exactly to where they belong.
   void aim(double begin, double end);
 
  private:
@@ -43,6 +44,7 @@ class Handles {
 
   const Scene& scene_;
   Production& production_;
+  LoadDriver loads_;
   std::vector<std::vector<Grip>> grips_;  // by actor
   std::vector<double> moments_;           // s, rising: where pieces end
 };

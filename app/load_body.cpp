@@ -119,7 +119,7 @@ void take_out(const std::vector<Cut>& cuts, LoadedBody& loaded) {
   std::vector<bool> is_gone(grid.cells.size());
   const Selector selector(loaded);
   for (const Cut& cut : cuts) {
-    for (const int brick : selector.bricks(cut, grid)) is_gone[static_cast<std::size_t>(brick)] = true;
+    for (const int brick : selector.bricks(cut, grid, 0)) is_gone[static_cast<std::size_t>(brick)] = true;
   }
   std::vector<Eigen::Vector3i> kept;
   for (std::size_t brick = 0; brick < is_gone.size(); ++brick) {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 
 #include "core/error.h"
@@ -39,23 +38,16 @@ Stuff stuff_at(const Region& region, const Selector& selector, const Vec3& place
           .density = std::lerp(first.density, second.density, share)};
 }
 
-std::vector<int> bricks_of(const Region& region, const Selector& selector, const BrickGrid& grid) {
-  if (!is_whole(region)) return selector.bricks(region, grid);
-  std::vector<int> all(grid.cells.size());
-  std::iota(all.begin(), all.end(), 0);
-  return all;
-}
-
 }  // namespace
 
-void apply_regions(const std::vector<Region>& regions, const Selector& selector, Body& body) {
+void apply_regions(const std::vector<Region>& regions, const Selector& selector, Body& body, std::size_t solid) {
   if (regions.empty()) return;
   const Points middles = brick_middles(body.grid);
   std::vector<std::optional<Stuff>> filled(body.grid.cells.size());
   for (const Region& region : regions) {
     check_ratio(region.material, body.material);
     if (region.gradient) check_ratio(region.gradient->material, body.material);
-    for (const int brick : bricks_of(region, selector, body.grid)) {
+    for (const int brick : selector.bricks(region, body.grid, solid)) {
       filled[static_cast<std::size_t>(brick)] = stuff_at(region, selector, middles.row(brick));
     }
   }

@@ -7,6 +7,6 @@ namespace sprung {
 /// Gives the bricks of the regions of a body their stiffness and mass; where regions overlap the last one counts. The
 /// body is still where its grid is. Throws Error(kBadInput) where a material has another Poisson's ratio than the body,
 /// and as Selector does.
-void apply_regions(const std::vector<Region>& regions, const Selector& selector, Body& body);
+void apply_regions(const std::vector<Region>& regions, const Selector& selector, Body& body, std::size_t solid);
 
 }  // namespace sprung

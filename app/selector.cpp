@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numeric>
 
 #include "core/error.h"
 #include "core/mesh/read_mesh.h"
@@ -60,11 +61,32 @@ Points brick_middles(const BrickGrid& grid) {
   return middles;
 }
 
-std::vector<int> Selector::bricks(const Selection& selection, const BrickGrid& grid) const {
+std::vector<int> Selector::bricks(const Selection& selection, const BrickGrid& grid, std::size_t solid) const {
   const Points middles = brick_middles(grid);
-  if (selection.nearest) return row_nearest_to(place_of(*selection.nearest), middles);
+  if (is_whole(selection)) {
+    std::vector<int> all(grid.cells.size());
+    std::iota(all.begin(), all.end(), 0);
+    return all;
+  }
+  if (selection.nearest) {
+    const Vec3 place = place_of(*selection.nearest);
+    return solid_nearest_to(place) == solid ? row_nearest_to(place, middles) : std::vector<int>{};
+  }
   const double margin = kRounding * body_.extent.maxCoeff();
   return rows_where(middles, test_of(selection, margin, std::numeric_limits<double>::infinity()));
+}
+
+std::vector<int> Selector::triangles(const Selection& selection, const Points& middles, std::size_t solid) const {
+  if (is_whole(selection)) {
+    std::vector<int> all(static_cast<std::size_t>(middles.rows()));
+    std::iota(all.begin(), all.end(), 0);
+    return all;
+  }
+  if (selection.nearest) {
+    const Vec3 place = place_of(*selection.nearest);
+    return solid_nearest_to(place) == solid ? row_nearest_to(place, middles) : std::vector<int>{};
+  }
+  return rows_where(middles, test_of(selection, kRounding * body_.extent.maxCoeff(), body_.brick_size));
 }
 
 Vec3 Selector::place_of(const Vec3& fractions) const {

@@ -20,8 +20,12 @@ class Selector {
   /// Throws Error(kBadInput) where the mesh has no such part or paint, or a file cannot be read.
   [[nodiscard]] std::vector<int> nodes(const Selection& selection, const Points& places, std::size_t solid) const;
 
-  /// The bricks whose middles are in the part. Rows, rising. Throws as nodes() does.
-  [[nodiscard]] std::vector<int> bricks(const Selection& selection, const BrickGrid& grid) const;
+  /// The bricks of one of the body's solids whose middles are in the part. Rows, rising. Throws as nodes() does.
+  [[nodiscard]] std::vector<int> bricks(const Selection& selection, const BrickGrid& grid, std::size_t solid) const;
+
+  /// The triangles of the skin of one of the body's solids whose middles (n x 3) are in the part. Rows, rising. Throws
+  /// as nodes() does.
+  [[nodiscard]] std::vector<int> triangles(const Selection& selection, const Points& middles, std::size_t solid) const;
 
   /// The middle of the part: of the ball or the box as far as that is in the body, else of the part's bounding box.
   [[nodiscard]] Vec3 centre(const Selection& selection) const;

@@ -25,7 +25,7 @@ struct Unit {
 constexpr double kDegreesPerRadian = 180 / std::numbers::pi;
 
 /// The first unit of a dimension is its base unit; usual units grow from there in the order of the table.
-constexpr std::array<Unit, 64> kUnits{{
+constexpr std::array<Unit, 70> kUnits{{
     {Dimension::kRatio, "", 1},
     {Dimension::kRatio, "%", 0.01},
     {Dimension::kLength, "m", 1, true},
@@ -81,6 +81,12 @@ constexpr std::array<Unit, 64> kUnits{{
     {Dimension::kAcceleration, "m/s²", 1},
     {Dimension::kAcceleration, "cm/s2", 1e-2},
     {Dimension::kAcceleration, "g", 9.80665},
+    {Dimension::kForce, "N", 1, true},
+    {Dimension::kForce, "mN", 1e-3, true},
+    {Dimension::kForce, "kN", 1e3, true},
+    {Dimension::kForceDensity, "N/m3", 1, true},
+    {Dimension::kForceDensity, "N/m^3", 1},
+    {Dimension::kForceDensity, "kN/m3", 1e3, true},
     {Dimension::kAngle, "degrees", 1, true},
     {Dimension::kAngle, "deg", 1},
     {Dimension::kAngle, "°", 1},

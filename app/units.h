@@ -16,6 +16,8 @@ enum class Dimension {
   kDensity,
   kSpeed,
   kAcceleration,
+  kForce,
+  kForceDensity,
   kAngle,
   kTurning
 };

@@ -64,6 +64,8 @@ const Key<SceneBody> kBody[] = {
     {{"copies", "the same body many times, in rows"}, &SceneBody::copies},
     {{"pin", "parts that are held or carried"}, &SceneBody::pins},
     {{"region", "parts of another material"}, &SceneBody::regions},
+    {{"force", "forces and pressures"}, &SceneBody::forces},
+    {{"muscle", "parts that contract"}, &SceneBody::muscles},
 };
 
 const Key<SphereShape> kSphere[] = {
@@ -112,6 +114,32 @@ const Key<Keyframe> kKeyframe[] = {
     {{"translate", "how far from the start", Dimension::kLength}, &Keyframe::translate},
     {{"rotate", "how far turned about x, then y, then z", Dimension::kAngle}, &Keyframe::rotate},
     {{"scale", "size over size at the start", Dimension::kRatio, kPositive}, &Keyframe::scale},
+};
+
+const Key<Strength> kStrength[] = {
+    {{"t", "when", Dimension::kTime, {0, kInfinity}, true}, &Strength::time},
+    {{"strength", "times what it is at full strength", Dimension::kRatio, {}, true}, &Strength::strength},
+};
+
+const Key<BodyForce> kForceOnly[] = {
+    {{"total", "on all of the part, shared out by volume", Dimension::kForce}, &BodyForce::total},
+    {{"per_volume", "on each volume of the part", Dimension::kForceDensity}, &BodyForce::per_volume},
+    {{"pressure", "on the skin of the part, inward", Dimension::kPressure}, &BodyForce::pressure},
+    {{"keyframes", "how strong it is at which times"}, &BodyForce::keyframes},
+    {{"interpolation", "between keyframes: linear, smooth or held"}, &BodyForce::interpolation},
+};
+
+const Key<BodyMuscle> kMuscleOnly[] = {
+    {{"direction", "along which it contracts, in the body before it is turned", Dimension::kNone, {}, true},
+     &BodyMuscle::direction},
+    {{"contraction",
+      "share of its length; across it widens as much as keeps the volume",
+      Dimension::kRatio,
+      {-1, 0.9},
+      true},
+     &BodyMuscle::contraction},
+    {{"keyframes", "how strong it is at which times"}, &BodyMuscle::keyframes},
+    {{"interpolation", "between keyframes: linear, smooth or held"}, &BodyMuscle::interpolation},
 };
 
 const Key<Region> kRegionOnly[] = {
@@ -188,6 +216,20 @@ std::span<const Key<Keyframe>> keys() {
   return kKeyframe;
 }
 template <>
+std::span<const Key<Strength>> keys() {
+  return kStrength;
+}
+template <>
+std::span<const Key<BodyForce>> keys() {
+  static const std::vector<Key<BodyForce>> all = selection_and<BodyForce>(kForceOnly);
+  return all;
+}
+template <>
+std::span<const Key<BodyMuscle>> keys() {
+  static const std::vector<Key<BodyMuscle>> all = selection_and<BodyMuscle>(kMuscleOnly);
+  return all;
+}
+template <>
 std::span<const Key<Region>> keys() {
   static const std::vector<Key<Region>> all = selection_and<Region>(kRegionOnly);
   return all;
@@ -231,6 +273,17 @@ std::span<const KeyRule> rules<Pin>() {
   static const std::vector<KeyRule> all{one_selection(Kind::kOneOf),
                                         {Kind::kAtMostOne, {"translate", "keyframes"}},
                                         {Kind::kAtMostOne, {"rotate", "keyframes"}}};
+  return all;
+}
+template <>
+std::span<const KeyRule> rules<BodyForce>() {
+  static const std::vector<KeyRule> all{one_selection(Kind::kAtMostOne),
+                                        {Kind::kOneOf, {"total", "per_volume", "pressure"}}};
+  return all;
+}
+template <>
+std::span<const KeyRule> rules<BodyMuscle>() {
+  static const std::vector<KeyRule> all{one_selection(Kind::kAtMostOne)};
   return all;
 }
 template <>

@@ -18,6 +18,10 @@ template <class Owner>
 constexpr bool kIsSection<std::vector<Owner>> = std::is_class_v<Owner>;
 template <>
 constexpr bool kIsSection<std::vector<Keyframe>> = false;
+template <>
+constexpr bool kIsSection<std::vector<Strength>> = false;
+template <>
+constexpr bool kIsSection<std::vector<GravityKeyframe>> = false;
 
 template <class Owner>
 std::string inline_table(const Owner& owner);
@@ -42,11 +46,23 @@ template <>
 std::string value_text(const Material& material) {
   return is_from_library(material) ? toml_text(std::string_view(material.name)) : inline_table(material);
 }
+template <class Owner>
+std::string list_of_tables(const std::vector<Owner>& owners) {
+  std::string text;
+  for (const Owner& owner : owners) text += (text.empty() ? "" : ", ") + inline_table(owner);
+  return fmt::format("[{}]", text);
+}
 template <>
 std::string value_text(const std::vector<Keyframe>& keyframes) {
-  std::string text;
-  for (const Keyframe& keyframe : keyframes) text += (text.empty() ? "" : ", ") + inline_table(keyframe);
-  return fmt::format("[{}]", text);
+  return list_of_tables(keyframes);
+}
+template <>
+std::string value_text(const std::vector<Strength>& keyframes) {
+  return list_of_tables(keyframes);
+}
+template <>
+std::string value_text(const std::vector<GravityKeyframe>& keyframes) {
+  return list_of_tables(keyframes);
 }
 
 /// " name = value", or nothing for an optional value that is not there.

@@ -96,6 +96,24 @@ struct SceneObstacle {
   std::optional<Color> color;
 };
 
+struct GravityKeyframe {
+  double time = 0;  // s
+  Vec3 gravity{0, -9.81, 0};
+};
+
+/// Air that moves past all bodies.
+struct SceneWind : Course {
+  Vec3 velocity = Vec3::Zero();  // m/s
+  double density = 1.2;          // kg/m^3
+  double drag = 1;
+};
+
+/// Two bodies of the scene, or the copies of one, stay together where their skins are near each other at the start.
+struct SceneGlue {
+  std::array<int, 2> bodies{1, 2};  // counted from 1
+  std::optional<double> distance;   // m; half the smaller bricks
+};
+
 /// What touches what, beside obstacles.
 struct SceneContact {
   bool bodies = true;  // each other
@@ -119,12 +137,15 @@ struct Scene {
   double duration = 3;  // s
   double fps = 24;
   Vec3 gravity{0, -9.81, 0};
+  std::vector<GravityKeyframe> gravity_keyframes;  // in place of gravity
+  std::optional<SceneWind> wind;
   SceneSolver solver;
   SceneContact contact;
   SceneCamera camera;
   SceneRender render;
   std::vector<SceneBody> bodies;
   std::vector<SceneObstacle> obstacles;
+  std::vector<SceneGlue> glue;
   std::vector<Probe> probes;
   Experiment experiment;
   std::vector<Expectation> expectations;

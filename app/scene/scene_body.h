@@ -37,6 +37,32 @@ struct Pin : Selection {
   std::optional<double> until;  // s, when it lets go; never
 };
 
+/// How strong something is at a time, times what it is at full strength.
+struct Strength {
+  double time = 0;  // s
+  double strength = 1;
+};
+
+/// How strong something is over the film: as its keyframes say, before the first as at the first; without any, always
+/// at full strength.
+struct Course {
+  std::vector<Strength> keyframes;
+  Interpolation interpolation = Interpolation::kLinear;
+};
+
+/// A force on a part of a body, or on all of it: one of the three.
+struct BodyForce : Selection, Course {
+  std::optional<Vec3> total;       // N, shared out by volume
+  std::optional<Vec3> per_volume;  // N/m^3
+  std::optional<double> pressure;  // Pa, on the skin, inward
+};
+
+/// A part of a body, or all of it, that contracts along a direction and keeps its volume.
+struct BodyMuscle : Selection, Course {
+  Vec3 direction = Vec3::UnitX();  // of any length, in the body before it is turned
+  double contraction = 0;          // share of the length
+};
+
 /// Young's modulus and density change evenly along a line, from those of the region at one end to these at the other,
 /// and stay the same before and behind it.
 struct Gradient {
@@ -115,6 +141,8 @@ struct SceneBody {
   std::optional<Copies> copies;
   std::vector<Pin> pins;
   std::vector<Region> regions;
+  std::vector<BodyForce> forces;
+  std::vector<BodyMuscle> muscles;
 };
 
 /// How many times the body is there.

@@ -55,12 +55,57 @@ void check_pin(const toml::node& node, const std::string& name, const SceneBody&
   mistakes.add(node.source(), fmt::format("probe.pin: the body has no pin '{}'{}", name, did_you_mean(name, names)));
 }
 
-void check_times(const toml::array& places, const std::string& path, const std::vector<Keyframe>& keyframes,
+/// Of whatever has times that have to grow.
+template <class Timed>
+void check_times(const toml::array& places, const std::string& path, const std::vector<Timed>& keyframes,
                  SceneMistakes& mistakes) {
   for (std::size_t i = 1; i < keyframes.size(); ++i) {
     if (keyframes[i].time > keyframes[i - 1].time) continue;
     mistakes.add(places[i].source(), fmt::format("{}.keyframes: t = {} s is not after the keyframe before, {} s", path,
                                                  keyframes[i].time, keyframes[i - 1].time));
+  }
+}
+
+void check_course(const toml::table& table, const std::string& path, const Course& course, SceneMistakes& mistakes) {
+  if (!course.keyframes.empty()) {
+    check_times(*table.get("keyframes")->as_array(), path, course.keyframes, mistakes);
+  }
+}
+
+void check_glue(const toml::array& all, const Scene& scene, SceneMistakes& mistakes) {
+  for (std::size_t i = 0; i < scene.glue.size(); ++i) {
+    const auto& bodies = scene.glue[i].bodies;
+    for (const int body : bodies) {
+      if (static_cast<std::size_t>(body) <= scene.bodies.size()) continue;
+      mistakes.add(all[i].source(), fmt::format("glue.bodies: there is no body {}", body));
+    }
+    const bool is_alone = bodies[0] == bodies[1] && static_cast<std::size_t>(bodies[0]) <= scene.bodies.size() &&
+                          copy_count(scene.bodies[static_cast<std::size_t>(bodies[0] - 1)]) == 1;
+    if (is_alone) mistakes.add(all[i].source(), fmt::format("glue.bodies: body {} has no copies", bodies[0]));
+  }
+}
+
+constexpr std::string_view kMotionOnly =
+    "only in a motion (solver.scheme euler, verlet, implicit-euler, bdf2 or auto) can there be";
+
+/// What acts on a body at rest is its weight, what its pins do, and forces that grow with them.
+void check_resting(const toml::table& table, const Scene& scene, SceneMistakes& mistakes) {
+  const auto refuse = [&](const toml::node* node, std::string_view what) {
+    mistakes.add(node->source(), fmt::format("{} {}", kMotionOnly, what));
+  };
+  if (scene.wind) refuse(table.get("wind"), "a wind");
+  if (!scene.glue.empty()) refuse(table.get("glue"), "glue");
+  if (!scene.gravity_keyframes.empty()) refuse(table.get("gravity_keyframes"), "gravity_keyframes");
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const SceneBody& body = scene.bodies[i];
+    const auto changes = [&](const BodyForce& force) {
+      return force.pressure || !force.keyframes.empty() || scene.solver.scheme == Solver::kModes;
+    };
+    const toml::node& place = (*table.get("body")->as_array())[i];
+    if (!body.muscles.empty()) refuse(&place, "a muscle");
+    if (std::any_of(body.forces.begin(), body.forces.end(), changes)) {
+      refuse(&place, "a pressure or a force with keyframes; and modes have no forces at all");
+    }
   }
 }
 
@@ -133,6 +178,22 @@ void check_together(const toml::table& table, const std::string& path, const Sce
   }
 }
 
+void check_together(const toml::table& table, const std::string& path, const BodyForce& force,
+                    SceneMistakes& mistakes) {
+  check_course(table, path, force, mistakes);
+}
+
+void check_together(const toml::table& table, const std::string& path, const BodyMuscle& muscle,
+                    SceneMistakes& mistakes) {
+  check_course(table, path, muscle, mistakes);
+  if (!muscle.direction.isZero(0)) return;
+  mistakes.add(table.source(), fmt::format("{}.direction: must point somewhere", path));
+}
+
+void check_together(const toml::table& table, const std::string& path, const SceneWind& wind, SceneMistakes& mistakes) {
+  check_course(table, path, wind, mistakes);
+}
+
 void check_together(const toml::table& table, const std::string& path, const HalfSpace& half, SceneMistakes& mistakes) {
   if (!half.normal.isZero(0)) return;
   mistakes.add(table.source(), fmt::format("{}.normal: must point somewhere", path));
@@ -157,6 +218,11 @@ void check_together(const toml::table& table, const std::string& path, const Box
 
 void check_together(const toml::table& table, const std::string&, const Scene& scene, SceneMistakes& mistakes) {
   if (!scene.probes.empty()) check_probes(*table.get("probe")->as_array(), scene, mistakes);
+  if (!scene.glue.empty()) check_glue(*table.get("glue")->as_array(), scene, mistakes);
+  if (!scene.gravity_keyframes.empty()) {
+    check_times(*table.get("gravity_keyframes")->as_array(), "scene", scene.gravity_keyframes, mistakes);
+  }
+  if (!is_motion(scene)) check_resting(table, scene, mistakes);
   if (!is_motion(scene) && !scene.bodies.empty()) check_holding(*table.get("body")->as_array(), scene, mistakes);
   if (scene.obstacles.empty() || is_motion(scene)) return;
   mistakes.add((*table.get("obstacle")->as_array())[0].source(),

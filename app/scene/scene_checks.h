@@ -23,6 +23,10 @@ void check_together(const toml::table& table, const std::string& path, const Tor
 void check_together(const toml::table& table, const std::string& path, const SceneObstacle& obstacle,
                     SceneMistakes& mistakes);
 void check_together(const toml::table& table, const std::string& path, const Pin& pin, SceneMistakes& mistakes);
+void check_together(const toml::table& table, const std::string& path, const BodyForce& force, SceneMistakes& mistakes);
+void check_together(const toml::table& table, const std::string& path, const BodyMuscle& muscle,
+                    SceneMistakes& mistakes);
+void check_together(const toml::table& table, const std::string& path, const SceneWind& wind, SceneMistakes& mistakes);
 
 template <class Owner>
 void check_together(const toml::table&, const std::string&, const Owner&, SceneMistakes&) {}

@@ -12,15 +12,39 @@ const Key<Scene> kScene[] = {
     {{"duration", "length of the film", Dimension::kTime, {0, 3600, true}}, &Scene::duration},
     {{"fps", "pictures a second", Dimension::kRate, {0, 10000, true}}, &Scene::fps},
     {{"gravity", "acceleration of everything", Dimension::kAcceleration}, &Scene::gravity},
+    {{"gravity_keyframes", "gravity over time, in place of gravity"}, &Scene::gravity_keyframes},
+    {{"wind", "air that moves past all bodies"}, &Scene::wind},
     {{"solver", "how the frames come about"}, &Scene::solver},
     {{"contact", "what touches what, beside obstacles"}, &Scene::contact},
     {{"camera", "where the film is seen from"}, &Scene::camera},
     {{"render", "the pictures"}, &Scene::render},
     {{"body", "a mesh or a shape made of a soft material", Dimension::kNone, {}, true}, &Scene::bodies},
     {{"obstacle", "the ground and other things that are not soft"}, &Scene::obstacles},
+    {{"glue", "bodies that stay together where they touch at the start"}, &Scene::glue},
     {{"probe", "what is measured in every frame"}, &Scene::probes},
     {{"experiment", "what `sprung validate` varies"}, &Scene::experiment},
     {{"expect", "what `sprung validate` compares with"}, &Scene::expectations},
+};
+
+const Key<GravityKeyframe> kGravityKeyframe[] = {
+    {{"t", "when", Dimension::kTime, {0, kInfinity}, true}, &GravityKeyframe::time},
+    {{"gravity", "acceleration of everything", Dimension::kAcceleration, {}, true}, &GravityKeyframe::gravity},
+};
+
+const Key<SceneWind> kWind[] = {
+    {{"velocity", "of the air", Dimension::kSpeed, {}, true}, &SceneWind::velocity},
+    {{"density", "of the air", Dimension::kDensity, kPositive}, &SceneWind::density},
+    {{"drag", "coefficient: pressure on what faces the air, over density v^2 / 2", Dimension::kRatio, {0, kInfinity}},
+     &SceneWind::drag},
+    {{"keyframes", "how strong it is at which times; the velocity is that times this"}, &SceneWind::keyframes},
+    {{"interpolation", "between keyframes: linear, smooth or held"}, &SceneWind::interpolation},
+};
+
+const Key<SceneGlue> kGlue[] = {
+    {{"bodies", "which two, counted from 1; the same twice: its copies", Dimension::kNone, {1, kInfinity}, true},
+     &SceneGlue::bodies},
+    {{"distance", "how far apart skins may be to hold; half the smaller bricks", Dimension::kLength, kPositive},
+     &SceneGlue::distance},
 };
 
 const Key<SceneSolver> kSolver[] = {
@@ -129,6 +153,18 @@ using Kind = KeyRule::Kind;
 template <>
 std::span<const Key<Scene>> keys() {
   return kScene;
+}
+template <>
+std::span<const Key<GravityKeyframe>> keys() {
+  return kGravityKeyframe;
+}
+template <>
+std::span<const Key<SceneWind>> keys() {
+  return kWind;
+}
+template <>
+std::span<const Key<SceneGlue>> keys() {
+  return kGlue;
 }
 template <>
 std::span<const Key<CapsuleShape>> keys() {

@@ -39,8 +39,9 @@ template <class Owner>
 struct KeyTypes;
 template <>
 struct KeyTypes<Scene>
-    : Types<double, Vec3, SceneSolver, SceneContact, SceneCamera, SceneRender, std::vector<SceneBody>,
-            std::vector<SceneObstacle>, std::vector<Probe>, Experiment, std::vector<Expectation>> {};
+    : Types<double, Vec3, std::vector<GravityKeyframe>, std::optional<SceneWind>, std::vector<SceneGlue>, SceneSolver,
+            SceneContact, SceneCamera, SceneRender, std::vector<SceneBody>, std::vector<SceneObstacle>,
+            std::vector<Probe>, Experiment, std::vector<Expectation>> {};
 template <>
 struct KeyTypes<SceneSolver> : Types<Solver, std::optional<int>, int, double> {};
 template <>
@@ -52,7 +53,23 @@ struct KeyTypes<SceneBody>
     : Types<std::filesystem::path, std::optional<Vec3>, std::optional<SphereShape>, std::optional<CylinderShape>,
             std::optional<TorusShape>, std::vector<Cut>, std::optional<double>, RepairMode, Vec3,
             std::optional<BrickCount>, Material, Model, std::optional<Color>, std::optional<Copies>, std::vector<Pin>,
-            std::vector<Region>, double> {};
+            std::vector<Region>, std::vector<BodyForce>, std::vector<BodyMuscle>, double> {};
+template <>
+struct KeyTypes<Strength> : Types<double> {};
+template <>
+struct KeyTypes<GravityKeyframe> : Types<double, Vec3> {};
+template <>
+struct KeyTypes<BodyForce>
+    : Types<std::optional<Box>, std::optional<Ball>, std::optional<HalfSpace>, std::string, std::optional<Color>,
+            std::optional<Vec3>, std::filesystem::path, std::optional<double>, std::vector<Strength>, Interpolation> {};
+template <>
+struct KeyTypes<BodyMuscle>
+    : Types<std::optional<Box>, std::optional<Ball>, std::optional<HalfSpace>, std::string, std::optional<Color>,
+            std::optional<Vec3>, std::filesystem::path, Vec3, double, std::vector<Strength>, Interpolation> {};
+template <>
+struct KeyTypes<SceneWind> : Types<Vec3, double, std::vector<Strength>, Interpolation> {};
+template <>
+struct KeyTypes<SceneGlue> : Types<std::array<int, 2>, std::optional<double>> {};
 template <>
 struct KeyTypes<Material> : Types<double> {};
 template <>
@@ -131,6 +148,18 @@ std::span<const Key<Pin>> keys();
 template <>
 std::span<const Key<Keyframe>> keys();
 template <>
+std::span<const Key<Strength>> keys();
+template <>
+std::span<const Key<GravityKeyframe>> keys();
+template <>
+std::span<const Key<BodyForce>> keys();
+template <>
+std::span<const Key<BodyMuscle>> keys();
+template <>
+std::span<const Key<SceneWind>> keys();
+template <>
+std::span<const Key<SceneGlue>> keys();
+template <>
 std::span<const Key<Box>> keys();
 template <>
 std::span<const Key<Ball>> keys();
@@ -197,6 +226,10 @@ template <>
 std::span<const KeyRule> rules<Region>();
 template <>
 std::span<const KeyRule> rules<Cut>();
+template <>
+std::span<const KeyRule> rules<BodyForce>();
+template <>
+std::span<const KeyRule> rules<BodyMuscle>();
 template <>
 std::span<const KeyRule> rules<SceneObstacle>();
 template <>

@@ -21,6 +21,18 @@ constexpr std::string_view kTableName<Scene> = "scene";
 template <>
 constexpr std::string_view kTableName<SceneSolver> = "solver";
 template <>
+constexpr std::string_view kTableName<GravityKeyframe> = "gravity keyframe";
+template <>
+constexpr std::string_view kTableName<SceneWind> = "wind";
+template <>
+constexpr std::string_view kTableName<SceneGlue> = "glue";
+template <>
+constexpr std::string_view kTableName<Strength> = "strength";
+template <>
+constexpr std::string_view kTableName<BodyForce> = "force";
+template <>
+constexpr std::string_view kTableName<BodyMuscle> = "muscle";
+template <>
 constexpr std::string_view kTableName<SceneCamera> = "camera";
 template <>
 constexpr std::string_view kTableName<SceneRender> = "render";

@@ -67,7 +67,9 @@ std::size_t worst_brick(const Body& body) {
   return worst;
 }
 
+/// Whether something moves it that may give energy.
 bool is_driven(const Actor& actor) {
+  if (!actor.loads.empty()) return true;
   return std::any_of(actor.pinned.begin(), actor.pinned.end(),
                      [](const HeldNode& held) { return !held.velocity.isZero(); });
 }
@@ -108,10 +110,9 @@ std::optional<Trouble> find_trouble(const World& world, const std::vector<Energy
     if (body.positions.allFinite() && body.velocities.allFinite()) continue;
     return Trouble{i, worst_brick(body), "a number that is not finite"};
   }
-  if (std::any_of(world.obstacles.begin(), world.obstacles.end(),
-                  [](const Obstacle& one) { return one.is_moving(); })) {
-    return std::nullopt;
-  }
+  const bool is_pushed =
+      std::any_of(world.obstacles.begin(), world.obstacles.end(), [](const Obstacle& one) { return one.is_moving(); });
+  if (is_pushed || world.wind.blows()) return std::nullopt;
   const std::vector<Energy> after = energies_of(world);
   for (const GroupSteps& group : groups) {
     const bool is_given = std::any_of(group.actors.begin(), group.actors.end(),

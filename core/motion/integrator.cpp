@@ -11,7 +11,9 @@
 #include "core/body/forces.h"
 #include "core/error.h"
 #include "core/world/contact_groups.h"
+#include "core/world/glue.h"
 #include "core/world/impulses.h"
+#include "core/world/load_forces.h"
 
 namespace sprung {
 namespace {
@@ -20,11 +22,15 @@ namespace {
 class Mover {
  public:
   Mover(Actor& actor, const World& world)
-      : actor_(actor), world_(world), inverse_masses_(actor.body.masses.cwiseInverse()) {}
+      : actor_(actor), world_(world), inverse_masses_(actor.body.masses.cwiseInverse()), loads_(actor, world) {}
 
   /// velocities += dt (forces / m + gravity - alpha v); held nodes keep their velocity.
   void kick(double dt) {
     Body& body = actor_.body;
+    if (loads_.any()) {
+      settle();
+      body.velocities += dt * (inverse_masses_.asDiagonal() * loads_.forces());
+    }
     if (body.model == Model::kFem) {
       settle();
       spring_forces(body, workspace_, forces_);
@@ -55,6 +61,7 @@ class Mover {
   Actor& actor_;
   const World& world_;
   Eigen::VectorXd inverse_masses_;
+  LoadForces loads_;
   ForceWorkspace workspace_;
   Points forces_;
   double pending_drift_ = 0;  // s
@@ -78,7 +85,7 @@ class GroupMover {
       inverse_masses.push_back(pushed_inverse_masses(world.actors[i]));
       movers_.push_back(std::make_unique<Mover>(world.actors[i], world));
     }
-    impulses_.emplace(std::move(actors), std::move(inverse_masses));
+    impulses_.emplace(std::move(actors), std::move(inverse_masses), glue_within(world, group.actors));
   }
 
   void kick(double dt) {

@@ -35,6 +35,9 @@ std::vector<std::vector<std::size_t>> contact_groups(const World& world, double 
     for (const Actor& actor : world.actors) boxes.push_back(reach_of(actor.body, world.gravity, time));
     for (const auto& [a, b] : overlapping_boxes(boxes)) sets.merge(a, b);
   }
+  for (const GluedPoint& point : world.glue) {
+    sets.merge(static_cast<int>(point.actors[0]), static_cast<int>(point.actors[1]));
+  }
   std::map<int, std::vector<std::size_t>> members;  // by the lowest
   for (std::size_t i = 0; i < count; ++i) members[sets.find(static_cast<int>(i))].push_back(i);
   std::vector<std::vector<std::size_t>> groups;

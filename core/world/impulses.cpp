@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/bricks/corner.h"
+#include "core/world/glue.h"
 
 namespace sprung {
 namespace {
@@ -34,9 +35,10 @@ Eigen::Matrix<double, 3, 8> corner_gradients(const Squeeze& squeeze) {
 
 }  // namespace
 
-Impulses::Impulses(Group group, std::vector<Eigen::VectorXd> inverse_masses)
+Impulses::Impulses(Group group, std::vector<Eigen::VectorXd> inverse_masses, std::vector<GluedPoint> glue)
     : group_(std::move(group)),
       inverse_masses_(std::move(inverse_masses)),
+      glue_(std::move(glue)),
       smallest_brick_(std::numeric_limits<double>::infinity()),
       obstacle_contact_(skins_),
       squeeze_watches_(group_.size()) {
@@ -63,6 +65,7 @@ void Impulses::TouchLimit::push(const Vec3& size, Nodes& all) const {
 
 /// Friction gives as much sideways as its coefficient allows for what presses.
 Vec3 Impulses::TouchLimit::allowed(const Vec3& size) const {
+  if (is_glue) return size;
   const double pressing = size.dot(normal);
   if (!(pressing > 0)) return Vec3::Zero();
   const Vec3 sideways = size - pressing * normal;
@@ -114,6 +117,7 @@ void Impulses::find_touches(const World& world, double elapsed, double dt) {
     obstacle_contact_.find(world, poses, dt, group_, found_);
   }
   for (SkinContact& contact : skin_contacts_) contact.find(world, dt, group_, found_);
+  add_glue(glue_, group_, dt, found_);
   std::sort(found_.list.begin(), found_.list.end(), [](const Touch& a, const Touch& b) { return a.key < b.key; });
   parts_.clear();
   for (const Share& share : found_.shares) {
@@ -124,7 +128,8 @@ void Impulses::find_touches(const World& world, double elapsed, double dt) {
                         .parts = std::span(parts_).subspan(touch.first, touch.last - touch.first),
                         .normal = touch.normal,
                         .goal = touch.goal,
-                        .friction = touch.friction});
+                        .friction = touch.friction,
+                        .is_glue = touch.is_glue});
   }
 }
 

@@ -9,11 +9,11 @@
 
 namespace sprung {
 
-/// Keeps the actors of a group out of obstacles, each other and themselves, and their bricks from being pressed flat or
-/// inside out, by impulses on the nodes. The impulse that stops a point carries Coulomb friction, which holds the point
-/// entirely below the friction angle; between bodies it pushes both alike. The impulse that stops a brick's collapse
-/// goes along the gradient of its volume, which neither moves nor turns the body: linear and angular momentum are kept
-/// exactly; like any inelastic impact it takes energy, never gives it.
+/// Keeps the actors of a group out of obstacles, each other and themselves, what is glued together, and their bricks
+/// from being pressed flat or inside out, by impulses on the nodes. The impulse that stops a point carries Coulomb
+/// friction, which holds the point entirely below the friction angle; between bodies it pushes both alike. The impulse
+/// that stops a brick's collapse goes along the gradient of its volume, which neither moves nor turns the body: linear
+/// and angular momentum are kept exactly; like any inelastic impact it takes energy, never gives it.
 ///
 /// All limits are met together by accelerated projected gradients (H. Mazhar, T. Heyn, D. Negrut, A. Tasora, "Using
 /// Nesterov's method to accelerate multibody dynamics with friction and contact", ACM Transactions on Graphics 34(3),
@@ -21,8 +21,8 @@ namespace sprung {
 /// that the order of the limits does not matter: a symmetric impact stays symmetric but for rounding. Deterministic.
 class Impulses {
  public:
-  /// `inverse_masses` by actor of the group and node, 1/kg; 0 for nodes that are held.
-  Impulses(Group group, std::vector<Eigen::VectorXd> inverse_masses);
+  /// `inverse_masses` by actor of the group and node, 1/kg; 0 for nodes that are held. `glue` by rows of the group.
+  Impulses(Group group, std::vector<Eigen::VectorXd> inverse_masses, std::vector<GluedPoint> glue = {});
 
   /// Changes the bodies' velocities so that moving by dt keeps every limit. `elapsed`: since the obstacles were where
   /// the world has them, s.
@@ -58,6 +58,7 @@ class Impulses {
     Vec3 normal;
     Vec3 goal;  // m/s
     double friction;
+    bool is_glue;
     double inverse_mass = 0;  // bounds how all limits together answer an impulse here
     Iterate<Vec3> impulse{Vec3::Zero(), Vec3::Zero()};
 
@@ -111,6 +112,7 @@ class Impulses {
 
   Group group_;
   std::vector<Eigen::VectorXd> inverse_masses_;
+  std::vector<GluedPoint> glue_;
   double smallest_brick_;  // m
   std::vector<ContactSkin> skins_;
   ObstacleContact obstacle_contact_;

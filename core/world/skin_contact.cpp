@@ -18,15 +18,6 @@ double smallest_brick(const Group& group) {
   return size;
 }
 
-void add_shares(const Group& group, std::size_t actor, int brick, const Eigen::Matrix<double, 8, 1>& weights,
-                Touches& touches) {
-  const auto& nodes = group[actor]->body.grid.nodes[static_cast<std::size_t>(brick)];
-  for (int i = 0; i < 8; ++i) {
-    if (weights[i] == 0) continue;
-    touches.shares.push_back({static_cast<int>(actor), nodes[static_cast<std::size_t>(i)], weights[i]});
-  }
-}
-
 /// Of any node, m/s, seen from the middle of all.
 double fastest(const Group& group) {
   Vec3 momentum = Vec3::Zero();

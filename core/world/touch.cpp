@@ -12,6 +12,15 @@ constexpr double kMostSteps = 24;      // what is pressed together can be fast w
 
 }  // namespace
 
+void add_shares(const Group& group, std::size_t actor, int brick, const Eigen::Matrix<double, 8, 1>& weights,
+                Touches& touches) {
+  const auto& nodes = group[actor]->body.grid.nodes[static_cast<std::size_t>(brick)];
+  for (int i = 0; i < 8; ++i) {
+    if (weights[i] == 0) continue;
+    touches.shares.push_back({static_cast<int>(actor), nodes[static_cast<std::size_t>(i)], weights[i]});
+  }
+}
+
 double least_speed(double gap, double gravity, double dt) {
   if (gap >= 0) return -gap / dt;
   return std::min(-gap / (kRecoverySteps * dt), std::sqrt(-2 * std::max(gravity, kLeastGravity) * gap));

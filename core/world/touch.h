@@ -7,6 +7,9 @@
 
 namespace sprung {
 
+/// Actors that may touch each other in the time to come and so move by the same steps.
+using Group = std::vector<Actor*>;
+
 /// How much of a node's velocity counts in a touch.
 struct Share {
   int actor;  // of the group
@@ -17,12 +20,13 @@ struct Share {
 /// A point of a skin that another surface has to hold in the step to come. The sum of weight times velocity over its
 /// shares has to be at least goal along the normal; friction strives for goal sideways.
 struct Touch {
-  std::uint64_t key;  // of the place, the same from step to step
-  std::size_t first;  // of its shares
-  std::size_t last;   // one past them
-  Vec3 normal;        // unit, from what holds the point towards it
-  Vec3 goal;          // m/s
-  double friction;    // Coulomb's coefficient
+  std::uint64_t key;     // of the place, the same from step to step
+  std::size_t first;     // of its shares
+  std::size_t last;      // one past them
+  Vec3 normal;           // unit, from what holds the point towards it
+  Vec3 goal;             // m/s
+  double friction;       // Coulomb's coefficient
+  bool is_glue = false;  // reaches its goal in every direction, by pulling too
 };
 
 /// Ordered by key.
@@ -39,6 +43,10 @@ struct Touches {
   }
 };
 
+/// Appends the shares of a point that rides in a brick, without those that are zero.
+void add_shares(const Group& group, std::size_t actor, int brick, const Eigen::Matrix<double, 8, 1>& weights,
+                Touches& touches);
+
 /// What touches what near which corner of which brick; `other` counts obstacles, then actors.
 [[nodiscard]] inline std::uint64_t touch_key(std::size_t other, std::size_t actor, int brick, int corner) {
   return std::uint64_t{other} << 50 | std::uint64_t{actor} << 36 | std::uint64_t(brick) << 3 | std::uint64_t(corner);
@@ -48,9 +56,6 @@ struct Touches {
 /// touching. One found inside (gap < 0, m) comes out within about twenty steps, but no faster than a throw that would
 /// just reach the surface: what starts a little too deep is lifted, not shot out. `gravity` in m/s^2, its size.
 [[nodiscard]] double least_speed(double gap, double gravity, double dt);
-
-/// Actors that may touch each other in the time to come and so move by the same steps.
-using Group = std::vector<Actor*>;
 
 /// How many steps what is found within `margin` (m) of a surface stays all there is: nothing comes nearer by half of
 /// it, at this speed (m/s) with room for as much again. At most 24.

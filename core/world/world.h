@@ -4,6 +4,7 @@
 
 #include "core/body/body.h"
 #include "core/bricks/embedding.h"
+#include "core/world/loads.h"
 #include "core/world/obstacle.h"
 
 namespace sprung {
@@ -23,6 +24,7 @@ struct Actor {
   Triangles contact_triangles{};  // rows of contacts; none: it touches obstacles only
   double friction = 0.5;          // on another body: the geometric mean of both
   bool touches_itself = true;     // not for what overlaps itself at rest
+  Loads loads{};
 };
 
 struct World {
@@ -30,6 +32,8 @@ struct World {
   Vec3 gravity{0, -9.81, 0};  // m/s^2
   std::vector<Obstacle> obstacles;
   bool bodies_touch = true;  // each other
+  Wind wind{};
+  std::vector<GluedPoint> glue{};
 };
 
 }  // namespace sprung

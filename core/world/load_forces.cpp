@@ -1,0 +1,130 @@
+#include "core/world/load_forces.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/body/brick_columns.h"
+
+namespace sprung {
+namespace {
+
+constexpr int kStepsBetweenLooks = 4;
+
+/// Forces at points of the skin, handed to the nodes that they ride on.
+void add_carried(const Body& body, const Embedding& points, const Points& at_points, Points& at_nodes) {
+  for (Eigen::Index row = 0; row < at_points.rows(); ++row) {
+    const Eigen::RowVector3d force = at_points.row(row);
+    if (force.isZero(0)) continue;
+    const auto weights = trilinear_weights(points.local.row(row));
+    const auto& nodes = body.grid.nodes[static_cast<std::size_t>(points.brick[static_cast<std::size_t>(row)])];
+    for (int corner = 0; corner < 8; ++corner) {
+      at_nodes.row(nodes[static_cast<std::size_t>(corner)]) += weights[corner] * force;
+    }
+  }
+}
+
+/// The corners of a triangle, and half the cross product of its sides.
+struct Facet {
+  std::array<int, 3> corners;
+  Eigen::RowVector3d area;  // m^2, outward
+};
+
+Facet facet_of(const Triangles& triangles, int row, const Points& places) {
+  const std::array<int, 3> at{triangles(row, 0), triangles(row, 1), triangles(row, 2)};
+  const Vec3 ahead = places.row(at[1]) - places.row(at[0]);
+  const Vec3 aside = places.row(at[2]) - places.row(at[0]);
+  return {at, 0.5 * ahead.cross(aside).transpose()};
+}
+
+void press(const Facet& facet, const Eigen::RowVector3d& force, Points& at_points) {
+  for (const int corner : facet.corners) at_points.row(corner) += force / 3;
+}
+
+/// Stresses (Pa) of a brick that is held in its shape while it would rather have that of the muscle: along the
+/// direction and across it, by the law of Hooke.
+struct ActiveStress {
+  double along;
+  double across;
+};
+
+ActiveStress active_stress(const Material& material, double contraction) {
+  const double widening = 1 / std::sqrt(1 - contraction) - 1;
+  const double twice_shear = 2 * material.shear_modulus();
+  const double lame = twice_shear * material.poisson / (1 - 2 * material.poisson);
+  const double growth = 2 * widening - contraction;
+  return {.along = -(lame * growth - twice_shear * contraction), .across = -(lame * growth + twice_shear * widening)};
+}
+
+/// The direction and two across it, as columns.
+Mat3 frame_along(const Vec3& direction) {
+  Mat3 frame;
+  const Vec3 across = direction.unitOrthogonal();
+  frame << direction, across, direction.cross(across);
+  return frame;
+}
+
+}  // namespace
+
+const Points& LoadForces::forces() {
+  if (steps_to_look_ == 0) find_skin_forces();
+  steps_to_look_ = (steps_to_look_ + 1) % kStepsBetweenLooks;
+  forces_ = skin_forces_;
+  if (actor_.loads.forces.rows() > 0) forces_ += actor_.loads.forces;
+  for (const Muscle& muscle : actor_.loads.muscles) add_muscle(muscle);
+  return forces_;
+}
+
+void LoadForces::find_skin_forces() {
+  const Body& body = actor_.body;
+  skin_forces_ = Points::Zero(body.node_count(), 3);
+  if (actor_.loads.pressures.empty() && !world_.wind.blows()) return;
+  const Points places = deform_points(body.grid, actor_.contacts, body.positions);
+  Points at_points = Points::Zero(places.rows(), 3);
+  for (const SkinPressure& pressure : actor_.loads.pressures) {
+    for (const int row : pressure.triangles) {
+      const Facet facet = facet_of(actor_.contact_triangles, row, places);
+      press(facet, -pressure.pressure * facet.area, at_points);
+    }
+  }
+  if (world_.wind.blows()) {
+    const Points speeds = deform_points(body.grid, actor_.contacts, body.velocities);
+    for (int row = 0; row < actor_.contact_triangles.rows(); ++row) {
+      const Facet facet = facet_of(actor_.contact_triangles, row, places);
+      const auto& at = facet.corners;
+      const Eigen::RowVector3d seen =
+          world_.wind.velocity.transpose() - (speeds.row(at[0]) + speeds.row(at[1]) + speeds.row(at[2])) / 3;
+      const double flow = seen.dot(facet.area);  // m^3/s
+      if (!(flow < 0)) continue;
+      const double pressure = 0.5 * world_.wind.density * world_.wind.drag * flow * flow / facet.area.squaredNorm();
+      press(facet, -pressure * facet.area, at_points);
+    }
+  }
+  add_carried(body, actor_.contacts, at_points, skin_forces_);
+}
+
+/// Tensions of constant size along the brick's own directions have the energy V sum_i stress_i |F e_i|. Together with
+/// the springs' they are zero in the muscle's shape.
+void LoadForces::add_muscle(const Muscle& muscle) {
+  const Body& body = actor_.body;
+  const double h = body.grid.brick_size;
+  const Mat3 frame = frame_along(muscle.direction);
+  const ActiveStress stress = active_stress(body.material, muscle.contraction);
+  const Vec3 strength(stress.along, stress.across, stress.across);
+  for (const int brick : muscle.bricks) {
+    const auto row = static_cast<std::size_t>(brick);
+    const auto& nodes = body.grid.nodes[row];
+    const Mat3 drawn = mean_axes_of(columns_of(nodes, body.positions)) / h * frame;  // columns: F e_i
+    const Vec3 tension = body.stiffness_scale[row] * strength.array() / drawn.colwise().norm().transpose().array();
+    const Mat3 stress_on_faces = drawn * tension.asDiagonal() * frame.transpose();  // first Piola-Kirchhoff, Pa
+    const Mat3 pull = 0.25 * h * h * stress_on_faces;                               // N, at each corner of a face
+    for (int corner = 0; corner < 8; ++corner) {
+      const int node = nodes[static_cast<std::size_t>(corner)];
+      for (int axis = 0; axis < 3; ++axis) {
+        forces_.row(node) += (on_high_side(corner, axis) ? -1.0 : 1.0) * pull.col(axis).transpose();
+      }
+    }
+  }
+}
+
+}  // namespace sprung
