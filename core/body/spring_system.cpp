@@ -79,14 +79,14 @@ double SpringSystem::energy(const Body& body) {
   return sum;
 }
 
-void SpringSystem::move(Body& body, double drift, double kick, const Vec3& gravity,
-                        const Eigen::VectorXd& inverse_masses) {
+void SpringSystem::move(Body& body, const Step& step, const Eigen::VectorXd& inverse_masses) {
   PassInput input = input_of(body, Pass::kMove);
   input.inverse_masses = inverse_masses.data();
-  input.drift = drift;
-  input.kick = kick;
-  input.keep = 1 - kick * body.damping.alpha;
-  for (int k = 0; k < 3; ++k) input.gravity_kick[static_cast<std::size_t>(k)] = kick * gravity[k];
+  input.beta = step.damping.beta;
+  input.drift = step.drift;
+  input.kick = step.kick;
+  input.keep = 1 - step.kick * step.damping.alpha;
+  for (int k = 0; k < 3; ++k) input.gravity_kick[static_cast<std::size_t>(k)] = step.kick * step.gravity[k];
   run(*body.tiles, input);
 }
 

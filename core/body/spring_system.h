@@ -19,9 +19,17 @@ class SpringSystem {
   /// J, as elastic_energy().
   [[nodiscard]] double energy(const Body& body);
 
+  /// What happens in a step.
+  struct Step {
+    double drift = 0;             // s
+    double kick = 0;              // s
+    Rayleigh damping{};           // in place of the body's
+    Vec3 gravity = Vec3::Zero();  // m/s^2
+  };
+
   /// body.positions += drift * velocities, then body.velocities += kick * (forces / m + gravity - alpha velocities).
-  /// `drift` and `kick` in s, gravity in m/s^2, inverse masses per node in 1/kg.
-  void move(Body& body, double drift, double kick, const Vec3& gravity, const Eigen::VectorXd& inverse_masses);
+  /// Inverse masses per node in 1/kg.
+  void move(Body& body, const Step& step, const Eigen::VectorXd& inverse_masses);
 
  private:
   void run(const BrickTiles& tiles, const PassInput& input);

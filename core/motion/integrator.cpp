@@ -10,6 +10,7 @@
 
 #include "core/body/forces.h"
 #include "core/error.h"
+#include "core/motion/implicit_damping.h"
 #include "core/world/contact_groups.h"
 #include "core/world/glue.h"
 #include "core/world/impulses.h"
@@ -22,7 +23,12 @@ namespace {
 class Mover {
  public:
   Mover(Actor& actor, const World& world)
-      : actor_(actor), world_(world), inverse_masses_(actor.body.masses.cwiseInverse()), loads_(actor, world) {}
+      : actor_(actor),
+        world_(world),
+        inverse_masses_(actor.body.masses.cwiseInverse()),
+        damping_(damping_shares(actor.body)),
+        implicit_damping_(actor, damping_.implicit_beta),
+        loads_(actor, world) {}
 
   /// velocities += dt (forces / m + gravity - alpha v); held nodes keep their velocity.
   void kick(double dt) {
@@ -38,9 +44,12 @@ class Mover {
       body.velocities += dt * (inverse_masses_.asDiagonal() * forces_);
       body.velocities.rowwise() += dt * world_.gravity.transpose();
     } else {
-      workspace_.springs.move(body, pending_drift_, dt, world_.gravity, inverse_masses_);
+      workspace_.springs.move(
+          body, {.drift = pending_drift_, .kick = dt, .damping = damping_.explicit_part, .gravity = world_.gravity},
+          inverse_masses_);
       pending_drift_ = 0;
     }
+    implicit_damping_.pass(dt);
     for (const HeldNode& held : actor_.pinned) {
       for (int axis = 0; axis < 3; ++axis) {
         if (held.axes[static_cast<std::size_t>(axis)]) body.velocities(held.node, axis) = held.velocity[axis];
@@ -50,6 +59,12 @@ class Mover {
 
   /// positions += dt velocities: put off to the next kick, which has them at hand anyway.
   void drift(double dt) { pending_drift_ += dt; }
+
+  /// The last of a number of steps is done.
+  void finish() {
+    settle();
+    implicit_damping_.settle();
+  }
 
   /// Does what was put off.
   void settle() {
@@ -61,6 +76,8 @@ class Mover {
   Actor& actor_;
   const World& world_;
   Eigen::VectorXd inverse_masses_;
+  DampingShares damping_;
+  ImplicitDamping implicit_damping_;
   LoadForces loads_;
   ForceWorkspace workspace_;
   Points forces_;
@@ -101,8 +118,8 @@ class GroupMover {
     for (const auto& mover : movers_) mover->drift(dt);
   }
 
-  void settle() {
-    each([&](Mover& mover) { mover.settle(); });
+  void finish() {
+    each([&](Mover& mover) { mover.finish(); });
   }
 
  private:
@@ -161,7 +178,7 @@ void advance(World& world, Scheme scheme, std::span<const GroupSteps> groups, do
     } else {
       euler(mover, group.steps.dt, group.steps.count);
     }
-    mover.settle();
+    mover.finish();
   };
   // A thread that waits within one group's steps must not begin another group's: the first would stand still.
   tbb::parallel_for(std::size_t{0}, groups.size(),

@@ -2,6 +2,7 @@
 #include <span>
 #include <vector>
 
+#include "core/motion/stable_step.h"
 #include "core/world/world.h"
 
 namespace sprung {
@@ -20,11 +21,6 @@ struct GroupSteps {
   Steps steps;
   double elapsed = 0;  // s, since obstacles were where the world has them
 };
-
-/// Largest step (s) that is stable for every actor: from the largest eigenvalue of a single brick with its own lumped
-/// mass, which bounds the assembled one, with damping and `safety` taken off. See stable_step.cpp.
-[[nodiscard]] double stable_step(const World& world, double safety = 0.7);
-[[nodiscard]] double stable_step(const Body& body, double safety = 0.7);
 
 /// Moves each group of actors by its own steps, all at once: only those of one group touch each other. Obstacles stay
 /// as the world has them: it is for the caller to move them on. Deterministic for any number of threads.

@@ -1,10 +1,12 @@
+#include "core/motion/stable_step.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "core/body/brick_columns.h"
 #include "core/body/brick_hessian.h"
-#include "core/motion/integrator.h"
+#include "core/motion/implicit_damping.h"
 
 namespace sprung {
 namespace {
@@ -27,7 +29,8 @@ double guard_growth(const Body& body) {
   return largest / kGuardAreas;
 }
 
-/// The square of the fastest frequency (1/s^2) that any node of the body can see.
+}  // namespace
+
 double largest_frequency_squared(const Body& body) {
   const double h = body.grid.brick_size;
   const double guard = kGuardGradient * guard_growth(body) * body.law.guard / (h * h);
@@ -38,12 +41,11 @@ double largest_frequency_squared(const Body& body) {
   return stiffness / corner_mass;
 }
 
-}  // namespace
-
 /// Leapfrog with damping c = alpha + beta omega^2 is stable while omega^2 dt^2 + 2 c dt < 4.
 double stable_step(const Body& body, double safety) {
   const double squared = largest_frequency_squared(body);
-  const double damping = body.damping.alpha + body.damping.beta * squared;
+  const Rayleigh ours = damping_shares(body).explicit_part;
+  const double damping = ours.alpha + ours.beta * squared;
   return safety * 4 / (damping + std::sqrt(damping * damping + 4 * squared));
 }
 

@@ -75,4 +75,9 @@ ContactSkin::ContactSkin(const Actor& actor) {
   }
 }
 
+const ContactSkin& contact_skin_of(Actor& actor) {
+  if (!actor.contact_skin) actor.contact_skin = std::make_shared<const ContactSkin>(actor);
+  return *actor.contact_skin;
+}
+
 }  // namespace sprung

@@ -32,6 +32,9 @@ struct ContactSkin {
   std::vector<NormalCone> cones;              // b
 };
 
+/// Made when it is first asked for: contacts, their triangles and the rest shape do not change after that.
+[[nodiscard]] const ContactSkin& contact_skin_of(Actor& actor);
+
 /// Of what its brick's corners have (m x 3, per node of the body).
 [[nodiscard]] inline Vec3 carried(const Body& body, const ContactPoint& point, const Points& values) {
   const auto& nodes = body.grid.nodes[static_cast<std::size_t>(point.brick)];

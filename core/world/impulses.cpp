@@ -42,8 +42,8 @@ Impulses::Impulses(Group group, std::vector<Eigen::VectorXd> inverse_masses, std
       smallest_brick_(std::numeric_limits<double>::infinity()),
       obstacle_contact_(skins_),
       squeeze_watches_(group_.size()) {
-  for (const Actor* actor : group_) {
-    skins_.emplace_back(*actor);
+  for (Actor* actor : group_) {
+    skins_.push_back(&contact_skin_of(*actor));
     places_.emplace_back(static_cast<std::size_t>(actor->body.node_count()), -1);
     smallest_brick_ = std::min(smallest_brick_, actor->body.grid.brick_size);
   }

@@ -114,7 +114,7 @@ class Impulses {
   std::vector<Eigen::VectorXd> inverse_masses_;
   std::vector<GluedPoint> glue_;
   double smallest_brick_;  // m
-  std::vector<ContactSkin> skins_;
+  std::vector<const ContactSkin*> skins_;
   ObstacleContact obstacle_contact_;
   std::vector<SkinContact> skin_contacts_;
   std::vector<SqueezeWatch> squeeze_watches_;

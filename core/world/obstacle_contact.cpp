@@ -34,7 +34,7 @@ struct Deepest {
 }  // namespace
 
 void ObstacleContact::look_at_brick(const Shape& shape, const Pose& pose, const Body& body, std::size_t at, Near near) {
-  const ContactSkin& skin = skins_[near.actor];
+  const ContactSkin& skin = *skins_[near.actor];
   const double margin = kMargin * body.grid.brick_size;
   near.brick = skin.bricks[at];
   const BrickColumns x = columns_of(body.grid.nodes[static_cast<std::size_t>(near.brick)], body.positions);
@@ -92,7 +92,7 @@ void ObstacleContact::look(const World& world, const std::vector<Pose>& poses, d
       const double speed =
           largest_speed(body) + velocity_at(obstacle, poses[o], middle).norm() + obstacle.spin.norm() * around;
       steps = std::min(steps, steps_until_look(kMargin * body.grid.brick_size, speed, dt));
-      for (std::size_t place = 0; place < skins_[actor].bricks.size(); ++place) {
+      for (std::size_t place = 0; place < skins_[actor]->bricks.size(); ++place) {
         look_at_brick(obstacle.shape, poses[o], body, place, {o, actor, 0, 0, 0});
       }
     }
@@ -149,7 +149,7 @@ void ObstacleContact::find(const World& world, const std::vector<Pose>& poses, d
   if (middles_.empty()) {
     middles_.resize(poses.size());
     for (auto& by_actor : middles_) {
-      for (const ContactSkin& skin : skins_) by_actor.emplace_back(skin.bricks.size());
+      for (const ContactSkin* skin : skins_) by_actor.emplace_back(skin->bricks.size());
     }
   }
   if (steps_to_look_ == 0) look(world, poses, dt, group);

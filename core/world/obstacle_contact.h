@@ -10,7 +10,7 @@ namespace sprung {
 /// those near an obstacle then in every step.
 class ObstacleContact {
  public:
-  explicit ObstacleContact(const std::vector<ContactSkin>& skins) : skins_(skins) {}
+  explicit ObstacleContact(const std::vector<const ContactSkin*>& skins) : skins_(skins) {}
 
   /// Appends the points that moving by dt would leave inside an obstacle, at most one near each corner of a brick: the
   /// one that lies deepest. The others are held by it or found in the next step. `poses`: where the obstacles are now.
@@ -45,7 +45,7 @@ class ObstacleContact {
   void touch_brick(const World& world, const std::vector<Pose>& poses, double dt, const Group& group, const Near& near,
                    Touches& touches);
 
-  const std::vector<ContactSkin>& skins_;  // by actor of the group
+  const std::vector<const ContactSkin*>& skins_;  // by actor of the group
   std::vector<Near> near_;
   std::vector<NearPoint> points_;
   std::vector<std::vector<std::vector<Asked>>> middles_;  // by obstacle, actor and place in the skin's bricks

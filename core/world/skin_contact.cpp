@@ -8,6 +8,7 @@ namespace sprung {
 namespace {
 
 constexpr double kMargin = 0.3;     // bricks: what is nearer than that is watched
+constexpr double kFarMargin = 1;  // bricks: what may soon be that near is looked at
 constexpr double kDeepest = 0.7;    // bricks: what is deeper came from the other side
 constexpr double kBeside = 0.05;    // of a triangle: what stands a little beside it counts as over it
 constexpr double kTouching = 0.15;  // of the depth: what is that near to a triangle that it stands over touches it
@@ -61,7 +62,7 @@ void SkinContact::add_triangle(const Group& group, const Stance& stance, Touches
   const std::size_t actor = other_of(*stance.pair);
   for (std::size_t i = 0; i < 3; ++i) {
     const int row = pairs_.watched(stance.pair->corners[i]).point;
-    const ContactPoint& corner = skins_[actor].points[static_cast<std::size_t>(row)];
+    const ContactPoint& corner = skins_[actor]->points[static_cast<std::size_t>(row)];
     const auto same = static_cast<std::size_t>(
         std::find(bricks.begin(), bricks.begin() + static_cast<std::ptrdiff_t>(count), corner.brick) - bricks.begin());
     if (same == count) {
@@ -76,7 +77,7 @@ void SkinContact::add_triangle(const Group& group, const Stance& stance, Touches
 void SkinContact::add(const Group& group, const Stance& stance, Touches& touches) const {
   const std::size_t first = touches.shares.size();
   const WatchedPoint& point = pairs_.watched(stance.pair->point);
-  const ContactPoint& at = skins_[point.actor].points[static_cast<std::size_t>(point.point)];
+  const ContactPoint& at = skins_[point.actor]->points[static_cast<std::size_t>(point.point)];
   add_shares(group, point.actor, at.brick, at.weights, touches);
   add_triangle(group, stance, touches);
   const double other_friction = group[other_of(*stance.pair)]->friction;
@@ -126,7 +127,7 @@ bool SkinContact::has_to_be_held(const World& world, double dt, Stance& stance) 
   if (!(stance.gap + dt * speed <= 0)) return false;
   stance.least_speed = least_speed(stance.gap, world.gravity.norm(), dt);
   stance.pull = stance.least_speed - speed;
-  const ContactPoint& at = skins_[point.actor].points[static_cast<std::size_t>(point.point)];
+  const ContactPoint& at = skins_[point.actor]->points[static_cast<std::size_t>(point.point)];
   stance.key = touch_key(world.obstacles.size() + other_of(*stance.pair), point.actor, at.brick, at.corner);
   return true;
 }
@@ -140,20 +141,30 @@ void SkinContact::keep_hardest() {
   held_.erase(end, held_.end());
 }
 
-void SkinContact::find(const World& world, double dt, const Group& group, Touches& touches) {
-  const Group watched = self_ ? Group{group[*self_]} : group;
-  const double brick = smallest_brick(watched);
-  const double depth = kDeepest * brick;
+void SkinContact::look(const Group& group, double dt) {
   if (steps_to_look_ == 0) {
-    steps_to_look_ = steps_until_look(kMargin * brick, fastest(watched), dt);
-    pairs_.look(group, {.margin = kMargin * brick, .deepest = depth});
+    const Group watched = self_ ? Group{group[*self_]} : group;
+    const double brick = smallest_brick(watched);
+    const double speed = fastest(watched);
+    if (steps_to_seek_ <= 0) {
+      steps_to_seek_ = steps_until_look((kFarMargin - kMargin) * brick, speed, dt);
+      pairs_.seek(group, kFarMargin * brick);
+    }
+    steps_to_look_ = std::min(steps_until_look(kMargin * brick, speed, dt), steps_to_seek_);
+    depth_ = kDeepest * brick;
+    pairs_.look(group, {.margin = kMargin * brick, .deepest = depth_});
     runs_ = runs_of_pairs();
   }
+  --steps_to_seek_;
   --steps_to_look_;
+}
+
+void SkinContact::find(const World& world, double dt, const Group& group, Touches& touches) {
+  look(group, dt);
   pairs_.follow(group);
   held_.clear();
   for (Run& run : runs_) {
-    Stance nearest = nearest_stance(run, depth);
+    Stance nearest = nearest_stance(run, depth_);
     if (nearest.pair != nullptr && has_to_be_held(world, dt, nearest)) held_.push_back(nearest);
   }
   keep_hardest();

@@ -9,13 +9,13 @@
 namespace sprung {
 
 /// Finds where the skins of a group's bodies touch each other, or where one touches itself: contact points against
-/// triangles, both ways. Pairs of them (skin_pairs.h) are sought every few steps only, and then watched in every step.
-/// Limits: edges that cross between their points are held by those points only; what lies deeper in another body than
-/// 0.7 bricks is not found.
+/// triangles, both ways. Pairs of them (skin_pairs.h) are looked for every few steps only, and then watched in every
+/// step. Limits: edges that cross between their points are held by those points only; what lies deeper in another body
+/// than 0.7 bricks is not found.
 class SkinContact {
  public:
   /// Of `self` (an actor of the group) with itself; without one, of different actors.
-  SkinContact(const std::vector<ContactSkin>& skins, std::optional<std::size_t> self)
+  SkinContact(const std::vector<const ContactSkin*>& skins, std::optional<std::size_t> self)
       : skins_(skins), self_(self), pairs_(skins, self) {}
 
   /// Appends, ordered by key, the points that moving by dt would leave inside another skin, at most one near each
@@ -34,6 +34,8 @@ class SkinContact {
     Vec3 weights;  // of the triangle's corners at the place below the point
   };
 
+  /// What is due of seeking and looking.
+  void look(const Group& group, double dt);
   /// False where the point does not stand over the triangle.
   bool stand(const SkinPair& pair, double depth, Stance& stance) const;
   /// The actor that a pair's triangle belongs to.
@@ -55,11 +57,13 @@ class SkinContact {
   void add(const Group& group, const Stance& stance, Touches& touches) const;
   void add_triangle(const Group& group, const Stance& stance, Touches& touches) const;
 
-  const std::vector<ContactSkin>& skins_;  // by actor of the group
+  const std::vector<const ContactSkin*>& skins_;  // by actor of the group
   std::optional<std::size_t> self_;
   SkinPairs pairs_;
+  double depth_ = 0;  // m, below which what is inside came from the other side
   std::vector<Run> runs_;
   std::vector<Stance> held_;  // of this step
+  int steps_to_seek_ = 0;
   int steps_to_look_ = 0;
 };
 

@@ -10,7 +10,7 @@ namespace sprung {
 namespace {
 
 constexpr double kFacing = 0.2;  // cosine between the normals of what touches, at most
-constexpr double kBent = 0.3;    // rad, that a brick's normals may turn against each other
+constexpr double kBent = 0.5;    // rad, that a brick's normals may turn, against each other and until it is looked at
 
 /// A normal of the skin at rest carried along by its brick, unit.
 Vec3 carried_normal(const Body& body, int brick, const Vec3& normal) {
@@ -26,6 +26,19 @@ bool hang_together(const Body& body, int a, int b) {
   const auto& nodes = body.grid.nodes[brick_b];
   return std::any_of(body.grid.nodes[brick_a].begin(), body.grid.nodes[brick_a].end(),
                      [&](int node) { return std::find(nodes.begin(), nodes.end(), node) != nodes.end(); });
+}
+
+/// Whether a brick hangs together with both: the skins of such bricks cannot meet without a fold within a brick or two.
+bool are_neighbours(const Body& body, int a, int b) {
+  const Eigen::Vector3i& cell = body.grid.cells[static_cast<std::size_t>(b)];
+  if ((body.grid.cells[static_cast<std::size_t>(a)] - cell).cwiseAbs().maxCoeff() > 2) return false;
+  for (const int node : body.grid.nodes[static_cast<std::size_t>(a)]) {
+    const auto row = static_cast<std::size_t>(node);
+    for (int i = body.first_corner[row]; i < body.first_corner[row + 1]; ++i) {
+      if (hang_together(body, body.corners[static_cast<std::size_t>(i)] / 8, b)) return true;
+    }
+  }
+  return false;
 }
 
 Points positions_of(const ContactSkin& skin, const Body& body) {
@@ -54,12 +67,12 @@ AlignedBox widened(const AlignedBox& box, double by) {
 
 bool SkinPairs::may_touch(const Group& group, const Place& a, const Place& b) const {
   if (!self_ && a.actor == b.actor) return false;
-  const double spread = skins_[a.actor].cones[a.row].spread + skins_[b.actor].cones[b.row].spread;
+  const double spread = skins_[a.actor]->cones[a.row].spread + skins_[b.actor]->cones[b.row].spread;
   const double angle = std::acos(std::clamp(a.normal.dot(b.normal), -1.0, 1.0));
   if (angle + spread + kBent < std::acos(kFacing)) return false;
   if (!self_) return true;
-  const std::vector<int>& bricks = skins_[a.actor].bricks;
-  return !hang_together(group[a.actor]->body, bricks[a.row], bricks[b.row]);
+  const std::vector<int>& bricks = skins_[a.actor]->bricks;
+  return !are_neighbours(group[a.actor]->body, bricks[a.row], bricks[b.row]);
 }
 
 std::vector<std::size_t> SkinPairs::near_actors(const Group& group, double margin) const {
@@ -80,13 +93,13 @@ std::vector<std::size_t> SkinPairs::near_actors(const Group& group, double margi
   return near;
 }
 
-std::vector<std::pair<int, int>> SkinPairs::near_bricks(const Group& group, double margin) {
+void SkinPairs::seek(const Group& group, double margin) {
   positions_.resize(group.size());
   places_.clear();
   std::vector<AlignedBox> boxes;
   for (const std::size_t actor : near_actors(group, margin)) {
     const Body& body = group[actor]->body;
-    const ContactSkin& skin = skins_[actor];
+    const ContactSkin& skin = *skins_[actor];
     positions_[actor] = positions_of(skin, body);
     for (std::size_t row = 0; row < skin.bricks.size(); ++row) {
       const AlignedBox box = box_of(skin, row, positions_[actor]);
@@ -94,19 +107,61 @@ std::vector<std::pair<int, int>> SkinPairs::near_bricks(const Group& group, doub
       boxes.push_back(widened(box, margin / 2));
     }
   }
-  std::vector<std::pair<int, int>> near = overlapping_boxes(boxes);
-  std::erase_if(near, [&](const std::pair<int, int>& pair) {
+  near_ = overlapping_boxes(boxes);
+  std::erase_if(near_, [&](const std::pair<int, int>& pair) {
     return !may_touch(group, places_[static_cast<std::size_t>(pair.first)],
                       places_[static_cast<std::size_t>(pair.second)]);
   });
-  return near;
+  keep_near_places();
+}
+
+void SkinPairs::keep_near_places() {
+  std::vector<int> row_of(places_.size(), -1);
+  std::vector<Place> kept;
+  const auto keep = [&](int& place) {
+    int& row = row_of[static_cast<std::size_t>(place)];
+    if (row < 0) {
+      row = static_cast<int>(kept.size());
+      kept.push_back(places_[static_cast<std::size_t>(place)]);
+    }
+    place = row;
+  };
+  for (auto& [first, second] : near_) {
+    keep(first);
+    keep(second);
+  }
+  places_ = std::move(kept);
+}
+
+void SkinPairs::find_places(const Group& group) {
+  ++look_;
+  found_in_.resize(group.size());
+  for (Place& place : places_) {
+    const ContactSkin& skin = *skins_[place.actor];
+    const Body& body = group[place.actor]->body;
+    Points& positions = positions_[place.actor];
+    found_in_[place.actor].resize(skin.points.size(), 0);
+    place.box.setEmpty();
+    const auto add = [&](int point) {
+      long& found = found_in_[place.actor][static_cast<std::size_t>(point)];
+      if (found != look_) {
+        positions.row(point) = carried(body, skin.points[static_cast<std::size_t>(point)], body.positions).transpose();
+      }
+      found = look_;
+      place.box.extend(Vec3(positions.row(point)));
+    };
+    for (int i = skin.first_point[place.row]; i < skin.first_point[place.row + 1]; ++i) add(i);
+    for (int i = skin.first_triangle[place.row]; i < skin.first_triangle[place.row + 1]; ++i) {
+      for (const int corner : skin.triangles[static_cast<std::size_t>(i)]) add(corner);
+    }
+  }
 }
 
 int SkinPairs::watched_row(const Group& group, std::size_t actor, int point) {
   int& row = rows_[actor][static_cast<std::size_t>(point)];
   if (row < 0) {
     row = static_cast<int>(watched_.size());
-    const ContactSkin& skin = skins_[actor];
+    const ContactSkin& skin = *skins_[actor];
     const int brick = skin.points[static_cast<std::size_t>(point)].brick;
     watched_.push_back({actor, point, carried_normal(group[actor]->body, brick, skin.normals.row(point))});
   }
@@ -114,10 +169,10 @@ int SkinPairs::watched_row(const Group& group, std::size_t actor, int point) {
 }
 
 void SkinPairs::pair_up(const Group& group, const SkinReach& reach, const Place& facing, std::size_t actor, int point) {
-  const ContactSkin& across = skins_[facing.actor];
+  const ContactSkin& across = *skins_[facing.actor];
   const Points& corners = positions_[facing.actor];
   const Vec3 place = positions_[actor].row(point);
-  const int brick = skins_[actor].points[static_cast<std::size_t>(point)].brick;
+  const int brick = skins_[actor]->points[static_cast<std::size_t>(point)].brick;
   const auto hangs_together = [&](int corner) {
     return hang_together(group[actor]->body, brick, across.points[static_cast<std::size_t>(corner)].brick);
   };
@@ -140,7 +195,7 @@ void SkinPairs::pair_up(const Group& group, const SkinReach& reach, const Place&
 }
 
 void SkinPairs::pair_up(const Group& group, const Place& place, const Place& facing, const SkinReach& reach) {
-  const ContactSkin& skin = skins_[place.actor];
+  const ContactSkin& skin = *skins_[place.actor];
   const AlignedBox around = widened(facing.box, reach.margin);
   for (int point = skin.first_point[place.row]; point < skin.first_point[place.row + 1]; ++point) {
     if (!around.contains(Vec3(positions_[place.actor].row(point)))) continue;
@@ -151,11 +206,14 @@ void SkinPairs::pair_up(const Group& group, const Place& place, const Place& fac
 void SkinPairs::look(const Group& group, const SkinReach& reach) {
   watched_.clear();
   pairs_.clear();
+  if (near_.empty()) return;
   rows_.resize(group.size());
-  for (std::size_t actor = 0; actor < group.size(); ++actor) rows_[actor].assign(skins_[actor].points.size(), -1);
-  for (const auto& [brick, other] : near_bricks(group, reach.margin)) {
+  for (std::size_t actor = 0; actor < group.size(); ++actor) rows_[actor].assign(skins_[actor]->points.size(), -1);
+  find_places(group);
+  for (const auto& [brick, other] : near_) {
     const Place& a = places_[static_cast<std::size_t>(brick)];
     const Place& b = places_[static_cast<std::size_t>(other)];
+    if (a.box.squaredExteriorDistance(b.box) > reach.margin * reach.margin) continue;
     pair_up(group, a, b, reach);
     pair_up(group, b, a, reach);
   }
@@ -168,7 +226,7 @@ void SkinPairs::look(const Group& group, const SkinReach& reach) {
 
 void SkinPairs::follow(const Group& group) {
   for (WatchedPoint& watched : watched_) {
-    const ContactPoint& point = skins_[watched.actor].points[static_cast<std::size_t>(watched.point)];
+    const ContactPoint& point = skins_[watched.actor]->points[static_cast<std::size_t>(watched.point)];
     const Body& body = group[watched.actor]->body;
     watched.place = carried(body, point, body.positions);
     watched.velocity = carried(body, point, body.velocities);

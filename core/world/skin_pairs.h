@@ -32,14 +32,18 @@ struct SkinReach {
 };
 
 /// Points and triangles of different skins of a group, or of one skin, that are near and face each other; within one
-/// they must not hang together through a common node of their bricks. Bodies are compared first, by their boxes, then
-/// bricks, by theirs and by where their normals may point.
+/// they must not hang together through a common neighbour of their bricks. Bodies are compared first, by their boxes,
+/// then bricks, by theirs and by where their normals may point: that is sought from further away, and less often.
 class SkinPairs {
  public:
   /// Of `self` (an actor of the group) with itself; without one, of different actors.
-  SkinPairs(const std::vector<ContactSkin>& skins, std::optional<std::size_t> self) : skins_(skins), self_(self) {}
+  SkinPairs(const std::vector<const ContactSkin*>& skins, std::optional<std::size_t> self)
+      : skins_(skins), self_(self) {}
 
-  /// Seeks them anew. Deterministic.
+  /// Seeks the bricks whose skins are within `margin` (m) of each other. Deterministic.
+  void seek(const Group& group, double margin);
+
+  /// Finds points and triangles among those bricks. Deterministic.
   void look(const Group& group, const SkinReach& reach);
 
   /// Takes down where the watched points are, and how fast.
@@ -60,16 +64,21 @@ class SkinPairs {
 
   /// Those whose boxes are near that of another; or self.
   [[nodiscard]] std::vector<std::size_t> near_actors(const Group& group, double margin) const;
-  [[nodiscard]] std::vector<std::pair<int, int>> near_bricks(const Group& group, double margin);
+  void keep_near_places();
+  /// Where the points are, and the bricks that `places_` speaks of.
+  void find_places(const Group& group);
   [[nodiscard]] bool may_touch(const Group& group, const Place& a, const Place& b) const;
   void pair_up(const Group& group, const Place& place, const Place& facing, const SkinReach& reach);
   void pair_up(const Group& group, const SkinReach& reach, const Place& facing, std::size_t actor, int point);
   int watched_row(const Group& group, std::size_t actor, int point);
 
-  const std::vector<ContactSkin>& skins_;  // by actor of the group
+  const std::vector<const ContactSkin*>& skins_;  // by actor of the group
   std::optional<std::size_t> self_;
-  std::vector<Place> places_;           // of the boxes looked at
-  std::vector<Points> positions_;       // of all points, by actor, when looking
+  std::vector<Place> places_;                // of bricks that are near others
+  std::vector<std::pair<int, int>> near_;    // rows of places_
+  std::vector<Points> positions_;            // of all points, by actor, when looking
+  std::vector<std::vector<long>> found_in_;  // by actor, by point: the look that found its position
+  long look_ = 0;
   std::vector<std::vector<int>> rows_;  // by actor, by point: in watched_, or -1
   std::vector<WatchedPoint> watched_;
   std::vector<SkinPair> pairs_;

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "core/body/body.h"
@@ -8,6 +9,8 @@
 #include "core/world/obstacle.h"
 
 namespace sprung {
+
+struct ContactSkin;
 
 /// A node that is held along some axes of the world: there it moves with the velocity given, whatever pulls at it.
 struct HeldNode {
@@ -25,6 +28,7 @@ struct Actor {
   double friction = 0.5;          // on another body: the geometric mean of both
   bool touches_itself = true;     // not for what overlaps itself at rest
   Loads loads{};
+  std::shared_ptr<const ContactSkin> contact_skin{};  // of the contacts as they are first used; see contact_skin_of()
 };
 
 struct World {

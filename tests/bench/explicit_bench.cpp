@@ -38,7 +38,9 @@ void explicit_step(benchmark::State& state, const Case& test) {
   Body body = body_of(test);
   const Eigen::VectorXd inverse_masses = body.masses.cwiseInverse();
   SpringSystem springs;
-  for (auto _ : state) springs.move(body, kStep, kStep, Vec3(0, -9.81, 0), inverse_masses);
+  for (auto _ : state)
+    springs.move(body, {.drift = kStep, .kick = kStep, .damping = body.damping, .gravity = {0, -9.81, 0}},
+                 inverse_masses);
   count(state, body);
   state.counters["bytes"] = bytes_per_brick(body);
 }

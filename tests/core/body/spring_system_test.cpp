@@ -134,7 +134,9 @@ void move(Body& body, const SpringKernel& kernel) {
   body.damping = {.alpha = 0.3, .beta = 1e-4};
   const Eigen::VectorXd inverse_masses = body.masses.cwiseInverse();
   for (int step = 0; step < 5; ++step) {
-    springs.move(body, step == 0 ? 0 : 1e-5, 1e-5, Vec3(0.1, -9.81, 0.2), inverse_masses);
+    springs.move(body,
+                 {.drift = step == 0 ? 0 : 1e-5, .kick = 1e-5, .damping = body.damping, .gravity = {0.1, -9.81, 0.2}},
+                 inverse_masses);
   }
 }
 
@@ -184,7 +186,8 @@ TEST(SpringSystem, MoveIsDriftThenKick) {
   expected.velocities *= 1 - kick * expected.damping.alpha;
   expected.velocities += kick * (inverse_masses.asDiagonal() * forces);
   expected.velocities.rowwise() += kick * gravity.transpose();
-  SpringSystem().move(moved, drift, kick, gravity, inverse_masses);
+  SpringSystem().move(moved, {.drift = drift, .kick = kick, .damping = moved.damping, .gravity = gravity},
+                      inverse_masses);
   EXPECT_LT((moved.positions - expected.positions).cwiseAbs().maxCoeff(), 1e-15);
   EXPECT_LT((moved.velocities - expected.velocities).cwiseAbs().maxCoeff(),
             1e-14 * expected.velocities.cwiseAbs().maxCoeff());
