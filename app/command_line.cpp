@@ -4,7 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <sstream>
 
 #include "app/scene/scene_keys.h"
@@ -31,6 +33,7 @@ struct Words {
   std::vector<std::string> set;
   std::string scenario;
   std::string threads;
+  std::string jobs;
   std::string topic;  // of help
   bool json_schema = false;
 };
@@ -71,16 +74,44 @@ void add_animate(CLI::App& app, Words& words) {
 }
 
 void add_simulate(CLI::App& app, Words& words) {
-  CLI::App* simulate = app.add_subcommand("simulate", "mesh or scene in, measurements of its probes out");
-  simulate->add_option("-o,--output", words.scene.outputs, "folder for probes.csv and probes.json")
+  CLI::App* simulate = app.add_subcommand("simulate", "mesh or scene in, its motion out: a cache, measurements");
+  simulate
+      ->add_option("-o,--output", words.scene.outputs,
+                   "RUN.h5, a cache of all frames, or folder/ for probes.csv and probes.json; or both")
       ->allow_extra_args(false)
-      ->option_text("DIR");
+      ->option_text("OUT");
   simulate->add_flag("--overwrite", words.scene.overwrite, "replace files that exist");
+  simulate->add_flag("--resume", words.scene.resume, "go on where the cache ends; begin where there is none");
   add_scene_options(*simulate, words, false);
 }
 
+void add_render(CLI::App& app, Words& words) {
+  CLI::App* render = app.add_subcommand("render", "a cache in, pictures or film out");
+  render->add_option("INPUT", words.scene.input, "a cache (.h5)");
+  render
+      ->add_option("-o,--output", words.scene.outputs,
+                   "folder/, folder/frame_{:04}.png, or film.mp4, .webm, .gif; may be given several times")
+      ->allow_extra_args(false)
+      ->option_text("OUT");
+  render->add_option("--frames", words.scene.frames, "these only, counted from 1; default: all")->option_text("A:B");
+  render->add_option("--jobs", words.jobs, "so many processes at once; default: 1")->option_text("N");
+  render->add_flag("--overwrite", words.scene.overwrite, "replace pictures and films that exist");
+  for (std::size_t i = 0; i < words.scene_values.size(); ++i) {
+    const SceneOption& option = scene_options()[i];
+    if (!option.key.starts_with("render.")) continue;
+    render->add_option(option.option, words.scene_values[i], help_of(option))->option_text(option.example);
+  }
+  render->add_option("--set", words.set, "any key of [camera] and [render]; may be given several times")
+      ->allow_extra_args(false)
+      ->option_text("KEY=VALUE");
+  render->add_flag("--quiet", words.scene.quiet, "warnings and errors only");
+  render->add_flag("--verbose", words.scene.verbose, "more about every stage");
+  render->allow_extras();
+}
+
 void add_inspect(CLI::App& app, Words& words) {
-  CLI::App* inspect = app.add_subcommand("inspect", "mesh or scene in, what it is and what its film will take out");
+  CLI::App* inspect =
+      app.add_subcommand("inspect", "mesh, scene or cache in, what it is and what its film will take out");
   inspect->add_flag("--json", words.scene.json, "the facts as JSON");
   inspect->add_option("--picture", words.scene.picture, "draw skin and bricks, thin parts marked")
       ->option_text("FILE.png");
@@ -131,14 +162,29 @@ std::string help_text(const CLI::App& app, const CLI::App& help, const Words& wo
   throw Error(ErrorKind::kUsage, fmt::format("no help on '{}'{}", words.topic, did_you_mean(words.topic, known)));
 }
 
-int thread_count(const std::string& text) {
-  int threads = 0;
+int count_in(std::string_view name, const std::string& text) {
+  int count = 0;
   try {
-    parse_value(text, {.name = "threads", .help = "", .range = {1, 4096}}, threads);
+    parse_value(text, {.name = name, .help = "", .range = {1, 4096}}, count);
   } catch (const Error& error) {
-    throw Error(ErrorKind::kUsage, fmt::format("--threads: {}", error.what()));
+    throw Error(ErrorKind::kUsage, fmt::format("--{}: {}", name, error.what()));
   }
-  return threads;
+  return count;
+}
+
+/// The words again, as a shell takes them.
+std::string command_of(int argc, const char* const* argv) {
+  std::string command;
+  for (const std::string word : std::span(argv, static_cast<std::size_t>(argc))) {
+    const bool is_plain = !word.empty() && std::all_of(word.begin(), word.end(), [](unsigned char letter) {
+      return std::isalnum(letter) != 0 ||
+             std::string_view("_-+=./:,@%").find(static_cast<char>(letter)) != std::string_view::npos;
+    });
+    std::string quoted;
+    for (const char letter : word) quoted += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
+    command += (command.empty() ? "" : " ") + (is_plain ? word : "'" + quoted + "'");
+  }
+  return command;
 }
 
 /// "body.spin=[0,0,90]".
@@ -150,30 +196,36 @@ Setting setting(const std::string& text) {
   return {"--set " + text.substr(0, sign), text.substr(0, sign), text.substr(sign + 1)};
 }
 
+bool given(const CLI::App& command, const char* option) {
+  const CLI::Option* known = command.get_option_no_throw(option);
+  return known != nullptr && known->count() > 0;
+}
+
 SceneOptions read_scene_options(const CLI::App& command, Words& words) {
   refuse_extras(command, "more than one input; what is");
   refuse_repeated(command);
   SceneOptions options = std::move(words.scene);
   for (std::size_t i = 0; i < words.scene_values.size(); ++i) {
     const SceneOption& known = scene_options()[i];
-    const CLI::Option* given = command.get_option_no_throw(known.option);
-    if (given == nullptr || given->count() == 0) continue;
+    if (!given(command, known.option)) continue;
     options.settings.push_back({known.option, std::string(known.key), words.scene_values[i]});
   }
   for (const std::string& words_of_one : words.set) options.settings.push_back(setting(words_of_one));
-  if (command.count("--bricks") > 0 && command.count("--brick-size") > 0) {
+  if (given(command, "--bricks") && given(command, "--brick-size")) {
     throw Error(ErrorKind::kUsage, "give --bricks or --brick-size, not both");
   }
   if (!words.scenario.empty()) options.scenario = scenario_from_name(words.scenario);
-  if (!words.threads.empty()) options.threads = thread_count(words.threads);
+  if (!words.threads.empty()) options.threads = count_in("threads", words.threads);
+  if (!words.jobs.empty()) options.jobs = count_in("jobs", words.jobs);
   const std::string& name = command.get_name();
   if (options.input.empty()) {
-    throw Error(ErrorKind::kUsage, fmt::format("{0} needs a mesh or a scene; see sprung {0} --help", name));
+    throw Error(ErrorKind::kUsage, fmt::format("{0} needs {1}; see sprung {0} --help", name,
+                                               name == "render" ? "a cache (.h5)" : "a mesh or a scene"));
   }
   if (options.outputs.empty() && !options.print_scene && name != "inspect") {
-    throw Error(ErrorKind::kUsage, name == "animate"
-                                       ? "animate needs an output: -o folder/, -o frame_{:04}.png or -o film.mp4"
-                                       : "simulate needs an output: -o folder");
+    throw Error(ErrorKind::kUsage, fmt::format("{} needs an output: {}", name,
+                                               name == "simulate" ? "-o RUN.h5 or -o folder/"
+                                                                  : "-o folder/, -o frame_{:04}.png or -o film.mp4"));
   }
   return options;
 }
@@ -214,6 +266,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   Words words;
   add_animate(app, words);
   add_simulate(app, words);
+  add_render(app, words);
   add_inspect(app, words);
   add_validate(app, words);
   CLI::App* materials = app.add_subcommand("materials", "the library of materials, with sources");
@@ -246,6 +299,9 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   } else if (app.got_subcommand("simulate")) {
     line.scene = read_scene_options(*app.get_subcommand("simulate"), words);
     line.command = CommandLine::Command::kSimulate;
+  } else if (app.got_subcommand("render")) {
+    line.scene = read_scene_options(*app.get_subcommand("render"), words);
+    line.command = CommandLine::Command::kRender;
   } else if (app.got_subcommand("inspect")) {
     line.scene = read_scene_options(*app.get_subcommand("inspect"), words);
     line.command = CommandLine::Command::kInspect;
@@ -257,6 +313,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   } else {
     line.text = app.help();
   }
+  line.scene.command = command_of(argc, argv);
   return line;
 }
 

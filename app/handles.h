@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "app/build_world.h"
+#include "core/motion/motion_memory.h"
 #include "core/world/keyframes.h"
 
 namespace sprung {
@@ -23,6 +24,9 @@ class Handles {
   /// Sets what is held from `begin` to `end` (s), and the even velocities that bring it, and obstacles, exactly to
   /// where they belong.
   void aim(double begin, double end);
+
+  /// How nodes were caught by the pins that hold now.
+  void pass(MotionMemory& memory);
 
  private:
   /// Nodes as a pin caught them.

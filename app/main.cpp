@@ -4,6 +4,7 @@
 #include <new>
 
 #include "app/animate.h"
+#include "app/cache/render_cache.h"
 #include "app/command_line.h"
 #include "app/inspect/inspect.h"
 #include "app/interrupt.h"
@@ -34,6 +35,9 @@ int run(int argc, const char* const* argv, Console& console) {
       break;
     case CommandLine::Command::kSimulate:
       run_simulation(line.scene, console);
+      break;
+    case CommandLine::Command::kRender:
+      render_cache(line.scene, console);
       break;
     case CommandLine::Command::kInspect:
       run_inspect(line.scene, console);

@@ -133,32 +133,33 @@ std::vector<Camera> cameras_of(const Scene& scene, const Reach& reach, std::size
 
 }  // namespace
 
-void render_film(const Production& production, const Recording& recording, const Scene& scene,
+void render_film(const Production& production, const Recording& recording, const Scene& scene, const FrameRange& range,
                  const std::vector<Output>& outputs, const Console& console) {
-  const std::size_t frames = recording.frames.size();
+  const auto first = static_cast<std::size_t>(range.first - 1);
+  const auto end = static_cast<std::size_t>(range.last);
   const auto [width, height] = scene.render.resolution;
-  Progress progress(console, "render", static_cast<double>(frames), 1, "frames/s");
+  Progress progress(console, "render", range.count(), 1, "frames/s");
   const Reach reach = reach_of(production, recording);
-  const std::vector<Camera> cameras = cameras_of(scene, reach, frames);
+  const std::vector<Camera> cameras = cameras_of(scene, reach, recording.frames.size());
   Renderer renderer(stage_of(production, reach.bounds),
                     {.width = width, .height = height, .samples = scene.render.samples});
   console.detail(fmt::format("drawn by {}", renderer.driver()));
-  PictureWriter writer(outputs, width, height, scene.fps);
+  PictureWriter writer(outputs, width, height, scene.fps, range.first);
   // The skins of the next frame are made ready while this one is drawn and the ones before are encoded.
   const auto make_ready = [&](std::size_t frame) {
     return std::async(std::launch::async,
                       [&, frame] { return shapes_of(production, recording.frames[frame], recording.progress[frame]); });
   };
-  std::future<std::vector<SkinShape>> next = make_ready(0);
-  for (std::size_t frame = 0; frame < frames; ++frame) {
+  std::future<std::vector<SkinShape>> next = make_ready(first);
+  for (std::size_t frame = first; frame < end; ++frame) {
     stop_if_interrupted();
     const std::vector<SkinShape> shapes = next.get();
-    if (frame + 1 < frames) next = make_ready(frame + 1);
+    if (frame + 1 < end) next = make_ready(frame + 1);
     writer.write(renderer.draw(shapes, cameras[frame]));
-    progress.update(static_cast<double>(frame + 1));
+    progress.update(static_cast<double>(frame + 1 - first));
   }
   writer.close();
-  progress.finish(fmt::format("{} of {} x {} pixels{}", count_of(static_cast<long>(frames), "picture"), width, height,
+  progress.finish(fmt::format("{} of {} x {} pixels{}", count_of(range.count(), "picture"), width, height,
                               ground_report(production, reach.lowest)));
 }
 
