@@ -41,9 +41,10 @@ View make_view(const DrawFrame& frame, const Camera& camera, double aspect) {
   const double away = eye.norm();
   const double near = std::max(0.02 * away, 0.002);
   const double far = away + kFar;
-  return {frame, eye, near,
-          clip_from_view(camera.vertical_field_of_view, aspect, near, far) *
-              view_from_stage(eye, frame.space.from_world(camera.target), camera.up)};
+  const Eigen::Matrix4d view = view_from_stage(eye, frame.space.from_world(camera.target), camera.up);
+  const Eigen::Matrix4d clip = clip_from_view(camera.vertical_field_of_view, aspect, near, far);
+  const Eigen::Vector2d slopes(1 / clip(0, 0), 1 / clip(1, 1));
+  return {frame, eye, near, clip * view, Vec3(slopes.x() * view(0, 1), slopes.y() * view(1, 1), -view(2, 1)), slopes};
 }
 
 PixelRectangle seen_rectangle(const View& view, int width, int height) {

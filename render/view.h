@@ -9,6 +9,8 @@ struct View {
   Vec3 eye;
   double near;
   Eigen::Matrix4d clip_from_stage;
+  Vec3 sight_height;             // of (x, y, 1) in clip space: how much the line of sight rises ...
+  Eigen::Vector2d sight_slopes;  // ... and how much it leans sideways; both for a step of 1 ahead
 };
 
 /// `aspect`: width / height.

@@ -3,7 +3,7 @@ uniform vec3 eye;
 uniform float body_radius;
 uniform float ground_height;
 uniform vec4 ground_rectangle;     // low corner x, z; sides
-uniform sampler2D ground_light;
+uniform sampler2D ground_light_map;
 uniform mat4 light_from_stage;     // the key light's clip space
 uniform vec2 light_texel;          // texture coordinates per unit of length, across the light
 uniform sampler2DShadow key_shadow_map;
@@ -16,8 +16,8 @@ uniform float ground_texels;       // per unit of length
 
 const float kRoughness = 0.42;
 const float kReflectance = 0.04;
-const int kSearch = 10;
-const int kTaps = 28;
+const int kSearch = 6;
+const int kTaps = 16;
 const mat2 kGoldenTurn = mat2(-0.7373688, 0.6754903, -0.6754903, -0.7373688);  // 137.5 degrees, for spirals
 
 // The share of the key light that reaches a point. The point is first moved outwards and into the light by a small
@@ -63,7 +63,10 @@ float open_sky(vec3 point, vec3 n) {
 vec3 ground_bounce(vec3 point, vec3 n) {
   float height = max(point.y - ground_height, 0.0);
   vec2 uv = (point.xz + 0.6 * height * n.xz - ground_rectangle.xy) / ground_rectangle.zw;
-  return kGroundAlbedo * textureLod(ground_light, uv, log2(max(height * ground_texels, 4.0))).rgb;
+  // A level that is the same for all pixels is read several times quicker than one of each pixel's own.
+  vec3 near = textureLod(ground_light_map, uv, 0.0).rgb;
+  vec3 far = textureLod(ground_light_map, uv, log2(max(0.5 * body_radius * ground_texels, 1.0))).rgb;
+  return kGroundAlbedo * mix(near, far, smoothstep(0.0, 0.5 * body_radius, height));
 }
 
 // What a reflection sees: floor below, a bright overhead panel fading into the room above.
