@@ -25,12 +25,13 @@ class BodyBuilder {
   struct Filled {
     Actor actor;
     DrawnSkin drawn;
+    CarriedVertices carried;
     std::vector<PinnedNodes> pins;  // their centres too
   };
   [[nodiscard]] Filled fill(std::size_t solid);
   [[nodiscard]] BrickGrid make_grid(const Solid& solid);
   [[nodiscard]] std::vector<PinnedNodes> find_pins(const Body& body, std::size_t solid) const;
-  void put(Filled filled, const Pose& pose);
+  void put(Filled filled, const Pose& pose, int copy);
 
   const SceneBody& body_;
   std::size_t index_;
@@ -40,6 +41,7 @@ class BodyBuilder {
   Selector selector_;
   FillReport report_;
   int held_solids_ = 0;
+  std::vector<int> solid_of_vertex_;  // of the mesh
 };
 
 }  // namespace sprung

@@ -109,6 +109,20 @@ void add_render(CLI::App& app, Words& words) {
   render->allow_extras();
 }
 
+void add_export(CLI::App& app, Words& words) {
+  CLI::App* command = app.add_subcommand("export", "a cache, mesh or scene in, deformed meshes out");
+  command
+      ->add_option("-o,--output", words.scene.outputs,
+                   "skin_{:04}.obj or another format, film.glb, points.pc2, points.mdd, run.xdmf; may be given "
+                   "several times")
+      ->allow_extra_args(false)
+      ->option_text("OUT");
+  command->add_option("--frames", words.scene.frames, "these only, counted from 1; default: all")->option_text("A:B");
+  command->add_flag("--list", words.scene.list, "name the formats, and stop");
+  command->add_flag("--overwrite", words.scene.overwrite, "replace files that exist");
+  add_scene_options(*command, words, false);
+}
+
 void add_inspect(CLI::App& app, Words& words) {
   CLI::App* inspect =
       app.add_subcommand("inspect", "mesh, scene or cache in, what it is and what its film will take out");
@@ -218,14 +232,17 @@ SceneOptions read_scene_options(const CLI::App& command, Words& words) {
   if (!words.threads.empty()) options.threads = count_in("threads", words.threads);
   if (!words.jobs.empty()) options.jobs = count_in("jobs", words.jobs);
   const std::string& name = command.get_name();
+  if (options.list) return options;
   if (options.input.empty()) {
     throw Error(ErrorKind::kUsage, fmt::format("{0} needs {1}; see sprung {0} --help", name,
                                                name == "render" ? "a cache (.h5)" : "a mesh or a scene"));
   }
   if (options.outputs.empty() && !options.print_scene && name != "inspect") {
-    throw Error(ErrorKind::kUsage, fmt::format("{} needs an output: {}", name,
-                                               name == "simulate" ? "-o RUN.h5 or -o folder/"
-                                                                  : "-o folder/, -o frame_{:04}.png or -o film.mp4"));
+    throw Error(ErrorKind::kUsage,
+                fmt::format("{} needs an output: {}", name,
+                            name == "simulate" ? "-o RUN.h5 or -o folder/"
+                            : name == "export" ? "-o skin_{:04}.obj, -o film.glb, ...; see sprung export --list"
+                                               : "-o folder/, -o frame_{:04}.png or -o film.mp4"));
   }
   return options;
 }
@@ -267,6 +284,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   add_animate(app, words);
   add_simulate(app, words);
   add_render(app, words);
+  add_export(app, words);
   add_inspect(app, words);
   add_validate(app, words);
   CLI::App* materials = app.add_subcommand("materials", "the library of materials, with sources");
@@ -302,6 +320,9 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   } else if (app.got_subcommand("render")) {
     line.scene = read_scene_options(*app.get_subcommand("render"), words);
     line.command = CommandLine::Command::kRender;
+  } else if (app.got_subcommand("export")) {
+    line.scene = read_scene_options(*app.get_subcommand("export"), words);
+    line.command = CommandLine::Command::kExport;
   } else if (app.got_subcommand("inspect")) {
     line.scene = read_scene_options(*app.get_subcommand("inspect"), words);
     line.command = CommandLine::Command::kInspect;

@@ -6,6 +6,7 @@
 #include "app/animate.h"
 #include "app/cache/render_cache.h"
 #include "app/command_line.h"
+#include "app/export/export_run.h"
 #include "app/inspect/inspect.h"
 #include "app/interrupt.h"
 #include "app/materials.h"
@@ -38,6 +39,9 @@ int run(int argc, const char* const* argv, Console& console) {
       break;
     case CommandLine::Command::kRender:
       render_cache(line.scene, console);
+      break;
+    case CommandLine::Command::kExport:
+      export_run(line.scene, console);
       break;
     case CommandLine::Command::kInspect:
       run_inspect(line.scene, console);

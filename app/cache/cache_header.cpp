@@ -82,6 +82,7 @@ CacheHeader cache_header(const Scene& scene, const Production& production, std::
   header.scene = print_scene(with_defaults(scene));
   header.progress_name = std::move(progress_name);
   header.size = production.size;
+  header.meshes = production.meshes;
   for (const Probe& probe : scene.probes) header.probes.push_back(probe.name);
   for (std::size_t i = 0; i < production.skins.size(); ++i) {
     const Body& body = production.world.actors[i].body;
@@ -95,6 +96,9 @@ CacheHeader cache_header(const Scene& scene, const Production& production, std::
     actor.rest_positions = body.rest_positions;
     actor.skin = drawn.skin;
     actor.embedding = drawn.embedding;
+    actor.copy = production.origins[i].copy;
+    actor.carried = production.carried[i].vertices;
+    actor.carried_embedding = production.carried[i].embedding;
   }
   for (const StageObstacle& obstacle : production.obstacles) {
     header.obstacles.push_back({.color = bytes_of(obstacle.color), .start = obstacle.start, .skin = obstacle.skin});

@@ -23,13 +23,15 @@ Body cached_body(const CachedActor& cached, const SceneBody& scene_body) {
 Production cached_production(const CacheHeader& header, const Scene& scene) {
   Production production;
   production.size = header.size;
+  production.meshes = header.meshes;
   production.world.gravity = scene.gravity;
   for (const CachedActor& cached : header.actors) {
     const auto row = static_cast<std::size_t>(cached.body);
     if (row >= scene.bodies.size()) throw Error(ErrorKind::kBadInput, "the cache is damaged: a body that no scene has");
     production.world.actors.push_back({.body = cached_body(cached, scene.bodies[row]), .contacts = {}, .pinned = {}});
     production.skins.push_back({.skin = cached.skin, .embedding = cached.embedding, .color = color_of(cached.color)});
-    production.origins.push_back({.body = row, .pins = {}});
+    production.carried.push_back({.vertices = cached.carried, .embedding = cached.carried_embedding});
+    production.origins.push_back({.body = row, .copy = cached.copy, .pins = {}});
   }
   for (std::size_t i = 0; i < header.obstacles.size(); ++i) {
     const SceneObstacle& obstacle = scene.obstacles.at(i);

@@ -10,6 +10,7 @@ namespace {
 
 std::vector<const Points*> addresses(const std::vector<Points>& all) {
   std::vector<const Points*> list;
+  list.reserve(all.size());
   for (const Points& points : all) list.push_back(&points);
   return list;
 }

@@ -19,6 +19,7 @@ using CachedColor = std::array<std::uint8_t, 3>;
 /// One soft body as it does not change: row of World::actors.
 struct CachedActor {
   int body = 0;  // row of the scene's bodies
+  int copy = 0;  // of the body, which one
   CachedColor color{};
   BrickGrid grid;                       // without patches, which only embed() reads
   std::vector<double> stiffness_scale;  // per brick: fill times the stiffness of its region over the body's
@@ -26,6 +27,8 @@ struct CachedActor {
   Points rest_positions;                // m x 3, m
   Skin skin;
   Embedding embedding;
+  std::vector<int> carried;  // rows of the body's mesh that ride on this actor ...
+  Embedding carried_embedding;
 };
 
 /// Something solid as it is drawn; how it moves is in the scene.
@@ -43,6 +46,7 @@ struct CacheHeader {
   std::string progress_name;  // "time_s", "load", "mode"
   double size = 0;            // m, longest side of the largest body
   std::vector<std::string> probes;
+  std::vector<Skin> meshes;  // of the scene's bodies, as their files have them; normals: 0 rows where those have none
   std::vector<CachedActor> actors;
   std::vector<CachedObstacle> obstacles;
 };

@@ -48,6 +48,10 @@ CachedActor read_actor(const Hdf5Reader& hdf5, const std::string& folder) {
   actor.skin = read_skin(hdf5, folder + "/skin");
   actor.embedding.brick = hdf5.read<int>(folder + "/skin/brick").values;
   actor.embedding.local = read_matrix<Points>(hdf5, folder + "/skin/place_in_brick");
+  actor.copy = hdf5.read<int>(folder + "/copy").values.at(0);
+  actor.carried = hdf5.read<int>(folder + "/mesh/vertices").values;
+  actor.carried_embedding.brick = hdf5.read<int>(folder + "/mesh/brick").values;
+  actor.carried_embedding.local = read_matrix<Points>(hdf5, folder + "/mesh/place_in_brick");
   return actor;
 }
 
@@ -81,8 +85,10 @@ CacheHeader read_header(const Hdf5Reader& hdf5) {
   header.progress_name = hdf5.read_text("/progress_name");
   header.size = hdf5.read<double>("/size").values.at(0);
   header.probes = hdf5.read_texts("/probes");
+  const auto meshes = static_cast<std::size_t>(hdf5.read<int>("/mesh_count").values.at(0));
   const auto actors = static_cast<std::size_t>(hdf5.read<int>("/actor_count").values.at(0));
   const auto obstacles = static_cast<std::size_t>(hdf5.read<int>("/obstacle_count").values.at(0));
+  for (std::size_t i = 0; i < meshes; ++i) header.meshes.push_back(read_skin(hdf5, mesh_folder(i)));
   for (std::size_t i = 0; i < actors; ++i) header.actors.push_back(read_actor(hdf5, actor_folder(i)));
   for (std::size_t i = 0; i < obstacles; ++i) header.obstacles.push_back(read_obstacle(hdf5, obstacle_folder(i)));
   return header;

@@ -80,6 +80,10 @@ void write_actor(Hdf5Writer& hdf5, const std::string& folder, const CachedActor&
   write_skin(hdf5, folder + "/skin", actor.skin);
   write_list(hdf5, folder + "/skin/brick", actor.embedding.brick);
   write_matrix(hdf5, folder + "/skin/place_in_brick", actor.embedding.local);
+  write_number(hdf5, folder + "/copy", actor.copy);
+  write_list(hdf5, folder + "/mesh/vertices", actor.carried);
+  write_list(hdf5, folder + "/mesh/brick", actor.carried_embedding.brick);
+  write_matrix(hdf5, folder + "/mesh/place_in_brick", actor.carried_embedding.local);
   const ArrayShape state{static_cast<std::size_t>(actor.rest_positions.rows()), 3};
   hdf5.make_series<double>(folder + "/positions", state);
   hdf5.make_series<double>(folder + "/velocities", state);
@@ -100,8 +104,10 @@ void write_header(Hdf5Writer& hdf5, const CacheHeader& header) {
   hdf5.write_text("/progress_name", header.progress_name);
   write_number(hdf5, "/size", header.size);
   hdf5.write_texts("/probes", header.probes);
+  write_number(hdf5, "/mesh_count", static_cast<int>(header.meshes.size()));
   write_number(hdf5, "/actor_count", static_cast<int>(header.actors.size()));
   write_number(hdf5, "/obstacle_count", static_cast<int>(header.obstacles.size()));
+  for (std::size_t i = 0; i < header.meshes.size(); ++i) write_skin(hdf5, mesh_folder(i), header.meshes[i]);
   for (std::size_t i = 0; i < header.actors.size(); ++i) write_actor(hdf5, actor_folder(i), header.actors[i]);
   for (std::size_t i = 0; i < header.obstacles.size(); ++i) {
     write_obstacle(hdf5, obstacle_folder(i), header.obstacles[i]);

@@ -83,7 +83,7 @@ std::string Hdf5Reader::read_text(const std::string& name) const {
   const Hdf5Handle type(open_->check(H5Dget_type(set.get()), name), H5Tclose);
   std::string text(H5Tget_size(type.get()), '\0');
   open_->check(H5Dread(set.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()), name);
-  return text.c_str();
+  return text.substr(0, text.find('\0'));
 }
 
 std::vector<std::string> Hdf5Reader::read_texts(const std::string& name) const {
@@ -94,7 +94,10 @@ std::vector<std::string> Hdf5Reader::read_texts(const std::string& name) const {
   std::string all(count * width, '\0');
   if (count > 0) open_->check(H5Dread(set.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, all.data()), name);
   std::vector<std::string> texts;
-  for (std::size_t i = 0; i < count; ++i) texts.emplace_back(all.substr(i * width, width).c_str());
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string padded = all.substr(i * width, width);
+    texts.push_back(padded.substr(0, padded.find('\0')));
+  }
   return texts;
 }
 

@@ -27,6 +27,7 @@ CacheHeader box_header(int side) {
                      .progress_name = "time_s",
                      .size = 0.5,
                      .probes = {"tip"},
+                     .meshes = {},
                      .actors = {},
                      .obstacles = {}};
   CachedActor actor;
@@ -44,6 +45,9 @@ CacheHeader box_header(int side) {
   actor.skin.materials = {
       {.name = "fur", .texture = {std::byte{7}, std::byte{0}, std::byte{9}}, .texture_name = "f.png"}};
   actor.embedding = embed(body.grid, actor.skin.positions);
+  header.meshes.push_back(actor.skin);
+  actor.carried = {2, 0, 1};
+  actor.carried_embedding = actor.embedding;
   header.actors.push_back(actor);
   header.obstacles.push_back({.color = {4, 5, 6}, .start = {.translation = {1, 2, 3}}, .skin = actor.skin});
   return header;
@@ -106,6 +110,8 @@ TEST(Cache, GivesBackEveryBit) {
   EXPECT_EQ(actor.grid.fill, made.grid.fill);
   EXPECT_EQ(actor.masses, made.masses);
   EXPECT_EQ(actor.embedding.local, made.embedding.local);
+  EXPECT_EQ(actor.carried, made.carried);
+  EXPECT_EQ(read.meshes.at(0).triangles, made.skin.triangles);
   EXPECT_EQ(actor.skin.uvs, made.skin.uvs);
   EXPECT_EQ(actor.skin.colors, made.skin.colors);
   EXPECT_EQ(actor.skin.parts.at(0).name, "ear left");
