@@ -34,6 +34,7 @@ struct Words {
   std::string scenario;
   std::string threads;
   std::string jobs;
+  std::string fps;    // of film
   std::string topic;  // of help
   bool json_schema = false;
 };
@@ -123,6 +124,35 @@ void add_export(CLI::App& app, Words& words) {
   add_scene_options(*command, words, false);
 }
 
+void add_film(CLI::App& app, Words& words) {
+  CLI::App* film = app.add_subcommand("film", "numbered pictures in, a film out");
+  film->add_option("INPUT", words.scene.input, "folder/, or folder/frame_{:04}.png");
+  film->add_option("-o,--output", words.scene.outputs, "film.mp4, .webm, .gif; may be given several times")
+      ->allow_extra_args(false)
+      ->option_text("OUT");
+  film->add_option("--frames", words.scene.frames, "these only; default: from 1 to the last that is there")
+      ->option_text("A:B");
+  film->add_option("--fps", words.fps, "pictures a second; default: 24")->option_text("N");
+  film->add_flag("--overwrite", words.scene.overwrite, "replace films that exist");
+  film->add_flag("--quiet", words.scene.quiet, "warnings and errors only");
+  film->allow_extras();
+}
+
+void add_sweep(CLI::App& app, Words& words) {
+  CLI::App* sweep = app.add_subcommand("sweep", "a scene and lists of values in, a folder and a command a run out");
+  sweep->add_option("INPUT", words.scene.input, "a mesh file, a scene (.toml), or with --table the folder of a sweep");
+  sweep->add_option("-o,--output", words.scene.outputs, "the folder for all runs")
+      ->allow_extra_args(false)
+      ->option_text("FOLDER");
+  sweep->add_option("--set", words.set, "values of any key of a scene, by commas; may be given several times")
+      ->allow_extra_args(false)
+      ->option_text("KEY=A,B,C");
+  sweep->add_flag("--table", words.scene.table, "what the probes of all runs saw last, as CSV");
+  sweep->add_flag("--overwrite", words.scene.overwrite, "replace the list of commands that exists");
+  sweep->add_flag("--quiet", words.scene.quiet, "warnings and errors only");
+  sweep->allow_extras();
+}
+
 void add_inspect(CLI::App& app, Words& words) {
   CLI::App* inspect =
       app.add_subcommand("inspect", "mesh, scene or cache in, what it is and what its film will take out");
@@ -210,6 +240,32 @@ Setting setting(const std::string& text) {
   return {"--set " + text.substr(0, sign), text.substr(0, sign), text.substr(sign + 1)};
 }
 
+/// One value of a key of the scene, from the words after an option.
+template <class Value, class Owner>
+void read_choice(const CLI::App& command, const char* option, const char* key, const std::string& text,
+                 std::optional<Value>& value) {
+  if (command.count(option) == 0) return;
+  try {
+    parse_value(text, *find_key<Owner>(key), value);
+  } catch (const Error& error) {
+    throw Error(ErrorKind::kUsage, fmt::format("{}: {}", option, error.what()));
+  }
+}
+
+std::string_view input_of(std::string_view command) {
+  if (command == "render") return "a cache (.h5)";
+  if (command == "film") return "a folder of pictures";
+  return "a mesh or a scene";
+}
+
+std::string_view outputs_of(std::string_view command) {
+  if (command == "simulate") return "-o RUN.h5 or -o folder/";
+  if (command == "export") return "-o skin_{:04}.obj, -o film.glb, ...; see sprung export --list";
+  if (command == "film") return "-o film.mp4";
+  if (command == "sweep") return "-o folder/";
+  return "-o folder/, -o frame_{:04}.png or -o film.mp4";
+}
+
 bool given(const CLI::App& command, const char* option) {
   const CLI::Option* known = command.get_option_no_throw(option);
   return known != nullptr && known->count() > 0;
@@ -234,29 +290,12 @@ SceneOptions read_scene_options(const CLI::App& command, Words& words) {
   const std::string& name = command.get_name();
   if (options.list) return options;
   if (options.input.empty()) {
-    throw Error(ErrorKind::kUsage, fmt::format("{0} needs {1}; see sprung {0} --help", name,
-                                               name == "render" ? "a cache (.h5)" : "a mesh or a scene"));
+    throw Error(ErrorKind::kUsage, fmt::format("{0} needs {1}; see sprung {0} --help", name, input_of(name)));
   }
-  if (options.outputs.empty() && !options.print_scene && name != "inspect") {
-    throw Error(ErrorKind::kUsage,
-                fmt::format("{} needs an output: {}", name,
-                            name == "simulate" ? "-o RUN.h5 or -o folder/"
-                            : name == "export" ? "-o skin_{:04}.obj, -o film.glb, ...; see sprung export --list"
-                                               : "-o folder/, -o frame_{:04}.png or -o film.mp4"));
+  if (options.outputs.empty() && !options.print_scene && !options.table && name != "inspect") {
+    throw Error(ErrorKind::kUsage, fmt::format("{} needs an output: {}", name, outputs_of(name)));
   }
   return options;
-}
-
-/// One value of a key of the scene, from the words after an option.
-template <class Value, class Owner>
-void read_choice(const CLI::App& command, const char* option, const char* key, const std::string& text,
-                 std::optional<Value>& value) {
-  if (command.count(option) == 0) return;
-  try {
-    parse_value(text, *find_key<Owner>(key), value);
-  } catch (const Error& error) {
-    throw Error(ErrorKind::kUsage, fmt::format("{}: {}", option, error.what()));
-  }
 }
 
 ValidateOptions validate_options(const CLI::App& command, Words& words) {
@@ -285,6 +324,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   add_simulate(app, words);
   add_render(app, words);
   add_export(app, words);
+  add_film(app, words);
+  add_sweep(app, words);
   add_inspect(app, words);
   add_validate(app, words);
   CLI::App* materials = app.add_subcommand("materials", "the library of materials, with sources");
@@ -323,6 +364,13 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   } else if (app.got_subcommand("export")) {
     line.scene = read_scene_options(*app.get_subcommand("export"), words);
     line.command = CommandLine::Command::kExport;
+  } else if (app.got_subcommand("film")) {
+    line.scene = read_scene_options(*app.get_subcommand("film"), words);
+    read_choice<double, Scene>(*app.get_subcommand("film"), "--fps", "fps", words.fps, line.scene.fps);
+    line.command = CommandLine::Command::kFilm;
+  } else if (app.got_subcommand("sweep")) {
+    line.scene = read_scene_options(*app.get_subcommand("sweep"), words);
+    line.command = CommandLine::Command::kSweep;
   } else if (app.got_subcommand("inspect")) {
     line.scene = read_scene_options(*app.get_subcommand("inspect"), words);
     line.command = CommandLine::Command::kInspect;

@@ -7,6 +7,8 @@
 #include "app/cache/render_cache.h"
 #include "app/command_line.h"
 #include "app/export/export_run.h"
+#include "app/farm/film.h"
+#include "app/farm/sweep.h"
 #include "app/inspect/inspect.h"
 #include "app/interrupt.h"
 #include "app/materials.h"
@@ -42,6 +44,12 @@ int run(int argc, const char* const* argv, Console& console) {
       break;
     case CommandLine::Command::kExport:
       export_run(line.scene, console);
+      break;
+    case CommandLine::Command::kFilm:
+      make_film(line.scene, console);
+      break;
+    case CommandLine::Command::kSweep:
+      sweep(line.scene, console);
       break;
     case CommandLine::Command::kInspect:
       run_inspect(line.scene, console);
