@@ -48,6 +48,7 @@ std::vector<PosedMesh> posed_meshes(const Production& production, const Scene& s
         deform_normals(grid, carried.embedding, rest, positions).rowwise().normalized();
   }
   std::vector<PosedMesh> list;
+  list.reserve(meshes.size());
   for (auto& [key, mesh] : meshes) list.push_back(std::move(mesh));
   return list;
 }

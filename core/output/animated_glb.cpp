@@ -38,12 +38,7 @@ void add_number(std::string& bytes, std::size_t value) {
   bytes.append(reinterpret_cast<const char*>(&number), sizeof(number));
 }
 
-void add_chunk(std::string& file, std::string chunk, std::uint32_t kind, char padding) {
-  chunk.resize((chunk.size() + 3) / 4 * 4, padding);
-  add_number(file, chunk.size());
-  add_number(file, kind);
-  file += chunk;
-}
+std::size_t padding_of(std::size_t size) { return (4 - size % 4) % 4; }
 
 /// The lists of a glTF file as they grow.
 class GlbFilm {
@@ -67,7 +62,8 @@ class GlbFilm {
     nodes_.push_back(fmt::format("{{\"name\":{},\"mesh\":{}}}", name, nodes_.size()));
   }
 
-  std::string finish(const std::vector<double>& times) {
+  /// Nothing can be added after that.
+  void write(const std::vector<double>& times, const std::filesystem::path& file) {
     const std::string animation = frames_ > 1 ? animation_of(times) : "";
     std::vector<std::size_t> roots(nodes_.size());
     for (std::size_t i = 0; i < roots.size(); ++i) roots[i] = i;
@@ -76,14 +72,19 @@ class GlbFilm {
         "\"nodes\":[{}],\"meshes\":[{}],\"materials\":[{}]{}{},{}}}",
         fmt::join(roots, ","), fmt::join(nodes_, ","), fmt::join(meshes_, ","), fmt::join(materials_, ","), pictures(),
         animation, buffer_.json());
-    std::string chunks;
-    add_chunk(chunks, std::move(json), kJson, ' ');
-    add_chunk(chunks, buffer_.bytes(), kBinary, '\0');
-    std::string file;
-    add_number(file, kMagic);
-    add_number(file, 2);
-    add_number(file, 12 + chunks.size());
-    return file + chunks;
+    json.append(padding_of(json.size()), ' ');
+    const std::string& numbers = buffer_.bytes();
+    const std::string padding(padding_of(numbers.size()), '\0');
+    std::string head;
+    for (const std::size_t number :
+         {std::size_t{kMagic}, std::size_t{2}, 28 + json.size() + numbers.size() + padding.size(), json.size(),
+          std::size_t{kJson}}) {
+      add_number(head, number);
+    }
+    std::string between;
+    add_number(between, numbers.size() + padding.size());
+    add_number(between, kBinary);
+    write_pieces(file, {head, json, between, numbers, padding});
   }
 
  private:
@@ -180,7 +181,7 @@ void write_animated_glb(const std::vector<AnimatedMesh>& meshes, const std::vect
   }
   GlbFilm film(times.size());
   for (const AnimatedMesh& mesh : meshes) film.add(mesh);
-  write_bytes(file, film.finish(times));
+  film.write(times, file);
 }
 
 }  // namespace sprung

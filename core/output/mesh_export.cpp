@@ -81,12 +81,14 @@ void export_meshes(const std::vector<PosedMesh>& meshes, const std::filesystem::
   write_by_assimp(format->is_z_up ? turned_up(meshes) : meshes, *format, file);
 }
 
-void write_bytes(const std::filesystem::path& file, std::string_view bytes) {
+void write_bytes(const std::filesystem::path& file, std::string_view bytes) { write_pieces(file, {bytes}); }
+
+void write_pieces(const std::filesystem::path& file, std::initializer_list<std::string_view> pieces) {
   std::filesystem::path partial = file;
   partial += ".partial";
   errno = 0;
   std::ofstream out(partial, std::ios::binary);
-  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  for (const std::string_view piece : pieces) out.write(piece.data(), static_cast<std::streamsize>(piece.size()));
   out.close();
   std::error_code error;
   if (out) std::filesystem::rename(partial, file, error);

@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,8 @@ void write_by_assimp(const std::vector<PosedMesh>& meshes, const MeshFormat& for
 
 /// Writes beside the name and renames. Throws Error(kFailed).
 void write_bytes(const std::filesystem::path& file, std::string_view bytes);
+/// The same for bytes that lie in several places.
+void write_pieces(const std::filesystem::path& file, std::initializer_list<std::string_view> pieces);
 
 /// Writes the texture of a part beside a file and returns its name there; "" where it has none that is known. Frames of
 /// one film share it.
