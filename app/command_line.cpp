@@ -113,9 +113,10 @@ void add_render(CLI::App& app, Words& words) {
 void add_export(CLI::App& app, Words& words) {
   CLI::App* command = app.add_subcommand("export", "a cache, mesh or scene in, deformed meshes out");
   command
-      ->add_option("-o,--output", words.scene.outputs,
-                   "skin_{:04}.obj or another format, film.glb, points.pc2, points.mdd, run.xdmf; may be given "
-                   "several times")
+      ->add_option(
+          "-o,--output", words.scene.outputs,
+          "skin_{:04}.obj or another format, film.glb, film.html, points.pc2, points.mdd, run.xdmf; may be given "
+          "several times")
       ->allow_extra_args(false)
       ->option_text("OUT");
   command->add_option("--frames", words.scene.frames, "these only, counted from 1; default: all")->option_text("A:B");

@@ -6,8 +6,10 @@
 #include <algorithm>
 
 #include "app/export/posed_meshes.h"
+#include "app/export/viewer.h"
 #include "app/interrupt.h"
 #include "app/progress.h"
+#include "app/report/whole_file.h"
 #include "core/count_of.h"
 #include "core/error.h"
 #include "core/nearest.h"
@@ -23,7 +25,8 @@ namespace fs = std::filesystem;
 using Kind = ExportTarget::Kind;
 
 constexpr std::string_view kExamples =
-    "give a pattern like skin_{:04}.obj, or film.glb, points.pc2, points.mdd, run.xdmf; sprung export --list names "
+    "give a pattern like skin_{:04}.obj, or film.glb, film.html, points.pc2, points.mdd, run.xdmf; sprung export "
+    "--list names "
     "the formats";
 
 [[noreturn]] void refuse(std::string_view words, std::string_view reason) {
@@ -84,6 +87,12 @@ void export_animation(const ExportTarget& target, const Film& film, const FrameR
   write_animated_glb(animated, times, target.file);
 }
 
+void export_page(const ExportTarget& target, const Film& film, const FrameRange& range) {
+  ViewerFilm viewer;
+  each_frame(film, range, 1, [&](int, const std::vector<PosedMesh>& meshes) { viewer.add_frame(meshes); });
+  write_whole_file(target.file, viewer.page(film.scene.fps, film.scene.camera.azimuth, film.scene.camera.elevation));
+}
+
 void export_points(const ExportTarget& target, const Film& film, const FrameRange& range) {
   std::vector<std::vector<Floats3>> points(mesh_count(film.scene));
   std::vector<double> times;
@@ -129,11 +138,12 @@ ExportTarget parse_export_target(std::string_view words) {
   const fs::path file(words);
   const std::string ending = file.extension().string();
   if (ending == ".glb") return {.kind = Kind::kAnimation, .numbered = {}, .file = file};
+  if (ending == ".html") return {.kind = Kind::kPage, .numbered = {}, .file = file};
   if (ending == ".pc2") return {.kind = Kind::kPc2, .numbered = {}, .file = file};
   if (ending == ".mdd") return {.kind = Kind::kMdd, .numbered = {}, .file = file};
   if (ending == ".xdmf") return {.kind = Kind::kXdmf, .numbered = {}, .file = file};
   if (find_mesh_format(file) != nullptr) return {.kind = Kind::kMeshes, .numbered = {}, .file = file};
-  std::vector<std::string_view> known{".pc2", ".mdd", ".xdmf"};
+  std::vector<std::string_view> known{".html", ".pc2", ".mdd", ".xdmf"};
   for (const MeshFormat& format : mesh_formats()) known.push_back(format.ending);
   refuse(words, fmt::format("'{}' files cannot be written{}", ending, did_you_mean(ending, known)));
 }
@@ -162,6 +172,9 @@ void export_files(const ExportTarget& target, const Film& film, const FrameRange
       break;
     case Kind::kAnimation:
       export_animation(target, film, range, console);
+      break;
+    case Kind::kPage:
+      export_page(target, film, range);
       break;
     case Kind::kPc2:
     case Kind::kMdd:

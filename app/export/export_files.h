@@ -14,13 +14,13 @@ namespace sprung {
 
 /// Where exported frames go: a file each, or all into one (or one for each body).
 struct ExportTarget {
-  enum class Kind { kMeshes, kAnimation, kPc2, kMdd, kXdmf };
+  enum class Kind { kMeshes, kAnimation, kPage, kPc2, kMdd, kXdmf };
   Kind kind = Kind::kMeshes;
   std::optional<NumberedName> numbered;  // of kMeshes; or
   std::filesystem::path file;
 };
 
-/// "skin_{:04}.obj", "film.glb", "points.pc2", "run.xdmf". Throws Error(kUsage).
+/// "skin_{:04}.obj", "film.glb", "film.html", "points.pc2", "run.xdmf". Throws Error(kUsage).
 [[nodiscard]] ExportTarget parse_export_target(std::string_view words);
 
 /// What is drawn of a film, wherever it comes from.

@@ -21,6 +21,7 @@ void print_formats() {
   fmt::print(
       "All frames in one file:\n"
       "  .glb    glTF 2 with an animation, for Blender, three.js and browsers\n"
+      "  .html   a page to look at in a browser, by itself; without textures\n"
       "  .pc2    Point Cache 2, .mdd LightWave: vertices of each frame, for Blender's Mesh Cache modifier\n"
       "  .xdmf   bricks with their fields, and skins, for ParaView; the numbers are in .xdmf.h5\n"
       "Left out:\n");

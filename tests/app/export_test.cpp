@@ -31,7 +31,7 @@ rotation = [0, 20, 0]
 
 TEST_F(Export, KeepsTheMeshOfTheFileAndWritesTheSameFromACacheAndAScene) {
   ASSERT_EQ(run("simulate scene.toml -o run.h5").exit_code, 0);
-  const ProgramRun cached = run("export run.h5 -o a/skin_{:03}.obj -o film.glb -o points.pc2 -o run.xdmf");
+  const ProgramRun cached = run("export run.h5 -o a/skin_{:03}.obj -o film.glb -o film.html -o points.pc2 -o run.xdmf");
   ASSERT_EQ(cached.exit_code, 0) << cached.err;
   ASSERT_EQ(run("export scene.toml -o b/skin_{:03}.obj --frames 2:4").exit_code, 0);
   EXPECT_FALSE(exists("b/skin_001.obj"));
@@ -52,6 +52,11 @@ TEST_F(Export, KeepsTheMeshOfTheFileAndWritesTheSameFromACacheAndAScene) {
   EXPECT_NEAR(first.positions.col(1).minCoeff(), 0.1, 1e-6);
   EXPECT_EQ(std::filesystem::file_size(folder_.path() / "points.pc2"), 32U + 4 * 8 * 12);
   EXPECT_TRUE(exists("film.glb"));
+  const std::string page = text_of(folder_.path() / "film.html");
+  EXPECT_NE(page.find("const film = {frames: 4, fps: 10,"), std::string::npos);
+  const std::size_t positions = page.find("positions: \"") + 12;
+  EXPECT_EQ(page.find('"', positions) - positions, 4U * 8 * 3 * 2 / 3 * 4) << "four frames of eight vertices, base64";
+  EXPECT_EQ(page.find("http"), std::string::npos) << "it needs nothing else";
   EXPECT_TRUE(exists("run.xdmf.h5"));
 }
 
