@@ -17,6 +17,7 @@ std::vector<PosedPart> parts_of(const PosedMesh& mesh) {
                     .triangle_count = part.triangle_count,
                     .material = mesh.name + " skin"};
     posed.color << mesh.color, 1;
+    if (mesh.rest->colors.rows() > 0) posed.color.setOnes();  // which programs multiply by those
     if (part.material >= 0) {
       posed.source = &mesh.rest->materials[static_cast<std::size_t>(part.material)];
       posed.color = posed.source->color;

@@ -11,7 +11,7 @@ namespace sprung {
 struct PosedMesh {
   std::string name;
   const Skin* rest = nullptr;
-  Eigen::Vector3f color{0.8F, 0.8F, 0.8F};  // sRGB, of what has no material of its own
+  Eigen::Vector3f color{0.8F, 0.8F, 0.8F};  // sRGB, of what has no colours of its own
   Points positions;                         // n x 3, m
   Points normals;                           // n x 3, unit; 0 rows: the mesh has none
 };

@@ -108,6 +108,17 @@ TEST(MeshExports, ObjKeepsVerticesUvsAndNames) {
   EXPECT_NE(text_of(folder.path() / "a.mtl").find("newmtl sheet_red\nKd 0.8 0.1 0.2\n"), std::string::npos);
 }
 
+TEST(MeshExports, ABodysColorIsForWhatHasNone) {
+  Skin skin = sheet(3);
+  PosedMesh mesh = posed(skin);
+  mesh.color = {0.9F, 0.1F, 0.1F};
+  EXPECT_EQ(parts_of(mesh)[0].color, skin.materials[0].color);
+  skin.parts.clear();
+  EXPECT_EQ(parts_of(mesh).at(0).color, Eigen::Vector4f(0.9F, 0.1F, 0.1F, 1));
+  skin.colors = Floats4::Constant(9, 4, 0.5F);
+  EXPECT_EQ(parts_of(mesh).at(0).color, Eigen::Vector4f::Ones());
+}
+
 TEST(PointCaches, AreWhatTheirFormatsSay) {
   const TempFolder folder;
   const std::vector<Floats3> frames{Floats3::Constant(4, 3, 1.5F), Floats3::Constant(4, 3, -2)};
