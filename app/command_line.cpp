@@ -204,6 +204,12 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     line.scene.quiet = words.scene.quiet;
     line.scene.verbose = words.scene.verbose;
     line.command = CommandLine::Command::kValidate;
+  } else if (app.got_subcommand("compare")) {
+    const CLI::App& command = *app.get_subcommand("compare");
+    refuse_extras(command, "unexpected");
+    refuse_repeated(command);
+    line.compare = words.compare;
+    line.command = CommandLine::Command::kCompare;
   } else {
     line.text = app.help();
   }

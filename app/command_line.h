@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/compare.h"
 #include "app/scene/scenarios.h"
 #include "app/validate/validate.h"
 
@@ -50,12 +51,14 @@ struct CommandLine {
     kFilm,
     kSweep,
     kInspect,
-    kValidate
+    kValidate,
+    kCompare
   };
   Command command = Command::kShowText;
   std::string text;          // of kShowText: help or version
-  SceneOptions scene;        // of all others but kMaterials
+  SceneOptions scene;        // of all others but kMaterials and kCompare
   ValidateOptions validate;  // of kValidate
+  CompareOptions compare;    // of kCompare
 };
 
 /// Throws Error(kUsage), with the nearest word for a mistyped command or option.

@@ -151,6 +151,22 @@ void add_validate(CLI::App& app, Words& words) {
   validate->allow_extras();
 }
 
+void add_compare(CLI::App& app, Words& words) {
+  CLI::App* compare = app.add_subcommand("compare", "two pictures: how much they differ; exit code 1 if too much");
+  compare->add_option("A", words.compare.first, "a PNG")->option_text("A.png")->required();
+  compare->add_option("B", words.compare.second, "another")->option_text("B.png")->required();
+  compare->add_option("--mean", words.compare.mean, "levels of 255 that they may differ by on average; default: 0.4")
+      ->option_text("X")
+      ->check(CLI::NonNegativeNumber);
+  compare->add_option("--worst-block", words.compare.worst_block, "the same in the worst 8 x 8 pixels; default: 6")
+      ->option_text("X")
+      ->check(CLI::NonNegativeNumber);
+  compare->add_option("--difference", words.compare.difference, "picture of the differences, 16 times as large")
+      ->option_text("FILE.png");
+  compare->add_flag("--overwrite", words.compare.overwrite, "replace a picture that exists");
+  compare->allow_extras();
+}
+
 void add_help(CLI::App& app, Words& words) {
   CLI::App* help = app.add_subcommand("help", "on a command, or on the keys of a scene: sprung help scene");
   help->add_option("TOPIC", words.topic, "a command, or scene");
@@ -169,6 +185,7 @@ void add_commands(CLI::App& app, Words& words) {
   add_sweep(app, words);
   add_inspect(app, words);
   add_validate(app, words);
+  add_compare(app, words);
   app.add_subcommand("materials", "the library of materials, with sources")->allow_extras();
   add_help(app, words);
 }

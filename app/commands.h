@@ -15,6 +15,7 @@ namespace sprung {
 struct Words {
   SceneOptions scene;
   ValidateOptions validate;
+  CompareOptions compare;
   std::string model;
   std::string poisson;
   std::string bricks;

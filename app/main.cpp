@@ -56,6 +56,8 @@ int run(int argc, const char* const* argv, Console& console) {
       break;
     case CommandLine::Command::kValidate:
       return validate(line.validate, console) ? 0 : kFailed;
+    case CommandLine::Command::kCompare:
+      return compare(line.compare) ? 0 : kFailed;
   }
   return 0;
 }

@@ -14,15 +14,12 @@ namespace sprung {
 
 namespace {
 
-constexpr int kKeySize = 1024;  // texels
-constexpr int kKeyMaskSize = kKeySize / 2;
 constexpr int kZenithSize = 128;
 constexpr int kZenithDepthSize = 2 * kZenithSize;
 constexpr int kUndersideSize = 128;
 constexpr int kUndersideColorSize = 2 * kUndersideSize;
 constexpr int kGroundSkySize = 128;
 constexpr int kGroundLightSize = 128;
-constexpr int kGroundShadowSize = 512;
 constexpr float kShaded = 0.5F;       // depth of the ground where there may be shadow
 constexpr float kZenithBlur = 0.45F;  // of a body's radius: three standard deviations
 
@@ -71,9 +68,18 @@ Eigen::Vector4f lookup_rectangle(const LightView& view) {
   return rectangle(view.low.head<2>(), view.sides.head<2>().cwiseInverse());
 }
 
-const std::string kShadedDepth = fmt::format("#define SHADED {:.3f}\n", kShaded);
-const std::string kShadowLod =
-    fmt::format("#define SHADOW_LOD {:.3f}\n", std::log2(kGroundShadowSize / kGroundLightSize));
+/// Texels along the key light's map.
+int key_size(Quality quality) { return quality == Quality::kHigh ? 2048 : quality == Quality::kDefault ? 1024 : 512; }
+
+std::string shadow_settings(Quality quality) {
+  const bool is_high = quality == Quality::kHigh;
+  return fmt::format("#define SHADED {:.3f}\n#define SEARCH {}\n#define TAPS {}\n", kShaded, is_high ? 12 : 6,
+                     is_high ? 32 : 14);
+}
+
+std::string light_settings(int ground_shadow_size) {
+  return fmt::format("#define SHADOW_LOD {:.3f}\n", std::log2(ground_shadow_size / kGroundLightSize));
+}
 
 }  // namespace
 
@@ -87,20 +93,23 @@ void DrawFrame::set_common(const GlProgram& program) const {
   program.set("light_from_stage", light.key.clip_from_stage.cast<float>().eval());
 }
 
-LightMaps::LightMaps(const GlFunctions& gl)
+LightMaps::LightMaps(const GlFunctions& gl, Quality quality)
     : gl_(gl),
+      key_size_(key_size(quality)),
+      key_mask_size_(key_size_ / 2),
+      ground_shadow_size_(key_size_ / 2),
       no_buffers_(make_vertex_array(gl)),
       shadow_sampler_(make_comparing_sampler(gl, GL_LEQUAL)),
       flat_sampler_(make_flat_sampler(gl)),
-      key_(make_map(gl, kKeySize, nullptr, true)),
-      key_mask_(make_map(gl, kKeyMaskSize, &kMask, false)),
+      key_(make_map(gl, key_size_, nullptr, true)),
+      key_mask_(make_map(gl, key_mask_size_, &kMask, false)),
       zenith_depth_(make_map(gl, kZenithDepthSize, nullptr, true)),
       zenith_(make_map(gl, kZenithSize, &kMoments, false)),
       zenith_pass_(make_map(gl, kZenithSize, &kMoments, false)),
       underside_color_(make_map(gl, kUndersideColorSize, &kColor, true)),
       underside_(make_map(gl, kUndersideSize, &kMask, false)),
       ground_sky_(make_map(gl, kGroundSkySize, &kFlat, false)),
-      ground_shadow_(make_map(gl, kGroundShadowSize, &kShadow, true)),
+      ground_shadow_(make_map(gl, ground_shadow_size_, &kShadow, true)),
       ground_light_(make_map(gl, kGroundLightSize, &kLight, false)),
       depth_program_(load_program(gl, "depth.vert", "depth.frag")),
       zenith_program_(load_program(gl, "screen.vert", "zenith_filter.frag")),
@@ -109,14 +118,16 @@ LightMaps::LightMaps(const GlFunctions& gl)
       underside_filter_program_(load_program(gl, "screen.vert", "underside_filter.frag")),
       ground_sky_program_(load_program(gl, "screen.vert", "ground_sky.frag")),
       key_mask_program_(load_program(gl, "screen.vert", "key_mask.frag")),
-      shaded_ground_program_(load_program(gl, "screen.vert", "ground_shadow.frag", kShadedDepth)),
-      ground_shadow_program_(load_program(gl, "screen.vert", "ground_shadow.frag", "#define SHADOW\n")),
-      ground_light_program_(load_program(gl, "screen.vert", "ground_light.frag", kShadowLod)) {}
+      shaded_ground_program_(load_program(gl, "screen.vert", "ground_shadow.frag", shadow_settings(quality))),
+      ground_shadow_program_(
+          load_program(gl, "screen.vert", "ground_shadow.frag", shadow_settings(quality) + "#define SHADOW\n")),
+      ground_light_program_(load_program(gl, "screen.vert", "ground_light.frag", light_settings(ground_shadow_size_))) {
+}
 
 void LightMaps::draw(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const DrawFrame& frame,
                      PassClock& clock) {
   gl_.Enable(GL_DEPTH_TEST);
-  draw_depth(key_, kKeySize, frame.light.key, skins, frame);
+  draw_depth(key_, key_size_, frame.light.key, skins, frame);
   clock.stop("key map");
   draw_depth(zenith_depth_, kZenithDepthSize, frame.light.zenith, skins, frame);
   clock.stop("zenith map");
@@ -134,7 +145,7 @@ void LightMaps::draw(const std::vector<SkinBuffers>& skins, const TextureSet& te
     clock.stop("ground shadow");
   } else {  // a floor far below, which nothing shades
     clear(ground_sky_, kGroundSkySize);
-    clear(ground_shadow_, kGroundShadowSize);
+    clear(ground_shadow_, ground_shadow_size_);
     make_mipmaps(ground_shadow_.color);
   }
   draw_ground_light(frame);
@@ -147,18 +158,23 @@ void LightMaps::draw_depth(const LightMap& map, int size, const LightView& view,
   depth_program_.use();
   frame.set_common(depth_program_);
   depth_program_.set("clip_from_stage", view.clip_from_stage.cast<float>().eval());
-  for (const SkinBuffers& skin : skins) skin.draw(Detail::kCoarse);
+  for (const SkinBuffers& skin : skins) {
+    if (!skin.is_ghost()) skin.draw(Detail::kCoarse);
+  }
 }
 
 void LightMaps::draw_underside(const std::vector<SkinBuffers>& skins, const TextureSet& textures,
                                const DrawFrame& frame) const {
   clear(underside_color_, kUndersideColorSize);
-  for (const GlProgram* program : {&underside_programs_.plain, &underside_programs_.textured}) {
+  for (const GlProgram* program :
+       {&underside_programs_.plain, &underside_programs_.textured, &underside_programs_.mapped}) {
     program->use();
     frame.set_common(*program);
     program->set("clip_from_stage", frame.light.nadir.clip_from_stage.cast<float>().eval());
   }
-  for (const SkinBuffers& skin : skins) skin.draw(underside_programs_, textures, 0, Detail::kCoarse);
+  for (const SkinBuffers& skin : skins) {
+    if (!skin.is_ghost()) skin.draw(underside_programs_, textures, 0, Detail::kCoarse);
+  }
   make_mipmaps(underside_color_.color);
 
   underside_filter_program_.use();
@@ -214,7 +230,7 @@ void LightMaps::draw_key_mask(const DrawFrame& frame) const {
   key_mask_program_.set("height_from_light", height.cast<float>().eval());
   bind_texture(gl_, 0, key_.depth);
   key_mask_program_.set("key_depth", 0);
-  fill(key_mask_, kKeyMaskSize);
+  fill(key_mask_, key_mask_size_);
   make_mipmaps(key_mask_.color);
 }
 
@@ -235,13 +251,13 @@ void LightMaps::draw_ground_shadow(const GlProgram& program, const DrawFrame& fr
   program.use();
   frame.set_common(program);
   const Eigen::Vector2f sides = frame.light.key.sides.head<2>().cast<float>();
-  program.set("mask_texels", static_cast<float>(kKeyMaskSize) / sides.x());
-  program.set("mask_texel_size", (Eigen::Vector2f(1, sides.x() / sides.y()) / kKeyMaskSize).eval());
+  program.set("mask_texels", static_cast<float>(key_mask_size_) / sides.x());
+  program.set("mask_texel_size", (Eigen::Vector2f(1, sides.x() / sides.y()) / key_mask_size_).eval());
   program.set("longest_way", static_cast<float>(longest_way(frame)));
   bind_texture(gl_, 0, key_mask_.color);
   program.set("key_mask", 0);
   program.set("screen_depth", kShaded);
-  fill(ground_shadow_, kGroundShadowSize);
+  fill(ground_shadow_, ground_shadow_size_);
 }
 
 void LightMaps::draw_ground_light(const DrawFrame& frame) const {

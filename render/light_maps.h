@@ -35,7 +35,7 @@ class LightMaps {
  public:
   static constexpr int kUnits = 4;  // texture units that bind() takes
 
-  explicit LightMaps(const GlFunctions& gl);
+  LightMaps(const GlFunctions& gl, Quality quality);
   void draw(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const DrawFrame& frame,
             PassClock& clock);
   /// Binds the maps from unit `first_unit` on, and sets the uniforms with which a shader reads them.
@@ -58,6 +58,9 @@ class LightMaps {
   void make_mipmaps(const GlTexture& texture) const;
 
   const GlFunctions& gl_;
+  int key_size_;  // texels along a side
+  int key_mask_size_;
+  int ground_shadow_size_;
   GlVertexArray no_buffers_;
   GlSampler shadow_sampler_;
   GlSampler flat_sampler_;

@@ -42,16 +42,29 @@ void write_bytes(const std::filesystem::path& file, const unsigned char* data, s
   fail(file, std::strerror(reason));
 }
 
+/// Colours and, where there is one, alpha, pixel by pixel.
+Bytes interleaved(const Image& image) {
+  if (image.alpha.empty()) return image.pixels;
+  Bytes bytes(4 * image.alpha.size());
+  for (std::size_t i = 0; i < image.alpha.size(); ++i) {
+    std::copy_n(image.pixels.data() + kRgb * i, kRgb, bytes.data() + 4 * i);
+    bytes[4 * i + 3] = image.alpha[i];
+  }
+  return bytes;
+}
+
 /// Each row after the number of its filter.
 Bytes filtered_rows(const Image& image) {
-  const std::size_t row_bytes = kRgb * static_cast<std::size_t>(image.width);
+  const Bytes bytes = interleaved(image);
+  const std::size_t step = image.alpha.empty() ? kRgb : 4;
+  const std::size_t row_bytes = step * static_cast<std::size_t>(image.width);
   Bytes rows((row_bytes + 1) * static_cast<std::size_t>(image.height));
   for (std::size_t y = 0; y < static_cast<std::size_t>(image.height); ++y) {
-    const std::uint8_t* from = image.pixels.data() + y * row_bytes;
+    const std::uint8_t* from = bytes.data() + y * row_bytes;
     std::uint8_t* to = rows.data() + y * (row_bytes + 1);
     *to++ = kSubFilter;
-    std::copy_n(from, kRgb, to);
-    for (std::size_t i = kRgb; i < row_bytes; ++i) to[i] = static_cast<std::uint8_t>(from[i] - from[i - kRgb]);
+    std::copy_n(from, step, to);
+    for (std::size_t i = step; i < row_bytes; ++i) to[i] = static_cast<std::uint8_t>(from[i] - from[i - step]);
   }
   return rows;
 }
@@ -82,8 +95,8 @@ Bytes encode(const Image& image) {
   Bytes header;
   append_number(header, static_cast<std::size_t>(image.width));
   append_number(header, static_cast<std::size_t>(image.height));
-  constexpr std::uint8_t kRgbColor = 2;
-  for (const std::uint8_t value : {std::uint8_t{8}, kRgbColor, std::uint8_t{0}, std::uint8_t{0}, std::uint8_t{0}}) {
+  const std::uint8_t color_type = image.alpha.empty() ? 2 : 6;
+  for (const std::uint8_t value : {std::uint8_t{8}, color_type, std::uint8_t{0}, std::uint8_t{0}, std::uint8_t{0}}) {
     header.push_back(value);
   }
   Bytes bytes{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
@@ -116,6 +129,10 @@ Image read_png(const std::filesystem::path& file) {
   for (std::size_t p = 0; p < image.pixels.size() / 3; ++p) {
     for (std::size_t c = 0; c < 3; ++c) image.pixels[3 * p + c] = pixels.rgba[4 * p + c];
   }
+  bool is_opaque = true;
+  for (std::size_t p = 3; p < pixels.rgba.size() && is_opaque; p += 4) is_opaque = pixels.rgba[p] == 255;
+  if (is_opaque) return image;
+  for (std::size_t p = 3; p < pixels.rgba.size(); p += 4) image.alpha.push_back(pixels.rgba[p]);
   return image;
 }
 

@@ -6,13 +6,16 @@
 
 namespace sprung {
 
+/// Along each side of a pixel.
+[[nodiscard]] constexpr int sample_side(int samples) { return samples == 16 ? 4 : samples == 4 ? 2 : 1; }
+
 /// Draws what a camera sees, once the light maps are done: first what the skins are in every sample of every pixel,
 /// then the picture that is developed from it.
 class Screen {
  public:
   Screen(const GlFunctions& gl, const RenderOptions& options);
   void draw(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const LightMaps& maps, const View& view,
-            PassClock& clock);
+            bool with_ghosts, PassClock& clock);
   [[nodiscard]] Image read() const;
   [[nodiscard]] double aspect() const { return static_cast<double>(width_) / height_; }
 
@@ -21,11 +24,15 @@ class Screen {
   struct Sight {
     Eigen::Vector3f height;
     Eigen::Vector2f slopes;
+    explicit Sight(const View& view);
+    void set(const GlProgram& program) const;
     bool operator==(const Sight&) const = default;
   };
 
-  [[nodiscard]] GlProgram load(const char* fragment) const;
-  void draw_surfaces(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const View& view) const;
+  [[nodiscard]] GlProgram load(const char* fragment, Quality quality) const;
+  void draw_surfaces(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const View& view,
+                     bool with_ghosts) const;
+  void clear_picture() const;
   void draw_backdrop(const View& view);
   void draw_floor(const LightMaps& maps, const View& view) const;
   void develop(const LightMaps& maps, const View& view, PassClock& clock) const;
@@ -35,6 +42,7 @@ class Screen {
   int width_;
   int height_;
   int side_;  // of a pixel, in samples
+  bool is_transparent_;
   GlTexture surface_color_;
   GlTexture surface_normal_;
   GlTexture surface_depth_;

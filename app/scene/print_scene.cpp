@@ -18,6 +18,8 @@ template <class Owner>
 constexpr bool kIsSection<std::vector<Owner>> = std::is_class_v<Owner>;
 template <>
 constexpr bool kIsSection<std::vector<Keyframe>> = false;
+template <>
+constexpr bool kIsSection<std::vector<CameraKeyframe>> = false;
 
 template <class Owner>
 std::string inline_table(const Owner& owner);
@@ -42,11 +44,19 @@ template <>
 std::string value_text(const Material& material) {
   return is_from_library(material) ? toml_text(std::string_view(material.name)) : inline_table(material);
 }
+template <class Keyframes>
+std::string inline_tables(const Keyframes& keyframes) {
+  std::string text;
+  for (const auto& keyframe : keyframes) text += (text.empty() ? "" : ", ") + inline_table(keyframe);
+  return fmt::format("[{}]", text);
+}
 template <>
 std::string value_text(const std::vector<Keyframe>& keyframes) {
-  std::string text;
-  for (const Keyframe& keyframe : keyframes) text += (text.empty() ? "" : ", ") + inline_table(keyframe);
-  return fmt::format("[{}]", text);
+  return inline_tables(keyframes);
+}
+template <>
+std::string value_text(const std::vector<CameraKeyframe>& keyframes) {
+  return inline_tables(keyframes);
 }
 
 /// " name = value", or nothing for an optional value that is not there.

@@ -12,8 +12,8 @@ uniform float body_radius;
 uniform sampler2D key_mask;
 out vec4 result;
 
-const int kSearch = 6;
-const int kTaps = 14;
+const int kSearch = SEARCH;
+const int kTaps = TAPS;
 const mat2 kGoldenTurn = mat2(-0.7373688, 0.6754903, -0.6754903, -0.7373688);  // 137.5 degrees, for spirals
 
 float reach() { return 1.2 * kLightRadius * body_radius * mask_texels; }

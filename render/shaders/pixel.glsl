@@ -23,7 +23,8 @@ vec3 sample_normal(int k) {
   return vec3(place.x + (place.x < 0.0 ? fold : -fold), place.y + (place.y < 0.0 ? fold : -fold), z);
 }
 
-vec3 sample_color(int k) {
-  vec3 root = texelFetch(surface_color, sample_place(k), 0).rgb;
-  return root * root;
+// Linear colour, and the number of the look.
+vec4 sample_paint(int k) {
+  vec4 bytes = texelFetch(surface_color, sample_place(k), 0);
+  return vec4(bytes.rgb * bytes.rgb, 255.0 * bytes.a);
 }

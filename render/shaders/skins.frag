@@ -1,6 +1,7 @@
 // The light that the skins send to the eye. The samples of a pixel that are about as far away are shaded together, by
 // their mean: inside a skin that is all of them. alpha is the share of the pixel that shows a skin.
 uniform mat4 stage_from_clip;
+uniform vec4 distance_terms;
 out vec4 result;
 //!include pixel.glsl
 //!include skin_light.glsl
@@ -11,17 +12,20 @@ struct Surface {  // sums over samples
   vec3 color;
   vec3 normal;
   float depth;
+  float look;
   float share;
 };
 
 vec3 picture_light(Surface s) {
   vec4 place = stage_from_clip * vec4(vec3(screen_place, s.depth / s.share) * 2.0 - 1.0, 1.0);
   vec3 n = dot(s.normal, s.normal) > 1e-3 ? s.normal : eye - place.xyz / place.w;  // no normals, or opposite ones
-  return skin_light(place.xyz / place.w, normalize(n), s.color / s.share);
+  return skin_light(place.xyz / place.w, normalize(n), s.color / s.share, round(s.look / s.share));
 }
 
-// Distance along the camera's axis.
-float distance_of(float depth) { return 1.0 / (stage_from_clip[2].w * (2.0 * depth - 1.0) + stage_from_clip[3].w); }
+// Along the camera's axis.
+float distance_of(float depth) {
+  return (distance_terms.x * depth + distance_terms.y) / (distance_terms.z * depth + distance_terms.w);
+}
 
 bool fits(Surface s, float depth) {
   return s.share == 0.0 || abs(distance_of(depth) - distance_of(s.depth / s.share)) < kSameDepth * body_radius;
@@ -35,20 +39,21 @@ void main() {
     left |= depths[k] < 1.0 ? 1 << k : 0;
   }
   vec3 normals[kSamples];
-  vec3 colors[kSamples];
+  vec4 paints[kSamples];  // colour and look
   for (int k = 0; k < kSamples; ++k) {
     normals[k] = sample_normal(k);
-    colors[k] = sample_color(k);
+    paints[k] = sample_paint(k);
   }
   vec3 sum = vec3(0.0);
   float covered = 0.0;
   while (left != 0) {
-    Surface s = Surface(vec3(0.0), vec3(0.0), 0.0, 0.0);
+    Surface s = Surface(vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0);
     for (int k = 0; k < kSamples; ++k) {
       bool is_in = (left >> k & 1) != 0 && fits(s, depths[k]);
       float w = is_in ? 1.0 : 0.0;
       left ^= is_in ? 1 << k : 0;
-      s = Surface(s.color + w * colors[k], s.normal + w * normals[k], s.depth + w * depths[k], s.share + w);
+      s = Surface(s.color + w * paints[k].rgb, s.normal + w * normals[k], s.depth + w * depths[k], s.look + w * paints[k].a,
+                  s.share + w);
     }
     sum += s.share * srgb_from_linear(tone_map(picture_light(s)));
     covered += s.share;

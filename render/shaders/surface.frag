@@ -1,10 +1,11 @@
-// What a skin is, before any light: the square root of its colour (fine steps in the dark) and its normal. The depth
-// says where.
+// What a skin is, before any light: the square root of its colour (fine steps in the dark), the number of its look and
+// its normal. The depth says where.
 in vec3 surface_normal;
 in vec2 texture_place;
 in vec3 vertex_color;
 layout(location = 0) out vec4 surface_color;
 layout(location = 1) out vec4 packed_normal;
+uniform float look;
 //!include albedo.glsl
 
 // Octahedral, in two times 16 bits: llvmpipe writes four bytes quicker than any other layout.
@@ -16,6 +17,6 @@ vec4 pack_normal(vec3 n) {
 }
 
 void main() {
-  surface_color = vec4(albedo_root(), 1.0);
+  surface_color = vec4(albedo_root(), look / 255.0);
   packed_normal = pack_normal(gl_FrontFacing ? surface_normal : -surface_normal);
 }
