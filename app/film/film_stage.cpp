@@ -207,9 +207,9 @@ void FilmStage::add_pins(std::size_t actor) {
 
 void FilmStage::add_ghost(std::size_t actor) {
   const DrawnSkin& drawn = production_.skins[actor];
-  const SkinShape shape = shape_of(production_, actor, production_.world.actors[actor].body.rest_positions);
+  SkinShape shape = shape_of(production_, actor, production_.world.actors[actor].body.rest_positions);
   players_.push_back({std::shared_ptr<const Skin>(&drawn.skin, [](const Skin*) {}), shade(drawn.color), Look::kRubber,
-                      true, [shape](const Moment&) { return shape; }});
+                      true, [shape = std::move(shape)](const Moment&) -> SkinShape { return SkinShape(shape); }});
 }
 
 void FilmStage::add_obstacle(const StageObstacle& obstacle) {
