@@ -48,6 +48,48 @@ void add_contacts(const Skin& skin, Actor& actor) {
   });
 }
 
+/// Which solid each vertex of a mesh belongs to; the first, where none has it.
+std::vector<int> solids_of_vertices(const LoadedBody& loaded) {
+  std::vector<int> owners(static_cast<std::size_t>(loaded.mesh.positions.rows()), -1);
+  for (std::size_t solid = 0; solid < loaded.solids.size(); ++solid) {
+    for (const int triangle : loaded.solids[solid].source) {
+      if (triangle < 0) continue;
+      for (const int vertex : loaded.mesh.triangles.row(triangle)) {
+        int& owner = owners[static_cast<std::size_t>(vertex)];
+        if (owner < 0) owner = static_cast<int>(solid);
+      }
+    }
+  }
+  std::replace(owners.begin(), owners.end(), -1, 0);
+  return owners;
+}
+
+/// Sums of the normals of a solid's triangles at the vertices of its mesh, n x 3.
+Points outward_of(const SurfaceMesh& mesh, const Solid& solid) {
+  Points sums = Points::Zero(mesh.positions.rows(), 3);
+  for (std::size_t t = 0; t < solid.source.size(); ++t) {
+    if (solid.source[t] < 0) continue;
+    const auto corners = mesh.triangles.row(solid.source[t]);
+    const Eigen::RowVector3d a = mesh.positions.row(corners[0]);
+    const Eigen::RowVector3d b = mesh.positions.row(corners[1]);
+    const Eigen::RowVector3d normal = (b - a).cross(mesh.positions.row(corners[2]) - a) * (solid.turned[t] ? -1 : 1);
+    for (const int vertex : corners) sums.row(vertex) += normal;
+  }
+  return sums;
+}
+
+CarriedVertices carry(const LoadedBody& loaded, std::size_t solid, const std::vector<int>& owners,
+                      const BrickGrid& grid) {
+  CarriedVertices carried;
+  for (std::size_t vertex = 0; vertex < owners.size(); ++vertex) {
+    if (owners[vertex] == static_cast<int>(solid)) carried.vertices.push_back(static_cast<int>(vertex));
+  }
+  const Points outward = outward_of(loaded.mesh, loaded.solids[solid]);
+  carried.embedding =
+      embed(grid, loaded.mesh.positions(carried.vertices, Eigen::all), outward(carried.vertices, Eigen::all));
+  return carried;
+}
+
 /// Every node that a pin holds at the start, once, with the axes of all its pins.
 std::vector<HeldNode> held_nodes(const std::vector<PinnedNodes>& pinned, const std::vector<Pin>& pins) {
   std::map<int, HeldNode> held;
@@ -91,14 +133,23 @@ BodyBuilder::BodyBuilder(const Scene& scene, std::size_t index, const LoadedBody
       production_(production),
       touches_itself_(scene.contact.self),
       selector_(loaded),
-      report_(loaded, body_.material.density) {}
+      report_(loaded, body_.material.density),
+      solid_of_vertex_(solids_of_vertices(loaded)) {}
 
 void BodyBuilder::add_solids() {
   const std::vector<Pose> poses = poses_of(body_, loaded_);
   for (std::size_t solid = 0; solid < loaded_.solids.size(); ++solid) {
     const Filled filled = fill(solid);
-    for (const Pose& pose : poses) put(filled, pose);
+    for (std::size_t copy = 0; copy < poses.size(); ++copy) put(filled, poses[copy], static_cast<int>(copy));
   }
+  const SurfaceMesh& mesh = loaded_.mesh;
+  production_.meshes.push_back({.positions = mesh.positions,
+                                .normals = mesh.normals.cast<double>(),
+                                .uvs = mesh.uvs,
+                                .colors = mesh.colors,
+                                .triangles = mesh.triangles,
+                                .parts = mesh.parts,
+                                .materials = mesh.materials});
 }
 
 BodyBuilder::Filled BodyBuilder::fill(std::size_t solid) {
@@ -110,6 +161,7 @@ BodyBuilder::Filled BodyBuilder::fill(std::size_t solid) {
   skin = make_skin(submesh(loaded_.mesh, loaded_.solids[solid]), {.max_edge = kLongestSkinEdge * loaded_.brick_size});
   filled.drawn.embedding = embed(body.grid, skin.positions, skin.normals);
   report_.add(filled.drawn.embedding);
+  filled.carried = carry(loaded_, solid, solid_of_vertex_, body.grid);
   add_contacts(skin, filled.actor);
   filled.actor.friction = body_.friction;
   const Solid& outline = loaded_.solids[solid];
@@ -122,18 +174,20 @@ BodyBuilder::Filled BodyBuilder::fill(std::size_t solid) {
   return filled;
 }
 
-void BodyBuilder::put(Filled filled, const Pose& pose) {
+void BodyBuilder::put(Filled filled, const Pose& pose, int copy) {
   place(filled.actor.body, pose.rotation, pose.translation);
   filled.actor.body.velocities = velocities_of(body_, filled.actor, pose.translation);
   for (PinnedNodes& pinned : filled.pins) pinned.centre = pose.rotation * pinned.centre + pose.translation;
   filled.drawn.color = body_.color.value_or(kPalette[production_.skins.size() % kPalette.size()]);
   production_.world.actors.push_back(std::move(filled.actor));
   production_.origins.push_back({.body = index_,
+                                 .copy = copy,
                                  .bricks_from_rest = loaded_.bricks_from_rest,
                                  .pins = std::move(filled.pins),
                                  .forces = std::move(filled.forces),
                                  .muscles = std::move(filled.muscles)});
   production_.skins.push_back(std::move(filled.drawn));
+  production_.carried.push_back(std::move(filled.carried));
 }
 
 BrickGrid BodyBuilder::make_grid(const Solid& solid) {

@@ -25,6 +25,7 @@ class BodyBuilder {
   struct Filled {
     Actor actor;
     DrawnSkin drawn;
+    CarriedVertices carried;
     std::vector<PinnedNodes> pins;  // their centres too
     std::vector<ForcedPart> forces;
     std::vector<MusclePart> muscles;
@@ -32,7 +33,7 @@ class BodyBuilder {
   [[nodiscard]] Filled fill(std::size_t solid);
   [[nodiscard]] BrickGrid make_grid(const Solid& solid);
   [[nodiscard]] std::vector<PinnedNodes> find_pins(const Body& body, std::size_t solid) const;
-  void put(Filled filled, const Pose& pose);
+  void put(Filled filled, const Pose& pose, int copy);
 
   const SceneBody& body_;
   std::size_t index_;
@@ -42,6 +43,7 @@ class BodyBuilder {
   Selector selector_;
   FillReport report_;
   int held_solids_ = 0;
+  std::vector<int> solid_of_vertex_;  // of the mesh
 };
 
 }  // namespace sprung

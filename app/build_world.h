@@ -36,19 +36,29 @@ struct MusclePart {
   Muscle full;             // at full strength
 };
 
+/// The vertices of a body's mesh, as its file has them, that ride on one actor.
+struct CarriedVertices {
+  std::vector<int> vertices;  // rows of Production::meshes[body]
+  Embedding embedding;
+};
+
 /// Which body of the scene an actor is made from, and how it was placed.
 struct Origin {
   std::size_t body = 0;  // row in Scene::bodies
+  int copy = 0;          // of the body, which one
   Mat3 bricks_from_rest = Mat3::Identity();
   std::vector<PinnedNodes> pins;  // those that hold any node of this actor
   std::vector<ForcedPart> forces;
   std::vector<MusclePart> muscles;
 };
 
-/// What moves and what is seen of it: skins[i] and origins[i] belong to world.actors[i].
+/// What moves and what is seen of it: skins[i], carried[i] and origins[i] belong to world.actors[i].
 struct Production {
   World world;
   std::vector<DrawnSkin> skins;
+  std::vector<CarriedVertices> carried;
+  std::vector<Skin> meshes;  // by body of the scene: its mesh with the vertices, order and triangles of the file, at
+                             // rest; its own normals or none
   std::vector<Origin> origins;
   std::vector<StageObstacle> obstacles;  // of world.obstacles, and of the scene's
   double size = 0;                       // m, longest side of the largest body

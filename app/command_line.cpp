@@ -4,9 +4,12 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <sstream>
 
+#include "app/commands.h"
 #include "app/scene/scene_keys.h"
 #include "app/scene/scene_schema.h"
 #include "app/scene/scene_values.h"
@@ -19,99 +22,6 @@ namespace sprung {
 namespace {
 
 constexpr const char* kVersion = SPRUNG_VERSION;
-
-/// Everything that CLI11 fills in.
-struct Words {
-  SceneOptions scene;
-  ValidateOptions validate;
-  std::string model;
-  std::string poisson;
-  std::string bricks;
-  std::vector<std::string> scene_values = std::vector<std::string>(sprung::scene_options().size());
-  std::vector<std::string> set;
-  std::string scenario;
-  std::string threads;
-  std::string topic;  // of help
-  bool json_schema = false;
-};
-
-void add_scene_options(CLI::App& command, Words& words, bool has_pictures) {
-  command.add_option("INPUT", words.scene.input, "a mesh file, or a scene (.toml)");
-  for (std::size_t i = 0; i < words.scene_values.size(); ++i) {
-    const SceneOption& option = scene_options()[i];
-    if (option.is_of_pictures && !has_pictures) continue;
-    command.add_option(option.option, words.scene_values[i], help_of(option))->option_text(option.example);
-  }
-  command.add_option("--set", words.set, "any key of a scene (sprung help scene); may be given several times")
-      ->allow_extra_args(false)
-      ->option_text("KEY=VALUE");
-  command
-      .add_option("--scenario", words.scenario,
-                  fmt::format("what a bare mesh does: {}", fmt::join(scenario_names(), ", ")))
-      ->option_text("NAME");
-  command.add_option("--threads", words.threads, "threads of the simulation; default: all cores")->option_text("N");
-  command.add_flag("--print-scene", words.scene.print_scene, "write the scene as resolved to stdout, and stop");
-  command.add_flag("--quiet", words.scene.quiet, "warnings and errors only");
-  command.add_flag("--verbose", words.scene.verbose, "more about every stage");
-  command.footer(
-      "Lengths, times, pressures and densities take a unit (\"3 cm\", 20kPa, 1.2g/cm3); a bare number is SI.\n"
-      "Options override the scene file, which overrides the defaults.");
-  command.allow_extras();
-}
-
-void add_animate(CLI::App& app, Words& words) {
-  CLI::App* animate = app.add_subcommand("animate", "mesh or scene in, pictures or film out");
-  animate
-      ->add_option("-o,--output", words.scene.outputs,
-                   "folder/, folder/frame_{:04}.png, or film.mp4, .webm, .gif; may be given several times")
-      ->allow_extra_args(false)
-      ->option_text("OUT");
-  animate->add_flag("--overwrite", words.scene.overwrite, "replace pictures and films that exist");
-  add_scene_options(*animate, words, true);
-}
-
-void add_simulate(CLI::App& app, Words& words) {
-  CLI::App* simulate = app.add_subcommand("simulate", "mesh or scene in, measurements of its probes out");
-  simulate->add_option("-o,--output", words.scene.outputs, "folder for probes.csv and probes.json")
-      ->allow_extra_args(false)
-      ->option_text("DIR");
-  simulate->add_flag("--overwrite", words.scene.overwrite, "replace files that exist");
-  add_scene_options(*simulate, words, false);
-}
-
-void add_inspect(CLI::App& app, Words& words) {
-  CLI::App* inspect = app.add_subcommand("inspect", "mesh or scene in, what it is and what its film will take out");
-  inspect->add_flag("--json", words.scene.json, "the facts as JSON");
-  inspect->add_option("--picture", words.scene.picture, "draw skin and bricks, thin parts marked")
-      ->option_text("FILE.png");
-  inspect->add_flag("--overwrite", words.scene.overwrite, "replace a picture that exists");
-  add_scene_options(*inspect, words, true);
-}
-
-void add_validate(CLI::App& app, Words& words) {
-  CLI::App* validate = app.add_subcommand("validate", "experiments, measured against theory and reference");
-  validate->add_option("FILES", words.validate.cases, "scenes with [[expect]]; default: the built-in experiments");
-  validate->add_option("--case", words.validate.cases, "a built-in experiment; may be given several times")
-      ->allow_extra_args(false)
-      ->option_text("NAME");
-  validate->add_flag("--list", words.validate.list, "name the built-in experiments, and stop");
-  validate->add_option("--model", words.model, "this law of the bricks only")->option_text("NAME");
-  validate->add_option("--poisson", words.poisson, "this Poisson's ratio only")->option_text("NU");
-  validate->add_option("--bricks", words.bricks, "this grid only, by the bricks along the longest side")
-      ->option_text("N");
-  validate->add_flag("--json", words.validate.json, "checks as JSON");
-  validate->add_option("--report", words.validate.report, "folder for report.html")->option_text("DIR");
-  validate->add_flag("--quiet", words.scene.quiet, "warnings and errors only");
-  validate->add_flag("--verbose", words.scene.verbose, "say why a model could not be carried through");
-  validate->allow_extras();
-}
-
-void add_help(CLI::App& app, Words& words) {
-  CLI::App* help = app.add_subcommand("help", "on a command, or on the keys of a scene: sprung help scene");
-  help->add_option("TOPIC", words.topic, "a command, or scene");
-  help->add_flag("--json-schema", words.json_schema, "the keys of a scene as a JSON Schema");
-  help->allow_extras();
-}
 
 std::string help_text(const CLI::App& app, const CLI::App& help, const Words& words) {
   refuse_extras(help, "unexpected");
@@ -131,14 +41,29 @@ std::string help_text(const CLI::App& app, const CLI::App& help, const Words& wo
   throw Error(ErrorKind::kUsage, fmt::format("no help on '{}'{}", words.topic, did_you_mean(words.topic, known)));
 }
 
-int thread_count(const std::string& text) {
-  int threads = 0;
+int count_in(std::string_view name, const std::string& text) {
+  int count = 0;
   try {
-    parse_value(text, {.name = "threads", .help = "", .range = {1, 4096}}, threads);
+    parse_value(text, {.name = name, .help = "", .range = {1, 4096}}, count);
   } catch (const Error& error) {
-    throw Error(ErrorKind::kUsage, fmt::format("--threads: {}", error.what()));
+    throw Error(ErrorKind::kUsage, fmt::format("--{}: {}", name, error.what()));
   }
-  return threads;
+  return count;
+}
+
+/// The words again, as a shell takes them.
+std::string command_of(int argc, const char* const* argv) {
+  std::string command;
+  for (const std::string word : std::span(argv, static_cast<std::size_t>(argc))) {
+    const bool is_plain = !word.empty() && std::all_of(word.begin(), word.end(), [](unsigned char letter) {
+      return std::isalnum(letter) != 0 ||
+             std::string_view("_-+=./:,@%").find(static_cast<char>(letter)) != std::string_view::npos;
+    });
+    std::string quoted;
+    for (const char letter : word) quoted += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
+    command += (command.empty() ? "" : " ") + (is_plain ? word : "'" + quoted + "'");
+  }
+  return command;
 }
 
 /// "body.spin=[0,0,90]".
@@ -148,34 +73,6 @@ Setting setting(const std::string& text) {
     throw Error(ErrorKind::kUsage, fmt::format("--set: '{}' is not of the form KEY=VALUE", text));
   }
   return {"--set " + text.substr(0, sign), text.substr(0, sign), text.substr(sign + 1)};
-}
-
-SceneOptions read_scene_options(const CLI::App& command, Words& words) {
-  refuse_extras(command, "more than one input; what is");
-  refuse_repeated(command);
-  SceneOptions options = std::move(words.scene);
-  for (std::size_t i = 0; i < words.scene_values.size(); ++i) {
-    const SceneOption& known = scene_options()[i];
-    const CLI::Option* given = command.get_option_no_throw(known.option);
-    if (given == nullptr || given->count() == 0) continue;
-    options.settings.push_back({known.option, std::string(known.key), words.scene_values[i]});
-  }
-  for (const std::string& words_of_one : words.set) options.settings.push_back(setting(words_of_one));
-  if (command.count("--bricks") > 0 && command.count("--brick-size") > 0) {
-    throw Error(ErrorKind::kUsage, "give --bricks or --brick-size, not both");
-  }
-  if (!words.scenario.empty()) options.scenario = scenario_from_name(words.scenario);
-  if (!words.threads.empty()) options.threads = thread_count(words.threads);
-  const std::string& name = command.get_name();
-  if (options.input.empty()) {
-    throw Error(ErrorKind::kUsage, fmt::format("{0} needs a mesh or a scene; see sprung {0} --help", name));
-  }
-  if (options.outputs.empty() && !options.print_scene && name != "inspect") {
-    throw Error(ErrorKind::kUsage, name == "animate"
-                                       ? "animate needs an output: -o folder/, -o frame_{:04}.png or -o film.mp4"
-                                       : "simulate needs an output: -o folder");
-  }
-  return options;
 }
 
 /// One value of a key of the scene, from the words after an option.
@@ -188,6 +85,52 @@ void read_choice(const CLI::App& command, const char* option, const char* key, c
   } catch (const Error& error) {
     throw Error(ErrorKind::kUsage, fmt::format("{}: {}", option, error.what()));
   }
+}
+
+std::string_view input_of(std::string_view command) {
+  if (command == "render") return "a cache (.h5)";
+  if (command == "film") return "a folder of pictures";
+  return "a mesh or a scene";
+}
+
+std::string_view outputs_of(std::string_view command) {
+  if (command == "simulate") return "-o RUN.h5 or -o folder/";
+  if (command == "export") return "-o skin_{:04}.obj, -o film.glb, ...; see sprung export --list";
+  if (command == "film") return "-o film.mp4";
+  if (command == "sweep") return "-o folder/";
+  return "-o folder/, -o frame_{:04}.png or -o film.mp4";
+}
+
+bool given(const CLI::App& command, const char* option) {
+  const CLI::Option* known = command.get_option_no_throw(option);
+  return known != nullptr && known->count() > 0;
+}
+
+SceneOptions read_scene_options(const CLI::App& command, Words& words) {
+  refuse_extras(command, "more than one input; what is");
+  refuse_repeated(command);
+  SceneOptions options = std::move(words.scene);
+  for (std::size_t i = 0; i < words.scene_values.size(); ++i) {
+    const SceneOption& known = scene_options()[i];
+    if (!given(command, known.option)) continue;
+    options.settings.push_back({known.option, std::string(known.key), words.scene_values[i]});
+  }
+  for (const std::string& words_of_one : words.set) options.settings.push_back(setting(words_of_one));
+  if (given(command, "--bricks") && given(command, "--brick-size")) {
+    throw Error(ErrorKind::kUsage, "give --bricks or --brick-size, not both");
+  }
+  if (!words.scenario.empty()) options.scenario = scenario_from_name(words.scenario);
+  if (!words.threads.empty()) options.threads = count_in("threads", words.threads);
+  if (!words.jobs.empty()) options.jobs = count_in("jobs", words.jobs);
+  const std::string& name = command.get_name();
+  if (options.list) return options;
+  if (options.input.empty()) {
+    throw Error(ErrorKind::kUsage, fmt::format("{0} needs {1}; see sprung {0} --help", name, input_of(name)));
+  }
+  if (options.outputs.empty() && !options.print_scene && !options.table && name != "inspect") {
+    throw Error(ErrorKind::kUsage, fmt::format("{} needs an output: {}", name, outputs_of(name)));
+  }
+  return options;
 }
 
 ValidateOptions validate_options(const CLI::App& command, Words& words) {
@@ -212,13 +155,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
       "Exit codes: 0 done, 1 failed, 2 wrong usage, 3 bad input, 4 diverged,\n130 interrupted (143 by SIGTERM, 129 by "
       "SIGHUP).");
   Words words;
-  add_animate(app, words);
-  add_simulate(app, words);
-  add_inspect(app, words);
-  add_validate(app, words);
-  CLI::App* materials = app.add_subcommand("materials", "the library of materials, with sources");
-  materials->allow_extras();
-  add_help(app, words);
+  add_commands(app, words);
   for (CLI::App* command : app.get_subcommands({})) accept_repeated(*command);
   CommandLine line;
   try {
@@ -237,8 +174,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   refuse_extras(app, "unknown command");
   if (app.got_subcommand("help")) {
     line.text = help_text(app, *app.get_subcommand("help"), words);
-  } else if (app.got_subcommand(materials)) {
-    refuse_extras(*materials, "unexpected");
+  } else if (app.got_subcommand("materials")) {
+    refuse_extras(*app.get_subcommand("materials"), "unexpected");
     line.command = CommandLine::Command::kMaterials;
   } else if (app.got_subcommand("animate")) {
     line.scene = read_scene_options(*app.get_subcommand("animate"), words);
@@ -246,6 +183,19 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   } else if (app.got_subcommand("simulate")) {
     line.scene = read_scene_options(*app.get_subcommand("simulate"), words);
     line.command = CommandLine::Command::kSimulate;
+  } else if (app.got_subcommand("render")) {
+    line.scene = read_scene_options(*app.get_subcommand("render"), words);
+    line.command = CommandLine::Command::kRender;
+  } else if (app.got_subcommand("export")) {
+    line.scene = read_scene_options(*app.get_subcommand("export"), words);
+    line.command = CommandLine::Command::kExport;
+  } else if (app.got_subcommand("film")) {
+    line.scene = read_scene_options(*app.get_subcommand("film"), words);
+    read_choice<double, Scene>(*app.get_subcommand("film"), "--fps", "fps", words.fps, line.scene.fps);
+    line.command = CommandLine::Command::kFilm;
+  } else if (app.got_subcommand("sweep")) {
+    line.scene = read_scene_options(*app.get_subcommand("sweep"), words);
+    line.command = CommandLine::Command::kSweep;
   } else if (app.got_subcommand("inspect")) {
     line.scene = read_scene_options(*app.get_subcommand("inspect"), words);
     line.command = CommandLine::Command::kInspect;
@@ -254,9 +204,16 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     line.scene.quiet = words.scene.quiet;
     line.scene.verbose = words.scene.verbose;
     line.command = CommandLine::Command::kValidate;
+  } else if (app.got_subcommand("compare")) {
+    const CLI::App& command = *app.get_subcommand("compare");
+    refuse_extras(command, "unexpected");
+    refuse_repeated(command);
+    line.compare = words.compare;
+    line.command = CommandLine::Command::kCompare;
   } else {
     line.text = app.help();
   }
+  line.scene.command = command_of(argc, argv);
   return line;
 }
 

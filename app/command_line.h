@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/compare.h"
 #include "app/scene/scenarios.h"
 #include "app/validate/validate.h"
 
@@ -16,27 +17,48 @@ struct Setting {
   std::string value;
 };
 
-/// What `sprung animate`, `sprung simulate` and `sprung inspect` were asked to do.
+/// What `sprung animate`, `sprung simulate`, `sprung render`, `sprung export`, `sprung film`, `sprung sweep` and
+/// `sprung inspect` were asked to do.
 struct SceneOptions {
-  std::string input;                 // a mesh or a scene
+  std::string input;                 // a mesh or a scene; or a cache
   std::vector<std::string> outputs;  // as typed
   std::vector<Setting> settings;
   std::optional<Scenario> scenario;
-  int threads = 0;  // 0: as many as there are cores
+  std::string frames;  // of render, export and film: "1:48"
+  int jobs = 1;        // of render: processes
+  int threads = 0;     // 0: as many as there are cores
   bool overwrite = false;
+  bool resume = false;  // of simulate
   bool print_scene = false;
   bool quiet = false;
   bool verbose = false;
+  bool list = false;              // of export
+  bool table = false;             // of sweep
+  std::optional<double> fps;      // of film
   bool json = false;              // of inspect
   std::filesystem::path picture;  // of inspect; empty: none
+  std::string command;            // as it was typed, for a shell
 };
 
 struct CommandLine {
-  enum class Command { kShowText, kMaterials, kAnimate, kSimulate, kInspect, kValidate };
+  enum class Command {
+    kShowText,
+    kMaterials,
+    kAnimate,
+    kSimulate,
+    kRender,
+    kExport,
+    kFilm,
+    kSweep,
+    kInspect,
+    kValidate,
+    kCompare
+  };
   Command command = Command::kShowText;
   std::string text;          // of kShowText: help or version
-  SceneOptions scene;        // of kAnimate, kSimulate and kInspect
+  SceneOptions scene;        // of all others but kMaterials and kCompare
   ValidateOptions validate;  // of kValidate
+  CompareOptions compare;    // of kCompare
 };
 
 /// Throws Error(kUsage), with the nearest word for a mistyped command or option.

@@ -1,5 +1,7 @@
 #include "app/drawn_stage.h"
 
+#include "core/bricks/smooth_ride.h"
+
 namespace sprung {
 namespace {
 
@@ -25,19 +27,30 @@ Stage stage_of(const Production& production, const Bounds& bounds) {
   return stage;
 }
 
+SkinShape shape_of(const Production& production, std::size_t actor, const Points& nodes, Riding riding) {
+  const DrawnSkin& drawn = production.skins[actor];
+  const BrickGrid& grid = production.world.actors[actor].body.grid;
+  if (riding == Riding::kSmooth) {
+    const SmoothRide ride(grid, nodes);
+    return {.positions = ride.points(drawn.embedding).cast<float>(),
+            .normals = ride.normals(drawn.embedding, drawn.skin.normals).cast<float>()};
+  }
+  return {.positions = skin_positions(production, actor, nodes).cast<float>(),
+          .normals = deform_normals(grid, drawn.embedding, drawn.skin.normals, nodes).cast<float>()};
+}
+
+SkinShape shape_of(const StageObstacle& obstacle, double time) {
+  const Points normals = obstacle.skin.normals * pose_at(obstacle, time).rotation.transpose();
+  return {.positions = skin_positions(obstacle, time).cast<float>(), .normals = normals.cast<float>()};
+}
+
 std::vector<SkinShape> shapes_of(const Production& production, const std::vector<Floats3>& nodes, double time) {
   std::vector<SkinShape> shapes;
   for (std::size_t actor = 0; actor < nodes.size(); ++actor) {
-    const Points positions = nodes[actor].cast<double>();
-    const DrawnSkin& drawn = production.skins[actor];
-    const BrickGrid& grid = production.world.actors[actor].body.grid;
-    shapes.push_back({.positions = skin_positions(production, actor, positions).cast<float>(),
-                      .normals = deform_normals(grid, drawn.embedding, drawn.skin.normals, positions).cast<float>()});
+    shapes.push_back(shape_of(production, actor, nodes[actor].cast<double>()));
   }
   for (const StageObstacle& obstacle : production.obstacles) {
-    if (obstacle.skin.positions.rows() == 0) continue;
-    const Points normals = obstacle.skin.normals * pose_at(obstacle, time).rotation.transpose();
-    shapes.push_back({.positions = skin_positions(obstacle, time).cast<float>(), .normals = normals.cast<float>()});
+    if (obstacle.skin.positions.rows() > 0) shapes.push_back(shape_of(obstacle, time));
   }
   return shapes;
 }

@@ -13,6 +13,13 @@ namespace sprung {
 [[nodiscard]] std::vector<SkinShape> shapes_of(const Production& production, const std::vector<Floats3>& nodes,
                                                double time);
 
+/// The skin of one actor for these positions of its nodes, m.
+[[nodiscard]] SkinShape shape_of(const Production& production, std::size_t actor, const Points& nodes,
+                                 Riding riding = Riding::kBricks);
+
+/// An obstacle at that time of the film (s).
+[[nodiscard]] SkinShape shape_of(const StageObstacle& obstacle, double time);
+
 /// Vertices of an obstacle's skin at that time (s), m.
 [[nodiscard]] Points skin_positions(const StageObstacle& obstacle, double time);
 

@@ -102,13 +102,14 @@ void check_no_ground(const Scene& scene) {
 
 }  // namespace
 
-Recording record_equilibria(Production& production, const Scene& scene, const Console& console) {
+Recording record_equilibria(Production& production, const Scene& scene, const Console& console, RunCache* cache) {
   check_no_ground(scene);
   const int frames = frame_count(scene);
   Loading loading(production, scene);
-  Recorder recorder(scene, production, "load");
+  Recorder recorder(scene, production, "load", cache);
+  const int first = recorder.take_up(production.world, [](MotionMemory&) {});
   Progress progress(console, loading.is_linear() ? "linear" : "static", frames);
-  for (int frame = 0; frame < frames; ++frame) {
+  for (int frame = first; frame < frames; ++frame) {
     stop_if_interrupted();
     const double share = frames == 1 ? 1.0 : static_cast<double>(frame) / (frames - 1);
     // Nothing is solved for the first of several: no load, no displacement.
@@ -123,7 +124,7 @@ Recording record_equilibria(Production& production, const Scene& scene, const Co
   return recorder.finish();
 }
 
-Recording record_modes(Production& production, const Scene& scene, const Console& console) {
+Recording record_modes(Production& production, const Scene& scene, const Console& console, RunCache* cache) {
   check_no_ground(scene);
   if (production.world.actors.size() != 1) {
     throw Error(ErrorKind::kBadInput,
@@ -134,8 +135,9 @@ Recording record_modes(Production& production, const Scene& scene, const Console
   const Modes modes = natural_modes(actor.body, supports_of(actor), scene.solver.modes);
   const int frames = frame_count(scene);
   const int count = scene.solver.modes;
-  Recorder recorder(scene, production, "mode");
-  for (int frame = 0; frame < frames; ++frame) {
+  Recorder recorder(scene, production, "mode", cache);
+  const int first = recorder.take_up(production.world, [](MotionMemory&) {});
+  for (int frame = first; frame < frames; ++frame) {
     const double place = static_cast<double>(frame) * count / frames;
     const int mode = std::min(static_cast<int>(place), count - 1);
     const Eigen::VectorXd shape = modes.shapes.col(mode) / modes.shapes.col(mode).cwiseAbs().maxCoeff();

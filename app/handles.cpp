@@ -89,6 +89,22 @@ void Handles::aim(double begin, double end) {
   }
 }
 
+void Handles::pass(MotionMemory& memory) {
+  for (std::vector<Grip>& grips : grips_) {
+    for (Grip& grip : grips) {
+      bool is_caught = grip.caught.has_value();
+      Catch caught = grip.caught.value_or(Catch{});
+      caught.positions.conservativeResize(static_cast<Eigen::Index>(grip.pinned->nodes.size()), 3);
+      if (!is_caught) caught.positions.setZero();
+      memory.pass_as_double(is_caught);
+      memory.pass(caught.time);
+      memory.pass(caught.centre);
+      memory.pass(caught.positions);
+      grip.caught = is_caught ? std::optional(caught) : std::nullopt;
+    }
+  }
+}
+
 void Handles::carry(Grip& grip, Actor& actor, double begin, double end, std::map<int, HeldNode>& held) const {
   const std::vector<int>& nodes = grip.pinned->nodes;
   Body& body = actor.body;

@@ -5,6 +5,7 @@
 
 #include "app/build_world.h"
 #include "app/load_driver.h"
+#include "core/motion/motion_memory.h"
 #include "core/world/keyframes.h"
 
 namespace sprung {
@@ -24,6 +25,9 @@ class Handles {
   /// Sets what acts and what is held from `begin` to `end` (s), and the even velocities that bring it, and obstacles,
   /// exactly to where they belong.
   void aim(double begin, double end);
+
+  /// How nodes were caught by the pins that hold now.
+  void pass(MotionMemory& memory);
 
  private:
   /// Nodes as a pin caught them.

@@ -4,7 +4,11 @@
 #include <new>
 
 #include "app/animate.h"
+#include "app/cache/render_cache.h"
 #include "app/command_line.h"
+#include "app/export/export_run.h"
+#include "app/farm/film.h"
+#include "app/farm/sweep.h"
 #include "app/inspect/inspect.h"
 #include "app/interrupt.h"
 #include "app/materials.h"
@@ -35,11 +39,25 @@ int run(int argc, const char* const* argv, Console& console) {
     case CommandLine::Command::kSimulate:
       run_simulation(line.scene, console);
       break;
+    case CommandLine::Command::kRender:
+      render_cache(line.scene, console);
+      break;
+    case CommandLine::Command::kExport:
+      export_run(line.scene, console);
+      break;
+    case CommandLine::Command::kFilm:
+      make_film(line.scene, console);
+      break;
+    case CommandLine::Command::kSweep:
+      sweep(line.scene, console);
+      break;
     case CommandLine::Command::kInspect:
       run_inspect(line.scene, console);
       break;
     case CommandLine::Command::kValidate:
       return validate(line.validate, console) ? 0 : kFailed;
+    case CommandLine::Command::kCompare:
+      return compare(line.compare) ? 0 : kFailed;
   }
   return 0;
 }

@@ -6,6 +6,7 @@
 #include <array>
 #include <cctype>
 
+#include "app/numbered_name.h"
 #include "app/writable.h"
 #include "core/count_of.h"
 #include "core/error.h"
@@ -17,13 +18,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::string_view kExamples = "give a folder, a pattern like frame_{:04}.png, or a film (.mp4, .webm, .gif)";
 constexpr std::array<std::string_view, 3> kFilms{".mp4", ".webm", ".gif"};
 
 [[noreturn]] void refuse(std::string_view words, std::string_view reason) {
-  throw Error(ErrorKind::kUsage,
-              fmt::format("--output {}: {}; give a folder, a pattern like frame_{{:04}}.png, or a film (.mp4, .webm, "
-                          ".gif)",
-                          words, reason));
+  throw Error(ErrorKind::kUsage, fmt::format("--output {}: {}; {}", words, reason, kExamples));
 }
 
 std::string lower(std::string text) {
@@ -32,35 +31,12 @@ std::string lower(std::string text) {
   return text;
 }
 
-/// The number of digits in "{:04}", "{:04d}", "{:4}", "{}", "{:d}".
-int digits_of(std::string_view words, std::string_view inside) {
-  if (inside.starts_with(':')) inside.remove_prefix(1);
-  if (inside.ends_with('d')) inside.remove_suffix(1);
-  if (inside.empty()) return 0;
-  const bool is_number = std::all_of(inside.begin(), inside.end(), [](char c) { return c >= '0' && c <= '9'; });
-  const int digits = is_number && inside.size() <= 2 ? std::stoi(std::string(inside)) : -1;
-  if (digits < 0 || digits > 9) refuse(words, "the number's place must look like {:04}");
-  return digits;
-}
-
 Output parse_pattern(std::string_view words) {
-  const fs::path path(words);
-  const std::string name = path.filename().string();
-  const auto open = name.find('{');
-  const auto close = name.find('}');
-  if (open == std::string::npos || close == std::string::npos || close < open) {
-    refuse(words, "the number's place must stand in the file's name");
-  }
-  Output output;
-  output.folder = path.parent_path();
-  output.before = name.substr(0, open);
-  output.after = name.substr(close + 1);
-  output.digits = digits_of(words, std::string_view(name).substr(open + 1, close - open - 1));
-  if (output.after.find_first_of("{}") != std::string::npos) refuse(words, "a name has one number");
-  if (lower(fs::path(output.after).extension().string()) != ".png" && lower(output.after) != ".png") {
+  NumberedName name = parse_numbered_name(words, kExamples);
+  if (lower(fs::path(name.after).extension().string()) != ".png" && lower(name.after) != ".png") {
     refuse(words, "pictures are PNG files");
   }
-  return output;
+  return {.folder = name.folder, .before = name.before, .after = name.after, .digits = name.digits};
 }
 
 bool is_number(std::string_view text) {
@@ -101,7 +77,7 @@ bool collide(const Output& a, const Output& b) {
 
 }  // namespace
 
-fs::path Output::picture(int number) const { return folder / fmt::format("{}{:0{}}{}", before, number, digits, after); }
+fs::path Output::picture(int number) const { return NumberedName{folder, before, after, digits}.file(number); }
 
 Output parse_output(std::string_view words) {
   if (words.empty()) refuse("''", "the name is empty");

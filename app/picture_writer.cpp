@@ -10,8 +10,8 @@ constexpr std::size_t kMostWaiting = 4;
 
 }  // namespace
 
-PictureWriter::PictureWriter(std::vector<Output> outputs, int width, int height, double fps)
-    : outputs_(std::move(outputs)) {
+PictureWriter::PictureWriter(std::vector<Output> outputs, int width, int height, double fps, int first)
+    : outputs_(std::move(outputs)), next_(first) {
   for (const Output& output : outputs_) {
     make_folder(output.folder);
     if (output.kind != Output::Kind::kFilm) continue;
@@ -70,11 +70,11 @@ void PictureWriter::run() {
 }
 
 void PictureWriter::write_everywhere(const Image& image) {
-  ++written_;
   for (const Output& output : outputs_) {
-    if (output.kind == Output::Kind::kPictures) write_png(image, output.picture(written_));
+    if (output.kind == Output::Kind::kPictures) write_png(image, output.picture(next_));
   }
   for (const auto& film : films_) film->write(image);
+  ++next_;
 }
 
 }  // namespace sprung

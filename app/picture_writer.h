@@ -17,8 +17,8 @@ namespace sprung {
 /// order in which they come.
 class PictureWriter {
  public:
-  /// Makes the folders. Throws Error(kFailed).
-  PictureWriter(std::vector<Output> outputs, int width, int height, double fps);
+  /// Makes the folders. `first`: the number of the first picture. Throws Error(kFailed).
+  PictureWriter(std::vector<Output> outputs, int width, int height, double fps, int first = 1);
   /// Stops; films that are not finished disappear.
   ~PictureWriter();
   PictureWriter(const PictureWriter&) = delete;
@@ -40,7 +40,7 @@ class PictureWriter {
   std::condition_variable changed_;
   std::exception_ptr failure_;
   bool is_closed_ = false;
-  int written_ = 0;
+  int next_;  // number of the next picture
   std::thread thread_;
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "app/cache/run_cache.h"
 #include "app/pin_movements.h"
 #include "core/error.h"
 
@@ -17,8 +18,8 @@ bool is_pin_of(const PinnedNodes& pinned, const SceneBody& body, const std::stri
 
 }  // namespace
 
-Recorder::Recorder(const Scene& scene, const Production& production, std::string progress_name)
-    : scene_(scene), production_(production) {
+Recorder::Recorder(const Scene& scene, const Production& production, std::string progress_name, RunCache* cache)
+    : scene_(scene), production_(production), cache_(cache) {
   recording_.progress_name = std::move(progress_name);
   for (const Probe& probe : scene.probes) {
     recording_.probes.push_back({.name = probe.name, .is_pin = !probe.point, .samples = {}});
@@ -42,15 +43,40 @@ Recorder::PointSeat Recorder::seat_of(const Probe& probe) const {
                           probe.name, probe.point->x(), probe.point->y(), probe.point->z(), probe.body));
 }
 
-void Recorder::add(double progress, const std::vector<Points>& reactions, double time, bool small) {
-  std::vector<Floats3>& frame = recording_.frames.emplace_back();
-  for (const Actor& actor : production_.world.actors) frame.emplace_back(actor.body.positions.cast<float>());
+int Recorder::take_up(World& world, const std::function<void(MotionMemory&)>& pass) {
+  if (cache_ == nullptr) return 0;
+  MotionMemory empty;
+  pass(empty);
+  const int count = cache_->begin(scene_, production_, recording_.progress_name, empty.row().size());
+  for (int i = 0; i < count; ++i) {
+    const CachedFrame frame = cache_->frame(i);
+    recording_.progress.push_back(frame.progress);
+    for (std::size_t probe = 0; probe < recording_.probes.size(); ++probe) {
+      recording_.probes[probe].samples.push_back(sample_of(frame, probe));
+    }
+  }
+  if (count == 0) return 0;
+  MotionMemory memory = cache_->restore(world);
+  pass(memory);
+  return count;
+}
+
+void Recorder::add(double progress, const std::vector<Points>& reactions, double time, bool small,
+                   const MotionMemory& memory) {
+  if (cache_ == nullptr) {
+    std::vector<Floats3>& frame = recording_.frames.emplace_back();
+    for (const Actor& actor : production_.world.actors) frame.emplace_back(actor.body.positions.cast<float>());
+  }
   recording_.progress.push_back(progress);
   for (std::size_t i = 0; i < scene_.probes.size(); ++i) {
     const Probe& probe = scene_.probes[i];
     recording_.probes[i].samples.push_back(probe.point ? point_sample(seats_[i])
                                                        : pin_sample(probe, reactions, time, small));
   }
+  if (cache_ == nullptr) return;
+  const CachedFrame frame{
+      .progress = progress, .probes = numbers_of(recording_.probes), .state_hash = state_hash(production_.world)};
+  cache_->add(frame, memory);
 }
 
 ProbeSample Recorder::point_sample(const PointSeat& seat) const {

@@ -1,10 +1,12 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "app/build_world.h"
+#include "core/motion/motion_memory.h"
 
 namespace sprung {
 
@@ -24,9 +26,12 @@ struct ProbeTrack {
   std::vector<ProbeSample> samples;  // frame by frame
 };
 
+class RunCache;
+
 /// Everything that a scene gave.
 struct Recording {
-  std::vector<std::vector<Floats3>> frames;  // [frame][actor], nodes x 3, m; the picture needs no more than floats
+  std::vector<std::vector<Floats3>> frames;  // [frame][actor], nodes x 3, m; the picture needs no more than floats;
+                                             // none where they are in a cache
   std::vector<double> progress;              // of every frame: time (s), or share of the load, or number of the mode
   std::string progress_name;                 // "time_s", "load", "mode"
   std::vector<ProbeTrack> probes;
@@ -37,12 +42,18 @@ struct Recording {
 /// Takes down frames as a production goes through them.
 class Recorder {
  public:
-  /// Throws Error(kBadInput) where a probe's point is in no brick or its pin holds nothing.
-  Recorder(const Scene& scene, const Production& production, std::string progress_name);
+  /// A cache, where there is one, gets the frames. Throws Error(kBadInput) where a probe's point is in no brick or its
+  /// pin holds nothing.
+  Recorder(const Scene& scene, const Production& production, std::string progress_name, RunCache* cache);
+
+  /// Takes up the frames that the cache has: the world, that of the production, then stands as after the last of them,
+  /// and `pass` has given the motion what it remembers. Returns how many they are. To be called before the first add().
+  int take_up(World& world, const std::function<void(MotionMemory&)>& pass);
 
   /// The production as it stands. `reactions` of the pins' nodes by actor (m x 3, N); none: no forces. `time` in the
   /// film (s), for the pins' movement; with `small`, torques are those of the shape at rest.
-  void add(double progress, const std::vector<Points>& reactions, double time, bool small);
+  void add(double progress, const std::vector<Points>& reactions, double time, bool small,
+           const MotionMemory& memory = {});
 
   /// The recording, complete.
   [[nodiscard]] Recording finish();
@@ -62,6 +73,7 @@ class Recorder {
 
   const Scene& scene_;
   const Production& production_;
+  RunCache* cache_;
   std::vector<PointSeat> seats_;  // by probe; unused for pins
   Recording recording_;
 };

@@ -4,100 +4,22 @@
 
 #include <algorithm>
 #include <future>
-#include <numbers>
 
-#include "app/drawn_stage.h"
+#include "app/film/exposure.h"
+#include "app/film/film_cameras.h"
+#include "app/film/film_stage.h"
+#include "app/film/labels.h"
 #include "app/interrupt.h"
 #include "app/picture_writer.h"
 #include "app/progress.h"
 #include "app/units.h"
-#include "core/bricks/corner.h"
 #include "core/count_of.h"
-#include "render/renderer.h"
+#include "core/error.h"
 
 namespace sprung {
 namespace {
 
-constexpr double kNear = 0.25;  // of the motion's size: what of an obstacle is further off need not be seen
-
-/// What the camera has to see: the bounds of the whole motion, and for each frame and body the points that reach
-/// furthest in 26 directions, with the ground below them, where shadows fall.
-struct Reach {
-  Bounds bounds;
-  Points points;
-  double lowest = 0;  // m, of the bodies
-};
-
-/// Rows: the centre of each face, edge and corner of a cube.
-Eigen::Matrix<double, 26, 3> directions() {
-  Eigen::Matrix<int, 26, 3> rows;
-  int row = 0;
-  for (int i = 0; i < 27; ++i) {
-    if (i == 13) continue;
-    rows.row(row++) << i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1;
-  }
-  return rows.cast<double>();
-}
-
-/// What of the obstacles is near the bodies: of large ones no more than that.
-void add_obstacles(const Production& production, const Recording& recording, Reach& reach) {
-  const double near = kNear * (reach.bounds.high - reach.bounds.low).maxCoeff();
-  const Vec3 low = reach.bounds.low.array() - near;
-  const Vec3 high = reach.bounds.high.array() + near;
-  Bounds seen = reach.bounds;
-  for (const StageObstacle& obstacle : production.obstacles) {
-    if (obstacle.skin.positions.rows() == 0) continue;
-    for (const double time : recording.progress) {
-      const Points skin = skin_positions(obstacle, time);
-      const Vec3 from = skin.colwise().minCoeff().transpose().cwiseMax(low);
-      const Vec3 to = skin.colwise().maxCoeff().transpose().cwiseMin(high);
-      if ((from.array() > to.array()).any()) continue;
-      Points corners(2, 3);
-      corners << from.transpose(), to.transpose();
-      seen.include(corners);
-      if (obstacle.movement.is_still()) break;
-    }
-  }
-  Points corners(8, 3);
-  for (int corner = 0; corner < 8; ++corner) {
-    for (int axis = 0; axis < 3; ++axis)
-      corners(corner, axis) = on_high_side(corner, axis) ? seen.high[axis] : seen.low[axis];
-  }
-  if (seen.low == reach.bounds.low && seen.high == reach.bounds.high) return;
-  reach.bounds = seen;
-  reach.points.conservativeResize(reach.points.rows() + 8, 3);
-  reach.points.bottomRows(8) = corners;
-}
-
-Reach reach_of(const Production& production, const Recording& recording) {
-  const Eigen::Matrix<double, 26, 3> ways = directions();
-  Reach reach;
-  const auto count = static_cast<Eigen::Index>(26 * recording.frames.size() * production.skins.size());
-  reach.points.resize(count, 3);
-  Eigen::Index next = 0;
-  for (const std::vector<Floats3>& frame : recording.frames) {
-    for (std::size_t actor = 0; actor < frame.size(); ++actor) {
-      const Points skin = skin_positions(production, actor, frame[actor].cast<double>());
-      reach.bounds.include(skin);
-      for (int way = 0; way < 26; ++way) {
-        Eigen::Index furthest = 0;
-        (skin * ways.row(way).transpose()).maxCoeff(&furthest);
-        reach.points.row(next++) = skin.row(furthest);
-      }
-    }
-  }
-  reach.lowest = reach.bounds.low.y();
-  add_obstacles(production, recording, reach);
-  const std::optional<double> ground = ground_height(production.world.obstacles);
-  if (ground) {
-    const Eigen::Index above = reach.points.rows();
-    Points below = reach.points;
-    below.col(1).setConstant(*ground);
-    reach.points.conservativeResize(2 * above, 3);
-    reach.points.bottomRows(above) = below;
-  }
-  return reach;
-}
+constexpr int kExposures = 8;  // of a picture with motion blur
 
 /// What the ground could not hold: how deep any vertex was below it, in any frame.
 std::string ground_report(const Production& production, double lowest) {
@@ -108,58 +30,136 @@ std::string ground_report(const Production& production, double lowest) {
                      100 * depth / production.size);
 }
 
-/// The camera of every frame: one that sees the whole motion from everywhere on its way, carried around it.
-std::vector<Camera> cameras_of(const Scene& scene, const Reach& reach, std::size_t frames) {
-  constexpr int kStops = 16;
-  const Vec3 center = 0.5 * (reach.bounds.low + reach.bounds.high);
-  const int stops = scene.camera.orbit == 0 ? 1 : kStops;
-  Points seen(reach.points.rows() * stops, 3);
-  for (int stop = 0; stop < stops; ++stop) {
-    const double way = stops > 1 ? static_cast<double>(stop) / (stops - 1) : 0;
-    const double angle = way * scene.camera.orbit * std::numbers::pi / 180;
-    const Mat3 back = Eigen::AngleAxisd(-angle, Vec3::UnitY()).toRotationMatrix();
-    seen.middleRows(stop * reach.points.rows(), reach.points.rows()) =
-        ((reach.points.rowwise() - center.transpose()) * back.transpose()).rowwise() + center.transpose();
+/// Everything that a picture of a film is made with.
+class FilmCrew {
+ public:
+  FilmCrew(const Production& production, const Recording& recording, const Scene& scene)
+      : scene_(scene),
+        recording_(recording),
+        reach_(reach_of(production, recording)),
+        stage_(scene, production, recording),
+        labels_(scene.render, stage_.legend()),
+        scene_of_picture_(with_picture_size(scene, labels_)),
+        cameras_(cameras_of(scene_of_picture_, reach_, scene.render.sheet ? 0 : labels_.reserved())),
+        renderer_(stage_.stage(reach_.bounds), options()) {}
+
+  [[nodiscard]] const Reach& reach() const { return reach_; }
+  [[nodiscard]] std::string driver() const { return renderer_.driver(); }
+
+  /// The skins at the moments of a picture.
+  [[nodiscard]] std::vector<std::vector<SkinShape>> moments(std::size_t frame) const {
+    const double open = scene_.render.motion_blur / 360;
+    std::vector<std::vector<SkinShape>> moments;
+    const int count = open > 0 ? kExposures : 1;
+    for (int i = 0; i < count; ++i) moments.push_back(stage_.shapes(frame, open * i / count));
+    return moments;
   }
-  const double aspect = static_cast<double>(scene.render.resolution[0]) / scene.render.resolution[1];
-  const Camera first = frame_points(seen, aspect, scene.camera.azimuth, scene.camera.elevation);
-  std::vector<Camera> cameras;
-  for (std::size_t frame = 0; frame < frames; ++frame) {
-    const double way = frames > 1 ? static_cast<double>(frame) / static_cast<double>(frames - 1) : 0;
-    cameras.push_back(carried_around(first, center, way * scene.camera.orbit));
+
+  [[nodiscard]] Image draw(std::size_t frame, const std::vector<std::vector<SkinShape>>& moments) {
+    Exposure exposure;
+    for (const std::vector<SkinShape>& shapes : moments) exposure.add(renderer_.draw(shapes, cameras_[frame]));
+    Image image = exposure.mean();
+    labels_.write_frame(image, cameras_[frame], frame, cameras_.size(), recording_.progress[frame]);
+    if (!scene_.render.sheet) labels_.write_legend(image);
+    return image;
   }
-  return cameras;
+
+  [[nodiscard]] Image sheet(const std::vector<Image>& pictures) const {
+    const int columns = (*scene_.render.sheet)[0];
+    const int used = columns * scene_of_picture_.render.resolution[0];
+    Image image = sheet_of(pictures, columns, scene_.render.resolution[0] - used);
+    labels_.write_legend(image);
+    return image;
+  }
+
+ private:
+  /// On a sheet each picture has its part of the resolution.
+  static Scene with_picture_size(Scene scene, const Labels& labels) {
+    if (!scene.render.sheet) return scene;
+    const auto [columns, rows] = *scene.render.sheet;
+    auto& [width, height] = scene.render.resolution;
+    width = std::max(1, static_cast<int>((1 - labels.reserved()) * width) / columns);
+    height = std::max(1, height / rows);
+    return scene;
+  }
+
+  [[nodiscard]] RenderOptions options() const {
+    const SceneRender& render = scene_of_picture_.render;
+    return {.width = render.resolution[0],
+            .height = render.resolution[1],
+            .samples = render.samples.value_or(samples_of(render.quality)),
+            .quality = render.quality,
+            .transparent = render.transparent};
+  }
+
+  const Scene& scene_;
+  const Recording& recording_;
+  Reach reach_;
+  FilmStage stage_;
+  Labels labels_;
+  Scene scene_of_picture_;
+  std::vector<Camera> cameras_;
+  Renderer renderer_;
+};
+
+/// Frames to draw, in order: all of the range, or as many as a sheet has places for.
+std::vector<std::size_t> chosen_frames(const FrameRange& range, const SceneRender& render) {
+  const auto first = static_cast<std::size_t>(range.first - 1);
+  const auto count = static_cast<std::size_t>(range.count());
+  std::vector<std::size_t> frames;
+  const std::size_t wanted =
+      render.sheet ? static_cast<std::size_t>((*render.sheet)[0]) * static_cast<std::size_t>((*render.sheet)[1])
+                   : count;
+  const std::size_t chosen = std::min(wanted, count);
+  for (std::size_t i = 0; i < chosen; ++i) {
+    frames.push_back(first + (chosen > 1 ? (i * (count - 1) + (chosen - 1) / 2) / (chosen - 1) : 0));
+  }
+  return frames;
+}
+
+void check_outputs(const SceneRender& render, const std::vector<Output>& outputs) {
+  for (const Output& output : outputs) {
+    if (output.kind != Output::Kind::kFilm) continue;
+    if (render.sheet) throw Error(ErrorKind::kUsage, "render.sheet: one picture is no film; give a folder");
+    if (render.transparent) {
+      throw Error(ErrorKind::kUsage, "render.transparent: films have no alpha; give a folder for pictures");
+    }
+  }
 }
 
 }  // namespace
 
-void render_film(const Production& production, const Recording& recording, const Scene& scene,
+void render_film(const Production& production, const Recording& recording, const Scene& scene, const FrameRange& range,
                  const std::vector<Output>& outputs, const Console& console) {
-  const std::size_t frames = recording.frames.size();
+  check_outputs(scene.render, outputs);
+  const std::vector<std::size_t> frames = chosen_frames(range, scene.render);
   const auto [width, height] = scene.render.resolution;
-  Progress progress(console, "render", static_cast<double>(frames), 1, "frames/s");
-  const Reach reach = reach_of(production, recording);
-  const std::vector<Camera> cameras = cameras_of(scene, reach, frames);
-  Renderer renderer(stage_of(production, reach.bounds),
-                    {.width = width, .height = height, .samples = scene.render.samples});
-  console.detail(fmt::format("drawn by {}", renderer.driver()));
-  PictureWriter writer(outputs, width, height, scene.fps);
+  Progress progress(console, "render", static_cast<double>(frames.size()), 1, "frames/s");
+  FilmCrew crew(production, recording, scene);
+  console.detail(fmt::format("drawn by {}", crew.driver()));
+  PictureWriter writer(outputs, width, height, scene.fps, range.first);
   // The skins of the next frame are made ready while this one is drawn and the ones before are encoded.
-  const auto make_ready = [&](std::size_t frame) {
-    return std::async(std::launch::async,
-                      [&, frame] { return shapes_of(production, recording.frames[frame], recording.progress[frame]); });
+  const auto make_ready = [&](std::size_t i) {
+    return std::async(std::launch::async, [&, frame = frames[i]] { return crew.moments(frame); });
   };
-  std::future<std::vector<SkinShape>> next = make_ready(0);
-  for (std::size_t frame = 0; frame < frames; ++frame) {
+  auto next = make_ready(0);
+  std::vector<Image> sheet;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
     stop_if_interrupted();
-    const std::vector<SkinShape> shapes = next.get();
-    if (frame + 1 < frames) next = make_ready(frame + 1);
-    writer.write(renderer.draw(shapes, cameras[frame]));
-    progress.update(static_cast<double>(frame + 1));
+    const std::vector<std::vector<SkinShape>> moments = next.get();
+    if (i + 1 < frames.size()) next = make_ready(i + 1);
+    Image image = crew.draw(frames[i], moments);
+    if (scene.render.sheet) {
+      sheet.push_back(std::move(image));
+    } else {
+      writer.write(std::move(image));
+    }
+    progress.update(static_cast<double>(i + 1));
   }
+  if (scene.render.sheet) writer.write(crew.sheet(sheet));
   writer.close();
-  progress.finish(fmt::format("{} of {} x {} pixels{}", count_of(static_cast<long>(frames), "picture"), width, height,
-                              ground_report(production, reach.lowest)));
+  progress.finish(fmt::format("{} of {} x {} pixels{}", count_of(static_cast<long>(frames.size()), "picture"), width,
+                              height, ground_report(production, crew.reach().lowest)));
 }
 
 }  // namespace sprung

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <optional>
 
+#include "app/cache/run_cache.h"
 #include "app/draw_diverged.h"
 #include "app/make_production.h"
 #include "app/probe_files.h"
@@ -11,6 +13,7 @@
 #include "app/simulate.h"
 #include "app/with_scene.h"
 #include "app/writable.h"
+#include "core/count_of.h"
 #include "core/error.h"
 
 namespace sprung {
@@ -18,16 +21,68 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Where the results go.
+struct Places {
+  std::optional<fs::path> folder;  // of probes.csv and probes.json
+  std::optional<fs::path> cache;
+};
+
+void refuse_existing(const fs::path& file, std::string_view remedy) {
+  if (!fs::exists(file)) return;
+  throw Error(ErrorKind::kUsage, fmt::format("'{}' exists; say {} to replace it", file.string(), remedy));
+}
+
 /// Where the files can be written, and would replace nothing that they may not.
-fs::path output_folder(const SceneOptions& options) {
-  if (options.outputs.size() != 1) throw Error(ErrorKind::kUsage, "simulate writes into one folder: -o DIR");
-  fs::path folder = options.outputs.front();
-  for (const char* name : {"probes.csv", "probes.json"}) {
-    if (options.overwrite || !fs::exists(folder / name)) continue;
-    throw Error(ErrorKind::kUsage, fmt::format("'{}' exists; say --overwrite to replace it", (folder / name).string()));
+Places places_of(const SceneOptions& options) {
+  Places places;
+  for (const std::string& output : options.outputs) {
+    std::optional<fs::path>& place = is_cache_file(output) ? places.cache : places.folder;
+    if (place) throw Error(ErrorKind::kUsage, "simulate writes one cache and one folder: -o RUN.h5 -o folder/");
+    place = output;
   }
-  check_writable(folder / "probes.json");
-  return folder;
+  if (options.resume && options.overwrite) throw Error(ErrorKind::kUsage, "give --resume or --overwrite, not both");
+  if (options.resume && !places.cache) throw Error(ErrorKind::kUsage, "--resume goes on with a cache: -o RUN.h5");
+  if (places.cache) {
+    if (!options.overwrite && !options.resume) {
+      refuse_existing(*places.cache, "--resume to go on with it, or --overwrite");
+    }
+    check_writable(*places.cache);
+  }
+  if (places.folder) {
+    for (const char* name : {"probes.csv", "probes.json"}) {
+      if (!options.overwrite && !options.resume) refuse_existing(*places.folder / name, "--overwrite");
+    }
+    check_writable(*places.folder / "probes.json");
+  }
+  return places;
+}
+
+fs::path picture_of_diverged(const Places& places) {
+  if (places.folder) return *places.folder / "diverged.png";
+  return fs::path(*places.cache).replace_extension("diverged.png");
+}
+
+/// The words that go on with what was begun.
+std::string resuming_command(const SceneOptions& options) {
+  if (options.resume) return options.command;
+  std::string command = options.command;
+  const std::string_view overwrite = " --overwrite";
+  if (const auto place = command.find(overwrite); place != std::string::npos) command.erase(place, overwrite.size());
+  return command + " --resume";
+}
+
+/// Does `work`; where it ends early, says how to go on.
+Recording with_advice(const RunCache* cache, const SceneOptions& options, const Console& console,
+                      const std::function<Recording()>& work) {
+  try {
+    return work();
+  } catch (...) {
+    if (cache != nullptr && cache->frame_count() > 0) {
+      console.note(fmt::format("{} in {}; go on with: {}", count_of(cache->frame_count(), "frame is", "frames are"),
+                               cache->file().string(), resuming_command(options)));
+    }
+    throw;
+  }
 }
 
 void print_vector(std::string_view probe, std::string_view what, const Vec3& value, std::string_view unit) {
@@ -53,13 +108,24 @@ void print_summary(const Recording& recording) {
 
 void run_simulation(const SceneOptions& options, const Console& console) {
   with_scene(options, [&](const Scene& scene) {
-    const fs::path folder = output_folder(options);
+    const Places places = places_of(options);
+    std::optional<RunCache> cache;
+    if (places.cache) {
+      make_folder(places.cache->parent_path());
+      cache.emplace(*places.cache, options.resume);
+    }
     Production production = make_production(scene, console);
-    const Recording recording = with_picture_of_diverged(production.world, folder / "diverged.png",
-                                                         [&] { return simulate(production, scene, console); });
-    make_folder(folder);
-    write_whole_file(folder / "probes.csv", probes_csv(recording));
-    write_whole_file(folder / "probes.json", probes_json(recording));
+    RunCache* kept = cache ? &*cache : nullptr;
+    const Recording recording = with_advice(kept, options, console, [&] {
+      return with_picture_of_diverged(production.world, picture_of_diverged(places),
+                                      [&] { return simulate(production, scene, console, kept); });
+    });
+    if (cache) cache->close();
+    if (places.folder) {
+      make_folder(*places.folder);
+      write_whole_file(*places.folder / "probes.csv", probes_csv(recording));
+      write_whole_file(*places.folder / "probes.json", probes_json(recording));
+    }
     print_summary(recording);
   });
 }

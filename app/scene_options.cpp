@@ -7,7 +7,7 @@
 namespace sprung {
 namespace {
 
-constexpr std::array<SceneOption, 19> kSceneOptions{{
+constexpr std::array<SceneOption, 21> kSceneOptions{{
     {"--material", "body.material", "NAME"},
     {"--young", "body.material.young", "20kPa"},
     {"--poisson", "body.material.poisson", "0.45"},
@@ -26,7 +26,9 @@ constexpr std::array<SceneOption, 19> kSceneOptions{{
     {"--fps", "fps", "N"},
     {"--duration", "duration", "3s"},
     {"--resolution", "render.resolution", "WxH", true},
+    {"--quality", "render.quality", "preview|default|high", true},
     {"--samples", "render.samples", "N", true},
+    {"--color-by", "render.color_by", "FIELD", true},
 }};
 
 template <class Owner>

@@ -61,19 +61,38 @@ void forecast(const StepPlan& plan, double brick_steps, const Console& console) 
 /// One frame of motion in chunks.
 class Runner {
  public:
-  Runner(Production& production, const Scene& scene, const Console& console)
+  /// With `whole_frames` an interrupt has to wait for the end of a frame.
+  Runner(Production& production, const Scene& scene, const Console& console, bool whole_frames)
       : world_(production.world),
         scene_(scene),
         console_(console),
+        whole_frames_(whole_frames),
         handles_(scene, production),
         plan_(plan_steps(world_, scene)),
         total_(plan_.brick_steps * (frame_count(scene) - 1)),
-        progress_(console, "simulate", total_, 1e-6, "M brick-steps/s"),
         motion_(world_, plan_.scheme == Solver::kVerlet ? Scheme::kVerlet : Scheme::kSymplecticEuler) {
     forecast(plan_, total_, console);
     if (!plan_.is_implicit()) return;
     implicit_.emplace(world_, ImplicitOptions{.scheme = plan_.scheme == Solver::kBdf2 ? ImplicitScheme::kBdf2
                                                                                       : ImplicitScheme::kEuler});
+  }
+
+  /// The first frame to come: those before are there already.
+  void begin_at(int frame) {
+    before_ = frame == 0 ? 0 : plan_.brick_steps * (frame - 1);
+    progress_.emplace(console_, "simulate", total_ - before_, 1e-6, "M brick-steps/s");
+  }
+
+  /// What the next frame depends on beside positions and velocities.
+  void pass(MotionMemory& memory) {
+    motion_.pass(memory);
+    if (implicit_) implicit_->pass(memory);
+    handles_.pass(memory);
+  }
+  [[nodiscard]] MotionMemory memory() {
+    MotionMemory memory;
+    pass(memory);
+    return memory;
   }
 
   /// From the frame before to this one.
@@ -102,17 +121,17 @@ class Runner {
     note_implicit();
     const int inverted = inverted_bricks(world_);
     const bool has_more = !implicit_ && world_.actors.size() > 1;  // bodies, each with its own steps
-    progress_.finish(fmt::format("{} frames, {}{} steps of {} a frame, {} inverted bricks at the end", frames,
-                                 has_more ? "at most " : "", plan_.steps.count,
-                                 readable(plan_.steps.dt, Dimension::kTime), inverted));
+    progress_->finish(fmt::format("{} frames, {}{} steps of {} a frame, {} inverted bricks at the end", frames,
+                                  has_more ? "at most " : "", plan_.steps.count,
+                                  readable(plan_.steps.dt, Dimension::kTime), inverted));
     warn_of_crushed_bodies(world_, console_);
   }
 
  private:
   void run_piece(double begin, double duration) {
     const auto between = [&](double share) {
-      stop_if_interrupted();
-      progress_.update(total_ * (begin + share * duration) / time_of(scene_, frame_count(scene_) - 1));
+      if (!whole_frames_) stop_if_interrupted();
+      progress_->update(total_ * (begin + share * duration) / time_of(scene_, frame_count(scene_) - 1) - before_);
       judge_long_run();
     };
     if (implicit_) {
@@ -148,9 +167,9 @@ class Runner {
 
   /// Once, when enough is done to tell.
   void judge_long_run() {
-    if (is_judged_ || progress_.seconds() < kSecondsToEstimate) return;
+    if (is_judged_ || progress_->seconds() < kSecondsToEstimate) return;
     is_judged_ = true;
-    const double seconds = progress_.seconds_to_go();
+    const double seconds = progress_->seconds_to_go();
     if (seconds > scene_.solver.time_limit) {
       throw Error(ErrorKind::kBadInput,
                   fmt::format("the simulation would take about {}, longer than --time-limit ({}); {}",
@@ -163,22 +182,27 @@ class Runner {
   World& world_;
   const Scene& scene_;
   const Console& console_;
+  bool whole_frames_;
   Handles handles_;
   StepPlan plan_;
   std::optional<ImplicitMotion> implicit_;
   double total_;
-  Progress progress_;
+  double before_ = 0;  // of that, done by an earlier run
+  std::optional<Progress> progress_;
   CarefulMotion motion_;
   bool is_judged_ = false;
 };
 
-Recording record_motion(Production& production, const Scene& scene, const Console& console) {
+Recording record_motion(Production& production, const Scene& scene, const Console& console, RunCache* cache) {
   const int frames = frame_count(scene);
-  Recorder recorder(scene, production, "time_s");
-  Runner runner(production, scene, console);
-  for (int frame = 0; frame < frames; ++frame) {
+  Recorder recorder(scene, production, "time_s", cache);
+  Runner runner(production, scene, console, cache != nullptr);
+  const int first = recorder.take_up(production.world, [&](MotionMemory& memory) { runner.pass(memory); });
+  runner.begin_at(first);
+  for (int frame = first; frame < frames; ++frame) {
+    stop_if_interrupted();
     if (frame > 0) runner.run_frame(frame);
-    recorder.add(frame / scene.fps, runner.pin_reactions(), time_of(scene, frame), false);
+    recorder.add(frame / scene.fps, runner.pin_reactions(), time_of(scene, frame), false, runner.memory());
   }
   runner.finish(frames);
   return recorder.finish();
@@ -186,15 +210,15 @@ Recording record_motion(Production& production, const Scene& scene, const Consol
 
 }  // namespace
 
-Recording simulate(Production& production, const Scene& scene, const Console& console) {
+Recording simulate(Production& production, const Scene& scene, const Console& console, RunCache* cache) {
   const std::string warning = warning_of_memory(memory_forecast(production, scene));
   if (!warning.empty()) console.warn(warning);
   switch (scene.solver.scheme) {
     case Solver::kStatic:
     case Solver::kLinear:
-      return record_equilibria(production, scene, console);
+      return record_equilibria(production, scene, console, cache);
     case Solver::kModes:
-      return record_modes(production, scene, console);
+      return record_modes(production, scene, console, cache);
     case Solver::kAuto:
     case Solver::kEuler:
     case Solver::kVerlet:
@@ -202,7 +226,7 @@ Recording simulate(Production& production, const Scene& scene, const Console& co
     case Solver::kBdf2:
       break;
   }
-  return record_motion(production, scene, console);
+  return record_motion(production, scene, console, cache);
 }
 
 }  // namespace sprung

@@ -58,13 +58,15 @@ void Bounds::include(const Points& points) {
   high = high.cwiseMax(points.colwise().maxCoeff().transpose());
 }
 
-Camera frame_points(const Points& points, double aspect, double azimuth, double elevation) {
+Camera frame_points(const Points& points, double aspect, double azimuth, double elevation, bool orthographic) {
   assert(points.rows() > 0 && aspect > 0);
   Camera camera;
   const Vec3 center = 0.5 * (points.colwise().minCoeff() + points.colwise().maxCoeff());
   const Mat3 axes = camera_axes(azimuth, elevation);
   const double slope_y = std::tan(radians(camera.vertical_field_of_view / 2)) * (1 - kMargin);
   const Eigen::Vector2d slope(slope_y * aspect, slope_y);
+  const double nearer = orthographic ? 0 : 1;  // how much larger things look that are nearer
+  camera.orthographic = orthographic;
 
   // A point q is in view where |q_k - eye_k| <= slope_k (eye_z - q_z): per axis two lines that the eye has to satisfy.
   std::array<Extent, 2> extent;
@@ -72,8 +74,8 @@ Camera frame_points(const Points& points, double aspect, double azimuth, double 
     const Vec3 q = axes.transpose() * (point.transpose() - center);
     for (int k = 0; k < 2; ++k) {
       Extent& e = extent[static_cast<std::size_t>(k)];
-      e.high = std::max(e.high, q[k] + slope[k] * q.z());
-      e.low = std::min(e.low, q[k] - slope[k] * q.z());
+      e.high = std::max(e.high, q[k] + nearer * slope[k] * q.z());
+      e.low = std::min(e.low, q[k] - nearer * slope[k] * q.z());
     }
   }
   Vec3 eye;

@@ -9,6 +9,8 @@ struct Camera {
   Vec3 target = Vec3::Zero();
   Vec3 up = Vec3::UnitY();
   double vertical_field_of_view = 30;  // degrees
+  bool orthographic = false;           // parallel lines of sight, as wide as the others at the target
+  double shift = 0;                    // of the picture to the right, in half widths
 };
 
 struct Bounds {
@@ -20,7 +22,8 @@ struct Bounds {
 
 /// A camera that sees all of the points (n x 3, m; n >= 1) with a margin at the given width / height, as near as it can
 /// be, from azimuth (degrees about y, 0 looks along -z) and elevation (degrees above the horizon).
-[[nodiscard]] Camera frame_points(const Points& points, double aspect, double azimuth = 30, double elevation = 14);
+[[nodiscard]] Camera frame_points(const Points& points, double aspect, double azimuth = 30, double elevation = 14,
+                                  bool orthographic = false);
 
 /// The camera carried around the vertical axis through `center` by that many degrees.
 [[nodiscard]] Camera carried_around(const Camera& camera, const Vec3& center, double degrees);

@@ -10,6 +10,7 @@ struct Image {
   int width = 0;
   int height = 0;
   std::vector<std::uint8_t> pixels;  // 3 * width * height
+  std::vector<std::uint8_t> alpha;   // width * height, the colours not multiplied by it; empty: opaque
 
   Image() = default;
   Image(int w, int h) : width(w), height(h), pixels(3U * static_cast<std::size_t>(w) * static_cast<std::size_t>(h)) {}

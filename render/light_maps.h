@@ -29,16 +29,19 @@ struct LightMap {
 /// Everything that is drawn from the side of the light, before the picture:
 /// - key: depth along the key light; soft shadows of the bodies on themselves and each other
 /// - zenith: blurred heights seen from above; how much of the sky is open
-/// - ground light: the light on the ground by place, with the shadow of the key and the sky that the bodies hide
+/// - ground sky, ground shadow: what the bodies hide of the sky and of the key light from the ground, by place
+/// - ground light: what the ground sends back, coarsely
 class LightMaps {
  public:
-  static constexpr int kUnits = 5;  // texture units that bind() takes
+  static constexpr int kUnits = 4;  // texture units that bind() takes
 
-  explicit LightMaps(const GlFunctions& gl);
+  LightMaps(const GlFunctions& gl, Quality quality);
   void draw(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const DrawFrame& frame,
             PassClock& clock);
   /// Binds the maps from unit `first_unit` on, and sets the uniforms with which a shader reads them.
   void bind(const GlProgram& program, const DrawFrame& frame, int first_unit) const;
+  /// The same for what the floor needs; two units.
+  void bind_ground(const GlProgram& program, const DrawFrame& frame, int first_unit) const;
 
  private:
   void draw_depth(const LightMap& map, int size, const LightView& view, const std::vector<SkinBuffers>& skins,
@@ -46,14 +49,18 @@ class LightMaps {
   void draw_underside(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const DrawFrame& frame) const;
   void draw_ground_sky(const DrawFrame& frame) const;
   void draw_key_mask(const DrawFrame& frame) const;
+  void draw_ground_shadow(const DrawFrame& frame) const;
+  void draw_ground_shadow(const GlProgram& program, const DrawFrame& frame) const;
   void draw_ground_light(const DrawFrame& frame) const;
-  void draw_ground_light(const GlProgram& program, float depth, const DrawFrame& frame) const;
   void blur_zenith(const DrawFrame& frame) const;
   void fill(const LightMap& map, int size) const;
   void clear(const LightMap& map, int size) const;
   void make_mipmaps(const GlTexture& texture) const;
 
   const GlFunctions& gl_;
+  int key_size_;  // texels along a side
+  int key_mask_size_;
+  int ground_shadow_size_;
   GlVertexArray no_buffers_;
   GlSampler shadow_sampler_;
   GlSampler flat_sampler_;
@@ -65,6 +72,7 @@ class LightMaps {
   LightMap underside_color_;
   LightMap underside_;
   LightMap ground_sky_;
+  LightMap ground_shadow_;
   LightMap ground_light_;
   GlProgram depth_program_;
   GlProgram zenith_program_;
@@ -73,8 +81,9 @@ class LightMaps {
   GlProgram underside_filter_program_;
   GlProgram ground_sky_program_;
   GlProgram key_mask_program_;
-  GlProgram open_ground_program_;
+  GlProgram shaded_ground_program_;
   GlProgram ground_shadow_program_;
+  GlProgram ground_light_program_;
 };
 
 }  // namespace sprung

@@ -9,7 +9,7 @@ namespace sprung {
 /// and the system's reason.
 void write_png(const Image& image, const std::filesystem::path& file);
 
-/// Reads a PNG as 8-bit RGB. Throws Error(kBadInput).
+/// Reads a PNG as 8-bit RGB, with alpha where it is not opaque. Throws Error(kBadInput).
 [[nodiscard]] Image read_png(const std::filesystem::path& file);
 
 }  // namespace sprung

@@ -1,6 +1,7 @@
 #include "render/renderer.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/error.h"
 #include "render/gl/context.h"
@@ -10,6 +11,8 @@ namespace sprung {
 
 namespace {
 
+constexpr double kGhost = 0.28;  // how much of a ghost is seen
+
 /// Radius of the ball around a skin's bounding box, m.
 double radius(const Skin& skin) {
   Bounds bounds;
@@ -17,15 +20,24 @@ double radius(const Skin& skin) {
   return bounds.empty() ? 0 : 0.5 * (bounds.high - bounds.low).norm();
 }
 
+/// That share of another picture.
+void mix(Image& image, const Image& other, double share) {
+  const auto mixed = [share](std::uint8_t a, std::uint8_t b) {
+    return static_cast<std::uint8_t>(std::lround((1 - share) * a + share * b));
+  };
+  std::transform(image.pixels.begin(), image.pixels.end(), other.pixels.begin(), image.pixels.begin(), mixed);
+  std::transform(image.alpha.begin(), image.alpha.end(), other.alpha.begin(), image.alpha.begin(), mixed);
+}
+
 void check_options(const Stage& stage, const RenderOptions& options) {
-  const int largest = options.samples > 1 ? 8192 : 16384;  // llvmpipe's limit, and two samples along each side
+  const int largest = 16384 / sample_side(options.samples);  // llvmpipe's limit
   if (options.width < 1 || options.height < 1 || options.width > largest || options.height > largest) {
     throw Error(ErrorKind::kUsage, "resolution " + std::to_string(options.width) + "x" +
                                        std::to_string(options.height) + ": each side must be 1 to " +
                                        std::to_string(largest) + " pixels");
   }
-  if (options.samples != 1 && options.samples != 4) {
-    throw Error(ErrorKind::kUsage, "samples " + std::to_string(options.samples) + ": must be 1 or 4");
+  if (options.samples != 1 && options.samples != 4 && options.samples != 16) {
+    throw Error(ErrorKind::kUsage, "samples " + std::to_string(options.samples) + ": must be 1, 4 or 16");
   }
   if (stage.bounds.empty() || stage.skins.size() != stage.default_colors.size()) {
     throw Error(ErrorKind::kFailed, "a stage needs bounds and one default colour a skin");
@@ -38,6 +50,7 @@ struct Renderer::Device {
   std::unique_ptr<GlContext> context;  // first: the others need it to the end
   const GlFunctions& gl;
   bool has_ground;
+  bool has_ghosts = false;
   StageSpace space;
   double ground_height;
   double body_radius = 0;
@@ -53,12 +66,15 @@ struct Renderer::Device {
         has_ground(stage.has_ground),
         space(stage.bounds),
         ground_height((stage.ground.height - space.center.y()) * space.scale),
-        textures(gl),
-        maps(gl),
+        textures(gl, stage.color_map),
+        maps(gl, options.quality),
         screen(gl, options),
         clock(gl, options.measure_passes) {
     for (std::size_t i = 0; i < stage.skins.size(); ++i) {
-      skins.emplace_back(gl, *stage.skins[i], stage.default_colors[i], textures);
+      const bool is_ghost = !stage.ghosts.empty() && stage.ghosts[i];
+      const Look look = stage.looks.empty() ? Look::kPlastic : stage.looks[i];
+      skins.emplace_back(gl, *stage.skins[i], stage.default_colors[i], look, is_ghost, textures);
+      has_ghosts = has_ghosts || is_ghost;
       body_radius = std::max(body_radius, radius(*stage.skins[i]) * space.scale);
     }
     if (body_radius == 0) body_radius = 1;
@@ -85,9 +101,13 @@ Image Renderer::draw(const std::vector<SkinShape>& shapes, const Camera& camera)
                         device.body_radius, device.ground_height, device.has_ground};
   device.clock.stop("upload");
   device.maps.draw(device.skins, device.textures, frame, device.clock);
-  device.screen.draw(device.skins, device.textures, device.maps, make_view(frame, camera, device.screen.aspect()),
-                     device.clock);
+  const View view = make_view(frame, camera, device.screen.aspect());
+  device.screen.draw(device.skins, device.textures, device.maps, view, false, device.clock);
   Image image = device.screen.read();
+  if (device.has_ghosts) {
+    device.screen.draw(device.skins, device.textures, device.maps, view, true, device.clock);
+    mix(image, device.screen.read(), kGhost);
+  }
   device.clock.stop("read back");
   return image;
 }

@@ -5,15 +5,19 @@
 
 #include "core/skin/skin.h"
 #include "render/camera.h"
+#include "render/color_map.h"
 #include "render/image.h"
+#include "render/look.h"
 #include "render/pass_clock.h"
+#include "render/quality.h"
 
 namespace sprung {
 
 /// One skin as it stands in the frame to draw.
 struct SkinShape {
-  Floats3 positions;  // n x 3, m, world
-  Floats3 normals;    // n x 3, any length
+  Floats3 positions;            // n x 3, m, world
+  Floats3 normals;              // n x 3, any length
+  Eigen::VectorXf shares = {};  // n; where on the stage's colour map, 0 to 1; 2 more for darker lines; 0 rows: as skin
 };
 
 struct GroundPlane {
@@ -23,14 +27,19 @@ struct GroundPlane {
 struct RenderOptions {
   int width = 1280;
   int height = 720;
-  int samples = 4;  // of a pixel: 1 or 4
+  int samples = 4;  // of a pixel: 1, 4 or 16
   bool measure_passes = false;
+  Quality quality = Quality::kDefault;  // of shadows
+  bool transparent = false;             // pictures with alpha: bodies with nothing behind them
 };
 
 /// What stays the same through a film: the skins at rest (indices, UVs, colours, textures), ground and light.
 struct Stage {
   std::vector<const Skin*> skins;               // outlive the renderer
   std::vector<Eigen::Vector3f> default_colors;  // one a skin, sRGB: for parts without material, colours or texture
+  std::vector<Look> looks{};                    // one a skin; none: plastic
+  std::vector<bool> ghosts{};                   // one a skin; none: no ghosts. They show faintly and cast no shadow
+  ColorMap color_map = ColorMap::kViridis;
   bool has_ground = true;
   GroundPlane ground;
   Bounds bounds;  // of the whole motion: sizes shadow map, ground fade and light

@@ -4,6 +4,7 @@
 
 #include <Eigen/LU>
 #include <array>
+#include <cmath>
 
 #include "render/shaders.h"
 
@@ -15,15 +16,19 @@ constexpr int kFirstMapUnit = 1;  // unit 0 is the skin's own texture
 constexpr int kFirstSurfaceUnit = kFirstMapUnit + LightMaps::kUnits;
 
 // The kinds of pixels, as depths.
-constexpr float kInside = 0.25F;
-constexpr float kEdge = 0.5F;
+constexpr float kSkin = 0.5F;
 constexpr float kNoSkin = 1;
 
-constexpr double kSmoothDepth = 0.03;  // of a body's radius: less change of depth in a pixel is no edge
+constexpr double kLevel = 1e-4;        // sine of a line of sight that counts as level
+constexpr double kRounding = 1 << 20;  // one over the steps in which the line of sight is rounded
 
 constexpr TextureFormat kColor{GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, false, false, GL_CLAMP_TO_EDGE};
-constexpr TextureFormat kNormal{GL_RGB10_A2, GL_RGBA, GL_UNSIGNED_INT_2_10_10_10_REV, false, false, GL_CLAMP_TO_EDGE};
 constexpr TextureFormat kDepth{GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, false, false, GL_CLAMP_TO_EDGE};
+
+bool has_floor_in_sight(const View& view) {
+  const bool looks_down = view.near > 0 || view.sight_height.z() < -kLevel;  // parallel lines may run along the floor
+  return view.frame.has_ground && view.eye.y() > view.frame.ground_height && looks_down;
+}
 
 GlFramebuffer make_surface_target(const GlFunctions& gl, const GlTexture& color, const GlTexture& normal,
                                   const GlTexture& depth) {
@@ -44,34 +49,52 @@ Screen::Screen(const GlFunctions& gl, const RenderOptions& options)
     : gl_(gl),
       width_(options.width),
       height_(options.height),
-      side_(options.samples > 1 ? 2 : 1),
+      side_(sample_side(options.samples)),
+      is_transparent_(options.transparent),
       surface_color_(make_texture(gl, side_ * width_, side_ * height_, kColor)),
-      surface_normal_(make_texture(gl, side_ * width_, side_ * height_, kNormal)),
+      surface_normal_(make_texture(gl, side_ * width_, side_ * height_, kColor)),
       surface_depth_(make_texture(gl, side_ * width_, side_ * height_, kDepth)),
       surface_(make_surface_target(gl, surface_color_, surface_normal_, surface_depth_)),
       picture_(make_texture(gl, width_, height_, kColor)),
       kinds_(make_texture(gl, width_, height_, kDepth)),
       developed_(make_texture_target(gl, &picture_, &kinds_)),
+      backdrop_(make_texture(gl, width_, height_, kColor)),
+      backdrop_target_(make_texture_target(gl, &backdrop_, nullptr)),
+      nearer_sampler_(make_comparing_sampler(gl, GL_GREATER)),
       no_buffers_(make_vertex_array(gl)),
       surface_programs_(load_skin_programs(gl, "surface.frag")),
-      kinds_program_(load("kinds.frag", "")),
-      surroundings_program_(load("surroundings.frag", "")),
-      inside_program_(load("skins.frag", "")),
-      edge_program_(load("skins.frag", "#define EDGES\n")) {}
+      backdrop_program_(load_program(gl, "screen.vert", "backdrop.frag")),
+      floor_program_(load_program(gl, "floor.vert", "floor.frag")),
+      kinds_program_(load("kinds.frag", options.quality)),
+      skins_program_(load("skins.frag", options.quality)) {}
 
-GlProgram Screen::load(const char* fragment, const char* defines) const {
-  const std::string kinds =
-      fmt::format("#define SIDE {}\n#define INSIDE {:.3f}\n#define EDGE {:.3f}\n#define NO_SKIN {:.3f}\n", side_,
-                  kInside, kEdge, kNoSkin);
-  return load_program(gl_, "screen.vert", fragment, kinds + defines);
+GlProgram Screen::load(const char* fragment, Quality quality) const {
+  const bool is_high = quality == Quality::kHigh;
+  const bool is_preview = quality == Quality::kPreview;
+  return load_program(gl_, "screen.vert", fragment,
+                      fmt::format("#define SIDE {}\n#define SKIN {:.3f}\n#define NO_SKIN {:.3f}\n"
+                                  "#define SHADOW_SEARCH {}\n#define SHADOW_TAPS {}\n",
+                                  side_, kSkin, kNoSkin,
+                                  is_high      ? 12
+                                  : is_preview ? 4
+                                               : 6,
+                                  is_high      ? 32
+                                  : is_preview ? 8
+                                               : 16));
 }
 
 void Screen::draw(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const LightMaps& maps,
-                  const View& view, PassClock& clock) const {
-  draw_surfaces(skins, textures, view);
+                  const View& view, bool with_ghosts, PassClock& clock) {
+  draw_surfaces(skins, textures, view, with_ghosts);
   clock.stop("surfaces");
-  sort_pixels(maps, view);
-  clock.stop("kinds of pixels");
+  if (is_transparent_) {
+    clear_picture();
+  } else {
+    draw_backdrop(view);
+    clock.stop("backdrop");
+    draw_floor(maps, view);
+  }
+  clock.stop("floor");
   develop(maps, view, clock);
 }
 
@@ -80,24 +103,29 @@ Image Screen::read() const {
   gl_.PixelStorei(GL_PACK_ALIGNMENT, 1);
   Image image(width_, height_);
   gl_.ReadPixels(0, 0, width_, height_, GL_RGB, GL_UNSIGNED_BYTE, image.pixels.data());
+  if (!is_transparent_) return image;
+  image.alpha.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
+  gl_.ReadPixels(0, 0, width_, height_, GL_ALPHA, GL_UNSIGNED_BYTE, image.alpha.data());
   return image;
 }
 
 /// The triangles are small: llvmpipe would run the shader of the light for several times the pixels that they have. So
 /// it runs in one triangle over the whole picture, once what is seen has been settled.
-void Screen::draw_surfaces(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const View& view) const {
+void Screen::draw_surfaces(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const View& view,
+                           bool with_ghosts) const {
   gl_.BindFramebuffer(GL_FRAMEBUFFER, surface_.name());
   gl_.Viewport(0, 0, side_ * width_, side_ * height_);
   gl_.Enable(GL_DEPTH_TEST);
   gl_.DepthFunc(GL_LESS);
   gl_.FrontFace(GL_CW);  // the top row comes first: a mirror image
   gl_.Clear(GL_DEPTH_BUFFER_BIT);
-  for (const GlProgram* program : {&surface_programs_.plain, &surface_programs_.textured}) {
+  for (const GlProgram* program : {&surface_programs_.plain, &surface_programs_.textured, &surface_programs_.mapped}) {
     program->use();
     view.frame.set_common(*program);
     program->set("clip_from_stage", view.clip_from_stage.cast<float>().eval());
   }
   for (const SkinBuffers& skin : skins) {
+    if (skin.is_ghost() && !with_ghosts) continue;
     if (skin.sides() != Sides::kBoth) gl_.Enable(GL_CULL_FACE);
     gl_.CullFace(skin.sides() == Sides::kFront ? GL_BACK : GL_FRONT);
     skin.draw(surface_programs_, textures, 0, Detail::kFull);
@@ -106,44 +134,87 @@ void Screen::draw_surfaces(const std::vector<SkinBuffers>& skins, const TextureS
   gl_.FrontFace(GL_CCW);
 }
 
-/// An early depth test keeps llvmpipe from running a shader; an if does not. So the kind of each pixel is written down
-/// as its depth, and each kind has a program of its own, at that depth.
-void Screen::sort_pixels(const LightMaps& maps, const View& view) const {
+Screen::Sight::Sight(const View& view) {
+  const auto rounded = [](double value) { return static_cast<float>(std::round(kRounding * value) / kRounding); };
+  height = view.sight_height.unaryExpr(rounded);
+  slopes = view.sight_slopes.unaryExpr(rounded);
+}
+
+void Screen::Sight::set(const GlProgram& program) const {
+  program.set("sight_height", height);
+  program.set("sight_slopes", slopes);
+}
+
+/// It stays the same while the camera goes around the vertical, so it is kept.
+void Screen::draw_backdrop(const View& view) {
+  const Sight sight(view);
+  gl_.Viewport(0, 0, width_, height_);
+  gl_.Disable(GL_DEPTH_TEST);
+  if (backdrop_sight_ != sight) {
+    gl_.BindFramebuffer(GL_FRAMEBUFFER, backdrop_target_.name());
+    backdrop_program_.use();
+    view.frame.set_common(backdrop_program_);
+    sight.set(backdrop_program_);
+    gl_.BindVertexArray(no_buffers_.name());
+    gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+    backdrop_sight_ = sight;
+  }
+  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, backdrop_target_.name());
+  gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, developed_.name());
+  gl_.BlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, developed_.name());
+}
+
+void Screen::clear_picture() const {
   gl_.BindFramebuffer(GL_FRAMEBUFFER, developed_.name());
   gl_.Viewport(0, 0, width_, height_);
+  gl_.ClearColor(0, 0, 0, 0);
+  gl_.Clear(GL_COLOR_BUFFER_BIT);
+}
+
+void Screen::draw_floor(const LightMaps& maps, const View& view) const {
+  if (!has_floor_in_sight(view)) return;
+  floor_program_.use();
+  maps.bind_ground(floor_program_, view.frame, 0);
+  floor_program_.set("clip_from_stage", view.clip_from_stage.cast<float>().eval());
+  floor_program_.set("pixel", Eigen::Vector2f(1.0F / static_cast<float>(width_), 1.0F / static_cast<float>(height_)));
+  Sight(view).set(floor_program_);
+  gl_.BindVertexArray(no_buffers_.name());
+  gl_.DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+}
+
+/// An early depth test keeps llvmpipe from running a shader; an if does not. So a cheap one first writes down as its
+/// depth whether a pixel shows a skin.
+void Screen::develop(const LightMaps& maps, const View& view, PassClock& clock) const {
   gl_.Clear(GL_DEPTH_BUFFER_BIT);
   const PixelRectangle seen = seen_rectangle(view, width_, height_);
   gl_.Enable(GL_SCISSOR_TEST);
   gl_.Scissor(seen.left, seen.top, seen.width, seen.height);
+  gl_.Enable(GL_DEPTH_TEST);
   gl_.DepthFunc(GL_ALWAYS);
   gl_.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-  cover(kinds_program_, kNoSkin, maps, view);
+  cover(kinds_program_, maps, view);
   gl_.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  gl_.Disable(GL_SCISSOR_TEST);
-}
-
-void Screen::develop(const LightMaps& maps, const View& view, PassClock& clock) const {
+  clock.stop("kinds of pixels");
   gl_.DepthMask(GL_FALSE);
   gl_.DepthFunc(GL_EQUAL);
-  cover(inside_program_, kInside, maps, view);
-  clock.stop("skins");
-  gl_.DepthFunc(GL_LEQUAL);
-  cover(surroundings_program_, kEdge, maps, view);
-  clock.stop("surroundings");
-  gl_.DepthFunc(GL_EQUAL);
   gl_.Enable(GL_BLEND);
-  gl_.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-  cover(edge_program_, kEdge, maps, view);
-  clock.stop("edges");
+  if (is_transparent_) {
+    gl_.Disable(GL_BLEND);
+  } else {
+    gl_.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  }
+  cover(skins_program_, maps, view);
   gl_.Disable(GL_BLEND);
   gl_.DepthMask(GL_TRUE);
   gl_.DepthFunc(GL_LESS);
+  gl_.Disable(GL_SCISSOR_TEST);
+  clock.stop("skins");
 }
 
-/// A program over the whole picture, with all that it can read.
-void Screen::cover(const GlProgram& program, float depth, const LightMaps& maps, const View& view) const {
-  const bool floor_in_sight = view.frame.has_ground && view.eye.y() > view.frame.ground_height;
-  const Vec3 end = floor_in_sight ? floor_depth(view) : Vec3(0, 0, 1);
+/// A program over the whole picture, with all that it can read of the skins.
+void Screen::cover(const GlProgram& program, const LightMaps& maps, const View& view) const {
+  const Vec3 end = has_floor_in_sight(view) ? floor_depth(view) : Vec3(0, 0, 1);
   program.use();
   maps.bind(program, view.frame, kFirstMapUnit);
   bind_texture(gl_, kFirstSurfaceUnit, surface_color_);
@@ -152,12 +223,13 @@ void Screen::cover(const GlProgram& program, float depth, const LightMaps& maps,
   program.set("packed_normal", kFirstSurfaceUnit + 1);
   bind_texture(gl_, kFirstSurfaceUnit + 2, surface_depth_);
   program.set("surface_depth", kFirstSurfaceUnit + 2);
-  program.set("screen_depth", depth);
+  bind_texture(gl_, kFirstSurfaceUnit + 3, surface_depth_, nearer_sampler_.name());
+  program.set("skin_coverage", kFirstSurfaceUnit + 3);
+  program.set("screen_depth", kSkin);
+  program.set("distance_terms", view.distance_terms.cast<float>().eval());
   program.set("eye", view.eye.cast<float>().eval());
   program.set("stage_from_clip", view.clip_from_stage.inverse().cast<float>().eval());
-  program.set("floor_in_sight", floor_in_sight ? 1 : 0);
   program.set("end_depth", end.cast<float>().eval());
-  program.set("smooth_depth", static_cast<float>(kSmoothDepth * view.frame.body_radius / view.near));
   gl_.BindVertexArray(no_buffers_.name());
   gl_.DrawArrays(GL_TRIANGLES, 0, 3);
 }

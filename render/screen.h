@@ -1,9 +1,13 @@
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "render/view.h"
 
 namespace sprung {
+
+/// Along each side of a pixel.
+[[nodiscard]] constexpr int sample_side(int samples) { return samples == 16 ? 4 : samples == 4 ? 2 : 1; }
 
 /// Draws what a camera sees, once the light maps are done: first what the skins are in every sample of every pixel,
 /// then the picture that is developed from it.
@@ -11,21 +15,34 @@ class Screen {
  public:
   Screen(const GlFunctions& gl, const RenderOptions& options);
   void draw(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const LightMaps& maps, const View& view,
-            PassClock& clock) const;
+            bool with_ghosts, PassClock& clock);
   [[nodiscard]] Image read() const;
   [[nodiscard]] double aspect() const { return static_cast<double>(width_) / height_; }
 
  private:
-  [[nodiscard]] GlProgram load(const char* fragment, const char* defines) const;
-  void draw_surfaces(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const View& view) const;
-  void sort_pixels(const LightMaps& maps, const View& view) const;
+  /// What the backdrop depends on, see View; rounded, so that it is the same all the way around.
+  struct Sight {
+    Eigen::Vector3f height;
+    Eigen::Vector2f slopes;
+    explicit Sight(const View& view);
+    void set(const GlProgram& program) const;
+    bool operator==(const Sight&) const = default;
+  };
+
+  [[nodiscard]] GlProgram load(const char* fragment, Quality quality) const;
+  void draw_surfaces(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const View& view,
+                     bool with_ghosts) const;
+  void clear_picture() const;
+  void draw_backdrop(const View& view);
+  void draw_floor(const LightMaps& maps, const View& view) const;
   void develop(const LightMaps& maps, const View& view, PassClock& clock) const;
-  void cover(const GlProgram& program, float depth, const LightMaps& maps, const View& view) const;
+  void cover(const GlProgram& program, const LightMaps& maps, const View& view) const;
 
   const GlFunctions& gl_;
   int width_;
   int height_;
   int side_;  // of a pixel, in samples
+  bool is_transparent_;
   GlTexture surface_color_;
   GlTexture surface_normal_;
   GlTexture surface_depth_;
@@ -33,12 +50,16 @@ class Screen {
   GlTexture picture_;  // its top row first
   GlTexture kinds_;    // of pixels, as depths
   GlFramebuffer developed_;
+  GlTexture backdrop_;
+  GlFramebuffer backdrop_target_;
+  std::optional<Sight> backdrop_sight_;
+  GlSampler nearer_sampler_;
   GlVertexArray no_buffers_;
   SkinPrograms surface_programs_;
+  GlProgram backdrop_program_;
+  GlProgram floor_program_;
   GlProgram kinds_program_;
-  GlProgram surroundings_program_;
-  GlProgram inside_program_;
-  GlProgram edge_program_;
+  GlProgram skins_program_;
 };
 
 }  // namespace sprung

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 
 #include "render/decode.h"
 #include "render/shaders.h"
@@ -11,7 +12,7 @@ namespace sprung {
 
 namespace {
 
-enum Attribute : GLuint { kPosition, kNormal, kUv, kColor };  // as in surface.vert
+enum Attribute : GLuint { kPosition, kNormal, kUv, kColor, kShare };  // as in surface.vert
 
 float linear_from_srgb(float c) { return c <= 0.04045F ? c / 12.92F : std::pow((c + 0.055F) / 1.055F, 2.4F); }
 
@@ -24,9 +25,22 @@ Colors root_from_srgb(const Colors& colors) {
 /// The cells that merge vertices for the light maps, as a part of the skin's radius: finer than their bias and blur.
 constexpr double kCoarseCell = 0.04;
 
+/// Of the triangles: where fewer are left the skin is made of thin things, and is drawn as it is.
+constexpr double kFewest = 0.01;
+
 double coarse_cell(const Skin& skin) {
   const Vec3 sides = skin.positions.colwise().maxCoeff() - skin.positions.colwise().minCoeff();
   return std::max(0.5 * kCoarseCell * sides.norm(), 1e-12);
+}
+
+CoarseTriangles triangles_for_maps(const Skin& skin) {
+  CoarseTriangles coarse = coarse_triangles(skin, coarse_cell(skin));
+  const auto all = static_cast<std::size_t>(skin.triangles.rows());
+  if (static_cast<double>(coarse.triangles.rows()) >= kFewest * static_cast<double>(all)) return coarse;
+  coarse.triangles = skin.triangles;
+  coarse.first.resize(all + 1);
+  std::iota(coarse.first.begin(), coarse.first.end(), 0);
+  return coarse;
 }
 
 constexpr TextureFormat kPicture{GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, true, true, GL_REPEAT};
@@ -43,9 +57,18 @@ void describe(const GlFunctions& gl, Attribute attribute, int components) {
   gl.VertexAttribPointer(attribute, components, GL_FLOAT, GL_FALSE, 0, nullptr);
 }
 
+GlTexture make_color_map(const GlFunctions& gl, ColorMap map) {
+  constexpr int kSteps = 256;
+  Eigen::Matrix<float, 4, kSteps> colors = Eigen::Matrix<float, 4, kSteps>::Ones();
+  for (int i = 0; i < kSteps; ++i) {
+    colors.col(i).head<3>() = root_from_srgb(map_color(map, static_cast<double>(i) / (kSteps - 1)));
+  }
+  return make_texture(gl, kSteps, 1, {GL_RGBA8, GL_RGBA, GL_FLOAT, false, true, GL_CLAMP_TO_EDGE}, colors.data());
+}
+
 }  // namespace
 
-TextureSet::TextureSet(const GlFunctions& gl) : gl_(gl) {
+TextureSet::TextureSet(const GlFunctions& gl, ColorMap map) : gl_(gl), color_map_(make_color_map(gl, map)) {
   const std::uint32_t white = 0xffffffffU;
   textures_.push_back(make_texture(gl, 1, 1, kPicture, &white));
   sources_.push_back(nullptr);
@@ -63,55 +86,59 @@ int TextureSet::add(const SurfaceMaterial& material) {
 }
 
 SkinPrograms load_skin_programs(const GlFunctions& gl, std::string_view fragment) {
-  return {load_program(gl, "surface.vert", fragment), load_program(gl, "surface.vert", fragment, "#define TEXTURED\n")};
+  return {load_program(gl, "surface.vert", fragment), load_program(gl, "surface.vert", fragment, "#define TEXTURED\n"),
+          load_program(gl, "surface.vert", fragment, "#define MAPPED\n")};
 }
 
-SkinBuffers::SkinBuffers(const GlFunctions& gl, const Skin& skin, const Eigen::Vector3f& default_color,
-                         TextureSet& textures)
+SkinBuffers::SkinBuffers(const GlFunctions& gl, const Skin& skin, const Eigen::Vector3f& default_color, Look look,
+                         bool is_ghost, TextureSet& textures)
     : gl_(gl),
       array_(make_vertex_array(gl)),
       positions_(make_buffer(gl)),
       normals_(make_buffer(gl)),
       uvs_(make_buffer(gl)),
       colors_(make_buffer(gl)),
+      shares_(make_buffer(gl)),
       indices_(make_buffer(gl)),
       sides_(visible_sides(skin)),
+      look_(look),
+      is_ghost_(is_ghost),
       has_colors_(skin.colors.rows() > 0) {
-  const CoarseTriangles coarse = coarse_triangles(skin, coarse_cell(skin));
+  const CoarseTriangles coarse = triangles_for_maps(skin);
   full_ = {0, static_cast<int>(skin.triangles.rows())};
   coarse_ = {full_.count, static_cast<int>(coarse.triangles.rows())};
   upload_indices(skin, coarse.triangles);
   upload_attributes(skin);
-  const auto look = [&](int first, int count, const Eigen::Vector3f& color) {
+  const auto paint = [&](int first, int count, const Eigen::Vector3f& color) {
     const int low = coarse.first[static_cast<std::size_t>(first)];
     const int high = coarse.first[static_cast<std::size_t>(first + count)];
-    return Look{{first, count}, {coarse_.first + low, high - low}, color, 0};
+    return Paint{{first, count}, {coarse_.first + low, high - low}, color, 0};
   };
   const Eigen::Vector3f plain = has_colors_ ? Eigen::Vector3f::Ones().eval() : root_from_srgb(default_color);
   for (const Part& part : skin.parts) {
-    Look next = look(part.first_triangle, part.triangle_count, plain);
+    Paint next = paint(part.first_triangle, part.triangle_count, plain);
     if (part.material >= 0) {
       const SurfaceMaterial& material = skin.materials[static_cast<std::size_t>(part.material)];
       next.color = root_from_srgb(material.color.head<3>().eval());
       if (skin.uvs.rows() > 0) next.texture = textures.add(material);
     }
-    add_look(next);
+    add_paint(next);
   }
-  if (skin.parts.empty()) add_look(look(0, full_.count, plain));
+  if (skin.parts.empty()) add_paint(paint(0, full_.count, plain));
 }
 
 /// Neighbours that look the same are drawn together.
-void SkinBuffers::add_look(const Look& look) {
-  if (!looks_.empty()) {
-    Look& last = looks_.back();
-    if (last.texture == look.texture && last.color == look.color &&
-        last.full.first + last.full.count == look.full.first) {
-      last.full.count += look.full.count;
-      last.coarse.count += look.coarse.count;
+void SkinBuffers::add_paint(const Paint& paint) {
+  if (!paints_.empty()) {
+    Paint& last = paints_.back();
+    if (last.texture == paint.texture && last.color == paint.color &&
+        last.full.first + last.full.count == paint.full.first) {
+      last.full.count += paint.full.count;
+      last.coarse.count += paint.coarse.count;
       return;
     }
   }
-  looks_.push_back(look);
+  paints_.push_back(paint);
 }
 
 void SkinBuffers::upload_indices(const Skin& skin, const Triangles& coarse) {
@@ -144,6 +171,12 @@ void SkinBuffers::update(const SkinShape& shape) {
   assert(shape.positions.rows() == shape.normals.rows());
   upload(gl_, positions_, shape.positions, GL_STREAM_DRAW);
   upload(gl_, normals_, shape.normals, GL_STREAM_DRAW);
+  is_mapped_ = shape.shares.size() > 0;
+  if (!is_mapped_) return;
+  assert(shape.positions.rows() == shape.shares.rows());
+  gl_.BindVertexArray(array_.name());
+  upload(gl_, shares_, shape.shares, GL_STREAM_DRAW);
+  describe(gl_, kShare, 1);
 }
 
 void SkinBuffers::draw(const Range& range) const {
@@ -157,17 +190,27 @@ void SkinBuffers::draw(Detail detail) const {
   draw(detail == Detail::kFull ? full_ : coarse_);
 }
 
+void SkinBuffers::use(const GlProgram& program, const GlTexture& texture, int unit) const {
+  program.use();
+  program.set("look", static_cast<float>(look_));
+  program.set("base_texture", unit);
+  bind_texture(gl_, unit, texture);
+}
+
 void SkinBuffers::draw(const SkinPrograms& programs, const TextureSet& textures, int unit, Detail detail) const {
   gl_.BindVertexArray(array_.name());
   gl_.VertexAttrib4f(kUv, 0, 0, 0, 0);
   if (!has_colors_) gl_.VertexAttrib4f(kColor, 1, 1, 1, 1);
-  for (const Look& look : looks_) {
-    const GlProgram& program = look.texture == 0 ? programs.plain : programs.textured;
-    program.use();
-    program.set("base_color", look.color);
-    program.set("base_texture", unit);
-    bind_texture(gl_, unit, textures[look.texture]);
-    draw(detail == Detail::kFull ? look.full : look.coarse);
+  if (is_mapped_) {
+    use(programs.mapped, textures.color_map(), unit);
+    draw(detail == Detail::kFull ? full_ : coarse_);
+    return;
+  }
+  for (const Paint& paint : paints_) {
+    const GlProgram& program = paint.texture == 0 ? programs.plain : programs.textured;
+    use(program, textures[paint.texture], unit);
+    program.set("base_color", paint.color);
+    draw(detail == Detail::kFull ? paint.full : paint.coarse);
   }
 }
 

@@ -11,14 +11,16 @@ namespace sprung {
 /// The textures of all skins, each picture once, decoded and mipmapped.
 class TextureSet {
  public:
-  explicit TextureSet(const GlFunctions& gl);
+  TextureSet(const GlFunctions& gl, ColorMap map);
   /// The texture's place in the set; 0, a white one, for an empty picture. Throws Error(kBadInput) where the picture
   /// cannot be decoded.
   [[nodiscard]] int add(const SurfaceMaterial& material);
+  [[nodiscard]] const GlTexture& color_map() const { return color_map_; }
   [[nodiscard]] const GlTexture& operator[](int index) const { return textures_[static_cast<std::size_t>(index)]; }
 
  private:
   const GlFunctions& gl_;
+  GlTexture color_map_;  // one row, square roots of linear light
   std::vector<GlTexture> textures_;
   std::vector<const std::vector<std::byte>*> sources_;
 };
@@ -26,17 +28,19 @@ class TextureSet {
 /// All triangles of a skin, or fewer for what is drawn blurred.
 enum class Detail { kFull, kCoarse };
 
-/// A program for a skin's parts with a texture, and one for those without.
+/// A program for a skin's parts with a texture, one for those without, and one for skins coloured by a map.
 struct SkinPrograms {
   GlProgram plain;
   GlProgram textured;
+  GlProgram mapped;
 };
 [[nodiscard]] SkinPrograms load_skin_programs(const GlFunctions& gl, std::string_view fragment);
 
 /// A skin on the device.
 class SkinBuffers {
  public:
-  SkinBuffers(const GlFunctions& gl, const Skin& skin, const Eigen::Vector3f& default_color, TextureSet& textures);
+  SkinBuffers(const GlFunctions& gl, const Skin& skin, const Eigen::Vector3f& default_color, Look look, bool is_ghost,
+              TextureSet& textures);
 
   void update(const SkinShape& shape);
   /// For a program that needs places only.
@@ -44,13 +48,14 @@ class SkinBuffers {
   /// Part by part, with base_color and base_texture (unit `unit`) of the programs set.
   void draw(const SkinPrograms& programs, const TextureSet& textures, int unit, Detail detail) const;
   [[nodiscard]] Sides sides() const { return sides_; }
+  [[nodiscard]] bool is_ghost() const { return is_ghost_; }
 
  private:
   struct Range {  // of triangles in the index buffer
     int first = 0;
     int count = 0;
   };
-  struct Look {
+  struct Paint {
     Range full;
     Range coarse;
     Eigen::Vector3f color;  // square root of linear
@@ -59,7 +64,8 @@ class SkinBuffers {
 
   void upload_indices(const Skin& skin, const Triangles& coarse);
   void upload_attributes(const Skin& skin);
-  void add_look(const Look& look);
+  void add_paint(const Paint& paint);
+  void use(const GlProgram& program, const GlTexture& texture, int unit) const;
   void draw(const Range& range) const;
 
   const GlFunctions& gl_;
@@ -68,12 +74,16 @@ class SkinBuffers {
   GlBuffer normals_;
   GlBuffer uvs_;
   GlBuffer colors_;
+  GlBuffer shares_;
   GlBuffer indices_;
   Range full_;
   Range coarse_;
   Sides sides_;
+  Look look_;
+  bool is_ghost_;
   bool has_colors_ = false;
-  std::vector<Look> looks_;
+  bool is_mapped_ = false;
+  std::vector<Paint> paints_;
 };
 
 }  // namespace sprung

@@ -23,14 +23,25 @@ Eigen::Matrix4d view_from_stage(const Vec3& eye, const Vec3& target, const Vec3&
   return view;
 }
 
-Eigen::Matrix4d clip_from_view(double field_of_view, double aspect, double near, double far) {
-  const double slope = std::tan(field_of_view * std::numbers::pi / 360);
+/// With a slope for x and one for y (downwards: pictures begin at the top) at a distance of 1.
+Eigen::Matrix4d perspective(const Eigen::Vector2d& slopes, double shift, double near, double far) {
   Eigen::Matrix4d clip = Eigen::Matrix4d::Zero();
-  clip(0, 0) = 1 / (slope * aspect);
-  clip(1, 1) = -1 / slope;  // downwards: pictures begin at the top
+  clip(0, 0) = 1 / slopes.x();
+  clip(0, 2) = -shift;
+  clip(1, 1) = 1 / slopes.y();
   clip(2, 2) = -(far + near) / (far - near);
   clip(2, 3) = -2 * far * near / (far - near);
   clip(3, 2) = -1;
+  return clip;
+}
+
+Eigen::Matrix4d parallel(const Eigen::Vector2d& halves, double shift, double near, double far) {
+  Eigen::Matrix4d clip = Eigen::Matrix4d::Identity();
+  clip(0, 0) = 1 / halves.x();
+  clip(0, 3) = shift;
+  clip(1, 1) = 1 / halves.y();
+  clip(2, 2) = -2 / (far - near);
+  clip(2, 3) = -(far + near) / (far - near);
   return clip;
 }
 
@@ -38,12 +49,26 @@ Eigen::Matrix4d clip_from_view(double field_of_view, double aspect, double near,
 
 View make_view(const DrawFrame& frame, const Camera& camera, double aspect) {
   const Vec3 eye = frame.space.from_world(camera.eye);
+  const Vec3 target = frame.space.from_world(camera.target);
   const double away = eye.norm();
-  const double near = std::max(0.02 * away, 0.002);
+  const Eigen::Matrix4d turn = view_from_stage(eye, target, camera.up);
+  const double slope = std::tan(camera.vertical_field_of_view * std::numbers::pi / 360);
+  const Eigen::Vector2d slopes(slope * aspect, -slope);
+  View view{.frame = frame, .eye = eye};
+  view.sight_height = Vec3(slopes.x() * turn(0, 1), slopes.y() * turn(1, 1), -turn(2, 1));
+  view.sight_slopes = slopes;
   const double far = away + kFar;
-  return {frame, eye, near,
-          clip_from_view(camera.vertical_field_of_view, aspect, near, far) *
-              view_from_stage(eye, frame.space.from_world(camera.target), camera.up)};
+  if (camera.orthographic) {
+    const double near = away - kFar;
+    view.clip_from_stage = parallel(slopes * (eye - target).norm(), camera.shift, near, far) * turn;
+    view.distance_terms = {far - near, near, 0, 1};
+    view.eye = eye + kFar * kFar * (eye - target).normalized();
+  } else {
+    view.near = std::max(0.02 * away, 0.002);
+    view.clip_from_stage = perspective(slopes, camera.shift, view.near, far) * turn;
+    view.distance_terms = {0, 1, 1 / far - 1 / view.near, 1 / view.near};
+  }
+  return view;
 }
 
 PixelRectangle seen_rectangle(const View& view, int width, int height) {
@@ -55,7 +80,7 @@ PixelRectangle seen_rectangle(const View& view, int width, int height) {
                      (corner & 2) != 0 ? bounds.high.y() : bounds.low.y(),
                      (corner & 4) != 0 ? bounds.high.z() : bounds.low.z());
     const Eigen::Vector4d clip = view.clip_from_stage * place.homogeneous();
-    if (clip.w() < view.near) return {0, 0, width, height};
+    if (view.near > 0 && clip.w() < view.near) return {0, 0, width, height};
     low = low.min(clip.head<2>().array() / clip.w());
     high = high.max(clip.head<2>().array() / clip.w());
   }

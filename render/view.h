@@ -7,8 +7,14 @@ namespace sprung {
 struct View {
   DrawFrame frame;
   Vec3 eye;
-  double near;
-  Eigen::Matrix4d clip_from_stage;
+  double near = 0;  // in front of the eye; 0: parallel lines of sight
+  Eigen::Matrix4d clip_from_stage = Eigen::Matrix4d::Identity();
+  /// (x d + y) / (z d + w) is the distance along the camera's axis at depth d, 0 to 1.
+  Eigen::Vector4d distance_terms = Eigen::Vector4d::Zero();
+  /// Of (x, y, 1) in clip space: how much the line of sight rises, and how much it leans sideways, for a step of 1
+  /// ahead.
+  Vec3 sight_height = Vec3::Zero();
+  Eigen::Vector2d sight_slopes = Eigen::Vector2d::Zero();
 };
 
 /// `aspect`: width / height.

@@ -77,7 +77,10 @@ double seconds_a_picture(const Production& production, const Scene& scene) {
   stage.has_ground = ground_height(production.world.obstacles).has_value();
   stage.ground.height = stage.bounds.low.y();
   const auto [width, height] = scene.render.resolution;
-  Renderer renderer(stage, {.width = width, .height = height, .samples = scene.render.samples});
+  Renderer renderer(stage, {.width = width,
+                            .height = height,
+                            .samples = scene.render.samples.value_or(samples_of(scene.render.quality)),
+                            .quality = scene.render.quality});
   const Camera camera = frame_bounds(stage.bounds, static_cast<double>(width) / height);
   static_cast<void>(renderer.draw(shapes, camera));  // the first one waits for the driver's compiler
   const auto start = std::chrono::steady_clock::now();

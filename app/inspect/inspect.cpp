@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include "app/cache/inspect_cache.h"
 #include "app/inspect/brick_picture.h"
 #include "app/inspect/inspection.h"
 #include "app/with_scene.h"
 #include "app/writable.h"
 #include "core/error.h"
+#include "core/output/cache.h"
 #include "render/png.h"
 
 namespace sprung {
@@ -23,6 +25,7 @@ void check_picture(const SceneOptions& options) {
 }  // namespace
 
 void run_inspect(const SceneOptions& options, const Console& console) {
+  if (is_cache_file(options.input)) return inspect_cache(options);
   with_scene(options, [&](const Scene& scene) {
     check_picture(options);
     std::vector<std::string> warnings;

@@ -6,7 +6,7 @@
 
 namespace sprung {
 
-/// `sprung inspect`: what a mesh or a scene is and what its film will take, to stdout. Throws Error.
+/// `sprung inspect`: what a mesh, a scene or a cache is and what its film will take, to stdout. Throws Error.
 void run_inspect(const SceneOptions& options, const Console& console);
 
 }  // namespace sprung

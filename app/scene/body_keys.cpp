@@ -53,6 +53,8 @@ const Key<SceneBody> kBody[] = {
     {{"model", "law of the bricks: calibrated, tensile (Baudet et al. 2009), m1, m2-plain, m1-plain or fem"},
      &SceneBody::model},
     {{"color", "of what the mesh file leaves without colour: \"#rrggbb\""}, &SceneBody::color},
+    {{"look", "how it takes light: plastic, gelatin, rubber or steel; as the material has it"}, &SceneBody::look},
+    {{"skin", "how it rides on the bricks: bricks (each by itself) or smooth (across them)"}, &SceneBody::skin},
     {{"velocity", "at the start", Dimension::kSpeed}, &SceneBody::velocity},
     {{"spin", "turning at the start, about the axes of the world through its middle", Dimension::kTurning},
      &SceneBody::spin},

@@ -22,6 +22,8 @@ template <>
 constexpr bool kIsSection<std::vector<Strength>> = false;
 template <>
 constexpr bool kIsSection<std::vector<GravityKeyframe>> = false;
+template <>
+constexpr bool kIsSection<std::vector<CameraKeyframe>> = false;
 
 template <class Owner>
 std::string inline_table(const Owner& owner);
@@ -46,23 +48,27 @@ template <>
 std::string value_text(const Material& material) {
   return is_from_library(material) ? toml_text(std::string_view(material.name)) : inline_table(material);
 }
-template <class Owner>
-std::string list_of_tables(const std::vector<Owner>& owners) {
+template <class Keyframes>
+std::string inline_tables(const Keyframes& keyframes) {
   std::string text;
-  for (const Owner& owner : owners) text += (text.empty() ? "" : ", ") + inline_table(owner);
+  for (const auto& keyframe : keyframes) text += (text.empty() ? "" : ", ") + inline_table(keyframe);
   return fmt::format("[{}]", text);
 }
 template <>
 std::string value_text(const std::vector<Keyframe>& keyframes) {
-  return list_of_tables(keyframes);
+  return inline_tables(keyframes);
 }
 template <>
 std::string value_text(const std::vector<Strength>& keyframes) {
-  return list_of_tables(keyframes);
+  return inline_tables(keyframes);
 }
 template <>
 std::string value_text(const std::vector<GravityKeyframe>& keyframes) {
-  return list_of_tables(keyframes);
+  return inline_tables(keyframes);
+}
+template <>
+std::string value_text(const std::vector<CameraKeyframe>& keyframes) {
+  return inline_tables(keyframes);
 }
 
 /// " name = value", or nothing for an optional value that is not there.

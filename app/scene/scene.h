@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/scene/scene_body.h"
+#include "app/scene/scene_render.h"
 
 namespace sprung {
 
@@ -118,18 +119,6 @@ struct SceneGlue {
 struct SceneContact {
   bool bodies = true;  // each other
   bool self = true;    // a body itself
-};
-
-/// Where the film is seen from; distance and target follow from what is to be seen.
-struct SceneCamera {
-  double azimuth = 30;    // degrees about y; 0 looks along -z
-  double elevation = 14;  // degrees above the horizon
-  double orbit = 0;       // degrees that the azimuth grows over the film
-};
-
-struct SceneRender {
-  std::array<int, 2> resolution{1280, 720};
-  int samples = 4;
 };
 
 /// Everything a film is made from. SI units.

@@ -10,12 +10,19 @@
 #include "core/law/material.h"
 #include "core/mesh/repair.h"
 #include "core/world/keyframes.h"
+#include "render/look.h"
 
 namespace sprung {
 
 inline constexpr double kDefaultSize = 0.2;  // m, longest side of a body whose scene names neither size nor scale
 inline constexpr int kDefaultBricks = 24;    // along the longest side
 inline constexpr std::string_view kDefaultMaterial = "gelatin";
+
+/// How the skin rides on the bricks.
+enum class Riding {
+  kBricks,  // trilinear in each brick: creases where bricks bend
+  kSmooth   // smooth across bricks, see SmoothRide
+};
 
 /// Directions of the world, x y z.
 struct Axes {
@@ -134,7 +141,9 @@ struct SceneBody {
   Vec3 brick_rotation = Vec3::Zero();  // degrees, about x, then y, then z: how the bricks are turned in the body
   Material material = find_material(kDefaultMaterial);
   Model model = Model::kCalibrated;
-  std::optional<Color> color;    // of what the file leaves without colour
+  std::optional<Color> color;  // of what the file leaves without colour
+  std::optional<Look> look;    // as the material has it
+  Riding skin = Riding::kBricks;
   Vec3 velocity = Vec3::Zero();  // m/s
   Vec3 spin = Vec3::Zero();      // degrees/s about the axes of the world through the middle of the bounding box
   double friction = 0.5;         // on other bodies: the geometric mean of both

@@ -55,7 +55,8 @@ concept Word = requires(std::string_view text, const KeyInfo& key, Value& value)
 /// Reads tables into the structs of scene.h by the table of keys.
 class Reader {
  public:
-  Reader(SceneMistakes& mistakes, std::filesystem::path folder) : mistakes_(mistakes), folder_(std::move(folder)) {}
+  Reader(SceneMistakes& mistakes, std::filesystem::path folder, SceneFiles files)
+      : mistakes_(mistakes), folder_(std::move(folder)), files_(files) {}
 
   template <class Owner>
   void read(const toml::table& table, const std::string& path, Owner& owner) {
@@ -145,7 +146,7 @@ class Reader {
     if (text == nullptr) refuse_type(node, "a string");
     parse_value(text->get(), key, value);
     value = std::filesystem::absolute(folder_ / value).lexically_normal();
-    check_readable(value);
+    if (files_ == SceneFiles::kPresent) check_readable(value);
   }
 
   void value_of(const toml::node& node, const std::string& path, const KeyInfo& key, Material& value) {
@@ -199,6 +200,7 @@ class Reader {
 
   SceneMistakes& mistakes_;
   std::filesystem::path folder_;
+  SceneFiles files_;
 };
 
 toml::table parse_toml(std::string_view text, SceneMistakes& mistakes) {
@@ -220,11 +222,11 @@ bool is_scene_file(const std::filesystem::path& file) {
   return ending == ".toml";
 }
 
-Scene parse_scene(std::string_view text, const std::filesystem::path& file) {
+Scene parse_scene(std::string_view text, const std::filesystem::path& file, SceneFiles files) {
   SceneMistakes mistakes(file.string());
   const toml::table table = parse_toml(text, mistakes);
   Scene scene;
-  Reader(mistakes, file.parent_path()).read(table, "", scene);
+  Reader(mistakes, file.parent_path(), files).read(table, "", scene);
   mistakes.throw_if_any();
   return scene;
 }

@@ -14,8 +14,12 @@ namespace sprung {
 /// mistake in it.
 [[nodiscard]] Scene read_scene(const std::filesystem::path& file);
 
+/// Whether the files that a scene names have to be there.
+enum class SceneFiles { kPresent, kAnywhere };
+
 /// The same for text that stands in (or for) a file; mesh paths are relative to the file's folder.
-[[nodiscard]] Scene parse_scene(std::string_view text, const std::filesystem::path& file);
+[[nodiscard]] Scene parse_scene(std::string_view text, const std::filesystem::path& file,
+                                SceneFiles files = SceneFiles::kPresent);
 
 /// The scene as TOML in SI units that parses to the same scene. A material from the library is written by its name.
 [[nodiscard]] std::string print_scene(const Scene& scene);

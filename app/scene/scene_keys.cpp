@@ -6,7 +6,8 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr Range kPositive{.low = 0, .without_low = true};
 constexpr Range kRatio{.low = 0, .high = 1};
-constexpr int kSampleCounts[] = {1, 4};
+constexpr int kSampleCounts[] = {1, 4, 16};
+constexpr Range kZoom{.low = 0.01, .high = 100};
 
 const Key<Scene> kScene[] = {
     {{"duration", "length of the film", Dimension::kTime, {0, 3600, true}}, &Scene::duration},
@@ -137,13 +138,51 @@ const Key<SceneCamera> kCamera[] = {
      &SceneCamera::azimuth},
     {{"elevation", "height of the camera above the horizon", Dimension::kAngle, {-85, 85}}, &SceneCamera::elevation},
     {{"orbit", "how far it goes around over the film", Dimension::kAngle}, &SceneCamera::orbit},
+    {{"zoom", "size in the picture over that at which everything is seen", Dimension::kRatio, kZoom},
+     &SceneCamera::zoom},
+    {{"follow", "whether it looks at the middle of the bodies in every frame"}, &SceneCamera::follow},
+    {{"orthographic", "whether its lines of sight are parallel"}, &SceneCamera::orthographic},
+    {{"keyframes", "where it is at which times; instead of azimuth, elevation, orbit and zoom"},
+     &SceneCamera::keyframes},
+};
+
+const Key<CameraKeyframe> kCameraKeyframe[] = {
+    {{"t", "when", Dimension::kTime, {0, kInfinity}, true}, &CameraKeyframe::time},
+    {{"azimuth", "direction of the camera about the vertical", Dimension::kAngle, {}, true}, &CameraKeyframe::azimuth},
+    {{"elevation", "its height above the horizon", Dimension::kAngle, {-85, 85}}, &CameraKeyframe::elevation},
+    {{"zoom", "size in the picture over that at which everything is seen", Dimension::kRatio, kZoom},
+     &CameraKeyframe::zoom},
 };
 
 const Key<SceneRender> kRender[] = {
     {{"resolution", "width and height of the pictures in pixels", Dimension::kNone, {16, 8192}},
      &SceneRender::resolution},
-    {{"samples", "samples a pixel: 4 (smooth edges) or 1 (quick)", Dimension::kNone, {1, 4}, false, kSampleCounts},
+    {{"quality", "preview (quick), default or high (slow): of shadows and edges"}, &SceneRender::quality},
+    {{"samples", "samples a pixel; as the quality has it", Dimension::kNone, {1, 16}, false, kSampleCounts},
      &SceneRender::samples},
+    {{"transparent", "nothing behind the bodies: pictures with alpha, no floor"}, &SceneRender::transparent},
+    {{"motion_blur", "how long the shutter is open, of 360 degrees a frame", Dimension::kAngle, {0, 360}},
+     &SceneRender::motion_blur},
+    {{"sheet", "columns and rows of frames, evenly over the film, in one picture", Dimension::kNone, {1, 100}},
+     &SceneRender::sheet},
+    {{"color_by",
+      "what colours show: skin, displacement, speed, stretch, strain or stress (von Mises), volume, fill or region"},
+     &SceneRender::color_by},
+    {{"color_map", "viridis, cividis, coolwarm or turbo; by what is shown"}, &SceneRender::color_map},
+    {{"color_low", "SI value of the first colour; the lowest of the film"}, &SceneRender::color_low},
+    {{"color_high", "SI value of the last colour; the highest of the film but for its utmost half per cent"},
+     &SceneRender::color_high},
+    {{"legend", "whether the colours are explained"}, &SceneRender::legend},
+    {{"caption", "a line at the top"}, &SceneRender::caption},
+    {{"frame_number", "whether frame and time are written"}, &SceneRender::frame_number},
+    {{"scale_bar", "whether a bar of a round length is drawn"}, &SceneRender::scale_bar},
+    {{"bricks", "bricks in place of the skins: none, whole or exploded"}, &SceneRender::bricks},
+    {{"cut", "takes away the bricks on one side of a plane; with bricks, springs or nodes"}, &SceneRender::cut},
+    {{"springs", "whether springs are drawn, coloured by their stretch, in place of the skins"}, &SceneRender::springs},
+    {{"nodes", "whether nodes are drawn"}, &SceneRender::nodes},
+    {{"pins", "whether held nodes are drawn"}, &SceneRender::pins},
+    {{"ghost", "whether the shape at rest shows faintly"}, &SceneRender::ghost},
+    {{"traces", "whether the ways of the probes are drawn"}, &SceneRender::traces},
 };
 
 using Kind = KeyRule::Kind;
@@ -185,6 +224,10 @@ std::span<const Key<Plane>> keys() {
 template <>
 std::span<const Key<SceneCamera>> keys() {
   return kCamera;
+}
+template <>
+std::span<const Key<CameraKeyframe>> keys() {
+  return kCameraKeyframe;
 }
 template <>
 std::span<const Key<SceneRender>> keys() {

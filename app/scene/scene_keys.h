@@ -45,15 +45,19 @@ struct KeyTypes<Scene>
 template <>
 struct KeyTypes<SceneSolver> : Types<Solver, std::optional<int>, int, double> {};
 template <>
-struct KeyTypes<SceneCamera> : Types<double> {};
+struct KeyTypes<SceneCamera> : Types<double, bool, std::vector<CameraKeyframe>> {};
 template <>
-struct KeyTypes<SceneRender> : Types<std::array<int, 2>, int> {};
+struct KeyTypes<CameraKeyframe> : Types<double> {};
+template <>
+struct KeyTypes<SceneRender>
+    : Types<std::array<int, 2>, Quality, std::optional<int>, bool, double, std::optional<std::array<int, 2>>, Field,
+            std::optional<ColorMap>, std::optional<double>, std::string, BrickView, std::optional<HalfSpace>> {};
 template <>
 struct KeyTypes<SceneBody>
     : Types<std::filesystem::path, std::optional<Vec3>, std::optional<SphereShape>, std::optional<CylinderShape>,
             std::optional<TorusShape>, std::vector<Cut>, std::optional<double>, RepairMode, Vec3,
             std::optional<BrickCount>, Material, Model, std::optional<Color>, std::optional<Copies>, std::vector<Pin>,
-            std::vector<Region>, std::vector<BodyForce>, std::vector<BodyMuscle>, double> {};
+            std::vector<Region>, std::vector<BodyForce>, std::vector<BodyMuscle>, double, std::optional<Look>, Riding> {};
 template <>
 struct KeyTypes<Strength> : Types<double> {};
 template <>
@@ -185,6 +189,8 @@ template <>
 std::span<const Key<Plane>> keys();
 template <>
 std::span<const Key<SceneCamera>> keys();
+template <>
+std::span<const Key<CameraKeyframe>> keys();
 template <>
 std::span<const Key<SceneRender>> keys();
 template <>

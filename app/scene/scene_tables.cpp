@@ -35,6 +35,8 @@ constexpr std::string_view kTableName<BodyMuscle> = "muscle";
 template <>
 constexpr std::string_view kTableName<SceneCamera> = "camera";
 template <>
+constexpr std::string_view kTableName<CameraKeyframe> = "camera keyframe";
+template <>
 constexpr std::string_view kTableName<SceneRender> = "render";
 template <>
 constexpr std::string_view kTableName<SceneBody> = "body";

@@ -15,7 +15,9 @@ void check_range(double value, const KeyInfo& key);
 /// The types whose values are written as names, and those names.
 template <class Value>
 concept Named = std::is_same_v<Value, Solver> || std::is_same_v<Value, RepairMode> ||
-    std::is_same_v<Value, Interpolation> || std::is_same_v<Value, Model>;
+    std::is_same_v<Value, Interpolation> || std::is_same_v<Value, Model> || std::is_same_v<Value, Quality> ||
+    std::is_same_v<Value, Field> || std::is_same_v<Value, ColorMap> || std::is_same_v<Value, BrickView> ||
+    std::is_same_v<Value, Look> || std::is_same_v<Value, Riding>;
 template <Named Value>
 [[nodiscard]] std::vector<std::string_view> value_names();
 
@@ -33,6 +35,12 @@ void parse_value(std::string_view text, const KeyInfo& key, RepairMode& value);
 void parse_value(std::string_view text, const KeyInfo& key, Interpolation& value);
 void parse_value(std::string_view text, const KeyInfo& key, Axes& value);
 void parse_value(std::string_view text, const KeyInfo& key, Model& value);
+void parse_value(std::string_view text, const KeyInfo& key, Quality& value);
+void parse_value(std::string_view text, const KeyInfo& key, Field& value);
+void parse_value(std::string_view text, const KeyInfo& key, ColorMap& value);
+void parse_value(std::string_view text, const KeyInfo& key, BrickView& value);
+void parse_value(std::string_view text, const KeyInfo& key, Look& value);
+void parse_value(std::string_view text, const KeyInfo& key, Riding& value);
 void parse_value(std::string_view text, const KeyInfo& key, Color& value);
 void parse_value(std::string_view text, const KeyInfo& key, Material& value);
 
@@ -58,6 +66,12 @@ void parse_value(std::string_view text, const KeyInfo& key, std::optional<Value>
 [[nodiscard]] std::string toml_text(Interpolation value);
 [[nodiscard]] std::string toml_text(const Axes& value);
 [[nodiscard]] std::string toml_text(Model value);
+[[nodiscard]] std::string toml_text(Quality value);
+[[nodiscard]] std::string toml_text(Field value);
+[[nodiscard]] std::string toml_text(ColorMap value);
+[[nodiscard]] std::string toml_text(BrickView value);
+[[nodiscard]] std::string toml_text(Look value);
+[[nodiscard]] std::string toml_text(Riding value);
 [[nodiscard]] std::string toml_text(const Color& value);
 
 template <class Value>

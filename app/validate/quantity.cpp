@@ -10,13 +10,13 @@
 namespace sprung {
 namespace {
 
-struct Field {
+struct ProbeField {
   std::string_view name;
   std::string_view unit;
   Vec3 ProbeSample::*value;
 };
 
-constexpr std::array<Field, 4> kFields{{{"position", "m", &ProbeSample::position},
+constexpr std::array<ProbeField, 4> kFields{{{"position", "m", &ProbeSample::position},
                                         {"displacement", "m", &ProbeSample::displacement},
                                         {"force", "N", &ProbeSample::force},
                                         {"torque", "N m", &ProbeSample::torque}}};
@@ -55,7 +55,7 @@ Quantity measure(const Recording& recording, const NodeErrors* errors, const std
   if (end.size() != 1 || axis == std::string_view::npos || field_dot == std::string::npos) refuse(quantity);
   for (const ProbeTrack& track : recording.probes) {
     if (track.name != start.substr(0, field_dot)) continue;
-    for (const Field& field : kFields) {
+    for (const ProbeField& field : kFields) {
       if (field.name != start.substr(field_dot + 1)) continue;
       const Vec3& value = track.samples.back().*field.value;
       return {.value = value[static_cast<int>(axis)], .unit = std::string(field.unit)};

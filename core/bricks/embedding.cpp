@@ -148,6 +148,20 @@ Points deform_points(const BrickGrid& grid, const Embedding& embedding, const Po
   return deformed;
 }
 
+Eigen::VectorXd mix_at_points(const BrickGrid& grid, const Embedding& embedding, const Eigen::VectorXd& of_nodes) {
+  Eigen::VectorXd mixed(embedding.local.rows());
+  for (Eigen::Index i = 0; i < mixed.size(); ++i) {
+    const Vec3 inside = embedding.local.row(i).transpose().cwiseMax(0.0).cwiseMin(1.0);
+    const auto weights = trilinear_weights(inside);
+    const auto& nodes = grid.nodes[static_cast<std::size_t>(embedding.brick[static_cast<std::size_t>(i)])];
+    mixed[i] = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+      mixed[i] += weights[corner] * of_nodes[nodes[static_cast<std::size_t>(corner)]];
+    }
+  }
+  return mixed;
+}
+
 Points deform_normals(const BrickGrid& grid, const Embedding& embedding, const Points& normals,
                       const Points& node_positions) {
   Points deformed(normals.rows(), 3);

@@ -30,6 +30,10 @@ struct Embedding {
 /// in exactly the same way.
 [[nodiscard]] Points deform_points(const BrickGrid& grid, const Embedding& embedding, const Points& node_positions);
 
+/// What the nodes carry (m), mixed at the embedded points; n. Points outside their brick count as on its side.
+[[nodiscard]] Eigen::VectorXd mix_at_points(const BrickGrid& grid, const Embedding& embedding,
+                                            const Eigen::VectorXd& of_nodes);
+
 /// Rest normals carried by the inverse transpose of the deformation gradient at each point; n x 3, not normalised.
 [[nodiscard]] Points deform_normals(const BrickGrid& grid, const Embedding& embedding, const Points& normals,
                                     const Points& node_positions);

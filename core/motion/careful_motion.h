@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/motion/integrator.h"
+#include "core/motion/motion_memory.h"
 
 namespace sprung {
 
@@ -29,6 +30,9 @@ class CarefulMotion {
   /// number of threads. Throws Diverged naming time, body, the brick's place and what to change where no step is short
   /// enough.
   std::vector<GroupSteps> advance_frame(double time, double duration, const Between& between, const Tell& tell);
+
+  /// What the next frame depends on beside positions and velocities.
+  void pass(MotionMemory& memory) { memory.pass_as_double(halvings_); }
 
  private:
   /// Whether it came through with finite positions.

@@ -68,6 +68,15 @@ class ImplicitMotion::Stepper {
     return true;
   }
 
+  void pass(MotionMemory& memory) {
+    for (Points* points : {&before_, &velocities_before_}) {
+      if (points->rows() == 0) points->setZero(body_.node_count(), 3);
+      memory.pass(*points);
+    }
+    memory.pass(last_dt_);
+    memory.pass_as_double(has_history_);
+  }
+
   [[nodiscard]] SolveReport solves() const { return system_->report(); }
   [[nodiscard]] long steps() const { return steps_; }
   [[nodiscard]] long iterations() const { return iterations_; }
@@ -278,6 +287,10 @@ void ImplicitMotion::advance(double dt, long steps, double time) {
       }
     }
   }
+}
+
+void ImplicitMotion::pass(MotionMemory& memory) {
+  for (const auto& stepper : steppers_) stepper->pass(memory);
 }
 
 ImplicitMotion::Report ImplicitMotion::report() const {

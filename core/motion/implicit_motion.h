@@ -1,4 +1,5 @@
 #pragma once
+#include "core/motion/motion_memory.h"
 #include "core/motion/newton_system.h"
 #include "core/world/world.h"
 
@@ -35,6 +36,9 @@ class ImplicitMotion {
   /// Moves the world by `steps` of dt seconds. A step that finds no minimum is made in two halves, and so on.
   /// Throws Diverged naming time and body where that does not help.
   void advance(double dt, long steps, double time);
+
+  /// What the next step depends on beside positions and velocities: those of the step before.
+  void pass(MotionMemory& memory);
 
   struct Report {
     SolveReport solves;

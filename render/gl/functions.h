@@ -14,6 +14,7 @@ namespace sprung {
   X(PFNGLBINDVERTEXARRAYPROC, BindVertexArray)                 \
   X(PFNGLBUFFERSUBDATAPROC, BufferSubData)                     \
   X(PFNGLBLENDFUNCPROC, BlendFunc)                             \
+  X(PFNGLBLITFRAMEBUFFERPROC, BlitFramebuffer)                 \
   X(PFNGLBUFFERDATAPROC, BufferData)                           \
   X(PFNGLCHECKFRAMEBUFFERSTATUSPROC, CheckFramebufferStatus)   \
   X(PFNGLCLEARPROC, Clear)                                     \

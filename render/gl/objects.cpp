@@ -1,6 +1,8 @@
 #include "render/gl/objects.h"
 
 #include <array>
+#include <initializer_list>
+#include <utility>
 
 #include "core/error.h"
 
@@ -34,11 +36,36 @@ GlTexture make_texture(const GlFunctions& gl, int width, int height, const Textu
   const auto set = [&gl](GLenum key, GLint value) { gl.TexParameteri(GL_TEXTURE_2D, key, value); };
   const GLint near = format.linear ? GL_LINEAR : GL_NEAREST;
   set(GL_TEXTURE_MAG_FILTER, near);
-  set(GL_TEXTURE_MIN_FILTER, format.mipmaps ? GL_LINEAR_MIPMAP_LINEAR : near);
+  set(GL_TEXTURE_MIN_FILTER, format.mipmaps ? GL_LINEAR_MIPMAP_NEAREST : near);
   set(GL_TEXTURE_WRAP_S, static_cast<GLint>(format.wrap));
   set(GL_TEXTURE_WRAP_T, static_cast<GLint>(format.wrap));
   if (format.mipmaps) gl.GenerateMipmap(GL_TEXTURE_2D);
   return texture;
+}
+
+namespace {
+
+using SamplerSetting = std::pair<GLenum, GLenum>;
+
+GlSampler make_sampler(const GlFunctions& gl, std::initializer_list<SamplerSetting> more) {
+  GLuint name = 0;
+  gl.GenSamplers(1, &name);
+  const auto set = [&](const SamplerSetting& setting) {
+    gl.SamplerParameteri(name, setting.first, static_cast<GLint>(setting.second));
+  };
+  for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER}) set({filter, GL_LINEAR});
+  for (const GLenum side : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T}) set({side, GL_CLAMP_TO_EDGE});
+  for (const SamplerSetting& setting : more) set(setting);
+  return {gl, name};
+}
+
+}  // namespace
+
+GlSampler make_flat_sampler(const GlFunctions& gl) { return make_sampler(gl, {}); }
+
+GlSampler make_comparing_sampler(const GlFunctions& gl, GLenum comparison) {
+  return make_sampler(gl,
+                      {{GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE}, {GL_TEXTURE_COMPARE_FUNC, comparison}});
 }
 
 void check_framebuffer(const GlFunctions& gl, const char* what) {

@@ -1,64 +1,9 @@
-// Light on the ground, by place: the key with its shadow, what is left of the sky, light from the undersides.
-// The shadow of a plane is the mask of what the key light hits, averaged over the part of it that the lamp is seen through; so it is
-// sharp where the body touches and wide where it is high up.
+// Light on the ground by place, coarsely, for what it sends back to the bodies.
 in vec2 screen_place;
-uniform vec4 ground_rectangle;
-uniform float ground_height;
-uniform mat4 light_from_stage;
-uniform float mask_texels;      // per unit of length
-uniform vec2 mask_texel_size;   // in u and v
-uniform float body_radius;
-uniform sampler2D key_mask;
-uniform sampler2D ground_sky;
 out vec4 result;
-
-const float kShaded = 0.5;
-const int kSearch = 6;
-const int kTaps = 14;
-const mat2 kGoldenTurn = mat2(-0.7373688, 0.6754903, -0.6754903, -0.7373688);  // 137.5 degrees, for spirals
-
-float reach() { return 1.2 * kLightRadius * body_radius * mask_texels; }
-
-vec2 mask_place(vec2 point) {
-  return (light_from_stage * vec4(point.x, ground_height, point.y, 1.0)).xy * 0.5 + 0.5;
-}
-
-#ifdef SHADOW
-float key_shadow(vec2 point) {
-  vec2 uv = mask_place(point);
-  vec2 found = vec2(0.0);
-  vec2 direction = vec2(1.0, 0.0);
-  for (int k = 0; k < kSearch; ++k) {
-    vec2 offset = reach() * sqrt((float(k) + 0.5) / float(kSearch)) * direction;
-    found += textureLod(key_mask, uv + offset * mask_texel_size, log2(max(0.8 * reach(), 1.0))).rg;
-    direction = kGoldenTurn * direction;
-  }
-  int taps = found.r > 1e-4 ? kTaps : 0;
-  float radius = max(kLightRadius * found.g / max(found.r, 1e-4) * mask_texels, 0.75);
-  float lod = log2(max(0.55 * radius, 1.0));
-  float hidden = 0.0;
-  for (int k = 0; k < taps; ++k) {
-    vec2 offset = radius * sqrt((float(k) + 0.5) / float(kTaps)) * direction;
-    hidden += textureLod(key_mask, uv + offset * mask_texel_size, lod).r;
-    direction = kGoldenTurn * direction;
-  }
-  return hidden / float(kTaps);
-}
-#else
-// Nothing yet: the depth says where SHADOW has to be looked for.
-float key_shadow(vec2 point) {
-  gl_FragDepth = textureLod(key_mask, mask_place(point), log2(6.0 * reach())).r > 0.0 ? kShaded : 1.0;
-  return 0.0;
-}
-#endif
+//!include ground_light.glsl
 
 void main() {
-  vec2 point = ground_rectangle.xy + screen_place * ground_rectangle.zw;
-  vec4 sky = texture(ground_sky, screen_place);
-  vec2 border = smoothstep(0.0, 0.12, min(screen_place, 1.0 - screen_place));
-  sky *= border.x * border.y;
-  vec3 key = kKey * to_key.y * (1.0 - key_shadow(point));
-  // What hides the sky is itself lit by the ground around it: no place is quite black.
-  vec3 light = key + kSky * (1.0 - 0.94 * sky.a) + sky.rgb * (0.16 - 0.10 * sky.a) * open_ground_light();
-  result = vec4(light, 1.0);
+  float shadow = textureLod(ground_shadow, screen_place, SHADOW_LOD).r;
+  result = vec4(ground_light(texture(ground_sky, screen_place), shadow, screen_place), 1.0);
 }

@@ -4,7 +4,8 @@
 in vec2 screen_place;
 uniform vec4 ground_rectangle;     // x, z of the low corner; side lengths
 uniform vec4 underside_rectangle;  // 1 / side lengths in zw
-uniform sampler2D underside;       // coverage, coverage * height
+uniform sampler2D underside;       // coverage, coverage * height over its range
+uniform vec2 underside_heights;    // above the ground: low, range
 uniform sampler2D underside_color;
 uniform float body_radius;
 uniform float underside_texels;
@@ -31,7 +32,7 @@ void main() {
     for (int k = 0; k < count; ++k) {
       vec2 uv = (point + middle * direction - underside_rectangle.xy) * underside_rectangle.zw;
       vec2 found = textureLod(underside, uv, lod).rg;
-      float height = found.g / max(found.r, 1e-4);
+      float height = max(underside_heights.x + underside_heights.y * found.g / max(found.r, 1e-4), 0.0);
       share += found.r * (disc(outer, height) - disc(inner, height));
       direction = kTurn * direction;
     }
@@ -41,7 +42,7 @@ void main() {
   }
   hidden = clamp(hidden, 0.0, 1.0);
 
-  // The colour overhead: an average weighted by 1 + height, as the map keeps it, which fades out beyond the body.
+  // The mean colour overhead, which fades out beyond the body.
   vec2 uv = (point - underside_rectangle.xy) * underside_rectangle.zw;
   float lod = log2(max(1.2 * body_radius * underside_rectangle.z * underside_texels, 1.0));
   vec4 overhead = textureLod(underside_color, uv, lod);

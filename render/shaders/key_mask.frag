@@ -1,6 +1,8 @@
-// The key light's map as a mask of what it hits before the ground: coverage, coverage * way left to the ground.
+// The key light's map as a mask of what it hits before the ground: coverage, coverage * way left to the ground over the
+// longest way.
 uniform sampler2D key_depth;
 uniform vec4 height_from_light;  // height above the ground of (u, v, depth, 1)
+uniform float longest_way;
 out vec4 result;
 
 void main() {
@@ -11,7 +13,7 @@ void main() {
     ivec2 texel = corner + ivec2(k & 1, k >> 1);
     float depth = texelFetch(key_depth, texel, 0).r;
     float height = dot(height_from_light, vec4((vec2(texel) + 0.5) / size, depth, 1.0));
-    if (depth < 1.0 && height > -1e-3) sum += vec2(1.0, max(height, 0.0) / to_key.y);
+    if (depth < 1.0 && height > -1e-3) sum += vec2(1.0, max(height, 0.0) / (to_key.y * longest_way));
   }
   result = vec4(0.25 * sum, 0.0, 1.0);
 }

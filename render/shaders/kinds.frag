@@ -1,19 +1,18 @@
-// The kind of each pixel, as a depth: inside a skin, at an edge of one, elsewhere.
-//!include pixel.glsl
-uniform float smooth_depth;  // change of depth along a smooth surface, within a pixel
+// Whether a pixel shows a skin, as a depth.
+in vec2 screen_place;
+uniform sampler2DShadow skin_coverage;  // the share of four samples around a place that are nearer than a depth
+uniform vec3 end_depth;
 
 void main() {
-  float nearest = 1.0;
-  float farthest = 0.0;
-  vec3 sum = vec3(0.0);
-  for (int k = 0; k < kSamples; ++k) {
-    float depth = sample_depth(k);
-    nearest = min(nearest, depth);
-    farthest = max(farthest, depth);
-    sum += sample_normal(k);
+  float end = dot(end_depth, vec3(screen_place, 1.0));
+#if SIDE == 4
+  vec2 step = 1.0 / vec2(textureSize(skin_coverage, 0));
+  float covered = 0.0;
+  for (int k = 0; k < 4; ++k) {
+    covered += texture(skin_coverage, vec3(screen_place + step * vec2((k & 1) * 2 - 1, (k >> 1) * 2 - 1), end));
   }
-  // The steps of depth shrink with the square of the distance from 1.
-  bool is_even = farthest - nearest < smooth_depth * (1.0 - nearest) * (1.0 - nearest);
-  bool is_smooth = dot(sum, sum) > 0.9 * float(kSamples * kSamples);
-  gl_FragDepth = nearest == 1.0 ? NO_SKIN : farthest < 1.0 && is_even && is_smooth ? INSIDE : EDGE;
+#else
+  float covered = texture(skin_coverage, vec3(screen_place, end));
+#endif
+  gl_FragDepth = covered > 0.0 ? SKIN : NO_SKIN;
 }

@@ -9,9 +9,9 @@ uniform vec3 to_key;  // unit, stage space
 
 vec3 open_ground_light() { return kKey * to_key.y + kSky; }
 
-// The floor without any body, and the background that it runs into: by the line of sight alone, so that no horizon
-// shows. Brightest at the viewer's feet.
-vec3 cyclorama(vec3 direction) {
-  float up = smoothstep(-0.55, 0.40, direction.y);
+// The floor without any body, and the background that it runs into: by how much the line of sight rises (a sine) alone,
+// so that no horizon shows. Brightest at the viewer's feet.
+vec3 cyclorama(float rise) {
+  float up = smoothstep(-0.55, 0.40, rise);
   return kGroundAlbedo * open_ground_light() * mix(vec3(1.02, 1.01, 1.0), vec3(0.62, 0.612, 0.605), up);
 }

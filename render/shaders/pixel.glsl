@@ -1,5 +1,6 @@
 // What the skins are in every sample of a pixel: SIDE x SIDE of them.
 in vec2 screen_place;
+uniform sampler2D surface_color;
 uniform sampler2D packed_normal;
 uniform sampler2D surface_depth;
 uniform vec3 end_depth;  // of a place (x, y, 1) on the screen: what lies deeper has sunk into the floor
@@ -13,4 +14,17 @@ float sample_depth(int k) {
   return depth < dot(end_depth, vec3(screen_place, 1.0)) ? depth : 1.0;
 }
 
-vec3 sample_normal(int k) { return texelFetch(packed_normal, sample_place(k), 0).xyz * 2.0 - 1.0; }
+// Of about unit length. See pack_normal() of surface.frag.
+vec3 sample_normal(int k) {
+  vec4 bytes = texelFetch(packed_normal, sample_place(k), 0);
+  vec2 place = 2.0 * (bytes.xy + bytes.zw / 255.0) - 1.0;
+  float z = 1.0 - abs(place.x) - abs(place.y);
+  float fold = max(-z, 0.0);
+  return vec3(place.x + (place.x < 0.0 ? fold : -fold), place.y + (place.y < 0.0 ? fold : -fold), z);
+}
+
+// Linear colour, and the number of the look.
+vec4 sample_paint(int k) {
+  vec4 bytes = texelFetch(surface_color, sample_place(k), 0);
+  return vec4(bytes.rgb * bytes.rgb, 255.0 * bytes.a);
+}

@@ -3,7 +3,7 @@ uniform vec3 eye;
 uniform float body_radius;
 uniform float ground_height;
 uniform vec4 ground_rectangle;     // low corner x, z; sides
-uniform sampler2D ground_light;
+uniform sampler2D ground_light_map;
 uniform mat4 light_from_stage;     // the key light's clip space
 uniform vec2 light_texel;          // texture coordinates per unit of length, across the light
 uniform sampler2DShadow key_shadow_map;
@@ -14,10 +14,8 @@ uniform vec2 zenith_heights;       // low, 1 / range
 uniform sampler2D zenith;
 uniform float ground_texels;       // per unit of length
 
-const float kRoughness = 0.42;
-const float kReflectance = 0.04;
-const int kSearch = 10;
-const int kTaps = 28;
+const int kSearch = SHADOW_SEARCH;
+const int kTaps = SHADOW_TAPS;
 const mat2 kGoldenTurn = mat2(-0.7373688, 0.6754903, -0.6754903, -0.7373688);  // 137.5 degrees, for spirals
 
 // The share of the key light that reaches a point. The point is first moved outwards and into the light by a small
@@ -63,7 +61,10 @@ float open_sky(vec3 point, vec3 n) {
 vec3 ground_bounce(vec3 point, vec3 n) {
   float height = max(point.y - ground_height, 0.0);
   vec2 uv = (point.xz + 0.6 * height * n.xz - ground_rectangle.xy) / ground_rectangle.zw;
-  return kGroundAlbedo * textureLod(ground_light, uv, log2(max(height * ground_texels, 4.0))).rgb;
+  // A level that is the same for all pixels is read several times quicker than one of each pixel's own.
+  vec3 near = textureLod(ground_light_map, uv, 0.0).rgb;
+  vec3 far = textureLod(ground_light_map, uv, log2(max(0.5 * body_radius * ground_texels, 1.0))).rgb;
+  return kGroundAlbedo * mix(near, far, smoothstep(0.0, 0.5 * body_radius, height));
 }
 
 // What a reflection sees: floor below, a bright overhead panel fading into the room above.
@@ -79,11 +80,23 @@ float ggx(float nh, float nv, float nl, float alpha) {
   return a2 / (d * d) * v;
 }
 
-// Integral of the specular lobe over a uniform surrounding (Karis's fit).
-float surrounding_share(float nv) {
-  vec4 r = kRoughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
+// What a look (the number of a Look) is made of.
+struct Finish {
+  float roughness;
+  float translucency;  // of light that enters and leaves elsewhere
+  float metal;
+};
+
+Finish finish_of(float look) {
+  vec3 is = 1.0 - min(abs(look - vec3(1.0, 2.0, 3.0)), 1.0);  // gelatin, rubber, steel
+  return Finish(0.42 + dot(is, vec3(-0.24, 0.33, -0.14)), is.x, is.z);
+}
+
+// Integral of the specular lobe over a uniform surrounding, as a factor and a summand of the reflectance (Karis's fit).
+vec2 surrounding_share(float nv, float roughness) {
+  vec4 r = roughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
   float a = min(r.x * r.x, exp2(-9.28 * nv)) * r.x + r.y;
-  return kReflectance * (-1.04 * a + r.z) + 1.04 * a + r.w;
+  return vec2(-1.04 * a + r.z, 1.04 * a + r.w);
 }
 
 float power5(float x) {
@@ -91,7 +104,8 @@ float power5(float x) {
   return x2 * x2 * x;
 }
 
-vec3 skin_light(vec3 place, vec3 n, vec3 base) {
+vec3 skin_light(vec3 place, vec3 n, vec3 base, float look) {
+  Finish finish = finish_of(look);
   vec3 v = normalize(eye - place);
   vec3 h = normalize(v + to_key);
   float nl = dot(n, to_key);
@@ -99,20 +113,24 @@ vec3 skin_light(vec3 place, vec3 n, vec3 base) {
   float lit = key_light(place, n, nl);
 
   // Light that enters leaves a little further on, in the body's own colour: it creeps past the edge of the shadow.
-  vec3 wrap = 0.06 + 0.20 * base;
+  vec3 wrap = 0.06 + (0.20 + 0.45 * finish.translucency) * base;
   vec3 soft = clamp((nl + wrap) / (1.0 + wrap), 0.0, 1.0);
-  vec3 diffuse = mix(soft, soft * soft, 2.0 * wrap);
+  vec3 diffuse = mix(soft, soft * soft, min(2.0 * wrap, 1.0));
 
   float open = open_sky(place, n);
   vec3 bounce = ground_bounce(place, n);
   vec3 sky = kSky * 1.1 * mix(0.4, 1.0, open);
   vec3 surrounding = mix(bounce, sky, 0.5 + 0.5 * n.y) + 0.06 * base * open;
+  // Through thin parts, at the rim, the surroundings behind shine, the more coloured the longer the way.
+  vec3 through = finish.translucency * (bounce + 0.5 * kKey) * base * (0.16 + 0.55 * (1.0 - nv) * (1.0 - nv));
 
   vec3 reflected = room(reflect(-v, n), bounce) * mix(0.3, 1.0, open);
   float clear = max(nl, 0.0);
-  float fresnel = kReflectance + (1.0 - kReflectance) * power5(1.0 - max(dot(v, h), 0.0));
-  float gloss = ggx(max(dot(n, h), 0.0), nv, max(clear, 1e-3), kRoughness * kRoughness) * fresnel * clear;
+  vec3 reflectance = mix(vec3(0.04), base, finish.metal);
+  vec3 fresnel = reflectance + (1.0 - reflectance) * power5(1.0 - max(dot(v, h), 0.0));
+  float gloss = ggx(max(dot(n, h), 0.0), nv, max(clear, 1e-3), finish.roughness * finish.roughness) * clear;
+  vec2 share = surrounding_share(nv, finish.roughness);
 
-  vec3 light = base * (kKey * diffuse * lit + surrounding);
-  return light + kKey * gloss * lit + reflected * surrounding_share(nv);
+  vec3 light = (1.0 - finish.metal) * (base * (kKey * diffuse * lit + surrounding) + through);
+  return light + kKey * gloss * lit * fresnel + reflected * (reflectance * share.x + share.y);
 }

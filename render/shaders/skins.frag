@@ -1,69 +1,62 @@
-// The light that the skins send to the eye. Inside a skin a pixel is shaded once, by the mean of its samples. At EDGES
-// the samples that show the same surface are shaded together, and alpha is the share of the pixel that shows a skin.
+// The light that the skins send to the eye. The samples of a pixel that are about as far away are shaded together, by
+// their mean: inside a skin that is all of them. alpha is the share of the pixel that shows a skin.
 uniform mat4 stage_from_clip;
-uniform sampler2D surface_color;
+uniform vec4 distance_terms;
 out vec4 result;
 //!include pixel.glsl
 //!include skin_light.glsl
 
-const float kSameNormal = 0.7;  // cosine
-const float kSameDepth = 0.03;  // of the body's radius
+const float kSameDepth = 0.05;  // of the body's radius
 
 struct Surface {  // sums over samples
   vec3 color;
   vec3 normal;
   float depth;
+  float look;
   float share;
 };
 
-vec3 sample_color(int k) {
-  vec3 root = texelFetch(surface_color, sample_place(k), 0).rgb;
-  return root * root;
-}
-
 vec3 picture_light(Surface s) {
   vec4 place = stage_from_clip * vec4(vec3(screen_place, s.depth / s.share) * 2.0 - 1.0, 1.0);
-  vec3 n = dot(s.normal, s.normal) > 1e-3 ? s.normal : eye - place.xyz / place.w;  // a surface without normals
-  return skin_light(place.xyz / place.w, normalize(n), s.color / s.share);
+  vec3 n = dot(s.normal, s.normal) > 1e-3 ? s.normal : eye - place.xyz / place.w;  // no normals, or opposite ones
+  return skin_light(place.xyz / place.w, normalize(n), s.color / s.share, round(s.look / s.share));
 }
 
-#ifdef EDGES
-// Distance along the camera's axis.
-float distance_of(float depth) { return 1.0 / (stage_from_clip[2].w * (2.0 * depth - 1.0) + stage_from_clip[3].w); }
+// Along the camera's axis.
+float distance_of(float depth) {
+  return (distance_terms.x * depth + distance_terms.y) / (distance_terms.z * depth + distance_terms.w);
+}
 
-bool fits(Surface s, float depth, vec3 n) {
-  return s.share == 0.0 ||
-         (dot(n, s.normal) > kSameNormal * s.share &&
-          abs(distance_of(depth) - distance_of(s.depth / s.share)) < kSameDepth * body_radius);
+bool fits(Surface s, float depth) {
+  return s.share == 0.0 || abs(distance_of(depth) - distance_of(s.depth / s.share)) < kSameDepth * body_radius;
 }
 
 void main() {
+  float depths[kSamples];
   int left = 0;  // samples to be shaded, bit by bit
-  for (int k = 0; k < kSamples; ++k) left |= sample_depth(k) < 1.0 ? 1 << k : 0;
+  for (int k = 0; k < kSamples; ++k) {
+    depths[k] = sample_depth(k);
+    left |= depths[k] < 1.0 ? 1 << k : 0;
+  }
+  vec3 normals[kSamples];
+  vec4 paints[kSamples];  // colour and look
+  for (int k = 0; k < kSamples; ++k) {
+    normals[k] = sample_normal(k);
+    paints[k] = sample_paint(k);
+  }
   vec3 sum = vec3(0.0);
   float covered = 0.0;
   while (left != 0) {
-    Surface s = Surface(vec3(0.0), vec3(0.0), 0.0, 0.0);
+    Surface s = Surface(vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0);
     for (int k = 0; k < kSamples; ++k) {
-      vec3 n = sample_normal(k);
-      float depth = sample_depth(k);
-      if ((left >> k & 1) == 0 || !fits(s, depth, n)) continue;
-      left ^= 1 << k;
-      s = Surface(s.color + sample_color(k), s.normal + n, s.depth + depth, s.share + 1.0);
+      bool is_in = (left >> k & 1) != 0 && fits(s, depths[k]);
+      float w = is_in ? 1.0 : 0.0;
+      left ^= is_in ? 1 << k : 0;
+      s = Surface(s.color + w * paints[k].rgb, s.normal + w * normals[k], s.depth + w * depths[k], s.look + w * paints[k].a,
+                  s.share + w);
     }
     sum += s.share * srgb_from_linear(tone_map(picture_light(s)));
     covered += s.share;
   }
   result = vec4(sum / max(covered, 1.0) + picture_noise(), covered / float(kSamples));
 }
-#else
-void main() {
-  Surface s = Surface(vec3(0.0), vec3(0.0), 0.0, float(kSamples));
-  for (int k = 0; k < kSamples; ++k) {
-    s.color += sample_color(k);
-    s.normal += sample_normal(k);
-    s.depth += texelFetch(surface_depth, sample_place(k), 0).r;
-  }
-  result = picture_color(picture_light(s));
-}
-#endif

@@ -3,6 +3,10 @@ layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 uv;
 layout(location = 3) in vec4 color;  // square root of linear
+#ifdef MAPPED
+layout(location = 4) in float share;
+out float map_share;
+#endif
 
 uniform vec3 stage_center;  // m
 uniform float stage_scale;  // 1/m
@@ -14,6 +18,9 @@ out vec2 texture_place;
 out vec3 vertex_color;
 
 void main() {
+#ifdef MAPPED
+  map_share = share;
+#endif
   place = (position - stage_center) * stage_scale;
   surface_normal = normal * inversesqrt(max(dot(normal, normal), 1e-30));
   texture_place = vec2(uv.x, 1.0 - uv.y);  // v runs up, rows of pictures run down

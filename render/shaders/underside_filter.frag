@@ -1,13 +1,13 @@
-// Coverage and coverage-weighted height, averaged over 2 x 2 texels.
-uniform sampler2D source;
+// Coverage and coverage-weighted height (1 at the top of the map, 0 at its bottom), averaged over 2 x 2 texels.
+uniform sampler2D underside_depth;
 out vec4 result;
 
 void main() {
   ivec2 corner = 2 * ivec2(gl_FragCoord.xy);
   vec2 sum = vec2(0.0);
   for (int k = 0; k < 4; ++k) {
-    float a = texelFetch(source, corner + ivec2(k & 1, k >> 1), 0).a;
-    sum += a > 0.5 ? vec2(1.0, a - 1.0) : vec2(0.0);
+    float depth = texelFetch(underside_depth, corner + ivec2(k & 1, k >> 1), 0).r;
+    sum += depth < 1.0 ? vec2(1.0, depth) : vec2(0.0);
   }
   result = vec4(0.25 * sum, 0.0, 1.0);
 }

@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "render/image.h"
+#include "render/compare.h"
 
 namespace sprung {
 
@@ -12,14 +12,6 @@ struct GoldenTolerance {
   double mean = 0.4;         // mean absolute difference of all bytes
   double worst_block = 6.0;  // the same of the worst 8 x 8 block
 };
-
-/// How two pictures of the same size differ, in levels of 255.
-struct ImageDifference {
-  double mean = 0;
-  double worst_block = 0;
-};
-
-[[nodiscard]] ImageDifference compare_images(const Image& a, const Image& b);
 
 /// Fails the test where `image` is not within tolerance of tests/golden/NAME.png, or there is none. Then keeps NAME.png
 /// and NAME.difference.png in SPRUNG_KEEP_DIR and names the command that accepts the new picture.

@@ -1,0 +1,85 @@
+#include "app/cache/inspect_cache.h"
+
+#include <fmt/format.h>
+
+#include "app/cache/cache_header.h"
+#include "app/json_text.h"
+#include "core/count_of.h"
+#include "core/error.h"
+
+namespace sprung {
+namespace {
+
+/// What one looks for in a cache.
+struct CacheFacts {
+  std::string version;
+  std::string build;
+  std::size_t frames = 0;
+  int planned = 0;  // by the scene
+  double progress = 0;
+  std::string progress_name;
+  std::uint64_t state_hash = 0;  // of the last frame
+  long solids = 0;
+  long bricks = 0;
+  long nodes = 0;
+  long skin_vertices = 0;
+  std::uintmax_t bytes = 0;
+};
+
+CacheFacts facts_of(const CacheReader& cache, const std::filesystem::path& file) {
+  const CacheHeader& header = cache.header();
+  CacheFacts facts{.version = header.version,
+                   .build = header.build,
+                   .frames = cache.frame_count(),
+                   .planned = frame_count(cached_scene(header)),
+                   .progress_name = header.progress_name,
+                   .solids = static_cast<long>(header.actors.size()),
+                   .bytes = std::filesystem::file_size(file)};
+  if (facts.frames > 0) {
+    const CachedFrame last = cache.frame(facts.frames - 1);
+    facts.progress = last.progress;
+    facts.state_hash = last.state_hash;
+  }
+  for (const CachedActor& actor : header.actors) {
+    facts.bricks += actor.grid.brick_count();
+    facts.nodes += actor.grid.node_count();
+    facts.skin_vertices += actor.skin.positions.rows();
+  }
+  return facts;
+}
+
+std::string text_of(const CacheFacts& facts) {
+  return fmt::format(
+      "frames {} of {}, the last at {} {:.6g}\nstate {:016x}\n{}, {}, {} nodes, {} skin vertices\n{:.4g} MB, written "
+      "by sprung {} (build {})\n",
+      facts.frames, facts.planned, facts.progress_name, facts.progress, facts.state_hash,
+      count_of(facts.solids, "solid"), count_of(facts.bricks, "brick"), facts.nodes, facts.skin_vertices,
+      1e-6 * static_cast<double>(facts.bytes), facts.version, facts.build);
+}
+
+std::string json_of(const CacheFacts& facts) {
+  return fmt::format(
+      "{{\"frames\": {}, \"planned_frames\": {}, \"{}\": {}, \"state_hash\": \"{:016x}\", \"solids\": {}, \"bricks\": "
+      "{}, "
+      "\"nodes\": {}, \"skin_vertices\": {}, \"bytes\": {}, \"version\": {}, \"build\": {}}}\n",
+      facts.frames, facts.planned, facts.progress_name, json_text(facts.progress), facts.state_hash, facts.solids,
+      facts.bricks, facts.nodes, facts.skin_vertices, facts.bytes, json_text(std::string_view(facts.version)),
+      json_text(std::string_view(facts.build)));
+}
+
+}  // namespace
+
+void inspect_cache(const SceneOptions& options) {
+  if (!options.settings.empty() || options.scenario || !options.picture.empty()) {
+    throw Error(ErrorKind::kUsage, "inspect of a cache takes --json only");
+  }
+  const CacheReader cache(options.input);
+  if (options.print_scene) {
+    fmt::print("{}", cache.header().scene);
+    return;
+  }
+  const CacheFacts facts = facts_of(cache, options.input);
+  fmt::print("{}", options.json ? json_of(facts) : text_of(facts));
+}
+
+}  // namespace sprung

@@ -1,0 +1,54 @@
+#pragma once
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "app/build_world.h"
+#include "app/recording.h"
+#include "core/motion/motion_memory.h"
+#include "core/output/cache.h"
+
+namespace sprung {
+
+/// Where a run keeps its frames as they come; and takes those up that an earlier run of the same scene has left there.
+class RunCache {
+ public:
+  /// With `resume` what the file has is kept, if there is such a file; else it is replaced.
+  /// Throws Error(kBadInput) where the file is no cache, Error(kFailed) where another run is writing it.
+  RunCache(std::filesystem::path file, bool resume);
+  ~RunCache();
+
+  /// Makes ready for the frames of a run and returns how many are there. Both have to outlive this.
+  /// Throws Error(kBadInput) naming the difference where those are of another run, Error(kFailed).
+  int begin(const Scene& scene, const Production& production, const std::string& progress_name,
+            std::size_t memory_size);
+
+  /// A frame that is there.
+  [[nodiscard]] CachedFrame frame(int frame) const;
+  /// Brings the nodes to where they were after the last frame that is there; what the motion remembered.
+  [[nodiscard]] MotionMemory restore(World& world) const;
+
+  /// The next frame, as the world stands. Throws Error(kFailed); what is there stays readable.
+  void add(const CachedFrame& frame, const MotionMemory& memory);
+
+  /// Nothing more will come.
+  void close();
+
+  [[nodiscard]] int frame_count() const { return frame_count_; }
+  [[nodiscard]] const std::filesystem::path& file() const { return file_; }
+
+ private:
+  void copy_old_frames();
+
+  std::filesystem::path file_;
+  std::unique_ptr<CacheReader> old_;  // what an earlier run left
+  std::unique_ptr<CacheWriter> writer_;
+  const Production* production_ = nullptr;
+  int frame_count_ = 0;
+};
+
+/// The numbers of the probes in a frame, for a cache; and back.
+[[nodiscard]] std::vector<double> numbers_of(const std::vector<ProbeTrack>& probes);
+[[nodiscard]] ProbeSample sample_of(const CachedFrame& frame, std::size_t probe);
+
+}  // namespace sprung

@@ -1,0 +1,193 @@
+#include "app/commands.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+
+namespace sprung {
+namespace {
+
+void add_scene_options(CLI::App& command, Words& words, bool has_pictures) {
+  command.add_option("INPUT", words.scene.input, "a mesh file, or a scene (.toml)");
+  for (std::size_t i = 0; i < words.scene_values.size(); ++i) {
+    const SceneOption& option = scene_options()[i];
+    if (option.is_of_pictures && !has_pictures) continue;
+    command.add_option(option.option, words.scene_values[i], help_of(option))->option_text(option.example);
+  }
+  command.add_option("--set", words.set, "any key of a scene (sprung help scene); may be given several times")
+      ->allow_extra_args(false)
+      ->option_text("KEY=VALUE");
+  command
+      .add_option("--scenario", words.scenario,
+                  fmt::format("what a bare mesh does: {}", fmt::join(scenario_names(), ", ")))
+      ->option_text("NAME");
+  command.add_option("--threads", words.threads, "threads of the simulation; default: all cores")->option_text("N");
+  command.add_flag("--print-scene", words.scene.print_scene, "write the scene as resolved to stdout, and stop");
+  command.add_flag("--quiet", words.scene.quiet, "warnings and errors only");
+  command.add_flag("--verbose", words.scene.verbose, "more about every stage");
+  command.footer(
+      "Lengths, times, pressures and densities take a unit (\"3 cm\", 20kPa, 1.2g/cm3); a bare number is SI.\n"
+      "Options override the scene file, which overrides the defaults.");
+  command.allow_extras();
+}
+
+void add_animate(CLI::App& app, Words& words) {
+  CLI::App* animate = app.add_subcommand("animate", "mesh or scene in, pictures or film out");
+  animate
+      ->add_option("-o,--output", words.scene.outputs,
+                   "folder/, folder/frame_{:04}.png, or film.mp4, .webm, .gif; may be given several times")
+      ->allow_extra_args(false)
+      ->option_text("OUT");
+  animate->add_flag("--overwrite", words.scene.overwrite, "replace pictures and films that exist");
+  add_scene_options(*animate, words, true);
+}
+
+void add_simulate(CLI::App& app, Words& words) {
+  CLI::App* simulate = app.add_subcommand("simulate", "mesh or scene in, its motion out: a cache, measurements");
+  simulate
+      ->add_option("-o,--output", words.scene.outputs,
+                   "RUN.h5, a cache of all frames, or folder/ for probes.csv and probes.json; or both")
+      ->allow_extra_args(false)
+      ->option_text("OUT");
+  simulate->add_flag("--overwrite", words.scene.overwrite, "replace files that exist");
+  simulate->add_flag("--resume", words.scene.resume, "go on where the cache ends; begin where there is none");
+  add_scene_options(*simulate, words, false);
+}
+
+void add_render(CLI::App& app, Words& words) {
+  CLI::App* render = app.add_subcommand("render", "a cache in, pictures or film out");
+  render->add_option("INPUT", words.scene.input, "a cache (.h5)");
+  render
+      ->add_option("-o,--output", words.scene.outputs,
+                   "folder/, folder/frame_{:04}.png, or film.mp4, .webm, .gif; may be given several times")
+      ->allow_extra_args(false)
+      ->option_text("OUT");
+  render->add_option("--frames", words.scene.frames, "these only, counted from 1; default: all")->option_text("A:B");
+  render->add_option("--jobs", words.jobs, "so many processes at once; default: 1")->option_text("N");
+  render->add_flag("--overwrite", words.scene.overwrite, "replace pictures and films that exist");
+  for (std::size_t i = 0; i < words.scene_values.size(); ++i) {
+    const SceneOption& option = scene_options()[i];
+    if (!option.key.starts_with("render.")) continue;
+    render->add_option(option.option, words.scene_values[i], help_of(option))->option_text(option.example);
+  }
+  render->add_option("--set", words.set, "any key of [camera] and [render]; may be given several times")
+      ->allow_extra_args(false)
+      ->option_text("KEY=VALUE");
+  render->add_flag("--quiet", words.scene.quiet, "warnings and errors only");
+  render->add_flag("--verbose", words.scene.verbose, "more about every stage");
+  render->allow_extras();
+}
+
+void add_export(CLI::App& app, Words& words) {
+  CLI::App* command = app.add_subcommand("export", "a cache, mesh or scene in, deformed meshes out");
+  command
+      ->add_option(
+          "-o,--output", words.scene.outputs,
+          "skin_{:04}.obj or another format, film.glb, film.html, points.pc2, points.mdd, run.xdmf; may be given "
+          "several times")
+      ->allow_extra_args(false)
+      ->option_text("OUT");
+  command->add_option("--frames", words.scene.frames, "these only, counted from 1; default: all")->option_text("A:B");
+  command->add_flag("--list", words.scene.list, "name the formats, and stop");
+  command->add_flag("--overwrite", words.scene.overwrite, "replace files that exist");
+  add_scene_options(*command, words, false);
+}
+
+void add_film(CLI::App& app, Words& words) {
+  CLI::App* film = app.add_subcommand("film", "numbered pictures in, a film out");
+  film->add_option("INPUT", words.scene.input, "folder/, or folder/frame_{:04}.png");
+  film->add_option("-o,--output", words.scene.outputs, "film.mp4, .webm, .gif; may be given several times")
+      ->allow_extra_args(false)
+      ->option_text("OUT");
+  film->add_option("--frames", words.scene.frames, "these only; default: from 1 to the last that is there")
+      ->option_text("A:B");
+  film->add_option("--fps", words.fps, "pictures a second; default: 24")->option_text("N");
+  film->add_flag("--overwrite", words.scene.overwrite, "replace films that exist");
+  film->add_flag("--quiet", words.scene.quiet, "warnings and errors only");
+  film->allow_extras();
+}
+
+void add_sweep(CLI::App& app, Words& words) {
+  CLI::App* sweep = app.add_subcommand("sweep", "a scene and lists of values in, a folder and a command a run out");
+  sweep->add_option("INPUT", words.scene.input, "a mesh file, a scene (.toml), or with --table the folder of a sweep");
+  sweep->add_option("-o,--output", words.scene.outputs, "the folder for all runs")
+      ->allow_extra_args(false)
+      ->option_text("FOLDER");
+  sweep->add_option("--set", words.set, "values of any key of a scene, by commas; may be given several times")
+      ->allow_extra_args(false)
+      ->option_text("KEY=A,B,C");
+  sweep->add_flag("--table", words.scene.table, "what the probes of all runs saw last, as CSV");
+  sweep->add_flag("--overwrite", words.scene.overwrite, "replace the list of commands that exists");
+  sweep->add_flag("--quiet", words.scene.quiet, "warnings and errors only");
+  sweep->allow_extras();
+}
+
+void add_inspect(CLI::App& app, Words& words) {
+  CLI::App* inspect =
+      app.add_subcommand("inspect", "mesh, scene or cache in, what it is and what its film will take out");
+  inspect->add_flag("--json", words.scene.json, "the facts as JSON");
+  inspect->add_option("--picture", words.scene.picture, "draw skin and bricks, thin parts marked")
+      ->option_text("FILE.png");
+  inspect->add_flag("--overwrite", words.scene.overwrite, "replace a picture that exists");
+  add_scene_options(*inspect, words, true);
+}
+
+void add_validate(CLI::App& app, Words& words) {
+  CLI::App* validate = app.add_subcommand("validate", "experiments, measured against theory and reference");
+  validate->add_option("FILES", words.validate.cases, "scenes with [[expect]]; default: the built-in experiments");
+  validate->add_option("--case", words.validate.cases, "a built-in experiment; may be given several times")
+      ->allow_extra_args(false)
+      ->option_text("NAME");
+  validate->add_flag("--list", words.validate.list, "name the built-in experiments, and stop");
+  validate->add_option("--model", words.model, "this law of the bricks only")->option_text("NAME");
+  validate->add_option("--poisson", words.poisson, "this Poisson's ratio only")->option_text("NU");
+  validate->add_option("--bricks", words.bricks, "this grid only, by the bricks along the longest side")
+      ->option_text("N");
+  validate->add_flag("--json", words.validate.json, "checks as JSON");
+  validate->add_option("--report", words.validate.report, "folder for report.html")->option_text("DIR");
+  validate->add_flag("--quiet", words.scene.quiet, "warnings and errors only");
+  validate->add_flag("--verbose", words.scene.verbose, "say why a model could not be carried through");
+  validate->allow_extras();
+}
+
+void add_compare(CLI::App& app, Words& words) {
+  CLI::App* compare = app.add_subcommand("compare", "two pictures: how much they differ; exit code 1 if too much");
+  compare->add_option("A", words.compare.first, "a PNG")->option_text("A.png")->required();
+  compare->add_option("B", words.compare.second, "another")->option_text("B.png")->required();
+  compare->add_option("--mean", words.compare.mean, "levels of 255 that they may differ by on average; default: 0.4")
+      ->option_text("X")
+      ->check(CLI::NonNegativeNumber);
+  compare->add_option("--worst-block", words.compare.worst_block, "the same in the worst 8 x 8 pixels; default: 6")
+      ->option_text("X")
+      ->check(CLI::NonNegativeNumber);
+  compare->add_option("--difference", words.compare.difference, "picture of the differences, 16 times as large")
+      ->option_text("FILE.png");
+  compare->add_flag("--overwrite", words.compare.overwrite, "replace a picture that exists");
+  compare->allow_extras();
+}
+
+void add_help(CLI::App& app, Words& words) {
+  CLI::App* help = app.add_subcommand("help", "on a command, or on the keys of a scene: sprung help scene");
+  help->add_option("TOPIC", words.topic, "a command, or scene");
+  help->add_flag("--json-schema", words.json_schema, "the keys of a scene as a JSON Schema");
+  help->allow_extras();
+}
+
+}  // namespace
+
+void add_commands(CLI::App& app, Words& words) {
+  add_animate(app, words);
+  add_simulate(app, words);
+  add_render(app, words);
+  add_export(app, words);
+  add_film(app, words);
+  add_sweep(app, words);
+  add_inspect(app, words);
+  add_validate(app, words);
+  add_compare(app, words);
+  app.add_subcommand("materials", "the library of materials, with sources")->allow_extras();
+  add_help(app, words);
+}
+
+}  // namespace sprung

@@ -1,0 +1,35 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "app/command_line.h"
+#include "app/scene_options.h"
+
+namespace CLI {
+class App;
+}
+
+namespace sprung {
+
+/// Everything that CLI11 fills in.
+struct Words {
+  SceneOptions scene;
+  ValidateOptions validate;
+  CompareOptions compare;
+  std::string model;
+  std::string poisson;
+  std::string bricks;
+  std::vector<std::string> scene_values = std::vector<std::string>(sprung::scene_options().size());
+  std::vector<std::string> set;
+  std::string scenario;
+  std::string threads;
+  std::string jobs;
+  std::string fps;    // of film
+  std::string topic;  // of help
+  bool json_schema = false;
+};
+
+/// All commands with their options, which write into the words; these have to outlive the parsing.
+void add_commands(CLI::App& app, Words& words);
+
+}  // namespace sprung

@@ -1,0 +1,191 @@
+#include "app/export/export_files.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "app/export/posed_meshes.h"
+#include "app/export/viewer.h"
+#include "app/interrupt.h"
+#include "app/progress.h"
+#include "app/report/whole_file.h"
+#include "core/count_of.h"
+#include "core/error.h"
+#include "core/nearest.h"
+#include "core/output/animated_glb.h"
+#include "core/output/mesh_export.h"
+#include "core/output/point_cache.h"
+#include "core/output/xdmf.h"
+
+namespace sprung {
+namespace {
+
+namespace fs = std::filesystem;
+using Kind = ExportTarget::Kind;
+
+constexpr std::string_view kExamples =
+    "give a pattern like skin_{:04}.obj, or film.glb, film.html, points.pc2, points.mdd, run.xdmf; sprung export "
+    "--list names "
+    "the formats";
+
+[[noreturn]] void refuse(std::string_view words, std::string_view reason) {
+  throw Error(ErrorKind::kUsage, fmt::format("--output {}: {}; {}", words, reason, kExamples));
+}
+
+std::size_t mesh_count(const Scene& scene) {
+  std::size_t count = 0;
+  for (const SceneBody& body : scene.bodies) count += static_cast<std::size_t>(copy_count(body));
+  return count;
+}
+
+/// points.pc2, or points_1.pc2 ... where there are several meshes.
+fs::path file_of_mesh(const fs::path& file, std::size_t mesh, std::size_t count) {
+  if (count == 1) return file;
+  return file.parent_path() / fmt::format("{}_{}{}", file.stem().string(), mesh + 1, file.extension().string());
+}
+
+/// Calls visit(row, meshes) for every `stride`th frame of a range.
+template <class Visit>
+void each_frame(const Film& film, const FrameRange& range, int stride, const Visit& visit) {
+  for (int frame = range.first; frame <= range.last; frame += stride) {
+    stop_if_interrupted();
+    visit(frame, posed_meshes(film.production, film.scene, film.recording.frames[static_cast<std::size_t>(frame - 1)]));
+  }
+}
+
+double time_at(const Film& film, int frame) { return (frame - 1) / film.scene.fps; }
+
+void export_numbered(const ExportTarget& target, const Film& film, const FrameRange& range) {
+  each_frame(film, range, 1, [&](int frame, const std::vector<PosedMesh>& meshes) {
+    export_meshes(meshes, target.numbered ? target.numbered->file(frame) : target.file);
+  });
+}
+
+Points normals_of(const PosedMesh& mesh) {
+  return mesh.normals.rows() > 0 ? mesh.normals : smooth_normals(mesh.positions, mesh.rest->triangles);
+}
+
+void export_animation(const ExportTarget& target, const Film& film, const FrameRange& range, const Console& console) {
+  const int stride = (range.count() - 2) / static_cast<int>(kMostTargets) + 1;
+  if (stride > 1) {
+    console.warn(
+        fmt::format("{}: {} frames are more than players take well; every {}th is in the file, what is "
+                    "between them moves evenly",
+                    target.file.string(), range.count(), stride));
+  }
+  std::vector<AnimatedMesh> animated;
+  std::vector<double> times;
+  each_frame(film, range, stride, [&](int frame, std::vector<PosedMesh> meshes) {
+    times.push_back(time_at(film, frame));
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+      if (animated.size() == i) animated.push_back({.first = meshes[i], .positions = {}, .normals = {}});
+      animated[i].positions.emplace_back(meshes[i].positions.cast<float>());
+      animated[i].normals.emplace_back(normals_of(meshes[i]).cast<float>());
+    }
+  });
+  write_animated_glb(animated, times, target.file);
+}
+
+void export_page(const ExportTarget& target, const Film& film, const FrameRange& range) {
+  ViewerFilm viewer;
+  each_frame(film, range, 1, [&](int, const std::vector<PosedMesh>& meshes) { viewer.add_frame(meshes); });
+  write_whole_file(target.file, viewer.page(film.scene.fps, film.scene.camera.azimuth, film.scene.camera.elevation));
+}
+
+void export_points(const ExportTarget& target, const Film& film, const FrameRange& range) {
+  std::vector<std::vector<Floats3>> points(mesh_count(film.scene));
+  std::vector<double> times;
+  each_frame(film, range, 1, [&](int frame, const std::vector<PosedMesh>& meshes) {
+    times.push_back(time_at(film, frame));
+    for (std::size_t i = 0; i < meshes.size(); ++i) points[i].emplace_back(meshes[i].positions.cast<float>());
+  });
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const fs::path file = file_of_mesh(target.file, i, points.size());
+    if (target.kind == Kind::kPc2) {
+      write_pc2(points[i], file);
+    } else {
+      write_mdd(points[i], times, file);
+    }
+  }
+}
+
+void export_xdmf(const ExportTarget& target, const Film& film, const FrameRange& range) {
+  XdmfWriter writer(target.file, film.production.world);
+  for (const DrawnSkin& drawn : film.production.skins) writer.add_skin(drawn.skin.triangles);
+  for (int frame = range.first; frame <= range.last; ++frame) {
+    stop_if_interrupted();
+    const auto row = static_cast<std::size_t>(frame - 1);
+    std::vector<Points> nodes;
+    std::vector<Points> skins;
+    for (std::size_t actor = 0; actor < film.recording.frames[row].size(); ++actor) {
+      nodes.emplace_back(film.recording.frames[row][actor].cast<double>());
+      skins.push_back(skin_positions(film.production, actor, nodes.back()));
+    }
+    writer.add_frame(film.recording.progress[row], nodes, skins);
+  }
+  writer.close();
+}
+
+}  // namespace
+
+ExportTarget parse_export_target(std::string_view words) {
+  if (has_number(words)) {
+    NumberedName name = parse_numbered_name(words, kExamples);
+    if (find_mesh_format(name.file(1)) == nullptr) refuse(words, "no format of single frames");
+    return {.kind = Kind::kMeshes, .numbered = std::move(name), .file = {}};
+  }
+  const fs::path file(words);
+  const std::string ending = file.extension().string();
+  if (ending == ".glb") return {.kind = Kind::kAnimation, .numbered = {}, .file = file};
+  if (ending == ".html") return {.kind = Kind::kPage, .numbered = {}, .file = file};
+  if (ending == ".pc2") return {.kind = Kind::kPc2, .numbered = {}, .file = file};
+  if (ending == ".mdd") return {.kind = Kind::kMdd, .numbered = {}, .file = file};
+  if (ending == ".xdmf") return {.kind = Kind::kXdmf, .numbered = {}, .file = file};
+  if (find_mesh_format(file) != nullptr) return {.kind = Kind::kMeshes, .numbered = {}, .file = file};
+  std::vector<std::string_view> known{".html", ".pc2", ".mdd", ".xdmf"};
+  for (const MeshFormat& format : mesh_formats()) known.push_back(format.ending);
+  refuse(words, fmt::format("'{}' files cannot be written{}", ending, did_you_mean(ending, known)));
+}
+
+std::vector<fs::path> files_of(const ExportTarget& target, const Scene& scene, const FrameRange& range) {
+  std::vector<fs::path> files;
+  if (target.kind == Kind::kMeshes && target.numbered) {
+    for (int frame = range.first; frame <= range.last; ++frame) files.push_back(target.numbered->file(frame));
+  } else if (target.kind == Kind::kPc2 || target.kind == Kind::kMdd) {
+    for (std::size_t i = 0; i < mesh_count(scene); ++i)
+      files.push_back(file_of_mesh(target.file, i, mesh_count(scene)));
+  } else {
+    files.push_back(target.file);
+  }
+  if (target.kind == Kind::kMeshes && files.size() == 1 && range.count() > 1) {
+    refuse(target.file.string(), fmt::format("one such file cannot hold {} frames", range.count()));
+  }
+  return files;
+}
+
+void export_files(const ExportTarget& target, const Film& film, const FrameRange& range, const Console& console) {
+  Progress progress(console, "export");
+  switch (target.kind) {
+    case Kind::kMeshes:
+      export_numbered(target, film, range);
+      break;
+    case Kind::kAnimation:
+      export_animation(target, film, range, console);
+      break;
+    case Kind::kPage:
+      export_page(target, film, range);
+      break;
+    case Kind::kPc2:
+    case Kind::kMdd:
+      export_points(target, film, range);
+      break;
+    case Kind::kXdmf:
+      export_xdmf(target, film, range);
+      break;
+  }
+  const std::string name = target.numbered ? target.numbered->file(range.first).string() : target.file.string();
+  progress.finish(fmt::format("{} to {}", count_of(range.count(), "frame"), name));
+}
+
+}  // namespace sprung

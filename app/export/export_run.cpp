@@ -1,0 +1,82 @@
+#include "app/export/export_run.h"
+
+#include <fmt/format.h>
+
+#include "app/cache/cache_header.h"
+#include "app/cache/cached_run.h"
+#include "app/export/export_files.h"
+#include "app/make_production.h"
+#include "app/simulate.h"
+#include "app/with_scene.h"
+#include "app/writable.h"
+#include "core/error.h"
+#include "core/output/mesh_export.h"
+
+namespace sprung {
+namespace {
+
+void print_formats() {
+  fmt::print("One file a frame, by a name with a number like skin_{{:04}}.obj:\n");
+  for (const MeshFormat& format : mesh_formats()) fmt::print("  {:<7} {}\n", format.ending, format.what);
+  fmt::print(
+      "All frames in one file:\n"
+      "  .glb    glTF 2 with an animation, for Blender, three.js and browsers\n"
+      "  .html   a page to look at in a browser, by itself; without textures\n"
+      "  .pc2    Point Cache 2, .mdd LightWave: vertices of each frame, for Blender's Mesh Cache modifier\n"
+      "  .xdmf   bricks with their fields, and skins, for ParaView; the numbers are in .xdmf.h5\n"
+      "Left out:\n");
+  for (const LeftOut& format : left_out_formats()) fmt::print("  {}: {}\n", format.format, format.reason);
+}
+
+/// Before any work is lost.
+std::vector<ExportTarget> targets_of(const SceneOptions& options, const Scene& scene, const FrameRange& range) {
+  std::vector<ExportTarget> targets;
+  for (const std::string& words : options.outputs) {
+    targets.push_back(parse_export_target(words));
+    for (const std::filesystem::path& file : files_of(targets.back(), scene, range)) {
+      if (!options.overwrite && std::filesystem::exists(file)) {
+        throw Error(ErrorKind::kUsage, fmt::format("'{}' exists; say --overwrite to replace it", file.string()));
+      }
+    }
+    check_writable(files_of(targets.back(), scene, range).front());
+  }
+  return targets;
+}
+
+void write_all(const SceneOptions& options, const Film& film, const FrameRange& range,
+               const std::vector<ExportTarget>& targets, const Console& console) {
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    make_folder(files_of(targets[i], film.scene, range).front().parent_path());
+    export_files(targets[i], film, range, console);
+    fmt::print("{}\n", options.outputs[i]);
+  }
+}
+
+void export_cache(const SceneOptions& options, const Console& console) {
+  if (!options.settings.empty() || options.scenario) {
+    throw Error(ErrorKind::kUsage, "a cache is moved already: options of the scene change nothing in it");
+  }
+  const CacheReader cache(options.input);
+  const Scene scene = cached_scene(cache.header());
+  const FrameRange range = parse_frame_range(options.frames, cache.frame_count());
+  const std::vector<ExportTarget> targets = targets_of(options, scene, range);
+  const Production production = cached_production(cache.header(), scene);
+  const Recording recording = cached_recording(cache);
+  write_all(options, {production, recording, scene}, range, targets, console);
+}
+
+}  // namespace
+
+void export_run(const SceneOptions& options, const Console& console) {
+  if (options.list) return print_formats();
+  if (is_cache_file(options.input)) return export_cache(options, console);
+  with_scene(options, [&](const Scene& scene) {
+    const FrameRange range = parse_frame_range(options.frames, static_cast<std::size_t>(frame_count(scene)));
+    const std::vector<ExportTarget> targets = targets_of(options, scene, range);
+    Production production = make_production(scene, console);
+    const Recording recording = simulate(production, scene, console);
+    write_all(options, {production, recording, scene}, range, targets, console);
+  });
+}
+
+}  // namespace sprung

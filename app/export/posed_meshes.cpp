@@ -1,0 +1,56 @@
+#include "app/export/posed_meshes.h"
+
+#include <fmt/format.h>
+
+#include <map>
+
+namespace sprung {
+namespace {
+
+/// A body of the scene, or one of its copies.
+using Key = std::pair<std::size_t, int>;
+
+std::string name_of(const Scene& scene, const Key& key) {
+  const SceneBody& body = scene.bodies[key.first];
+  std::string name = body.mesh.empty() ? std::string("body") : body.mesh.stem().string();
+  if (scene.bodies.size() > 1) name += fmt::format("_{}", key.first + 1);
+  if (copy_count(body) > 1) name += fmt::format("_{}", key.second + 1);
+  return name;
+}
+
+PosedMesh empty_mesh(const Production& production, const Scene& scene, const Key& key, const Color& color) {
+  const Skin& rest = production.meshes[key.first];
+  PosedMesh mesh;
+  mesh.name = name_of(scene, key);
+  mesh.rest = &rest;
+  mesh.color = Eigen::Vector3f(color.red, color.green, color.blue) / 255.0F;
+  mesh.positions.setZero(rest.positions.rows(), 3);
+  mesh.normals.setZero(rest.normals.rows(), 3);
+  return mesh;
+}
+
+}  // namespace
+
+std::vector<PosedMesh> posed_meshes(const Production& production, const Scene& scene,
+                                    const std::vector<Floats3>& nodes) {
+  std::map<Key, PosedMesh> meshes;
+  for (std::size_t actor = 0; actor < nodes.size(); ++actor) {
+    const Key key{production.origins[actor].body, production.origins[actor].copy};
+    if (!meshes.contains(key)) meshes[key] = empty_mesh(production, scene, key, production.skins[actor].color);
+    PosedMesh& mesh = meshes[key];
+    const CarriedVertices& carried = production.carried[actor];
+    const BrickGrid& grid = production.world.actors[actor].body.grid;
+    const Points positions = nodes[actor].cast<double>();
+    mesh.positions(carried.vertices, Eigen::all) = deform_points(grid, carried.embedding, positions);
+    if (mesh.normals.rows() == 0) continue;
+    const Points rest = mesh.rest->normals(carried.vertices, Eigen::all);
+    mesh.normals(carried.vertices, Eigen::all) =
+        deform_normals(grid, carried.embedding, rest, positions).rowwise().normalized();
+  }
+  std::vector<PosedMesh> list;
+  list.reserve(meshes.size());
+  for (auto& [key, mesh] : meshes) list.push_back(std::move(mesh));
+  return list;
+}
+
+}  // namespace sprung

@@ -1,0 +1,141 @@
+#include "app/film/brick_cubes.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace sprung {
+namespace {
+
+constexpr double kRim = 0.055;      // of a face, at each side
+constexpr float kRimShade = 0.55F;  // of a face's colour
+constexpr double kGap = 0.16;       // of a brick, at each side, between exploded ones
+constexpr int kCells = 3;           // of a face along each side: rim, face, rim
+constexpr int kFaceVertices = 4 * kCells * kCells;
+
+std::array<int, 4> face_corners(int side) {
+  const int axis = side / 2;
+  const bool high = side % 2 != 0;
+  const int base = high ? 1 << axis : 0;
+  const int j = 1 << ((axis + 1) % 3);
+  const int k = 1 << ((axis + 2) % 3);
+  std::array<int, 4> corners{base, base | j, base | j | k, base | k};
+  if (!high) std::swap(corners[1], corners[3]);
+  return corners;
+}
+
+template <class Values>
+auto mixed(const Values& corners, double u, double v) {
+  return (1 - u) * (1 - v) * corners[0] + u * (1 - v) * corners[1] + u * v * corners[2] + (1 - u) * v * corners[3];
+}
+
+/// Where the vertex of a cell is in a face; `corner` counter-clockwise.
+std::pair<double, double> place_in_face(int cell, int corner, double rim) {
+  const std::array<double, kCells + 1> borders{0, rim, 1 - rim, 1};
+  const auto u = static_cast<std::size_t>(cell % kCells + (corner == 1 || corner == 2 ? 1 : 0));
+  const auto v = static_cast<std::size_t>(cell / kCells + (corner >= 2 ? 1 : 0));
+  return {borders[u], borders[v]};
+}
+
+}  // namespace
+
+std::vector<bool> bricks_left(const BrickGrid& grid, const std::optional<HalfSpace>& cut) {
+  std::vector<bool> left(grid.cells.size(), true);
+  if (!cut) return left;
+  Eigen::Array3d low = Eigen::Array3d::Constant(1e300);
+  Eigen::Array3d high = -low;
+  for (const Eigen::Vector3i& cell : grid.cells) {
+    low = low.min(cell.cast<double>().array());
+    high = high.max(cell.cast<double>().array() + 1);
+  }
+  const Vec3 point = low + cut->point.array() * (high - low);
+  for (std::size_t brick = 0; brick < left.size(); ++brick) {
+    const Vec3 middle = grid.cells[brick].cast<double>().array() + 0.5;
+    left[brick] = (middle - point).dot(cut->normal) <= 0;
+  }
+  return left;
+}
+
+BrickCubes::BrickCubes(const BrickGrid& grid, const std::vector<bool>& shown, bool exploded,
+                       const Eigen::Vector3f& color)
+    : grid_(grid), exploded_(exploded), rim_(kRim) {
+  add_outer_faces(grid, shown);
+  lay_out(color);
+}
+
+void BrickCubes::add_outer_faces(const BrickGrid& grid, const std::vector<bool>& shown) {
+  const auto key = [](std::array<int, 4> nodes) {
+    std::sort(nodes.begin(), nodes.end());
+    return nodes;
+  };
+  std::map<std::array<int, 4>, int> uses;
+  for (std::size_t brick = 0; brick < grid.nodes.size(); ++brick) {
+    if (!shown[brick]) continue;
+    for (int side = 0; side < 6; ++side) {
+      Face face{{}, static_cast<int>(brick)};
+      const std::array<int, 4> corners = face_corners(side);
+      for (std::size_t c = 0; c < 4; ++c) face.nodes[c] = grid.nodes[brick][static_cast<std::size_t>(corners[c])];
+      faces_.push_back(face);
+      ++uses[key(face.nodes)];
+    }
+  }
+  if (!exploded_) std::erase_if(faces_, [&](const Face& face) { return uses[key(face.nodes)] > 1; });
+}
+
+void BrickCubes::lay_out(const Eigen::Vector3f& color) {
+  const auto count = static_cast<Eigen::Index>(faces_.size());
+  skin_.colors.resize(kFaceVertices * count, 4);
+  skin_.triangles.resize(2 * kCells * kCells * count, 3);
+  for (Eigen::Index face = 0; face < count; ++face) {
+    for (int cell = 0; cell < kCells * kCells; ++cell) {
+      const auto first = static_cast<int>(kFaceVertices * face) + 4 * cell;
+      const auto triangle = 2 * (kCells * kCells * face + cell);
+      skin_.triangles.row(triangle) << first, first + 1, first + 2;
+      skin_.triangles.row(triangle + 1) << first, first + 2, first + 3;
+      const bool is_rim = cell != kCells * kCells / 2;
+      for (int corner = 0; corner < 4; ++corner) {
+        skin_.colors.row(first + corner) << (is_rim ? kRimShade : 1.0F) * color.transpose(), 1.0F;
+      }
+    }
+  }
+  const SkinShape rest = shape(grid_.rest_positions(), Eigen::VectorXd());
+  skin_.positions = rest.positions.cast<double>();
+  skin_.normals = rest.normals.cast<double>();
+}
+
+std::array<Vec3, 4> BrickCubes::corners(const Face& face, const Points& nodes) const {
+  std::array<Vec3, 4> places;
+  for (std::size_t c = 0; c < 4; ++c) places[c] = nodes.row(face.nodes[c]);
+  if (!exploded_) return places;
+  Vec3 middle = Vec3::Zero();
+  for (const int node : grid_.nodes[static_cast<std::size_t>(face.brick)]) middle += nodes.row(node).transpose() / 8;
+  for (Vec3& place : places) place += 2 * kGap * (middle - place);
+  return places;
+}
+
+SkinShape BrickCubes::shape(const Points& nodes, const Eigen::VectorXd& shares) const {
+  const auto count = static_cast<Eigen::Index>(faces_.size());
+  SkinShape shape;
+  shape.positions.resize(kFaceVertices * count, 3);
+  shape.normals.resize(kFaceVertices * count, 3);
+  if (shares.size() > 0) shape.shares.resize(kFaceVertices * count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Face& face = faces_[static_cast<std::size_t>(i)];
+    const std::array<Vec3, 4> places = corners(face, nodes);
+    const Vec3 normal = (places[2] - places[0]).cross(places[3] - places[1]);
+    for (int vertex = 0; vertex < kFaceVertices; ++vertex) {
+      const auto [u, v] = place_in_face(vertex / 4, vertex % 4, rim_);
+      const Eigen::Index row = kFaceVertices * i + vertex;
+      shape.positions.row(row) = mixed(places, u, v).cast<float>().transpose();
+      shape.normals.row(row) = normal.cast<float>().transpose();
+      if (shares.size() == 0) continue;
+      std::array<double, 4> of_corners{};
+      for (std::size_t c = 0; c < 4; ++c) of_corners[c] = shares[face.nodes[c]];
+      const bool is_rim = vertex / 4 != kCells * kCells / 2;
+      shape.shares[row] = static_cast<float>(std::clamp(mixed(of_corners, u, v), 0.0, 1.0) + (is_rim ? 2 : 0));
+    }
+  }
+  return shape;
+}
+
+}  // namespace sprung

@@ -1,0 +1,134 @@
+#include "app/film/field_colors.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace sprung {
+namespace {
+
+constexpr double kUtmost = 0.005;  // of the nodes of a frame, at each end: may lie outside the range
+
+struct Unit {
+  double from;  // SI, the smallest range that it is good for
+  double size;  // SI
+  const char* name;
+};
+
+struct FieldWords {
+  const char* name;
+  ColorMap map;
+  std::array<Unit, 4> units;  // from large to small
+};
+
+constexpr Unit kEnd{-std::numeric_limits<double>::infinity(), 1, ""};
+
+FieldWords words_of(Field field) {
+  const std::array<Unit, 4> lengths{{{1, 1, "m"}, {0.02, 0.01, "cm"}, {2e-4, 1e-3, "mm"}, {kEnd.from, 1e-6, "um"}}};
+  const std::array<Unit, 4> speeds{{{0.5, 1, "m/s"}, {5e-3, 0.01, "cm/s"}, {kEnd.from, 1e-3, "mm/s"}, kEnd}};
+  const std::array<Unit, 4> pressures{{{1e9, 1e9, "GPa"}, {1e6, 1e6, "MPa"}, {1e3, 1e3, "kPa"}, {kEnd.from, 1, "Pa"}}};
+  const std::array<Unit, 4> shares{{{kEnd.from, 0.01, "%"}, kEnd, kEnd, kEnd}};
+  const std::array<Unit, 4> none{{kEnd, kEnd, kEnd, kEnd}};
+  switch (field) {
+    case Field::kSkin:
+      break;
+    case Field::kDisplacement:
+      return {"Displacement", ColorMap::kViridis, lengths};
+    case Field::kSpeed:
+      return {"Speed", ColorMap::kViridis, speeds};
+    case Field::kStretch:
+      return {"Stretch", ColorMap::kViridis, none};
+    case Field::kStrain:
+      return {"Strain", ColorMap::kViridis, shares};
+    case Field::kStress:
+      return {"Stress", ColorMap::kTurbo, pressures};
+    case Field::kVolume:
+      return {"Volume", ColorMap::kCoolwarm, shares};
+    case Field::kFill:
+      return {"Fill", ColorMap::kCividis, shares};
+    case Field::kRegion:
+      return {"Young's modulus", ColorMap::kViridis, pressures};
+  }
+  return {"", ColorMap::kViridis, none};
+}
+
+/// The values below and above which that share of them lies.
+std::pair<double, double> extremes(Eigen::VectorXd values) {
+  const auto rank = static_cast<Eigen::Index>(kUtmost * static_cast<double>(values.size()));
+  std::nth_element(values.begin(), values.begin() + rank, values.end());
+  const double low = values[rank];
+  std::nth_element(values.begin(), values.end() - 1 - rank, values.end());
+  return {low, values[values.size() - 1 - rank]};
+}
+
+}  // namespace
+
+FieldColors::FieldColors(const Scene& scene, const Production& production, const Recording& recording)
+    : field_(scene.render.color_by),
+      map_(scene.render.color_map.value_or(words_of(field_).map)),
+      production_(production),
+      recording_(recording),
+      fps_(scene.fps) {
+  if (!is_mapped()) return;
+  const SceneRender& render = scene.render;
+  if (!render.color_low || !render.color_high) find_range();
+  low_ = render.color_low.value_or(low_);
+  high_ = render.color_high.value_or(high_);
+  if (high_ <= low_) high_ = low_ + std::max(1e-6, 1e-3 * std::abs(low_));
+}
+
+void FieldColors::find_range() {
+  low_ = std::numeric_limits<double>::infinity();
+  high_ = -low_;
+  const std::size_t frames = is_moving(field_) ? recording_.frames.size() : 1;
+  for (std::size_t frame = 0; frame < frames; ++frame) {
+    for (std::size_t actor = 0; actor < production_.world.actors.size(); ++actor) {
+      const auto [low, high] = extremes(field_values(field_, production_, recording_, frame, actor, fps_));
+      low_ = std::min(low_, low);
+      high_ = std::max(high_, high);
+    }
+  }
+  switch (field_) {
+    case Field::kVolume: {  // as far to both sides of what it was at rest, the middle of the map
+      const double reach = std::max(std::abs(high_ - 1), std::abs(1 - low_));
+      low_ = 1 - reach;
+      high_ = 1 + reach;
+      break;
+    }
+    case Field::kStretch:
+      low_ = std::min(low_, 1.0);
+      break;
+    case Field::kFill:
+      low_ = 0;
+      high_ = 1;
+      break;
+    case Field::kRegion:
+      break;
+    default:
+      low_ = 0;
+  }
+}
+
+Eigen::VectorXd FieldColors::shares(std::size_t frame, std::size_t actor) const {
+  const Eigen::VectorXd values = field_values(field_, production_, recording_, frame, actor, fps_);
+  return (values.array() - low_) / (high_ - low_);
+}
+
+Legend FieldColors::legend() const {
+  const FieldWords words = words_of(field_);
+  const double range = std::max(std::abs(low_), std::abs(high_));
+  const Unit unit = *std::find_if(words.units.begin(), words.units.end(),
+                                  [&](const Unit& candidate) { return range >= candidate.from; });
+  const bool has_name = unit.name[0] != '\0';
+  return {.title = has_name ? fmt::format("{}, {}", words.name, unit.name) : words.name,
+          .map = map_,
+          .low = low_ / unit.size,
+          .high = high_ / unit.size,
+          .swatches = {}};
+}
+
+}  // namespace sprung

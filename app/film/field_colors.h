@@ -1,0 +1,35 @@
+#pragma once
+#include <optional>
+
+#include "app/film/field_values.h"
+#include "app/scene/scene.h"
+#include "render/legend.h"
+
+namespace sprung {
+
+/// What the colours of a film stand for: the same in all of its frames.
+class FieldColors {
+ public:
+  /// Looks at all frames for the range, unless the scene has it. `recording` outlives it.
+  FieldColors(const Scene& scene, const Production& production, const Recording& recording);
+
+  [[nodiscard]] bool is_mapped() const { return field_ != Field::kSkin; }
+  [[nodiscard]] ColorMap map() const { return map_; }
+  /// Where the nodes of an actor are on the colour map in a frame, 0 to 1; beyond where they are outside the range.
+  [[nodiscard]] Eigen::VectorXd shares(std::size_t frame, std::size_t actor) const;
+  /// In a unit in which its numbers are short.
+  [[nodiscard]] Legend legend() const;
+
+ private:
+  void find_range();
+
+  Field field_;
+  ColorMap map_;
+  const Production& production_;
+  const Recording& recording_;
+  double fps_;
+  double low_ = 0;  // SI
+  double high_ = 0;
+};
+
+}  // namespace sprung

@@ -1,0 +1,178 @@
+#include "app/film/film_cameras.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "app/drawn_stage.h"
+#include "core/bricks/corner.h"
+
+namespace sprung {
+namespace {
+
+constexpr double kNear = 0.25;  // of the motion's size: what of an obstacle is further off need not be seen
+constexpr int kStops = 16;      // of a camera on its way, from which everything has to be seen
+
+/// Rows: the centre of each face, edge and corner of a cube.
+Eigen::Matrix<double, 26, 3> directions() {
+  Eigen::Matrix<int, 26, 3> rows;
+  int row = 0;
+  for (int i = 0; i < 27; ++i) {
+    if (i == 13) continue;
+    rows.row(row++) << i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1;
+  }
+  return rows.cast<double>();
+}
+
+Points corners_of(const Bounds& bounds) {
+  Points corners(8, 3);
+  for (int corner = 0; corner < 8; ++corner) {
+    for (int axis = 0; axis < 3; ++axis) {
+      corners(corner, axis) = on_high_side(corner, axis) ? bounds.high[axis] : bounds.low[axis];
+    }
+  }
+  return corners;
+}
+
+/// What of the obstacles is near the bodies: of large ones no more than that.
+void add_obstacles(const Production& production, const Recording& recording, Reach& reach) {
+  const double near = kNear * (reach.bounds.high - reach.bounds.low).maxCoeff();
+  const Vec3 low = reach.bounds.low.array() - near;
+  const Vec3 high = reach.bounds.high.array() + near;
+  Bounds seen = reach.bounds;
+  for (const StageObstacle& obstacle : production.obstacles) {
+    if (obstacle.skin.positions.rows() == 0) continue;
+    for (const double time : recording.progress) {
+      const Points skin = skin_positions(obstacle, time);
+      const Vec3 from = skin.colwise().minCoeff().transpose().cwiseMax(low);
+      const Vec3 to = skin.colwise().maxCoeff().transpose().cwiseMin(high);
+      if ((from.array() > to.array()).any()) continue;
+      Points corners(2, 3);
+      corners << from.transpose(), to.transpose();
+      seen.include(corners);
+      if (obstacle.movement.is_still()) break;
+    }
+  }
+  if (seen.low == reach.bounds.low && seen.high == reach.bounds.high) return;
+  reach.bounds = seen;
+  reach.around = corners_of(seen);
+}
+
+Points stacked(const std::vector<Points>& parts) {
+  Eigen::Index rows = 0;
+  for (const Points& part : parts) rows += part.rows();
+  Points all(rows, 3);
+  rows = 0;
+  for (const Points& part : parts) {
+    all.middleRows(rows, part.rows()) = part;
+    rows += part.rows();
+  }
+  return all;
+}
+
+/// With the same points on the ground, where there is one.
+Points with_ground(const Points& points, const std::optional<double>& ground) {
+  if (!ground) return points;
+  Points below = points;
+  below.col(1).setConstant(*ground);
+  return stacked({points, below});
+}
+
+Points turned(const Points& points, const Vec3& center, double degrees) {
+  const Mat3 turn = Eigen::AngleAxisd(degrees * std::numbers::pi / 180, Vec3::UnitY()).toRotationMatrix();
+  return ((points.rowwise() - center.transpose()) * turn.transpose()).rowwise() + center.transpose();
+}
+
+/// Everything that is to be seen, around one middle where the camera follows.
+Points points_to_see(const Scene& scene, const Reach& reach, const Vec3& center) {
+  if (!scene.camera.follow) return with_ground(stacked({stacked(reach.bodies), reach.around}), reach.ground);
+  std::vector<Points> parts;
+  for (std::size_t frame = 0; frame < reach.bodies.size(); ++frame) {
+    parts.push_back(reach.bodies[frame].rowwise() + (center - reach.middles[frame]).transpose());
+  }
+  return stacked(parts);
+}
+
+/// Between two keyframes, slow at both.
+CameraKeyframe placed(const std::vector<CameraKeyframe>& keyframes, double time) {
+  const auto later = std::find_if(keyframes.begin(), keyframes.end(),
+                                  [&](const CameraKeyframe& keyframe) { return keyframe.time >= time; });
+  if (later == keyframes.begin()) return keyframes.front();
+  if (later == keyframes.end()) return keyframes.back();
+  const CameraKeyframe& from = *(later - 1);
+  const double way = (time - from.time) / (later->time - from.time);
+  const double share = way * way * (3 - 2 * way);
+  return {.time = time,
+          .azimuth = std::lerp(from.azimuth, later->azimuth, share),
+          .elevation = std::lerp(from.elevation, later->elevation, share),
+          .zoom = from.zoom * std::pow(later->zoom / from.zoom, share)};
+}
+
+void zoom_in(Camera& camera, double zoom) { camera.eye = camera.target + (camera.eye - camera.target) / zoom; }
+
+}  // namespace
+
+Reach reach_of(const Production& production, const Recording& recording) {
+  const Eigen::Matrix<double, 26, 3> ways = directions();
+  Reach reach;
+  for (const std::vector<Floats3>& frame : recording.frames) {
+    Points& furthest = reach.bodies.emplace_back(static_cast<Eigen::Index>(26 * frame.size()), 3);
+    Vec3 sum = Vec3::Zero();
+    Eigen::Index nodes = 0;
+    Eigen::Index next = 0;
+    for (std::size_t actor = 0; actor < frame.size(); ++actor) {
+      const Points skin = skin_positions(production, actor, frame[actor].cast<double>());
+      reach.bounds.include(skin);
+      sum += frame[actor].cast<double>().colwise().sum().transpose();
+      nodes += frame[actor].rows();
+      for (int way = 0; way < 26; ++way) {
+        Eigen::Index row = 0;
+        (skin * ways.row(way).transpose()).maxCoeff(&row);
+        furthest.row(next++) = skin.row(row);
+      }
+    }
+    reach.middles.emplace_back(sum / static_cast<double>(std::max<Eigen::Index>(nodes, 1)));
+  }
+  reach.lowest = reach.bounds.low.y();
+  add_obstacles(production, recording, reach);
+  reach.ground = ground_height(production.world.obstacles);
+  return reach;
+}
+
+std::vector<Camera> cameras_of(const Scene& scene, const Reach& reach, double reserved) {
+  const SceneCamera& chosen = scene.camera;
+  const std::size_t frames = reach.bodies.size();
+  const Vec3 center = 0.5 * (reach.bounds.low + reach.bounds.high);
+  const Points seen = points_to_see(scene, reach, center);
+  const double aspect = (1 - reserved) * scene.render.resolution[0] / scene.render.resolution[1];
+  std::vector<Points> stops;
+  const int count = chosen.orbit == 0 ? 1 : kStops;
+  for (int stop = 0; stop < count; ++stop)
+    stops.push_back(turned(seen, center, -chosen.orbit * stop / std::max(1, count - 1)));
+  const Camera first = frame_points(stacked(stops), aspect, chosen.azimuth, chosen.elevation, chosen.orthographic);
+  std::vector<Camera> cameras;
+  for (std::size_t frame = 0; frame < frames; ++frame) {
+    const double way = frames > 1 ? static_cast<double>(frame) / static_cast<double>(frames - 1) : 0;
+    Camera camera = carried_around(first, center, way * chosen.orbit);
+    double zoom = chosen.zoom;
+    if (!chosen.keyframes.empty()) {
+      const CameraKeyframe at = placed(chosen.keyframes, time_of(scene, static_cast<int>(frame)));
+      camera = frame_points(seen, aspect, at.azimuth, at.elevation, chosen.orthographic);
+      zoom = at.zoom;
+    }
+    zoom_in(camera, zoom);
+    const Vec3 follow = chosen.follow ? Vec3(reach.middles[frame] - center) : Vec3::Zero();
+    camera.eye += follow;
+    camera.target += follow;
+    camera.shift = -reserved;
+    cameras.push_back(camera);
+  }
+  return cameras;
+}
+
+double pixels_per_metre(const Camera& camera, int height) {
+  const double half = std::tan(camera.vertical_field_of_view * std::numbers::pi / 360);
+  return height / (2 * half * (camera.eye - camera.target).norm());
+}
+
+}  // namespace sprung

@@ -1,0 +1,240 @@
+#include "app/film/film_stage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "app/drawn_stage.h"
+#include "app/film/brick_cubes.h"
+#include "app/film/rods.h"
+#include "app/film/springs.h"
+
+namespace sprung {
+namespace {
+
+const Eigen::Vector3f kNodeColor(0.20F, 0.22F, 0.26F);
+const Eigen::Vector3f kPinColor(0.90F, 0.24F, 0.12F);
+const Eigen::Vector3f kTraceColor(0.10F, 0.36F, 0.66F);
+constexpr double kSpringRadius = 0.03;   // of a brick
+constexpr double kNodeRadius = 0.09;     // of a brick
+constexpr double kPinRadius = 0.17;      // of a brick
+constexpr double kTraceRadius = 0.0035;  // of the largest body
+constexpr double kUtmost = 0.01;         // of the springs: may be stretched beyond the ends of the colours
+
+Eigen::Vector3f shade(const Color& color) { return Eigen::Vector3f(color.red, color.green, color.blue) / 255.0F; }
+
+Skin at_rest(Skin skin, const SkinShape& shape) {
+  skin.positions = shape.positions.cast<double>();
+  skin.normals = shape.normals.cast<double>();
+  return skin;
+}
+
+Look look_of(const SceneBody& body) {
+  if (body.look) return *body.look;
+  if (body.material.name == "gelatin") return Look::kGelatin;
+  if (body.material.name.find("rubber") != std::string::npos) return Look::kRubber;
+  if (body.material.name == "steel" || body.material.name == "aluminium") return Look::kSteel;
+  return Look::kPlastic;
+}
+
+Points rows_of(const Points& nodes, const std::vector<int>& rows) { return nodes(rows, Eigen::all); }
+
+}  // namespace
+
+FilmStage::FilmStage(const Scene& scene, const Production& production, const Recording& recording)
+    : scene_(scene), production_(production), recording_(recording), colors_(scene, production, recording) {
+  const SceneRender& render = scene.render;
+  if (render.springs) stretch_ = furthest_stretch();
+  for (std::size_t actor = 0; actor < production.world.actors.size(); ++actor) {
+    if (render.bricks != BrickView::kNone) add_bricks(actor);
+    if (render.springs) add_springs(actor);
+    if (render.bricks == BrickView::kNone && !render.springs) add_skin(actor);
+    if (render.nodes) add_nodes(actor);
+    if (render.pins) add_pins(actor);
+    if (render.ghost) add_ghost(actor);
+  }
+  for (const StageObstacle& obstacle : production.obstacles) {
+    if (obstacle.skin.positions.rows() > 0) add_obstacle(obstacle);
+  }
+  for (const ProbeTrack& track : recording.probes) {
+    if (render.traces) add_trace(track);
+  }
+}
+
+Stage FilmStage::stage(const Bounds& bounds) const {
+  Stage stage;
+  for (const Player& player : players_) {
+    stage.skins.push_back(player.skin.get());
+    stage.default_colors.push_back(player.color);
+    stage.looks.push_back(player.look);
+    stage.ghosts.push_back(player.is_ghost);
+  }
+  stage.color_map = scene_.render.springs ? ColorMap::kTurbo : colors_.map();
+  const std::optional<double> ground = ground_height(production_.world.obstacles);
+  stage.has_ground = ground && !scene_.render.transparent;
+  if (ground) stage.ground.height = *ground;
+  stage.bounds = bounds;
+  return stage;
+}
+
+FilmStage::Moment FilmStage::moment(std::size_t frame, double part) const {
+  const std::size_t next = std::min(frame + 1, recording_.frames.size() - 1);
+  Moment moment{frame, std::lerp(recording_.progress[frame], recording_.progress[next], part), {}};
+  for (std::size_t actor = 0; actor < recording_.frames[frame].size(); ++actor) {
+    const Points from = recording_.frames[frame][actor].cast<double>();
+    if (part == 0) {
+      moment.nodes.push_back(from);
+    } else {
+      moment.nodes.emplace_back((1 - part) * from + part * recording_.frames[next][actor].cast<double>());
+    }
+  }
+  return moment;
+}
+
+std::vector<SkinShape> FilmStage::shapes(std::size_t frame, double part) const {
+  const Moment now = moment(frame, part);
+  std::vector<SkinShape> shapes;
+  for (const Player& player : players_) shapes.push_back(player.shape(now));
+  return shapes;
+}
+
+std::optional<Legend> FilmStage::legend() const {
+  if (scene_.render.springs) {
+    return Legend{
+        .title = "Springs, %", .map = ColorMap::kTurbo, .low = -100 * stretch_, .high = 100 * stretch_, .swatches = {}};
+  }
+  if (colors_.is_mapped()) return colors_.legend();
+  return std::nullopt;
+}
+
+Eigen::VectorXd FilmStage::shares(const Moment& moment, std::size_t actor) const {
+  return colors_.is_mapped() && !scene_.render.springs ? colors_.shares(moment.frame, actor) : Eigen::VectorXd();
+}
+
+void FilmStage::add_skin(std::size_t actor) {
+  const DrawnSkin& drawn = production_.skins[actor];
+  const BrickGrid& grid = production_.world.actors[actor].body.grid;
+  const SceneBody& body = scene_.bodies[production_.origins[actor].body];
+  players_.push_back({std::shared_ptr<const Skin>(&drawn.skin, [](const Skin*) {}), shade(drawn.color),
+                      colors_.is_mapped() ? Look::kRubber : look_of(body), false,
+                      [this, actor, &drawn, &grid, riding = body.skin](const Moment& now) {
+                        SkinShape shape = shape_of(production_, actor, now.nodes[actor], riding);
+                        const Eigen::VectorXd of_nodes = shares(now, actor);
+                        if (of_nodes.size() > 0) {
+                          shape.shares =
+                              mix_at_points(grid, drawn.embedding, of_nodes).cwiseMax(0.0).cwiseMin(1.0).cast<float>();
+                        }
+                        return shape;
+                      }});
+}
+
+void FilmStage::add_bricks(std::size_t actor) {
+  const Body& body = production_.world.actors[actor].body;
+  const bool exploded = scene_.render.bricks == BrickView::kExploded;
+  const Eigen::Vector3f color = colors_.is_mapped() && !scene_.render.springs ? Eigen::Vector3f::Ones().eval()
+                                                                              : shade(production_.skins[actor].color);
+  const auto cubes =
+      std::make_shared<const BrickCubes>(body.grid, bricks_left(body.grid, scene_.render.cut), exploded, color);
+  const auto skin = std::make_shared<const Skin>(at_rest(cubes->skin(), cubes->shape(body.rest_positions, {})));
+  players_.push_back({skin, color, Look::kRubber, false, [this, actor, cubes](const Moment& now) {
+                        return cubes->shape(now.nodes[actor], shares(now, actor));
+                      }});
+}
+
+void FilmStage::add_springs(std::size_t actor) {
+  const Body& body = production_.world.actors[actor].body;
+  const auto springs = std::make_shared<const SpringSet>(springs_of(body, bricks_left(body.grid, scene_.render.cut)));
+  const auto rods = std::make_shared<const Rods>(springs->nodes.size(), kSpringRadius * body.grid.brick_size);
+  const auto shape = [springs, rods, ends = 2 * stretch_](const Points& nodes) {
+    Points from(springs->rest.size(), 3);
+    Points to(springs->rest.size(), 3);
+    for (Eigen::Index i = 0; i < springs->rest.size(); ++i) {
+      from.row(i) = nodes.row(springs->nodes[static_cast<std::size_t>(i)][0]);
+      to.row(i) = nodes.row(springs->nodes[static_cast<std::size_t>(i)][1]);
+    }
+    return rods->shape(from, to, (springs->stretches(nodes).array() / ends + 0.5).max(0.0).min(1.0));
+  };
+  const auto skin = std::make_shared<const Skin>(at_rest(rods->skin(), shape(body.rest_positions)));
+  players_.push_back({skin, Eigen::Vector3f::Ones(), Look::kRubber, false,
+                      [actor, shape](const Moment& now) { return shape(now.nodes[actor]); }});
+}
+
+/// Over all frames, so that the colours mean the same in each.
+double FilmStage::furthest_stretch() const {
+  double furthest = 1e-6;
+  for (std::size_t actor = 0; actor < production_.world.actors.size(); ++actor) {
+    const Body& body = production_.world.actors[actor].body;
+    const SpringSet springs = springs_of(body, std::vector<bool>(body.grid.cells.size(), true));
+    for (const std::vector<Floats3>& frame : recording_.frames) {
+      Eigen::VectorXd stretches = springs.stretches(frame[actor].cast<double>()).cwiseAbs();
+      const auto rank = static_cast<Eigen::Index>(kUtmost * static_cast<double>(stretches.size()));
+      std::nth_element(stretches.begin(), stretches.end() - 1 - rank, stretches.end());
+      furthest = std::max(furthest, stretches[stretches.size() - 1 - rank]);
+    }
+  }
+  return furthest;
+}
+
+void FilmStage::add_balls(std::size_t actor, std::vector<int> nodes, double radius, const Eigen::Vector3f& color) {
+  const auto balls = std::make_shared<const Balls>(nodes.size(), radius);
+  const Points& rest = production_.world.actors[actor].body.rest_positions;
+  const auto skin = std::make_shared<const Skin>(at_rest(balls->skin(), balls->shape(rows_of(rest, nodes))));
+  players_.push_back({skin, color, Look::kPlastic, false, [actor, balls, nodes = std::move(nodes)](const Moment& now) {
+                        return balls->shape(rows_of(now.nodes[actor], nodes));
+                      }});
+}
+
+void FilmStage::add_nodes(std::size_t actor) {
+  const BrickGrid& grid = production_.world.actors[actor].body.grid;
+  const std::vector<bool> shown = bricks_left(grid, scene_.render.cut);
+  std::vector<int> nodes;
+  for (std::size_t brick = 0; brick < shown.size(); ++brick) {
+    if (shown[brick]) nodes.insert(nodes.end(), grid.nodes[brick].begin(), grid.nodes[brick].end());
+  }
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  add_balls(actor, nodes, kNodeRadius * grid.brick_size, kNodeColor);
+}
+
+void FilmStage::add_pins(std::size_t actor) {
+  std::vector<int> nodes;
+  for (const PinnedNodes& pinned : production_.origins[actor].pins) {
+    nodes.insert(nodes.end(), pinned.nodes.begin(), pinned.nodes.end());
+  }
+  if (nodes.empty()) return;
+  add_balls(actor, nodes, kPinRadius * production_.world.actors[actor].body.grid.brick_size, kPinColor);
+}
+
+void FilmStage::add_ghost(std::size_t actor) {
+  const DrawnSkin& drawn = production_.skins[actor];
+  SkinShape shape = shape_of(production_, actor, production_.world.actors[actor].body.rest_positions);
+  players_.push_back({std::shared_ptr<const Skin>(&drawn.skin, [](const Skin*) {}), shade(drawn.color), Look::kRubber,
+                      true, [shape = std::move(shape)](const Moment&) -> SkinShape { return SkinShape(shape); }});
+}
+
+void FilmStage::add_obstacle(const StageObstacle& obstacle) {
+  players_.push_back({std::shared_ptr<const Skin>(&obstacle.skin, [](const Skin*) {}), shade(obstacle.color),
+                      Look::kPlastic, false, [&obstacle](const Moment& now) { return shape_of(obstacle, now.time); }});
+}
+
+/// As far as the probe has come.
+void FilmStage::add_trace(const ProbeTrack& track) {
+  if (track.samples.size() < 2) return;
+  const auto rods = std::make_shared<const Rods>(track.samples.size() - 1, kTraceRadius * production_.size);
+  const auto shape = [rods, &track](std::size_t frame) {
+    const auto count = static_cast<Eigen::Index>(track.samples.size() - 1);
+    Points from(count, 3);
+    Points to(count, 3);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const auto row = static_cast<std::size_t>(i);
+      from.row(i) = track.samples[std::min(row, frame)].position.transpose();
+      to.row(i) = track.samples[std::min(row + 1, frame)].position.transpose();
+    }
+    return rods->shape(from, to, {});
+  };
+  const auto skin = std::make_shared<const Skin>(at_rest(rods->skin(), shape(track.samples.size() - 1)));
+  players_.push_back(
+      {skin, kTraceColor, Look::kPlastic, false, [shape](const Moment& now) { return shape(now.frame); }});
+}
+
+}  // namespace sprung

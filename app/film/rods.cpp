@@ -1,0 +1,89 @@
+#include "app/film/rods.h"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace sprung {
+namespace {
+
+constexpr int kSides = 3;
+constexpr int kRodVertices = 2 * kSides;
+constexpr int kRodTriangles = 2 * kSides;
+constexpr int kBallVertices = 6;
+
+constexpr std::array<std::array<int, 3>, 8> kOctahedron{
+    {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}}};
+
+void reserve(Skin& skin, Eigen::Index vertices, Eigen::Index triangles) {
+  skin.positions = Points::Zero(vertices, 3);
+  skin.normals = Points::Zero(vertices, 3);
+  skin.triangles.resize(triangles, 3);
+}
+
+}  // namespace
+
+Rods::Rods(std::size_t count, double radius) : radius_(radius) {
+  const auto rods = static_cast<Eigen::Index>(count);
+  reserve(skin_, kRodVertices * rods, kRodTriangles * rods);
+  for (Eigen::Index rod = 0; rod < rods; ++rod) {
+    const auto first = static_cast<int>(kRodVertices * rod);
+    for (int side = 0; side < kSides; ++side) {
+      const int next = (side + 1) % kSides;
+      const Eigen::Index triangle = kRodTriangles * rod + 2 * side;
+      skin_.triangles.row(triangle) << first + side, first + next, first + kSides + next;
+      skin_.triangles.row(triangle + 1) << first + side, first + kSides + next, first + kSides + side;
+    }
+  }
+}
+
+SkinShape Rods::shape(const Points& from, const Points& to, const Eigen::VectorXd& shares) const {
+  SkinShape shape;
+  shape.positions.resize(kRodVertices * from.rows(), 3);
+  shape.normals.resize(kRodVertices * from.rows(), 3);
+  if (shares.size() > 0) shape.shares.resize(kRodVertices * from.rows());
+  for (Eigen::Index rod = 0; rod < from.rows(); ++rod) {
+    const Vec3 way = to.row(rod) - from.row(rod);
+    const Vec3 across = way.unitOrthogonal();
+    const Vec3 third = way.stableNormalized().cross(across);
+    for (int vertex = 0; vertex < kRodVertices; ++vertex) {
+      const double angle = 2 * std::numbers::pi * (vertex % kSides) / kSides;
+      const Vec3 normal = std::cos(angle) * across + std::sin(angle) * third;
+      const Eigen::Index row = kRodVertices * rod + vertex;
+      const Vec3 end = vertex < kSides ? from.row(rod) : to.row(rod);
+      shape.positions.row(row) = (end + radius_ * normal).cast<float>().transpose();
+      shape.normals.row(row) = normal.cast<float>().transpose();
+      if (shares.size() > 0) shape.shares[row] = static_cast<float>(shares[rod]);
+    }
+  }
+  return shape;
+}
+
+Balls::Balls(std::size_t count, double radius) : radius_(radius) {
+  const auto balls = static_cast<Eigen::Index>(count);
+  reserve(skin_, kBallVertices * balls, static_cast<Eigen::Index>(kOctahedron.size()) * balls);
+  Eigen::Index triangle = 0;
+  for (Eigen::Index ball = 0; ball < balls; ++ball) {
+    const auto first = static_cast<int>(kBallVertices * ball);
+    for (const auto& corners : kOctahedron) {
+      skin_.triangles.row(triangle++) << first + corners[0], first + corners[1], first + corners[2];
+    }
+  }
+}
+
+SkinShape Balls::shape(const Points& middles) const {
+  SkinShape shape;
+  shape.positions.resize(kBallVertices * middles.rows(), 3);
+  shape.normals.resize(kBallVertices * middles.rows(), 3);
+  for (Eigen::Index ball = 0; ball < middles.rows(); ++ball) {
+    for (int vertex = 0; vertex < kBallVertices; ++vertex) {
+      const Vec3 normal = (vertex % 2 == 0 ? 1 : -1) * Vec3::Unit(vertex / 2);
+      const Eigen::Index row = kBallVertices * ball + vertex;
+      shape.positions.row(row) = (middles.row(ball).transpose() + radius_ * normal).cast<float>().transpose();
+      shape.normals.row(row) = normal.cast<float>().transpose();
+    }
+  }
+  return shape;
+}
+
+}  // namespace sprung

@@ -1,0 +1,88 @@
+#include "core/body/brick_measures.h"
+
+#include <tbb/parallel_for.h>
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+
+#include "core/bricks/corner.h"
+
+namespace sprung {
+namespace {
+
+constexpr double kSmallestVolume = 0.05;  // that a stress is divided by
+
+/// The deformation gradient of a brick's mean axes, from the grid's axes.
+Mat3 mean_gradient(const Body& body, std::size_t brick, const Points& positions) {
+  Mat3 gradient = Mat3::Zero();
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 place = positions.row(body.grid.nodes[brick][static_cast<std::size_t>(corner)]);
+    for (int axis = 0; axis < 3; ++axis) gradient.col(axis) += on_high_side(corner, axis) ? place : Vec3(-place);
+  }
+  return gradient / (4 * body.grid.brick_size);
+}
+
+Mat3 deviator(const Mat3& tensor) { return tensor - tensor.trace() / 3 * Mat3::Identity(); }
+
+Mat3 green_strain(const Mat3& gradient) { return 0.5 * (gradient.transpose() * gradient - Mat3::Identity()); }
+
+double von_mises_stress(const Mat3& gradient, double young, double poisson) {
+  const Mat3 strain = green_strain(gradient);
+  const double lambda = young * poisson / ((1 + poisson) * (1 - 2 * poisson));
+  const double mu = young / (2 * (1 + poisson));
+  const Mat3 second = lambda * strain.trace() * Mat3::Identity() + 2 * mu * strain;
+  const Mat3 stress = gradient * second * gradient.transpose() / std::max(gradient.determinant(), kSmallestVolume);
+  return std::sqrt(1.5) * deviator(stress).norm();
+}
+
+double measure_brick(BrickMeasure measure, const Mat3& gradient, double young, double poisson) {
+  switch (measure) {
+    case BrickMeasure::kStretch:
+      return Eigen::JacobiSVD<Mat3>(gradient).singularValues()[0];
+    case BrickMeasure::kStrain:
+      return std::sqrt(2.0 / 3) * deviator(green_strain(gradient)).norm();
+    case BrickMeasure::kStress:
+      return von_mises_stress(gradient, young, poisson);
+    case BrickMeasure::kVolume:
+      break;
+  }
+  return gradient.determinant();
+}
+
+}  // namespace
+
+Eigen::VectorXd brick_youngs(const Body& body) {
+  Eigen::VectorXd youngs(body.grid.brick_count());
+  for (Eigen::Index brick = 0; brick < youngs.size(); ++brick) {
+    const auto row = static_cast<std::size_t>(brick);
+    youngs[brick] = body.material.young * body.stiffness_scale[row] / std::max(body.grid.fill[row], kStiffnessFloor);
+  }
+  return youngs;
+}
+
+Eigen::VectorXd measure_bricks(const Body& body, BrickMeasure measure, const Points& positions) {
+  const Eigen::VectorXd youngs = brick_youngs(body);
+  Eigen::VectorXd values(body.grid.brick_count());
+  tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, values.size(), 512), [&](const auto& range) {
+    for (Eigen::Index brick = range.begin(); brick < range.end(); ++brick) {
+      const Mat3 gradient = mean_gradient(body, static_cast<std::size_t>(brick), positions);
+      values[brick] = measure_brick(measure, gradient, youngs[brick], body.material.poisson);
+    }
+  });
+  return values;
+}
+
+Eigen::VectorXd node_means(const BrickGrid& grid, const Eigen::VectorXd& of_bricks) {
+  Eigen::VectorXd sums = Eigen::VectorXd::Zero(grid.node_count());
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(grid.node_count());
+  for (std::size_t brick = 0; brick < grid.nodes.size(); ++brick) {
+    for (const int node : grid.nodes[brick]) {
+      sums[node] += grid.fill[brick] * of_bricks[static_cast<Eigen::Index>(brick)];
+      weights[node] += grid.fill[brick];
+    }
+  }
+  return sums.cwiseQuotient(weights);
+}
+
+}  // namespace sprung

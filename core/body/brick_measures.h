@@ -1,0 +1,24 @@
+#pragma once
+#include "core/body/body.h"
+
+namespace sprung {
+
+/// What the deformation gradient F of a brick says, that of its mean axes. E = (F^T F - 1) / 2, J = det F.
+enum class BrickMeasure {
+  kStretch,  // largest principal stretch: greatest length over length at rest
+  kStrain,   // von Mises: sqrt(2/3 dev E : dev E)
+  kStress,   // von Mises: sqrt(3/2 dev s : dev s), Pa, of s = F (lambda tr(E) + 2 mu E) F^T / J, St. Venant-Kirchhoff
+  kVolume    // J: volume over volume at rest
+};
+
+/// One number a brick for these positions of the body's nodes (m x 3, m). kStress counts the stiffness of the brick's
+/// region; J is taken as at least 0.05 in it. Deterministic for any number of threads.
+[[nodiscard]] Eigen::VectorXd measure_bricks(const Body& body, BrickMeasure measure, const Points& positions);
+
+/// One number a node: the mean of its bricks, weighted by their fill.
+[[nodiscard]] Eigen::VectorXd node_means(const BrickGrid& grid, const Eigen::VectorXd& of_bricks);
+
+/// Young's modulus of each brick, Pa.
+[[nodiscard]] Eigen::VectorXd brick_youngs(const Body& body);
+
+}  // namespace sprung

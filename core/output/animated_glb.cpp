@@ -1,0 +1,187 @@
+#include "core/output/animated_glb.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/output/glb_buffer.h"
+#include "core/output/mesh_writers.h"
+
+namespace sprung {
+namespace {
+
+constexpr std::uint64_t kMostBytes = 0xFFFFFF00;
+constexpr std::uint32_t kMagic = 0x46546C67;   // "glTF"
+constexpr std::uint32_t kJson = 0x4E4F534A;    // "JSON"
+constexpr std::uint32_t kBinary = 0x004E4942;  // "BIN"
+
+float linear(float srgb) { return srgb <= 0.04045F ? srgb / 12.92F : std::pow((srgb + 0.055F) / 1.055F, 2.4F); }
+
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char letter : text) {
+    if (static_cast<unsigned char>(letter) < 0x20) {
+      out += fmt::format("\\u{:04x}", static_cast<int>(letter));
+      continue;
+    }
+    if (letter == '"' || letter == '\\') out += '\\';
+    out += letter;
+  }
+  return out + '"';
+}
+
+void add_number(std::string& bytes, std::size_t value) {
+  const auto number = static_cast<std::uint32_t>(value);
+  bytes.append(reinterpret_cast<const char*>(&number), sizeof(number));
+}
+
+std::size_t padding_of(std::size_t size) { return (4 - size % 4) % 4; }
+
+/// The lists of a glTF file as they grow.
+class GlbFilm {
+ public:
+  explicit GlbFilm(std::size_t frames) : frames_(frames) {}
+
+  void add(const AnimatedMesh& mesh) {
+    const std::string attributes = attributes_of(mesh);
+    const std::string targets = targets_of(mesh);
+    std::vector<std::string> primitives;
+    for (const PosedPart& part : parts_of(mesh.first)) {
+      const auto* indices = mesh.first.rest->triangles.data() + 3 * static_cast<std::ptrdiff_t>(part.first_triangle);
+      const int index = buffer_.add_indices({indices, 3 * static_cast<std::size_t>(part.triangle_count)});
+      primitives.push_back(fmt::format("{{\"attributes\":{{{}}},\"indices\":{},\"material\":{}{}}}", attributes, index,
+                                       material_of(part), targets));
+    }
+    const std::string weights =
+        frames_ > 1 ? fmt::format(",\"weights\":[{}]", fmt::join(std::vector<int>(frames_ - 1, 0), ",")) : "";
+    const std::string name = quoted(mesh.first.name);
+    meshes_.push_back(fmt::format("{{\"name\":{},\"primitives\":[{}]{}}}", name, fmt::join(primitives, ","), weights));
+    nodes_.push_back(fmt::format("{{\"name\":{},\"mesh\":{}}}", name, nodes_.size()));
+  }
+
+  /// Nothing can be added after that.
+  void write(const std::vector<double>& times, const std::filesystem::path& file) {
+    const std::string animation = frames_ > 1 ? animation_of(times) : "";
+    std::vector<std::size_t> roots(nodes_.size());
+    for (std::size_t i = 0; i < roots.size(); ++i) roots[i] = i;
+    std::string json = fmt::format(
+        "{{\"asset\":{{\"version\":\"2.0\",\"generator\":\"sprung\"}},\"scene\":0,\"scenes\":[{{\"nodes\":[{}]}}],"
+        "\"nodes\":[{}],\"meshes\":[{}],\"materials\":[{}]{}{},{}}}",
+        fmt::join(roots, ","), fmt::join(nodes_, ","), fmt::join(meshes_, ","), fmt::join(materials_, ","), pictures(),
+        animation, buffer_.json());
+    json.append(padding_of(json.size()), ' ');
+    const std::string& numbers = buffer_.bytes();
+    const std::string padding(padding_of(numbers.size()), '\0');
+    std::string head;
+    for (const std::size_t number :
+         {std::size_t{kMagic}, std::size_t{2}, 28 + json.size() + numbers.size() + padding.size(), json.size(),
+          std::size_t{kJson}}) {
+      add_number(head, number);
+    }
+    std::string between;
+    add_number(between, numbers.size() + padding.size());
+    add_number(between, kBinary);
+    write_pieces(file, {head, json, between, numbers, padding});
+  }
+
+ private:
+  std::string attributes_of(const AnimatedMesh& mesh) {
+    const Skin& rest = *mesh.first.rest;
+    std::string text = fmt::format("\"POSITION\":{},\"NORMAL\":{}", buffer_.add_vectors(mesh.positions.front(), true),
+                                   buffer_.add_vectors(mesh.normals.front(), false));
+    if (rest.uvs.rows() > 0) text += fmt::format(",\"TEXCOORD_0\":{}", buffer_.add_uvs(rest.uvs));
+    if (rest.colors.rows() > 0) {
+      Floats4 colors = rest.colors.cwiseMax(0.0F).cwiseMin(1.0F);
+      colors.leftCols<3>() = colors.leftCols<3>().unaryExpr(&linear).eval();
+      text += fmt::format(",\"COLOR_0\":{}", buffer_.add_colors(colors));
+    }
+    return text;
+  }
+
+  std::string targets_of(const AnimatedMesh& mesh) {
+    if (frames_ < 2) return "";
+    std::vector<std::string> targets;
+    for (std::size_t frame = 1; frame < frames_; ++frame) {
+      const Floats3 moved = mesh.positions[frame] - mesh.positions.front();
+      const Floats3 turned = mesh.normals[frame] - mesh.normals.front();
+      targets.push_back(fmt::format("{{\"POSITION\":{},\"NORMAL\":{}}}", buffer_.add_vectors(moved, true),
+                                    buffer_.add_vectors(turned, false)));
+    }
+    return fmt::format(",\"targets\":[{}]", fmt::join(targets, ","));
+  }
+
+  std::size_t material_of(const PosedPart& part) {
+    const auto known = std::find(material_names_.begin(), material_names_.end(), part.material);
+    if (known != material_names_.end()) return static_cast<std::size_t>(known - material_names_.begin());
+    material_names_.push_back(part.material);
+    std::string texture;
+    if (part.source != nullptr && !ending_of_texture(*part.source).empty()) {
+      const int view = buffer_.add_picture(part.source->texture);
+      const bool is_png = ending_of_texture(*part.source) == ".png";
+      texture = fmt::format(",\"baseColorTexture\":{{\"index\":{}}}", images_.size());
+      images_.push_back(fmt::format("{{\"bufferView\":{},\"mimeType\":\"image/{}\"}}", view, is_png ? "png" : "jpeg"));
+    }
+    materials_.push_back(fmt::format(
+        "{{\"name\":{},\"doubleSided\":true{},\"pbrMetallicRoughness\":{{\"baseColorFactor\":[{:.6g},{:.6g},{:.6g},"
+        "{:.6g}],\"metallicFactor\":0,\"roughnessFactor\":0.6{}}}}}",
+        quoted(part.material), part.color[3] < 1 ? ",\"alphaMode\":\"BLEND\"" : "", linear(part.color[0]),
+        linear(part.color[1]), linear(part.color[2]), part.color[3], texture));
+    return materials_.size() - 1;
+  }
+
+  [[nodiscard]] std::string pictures() const {
+    if (images_.empty()) return "";
+    std::vector<std::string> textures;
+    for (std::size_t i = 0; i < images_.size(); ++i) textures.push_back(fmt::format("{{\"source\":{}}}", i));
+    return fmt::format(",\"images\":[{}],\"textures\":[{}]", fmt::join(images_, ","), fmt::join(textures, ","));
+  }
+
+  /// One sampler for all: at frame f the target f - 1 has all the weight.
+  std::string animation_of(const std::vector<double>& times) {
+    std::vector<float> seconds(times.begin(), times.end());
+    for (float& second : seconds) second -= static_cast<float>(times.front());
+    std::vector<float> weights(frames_ * (frames_ - 1), 0);
+    for (std::size_t frame = 1; frame < frames_; ++frame) weights[frame * (frames_ - 1) + frame - 1] = 1;
+    const int input = buffer_.add_scalars(seconds, true);
+    const int output = buffer_.add_scalars(weights, false);
+    std::vector<std::string> channels;
+    for (std::size_t node = 0; node < nodes_.size(); ++node) {
+      channels.push_back(fmt::format("{{\"sampler\":0,\"target\":{{\"node\":{},\"path\":\"weights\"}}}}", node));
+    }
+    return fmt::format(
+        ",\"animations\":[{{\"name\":\"film\",\"channels\":[{}],\"samplers\":[{{\"input\":{},\"output\":{},"
+        "\"interpolation\":\"LINEAR\"}}]}}]",
+        fmt::join(channels, ","), input, output);
+  }
+
+  std::size_t frames_;
+  GlbBuffer buffer_;
+  std::vector<std::string> nodes_;
+  std::vector<std::string> meshes_;
+  std::vector<std::string> materials_;
+  std::vector<std::string> material_names_;
+  std::vector<std::string> images_;
+};
+
+}  // namespace
+
+void write_animated_glb(const std::vector<AnimatedMesh>& meshes, const std::vector<double>& times,
+                        const std::filesystem::path& file) {
+  std::uint64_t bytes = 0;
+  for (const AnimatedMesh& mesh : meshes) {
+    bytes += 24 * static_cast<std::uint64_t>(mesh.first.positions.rows()) * times.size();
+  }
+  if (bytes > kMostBytes) {
+    throw Error(ErrorKind::kBadInput,
+                fmt::format("'{}' would have {:.1f} GB, more than the 4 GB of a .glb; export fewer frames (--frames)",
+                            file.string(), 1e-9 * static_cast<double>(bytes)));
+  }
+  GlbFilm film(times.size());
+  for (const AnimatedMesh& mesh : meshes) film.add(mesh);
+  film.write(times, file);
+}
+
+}  // namespace sprung

@@ -1,0 +1,27 @@
+#pragma once
+#include <filesystem>
+#include <vector>
+
+#include "core/output/posed_mesh.h"
+
+namespace sprung {
+
+/// A film as one glTF 2 file (.glb): every mesh at its first frame, with a morph target (positions and normals, floats)
+/// for each later one and an animation of their weights, evenly from frame to frame. Everything that plays glTF plays
+/// it. assimp drops such animations, so this writes the file itself.
+struct AnimatedMesh {
+  PosedMesh first;                 // without normals in its rest mesh it gets smooth ones
+  std::vector<Floats3> positions;  // of every frame, n x 3, m
+  std::vector<Floats3> normals;    // likewise, unit
+};
+
+/// Players keep a picture for each target, and the weights grow with the square of their number: from here on films
+/// are to be thinned out.
+inline constexpr std::size_t kMostTargets = 250;
+
+/// `times` of the frames in s, rising. Written beside the name and renamed. Throws Error(kFailed), Error(kBadInput)
+/// where it would be larger than the 4 GB that such files may have.
+void write_animated_glb(const std::vector<AnimatedMesh>& meshes, const std::vector<double>& times,
+                        const std::filesystem::path& file);
+
+}  // namespace sprung

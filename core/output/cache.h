@@ -1,0 +1,122 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/bricks/embedding.h"
+#include "core/output/hdf5_file.h"
+#include "core/skin/skin.h"
+#include "core/world/pose.h"
+#include "core/world/world.h"
+
+namespace sprung {
+
+/// sRGB, as in scenes.
+using CachedColor = std::array<std::uint8_t, 3>;
+
+/// One soft body as it does not change: row of World::actors.
+struct CachedActor {
+  int body = 0;  // row of the scene's bodies
+  int copy = 0;  // of the body, which one
+  CachedColor color{};
+  BrickGrid grid;                       // without patches, which only embed() reads
+  std::vector<double> stiffness_scale;  // per brick: fill times the stiffness of its region over the body's
+  Eigen::VectorXd masses;               // per node, kg
+  Points rest_positions;                // m x 3, m
+  Skin skin;
+  Embedding embedding;
+  std::vector<int> carried;  // rows of the body's mesh that ride on this actor ...
+  Embedding carried_embedding;
+};
+
+/// Something solid as it is drawn; how it moves is in the scene.
+struct CachedObstacle {
+  CachedColor color{};
+  Pose start;
+  Skin skin;  // in the frame of its shape; empty: level ground
+};
+
+/// What a run is made from.
+struct CacheHeader {
+  std::string version;        // of the program
+  std::string build;          // which of all that have this version
+  std::string scene;          // TOML, as resolved
+  std::string progress_name;  // "time_s", "load", "mode"
+  double size = 0;            // m, longest side of the largest body
+  std::vector<std::string> probes;
+  std::vector<Skin> meshes;  // of the scene's bodies, as their files have them; normals: 0 rows where those have none
+  std::vector<CachedActor> actors;
+  std::vector<CachedObstacle> obstacles;
+};
+
+/// What a frame has beside the state of its nodes.
+struct CachedFrame {
+  double progress = 0;         // time (s), or share of the load, or number of the mode
+  std::vector<double> probes;  // 12 each: position, displacement (m), force (N), torque (N m)
+  std::uint64_t state_hash = 0;
+};
+inline constexpr std::size_t kNumbersOfProbe = 12;
+
+/// A cache on its way: grows by a frame at a time, and is readable with all of them whenever the program is killed.
+class CacheWriter {
+ public:
+  /// Writes what does not change beside the file. The memory is what the motion carries from frame to frame beside
+  /// positions and velocities, `memory_size` numbers. Throws Error(kFailed).
+  CacheWriter(std::filesystem::path file, const CacheHeader& header, std::size_t memory_size);
+  ~CacheWriter();
+  CacheWriter(const CacheWriter&) = delete;
+  CacheWriter& operator=(const CacheWriter&) = delete;
+
+  /// Positions and velocities by actor (m x 3, m and m/s). Throws Error(kFailed) where it cannot be written, or the
+  /// file is gone or no longer this one; what was appended before stays.
+  void append(const CachedFrame& frame, const std::vector<const Points*>& positions,
+              const std::vector<const Points*>& velocities, const std::vector<double>& memory);
+
+  /// Gives the file its name, in place of what had it. From then on it is the one that grows.
+  void publish();
+
+  void close();
+
+ private:
+  [[nodiscard]] bool is_in_place() const;
+
+  std::filesystem::path file_;     // its name
+  std::filesystem::path written_;  // where it is: beside that, then there
+  int lock_ = -1;                  // held as long as it grows
+  std::size_t frames_ = 0;
+  Hdf5Writer hdf5_;
+};
+
+class CacheReader {
+ public:
+  /// Throws Error(kBadInput) where the file is no cache, or one of another layout.
+  explicit CacheReader(const std::filesystem::path& file);
+
+  [[nodiscard]] const CacheHeader& header() const { return header_; }
+  [[nodiscard]] std::size_t frame_count() const { return frame_count_; }
+
+  [[nodiscard]] CachedFrame frame(std::size_t frame) const;
+  /// By actor, m x 3, m.
+  [[nodiscard]] std::vector<Points> positions(std::size_t frame) const;
+  /// By actor, m x 3, m/s.
+  [[nodiscard]] std::vector<Points> velocities(std::size_t frame) const;
+  /// Of the motion after the last or the last but one frame.
+  [[nodiscard]] std::vector<double> memory(std::size_t frame) const;
+
+ private:
+  [[nodiscard]] std::vector<Points> states(const char* name, std::size_t frame) const;
+
+  Hdf5Reader hdf5_;
+  CacheHeader header_;
+  std::size_t frame_count_ = 0;
+};
+
+/// Whether some process is writing that cache now. False where the file system knows no locks.
+[[nodiscard]] bool is_being_written(const std::filesystem::path& file);
+
+/// True where the file's name ends in .h5.
+[[nodiscard]] bool is_cache_file(const std::filesystem::path& file);
+
+}  // namespace sprung

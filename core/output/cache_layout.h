@@ -1,0 +1,22 @@
+#pragma once
+#include <cstddef>
+#include <string>
+
+namespace sprung {
+
+/// Where things are in a cache. Whoever changes it counts kCacheLayout up.
+inline constexpr int kCacheLayout = 2;
+inline constexpr const char* kLayoutName = "/layout";
+inline constexpr const char* kProgressName = "/frames/progress";  // written last: a frame is there when its time is
+inline constexpr const char* kProbesName = "/frames/probes";
+inline constexpr const char* kHashName = "/frames/state_hash";
+inline constexpr const char* kMemoryName = "/frames/memory";  // of frame f in row f % 2
+
+/// Counted from 1.
+[[nodiscard]] inline std::string actor_folder(std::size_t actor) { return "/actors/" + std::to_string(actor + 1); }
+[[nodiscard]] inline std::string mesh_folder(std::size_t body) { return "/meshes/" + std::to_string(body + 1); }
+[[nodiscard]] inline std::string obstacle_folder(std::size_t obstacle) {
+  return "/obstacles/" + std::to_string(obstacle + 1);
+}
+
+}  // namespace sprung

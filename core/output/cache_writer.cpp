@@ -1,0 +1,181 @@
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+
+#include "core/error.h"
+#include "core/output/cache.h"
+#include "core/output/cache_layout.h"
+#include "core/output/cached_skin.h"
+
+namespace sprung {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kOwnFile = 0600;
+
+using Cells = Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>;
+
+fs::path beside(const fs::path& file) {
+  fs::path name = file;
+  name += ".partial";
+  return name;
+}
+
+/// A descriptor that holds the lock of a new file, or -1 where the file system knows no locks.
+int lock_new(const fs::path& file) {
+  const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, kOwnFile | 0066);
+  if (descriptor < 0) {
+    throw Error(ErrorKind::kFailed, fmt::format("cannot write '{}': {}", file.string(), std::strerror(errno)));
+  }
+  if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    ::close(descriptor);
+    throw Error(ErrorKind::kFailed, fmt::format("'{}' is being written by another run", file.string()));
+  }
+  return descriptor;
+}
+
+Cells rows_of(const std::vector<Eigen::Vector3i>& list) {
+  Cells rows(list.size(), 3);
+  for (std::size_t i = 0; i < list.size(); ++i) rows.row(static_cast<Eigen::Index>(i)) = list[i];
+  return rows;
+}
+
+void write_number(Hdf5Writer& hdf5, const std::string& name, double value) {
+  hdf5.write(name, std::span<const double>(&value, 1), {1});
+}
+void write_number(Hdf5Writer& hdf5, const std::string& name, int value) {
+  hdf5.write(name, std::span<const int>(&value, 1), {1});
+}
+
+template <class Values>
+void write_list(Hdf5Writer& hdf5, const std::string& name, const Values& values) {
+  hdf5.write(name, std::span(values.data(), values.size()), {values.size()});
+}
+
+void write_grid(Hdf5Writer& hdf5, const std::string& folder, const BrickGrid& grid) {
+  hdf5.write(folder + "/origin", std::span<const double>(grid.origin.data(), 3), {3});
+  write_number(hdf5, folder + "/brick_size", grid.brick_size);
+  write_matrix(hdf5, folder + "/cells", rows_of(grid.cells));
+  write_list(hdf5, folder + "/fill", grid.fill);
+  hdf5.write(folder + "/nodes",
+             std::span<const int>(grid.nodes.empty() ? nullptr : grid.nodes[0].data(), 8 * grid.nodes.size()),
+             {grid.nodes.size(), 8});
+  write_matrix(hdf5, folder + "/lattice", rows_of(grid.lattice));
+}
+
+void write_actor(Hdf5Writer& hdf5, const std::string& folder, const CachedActor& actor) {
+  write_number(hdf5, folder + "/body", actor.body);
+  write_list(hdf5, folder + "/color", actor.color);
+  write_grid(hdf5, folder, actor.grid);
+  write_list(hdf5, folder + "/stiffness_scale", actor.stiffness_scale);
+  hdf5.write(folder + "/masses", flat_values(actor.masses), {static_cast<std::size_t>(actor.masses.size())});
+  write_matrix(hdf5, folder + "/rest_positions", actor.rest_positions);
+  write_skin(hdf5, folder + "/skin", actor.skin);
+  write_list(hdf5, folder + "/skin/brick", actor.embedding.brick);
+  write_matrix(hdf5, folder + "/skin/place_in_brick", actor.embedding.local);
+  write_number(hdf5, folder + "/copy", actor.copy);
+  write_list(hdf5, folder + "/mesh/vertices", actor.carried);
+  write_list(hdf5, folder + "/mesh/brick", actor.carried_embedding.brick);
+  write_matrix(hdf5, folder + "/mesh/place_in_brick", actor.carried_embedding.local);
+  const ArrayShape state{static_cast<std::size_t>(actor.rest_positions.rows()), 3};
+  hdf5.make_series<double>(folder + "/positions", state);
+  hdf5.make_series<double>(folder + "/velocities", state);
+}
+
+void write_obstacle(Hdf5Writer& hdf5, const std::string& folder, const CachedObstacle& obstacle) {
+  write_list(hdf5, folder + "/color", obstacle.color);
+  hdf5.write(folder + "/translation", std::span<const double>(obstacle.start.translation.data(), 3), {3});
+  write_matrix(hdf5, folder + "/rotation", Points(obstacle.start.rotation));
+  write_skin(hdf5, folder + "/skin", obstacle.skin);
+}
+
+void write_header(Hdf5Writer& hdf5, const CacheHeader& header) {
+  write_number(hdf5, kLayoutName, kCacheLayout);
+  hdf5.write_text("/version", header.version);
+  hdf5.write_text("/build", header.build);
+  hdf5.write_text("/scene", header.scene);
+  hdf5.write_text("/progress_name", header.progress_name);
+  write_number(hdf5, "/size", header.size);
+  hdf5.write_texts("/probes", header.probes);
+  write_number(hdf5, "/mesh_count", static_cast<int>(header.meshes.size()));
+  write_number(hdf5, "/actor_count", static_cast<int>(header.actors.size()));
+  write_number(hdf5, "/obstacle_count", static_cast<int>(header.obstacles.size()));
+  for (std::size_t i = 0; i < header.meshes.size(); ++i) write_skin(hdf5, mesh_folder(i), header.meshes[i]);
+  for (std::size_t i = 0; i < header.actors.size(); ++i) write_actor(hdf5, actor_folder(i), header.actors[i]);
+  for (std::size_t i = 0; i < header.obstacles.size(); ++i) {
+    write_obstacle(hdf5, obstacle_folder(i), header.obstacles[i]);
+  }
+}
+
+}  // namespace
+
+CacheWriter::CacheWriter(fs::path file, const CacheHeader& header, std::size_t memory_size)
+    : file_(std::move(file)), written_(beside(file_)), lock_(lock_new(written_)), hdf5_(written_) {
+  write_header(hdf5_, header);
+  hdf5_.make_series<double>(kProgressName, {});
+  hdf5_.make_series<double>(kProbesName, {header.probes.size(), kNumbersOfProbe});
+  hdf5_.make_series<std::uint64_t>(kHashName, {});
+  hdf5_.make_slots(kMemoryName, 2, memory_size);
+  hdf5_.start_series();
+}
+
+CacheWriter::~CacheWriter() {
+  std::error_code ignored;
+  if (written_ != file_) fs::remove(written_, ignored);
+  if (lock_ >= 0) ::close(lock_);
+}
+
+void CacheWriter::append(const CachedFrame& frame, const std::vector<const Points*>& positions,
+                         const std::vector<const Points*>& velocities, const std::vector<double>& memory) {
+  if (!is_in_place()) {
+    throw Error(ErrorKind::kFailed,
+                fmt::format("'{}' is gone or was replaced while it was being written", written_.string()));
+  }
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    hdf5_.append(actor_folder(i) + "/positions", flat_values(*positions[i]));
+    hdf5_.append(actor_folder(i) + "/velocities", flat_values(*velocities[i]));
+  }
+  hdf5_.append(kProbesName, std::span<const double>(frame.probes));
+  hdf5_.append(kHashName, std::span<const std::uint64_t>(&frame.state_hash, 1));
+  hdf5_.fill_slot(kMemoryName, frames_ % 2, memory);
+  hdf5_.append(kProgressName, std::span<const double>(&frame.progress, 1));
+  ++frames_;
+}
+
+void CacheWriter::publish() {
+  std::error_code error;
+  fs::rename(written_, file_, error);
+  if (error) {
+    throw Error(ErrorKind::kFailed, fmt::format("cannot write '{}': {}", file_.string(), error.message()));
+  }
+  written_ = file_;
+  hdf5_.rename(file_);
+}
+
+void CacheWriter::close() { hdf5_.close(); }
+
+bool CacheWriter::is_in_place() const {
+  struct stat here {};
+  struct stat there {};
+  if (::fstat(lock_, &here) != 0 || ::stat(written_.c_str(), &there) != 0) return false;
+  return here.st_ino == there.st_ino && here.st_dev == there.st_dev;
+}
+
+bool is_being_written(const fs::path& file) {
+  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  const bool is_locked = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  ::close(descriptor);
+  return is_locked;
+}
+
+bool is_cache_file(const fs::path& file) { return file.extension() == ".h5"; }
+
+}  // namespace sprung

@@ -1,0 +1,115 @@
+#include "core/output/mesh_export.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+#include "core/error.h"
+#include "core/output/mesh_writers.h"
+
+namespace sprung {
+namespace {
+
+constexpr std::size_t kMostOf3ds = 65535;
+
+constexpr std::array<MeshFormat, 9> kFormats{{
+    {".obj", "Wavefront OBJ, materials in .mtl", "", true},
+    {".ply", "Stanford PLY, binary, one object", "plyb"},
+    {".stl", "STL, binary, triangles only", "stlb"},
+    {".glb", "glTF 2 in one file", "glb2", true},
+    {".gltf", "glTF 2 with .bin beside it", "gltf2", true},
+    {".fbx", "Autodesk FBX, as text (Blender reads binary ones only)", "fbxa"},
+    {".dae", "Collada", "collada", true},
+    {".3ds", "3D Studio, at most 65535 vertices a part", "3ds", false, kMostOf3ds, true},
+    {".x3d", "X3D, without textures", "x3d"},
+}};
+
+constexpr std::array<LeftOut, 6> kLeftOut{{
+    {"fbx (binary)", "assimp's binary files cannot be read back, not by itself either"},
+    {"3mf", "geometry only, and assimp's own importer stops at some of its files"},
+    {"gltf 1 (gltf, glb)", "no colours and materials; .gltf and .glb are glTF 2 here"},
+    {"x", "assimp's importer hangs on it too easily"},
+    {"stp, pbrt", "cannot be read back"},
+    {"assbin, assxml, assjson", "dumps of assimp's memory that nothing else reads"},
+}};
+
+/// y up becomes z up.
+std::vector<PosedMesh> turned_up(std::vector<PosedMesh> meshes) {
+  for (PosedMesh& mesh : meshes) {
+    for (Points* points : {&mesh.positions, &mesh.normals}) {
+      points->col(1).swap(points->col(2));
+      points->col(1) *= -1;
+    }
+  }
+  return meshes;
+}
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return text;
+}
+
+}  // namespace
+
+std::span<const MeshFormat> mesh_formats() { return kFormats; }
+
+std::span<const LeftOut> left_out_formats() { return kLeftOut; }
+
+const MeshFormat* find_mesh_format(const std::filesystem::path& file) {
+  const std::string ending = lower(file.extension().string());
+  const auto* found =
+      std::find_if(kFormats.begin(), kFormats.end(), [&](const MeshFormat& format) { return format.ending == ending; });
+  return found == kFormats.end() ? nullptr : found;
+}
+
+void export_meshes(const std::vector<PosedMesh>& meshes, const std::filesystem::path& file) {
+  const MeshFormat* format = find_mesh_format(file);
+  if (format == nullptr) throw Error(ErrorKind::kUsage, fmt::format("'{}': no known format", file.string()));
+  for (const PosedMesh& mesh : meshes) {
+    const auto count = static_cast<std::size_t>(mesh.positions.rows());
+    if (format->most_vertices == 0 || count <= format->most_vertices) continue;
+    throw Error(ErrorKind::kBadInput, fmt::format("{} has {} vertices, more than the {} that {} files can hold",
+                                                  mesh.name, count, format->most_vertices, format->ending));
+  }
+  if (format->writer.empty()) return write_obj(meshes, file);
+  write_by_assimp(format->is_z_up ? turned_up(meshes) : meshes, *format, file);
+}
+
+void write_bytes(const std::filesystem::path& file, std::string_view bytes) { write_pieces(file, {bytes}); }
+
+void write_pieces(const std::filesystem::path& file, std::initializer_list<std::string_view> pieces) {
+  std::filesystem::path partial = file;
+  partial += ".partial";
+  errno = 0;
+  std::ofstream out(partial, std::ios::binary);
+  for (const std::string_view piece : pieces) out.write(piece.data(), static_cast<std::streamsize>(piece.size()));
+  out.close();
+  std::error_code error;
+  if (out) std::filesystem::rename(partial, file, error);
+  if (out && !error) return;
+  const std::string reason = error ? error.message() : std::strerror(errno);
+  std::filesystem::remove(partial, error);
+  throw Error(ErrorKind::kFailed, fmt::format("cannot write '{}': {}", file.string(), reason));
+}
+
+std::string write_texture(const PosedPart& part, const std::filesystem::path& file) {
+  if (part.source == nullptr) return "";
+  const std::string ending = ending_of_texture(*part.source);
+  if (ending.empty()) return "";
+  std::string name = part.material + ending;
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char letter) { return std::isalnum(letter) == 0 && letter != '.'; }, '_');
+  const std::filesystem::path place = file.parent_path() / name;
+  const auto size = part.source->texture.size();
+  if (std::filesystem::exists(place) && std::filesystem::file_size(place) == size) return name;
+  write_bytes(place, {reinterpret_cast<const char*>(part.source->texture.data()), size});
+  return name;
+}
+
+}  // namespace sprung

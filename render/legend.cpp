@@ -1,0 +1,126 @@
+#include "render/legend.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sprung {
+
+namespace {
+
+constexpr Ink kDark{38, 40, 44};
+constexpr double kLetters = 0.030;         // of the picture's height ...
+constexpr double kSmallestLetters = 11.0;  // pixels
+constexpr double kMargin = 0.035;          // of the picture's height
+constexpr double kBarHeight = 0.46;        // of the picture's height
+constexpr double kBarWidth = 0.024;        // of the picture's height
+
+double letters(const Image& image) { return std::max(kSmallestLetters, kLetters * image.height); }
+
+void fill(Image& image, double left, double top, double right, double bottom, const Ink& ink, double share = 1) {
+  for (int y = static_cast<int>(std::lround(top)); y < std::lround(bottom); ++y) {
+    for (int x = static_cast<int>(std::lround(left)); x < std::lround(right); ++x) mix_pixel(image, x, y, ink, share);
+  }
+}
+
+Ink ink_of(const Eigen::Vector3f& color) {
+  Ink ink{};
+  for (int c = 0; c < 3; ++c) {
+    ink[static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(std::lround(255 * std::clamp(color[c], 0.0F, 1.0F)));
+  }
+  return ink;
+}
+
+/// A rectangle with a thin dark line around it.
+void fill_framed(Image& image, double left, double top, double right, double bottom, const Ink& ink) {
+  const double line = std::max(1.0, image.height / 540.0);
+  fill(image, left - line, top - line, right + line, bottom + line, kDark, 0.75);
+  fill(image, left, top, right, bottom, ink);
+}
+
+void draw_scale(Image& image, const Legend& legend, const Font& font, double left, double top) {
+  const double size = letters(image);
+  const double height = kBarHeight * image.height;
+  const double width = kBarWidth * image.height;
+  fill_framed(image, left, top, left + width, top + height, kDark);
+  const auto rows = static_cast<int>(std::lround(top + height) - std::lround(top));
+  for (int row = 0; row < rows; ++row) {
+    const double share = 1 - (row + 0.5) / rows;
+    const double y = static_cast<double>(std::lround(top)) + row;
+    fill(image, left, y, left + width, y + 1, ink_of(map_color(legend.map, share)));
+  }
+  for (const double tick : round_ticks(legend.low, legend.high)) {
+    const double y = top + height * (1 - (tick - legend.low) / (legend.high - legend.low));
+    const double line = std::max(1.0, image.height / 540.0);
+    fill(image, left + width, y - line / 2, left + width + 0.3 * size, y + line / 2, kDark, 0.75);
+    font.write(image, left + width + 0.5 * size, y + 0.31 * size, size, fmt::format("{:.6g}", tick), kDark);
+  }
+}
+
+void draw_swatches(Image& image, const Legend& legend, const Font& font, double left, double top) {
+  const double size = letters(image);
+  double y = top;
+  for (const Legend::Swatch& swatch : legend.swatches) {
+    fill_framed(image, left, y, left + 1.1 * size, y + 0.9 * size, ink_of(swatch.color));
+    font.write(image, left + 1.6 * size, y + 0.78 * size, size, swatch.name, kDark);
+    y += 1.5 * size;
+  }
+}
+
+}  // namespace
+
+double round_length(double most) {
+  const double power = std::pow(10, std::floor(std::log10(most)));
+  for (const double factor : {5.0, 2.0}) {
+    if (factor * power <= most * (1 + 1e-9)) return factor * power;
+  }
+  return power;
+}
+
+std::vector<double> round_ticks(double low, double high) {
+  if (!(high > low)) return {low};
+  const double step = round_length((high - low) / 3.5);
+  std::vector<double> ticks;
+  for (double tick = std::ceil(low / step - 1e-6); tick * step <= high + 1e-6 * step; ++tick) {
+    ticks.push_back(tick == 0 ? 0 : tick * step);
+  }
+  return ticks;
+}
+
+void draw_legend(Image& image, const Legend& legend, const Font& font) {
+  const double size = letters(image);
+  const double right = image.width - kMargin * image.height;
+  const double left = std::min((1 - kLegendShare) * image.width, right - font.width(legend.title, size));
+  const double height =
+      legend.swatches.empty() ? kBarHeight * image.height : 1.5 * size * static_cast<double>(legend.swatches.size());
+  const double top = 0.5 * (image.height - height);
+  font.write(image, left, top - 0.9 * size, size, legend.title, kDark);
+  if (legend.swatches.empty()) {
+    draw_scale(image, legend, font, left, top);
+  } else {
+    draw_swatches(image, legend, font, left, top);
+  }
+}
+
+void draw_caption(Image& image, const std::string& text, const Font& font) {
+  const double size = 1.35 * letters(image);
+  font.write(image, kMargin * image.height, kMargin * image.height + 0.8 * size, size, text, kDark);
+}
+
+void draw_footer(Image& image, const std::string& text, const Font& font) {
+  font.write(image, kMargin * image.height, (1 - kMargin) * image.height, letters(image), text, kDark);
+}
+
+void draw_scale_bar(Image& image, double pixels, const std::string& length, const Font& font) {
+  const double size = letters(image);
+  const double right = image.width - kMargin * image.height;
+  const double bottom = (1 - kMargin) * image.height;
+  const double thick = std::max(2.0, 0.18 * size);
+  fill(image, right - pixels - 1, bottom - thick - 1, right + 1, bottom + 1, {255, 255, 255}, 0.6);
+  fill(image, right - pixels, bottom - thick, right, bottom, kDark);
+  font.write(image, right - 0.5 * (pixels + font.width(length, size)), bottom - thick - 0.45 * size, size, length,
+             kDark);
+}
+
+}  // namespace sprung

@@ -1,0 +1,13 @@
+#pragma once
+
+namespace sprung {
+
+/// How a surface takes light.
+enum class Look {
+  kPlastic,  // smooth, softly lit; for toys
+  kGelatin,  // light goes through, wet highlights
+  kRubber,   // matt
+  kSteel     // polished metal
+};
+
+}  // namespace sprung

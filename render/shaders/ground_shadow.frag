@@ -1,0 +1,53 @@
+// How much of the key light the bodies hide from the ground, by place.
+// The shadow of a plane is the mask of what the key light hits, averaged over the part of it that the lamp is seen
+// through; so it is sharp where the body touches and wide where it is high up.
+in vec2 screen_place;
+uniform vec4 ground_rectangle;
+uniform float ground_height;
+uniform mat4 light_from_stage;
+uniform float mask_texels;      // per unit of length
+uniform vec2 mask_texel_size;   // in u and v
+uniform float longest_way;      // to the ground, that the mask holds
+uniform float body_radius;
+uniform sampler2D key_mask;
+out vec4 result;
+
+const int kSearch = SEARCH;
+const int kTaps = TAPS;
+const mat2 kGoldenTurn = mat2(-0.7373688, 0.6754903, -0.6754903, -0.7373688);  // 137.5 degrees, for spirals
+
+float reach() { return 1.2 * kLightRadius * body_radius * mask_texels; }
+
+vec2 mask_place() {
+  vec2 point = ground_rectangle.xy + screen_place * ground_rectangle.zw;
+  return (light_from_stage * vec4(point.x, ground_height, point.y, 1.0)).xy * 0.5 + 0.5;
+}
+
+#ifdef SHADOW
+void main() {
+  vec2 uv = mask_place();
+  vec2 found = vec2(0.0);
+  vec2 direction = vec2(1.0, 0.0);
+  for (int k = 0; k < kSearch; ++k) {
+    vec2 offset = reach() * sqrt((float(k) + 0.5) / float(kSearch)) * direction;
+    found += textureLod(key_mask, uv + offset * mask_texel_size, log2(max(0.8 * reach(), 1.0))).rg;
+    direction = kGoldenTurn * direction;
+  }
+  int taps = found.r > 1e-4 ? kTaps : 0;
+  float radius = max(kLightRadius * longest_way * found.g / max(found.r, 1e-4) * mask_texels, 0.75);
+  float lod = log2(max(0.55 * radius, 1.0));
+  float hidden = 0.0;
+  for (int k = 0; k < taps; ++k) {
+    vec2 offset = radius * sqrt((float(k) + 0.5) / float(kTaps)) * direction;
+    hidden += textureLod(key_mask, uv + offset * mask_texel_size, lod).r;
+    direction = kGoldenTurn * direction;
+  }
+  result = vec4(hidden / float(kTaps));
+}
+#else
+// Nothing yet: the depth says where SHADOW has to be looked for.
+void main() {
+  gl_FragDepth = textureLod(key_mask, mask_place(), log2(6.0 * reach())).r > 0.0 ? SHADED : 1.0;
+  result = vec4(0.0);
+}
+#endif

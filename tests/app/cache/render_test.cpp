@@ -1,0 +1,72 @@
+#include <gtest/gtest.h>
+
+#include "app/frame_range.h"
+#include "tests/support/error_message.h"
+#include "tests/support/run_program.h"
+
+namespace sprung {
+namespace {
+
+const std::string kScene = R"(
+fps = 10
+duration = 0.5
+[camera]
+orbit = 40
+[render]
+resolution = [160, 120]
+samples = 1
+[[obstacle]]
+plane = { y = 0 }
+[[obstacle]]
+mesh = "ball.obj"
+size = 0.1
+position = [0.3, 0.1, 0]
+keyframes = [ { t = 0 }, { t = 0.5, translate = [-0.1, 0, 0] } ]
+[[body]]
+mesh = "cube.obj"
+bricks = 5
+position = [0, 0.05, 0]
+rotation = [0, 20, 0]
+)";
+
+TEST(Render, OfACacheIsWhatAnimateDraws) {
+  const TempFolder folder;
+  static_cast<void>(folder.write("cube.obj", kCubeObj));
+  static_cast<void>(folder.write("ball.obj", kCubeObj));
+  static_cast<void>(folder.write("scene.toml", kScene));
+  ASSERT_EQ(run_program(folder, "animate scene.toml -o straight/").exit_code, 0);
+  ASSERT_EQ(run_program(folder, "simulate scene.toml -o run.h5").exit_code, 0);
+  // Nothing but the cache is needed.
+  for (const char* name : {"cube.obj", "ball.obj", "scene.toml"}) std::filesystem::remove(folder.path() / name);
+  const ProgramRun first = run_program(folder, "render run.h5 --frames 1:2 -o cached/");
+  EXPECT_EQ(first.exit_code, 0) << first.err;
+  const ProgramRun rest = run_program(folder, "render run.h5 --frames 3: --jobs 2 -o cached/");
+  EXPECT_EQ(rest.exit_code, 0) << rest.err;
+  for (int frame = 1; frame <= 5; ++frame) {
+    const std::string name = "frame_000" + std::to_string(frame) + ".png";
+    ASSERT_TRUE(std::filesystem::exists(folder.path() / "cached" / name)) << name;
+    EXPECT_EQ(text_of(folder.path() / "straight" / name), text_of(folder.path() / "cached" / name)) << name;
+  }
+  EXPECT_EQ(run_program(folder, "render run.h5 --frames 5 -o cached/").exit_code, 2);
+  EXPECT_EQ(run_program(folder, "render run.h5 --frames 5 -o cached/ --overwrite").exit_code, 0);
+  EXPECT_EQ(run_program(folder, "render run.h5 --frames 5 -o other/ --set duration=3").exit_code, 2);
+  EXPECT_EQ(run_program(folder, "render run.h5 -o film.mp4 --resolution 80x60").exit_code, 0);
+}
+
+TEST(FrameRanges, AreReadAndRefused) {
+  const auto words = [](const char* text) {
+    const FrameRange range = parse_frame_range(text, 72);
+    return std::pair(range.first, range.last);
+  };
+  EXPECT_EQ(words(""), std::pair(1, 72));
+  EXPECT_EQ(words("3:48"), std::pair(3, 48));
+  EXPECT_EQ(words("12:"), std::pair(12, 72));
+  EXPECT_EQ(words(":12"), std::pair(1, 12));
+  EXPECT_EQ(words("7"), std::pair(7, 7));
+  for (const char* text : {"0:3", "5:4", "70:73", "x", "1-3", "1:2:3"}) {
+    EXPECT_NE(error_message([&] { words(text); }), "") << text;
+  }
+}
+
+}  // namespace
+}  // namespace sprung

@@ -1,0 +1,75 @@
+#include <gtest/gtest.h>
+
+#include "core/mesh/read_mesh.h"
+#include "tests/support/run_program.h"
+
+namespace sprung {
+namespace {
+
+class Export : public testing::Test {
+ protected:
+  Export() {
+    static_cast<void>(folder_.write("cube.obj", kCubeObj));
+    static_cast<void>(folder_.write("scene.toml", R"(
+fps = 10
+duration = 0.4
+[[obstacle]]
+plane = { y = 0 }
+[[body]]
+mesh = "cube.obj"
+size = 0.2
+bricks = 5
+position = [0, 0.1, 0]
+rotation = [0, 20, 0]
+)"));
+  }
+  [[nodiscard]] ProgramRun run(const std::string& words) const { return run_program(folder_, words); }
+  [[nodiscard]] bool exists(const std::string& name) const { return std::filesystem::exists(folder_.path() / name); }
+
+  TempFolder folder_;
+};
+
+TEST_F(Export, KeepsTheMeshOfTheFileAndWritesTheSameFromACacheAndAScene) {
+  ASSERT_EQ(run("simulate scene.toml -o run.h5").exit_code, 0);
+  const ProgramRun cached = run("export run.h5 -o a/skin_{:03}.obj -o film.glb -o film.html -o points.pc2 -o run.xdmf");
+  ASSERT_EQ(cached.exit_code, 0) << cached.err;
+  ASSERT_EQ(run("export scene.toml -o b/skin_{:03}.obj --frames 2:4").exit_code, 0);
+  EXPECT_FALSE(exists("b/skin_001.obj"));
+  for (const char* name : {"skin_002.obj", "skin_004.obj"}) {
+    EXPECT_EQ(text_of(folder_.path() / "a" / name), text_of(folder_.path() / "b" / name));
+  }
+  const SurfaceMesh first = read_mesh(folder_.path() / "a/skin_001.obj");
+  const SurfaceMesh cube = read_mesh(folder_.path() / "cube.obj");
+  ASSERT_EQ(first.positions.rows(), 8);
+  EXPECT_EQ(first.triangles, cube.triangles);
+  // At rest it is the cube, smaller, turned and moved.
+  for (int i = 0; i < 8; ++i) {
+    for (int j = 0; j < 8; ++j) {
+      EXPECT_NEAR((first.positions.row(i) - first.positions.row(j)).norm(),
+                  0.2 * (cube.positions.row(i) - cube.positions.row(j)).norm(), 1e-6);
+    }
+  }
+  EXPECT_NEAR(first.positions.col(1).minCoeff(), 0.1, 1e-6);
+  EXPECT_EQ(std::filesystem::file_size(folder_.path() / "points.pc2"), 32U + 4 * 8 * 12);
+  EXPECT_TRUE(exists("film.glb"));
+  const std::string page = text_of(folder_.path() / "film.html");
+  EXPECT_NE(page.find("const film = {frames: 4, fps: 10,"), std::string::npos);
+  const std::size_t positions = page.find("positions: \"") + 12;
+  EXPECT_EQ(page.find('"', positions) - positions, 4U * 8 * 3 * 2 / 3 * 4) << "four frames of eight vertices, base64";
+  EXPECT_EQ(page.find("http"), std::string::npos) << "it needs nothing else";
+  EXPECT_TRUE(exists("run.xdmf.h5"));
+}
+
+TEST_F(Export, SaysWhatCannotBe) {
+  EXPECT_NE(run("export scene.toml -o skin.obj").err.find("cannot hold 4 frames"), std::string::npos);
+  EXPECT_NE(run("export scene.toml -o skin_{}.obk").err.find("no format"), std::string::npos);
+  EXPECT_NE(run("export scene.toml -o film.glp").err.find("did you mean '.glb'?"), std::string::npos);
+  static_cast<void>(folder_.write("skin_2.ply", ""));
+  EXPECT_EQ(run("export scene.toml -o skin_{}.ply").exit_code, 2);
+  const ProgramRun list = run("export --list");
+  EXPECT_EQ(list.exit_code, 0);
+  EXPECT_NE(list.out.find("fbx (binary)"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace sprung

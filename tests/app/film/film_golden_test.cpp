@@ -1,0 +1,151 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "app/make_production.h"
+#include "app/render_film.h"
+#include "app/scene/scene_file.h"
+#include "render/png.h"
+#include "tests/support/error_message.h"
+#include "tests/support/golden.h"
+#include "tests/support/temp_folder.h"
+
+/// Pictures of a bar that is bent by hand: no motion is computed.
+namespace sprung {
+namespace {
+
+constexpr const char* kBar =
+    "fps = 4\nduration = 0.5\n[[body]]\nbox = [\"30 cm\", \"10 cm\", \"10 cm\"]\nbrick_size = \"2.5 cm\"\n"
+    "color = \"#e0912f\"\nposition = [0, 0.1, 0]\nmaterial = { young = \"20 kPa\", poisson = 0.3, density = 1000 }\n"
+    "[[body.pin]]\nbox = { min = [0, 0, 0], max = [0.01, 1, 1] }\n[[obstacle]]\nplane = { y = 0 }\n"
+    "[render]\nresolution = [320, 180]\n";
+
+struct Film {
+  Scene scene;
+  Production production;
+  Recording recording;
+
+  /// `render`: further keys of [render], then tables.
+  explicit Film(const std::string& render) : scene(parse_scene(kBar + render, "/scene.toml")) {
+    production = make_production(scene, Console{.quiet = true});
+    for (int frame = 0; frame < 3; ++frame) add_frame(0.5 * frame);
+  }
+
+  /// Bent upwards like a parabola, by up to `amount` of 16 cm, and lengthened a little.
+  void add_frame(double amount) {
+    Points nodes = production.world.actors[0].body.rest_positions;
+    const double begin = nodes.col(0).minCoeff();
+    for (auto node : nodes.rowwise()) {
+      const double x = node[0] - begin;
+      node[1] += amount * 0.16 * x * x / 0.09;
+      node[0] += amount * 0.12 * x;
+    }
+    recording.frames.push_back({nodes.cast<float>()});
+    recording.progress.push_back(0.25 * static_cast<double>(recording.progress.size()));
+  }
+
+  [[nodiscard]] Image picture(int frame = 3) const {
+    const TempFolder folder;
+    render_film(production, recording, scene, {.first = frame, .last = frame},
+                {parse_output((folder.path() / "p_{}.png").string())}, Console{.quiet = true});
+    return read_png(folder.path() / ("p_" + std::to_string(frame) + ".png"));
+  }
+};
+
+Image picture(const std::string& render, int frame = 3) { return Film(render).picture(frame); }
+
+TEST(FilmGolden, StressWithLegend) {
+  expect_golden(picture("color_by = \"stress\"\nframe_number = true\n"), "film_stress");
+}
+
+TEST(FilmGolden, VolumeOnExplodedBricks) {
+  expect_golden(picture("color_by = \"volume\"\nbricks = \"exploded\"\nlegend = false\n"), "film_exploded_volume");
+}
+
+TEST(FilmGolden, CutBricks) {
+  expect_golden(
+      picture("bricks = \"whole\"\ncut = { point = [0.5, 0.5, 0.5], normal = [1, 0.4, 0] }\nscale_bar = true\n"),
+      "film_cut_bricks");
+}
+
+TEST(FilmGolden, SpringsNodesAndPins) {
+  expect_golden(picture("springs = true\nnodes = true\npins = true\n"), "film_springs");
+}
+
+TEST(FilmGolden, GhostOfTheShapeAtRest) { expect_golden(picture("ghost = true\n"), "film_ghost"); }
+
+TEST(FilmGolden, Orthographic) {
+  expect_golden(picture("caption = \"From the side\"\n[camera]\northographic = true\nazimuth = 0\nelevation = 0\n"),
+                "film_orthographic");
+}
+
+TEST(FilmGolden, MotionBlur) { expect_golden(picture("motion_blur = 180\n", 2), "film_motion_blur"); }
+
+TEST(FilmGolden, Sheet) {
+  Film film("sheet = [2, 2]\ncolor_by = \"displacement\"\n");
+  film.add_frame(1.5);
+  const TempFolder folder;
+  render_film(film.production, film.recording, film.scene, {.first = 1, .last = 4},
+              {parse_output((folder.path() / "s_{}.png").string())}, Console{.quiet = true});
+  expect_golden(read_png(folder.path() / "s_1.png"), "film_sheet");
+}
+
+TEST(FilmGolden, Looks) {
+  std::string more = "[camera]\nelevation = 20\n";
+  int place = 0;
+  for (const char* look : {"gelatin", "rubber", "steel"}) {
+    more += "[[body]]\nsphere = { radius = \"6 cm\" }\nbricks = 4\nlook = \"" + std::string(look) + "\"\ncolor = \"" +
+            (place == 2 ? "#c8ccd2" : "#c8382e") + "\"\nposition = [" + std::to_string(-0.14 + 0.14 * place) +
+            ", 0, 0.16]\n";
+    ++place;
+  }
+  const Scene scene = parse_scene(kBar + more, "/scene.toml");
+  Film film("");
+  film.scene = scene;
+  film.production = make_production(scene, Console{.quiet = true});
+  film.recording = {};
+  film.recording.progress = {0};
+  film.recording.frames.emplace_back();
+  for (const Actor& actor : film.production.world.actors) {
+    film.recording.frames[0].emplace_back(actor.body.rest_positions.cast<float>());
+  }
+  expect_golden(film.picture(1), "film_looks");
+}
+
+// The range of the colours is that of the film, not that of a picture.
+TEST(FilmColors, MeanTheSameInEveryFrame) {
+  const Image first = picture("color_by = \"displacement\"\nlegend = false\n", 1);
+  const Image fixed = picture("color_by = \"displacement\"\nlegend = false\ncolor_low = 0\ncolor_high = 100\n", 3);
+  const Image last = picture("color_by = \"displacement\"\nlegend = false\n", 3);
+  const auto brightest = [](const Image& image) {  // the yellow end: much green, little blue
+    int most = 0;
+    for (std::size_t i = 0; i < image.pixels.size(); i += 3) {
+      most = std::max(most, image.pixels[i + 1] - image.pixels[i + 2]);
+    }
+    return most;
+  };
+  EXPECT_GT(brightest(last), 60);
+  EXPECT_LT(brightest(first), 30);  // all at rest: the dark end
+  EXPECT_LT(brightest(fixed), 30);
+}
+
+TEST(FilmTransparent, HasAlphaAndNoFloor) {
+  const Film film("transparent = true\n");
+  const TempFolder folder;
+  const Output output = parse_output((folder.path() / "p_{}.png").string());
+  render_film(film.production, film.recording, film.scene, {.first = 1, .last = 1}, {output}, Console{.quiet = true});
+  const Image image = read_png(output.picture(1));
+  ASSERT_EQ(image.alpha.size(), 320U * 180U);
+  EXPECT_EQ(image.alpha.front(), 0);
+  EXPECT_EQ(*std::max_element(image.alpha.begin(), image.alpha.end()), 255);
+  const auto is_partly = [](std::uint8_t alpha) { return alpha > 0 && alpha < 255; };
+  EXPECT_GT(std::count_if(image.alpha.begin(), image.alpha.end(), is_partly), 50);  // smooth edges
+  EXPECT_EQ(error_message([&] {
+              render_film(film.production, film.recording, film.scene, {.first = 1, .last = 1},
+                          {parse_output((folder.path() / "f.mp4").string())}, Console{.quiet = true});
+            }),
+            "render.transparent: films have no alpha; give a folder for pictures");
+}
+
+}  // namespace
+}  // namespace sprung

@@ -1,0 +1,214 @@
+#include "core/output/cache.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <random>
+
+#include "core/body/body.h"
+#include "tests/support/bodies.h"
+#include "tests/support/error_message.h"
+#include "tests/support/temp_folder.h"
+
+namespace sprung {
+namespace {
+
+constexpr std::size_t kMemory = 5;
+
+/// A box with a triangle for a skin that has everything a skin can have.
+CacheHeader box_header(int side) {
+  const Body body = make_body(make_box_grid({side, side, side}, 0.1), Model::kCalibrated, test::test_material(0.3));
+  CacheHeader header{.version = "1",
+                     .build = "b",
+                     .scene = "fps = 24\n",
+                     .progress_name = "time_s",
+                     .size = 0.5,
+                     .probes = {"tip"},
+                     .meshes = {},
+                     .actors = {},
+                     .obstacles = {}};
+  CachedActor actor;
+  actor.color = {1, 2, 3};
+  actor.grid = body.grid;
+  actor.stiffness_scale = body.stiffness_scale;
+  actor.masses = body.masses;
+  actor.rest_positions = body.rest_positions;
+  actor.skin.positions = Points::Random(3, 3);
+  actor.skin.normals = Points::Random(3, 3);
+  actor.skin.uvs = Floats2::Random(3, 2);
+  actor.skin.colors = Floats4::Random(3, 4);
+  actor.skin.triangles = Triangles{{0, 1, 2}};
+  actor.skin.parts = {{.name = "ear left", .first_triangle = 0, .triangle_count = 1, .material = 0}};
+  actor.skin.materials = {
+      {.name = "fur", .texture = {std::byte{7}, std::byte{0}, std::byte{9}}, .texture_name = "f.png"}};
+  actor.embedding = embed(body.grid, actor.skin.positions);
+  header.meshes.push_back(actor.skin);
+  actor.carried = {2, 0, 1};
+  actor.carried_embedding = actor.embedding;
+  header.actors.push_back(actor);
+  header.obstacles.push_back({.color = {4, 5, 6}, .start = {.translation = {1, 2, 3}}, .skin = actor.skin});
+  return header;
+}
+
+/// Made up, so that every number of a frame tells which it is.
+Points state_of(const CacheHeader& header, std::size_t frame, double kind) {
+  const Points& rest = header.actors[0].rest_positions;
+  return rest.array() * std::sqrt(2.0) + kind + static_cast<double>(frame) / 3;
+}
+
+void append(CacheWriter& writer, const CacheHeader& header, std::size_t frame) {
+  const Points positions = state_of(header, frame, 0);
+  const Points velocities = state_of(header, frame, 100);
+  CachedFrame made{.progress = static_cast<double>(frame) / 24, .probes = std::vector<double>(kNumbersOfProbe, 0.1)};
+  made.probes[3] = static_cast<double>(frame);
+  made.state_hash = ~std::uint64_t{frame};
+  writer.append(made, {&positions}, {&velocities}, std::vector<double>(kMemory, static_cast<double>(frame)));
+}
+
+void write_frames(const std::filesystem::path& file, const CacheHeader& header, std::size_t count) {
+  CacheWriter writer(file, header, kMemory);
+  for (std::size_t frame = 0; frame < count; ++frame) {
+    append(writer, header, frame);
+    if (frame == 0) writer.publish();
+  }
+  writer.close();
+}
+
+void expect_frames(const CacheReader& reader, const CacheHeader& header) {
+  for (std::size_t frame = 0; frame < reader.frame_count(); ++frame) {
+    EXPECT_EQ(reader.positions(frame).at(0), state_of(header, frame, 0)) << frame;
+    EXPECT_EQ(reader.velocities(frame).at(0), state_of(header, frame, 100)) << frame;
+    const CachedFrame read = reader.frame(frame);
+    EXPECT_EQ(read.progress, static_cast<double>(frame) / 24);
+    EXPECT_EQ(read.probes.at(3), static_cast<double>(frame));
+    EXPECT_EQ(read.state_hash, ~std::uint64_t{frame});
+  }
+  if (reader.frame_count() == 0) return;
+  const std::size_t last = reader.frame_count() - 1;
+  EXPECT_EQ(reader.memory(last), std::vector<double>(kMemory, static_cast<double>(last)));
+}
+
+TEST(Cache, GivesBackEveryBit) {
+  const TempFolder folder;
+  const CacheHeader header = box_header(3);
+  write_frames(folder.path() / "run.h5", header, 4);
+  const CacheReader reader(folder.path() / "run.h5");
+  ASSERT_EQ(reader.frame_count(), 4U);
+  expect_frames(reader, header);
+  const CacheHeader& read = reader.header();
+  EXPECT_EQ(read.scene, header.scene);
+  EXPECT_EQ(read.probes, header.probes);
+  EXPECT_EQ(read.size, header.size);
+  const CachedActor& actor = read.actors.at(0);
+  const CachedActor& made = header.actors[0];
+  EXPECT_EQ(actor.grid.nodes, made.grid.nodes);
+  EXPECT_EQ(actor.grid.cells, made.grid.cells);
+  EXPECT_EQ(actor.grid.lattice, made.grid.lattice);
+  EXPECT_EQ(actor.grid.fill, made.grid.fill);
+  EXPECT_EQ(actor.masses, made.masses);
+  EXPECT_EQ(actor.embedding.local, made.embedding.local);
+  EXPECT_EQ(actor.carried, made.carried);
+  EXPECT_EQ(read.meshes.at(0).triangles, made.skin.triangles);
+  EXPECT_EQ(actor.skin.uvs, made.skin.uvs);
+  EXPECT_EQ(actor.skin.colors, made.skin.colors);
+  EXPECT_EQ(actor.skin.parts.at(0).name, "ear left");
+  EXPECT_EQ(actor.skin.materials.at(0).texture, made.skin.materials[0].texture);
+  EXPECT_EQ(read.obstacles.at(0).start.translation, Vec3(1, 2, 3));
+  EXPECT_EQ(read.obstacles.at(0).color, (CachedColor{4, 5, 6}));
+}
+
+TEST(Cache, IsReadWhileItGrows) {
+  const TempFolder folder;
+  const CacheHeader header = box_header(2);
+  CacheWriter writer(folder.path() / "run.h5", header, kMemory);
+  append(writer, header, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "run.h5"));
+  writer.publish();
+  append(writer, header, 1);
+  EXPECT_TRUE(is_being_written(folder.path() / "run.h5"));
+  const CacheReader reader(folder.path() / "run.h5");
+  EXPECT_EQ(reader.frame_count(), 2U);
+  expect_frames(reader, header);
+}
+
+/// Writes frames until it is killed.
+[[noreturn]] void write_for_ever(const std::filesystem::path& file, const CacheHeader& header) {
+  CacheWriter writer(file, header, kMemory);
+  for (std::size_t frame = 0;; ++frame) {
+    append(writer, header, frame);
+    if (frame == 0) writer.publish();
+  }
+}
+
+TEST(Cache, KilledAtAnyMomentItHasEveryFinishedFrame) {
+  const CacheHeader header = box_header(4);
+  const unsigned seed = std::random_device()();
+  SCOPED_TRACE(seed);
+  std::mt19937 random(seed);
+  std::size_t frames = 0;
+  for (int kill_number = 0; kill_number < 20; ++kill_number) {
+    const TempFolder folder;
+    const auto file = folder.path() / "run.h5";
+    const pid_t child = fork();
+    if (child == 0) write_for_ever(file, header);
+    while (!std::filesystem::exists(file)) usleep(100);
+    usleep(static_cast<useconds_t>(std::uniform_int_distribution(0, 60000)(random)));
+    kill(child, SIGKILL);
+    waitpid(child, nullptr, 0);
+    EXPECT_FALSE(is_being_written(file));
+    const CacheReader reader(file);
+    EXPECT_GE(reader.frame_count(), 1U);
+    expect_frames(reader, header);
+    frames += reader.frame_count();
+  }
+  EXPECT_GT(frames, 20U);
+}
+
+TEST(Cache, AFullDiskLosesNothingThatIsFinished) {
+  const TempFolder folder;
+  const CacheHeader header = box_header(6);
+  const auto file = folder.path() / "run.h5";
+  const pid_t child = fork();
+  if (child == 0) {
+    std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{.rlim_cur = 200000, .rlim_max = 200000};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    const std::string message = error_message([&] { write_for_ever(file, header); });
+    std::ofstream(folder.path() / "message") << message;
+    _exit(message.find("File too large") != std::string::npos ? 0 : 1);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0) << std::ifstream(folder.path() / "message").rdbuf();
+  const CacheReader reader(file);
+  EXPECT_GE(reader.frame_count(), 2U);
+  expect_frames(reader, header);
+}
+
+TEST(Cache, NoticesThatItsFileIsGone) {
+  const TempFolder folder;
+  const CacheHeader header = box_header(2);
+  CacheWriter writer(folder.path() / "run.h5", header, kMemory);
+  append(writer, header, 0);
+  writer.publish();
+  std::filesystem::remove(folder.path() / "run.h5");
+  EXPECT_NE(error_message([&] { append(writer, header, 1); }).find("is gone"), std::string::npos);
+}
+
+TEST(Cache, RefusesWhatIsNone) {
+  const TempFolder folder;
+  const auto text = folder.write("text.h5", "no cache");
+  EXPECT_NE(error_message([&] { CacheReader reader(text); }).find("text.h5"), std::string::npos);
+  Hdf5Writer(folder.path() / "other.h5").close();
+  EXPECT_NE(error_message([&] { CacheReader reader(folder.path() / "other.h5"); }).find("no cache of sprung"),
+            std::string::npos);
+  EXPECT_NE(error_message([&] { CacheReader reader(folder.path() / "none.h5"); }).find("none.h5"), std::string::npos);
+  EXPECT_NE(error_message([&] { CacheWriter writer("/proc/none/run.h5", box_header(2), 0); }).find("/proc/none"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace sprung
