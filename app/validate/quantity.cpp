@@ -17,9 +17,9 @@ struct ProbeField {
 };
 
 constexpr std::array<ProbeField, 4> kFields{{{"position", "m", &ProbeSample::position},
-                                        {"displacement", "m", &ProbeSample::displacement},
-                                        {"force", "N", &ProbeSample::force},
-                                        {"torque", "N m", &ProbeSample::torque}}};
+                                             {"displacement", "m", &ProbeSample::displacement},
+                                             {"force", "N", &ProbeSample::force},
+                                             {"torque", "N m", &ProbeSample::torque}}};
 
 [[noreturn]] void refuse(const std::string& quantity) {
   throw Error(

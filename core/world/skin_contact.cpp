@@ -8,7 +8,7 @@ namespace sprung {
 namespace {
 
 constexpr double kMargin = 0.3;     // bricks: what is nearer than that is watched
-constexpr double kFarMargin = 1;  // bricks: what may soon be that near is looked at
+constexpr double kFarMargin = 1;    // bricks: what may soon be that near is looked at
 constexpr double kDeepest = 0.7;    // bricks: what is deeper came from the other side
 constexpr double kBeside = 0.05;    // of a triangle: what stands a little beside it counts as over it
 constexpr double kTouching = 0.15;  // of the depth: what is that near to a triangle that it stands over touches it

@@ -20,7 +20,7 @@ name = "middle"
 point = [0, 0, 0]
 )";
 
-TEST(Film, NamesEveryGap) {
+TEST(StitchFilm, NamesEveryGap) {
   const TempFolder folder;
   static_cast<void>(folder.write("scene.toml", kScene));
   ASSERT_EQ(run_program(folder, "animate scene.toml -o p/ --duration 0.8").exit_code, 0);
