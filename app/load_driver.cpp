@@ -40,6 +40,7 @@ Points forces_of(const BodyForce& force, const ForcedPart& part, double volume) 
 
 LoadDriver::Curve::Curve(const Course& course) {
   std::vector<Keyframe> keyframes;
+  keyframes.reserve(course.keyframes.size() + 1);
   for (const Strength& one : course.keyframes)
     keyframes.push_back({.time = one.time, .translate = {one.strength, 0, 0}});
   if (keyframes.empty()) keyframes.push_back({.time = 0, .translate = {1, 0, 0}});
@@ -48,6 +49,7 @@ LoadDriver::Curve::Curve(const Course& course) {
 
 LoadDriver::Curve::Curve(const std::vector<GravityKeyframe>& gravity) {
   std::vector<Keyframe> keyframes;
+  keyframes.reserve(gravity.size());
   for (const GravityKeyframe& one : gravity) keyframes.push_back({.time = one.time, .translate = one.gravity});
   movement_ = from_values(std::move(keyframes), Interpolation::kLinear);
 }

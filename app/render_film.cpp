@@ -51,6 +51,7 @@ class FilmCrew {
     const double open = scene_.render.motion_blur / 360;
     std::vector<std::vector<SkinShape>> moments;
     const int count = open > 0 ? kExposures : 1;
+    moments.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) moments.push_back(stage_.shapes(frame, open * i / count));
     return moments;
   }

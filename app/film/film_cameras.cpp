@@ -147,6 +147,7 @@ std::vector<Camera> cameras_of(const Scene& scene, const Reach& reach, double re
   const double aspect = (1 - reserved) * scene.render.resolution[0] / scene.render.resolution[1];
   std::vector<Points> stops;
   const int count = chosen.orbit == 0 ? 1 : kStops;
+  stops.reserve(static_cast<std::size_t>(count));
   for (int stop = 0; stop < count; ++stop)
     stops.push_back(turned(seen, center, -chosen.orbit * stop / std::max(1, count - 1)));
   const Camera first = frame_points(stacked(stops), aspect, chosen.azimuth, chosen.elevation, chosen.orthographic);

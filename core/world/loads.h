@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <vector>
 
 #include "core/types.h"
@@ -41,9 +42,9 @@ struct Wind {
 
 /// Two places in the bricks of two bodies that stay together.
 struct GluedPoint {
-  std::size_t actors[2];  // rows of World::actors
-  int bricks[2];
-  Eigen::Matrix<double, 8, 1> weights[2];  // of the bricks' corners
+  std::array<std::size_t, 2> actors;  // rows of World::actors
+  std::array<int, 2> bricks;
+  std::array<Eigen::Matrix<double, 8, 1>, 2> weights;  // of the bricks' corners
 };
 
 }  // namespace sprung
