@@ -53,6 +53,7 @@ std::vector<int> nearest_points(const Actor& actor, const Points& places, const 
     if (!is_new && gap < place->second.gap) place->second = {row, gap};
   }
   std::vector<int> rows;
+  rows.reserve(nearest.size());
   for (const auto& [key, candidate] : nearest) rows.push_back(candidate.row);
   return rows;
 }
@@ -72,6 +73,7 @@ std::vector<GluedPoint> glue_between(const World& world, std::size_t a, std::siz
   const Points there = (places(rows, Eigen::all).rowwise() - pose.translation.transpose()) * pose.rotation;
   const Embedding embedding = embed(other.body.grid, there);
   std::vector<GluedPoint> glue;
+  glue.reserve(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     glue.push_back({.actors = {a, b},
                     .bricks = {one.contacts.brick[static_cast<std::size_t>(rows[i])], embedding.brick[i]},
