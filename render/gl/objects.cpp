@@ -53,8 +53,8 @@ GlSampler make_sampler(const GlFunctions& gl, std::initializer_list<SamplerSetti
   const auto set = [&](const SamplerSetting& setting) {
     gl.SamplerParameteri(name, setting.first, static_cast<GLint>(setting.second));
   };
-  for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER}) set({filter, GL_LINEAR});
-  for (const GLenum side : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T}) set({side, GL_CLAMP_TO_EDGE});
+  for (const GLenum filter : {GLenum{GL_TEXTURE_MIN_FILTER}, GLenum{GL_TEXTURE_MAG_FILTER}}) set({filter, GL_LINEAR});
+  for (const GLenum side : {GLenum{GL_TEXTURE_WRAP_S}, GLenum{GL_TEXTURE_WRAP_T}}) set({side, GL_CLAMP_TO_EDGE});
   for (const SamplerSetting& setting : more) set(setting);
   return {gl, name};
 }
