@@ -2,12 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 
-#include "core/bricks/cell_index.h"
-#include "core/bricks/corner.h"
+#include "core/bricks/brick_faces.h"
 #include "core/error.h"
 
 namespace sprung {
@@ -32,17 +29,6 @@ Eigen::Vector3i brick_counts(const Vec3& sides, double brick_size) {
   return counts.round().cast<int>();
 }
 
-/// Corners of a brick's face on the low or high side of an axis, counter-clockwise seen from outside.
-std::array<std::size_t, 4> face_corners(int axis, bool high) {
-  const int j = 1 << ((axis + 1) % 3);
-  const int k = 1 << ((axis + 2) % 3);
-  const int base = high ? 1 << axis : 0;
-  std::array<int, 4> loop{base, base | j, base | j | k, base | k};
-  if (!high) std::swap(loop[1], loop[3]);
-  return {static_cast<std::size_t>(loop[0]), static_cast<std::size_t>(loop[1]), static_cast<std::size_t>(loop[2]),
-          static_cast<std::size_t>(loop[3])};
-}
-
 }  // namespace
 
 BrickGrid box_grid(const Vec3& sides, double brick_size) {
@@ -52,20 +38,10 @@ BrickGrid box_grid(const Vec3& sides, double brick_size) {
 }
 
 SurfaceMesh surface_of(const BrickGrid& grid) {
-  const CellIndex bricks(grid);
   std::vector<Eigen::Vector3i> triangles;
-  for (std::size_t brick = 0; brick < grid.cells.size(); ++brick) {
-    for (int side = 0; side < 6; ++side) {
-      const int axis = side / 2;
-      const bool high = side % 2 == 1;
-      Eigen::Vector3i neighbour = grid.cells[brick];
-      neighbour[axis] += high ? 1 : -1;
-      if (bricks.at(neighbour) >= 0) continue;
-      const auto corners = face_corners(axis, high);
-      const auto node = [&](std::size_t i) { return grid.nodes[brick][corners[i]]; };
-      triangles.emplace_back(node(0), node(1), node(2));
-      triangles.emplace_back(node(0), node(2), node(3));
-    }
+  for (const BrickFace& face : outer_faces(grid)) {
+    triangles.emplace_back(face.nodes[0], face.nodes[1], face.nodes[2]);
+    triangles.emplace_back(face.nodes[0], face.nodes[2], face.nodes[3]);
   }
   SurfaceMesh mesh;
   mesh.positions = grid.rest_positions();

@@ -10,6 +10,7 @@
 #include "app/load_driver.h"
 #include "app/pin_movements.h"
 #include "app/progress.h"
+#include "app/scene/motion_only.h"
 #include "core/error.h"
 #include "core/motion/linear_response.h"
 #include "core/motion/modes.h"
@@ -93,7 +94,12 @@ class Loading {
   int iterations_ = 0;
 };
 
-void check_no_ground(const Scene& scene) {
+/// An option can make a scene one of states of rest after its file was checked.
+void check_rests(const Scene& scene) {
+  if (const std::vector<MotionOnly> parts = motion_only(scene); !parts.empty()) {
+    throw Error(ErrorKind::kBadInput,
+                fmt::format("only a motion (scheme euler or verlet) can have {}", parts.front().what));
+  }
   if (scene.obstacles.empty()) return;
   throw Error(ErrorKind::kBadInput,
               "only a motion (scheme euler or verlet) meets the ground; use --scenario hang, or a "
@@ -103,7 +109,7 @@ void check_no_ground(const Scene& scene) {
 }  // namespace
 
 Recording record_equilibria(Production& production, const Scene& scene, const Console& console, RunCache* cache) {
-  check_no_ground(scene);
+  check_rests(scene);
   const int frames = frame_count(scene);
   Loading loading(production, scene);
   Recorder recorder(scene, production, "load", cache);
@@ -125,7 +131,7 @@ Recording record_equilibria(Production& production, const Scene& scene, const Co
 }
 
 Recording record_modes(Production& production, const Scene& scene, const Console& console, RunCache* cache) {
-  check_no_ground(scene);
+  check_rests(scene);
   if (production.world.actors.size() != 1) {
     throw Error(ErrorKind::kBadInput,
                 fmt::format("modes are those of one body, the scene has {}", production.world.actors.size()));

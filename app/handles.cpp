@@ -38,6 +38,7 @@ Handles::Handles(const Scene& scene, Production& production)
       loads_(scene, production),
       grips_(production.world.actors.size()),
       moments_(loads_.moments()) {
+  loads_.aim(0, 0);
   for (std::size_t actor = 0; actor < grips_.size(); ++actor) {
     const Origin& origin = production.origins[actor];
     for (const PinnedNodes& pinned : origin.pins) {

@@ -15,7 +15,7 @@ namespace sprung {
 /// and turns them about their middle.
 class Handles {
  public:
-  /// Both have to outlive it.
+  /// Both have to outlive it. What acts at the start acts from now on.
   Handles(const Scene& scene, Production& production);
 
   /// Ends (s, rising, the last is `end`) of the pieces that the time from `begin` to `end` falls into: between them no

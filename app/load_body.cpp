@@ -64,7 +64,7 @@ void report_reading(const SceneBody& body, const LoadedBody& loaded, const Conso
   for (const std::string& note : loaded.mesh.notes) console.warn(fmt::format("{}: {}", loaded.name, note));
   const double length = (loaded.file_from_rest.linear() * loaded.extent).maxCoeff();
   warn_if_far_away(body, loaded.mesh, loaded.file_from_rest.translation().norm() / length, console);
-  if (body.scale || body.size) return;
+  if (body.scale || body.size || body.mesh.empty()) return;
   console.note(fmt::format("size: {} is {:.4g} file units long, drawn {} m long; say --size to choose", loaded.name,
                            length, kDefaultSize));
 }

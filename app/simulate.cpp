@@ -18,6 +18,7 @@
 #include "core/motion/careful_motion.h"
 #include "core/motion/implicit_motion.h"
 #include "core/motion/statics.h"
+#include "core/world/load_forces.h"
 
 namespace sprung {
 namespace {
@@ -111,8 +112,9 @@ class Runner {
     std::vector<Points> all;
     if (scene_.probes.empty()) return all;
     for (const Actor& actor : world_.actors) {
-      const Points weight = actor.body.masses * world_.gravity.transpose();
-      all.push_back(reactions(actor.body, supports_of(actor), weight));
+      Points loads = actor.body.masses * world_.gravity.transpose();
+      if (LoadForces acting(actor, world_); acting.any()) loads += acting.forces();
+      all.push_back(reactions(actor.body, supports_of(actor), loads));
     }
     return all;
   }

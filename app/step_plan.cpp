@@ -6,7 +6,9 @@
 #include <cmath>
 #include <limits>
 
+#include "app/scene/motion_only.h"
 #include "app/units.h"
+#include "core/error.h"
 #include "core/motion/why_not_implicit.h"
 
 namespace sprung {
@@ -36,6 +38,12 @@ long implicit_steps(const World& world, double frame) {
   return std::clamp(static_cast<long>(std::min(wanted, 1e6)), kFewestSteps, kMostSteps);
 }
 
+/// Loads that begin later than the motion are not in the world yet: the scene knows them.
+std::string why_explicit(const World& world, const Scene& scene) {
+  const std::vector<MotionOnly> parts = explicit_only(scene);
+  return parts.empty() ? why_not_implicit(world) : fmt::format("there is {}", parts.front().what);
+}
+
 }  // namespace
 
 std::string warning_of(const StepPlan& plan) {
@@ -60,9 +68,14 @@ StepPlan plan_steps(const World& world, const Scene& scene) {
   const long long_ones = implicit_steps(world, frame);
   StepPlan plan;
   plan.scheme = scene.solver.scheme;
+  const std::string why_not = why_explicit(world, scene);
+  if (plan.is_implicit() && !why_not.empty()) {
+    throw Error(ErrorKind::kBadInput, fmt::format("{}, which needs explicit steps: solver.scheme euler or verlet, or "
+                                                  "auto, which then takes them",
+                                                  why_not));
+  }
   if (plan.scheme == Solver::kAuto) {
     const double dear = kImplicitCost * static_cast<double>(long_ones);
-    const std::string why_not = why_not_implicit(world);
     const bool is_implicit = why_not.empty() && brick_steps > kWorthwhile * dear * bricks;
     plan.scheme = is_implicit ? Solver::kBdf2 : Solver::kEuler;
     plan.reason = fmt::format(

@@ -1,7 +1,6 @@
 #include "app/film/brick_cubes.h"
 
 #include <algorithm>
-#include <map>
 #include <utility>
 
 namespace sprung {
@@ -12,17 +11,6 @@ constexpr float kRimShade = 0.55F;  // of a face's colour
 constexpr double kGap = 0.16;       // of a brick, at each side, between exploded ones
 constexpr int kCells = 3;           // of a face along each side: rim, face, rim
 constexpr int kFaceVertices = 4 * kCells * kCells;
-
-std::array<int, 4> face_corners(int side) {
-  const int axis = side / 2;
-  const bool high = side % 2 != 0;
-  const int base = high ? 1 << axis : 0;
-  const int j = 1 << ((axis + 1) % 3);
-  const int k = 1 << ((axis + 2) % 3);
-  std::array<int, 4> corners{base, base | j, base | j | k, base | k};
-  if (!high) std::swap(corners[1], corners[3]);
-  return corners;
-}
 
 template <class Values>
 auto mixed(const Values& corners, double u, double v) {
@@ -58,28 +46,11 @@ std::vector<bool> bricks_left(const BrickGrid& grid, const std::optional<HalfSpa
 
 BrickCubes::BrickCubes(const BrickGrid& grid, const std::vector<bool>& shown, bool exploded,
                        const Eigen::Vector3f& color)
-    : grid_(grid), exploded_(exploded), rim_(kRim) {
-  add_outer_faces(grid, shown);
+    : grid_(grid),
+      exploded_(exploded),
+      rim_(kRim),
+      faces_(exploded ? brick_faces(grid, shown) : outer_faces(grid, shown)) {
   lay_out(color);
-}
-
-void BrickCubes::add_outer_faces(const BrickGrid& grid, const std::vector<bool>& shown) {
-  const auto key = [](std::array<int, 4> nodes) {
-    std::sort(nodes.begin(), nodes.end());
-    return nodes;
-  };
-  std::map<std::array<int, 4>, int> uses;
-  for (std::size_t brick = 0; brick < grid.nodes.size(); ++brick) {
-    if (!shown[brick]) continue;
-    for (int side = 0; side < 6; ++side) {
-      Face face{{}, static_cast<int>(brick)};
-      const std::array<int, 4> corners = face_corners(side);
-      for (std::size_t c = 0; c < 4; ++c) face.nodes[c] = grid.nodes[brick][static_cast<std::size_t>(corners[c])];
-      faces_.push_back(face);
-      ++uses[key(face.nodes)];
-    }
-  }
-  if (!exploded_) std::erase_if(faces_, [&](const Face& face) { return uses[key(face.nodes)] > 1; });
 }
 
 void BrickCubes::lay_out(const Eigen::Vector3f& color) {
@@ -103,7 +74,7 @@ void BrickCubes::lay_out(const Eigen::Vector3f& color) {
   skin_.normals = rest.normals.cast<double>();
 }
 
-std::array<Vec3, 4> BrickCubes::corners(const Face& face, const Points& nodes) const {
+std::array<Vec3, 4> BrickCubes::corners(const BrickFace& face, const Points& nodes) const {
   std::array<Vec3, 4> places;
   for (std::size_t c = 0; c < 4; ++c) places[c] = nodes.row(face.nodes[c]);
   if (!exploded_) return places;
@@ -120,7 +91,7 @@ SkinShape BrickCubes::shape(const Points& nodes, const Eigen::VectorXd& shares) 
   shape.normals.resize(kFaceVertices * count, 3);
   if (shares.size() > 0) shape.shares.resize(kFaceVertices * count);
   for (Eigen::Index i = 0; i < count; ++i) {
-    const Face& face = faces_[static_cast<std::size_t>(i)];
+    const BrickFace& face = faces_[static_cast<std::size_t>(i)];
     const std::array<Vec3, 4> places = corners(face, nodes);
     const Vec3 normal = (places[2] - places[0]).cross(places[3] - places[1]);
     for (int vertex = 0; vertex < kFaceVertices; ++vertex) {

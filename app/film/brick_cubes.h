@@ -5,6 +5,7 @@
 
 #include "app/build_world.h"
 #include "app/scene/scene_render.h"
+#include "core/bricks/brick_faces.h"
 #include "render/renderer.h"
 
 namespace sprung {
@@ -23,19 +24,13 @@ class BrickCubes {
   [[nodiscard]] SkinShape shape(const Points& nodes, const Eigen::VectorXd& shares) const;
 
  private:
-  struct Face {
-    std::array<int, 4> nodes;  // counter-clockwise from outside
-    int brick;
-  };
-
-  void add_outer_faces(const BrickGrid& grid, const std::vector<bool>& shown);
   void lay_out(const Eigen::Vector3f& color);
-  [[nodiscard]] std::array<Vec3, 4> corners(const Face& face, const Points& nodes) const;
+  [[nodiscard]] std::array<Vec3, 4> corners(const BrickFace& face, const Points& nodes) const;
 
   const BrickGrid& grid_;
   bool exploded_;
   double rim_;  // of a face
-  std::vector<Face> faces_;
+  std::vector<BrickFace> faces_;
   Skin skin_;
 };
 

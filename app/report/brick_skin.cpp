@@ -4,10 +4,9 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <map>
 #include <utility>
 
-#include "core/bricks/corner.h"
+#include "core/bricks/brick_faces.h"
 
 namespace sprung {
 
@@ -18,56 +17,18 @@ constexpr double kWidestRim = 0.08;  // of a face
 constexpr int kFinestSplit = 8;      // cells of a face along a side, rim left out
 constexpr int kWantedSplit = 48;     // the same over all bricks along a body
 
-/// An outer face: its corners counter-clockwise from outside.
-struct Face {
-  std::array<int, 4> nodes;
-  int side;       // 2 axis + (1 on the high side)
-  int brick = 0;  // that it belongs to
-};
-
 /// The colours of a face's corners.
-using CornerColors = std::function<Eigen::Vector3f(const Face& face, std::size_t corner)>;
+using CornerColors = std::function<Eigen::Vector3f(const BrickFace& face, std::size_t corner)>;
 
 CornerColors by_node(const std::vector<Eigen::Vector3f>& colors) {
-  return [&](const Face& face, std::size_t corner) { return colors[static_cast<std::size_t>(face.nodes[corner])]; };
-}
-
-/// The face of a brick on one side.
-Face face_of(const BrickGrid& grid, std::size_t brick, int side) {
-  const int axis = side / 2;
-  const bool high = side % 2 != 0;
-  const int base = high ? 1 << axis : 0;
-  const int j = 1 << ((axis + 1) % 3);
-  const int k = 1 << ((axis + 2) % 3);
-  std::array<int, 4> corners{base, base | j, base | j | k, base | k};
-  if (!high) std::swap(corners[1], corners[3]);
-  Face face{{}, side, static_cast<int>(brick)};
-  for (std::size_t c = 0; c < 4; ++c) face.nodes[c] = grid.nodes[brick][static_cast<std::size_t>(corners[c])];
-  return face;
-}
-
-/// Those that no two bricks share.
-std::vector<Face> outer_faces(const BrickGrid& grid) {
-  std::vector<Face> faces;
-  std::map<std::array<int, 4>, int> uses;
-  const auto key = [](Face face) {
-    std::sort(face.nodes.begin(), face.nodes.end());
-    return face.nodes;
-  };
-  for (std::size_t brick = 0; brick < grid.cells.size(); ++brick) {
-    for (int side = 0; side < 6; ++side) {
-      faces.push_back(face_of(grid, brick, side));
-      ++uses[key(faces.back())];
-    }
-  }
-  std::erase_if(faces, [&](const Face& face) { return uses[key(face)] > 1; });
-  return faces;
+  return
+      [&](const BrickFace& face, std::size_t corner) { return colors[static_cast<std::size_t>(face.nodes[corner])]; };
 }
 
 /// Sums of the normals of the faces at each node, one sum for each side that faces can look to: 6 m x 3.
-Points node_normals(const std::vector<Face>& faces, const Points& positions) {
+Points node_normals(const std::vector<BrickFace>& faces, const Points& positions) {
   Points normals = Points::Zero(6 * positions.rows(), 3);
-  for (const Face& face : faces) {
+  for (const BrickFace& face : faces) {
     const Vec3 across = positions.row(face.nodes[2]) - positions.row(face.nodes[0]);
     const Vec3 other = positions.row(face.nodes[3]) - positions.row(face.nodes[1]);
     for (const int node : face.nodes) normals.row(6 * node + face.side) += across.cross(other);
@@ -99,7 +60,7 @@ class FaceWriter {
     return cells * cells;
   }
 
-  void add(const Face& face, const Points& positions, const Points& normals, const CornerColors& colors) {
+  void add(const BrickFace& face, const Points& positions, const Points& normals, const CornerColors& colors) {
     const auto place = [&](std::size_t c) { return Vec3(positions.row(face.nodes[c])); };
     const auto normal = [&](std::size_t c) { return Vec3(normals.row(6 * face.nodes[c] + face.side)).normalized(); };
     const auto color = [&](std::size_t c) { return Vec3(colors(face, c).cast<double>()); };
@@ -131,7 +92,7 @@ class FaceWriter {
 };
 
 /// Faces as a skin; `split` cells along each, a rim of that share of a face.
-Skin skin_of(const std::vector<Face>& faces, const Points& positions, const CornerColors& colors, int split,
+Skin skin_of(const std::vector<BrickFace>& faces, const Points& positions, const CornerColors& colors, int split,
              double rim) {
   Skin skin;
   FaceWriter writer(skin, cell_borders(split, std::min(rim, kWidestRim)));
@@ -141,7 +102,7 @@ Skin skin_of(const std::vector<Face>& faces, const Points& positions, const Corn
   skin.colors.resize(4 * cells, 4);
   skin.triangles.resize(2 * cells, 3);
   const Points normals = node_normals(faces, positions);
-  for (const Face& face : faces) writer.add(face, positions, normals, colors);
+  for (const BrickFace& face : faces) writer.add(face, positions, normals, colors);
   return skin;
 }
 
@@ -167,7 +128,7 @@ Skin brick_skin(const Body& body, const Points& positions, const std::vector<Eig
 
 Skin colored_bricks(const Body& body, const Points& positions, const std::vector<Eigen::Vector3f>& colors,
                     double line) {
-  const CornerColors by_brick = [&](const Face& face, std::size_t) {
+  const CornerColors by_brick = [&](const BrickFace& face, std::size_t) {
     return colors[static_cast<std::size_t>(face.brick)];
   };
   return brick_skin(body, positions, by_brick, line);
@@ -175,9 +136,9 @@ Skin colored_bricks(const Body& body, const Points& positions, const std::vector
 
 Skin sheet_skin(const Sheet& sheet, const Points& positions, const std::vector<Eigen::Vector3f>& colors, double line) {
   constexpr int kTowardsViewer = 5;  // +z
-  std::vector<Face> faces;
+  std::vector<BrickFace> faces;
   for (const auto& nodes : sheet.rectangles) {
-    faces.push_back({.nodes = {nodes[0], nodes[1], nodes[3], nodes[2]}, .side = kTowardsViewer});
+    faces.push_back({.nodes = {nodes[0], nodes[1], nodes[3], nodes[2]}, .side = kTowardsViewer, .brick = 0});
   }
   const double longest =
       (sheet.rest_positions.colwise().maxCoeff() - sheet.rest_positions.colwise().minCoeff()).maxCoeff();

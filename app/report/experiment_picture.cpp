@@ -1,12 +1,12 @@
 #include "app/report/experiment_picture.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <vector>
 
 #include "app/report/brick_skin.h"
 #include "core/body/brick_kernel.h"
+#include "render/color_map.h"
 #include "render/renderer.h"
 
 namespace sprung {
@@ -81,7 +81,7 @@ Image draw_on_white(const Skin& skin, const ExperimentPictureOptions& options) {
 std::vector<Eigen::Vector3f> colors_of(const Eigen::VectorXd& values) {
   const double highest = std::max(values.maxCoeff(), 1e-300);
   std::vector<Eigen::Vector3f> colors;
-  for (const double value : values) colors.push_back(color_scale(value / highest));
+  for (const double value : values) colors.push_back(map_color(ColorMap::kViridis, value / highest));
   return colors;
 }
 
@@ -108,23 +108,6 @@ ExperimentPicture draw_experiment(const Sheet& sheet, const ExperimentPictureOpt
   frontal.azimuth = frontal.elevation = 0;
   const Skin skin = sheet_skin(sheet, shown, colors_of(values), line_width(shown));
   return {draw_on_white(skin, frontal), color_bar(ColorBy::kDisplacement, values)};
-}
-
-Eigen::Vector3f color_scale(double share) {
-  constexpr std::array<std::array<float, 3>, 9> kColors{{{0.267F, 0.005F, 0.329F},
-                                                         {0.279F, 0.175F, 0.483F},
-                                                         {0.230F, 0.322F, 0.546F},
-                                                         {0.173F, 0.449F, 0.558F},
-                                                         {0.128F, 0.567F, 0.551F},
-                                                         {0.158F, 0.684F, 0.502F},
-                                                         {0.369F, 0.789F, 0.383F},
-                                                         {0.678F, 0.864F, 0.190F},
-                                                         {0.993F, 0.906F, 0.144F}}};
-  const double at = std::clamp(share, 0.0, 1.0) * static_cast<double>(kColors.size() - 1);
-  const auto from = std::min(static_cast<std::size_t>(at), kColors.size() - 2);
-  const auto part = static_cast<float>(at - static_cast<double>(from));
-  return (1 - part) * Eigen::Map<const Eigen::Vector3f>(kColors[from].data()) +
-         part * Eigen::Map<const Eigen::Vector3f>(kColors[from + 1].data());
 }
 
 }  // namespace sprung

@@ -34,15 +34,11 @@ struct ExperimentPicture {
   ColorBar colors;
 };
 
-/// The outer faces of a body's bricks where they are, coloured on the scale of color_scale(), the edges of each brick a
+/// The outer faces of a body's bricks where they are, coloured by ColorMap::kViridis, the edges of each brick a
 /// little darker. Bricks cut by the surface are drawn whole. Throws Error(kFailed) where no picture can be drawn.
 [[nodiscard]] ExperimentPicture draw_experiment(const Body& body, const ExperimentPictureOptions& options = {});
 
 /// A sheet where it is, seen from the front, coloured by its displacement.
 [[nodiscard]] ExperimentPicture draw_experiment(const Sheet& sheet, const ExperimentPictureOptions& options = {});
-
-/// sRGB in [0, 1] for a share from 0 to 1: dark blue over green to yellow, evenly spaced to the eye and told apart by
-/// colour-blind people. Source: the map "viridis" of matplotlib (CC0), by linear interpolation of nine of its colours.
-[[nodiscard]] Eigen::Vector3f color_scale(double share);
 
 }  // namespace sprung

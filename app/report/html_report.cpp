@@ -8,6 +8,7 @@
 #include "app/report/png_base64.h"
 #include "app/report/report_style.h"
 #include "app/report/whole_file.h"
+#include "render/color_map.h"
 
 namespace sprung {
 
@@ -46,7 +47,7 @@ std::string color_bar(const ColorBar& colors) {
   std::string stops;
   constexpr int kStops = 8;
   for (int i = 0; i <= kStops; ++i) {
-    const Eigen::Vector3f color = 255 * color_scale(static_cast<double>(i) / kStops);
+    const Eigen::Vector3f color = 255 * map_color(ColorMap::kViridis, static_cast<double>(i) / kStops);
     stops += fmt::format(",rgb({:.0f} {:.0f} {:.0f})", color.x(), color.y(), color.z());
   }
   return fmt::format(

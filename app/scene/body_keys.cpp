@@ -1,28 +1,10 @@
-#include "app/scene/scene_keys.h"
+#include "app/scene/selection_keys.h"
 
 namespace sprung {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr Range kPositive{.low = 0, .without_low = true};
-
-/// How a part of a body is chosen, whatever is done with it.
-template <class Owner>
-std::vector<Key<Owner>> selection_and(std::span<const Key<Owner>> others) {
-  std::vector<Key<Owner>> keys{
-      {{"box", "the part in a box, in fractions of the body's bounding box"}, &Owner::box},
-      {{"sphere", "the part in a ball, in fractions of the body's bounding box"}, &Owner::sphere},
-      {{"half_space", "the part on one side of a plane"}, &Owner::half_space},
-      {{"part", "what lies nearest to the part of the mesh of this name"}, &Owner::part},
-      {{"painted", "what lies nearest to the vertices of this colour: \"#rrggbb\""}, &Owner::painted},
-      {{"nearest", "the one node or brick nearest to a point, in fractions of the body's bounding box",
-        Dimension::kRatio},
-       &Owner::nearest},
-      {{"mesh", "what a closed mesh encloses: its file, in units and frame of the body's own mesh"}, &Owner::mesh},
-  };
-  keys.insert(keys.end(), others.begin(), others.end());
-  return keys;
-}
 
 const Key<SceneBody> kBody[] = {
     {{"mesh", "file of the surface, relative to the scene file; or a shape: box, sphere, cylinder, torus"},
@@ -118,32 +100,6 @@ const Key<Keyframe> kKeyframe[] = {
     {{"scale", "size over size at the start", Dimension::kRatio, kPositive}, &Keyframe::scale},
 };
 
-const Key<Strength> kStrength[] = {
-    {{"t", "when", Dimension::kTime, {0, kInfinity}, true}, &Strength::time},
-    {{"strength", "times what it is at full strength", Dimension::kRatio, {}, true}, &Strength::strength},
-};
-
-const Key<BodyForce> kForceOnly[] = {
-    {{"total", "on all of the part, shared out by volume", Dimension::kForce}, &BodyForce::total},
-    {{"per_volume", "on each volume of the part", Dimension::kForceDensity}, &BodyForce::per_volume},
-    {{"pressure", "on the skin of the part, inward", Dimension::kPressure}, &BodyForce::pressure},
-    {{"keyframes", "how strong it is at which times"}, &BodyForce::keyframes},
-    {{"interpolation", "between keyframes: linear, smooth or held"}, &BodyForce::interpolation},
-};
-
-const Key<BodyMuscle> kMuscleOnly[] = {
-    {{"direction", "along which it contracts, in the body before it is turned", Dimension::kNone, {}, true},
-     &BodyMuscle::direction},
-    {{"contraction",
-      "share of its length; across it widens as much as keeps the volume",
-      Dimension::kRatio,
-      {-1, 0.9},
-      true},
-     &BodyMuscle::contraction},
-    {{"keyframes", "how strong it is at which times"}, &BodyMuscle::keyframes},
-    {{"interpolation", "between keyframes: linear, smooth or held"}, &BodyMuscle::interpolation},
-};
-
 const Key<Region> kRegionOnly[] = {
     {{"material", "what they are made of", Dimension::kNone, {}, true}, &Region::material},
     {{"gradient", "a change to another material along a line"}, &Region::gradient},
@@ -177,10 +133,6 @@ const Key<HalfSpace> kHalfSpace[] = {
 };
 
 using Kind = KeyRule::Kind;
-
-KeyRule one_selection(Kind kind) {
-  return {kind, {"box", "sphere", "half_space", "part", "painted", "nearest", "mesh"}};
-}
 
 }  // namespace
 
@@ -216,20 +168,6 @@ std::span<const Key<Pin>> keys() {
 template <>
 std::span<const Key<Keyframe>> keys() {
   return kKeyframe;
-}
-template <>
-std::span<const Key<Strength>> keys() {
-  return kStrength;
-}
-template <>
-std::span<const Key<BodyForce>> keys() {
-  static const std::vector<Key<BodyForce>> all = selection_and<BodyForce>(kForceOnly);
-  return all;
-}
-template <>
-std::span<const Key<BodyMuscle>> keys() {
-  static const std::vector<Key<BodyMuscle>> all = selection_and<BodyMuscle>(kMuscleOnly);
-  return all;
 }
 template <>
 std::span<const Key<Region>> keys() {
@@ -275,17 +213,6 @@ std::span<const KeyRule> rules<Pin>() {
   static const std::vector<KeyRule> all{one_selection(Kind::kOneOf),
                                         {Kind::kAtMostOne, {"translate", "keyframes"}},
                                         {Kind::kAtMostOne, {"rotate", "keyframes"}}};
-  return all;
-}
-template <>
-std::span<const KeyRule> rules<BodyForce>() {
-  static const std::vector<KeyRule> all{one_selection(Kind::kAtMostOne),
-                                        {Kind::kOneOf, {"total", "per_volume", "pressure"}}};
-  return all;
-}
-template <>
-std::span<const KeyRule> rules<BodyMuscle>() {
-  static const std::vector<KeyRule> all{one_selection(Kind::kAtMostOne)};
   return all;
 }
 template <>

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "app/scene/motion_only.h"
 #include "core/nearest.h"
 
 namespace sprung {
@@ -90,22 +91,10 @@ constexpr std::string_view kMotionOnly =
 
 /// What acts on a body at rest is its weight, what its pins do, and forces that grow with them.
 void check_resting(const toml::table& table, const Scene& scene, SceneMistakes& mistakes) {
-  const auto refuse = [&](const toml::node* node, std::string_view what) {
-    mistakes.add(node->source(), fmt::format("{} {}", kMotionOnly, what));
-  };
-  if (scene.wind) refuse(table.get("wind"), "a wind");
-  if (!scene.glue.empty()) refuse(table.get("glue"), "glue");
-  if (!scene.gravity_keyframes.empty()) refuse(table.get("gravity_keyframes"), "gravity_keyframes");
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    const SceneBody& body = scene.bodies[i];
-    const auto changes = [&](const BodyForce& force) {
-      return force.pressure || !force.keyframes.empty() || scene.solver.scheme == Solver::kModes;
-    };
-    const toml::node& place = (*table.get("body")->as_array())[i];
-    if (!body.muscles.empty()) refuse(&place, "a muscle");
-    if (std::any_of(body.forces.begin(), body.forces.end(), changes)) {
-      refuse(&place, "a pressure or a force with keyframes; and modes have no forces at all");
-    }
+  for (const MotionOnly& part : motion_only(scene)) {
+    const toml::node* place = table.get(part.key);
+    if (part.key == "body") place = place->as_array()->get(part.row);
+    mistakes.add(place->source(), fmt::format("{} {}", kMotionOnly, part.what));
   }
 }
 

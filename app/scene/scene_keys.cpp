@@ -27,27 +27,6 @@ const Key<Scene> kScene[] = {
     {{"expect", "what `sprung validate` compares with"}, &Scene::expectations},
 };
 
-const Key<GravityKeyframe> kGravityKeyframe[] = {
-    {{"t", "when", Dimension::kTime, {0, kInfinity}, true}, &GravityKeyframe::time},
-    {{"gravity", "acceleration of everything", Dimension::kAcceleration, {}, true}, &GravityKeyframe::gravity},
-};
-
-const Key<SceneWind> kWind[] = {
-    {{"velocity", "of the air", Dimension::kSpeed, {}, true}, &SceneWind::velocity},
-    {{"density", "of the air", Dimension::kDensity, kPositive}, &SceneWind::density},
-    {{"drag", "coefficient: pressure on what faces the air, over density v^2 / 2", Dimension::kRatio, {0, kInfinity}},
-     &SceneWind::drag},
-    {{"keyframes", "how strong it is at which times; the velocity is that times this"}, &SceneWind::keyframes},
-    {{"interpolation", "between keyframes: linear, smooth or held"}, &SceneWind::interpolation},
-};
-
-const Key<SceneGlue> kGlue[] = {
-    {{"bodies", "which two, counted from 1; the same twice: its copies", Dimension::kNone, {1, kInfinity}, true},
-     &SceneGlue::bodies},
-    {{"distance", "how far apart skins may be to hold; half the smaller bricks", Dimension::kLength, kPositive},
-     &SceneGlue::distance},
-};
-
 const Key<SceneSolver> kSolver[] = {
     {{"scheme",
       "motion by euler (symplectic), verlet, implicit-euler, bdf2 or auto; static or linear equilibrium; or modes"},
@@ -192,18 +171,6 @@ using Kind = KeyRule::Kind;
 template <>
 std::span<const Key<Scene>> keys() {
   return kScene;
-}
-template <>
-std::span<const Key<GravityKeyframe>> keys() {
-  return kGravityKeyframe;
-}
-template <>
-std::span<const Key<SceneWind>> keys() {
-  return kWind;
-}
-template <>
-std::span<const Key<SceneGlue>> keys() {
-  return kGlue;
 }
 template <>
 std::span<const Key<CapsuleShape>> keys() {

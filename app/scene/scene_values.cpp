@@ -14,64 +14,7 @@
 namespace sprung {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, Solver>, 8> kSolvers{{{"auto", Solver::kAuto},
-                                                                       {"euler", Solver::kEuler},
-                                                                       {"verlet", Solver::kVerlet},
-                                                                       {"implicit-euler", Solver::kImplicitEuler},
-                                                                       {"bdf2", Solver::kBdf2},
-                                                                       {"static", Solver::kStatic},
-                                                                       {"linear", Solver::kLinear},
-                                                                       {"modes", Solver::kModes}}};
-
-constexpr std::array<std::pair<std::string_view, RepairMode>, 3> kRepairModes{
-    {{"off", RepairMode::kOff}, {"auto", RepairMode::kAuto}, {"strict", RepairMode::kStrict}}};
-
-constexpr std::array<std::pair<std::string_view, Interpolation>, 3> kInterpolations{
-    {{"linear", Interpolation::kLinear}, {"smooth", Interpolation::kSmooth}, {"held", Interpolation::kHeld}}};
-
-constexpr std::array<std::pair<std::string_view, Quality>, 3> kQualities{
-    {{"preview", Quality::kPreview}, {"default", Quality::kDefault}, {"high", Quality::kHigh}}};
-
-constexpr std::array<std::pair<std::string_view, Field>, 9> kFields{{{"skin", Field::kSkin},
-                                                                     {"displacement", Field::kDisplacement},
-                                                                     {"speed", Field::kSpeed},
-                                                                     {"stretch", Field::kStretch},
-                                                                     {"strain", Field::kStrain},
-                                                                     {"stress", Field::kStress},
-                                                                     {"volume", Field::kVolume},
-                                                                     {"fill", Field::kFill},
-                                                                     {"region", Field::kRegion}}};
-
-constexpr std::array<std::pair<std::string_view, ColorMap>, 4> kColorMaps{{{"viridis", ColorMap::kViridis},
-                                                                           {"cividis", ColorMap::kCividis},
-                                                                           {"coolwarm", ColorMap::kCoolwarm},
-                                                                           {"turbo", ColorMap::kTurbo}}};
-
-constexpr std::array<std::pair<std::string_view, BrickView>, 3> kBrickViews{
-    {{"none", BrickView::kNone}, {"whole", BrickView::kWhole}, {"exploded", BrickView::kExploded}}};
-
-constexpr std::array<std::pair<std::string_view, Look>, 4> kLooks{
-    {{"plastic", Look::kPlastic}, {"gelatin", Look::kGelatin}, {"rubber", Look::kRubber}, {"steel", Look::kSteel}}};
-
-constexpr std::array<std::pair<std::string_view, Riding>, 2> kRidings{
-    {{"bricks", Riding::kBricks}, {"smooth", Riding::kSmooth}}};
-
 constexpr std::string_view kAxisNames = "xyz";
-
-template <class Names, class Value = typename Names::value_type::second_type>
-Value named_value(const Names& values, std::string_view thing, std::string_view text) {
-  std::vector<std::string_view> names;
-  for (const auto& [name, value] : values) {
-    names.push_back(name);
-    if (name == text) return value;
-  }
-  throw Error(ErrorKind::kBadInput, fmt::format("there is no {} '{}'{}", thing, text, did_you_mean(text, names)));
-}
-
-template <class Names, class Value>
-std::string_view name_of(const Names& values, Value wanted) {
-  return std::find_if(values.begin(), values.end(), [&](const auto& named) { return named.second == wanted; })->first;
-}
 
 std::uint8_t hex_byte(std::string_view text, std::size_t at) {
   unsigned value = 0;
@@ -83,55 +26,10 @@ std::uint8_t hex_byte(std::string_view text, std::size_t at) {
   return static_cast<std::uint8_t>(value);
 }
 
-template <class Names>
-std::vector<std::string_view> names_in(const Names& values) {
-  std::vector<std::string_view> names;
-  names.reserve(values.size());
-  for (const auto& [name, value] : values) names.push_back(name);
-  return names;
-}
-
 }  // namespace
 
-template <>
-std::vector<std::string_view> value_names<Solver>() {
-  return names_in(kSolvers);
-}
-template <>
-std::vector<std::string_view> value_names<RepairMode>() {
-  return names_in(kRepairModes);
-}
-template <>
-std::vector<std::string_view> value_names<Interpolation>() {
-  return names_in(kInterpolations);
-}
-template <>
-std::vector<std::string_view> value_names<Quality>() {
-  return names_in(kQualities);
-}
-template <>
-std::vector<std::string_view> value_names<Field>() {
-  return names_in(kFields);
-}
-template <>
-std::vector<std::string_view> value_names<ColorMap>() {
-  return names_in(kColorMaps);
-}
-template <>
-std::vector<std::string_view> value_names<BrickView>() {
-  return names_in(kBrickViews);
-}
-template <>
-std::vector<std::string_view> value_names<Look>() {
-  return names_in(kLooks);
-}
-template <>
-std::vector<std::string_view> value_names<Riding>() {
-  return names_in(kRidings);
-}
-template <>
-std::vector<std::string_view> value_names<Model>() {
-  return {model_names().begin(), model_names().end()};
+void refuse_name(std::string_view thing, std::string_view name, const std::vector<std::string_view>& names) {
+  throw Error(ErrorKind::kBadInput, fmt::format("there is no {} '{}'{}", thing, name, did_you_mean(name, names)));
 }
 
 std::string range_text(const KeyInfo& key) {
@@ -214,32 +112,6 @@ void parse_value(std::string_view text, const KeyInfo& key, BrickCount& value) {
   if (text != "auto") parse_value(text, key, value.along);
 }
 
-void parse_value(std::string_view text, const KeyInfo&, Solver& value) {
-  value = named_value(kSolvers, "scheme", text);
-}
-void parse_value(std::string_view text, const KeyInfo&, RepairMode& value) {
-  value = named_value(kRepairModes, "way of repair", text);
-}
-
-void parse_value(std::string_view text, const KeyInfo&, Interpolation& value) {
-  value = named_value(kInterpolations, "interpolation", text);
-}
-
-void parse_value(std::string_view text, const KeyInfo&, Quality& value) {
-  value = named_value(kQualities, "quality", text);
-}
-void parse_value(std::string_view text, const KeyInfo&, Field& value) { value = named_value(kFields, "field", text); }
-void parse_value(std::string_view text, const KeyInfo&, ColorMap& value) {
-  value = named_value(kColorMaps, "colour map", text);
-}
-void parse_value(std::string_view text, const KeyInfo&, BrickView& value) {
-  value = named_value(kBrickViews, "view of bricks", text);
-}
-void parse_value(std::string_view text, const KeyInfo&, Look& value) { value = named_value(kLooks, "look", text); }
-void parse_value(std::string_view text, const KeyInfo&, Riding& value) {
-  value = named_value(kRidings, "way to ride", text);
-}
-
 void parse_value(std::string_view text, const KeyInfo&, Model& value) { value = model_from_name(text); }
 
 void parse_value(std::string_view text, const KeyInfo&, Color& value) {
@@ -278,17 +150,6 @@ std::string toml_text(std::string_view value) {
 std::string toml_text(const std::string& value) { return toml_text(std::string_view(value)); }
 std::string toml_text(const std::filesystem::path& value) { return toml_text(std::string_view(value.native())); }
 std::string toml_text(Model value) { return toml_text(model_name(value)); }
-
-std::string toml_text(Solver value) { return toml_text(name_of(kSolvers, value)); }
-std::string toml_text(RepairMode value) { return toml_text(name_of(kRepairModes, value)); }
-
-std::string toml_text(Quality value) { return toml_text(name_of(kQualities, value)); }
-std::string toml_text(Field value) { return toml_text(name_of(kFields, value)); }
-std::string toml_text(ColorMap value) { return toml_text(name_of(kColorMaps, value)); }
-std::string toml_text(BrickView value) { return toml_text(name_of(kBrickViews, value)); }
-std::string toml_text(Look value) { return toml_text(name_of(kLooks, value)); }
-std::string toml_text(Riding value) { return toml_text(name_of(kRidings, value)); }
-std::string toml_text(Interpolation value) { return toml_text(name_of(kInterpolations, value)); }
 
 std::string toml_text(const Axes& value) {
   std::string names;

@@ -2,6 +2,7 @@
 #include <string>
 #include <string_view>
 
+#include "app/scene/named_values.h"
 #include "app/scene/scene_keys.h"
 
 namespace sprung {
@@ -14,12 +15,14 @@ void check_range(double value, const KeyInfo& key);
 
 /// The types whose values are written as names, and those names.
 template <class Value>
-concept Named = std::is_same_v<Value, Solver> || std::is_same_v<Value, RepairMode> ||
-    std::is_same_v<Value, Interpolation> || std::is_same_v<Value, Model> || std::is_same_v<Value, Quality> ||
-    std::is_same_v<Value, Field> || std::is_same_v<Value, ColorMap> || std::is_same_v<Value, BrickView> ||
-    std::is_same_v<Value, Look> || std::is_same_v<Value, Riding>;
+concept Named = InNames<Value> || std::is_same_v<Value, Model>;
 template <Named Value>
-[[nodiscard]] std::vector<std::string_view> value_names();
+requires std::is_same_v<Value, Model>
+[[nodiscard]] std::vector<std::string_view> value_names() { return {model_names().begin(), model_names().end()}; }
+
+/// Throws Error(kBadInput) that there is no such thing of this name, with the nearest that there is.
+[[noreturn]] void refuse_name(std::string_view thing, std::string_view name,
+                              const std::vector<std::string_view>& names);
 
 /// One value from the words of a person: quantities with units, names, "#rrggbb", "1280x720".
 /// Each throws Error(kBadInput) naming the text and what is expected.
@@ -30,19 +33,20 @@ void parse_value(std::string_view text, const KeyInfo& key, BrickCount& value);
 void parse_value(std::string_view text, const KeyInfo& key, std::array<int, 2>& value);
 void parse_value(std::string_view text, const KeyInfo& key, std::filesystem::path& value);
 void parse_value(std::string_view text, const KeyInfo& key, std::string& value);
-void parse_value(std::string_view text, const KeyInfo& key, Solver& value);
-void parse_value(std::string_view text, const KeyInfo& key, RepairMode& value);
-void parse_value(std::string_view text, const KeyInfo& key, Interpolation& value);
 void parse_value(std::string_view text, const KeyInfo& key, Axes& value);
 void parse_value(std::string_view text, const KeyInfo& key, Model& value);
-void parse_value(std::string_view text, const KeyInfo& key, Quality& value);
-void parse_value(std::string_view text, const KeyInfo& key, Field& value);
-void parse_value(std::string_view text, const KeyInfo& key, ColorMap& value);
-void parse_value(std::string_view text, const KeyInfo& key, BrickView& value);
-void parse_value(std::string_view text, const KeyInfo& key, Look& value);
-void parse_value(std::string_view text, const KeyInfo& key, Riding& value);
 void parse_value(std::string_view text, const KeyInfo& key, Color& value);
 void parse_value(std::string_view text, const KeyInfo& key, Material& value);
+
+template <InNames Value>
+void parse_value(std::string_view text, const KeyInfo&, Value& value) {
+  for (const auto& [name, one] : kNames<Value>.values) {
+    if (name != text) continue;
+    value = one;
+    return;
+  }
+  refuse_name(kNames<Value>.thing, text, value_names<Value>());
+}
 
 template <class Value>
 requires requires(std::string_view text, const KeyInfo& key, Value& value) { parse_value(text, key, value); }
@@ -61,18 +65,14 @@ void parse_value(std::string_view text, const KeyInfo& key, std::optional<Value>
 [[nodiscard]] std::string toml_text(std::string_view value);
 [[nodiscard]] std::string toml_text(const std::string& value);
 [[nodiscard]] std::string toml_text(const std::filesystem::path& value);
-[[nodiscard]] std::string toml_text(Solver value);
-[[nodiscard]] std::string toml_text(RepairMode value);
-[[nodiscard]] std::string toml_text(Interpolation value);
 [[nodiscard]] std::string toml_text(const Axes& value);
 [[nodiscard]] std::string toml_text(Model value);
-[[nodiscard]] std::string toml_text(Quality value);
-[[nodiscard]] std::string toml_text(Field value);
-[[nodiscard]] std::string toml_text(ColorMap value);
-[[nodiscard]] std::string toml_text(BrickView value);
-[[nodiscard]] std::string toml_text(Look value);
-[[nodiscard]] std::string toml_text(Riding value);
 [[nodiscard]] std::string toml_text(const Color& value);
+
+template <InNames Value>
+[[nodiscard]] std::string toml_text(Value value) {
+  return toml_text(name_of(value));
+}
 
 template <class Value>
 [[nodiscard]] std::string toml_text(const std::vector<Value>& values) {

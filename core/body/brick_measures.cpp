@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/bricks/corner.h"
+#include "core/body/brick_columns.h"
 
 namespace sprung {
 namespace {
@@ -15,12 +15,7 @@ constexpr double kSmallestVolume = 0.05;  // that a stress is divided by
 
 /// The deformation gradient of a brick's mean axes, from the grid's axes.
 Mat3 mean_gradient(const Body& body, std::size_t brick, const Points& positions) {
-  Mat3 gradient = Mat3::Zero();
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vec3 place = positions.row(body.grid.nodes[brick][static_cast<std::size_t>(corner)]);
-    for (int axis = 0; axis < 3; ++axis) gradient.col(axis) += on_high_side(corner, axis) ? place : Vec3(-place);
-  }
-  return gradient / (4 * body.grid.brick_size);
+  return mean_axes_of(columns_of(body.grid.nodes[brick], positions)) / body.grid.brick_size;
 }
 
 Mat3 deviator(const Mat3& tensor) { return tensor - tensor.trace() / 3 * Mat3::Identity(); }

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "core/motion/stable_step.h"
 #include "core/motion/stiffness_product.h"
 
 namespace sprung {
@@ -17,10 +16,10 @@ Eigen::Map<Eigen::VectorXd> flat(Points& points) { return {points.data(), points
 
 }  // namespace
 
-DampingShares damping_shares(const Body& body) {
+DampingShares damping_shares(const Body& body, double frequency_squared) {
   DampingShares shares{.explicit_part = body.damping};
   if (body.model == Model::kFem) return shares;
-  const double most = 2 * kFastestRatio / std::sqrt(largest_frequency_squared(body));
+  const double most = 2 * kFastestRatio / std::sqrt(frequency_squared);
   shares.explicit_part.beta = std::min(most, body.damping.beta);
   shares.implicit_beta = body.damping.beta - shares.explicit_part.beta;
   return shares;

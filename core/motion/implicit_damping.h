@@ -13,8 +13,9 @@ struct DampingShares {
   double implicit_beta = 0;  // s
 };
 
-/// Of a body as it stands. What is no springs (Model::kFem) is all explicit.
-[[nodiscard]] DampingShares damping_shares(const Body& body);
+/// Of a body as it stands, whose fastest frequency (largest_frequency_squared()) is known. What is no springs
+/// (Model::kFem) is all explicit.
+[[nodiscard]] DampingShares damping_shares(const Body& body, double frequency_squared);
 
 /// Slows the springs' rates by backward Euler: (M + T beta K) v' = M v, K their stiffness along themselves, T the steps
 /// since the last time. By conjugate gradients on the change of v, preconditioned by the masses: however early they

@@ -26,7 +26,7 @@ class Mover {
       : actor_(actor),
         world_(world),
         inverse_masses_(actor.body.masses.cwiseInverse()),
-        damping_(damping_shares(actor.body)),
+        damping_(damping_shares(actor.body, largest_frequency_squared(actor.body))),
         implicit_damping_(actor, damping_.implicit_beta),
         loads_(actor, world) {}
 

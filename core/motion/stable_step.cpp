@@ -44,7 +44,7 @@ double largest_frequency_squared(const Body& body) {
 /// Leapfrog with damping c = alpha + beta omega^2 is stable while omega^2 dt^2 + 2 c dt < 4.
 double stable_step(const Body& body, double safety) {
   const double squared = largest_frequency_squared(body);
-  const Rayleigh ours = damping_shares(body).explicit_part;
+  const Rayleigh ours = damping_shares(body, squared).explicit_part;
   const double damping = ours.alpha + ours.beta * squared;
   return safety * 4 / (damping + std::sqrt(damping * damping + 4 * squared));
 }

@@ -5,8 +5,8 @@
 
 #include <array>
 
+#include "core/body/brick_measures.h"
 #include "core/error.h"
-#include "core/output/brick_fields.h"
 #include "core/output/cached_skin.h"
 #include "core/output/mesh_writers.h"
 #include "core/skin/skin.h"
@@ -68,7 +68,7 @@ void XdmfWriter::write_bricks(std::size_t actor) {
   const std::string folder = fmt::format("/bricks_{}", actor + 1);
   write_matrix(hdf5_, folder + "/hexahedra", hexahedra);
   write_matrix(hdf5_, folder + "/fill", fill);
-  write_matrix(hdf5_, folder + "/young", brick_moduli(body));
+  write_matrix(hdf5_, folder + "/young", Eigen::VectorXf(brick_youngs(body).cast<float>()));
 }
 
 void XdmfWriter::add_skin(const Triangles& triangles) {
@@ -82,10 +82,12 @@ std::string XdmfWriter::brick_grid(std::size_t actor, const std::string& folder,
   const auto count = static_cast<std::size_t>(nodes.rows());
   const std::string fixed = fmt::format("/bricks_{}", actor + 1);
   const std::string place = folder + fixed;
-  const BrickFields fields = brick_fields(body, nodes);
+  const auto measured = [&](BrickMeasure measure) {
+    return Eigen::VectorXf(measure_bricks(body, measure, nodes).cast<float>());
+  };
   write_matrix(hdf5_, place + "/nodes", Floats3(nodes.cast<float>()));
-  write_matrix(hdf5_, place + "/stretch", fields.stretch);
-  write_matrix(hdf5_, place + "/stress", fields.stress);
+  write_matrix(hdf5_, place + "/stretch", measured(BrickMeasure::kStretch));
+  write_matrix(hdf5_, place + "/stress", measured(BrickMeasure::kStress));
   std::string text = fmt::format(
       "<Grid Name=\"bricks {}\" GridType=\"Uniform\">\n<Topology TopologyType=\"Hexahedron\" NumberOfElements=\"{}\">"
       "{}</Topology>\n<Geometry GeometryType=\"XYZ\">{}</Geometry>\n",

@@ -9,7 +9,8 @@
 namespace sprung {
 
 /// A film for ParaView: `run.xdmf` says what is where in `run.xdmf.h5`. In every frame, for every actor, its bricks as
-/// hexahedra with their fill, Young's modulus, stretch and stress (brick_fields.h), and its skin as triangles. Floats.
+/// hexahedra with their fill, Young's modulus, stretch and stress (brick_measures.h), and its skin as triangles.
+/// Floats.
 class XdmfWriter {
  public:
   /// The world must outlive it. Throws Error(kFailed), like all else here.

@@ -35,12 +35,16 @@ struct ContactSkin {
 /// Made when it is first asked for: contacts, their triangles and the rest shape do not change after that.
 [[nodiscard]] const ContactSkin& contact_skin_of(Actor& actor);
 
-/// Of what its brick's corners have (m x 3, per node of the body).
-[[nodiscard]] inline Vec3 carried(const Body& body, const ContactPoint& point, const Points& values) {
-  const auto& nodes = body.grid.nodes[static_cast<std::size_t>(point.brick)];
+/// What a point has of what its brick's corners have (m x 3, per node of the body).
+[[nodiscard]] inline Vec3 carried(const Body& body, int brick, const Eigen::Matrix<double, 8, 1>& weights,
+                                  const Points& values) {
+  const auto& nodes = body.grid.nodes[static_cast<std::size_t>(brick)];
   Vec3 sum = Vec3::Zero();
-  for (int i = 0; i < 8; ++i) sum += point.weights[i] * values.row(nodes[static_cast<std::size_t>(i)]).transpose();
+  for (int i = 0; i < 8; ++i) sum += weights[i] * values.row(nodes[static_cast<std::size_t>(i)]).transpose();
   return sum;
+}
+[[nodiscard]] inline Vec3 carried(const Body& body, const ContactPoint& point, const Points& values) {
+  return carried(body, point.brick, point.weights, values);
 }
 
 }  // namespace sprung

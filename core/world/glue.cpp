@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/world/contact_skin.h"
 #include "core/world/mesh_distance.h"
 #include "core/world/pose.h"
 
@@ -24,15 +25,6 @@ Pose pose_of(const Body& body) {
   }
   pose.translation = corner - pose.rotation * Vec3(body.grid.rest_positions().row(nodes[0]));
   return pose;
-}
-
-Vec3 place_of(const Body& body, int brick, const Eigen::Matrix<double, 8, 1>& weights) {
-  const auto& nodes = body.grid.nodes[static_cast<std::size_t>(brick)];
-  Vec3 place = Vec3::Zero();
-  for (int i = 0; i < 8; ++i) {
-    place += weights[i] * body.positions.row(nodes[static_cast<std::size_t>(i)]).transpose();
-  }
-  return place;
 }
 
 /// Of the points within the distance of a surface the nearest at each corner of a brick, by its row.
@@ -104,7 +96,7 @@ void add_glue(const std::vector<GluedPoint>& glue, const Group& group, double dt
     for (std::size_t side = 0; side < 2; ++side) {
       const double sign = side == 0 ? 1 : -1;
       const Body& body = group[point.actors[side]]->body;
-      apart += sign * place_of(body, point.bricks[side], point.weights[side]);
+      apart += sign * carried(body, point.bricks[side], point.weights[side], body.positions);
       add_shares(group, point.actors[side], point.bricks[side], sign * point.weights[side], touches);
     }
     touches.list.push_back({.key = touch_key(kGlue, 0, 0, 0) + i,

@@ -176,10 +176,13 @@ TEST(Xdmf, NamesWhatIsInItsFileOfNumbers) {
   writer.add_frame(0.5, {stretched}, {Points::Ones(3, 3)});
   writer.close();
   const Hdf5Reader numbers(folder.path() / "run.xdmf.h5");
-  EXPECT_NEAR(numbers.read<float>("/frame_1/bricks_1/stretch").values.at(1), 0, 1e-6);
-  EXPECT_NEAR(numbers.read<float>("/frame_2/bricks_1/stretch").values.at(1), 0.1, 1e-6);
+  EXPECT_NEAR(numbers.read<float>("/frame_1/bricks_1/stretch").values.at(1), 1, 1e-6);
+  EXPECT_NEAR(numbers.read<float>("/frame_2/bricks_1/stretch").values.at(1), 1.1, 1e-6);
   const Material& material = world.actors[0].body.material;
-  const double stress = 2 * material.shear_modulus() * 0.1;
+  const double shear = material.shear_modulus();
+  const double lame = 2 * shear * material.poisson / (1 - 2 * material.poisson);
+  const double strain = 0.5 * (1.1 * 1.1 - 1);  // Green's; sigma_x - sigma_y of F = diag(1.1, 1, 1)
+  const double stress = strain * (1.1 * (lame + 2 * shear) - lame / 1.1);
   EXPECT_NEAR(numbers.read<float>("/frame_2/bricks_1/stress").values.at(0), stress, 1e-4 * stress);
   EXPECT_EQ(numbers.read<float>("/frame_2/skin_1/positions").values.at(8), 1);
   const std::string text = text_of(folder.path() / "run.xdmf");

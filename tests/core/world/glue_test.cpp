@@ -6,6 +6,7 @@
 
 #include "core/body/forces.h"
 #include "core/motion/careful_motion.h"
+#include "core/world/contact_skin.h"
 #include "tests/support/touching.h"
 
 namespace sprung {
@@ -29,11 +30,7 @@ double furthest_apart(const World& world) {
     Vec3 apart = Vec3::Zero();
     for (std::size_t side = 0; side < 2; ++side) {
       const Body& body = world.actors[point.actors[side]].body;
-      const auto& nodes = body.grid.nodes[static_cast<std::size_t>(point.bricks[side])];
-      for (int i = 0; i < 8; ++i) {
-        const Vec3 node = body.positions.row(nodes[static_cast<std::size_t>(i)]);
-        apart += (side == 0 ? 1 : -1) * point.weights[side][i] * node;
-      }
+      apart += (side == 0 ? 1 : -1) * carried(body, point.bricks[side], point.weights[side], body.positions);
     }
     furthest = std::max(furthest, apart.norm());
   }
