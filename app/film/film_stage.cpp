@@ -15,11 +15,12 @@ namespace {
 const Eigen::Vector3f kNodeColor(0.20F, 0.22F, 0.26F);
 const Eigen::Vector3f kPinColor(0.90F, 0.24F, 0.12F);
 const Eigen::Vector3f kTraceColor(0.10F, 0.36F, 0.66F);
-constexpr double kSpringRadius = 0.03;   // of a brick
-constexpr double kNodeRadius = 0.09;     // of a brick
-constexpr double kPinRadius = 0.17;      // of a brick
-constexpr double kTraceRadius = 0.0035;  // of the largest body
-constexpr double kUtmost = 0.01;         // of the springs: may be stretched beyond the ends of the colours
+constexpr double kSpringRadius = 0.03;                   // of a brick
+constexpr double kNodeRadius = 0.09;                     // of a brick
+constexpr double kPinRadius = 0.17;                      // of a brick
+constexpr double kTraceRadius = 0.0035;                  // of the largest body
+constexpr ColorMap kSpringColors = ColorMap::kCoolwarm;  // pushed blue, drawn red, at rest pale
+constexpr double kUtmost = 0.01;  // of the springs: may be stretched beyond the ends of the colours
 
 Eigen::Vector3f shade(const Color& color) { return Eigen::Vector3f(color.red, color.green, color.blue) / 255.0F; }
 
@@ -69,7 +70,7 @@ Stage FilmStage::stage(const Bounds& bounds) const {
     stage.looks.push_back(player.look);
     stage.ghosts.push_back(player.is_ghost);
   }
-  stage.color_map = scene_.render.springs ? ColorMap::kTurbo : colors_.map();
+  stage.color_map = scene_.render.springs ? kSpringColors : colors_.map();
   const std::optional<double> ground = ground_height(production_.world.obstacles);
   stage.has_ground = ground && !scene_.render.transparent;
   if (ground) stage.ground.height = *ground;
@@ -101,7 +102,7 @@ std::vector<SkinShape> FilmStage::shapes(std::size_t frame, double part) const {
 std::optional<Legend> FilmStage::legend() const {
   if (scene_.render.springs) {
     return Legend{
-        .title = "Springs, %", .map = ColorMap::kTurbo, .low = -100 * stretch_, .high = 100 * stretch_, .swatches = {}};
+        .title = "Springs, %", .map = kSpringColors, .low = -100 * stretch_, .high = 100 * stretch_, .swatches = {}};
   }
   if (colors_.is_mapped()) return colors_.legend();
   return std::nullopt;

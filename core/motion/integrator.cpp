@@ -49,12 +49,12 @@ class Mover {
           inverse_masses_);
       pending_drift_ = 0;
     }
-    implicit_damping_.pass(dt);
     for (const HeldNode& held : actor_.pinned) {
       for (int axis = 0; axis < 3; ++axis) {
         if (held.axes[static_cast<std::size_t>(axis)]) body.velocities(held.node, axis) = held.velocity[axis];
       }
     }
+    implicit_damping_.pass(dt);  // what is held has its velocity: it leads the rest
   }
 
   /// positions += dt velocities: put off to the next kick, which has them at hand anyway.

@@ -1,0 +1,102 @@
+#include <gtest/gtest.h>
+
+#include "app/make_production.h"
+#include "app/scene/scene_file.h"
+#include "app/simulate.h"
+#include "tests/support/error_message.h"
+
+/// What acts on bodies in a scene, and when.
+namespace sprung {
+namespace {
+
+/// A cube of 10 cm and 1 kg.
+const std::string kCube = R"(
+duration = 0.55
+fps = 20
+gravity = [0, 0, 0]
+[[probe]]
+name = "middle"
+point = [0, 0, 0]
+[[body]]
+box = [0.1, 0.1, 0.1]
+bricks = 4
+material = { young = 1e5, poisson = 0.3, density = 1000, damping = 0.2 }
+)";
+const std::string kHeld = R"(
+[[probe]]
+name = "foot"
+pin = "foot"
+)";
+const std::string kFoot = R"(
+[[body.pin]]
+name = "foot"
+box = { min = [0, 0, 0], max = [1, 0.01, 1] }
+)";
+
+Recording record(const std::string& text) {
+  const Scene scene = parse_scene(text, "/scene.toml");
+  const Console silent{.quiet = true};
+  Production production = make_production(scene, silent);
+  return simulate(production, scene, silent);
+}
+
+std::vector<Vec3> path(const std::string& text) {
+  std::vector<Vec3> places;
+  for (const ProbeSample& sample : record(text).probes.at(0).samples) places.push_back(sample.displacement);
+  return places;
+}
+
+TEST(SceneLoads, ForceActsFromItsKeyframeOn) {
+  const std::vector<Vec3> places =
+      path(kCube + "[[body.force]]\ntotal = [2, 0, 0]\ninterpolation = \"held\"\n" +
+           "keyframes = [{ t = 0, strength = 0 }, { t = 0.2, strength = 1 }]\n[solver]\nscheme = \"verlet\"\n");
+  EXPECT_LT(places[4].norm(), 1e-9);
+  EXPECT_NEAR(places[10].x(), 0.5 * 2 * 0.3 * 0.3, 1e-4);
+}
+
+TEST(SceneLoads, TotalIsSharedOutByVolumeAndPerVolumeIsNot) {
+  const std::string part = "box = { min = [0, 0, 0], max = [0.5, 1, 1] }\n";
+  const std::vector<Vec3> total = path(kCube + "[[body.force]]\n" + part + "total = [0, 0, 3]\n");
+  const std::vector<Vec3> half = path(kCube + "[[body.force]]\n" + part + "per_volume = [0, 0, 6000]\n");
+  EXPECT_GT(total[10].z(), 0.3);
+  EXPECT_LT((total[10] - half[10]).norm(), 1e-9);
+}
+
+TEST(SceneLoads, GravityFollowsItsKeyframes) {
+  const std::vector<Vec3> places =
+      path("gravity_keyframes = [{ t = 0, gravity = [0, -10, 0] }, { t = 0.5, gravity = [0, 0, 0] }]\n" + kCube);
+  EXPECT_NEAR(places[10].y(), -10 * 0.25 / 2 + 20 * 0.125 / 6, 2e-3);
+}
+
+/// In motion that has died away, and at rest by statics: what holds the foot answers the force.
+TEST(SceneLoads, WhatHoldsABodyAnswersTheForce) {
+  for (const std::string solver : {"scheme = \"static\"\nload_steps = 2\n", "scheme = \"euler\"\n"}) {
+    const std::size_t body = kCube.find("[[body]]");
+    const Recording recording =
+        record("duration = 3\n" + kCube.substr(kCube.find("fps"), body - kCube.find("fps")) + kHeld +
+               kCube.substr(body) + kFoot + "[[body.force]]\nbox = { min = [0, 0.5, 0], max = [1, 1, 1] }\n" +
+               "total = [0.4, 0.2, 0]\n[solver]\n" + solver);
+    const Vec3 force = recording.probes.at(1).samples.back().force;
+    EXPECT_LT((force + Vec3(0.4, 0.2, 0)).norm(), 0.01) << solver << force.transpose();
+  }
+}
+
+/// Implicit steps and states of rest know nothing of them, though they begin late: that is said, not passed over.
+TEST(SceneLoads, WhatCannotBeIsRefused) {
+  const std::string late = "keyframes = [{ t = 0, strength = 0 }, { t = 0.3, strength = 1 }]\n";
+  const std::string wind = "[wind]\nvelocity = [3, 0, 0]\n" + late;
+  const auto message_by = [&](const std::string& scheme) {
+    Scene scene = parse_scene(kCube + kFoot + wind, "/scene.toml");
+    scene.solver.scheme = scheme == "bdf2" ? Solver::kBdf2 : Solver::kStatic;
+    return error_message([&] {
+      const Console silent{.quiet = true};
+      Production production = make_production(scene, silent);
+      static_cast<void>(simulate(production, scene, silent));
+    });
+  };
+  EXPECT_NE(message_by("bdf2").find("there is a wind"), std::string::npos);
+  EXPECT_NE(message_by("static").find("can have a wind"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace sprung
