@@ -152,8 +152,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   app.allow_extras();
   app.footer(
       "Try: sprung animate bunny.obj -o bunny.mp4\nHelp on a command: sprung COMMAND --help\n"
-      "Exit codes: 0 done, 1 failed, 2 wrong usage, 3 bad input, 4 diverged,\n130 interrupted (143 by SIGTERM, 129 by "
-      "SIGHUP).");
+      "Exit codes: 0 done, 1 failed, 2 wrong usage, 3 bad input, 4 diverged,\n130 interrupted.");
   Words words;
   add_commands(app, words);
   for (CLI::App* command : app.get_subcommands({})) accept_repeated(*command);

@@ -1,5 +1,7 @@
 #include "app/interrupt.h"
 
+#include <unistd.h>
+
 #include <array>
 #include <csignal>
 #include <ctime>
@@ -9,7 +11,7 @@ namespace {
 
 constexpr double kSameSignal = 0.3;  // s: some senders signal both a process and its group and mean it once
 
-volatile std::sig_atomic_t interrupted_by = 0;
+volatile std::sig_atomic_t interrupted = 0;
 timespec first_time{};  // of the signal; written and read by the handler alone
 
 double seconds(const timespec& from, const timespec& to) {
@@ -17,15 +19,14 @@ double seconds(const timespec& from, const timespec& to) {
 }
 
 /// A second signal, meant as such, ends the program at once.
-extern "C" void on_interrupt(int signal) {
+extern "C" void on_interrupt(int /*signal*/) {
   timespec now{};
   clock_gettime(CLOCK_MONOTONIC, &now);
-  if (interrupted_by == 0) {
-    interrupted_by = signal;
+  if (interrupted == 0) {
+    interrupted = 1;
     first_time = now;
   } else if (seconds(first_time, now) > kSameSignal) {
-    std::signal(signal, SIG_DFL);
-    std::raise(signal);
+    _exit(kInterruptedExitCode);
   }
 }
 
@@ -38,9 +39,7 @@ void catch_interrupts() {
   std::signal(SIGPIPE, SIG_IGN);
 }
 
-bool is_interrupted() { return interrupted_by != 0; }
-
-int interrupted_exit_code() { return 128 + interrupted_by; }
+bool is_interrupted() { return interrupted != 0; }
 
 void stop_if_interrupted() {
   if (is_interrupted()) throw Interrupted{};

@@ -73,9 +73,9 @@ int exit_code(int argc, const char* const* argv) {
     return code;
   } catch (const Interrupted&) {
     console.warn("interrupted");
-    return interrupted_exit_code();
+    return kInterruptedExitCode;
   } catch (const Error& error) {
-    if (is_interrupted()) return interrupted_exit_code();  // whatever failed, it was told to stop
+    if (is_interrupted()) return kInterruptedExitCode;  // whatever failed, it was told to stop
     console.error(error.what());
     return static_cast<int>(error.kind());
   } catch (const std::bad_alloc&) {

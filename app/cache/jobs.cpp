@@ -49,7 +49,7 @@ std::vector<Job> divide(const FrameRange& range, int jobs) {
   try {
     work(job.part, console);
   } catch (const Interrupted&) {
-    code = interrupted_exit_code();
+    code = kInterruptedExitCode;
   } catch (const std::exception& error) {
     console.error(fmt::format("frames {}:{}: {}", job.part.first, job.part.last, error.what()));
     code = static_cast<int>(ErrorKind::kFailed);
