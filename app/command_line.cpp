@@ -87,6 +87,16 @@ void read_choice(const CLI::App& command, const char* option, const char* key, c
   }
 }
 
+double error_in(const std::string& text) {
+  try {
+    const double error = parse_quantity(text, Dimension::kLength);
+    if (error > 0) return error;
+  } catch (const Error& error) {
+    throw Error(ErrorKind::kUsage, fmt::format("--position-error: {}", error.what()));
+  }
+  throw Error(ErrorKind::kUsage, fmt::format("--position-error is a length above 0, not {}", text));
+}
+
 std::string_view input_of(std::string_view command) {
   if (command == "render") return "a cache (.h5)";
   if (command == "film") return "a folder of pictures";
@@ -122,6 +132,7 @@ SceneOptions read_scene_options(const CLI::App& command, Words& words) {
   if (!words.scenario.empty()) options.scenario = scenario_from_name(words.scenario);
   if (!words.threads.empty()) options.threads = count_in("threads", words.threads);
   if (!words.jobs.empty()) options.jobs = count_in("jobs", words.jobs);
+  if (!words.position_error.empty()) options.position_error = error_in(words.position_error);
   const std::string& name = command.get_name();
   if (options.list) return options;
   if (options.input.empty()) {

@@ -28,7 +28,8 @@ struct SceneOptions {
   int jobs = 1;        // of render: processes
   int threads = 0;     // 0: as many as there are cores
   bool overwrite = false;
-  bool resume = false;  // of simulate
+  bool resume = false;        // of simulate
+  double position_error = 0;  // of simulate: m, that a cache may add; 0: none
   bool print_scene = false;
   bool quiet = false;
   bool verbose = false;

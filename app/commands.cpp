@@ -47,11 +47,17 @@ void add_simulate(CLI::App& app, Words& words) {
   CLI::App* simulate = app.add_subcommand("simulate", "mesh or scene in, its motion out: a cache, measurements");
   simulate
       ->add_option("-o,--output", words.scene.outputs,
-                   "RUN.h5, a cache of all frames, or folder/ for probes.csv and probes.json; or both")
+                   "RUN.h5, a cache of all frames, or folder/ for probes.csv, probes.json and manifest.json; or both")
       ->allow_extra_args(false)
       ->option_text("OUT");
   simulate->add_flag("--overwrite", words.scene.overwrite, "replace files that exist");
   simulate->add_flag("--resume", words.scene.resume, "go on where the cache ends; begin where there is none");
+  simulate
+      ->add_option(
+          "--position-error", words.position_error,
+          "keep positions in the cache to within this, velocities to within this a frame: smaller; default: to "
+          "the last bit")
+      ->option_text("LENGTH");
   add_scene_options(*simulate, words, false);
 }
 

@@ -24,6 +24,7 @@ struct Words {
   std::string scenario;
   std::string threads;
   std::string jobs;
+  std::string position_error;
   std::string fps;    // of film
   std::string topic;  // of help
   bool json_schema = false;

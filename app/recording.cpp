@@ -51,6 +51,7 @@ int Recorder::take_up(World& world, const std::function<void(MotionMemory&)>& pa
   for (int i = 0; i < count; ++i) {
     const CachedFrame frame = cache_->frame(i);
     recording_.progress.push_back(frame.progress);
+    recording_.seconds.push_back(frame.seconds);
     for (std::size_t probe = 0; probe < recording_.probes.size(); ++probe) {
       recording_.probes[probe].samples.push_back(sample_of(frame, probe));
     }
@@ -58,6 +59,7 @@ int Recorder::take_up(World& world, const std::function<void(MotionMemory&)>& pa
   if (count == 0) return 0;
   MotionMemory memory = cache_->restore(world);
   pass(memory);
+  frame_began_ = std::chrono::steady_clock::now();
   return count;
 }
 
@@ -68,14 +70,19 @@ void Recorder::add(double progress, const std::vector<Points>& reactions, double
     for (const Actor& actor : production_.world.actors) frame.emplace_back(actor.body.positions.cast<float>());
   }
   recording_.progress.push_back(progress);
+  const auto now = std::chrono::steady_clock::now();
+  recording_.seconds.push_back(std::chrono::duration<double>(now - frame_began_).count());
+  frame_began_ = now;
   for (std::size_t i = 0; i < scene_.probes.size(); ++i) {
     const Probe& probe = scene_.probes[i];
     recording_.probes[i].samples.push_back(probe.point ? point_sample(seats_[i])
                                                        : pin_sample(probe, reactions, time, small));
   }
   if (cache_ == nullptr) return;
-  const CachedFrame frame{
-      .progress = progress, .probes = numbers_of(recording_.probes), .state_hash = state_hash(production_.world)};
+  const CachedFrame frame{.progress = progress,
+                          .probes = numbers_of(recording_.probes),
+                          .state_hash = state_hash(production_.world),
+                          .seconds = recording_.seconds.back()};
   cache_->add(frame, memory);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -33,6 +34,7 @@ struct Recording {
   std::vector<std::vector<Floats3>> frames;  // [frame][actor], nodes x 3, m; the picture needs no more than floats;
                                              // none where they are in a cache
   std::vector<double> progress;              // of every frame: time (s), or share of the load, or number of the mode
+  std::vector<double> seconds;               // likewise: that it took, wall clock
   std::string progress_name;                 // "time_s", "load", "mode"
   std::vector<ProbeTrack> probes;
   Eigen::VectorXd frequencies;   // Hz, of modes
@@ -76,6 +78,7 @@ class Recorder {
   RunCache* cache_;
   std::vector<PointSeat> seats_;  // by probe; unused for pins
   Recording recording_;
+  std::chrono::steady_clock::time_point frame_began_ = std::chrono::steady_clock::now();
 };
 
 /// Every bit of the positions and velocities of all nodes (FNV-1a, 64 bits).

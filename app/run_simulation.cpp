@@ -8,6 +8,7 @@
 #include "app/cache/run_cache.h"
 #include "app/draw_diverged.h"
 #include "app/make_production.h"
+#include "app/manifest.h"
 #include "app/probe_files.h"
 #include "app/report/whole_file.h"
 #include "app/simulate.h"
@@ -23,7 +24,7 @@ namespace fs = std::filesystem;
 
 /// Where the results go.
 struct Places {
-  std::optional<fs::path> folder;  // of probes.csv and probes.json
+  std::optional<fs::path> folder;  // of probes.csv, probes.json and manifest.json
   std::optional<fs::path> cache;
 };
 
@@ -42,6 +43,9 @@ Places places_of(const SceneOptions& options) {
   }
   if (options.resume && options.overwrite) throw Error(ErrorKind::kUsage, "give --resume or --overwrite, not both");
   if (options.resume && !places.cache) throw Error(ErrorKind::kUsage, "--resume goes on with a cache: -o RUN.h5");
+  if (options.position_error > 0 && !places.cache) {
+    throw Error(ErrorKind::kUsage, "--position-error is about a cache: -o RUN.h5");
+  }
   if (places.cache) {
     if (!options.overwrite && !options.resume) {
       refuse_existing(*places.cache, "--resume to go on with it, or --overwrite");
@@ -49,7 +53,7 @@ Places places_of(const SceneOptions& options) {
     check_writable(*places.cache);
   }
   if (places.folder) {
-    for (const char* name : {"probes.csv", "probes.json"}) {
+    for (const char* name : {"probes.csv", "probes.json", "manifest.json"}) {
       if (!options.overwrite && !options.resume) refuse_existing(*places.folder / name, "--overwrite");
     }
     check_writable(*places.folder / "probes.json");
@@ -112,7 +116,7 @@ void run_simulation(const SceneOptions& options, const Console& console) {
     std::optional<RunCache> cache;
     if (places.cache) {
       make_folder(places.cache->parent_path());
-      cache.emplace(*places.cache, options.resume);
+      cache.emplace(*places.cache, options.resume, options.position_error);
     }
     Production production = make_production(scene, console);
     RunCache* kept = cache ? &*cache : nullptr;
@@ -125,6 +129,7 @@ void run_simulation(const SceneOptions& options, const Console& console) {
       make_folder(*places.folder);
       write_whole_file(*places.folder / "probes.csv", probes_csv(recording));
       write_whole_file(*places.folder / "probes.json", probes_json(recording));
+      write_whole_file(*places.folder / "manifest.json", manifest_json(scene, recording));
     }
     print_summary(recording);
   });

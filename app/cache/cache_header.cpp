@@ -3,27 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 
+#include "app/file_hash.h"
 #include "app/scene/scene_file.h"
 
 namespace sprung {
 namespace {
-
-/// Of this program's file, so that no two builds are taken for one (FNV-1a).
-std::string build_of_this_program() {
-  std::ifstream program("/proc/self/exe", std::ios::binary);
-  std::uint64_t hash = 0xcbf29ce484222325U;
-  std::vector<char> block(1 << 20);
-  while (program.read(block.data(), static_cast<std::streamsize>(block.size())) || program.gcount() > 0) {
-    for (const char byte : std::span(block.data(), static_cast<std::size_t>(program.gcount()))) {
-      hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3U;
-    }
-  }
-  return fmt::format("{:016x}", hash);
-}
 
 CachedColor bytes_of(const Color& color) { return {color.red, color.green, color.blue}; }
 
@@ -106,6 +92,11 @@ CacheHeader cache_header(const Scene& scene, const Production& production, std::
   return header;
 }
 
+std::string position_accuracy(const CacheHeader& header) {
+  if (header.position_error == 0) return "to the last bit";
+  return fmt::format("to within {:.6g} m", header.position_error);
+}
+
 Scene cached_scene(const CacheHeader& header) {
   return parse_scene(header.scene, "/cache.toml", SceneFiles::kAnywhere);
 }
@@ -117,6 +108,9 @@ std::string difference(const CacheHeader& cached, const CacheHeader& now) {
   if (cached.build != now.build) {
     return fmt::format("it was made by another build of sprung {} ({}; this one is {}), whose last digits may differ",
                        now.version, cached.build, now.build);
+  }
+  if (cached.position_error != now.position_error) {
+    return fmt::format("its positions are kept {}, here it is {}", position_accuracy(cached), position_accuracy(now));
   }
   const Scene scene = cached_scene(now);
   const std::string old_scene = print_scene(without_freedom(cached_scene(cached), scene));

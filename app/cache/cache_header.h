@@ -13,6 +13,9 @@ namespace sprung {
 /// does. The duration may differ where no frame depends on it; camera and pictures may.
 [[nodiscard]] std::string difference(const CacheHeader& cached, const CacheHeader& now);
 
+/// "to the last bit", "to within 1e-05 m".
+[[nodiscard]] std::string position_accuracy(const CacheHeader& header);
+
 /// The scene in a cache, wherever the files are that it names.
 [[nodiscard]] Scene cached_scene(const CacheHeader& header);
 

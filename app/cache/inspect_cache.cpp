@@ -24,6 +24,9 @@ struct CacheFacts {
   long nodes = 0;
   long skin_vertices = 0;
   std::uintmax_t bytes = 0;
+  std::string accuracy;
+  double position_error = 0;  // m
+  double velocity_error = 0;  // m/s
 };
 
 CacheFacts facts_of(const CacheReader& cache, const std::filesystem::path& file) {
@@ -34,7 +37,10 @@ CacheFacts facts_of(const CacheReader& cache, const std::filesystem::path& file)
                    .planned = frame_count(cached_scene(header)),
                    .progress_name = header.progress_name,
                    .solids = static_cast<long>(header.actors.size()),
-                   .bytes = std::filesystem::file_size(file)};
+                   .bytes = std::filesystem::file_size(file),
+                   .accuracy = position_accuracy(header),
+                   .position_error = header.position_error,
+                   .velocity_error = header.velocity_error};
   if (facts.frames > 0) {
     const CachedFrame last = cache.frame(facts.frames - 1);
     facts.progress = last.progress;
@@ -49,22 +55,24 @@ CacheFacts facts_of(const CacheReader& cache, const std::filesystem::path& file)
 }
 
 std::string text_of(const CacheFacts& facts) {
+  const std::string velocities =
+      facts.velocity_error > 0 ? fmt::format(", velocities to within {:.6g} m/s", facts.velocity_error) : "";
   return fmt::format(
-      "frames {} of {}, the last at {} {:.6g}\nstate {:016x}\n{}, {}, {} nodes, {} skin vertices\n{:.4g} MB, written "
-      "by sprung {} (build {})\n",
+      "frames {} of {}, the last at {} {:.6g}\nstate {:016x}\n{}, {}, {} nodes, {} skin vertices\npositions {}{}\n"
+      "{:.4g} MB, written by sprung {} (build {})\n",
       facts.frames, facts.planned, facts.progress_name, facts.progress, facts.state_hash,
       count_of(facts.solids, "solid"), count_of(facts.bricks, "brick"), facts.nodes, facts.skin_vertices,
-      1e-6 * static_cast<double>(facts.bytes), facts.version, facts.build);
+      facts.accuracy, velocities, 1e-6 * static_cast<double>(facts.bytes), facts.version, facts.build);
 }
 
 std::string json_of(const CacheFacts& facts) {
   return fmt::format(
       "{{\"frames\": {}, \"planned_frames\": {}, \"{}\": {}, \"state_hash\": \"{:016x}\", \"solids\": {}, \"bricks\": "
-      "{}, "
-      "\"nodes\": {}, \"skin_vertices\": {}, \"bytes\": {}, \"version\": {}, \"build\": {}}}\n",
+      "{}, \"nodes\": {}, \"skin_vertices\": {}, \"position_error\": {}, \"velocity_error\": {}, \"bytes\": {}, "
+      "\"version\": {}, \"build\": {}}}\n",
       facts.frames, facts.planned, facts.progress_name, json_text(facts.progress), facts.state_hash, facts.solids,
-      facts.bricks, facts.nodes, facts.skin_vertices, facts.bytes, json_text(std::string_view(facts.version)),
-      json_text(std::string_view(facts.build)));
+      facts.bricks, facts.nodes, facts.skin_vertices, json_text(facts.position_error), json_text(facts.velocity_error),
+      facts.bytes, json_text(std::string_view(facts.version)), json_text(std::string_view(facts.build)));
 }
 
 }  // namespace

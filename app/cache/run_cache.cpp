@@ -17,7 +17,8 @@ std::vector<const Points*> addresses(const std::vector<Points>& all) {
 
 }  // namespace
 
-RunCache::RunCache(std::filesystem::path file, bool resume) : file_(std::move(file)) {
+RunCache::RunCache(std::filesystem::path file, bool resume, double position_error)
+    : file_(std::move(file)), position_error_(position_error) {
   if (!std::filesystem::exists(file_)) return;
   if (is_being_written(file_)) {
     throw Error(ErrorKind::kFailed, fmt::format("'{}' is being written by another run", file_.string()));
@@ -30,7 +31,9 @@ RunCache::~RunCache() = default;
 int RunCache::begin(const Scene& scene, const Production& production, const std::string& progress_name,
                     std::size_t memory_size) {
   production_ = &production;
-  const CacheHeader header = cache_header(scene, production, progress_name);
+  CacheHeader header = cache_header(scene, production, progress_name);
+  header.position_error = position_error_;
+  header.velocity_error = position_error_ * scene.fps;
   if (old_) {
     if (const std::string text = difference(old_->header(), header); !text.empty()) {
       throw Error(ErrorKind::kBadInput,
@@ -51,8 +54,9 @@ int RunCache::begin(const Scene& scene, const Production& production, const std:
 void RunCache::copy_old_frames() {
   const auto count = old_->frame_count();
   for (std::size_t frame = 0; frame < count; ++frame) {
-    const std::vector<Points> positions = old_->positions(frame);
-    const std::vector<Points> velocities = old_->velocities(frame);
+    const bool is_last = frame + 1 == count;
+    const std::vector<Points> positions = is_last ? old_->exact_positions(frame) : old_->positions(frame);
+    const std::vector<Points> velocities = is_last ? old_->exact_velocities(frame) : old_->velocities(frame);
     writer_->append(old_->frame(frame), addresses(positions), addresses(velocities), old_->memory(frame));
   }
   frame_count_ = static_cast<int>(count);
@@ -63,8 +67,8 @@ CachedFrame RunCache::frame(int frame) const { return old_->frame(static_cast<st
 
 MotionMemory RunCache::restore(World& world) const {
   const auto last = static_cast<std::size_t>(frame_count_ - 1);
-  const std::vector<Points> positions = old_->positions(last);
-  const std::vector<Points> velocities = old_->velocities(last);
+  const std::vector<Points> positions = old_->exact_positions(last);
+  const std::vector<Points> velocities = old_->exact_velocities(last);
   for (std::size_t i = 0; i < world.actors.size(); ++i) {
     world.actors[i].body.positions = positions[i];
     world.actors[i].body.velocities = velocities[i];

@@ -13,9 +13,10 @@ namespace sprung {
 /// Where a run keeps its frames as they come; and takes those up that an earlier run of the same scene has left there.
 class RunCache {
  public:
-  /// With `resume` what the file has is kept, if there is such a file; else it is replaced.
-  /// Throws Error(kBadInput) where the file is no cache, Error(kFailed) where another run is writing it.
-  RunCache(std::filesystem::path file, bool resume);
+  /// With `resume` what the file has is kept, if there is such a file; else it is replaced. Positions are kept to
+  /// within `position_error` (m), velocities to within that in a frame; 0: to the last bit. Throws Error(kBadInput)
+  /// where the file is no cache, Error(kFailed) where another run is writing it.
+  RunCache(std::filesystem::path file, bool resume, double position_error = 0);
   ~RunCache();
 
   /// Makes ready for the frames of a run and returns how many are there. Both have to outlive this.
@@ -41,6 +42,7 @@ class RunCache {
   void copy_old_frames();
 
   std::filesystem::path file_;
+  double position_error_;
   std::unique_ptr<CacheReader> old_;  // what an earlier run left
   std::unique_ptr<CacheWriter> writer_;
   const Production* production_ = nullptr;

@@ -79,12 +79,16 @@ void write_runs(const SceneOptions& options, const Console& console) {
   }
   write_whole_file(folder / "runs.json", fmt::format("[\n{}\n]\n", runs));
   write_whole_file(folder / "commands", commands);
+  write_whole_file(folder / "run",
+                   fmt::format("# All runs one after the other, then their table.\nsh {}\n"
+                               "sprung sweep {} --table | tee {}\n",
+                               quoted(folder / "commands"), quoted(folder), quoted(folder / "table.csv")));
   console.note(count_of(static_cast<long>(choices.size()), "run"));
   fmt::print("{}\n", (fs::path(options.outputs.front()) / "commands").string());
 }
 
 void print_header(const CacheHeader& header) {
-  fmt::print("run,frames,{},state_hash", header.progress_name);
+  fmt::print("run,frames,seconds,{},state_hash", header.progress_name);
   for (const std::string& probe : header.probes) {
     for (const char* quantity : {"position", "displacement", "force", "torque"}) {
       for (const char axis : {'x', 'y', 'z'}) fmt::print(",{}.{}.{}", probe, quantity, axis);
@@ -95,7 +99,9 @@ void print_header(const CacheHeader& header) {
 
 void print_row(const std::string& run, const CacheReader& cache) {
   const CachedFrame last = cache.frame(cache.frame_count() - 1);
-  fmt::print("{},{},{},{:016x}", run, cache.frame_count(), last.progress, last.state_hash);
+  double seconds = 0;
+  for (std::size_t frame = 0; frame < cache.frame_count(); ++frame) seconds += cache.frame(frame).seconds;
+  fmt::print("{},{},{:.3f},{},{:016x}", run, cache.frame_count(), seconds, last.progress, last.state_hash);
   for (const double number : last.probes) fmt::print(",{}", number);
   fmt::print("\n");
 }

@@ -45,6 +45,8 @@ struct CacheHeader {
   std::string scene;          // TOML, as resolved
   std::string progress_name;  // "time_s", "load", "mode"
   double size = 0;            // m, longest side of the largest body
+  double position_error = 0;  // m: a node's coordinate may be that far off in a frame; 0: every bit is kept
+  double velocity_error = 0;  // m/s, likewise
   std::vector<std::string> probes;
   std::vector<Skin> meshes;  // of the scene's bodies, as their files have them; normals: 0 rows where those have none
   std::vector<CachedActor> actors;
@@ -56,10 +58,13 @@ struct CachedFrame {
   double progress = 0;         // time (s), or share of the load, or number of the mode
   std::vector<double> probes;  // 12 each: position, displacement (m), force (N), torque (N m)
   std::uint64_t state_hash = 0;
+  double seconds = 0;  // that it took, wall clock
 };
 inline constexpr std::size_t kNumbersOfProbe = 12;
 
 /// A cache on its way: grows by a frame at a time, and is readable with all of them whenever the program is killed.
+/// Where its header allows errors, positions and velocities are rounded to multiples of a power of two, whose zeros
+/// compress; the last two frames are kept to the last bit as well, for a run that goes on.
 class CacheWriter {
  public:
   /// Writes what does not change beside the file. The memory is what the motion carries from frame to frame beside
@@ -86,6 +91,8 @@ class CacheWriter {
   std::filesystem::path written_;  // where it is: beside that, then there
   int lock_ = -1;                  // held as long as it grows
   std::size_t frames_ = 0;
+  double position_error_;
+  double velocity_error_;
   Hdf5Writer hdf5_;
 };
 
@@ -102,11 +109,15 @@ class CacheReader {
   [[nodiscard]] std::vector<Points> positions(std::size_t frame) const;
   /// By actor, m x 3, m/s.
   [[nodiscard]] std::vector<Points> velocities(std::size_t frame) const;
+  /// The same to the last bit, of the last or the last but one frame.
+  [[nodiscard]] std::vector<Points> exact_positions(std::size_t frame) const;
+  [[nodiscard]] std::vector<Points> exact_velocities(std::size_t frame) const;
   /// Of the motion after the last or the last but one frame.
   [[nodiscard]] std::vector<double> memory(std::size_t frame) const;
 
  private:
   [[nodiscard]] std::vector<Points> states(const char* name, std::size_t frame) const;
+  [[nodiscard]] std::vector<Points> exact_states(std::size_t which, std::size_t frame) const;
 
   Hdf5Reader hdf5_;
   CacheHeader header_;

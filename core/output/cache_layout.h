@@ -5,12 +5,17 @@
 namespace sprung {
 
 /// Where things are in a cache. Whoever changes it counts kCacheLayout up.
-inline constexpr int kCacheLayout = 2;
+inline constexpr int kCacheLayout = 3;
 inline constexpr const char* kLayoutName = "/layout";
 inline constexpr const char* kProgressName = "/frames/progress";  // written last: a frame is there when its time is
 inline constexpr const char* kProbesName = "/frames/probes";
 inline constexpr const char* kHashName = "/frames/state_hash";
+inline constexpr const char* kSecondsName = "/frames/seconds";
 inline constexpr const char* kMemoryName = "/frames/memory";  // of frame f in row f % 2
+
+/// In the folder of an actor: positions, then velocities of all nodes to the last bit, of frame f in row f % 2; without
+/// columns where the frames themselves are kept so.
+inline constexpr const char* kExactName = "/exact_state";
 
 /// Counted from 1.
 [[nodiscard]] inline std::string actor_folder(std::size_t actor) { return "/actors/" + std::to_string(actor + 1); }

@@ -84,6 +84,8 @@ CacheHeader read_header(const Hdf5Reader& hdf5) {
   header.scene = hdf5.read_text("/scene");
   header.progress_name = hdf5.read_text("/progress_name");
   header.size = hdf5.read<double>("/size").values.at(0);
+  header.position_error = hdf5.read<double>("/position_error").values.at(0);
+  header.velocity_error = hdf5.read<double>("/velocity_error").values.at(0);
   header.probes = hdf5.read_texts("/probes");
   const auto meshes = static_cast<std::size_t>(hdf5.read<int>("/mesh_count").values.at(0));
   const auto actors = static_cast<std::size_t>(hdf5.read<int>("/actor_count").values.at(0));
@@ -102,12 +104,21 @@ CacheReader::CacheReader(const std::filesystem::path& file)
 CachedFrame CacheReader::frame(std::size_t frame) const {
   return {.progress = hdf5_.read_row<double>(kProgressName, frame).values.at(0),
           .probes = hdf5_.read_row<double>(kProbesName, frame).values,
-          .state_hash = hdf5_.read_row<std::uint64_t>(kHashName, frame).values.at(0)};
+          .state_hash = hdf5_.read_row<std::uint64_t>(kHashName, frame).values.at(0),
+          .seconds = hdf5_.read_row<double>(kSecondsName, frame).values.at(0)};
 }
 
 std::vector<Points> CacheReader::positions(std::size_t frame) const { return states("/positions", frame); }
 
 std::vector<Points> CacheReader::velocities(std::size_t frame) const { return states("/velocities", frame); }
+
+std::vector<Points> CacheReader::exact_positions(std::size_t frame) const {
+  return header_.position_error > 0 ? exact_states(0, frame) : positions(frame);
+}
+
+std::vector<Points> CacheReader::exact_velocities(std::size_t frame) const {
+  return header_.position_error > 0 ? exact_states(1, frame) : velocities(frame);
+}
 
 std::vector<double> CacheReader::memory(std::size_t frame) const {
   return hdf5_.read_row<double>(kMemoryName, frame % 2).values;
@@ -118,6 +129,16 @@ std::vector<Points> CacheReader::states(const char* name, std::size_t frame) con
   for (std::size_t i = 0; i < header_.actors.size(); ++i) {
     const std::string path = actor_folder(i) + name;
     all.push_back(matrix_from<Points>(hdf5_.read_row<double>(path, frame), path));
+  }
+  return all;
+}
+
+std::vector<Points> CacheReader::exact_states(std::size_t which, std::size_t frame) const {
+  std::vector<Points> all;
+  for (std::size_t i = 0; i < header_.actors.size(); ++i) {
+    const std::vector<double> row = hdf5_.read_row<double>(actor_folder(i) + kExactName, frame % 2).values;
+    const Eigen::Index nodes = header_.actors[i].rest_positions.rows();
+    all.emplace_back(Eigen::Map<const Points>(row.data() + static_cast<Eigen::Index>(which) * 3 * nodes, nodes, 3));
   }
   return all;
 }

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 
 #include "core/error.h"
@@ -70,7 +71,7 @@ void write_grid(Hdf5Writer& hdf5, const std::string& folder, const BrickGrid& gr
   write_matrix(hdf5, folder + "/lattice", rows_of(grid.lattice));
 }
 
-void write_actor(Hdf5Writer& hdf5, const std::string& folder, const CachedActor& actor) {
+void write_actor(Hdf5Writer& hdf5, const std::string& folder, const CachedActor& actor, bool is_exact) {
   write_number(hdf5, folder + "/body", actor.body);
   write_list(hdf5, folder + "/color", actor.color);
   write_grid(hdf5, folder, actor.grid);
@@ -87,6 +88,7 @@ void write_actor(Hdf5Writer& hdf5, const std::string& folder, const CachedActor&
   const ArrayShape state{static_cast<std::size_t>(actor.rest_positions.rows()), 3};
   hdf5.make_series<double>(folder + "/positions", state);
   hdf5.make_series<double>(folder + "/velocities", state);
+  hdf5.make_slots(folder + kExactName, 2, is_exact ? 0 : 6 * state[0]);
 }
 
 void write_obstacle(Hdf5Writer& hdf5, const std::string& folder, const CachedObstacle& obstacle) {
@@ -96,6 +98,14 @@ void write_obstacle(Hdf5Writer& hdf5, const std::string& folder, const CachedObs
   write_skin(hdf5, folder + "/skin", obstacle.skin);
 }
 
+/// To the nearest multiples of the largest power of two that keeps within the error; as they are where that is 0.
+void append_rounded(Hdf5Writer& hdf5, const std::string& name, const Points& values, double error) {
+  if (error == 0) return hdf5.append(name, flat_values(values));
+  const double step = std::exp2(std::floor(std::log2(2 * error)));
+  const Points rounded = (values / step).array().round() * step;
+  hdf5.append(name, flat_values(rounded));
+}
+
 void write_header(Hdf5Writer& hdf5, const CacheHeader& header) {
   write_number(hdf5, kLayoutName, kCacheLayout);
   hdf5.write_text("/version", header.version);
@@ -103,12 +113,15 @@ void write_header(Hdf5Writer& hdf5, const CacheHeader& header) {
   hdf5.write_text("/scene", header.scene);
   hdf5.write_text("/progress_name", header.progress_name);
   write_number(hdf5, "/size", header.size);
+  write_number(hdf5, "/position_error", header.position_error);
+  write_number(hdf5, "/velocity_error", header.velocity_error);
   hdf5.write_texts("/probes", header.probes);
   write_number(hdf5, "/mesh_count", static_cast<int>(header.meshes.size()));
   write_number(hdf5, "/actor_count", static_cast<int>(header.actors.size()));
   write_number(hdf5, "/obstacle_count", static_cast<int>(header.obstacles.size()));
   for (std::size_t i = 0; i < header.meshes.size(); ++i) write_skin(hdf5, mesh_folder(i), header.meshes[i]);
-  for (std::size_t i = 0; i < header.actors.size(); ++i) write_actor(hdf5, actor_folder(i), header.actors[i]);
+  for (std::size_t i = 0; i < header.actors.size(); ++i)
+    write_actor(hdf5, actor_folder(i), header.actors[i], header.position_error == 0);
   for (std::size_t i = 0; i < header.obstacles.size(); ++i) {
     write_obstacle(hdf5, obstacle_folder(i), header.obstacles[i]);
   }
@@ -117,11 +130,17 @@ void write_header(Hdf5Writer& hdf5, const CacheHeader& header) {
 }  // namespace
 
 CacheWriter::CacheWriter(fs::path file, const CacheHeader& header, std::size_t memory_size)
-    : file_(std::move(file)), written_(beside(file_)), lock_(lock_new(written_)), hdf5_(written_) {
+    : file_(std::move(file)),
+      written_(beside(file_)),
+      lock_(lock_new(written_)),
+      position_error_(header.position_error),
+      velocity_error_(header.velocity_error),
+      hdf5_(written_) {
   write_header(hdf5_, header);
   hdf5_.make_series<double>(kProgressName, {});
   hdf5_.make_series<double>(kProbesName, {header.probes.size(), kNumbersOfProbe});
   hdf5_.make_series<std::uint64_t>(kHashName, {});
+  hdf5_.make_series<double>(kSecondsName, {});
   hdf5_.make_slots(kMemoryName, 2, memory_size);
   hdf5_.start_series();
 }
@@ -139,11 +158,17 @@ void CacheWriter::append(const CachedFrame& frame, const std::vector<const Point
                 fmt::format("'{}' is gone or was replaced while it was being written", written_.string()));
   }
   for (std::size_t i = 0; i < positions.size(); ++i) {
-    hdf5_.append(actor_folder(i) + "/positions", flat_values(*positions[i]));
-    hdf5_.append(actor_folder(i) + "/velocities", flat_values(*velocities[i]));
+    const std::string folder = actor_folder(i);
+    append_rounded(hdf5_, folder + "/positions", *positions[i], position_error_);
+    append_rounded(hdf5_, folder + "/velocities", *velocities[i], velocity_error_);
+    if (position_error_ == 0) continue;
+    std::vector<double> exact(positions[i]->data(), positions[i]->data() + positions[i]->size());
+    exact.insert(exact.end(), velocities[i]->data(), velocities[i]->data() + velocities[i]->size());
+    hdf5_.fill_slot(folder + kExactName, frames_ % 2, exact);
   }
   hdf5_.append(kProbesName, std::span<const double>(frame.probes));
   hdf5_.append(kHashName, std::span<const std::uint64_t>(&frame.state_hash, 1));
+  hdf5_.append(kSecondsName, std::span<const double>(&frame.seconds, 1));
   hdf5_.fill_slot(kMemoryName, frames_ % 2, memory);
   hdf5_.append(kProgressName, std::span<const double>(&frame.progress, 1));
   ++frames_;

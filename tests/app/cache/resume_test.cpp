@@ -68,11 +68,12 @@ std::vector<std::uint64_t> hashes_of(const std::filesystem::path& file) {
   return hashes;
 }
 
-Recording run(const std::string& text, double duration, const std::filesystem::path& file, bool resume) {
+Recording run(const std::string& text, double duration, const std::filesystem::path& file, bool resume,
+              double position_error = 0) {
   Scene scene = parse_scene(text, "/scene.toml");
   scene.duration = duration;
   Production production = make_production(scene, kSilent);
-  RunCache cache(file, resume);
+  RunCache cache(file, resume, position_error);
   Recording recording = simulate(production, scene, kSilent, &cache);
   cache.close();
   return recording;
@@ -147,6 +148,40 @@ TEST(Resume, NamesWhatIsAnother) {
   EXPECT_NE(refusal("fps = 20", "fps = 20", 0.1).find("more than the"), std::string::npos);
   EXPECT_EQ(refusal("fps = 20", "fps = 20", 0.25), "");
   EXPECT_EQ(hashes_of(file).size(), 5U);
+}
+
+TEST(Resume, FromRoundedFramesGoesOnBitByBit) {
+  const TempFolder folder;
+  const auto file = folder.path() / "rounded.h5";
+  static_cast<void>(run(kTwoBoxes, 0.6, folder.path() / "straight.h5", false));
+  for (const double duration : {0.2, 0.3, 0.6}) static_cast<void>(run(kTwoBoxes, duration, file, true, 1e-5));
+  EXPECT_EQ(hashes_of(folder.path() / "straight.h5"), hashes_of(file));
+  const CacheReader exact(folder.path() / "straight.h5");
+  const CacheReader rounded(file);
+  for (std::size_t frame = 0; frame < exact.frame_count(); ++frame) {
+    EXPECT_LE((exact.positions(frame).at(1) - rounded.positions(frame).at(1)).cwiseAbs().maxCoeff(), 1e-5);
+    EXPECT_LE((exact.velocities(frame).at(1) - rounded.velocities(frame).at(1)).cwiseAbs().maxCoeff(), 20 * 1e-5);
+  }
+  const std::string refusal = error_message([&] { static_cast<void>(run(kTwoBoxes, 0.7, file, true)); });
+  EXPECT_NE(refusal.find("kept to within 1e-05 m, here it is to the last bit"), std::string::npos) << refusal;
+}
+
+TEST(Resume, RoundedCachesSayHowFarOffTheyAre) {
+  const TempFolder folder;
+  static_cast<void>(folder.write("cube.obj", kCubeObj));
+  const std::string simulate = "simulate cube.obj --size 10cm --bricks 12 --duration 1 ";
+  ASSERT_EQ(run_program(folder, simulate + "-o exact.h5").exit_code, 0);
+  const ProgramRun made = run_program(folder, simulate + "-o rounded.h5 --position-error 0.01mm");
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_NE(run_program(folder, "inspect exact.h5").out.find("positions to the last bit\n"), std::string::npos);
+  EXPECT_NE(run_program(folder, "inspect rounded.h5")
+                .out.find("positions to within 1e-05 m, velocities to within 0.00024 m/s\n"),
+            std::string::npos);
+  EXPECT_NE(run_program(folder, "inspect rounded.h5 --json").out.find("\"position_error\": 1e-05"), std::string::npos);
+  EXPECT_LT(1.7 * static_cast<double>(std::filesystem::file_size(folder.path() / "rounded.h5")),
+            static_cast<double>(std::filesystem::file_size(folder.path() / "exact.h5")));
+  EXPECT_EQ(run_program(folder, simulate + "-o other.h5 --position-error 0").exit_code, 2);
+  EXPECT_EQ(run_program(folder, simulate + "-o folder/ --position-error 1mm").exit_code, 2);
 }
 
 /// As often as this the program is killed on its way.

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "app/farm/sweep.h"
+#include "tests/support/json_number.h"
 #include "tests/support/run_program.h"
 
 namespace sprung {
@@ -51,14 +52,25 @@ TEST(Sweep, RunsEveryCombinationAndGathersTheirProbes) {
       << runs;
   EXPECT_NE(run_program(folder, "sweep s --table").err.find("run 001 is not begun"), std::string::npos);
   const std::string path = std::filesystem::path(SPRUNG_PROGRAM).parent_path().string();
-  ASSERT_EQ(std::system(
-                ("PATH=" + path + ":$PATH sh " + (folder.path() / "s/commands").string() + " >/dev/null 2>&1").c_str()),
-            0);
+  const std::string line = "PATH=" + path + ":$PATH sh " + (folder.path() / "s/run").string() + " >/dev/null 2>&1";
+  ASSERT_EQ(std::system(line.c_str()), 0);
   const ProgramRun table = run_program(folder, "sweep s --table");
   EXPECT_EQ(table.exit_code, 0) << table.err;
-  EXPECT_EQ(table.out.rfind("run,frames,time_s,state_hash,middle.position.x", 0), 0U) << table.out;
+  EXPECT_EQ(table.out.rfind("run,frames,seconds,time_s,state_hash,middle.position.x", 0), 0U) << table.out;
   EXPECT_EQ(std::count(table.out.begin(), table.out.end(), '\n'), 5);
-  EXPECT_NE(table.out.find("\n002,4,0.3,"), std::string::npos) << table.out;
+  double seconds = 0;
+  double time = 0;
+  const std::string second = table.out.substr(table.out.find("\n002,"));
+  ASSERT_EQ(std::sscanf(second.c_str(), "\n002,4,%lf,%lf,", &seconds, &time), 2) << table.out;
+  EXPECT_GT(seconds, 0);
+  EXPECT_EQ(time, 0.3);
+  EXPECT_EQ(table.out, text_of(folder.path() / "s/table.csv"));
+  const std::string manifest = text_of(folder.path() / "s/002/manifest.json");
+  EXPECT_NEAR(number_at(manifest, {"seconds"}), seconds, 1e-9) << manifest;
+  EXPECT_EQ(number_at(manifest, {"frames"}), 4);
+  EXPECT_NE(manifest.find("\"scene\": \"duration = 0.4"), std::string::npos) << manifest;
+  const std::string hash = second.substr(second.find(",0.3,") + 5, 16);
+  EXPECT_NE(manifest.find("\"state_hash\": \"" + hash + '"'), std::string::npos) << manifest;
   EXPECT_EQ(run_program(folder, "sweep scene.toml --set body.material=gelatin -o s").exit_code, 2);
   EXPECT_EQ(run_program(folder, "sweep scene.toml --set body.material=gelatin,ruber -o t").exit_code, 2);
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "t"));

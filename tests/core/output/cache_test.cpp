@@ -65,6 +65,7 @@ void append(CacheWriter& writer, const CacheHeader& header, std::size_t frame) {
   CachedFrame made{.progress = static_cast<double>(frame) / 24, .probes = std::vector<double>(kNumbersOfProbe, 0.1)};
   made.probes[3] = static_cast<double>(frame);
   made.state_hash = ~std::uint64_t{frame};
+  made.seconds = 0.25 * static_cast<double>(frame);
   writer.append(made, {&positions}, {&velocities}, std::vector<double>(kMemory, static_cast<double>(frame)));
 }
 
@@ -85,6 +86,7 @@ void expect_frames(const CacheReader& reader, const CacheHeader& header) {
     EXPECT_EQ(read.progress, static_cast<double>(frame) / 24);
     EXPECT_EQ(read.probes.at(3), static_cast<double>(frame));
     EXPECT_EQ(read.state_hash, ~std::uint64_t{frame});
+    EXPECT_EQ(read.seconds, 0.25 * static_cast<double>(frame));
   }
   if (reader.frame_count() == 0) return;
   const std::size_t last = reader.frame_count() - 1;
@@ -118,6 +120,31 @@ TEST(Cache, GivesBackEveryBit) {
   EXPECT_EQ(actor.skin.materials.at(0).texture, made.skin.materials[0].texture);
   EXPECT_EQ(read.obstacles.at(0).start.translation, Vec3(1, 2, 3));
   EXPECT_EQ(read.obstacles.at(0).color, (CachedColor{4, 5, 6}));
+}
+
+TEST(Cache, WithAnErrorAllowedKeepsToItAndTheLastFrameToTheLastBit) {
+  const TempFolder folder;
+  CacheHeader header = box_header(12);
+  write_frames(folder.path() / "exact.h5", header, 6);
+  for (const double error : {1e-3, 2.7e-5, 1e-9}) {
+    header.position_error = error;
+    header.velocity_error = 24 * error;
+    write_frames(folder.path() / "rounded.h5", header, 6);
+    const CacheReader reader(folder.path() / "rounded.h5");
+    EXPECT_EQ(reader.header().position_error, error);
+    double worst = 0;
+    for (std::size_t frame = 0; frame < 6; ++frame) {
+      worst = std::max(worst, (reader.positions(frame).at(0) - state_of(header, frame, 0)).cwiseAbs().maxCoeff());
+      EXPECT_LE((reader.velocities(frame).at(0) - state_of(header, frame, 100)).cwiseAbs().maxCoeff(), 24 * error);
+    }
+    EXPECT_LE(worst, error);
+    EXPECT_GT(worst, 0.4 * error) << "no finer than it need be";
+    for (const std::size_t frame : {4U, 5U}) {
+      EXPECT_EQ(reader.exact_positions(frame).at(0), state_of(header, frame, 0));
+      EXPECT_EQ(reader.exact_velocities(frame).at(0), state_of(header, frame, 100));
+    }
+  }
+  EXPECT_EQ(CacheReader(folder.path() / "exact.h5").exact_positions(5).at(0), state_of(header, 5, 0));
 }
 
 TEST(Cache, IsReadWhileItGrows) {
