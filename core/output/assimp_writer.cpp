@@ -83,14 +83,21 @@ void fill_faces(const PosedMesh& posed, const PosedPart& part, const std::vector
 class SceneBuilder {
  public:
   SceneBuilder(const MeshFormat& format, const std::filesystem::path& file)
-      : file_(file), has_textures_(format.has_textures), is_gltf_(format.writer.starts_with("gl")) {}
+      : file_(file),
+        has_textures_(format.keeps.textures),
+        is_gltf_(format.writer.starts_with("gl")),
+        is_flat_(format.is_flat) {}
 
   std::unique_ptr<aiScene> build(const std::vector<PosedMesh>& meshes) {
     auto scene = std::make_unique<aiScene>();
     scene->mRootNode = new aiNode("sprung");
-    scene->mRootNode->mNumChildren = static_cast<unsigned>(meshes.size());
-    scene->mRootNode->mChildren = new aiNode*[meshes.size()];
-    for (std::size_t i = 0; i < meshes.size(); ++i) scene->mRootNode->mChildren[i] = node_of(meshes[i], *scene);
+    if (is_flat_) {
+      hang_all(meshes, *scene->mRootNode);
+    } else {
+      scene->mRootNode->mNumChildren = static_cast<unsigned>(meshes.size());
+      scene->mRootNode->mChildren = new aiNode*[meshes.size()];
+      for (std::size_t i = 0; i < meshes.size(); ++i) scene->mRootNode->mChildren[i] = node_of(meshes[i], *scene);
+    }
     hand_over(meshes_, scene->mNumMeshes, scene->mMeshes);
     hand_over(materials_, scene->mNumMaterials, scene->mMaterials);
     hand_over(textures_, scene->mNumTextures, scene->mTextures);
@@ -106,23 +113,53 @@ class SceneBuilder {
     std::copy(things.begin(), things.end(), list);
   }
 
+  /// A mesh of several parts has a node for each, which keeps its name where meshes cannot.
   aiNode* node_of(const PosedMesh& posed, aiScene& scene) {
     auto* node = new aiNode(posed.name);
     node->mParent = scene.mRootNode;
     const std::vector<PosedPart> parts = parts_of(posed);
-    node->mNumMeshes = static_cast<unsigned>(parts.size());
-    node->mMeshes = new unsigned[parts.size()];
+    if (parts.size() == 1) {
+      hang({mesh_of(posed, parts.front(), true)}, *node);
+      return node;
+    }
+    node->mNumChildren = static_cast<unsigned>(parts.size());
+    node->mChildren = new aiNode*[parts.size()];
     for (std::size_t i = 0; i < parts.size(); ++i) {
-      node->mMeshes[i] = static_cast<unsigned>(meshes_.size());
-      const Vertices vertices = vertices_of(posed, parts[i], parts.size() == 1);
-      auto* mesh = new aiMesh;
-      mesh->mName = parts[i].name;
-      mesh->mMaterialIndex = material_of(parts[i]);
-      fill_vertices(posed, vertices.rows, is_gltf_, *mesh);
-      fill_faces(posed, parts[i], vertices.number, *mesh);
-      meshes_.push_back(mesh);
+      node->mChildren[i] = new aiNode(parts[i].name);
+      node->mChildren[i]->mParent = node;
+      hang({mesh_of(posed, parts[i], false)}, *node->mChildren[i]);
     }
     return node;
+  }
+
+  void hang_all(const std::vector<PosedMesh>& meshes, aiNode& node) {
+    std::vector<unsigned> all;
+    for (const PosedMesh& posed : meshes) {
+      const std::vector<PosedPart> parts = parts_of(posed);
+      for (const PosedPart& part : parts) {
+        all.push_back(mesh_of(posed, part, parts.size() == 1));
+        meshes_.back()->mName = parts.size() == 1 ? posed.name : posed.name + " " + part.name;
+      }
+    }
+    hang(all, node);
+  }
+
+  static void hang(const std::vector<unsigned>& meshes, aiNode& node) {
+    node.mNumMeshes = static_cast<unsigned>(meshes.size());
+    node.mMeshes = new unsigned[meshes.size()];
+    std::copy(meshes.begin(), meshes.end(), node.mMeshes);
+  }
+
+  /// Its number.
+  unsigned mesh_of(const PosedMesh& posed, const PosedPart& part, bool is_only_one) {
+    const Vertices vertices = vertices_of(posed, part, is_only_one);
+    auto* mesh = new aiMesh;
+    mesh->mName = part.name;
+    mesh->mMaterialIndex = material_of(part);
+    fill_vertices(posed, vertices.rows, is_gltf_, *mesh);
+    fill_faces(posed, part, vertices.number, *mesh);
+    meshes_.push_back(mesh);
+    return static_cast<unsigned>(meshes_.size() - 1);
   }
 
   unsigned material_of(const PosedPart& part) {
@@ -166,6 +203,7 @@ class SceneBuilder {
   const std::filesystem::path& file_;
   bool has_textures_;
   bool is_gltf_;  // colours there are linear, and textures inside
+  bool is_flat_;
   std::vector<aiMesh*> meshes_;
   std::vector<aiMaterial*> materials_;
   std::vector<aiTexture*> textures_;

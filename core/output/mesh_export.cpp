@@ -17,16 +17,25 @@ namespace {
 
 constexpr std::size_t kMostOf3ds = 65535;
 
+constexpr MeshContent kEverything{true, true, true, true, true, true};
+
 constexpr std::array<MeshFormat, 9> kFormats{{
-    {".obj", "Wavefront OBJ, materials in .mtl", "", true},
-    {".ply", "Stanford PLY, binary, one object", "plyb"},
-    {".stl", "STL, binary, triangles only", "stlb"},
-    {".glb", "glTF 2 in one file", "glb2", true},
-    {".gltf", "glTF 2 with .bin beside it", "gltf2", true},
-    {".fbx", "Autodesk FBX, as text (Blender reads binary ones only)", "fbxa"},
-    {".dae", "Collada", "collada", true},
-    {".3ds", "3D Studio, at most 65535 vertices a part", "3ds", false, kMostOf3ds, true},
-    {".x3d", "X3D, without textures", "x3d"},
+    {".obj", "Wavefront OBJ, materials in .mtl", "", kEverything},
+    // assimp's binary files declare bytes for colours and hold floats, and one in 256 it misreads itself.
+    {".ply", "Stanford PLY, text, one object", "ply", {.normals = true, .uvs = true, .colors = true}},
+    {".stl", "STL, binary, triangles only", "stlb", {}},
+    {".glb", "glTF 2 in one file", "glb2", kEverything},
+    {".gltf", "glTF 2 with .bin beside it", "gltf2", kEverything},
+    {".fbx", "Autodesk FBX, as text (Blender reads binary ones only)", "fbxa", kEverything},
+    {".dae", "Collada", "collada", kEverything},
+    {".3ds",
+     "3D Studio, at most 65535 vertices a part",
+     "3ds",
+     {.uvs = true, .materials = true},
+     kMostOf3ds,
+     true,
+     true},
+    {".x3d", "X3D", "x3d", {.normals = true, .uvs = true, .colors = true, .materials = true}},
 }};
 
 constexpr std::array<LeftOut, 6> kLeftOut{{
@@ -49,6 +58,27 @@ std::vector<PosedMesh> turned_up(std::vector<PosedMesh> meshes) {
   return meshes;
 }
 
+/// By name, in one order.
+std::array<std::pair<std::string_view, bool>, 6> list_of(const MeshContent& content) {
+  return {{{"normals", content.normals},
+           {"UVs", content.uvs},
+           {"colours of vertices", content.colors},
+           {"materials", content.materials},
+           {"textures", content.textures},
+           {"part names", content.part_names}}};
+}
+
+MeshContent content_of(const PosedMesh& mesh) {
+  const Skin& rest = *mesh.rest;
+  const auto has_texture = [](const SurfaceMaterial& material) { return !material.texture.empty(); };
+  return {.normals = mesh.normals.rows() > 0,
+          .uvs = rest.uvs.rows() > 0,
+          .colors = rest.colors.rows() > 0,
+          .materials = !rest.materials.empty(),
+          .textures = std::any_of(rest.materials.begin(), rest.materials.end(), has_texture),
+          .part_names = rest.parts.size() > 1};
+}
+
 std::string lower(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
@@ -56,6 +86,28 @@ std::string lower(std::string text) {
 }
 
 }  // namespace
+
+std::string names_of(const MeshContent& content) {
+  std::string names;
+  for (const auto& [name, is_there] : list_of(content)) {
+    if (is_there) names += (names.empty() ? "" : ", ") + std::string(name);
+  }
+  return names;
+}
+
+std::string lost_in(const MeshFormat& format, const std::vector<PosedMesh>& meshes) {
+  MeshContent lost;
+  for (const PosedMesh& mesh : meshes) {
+    const MeshContent content = content_of(mesh);
+    lost.normals |= content.normals && !format.keeps.normals;
+    lost.uvs |= content.uvs && !format.keeps.uvs;
+    lost.colors |= content.colors && !format.keeps.colors;
+    lost.materials |= content.materials && !format.keeps.materials;
+    lost.textures |= content.textures && !format.keeps.textures;
+    lost.part_names |= content.part_names && !format.keeps.part_names;
+  }
+  return names_of(lost);
+}
 
 std::span<const MeshFormat> mesh_formats() { return kFormats; }
 
