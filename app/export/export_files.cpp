@@ -5,8 +5,10 @@
 
 #include <algorithm>
 
+#include "app/cache/cached_run.h"
 #include "app/export/posed_meshes.h"
 #include "app/export/viewer.h"
+#include "app/film/film_cameras.h"
 #include "app/interrupt.h"
 #include "app/progress.h"
 #include "app/report/whole_file.h"
@@ -50,20 +52,19 @@ template <class Visit>
 void each_frame(const Film& film, const FrameRange& range, int stride, const Visit& visit) {
   for (int frame = range.first; frame <= range.last; frame += stride) {
     stop_if_interrupted();
-    visit(frame, posed_meshes(film.production, film.scene, film.recording.frames[static_cast<std::size_t>(frame - 1)]));
+    visit(frame, posed_meshes(film.production, film.scene, film.cache.positions(static_cast<std::size_t>(frame - 1))));
   }
 }
 
 double time_at(const Film& film, int frame) { return (frame - 1) / film.scene.fps; }
 
-void export_numbered(const ExportTarget& target, const Film& film, const FrameRange& range) {
+void export_numbered(const ExportTarget& target, const Film& film, const FrameRange& range, const Console& console) {
   each_frame(film, range, 1, [&](int frame, const std::vector<PosedMesh>& meshes) {
-    export_meshes(meshes, target.numbered ? target.numbered->file(frame) : target.file);
+    const fs::path file = target.numbered ? target.numbered->file(frame) : target.file;
+    const std::string lost = frame == range.first ? lost_in(*find_mesh_format(file), meshes) : "";
+    if (!lost.empty()) console.warn(fmt::format("{} files do not keep: {}", file.extension().string(), lost));
+    export_meshes(meshes, file);
   });
-}
-
-Points normals_of(const PosedMesh& mesh) {
-  return mesh.normals.rows() > 0 ? mesh.normals : smooth_normals(mesh.positions, mesh.rest->triangles);
 }
 
 void export_animation(const ExportTarget& target, const Film& film, const FrameRange& range, const Console& console) {
@@ -81,7 +82,7 @@ void export_animation(const ExportTarget& target, const Film& film, const FrameR
     for (std::size_t i = 0; i < meshes.size(); ++i) {
       if (animated.size() == i) animated.push_back({.first = meshes[i], .positions = {}, .normals = {}});
       animated[i].positions.emplace_back(meshes[i].positions.cast<float>());
-      animated[i].normals.emplace_back(normals_of(meshes[i]).cast<float>());
+      animated[i].normals.emplace_back(shading_normals(meshes[i]).cast<float>());
     }
   });
   write_animated_glb(animated, times, target.file);
@@ -90,7 +91,10 @@ void export_animation(const ExportTarget& target, const Film& film, const FrameR
 void export_page(const ExportTarget& target, const Film& film, const FrameRange& range) {
   ViewerFilm viewer;
   each_frame(film, range, 1, [&](int, const std::vector<PosedMesh>& meshes) { viewer.add_frame(meshes); });
-  write_whole_file(target.file, viewer.page(film.scene.fps, film.scene.camera.azimuth, film.scene.camera.elevation));
+  const Reach reach = reach_of(film.production, cached_recording(film.cache));
+  const Camera camera = cameras_of(film.scene, reach, 0).at(static_cast<std::size_t>(range.first - 1));
+  const auto [width, height] = film.scene.render.resolution;
+  write_whole_file(target.file, viewer.page(film.scene.fps, camera, static_cast<double>(width) / height));
 }
 
 void export_points(const ExportTarget& target, const Film& film, const FrameRange& range) {
@@ -116,13 +120,12 @@ void export_xdmf(const ExportTarget& target, const Film& film, const FrameRange&
   for (int frame = range.first; frame <= range.last; ++frame) {
     stop_if_interrupted();
     const auto row = static_cast<std::size_t>(frame - 1);
-    std::vector<Points> nodes;
+    const std::vector<Points> nodes = film.cache.positions(row);
     std::vector<Points> skins;
-    for (std::size_t actor = 0; actor < film.recording.frames[row].size(); ++actor) {
-      nodes.emplace_back(film.recording.frames[row][actor].cast<double>());
-      skins.push_back(skin_positions(film.production, actor, nodes.back()));
+    for (std::size_t actor = 0; actor < nodes.size(); ++actor) {
+      skins.push_back(skin_positions(film.production, actor, nodes[actor]));
     }
-    writer.add_frame(film.recording.progress[row], nodes, skins);
+    writer.add_frame(film.cache.frame(row).progress, nodes, film.cache.velocities(row), skins);
   }
   writer.close();
 }
@@ -168,7 +171,7 @@ void export_files(const ExportTarget& target, const Film& film, const FrameRange
   Progress progress(console, "export");
   switch (target.kind) {
     case Kind::kMeshes:
-      export_numbered(target, film, range);
+      export_numbered(target, film, range, console);
       break;
     case Kind::kAnimation:
       export_animation(target, film, range, console);

@@ -5,10 +5,11 @@
 #include <string_view>
 #include <vector>
 
+#include "app/build_world.h"
 #include "app/console.h"
 #include "app/frame_range.h"
 #include "app/numbered_name.h"
-#include "app/recording.h"
+#include "core/output/cache.h"
 
 namespace sprung {
 
@@ -23,10 +24,10 @@ struct ExportTarget {
 /// "skin_{:04}.obj", "film.glb", "film.html", "points.pc2", "run.xdmf". Throws Error(kUsage).
 [[nodiscard]] ExportTarget parse_export_target(std::string_view words);
 
-/// What is drawn of a film, wherever it comes from.
+/// A film as it is in a cache.
 struct Film {
   const Production& production;
-  const Recording& recording;
+  const CacheReader& cache;
   const Scene& scene;
 };
 

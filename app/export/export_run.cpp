@@ -4,6 +4,7 @@
 
 #include "app/cache/cache_header.h"
 #include "app/cache/cached_run.h"
+#include "app/cache/run_cache.h"
 #include "app/export/export_files.h"
 #include "app/make_production.h"
 #include "app/simulate.h"
@@ -17,11 +18,14 @@ namespace {
 
 void print_formats() {
   fmt::print("One file a frame, by a name with a number like skin_{{:04}}.obj:\n");
-  for (const MeshFormat& format : mesh_formats()) fmt::print("  {:<7} {}\n", format.ending, format.what);
+  for (const MeshFormat& format : mesh_formats()) {
+    const std::string kept = names_of(format.keeps);
+    fmt::print("  {:<7} {}; keeps {}\n", format.ending, format.what, kept.empty() ? "nothing else" : kept);
+  }
   fmt::print(
       "All frames in one file:\n"
       "  .glb    glTF 2 with an animation, for Blender, three.js and browsers\n"
-      "  .html   a page to look at in a browser, by itself; without textures\n"
+      "  .html   a page to look at in a browser, by itself\n"
       "  .pc2    Point Cache 2, .mdd LightWave: vertices of each frame, for Blender's Mesh Cache modifier\n"
       "  .xdmf   bricks with their fields, and skins, for ParaView; the numbers are in .xdmf.h5\n"
       "Left out:\n");
@@ -61,8 +65,33 @@ void export_cache(const SceneOptions& options, const Console& console) {
   const FrameRange range = parse_frame_range(options.frames, cache.frame_count());
   const std::vector<ExportTarget> targets = targets_of(options, scene, range);
   const Production production = cached_production(cache.header(), scene);
-  const Recording recording = cached_recording(cache);
-  write_all(options, {production, recording, scene}, range, targets, console);
+  write_all(options, {production, cache, scene}, range, targets, console);
+}
+
+/// A cache for as long as it takes to write what is asked for, beside that.
+class PassingCache {
+ public:
+  explicit PassingCache(const std::filesystem::path& output) : file_(output) { file_ += ".passing.h5"; }
+  ~PassingCache() {
+    std::error_code ignored;
+    std::filesystem::remove(file_, ignored);
+  }
+  PassingCache(const PassingCache&) = delete;
+  PassingCache& operator=(const PassingCache&) = delete;
+
+  [[nodiscard]] const std::filesystem::path& file() const { return file_; }
+
+ private:
+  std::filesystem::path file_;
+};
+
+/// The frames of a scene, into a cache.
+void simulate_into(const std::filesystem::path& file, Production& production, const Scene& scene,
+                   const Console& console) {
+  make_folder(file.parent_path());
+  RunCache cache(file, false);
+  static_cast<void>(simulate(production, scene, console, &cache));
+  cache.close();
 }
 
 }  // namespace
@@ -74,8 +103,9 @@ void export_run(const SceneOptions& options, const Console& console) {
     const FrameRange range = parse_frame_range(options.frames, static_cast<std::size_t>(frame_count(scene)));
     const std::vector<ExportTarget> targets = targets_of(options, scene, range);
     Production production = make_production(scene, console);
-    const Recording recording = simulate(production, scene, console);
-    write_all(options, {production, recording, scene}, range, targets, console);
+    const PassingCache passing(files_of(targets.front(), scene, range).front());
+    simulate_into(passing.file(), production, scene, console);
+    write_all(options, {production, CacheReader(passing.file()), scene}, range, targets, console);
   });
 }
 

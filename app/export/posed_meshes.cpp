@@ -32,7 +32,7 @@ PosedMesh empty_mesh(const Production& production, const Scene& scene, const Key
 }  // namespace
 
 std::vector<PosedMesh> posed_meshes(const Production& production, const Scene& scene,
-                                    const std::vector<Floats3>& nodes) {
+                                    const std::vector<Points>& nodes) {
   std::map<Key, PosedMesh> meshes;
   for (std::size_t actor = 0; actor < nodes.size(); ++actor) {
     const Key key{production.origins[actor].body, production.origins[actor].copy};
@@ -40,7 +40,7 @@ std::vector<PosedMesh> posed_meshes(const Production& production, const Scene& s
     PosedMesh& mesh = meshes[key];
     const CarriedVertices& carried = production.carried[actor];
     const BrickGrid& grid = production.world.actors[actor].body.grid;
-    const Points positions = nodes[actor].cast<double>();
+    const Points& positions = nodes[actor];
     mesh.positions(carried.vertices, Eigen::all) = deform_points(grid, carried.embedding, positions);
     if (mesh.normals.rows() == 0) continue;
     const Points rest = mesh.rest->normals(carried.vertices, Eigen::all);

@@ -40,6 +40,13 @@ void add_number(std::string& bytes, std::size_t value) {
 
 std::size_t padding_of(std::size_t size) { return (4 - size % 4) % 4; }
 
+/// A file in parts, so that none of it need be copied.
+struct GlbPieces {
+  std::string head;
+  std::string_view numbers;
+  std::string padding;
+};
+
 /// The lists of a glTF file as they grow.
 class GlbFilm {
  public:
@@ -63,7 +70,7 @@ class GlbFilm {
   }
 
   /// Nothing can be added after that.
-  void write(const std::vector<double>& times, const std::filesystem::path& file) {
+  [[nodiscard]] GlbPieces finish(const std::vector<double>& times) {
     const std::string animation = frames_ > 1 ? animation_of(times) : "";
     std::vector<std::size_t> roots(nodes_.size());
     for (std::size_t i = 0; i < roots.size(); ++i) roots[i] = i;
@@ -73,18 +80,17 @@ class GlbFilm {
         fmt::join(roots, ","), fmt::join(nodes_, ","), fmt::join(meshes_, ","), fmt::join(materials_, ","), pictures(),
         animation, buffer_.json());
     json.append(padding_of(json.size()), ' ');
-    const std::string& numbers = buffer_.bytes();
-    const std::string padding(padding_of(numbers.size()), '\0');
-    std::string head;
+    GlbPieces pieces{.head = {}, .numbers = buffer_.bytes(), .padding = {}};
+    pieces.padding.assign(padding_of(pieces.numbers.size()), '\0');
+    const std::size_t binary = pieces.numbers.size() + pieces.padding.size();
     for (const std::size_t number :
-         {std::size_t{kMagic}, std::size_t{2}, 28 + json.size() + numbers.size() + padding.size(), json.size(),
-          std::size_t{kJson}}) {
-      add_number(head, number);
+         {std::size_t{kMagic}, std::size_t{2}, 28 + json.size() + binary, json.size(), std::size_t{kJson}}) {
+      add_number(pieces.head, number);
     }
-    std::string between;
-    add_number(between, numbers.size() + padding.size());
-    add_number(between, kBinary);
-    write_pieces(file, {head, json, between, numbers, padding});
+    pieces.head += json;
+    add_number(pieces.head, binary);
+    add_number(pieces.head, kBinary);
+    return pieces;
   }
 
  private:
@@ -181,7 +187,18 @@ void write_animated_glb(const std::vector<AnimatedMesh>& meshes, const std::vect
   }
   GlbFilm film(times.size());
   for (const AnimatedMesh& mesh : meshes) film.add(mesh);
-  film.write(times, file);
+  const GlbPieces pieces = film.finish(times);
+  write_pieces(file, {pieces.head, pieces.numbers, pieces.padding});
+}
+
+std::string still_glb(const std::vector<PosedMesh>& meshes) {
+  GlbFilm film(1);
+  for (const PosedMesh& mesh : meshes) {
+    film.add(
+        {.first = mesh, .positions = {mesh.positions.cast<float>()}, .normals = {shading_normals(mesh).cast<float>()}});
+  }
+  const GlbPieces pieces = film.finish({0});
+  return pieces.head + std::string(pieces.numbers) + pieces.padding;
 }
 
 }  // namespace sprung

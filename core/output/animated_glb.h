@@ -24,4 +24,7 @@ inline constexpr std::size_t kMostTargets = 250;
 void write_animated_glb(const std::vector<AnimatedMesh>& meshes, const std::vector<double>& times,
                         const std::filesystem::path& file);
 
+/// The bytes of such a file with one frame.
+[[nodiscard]] std::string still_glb(const std::vector<PosedMesh>& meshes);
+
 }  // namespace sprung

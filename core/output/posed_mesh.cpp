@@ -37,9 +37,11 @@ std::string ending_of_texture(const SurfaceMaterial& material) {
   return "";
 }
 
-Points smooth_normals(const Points& positions, const Triangles& triangles) {
+Points shading_normals(const PosedMesh& mesh) {
+  if (mesh.normals.rows() > 0) return mesh.normals;
+  const Points& positions = mesh.positions;
   Points sums = Points::Zero(positions.rows(), 3);
-  for (const auto& t : triangles.rowwise()) {
+  for (const auto& t : mesh.rest->triangles.rowwise()) {
     const Eigen::RowVector3d a = positions.row(t[0]);
     const Eigen::RowVector3d normal = (positions.row(t[1]) - a).cross(positions.row(t[2]) - a);
     for (const int corner : t) sums.row(corner) += normal;

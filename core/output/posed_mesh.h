@@ -30,7 +30,7 @@ struct PosedPart {
 /// ".png" or ".jpg" by the first bytes of an encoded picture; "" where it is neither.
 [[nodiscard]] std::string ending_of_texture(const SurfaceMaterial& material);
 
-/// Sums of the triangles' normals at each vertex, by area, as unit vectors.
-[[nodiscard]] Points smooth_normals(const Points& positions, const Triangles& triangles);
+/// The mesh's own normals; where it has none, sums of the triangles' normals at each vertex, by area, as unit vectors.
+[[nodiscard]] Points shading_normals(const PosedMesh& mesh);
 
 }  // namespace sprung

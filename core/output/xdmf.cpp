@@ -76,7 +76,8 @@ void XdmfWriter::add_skin(const Triangles& triangles) {
   write_matrix(hdf5_, fmt::format("/skin_{}/triangles", triangle_counts_.size()), triangles);
 }
 
-std::string XdmfWriter::brick_grid(std::size_t actor, const std::string& folder, const Points& nodes) {
+std::string XdmfWriter::brick_grid(std::size_t actor, const std::string& folder, const Points& nodes,
+                                   const Points& velocities) {
   const Body& body = world_.actors[actor].body;
   const auto bricks = static_cast<std::size_t>(body.grid.brick_count());
   const auto count = static_cast<std::size_t>(nodes.rows());
@@ -86,6 +87,7 @@ std::string XdmfWriter::brick_grid(std::size_t actor, const std::string& folder,
     return Eigen::VectorXf(measure_bricks(body, measure, nodes).cast<float>());
   };
   write_matrix(hdf5_, place + "/nodes", Floats3(nodes.cast<float>()));
+  write_matrix(hdf5_, place + "/velocity", Floats3(velocities.cast<float>()));
   write_matrix(hdf5_, place + "/stretch", measured(BrickMeasure::kStretch));
   write_matrix(hdf5_, place + "/stress", measured(BrickMeasure::kStress));
   std::string text = fmt::format(
@@ -98,7 +100,9 @@ std::string XdmfWriter::brick_grid(std::size_t actor, const std::string& folder,
     text += fmt::format("<Attribute Name=\"{}\" AttributeType=\"Scalar\" Center=\"Cell\">{}</Attribute>\n", name,
                         item_text({where + "/" + name, {bricks, 1}}));
   }
-  return text + "</Grid>\n";
+  return text +
+         fmt::format("<Attribute Name=\"velocity\" AttributeType=\"Vector\" Center=\"Node\">{}</Attribute>\n</Grid>\n",
+                     item_text({place + "/velocity", {count, 3}}));
 }
 
 std::string XdmfWriter::skin_grid(std::size_t actor, const std::string& folder, const Points& skin) {
@@ -112,13 +116,14 @@ std::string XdmfWriter::skin_grid(std::size_t actor, const std::string& folder, 
       item_text({folder + name + "/positions", {static_cast<std::size_t>(skin.rows()), 3}}));
 }
 
-void XdmfWriter::add_frame(double time, const std::vector<Points>& nodes, const std::vector<Points>& skins) {
+void XdmfWriter::add_frame(double time, const std::vector<Points>& nodes, const std::vector<Points>& velocities,
+                           const std::vector<Points>& skins) {
   const std::string folder = fmt::format("/frame_{}", ++frame_count_);
   frames_ += fmt::format(
       "<Grid Name=\"frame {}\" GridType=\"Collection\" CollectionType=\"Spatial\">\n<Time Value=\"{:.9g}\"/>\n",
       frame_count_, time);
   for (std::size_t actor = 0; actor < nodes.size(); ++actor) {
-    frames_ += brick_grid(actor, folder, nodes[actor]) + skin_grid(actor, folder, skins[actor]);
+    frames_ += brick_grid(actor, folder, nodes[actor], velocities[actor]) + skin_grid(actor, folder, skins[actor]);
   }
   frames_ += "</Grid>\n";
 }

@@ -9,8 +9,8 @@
 namespace sprung {
 
 /// A film for ParaView: `run.xdmf` says what is where in `run.xdmf.h5`. In every frame, for every actor, its bricks as
-/// hexahedra with their fill, Young's modulus, stretch and stress (brick_measures.h), and its skin as triangles.
-/// Floats.
+/// hexahedra with their fill, Young's modulus (what tells regions apart), stretch and stress (brick_measures.h) and the
+/// velocity of their nodes, and its skin as triangles. Floats.
 class XdmfWriter {
  public:
   /// The world must outlive it. Throws Error(kFailed), like all else here.
@@ -21,8 +21,9 @@ class XdmfWriter {
 
   /// Of the next actor; for all of them before the first frame.
   void add_skin(const Triangles& triangles);
-  /// By actor: nodes and skin vertices, m.
-  void add_frame(double time, const std::vector<Points>& nodes, const std::vector<Points>& skins);
+  /// By actor: nodes (m) and their velocities (m/s), skin vertices (m).
+  void add_frame(double time, const std::vector<Points>& nodes, const std::vector<Points>& velocities,
+                 const std::vector<Points>& skins);
   /// Gives the files their names.
   void close();
 
@@ -30,7 +31,8 @@ class XdmfWriter {
   struct Item;
   [[nodiscard]] std::string item_text(const Item& item) const;
   void write_bricks(std::size_t actor);
-  [[nodiscard]] std::string brick_grid(std::size_t actor, const std::string& folder, const Points& nodes);
+  [[nodiscard]] std::string brick_grid(std::size_t actor, const std::string& folder, const Points& nodes,
+                                       const Points& velocities);
   [[nodiscard]] std::string skin_grid(std::size_t actor, const std::string& folder, const Points& skin);
 
   std::filesystem::path file_;

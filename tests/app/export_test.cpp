@@ -53,11 +53,15 @@ TEST_F(Export, KeepsTheMeshOfTheFileAndWritesTheSameFromACacheAndAScene) {
   EXPECT_EQ(std::filesystem::file_size(folder_.path() / "points.pc2"), 32U + 4 * 8 * 12);
   EXPECT_TRUE(exists("film.glb"));
   const std::string page = text_of(folder_.path() / "film.html");
-  EXPECT_NE(page.find("const film = {frames: 4, fps: 10,"), std::string::npos);
-  const std::size_t positions = page.find("positions: \"") + 12;
+  EXPECT_NE(page.find("const film = {\"frames\": 4, \"fps\": 10,"), std::string::npos);
+  const std::size_t positions = page.find("\"positions\": [\"") + 15;
   EXPECT_EQ(page.find('"', positions) - positions, 4U * 8 * 3 * 2 / 3 * 4) << "four frames of eight vertices, base64";
-  EXPECT_EQ(page.find("http"), std::string::npos) << "it needs nothing else";
+  EXPECT_NE(page.find("Permission is hereby granted"), std::string::npos) << "the licence of three.js";
+  for (const char* needs : {"<script src", "<link", "<!--"}) EXPECT_EQ(page.find(needs), std::string::npos) << needs;
   EXPECT_TRUE(exists("run.xdmf.h5"));
+  for (const auto& file : std::filesystem::recursive_directory_iterator(folder_.path())) {
+    EXPECT_EQ(file.path().string().find(".passing"), std::string::npos) << file.path();
+  }
 }
 
 TEST_F(Export, SaysWhatCannotBe) {
@@ -69,6 +73,21 @@ TEST_F(Export, SaysWhatCannotBe) {
   const ProgramRun list = run("export --list");
   EXPECT_EQ(list.exit_code, 0);
   EXPECT_NE(list.out.find("fbx (binary)"), std::string::npos);
+  EXPECT_NE(list.out.find(".stl    STL, binary, triangles only; keeps nothing else"), std::string::npos) << list.out;
+}
+
+TEST_F(Export, NamesWhatAFormatLoses) {
+  std::string cube = "vt 0 0\nvt 1 1\n" + kCubeObj;
+  std::size_t corner = cube.find("f ");
+  for (; corner < cube.size(); ++corner) {
+    if (std::isdigit(cube[corner]) == 0) continue;
+    cube.insert(corner + 1, "/1");
+    corner += 2;
+  }
+  static_cast<void>(folder_.write("cube.obj", cube));
+  EXPECT_NE(run("export scene.toml --frames 1 -o skin_{}.stl").err.find(".stl files do not keep: UVs"),
+            std::string::npos);
+  EXPECT_EQ(run("export scene.toml --frames 1 -o skin_{}.ply").err.find("do not keep"), std::string::npos);
 }
 
 }  // namespace

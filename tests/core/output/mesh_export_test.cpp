@@ -172,8 +172,9 @@ TEST(Xdmf, NamesWhatIsInItsFileOfNumbers) {
   stretched.col(0) *= 1.1;
   XdmfWriter writer(folder.path() / "run.xdmf", world);
   writer.add_skin(Triangles{{0, 1, 2}});
-  writer.add_frame(0, {rest}, {Points::Zero(3, 3)});
-  writer.add_frame(0.5, {stretched}, {Points::Ones(3, 3)});
+  const Points still = Points::Zero(rest.rows(), 3);
+  writer.add_frame(0, {rest}, {still}, {Points::Zero(3, 3)});
+  writer.add_frame(0.5, {stretched}, {(stretched - rest) * 2}, {Points::Ones(3, 3)});
   writer.close();
   const Hdf5Reader numbers(folder.path() / "run.xdmf.h5");
   EXPECT_NEAR(numbers.read<float>("/frame_1/bricks_1/stretch").values.at(1), 1, 1e-6);
@@ -185,6 +186,11 @@ TEST(Xdmf, NamesWhatIsInItsFileOfNumbers) {
   const double stress = strain * (1.1 * (lame + 2 * shear) - lame / 1.1);
   EXPECT_NEAR(numbers.read<float>("/frame_2/bricks_1/stress").values.at(0), stress, 1e-4 * stress);
   EXPECT_EQ(numbers.read<float>("/frame_2/skin_1/positions").values.at(8), 1);
+  const std::vector<float> velocity = numbers.read<float>("/frame_2/bricks_1/velocity").values;
+  EXPECT_LT((Eigen::Map<const Floats3>(velocity.data(), rest.rows(), 3).cast<double>() - (stretched - rest) * 2)
+                .cwiseAbs()
+                .maxCoeff(),
+            1e-7);
   const std::string text = text_of(folder.path() / "run.xdmf");
   std::size_t place = 0;
   int items = 0;
@@ -193,7 +199,7 @@ TEST(Xdmf, NamesWhatIsInItsFileOfNumbers) {
     EXPECT_TRUE(numbers.has(text.substr(place, text.find('<', place) - place)));
     ++items;
   }
-  EXPECT_EQ(items, 2 * (2 + 4 + 2));
+  EXPECT_EQ(items, 2 * (2 + 4 + 1 + 2));
 }
 
 }  // namespace
