@@ -13,14 +13,10 @@
 #include "core/bricks/slivers.h"
 #include "core/bricks/voxelize.h"
 #include "core/error.h"
-#include "core/mesh/submesh.h"
-#include "core/skin/corner_normals.h"
+#include "core/soft_body.h"
 
 namespace sprung {
 namespace {
-
-constexpr double kLongestSkinEdge =
-    0.75;  // in bricks: follows the bend of a brick, and touches the ground often enough
 
 /// For bodies whose scene names no colour; the solids of a file differ.
 constexpr std::array<Color, 8> kPalette{{{0xd8, 0x32, 0x2a},
@@ -31,22 +27,6 @@ constexpr std::array<Color, 8> kPalette{{{0xd8, 0x32, 0x2a},
                                          {0xe8, 0xc5, 0x47},
                                          {0xc7, 0x6b, 0x8f},
                                          {0x4f, 0x6d, 0xb8}}};
-
-/// Lets the skin touch: each position that triangles use, once.
-void add_contacts(const Skin& skin, Actor& actor) {
-  const std::vector<int> point_of = weld_points(skin.positions);
-  const auto position_of = [&](int vertex) { return point_of[static_cast<std::size_t>(vertex)]; };
-  std::vector<int> rows;
-  for (const int vertex : std::span(skin.triangles.data(), static_cast<std::size_t>(skin.triangles.size()))) {
-    rows.push_back(position_of(vertex));
-  }
-  std::sort(rows.begin(), rows.end());
-  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
-  actor.contacts = embed(actor.body.grid, skin.positions(rows, Eigen::all), skin.normals(rows, Eigen::all));
-  actor.contact_triangles = skin.triangles.unaryExpr([&](int vertex) {
-    return static_cast<int>(std::lower_bound(rows.begin(), rows.end(), position_of(vertex)) - rows.begin());
-  });
-}
 
 /// Which solid each vertex of a mesh belongs to; the first, where none has it.
 std::vector<int> solids_of_vertices(const LoadedBody& loaded) {
@@ -153,19 +133,18 @@ void BodyBuilder::add_solids() {
 }
 
 BodyBuilder::Filled BodyBuilder::fill(std::size_t solid) {
+  const Solid& outline = loaded_.solids[solid];
+  SoftBody made = make_soft_body(loaded_.mesh, outline, make_grid(outline), body_.model, body_.material);
   Filled filled;
+  filled.actor = std::move(made.actor);
+  filled.drawn.skin = std::move(made.skin);
+  filled.drawn.embedding = std::move(made.embedding);
   Body& body = filled.actor.body;
-  body = make_body(make_grid(loaded_.solids[solid]), body_.model, body_.material);
   apply_regions(body_.regions, selector_, body, solid);
-  Skin& skin = filled.drawn.skin;
-  skin = make_skin(submesh(loaded_.mesh, loaded_.solids[solid]), {.max_edge = kLongestSkinEdge * loaded_.brick_size});
-  filled.drawn.embedding = embed(body.grid, skin.positions, skin.normals);
   report_.add(filled.drawn.embedding);
   filled.carried = carry(loaded_, solid, solid_of_vertex_, body.grid);
-  add_contacts(skin, filled.actor);
   filled.actor.friction = body_.friction;
-  const Solid& outline = loaded_.solids[solid];
-  filled.actor.touches_itself = touches_itself_ && outline.closed && !outline.overlaps && outline.thickness == 0;
+  filled.actor.touches_itself = filled.actor.touches_itself && touches_itself_;
   filled.pins = find_pins(body, solid);
   held_solids_ += filled.pins.empty() ? 0 : 1;
   filled.actor.pinned = held_nodes(filled.pins, body_.pins);

@@ -10,6 +10,8 @@
 #include <sstream>
 
 #include "app/commands.h"
+#include "app/help/completions.h"
+#include "app/help/man_page.h"
 #include "app/scene/scene_keys.h"
 #include "app/scene/scene_schema.h"
 #include "app/scene/scene_values.h"
@@ -23,19 +25,33 @@ namespace {
 
 constexpr const char* kVersion = SPRUNG_VERSION;
 
-std::string help_text(const CLI::App& app, const CLI::App& help, const Words& words) {
+/// For a newcomer who typed the name of the program and nothing else.
+constexpr const char* kGreeting =
+    "sprung turns a surface mesh into the animation of a soft body of real material.\n\n"
+    "  sprung animate bunny.obj -o bunny.mp4    a film of your mesh\n"
+    "  sprung inspect bunny.obj                 what the mesh is, and what its film will take\n"
+    "  sprung materials                         what it can be made of\n\n"
+    "All commands: sprung --help\n";
+
+std::string help_text(CLI::App& app, const CLI::App& help, const Words& words) {
   refuse_extras(help, "unexpected");
+  for (CLI::App* command : app.get_subcommands({})) show_all(*command);
   if (words.topic == "scene") return words.json_schema ? scene_schema() : scene_reference();
+  if (words.topic == "man") return man_page(app, kVersion);
+  for (const auto& [name, shell] : {std::pair("bash", Shell::kBash), {"zsh", Shell::kZsh}, {"fish", Shell::kFish}}) {
+    if (words.topic == name) return completions(app, shell);
+  }
   if (words.json_schema) throw Error(ErrorKind::kUsage, "--json-schema is for sprung help scene");
   const auto help_on = [](const CLI::App& command, const std::string& name) {
     return command.get_formatter()->make_help(&command, name, CLI::AppFormatMode::Normal);
   };
   // The name of a command after `help` is parsed as that command.
-  for (const CLI::App* command : app.get_subcommands()) {
+  for (CLI::App* command : app.get_subcommands()) {
     if (command != &help) return help_on(*command, "sprung " + command->get_name());
   }
   if (words.topic.empty()) return help_on(app, app.get_name());
-  std::vector<std::string> names{"scene"};
+  if (words.topic == help.get_name()) return help_on(help, "sprung help");
+  std::vector<std::string> names{"scene", "man", "bash", "zsh", "fish"};
   for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
   const std::vector<std::string_view> known(names.begin(), names.end());
   throw Error(ErrorKind::kUsage, fmt::format("no help on '{}'{}", words.topic, did_you_mean(words.topic, known)));
@@ -186,6 +202,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     line.text = help_text(app, *app.get_subcommand("help"), words);
   } else if (app.got_subcommand("materials")) {
     refuse_extras(*app.get_subcommand("materials"), "unexpected");
+    refuse_repeated(*app.get_subcommand("materials"));
+    line.materials = words.materials;
     line.command = CommandLine::Command::kMaterials;
   } else if (app.got_subcommand("animate")) {
     line.scene = read_scene_options(*app.get_subcommand("animate"), words);
@@ -219,9 +237,11 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     refuse_extras(command, "unexpected");
     refuse_repeated(command);
     line.compare = words.compare;
+    if (line.compare.second.empty())
+      throw Error(ErrorKind::kUsage, "compare needs two pictures: sprung compare A.png B.png");
     line.command = CommandLine::Command::kCompare;
   } else {
-    line.text = app.help();
+    line.text = kGreeting;
   }
   line.scene.command = command_of(argc, argv);
   return line;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/compare.h"
+#include "app/materials/list_materials.h"
 #include "app/scene/scenarios.h"
 #include "app/validate/validate.h"
 
@@ -56,10 +57,11 @@ struct CommandLine {
     kCompare
   };
   Command command = Command::kShowText;
-  std::string text;          // of kShowText: help or version
-  SceneOptions scene;        // of all others but kMaterials and kCompare
-  ValidateOptions validate;  // of kValidate
-  CompareOptions compare;    // of kCompare
+  std::string text;            // of kShowText: help or version
+  SceneOptions scene;          // of all others but kMaterials and kCompare
+  ValidateOptions validate;    // of kValidate
+  CompareOptions compare;      // of kCompare
+  MaterialsOptions materials;  // of kMaterials
 };
 
 /// Throws Error(kUsage), with the nearest word for a mistyped command or option.

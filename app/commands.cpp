@@ -8,12 +8,24 @@
 namespace sprung {
 namespace {
 
-void add_scene_options(CLI::App& command, Words& words, bool has_pictures) {
+/// What every command that works for a while says of it.
+void add_messages(CLI::App& command, Words& words, const std::string& verbose = "more about every stage") {
+  command.add_flag("--quiet", words.scene.quiet, "warnings and errors only");
+  command.add_flag("--verbose", words.scene.verbose, verbose);
+  command.add_flag("--log-json", words.log_json, "messages and progress as JSON on stderr, an object a line");
+}
+
+void add_scene_option(CLI::App& command, Words& words, std::size_t row) {
+  const SceneOption& option = scene_options()[row];
+  CLI::Option* added = command.add_option(option.option, words.scene_values[row], help_of(option));
+  added->option_text(option.example);
+  if (!option.use.is_common) added->group(kMoreOptions);
+}
+
+void add_scene_options(CLI::App& command, Words& words, bool has_pictures, const std::string& examples) {
   command.add_option("INPUT", words.scene.input, "a mesh file, or a scene (.toml)");
   for (std::size_t i = 0; i < words.scene_values.size(); ++i) {
-    const SceneOption& option = scene_options()[i];
-    if (option.is_of_pictures && !has_pictures) continue;
-    command.add_option(option.option, words.scene_values[i], help_of(option))->option_text(option.example);
+    if (!scene_options()[i].use.is_of_pictures || has_pictures) add_scene_option(command, words, i);
   }
   command.add_option("--set", words.set, "any key of a scene (sprung help scene); may be given several times")
       ->allow_extra_args(false)
@@ -22,13 +34,17 @@ void add_scene_options(CLI::App& command, Words& words, bool has_pictures) {
       .add_option("--scenario", words.scenario,
                   fmt::format("what a bare mesh does: {}", fmt::join(scenario_names(), ", ")))
       ->option_text("NAME");
-  command.add_option("--threads", words.threads, "threads of the simulation; default: all cores")->option_text("N");
+  command.add_option("--threads", words.threads, "threads of the simulation; default: all cores")
+      ->option_text("N")
+      ->group(kMoreOptions);
   command.add_flag("--print-scene", words.scene.print_scene, "write the scene as resolved to stdout, and stop");
-  command.add_flag("--quiet", words.scene.quiet, "warnings and errors only");
-  command.add_flag("--verbose", words.scene.verbose, "more about every stage");
+  add_messages(command, words);
   command.footer(
+      examples +
       "Lengths, times, pressures and densities take a unit (\"3 cm\", 20kPa, 1.2g/cm3); a bare number is SI.\n"
-      "Options override the scene file, which overrides the defaults.");
+      "Options override the scene file, which overrides the defaults.\n"
+      "All options: sprung help " +
+      command.get_name() + "    All keys of a scene: sprung help scene");
   command.allow_extras();
 }
 
@@ -40,7 +56,10 @@ void add_animate(CLI::App& app, Words& words) {
       ->allow_extra_args(false)
       ->option_text("OUT");
   animate->add_flag("--overwrite", words.scene.overwrite, "replace pictures and films that exist");
-  add_scene_options(*animate, words, true);
+  add_scene_options(*animate, words, true,
+                    "Examples:\n  sprung animate bunny.obj -o bunny.mp4\n"
+                    "  sprung animate bunny.obj -o frames/ --material rubber --size 12cm --scenario hang\n"
+                    "  sprung animate scene.toml -o out/f_{:04}.png --color-by stress --set render.ghost=true\n");
 }
 
 void add_simulate(CLI::App& app, Words& words) {
@@ -58,7 +77,10 @@ void add_simulate(CLI::App& app, Words& words) {
           "keep positions in the cache to within this, velocities to within this a frame: smaller; default: to "
           "the last bit")
       ->option_text("LENGTH");
-  add_scene_options(*simulate, words, false);
+  add_scene_options(
+      *simulate, words, false,
+      "Examples:\n  sprung simulate scene.toml -o run.h5\n  sprung simulate scene.toml -o run.h5 --resume\n"
+      "  sprung simulate beam.toml -o out/\n");
 }
 
 void add_render(CLI::App& app, Words& words) {
@@ -73,15 +95,16 @@ void add_render(CLI::App& app, Words& words) {
   render->add_option("--jobs", words.jobs, "so many processes at once; default: 1")->option_text("N");
   render->add_flag("--overwrite", words.scene.overwrite, "replace pictures and films that exist");
   for (std::size_t i = 0; i < words.scene_values.size(); ++i) {
-    const SceneOption& option = scene_options()[i];
-    if (!option.key.starts_with("render.")) continue;
-    render->add_option(option.option, words.scene_values[i], help_of(option))->option_text(option.example);
+    if (scene_options()[i].key.starts_with("render.")) add_scene_option(*render, words, i);
   }
   render->add_option("--set", words.set, "any key of [camera] and [render]; may be given several times")
       ->allow_extra_args(false)
       ->option_text("KEY=VALUE");
-  render->add_flag("--quiet", words.scene.quiet, "warnings and errors only");
-  render->add_flag("--verbose", words.scene.verbose, "more about every stage");
+  add_messages(*render, words);
+  render->footer(
+      "Examples:\n  sprung render run.h5 -o film.mp4\n  sprung render run.h5 -o frames/ --frames 1:48 --jobs 4\n"
+      "  sprung render run.h5 -o stress.mp4 --color-by stress --set camera.orbit=90\n"
+      "All options: sprung help render    All keys of a scene: sprung help scene");
   render->allow_extras();
 }
 
@@ -97,7 +120,9 @@ void add_export(CLI::App& app, Words& words) {
   command->add_option("--frames", words.scene.frames, "these only, counted from 1; default: all")->option_text("A:B");
   command->add_flag("--list", words.scene.list, "name the formats, and stop");
   command->add_flag("--overwrite", words.scene.overwrite, "replace files that exist");
-  add_scene_options(*command, words, false);
+  add_scene_options(
+      *command, words, false,
+      "Examples:\n  sprung export run.h5 -o film.glb\n  sprung export run.h5 -o skin_{:04}.obj -o points.pc2\n");
 }
 
 void add_film(CLI::App& app, Words& words) {
@@ -110,7 +135,8 @@ void add_film(CLI::App& app, Words& words) {
       ->option_text("A:B");
   film->add_option("--fps", words.fps, "pictures a second; default: 24")->option_text("N");
   film->add_flag("--overwrite", words.scene.overwrite, "replace films that exist");
-  film->add_flag("--quiet", words.scene.quiet, "warnings and errors only");
+  add_messages(*film, words);
+  film->footer("Example:\n  sprung film frames/ -o film.mp4 --fps 24");
   film->allow_extras();
 }
 
@@ -125,7 +151,10 @@ void add_sweep(CLI::App& app, Words& words) {
       ->option_text("KEY=A,B,C");
   sweep->add_flag("--table", words.scene.table, "what the probes of all runs saw last, as CSV");
   sweep->add_flag("--overwrite", words.scene.overwrite, "replace the list of commands that exists");
-  sweep->add_flag("--quiet", words.scene.quiet, "warnings and errors only");
+  add_messages(*sweep, words);
+  sweep->footer(
+      "Examples:\n  sprung sweep scene.toml --set body.material=gelatin,rubber -o runs\n  sh runs/commands\n"
+      "  sprung sweep runs --table");
   sweep->allow_extras();
 }
 
@@ -136,7 +165,10 @@ void add_inspect(CLI::App& app, Words& words) {
   inspect->add_option("--picture", words.scene.picture, "draw skin and bricks, thin parts marked")
       ->option_text("FILE.png");
   inspect->add_flag("--overwrite", words.scene.overwrite, "replace a picture that exists");
-  add_scene_options(*inspect, words, true);
+  add_scene_options(
+      *inspect, words, true,
+      "Examples:\n  sprung inspect bunny.obj\n  sprung inspect bunny.obj --bricks auto --picture bunny.png\n"
+      "  sprung inspect run.h5 --json\n");
 }
 
 void add_validate(CLI::App& app, Words& words) {
@@ -152,15 +184,17 @@ void add_validate(CLI::App& app, Words& words) {
       ->option_text("N");
   validate->add_flag("--json", words.validate.json, "checks as JSON");
   validate->add_option("--report", words.validate.report, "folder for report.html")->option_text("DIR");
-  validate->add_flag("--quiet", words.scene.quiet, "warnings and errors only");
-  validate->add_flag("--verbose", words.scene.verbose, "say why a model could not be carried through");
+  add_messages(*validate, words, "say why a model could not be carried through");
+  validate->footer(
+      "Examples:\n  sprung validate\n  sprung validate --case cantilever --model calibrated\n"
+      "  sprung validate mine.toml --report out/report");
   validate->allow_extras();
 }
 
 void add_compare(CLI::App& app, Words& words) {
   CLI::App* compare = app.add_subcommand("compare", "two pictures: how much they differ; exit code 1 if too much");
-  compare->add_option("A", words.compare.first, "a PNG")->option_text("A.png")->required();
-  compare->add_option("B", words.compare.second, "another")->option_text("B.png")->required();
+  compare->add_option("A", words.compare.first, "a PNG")->option_text("A.png");
+  compare->add_option("B", words.compare.second, "another")->option_text("B.png");
   compare->add_option("--mean", words.compare.mean, "levels of 255 that they may differ by on average; default: 0.4")
       ->option_text("X")
       ->check(CLI::NonNegativeNumber);
@@ -170,13 +204,34 @@ void add_compare(CLI::App& app, Words& words) {
   compare->add_option("--difference", words.compare.difference, "picture of the differences, 16 times as large")
       ->option_text("FILE.png");
   compare->add_flag("--overwrite", words.compare.overwrite, "replace a picture that exists");
+  compare->footer("Example:\n  sprung compare golden.png new.png --difference difference.png");
   compare->allow_extras();
+}
+
+void add_materials(CLI::App& app, Words& words) {
+  MaterialsOptions& asked = words.materials;
+  CLI::App* materials = app.add_subcommand("materials", "what bodies can be made of, with sources and uncertainties");
+  materials->add_option("WORDS", asked.words, "these only: part of a name, or a class");
+  materials->add_option("--class", asked.material_class, "these only: gelatin, silicone, rubber, foam, wood, ...")
+      ->option_text("NAME");
+  materials->add_option("--young", asked.young, "these only: Young's modulus from A to B")->option_text("A:B");
+  materials->add_option("--materials", asked.files, "a file with materials of your own; may be given several times")
+      ->allow_extra_args(false)
+      ->option_text("FILE.toml");
+  materials->add_flag("--sources", asked.sources, "where every figure is from");
+  materials->add_flag("--json", asked.json, "as JSON, SI units, with the sources");
+  materials->footer(
+      "Examples:\n  sprung materials\n  sprung materials silicone --young :1MPa\n  sprung materials steel --sources\n"
+      "  sprung materials --materials mine.toml --json");
+  materials->allow_extras();
 }
 
 void add_help(CLI::App& app, Words& words) {
   CLI::App* help = app.add_subcommand("help", "on a command, or on the keys of a scene: sprung help scene");
-  help->add_option("TOPIC", words.topic, "a command, or scene");
+  help->add_option("TOPIC", words.topic,
+                   "a command; scene, its keys; man, the manual as roff; bash, zsh or fish, completions for it");
   help->add_flag("--json-schema", words.json_schema, "the keys of a scene as a JSON Schema");
+  help->footer("Examples:\n  sprung help animate\n  sprung help scene");
   help->allow_extras();
 }
 
@@ -192,8 +247,14 @@ void add_commands(CLI::App& app, Words& words) {
   add_inspect(app, words);
   add_validate(app, words);
   add_compare(app, words);
-  app.add_subcommand("materials", "the library of materials, with sources")->allow_extras();
+  add_materials(app, words);
   add_help(app, words);
+}
+
+void show_all(CLI::App& command) {
+  for (CLI::Option* option : command.get_options()) {
+    if (option->get_group() == kMoreOptions) option->group("More options");
+  }
 }
 
 }  // namespace sprung

@@ -16,6 +16,7 @@ struct Words {
   SceneOptions scene;
   ValidateOptions validate;
   CompareOptions compare;
+  MaterialsOptions materials;
   std::string model;
   std::string poisson;
   std::string bricks;
@@ -28,9 +29,16 @@ struct Words {
   std::string fps;    // of film
   std::string topic;  // of help
   bool json_schema = false;
+  bool log_json = false;  // main looks for it by itself: mistakes in the words are said so too
 };
+
+/// CLI11's group of options that --help leaves out; show_all brings them back.
+inline constexpr const char* kMoreOptions = "";
 
 /// All commands with their options, which write into the words; these have to outlive the parsing.
 void add_commands(CLI::App& app, Words& words);
+
+/// Lets the help of a command name all its options.
+void show_all(CLI::App& command);
 
 }  // namespace sprung

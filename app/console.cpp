@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "app/json_text.h"
+
 namespace sprung {
 namespace {
 
@@ -20,6 +22,10 @@ void print_line(const Console& console, std::string_view line) {
 }
 
 void say(const Console& console, std::string_view label, std::string_view color, std::string_view message) {
+  if (console.log_json) {
+    console.event(label, fmt::format(R"("message": {})", json_text(message)));
+    return;
+  }
   const std::string start =
       console.has_color ? fmt::format("sprung: {}{}:{} ", color, label, kPlain) : fmt::format("sprung: {}: ", label);
   while (true) {
@@ -49,7 +55,16 @@ void Console::warn(std::string_view message) const {
 }
 
 void Console::note(std::string_view message) const {
-  if (!quiet) print_line(*this, message);
+  if (quiet) return;
+  if (log_json) {
+    event("note", fmt::format(R"("message": {})", json_text(message)));
+  } else {
+    print_line(*this, message);
+  }
+}
+
+void Console::event(std::string_view kind, std::string_view members) const {
+  fmt::print(stderr, "{{\"kind\": {}, {}}}\n", json_text(kind), members);
 }
 
 void Console::detail(std::string_view message) const {

@@ -12,6 +12,7 @@ struct Console {
   bool has_color = false;    // such a terminal, and NO_COLOR is not set
   bool quiet = false;        // errors and warnings only
   bool verbose = false;
+  bool log_json = false;                         // a JSON object a line, in place of words
   std::vector<std::string>* warnings = nullptr;  // where set, keeps what warn() said
 
   /// Colours and terminal as they are for this process.
@@ -23,6 +24,8 @@ struct Console {
   void note(std::string_view message) const;
   /// A note that is shown with --verbose only.
   void detail(std::string_view message) const;
+  /// With log_json: {"kind": "progress", "members"...}; `members` as they stand in the object.
+  void event(std::string_view kind, std::string_view members) const;
 };
 
 }  // namespace sprung

@@ -18,6 +18,7 @@
 #include "core/mesh/read/file_checks.h"
 #include "core/mesh/read_mesh.h"
 #include "core/rotation.h"
+#include "core/soft_body.h"
 #include "render/decode.h"
 
 namespace sprung {
@@ -30,26 +31,6 @@ constexpr double kFarAway = 1e4;
 constexpr double kFewestWallSamples = 20000;
 constexpr double kMostWallSamples = 200000;
 constexpr double kWallSamplesABrick = 4;  // that the surface cuts
-
-/// The bounding box of a mesh, in units of its file.
-struct Bounds {
-  Vec3 middle;
-  Vec3 extent;
-};
-
-/// In double and before anything else, so that a mesh far from its origin loses nothing later. Vertices that no
-/// triangle uses count nothing.
-Bounds recentre(SurfaceMesh& mesh) {
-  Vec3 low = mesh.positions.row(mesh.triangles(0, 0));
-  Vec3 high = low;
-  for (const int vertex : mesh.triangles.reshaped()) {
-    low = low.cwiseMin(mesh.positions.row(vertex).transpose());
-    high = high.cwiseMax(mesh.positions.row(vertex).transpose());
-  }
-  const Vec3 middle = low + (high - low) / 2;
-  mesh.positions.rowwise() -= middle.transpose();
-  return {.middle = middle, .extent = high - low};
-}
 
 void warn_if_far_away(const SceneBody& body, const SurfaceMesh& mesh, double sizes, const Console& console) {
   if (sizes < kFarAway || !mesh.single_precision) return;

@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <exception>
 #include <new>
+#include <span>
 
 #include "app/animate.h"
 #include "app/cache/render_cache.h"
@@ -11,7 +13,7 @@
 #include "app/farm/sweep.h"
 #include "app/inspect/inspect.h"
 #include "app/interrupt.h"
-#include "app/materials.h"
+#include "app/materials/list_materials.h"
 #include "app/run_simulation.h"
 #include "app/standard_files.h"
 #include "core/error.h"
@@ -31,7 +33,7 @@ int run(int argc, const char* const* argv, Console& console) {
       fmt::print("{}", line.text);
       break;
     case CommandLine::Command::kMaterials:
-      fmt::print("{}", materials_table());
+      fmt::print("{}", list_materials(line.materials));
       break;
     case CommandLine::Command::kAnimate:
       animate(line.scene, console);
@@ -65,6 +67,9 @@ int run(int argc, const char* const* argv, Console& console) {
 /// The exit code that fits how it ended.
 int exit_code(int argc, const char* const* argv) {
   Console console = Console::of_process();
+  const std::span words(argv, static_cast<std::size_t>(argc));
+  console.log_json =
+      std::count(words.begin(), words.end(), std::string_view("--log-json")) > 0;  // of mistakes in the others too
   catch_interrupts();
   hold_standard_files();
   try {

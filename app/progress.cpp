@@ -6,11 +6,14 @@
 #include <cmath>
 #include <cstdio>
 
+#include "app/json_text.h"
+
 namespace sprung {
 namespace {
 
 constexpr int kBarWidth = 24;
 constexpr std::chrono::milliseconds kRedraw{100};
+constexpr std::chrono::milliseconds kReport{1000};
 
 }  // namespace
 
@@ -41,12 +44,16 @@ std::string Progress::rate() const {
 
 void Progress::update(double done) {
   done_ = done;
-  if (Clock::now() - last_draw_ >= kRedraw) draw();
+  if (Clock::now() - last_draw_ >= (console_.log_json ? kReport : kRedraw)) draw();
 }
 
 void Progress::draw() {
-  if (!console_.is_terminal || console_.quiet) return;
+  if (console_.quiet || (!console_.is_terminal && !console_.log_json)) return;
   last_draw_ = Clock::now();
+  if (console_.log_json) {
+    report();
+    return;
+  }
   is_drawn_ = true;
   const double part = total_ > 0 ? std::clamp(done_ / total_, 0.0, 1.0) : 0;
   const int filled = static_cast<int>(part * kBarWidth);
@@ -57,6 +64,13 @@ void Progress::draw() {
   std::fflush(stderr);
 }
 
+void Progress::report() const {
+  const double share = total_ > 0 ? std::clamp(done_ / total_, 0.0, 1.0) : 0;
+  console_.event("progress", fmt::format(R"("stage": {}, "share": {:.4g}, "seconds": {:.3f}, "seconds_to_go": {})",
+                                         json_text(std::string_view(stage_)), share, seconds(),
+                                         done_ > 0 ? fmt::format("{:.3f}", seconds_to_go()) : "null"));
+}
+
 void Progress::clear() {
   if (is_drawn_) fmt::print(stderr, "\r\033[K");
   is_drawn_ = false;
@@ -64,6 +78,13 @@ void Progress::clear() {
 
 void Progress::finish(const std::string& summary) {
   clear();
+  if (console_.log_json) {
+    if (console_.quiet) return;
+    console_.event("stage",
+                   fmt::format(R"("stage": {}, "seconds": {:.3f}, "result": {})", json_text(std::string_view(stage_)),
+                               seconds(), json_text(std::string_view(summary))));
+    return;
+  }
   const std::string speed = rate();
   console_.note(fmt::format("{:<9} {:6.1f} s  {}{}{}", stage_, seconds(), summary, speed.empty() ? "" : "; ", speed));
 }

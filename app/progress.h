@@ -6,7 +6,9 @@
 
 namespace sprung {
 
-/// "simulate" with its bar, rate and time to go on a terminal; one plain line when the stage is over in any case.
+/// "simulate" with its bar, rate and time to go on a terminal; one plain line when the stage is over in any case. With
+/// Console::log_json an object at its start and then every second, {"kind": "progress", "stage", "share" (0 to 1),
+/// "seconds", "seconds_to_go" (null: not known yet)}, and {"kind": "stage", "stage", "seconds", "result"} at its end.
 class Progress {
  public:
   /// `total` units of work; the rate is shown as `scale` times units a second, for example 1e-6 and "M brick-steps/s".
@@ -27,6 +29,7 @@ class Progress {
 
  private:
   void draw();
+  void report() const;
   void clear();
   [[nodiscard]] std::string rate() const;
 

@@ -7,28 +7,29 @@
 namespace sprung {
 namespace {
 
-constexpr std::array<SceneOption, 21> kSceneOptions{{
-    {"--material", "body.material", "NAME"},
-    {"--young", "body.material.young", "20kPa"},
+constexpr std::array<SceneOption, 22> kSceneOptions{{
+    {"--material", "body.material", "NAME", {.is_common = true}},
+    {"--materials", "materials", "FILE.toml"},
+    {"--young", "body.material.young", "20kPa", {.is_common = true}},
     {"--poisson", "body.material.poisson", "0.45"},
     {"--density", "body.material.density", "1.1g/cm3"},
     {"--damping", "body.material.damping", "0.03"},
-    {"--size", "body.size", "12cm"},
-    {"--bricks", "body.bricks", "N|auto"},
+    {"--size", "body.size", "12cm", {.is_common = true}},
+    {"--bricks", "body.bricks", "N|auto", {.is_common = true}},
     {"--brick-size", "body.brick_size", "5mm"},
     {"--repair", "body.repair", "off|auto|strict"},
     {"--thickness", "body.thickness", "3mm"},
-    {"--texture", "body.texture", "FILE.png", true},
+    {"--texture", "body.texture", "FILE.png", {.is_of_pictures = true}},
     {"--model", "body.model", "NAME"},
     {"--scheme", "solver.scheme", "NAME"},
     {"--integrator", "solver.scheme", "NAME"},
     {"--time-limit", "solver.time_limit", "24h"},
-    {"--fps", "fps", "N"},
-    {"--duration", "duration", "3s"},
-    {"--resolution", "render.resolution", "WxH", true},
-    {"--quality", "render.quality", "preview|default|high", true},
-    {"--samples", "render.samples", "N", true},
-    {"--color-by", "render.color_by", "FIELD", true},
+    {"--fps", "fps", "N", {.is_common = true}},
+    {"--duration", "duration", "3s", {.is_common = true}},
+    {"--resolution", "render.resolution", "WxH", {.is_of_pictures = true, .is_common = true}},
+    {"--quality", "render.quality", "preview|default|high", {.is_of_pictures = true, .is_common = true}},
+    {"--samples", "render.samples", "N", {.is_of_pictures = true}},
+    {"--color-by", "render.color_by", "FIELD", {.is_of_pictures = true, .is_common = true}},
 }};
 
 template <class Owner>

@@ -10,7 +10,10 @@ struct SceneOption {
   const char* option;
   std::string_view key;
   const char* example;
-  bool is_of_pictures = false;  // of no use where none are drawn
+  struct Use {
+    bool is_of_pictures = false;  // of no use where none are drawn
+    bool is_common = false;       // named by --help; the others by sprung help COMMAND
+  } use{};
 };
 
 /// Every such option, in the order of its help.

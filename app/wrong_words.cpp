@@ -50,7 +50,8 @@ void refuse_repeated(const CLI::App& command) {
 void refuse_extras(const CLI::App& app, std::string_view kind) {
   const std::vector<std::string> extras = app.remaining();
   if (extras.empty()) return;
-  const std::string word = strange_word(extras);
+  // What stands in the place of the command is no command, whatever options come after it.
+  const std::string word = app.get_parent() == nullptr ? extras.front() : strange_word(extras);
   const bool is_option = word.starts_with('-');
   std::vector<std::string> known;
   if (is_option) {

@@ -3,6 +3,7 @@
 
 #include "render/gl/objects.h"
 #include "render/light_frame.h"
+#include "render/pass_clock.h"
 #include "render/skin_buffers.h"
 
 namespace sprung {

@@ -3,15 +3,9 @@
 #include <vector>
 
 #include "render/gl/functions.h"
+#include "render/pass_time.h"
 
 namespace sprung {
-
-/// What one pass of drawing has taken, of all pictures so far.
-struct PassTime {
-  std::string_view pass;
-  double wall = 0;       // s
-  double processor = 0;  // s, of all threads
-};
 
 /// Measures the passes of drawing. It waits for the end of each, so nothing overlaps while it is on; off, it costs
 /// nothing.

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "render/gl/context.h"
+#include "render/pass_clock.h"
 #include "render/screen.h"
 
 namespace sprung {

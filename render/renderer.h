@@ -8,7 +8,7 @@
 #include "render/color_map.h"
 #include "render/image.h"
 #include "render/look.h"
-#include "render/pass_clock.h"
+#include "render/pass_time.h"
 #include "render/quality.h"
 
 namespace sprung {

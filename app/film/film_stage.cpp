@@ -30,14 +30,6 @@ Skin at_rest(Skin skin, const SkinShape& shape) {
   return skin;
 }
 
-Look look_of(const SceneBody& body) {
-  if (body.look) return *body.look;
-  if (body.material.name == "gelatin") return Look::kGelatin;
-  if (body.material.name.find("rubber") != std::string::npos) return Look::kRubber;
-  if (body.material.name == "steel" || body.material.name == "aluminium") return Look::kSteel;
-  return Look::kPlastic;
-}
-
 Points rows_of(const Points& nodes, const std::vector<int>& rows) { return nodes(rows, Eigen::all); }
 
 }  // namespace
@@ -117,7 +109,7 @@ void FilmStage::add_skin(std::size_t actor) {
   const BrickGrid& grid = production_.world.actors[actor].body.grid;
   const SceneBody& body = scene_.bodies[production_.origins[actor].body];
   players_.push_back({std::shared_ptr<const Skin>(&drawn.skin, [](const Skin*) {}), shade(drawn.color),
-                      colors_.is_mapped() ? Look::kRubber : look_of(body), false,
+                      colors_.is_mapped() ? Look::kRubber : look_of(body, *scene_.library), false,
                       [this, actor, &drawn, &grid, riding = body.skin](const Moment& now) {
                         SkinShape shape = shape_of(production_, actor, now.nodes[actor], riding);
                         const Eigen::VectorXd of_nodes = shares(now, actor);

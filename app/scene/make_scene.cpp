@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "app/scene/scenarios.h"
 #include "app/scene/scene_file.h"
 #include "core/error.h"
@@ -10,8 +12,21 @@
 namespace sprung {
 namespace {
 
-Scene bare_mesh(const std::filesystem::path& mesh) {
+bool is_of_materials(const Setting& setting) { return setting.key == "materials"; }
+
+/// What can be named: also in a scene file that does not say where it comes from.
+std::shared_ptr<const MaterialLibrary> library_of(const std::vector<Setting>& settings) {
+  if (std::none_of(settings.begin(), settings.end(), is_of_materials)) return built_in_materials();
+  auto library = std::make_shared<MaterialLibrary>(*built_in_materials());
+  for (const Setting& setting : settings) {
+    if (is_of_materials(setting)) library->add_file(setting.value);
+  }
+  return library;
+}
+
+Scene bare_mesh(const std::filesystem::path& mesh, const std::shared_ptr<const MaterialLibrary>& library) {
   Scene scene;
+  scene.library = library;
   scene.bodies.emplace_back().mesh = std::filesystem::absolute(mesh).lexically_normal();
   return scene;
 }
@@ -39,8 +54,11 @@ Scene make_scene(const SceneOptions& options) {
   if (is_scene && options.scenario) {
     throw Error(ErrorKind::kUsage, "--scenario is for a bare mesh; a scene file says itself what happens");
   }
-  Scene scene = is_scene ? read_scene(options.input) : bare_mesh(options.input);
-  for (const Setting& setting : options.settings) apply(setting, scene);
+  const auto library = library_of(options.settings);
+  Scene scene = is_scene ? read_scene(options.input, *library) : bare_mesh(options.input, library);
+  for (const Setting& setting : options.settings) {
+    if (!is_of_materials(setting)) apply(setting, scene);
+  }
   if (is_scene) return scene;
   const Scenario scenario = options.scenario.value_or(Scenario::kDrop);
   stage_scenario(scene, scenario, needs_height(scenario) ? height_of(scene.bodies[0]) : 0);

@@ -67,6 +67,17 @@ inline constexpr Names<Look, 4> kNames<Look>{
 template <>
 inline constexpr Names<Riding, 2> kNames<Riding>{"way to ride",
                                                  {{{"bricks", Riding::kBricks}, {"smooth", Riding::kSmooth}}}};
+template <>
+inline constexpr Names<MaterialClass, 9> kNames<MaterialClass>{"class of materials",
+                                                               {{{"gelatin", MaterialClass::kGelatin},
+                                                                 {"silicone", MaterialClass::kSilicone},
+                                                                 {"rubber", MaterialClass::kRubber},
+                                                                 {"foam", MaterialClass::kFoam},
+                                                                 {"wood", MaterialClass::kWood},
+                                                                 {"tissue", MaterialClass::kTissue},
+                                                                 {"plastic", MaterialClass::kPlastic},
+                                                                 {"metal", MaterialClass::kMetal},
+                                                                 {"other", MaterialClass::kOther}}}};
 
 template <class Value>
 concept InNames = !std::is_same_v<std::remove_cvref_t<decltype(kNames<Value>)>, bool>;

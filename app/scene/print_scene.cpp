@@ -28,12 +28,13 @@ constexpr bool kIsSection<std::vector<CameraKeyframe>> = false;
 template <class Owner>
 std::string inline_table(const Owner& owner);
 
-bool is_from_library(const Material& material) {
-  const auto same = [&](const Material& known) {
+bool is_built_in(const Material& material) {
+  const auto same = [&](const LibraryMaterial& known) {
     return known.name == material.name && known.young == material.young && known.poisson == material.poisson &&
            known.density == material.density && known.damping == material.damping;
   };
-  return std::any_of(material_library().begin(), material_library().end(), same);
+  const auto materials = built_in_materials()->materials();
+  return std::any_of(materials.begin(), materials.end(), same);
 }
 
 template <class Value>
@@ -46,7 +47,7 @@ std::string value_text(const Value& value) {
 }
 template <>
 std::string value_text(const Material& material) {
-  return is_from_library(material) ? toml_text(std::string_view(material.name)) : inline_table(material);
+  return is_built_in(material) ? toml_text(std::string_view(material.name)) : inline_table(material);
 }
 template <class Keyframes>
 std::string inline_tables(const Keyframes& keyframes) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 namespace sprung {
+
 bool is_whole(const Selection& selection) {
   return !selection.box && !selection.sphere && !selection.half_space && selection.part.empty() && !selection.painted &&
          !selection.nearest && selection.mesh.empty();
@@ -30,10 +31,17 @@ double time_of(const Scene& scene, int frame) {
   return last == 0 ? scene.duration : scene.duration * frame / last;
 }
 
+Look look_of(const SceneBody& body, const MaterialLibrary& library) {
+  if (body.look) return *body.look;
+  const LibraryMaterial* known = library.find_if_known(body.material.name);
+  return known == nullptr ? Look::kPlastic : known->look;
+}
+
 Scene with_defaults(Scene scene) {
   for (SceneBody& body : scene.bodies) {
     if (!body.size && !body.scale && !body.mesh.empty()) body.size = kDefaultSize;
     if (!body.bricks && !body.brick_size) body.bricks = kDefaultBricks;
+    if (built_in_materials()->find_if_known(body.material.name) == nullptr) body.look = look_of(body, *scene.library);
   }
   return scene;
 }

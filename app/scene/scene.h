@@ -1,10 +1,12 @@
 #pragma once
 #include <array>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "app/materials/material_library.h"
 #include "app/scene/scene_body.h"
 #include "app/scene/scene_render.h"
 
@@ -123,7 +125,9 @@ struct SceneContact {
 
 /// Everything a film is made from. SI units.
 struct Scene {
-  double duration = 3;  // s
+  std::filesystem::path materials;                                        // absolute; a file of further ones, or empty
+  std::shared_ptr<const MaterialLibrary> library = built_in_materials();  // with those of that file
+  double duration = 3;                                                    // s
   double fps = 24;
   Vec3 gravity{0, -9.81, 0};
   std::vector<GravityKeyframe> gravity_keyframes;  // in place of gravity
@@ -150,7 +154,11 @@ struct Scene {
 /// evenly, the last of them at its end.
 [[nodiscard]] double time_of(const Scene& scene, int frame);
 
-/// The scene with the size and the bricks of its bodies filled in where it leaves them open.
+/// How a body takes light: as it says, or as its material does.
+[[nodiscard]] Look look_of(const SceneBody& body, const MaterialLibrary& library);
+
+/// The scene with the size and the bricks of its bodies filled in where it leaves them open, and with the looks of
+/// materials that are not built in.
 [[nodiscard]] Scene with_defaults(Scene scene);
 
 }  // namespace sprung

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/materials/material_library.h"
 #include "app/scene/selection.h"
 #include "core/law/brick_law.h"
 #include "core/law/material.h"
@@ -139,7 +140,7 @@ struct SceneBody {
   std::optional<BrickCount> bricks;    // or
   std::optional<double> brick_size;    // m
   Vec3 brick_rotation = Vec3::Zero();  // degrees, about x, then y, then z: how the bricks are turned in the body
-  Material material = find_material(kDefaultMaterial);
+  Material material = built_in_materials()->find(kDefaultMaterial).material();
   Model model = Model::kCalibrated;
   std::optional<Color> color;  // of what the file leaves without colour
   std::optional<Look> look;    // as the material has it

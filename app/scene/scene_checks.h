@@ -1,11 +1,10 @@
 #pragma once
-#include <toml++/toml.h>
-
 #include <string>
 
 #include "app/scene/scene.h"
 #include "app/scene/scene_keys.h"
 #include "app/scene/scene_mistakes.h"
+#include "app/scene/toml.h"
 
 namespace sprung {
 

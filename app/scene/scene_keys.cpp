@@ -10,6 +10,8 @@ constexpr int kSampleCounts[] = {1, 4, 16};
 constexpr Range kZoom{.low = 0.01, .high = 100};
 
 const Key<Scene> kScene[] = {
+    {{"materials", "file of further materials that bodies may name (TOML, as assets/materials.toml)"},
+     &Scene::materials},
     {{"duration", "length of the film", Dimension::kTime, {0, 3600, true}}, &Scene::duration},
     {{"fps", "pictures a second", Dimension::kRate, {0, 10000, true}}, &Scene::fps},
     {{"gravity", "acceleration of everything", Dimension::kAcceleration}, &Scene::gravity},

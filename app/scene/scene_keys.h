@@ -39,9 +39,9 @@ template <class Owner>
 struct KeyTypes;
 template <>
 struct KeyTypes<Scene>
-    : Types<double, Vec3, std::vector<GravityKeyframe>, std::optional<SceneWind>, std::vector<SceneGlue>, SceneSolver,
-            SceneContact, SceneCamera, SceneRender, std::vector<SceneBody>, std::vector<SceneObstacle>,
-            std::vector<Probe>, Experiment, std::vector<Expectation>> {};
+    : Types<std::filesystem::path, double, Vec3, std::vector<GravityKeyframe>, std::optional<SceneWind>,
+            std::vector<SceneGlue>, SceneSolver, SceneContact, SceneCamera, SceneRender, std::vector<SceneBody>,
+            std::vector<SceneObstacle>, std::vector<Probe>, Experiment, std::vector<Expectation>> {};
 template <>
 struct KeyTypes<SceneSolver> : Types<Solver, std::optional<int>, int, double> {};
 template <>

@@ -1,9 +1,9 @@
 #pragma once
-#include <toml++/toml.h>
-
 #include <string>
 #include <tuple>
 #include <vector>
+
+#include "app/scene/toml.h"
 
 namespace sprung {
 

@@ -172,9 +172,9 @@ Described describe(const Axes&, const KeyInfo&) { return text_like("some of \"xy
 Described describe(const Color&, const KeyInfo&) { return text_like("\"#rrggbb\"", "^#[0-9a-fA-F]{6}$"); }
 Described describe(const Material&, const KeyInfo&) {
   std::vector<std::string_view> names;
-  for (const Material& material : material_library()) names.push_back(material.name);
-  return {"name, or table",
-          fmt::format(R"({{"anyOf": [{}, {}]}})", name_among(names).schema, reference(kTableName<Material>))};
+  for (const LibraryMaterial& known : built_in_materials()->materials()) names.push_back(known.name);
+  return {"name, or table", fmt::format(R"({{"anyOf": [{}, {{"type": "string", "pattern": "."}}, {}]}})",
+                                        name_among(names).schema, reference(kTableName<Material>))};
 }
 template <Named Value>
 Described describe(const Value&, const KeyInfo&) {

@@ -121,8 +121,6 @@ void parse_value(std::string_view text, const KeyInfo&, Color& value) {
   value = {.red = hex_byte(text, 1), .green = hex_byte(text, 3), .blue = hex_byte(text, 5)};
 }
 
-void parse_value(std::string_view text, const KeyInfo&, Material& value) { value = find_material(text); }
-
 std::string toml_text(double value) { return fmt::format("{}", value); }
 std::string toml_text(bool value) { return value ? "true" : "false"; }
 

@@ -36,7 +36,6 @@ void parse_value(std::string_view text, const KeyInfo& key, std::string& value);
 void parse_value(std::string_view text, const KeyInfo& key, Axes& value);
 void parse_value(std::string_view text, const KeyInfo& key, Model& value);
 void parse_value(std::string_view text, const KeyInfo& key, Color& value);
-void parse_value(std::string_view text, const KeyInfo& key, Material& value);
 
 template <InNames Value>
 void parse_value(std::string_view text, const KeyInfo&, Value& value) {

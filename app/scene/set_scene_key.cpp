@@ -11,12 +11,18 @@
 namespace sprung {
 namespace {
 
+/// What a key is set to.
+struct Given {
+  std::string_view text;
+  const MaterialLibrary& library;
+};
+
 [[noreturn]] void refuse(std::string_view path) {
   throw Error(ErrorKind::kBadInput, fmt::format("the key '{}' cannot be set by itself", path));
 }
 
 template <class Owner>
-void set_key(Owner& owner, std::string_view path, std::string_view text);
+void set_key(Owner& owner, std::string_view path, const Given& given);
 
 template <class Value>
 concept Word = requires(std::string_view text, const KeyInfo& key, Value& value) {
@@ -25,21 +31,21 @@ concept Word = requires(std::string_view text, const KeyInfo& key, Value& value)
 
 /// A plain value has to be the end of the path.
 template <class Value>
-void set_field(Value& value, const KeyInfo& key, std::string_view rest, std::string_view text) {
-  if constexpr (requires { parse_value(text, key, value); }) {
+void set_field(Value& value, const KeyInfo& key, std::string_view rest, const Given& given) {
+  if constexpr (requires { parse_value(given.text, key, value); }) {
     if (!rest.empty()) refuse(rest);
-    parse_value(text, key, value);
+    parse_value(given.text, key, value);
   } else {
-    set_key(value, rest, text);
+    set_key(value, rest, given);
   }
 }
 
 /// A table that is there.
 template <class Owner>
 requires(!Word<Owner>) void set_field(std::optional<Owner>& owner, const KeyInfo& key, std::string_view rest,
-                                      std::string_view text) {
+                                      const Given& given) {
   if (!owner) refuse(key.name);
-  set_key(*owner, rest, text);
+  set_key(*owner, rest, given);
 }
 
 /// "[1, 2, 3]", with or without brackets, piece by piece.
@@ -55,9 +61,9 @@ std::vector<std::string_view> items_of(std::string_view text) {
 }
 
 template <class Values>
-void set_items(Values& values, std::size_t count, const KeyInfo& key, std::string_view rest, std::string_view text) {
+void set_items(Values& values, std::size_t count, const KeyInfo& key, std::string_view rest, const Given& given) {
   if (!rest.empty()) refuse(rest);
-  const std::vector<std::string_view> items = items_of(text);
+  const std::vector<std::string_view> items = items_of(given.text);
   if (items.size() != count) {
     throw Error(ErrorKind::kBadInput, fmt::format("must be {} numbers: [1, 2, 3]", count));
   }
@@ -65,42 +71,45 @@ void set_items(Values& values, std::size_t count, const KeyInfo& key, std::strin
   for (const std::string_view item : items) parse_value(item, key, *value++);
 }
 
-void set_field(Vec3& value, const KeyInfo& key, std::string_view rest, std::string_view text) {
-  set_items(value, 3, key, rest, text);
+void set_field(Vec3& value, const KeyInfo& key, std::string_view rest, const Given& given) {
+  set_items(value, 3, key, rest, given);
 }
-void set_field(std::array<int, 3>& value, const KeyInfo& key, std::string_view rest, std::string_view text) {
-  set_items(value, 3, key, rest, text);
+void set_field(std::array<int, 3>& value, const KeyInfo& key, std::string_view rest, const Given& given) {
+  set_items(value, 3, key, rest, given);
 }
-void set_field(std::optional<Vec3>& value, const KeyInfo& key, std::string_view rest, std::string_view text) {
-  set_items(value.emplace(), 3, key, rest, text);
+void set_field(std::optional<Vec3>& value, const KeyInfo& key, std::string_view rest, const Given& given) {
+  set_items(value.emplace(), 3, key, rest, given);
 }
 
 template <Word Value>
-void set_field(std::vector<Value>& values, const KeyInfo& key, std::string_view rest, std::string_view text) {
+void set_field(std::vector<Value>& values, const KeyInfo& key, std::string_view rest, const Given& given) {
   if (!rest.empty()) refuse(rest);
   values.clear();
-  for (const std::string_view item : items_of(text)) parse_value(item, key, values.emplace_back());
+  for (const std::string_view item : items_of(given.text)) parse_value(item, key, values.emplace_back());
 }
 
 /// From where the program runs; a scene file's own paths are from where it lies.
-void set_field(std::filesystem::path& path, const KeyInfo& key, std::string_view rest, std::string_view text) {
+void set_field(std::filesystem::path& path, const KeyInfo& key, std::string_view rest, const Given& given) {
   if (!rest.empty()) refuse(rest);
-  parse_value(text, key, path);
+  parse_value(given.text, key, path);
   path = std::filesystem::absolute(path).lexically_normal();
   check_readable(path);
 }
 
-void set_field(Material& material, const KeyInfo& key, std::string_view rest, std::string_view text) {
-  if (rest.empty()) return parse_value(text, key, material);
-  set_key(material, rest, text);
+void set_field(Material& material, const KeyInfo&, std::string_view rest, const Given& given) {
+  if (rest.empty()) {
+    material = given.library.find(given.text).material();
+    return;
+  }
+  set_key(material, rest, given);
   material.name = "custom";
   material.source.clear();
 }
 
 template <class Owner>
 requires(!Word<Owner>) void set_field(std::vector<Owner>& owners, const KeyInfo&, std::string_view rest,
-                                      std::string_view text) {
-  for (Owner& owner : owners) set_key(owner, rest, text);
+                                      const Given& given) {
+  for (Owner& owner : owners) set_key(owner, rest, given);
 }
 
 /// Whether the value is one that can be left out.
@@ -128,7 +137,7 @@ void drop_rivals(Owner& owner, std::string_view name) {
 }
 
 template <class Owner>
-void set_key(Owner& owner, std::string_view path, std::string_view text) {
+void set_key(Owner& owner, std::string_view path, const Given& given) {
   const auto dot = path.find('.');
   const std::string_view name = path.substr(0, dot);
   const std::string_view rest = dot == std::string_view::npos ? std::string_view{} : path.substr(dot + 1);
@@ -136,12 +145,15 @@ void set_key(Owner& owner, std::string_view path, std::string_view text) {
   if (key == nullptr) {
     throw Error(ErrorKind::kBadInput, fmt::format("unknown key '{}'{}", name, did_you_mean(name, key_names<Owner>())));
   }
-  std::visit([&](auto field) { set_field(owner.*field, *key, rest, text); }, key->member);
+  std::visit([&](auto field) { set_field(owner.*field, *key, rest, given); }, key->member);
   drop_rivals(owner, name);
 }
 
 }  // namespace
 
-void set_scene_key(Scene& scene, std::string_view path, std::string_view text) { set_key(scene, path, text); }
+void set_scene_key(Scene& scene, std::string_view path, std::string_view text) {
+  if (path == "materials") refuse(path);  // they would come too late for the bodies
+  set_key(scene, path, {.text = text, .library = *scene.library});
+}
 
 }  // namespace sprung

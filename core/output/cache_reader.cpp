@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/mesh/read/file_checks.h"
 #include "core/output/cache.h"
 #include "core/output/cache_layout.h"
 #include "core/output/cached_skin.h"
@@ -65,6 +66,7 @@ CachedObstacle read_obstacle(const Hdf5Reader& hdf5, const std::string& folder) 
 }
 
 Hdf5Reader open_cache(const std::filesystem::path& file) {
+  check_readable(file);
   Hdf5Reader hdf5(file);
   if (!hdf5.has(kLayoutName) || !hdf5.has(kProgressName)) {
     throw Error(ErrorKind::kBadInput, fmt::format("'{}' is an HDF5 file, but no cache of sprung", file.string()));

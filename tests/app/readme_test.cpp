@@ -24,7 +24,7 @@ TEST(Readme, ListsTheOptionsThatExist) {
   const std::size_t end = readme.find("Lengths, times", begin);
   ASSERT_NE(end, std::string::npos);
   const TempFolder folder;
-  std::set<std::string> existing = options_in(run_program(folder, "animate --help").out);
+  std::set<std::string> existing = options_in(run_program(folder, "help animate").out);
   existing.erase("--help");
   EXPECT_EQ(options_in(readme.substr(begin, end - begin)), existing);
 }

@@ -44,7 +44,7 @@ TEST(Shapes, AreClosedOutwardAndAsLargeAsTheyShould) {
 TEST(Shapes, BecomeBodies) {
   const Production ball = produce("sphere = { radius = \"10 cm\" }\nbricks = 12\nmaterial = \"gelatin\"\n");
   const Body& body = ball.world.actors.at(0).body;
-  const double mass = find_material("gelatin").density * 4.0 / 3 * kPi * 1e-3;
+  const double mass = built_in_materials()->find("gelatin").density * 4.0 / 3 * kPi * 1e-3;
   EXPECT_NEAR(body.masses.sum() / mass, 1, 0.01);
   const Production ring = produce("torus = { radius = 0.4, tube = 0.1 }\nbricks = 20\n");
   EXPECT_NEAR(ring.world.actors.at(0).body.grid.brick_size, 0.05, 1e-12);

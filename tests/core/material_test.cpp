@@ -2,31 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <limits>
 
 #include "tests/support/error_message.h"
 
 namespace sprung {
 namespace {
-
-TEST(MaterialLibrary, IsOrderedValidAndSourced) {
-  const auto library = material_library();
-  EXPECT_GE(library.size(), 12U);
-  EXPECT_TRUE(std::is_sorted(library.begin(), library.end(),
-                             [](const Material& a, const Material& b) { return a.name < b.name; }));
-  for (const Material& material : library) {
-    EXPECT_NO_THROW(check_material(material)) << material.name;
-    EXPECT_LE(material.poisson, 0.49) << material.name;
-    EXPECT_GT(material.source.size(), 10U) << material.name;
-  }
-}
-
-TEST(MaterialLibrary, FindsByNameAndSuggests) {
-  EXPECT_EQ(find_material("gelatin").young, 24e3);
-  EXPECT_NE(error_message([] { static_cast<void>(find_material("gelatine")); }).find("did you mean 'gelatin'"),
-            std::string::npos);
-}
 
 TEST(Material, ModuliFollowFromYoungAndPoisson) {
   const Material material{.name = "test", .young = 30e3, .poisson = 0.25, .density = 1000, .damping = 0, .source = ""};

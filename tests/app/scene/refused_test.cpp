@@ -84,7 +84,7 @@ TEST(SceneHelp, IsPrintedByTheProgram) {
   const TempFolder folder;
   EXPECT_EQ(run_program(folder, "help scene").out, scene_reference());
   EXPECT_EQ(run_program(folder, "help scene --json-schema").out, scene_schema());
-  EXPECT_EQ(run_program(folder, "help animate").out, run_program(folder, "animate --help").out);
+  EXPECT_NE(run_program(folder, "help animate").out.find("Usage: sprung animate "), std::string::npos);
   EXPECT_EQ(run_program(folder, "help").out, run_program(folder, "--help").out);
   const ProgramRun wrong = run_program(folder, "help scenes");
   EXPECT_EQ(wrong.exit_code, 2);

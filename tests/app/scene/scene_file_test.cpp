@@ -191,7 +191,7 @@ TEST_F(SceneFile, PrintedSceneParsesToTheSameScene) {
   EXPECT_EQ(again.bodies[0].mesh, cube_);
   EXPECT_EQ(again.bodies[0].position, Vec3(0, 0.3, -0.02));
   EXPECT_DOUBLE_EQ(again.bodies[0].material.young, 20e3);
-  EXPECT_EQ(again.bodies[1].material.source, find_material("rubber").source);
+  EXPECT_EQ(again.bodies[1].material.source, built_in_materials()->find("rubber").young_source);
   const Pin& pin = again.bodies[0].pins.at(1);
   EXPECT_DOUBLE_EQ(pin.keyframes.at(0).time, 0.5);
   EXPECT_EQ(pin.keyframes.at(1).rotate, Vec3(0, 0, 360));
@@ -280,7 +280,7 @@ TEST_F(SceneFile, SetsOneKeyOfEveryBody) {
     EXPECT_DOUBLE_EQ(body.material.young, 5e3);
   }
   EXPECT_EQ(scene.bodies[1].material.name, "custom");
-  EXPECT_DOUBLE_EQ(scene.bodies[1].material.density, find_material("rubber").density);
+  EXPECT_DOUBLE_EQ(scene.bodies[1].material.density, built_in_materials()->find("rubber").density);
   EXPECT_NE(error_message([&] { set_scene_key(scene, "body.sise", "1"); }).find("did you mean 'size'"),
             std::string::npos);
   EXPECT_THROW(set_scene_key(scene, "body", "1"), Error);

@@ -1,0 +1,55 @@
+#include "app/help/man_page.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+namespace sprung {
+namespace {
+
+/// Text as roff: hyphens that can be copied, nothing that is taken for a request.
+std::string roff(const std::string& text) {
+  std::string escaped;
+  bool starts_line = true;
+  for (const char letter : text) {
+    if (starts_line && (letter == '.' || letter == '\'')) escaped += "\\&";
+    if (letter == '\\') {
+      escaped += "\\e";
+    } else if (letter == '-') {
+      escaped += "\\-";
+    } else {
+      escaped += letter;
+    }
+    starts_line = letter == '\n';
+  }
+  return escaped;
+}
+
+std::string verbatim(const std::string& text) { return text.empty() ? "" : ".PP\n.nf\n" + roff(text) + "\n.fi\n"; }
+
+std::string option_entry(const CLI::Option& option) {
+  const bool is_positional = option.get_positional();
+  const std::string name = is_positional ? option.get_name(true) : option.get_name(false, true);
+  const std::string value = is_positional || option.get_option_text().empty() ? "" : " " + option.get_option_text();
+  return fmt::format(".TP\n.B {}\n{}\n", roff(name + value), roff(option.get_description()));
+}
+
+std::string command_section(const CLI::App& command) {
+  std::string text = fmt::format(".SS sprung {}\n{}.\n", command.get_name(), roff(command.get_description()));
+  for (const CLI::Option* option : command.get_options()) text += option_entry(*option);
+  return text + verbatim(command.get_footer());
+}
+
+}  // namespace
+
+std::string man_page(const CLI::App& app, const std::string& version) {
+  std::string text = fmt::format(
+      ".TH SPRUNG 1 \"\" \"sprung {}\" \"User Commands\"\n.SH NAME\nsprung \\- soft bodies of real materials, from a "
+      "surface mesh to a film\n.SH SYNOPSIS\n.B sprung\n.I COMMAND\n[\\fIOPTION\\fR ...]\n.SH DESCRIPTION\n{}\n"
+      ".SH COMMANDS\n",
+      version, roff(app.get_description()));
+  for (const CLI::App* command : app.get_subcommands({})) text += command_section(*command);
+  return text + ".SH NOTES\n" + verbatim(app.get_footer());
+}
+
+}  // namespace sprung

@@ -1,0 +1,65 @@
+#include "app/help/named_choices.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "app/materials/material_library.h"
+#include "app/scene/named_values.h"
+#include "app/scene/scenarios.h"
+#include "app/scene/scene_tables.h"
+#include "app/scene_options.h"
+
+namespace sprung {
+namespace {
+
+std::vector<std::string> split(std::string_view text, std::string_view separator) {
+  std::vector<std::string> parts;
+  for (auto end = text.find(separator); end != std::string_view::npos; end = text.find(separator)) {
+    parts.emplace_back(text.substr(0, end));
+    text.remove_prefix(end + separator.size());
+  }
+  parts.emplace_back(text);
+  return parts;
+}
+
+/// Of the scene's key that an option stands for.
+std::vector<std::string> names_of_key(std::string_view path) {
+  constexpr std::string_view kNames = "one of ";
+  const std::string_view table = path.substr(0, path.find('.'));
+  const std::string_view key = path.substr(path.find('.') + 1);
+  for (const TableText& texts : scene_tables()) {
+    if (texts.name != table) continue;
+    const auto is_it = [&](const KeyText& text) { return text.name == key && text.type.starts_with(kNames); };
+    const auto found = std::find_if(texts.keys.begin(), texts.keys.end(), is_it);
+    if (found != texts.keys.end()) return split(std::string_view(found->type).substr(kNames.size()), ", ");
+  }
+  return {};
+}
+
+}  // namespace
+
+std::vector<std::string> named_choices(const CLI::Option& option) {
+  const std::string& text = option.get_option_text();
+  if (text.find('|') != std::string::npos) {
+    std::vector<std::string> choices = split(text, "|");
+    std::erase_if(choices, [](const std::string& choice) { return choice.find_first_of("ABCDEFGHIJKLMN") == 0; });
+    return choices;
+  }
+  const std::string name = option.get_name();
+  if (name == "--class") {
+    const std::vector<std::string_view> names = value_names<MaterialClass>();
+    return {names.begin(), names.end()};
+  }
+  if (name == "--scenario") return {scenario_names().begin(), scenario_names().end()};
+  if (name == "--material") {
+    std::vector<std::string> names;
+    for (const LibraryMaterial& material : built_in_materials()->materials()) names.push_back(material.name);
+    return names;
+  }
+  for (const SceneOption& known : scene_options()) {
+    if (name == known.option) return names_of_key(known.key);
+  }
+  return {};
+}
+
+}  // namespace sprung

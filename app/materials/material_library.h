@@ -1,0 +1,65 @@
+#pragma once
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/law/material.h"
+#include "render/look.h"
+
+namespace sprung {
+
+enum class MaterialClass { kGelatin, kSilicone, kRubber, kFoam, kWood, kTissue, kPlastic, kMetal, kOther };
+
+/// A material with what is known of its figures. SI units. An uncertainty is how far the value of another piece, maker
+/// or measurement may well lie from the one here; 0 where nothing is known.
+struct LibraryMaterial {
+  std::string name;
+  MaterialClass material_class = MaterialClass::kOther;
+  std::string about;
+  double young = 0;              // Pa
+  double young_uncertainty = 0;  // share of the value
+  std::string young_source;      // where the value is from
+  double poisson = 0;
+  double poisson_uncertainty = 0;  // of the ratio itself
+  std::string poisson_source;
+  double density = 0;              // kg/m^3
+  double density_uncertainty = 0;  // share
+  std::string density_source;
+  double damping = 0.02;           // ratio of critical damping
+  double damping_uncertainty = 0;  // share
+  std::string damping_source;
+  Look look = Look::kPlastic;
+
+  /// What the bricks need of it.
+  [[nodiscard]] Material material() const;
+};
+
+/// Materials by name: those that come with the program, and those of a person's own files.
+class MaterialLibrary {
+ public:
+  MaterialLibrary() = default;
+
+  /// Adds the materials of a TOML text that stands in (or for) a file. Throws one Error(kBadInput) with a line
+  /// "file:line:column: key: what is wrong" for every mistake in it; a name that is there already is one.
+  void add(std::string_view text, const std::filesystem::path& file);
+  /// The same of a file.
+  void add_file(const std::filesystem::path& file);
+
+  [[nodiscard]] std::span<const LibraryMaterial> materials() const { return materials_; }
+  /// Null where there is none of that name.
+  [[nodiscard]] const LibraryMaterial* find_if_known(std::string_view name) const;
+  /// Throws Error(kBadInput) with the nearest name where there is none.
+  [[nodiscard]] const LibraryMaterial& find(std::string_view name) const;
+
+ private:
+  std::vector<LibraryMaterial> materials_;  // as they were added
+};
+
+/// assets/materials.toml as it was when the program was built.
+[[nodiscard]] std::shared_ptr<const MaterialLibrary> built_in_materials();
+
+}  // namespace sprung

@@ -1,0 +1,115 @@
+#include "app/materials/material_library.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "app/scene/scene_file.h"
+#include "tests/support/error_message.h"
+#include "tests/support/run_program.h"
+
+namespace sprung {
+namespace {
+
+const std::string kMine =
+    "[[material]]\nname = \"jelly\"\nyoung = \"5 kPa\"\npoisson = 0.4\ndensity = \"1.1 g/cm3\"\nlook = \"gelatin\"\n";
+
+std::string mistakes(const std::string& text) {
+  MaterialLibrary library = *built_in_materials();
+  return error_message([&] { library.add(text, "mine.toml"); });
+}
+
+TEST(MaterialLibrary, EveryFigureHasASourceAndAnUncertainty) {
+  std::set<MaterialClass> classes;
+  EXPECT_GE(built_in_materials()->materials().size(), 25U);
+  for (const LibraryMaterial& material : built_in_materials()->materials()) {
+    EXPECT_NO_THROW(check_material(material.material())) << material.name;
+    EXPECT_LE(material.poisson, 0.49) << material.name;  // beyond, bricks lock
+    EXPECT_FALSE(material.about.empty()) << material.name;
+    for (const std::string& source :
+         {material.young_source, material.poisson_source, material.density_source, material.damping_source}) {
+      EXPECT_GT(source.size(), 15U) << material.name;
+    }
+    for (const double uncertainty : {material.young_uncertainty, material.poisson_uncertainty,
+                                     material.density_uncertainty, material.damping_uncertainty}) {
+      EXPECT_GT(uncertainty, 0) << material.name;
+    }
+    classes.insert(material.material_class);
+  }
+  EXPECT_EQ(classes.size(), 8U);  // all but other
+}
+
+/// Gent's formula, from which these moduli are.
+TEST(MaterialLibrary, SiliconesFollowTheirHardness) {
+  const auto young = [](double hardness) {
+    return 0.0981e6 * (56 + 7.62336 * hardness) / (0.137505 * (254 - 2.54 * hardness));
+  };
+  const MaterialLibrary& library = *built_in_materials();
+  for (const int hardness : {10, 20, 40, 50, 60, 70}) {
+    const double known = library.find("silicone-a" + std::to_string(hardness)).young;
+    EXPECT_NEAR(known / young(hardness), 1, 3e-3) << hardness;
+  }
+  EXPECT_NEAR(library.find("silicone").young / young(30), 1, 3e-3);
+}
+
+TEST(MaterialLibrary, MistakesInAFileHaveTheirPlaces) {
+  EXPECT_EQ(mistakes(kMine), "");
+  EXPECT_EQ(mistakes(kMine + "yung = 3\n"), "mine.toml:7:1: unknown key 'material.yung'; did you mean 'young'?");
+  EXPECT_NE(mistakes(kMine + "damping = \"3 kg\"\n").find("mine.toml:7:11: material.damping: '3 kg'"),
+            std::string::npos);
+  EXPECT_NE(mistakes("[[material]]\nname = \"x\"\n").find("lacks the key 'young'"), std::string::npos);
+  EXPECT_NE(mistakes(kMine + "class = \"rubbr\"\n").find("did you mean 'rubber'?"), std::string::npos);
+}
+
+TEST(MaterialLibrary, NamesThatCollideAreRefused) {
+  EXPECT_EQ(mistakes(kMine + kMine),
+            "mine.toml:7:1: material.name: 'jelly' is there already, in this file; choose another name");
+  std::string steel = kMine;
+  steel.replace(steel.find("jelly"), 5, "steel");
+  EXPECT_EQ(mistakes(steel),
+            "mine.toml:1:1: material.name: 'steel' is there already, built in or in another file; choose another name");
+}
+
+TEST(MaterialLibrary, ASceneNamesMaterialsOfItsOwnFile) {
+  const TempFolder folder;
+  static_cast<void>(folder.write("cube.obj", kCubeObj));
+  static_cast<void>(folder.write("mine.toml", kMine));
+  const std::string text = "materials = \"mine.toml\"\n[[body]]\nmesh = \"cube.obj\"\nmaterial = \"jelly\"\n";
+  const Scene scene = with_defaults(parse_scene(text, folder.path() / "scene.toml"));
+  EXPECT_EQ(scene.bodies[0].material.young, 5e3);
+  EXPECT_EQ(scene.bodies[0].look, Look::kGelatin);
+  const Scene again = parse_scene(print_scene(scene), "/cache.toml", SceneFiles::kAnywhere);
+  EXPECT_EQ(again.bodies[0].material.density, 1100);
+  EXPECT_EQ(again.bodies[0].look, Look::kGelatin);
+  const std::string nowhere = "materials = \"nine.toml\"\n[[body]]\nmesh = \"cube.obj\"\n";
+  EXPECT_NE(error_message([&] {
+              static_cast<void>(parse_scene(nowhere, folder.path() / "scene.toml"));
+            }).find("scene.toml:1:13: materials: "),
+            std::string::npos);
+}
+
+TEST(MaterialsCommand, ListsFiltersAndTakesAFile) {
+  const TempFolder folder;
+  static_cast<void>(folder.write("mine.toml", kMine));
+  static_cast<void>(folder.write("cube.obj", kCubeObj));
+  const auto lines = [&](const std::string& words) {
+    const ProgramRun run = run_program(folder, "materials " + words);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return std::count(run.out.begin(), run.out.end(), '\n') - 1;
+  };
+  EXPECT_EQ(lines(""), std::ssize(built_in_materials()->materials()));
+  EXPECT_EQ(lines("--class metal"), 4);
+  EXPECT_EQ(lines("--class metal --young :100GPa"), 1);
+  EXPECT_EQ(lines("metal --young 100GPa:"), 3);
+  EXPECT_EQ(lines("jelly --materials mine.toml"), 1);
+  EXPECT_NE(run_program(folder, "materials gelatine").err.find("did you mean 'gelatin'?"), std::string::npos);
+  EXPECT_NE(run_program(folder, "materials --class mtal").err.find("did you mean 'metal'?"), std::string::npos);
+  EXPECT_NE(run_program(folder, "materials steel --sources").out.find("EN 1993-1-1"), std::string::npos);
+  EXPECT_NE(run_program(folder, "materials steel --json").out.find("\"young\": {\"value\": 210000000000"),
+            std::string::npos);
+  const ProgramRun scene = run_program(folder, "animate cube.obj --materials mine.toml --material jelly --print-scene");
+  EXPECT_NE(scene.out.find("young = 5000"), std::string::npos) << scene.err;
+}
+
+}  // namespace
+}  // namespace sprung
