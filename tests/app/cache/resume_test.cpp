@@ -108,10 +108,14 @@ TEST(Resume, EverySchemeGoesOnBitByBit) {
   }
 }
 
-/// The first frames of a cache as a cache.
-void cut(const std::filesystem::path& whole, std::size_t frames, const std::filesystem::path& file) {
+/// The first frames of a cache as a cache, with another header perhaps.
+void cut(
+    const std::filesystem::path& whole, std::size_t frames, const std::filesystem::path& file,
+    const std::function<void(CacheHeader&)>& change = [](CacheHeader&) {}) {
   const CacheReader cache(whole);
-  CacheWriter writer(file, cache.header(), cache.memory(0).size());
+  CacheHeader header = cache.header();
+  change(header);
+  CacheWriter writer(file, header, cache.memory(0).size());
   for (std::size_t frame = 0; frame < frames; ++frame) {
     const std::vector<Points> positions = cache.positions(frame);
     const std::vector<Points> velocities = cache.velocities(frame);
@@ -148,6 +152,16 @@ TEST(Resume, NamesWhatIsAnother) {
   EXPECT_NE(refusal("fps = 20", "fps = 20", 0.1).find("more than the"), std::string::npos);
   EXPECT_EQ(refusal("fps = 20", "fps = 20", 0.25), "");
   EXPECT_EQ(hashes_of(file).size(), 5U);
+  const auto refusal_of = [&](const std::function<void(CacheHeader&)>& change) {
+    const auto other = folder.path() / "other.h5";
+    cut(file, 2, other, change);
+    return error_message([&] { static_cast<void>(run(kHangingBar, 0.2, other, true)); });
+  };
+  EXPECT_NE(refusal_of([](CacheHeader& header) { header.version = "0.0.7"; }).find("made by sprung 0.0.7"),
+            std::string::npos);
+  EXPECT_NE(refusal_of([](CacheHeader& header) { header.build = "abc"; }).find("another build"), std::string::npos);
+  EXPECT_NE(refusal_of([](CacheHeader& header) { header.actors[0].masses[0] *= 2; }).find("the mesh of body 1"),
+            std::string::npos);
 }
 
 TEST(Resume, FromRoundedFramesGoesOnBitByBit) {
