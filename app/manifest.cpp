@@ -19,6 +19,7 @@ std::string mesh_hashes(const Scene& scene) {
   for (const SceneObstacle& obstacle : scene.obstacles) files.insert(obstacle.mesh.string());
   files.erase("");
   std::vector<std::string> lines;
+  lines.reserve(files.size());
   for (const std::string& file : files) {
     lines.push_back(fmt::format("{}: \"{}\"", json_text(std::string_view(file)), file_hash(file)));
   }
