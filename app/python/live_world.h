@@ -1,0 +1,61 @@
+#pragma once
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/motion/careful_motion.h"
+#include "core/soft_body.h"
+#include "render/image.h"
+
+namespace sprung {
+
+/// A world that a script builds, moves and looks at while others hold views of its positions: the memory of a body's
+/// state stays where it is as long as the body is there.
+class LiveWorld {
+ public:
+  /// gravity in m/s^2; ground: the height of level ground, m, or none.
+  LiveWorld(const Vec3& gravity, std::optional<double> ground);
+
+  /// Adds every solid of a mesh file; returns their rows. Throws Error(kBadInput).
+  std::vector<std::size_t> add(const std::string& mesh, const FillOptions& options);
+
+  /// `duration` s by steps that are stable, halved where that is not enough. Throws Error(kDiverged).
+  void advance(double duration);
+  /// `count` explicit steps of `dt` (s) as they are. Throws Error(kDiverged).
+  void step(double dt, long count);
+  /// Moves a body into equilibrium with gravity and its pinned nodes; `linear`: for small displacements.
+  /// Throws Error(kBadInput) where nothing holds it, Error(kDiverged).
+  void settle(std::size_t body, bool linear);
+  /// Holds these nodes where they are, and no others.
+  void pin(std::size_t body, const std::vector<int>& nodes);
+
+  /// A picture of all bodies from azimuth and elevation (degrees). Throws Error(kFailed).
+  [[nodiscard]] Image draw(int width, int height, double azimuth, double elevation) const;
+  /// Vertices of a body's skin, v x 3, m.
+  [[nodiscard]] Points skin_positions(std::size_t body) const;
+
+  /// Longest explicit step that is stable now, s.
+  [[nodiscard]] double stable_step() const { return sprung::stable_step(world_); }
+  [[nodiscard]] double time() const { return time_; }
+  [[nodiscard]] Body& body(std::size_t row) { return world_.actors[row].body; }
+  [[nodiscard]] const Skin& skin(std::size_t row) const { return drawn_[row].skin; }
+
+ private:
+  struct Drawn {
+    Skin skin;
+    Embedding embedding;
+  };
+  /// Does `work`, with the memory of all bodies' states where it was before.
+  template <class Work>
+  void keep_memory(const Work& work);
+  void brace_bodies();
+
+  World world_;
+  std::deque<Drawn> drawn_;  // by actor
+  double time_ = 0;          // s
+  bool is_braced_ = false;
+};
+
+}  // namespace sprung
