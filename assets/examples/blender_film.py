@@ -22,6 +22,7 @@ bodies = [thing for thing in bpy.context.scene.objects if thing.type == "MESH"]
 corners = [body.matrix_world @ mathutils.Vector(corner) for body in bodies for corner in body.bound_box]
 low = mathutils.Vector([min(corner[axis] for corner in corners) for axis in range(3)])
 high = mathutils.Vector([max(corner[axis] for corner in corners) for axis in range(3)])
+low.z = min(low.z, 0)  # the floor: what falls stays in the picture
 middle, size = (low + high) / 2, (high - low).length
 
 bpy.ops.mesh.primitive_plane_add(size=20 * size, location=(middle.x, middle.y, 0))

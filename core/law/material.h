@@ -1,7 +1,5 @@
 #pragma once
-#include <span>
 #include <string>
-#include <string_view>
 
 namespace sprung {
 
@@ -17,12 +15,6 @@ struct Material {
   [[nodiscard]] double shear_modulus() const { return young / (2 * (1 + poisson)); }                          // G, Pa
   [[nodiscard]] double lame_lambda() const { return young * poisson / ((1 + poisson) * (1 - 2 * poisson)); }  // Pa
 };
-
-/// The built-in materials, ordered by name, each with its source.
-[[nodiscard]] std::span<const Material> material_library();
-
-/// The built-in material of that name. Throws Error(kBadInput) with the nearest name where there is none.
-[[nodiscard]] const Material& find_material(std::string_view name);
 
 /// Throws Error(kBadInput) naming the quantity, its value and its range.
 void check_material(const Material& material);
