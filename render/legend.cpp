@@ -12,11 +12,10 @@ namespace {
 constexpr Ink kDark{38, 40, 44};
 constexpr double kLetters = 0.030;         // of the picture's height ...
 constexpr double kSmallestLetters = 11.0;  // pixels
-constexpr double kMargin = 0.035;          // of the picture's height
 constexpr double kBarHeight = 0.46;        // of the picture's height
 constexpr double kBarWidth = 0.024;        // of the picture's height
 
-double letters(const Image& image) { return std::max(kSmallestLetters, kLetters * image.height); }
+std::string tick_text(double tick) { return fmt::format("{:.6g}", tick); }
 
 void fill(Image& image, double left, double top, double right, double bottom, const Ink& ink, double share = 1) {
   for (int y = static_cast<int>(std::lround(top)); y < std::lround(bottom); ++y) {
@@ -40,7 +39,7 @@ void fill_framed(Image& image, double left, double top, double right, double bot
 }
 
 void draw_scale(Image& image, const Legend& legend, const Font& font, double left, double top) {
-  const double size = letters(image);
+  const double size = letters_height(image.height);
   const double height = kBarHeight * image.height;
   const double width = kBarWidth * image.height;
   fill_framed(image, left, top, left + width, top + height, kDark);
@@ -50,16 +49,16 @@ void draw_scale(Image& image, const Legend& legend, const Font& font, double lef
     const double y = static_cast<double>(std::lround(top)) + row;
     fill(image, left, y, left + width, y + 1, ink_of(map_color(legend.map, share)));
   }
-  for (const double tick : round_ticks(legend.low, legend.high)) {
+  for (const double tick : round_ticks(legend.low, legend.high, height / (1.4 * size))) {
     const double y = top + height * (1 - (tick - legend.low) / (legend.high - legend.low));
     const double line = std::max(1.0, image.height / 540.0);
     fill(image, left + width, y - line / 2, left + width + 0.3 * size, y + line / 2, kDark, 0.75);
-    font.write(image, left + width + 0.5 * size, y + 0.31 * size, size, fmt::format("{:.6g}", tick), kDark);
+    font.write(image, left + width + 0.5 * size, y + 0.31 * size, size, tick_text(tick), kDark);
   }
 }
 
 void draw_swatches(Image& image, const Legend& legend, const Font& font, double left, double top) {
-  const double size = letters(image);
+  const double size = letters_height(image.height);
   double y = top;
   for (const Legend::Swatch& swatch : legend.swatches) {
     fill_framed(image, left, y, left + 1.1 * size, y + 0.9 * size, ink_of(swatch.color));
@@ -70,6 +69,8 @@ void draw_swatches(Image& image, const Legend& legend, const Font& font, double 
 
 }  // namespace
 
+double letters_height(int height) { return std::max(kSmallestLetters, kLetters * height); }
+
 double round_length(double most) {
   const double power = std::pow(10, std::floor(std::log10(most)));
   for (const double factor : {5.0, 2.0}) {
@@ -78,20 +79,39 @@ double round_length(double most) {
   return power;
 }
 
-std::vector<double> round_ticks(double low, double high) {
+std::vector<double> round_ticks(double low, double high, double most) {
   if (!(high > low)) return {low};
   const double step = round_length((high - low) / 3.5);
   std::vector<double> ticks;
   for (double tick = std::ceil(low / step - 1e-6); tick * step <= high + 1e-6 * step; ++tick) {
     ticks.push_back(tick == 0 ? 0 : tick * step);
   }
-  return ticks;
+  std::vector<double> few;
+  const double stride = std::ceil(static_cast<double>(ticks.size()) / std::max(most, 1.0));
+  for (std::size_t i = 0; i < ticks.size(); i += static_cast<std::size_t>(stride)) few.push_back(ticks[i]);
+  return few;
+}
+
+double legend_width(const Legend& legend, int height, const Font& font) {
+  const double size = letters_height(height);
+  double content = font.width(legend.title, size);
+  const auto include = [&](double beside, const std::string& text) {
+    content = std::max(content, beside + font.width(text, size));
+  };
+  if (legend.swatches.empty()) {
+    for (const double tick : round_ticks(legend.low, legend.high)) {
+      include(kBarWidth * height + 0.5 * size, tick_text(tick));
+    }
+  }
+  for (const Legend::Swatch& swatch : legend.swatches) include(1.6 * size, swatch.name);
+  return content + 2 * kLabelMargin * height;
 }
 
 void draw_legend(Image& image, const Legend& legend, const Font& font) {
-  const double size = letters(image);
-  const double right = image.width - kMargin * image.height;
-  const double left = std::min((1 - kLegendShare) * image.width, right - font.width(legend.title, size));
+  const double size = letters_height(image.height);
+  const double right = image.width - kLabelMargin * image.height;
+  const double width = legend_width(legend, image.height, font) - 2 * kLabelMargin * image.height;
+  const double left = std::min((1 - kLegendShare) * image.width, right - width);
   const double height =
       legend.swatches.empty() ? kBarHeight * image.height : 1.5 * size * static_cast<double>(legend.swatches.size());
   const double top = 0.5 * (image.height - height);
@@ -103,19 +123,26 @@ void draw_legend(Image& image, const Legend& legend, const Font& font) {
   }
 }
 
+void draw_name(Image& image, const std::string& text, const Font& font) {
+  const double size = 1.2 * letters_height(image.height);
+  const double left = 0.5 * (image.width - font.width(text, size));
+  font.write(image, left, kLabelMargin * image.height + 0.8 * size, size, text, kDark);
+}
+
 void draw_caption(Image& image, const std::string& text, const Font& font) {
-  const double size = 1.35 * letters(image);
-  font.write(image, kMargin * image.height, kMargin * image.height + 0.8 * size, size, text, kDark);
+  const double size = 1.35 * letters_height(image.height);
+  font.write(image, kLabelMargin * image.height, kLabelMargin * image.height + 0.8 * size, size, text, kDark);
 }
 
 void draw_footer(Image& image, const std::string& text, const Font& font) {
-  font.write(image, kMargin * image.height, (1 - kMargin) * image.height, letters(image), text, kDark);
+  font.write(image, kLabelMargin * image.height, (1 - kLabelMargin) * image.height, letters_height(image.height), text,
+             kDark);
 }
 
 void draw_scale_bar(Image& image, double pixels, const std::string& length, const Font& font) {
-  const double size = letters(image);
-  const double right = image.width - kMargin * image.height;
-  const double bottom = (1 - kMargin) * image.height;
+  const double size = letters_height(image.height);
+  const double right = image.width - kLabelMargin * image.height;
+  const double bottom = (1 - kLabelMargin) * image.height;
   const double thick = std::max(2.0, 0.18 * size);
   fill(image, right - pixels - 1, bottom - thick - 1, right + 1, bottom + 1, {255, 255, 255}, 0.6);
   fill(image, right - pixels, bottom - thick, right, bottom, kDark);

@@ -21,11 +21,21 @@ struct Legend {
   std::vector<Swatch> swatches;  // not empty: these in place of the scale
 };
 
+/// Height of the letters in a picture of that height, and the margin around labels as a share of it.
+[[nodiscard]] double letters_height(int height);
+inline constexpr double kLabelMargin = 0.035;
+
 /// The share of a picture's width that a legend takes at its right side.
 inline constexpr double kLegendShare = 0.16;
 
 /// At the right side, in the middle of its height.
 void draw_legend(Image& image, const Legend& legend, const Font& font);
+
+/// Pixels that it takes there, margins included, in a picture of that height.
+[[nodiscard]] double legend_width(const Legend& legend, int height, const Font& font);
+
+/// A line in the middle of the top.
+void draw_name(Image& image, const std::string& text, const Font& font);
 
 /// A line at the top left, one at the bottom left, and a bar of a length at the bottom right, `pixels` long.
 void draw_caption(Image& image, const std::string& text, const Font& font);
@@ -35,7 +45,7 @@ void draw_scale_bar(Image& image, double pixels, const std::string& length, cons
 /// 1, 2 or 5 times a power of ten, at most `most` (above 0).
 [[nodiscard]] double round_length(double most);
 
-/// Round numbers from low to high, about five of them.
-[[nodiscard]] std::vector<double> round_ticks(double low, double high);
+/// Round numbers from low to high, about five of them, and no more than `most`.
+[[nodiscard]] std::vector<double> round_ticks(double low, double high, double most = 10);
 
 }  // namespace sprung

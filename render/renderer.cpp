@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <optional>
 
 #include "core/error.h"
 #include "render/gl/context.h"
 #include "render/pass_clock.h"
+#include "render/pass_drawer.h"
 #include "render/screen.h"
 
 namespace sprung {
@@ -57,9 +60,11 @@ struct Renderer::Device {
   double body_radius = 0;
   TextureSet textures;
   std::vector<SkinBuffers> skins;
+  std::vector<int> ids;  // by skin
   LightMaps maps;
   Screen screen;
   PassClock clock;
+  std::optional<PassDrawer> passes;  // once they are asked for
 
   Device(const Stage& stage, const RenderOptions& options)
       : context(make_gl_context()),
@@ -68,6 +73,7 @@ struct Renderer::Device {
         space(stage.bounds),
         ground_height((stage.ground.height - space.center.y()) * space.scale),
         textures(gl, stage.color_map),
+        ids(stage.ids),
         maps(gl, options.quality),
         screen(gl, options),
         clock(gl, options.measure_passes) {
@@ -79,10 +85,21 @@ struct Renderer::Device {
       body_radius = std::max(body_radius, radius(*stage.skins[i]) * space.scale);
     }
     if (body_radius == 0) body_radius = 1;
+    if (!ids.empty()) return;
+    ids.resize(skins.size());
+    std::iota(ids.begin(), ids.end(), 1);
   }
   ~Device() { context->make_current(); }  // the objects are deleted next
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
+
+  /// Takes the shapes up.
+  DrawFrame frame(const std::vector<SkinShape>& shapes) {
+    if (shapes.size() != skins.size()) throw Error(ErrorKind::kFailed, "one shape a skin is needed to draw");
+    context->make_current();
+    for (std::size_t i = 0; i < shapes.size(); ++i) skins[i].update(shapes[i]);
+    return {space, fit_light(shapes, space, body_radius, ground_height), body_radius, ground_height, has_ground};
+  }
 };
 
 Renderer::Renderer(const Stage& stage, const RenderOptions& options) {
@@ -94,12 +111,9 @@ Renderer::~Renderer() = default;
 
 Image Renderer::draw(const std::vector<SkinShape>& shapes, const Camera& camera) {
   Device& device = *device_;
-  if (shapes.size() != device.skins.size()) throw Error(ErrorKind::kFailed, "one shape a skin is needed to draw");
   device.context->make_current();
   device.clock.start();
-  for (std::size_t i = 0; i < shapes.size(); ++i) device.skins[i].update(shapes[i]);
-  const DrawFrame frame{device.space, fit_light(shapes, device.space, device.body_radius, device.ground_height),
-                        device.body_radius, device.ground_height, device.has_ground};
+  const DrawFrame frame = device.frame(shapes);
   device.clock.stop("upload");
   device.maps.draw(device.skins, device.textures, frame, device.clock);
   const View view = make_view(frame, camera, device.screen.aspect());
@@ -111,6 +125,13 @@ Image Renderer::draw(const std::vector<SkinShape>& shapes, const Camera& camera)
   }
   device.clock.stop("read back");
   return image;
+}
+
+Passes Renderer::draw_passes(const std::vector<SkinShape>& shapes, const Camera& camera) {
+  Device& device = *device_;
+  const View view = make_view(device.frame(shapes), camera, device.screen.aspect());
+  if (!device.passes) device.passes.emplace(device.gl, device.screen.width(), device.screen.height());
+  return device.passes->draw(device.skins, device.ids, view, camera);
 }
 
 const std::vector<PassTime>& Renderer::pass_times() const { return device_->clock.times(); }

@@ -9,6 +9,7 @@
 #include "render/image.h"
 #include "render/look.h"
 #include "render/pass_time.h"
+#include "render/passes.h"
 #include "render/quality.h"
 
 namespace sprung {
@@ -39,6 +40,7 @@ struct Stage {
   std::vector<Eigen::Vector3f> default_colors;  // one a skin, sRGB: for parts without material, colours or texture
   std::vector<Look> looks{};                    // one a skin; none: plastic
   std::vector<bool> ghosts{};                   // one a skin; none: no ghosts. They show faintly and cast no shadow
+  std::vector<int> ids{};                       // one a skin, for passes; none: 1, 2, ...
   ColorMap color_map = ColorMap::kViridis;
   bool has_ground = true;
   GroundPlane ground;
@@ -56,6 +58,9 @@ class Renderer {
 
   /// One shape for each skin of the stage, in order.
   [[nodiscard]] Image draw(const std::vector<SkinShape>& shapes, const Camera& camera);
+
+  /// What a compositor needs beside that picture.
+  [[nodiscard]] Passes draw_passes(const std::vector<SkinShape>& shapes, const Camera& camera);
 
   /// What each pass took, of all pictures so far; empty unless it was to be measured.
   [[nodiscard]] const std::vector<PassTime>& pass_times() const;

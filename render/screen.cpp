@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <Eigen/LU>
-#include <array>
 #include <cmath>
 
 #include "render/shaders.h"
@@ -30,19 +29,6 @@ bool has_floor_in_sight(const View& view) {
   return view.frame.has_ground && view.eye.y() > view.frame.ground_height && looks_down;
 }
 
-GlFramebuffer make_surface_target(const GlFunctions& gl, const GlTexture& color, const GlTexture& normal,
-                                  const GlTexture& depth) {
-  GlFramebuffer target = make_framebuffer(gl);
-  gl.BindFramebuffer(GL_FRAMEBUFFER, target.name());
-  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color.name(), 0);
-  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, GL_TEXTURE_2D, normal.name(), 0);
-  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth.name(), 0);
-  const std::array<GLenum, 2> outputs{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
-  gl.DrawBuffers(2, outputs.data());
-  check_framebuffer(gl, "a picture of this size");
-  return target;
-}
-
 }  // namespace
 
 Screen::Screen(const GlFunctions& gl, const RenderOptions& options)
@@ -54,7 +40,7 @@ Screen::Screen(const GlFunctions& gl, const RenderOptions& options)
       surface_color_(make_texture(gl, side_ * width_, side_ * height_, kColor)),
       surface_normal_(make_texture(gl, side_ * width_, side_ * height_, kColor)),
       surface_depth_(make_texture(gl, side_ * width_, side_ * height_, kDepth)),
-      surface_(make_surface_target(gl, surface_color_, surface_normal_, surface_depth_)),
+      surface_(make_two_color_target(gl, surface_color_, surface_normal_, surface_depth_)),
       picture_(make_texture(gl, width_, height_, kColor)),
       kinds_(make_texture(gl, width_, height_, kDepth)),
       developed_(make_texture_target(gl, &picture_, &kinds_)),
@@ -175,12 +161,15 @@ void Screen::clear_picture() const {
 void Screen::draw_floor(const LightMaps& maps, const View& view) const {
   if (!has_floor_in_sight(view)) return;
   floor_program_.use();
-  maps.bind_ground(floor_program_, view.frame, 0);
+  view.frame.set_common(floor_program_);
   floor_program_.set("clip_from_stage", view.clip_from_stage.cast<float>().eval());
-  floor_program_.set("pixel", Eigen::Vector2f(1.0F / static_cast<float>(width_), 1.0F / static_cast<float>(height_)));
-  Sight(view).set(floor_program_);
+  bind_texture(gl_, 0, maps.ground_tint());
+  floor_program_.set("ground_tint", 0);
+  gl_.Enable(GL_BLEND);
+  gl_.BlendFunc(GL_DST_COLOR, GL_ZERO);
   gl_.BindVertexArray(no_buffers_.name());
   gl_.DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+  gl_.Disable(GL_BLEND);
 }
 
 /// An early depth test keeps llvmpipe from running a shader; an if does not. So a cheap one first writes down as its

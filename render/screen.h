@@ -17,6 +17,8 @@ class Screen {
   void draw(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const LightMaps& maps, const View& view,
             bool with_ghosts, PassClock& clock);
   [[nodiscard]] Image read() const;
+  [[nodiscard]] int width() const { return width_; }
+  [[nodiscard]] int height() const { return height_; }
   [[nodiscard]] double aspect() const { return static_cast<double>(width_) / height_; }
 
  private:

@@ -23,18 +23,19 @@ Colors root_from_srgb(const Colors& colors) {
 }
 
 /// The cells that merge vertices for the light maps, as a part of the skin's radius: finer than their bias and blur.
-constexpr double kCoarseCell = 0.04;
+constexpr double kCoarseCell = 0.05;
+constexpr double kCoarsestCell = 0.11;
 
 /// Of the triangles: where fewer are left the skin is made of thin things, and is drawn as it is.
 constexpr double kFewest = 0.01;
 
-double coarse_cell(const Skin& skin) {
+double radius(const Skin& skin) {
   const Vec3 sides = skin.positions.colwise().maxCoeff() - skin.positions.colwise().minCoeff();
-  return std::max(0.5 * kCoarseCell * sides.norm(), 1e-12);
+  return 0.5 * sides.norm();
 }
 
-CoarseTriangles triangles_for_maps(const Skin& skin) {
-  CoarseTriangles coarse = coarse_triangles(skin, coarse_cell(skin));
+CoarseTriangles triangles_for_maps(const Skin& skin, double cell) {
+  CoarseTriangles coarse = coarse_triangles(skin, std::max(cell * radius(skin), 1e-12));
   const auto all = static_cast<std::size_t>(skin.triangles.rows());
   if (static_cast<double>(coarse.triangles.rows()) >= kFewest * static_cast<double>(all)) return coarse;
   coarse.triangles = skin.triangles;
@@ -104,15 +105,17 @@ SkinBuffers::SkinBuffers(const GlFunctions& gl, const Skin& skin, const Eigen::V
       look_(look),
       is_ghost_(is_ghost),
       has_colors_(skin.colors.rows() > 0) {
-  const CoarseTriangles coarse = triangles_for_maps(skin);
-  full_ = {0, static_cast<int>(skin.triangles.rows())};
-  coarse_ = {full_.count, static_cast<int>(coarse.triangles.rows())};
-  upload_indices(skin, coarse.triangles);
+  const CoarseTriangles coarse = triangles_for_maps(skin, kCoarseCell);
+  const CoarseTriangles coarsest = triangles_for_maps(skin, kCoarsestCell);
+  upload_indices({&skin.triangles, &coarse.triangles, &coarsest.triangles});
   upload_attributes(skin);
+  const auto fewer_of = [](const Range& all, const CoarseTriangles& fewer, int first, int count) {
+    const int low = fewer.first[static_cast<std::size_t>(first)];
+    return Range{all.first + low, fewer.first[static_cast<std::size_t>(first + count)] - low};
+  };
   const auto paint = [&](int first, int count, const Eigen::Vector3f& color) {
-    const int low = coarse.first[static_cast<std::size_t>(first)];
-    const int high = coarse.first[static_cast<std::size_t>(first + count)];
-    return Paint{{first, count}, {coarse_.first + low, high - low}, color, 0};
+    return Paint{
+        {{{first, count}, fewer_of(all_[1], coarse, first, count), fewer_of(all_[2], coarsest, first, count)}}, color, 0};
   };
   const Eigen::Vector3f plain = has_colors_ ? Eigen::Vector3f::Ones().eval() : root_from_srgb(default_color);
   for (const Part& part : skin.parts) {
@@ -124,32 +127,37 @@ SkinBuffers::SkinBuffers(const GlFunctions& gl, const Skin& skin, const Eigen::V
     }
     add_paint(next);
   }
-  if (skin.parts.empty()) add_paint(paint(0, full_.count, plain));
+  if (skin.parts.empty()) add_paint(paint(0, all_[0].count, plain));
 }
 
 /// Neighbours that look the same are drawn together.
 void SkinBuffers::add_paint(const Paint& paint) {
   if (!paints_.empty()) {
     Paint& last = paints_.back();
+    const Range& before = last.ranges.front();
     if (last.texture == paint.texture && last.color == paint.color &&
-        last.full.first + last.full.count == paint.full.first) {
-      last.full.count += paint.full.count;
-      last.coarse.count += paint.coarse.count;
+        before.first + before.count == paint.ranges.front().first) {
+      for (std::size_t i = 0; i < kDetails; ++i) last.ranges[i].count += paint.ranges[i].count;
       return;
     }
   }
   paints_.push_back(paint);
 }
 
-void SkinBuffers::upload_indices(const Skin& skin, const Triangles& coarse) {
-  const auto bytes = [](const Triangles& triangles) {
-    return static_cast<GLsizeiptr>(triangles.size() * static_cast<long>(sizeof(int)));
-  };
+/// One after another.
+void SkinBuffers::upload_indices(const std::array<const Triangles*, kDetails>& triangles) {
+  constexpr auto kBytes = static_cast<GLsizeiptr>(3 * sizeof(int));
+  int count = 0;
+  for (std::size_t i = 0; i < kDetails; ++i) {
+    all_[i] = {count, static_cast<int>(triangles[i]->rows())};
+    count += all_[i].count;
+  }
   gl_.BindVertexArray(array_.name());
   gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.name());
-  gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER, bytes(skin.triangles) + bytes(coarse), nullptr, GL_STATIC_DRAW);
-  gl_.BufferSubData(GL_ELEMENT_ARRAY_BUFFER, 0, bytes(skin.triangles), skin.triangles.data());
-  gl_.BufferSubData(GL_ELEMENT_ARRAY_BUFFER, bytes(skin.triangles), bytes(coarse), coarse.data());
+  gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER, kBytes * count, nullptr, GL_STATIC_DRAW);
+  for (std::size_t i = 0; i < kDetails; ++i) {
+    gl_.BufferSubData(GL_ELEMENT_ARRAY_BUFFER, kBytes * all_[i].first, kBytes * all_[i].count, triangles[i]->data());
+  }
 }
 
 void SkinBuffers::upload_attributes(const Skin& skin) {
@@ -187,7 +195,7 @@ void SkinBuffers::draw(const Range& range) const {
 
 void SkinBuffers::draw(Detail detail) const {
   gl_.BindVertexArray(array_.name());
-  draw(detail == Detail::kFull ? full_ : coarse_);
+  draw(all_[static_cast<std::size_t>(detail)]);
 }
 
 void SkinBuffers::use(const GlProgram& program, const GlTexture& texture, int unit) const {
@@ -203,14 +211,14 @@ void SkinBuffers::draw(const SkinPrograms& programs, const TextureSet& textures,
   if (!has_colors_) gl_.VertexAttrib4f(kColor, 1, 1, 1, 1);
   if (is_mapped_) {
     use(programs.mapped, textures.color_map(), unit);
-    draw(detail == Detail::kFull ? full_ : coarse_);
+    draw(all_[static_cast<std::size_t>(detail)]);
     return;
   }
   for (const Paint& paint : paints_) {
     const GlProgram& program = paint.texture == 0 ? programs.plain : programs.textured;
     use(program, textures[paint.texture], unit);
     program.set("base_color", paint.color);
-    draw(detail == Detail::kFull ? paint.full : paint.coarse);
+    draw(paint.ranges[static_cast<std::size_t>(detail)]);
   }
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <string_view>
 #include <vector>
 
@@ -25,8 +26,9 @@ class TextureSet {
   std::vector<const std::vector<std::byte>*> sources_;
 };
 
-/// All triangles of a skin, or fewer for what is drawn blurred.
-enum class Detail { kFull, kCoarse };
+/// All triangles of a skin, or fewer for what is drawn blurred, or very few for what is drawn very blurred.
+enum class Detail { kFull, kCoarse, kCoarsest };
+inline constexpr std::size_t kDetails = 3;
 
 /// A program for a skin's parts with a texture, one for those without, and one for skins coloured by a map.
 struct SkinPrograms {
@@ -55,14 +57,14 @@ class SkinBuffers {
     int first = 0;
     int count = 0;
   };
+  using Ranges = std::array<Range, kDetails>;
   struct Paint {
-    Range full;
-    Range coarse;
+    Ranges ranges;
     Eigen::Vector3f color;  // square root of linear
     int texture = 0;
   };
 
-  void upload_indices(const Skin& skin, const Triangles& coarse);
+  void upload_indices(const std::array<const Triangles*, kDetails>& triangles);
   void upload_attributes(const Skin& skin);
   void add_paint(const Paint& paint);
   void use(const GlProgram& program, const GlTexture& texture, int unit) const;
@@ -76,8 +78,7 @@ class SkinBuffers {
   GlBuffer colors_;
   GlBuffer shares_;
   GlBuffer indices_;
-  Range full_;
-  Range coarse_;
+  Ranges all_;
   Sides sides_;
   Look look_;
   bool is_ghost_;

@@ -1,8 +1,6 @@
 #include "render/gl/objects.h"
 
 #include <array>
-#include <initializer_list>
-#include <utility>
 
 #include "core/error.h"
 
@@ -43,35 +41,25 @@ GlTexture make_texture(const GlFunctions& gl, int width, int height, const Textu
   return texture;
 }
 
-namespace {
-
-using SamplerSetting = std::pair<GLenum, GLenum>;
-
-GlSampler make_sampler(const GlFunctions& gl, std::initializer_list<SamplerSetting> more) {
+GlSampler make_comparing_sampler(const GlFunctions& gl, GLenum comparison) {
   GLuint name = 0;
   gl.GenSamplers(1, &name);
-  const auto set = [&](const SamplerSetting& setting) {
-    gl.SamplerParameteri(name, setting.first, static_cast<GLint>(setting.second));
-  };
-  for (const GLenum filter : {GLenum{GL_TEXTURE_MIN_FILTER}, GLenum{GL_TEXTURE_MAG_FILTER}}) set({filter, GL_LINEAR});
-  for (const GLenum side : {GLenum{GL_TEXTURE_WRAP_S}, GLenum{GL_TEXTURE_WRAP_T}}) set({side, GL_CLAMP_TO_EDGE});
-  for (const SamplerSetting& setting : more) set(setting);
+  const auto set = [&](GLenum key, GLenum value) { gl.SamplerParameteri(name, key, static_cast<GLint>(value)); };
+  for (const GLenum filter : {GLenum{GL_TEXTURE_MIN_FILTER}, GLenum{GL_TEXTURE_MAG_FILTER}}) set(filter, GL_LINEAR);
+  for (const GLenum side : {GLenum{GL_TEXTURE_WRAP_S}, GLenum{GL_TEXTURE_WRAP_T}}) set(side, GL_CLAMP_TO_EDGE);
+  set(GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+  set(GL_TEXTURE_COMPARE_FUNC, comparison);
   return {gl, name};
 }
 
-}  // namespace
-
-GlSampler make_flat_sampler(const GlFunctions& gl) { return make_sampler(gl, {}); }
-
-GlSampler make_comparing_sampler(const GlFunctions& gl, GLenum comparison) {
-  return make_sampler(gl,
-                      {{GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE}, {GL_TEXTURE_COMPARE_FUNC, comparison}});
-}
+namespace {
 
 void check_framebuffer(const GlFunctions& gl, const char* what) {
   if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE) return;
   throw Error(ErrorKind::kFailed, std::string("OpenGL: no memory or no support for ") + what);
 }
+
+}  // namespace
 
 GlFramebuffer make_texture_target(const GlFunctions& gl, const GlTexture* color, const GlTexture* depth) {
   GlFramebuffer target = make_framebuffer(gl);
@@ -84,6 +72,19 @@ GlFramebuffer make_texture_target(const GlFunctions& gl, const GlTexture* color,
   }
   if (depth != nullptr) gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth->name(), 0);
   check_framebuffer(gl, "a light map");
+  return target;
+}
+
+GlFramebuffer make_two_color_target(const GlFunctions& gl, const GlTexture& first, const GlTexture& second,
+                                    const GlTexture& depth) {
+  GlFramebuffer target = make_framebuffer(gl);
+  gl.BindFramebuffer(GL_FRAMEBUFFER, target.name());
+  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, first.name(), 0);
+  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, GL_TEXTURE_2D, second.name(), 0);
+  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth.name(), 0);
+  const std::array<GLenum, 2> outputs{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+  gl.DrawBuffers(2, outputs.data());
+  check_framebuffer(gl, "a picture of this size");
   return target;
 }
 

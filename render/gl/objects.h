@@ -64,15 +64,14 @@ struct TextureFormat {
 [[nodiscard]] GlTexture make_texture(const GlFunctions& gl, int width, int height, const TextureFormat& format,
                                      const void* data = nullptr);
 
-/// Reads the first level alone, which is half the work.
-[[nodiscard]] GlSampler make_flat_sampler(const GlFunctions& gl);
-
 /// Reads a depth texture as a sampler2DShadow: the share of the four texels around a place that pass the comparison.
 [[nodiscard]] GlSampler make_comparing_sampler(const GlFunctions& gl, GLenum comparison);
 
 /// A framebuffer that draws into level 0 of the textures; 0 for none. Throws Error(kFailed) where it is not complete.
 [[nodiscard]] GlFramebuffer make_texture_target(const GlFunctions& gl, const GlTexture* color, const GlTexture* depth);
-void check_framebuffer(const GlFunctions& gl, const char* what);
+/// One that draws two colours at once.
+[[nodiscard]] GlFramebuffer make_two_color_target(const GlFunctions& gl, const GlTexture& first,
+                                                  const GlTexture& second, const GlTexture& depth);
 
 /// A linked program. set() needs it in use; a name that the compiler has dropped is ignored.
 class GlProgram {

@@ -3,4 +3,4 @@ in vec2 screen_place;
 out vec4 result;
 //!include sight.glsl
 
-void main() { result = picture_color(cyclorama(rise(screen_place))); }
+void main() { result = vec4(picture_color(cyclorama(rise(screen_place))) + picture_noise(), 1.0); }

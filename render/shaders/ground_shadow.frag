@@ -8,6 +8,7 @@ uniform mat4 light_from_stage;
 uniform float mask_texels;      // per unit of length
 uniform vec2 mask_texel_size;   // in u and v
 uniform float longest_way;      // to the ground, that the mask holds
+uniform float lowest_way;       // to the ground, from the lowest body
 uniform float body_radius;
 uniform sampler2D key_mask;
 out vec4 result;
@@ -16,7 +17,7 @@ const int kSearch = SEARCH;
 const int kTaps = TAPS;
 const mat2 kGoldenTurn = mat2(-0.7373688, 0.6754903, -0.6754903, -0.7373688);  // 137.5 degrees, for spirals
 
-float reach() { return 1.2 * kLightRadius * body_radius * mask_texels; }
+float reach() { return kLightRadius * (1.2 * body_radius + lowest_way) * mask_texels; }
 
 vec2 mask_place() {
   vec2 point = ground_rectangle.xy + screen_place * ground_rectangle.zw;

@@ -3,7 +3,8 @@ uniform vec3 eye;
 uniform float body_radius;
 uniform float ground_height;
 uniform vec4 ground_rectangle;     // low corner x, z; sides
-uniform sampler2D ground_light_map;
+uniform sampler2D ground_light_map;      // half of the light; no mipmaps, which take several times as long to read
+uniform sampler2D far_ground_light_map;  // blurred
 uniform mat4 light_from_stage;     // the key light's clip space
 uniform vec2 light_texel;          // texture coordinates per unit of length, across the light
 uniform sampler2DShadow key_shadow_map;
@@ -12,7 +13,8 @@ uniform float key_depth_range;     // units of length
 uniform vec4 zenith_rectangle;     // low corner x, z; 1 / sides
 uniform vec2 zenith_heights;       // low, 1 / range
 uniform sampler2D zenith;
-uniform float ground_texels;       // per unit of length
+
+const vec3 kWindow = vec3(-0.880, 0.300, 0.368);  // towards its middle
 
 const int kSearch = SHADOW_SEARCH;
 const int kTaps = SHADOW_TAPS;
@@ -36,7 +38,8 @@ float key_light(vec3 point, vec3 n, float facing) {
     direction = kGoldenTurn * direction;
   }
   // A loop that runs no times is skipped, an if is not: only the edges of shadows pay for the filter.
-  int taps = blockers > 0.0 ? kTaps : 0;
+  bool is_edge = blockers > 0.0 && blockers < float(kSearch);
+  int taps = is_edge ? kTaps : 0;
   float radius = clamp(kLightRadius * key_depth_range * way / max(blockers, 1.0), 0.02 * body_radius,
                        0.6 * kLightRadius * body_radius);
   float lit = 0.0;
@@ -45,7 +48,7 @@ float key_light(vec3 point, vec3 n, float facing) {
     lit += texture(key_shadow_map, vec3(uvd.xy + offset * light_texel, uvd.z));
     direction = kGoldenTurn * direction;
   }
-  return taps > 0 ? lit / float(kTaps) : (search > 0 ? 1.0 : 0.0);
+  return is_edge ? lit / float(kTaps) : (search > 0 && blockers == 0.0 ? 1.0 : 0.0);
 }
 
 // How much of the sky is open above a point: the chance that the blurred map of heights does not exceed it (Chebyshev).
@@ -61,16 +64,19 @@ float open_sky(vec3 point, vec3 n) {
 vec3 ground_bounce(vec3 point, vec3 n) {
   float height = max(point.y - ground_height, 0.0);
   vec2 uv = (point.xz + 0.6 * height * n.xz - ground_rectangle.xy) / ground_rectangle.zw;
-  // A level that is the same for all pixels is read several times quicker than one of each pixel's own.
-  vec3 near = textureLod(ground_light_map, uv, 0.0).rgb;
-  vec3 far = textureLod(ground_light_map, uv, log2(max(0.5 * body_radius * ground_texels, 1.0))).rgb;
-  return kGroundAlbedo * mix(near, far, smoothstep(0.0, 0.5 * body_radius, height));
+  vec3 near = texture(ground_light_map, uv).rgb;
+  vec3 far = texture(far_ground_light_map, uv).rgb;
+  return 2.0 * kGroundAlbedo * mix(near, far, smoothstep(0.0, 0.5 * body_radius, height));
 }
 
-// What a reflection sees: floor below, a bright overhead panel fading into the room above.
-vec3 room(vec3 direction, vec3 floor_light) {
-  vec3 walls = mix(floor_light, vec3(0.40, 0.41, 0.43), smoothstep(-0.25, 0.25, direction.y));
-  return walls + vec3(0.42, 0.43, 0.45) * smoothstep(0.35, 0.95, direction.y);
+// What a reflection sees: floor below, dim walls, a bright panel overhead and a window at the side of the key light;
+// edges are as soft as the surface is rough.
+vec3 room(vec3 direction, vec3 floor_light, float roughness) {
+  float soft = 0.04 + 0.5 * roughness;
+  vec3 walls = mix(floor_light, vec3(0.30, 0.31, 0.33), smoothstep(-soft, soft, direction.y));
+  float panel = smoothstep(0.66 - soft, 0.66 + soft, direction.y);
+  float window = smoothstep(0.86 - 0.5 * soft, 0.86 + 0.5 * soft, dot(direction, kWindow));
+  return walls + vec3(0.52, 0.53, 0.56) * panel + vec3(0.80, 0.78, 0.74) * window;
 }
 
 float ggx(float nh, float nv, float nl, float alpha) {
@@ -85,11 +91,12 @@ struct Finish {
   float roughness;
   float translucency;  // of light that enters and leaves elsewhere
   float metal;
+  float glow;  // share of the colour that shows whatever the light
 };
 
 Finish finish_of(float look) {
-  vec3 is = 1.0 - min(abs(look - vec3(1.0, 2.0, 3.0)), 1.0);  // gelatin, rubber, steel
-  return Finish(0.42 + dot(is, vec3(-0.24, 0.33, -0.14)), is.x, is.z);
+  vec4 is = 1.0 - min(abs(look - vec4(1.0, 2.0, 3.0, 4.0)), 1.0);  // gelatin, rubber, steel, chart
+  return Finish(0.42 + dot(is, vec4(-0.24, 0.33, -0.20, 0.33)), is.x, is.z, 0.45 * is.w);
 }
 
 // Integral of the specular lobe over a uniform surrounding, as a factor and a summand of the reflectance (Karis's fit).
@@ -124,7 +131,7 @@ vec3 skin_light(vec3 place, vec3 n, vec3 base, float look) {
   // Through thin parts, at the rim, the surroundings behind shine, the more coloured the longer the way.
   vec3 through = finish.translucency * (bounce + 0.5 * kKey) * base * (0.16 + 0.55 * (1.0 - nv) * (1.0 - nv));
 
-  vec3 reflected = room(reflect(-v, n), bounce) * mix(0.3, 1.0, open);
+  vec3 reflected = room(reflect(-v, n), bounce, finish.roughness) * mix(0.3, 1.0, open);
   float clear = max(nl, 0.0);
   vec3 reflectance = mix(vec3(0.04), base, finish.metal);
   vec3 fresnel = reflectance + (1.0 - reflectance) * power5(1.0 - max(dot(v, h), 0.0));
@@ -132,5 +139,6 @@ vec3 skin_light(vec3 place, vec3 n, vec3 base, float look) {
   vec2 share = surrounding_share(nv, finish.roughness);
 
   vec3 light = (1.0 - finish.metal) * (base * (kKey * diffuse * lit + surrounding) + through);
-  return light + kKey * gloss * lit * fresnel + reflected * (reflectance * share.x + share.y);
+  light += kKey * gloss * lit * fresnel + reflected * (reflectance * share.x + share.y);
+  return mix(light, base, finish.glow);
 }

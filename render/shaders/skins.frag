@@ -55,7 +55,7 @@ void main() {
       s = Surface(s.color + w * paints[k].rgb, s.normal + w * normals[k], s.depth + w * depths[k], s.look + w * paints[k].a,
                   s.share + w);
     }
-    sum += s.share * srgb_from_linear(tone_map(picture_light(s)));
+    sum += s.share * picture_color(picture_light(s));
     covered += s.share;
   }
   result = vec4(sum / max(covered, 1.0) + picture_noise(), covered / float(kSamples));

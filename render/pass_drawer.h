@@ -1,0 +1,31 @@
+#pragma once
+#include <vector>
+
+#include "render/passes.h"
+#include "render/view.h"
+
+namespace sprung {
+
+/// Draws what a compositor needs beside a picture.
+class PassDrawer {
+ public:
+  PassDrawer(const GlFunctions& gl, int width, int height);
+  /// `ids`: one a skin. `camera` is that of the view.
+  [[nodiscard]] Passes draw(const std::vector<SkinBuffers>& skins, const std::vector<int>& ids, const View& view,
+                            const Camera& camera) const;
+
+ private:
+  void draw_skins(const std::vector<SkinBuffers>& skins, const std::vector<int>& ids, const View& view) const;
+  void read(const View& view, const Camera& camera, Passes& passes) const;
+
+  const GlFunctions& gl_;
+  int width_;
+  int height_;
+  GlTexture place_;   // in stage space; id
+  GlTexture normal_;  // of any length
+  GlTexture depth_;
+  GlFramebuffer target_;
+  GlProgram program_;
+};
+
+}  // namespace sprung

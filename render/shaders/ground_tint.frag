@@ -1,0 +1,12 @@
+// By how much the floor is darker in the picture than in the open, by place: multiplied with the background there. That
+// is exact where the background is as bright as below, and everywhere but for a level, since it is nearly so.
+in vec2 screen_place;
+out vec4 result;
+//!include ground_light.glsl
+
+void main() {
+  vec3 open = open_ground_light();
+  vec3 share = ground_light(texture(ground_sky, screen_place), textureLod(ground_shadow, screen_place, 0.0).r, screen_place) / open;
+  vec3 background = cyclorama(-0.2);
+  result = vec4(picture_color(background * share) / picture_color(background) + picture_noise(), 1.0);
+}

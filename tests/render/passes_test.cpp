@@ -1,0 +1,136 @@
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "render/exr.h"
+#include "tests/support/error_message.h"
+#include "tests/support/still_life.h"
+#include "tests/support/temp_folder.h"
+
+namespace sprung {
+namespace {
+
+constexpr double kRadius = 0.05;
+const Vec3 kMiddle(0.02, 0.08, -0.01);
+
+StillLife two_balls() {
+  StillLife scene;
+  scene.add(make_sphere_skin(kMiddle, kRadius), {1, 0, 0});
+  scene.add(make_sphere_skin(kMiddle + Vec3(0.3, 0, 0), kRadius), {0, 0, 1});
+  return scene;
+}
+
+/// Looks at the first ball.
+Camera camera_at(const Vec3& eye) {
+  Camera camera;
+  camera.eye = eye;
+  camera.target = kMiddle;
+  return camera;
+}
+
+Passes passes_of(const StillLife& scene, const Camera& camera) {
+  const Stage stage = scene.stage();
+  Renderer renderer(stage, {.width = 161, .height = 91});
+  return renderer.draw_passes(scene.shapes(), camera);
+}
+
+struct Pixel {
+  const Passes& passes;
+  std::size_t at;
+  [[nodiscard]] Vec3 position() const {
+    return {passes.position[0][at], passes.position[1][at], passes.position[2][at]};
+  }
+  [[nodiscard]] Vec3 normal() const { return {passes.normal[0][at], passes.normal[1][at], passes.normal[2][at]}; }
+};
+
+constexpr std::size_t kCentre = 45 * 161 + 80;
+
+TEST(Passes, SayWhereWhatWhichWayAndHowFar) {
+  const Vec3 eye = kMiddle + Vec3(0.1, 0.2, 0.4);
+  const Passes passes = passes_of(two_balls(), camera_at(eye));
+  const Vec3 back = (eye - kMiddle).normalized();
+  const Pixel centre{passes, kCentre};
+  EXPECT_NEAR(passes.depth[kCentre], (eye - kMiddle).norm() - kRadius, 3e-4);  // the ball has flat triangles
+  EXPECT_LT((centre.position() - kMiddle - kRadius * back).norm(), 1e-3);
+  EXPECT_LT((centre.normal() - back).norm(), 0.03);
+  EXPECT_EQ(passes.id[kCentre], 1);
+}
+
+TEST(Passes, HoldTogetherInEveryPixel) {
+  const Vec3 eye = kMiddle + Vec3(0.3, 0.35, 0.6);
+  const Camera camera = camera_at(eye);
+  const Passes passes = passes_of(two_balls(), camera);
+  const Vec3 ahead = (camera.target - eye).normalized();
+  std::array<int, 3> count{};
+  for (std::size_t i = 0; i < passes.depth.size(); ++i) {
+    const Pixel pixel{passes, i};
+    const auto id = static_cast<std::size_t>(passes.id[i]);
+    ASSERT_LT(id, count.size());
+    ++count[id];
+    ASSERT_LT(passes.depth[i], 100);  // the camera looks down: ground everywhere
+    EXPECT_NEAR(pixel.normal().norm(), 1, 1e-5);
+    EXPECT_LT(pixel.normal().dot(pixel.position() - eye), 0.01);
+    EXPECT_NEAR(passes.depth[i], ahead.dot(pixel.position() - eye), 1e-4 * passes.depth[i]);
+    if (id == 0) {
+      EXPECT_NEAR(pixel.position().y(), 0, 1e-6);
+    }
+    if (id > 0) {
+      const Vec3 middle = kMiddle + (id == 2 ? Vec3(0.3, 0, 0) : Vec3(0, 0, 0));
+      EXPECT_NEAR((pixel.position() - middle).norm(), kRadius, 6e-4);
+    }
+  }
+  for (const int pixels : count) EXPECT_GT(pixels, 100);
+}
+
+TEST(Passes, AreTheSameInMillimetresAndKilometres) {
+  const Passes small = passes_of(two_balls().scaled(1e-3), [] {
+    Camera camera = camera_at(kMiddle + Vec3(0.1, 0.2, 0.4));
+    camera.eye *= 1e-3;
+    camera.target *= 1e-3;
+    return camera;
+  }());
+  const Passes large = passes_of(two_balls(), camera_at(kMiddle + Vec3(0.1, 0.2, 0.4)));
+  EXPECT_EQ(small.id, large.id);
+  EXPECT_NEAR(1e3 * small.depth[kCentre], large.depth[kCentre], 1e-5);
+}
+
+TEST(Passes, HaveNothingWhereNothingIs) {
+  StillLife scene = two_balls();
+  scene.has_ground = false;
+  const Passes passes = passes_of(scene, camera_at(kMiddle + Vec3(0, 0, 0.5)));
+  EXPECT_EQ(passes.depth.front(), Passes::kNothing);
+  EXPECT_EQ(passes.id.front(), 0);
+  EXPECT_EQ(passes.normal[1].front(), 0);
+}
+
+TEST(Exr, ReadsBackWhatWasWritten) {
+  const TempFolder folder;
+  Passes passes(5, 3);
+  for (std::size_t i = 0; i < 15; ++i) {
+    const auto number = static_cast<float>(i);
+    passes.depth[i] = 0.1F * number;
+    passes.id[i] = number;
+    for (std::size_t k = 0; k < 3; ++k) {
+      passes.normal[k][i] = number - static_cast<float>(k);
+      passes.position[k][i] = 1e-3F * number + static_cast<float>(k);
+    }
+  }
+  write_exr(passes, folder.path() / "p.exr");
+  const Passes back = read_exr(folder.path() / "p.exr");
+  EXPECT_EQ(back.width, 5);
+  EXPECT_EQ(back.height, 3);
+  EXPECT_EQ(back.depth, passes.depth);
+  EXPECT_EQ(back.id, passes.id);
+  EXPECT_EQ(back.normal, passes.normal);
+  EXPECT_EQ(back.position, passes.position);
+}
+
+TEST(Exr, SaysWhatIsWrong) {
+  const TempFolder folder;
+  EXPECT_NE(error_message([&] { write_exr(Passes(2, 2), folder.path() / "no" / "p.exr"); }).find("p.exr"),
+            std::string::npos);
+  const std::filesystem::path file = folder.write("text.exr", "no picture");
+  EXPECT_NE(error_message([&] { static_cast<void>(read_exr(file)); }).find("no OpenEXR file"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace sprung
