@@ -38,6 +38,14 @@ Production build_world(const Scene& scene, const std::vector<LoadedBody>& bodies
   return production;
 }
 
+std::vector<int> pinned_nodes(const Origin& origin) {
+  std::vector<int> nodes;
+  for (const PinnedNodes& pinned : origin.pins) nodes.insert(nodes.end(), pinned.nodes.begin(), pinned.nodes.end());
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
 Points skin_positions(const Production& production, std::size_t actor, const Points& nodes) {
   return deform_points(production.world.actors[actor].body.grid, production.skins[actor].embedding, nodes);
 }

@@ -52,6 +52,9 @@ struct Origin {
   std::vector<MusclePart> muscles;
 };
 
+/// All nodes that pins hold, ascending, each once.
+[[nodiscard]] std::vector<int> pinned_nodes(const Origin& origin);
+
 /// What moves and what is seen of it: skins[i], carried[i] and origins[i] belong to world.actors[i].
 struct Production {
   World world;

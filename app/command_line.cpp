@@ -150,6 +150,13 @@ SceneOptions read_scene_options(const CLI::App& command, Words& words) {
   if (!words.jobs.empty()) options.jobs = count_in("jobs", words.jobs);
   if (!words.position_error.empty()) options.position_error = error_in(words.position_error);
   const std::string& name = command.get_name();
+  if (options.side_by_side == options.others.empty()) {
+    throw Error(ErrorKind::kUsage, options.side_by_side
+                                       ? "--side-by-side needs more than one cache"
+                                       : fmt::format("more than one input; what is '{}'? Runs beside each other: "
+                                                     "--side-by-side",
+                                                     options.others.front()));
+  }
   if (options.list) return options;
   if (options.input.empty()) {
     throw Error(ErrorKind::kUsage, fmt::format("{0} needs {1}; see sprung {0} --help", name, input_of(name)));

@@ -22,6 +22,7 @@ struct Setting {
 /// `sprung inspect` were asked to do.
 struct SceneOptions {
   std::string input;                 // a mesh or a scene; or a cache
+  std::vector<std::string> others;   // of render: more caches, side by side
   std::vector<std::string> outputs;  // as typed
   std::vector<Setting> settings;
   std::optional<Scenario> scenario;
@@ -31,6 +32,7 @@ struct SceneOptions {
   bool overwrite = false;
   bool resume = false;        // of simulate
   double position_error = 0;  // of simulate: m, that a cache may add; 0: none
+  bool side_by_side = false;  // of render
   bool print_scene = false;
   bool quiet = false;
   bool verbose = false;

@@ -86,6 +86,8 @@ void add_simulate(CLI::App& app, Words& words) {
 void add_render(CLI::App& app, Words& words) {
   CLI::App* render = app.add_subcommand("render", "a cache in, pictures or film out");
   render->add_option("INPUT", words.scene.input, "a cache (.h5)");
+  render->add_option("MORE", words.scene.others, "more caches, with --side-by-side");
+  render->add_flag("--side-by-side", words.scene.side_by_side, "several runs in one film: one camera, one scale");
   render
       ->add_option("-o,--output", words.scene.outputs,
                    "folder/, folder/frame_{:04}.png, or film.mp4, .webm, .gif; may be given several times")

@@ -33,10 +33,14 @@ std::string lower(std::string text) {
 
 Output parse_pattern(std::string_view words) {
   NumberedName name = parse_numbered_name(words, kExamples);
-  if (lower(fs::path(name.after).extension().string()) != ".png" && lower(name.after) != ".png") {
-    refuse(words, "pictures are PNG files");
-  }
-  return {.folder = name.folder, .before = name.before, .after = name.after, .digits = name.digits};
+  const std::string whole = lower(name.after);
+  const bool is_exr = whole.ends_with(".exr");
+  if (!is_exr && !whole.ends_with(".png")) refuse(words, "pictures are PNG files, their passes EXR files");
+  return {.kind = is_exr ? Output::Kind::kPasses : Output::Kind::kPictures,
+          .folder = name.folder,
+          .before = name.before,
+          .after = name.after,
+          .digits = name.digits};
 }
 
 bool is_number(std::string_view text) {
@@ -91,7 +95,7 @@ Output parse_output(std::string_view words) {
 
 std::vector<fs::path> existing_pictures(const Output& output) {
   std::vector<fs::path> found;
-  if (output.kind != Output::Kind::kPictures || !fs::is_directory(or_here(output.folder))) return found;
+  if (output.kind == Output::Kind::kFilm || !fs::is_directory(or_here(output.folder))) return found;
   for (const fs::directory_entry& entry : fs::directory_iterator(or_here(output.folder))) {
     const std::string name = entry.path().filename().string();
     if (name.size() <= output.before.size() + output.after.size()) continue;

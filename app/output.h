@@ -6,9 +6,9 @@
 
 namespace sprung {
 
-/// Where pictures go: numbered PNG files in a folder, or a film.
+/// Where pictures go: numbered PNG files in a folder, or a film; or where their passes go, numbered EXR files.
 struct Output {
-  enum class Kind { kPictures, kFilm };
+  enum class Kind { kPictures, kPasses, kFilm };
   Kind kind = Kind::kPictures;
   std::filesystem::path folder{};  // that the pictures or the film lie in
   std::string before{};            // a picture's name is before + number + after
@@ -16,13 +16,13 @@ struct Output {
   int digits = 0;                // leading zeros up to that many digits
   std::filesystem::path film{};  // the file of a film
 
-  /// Of the picture with this number; the first is 1.
+  /// The file of the picture, or of its passes, with this number; the first is 1.
   [[nodiscard]] std::filesystem::path picture(int number) const;
 };
 
 /// What the words after --output mean: "dir/" or "dir" (frame_0001.png ... in it), "dir/f_{:04}.png" or "{:04d}" or
-/// "{}", "film.mp4", ".webm", ".gif". Throws Error(kUsage) for a name with any other ending, unless such a folder
-/// exists.
+/// "{}", the same with ".exr", "film.mp4", ".webm", ".gif". Throws Error(kUsage) for a name with any other ending,
+/// unless such a folder exists.
 [[nodiscard]] Output parse_output(std::string_view words);
 
 /// All of them. Throws Error(kUsage) where two are the same place in whatever spelling.

@@ -1,6 +1,7 @@
 #include "app/picture_writer.h"
 
 #include "app/writable.h"
+#include "render/exr.h"
 #include "render/png.h"
 
 namespace sprung {
@@ -30,11 +31,11 @@ PictureWriter::~PictureWriter() {
   if (thread_.joinable()) thread_.join();
 }
 
-void PictureWriter::write(Image image) {
+void PictureWriter::write(Drawing drawing) {
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [this] { return waiting_.size() < kMostWaiting || failure_; });
   if (failure_) std::rethrow_exception(failure_);
-  waiting_.push_back(std::move(image));
+  waiting_.push_back(std::move(drawing));
   changed_.notify_all();
 }
 
@@ -54,12 +55,12 @@ void PictureWriter::run() {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return !waiting_.empty() || is_closed_; });
     if (waiting_.empty()) return;
-    const Image image = std::move(waiting_.front());
+    const Drawing drawing = std::move(waiting_.front());
     waiting_.pop_front();
     lock.unlock();
     changed_.notify_all();
     try {
-      write_everywhere(image);
+      write_everywhere(drawing);
     } catch (...) {
       lock.lock();
       failure_ = std::current_exception();
@@ -69,11 +70,12 @@ void PictureWriter::run() {
   }
 }
 
-void PictureWriter::write_everywhere(const Image& image) {
+void PictureWriter::write_everywhere(const Drawing& drawing) {
   for (const Output& output : outputs_) {
-    if (output.kind == Output::Kind::kPictures) write_png(image, output.picture(next_));
+    if (output.kind == Output::Kind::kPictures) write_png(drawing.image, output.picture(next_));
+    if (output.kind == Output::Kind::kPasses) write_exr(drawing.passes.value(), output.picture(next_));
   }
-  for (const auto& film : films_) film->write(image);
+  for (const auto& film : films_) film->write(drawing.image);
   ++next_;
 }
 

@@ -4,14 +4,22 @@
 #include <exception>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <vector>
 
 #include "app/output.h"
 #include "render/film.h"
 #include "render/image.h"
+#include "render/passes.h"
 
 namespace sprung {
+
+/// What there is of a frame.
+struct Drawing {
+  Image image{};                   // for pictures and films
+  std::optional<Passes> passes{};  // for outputs of that kind
+};
 
 /// Encodes pictures in a thread of its own, so that drawing does not wait for it. Pictures go to every output in the
 /// order in which they come.
@@ -25,17 +33,17 @@ class PictureWriter {
   PictureWriter& operator=(const PictureWriter&) = delete;
 
   /// Waits where too many pictures are waiting already. Throws what went wrong in the thread.
-  void write(Image image);
+  void write(Drawing drawing);
   /// Finishes the films. Pictures that this run did not write are left alone, whatever their names.
   void close();
 
  private:
   void run();
-  void write_everywhere(const Image& image);
+  void write_everywhere(const Drawing& drawing);
 
   std::vector<Output> outputs_;
   std::vector<std::unique_ptr<FilmWriter>> films_;
-  std::deque<Image> waiting_;
+  std::deque<Drawing> waiting_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::exception_ptr failure_;

@@ -5,10 +5,6 @@
 #include <algorithm>
 #include <future>
 
-#include "app/film/exposure.h"
-#include "app/film/film_cameras.h"
-#include "app/film/film_stage.h"
-#include "app/film/labels.h"
 #include "app/interrupt.h"
 #include "app/picture_writer.h"
 #include "app/progress.h"
@@ -19,8 +15,6 @@
 namespace sprung {
 namespace {
 
-constexpr int kExposures = 8;  // of a picture with motion blur
-
 /// What the ground could not hold: how deep any vertex was below it, in any frame.
 std::string ground_report(const Production& production, double lowest) {
   const std::optional<double> ground = ground_height(production.world.obstacles);
@@ -29,79 +23,6 @@ std::string ground_report(const Production& production, double lowest) {
   return fmt::format(", deepest below the ground {} ({:.2f} % of the size)", readable(depth, Dimension::kLength),
                      100 * depth / production.size);
 }
-
-/// Everything that a picture of a film is made with.
-class FilmCrew {
- public:
-  FilmCrew(const Production& production, const Recording& recording, const Scene& scene)
-      : scene_(scene),
-        recording_(recording),
-        reach_(reach_of(production, recording)),
-        stage_(scene, production, recording),
-        labels_(scene.render, stage_.legend()),
-        scene_of_picture_(with_picture_size(scene, labels_)),
-        cameras_(cameras_of(scene_of_picture_, reach_, scene.render.sheet ? 0 : labels_.reserved())),
-        renderer_(stage_.stage(reach_.bounds), options()) {}
-
-  [[nodiscard]] const Reach& reach() const { return reach_; }
-  [[nodiscard]] std::string driver() const { return renderer_.driver(); }
-
-  /// The skins at the moments of a picture.
-  [[nodiscard]] std::vector<std::vector<SkinShape>> moments(std::size_t frame) const {
-    const double open = scene_.render.motion_blur / 360;
-    std::vector<std::vector<SkinShape>> moments;
-    const int count = open > 0 ? kExposures : 1;
-    moments.reserve(static_cast<std::size_t>(count));
-    for (int i = 0; i < count; ++i) moments.push_back(stage_.shapes(frame, open * i / count));
-    return moments;
-  }
-
-  [[nodiscard]] Image draw(std::size_t frame, const std::vector<std::vector<SkinShape>>& moments) {
-    Exposure exposure;
-    for (const std::vector<SkinShape>& shapes : moments) exposure.add(renderer_.draw(shapes, cameras_[frame]));
-    Image image = exposure.mean();
-    labels_.write_frame(image, cameras_[frame], frame, cameras_.size(), recording_.progress[frame]);
-    if (!scene_.render.sheet) labels_.write_legend(image);
-    return image;
-  }
-
-  [[nodiscard]] Image sheet(const std::vector<Image>& pictures) const {
-    const int columns = (*scene_.render.sheet)[0];
-    const int used = columns * scene_of_picture_.render.resolution[0];
-    Image image = sheet_of(pictures, columns, scene_.render.resolution[0] - used);
-    labels_.write_legend(image);
-    return image;
-  }
-
- private:
-  /// On a sheet each picture has its part of the resolution.
-  static Scene with_picture_size(Scene scene, const Labels& labels) {
-    if (!scene.render.sheet) return scene;
-    const auto [columns, rows] = *scene.render.sheet;
-    auto& [width, height] = scene.render.resolution;
-    width = std::max(1, static_cast<int>((1 - labels.reserved()) * width) / columns);
-    height = std::max(1, height / rows);
-    return scene;
-  }
-
-  [[nodiscard]] RenderOptions options() const {
-    const SceneRender& render = scene_of_picture_.render;
-    return {.width = render.resolution[0],
-            .height = render.resolution[1],
-            .samples = render.samples.value_or(samples_of(render.quality)),
-            .quality = render.quality,
-            .transparent = render.transparent};
-  }
-
-  const Scene& scene_;
-  const Recording& recording_;
-  Reach reach_;
-  FilmStage stage_;
-  Labels labels_;
-  Scene scene_of_picture_;
-  std::vector<Camera> cameras_;
-  Renderer renderer_;
-};
 
 /// Frames to draw, in order: all of the range, or as many as a sheet has places for.
 std::vector<std::size_t> chosen_frames(const FrameRange& range, const SceneRender& render) {
@@ -118,25 +39,35 @@ std::vector<std::size_t> chosen_frames(const FrameRange& range, const SceneRende
   return frames;
 }
 
-void check_outputs(const SceneRender& render, const std::vector<Output>& outputs) {
-  for (const Output& output : outputs) {
-    if (output.kind != Output::Kind::kFilm) continue;
-    if (render.sheet) throw Error(ErrorKind::kUsage, "render.sheet: one picture is no film; give a folder");
-    if (render.transparent) {
-      throw Error(ErrorKind::kUsage, "render.transparent: films have no alpha; give a folder for pictures");
-    }
+bool has(const std::vector<Output>& outputs, Output::Kind kind) {
+  return std::any_of(outputs.begin(), outputs.end(), [kind](const Output& output) { return output.kind == kind; });
+}
+
+void check_outputs(const SceneRender& render, std::size_t runs, const std::vector<Output>& outputs) {
+  const auto refuse = [](const char* reason) { throw Error(ErrorKind::kUsage, reason); };
+  if (has(outputs, Output::Kind::kFilm)) {
+    if (render.sheet) refuse("render.sheet: one picture is no film; give a folder");
+    if (render.transparent) refuse("render.transparent: films have no alpha; give a folder for pictures");
   }
+  if (has(outputs, Output::Kind::kPasses)) {
+    if (render.sheet) refuse("render.sheet: passes (.exr) are of single pictures");
+    if (runs > 1) refuse("--side-by-side: passes (.exr) are of one run");
+  }
+  if (render.sheet && runs > 1) refuse("--side-by-side: a sheet shows one run");
 }
 
 }  // namespace
 
-void render_film(const Production& production, const Recording& recording, const Scene& scene, const FrameRange& range,
-                 const std::vector<Output>& outputs, const Console& console) {
-  check_outputs(scene.render, outputs);
+void render_film(const std::vector<FilmRun>& runs, const FrameRange& range, const std::vector<Output>& outputs,
+                 const Console& console) {
+  const Scene& scene = runs.front().scene;
+  check_outputs(scene.render, runs.size(), outputs);
   const std::vector<std::size_t> frames = chosen_frames(range, scene.render);
   const auto [width, height] = scene.render.resolution;
+  const bool has_passes = has(outputs, Output::Kind::kPasses);
+  const bool has_pictures = has(outputs, Output::Kind::kPictures) || has(outputs, Output::Kind::kFilm);
   Progress progress(console, "render", static_cast<double>(frames.size()), 1, "frames/s");
-  FilmCrew crew(production, recording, scene);
+  FilmCrew crew(runs);
   console.detail(fmt::format("drawn by {}", crew.driver()));
   PictureWriter writer(outputs, width, height, scene.fps, range.first);
   // The skins of the next frame are made ready while this one is drawn and the ones before are encoded.
@@ -147,20 +78,22 @@ void render_film(const Production& production, const Recording& recording, const
   std::vector<Image> sheet;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     stop_if_interrupted();
-    const std::vector<std::vector<SkinShape>> moments = next.get();
+    const FilmCrew::Moments moments = next.get();
     if (i + 1 < frames.size()) next = make_ready(i + 1);
-    Image image = crew.draw(frames[i], moments);
+    Drawing drawing;
+    if (has_pictures) drawing.image = crew.draw(frames[i], moments);
+    if (has_passes) drawing.passes = crew.passes(frames[i], moments);
     if (scene.render.sheet) {
-      sheet.push_back(std::move(image));
+      sheet.push_back(std::move(drawing.image));
     } else {
-      writer.write(std::move(image));
+      writer.write(std::move(drawing));
     }
     progress.update(static_cast<double>(i + 1));
   }
-  if (scene.render.sheet) writer.write(crew.sheet(sheet));
+  if (scene.render.sheet) writer.write({.image = crew.sheet(sheet)});
   writer.close();
   progress.finish(fmt::format("{} of {} x {} pixels{}", count_of(static_cast<long>(frames.size()), "picture"), width,
-                              height, ground_report(production, crew.reach().lowest)));
+                              height, ground_report(runs.front().production, crew.lowest())));
 }
 
 }  // namespace sprung

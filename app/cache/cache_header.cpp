@@ -80,6 +80,7 @@ CacheHeader cache_header(const Scene& scene, const Production& production, std::
     actor.stiffness_scale = body.stiffness_scale;
     actor.masses = body.masses;
     actor.rest_positions = body.rest_positions;
+    actor.pinned = pinned_nodes(production.origins[i]);
     actor.skin = drawn.skin;
     actor.embedding = drawn.embedding;
     actor.copy = production.origins[i].copy;

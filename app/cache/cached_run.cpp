@@ -1,5 +1,6 @@
 #include "app/cache/cached_run.h"
 
+#include "app/cache/run_cache.h"
 #include "core/error.h"
 
 namespace sprung {
@@ -31,7 +32,10 @@ Production cached_production(const CacheHeader& header, const Scene& scene) {
     production.world.actors.push_back({.body = cached_body(cached, scene.bodies[row]), .contacts = {}, .pinned = {}});
     production.skins.push_back({.skin = cached.skin, .embedding = cached.embedding, .color = color_of(cached.color)});
     production.carried.push_back({.vertices = cached.carried, .embedding = cached.carried_embedding});
-    production.origins.push_back({.body = row, .copy = cached.copy, .pins = {}, .forces = {}, .muscles = {}});
+    Origin& origin = production.origins.emplace_back();
+    origin.body = row;
+    origin.copy = cached.copy;
+    if (!cached.pinned.empty()) origin.pins.push_back({.pin = 0, .nodes = cached.pinned});
   }
   for (std::size_t i = 0; i < header.obstacles.size(); ++i) {
     const SceneObstacle& obstacle = scene.obstacles.at(i);
@@ -56,9 +60,14 @@ std::vector<Floats3> cached_nodes(const CacheReader& cache, std::size_t frame) {
 Recording cached_recording(const CacheReader& cache) {
   Recording recording;
   recording.progress_name = cache.header().progress_name;
+  for (const std::string& name : cache.header().probes) recording.probes.push_back({.name = name, .samples = {}});
   for (std::size_t frame = 0; frame < cache.frame_count(); ++frame) {
     recording.frames.push_back(cached_nodes(cache, frame));
-    recording.progress.push_back(cache.frame(frame).progress);
+    const CachedFrame cached = cache.frame(frame);
+    recording.progress.push_back(cached.progress);
+    for (std::size_t probe = 0; probe < recording.probes.size(); ++probe) {
+      recording.probes[probe].samples.push_back(sample_of(cached, probe));
+    }
   }
   return recording;
 }

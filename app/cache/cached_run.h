@@ -8,7 +8,7 @@ namespace sprung {
 /// contacts, pins and damping are not in a cache.
 [[nodiscard]] Production cached_production(const CacheHeader& header, const Scene& scene);
 
-/// Its frames, without what the probes saw.
+/// Its frames, and what the probes saw in them; which of those are of pins is not in a cache.
 [[nodiscard]] Recording cached_recording(const CacheReader& cache);
 
 /// One frame of it, by actor.

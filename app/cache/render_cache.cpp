@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 
 #include "app/cache/cache_header.h"
 #include "app/cache/cached_run.h"
@@ -11,6 +12,7 @@
 #include "app/render_film.h"
 #include "app/scene/scene_file.h"
 #include "core/error.h"
+#include "core/law/brick_law.h"
 
 namespace sprung {
 namespace {
@@ -44,14 +46,64 @@ void check_range_output(const Output& output, const FrameRange& range, bool over
   check_output(output, true);
 }
 
+/// A cache and the scene by which it is drawn.
+struct CachedFilm {
+  CachedFilm(const std::string& file, const SceneOptions& options) : cache(file), scene(cached_scene(cache.header())) {
+    if (cache.frame_count() == 0) throw Error(ErrorKind::kBadInput, fmt::format("'{}' has no frames yet", file));
+    apply_settings(options, scene);
+    name = fs::path(file).stem().string();
+  }
+
+  CacheReader cache;
+  Scene scene;
+  std::string name;
+};
+
+/// The files' names; and the law of the bricks and the material where those differ.
+void name_runs(std::vector<CachedFilm>& films) {
+  const auto add = [&films](auto&& word) {
+    std::vector<std::string> words;
+    for (const CachedFilm& film : films) words.emplace_back(word(film.scene.bodies.front()));
+    if (std::adjacent_find(words.begin(), words.end(), std::not_equal_to<>()) == words.end()) return;
+    for (std::size_t i = 0; i < films.size(); ++i) {
+      if (!words[i].empty() && films[i].name.find(words[i]) == std::string::npos) films[i].name += ", " + words[i];
+    }
+  };
+  add([](const SceneBody& body) { return std::string(model_names()[static_cast<std::size_t>(body.model)]); });
+  add([](const SceneBody& body) { return body.material.name; });
+}
+
+std::vector<CachedFilm> open_all(const SceneOptions& options) {
+  std::vector<CachedFilm> films;
+  films.emplace_back(options.input, options);
+  for (const std::string& other : options.others) films.emplace_back(other, options);
+  if (films.size() > 1) name_runs(films);
+  return films;
+}
+
+/// With all frames of all caches in memory.
+void render_films(const std::vector<CachedFilm>& films, const FrameRange& range, const std::vector<Output>& outputs,
+                  const Console& console) {
+  std::vector<Production> productions;
+  std::vector<Recording> recordings;
+  productions.reserve(films.size());
+  recordings.reserve(films.size());
+  std::vector<FilmRun> runs;
+  for (const CachedFilm& film : films) {
+    const Production& production = productions.emplace_back(cached_production(film.cache.header(), film.scene));
+    const Recording& recording = recordings.emplace_back(cached_recording(film.cache));
+    runs.push_back({film.scene, production, recording, film.name});
+  }
+  render_film(runs, range, outputs, console);
+}
+
 }  // namespace
 
 void render_cache(const SceneOptions& options, const Console& console) {
-  const CacheReader cache(options.input);
-  if (cache.frame_count() == 0) throw Error(ErrorKind::kBadInput, fmt::format("'{}' has no frames yet", options.input));
-  Scene scene = cached_scene(cache.header());
-  apply_settings(options, scene);
-  const FrameRange range = parse_frame_range(options.frames, cache.frame_count());
+  const std::vector<CachedFilm> films = open_all(options);
+  std::size_t frames = 0;
+  for (const CachedFilm& film : films) frames = std::max(frames, film.cache.frame_count());
+  const FrameRange range = parse_frame_range(options.frames, frames);
   const std::vector<Output> outputs = parse_outputs(options.outputs);
   for (const Output& output : outputs) check_range_output(output, range, options.overwrite);
   const bool has_film = std::any_of(outputs.begin(), outputs.end(),
@@ -60,8 +112,7 @@ void render_cache(const SceneOptions& options, const Console& console) {
     throw Error(ErrorKind::kUsage, "--jobs: a film is written by one process; draw pictures, then sprung film");
   }
   run_jobs(range, options.jobs, console, [&](const FrameRange& part, const Console& own_console) {
-    const Recording recording = cached_recording(cache);
-    render_film(cached_production(cache.header(), scene), recording, scene, part, outputs, own_console);
+    render_films(films, part, outputs, own_console);
   });
   for (const std::string& output : options.outputs) fmt::print("{}\n", output);
 }

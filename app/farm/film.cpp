@@ -82,7 +82,7 @@ void make_film(const SceneOptions& options, const Console& console) {
                   fmt::format("'{}' is {} x {} pixels, those before {} x {}", pictures.picture(number).string(),
                               image.width, image.height, first.width, first.height));
     }
-    writer.write(std::move(image));
+    writer.write({.image = std::move(image)});
     progress.update(number - range.first + 1);
   }
   writer.close();

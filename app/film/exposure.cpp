@@ -50,11 +50,11 @@ Image sheet_of(const std::vector<Image>& pictures, int columns, int margin) {
       }
     }
   }
-  for (int y = 0; y < sheet.height; ++y) {  // what is left over goes on as the row ends
+  for (int y = 0; y < sheet.height; ++y) {  // what is left over is as the row begins, where no shadow falls
     const auto row = 3 * static_cast<std::size_t>(y * sheet.width);
     const auto used = 3 * static_cast<std::size_t>(columns * first.width);
     const auto end = 3 * static_cast<std::size_t>(sheet.width);
-    for (std::size_t i = used; i < end; ++i) sheet.pixels[row + i] = sheet.pixels[row + i - 3];
+    for (std::size_t i = used; i < end; ++i) sheet.pixels[row + i] = sheet.pixels[row + i % 3];
   }
   return sheet;
 }

@@ -19,7 +19,7 @@ class Exposure {
 };
 
 /// Pictures of the same size in rows of `columns`, from the top left. `margin` pixels are free at the
-/// right side, like the ends of the rows.
+/// right side, like the left ends of the rows.
 [[nodiscard]] Image sheet_of(const std::vector<Image>& pictures, int columns, int margin);
 
 }  // namespace sprung

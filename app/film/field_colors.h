@@ -15,6 +15,8 @@ class FieldColors {
 
   [[nodiscard]] bool is_mapped() const { return field_ != Field::kSkin; }
   [[nodiscard]] ColorMap map() const { return map_; }
+  [[nodiscard]] double low() const { return low_; }    // SI; what the first colour stands for
+  [[nodiscard]] double high() const { return high_; }  // the last
   /// Where the nodes of an actor are on the colour map in a frame, 0 to 1; beyond where they are outside the range.
   [[nodiscard]] Eigen::VectorXd shares(std::size_t frame, std::size_t actor) const;
   /// In a unit in which its numbers are short.

@@ -139,6 +139,32 @@ Reach reach_of(const Production& production, const Recording& recording) {
   return reach;
 }
 
+Reach joined(const std::vector<Reach>& runs) {
+  if (runs.size() == 1) return runs.front();
+  Reach all = runs.front();
+  std::size_t frames = 0;
+  for (const Reach& run : runs) {
+    frames = std::max(frames, run.bodies.size());
+    all.bounds.low = all.bounds.low.cwiseMin(run.bounds.low);
+    all.bounds.high = all.bounds.high.cwiseMax(run.bounds.high);
+    all.lowest = std::min(all.lowest, run.lowest);
+    if (!all.ground) all.ground = run.ground;
+    if (&run != &runs.front()) all.around = stacked({all.around, run.around});
+  }
+  all.bodies.resize(frames);
+  all.middles.assign(frames, Vec3::Zero());
+  for (std::size_t frame = 0; frame < frames; ++frame) {
+    std::vector<Points> parts;
+    for (const Reach& run : runs) {
+      const std::size_t at = std::min(frame, run.bodies.size() - 1);
+      parts.push_back(run.bodies[at]);
+      all.middles[frame] += run.middles[at] / static_cast<double>(runs.size());
+    }
+    all.bodies[frame] = stacked(parts);
+  }
+  return all;
+}
+
 std::vector<Camera> cameras_of(const Scene& scene, const Reach& reach, double reserved) {
   const SceneCamera& chosen = scene.camera;
   const std::size_t frames = reach.bodies.size();

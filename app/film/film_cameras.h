@@ -18,6 +18,9 @@ struct Reach {
 
 [[nodiscard]] Reach reach_of(const Production& production, const Recording& recording);
 
+/// Of several runs at once; those that end early stay where they are. At least one.
+[[nodiscard]] Reach joined(const std::vector<Reach>& runs);
+
 /// One camera a frame: from where the scene says, seeing the whole motion (or, where it follows the bodies, each frame)
 /// as large as possible, in the part of the picture's width that is left beside `reserved` at the right.
 [[nodiscard]] std::vector<Camera> cameras_of(const Scene& scene, const Reach& reach, double reserved);

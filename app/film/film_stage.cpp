@@ -6,6 +6,8 @@
 
 #include "app/drawn_stage.h"
 #include "app/film/brick_cubes.h"
+#include "app/film/contacts.h"
+#include "app/film/probe_plot.h"
 #include "app/film/rods.h"
 #include "app/film/springs.h"
 
@@ -14,7 +16,9 @@ namespace {
 
 const Eigen::Vector3f kNodeColor(0.20F, 0.22F, 0.26F);
 const Eigen::Vector3f kPinColor(0.90F, 0.24F, 0.12F);
-const Eigen::Vector3f kTraceColor(0.10F, 0.36F, 0.66F);
+const Eigen::Vector3f kContactColor(0.96F, 0.72F, 0.10F);
+constexpr double kContactRadius = 0.16;  // of a brick
+constexpr std::size_t kMostContacts = 600;
 constexpr double kSpringRadius = 0.03;                   // of a brick
 constexpr double kNodeRadius = 0.09;                     // of a brick
 constexpr double kPinRadius = 0.17;                      // of a brick
@@ -30,6 +34,8 @@ Skin at_rest(Skin skin, const SkinShape& shape) {
   return skin;
 }
 
+int id_of(std::size_t actor) { return static_cast<int>(actor) + 1; }
+
 Points rows_of(const Points& nodes, const std::vector<int>& rows) { return nodes(rows, Eigen::all); }
 
 }  // namespace
@@ -37,7 +43,7 @@ Points rows_of(const Points& nodes, const std::vector<int>& rows) { return nodes
 FilmStage::FilmStage(const Scene& scene, const Production& production, const Recording& recording)
     : scene_(scene), production_(production), recording_(recording), colors_(scene, production, recording) {
   const SceneRender& render = scene.render;
-  if (render.springs) stretch_ = furthest_stretch();
+  if (render.springs) stretch_ = render.color_high ? *render.color_high : furthest_stretch();
   for (std::size_t actor = 0; actor < production.world.actors.size(); ++actor) {
     if (render.bricks != BrickView::kNone) add_bricks(actor);
     if (render.springs) add_springs(actor);
@@ -46,12 +52,14 @@ FilmStage::FilmStage(const Scene& scene, const Production& production, const Rec
     if (render.pins) add_pins(actor);
     if (render.ghost) add_ghost(actor);
   }
+  int id = id_of(production.world.actors.size());
   for (const StageObstacle& obstacle : production.obstacles) {
-    if (obstacle.skin.positions.rows() > 0) add_obstacle(obstacle);
+    if (obstacle.skin.positions.rows() > 0) add_obstacle(obstacle, id++);
   }
-  for (const ProbeTrack& track : recording.probes) {
-    if (render.traces) add_trace(track);
+  for (std::size_t probe = 0; probe < recording.probes.size(); ++probe) {
+    if (render.traces) add_trace(recording.probes[probe], probe_color(probe));
   }
+  if (render.contacts) add_contacts();
 }
 
 Stage FilmStage::stage(const Bounds& bounds) const {
@@ -61,6 +69,7 @@ Stage FilmStage::stage(const Bounds& bounds) const {
     stage.default_colors.push_back(player.color);
     stage.looks.push_back(player.look);
     stage.ghosts.push_back(player.is_ghost);
+    stage.ids.push_back(player.id);
   }
   stage.color_map = scene_.render.springs ? kSpringColors : colors_.map();
   const std::optional<double> ground = ground_height(production_.world.obstacles);
@@ -91,6 +100,12 @@ std::vector<SkinShape> FilmStage::shapes(std::size_t frame, double part) const {
   return shapes;
 }
 
+std::optional<ColorRange> FilmStage::color_range() const {
+  if (scene_.render.springs) return ColorRange{-stretch_, stretch_};
+  if (colors_.is_mapped()) return ColorRange{colors_.low(), colors_.high()};
+  return std::nullopt;
+}
+
 std::optional<Legend> FilmStage::legend() const {
   if (scene_.render.springs) {
     return Legend{
@@ -109,7 +124,7 @@ void FilmStage::add_skin(std::size_t actor) {
   const BrickGrid& grid = production_.world.actors[actor].body.grid;
   const SceneBody& body = scene_.bodies[production_.origins[actor].body];
   players_.push_back({std::shared_ptr<const Skin>(&drawn.skin, [](const Skin*) {}), shade(drawn.color),
-                      colors_.is_mapped() ? Look::kRubber : look_of(body, *scene_.library), false,
+                      colors_.is_mapped() ? Look::kChart : look_of(body, *scene_.library), false, id_of(actor),
                       [this, actor, &drawn, &grid, riding = body.skin](const Moment& now) {
                         SkinShape shape = shape_of(production_, actor, now.nodes[actor], riding);
                         const Eigen::VectorXd of_nodes = shares(now, actor);
@@ -129,9 +144,9 @@ void FilmStage::add_bricks(std::size_t actor) {
   const auto cubes =
       std::make_shared<const BrickCubes>(body.grid, bricks_left(body.grid, scene_.render.cut), exploded, color);
   const auto skin = std::make_shared<const Skin>(at_rest(cubes->skin(), cubes->shape(body.rest_positions, {})));
-  players_.push_back({skin, color, Look::kRubber, false, [this, actor, cubes](const Moment& now) {
-                        return cubes->shape(now.nodes[actor], shares(now, actor));
-                      }});
+  players_.push_back(
+      {skin, color, colors_.is_mapped() ? Look::kChart : Look::kRubber, false, id_of(actor),
+       [this, actor, cubes](const Moment& now) { return cubes->shape(now.nodes[actor], shares(now, actor)); }});
 }
 
 void FilmStage::add_springs(std::size_t actor) {
@@ -148,7 +163,7 @@ void FilmStage::add_springs(std::size_t actor) {
     return rods->shape(from, to, (springs->stretches(nodes).array() / ends + 0.5).max(0.0).min(1.0));
   };
   const auto skin = std::make_shared<const Skin>(at_rest(rods->skin(), shape(body.rest_positions)));
-  players_.push_back({skin, Eigen::Vector3f::Ones(), Look::kRubber, false,
+  players_.push_back({skin, Eigen::Vector3f::Ones(), Look::kChart, false, id_of(actor),
                       [actor, shape](const Moment& now) { return shape(now.nodes[actor]); }});
 }
 
@@ -172,9 +187,10 @@ void FilmStage::add_balls(std::size_t actor, std::vector<int> nodes, double radi
   const auto balls = std::make_shared<const Balls>(nodes.size(), radius);
   const Points& rest = production_.world.actors[actor].body.rest_positions;
   const auto skin = std::make_shared<const Skin>(at_rest(balls->skin(), balls->shape(rows_of(rest, nodes))));
-  players_.push_back({skin, color, Look::kPlastic, false, [actor, balls, nodes = std::move(nodes)](const Moment& now) {
-                        return balls->shape(rows_of(now.nodes[actor], nodes));
-                      }});
+  players_.push_back(
+      {skin, color, Look::kPlastic, false, id_of(actor), [actor, balls, nodes = std::move(nodes)](const Moment& now) {
+         return balls->shape(rows_of(now.nodes[actor], nodes));
+       }});
 }
 
 void FilmStage::add_nodes(std::size_t actor) {
@@ -190,10 +206,7 @@ void FilmStage::add_nodes(std::size_t actor) {
 }
 
 void FilmStage::add_pins(std::size_t actor) {
-  std::vector<int> nodes;
-  for (const PinnedNodes& pinned : production_.origins[actor].pins) {
-    nodes.insert(nodes.end(), pinned.nodes.begin(), pinned.nodes.end());
-  }
+  const std::vector<int> nodes = pinned_nodes(production_.origins[actor]);
   if (nodes.empty()) return;
   add_balls(actor, nodes, kPinRadius * production_.world.actors[actor].body.grid.brick_size, kPinColor);
 }
@@ -202,16 +215,29 @@ void FilmStage::add_ghost(std::size_t actor) {
   const DrawnSkin& drawn = production_.skins[actor];
   SkinShape shape = shape_of(production_, actor, production_.world.actors[actor].body.rest_positions);
   players_.push_back({std::shared_ptr<const Skin>(&drawn.skin, [](const Skin*) {}), shade(drawn.color), Look::kRubber,
-                      true, [shape = std::move(shape)](const Moment&) -> SkinShape { return SkinShape(shape); }});
+                      true, id_of(actor),
+                      [shape = std::move(shape)](const Moment&) -> SkinShape { return SkinShape(shape); }});
 }
 
-void FilmStage::add_obstacle(const StageObstacle& obstacle) {
+void FilmStage::add_obstacle(const StageObstacle& obstacle, int id) {
   players_.push_back({std::shared_ptr<const Skin>(&obstacle.skin, [](const Skin*) {}), shade(obstacle.color),
-                      Look::kPlastic, false, [&obstacle](const Moment& now) { return shape_of(obstacle, now.time); }});
+                      Look::kPlastic, false, id,
+                      [&obstacle](const Moment& now) { return shape_of(obstacle, now.time); }});
+}
+
+void FilmStage::add_contacts() {
+  const auto contacts = std::make_shared<const Contacts>(production_);
+  const double brick = production_.world.actors.front().body.grid.brick_size;
+  const auto balls = std::make_shared<const Balls>(kMostContacts, kContactRadius * brick);
+  const auto shape = [contacts, balls](const Moment& now) {
+    return balls->shape(contacts->at(now.nodes, now.time), now.nodes.front().row(0).transpose());
+  };
+  const auto skin = std::make_shared<const Skin>(at_rest(balls->skin(), shape(moment(0, 0))));
+  players_.push_back({skin, kContactColor, Look::kPlastic, false, 0, shape});
 }
 
 /// As far as the probe has come.
-void FilmStage::add_trace(const ProbeTrack& track) {
+void FilmStage::add_trace(const ProbeTrack& track, const Eigen::Vector3f& color) {
   if (track.samples.size() < 2) return;
   const auto rods = std::make_shared<const Rods>(track.samples.size() - 1, kTraceRadius * production_.size);
   const auto shape = [rods, &track](std::size_t frame) {
@@ -226,8 +252,7 @@ void FilmStage::add_trace(const ProbeTrack& track) {
     return rods->shape(from, to, {});
   };
   const auto skin = std::make_shared<const Skin>(at_rest(rods->skin(), shape(track.samples.size() - 1)));
-  players_.push_back(
-      {skin, kTraceColor, Look::kPlastic, false, [shape](const Moment& now) { return shape(now.frame); }});
+  players_.push_back({skin, color, Look::kPlastic, false, 0, [shape](const Moment& now) { return shape(now.frame); }});
 }
 
 }  // namespace sprung

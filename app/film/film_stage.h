@@ -9,6 +9,12 @@
 
 namespace sprung {
 
+/// What the ends of colours stand for, SI.
+struct ColorRange {
+  double low;
+  double high;
+};
+
 /// Everything that a film shows: skins or what stands for them, obstacles, and what is laid over them; in any frame, or
 /// between two.
 class FilmStage {
@@ -21,6 +27,7 @@ class FilmStage {
   /// One shape for each of the stage's skins. `part` of the way to the next frame, 0 to 1.
   [[nodiscard]] std::vector<SkinShape> shapes(std::size_t frame, double part = 0) const;
   /// Of colours that stand for something.
+  [[nodiscard]] std::optional<ColorRange> color_range() const;
   [[nodiscard]] std::optional<Legend> legend() const;
 
  private:
@@ -36,6 +43,7 @@ class FilmStage {
     Eigen::Vector3f color;  // sRGB
     Look look;
     bool is_ghost;
+    int id;  // in passes: bodies from 1, then obstacles; 0: neither
     std::function<SkinShape(const Moment&)> shape;
   };
 
@@ -47,8 +55,9 @@ class FilmStage {
   void add_nodes(std::size_t actor);
   void add_pins(std::size_t actor);
   void add_ghost(std::size_t actor);
-  void add_obstacle(const StageObstacle& obstacle);
-  void add_trace(const ProbeTrack& track);
+  void add_obstacle(const StageObstacle& obstacle, int id);
+  void add_trace(const ProbeTrack& track, const Eigen::Vector3f& color);
+  void add_contacts();
   void add_balls(std::size_t actor, std::vector<int> nodes, double radius, const Eigen::Vector3f& color);
   [[nodiscard]] double furthest_stretch() const;
 

@@ -5,22 +5,26 @@
 #include "app/scene/scene.h"
 #include "render/camera.h"
 #include "render/legend.h"
+#include "render/plot.h"
 
 namespace sprung {
 
 /// What is written into the pictures of a film: legend, caption, number of the frame, bar of a round length.
 class Labels {
  public:
-  Labels(const SceneRender& render, std::optional<Legend> legend);
+  /// With `names`, pictures get names.
+  Labels(const SceneRender& render, std::optional<Legend> legend, bool names);
 
-  /// The share of a picture's width that is kept free for the legend at its right.
-  [[nodiscard]] double reserved() const { return legend_ ? kLegendShare : 0; }
+  /// Pixels that are kept free for the legend at the right of a picture of that size.
+  [[nodiscard]] int reserved(int width, int height) const;
+  void write_name(Image& image, const std::string& name) const;
   /// `frame` from 0 of that many, at `time` (s).
   void write_frame(Image& image, const Camera& camera, std::size_t frame, std::size_t frames, double time) const;
   void write_legend(Image& image) const;
+  void write_plot(Image& image, const Plot& plot) const;
 
  private:
-  const SceneRender& render_;
+  SceneRender render_;
   std::optional<Legend> legend_;
   std::optional<Font> font_;  // where anything is written
 };

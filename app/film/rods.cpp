@@ -71,15 +71,18 @@ Balls::Balls(std::size_t count, double radius) : radius_(radius) {
   }
 }
 
-SkinShape Balls::shape(const Points& middles) const {
+SkinShape Balls::shape(const Points& middles, const Vec3& idle) const {
+  const Eigen::Index count = skin_.positions.rows() / kBallVertices;
   SkinShape shape;
-  shape.positions.resize(kBallVertices * middles.rows(), 3);
-  shape.normals.resize(kBallVertices * middles.rows(), 3);
-  for (Eigen::Index ball = 0; ball < middles.rows(); ++ball) {
+  shape.positions.resize(skin_.positions.rows(), 3);
+  shape.normals.resize(skin_.positions.rows(), 3);
+  for (Eigen::Index ball = 0; ball < count; ++ball) {
+    const bool is_shown = ball < middles.rows();
+    const Vec3 middle = is_shown ? Vec3(middles.row(ball).transpose()) : idle;
     for (int vertex = 0; vertex < kBallVertices; ++vertex) {
       const Vec3 normal = (vertex % 2 == 0 ? 1 : -1) * Vec3::Unit(vertex / 2);
       const Eigen::Index row = kBallVertices * ball + vertex;
-      shape.positions.row(row) = (middles.row(ball).transpose() + radius_ * normal).cast<float>().transpose();
+      shape.positions.row(row) = (middle + (is_shown ? radius_ : 0) * normal).cast<float>().transpose();
       shape.normals.row(row) = normal.cast<float>().transpose();
     }
   }

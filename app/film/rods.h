@@ -24,7 +24,8 @@ class Balls {
  public:
   Balls(std::size_t count, double radius);
   [[nodiscard]] const Skin& skin() const { return skin_; }
-  [[nodiscard]] SkinShape shape(const Points& middles) const;
+  /// Those that have no middle (at most as many x 3, m) shrink to a point, `idle`.
+  [[nodiscard]] SkinShape shape(const Points& middles, const Vec3& idle = Vec3::Zero()) const;
 
  private:
   double radius_;

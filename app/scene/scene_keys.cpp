@@ -123,6 +123,9 @@ const Key<SceneCamera> kCamera[] = {
      &SceneCamera::zoom},
     {{"follow", "whether it looks at the middle of the bodies in every frame"}, &SceneCamera::follow},
     {{"orthographic", "whether its lines of sight are parallel"}, &SceneCamera::orthographic},
+    {{"aperture", "diameter of the lens: what is nearer or further than the bodies' middle is blurred",
+      Dimension::kLength, {0, kInfinity}},
+     &SceneCamera::aperture},
     {{"keyframes", "where it is at which times; instead of azimuth, elevation, orbit and zoom"},
      &SceneCamera::keyframes},
 };
@@ -163,7 +166,10 @@ const Key<SceneRender> kRender[] = {
     {{"nodes", "whether nodes are drawn"}, &SceneRender::nodes},
     {{"pins", "whether held nodes are drawn"}, &SceneRender::pins},
     {{"ghost", "whether the shape at rest shows faintly"}, &SceneRender::ghost},
+    {{"contacts", "whether places are marked where bodies touch the ground, obstacles or each other"},
+     &SceneRender::contacts},
     {{"traces", "whether the ways of the probes are drawn"}, &SceneRender::traces},
+    {{"plots", "whether a plot shows how far the probes are from where they were"}, &SceneRender::plots},
 };
 
 using Kind = KeyRule::Kind;

@@ -26,6 +26,7 @@ struct SceneCamera {
   double zoom = 1;                        // size in the picture over that at which everything is seen
   bool follow = false;                    // looks at the middle of the bodies in every frame
   bool orthographic = false;              // parallel lines of sight
+  double aperture = 0;                    // m, diameter of the lens; what is off the middle of the view is blurred
   std::vector<CameraKeyframe> keyframes;  // instead of azimuth, elevation, orbit and zoom
 };
 
@@ -59,8 +60,10 @@ struct SceneRender {
   bool springs = false;
   bool nodes = false;
   bool pins = false;
-  bool ghost = false;   // of the shape at rest
-  bool traces = false;  // of the probes
+  bool ghost = false;     // of the shape at rest
+  bool contacts = false;  // where bodies touch
+  bool traces = false;    // of the probes
+  bool plots = false;     // of how far they are from where they were
 };
 
 }  // namespace sprung

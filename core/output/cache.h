@@ -25,6 +25,7 @@ struct CachedActor {
   std::vector<double> stiffness_scale;  // per brick: fill times the stiffness of its region over the body's
   Eigen::VectorXd masses;               // per node, kg
   Points rest_positions;                // m x 3, m
+  std::vector<int> pinned;              // nodes that pins hold at any time
   Skin skin;
   Embedding embedding;
   std::vector<int> carried;  // rows of the body's mesh that ride on this actor ...

@@ -46,6 +46,7 @@ CachedActor read_actor(const Hdf5Reader& hdf5, const std::string& folder) {
   actor.stiffness_scale = hdf5.read<double>(folder + "/stiffness_scale").values;
   actor.masses = read_matrix<Numbers>(hdf5, folder + "/masses");
   actor.rest_positions = read_matrix<Points>(hdf5, folder + "/rest_positions");
+  if (hdf5.has(folder + "/pinned")) actor.pinned = hdf5.read<int>(folder + "/pinned").values;
   actor.skin = read_skin(hdf5, folder + "/skin");
   actor.embedding.brick = hdf5.read<int>(folder + "/skin/brick").values;
   actor.embedding.local = read_matrix<Points>(hdf5, folder + "/skin/place_in_brick");

@@ -78,6 +78,7 @@ void write_actor(Hdf5Writer& hdf5, const std::string& folder, const CachedActor&
   write_list(hdf5, folder + "/stiffness_scale", actor.stiffness_scale);
   hdf5.write(folder + "/masses", flat_values(actor.masses), {static_cast<std::size_t>(actor.masses.size())});
   write_matrix(hdf5, folder + "/rest_positions", actor.rest_positions);
+  write_list(hdf5, folder + "/pinned", actor.pinned);
   write_skin(hdf5, folder + "/skin", actor.skin);
   write_list(hdf5, folder + "/skin/brick", actor.embedding.brick);
   write_matrix(hdf5, folder + "/skin/place_in_brick", actor.embedding.local);

@@ -83,7 +83,7 @@ void overlapped(const Subject& subject, const std::filesystem::path& folder, int
   Stopwatch watch;
   PictureWriter writer(outputs, options.width, options.height, 24);
   for (int i = 0; i < pictures; ++i) {
-    writer.write(renderer.draw(shapes_of(subject.production, subject.nodes, 0), subject.camera));
+    writer.write({.image = renderer.draw(shapes_of(subject.production, subject.nodes, 0), subject.camera)});
   }
   writer.close();
   watch.print("all of it, overlapping", pictures);

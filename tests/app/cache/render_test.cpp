@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "app/frame_range.h"
+#include "render/png.h"
 #include "tests/support/error_message.h"
 #include "tests/support/run_program.h"
 
@@ -15,6 +16,10 @@ orbit = 40
 [render]
 resolution = [160, 120]
 samples = 1
+pins = true
+contacts = true
+traces = true
+plots = true
 [[obstacle]]
 plane = { y = 0 }
 [[obstacle]]
@@ -27,6 +32,13 @@ mesh = "cube.obj"
 bricks = 5
 position = [0, 0.05, 0]
 rotation = [0, 20, 0]
+[[body.pin]]
+box = { min = [0, 0, 0], max = [0.1, 1, 1] }
+keyframes = [ { t = 0 }, { t = 0.5, translate = [0, 0.1, 0] } ]
+[[probe]]
+name = "corner"
+body = 1
+point = [0, 0, 0]
 )";
 
 TEST(Render, OfACacheIsWhatAnimateDraws) {
@@ -51,6 +63,22 @@ TEST(Render, OfACacheIsWhatAnimateDraws) {
   EXPECT_EQ(run_program(folder, "render run.h5 --frames 5 -o cached/ --overwrite").exit_code, 0);
   EXPECT_EQ(run_program(folder, "render run.h5 --frames 5 -o other/ --set duration=3").exit_code, 2);
   EXPECT_EQ(run_program(folder, "render run.h5 -o film.mp4 --resolution 80x60").exit_code, 0);
+}
+
+TEST(Render, SetsCachesSideBySide) {
+  const TempFolder folder;
+  static_cast<void>(folder.write("cube.obj", kCubeObj));
+  const std::string words = "simulate cube.obj --bricks 3 --duration 0.2 --fps 10 -o ";
+  ASSERT_EQ(run_program(folder, words + "soft.h5 --young 5kPa").exit_code, 0);
+  ASSERT_EQ(run_program(folder, words + "stiff.h5 --young 50kPa --model m1").exit_code, 0);
+  const ProgramRun both =
+      run_program(folder, "render soft.h5 stiff.h5 --side-by-side --resolution 160x60 --quality preview -o out/");
+  EXPECT_EQ(both.exit_code, 0) << both.err;
+  EXPECT_EQ(read_png(folder.path() / "out" / "frame_0002.png").width, 160);
+  EXPECT_EQ(run_program(folder, "render soft.h5 stiff.h5 --side-by-side -o both.mp4 --resolution 160x60").exit_code, 0);
+  EXPECT_EQ(run_program(folder, "render soft.h5 stiff.h5 -o two/").exit_code, 2);
+  EXPECT_EQ(run_program(folder, "render soft.h5 --side-by-side -o two/").exit_code, 2);
+  EXPECT_EQ(run_program(folder, "render soft.h5 stiff.h5 --side-by-side -o 'p_{}.exr'").exit_code, 2);
 }
 
 TEST(FrameRanges, AreReadAndRefused) {

@@ -5,6 +5,7 @@
 #include "app/make_production.h"
 #include "app/render_film.h"
 #include "app/scene/scene_file.h"
+#include "render/exr.h"
 #include "render/png.h"
 #include "tests/support/error_message.h"
 #include "tests/support/golden.h"
@@ -46,7 +47,7 @@ struct Film {
 
   [[nodiscard]] Image picture(int frame = 3) const {
     const TempFolder folder;
-    render_film(production, recording, scene, {.first = frame, .last = frame},
+    render_film({{scene, production, recording}}, {.first = frame, .last = frame},
                 {parse_output((folder.path() / "p_{}.png").string())}, Console{.quiet = true});
     return read_png(folder.path() / ("p_" + std::to_string(frame) + ".png"));
   }
@@ -85,9 +86,65 @@ TEST(FilmGolden, Sheet) {
   Film film("sheet = [2, 2]\ncolor_by = \"displacement\"\n");
   film.add_frame(1.5);
   const TempFolder folder;
-  render_film(film.production, film.recording, film.scene, {.first = 1, .last = 4},
+  render_film({{film.scene, film.production, film.recording}}, {.first = 1, .last = 4},
               {parse_output((folder.path() / "s_{}.png").string())}, Console{.quiet = true});
   expect_golden(read_png(folder.path() / "s_1.png"), "film_sheet");
+}
+
+TEST(FilmGolden, SideBySide) {
+  Film first("color_by = \"displacement\"\n");
+  first.scene.render.resolution = {320, 130};
+  Film second("");
+  second.recording.frames.pop_back();  // stays where it ends
+  second.recording.progress.pop_back();
+  const TempFolder folder;
+  const std::vector<FilmRun> runs{{first.scene, first.production, first.recording, "bent"},
+                                  {second.scene, second.production, second.recording, "half"}};
+  render_film(runs, {.first = 3, .last = 3}, {parse_output((folder.path() / "p_{}.png").string())},
+              Console{.quiet = true});
+  expect_golden(read_png(folder.path() / "p_3.png"), "film_side_by_side");
+}
+
+TEST(FilmGolden, Contacts) {
+  Film film("contacts = true\n[camera]\nazimuth = -50\nelevation = 6\n");
+  for (std::vector<Floats3>& frame : film.recording.frames) frame[0].col(1).array() -= 0.1F;  // onto the ground
+  expect_golden(film.picture(), "film_contacts");
+}
+
+TEST(FilmGolden, TracesAndPlots) {
+  Film film("traces = true\nplots = true\n");
+  film.recording.probes.push_back({.name = "tip", .samples = {}});
+  for (const std::vector<Floats3>& frame : film.recording.frames) {
+    const Vec3 tip = frame[0].row(frame[0].rows() - 1).cast<double>().transpose();
+    ProbeSample& sample = film.recording.probes[0].samples.emplace_back();
+    sample.position = tip;
+    sample.displacement = tip - film.recording.probes[0].samples.front().position;
+  }
+  expect_golden(film.picture(), "film_traces_plots");
+}
+
+TEST(FilmGolden, Lens) { expect_golden(picture("[camera]\naperture = 0.08\nazimuth = 75\n"), "film_lens"); }
+
+// A film without flicker.
+TEST(Film, OfWhatStandsStillHasEqualPictures) {
+  Film film("color_by = \"strain\"\n");
+  film.recording.frames[1] = film.recording.frames[0];
+  EXPECT_EQ(film.picture(1).pixels, film.picture(2).pixels);
+}
+
+TEST(Film, WritesPassesBesideItsPictures) {
+  const Film film("");
+  const TempFolder folder;
+  render_film({{film.scene, film.production, film.recording}}, {.first = 2, .last = 2},
+              parse_outputs({folder.path().string() + "/", (folder.path() / "p_{}.exr").string()}),
+              Console{.quiet = true});
+  ASSERT_TRUE(std::filesystem::exists(folder.path() / "frame_0002.png"));
+  const Passes passes = read_exr(folder.path() / "p_2.exr");
+  EXPECT_EQ(passes.width, 320);
+  EXPECT_EQ(passes.height, 180);
+  EXPECT_GT(std::count(passes.id.begin(), passes.id.end(), 1.0F), 5000);
+  const double highest = *std::max_element(passes.position[1].begin(), passes.position[1].end());
+  EXPECT_NEAR(highest, 0.20 + 0.08, 0.002);  // the bar's upper side, bent upwards by half
 }
 
 TEST(FilmGolden, Looks) {
@@ -133,7 +190,8 @@ TEST(FilmTransparent, HasAlphaAndNoFloor) {
   const Film film("transparent = true\n");
   const TempFolder folder;
   const Output output = parse_output((folder.path() / "p_{}.png").string());
-  render_film(film.production, film.recording, film.scene, {.first = 1, .last = 1}, {output}, Console{.quiet = true});
+  render_film({{film.scene, film.production, film.recording}}, {.first = 1, .last = 1}, {output},
+              Console{.quiet = true});
   const Image image = read_png(output.picture(1));
   ASSERT_EQ(image.alpha.size(), 320U * 180U);
   EXPECT_EQ(image.alpha.front(), 0);
@@ -141,7 +199,7 @@ TEST(FilmTransparent, HasAlphaAndNoFloor) {
   const auto is_partly = [](std::uint8_t alpha) { return alpha > 0 && alpha < 255; };
   EXPECT_GT(std::count_if(image.alpha.begin(), image.alpha.end(), is_partly), 50);  // smooth edges
   EXPECT_EQ(error_message([&] {
-              render_film(film.production, film.recording, film.scene, {.first = 1, .last = 1},
+              render_film({{film.scene, film.production, film.recording}}, {.first = 1, .last = 1},
                           {parse_output((folder.path() / "f.mp4").string())}, Console{.quiet = true});
             }),
             "render.transparent: films have no alpha; give a folder for pictures");

@@ -1,0 +1,163 @@
+#include "app/film/film_crew.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "app/film/exposure.h"
+#include "app/film/probe_plot.h"
+
+namespace sprung {
+namespace {
+
+constexpr int kExposures = 8;                       // of a picture with motion blur ...
+constexpr int kLensExposures = 24;                  // ... and of one with a lens
+constexpr double kGoldenAngle = 2.399963229728653;  // rad, between neighbours on a spiral
+
+Reach common_reach(const std::vector<FilmRun>& runs) {
+  std::vector<Reach> all;
+  all.reserve(runs.size());
+  for (const FilmRun& run : runs) all.push_back(reach_of(run.production, run.recording));
+  return joined(all);
+}
+
+std::size_t longest_of(const std::vector<FilmRun>& runs) {
+  const auto shorter = [](const FilmRun& a, const FilmRun& b) {
+    return a.recording.frames.size() < b.recording.frames.size();
+  };
+  return static_cast<std::size_t>(std::max_element(runs.begin(), runs.end(), shorter) - runs.begin());
+}
+
+/// Runs beside each other and pictures of a sheet have their part of the resolution each.
+Scene with_panel_size(Scene scene, std::size_t runs, const Labels& labels) {
+  if (!scene.render.sheet && runs == 1) return scene;
+  auto [columns, rows] = scene.render.sheet.value_or(std::array{1, 1});
+  columns *= static_cast<int>(runs);
+  auto& [width, height] = scene.render.resolution;
+  width = std::max(1, (width - labels.reserved(width, height)) / columns);
+  height = std::max(1, height / rows);
+  return scene;
+}
+
+RenderOptions options_of(const SceneRender& render) {
+  return {.width = render.resolution[0],
+          .height = render.resolution[1],
+          .samples = render.samples.value_or(samples_of(render.quality)),
+          .quality = render.quality,
+          .transparent = render.transparent};
+}
+
+}  // namespace
+
+FilmCrew::Colors FilmCrew::common_colors(const std::vector<FilmRun>& runs) {
+  Colors colors{runs.front().scene, std::nullopt};
+  SceneRender& render = colors.scene.render;
+  if (render.color_by == Field::kSkin && !render.springs) return colors;
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (const FilmRun& run : runs) {
+    Scene its = run.scene;
+    its.render = render;
+    const ColorRange range = FilmStage(its, run.production, run.recording).color_range().value();
+    low = std::min(low, range.low);
+    high = std::max(high, range.high);
+  }
+  render.color_low = low;
+  render.color_high = high;
+  colors.legend = FilmStage(colors.scene, runs.front().production, runs.front().recording).legend();
+  return colors;
+}
+
+FilmCrew::Panel::Panel(Scene its_scene, const FilmRun& its_run, const Bounds& bounds, const RenderOptions& options)
+    : scene(std::move(its_scene)),
+      run(its_run),
+      stage(scene, run.production, run.recording),
+      renderer(stage.stage(bounds), options) {}
+
+std::size_t FilmCrew::Panel::frame(std::size_t of_film) const {
+  return std::min(of_film, run.recording.frames.size() - 1);
+}
+
+FilmCrew::FilmCrew(const std::vector<FilmRun>& runs) : FilmCrew(runs, common_colors(runs)) {}
+
+FilmCrew::FilmCrew(const std::vector<FilmRun>& runs, const Colors& colors)
+    : scene_(colors.scene),
+      reach_(common_reach(runs)),
+      labels_(scene_.render, colors.legend, runs.size() > 1),
+      scene_of_panel_(with_panel_size(scene_, runs.size(), labels_)),
+      longest_(longest_of(runs)) {
+  const auto [width, height] = scene_.render.resolution;
+  const bool is_whole = runs.size() == 1 && !scene_.render.sheet;
+  cameras_ = cameras_of(scene_of_panel_, reach_, is_whole ? 1.0 * labels_.reserved(width, height) / width : 0);
+  for (const FilmRun& run : runs) {
+    Scene its = run.scene;
+    its.render = scene_.render;
+    panels_.emplace_back(std::move(its), run, reach_.bounds, options_of(scene_of_panel_.render));
+  }
+}
+
+FilmCrew::Moments FilmCrew::moments(std::size_t frame) const {
+  const double open = scene_.render.motion_blur / 360;
+  const int count = exposures();
+  Moments moments;
+  for (const Panel& panel : panels_) {
+    std::vector<std::vector<SkinShape>>& of_run = moments.emplace_back();
+    for (int i = 0; i < count; ++i) of_run.push_back(panel.stage.shapes(panel.frame(frame), open * i / count));
+  }
+  return moments;
+}
+
+Image FilmCrew::draw(std::size_t frame, const Moments& moments) {
+  const Camera& camera = cameras_[frame];
+  std::vector<Image> pictures;
+  for (std::size_t i = 0; i < panels_.size(); ++i) {
+    Exposure exposure;
+    for (std::size_t j = 0; j < moments[i].size(); ++j) {
+      exposure.add(panels_[i].renderer.draw(moments[i][j], this->camera(frame, static_cast<int>(j))));
+    }
+    pictures.push_back(exposure.mean());
+    if (panels_.size() > 1) labels_.write_name(pictures.back(), panels_[i].run.name);
+    if (scene_.render.plots) {
+      labels_.write_plot(pictures.back(), plot_of(panels_[i].run.recording, panels_[i].frame(frame)));
+    }
+  }
+  Image image = panels_.size() == 1 ? std::move(pictures.front())
+                                    : sheet_of(pictures, static_cast<int>(pictures.size()), margin());
+  labels_.write_frame(image, camera, frame, frames(), panels_[longest_].run.recording.progress[frame]);
+  if (!scene_.render.sheet) labels_.write_legend(image);
+  return image;
+}
+
+int FilmCrew::exposures() const {
+  if (scene_.camera.aperture > 0) return kLensExposures;
+  return scene_.render.motion_blur > 0 ? kExposures : 1;
+}
+
+Camera FilmCrew::camera(std::size_t frame, int exposure) const {
+  Camera camera = cameras_[frame];
+  if (scene_.camera.aperture <= 0) return camera;
+  const Vec3 ahead = (camera.target - camera.eye).normalized();
+  const Vec3 right = ahead.cross(camera.up).normalized();
+  const double radius = 0.5 * scene_.camera.aperture * std::sqrt((exposure + 0.5) / kLensExposures);
+  const double angle = kGoldenAngle * exposure;
+  camera.eye += radius * (std::cos(angle) * right + std::sin(angle) * right.cross(ahead));
+  return camera;
+}
+
+Passes FilmCrew::passes(std::size_t frame, const Moments& moments) {
+  return panels_.front().renderer.draw_passes(moments.front().front(), cameras_[frame]);
+}
+
+Image FilmCrew::sheet(const std::vector<Image>& pictures) const {
+  Image image = sheet_of(pictures, (*scene_.render.sheet)[0], margin());
+  labels_.write_legend(image);
+  return image;
+}
+
+int FilmCrew::margin() const {
+  const int columns = scene_.render.sheet ? (*scene_.render.sheet)[0] : static_cast<int>(panels_.size());
+  return scene_.render.resolution[0] - columns * scene_of_panel_.render.resolution[0];
+}
+
+}  // namespace sprung

@@ -1,0 +1,75 @@
+#pragma once
+#include <deque>
+#include <string>
+#include <vector>
+
+#include "app/film/film_cameras.h"
+#include "app/film/film_stage.h"
+#include "app/film/labels.h"
+
+namespace sprung {
+
+/// A run that a film shows. The three outlive the film.
+struct FilmRun {
+  const Scene& scene;
+  const Production& production;
+  const Recording& recording;
+  std::string name{};  // written over its pictures where there are others beside them
+};
+
+/// Everything that a picture of a film is made with: of one run, or of several side by side with one camera and one
+/// range of colours, as the scene of the first has it. A run that is shorter than the others stays where it ends.
+class FilmCrew {
+ public:
+  /// The skins at the moments of a picture, by run and moment: one, or as many as blur takes.
+  using Moments = std::vector<std::vector<std::vector<SkinShape>>>;
+
+  explicit FilmCrew(const std::vector<FilmRun>& runs);
+
+  [[nodiscard]] std::size_t frames() const { return cameras_.size(); }
+  [[nodiscard]] double lowest() const { return reach_.lowest; }  // m, of all bodies in all frames
+  [[nodiscard]] std::string driver() const { return panels_.front().renderer.driver(); }
+
+  [[nodiscard]] Moments moments(std::size_t frame) const;
+  [[nodiscard]] Image draw(std::size_t frame, const Moments& moments);
+  /// Of the first run, as the shutter opens.
+  [[nodiscard]] Passes passes(std::size_t frame, const Moments& moments);
+  /// Many pictures in one.
+  [[nodiscard]] Image sheet(const std::vector<Image>& pictures) const;
+
+ private:
+  /// The scene of the first run with what the ends of the colours stand for in all runs.
+  struct Colors {
+    Scene scene;
+    std::optional<Legend> legend;
+  };
+  [[nodiscard]] static Colors common_colors(const std::vector<FilmRun>& runs);
+  FilmCrew(const std::vector<FilmRun>& runs, const Colors& colors);
+
+  /// The part of a picture that shows one run.
+  struct Panel {
+    Panel(Scene its_scene, const FilmRun& its_run, const Bounds& bounds, const RenderOptions& options);
+    [[nodiscard]] std::size_t frame(std::size_t of_film) const;  // the same, or its last
+
+    const Scene scene;
+    const FilmRun run;
+    FilmStage stage;
+    Renderer renderer;
+  };
+
+  /// The camera of that exposure: somewhere on its lens.
+  [[nodiscard]] Camera camera(std::size_t frame, int exposure) const;
+  [[nodiscard]] int exposures() const;
+  /// Pixels at the right side that no panel covers.
+  [[nodiscard]] int margin() const;
+
+  Scene scene_;  // of the film
+  Reach reach_;
+  Labels labels_;
+  Scene scene_of_panel_;  // smaller pictures
+  std::vector<Camera> cameras_;
+  std::deque<Panel> panels_;
+  std::size_t longest_ = 0;  // the run with the most frames
+};
+
+}  // namespace sprung
