@@ -13,6 +13,7 @@ constexpr Ink kDark{38, 40, 44};
 constexpr double kLetters = 0.030;         // of the picture's height ...
 constexpr double kSmallestLetters = 11.0;  // pixels
 constexpr double kBarHeight = 0.46;        // of the picture's height
+constexpr double kLeastRoom = 0.285;       // of the picture's height: for a legend
 constexpr double kBarWidth = 0.024;        // of the picture's height
 
 std::string tick_text(double tick) { return fmt::format("{:.6g}", tick); }
@@ -104,14 +105,12 @@ double legend_width(const Legend& legend, int height, const Font& font) {
     }
   }
   for (const Legend::Swatch& swatch : legend.swatches) include(1.6 * size, swatch.name);
-  return content + 2 * kLabelMargin * height;
+  return std::max(content + 2 * kLabelMargin * height, kLeastRoom * height);
 }
 
 void draw_legend(Image& image, const Legend& legend, const Font& font) {
   const double size = letters_height(image.height);
-  const double right = image.width - kLabelMargin * image.height;
-  const double width = legend_width(legend, image.height, font) - 2 * kLabelMargin * image.height;
-  const double left = std::min((1 - kLegendShare) * image.width, right - width);
+  const double left = image.width - legend_width(legend, image.height, font) + kLabelMargin * image.height;
   const double height =
       legend.swatches.empty() ? kBarHeight * image.height : 1.5 * size * static_cast<double>(legend.swatches.size());
   const double top = 0.5 * (image.height - height);

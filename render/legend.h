@@ -25,13 +25,10 @@ struct Legend {
 [[nodiscard]] double letters_height(int height);
 inline constexpr double kLabelMargin = 0.035;
 
-/// The share of a picture's width that a legend takes at its right side.
-inline constexpr double kLegendShare = 0.16;
-
 /// At the right side, in the middle of its height.
 void draw_legend(Image& image, const Legend& legend, const Font& font);
 
-/// Pixels that it takes there, margins included, in a picture of that height.
+/// Pixels that are to be kept free for it at the right side of a picture of that height.
 [[nodiscard]] double legend_width(const Legend& legend, int height, const Font& font);
 
 /// A line in the middle of the top.

@@ -163,7 +163,7 @@ void FilmStage::add_springs(std::size_t actor) {
     return rods->shape(from, to, (springs->stretches(nodes).array() / ends + 0.5).max(0.0).min(1.0));
   };
   const auto skin = std::make_shared<const Skin>(at_rest(rods->skin(), shape(body.rest_positions)));
-  players_.push_back({skin, Eigen::Vector3f::Ones(), Look::kChart, false, id_of(actor),
+  players_.push_back({skin, Eigen::Vector3f::Ones(), Look::kRubber, false, id_of(actor),
                       [actor, shape](const Moment& now) { return shape(now.nodes[actor]); }});
 }
 

@@ -23,8 +23,7 @@ Labels::Labels(const SceneRender& render, std::optional<Legend> legend, bool nam
 
 int Labels::reserved(int width, int height) const {
   if (!legend_) return 0;
-  const double most = kMostForLegend * width;
-  return static_cast<int>(std::min(most, std::max(kLegendShare * width, legend_width(*legend_, height, *font_))));
+  return static_cast<int>(std::min(kMostForLegend * width, legend_width(*legend_, height, *font_)));
 }
 
 void Labels::write_name(Image& image, const std::string& name) const { draw_name(image, name, *font_); }
