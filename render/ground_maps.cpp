@@ -18,7 +18,7 @@ constexpr int kSkySize = 128;
 constexpr int kLightSize = 128;
 constexpr int kFarLightSize = 32;
 constexpr double kFarBlur = 0.75;  // of a body's radius: three standard deviations
-constexpr float kShaded = 0.5F;  // depth of the ground where there may be shadow
+constexpr float kShaded = 0.5F;    // depth of the ground where there may be shadow
 
 /// How far it is from the highest body to the ground along the key light; an upper bound.
 double longest_way(const DrawFrame& frame) {

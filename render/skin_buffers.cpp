@@ -114,8 +114,9 @@ SkinBuffers::SkinBuffers(const GlFunctions& gl, const Skin& skin, const Eigen::V
     return Range{all.first + low, fewer.first[static_cast<std::size_t>(first + count)] - low};
   };
   const auto paint = [&](int first, int count, const Eigen::Vector3f& color) {
-    return Paint{
-        {{{first, count}, fewer_of(all_[1], coarse, first, count), fewer_of(all_[2], coarsest, first, count)}}, color, 0};
+    return Paint{{{{first, count}, fewer_of(all_[1], coarse, first, count), fewer_of(all_[2], coarsest, first, count)}},
+                 color,
+                 0};
   };
   const Eigen::Vector3f plain = has_colors_ ? Eigen::Vector3f::Ones().eval() : root_from_srgb(default_color);
   for (const Part& part : skin.parts) {
