@@ -38,6 +38,7 @@ struct Recording {
   std::string progress_name;                 // "time_s", "load", "mode"
   std::vector<ProbeTrack> probes;
   Eigen::VectorXd frequencies;   // Hz, of modes
+  double deepest_overlap = 0;    // m, of skins in what they touch, at the end of any frame moved through
   std::uint64_t state_hash = 0;  // of the last frame's node positions and velocities, every bit of them
 };
 

@@ -7,11 +7,11 @@
 #include <optional>
 
 #include "app/equilibrium.h"
-#include "app/handles.h"
 #include "app/inspect/forecast.h"
 #include "app/interrupt.h"
 #include "app/pin_movements.h"
 #include "app/progress.h"
+#include "app/scene_driver.h"
 #include "app/step_plan.h"
 #include "app/units.h"
 #include "core/error.h"
@@ -19,6 +19,7 @@
 #include "core/motion/implicit_motion.h"
 #include "core/motion/statics.h"
 #include "core/world/load_forces.h"
+#include "core/world/overlap.h"
 
 namespace sprung {
 namespace {
@@ -28,6 +29,7 @@ constexpr double kSecondsToEstimate = 3;
 constexpr double kRounding = 1e-6;       // of a step, that a piece of a frame may be longer than whole steps
 constexpr double kCrushedVolume = 0.15;  // of a brick's volume at rest ...
 constexpr double kCrushedShare = 0.05;   // ... in so many of the bricks: from there on a warning is due
+constexpr double kDeepShare = 0.01;  // of the largest body's size, that skins may be in each other without a warning
 
 int inverted_bricks(const World& world) {
   int count = 0;
@@ -51,6 +53,35 @@ void warn_of_crushed_bodies(const World& world, const Console& console) {
   }
 }
 
+/// How deep skins were in each other at the ends of frames.
+class OverlapWatch {
+ public:
+  void look(const World& world, int frame) {
+    const double depth = deepest_overlap(world);
+    if (depth <= deepest_) return;
+    deepest_ = depth;
+    frame_ = frame;
+  }
+  [[nodiscard]] double deepest() const { return deepest_; }
+  [[nodiscard]] std::string summary() const {
+    return deepest_ > 0
+               ? fmt::format("skins at most {} deep in what they touch", readable(deepest_, Dimension::kLength))
+               : "no skin in what it touches";
+  }
+
+  void warn(double size, const Console& console) const {
+    if (deepest_ <= kDeepShare * size) return;
+    console.warn(
+        fmt::format("in frame {} skins are {} deep in each other or in an obstacle, {:.1f} % of the largest "
+                    "body: smaller bricks (bricks) or slower meetings keep them apart",
+                    frame_ + 1, readable(deepest_, Dimension::kLength), 100 * deepest_ / size));
+  }
+
+ private:
+  double deepest_ = 0;  // m
+  int frame_ = 0;
+};
+
 void forecast(const StepPlan& plan, double brick_steps, const Console& console) {
   if (!plan.reason.empty()) console.note("integrator " + plan.reason);
   const Steps& steps = plan.steps;
@@ -68,7 +99,8 @@ class Runner {
         scene_(scene),
         console_(console),
         whole_frames_(whole_frames),
-        handles_(scene, production),
+        size_(production.size),
+        driver_(scene, production),
         plan_(plan_steps(world_, scene)),
         total_(plan_.brick_steps * (frame_count(scene) - 1)),
         motion_(world_, plan_.scheme == Solver::kVerlet ? Scheme::kVerlet : Scheme::kSymplecticEuler) {
@@ -88,8 +120,10 @@ class Runner {
   void pass(MotionMemory& memory) {
     motion_.pass(memory);
     if (implicit_) implicit_->pass(memory);
-    handles_.pass(memory);
+    driver_.pass(memory);
   }
+  /// How deep skins were in what they touch, m.
+  [[nodiscard]] double deepest() const { return overlaps_.deepest(); }
   [[nodiscard]] MotionMemory memory() {
     MotionMemory memory;
     pass(memory);
@@ -99,12 +133,13 @@ class Runner {
   /// From the frame before to this one.
   void run_frame(int frame) {
     double begin = time_of(scene_, frame - 1);
-    const std::vector<double> ends = handles_.pieces(begin, time_of(scene_, frame));
+    const std::vector<double> ends = driver_.pieces(begin, time_of(scene_, frame));
     for (const double end : ends) {
-      handles_.aim(begin, end);
+      driver_.aim(begin, end);
       run_piece(begin, ends.size() == 1 ? 1 / scene_.fps : end - begin);  // whole frames are equal to the last bit
       begin = end;
     }
+    overlaps_.look(world_, frame);
   }
 
   /// Of the pins, as the bodies stand: what accelerates a held node's own mass is left out.
@@ -123,10 +158,11 @@ class Runner {
     note_implicit();
     const int inverted = inverted_bricks(world_);
     const bool has_more = !implicit_ && world_.actors.size() > 1;  // bodies, each with its own steps
-    progress_->finish(fmt::format("{} frames, {}{} steps of {} a frame, {} inverted bricks at the end", frames,
+    progress_->finish(fmt::format("{} frames, {}{} steps of {} a frame, {} inverted bricks at the end, {}", frames,
                                   has_more ? "at most " : "", plan_.steps.count,
-                                  readable(plan_.steps.dt, Dimension::kTime), inverted));
+                                  readable(plan_.steps.dt, Dimension::kTime), inverted, overlaps_.summary()));
     warn_of_crushed_bodies(world_, console_);
+    overlaps_.warn(size_, console_);
   }
 
  private:
@@ -185,7 +221,9 @@ class Runner {
   const Scene& scene_;
   const Console& console_;
   bool whole_frames_;
-  Handles handles_;
+  double size_;  // m, of the largest body
+  SceneDriver driver_;
+  OverlapWatch overlaps_;
   StepPlan plan_;
   std::optional<ImplicitMotion> implicit_;
   double total_;
@@ -207,6 +245,7 @@ Recording record_motion(Production& production, const Scene& scene, const Consol
     recorder.add(frame / scene.fps, runner.pin_reactions(), time_of(scene, frame), false, runner.memory());
   }
   runner.finish(frames);
+  recorder.recording().deepest_overlap = runner.deepest();
   return recorder.finish();
 }
 

@@ -8,32 +8,10 @@
 #include "app/units.h"
 #include "core/error.h"
 #include "core/world/near_boxes.h"
+#include "core/world/overlap.h"
 
 namespace sprung {
 namespace {
-
-/// Of the contact points that can move, m.
-Points free_points(const Actor& actor) {
-  std::vector<bool> is_held(static_cast<std::size_t>(actor.body.node_count()));
-  for (const HeldNode& held : actor.pinned) is_held[static_cast<std::size_t>(held.node)] = true;
-  const Points points = deform_points(actor.body.grid, actor.contacts, actor.body.positions);
-  std::vector<int> rows;
-  for (int point = 0; point < points.rows(); ++point) {
-    const auto brick = static_cast<std::size_t>(actor.contacts.brick[static_cast<std::size_t>(point)]);
-    const auto& nodes = actor.body.grid.nodes[brick];
-    const bool is_free =
-        std::any_of(nodes.begin(), nodes.end(), [&](int node) { return !is_held[static_cast<std::size_t>(node)]; });
-    if (is_free) rows.push_back(point);
-  }
-  return points(rows, Eigen::all);
-}
-
-template <class Distance>
-double deepest(const Points& points, const Distance& distance) {
-  double depth = 0;
-  for (int row = 0; row < points.rows(); ++row) depth = std::max(depth, -distance(Vec3(points.row(row))));
-  return depth;
-}
 
 std::string allowance(const Actor& actor) {
   return fmt::format("may overlap it by one brick ({}) at most",
@@ -43,8 +21,7 @@ std::string allowance(const Actor& actor) {
 void check_obstacle(const Scene& scene, const Production& production, std::size_t actor, std::size_t row) {
   const Obstacle& obstacle = production.world.obstacles[row];
   const Actor& body = production.world.actors[actor];
-  const double depth = deepest(
-      free_points(body), [&](const Vec3& place) { return gap_to(obstacle.shape, obstacle.pose, place).distance; });
+  const double depth = depth_in(obstacle, body);
   if (depth <= body.body.grid.brick_size) return;
   const std::size_t index = production.origins[actor].body;
   const std::string deep = readable(depth, Dimension::kLength);
@@ -64,10 +41,7 @@ void check_obstacle(const Scene& scene, const Production& production, std::size_
 void check_pair(const Production& production, std::size_t a, std::size_t b) {
   const Actor& one = production.world.actors[a];
   const Actor& other = production.world.actors[b];
-  if (other.contact_triangles.rows() == 0) return;
-  const MeshDistance surface(deform_points(other.body.grid, other.contacts, other.body.positions),
-                             other.contact_triangles);
-  const double depth = deepest(free_points(one), [&](const Vec3& place) { return surface.nearest(place).distance; });
+  const double depth = depth_in(other, one);
   const double allowed = std::min(one.body.grid.brick_size, other.body.grid.brick_size);
   if (depth <= allowed) return;
   throw Error(ErrorKind::kBadInput,

@@ -9,6 +9,7 @@
 #include "core/bricks/slivers.h"
 #include "core/bricks/voxelize.h"
 #include "core/error.h"
+#include "core/mesh/coarsen.h"
 #include "core/mesh/submesh.h"
 #include "core/skin/corner_normals.h"
 
@@ -17,8 +18,21 @@ namespace {
 
 constexpr double kLongestSkinEdge =
     0.75;  // in bricks: follows the bend of a brick, and touches the ground often enough
+constexpr double kShortestContactEdge = 0.4;  // in bricks, but where the mesh has longer ones only
 
-/// Lets the skin touch: each position that triangles use, once.
+/// Sums of the triangles' areas, with their normals, at each point.
+Points outward_at(const Points& points, const Triangles& triangles) {
+  Points sums = Points::Zero(points.rows(), 3);
+  for (const auto& corners : triangles.rowwise()) {
+    const Vec3 a = points.row(corners[0]);
+    const Vec3 b = points.row(corners[1]);
+    const Vec3 area = (b - a).cross(Vec3(points.row(corners[2])) - a);
+    for (const int corner : corners) sums.row(corner) += area.transpose();
+  }
+  return sums;
+}
+
+/// Lets the skin touch: each position that triangles use, once; finer than the bricks can follow it need not be.
 void add_contacts(const Skin& skin, Actor& actor) {
   const std::vector<int> point_of = weld_points(skin.positions);
   const auto position_of = [&](int vertex) { return point_of[static_cast<std::size_t>(vertex)]; };
@@ -28,10 +42,13 @@ void add_contacts(const Skin& skin, Actor& actor) {
   }
   std::sort(rows.begin(), rows.end());
   rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
-  actor.contacts = embed(actor.body.grid, skin.positions(rows, Eigen::all), skin.normals(rows, Eigen::all));
-  actor.contact_triangles = skin.triangles.unaryExpr([&](int vertex) {
+  const Triangles triangles = skin.triangles.unaryExpr([&](int vertex) {
     return static_cast<int>(std::lower_bound(rows.begin(), rows.end(), position_of(vertex)) - rows.begin());
   });
+  const double shortest = kShortestContactEdge * actor.body.grid.brick_size;
+  const CoarseSurface surface = coarsen(skin.positions(rows, Eigen::all), triangles, shortest);
+  actor.contacts = embed(actor.body.grid, surface.points, outward_at(surface.points, surface.triangles));
+  actor.contact_triangles = surface.triangles;
 }
 
 void check_options(const std::string& name, const FillOptions& options) {

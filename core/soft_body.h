@@ -10,7 +10,7 @@ namespace sprung {
 
 /// A solid filled with bricks, ready to move, and what is drawn of it.
 struct SoftBody {
-  Actor actor;          // touches by every point of its skin
+  Actor actor;          // touches by its skin, as finely as its bricks can follow
   Skin skin;            // at rest, in the frame of the bricks
   Embedding embedding;  // of the skin's vertices in the bricks
 };

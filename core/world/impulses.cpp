@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/bricks/corner.h"
 #include "core/world/glue.h"
@@ -39,18 +38,14 @@ Impulses::Impulses(Group group, std::vector<Eigen::VectorXd> inverse_masses, std
     : group_(std::move(group)),
       inverse_masses_(std::move(inverse_masses)),
       glue_(std::move(glue)),
-      smallest_brick_(std::numeric_limits<double>::infinity()),
+      smallest_brick_(smallest_brick(group_)),
       obstacle_contact_(skins_),
+      skin_contacts_(skins_),
       squeeze_watches_(group_.size()) {
   for (Actor* actor : group_) {
     skins_.push_back(&contact_skin_of(*actor));
     places_.emplace_back(static_cast<std::size_t>(actor->body.node_count()), -1);
-    smallest_brick_ = std::min(smallest_brick_, actor->body.grid.brick_size);
   }
-  for (std::size_t actor = 0; actor < group_.size(); ++actor) {
-    if (group_[actor]->touches_itself) skin_contacts_.emplace_back(skins_, actor);
-  }
-  if (group_.size() > 1) skin_contacts_.emplace_back(skins_, std::nullopt);  // only bodies that touch are in one group
 }
 
 Vec3 Impulses::TouchLimit::lack(const Nodes& all, Vec3 Pushed::*velocity) const {
@@ -116,7 +111,7 @@ void Impulses::find_touches(const World& world, double elapsed, double dt) {
     for (const Obstacle& obstacle : world.obstacles) poses.push_back(pose_after(obstacle, elapsed));
     obstacle_contact_.find(world, poses, dt, group_, found_);
   }
-  for (SkinContact& contact : skin_contacts_) contact.find(world, dt, group_, found_);
+  skin_contacts_.find(world, dt, group_, found_);
   add_glue(glue_, group_, dt, found_);
   std::sort(found_.list.begin(), found_.list.end(), [](const Touch& a, const Touch& b) { return a.key < b.key; });
   parts_.clear();

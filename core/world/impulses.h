@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/world/obstacle_contact.h"
-#include "core/world/skin_contact.h"
+#include "core/world/skin_contacts.h"
 #include "core/world/squeeze.h"
 
 namespace sprung {
@@ -116,7 +116,7 @@ class Impulses {
   double smallest_brick_;  // m
   std::vector<const ContactSkin*> skins_;
   ObstacleContact obstacle_contact_;
-  std::vector<SkinContact> skin_contacts_;
+  SkinContacts skin_contacts_;
   std::vector<SqueezeWatch> squeeze_watches_;
   Touches found_;
   std::vector<Part> parts_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace sprung {
 namespace {
@@ -12,28 +11,6 @@ constexpr double kFarMargin = 1;    // bricks: what may soon be that near is loo
 constexpr double kDeepest = 0.7;    // bricks: what is deeper came from the other side
 constexpr double kBeside = 0.05;    // of a triangle: what stands a little beside it counts as over it
 constexpr double kTouching = 0.15;  // of the depth: what is that near to a triangle that it stands over touches it
-
-double smallest_brick(const Group& group) {
-  double size = std::numeric_limits<double>::infinity();
-  for (const Actor* actor : group) size = std::min(size, actor->body.grid.brick_size);
-  return size;
-}
-
-/// Of any node, m/s, seen from the middle of all.
-double fastest(const Group& group) {
-  Vec3 momentum = Vec3::Zero();
-  double mass = 0;
-  for (const Actor* actor : group) {
-    momentum += actor->body.velocities.transpose() * actor->body.masses;
-    mass += actor->body.masses.sum();
-  }
-  const Vec3 mean = momentum / mass;
-  double most = 0;
-  for (const Actor* actor : group) {
-    most = std::max(most, (actor->body.velocities.rowwise() - mean.transpose()).rowwise().squaredNorm().maxCoeff());
-  }
-  return std::sqrt(most);
-}
 
 }  // namespace
 
@@ -143,17 +120,19 @@ void SkinContact::keep_hardest() {
 
 void SkinContact::look(const Group& group, double dt) {
   if (steps_to_look_ == 0) {
-    const Group watched = self_ ? Group{group[*self_]} : group;
-    const double brick = smallest_brick(watched);
-    const double speed = fastest(watched);
+    const double brick = std::min(group[actors_[0]]->body.grid.brick_size, group[actors_[1]]->body.grid.brick_size);
     if (steps_to_seek_ <= 0) {
-      steps_to_seek_ = steps_until_look((kFarMargin - kMargin) * brick, speed, dt);
       pairs_.seek(group, kFarMargin * brick);
+      steps_to_seek_ = steps_until_look((kFarMargin - kMargin) * brick, pairs_.fastest(group), dt);
     }
-    steps_to_look_ = std::min(steps_until_look(kMargin * brick, speed, dt), steps_to_seek_);
     depth_ = kDeepest * brick;
     pairs_.look(group, {.margin = kMargin * brick, .deepest = depth_});
     runs_ = runs_of_pairs();
+    steps_to_look_ = steps_to_seek_;
+    if (pairs_.has_near_bricks()) {
+      const int steps = steps_until_look(pairs_.nearest_beyond(), pairs_.fastest_near(group), dt);
+      steps_to_look_ = std::min(steps, steps_to_seek_);
+    }
   }
   --steps_to_seek_;
   --steps_to_look_;

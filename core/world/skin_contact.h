@@ -1,5 +1,5 @@
 #pragma once
-#include <optional>
+#include <array>
 #include <vector>
 
 #include "core/world/contact_skin.h"
@@ -8,15 +8,15 @@
 
 namespace sprung {
 
-/// Finds where the skins of a group's bodies touch each other, or where one touches itself: contact points against
+/// Finds where the skins of two bodies of a group touch each other, or where one touches itself: contact points against
 /// triangles, both ways. Pairs of them (skin_pairs.h) are looked for every few steps only, and then watched in every
 /// step. Limits: edges that cross between their points are held by those points only; what lies deeper in another body
 /// than 0.7 bricks is not found.
 class SkinContact {
  public:
-  /// Of `self` (an actor of the group) with itself; without one, of different actors.
-  SkinContact(const std::vector<const ContactSkin*>& skins, std::optional<std::size_t> self)
-      : skins_(skins), self_(self), pairs_(skins, self) {}
+  /// Of two actors of the group, or of one with itself.
+  SkinContact(const std::vector<const ContactSkin*>& skins, std::size_t actor, std::size_t other)
+      : skins_(skins), actors_{actor, other}, pairs_(skins, actor, other) {}
 
   /// Appends, ordered by key, the points that moving by dt would leave inside another skin, at most one near each
   /// corner of a brick and for each body that it touches: the one that is held hardest.
@@ -58,7 +58,7 @@ class SkinContact {
   void add_triangle(const Group& group, const Stance& stance, Touches& touches) const;
 
   const std::vector<const ContactSkin*>& skins_;  // by actor of the group
-  std::optional<std::size_t> self_;
+  std::array<std::size_t, 2> actors_;
   SkinPairs pairs_;
   double depth_ = 0;  // m, below which what is inside came from the other side
   std::vector<Run> runs_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 #include "core/body/brick_columns.h"
@@ -41,72 +42,70 @@ bool are_neighbours(const Body& body, int a, int b) {
   return false;
 }
 
-Points positions_of(const ContactSkin& skin, const Body& body) {
-  Points all(static_cast<Eigen::Index>(skin.points.size()), 3);
-  for (std::size_t i = 0; i < skin.points.size(); ++i) {
-    all.row(static_cast<Eigen::Index>(i)) = carried(body, skin.points[i], body.positions).transpose();
-  }
-  return all;
-}
-
-/// Of the points and triangles of a skin's brick.
-AlignedBox box_of(const ContactSkin& skin, std::size_t row, const Points& positions) {
-  AlignedBox box;
-  for (int i = skin.first_point[row]; i < skin.first_point[row + 1]; ++i) box.extend(Vec3(positions.row(i)));
-  for (int i = skin.first_triangle[row]; i < skin.first_triangle[row + 1]; ++i) {
-    for (const int corner : skin.triangles[static_cast<std::size_t>(i)]) box.extend(Vec3(positions.row(corner)));
-  }
-  return box;
-}
-
 AlignedBox widened(const AlignedBox& box, double by) {
   return {box.min() - Vec3::Constant(by), box.max() + Vec3::Constant(by)};
 }
 
-}  // namespace
-
-bool SkinPairs::may_touch(const Group& group, const Place& a, const Place& b) const {
-  if (!self_ && a.actor == b.actor) return false;
-  const double spread = skins_[a.actor]->cones[a.row].spread + skins_[b.actor]->cones[b.row].spread;
-  const double angle = std::acos(std::clamp(a.normal.dot(b.normal), -1.0, 1.0));
-  if (angle + spread + kBent < std::acos(kFacing)) return false;
-  if (!self_) return true;
-  const std::vector<int>& bricks = skins_[a.actor]->bricks;
-  return !are_neighbours(group[a.actor]->body, bricks[a.row], bricks[b.row]);
+AlignedBox box_of(const Body& body) {
+  return {Vec3(body.positions.colwise().minCoeff()), Vec3(body.positions.colwise().maxCoeff())};
 }
 
-std::vector<std::size_t> SkinPairs::near_actors(const Group& group, double margin) const {
-  if (self_) return {*self_};
-  std::vector<AlignedBox> boxes;
-  for (const Actor* actor : group) {
-    const Points& x = actor->body.positions;
-    const AlignedBox box(Vec3(x.colwise().minCoeff()), Vec3(x.colwise().maxCoeff()));
-    boxes.push_back(widened(box, margin + actor->body.grid.brick_size));  // skins may lie a little outside the bricks
+AlignedBox box_of(const Body& body, int brick) {
+  AlignedBox box;
+  for (const int node : body.grid.nodes[static_cast<std::size_t>(brick)]) box.extend(Vec3(body.positions.row(node)));
+  return box;
+}
+
+}  // namespace
+
+SkinPairs::SkinPairs(const std::vector<const ContactSkin*>& skins, std::size_t actor, std::size_t other)
+    : skins_(skins) {
+  const auto add = [&](std::size_t which) {
+    const std::size_t count = skins[which]->points.size();
+    sides_.push_back({.actor = which,
+                      .positions = Points(static_cast<Eigen::Index>(count), 3),
+                      .finds = std::vector<long>(count, 0),
+                      .watched = std::vector<int>(count, -1)});
+  };
+  add(actor);
+  if (other != actor) add(other);
+}
+
+bool SkinPairs::may_touch(const Group& group, const Place& a, const Place& b) const {
+  const bool is_self = sides_.size() == 1;
+  if (!is_self && a.side == b.side) return false;
+  const double spread = skin_of(a).cones[a.row].spread + skin_of(b).cones[b.row].spread;
+  const double angle = std::acos(std::clamp(a.normal.dot(b.normal), -1.0, 1.0));
+  if (angle + spread + kBent < std::acos(kFacing)) return false;
+  if (!is_self) return true;
+  const std::vector<int>& bricks = skin_of(a).bricks;
+  return !are_neighbours(group[sides_[0].actor]->body, bricks[a.row], bricks[b.row]);
+}
+
+void SkinPairs::add_places(const Group& group, std::size_t side, const AlignedBox& near) {
+  const Body& body = group[sides_[side].actor]->body;
+  const ContactSkin& skin = skin_of(sides_[side]);
+  const AlignedBox near_bricks = widened(near, body.grid.brick_size);  // skins may lie a little outside them
+  for (std::size_t row = 0; row < skin.bricks.size(); ++row) {
+    if (!near_bricks.intersects(box_of(body, skin.bricks[row]))) continue;
+    Place place{.side = side, .row = row, .box = {}, .normal = {}};
+    find(group, place);
+    if (!near.intersects(place.box)) continue;
+    place.normal = carried_normal(body, skin.bricks[row], skin.cones[row].axis);
+    places_.push_back(place);
   }
-  std::vector<std::size_t> near;
-  for (const auto& [a, b] : overlapping_boxes(boxes)) {
-    near.push_back(static_cast<std::size_t>(a));
-    near.push_back(static_cast<std::size_t>(b));
-  }
-  std::sort(near.begin(), near.end());
-  near.erase(std::unique(near.begin(), near.end()), near.end());
-  return near;
 }
 
 void SkinPairs::seek(const Group& group, double margin) {
-  positions_.resize(group.size());
+  ++finds_;
   places_.clear();
-  std::vector<AlignedBox> boxes;
-  for (const std::size_t actor : near_actors(group, margin)) {
-    const Body& body = group[actor]->body;
-    const ContactSkin& skin = *skins_[actor];
-    positions_[actor] = positions_of(skin, body);
-    for (std::size_t row = 0; row < skin.bricks.size(); ++row) {
-      const AlignedBox box = box_of(skin, row, positions_[actor]);
-      places_.push_back({actor, row, box, carried_normal(body, skin.bricks[row], skin.cones[row].axis)});
-      boxes.push_back(widened(box, margin / 2));
-    }
+  for (std::size_t side = 0; side < sides_.size(); ++side) {
+    const Body& facing = group[sides_[sides_.size() - 1 - side].actor]->body;
+    add_places(group, side, widened(box_of(facing), margin + facing.grid.brick_size));
   }
+  std::vector<AlignedBox> boxes;
+  boxes.reserve(places_.size());
+  for (const Place& place : places_) boxes.push_back(widened(place.box, margin / 2));
   near_ = overlapping_boxes(boxes);
   std::erase_if(near_, [&](const std::pair<int, int>& pair) {
     return !may_touch(group, places_[static_cast<std::size_t>(pair.first)],
@@ -133,34 +132,66 @@ void SkinPairs::keep_near_places() {
   places_ = std::move(kept);
 }
 
-void SkinPairs::find_places(const Group& group) {
-  ++look_;
-  found_in_.resize(group.size());
-  for (Place& place : places_) {
-    const ContactSkin& skin = *skins_[place.actor];
-    const Body& body = group[place.actor]->body;
-    Points& positions = positions_[place.actor];
-    found_in_[place.actor].resize(skin.points.size(), 0);
-    place.box.setEmpty();
-    const auto add = [&](int point) {
-      long& found = found_in_[place.actor][static_cast<std::size_t>(point)];
-      if (found != look_) {
-        positions.row(point) = carried(body, skin.points[static_cast<std::size_t>(point)], body.positions).transpose();
-      }
-      found = look_;
-      place.box.extend(Vec3(positions.row(point)));
-    };
-    for (int i = skin.first_point[place.row]; i < skin.first_point[place.row + 1]; ++i) add(i);
-    for (int i = skin.first_triangle[place.row]; i < skin.first_triangle[place.row + 1]; ++i) {
-      for (const int corner : skin.triangles[static_cast<std::size_t>(i)]) add(corner);
+void SkinPairs::find(const Group& group, Place& place) {
+  const ContactSkin& skin = skin_of(place);
+  Side& side = sides_[place.side];
+  const Body& body = group[side.actor]->body;
+  place.box.setEmpty();
+  const auto add = [&](int point) {
+    long& found = side.finds[static_cast<std::size_t>(point)];
+    if (found != finds_) {
+      side.positions.row(point) =
+          carried(body, skin.points[static_cast<std::size_t>(point)], body.positions).transpose();
     }
+    found = finds_;
+    place.box.extend(Vec3(side.positions.row(point)));
+  };
+  for (int i = skin.first_point[place.row]; i < skin.first_point[place.row + 1]; ++i) add(i);
+  for (int i = skin.first_triangle[place.row]; i < skin.first_triangle[place.row + 1]; ++i) {
+    for (const int corner : skin.triangles[static_cast<std::size_t>(i)]) add(corner);
   }
 }
 
-int SkinPairs::watched_row(const Group& group, std::size_t actor, int point) {
-  int& row = rows_[actor][static_cast<std::size_t>(point)];
+RigidMotion SkinPairs::rigid_motion(const Group& group) const {
+  Group both;
+  for (const Side& side : sides_) both.push_back(group[side.actor]);
+  return rigid_motion_of(both);
+}
+
+double SkinPairs::fastest_of(const Group& group, std::size_t side, std::size_t row, const RigidMotion& rigid) const {
+  const Body& body = group[sides_[side].actor]->body;
+  const ContactSkin& skin = skin_of(sides_[side]);
+  double most = 0;
+  for (int i = skin.first_point[row]; i < skin.first_point[row + 1]; ++i) {
+    const ContactPoint& point = skin.points[static_cast<std::size_t>(i)];
+    const Vec3 velocity = carried(body, point, body.velocities);
+    most = std::max(most, (velocity - rigid.at(carried(body, point, body.positions))).squaredNorm());
+  }
+  return std::sqrt(most);
+}
+
+double SkinPairs::fastest(const Group& group) const {
+  const RigidMotion rigid = rigid_motion(group);
+  double most = 0;
+  for (std::size_t side = 0; side < sides_.size(); ++side) {
+    const std::size_t count = skin_of(sides_[side]).bricks.size();
+    for (std::size_t row = 0; row < count; ++row) most = std::max(most, fastest_of(group, side, row, rigid));
+  }
+  return most;
+}
+
+double SkinPairs::fastest_near(const Group& group) const {
+  const RigidMotion rigid = rigid_motion(group);
+  double most = 0;
+  for (const Place& place : places_) most = std::max(most, fastest_of(group, place.side, place.row, rigid));
+  return most;
+}
+
+int SkinPairs::watched_row(const Group& group, std::size_t side, int point) {
+  int& row = sides_[side].watched[static_cast<std::size_t>(point)];
   if (row < 0) {
     row = static_cast<int>(watched_.size());
+    const std::size_t actor = sides_[side].actor;
     const ContactSkin& skin = *skins_[actor];
     const int brick = skin.points[static_cast<std::size_t>(point)].brick;
     watched_.push_back({actor, point, carried_normal(group[actor]->body, brick, skin.normals.row(point))});
@@ -168,13 +199,13 @@ int SkinPairs::watched_row(const Group& group, std::size_t actor, int point) {
   return row;
 }
 
-void SkinPairs::pair_up(const Group& group, const SkinReach& reach, const Place& facing, std::size_t actor, int point) {
-  const ContactSkin& across = *skins_[facing.actor];
-  const Points& corners = positions_[facing.actor];
-  const Vec3 place = positions_[actor].row(point);
-  const int brick = skins_[actor]->points[static_cast<std::size_t>(point)].brick;
+void SkinPairs::pair_up(const Group& group, const SkinReach& reach, const Place& facing, std::size_t side, int point) {
+  const ContactSkin& across = skin_of(facing);
+  const Points& corners = sides_[facing.side].positions;
+  const Vec3 place = sides_[side].positions.row(point);
+  const int brick = skin_of(sides_[side]).points[static_cast<std::size_t>(point)].brick;
   const auto hangs_together = [&](int corner) {
-    return hang_together(group[actor]->body, brick, across.points[static_cast<std::size_t>(corner)].brick);
+    return hang_together(group[sides_[side].actor]->body, brick, across.points[static_cast<std::size_t>(corner)].brick);
   };
   for (int t = across.first_triangle[facing.row]; t < across.first_triangle[facing.row + 1]; ++t) {
     const std::array<int, 3>& triangle = across.triangles[static_cast<std::size_t>(t)];
@@ -185,35 +216,37 @@ void SkinPairs::pair_up(const Group& group, const SkinReach& reach, const Place&
     if (((place - a.cwiseMax(b).cwiseMax(c)).array() > reach.margin).any()) continue;
     const Vec3 area = (b - a).cross(c - a);
     if (area.dot(place - a) < -(reach.deepest + reach.margin) * area.norm()) continue;
-    const int row = watched_row(group, actor, point);
+    const int row = watched_row(group, side, point);
     if (watched(row).normal.dot(area) > kFacing * area.norm()) continue;
-    if (actor == facing.actor && std::any_of(triangle.begin(), triangle.end(), hangs_together)) continue;
+    if (side == facing.side && std::any_of(triangle.begin(), triangle.end(), hangs_together)) continue;
     SkinPair pair{row, {}};
-    for (std::size_t i = 0; i < 3; ++i) pair.corners[i] = watched_row(group, facing.actor, triangle[i]);
+    for (std::size_t i = 0; i < 3; ++i) pair.corners[i] = watched_row(group, facing.side, triangle[i]);
     pairs_.push_back(pair);
   }
 }
 
 void SkinPairs::pair_up(const Group& group, const Place& place, const Place& facing, const SkinReach& reach) {
-  const ContactSkin& skin = *skins_[place.actor];
+  const ContactSkin& skin = skin_of(place);
   const AlignedBox around = widened(facing.box, reach.margin);
   for (int point = skin.first_point[place.row]; point < skin.first_point[place.row + 1]; ++point) {
-    if (!around.contains(Vec3(positions_[place.actor].row(point)))) continue;
-    pair_up(group, reach, facing, place.actor, point);
+    if (!around.contains(Vec3(sides_[place.side].positions.row(point)))) continue;
+    pair_up(group, reach, facing, place.side, point);
   }
 }
 
 void SkinPairs::look(const Group& group, const SkinReach& reach) {
   watched_.clear();
   pairs_.clear();
-  if (near_.empty()) return;
-  rows_.resize(group.size());
-  for (std::size_t actor = 0; actor < group.size(); ++actor) rows_[actor].assign(skins_[actor]->points.size(), -1);
-  find_places(group);
+  nearest_beyond_ = std::numeric_limits<double>::infinity();
+  for (Side& side : sides_) std::fill(side.watched.begin(), side.watched.end(), -1);
+  ++finds_;
+  for (Place& place : places_) find(group, place);
   for (const auto& [brick, other] : near_) {
     const Place& a = places_[static_cast<std::size_t>(brick)];
     const Place& b = places_[static_cast<std::size_t>(other)];
-    if (a.box.squaredExteriorDistance(b.box) > reach.margin * reach.margin) continue;
+    const double distance = a.box.exteriorDistance(b.box);
+    nearest_beyond_ = std::min(nearest_beyond_, std::max(distance, reach.margin));
+    if (distance > reach.margin) continue;
     pair_up(group, a, b, reach);
     pair_up(group, b, a, reach);
   }

@@ -10,6 +10,19 @@ namespace sprung {
 /// Actors that may touch each other in the time to come and so move by the same steps.
 using Group = std::vector<Actor*>;
 
+/// Side of the smallest bricks, m.
+[[nodiscard]] double smallest_brick(const Group& group);
+
+/// Velocity of a rigid body at a place: shift + spin x place.
+struct RigidMotion {
+  Vec3 shift;  // m/s
+  Vec3 spin;   // rad/s
+  [[nodiscard]] Vec3 at(const Vec3& place) const { return shift + spin.cross(place); }
+};
+
+/// With the momentum and angular momentum of all actors.
+[[nodiscard]] RigidMotion rigid_motion_of(const Group& group);
+
 /// How much of a node's velocity counts in a touch.
 struct Share {
   int actor;  // of the group
@@ -58,7 +71,7 @@ void add_shares(const Group& group, std::size_t actor, int brick, const Eigen::M
 [[nodiscard]] double least_speed(double gap, double gravity, double dt);
 
 /// How many steps what is found within `margin` (m) of a surface stays all there is: nothing comes nearer by half of
-/// it, at this speed (m/s) with room for as much again. At most 24.
+/// it, at this speed (m/s), seen from any rigid motion, with room for as much again. At most 24.
 [[nodiscard]] int steps_until_look(double margin, double speed, double dt);
 
 }  // namespace sprung

@@ -13,10 +13,10 @@ namespace sprung {
 /// Catches nodes, carries them and lets them go, as the pins of a scene say, while a world is in motion; moves its
 /// obstacles, and lets its loads act. A pin that catches later than at the start takes its nodes where they then are,
 /// and turns them about their middle.
-class Handles {
+class SceneDriver {
  public:
   /// Both have to outlive it. What acts at the start acts from now on.
-  Handles(const Scene& scene, Production& production);
+  SceneDriver(const Scene& scene, Production& production);
 
   /// Ends (s, rising, the last is `end`) of the pieces that the time from `begin` to `end` falls into: between them no
   /// pin catches, lets go or comes through a keyframe, nor anything else through one, and loads hardly change.

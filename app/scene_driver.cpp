@@ -1,4 +1,4 @@
-#include "app/handles.h"
+#include "app/scene_driver.h"
 
 #include <algorithm>
 #include <cmath>
@@ -32,7 +32,7 @@ void add_moments(const Pin& pin, const Movement& movement, std::vector<double>& 
 
 }  // namespace
 
-Handles::Handles(const Scene& scene, Production& production)
+SceneDriver::SceneDriver(const Scene& scene, Production& production)
     : scene_(scene),
       production_(production),
       loads_(scene, production),
@@ -53,7 +53,7 @@ Handles::Handles(const Scene& scene, Production& production)
   std::sort(moments_.begin(), moments_.end());
 }
 
-std::vector<double> Handles::pieces(double begin, double end) const {
+std::vector<double> SceneDriver::pieces(double begin, double end) const {
   std::vector<double> ends;
   double last = begin;
   const auto add = [&](double moment) {
@@ -69,7 +69,7 @@ std::vector<double> Handles::pieces(double begin, double end) const {
   return ends;
 }
 
-void Handles::aim(double begin, double end) {
+void SceneDriver::aim(double begin, double end) {
   loads_.aim(begin, end);
   for (std::size_t i = 0; i < production_.obstacles.size(); ++i) {
     production_.world.obstacles[i] = obstacle_between(production_.obstacles[i], scene_.obstacles[i], begin, end);
@@ -90,7 +90,7 @@ void Handles::aim(double begin, double end) {
   }
 }
 
-void Handles::pass(MotionMemory& memory) {
+void SceneDriver::pass(MotionMemory& memory) {
   for (std::vector<Grip>& grips : grips_) {
     for (Grip& grip : grips) {
       bool is_caught = grip.caught.has_value();
@@ -106,7 +106,7 @@ void Handles::pass(MotionMemory& memory) {
   }
 }
 
-void Handles::carry(Grip& grip, Actor& actor, double begin, double end, std::map<int, HeldNode>& held) const {
+void SceneDriver::carry(Grip& grip, Actor& actor, double begin, double end, std::map<int, HeldNode>& held) const {
   const std::vector<int>& nodes = grip.pinned->nodes;
   Body& body = actor.body;
   if (!grip.caught) {

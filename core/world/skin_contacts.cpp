@@ -1,0 +1,61 @@
+#include "core/world/skin_contacts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/world/near_boxes.h"
+
+namespace sprung {
+namespace {
+
+constexpr double kMargin = 2;  // bricks: bodies nearer than that are watched
+
+/// Of any node, m/s, seen from the rigid motion of all.
+double fastest(const Group& group) {
+  const RigidMotion rigid = rigid_motion_of(group);
+  double most = 0;
+  for (const Actor* actor : group) {
+    const Body& body = actor->body;
+    for (int node = 0; node < body.node_count(); ++node) {
+      const Vec3 velocity = body.velocities.row(node);
+      most = std::max(most, (velocity - rigid.at(body.positions.row(node))).squaredNorm());
+    }
+  }
+  return std::sqrt(most);
+}
+
+}  // namespace
+
+void SkinContacts::seek(const World& world, const Group& group, double dt) {
+  const double margin = kMargin * smallest_brick(group);
+  steps_to_seek_ = steps_until_look(margin, fastest(group), dt);
+  std::vector<AlignedBox> boxes;
+  std::vector<std::pair<std::size_t, std::size_t>> near;
+  for (std::size_t i = 0; i < group.size(); ++i) {
+    const Body& body = group[i]->body;
+    const Vec3 around = Vec3::Constant(margin + body.grid.brick_size);  // skins may lie a little outside the bricks
+    boxes.emplace_back(Vec3(body.positions.colwise().minCoeff()) - around,
+                       Vec3(body.positions.colwise().maxCoeff()) + around);
+    if (group[i]->touches_itself) near.emplace_back(i, i);
+  }
+  if (world.bodies_touch) {
+    for (const auto& [a, b] : overlapping_boxes(boxes)) near.emplace_back(a, b);
+  }
+  std::map<std::pair<std::size_t, std::size_t>, SkinContact> contacts;
+  for (const auto& pair : near) {
+    if (auto known = contacts_.extract(pair)) {
+      contacts.insert(std::move(known));
+    } else {
+      contacts.try_emplace(pair, skins_, pair.first, pair.second);
+    }
+  }
+  contacts_ = std::move(contacts);
+}
+
+void SkinContacts::find(const World& world, double dt, const Group& group, Touches& touches) {
+  if (steps_to_seek_ == 0) seek(world, group, dt);
+  --steps_to_seek_;
+  for (auto& [pair, contact] : contacts_) contact.find(world, dt, group, touches);
+}
+
+}  // namespace sprung

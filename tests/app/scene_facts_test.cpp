@@ -1,0 +1,280 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "app/make_production.h"
+#include "app/scene/scene_file.h"
+#include "app/simulate.h"
+
+/// What happens in every scene of assets/scenes, as its first line says. With bricks so coarse that it takes seconds;
+/// SPRUNG_FULL_SCENES=1 takes the scenes as they are, which takes a quarter of an hour.
+namespace sprung {
+namespace {
+
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
+/// A scene and what became of it.
+class Film {
+ public:
+  explicit Film(const std::string& name, const Settings& coarser, const Settings& changes = {})
+      : scene_(read_scene(SPRUNG_SOURCE_DIR "/assets/scenes/" + name + ".toml")) {
+    if (std::getenv("SPRUNG_FULL_SCENES") == nullptr) set(coarser);
+    set(changes);
+    const Console silent{.quiet = true};
+    production_.emplace(make_production(scene_, silent));
+    recording_ = simulate(*production_, scene_, silent);
+  }
+
+  [[nodiscard]] int last() const { return static_cast<int>(recording_.frames.size()) - 1; }
+  [[nodiscard]] int frame_at(double time) const { return static_cast<int>(std::lround(time * scene_.fps)); }
+  [[nodiscard]] std::size_t bodies() const { return production_->world.actors.size(); }
+  [[nodiscard]] const Body& body(std::size_t actor) const { return production_->world.actors[actor].body; }
+  [[nodiscard]] const Recording& recording() const { return recording_; }
+
+  [[nodiscard]] Points nodes(int frame, std::size_t actor = 0) const {
+    return recording_.frames.at(static_cast<std::size_t>(frame)).at(actor).cast<double>();
+  }
+  [[nodiscard]] Points skin(int frame, std::size_t actor = 0) const {
+    return skin_positions(*production_, actor, nodes(frame, actor));
+  }
+  /// Centre of mass.
+  [[nodiscard]] Vec3 middle(int frame, std::size_t actor = 0) const {
+    const auto& masses = body(actor).masses;
+    return (masses.transpose() * nodes(frame, actor)).transpose() / masses.sum();
+  }
+  /// Of the body that moves fastest as a whole, m/s.
+  [[nodiscard]] double travel_speed(int frame) const {
+    double most = 0;
+    for (std::size_t actor = 0; actor < bodies(); ++actor) {
+      most = std::max(most, (middle(frame, actor) - middle(frame - 1, actor)).norm() * scene_.fps);
+    }
+    return most;
+  }
+  /// Of the fastest node of all bodies between this frame and the one before, m/s.
+  [[nodiscard]] double speed(int frame) const {
+    double most = 0;
+    for (std::size_t actor = 0; actor < bodies(); ++actor) {
+      most = std::max(most, (nodes(frame, actor) - nodes(frame - 1, actor)).rowwise().norm().maxCoeff() * scene_.fps);
+    }
+    return most;
+  }
+  /// Of the nodes in a part of the body at rest (fractions of its bounding box), the mean place.
+  [[nodiscard]] Vec3 part(int frame, std::size_t actor, const Vec3& low, const Vec3& high) const {
+    const Points first = nodes(0, actor);
+    const Vec3 origin = first.colwise().minCoeff();
+    const Vec3 extent = first.colwise().maxCoeff() - first.colwise().minCoeff();
+    const Points now = nodes(frame, actor);
+    Vec3 sum = Vec3::Zero();
+    int count = 0;
+    for (int node = 0; node < first.rows(); ++node) {
+      const Vec3 place = (Vec3(first.row(node)) - origin).cwiseQuotient(extent);
+      if ((place.array() < low.array() - 1e-6).any() || (place.array() > high.array() + 1e-6).any()) continue;
+      sum += now.row(node);
+      ++count;
+    }
+    return sum / count;
+  }
+
+  /// What holds for every scene: no brick is inside out, and nothing is deeper than 1 % of the largest body in what it
+  /// touches.
+  void expect_sound() const {
+    int inverted = 0;
+    for (const Actor& actor : production_->world.actors) inverted += inverted_bricks(actor.body);
+    EXPECT_EQ(inverted, 0);
+    EXPECT_LT(recording_.deepest_overlap, 0.01 * production_->size);
+  }
+
+ private:
+  void set(const Settings& settings) {
+    for (const auto& [key, value] : settings) set_scene_key(scene_, key, value);
+  }
+
+  Scene scene_;
+  std::optional<Production> production_;
+  Recording recording_;
+};
+
+TEST(SceneFacts, DemoComesToRest) {
+  const Film film("demo", {{"body.bricks", "8"}});
+  film.expect_sound();
+  EXPECT_GT(film.speed(film.frame_at(0.2)), 0.5);
+  EXPECT_LT(film.speed(film.last()), 0.01);
+}
+
+TEST(SceneFacts, OctopusLandsOnItsTentacles) {
+  const Film film("octopus", {{"body.bricks", "10"}});
+  film.expect_sound();
+  EXPECT_LT(film.skin(film.last()).col(1).minCoeff(), 0.001);
+  EXPECT_LT(film.middle(film.last()).y(), film.middle(0).y() - 0.05);
+}
+
+/// What was pressed flat is in the end as if no plate had ever come.
+TEST(SceneFacts, SquashedDoughnutReturnsToItsShape) {
+  const Settings coarser{{"body.bricks", "10"}};
+  const Film film("squash", coarser);
+  film.expect_sound();
+  const auto height = [&](int frame) { return film.skin(frame).col(1).maxCoeff(); };
+  EXPECT_LT(height(film.frame_at(1.1)), 0.65 * height(0));
+  const Film untouched("squash", coarser, {{"obstacle.2.keyframes", "[]"}});
+  const double size = 0.12;
+  const Points shift = film.skin(film.last()).rowwise() - film.middle(film.last()).transpose();
+  const Points other = untouched.skin(untouched.last()).rowwise() - untouched.middle(untouched.last()).transpose();
+  EXPECT_LT((shift - other).rowwise().norm().maxCoeff(), 0.01 * size);
+}
+
+TEST(SceneFacts, BarIsDrawnToTwiceItsLength) {
+  const Film film("stretch", {{"body.bricks", "8"}});
+  film.expect_sound();
+  const auto length = [&](int frame) {
+    const Points x = film.nodes(frame);
+    return x.col(0).maxCoeff() - x.col(0).minCoeff();
+  };
+  EXPECT_NEAR(length(film.frame_at(1.5)) / length(0), 2, 1e-3);
+  EXPECT_NEAR(length(film.last()) / length(0), 1, 1e-3);
+  const double width =
+      film.nodes(film.frame_at(1.5)).col(1).maxCoeff() - film.nodes(film.frame_at(1.5)).col(1).minCoeff();
+  EXPECT_GT(width, 0.03);
+  EXPECT_LT((film.nodes(film.last()) - film.nodes(0)).rowwise().norm().maxCoeff(), 0.01 * 0.16);
+}
+
+/// Each cross-section has turned by its share of the full turn, and all of it is undone.
+TEST(SceneFacts, BarIsTwistedByAFullTurnAndBack) {
+  const Film film("twist", {{"body.bricks", "12"}});
+  film.expect_sound();
+  const int turned = film.frame_at(1.9);
+  const Vec3 low(0.5, 1, 0.5);
+  const Vec3 edge = film.part(turned, 0, low, low) - film.part(turned, 0, Vec3(0.5, 0, 0.5), Vec3(0.5, 0, 0.5));
+  EXPECT_LT(edge.normalized().y(), -0.99);
+  EXPECT_LT((film.nodes(film.last()) - film.nodes(0)).rowwise().norm().maxCoeff(), 0.01 * 0.24);
+}
+
+/// The ear carries the whole weight, and the bear hangs straight below it.
+TEST(SceneFacts, BearHangsFromOneEar) {
+  const Film film("hang", {{"body.bricks", "12"}});
+  film.expect_sound();
+  const ProbeSample& ear = film.recording().probes.at(0).samples.back();
+  const double weight = 9.81 * film.body(0).masses.sum();
+  EXPECT_NEAR(ear.force.y() / weight, 1, 0.03);
+  const Vec3 below = film.middle(film.last()) - ear.position;
+  EXPECT_LT(below.y(), -0.05);
+  EXPECT_LT(std::hypot(below.x(), below.z()), 0.1 * -below.y());
+  EXPECT_LT(film.travel_speed(film.last()), 0.03);
+}
+
+TEST(SceneFacts, TwentyBodiesComeToRestInTheBowl) {
+  const Film film("bowl", {});
+  film.expect_sound();
+  EXPECT_EQ(film.bodies(), 20U);
+  EXPECT_LT(film.travel_speed(film.last()), 0.02);
+  for (std::size_t actor = 0; actor < film.bodies(); ++actor) {
+    const Vec3 middle = film.middle(film.last(), actor);
+    EXPECT_LT(std::max(std::abs(middle.x()), std::abs(middle.z())), 0.12) << actor;
+    EXPECT_GT(middle.y(), 0.005) << actor;
+  }
+}
+
+TEST(SceneFacts, StackOfFiveStands) {
+  const Film film("stack", {{"duration", "1.5"}});
+  film.expect_sound();
+  ASSERT_EQ(film.bodies(), 5U);
+  EXPECT_LT(film.travel_speed(film.last()), 0.01);
+  for (std::size_t actor = 0; actor < 5; ++actor) {
+    const Vec3 shift = film.middle(film.last(), actor) - film.middle(0, actor);
+    EXPECT_LT(std::hypot(shift.x(), shift.z()), 0.01 * 0.08) << actor;
+    if (actor == 0) continue;
+    EXPECT_GT(film.middle(film.last(), actor).y(), film.middle(film.last(), actor - 1).y() + 0.04);
+  }
+}
+
+TEST(SceneFacts, BallGoesThroughTheRing) {
+  const Film film("ring", {{"body.bricks", "10"}});
+  film.expect_sound();
+  EXPECT_GT(film.skin(0).col(1).minCoeff(), 0.15);
+  EXPECT_LT(film.skin(film.last()).col(1).maxCoeff(), 0.15);
+  const Points through = film.skin(film.last());
+  EXPECT_GT(through.col(0).maxCoeff() - through.col(0).minCoeff(), 0.09);  // as wide again as before
+}
+
+/// The tips, a quarter of the width apart at rest each, meet and do not go through each other.
+TEST(SceneFacts, FingersCloseOnEachOther) {
+  const Film film("hand", {{"body.bricks", "12"}});
+  film.expect_sound();
+  const auto gap = [&](int frame) {
+    const Vec3 left = film.part(frame, 0, Vec3(0.25, 1, 0.5), Vec3(0.25, 1, 0.5));
+    const Vec3 right = film.part(frame, 0, Vec3(0.75, 1, 0.5), Vec3(0.75, 1, 0.5));
+    return right.x() - left.x();
+  };
+  EXPECT_NEAR(gap(0), 0.06, 1e-6);
+  EXPECT_LT(gap(film.frame_at(1.75)), 0.002);
+  EXPECT_GT(gap(film.frame_at(1.75)), -0.01 * 0.12);
+  EXPECT_GT(gap(film.last()), 0.05);
+}
+
+/// The soft one is drawn long, the stiff one is not, and what is glued stays together.
+TEST(SceneFacts, GlueHoldsASoftAndAStiffBlock) {
+  const Film film("glue", {{"duration", "1.2"}});
+  film.expect_sound();
+  const auto height = [&](int frame, std::size_t actor) {
+    return film.part(frame, actor, Vec3(0, 1, 0), Vec3(1, 1, 1)).y() -
+           film.part(frame, actor, Vec3(0, 0, 0), Vec3(1, 0, 1)).y();
+  };
+  const int hanging = film.frame_at(0.55);
+  EXPECT_GT(height(hanging, 0), 1.02 * height(0, 0));
+  EXPECT_NEAR(height(hanging, 1) / height(0, 1), 1, 0.01);
+  const auto joint = [&](int frame) {
+    return (film.part(frame, 0, Vec3(0.4, 0, 0.4), Vec3(0.6, 0, 0.6)) -
+            film.part(frame, 1, Vec3(0.4, 1, 0.4), Vec3(0.6, 1, 0.6)))
+        .norm();
+  };
+  for (int frame = 0; frame <= film.last(); ++frame) EXPECT_NEAR(joint(frame), joint(0), 0.002) << frame;
+}
+
+/// What of the wheel is on the ground stays where it is: it rolls.
+TEST(SceneFacts, WheelRolls) {
+  const Film film("wheel", {{"body.bricks", "12"}});
+  film.expect_sound();
+  EXPECT_NEAR(film.middle(film.last()).x() - film.middle(0).x(), 0.4, 0.01);
+  double slipped = 0;
+  for (int frame = film.frame_at(0.5) + 1; frame <= film.last(); ++frame) {
+    const Points before = film.skin(frame - 1);
+    const Points now = film.skin(frame);
+    double most = 0;
+    for (int row = 0; row < now.rows(); ++row) {
+      if (before(row, 1) < 2e-4 && now(row, 1) < 2e-4) most = std::max(most, std::abs(now(row, 0) - before(row, 0)));
+    }
+    slipped += most;
+  }
+  EXPECT_LT(slipped, 0.05 * 0.4);
+}
+
+TEST(SceneFacts, MusclesBendATentacleToBothSides) {
+  const Film film("muscle", {{"body.bricks", "16"}});
+  film.expect_sound();
+  const auto tip = [&](double time) { return film.part(film.frame_at(time), 0, Vec3(0, 0.95, 0), Vec3(1, 1, 1)); };
+  EXPECT_LT(tip(1.25).x() - tip(0).x(), -0.05);
+  EXPECT_GT(tip(3.05).x() - tip(0).x(), 0.05);
+}
+
+TEST(SceneFacts, WindBendsTheSheet) {
+  const Film film("wind", {{"body.bricks", "12"}});
+  film.expect_sound();
+  const auto end = [&](double time) { return film.part(film.frame_at(time), 0, Vec3(0.95, 0, 0), Vec3(1, 1, 1)); };
+  EXPECT_GT(end(0.8).z() - end(0).z(), 0.03);
+}
+
+/// The ball is thrown back; the wall gives way and is upright again.
+TEST(SceneFacts, WallThrowsABallBack) {
+  const Film film("wall", {});
+  film.expect_sound();
+  double most = 0;
+  for (int frame = 0; frame <= film.last(); ++frame)
+    most = std::max(most, film.middle(frame, 0).x() - film.middle(0, 0).x());
+  EXPECT_GT(most, 0.01);
+  EXPECT_LT((film.middle(film.last(), 0) - film.middle(0, 0)).norm(), 0.01 * 0.2);
+  EXPECT_LT(film.middle(film.last(), 1).x(), film.middle(film.frame_at(0.3), 1).x());
+}
+
+}  // namespace
+}  // namespace sprung
