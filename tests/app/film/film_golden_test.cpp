@@ -126,13 +126,13 @@ TEST(FilmGolden, TracesAndPlots) {
 TEST(FilmGolden, Lens) { expect_golden(picture("[camera]\naperture = 0.08\nazimuth = 75\n"), "film_lens"); }
 
 // A film without flicker.
-TEST(Film, OfWhatStandsStillHasEqualPictures) {
+TEST(FilmPictures, OfWhatStandsStillHasEqualPictures) {
   Film film("color_by = \"strain\"\n");
   film.recording.frames[1] = film.recording.frames[0];
   EXPECT_EQ(film.picture(1).pixels, film.picture(2).pixels);
 }
 
-TEST(Film, WritesPassesBesideItsPictures) {
+TEST(FilmPictures, WritesPassesBesideItsPictures) {
   const Film film("");
   const TempFolder folder;
   render_film({{film.scene, film.production, film.recording}}, {.first = 2, .last = 2},
