@@ -138,6 +138,15 @@ TEST(SceneFacts, BarIsDrawnToTwiceItsLength) {
   EXPECT_LT((film.nodes(film.last()) - film.nodes(0)).rowwise().norm().maxCoeff(), 0.01 * 0.16);
 }
 
+/// Its tip sinks, what is held does not.
+TEST(SceneFacts, BarSagsUnderItsWeight) {
+  const Film film("sag", {});
+  film.expect_sound();
+  const auto end = [&](int frame, double x) { return film.part(frame, 0, Vec3(x, 0, 0), Vec3(x, 1, 1)); };
+  EXPECT_LT(end(film.last(), 1).y() - end(0, 1).y(), -0.01);
+  EXPECT_EQ(end(film.last(), 0), end(0, 0));
+}
+
 /// Each cross-section has turned by its share of the full turn, and all of it is undone.
 TEST(SceneFacts, BarIsTwistedByAFullTurnAndBack) {
   const Film film("twist", {{"body.bricks", "12"}});
@@ -163,7 +172,7 @@ TEST(SceneFacts, BearHangsFromOneEar) {
 }
 
 TEST(SceneFacts, TwentyBodiesComeToRestInTheBowl) {
-  const Film film("bowl", {});
+  const Film film("bowl", {{"body.bricks", "5"}});
   film.expect_sound();
   EXPECT_EQ(film.bodies(), 20U);
   EXPECT_LT(film.travel_speed(film.last()), 0.02);
