@@ -34,7 +34,7 @@ std::array<Channel, 8> channels_of(Passes& passes) {
 
 /// The library's words, which are ours to free.
 std::string taken(const char* message) {
-  const std::string text = message == nullptr ? "unknown reason" : message;
+  std::string text = message == nullptr ? "unknown reason" : message;
   FreeEXRErrorMessage(message);
   return text;
 }

@@ -63,6 +63,7 @@ struct CachedFilm {
 void name_runs(std::vector<CachedFilm>& films) {
   const auto add = [&films](auto&& word) {
     std::vector<std::string> words;
+    words.reserve(films.size());
     for (const CachedFilm& film : films) words.emplace_back(word(film.scene.bodies.front()));
     if (std::adjacent_find(words.begin(), words.end(), std::not_equal_to<>()) == words.end()) return;
     for (std::size_t i = 0; i < films.size(); ++i) {

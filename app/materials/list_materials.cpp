@@ -122,6 +122,7 @@ std::string list_materials(const MaterialsOptions& options) {
   const std::vector<LibraryMaterial> materials = asked_for(options, library);
   if (options.json) {
     std::vector<std::string> objects;
+    objects.reserve(materials.size());
     for (const LibraryMaterial& material : materials) objects.push_back(json(material));
     return fmt::format("[\n{}\n]\n", fmt::join(objects, ",\n"));
   }
