@@ -57,8 +57,7 @@ void check_start(const Scene& scene, const Production& production) {
   const World& world = production.world;
   std::vector<AlignedBox> boxes;
   for (std::size_t i = 0; i < world.actors.size(); ++i) {
-    const Points& x = world.actors[i].body.positions;
-    boxes.emplace_back(Vec3(x.colwise().minCoeff()), Vec3(x.colwise().maxCoeff()));
+    boxes.push_back(box_around(world.actors[i].body.positions));
     for (std::size_t row = 0; row < world.obstacles.size(); ++row) check_obstacle(scene, production, i, row);
   }
   if (!world.bodies_touch) return;

@@ -75,6 +75,15 @@ class Cells {
 
 }  // namespace
 
+AlignedBox box_around(const Points& points) {
+  if (points.rows() == 0) return {};
+  return {Vec3(points.colwise().minCoeff()), Vec3(points.colwise().maxCoeff())};
+}
+
+AlignedBox widened(const AlignedBox& box, double by) {
+  return {box.min() - Vec3::Constant(by), box.max() + Vec3::Constant(by)};
+}
+
 std::vector<std::pair<int, int>> overlapping_boxes(const std::vector<AlignedBox>& boxes) {
   std::vector<std::pair<int, int>> pairs;
   Cells(boxes).each_pair([&](int a, int b) {

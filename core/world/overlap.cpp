@@ -26,18 +26,13 @@ Points free_points(const Actor& actor) {
   return points(rows, Eigen::all);
 }
 
-AlignedBox box_of(const Points& points) {
-  if (points.rows() == 0) return {};
-  return {Vec3(points.colwise().minCoeff()), Vec3(points.colwise().maxCoeff())};
-}
-
 /// The surface of a body as it is now.
 class Surface {
  public:
   /// `actor` has contact triangles.
   explicit Surface(const Actor& actor)
       : points_(deform_points(actor.body.grid, actor.contacts, actor.body.positions)),
-        box_(box_of(points_)),
+        box_(box_around(points_)),
         distance_(points_, actor.contact_triangles) {}
 
   [[nodiscard]] double depth_of(const Points& points) const {
@@ -78,7 +73,7 @@ double deepest_overlap(const World& world) {
   double depth = 0;
   for (const Actor& actor : world.actors) {
     points.push_back(free_points(actor));
-    boxes.push_back(box_of(actor.body.positions));
+    boxes.push_back(box_around(actor.body.positions));
     for (const Obstacle& obstacle : world.obstacles) depth = std::max(depth, depth_in(obstacle, points.back()));
   }
   if (!world.bodies_touch) return depth;

@@ -33,9 +33,8 @@ void SkinContacts::seek(const World& world, const Group& group, double dt) {
   std::vector<std::pair<std::size_t, std::size_t>> near;
   for (std::size_t i = 0; i < group.size(); ++i) {
     const Body& body = group[i]->body;
-    const Vec3 around = Vec3::Constant(margin + body.grid.brick_size);  // skins may lie a little outside the bricks
-    boxes.emplace_back(Vec3(body.positions.colwise().minCoeff()) - around,
-                       Vec3(body.positions.colwise().maxCoeff()) + around);
+    boxes.push_back(
+        widened(box_around(body.positions), margin + body.grid.brick_size));  // skins may lie outside bricks
     if (group[i]->touches_itself) near.emplace_back(i, i);
   }
   if (world.bodies_touch) {

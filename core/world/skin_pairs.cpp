@@ -42,14 +42,6 @@ bool are_neighbours(const Body& body, int a, int b) {
   return false;
 }
 
-AlignedBox widened(const AlignedBox& box, double by) {
-  return {box.min() - Vec3::Constant(by), box.max() + Vec3::Constant(by)};
-}
-
-AlignedBox box_of(const Body& body) {
-  return {Vec3(body.positions.colwise().minCoeff()), Vec3(body.positions.colwise().maxCoeff())};
-}
-
 AlignedBox box_of(const Body& body, int brick) {
   AlignedBox box;
   for (const int node : body.grid.nodes[static_cast<std::size_t>(brick)]) box.extend(Vec3(body.positions.row(node)));
@@ -101,7 +93,7 @@ void SkinPairs::seek(const Group& group, double margin) {
   places_.clear();
   for (std::size_t side = 0; side < sides_.size(); ++side) {
     const Body& facing = group[sides_[sides_.size() - 1 - side].actor]->body;
-    add_places(group, side, widened(box_of(facing), margin + facing.grid.brick_size));
+    add_places(group, side, widened(box_around(facing.positions), margin + facing.grid.brick_size));
   }
   std::vector<AlignedBox> boxes;
   boxes.reserve(places_.size());
