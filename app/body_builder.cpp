@@ -140,7 +140,7 @@ BodyBuilder::Filled BodyBuilder::fill(std::size_t solid) {
   filled.drawn.skin = std::move(made.skin);
   filled.drawn.embedding = std::move(made.embedding);
   Body& body = filled.actor.body;
-  apply_regions(body_.regions, selector_, body, solid);
+  filled.regions = apply_regions(body_.regions, selector_, body, solid);
   report_.add(filled.drawn.embedding);
   filled.carried = carry(loaded_, solid, solid_of_vertex_, body.grid);
   filled.actor.friction = body_.friction;
@@ -162,6 +162,7 @@ void BodyBuilder::put(Filled filled, const Pose& pose, int copy) {
   production_.origins.push_back({.body = index_,
                                  .copy = copy,
                                  .bricks_from_rest = loaded_.bricks_from_rest,
+                                 .regions = std::move(filled.regions),
                                  .pins = std::move(filled.pins),
                                  .forces = std::move(filled.forces),
                                  .muscles = std::move(filled.muscles)});

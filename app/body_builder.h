@@ -26,6 +26,7 @@ class BodyBuilder {
     Actor actor;
     DrawnSkin drawn;
     CarriedVertices carried;
+    std::vector<int> regions;       // Origin has it
     std::vector<PinnedNodes> pins;  // their centres too
     std::vector<ForcedPart> forces;
     std::vector<MusclePart> muscles;

@@ -47,6 +47,7 @@ struct Origin {
   std::size_t body = 0;  // row in Scene::bodies
   int copy = 0;          // of the body, which one
   Mat3 bricks_from_rest = Mat3::Identity();
+  std::vector<int> regions;       // per brick: row in SceneBody::regions, counted from 1; 0: of the body's own material
   std::vector<PinnedNodes> pins;  // those that hold any node of this actor
   std::vector<ForcedPart> forces;
   std::vector<MusclePart> muscles;

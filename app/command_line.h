@@ -37,6 +37,7 @@ struct SceneOptions {
   bool quiet = false;
   bool verbose = false;
   bool list = false;              // of export
+  bool quantize = false;          // of export
   bool table = false;             // of sweep
   std::optional<double> fps;      // of film
   bool json = false;              // of inspect

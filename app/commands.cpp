@@ -120,6 +120,8 @@ void add_export(CLI::App& app, Words& words) {
       ->allow_extra_args(false)
       ->option_text("OUT");
   command->add_option("--frames", words.scene.frames, "these only, counted from 1; default: all")->option_text("A:B");
+  command->add_flag("--quantize", words.scene.quantize,
+                    "keep 16 bits a coordinate in film.glb: half the size; says how far off that is");
   command->add_flag("--list", words.scene.list, "name the formats, and stop");
   command->add_flag("--overwrite", words.scene.overwrite, "replace files that exist");
   add_scene_options(

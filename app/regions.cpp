@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "core/error.h"
 
@@ -40,25 +39,30 @@ Stuff stuff_at(const Region& region, const Selector& selector, const Vec3& place
 
 }  // namespace
 
-void apply_regions(const std::vector<Region>& regions, const Selector& selector, Body& body, std::size_t solid) {
-  if (regions.empty()) return;
+std::vector<int> apply_regions(const std::vector<Region>& regions, const Selector& selector, Body& body,
+                               std::size_t solid) {
+  std::vector<int> regions_of_bricks(body.grid.cells.size(), 0);
+  if (regions.empty()) return regions_of_bricks;
   const Points middles = brick_middles(body.grid);
-  std::vector<std::optional<Stuff>> filled(body.grid.cells.size());
-  for (const Region& region : regions) {
+  std::vector<Stuff> filled(body.grid.cells.size());
+  for (std::size_t row = 0; row < regions.size(); ++row) {
+    const Region& region = regions[row];
     check_ratio(region.material, body.material);
     if (region.gradient) check_ratio(region.gradient->material, body.material);
     for (const int brick : selector.bricks(region, body.grid, solid)) {
       filled[static_cast<std::size_t>(brick)] = stuff_at(region, selector, middles.row(brick));
+      regions_of_bricks[static_cast<std::size_t>(brick)] = static_cast<int>(row) + 1;
     }
   }
   const double corner_mass = body.material.density * body.grid.brick_volume() / 8;
   for (std::size_t brick = 0; brick < filled.size(); ++brick) {
-    if (!filled[brick]) continue;
-    const double more_mass = (filled[brick]->density / body.material.density - 1) * corner_mass;
+    if (regions_of_bricks[brick] == 0) continue;
+    const double more_mass = (filled[brick].density / body.material.density - 1) * corner_mass;
     for (const int node : body.grid.nodes[brick]) body.masses[node] += more_mass * body.stiffness_scale[brick];
-    body.stiffness_scale[brick] *= filled[brick]->young / body.material.young;
+    body.stiffness_scale[brick] *= filled[brick].young / body.material.young;
   }
   lay_tiles(body);
+  return regions_of_bricks;
 }
 
 }  // namespace sprung

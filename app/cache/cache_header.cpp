@@ -78,6 +78,7 @@ CacheHeader cache_header(const Scene& scene, const Production& production, std::
     actor.color = bytes_of(drawn.color);
     actor.grid = body.grid;
     actor.stiffness_scale = body.stiffness_scale;
+    actor.regions = production.origins[i].regions;
     actor.masses = body.masses;
     actor.rest_positions = body.rest_positions;
     actor.pinned = pinned_nodes(production.origins[i]);

@@ -35,6 +35,7 @@ Production cached_production(const CacheHeader& header, const Scene& scene) {
     Origin& origin = production.origins.emplace_back();
     origin.body = row;
     origin.copy = cached.copy;
+    origin.regions = cached.regions;
     if (!cached.pinned.empty()) origin.pins.push_back({.pin = 0, .nodes = cached.pinned});
   }
   for (std::size_t i = 0; i < header.obstacles.size(); ++i) {

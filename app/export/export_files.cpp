@@ -85,7 +85,11 @@ void export_animation(const ExportTarget& target, const Film& film, const FrameR
       animated[i].normals.emplace_back(shading_normals(meshes[i]).cast<float>());
     }
   });
-  write_animated_glb(animated, times, target.file);
+  const double error =
+      write_animated_glb(animated, times, target.file, target.quantize ? GlbNumbers::kQuantized : GlbNumbers::kFloats);
+  if (target.quantize) {
+    console.note(fmt::format("{}: coordinates are off by at most {:.2g} mm", target.file.string(), 1e3 * error));
+  }
 }
 
 void export_page(const ExportTarget& target, const Film& film, const FrameRange& range) {
@@ -116,7 +120,9 @@ void export_points(const ExportTarget& target, const Film& film, const FrameRang
 
 void export_xdmf(const ExportTarget& target, const Film& film, const FrameRange& range) {
   XdmfWriter writer(target.file, film.production.world);
-  for (const DrawnSkin& drawn : film.production.skins) writer.add_skin(drawn.skin.triangles);
+  for (std::size_t actor = 0; actor < film.production.skins.size(); ++actor) {
+    writer.add_actor(film.production.origins[actor].regions, film.production.skins[actor].skin.triangles);
+  }
   for (int frame = range.first; frame <= range.last; ++frame) {
     stop_if_interrupted();
     const auto row = static_cast<std::size_t>(frame - 1);

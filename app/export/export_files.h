@@ -19,6 +19,7 @@ struct ExportTarget {
   Kind kind = Kind::kMeshes;
   std::optional<NumberedName> numbered;  // of kMeshes; or
   std::filesystem::path file;
+  bool quantize = false;  // of kAnimation
 };
 
 /// "skin_{:04}.obj", "film.glb", "film.html", "points.pc2", "run.xdmf". Throws Error(kUsage).

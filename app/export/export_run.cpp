@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "app/cache/cache_header.h"
 #include "app/cache/cached_run.h"
 #include "app/cache/run_cache.h"
@@ -37,12 +39,19 @@ std::vector<ExportTarget> targets_of(const SceneOptions& options, const Scene& s
   std::vector<ExportTarget> targets;
   for (const std::string& words : options.outputs) {
     targets.push_back(parse_export_target(words));
+    targets.back().quantize = options.quantize;
     for (const std::filesystem::path& file : files_of(targets.back(), scene, range)) {
       if (!options.overwrite && std::filesystem::exists(file)) {
         throw Error(ErrorKind::kUsage, fmt::format("'{}' exists; say --overwrite to replace it", file.string()));
       }
     }
     check_writable(files_of(targets.back(), scene, range).front());
+  }
+  const bool has_animation = std::any_of(targets.begin(), targets.end(), [](const ExportTarget& target) {
+    return target.kind == ExportTarget::Kind::kAnimation;
+  });
+  if (options.quantize && !has_animation) {
+    throw Error(ErrorKind::kUsage, "--quantize is about an animated .glb: -o film.glb");
   }
   return targets;
 }

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "core/output/glb_buffer.h"
+#include "core/output/glb_vertices.h"
 #include "core/output/mesh_writers.h"
 
 namespace sprung {
@@ -50,11 +50,14 @@ struct GlbPieces {
 /// The lists of a glTF file as they grow.
 class GlbFilm {
  public:
-  explicit GlbFilm(std::size_t frames) : frames_(frames) {}
+  GlbFilm(std::size_t frames, GlbNumbers numbers) : frames_(frames), numbers_(numbers) {}
 
-  void add(const AnimatedMesh& mesh) {
-    const std::string attributes = attributes_of(mesh);
-    const std::string targets = targets_of(mesh);
+  /// Returns by how much coordinates are off at most, m.
+  double add(const AnimatedMesh& mesh) {
+    const bool is_exact = numbers_ == GlbNumbers::kFloats;
+    const GlbVertices vertices = is_exact ? add_floats(buffer_, mesh) : add_quantized(buffer_, mesh);
+    const std::string attributes = attributes_of(mesh, vertices);
+    const std::string targets = targets_of(vertices);
     std::vector<std::string> primitives;
     for (const PosedPart& part : parts_of(mesh.first)) {
       const auto* indices = mesh.first.rest->triangles.data() + 3 * static_cast<std::ptrdiff_t>(part.first_triangle);
@@ -66,7 +69,8 @@ class GlbFilm {
         frames_ > 1 ? fmt::format(",\"weights\":[{}]", fmt::join(std::vector<int>(frames_ - 1, 0), ",")) : "";
     const std::string name = quoted(mesh.first.name);
     meshes_.push_back(fmt::format("{{\"name\":{},\"primitives\":[{}]{}}}", name, fmt::join(primitives, ","), weights));
-    nodes_.push_back(fmt::format("{{\"name\":{},\"mesh\":{}}}", name, nodes_.size()));
+    nodes_.push_back(fmt::format("{{\"name\":{},\"mesh\":{}{}}}", name, nodes_.size(), vertices.placement));
+    return vertices.error;
   }
 
   /// Nothing can be added after that.
@@ -75,10 +79,10 @@ class GlbFilm {
     std::vector<std::size_t> roots(nodes_.size());
     for (std::size_t i = 0; i < roots.size(); ++i) roots[i] = i;
     std::string json = fmt::format(
-        "{{\"asset\":{{\"version\":\"2.0\",\"generator\":\"sprung\"}},\"scene\":0,\"scenes\":[{{\"nodes\":[{}]}}],"
+        "{{\"asset\":{{\"version\":\"2.0\",\"generator\":\"sprung\"}}{},\"scene\":0,\"scenes\":[{{\"nodes\":[{}]}}],"
         "\"nodes\":[{}],\"meshes\":[{}],\"materials\":[{}]{}{},{}}}",
-        fmt::join(roots, ","), fmt::join(nodes_, ","), fmt::join(meshes_, ","), fmt::join(materials_, ","), pictures(),
-        animation, buffer_.json());
+        extensions(), fmt::join(roots, ","), fmt::join(nodes_, ","), fmt::join(meshes_, ","),
+        fmt::join(materials_, ","), pictures(), animation, buffer_.json());
     json.append(padding_of(json.size()), ' ');
     GlbPieces pieces{.head = {}, .numbers = buffer_.bytes(), .padding = {}};
     pieces.padding.assign(padding_of(pieces.numbers.size()), '\0');
@@ -94,10 +98,15 @@ class GlbFilm {
   }
 
  private:
-  std::string attributes_of(const AnimatedMesh& mesh) {
+  [[nodiscard]] std::string extensions() const {
+    if (numbers_ == GlbNumbers::kFloats) return "";
+    return R"(,"extensionsUsed":["KHR_mesh_quantization"],"extensionsRequired":["KHR_mesh_quantization"])";
+  }
+
+  std::string attributes_of(const AnimatedMesh& mesh, const GlbVertices& vertices) {
     const Skin& rest = *mesh.first.rest;
-    std::string text = fmt::format("\"POSITION\":{},\"NORMAL\":{}", buffer_.add_vectors(mesh.positions.front(), true),
-                                   buffer_.add_vectors(mesh.normals.front(), false));
+    std::string text =
+        fmt::format("\"POSITION\":{},\"NORMAL\":{}", vertices.positions.front(), vertices.normals.front());
     if (rest.uvs.rows() > 0) text += fmt::format(",\"TEXCOORD_0\":{}", buffer_.add_uvs(rest.uvs));
     if (rest.colors.rows() > 0) {
       Floats4 colors = rest.colors.cwiseMax(0.0F).cwiseMin(1.0F);
@@ -107,14 +116,12 @@ class GlbFilm {
     return text;
   }
 
-  std::string targets_of(const AnimatedMesh& mesh) {
+  [[nodiscard]] std::string targets_of(const GlbVertices& vertices) const {
     if (frames_ < 2) return "";
     std::vector<std::string> targets;
     for (std::size_t frame = 1; frame < frames_; ++frame) {
-      const Floats3 moved = mesh.positions[frame] - mesh.positions.front();
-      const Floats3 turned = mesh.normals[frame] - mesh.normals.front();
-      targets.push_back(fmt::format("{{\"POSITION\":{},\"NORMAL\":{}}}", buffer_.add_vectors(moved, true),
-                                    buffer_.add_vectors(turned, false)));
+      targets.push_back(
+          fmt::format("{{\"POSITION\":{},\"NORMAL\":{}}}", vertices.positions[frame], vertices.normals[frame]));
     }
     return fmt::format(",\"targets\":[{}]", fmt::join(targets, ","));
   }
@@ -164,6 +171,7 @@ class GlbFilm {
   }
 
   std::size_t frames_;
+  GlbNumbers numbers_;
   GlbBuffer buffer_;
   std::vector<std::string> nodes_;
   std::vector<std::string> meshes_;
@@ -174,25 +182,28 @@ class GlbFilm {
 
 }  // namespace
 
-void write_animated_glb(const std::vector<AnimatedMesh>& meshes, const std::vector<double>& times,
-                        const std::filesystem::path& file) {
+double write_animated_glb(const std::vector<AnimatedMesh>& meshes, const std::vector<double>& times,
+                          const std::filesystem::path& file, GlbNumbers numbers) {
+  const unsigned vertex_bytes = numbers == GlbNumbers::kFloats ? 24 : 20;  // at most
   std::uint64_t bytes = 0;
   for (const AnimatedMesh& mesh : meshes) {
-    bytes += 24 * static_cast<std::uint64_t>(mesh.first.positions.rows()) * times.size();
+    bytes += vertex_bytes * static_cast<std::uint64_t>(mesh.first.positions.rows()) * times.size();
   }
   if (bytes > kMostBytes) {
     throw Error(ErrorKind::kBadInput,
                 fmt::format("'{}' would have {:.1f} GB, more than the 4 GB of a .glb; export fewer frames (--frames)",
                             file.string(), 1e-9 * static_cast<double>(bytes)));
   }
-  GlbFilm film(times.size());
-  for (const AnimatedMesh& mesh : meshes) film.add(mesh);
+  GlbFilm film(times.size(), numbers);
+  double error = 0;
+  for (const AnimatedMesh& mesh : meshes) error = std::max(error, film.add(mesh));
   const GlbPieces pieces = film.finish(times);
   write_pieces(file, {pieces.head, pieces.numbers, pieces.padding});
+  return error;
 }
 
 std::string still_glb(const std::vector<PosedMesh>& meshes) {
-  GlbFilm film(1);
+  GlbFilm film(1, GlbNumbers::kFloats);
   for (const PosedMesh& mesh : meshes) {
     film.add(
         {.first = mesh, .positions = {mesh.positions.cast<float>()}, .normals = {shading_normals(mesh).cast<float>()}});

@@ -23,6 +23,7 @@ struct CachedActor {
   CachedColor color{};
   BrickGrid grid;                       // without patches, which only embed() reads
   std::vector<double> stiffness_scale;  // per brick: fill times the stiffness of its region over the body's
+  std::vector<int> regions;             // per brick: of the scene's body, counted from 1; 0: of none
   Eigen::VectorXd masses;               // per node, kg
   Points rest_positions;                // m x 3, m
   std::vector<int> pinned;              // nodes that pins hold at any time

@@ -5,7 +5,7 @@
 namespace sprung {
 
 /// Where things are in a cache. Whoever changes it counts kCacheLayout up.
-inline constexpr int kCacheLayout = 3;
+inline constexpr int kCacheLayout = 4;
 inline constexpr const char* kLayoutName = "/layout";
 inline constexpr const char* kProgressName = "/frames/progress";  // written last: a frame is there when its time is
 inline constexpr const char* kProbesName = "/frames/probes";

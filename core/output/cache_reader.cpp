@@ -44,6 +44,7 @@ CachedActor read_actor(const Hdf5Reader& hdf5, const std::string& folder) {
   actor.color = read_color(hdf5, folder + "/color");
   actor.grid = read_grid(hdf5, folder);
   actor.stiffness_scale = hdf5.read<double>(folder + "/stiffness_scale").values;
+  actor.regions = hdf5.read<int>(folder + "/regions").values;
   actor.masses = read_matrix<Numbers>(hdf5, folder + "/masses");
   actor.rest_positions = read_matrix<Points>(hdf5, folder + "/rest_positions");
   if (hdf5.has(folder + "/pinned")) actor.pinned = hdf5.read<int>(folder + "/pinned").values;

@@ -76,6 +76,7 @@ void write_actor(Hdf5Writer& hdf5, const std::string& folder, const CachedActor&
   write_list(hdf5, folder + "/color", actor.color);
   write_grid(hdf5, folder, actor.grid);
   write_list(hdf5, folder + "/stiffness_scale", actor.stiffness_scale);
+  write_list(hdf5, folder + "/regions", actor.regions);
   hdf5.write(folder + "/masses", flat_values(actor.masses), {static_cast<std::size_t>(actor.masses.size())});
   write_matrix(hdf5, folder + "/rest_positions", actor.rest_positions);
   write_list(hdf5, folder + "/pinned", actor.pinned);

@@ -8,6 +8,8 @@
 namespace sprung {
 namespace {
 
+constexpr int kByte = 5120;
+constexpr int kShort = 5122;
 constexpr int kFloat = 5126;
 constexpr int kUnsigned = 5125;
 
@@ -17,6 +19,15 @@ std::string list_of(const Row& row) {
   return fmt::format("[{:.9g}]", fmt::join(values, ","));
 }
 
+/// Rows of four: vertices begin at multiples of four bytes.
+template <class Value>
+Eigen::Matrix<Value, Eigen::Dynamic, 4, Eigen::RowMajor> padded(
+    const Eigen::Matrix<Value, Eigen::Dynamic, 3, Eigen::RowMajor>& rows) {
+  Eigen::Matrix<Value, Eigen::Dynamic, 4, Eigen::RowMajor> wide(rows.rows(), 4);
+  wide << rows, Eigen::Matrix<Value, Eigen::Dynamic, 1>::Zero(rows.rows());
+  return wide;
+}
+
 template <class Matrix>
 std::size_t size_of(const Matrix& rows) {
   return static_cast<std::size_t>(rows.size()) * sizeof(float);
@@ -24,10 +35,12 @@ std::size_t size_of(const Matrix& rows) {
 
 }  // namespace
 
-int GlbBuffer::add_view(const void* data, std::size_t size, Use use) {
+int GlbBuffer::add_view(const void* data, std::size_t size, Use use, std::size_t stride) {
   bytes_.resize((bytes_.size() + 3) / 4 * 4, '\0');
   const std::string target = use == Use::kOther ? "" : fmt::format(",\"target\":{}", static_cast<int>(use));
-  views_.push_back(fmt::format("{{\"buffer\":0,\"byteOffset\":{},\"byteLength\":{}{}}}", bytes_.size(), size, target));
+  const std::string apart = stride == 0 ? "" : fmt::format(",\"byteStride\":{}", stride);
+  views_.push_back(
+      fmt::format("{{\"buffer\":0,\"byteOffset\":{},\"byteLength\":{}{}{}}}", bytes_.size(), size, apart, target));
   bytes_.append(static_cast<const char*>(data), size);
   return static_cast<int>(views_.size()) - 1;
 }
@@ -47,6 +60,21 @@ int GlbBuffer::add_vectors(const Floats3& rows, bool with_bounds) {
     bounds = fmt::format(",\"min\":{},\"max\":{}", list_of(low), list_of(high));
   }
   return add_accessor(view, "VEC3", kFloat, static_cast<std::size_t>(rows.rows()), bounds);
+}
+
+int GlbBuffer::add_shorts(const Shorts3& rows) {
+  const auto wide = padded(rows);
+  const int view = add_view(wide.data(), static_cast<std::size_t>(wide.size()) * sizeof(std::int16_t), Use::kVertices,
+                            4 * sizeof(std::int16_t));
+  const std::string bounds = fmt::format(",\"min\":[{}],\"max\":[{}]", fmt::join(rows.colwise().minCoeff().eval(), ","),
+                                         fmt::join(rows.colwise().maxCoeff().eval(), ","));
+  return add_accessor(view, "VEC3", kShort, static_cast<std::size_t>(rows.rows()), bounds);
+}
+
+int GlbBuffer::add_bytes(const Bytes3& rows) {
+  const auto wide = padded(rows);
+  const int view = add_view(wide.data(), static_cast<std::size_t>(wide.size()), Use::kVertices, 4);
+  return add_accessor(view, "VEC3", kByte, static_cast<std::size_t>(rows.rows()), ",\"normalized\":true");
 }
 
 int GlbBuffer::add_uvs(const Floats2& rows) {

@@ -8,6 +8,9 @@
 
 namespace sprung {
 
+using Shorts3 = Eigen::Matrix<std::int16_t, Eigen::Dynamic, 3, Eigen::RowMajor>;
+using Bytes3 = Eigen::Matrix<std::int8_t, Eigen::Dynamic, 3, Eigen::RowMajor>;
+
 /// The numbers of a glTF file and the JSON that says where in them what lies.
 class GlbBuffer {
  public:
@@ -15,6 +18,10 @@ class GlbBuffer {
 
   /// Each returns the number of its accessor.
   int add_vectors(const Floats3& rows, bool with_bounds);
+  /// With bounds.
+  int add_shorts(const Shorts3& rows);
+  /// That count as shares of 127.
+  int add_bytes(const Bytes3& rows);
   int add_uvs(const Floats2& rows);
   int add_colors(const Floats4& rows);
   int add_indices(std::span<const int> indices);
@@ -27,7 +34,7 @@ class GlbBuffer {
   [[nodiscard]] std::string json() const;
 
  private:
-  int add_view(const void* data, std::size_t size, Use use);
+  int add_view(const void* data, std::size_t size, Use use, std::size_t stride = 0);
   int add_accessor(int view, const char* type, int component, std::size_t count, const std::string& bounds);
 
   std::string bytes_;

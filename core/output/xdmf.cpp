@@ -21,6 +21,13 @@ constexpr std::array<int, 8> kCornersOfVtk{0, 1, 3, 2, 4, 5, 7, 6};
 
 using Hexahedra = Eigen::Matrix<int, Eigen::Dynamic, 8, Eigen::RowMajor>;
 
+/// A number for each brick.
+struct CellField {
+  std::string name;
+  const std::string& folder;
+  bool is_whole_numbers = false;
+};
+
 fs::path with_ending(fs::path file, const char* ending) {
   file += ending;
   return file;
@@ -39,9 +46,7 @@ XdmfWriter::XdmfWriter(fs::path file, const World& world)
     : file_(std::move(file)),
       numbers_(with_ending(file_, ".h5")),
       world_(world),
-      hdf5_(with_ending(numbers_, ".partial")) {
-  for (std::size_t actor = 0; actor < world.actors.size(); ++actor) write_bricks(actor);
-}
+      hdf5_(with_ending(numbers_, ".partial")) {}
 
 XdmfWriter::~XdmfWriter() {
   std::error_code ignored;
@@ -54,8 +59,7 @@ std::string XdmfWriter::item_text(const Item& item) const {
                      item.name);
 }
 
-void XdmfWriter::write_bricks(std::size_t actor) {
-  const Body& body = world_.actors[actor].body;
+void XdmfWriter::write_bricks(const std::string& folder, const Body& body) {
   Hexahedra hexahedra(body.grid.brick_count(), 8);
   Eigen::VectorXf fill(body.grid.brick_count());
   for (Eigen::Index brick = 0; brick < hexahedra.rows(); ++brick) {
@@ -65,15 +69,18 @@ void XdmfWriter::write_bricks(std::size_t actor) {
     }
     fill[brick] = static_cast<float>(body.grid.fill[row]);
   }
-  const std::string folder = fmt::format("/bricks_{}", actor + 1);
   write_matrix(hdf5_, folder + "/hexahedra", hexahedra);
   write_matrix(hdf5_, folder + "/fill", fill);
   write_matrix(hdf5_, folder + "/young", Eigen::VectorXf(brick_youngs(body).cast<float>()));
 }
 
-void XdmfWriter::add_skin(const Triangles& triangles) {
-  triangle_counts_.push_back(triangles.rows());
-  write_matrix(hdf5_, fmt::format("/skin_{}/triangles", triangle_counts_.size()), triangles);
+void XdmfWriter::add_actor(const std::vector<int>& regions, const Triangles& skin) {
+  const Body& body = world_.actors.at(triangle_counts_.size()).body;
+  triangle_counts_.push_back(skin.rows());
+  const std::string bricks = fmt::format("/bricks_{}", triangle_counts_.size());
+  write_bricks(bricks, body);
+  hdf5_.write(bricks + "/region", std::span<const int>(regions), {regions.size()});
+  write_matrix(hdf5_, fmt::format("/skin_{}/triangles", triangle_counts_.size()), skin);
 }
 
 std::string XdmfWriter::brick_grid(std::size_t actor, const std::string& folder, const Points& nodes,
@@ -95,10 +102,10 @@ std::string XdmfWriter::brick_grid(std::size_t actor, const std::string& folder,
       "{}</Topology>\n<Geometry GeometryType=\"XYZ\">{}</Geometry>\n",
       actor + 1, bricks, item_text({fixed + "/hexahedra", {bricks, 8}, true}),
       item_text({place + "/nodes", {count, 3}}));
-  for (const auto& [name, where] :
-       {std::pair("fill", fixed), {"young", fixed}, {"stretch", place}, {"stress", place}}) {
-    text += fmt::format("<Attribute Name=\"{}\" AttributeType=\"Scalar\" Center=\"Cell\">{}</Attribute>\n", name,
-                        item_text({where + "/" + name, {bricks, 1}}));
+  for (const CellField& field :
+       {CellField{"region", fixed, true}, {"young", fixed}, {"fill", fixed}, {"stretch", place}, {"stress", place}}) {
+    text += fmt::format("<Attribute Name=\"{}\" AttributeType=\"Scalar\" Center=\"Cell\">{}</Attribute>\n", field.name,
+                        item_text({field.folder + "/" + field.name, {bricks, 1}, field.is_whole_numbers}));
   }
   return text +
          fmt::format("<Attribute Name=\"velocity\" AttributeType=\"Vector\" Center=\"Node\">{}</Attribute>\n</Grid>\n",

@@ -9,8 +9,8 @@
 namespace sprung {
 
 /// A film for ParaView: `run.xdmf` says what is where in `run.xdmf.h5`. In every frame, for every actor, its bricks as
-/// hexahedra with their fill, Young's modulus (what tells regions apart), stretch and stress (brick_measures.h) and the
-/// velocity of their nodes, and its skin as triangles. Floats.
+/// hexahedra with their region, Young's modulus, fill, stretch and stress (brick_measures.h) and the velocity of their
+/// nodes, and its skin as triangles. Floats, but for the regions.
 class XdmfWriter {
  public:
   /// The world must outlive it. Throws Error(kFailed), like all else here.
@@ -19,8 +19,8 @@ class XdmfWriter {
   XdmfWriter(const XdmfWriter&) = delete;
   XdmfWriter& operator=(const XdmfWriter&) = delete;
 
-  /// Of the next actor; for all of them before the first frame.
-  void add_skin(const Triangles& triangles);
+  /// What the next actor has in all frames, its regions a number a brick; for all of them before the first frame.
+  void add_actor(const std::vector<int>& regions, const Triangles& skin);
   /// By actor: nodes (m) and their velocities (m/s), skin vertices (m).
   void add_frame(double time, const std::vector<Points>& nodes, const std::vector<Points>& velocities,
                  const std::vector<Points>& skins);
@@ -30,7 +30,7 @@ class XdmfWriter {
  private:
   struct Item;
   [[nodiscard]] std::string item_text(const Item& item) const;
-  void write_bricks(std::size_t actor);
+  void write_bricks(const std::string& folder, const Body& body);
   [[nodiscard]] std::string brick_grid(std::size_t actor, const std::string& folder, const Points& nodes,
                                        const Points& velocities);
   [[nodiscard]] std::string skin_grid(std::size_t actor, const std::string& folder, const Points& skin);

@@ -1,10 +1,18 @@
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "core/mesh/read_mesh.h"
-#include "tests/support/run_program.h"
+#include "tests/support/running_program.h"
 
 namespace sprung {
 namespace {
+
+std::set<std::string> names_in(const std::filesystem::path& folder) {
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) names.insert(entry.path().filename().string());
+  return names;
+}
 
 class Export : public testing::Test {
  protected:
@@ -51,7 +59,10 @@ TEST_F(Export, KeepsTheMeshOfTheFileAndWritesTheSameFromACacheAndAScene) {
   }
   EXPECT_NEAR(first.positions.col(1).minCoeff(), 0.1, 1e-6);
   EXPECT_EQ(std::filesystem::file_size(folder_.path() / "points.pc2"), 32U + 4 * 8 * 12);
-  EXPECT_TRUE(exists("film.glb"));
+  const ProgramRun quantized = run("export run.h5 -o quantized.glb --quantize");
+  EXPECT_NE(quantized.err.find("quantized.glb: coordinates are off by at most 0.00"), std::string::npos);
+  EXPECT_LT(std::filesystem::file_size(folder_.path() / "quantized.glb"),
+            std::filesystem::file_size(folder_.path() / "film.glb"));
   const std::string page = text_of(folder_.path() / "film.html");
   EXPECT_NE(page.find("const film = {\"frames\": 4, \"fps\": 10,"), std::string::npos);
   const std::size_t positions = page.find("\"positions\": [\"") + 15;
@@ -64,9 +75,28 @@ TEST_F(Export, KeepsTheMeshOfTheFileAndWritesTheSameFromACacheAndAScene) {
   }
 }
 
+TEST_F(Export, ClearsWhatAKilledExportLeft) {
+  const std::string left = "points.pc2.passing.h5";
+  {
+    RunningProgram program(folder_, {"export", "cube.obj", "--duration", "60", "-o", "points.pc2"});
+    ASSERT_TRUE(program.wait_for(folder_.path() / left));
+    program.signal(SIGKILL);
+    EXPECT_EQ(program.wait().exit_code, -1);
+  }
+  ASSERT_TRUE(exists(left));
+  EXPECT_FALSE(exists("points.pc2"));
+  static_cast<void>(folder_.write(left + ".partial", "of one killed before its first frame"));
+  const ProgramRun next = run("export scene.toml -o points.pc2");
+  EXPECT_EQ(next.exit_code, 0) << next.err;
+  EXPECT_EQ(names_in(folder_.path()),
+            (std::set<std::string>{"cube.obj", "points.pc2", "program.err", "program.out", "scene.toml"}));
+}
+
 TEST_F(Export, SaysWhatCannotBe) {
   EXPECT_NE(run("export scene.toml -o skin.obj").err.find("cannot hold 4 frames"), std::string::npos);
   EXPECT_NE(run("export scene.toml -o skin_{}.obk").err.find("no format"), std::string::npos);
+  EXPECT_NE(run("export scene.toml -o skin_{}.ply --quantize").err.find("is about an animated .glb"),
+            std::string::npos);
   EXPECT_NE(run("export scene.toml -o film.glp").err.find("did you mean '.glb'?"), std::string::npos);
   static_cast<void>(folder_.write("skin_2.ply", ""));
   EXPECT_EQ(run("export scene.toml -o skin_{}.ply").exit_code, 2);

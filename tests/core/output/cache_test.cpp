@@ -34,6 +34,7 @@ CacheHeader box_header(int side) {
   actor.color = {1, 2, 3};
   actor.grid = body.grid;
   actor.stiffness_scale = body.stiffness_scale;
+  actor.regions.assign(body.grid.cells.size(), 2);
   actor.masses = body.masses;
   actor.rest_positions = body.rest_positions;
   actor.skin.positions = Points::Random(3, 3);
@@ -110,6 +111,7 @@ TEST(Cache, GivesBackEveryBit) {
   EXPECT_EQ(actor.grid.cells, made.grid.cells);
   EXPECT_EQ(actor.grid.lattice, made.grid.lattice);
   EXPECT_EQ(actor.grid.fill, made.grid.fill);
+  EXPECT_EQ(actor.regions, made.regions);
   EXPECT_EQ(actor.masses, made.masses);
   EXPECT_EQ(actor.embedding.local, made.embedding.local);
   EXPECT_EQ(actor.carried, made.carried);

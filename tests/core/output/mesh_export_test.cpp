@@ -171,12 +171,13 @@ TEST(Xdmf, NamesWhatIsInItsFileOfNumbers) {
   Points stretched = rest;
   stretched.col(0) *= 1.1;
   XdmfWriter writer(folder.path() / "run.xdmf", world);
-  writer.add_skin(Triangles{{0, 1, 2}});
+  writer.add_actor({0, 3}, Triangles{{0, 1, 2}});
   const Points still = Points::Zero(rest.rows(), 3);
   writer.add_frame(0, {rest}, {still}, {Points::Zero(3, 3)});
   writer.add_frame(0.5, {stretched}, {(stretched - rest) * 2}, {Points::Ones(3, 3)});
   writer.close();
   const Hdf5Reader numbers(folder.path() / "run.xdmf.h5");
+  EXPECT_EQ(numbers.read<int>("/bricks_1/region").values, (std::vector<int>{0, 3}));
   EXPECT_NEAR(numbers.read<float>("/frame_1/bricks_1/stretch").values.at(1), 1, 1e-6);
   EXPECT_NEAR(numbers.read<float>("/frame_2/bricks_1/stretch").values.at(1), 1.1, 1e-6);
   const Material& material = world.actors[0].body.material;
@@ -199,7 +200,7 @@ TEST(Xdmf, NamesWhatIsInItsFileOfNumbers) {
     EXPECT_TRUE(numbers.has(text.substr(place, text.find('<', place) - place)));
     ++items;
   }
-  EXPECT_EQ(items, 2 * (2 + 4 + 1 + 2));
+  EXPECT_EQ(items, 2 * (2 + 5 + 1 + 2));
 }
 
 }  // namespace
