@@ -38,7 +38,8 @@ std::string help_text(CLI::App& app, const CLI::App& help, const Words& words) {
   for (CLI::App* command : app.get_subcommands({})) show_all(*command);
   if (words.topic == "scene") return words.json_schema ? scene_schema() : scene_reference();
   if (words.topic == "man") return man_page(app, kVersion);
-  for (const auto& [name, shell] : {std::pair("bash", Shell::kBash), {"zsh", Shell::kZsh}, {"fish", Shell::kFish}}) {
+  for (const auto& [name, shell] :
+       {std::pair("bash", CommandShell::kBash), {"zsh", CommandShell::kZsh}, {"fish", CommandShell::kFish}}) {
     if (words.topic == name) return completions(app, shell);
   }
   if (words.json_schema) throw Error(ErrorKind::kUsage, "--json-schema is for sprung help scene");

@@ -138,13 +138,13 @@ std::string fish(const CLI::App& app) {
 
 }  // namespace
 
-std::string completions(const CLI::App& app, Shell shell) {
+std::string completions(const CLI::App& app, CommandShell shell) {
   switch (shell) {
-    case Shell::kZsh:
+    case CommandShell::kZsh:
       return zsh(app);
-    case Shell::kFish:
+    case CommandShell::kFish:
       return fish(app);
-    case Shell::kBash:
+    case CommandShell::kBash:
       break;
   }
   return bash(app);

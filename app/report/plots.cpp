@@ -62,8 +62,8 @@ Curve convergence_curve(const ModelStyle& style, const std::vector<Check>& check
   return curve;
 }
 
-Plot convergence_plot(const std::vector<Check>& checks, double poisson) {
-  Plot plot{.title = poisson_text(poisson)};
+SvgPlot convergence_plot(const std::vector<Check>& checks, double poisson) {
+  SvgPlot plot{.title = poisson_text(poisson)};
   plot.x = {.label = "bricks across the thickness", .scale = Scale::kLog, .ticks = {1, 2, 4, 8}};
   plot.y = {.label = "error of the tip's deflection (%)", .scale = Scale::kLog};
   for (const ModelStyle& style : kStyles) {
@@ -139,8 +139,8 @@ Curve deflection_curve(const ModelStyle& style, int across) {
   return curve;
 }
 
-Plot locking_plot() {
-  Plot plot{.title = "A clamped beam under its own weight"};
+SvgPlot locking_plot() {
+  SvgPlot plot{.title = "A clamped beam under its own weight"};
   plot.x = {.label = "Poisson's ratio ν", .high = 0.5};
   plot.y = {.label = "tip deflection / (ρ g L⁴ / 8 E I)", .low = 0};
   Curve reference{.name = "reference", .points = {}, .color = ink::kBlack, .marker = Marker::kCircle};
@@ -196,8 +196,8 @@ Material unit_material(double poisson) {
 
 const std::vector<double> kStretchTicks{0.5, 0.75, 1, 1.25, 1.5, 1.75, 2};
 
-Plot volume_plot() {
-  Plot plot{.title = "A brick stretched along one axis, ν = 0.49"};
+SvgPlot volume_plot() {
+  SvgPlot plot{.title = "A brick stretched along one axis, ν = 0.49"};
   plot.x = {.label = "stretch (length / rest length)", .ticks = {0.5, 1, 1.5, 2}};
   plot.y = {.label = "volume / volume at rest", .low = 0};
   const auto volume = [](double stretch, const UniaxialResponse& response) {
@@ -241,7 +241,7 @@ Figure node_error_figure(const std::vector<NodeErrors>& errors, double poisson) 
                               poisson_text(poisson)),
       .width = 980};
   for (const ModelStyle& style : std::span(kStyles).first(kCompared)) {
-    Plot plot{.title = std::string(style.name)};
+    SvgPlot plot{.title = std::string(style.name)};
     plot.x = {.label = "place along the beam, x / L", .ticks = {0, 0.5, 1}};
     std::vector<Curve> nodes;
     for (const NodeErrors& one : errors) {
@@ -279,7 +279,7 @@ Figure incompressibility_figure() {
 }
 
 Figure stress_stretch_figure() {
-  Plot plot;
+  SvgPlot plot;
   plot.x = {.label = "stretch (length / rest length)", .ticks = kStretchTicks};
   plot.y = {.label = "nominal stress / E"};
   const auto stress = [](double, const UniaxialResponse& response) { return response.stress; };

@@ -35,7 +35,7 @@ struct Field {
   }
 };
 
-AxisRange range_over(const Axis& axis, const Plot& plot, int coordinate) {
+AxisRange range_over(const Axis& axis, const SvgPlot& plot, int coordinate) {
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
   const auto include = [&](double value) {
@@ -54,7 +54,7 @@ AxisRange range_over(const Axis& axis, const Plot& plot, int coordinate) {
 }
 
 Field make_field(const Panel& panel) {
-  const Plot& plot = panel.plot;
+  const SvgPlot& plot = panel.plot;
   Field field{panel.x,
               panel.y,
               panel.x + panel.width,
@@ -114,7 +114,7 @@ std::string axis_words(const Field& f, const Panel& panel) {
   for (std::size_t i = 0; i < up.size(); ++i) {
     out += words(f.left - 8, f.at(f.x.low, f.y.ticks[i]).y() + 4.5, kTickSize, "end", "#333", up[i]);
   }
-  const Plot& plot = panel.plot;
+  const SvgPlot& plot = panel.plot;
   if (!plot.title.empty()) {
     out += words(f.left, f.top - 11, kTitleSize, "start", "#111", plot.title, R"( font-weight="600")");
   }
@@ -226,7 +226,7 @@ void spread(std::vector<CurveName>& names, double top, double bottom) {
   }
 }
 
-std::string curve_names(const Field& f, const Plot& plot) {
+std::string curve_names(const Field& f, const SvgPlot& plot) {
   std::vector<CurveName> names;
   for (const Curve& curve : plot.curves) {
     const auto last =
@@ -278,7 +278,7 @@ std::string escaped(std::string_view text) {
   return out;
 }
 
-Figure single_plot(std::string title, std::string subtitle, Plot plot) {
+Figure single_plot(std::string title, std::string subtitle, SvgPlot plot) {
   Figure figure{.title = std::move(title), .subtitle = std::move(subtitle)};
   figure.panels.push_back({std::move(plot), 14, kHeadingHeight, figure.width - 28, figure.height - kHeadingHeight - 6});
   return figure;

@@ -40,7 +40,7 @@ struct GuideLine {
   std::string name;
 };
 
-struct Plot {
+struct SvgPlot {
   std::string title{};
   Axis x{};
   Axis y{};
@@ -51,7 +51,7 @@ struct Plot {
 
 /// A plot and the box of the figure it fills, px; axes and labels included.
 struct Panel {
-  Plot plot;
+  SvgPlot plot;
   double x = 0;
   double y = 0;
   double width = 0;
@@ -71,7 +71,7 @@ struct Figure {
 inline constexpr double kHeadingHeight = 64;
 
 /// A figure of one plot that fills it.
-[[nodiscard]] Figure single_plot(std::string title, std::string subtitle, Plot plot);
+[[nodiscard]] Figure single_plot(std::string title, std::string subtitle, SvgPlot plot);
 
 /// kFile is a picture of its own; kInline is part of an HTML page.
 enum class SvgUse { kFile, kInline };

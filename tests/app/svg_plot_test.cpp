@@ -19,7 +19,7 @@ using test::kNone;
 using test::xml_fault;
 
 TEST(SvgPlot, IsWellFormed) {
-  Plot plot{.title = "a < b & c"};
+  SvgPlot plot{.title = "a < b & c"};
   plot.x = {.label = "\"x\""};
   plot.y = {.label = "y", .scale = Scale::kLog};
   for (const Marker marker :
@@ -37,7 +37,7 @@ TEST(SvgPlot, IsWellFormed) {
 }
 
 TEST(SvgPlot, NamesOfCurvesThatEndTogetherDoNotOverlap) {
-  Plot plot;
+  SvgPlot plot;
   for (int i = 0; i < 8; ++i) plot.curves.push_back({.name = "name", .points = {{0, 0}, {1, 1 + 1e-3 * i}}});
   plot.curves.push_back({.name = "name", .points = {{0, 0}, {1, -3}}});
   const Figure figure = single_plot("t", "s", plot);
