@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/draw_diverged.h"
+#include "app/film/surroundings.h"
 #include "app/make_production.h"
 #include "app/output.h"
 #include "app/render_film.h"
@@ -37,6 +38,7 @@ void animate(const SceneOptions& options, const Console& console) {
     const std::vector<Output> outputs = parse_outputs(options.outputs);
     for (const Output& output : outputs) check_output(output, options.overwrite);
     note_padding(outputs, scene.render, console);
+    static_cast<void>(read_surroundings(scene.render));  // before any work is lost
     Production production = make_production(scene, console);
     const Recording recording = with_picture_of_diverged(production.world, picture_of_diverged(outputs.front()),
                                                          [&] { return simulate(production, scene, console); });

@@ -47,6 +47,16 @@ constexpr std::array<std::array<float, 3>, 17> kCoolwarm{{{0.230F, 0.299F, 0.754
                                                           {0.796F, 0.241F, 0.221F},
                                                           {0.706F, 0.016F, 0.150F}}};
 
+constexpr std::array<std::array<float, 3>, 9> kEmber{{{0.167F, 0.649F, 0.954F},
+                                                      {0.275F, 0.561F, 0.789F},
+                                                      {0.314F, 0.476F, 0.630F},
+                                                      {0.320F, 0.393F, 0.477F},
+                                                      {0.304F, 0.314F, 0.332F},
+                                                      {0.487F, 0.357F, 0.313F},
+                                                      {0.656F, 0.395F, 0.290F},
+                                                      {0.823F, 0.430F, 0.261F},
+                                                      {0.991F, 0.462F, 0.225F}}};
+
 Eigen::Vector3f between(Stops stops, double share) {
   const double at = share * static_cast<double>(stops.size() - 1);
   const auto from = std::min(static_cast<std::size_t>(at), stops.size() - 2);
@@ -78,6 +88,8 @@ Eigen::Vector3f map_color(ColorMap map, double share) {
       return between(kCividis, clamped);
     case ColorMap::kCoolwarm:
       return between(kCoolwarm, clamped);
+    case ColorMap::kEmber:
+      return between(kEmber, clamped);
     case ColorMap::kTurbo:
       break;
   }

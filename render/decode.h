@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "render/environment.h"
+
 namespace sprung {
 
 /// A decoded picture: rows from the top, RGBA, 8 bits, sRGB.
@@ -16,5 +18,8 @@ struct Pixels {
 
 /// Decodes PNG, JPEG, TGA, BMP, GIF or PSD. Throws Error(kBadInput) naming `name` and what is wrong with it.
 [[nodiscard]] Pixels decode_pixels(std::span<const std::byte> encoded, const std::string& name);
+
+/// The same, or Radiance .hdr; what has 8 bits is taken for the power 1 / 2.2 of light. Throws as decode_pixels() does.
+[[nodiscard]] Panorama decode_panorama(std::span<const std::byte> encoded, const std::string& name);
 
 }  // namespace sprung

@@ -6,6 +6,7 @@ void DrawFrame::set_common(const GlProgram& program) const {
   program.set("stage_center", space.center.cast<float>().eval());
   program.set("stage_scale", static_cast<float>(space.scale));
   program.set("to_key", to_key_light().cast<float>().eval());
+  program.set("sky_on_ground", sky_on_ground);
   program.set("body_radius", static_cast<float>(body_radius));
   program.set("ground_height", static_cast<float>(ground_height));
   program.set("ground_rectangle", rectangle(light.ground.low, light.ground.sides));

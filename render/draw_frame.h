@@ -11,6 +11,7 @@ struct DrawFrame {
   double body_radius;    // of the largest body, stage space
   double ground_height;  // stage space
   bool has_ground;
+  Eigen::Vector3f sky_on_ground;  // irradiance / pi of the open sky on level ground
 
   /// Sets the uniforms that every program with a skin or a light map knows.
   void set_common(const GlProgram& program) const;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kUndersideSize = 128;
 constexpr int kUndersideColorSize = 2 * kUndersideSize;
-constexpr int kSkySize = 128;
+constexpr int kSkySize = 96;
 constexpr int kLightSize = 128;
 constexpr int kFarLightSize = 32;
 constexpr double kFarBlur = 0.75;  // of a body's radius: three standard deviations
@@ -44,7 +44,7 @@ GroundMaps::GroundMaps(const GlFunctions& gl, const MapBrush& brush, Quality qua
       key_mask_(brush.make_map(key.size / 2, &map_format::kMask, false)),
       underside_color_(brush.make_map(kUndersideColorSize, &map_format::kColor, true)),
       underside_(brush.make_map(kUndersideSize, &map_format::kMask, false)),
-      sky_(brush.make_map(kSkySize, &map_format::kFineColor, false)),
+      sky_(brush.make_map(kSkySize, &map_format::kFlatColor, false)),
       shadow_(brush.make_map(key.size / 2, &map_format::kShadow, true)),
       light_(brush.make_map(kLightSize, &map_format::kFlatColor, false)),
       far_light_pass_(brush.make_map(kFarLightSize, &map_format::kFlatColor, false)),

@@ -8,8 +8,9 @@ namespace sprung {
 
 namespace {
 
-void set_border(const GlFunctions& gl, float value) {
-  const std::array<float, 4> border{value, value, value, value};
+/// Nothing beyond the map.
+void set_border(const GlFunctions& gl) {
+  const std::array<float, 4> border{};
   gl.TexParameterfv(GL_TEXTURE_2D, GL_TEXTURE_BORDER_COLOR, border.data());
 }
 
@@ -26,12 +27,9 @@ LightMap MapBrush::make_map(int size, const TextureFormat* color, bool depth) co
   map.size = size;
   if (color != nullptr) {
     map.color = make_texture(gl_, size, size, *color);
-    set_border(gl_, 0);
+    set_border(gl_);
   }
-  if (depth) {
-    map.depth = make_texture(gl_, size, size, map_format::kDepth);
-    set_border(gl_, 1);
-  }
+  if (depth) map.depth = make_texture(gl_, size, size, map_format::kDepth);
   map.target = make_texture_target(gl_, color != nullptr ? &map.color : nullptr, depth ? &map.depth : nullptr);
   return map;
 }

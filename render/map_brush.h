@@ -17,10 +17,9 @@ struct LightMap {
 /// Formats of maps. llvmpipe reads bytes several times quicker than half floats.
 namespace map_format {
 inline constexpr TextureFormat kDepth{GL_DEPTH_COMPONENT16, GL_DEPTH_COMPONENT, GL_UNSIGNED_SHORT, false, false,
-                                      GL_CLAMP_TO_BORDER};
+                                      GL_CLAMP_TO_EDGE};
 inline constexpr TextureFormat kColor{GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, true, true, GL_CLAMP_TO_EDGE};
 inline constexpr TextureFormat kFlatColor{GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, false, true, GL_CLAMP_TO_EDGE};
-inline constexpr TextureFormat kFineColor{GL_RGBA16F, GL_RGBA, GL_FLOAT, false, true, GL_CLAMP_TO_EDGE};
 inline constexpr TextureFormat kMask{GL_RG8, GL_RG, GL_UNSIGNED_BYTE, true, true, GL_CLAMP_TO_BORDER};
 inline constexpr TextureFormat kShadow{GL_R8, GL_RED, GL_UNSIGNED_BYTE, true, true, GL_CLAMP_TO_EDGE};
 inline constexpr TextureFormat kMoments{GL_RG32F, GL_RG, GL_FLOAT, false, true, GL_CLAMP_TO_EDGE};

@@ -57,6 +57,7 @@ struct Renderer::Device {
   bool has_ghosts = false;
   StageSpace space;
   double ground_height;
+  Eigen::Vector3f sky_on_ground;
   double body_radius = 0;
   TextureSet textures;
   std::vector<SkinBuffers> skins;
@@ -72,10 +73,11 @@ struct Renderer::Device {
         has_ground(stage.has_ground),
         space(stage.bounds),
         ground_height((stage.ground.height - space.center.y()) * space.scale),
+        sky_on_ground(stage.environment ? stage.environment->irradiance_on(Eigen::Vector3f::UnitY()) : studio_sky()),
         textures(gl, stage.color_map),
         ids(stage.ids),
         maps(gl, options.quality),
-        screen(gl, options),
+        screen(gl, options, stage.environment),
         clock(gl, options.measure_passes) {
     for (std::size_t i = 0; i < stage.skins.size(); ++i) {
       const bool is_ghost = !stage.ghosts.empty() && stage.ghosts[i];
@@ -98,7 +100,8 @@ struct Renderer::Device {
     if (shapes.size() != skins.size()) throw Error(ErrorKind::kFailed, "one shape a skin is needed to draw");
     context->make_current();
     for (std::size_t i = 0; i < shapes.size(); ++i) skins[i].update(shapes[i]);
-    return {space, fit_light(shapes, space, body_radius, ground_height), body_radius, ground_height, has_ground};
+    return {space,        fit_light(shapes, space, body_radius, ground_height), body_radius, ground_height, has_ground,
+            sky_on_ground};
   }
 };
 

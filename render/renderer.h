@@ -1,11 +1,13 @@
 #pragma once
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/skin/skin.h"
 #include "render/camera.h"
 #include "render/color_map.h"
+#include "render/environment.h"
 #include "render/image.h"
 #include "render/look.h"
 #include "render/pass_time.h"
@@ -44,7 +46,8 @@ struct Stage {
   ColorMap color_map = ColorMap::kViridis;
   bool has_ground = true;
   GroundPlane ground;
-  Bounds bounds;  // of the whole motion: sizes shadow map, ground fade and light
+  Bounds bounds;                             // of the whole motion: sizes shadow map, ground fade and light
+  std::optional<Environment> environment{};  // in place of the studio's sky and walls; the key light stays
 };
 
 /// Draws a stage off-screen with OSMesa: no display, no GPU. Deterministic on one machine for any number of threads.

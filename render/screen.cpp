@@ -31,7 +31,7 @@ bool has_floor_in_sight(const View& view) {
 
 }  // namespace
 
-Screen::Screen(const GlFunctions& gl, const RenderOptions& options)
+Screen::Screen(const GlFunctions& gl, const RenderOptions& options, const std::optional<Environment>& environment)
     : gl_(gl),
       width_(options.width),
       height_(options.height),
@@ -46,6 +46,7 @@ Screen::Screen(const GlFunctions& gl, const RenderOptions& options)
       developed_(make_texture_target(gl, &picture_, &kinds_)),
       backdrop_(make_texture(gl, width_, height_, kColor)),
       backdrop_target_(make_texture_target(gl, &backdrop_, nullptr)),
+      environment_(environment ? std::optional(EnvironmentTexture(gl, *environment)) : std::nullopt),
       nearer_sampler_(make_comparing_sampler(gl, GL_GREATER)),
       no_buffers_(make_vertex_array(gl)),
       surface_programs_(load_skin_programs(gl, "surface.frag")),
@@ -59,14 +60,15 @@ GlProgram Screen::load(const char* fragment, Quality quality) const {
   const bool is_preview = quality == Quality::kPreview;
   return load_program(gl_, "screen.vert", fragment,
                       fmt::format("#define SIDE {}\n#define SKIN {:.3f}\n#define NO_SKIN {:.3f}\n"
-                                  "#define SHADOW_SEARCH {}\n#define SHADOW_TAPS {}\n",
+                                  "#define SHADOW_SEARCH {}\n#define SHADOW_TAPS {}\n{}",
                                   side_, kSkin, kNoSkin,
                                   is_high      ? 12
                                   : is_preview ? 4
                                                : 6,
                                   is_high      ? 32
                                   : is_preview ? 8
-                                               : 16));
+                                               : 16,
+                                  environment_ ? "#define ENVIRONMENT\n" : ""));
 }
 
 void Screen::draw(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const LightMaps& maps,
@@ -214,6 +216,7 @@ void Screen::cover(const GlProgram& program, const LightMaps& maps, const View& 
   program.set("surface_depth", kFirstSurfaceUnit + 2);
   bind_texture(gl_, kFirstSurfaceUnit + 3, surface_depth_, nearer_sampler_.name());
   program.set("skin_coverage", kFirstSurfaceUnit + 3);
+  if (environment_) environment_->bind(program, kFirstSurfaceUnit + 4);
   program.set("screen_depth", kSkin);
   program.set("distance_terms", view.distance_terms.cast<float>().eval());
   program.set("eye", view.eye.cast<float>().eval());

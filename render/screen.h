@@ -2,6 +2,7 @@
 #include <optional>
 #include <vector>
 
+#include "render/environment_texture.h"
 #include "render/view.h"
 
 namespace sprung {
@@ -13,7 +14,8 @@ namespace sprung {
 /// then the picture that is developed from it.
 class Screen {
  public:
-  Screen(const GlFunctions& gl, const RenderOptions& options);
+  /// Without an environment it is lit by the studio.
+  Screen(const GlFunctions& gl, const RenderOptions& options, const std::optional<Environment>& environment);
   void draw(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const LightMaps& maps, const View& view,
             bool with_ghosts, PassClock& clock);
   [[nodiscard]] Image read() const;
@@ -55,6 +57,7 @@ class Screen {
   GlTexture backdrop_;
   GlFramebuffer backdrop_target_;
   std::optional<Sight> backdrop_sight_;
+  std::optional<EnvironmentTexture> environment_;
   GlSampler nearer_sampler_;
   GlVertexArray no_buffers_;
   SkinPrograms surface_programs_;

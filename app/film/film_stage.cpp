@@ -10,6 +10,7 @@
 #include "app/film/probe_plot.h"
 #include "app/film/rods.h"
 #include "app/film/springs.h"
+#include "app/film/surroundings.h"
 
 namespace sprung {
 namespace {
@@ -19,14 +20,16 @@ const Eigen::Vector3f kPinColor(0.90F, 0.24F, 0.12F);
 const Eigen::Vector3f kContactColor(0.96F, 0.72F, 0.10F);
 constexpr double kContactRadius = 0.16;  // of a brick
 constexpr std::size_t kMostContacts = 600;
-constexpr double kSpringRadius = 0.03;                   // of a brick
-constexpr double kNodeRadius = 0.09;                     // of a brick
-constexpr double kPinRadius = 0.17;                      // of a brick
-constexpr double kTraceRadius = 0.0035;                  // of the largest body
-constexpr ColorMap kSpringColors = ColorMap::kCoolwarm;  // pushed blue, drawn red, at rest pale
-constexpr double kUtmost = 0.01;  // of the springs: may be stretched beyond the ends of the colours
+constexpr double kSpringRadius = 0.03;   // of a brick
+constexpr double kNodeRadius = 0.09;     // of a brick
+constexpr double kPinRadius = 0.17;      // of a brick
+constexpr double kTraceRadius = 0.0035;  // of the largest body
+constexpr double kUtmost = 0.01;         // of the springs: may be stretched beyond the ends of the colours
 
 Eigen::Vector3f shade(const Color& color) { return Eigen::Vector3f(color.red, color.green, color.blue) / 255.0F; }
+
+/// Pushed blue, drawn red, at rest dark, unless it is said otherwise.
+ColorMap spring_colors(const SceneRender& render) { return render.color_map.value_or(ColorMap::kEmber); }
 
 Skin at_rest(Skin skin, const SkinShape& shape) {
   skin.positions = shape.positions.cast<double>();
@@ -41,7 +44,11 @@ Points rows_of(const Points& nodes, const std::vector<int>& rows) { return nodes
 }  // namespace
 
 FilmStage::FilmStage(const Scene& scene, const Production& production, const Recording& recording)
-    : scene_(scene), production_(production), recording_(recording), colors_(scene, production, recording) {
+    : scene_(scene),
+      production_(production),
+      recording_(recording),
+      colors_(scene, production, recording),
+      environment_(read_surroundings(scene.render)) {
   const SceneRender& render = scene.render;
   if (render.springs) stretch_ = render.color_high ? *render.color_high : furthest_stretch();
   for (std::size_t actor = 0; actor < production.world.actors.size(); ++actor) {
@@ -71,11 +78,12 @@ Stage FilmStage::stage(const Bounds& bounds) const {
     stage.ghosts.push_back(player.is_ghost);
     stage.ids.push_back(player.id);
   }
-  stage.color_map = scene_.render.springs ? kSpringColors : colors_.map();
+  stage.color_map = scene_.render.springs ? spring_colors(scene_.render) : colors_.map();
   const std::optional<double> ground = ground_height(production_.world.obstacles);
   stage.has_ground = ground && !scene_.render.transparent;
   if (ground) stage.ground.height = *ground;
   stage.bounds = bounds;
+  stage.environment = environment_;
   return stage;
 }
 
@@ -108,8 +116,11 @@ std::optional<ColorRange> FilmStage::color_range() const {
 
 std::optional<Legend> FilmStage::legend() const {
   if (scene_.render.springs) {
-    return Legend{
-        .title = "Springs, %", .map = kSpringColors, .low = -100 * stretch_, .high = 100 * stretch_, .swatches = {}};
+    return Legend{.title = "Springs, %",
+                  .map = spring_colors(scene_.render),
+                  .low = -100 * stretch_,
+                  .high = 100 * stretch_,
+                  .swatches = {}};
   }
   if (colors_.is_mapped()) return colors_.legend();
   return std::nullopt;
@@ -163,7 +174,7 @@ void FilmStage::add_springs(std::size_t actor) {
     return rods->shape(from, to, (springs->stretches(nodes).array() / ends + 0.5).max(0.0).min(1.0));
   };
   const auto skin = std::make_shared<const Skin>(at_rest(rods->skin(), shape(body.rest_positions)));
-  players_.push_back({skin, Eigen::Vector3f::Ones(), Look::kRubber, false, id_of(actor),
+  players_.push_back({skin, Eigen::Vector3f::Ones(), Look::kChart, false, id_of(actor),
                       [actor, shape](const Moment& now) { return shape(now.nodes[actor]); }});
 }
 

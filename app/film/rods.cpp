@@ -1,8 +1,11 @@
 #include "app/film/rods.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <utility>
 
 namespace sprung {
 namespace {
@@ -10,10 +13,42 @@ namespace {
 constexpr int kSides = 3;
 constexpr int kRodVertices = 2 * kSides;
 constexpr int kRodTriangles = 2 * kSides;
-constexpr int kBallVertices = 6;
 
 constexpr std::array<std::array<int, 3>, 8> kOctahedron{
     {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}}};
+
+/// An octahedron with each face cut in four, pushed out onto the unit ball.
+struct RoundShape {
+  std::vector<Vec3> places;
+  std::vector<std::array<int, 3>> triangles;
+
+  RoundShape() {
+    for (int k = 0; k < 6; ++k) places.emplace_back((k % 2 == 0 ? 1 : -1) * Vec3::Unit(k / 2));
+    for (const auto& [a, b, c] : kOctahedron) {
+      const int ab = between(a, b);
+      const int bc = between(b, c);
+      const int ca = between(c, a);
+      for (const std::array<int, 3>& part : {std::array{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}}) {
+        triangles.push_back(part);
+      }
+    }
+  }
+
+ private:
+  std::map<std::pair<int, int>, int> middles_;
+
+  int between(int a, int b) {
+    const auto [found, is_new] = middles_.try_emplace(std::minmax(a, b), static_cast<int>(places.size()));
+    if (is_new)
+      places.push_back((places[static_cast<std::size_t>(a)] + places[static_cast<std::size_t>(b)]).normalized());
+    return found->second;
+  }
+};
+
+const RoundShape& round_shape() {
+  static const RoundShape shape;
+  return shape;
+}
 
 void reserve(Skin& skin, Eigen::Index vertices, Eigen::Index triangles) {
   skin.positions = Points::Zero(vertices, 3);
@@ -61,27 +96,31 @@ SkinShape Rods::shape(const Points& from, const Points& to, const Eigen::VectorX
 
 Balls::Balls(std::size_t count, double radius) : radius_(radius) {
   const auto balls = static_cast<Eigen::Index>(count);
-  reserve(skin_, kBallVertices * balls, static_cast<Eigen::Index>(kOctahedron.size()) * balls);
+  const RoundShape& round = round_shape();
+  const auto vertices = static_cast<Eigen::Index>(round.places.size());
+  reserve(skin_, vertices * balls, static_cast<Eigen::Index>(round.triangles.size()) * balls);
   Eigen::Index triangle = 0;
   for (Eigen::Index ball = 0; ball < balls; ++ball) {
-    const auto first = static_cast<int>(kBallVertices * ball);
-    for (const auto& corners : kOctahedron) {
+    const auto first = static_cast<int>(vertices * ball);
+    for (const auto& corners : round.triangles) {
       skin_.triangles.row(triangle++) << first + corners[0], first + corners[1], first + corners[2];
     }
   }
 }
 
 SkinShape Balls::shape(const Points& middles, const Vec3& idle) const {
-  const Eigen::Index count = skin_.positions.rows() / kBallVertices;
+  const std::vector<Vec3>& places = round_shape().places;
+  const auto vertices = static_cast<Eigen::Index>(places.size());
+  const Eigen::Index count = skin_.positions.rows() / vertices;
   SkinShape shape;
   shape.positions.resize(skin_.positions.rows(), 3);
   shape.normals.resize(skin_.positions.rows(), 3);
   for (Eigen::Index ball = 0; ball < count; ++ball) {
     const bool is_shown = ball < middles.rows();
     const Vec3 middle = is_shown ? Vec3(middles.row(ball).transpose()) : idle;
-    for (int vertex = 0; vertex < kBallVertices; ++vertex) {
-      const Vec3 normal = (vertex % 2 == 0 ? 1 : -1) * Vec3::Unit(vertex / 2);
-      const Eigen::Index row = kBallVertices * ball + vertex;
+    for (Eigen::Index vertex = 0; vertex < vertices; ++vertex) {
+      const Vec3& normal = places[static_cast<std::size_t>(vertex)];
+      const Eigen::Index row = vertices * ball + vertex;
       shape.positions.row(row) = (middle + (is_shown ? radius_ : 0) * normal).cast<float>().transpose();
       shape.normals.row(row) = normal.cast<float>().transpose();
     }

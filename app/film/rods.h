@@ -5,8 +5,8 @@
 
 namespace sprung {
 
-/// Straight rods between points, three-sided and seen from outside; and balls, small octahedra. For springs, nodes and
-/// ways, which are thinner than what their light would show.
+/// Straight rods between points, three-sided and seen from outside; and balls. For springs, nodes and ways,
+/// which are thinner than what their light would show.
 class Rods {
  public:
   /// `radius` in metres.

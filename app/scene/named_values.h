@@ -52,10 +52,11 @@ inline constexpr Names<Field, 9> kNames<Field>{"field",
                                                  {"fill", Field::kFill},
                                                  {"region", Field::kRegion}}}};
 template <>
-inline constexpr Names<ColorMap, 4> kNames<ColorMap>{"colour map",
+inline constexpr Names<ColorMap, 5> kNames<ColorMap>{"colour map",
                                                      {{{"viridis", ColorMap::kViridis},
                                                        {"cividis", ColorMap::kCividis},
                                                        {"coolwarm", ColorMap::kCoolwarm},
+                                                       {"ember", ColorMap::kEmber},
                                                        {"turbo", ColorMap::kTurbo}}}};
 template <>
 inline constexpr Names<BrickView, 3> kNames<BrickView>{

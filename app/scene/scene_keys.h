@@ -51,7 +51,8 @@ struct KeyTypes<CameraKeyframe> : Types<double> {};
 template <>
 struct KeyTypes<SceneRender>
     : Types<std::array<int, 2>, Quality, std::optional<int>, bool, double, std::optional<std::array<int, 2>>, Field,
-            std::optional<ColorMap>, std::optional<double>, std::string, BrickView, std::optional<HalfSpace>> {};
+            std::optional<ColorMap>, std::optional<double>, std::string, BrickView, std::optional<HalfSpace>,
+            std::filesystem::path> {};
 template <>
 struct KeyTypes<SceneBody>
     : Types<std::filesystem::path, std::optional<Vec3>, std::optional<SphereShape>, std::optional<CylinderShape>,

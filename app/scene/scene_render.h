@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,6 +46,7 @@ struct SceneRender {
   Quality quality = Quality::kDefault;
   std::optional<int> samples;               // of a pixel; as the quality has it
   bool transparent = false;                 // nothing behind the bodies
+  std::filesystem::path environment;        // absolute; a panorama whose light is that around the bodies, or empty
   double motion_blur = 0;                   // degrees that the shutter is open, of 360 a frame
   std::optional<std::array<int, 2>> sheet;  // columns and rows: that many frames in one picture
   Field color_by = Field::kSkin;

@@ -69,12 +69,14 @@ void parse_value(std::string_view text, const KeyInfo& key, int& value) {
 }
 
 void parse_value(std::string_view text, const KeyInfo& key, std::array<int, 2>& value) {
-  const auto cross = text.find_first_of("xX");
-  if (cross == std::string_view::npos) {
-    throw Error(ErrorKind::kBadInput, fmt::format("'{}' is no resolution; write it as 1280x720", text));
+  const bool has_brackets = text.starts_with('[') && text.ends_with(']');
+  const std::string_view pair = has_brackets ? text.substr(1, text.size() - 2) : text;
+  const auto border = pair.find_first_of("xX,");
+  if (border == std::string_view::npos) {
+    throw Error(ErrorKind::kBadInput, fmt::format("'{}' is no pair of whole numbers; write it as 4x3 or [4, 3]", text));
   }
-  parse_value(text.substr(0, cross), key, value[0]);
-  parse_value(text.substr(cross + 1), key, value[1]);
+  parse_value(pair.substr(0, border), key, value[0]);
+  parse_value(pair.substr(border + 1), key, value[1]);
 }
 
 void parse_value(std::string_view text, const KeyInfo&, std::filesystem::path& value) {

@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -63,6 +64,11 @@ struct TextureFormat {
 /// Left bound to the active unit; storage for mipmaps is made at once.
 [[nodiscard]] GlTexture make_texture(const GlFunctions& gl, int width, int height, const TextureFormat& format,
                                      const void* data = nullptr);
+
+/// RGB in floats, level by level, each half as large as the one before; kept in bytes. Repeats sideways; read between
+/// levels.
+[[nodiscard]] GlTexture make_level_texture(const GlFunctions& gl, int width, int height,
+                                           std::span<const float* const> levels);
 
 /// Reads a depth texture as a sampler2DShadow: the share of the four texels around a place that pass the comparison.
 [[nodiscard]] GlSampler make_comparing_sampler(const GlFunctions& gl, GLenum comparison);

@@ -7,5 +7,5 @@ vec3 ground_light(vec4 sky, float shadow, vec2 ground_place) {
   vec2 border = smoothstep(0.0, 0.12, min(ground_place, 1.0 - ground_place));
   sky *= border.x * border.y;
   vec3 key = kKey * to_key.y * (1.0 - shadow);
-  return key + kSky * (1.0 - 0.94 * sky.a) + sky.rgb * (0.16 - 0.10 * sky.a) * open_ground_light();
+  return key + sky_on_ground * (1.0 - 0.94 * sky.a) + sky.rgb * (0.16 - 0.10 * sky.a) * open_ground_light();
 }

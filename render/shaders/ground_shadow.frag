@@ -28,10 +28,12 @@ vec2 mask_place() {
 void main() {
   vec2 uv = mask_place();
   vec2 found = vec2(0.0);
+  const float kStep = 1.0 / 255.0;  // of the mask: where little is hit, rounding could make any way of it
   vec2 direction = vec2(1.0, 0.0);
   for (int k = 0; k < kSearch; ++k) {
     vec2 offset = reach() * sqrt((float(k) + 0.5) / float(kSearch)) * direction;
-    found += textureLod(key_mask, uv + offset * mask_texel_size, log2(max(0.8 * reach(), 1.0))).rg;
+    vec2 hit = textureLod(key_mask, uv + offset * mask_texel_size, log2(max(0.8 * reach(), 1.0))).rg;
+    found += vec2(hit.r, max(hit.g - kStep, 0.0));
     direction = kGoldenTurn * direction;
   }
   int taps = found.r > 1e-4 ? kTaps : 0;

@@ -1,13 +1,14 @@
-// The studio: a large warm key light, a paler sky, a warm-grey floor that runs up into the background.
+// The studio: a large warm key light, a paler sky or other surroundings, a warm-grey floor that runs up into the
+// background.
 // Irradiances are divided by pi: a white matt surface under 1 has radiance 1.
 const vec3 kKey = vec3(0.93, 0.89, 0.825);
-const vec3 kSky = vec3(0.275, 0.29, 0.305);
 const vec3 kGroundAlbedo = vec3(0.74, 0.722, 0.700);
 const float kLightRadius = 0.11;  // of the key light, seen from a distance of 1: softness of its shadow
 
-uniform vec3 to_key;  // unit, stage space
+uniform vec3 to_key;         // unit, stage space
+uniform vec3 sky_on_ground;  // where nothing hides it
 
-vec3 open_ground_light() { return kKey * to_key.y + kSky; }
+vec3 open_ground_light() { return kKey * to_key.y + sky_on_ground; }
 
 // The floor without any body, and the background that it runs into: by how much the line of sight rises (a sine) alone,
 // so that no horizon shows. Brightest at the viewer's feet.

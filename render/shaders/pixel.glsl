@@ -14,7 +14,7 @@ float sample_depth(int k) {
   return depth < dot(end_depth, vec3(screen_place, 1.0)) ? depth : 1.0;
 }
 
-// Of about unit length. See pack_normal() of surface.frag.
+// Of a length from 0.57 to 1. See pack_normal() of surface.frag.
 vec3 sample_normal(int k) {
   vec4 bytes = texelFetch(packed_normal, sample_place(k), 0);
   vec2 place = 2.0 * (bytes.xy + bytes.zw / 255.0) - 1.0;

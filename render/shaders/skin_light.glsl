@@ -69,6 +69,28 @@ vec3 ground_bounce(vec3 point, vec3 n) {
   return 2.0 * kGroundAlbedo * mix(near, far, smoothstep(0.0, 0.5 * body_radius, height));
 }
 
+#ifdef ENVIRONMENT
+uniform vec3 irradiance[9];             // factors of what Environment says
+uniform sampler2D reflections;          // square root of the light over the brightest; a level a roughness
+uniform float brightest_reflection;
+
+vec3 sky_light(vec3 n) {
+  vec3 sum = irradiance[0] + irradiance[1] * n.y + irradiance[2] * n.z + irradiance[3] * n.x;
+  sum += irradiance[4] * n.x * n.y + irradiance[5] * n.y * n.z + irradiance[6] * (3.0 * n.z * n.z - 1.0);
+  sum += irradiance[7] * n.x * n.z + irradiance[8] * (n.x * n.x - n.y * n.y);
+  return max(sum, vec3(0.0));
+}
+
+// What a reflection sees: floor below, the surroundings above; the border is as soft as the surface is rough.
+vec3 room(vec3 direction, vec3 floor_light, float roughness) {
+  float soft = 0.04 + 0.5 * roughness;
+  vec2 uv = vec2(0.5 + atan(direction.x, -direction.z) / 6.2831853, acos(clamp(direction.y, -1.0, 1.0)) / 3.1415927);
+  vec3 root = textureLod(reflections, uv, 4.0 * roughness - 1.0).rgb;
+  return mix(floor_light, brightest_reflection * root * root, smoothstep(-soft, soft, direction.y));
+}
+#else
+vec3 sky_light(vec3 n) { return (0.5 + 0.5 * n.y) * sky_on_ground; }
+
 // What a reflection sees: floor below, dim walls, a bright panel overhead and a window at the side of the key light;
 // edges are as soft as the surface is rough.
 vec3 room(vec3 direction, vec3 floor_light, float roughness) {
@@ -78,6 +100,7 @@ vec3 room(vec3 direction, vec3 floor_light, float roughness) {
   float window = smoothstep(0.86 - 0.5 * soft, 0.86 + 0.5 * soft, dot(direction, kWindow));
   return walls + vec3(0.52, 0.53, 0.56) * panel + vec3(0.80, 0.78, 0.74) * window;
 }
+#endif
 
 float ggx(float nh, float nv, float nl, float alpha) {
   float a2 = alpha * alpha;
@@ -126,8 +149,7 @@ vec3 skin_light(vec3 place, vec3 n, vec3 base, float look) {
 
   float open = open_sky(place, n);
   vec3 bounce = ground_bounce(place, n);
-  vec3 sky = kSky * 1.1 * mix(0.4, 1.0, open);
-  vec3 surrounding = mix(bounce, sky, 0.5 + 0.5 * n.y) + 0.06 * base * open;
+  vec3 surrounding = (0.5 - 0.5 * n.y) * bounce + 1.1 * mix(0.4, 1.0, open) * sky_light(n) + 0.06 * base * open;
   // Through thin parts, at the rim, the surroundings behind shine, the more coloured the longer the way.
   vec3 through = finish.translucency * (bounce + 0.5 * kKey) * base * (0.16 + 0.55 * (1.0 - nv) * (1.0 - nv));
 

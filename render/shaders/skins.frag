@@ -1,5 +1,5 @@
-// The light that the skins send to the eye. The samples of a pixel that are about as far away are shaded together, by
-// their mean: inside a skin that is all of them. alpha is the share of the pixel that shows a skin.
+// The light that the skins send to the eye. The samples of a pixel that are about as far away and face about the same way
+// are shaded together, by their mean: inside a skin that is all of them, but at creases. alpha is the share of the pixel that shows a skin.
 uniform mat4 stage_from_clip;
 uniform vec4 distance_terms;
 out vec4 result;
@@ -7,6 +7,7 @@ out vec4 result;
 //!include skin_light.glsl
 
 const float kSameDepth = 0.05;  // of the body's radius
+const float kSameWay = 0.6;     // square of a cosine
 
 struct Surface {  // sums over samples
   vec3 color;
@@ -27,8 +28,11 @@ float distance_of(float depth) {
   return (distance_terms.x * depth + distance_terms.y) / (distance_terms.z * depth + distance_terms.w);
 }
 
-bool fits(Surface s, float depth) {
-  return s.share == 0.0 || abs(distance_of(depth) - distance_of(s.depth / s.share)) < kSameDepth * body_radius;
+bool fits(Surface s, float depth, vec3 normal) {
+  float along = dot(s.normal, normal);
+  bool is_same_way = along > 0.0 && along * along > kSameWay * dot(s.normal, s.normal) * dot(normal, normal);
+  bool is_as_far = abs(distance_of(depth) - distance_of(s.depth / s.share)) < kSameDepth * body_radius;
+  return s.share == 0.0 || (is_as_far && is_same_way);
 }
 
 void main() {
@@ -49,7 +53,7 @@ void main() {
   while (left != 0) {
     Surface s = Surface(vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0);
     for (int k = 0; k < kSamples; ++k) {
-      bool is_in = (left >> k & 1) != 0 && fits(s, depths[k]);
+      bool is_in = (left >> k & 1) != 0 && fits(s, depths[k], normals[k]);
       float w = is_in ? 1.0 : 0.0;
       left ^= is_in ? 1 << k : 0;
       s = Surface(s.color + w * paints[k].rgb, s.normal + w * normals[k], s.depth + w * depths[k], s.look + w * paints[k].a,

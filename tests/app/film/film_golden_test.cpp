@@ -132,6 +132,23 @@ TEST(FilmPictures, OfWhatStandsStillHasEqualPictures) {
   EXPECT_EQ(film.picture(1).pixels, film.picture(2).pixels);
 }
 
+TEST(FilmPictures, AreLitByThePanoramaThatTheSceneNames) {
+  const TempFolder folder;
+  Image blue(8, 4);
+  for (std::size_t i = 2; i < blue.pixels.size(); i += 3) blue.pixels[i] = 255;
+  write_png(blue, folder.path() / "blue.png");
+  write_png(Image(8, 4), folder.path() / "black.png");
+  Film film("");
+  const Image studio = film.picture();
+  film.scene.render.environment = folder.path() / "blue.png";
+  const Image lit = film.picture();
+  EXPECT_GT(lit.pixels[2], studio.pixels[2] + 20);  // the floor at the top left
+  EXPECT_LT(lit.pixels[0], studio.pixels[0]);
+  film.scene.render.environment = folder.path() / "black.png";
+  EXPECT_EQ(error_message([&] { (void)film.picture(); }),
+            (folder.path() / "black.png").string() + ": the surroundings are black above the horizon: no light");
+}
+
 TEST(FilmPictures, WritesPassesBesideItsPictures) {
   const Film film("");
   const TempFolder folder;

@@ -274,6 +274,13 @@ TEST_F(SceneFile, SetsOneKeyOfEveryBody) {
   set_scene_key(scene, "body.size", "30 cm");
   set_scene_key(scene, "body.material.young", "5 kPa");
   EXPECT_EQ(scene.render.resolution, (std::array<int, 2>{640, 360}));
+  for (const char* pair : {"3x2", "[3, 2]", "3,2"}) {
+    scene.render.sheet.reset();
+    set_scene_key(scene, "render.sheet", pair);
+    EXPECT_EQ(scene.render.sheet.value(), (std::array<int, 2>{3, 2})) << pair;
+  }
+  EXPECT_EQ(error_message([&] { set_scene_key(scene, "render.sheet", "[3]"); }),
+            "'[3]' is no pair of whole numbers; write it as 4x3 or [4, 3]");
   for (const SceneBody& body : scene.bodies) {
     EXPECT_DOUBLE_EQ(body.size.value(), 0.3);
     EXPECT_FALSE(body.scale.has_value());

@@ -1,0 +1,156 @@
+#include "render/environment.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <numbers>
+
+#include "render/decode.h"
+#include "render/png.h"
+#include "tests/support/error_message.h"
+#include "tests/support/golden.h"
+#include "tests/support/still_life.h"
+#include "tests/support/temp_folder.h"
+
+namespace sprung {
+namespace {
+
+using Light = Eigen::Vector3f;
+
+constexpr RenderOptions kSmall{320, 180, 4};
+
+/// `light_of` a unit vector.
+template <class LightOf>
+Panorama panorama(int height, const LightOf& light_of) {
+  Panorama all{2 * height, height, {}};
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < 2 * height; ++x) {
+      const double around = 2 * std::numbers::pi * ((x + 0.5) / (2 * height) - 0.5);
+      const double down = std::numbers::pi * (y + 0.5) / height;
+      const Eigen::Vector3d to(std::sin(down) * std::sin(around), std::cos(down), -std::sin(down) * std::cos(around));
+      all.light.push_back(light_of(to.cast<float>().eval()));
+    }
+  }
+  return all;
+}
+
+/// Evening: a low sun and a glow around it, at the camera's left and behind it; blue above.
+Light evening(const Light& to) {
+  const float near_sun = to.dot(Light(-0.75F, 0.28F, 0.6F).normalized());
+  const Light glow = Light(1.0F, 0.42F, 0.12F) * (std::exp(9 * (near_sun - 1)) + 30 * std::exp(300 * (near_sun - 1)));
+  return glow + Light(0.10F, 0.19F, 0.42F) * (0.4F + std::max(to.y(), 0.0F));
+}
+
+float brightness(const Light& light) { return Light(0.2126F, 0.7152F, 0.0722F).dot(light); }
+
+std::span<const std::byte> bytes_of(const std::string& text) { return std::as_bytes(std::span(text)); }
+
+// Closed form: half of an even sky is seen from a wall, all of it from the ground.
+TEST(Environment, AnEvenSkyLightsBySlope) {
+  for (const int height : {1, 3, 64, 200}) {
+    const Environment sky(panorama(height, [](const Light&) { return Light(5, 5, 5); }));
+    const float whole = sky.irradiance_on(Light::UnitY()).y();
+    EXPECT_NEAR(whole, brightness(studio_sky()), 1e-5) << height;
+    for (const double slope : {0.0, 30.0, 90.0, 140.0, 180.0}) {
+      const double angle = slope * std::numbers::pi / 180;
+      const Light to = Eigen::Vector3d(std::sin(angle), std::cos(angle), 0).cast<float>();
+      EXPECT_NEAR(sky.irradiance_on(to).x(), whole * (1 + std::cos(angle)) / 2, 2e-3 * whole) << height << " " << slope;
+    }
+    for (const Panorama& level : sky.reflections) EXPECT_NEAR(level.light.front().x(), whole, 1e-3 * whole);
+  }
+}
+
+TEST(Environment, KeepsDirectionsAndColours) {
+  const Environment sky(panorama(64, [](const Light& to) {
+    return to.dot(Light(0.9F, 0.3F, 0.3F).normalized()) > 0.97F ? Light(9, 2, 1) : Light(0.1F, 0.1F, 0.1F);
+  }));
+  EXPECT_GT(sky.irradiance_on(Light::UnitX()).x(), 3 * sky.irradiance_on(-Light::UnitX()).x());
+  EXPECT_GT(sky.irradiance_on(Light::UnitX()).x(), 2 * sky.irradiance_on(Light::UnitX()).z());
+  EXPECT_GT(sky.irradiance_on(Light::UnitZ()).x(), sky.irradiance_on(-Light::UnitZ()).x());
+  float before = 1e9F;
+  for (const Panorama& level : sky.reflections) {
+    const auto brightest = std::max_element(level.light.begin(), level.light.end(),
+                                            [](const Light& a, const Light& b) { return a.x() < b.x(); });
+    const auto at = static_cast<int>(brightest - level.light.begin());
+    EXPECT_NEAR((at % level.width + 0.5) / level.width, 0.75 + 18.4 / 360, 0.04);  // a little behind +x
+    EXPECT_LT(brightest->x(), before);                                             // the rougher, the smoother
+    before = brightest->x();
+  }
+}
+
+TEST(Environment, DoesNotDependOnThePanoramasBrightness) {
+  const Environment one(panorama(32, evening));
+  const Environment other(panorama(32, [](const Light& to) { return (1000 * evening(to)).eval(); }));
+  for (std::size_t k = 0; k < one.irradiance.size(); ++k) {
+    EXPECT_LT((one.irradiance[k] - other.irradiance[k]).norm(), 1e-5) << k;
+  }
+}
+
+TEST(Environment, RefusesWhatGivesNoLight) {
+  const auto below = [](const Light& to) { return (to.y() < 0 ? Light(1, 1, 1) : Light(0, 0, 0)); };
+  EXPECT_EQ(error_message([&] { Environment{panorama(16, below)}; }),
+            "the surroundings are black above the horizon: no light");
+  Panorama square{2, 2, std::vector<Light>(4, Light(1, 1, 1))};
+  EXPECT_EQ(error_message([&] { Environment{square}; }),
+            "the surroundings must be twice as wide as high: once around, from up to down");
+}
+
+TEST(DecodePanorama, ReadsRadianceAndPng) {
+  const std::string head = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n";
+  const Panorama bright = decode_panorama(bytes_of(head + std::string("\x80\x40\x20\x8a\x80\x80\x80\x81", 8)), "a.hdr");
+  EXPECT_EQ(bright.width, 2);
+  EXPECT_EQ(bright.height, 1);
+  EXPECT_EQ(bright.light.at(0), Light(512, 256, 128));  // mantissa * 2^(exponent - 136)
+  EXPECT_EQ(bright.light.at(1), Light(1, 1, 1));
+
+  Image image(2, 1);
+  image.pixels = {255, 0, 128, 128, 128, 128};
+  const TempFolder folder;
+  write_png(image, folder.path() / "a.png");
+  std::ifstream in(folder.path() / "a.png", std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  const Panorama flat = decode_panorama(bytes_of(bytes), "a.png");
+  EXPECT_NEAR(flat.light.at(0).x(), 1, 1e-6);
+  EXPECT_EQ(flat.light.at(0).y(), 0);
+  EXPECT_NEAR(flat.light.at(1).x(), 0.2195, 1e-3);
+  EXPECT_NE(error_message([&] { (void)decode_panorama(bytes_of("no picture"), "b.hdr"); }).find("b.hdr"), std::string::npos);
+}
+
+struct Balls {
+  StillLife scene;
+  Balls() {
+    scene.add(make_sphere_skin({-0.65, 0.5, 0}, 0.5), {0.9F, 0.88F, 0.85F});
+    scene.add(make_sphere_skin({0.65, 0.5, 0}, 0.5), {0.8F, 0.8F, 0.82F});
+  }
+  [[nodiscard]] Image picture(const std::optional<Environment>& environment) const {
+    Stage stage = scene.stage();
+    stage.looks = {Look::kPlastic, Look::kSteel};
+    stage.environment = environment;
+    Renderer renderer(stage, kSmall);
+    return renderer.draw(scene.shapes(), frame_bounds(stage.bounds, 16.0 / 9, 0));
+  }
+};
+
+TEST(Renderer, SurroundingsColourBodiesAndFloor) {
+  const Balls balls;
+  const Image studio = balls.picture(std::nullopt);
+  const Image green = balls.picture(Environment(panorama(16, [](const Light&) { return Light(0.1F, 1, 0.1F); })));
+  const auto greenness = [](const Image& image, int x, int y) {
+    const auto at = 3 * static_cast<std::size_t>(y * image.width + x);
+    return image.pixels[at + 1] - std::max(image.pixels[at], image.pixels[at + 2]);
+  };
+  for (const auto& [x, y] : {std::pair{110, 60}, {210, 60}, {10, 170}}) {  // plastic, steel, floor
+    EXPECT_LT(greenness(studio, x, y), 8) << x;
+    EXPECT_GT(greenness(green, x, y), 20) << x;
+  }
+}
+
+TEST(RenderGolden, Surroundings) {
+  expect_golden(Balls().picture(Environment(panorama(128, evening))), "render_surroundings");
+}
+
+}  // namespace
+}  // namespace sprung
