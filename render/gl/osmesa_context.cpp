@@ -15,10 +15,9 @@ namespace {
 
 /// Settings of a user's desktop that make software rendering crash, lose OpenGL 3.3, or draw other bits.
 void clear_hostile_settings() {
-  for (const char* name :
-       {"GALLIUM_DRIVER", "LP_NATIVE_VECTOR_WIDTH", "LP_PERF", "GALLIVM_PERF", "GALLIUM_OVERRIDE_CPU_CAPS",
-        "MESA_GL_VERSION_OVERRIDE", "MESA_GLSL_VERSION_OVERRIDE", "MESA_EXTENSION_OVERRIDE", "LIBGL_ALWAYS_SOFTWARE",
-        "LIBGL_DRIVERS_PATH"}) {
+  for (const char* name : {"GALLIUM_DRIVER", "LP_NATIVE_VECTOR_WIDTH", "LP_PERF", "GALLIVM_PERF",
+                           "GALLIUM_OVERRIDE_CPU_CAPS", "MESA_GL_VERSION_OVERRIDE", "MESA_GLSL_VERSION_OVERRIDE",
+                           "MESA_EXTENSION_OVERRIDE", "LIBGL_ALWAYS_SOFTWARE", "LIBGL_DRIVERS_PATH"}) {
     unsetenv(name);
   }
 }

@@ -116,7 +116,8 @@ TEST(DecodePanorama, ReadsRadianceAndPng) {
   EXPECT_NEAR(flat.light.at(0).x(), 1, 1e-6);
   EXPECT_EQ(flat.light.at(0).y(), 0);
   EXPECT_NEAR(flat.light.at(1).x(), 0.2195, 1e-3);
-  EXPECT_NE(error_message([&] { (void)decode_panorama(bytes_of("no picture"), "b.hdr"); }).find("b.hdr"), std::string::npos);
+  EXPECT_NE(error_message([&] { (void)decode_panorama(bytes_of("no picture"), "b.hdr"); }).find("b.hdr"),
+            std::string::npos);
 }
 
 struct Balls {
