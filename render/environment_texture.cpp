@@ -22,6 +22,7 @@ float brightest(const Environment& environment) {
 GlTexture make_reflections(const GlFunctions& gl, const Environment& environment, float brightest) {
   std::vector<Eigen::Matrix3Xf> roots;
   std::vector<const float*> levels;
+  levels.reserve(environment.reflections.size());
   for (const Panorama& level : environment.reflections) {
     Eigen::Matrix3Xf& root = roots.emplace_back(3, static_cast<Eigen::Index>(level.light.size()));
     for (std::size_t i = 0; i < level.light.size(); ++i) {

@@ -217,6 +217,18 @@ TEST(Renderer, WithOneSampleAPixelOnlyEdgesChange) {
   EXPECT_NE(smooth.pixels, rough.pixels);
 }
 
+// The three draw the same scene; they differ in how fine edges and shadows are.
+TEST(Renderer, QualitiesAreFinenessesOfOnePicture) {
+  const Image fine =
+      draw_scene(ball_on_ground(), {.width = 320, .height = 180, .samples = 16, .quality = Quality::kHigh});
+  const Image usual = draw_scene(ball_on_ground(), kSmall);
+  const Image rough =
+      draw_scene(ball_on_ground(), {.width = 320, .height = 180, .samples = 1, .quality = Quality::kPreview});
+  EXPECT_GT(psnr(fine, usual), 38);
+  EXPECT_GT(psnr(fine, rough), 31);
+  EXPECT_GT(psnr(fine, usual), psnr(fine, rough));
+}
+
 TEST(Renderer, RefusesWhatItCannotDraw) {
   const StillLife scene = ball_on_ground();
   EXPECT_THROW(Renderer(scene.stage(), RenderOptions{0, 180, 4}), Error);

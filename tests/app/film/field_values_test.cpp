@@ -1,0 +1,60 @@
+#include "app/film/field_values.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "app/make_production.h"
+#include "app/scene/scene_file.h"
+
+namespace sprung {
+namespace {
+
+constexpr double kStretch = 1.2;
+constexpr double kYoung = 20e3;
+constexpr double kFps = 4;
+
+/// A bar that is drawn along x, by kStretch, and has gone 10 cm further in the frame after.
+struct DrawnBar {
+  Production production;
+  Recording recording;
+
+  DrawnBar() {
+    production =
+        make_production(parse_scene("[[body]]\nbox = [\"20 cm\", \"10 cm\", \"10 cm\"]\nbrick_size = \"5 cm\"\n"
+                                    "material = { young = \"20 kPa\", poisson = 0.25, density = 1000 }\n",
+                                    "/scene.toml"),
+                        Console{.quiet = true});
+    Points nodes = production.world.actors[0].body.rest_positions;
+    nodes.col(0) *= kStretch;
+    recording.frames.push_back({nodes.cast<float>()});
+    nodes.col(1).array() += 0.1;
+    recording.frames.push_back({nodes.cast<float>()});
+  }
+  [[nodiscard]] Eigen::VectorXd values(Field field) const {
+    return field_values(field, production, recording, 0, 0, kFps);
+  }
+};
+
+// Closed forms, the same at every node but for the displacement.
+TEST(FieldValues, AreThoseOfADrawnBar) {
+  const DrawnBar bar;
+  const double e = (kStretch * kStretch - 1) / 2;
+  const double lambda = 0.4 * kYoung;  // at a ratio of 1/4 both of Lame's constants are that
+  const double along = kStretch * kStretch * (lambda + 2 * lambda) * e / kStretch;
+  const double across = lambda * e / kStretch;
+  const std::vector<std::pair<Field, double>> expected{{Field::kSpeed, 0.1 * kFps}, {Field::kStretch, kStretch},
+                                                       {Field::kStrain, 2 * e / 3}, {Field::kStress, along - across},
+                                                       {Field::kVolume, kStretch},  {Field::kFill, 1},
+                                                       {Field::kRegion, kYoung}};
+  for (const auto& [field, value] : expected) {
+    const Eigen::VectorXd found = bar.values(field);
+    ASSERT_EQ(found.size(), 5 * 3 * 3);
+    EXPECT_LT((found.array() - value).abs().maxCoeff(), 1e-5 * value) << static_cast<int>(field);
+  }
+  EXPECT_NEAR(bar.values(Field::kDisplacement).maxCoeff(), 0.1 * (kStretch - 1), 1e-6);
+  EXPECT_NEAR(bar.values(Field::kDisplacement).minCoeff(), 0, 1e-6);
+}
+
+}  // namespace
+}  // namespace sprung
