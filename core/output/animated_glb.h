@@ -23,8 +23,8 @@ inline constexpr std::size_t kMostTargets = 250;
 enum class GlbNumbers { kFloats, kQuantized };
 
 /// `times` of the frames in s, rising. Written beside the name and renamed. Returns by how much coordinates are off at
-/// most in any frame, m, beside the rounding of floats. Throws Error(kFailed), Error(kBadInput) where it would be larger
-/// than the 4 GB that such files may have.
+/// most in any frame, m, beside the rounding of floats. Throws Error(kFailed), Error(kBadInput) where it would be
+/// larger than the 4 GB that such files may have.
 double write_animated_glb(const std::vector<AnimatedMesh>& meshes, const std::vector<double>& times,
                           const std::filesystem::path& file, GlbNumbers numbers = GlbNumbers::kFloats);
 
