@@ -1,7 +1,16 @@
-# Writes HEADERS, paths below SOURCE, into FOLDER, where they include each other by sprung/ and their path.
+# Writes HEADERS, paths below SOURCE, into FOLDER, where they include each other by sprung/ and their path. What one of
+# them includes must be among them.
+cmake_minimum_required(VERSION 3.25)
 file(REMOVE_RECURSE ${FOLDER})
 foreach(header IN LISTS HEADERS)
   file(READ ${SOURCE}/${header} text)
+  string(REGEX MATCHALL "#include \"(core|render)/[^\"]+" includes "${text}")
+  foreach(include IN LISTS includes)
+    string(REGEX REPLACE "#include \"" "" include "${include}")
+    if(NOT include IN_LIST HEADERS)
+      message(FATAL_ERROR "${header} is public and includes ${include}, which is not: add it to public_headers")
+    endif()
+  endforeach()
   string(REGEX REPLACE "#include \"(core|render)/([^\"]+)\"" "#include \"sprung/\\1/\\2\"" text "${text}")
   file(WRITE ${FOLDER}/${header} "${text}")
 endforeach()
