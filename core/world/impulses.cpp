@@ -1,5 +1,7 @@
 #include "core/world/impulses.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -128,9 +130,16 @@ void Impulses::find_touches(const World& world, double elapsed, double dt) {
   }
 }
 
-void Impulses::find_squeezes(std::size_t actor, double dt) {
+void Impulses::find_squeezes(double dt) {
+  std::vector<const std::vector<Squeeze>*> found(group_.size());
+  tbb::parallel_for(std::size_t{0}, group_.size(),
+                    [&](std::size_t actor) { found[actor] = &squeeze_watches_[actor].find(group_[actor]->body, dt); });
+  for (std::size_t actor = 0; actor < group_.size(); ++actor) add_squeezes(actor, *found[actor]);
+}
+
+void Impulses::add_squeezes(std::size_t actor, const std::vector<Squeeze>& squeezes) {
   const Body& body = group_[actor]->body;
-  for (const Squeeze& squeeze : squeeze_watches_[actor].find(body, dt)) {
+  for (const Squeeze& squeeze : squeezes) {
     const auto& nodes = body.grid.nodes[static_cast<std::size_t>(squeeze.brick)];
     const double size = body.grid.brick_size;  // so that both kinds of limit measure speeds
     const Eigen::Matrix<double, 3, 8> gradients = size * corner_gradients(squeeze);
@@ -222,7 +231,7 @@ void Impulses::look_ahead(double lead) {
 void Impulses::apply(const World& world, double elapsed, double dt) {
   forget_limits();
   find_touches(world, elapsed, dt);
-  for (std::size_t actor = 0; actor < group_.size(); ++actor) find_squeezes(actor, dt);
+  find_squeezes(dt);
   if (nodes_.empty()) return;
   bound_answers();
   start_from_before();

@@ -91,7 +91,8 @@ class Impulses {
   std::size_t place_of(std::size_t actor, int node);
   void forget_limits();
   void find_touches(const World& world, double elapsed, double dt);
-  void find_squeezes(std::size_t actor, double dt);
+  void find_squeezes(double dt);
+  void add_squeezes(std::size_t actor, const std::vector<Squeeze>& squeezes);
   void bound_answers();
   /// Takes over a good share of the step before's impulses.
   void start_from_before();

@@ -1,5 +1,7 @@
 #include "core/world/skin_contacts.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -54,7 +56,15 @@ void SkinContacts::seek(const World& world, const Group& group, double dt) {
 void SkinContacts::find(const World& world, double dt, const Group& group, Touches& touches) {
   if (steps_to_seek_ == 0) seek(world, group, dt);
   --steps_to_seek_;
-  for (auto& [pair, contact] : contacts_) contact.find(world, dt, group, touches);
+  std::vector<SkinContact*> contacts;
+  contacts.reserve(contacts_.size());
+  for (auto& [pair, contact] : contacts_) contacts.push_back(&contact);
+  found_.resize(contacts.size());
+  tbb::parallel_for(std::size_t{0}, contacts.size(), [&](std::size_t i) {
+    found_[i].clear();
+    contacts[i]->find(world, dt, group, found_[i]);
+  });
+  for (const Touches& found : found_) touches.append(found);
 }
 
 }  // namespace sprung

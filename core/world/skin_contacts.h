@@ -23,6 +23,7 @@ class SkinContacts {
 
   const std::vector<const ContactSkin*>& skins_;
   std::map<std::pair<std::size_t, std::size_t>, SkinContact> contacts_;  // actors of the group; twice the same: itself
+  std::vector<Touches> found_;                                           // by pair
   int steps_to_seek_ = 0;
 };
 

@@ -44,6 +44,16 @@ RigidMotion rigid_motion_of(const Group& group) {
   return {.shift = momentum / mass - spin.cross(middle), .spin = spin};
 }
 
+void Touches::append(const Touches& other) {
+  const std::size_t start = shares.size();
+  shares.insert(shares.end(), other.shares.begin(), other.shares.end());
+  for (Touch touch : other.list) {
+    touch.first += start;
+    touch.last += start;
+    list.push_back(touch);
+  }
+}
+
 void add_shares(const Group& group, std::size_t actor, int brick, const Eigen::Matrix<double, 8, 1>& weights,
                 Touches& touches) {
   const auto& nodes = group[actor]->body.grid.nodes[static_cast<std::size_t>(brick)];

@@ -42,7 +42,6 @@ struct Touch {
   bool is_glue = false;  // reaches its goal in every direction, by pulling too
 };
 
-/// Ordered by key.
 struct Touches {
   std::vector<Touch> list;
   std::vector<Share> shares;
@@ -54,6 +53,7 @@ struct Touches {
     list.clear();
     shares.clear();
   }
+  void append(const Touches& other);
 };
 
 /// Appends the shares of a point that rides in a brick, without those that are zero.

@@ -70,7 +70,8 @@ TEST(SceneLoads, GravityFollowsItsKeyframes) {
 
 /// In motion that has died away, and at rest by statics: what holds the foot answers the force.
 TEST(SceneLoads, WhatHoldsABodyAnswersTheForce) {
-  for (const std::string solver : {"scheme = \"static\"\nload_steps = 2\n", "scheme = \"euler\"\n"}) {
+  for (const std::string solver :
+       {"scheme = \"static\"\nload_steps = 2\n", "scheme = \"euler\"\n", "scheme = \"bdf2\"\n"}) {
     const std::size_t body = kCube.find("[[body]]");
     const Recording recording =
         record("duration = 3\n" + kCube.substr(kCube.find("fps"), body - kCube.find("fps")) + kHeld +
@@ -81,21 +82,35 @@ TEST(SceneLoads, WhatHoldsABodyAnswersTheForce) {
   }
 }
 
-/// Implicit steps and states of rest know nothing of them, though they begin late: that is said, not passed over.
+/// A wind carries a cube, a pressure on one side pushes it: explicit and implicit steps agree.
+TEST(SceneLoads, ActInImplicitStepsToo) {
+  const std::string wind = "[wind]\nvelocity = [9, 0, 0]\n";
+  const std::string pressure =
+      "[[body.force]]\nhalf_space = { point = [0.01, 0, 0], normal = [1, 0, 0] }\npressure = 200\n";
+  for (const std::string& load : {wind, pressure}) {
+    const std::vector<Vec3> short_steps = path(kCube + load);
+    const std::vector<Vec3> long_steps = path(kCube + load + "[solver]\nscheme = \"bdf2\"\n");
+    EXPECT_GT(short_steps.back().norm(), 0.05) << load;
+    EXPECT_LT((short_steps.back() - long_steps.back()).norm(), 0.02 * short_steps.back().norm()) << load;
+  }
+}
+
+/// Though they begin late: that is said, not passed over.
 TEST(SceneLoads, WhatCannotBeIsRefused) {
   const std::string late = "keyframes = [{ t = 0, strength = 0 }, { t = 0.3, strength = 1 }]\n";
   const std::string wind = "[wind]\nvelocity = [3, 0, 0]\n" + late;
-  const auto message_by = [&](const std::string& scheme) {
-    Scene scene = parse_scene(kCube + kFoot + wind, "/scene.toml");
-    scene.solver.scheme = scheme == "bdf2" ? Solver::kBdf2 : Solver::kStatic;
+  const std::string muscle = "[[body.muscle]]\ndirection = [0, 1, 0]\ncontraction = 0.3\n" + late;
+  const auto message_by = [&](const std::string& load, Solver scheme) {
+    Scene scene = parse_scene(kCube + kFoot + load, "/scene.toml");
+    scene.solver.scheme = scheme;
     return error_message([&] {
       const Console silent{.quiet = true};
       Production production = make_production(scene, silent);
       static_cast<void>(simulate(production, scene, silent));
     });
   };
-  EXPECT_NE(message_by("bdf2").find("there is a wind"), std::string::npos);
-  EXPECT_NE(message_by("static").find("can have a wind"), std::string::npos);
+  EXPECT_NE(message_by(muscle, Solver::kBdf2).find("there is a muscle"), std::string::npos);
+  EXPECT_NE(message_by(wind, Solver::kStatic).find("can have a wind"), std::string::npos);
 }
 
 }  // namespace

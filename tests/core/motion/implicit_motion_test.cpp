@@ -249,6 +249,67 @@ TEST(Implicit, AgreesWithExplicitStepsOnABendingBeam) {
   EXPECT_LT((explicit_world.actors[0].body.positions - implicit_world.actors[0].body.positions).norm(), 0.02 * way);
 }
 
+/// A plate presses a cube to four fifths of its height: the nodes end where explicit steps leave them.
+TEST(Implicit, PlatesPressAsInExplicitSteps) {
+  const auto make = [] {
+    Body cube = box_body({4, 4, 4}, 0.02, 0.3, 2e4);
+    cube.damping.beta = 5e-3;
+    World world = world_of(std::move(cube), {0, 0, 0});
+    Obstacle plate{.shape = SolidBox{.half = {0.1, 0.01, 0.1}}, .pose = {.translation = {0, 0.09, 0}}};
+    plate.velocity.y() = -0.04;
+    plate.friction = 0.4;
+    world.obstacles = {level_ground(0, 0.4, 0), plate};
+    return world;
+  };
+  World explicit_world = make();
+  World implicit_world = make();
+  const double dt = stable_step(explicit_world);
+  const long steps = static_cast<long>(std::ceil(0.4 / dt));
+  advance(explicit_world, Scheme::kSymplecticEuler, 0.4 / static_cast<double>(steps), steps, 0);
+  ImplicitMotion(implicit_world, {}).advance(0.01, 40, 0);
+  EXPECT_NEAR(implicit_world.obstacles[1].pose.translation.y(), 0.074, 1e-12);
+  const Body& body = implicit_world.actors[0].body;
+  const double pressed = (body.positions - body.rest_positions).norm();
+  EXPECT_NEAR(body.positions.col(1).maxCoeff(), 0.064, 1e-3);
+  EXPECT_LT((explicit_world.actors[0].body.positions - body.positions).norm(), 0.05 * pressed);
+}
+
+/// A belt takes a block along: by friction up to its own speed, no faster than mu g.
+TEST(Implicit, AMovingBeltTakesABlockAlong) {
+  Body block = box_body({4, 2, 4}, 0.02, 0.3, 2e5);
+  block.damping.beta = 1e-3;
+  World world = world_of(std::move(block), {0, -kGravity, 0});
+  Obstacle belt = level_ground(0, 0.3);
+  belt.velocity.x() = 0.3;
+  world.obstacles = {belt};
+  const Body& body = world.actors[0].body;
+  const auto speed = [&] { return linear_momentum(body).x() / body.masses.sum(); };
+  ImplicitMotion motion(world, {});
+  motion.advance(0.005, 10, 0);
+  EXPECT_NEAR(speed(), 0.3 * kGravity * 0.05, 0.03);
+  motion.advance(0.005, 60, 0);
+  EXPECT_NEAR(speed(), 0.3, 0.01);
+}
+
+TEST(Implicit, ForcesBendABeamAsTheStaticsDo) {
+  World world = world_of(box_body({8, 2, 2}, 0.02, 0.3, 5e4), {0, 0, 0});
+  Actor& actor = world.actors[0];
+  pin_left_end(actor);
+  actor.loads.forces = Points::Zero(actor.body.node_count(), 3);
+  for (int node = 0; node < actor.body.node_count(); ++node) {
+    if (actor.body.grid.lattice[static_cast<std::size_t>(node)].x() == 8) actor.loads.forces(node, 1) = -2e-3;
+  }
+  Body still = actor.body;
+  Supports supports(still.node_count());
+  for (const HeldNode& held : actor.pinned) supports.fix(held.node);
+  const auto system = make_direct_system();
+  solve_static(still, supports, actor.loads.forces, Points(still.positions), *system);
+  ImplicitMotion(world, {.scheme = ImplicitScheme::kEuler, .tolerance = 1e-9}).advance(1, 12, 0);
+  const double way = (still.positions - still.rest_positions).norm();
+  EXPECT_GT(way, 0.01);
+  EXPECT_LT((actor.body.positions - still.positions).norm(), 1e-3 * way);
+}
+
 TEST(Implicit, SameBitsForAnyNumberOfThreads) {
   const auto run = [](std::size_t threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);

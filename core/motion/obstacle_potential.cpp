@@ -1,0 +1,132 @@
+#include "core/motion/obstacle_potential.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/world/near_boxes.h"
+
+namespace sprung {
+namespace {
+
+constexpr double kHardness = 20;        // times E h of the brick
+constexpr double kPointsInContact = 4;  // of a brick, that share its hardness: more are softer each
+
+}  // namespace
+
+ObstaclePotential::ObstaclePotential(Actor& actor, const Obstacle& obstacle, double slip_speed)
+    : actor_(actor),
+      obstacle_(obstacle),
+      skin_(contact_skin_of(actor)),
+      slip_speed_(slip_speed),
+      points_(skin_.points.size()),
+      asked_(skin_.bricks.size()) {
+  const Body& body = actor.body;
+  for (std::size_t i = 0; i < skin_.bricks.size(); ++i) {
+    const double count = skin_.first_point[i + 1] - skin_.first_point[i];
+    const double scale = std::max(1.0, body.stiffness_scale[static_cast<std::size_t>(skin_.bricks[i])]);
+    const double stiffness = kHardness * body.material.young * body.grid.brick_size * scale;
+    for (int p = skin_.first_point[i]; p < skin_.first_point[i + 1]; ++p) {
+      points_[static_cast<std::size_t>(p)].stiffness = stiffness / std::max(1.0, count / kPointsInContact);
+    }
+  }
+}
+
+/// Distances are asked for again only where the brick may have come near since.
+bool ObstaclePotential::is_far(std::size_t brick, const Points& positions) {
+  AlignedBox box;
+  for (const int node : actor_.body.grid.nodes[static_cast<std::size_t>(skin_.bricks[brick])]) {
+    box.extend(Vec3(positions.row(node)));
+  }
+  // Points lie in the hull of the corners, or a little outside where the surface has no brick of its own.
+  const double reach = box.diagonal().norm();
+  const Vec3 middle = pose_.rotation.transpose() * (box.center() - pose_.translation);
+  Asked& asked = asked_[brick];
+  if (asked.distance - (middle - asked.place).norm() > reach) return true;
+  asked = {.place = middle, .distance = gap_to(obstacle_.shape, {}, middle).distance};
+  return asked.distance > reach;
+}
+
+/// Calls visit(point, its brick and weights, place, gap) for the points that are inside the obstacle or were when
+/// friction was last updated.
+template <class Visit>
+void ObstaclePotential::for_touching_points(const Points& positions, const Visit& visit) {
+  for (std::size_t i = 0; i < skin_.bricks.size(); ++i) {
+    const bool far = is_far(i, positions);
+    const auto last = static_cast<std::size_t>(skin_.first_point[i + 1]);
+    for (auto p = static_cast<std::size_t>(skin_.first_point[i]); p < last; ++p) {
+      if (far && points_[p].pressing == 0) continue;
+      const Vec3 place = carried(actor_.body, skin_.points[p], positions);
+      const Gap gap = gap_to(obstacle_.shape, pose_, place);
+      if (gap.distance < 0 || points_[p].pressing > 0) visit(points_[p], skin_.points[p], place, gap);
+    }
+  }
+}
+
+void ObstaclePotential::begin(const Points& positions, double elapsed, double dt) {
+  slip_ = slip_speed_ * dt;
+  const Pose before = pose_after(obstacle_, elapsed);
+  pose_ = pose_after(obstacle_, elapsed + dt);
+  const Mat3 turn = pose_.rotation * before.rotation.transpose();
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    const Vec3 place = carried(actor_.body, skin_.points[p], positions);
+    points_[p].start = pose_.translation + turn * (place - before.translation);
+  }
+  update_friction(positions);
+}
+
+double ObstaclePotential::update_friction(const Points& positions) {
+  std::vector<double> before;
+  before.reserve(points_.size());
+  for (const Point& point : points_) before.push_back(point.pressing);
+  for_touching_points(positions, [](Point& point, const ContactPoint&, const Vec3&, const Gap& gap) {
+    point.pressing = point.stiffness * std::max(0.0, -gap.distance);
+    point.normal = gap.normal;
+  });
+  double change = 0;
+  for (std::size_t p = 0; p < points_.size(); ++p) change = std::max(change, std::abs(points_[p].pressing - before[p]));
+  return obstacle_.friction > 0 ? change : 0;
+}
+
+double ObstaclePotential::largest_normal_force() const {
+  double largest = 0;
+  for (const Point& point : points_) largest = std::max(largest, point.pressing);
+  return largest;
+}
+
+Vec3 ObstaclePotential::slid(const Point& point, const Vec3& place) const {
+  const Vec3 moved = place - point.start;
+  return moved - point.normal.dot(moved) * point.normal;
+}
+
+double ObstaclePotential::grip(const Point& point, const Vec3& slid) const {
+  return obstacle_.friction * point.pressing / std::max(slip_, slid.norm());
+}
+
+double ObstaclePotential::add_forces(const Points& positions, Points& forces) {
+  double energy = 0;
+  for_touching_points(positions, [&](Point& point, const ContactPoint& at, const Vec3& place, const Gap& gap) {
+    const double depth = std::max(0.0, -gap.distance);
+    const Vec3 way = slid(point, place);
+    const double r = way.norm();
+    energy += 0.5 * point.stiffness * depth * depth;
+    energy += obstacle_.friction * point.pressing * (r < slip_ ? 0.5 * r * r / slip_ : r - 0.5 * slip_);
+    const Vec3 force = point.stiffness * depth * gap.normal - grip(point, way) * way;
+    const auto& nodes = actor_.body.grid.nodes[static_cast<std::size_t>(at.brick)];
+    for (std::size_t c = 0; c < 8; ++c) forces.row(nodes[c]) += at.weights[static_cast<int>(c)] * force.transpose();
+  });
+  return energy;
+}
+
+void ObstaclePotential::add_stiffness(const Points& positions, std::vector<PointStiffness>& points) {
+  for_touching_points(positions, [&](Point& point, const ContactPoint& at, const Vec3& place, const Gap& gap) {
+    const Vec3 way = slid(point, place);
+    const double r = way.norm();
+    Mat3 along = Mat3::Identity() - point.normal * point.normal.transpose();
+    if (r > slip_) along -= way * way.transpose() / (r * r);
+    Mat3 stiffness = grip(point, way) * along;
+    if (gap.distance < 0) stiffness += point.stiffness * gap.normal * gap.normal.transpose();
+    points.push_back({.brick = at.brick, .weights = at.weights, .stiffness = stiffness});
+  });
+}
+
+}  // namespace sprung
