@@ -221,7 +221,10 @@ std::vector<GroupSteps> CarefulMotion::advance_frame(double time, double duratio
     }
     const bool is_through = run(groups, time, between);
     const std::optional<Trouble> trouble = find_trouble(world_, before, groups);
-    if (is_through && !trouble) return groups;
+    if (is_through && !trouble) {
+      move_obstacles(world_.obstacles, duration);
+      return groups;
+    }
     const std::string what = fmt::format("{} between t = {:.6g} s and {:.6g} s: {}", place_of(world_, *trouble), time,
                                          time + duration, trouble->what);
     restore(start, world_);

@@ -25,8 +25,7 @@ class CarefulMotion {
 
   CarefulMotion(World& world, Scheme scheme) : world_(world), scheme_(scheme) {}
 
-  /// From `time` on by `duration` (s). Obstacles are taken to move evenly, and stay as the
-  /// world has them: it is for the caller to move them on. Returns the steps each group took. Deterministic for any
+  /// From `time` on by `duration` (s); obstacles move evenly. Returns the steps each group took. Deterministic for any
   /// number of threads. Throws Diverged naming time, body, the brick's place and what to change where no step is short
   /// enough.
   std::vector<GroupSteps> advance_frame(double time, double duration, const Between& between, const Tell& tell);

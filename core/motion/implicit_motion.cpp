@@ -49,8 +49,7 @@ void ImplicitMotion::advance(double dt, long steps, double time) {
       }
     }
   }
-  const double duration = dt * static_cast<double>(steps);
-  for (Obstacle& obstacle : world_.obstacles) obstacle.pose = pose_after(obstacle, duration);
+  move_obstacles(world_.obstacles, dt * static_cast<double>(steps));
 }
 
 void ImplicitMotion::pass(MotionMemory& memory) {

@@ -193,7 +193,7 @@ void advance(World& world, Scheme scheme, double dt, long steps, double time) {
     groups.push_back({.actors = std::move(actors), .steps = {.count = steps, .dt = dt}});
   }
   advance(world, scheme, groups, time);
-  for (Obstacle& obstacle : world.obstacles) obstacle.pose = pose_after(obstacle, duration);
+  move_obstacles(world.obstacles, duration);
 }
 
 }  // namespace sprung

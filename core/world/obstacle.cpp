@@ -89,6 +89,10 @@ Pose pose_after(const Obstacle& obstacle, double time) {
   return pose;
 }
 
+void move_obstacles(std::vector<Obstacle>& obstacles, double time) {
+  for (Obstacle& obstacle : obstacles) obstacle.pose = pose_after(obstacle, time);
+}
+
 Vec3 velocity_at(const Obstacle& obstacle, const Pose& pose, const Vec3& place) {
   return obstacle.velocity + obstacle.spin.cross(place - pose.translation);
 }

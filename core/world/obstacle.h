@@ -63,6 +63,9 @@ struct Obstacle {
 /// After it has moved by itself for that time (s).
 [[nodiscard]] Pose pose_after(const Obstacle& obstacle, double time);
 
+/// Lets them all move by themselves for that time (s).
+void move_obstacles(std::vector<Obstacle>& obstacles, double time);
+
 /// Of the obstacle's own material at a place of the world while it is at `pose`, m/s.
 [[nodiscard]] Vec3 velocity_at(const Obstacle& obstacle, const Pose& pose, const Vec3& place);
 
