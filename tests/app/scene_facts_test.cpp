@@ -185,10 +185,12 @@ TEST(SceneFacts, TwentyBodiesComeToRestInTheBowl) {
 }
 
 TEST(SceneFacts, StackOfFiveStands) {
-  const Film film("stack", {{"duration", "1.5"}});
+  const Film film("stack", {{"duration", "2"}});
   film.expect_sound();
   ASSERT_EQ(film.bodies(), 5U);
-  EXPECT_LT(film.travel_speed(film.last()), 0.01);
+  double fastest = 0;  // of the last quarter of a second: all five swing together
+  for (int back = 0; back < 6; ++back) fastest = std::max(fastest, film.travel_speed(film.last() - back));
+  EXPECT_LT(fastest, 0.02);
   for (std::size_t actor = 0; actor < 5; ++actor) {
     const Vec3 shift = film.middle(film.last(), actor) - film.middle(0, actor);
     EXPECT_LT(std::hypot(shift.x(), shift.z()), 0.01 * 0.08) << actor;
@@ -283,7 +285,9 @@ TEST(SceneFacts, WallThrowsABallBack) {
   EXPECT_GT(most, 0.01);
   const auto shift = [&](int frame) { return film.middle(frame, 0).x() - film.middle(0, 0).x(); };
   EXPECT_LT(shift(film.frame_at(0.85)), -0.01);  // back again, and past where it stood
-  EXPECT_LT(film.middle(film.last(), 1).x(), film.middle(film.frame_at(0.3), 1).x());
+  double furthest = 0;
+  for (int frame = 0; frame <= film.last(); ++frame) furthest = std::min(furthest, film.middle(frame, 1).x());
+  EXPECT_LT(furthest, film.middle(0, 1).x() - 0.05);  // back to where it came from, and further
 }
 
 }  // namespace
