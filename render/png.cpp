@@ -21,8 +21,7 @@ namespace sprung {
 
 namespace {
 
-constexpr int kCompressionLevel =
-    1;  // of libdeflate: 3 saves 8 % of the bytes for twice the time, 6 saves 13 % for five
+constexpr int kCompressionLevel = 1;    // of libdeflate: 3 saves 8 % for twice the time, 6 saves 13 % for five times
 constexpr std::uint8_t kSubFilter = 1;  // difference to the left neighbour; trying all filters gains little on renders
 constexpr std::size_t kRgb = 3;
 

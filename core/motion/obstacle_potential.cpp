@@ -75,15 +75,13 @@ void ObstaclePotential::begin(const Points& positions, double elapsed, double dt
 }
 
 double ObstaclePotential::update_friction(const Points& positions) {
-  std::vector<double> before;
-  before.reserve(points_.size());
-  for (const Point& point : points_) before.push_back(point.pressing);
-  for_touching_points(positions, [](Point& point, const ContactPoint&, const Vec3&, const Gap& gap) {
-    point.pressing = point.stiffness * std::max(0.0, -gap.distance);
+  double change = 0;
+  for_touching_points(positions, [&](Point& point, const ContactPoint&, const Vec3&, const Gap& gap) {
+    const double pressing = point.stiffness * std::max(0.0, -gap.distance);
+    change = std::max(change, std::abs(pressing - point.pressing));
+    point.pressing = pressing;
     point.normal = gap.normal;
   });
-  double change = 0;
-  for (std::size_t p = 0; p < points_.size(); ++p) change = std::max(change, std::abs(points_[p].pressing - before[p]));
   return obstacle_.friction > 0 ? change : 0;
 }
 

@@ -1,5 +1,6 @@
-// The light that the skins send to the eye. The samples of a pixel that are about as far away and face about the same way
-// are shaded together, by their mean: inside a skin that is all of them, but at creases. alpha is the share of the pixel that shows a skin.
+// The light that the skins send to the eye. The samples of a pixel that are about as far away and face about the same
+// way are shaded together, by their mean: inside a skin that is all of them, but at creases. alpha is the share of the
+// pixel that shows a skin.
 uniform mat4 stage_from_clip;
 uniform vec4 distance_terms;
 out vec4 result;

@@ -10,20 +10,18 @@
 #include "core/motion/integrator.h"
 #include "core/motion/statics.h"
 #include "tests/support/bodies.h"
+#include "tests/support/calibrated_box.h"
 #include "tests/support/worlds.h"
 
 namespace sprung {
 namespace {
 
+using test::calibrated_box;
 using test::shake;
 using test::test_material;
 using test::world_of;
 
 constexpr double kGravity = 9.81;
-
-Body box_body(const Eigen::Vector3i& counts, double h, double poisson, double young = 1e4) {
-  return make_body(make_box_grid(counts, h), Model::kCalibrated, test_material(poisson, young));
-}
 
 void pin_left_end(Actor& actor) {
   for (int node = 0; node < actor.body.node_count(); ++node) {
@@ -38,7 +36,7 @@ TEST(Implicit, FreeFallIsTheClosedForm) {
   const long steps = 20;
   const auto n = static_cast<double>(steps);
   for (const ImplicitScheme scheme : {ImplicitScheme::kEuler, ImplicitScheme::kBdf2}) {
-    World world = world_of(box_body({2, 2, 2}, 0.1, 0.3), {0, -kGravity, 0});
+    World world = world_of(calibrated_box({2, 2, 2}, 0.1, 0.3), {0, -kGravity, 0});
     const Points start = world.actors[0].body.positions;
     ImplicitMotion(world, {.scheme = scheme}).advance(dt, steps, 0);
     const Points fall = start - world.actors[0].body.positions;
@@ -79,7 +77,7 @@ void runge_kutta(Body& body, double dt, long steps) {
 
 /// A stretched, turning, damped bar let go.
 Body released() {
-  Body body = box_body({4, 1, 1}, 0.02, 0.3);
+  Body body = calibrated_box({4, 1, 1}, 0.02, 0.3);
   body.damping = {.alpha = 2, .beta = 2e-4};
   for (int i = 0; i < body.node_count(); ++i) {
     body.positions(i, 0) *= 1 + 0.1 * body.rest_positions(i, 0) / 0.08;
@@ -127,7 +125,7 @@ TEST(Implicit, EverySchemeHasItsOrder) {
 TEST(Implicit, EnergyNeverGrows) {
   for (const ImplicitScheme scheme : {ImplicitScheme::kEuler, ImplicitScheme::kBdf2}) {
     std::mt19937 random(3);
-    World world = world_of(box_body({3, 2, 2}, 0.02, 0.4));
+    World world = world_of(calibrated_box({3, 2, 2}, 0.02, 0.4));
     Body& body = world.actors[0].body;
     body.damping = {};
     shake(body, 0.2, random);
@@ -145,7 +143,7 @@ TEST(Implicit, EnergyNeverGrows) {
 }
 
 TEST(Implicit, LongStepsEndInTheStaticEquilibrium) {
-  World world = world_of(box_body({12, 3, 3}, 0.02, 0.3, 5e4), {0, -kGravity, 0});
+  World world = world_of(calibrated_box({12, 3, 3}, 0.02, 0.3, 5e4), {0, -kGravity, 0});
   Actor& actor = world.actors[0];
   pin_left_end(actor);
   Body still = actor.body;
@@ -161,7 +159,7 @@ TEST(Implicit, LongStepsEndInTheStaticEquilibrium) {
 }
 
 TEST(Implicit, HandlesMoveAsTold) {
-  World world = world_of(box_body({4, 2, 2}, 0.02, 0.3));
+  World world = world_of(calibrated_box({4, 2, 2}, 0.02, 0.3));
   Actor& actor = world.actors[0];
   pin_left_end(actor);
   for (HeldNode& held : actor.pinned) {
@@ -177,122 +175,25 @@ TEST(Implicit, HandlesMoveAsTold) {
   EXPECT_GT((actor.body.positions - start).col(1).mean(), 0.005);
 }
 
-TEST(Implicit, DroppedCubeBouncesAndComesToRestOnTheGround) {
-  const double size = 0.1;
-  for (const ImplicitScheme scheme : {ImplicitScheme::kEuler, ImplicitScheme::kBdf2}) {
-    Body cube = box_body({6, 6, 6}, size / 6, 0.3, 2e4);
-    cube.damping.beta = 1e-2;
-    const Mat3 tilted = Eigen::AngleAxisd(0.4, Vec3(1, 0.5, 0.2).normalized()).toRotationMatrix();
-    place(cube, tilted, Vec3(0, 0.12, 0));
-    World world = world_of(std::move(cube), {0, -kGravity, 0});
-    world.obstacles = {level_ground(0, 0.5, 0)};
-    const Body& body = world.actors[0].body;
-    ImplicitMotion motion(world, {.scheme = scheme});
-    double deepest = 0;
-    double fastest_up = 0;
-    double fastest_down = 0;
-    for (int step = 0; step < 220; ++step) {
-      motion.advance(0.005, 1, 0);
-      deepest = std::max(deepest, -body.positions.col(1).minCoeff());
-      const double speed = linear_momentum(body).y() / body.masses.sum();
-      fastest_up = std::max(fastest_up, speed);
-      fastest_down = std::max(fastest_down, -speed);
-    }
-    EXPECT_LT(deepest, 0.02 * size);
-    EXPECT_GT(fastest_up, 0.05);
-    EXPECT_EQ(inverted_bricks(body), 0);
-    EXPECT_LT(body.velocities.rowwise().norm().maxCoeff(), 0.01 * fastest_down) << static_cast<int>(scheme);
-    EXPECT_LT(-body.positions.col(1).minCoeff(), 0.005 * size);  // at rest
-  }
-}
-
-/// Gravity tilted by 0.3 rad is a slope. A stiff block slides down with g (sin - mu cos) or stays; what stays creeps by
-/// less than 0.5 % of its length a second.
-TEST(Implicit, FrictionSticksBelowItsAngleAndSlidesAboveIt) {
-  const double tilt = 0.3;
-  for (const double friction : {0.2, 0.5}) {
-    Body block = box_body({6, 3, 6}, 0.02, 0.3, 3e5);
-    block.damping.beta = 1e-3;
-    World world = world_of(std::move(block), {kGravity * std::sin(tilt), -kGravity * std::cos(tilt), 0});
-    world.obstacles = {level_ground(0, friction, 0)};
-    const Body& body = world.actors[0].body;
-    const auto centre = [&] { return (body.positions.transpose() * body.masses).x() / body.masses.sum(); };
-    ImplicitMotion motion(world, {});
-    motion.advance(0.005, 40, 0);
-    const double x0 = centre();
-    const double v0 = linear_momentum(body).x() / body.masses.sum();
-    motion.advance(0.005, 100, 0);
-    const double t = 0.5;
-    const double a = kGravity * (std::sin(tilt) - friction * std::cos(tilt));
-    const bool slides = friction < std::tan(tilt);
-    const double expected = slides ? v0 * t + a * t * t / 2 : 0;
-    EXPECT_NEAR(centre() - x0, expected, slides ? 0.03 * expected : 2.5e-3 * 0.12) << friction;
-  }
-}
-
 /// Explicit and implicit steps of the same fall agree.
 TEST(Implicit, AgreesWithExplicitStepsOnABendingBeam) {
   const auto make = [] {
-    World world = world_of(box_body({12, 2, 2}, 0.02, 0.3, 5e4), {0, -kGravity, 0});
+    World world = world_of(calibrated_box({12, 2, 2}, 0.02, 0.3, 5e4), {0, -kGravity, 0});
     pin_left_end(world.actors[0]);
     world.actors[0].body.damping.beta = 5e-4;
     return world;
   };
   World explicit_world = make();
   World implicit_world = make();
-  const double dt = stable_step(explicit_world);
-  const long steps = static_cast<long>(std::ceil(0.25 / dt));
-  advance(explicit_world, Scheme::kVerlet, 0.25 / static_cast<double>(steps), steps, 0);
+  test::advance_by_stable_steps(explicit_world, Scheme::kVerlet, 0.25);
   ImplicitMotion(implicit_world, {}).advance(0.0025, 100, 0);
   const Points start = implicit_world.actors[0].body.rest_positions;
   const double way = (explicit_world.actors[0].body.positions - start).norm();
   EXPECT_LT((explicit_world.actors[0].body.positions - implicit_world.actors[0].body.positions).norm(), 0.02 * way);
 }
 
-/// A plate presses a cube to four fifths of its height: the nodes end where explicit steps leave them.
-TEST(Implicit, PlatesPressAsInExplicitSteps) {
-  const auto make = [] {
-    Body cube = box_body({4, 4, 4}, 0.02, 0.3, 2e4);
-    cube.damping.beta = 5e-3;
-    World world = world_of(std::move(cube), {0, 0, 0});
-    Obstacle plate{.shape = SolidBox{.half = {0.1, 0.01, 0.1}}, .pose = {.translation = {0, 0.09, 0}}};
-    plate.velocity.y() = -0.04;
-    plate.friction = 0.4;
-    world.obstacles = {level_ground(0, 0.4, 0), plate};
-    return world;
-  };
-  World explicit_world = make();
-  World implicit_world = make();
-  const double dt = stable_step(explicit_world);
-  const long steps = static_cast<long>(std::ceil(0.4 / dt));
-  advance(explicit_world, Scheme::kSymplecticEuler, 0.4 / static_cast<double>(steps), steps, 0);
-  ImplicitMotion(implicit_world, {}).advance(0.01, 40, 0);
-  EXPECT_NEAR(implicit_world.obstacles[1].pose.translation.y(), 0.074, 1e-12);
-  const Body& body = implicit_world.actors[0].body;
-  const double pressed = (body.positions - body.rest_positions).norm();
-  EXPECT_NEAR(body.positions.col(1).maxCoeff(), 0.064, 1e-3);
-  EXPECT_LT((explicit_world.actors[0].body.positions - body.positions).norm(), 0.05 * pressed);
-}
-
-/// A belt takes a block along: by friction up to its own speed, no faster than mu g.
-TEST(Implicit, AMovingBeltTakesABlockAlong) {
-  Body block = box_body({4, 2, 4}, 0.02, 0.3, 2e5);
-  block.damping.beta = 1e-3;
-  World world = world_of(std::move(block), {0, -kGravity, 0});
-  Obstacle belt = level_ground(0, 0.3);
-  belt.velocity.x() = 0.3;
-  world.obstacles = {belt};
-  const Body& body = world.actors[0].body;
-  const auto speed = [&] { return linear_momentum(body).x() / body.masses.sum(); };
-  ImplicitMotion motion(world, {});
-  motion.advance(0.005, 10, 0);
-  EXPECT_NEAR(speed(), 0.3 * kGravity * 0.05, 0.03);
-  motion.advance(0.005, 60, 0);
-  EXPECT_NEAR(speed(), 0.3, 0.01);
-}
-
 TEST(Implicit, ForcesBendABeamAsTheStaticsDo) {
-  World world = world_of(box_body({8, 2, 2}, 0.02, 0.3, 5e4), {0, 0, 0});
+  World world = world_of(calibrated_box({8, 2, 2}, 0.02, 0.3, 5e4), {0, 0, 0});
   Actor& actor = world.actors[0];
   pin_left_end(actor);
   actor.loads.forces = Points::Zero(actor.body.node_count(), 3);
@@ -313,7 +214,7 @@ TEST(Implicit, ForcesBendABeamAsTheStaticsDo) {
 TEST(Implicit, SameBitsForAnyNumberOfThreads) {
   const auto run = [](std::size_t threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    World world = world_of(box_body({10, 6, 6}, 0.02, 0.4), {0, -kGravity, 0});
+    World world = world_of(calibrated_box({10, 6, 6}, 0.02, 0.4), {0, -kGravity, 0});
     world.obstacles = {level_ground(-0.01, 0.5, 0)};
     ImplicitMotion(world, {}).advance(0.01, 8, 0);
     return world.actors[0].body.positions;
@@ -322,7 +223,7 @@ TEST(Implicit, SameBitsForAnyNumberOfThreads) {
 }
 
 TEST(Implicit, WhatCannotBeIsRefused) {
-  World world = world_of(box_body({2, 1, 1}, 0.02, 0.3));
+  World world = world_of(calibrated_box({2, 1, 1}, 0.02, 0.3));
   world.obstacles = {level_ground(-1, 0, 0.5)};
   EXPECT_THROW(ImplicitMotion(world, {}), Error);
   world.obstacles.clear();

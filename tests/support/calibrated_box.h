@@ -1,0 +1,21 @@
+#pragma once
+#include <cmath>
+
+#include "core/motion/integrator.h"
+#include "core/motion/stable_step.h"
+#include "tests/support/bodies.h"
+
+namespace sprung::test {
+
+/// Of the calibrated model; h in m, young in Pa.
+inline Body calibrated_box(const Eigen::Vector3i& counts, double h, double poisson, double young = 1e4) {
+  return make_body(make_box_grid(counts, h), Model::kCalibrated, test_material(poisson, young));
+}
+
+/// By as few explicit steps of equal length as are stable at the start; duration in s.
+inline void advance_by_stable_steps(World& world, Scheme scheme, double duration) {
+  const auto steps = static_cast<long>(std::ceil(duration / stable_step(world)));
+  advance(world, scheme, duration / static_cast<double>(steps), steps, 0);
+}
+
+}  // namespace sprung::test
