@@ -1,26 +1,52 @@
 #include "app/python/live_world.h"
 
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string_view>
+#include <type_traits>
+
 #include "app/pin_movements.h"
 #include "core/error.h"
-#include "core/mesh/read_mesh.h"
 #include "core/motion/linear_response.h"
 #include "core/motion/statics.h"
 #include "core/world/squeeze.h"
 #include "render/renderer.h"
 
 namespace sprung {
+namespace {
 
-LiveWorld::LiveWorld(const Vec3& gravity, std::optional<double> ground) {
-  world_.gravity = gravity;
-  if (ground) world_.obstacles.push_back(level_ground(*ground));
+// Else a vector of actors that grows would copy them, and leave views behind in memory that is gone.
+static_assert(std::is_nothrow_move_constructible_v<Actor>);
+
+constexpr double kBrickStepsBetween = 2e6;
+
+void check(bool is_right, std::string_view name, double value, std::string_view range) {
+  if (!is_right) throw Error(ErrorKind::kBadInput, fmt::format("{} is {:g}; it must be {}", name, value, range));
 }
 
-std::vector<std::size_t> LiveWorld::add(const std::string& mesh, const FillOptions& options) {
+void check_finite(const Vec3& vector, std::string_view name) {
+  for (const double value : vector) check(std::isfinite(value), name, value, "three finite numbers");
+}
+
+}  // namespace
+
+LiveWorld::LiveWorld(const Vec3& gravity, std::optional<double> ground) {
+  check_finite(gravity, "gravity (m/s2)");
+  world_.gravity = gravity;
+  if (!ground) return;
+  check(std::isfinite(*ground), "ground (m)", *ground, "a finite height, or None");
+  world_.obstacles.push_back(level_ground(*ground));
+}
+
+std::vector<std::size_t> LiveWorld::add(SurfaceMesh mesh, const std::string& name, const FillOptions& options) {
+  check(std::isfinite(options.size), "size (m)", options.size, "finite");
+  check_finite(options.position, "position (m)");
   std::vector<std::size_t> rows;
-  for (SoftBody& body : fill_mesh(read_mesh(mesh), mesh, options)) {
+  for (SoftBody& body : fill_mesh(std::move(mesh), name, options)) {
     rows.push_back(world_.actors.size());
+    drawn_.push_back({std::move(body.skin), std::move(body.embedding), body.actor.body.law.guard});
     world_.actors.push_back(std::move(body.actor));
-    drawn_.push_back({std::move(body.skin), std::move(body.embedding)});
   }
   is_braced_ = false;
   return rows;
@@ -32,56 +58,85 @@ void LiveWorld::keep_memory(const Work& work) {
     Points positions;
     Points velocities;
   };
-  std::vector<State> seen;  // what others look at
-  for (Actor& actor : world_.actors) {
-    State& state = seen.emplace_back(State{std::move(actor.body.positions), std::move(actor.body.velocities)});
-    actor.body.positions = state.positions;
-    actor.body.velocities = state.velocities;
-  }
-  const auto give_back = [&] {
-    for (std::size_t i = 0; i < seen.size(); ++i) {
-      Body& body = world_.actors[i].body;
-      seen[i].positions = body.positions;  // into the same memory
-      seen[i].velocities = body.velocities;
-      body.positions = std::move(seen[i].positions);
-      body.velocities = std::move(seen[i].velocities);
+  std::vector<State> kept;  // where others look, as it was
+  const auto put_back = [&] {
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+      world_.actors[i].body.positions = std::move(kept[i].positions);
+      world_.actors[i].body.velocities = std::move(kept[i].velocities);
     }
   };
   try {
+    for (Actor& actor : world_.actors) {
+      State copy{actor.body.positions, actor.body.velocities};
+      std::swap(copy.positions, actor.body.positions);
+      std::swap(copy.velocities, actor.body.velocities);
+      kept.push_back(std::move(copy));
+    }
     work();
   } catch (...) {
-    give_back();
+    put_back();
     throw;
   }
-  give_back();
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    kept[i].positions = world_.actors[i].body.positions;  // into the same memory
+    kept[i].velocities = world_.actors[i].body.velocities;
+  }
+  put_back();
 }
 
 void LiveWorld::brace_bodies() {
   if (is_braced_) return;
   is_braced_ = true;
   const double speed = meeting_speed(world_);
-  for (Actor& actor : world_.actors) brace(actor.body, world_.gravity.norm(), speed);
+  for (std::size_t row = 0; row < drawn_.size(); ++row) {
+    Body& body = world_.actors[row].body;
+    body.law.guard = drawn_[row].guard;
+    brace(body, world_.gravity.norm(), speed);
+  }
 }
 
-void LiveWorld::advance(double duration) {
+void LiveWorld::advance(double duration, const Between& between) {
+  check(duration >= 0 && std::isfinite(duration), "duration (s)", duration, "0 or above");
+  if (duration == 0) return;
   brace_bodies();
   CarefulMotion motion(world_, Scheme::kSymplecticEuler);
   keep_memory([&] {
     motion.advance_frame(
-        time_, duration, [](double) {}, [](const std::string&) {});
+        time_, duration, [&](double) { between(); }, [](const std::string&) {});
   });
   time_ += duration;
 }
 
-void LiveWorld::step(double dt, long count) {
+void LiveWorld::step(double dt, long count, const Between& between) {
+  check(dt > 0 && std::isfinite(dt), "dt (s)", dt, "above 0");
+  check(count >= 0, "count", static_cast<double>(count), "0 or above");
   brace_bodies();
-  keep_memory([&] { sprung::advance(world_, Scheme::kSymplecticEuler, dt, count, time_); });
+  double bricks = 0;
+  for (const Actor& actor : world_.actors) bricks += actor.body.grid.brick_count();
+  const long at_once = std::max(1L, static_cast<long>(kBrickStepsBetween / std::max(1.0, bricks)));
+  const double stable = stable_step();
+  const auto steps = [&] {
+    for (long done = 0; done < count; done += at_once) {
+      const double time = time_ + dt * static_cast<double>(done);
+      sprung::advance(world_, Scheme::kSymplecticEuler, dt, std::min(at_once, count - done), time);
+      between();
+    }
+  };
+  try {
+    keep_memory(steps);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kDiverged || dt <= stable) throw;
+    throw Error(error.kind(),
+                fmt::format("steps of {:.4g} s are too long, up to {:.4g} s are stable; {}", dt, stable, error.what()));
+  }
   time_ += dt * static_cast<double>(count);
 }
 
 void LiveWorld::settle(std::size_t row, bool linear) {
   Actor& actor = world_.actors[row];
-  if (actor.pinned.empty()) throw Error(ErrorKind::kBadInput, "a body without pinned nodes cannot come to rest");
+  if (actor.pinned.empty()) {
+    throw Error(ErrorKind::kBadInput, "a body without pinned nodes cannot come to rest: pin() some of them first");
+  }
   keep_memory([&] {
     Body& body = actor.body;
     const Supports supports = supports_of(actor);
@@ -99,11 +154,20 @@ void LiveWorld::settle(std::size_t row, bool linear) {
   });
 }
 
-void LiveWorld::pin(std::size_t row, const std::vector<int>& nodes) {
+void LiveWorld::pin(std::size_t row, const std::vector<long>& nodes) {
   Actor& actor = world_.actors[row];
+  const int count = actor.body.node_count();
+  std::vector<bool> is_held(static_cast<std::size_t>(count));
+  for (const long node : nodes) {
+    if (node < 0 || node >= count) {
+      throw Error(ErrorKind::kBadInput,
+                  fmt::format("there is no node {} to pin: the body's nodes are 0 to {}", node, count - 1));
+    }
+    is_held[static_cast<std::size_t>(node)] = true;
+  }
   actor.pinned.clear();
-  for (const int node : nodes) {
-    if (node < 0 || node >= actor.body.node_count()) throw Error(ErrorKind::kBadInput, "there is no such node to pin");
+  for (int node = 0; node < count; ++node) {
+    if (!is_held[static_cast<std::size_t>(node)]) continue;
     actor.pinned.push_back({.node = node});
     actor.body.velocities.row(node).setZero();
   }
@@ -115,15 +179,21 @@ Points LiveWorld::skin_positions(std::size_t row) const {
 }
 
 Image LiveWorld::draw(int width, int height, double azimuth, double elevation) const {
+  if (drawn_.empty()) throw Error(ErrorKind::kBadInput, "there is nothing to draw: add() a mesh first");
+  check(std::isfinite(azimuth), "azimuth (degrees)", azimuth, "finite");
+  check(elevation >= -85 && elevation <= 85, "elevation (degrees)", elevation, "from -85 to 85");
   Stage stage;
   std::vector<SkinShape> shapes;
   for (std::size_t row = 0; row < drawn_.size(); ++row) {
-    const auto& [skin, embedding] = drawn_[row];
+    const Drawn& drawn = drawn_[row];
     const Body& body = world_.actors[row].body;
     const Points positions = skin_positions(row);
-    const Points normals = deform_normals(body.grid, embedding, skin.normals, body.positions);
+    if (!positions.allFinite()) {
+      throw Error(ErrorKind::kBadInput, fmt::format("body {} has a position that is not finite: nothing to draw", row));
+    }
+    const Points normals = deform_normals(body.grid, drawn.embedding, drawn.skin.normals, body.positions);
     shapes.push_back({positions.cast<float>(), normals.cast<float>()});
-    stage.skins.push_back(&skin);
+    stage.skins.push_back(&drawn.skin);
     stage.default_colors.emplace_back(0.85F, 0.2F, 0.16F);
     stage.bounds.include(positions);
   }

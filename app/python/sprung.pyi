@@ -1,32 +1,48 @@
-"""Soft bodies of real materials: meshes filled with bricks, moved, measured and drawn. SI units throughout.
+"""Soft bodies of real materials: meshes filled with bricks, moved, measured and drawn. SI units.
 
-Shapes: m nodes, n bricks, v vertices of the skin, t triangles.
+The texts are those of the module, so help(sprung.Body) has them too; tests/python holds both to what the module gives.
 """
 
-from typing import Optional, Sequence
+from os import PathLike
+from typing import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
+
+__version__: str
 
 class Error(RuntimeError):
-    """What the library throws: a mesh, a material or a name that is wrong, a motion that diverged."""
+    """What the library raises: a mesh, a material, a value or a name that is wrong."""
+
+class Diverged(Error):
+    """A motion or an equilibrium came to no good end; the message says where."""
 
 class Material:
+    """What bricks are made of: isotropic, and linear for small strains."""
+
     def __init__(
         self, young: float, poisson: float, density: float, damping: float = 0.02, name: str = "custom"
-    ) -> None: ...
+    ) -> None:
+        """young: Pa; poisson: above -1 and below 0.5; density: kg/m3; damping: share of critical, at the slowest
+        vibration."""
     @property
-    def name(self) -> str: ...
+    def name(self) -> str:
+        """The name it was given."""
     @property
-    def young(self) -> float: ...  # Pa
+    def young(self) -> float:
+        """Young's modulus, Pa."""
     @property
-    def poisson(self) -> float: ...  # -1 to 0.5
+    def poisson(self) -> float:
+        """Poisson's ratio, 1."""
     @property
-    def density(self) -> float: ...  # kg/m3
+    def density(self) -> float:
+        """Density, kg/m3."""
     @property
-    def damping(self) -> float: ...  # ratio of critical damping at the slowest vibration
+    def damping(self) -> float:
+        """Ratio of critical damping at the slowest vibration, 1."""
     @property
-    def source(self) -> str: ...
+    def source(self) -> str:
+        """Where a built-in material's figures are from."""
 
 def material(name: str) -> Material:
     """A built-in material; Error with the nearest name where there is none."""
@@ -34,60 +50,87 @@ def material(name: str) -> Material:
 def materials() -> list[str]:
     """The names of the built-in materials."""
 
+class Mesh:
+    """A surface of triangles, as a file or a script gives it."""
+
+    def __init__(self, positions: ArrayLike, triangles: ArrayLike) -> None:
+        """positions: (k, 3), in any unit; triangles: (t, 3) rows of positions, from 0, counter-clockwise from
+        outside."""
+    @property
+    def positions(self) -> NDArray[np.float64]:
+        """(k, 3) units of the file; no copy, read only."""
+    @property
+    def triangles(self) -> NDArray[np.int32]:
+        """(t, 3) rows of positions; no copy, read only."""
+    @property
+    def notes(self) -> list[str]:
+        """What was left out of the file, a sentence each."""
+
+def read_mesh(file: str | PathLike[str]) -> Mesh:
+    """The mesh in a file: OBJ, PLY, STL, OFF, or whatever assimp reads; Error says what is wrong and where."""
+
 class Body:
-    """One solid filled with bricks. Arrays without a copy are views: they show each state as the world moves on."""
+    """One solid filled with bricks: m nodes, n bricks; its skin: v vertices, t triangles."""
 
     @property
-    def positions(self) -> NDArray[np.float64]: ...  # (m, 3) m, no copy, may be written to
+    def positions(self) -> NDArray[np.float64]:
+        """(m, 3) m; no copy, may be written to."""
     @property
-    def velocities(self) -> NDArray[np.float64]: ...  # (m, 3) m/s, no copy, may be written to
+    def velocities(self) -> NDArray[np.float64]:
+        """(m, 3) m/s; no copy, may be written to."""
     @property
-    def rest_positions(self) -> NDArray[np.float64]: ...  # (m, 3) m, no copy, read only
+    def rest_positions(self) -> NDArray[np.float64]:
+        """(m, 3) m; no copy, read only."""
     @property
-    def nodes(self) -> NDArray[np.int32]: ...  # (n, 8) rows of positions, x runs fastest; no copy, read only
+    def masses(self) -> NDArray[np.float64]:
+        """(m,) kg; no copy, read only."""
     @property
-    def masses(self) -> NDArray[np.float64]: ...  # (m,) kg
+    def nodes(self) -> NDArray[np.int32]:
+        """(n, 8) rows of positions, x fastest; no copy, read only."""
     @property
-    def brick_size(self) -> float: ...  # m
+    def triangles(self) -> NDArray[np.int32]:
+        """(t, 3) rows of skin_positions(); no copy, read only."""
     @property
-    def material(self) -> Material: ...
+    def brick_size(self) -> float:
+        """Side of a brick, m."""
+    @property
+    def material(self) -> Material:
+        """What it is made of."""
     def field(self, name: str) -> NDArray[np.float64]:
-        """(n,): stretch (1), strain (1), stress (Pa, von Mises), volume (over that at rest), fill (1), young (Pa)."""
-
-    def skin_positions(self) -> NDArray[np.float64]: ...  # (v, 3) m
-    def triangles(self) -> NDArray[np.int32]: ...  # (t, 3) rows of skin_positions
-    def pin(self, nodes: Sequence[int]) -> None:
-        """Holds these nodes where they are, and no others."""
-
+        """(n,) stretch, strain (von Mises), volume (over that at rest), fill, 1; stress (von Mises), young, Pa."""
+    def skin_positions(self) -> NDArray[np.float64]:
+        """(v, 3) m."""
+    def pin(self, nodes: Sequence[int] | NDArray[np.integer] | NDArray[np.bool_]) -> None:
+        """Holds these nodes where they are, and no others: rows, or (m,) bools."""
     def settle(self, linear: bool = False) -> None:
         """Equilibrium with gravity and the pinned nodes; linear: for small displacements. Obstacles are not met."""
 
 class World:
-    def __init__(self, gravity: Sequence[float] = (0, -9.81, 0), ground: Optional[float] = 0.0) -> None:
-        """gravity (3,) m/s2; ground: height of level ground, m, or None."""
+    """Bodies that move and touch. Threads take turns; where an Error is raised all is as it was."""
 
+    def __init__(self, gravity: ArrayLike = [0.0, -9.81, 0.0], ground: float | None = 0.0) -> None:
+        """gravity: (3,) m/s2; ground: height of level ground, m, or None."""
     def add(
         self,
-        mesh: str,
+        mesh: str | PathLike[str] | Mesh,
         material: Material,
         size: float = 0.2,
         bricks: int = 24,
-        position: Sequence[float] = (0, 0, 0),
+        position: ArrayLike = [0.0, 0.0, 0.0],
         model: str = "calibrated",
     ) -> list[Body]:
-        """A body for every solid of a mesh file, its longest side `size` m and `bricks` bricks long; position (3,) m of
-        the middle of the bottom of its bounding box."""
-
+        """A body for every solid of a mesh or a file of one. size: longest side, m; bricks: along that; position: (3,)
+        m, of the middle of the bottom of the bounding box; model: as for sprung animate --model."""
     def advance(self, duration: float) -> None:
-        """Moves on by `duration` s, by steps that are stable."""
-
+        """Moves on by duration, s, in steps that are stable."""
     def step(self, dt: float, count: int = 1) -> None:
-        """`count` explicit steps of dt s."""
-
-    def stable_step(self) -> float: ...  # s
+        """count explicit steps of dt, s, as they are."""
+    def stable_step(self) -> float:
+        """Longest explicit step that is stable now, s."""
     @property
-    def time(self) -> float: ...  # s
+    def time(self) -> float:
+        """Since the start, s."""
     def render(
         self, width: int = 640, height: int = 360, azimuth: float = 30.0, elevation: float = 14.0
     ) -> NDArray[np.uint8]:
-        """(height, width, 3) sRGB, from azimuth (degrees about y) and elevation (degrees above the horizon)."""
+        """(height, width, 3) sRGB bytes; azimuth: degrees about y; elevation: degrees above the horizon."""

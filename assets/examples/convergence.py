@@ -1,6 +1,6 @@
 """The tip of a clamped beam under its weight, on finer and finer bricks, beside converged finite elements.
 
-PYTHONPATH=build/python/python python3 assets/examples/convergence.py --mesh assets/models/beam.ply -o convergence.png
+PYTHONPATH=build/release/python python3 assets/examples/convergence.py --mesh assets/models/beam.ply -o convergence.png
 """
 import argparse
 

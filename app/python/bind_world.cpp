@@ -1,0 +1,82 @@
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <filesystem>
+#include <variant>
+
+#include "app/python/bindings.h"
+#include "core/mesh/read_mesh.h"
+
+namespace py = pybind11;
+
+namespace sprung {
+namespace {
+
+using FileOrMesh = std::variant<std::filesystem::path, SurfaceMesh>;
+
+std::vector<std::size_t> fill_and_add(LiveWorld& world, FileOrMesh source, const FillOptions& options) {
+  if (auto* mesh = std::get_if<SurfaceMesh>(&source)) return world.add(std::move(*mesh), "the mesh", options);
+  const auto& file = std::get<std::filesystem::path>(source);
+  return world.add(read_mesh(file), file.string(), options);
+}
+
+std::vector<BodyHandle> add_bodies(const std::shared_ptr<LiveWorld>& world, FileOrMesh mesh, const Material& material,
+                                   double size, int bricks, const Vec3& position, const std::string& model) {
+  const FillOptions options{
+      .material = material, .model = model_from_name(model), .size = size, .bricks = bricks, .position = position};
+  std::vector<BodyHandle> handles;
+  for (const std::size_t row :
+       while_others_run(*world, [&] { return fill_and_add(*world, std::move(mesh), options); })) {
+    handles.push_back({world, row});
+  }
+  return handles;
+}
+
+/// Lets Ctrl-C, and whatever else a script waits for, through.
+void let_signals_in() {
+  const py::gil_scoped_acquire python;
+  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+}
+
+void advance_world(LiveWorld& world, double duration) {
+  while_others_run(world, [&] { world.advance(duration, let_signals_in); });
+}
+
+void step_world(LiveWorld& world, double dt, long count) {
+  while_others_run(world, [&] { world.step(dt, count, let_signals_in); });
+}
+
+/// The array takes over the memory.
+py::array_t<std::uint8_t> draw_world(LiveWorld& world, int width, int height, double azimuth, double elevation) {
+  auto image =
+      std::make_unique<Image>(while_others_run(world, [&] { return world.draw(width, height, azimuth, elevation); }));
+  const std::uint8_t* first = image->pixels.data();
+  const py::capsule owner(image.release(), [](void* memory) { delete static_cast<Image*>(memory); });
+  return py::array_t<std::uint8_t>({py::ssize_t{height}, py::ssize_t{width}, py::ssize_t{3}}, first, owner);
+}
+
+}  // namespace
+
+void bind_world(py::module_& module) {
+  py::class_<LiveWorld, std::shared_ptr<LiveWorld>>(
+      module, "World", "Bodies that move and touch. Threads take turns; where an Error is raised all is as it was.")
+      .def(py::init<const Vec3&, std::optional<double>>(), py::arg("gravity") = std::array<double, 3>{0, -9.81, 0},
+           py::arg("ground") = 0.0, "gravity: (3,) m/s2; ground: height of level ground, m, or None.")
+      .def("add", &add_bodies, py::arg("mesh"), py::arg("material"), py::arg("size") = 0.2, py::arg("bricks") = 24,
+           py::arg("position") = std::array<double, 3>{0, 0, 0}, py::arg("model") = "calibrated",
+           "A body for every solid of a mesh or a file of one. size: longest side, m; bricks: along that; "
+           "position: (3,) m, of the middle of the bottom of the bounding box; model: as for sprung animate --model.")
+      .def("advance", &advance_world, py::arg("duration"), "Moves on by duration, s, in steps that are stable.")
+      .def("step", &step_world, py::arg("dt"), py::arg("count") = 1, "count explicit steps of dt, s, as they are.")
+      .def(
+          "stable_step", [](LiveWorld& world) { return in_turn(world, [&] { return world.stable_step(); }); },
+          "Longest explicit step that is stable now, s.")
+      .def_property_readonly(
+          "time", [](LiveWorld& world) { return in_turn(world, [&] { return world.time(); }); }, "Since the start, s.")
+      .def("render", &draw_world, py::arg("width") = 640, py::arg("height") = 360, py::arg("azimuth") = 30.0,
+           py::arg("elevation") = 14.0,
+           "(height, width, 3) sRGB bytes; azimuth: degrees about y; elevation: degrees above the horizon.");
+}
+
+}  // namespace sprung
