@@ -17,6 +17,7 @@ namespace {
 constexpr double kFurthestMove = 0.25;  // of a brick, in a step
 constexpr int kMostHalvings = 4;
 constexpr double kBrickStepsBetween = 2e6;
+constexpr double kMostSteps = 1e12;         // at a time: more than anybody waits for
 constexpr double kEnergyFromNowhere = 0.3;  // of what moves and strains a body, that a frame's rounding of time may add
 
 /// What can be taken back.
@@ -84,7 +85,8 @@ bool has_gained(const Energy& before, const Energy& after, const World& world, c
     slack += body.masses.sum() * world.gravity.norm() * body.grid.brick_size;  // lift
     slack += 1e-12 * body.material.young * body.grid.volume();                 // rounding
   }
-  return after.sum() - before.sum() > kEnergyFromNowhere * moving + slack;
+  const double gain = after.sum() - before.sum();
+  return !std::isfinite(gain) || gain > kEnergyFromNowhere * moving + slack;
 }
 
 Energy sum_of(const std::vector<Energy>& all, const GroupSteps& group) {
@@ -173,6 +175,12 @@ std::vector<GroupSteps> choose_steps(const World& world, double time) {
     const double most = speed + carried + world.gravity.norm() * time;
     const bool can_meet = !world.obstacles.empty() || actors.size() > 1;
     if (can_meet && most > 0) step = std::min(step, kFurthestMove * brick / most);
+    if (!(time / step <= kMostSteps)) {
+      throw Diverged(actors.front(),
+                     fmt::format("body {} moves at {:.3g} m/s, which takes more steps than can be done: "
+                                 "the motion diverged; use slower bodies, larger bricks or less gravity",
+                                 actors.front() + 1, speed));
+    }
     const long count = std::max(1L, static_cast<long>(std::ceil(time / step)));
     groups.push_back({.actors = std::move(actors), .steps = {.count = count, .dt = time / static_cast<double>(count)}});
   }

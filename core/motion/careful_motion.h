@@ -11,7 +11,7 @@ namespace sprung {
 
 /// Who may touch whom within `time` (s), and for each group the longest steps that are stable and in which nothing can
 /// run through what it meets: at the speed it has, with what gravity can add in that time, no node moves further than a
-/// quarter of the group's smallest brick in a step.
+/// quarter of the group's smallest brick in a step. Throws Diverged where that would be more steps than can be done.
 [[nodiscard]] std::vector<GroupSteps> choose_steps(const World& world, double time);
 
 /// Moves a world frame by frame and lets no trouble pass: a number that is not finite, or energy from nowhere, is found

@@ -222,6 +222,27 @@ TEST(CarefulMotion, HalvesTheStepWhereEnergyComesFromNowhere) {
   EXPECT_LT(energy_of(body, world.gravity).sum(), 1.5 * before);
 }
 
+TEST(CarefulMotion, EnergyBeyondNumbersIsNoMotion) {
+  World world = world_of(box_body({2, 1, 1}, 0.02, Model::kCalibrated, 0.3));
+  world.actors[0].body.velocities.setConstant(1e160);  // finite, its square is not
+  CarefulMotion motion(world, Scheme::kSymplecticEuler);
+  EXPECT_THROW(static_cast<void>(motion.advance_frame(
+                   0, 1e-3, [](double) {}, [](const std::string&) {})),
+               Diverged);
+}
+
+TEST(CarefulMotion, RefusesMoreStepsThanCanBeDone) {
+  World world = world_of(box_body({2, 1, 1}, 0.02, Model::kCalibrated, 0.3));
+  world.obstacles.push_back(level_ground(-1));
+  world.actors[0].body.velocities.setConstant(1e100);
+  try {
+    static_cast<void>(choose_steps(world, 1));
+    FAIL() << "steps that cannot be counted";
+  } catch (const Diverged& error) {
+    EXPECT_NE(std::string(error.what()).find("1.73e+100 m/s"), std::string::npos) << error.what();
+  }
+}
+
 TEST(CarefulMotion, GivesUpWithTimeBodyAndRemedy) {
   World world = world_of(box_body({2, 1, 1}, 0.02, Model::kCalibrated, 0.3));
   world.actors[0].body.velocities(3, 1) = std::nan("");
