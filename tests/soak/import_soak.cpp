@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
+#include <climits>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -21,7 +22,11 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uintmax_t kLargestShared = 100'000;  // bytes of a shared mesh that is worth many mutations
+#if defined(__SANITIZE_ADDRESS__)
+constexpr long kMostKilobytes = LONG_MAX;  // readers have no limit of memory then
+#else
 constexpr long kMostKilobytes = 1'000'000;
+#endif
 constexpr double kMostSeconds = 20;  // the limit of time of the reader, with some room on a busy machine
 
 struct Options {
