@@ -52,6 +52,15 @@ TEST(MaterialLibrary, SiliconesFollowTheirHardness) {
   EXPECT_NEAR(library.find("silicone").young / young(30), 1, 3e-3);
 }
 
+/// By weight, of water and dry gelatin of 1350 kg/m3.
+TEST(MaterialLibrary, GelatinsWeighWhatTheirMixturesDo) {
+  for (const auto& [name, share] : {std::pair{"soft-gelatin", 0.03}, {"gelatin", 0.06}, {"ballistic-gelatin", 0.1}}) {
+    const LibraryMaterial& gel = built_in_materials()->find(name);
+    const double mixed = 1 / ((1 - share) / 998 + share / 1350);
+    EXPECT_NEAR(gel.density / mixed, 1, gel.density_uncertainty) << name;
+  }
+}
+
 TEST(MaterialLibrary, MistakesInAFileHaveTheirPlaces) {
   EXPECT_EQ(mistakes(kMine), "");
   EXPECT_EQ(mistakes(kMine + "yung = 3\n"), "mine.toml:7:1: unknown key 'material.yung'; did you mean 'young'?");

@@ -16,13 +16,14 @@ Image last_picture(const std::string& words, const std::string& picture) {
   return read_png(folder.path() / "film" / picture);
 }
 
-TEST(FilmGolden, DroppedDoughnut) {
-  expect_golden(last_picture("torus.ply' --bricks 10 --young 10kPa --damping 0.02", "frame_0006.png"),
+TEST(AnimateGolden, DroppedDoughnut) {
+  expect_golden(last_picture("torus.ply' --bricks 10 --young 10kPa --density 1050 --damping 0.02", "frame_0006.png"),
                 "film_dropped_doughnut");
 }
 
-TEST(FilmGolden, HangingKnot) {
-  expect_golden(last_picture("knot.ply' --bricks 14 --young 6kPa --damping 0.02 --scenario hang", "frame_0006.png"),
+TEST(AnimateGolden, HangingKnot) {
+  expect_golden(last_picture("knot.ply' --bricks 14 --young 6kPa --density 1050 --damping 0.02 --scenario hang",
+                             "frame_0006.png"),
                 "film_hanging_knot");
 }
 
