@@ -11,12 +11,18 @@ const Key<Strength> kStrength[] = {
     {{"strength", "times what it is at full strength", Dimension::kRatio, {}, true}, &Strength::strength},
 };
 
+/// And how strong a load is over time, whatever the load is.
+template <class Owner>
+std::vector<Key<Owner>> and_course(std::vector<Key<Owner>> keys) {
+  keys.push_back({{"keyframes", "how strong it is at which times"}, &Owner::keyframes});
+  keys.push_back({{"interpolation", "between keyframes: linear, smooth or held"}, &Owner::interpolation});
+  return keys;
+}
+
 const Key<BodyForce> kForceOnly[] = {
     {{"total", "on all of the part, shared out by volume", Dimension::kForce}, &BodyForce::total},
     {{"per_volume", "on each volume of the part", Dimension::kForceDensity}, &BodyForce::per_volume},
     {{"pressure", "on the skin of the part, inward", Dimension::kPressure}, &BodyForce::pressure},
-    {{"keyframes", "how strong it is at which times"}, &BodyForce::keyframes},
-    {{"interpolation", "between keyframes: linear, smooth or held"}, &BodyForce::interpolation},
 };
 
 const Key<BodyMuscle> kMuscleOnly[] = {
@@ -28,8 +34,6 @@ const Key<BodyMuscle> kMuscleOnly[] = {
       {-1, 0.9},
       true},
      &BodyMuscle::contraction},
-    {{"keyframes", "how strong it is at which times"}, &BodyMuscle::keyframes},
-    {{"interpolation", "between keyframes: linear, smooth or held"}, &BodyMuscle::interpolation},
 };
 
 const Key<GravityKeyframe> kGravityKeyframe[] = {
@@ -37,13 +41,11 @@ const Key<GravityKeyframe> kGravityKeyframe[] = {
     {{"gravity", "acceleration of everything", Dimension::kAcceleration, {}, true}, &GravityKeyframe::gravity},
 };
 
-const Key<SceneWind> kWind[] = {
-    {{"velocity", "of the air", Dimension::kSpeed, {}, true}, &SceneWind::velocity},
+const Key<SceneWind> kWindOnly[] = {
+    {{"velocity", "of the air at strength 1", Dimension::kSpeed, {}, true}, &SceneWind::velocity},
     {{"density", "of the air", Dimension::kDensity, kPositive}, &SceneWind::density},
     {{"drag", "coefficient: pressure on what faces the air, over density v^2 / 2", Dimension::kRatio, {0, kInfinity}},
      &SceneWind::drag},
-    {{"keyframes", "how strong it is at which times; the velocity is that times this"}, &SceneWind::keyframes},
-    {{"interpolation", "between keyframes: linear, smooth or held"}, &SceneWind::interpolation},
 };
 
 const Key<SceneGlue> kGlue[] = {
@@ -63,12 +65,12 @@ std::span<const Key<Strength>> keys() {
 }
 template <>
 std::span<const Key<BodyForce>> keys() {
-  static const std::vector<Key<BodyForce>> all = selection_and<BodyForce>(kForceOnly);
+  static const std::vector<Key<BodyForce>> all = and_course(selection_and<BodyForce>(kForceOnly));
   return all;
 }
 template <>
 std::span<const Key<BodyMuscle>> keys() {
-  static const std::vector<Key<BodyMuscle>> all = selection_and<BodyMuscle>(kMuscleOnly);
+  static const std::vector<Key<BodyMuscle>> all = and_course(selection_and<BodyMuscle>(kMuscleOnly));
   return all;
 }
 template <>
@@ -77,7 +79,8 @@ std::span<const Key<GravityKeyframe>> keys() {
 }
 template <>
 std::span<const Key<SceneWind>> keys() {
-  return kWind;
+  static const std::vector<Key<SceneWind>> all = and_course(std::vector(std::begin(kWindOnly), std::end(kWindOnly)));
+  return all;
 }
 template <>
 std::span<const Key<SceneGlue>> keys() {
