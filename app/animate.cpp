@@ -38,11 +38,12 @@ void animate(const SceneOptions& options, const Console& console) {
     const std::vector<Output> outputs = parse_outputs(options.outputs);
     for (const Output& output : outputs) check_output(output, options.overwrite);
     note_padding(outputs, scene.render, console);
-    static_cast<void>(read_surroundings(scene.render));  // before any work is lost
+    const std::optional<Environment> surroundings = read_surroundings(scene.render);  // before any work is lost
     Production production = make_production(scene, console);
     const Recording recording = with_picture_of_diverged(production.world, picture_of_diverged(outputs.front()),
                                                          [&] { return simulate(production, scene, console); });
-    render_film({{scene, production, recording}}, whole_film(recording.progress.size()), outputs, console);
+    render_film({{scene, production, recording}}, surroundings, whole_film(recording.progress.size()), outputs,
+                console);
     for (const std::string& output : options.outputs) fmt::print("{}\n", output);
   });
 }

@@ -58,8 +58,8 @@ void check_outputs(const SceneRender& render, std::size_t runs, const std::vecto
 
 }  // namespace
 
-void render_film(const std::vector<FilmRun>& runs, const FrameRange& range, const std::vector<Output>& outputs,
-                 const Console& console) {
+void render_film(const std::vector<FilmRun>& runs, const std::optional<Environment>& surroundings,
+                 const FrameRange& range, const std::vector<Output>& outputs, const Console& console) {
   const Scene& scene = runs.front().scene;
   check_outputs(scene.render, runs.size(), outputs);
   const std::vector<std::size_t> frames = chosen_frames(range, scene.render);
@@ -67,7 +67,7 @@ void render_film(const std::vector<FilmRun>& runs, const FrameRange& range, cons
   const bool has_passes = has(outputs, Output::Kind::kPasses);
   const bool has_pictures = has(outputs, Output::Kind::kPictures) || has(outputs, Output::Kind::kFilm);
   Progress progress(console, "render", static_cast<double>(frames.size()), 1, "frames/s");
-  FilmCrew crew(runs);
+  FilmCrew crew(runs, surroundings);
   console.detail(fmt::format("drawn by {}", crew.driver()));
   PictureWriter writer(outputs, width, height, scene.fps, range.first);
   // The skins of the next frame are made ready while this one is drawn and the ones before are encoded.

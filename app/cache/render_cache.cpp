@@ -8,6 +8,7 @@
 #include "app/cache/cache_header.h"
 #include "app/cache/cached_run.h"
 #include "app/cache/jobs.h"
+#include "app/film/surroundings.h"
 #include "app/output.h"
 #include "app/render_film.h"
 #include "app/scene/scene_file.h"
@@ -46,9 +47,18 @@ void check_range_output(const Output& output, const FrameRange& range, bool over
   check_output(output, true);
 }
 
+const std::string& checked(const std::string& file) {
+  if (is_cache_file(file)) return file;
+  throw Error(
+      ErrorKind::kUsage,
+      fmt::format("'{}' is no cache (.h5), as sprung simulate makes them; sprung animate draws a mesh or a scene",
+                  file));
+}
+
 /// A cache and the scene by which it is drawn.
 struct CachedFilm {
-  CachedFilm(const std::string& file, const SceneOptions& options) : cache(file), scene(cached_scene(cache.header())) {
+  CachedFilm(const std::string& file, const SceneOptions& options)
+      : cache(checked(file)), scene(cached_scene(cache.header())) {
     if (cache.frame_count() == 0) throw Error(ErrorKind::kBadInput, fmt::format("'{}' has no frames yet", file));
     apply_settings(options, scene);
     name = fs::path(file).stem().string();
@@ -83,8 +93,8 @@ std::vector<CachedFilm> open_all(const SceneOptions& options) {
 }
 
 /// With all frames of all caches in memory.
-void render_films(const std::vector<CachedFilm>& films, const FrameRange& range, const std::vector<Output>& outputs,
-                  const Console& console) {
+void render_films(const std::vector<CachedFilm>& films, const std::optional<Environment>& surroundings,
+                  const FrameRange& range, const std::vector<Output>& outputs, const Console& console) {
   std::vector<Production> productions;
   std::vector<Recording> recordings;
   productions.reserve(films.size());
@@ -95,7 +105,7 @@ void render_films(const std::vector<CachedFilm>& films, const FrameRange& range,
     const Recording& recording = recordings.emplace_back(cached_recording(film.cache));
     runs.push_back({film.scene, production, recording, film.name});
   }
-  render_film(runs, range, outputs, console);
+  render_film(runs, surroundings, range, outputs, console);
 }
 
 }  // namespace
@@ -112,8 +122,9 @@ void render_cache(const SceneOptions& options, const Console& console) {
   if (has_film && options.jobs > 1) {
     throw Error(ErrorKind::kUsage, "--jobs: a film is written by one process; draw pictures, then sprung film");
   }
+  const std::optional<Environment> surroundings = read_surroundings(films.front().scene.render);
   run_jobs(range, options.jobs, console, [&](const FrameRange& part, const Console& own_console) {
-    render_films(films, part, outputs, own_console);
+    render_films(films, surroundings, part, outputs, own_console);
   });
   for (const std::string& output : options.outputs) fmt::print("{}\n", output);
 }

@@ -48,6 +48,11 @@ RenderOptions options_of(const SceneRender& render) {
           .transparent = render.transparent};
 }
 
+Stage in(const std::optional<Environment>& surroundings, Stage stage) {
+  stage.environment = surroundings;
+  return stage;
+}
+
 }  // namespace
 
 FilmCrew::Colors FilmCrew::common_colors(const std::vector<FilmRun>& runs) {
@@ -69,19 +74,22 @@ FilmCrew::Colors FilmCrew::common_colors(const std::vector<FilmRun>& runs) {
   return colors;
 }
 
-FilmCrew::Panel::Panel(Scene its_scene, const FilmRun& its_run, const Bounds& bounds, const RenderOptions& options)
+FilmCrew::Panel::Panel(Scene its_scene, const FilmRun& its_run, const Bounds& bounds,
+                       const std::optional<Environment>& surroundings, const RenderOptions& options)
     : scene(std::move(its_scene)),
       run(its_run),
       stage(scene, run.production, run.recording),
-      renderer(stage.stage(bounds), options) {}
+      renderer(in(surroundings, stage.stage(bounds)), options) {}
 
 std::size_t FilmCrew::Panel::frame(std::size_t of_film) const {
   return std::min(of_film, run.recording.frames.size() - 1);
 }
 
-FilmCrew::FilmCrew(const std::vector<FilmRun>& runs) : FilmCrew(runs, common_colors(runs)) {}
+FilmCrew::FilmCrew(const std::vector<FilmRun>& runs, const std::optional<Environment>& surroundings)
+    : FilmCrew(runs, surroundings, common_colors(runs)) {}
 
-FilmCrew::FilmCrew(const std::vector<FilmRun>& runs, const Colors& colors)
+FilmCrew::FilmCrew(const std::vector<FilmRun>& runs, const std::optional<Environment>& surroundings,
+                   const Colors& colors)
     : scene_(colors.scene),
       reach_(common_reach(runs)),
       labels_(scene_.render, colors.legend, runs.size() > 1),
@@ -93,7 +101,7 @@ FilmCrew::FilmCrew(const std::vector<FilmRun>& runs, const Colors& colors)
   for (const FilmRun& run : runs) {
     Scene its = run.scene;
     its.render = scene_.render;
-    panels_.emplace_back(std::move(its), run, reach_.bounds, options_of(scene_of_panel_.render));
+    panels_.emplace_back(std::move(its), run, reach_.bounds, surroundings, options_of(scene_of_panel_.render));
   }
 }
 

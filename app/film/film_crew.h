@@ -24,7 +24,8 @@ class FilmCrew {
   /// The skins at the moments of a picture, by run and moment: one, or as many as blur takes.
   using Moments = std::vector<std::vector<std::vector<SkinShape>>>;
 
-  explicit FilmCrew(const std::vector<FilmRun>& runs);
+  /// All runs are in the same surroundings; none: in the studio.
+  FilmCrew(const std::vector<FilmRun>& runs, const std::optional<Environment>& surroundings);
 
   [[nodiscard]] std::size_t frames() const { return cameras_.size(); }
   [[nodiscard]] double lowest() const { return reach_.lowest; }  // m, of all bodies in all frames
@@ -44,11 +45,12 @@ class FilmCrew {
     std::optional<Legend> legend;
   };
   [[nodiscard]] static Colors common_colors(const std::vector<FilmRun>& runs);
-  FilmCrew(const std::vector<FilmRun>& runs, const Colors& colors);
+  FilmCrew(const std::vector<FilmRun>& runs, const std::optional<Environment>& surroundings, const Colors& colors);
 
   /// The part of a picture that shows one run.
   struct Panel {
-    Panel(Scene its_scene, const FilmRun& its_run, const Bounds& bounds, const RenderOptions& options);
+    Panel(Scene its_scene, const FilmRun& its_run, const Bounds& bounds, const std::optional<Environment>& surroundings,
+          const RenderOptions& options);
     [[nodiscard]] std::size_t frame(std::size_t of_film) const;  // the same, or its last
 
     const Scene scene;

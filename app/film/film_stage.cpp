@@ -10,7 +10,6 @@
 #include "app/film/probe_plot.h"
 #include "app/film/rods.h"
 #include "app/film/springs.h"
-#include "app/film/surroundings.h"
 
 namespace sprung {
 namespace {
@@ -44,11 +43,7 @@ Points rows_of(const Points& nodes, const std::vector<int>& rows) { return nodes
 }  // namespace
 
 FilmStage::FilmStage(const Scene& scene, const Production& production, const Recording& recording)
-    : scene_(scene),
-      production_(production),
-      recording_(recording),
-      colors_(scene, production, recording),
-      environment_(read_surroundings(scene.render)) {
+    : scene_(scene), production_(production), recording_(recording), colors_(scene, production, recording) {
   const SceneRender& render = scene.render;
   if (render.springs) stretch_ = render.color_high ? *render.color_high : furthest_stretch();
   for (std::size_t actor = 0; actor < production.world.actors.size(); ++actor) {
@@ -83,7 +78,6 @@ Stage FilmStage::stage(const Bounds& bounds) const {
   stage.has_ground = ground && !scene_.render.transparent;
   if (ground) stage.ground.height = *ground;
   stage.bounds = bounds;
-  stage.environment = environment_;
   return stage;
 }
 

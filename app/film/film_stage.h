@@ -65,7 +65,6 @@ class FilmStage {
   const Production& production_;
   const Recording& recording_;
   FieldColors colors_;
-  std::optional<Environment> environment_;
   double stretch_ = 0;  // of springs, to both sides: the ends of their colours
   std::vector<Player> players_;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/film/surroundings.h"
 #include "app/make_production.h"
 #include "app/render_film.h"
 #include "app/scene/scene_file.h"
@@ -47,7 +48,7 @@ struct Film {
 
   [[nodiscard]] Image picture(int frame = 3) const {
     const TempFolder folder;
-    render_film({{scene, production, recording}}, {.first = frame, .last = frame},
+    render_film({{scene, production, recording}}, read_surroundings(scene.render), {.first = frame, .last = frame},
                 {parse_output((folder.path() / "p_{}.png").string())}, Console{.quiet = true});
     return read_png(folder.path() / ("p_" + std::to_string(frame) + ".png"));
   }
@@ -86,7 +87,7 @@ TEST(FilmGolden, Sheet) {
   Film film("sheet = [2, 2]\ncolor_by = \"displacement\"\n");
   film.add_frame(1.5);
   const TempFolder folder;
-  render_film({{film.scene, film.production, film.recording}}, {.first = 1, .last = 4},
+  render_film({{film.scene, film.production, film.recording}}, std::nullopt, {.first = 1, .last = 4},
               {parse_output((folder.path() / "s_{}.png").string())}, Console{.quiet = true});
   expect_golden(read_png(folder.path() / "s_1.png"), "film_sheet");
 }
@@ -100,7 +101,7 @@ TEST(FilmGolden, SideBySide) {
   const TempFolder folder;
   const std::vector<FilmRun> runs{{first.scene, first.production, first.recording, "bent"},
                                   {second.scene, second.production, second.recording, "half"}};
-  render_film(runs, {.first = 3, .last = 3}, {parse_output((folder.path() / "p_{}.png").string())},
+  render_film(runs, std::nullopt, {.first = 3, .last = 3}, {parse_output((folder.path() / "p_{}.png").string())},
               Console{.quiet = true});
   expect_golden(read_png(folder.path() / "p_3.png"), "film_side_by_side");
 }
@@ -152,7 +153,7 @@ TEST(FilmPictures, AreLitByThePanoramaThatTheSceneNames) {
 TEST(FilmPictures, WritesPassesBesideItsPictures) {
   const Film film("");
   const TempFolder folder;
-  render_film({{film.scene, film.production, film.recording}}, {.first = 2, .last = 2},
+  render_film({{film.scene, film.production, film.recording}}, std::nullopt, {.first = 2, .last = 2},
               parse_outputs({folder.path().string() + "/", (folder.path() / "p_{}.exr").string()}),
               Console{.quiet = true});
   ASSERT_TRUE(std::filesystem::exists(folder.path() / "frame_0002.png"));
@@ -207,7 +208,7 @@ TEST(FilmTransparent, HasAlphaAndNoFloor) {
   const Film film("transparent = true\n");
   const TempFolder folder;
   const Output output = parse_output((folder.path() / "p_{}.png").string());
-  render_film({{film.scene, film.production, film.recording}}, {.first = 1, .last = 1}, {output},
+  render_film({{film.scene, film.production, film.recording}}, std::nullopt, {.first = 1, .last = 1}, {output},
               Console{.quiet = true});
   const Image image = read_png(output.picture(1));
   ASSERT_EQ(image.alpha.size(), 320U * 180U);
@@ -216,7 +217,7 @@ TEST(FilmTransparent, HasAlphaAndNoFloor) {
   const auto is_partly = [](std::uint8_t alpha) { return alpha > 0 && alpha < 255; };
   EXPECT_GT(std::count_if(image.alpha.begin(), image.alpha.end(), is_partly), 50);  // smooth edges
   EXPECT_EQ(error_message([&] {
-              render_film({{film.scene, film.production, film.recording}}, {.first = 1, .last = 1},
+              render_film({{film.scene, film.production, film.recording}}, std::nullopt, {.first = 1, .last = 1},
                           {parse_output((folder.path() / "f.mp4").string())}, Console{.quiet = true});
             }),
             "render.transparent: films have no alpha; give a folder for pictures");
