@@ -168,14 +168,76 @@ SceneOptions read_scene_options(const CLI::App& command, Words& words) {
   return options;
 }
 
-ValidateOptions validate_options(const CLI::App& command, Words& words) {
+void read_scene_command(const CLI::App& command, Words& words, CommandLine& line) {
+  line.scene = read_scene_options(command, words);
+}
+
+void read_film(const CLI::App& command, Words& words, CommandLine& line) {
+  read_scene_command(command, words, line);
+  read_choice<double, Scene>(command, "--fps", "fps", words.fps, line.scene.fps);
+}
+
+void read_materials(const CLI::App& command, Words& words, CommandLine& line) {
   refuse_extras(command, "unexpected");
   refuse_repeated(command);
-  ValidateOptions options = std::move(words.validate);
-  read_choice<Model, SceneBody>(command, "--model", "model", words.model, options.choice.model);
-  read_choice<double, Material>(command, "--poisson", "poisson", words.poisson, options.choice.poisson);
-  read_choice<int, SceneBody>(command, "--bricks", "bricks", words.bricks, options.choice.bricks);
-  return options;
+  line.materials = std::move(words.materials);
+}
+
+void read_validate(const CLI::App& command, Words& words, CommandLine& line) {
+  refuse_extras(command, "unexpected");
+  refuse_repeated(command);
+  line.validate = std::move(words.validate);
+  auto& choice = line.validate.choice;
+  read_choice<Model, SceneBody>(command, "--model", "model", words.model, choice.model);
+  read_choice<double, Material>(command, "--poisson", "poisson", words.poisson, choice.poisson);
+  read_choice<int, SceneBody>(command, "--bricks", "bricks", words.bricks, choice.bricks);
+  line.scene.quiet = words.scene.quiet;
+  line.scene.verbose = words.scene.verbose;
+}
+
+void read_compare(const CLI::App& command, Words& words, CommandLine& line) {
+  refuse_extras(command, "unexpected");
+  refuse_repeated(command);
+  line.compare = std::move(words.compare);
+  if (!line.compare.second.empty()) return;
+  throw Error(ErrorKind::kUsage, "compare needs two pictures: sprung compare A.png B.png");
+}
+
+/// How what was typed for a command gets into its options.
+struct CommandReader {
+  const char* name;
+  CommandLine::Command command;
+  void (*read)(const CLI::App& command, Words& words, CommandLine& line);
+};
+
+constexpr std::array<CommandReader, 10> kReaders{{
+    {"animate", CommandLine::Command::kAnimate, read_scene_command},
+    {"simulate", CommandLine::Command::kSimulate, read_scene_command},
+    {"render", CommandLine::Command::kRender, read_scene_command},
+    {"export", CommandLine::Command::kExport, read_scene_command},
+    {"film", CommandLine::Command::kFilm, read_film},
+    {"sweep", CommandLine::Command::kSweep, read_scene_command},
+    {"inspect", CommandLine::Command::kInspect, read_scene_command},
+    {"validate", CommandLine::Command::kValidate, read_validate},
+    {"compare", CommandLine::Command::kCompare, read_compare},
+    {"materials", CommandLine::Command::kMaterials, read_materials},
+}};
+
+/// Fills the words that the commands were given. Returns what --help or --version show; else nothing.
+std::optional<std::string> fill_words(CLI::App& app, int argc, const char* const* argv) {
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& help) {
+    std::ostringstream text;
+    app.exit(help, text, text);
+    return text.str();
+  } catch (const CLI::ArgumentMismatch& error) {
+    const std::string reason = error.what();
+    throw Error(ErrorKind::kUsage, fmt::format("{} needs a value", reason.substr(0, reason.find(':'))));
+  } catch (const CLI::ParseError& error) {
+    throw Error(ErrorKind::kUsage, error.what());
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -192,66 +254,23 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   add_commands(app, words);
   for (CLI::App* command : app.get_subcommands({})) accept_repeated(*command);
   CommandLine line;
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& help) {
-    std::ostringstream text;
-    app.exit(help, text, text);
-    line.text = text.str();
+  line.text = kGreeting;
+  if (const std::optional<std::string> shown = fill_words(app, argc, argv)) {
+    line.text = *shown;
     return line;
-  } catch (const CLI::ArgumentMismatch& error) {
-    const std::string reason = error.what();
-    throw Error(ErrorKind::kUsage, fmt::format("{} needs a value", reason.substr(0, reason.find(':'))));
-  } catch (const CLI::ParseError& error) {
-    throw Error(ErrorKind::kUsage, error.what());
   }
   refuse_extras(app, "unknown command");
   if (app.got_subcommand("help")) {
     line.text = help_text(app, *app.get_subcommand("help"), words);
-  } else if (app.got_subcommand("materials")) {
-    refuse_extras(*app.get_subcommand("materials"), "unexpected");
-    refuse_repeated(*app.get_subcommand("materials"));
-    line.materials = words.materials;
-    line.command = CommandLine::Command::kMaterials;
-  } else if (app.got_subcommand("animate")) {
-    line.scene = read_scene_options(*app.get_subcommand("animate"), words);
-    line.command = CommandLine::Command::kAnimate;
-  } else if (app.got_subcommand("simulate")) {
-    line.scene = read_scene_options(*app.get_subcommand("simulate"), words);
-    line.command = CommandLine::Command::kSimulate;
-  } else if (app.got_subcommand("render")) {
-    line.scene = read_scene_options(*app.get_subcommand("render"), words);
-    line.command = CommandLine::Command::kRender;
-  } else if (app.got_subcommand("export")) {
-    line.scene = read_scene_options(*app.get_subcommand("export"), words);
-    line.command = CommandLine::Command::kExport;
-  } else if (app.got_subcommand("film")) {
-    line.scene = read_scene_options(*app.get_subcommand("film"), words);
-    read_choice<double, Scene>(*app.get_subcommand("film"), "--fps", "fps", words.fps, line.scene.fps);
-    line.command = CommandLine::Command::kFilm;
-  } else if (app.got_subcommand("sweep")) {
-    line.scene = read_scene_options(*app.get_subcommand("sweep"), words);
-    line.command = CommandLine::Command::kSweep;
-  } else if (app.got_subcommand("inspect")) {
-    line.scene = read_scene_options(*app.get_subcommand("inspect"), words);
-    line.command = CommandLine::Command::kInspect;
-  } else if (app.got_subcommand("validate")) {
-    line.validate = validate_options(*app.get_subcommand("validate"), words);
-    line.scene.quiet = words.scene.quiet;
-    line.scene.verbose = words.scene.verbose;
-    line.command = CommandLine::Command::kValidate;
-  } else if (app.got_subcommand("compare")) {
-    const CLI::App& command = *app.get_subcommand("compare");
-    refuse_extras(command, "unexpected");
-    refuse_repeated(command);
-    line.compare = words.compare;
-    if (line.compare.second.empty())
-      throw Error(ErrorKind::kUsage, "compare needs two pictures: sprung compare A.png B.png");
-    line.command = CommandLine::Command::kCompare;
-  } else {
-    line.text = kGreeting;
+    return line;
   }
-  line.scene.command = command_of(argc, argv);
+  for (const CommandReader& reader : kReaders) {
+    if (!app.got_subcommand(reader.name)) continue;
+    reader.read(*app.get_subcommand(reader.name), words, line);
+    line.command = reader.command;
+    line.scene.command = command_of(argc, argv);
+    break;
+  }
   return line;
 }
 
