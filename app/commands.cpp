@@ -15,6 +15,16 @@ void add_messages(CLI::App& command, Words& words, const std::string& verbose = 
   command.add_flag("--log-json", words.log_json, "messages and progress as JSON on stderr, an object a line");
 }
 
+void add_outputs(CLI::App& command, Words& words, const std::string& help, const std::string& placeholder = "OUT") {
+  command.add_option("-o,--output", words.scene.outputs, help)->allow_extra_args(false)->option_text(placeholder);
+}
+
+void add_sets(CLI::App& command, Words& words, const std::string& help, const std::string& placeholder = "KEY=VALUE") {
+  command.add_option("--set", words.set, help + "; may be given several times")
+      ->allow_extra_args(false)
+      ->option_text(placeholder);
+}
+
 void add_scene_option(CLI::App& command, Words& words, std::size_t row) {
   const SceneOption& option = scene_options()[row];
   CLI::Option* added = command.add_option(option.option, words.scene_values[row], help_of(option));
@@ -22,14 +32,13 @@ void add_scene_option(CLI::App& command, Words& words, std::size_t row) {
   if (!option.use.is_common) added->group(kMoreOptions);
 }
 
-void add_scene_options(CLI::App& command, Words& words, bool has_pictures, const std::string& examples) {
-  command.add_option("INPUT", words.scene.input, "a mesh file, or a scene (.toml)");
+void add_scene_options(CLI::App& command, Words& words, bool has_pictures, const std::string& examples,
+                       const std::string& input = "a mesh file, or a scene (.toml)") {
+  command.add_option("INPUT", words.scene.input, input);
   for (std::size_t i = 0; i < words.scene_values.size(); ++i) {
     if (!scene_options()[i].use.is_of_pictures || has_pictures) add_scene_option(command, words, i);
   }
-  command.add_option("--set", words.set, "any key of a scene (sprung help scene); may be given several times")
-      ->allow_extra_args(false)
-      ->option_text("KEY=VALUE");
+  add_sets(command, words, "any key of a scene (sprung help scene)");
   command
       .add_option("--scenario", words.scenario,
                   fmt::format("what a bare mesh does: {}", fmt::join(scenario_names(), ", ")))
@@ -50,11 +59,7 @@ void add_scene_options(CLI::App& command, Words& words, bool has_pictures, const
 
 void add_animate(CLI::App& app, Words& words) {
   CLI::App* animate = app.add_subcommand("animate", "mesh or scene in, pictures or film out");
-  animate
-      ->add_option("-o,--output", words.scene.outputs,
-                   "folder/, folder/frame_{:04}.png, or film.mp4, .webm, .gif; may be given several times")
-      ->allow_extra_args(false)
-      ->option_text("OUT");
+  add_outputs(*animate, words, "folder/, folder/frame_{:04}.png, or film.mp4, .webm, .gif; may be given several times");
   animate->add_flag("--overwrite", words.scene.overwrite, "replace pictures and films that exist");
   add_scene_options(*animate, words, true,
                     "Examples:\n  sprung animate bunny.obj -o bunny.mp4\n"
@@ -64,11 +69,8 @@ void add_animate(CLI::App& app, Words& words) {
 
 void add_simulate(CLI::App& app, Words& words) {
   CLI::App* simulate = app.add_subcommand("simulate", "mesh or scene in, its motion out: a cache, measurements");
-  simulate
-      ->add_option("-o,--output", words.scene.outputs,
-                   "RUN.h5, a cache of all frames, or folder/ for probes.csv, probes.json and manifest.json; or both")
-      ->allow_extra_args(false)
-      ->option_text("OUT");
+  add_outputs(*simulate, words,
+              "RUN.h5, a cache of all frames, or folder/ for probes.csv, probes.json and manifest.json; or both");
   simulate->add_flag("--overwrite", words.scene.overwrite, "replace files that exist");
   simulate->add_flag("--resume", words.scene.resume, "go on where the cache ends; begin where there is none");
   simulate
@@ -88,20 +90,14 @@ void add_render(CLI::App& app, Words& words) {
   render->add_option("INPUT", words.scene.input, "a cache (.h5)");
   render->add_option("MORE", words.scene.others, "more caches, with --side-by-side");
   render->add_flag("--side-by-side", words.scene.side_by_side, "several runs in one film: one camera, one scale");
-  render
-      ->add_option("-o,--output", words.scene.outputs,
-                   "folder/, folder/frame_{:04}.png, or film.mp4, .webm, .gif; may be given several times")
-      ->allow_extra_args(false)
-      ->option_text("OUT");
+  add_outputs(*render, words, "folder/, folder/frame_{:04}.png, or film.mp4, .webm, .gif; may be given several times");
   render->add_option("--frames", words.scene.frames, "these only, counted from 1; default: all")->option_text("A:B");
   render->add_option("--jobs", words.jobs, "so many processes at once; default: 1")->option_text("N");
   render->add_flag("--overwrite", words.scene.overwrite, "replace pictures and films that exist");
   for (std::size_t i = 0; i < words.scene_values.size(); ++i) {
     if (scene_options()[i].key.starts_with("render.")) add_scene_option(*render, words, i);
   }
-  render->add_option("--set", words.set, "any key of [camera] and [render]; may be given several times")
-      ->allow_extra_args(false)
-      ->option_text("KEY=VALUE");
+  add_sets(*render, words, "any key of [camera] and [render]");
   add_messages(*render, words);
   render->footer(
       "Examples:\n  sprung render run.h5 -o film.mp4\n  sprung render run.h5 -o frames/ --frames 1:48 --jobs 4\n"
@@ -112,13 +108,9 @@ void add_render(CLI::App& app, Words& words) {
 
 void add_export(CLI::App& app, Words& words) {
   CLI::App* command = app.add_subcommand("export", "a cache, mesh or scene in, deformed meshes out");
-  command
-      ->add_option(
-          "-o,--output", words.scene.outputs,
-          "skin_{:04}.obj or another format, film.glb, film.html, points.pc2, points.mdd, run.xdmf; may be given "
-          "several times")
-      ->allow_extra_args(false)
-      ->option_text("OUT");
+  add_outputs(*command, words,
+              "skin_{:04}.obj or another format, film.glb, film.html, points.pc2, points.mdd, run.xdmf; may be given "
+              "several times");
   command->add_option("--frames", words.scene.frames, "these only, counted from 1; default: all")->option_text("A:B");
   command->add_flag("--quantize", words.scene.quantize,
                     "keep 16 bits a coordinate in film.glb: half the size; says how far off that is");
@@ -126,15 +118,14 @@ void add_export(CLI::App& app, Words& words) {
   command->add_flag("--overwrite", words.scene.overwrite, "replace files that exist");
   add_scene_options(
       *command, words, false,
-      "Examples:\n  sprung export run.h5 -o film.glb\n  sprung export run.h5 -o skin_{:04}.obj -o points.pc2\n");
+      "Examples:\n  sprung export run.h5 -o film.glb\n  sprung export run.h5 -o skin_{:04}.obj -o points.pc2\n",
+      "a cache (.h5), a mesh file, or a scene (.toml)");
 }
 
 void add_film(CLI::App& app, Words& words) {
   CLI::App* film = app.add_subcommand("film", "numbered pictures in, a film out");
   film->add_option("INPUT", words.scene.input, "folder/, or folder/frame_{:04}.png");
-  film->add_option("-o,--output", words.scene.outputs, "film.mp4, .webm, .gif; may be given several times")
-      ->allow_extra_args(false)
-      ->option_text("OUT");
+  add_outputs(*film, words, "film.mp4, .webm, .gif; may be given several times");
   film->add_option("--frames", words.scene.frames, "these only; default: from 1 to the last that is there")
       ->option_text("A:B");
   film->add_option("--fps", words.fps, "pictures a second; default: 24")->option_text("N");
@@ -147,12 +138,8 @@ void add_film(CLI::App& app, Words& words) {
 void add_sweep(CLI::App& app, Words& words) {
   CLI::App* sweep = app.add_subcommand("sweep", "a scene and lists of values in, a folder and a command a run out");
   sweep->add_option("INPUT", words.scene.input, "a mesh file, a scene (.toml), or with --table the folder of a sweep");
-  sweep->add_option("-o,--output", words.scene.outputs, "the folder for all runs")
-      ->allow_extra_args(false)
-      ->option_text("FOLDER");
-  sweep->add_option("--set", words.set, "values of any key of a scene, by commas; may be given several times")
-      ->allow_extra_args(false)
-      ->option_text("KEY=A,B,C");
+  add_outputs(*sweep, words, "the folder for all runs", "FOLDER");
+  add_sets(*sweep, words, "values of any key of a scene, by commas", "KEY=A,B,C");
   sweep->add_flag("--table", words.scene.table, "what the probes of all runs saw last, as CSV");
   sweep->add_flag("--overwrite", words.scene.overwrite, "replace the list of commands that exists");
   add_messages(*sweep, words);
@@ -172,7 +159,8 @@ void add_inspect(CLI::App& app, Words& words) {
   add_scene_options(
       *inspect, words, true,
       "Examples:\n  sprung inspect bunny.obj\n  sprung inspect bunny.obj --bricks auto --picture bunny.png\n"
-      "  sprung inspect run.h5 --json\n");
+      "  sprung inspect run.h5 --json\n",
+      "a mesh file, a scene (.toml), or a cache (.h5)");
 }
 
 void add_validate(CLI::App& app, Words& words) {

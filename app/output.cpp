@@ -49,15 +49,6 @@ bool is_number(std::string_view text) {
 
 fs::path or_here(const fs::path& folder) { return folder.empty() ? fs::path(".") : folder; }
 
-/// "film.xyz": not a folder, unless there is one of that name.
-void refuse_unknown_ending(std::string_view words, const fs::path& path) {
-  const std::string ending = lower(path.extension().string());
-  if (ending.empty() || fs::is_directory(path)) return;
-  if (ending == ".png") refuse(words, "a single picture cannot hold a film");
-  refuse(words, fmt::format("'{}' files cannot be written{} (a folder of that name: {}/)", ending,
-                            did_you_mean(ending, kFilms), words));
-}
-
 /// The place in the file system, whatever the words for it.
 fs::path place_of(const fs::path& path) {
   std::error_code ignored;
@@ -83,13 +74,25 @@ bool collide(const Output& a, const Output& b) {
 
 fs::path Output::picture(int number) const { return NumberedName{folder, before, after, digits}.file(number); }
 
+void check_folder_name(std::string_view words, std::span<const std::string_view> endings, std::string_view examples) {
+  const fs::path path(words);
+  const std::string ending = lower(path.extension().string());
+  if (ending.empty() || words.ends_with('/') || fs::is_directory(path)) return;
+  throw Error(ErrorKind::kUsage,
+              fmt::format("--output {0}: '{1}' files cannot be written{2} (a folder of that name: {0}/); {3}", words,
+                          ending, did_you_mean(ending, endings), examples));
+}
+
 Output parse_output(std::string_view words) {
   if (words.empty()) refuse("''", "the name is empty");
   const bool is_folder = words.ends_with('/');
   if (!is_folder && words.find_first_of("{}") != std::string_view::npos) return parse_pattern(words);
   const fs::path path(words);
   if (!is_folder && is_film(path)) return {.kind = Output::Kind::kFilm, .folder = path.parent_path(), .film = path};
-  if (!is_folder) refuse_unknown_ending(words, path);
+  if (lower(path.extension().string()) == ".png" && !fs::is_directory(path)) {
+    refuse(words, "a single picture cannot hold a film");
+  }
+  check_folder_name(words, kFilms, kExamples);
   return {.kind = Output::Kind::kPictures, .folder = path, .before = "frame_", .after = ".png", .digits = 4};
 }
 

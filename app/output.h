@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,6 +20,10 @@ struct Output {
   /// The file of the picture, or of its passes, with this number; the first is 1.
   [[nodiscard]] std::filesystem::path picture(int number) const;
 };
+
+/// Throws Error(kUsage) where the words after --output, which name none of the files with these endings, look like a
+/// file and not like a folder: "film.xyz", unless there is such a folder. `examples` says what to give.
+void check_folder_name(std::string_view words, std::span<const std::string_view> endings, std::string_view examples);
 
 /// What the words after --output mean: "dir/" or "dir" (frame_0001.png ... in it), "dir/f_{:04}.png" or "{:04d}" or
 /// "{}", the same with ".exr", "film.mp4", ".webm", ".gif". Throws Error(kUsage) for a name with any other ending,

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <filesystem>
 #include <optional>
 
@@ -9,6 +10,7 @@
 #include "app/draw_diverged.h"
 #include "app/make_production.h"
 #include "app/manifest.h"
+#include "app/output.h"
 #include "app/probe_files.h"
 #include "app/report/whole_file.h"
 #include "app/simulate.h"
@@ -36,7 +38,9 @@ void refuse_existing(const fs::path& file, std::string_view remedy) {
 /// Where the files can be written, and would replace nothing that they may not.
 Places places_of(const SceneOptions& options) {
   Places places;
+  constexpr std::array<std::string_view, 1> kCaches{".h5"};
   for (const std::string& output : options.outputs) {
+    if (!is_cache_file(output)) check_folder_name(output, kCaches, "give a cache, RUN.h5, or a folder");
     std::optional<fs::path>& place = is_cache_file(output) ? places.cache : places.folder;
     if (place) throw Error(ErrorKind::kUsage, "simulate writes one cache and one folder: -o RUN.h5 -o folder/");
     place = output;

@@ -20,9 +20,21 @@ std::string strange_word(const std::vector<std::string>& extras) {
   return found == extras.end() ? extras.front() : found->substr(0, found->find('='));
 }
 
-/// "; it is an option of sprung animate", where another command has it.
+/// "--log-json stands behind the command: sprung animate --log-json", where a command has it: the one that was given.
+std::string known_behind(const CLI::App& app, const std::string& option) {
+  const std::vector<CLI::App*> given = app.get_subcommands();
+  std::vector<const CLI::App*> commands(given.begin(), given.end());
+  if (commands.empty()) commands = app.get_subcommands({});
+  for (const CLI::App* command : commands) {
+    if (command->get_option_no_throw(option) == nullptr) continue;
+    return fmt::format("{0} stands behind the command: sprung {1} {0}", option, command->get_name());
+  }
+  return "";
+}
+
+/// "sprung film has no --size; it is an option of sprung animate", where another command has it.
 std::string known_elsewhere(const CLI::App& command, const std::string& option) {
-  if (command.get_parent() == nullptr) return "";
+  if (command.get_parent() == nullptr) return known_behind(command, option);
   for (const CLI::App* other : command.get_parent()->get_subcommands({})) {
     if (other == &command || other->get_option_no_throw(option) == nullptr) continue;
     return fmt::format("sprung {} has no {}; it is an option of sprung {}", command.get_name(), option,

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/mesh/read/file_checks.h"
 #include "render/decode.h"
 
 namespace sprung {
@@ -121,9 +122,8 @@ void write_png(const Image& image, const std::filesystem::path& file) {
 }
 
 Image read_png(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  const std::vector<char> bytes{std::istreambuf_iterator<char>(in), {}};
-  if (!in || bytes.empty()) throw Error(ErrorKind::kBadInput, file.string() + ": cannot read the picture");
+  check_readable(file);
+  const std::string bytes = read_bytes(file);
   const Pixels pixels = decode_pixels(std::as_bytes(std::span(bytes)), file.string());
   Image image(pixels.width, pixels.height);
   for (std::size_t p = 0; p < image.pixels.size() / 3; ++p) {

@@ -1,8 +1,10 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
 #include "app/scene/scene_file.h"
+#include "app/scene/scene_tables.h"
 #include "app/scene/scene_values.h"
 #include "core/error.h"
 #include "core/mesh/read/file_checks.h"
@@ -136,15 +138,40 @@ void drop_rivals(Owner& owner, std::string_view name) {
   }
 }
 
+/// "; did you mean 'body.material.young'?" where a key of nearly that name is in another table; at most three.
+std::string did_you_mean_elsewhere(std::string_view name) {
+  const std::vector<TableText> tables = scene_tables();
+  std::vector<std::string_view> names;
+  for (const TableText& table : tables) {
+    if (table.paths.empty()) continue;
+    for (const KeyText& key : table.keys) names.push_back(key.name);
+  }
+  const std::string_view nearest = nearest_word(name, names);
+  std::vector<std::string> paths;
+  for (const TableText& table : tables) {
+    const bool has_it = std::any_of(table.keys.begin(), table.keys.end(),
+                                    [&](const KeyText& key) { return !nearest.empty() && key.name == nearest; });
+    if (!has_it || table.paths.empty() || paths.size() == 3) continue;
+    const std::string& header = table.paths.front();
+    const auto first = header.find_first_not_of('[');
+    paths.push_back(fmt::format("'{}.{}'", header.substr(first, header.find(']') - first), nearest));
+  }
+  return paths.empty() ? "" : fmt::format("; did you mean {}?", fmt::join(paths, " or "));
+}
+
+std::string unknown_key(std::string_view name, std::string_view path, const std::vector<std::string_view>& known) {
+  std::string hint;
+  if (nearest_word(name, known).empty()) hint = did_you_mean_elsewhere(path.substr(path.rfind('.') + 1));
+  return fmt::format("unknown key '{}'{}", name, hint.empty() ? did_you_mean(name, known) : hint);
+}
+
 template <class Owner>
 void set_key(Owner& owner, std::string_view path, const Given& given) {
   const auto dot = path.find('.');
   const std::string_view name = path.substr(0, dot);
   const std::string_view rest = dot == std::string_view::npos ? std::string_view{} : path.substr(dot + 1);
   const Key<Owner>* key = find_key<Owner>(name);
-  if (key == nullptr) {
-    throw Error(ErrorKind::kBadInput, fmt::format("unknown key '{}'{}", name, did_you_mean(name, key_names<Owner>())));
-  }
+  if (key == nullptr) throw Error(ErrorKind::kBadInput, unknown_key(name, path, key_names<Owner>()));
   std::visit([&](auto field) { set_field(owner.*field, *key, rest, given); }, key->member);
   drop_rivals(owner, name);
 }

@@ -80,6 +80,12 @@ TEST_F(HelpText, AMistypedWordGetsTheNearest) {
   EXPECT_NE(error("animate cube.obj -o out --material stel").find("did you mean 'steel'?"), std::string::npos);
   EXPECT_NE(error("animate cube.obj -o out --set body.sise=1").find("did you mean 'size'?"), std::string::npos);
   EXPECT_NE(error("animate cbue.obj -o out").find("did you mean 'cube.obj'?"), std::string::npos);
+  EXPECT_EQ(error("--quiet animate cube.obj -o out"),
+            "sprung: error: --quiet stands behind the command: sprung animate --quiet\n");
+  EXPECT_NE(error("simulate cube.obj -o run.h6").find("'.h6' files cannot be written; did you mean '.h5'?"),
+            std::string::npos);
+  EXPECT_NE(error("render cube.obj -o out").find("sprung animate draws a mesh"), std::string::npos);
+  EXPECT_NE(error("compare cbe.obj cube.obj").find("no such file; did you mean 'cube.obj'?"), std::string::npos);
   EXPECT_NE(error("help anmate").find("did you mean 'animate'?"), std::string::npos);
   EXPECT_NE(error("validate --case cantilver").find("did you mean 'cantilever'?"), std::string::npos);
 }

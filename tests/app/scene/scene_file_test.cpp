@@ -111,7 +111,7 @@ class SceneFile : public testing::Test {
   std::filesystem::path cube_ = folder_.write("cube.obj", kCubeObj);
 };
 
-TEST_F(SceneFile, ReadsEveryKey) {
+TEST_F(SceneFile, ReadsWhatIsWritten) {
   const Scene scene = parse(kWholeScene);
   EXPECT_DOUBLE_EQ(scene.duration, 1.5);
   EXPECT_DOUBLE_EQ(scene.fps, 30);
@@ -266,31 +266,6 @@ TEST_F(SceneFile, RangesAreKept) {
   EXPECT_NE(body_mistakes("material = { young = 1, poisson = 0.5, density = 1 }").find("above -1 and below 0.5"),
             std::string::npos);
   EXPECT_NE(body_mistakes("size = \"-3 cm\"").find("above 0 m"), std::string::npos);
-}
-
-TEST_F(SceneFile, SetsOneKeyOfEveryBody) {
-  Scene scene = parse(kWholeScene);
-  set_scene_key(scene, "render.resolution", "640x360");
-  set_scene_key(scene, "body.size", "30 cm");
-  set_scene_key(scene, "body.material.young", "5 kPa");
-  EXPECT_EQ(scene.render.resolution, (std::array<int, 2>{640, 360}));
-  for (const char* pair : {"3x2", "[3, 2]", "3,2"}) {
-    scene.render.sheet.reset();
-    set_scene_key(scene, "render.sheet", pair);
-    EXPECT_EQ(scene.render.sheet.value(), (std::array<int, 2>{3, 2})) << pair;
-  }
-  EXPECT_EQ(error_message([&] { set_scene_key(scene, "render.sheet", "[3]"); }),
-            "'[3]' is no pair of whole numbers; write it as 4x3 or [4, 3]");
-  for (const SceneBody& body : scene.bodies) {
-    EXPECT_DOUBLE_EQ(body.size.value(), 0.3);
-    EXPECT_FALSE(body.scale.has_value());
-    EXPECT_DOUBLE_EQ(body.material.young, 5e3);
-  }
-  EXPECT_EQ(scene.bodies[1].material.name, "custom");
-  EXPECT_DOUBLE_EQ(scene.bodies[1].material.density, built_in_materials()->find("rubber").density);
-  EXPECT_NE(error_message([&] { set_scene_key(scene, "body.sise", "1"); }).find("did you mean 'size'"),
-            std::string::npos);
-  EXPECT_THROW(set_scene_key(scene, "body", "1"), Error);
 }
 
 TEST(Scene, FramesShowTimesFromZero) {

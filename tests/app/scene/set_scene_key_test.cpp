@@ -1,0 +1,54 @@
+#include <gtest/gtest.h>
+
+#include "app/scene/scene_file.h"
+#include "core/error.h"
+#include "tests/support/error_message.h"
+
+namespace sprung {
+namespace {
+
+Scene two_bodies() {
+  return parse_scene(
+      "[[body]]\nmesh = \"a.obj\"\nsize = 0.1\n[[body]]\nmesh = \"b.obj\"\nscale = 0.01\nmaterial = \"rubber\"\n",
+      "/scene.toml", SceneFiles::kAnywhere);
+}
+
+TEST(SetSceneKey, SetsItInEveryBody) {
+  Scene scene = two_bodies();
+  set_scene_key(scene, "body.size", "30 cm");
+  set_scene_key(scene, "body.material.young", "5 kPa");
+  for (const SceneBody& body : scene.bodies) {
+    EXPECT_DOUBLE_EQ(body.size.value(), 0.3);
+    EXPECT_FALSE(body.scale.has_value());
+    EXPECT_DOUBLE_EQ(body.material.young, 5e3);
+  }
+  EXPECT_EQ(scene.bodies[1].material.name, "custom");
+  EXPECT_DOUBLE_EQ(scene.bodies[1].material.density, built_in_materials()->find("rubber").density);
+}
+
+TEST(SetSceneKey, PairsAreWrittenInThreeWays) {
+  Scene scene = two_bodies();
+  set_scene_key(scene, "render.resolution", "640x360");
+  EXPECT_EQ(scene.render.resolution, (std::array<int, 2>{640, 360}));
+  for (const char* pair : {"3x2", "[3, 2]", "3,2"}) {
+    scene.render.sheet.reset();
+    set_scene_key(scene, "render.sheet", pair);
+    EXPECT_EQ(scene.render.sheet.value(), (std::array<int, 2>{3, 2})) << pair;
+  }
+  EXPECT_EQ(error_message([&] { set_scene_key(scene, "render.sheet", "[3]"); }),
+            "'[3]' is no pair of whole numbers; write it as 4x3 or [4, 3]");
+}
+
+TEST(SetSceneKey, RefusesWhatIsNoKeyOfAValue) {
+  Scene scene = two_bodies();
+  EXPECT_NE(error_message([&] { set_scene_key(scene, "body.sise", "1"); }).find("did you mean 'size'"),
+            std::string::npos);
+  EXPECT_THROW(set_scene_key(scene, "body", "1"), Error);
+  EXPECT_EQ(error_message([&] { set_scene_key(scene, "body.yung", "1"); }),
+            "unknown key 'yung'; did you mean 'body.material.young'?");
+  EXPECT_NE(error_message([&] { set_scene_key(scene, "zoom", "1"); }).find("did you mean 'camera.zoom'"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace sprung
