@@ -146,6 +146,12 @@ StillLife StillLife::scaled(double factor) const {
   return scene;
 }
 
+StillLife ball_on_ground() {
+  StillLife scene;
+  scene.add(make_sphere_skin({0, 0.5, 0}, 0.5), kRed);
+  return scene;
+}
+
 Image draw_scene(const StillLife& scene, const RenderOptions& options, double azimuth, double elevation) {
   const Stage stage = scene.stage();
   Renderer renderer(stage, options);

@@ -6,6 +6,10 @@
 
 namespace sprung {
 
+/// Colours, sRGB.
+inline const Eigen::Vector3f kRed(0.85F, 0.20F, 0.16F);
+inline const Eigen::Vector3f kCream(0.95F, 0.93F, 0.88F);
+
 /// Skins for pictures in tests, in metres.
 [[nodiscard]] Skin make_sphere_skin(const Vec3& center, double radius);
 /// A ring around the y axis.
@@ -27,6 +31,9 @@ struct StillLife {
   /// Everything multiplied by that factor.
   [[nodiscard]] StillLife scaled(double factor) const;
 };
+
+/// Red, one metre across.
+[[nodiscard]] StillLife ball_on_ground();
 
 [[nodiscard]] Image draw_scene(const StillLife& scene, const RenderOptions& options, double azimuth = 30,
                                double elevation = 14);
