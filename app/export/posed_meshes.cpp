@@ -8,20 +8,20 @@ namespace sprung {
 namespace {
 
 /// A body of the scene, or one of its copies.
-using Key = std::pair<std::size_t, int>;
+using BodyCopy = std::pair<std::size_t, int>;
 
-std::string name_of(const Scene& scene, const Key& key) {
-  const SceneBody& body = scene.bodies[key.first];
+std::string name_of(const Scene& scene, const BodyCopy& which) {
+  const SceneBody& body = scene.bodies[which.first];
   std::string name = body.mesh.empty() ? std::string("body") : body.mesh.stem().string();
-  if (scene.bodies.size() > 1) name += fmt::format("_{}", key.first + 1);
-  if (copy_count(body) > 1) name += fmt::format("_{}", key.second + 1);
+  if (scene.bodies.size() > 1) name += fmt::format("_{}", which.first + 1);
+  if (copy_count(body) > 1) name += fmt::format("_{}", which.second + 1);
   return name;
 }
 
-PosedMesh empty_mesh(const Production& production, const Scene& scene, const Key& key, const Color& color) {
-  const Skin& rest = production.meshes[key.first];
+PosedMesh empty_mesh(const Production& production, const Scene& scene, const BodyCopy& which, const Color& color) {
+  const Skin& rest = production.meshes[which.first];
   PosedMesh mesh;
-  mesh.name = name_of(scene, key);
+  mesh.name = name_of(scene, which);
   mesh.rest = &rest;
   mesh.color = Eigen::Vector3f(color.red, color.green, color.blue) / 255.0F;
   mesh.positions.setZero(rest.positions.rows(), 3);
@@ -33,11 +33,11 @@ PosedMesh empty_mesh(const Production& production, const Scene& scene, const Key
 
 std::vector<PosedMesh> posed_meshes(const Production& production, const Scene& scene,
                                     const std::vector<Points>& nodes) {
-  std::map<Key, PosedMesh> meshes;
+  std::map<BodyCopy, PosedMesh> meshes;
   for (std::size_t actor = 0; actor < nodes.size(); ++actor) {
-    const Key key{production.origins[actor].body, production.origins[actor].copy};
-    if (!meshes.contains(key)) meshes[key] = empty_mesh(production, scene, key, production.skins[actor].color);
-    PosedMesh& mesh = meshes[key];
+    const BodyCopy which{production.origins[actor].body, production.origins[actor].copy};
+    if (!meshes.contains(which)) meshes[which] = empty_mesh(production, scene, which, production.skins[actor].color);
+    PosedMesh& mesh = meshes[which];
     const CarriedVertices& carried = production.carried[actor];
     const BrickGrid& grid = production.world.actors[actor].body.grid;
     const Points& positions = nodes[actor];
@@ -49,7 +49,7 @@ std::vector<PosedMesh> posed_meshes(const Production& production, const Scene& s
   }
   std::vector<PosedMesh> list;
   list.reserve(meshes.size());
-  for (auto& [key, mesh] : meshes) list.push_back(std::move(mesh));
+  for (auto& [which, mesh] : meshes) list.push_back(std::move(mesh));
   return list;
 }
 
