@@ -4,6 +4,8 @@
 
 #include <map>
 
+#include "app/drawn_shapes.h"
+
 namespace sprung {
 namespace {
 
@@ -23,7 +25,7 @@ PosedMesh empty_mesh(const Production& production, const Scene& scene, const Bod
   PosedMesh mesh;
   mesh.name = name_of(scene, which);
   mesh.rest = &rest;
-  mesh.color = Eigen::Vector3f(color.red, color.green, color.blue) / 255.0F;
+  mesh.color = srgb(color);
   mesh.positions.setZero(rest.positions.rows(), 3);
   mesh.normals.setZero(rest.normals.rows(), 3);
   return mesh;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "app/drawn_stage.h"
+#include "app/drawn_shapes.h"
 #include "render/camera.h"
 
 namespace sprung {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/drawn_stage.h"
+#include "app/drawn_shapes.h"
 #include "core/bricks/corner.h"
 
 namespace sprung {

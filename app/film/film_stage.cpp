@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "app/drawn_stage.h"
+#include "app/drawn_shapes.h"
 #include "app/film/brick_cubes.h"
 #include "app/film/contacts.h"
 #include "app/film/probe_plot.h"
@@ -24,8 +24,6 @@ constexpr double kNodeRadius = 0.09;     // of a brick
 constexpr double kPinRadius = 0.17;      // of a brick
 constexpr double kTraceRadius = 0.0035;  // of the largest body
 constexpr double kUtmost = 0.01;         // of the springs: may be stretched beyond the ends of the colours
-
-Eigen::Vector3f shade(const Color& color) { return Eigen::Vector3f(color.red, color.green, color.blue) / 255.0F; }
 
 /// Pushed blue, drawn red, at rest dark, unless it is said otherwise.
 ColorMap spring_colors(const SceneRender& render) { return render.color_map.value_or(ColorMap::kEmber); }
@@ -128,7 +126,7 @@ void FilmStage::add_skin(std::size_t actor) {
   const DrawnSkin& drawn = production_.skins[actor];
   const BrickGrid& grid = production_.world.actors[actor].body.grid;
   const SceneBody& body = scene_.bodies[production_.origins[actor].body];
-  players_.push_back({std::shared_ptr<const Skin>(&drawn.skin, [](const Skin*) {}), shade(drawn.color),
+  players_.push_back({std::shared_ptr<const Skin>(&drawn.skin, [](const Skin*) {}), srgb(drawn.color),
                       colors_.is_mapped() ? Look::kChart : look_of(body, *scene_.library), false, id_of(actor),
                       [this, actor, &drawn, &grid, riding = body.skin](const Moment& now) {
                         SkinShape shape = shape_of(production_, actor, now.nodes[actor], riding);
@@ -145,7 +143,7 @@ void FilmStage::add_bricks(std::size_t actor) {
   const Body& body = production_.world.actors[actor].body;
   const bool exploded = scene_.render.bricks == BrickView::kExploded;
   const Eigen::Vector3f color = colors_.is_mapped() && !scene_.render.springs ? Eigen::Vector3f::Ones().eval()
-                                                                              : shade(production_.skins[actor].color);
+                                                                              : srgb(production_.skins[actor].color);
   const auto cubes =
       std::make_shared<const BrickCubes>(body.grid, bricks_left(body.grid, scene_.render.cut), exploded, color);
   const auto skin = std::make_shared<const Skin>(at_rest(cubes->skin(), cubes->shape(body.rest_positions, {})));
@@ -219,13 +217,13 @@ void FilmStage::add_pins(std::size_t actor) {
 void FilmStage::add_ghost(std::size_t actor) {
   const DrawnSkin& drawn = production_.skins[actor];
   SkinShape shape = shape_of(production_, actor, production_.world.actors[actor].body.rest_positions);
-  players_.push_back({std::shared_ptr<const Skin>(&drawn.skin, [](const Skin*) {}), shade(drawn.color), Look::kRubber,
+  players_.push_back({std::shared_ptr<const Skin>(&drawn.skin, [](const Skin*) {}), srgb(drawn.color), Look::kRubber,
                       true, id_of(actor),
                       [shape = std::move(shape)](const Moment&) -> SkinShape { return SkinShape(shape); }});
 }
 
 void FilmStage::add_obstacle(const StageObstacle& obstacle, int id) {
-  players_.push_back({std::shared_ptr<const Skin>(&obstacle.skin, [](const Skin*) {}), shade(obstacle.color),
+  players_.push_back({std::shared_ptr<const Skin>(&obstacle.skin, [](const Skin*) {}), srgb(obstacle.color),
                       Look::kPlastic, false, id,
                       [&obstacle](const Moment& now) { return shape_of(obstacle, now.time); }});
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "app/drawn_shapes.h"
+#include "app/film/exposure.h"
 #include "app/report/brick_skin.h"
 #include "render/renderer.h"
 
@@ -65,17 +67,6 @@ Image draw(const std::vector<Skin>& skins, const std::vector<Eigen::Vector3f>& c
   return renderer.draw(shapes, camera);
 }
 
-Image side_by_side(const Image& left, const Image& right) {
-  Image both(left.width + right.width, left.height);
-  const auto row_bytes = static_cast<std::ptrdiff_t>(left.width) * 3;
-  for (int row = 0; row < left.height; ++row) {
-    const auto to = both.pixels.begin() + 2 * row * row_bytes;
-    std::copy_n(left.pixels.begin() + row * row_bytes, row_bytes, to);
-    std::copy_n(right.pixels.begin() + row * row_bytes, row_bytes, to + row_bytes);
-  }
-  return both;
-}
-
 }  // namespace
 
 Image draw_bricks(const Preparation& prepared) {
@@ -96,12 +87,12 @@ Image draw_bricks(const Preparation& prepared) {
     Skin& skin = skins.emplace_back(drawn.skin);
     skin.positions = deform_points(body.grid, drawn.embedding, body.positions);
     skin.normals = deform_normals(body.grid, drawn.embedding, drawn.skin.normals, body.positions);
-    colors.emplace_back(Eigen::Vector3f(drawn.color.red, drawn.color.green, drawn.color.blue) / 255.0F);
+    colors.push_back(srgb(drawn.color));
     bricks.push_back(
         colored_bricks(body, body.positions, brick_colors(body.grid, *solids[i], prepared.thin_parts[i]), line));
   }
   const Camera camera = frame_bounds(bounds, 1, 30, 20);
-  return side_by_side(draw(skins, colors, bounds, camera), draw(bricks, colors, bounds, camera));
+  return sheet_of({draw(skins, colors, bounds, camera), draw(bricks, colors, bounds, camera)}, 2, 0);
 }
 
 }  // namespace sprung

@@ -8,7 +8,7 @@
 #include <ctime>
 #include <filesystem>
 
-#include "app/drawn_stage.h"
+#include "app/film/film_stage.h"
 #include "app/make_production.h"
 #include "app/output.h"
 #include "app/picture_writer.h"
@@ -42,20 +42,33 @@ class Stopwatch {
   double processor_ = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 };
 
+/// A recording of one frame.
+Recording as_they_start(const Production& production) {
+  Recording recording;
+  recording.progress = {0};
+  std::vector<Floats3>& nodes = recording.frames.emplace_back();
+  for (const Actor& actor : production.world.actors) nodes.emplace_back(actor.body.positions.cast<float>());
+  return recording;
+}
+
 struct Subject {
+  Scene scene;
   Production production;
-  std::vector<Floats3> nodes;
+  Recording recording;
+  FilmStage film;
   std::vector<SkinShape> shapes;
   Stage stage;
   Camera camera;
 
-  explicit Subject(const std::filesystem::path& scene)
-      : production(make_production(read_scene(scene), Console{.quiet = true})) {
-    for (const Actor& actor : production.world.actors) nodes.emplace_back(actor.body.positions.cast<float>());
-    shapes = shapes_of(production, nodes, 0);
+  explicit Subject(const std::filesystem::path& file)
+      : scene(read_scene(file)),
+        production(make_production(scene, Console{.quiet = true})),
+        recording(as_they_start(production)),
+        film(scene, production, recording),
+        shapes(film.shapes(0)) {
     Bounds bounds;
     for (const SkinShape& shape : shapes) bounds.include(shape.positions.cast<double>().eval());
-    stage = stage_of(production, bounds);
+    stage = film.stage(bounds);
     camera = frame_bounds(bounds, 16.0 / 9);
   }
 };
@@ -83,7 +96,7 @@ void overlapped(const Subject& subject, const std::filesystem::path& folder, int
   Stopwatch watch;
   PictureWriter writer(outputs, options.width, options.height, 24);
   for (int i = 0; i < pictures; ++i) {
-    writer.write({.image = renderer.draw(shapes_of(subject.production, subject.nodes, 0), subject.camera)});
+    writer.write({.image = renderer.draw(subject.film.shapes(0), subject.camera)});
   }
   writer.close();
   watch.print("all of it, overlapping", pictures);
@@ -95,7 +108,7 @@ void run(const std::filesystem::path& scene, int pictures) {
   std::filesystem::create_directories(folder);
   fmt::print("{:28} {:>8} {:>8}  ms a picture; processor without the film's encoder\n", "stage", "wall", "processor");
   Stopwatch watch;
-  for (int i = 0; i < pictures; ++i) (void)shapes_of(subject.production, subject.nodes, 0);
+  for (int i = 0; i < pictures; ++i) (void)subject.film.shapes(0);
   watch.print("skins", pictures);
 
   Renderer renderer(subject.stage, kPicture);

@@ -1,17 +1,11 @@
 #pragma once
-#include <vector>
-
 #include "app/build_world.h"
 #include "render/renderer.h"
 
 namespace sprung {
 
-/// What a renderer needs of a production; `bounds` of the whole motion, m. The skins stay where they are.
-[[nodiscard]] Stage stage_of(const Production& production, const Bounds& bounds);
-
-/// The skins of all actors for these positions of their nodes (m), and of the obstacles at that time of the film (s).
-[[nodiscard]] std::vector<SkinShape> shapes_of(const Production& production, const std::vector<Floats3>& nodes,
-                                               double time);
+/// As the renderer takes it.
+[[nodiscard]] Eigen::Vector3f srgb(const Color& color);
 
 /// The skin of one actor for these positions of its nodes, m.
 [[nodiscard]] SkinShape shape_of(const Production& production, std::size_t actor, const Points& nodes,
