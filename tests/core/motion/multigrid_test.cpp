@@ -154,6 +154,55 @@ TEST(Multigrid, SameBitsForAnyNumberOfThreads) {
   EXPECT_EQ(one, run(5));
 }
 
+/// Pulls of symmetric matrices: the first corner's block and the sum of the others' are symmetric too.
+void make_symmetric(float* pull) {
+  const auto at = [pull](std::size_t corner, std::size_t row, std::size_t column, std::size_t lane) -> float& {
+    return pull[(3 * (3 * corner + row) + column) * multigrid::kLanes + lane];
+  };
+  for (std::size_t lane = 0; lane < multigrid::kLanes; ++lane) {
+    for (std::size_t r = 0; r < 3; ++r) {
+      for (std::size_t c = 0; c < r; ++c) {
+        double skew = 0;
+        for (std::size_t corner = 1; corner < 8; ++corner) {
+          skew += static_cast<double>(at(corner, r, c, lane) - at(corner, c, r, lane));
+        }
+        at(0, r, c, lane) = static_cast<float>(static_cast<double>(at(0, c, r, lane)) - skew);
+      }
+    }
+  }
+}
+
+/// All bricks; the places of the last block that hold none are left empty.
+void fill_at_random(multigrid::Level& level, int bricks) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<float> value(-1, 1);
+  for (int block = 0; block < level.block_count(); ++block) {
+    float* pull = level.add_pull(block);
+    for (std::size_t i = 0; i < kAnchoredSize * multigrid::kLanes; ++i) level.matrix(block)[i] = value(random);
+    for (std::size_t i = 0; i < multigrid::kPullSize * multigrid::kLanes; ++i) pull[i] = value(random);
+    make_symmetric(pull);
+  }
+  const int last = level.block_count() - 1;
+  for (int lane = bricks % multigrid::kLanes; lane > 0 && lane < multigrid::kLanes; ++lane) {
+    const auto l = static_cast<std::size_t>(lane);
+    for (std::size_t i = 0; i < kAnchoredSize; ++i) level.matrix(last)[i * multigrid::kLanes + l] = 0;
+    for (std::size_t i = 0; i < multigrid::kPullSize; ++i) level.add_pull(last)[i * multigrid::kLanes + l] = 0;
+  }
+}
+
+/// Displacements of the fine nodes from those of the coarse ones.
+Eigen::MatrixXd fine_from_coarse(const multigrid::Layout& fine, const multigrid::Layout& coarse) {
+  const multigrid::Interpolation& hang = fine.to_coarse;
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(3 * fine.node_count, 3 * coarse.node_count);
+  for (int node = 0; node < fine.node_count; ++node) {
+    const auto n = static_cast<std::size_t>(node);
+    for (std::size_t i = 0; i < hang.counts[n]; ++i) {
+      matrix.block<3, 3>(3 * node, 3 * hang.coarse_nodes[n][i]) += Mat3::Identity() / hang.counts[n];
+    }
+  }
+  return matrix;
+}
+
 /// The coarse bricks' sum is P^T A P, P by the nodes' places.
 TEST(MultigridLevel, CoarseBricksAreGalerkins) {
   const BrickGrid grid = bracket(6);
@@ -161,53 +210,23 @@ TEST(MultigridLevel, CoarseBricksAreGalerkins) {
   ASSERT_GE(layouts.size(), 2U);
   multigrid::Level fine(layouts[0]);
   multigrid::Level coarse(layouts[1]);
-  std::mt19937 random(7);
-  std::uniform_real_distribution<float> value(-1, 1);
-  for (int block = 0; block < fine.block_count(); ++block) {
-    float* pull = fine.add_pull(block);
-    for (std::size_t i = 0; i < kAnchoredSize * multigrid::kLanes; ++i) fine.matrix(block)[i] = value(random);
-    // Pulls of symmetric matrices: the first corner's block is symmetric too.
-    for (std::size_t i = 0; i < multigrid::kPullSize * multigrid::kLanes; ++i) pull[i] = value(random);
-    for (std::size_t lane = 0; lane < multigrid::kLanes; ++lane) {
-      for (std::size_t r = 0; r < 3; ++r) {
-        for (std::size_t c = 0; c < r; ++c) {
-          double skew = 0;  // of the sum of the other corners' pulls
-          for (std::size_t corner = 1; corner < 8; ++corner) {
-            skew += static_cast<double>(pull[(3 * (3 * corner + r) + c) * multigrid::kLanes + lane] -
-                                        pull[(3 * (3 * corner + c) + r) * multigrid::kLanes + lane]);
-          }
-          pull[(3 * r + c) * multigrid::kLanes + lane] =
-              static_cast<float>(static_cast<double>(pull[(3 * c + r) * multigrid::kLanes + lane]) - skew);
-        }
-      }
-    }
-  }
-  const int bricks = grid.brick_count();
-  for (int lane = bricks % multigrid::kLanes; lane > 0 && lane < multigrid::kLanes; ++lane) {
-    float* matrix = fine.matrix(fine.block_count() - 1);
-    float* pull = fine.add_pull(fine.block_count() - 1);
-    for (std::size_t i = 0; i < kAnchoredSize; ++i) matrix[i * multigrid::kLanes + static_cast<std::size_t>(lane)] = 0;
-    for (std::size_t i = 0; i < multigrid::kPullSize; ++i) {
-      pull[i * multigrid::kLanes + static_cast<std::size_t>(lane)] = 0;
-    }
-  }
+  fill_at_random(fine, grid.brick_count());
   coarse.coarsen(fine);
-  const multigrid::Interpolation& hang = layouts[0].to_coarse;
-  Eigen::MatrixXd interpolation = Eigen::MatrixXd::Zero(3 * layouts[0].node_count, 3 * layouts[1].node_count);
-  for (int node = 0; node < layouts[0].node_count; ++node) {
-    const auto n = static_cast<std::size_t>(node);
-    for (std::size_t i = 0; i < hang.counts[n]; ++i) {
-      interpolation.block<3, 3>(3 * node, 3 * hang.coarse_nodes[n][i]) += Mat3::Identity() / hang.counts[n];
-    }
-  }
+  const Eigen::MatrixXd interpolation = fine_from_coarse(layouts[0], layouts[1]);
   const Eigen::MatrixXd expected = interpolation.transpose() * fine.dense() * interpolation;
   EXPECT_LT((coarse.dense() - expected).norm(), 1e-5 * expected.norm());
-  // The products are those of the dense matrix.
+}
+
+TEST(MultigridLevel, MultipliesLikeItsDenseMatrix) {
+  const BrickGrid grid = bracket(6);
+  const std::vector<multigrid::Layout> layouts = multigrid::make_hierarchy(grid, 20);
+  multigrid::Level level(layouts[0]);
+  fill_at_random(level, grid.brick_count());
   const Eigen::VectorXf x = Eigen::VectorXf::Random(3 * layouts[0].node_count);
   Eigen::VectorXf product;
-  fine.multiply(x, product);
-  const Eigen::VectorXd right = fine.dense() * x.cast<double>();
-  EXPECT_LT((product.cast<double>() - right).norm(), 1e-5 * right.norm());
+  level.multiply(x, product);
+  const Eigen::VectorXd expected = level.dense() * x.cast<double>();
+  EXPECT_LT((product.cast<double>() - expected).norm(), 1e-5 * expected.norm());
 }
 
 TEST(MultigridHierarchy, PartsDividedByAGapStayFree) {
