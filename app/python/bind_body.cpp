@@ -94,7 +94,7 @@ void settle(const BodyHandle& handle, bool linear) {
   while_others_run(*handle.world, [&] { handle.world->settle(handle.row, linear); });
 }
 
-Points skin_positions(const BodyHandle& handle) {
+Points deformed_skin(const BodyHandle& handle) {
   return while_others_run(*handle.world, [&] { return handle.world->skin_positions(handle.row); });
 }
 
@@ -120,7 +120,7 @@ void bind_body(py::module_& module) {
           "What it is made of.")
       .def("field", &field_of, py::arg("name"),
            "(n,) stretch, strain (von Mises), volume (over that at rest), fill, 1; stress (von Mises), young, Pa.")
-      .def("skin_positions", &skin_positions, "(v, 3) m.")
+      .def("skin_positions", &deformed_skin, "(v, 3) m.")
       .def("pin", &pin, py::arg("nodes"), "Holds these nodes where they are, and no others: rows, or (m,) bools.")
       .def("settle", &settle, py::arg("linear") = false,
            "Equilibrium with gravity and the pinned nodes; linear: for small displacements. Obstacles are not met.");

@@ -13,7 +13,8 @@
 namespace sprung {
 namespace {
 
-constexpr std::array<std::string_view, 7> kNames{"drop", "hang", "squash", "stretch", "twist", "wobble", "throw"};
+constexpr std::array<std::string_view, 7> kScenarioNames{"drop",  "hang",   "squash", "stretch",
+                                                         "twist", "wobble", "throw"};
 
 constexpr double kDropHeight = 0.4;  // in sizes above the ground
 constexpr double kHangHeight = 0.5;  // in sizes above the ground: near enough to see, far enough to stretch
@@ -98,12 +99,12 @@ void stage_throw(SceneBody& body, double size, double gravity) {
 
 }  // namespace
 
-std::span<const std::string_view> scenario_names() { return kNames; }
+std::span<const std::string_view> scenario_names() { return kScenarioNames; }
 
 Scenario scenario_from_name(std::string_view name) {
-  const auto found = std::find(kNames.begin(), kNames.end(), name);
-  if (found != kNames.end()) return static_cast<Scenario>(found - kNames.begin());
-  throw Error(ErrorKind::kUsage, fmt::format("there is no scenario '{}'{}", name, did_you_mean(name, kNames)));
+  const auto found = std::find(kScenarioNames.begin(), kScenarioNames.end(), name);
+  if (found != kScenarioNames.end()) return static_cast<Scenario>(found - kScenarioNames.begin());
+  throw Error(ErrorKind::kUsage, fmt::format("there is no scenario '{}'{}", name, did_you_mean(name, kScenarioNames)));
 }
 
 bool needs_height(Scenario scenario) {

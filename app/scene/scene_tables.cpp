@@ -176,7 +176,7 @@ Described describe(const Material&, const KeyInfo&) {
   return {"name, or table", fmt::format(R"({{"anyOf": [{}, {{"type": "string", "pattern": "."}}, {}]}})",
                                         name_among(names).schema, reference(kTableName<Material>))};
 }
-template <Named Value>
+template <HasNames Value>
 Described describe(const Value&, const KeyInfo&) {
   return name_among(value_names<Value>());
 }

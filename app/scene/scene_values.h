@@ -15,8 +15,8 @@ void check_range(double value, const KeyInfo& key);
 
 /// The types whose values are written as names, and those names.
 template <class Value>
-concept Named = InNames<Value> || std::is_same_v<Value, Model>;
-template <Named Value>
+concept HasNames = InNames<Value> || std::is_same_v<Value, Model>;
+template <HasNames Value>
 requires std::is_same_v<Value, Model>
 [[nodiscard]] std::vector<std::string_view> value_names() { return {model_names().begin(), model_names().end()}; }
 
