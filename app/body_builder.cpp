@@ -116,10 +116,13 @@ BodyBuilder::BodyBuilder(const Scene& scene, std::size_t index, const LoadedBody
       report_(loaded, body_.material.density),
       solid_of_vertex_(solids_of_vertices(loaded)) {}
 
+void BodyBuilder::fill_solids() {
+  for (std::size_t solid = 0; solid < loaded_.solids.size(); ++solid) filled_.push_back(fill(solid));
+}
+
 void BodyBuilder::add_solids() {
   const std::vector<Pose> poses = poses_of(body_, loaded_);
-  for (std::size_t solid = 0; solid < loaded_.solids.size(); ++solid) {
-    const Filled filled = fill(solid);
+  for (const Filled& filled : filled_) {
     for (std::size_t copy = 0; copy < poses.size(); ++copy) put(filled, poses[copy], static_cast<int>(copy));
   }
   const SurfaceMesh& mesh = loaded_.mesh;

@@ -13,7 +13,11 @@ class BodyBuilder {
   /// Body `index` of the scene. All have to outlive it.
   BodyBuilder(const Scene& scene, std::size_t index, const LoadedBody& loaded, Production& production);
 
-  /// Throws Error(kBadInput) where a region, a pin or a cut speaks of what is not there.
+  /// Touches nothing but this builder: those of other bodies may be filled at the same time. Throws Error(kBadInput)
+  /// where a region, a pin or a cut speaks of what is not there.
+  void fill_solids();
+
+  /// What was filled, into the production.
   void add_solids();
 
   /// Says how well the bricks fill the body, and what is not held.
@@ -45,6 +49,7 @@ class BodyBuilder {
   FillReport report_;
   int held_solids_ = 0;
   std::vector<int> solid_of_vertex_;  // of the mesh
+  std::vector<Filled> filled_;        // by solid
 };
 
 }  // namespace sprung

@@ -1,6 +1,10 @@
 #include "app/build_world.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
+#include <deque>
+#include <exception>
 
 #include "app/body_builder.h"
 #include "app/glue_bodies.h"
@@ -13,16 +17,32 @@ namespace {
 
 constexpr double kDrawnPlane = 4;  // sizes of the largest body: half the side of what is drawn of a plane
 
+/// All bodies at the same time. What stops one is kept, so that the first body in the scene that fails is told of.
+std::vector<std::exception_ptr> fill_bodies(std::deque<BodyBuilder>& builders) {
+  std::vector<std::exception_ptr> failures(builders.size());
+  tbb::parallel_for(std::size_t{0}, builders.size(), [&](std::size_t i) {
+    try {
+      builders[i].fill_solids();
+    } catch (...) {
+      failures[i] = std::current_exception();
+    }
+  });
+  return failures;
+}
+
 }  // namespace
 
 Production build_world(const Scene& scene, const std::vector<LoadedBody>& bodies, const Console& console) {
   Production production;
   production.world.gravity = scene.gravity;
   production.world.bodies_touch = scene.contact.bodies;
+  std::deque<BodyBuilder> builders;
+  for (std::size_t i = 0; i < bodies.size(); ++i) builders.emplace_back(scene, i, bodies[i], production);
+  const std::vector<std::exception_ptr> failures = fill_bodies(builders);
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    BodyBuilder builder(scene, i, bodies[i], production);
-    builder.add_solids();
-    builder.tell(console);
+    if (failures[i]) std::rethrow_exception(failures[i]);
+    builders[i].add_solids();
+    builders[i].tell(console);
     check_loads(scene, i, production.origins);
     production.size = std::max(production.size, bodies[i].extent.maxCoeff());
   }

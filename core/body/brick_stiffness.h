@@ -34,7 +34,7 @@ std::array<T, 3> axes_tensions(const BrickLaw& law, const std::array<T, 3>& stre
 /// The mean axes' part of stiffness_product(): their correction and the guard.
 template <class T>
 void add_axes_product(const BrickLaw& law, double h, const CornerVectors<T>& x, const CornerVectors<T>& u,
-                      bool material_only, CornerVectors<T>& product) {
+                      CornerVectors<T>& product) {
   using std::max;
   const auto a = mean_axes(x);
   const auto da = mean_axes(u);
@@ -52,13 +52,13 @@ void add_axes_product(const BrickLaw& law, double h, const CornerVectors<T>& x, 
   const std::array<std::array<T, 3>, 3> areas{cross(a[1], a[2]), cross(a[2], a[0]), cross(a[0], a[1])};
   const T lack = max(law.guard_ratio - dot(a[0], areas[0]) * (1 / volume), T(0.0));
   const T slope = (1 / volume) * (dot(da[0], areas[0]) + dot(da[1], areas[1]) + dot(da[2], areas[2]));
-  const T guard = material_only ? T(0.0) : law.guard / volume * step_above_zero(lack) * slope;
-  const T push = material_only ? T(0.0) : law.guard / volume * lack;
+  const T guard = law.guard / volume * step_above_zero(lack) * slope;
+  const T push = law.guard / volume * lack;
   std::array<std::array<T, 3>, 3> pulls;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3;
     const std::size_t k = (i + 2) % 3;
-    const T sideways = material_only ? T(0.0) : tensions[i] / (stretch[i] + h);
+    const T sideways = tensions[i] / (stretch[i] + h);
     const T along = tension_rates[i] - sideways * rates[i];
     const auto first = cross(da[j], a[k]);
     const auto second = cross(a[j], da[k]);
@@ -75,15 +75,69 @@ void add_axes_product(const BrickLaw& law, double h, const CornerVectors<T>& x, 
 
 }  // namespace detail
 
+/// Unit vectors along a brick's springs: twelve edges, twelve face diagonals, four inner ones, three mean axes.
+inline constexpr std::size_t kSpringsOfBrick = 31;
+template <class T>
+using SpringDirections = std::array<std::array<T, 3>, kSpringsOfBrick>;
+
+/// Of bricks of side h with corners at x (m).
+template <class T>
+SpringDirections<T> spring_directions(double h, const CornerVectors<T>& x) {
+  SpringDirections<T> directions;
+  std::size_t row = 0;
+  const auto add = [&](const auto& pairs) {
+    for (const CornerPair pair : pairs) directions[row++] = detail::measure(detail::between(x, pair), h).direction;
+  };
+  add(kEdges);
+  add(kFaceDiagonals);
+  add(kInnerDiagonals);
+  for (const std::array<T, 3>& axis : detail::mean_axes(x)) directions[row++] = detail::measure(axis, h).direction;
+  return directions;
+}
+
+/// Adds K_along u (N) to `product`: the stiffness of the springs of full bricks along themselves, as damping sees it,
+/// without what their tensions add by turning and without the guard.
+template <class T>
+void damping_product(const BrickLaw& law, const SpringDirections<T>& directions, const CornerVectors<T>& u,
+                     CornerVectors<T>& product) {
+  const auto add = [&](CornerPair pair, const std::array<T, 3>& direction, const T& force) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      product[static_cast<std::size_t>(3 * pair.from) + k] -= force * direction[k];
+      product[static_cast<std::size_t>(3 * pair.to) + k] += force * direction[k];
+    }
+  };
+  std::array<T, 12> rates;
+  for (std::size_t e = 0; e < 12; ++e) rates[e] = detail::dot(directions[e], detail::between(u, kEdges[e]));
+  const std::array<T, 12> tensions = detail::edge_tensions(law, rates);
+  for (std::size_t e = 0; e < 12; ++e) add(kEdges[e], directions[e], tensions[e]);
+  const auto diagonals = [&](const auto& pairs, std::size_t first, double stiffness) {
+    if (stiffness == 0) return;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      const std::array<T, 3>& direction = directions[first + i];
+      add(pairs[i], direction, stiffness * detail::dot(direction, detail::between(u, pairs[i])));
+    }
+  };
+  diagonals(kFaceDiagonals, 12, law.face);
+  diagonals(kInnerDiagonals, 24, law.inner);
+  if (law.axes == 0) return;
+  const auto axes = detail::mean_axes(u);
+  T rate(0.0);
+  for (std::size_t i = 0; i < 3; ++i) rate += detail::dot(directions[28 + i], axes[i]);
+  std::array<std::array<T, 3>, 3> pulls;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) pulls[i][k] = T(0.0) - law.axes * rate * directions[28 + i][k];
+  }
+  detail::pull_axes(product, pulls);
+}
+
 /// Adds K u (N) to `product`: K the second derivative of the energy of full bricks of side h with corners at x (m), u
-/// a displacement of the corners (m). Where `material_only`, what the springs' tensions add by turning, and the guard,
-/// are left out: K is then that of the springs along themselves, as damping sees it.
+/// a displacement of the corners (m).
 template <class T>
 void stiffness_product(const BrickLaw& law, double h, const CornerVectors<T>& x, const CornerVectors<T>& u,
-                       bool material_only, CornerVectors<T>& product) {
+                       CornerVectors<T>& product) {
   const auto add = [&](CornerPair pair, const detail::Spring<T>& spring, const std::array<T, 3>& du, const T& rate,
                        const T& tension_rate, const T& tension, double rest) {
-    const T sideways = material_only ? T(0.0) : tension / (spring.stretch + rest);
+    const T sideways = tension / (spring.stretch + rest);
     const T along = tension_rate - sideways * rate;
     for (std::size_t k = 0; k < 3; ++k) {
       const T force = along * spring.direction[k] + sideways * du[k];
@@ -115,7 +169,7 @@ void stiffness_product(const BrickLaw& law, double h, const CornerVectors<T>& x,
   };
   diagonals(kFaceDiagonals, std::numbers::sqrt2 * h, law.face);
   diagonals(kInnerDiagonals, std::numbers::sqrt3 * h, law.inner);
-  detail::add_axes_product(law, h, x, u, material_only, product);
+  detail::add_axes_product(law, h, x, u, product);
 }
 
 namespace detail {

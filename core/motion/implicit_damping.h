@@ -39,6 +39,7 @@ class ImplicitDamping {
   double beta_;
   double due_ = 0;  // s
   int passed_ = 0;
+  std::vector<double> directions_;  // of the springs, while it settles
   std::vector<double> room_;
 };
 

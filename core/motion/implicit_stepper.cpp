@@ -89,6 +89,7 @@ void ImplicitStepper::begin(double elapsed, double dt) {
   terms_.mass_factor = mass_factor_;
   terms_.damping = body_.damping.beta / span_;
   terms_.damping_positions = drift;
+  if (terms_.damping > 0) find_directions(body_, drift, directions_);
   for (ObstaclePotential& obstacle : obstacles_) obstacle.begin(body_.positions, elapsed, dt);
   hold(dt);
   reach_ = body_.positions.cwiseAbs().maxCoeff();
@@ -160,8 +161,7 @@ double ImplicitStepper::evaluate() {
   if (terms_.damping > 0) {
     const Points moved = body_.positions - origin_;
     Eigen::VectorXd damping;
-    multiply_stiffness(body_, {.stiffness = 0, .damping = terms_.damping}, terms_.damping_positions, flat(moved), room_,
-                       damping);
+    multiply_stiffness(body_, {.stiffness = 0, .damping = terms_.damping}, directions_, flat(moved), room_, damping);
     energy += 0.5 * damping.dot(flat(moved));
     work += damping.norm();
     Eigen::Map<Eigen::VectorXd>(forces_.data(), forces_.size()) -= damping;

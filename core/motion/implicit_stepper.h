@@ -46,6 +46,7 @@ class ImplicitStepper {
   std::vector<ObstaclePotential> obstacles_;
   std::unique_ptr<NewtonSystem> system_ = make_quick_system();
   StepTerms terms_;
+  std::vector<double> directions_;  // of the springs, at terms_.damping_positions
 
   // of the step at hand
   double span_ = 0;         // s

@@ -17,12 +17,13 @@ BrickMatrix brick_stiffness_along(const Body& body, std::size_t brick, const Ste
   for (std::size_t i = 0; i < 24; ++i) {
     x[i] = terms.damping_positions(body.grid.nodes[brick][i / 3], static_cast<int>(i % 3));
   }
+  const auto directions = spring_directions(body.grid.brick_size, x);
   BrickMatrix matrix;
   for (int column = 0; column < 24; ++column) {
     CornerVectors<double> unit{};
     unit[static_cast<std::size_t>(column)] = 1;
     CornerVectors<double> product{};
-    stiffness_product<double>(body.law, body.grid.brick_size, x, unit, true, product);
+    damping_product(body.law, directions, unit, product);
     matrix.col(column) = scale * Eigen::Map<const Eigen::Matrix<double, 24, 1>>(product.data());
   }
   return matrix;

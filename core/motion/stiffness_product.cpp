@@ -24,30 +24,39 @@ void multiply_hexahedra(const Body& body, double factor, const Eigen::VectorXd& 
   });
 }
 
-void multiply_springs(const Body& body, const multigrid::ProductInput& input, std::vector<double>& products) {
-  const int blocks = (body.grid.brick_count() + kBricksPerBlock - 1) / kBricksPerBlock;
-  tbb::parallel_for(tbb::blocked_range<int>(0, blocks, kBlocksPerTask), [&](const tbb::blocked_range<int>& range) {
-    for (int block = range.begin(); block < range.end(); ++block) {
-      multigrid::kernels().stiffness_product(input, block * kBricksPerBlock, products.data());
-    }
-  });
+int block_count(const Body& body) { return (body.grid.brick_count() + kBricksPerBlock - 1) / kBricksPerBlock; }
+
+/// Calls visit(first brick) for each block, in parallel.
+template <class Visit>
+void each_block(const Body& body, const Visit& visit) {
+  tbb::parallel_for(tbb::blocked_range<int>(0, block_count(body), kBlocksPerTask),
+                    [&](const tbb::blocked_range<int>& range) {
+                      for (int block = range.begin(); block < range.end(); ++block) visit(block * kBricksPerBlock);
+                    });
 }
 
 }  // namespace
 
-void multiply_stiffness(const Body& body, const StiffnessFactors& factors, const Points& damping_positions,
+void find_directions(const Body& body, const Points& positions, std::vector<double>& directions) {
+  if (body.small_strain_stiffness.size() > 0) return;
+  directions.resize(static_cast<std::size_t>(block_count(body)) * multigrid::kDirectionsOfBlock);
+  BlockInput block = block_input(body);
+  block.positions = positions.data();
+  each_block(body, [&](int first) { multigrid::kernels().directions(block, first, directions.data()); });
+}
+
+void multiply_stiffness(const Body& body, const StiffnessFactors& factors, const std::vector<double>& directions,
                         const Eigen::VectorXd& u, std::vector<double>& room, Eigen::VectorXd& product) {
   room.resize(24 * body.grid.nodes.size());
   if (body.small_strain_stiffness.size() > 0) {
     multiply_hexahedra(body, factors.stiffness + factors.damping, u, room);
   } else {
-    multiply_springs(body,
-                     {.block = block_input(body),
-                      .moves = u.data(),
-                      .stiffness = factors.stiffness,
-                      .damping = factors.damping,
-                      .damping_positions = damping_positions.data()},
-                     room);
+    const multigrid::ProductInput input{.block = block_input(body),
+                                        .moves = u.data(),
+                                        .stiffness = factors.stiffness,
+                                        .damping = factors.damping,
+                                        .directions = directions.data()};
+    each_block(body, [&](int first) { multigrid::kernels().stiffness_product(input, first, room.data()); });
   }
   product.resize(u.size());
   tbb::parallel_for(tbb::blocked_range<int>(0, body.node_count(), kNodesPerTask),

@@ -25,6 +25,42 @@ NormalCone cone_of(const Points& normals) {
   return {axis, std::acos(std::clamp((normals * axis).minCoeff(), -1.0, 1.0))};
 }
 
+void make_unique(std::vector<int>& values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+/// A brick, and those that share a node with it.
+std::vector<int> bricks_around(const Body& body, int brick) {
+  std::vector<int> around;
+  for (const int node : body.grid.nodes[static_cast<std::size_t>(brick)]) {
+    const auto row = static_cast<std::size_t>(node);
+    for (int i = body.first_corner[row]; i < body.first_corner[row + 1]; ++i) {
+      around.push_back(body.corners[static_cast<std::size_t>(i)] / 8);
+    }
+  }
+  make_unique(around);
+  return around;
+}
+
+std::vector<std::vector<int>> neighbours_among(const std::vector<int>& bricks, const Body& body) {
+  std::vector<int> row_of(body.grid.nodes.size(), -1);
+  for (std::size_t row = 0; row < bricks.size(); ++row) {
+    row_of[static_cast<std::size_t>(bricks[row])] = static_cast<int>(row);
+  }
+  std::vector<std::vector<int>> neighbours(bricks.size());
+  for (std::size_t row = 0; row < bricks.size(); ++row) {
+    for (const int between : bricks_around(body, bricks[row])) {
+      for (const int brick : bricks_around(body, between)) {
+        const int other = row_of[static_cast<std::size_t>(brick)];
+        if (other >= 0) neighbours[row].push_back(other);
+      }
+    }
+    make_unique(neighbours[row]);
+  }
+  return neighbours;
+}
+
 }  // namespace
 
 ContactSkin::ContactSkin(const Actor& actor) {
@@ -73,6 +109,7 @@ ContactSkin::ContactSkin(const Actor& actor) {
   for (std::size_t row = 0; row < bricks.size(); ++row) {
     cones.push_back(cone_of(normals.middleRows(first_point[row], first_point[row + 1] - first_point[row])));
   }
+  neighbours = neighbours_among(bricks, actor.body);
 }
 
 const ContactSkin& contact_skin_of(Actor& actor) {

@@ -30,6 +30,9 @@ struct ContactSkin {
   std::vector<int> first_triangle;            // b + 1
   Points normals;                             // n x 3, at rest, unit, outward; 0 where no triangle is
   std::vector<NormalCone> cones;              // b
+  /// By row of a brick, ascending: the rows of those that hang together with it or have such a neighbour in common.
+  /// Their skins cannot meet without a fold within a brick or two.
+  std::vector<std::vector<int>> neighbours;  // b
 };
 
 /// Made when it is first asked for: contacts, their triangles and the rest shape do not change after that.

@@ -84,12 +84,13 @@ AlignedBox widened(const AlignedBox& box, double by) {
   return {box.min() - Vec3::Constant(by), box.max() + Vec3::Constant(by)};
 }
 
-std::vector<std::pair<int, int>> overlapping_boxes(const std::vector<AlignedBox>& boxes) {
+std::vector<std::pair<int, int>> overlapping_boxes(const std::vector<AlignedBox>& boxes,
+                                                   const std::function<bool(int, int)>& is_kept) {
   std::vector<std::pair<int, int>> pairs;
   Cells(boxes).each_pair([&](int a, int b) {
-    if (boxes[static_cast<std::size_t>(a)].intersects(boxes[static_cast<std::size_t>(b)])) {
-      pairs.emplace_back(std::min(a, b), std::max(a, b));
-    }
+    if (!boxes[static_cast<std::size_t>(a)].intersects(boxes[static_cast<std::size_t>(b)])) return;
+    const std::pair<int, int> pair = std::minmax(a, b);
+    if (is_kept(pair.first, pair.second)) pairs.push_back(pair);
   });
   std::sort(pairs.begin(), pairs.end());
   return pairs;

@@ -29,19 +29,6 @@ bool hang_together(const Body& body, int a, int b) {
                      [&](int node) { return std::find(nodes.begin(), nodes.end(), node) != nodes.end(); });
 }
 
-/// Whether a brick hangs together with both: the skins of such bricks cannot meet without a fold within a brick or two.
-bool are_neighbours(const Body& body, int a, int b) {
-  const Eigen::Vector3i& cell = body.grid.cells[static_cast<std::size_t>(b)];
-  if ((body.grid.cells[static_cast<std::size_t>(a)] - cell).cwiseAbs().maxCoeff() > 2) return false;
-  for (const int node : body.grid.nodes[static_cast<std::size_t>(a)]) {
-    const auto row = static_cast<std::size_t>(node);
-    for (int i = body.first_corner[row]; i < body.first_corner[row + 1]; ++i) {
-      if (hang_together(body, body.corners[static_cast<std::size_t>(i)] / 8, b)) return true;
-    }
-  }
-  return false;
-}
-
 AlignedBox box_of(const Body& body, int brick) {
   AlignedBox box;
   for (const int node : body.grid.nodes[static_cast<std::size_t>(brick)]) box.extend(Vec3(body.positions.row(node)));
@@ -63,15 +50,13 @@ SkinPairs::SkinPairs(const std::vector<const ContactSkin*>& skins, std::size_t a
   if (other != actor) add(other);
 }
 
-bool SkinPairs::may_touch(const Group& group, const Place& a, const Place& b) const {
+bool SkinPairs::may_touch(const Place& a, const Place& b) const {
   const bool is_self = sides_.size() == 1;
   if (!is_self && a.side == b.side) return false;
-  const double spread = skin_of(a).cones[a.row].spread + skin_of(b).cones[b.row].spread;
-  const double angle = std::acos(std::clamp(a.normal.dot(b.normal), -1.0, 1.0));
-  if (angle + spread + kBent < std::acos(kFacing)) return false;
+  if (a.turn + b.turn > 0 && a.normal.dot(b.normal) > a.cosine * b.cosine - a.sine * b.sine) return false;
   if (!is_self) return true;
-  const std::vector<int>& bricks = skin_of(a).bricks;
-  return !are_neighbours(group[sides_[0].actor]->body, bricks[a.row], bricks[b.row]);
+  const std::vector<int>& neighbours = skin_of(a).neighbours[a.row];
+  return !std::binary_search(neighbours.begin(), neighbours.end(), static_cast<int>(b.row));
 }
 
 void SkinPairs::add_places(const Group& group, std::size_t side, const AlignedBox& near) {
@@ -80,10 +65,13 @@ void SkinPairs::add_places(const Group& group, std::size_t side, const AlignedBo
   const AlignedBox near_bricks = widened(near, body.grid.brick_size);  // skins may lie a little outside them
   for (std::size_t row = 0; row < skin.bricks.size(); ++row) {
     if (!near_bricks.intersects(box_of(body, skin.bricks[row]))) continue;
-    Place place{.side = side, .row = row, .box = {}, .normal = {}};
+    Place place{.side = side, .row = row, .box = {}, .normal = {}, .turn = 0, .cosine = 0, .sine = 0};
     find(group, place);
     if (!near.intersects(place.box)) continue;
     place.normal = carried_normal(body, skin.bricks[row], skin.cones[row].axis);
+    place.turn = (std::acos(kFacing) - kBent) / 2 - skin.cones[row].spread;
+    place.cosine = std::cos(place.turn);
+    place.sine = std::sin(place.turn);
     places_.push_back(place);
   }
 }
@@ -98,10 +86,8 @@ void SkinPairs::seek(const Group& group, double margin) {
   std::vector<AlignedBox> boxes;
   boxes.reserve(places_.size());
   for (const Place& place : places_) boxes.push_back(widened(place.box, margin / 2));
-  near_ = overlapping_boxes(boxes);
-  std::erase_if(near_, [&](const std::pair<int, int>& pair) {
-    return !may_touch(group, places_[static_cast<std::size_t>(pair.first)],
-                      places_[static_cast<std::size_t>(pair.second)]);
+  near_ = overlapping_boxes(boxes, [&](int a, int b) {
+    return may_touch(places_[static_cast<std::size_t>(a)], places_[static_cast<std::size_t>(b)]);
   });
   keep_near_places();
 }

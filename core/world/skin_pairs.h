@@ -74,6 +74,9 @@ class SkinPairs {
     std::size_t row;  // in the skin's bricks
     AlignedBox box;   // m, of its points and triangles
     Vec3 normal;      // the axis of its normals
+    double turn;      // rad: those of two bricks may touch whose axes are further apart than their turns add up to
+    double cosine;    // of the turn
+    double sine;
   };
 
   [[nodiscard]] const ContactSkin& skin_of(const Side& side) const { return *skins_[side.actor]; }
@@ -85,7 +88,7 @@ class SkinPairs {
   void add_places(const Group& group, std::size_t side, const AlignedBox& near);
   void keep_near_places();
   void find(const Group& group, Place& place);
-  [[nodiscard]] bool may_touch(const Group& group, const Place& a, const Place& b) const;
+  [[nodiscard]] bool may_touch(const Place& a, const Place& b) const;
   void pair_up(const Group& group, const Place& place, const Place& facing, const SkinReach& reach);
   void pair_up(const Group& group, const SkinReach& reach, const Place& facing, std::size_t side, int point);
   int watched_row(const Group& group, std::size_t side, int point);

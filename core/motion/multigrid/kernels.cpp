@@ -38,8 +38,8 @@ struct Pack {
 using Doubles = Pack<double, kBricksPerBlock>;
 using Floats = Pack<float, kLanes>;
 
-template <class P>
-P load(const float* values) {
+template <class P, class Number>
+P load(const Number* values) {
   typename P::Lanes lanes;
   lanes.copy_from(values, std::experimental::element_aligned);
   return lanes;
@@ -54,36 +54,58 @@ void store(const P& pack, Number* values) {
 /// the first corner, before they are rounded.
 template <class P>
 CornerVectors<P> gather(const BlockInput& input, const double* values, int first, int lanes) {
-  CornerVectors<P> packed;
+  using Number = typename P::Lanes::value_type;
+  alignas(64) Number places[24][P::Lanes::size()];
   for (int lane = 0; lane < lanes; ++lane) {
     const BrickNodes& nodes = input.nodes[std::min(first + lane, input.brick_count - 1)];
     const double* origin = values + 3 * static_cast<std::ptrdiff_t>(nodes[0]);
     for (std::size_t corner = 0; corner < 8; ++corner) {
       const double* value = values + 3 * static_cast<std::ptrdiff_t>(nodes[corner]);
-      for (std::size_t k = 0; k < 3; ++k) {
-        packed[3 * corner + k].lanes[static_cast<std::size_t>(lane)] =
-            static_cast<typename P::Lanes::value_type>(value[k] - origin[k]);
-      }
+      for (std::size_t k = 0; k < 3; ++k) places[3 * corner + k][lane] = static_cast<Number>(value[k] - origin[k]);
     }
   }
+  CornerVectors<P> packed;
+  for (std::size_t i = 0; i < 24; ++i) packed[i].lanes.copy_from(places[i], std::experimental::element_aligned);
   return packed;
+}
+
+std::size_t place_of_directions(int first) {
+  return static_cast<std::size_t>(first / kBricksPerBlock) * kDirectionsOfBlock;
+}
+
+[[gnu::flatten]] void directions_block(const BlockInput& block, int first, double* directions) {
+  const auto x = gather<Doubles>(block, block.positions, first, kBricksPerBlock);
+  double* to = directions + place_of_directions(first);
+  for (const auto& direction : spring_directions<Doubles>(block.brick_size, x)) {
+    for (const Doubles& part : direction) {
+      store(part, to);
+      to += kBricksPerBlock;
+    }
+  }
 }
 
 [[gnu::flatten]] void stiffness_product_block(const ProductInput& input, int first, double* corner_products) {
   const BlockInput& block = input.block;
   const auto u = gather<Doubles>(block, input.moves, first, kBricksPerBlock);
-  const auto x = gather<Doubles>(block, block.positions, first, kBricksPerBlock);
   CornerVectors<Doubles> product;
   product.fill(Doubles(0.0));
   if (input.damping != 0) {
-    const auto at = gather<Doubles>(block, input.damping_positions, first, kBricksPerBlock);
-    stiffness_product<Doubles>(*block.law, block.brick_size, at, u, true, product);
+    const double* from = input.directions + place_of_directions(first);
+    SpringDirections<Doubles> directions;
+    for (auto& direction : directions) {
+      for (Doubles& part : direction) {
+        part = load<Doubles>(from);
+        from += kBricksPerBlock;
+      }
+    }
+    damping_product<Doubles>(*block.law, directions, u, product);
     for (Doubles& part : product) part = input.damping * part;
   }
   if (input.stiffness != 0) {
+    const auto x = gather<Doubles>(block, block.positions, first, kBricksPerBlock);
     CornerVectors<Doubles> whole;
     whole.fill(Doubles(0.0));
-    stiffness_product<Doubles>(*block.law, block.brick_size, x, u, false, whole);
+    stiffness_product<Doubles>(*block.law, block.brick_size, x, u, whole);
     for (std::size_t i = 0; i < 24; ++i) product[i] += input.stiffness * whole[i];
   }
   const int lanes = std::min(kBricksPerBlock, block.brick_count - first);
@@ -325,7 +347,8 @@ void transpose(Matrix24& matrix) {
 
 }  // namespace
 
-const Kernels SPRUNG_KERNELS{.stiffness_product = stiffness_product_block,
+const Kernels SPRUNG_KERNELS{.directions = directions_block,
+                             .stiffness_product = stiffness_product_block,
                              .stiffness_matrices = stiffness_matrices_block,
                              .apply = apply_block<float>,
                              .apply_double = apply_block<double>,

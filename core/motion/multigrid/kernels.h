@@ -31,17 +31,23 @@ struct FineMatrices {
   const int* pull_of_block;  // which; -1: none
 };
 
+inline constexpr std::size_t kDirectionsOfBlock = 3 * kSpringsOfBrick * kBricksPerBlock;
+
 /// What stiffness K u + damping K_along u is made of.
 struct ProductInput {
   BlockInput block;
-  const double* moves;              // u, x y z a node, m
-  double stiffness;                 // times the whole stiffness
-  double damping;                   // times the springs' stiffness along themselves ...
-  const double* damping_positions;  // ... where the nodes are here; not read where damping is zero
+  const double* moves;       // u, x y z a node, m
+  double stiffness;          // times the whole stiffness
+  double damping;            // times the springs' stiffness along themselves ...
+  const double* directions;  // ... where they point here, from `directions` below; not read where damping is zero
 };
 
 /// The innermost loops, once for each instruction set. All versions give the same bits.
 struct Kernels {
+  /// Where the springs of the kBricksPerBlock bricks from `first` on point, nodes being at block.positions:
+  /// kDirectionsOfBlock numbers a block, the first block's first.
+  void (*directions)(const BlockInput& block, int first, double* directions);
+
   /// 24 products (N) a brick, corner by corner, for the kBricksPerBlock bricks from `first` on.
   void (*stiffness_product)(const ProductInput& input, int first, double* corner_products);
 

@@ -264,12 +264,16 @@ TEST(MultigridKernels, AllInstructionSetsGiveTheSameBits) {
     const multigrid::LevelBlock block{.matrix = matrix.data(), .pull = nullptr, .nodes = input.nodes, .count = 16};
     kernels.apply(block, x.data(), forces.data());
     matrix.insert(matrix.end(), forces.begin(), forces.end());
+    BlockInput at_rest = input;
+    at_rest.positions = problem.body.rest_positions.data();
+    std::vector<double> directions(2 * multigrid::kDirectionsOfBlock);
+    kernels.directions(at_rest, 8, directions.data());
     std::vector<double> products(24 * static_cast<std::size_t>(input.brick_count));
     kernels.stiffness_product({.block = input,
                                .moves = problem.forces.data(),
                                .stiffness = 1,
                                .damping = 0.1,
-                               .damping_positions = problem.body.rest_positions.data()},
+                               .directions = directions.data()},
                               8, products.data());
     for (const double value : products) matrix.push_back(static_cast<float>(value));
     return matrix;
