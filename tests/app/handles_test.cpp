@@ -31,7 +31,8 @@ std::vector<Vec3> path(const std::string& text) {
   const Console silent{.quiet = true};
   Production production = make_production(scene, silent);
   std::vector<Vec3> places;
-  for (const ProbeSample& sample : simulate(production, scene, silent).probes.at(0).samples) {
+  const Recording recording = simulate(production, scene, silent);
+  for (const ProbeSample& sample : recording.probes.at(0).samples) {
     places.push_back(sample.displacement);
   }
   return places;

@@ -42,7 +42,8 @@ Recording record(const std::string& text) {
 
 std::vector<Vec3> path(const std::string& text) {
   std::vector<Vec3> places;
-  for (const ProbeSample& sample : record(text).probes.at(0).samples) places.push_back(sample.displacement);
+  const Recording recording = record(text);
+  for (const ProbeSample& sample : recording.probes.at(0).samples) places.push_back(sample.displacement);
   return places;
 }
 
