@@ -128,7 +128,7 @@ TEST(SharedHand, WristIsClosedFlat) {
   const auto file = test::shared_mesh("hand_lowres.obj");
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "the shared meshes are not here";
   const SurfaceMesh mesh = read_mesh(file);
-  const Solid& solid = find_solids(mesh, "hand").solids.at(0);
+  const Solid solid = find_solids(mesh, "hand").solids.at(0);
   EXPECT_EQ(std::count(solid.source.begin(), solid.source.end(), -1), 14) << "16 edges and no point inside";
 }
 
