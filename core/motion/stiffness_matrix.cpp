@@ -2,8 +2,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include "core/body/brick_damping.h"
 #include "core/body/brick_hessian.h"
-#include "core/body/brick_stiffness.h"
 #include "core/motion/point_forces.h"
 
 namespace sprung {

@@ -3,6 +3,7 @@
 #include <span>
 
 #include "core/body/brick_block.h"
+#include "core/body/brick_damping.h"
 #include "core/body/brick_stiffness.h"
 
 namespace sprung::multigrid {
