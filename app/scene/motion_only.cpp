@@ -7,9 +7,6 @@ namespace sprung {
 std::vector<MotionOnly> explicit_only(const Scene& scene) {
   std::vector<MotionOnly> parts;
   if (!scene.glue.empty()) parts.push_back({.key = "glue", .what = "glue"});
-  for (std::size_t row = 0; row < scene.bodies.size(); ++row) {
-    if (!scene.bodies[row].muscles.empty()) parts.push_back({.key = "body", .row = row, .what = "a muscle"});
-  }
   return parts;
 }
 
@@ -20,6 +17,7 @@ std::vector<MotionOnly> motion_only(const Scene& scene) {
     return scene.solver.scheme != Solver::kModes && !force.pressure && force.keyframes.empty();
   };
   for (std::size_t row = 0; row < scene.bodies.size(); ++row) {
+    if (!scene.bodies[row].muscles.empty()) parts.push_back({.key = "body", .row = row, .what = "a muscle"});
     const std::vector<BodyForce>& forces = scene.bodies[row].forces;
     if (std::all_of(forces.begin(), forces.end(), is_steady)) continue;
     parts.push_back(

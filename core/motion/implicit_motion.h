@@ -21,13 +21,14 @@ class ImplicitStepper;
 
 /// Moves a world by implicit steps, which may be as long as the motion that is to be seen allows, however stiff the
 /// bricks. Each step is the minimum over the positions x of the incremental potential
-///   W(x) + 1/(2 s^2) |x - x0 - s v0 - s^2 g|_M^2 + alpha/(2 s) |x - x0|_M^2 + beta/(2 s) |x - x0|_K^2 + obstacles(x)
+///   W(x) + muscles(x) + 1/(2 s^2) |x - x0 - s v0 - s^2 g|_M^2 + alpha/(2 s) |x - x0|_M^2 + beta/(2 s) |x - x0|_K^2 +
+///   obstacles(x)
 /// by Newton's method with a line search; K is the stiffness of the springs along themselves where the step before
 /// points to. Backward Euler: s = dt, x0 and v0 the state. BDF2: s = 2/3 dt, x0 = (4 x - x_before) / 3, v0 likewise;
 /// its first step, and one after a step cut short, is backward Euler's.
 /// BDF2 and not generalised-alpha: it needs no accelerations, which jump where contact sets in, it damps the
 /// frequencies it does not resolve without a parameter to choose, and each step is a minimum of the same form.
-/// g holds the loads too, as they are when the step begins. Obstacles are ObstaclePotential's; bodies touch neither
+/// g holds all other loads, as they are when the step begins. Obstacles are ObstaclePotential's; bodies touch neither
 /// each other nor themselves, see why_not_implicit(). Deterministic for any number of threads. Body velocities are
 /// those of the scheme after each step.
 class ImplicitMotion {

@@ -31,7 +31,8 @@ ImplicitStepper::ImplicitStepper(Actor& actor, const World& world, const Implici
       options_(options),
       supports_(body_.node_count()),
       size_(longest_side(body_.rest_positions)),
-      stiffness_(largest_brick_stiffness(body_)) {
+      stiffness_(largest_brick_stiffness(body_)),
+      muscles_(actor) {
   for (const Obstacle& obstacle : world.obstacles) obstacles_.emplace_back(actor, obstacle, kSlip * size_);
 }
 
@@ -79,7 +80,7 @@ void ImplicitStepper::begin(double elapsed, double dt) {
   goal_.rowwise() += span_ * span_ * world_.gravity.transpose();
   weight_ = std::sqrt(body_.masses.squaredNorm()) * world_.gravity.norm();
   if (LoadForces acting(actor_, world_); acting.any()) {
-    const Points& loads = acting.forces();
+    const Points& loads = acting.forces_beside_muscles();
     goal_ += span_ * span_ * (body_.masses.cwiseInverse().asDiagonal() * loads);
     weight_ += loads.norm();
   }
@@ -89,8 +90,9 @@ void ImplicitStepper::begin(double elapsed, double dt) {
   terms_.mass_factor = mass_factor_;
   terms_.damping = body_.damping.beta / span_;
   terms_.damping_positions = drift;
-  if (terms_.damping > 0) find_directions(body_, drift, directions_);
+  if (terms_.damping > 0) find_directions(body_, drift, terms_.directions);
   for (ObstaclePotential& obstacle : obstacles_) obstacle.begin(body_.positions, elapsed, dt);
+  muscles_.begin();
   hold(dt);
   reach_ = body_.positions.cwiseAbs().maxCoeff();
   // Forces are those of the positions alone; damping comes from the potential.
@@ -154,6 +156,7 @@ double ImplicitStepper::evaluate() {
   spring_forces(body_, workspace_, forces_);
   double energy = elastic_energy(body_, workspace_);
   double work = forces_.norm() + weight_;
+  energy += muscles_.add_forces(forces_);
   const Points inertia = mass_factor_ * (body_.masses.asDiagonal() * (body_.positions - goal_));
   energy += 0.5 * flat(inertia).dot(flat(Points(body_.positions - goal_)));
   work += inertia.norm();
@@ -161,7 +164,8 @@ double ImplicitStepper::evaluate() {
   if (terms_.damping > 0) {
     const Points moved = body_.positions - origin_;
     Eigen::VectorXd damping;
-    multiply_stiffness(body_, {.stiffness = 0, .damping = terms_.damping}, directions_, flat(moved), room_, damping);
+    multiply_stiffness(body_, {.stiffness = 0, .damping = terms_.damping}, terms_.directions, flat(moved), room_,
+                       damping);
     energy += 0.5 * damping.dot(flat(moved));
     work += damping.norm();
     Eigen::Map<Eigen::VectorXd>(forces_.data(), forces_.size()) -= damping;
@@ -193,9 +197,10 @@ bool ImplicitStepper::newton_step(double potential) {
 /// Newton's direction, from the true curvature where that is positive, else from its positive part.
 Eigen::VectorXd ImplicitStepper::direction() {
   const Eigen::VectorXd residual = flat(forces_);
-  terms_.points.clear();
-  for (ObstaclePotential& obstacle : obstacles_) obstacle.add_stiffness(body_.positions, terms_.points);
   for (const bool definite : {false, true}) {
+    terms_.points.clear();
+    for (ObstaclePotential& obstacle : obstacles_) obstacle.add_stiffness(body_.positions, terms_.points);
+    muscles_.add_stiffness(definite, terms_.points);
     if (!system_->linearize(body_, supports_, definite, terms_)) continue;
     Eigen::VectorXd way = system_->solve(residual, kSolveTolerance);
     if (way.size() > 0 && way.allFinite()) return way;

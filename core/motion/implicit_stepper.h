@@ -3,6 +3,7 @@
 
 #include "core/body/forces.h"
 #include "core/motion/implicit_motion.h"
+#include "core/motion/muscle_potential.h"
 #include "core/motion/obstacle_potential.h"
 
 namespace sprung {
@@ -44,9 +45,9 @@ class ImplicitStepper {
   double stiffness_;  // N/m, the largest of a brick
   double reach_ = 0;  // m, from the origin
   std::vector<ObstaclePotential> obstacles_;
+  MusclePotential muscles_;
   std::unique_ptr<NewtonSystem> system_ = make_quick_system();
   StepTerms terms_;
-  std::vector<double> directions_;  // of the springs, at terms_.damping_positions
 
   // of the step at hand
   double span_ = 0;         // s

@@ -18,11 +18,11 @@ struct Supports {
   }
 };
 
-/// Something that holds a point of a brick, such as a contact.
+/// Something that holds what moves as a weighted sum of a brick's corners, such as a contact.
 struct PointStiffness {
   int brick = 0;
   Eigen::Matrix<double, 8, 1> weights;  // of the brick's corners in the point
-  Mat3 stiffness = Mat3::Zero();        // N/m, symmetric, no negative eigenvalue
+  Mat3 stiffness = Mat3::Zero();        // N/m, symmetric; no negative eigenvalue where a system is to be definite
 };
 
 /// What a step in time adds to the stiffness K of a body; as it comes, nothing.
@@ -30,7 +30,8 @@ struct StepTerms {
   double mass_factor = 0;              // 1/s^2: times the masses
   double damping = 0;                  // times the springs' stiffness along themselves, without the guard ...
   Points damping_positions;            // ... where the nodes are here (m x 3, m); not read where damping is zero
-  std::vector<PointStiffness> points;  // contacts
+  std::vector<double> directions;      // of the springs there, see find_directions(); likewise
+  std::vector<PointStiffness> points;  // contacts, muscles
 };
 
 /// How the solving went so far.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/body/brick_columns.h"
+#include "core/world/muscle.h"
 
 namespace sprung {
 namespace {
@@ -41,37 +42,19 @@ void press(const Facet& facet, const Eigen::RowVector3d& force, Points& at_point
   for (const int corner : facet.corners) at_points.row(corner) += force / 3;
 }
 
-/// Stresses (Pa) of a brick that is held in its shape while it would rather have that of the muscle: along the
-/// direction and across it, by the law of Hooke.
-struct ActiveStress {
-  double along;
-  double across;
-};
-
-ActiveStress active_stress(const Material& material, double contraction) {
-  const double widening = 1 / std::sqrt(1 - contraction) - 1;
-  const double twice_shear = 2 * material.shear_modulus();
-  const double lame = twice_shear * material.poisson / (1 - 2 * material.poisson);
-  const double growth = 2 * widening - contraction;
-  return {.along = -(lame * growth - twice_shear * contraction), .across = -(lame * growth + twice_shear * widening)};
-}
-
-/// The direction and two across it, as columns.
-Mat3 frame_along(const Vec3& direction) {
-  Mat3 frame;
-  const Vec3 across = direction.unitOrthogonal();
-  frame << direction, across, direction.cross(across);
-  return frame;
-}
-
 }  // namespace
 
 const Points& LoadForces::forces() {
+  static_cast<void>(forces_beside_muscles());
+  for (const Muscle& muscle : actor_.loads.muscles) add_muscle(muscle);
+  return forces_;
+}
+
+const Points& LoadForces::forces_beside_muscles() {
   if (steps_to_look_ == 0) find_skin_forces();
   steps_to_look_ = (steps_to_look_ + 1) % kStepsBetweenLooks;
   forces_ = skin_forces_;
   if (actor_.loads.forces.rows() > 0) forces_ += actor_.loads.forces;
-  for (const Muscle& muscle : actor_.loads.muscles) add_muscle(muscle);
   return forces_;
 }
 
@@ -103,19 +86,15 @@ void LoadForces::find_skin_forces() {
   add_carried(body, actor_.contacts, at_points, skin_forces_);
 }
 
-/// Tensions of constant size along the brick's own directions have the energy V sum_i stress_i |F e_i|. Together with
-/// the springs' they are zero in the muscle's shape.
 void LoadForces::add_muscle(const Muscle& muscle) {
   const Body& body = actor_.body;
   const double h = body.grid.brick_size;
-  const Mat3 frame = frame_along(muscle.direction);
-  const ActiveStress stress = active_stress(body.material, muscle.contraction);
-  const Vec3 strength(stress.along, stress.across, stress.across);
+  const auto [frame, stress] = tension_of(muscle, body.material);
   for (const int brick : muscle.bricks) {
     const auto row = static_cast<std::size_t>(brick);
     const auto& nodes = body.grid.nodes[row];
     const Mat3 drawn = mean_axes_of(columns_of(nodes, body.positions)) / h * frame;  // columns: F e_i
-    const Vec3 tension = body.stiffness_scale[row] * strength.array() / drawn.colwise().norm().transpose().array();
+    const Vec3 tension = body.stiffness_scale[row] * stress.array() / drawn.colwise().norm().transpose().array();
     const Mat3 stress_on_faces = drawn * tension.asDiagonal() * frame.transpose();  // first Piola-Kirchhoff, Pa
     const Mat3 pull = 0.25 * h * h * stress_on_faces;                               // N, at each corner of a face
     for (int corner = 0; corner < 8; ++corner) {

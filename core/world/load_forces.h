@@ -15,6 +15,8 @@ class LoadForces {
 
   /// For the positions and velocities that the body has; m x 3, N. Call once a step.
   [[nodiscard]] const Points& forces();
+  /// The same without muscles, for steps that have those as an energy.
+  [[nodiscard]] const Points& forces_beside_muscles();
 
  private:
   void find_skin_forces();

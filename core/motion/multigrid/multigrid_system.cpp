@@ -62,7 +62,6 @@ class MultigridSystem : public NewtonSystem {
       cycle_ = std::make_unique<multigrid::Cycle>(layouts_);
     }
     held_ = supports.fixed;
-    if (terms.damping > 0) find_directions(body, terms.damping_positions, directions_);
     fill_finest();
     return cycle_->prepare(smoothing_steps(body), fastest_of_brick());
   }
@@ -93,7 +92,6 @@ class MultigridSystem : public NewtonSystem {
   std::unique_ptr<multigrid::Cycle> cycle_;
   std::vector<char> is_held_node_;
   std::vector<std::vector<int>> points_of_brick_;  // rows of terms_->points; empty where there are none at all
-  std::vector<double> directions_;                 // of the springs, at terms_->damping_positions
   std::vector<double> corner_products_;
   multigrid::Floats single_residual_;
   multigrid::Floats single_answer_;
@@ -208,7 +206,8 @@ void MultigridSystem::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& produc
 }
 
 void MultigridSystem::multiply_exactly(const Eigen::VectorXd& x, Eigen::VectorXd& product) {
-  multiply_stiffness(*body_, {.stiffness = 1, .damping = terms_->damping}, directions_, x, corner_products_, product);
+  multiply_stiffness(*body_, {.stiffness = 1, .damping = terms_->damping}, terms_->directions, x, corner_products_,
+                     product);
   if (terms_->mass_factor != 0) {
     for (Eigen::Index i = 0; i < x.size(); ++i) product[i] += terms_->mass_factor * body_->masses[i / 3] * x[i];
   }

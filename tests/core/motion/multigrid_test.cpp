@@ -4,6 +4,7 @@
 #include "core/body/forces.h"
 #include "core/motion/multigrid/level.h"
 #include "core/motion/newton_system.h"
+#include "core/motion/stiffness_product.h"
 #include "tests/support/bodies.h"
 
 namespace sprung {
@@ -87,6 +88,7 @@ TEST(Multigrid, EqualsTheDirectSolverFarFromRest) {
   problem.terms.mass_factor = 1e4;
   problem.terms.damping = 0.7;
   problem.terms.damping_positions = problem.body.rest_positions;
+  find_directions(problem.body, problem.body.rest_positions, problem.terms.directions);
   PointStiffness point{.brick = 40, .weights = Eigen::Matrix<double, 8, 1>::Constant(0.125)};
   point.stiffness = 1e3 * Mat3::Identity();
   problem.terms.points.push_back(point);
