@@ -1,54 +1,16 @@
-// Compiled once for each instruction set; SPRUNG_KERNELS is the name of the one variable it gives.
+// Compiled once for each instruction set; SPRUNG_INSTRUCTION_SET names the one at hand.
 #include "core/motion/multigrid/kernels.h"
 
 #include <algorithm>
-#include <experimental/simd>
 
-namespace sprung::multigrid {
+#include "core/motion/multigrid/galerkin.h"
+#include "core/motion/multigrid/pack.h"
 
-extern const Kernels SPRUNG_KERNELS;
+namespace sprung::multigrid::SPRUNG_INSTRUCTION_SET {
+
+[[nodiscard]] Kernels kernels();
 
 namespace {
-
-/// A type of this file alone, so that no template made for it can be taken for another instruction set's.
-template <class Number, int N>
-struct Pack {
-  using Lanes = std::experimental::fixed_size_simd<Number, N>;
-  Lanes lanes;
-
-  Pack() = default;
-  Pack(double value) : lanes(static_cast<Number>(value)) {}
-  Pack(const Lanes& values) : lanes(values) {}
-
-  friend Pack operator+(const Pack& a, const Pack& b) { return a.lanes + b.lanes; }
-  friend Pack operator-(const Pack& a, const Pack& b) { return a.lanes - b.lanes; }
-  friend Pack operator*(const Pack& a, const Pack& b) { return a.lanes * b.lanes; }
-  friend Pack operator/(const Pack& a, const Pack& b) { return a.lanes / b.lanes; }
-  friend Pack& operator+=(Pack& a, const Pack& b) { return a = a + b; }
-  friend Pack& operator-=(Pack& a, const Pack& b) { return a = a - b; }
-  friend Pack sqrt(const Pack& a) { return std::experimental::sqrt(a.lanes); }
-  friend Pack max(const Pack& a, const Pack& b) { return std::experimental::max(a.lanes, b.lanes); }
-  friend Pack step_above_zero(const Pack& a) {
-    Lanes step(Number(0));
-    where(a.lanes > Number(0), step) = Number(1);
-    return step;
-  }
-};
-
-using Doubles = Pack<double, kBricksPerBlock>;
-using Floats = Pack<float, kLanes>;
-
-template <class P, class Number>
-P load(const Number* values) {
-  typename P::Lanes lanes;
-  lanes.copy_from(values, std::experimental::element_aligned);
-  return lanes;
-}
-
-template <class P, class Number>
-void store(const P& pack, Number* values) {
-  pack.lanes.copy_to(values, std::experimental::element_aligned);
-}
 
 /// Bricks side by side; the last one is repeated where there are fewer. In single precision the places are taken from
 /// the first corner, before they are rounded.
@@ -223,136 +185,16 @@ template <class Number>
   }
 }
 
-using Matrix24 = std::array<std::array<Floats, 24>, 24>;
-using Pull = std::array<std::array<Floats, 3>, 24>;
-
-/// One entry of sixteen bricks, each in a block of its own or together with others.
-Floats pick(const float* values, std::size_t entries, std::size_t entry, const std::array<int, kLanes>& blocks,
-            const std::array<int, kLanes>& lanes) {
-  alignas(64) std::array<float, kLanes> picked{};
-  for (std::size_t i = 0; i < kLanes; ++i) {
-    if (blocks[i] < 0) continue;
-    picked[i] =
-        values[(static_cast<std::size_t>(blocks[i]) * entries + entry) * kLanes + static_cast<std::size_t>(lanes[i])];
-  }
-  return load<Floats>(picked.data());
-}
-
-/// The whole matrices of one octant's children of sixteen coarse bricks. False: there are none.
-bool pick_children(const FineMatrices& fine, std::span<const Children> bricks, std::size_t octant, Matrix24& matrix,
-                   Pull& pull, bool& has_pull) {
-  std::array<int, kLanes> blocks;
-  std::array<int, kLanes> lanes{};
-  std::array<int, kLanes> pulls;
-  blocks.fill(-1);
-  pulls.fill(-1);
-  bool any = false;
-  bool any_pull = false;
-  for (std::size_t i = 0; i < bricks.size(); ++i) {
-    const int child = bricks[i][octant];
-    if (child < 0) continue;
-    any = true;
-    blocks[i] = child / kLanes;
-    lanes[i] = child % kLanes;
-    pulls[i] = fine.pull_of_block[blocks[i]];
-    any_pull = any_pull || pulls[i] >= 0;
-  }
-  if (!any) return false;
-  for (std::size_t a = 0; a < 21; ++a) {
-    for (std::size_t b = 0; b <= a; ++b) {
-      const Floats entry = pick(fine.matrices, kAnchoredSize, anchored_index(a, b), blocks, lanes);
-      matrix[a + 3][b + 3] = entry;
-      matrix[b + 3][a + 3] = entry;
-    }
-  }
-  for (std::size_t row = 0; row < 24; ++row) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      pull[row][k] = any_pull ? pick(fine.pulls, kPullSize, 3 * row + k, pulls, lanes) : Floats(0.0);
-    }
-  }
-  has_pull = has_pull || any_pull;
-  for (std::size_t row = 3; row < 24; ++row) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      Floats rest = pull[row][k];
-      for (std::size_t corner = 1; corner < 8; ++corner) rest -= matrix[row][3 * corner + k];
-      matrix[row][k] = rest;
-      matrix[k][row] = rest;
-    }
-  }
-  for (std::size_t row = 0; row < 3; ++row) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      Floats rest = pull[row][k];
-      for (std::size_t corner = 1; corner < 8; ++corner) rest -= matrix[row][3 * corner + k];
-      matrix[row][k] = rest;
-    }
-  }
-  return true;
-}
-
-/// Rows of corners to rows of the coarse brick's corners, which the child in that octant hangs between.
-template <std::size_t Columns>
-void restrict_rows(std::array<std::array<Floats, Columns>, 24>& rows, std::size_t octant) {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const bool high = (octant >> axis & 1U) != 0;
-    for (std::size_t corner = 0; corner < 8; ++corner) {
-      if ((corner >> axis & 1U) != 0) continue;
-      // The corner in the middle of the coarse edge is shared between its two ends.
-      const std::size_t middle = high ? corner : corner | 1U << axis;
-      const std::size_t end = high ? corner | 1U << axis : corner;
-      for (std::size_t k = 0; k < 3; ++k) {
-        for (std::size_t column = 0; column < Columns; ++column) {
-          Floats& half = rows[3 * middle + k][column];
-          half = 0.5 * half;
-          rows[3 * end + k][column] += half;
-        }
-      }
-    }
-  }
-}
-
-void transpose(Matrix24& matrix) {
-  for (std::size_t a = 0; a < 24; ++a) {
-    for (std::size_t b = 0; b < a; ++b) std::swap(matrix[a][b], matrix[b][a]);
-  }
-}
-
-[[gnu::flatten]] bool coarsen_block(const FineMatrices& fine, std::span<const Children> bricks, float* matrix,
-                                    float* pull) {
-  Matrix24 child;
-  Pull child_pull;
-  std::array<Floats, kAnchoredSize> sum;
-  Pull pull_sum;
-  sum.fill(Floats(0.0));
-  for (auto& row : pull_sum) row.fill(Floats(0.0));
-  bool has_pull = false;
-  for (std::size_t octant = 0; octant < 8; ++octant) {
-    if (!pick_children(fine, bricks, octant, child, child_pull, has_pull)) continue;
-    restrict_rows(child, octant);
-    transpose(child);
-    restrict_rows(child, octant);
-    for (std::size_t a = 0; a < 21; ++a) {
-      for (std::size_t b = 0; b <= a; ++b) sum[anchored_index(a, b)] += child[a + 3][b + 3];
-    }
-    restrict_rows(child_pull, octant);
-    for (std::size_t row = 0; row < 24; ++row) {
-      for (std::size_t k = 0; k < 3; ++k) pull_sum[row][k] += child_pull[row][k];
-    }
-  }
-  for (std::size_t i = 0; i < kAnchoredSize; ++i) store(sum[i], matrix + i * kLanes);
-  for (std::size_t row = 0; row < 24; ++row) {
-    for (std::size_t k = 0; k < 3; ++k) store(pull_sum[row][k], pull + (3 * row + k) * kLanes);
-  }
-  return has_pull;
-}
-
 }  // namespace
 
-const Kernels SPRUNG_KERNELS{.directions = directions_block,
-                             .stiffness_product = stiffness_product_block,
-                             .stiffness_matrices = stiffness_matrices_block,
-                             .apply = apply_block<float>,
-                             .apply_double = apply_block<double>,
-                             .corner_blocks = corner_blocks_block,
-                             .coarsen = coarsen_block};
+Kernels kernels() {
+  return {.directions = directions_block,
+          .stiffness_product = stiffness_product_block,
+          .stiffness_matrices = stiffness_matrices_block,
+          .apply = apply_block<float>,
+          .apply_double = apply_block<double>,
+          .corner_blocks = corner_blocks_block,
+          .coarsen = coarsen_block};
+}
 
-}  // namespace sprung::multigrid
+}  // namespace sprung::multigrid::SPRUNG_INSTRUCTION_SET

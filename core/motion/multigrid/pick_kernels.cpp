@@ -4,10 +4,16 @@
 
 namespace sprung::multigrid {
 
-extern const Kernels kernels_plain;
+namespace plain {
+[[nodiscard]] Kernels kernels();
+}
 #ifdef __x86_64__
-extern const Kernels kernels_avx2;
-extern const Kernels kernels_avx512;
+namespace avx2 {
+[[nodiscard]] Kernels kernels();
+}
+namespace avx512 {
+[[nodiscard]] Kernels kernels();
+}
 #endif
 
 std::span<const Kernels> all_kernels() {
@@ -16,11 +22,11 @@ std::span<const Kernels> all_kernels() {
 #ifdef __x86_64__
     if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
         __builtin_cpu_supports("fma")) {
-      list.push_back(kernels_avx512);
+      list.push_back(avx512::kernels());
     }
-    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) list.push_back(kernels_avx2);
+    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) list.push_back(avx2::kernels());
 #endif
-    list.push_back(kernels_plain);
+    list.push_back(plain::kernels());
     return list;
   }();
   return supported;
