@@ -14,6 +14,7 @@ constexpr double kCornerFirst = 0.25;  // of points about as deep the one neares
 constexpr double kMargin = 0.3;        // bricks: what is nearer than that is watched
 constexpr double kCurved = 0.1;        // bricks that a surface may bend away from flat across a brick
 constexpr double kFlat = 0.02;         // bricks that a point may move before the surface under it is asked for anew
+constexpr double kLeftIn = 0.03;       // bricks that a point may lie inside while another holds it
 constexpr int kPointsACorner = 2;      // of a brick, the nearest: others are held by them or found when next looked
 constexpr double kOutside = 1.5;       // embedded points lie in the hull of the corners, or a little outside it where
                                        // the surface has no brick
@@ -22,14 +23,6 @@ constexpr double kOutside = 1.5;       // embedded points lie in the hull of the
 double reach_of(const BrickColumns& x, const Vec3& middle) {
   return kOutside * std::sqrt((x.colwise() - middle).colwise().squaredNorm().maxCoeff());
 }
-
-/// Of the deepest point near a corner of a brick.
-struct Deepest {
-  const ContactPoint* point = nullptr;
-  double pull = 0;  // along the normal, that meeting its limit takes, m/s; more where it is near its corner
-  Vec3 normal;
-  Vec3 goal;
-};
 
 }  // namespace
 
@@ -81,7 +74,7 @@ Gap ObstacleContact::gap_now(const Shape& shape, double brick_size, const Vec3& 
 void ObstacleContact::look(const World& world, const std::vector<Pose>& poses, double dt, const Group& group) {
   near_.clear();
   points_.clear();
-  int steps = steps_until_look(1, 0, dt);
+  int steps = steps_until_look(1, 0, 0, dt);
   for (std::size_t o = 0; o < poses.size(); ++o) {
     const Obstacle& obstacle = world.obstacles[o];
     for (std::size_t actor = 0; actor < group.size(); ++actor) {
@@ -91,7 +84,7 @@ void ObstacleContact::look(const World& world, const std::vector<Pose>& poses, d
           std::sqrt((body.positions.rowwise() - middle.transpose()).rowwise().squaredNorm().maxCoeff());
       const double speed =
           largest_speed(body) + velocity_at(obstacle, poses[o], middle).norm() + obstacle.spin.norm() * around;
-      steps = std::min(steps, steps_until_look(kMargin * body.grid.brick_size, speed, dt));
+      steps = std::min(steps, steps_until_look(kMargin * body.grid.brick_size, speed, world.gravity.norm(), dt));
       for (std::size_t place = 0; place < skins_[actor]->bricks.size(); ++place) {
         look_at_brick(obstacle.shape, poses[o], body, place, {o, actor, 0, 0, 0});
       }
@@ -100,47 +93,56 @@ void ObstacleContact::look(const World& world, const std::vector<Pose>& poses, d
   steps_to_look_ = steps;
 }
 
+bool ObstacleContact::has_to_be_held(const BrickMotion& motion, const Hold& hold, NearPoint& near, Held& held) {
+  const ContactPoint& point = *near.point;
+  const Vec3 place = motion.x * point.weights;
+  const Vec3 carried = velocity_at(hold.obstacle, hold.pose, place);
+  const Vec3 velocity = motion.v * point.weights - carried;
+  const Vec3 there = hold.pose.rotation.transpose() * (place - hold.pose.translation);
+  if (near.asked.least(there) > hold.dt * velocity.norm()) return false;
+  Gap gap = gap_now(hold.obstacle.shape, motion.brick_size, there, near);
+  gap.normal = hold.pose.rotation * gap.normal;
+  const double speed = gap.normal.dot(velocity);
+  if (!(gap.distance + hold.dt * speed <= 0)) return false;  // nor where a number is not finite
+  double least = least_speed(gap.distance, hold.gravity, hold.dt);
+  if (gap.distance <= 0 && hold.obstacle.restitution > 0) least = std::max(least, -hold.obstacle.restitution * speed);
+  held = {.point = &point,
+          .pull = (least - speed) * (1 + kCornerFirst * point.weights[point.corner]),
+          .gap = gap.distance,
+          .normal = gap.normal,
+          .goal = carried + least * gap.normal};
+  return true;
+}
+
 void ObstacleContact::touch_brick(const World& world, const std::vector<Pose>& poses, double dt, const Group& group,
                                   const Near& near, Touches& touches) {
-  const Obstacle& obstacle = world.obstacles[near.obstacle];
-  const Pose& pose = poses[near.obstacle];
   const Body& body = group[near.actor]->body;
   const auto& nodes = body.grid.nodes[static_cast<std::size_t>(near.brick)];
-  const BrickColumns x = columns_of(nodes, body.positions);
-  const BrickColumns v = columns_of(nodes, body.velocities);
-  std::array<Deepest, 8> deepest{};
-  for (std::size_t i = near.first; i < near.last; ++i) {
-    NearPoint& near_point = points_[i];
-    const ContactPoint& point = *near_point.point;
-    const Vec3 place = x * point.weights;
-    const Vec3 velocity = v * point.weights - velocity_at(obstacle, pose, place);
-    const Vec3 there = pose.rotation.transpose() * (place - pose.translation);
-    if (near_point.asked.least(there) > dt * velocity.norm()) continue;
-    Gap gap = gap_now(obstacle.shape, body.grid.brick_size, there, near_point);
-    gap.normal = pose.rotation * gap.normal;
-    const double speed = gap.normal.dot(velocity);
-    if (!(gap.distance + dt * speed <= 0)) continue;  // nor where a number is not finite
-    double least = least_speed(gap.distance, world.gravity.norm(), dt);
-    if (gap.distance <= 0 && obstacle.restitution > 0) least = std::max(least, -obstacle.restitution * speed);
-    const double pull = (least - speed) * (1 + kCornerFirst * point.weights[point.corner]);
-    Deepest& found = deepest[static_cast<std::size_t>(point.corner)];
-    if (found.point == nullptr || pull > found.pull) {
-      found = {&point, pull, gap.normal, velocity_at(obstacle, pose, place) + least * gap.normal};
-    }
-  }
-  for (const Deepest& found : deepest) {
-    if (found.point == nullptr) continue;
+  const Hold hold{world.obstacles[near.obstacle], poses[near.obstacle], world.gravity.norm(), dt};
+  const BrickMotion motion{columns_of(nodes, body.positions), columns_of(nodes, body.velocities), body.grid.brick_size};
+  const auto add = [&](const Held& held, std::uint64_t rank) {
     const std::size_t first = touches.shares.size();
     for (std::size_t corner = 0; corner < 8; ++corner) {
       touches.shares.push_back(
-          {static_cast<int>(near.actor), nodes[corner], found.point->weights[static_cast<Eigen::Index>(corner)]});
+          {static_cast<int>(near.actor), nodes[corner], held.point->weights[static_cast<Eigen::Index>(corner)]});
     }
-    touches.list.push_back({.key = touch_key(near.obstacle, near.actor, near.brick, found.point->corner),
+    touches.list.push_back({.key = touch_key(near.obstacle, near.actor, near.brick, held.point->corner) | rank << 63,
                             .first = first,
                             .last = touches.shares.size(),
-                            .normal = found.normal,
-                            .goal = found.goal,
-                            .friction = obstacle.friction});
+                            .normal = held.normal,
+                            .goal = held.goal,
+                            .friction = hold.obstacle.friction});
+  };
+  std::array<Held, 8> deepest{};
+  for (std::size_t i = near.first; i < near.last; ++i) {
+    Held held;
+    if (!has_to_be_held(motion, hold, points_[i], held)) continue;
+    Held& found = deepest[static_cast<std::size_t>(held.point->corner)];
+    if (found.point == nullptr || held.pull > found.pull) std::swap(found, held);
+    if (held.point != nullptr && held.gap < -kLeftIn * motion.brick_size) add(held, 1);
+  }
+  for (const Held& held : deepest) {
+    if (held.point != nullptr) add(held, 0);
   }
 }
 

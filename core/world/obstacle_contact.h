@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "core/body/brick_columns.h"
 #include "core/world/contact_skin.h"
 #include "core/world/touch.h"
 
@@ -12,8 +13,9 @@ class ObstacleContact {
  public:
   explicit ObstacleContact(const std::vector<const ContactSkin*>& skins) : skins_(skins) {}
 
-  /// Appends the points that moving by dt would leave inside an obstacle, at most one near each corner of a brick: the
-  /// one that lies deepest. The others are held by it or found in the next step. `poses`: where the obstacles are now.
+  /// Appends the points that moving by dt would leave inside an obstacle, near each corner of a brick the one that lies
+  /// deepest. Others are held by it or found in the next step; one that lies too deep in spite of that is appended too:
+  /// two points that press alike would take turns and both sink in. `poses`: where the obstacles are now.
   void find(const World& world, const std::vector<Pose>& poses, double dt, const Group& group, Touches& touches);
 
  private:
@@ -40,6 +42,28 @@ class ObstacleContact {
     std::size_t first;  // of its points in points_
     std::size_t last;   // one past them
   };
+  /// How a brick moves.
+  struct BrickMotion {
+    BrickColumns x;     // m
+    BrickColumns v;     // m/s
+    double brick_size;  // m
+  };
+  /// What holds it.
+  struct Hold {
+    const Obstacle& obstacle;
+    const Pose& pose;
+    double gravity;  // m/s^2
+    double dt;       // s
+  };
+  /// A point that has to be held.
+  struct Held {
+    const ContactPoint* point = nullptr;
+    double pull = 0;  // along the normal, that meeting its limit takes, m/s; more where it is near its corner
+    double gap = 0;   // m
+    Vec3 normal;
+    Vec3 goal;  // m/s
+  };
+  [[nodiscard]] static bool has_to_be_held(const BrickMotion& motion, const Hold& hold, NearPoint& near, Held& held);
   void look(const World& world, const std::vector<Pose>& poses, double dt, const Group& group);
   void look_at_brick(const Shape& shape, const Pose& pose, const Body& body, std::size_t at, Near near);
   void touch_brick(const World& world, const std::vector<Pose>& poses, double dt, const Group& group, const Near& near,

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/body/brick_columns.h"
+
 namespace sprung {
 namespace {
 
@@ -11,6 +13,7 @@ constexpr double kFarMargin = 1;    // bricks: what may soon be that near is loo
 constexpr double kDeepest = 0.7;    // bricks: what is deeper came from the other side
 constexpr double kBeside = 0.05;    // of a triangle: what stands a little beside it counts as over it
 constexpr double kTouching = 0.15;  // of the depth: what is that near to a triangle that it stands over touches it
+constexpr double kPressed = 0.4;    // of its volume, that a brick keeps: what it carries is pushed out of no skin
 
 }  // namespace
 
@@ -94,7 +97,20 @@ SkinContact::Stance SkinContact::nearest_stance(Run& run, double depth) const {
   return nearest;
 }
 
-bool SkinContact::has_to_be_held(const World& world, double dt, Stance& stance) const {
+/// Pushed out of each other, skins of bricks that have no room left would press those flat, and for ever: the guard
+/// against that pushes back, and each gives energy to the other. They are kept from going deeper, no more.
+bool SkinContact::has_room(const Group& group, const SkinPair& pair) const {
+  const auto has = [&](int row) {
+    const WatchedPoint& point = pairs_.watched(row);
+    const Body& body = group[point.actor]->body;
+    const int brick = skins_[point.actor]->points[static_cast<std::size_t>(point.point)].brick;
+    const Mat3 axes = mean_axes_of(columns_of(body.grid.nodes[static_cast<std::size_t>(brick)], body.positions));
+    return axes.determinant() > kPressed * body.grid.brick_volume();
+  };
+  return has(pair.point) && std::all_of(pair.corners.begin(), pair.corners.end(), has);
+}
+
+bool SkinContact::has_to_be_held(const World& world, double dt, const Group& group, Stance& stance) const {
   const WatchedPoint& point = pairs_.watched(stance.pair->point);
   Vec3 velocity = point.velocity;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -102,7 +118,8 @@ bool SkinContact::has_to_be_held(const World& world, double dt, Stance& stance) 
   }
   const double speed = stance.normal.dot(velocity);
   if (!(stance.gap + dt * speed <= 0)) return false;
-  stance.least_speed = least_speed(stance.gap, world.gravity.norm(), dt);
+  const bool is_lifted = stance.gap >= 0 || has_room(group, *stance.pair);
+  stance.least_speed = is_lifted ? least_speed(stance.gap, world.gravity.norm(), dt) : 0;
   stance.pull = stance.least_speed - speed;
   const ContactPoint& at = skins_[point.actor]->points[static_cast<std::size_t>(point.point)];
   stance.key = touch_key(world.obstacles.size() + other_of(*stance.pair), point.actor, at.brick, at.corner);
@@ -118,19 +135,19 @@ void SkinContact::keep_hardest() {
   held_.erase(end, held_.end());
 }
 
-void SkinContact::look(const Group& group, double dt) {
+void SkinContact::look(const Group& group, double gravity, double dt) {
   if (steps_to_look_ == 0) {
     const double brick = std::min(group[actors_[0]]->body.grid.brick_size, group[actors_[1]]->body.grid.brick_size);
     if (steps_to_seek_ <= 0) {
       pairs_.seek(group, kFarMargin * brick);
-      steps_to_seek_ = steps_until_look((kFarMargin - kMargin) * brick, pairs_.fastest(group), dt);
+      steps_to_seek_ = steps_until_look((kFarMargin - kMargin) * brick, pairs_.fastest(group), gravity, dt);
     }
     depth_ = kDeepest * brick;
     pairs_.look(group, {.margin = kMargin * brick, .deepest = depth_});
     runs_ = runs_of_pairs();
     steps_to_look_ = steps_to_seek_;
     if (pairs_.has_near_bricks()) {
-      const int steps = steps_until_look(pairs_.nearest_beyond(), pairs_.fastest_near(group), dt);
+      const int steps = steps_until_look(pairs_.nearest_beyond(), pairs_.fastest_near(group), gravity, dt);
       steps_to_look_ = std::min(steps, steps_to_seek_);
     }
   }
@@ -139,12 +156,12 @@ void SkinContact::look(const Group& group, double dt) {
 }
 
 void SkinContact::find(const World& world, double dt, const Group& group, Touches& touches) {
-  look(group, dt);
+  look(group, world.gravity.norm(), dt);
   pairs_.follow(group);
   held_.clear();
   for (Run& run : runs_) {
     Stance nearest = nearest_stance(run, depth_);
-    if (nearest.pair != nullptr && has_to_be_held(world, dt, nearest)) held_.push_back(nearest);
+    if (nearest.pair != nullptr && has_to_be_held(world, dt, group, nearest)) held_.push_back(nearest);
   }
   keep_hardest();
   for (const Stance& stance : held_) add(group, stance, touches);

@@ -35,7 +35,7 @@ class SkinContact {
   };
 
   /// What is due of seeking and looking.
-  void look(const Group& group, double dt);
+  void look(const Group& group, double gravity, double dt);
   /// False where the point does not stand over the triangle.
   bool stand(const SkinPair& pair, double depth, Stance& stance) const;
   /// The actor that a pair's triangle belongs to.
@@ -52,8 +52,10 @@ class SkinContact {
   [[nodiscard]] Stance nearest_stance(Run& run, double depth) const;
   /// Of what stands near the same corner of the same brick, that which is held hardest.
   void keep_hardest();
+  /// Whether the bricks of both sides can give way.
+  [[nodiscard]] bool has_room(const Group& group, const SkinPair& pair) const;
   /// Whether moving by dt would leave it inside; then what it needs.
-  [[nodiscard]] bool has_to_be_held(const World& world, double dt, Stance& stance) const;
+  [[nodiscard]] bool has_to_be_held(const World& world, double dt, const Group& group, Stance& stance) const;
   void add(const Group& group, const Stance& stance, Touches& touches) const;
   void add_triangle(const Group& group, const Stance& stance, Touches& touches) const;
 

@@ -30,7 +30,7 @@ double fastest(const Group& group) {
 
 void SkinContacts::seek(const World& world, const Group& group, double dt) {
   const double margin = kMargin * smallest_brick(group);
-  steps_to_seek_ = steps_until_look(margin, fastest(group), dt);
+  steps_to_seek_ = steps_until_look(margin, fastest(group), world.gravity.norm(), dt);
   std::vector<AlignedBox> boxes;
   std::vector<std::pair<std::size_t, std::size_t>> near;
   for (std::size_t i = 0; i < group.size(); ++i) {

@@ -13,7 +13,8 @@ namespace {
 
 constexpr int kStepsBetweenLooks = 8;
 constexpr double kSuspectVolume = 0.4;
-constexpr double kRecoverySteps = 20;  // a brick found too flat or inside out comes back within about that many steps
+constexpr double kCrushedShare = 0.05;  // of the bricks
+constexpr double kRecoverySteps = 20;   // a brick found too flat or inside out comes back within about that many steps
 constexpr double kFastestRecovery =
     0.02;  // of the speed of sound, that its corners come apart at: that gives no energy worth the name
 
@@ -67,6 +68,10 @@ void brace(Body& body, double gravity, double speed) {
   const double pressure = body.material.density * (gravity * extent.maxCoeff() + speed * speed);
   body.law.guard *= std::max(1.0, pressure / body.material.young);
 }
+
+int guarded_bricks(const Body& body) { return flattened_bricks(body, body.law.guard_ratio); }
+
+bool is_crushed(const Body& body) { return guarded_bricks(body) > kCrushedShare * body.grid.brick_count(); }
 
 void SqueezeWatch::look(const Body& body, double dt) {
   suspects_.clear();

@@ -21,6 +21,14 @@ inline constexpr double kLeastVolume = 0.1;
 /// the first step is chosen; a guard costs step size. Bodies that are stiff enough stay as they are.
 void brace(Body& body, double gravity, double speed);
 
+/// How many bricks have less than the volume at which the guard of their law begins to act.
+[[nodiscard]] int guarded_bricks(const Body& body);
+
+/// Whether those are more than a few: it is the guard that carries the body then, not its springs, and its shape is not
+/// what the material would do. So it is where the pressure of its weight, density g length, is well above Young's
+/// modulus: springs linear in their stretch bear about that much and no more.
+[[nodiscard]] bool is_crushed(const Body& body);
+
 /// A brick that would be pressed too far in the step to come.
 struct Squeeze {
   int brick;

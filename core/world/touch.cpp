@@ -68,8 +68,8 @@ double least_speed(double gap, double gravity, double dt) {
   return std::min(-gap / (kRecoverySteps * dt), std::sqrt(-2 * std::max(gravity, kLeastGravity) * gap));
 }
 
-int steps_until_look(double margin, double speed, double dt) {
-  const double steps = margin / (4 * speed * dt);
+int steps_until_look(double margin, double speed, double gravity, double dt) {
+  const double steps = std::min(margin / (4 * speed * dt), std::sqrt(margin / gravity) / dt);
   return steps >= 1 ? static_cast<int>(std::min(steps, kMostSteps)) : 1;
 }
 

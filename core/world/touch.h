@@ -71,7 +71,8 @@ void add_shares(const Group& group, std::size_t actor, int brick, const Eigen::M
 [[nodiscard]] double least_speed(double gap, double gravity, double dt);
 
 /// How many steps what is found within `margin` (m) of a surface stays all there is: nothing comes nearer by half of
-/// it, at this speed (m/s), seen from any rigid motion, with room for as much again. At most 24.
-[[nodiscard]] int steps_until_look(double margin, double speed, double dt);
+/// it, at this speed (m/s), seen from any rigid motion, with room for as much again; nor does it fall further than half
+/// of it meanwhile. At most 24. `gravity` in m/s^2, its size.
+[[nodiscard]] int steps_until_look(double margin, double speed, double gravity, double dt);
 
 }  // namespace sprung

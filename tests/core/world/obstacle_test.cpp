@@ -147,6 +147,37 @@ TEST(Obstacle, TurningCylinderCarriesABodyAround) {
   EXPECT_NEAR(turned, 1.5, 0.05);
 }
 
+/// Soft and at rest it takes long steps; a few of them are a fall through most of a brick. It is found as it lands.
+TEST(Obstacle, WhatBeginsToFallIsFoundInTime) {
+  const double h = 0.0266;
+  Material soft = test_material(0.4, 1800);
+  soft.density = 800;
+  World world;
+  world.obstacles = {level_ground(0)};
+  world.actors.push_back(touching_box({4, 4, 5}, h, soft, Vec3(0, 0.4 * h, 0)));
+  run(world, 0.075, 1 / 0.075);
+  EXPECT_LT(deepest_overlap(world), 0.01 * h);
+}
+
+/// Two points near one corner of a brick press alike: held by turns only, both would sink in.
+TEST(Obstacle, PointsThatShareACornerAreBothHeld) {
+  const double h = 0.8;
+  World world;
+  world.obstacles = {level_ground(0)};
+  world.actors.push_back(touching_box({1, 2, 1}, h, test_material(0, 1.3e5), Vec3::Zero()));
+  Actor& actor = world.actors[0];
+  actor.body.damping.beta = 5e-3;
+  actor.body.velocities.col(1).setConstant(-4);
+  Points feet(4, 3);
+  feet << 0.05, 0, 0.45, 0.45, 0, 0.05, 0.95, 0, 0.55, 0.55, 0, 0.95;
+  actor.contacts = embed(actor.body.grid, h * feet);
+  actor.contact_triangles.resize(0, 3);
+  for (int tenth = 1; tenth <= 4; ++tenth) {
+    run(world, 0.1, 10);
+    EXPECT_LT(deepest_overlap(world), 0.04 * h) << tenth;
+  }
+}
+
 /// As fast as it may be: nothing goes through a plate a tenth of a brick thick.
 TEST(Obstacle, FastBodyDoesNotTunnel) {
   World world;

@@ -7,6 +7,7 @@
 
 #include "core/body/forces.h"
 #include "core/motion/careful_motion.h"
+#include "core/world/squeeze.h"
 #include "tests/support/touching.h"
 
 namespace sprung {
@@ -145,6 +146,26 @@ TEST(SkinContact, BodyDoesNotGoThroughItself) {
   };
   EXPECT_LT(least_gap(false), -0.2 * h);
   EXPECT_GT(least_gap(true), -0.05 * h);
+}
+
+/// A horseshoe far too soft for its weight falls into a heap. Skins that lie in each other there are not pushed apart
+/// against bricks that have no room: that would give energy for ever, and turn bricks inside out.
+TEST(SkinContact, HeapOfPressedBricksGivesNoEnergy) {
+  World world;
+  world.obstacles = {level_ground(0)};
+  world.actors.push_back(closing_horseshoe(4));
+  Actor& actor = world.actors[0];
+  actor.body.velocities.col(0) *= 0.2;
+  actor.body.damping.beta = 2e-3;
+  brace(actor.body, world.gravity.norm(), meeting_speed(world));
+  double before = energy(world);
+  for (int frame = 0; frame < 40; ++frame) {
+    run(world, 0.7, 1 / 0.7);
+    EXPECT_LT(energy(world), 1.01 * before) << frame;
+    EXPECT_EQ(inverted_bricks(actor.body), 0) << frame;
+    before = energy(world);
+  }
+  EXPECT_TRUE(is_crushed(actor.body));
 }
 
 }  // namespace
