@@ -20,15 +20,14 @@
 #include "core/motion/statics.h"
 #include "core/world/load_forces.h"
 #include "core/world/overlap.h"
+#include "core/world/squeeze.h"
 
 namespace sprung {
 namespace {
 
 constexpr double kLongRun = 3600;  // s to go, from which on a warning is due
 constexpr double kSecondsToEstimate = 3;
-constexpr double kRounding = 1e-6;       // of a step, that a piece of a frame may be longer than whole steps
-constexpr double kCrushedVolume = 0.15;  // of a brick's volume at rest ...
-constexpr double kCrushedShare = 0.05;   // ... in so many of the bricks: from there on a warning is due
+constexpr double kRounding = 1e-6;   // of a step, that a piece of a frame may be longer than whole steps
 constexpr double kDeepShare = 0.01;  // of the largest body's size, that skins may be in each other without a warning
 
 int inverted_bricks(const World& world) {
@@ -43,13 +42,12 @@ void warn_of_crushed_bodies(const World& world, const Console& console) {
   for (std::size_t i = 0; i < world.actors.size(); ++i) {
     const Body& body = world.actors[i].body;
     const int inverted = inverted_bricks(body);
-    const int flattened = flattened_bricks(body, kCrushedVolume);
-    if (inverted == 0 && flattened <= kCrushedShare * body.grid.brick_count()) continue;
+    if (inverted == 0 && !is_crushed(body)) continue;
     console.warn(fmt::format(
-        "body {}: of {} bricks {} are inside out and {} pressed to less than {} of their volume at the end: "
-        "the material is too soft for its weight or its fall; a stiffer or lighter material (young, "
-        "density) or a smaller body carries itself",
-        i + 1, body.grid.brick_count(), inverted, flattened - inverted, kCrushedVolume));
+        "body {}: of {} bricks {} are inside out and {} pressed to less than {} of their volume at the end, where the "
+        "guard against turning inside out carries them, not their springs: the material is too soft for its weight or "
+        "its fall; a stiffer or lighter material (young, density) or a smaller body carries itself",
+        i + 1, body.grid.brick_count(), inverted, guarded_bricks(body) - inverted, body.law.guard_ratio));
   }
 }
 

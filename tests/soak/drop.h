@@ -23,6 +23,7 @@ struct DropResult {
   std::string fault;            // empty: none
   double deepest = 0;           // share of the size that a contact point was below the ground
   double energy_gain = 0;       // highest energy over the first, share of the first
+  bool is_crushed = false;      // at the end its guard carries it, not its springs
   int inverted_bricks = 0;      // at the end
   int inverted_on_the_way = 0;  // most, at the looks
   double smallest_volume = 0;   // of a brick over that at rest, at the end
