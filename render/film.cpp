@@ -58,7 +58,7 @@ Words encoder(const std::string& extension, int width, int height) {
               "tv"};
   const Words codec = extension == ".webm"
                           ? Words{"-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-cpu-used", "4", "-row-mt", "1"}
-                          : Words{"-c:v", "libx264", "-preset", "medium", "-crf", "18", "-movflags", "+faststart"};
+                          : Words{"-c:v", "libx264", "-preset", "veryfast", "-crf", "16", "-movflags", "+faststart"};
   words.insert(words.end(), codec.begin(), codec.end());
   return words;
 }
