@@ -12,10 +12,10 @@
 #include "app/commands.h"
 #include "app/help/completions.h"
 #include "app/help/man_page.h"
+#include "app/key_options.h"
 #include "app/scene/scene_keys.h"
 #include "app/scene/scene_schema.h"
 #include "app/scene/scene_values.h"
-#include "app/scene_options.h"
 #include "app/wrong_words.h"
 #include "core/error.h"
 #include "core/nearest.h"
@@ -138,7 +138,7 @@ SceneOptions read_scene_options(const CLI::App& command, Words& words) {
   refuse_repeated(command);
   SceneOptions options = std::move(words.scene);
   for (std::size_t i = 0; i < words.scene_values.size(); ++i) {
-    const SceneOption& known = scene_options()[i];
+    const KeyOption& known = key_options()[i];
     if (!given(command, known.option)) continue;
     options.settings.push_back({known.option, std::string(known.key), words.scene_values[i]});
   }

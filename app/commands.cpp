@@ -26,7 +26,7 @@ void add_sets(CLI::App& command, Words& words, const std::string& help, const st
 }
 
 void add_scene_option(CLI::App& command, Words& words, std::size_t row) {
-  const SceneOption& option = scene_options()[row];
+  const KeyOption& option = key_options()[row];
   CLI::Option* added = command.add_option(option.option, words.scene_values[row], help_of(option));
   added->option_text(option.example);
   if (!option.use.is_common) added->group(kMoreOptions);
@@ -36,7 +36,7 @@ void add_scene_options(CLI::App& command, Words& words, bool has_pictures, const
                        const std::string& input = "a mesh file, or a scene (.toml)") {
   command.add_option("INPUT", words.scene.input, input);
   for (std::size_t i = 0; i < words.scene_values.size(); ++i) {
-    if (!scene_options()[i].use.is_of_pictures || has_pictures) add_scene_option(command, words, i);
+    if (!key_options()[i].use.is_of_pictures || has_pictures) add_scene_option(command, words, i);
   }
   add_sets(command, words, "any key of a scene (sprung help scene)");
   command
@@ -95,7 +95,7 @@ void add_render(CLI::App& app, Words& words) {
   render->add_option("--jobs", words.jobs, "so many processes at once; default: 1")->option_text("N");
   render->add_flag("--overwrite", words.scene.overwrite, "replace pictures and films that exist");
   for (std::size_t i = 0; i < words.scene_values.size(); ++i) {
-    if (scene_options()[i].key.starts_with("render.")) add_scene_option(*render, words, i);
+    if (key_options()[i].key.starts_with("render.")) add_scene_option(*render, words, i);
   }
   add_sets(*render, words, "any key of [camera] and [render]");
   add_messages(*render, words);

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "app/command_line.h"
-#include "app/scene_options.h"
+#include "app/key_options.h"
 
 namespace CLI {
 class App;
@@ -20,7 +20,7 @@ struct Words {
   std::string model;
   std::string poisson;
   std::string bricks;
-  std::vector<std::string> scene_values = std::vector<std::string>(sprung::scene_options().size());
+  std::vector<std::string> scene_values = std::vector<std::string>(sprung::key_options().size());
   std::vector<std::string> set;
   std::string scenario;
   std::string threads;

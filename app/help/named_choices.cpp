@@ -3,11 +3,11 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "app/key_options.h"
 #include "app/materials/material_library.h"
 #include "app/scene/named_values.h"
 #include "app/scene/scenarios.h"
 #include "app/scene/scene_tables.h"
-#include "app/scene_options.h"
 
 namespace sprung {
 namespace {
@@ -56,7 +56,7 @@ std::vector<std::string> named_choices(const CLI::Option& option) {
     for (const LibraryMaterial& material : built_in_materials()->materials()) names.push_back(material.name);
     return names;
   }
-  for (const SceneOption& known : scene_options()) {
+  for (const KeyOption& known : key_options()) {
     if (name == known.option) return names_of_key(known.key);
   }
   return {};

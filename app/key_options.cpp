@@ -1,4 +1,4 @@
-#include "app/scene_options.h"
+#include "app/key_options.h"
 
 #include <array>
 
@@ -7,7 +7,7 @@
 namespace sprung {
 namespace {
 
-constexpr std::array<SceneOption, 22> kSceneOptions{{
+constexpr std::array<KeyOption, 22> kKeyOptions{{
     {"--material", "body.material", "NAME", {.is_common = true}},
     {"--materials", "materials", "FILE.toml"},
     {"--young", "body.material.young", "20kPa", {.is_common = true}},
@@ -57,8 +57,8 @@ std::string key_help(std::string_view path) {
 
 }  // namespace
 
-std::span<const SceneOption> scene_options() { return kSceneOptions; }
+std::span<const KeyOption> key_options() { return kKeyOptions; }
 
-std::string help_of(const SceneOption& option) { return key_help<Scene>(option.key); }
+std::string help_of(const KeyOption& option) { return key_help<Scene>(option.key); }
 
 }  // namespace sprung

@@ -6,7 +6,7 @@
 namespace sprung {
 
 /// An option for a key of the scene; its help is that of the key.
-struct SceneOption {
+struct KeyOption {
   const char* option;
   std::string_view key;
   const char* example;
@@ -17,9 +17,9 @@ struct SceneOption {
 };
 
 /// Every such option, in the order of its help.
-[[nodiscard]] std::span<const SceneOption> scene_options();
+[[nodiscard]] std::span<const KeyOption> key_options();
 
 /// What the key does.
-[[nodiscard]] std::string help_of(const SceneOption& option);
+[[nodiscard]] std::string help_of(const KeyOption& option);
 
 }  // namespace sprung
