@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "app/scene/motion_only.h"
 #include "app/units.h"
 #include "core/error.h"
 #include "core/motion/why_not_implicit.h"
@@ -16,6 +15,7 @@ namespace {
 
 constexpr double kManySteps = 20000;   // a frame, from which on a warning is due
 constexpr double kImplicitCost = 150;  // explicit steps that take as long as an implicit one
+constexpr double kCoupledCost = 300;   // of bodies that may touch each other, or are glued
 constexpr double kStepsAVibration = 20;
 constexpr long kFewestSteps = 2;  // implicit ones, a frame
 constexpr long kMostSteps = 16;
@@ -36,12 +36,6 @@ double shortest_period(const World& world) {
 long implicit_steps(const World& world, double frame) {
   const double wanted = std::ceil(frame * kStepsAVibration / shortest_period(world));
   return std::clamp(static_cast<long>(std::min(wanted, 1e6)), kFewestSteps, kMostSteps);
-}
-
-/// Loads that begin later than the motion are not in the world yet: the scene knows them.
-std::string why_explicit(const World& world, const Scene& scene) {
-  const std::vector<MotionOnly> parts = explicit_only(scene);
-  return parts.empty() ? why_not_implicit(world) : fmt::format("there is {}", parts.front().what);
 }
 
 }  // namespace
@@ -68,14 +62,15 @@ StepPlan plan_steps(const World& world, const Scene& scene) {
   const long long_ones = implicit_steps(world, frame);
   StepPlan plan;
   plan.scheme = scene.solver.scheme;
-  const std::string why_not = why_explicit(world, scene);
+  const std::string why_not = why_not_implicit(world);
   if (plan.is_implicit() && !why_not.empty()) {
     throw Error(ErrorKind::kBadInput, fmt::format("{}, which needs explicit steps: solver.scheme euler or verlet, or "
                                                   "auto, which then takes them",
                                                   why_not));
   }
   if (plan.scheme == Solver::kAuto) {
-    const double dear = kImplicitCost * static_cast<double>(long_ones);
+    const bool is_coupled = !world.glue.empty() || (world.bodies_touch && world.actors.size() > 1);
+    const double dear = (is_coupled ? kCoupledCost : kImplicitCost) * static_cast<double>(long_ones);
     const bool is_implicit = why_not.empty() && brick_steps > kWorthwhile * dear * bricks;
     plan.scheme = is_implicit ? Solver::kBdf2 : Solver::kEuler;
     plan.reason = fmt::format(

@@ -4,14 +4,9 @@
 
 namespace sprung {
 
-std::vector<MotionOnly> explicit_only(const Scene& scene) {
+std::vector<MotionOnly> motion_only(const Scene& scene) {
   std::vector<MotionOnly> parts;
   if (!scene.glue.empty()) parts.push_back({.key = "glue", .what = "glue"});
-  return parts;
-}
-
-std::vector<MotionOnly> motion_only(const Scene& scene) {
-  std::vector<MotionOnly> parts = explicit_only(scene);
   if (scene.wind) parts.push_back({.key = "wind", .what = "a wind"});
   const auto is_steady = [&](const BodyForce& force) {
     return scene.solver.scheme != Solver::kModes && !force.pressure && force.keyframes.empty();

@@ -9,6 +9,7 @@
 
 #include "core/body/forces.h"
 #include "core/motion/diverged.h"
+#include "core/motion/energy_watch.h"
 #include "core/world/contact_groups.h"
 
 namespace sprung {
@@ -17,8 +18,7 @@ namespace {
 constexpr double kFurthestMove = 0.25;  // of a brick, in a step
 constexpr int kMostHalvings = 4;
 constexpr double kBrickStepsBetween = 2e6;
-constexpr double kMostSteps = 1e12;         // at a time: more than anybody waits for
-constexpr double kEnergyFromNowhere = 0.3;  // of what moves and strains a body, that a frame's rounding of time may add
+constexpr double kMostSteps = 1e12;  // at a time: more than anybody waits for
 
 /// What can be taken back.
 struct State {
@@ -68,43 +68,6 @@ std::size_t worst_brick(const Body& body) {
   return worst;
 }
 
-/// Whether something moves it that may give energy.
-bool is_driven(const Actor& actor) {
-  if (!actor.loads.empty()) return true;
-  return std::any_of(actor.pinned.begin(), actor.pinned.end(),
-                     [](const HeldNode& held) { return !held.velocity.isZero(); });
-}
-
-/// Obstacles at rest and what holds a body still take energy and give none, but for lifting what starts a little too
-/// deep; bodies hand it on to each other.
-bool has_gained(const Energy& before, const Energy& after, const World& world, const GroupSteps& group) {
-  const double moving = std::max(before.kinetic + before.elastic, after.kinetic + after.elastic);
-  double slack = 0;
-  for (const std::size_t i : group.actors) {
-    const Body& body = world.actors[i].body;
-    slack += body.masses.sum() * world.gravity.norm() * body.grid.brick_size;  // lift
-    slack += 1e-12 * body.material.young * body.grid.volume();                 // rounding
-  }
-  const double gain = after.sum() - before.sum();
-  return !std::isfinite(gain) || gain > kEnergyFromNowhere * moving + slack;
-}
-
-Energy sum_of(const std::vector<Energy>& all, const GroupSteps& group) {
-  Energy sum;
-  for (const std::size_t i : group.actors) {
-    sum.kinetic += all[i].kinetic;
-    sum.elastic += all[i].elastic;
-    sum.potential += all[i].potential;
-  }
-  return sum;
-}
-
-std::vector<Energy> energies_of(const World& world) {
-  std::vector<Energy> all;
-  for (const Actor& actor : world.actors) all.push_back(energy_of(actor.body, world.gravity));
-  return all;
-}
-
 std::optional<Trouble> find_trouble(const World& world, const std::vector<Energy>& before,
                                     std::span<const GroupSteps> groups) {
   for (std::size_t i = 0; i < world.actors.size(); ++i) {
@@ -112,23 +75,15 @@ std::optional<Trouble> find_trouble(const World& world, const std::vector<Energy
     if (body.positions.allFinite() && body.velocities.allFinite()) continue;
     return Trouble{i, worst_brick(body), "a number that is not finite"};
   }
-  const bool is_pushed =
-      std::any_of(world.obstacles.begin(), world.obstacles.end(), [](const Obstacle& one) { return one.is_moving(); });
-  if (is_pushed || world.wind.blows()) return std::nullopt;
   const std::vector<Energy> after = energies_of(world);
   for (const GroupSteps& group : groups) {
-    const bool is_given = std::any_of(group.actors.begin(), group.actors.end(),
-                                      [&](std::size_t i) { return is_driven(world.actors[i]); });
-    const Energy start = sum_of(before, group);
-    const Energy end = sum_of(after, group);
-    if (is_given || !has_gained(start, end, world, group)) continue;
+    std::string gain = energy_from_nowhere(world, group.actors, before, after);
+    if (gain.empty()) continue;
     const std::size_t worst =
         *std::max_element(group.actors.begin(), group.actors.end(), [&](std::size_t a, std::size_t b) {
           return after[a].sum() - before[a].sum() < after[b].sum() - before[b].sum();
         });
-    return Trouble{worst, worst_brick(world.actors[worst].body),
-                   fmt::format("energy from nowhere, {:.3g} J more than {:.3g} J", end.sum() - start.sum(),
-                               start.kinetic + start.elastic)};
+    return Trouble{worst, worst_brick(world.actors[worst].body), std::move(gain)};
   }
   return std::nullopt;
 }
@@ -151,12 +106,6 @@ double step_of(std::span<const GroupSteps> groups, std::size_t actor) {
 }
 
 }  // namespace
-
-Energy energy_of(const Body& body, const Vec3& gravity) {
-  return {.kinetic = kinetic_energy(body),
-          .elastic = std::max(0.0, elastic_energy(body)),  // far from its rest a folded brick's can be negative
-          .potential = -body.masses.dot(body.positions * gravity)};
-}
 
 std::vector<GroupSteps> choose_steps(const World& world, double time) {
   std::vector<GroupSteps> groups;

@@ -42,14 +42,4 @@ class CarefulMotion {
   int halvings_ = 0;  // kept from frame to frame
 };
 
-/// Energy of an actor without what the ground is the zero of: kinetic + elastic + potential in the world's gravity
-/// (about y = 0), J.
-struct Energy {
-  double kinetic = 0;
-  double elastic = 0;
-  double potential = 0;
-  [[nodiscard]] double sum() const { return kinetic + elastic + potential; }
-};
-[[nodiscard]] Energy energy_of(const Body& body, const Vec3& gravity);
-
 }  // namespace sprung

@@ -32,6 +32,8 @@ struct StepTerms {
   Points damping_positions;            // ... where the nodes are here (m x 3, m); not read where damping is zero
   std::vector<double> directions;      // of the springs there, see find_directions(); likewise
   std::vector<PointStiffness> points;  // contacts, muscles
+  /// The body's own part of what couples it to others: in the preconditioner of an IterativeSystem only.
+  std::vector<PointStiffness> coupled;
 };
 
 /// How the solving went so far.
@@ -63,6 +65,15 @@ class NewtonSystem {
   [[nodiscard]] virtual SolveReport report() const = 0;
 };
 
+/// One that can be a part of a larger system.
+class IterativeSystem : public NewtonSystem {
+ public:
+  /// (K + terms) u, N, without what is coupled; zero at supports.
+  virtual void multiply(const Eigen::VectorXd& u, Eigen::VectorXd& forces) = 0;
+  /// About the u for the forces, zero at supports. Symmetric and positive definite but for rounding.
+  virtual void precondition(const Eigen::VectorXd& forces, Eigen::VectorXd& u) = 0;
+};
+
 /// Sparse Cholesky (CHOLMOD, supernodal): exact, for small bodies and as the oracle of others. Memory and time grow
 /// faster than the body: some 250 MB and 2 s at 16 000 bricks.
 [[nodiscard]] std::unique_ptr<NewtonSystem> make_direct_system();
@@ -71,7 +82,7 @@ class NewtonSystem {
 /// of up to eight children that hang together, Chebyshev-Jacobi smoothing, the cycle in single precision, the products
 /// outside it exact and in double. Time and memory (some 1.7 kB a brick) grow with the body. Gives up after
 /// `max_iterations` of a solve.
-[[nodiscard]] std::unique_ptr<NewtonSystem> make_multigrid_system(int max_iterations = 150);
+[[nodiscard]] std::unique_ptr<IterativeSystem> make_multigrid_system(int max_iterations = 150);
 
 /// The quicker of the two for the body's size; where multigrid gives up the direct solver answers, if the body is not
 /// too large for it.

@@ -3,15 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/motion/point_hardness.h"
 #include "core/world/near_boxes.h"
 
 namespace sprung {
-namespace {
-
-constexpr double kHardness = 20;        // times E h of the brick
-constexpr double kPointsInContact = 4;  // of a brick, that share its hardness: more are softer each
-
-}  // namespace
 
 ObstaclePotential::ObstaclePotential(Actor& actor, const Obstacle& obstacle, double slip_speed)
     : actor_(actor),
@@ -20,15 +15,8 @@ ObstaclePotential::ObstaclePotential(Actor& actor, const Obstacle& obstacle, dou
       slip_speed_(slip_speed),
       points_(skin_.points.size()),
       asked_(skin_.bricks.size()) {
-  const Body& body = actor.body;
-  for (std::size_t i = 0; i < skin_.bricks.size(); ++i) {
-    const double count = skin_.first_point[i + 1] - skin_.first_point[i];
-    const double scale = std::max(1.0, body.stiffness_scale[static_cast<std::size_t>(skin_.bricks[i])]);
-    const double stiffness = kHardness * body.material.young * body.grid.brick_size * scale;
-    for (int p = skin_.first_point[i]; p < skin_.first_point[i + 1]; ++p) {
-      points_[static_cast<std::size_t>(p)].stiffness = stiffness / std::max(1.0, count / kPointsInContact);
-    }
-  }
+  const std::vector<double> hardness = point_hardness(actor, skin_);
+  for (std::size_t p = 0; p < points_.size(); ++p) points_[p].stiffness = hardness[p];
 }
 
 /// Distances are asked for again only where the brick may have come near since.

@@ -5,8 +5,7 @@
 
 namespace sprung {
 
-/// What a world has that implicit steps cannot do: glue, bodies that touch each other, restitution. Empty:
-/// nothing. That a body touches itself is not seen.
+/// What a world has that implicit steps cannot do: obstacles with a restitution. Empty: nothing.
 [[nodiscard]] std::string why_not_implicit(const World& world);
 
 }  // namespace sprung

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/world/contact_skin.h"
-#include "core/world/skin_pairs.h"
+#include "core/world/skin_stance.h"
 #include "core/world/touch.h"
 
 namespace sprung {
@@ -23,48 +23,30 @@ class SkinContact {
   void find(const World& world, double dt, const Group& group, Touches& touches);
 
  private:
-  /// How a point stands to a triangle.
-  struct Stance {
+  /// What a point needs that has to be held.
+  struct Held {
+    SkinStance stance;
     std::uint64_t key = 0;
-    const SkinPair* pair = nullptr;
-    double gap = 0;
     double least_speed = 0;
     double pull = 0;  // along the normal, that meeting its limit takes, m/s
-    Vec3 normal;
-    Vec3 weights;  // of the triangle's corners at the place below the point
   };
 
   /// What is due of seeking and looking.
   void look(const Group& group, double gravity, double dt);
-  /// False where the point does not stand over the triangle.
-  bool stand(const SkinPair& pair, double depth, Stance& stance) const;
-  /// The actor that a pair's triangle belongs to.
-  [[nodiscard]] std::size_t other_of(const SkinPair& pair) const;
-  /// The pairs of one point with triangles of one actor, and where it stood last.
-  struct Run {
-    std::size_t first;
-    std::size_t end;
-    std::size_t last;
-  };
-  [[nodiscard]] std::vector<Run> runs_of_pairs() const;
-  /// To the nearest of the triangles that the point stands over; without a pair where there is none. While a point
-  /// that touches stays over a triangle, it is not compared with the others.
-  [[nodiscard]] Stance nearest_stance(Run& run, double depth) const;
   /// Of what stands near the same corner of the same brick, that which is held hardest.
   void keep_hardest();
   /// Whether the bricks of both sides can give way.
   [[nodiscard]] bool has_room(const Group& group, const SkinPair& pair) const;
   /// Whether moving by dt would leave it inside; then what it needs.
-  [[nodiscard]] bool has_to_be_held(const World& world, double dt, const Group& group, Stance& stance) const;
-  void add(const Group& group, const Stance& stance, Touches& touches) const;
-  void add_triangle(const Group& group, const Stance& stance, Touches& touches) const;
+  [[nodiscard]] bool has_to_be_held(const World& world, double dt, const Group& group, Held& held) const;
+  void add(const Group& group, const Held& held, Touches& touches) const;
 
   const std::vector<const ContactSkin*>& skins_;  // by actor of the group
   std::array<std::size_t, 2> actors_;
   SkinPairs pairs_;
   double depth_ = 0;  // m, below which what is inside came from the other side
-  std::vector<Run> runs_;
-  std::vector<Stance> held_;  // of this step
+  std::vector<SkinRun> runs_;
+  std::vector<Held> held_;  // of this step
   int steps_to_seek_ = 0;
   int steps_to_look_ = 0;
 };

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/world/near_boxes.h"
+#include "core/world/near_skins.h"
 
 namespace sprung {
 namespace {
@@ -31,19 +31,8 @@ double fastest(const Group& group) {
 void SkinContacts::seek(const World& world, const Group& group, double dt) {
   const double margin = kMargin * smallest_brick(group);
   steps_to_seek_ = steps_until_look(margin, fastest(group), world.gravity.norm(), dt);
-  std::vector<AlignedBox> boxes;
-  std::vector<std::pair<std::size_t, std::size_t>> near;
-  for (std::size_t i = 0; i < group.size(); ++i) {
-    const Body& body = group[i]->body;
-    boxes.push_back(
-        widened(box_around(body.positions), margin + body.grid.brick_size));  // skins may lie outside bricks
-    if (group[i]->touches_itself) near.emplace_back(i, i);
-  }
-  if (world.bodies_touch) {
-    for (const auto& [a, b] : overlapping_boxes(boxes)) near.emplace_back(a, b);
-  }
   std::map<std::pair<std::size_t, std::size_t>, SkinContact> contacts;
-  for (const auto& pair : near) {
+  for (const auto& pair : near_skins(world, group, margin)) {
     if (auto known = contacts_.extract(pair)) {
       contacts.insert(std::move(known));
     } else {

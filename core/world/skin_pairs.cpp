@@ -165,6 +165,27 @@ double SkinPairs::fastest_near(const Group& group) const {
   return most;
 }
 
+double SkinPairs::closing_speed(const Group& group, double dt) const {
+  const auto velocity_of = [&](const Place& place) {
+    const Body& body = group[sides_[place.side].actor]->body;
+    const int brick = skin_of(place).bricks[place.row];
+    return carried(body, brick, Eigen::Matrix<double, 8, 1>::Constant(0.125), body.velocities);
+  };
+  double fastest = 0;
+  for (const auto& [first, second] : near_) {
+    const Place& a = places_[static_cast<std::size_t>(first)];
+    const Place& b = places_[static_cast<std::size_t>(second)];
+    const double brick = std::min(a.box.diagonal().norm(), b.box.diagonal().norm());
+    const Vec3 way = b.box.center() - a.box.center();
+    if (a.normal.dot(way) < -brick / 2 && b.normal.dot(way) > brick / 2) continue;  // back to back
+    const Vec3 speed = velocity_of(b) - velocity_of(a);
+    const double nearest = std::clamp(-way.dot(speed) / std::max(speed.squaredNorm(), 1e-300), 0.0, dt);
+    const double reach = brick + (a.box.diagonal().norm() + b.box.diagonal().norm()) / 2;
+    if ((way + nearest * speed).norm() < reach) fastest = std::max(fastest, speed.norm());
+  }
+  return fastest;
+}
+
 int SkinPairs::watched_row(const Group& group, std::size_t side, int point) {
   int& row = sides_[side].watched[static_cast<std::size_t>(point)];
   if (row < 0) {

@@ -45,6 +45,9 @@ class SkinPairs {
   [[nodiscard]] double fastest(const Group& group) const;
   [[nodiscard]] double fastest_near(const Group& group) const;
 
+  /// Of those of the bricks that may meet within dt (s) as they move, how fast they come closer at most, m/s.
+  [[nodiscard]] double closing_speed(const Group& group, double dt) const;
+
   /// Finds points and triangles among those bricks. Deterministic.
   void look(const Group& group, const SkinReach& reach);
 

@@ -35,6 +35,21 @@ TEST(StepPlanning, AutoTakesWhatIsForecastToBeQuicker) {
   EXPECT_NE(stiff.reason.find("explicit steps a frame"), std::string::npos);
 }
 
+/// A second block that may touch the first one makes implicit steps dearer, but does not forbid them.
+TEST(StepPlanning, BodiesThatTouchAreForecastDearer) {
+  const Scene scene = scene_by(Solver::kAuto);
+  const auto two_blocks = [](double young) {
+    World world = block(young);
+    world.actors.push_back(world.actors[0]);
+    place(world.actors[1].body, Mat3::Identity(), {0, 0.1, 0});
+    return world;
+  };
+  EXPECT_EQ(plan_steps(two_blocks(2e9), scene).scheme, Solver::kBdf2);
+  double young = 2e4;  // the first at which a block by itself is moved by implicit steps
+  while (plan_steps(block(young), scene).scheme == Solver::kEuler) young *= 1.2;
+  EXPECT_EQ(plan_steps(two_blocks(young), scene).scheme, Solver::kEuler);
+}
+
 TEST(StepPlanning, RestitutionNeedsExplicitSteps) {
   World world = block(2e9);
   world.obstacles[0].restitution = 0.5;

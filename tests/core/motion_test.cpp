@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/motion/careful_motion.h"
 #include "core/motion/diverged.h"
+#include "core/motion/energy_watch.h"
 #include "core/motion/integrator.h"
 #include "tests/support/bodies.h"
 #include "tests/support/worlds.h"

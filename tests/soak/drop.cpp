@@ -14,6 +14,7 @@
 #include "core/error.h"
 #include "core/mesh/read_mesh.h"
 #include "core/motion/careful_motion.h"
+#include "core/motion/energy_watch.h"
 #include "core/soft_body.h"
 #include "core/world/squeeze.h"
 #include "tests/support/meshes.h"

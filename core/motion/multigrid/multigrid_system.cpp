@@ -6,6 +6,7 @@
 
 #include "core/body/brick_hessian.h"
 #include "core/body/forces.h"
+#include "core/motion/conjugate_gradients.h"
 #include "core/motion/multigrid/cycle.h"
 #include "core/motion/newton_system.h"
 #include "core/motion/point_forces.h"
@@ -49,7 +50,7 @@ bool bends_downward(const BrickMatrix& matrix) {
   return Eigen::LLT<BrickMatrix>(matrix + raise * BrickMatrix::Identity()).info() != Eigen::Success;
 }
 
-class MultigridSystem : public NewtonSystem {
+class MultigridSystem : public IterativeSystem {
  public:
   explicit MultigridSystem(int max_iterations) : max_iterations_(max_iterations) {}
 
@@ -68,6 +69,9 @@ class MultigridSystem : public NewtonSystem {
 
   [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& forces, double tolerance) override;
 
+  void multiply(const Eigen::VectorXd& u, Eigen::VectorXd& forces) override;
+  void precondition(const Eigen::VectorXd& forces, Eigen::VectorXd& u) override;
+
   [[nodiscard]] SolveReport report() const override { return report_; }
 
  private:
@@ -77,9 +81,7 @@ class MultigridSystem : public NewtonSystem {
   [[nodiscard]] bool is_peculiar(std::size_t brick, double volume_ratio) const;
   [[nodiscard]] bool needs_pull(int block) const;
   [[nodiscard]] BrickMatrix peculiar_matrix(std::size_t brick) const;
-  void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& product);
   void multiply_exactly(const Eigen::VectorXd& x, Eigen::VectorXd& product);
-  void precondition(const Eigen::VectorXd& residual, Eigen::VectorXd& answer);
   void release_held(Eigen::VectorXd& vector) const;
 
   int max_iterations_;
@@ -91,7 +93,7 @@ class MultigridSystem : public NewtonSystem {
   std::vector<multigrid::Layout> layouts_;
   std::unique_ptr<multigrid::Cycle> cycle_;
   std::vector<char> is_held_node_;
-  std::vector<std::vector<int>> points_of_brick_;  // rows of terms_->points; empty where there are none at all
+  std::vector<std::vector<const PointStiffness*>> points_of_brick_;  // empty where there are none at all
   std::vector<double> corner_products_;
   multigrid::Floats single_residual_;
   multigrid::Floats single_answer_;
@@ -105,9 +107,10 @@ void MultigridSystem::fill_finest() {
     if (held_[i]) is_held_node_[i / 3] = 1;
   }
   points_of_brick_.clear();
-  if (!terms_->points.empty()) points_of_brick_.resize(body_->grid.nodes.size());
-  for (std::size_t i = 0; i < terms_->points.size(); ++i) {
-    points_of_brick_[static_cast<std::size_t>(terms_->points[i].brick)].push_back(static_cast<int>(i));
+  if (!terms_->points.empty() || !terms_->coupled.empty()) points_of_brick_.resize(body_->grid.nodes.size());
+  for (const std::vector<PointStiffness>* points : {&terms_->points, &terms_->coupled}) {
+    for (const PointStiffness& point : *points)
+      points_of_brick_[static_cast<std::size_t>(point.brick)].push_back(&point);
   }
   multigrid::Level& finest = cycle_->finest();
   finest.held.assign(held_.begin(), held_.end());
@@ -126,7 +129,7 @@ void MultigridSystem::fill_finest() {
 
 /// The fastest eigenvalue of a full brick at rest over its nodes' own blocks; 0 where bricks are too far from that.
 double MultigridSystem::fastest_of_brick() const {
-  if (definite_ || !terms_->points.empty() || is_guarded_) return 0;
+  if (definite_ || !points_of_brick_.empty() || is_guarded_) return 0;
   const BrickMatrix brick = rest_brick_hessian(*body_);
   BrickMatrix blocks = BrickMatrix::Zero();
   for (int i = 0; i < 24; i += 3) blocks.block<3, 3>(i, i) = brick.block<3, 3>(i, i);
@@ -177,9 +180,7 @@ BrickMatrix MultigridSystem::peculiar_matrix(std::size_t brick) const {
   BrickMatrix matrix = (1 + terms_->damping) * body_brick_hessian(*body_, brick);
   if (definite_ && bends_downward(matrix)) matrix = without_negative_curvature(matrix);
   if (!points_of_brick_.empty()) {
-    for (const int row : points_of_brick_[brick]) {
-      add_point_stiffness(terms_->points[static_cast<std::size_t>(row)], matrix);
-    }
+    for (const PointStiffness* point : points_of_brick_[brick]) add_point_stiffness(*point, matrix);
   }
   for (int i = 0; i < 24; ++i) {
     const int node = body_->grid.nodes[brick][static_cast<std::size_t>(i / 3)];
@@ -199,6 +200,10 @@ void MultigridSystem::release_held(Eigen::VectorXd& vector) const {
 void MultigridSystem::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& product) {
   if (definite_) {
     cycle_->finest().multiply(x, product);
+    for (PointStiffness point : terms_->coupled) {
+      point.stiffness = -point.stiffness;
+      add_point_product(*body_, point, x, product);
+    }
   } else {
     multiply_exactly(x, product);
   }
@@ -216,49 +221,27 @@ void MultigridSystem::multiply_exactly(const Eigen::VectorXd& x, Eigen::VectorXd
 
 void MultigridSystem::precondition(const Eigen::VectorXd& residual, Eigen::VectorXd& answer) {
   const double largest = residual.lpNorm<Eigen::Infinity>();  // brings single precision into its range
+  if (largest == 0) {
+    answer.setZero(residual.size());
+    return;
+  }
   single_residual_ = (residual / largest).cast<float>();
   cycle_->apply(single_residual_, single_answer_);
   answer = largest * single_answer_.cast<double>();
 }
 
-/// Flexible conjugate gradients (Polak-Ribiere): rounding makes the cycle not quite the same in each iteration.
 Eigen::VectorXd MultigridSystem::solve(const Eigen::VectorXd& forces, double tolerance) {
-  ++report_.solves;
-  Eigen::VectorXd residual = forces;
-  release_held(residual);
-  Eigen::VectorXd x = Eigen::VectorXd::Zero(residual.size());
-  const double goal = tolerance * residual.norm();
-  if (goal == 0) return x;
-  Eigen::VectorXd z;
-  Eigen::VectorXd product;
-  precondition(residual, z);
-  Eigen::VectorXd direction = z;
-  double descent = residual.dot(z);
-  for (int iteration = 1; iteration <= max_iterations_; ++iteration) {
-    ++report_.iterations;
-    report_.most = std::max(report_.most, iteration);
-    multiply(direction, product);
-    const double curvature = direction.dot(product);
-    if (!(curvature > 0)) {
-      ++report_.indefinite;
-      return {};
-    }
-    const double step = descent / curvature;
-    x += step * direction;
-    residual -= step * product;
-    if (residual.norm() <= goal) return x;
-    precondition(residual, z);
-    const double next = residual.dot(z);
-    direction = z - step * z.dot(product) / descent * direction;
-    descent = next;
-    if (!(descent > 0)) return {};
-  }
-  return {};
+  Eigen::VectorXd free = forces;
+  release_held(free);
+  return conjugate_gradients(
+      free, {.tolerance = tolerance, .max_iterations = max_iterations_},
+      [&](const auto& x, auto& product) { multiply(x, product); },
+      [&](const auto& residual, auto& answer) { precondition(residual, answer); }, report_);
 }
 
 }  // namespace
 
-std::unique_ptr<NewtonSystem> make_multigrid_system(int max_iterations) {
+std::unique_ptr<IterativeSystem> make_multigrid_system(int max_iterations) {
   return std::make_unique<MultigridSystem>(max_iterations);
 }
 

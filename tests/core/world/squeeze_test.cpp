@@ -6,6 +6,7 @@
 
 #include "core/body/forces.h"
 #include "core/motion/careful_motion.h"
+#include "core/motion/energy_watch.h"
 #include "core/world/impulses.h"
 #include "tests/support/bodies.h"
 #include "tests/support/touching.h"
