@@ -42,8 +42,8 @@ void animate(const SceneOptions& options, const Console& console) {
     Production production = make_production(scene, console);
     const Recording recording = with_picture_of_diverged(production.world, picture_of_diverged(outputs.front()),
                                                          [&] { return simulate(production, scene, console); });
-    render_film({{scene, production, recording}}, surroundings, whole_film(recording.progress.size()), outputs,
-                console);
+    render_film({{scene, production, recording}}, surroundings, whole_film(recording.progress.size()), outputs, console,
+                options.jobs);
     for (const std::string& output : options.outputs) fmt::print("{}\n", output);
   });
 }

@@ -27,7 +27,7 @@ struct SceneOptions {
   std::vector<Setting> settings;
   std::optional<Scenario> scenario;
   std::string frames;  // of render, export and film: "1:48"
-  int jobs = 1;        // of render: processes
+  int jobs = 0;        // of animate and render: processes that draw; 0: as many as pay
   int threads = 0;     // 0: as many as there are cores
   bool overwrite = false;
   bool resume = false;        // of simulate

@@ -57,10 +57,16 @@ void add_scene_options(CLI::App& command, Words& words, bool has_pictures, const
   command.allow_extras();
 }
 
+CLI::Option* add_jobs(CLI::App& command, Words& words) {
+  return command.add_option("--jobs", words.jobs, "so many processes draw; default: one a core, for 24 frames each")
+      ->option_text("N");
+}
+
 void add_animate(CLI::App& app, Words& words) {
   CLI::App* animate = app.add_subcommand("animate", "mesh or scene in, pictures or film out");
   add_outputs(*animate, words, "folder/, folder/frame_{:04}.png, or film.mp4, .webm, .gif; may be given several times");
   animate->add_flag("--overwrite", words.scene.overwrite, "replace pictures and films that exist");
+  add_jobs(*animate, words)->group(kMoreOptions);
   add_scene_options(*animate, words, true,
                     "Examples:\n  sprung animate bunny.obj -o bunny.mp4\n"
                     "  sprung animate bunny.obj -o frames/ --material rubber --size 12cm --scenario hang\n"
@@ -92,7 +98,7 @@ void add_render(CLI::App& app, Words& words) {
   render->add_flag("--side-by-side", words.scene.side_by_side, "several runs in one film: one camera, one scale");
   add_outputs(*render, words, "folder/, folder/frame_{:04}.png, or film.mp4, .webm, .gif; may be given several times");
   render->add_option("--frames", words.scene.frames, "these only, counted from 1; default: all")->option_text("A:B");
-  render->add_option("--jobs", words.jobs, "so many processes at once; default: 1")->option_text("N");
+  add_jobs(*render, words);
   render->add_flag("--overwrite", words.scene.overwrite, "replace pictures and films that exist");
   for (std::size_t i = 0; i < words.scene_values.size(); ++i) {
     if (key_options()[i].key.starts_with("render.")) add_scene_option(*render, words, i);

@@ -11,8 +11,8 @@ constexpr std::size_t kMostWaiting = 4;
 
 }  // namespace
 
-PictureWriter::PictureWriter(std::vector<Output> outputs, int width, int height, double fps, int first)
-    : outputs_(std::move(outputs)), next_(first) {
+PictureWriter::PictureWriter(std::vector<Output> outputs, int width, int height, double fps, int first, int step)
+    : outputs_(std::move(outputs)), next_(first), step_(step) {
   for (const Output& output : outputs_) {
     make_folder(output.folder);
     if (output.kind != Output::Kind::kFilm) continue;
@@ -76,7 +76,7 @@ void PictureWriter::write_everywhere(const Drawing& drawing) {
     if (output.kind == Output::Kind::kPasses) write_exr(drawing.passes.value(), output.picture(next_));
   }
   for (const auto& film : films_) film->write(drawing.image);
-  ++next_;
+  next_ += step_;
 }
 
 }  // namespace sprung

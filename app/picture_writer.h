@@ -25,8 +25,8 @@ struct Drawing {
 /// order in which they come.
 class PictureWriter {
  public:
-  /// Makes the folders. `first`: the number of the first picture. Throws Error(kFailed).
-  PictureWriter(std::vector<Output> outputs, int width, int height, double fps, int first = 1);
+  /// Makes the folders. Pictures have the numbers first, first + step, ... Throws Error(kFailed).
+  PictureWriter(std::vector<Output> outputs, int width, int height, double fps, int first = 1, int step = 1);
   /// Stops; films that are not finished disappear.
   ~PictureWriter();
   PictureWriter(const PictureWriter&) = delete;
@@ -49,6 +49,7 @@ class PictureWriter {
   std::exception_ptr failure_;
   bool is_closed_ = false;
   int next_;  // number of the next picture
+  int step_;
   std::thread thread_;
 };
 

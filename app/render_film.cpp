@@ -3,8 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <future>
+#include <iterator>
+#include <thread>
 
+#include "app/film/drawing_processes.h"
 #include "app/interrupt.h"
 #include "app/picture_writer.h"
 #include "app/progress.h"
@@ -56,44 +60,121 @@ void check_outputs(const SceneRender& render, std::size_t runs, const std::vecto
   if (render.sheet && runs > 1) refuse("--side-by-side: a sheet shows one run");
 }
 
-}  // namespace
+constexpr std::size_t kLeastFrames = 24;    // that a process is worth beginning for
+constexpr std::size_t kMostProcesses = 16;  // that are begun unasked: each takes memory for its own pictures
 
-void render_film(const std::vector<FilmRun>& runs, const std::optional<Environment>& surroundings,
-                 const FrameRange& range, const std::vector<Output>& outputs, const Console& console) {
-  const Scene& scene = runs.front().scene;
-  check_outputs(scene.render, runs.size(), outputs);
-  const std::vector<std::size_t> frames = chosen_frames(range, scene.render);
-  const auto [width, height] = scene.render.resolution;
-  const bool has_passes = has(outputs, Output::Kind::kPasses);
-  const bool has_pictures = has(outputs, Output::Kind::kPictures) || has(outputs, Output::Kind::kFilm);
-  Progress progress(console, "render", static_cast<double>(frames.size()), 1, "frames/s");
-  FilmCrew crew(runs, surroundings);
+/// What is drawn, and for what.
+struct Task {
+  const FrameRange& range;
+  const std::vector<std::size_t> frames;
+  const std::vector<Output>& outputs;
+  const SceneRender& render;
+  double fps;
+
+  [[nodiscard]] std::vector<Output> films(bool wanted) const {
+    std::vector<Output> some;
+    std::copy_if(outputs.begin(), outputs.end(), std::back_inserter(some),
+                 [wanted](const Output& output) { return (output.kind == Output::Kind::kFilm) == wanted; });
+    return some;
+  }
+  [[nodiscard]] Drawing draw(FilmCrew& crew, std::size_t frame, const FilmCrew::Moments& moments) const {
+    Drawing drawing;
+    if (has(outputs, Output::Kind::kPictures) || has(outputs, Output::Kind::kFilm))
+      drawing.image = crew.draw(frame, moments);
+    if (has(outputs, Output::Kind::kPasses)) drawing.passes = crew.passes(frame, moments);
+    return drawing;
+  }
+};
+
+void draw_here(const Task& task, FilmCrew& crew, const Console& console, Progress& progress) {
   console.detail(fmt::format("drawn by {}", crew.driver()));
-  PictureWriter writer(outputs, width, height, scene.fps, range.first);
+  const auto [width, height] = task.render.resolution;
+  PictureWriter writer(task.outputs, width, height, task.fps, task.range.first);
   // The skins of the next frame are made ready while this one is drawn and the ones before are encoded.
   const auto make_ready = [&](std::size_t i) {
-    return std::async(std::launch::async, [&, frame = frames[i]] { return crew.moments(frame); });
+    return std::async(std::launch::async, [&, frame = task.frames[i]] { return crew.moments(frame); });
   };
   auto next = make_ready(0);
   std::vector<Image> sheet;
-  for (std::size_t i = 0; i < frames.size(); ++i) {
+  for (std::size_t i = 0; i < task.frames.size(); ++i) {
     stop_if_interrupted();
     const FilmCrew::Moments moments = next.get();
-    if (i + 1 < frames.size()) next = make_ready(i + 1);
-    Drawing drawing;
-    if (has_pictures) drawing.image = crew.draw(frames[i], moments);
-    if (has_passes) drawing.passes = crew.passes(frames[i], moments);
-    if (scene.render.sheet) {
+    if (i + 1 < task.frames.size()) next = make_ready(i + 1);
+    Drawing drawing = task.draw(crew, task.frames[i], moments);
+    if (task.render.sheet) {
       sheet.push_back(std::move(drawing.image));
     } else {
       writer.write(std::move(drawing));
     }
     progress.update(static_cast<double>(i + 1));
   }
-  if (scene.render.sheet) writer.write({.image = crew.sheet(sheet)});
+  if (task.render.sheet) writer.write({.image = crew.sheet(sheet)});
   writer.close();
-  progress.finish(fmt::format("{} of {} x {} pixels{}", count_of(static_cast<long>(frames.size()), "picture"), width,
-                              height, ground_report(runs.front().production, crew.lowest())));
+}
+
+/// Every `step`th frame from `first` on: pictures are written here, films are the asker's.
+void draw_some(const Task& task, FilmCrew& crew, std::size_t first, std::size_t step,
+               const DrawingProcesses::Send& send) {
+  const auto [width, height] = task.render.resolution;
+  PictureWriter writer(task.films(false), width, height, task.fps, task.range.first + static_cast<int>(first),
+                       static_cast<int>(step));
+  for (std::size_t i = first; i < task.frames.size(); i += step) {
+    stop_if_interrupted();
+    Drawing drawing = task.draw(crew, task.frames[i], crew.moments(task.frames[i]));
+    send(has(task.outputs, Output::Kind::kFilm) ? drawing.image : Image());
+    writer.write(std::move(drawing));
+  }
+  writer.close();
+}
+
+void draw_by_processes(const Task& task, FilmCrew& crew, std::size_t count, const Console& console,
+                       Progress& progress) {
+  console.detail(fmt::format("drawn by {} processes", count));
+  const std::size_t threads = std::max(1U, std::thread::hardware_concurrency()) / count;
+  // Of each process's rasteriser; 0: none but the one that draws. Whoever set it knows better.
+  setenv("LP_NUM_THREADS", std::to_string(threads > 1 ? threads : 0).c_str(), 0);
+  DrawingProcesses processes(count, [&](std::size_t process, const DrawingProcesses::Send& send) {
+    draw_some(task, crew, process, count, send);
+  });
+  const auto [width, height] = task.render.resolution;
+  PictureWriter writer(task.films(true), width, height, task.fps);
+  for (std::size_t i = 0; i < task.frames.size(); ++i) {
+    stop_if_interrupted();
+    Image image = processes.receive(i % count);
+    if (has(task.outputs, Output::Kind::kFilm)) writer.write({.image = std::move(image)});
+    progress.update(static_cast<double>(i + 1));
+  }
+  processes.finish();
+  writer.close();
+}
+
+/// How many processes draw.
+std::size_t processes_for(const Task& task, int jobs) {
+  const std::size_t frames = task.frames.size();
+  if (task.render.sheet) return 1;
+  if (jobs > 0) return std::min(frames, static_cast<std::size_t>(jobs));
+  const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
+  return std::clamp(frames / kLeastFrames, std::size_t{1}, std::min(cores, kMostProcesses));
+}
+
+}  // namespace
+
+void render_film(const std::vector<FilmRun>& runs, const std::optional<Environment>& surroundings,
+                 const FrameRange& range, const std::vector<Output>& outputs, const Console& console, int jobs) {
+  const Scene& scene = runs.front().scene;
+  check_outputs(scene.render, runs.size(), outputs);
+  const Task task{range, chosen_frames(range, scene.render), outputs, scene.render, scene.fps};
+  Progress progress(console, "render", static_cast<double>(task.frames.size()), 1, "frames/s");
+  FilmCrew crew(runs, surroundings);
+  const std::size_t processes = processes_for(task, jobs);
+  if (processes > 1 && end_worker_threads()) {
+    draw_by_processes(task, crew, processes, console, progress);
+  } else {
+    draw_here(task, crew, console, progress);
+  }
+  const auto [width, height] = scene.render.resolution;
+  progress.finish(fmt::format("{} of {} x {} pixels{}", count_of(static_cast<long>(task.frames.size()), "picture"),
+                              width, height, ground_report(runs.front().production, crew.lowest())));
 }
 
 }  // namespace sprung

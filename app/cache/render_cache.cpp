@@ -7,7 +7,6 @@
 
 #include "app/cache/cache_header.h"
 #include "app/cache/cached_run.h"
-#include "app/cache/jobs.h"
 #include "app/film/surroundings.h"
 #include "app/output.h"
 #include "app/render_film.h"
@@ -94,7 +93,7 @@ std::vector<CachedFilm> open_all(const SceneOptions& options) {
 
 /// With all frames of all caches in memory.
 void render_films(const std::vector<CachedFilm>& films, const std::optional<Environment>& surroundings,
-                  const FrameRange& range, const std::vector<Output>& outputs, const Console& console) {
+                  const FrameRange& range, const std::vector<Output>& outputs, const Console& console, int jobs) {
   std::vector<Production> productions;
   std::vector<Recording> recordings;
   productions.reserve(films.size());
@@ -105,7 +104,7 @@ void render_films(const std::vector<CachedFilm>& films, const std::optional<Envi
     const Recording& recording = recordings.emplace_back(cached_recording(film.cache));
     runs.push_back({film.scene, production, recording, film.name});
   }
-  render_film(runs, surroundings, range, outputs, console);
+  render_film(runs, surroundings, range, outputs, console, jobs);
 }
 
 }  // namespace
@@ -117,15 +116,8 @@ void render_cache(const SceneOptions& options, const Console& console) {
   const FrameRange range = parse_frame_range(options.frames, frames);
   const std::vector<Output> outputs = parse_outputs(options.outputs);
   for (const Output& output : outputs) check_range_output(output, range, options.overwrite);
-  const bool has_film = std::any_of(outputs.begin(), outputs.end(),
-                                    [](const Output& output) { return output.kind == Output::Kind::kFilm; });
-  if (has_film && options.jobs > 1) {
-    throw Error(ErrorKind::kUsage, "--jobs: a film is written by one process; draw pictures, then sprung film");
-  }
   const std::optional<Environment> surroundings = read_surroundings(films.front().scene.render);
-  run_jobs(range, options.jobs, console, [&](const FrameRange& part, const Console& own_console) {
-    render_films(films, surroundings, part, outputs, own_console);
-  });
+  render_films(films, surroundings, range, outputs, console, options.jobs);
   for (const std::string& output : options.outputs) fmt::print("{}\n", output);
 }
 

@@ -74,13 +74,6 @@ FilmCrew::Colors FilmCrew::common_colors(const std::vector<FilmRun>& runs) {
   return colors;
 }
 
-FilmCrew::Panel::Panel(Scene its_scene, const FilmRun& its_run, const Bounds& bounds,
-                       const std::optional<Environment>& surroundings, const RenderOptions& options)
-    : scene(std::move(its_scene)),
-      run(its_run),
-      stage(scene, run.production, run.recording),
-      renderer(in(surroundings, stage.stage(bounds)), options) {}
-
 std::size_t FilmCrew::Panel::frame(std::size_t of_film) const {
   return std::min(of_film, run.recording.frames.size() - 1);
 }
@@ -90,7 +83,8 @@ FilmCrew::FilmCrew(const std::vector<FilmRun>& runs, const std::optional<Environ
 
 FilmCrew::FilmCrew(const std::vector<FilmRun>& runs, const std::optional<Environment>& surroundings,
                    const Colors& colors)
-    : scene_(colors.scene),
+    : surroundings_(surroundings),
+      scene_(colors.scene),
       reach_(common_reach(runs)),
       labels_(scene_.render, colors.legend, runs.size() > 1),
       scene_of_panel_(with_panel_size(scene_, runs.size(), labels_)),
@@ -101,8 +95,16 @@ FilmCrew::FilmCrew(const std::vector<FilmRun>& runs, const std::optional<Environ
   for (const FilmRun& run : runs) {
     Scene its = run.scene;
     its.render = scene_.render;
-    panels_.emplace_back(std::move(its), run, reach_.bounds, surroundings, options_of(scene_of_panel_.render));
+    panels_.emplace_back(std::move(its), run);
   }
+}
+
+Renderer& FilmCrew::renderer(Panel& panel) {
+  if (!panel.renderer) {
+    panel.renderer = std::make_unique<Renderer>(in(surroundings_, panel.stage.stage(reach_.bounds)),
+                                                options_of(scene_of_panel_.render));
+  }
+  return *panel.renderer;
 }
 
 FilmCrew::Moments FilmCrew::moments(std::size_t frame) const {
@@ -122,7 +124,7 @@ Image FilmCrew::draw(std::size_t frame, const Moments& moments) {
   for (std::size_t i = 0; i < panels_.size(); ++i) {
     Exposure exposure;
     for (std::size_t j = 0; j < moments[i].size(); ++j) {
-      exposure.add(panels_[i].renderer.draw(moments[i][j], this->camera(frame, static_cast<int>(j))));
+      exposure.add(renderer(panels_[i]).draw(moments[i][j], this->camera(frame, static_cast<int>(j))));
     }
     pictures.push_back(exposure.mean());
     if (panels_.size() > 1) labels_.write_name(pictures.back(), panels_[i].run.name);
@@ -154,7 +156,7 @@ Camera FilmCrew::camera(std::size_t frame, int exposure) const {
 }
 
 Passes FilmCrew::passes(std::size_t frame, const Moments& moments) {
-  return panels_.front().renderer.draw_passes(moments.front().front(), cameras_[frame]);
+  return renderer(panels_.front()).draw_passes(moments.front().front(), cameras_[frame]);
 }
 
 Image FilmCrew::sheet(const std::vector<Image>& pictures) const {

@@ -19,17 +19,18 @@ struct FilmRun {
 
 /// Everything that a picture of a film is made with: of one run, or of several side by side with one camera and one
 /// range of colours, as the scene of the first has it. A run that is shorter than the others stays where it ends.
+/// OpenGL is begun with the first picture: a crew can be handed to another process before.
 class FilmCrew {
  public:
   /// The skins at the moments of a picture, by run and moment: one, or as many as blur takes.
   using Moments = std::vector<std::vector<std::vector<SkinShape>>>;
 
-  /// All runs are in the same surroundings; none: in the studio.
+  /// All runs are in the same surroundings, which outlive the crew; none: in the studio.
   FilmCrew(const std::vector<FilmRun>& runs, const std::optional<Environment>& surroundings);
 
   [[nodiscard]] std::size_t frames() const { return cameras_.size(); }
   [[nodiscard]] double lowest() const { return reach_.lowest; }  // m, of all bodies in all frames
-  [[nodiscard]] std::string driver() const { return panels_.front().renderer.driver(); }
+  [[nodiscard]] std::string driver() { return renderer(panels_.front()).driver(); }
 
   [[nodiscard]] Moments moments(std::size_t frame) const;
   [[nodiscard]] Image draw(std::size_t frame, const Moments& moments);
@@ -49,15 +50,15 @@ class FilmCrew {
 
   /// The part of a picture that shows one run.
   struct Panel {
-    Panel(Scene its_scene, const FilmRun& its_run, const Bounds& bounds, const std::optional<Environment>& surroundings,
-          const RenderOptions& options);
+    Panel(Scene its_scene, const FilmRun& its_run) : scene(std::move(its_scene)), run(its_run) {}
     [[nodiscard]] std::size_t frame(std::size_t of_film) const;  // the same, or its last
 
     const Scene scene;
     const FilmRun run;
-    FilmStage stage;
-    Renderer renderer;
+    const FilmStage stage{scene, run.production, run.recording};
+    std::unique_ptr<Renderer> renderer;  // from the first picture on
   };
+  Renderer& renderer(Panel& panel);
 
   /// The camera of that exposure: somewhere on its lens.
   [[nodiscard]] Camera camera(std::size_t frame, int exposure) const;
@@ -65,6 +66,7 @@ class FilmCrew {
   /// Pixels at the right side that no panel covers.
   [[nodiscard]] int margin() const;
 
+  const std::optional<Environment>& surroundings_;
   Scene scene_;  // of the film
   Reach reach_;
   Labels labels_;

@@ -63,6 +63,20 @@ TEST(Render, OfACacheIsWhatAnimateDraws) {
   EXPECT_EQ(run_program(folder, "render run.h5 --frames 5 -o cached/ --overwrite").exit_code, 0);
   EXPECT_EQ(run_program(folder, "render run.h5 --frames 5 -o other/ --set duration=3").exit_code, 2);
   EXPECT_EQ(run_program(folder, "render run.h5 -o film.mp4 --resolution 80x60").exit_code, 0);
+  EXPECT_EQ(run_program(folder, "render run.h5 -o two.mp4 --resolution 80x60 --jobs 2").exit_code, 0);
+  EXPECT_EQ(text_of(folder.path() / "film.mp4"), text_of(folder.path() / "two.mp4"));
+}
+
+TEST(Render, ByProcessesStopsWithTheFirstThatCannotGoOn) {
+  const TempFolder folder;
+  static_cast<void>(folder.write("cube.obj", kCubeObj));
+  ASSERT_EQ(run_program(folder, "simulate cube.obj --bricks 2 --duration 0.5 --fps 12 -o run.h5").exit_code, 0);
+  std::filesystem::create_directories(folder.path() / "out" / "frame_0002.png");
+  const ProgramRun run =
+      run_program(folder, "render run.h5 -o out/ -o film.mp4 --overwrite --jobs 3 --resolution 80x60");
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_NE(run.err.find("frame_0002.png"), std::string::npos) << run.err;
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "film.mp4"));
 }
 
 TEST(Render, SetsCachesSideBySide) {

@@ -1,0 +1,184 @@
+#include "app/film/drawing_processes.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/wait.h>
+#include <tbb/global_control.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdint>
+#include <cstdio>
+#include <exception>
+#include <string>
+#include <utility>
+
+#include "app/interrupt.h"
+#include "core/error.h"
+
+namespace sprung {
+namespace {
+
+constexpr int kPipeSize = 1 << 20;  // bytes; as much as the system gives without being asked twice
+
+enum class Kind : std::int32_t { kPicture, kDone, kError };
+
+/// Goes ahead of the pixels of a picture, or of an error's text.
+struct Header {
+  Kind kind = Kind::kDone;
+  ErrorKind error = ErrorKind::kFailed;
+  std::int32_t width = 0;
+  std::int32_t height = 0;
+  std::uint64_t bytes = 0;
+};
+
+void write_all(int pipe, const void* data, std::size_t size) {
+  const auto* bytes = static_cast<const char*>(data);
+  while (size > 0) {
+    const ssize_t done = write(pipe, bytes, size);
+    if (done < 0 && errno == EINTR) {
+      stop_if_interrupted();
+      continue;
+    }
+    if (done <= 0) throw Interrupted{};  // whoever asked has gone
+    bytes += done;
+    size -= static_cast<std::size_t>(done);
+  }
+}
+
+/// False where the other side wrote less.
+bool read_all(int pipe, void* data, std::size_t size) {
+  auto* bytes = static_cast<char*>(data);
+  while (size > 0) {
+    const ssize_t done = read(pipe, bytes, size);
+    if (done < 0 && errno == EINTR) {
+      stop_if_interrupted();
+      continue;
+    }
+    if (done <= 0) return false;
+    bytes += done;
+    size -= static_cast<std::size_t>(done);
+  }
+  return true;
+}
+
+void send_error(int pipe, ErrorKind kind, const std::string& text) {
+  const Header header{.kind = Kind::kError, .error = kind, .bytes = text.size()};
+  write_all(pipe, &header, sizeof header);
+  write_all(pipe, text.data(), text.size());
+}
+
+void work_and_send(int pipe, std::size_t number, const DrawingProcesses::Work& work) {
+  try {
+    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    work(number, [pipe](const Image& image) {
+      const Header header{
+          .kind = Kind::kPicture, .width = image.width, .height = image.height, .bytes = image.pixels.size()};
+      write_all(pipe, &header, sizeof header);
+      write_all(pipe, image.pixels.data(), image.pixels.size());
+    });
+    const Header done;
+    write_all(pipe, &done, sizeof done);
+  } catch (const Error& error) {
+    send_error(pipe, error.kind(), error.what());
+  } catch (const std::exception& error) {
+    send_error(pipe, ErrorKind::kFailed, error.what());
+  }
+}
+
+/// Never returns: what the process inherited is not its own to clean up.
+[[noreturn]] void run_here(int pipe, std::size_t number, const DrawingProcesses::Work& work) {
+  try {
+    work_and_send(pipe, number, work);
+  } catch (const Interrupted&) {
+    _exit(kInterruptedExitCode);
+  }
+  std::fflush(nullptr);
+  _exit(0);
+}
+
+std::string end_of(pid_t process) {
+  int status = 0;
+  if (waitpid(process, &status, 0) != process) return "was lost";
+  return WIFSIGNALED(status) ? fmt::format("was ended by signal {}", WTERMSIG(status)) : "ended early";
+}
+
+}  // namespace
+
+DrawingProcesses::DrawingProcesses(std::size_t count, const Work& work) {
+  try {
+    for (std::size_t i = 0; i < count; ++i) start(i, work);
+  } catch (...) {
+    stop();
+    throw;
+  }
+}
+
+DrawingProcesses::~DrawingProcesses() { stop(); }
+
+void DrawingProcesses::start(std::size_t number, const Work& work) {
+  std::array<int, 2> ends{};
+  if (pipe2(ends.data(), O_CLOEXEC) != 0) throw Error(ErrorKind::kFailed, "no pipe to a process that draws");
+  fcntl(ends[1], F_SETPIPE_SZ, kPipeSize);
+  std::fflush(nullptr);
+  const pid_t process = fork();
+  if (process == 0) {
+    close(ends[0]);
+    // Else none of them would notice that this process no longer reads.
+    for (const Child& other : children_) close(other.pipe);
+    run_here(ends[1], number, work);
+  }
+  close(ends[1]);
+  children_.push_back({ends[0], process});
+  if (process < 0) throw Error(ErrorKind::kFailed, "cannot start a process that draws; --jobs 1 needs none");
+}
+
+void DrawingProcesses::stop() {
+  for (const Child& child : children_) close(child.pipe);
+  for (const Child& child : children_) {
+    if (child.process >= 0) kill(child.process, SIGTERM);
+  }
+  for (const Child& child : children_) {
+    if (child.process >= 0) waitpid(child.process, nullptr, 0);
+  }
+}
+
+Image DrawingProcesses::receive(std::size_t process) {
+  Child& child = children_[process];
+  Header header;
+  if (!read_all(child.pipe, &header, sizeof header)) {
+    stop_if_interrupted();
+    throw Error(ErrorKind::kFailed, fmt::format("a process that draws {}; --jobs 1 needs none and less memory",
+                                                end_of(std::exchange(child.process, -1))));
+  }
+  if (header.kind == Kind::kError) {
+    std::string text(header.bytes, ' ');
+    read_all(child.pipe, text.data(), text.size());
+    throw Error(header.error, text);
+  }
+  Image image;
+  image.width = header.width;
+  image.height = header.height;
+  image.pixels.resize(header.bytes);
+  if (!read_all(child.pipe, image.pixels.data(), image.pixels.size())) {
+    stop_if_interrupted();
+    throw Error(ErrorKind::kFailed, "a process that draws ended in the middle of a picture");
+  }
+  return image;
+}
+
+void DrawingProcesses::finish() {
+  for (std::size_t i = 0; i < children_.size(); ++i) {
+    static_cast<void>(receive(i));  // its last word
+    waitpid(std::exchange(children_[i].process, -1), nullptr, 0);
+  }
+}
+
+bool end_worker_threads() {
+  tbb::task_scheduler_handle workers{tbb::attach{}};
+  return tbb::finalize(workers, std::nothrow);
+}
+
+}  // namespace sprung
