@@ -191,7 +191,9 @@ class Runner {
     console_.detail(fmt::format("{} implicit steps, {} Newton iterations, {} multigrid iterations, at most {} in one",
                                 report.steps, report.newton_iterations, report.solves.iterations, report.solves.most));
     if (report.halvings > 0) {
-      console_.note(fmt::format("{} implicit steps found no end and were made in halves", report.halvings));
+      console_.note(
+          fmt::format("{} implicit steps found no end, or made energy from nowhere, and were made again in halves",
+                      report.halvings));
     }
     if (report.solves.gone_direct > 0) {
       console_.note(

@@ -55,6 +55,12 @@ std::vector<Energy> energies_of(const World& world) {
   return all;
 }
 
+std::vector<Energy> energies_of(const World& world, std::span<const std::size_t> actors) {
+  std::vector<Energy> some(world.actors.size());
+  for (const std::size_t i : actors) some[i] = energy_of(world.actors[i].body, world.gravity);
+  return some;
+}
+
 std::string energy_from_nowhere(const World& world, std::span<const std::size_t> actors,
                                 const std::vector<Energy>& before, const std::vector<Energy>& after) {
   if (std::any_of(world.obstacles.begin(), world.obstacles.end(),

@@ -17,8 +17,9 @@ struct Energy {
   [[nodiscard]] double sum() const { return kinetic + elastic + potential; }
 };
 [[nodiscard]] Energy energy_of(const Body& body, const Vec3& gravity);
-/// By actor of the world.
+/// By actor of the world, all or some of them.
 [[nodiscard]] std::vector<Energy> energies_of(const World& world);
+[[nodiscard]] std::vector<Energy> energies_of(const World& world, std::span<const std::size_t> actors);
 
 /// What is wrong where actors that move together have more energy after a while than they can have got, in words; else
 /// empty, also where a handle, a load, the wind or an obstacle on its way may have given it. Obstacles at rest and what

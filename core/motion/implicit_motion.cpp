@@ -79,10 +79,10 @@ void ImplicitMotion::advance(const Together& group, const Span& span) {
 
 /// Empty, or what is wrong; the bodies are then as before.
 std::string ImplicitMotion::try_step(const Together& group, double elapsed, double dt) {
-  const std::vector<Energy> before = energies_of(world_);
+  const std::vector<Energy> before = energies_of(world_, group.rows);
   ImplicitStep step(world_, group.bodies, group.actors, group.glue, options_, dt);
   if (!step.make(elapsed, *counts_)) return "the search for a minimum finds no end";
-  std::string gain = energy_from_nowhere(world_, group.rows, before, energies_of(world_));
+  std::string gain = energy_from_nowhere(world_, group.rows, before, energies_of(world_, group.rows));
   if (gain.empty()) return gain;
   for (ImplicitBody* body : group.bodies) body->undo();
   return gain;
