@@ -78,7 +78,7 @@ TEST_F(Export, KeepsTheMeshOfTheFileAndWritesTheSameFromACacheAndAScene) {
 TEST_F(Export, ClearsWhatAKilledExportLeft) {
   const std::string left = "points.pc2.passing.h5";
   {
-    RunningProgram program(folder_, {"export", "cube.obj", "--duration", "60", "-o", "points.pc2"});
+    RunningProgram program(folder_, {"export", "cube.obj", "--bricks", "6", "--duration", "60", "-o", "points.pc2"});
     ASSERT_TRUE(program.wait_for(folder_.path() / left));
     program.signal(SIGKILL);
     EXPECT_EQ(program.wait().exit_code, -1);

@@ -8,6 +8,7 @@
 #include "app/make_production.h"
 #include "app/scene/scene_file.h"
 #include "app/simulate.h"
+#include "tests/support/sanitized.h"
 
 /// What happens in every scene of assets/scenes, as its first line says. With bricks so coarse that it takes seconds;
 /// SPRUNG_FULL_SCENES=1 takes the scenes as they are, which takes a quarter of an hour.
@@ -95,14 +96,20 @@ class Film {
   Recording recording_;
 };
 
-TEST(SceneFacts, DemoComesToRest) {
+struct SceneFacts : testing::Test {
+  void SetUp() override {
+    if (test::kSanitized) GTEST_SKIP() << "minutes each; every_scene_test.cpp runs the same code";
+  }
+};
+
+TEST_F(SceneFacts, DemoComesToRest) {
   const Film film("demo", {{"body.bricks", "8"}});
   film.expect_sound();
   EXPECT_GT(film.speed(film.frame_at(0.2)), 0.5);
   EXPECT_LT(film.travel_speed(film.last()), 0.03);
 }
 
-TEST(SceneFacts, OctopusLandsOnItsTentacles) {
+TEST_F(SceneFacts, OctopusLandsOnItsTentacles) {
   const Film film("octopus", {{"body.bricks", "10"}});
   film.expect_sound();
   EXPECT_LT(film.skin(film.last()).col(1).minCoeff(), 0.001);
@@ -110,7 +117,7 @@ TEST(SceneFacts, OctopusLandsOnItsTentacles) {
 }
 
 /// What was pressed flat has in the end the shape that it has where no plate ever came; it may have rolled.
-TEST(SceneFacts, SquashedDoughnutReturnsToItsShape) {
+TEST_F(SceneFacts, SquashedDoughnutReturnsToItsShape) {
   const Settings coarser{{"body.bricks", "10"}};
   const Film film("squash", coarser);
   film.expect_sound();
@@ -124,7 +131,7 @@ TEST(SceneFacts, SquashedDoughnutReturnsToItsShape) {
   EXPECT_LT(((moved * shape.transpose()).transpose() - other).rowwise().norm().maxCoeff(), 0.01 * size);
 }
 
-TEST(SceneFacts, BarIsDrawnToTwiceItsLength) {
+TEST_F(SceneFacts, BarIsDrawnToTwiceItsLength) {
   const Film film("stretch", {{"body.bricks", "8"}});
   film.expect_sound();
   const auto length = [&](int frame) {
@@ -140,7 +147,7 @@ TEST(SceneFacts, BarIsDrawnToTwiceItsLength) {
 }
 
 /// Its tip sinks, what is held does not.
-TEST(SceneFacts, BarSagsUnderItsWeight) {
+TEST_F(SceneFacts, BarSagsUnderItsWeight) {
   const Film film("sag", {});
   film.expect_sound();
   const auto end = [&](int frame, double x) { return film.part(frame, 0, Vec3(x, 0, 0), Vec3(x, 1, 1)); };
@@ -149,7 +156,7 @@ TEST(SceneFacts, BarSagsUnderItsWeight) {
 }
 
 /// Each cross-section has turned by its share of the full turn, and all of it is undone.
-TEST(SceneFacts, BarIsTwistedByAFullTurnAndBack) {
+TEST_F(SceneFacts, BarIsTwistedByAFullTurnAndBack) {
   const Film film("twist", {{"body.bricks", "12"}});
   film.expect_sound();
   const int turned = film.frame_at(1.9);
@@ -160,7 +167,7 @@ TEST(SceneFacts, BarIsTwistedByAFullTurnAndBack) {
 }
 
 /// The ear carries the whole weight, and the bear hangs straight below it.
-TEST(SceneFacts, BearHangsFromOneEar) {
+TEST_F(SceneFacts, BearHangsFromOneEar) {
   const Film film("hang", {{"body.bricks", "12"}});
   film.expect_sound();
   const ProbeSample& ear = film.recording().probes.at(0).samples.back();
@@ -172,7 +179,7 @@ TEST(SceneFacts, BearHangsFromOneEar) {
   EXPECT_LT(film.travel_speed(film.last()), 0.03);
 }
 
-TEST(SceneFacts, TwentyBodiesComeToRestInTheBowl) {
+TEST_F(SceneFacts, TwentyBodiesComeToRestInTheBowl) {
   const Film film("bowl", {{"body.bricks", "5"}});
   film.expect_sound();
   EXPECT_EQ(film.bodies(), 20U);
@@ -184,7 +191,7 @@ TEST(SceneFacts, TwentyBodiesComeToRestInTheBowl) {
   }
 }
 
-TEST(SceneFacts, StackOfFiveStands) {
+TEST_F(SceneFacts, StackOfFiveStands) {
   const Film film("stack", {{"duration", "2"}});
   film.expect_sound();
   ASSERT_EQ(film.bodies(), 5U);
@@ -199,7 +206,7 @@ TEST(SceneFacts, StackOfFiveStands) {
   }
 }
 
-TEST(SceneFacts, BallGoesThroughTheRing) {
+TEST_F(SceneFacts, BallGoesThroughTheRing) {
   const Film film("ring", {{"body.bricks", "12"}, {"duration", "2.6"}});
   film.expect_sound();
   EXPECT_GT(film.skin(0).col(1).minCoeff(), 0.15);
@@ -209,7 +216,7 @@ TEST(SceneFacts, BallGoesThroughTheRing) {
 }
 
 /// The tips, a quarter of the width apart at rest each, meet and do not go through each other.
-TEST(SceneFacts, FingersCloseOnEachOther) {
+TEST_F(SceneFacts, FingersCloseOnEachOther) {
   const Film film("hand", {{"body.bricks", "12"}});
   film.expect_sound();
   const auto gap = [&](int frame) {
@@ -224,7 +231,7 @@ TEST(SceneFacts, FingersCloseOnEachOther) {
 }
 
 /// The soft one is drawn long, the stiff one is not, and what is glued stays together.
-TEST(SceneFacts, GlueHoldsASoftAndAStiffBlock) {
+TEST_F(SceneFacts, GlueHoldsASoftAndAStiffBlock) {
   const Film film("glue", {{"duration", "1.2"}});
   film.expect_sound();
   const auto height = [&](int frame, std::size_t actor) {
@@ -243,7 +250,7 @@ TEST(SceneFacts, GlueHoldsASoftAndAStiffBlock) {
 }
 
 /// What of the wheel is on the ground stays where it is: it rolls.
-TEST(SceneFacts, WheelRolls) {
+TEST_F(SceneFacts, WheelRolls) {
   const Film film("wheel", {{"body.bricks", "12"}});
   film.expect_sound();
   EXPECT_NEAR(film.middle(film.last()).x() - film.middle(0).x(), 0.4, 0.01);
@@ -260,7 +267,7 @@ TEST(SceneFacts, WheelRolls) {
   EXPECT_LT(slipped, 0.05 * 0.4);
 }
 
-TEST(SceneFacts, MusclesBendATentacleToBothSides) {
+TEST_F(SceneFacts, MusclesBendATentacleToBothSides) {
   const Film film("muscle", {{"body.bricks", "16"}});
   film.expect_sound();
   const auto tip = [&](double time) { return film.part(film.frame_at(time), 0, Vec3(0, 0.95, 0), Vec3(1, 1, 1)); };
@@ -268,7 +275,7 @@ TEST(SceneFacts, MusclesBendATentacleToBothSides) {
   EXPECT_GT(tip(3.05).x() - tip(0).x(), 0.05);
 }
 
-TEST(SceneFacts, WindBendsTheSheet) {
+TEST_F(SceneFacts, WindBendsTheSheet) {
   const Film film("wind", {{"duration", "1.2"}});
   film.expect_sound();
   const auto end = [&](double time) { return film.part(film.frame_at(time), 0, Vec3(0.95, 0, 0), Vec3(1, 1, 1)); };
@@ -276,14 +283,13 @@ TEST(SceneFacts, WindBendsTheSheet) {
 }
 
 /// The wall gives way, swings back and throws the ball where it came from.
-TEST(SceneFacts, WallThrowsABallBack) {
+TEST_F(SceneFacts, WallThrowsABallBack) {
   const Film film("wall", {});
   film.expect_sound();
-  double most = 0;
-  for (int frame = 0; frame <= film.last(); ++frame)
-    most = std::max(most, film.middle(frame, 0).x() - film.middle(0, 0).x());
-  EXPECT_GT(most, 0.01);
   const auto shift = [&](int frame) { return film.middle(frame, 0).x() - film.middle(0, 0).x(); };
+  double most = 0;
+  for (int frame = 0; frame <= film.last(); ++frame) most = std::max(most, shift(frame));
+  EXPECT_GT(most, 0.01);
   EXPECT_LT(shift(film.frame_at(0.85)), -0.01);  // back again, and past where it stood
   double furthest = 0;
   for (int frame = 0; frame <= film.last(); ++frame) furthest = std::min(furthest, film.middle(frame, 1).x());

@@ -14,6 +14,7 @@
 #include "tests/soak/mesh_corpus.h"
 #include "tests/soak/mutation.h"
 #include "tests/support/meshes.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/temp_folder.h"
 
 namespace sprung::test {
@@ -22,11 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uintmax_t kLargestShared = 100'000;  // bytes of a shared mesh that is worth many mutations
-#if defined(__SANITIZE_ADDRESS__)
-constexpr long kMostKilobytes = LONG_MAX;  // readers have no limit of memory then
-#else
-constexpr long kMostKilobytes = 1'000'000;
-#endif
+constexpr long kMostKilobytes = kSanitized ? LONG_MAX : 1'000'000;  // readers have no limit of memory under ASan
 constexpr double kMostSeconds = 20;  // the limit of time of the reader, with some room on a busy machine
 
 struct Options {

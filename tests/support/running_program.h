@@ -37,7 +37,7 @@ class RunningProgram {
 
   /// False where the file does not come, or the program ends before it does.
   [[nodiscard]] bool wait_for(const std::filesystem::path& file) const {
-    constexpr int kLooks = 20000;
+    constexpr int kLooks = 120000;
     for (int look = 0; look < kLooks; ++look) {
       if (std::filesystem::exists(file)) return true;
       std::this_thread::sleep_for(std::chrono::milliseconds(1));

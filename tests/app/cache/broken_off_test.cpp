@@ -2,15 +2,19 @@
 
 #include "core/output/cache.h"
 #include "tests/support/running_program.h"
+#include "tests/support/sanitized.h"
 
 namespace sprung {
 namespace {
 
 namespace fs = std::filesystem;
 
-const std::string kShortFrames = "simulate cube.obj --bricks 10 --fps 100 --duration 0.5 -o ";
-const std::vector<std::string> kLongFrames{"simulate", "cube.obj",   "--bricks", "24", "--fps",
-                                           "0.5",      "--duration", "20",       "-o", "run.h5"};
+// Sanitizers make it ten times slower.
+const std::string kFew = test::kSanitized ? "6" : "10";
+const std::string kMany = test::kSanitized ? "10" : "24";
+const std::string kShortFrames = "simulate cube.obj --bricks " + kFew + " --fps 100 --duration 0.5 -o ";
+const std::vector<std::string> kLongFrames{"simulate", "cube.obj",   "--bricks", kMany, "--fps",
+                                           "0.5",      "--duration", "20",       "-o",  "run.h5"};
 
 std::vector<std::string> words_in(const std::string& text) {
   std::istringstream stream(text);
@@ -121,10 +125,10 @@ TEST_F(BrokenOff, InAReadOnlyFolderItDoesNotBegin) {
   fs::copy(folder_.path() / "straight.h5", folder_.path() / "shelf/run.h5");
   fs::permissions(folder_.path() / "shelf", fs::perms::owner_read | fs::perms::owner_exec);
   if (std::system((without_privileges() + "true 2>/dev/null").c_str()) != 0) GTEST_SKIP() << "setpriv is not allowed";
-  const std::vector<std::string> all{kShortFrames + "shelf/new.h5", kShortFrames + "shelf/run.h5 --overwrite",
-                                     "simulate cube.obj --bricks 10 --fps 100 --duration 1 -o shelf/run.h5 --resume",
-                                     "export straight.h5 -o shelf/film.glb",
-                                     "render straight.h5 -o shelf/frame_{}.png"};
+  const std::vector<std::string> all{
+      kShortFrames + "shelf/new.h5", kShortFrames + "shelf/run.h5 --overwrite",
+      "simulate cube.obj --bricks " + kFew + " --fps 100 --duration 1 -o shelf/run.h5 --resume",
+      "export straight.h5 -o shelf/film.glb", "render straight.h5 -o shelf/frame_{}.png"};
   for (const std::string& words : all) {
     const ProgramRun ended = run_program(folder_, words, without_privileges());
     EXPECT_EQ(ended.exit_code, 1) << words << '\n' << ended.err;

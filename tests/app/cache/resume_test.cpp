@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "tests/support/error_message.h"
 #include "tests/support/run_program.h"
+#include "tests/support/sanitized.h"
 
 namespace sprung {
 namespace {
@@ -183,7 +184,8 @@ TEST(Resume, FromRoundedFramesGoesOnBitByBit) {
 TEST(Resume, RoundedCachesSayHowFarOffTheyAre) {
   const TempFolder folder;
   static_cast<void>(folder.write("cube.obj", kCubeObj));
-  const std::string simulate = "simulate cube.obj --size 10cm --bricks 12 --duration 1 ";
+  const std::string bricks = test::kSanitized ? "8" : "12";
+  const std::string simulate = "simulate cube.obj --size 10cm --duration 1 --bricks " + bricks + " ";
   ASSERT_EQ(run_program(folder, simulate + "-o exact.h5").exit_code, 0);
   const ProgramRun made = run_program(folder, simulate + "-o rounded.h5 --position-error 0.01mm");
   ASSERT_EQ(made.exit_code, 0) << made.err;
@@ -198,19 +200,23 @@ TEST(Resume, RoundedCachesSayHowFarOffTheyAre) {
   EXPECT_EQ(run_program(folder, simulate + "-o folder/ --position-error 1mm").exit_code, 2);
 }
 
-/// As often as this the program is killed on its way.
-constexpr int kKills = 20;
+const std::string kFew = test::kSanitized ? "4" : "8";
+
+/// As often as this the program is killed on its way, each time after some seconds; sanitizers make it slower.
+constexpr int kKills = test::kSanitized ? 6 : 20;
+constexpr double kShortest = test::kSanitized ? 1 : 0.1;
+constexpr double kLongest = test::kSanitized ? 4 : 0.4;
 
 TEST(Resume, ProgramKilledAtRandomMomentsComesToTheSameEnd) {
   const TempFolder folder;
   static_cast<void>(folder.write("cube.obj", kCubeObj));
-  const std::string simulate = "simulate cube.obj --bricks 8 --fps 100 --duration 1 --resume -o ";
+  const std::string simulate = "simulate cube.obj --bricks " + kFew + " --fps 100 --duration 1 --resume -o ";
   const unsigned seed = std::random_device()();
   SCOPED_TRACE(seed);
   std::mt19937 random(seed);
   std::size_t done = 0;
   for (int i = 0; i < kKills; ++i) {
-    const double seconds = std::uniform_real_distribution(0.1, 0.4)(random);
+    const double seconds = std::uniform_real_distribution(kShortest, kLongest)(random);
     static_cast<void>(run_program(folder, simulate + "killed.h5", "timeout -s KILL " + std::to_string(seconds)));
     if (!std::filesystem::exists(folder.path() / "killed.h5")) continue;
     const std::size_t frames = CacheReader(folder.path() / "killed.h5").frame_count();
@@ -226,8 +232,9 @@ TEST(Resume, ProgramKilledAtRandomMomentsComesToTheSameEnd) {
 TEST(Resume, AnInterruptEndsTheFrameAndSaysHowToGoOn) {
   const TempFolder folder;
   static_cast<void>(folder.write("cube.obj", kCubeObj));
-  const std::string simulate = "simulate cube.obj --bricks 10 --fps 100 --duration 60 -o run.h5";
-  const ProgramRun ended = run_program(folder, simulate, "timeout --preserve-status -s INT 1.5");
+  const std::string simulate = "simulate cube.obj --bricks " + kFew + " --fps 100 --duration 60 -o run.h5";
+  const ProgramRun ended =
+      run_program(folder, simulate, "timeout --preserve-status -s INT " + std::string(test::kSanitized ? "8" : "1.5"));
   EXPECT_EQ(ended.exit_code, 130) << ended.err;
   EXPECT_NE(ended.err.find(simulate + " --resume"), std::string::npos) << ended.err;
   const CacheReader cache(folder.path() / "run.h5");

@@ -10,6 +10,7 @@
 #include "core/body/forces.h"
 #include "core/motion/careful_motion.h"
 #include "core/world/overlap.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/touching.h"
 
 namespace sprung {
@@ -70,6 +71,8 @@ void run(World& world, double duration, double fps) {
   }
 }
 
+constexpr double kSeconds = test::kSanitized ? 1 : 10;
+
 /// A block on a tilted plane: below the friction angle it stays for ten seconds, above it slides as a rigid one does.
 TEST(Obstacle, BlockOnASlopeStaysOrSlides) {
   const double tilt = 0.3;
@@ -88,7 +91,7 @@ TEST(Obstacle, BlockOnASlopeStaysOrSlides) {
     const double start = centre_of(body).dot(down);
     const double speed = linear_momentum(body).dot(down) / body.masses.sum();
     const bool slides = friction < std::tan(tilt);
-    const double time = slides ? 0.5 : 10;
+    const double time = slides ? 0.5 : kSeconds;
     run(world, time, 20);
     const double acceleration = 9.81 * (std::sin(tilt) - friction * std::cos(tilt));
     const double way = centre_of(body).dot(down) - start;

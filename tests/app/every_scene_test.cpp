@@ -1,0 +1,44 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "app/make_production.h"
+#include "app/scene/scene_file.h"
+#include "app/simulate.h"
+
+namespace sprung {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> scenes() {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(SPRUNG_SOURCE_DIR "/assets/scenes")) {
+    if (entry.path().extension() == ".toml") files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// The first frame of every scene of assets/scenes with all its bricks; scene_facts_test.cpp sees the rest.
+class EveryScene : public testing::TestWithParam<fs::path> {};
+
+TEST_P(EveryScene, BeginsSoundly) {
+  Scene scene = read_scene(GetParam());
+  set_scene_key(scene, "duration", std::to_string(1.5 / scene.fps));
+  const Console silent{.quiet = true};
+  Production production = make_production(scene, silent);
+  const Recording recording = simulate(production, scene, silent);
+  EXPECT_EQ(recording.frames.size(), 2U);
+  EXPECT_LT(recording.deepest_overlap, 0.01 * production.size);
+  for (const Actor& actor : production.world.actors) {
+    EXPECT_EQ(inverted_bricks(actor.body), 0);
+    EXPECT_NE(actor.body.positions, actor.body.rest_positions) << "nothing moves";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EveryScene, testing::ValuesIn(scenes()),
+                         [](const auto& scene) { return scene.param.stem().string(); });
+
+}  // namespace
+}  // namespace sprung
