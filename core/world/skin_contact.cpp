@@ -11,7 +11,8 @@ namespace {
 constexpr double kMargin = 0.3;   // bricks: what is nearer than that is watched
 constexpr double kFarMargin = 1;  // bricks: what may soon be that near is looked at
 constexpr double kDeepest = 0.7;  // bricks: what is deeper came from the other side
-constexpr double kPressed = 0.4;  // of its volume, that a brick keeps: what it carries is pushed out of no skin
+constexpr double kPressed = 0.4;  // of its volume, that a brick keeps: what it carries is pushed out of no skin ...
+constexpr double kFlat = 0.15;    // ... nor held by that of its own body
 
 }  // namespace
 
@@ -34,16 +35,19 @@ void SkinContact::add(const Group& group, const Held& held, Touches& touches) co
 }
 
 /// Pushed out of each other, skins of bricks that have no room left would press those flat, and for ever: the guard
-/// against that pushes back, and each gives energy to the other. They are kept from going deeper, no more.
-bool SkinContact::has_room(const Group& group, const SkinPair& pair) const {
-  const auto has = [&](int row) {
+/// against that pushes back, and each gives energy to the other. They are kept from going deeper, no more; and where
+/// not even that can be had, a body had rather lie in itself than turn inside out.
+double SkinContact::room_of(const Group& group, const SkinPair& pair) const {
+  const auto of = [&](int row) {
     const WatchedPoint& point = pairs_.watched(row);
     const Body& body = group[point.actor]->body;
     const int brick = skins_[point.actor]->points[static_cast<std::size_t>(point.point)].brick;
     const Mat3 axes = mean_axes_of(columns_of(body.grid.nodes[static_cast<std::size_t>(brick)], body.positions));
-    return axes.determinant() > kPressed * body.grid.brick_volume();
+    return axes.determinant() / body.grid.brick_volume();
   };
-  return has(pair.point) && std::all_of(pair.corners.begin(), pair.corners.end(), has);
+  double least = of(pair.point);
+  for (const int corner : pair.corners) least = std::min(least, of(corner));
+  return least;
 }
 
 bool SkinContact::has_to_be_held(const World& world, double dt, const Group& group, Held& held) const {
@@ -55,8 +59,9 @@ bool SkinContact::has_to_be_held(const World& world, double dt, const Group& gro
   }
   const double speed = stance.normal.dot(velocity);
   if (!(stance.gap + dt * speed <= 0)) return false;
-  const bool is_lifted = stance.gap >= 0 || has_room(group, *stance.pair);
-  held.least_speed = is_lifted ? least_speed(stance.gap, world.gravity.norm(), dt) : 0;
+  const double room = stance.gap >= 0 ? 1 : room_of(group, *stance.pair);
+  if (room < kFlat && actors_[0] == actors_[1]) return false;
+  held.least_speed = room > kPressed ? least_speed(stance.gap, world.gravity.norm(), dt) : 0;
   held.pull = held.least_speed - speed;
   const ContactPoint& at = skins_[point.actor]->points[static_cast<std::size_t>(point.point)];
   held.key = touch_key(world.obstacles.size() + other_of(pairs_, *stance.pair), point.actor, at.brick, at.corner);

@@ -35,8 +35,8 @@ class SkinContact {
   void look(const Group& group, double gravity, double dt);
   /// Of what stands near the same corner of the same brick, that which is held hardest.
   void keep_hardest();
-  /// Whether the bricks of both sides can give way.
-  [[nodiscard]] bool has_room(const Group& group, const SkinPair& pair) const;
+  /// Least of both sides: volume of a brick over that at rest.
+  [[nodiscard]] double room_of(const Group& group, const SkinPair& pair) const;
   /// Whether moving by dt would leave it inside; then what it needs.
   [[nodiscard]] bool has_to_be_held(const World& world, double dt, const Group& group, Held& held) const;
   void add(const Group& group, const Held& held, Touches& touches) const;

@@ -20,9 +20,9 @@ void print(std::uint32_t seed, std::uint32_t index, const Drop& drop, const Drop
   fmt::print(
       "seed {} drop {}: {}: {}{}; depth {:.2g}, energy {:+.2g}, smallest volume {:.2g}, inverted on the way {}, "
       "{} frames taken back, {:.2g} M brick-steps, {:.2f} s\n",
-      seed, index, drop.description, result.fault.empty() ? "well" : result.fault,
-      result.is_crushed ? ", too soft for its weight" : "", result.deepest, result.energy_gain, result.smallest_volume,
-      result.inverted_on_the_way, result.halvings, static_cast<double>(result.brick_steps) * 1e-6, seconds);
+      seed, index, drop.description, result.fault.empty() ? "well" : result.fault, result.is_crushed ? ", crushed" : "",
+      result.deepest, result.energy_gain, result.smallest_volume, result.inverted_on_the_way, result.halvings,
+      static_cast<double>(result.brick_steps) * 1e-6, seconds);
   std::fflush(stdout);
 }
 
@@ -39,7 +39,7 @@ int soak(const Options& options) {
     crushed += result.is_crushed ? 1 : 0;
     if (options.verbose || !result.fault.empty()) print(options.seed, index, drop, result, seconds);
   }
-  fmt::print("seed {}: {} of {} drops failed; {} came to rest too soft for their weight, as the program warns\n",
+  fmt::print("seed {}: {} of {} drops failed; {} ended crushed by their weight or fall, as the program warns\n",
              options.seed, failed, options.drops, crushed);
   return failed;
 }
