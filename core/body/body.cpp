@@ -1,5 +1,7 @@
 #include "core/body/body.h"
 
+#include <tbb/parallel_invoke.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -35,7 +37,16 @@ Eigen::VectorXd lump_masses(const Body& body) {
   for (std::size_t brick = 0; brick < grid.nodes.size(); ++brick) {
     for (const int node : grid.nodes[brick]) masses[node] += body.stiffness_scale[brick];
   }
-  return masses * (body.material.density * grid.volume() / masses.sum());
+  masses *= body.material.density * grid.volume() / masses.sum();
+  return masses;
+}
+
+void put_at_rest(Body& body) {
+  body.rest_positions = body.grid.rest_positions();
+  body.positions = body.rest_positions;
+  body.velocities = Points::Zero(body.grid.node_count(), 3);
+  const Vec3 extent = body.positions.colwise().maxCoeff() - body.positions.colwise().minCoeff();
+  body.damping = rayleigh_from_damping(body.material, extent.maxCoeff());
 }
 
 double volume_ratio(const Body& body, std::size_t brick) {
@@ -56,15 +67,13 @@ Body make_body(BrickGrid grid, Model model, const Material& material) {
   body.grid = std::move(grid);
   body.model = model;
   body.material = material;
+  body.stiffness_scale.reserve(body.grid.fill.size());
   for (const double fill : body.grid.fill) body.stiffness_scale.push_back(std::max(fill, kStiffnessFloor));
-  body.masses = lump_masses(body);
-  body.rest_positions = body.grid.rest_positions();
-  body.positions = body.rest_positions;
-  body.velocities = Points::Zero(body.grid.node_count(), 3);
-  const Vec3 extent = body.positions.colwise().maxCoeff() - body.positions.colwise().minCoeff();
-  body.damping = rayleigh_from_damping(material, extent.maxCoeff());
-  list_corners(body);
-  lay_tiles(body);
+  tbb::parallel_invoke([&] { lay_tiles(body); }, [&] { list_corners(body); },
+                       [&] {
+                         body.masses = lump_masses(body);
+                         put_at_rest(body);
+                       });
   return body;
 }
 

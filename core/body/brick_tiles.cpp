@@ -1,5 +1,8 @@
 #include "core/body/brick_tiles.h"
 
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+
 #include <algorithm>
 #include <span>
 
@@ -76,6 +79,13 @@ std::vector<int> owners_of(const BrickGrid& grid, const std::vector<std::vector<
   return owners;
 }
 
+/// A tile, and its parts of the nodes that others have too: offsets count from the tile's own.
+struct MadeTile {
+  BrickTile tile;
+  std::vector<SharedPart> parts;
+  std::size_t shared_size = 0;
+};
+
 /// Lists the runs of one tile.
 class TileMaker {
  public:
@@ -94,17 +104,16 @@ class TileMaker {
     for (const int brick : bricks) put(grid, brick);
   }
 
-  BrickTile make(const std::vector<int>& owners, std::vector<SharedPart>& parts, std::size_t& shared_size) {
-    tile_.shared_offset = shared_size;
+  MadeTile make(const std::vector<int>& owners) {
     for (int plane = 0; plane < tile_.planes; ++plane) {
-      list_nodes(plane, owners, false, parts, shared_size);
-      list_nodes(plane, owners, true, parts, shared_size);
+      list_nodes(plane, owners, false);
+      list_nodes(plane, owners, true);
       list_places(plane);
       list_bricks(plane);
       for (const std::vector<double>& face : last_faces_) list_faces(plane, face);
     }
     close_list();
-    return std::move(tile_);
+    return {std::move(tile_), std::move(parts_), shared_size_};
   }
 
  private:
@@ -150,8 +159,7 @@ class TileMaker {
     tile_.runs.push_back({.place = place, .count = count, .first = static_cast<int>(tile_.shares.size()), .node = 0});
   }
 
-  void list_nodes(int plane, const std::vector<int>& owners, bool shared, std::vector<SharedPart>& parts,
-                  std::size_t& shared_size) {
+  void list_nodes(int plane, const std::vector<int>& owners, bool shared) {
     close_list();
     const auto node_at = [&](int place) { return nodes_[slot(plane, place)]; };
     const auto is_in = [&](int place) {
@@ -163,13 +171,11 @@ class TileMaker {
       const int begin = place;
       while (place + 1 < places_ && is_in(place + 1) && node_at(place + 1) == node_at(place) + 1) ++place;
       const int count = place + 1 - begin;
-      tile_.runs.push_back({.place = begin,
-                            .count = count,
-                            .first = static_cast<int>(shared_size - tile_.shared_offset),
-                            .node = node_at(begin)});
+      tile_.runs.push_back(
+          {.place = begin, .count = count, .first = static_cast<int>(shared_size_), .node = node_at(begin)});
       if (!shared) continue;
-      parts.push_back({node_at(begin), count, shared_size});
-      shared_size += 3 * static_cast<std::size_t>(count);
+      parts_.push_back({node_at(begin), count, shared_size_});
+      shared_size_ += 3 * static_cast<std::size_t>(count);
     }
   }
 
@@ -216,7 +222,18 @@ class TileMaker {
   std::vector<int> nodes_;                         // likewise
   std::array<std::vector<double>, 3> last_faces_;  // xy, zx and yz: shares, likewise, or 0
   BrickTile tile_;
+  std::vector<SharedPart> parts_;
+  std::size_t shared_size_ = 0;
 };
+
+void add(MadeTile made, BrickTiles& tiles) {
+  for (const SharedPart& part : made.parts) {
+    tiles.parts.push_back({part.node, part.count, tiles.shared_size + part.offset});
+  }
+  made.tile.shared_offset = tiles.shared_size;
+  tiles.shared_size += made.shared_size;
+  tiles.tiles.push_back(std::move(made.tile));
+}
 
 /// Parts that overlap become one list of nodes to sum.
 void join_parts(BrickTiles& tiles) {
@@ -241,12 +258,13 @@ BrickTiles make_brick_tiles(const BrickGrid& grid, const std::vector<double>& st
   for (const std::vector<int>& layer : layers_of(grid)) {
     for (std::vector<int>& tile : cut(grid, layer)) tiles.push_back(std::move(tile));
   }
-  const std::vector<int> owners = owners_of(grid, tiles);
-  const FaceShares faces = share_faces(grid, stiffness_scale);
-  for (const std::vector<int>& bricks : tiles) {
-    result.tiles.push_back(
-        TileMaker(grid, stiffness_scale, faces, bricks).make(owners, result.parts, result.shared_size));
-  }
+  std::vector<int> owners;
+  FaceShares faces;
+  tbb::parallel_invoke([&] { owners = owners_of(grid, tiles); }, [&] { faces = share_faces(grid, stiffness_scale); });
+  std::vector<MadeTile> made(tiles.size());
+  tbb::parallel_for(std::size_t{0}, tiles.size(),
+                    [&](std::size_t i) { made[i] = TileMaker(grid, stiffness_scale, faces, tiles[i]).make(owners); });
+  for (MadeTile& one : made) add(std::move(one), result);
   join_parts(result);
   return result;
 }

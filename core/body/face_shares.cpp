@@ -35,16 +35,14 @@ std::size_t brick_behind(const BrickGrid& grid, std::size_t brick, int axis, std
 
 FaceShares share_faces(const BrickGrid& grid, const std::vector<double>& shares) {
   FaceShares faces;
-  for (int axis = 0; axis < 3; ++axis) {
-    std::vector<double>& low = faces.low[static_cast<std::size_t>(axis)];
-    std::vector<double>& high = faces.high[static_cast<std::size_t>(axis)];
-    low = shares;
-    high.assign(shares.size(), 0);
-    // Cells ascend, and so do those behind them.
-    std::size_t from = 0;
-    for (std::size_t brick = 0; brick < shares.size(); ++brick) {
-      const std::size_t next = brick_behind(grid, brick, axis, from);
-      (next < shares.size() ? low[next] : high[brick]) += shares[brick];
+  faces.low.fill(shares);
+  faces.high.fill(std::vector<double>(shares.size(), 0));
+  // Cells ascend, and so do those behind them. All axes at once: a large body's bricks come from memory only once.
+  std::array<std::size_t, 3> from{};
+  for (std::size_t brick = 0; brick < shares.size(); ++brick) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::size_t next = brick_behind(grid, brick, static_cast<int>(axis), from[axis]);
+      (next < shares.size() ? faces.low[axis][next] : faces.high[axis][brick]) += shares[brick];
     }
   }
   return faces;
