@@ -64,7 +64,14 @@ std::vector<std::vector<int>> neighbours_among(const std::vector<int>& bricks, c
 }  // namespace
 
 ContactSkin::ContactSkin(const Actor& actor) {
-  const Embedding& embedding = actor.contacts;
+  add_triangles(actor, add_points(actor.contacts));
+  for (std::size_t row = 0; row < bricks.size(); ++row) {
+    cones.push_back(cone_of(normals.middleRows(first_point[row], first_point[row + 1] - first_point[row])));
+  }
+  neighbours = neighbours_among(bricks, actor.body);
+}
+
+std::vector<int> ContactSkin::add_points(const Embedding& embedding) {
   std::vector<int> order(embedding.brick.size());
   std::iota(order.begin(), order.end(), 0);
   const auto brick_of = [&](int row) { return embedding.brick[static_cast<std::size_t>(row)]; };
@@ -81,7 +88,10 @@ ContactSkin::ContactSkin(const Actor& actor) {
     if (bricks.empty() || bricks.back() != brick_of(row)) bricks.push_back(brick_of(row));
   }
   first_point = starts_of(bricks, brick_of_point);
-  normals = Points::Zero(static_cast<Eigen::Index>(points.size()), 3);
+  return place_of;
+}
+
+void ContactSkin::add_triangles(const Actor& actor, const std::vector<int>& place_of) {
   for (int row = 0; row < actor.contact_triangles.rows(); ++row) {
     std::array<int, 3> corners{};
     for (int i = 0; i < 3; ++i) {
@@ -94,6 +104,7 @@ ContactSkin::ContactSkin(const Actor& actor) {
   };
   std::stable_sort(triangles.begin(), triangles.end(),
                    [&](const auto& a, const auto& b) { return owner(a) < owner(b); });
+  normals = Points::Zero(static_cast<Eigen::Index>(points.size()), 3);
   std::vector<int> brick_of_triangle;
   for (const std::array<int, 3>& corners : triangles) {
     brick_of_triangle.push_back(owner(corners));
@@ -106,10 +117,6 @@ ContactSkin::ContactSkin(const Actor& actor) {
   }
   first_triangle = starts_of(bricks, brick_of_triangle);
   normals.rowwise().normalize();
-  for (std::size_t row = 0; row < bricks.size(); ++row) {
-    cones.push_back(cone_of(normals.middleRows(first_point[row], first_point[row + 1] - first_point[row])));
-  }
-  neighbours = neighbours_among(bricks, actor.body);
 }
 
 const ContactSkin& contact_skin_of(Actor& actor) {

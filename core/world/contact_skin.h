@@ -33,6 +33,11 @@ struct ContactSkin {
   /// By row of a brick, ascending: the rows of those that hang together with it or have such a neighbour in common.
   /// Their skins cannot meet without a fold within a brick or two.
   std::vector<std::vector<int>> neighbours;  // b
+
+ private:
+  /// Returns where in points each of the embedding's is.
+  [[nodiscard]] std::vector<int> add_points(const Embedding& embedding);
+  void add_triangles(const Actor& actor, const std::vector<int>& place_of);
 };
 
 /// Made when it is first asked for: contacts, their triangles and the rest shape do not change after that.
