@@ -12,6 +12,7 @@
 #include "app/commands.h"
 #include "app/help/completions.h"
 #include "app/help/man_page.h"
+#include "app/help/wrapped_help.h"
 #include "app/key_options.h"
 #include "app/scene/scene_keys.h"
 #include "app/scene/scene_schema.h"
@@ -44,7 +45,7 @@ std::string help_text(CLI::App& app, const CLI::App& help, const Words& words) {
   }
   if (words.json_schema) throw Error(ErrorKind::kUsage, "--json-schema is for sprung help scene");
   const auto help_on = [](const CLI::App& command, const std::string& name) {
-    return command.get_formatter()->make_help(&command, name, CLI::AppFormatMode::Normal);
+    return wrapped_help(command.get_formatter()->make_help(&command, name, CLI::AppFormatMode::Normal));
   };
   // The name of a command after `help` is parsed as that command.
   for (CLI::App* command : app.get_subcommands()) {
@@ -230,7 +231,7 @@ std::optional<std::string> fill_words(CLI::App& app, int argc, const char* const
   } catch (const CLI::Success& help) {
     std::ostringstream text;
     app.exit(help, text, text);
-    return text.str();
+    return wrapped_help(text.str());
   } catch (const CLI::ArgumentMismatch& error) {
     const std::string reason = error.what();
     throw Error(ErrorKind::kUsage, fmt::format("{} needs a value", reason.substr(0, reason.find(':'))));
@@ -245,7 +246,7 @@ std::optional<std::string> fill_words(CLI::App& app, int argc, const char* const
 CommandLine parse_command_line(int argc, const char* const* argv) {
   CLI::App app("Soft bodies of real materials, from a surface mesh to a film.", "sprung");
   app.set_version_flag("--version", std::string("sprung ") + kVersion);
-  app.get_formatter()->column_width(34);
+  app.get_formatter()->column_width(kHelpColumn);
   app.allow_extras();
   app.footer(
       "Try: sprung animate bunny.obj -o bunny.mp4\nHelp on a command: sprung COMMAND --help\n"

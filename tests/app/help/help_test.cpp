@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <regex>
+#include <sstream>
 
 #include "tests/support/run_program.h"
 
@@ -39,6 +40,21 @@ TEST_F(HelpText, OfEveryCommandFitsAScreenAndHasAnExample) {
   }
   const std::string help = text("--help");
   EXPECT_LE(std::count(help.begin(), help.end(), '\n'), 40) << help;
+}
+
+TEST_F(HelpText, HasNoLineOfMoreThanAHundredColumns) {
+  std::vector<std::string> all{"help", "--help"};
+  for (const std::string& command : kCommands) {
+    all.push_back("help " + command);
+    all.push_back(command + " --help");
+  }
+  for (const std::string& words : all) {
+    std::istringstream lines(text(words));
+    for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100U) << words << "\n" << line;
+  }
+  // What is broken goes on below its beginning.
+  EXPECT_NE(text("help animate").find("strain or\n                                  stress (von Mises), volume"),
+            std::string::npos);
 }
 
 TEST_F(HelpText, OnACommandNamesWhatTheShortOneLeavesOut) {
