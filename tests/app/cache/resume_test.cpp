@@ -204,8 +204,8 @@ const std::string kFew = test::kSanitized ? "4" : "8";
 
 /// As often as this the program is killed on its way, each time after some seconds; sanitizers make it slower.
 constexpr int kKills = test::kSanitized ? 6 : 20;
-constexpr double kShortest = test::kSanitized ? 1 : 0.1;
-constexpr double kLongest = test::kSanitized ? 4 : 0.4;
+constexpr double kShortest = test::kSanitized ? 2 : 0.1;
+constexpr double kLongest = test::kSanitized ? 20 : 0.4;
 
 TEST(Resume, ProgramKilledAtRandomMomentsComesToTheSameEnd) {
   const TempFolder folder;
@@ -234,7 +234,7 @@ TEST(Resume, AnInterruptEndsTheFrameAndSaysHowToGoOn) {
   static_cast<void>(folder.write("cube.obj", kCubeObj));
   const std::string simulate = "simulate cube.obj --bricks " + kFew + " --fps 100 --duration 60 -o run.h5";
   const ProgramRun ended =
-      run_program(folder, simulate, "timeout --preserve-status -s INT " + std::string(test::kSanitized ? "8" : "1.5"));
+      run_program(folder, simulate, "timeout --preserve-status -s INT " + std::string(test::kSanitized ? "20" : "1.5"));
   EXPECT_EQ(ended.exit_code, 130) << ended.err;
   EXPECT_NE(ended.err.find(simulate + " --resume"), std::string::npos) << ended.err;
   const CacheReader cache(folder.path() / "run.h5");
