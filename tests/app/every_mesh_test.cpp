@@ -131,7 +131,7 @@ TEST_P(EveryMesh, BehavesAsTheTableSays) {
     EXPECT_NEAR(number_at(json, {"mesh", "volume"}) / *row.volume, 1, 1e-3);
     EXPECT_NEAR(number_at(json, {"bricks", "volume"}) / *row.volume, 1, test::kSanitized ? 0.05 : 5e-3);
   }
-  EXPECT_LT(std::abs(number_at(json, {"volume_error"})), test::kSanitized ? 5e-3 : 1e-3)
+  EXPECT_LT(std::abs(number_at(json, {"volume_error"})), test::kSanitized ? 0.02 : 1e-3)
       << "the mass is density times the volume";
   const std::set<std::string> named = repairs_in(json);
   for (const std::string& kind : row.repairs) EXPECT_TRUE(named.contains(kind)) << kind;
