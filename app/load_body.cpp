@@ -145,6 +145,15 @@ void refuse_giant_bricks(const LoadedBody& loaded) {
                                                 readable(longest, Dimension::kLength)));
 }
 
+void refuse_giant_shell(const SceneBody& body, const LoadedBody& loaded) {
+  const double longest = loaded.extent.maxCoeff();
+  if (body.thickness.value_or(0) <= longest) return;
+  throw Error(
+      ErrorKind::kBadInput,
+      fmt::format("{}: a shell of {} is thicker than the body is long ({}); give a smaller --thickness", loaded.name,
+                  readable(*body.thickness, Dimension::kLength), readable(longest, Dimension::kLength)));
+}
+
 /// What had to be mended. The bricks do not need a surface that keeps clear of itself, but what overlaps becomes one.
 void report_repairs(const Solids& found, const Console& console, const LoadedBody& loaded) {
   const Vec3 place = loaded.file_from_rest * (loaded.bricks_from_rest.transpose() * found.crossing);
@@ -225,6 +234,7 @@ LoadedBody load_body(const SceneBody& body, const Console& console) {
     load_mesh(body, loaded);
   }
   refuse_giant_bricks(loaded);
+  refuse_giant_shell(body, loaded);
   const std::string file = body.mesh.empty() ? loaded.name : body.mesh.string();
   turn(rotation_matrix(body.brick_rotation), loaded);
   Solids found = find_solids(loaded.mesh, file, {.repair = body.repair, .thickness = body.thickness.value_or(0)});

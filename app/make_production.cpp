@@ -82,6 +82,18 @@ void find_thin_parts(const Scene& scene, Preparation& prepared, const Console& c
   }
 }
 
+/// See assets/docs/physics.md.
+void warn_of_locking(const Scene& scene, const std::vector<LoadedBody>& bodies, const Console& console) {
+  constexpr double kMost = 0.49;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const double poisson = scene.bodies[i].material.poisson;
+    if (poisson <= kMost || scene.bodies[i].model == Model::kFem) continue;
+    console.warn(fmt::format(
+        "{}: Poisson's ratio {:.6g}: bricks lock above {}, they bend too little; {} is nearly as hard to compress",
+        bodies[i].name, poisson, kMost, kMost));
+  }
+}
+
 }  // namespace
 
 Preparation prepare(const Scene& scene, const Console& console) {
@@ -90,6 +102,7 @@ Preparation prepare(const Scene& scene, const Console& console) {
   Progress progress(console, "bricks");
   prepared.production = build_world(scene, prepared.bodies, console);
   find_thin_parts(scene, prepared, console);
+  warn_of_locking(scene, prepared.bodies, console);
   int bricks = 0;
   int nodes = 0;
   double mass = 0;

@@ -6,12 +6,14 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <vector>
 
 namespace sprung {
 namespace {
 
-constexpr double kUtmost = 0.005;  // of the nodes of a frame, at each end: may lie outside the range
+constexpr double kUtmost = 0.005;             // of all values of the film, at each end: may lie outside the range
+constexpr std::size_t kMostValues = 4 << 20;  // that are looked at
 
 struct Unit {
   double from;  // SI, the smallest range that it is good for
@@ -57,12 +59,14 @@ FieldWords words_of(Field field) {
 }
 
 /// The values below and above which that share of them lies.
-std::pair<double, double> extremes(Eigen::VectorXd values) {
-  const auto rank = static_cast<Eigen::Index>(kUtmost * static_cast<double>(values.size()));
-  std::nth_element(values.begin(), values.begin() + rank, values.end());
-  const double low = values[rank];
-  std::nth_element(values.begin(), values.end() - 1 - rank, values.end());
-  return {low, values[values.size() - 1 - rank]};
+std::pair<double, double> extremes(std::vector<double>& values) {
+  const auto rank = static_cast<std::ptrdiff_t>(kUtmost * static_cast<double>(values.size()));
+  const auto low = values.begin() + rank;
+  std::nth_element(values.begin(), low, values.end());
+  const double lowest = *low;
+  const auto high = values.end() - 1 - rank;
+  std::nth_element(values.begin(), high, values.end());
+  return {lowest, *high};
 }
 
 }  // namespace
@@ -82,16 +86,22 @@ FieldColors::FieldColors(const Scene& scene, const Production& production, const
 }
 
 void FieldColors::find_range() {
-  low_ = std::numeric_limits<double>::infinity();
-  high_ = -low_;
   const std::size_t frames = is_moving(field_) ? recording_.frames.size() : 1;
+  std::size_t count = 0;
+  for (const Actor& actor : production_.world.actors) count += static_cast<std::size_t>(actor.body.node_count());
+  const std::size_t stride = 1 + frames * count / kMostValues;
+  std::vector<double> values;
+  values.reserve(frames * count / stride + frames);
+  std::size_t next = 0;
   for (std::size_t frame = 0; frame < frames; ++frame) {
     for (std::size_t actor = 0; actor < production_.world.actors.size(); ++actor) {
-      const auto [low, high] = extremes(field_values(field_, production_, recording_, frame, actor, fps_));
-      low_ = std::min(low_, low);
-      high_ = std::max(high_, high);
+      const Eigen::VectorXd of_actor = field_values(field_, production_, recording_, frame, actor, fps_);
+      const auto size = static_cast<std::size_t>(of_actor.size());
+      for (; next < size; next += stride) values.push_back(of_actor[static_cast<Eigen::Index>(next)]);
+      next -= size;
     }
   }
+  std::tie(low_, high_) = extremes(values);
   switch (field_) {
     case Field::kVolume: {  // as far to both sides of what it was at rest, the middle of the map
       const double reach = std::max(std::abs(high_ - 1), std::abs(1 - low_));

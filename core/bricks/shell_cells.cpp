@@ -56,9 +56,11 @@ class Triangle {
 
 /// The samples of a cell that lie within `reach` of the triangle, with those known already.
 std::uint64_t near_samples(const Triangle& triangle, const Vec3& low, double reach, std::uint64_t known) {
+  if (known == kAll) return known;
   const double half_diagonal = std::sqrt(3.0) / 2;
-  const double most = (reach + half_diagonal) * (reach + half_diagonal);
-  if (known == kAll || triangle.squared_distance(low.array() + 0.5) > most) return known;
+  const double middle = std::sqrt(triangle.squared_distance(low.array() + 0.5));
+  if (middle > reach + half_diagonal) return known;
+  if (middle < reach - half_diagonal) return kAll;
   for (int i = 0; i < kSamples * kSamples * kSamples; ++i) {
     const std::uint64_t bit = std::uint64_t{1} << i;
     if ((known & bit) != 0) continue;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "core/body/brick_columns.h"
 #include "core/world/mesh_distance.h"
 #include "core/world/near_boxes.h"
 
@@ -24,6 +25,16 @@ Points free_points(const Actor& actor) {
     if (is_free) rows.push_back(point);
   }
   return points(rows, Eigen::all);
+}
+
+/// The middles of the bricks, m.
+Points brick_middles(const Body& body) {
+  Points middles(body.grid.brick_count(), 3);
+  for (int brick = 0; brick < body.grid.brick_count(); ++brick) {
+    middles.row(brick) =
+        columns_of(body.grid.nodes[static_cast<std::size_t>(brick)], body.positions).rowwise().mean().transpose();
+  }
+  return middles;
 }
 
 /// The surface of a body as it is now.
@@ -64,7 +75,10 @@ double depth_in(const Obstacle& obstacle, const Actor& actor) { return depth_in(
 
 double depth_in(const Actor& other, const Actor& actor) {
   if (other.contact_triangles.rows() == 0) return 0;
-  return Surface(other).depth_of(free_points(actor));
+  const Points points = free_points(actor);
+  if (points.rows() == 0) return 0;
+  const Surface surface(other);
+  return std::max(surface.depth_of(points), surface.depth_of(brick_middles(actor.body)));
 }
 
 double deepest_overlap(const World& world) {

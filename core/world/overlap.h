@@ -7,7 +7,8 @@ namespace sprung {
 /// are, since all corners of their brick are, are in nobody's way and do not count.
 [[nodiscard]] double depth_in(const Obstacle& obstacle, const Actor& actor);
 
-/// In another body, whose contact triangles enclose it; 0 where it has none.
+/// In another body, whose contact triangles enclose it; 0 where it has none. The middles of bricks count too: the skins
+/// of two bodies at the same place do not lie in each other, they are the same.
 [[nodiscard]] double depth_in(const Actor& other, const Actor& actor);
 
 /// In any obstacle, and in any other body if bodies touch each other: the most of all. How deep a body is in itself is

@@ -236,7 +236,7 @@ class PackForces {
     Pack stretch(-3.0);
     // 1 / length, and what it adds to the stretch.
     const auto measure = [&](const Pack3& axis) {
-      const Pack squared = simd::max(dot(axis, axis), Pack(kind.shortest));
+      const Pack squared = dot(axis, axis) + kind.shortest;
       const Pack inverse = inverse_root(squared);
       stretch += kind.per_rest * (squared * inverse);
       return inverse;

@@ -34,7 +34,7 @@ using EdgeEnds = Ends<kAxis == 0 ? Shift::kTo : Shift::kNone>;
 template <bool kDamped, int kAxis>
 [[gnu::always_inline]] inline void measure_edges(const Kind& kind, const EdgeEnds<kAxis>& ends) {
   const Pack3 d = ends.between(kPosition);
-  const Pack squared = simd::max(dot(d, d), Pack(kind.shortest));
+  const Pack squared = dot(d, d) + kind.shortest;
   const Pack inverse = inverse_root(squared);
   Pack stretch = kind.per_rest * (squared * inverse) - 1.0;
   if constexpr (kDamped) stretch += kind.lag * (inverse * dot(d, ends.between(kVelocity)));

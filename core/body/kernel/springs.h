@@ -54,7 +54,7 @@ using Energy = EnergyLanes;
 struct Kind {
   double rest;      // m
   double per_rest;  // 1/m
-  double shortest;  // m^2: springs shorter than its root pull as if they were that long
+  double shortest;  // m^2, added to squared lengths: none is zero, and what is no number stays none
   double lag;       // beta / rest, s/m
 
   Kind(double rest_squared, double beta)
@@ -73,7 +73,7 @@ struct Answer {
 /// `rate` gives the ends' difference of velocity, where it is asked.
 template <bool kDamped, bool kEnergy, class Rate>
 [[gnu::always_inline]] inline Answer answer(const Kind& kind, const Pack3& d, const Rate& rate) {
-  const Pack squared = simd::max(dot(d, d), Pack(kind.shortest));
+  const Pack squared = dot(d, d) + kind.shortest;
   const Pack inverse = inverse_root(squared);
   Answer result{1.0 - kind.rest * inverse, {}};
   if constexpr (kEnergy) result.stretch = kind.per_rest * (squared * inverse) - 1.0;

@@ -1,0 +1,42 @@
+#include <gtest/gtest.h>
+
+#include "tests/support/run_program.h"
+
+namespace sprung {
+namespace {
+
+ProgramRun inspect(const std::string& options, const std::string& scene = "") {
+  const TempFolder folder;
+  static_cast<void>(folder.write("cube.obj", kCubeObj));
+  static_cast<void>(folder.write("scene.toml", scene));
+  return run_program(folder, "inspect " + (scene.empty() ? "cube.obj " : std::string("scene.toml ")) + options);
+}
+
+TEST(StartChecks, RefuseBodiesAtOnePlace) {
+  const std::string cube = "[[body]]\nmesh = \"cube.obj\"\nsize = 0.1\nbricks = 4\nposition = ";
+  EXPECT_EQ(inspect("", cube + "[0, 1, 0]\n" + cube + "[0, 1.11, 0]\n").exit_code, 0);
+  const ProgramRun same = inspect("", cube + "[0, 1, 0]\n" + cube + "[0, 1, 0]\n");
+  EXPECT_EQ(same.exit_code, 3);
+  EXPECT_NE(same.err.find("inside body 2; bodies may overlap by one brick"), std::string::npos) << same.err;
+}
+
+TEST(StartChecks, RefuseAShellThickerThanItsBody) {
+  const ProgramRun thick = inspect("--size 20cm --bricks 4 --thickness 21cm");
+  EXPECT_EQ(thick.exit_code, 3);
+  EXPECT_NE(thick.err.find("a shell of 21 cm is thicker than the body is long (20 cm)"), std::string::npos)
+      << thick.err;
+}
+
+TEST(StartChecks, AThickShellIsFilledAtOnce) {
+  const ProgramRun half = inspect("--size 20cm --bricks 8 --thickness 10cm");
+  EXPECT_EQ(half.exit_code, 0) << half.err;
+  EXPECT_EQ(half.err.find("too coarse"), std::string::npos) << half.err;
+}
+
+TEST(StartChecks, WarnOfRatiosAtWhichBricksLock) {
+  EXPECT_NE(inspect("--bricks 2 --poisson 0.495").err.find("bricks lock above 0.49"), std::string::npos);
+  EXPECT_EQ(inspect("--bricks 2 --poisson 0.49").err.find("lock"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace sprung
