@@ -112,11 +112,14 @@ void Screen::draw_surfaces(const std::vector<SkinBuffers>& skins, const TextureS
     view.frame.set_common(*program);
     program->set("clip_from_stage", view.clip_from_stage.cast<float>().eval());
   }
+  gl_.PolygonOffset(1, 1);  // of ghosts: a body in the same place is before them
   for (const SkinBuffers& skin : skins) {
     if (skin.is_ghost() && !with_ghosts) continue;
     if (skin.sides() != Sides::kBoth) gl_.Enable(GL_CULL_FACE);
     gl_.CullFace(skin.sides() == Sides::kFront ? GL_BACK : GL_FRONT);
+    if (skin.is_ghost()) gl_.Enable(GL_POLYGON_OFFSET_FILL);
     skin.draw(surface_programs_, textures, 0, Detail::kFull);
+    gl_.Disable(GL_POLYGON_OFFSET_FILL);
     gl_.Disable(GL_CULL_FACE);
   }
   gl_.FrontFace(GL_CCW);

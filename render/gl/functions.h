@@ -59,6 +59,7 @@ namespace sprung {
   X(PFNGLGETUNIFORMLOCATIONPROC, GetUniformLocation)           \
   X(PFNGLLINKPROGRAMPROC, LinkProgram)                         \
   X(PFNGLPIXELSTOREIPROC, PixelStorei)                         \
+  X(PFNGLPOLYGONOFFSETPROC, PolygonOffset)                     \
   X(PFNGLREADBUFFERPROC, ReadBuffer)                           \
   X(PFNGLREADPIXELSPROC, ReadPixels)                           \
   X(PFNGLSAMPLERPARAMETERIPROC, SamplerParameteri)             \
