@@ -42,8 +42,8 @@ long implicit_steps(const World& world, double frame) {
 
 std::string warning_of(const StepPlan& plan) {
   if (static_cast<double>(plan.steps.count) < kManySteps) return "";
-  return fmt::format("the material is so stiff for its bricks that a frame takes {} steps of {}; {}", plan.steps.count,
-                     readable(plan.steps.dt, Dimension::kTime), kRemedy);
+  return fmt::format("a frame takes {} steps of {}, for bricks are stiff and small or something is fast; {}",
+                     plan.steps.count, readable(plan.steps.dt, Dimension::kTime), kRemedy);
 }
 
 StepPlan plan_steps(const World& world, const Scene& scene) {

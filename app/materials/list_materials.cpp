@@ -33,6 +33,10 @@ Moduli parse_moduli(const std::string& text) {
   } catch (const Error& error) {
     throw Error(ErrorKind::kUsage, fmt::format("--young: {}", error.what()));
   }
+  if (moduli.low > moduli.high) {
+    throw Error(ErrorKind::kUsage,
+                fmt::format("--young: '{}' begins above its end; write the smaller one first", text));
+  }
   return moduli;
 }
 

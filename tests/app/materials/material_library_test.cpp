@@ -113,6 +113,7 @@ TEST(MaterialsCommand, ListsFiltersAndTakesAFile) {
   EXPECT_EQ(lines("jelly --materials mine.toml"), 1);
   EXPECT_NE(run_program(folder, "materials gelatine").err.find("did you mean 'gelatin'?"), std::string::npos);
   EXPECT_NE(run_program(folder, "materials --class mtal").err.find("did you mean 'metal'?"), std::string::npos);
+  EXPECT_EQ(run_program(folder, "materials --young 1MPa:1kPa").exit_code, 2);
   EXPECT_NE(run_program(folder, "materials steel --sources").out.find("EN 1993-1-1"), std::string::npos);
   EXPECT_NE(run_program(folder, "materials steel --json").out.find("\"young\": {\"value\": 210000000000"),
             std::string::npos);
