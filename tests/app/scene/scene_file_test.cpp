@@ -265,7 +265,7 @@ TEST_F(SceneFile, RangesAreKept) {
   EXPECT_NE(mistakes("duration = nan").find("not a finite number"), std::string::npos);
   EXPECT_NE(body_mistakes("material = { young = 1, poisson = 0.5, density = 1 }").find("above -1 and below 0.5"),
             std::string::npos);
-  EXPECT_NE(body_mistakes("size = \"-3 cm\"").find("above 0 m"), std::string::npos);
+  EXPECT_NE(body_mistakes("size = \"-3 cm\"").find("at least 1e-06 m"), std::string::npos);
 }
 
 TEST(Scene, FramesShowTimesFromZero) {
