@@ -76,9 +76,13 @@ bool ImplicitStep::settle_friction() {
 }
 
 bool ImplicitStep::descend_to_minimum(ImplicitCounts& counts) {
+  double potential = 0;
+  bool is_known = false;  // with its forces, from the end of the last iteration
   for (int iteration = 0; iteration < options_.max_iterations; ++iteration) {
+    is_known = is_known && !skins_.any();
     if (iteration < kRefreshes) skins_.refresh();
-    const double potential = evaluate();
+    if (!is_known || skins_.any()) potential = evaluate();
+    is_known = true;
     if (!std::isfinite(potential)) return false;
     const bool is_found =
         std::all_of(bodies_.begin(), bodies_.end(), [](const ImplicitBody* body) { return body->is_found(); });
@@ -97,7 +101,7 @@ double ImplicitStep::evaluate() {
   return energy;
 }
 
-bool ImplicitStep::newton_step(double potential, ImplicitCounts& counts) {
+bool ImplicitStep::newton_step(double& potential, ImplicitCounts& counts) {
   const Eigen::VectorXd residual = all_forces();
   const Eigen::VectorXd way = direction(counts);
   if (way.size() == 0) return false;
@@ -111,7 +115,11 @@ bool ImplicitStep::newton_step(double potential, ImplicitCounts& counts) {
   }
   for (double share = 1; share > 1e-6; share /= 2) {
     move_from(starts, share * way);
-    if (evaluate() <= potential - 1e-4 * share * slope + noise) return true;
+    const double there = evaluate();
+    if (there <= potential - 1e-4 * share * slope + noise) {
+      potential = there;
+      return true;
+    }
   }
   return false;
 }

@@ -31,7 +31,8 @@ class ImplicitStep {
   [[nodiscard]] bool settle_friction();
   /// The potential (J) at the positions; forces into the bodies.
   double evaluate();
-  bool newton_step(double potential, ImplicitCounts& counts);
+  /// Moves on from that potential, and leaves the new one and its forces.
+  bool newton_step(double& potential, ImplicitCounts& counts);
   [[nodiscard]] Eigen::VectorXd direction(ImplicitCounts& counts);
   [[nodiscard]] Eigen::VectorXd direction(bool definite, const std::vector<Coupling>& couplings,
                                           ImplicitCounts& counts);
