@@ -79,24 +79,18 @@ double ObstaclePotential::largest_normal_force() const {
   return largest;
 }
 
-Vec3 ObstaclePotential::slid(const Point& point, const Vec3& place) const {
-  const Vec3 moved = place - point.start;
-  return moved - point.normal.dot(moved) * point.normal;
-}
-
-double ObstaclePotential::grip(const Point& point, const Vec3& slid) const {
-  return obstacle_.friction * point.pressing / std::max(slip_, slid.norm());
+Grip ObstaclePotential::grip(const Point& point, const Vec3& place) const {
+  return {place - point.start, point.normal, obstacle_.friction * point.pressing, slip_};
 }
 
 double ObstaclePotential::add_forces(const Points& positions, Points& forces) {
   double energy = 0;
   for_touching_points(positions, [&](Point& point, const ContactPoint& at, const Vec3& place, const Gap& gap) {
     const double depth = std::max(0.0, -gap.distance);
-    const Vec3 way = slid(point, place);
-    const double r = way.norm();
+    const Grip held = grip(point, place);
     energy += 0.5 * point.stiffness * depth * depth;
-    energy += obstacle_.friction * point.pressing * (r < slip_ ? 0.5 * r * r / slip_ : r - 0.5 * slip_);
-    const Vec3 force = point.stiffness * depth * gap.normal - grip(point, way) * way;
+    energy += held.energy();
+    const Vec3 force = point.stiffness * depth * gap.normal + held.force();
     const auto& nodes = actor_.body.grid.nodes[static_cast<std::size_t>(at.brick)];
     for (std::size_t c = 0; c < 8; ++c) forces.row(nodes[c]) += at.weights[static_cast<int>(c)] * force.transpose();
   });
@@ -105,11 +99,7 @@ double ObstaclePotential::add_forces(const Points& positions, Points& forces) {
 
 void ObstaclePotential::add_stiffness(const Points& positions, std::vector<PointStiffness>& points) {
   for_touching_points(positions, [&](Point& point, const ContactPoint& at, const Vec3& place, const Gap& gap) {
-    const Vec3 way = slid(point, place);
-    const double r = way.norm();
-    Mat3 along = Mat3::Identity() - point.normal * point.normal.transpose();
-    if (r > slip_) along -= way * way.transpose() / (r * r);
-    Mat3 stiffness = grip(point, way) * along;
+    Mat3 stiffness = grip(point, place).stiffness();
     if (gap.distance < 0) stiffness += point.stiffness * gap.normal * gap.normal.transpose();
     points.push_back({.brick = at.brick, .weights = at.weights, .stiffness = stiffness});
   });

@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "core/motion/grip.h"
 #include "core/motion/newton_system.h"
 #include "core/world/contact_skin.h"
 
@@ -44,10 +45,7 @@ class ObstaclePotential {
   };
 
   [[nodiscard]] bool is_far(std::size_t brick, const Points& positions);
-  /// How far a point has moved along the obstacle, m.
-  [[nodiscard]] Vec3 slid(const Point& point, const Vec3& place) const;
-  /// Force per length of that.
-  [[nodiscard]] double grip(const Point& point, const Vec3& slid) const;
+  [[nodiscard]] Grip grip(const Point& point, const Vec3& place) const;
   template <class Visit>
   void for_touching_points(const Points& positions, const Visit& visit);
 

@@ -165,14 +165,9 @@ double SkinPotential::largest_normal_force() const {
   return largest;
 }
 
-Vec3 SkinPotential::slid(const Hold& hold, const Vec3& now) const {
-  const Vec3 moved = now - hold.start;
-  return moved - hold.normal.dot(moved) * hold.normal;
-}
-
-double SkinPotential::grip(const Hold& hold, const Vec3& slid) const {
+Grip SkinPotential::grip(const Hold& hold, const Vec3& now) const {
   const Watch& watch = watches_[hold.watch];
-  return watch.friction * watch.pressing / std::max(slip_, slid.norm());
+  return {now - hold.start, hold.normal, watch.friction * watch.pressing, slip_};
 }
 
 double SkinPotential::add_forces(const std::vector<Points*>& forces) const {
@@ -185,13 +180,11 @@ double SkinPotential::add_forces(const std::vector<Points*>& forces) const {
       force = -hold.stiffness * now;
     } else {
       const double deep = depth(hold, now);
-      const Vec3 way = slid(hold, now);
-      const double r = way.norm();
-      const Watch& watch = watches_[hold.watch];
-      if (deep == 0 && watch.pressing == 0) continue;
+      if (deep == 0 && watches_[hold.watch].pressing == 0) continue;
+      const Grip held = grip(hold, now);
       energy += 0.5 * hold.stiffness * deep * deep;
-      energy += watch.friction * watch.pressing * (r < slip_ ? 0.5 * r * r / slip_ : r - 0.5 * slip_);
-      force = hold.stiffness * deep * hold.normal - grip(hold, way) * way;
+      energy += held.energy();
+      force = hold.stiffness * deep * hold.normal + held.force();
     }
     for (const CoupledCorners& corners : hold.place.corners) {
       const auto& nodes = group_[corners.body]->body.grid.nodes[static_cast<std::size_t>(corners.brick)];
@@ -213,11 +206,7 @@ std::vector<Coupling> SkinPotential::couplings() const {
     } else {
       const bool touches = depth(hold, now) > 0;
       if (!touches && watches_[hold.watch].pressing == 0) continue;
-      const Vec3 way = slid(hold, now);
-      const double r = way.norm();
-      Mat3 along = Mat3::Identity() - hold.normal * hold.normal.transpose();
-      if (r > slip_) along -= way * way.transpose() / (r * r);
-      stiffness = grip(hold, way) * along;
+      stiffness = grip(hold, now).stiffness();
       if (touches) stiffness += hold.stiffness * hold.normal * hold.normal.transpose();
     }
     couplings.push_back({.corners = hold.place.corners, .stiffness = stiffness});

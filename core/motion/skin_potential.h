@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/motion/coupling.h"
+#include "core/motion/grip.h"
 #include "core/world/skin_stance.h"
 #include "core/world/world.h"
 
@@ -74,9 +75,7 @@ class SkinPotential {
   void add_glue();
   void add_stance(std::size_t watch, const SkinStance& stance);
   [[nodiscard]] Vec3 sum(const Coupling& place, bool at_start) const;
-  [[nodiscard]] Vec3 slid(const Hold& hold, const Vec3& now) const;
-  /// Force per length of that.
-  [[nodiscard]] double grip(const Hold& hold, const Vec3& slid) const;
+  [[nodiscard]] Grip grip(const Hold& hold, const Vec3& now) const;
 
   const Group& group_;
   const std::vector<GluedPoint>& glue_;
