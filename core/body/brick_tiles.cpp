@@ -106,8 +106,9 @@ class TileMaker {
 
   MadeTile make(const std::vector<int>& owners) {
     for (int plane = 0; plane < tile_.planes; ++plane) {
-      list_nodes(plane, owners, false);
-      list_nodes(plane, owners, true);
+      list_nodes(plane);
+      list_pulled(plane, owners, false);
+      list_pulled(plane, owners, true);
       list_places(plane);
       list_bricks(plane);
       for (const std::vector<double>& face : last_faces_) list_faces(plane, face);
@@ -159,24 +160,40 @@ class TileMaker {
     tile_.runs.push_back({.place = place, .count = count, .first = static_cast<int>(tile_.shares.size()), .node = 0});
   }
 
-  void list_nodes(int plane, const std::vector<int>& owners, bool shared) {
-    close_list();
+  /// Calls visit(place, count) for nodes that follow each other in the plane and in the body.
+  template <class IsIn, class Visit>
+  void each_run_of_nodes(int plane, const IsIn& is_in, const Visit& visit) const {
     const auto node_at = [&](int place) { return nodes_[slot(plane, place)]; };
-    const auto is_in = [&](int place) {
-      const int node = node_at(place);
-      return node >= 0 && (owners[static_cast<std::size_t>(node)] == kShared) == shared;
-    };
+    const auto has = [&](int place) { return place < places_ && node_at(place) >= 0 && is_in(node_at(place)); };
     for (int place = 0; place < places_; ++place) {
-      if (!is_in(place)) continue;
+      if (!has(place)) continue;
       const int begin = place;
-      while (place + 1 < places_ && is_in(place + 1) && node_at(place + 1) == node_at(place) + 1) ++place;
-      const int count = place + 1 - begin;
-      tile_.runs.push_back(
-          {.place = begin, .count = count, .first = static_cast<int>(shared_size_), .node = node_at(begin)});
-      if (!shared) continue;
-      parts_.push_back({node_at(begin), count, shared_size_});
-      shared_size_ += 3 * static_cast<std::size_t>(count);
+      while (has(place + 1) && node_at(place + 1) == node_at(place) + 1) ++place;
+      visit(begin, place + 1 - begin);
     }
+  }
+
+  void list_nodes(int plane) {
+    close_list();
+    each_run_of_nodes(
+        plane, [](int) { return true; },
+        [&](int begin, int count) {
+          tile_.runs.push_back({.place = begin, .count = count, .first = 0, .node = nodes_[slot(plane, begin)]});
+        });
+  }
+
+  /// Nodes that this tile alone pulls at, or those that others pull at too.
+  void list_pulled(int plane, const std::vector<int>& owners, bool shared) {
+    close_list();
+    each_run_of_nodes(
+        plane, [&](int node) { return (owners[static_cast<std::size_t>(node)] == kShared) == shared; },
+        [&](int begin, int count) {
+          const int node = nodes_[slot(plane, begin)];
+          tile_.runs.push_back({.place = begin, .count = count, .first = static_cast<int>(shared_size_), .node = node});
+          if (!shared) return;
+          parts_.push_back({node, count, shared_size_});
+          shared_size_ += 3 * static_cast<std::size_t>(count);
+        });
   }
 
   void list_places(int plane) {

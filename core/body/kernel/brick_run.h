@@ -1,5 +1,6 @@
 #pragma once
 #include "core/body/brick_topology.h"
+#include "core/body/kernel/run_cursor.h"
 #include "core/body/kernel/springs.h"
 
 namespace sprung::SPRUNG_INSTRUCTION_SET {
@@ -17,6 +18,15 @@ struct BrickRows {
     return seen;
   }
   [[nodiscard]] [[gnu::always_inline]] Place operator[](std::size_t row) const { return rows[row]; }
+};
+
+/// Which of its springs and corrections a law has.
+struct Layout {
+  bool edges = false;
+  bool faces = false;
+  bool inner = false;
+  bool bends = false;
+  bool axes = false;
 };
 
 struct BrickSprings {
@@ -61,7 +71,7 @@ struct FourEdges {
 
 /// Tensions of a brick's twelve edges for their stretches: their own springs, and the axial and bending corrections
 /// (brick_law.h), see edge_tensions() of brick_kernel.h for the numbering.
-template <bool kBends>
+template <Layout kLayout>
 [[gnu::always_inline]] inline std::array<Pack, 12> edge_tensions(const BrickSprings& springs,
                                                                  const std::array<Pack, 12>& stretches) {
   const FourEdges along_x(&stretches[0]);
@@ -73,9 +83,9 @@ template <bool kBends>
   const auto give = [&](std::size_t first, const FourEdges& own, const Pack& partner_j, const Pack& partner_k) {
     const Pack axial = all + springs.axial_rest * own.sum;
     const auto set = [&](std::size_t edge, const Pack& corrected) {
-      tensions[edge] = springs.law.edge * stretches[edge] + corrected;
+      tensions[edge] = kLayout.edges ? springs.law.edge * stretches[edge] + corrected : corrected;
     };
-    if constexpr (kBends) {
+    if constexpr (kLayout.bends) {
       const Pack in_j = springs.bending_self * own.in_j + springs.bending_cross * partner_j;
       const Pack in_k = springs.bending_self * own.in_k + springs.bending_cross * partner_k;
       const Pack low = axial - in_k;
@@ -102,136 +112,137 @@ struct Axes {
   Pack3 z;
 };
 
-/// Values of a pack of bricks at their eight corners.
-class Corners {
- public:
-  Corners() {
-#pragma GCC unroll 12
-    for (Pack3& value : values_) value = {Pack(0.0), Pack(0.0), Pack(0.0)};
-  }
-  [[gnu::always_inline]] Corners(const BrickRows& rows, int values) {
-#pragma GCC unroll 12
-    for (std::size_t corner = 0; corner < 8; ++corner) {
-      values_[corner] = rows[corner >> 1].three(values, static_cast<int>(corner & 1));
-    }
-  }
+/// The differences between the ends of the inner diagonals 0-7, 1-6, 2-5, 3-4 (kInnerDiagonals).
+using Diagonals = std::array<Pack3, 4>;
 
-  [[nodiscard]] [[gnu::always_inline]] Pack3 between(CornerPair pair) const {
-    return values_[static_cast<std::size_t>(pair.to)] - values_[static_cast<std::size_t>(pair.from)];
-  }
-  [[gnu::always_inline]] void pull(CornerPair pair, const Pack3& force) {
-    Pack3& from = values_[static_cast<std::size_t>(pair.from)];
-    Pack3& to = values_[static_cast<std::size_t>(pair.to)];
-    from = from + force;
-    to = to - force;
-  }
-  /// Four times the mean axes, by the differences along the inner diagonals.
-  [[nodiscard]] [[gnu::always_inline]] Axes axes() const {
-    const Pack3 d07 = between({0, 7});
-    const Pack3 d16 = between({1, 6});
-    const Pack3 d25 = between({2, 5});
-    const Pack3 d34 = between({3, 4});
-    const Pack3 low = d07 + d16;
-    const Pack3 high = d25 + d34;
-    return {(d07 - d16) + (d25 - d34), low - high, low + high};
-  }
+/// Four times the mean axes.
+[[gnu::always_inline]] inline Axes axes_of(const Diagonals& d) {
+  const Pack3 low = d[0] + d[1];
+  const Pack3 high = d[2] + d[3];
+  return {(d[0] - d[1]) + (d[2] - d[3]), low - high, low + high};
+}
 
-  /// Takes what pulls along the mean axes off all corners on the high side of each axis, adds it to those on the low.
-  [[gnu::always_inline]] void pull_axes(const Axes& pulls) {
-#pragma GCC unroll 12
-    for (std::size_t corner = 0; corner < 8; ++corner) {
-      Pack3& force = values_[corner];
-      force = (corner & 1) != 0 ? force - pulls.x : force + pulls.x;
-      force = (corner & 2) != 0 ? force - pulls.y : force + pulls.y;
-      force = (corner & 4) != 0 ? force - pulls.z : force + pulls.z;
-    }
-  }
+/// What pulls along the mean axes, off all corners on the high side of each and to those on the low, as forces at the
+/// low ends of the inner diagonals; at the high ends they are the opposite.
+[[gnu::always_inline]] inline void add_axes(const Axes& pulls, Diagonals& forces) {
+  const Pack3 both = pulls.x + pulls.y;
+  const Pack3 only = pulls.y - pulls.x;
+  forces[0] = forces[0] + (pulls.z + both);
+  forces[1] = forces[1] + (pulls.z + only);
+  forces[2] = forces[2] + (pulls.z - only);
+  forces[3] = forces[3] + (pulls.z - both);
+}
 
-  /// To the sums at the nodes.
-  [[gnu::always_inline]] void add_to(const BrickRows& rows) const {
-#pragma GCC unroll 12
-    for (std::size_t corner = 0; corner < 8; ++corner) {
-      const int array = (corner & 1) == 0 ? kForceLow : kForceHigh;
-      const Place row = rows[corner >> 1];
-      row.set_three(array, row.three(array) + values_[corner]);
-    }
-  }
-
- private:
-  std::array<Pack3, 8> values_;
-};
-
-/// What a pack of bricks pulls at its corners.
-template <bool kFaces, bool kInner, bool kBends, bool kAxes, bool kDamped, bool kEnergy>
+/// What a pack of bricks pulls at its corners, in an order that needs few registers: the force at a corner goes to the
+/// node's sum as soon as it is whole.
+template <Layout kLayout, bool kDamped, bool kEnergy>
 class PackForces {
  public:
   [[gnu::always_inline]] PackForces(const BrickSprings& springs, const BrickRows& rows, const Pack& share, int place,
                                     Energy& energy)
-      : springs_(springs), rows_(rows), share_(share), place_(place), energy_(energy), positions_(rows, kPosition) {}
+      : springs_(springs), rows_(rows), share_(share), place_(place), energy_(energy) {}
 
   /// Stiffnesses of the low faces in N/m.
   [[gnu::always_inline]] void pull(const Pack& xy, const Pack& zx, const Pack& yz) {
-    pull_edges();
-    if constexpr (kInner) {
-      const Pack inner = springs_.law.inner * share_;
-#pragma GCC unroll 12
-      for (const CornerPair pair : kInnerDiagonals) pull_one(springs_.inner, pair, inner);
-    }
-    if constexpr (kFaces) {
-      pull_one(springs_.face, {0, 3}, xy);
-      pull_one(springs_.face, {1, 2}, xy);
-      pull_one(springs_.face, {0, 5}, zx);
-      pull_one(springs_.face, {1, 4}, zx);
-      pull_one(springs_.face, {0, 6}, yz);
-      pull_one(springs_.face, {2, 4}, yz);
-    }
-    const Axes axes = positions_.axes();
-    if constexpr (kAxes) pull_mean_axes(axes);
-    guard(axes);
-    forces_.add_to(rows_);
+    add_tensions();
+    pull_inner();
+    read_again();
+    give(7);
+    pull_face({0, 6}, yz);
+    give(6);
+    pull_face({0, 5}, zx);
+    give(5);
+    pull_face({0, 3}, xy);
+    give(3);
+    give(0);
+    pull_face({1, 4}, zx);
+    pull_face({1, 2}, xy);
+    give(1);
+    pull_face({2, 4}, yz);
+    give(2);
+    give(4);
   }
 
  private:
-  [[nodiscard]] [[gnu::always_inline]] std::array<Pack, 12> at_edges(int values) const {
-    std::array<Pack, 12> packs;
-#pragma GCC unroll 12
-    for (std::size_t edge = 0; edge < 12; ++edge) {
-      const auto from = static_cast<std::size_t>(kEdges[edge].from);
-      packs[edge] = load(rows_[from >> 1].at(values + static_cast<int>(edge / 4), static_cast<int>(from & 1)));
-    }
-    return packs;
-  }
-
-  [[gnu::always_inline]] void pull_edges() {
-    const std::array<Pack, 12> stretches = at_edges(kStretch);
-    const std::array<Pack, 12> tensions = edge_tensions<kBends>(springs_, stretches);
-    const std::array<Pack, 12> inverses = at_edges(kInverseLength);
-#pragma GCC unroll 12
-    for (std::size_t edge = 0; edge < 12; ++edge) {
-      const Pack tension = share_ * tensions[edge];
-      forces_.pull(kEdges[edge], (tension * inverses[edge]) * positions_.between(kEdges[edge]));
-      if constexpr (kEnergy) add_energy(energy_, place_, 0.5 * springs_.size_squared * tension * stretches[edge]);
-    }
-  }
-
-  [[nodiscard]] [[gnu::always_inline]] Pack3 rates_between(CornerPair pair) const {
-    const auto at = [&](int corner) {
-      return rows_[static_cast<std::size_t>(corner) >> 1].three(kVelocity, corner & 1);
-    };
+  [[nodiscard]] [[gnu::always_inline]] Pack3 between(CornerPair pair, int values) const {
+    const auto at = [&](int corner) { return rows_[static_cast<std::size_t>(corner) >> 1].three(values, corner & 1); };
     return at(pair.to) - at(pair.from);
   }
 
-  [[gnu::always_inline]] void pull_one(const Kind& kind, CornerPair pair, const Pack& stiffness) {
-    const Pack3 d = positions_.between(pair);
-    const Answer result = answer<kDamped, kEnergy>(kind, d, [&] { return rates_between(pair); });
-    forces_.pull(pair, stiffness * result.pull * d);
+  /// The compiler forgets which positions it has in registers: they are short, loads are not.
+  [[gnu::always_inline]] void read_again() { rows_ = rows_.seen_from(0); }
+
+  /// To the sum at the node.
+  [[gnu::always_inline]] void give(int corner) const {
+    const int array = (corner & 1) == 0 ? kForceLow : kForceHigh;
+    const Place row = rows_[static_cast<std::size_t>(corner) >> 1];
+    row.set_three(array, row.three(array) + forces_[static_cast<std::size_t>(corner)]);
+  }
+
+  /// To the sums at the edges.
+  [[gnu::always_inline]] void add_tensions() const {
+    std::array<Pack, 12> stretches;
+#pragma GCC unroll 12
+    for (std::size_t edge = 0; edge < 12; ++edge) {
+      const auto from = static_cast<std::size_t>(kEdges[edge].from);
+      const int axis = static_cast<int>(edge / 4);
+      stretches[edge] = load(rows_[from >> 1].at(kStretch + axis, static_cast<int>(from & 1)));
+    }
+    const std::array<Pack, 12> tensions = edge_tensions<kLayout>(springs_, stretches);
+#pragma GCC unroll 12
+    for (std::size_t edge = 0; edge < 12; ++edge) {
+      const Pack tension = share_ * tensions[edge];
+      if constexpr (kEnergy) {
+        add_energy(energy_, place_, 0.5 * springs_.size_squared * tension * stretches[edge]);
+      } else {
+        const auto from = static_cast<std::size_t>(kEdges[edge].from);
+        const int axis = static_cast<int>(edge / 4);
+        add(tension, rows_[from >> 1].at((from & 1) == 0 ? kTensionLow + axis : kTensionHigh + axis - 1));
+      }
+    }
+  }
+
+  /// Force of a spring without coupling, from its low end to its high one.
+  [[nodiscard]] [[gnu::always_inline]] Pack3 force_of(const Kind& kind, CornerPair pair, const Pack3& d,
+                                                      const Pack& stiffness) const {
+    const Answer result = answer<kDamped, kEnergy>(kind, d, [&] { return between(pair, kVelocity); });
     if constexpr (kEnergy) {
       add_energy(energy_, place_, (0.5 * kind.rest * kind.rest) * stiffness * result.stretch * result.stretch);
+    }
+    return (stiffness * result.pull) * d;
+  }
+
+  [[gnu::always_inline]] void pull_face(CornerPair pair, const Pack& stiffness) {
+    if constexpr (!kLayout.faces) return;
+    const Pack3 force = force_of(springs_.face, pair, between(pair, kPosition), stiffness);
+    Pack3& from = forces_[static_cast<std::size_t>(pair.from)];
+    Pack3& to = forces_[static_cast<std::size_t>(pair.to)];
+    from = from + force;
+    to = to - force;
+  }
+
+  /// All that pulls the same at both ends of an inner diagonal: their springs, the mean axes, the guard.
+  [[gnu::always_inline]] void pull_inner() {
+    const Pack stiffness = springs_.law.inner * share_;
+    Diagonals d;
+    Diagonals forces;
+#pragma GCC unroll 12
+    for (std::size_t i = 0; i < 4; ++i) {
+      d[i] = between(kInnerDiagonals[i], kPosition);
+      forces[i] = kLayout.inner ? force_of(springs_.inner, kInnerDiagonals[i], d[i], stiffness)
+                                : Pack3{Pack(0.0), Pack(0.0), Pack(0.0)};
+    }
+    if constexpr (kLayout.axes) pull_mean_axes(axes_of(d), forces);
+    guard(d, forces);
+#pragma GCC unroll 12
+    for (std::size_t i = 0; i < 4; ++i) {
+      forces_[static_cast<std::size_t>(kInnerDiagonals[i].from)] = forces[i];
+      forces_[static_cast<std::size_t>(kInnerDiagonals[i].to)] = -forces[i];
     }
   }
 
   /// The law's own spring of the three mean axes together.
-  [[gnu::always_inline]] void pull_mean_axes(const Axes& axes) {
+  [[gnu::always_inline]] void pull_mean_axes(const Axes& axes, Diagonals& forces) const {
     const Kind& kind = springs_.axis;
     Pack stretch(-3.0);
     // 1 / length, and what it adds to the stretch.
@@ -245,26 +256,30 @@ class PackForces {
     const Pack y = measure(axes.y);
     const Pack z = measure(axes.z);
     if constexpr (kDamped) {
-      const Axes rates = Corners(rows_, kVelocity).axes();
+      Diagonals rates_between;
+#pragma GCC unroll 12
+      for (std::size_t i = 0; i < 4; ++i) rates_between[i] = between(kInnerDiagonals[i], kVelocity);
+      const Axes rates = axes_of(rates_between);
       stretch += kind.lag * (x * dot(axes.x, rates.x) + y * dot(axes.y, rates.y) + z * dot(axes.z, rates.z));
     }
     const Pack tension = share_ * springs_.law.axes * stretch;
     if constexpr (kEnergy) add_energy(energy_, place_, 0.5 * springs_.size_squared * tension * stretch);
     // A quarter for each edge of an axis, and a quarter for the axes being four together.
     const Pack quarter = (0.0625 * kind.rest) * tension;
-    forces_.pull_axes({quarter * x * axes.x, quarter * y * axes.y, quarter * z * axes.z});
+    add_axes({quarter * x * axes.x, quarter * y * axes.y, quarter * z * axes.z}, forces);
   }
 
   /// The guard of brick_kernel.h. Where no brick of the pack is squeezed that far, it ends with the one comparison.
-  [[gnu::always_inline]] void guard(const Axes& axes) {
+  [[gnu::always_inline]] void guard(const Diagonals& d, Diagonals& forces) const {
+    const Axes axes = axes_of(d);
     const Pack3 area_x = cross(axes.y, axes.z);
     const Pack strength = share_ * springs_.law.guard;
-    const Pack active =
-        simd::max(springs_.law.guard_ratio - dot(axes.x, area_x) * (springs_.per_volume / 64), Pack(0.0));
-    if (simd::none_of(strength * active > 0.0)) [[likely]]
+    const Pack lack = springs_.law.guard_ratio - dot(axes.x, area_x) * (springs_.per_volume / 64);
+    if (simd::none_of(strength * lack > 0.0)) [[likely]]
       return;
+    const Pack active = simd::max(lack, Pack(0.0));
     const Pack size = -0.25 / 16 * springs_.per_volume * strength * active;
-    forces_.pull_axes({size * area_x, size * cross(axes.z, axes.x), size * cross(axes.x, axes.y)});
+    add_axes({size * area_x, size * cross(axes.z, axes.x), size * cross(axes.x, axes.y)}, forces);
     if constexpr (kEnergy) add_energy(energy_, place_, 0.5 * strength * active * active);
   }
 
@@ -273,22 +288,20 @@ class PackForces {
   Pack share_;
   int place_;
   Energy& energy_;
-  Corners positions_;
-  Corners forces_;
+  std::array<Pack3, 8> forces_;  // at the corners
 };
 
-/// A run of bricks.
-template <bool kFaces, bool kInner, bool kBends, bool kAxes, bool kDamped, bool kEnergy>
-void brick_run(const BrickSprings& springs, const BrickRows& rows, const Run& run, const double* shares,
+/// Bricks of a run.
+template <Layout kLayout, bool kDamped, bool kEnergy>
+void brick_run(const BrickSprings& springs, const BrickRows& rows, const RunPart& part, const double* shares,
                Energy& energy) {
-  for (int i = 0; i < run.count; i += kLanes) {
-    const BrickRows here = rows.seen_from(run.place + i);
-    const double* own = shares + run.first + 4 * (i - i % kPackPadding) + i % kPackPadding;
+  for (int i = part.begin; i < part.end; i += kLanes) {
+    const BrickRows here = rows.seen_from(part.run.place + i);
+    const double* own = shares + part.run.first + 4 * (i - i % kPackPadding) + i % kPackPadding;
     const auto face = [&](int list) {
-      return kFaces ? Pack(springs.law.face * load(own + list * kPackPadding)) : Pack();
+      return kLayout.faces ? Pack(springs.law.face * load(own + list * kPackPadding)) : Pack();
     };
-    PackForces<kFaces, kInner, kBends, kAxes, kDamped, kEnergy>(springs, here, load(own), i, energy)
-        .pull(face(1), face(2), face(3));
+    PackForces<kLayout, kDamped, kEnergy>(springs, here, load(own), i, energy).pull(face(1), face(2), face(3));
   }
 }
 

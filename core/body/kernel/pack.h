@@ -34,6 +34,7 @@ struct Pack3 {
 [[gnu::always_inline]] inline Pack3 operator-(const Pack3& a, const Pack3& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
+[[gnu::always_inline]] inline Pack3 operator-(const Pack3& a) { return {-a.x, -a.y, -a.z}; }
 [[gnu::always_inline]] inline Pack3 operator*(const Pack& a, const Pack3& b) { return {a * b.x, a * b.y, a * b.z}; }
 [[gnu::always_inline]] inline Pack dot(const Pack3& a, const Pack3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 [[gnu::always_inline]] inline Pack3 cross(const Pack3& a, const Pack3& b) {

@@ -1,4 +1,5 @@
 #pragma once
+#include "core/body/kernel/run_cursor.h"
 #include "core/body/kernel/springs.h"
 
 namespace sprung::SPRUNG_INSTRUCTION_SET {
@@ -42,13 +43,35 @@ template <bool kDamped, int kAxis>
   store(kind.rest * inverse, ends.from.at(kInverseLength + kAxis));
 }
 
+/// Pulls at both ends of the edges that begin at a pack of nodes, once all bricks have added their tensions.
+template <bool kUpward>
+[[gnu::always_inline]] inline void pull_edges(const Place& here, const Place& next_row, const Place& above) {
+  const Pack3 position = here.three(kPosition);
+  const auto force = [&](int axis, const Pack3& end) {
+    Pack tension = load(here.at(kTensionLow + axis));
+    if (axis > 0) tension += load(here.at(kTensionHigh + axis - 1, -1));
+    return (tension * load(here.at(kInverseLength + axis))) * (end - position);
+  };
+  const Pack3 x = force(0, here.three(kPosition, 1));
+  const Pack3 y = force(1, next_row.three(kPosition));
+  Pack3 own = here.three(kForceLow) + x + y;
+  if constexpr (kUpward) {
+    const Pack3 z = force(2, above.three(kPosition));
+    own = own + z;
+    above.set_three(kForceLow, above.three(kForceLow) - z);
+  }
+  here.set_three(kForceLow, own);
+  here.set_three(kForceHigh, here.three(kForceHigh) - x);
+  next_row.set_three(kForceLow, next_row.three(kForceLow) - y);
+}
+
 /// One diagonal of a run of faces.
 template <bool kDamped, bool kEnergy, Shift kShift>
-void pull_diagonals(const Kind& kind, double stiffness, const Ends<kShift>& diagonals, const Run& run,
+void pull_diagonals(const Kind& kind, double stiffness, const Ends<kShift>& diagonals, const RunPart& part,
                     const double* shares, Energy& energy) {
-  for (int i = 0; i < run.count; i += kLanes) {
-    const Ends<kShift> ends = diagonals.seen_from(run.place + i);
-    const Pack share = stiffness * load(shares + run.first + i);
+  for (int i = part.begin; i < part.end; i += kLanes) {
+    const Ends<kShift> ends = diagonals.seen_from(part.run.place + i);
+    const Pack share = stiffness * load(shares + part.run.first + i);
     const Pack3 d = ends.between(kPosition);
     const Answer result = answer<kDamped, kEnergy>(kind, d, [&] { return ends.between(kVelocity); });
     ends.pull(share * result.pull * d);

@@ -8,16 +8,18 @@
 
 namespace sprung::SPRUNG_INSTRUCTION_SET {
 
-/// The arrays of a plane of the scratch, for each node. Those it owns are the springs to higher nodes. What pulls at a
-/// brick's node on the high side in x is kept apart, one place lower, so that no sum waits for its neighbour's.
+/// The arrays of a plane of the scratch, for each node. Those it owns are the springs to higher nodes. What a brick
+/// adds at its corners on the high side in x is kept apart, one place lower, so that no sum waits for its neighbour's.
 enum PlaneArray : int {
   kForceLow = 0,       // x y z
-  kForceHigh = 3,      // x y z; on the next node along x
-  kSums = 6,           // the arrays above begin at zero
-  kPosition = 6,       // x y z
-  kVelocity = 9,       // x y z; where there is damping
-  kStretch = 12,       // of edges along x, y and z, over their length at rest; beta times its rate included
-  kInverseLength = 15  // of edges along x, y and z, times their length at rest
+  kTensionLow = 3,     // of edges along x, y and z, over their length at rest
+  kForceHigh = 6,      // x y z; on the next node along x
+  kTensionHigh = 9,    // of edges along y and z that begin at the next node along x
+  kSums = 11,          // the arrays above begin at zero
+  kPosition = 11,      // x y z
+  kVelocity = 14,      // x y z; where there is damping
+  kStretch = 17,       // of edges along x, y and z, over their length at rest; beta times its rate included
+  kInverseLength = 20  // of edges along x, y and z, times their length at rest
 };
 static_assert(kInverseLength + 3 == kPlaneArrays);
 

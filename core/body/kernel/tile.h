@@ -14,7 +14,8 @@ struct Run {
 /// The kinds of runs of a plane of nodes. All but those of nodes begin at a multiple of kPackPadding, are as long, and
 /// may hold places that are none of theirs.
 enum RunKind : int {
-  kNodes,        // no other tile pulls at them
+  kNodes,        // all
+  kOwnNodes,     // no other tile pulls at them
   kSharedNodes,  // other tiles do
   kPlaces,       // all that hold nodes
   kBricks,       // between this plane and the next
@@ -64,7 +65,7 @@ struct SharedNodes {
 inline constexpr int kFirstPlace = 8;
 inline constexpr int kMostPlaces = 760;  // of a plane, with room for a pack, a row and a place behind the last brick
 inline constexpr int kArraySize = 776;
-inline constexpr int kPlaneArrays = 18;
+inline constexpr int kPlaneArrays = 23;
 inline constexpr int kPlaneSize = kPlaneArrays * kArraySize;
 static_assert(kArraySize % 16 == 8 && kArraySize >= kFirstPlace + kMostPlaces + kPackPadding);
 

@@ -4,6 +4,7 @@
 
 #include "core/body/kernel/brick_run.h"
 #include "core/body/kernel/node_runs.h"
+#include "core/body/kernel/run_cursor.h"
 #include "core/body/kernel/spring_runs.h"
 
 #define SPRUNG_QUOTE(name) #name
@@ -15,9 +16,16 @@ namespace sprung::SPRUNG_INSTRUCTION_SET {
 
 namespace {
 
-/// Goes through the planes of a tile from low to high z with two of them in the core's own cache: bricks follow once
-/// both their planes are in; then the lower one is done.
-template <bool kFaces, bool kInner, bool kBends, bool kAxes, bool kDamped, bool kEnergy>
+/// How many nodes are copied in at a time: what follows finds them in the nearest cache.
+constexpr int kStride = 96;  // places
+
+/// The end of the packs whose neighbours, a row and a place further on, all lie before this place.
+int before_neighbours(int place, int pitch) { return (place - pitch - 1) & -kPackPadding; }
+
+/// Goes through a tile from low to high z with two planes of nodes at hand. Within a plane, edges are measured where
+/// the nodes are in, bricks follow where their edges are measured, and the nodes below are done with where all their
+/// bricks have been.
+template <Layout kLayout, bool kDamped, bool kEnergy>
 class Walk {
  public:
   Walk(const TileView& tile, const PassInput& input, double* scratch, double* shared, Energy& energy)
@@ -30,53 +38,109 @@ class Walk {
         springs_(input.law, input.brick_size, input.beta) {}
 
   void run() {
-    enter(0);
-    for (int plane = 0; plane + 1 < tile_.planes; ++plane) {
-      enter(plane + 1);
-      fill_layer(plane);
-      leave(plane);
-    }
-    leave(tile_.planes - 1);
+    Entry first(tile_, 0);
+    enter(first, end_of(0), end_of(0));
+    for (int plane = 0; plane + 1 < tile_.planes; ++plane) go_through_layer(plane);
+    Exit last(tile_, tile_.planes - 1);
+    leave<false>(last, end_of(tile_.planes - 1));
   }
 
  private:
-  template <class Visit>
-  void each_run(int plane, RunKind kind, const Visit& visit) const {
-    const int* first = tile_.first_run + plane * kRunKinds + kind;
-    for (const Run* run = tile_.runs + first[0]; run != tile_.runs + first[1]; ++run) visit(*run);
-  }
+  /// How far a plane's nodes and edges are in.
+  struct Entry {
+    int plane;
+    RunCursor nodes;
+    RunCursor sums;
+    RunCursor edges;
 
-  /// Calls visit(place) for the packs of a kind of runs.
-  template <class Visit>
-  void each_pack(int plane, RunKind kind, const Visit& visit) const {
-    each_run(plane, kind, [&](const Run& run) {
-      for (int place = run.place; place < run.place + run.count; place += kLanes) visit(place);
-    });
-  }
+    Entry(const TileView& tile, int index)
+        : plane(index), nodes(tile, index, kNodes), sums(tile, index, kPlaces), edges(tile, index, kPlaces) {}
+  };
+
+  /// How far what lies between a plane and the next is done.
+  struct Layer {
+    int plane;
+    RunCursor edges;
+    RunCursor bricks;
+    RunCursor zx_faces;
+    RunCursor yz_faces;
+
+    Layer(const TileView& tile, int index)
+        : plane(index),
+          edges(tile, index, kPlaces),
+          bricks(tile, index, kBricks),
+          zx_faces(tile, index, kZxFaces),
+          yz_faces(tile, index, kYzFaces) {}
+  };
+
+  /// How far a plane is done with.
+  struct Exit {
+    int plane;
+    RunCursor faces;
+    RunCursor edges;
+    RunCursor nodes;
+    RunCursor shared_nodes;
+
+    Exit(const TileView& tile, int index)
+        : plane(index),
+          faces(tile, index, kXyFaces),
+          edges(tile, index, kPlaces),
+          nodes(tile, index, kOwnNodes),
+          shared_nodes(tile, index, kSharedNodes) {}
+  };
 
   [[nodiscard]] Place plane(int index) const { return {scratch_ + (index & 1) * kPlaneSize}; }
   [[nodiscard]] Place next_row(int index) const { return {plane(index).values + tile_.pitch}; }
 
+  /// Behind the last place of a plane.
+  [[nodiscard]] int end_of(int index) const {
+    const Run& last = tile_.runs[tile_.first_run[index * kRunKinds + kPlaces + 1] - 1];
+    return last.place + last.count;
+  }
+
+  template <class Visit>
+  static void each_pack(RunCursor& runs, int to, const Visit& visit) {
+    runs.go_to(to, [&](const RunPart& part) { part.each_pack(visit); });
+  }
+
+  void go_through_layer(int index) {
+    Entry above(tile_, index + 1);
+    Layer layer(tile_, index);
+    Exit below(tile_, index);
+    const int end = std::max(end_of(index), end_of(index + 1));
+    for (int entered = kStride, done = 0; done < end; entered += kStride) {
+      const int measured = before_neighbours(entered, tile_.pitch);
+      done = before_neighbours(measured, tile_.pitch);
+      enter(above, entered, measured);
+      fill(layer, measured, done);
+      leave<true>(below, done);
+    }
+  }
+
   /// With sums of nothing; what pulls at a run's first node from the node before it is kept one place lower.
-  void enter(int index) {
-    const Place to = plane(index);
-    each_run(index, kPlaces, [&](const Run& run) {
-      for (int axis = 0; axis < 3; ++axis) *to.at(kForceHigh + axis, run.place - 1) = 0;
+  void enter(Entry& entry, int nodes_to, int edges_to) {
+    const Place to = plane(entry.plane);
+    entry.sums.go_to(nodes_to, [&](const RunPart& part) {
+      if (part.begin == 0) {
+        for (int array = kForceHigh; array < kSums; ++array) *to.at(array, part.place() - 1) = 0;
+      }
+      part.each_pack([&](int place) {
+        const Place here = to.seen_from(place);
+        for (int array = 0; array < kSums; ++array) store(Pack(0.0), here.at(array));
+      });
     });
-    each_run(index, kNodes, [&](const Run& run) { copy_in(to, run); });
-    each_run(index, kSharedNodes, [&](const Run& run) { copy_in(to, run); });
-    each_pack(index, kPlaces, [&](int place) {
+    entry.nodes.go_to(nodes_to, [&](const RunPart& part) { copy_in(to, part); });
+    each_pack(entry.edges, edges_to, [&](int place) {
       const Place here = to.seen_from(place);
-      for (int array = 0; array < kSums; ++array) store(Pack(0.0), here.at(array));
       measure_edges<kDamped, 0>(edge_, {here, here});
-      measure_edges<kDamped, 1>(edge_, {here, next_row(index).seen_from(place)});
+      measure_edges<kDamped, 1>(edge_, {here, next_row(entry.plane).seen_from(place)});
     });
   }
 
-  void copy_in(const Place& to, const Run& run) const {
-    const std::ptrdiff_t first = 3 * static_cast<std::ptrdiff_t>(run.node);
-    take_apart<kDamped>(input_.positions + first, input_.velocities + first, input_.drift, run.count,
-                        three(to, kPosition, run.place), three(to, kVelocity, run.place));
+  void copy_in(const Place& to, const RunPart& part) const {
+    const std::ptrdiff_t first = 3 * static_cast<std::ptrdiff_t>(part.run.node + part.begin);
+    take_apart<kDamped>(input_.positions + first, input_.velocities + first, input_.drift, part.count(),
+                        three(to, kPosition, part.place()), three(to, kVelocity, part.place()));
   }
 
   static Three<double> three(const Place& from, int array, int place) {
@@ -84,61 +148,68 @@ class Walk {
   }
 
   template <Shift kShift>
-  void pull_diagonals_of(const Ends<kShift>& diagonals, const Run& run) {
-    pull_diagonals<kDamped, kEnergy>(springs_.face, input_.law.face, diagonals, run, tile_.shares, energy_);
+  void pull_diagonals_of(const Ends<kShift>& diagonals, const RunPart& part) {
+    pull_diagonals<kDamped, kEnergy>(springs_.face, input_.law.face, diagonals, part, tile_.shares, energy_);
   }
 
   /// Both diagonals of faces along x.
-  void pull_faces(const Place& low, const Place& high, const Run& run) {
-    pull_diagonals_of(Ends<Shift::kTo>{low, high}, run);
-    pull_diagonals_of(Ends<Shift::kFrom>{low, high}, run);
+  void pull_faces(const Place& low, const Place& high, const RunPart& part) {
+    pull_diagonals_of(Ends<Shift::kTo>{low, high}, part);
+    pull_diagonals_of(Ends<Shift::kFrom>{low, high}, part);
   }
 
   /// What lies between a plane and the next.
-  void fill_layer(int index) {
-    const Place low = plane(index);
-    const Place high = plane(index + 1);
-    each_pack(index, kPlaces, [&](int place) {
+  void fill(Layer& layer, int edges_to, int bricks_to) {
+    const Place low = plane(layer.plane);
+    const Place high = plane(layer.plane + 1);
+    each_pack(layer.edges, edges_to, [&](int place) {
       measure_edges<kDamped, 2>(edge_, {low.seen_from(place), high.seen_from(place)});
     });
-    each_run(index, kBricks, [&](const Run& run) {
-      brick_run<kFaces, kInner, kBends, kAxes, kDamped, kEnergy>(springs_, {low, high, tile_.pitch}, run, tile_.shares,
-                                                                 energy_);
+    layer.bricks.go_to(bricks_to, [&](const RunPart& part) {
+      brick_run<kLayout, kDamped, kEnergy>(springs_, {low, high, tile_.pitch}, part, tile_.shares, energy_);
     });
-    if constexpr (kFaces) {
-      each_run(index, kZxFaces, [&](const Run& run) { pull_faces(low, high, run); });
-      each_run(index, kYzFaces, [&](const Run& run) {
-        pull_diagonals_of(Ends<Shift::kNone>{low, next_row(index + 1)}, run);
-        pull_diagonals_of(Ends<Shift::kNone>{next_row(index), high}, run);
+    if constexpr (kLayout.faces) {
+      layer.zx_faces.go_to(bricks_to, [&](const RunPart& part) { pull_faces(low, high, part); });
+      layer.yz_faces.go_to(bricks_to, [&](const RunPart& part) {
+        pull_diagonals_of(Ends<Shift::kNone>{low, next_row(layer.plane + 1)}, part);
+        pull_diagonals_of(Ends<Shift::kNone>{next_row(layer.plane), high}, part);
       });
     }
   }
 
-  void leave(int index) {
-    const Place from = plane(index);
-    if constexpr (kFaces) {
-      each_run(index, kXyFaces, [&](const Run& run) { pull_faces(from, next_row(index), run); });
+  template <bool kHasLayer>
+  void leave(Exit& exit, int to) {
+    const Place from = plane(exit.plane);
+    if constexpr (kLayout.faces) {
+      exit.faces.go_to(to, [&](const RunPart& part) { pull_faces(from, next_row(exit.plane), part); });
     }
     if constexpr (kEnergy) return;
-    each_run(index, kNodes, [&](const Run& run) {
-      const Three<double> forces = three(from, kForceLow, run.place);
-      sum_forces(from, run, forces);
-      finish_nodes(input_, run.node, run.count, {forces.x, forces.y, forces.z});
+    exit.edges.go_to(to, [&](const RunPart& part) { pull_edges_of<kHasLayer>(exit.plane, part); });
+    exit.nodes.go_to(to, [&](const RunPart& part) {
+      const Three<double> forces = three(from, kForceLow, part.place());
+      finish_nodes(input_, part.run.node + part.begin, part.count(), {forces.x, forces.y, forces.z});
     });
-    each_run(index, kSharedNodes, [&](const Run& run) {
-      double* part = shared_ + run.first;
-      sum_forces(from, run, {part, part + run.count, part + 2 * static_cast<std::ptrdiff_t>(run.count)});
+    exit.shared_nodes.go_to(to, [&](const RunPart& part) {
+      double* sums = shared_ + part.run.first + part.begin;
+      const std::ptrdiff_t count = part.run.count;
+      const Three<double> forces = three(from, kForceLow, part.place());
+      std::copy_n(forces.x, part.count(), sums);
+      std::copy_n(forces.y, part.count(), sums + count);
+      std::copy_n(forces.z, part.count(), sums + 2 * count);
     });
   }
 
-  static void sum_forces(const Place& from, const Run& run, const Three<double>& to) {
-    int axis = 0;
-    for (double* sum : {to.x, to.y, to.z}) {
-      const double* low = from.at(kForceLow + axis, run.place);
-      const double* high = from.at(kForceHigh + axis, run.place - 1);
-      for (int i = 0; i < run.count; ++i) sum[i] = low[i] + high[i];
-      ++axis;
-    }
+  /// Then sums of nodes are whole.
+  template <bool kHasLayer>
+  void pull_edges_of(int index, const RunPart& part) const {
+    const Place from = plane(index);
+    part.each_pack([&](int place) {
+      pull_edges<kHasLayer>(from.seen_from(place), next_row(index).seen_from(place), plane(index + 1).seen_from(place));
+    });
+    part.each_pack([&](int place) {
+      const Place here = from.seen_from(place);
+      here.set_three(kForceLow, here.three(kForceLow) + here.three(kForceHigh, -1));
+    });
   }
 
   const TileView& tile_;
@@ -150,14 +221,14 @@ class Walk {
   BrickSprings springs_;
 };
 
-template <bool kFaces, bool kInner, bool kBends, bool kAxes>
+template <Layout kLayout>
 void walk(const TileView& tile, const PassInput& input, double* scratch, double* shared, Energy& energy) {
   if (input.pass == Pass::kEnergy) {
-    Walk<kFaces, kInner, kBends, kAxes, false, true>(tile, input, scratch, shared, energy).run();
+    Walk<kLayout, false, true>(tile, input, scratch, shared, energy).run();
   } else if (input.beta > 0) {
-    Walk<kFaces, kInner, kBends, kAxes, true, false>(tile, input, scratch, shared, energy).run();
+    Walk<kLayout, true, false>(tile, input, scratch, shared, energy).run();
   } else {
-    Walk<kFaces, kInner, kBends, kAxes, false, false>(tile, input, scratch, shared, energy).run();
+    Walk<kLayout, false, false>(tile, input, scratch, shared, energy).run();
   }
 }
 
@@ -165,10 +236,14 @@ void walk(const TileView& tile, const PassInput& input, double* scratch, double*
 void run_tile(const TileView& tile, const PassInput& input, double* scratch, double* shared, Energy& energy) {
   const BrickLaw& law = input.law;
   const bool bends = law.bending_self != 0 || law.bending_cross != 0;
-  if (law.axes != 0) return walk<true, true, true, true>(tile, input, scratch, shared, energy);
-  if (law.face == 0 && !bends) return walk<false, true, false, false>(tile, input, scratch, shared, energy);
-  if (law.inner == 0 && !bends) return walk<true, false, false, false>(tile, input, scratch, shared, energy);
-  walk<true, true, true, false>(tile, input, scratch, shared, energy);
+  if (law.axes == 0 && !bends) {
+    if (law.face == 0) return walk<Layout{.edges = true, .inner = true}>(tile, input, scratch, shared, energy);
+    if (law.inner == 0) return walk<Layout{.edges = true, .faces = true}>(tile, input, scratch, shared, energy);
+  }
+  if (law.axes == 0 && law.edge == 0) {
+    return walk<Layout{.faces = true, .inner = true, .bends = true}>(tile, input, scratch, shared, energy);
+  }
+  walk<Layout{true, true, true, true, true}>(tile, input, scratch, shared, energy);
 }
 
 constexpr int kSharedAtOnce = 64;

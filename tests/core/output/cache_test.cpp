@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
+#include <tbb/global_control.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -163,6 +164,11 @@ TEST(Cache, IsReadWhileItGrows) {
   expect_frames(reader, header);
 }
 
+/// Tests that fork hold one: another thread may have a lock of the allocator at that moment, for ever in the child.
+class NoThreads {
+  tbb::global_control control_{tbb::global_control::max_allowed_parallelism, 1};
+};
+
 /// Writes frames until it is killed.
 [[noreturn]] void write_for_ever(const std::filesystem::path& file, const CacheHeader& header) {
   CacheWriter writer(file, header, kMemory);
@@ -173,6 +179,7 @@ TEST(Cache, IsReadWhileItGrows) {
 }
 
 TEST(Cache, KilledAtAnyMomentItHasEveryFinishedFrame) {
+  const NoThreads alone;
   const CacheHeader header = box_header(4);
   const unsigned seed = std::random_device()();
   SCOPED_TRACE(seed);
@@ -197,6 +204,7 @@ TEST(Cache, KilledAtAnyMomentItHasEveryFinishedFrame) {
 }
 
 TEST(Cache, AFullDiskLosesNothingThatIsFinished) {
+  const NoThreads alone;
   const TempFolder folder;
   const CacheHeader header = box_header(6);
   const auto file = folder.path() / "run.h5";
