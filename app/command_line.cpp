@@ -53,8 +53,7 @@ std::string help_text(CLI::App& app, const CLI::App& help, const Words& words) {
   }
   if (words.topic.empty()) return help_on(app, app.get_name());
   if (words.topic == help.get_name()) return help_on(help, "sprung help");
-  std::vector<std::string> names{"scene", "man", "bash", "zsh", "fish"};
-  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  const std::vector<std::string> names = help_topics(app);
   const std::vector<std::string_view> known(names.begin(), names.end());
   throw Error(ErrorKind::kUsage, fmt::format("no help on '{}'{}", words.topic, did_you_mean(words.topic, known)));
 }

@@ -53,7 +53,7 @@ void FillReport::add_volume(const BrickGrid& grid, const Solid& solid) {
   volume_warning_ = fmt::format(
       "bricks of {} are too coarse: they hold {:.4g} kg where the mesh holds {:.4g} kg; {}",
       readable(body_.brick_size, Dimension::kLength), grid.volume() * density_, solid.volume * density_,
-      better ? fmt::format("bricks of {} would do", readable(*better, Dimension::kLength)) : "use much smaller ones");
+      better ? fmt::format("for the mass bricks of {} would do", readable(*better, Dimension::kLength)) : "use much smaller ones");
 }
 
 void FillReport::tell(const Console& console) const {

@@ -94,6 +94,26 @@ void warn_of_locking(const Scene& scene, const std::vector<LoadedBody>& bodies, 
   }
 }
 
+/// Sizes and stiffnesses that are rather numbers whose unit was forgotten.
+void warn_of_units(const Scene& scene, const std::vector<LoadedBody>& bodies, const Console& console) {
+  constexpr double kLarge = 5;   // m
+  constexpr double kSoft = 100;  // Pa
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const double size = bodies[i].extent.maxCoeff();
+    if (size > kLarge) {
+      console.warn(fmt::format("{}: {} long; a length without a unit is in metres, '{:.3g}cm' in centimetres",
+                               bodies[i].name, readable(size, Dimension::kLength), size));
+    }
+    const double young = scene.bodies[i].material.young;
+    if (young < kSoft) {
+      console.warn(
+          fmt::format("{}: Young's modulus {}, softer than any gel; without a unit it is in pascals, "
+                      "'{:.3g}kPa' in kilopascals",
+                      bodies[i].name, readable(young, Dimension::kPressure), young));
+    }
+  }
+}
+
 }  // namespace
 
 Preparation prepare(const Scene& scene, const Console& console) {
@@ -103,6 +123,7 @@ Preparation prepare(const Scene& scene, const Console& console) {
   prepared.production = build_world(scene, prepared.bodies, console);
   find_thin_parts(scene, prepared, console);
   warn_of_locking(scene, prepared.bodies, console);
+  warn_of_units(scene, prepared.bodies, console);
   int bricks = 0;
   int nodes = 0;
   double mass = 0;

@@ -24,7 +24,7 @@ std::string ground_report(const Production& production, double lowest) {
   const std::optional<double> ground = ground_height(production.world.obstacles);
   if (!ground) return "";
   const double depth = std::max(0.0, *ground - lowest);
-  return fmt::format(", deepest below the ground {} ({:.2f} % of the size)", readable(depth, Dimension::kLength),
+  return fmt::format(", lowest vertex {} below the ground ({:.2f} % of the size)", readable(depth, Dimension::kLength),
                      100 * depth / production.size);
 }
 

@@ -14,6 +14,7 @@
 #include "app/scene_driver.h"
 #include "app/step_plan.h"
 #include "app/units.h"
+#include "core/count_of.h"
 #include "core/error.h"
 #include "core/motion/careful_motion.h"
 #include "core/motion/implicit_motion.h"
@@ -51,7 +52,7 @@ void warn_of_crushed_bodies(const World& world, const Console& console) {
   }
 }
 
-/// How deep skins were in each other at the ends of frames.
+/// How deep the contact points of skins were in each other and in obstacles at the ends of frames.
 class OverlapWatch {
  public:
   void look(const World& world, int frame) {
@@ -62,9 +63,9 @@ class OverlapWatch {
   }
   [[nodiscard]] double deepest() const { return deepest_; }
   [[nodiscard]] std::string summary() const {
-    return deepest_ > 0
-               ? fmt::format("skins at most {} deep in what they touch", readable(deepest_, Dimension::kLength))
-               : "no skin in what it touches";
+    return deepest_ > 0 ? fmt::format("points of contact at most {} deep in what they touch",
+                                      readable(deepest_, Dimension::kLength))
+                        : "no point of contact in what it touches";
   }
 
   void warn(double size, const Console& console) const {
@@ -152,13 +153,15 @@ class Runner {
     return all;
   }
 
-  void finish(int frames) {
+  /// Of the frames of this run, which begins with `first`.
+  void finish(int first, int frames) {
     note_implicit();
     const int inverted = inverted_bricks(world_);
     const bool has_more = !implicit_ && world_.actors.size() > 1;  // bodies, each with its own steps
-    progress_->finish(fmt::format("{} frames, {}{} steps of {} a frame, {} inverted bricks at the end, {}", frames,
-                                  has_more ? "at most " : "", plan_.steps.count,
-                                  readable(plan_.steps.dt, Dimension::kTime), inverted, overlaps_.summary()));
+    progress_->finish(fmt::format(
+        "{}{}, {}{} steps of {} a frame, {} inverted bricks at the end, {}", count_of(frames, "frame"),
+        first > 0 ? fmt::format(", {} of them in this run", frames - first) : "", has_more ? "at most " : "",
+        plan_.steps.count, readable(plan_.steps.dt, Dimension::kTime), inverted, overlaps_.summary()));
     warn_of_crushed_bodies(world_, console_);
     overlaps_.warn(size_, console_);
   }
@@ -244,7 +247,7 @@ Recording record_motion(Production& production, const Scene& scene, const Consol
     if (frame > 0) runner.run_frame(frame);
     recorder.add(frame / scene.fps, runner.pin_reactions(), time_of(scene, frame), false, runner.memory());
   }
-  runner.finish(frames);
+  runner.finish(first, frames);
   recorder.recording().deepest_overlap = runner.deepest();
   return recorder.finish();
 }

@@ -121,6 +121,7 @@ double unit_value(std::string_view text, std::string_view name, Dimension dimens
     if (unit.dimension == dimension && unit.name == name) return unit.value;
   }
   if (dimension == Dimension::kNone) refuse(text, "takes no unit", dimension);
+  if (name.starts_with(',')) refuse(text, "has a comma where the decimal point goes", dimension);
   refuse(text, fmt::format("has the unknown unit '{}'", name), dimension);
 }
 

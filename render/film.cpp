@@ -4,15 +4,13 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/error.h"
+#include "core/output/file_lock.h"
 #include "render/process.h"
 
 namespace sprung {
@@ -90,13 +88,6 @@ std::filesystem::path partial_name(const std::filesystem::path& file) {
   return file.parent_path() / (file.stem().string() + ".partial" + file.extension().string());
 }
 
-/// Tells a folder that cannot be written before ffmpeg does in its own words.
-void check_writable(const std::filesystem::path& partial, const std::filesystem::path& file) {
-  errno = 0;
-  if (std::ofstream(partial).good()) return;
-  throw Error(ErrorKind::kFailed, fmt::format("{}: cannot write the film: {}", file.string(), std::strerror(errno)));
-}
-
 }  // namespace
 
 bool is_film(const std::filesystem::path& file) {
@@ -108,6 +99,8 @@ bool is_padded(const std::filesystem::path& file, int width, int height) {
   return lower_extension(file) != ".gif" && (width % 2 != 0 || height % 2 != 0);
 }
 
+bool is_film_being_written(const std::filesystem::path& file) { return is_being_written(partial_name(file)); }
+
 void require_ffmpeg() {
   if (find_program("ffmpeg")) return;
   throw Error(ErrorKind::kFailed,
@@ -118,22 +111,32 @@ void require_ffmpeg() {
 struct FilmWriter::Process {
   std::filesystem::path file;
   std::filesystem::path partial;
+  FileLock lock;  // of the partial film; tells a folder that cannot be written before ffmpeg does in its own words
   int width;
   int height;
   ChildProcess child;
+  bool is_in_place = false;
 
   Process(const std::filesystem::path& f, int w, int h, double fps)
-      : file(f), partial(partial_name(f)), width(w), height(h), child(ffmpeg_command(partial, w, h, fps)) {}
+      : file(f),
+        partial(partial_name(f)),
+        lock(partial),
+        width(w),
+        height(h),
+        child(ffmpeg_command(partial, w, h, fps)) {}
   ~Process() {
+    if (is_in_place) return;
     std::error_code ignored;
     std::filesystem::remove(partial, ignored);
   }
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
 
+  /// The first of the last words is the cause, the others follow from it.
   [[noreturn]] void fail(int status) const {
-    throw Error(ErrorKind::kFailed,
-                fmt::format("{}: ffmpeg ended with status {}: {}", file.string(), status, child.last_words()));
+    const std::string words = child.last_words();
+    throw Error(ErrorKind::kFailed, fmt::format("{}: ffmpeg ended with status {}: {}", file.string(), status,
+                                                words.substr(0, words.find('\n'))));
   }
 };
 
@@ -142,7 +145,6 @@ FilmWriter::FilmWriter(const std::filesystem::path& file, int width, int height,
     throw Error(ErrorKind::kUsage, file.string() + ": a film ends in .mp4, .webm or .gif");
   }
   require_ffmpeg();
-  check_writable(partial_name(file), file);
   process_ = std::make_unique<Process>(file, width, height, fps);
 }
 
@@ -165,6 +167,7 @@ void FilmWriter::close() {
   std::error_code error;
   std::filesystem::rename(process->partial, process->file, error);
   if (error) throw Error(ErrorKind::kFailed, process->file.string() + ": cannot write the film: " + error.message());
+  process->is_in_place = true;
 }
 
 }  // namespace sprung

@@ -59,9 +59,10 @@ _sprung() {{
     return
   fi
   case ${{COMP_WORDS[1]}} in
-    help) words='{0} scene' values=$words ;;
+    help) words='{2}' values=$words ;;
 {1}  esac
   if [ -n "$values" ]; then
+    [ "$previous" != --set ] || compopt -o nospace 2>/dev/null
     COMPREPLY=($(compgen -W "$values" -- "$current"))
   elif [[ $current == -* ]]; then
     COMPREPLY=($(compgen -W "$words" -- "$current"))
@@ -69,7 +70,7 @@ _sprung() {{
 }}
 complete -o default -F _sprung sprung
 )",
-                     command_names(app), cases);
+                     command_names(app), cases, fmt::join(help_topics(app), " "));
 }
 
 /// Without what _arguments takes for its own.
@@ -97,7 +98,9 @@ std::string zsh(const CLI::App& app) {
     commands += fmt::format("    {}\n", quoted(command->get_name() + ":" + zsh_text(command->get_description())));
     cases += fmt::format("    {}) _arguments", command->get_name());
     for (const CLI::Option* option : named_options(*command)) cases += " \\\n      " + zsh_argument(*option);
-    cases += " \\\n      '*:file:_files' ;;\n";
+    cases += command->get_name() == "help"
+                 ? fmt::format(" \\\n      '*:topic:({})' ;;\n", fmt::join(help_topics(app), " "))
+                 : " \\\n      '*:file:_files' ;;\n";
   }
   return fmt::format(R"(#compdef sprung
 _sprung() {{
@@ -124,6 +127,10 @@ std::string fish(const CLI::App& app) {
   for (const CLI::App* command : app.get_subcommands({})) {
     text += fmt::format("complete -c sprung -n __fish_use_subcommand -f -a {} -d {}\n", command->get_name(),
                         quoted(command->get_description()));
+    if (command->get_name() == "help") {
+      text += fmt::format("complete -c sprung -n '__fish_seen_subcommand_from help' -f -a '{}'\n",
+                          fmt::join(help_topics(app), " "));
+    }
     for (const CLI::Option* option : named_options(*command)) {
       const std::vector<std::string> choices = named_choices(*option);
       text += fmt::format("complete -c sprung -n '__fish_seen_subcommand_from {}' -l {} -d {}", command->get_name(),
@@ -137,6 +144,12 @@ std::string fish(const CLI::App& app) {
 }
 
 }  // namespace
+
+std::vector<std::string> help_topics(const CLI::App& app) {
+  std::vector<std::string> topics{"scene", "man", "bash", "zsh", "fish"};
+  for (const CLI::App* command : app.get_subcommands({})) topics.push_back(command->get_name());
+  return topics;
+}
 
 std::string completions(const CLI::App& app, CommandShell shell) {
   switch (shell) {

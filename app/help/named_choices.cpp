@@ -1,13 +1,20 @@
 #include "app/help/named_choices.h"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
+#include <iterator>
 
 #include "app/key_options.h"
 #include "app/materials/material_library.h"
 #include "app/scene/named_values.h"
 #include "app/scene/scenarios.h"
 #include "app/scene/scene_tables.h"
+#include "app/validate/built_in_cases.h"
+#include "app/validate/experiment_files.h"
+#include "core/error.h"
 
 namespace sprung {
 namespace {
@@ -36,6 +43,40 @@ std::vector<std::string> names_of_key(std::string_view path) {
   return {};
 }
 
+/// "[[body]]" -> "body."
+std::string prefix_of(std::string_view path) {
+  const auto first = path.find_first_not_of('[');
+  return std::string(path.substr(first, path.find(']') - first)) + ".";
+}
+
+/// "body.young=" for every key that can be set by itself.
+std::vector<std::string> settable_keys() {
+  std::vector<std::string> names;
+  for (const TableText& table : scene_tables()) {
+    std::vector<std::string> prefixes;
+    std::transform(table.paths.begin(), table.paths.end(), std::back_inserter(prefixes), prefix_of);
+    if (prefixes.empty()) prefixes.emplace_back();  // the scene's own
+    for (const std::string& prefix : prefixes) {
+      for (const KeyText& key : table.keys) {
+        if (key.type != "table" && key.type != "tables") names.push_back(fmt::format("{}{}=", prefix, key.name));
+      }
+    }
+  }
+  return names;
+}
+
+/// Those that come with the program; none where they are not found.
+std::vector<std::string> case_names() {
+  std::vector<std::string> names;
+  for (const BuiltInCase& known : built_in_cases()) names.emplace_back(known.name);
+  try {
+    for (const std::filesystem::path& file : experiment_files()) names.push_back(file.stem().string());
+  } catch (const Error&) {
+    return names;
+  }
+  return names;
+}
+
 }  // namespace
 
 std::vector<std::string> named_choices(const CLI::Option& option) {
@@ -50,6 +91,8 @@ std::vector<std::string> named_choices(const CLI::Option& option) {
     const std::vector<std::string_view> names = value_names<MaterialClass>();
     return {names.begin(), names.end()};
   }
+  if (name == "--set") return settable_keys();
+  if (name == "--case") return case_names();
   if (name == "--scenario") return {scenario_names().begin(), scenario_names().end()};
   if (name == "--material") {
     std::vector<std::string> names;

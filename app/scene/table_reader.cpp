@@ -2,7 +2,7 @@
 
 namespace sprung {
 
-std::string_view kind_of(const toml::node& node) {
+std::string kind_of(const toml::node& node) {
   switch (node.type()) {
     case toml::node_type::string:
       return "a string";
@@ -12,7 +12,7 @@ std::string_view kind_of(const toml::node& node) {
     case toml::node_type::boolean:
       return "true or false";
     case toml::node_type::array:
-      return "an array";
+      return fmt::format("an array of {}", node.as_array()->size());
     case toml::node_type::table:
       return "a table";
     default:

@@ -22,7 +22,7 @@ namespace sprung {
 [[nodiscard]] toml::table parse_toml(std::string_view text, SceneMistakes& mistakes);
 
 /// For messages.
-[[nodiscard]] std::string_view kind_of(const toml::node& node);
+[[nodiscard]] std::string kind_of(const toml::node& node);
 /// What is written as one word.
 template <class Value>
 concept Word = requires(std::string_view text, const KeyInfo& key, Value& value) {

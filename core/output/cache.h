@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/bricks/embedding.h"
+#include "core/output/file_lock.h"
 #include "core/output/hdf5_file.h"
 #include "core/skin/skin.h"
 #include "core/world/pose.h"
@@ -87,11 +88,9 @@ class CacheWriter {
   void close();
 
  private:
-  [[nodiscard]] bool is_in_place() const;
-
   std::filesystem::path file_;     // its name
   std::filesystem::path written_;  // where it is: beside that, then there
-  int lock_ = -1;                  // held as long as it grows
+  FileLock lock_;                  // held as long as it grows
   std::size_t frames_ = 0;
   double position_error_;
   double velocity_error_;
@@ -125,9 +124,6 @@ class CacheReader {
   CacheHeader header_;
   std::size_t frame_count_ = 0;
 };
-
-/// Whether some process is writing that cache now. False where the file system knows no locks.
-[[nodiscard]] bool is_being_written(const std::filesystem::path& file);
 
 /// True where the file's name ends in .h5.
 [[nodiscard]] bool is_cache_file(const std::filesystem::path& file);

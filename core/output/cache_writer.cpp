@@ -1,13 +1,7 @@
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <array>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 
 #include "core/error.h"
 #include "core/output/cache.h"
@@ -19,27 +13,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kOwnFile = 0600;
-
 using Cells = Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
 fs::path beside(const fs::path& file) {
   fs::path name = file;
   name += ".partial";
   return name;
-}
-
-/// A descriptor that holds the lock of a new file, or -1 where the file system knows no locks.
-int lock_new(const fs::path& file) {
-  const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, kOwnFile | 0066);
-  if (descriptor < 0) {
-    throw Error(ErrorKind::kFailed, fmt::format("cannot write '{}': {}", file.string(), std::strerror(errno)));
-  }
-  if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-    ::close(descriptor);
-    throw Error(ErrorKind::kFailed, fmt::format("'{}' is being written by another run", file.string()));
-  }
-  return descriptor;
 }
 
 Cells rows_of(const std::vector<Eigen::Vector3i>& list) {
@@ -134,7 +113,7 @@ void write_header(Hdf5Writer& hdf5, const CacheHeader& header) {
 CacheWriter::CacheWriter(fs::path file, const CacheHeader& header, std::size_t memory_size)
     : file_(std::move(file)),
       written_(beside(file_)),
-      lock_(lock_new(written_)),
+      lock_(written_),
       position_error_(header.position_error),
       velocity_error_(header.velocity_error),
       hdf5_(written_) {
@@ -150,12 +129,11 @@ CacheWriter::CacheWriter(fs::path file, const CacheHeader& header, std::size_t m
 CacheWriter::~CacheWriter() {
   std::error_code ignored;
   if (written_ != file_) fs::remove(written_, ignored);
-  if (lock_ >= 0) ::close(lock_);
 }
 
 void CacheWriter::append(const CachedFrame& frame, const std::vector<const Points*>& positions,
                          const std::vector<const Points*>& velocities, const std::vector<double>& memory) {
-  if (!is_in_place()) {
+  if (!lock_.is_of(written_)) {
     throw Error(ErrorKind::kFailed,
                 fmt::format("'{}' is gone or was replaced while it was being written", written_.string()));
   }
@@ -187,21 +165,6 @@ void CacheWriter::publish() {
 }
 
 void CacheWriter::close() { hdf5_.close(); }
-
-bool CacheWriter::is_in_place() const {
-  struct stat here {};
-  struct stat there {};
-  if (::fstat(lock_, &here) != 0 || ::stat(written_.c_str(), &there) != 0) return false;
-  return here.st_ino == there.st_ino && here.st_dev == there.st_dev;
-}
-
-bool is_being_written(const fs::path& file) {
-  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) return false;
-  const bool is_locked = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-  ::close(descriptor);
-  return is_locked;
-}
 
 bool is_cache_file(const fs::path& file) { return file.extension() == ".h5"; }
 

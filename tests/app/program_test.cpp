@@ -165,7 +165,7 @@ TEST_F(Program, MakesThePicturesThatWereAskedFor) {
 
 TEST_F(Program, GroundIsRespected) {
   const ProgramRun made = run(kTiny + " -o out");
-  const std::string label = "deepest below the ground ";
+  const std::string label = " below the ground (";
   const auto at = made.err.find(label);
   ASSERT_NE(at, std::string::npos) << made.err;
   const auto open = made.err.find('(', at);

@@ -38,5 +38,13 @@ TEST(StartChecks, WarnOfRatiosAtWhichBricksLock) {
   EXPECT_EQ(inspect("--bricks 2 --poisson 0.49").err.find("lock"), std::string::npos);
 }
 
+TEST(StartChecks, NoticeForgottenUnits) {
+  EXPECT_NE(inspect("--bricks 2 --size 12").err.find("12 m long; a length without a unit is in metres, '12cm'"),
+            std::string::npos);
+  EXPECT_NE(inspect("--bricks 2 --young 20").err.find("Young's modulus 20 Pa"), std::string::npos);
+  const std::string none = inspect("--bricks 2 --size 1 --young 100").err;
+  EXPECT_EQ(none.find("without a unit"), std::string::npos) << none;
+}
+
 }  // namespace
 }  // namespace sprung

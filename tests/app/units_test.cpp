@@ -44,6 +44,7 @@ TEST(Units, ErrorsNameTheTextAndTheUnits) {
   EXPECT_NE(message("1e999", Dimension::kTime).find("out of range"), std::string::npos);
   EXPECT_NE(message("0.4 Pa", Dimension::kNone).find("takes no unit"), std::string::npos);
   EXPECT_NE(message("3 s", Dimension::kLength), "");
+  EXPECT_NE(message("12,5cm", Dimension::kLength).find("has a comma where the decimal point goes"), std::string::npos);
 }
 
 TEST(Units, WholeNumbersAreWhole) {

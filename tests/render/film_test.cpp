@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "render/process.h"
+#include "tests/support/error_message.h"
 #include "tests/support/temp_folder.h"
 
 namespace sprung {
@@ -120,6 +121,18 @@ TEST_F(Film, MissingFolderIsSaidAtOnce) {
   }
 }
 
+TEST_F(Film, IsWrittenByOneAtATime) {
+  const std::filesystem::path film = folder_ / "film.mp4";
+  FilmWriter first(film, 32, 16, 24);
+  EXPECT_TRUE(is_film_being_written(film));
+  EXPECT_NE(error_message([&] { FilmWriter(film, 32, 16, 24); }).find("is being written by another run"),
+            std::string::npos);
+  first.write(Image(32, 16));
+  first.close();
+  EXPECT_FALSE(is_film_being_written(film));
+  EXPECT_TRUE(std::filesystem::exists(film));
+}
+
 TEST_F(Film, AnUnfinishedFilmIsRemoved) {
   {
     FilmWriter film(folder_ / "a.mp4", 64, 48, 24);
@@ -135,7 +148,7 @@ TEST_F(Film, SaysWhatFfmpegSaid) {
     film.close();
     FAIL() << "nothing was thrown";
   } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("framerate"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("video rate"), std::string::npos) << error.what();
   }
   EXPECT_EQ(files(), 0);
 }

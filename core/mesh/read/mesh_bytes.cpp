@@ -173,7 +173,7 @@ std::string find_fault(const SurfaceMesh& mesh) {
   for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
     const auto row = mesh.triangles.row(t);
     if (row.minCoeff() < 0 || row.maxCoeff() >= vertices) {
-      return fmt::format("triangle {} refers to vertex {} of {} (index out of range)", t + 1,
+      return fmt::format("triangle {} refers to vertex {} of {}, counted from 1 (index out of range)", t + 1,
                          row.minCoeff() < 0 ? row.minCoeff() : row.maxCoeff() + 1L, vertices);
     }
   }

@@ -235,7 +235,8 @@ TEST_F(SceneFile, WrongTypesAreNamed) {
             std::string::npos);
   EXPECT_NE(body_mistakes("size = true").find("must be a number or a string with a unit, not true or false"),
             std::string::npos);
-  EXPECT_NE(body_mistakes("position = [1, 2]").find("must be an array of 3 numbers"), std::string::npos);
+  EXPECT_NE(body_mistakes("position = [1, 2]").find("must be an array of 3 numbers, not an array of 2"),
+            std::string::npos);
   EXPECT_NE(body_mistakes("color = \"red\"").find("\"#rrggbb\""), std::string::npos);
   EXPECT_NE(body_mistakes("material = 3").find("the name of a material or a table"), std::string::npos);
   EXPECT_NE(mistakes("body = 3").find("[[body]]"), std::string::npos);
