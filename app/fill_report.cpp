@@ -50,10 +50,11 @@ void FillReport::add_volume(const BrickGrid& grid, const Solid& solid) {
   ++wrong_volumes_;
   if (wrong_volumes_ > 1) return;
   const std::optional<double> better = brick_size_for(solid, body_.brick_size);
-  volume_warning_ = fmt::format(
-      "bricks of {} are too coarse: they hold {:.4g} kg where the mesh holds {:.4g} kg; {}",
-      readable(body_.brick_size, Dimension::kLength), grid.volume() * density_, solid.volume * density_,
-      better ? fmt::format("for the mass bricks of {} would do", readable(*better, Dimension::kLength)) : "use much smaller ones");
+  volume_warning_ =
+      fmt::format("bricks of {} are too coarse: they hold {:.4g} kg where the mesh holds {:.4g} kg; {}",
+                  readable(body_.brick_size, Dimension::kLength), grid.volume() * density_, solid.volume * density_,
+                  better ? fmt::format("for the mass bricks of {} would do", readable(*better, Dimension::kLength))
+                         : "use much smaller ones");
 }
 
 void FillReport::tell(const Console& console) const {

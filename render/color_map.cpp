@@ -65,6 +65,9 @@ Eigen::Vector3f between(Stops stops, double share) {
          part * Eigen::Map<const Eigen::Vector3f>(stops[from + 1].data());
 }
 
+constexpr double kTurboLow = 0.07;  // the parts of it that are used
+constexpr double kTurboHigh = 0.97;
+
 /// Rows: red, green, blue; columns: powers of the share.
 Eigen::Vector3f turbo(double share) {
   Eigen::Matrix<double, 3, 6> factors;
@@ -93,7 +96,7 @@ Eigen::Vector3f map_color(ColorMap map, double share) {
     case ColorMap::kTurbo:
       break;
   }
-  return turbo(clamped);
+  return turbo(kTurboLow + clamped * (kTurboHigh - kTurboLow));
 }
 
 }  // namespace sprung

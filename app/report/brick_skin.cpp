@@ -134,16 +134,17 @@ Skin colored_bricks(const Body& body, const Points& positions, const std::vector
   return brick_skin(body, positions, by_brick, line);
 }
 
-Skin sheet_skin(const Sheet& sheet, const Points& positions, const std::vector<Eigen::Vector3f>& colors, double line) {
+Skin membrane_skin(const Membrane& membrane, const Points& positions, const std::vector<Eigen::Vector3f>& colors,
+                   double line) {
   constexpr int kTowardsViewer = 5;  // +z
   std::vector<BrickFace> faces;
-  for (const auto& nodes : sheet.rectangles) {
+  for (const auto& nodes : membrane.rectangles) {
     faces.push_back({.nodes = {nodes[0], nodes[1], nodes[3], nodes[2]}, .side = kTowardsViewer, .brick = 0});
   }
   const double longest =
-      (sheet.rest_positions.colwise().maxCoeff() - sheet.rest_positions.colwise().minCoeff()).maxCoeff();
-  const int faces_along = static_cast<int>(std::lround(longest / sheet.law.sides[0]));
-  return skin_of(faces, positions, by_node(colors), split_for(faces_along), line / sheet.law.sides[0]);
+      (membrane.rest_positions.colwise().maxCoeff() - membrane.rest_positions.colwise().minCoeff()).maxCoeff();
+  const int faces_along = static_cast<int>(std::lround(longest / membrane.law.sides[0]));
+  return skin_of(faces, positions, by_node(colors), split_for(faces_along), line / membrane.law.sides[0]);
 }
 
 }  // namespace sprung

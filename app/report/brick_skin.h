@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/body/body.h"
-#include "core/body/sheet.h"
+#include "core/body/membrane.h"
 #include "core/skin/skin.h"
 
 namespace sprung {
@@ -18,8 +18,8 @@ namespace sprung {
 [[nodiscard]] Skin colored_bricks(const Body& body, const Points& positions, const std::vector<Eigen::Vector3f>& colors,
                                   double line);
 
-/// The rectangles of a sheet as such a skin, facing +z, at those node positions (m x 3, m).
-[[nodiscard]] Skin sheet_skin(const Sheet& sheet, const Points& positions, const std::vector<Eigen::Vector3f>& colors,
-                              double line);
+/// The rectangles of a membrane as such a skin, facing +z, at those node positions (m x 3, m).
+[[nodiscard]] Skin membrane_skin(const Membrane& membrane, const Points& positions,
+                                 const std::vector<Eigen::Vector3f>& colors, double line);
 
 }  // namespace sprung

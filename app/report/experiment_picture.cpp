@@ -100,13 +100,14 @@ ExperimentPicture draw_experiment(const Body& body, const ExperimentPictureOptio
   return {draw_on_white(skin, options), color_bar(options.color_by, values)};
 }
 
-ExperimentPicture draw_experiment(const Sheet& sheet, const ExperimentPictureOptions& options) {
-  const Eigen::VectorXd values = displacements(sheet);
-  Points shown = sheet_surface(sheet).positions;
-  shown.leftCols<2>() = sheet.rest_positions + options.magnification * (sheet.positions - sheet.rest_positions);
+ExperimentPicture draw_experiment(const Membrane& membrane, const ExperimentPictureOptions& options) {
+  const Eigen::VectorXd values = displacements(membrane);
+  Points shown = membrane_surface(membrane).positions;
+  shown.leftCols<2>() =
+      membrane.rest_positions + options.magnification * (membrane.positions - membrane.rest_positions);
   ExperimentPictureOptions frontal = options;
   frontal.azimuth = frontal.elevation = 0;
-  const Skin skin = sheet_skin(sheet, shown, colors_of(values), line_width(shown));
+  const Skin skin = membrane_skin(membrane, shown, colors_of(values), line_width(shown));
   return {draw_on_white(skin, frontal), color_bar(ColorBy::kDisplacement, values)};
 }
 

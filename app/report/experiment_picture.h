@@ -2,7 +2,7 @@
 #include <string>
 
 #include "core/body/body.h"
-#include "core/body/sheet.h"
+#include "core/body/membrane.h"
 #include "render/image.h"
 
 namespace sprung {
@@ -38,7 +38,7 @@ struct ExperimentPicture {
 /// little darker. Bricks cut by the surface are drawn whole. Throws Error(kFailed) where no picture can be drawn.
 [[nodiscard]] ExperimentPicture draw_experiment(const Body& body, const ExperimentPictureOptions& options = {});
 
-/// A sheet where it is, seen from the front, coloured by its displacement.
-[[nodiscard]] ExperimentPicture draw_experiment(const Sheet& sheet, const ExperimentPictureOptions& options = {});
+/// A membrane where it is, seen from the front, coloured by its displacement.
+[[nodiscard]] ExperimentPicture draw_experiment(const Membrane& membrane, const ExperimentPictureOptions& options = {});
 
 }  // namespace sprung

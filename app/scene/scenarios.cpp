@@ -18,6 +18,8 @@ constexpr std::array<std::string_view, 7> kScenarioNames{"drop",  "hang",   "squ
 
 constexpr double kDropHeight = 0.4;  // in sizes above the ground
 constexpr double kHangHeight = 0.5;  // in sizes above the ground: near enough to see, far enough to stretch
+constexpr double kSwing = 0.6;       // sizes to the side, in a time
+constexpr double kSwingTime = 0.12;  // of the film's: what hangs follows late and swings
 constexpr double kHeldFraction = 0.08;
 constexpr double kStretch = 0.6;      // heights
 constexpr double kPlate = 0.08;       // sizes, thick
@@ -50,6 +52,14 @@ std::vector<Keyframe> there_and_back(double duration, Keyframe there) {
   Keyframe still = there;
   still.time = 0.6 * duration;
   return {Keyframe{}, there, still, Keyframe{.time = duration}};
+}
+
+/// By its top, which moves to the side and stops there.
+void stage_hang(SceneBody& body, double size, double duration) {
+  Pin top = top_pin();
+  top.keyframes = {Keyframe{}, {.time = kSwingTime * duration, .translate = Vec3(kSwing * size, 0, 0)}};
+  body.position = Vec3(-kSwing / 2 * size, kHangHeight * size, 0);
+  body.pins = {top};
 }
 
 void stage_stretch(SceneBody& body, double height, double duration) {
@@ -92,8 +102,8 @@ void stage_wobble(SceneBody& body, double height, double duration) {
 /// A bow of the same shape whatever the size.
 void stage_throw(SceneBody& body, double size, double gravity) {
   const double speed = std::sqrt(gravity * size);
-  body.position = Vec3(-size, kThrowHeight * size, 0);
-  body.velocity = speed * Vec3(0.8, 1.4, 0);
+  body.position = Vec3(-0.7 * size, kThrowHeight * size, 0);
+  body.velocity = speed * Vec3(0.55, 1.1, 0);
   body.spin = Vec3(0, 0, -kTumble * std::sqrt(gravity / size) * 180 / std::numbers::pi);
 }
 
@@ -123,8 +133,7 @@ void stage_scenario(Scene& scene, Scenario scenario, double height) {
         body.rotation = Vec3(12, 0, 9);
         break;
       case Scenario::kHang:
-        body.position.y() = kHangHeight * size;
-        body.pins = {top_pin()};
+        stage_hang(body, size, scene.duration);
         break;
       case Scenario::kSquash:
         stage_squash(scene, body, size, height);

@@ -73,7 +73,8 @@ void parse_value(std::string_view text, const KeyInfo& key, std::array<int, 2>& 
   const std::string_view pair = has_brackets ? text.substr(1, text.size() - 2) : text;
   const auto border = pair.find_first_of("xX,");
   if (border == std::string_view::npos) {
-    throw Error(ErrorKind::kBadInput, fmt::format("'{}' is no pair of whole numbers; write two, as in 1280x720 or [1280, 720]", text));
+    throw Error(ErrorKind::kBadInput,
+                fmt::format("'{}' is no pair of whole numbers; write two, as in 1280x720 or [1280, 720]", text));
   }
   parse_value(pair.substr(0, border), key, value[0]);
   parse_value(pair.substr(border + 1), key, value[1]);

@@ -16,22 +16,23 @@ struct BuiltInCase {
   ReportPicture (*draw)();                  // null: there is nothing to see
 };
 
-/// Uniform strains of several bricks and of a sheet, the sheet's cantilever, the table of equations, large strain.
+/// Uniform strains of several bricks and of a membrane, the membrane's cantilever, the table of equations, large
+/// strain.
 [[nodiscard]] std::span<const BuiltInCase> built_in_cases();
 
 /// The runs of those cases.
 [[nodiscard]] CaseResult run_patch(const Choice& choice);
-[[nodiscard]] CaseResult run_sheet_patch(const Choice& choice);
-[[nodiscard]] CaseResult run_sheet_stretch(const Choice& choice);
-[[nodiscard]] CaseResult run_sheet_shear(const Choice& choice);
-[[nodiscard]] CaseResult run_sheet_cantilever(const Choice& choice);
+[[nodiscard]] CaseResult run_membrane_patch(const Choice& choice);
+[[nodiscard]] CaseResult run_membrane_stretch(const Choice& choice);
+[[nodiscard]] CaseResult run_membrane_shear(const Choice& choice);
+[[nodiscard]] CaseResult run_membrane_cantilever(const Choice& choice);
 [[nodiscard]] CaseResult run_equations(const Choice& choice);
 [[nodiscard]] CaseResult run_uniaxial(const Choice& choice);
 
 /// Their pictures.
 [[nodiscard]] ReportPicture draw_patch();
-[[nodiscard]] ReportPicture draw_sheet_stretch();
-[[nodiscard]] ReportPicture draw_sheet_shear();
-[[nodiscard]] ReportPicture draw_sheet_cantilever();
+[[nodiscard]] ReportPicture draw_membrane_stretch();
+[[nodiscard]] ReportPicture draw_membrane_shear();
+[[nodiscard]] ReportPicture draw_membrane_cantilever();
 
 }  // namespace sprung

@@ -46,14 +46,14 @@ TEST(Patch, AnswersToAChoice) {
   EXPECT_EQ(result.checks[0].grid, "4x2x2");
 }
 
-TEST(Sheets, HoldTheirGates) {
-  for (const auto run : {run_sheet_patch, run_sheet_stretch, run_sheet_shear, run_sheet_cantilever}) {
+TEST(Membranes, HoldTheirGates) {
+  for (const auto run : {run_membrane_patch, run_membrane_stretch, run_membrane_shear, run_membrane_cantilever}) {
     EXPECT_GE(held_gates(run({})).size(), 4U);
   }
 }
 
-TEST(Sheets, AnswerToAChoice) {
-  for (const auto run : {run_sheet_stretch, run_sheet_shear, run_sheet_cantilever}) {
+TEST(Membranes, AnswerToAChoice) {
+  for (const auto run : {run_membrane_stretch, run_membrane_shear, run_membrane_cantilever}) {
     const CaseResult result = run({.model = Model::kTensile, .poisson = 0.17, .bricks = 12});
     ASSERT_EQ(result.checks.size(), 1U);
     EXPECT_EQ(result.checks[0].model, "2d-corrected");
@@ -63,8 +63,8 @@ TEST(Sheets, AnswerToAChoice) {
   }
 }
 
-TEST(Sheets, SayWhereThereAreNoSprings) {
-  const CaseResult result = run_sheet_stretch({.model = Model::kM1Plain, .poisson = -0.9, .bricks = 5});
+TEST(Membranes, SayWhereThereAreNoSprings) {
+  const CaseResult result = run_membrane_stretch({.model = Model::kM1Plain, .poisson = -0.9, .bricks = 5});
   ASSERT_EQ(result.checks.size(), 1U);
   EXPECT_NE(result.checks[0].trouble, "");
   EXPECT_FALSE(result.checks[0].is_gate());

@@ -24,10 +24,10 @@ TEST(ExperimentPicture, ShowsTheBodyOnWhite) {
   EXPECT_NEAR(strain.colors.high, 100 * 0.5 * (1.1 * 1.1 - 1), 1e-9);
 }
 
-TEST(ExperimentPicture, ShowsASheetFromTheFront) {
-  Sheet sheet = make_sheet(4, 2, {0.4, 0.2}, RectangleModel::kCalibrated, test::test_material(0.3));
-  sheet.positions.col(0) *= 1.1;
-  const ExperimentPicture picture = draw_experiment(sheet, {.width = 160, .height = 100});
+TEST(ExperimentPicture, ShowsAMembraneFromTheFront) {
+  Membrane membrane = make_membrane(4, 2, {0.4, 0.2}, RectangleModel::kCalibrated, test::test_material(0.3));
+  membrane.positions.col(0) *= 1.1;
+  const ExperimentPicture picture = draw_experiment(membrane, {.width = 160, .height = 100});
   EXPECT_NEAR(picture.colors.high, 40, 1e-9);
   const auto brightness = [&](std::size_t x, std::size_t y) { return picture.image.pixels[3 * (y * 160 + x)]; };
   EXPECT_GT(brightness(2, 2), 250);

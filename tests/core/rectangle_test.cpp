@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 #include "core/law/rectangle_law.h"
-#include "core/motion/sheet_statics.h"
+#include "core/motion/membrane_statics.h"
 #include "tests/support/bodies.h"
 
 namespace sprung {

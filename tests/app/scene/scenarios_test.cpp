@@ -75,9 +75,9 @@ TEST(Scenarios, WobbleSwingsThroughTheMiddleAndDiesDown) {
 TEST(Scenarios, ThrowFliesInABowAndLands) {
   const Recording recording = record(Scenario::kThrow);
   const double speed = std::sqrt(9.81 * 0.2);
-  const double top = 1.4 * speed / 9.81;
-  EXPECT_NEAR(at(recording, 1, std::floor(top * 24) / 24).y(), 0.7 * top * speed, 0.01);
-  EXPECT_NEAR(at(recording, 1, 0.25).x(), 0.25 * 0.8 * speed, 0.005);
+  const double top = 1.1 * speed / 9.81;
+  EXPECT_NEAR(at(recording, 1, std::floor(top * 24) / 24).y(), 0.55 * top * speed, 0.01);
+  EXPECT_NEAR(at(recording, 1, 0.25).x(), 0.25 * 0.55 * speed, 0.005);
   EXPECT_LT(at(recording, 1, 1.999).y(), 0.02);
 }
 

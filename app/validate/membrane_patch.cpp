@@ -3,7 +3,7 @@
 #include <random>
 
 #include "app/validate/built_in_cases.h"
-#include "app/validate/sheet_run.h"
+#include "app/validate/membrane_run.h"
 #include "core/error.h"
 
 namespace sprung {
@@ -37,8 +37,8 @@ double energy_density(const Material& material, const Mat2& strain) {
 }
 
 /// Displacements where the sides are held in that strain; the inner nodes are pushed by what the sides do to them.
-Points2 answer(SheetRun& run, const Points2& uniform) {
-  Sheet& sheet = run.sheet();
+Points2 answer(MembraneRun& run, const Points2& uniform) {
+  Membrane& membrane = run.membrane();
   Points2 held = uniform;
   for (int row = 0; row <= run.rows(); ++row) {
     for (int column = 0; column <= run.columns(); ++column) {
@@ -47,36 +47,36 @@ Points2 answer(SheetRun& run, const Points2& uniform) {
       if (is_inner) {
         held.row(node).setZero();
       } else {
-        sheet.fix(node, 0);
-        sheet.fix(node, 1);
+        membrane.fix(node, 0);
+        membrane.fix(node, 1);
       }
     }
   }
-  const Eigen::SparseMatrix<double> stiffness = stiffness_matrix(sheet, false);
+  const Eigen::SparseMatrix<double> stiffness = stiffness_matrix(membrane, false);
   const Eigen::Map<const Eigen::VectorXd> pushed(held.data(), held.size());
   const Eigen::VectorXd push = -(stiffness.selfadjointView<Eigen::Lower>() * pushed);
-  run.loads() = Eigen::Map<const Points2>(push.data(), sheet.node_count(), 2);
+  run.loads() = Eigen::Map<const Points2>(push.data(), membrane.node_count(), 2);
   return held + run.displacements();
 }
 
-double energy_of(const Sheet& sheet, const Points2& moved) {
-  const Eigen::SparseMatrix<double> stiffness = stiffness_matrix(sheet, false);
+double energy_of(const Membrane& membrane, const Points2& moved) {
+  const Eigen::SparseMatrix<double> stiffness = stiffness_matrix(membrane, false);
   const Eigen::Map<const Eigen::VectorXd> u(moved.data(), moved.size());
   return 0.5 * u.dot(stiffness.selfadjointView<Eigen::Lower>() * u);
 }
 
 /// Measures the worst of the three strains: how far inner nodes are off, and the energy.
-void measure(const SheetCounts& counts, RectangleModel model, double poisson, Check& inner, Check& energy) {
+void measure(const MembraneCounts& counts, RectangleModel model, double poisson, Check& inner, Check& energy) {
   const Vec2 size(kSide * counts[0], kFlatness * kSide * counts[1]);
   inner.measured = 0;
   for (int which = 0; which < 3; ++which) {
-    SheetRun run(counts, size, model, poisson);
+    MembraneRun run(counts, size, model, poisson);
     const Mat2 strain = strain_of(which);
-    const Points2 uniform = run.sheet().rest_positions * strain;
+    const Points2 uniform = run.membrane().rest_positions * strain;
     const Points2 moved = answer(run, uniform);
     inner.measured = std::max(inner.measured, (moved - uniform).cwiseAbs().maxCoeff() / uniform.cwiseAbs().maxCoeff());
-    const double stored = energy_of(run.sheet(), moved);
-    const double expected = size.prod() * energy_density(sheet_material(poisson), strain);
+    const double stored = energy_of(run.membrane(), moved);
+    const double expected = size.prod() * energy_density(membrane_material(poisson), strain);
     if (which > 0 && std::abs(stored / expected - 1) < std::abs(energy.error())) continue;
     energy.measured = stored;
     energy.expected = expected;
@@ -85,18 +85,18 @@ void measure(const SheetCounts& counts, RectangleModel model, double poisson, Ch
 
 }  // namespace
 
-CaseResult run_sheet_patch(const Choice& choice) {
+CaseResult run_membrane_patch(const Choice& choice) {
   std::mt19937 random(kSeed);
   CaseResult result;
   for (const double poisson :
        choice.poisson ? std::vector<double>{*choice.poisson} : std::vector<double>(kRatios.begin(), kRatios.end())) {
-    const SheetCounts drawn{2 + static_cast<int>(random() % 4), 2 + static_cast<int>(random() % 4)};
-    const SheetCounts counts = sheet_counts(choice, {drawn}).front();
-    for (const SheetModel& model : sheet_models(choice)) {
-      Check inner = sheet_check("sheet_patch", model, poisson, counts);
+    const MembraneCounts drawn{2 + static_cast<int>(random() % 4), 2 + static_cast<int>(random() % 4)};
+    const MembraneCounts counts = membrane_counts(choice, {drawn}).front();
+    for (const MembraneModel& model : membrane_models(choice)) {
+      Check inner = membrane_check("membrane_patch", model, poisson, counts);
       inner.quantity = "inner.displacement";
       inner.source = "a uniform strain, error over the largest displacement";
-      Check energy = sheet_check("sheet_patch", model, poisson, counts);
+      Check energy = membrane_check("membrane_patch", model, poisson, counts);
       energy.quantity = "energy";
       energy.unit = 'J';
       energy.source = "plane stress, energy = stress : strain / 2 x area x 1 m";

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "app/validate/built_in_cases.h"
-#include "app/validate/sheet_run.h"
+#include "app/validate/membrane_run.h"
 #include "core/error.h"
 
 namespace sprung {
@@ -11,13 +11,13 @@ namespace {
 
 constexpr double kLength = 0.4;  // m
 constexpr double kHeight = 0.1;  // m
-constexpr double kYoung = 1000;  // Pa, of sheet_material()
+constexpr double kYoung = 1000;  // Pa, of membrane_material()
 constexpr double kStress = 10;   // Pa, of stretch and shear
 constexpr double kExact = 1e-9;
 constexpr double kBeamTolerance = 0.01;
 constexpr double kThird = 1.0 / 3;
 
-SheetRun make_run(const SheetCounts& counts, RectangleModel model, double poisson) {
+MembraneRun make_run(const MembraneCounts& counts, RectangleModel model, double poisson) {
   return {counts, {kLength, kHeight}, model, poisson};
 }
 
@@ -28,15 +28,15 @@ std::vector<double> ratios(const Choice& choice, std::vector<double> varied) {
 /// A check for each model, ratio and grid; `measure` fills in what it measures and expects.
 template <class Measure>
 CaseResult run_all(std::string_view experiment, const Choice& choice, const std::vector<double>& varied_ratios,
-                   const std::vector<SheetCounts>& varied_counts, const Measure& measure) {
+                   const std::vector<MembraneCounts>& varied_counts, const Measure& measure) {
   CaseResult result;
   for (const double poisson : ratios(choice, varied_ratios)) {
-    for (const SheetModel& model : sheet_models(choice)) {
-      for (const SheetCounts& counts : sheet_counts(choice, varied_counts)) {
-        Check check = sheet_check(experiment, model, poisson, counts);
+    for (const MembraneModel& model : membrane_models(choice)) {
+      for (const MembraneCounts& counts : membrane_counts(choice, varied_counts)) {
+        Check check = membrane_check(experiment, model, poisson, counts);
         check.unit = 'm';
         try {
-          SheetRun run = make_run(counts, model.model, poisson);
+          MembraneRun run = make_run(counts, model.model, poisson);
           measure(run, model.model, poisson, check);
         } catch (const Error& error) {
           check.trouble = error.what();
@@ -49,21 +49,21 @@ CaseResult run_all(std::string_view experiment, const Choice& choice, const std:
 }
 
 /// The second and third grid have rectangles that are not square.
-const std::vector<SheetCounts> kPatchCounts{{4, 1}, {5, 1}, {10, 2}};
+const std::vector<MembraneCounts> kPatchCounts{{4, 1}, {5, 1}, {10, 2}};
 const std::vector<double> kPatchRatios{0, 0.1, kThird, 0.45};
 
 /// Two sides roll on axes of symmetry, the far end is pulled.
-void stretch(SheetRun& run) {
-  for (int row = 0; row <= run.rows(); ++row) run.sheet().fix(run.node(0, row), 0);
-  for (int column = 0; column <= run.columns(); ++column) run.sheet().fix(run.node(column, 0), 1);
+void stretch(MembraneRun& run) {
+  for (int row = 0; row <= run.rows(); ++row) run.membrane().fix(run.node(0, row), 0);
+  for (int column = 0; column <= run.columns(); ++column) run.membrane().fix(run.node(column, 0), 1);
   run.pull_column(run.columns(), {kStress, 0});
 }
 
 /// Tractions along all four sides; the bottom neither rises nor turns.
-void shear(SheetRun& run) {
-  run.sheet().fix(run.node(0, 0), 0);
-  run.sheet().fix(run.node(0, 0), 1);
-  run.sheet().fix(run.node(run.columns(), 0), 1);
+void shear(MembraneRun& run) {
+  run.membrane().fix(run.node(0, 0), 0);
+  run.membrane().fix(run.node(0, 0), 1);
+  run.membrane().fix(run.node(run.columns(), 0), 1);
   run.pull_column(run.columns(), {0, kStress});
   run.pull_column(0, {0, -kStress});
   run.pull_row(run.rows(), {kStress, 0});
@@ -71,12 +71,12 @@ void shear(SheetRun& run) {
 }
 
 /// One end held, the weight pulls.
-void hang(SheetRun& run) {
+void hang(MembraneRun& run) {
   for (int row = 0; row <= run.rows(); ++row) {
-    run.sheet().fix(run.node(0, row), 0);
-    run.sheet().fix(run.node(0, row), 1);
+    run.membrane().fix(run.node(0, row), 0);
+    run.membrane().fix(run.node(0, row), 1);
   }
-  run.loads().col(1) = -run.sheet().masses;
+  run.loads().col(1) = -run.membrane().masses;
 }
 
 /// Deflection (m) of a beam 1 m wide under 1 N/m3, by Timoshenko: w L^4 / (8 E I) + 6/5 w L^2 / (2 G A).
@@ -85,12 +85,12 @@ double timoshenko(double poisson) {
   return -(12 * std::pow(kLength, 4) / (8 * kYoung * kHeight * kHeight) + 1.2 * kLength * kLength / (2 * shear));
 }
 
-/// A sheet after its load, drawn larger than life.
-ReportPicture draw(void (*load)(SheetRun&), double magnification) {
-  SheetRun run = make_run({16, 4}, RectangleModel::kCalibrated, 0.3);
+/// A membrane after its load, drawn larger than life.
+ReportPicture draw(void (*load)(MembraneRun&), double magnification) {
+  MembraneRun run = make_run({16, 4}, RectangleModel::kCalibrated, 0.3);
   load(run);
-  run.sheet().positions += run.displacements();
-  ExperimentPicture drawn = draw_experiment(run.sheet(), {.magnification = magnification});
+  run.membrane().positions += run.displacements();
+  ExperimentPicture drawn = draw_experiment(run.membrane(), {.magnification = magnification});
   return {.experiment = "",
           .caption = fmt::format("16×4 rectangles, ν = 0.3, displacements drawn {:g} times as large", magnification),
           .image = std::move(drawn.image),
@@ -99,8 +99,8 @@ ReportPicture draw(void (*load)(SheetRun&), double magnification) {
 
 }  // namespace
 
-CaseResult run_sheet_stretch(const Choice& choice) {
-  const auto measure = [](SheetRun& run, RectangleModel model, double poisson, Check& check) {
+CaseResult run_membrane_stretch(const Choice& choice) {
+  const auto measure = [](MembraneRun& run, RectangleModel model, double poisson, Check& check) {
     stretch(run);
     check.quantity = "end.displacement.x";
     check.measured = run.displacements()(run.node(run.columns(), run.rows()), 0);
@@ -108,11 +108,11 @@ CaseResult run_sheet_stretch(const Choice& choice) {
     check.source = "stress / E, plane stress";
     if (is_exact(model, poisson)) check.tolerance = kExact;
   };
-  return run_all("sheet_stretch", choice, kPatchRatios, kPatchCounts, measure);
+  return run_all("membrane_stretch", choice, kPatchRatios, kPatchCounts, measure);
 }
 
-CaseResult run_sheet_shear(const Choice& choice) {
-  const auto measure = [](SheetRun& run, RectangleModel model, double poisson, Check& check) {
+CaseResult run_membrane_shear(const Choice& choice) {
+  const auto measure = [](MembraneRun& run, RectangleModel model, double poisson, Check& check) {
     shear(run);
     check.quantity = "top.displacement.x";
     check.measured = run.displacements()(run.node(0, run.rows()), 0);
@@ -120,11 +120,11 @@ CaseResult run_sheet_shear(const Choice& choice) {
     check.source = "stress / G";
     if (is_exact(model, poisson)) check.tolerance = kExact;
   };
-  return run_all("sheet_shear", choice, kPatchRatios, kPatchCounts, measure);
+  return run_all("membrane_shear", choice, kPatchRatios, kPatchCounts, measure);
 }
 
-CaseResult run_sheet_cantilever(const Choice& choice) {
-  const auto measure = [](SheetRun& run, RectangleModel model, double poisson, Check& check) {
+CaseResult run_membrane_cantilever(const Choice& choice) {
+  const auto measure = [](MembraneRun& run, RectangleModel model, double poisson, Check& check) {
     hang(run);
     const Points2 moved = run.displacements();
     check.quantity = "tip.displacement.y";
@@ -133,11 +133,11 @@ CaseResult run_sheet_cantilever(const Choice& choice) {
     check.source = "Timoshenko beam, without the clamp's hold on the section";
     if (model == RectangleModel::kCalibrated && poisson == 0) check.tolerance = kBeamTolerance;
   };
-  return run_all("sheet_cantilever", choice, {0, 0.3}, {{4, 1}, {8, 2}, {16, 4}, {32, 8}}, measure);
+  return run_all("membrane_cantilever", choice, {0, 0.3}, {{4, 1}, {8, 2}, {16, 4}, {32, 8}}, measure);
 }
 
-ReportPicture draw_sheet_stretch() { return draw(stretch, 10); }
-ReportPicture draw_sheet_shear() { return draw(shear, 5); }
-ReportPicture draw_sheet_cantilever() { return draw(hang, 20); }
+ReportPicture draw_membrane_stretch() { return draw(stretch, 10); }
+ReportPicture draw_membrane_shear() { return draw(shear, 5); }
+ReportPicture draw_membrane_cantilever() { return draw(hang, 20); }
 
 }  // namespace sprung

@@ -1,4 +1,4 @@
-#include "app/validate/sheet_run.h"
+#include "app/validate/membrane_run.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/motion/sheet_statics.h"
+#include "core/motion/membrane_statics.h"
 
 namespace sprung {
 namespace {
@@ -14,13 +14,13 @@ namespace {
 constexpr double kYoung = 1000;     // Pa
 constexpr double kSlenderness = 4;  // length over height of a chosen grid
 
-constexpr SheetModel kCalibrated{.model = RectangleModel::kCalibrated, .name = "2d-calibrated"};
-constexpr SheetModel kCorrected{.model = RectangleModel::kCorrected, .name = "2d-corrected"};
-constexpr SheetModel kPlain{.model = RectangleModel::kPlain, .name = "2d-plain"};
+constexpr MembraneModel kCalibrated{.model = RectangleModel::kCalibrated, .name = "2d-calibrated"};
+constexpr MembraneModel kCorrected{.model = RectangleModel::kCorrected, .name = "2d-corrected"};
+constexpr MembraneModel kPlain{.model = RectangleModel::kPlain, .name = "2d-plain"};
 
 }  // namespace
 
-std::vector<SheetModel> sheet_models(const Choice& choice) {
+std::vector<MembraneModel> membrane_models(const Choice& choice) {
   if (!choice.model) return {kCalibrated, kCorrected, kPlain};
   switch (*choice.model) {
     case Model::kCalibrated:
@@ -37,20 +37,21 @@ std::vector<SheetModel> sheet_models(const Choice& choice) {
   return {};
 }
 
-std::vector<SheetCounts> sheet_counts(const Choice& choice, std::vector<SheetCounts> varied) {
+std::vector<MembraneCounts> membrane_counts(const Choice& choice, std::vector<MembraneCounts> varied) {
   if (!choice.bricks) return varied;
   return {{*choice.bricks, std::max(1, static_cast<int>(std::lround(*choice.bricks / kSlenderness)))}};
 }
 
-Material sheet_material(double poisson) {
-  return {.name = "sheet", .young = kYoung, .poisson = poisson, .density = 1, .damping = 0, .source = ""};
+Material membrane_material(double poisson) {
+  return {.name = "membrane", .young = kYoung, .poisson = poisson, .density = 1, .damping = 0, .source = ""};
 }
 
 bool is_exact(RectangleModel model, double poisson) {
   return model != RectangleModel::kPlain || std::abs(poisson - 1.0 / 3) < 1e-12;
 }
 
-Check sheet_check(std::string_view experiment, const SheetModel& model, double poisson, const SheetCounts& counts) {
+Check membrane_check(std::string_view experiment, const MembraneModel& model, double poisson,
+                     const MembraneCounts& counts) {
   Check check;
   check.experiment = experiment;
   check.model = model.name;
@@ -62,26 +63,26 @@ Check sheet_check(std::string_view experiment, const SheetModel& model, double p
   return check;
 }
 
-SheetRun::SheetRun(const SheetCounts& counts, const Vec2& size, RectangleModel model, double poisson)
+MembraneRun::MembraneRun(const MembraneCounts& counts, const Vec2& size, RectangleModel model, double poisson)
     : counts_(counts),
       size_(size),
-      sheet_(make_sheet(counts[0], counts[1], size, model, sheet_material(poisson))),
-      loads_(Points2::Zero(sheet_.node_count(), 2)) {}
+      membrane_(make_membrane(counts[0], counts[1], size, model, membrane_material(poisson))),
+      loads_(Points2::Zero(membrane_.node_count(), 2)) {}
 
-void SheetRun::pull_column(int column, const Vec2& traction) {
+void MembraneRun::pull_column(int column, const Vec2& traction) {
   for (int row = 0; row <= rows(); ++row) {
     const double share = row == 0 || row == rows() ? 0.5 : 1;
     loads_.row(node(column, row)) += share * size_.y() / rows() * traction.transpose();
   }
 }
 
-void SheetRun::pull_row(int row, const Vec2& traction) {
+void MembraneRun::pull_row(int row, const Vec2& traction) {
   for (int column = 0; column <= columns(); ++column) {
     const double share = column == 0 || column == columns() ? 0.5 : 1;
     loads_.row(node(column, row)) += share * size_.x() / columns() * traction.transpose();
   }
 }
 
-Points2 SheetRun::displacements() const { return solve_linear(sheet_, loads_); }
+Points2 MembraneRun::displacements() const { return solve_linear(membrane_, loads_); }
 
 }  // namespace sprung

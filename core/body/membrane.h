@@ -14,7 +14,7 @@ using Vec2 = Eigen::Vector2d;
 using Points2 = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
 
 /// A flat body of equal rectangles in the plane, 1 m thick: the 2D body of the experiments.
-struct Sheet {
+struct Membrane {
   Material material;
   RectangleLaw law;
   std::vector<std::array<int, 4>> rectangles;  // nodes, corner by corner (see RectangleVector)
@@ -27,26 +27,28 @@ struct Sheet {
   void fix(int node, int axis) { fixed[2 * static_cast<std::size_t>(node) + static_cast<std::size_t>(axis)] = true; }
 };
 
-/// A free sheet at rest of the given size (m), low corner at the origin, cut in columns x rows rectangles. Node column
+/// A free membrane at rest of the given size (m), low corner at the origin, cut in columns x rows rectangles. Node
+/// column
 /// + row (columns + 1) is the one of that column and row. Throws Error(kBadInput) as rectangle_law does.
-[[nodiscard]] Sheet make_sheet(int columns, int rows, const Vec2& size, RectangleModel model, const Material& material);
+[[nodiscard]] Membrane make_membrane(int columns, int rows, const Vec2& size, RectangleModel model,
+                                     const Material& material);
 
 /// Forces of all springs on the nodes, m x 2, N.
-[[nodiscard]] Points2 spring_forces(const Sheet& sheet);
+[[nodiscard]] Points2 spring_forces(const Membrane& membrane);
 
 /// Elastic energy, J.
-[[nodiscard]] double elastic_energy(const Sheet& sheet);
+[[nodiscard]] double elastic_energy(const Membrane& membrane);
 
-/// Lower triangle of the second derivative of the elastic energy at sheet.positions, 2 m x 2 m, N/m, supports ignored;
-/// with `definite`, each rectangle's without its negative curvature.
-[[nodiscard]] Eigen::SparseMatrix<double> stiffness_matrix(const Sheet& sheet, bool definite);
+/// Lower triangle of the second derivative of the elastic energy at membrane.positions, 2 m x 2 m, N/m, supports
+/// ignored; with `definite`, each rectangle's without its negative curvature.
+[[nodiscard]] Eigen::SparseMatrix<double> stiffness_matrix(const Membrane& membrane, bool definite);
 
-/// A sheet as it is drawn: its nodes in the plane z = 0 and two triangles a rectangle, facing +z.
-struct SheetSurface {
+/// A membrane as it is drawn: its nodes in the plane z = 0 and two triangles a rectangle, facing +z.
+struct MembraneSurface {
   Points positions;  // m x 3, m
   Triangles triangles;
 };
 
-[[nodiscard]] SheetSurface sheet_surface(const Sheet& sheet);
+[[nodiscard]] MembraneSurface membrane_surface(const Membrane& membrane);
 
 }  // namespace sprung

@@ -5,45 +5,45 @@
 #include <vector>
 
 #include "app/validate/case_result.h"
-#include "core/body/sheet.h"
+#include "core/body/membrane.h"
 
 namespace sprung {
 
-/// Columns and rows of a sheet.
-using SheetCounts = std::array<int, 2>;
+/// Columns and rows of a membrane.
+using MembraneCounts = std::array<int, 2>;
 
-struct SheetModel {
+struct MembraneModel {
   RectangleModel model;
   std::string_view name;
 };
 
 /// The rectangles that answer to a choice of bricks: all three without one, none for a model that has no 2D
 /// counterpart. M1 and M2 are the same in 2D, where edges and diagonals are all there is.
-[[nodiscard]] std::vector<SheetModel> sheet_models(const Choice& choice);
+[[nodiscard]] std::vector<MembraneModel> membrane_models(const Choice& choice);
 
-/// The grids of a sheet four times as long as high that answer to a choice, else the given ones.
-[[nodiscard]] std::vector<SheetCounts> sheet_counts(const Choice& choice, std::vector<SheetCounts> varied);
+/// The grids of a membrane four times as long as high that answer to a choice, else the given ones.
+[[nodiscard]] std::vector<MembraneCounts> membrane_counts(const Choice& choice, std::vector<MembraneCounts> varied);
 
-/// Of a sheet of E = 1 kPa and 1 kg/m2.
-[[nodiscard]] Material sheet_material(double poisson);
+/// Of a membrane of E = 1 kPa and 1 kg/m2.
+[[nodiscard]] Material membrane_material(double poisson);
 
 /// Whether the model's springs represent the ratio: plain ones only 1/3.
 [[nodiscard]] bool is_exact(RectangleModel model, double poisson);
 
-/// A check of a sheet, without its numbers.
-[[nodiscard]] Check sheet_check(std::string_view experiment, const SheetModel& model, double poisson,
-                                const SheetCounts& counts);
+/// A check of a membrane, without its numbers.
+[[nodiscard]] Check membrane_check(std::string_view experiment, const MembraneModel& model, double poisson,
+                                   const MembraneCounts& counts);
 
-/// One sheet and what becomes of it under its loads.
-class SheetRun {
+/// One membrane and what becomes of it under its loads.
+class MembraneRun {
  public:
   /// `size` in m. Throws Error(kBadInput) where the model's springs cannot take the shape of the rectangles.
-  SheetRun(const SheetCounts& counts, const Vec2& size, RectangleModel model, double poisson);
+  MembraneRun(const MembraneCounts& counts, const Vec2& size, RectangleModel model, double poisson);
 
   [[nodiscard]] int node(int column, int row) const { return column + row * (counts_[0] + 1); }
   [[nodiscard]] int columns() const { return counts_[0]; }
   [[nodiscard]] int rows() const { return counts_[1]; }
-  Sheet& sheet() { return sheet_; }
+  Membrane& membrane() { return membrane_; }
   Points2& loads() { return loads_; }
 
   /// A traction (Pa) on the side at that column, and at that row.
@@ -54,9 +54,9 @@ class SheetRun {
   [[nodiscard]] Points2 displacements() const;
 
  private:
-  SheetCounts counts_;
+  MembraneCounts counts_;
   Vec2 size_;
-  Sheet sheet_;
+  Membrane membrane_;
   Points2 loads_;
 };
 

@@ -1,4 +1,4 @@
-#include "core/body/sheet.h"
+#include "core/body/membrane.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "core/error.h"
-#include "core/motion/sheet_statics.h"
+#include "core/motion/membrane_statics.h"
 #include "tests/support/bodies.h"
 
 namespace sprung {
@@ -21,11 +21,11 @@ constexpr double kForce = 1;
 /// Adds the nodal forces of a traction (N/m^2 at height y from the axis) on the column of nodes at one end; at most
 /// quadratic tractions are taken exactly (Simpson's rule on traction times shape function).
 template <class Traction>
-void load_end(const Sheet& sheet, int columns, int column, const Traction& traction, Points2& loads) {
+void load_end(const Membrane& membrane, int columns, int column, const Traction& traction, Points2& loads) {
   const int stride = columns + 1;
-  for (int low = column; low + stride < sheet.node_count(); low += stride) {
-    const double y = sheet.rest_positions(low, 1) - kHeight / 2;
-    const double side = sheet.law.sides[1];
+  for (int low = column; low + stride < membrane.node_count(); low += stride) {
+    const double y = membrane.rest_positions(low, 1) - kHeight / 2;
+    const double side = membrane.law.sides[1];
     const Vec2 middle = 2 * traction(y + side / 2);
     loads.row(low) += side / 6 * (traction(y) + middle).transpose();
     loads.row(low + stride) += side / 6 * (traction(y + side) + middle).transpose();
@@ -37,19 +37,19 @@ void load_end(const Sheet& sheet, int columns, int column, const Traction& tract
 /// 0 at the root's corners v(L, any y) - v(0, +-H/2) = -P ((4+2nu) H^2 L/4 + 2 L^3) / (6 E I).
 double cantilever_ratio(RectangleModel model, double poisson, int columns, int rows) {
   const Material material = test_material(poisson);
-  Sheet sheet = make_sheet(columns, rows, {kLength, kHeight}, model, material);
+  Membrane membrane = make_membrane(columns, rows, {kLength, kHeight}, model, material);
   const double inertia = std::pow(kHeight, 3) / 12;
   const auto shear = [&](double y) { return kForce * (kHeight * kHeight / 4 - y * y) / (2 * inertia); };
-  Points2 loads = Points2::Zero(sheet.node_count(), 2);
+  Points2 loads = Points2::Zero(membrane.node_count(), 2);
   load_end(
-      sheet, columns, columns, [&](double y) { return Vec2(0, -shear(y)); }, loads);
+      membrane, columns, columns, [&](double y) { return Vec2(0, -shear(y)); }, loads);
   load_end(
-      sheet, columns, 0, [&](double y) { return Vec2(-kForce * kLength * y / inertia, shear(y)); }, loads);
+      membrane, columns, 0, [&](double y) { return Vec2(-kForce * kLength * y / inertia, shear(y)); }, loads);
   const int top = rows * (columns + 1);
-  sheet.fix(0, 0);
-  sheet.fix(0, 1);
-  sheet.fix(top, 0);
-  const Points2 moved = solve_linear(sheet, loads);
+  membrane.fix(0, 0);
+  membrane.fix(0, 1);
+  membrane.fix(top, 0);
+  const Points2 moved = solve_linear(membrane, loads);
   double tip = 0;
   for (int row = 0; row <= rows; ++row) tip += moved(row * (columns + 1) + columns, 1) / (rows + 1);
   const double exact = -kForce * ((4 + 2 * poisson) * kHeight * kHeight * kLength / 4 + 2 * std::pow(kLength, 3)) /
@@ -76,7 +76,7 @@ double plain_limit(double poisson) {
 ///            plain .4727 .7845 .9387 .9932 1.0096 1.0143, towards 1.0162
 ///   nu 0.49  calibrated .9923 .9985 .9998 1 1 1        corrected .4259 .7399 .9101 .9730 .9922 .9978
 ///            plain .4259 .7167 .8654 .9192 .9357 .9404, towards 0.9423
-TEST(Sheet, CalibratedCantileverIsRightOnCoarseGrids) {
+TEST(Membrane, CalibratedCantileverIsRightOnCoarseGrids) {
   for (const double poisson : {-0.3, 0.0, 0.3, 0.49}) {
     EXPECT_NEAR(cantilever_ratio(RectangleModel::kCalibrated, poisson, 4, 1), 1, 0.025) << poisson;
     EXPECT_NEAR(cantilever_ratio(RectangleModel::kCalibrated, poisson, 8, 2), 1, 0.007) << poisson;
@@ -87,7 +87,7 @@ TEST(Sheet, CalibratedCantileverIsRightOnCoarseGrids) {
   }
 }
 
-TEST(Sheet, CorrectedCantileverConverges) {
+TEST(Membrane, CorrectedCantileverConverges) {
   for (const double poisson : {0.0, 0.3, 1.0 / 3, 0.49}) {
     double error = 1 - cantilever_ratio(RectangleModel::kCorrected, poisson, 8, 2);
     EXPECT_GT(error, 0.1) << poisson;
@@ -100,7 +100,7 @@ TEST(Sheet, CorrectedCantileverConverges) {
   }
 }
 
-TEST(Sheet, PlainCantileverConvergesToAnotherMaterial) {
+TEST(Membrane, PlainCantileverConvergesToAnotherMaterial) {
   EXPECT_NEAR(plain_limit(1.0 / 3), 1, 1e-12);
   for (const double poisson : {0.0, 0.1, 0.3, 1.0 / 3, 0.49}) {
     const double limit = plain_limit(poisson);
@@ -116,7 +116,7 @@ TEST(Sheet, PlainCantileverConvergesToAnotherMaterial) {
 /// A thin clamped strip under a tip force P with P L^2 / (E I) = 1, 2, 10, against the elastica: K. Mattiasson,
 /// "Numerical results from large deflection beam and frame problems analysed by means of elliptic integrals", IJNME
 /// 17 (1981).
-TEST(Sheet, ThinStripFollowsTheElastica) {
+TEST(Membrane, ThinStripFollowsTheElastica) {
   struct Case {
     double load;
     double drop;
@@ -128,97 +128,97 @@ TEST(Sheet, ThinStripFollowsTheElastica) {
   for (const auto& [load, drop, shortening] :
        {Case{1, 0.30172, 0.05643}, Case{2, 0.49346, 0.16064}, Case{10, 0.81061, 0.55500}}) {
     const Material material = test_material(0.3);
-    Sheet sheet = make_sheet(columns, 1, {length, height}, RectangleModel::kCalibrated, material);
+    Membrane membrane = make_membrane(columns, 1, {length, height}, RectangleModel::kCalibrated, material);
     for (const int node : {0, columns + 1}) {
-      sheet.fix(node, 0);
-      sheet.fix(node, 1);
+      membrane.fix(node, 0);
+      membrane.fix(node, 1);
     }
     const double force = load * material.young * std::pow(height, 3) / 12 / (length * length);
-    Points2 loads = Points2::Zero(sheet.node_count(), 2);
+    Points2 loads = Points2::Zero(membrane.node_count(), 2);
     loads(columns, 1) = loads(2 * columns + 1, 1) = -force / 2;
-    const StaticReport report = solve_static(sheet, loads);
+    const StaticReport report = solve_static(membrane, loads);
     EXPECT_LT(report.residual, 1e-9);
-    const Vec2 tip = (sheet.positions.row(columns) + sheet.positions.row(2 * columns + 1)).transpose() / 2;
+    const Vec2 tip = (membrane.positions.row(columns) + membrane.positions.row(2 * columns + 1)).transpose() / 2;
     EXPECT_NEAR((height / 2 - tip.y()) / length, drop, 2e-3 * drop) << load;
     EXPECT_NEAR(1 - tip.x() / length, shortening, 2e-3) << load;
 
-    const Points2 held = reactions(sheet, loads);
+    const Points2 held = reactions(membrane, loads);
     const Vec2 total = held.colwise().sum().transpose();
     EXPECT_NEAR(total.x(), 0, 1e-6 * force);
     EXPECT_NEAR(total.y(), force, 1e-6 * force);
     double moment = 0;  // about the root, it balances the force at the tip
     for (const int node : {0, columns + 1}) {
-      const Vec2 arm = sheet.positions.row(node).transpose() - Vec2(0, height / 2);
+      const Vec2 arm = membrane.positions.row(node).transpose() - Vec2(0, height / 2);
       moment += arm.x() * held(node, 1) - arm.y() * held(node, 0);
     }
     EXPECT_NEAR(moment, force * tip.x(), 1e-5 * force);
   }
 }
 
-TEST(Sheet, SmallLoadsAnswerLinearly) {
-  Sheet sheet = make_sheet(5, 3, {0.5, 0.2}, RectangleModel::kCorrected, test_material(0.4));
+TEST(Membrane, SmallLoadsAnswerLinearly) {
+  Membrane membrane = make_membrane(5, 3, {0.5, 0.2}, RectangleModel::kCorrected, test_material(0.4));
   for (int row = 0; row <= 3; ++row) {
-    sheet.fix(6 * row, 0);
-    sheet.fix(6 * row, 1);
+    membrane.fix(6 * row, 0);
+    membrane.fix(6 * row, 1);
   }
-  Points2 loads = Points2::Zero(sheet.node_count(), 2);
+  Points2 loads = Points2::Zero(membrane.node_count(), 2);
   loads.row(23) << 1e-4, -2e-4;
-  const Points2 linear = solve_linear(sheet, loads);
-  solve_static(sheet, loads);
-  EXPECT_LT((sheet.positions - sheet.rest_positions - linear).norm(), 1e-5 * linear.norm());
+  const Points2 linear = solve_linear(membrane, loads);
+  solve_static(membrane, loads);
+  EXPECT_LT((membrane.positions - membrane.rest_positions - linear).norm(), 1e-5 * linear.norm());
 }
 
-TEST(Sheet, SupportsCanBeMoved) {
+TEST(Membrane, SupportsCanBeMoved) {
   const double strain = 1e-6;
   const Material material = test_material(0.2);
-  Sheet sheet = make_sheet(4, 2, {0.4, 0.2}, RectangleModel::kCorrected, material);
-  sheet.fix(0, 1);
+  Membrane membrane = make_membrane(4, 2, {0.4, 0.2}, RectangleModel::kCorrected, material);
+  membrane.fix(0, 1);
   for (int row = 0; row <= 2; ++row) {
-    sheet.fix(5 * row, 0);
-    sheet.fix(5 * row + 4, 0);
-    sheet.positions(5 * row + 4, 0) += strain * 0.4;
+    membrane.fix(5 * row, 0);
+    membrane.fix(5 * row + 4, 0);
+    membrane.positions(5 * row + 4, 0) += strain * 0.4;
   }
-  const Points2 none = Points2::Zero(sheet.node_count(), 2);
-  solve_static(sheet, none);
-  const Points2 held = reactions(sheet, none);
+  const Points2 none = Points2::Zero(membrane.node_count(), 2);
+  solve_static(membrane, none);
+  const Points2 held = reactions(membrane, none);
   EXPECT_NEAR(held(4, 0) + held(9, 0) + held(14, 0), material.young * strain * 0.2,
               1e-4 * material.young * strain * 0.2);
-  EXPECT_NEAR((sheet.positions(12, 1) - sheet.positions(2, 1)) / 0.2 - 1, -0.2 * strain, 1e-4 * strain);
+  EXPECT_NEAR((membrane.positions(12, 1) - membrane.positions(2, 1)) / 0.2 - 1, -0.2 * strain, 1e-4 * strain);
 }
 
 /// A squeezed strip buckles: in one load step, Newton's direction must come from the positive part of the curvature.
-TEST(Sheet, FindsEquilibriumBeyondBuckling) {
+TEST(Membrane, FindsEquilibriumBeyondBuckling) {
   const Material material = test_material(0.3);
   const int columns = 40;
   const double height = 0.02;
-  Sheet sheet = make_sheet(columns, 1, {1, height}, RectangleModel::kCalibrated, material);
+  Membrane membrane = make_membrane(columns, 1, {1, height}, RectangleModel::kCalibrated, material);
   for (const int node : {0, columns + 1}) {
-    sheet.fix(node, 0);
-    sheet.fix(node, 1);
+    membrane.fix(node, 0);
+    membrane.fix(node, 1);
   }
   const double stiffness = material.young * std::pow(height, 3) / 12;
   const double critical = stiffness * std::pow(std::numbers::pi / 2, 2);
-  Points2 loads = Points2::Zero(sheet.node_count(), 2);
+  Points2 loads = Points2::Zero(membrane.node_count(), 2);
   for (const int node : {columns, 2 * columns + 1}) loads.row(node) << -1.152 * critical / 2, -1e-5 * critical;
-  const StaticReport report = solve_static(sheet, loads, {.max_load_steps = 1});
+  const StaticReport report = solve_static(membrane, loads, {.max_load_steps = 1});
   EXPECT_EQ(report.load_steps, 1);
   // Elastica: at P = 1.152 of the critical load the tip has turned by 60 degrees and moved 0.593 L sideways.
-  EXPECT_NEAR(height - sheet.positions(2 * columns + 1, 1), 0.593, 0.01);
+  EXPECT_NEAR(height - membrane.positions(2 * columns + 1, 1), 0.593, 0.01);
 }
 
-TEST(Sheet, RefusesWhatCannotStand) {
-  Sheet sheet = make_sheet(2, 1, {0.2, 0.1}, RectangleModel::kCalibrated, test_material(0.3));
-  Points2 loads = Points2::Zero(sheet.node_count(), 2);
+TEST(Membrane, RefusesWhatCannotStand) {
+  Membrane membrane = make_membrane(2, 1, {0.2, 0.1}, RectangleModel::kCalibrated, test_material(0.3));
+  Points2 loads = Points2::Zero(membrane.node_count(), 2);
   loads(5, 1) = 1;
-  EXPECT_THROW((void)solve_linear(sheet, loads), Error);
-  EXPECT_THROW((void)make_sheet(0, 1, {0.2, 0.1}, RectangleModel::kCalibrated, test_material(0.3)), Error);
-  EXPECT_THROW((void)make_sheet(1, 1, {0.2, 0}, RectangleModel::kCalibrated, test_material(0.3)), Error);
+  EXPECT_THROW((void)solve_linear(membrane, loads), Error);
+  EXPECT_THROW((void)make_membrane(0, 1, {0.2, 0.1}, RectangleModel::kCalibrated, test_material(0.3)), Error);
+  EXPECT_THROW((void)make_membrane(1, 1, {0.2, 0}, RectangleModel::kCalibrated, test_material(0.3)), Error);
 }
 
-TEST(Sheet, HasTheMassAndTheAreaOfItsRectangles) {
-  const Sheet sheet = make_sheet(3, 2, {0.3, 0.1}, RectangleModel::kCalibrated, test_material(0.3));
-  EXPECT_NEAR(sheet.masses.sum(), 1000 * 0.03, 1e-12);
-  const SheetSurface surface = sheet_surface(sheet);
+TEST(Membrane, HasTheMassAndTheAreaOfItsRectangles) {
+  const Membrane membrane = make_membrane(3, 2, {0.3, 0.1}, RectangleModel::kCalibrated, test_material(0.3));
+  EXPECT_NEAR(membrane.masses.sum(), 1000 * 0.03, 1e-12);
+  const MembraneSurface surface = membrane_surface(membrane);
   double area = 0;
   for (Eigen::Index t = 0; t < surface.triangles.rows(); ++t) {
     const Vec3 a = surface.positions.row(surface.triangles(t, 0));
