@@ -4,7 +4,9 @@
 
 #include "core/body/spring_system.h"
 #include "tests/bench/bench_bodies.h"
+#include "tests/bench/machine_limits.h"
 #include "tests/bench/spring_list.h"
+#include "tests/bench/spring_rows.h"
 
 namespace sprung::test {
 namespace {
@@ -26,8 +28,7 @@ Body body_of(const Case& test) {
   return body;
 }
 
-void count(benchmark::State& state, const Body& body) {
-  const auto bricks = static_cast<double>(body.grid.brick_count());
+void count(benchmark::State& state, double bricks) {
   state.counters["bricks"] = bricks;
   state.counters["brick_steps"] =
       benchmark::Counter(bricks * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
@@ -41,7 +42,7 @@ void explicit_step(benchmark::State& state, const Case& test) {
   for (auto _ : state)
     springs.move(body, {.drift = kStep, .kick = kStep, .damping = body.damping, .gravity = {0, -9.81, 0}},
                  inverse_masses);
-  count(state, body);
+  count(state, body.grid.brick_count());
   state.counters["bytes"] = bytes_per_brick(body);
 }
 
@@ -56,7 +57,14 @@ void spring_list_step(benchmark::State& state, const Case& test) {
     body.velocities.rowwise() += kStep * Eigen::RowVector3d(0, -9.81, 0);
     body.positions += kStep * body.velocities;
   }
-  count(state, body);
+  count(state, body.grid.brick_count());
+}
+
+void spring_rows_step(benchmark::State& state) {
+  SpringRows rows({64, 65, 65});
+  const LimitLoops loops = best_loops();
+  for (auto _ : state) loops.rows(rows, kStep);
+  count(state, static_cast<double>(rows.brick_count()));
 }
 
 void add(const char* kind, const Case& test, void (*run)(benchmark::State&, const Case&)) {
@@ -74,6 +82,10 @@ void add(const char* kind, const Case& test, void (*run)(benchmark::State&, cons
 }  // namespace
 
 void register_explicit_benchmarks() {
+  benchmark::RegisterBenchmark("rows/box64/springs alone/undamped/1", spring_rows_step)
+      ->UseRealTime()
+      ->MinTime(0.3)
+      ->Unit(benchmark::kMillisecond);
   for (const Model model : {Model::kCalibrated, Model::kTensile}) {
     for (const bool damped : {false, true}) {
       add("list", {"box", 32.0 * 32 * 32, model, damped, 1}, spring_list_step);

@@ -6,6 +6,7 @@
 namespace sprung::SPRUNG_INSTRUCTION_SET {
 
 [[nodiscard]] test::LimitLoops limit_loops();
+void step_rows(test::SpringRows& rows, double dt);
 
 namespace {
 
@@ -31,6 +32,8 @@ double roots(long rounds) {
 
 }  // namespace
 
-test::LimitLoops limit_loops() { return {.lanes = kLanes, .operations = operations, .roots = roots}; }
+test::LimitLoops limit_loops() {
+  return {.lanes = kLanes, .operations = operations, .roots = roots, .rows = step_rows};
+}
 
 }  // namespace sprung::SPRUNG_INSTRUCTION_SET

@@ -31,15 +31,6 @@ constexpr long kRootRounds = 300000;
 constexpr std::size_t kArray = std::size_t{1} << 22U;  // doubles a thread and array, 32 MB
 constexpr int kTrials = 7;
 
-LimitLoops best_loops() {
-#ifdef __x86_64__
-  const std::string_view name = best_spring_kernel().name;
-  if (name == "avx512") return avx512::limit_loops();
-  if (name == "avx2") return avx2::limit_loops();
-#endif
-  return plain::limit_loops();
-}
-
 /// The shortest of a few trials, s: `work(thread)` on all threads at once.
 template <class Work>
 double shortest(int threads, const Work& work) {
@@ -78,6 +69,15 @@ double bandwidth(int threads) {
 }
 
 }  // namespace
+
+LimitLoops best_loops() {
+#ifdef __x86_64__
+  const std::string_view name = best_spring_kernel().name;
+  if (name == "avx512") return avx512::limit_loops();
+  if (name == "avx2") return avx2::limit_loops();
+#endif
+  return plain::limit_loops();
+}
 
 MachineLimits measure_limits(int threads) {
   const LimitLoops loops = best_loops();

@@ -2,6 +2,8 @@
 
 namespace sprung::test {
 
+struct SpringRows;
+
 /// What this machine does at most, measured on the spot, by a number of threads together.
 struct MachineLimits {
   double bandwidth = 0;   // bytes/s, two arrays read and one written, far beyond the caches
@@ -11,13 +13,18 @@ struct MachineLimits {
 
 [[nodiscard]] MachineLimits measure_limits(int threads);
 
-/// Loops that do nothing but one kind of operation, `rounds` times on kChains packs side by side, for one instruction
-/// set; each returns what it computed.
+/// Loops for one instruction set. Two do nothing but one kind of operation, `rounds` times on kChains packs side by
+/// side, and return what they computed.
 struct LimitLoops {
   int lanes = 0;
   double (*operations)(long rounds) = nullptr;  // an addition and a multiplication
   double (*roots)(long rounds) = nullptr;       // a square root and a division
+  void (*rows)(SpringRows& rows, double dt) = nullptr;
 };
+
+/// For the instructions that the kernels use.
+[[nodiscard]] LimitLoops best_loops();
+
 inline constexpr int kChains = 10;  // enough to hide what one operation takes, few enough for the registers
 
 }  // namespace sprung::test

@@ -8,23 +8,40 @@
 namespace sprung::test {
 namespace {
 
+constexpr const char* kSpringsAlone = "springs alone";
+
 /// Additions, multiplications and comparisons in double of one brick in the middle of a body and its share of edges and
 /// nodes, counted in core/body/kernel; square roots and divisions, in single precision there, are left out.
 /// Calibrated: 6 face and 4 inner diagonals of 29 (damped 41), 3 edges of 34 (45), 87 for their coupling, 50 for the
-/// guard, 4 stiffnesses, 22 for the node. Tensile: 4 diagonals, 3 edges of 36 (47), 33, 50, 1, 22.
+/// guard, 4 stiffnesses, 22 for the node. Tensile: 4 diagonals, 3 edges of 36 (47), 33, 50, 1, 22. Rows of springs
+/// alone (spring_rows.h): 7 springs of 28, 12 for the node.
 double operations_of(const std::string& model, bool damped) {
+  if (model == kSpringsAlone) return 208;
   if (model == "calibrated") return damped ? 708 : 555;
   return damped ? 411 : 330;
 }
 
 /// Bytes from and to memory of a brick-step at least: positions and velocities read and written, the mass, the shares.
-double bytes_of(const std::string& model) { return model == "calibrated" ? 136 : 136 + 24; }
+/// Of rows of springs positions, velocities and forces.
+double bytes_of(const std::string& model) {
+  if (model == kSpringsAlone) return 144;
+  return model == "calibrated" ? 136 : 136 + 24;
+}
+
+std::string body_of(const std::vector<std::string>& parts) {
+  if (parts[0] == "list") return "list of springs";
+  return parts[0] == "rows" ? "rows of springs" : parts[1];
+}
 
 std::vector<std::string> split(const std::string& name) {
   std::vector<std::string> parts;
   std::istringstream stream(name);
   for (std::string part; std::getline(stream, part, '/');) parts.push_back(part);
   return parts;
+}
+
+bool is_explicit(const std::vector<std::string>& parts) {
+  return parts[0] == "explicit" || parts[0] == "list" || parts[0] == "rows";
 }
 
 /// A ratio, or nothing where one of the two was not measured.
@@ -64,15 +81,15 @@ void TableReporter::print_explicit(const std::map<int, MachineLimits>& limits) c
       "1 thread | bytes a brick |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
   for (const std::string& name : order_) {
     const std::vector<std::string> parts = split(name);
-    if (parts[0] != "explicit" && parts[0] != "list") continue;
+    if (!is_explicit(parts)) continue;
     const auto name_like = [&](const char* kind, const char* body, const char* threads) {
       return fmt::format("{}/{}/{}/{}/{}", kind, body, parts[2], parts[3], threads);
     };
     const double rate = counter(name, "brick_steps");
     const MachineLimits& limit = limits.at(std::stoi(parts[4]));
-    fmt::print("| {} | {} | {} | {} | {:.0f} | {:.1f} | {} | {} | {} | {} | {} | {:.0f} |\n",
-               parts[0] == "list" ? "list of springs" : parts[1], parts[2], parts[3], parts[4], counter(name, "bricks"),
-               1e-6 * rate, ratio(rate * operations_of(parts[2], parts[3] == "damped"), limit.operations),
+    fmt::print("| {} | {} | {} | {} | {:.0f} | {:.1f} | {} | {} | {} | {} | {} | {:.0f} |\n", body_of(parts), parts[2],
+               parts[3], parts[4], counter(name, "bricks"), 1e-6 * rate,
+               ratio(rate * operations_of(parts[2], parts[3] == "damped"), limit.operations),
                ratio(rate * bytes_of(parts[2]), limit.bandwidth),
                ratio(rate, counter(name_like("list", "box32", "1"), "brick_steps")),
                ratio(rate, counter(name_like("explicit", "box64", parts[4].c_str()), "brick_steps")),
@@ -85,7 +102,7 @@ void TableReporter::print_stages() const {
   fmt::print("\n| stage | body | bricks or points | ms | M a second |\n| --- | --- | --- | --- | --- |\n");
   for (const std::string& name : order_) {
     const std::vector<std::string> parts = split(name);
-    if (parts[0] == "explicit" || parts[0] == "list") continue;
+    if (is_explicit(parts)) continue;
     const Result& result = results_.at(name);
     const double things = counter(name, "things");
     fmt::print("| {} | {} | {:.0f} | {:.3g} | {:.3g} |\n", parts[0], parts[1], things, 1e3 * result.time,
