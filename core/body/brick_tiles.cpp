@@ -4,6 +4,8 @@
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
+#include <array>
+#include <map>
 #include <span>
 
 #include "core/body/brick_layers.h"
@@ -85,6 +87,9 @@ struct MadeTile {
   std::vector<SharedPart> parts;
   std::size_t shared_size = 0;
 };
+
+/// The four shares of a pack of bricks, list by list.
+using SharePack = std::array<double, std::size_t{4} * kPackPadding>;
 
 /// Lists the runs of one tile.
 class TileMaker {
@@ -208,16 +213,26 @@ class TileMaker {
     each_run_of_packs(
         [&](int place) { return brick_at(place) >= 0; },
         [&](int begin, int count) {
-          add_run(begin, count);
-          for (int pack = begin; pack < begin + count; pack += kPackPadding) {
+          tile_.runs.push_back(
+              {.place = begin, .count = count, .first = static_cast<int>(tile_.packs.size()), .node = 0});
+          for (int place = begin; place < begin + count; place += kPackPadding) {
+            SharePack pack{};
+            auto share = pack.begin();
             for (const std::vector<double>* list : {&shares_, &faces_.low[2], &faces_.low[1], &faces_.low[0]}) {
-              for (int place = pack; place < pack + kPackPadding; ++place) {
-                const int brick = brick_at(place);
-                tile_.shares.push_back(brick < 0 ? 0 : (*list)[static_cast<std::size_t>(brick)]);
+              for (int i = place; i < place + kPackPadding; ++i, ++share) {
+                if (brick_at(i) >= 0) *share = (*list)[static_cast<std::size_t>(brick_at(i))];
               }
             }
+            tile_.packs.push_back(keep(pack));
           }
         });
+  }
+
+  /// Where these shares are; one that came before is not kept again.
+  int keep(const SharePack& pack) {
+    const auto [known, is_new] = kept_.try_emplace(pack, static_cast<int>(tile_.shares.size()));
+    if (is_new) tile_.shares.insert(tile_.shares.end(), pack.begin(), pack.end());
+    return known->second;
   }
 
   /// Faces on the high side of a brick where no brick follows.
@@ -239,6 +254,7 @@ class TileMaker {
   std::vector<int> nodes_;                         // likewise
   std::array<std::vector<double>, 3> last_faces_;  // xy, zx and yz: shares, likewise, or 0
   BrickTile tile_;
+  std::map<SharePack, int> kept_;
   std::vector<SharedPart> parts_;
   std::size_t shared_size_ = 0;
 };

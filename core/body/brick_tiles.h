@@ -14,9 +14,12 @@ struct BrickTile {
   std::vector<Run> runs;
   std::vector<int> first_run;
   std::vector<double> shares;
+  std::vector<int> packs;
   std::size_t shared_offset = 0;  // of this tile's part of the shared forces
 
-  [[nodiscard]] TileView view() const { return {pitch, planes, runs.data(), first_run.data(), shares.data()}; }
+  [[nodiscard]] TileView view() const {
+    return {pitch, planes, runs.data(), first_run.data(), shares.data(), packs.data()};
+  }
 };
 
 /// A body's bricks cut into tiles whose nodes stay in a core's cache while they are computed. The cut depends on the

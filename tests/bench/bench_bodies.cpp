@@ -55,7 +55,9 @@ double size_of(const std::vector<T>& values) {
 
 double size_of(const BrickTiles& tiles) {
   double sum = size_of(tiles.tiles) + size_of(tiles.shared) + size_of(tiles.parts);
-  for (const BrickTile& tile : tiles.tiles) sum += size_of(tile.runs) + size_of(tile.first_run) + size_of(tile.shares);
+  for (const BrickTile& tile : tiles.tiles) {
+    sum += size_of(tile.runs) + size_of(tile.first_run) + size_of(tile.shares) + size_of(tile.packs);
+  }
   return sum + static_cast<double>((tiles.shared_size + kScratchSize) * sizeof(double));
 }
 

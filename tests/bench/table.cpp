@@ -21,12 +21,9 @@ double operations_of(const std::string& model, bool damped) {
   return damped ? 411 : 330;
 }
 
-/// Bytes from and to memory of a brick-step at least: positions and velocities read and written, the mass, the shares.
-/// Of rows of springs positions, velocities and forces.
-double bytes_of(const std::string& model) {
-  if (model == kSpringsAlone) return 144;
-  return model == "calibrated" ? 136 : 136 + 24;
-}
+/// Bytes from and to memory of a brick-step at least: positions and velocities read and written, the mass; of rows of
+/// springs positions, velocities and forces. Shares of bricks are few inside a body.
+double bytes_of(const std::string& model) { return model == kSpringsAlone ? 144 : 104; }
 
 std::string body_of(const std::vector<std::string>& parts) {
   if (parts[0] == "list") return "list of springs";

@@ -293,11 +293,11 @@ class PackForces {
 
 /// Bricks of a run.
 template <Layout kLayout, bool kDamped, bool kEnergy>
-void brick_run(const BrickSprings& springs, const BrickRows& rows, const RunPart& part, const double* shares,
+void brick_run(const BrickSprings& springs, const BrickRows& rows, const RunPart& part, const TileView& tile,
                Energy& energy) {
   for (int i = part.begin; i < part.end; i += kLanes) {
     const BrickRows here = rows.seen_from(part.run.place + i);
-    const double* own = shares + part.run.first + 4 * (i - i % kPackPadding) + i % kPackPadding;
+    const double* own = tile.shares + tile.packs[part.run.first + i / kPackPadding] + i % kPackPadding;
     const auto face = [&](int list) {
       return kLayout.faces ? Pack(springs.law.face * load(own + list * kPackPadding)) : Pack();
     };

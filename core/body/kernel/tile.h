@@ -7,7 +7,7 @@ namespace sprung {
 struct Run {
   int place;  // of the first
   int count;
-  int first;  // in `shares`; of shared nodes: in the shared forces
+  int first;  // of bricks: in `packs`; of faces: in `shares`; of shared nodes: in the shared forces
   int node;   // runs of nodes: the body's node that comes first; the others follow it
 };
 
@@ -35,13 +35,15 @@ inline constexpr int kPackPadding = 8;
 ///
 /// `shares` says of how many full bricks a run's bricks or faces are, 0 at the places that are none. Those of bricks
 /// lie pack by pack of kPackPadding places: their own shares, then those of their low xy, zx and yz faces, which a
-/// face's two bricks add up to. Those of faces are one list.
+/// face's two bricks add up to; `packs` says where each begins, and those that are alike, as inside a body, lie there
+/// once. Those of faces are one list.
 struct TileView {
   int pitch;
   int planes;  // of nodes
   const Run* runs;
   const int* first_run;  // of kind k in plane p: first_run[p * kRunKinds + k], up to the next
   const double* shares;
+  const int* packs;
 };
 
 /// What one tile adds to the forces on a run of nodes that other tiles pull at too: x, y and z of the run one after the

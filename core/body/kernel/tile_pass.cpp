@@ -166,7 +166,7 @@ class Walk {
       measure_edges<kDamped, 2>(edge_, {low.seen_from(place), high.seen_from(place)});
     });
     layer.bricks.go_to(bricks_to, [&](const RunPart& part) {
-      brick_run<kLayout, kDamped, kEnergy>(springs_, {low, high, tile_.pitch}, part, tile_.shares, energy_);
+      brick_run<kLayout, kDamped, kEnergy>(springs_, {low, high, tile_.pitch}, part, tile_, energy_);
     });
     if constexpr (kLayout.faces) {
       layer.zx_faces.go_to(bricks_to, [&](const RunPart& part) { pull_faces(low, high, part); });
