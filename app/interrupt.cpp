@@ -3,31 +3,28 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <csignal>
+#include <cstdint>
 #include <ctime>
 
 namespace sprung {
 namespace {
 
-constexpr double kSameSignal = 0.3;  // s: some senders signal both a process and its group and mean it once
+constexpr std::int64_t kSameSignal =
+    300000000;  // ns: some senders signal both a process and its group and mean it once
 
-volatile std::sig_atomic_t interrupted = 0;
-timespec first_time{};  // of the signal; written and read by the handler alone
-
-double seconds(const timespec& from, const timespec& to) {
-  return static_cast<double>(to.tv_sec - from.tv_sec) + 1e-9 * static_cast<double>(to.tv_nsec - from.tv_nsec);
-}
+/// Of the first signal, ns; 0: there was none. Several threads may have one each at the same time.
+std::atomic<std::int64_t> first_time{0};
+static_assert(decltype(first_time)::is_always_lock_free);  // as handlers of signals need it
 
 /// A second signal, meant as such, ends the program at once.
 extern "C" void on_interrupt(int /*signal*/) {
-  timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  if (interrupted == 0) {
-    interrupted = 1;
-    first_time = now;
-  } else if (seconds(first_time, now) > kSameSignal) {
-    _exit(kInterruptedExitCode);
-  }
+  timespec time{};
+  clock_gettime(CLOCK_MONOTONIC, &time);
+  const std::int64_t now = std::int64_t{1000000000} * time.tv_sec + time.tv_nsec;
+  std::int64_t first = 0;
+  if (!first_time.compare_exchange_strong(first, now) && now - first > kSameSignal) _exit(kInterruptedExitCode);
 }
 
 }  // namespace
@@ -39,7 +36,7 @@ void catch_interrupts() {
   std::signal(SIGPIPE, SIG_IGN);
 }
 
-bool is_interrupted() { return interrupted != 0; }
+bool is_interrupted() { return first_time != 0; }
 
 void stop_if_interrupted() {
   if (is_interrupted()) throw Interrupted{};
