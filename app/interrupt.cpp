@@ -11,8 +11,8 @@
 namespace sprung {
 namespace {
 
-constexpr std::int64_t kSameSignal =
-    300000000;  // ns: some senders signal both a process and its group and mean it once
+/// ns; some senders signal both a process and its group and mean it once.
+constexpr std::int64_t kSameSignal = 300000000;
 
 /// Of the first signal, ns; 0: there was none. Several threads may have one each at the same time.
 std::atomic<std::int64_t> first_time{0};

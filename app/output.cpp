@@ -11,6 +11,7 @@
 #include "core/count_of.h"
 #include "core/error.h"
 #include "core/nearest.h"
+#include "core/output/file_lock.h"
 #include "render/film.h"
 
 namespace sprung {
@@ -128,9 +129,7 @@ void check_output(const Output& output, bool overwrite) {
   if (output.kind == Output::Kind::kFilm) {
     require_ffmpeg();
     if (fs::is_directory(output.film)) refuse(output.film.string(), "it is a folder");
-    if (is_film_being_written(output.film)) {
-      throw Error(ErrorKind::kFailed, fmt::format("'{}' is being written by another run", output.film.string()));
-    }
+    if (is_film_being_written(output.film)) refuse_second_run(output.film);
     if (!overwrite && fs::exists(output.film)) {
       throw Error(ErrorKind::kUsage, fmt::format("'{}' exists; say --overwrite to replace it", output.film.string()));
     }

@@ -20,9 +20,7 @@ std::vector<const Points*> addresses(const std::vector<Points>& all) {
 RunCache::RunCache(std::filesystem::path file, bool resume, double position_error)
     : file_(std::move(file)), position_error_(position_error) {
   if (!std::filesystem::exists(file_)) return;
-  if (is_being_written(file_)) {
-    throw Error(ErrorKind::kFailed, fmt::format("'{}' is being written by another run", file_.string()));
-  }
+  if (is_being_written(file_)) refuse_second_run(file_);
   if (resume) old_ = std::make_unique<CacheReader>(file_);
 }
 

@@ -100,8 +100,7 @@ class TileMaker {
     const Cell size = box_.high - box_.low;
     tile_.pitch = size.x() + 1;
     tile_.planes = size.z() + 1;
-    places_ = (size.y() + 1) * tile_.pitch + kFirstPlace;
-    places_ = (places_ + kPackPadding - 1) / kPackPadding * kPackPadding;
+    places_ = kPackPadding * parts_of((size.y() + 1) * tile_.pitch + kFirstPlace, kPackPadding);
     const auto all = static_cast<std::size_t>(tile_.planes) * static_cast<std::size_t>(places_);
     bricks_.assign(all, -1);
     nodes_.assign(all, -1);
@@ -161,8 +160,8 @@ class TileMaker {
     }
   }
 
-  void add_run(int place, int count) {
-    tile_.runs.push_back({.place = place, .count = count, .first = static_cast<int>(tile_.shares.size()), .node = 0});
+  void add_run(int place, int count, std::size_t first, int node = 0) {
+    tile_.runs.push_back({.place = place, .count = count, .first = static_cast<int>(first), .node = node});
   }
 
   /// Calls visit(place, count) for nodes that follow each other in the plane and in the body.
@@ -180,11 +179,8 @@ class TileMaker {
 
   void list_nodes(int plane) {
     close_list();
-    each_run_of_nodes(
-        plane, [](int) { return true; },
-        [&](int begin, int count) {
-          tile_.runs.push_back({.place = begin, .count = count, .first = 0, .node = nodes_[slot(plane, begin)]});
-        });
+    const auto all = [](int) { return true; };
+    each_run_of_nodes(plane, all, [&](int place, int count) { add_run(place, count, 0, nodes_[slot(plane, place)]); });
   }
 
   /// Nodes that this tile alone pulls at, or those that others pull at too.
@@ -194,7 +190,7 @@ class TileMaker {
         plane, [&](int node) { return (owners[static_cast<std::size_t>(node)] == kShared) == shared; },
         [&](int begin, int count) {
           const int node = nodes_[slot(plane, begin)];
-          tile_.runs.push_back({.place = begin, .count = count, .first = static_cast<int>(shared_size_), .node = node});
+          add_run(begin, count, shared_size_, node);
           if (!shared) return;
           parts_.push_back({node, count, shared_size_});
           shared_size_ += 3 * static_cast<std::size_t>(count);
@@ -204,7 +200,7 @@ class TileMaker {
   void list_places(int plane) {
     close_list();
     each_run_of_packs([&](int place) { return nodes_[slot(plane, place)] >= 0; },
-                      [&](int place, int count) { add_run(place, count); });
+                      [&](int place, int count) { add_run(place, count, 0); });
   }
 
   void list_bricks(int plane) {
@@ -213,8 +209,7 @@ class TileMaker {
     each_run_of_packs(
         [&](int place) { return brick_at(place) >= 0; },
         [&](int begin, int count) {
-          tile_.runs.push_back(
-              {.place = begin, .count = count, .first = static_cast<int>(tile_.packs.size()), .node = 0});
+          add_run(begin, count, tile_.packs.size());
           for (int place = begin; place < begin + count; place += kPackPadding) {
             SharePack pack{};
             auto share = pack.begin();
@@ -241,7 +236,7 @@ class TileMaker {
     const auto share_at = [&](int place) { return shares[slot(plane, place)]; };
     each_run_of_packs([&](int place) { return share_at(place) > 0; },
                       [&](int begin, int count) {
-                        add_run(begin, count);
+                        add_run(begin, count, tile_.shares.size());
                         for (int place = begin; place < begin + count; ++place) tile_.shares.push_back(share_at(place));
                       });
   }

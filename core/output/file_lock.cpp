@@ -28,7 +28,7 @@ FileLock::FileLock(const std::filesystem::path& file)
   }
   if (is_locked_elsewhere(descriptor_)) {
     ::close(descriptor_);
-    throw Error(ErrorKind::kFailed, fmt::format("'{}' is being written by another run", file.string()));
+    refuse_second_run(file);
   }
 }
 
@@ -47,6 +47,10 @@ bool is_being_written(const std::filesystem::path& file) {
   const bool is_locked = is_locked_elsewhere(descriptor);
   ::close(descriptor);
   return is_locked;
+}
+
+void refuse_second_run(const std::filesystem::path& file) {
+  throw Error(ErrorKind::kFailed, fmt::format("'{}' is being written by another run", file.string()));
 }
 
 }  // namespace sprung

@@ -22,4 +22,7 @@ class FileLock {
 /// True while a FileLock of any process holds it.
 [[nodiscard]] bool is_being_written(const std::filesystem::path& file);
 
+/// Throws Error(kFailed): another run writes that file.
+[[noreturn]] void refuse_second_run(const std::filesystem::path& file);
+
 }  // namespace sprung
