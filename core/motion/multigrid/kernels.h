@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <cstdint>
 #include <span>
 
 #include "core/body/brick_block.h"
@@ -16,8 +17,10 @@ using BrickNodes = std::array<int, 8>;
 /// resists no translation, and its pull C T (24 x 3, T the three translations), which is zero but where something
 /// outside the brick holds it. Rounded so, a free brick's matrix still leaves translations entirely free.
 struct LevelBlock {
-  const float* matrix;  // kAnchoredSize x 16
-  const float* pull;    // kPullSize x 16, or null: all zero
+  const float* matrix;          // kAnchoredSize x 16
+  const std::int16_t* rounded;  // the matrix over each brick's unit, for products in single precision
+  const float* units;           // 16
+  const float* pull;            // kPullSize x 16, or null: all zero
   const BrickNodes* nodes;
   int count;  // bricks, at most 16; lanes beyond have zero matrices
 };
@@ -57,7 +60,10 @@ struct Kernels {
   void (*stiffness_matrices)(const BlockInput& input, const EdgeCoupling& coupling, double material, int first,
                              float* matrix, float* volume_ratios);
 
-  /// The forces C x of each brick at its corners, 24 x 16.
+  /// The matrix in units of each brick's own (16): 1 / 32767 of the brick's largest entry.
+  void (*round)(const float* matrix, std::int16_t* rounded, float* units);
+
+  /// The forces C x of each brick at its corners, 24 x 16; in single precision by the rounded matrix.
   void (*apply)(const LevelBlock& block, const float* x, float* corner_forces);
   void (*apply_double)(const LevelBlock& block, const double* x, double* corner_forces);
 

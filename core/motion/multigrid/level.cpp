@@ -40,6 +40,8 @@ Eigen::Matrix3f inverse_of_free(Eigen::Matrix3d block, const char* held) {
 Level::Level(const Layout& layout) : layout_(&layout) {
   const std::size_t blocks = (layout.bricks.size() + kLanes - 1) / kLanes;
   matrices_.assign(kAnchoredSize * kLanes * blocks, 0);
+  rounded_.assign(matrices_.size(), 0);
+  units_.assign(kLanes * blocks, 0);
   pull_of_block_.assign(blocks, -1);
   diagonal.assign(static_cast<std::size_t>(layout.node_count), 0);
   held.assign(3 * static_cast<std::size_t>(layout.node_count), 0);
@@ -69,6 +71,8 @@ LevelBlock Level::input(int block) const {
   const auto b = static_cast<std::size_t>(block);
   const int pull = pull_of_block_[b];
   return {.matrix = &matrices_[kAnchoredSize * kLanes * b],
+          .rounded = &rounded_[kAnchoredSize * kLanes * b],
+          .units = &units_[kLanes * b],
           .pull = pull < 0 ? nullptr : &pulls_[kPullSize * kLanes * static_cast<std::size_t>(pull)],
           .nodes = &layout_->bricks[kLanes * b],
           .count = std::min(kLanes, static_cast<int>(layout_->bricks.size()) - block * kLanes)};
@@ -173,7 +177,9 @@ double Level::entry(std::size_t brick, std::size_t row, std::size_t column) cons
 void Level::prepare_smoother(double fastest_of_brick) {
   std::vector<float> blocks(48 * kLanes * static_cast<std::size_t>(block_count()));
   tbb::parallel_for(0, block_count(), [&](int block) {
-    kernels().corner_blocks(input(block), &blocks[48 * kLanes * static_cast<std::size_t>(block)]);
+    const auto b = static_cast<std::size_t>(block);
+    kernels().corner_blocks(input(block), &blocks[48 * kLanes * b]);
+    kernels().round(matrix(block), &rounded_[kAnchoredSize * kLanes * b], &units_[kLanes * b]);
   });
   inverse_blocks_.resize(static_cast<std::size_t>(layout_->node_count));
   for_nodes(layout_->node_count, [&](int node) {

@@ -34,7 +34,8 @@ class Level {
   std::vector<char> held;
   void release_held(Floats& x) const;
 
-  /// To be called when matrices and diagonal are set: the inverse of the nodes' own 3 x 3 blocks, and the fastest
+  /// To be called when matrices and diagonal are set, before any product in single precision: rounds the matrices, to
+  /// 3e-5 of the largest entry of each, and finds the inverse of the nodes' own 3 x 3 blocks and the fastest
   /// eigenvalue of the matrix scaled by them. `fastest_of_brick` is that of a single brick, which bounds it; 0: it is
   /// found by power iteration.
   void prepare_smoother(double fastest_of_brick);
@@ -62,6 +63,8 @@ class Level {
 
   const Layout* layout_;
   std::vector<float> matrices_;
+  std::vector<std::int16_t> rounded_;  // see LevelBlock
+  std::vector<float> units_;
   std::vector<float> pulls_;
   std::vector<int> pull_of_block_;
   std::vector<Eigen::Matrix3f> inverse_blocks_;  // per node; zero where nothing holds the node
