@@ -14,23 +14,6 @@
 namespace sprung {
 namespace {
 
-/// Lists for every node the brick corners at it, in the order of the bricks.
-void list_corners(Body& body) {
-  const auto nodes = static_cast<std::size_t>(body.grid.node_count());
-  body.first_corner.assign(nodes + 1, 0);
-  for (const auto& brick : body.grid.nodes) {
-    for (const int node : brick) ++body.first_corner[static_cast<std::size_t>(node) + 1];
-  }
-  for (std::size_t i = 0; i < nodes; ++i) body.first_corner[i + 1] += body.first_corner[i];
-  std::vector<int> next(body.first_corner.begin(), body.first_corner.end() - 1);
-  body.corners.resize(8 * body.grid.nodes.size());
-  int corner = 0;
-  for (const auto& brick : body.grid.nodes) {
-    for (const int node : brick)
-      body.corners[static_cast<std::size_t>(next[static_cast<std::size_t>(node)]++)] = corner++;
-  }
-}
-
 Eigen::VectorXd lump_masses(const Body& body) {
   const BrickGrid& grid = body.grid;
   Eigen::VectorXd masses = Eigen::VectorXd::Zero(grid.node_count());
@@ -69,7 +52,7 @@ Body make_body(BrickGrid grid, Model model, const Material& material) {
   body.material = material;
   body.stiffness_scale.reserve(body.grid.fill.size());
   for (const double fill : body.grid.fill) body.stiffness_scale.push_back(std::max(fill, kStiffnessFloor));
-  tbb::parallel_invoke([&] { lay_tiles(body); }, [&] { list_corners(body); },
+  tbb::parallel_invoke([&] { lay_tiles(body); },
                        [&] {
                          body.masses = lump_masses(body);
                          put_at_rest(body);

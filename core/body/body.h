@@ -34,8 +34,6 @@ struct Body {
   Points rest_positions;                    // m x 3, m: the grid's nodes moved to where the body starts
   Points positions;                         // m x 3, m
   Points velocities;                        // m x 3, m/s
-  std::vector<int> corners;                 // 8 brick + corner of every brick corner, grouped by the node it is at
-  std::vector<int> first_corner;            // m + 1; those of node i: corners[first_corner[i]] .. first_corner[i + 1]
   std::shared_ptr<const BrickTiles> tiles;  // how the springs are computed, see lay_tiles()
 
   [[nodiscard]] int node_count() const { return static_cast<int>(positions.rows()); }

@@ -37,25 +37,14 @@ double hexahedron_energy(const Body& body, std::size_t brick) {
   return 0.5 * body.stiffness_scale[brick] * u.dot(body.small_strain_stiffness * u);
 }
 
-void sum_hexahedra(const Body& body, std::vector<double>& corner_forces, Points& forces) {
-  const auto bricks = static_cast<std::size_t>(body.grid.brick_count());
-  corner_forces.resize(24 * bricks);
-  tbb::parallel_for(std::size_t{0}, bricks, [&](std::size_t brick) {
-    Eigen::Map<BrickVector> corner_force(&corner_forces[24 * brick]);
+void sum_hexahedra(const Body& body, CornerSums& sums, Points& forces) {
+  double* corner_forces = sums.room(body.grid);
+  tbb::parallel_for(std::size_t{0}, body.grid.nodes.size(), [&](std::size_t brick) {
+    Eigen::Map<BrickVector> corner_force(corner_forces + 24 * brick);
     corner_force = hexahedron_forces(body, brick);
   });
   forces.resize(body.node_count(), 3);
-  tbb::parallel_for(tbb::blocked_range<int>(0, body.node_count(), 512), [&](const tbb::blocked_range<int>& range) {
-    for (int node = range.begin(); node < range.end(); ++node) {
-      Vec3 sum = Vec3::Zero();
-      const auto n = static_cast<std::size_t>(node);
-      for (int i = body.first_corner[n]; i < body.first_corner[n + 1]; ++i) {
-        const auto corner = static_cast<std::size_t>(body.corners[static_cast<std::size_t>(i)]);
-        sum += Eigen::Map<const Vec3>(&corner_forces[3 * corner]);
-      }
-      forces.row(node) = sum;
-    }
-  });
+  sums.sum(forces.data());
 }
 
 BrickVector elastic_forces(const Body& body, std::size_t brick) {
@@ -79,7 +68,7 @@ double sum_over_bricks(const Body& body, const Number& number) {
 
 void spring_forces(const Body& body, ForceWorkspace& workspace, Points& forces) {
   if (is_hexahedral(body)) {
-    sum_hexahedra(body, workspace.corner_forces, forces);
+    sum_hexahedra(body, workspace.hexahedra, forces);
   } else {
     workspace.springs.forces(body, forces);
   }

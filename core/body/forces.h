@@ -1,15 +1,14 @@
 #pragma once
-#include <vector>
-
 #include "core/body/body.h"
+#include "core/body/corner_sums.h"
 #include "core/body/spring_system.h"
 
 namespace sprung {
 
-/// Room for the forces of a body, kept between steps.
+/// Room for the forces of one body, kept between steps.
 struct ForceWorkspace {
   SpringSystem springs;
-  std::vector<double> corner_forces;  // Model::kFem only: 24 a brick
+  CornerSums hexahedra;  // Model::kFem only
 };
 
 /// Forces of all springs on the nodes, m x 3, N: elastic, guard, and beta damping (at body.velocities), without gravity

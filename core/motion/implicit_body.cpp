@@ -137,7 +137,7 @@ double ImplicitBody::evaluate() {
   if (terms_.damping > 0) {
     const Points moved = body_.positions - origin_;
     Eigen::VectorXd damping;
-    multiply_stiffness(body_, {.stiffness = 0, .damping = terms_.damping}, terms_.directions, flat(moved), room_,
+    multiply_stiffness(body_, {.stiffness = 0, .damping = terms_.damping}, terms_.directions, flat(moved), sums_,
                        damping);
     energy += 0.5 * damping.dot(flat(moved));
     work_ += damping.norm();

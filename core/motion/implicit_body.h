@@ -97,7 +97,7 @@ class ImplicitBody {
   History before_;   // as it was before the step at hand
 
   ForceWorkspace workspace_;
-  std::vector<double> room_;
+  CornerSums sums_;
   Points forces_;
   double work_ = 0;  // size of the forces at work, N
 };

@@ -33,7 +33,7 @@ void ImplicitDamping::pass(double dt) {
 
 void ImplicitDamping::multiply(const Eigen::VectorXd& u, Eigen::VectorXd& product) {
   Body& body = actor_.body;
-  multiply_stiffness(body, {.stiffness = 0, .damping = due_ * beta_}, directions_, u, room_, product);
+  multiply_stiffness(body, {.stiffness = 0, .damping = due_ * beta_}, directions_, u, sums_, product);
   for (const HeldNode& held : actor_.pinned) {
     for (int axis = 0; axis < 3; ++axis) {
       if (held.axes[static_cast<std::size_t>(axis)]) product[3 * held.node + axis] = 0;

@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "core/body/corner_sums.h"
 #include "core/world/world.h"
 
 namespace sprung {
@@ -40,7 +41,7 @@ class ImplicitDamping {
   double due_ = 0;  // s
   int passed_ = 0;
   std::vector<double> directions_;  // of the springs, while it settles
-  std::vector<double> room_;
+  CornerSums sums_;
 };
 
 }  // namespace sprung

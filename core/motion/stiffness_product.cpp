@@ -9,9 +9,8 @@ namespace sprung {
 namespace {
 
 constexpr int kBlocksPerTask = 32;
-constexpr int kNodesPerTask = 512;
 
-void multiply_hexahedra(const Body& body, double factor, const Eigen::VectorXd& u, std::vector<double>& products) {
+void multiply_hexahedra(const Body& body, double factor, const Eigen::VectorXd& u, double* products) {
   tbb::parallel_for(0, body.grid.brick_count(), [&](int brick) {
     const auto b = static_cast<std::size_t>(brick);
     Eigen::Matrix<double, 24, 1> moves;
@@ -19,7 +18,7 @@ void multiply_hexahedra(const Body& body, double factor, const Eigen::VectorXd& 
       moves.segment<3>(Eigen::Index{3} * c) =
           u.segment<3>(Eigen::Index{3} * body.grid.nodes[b][static_cast<std::size_t>(c)]);
     }
-    Eigen::Map<Eigen::Matrix<double, 24, 1>> product(&products[24 * b]);
+    Eigen::Map<Eigen::Matrix<double, 24, 1>> product(products + 24 * b);
     product = factor * body.stiffness_scale[b] * (body.small_strain_stiffness * moves);
   });
 }
@@ -46,31 +45,20 @@ void find_directions(const Body& body, const Points& positions, std::vector<doub
 }
 
 void multiply_stiffness(const Body& body, const StiffnessFactors& factors, const std::vector<double>& directions,
-                        const Eigen::VectorXd& u, std::vector<double>& room, Eigen::VectorXd& product) {
-  room.resize(24 * body.grid.nodes.size());
+                        const Eigen::VectorXd& u, CornerSums& sums, Eigen::VectorXd& product) {
+  double* corner_products = sums.room(body.grid);
   if (body.small_strain_stiffness.size() > 0) {
-    multiply_hexahedra(body, factors.stiffness + factors.damping, u, room);
+    multiply_hexahedra(body, factors.stiffness + factors.damping, u, corner_products);
   } else {
     const multigrid::ProductInput input{.block = block_input(body),
                                         .moves = u.data(),
                                         .stiffness = factors.stiffness,
                                         .damping = factors.damping,
                                         .directions = directions.data()};
-    each_block(body, [&](int first) { multigrid::kernels().stiffness_product(input, first, room.data()); });
+    each_block(body, [&](int first) { multigrid::kernels().stiffness_product(input, first, corner_products); });
   }
   product.resize(u.size());
-  tbb::parallel_for(tbb::blocked_range<int>(0, body.node_count(), kNodesPerTask),
-                    [&](const tbb::blocked_range<int>& range) {
-                      for (int node = range.begin(); node < range.end(); ++node) {
-                        const auto n = static_cast<std::size_t>(node);
-                        Vec3 sum = Vec3::Zero();
-                        for (int i = body.first_corner[n]; i < body.first_corner[n + 1]; ++i) {
-                          const auto corner = static_cast<std::size_t>(body.corners[static_cast<std::size_t>(i)]);
-                          sum += Eigen::Map<const Vec3>(&room[3 * corner]);
-                        }
-                        product.segment<3>(Eigen::Index{3} * node) = sum;
-                      }
-                    });
+  sums.sum(product.data());
 }
 
 }  // namespace sprung

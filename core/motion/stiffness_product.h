@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "core/body/body.h"
+#include "core/body/corner_sums.h"
 
 namespace sprung {
 
@@ -17,6 +18,6 @@ struct StiffnessFactors {
   double damping = 0;
 };
 void multiply_stiffness(const Body& body, const StiffnessFactors& factors, const std::vector<double>& directions,
-                        const Eigen::VectorXd& u, std::vector<double>& room, Eigen::VectorXd& product);
+                        const Eigen::VectorXd& u, CornerSums& sums, Eigen::VectorXd& product);
 
 }  // namespace sprung

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "core/bricks/corner_lists.h"
+
 namespace sprung {
 namespace {
 
@@ -31,12 +33,12 @@ void make_unique(std::vector<int>& values) {
 }
 
 /// A brick, and those that share a node with it.
-std::vector<int> bricks_around(const Body& body, int brick) {
+std::vector<int> bricks_around(const Body& body, const CornerLists& at_nodes, int brick) {
   std::vector<int> around;
   for (const int node : body.grid.nodes[static_cast<std::size_t>(brick)]) {
     const auto row = static_cast<std::size_t>(node);
-    for (int i = body.first_corner[row]; i < body.first_corner[row + 1]; ++i) {
-      around.push_back(body.corners[static_cast<std::size_t>(i)] / 8);
+    for (int i = at_nodes.first[row]; i < at_nodes.first[row + 1]; ++i) {
+      around.push_back(at_nodes.corners[static_cast<std::size_t>(i)] / 8);
     }
   }
   make_unique(around);
@@ -48,10 +50,11 @@ std::vector<std::vector<int>> neighbours_among(const std::vector<int>& bricks, c
   for (std::size_t row = 0; row < bricks.size(); ++row) {
     row_of[static_cast<std::size_t>(bricks[row])] = static_cast<int>(row);
   }
+  const CornerLists at_nodes = list_corners(body.grid.nodes, body.node_count());
   std::vector<std::vector<int>> neighbours(bricks.size());
   for (std::size_t row = 0; row < bricks.size(); ++row) {
-    for (const int between : bricks_around(body, bricks[row])) {
-      for (const int brick : bricks_around(body, between)) {
+    for (const int between : bricks_around(body, at_nodes, bricks[row])) {
+      for (const int brick : bricks_around(body, at_nodes, between)) {
         const int other = row_of[static_cast<std::size_t>(brick)];
         if (other >= 0) neighbours[row].push_back(other);
       }

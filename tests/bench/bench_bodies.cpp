@@ -85,7 +85,7 @@ Body bench_body(const std::string& shape, double bricks, Model model) {
 double bytes_per_brick(const Body& body) {
   const BrickGrid& grid = body.grid;
   const double arrays = size_of(grid.cells) + size_of(grid.fill) + size_of(grid.nodes) + size_of(grid.lattice) +
-                        size_of(body.stiffness_scale) + size_of(body.corners) + size_of(body.first_corner);
+                        size_of(body.stiffness_scale);
   // Rest positions, positions and velocities; masses, and their inverses while it moves.
   const double state = static_cast<double>(body.node_count()) * (3 * 3 + 2) * sizeof(double);
   return (arrays + state + size_of(*body.tiles)) / static_cast<double>(grid.cells.size());

@@ -27,13 +27,14 @@ class RunCursor {
  public:
   RunCursor(const TileView& tile, int plane, RunKind kind)
       : run_(tile.runs + tile.first_run[plane * kRunKinds + kind]),
-        last_(tile.runs + tile.first_run[plane * kRunKinds + kind + 1]) {}
+        last_(tile.runs + tile.first_run[plane * kRunKinds + kind + 1]),
+        unit_(kind < kPlaces ? 1 : kPackPadding) {}
 
-  /// Calls visit(part) for all places before this one that were not visited yet.
+  /// Calls visit(part) for all nodes, or packs, that begin before this place and were not visited yet.
   template <class Visit>
   void go_to(int place, const Visit& visit) {
     while (run_ != last_ && run_->place + done_ < place) {
-      const int end = std::min(run_->count, place - run_->place);
+      const int end = std::min(run_->count, (place - run_->place + unit_ - 1) & -unit_);
       visit(RunPart{*run_, done_, end});
       done_ = end;
       if (end < run_->count) return;
@@ -45,6 +46,7 @@ class RunCursor {
  private:
   const Run* run_;
   const Run* last_;
+  int unit_;      // places
   int done_ = 0;  // of the run's places
 };
 

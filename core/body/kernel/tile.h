@@ -11,8 +11,8 @@ struct Run {
   int node;   // runs of nodes: the body's node that comes first; the others follow it
 };
 
-/// The kinds of runs of a plane of nodes. All but those of nodes begin at a multiple of kPackPadding, are as long, and
-/// may hold places that are none of theirs.
+/// The kinds of runs of a plane of nodes. All but those of nodes are a multiple of kPackPadding long and may hold
+/// places that are none of theirs.
 enum RunKind : int {
   kNodes,        // all
   kOwnNodes,     // no other tile pulls at them

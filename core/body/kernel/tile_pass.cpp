@@ -19,8 +19,8 @@ namespace {
 /// How many nodes are copied in at a time: what follows finds them in the nearest cache.
 constexpr int kStride = 96;  // places
 
-/// The end of the packs whose neighbours, a row and a place further on, all lie before this place.
-int before_neighbours(int place, int pitch) { return (place - pitch - 1) & -kPackPadding; }
+/// Packs that begin before this have their neighbours, a row and a place further on, before `place`.
+int before_neighbours(int place, int pitch) { return place - pitch - kPackPadding; }
 
 /// Goes through a tile from low to high z with two planes of nodes at hand. Within a plane, edges are measured where
 /// the nodes are in, bricks follow where their edges are measured, and the nodes below are done with where all their
@@ -42,7 +42,7 @@ class Walk {
     enter(first, end_of(0), end_of(0));
     for (int plane = 0; plane + 1 < tile_.planes; ++plane) go_through_layer(plane);
     Exit last(tile_, tile_.planes - 1);
-    leave<false>(last, end_of(tile_.planes - 1));
+    leave<false>(last, end_of(tile_.planes - 1) + kPackPadding);
   }
 
  private:
@@ -108,7 +108,7 @@ class Walk {
     Layer layer(tile_, index);
     Exit below(tile_, index);
     const int end = std::max(end_of(index), end_of(index + 1));
-    for (int entered = kStride, done = 0; done < end; entered += kStride) {
+    for (int entered = kStride, done = 0; done < end + kPackPadding; entered += kStride) {
       const int measured = before_neighbours(entered, tile_.pitch);
       done = before_neighbours(measured, tile_.pitch);
       enter(above, entered, measured);
@@ -177,6 +177,7 @@ class Walk {
     }
   }
 
+  /// Bricks before `to` are done.
   template <bool kHasLayer>
   void leave(Exit& exit, int to) {
     const Place from = plane(exit.plane);
@@ -184,12 +185,13 @@ class Walk {
       exit.faces.go_to(to, [&](const RunPart& part) { pull_faces(from, next_row(exit.plane), part); });
     }
     if constexpr (kEnergy) return;
-    exit.edges.go_to(to, [&](const RunPart& part) { pull_edges_of<kHasLayer>(exit.plane, part); });
-    exit.nodes.go_to(to, [&](const RunPart& part) {
+    const int whole = to - kPackPadding + 1;  // packs that begin before this end before `to`
+    exit.edges.go_to(whole, [&](const RunPart& part) { pull_edges_of<kHasLayer>(exit.plane, part); });
+    exit.nodes.go_to(whole, [&](const RunPart& part) {
       const Three<double> forces = three(from, kForceLow, part.place());
       finish_nodes(input_, part.run.node + part.begin, part.count(), {forces.x, forces.y, forces.z});
     });
-    exit.shared_nodes.go_to(to, [&](const RunPart& part) {
+    exit.shared_nodes.go_to(whole, [&](const RunPart& part) {
       double* sums = shared_ + part.run.first + part.begin;
       const std::ptrdiff_t count = part.run.count;
       const Three<double> forces = three(from, kForceLow, part.place());

@@ -3,17 +3,10 @@
 #include <vector>
 
 #include "core/bricks/brick_grid.h"
+#include "core/bricks/corner_lists.h"
 #include "core/motion/multigrid/kernels.h"
 
 namespace sprung::multigrid {
-
-/// Which corners of bricks meet at each node, in the order of the bricks: those of node i are corners[first[i]] ..
-/// corners[first[i + 1] - 1], a corner counted as 8 brick + corner.
-struct CornerLists {
-  std::vector<int> first;
-  std::vector<int> corners;
-};
-[[nodiscard]] CornerLists list_corners(const std::vector<BrickNodes>& bricks, int node_count);
 
 /// How the nodes of a level hang between those of the next coarser one: evenly between 1, 2, 4 or 8 of them, as they
 /// lie on a corner, an edge, a face or in the middle of a coarse brick.
