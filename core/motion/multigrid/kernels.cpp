@@ -161,7 +161,7 @@ void add_pull(const float* pull, const std::array<P, 3>& origin, const std::arra
   }
 }
 
-template <class Number>
+template <class Number, class Entry>
 [[gnu::flatten]] void apply_block(const LevelBlock& block, const Number* x, Number* corner_forces) {
   using P = Pack<Number, kLanes>;
   std::array<P, 24> v;
@@ -178,7 +178,7 @@ template <class Number>
   for (std::size_t k = 0; k < 3; ++k) origin[k] = v[k];
   for (std::size_t i = 0; i < 24; ++i) v[i] -= origin[i % 3];
   std::array<P, 24> y;
-  if constexpr (std::is_same_v<Number, float>) {
+  if constexpr (std::is_same_v<Entry, std::int16_t>) {
     multiply_anchored(block.rounded, v, y);
     const auto unit = load<P>(block.units);
     for (P& part : y) part = unit * part;
@@ -227,8 +227,9 @@ Kernels kernels() {
           .stiffness_product = stiffness_product_block,
           .stiffness_matrices = stiffness_matrices_block,
           .round = round_block,
-          .apply = apply_block<float>,
-          .apply_double = apply_block<double>,
+          .apply = apply_block<float, float>,
+          .apply_rounded = apply_block<float, std::int16_t>,
+          .apply_double = apply_block<double, float>,
           .corner_blocks = corner_blocks_block,
           .coarsen = coarsen_block};
 }

@@ -18,7 +18,7 @@ using BrickNodes = std::array<int, 8>;
 /// outside the brick holds it. Rounded so, a free brick's matrix still leaves translations entirely free.
 struct LevelBlock {
   const float* matrix;          // kAnchoredSize x 16
-  const std::int16_t* rounded;  // the matrix over each brick's unit, for products in single precision
+  const std::int16_t* rounded;  // the matrix over each brick's unit: half as much to read
   const float* units;           // 16
   const float* pull;            // kPullSize x 16, or null: all zero
   const BrickNodes* nodes;
@@ -63,8 +63,9 @@ struct Kernels {
   /// The matrix in units of each brick's own (16): 1 / 32767 of the brick's largest entry.
   void (*round)(const float* matrix, std::int16_t* rounded, float* units);
 
-  /// The forces C x of each brick at its corners, 24 x 16; in single precision by the rounded matrix.
+  /// The forces C x of each brick at its corners, 24 x 16.
   void (*apply)(const LevelBlock& block, const float* x, float* corner_forces);
+  void (*apply_rounded)(const LevelBlock& block, const float* x, float* corner_forces);
   void (*apply_double)(const LevelBlock& block, const double* x, double* corner_forces);
 
   /// The 3 x 3 blocks on the diagonal of C: xx, xy, xz, yy, yz, zz corner by corner, 48 x 16.

@@ -153,6 +153,10 @@ void Level::multiply_bricks(const Vector& x, Vector& product, Apply apply) const
 
 void Level::multiply(const Floats& x, Floats& product) const { multiply_bricks(x, product, kernels().apply); }
 
+void Level::multiply_rounded(const Floats& x, Floats& product) const {
+  multiply_bricks(x, product, kernels().apply_rounded);
+}
+
 void Level::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& product) const {
   multiply_bricks(x, product, kernels().apply_double);
 }
@@ -236,7 +240,7 @@ void Level::smooth(int steps, Floats& x, Floats& residual, bool with_residual) c
       x.segment<3>(3 * node) += d;
     });
     if (step == steps && !with_residual) break;
-    multiply(direction_, product_);
+    multiply_rounded(direction_, product_);
     for_nodes(layout_->node_count, [&](int node) { residual.segment<3>(3 * node) -= product_.segment<3>(3 * node); });
   }
 }
