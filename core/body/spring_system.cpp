@@ -68,6 +68,18 @@ void SpringSystem::forces(const Body& body, Points& forces) {
   if (!forces.allFinite()) scratch_.clear();
 }
 
+void SpringSystem::multiply_along(const Body& body, const Points& positions, double factor, const Eigen::VectorXd& u,
+                                  Eigen::VectorXd& product) {
+  product.resize(u.size());
+  PassInput input = input_of(body, Pass::kDamping);
+  input.beta = -factor;
+  input.positions = const_cast<double*>(positions.data());
+  input.velocities = const_cast<double*>(u.data());
+  input.forces = product.data();
+  run(*body.tiles, input);
+  if (!product.allFinite()) scratch_.clear();
+}
+
 double SpringSystem::energy(const Body& body) {
   PassInput input = input_of(body, Pass::kEnergy);
   run(*body.tiles, input);

@@ -16,6 +16,12 @@ class SpringSystem {
   /// Forces on the nodes, m x 3, N, as spring_forces().
   void forces(const Body& body, Points& forces);
 
+  /// `factor` times the stiffness of the springs along themselves times u (3 m), without the guard and without what
+  /// tensions add by turning: the damping forces of rates u, with nodes at `positions` (m x 3, m), times -factor /
+  /// beta.
+  void multiply_along(const Body& body, const Points& positions, double factor, const Eigen::VectorXd& u,
+                      Eigen::VectorXd& product);
+
   /// J, as elastic_energy().
   [[nodiscard]] double energy(const Body& body);
 

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "core/body/brick_hessian.h"
-#include "core/motion/stiffness_product.h"
 #include "core/world/load_forces.h"
 
 namespace sprung {
@@ -82,7 +81,6 @@ void ImplicitBody::aim(double dt) {
   terms_.mass_factor = mass_factor_;
   terms_.damping = body_.damping.beta / span_;
   terms_.damping_positions = positions_ + dt * velocities_;
-  if (terms_.damping > 0) find_directions(body_, terms_.damping_positions, terms_.directions);
 }
 
 void ImplicitBody::hold(double dt) {
@@ -137,8 +135,7 @@ double ImplicitBody::evaluate() {
   if (terms_.damping > 0) {
     const Points moved = body_.positions - origin_;
     Eigen::VectorXd damping;
-    multiply_stiffness(body_, {.stiffness = 0, .damping = terms_.damping}, terms_.directions, flat(moved), sums_,
-                       damping);
+    multiply_damping(body_, terms_.damping_positions, terms_.damping, flat(moved), products_, damping);
     energy += 0.5 * damping.dot(flat(moved));
     work_ += damping.norm();
     Eigen::Map<Eigen::VectorXd>(forces_.data(), forces_.size()) -= damping;

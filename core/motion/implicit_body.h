@@ -6,6 +6,7 @@
 #include "core/motion/implicit_motion.h"
 #include "core/motion/muscle_potential.h"
 #include "core/motion/obstacle_potential.h"
+#include "core/motion/stiffness_product.h"
 
 namespace sprung {
 
@@ -97,7 +98,7 @@ class ImplicitBody {
   History before_;   // as it was before the step at hand
 
   ForceWorkspace workspace_;
-  CornerSums sums_;
+  ProductWorkspace products_;
   Points forces_;
   double work_ = 0;  // size of the forces at work, N
 };

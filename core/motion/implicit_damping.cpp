@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "core/motion/stiffness_product.h"
-
 namespace sprung {
 namespace {
 
@@ -32,8 +30,7 @@ void ImplicitDamping::pass(double dt) {
 }
 
 void ImplicitDamping::multiply(const Eigen::VectorXd& u, Eigen::VectorXd& product) {
-  Body& body = actor_.body;
-  multiply_stiffness(body, {.stiffness = 0, .damping = due_ * beta_}, directions_, u, sums_, product);
+  springs_.multiply_along(actor_.body, actor_.body.positions, due_ * beta_, u, product);
   for (const HeldNode& held : actor_.pinned) {
     for (int axis = 0; axis < 3; ++axis) {
       if (held.axes[static_cast<std::size_t>(axis)]) product[3 * held.node + axis] = 0;
@@ -43,7 +40,6 @@ void ImplicitDamping::multiply(const Eigen::VectorXd& u, Eigen::VectorXd& produc
 
 void ImplicitDamping::settle() {
   if (due_ == 0) return;
-  find_directions(actor_.body, actor_.body.positions, directions_);
   auto v = flat(actor_.body.velocities);
   Eigen::VectorXd masses(v.size());
   for (Eigen::Index node = 0; node < actor_.body.masses.size(); ++node) {

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "core/body/corner_sums.h"
+#include "core/body/spring_system.h"
 #include "core/world/world.h"
 
 namespace sprung {
@@ -40,8 +40,7 @@ class ImplicitDamping {
   double beta_;
   double due_ = 0;  // s
   int passed_ = 0;
-  std::vector<double> directions_;  // of the springs, while it settles
-  CornerSums sums_;
+  SpringSystem springs_;
 };
 
 }  // namespace sprung

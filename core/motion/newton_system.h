@@ -30,7 +30,6 @@ struct StepTerms {
   double mass_factor = 0;              // 1/s^2: times the masses
   double damping = 0;                  // times the springs' stiffness along themselves, without the guard ...
   Points damping_positions;            // ... where the nodes are here (m x 3, m); not read where damping is zero
-  std::vector<double> directions;      // of the springs there, see find_directions(); likewise
   std::vector<PointStiffness> points;  // contacts, muscles
   /// The body's own part of what couples it to others: in the preconditioner of an IterativeSystem only.
   std::vector<PointStiffness> coupled;

@@ -1,23 +1,24 @@
 #pragma once
-#include <vector>
-
 #include "core/body/body.h"
 #include "core/body/corner_sums.h"
+#include "core/body/spring_system.h"
 
 namespace sprung {
 
-/// Takes down for multiply_stiffness() where a body's springs point when its nodes are at `positions` (m x 3, m): unit
-/// vectors, 744 bytes a brick; none where it has no springs (Model::kFem).
-void find_directions(const Body& body, const Points& positions, std::vector<double>& directions);
-
-/// (stiffness K + damping K_along) u, 3 m, N: K the second derivative of a body's elastic energy where it stands,
-/// K_along that of its springs along themselves, without the guard, where they point in `directions` (not read where
-/// `damping` is zero). Exact, without any matrix; the same bits for any number of threads.
-struct StiffnessFactors {
-  double stiffness = 1;
-  double damping = 0;
+/// Room for the products of one body, kept from one to the next.
+struct ProductWorkspace {
+  CornerSums sums;
+  SpringSystem springs;
 };
-void multiply_stiffness(const Body& body, const StiffnessFactors& factors, const std::vector<double>& directions,
-                        const Eigen::VectorXd& u, CornerSums& sums, Eigen::VectorXd& product);
+
+/// K u, 3 m, N: K the second derivative of a body's elastic energy where it stands. Exact, without any matrix; the same
+/// bits for any number of threads.
+void multiply_stiffness(const Body& body, const Eigen::VectorXd& u, ProductWorkspace& workspace,
+                        Eigen::VectorXd& product);
+
+/// factor K_along u, likewise: K_along the stiffness that damping sees, that of the springs along themselves, without
+/// the guard, with nodes at `positions` (m x 3, m).
+void multiply_damping(const Body& body, const Points& positions, double factor, const Eigen::VectorXd& u,
+                      ProductWorkspace& workspace, Eigen::VectorXd& product);
 
 }  // namespace sprung

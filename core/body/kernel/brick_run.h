@@ -22,7 +22,7 @@ struct BrickRows {
 
 /// What a pack of bricks pulls at its corners, in an order that needs few registers: the force at a corner goes to the
 /// node's sum as soon as it is whole.
-template <Layout kLayout, bool kDamped, bool kEnergy>
+template <Layout kLayout, Part kPart>
 class PackForces {
  public:
   [[gnu::always_inline]] PackForces(const BrickSprings& springs, const BrickRows& rows, const Pack& share, int place,
@@ -79,7 +79,7 @@ class PackForces {
 #pragma GCC unroll 12
     for (std::size_t edge = 0; edge < 12; ++edge) {
       const Pack tension = share_ * tensions[edge];
-      if constexpr (kEnergy) {
+      if constexpr (kPart == Part::kEnergy) {
         add_energy(energy_, place_, 0.5 * springs_.size_squared * tension * stretches[edge]);
       } else {
         const auto from = static_cast<std::size_t>(kEdges[edge].from);
@@ -92,8 +92,8 @@ class PackForces {
   /// Force of a spring without coupling, from its low end to its high one.
   [[nodiscard]] [[gnu::always_inline]] Pack3 force_of(const Kind& kind, CornerPair pair, const Pack3& d,
                                                       const Pack& stiffness) const {
-    const Answer result = answer<kDamped, kEnergy>(kind, d, [&] { return between(pair, kVelocity); });
-    if constexpr (kEnergy) {
+    const Answer result = answer<kPart>(kind, d, [&] { return between(pair, kVelocity); });
+    if constexpr (kPart == Part::kEnergy) {
       add_energy(energy_, place_, (0.5 * kind.rest * kind.rest) * stiffness * result.stretch * result.stretch);
     }
     return (stiffness * result.pull) * d;
@@ -120,7 +120,7 @@ class PackForces {
                                 : Pack3{Pack(0.0), Pack(0.0), Pack(0.0)};
     }
     if constexpr (kLayout.axes) pull_mean_axes(axes_of(d), forces);
-    guard(d, forces);
+    if constexpr (kPart != Part::kDamping) guard(d, forces);
 #pragma GCC unroll 12
     for (std::size_t i = 0; i < 4; ++i) {
       forces_[static_cast<std::size_t>(kInnerDiagonals[i].from)] = forces[i];
@@ -131,18 +131,18 @@ class PackForces {
   /// The law's own spring of the three mean axes together.
   [[gnu::always_inline]] void pull_mean_axes(const Axes& axes, Diagonals& forces) const {
     const Kind& kind = springs_.axis;
-    Pack stretch(-3.0);
+    Pack stretch(kPart == Part::kDamping ? 0.0 : -3.0);
     // 1 / length, and what it adds to the stretch.
     const auto measure = [&](const Pack3& axis) {
       const Pack squared = dot(axis, axis) + kind.shortest;
       const Pack inverse = inverse_root(squared);
-      stretch += kind.per_rest * (squared * inverse);
+      if constexpr (kPart != Part::kDamping) stretch += kind.per_rest * (squared * inverse);
       return inverse;
     };
     const Pack x = measure(axes.x);
     const Pack y = measure(axes.y);
     const Pack z = measure(axes.z);
-    if constexpr (kDamped) {
+    if constexpr (is_damped(kPart)) {
       Diagonals rates_between;
 #pragma GCC unroll 12
       for (std::size_t i = 0; i < 4; ++i) rates_between[i] = between(kInnerDiagonals[i], kVelocity);
@@ -150,7 +150,7 @@ class PackForces {
       stretch += kind.lag * (x * dot(axes.x, rates.x) + y * dot(axes.y, rates.y) + z * dot(axes.z, rates.z));
     }
     const Pack tension = share_ * springs_.law.axes * stretch;
-    if constexpr (kEnergy) add_energy(energy_, place_, 0.5 * springs_.size_squared * tension * stretch);
+    if constexpr (kPart == Part::kEnergy) add_energy(energy_, place_, 0.5 * springs_.size_squared * tension * stretch);
     // A quarter for each edge of an axis, and a quarter for the axes being four together.
     const Pack quarter = (0.0625 * kind.rest) * tension;
     add_axes({quarter * x * axes.x, quarter * y * axes.y, quarter * z * axes.z}, forces);
@@ -167,7 +167,7 @@ class PackForces {
     const Pack active = simd::max(lack, Pack(0.0));
     const Pack size = -0.25 / 16 * springs_.per_volume * strength * active;
     add_axes({size * area_x, size * cross(axes.z, axes.x), size * cross(axes.x, axes.y)}, forces);
-    if constexpr (kEnergy) add_energy(energy_, place_, 0.5 * strength * active * active);
+    if constexpr (kPart == Part::kEnergy) add_energy(energy_, place_, 0.5 * strength * active * active);
   }
 
   const BrickSprings& springs_;
@@ -179,7 +179,7 @@ class PackForces {
 };
 
 /// Bricks of a run.
-template <Layout kLayout, bool kDamped, bool kEnergy>
+template <Layout kLayout, Part kPart>
 void brick_run(const BrickSprings& springs, const BrickRows& rows, const RunPart& part, const TileView& tile,
                Energy& energy) {
   for (int i = part.begin; i < part.end; i += kLanes) {
@@ -188,7 +188,7 @@ void brick_run(const BrickSprings& springs, const BrickRows& rows, const RunPart
     const auto face = [&](int list) {
       return kLayout.faces ? Pack(springs.law.face * load(own + list * kPackPadding)) : Pack();
     };
-    PackForces<kLayout, kDamped, kEnergy>(springs, here, load(own), i, energy).pull(face(1), face(2), face(3));
+    PackForces<kLayout, kPart>(springs, here, load(own), i, energy).pull(face(1), face(2), face(3));
   }
 }
 

@@ -48,7 +48,7 @@ inline void finish_nodes(const PassInput& input, int node, int count, const Thre
   const double* __restrict x = forces.x;
   const double* __restrict y = forces.y;
   const double* __restrict z = forces.z;
-  if (input.pass == Pass::kForces) {
+  if (input.pass != Pass::kMove) {
     double* __restrict to = input.forces + first;
     for (int i = 0; i < count; ++i) {
       to[3 * i] = x[i];

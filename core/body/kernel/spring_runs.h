@@ -32,13 +32,13 @@ template <int kAxis>
 using EdgeEnds = Ends<kAxis == 0 ? Shift::kTo : Shift::kNone>;
 
 /// Stretch and inverse length of a pack of edges, kept where they begin.
-template <bool kDamped, int kAxis>
+template <Part kPart, int kAxis>
 [[gnu::always_inline]] inline void measure_edges(const Kind& kind, const EdgeEnds<kAxis>& ends) {
   const Pack3 d = ends.between(kPosition);
   const Pack squared = dot(d, d) + kind.shortest;
   const Pack inverse = inverse_root(squared);
-  Pack stretch = kind.per_rest * (squared * inverse) - 1.0;
-  if constexpr (kDamped) stretch += kind.lag * (inverse * dot(d, ends.between(kVelocity)));
+  Pack stretch = kPart == Part::kDamping ? Pack(0.0) : kind.per_rest * (squared * inverse) - 1.0;
+  if constexpr (is_damped(kPart)) stretch += kind.lag * (inverse * dot(d, ends.between(kVelocity)));
   store(stretch, ends.from.at(kStretch + kAxis));
   store(kind.rest * inverse, ends.from.at(kInverseLength + kAxis));
 }
@@ -66,16 +66,16 @@ template <bool kUpward>
 }
 
 /// One diagonal of a run of faces.
-template <bool kDamped, bool kEnergy, Shift kShift>
+template <Part kPart, Shift kShift>
 void pull_diagonals(const Kind& kind, double stiffness, const Ends<kShift>& diagonals, const RunPart& part,
                     const double* shares, Energy& energy) {
   for (int i = part.begin; i < part.end; i += kLanes) {
     const Ends<kShift> ends = diagonals.seen_from(part.run.place + i);
     const Pack share = stiffness * load(shares + part.run.first + i);
     const Pack3 d = ends.between(kPosition);
-    const Answer result = answer<kDamped, kEnergy>(kind, d, [&] { return ends.between(kVelocity); });
+    const Answer result = answer<kPart>(kind, d, [&] { return ends.between(kVelocity); });
     ends.pull(share * result.pull * d);
-    if constexpr (kEnergy) {
+    if constexpr (kPart == Part::kEnergy) {
       add_energy(energy, i, (0.5 * kind.rest * kind.rest) * share * result.stretch * result.stretch);
     }
   }

@@ -65,6 +65,11 @@ struct Kind {
   static constexpr double kShortest = 1e-20;
 };
 
+/// What of the springs is asked for.
+enum class Part { kElastic, kElasticAndDamping, kDamping, kEnergy };
+
+constexpr bool is_damped(Part part) { return part == Part::kElasticAndDamping || part == Part::kDamping; }
+
 /// What a spring without coupling makes of its ends: tension / length over its stiffness, (L - rest) / L + damping. And
 /// stretch / rest, for the energy.
 struct Answer {
@@ -73,13 +78,13 @@ struct Answer {
 };
 
 /// `rate` gives the ends' difference of velocity, where it is asked.
-template <bool kDamped, bool kEnergy, class Rate>
+template <Part kPart, class Rate>
 [[gnu::always_inline]] inline Answer answer(const Kind& kind, const Pack3& d, const Rate& rate) {
   const Pack squared = dot(d, d) + kind.shortest;
   const Pack inverse = inverse_root(squared);
-  Answer result{1.0 - kind.rest * inverse, {}};
-  if constexpr (kEnergy) result.stretch = kind.per_rest * (squared * inverse) - 1.0;
-  if constexpr (kDamped) result.pull += (kind.lag * kind.rest) * (inverse * inverse) * dot(d, rate());
+  Answer result{kPart == Part::kDamping ? Pack(0.0) : 1.0 - kind.rest * inverse, {}};
+  if constexpr (kPart == Part::kEnergy) result.stretch = kind.per_rest * (squared * inverse) - 1.0;
+  if constexpr (is_damped(kPart)) result.pull += (kind.lag * kind.rest) * (inverse * inverse) * dot(d, rate());
   return result;
 }
 

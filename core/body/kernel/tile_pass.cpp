@@ -25,7 +25,7 @@ int before_neighbours(int place, int pitch) { return place - pitch - kPackPaddin
 /// Goes through a tile from low to high z with two planes of nodes at hand. Within a plane, edges are measured where
 /// the nodes are in, bricks follow where their edges are measured, and the nodes below are done with where all their
 /// bricks have been.
-template <Layout kLayout, bool kDamped, bool kEnergy>
+template <Layout kLayout, Part kPart>
 class Walk {
  public:
   Walk(const TileView& tile, const PassInput& input, double* scratch, double* shared, Energy& energy)
@@ -132,15 +132,15 @@ class Walk {
     entry.nodes.go_to(nodes_to, [&](const RunPart& part) { copy_in(to, part); });
     each_pack(entry.edges, edges_to, [&](int place) {
       const Place here = to.seen_from(place);
-      measure_edges<kDamped, 0>(edge_, {here, here});
-      measure_edges<kDamped, 1>(edge_, {here, next_row(entry.plane).seen_from(place)});
+      measure_edges<kPart, 0>(edge_, {here, here});
+      measure_edges<kPart, 1>(edge_, {here, next_row(entry.plane).seen_from(place)});
     });
   }
 
   void copy_in(const Place& to, const RunPart& part) const {
     const std::ptrdiff_t first = 3 * static_cast<std::ptrdiff_t>(part.run.node + part.begin);
-    take_apart<kDamped>(input_.positions + first, input_.velocities + first, input_.drift, part.count(),
-                        three(to, kPosition, part.place()), three(to, kVelocity, part.place()));
+    take_apart<is_damped(kPart)>(input_.positions + first, input_.velocities + first, input_.drift, part.count(),
+                                 three(to, kPosition, part.place()), three(to, kVelocity, part.place()));
   }
 
   static Three<double> three(const Place& from, int array, int place) {
@@ -149,7 +149,7 @@ class Walk {
 
   template <Shift kShift>
   void pull_diagonals_of(const Ends<kShift>& diagonals, const RunPart& part) {
-    pull_diagonals<kDamped, kEnergy>(springs_.face, input_.law.face, diagonals, part, tile_.shares, energy_);
+    pull_diagonals<kPart>(springs_.face, input_.law.face, diagonals, part, tile_.shares, energy_);
   }
 
   /// Both diagonals of faces along x.
@@ -163,10 +163,10 @@ class Walk {
     const Place low = plane(layer.plane);
     const Place high = plane(layer.plane + 1);
     each_pack(layer.edges, edges_to, [&](int place) {
-      measure_edges<kDamped, 2>(edge_, {low.seen_from(place), high.seen_from(place)});
+      measure_edges<kPart, 2>(edge_, {low.seen_from(place), high.seen_from(place)});
     });
     layer.bricks.go_to(bricks_to, [&](const RunPart& part) {
-      brick_run<kLayout, kDamped, kEnergy>(springs_, {low, high, tile_.pitch}, part, tile_, energy_);
+      brick_run<kLayout, kPart>(springs_, {low, high, tile_.pitch}, part, tile_, energy_);
     });
     if constexpr (kLayout.faces) {
       layer.zx_faces.go_to(bricks_to, [&](const RunPart& part) { pull_faces(low, high, part); });
@@ -184,7 +184,7 @@ class Walk {
     if constexpr (kLayout.faces) {
       exit.faces.go_to(to, [&](const RunPart& part) { pull_faces(from, next_row(exit.plane), part); });
     }
-    if constexpr (kEnergy) return;
+    if constexpr (kPart == Part::kEnergy) return;
     const int whole = to - kPackPadding + 1;  // packs that begin before this end before `to`
     exit.edges.go_to(whole, [&](const RunPart& part) { pull_edges_of<kHasLayer>(exit.plane, part); });
     exit.nodes.go_to(whole, [&](const RunPart& part) {
@@ -226,11 +226,13 @@ class Walk {
 template <Layout kLayout>
 void walk(const TileView& tile, const PassInput& input, double* scratch, double* shared, Energy& energy) {
   if (input.pass == Pass::kEnergy) {
-    Walk<kLayout, false, true>(tile, input, scratch, shared, energy).run();
+    Walk<kLayout, Part::kEnergy>(tile, input, scratch, shared, energy).run();
+  } else if (input.pass == Pass::kDamping) {
+    Walk<kLayout, Part::kDamping>(tile, input, scratch, shared, energy).run();
   } else if (input.beta > 0) {
-    Walk<kLayout, true, false>(tile, input, scratch, shared, energy).run();
+    Walk<kLayout, Part::kElasticAndDamping>(tile, input, scratch, shared, energy).run();
   } else {
-    Walk<kLayout, false, false>(tile, input, scratch, shared, energy).run();
+    Walk<kLayout, Part::kElastic>(tile, input, scratch, shared, energy).run();
   }
 }
 

@@ -7,9 +7,10 @@
 namespace sprung {
 
 enum class Pass {
-  kForces,  // writes the springs' forces, N
-  kEnergy,  // adds up their energy, J
-  kMove     // positions += drift * velocities, then velocities += kick * (forces / mass + gravity - alpha velocities)
+  kForces,   // writes the springs' forces, N
+  kDamping,  // writes what of them is damping, N
+  kEnergy,   // adds up their energy, J
+  kMove      // positions += drift * velocities, then velocities += kick * (forces / mass + gravity - alpha velocities)
 };
 
 /// What a pass over a body's tiles reads and writes; arrays hold x y z a node.
@@ -20,7 +21,7 @@ struct PassInput {
   double beta = 0;                         // s
   double* positions = nullptr;             // m; written by kMove only
   double* velocities = nullptr;            // m/s; written by kMove only
-  double* forces = nullptr;                // N; kForces
+  double* forces = nullptr;                // N; kForces and kDamping
   const double* inverse_masses = nullptr;  // a node, 1/kg; kMove
   double drift = 0;                        // s; kMove
   double kick = 0;                         // s; kMove

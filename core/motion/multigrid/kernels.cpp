@@ -32,45 +32,13 @@ CornerVectors<P> gather(const BlockInput& input, const double* values, int first
   return packed;
 }
 
-std::size_t place_of_directions(int first) {
-  return static_cast<std::size_t>(first / kBricksPerBlock) * kDirectionsOfBlock;
-}
-
-[[gnu::flatten]] void directions_block(const BlockInput& block, int first, double* directions) {
+[[gnu::flatten]] void stiffness_product_block(const BlockInput& block, const double* moves, int first,
+                                              double* corner_products) {
+  const auto u = gather<Doubles>(block, moves, first, kBricksPerBlock);
   const auto x = gather<Doubles>(block, block.positions, first, kBricksPerBlock);
-  double* to = directions + place_of_directions(first);
-  for (const auto& direction : spring_directions<Doubles>(block.brick_size, x)) {
-    for (const Doubles& part : direction) {
-      store(part, to);
-      to += kBricksPerBlock;
-    }
-  }
-}
-
-[[gnu::flatten]] void stiffness_product_block(const ProductInput& input, int first, double* corner_products) {
-  const BlockInput& block = input.block;
-  const auto u = gather<Doubles>(block, input.moves, first, kBricksPerBlock);
   CornerVectors<Doubles> product;
   product.fill(Doubles(0.0));
-  if (input.damping != 0) {
-    const double* from = input.directions + place_of_directions(first);
-    SpringDirections<Doubles> directions;
-    for (auto& direction : directions) {
-      for (Doubles& part : direction) {
-        part = load<Doubles>(from);
-        from += kBricksPerBlock;
-      }
-    }
-    damping_product<Doubles>(*block.law, directions, u, product);
-    for (Doubles& part : product) part = input.damping * part;
-  }
-  if (input.stiffness != 0) {
-    const auto x = gather<Doubles>(block, block.positions, first, kBricksPerBlock);
-    CornerVectors<Doubles> whole;
-    whole.fill(Doubles(0.0));
-    stiffness_product<Doubles>(*block.law, block.brick_size, x, u, whole);
-    for (std::size_t i = 0; i < 24; ++i) product[i] += input.stiffness * whole[i];
-  }
+  stiffness_product<Doubles>(*block.law, block.brick_size, x, u, product);
   const int lanes = std::min(kBricksPerBlock, block.brick_count - first);
   for (int lane = 0; lane < lanes; ++lane) {
     const std::ptrdiff_t brick = first + lane;
@@ -223,8 +191,7 @@ template <class Number, class Entry>
 }  // namespace
 
 Kernels kernels() {
-  return {.directions = directions_block,
-          .stiffness_product = stiffness_product_block,
+  return {.stiffness_product = stiffness_product_block,
           .stiffness_matrices = stiffness_matrices_block,
           .round = round_block,
           .apply = apply_block<float, float>,

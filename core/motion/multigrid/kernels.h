@@ -4,7 +4,6 @@
 #include <span>
 
 #include "core/body/brick_block.h"
-#include "core/body/brick_damping.h"
 #include "core/body/brick_stiffness.h"
 
 namespace sprung::multigrid {
@@ -35,25 +34,11 @@ struct FineMatrices {
   const int* pull_of_block;  // which; -1: none
 };
 
-inline constexpr std::size_t kDirectionsOfBlock = 3 * kSpringsOfBrick * kBricksPerBlock;
-
-/// What stiffness K u + damping K_along u is made of.
-struct ProductInput {
-  BlockInput block;
-  const double* moves;       // u, x y z a node, m
-  double stiffness;          // times the whole stiffness
-  double damping;            // times the springs' stiffness along themselves ...
-  const double* directions;  // ... where they point here, from `directions` below; not read where damping is zero
-};
-
 /// The innermost loops, once for each instruction set. All versions give the same bits.
 struct Kernels {
-  /// Where the springs of the kBricksPerBlock bricks from `first` on point, nodes being at block.positions:
-  /// kDirectionsOfBlock numbers a block, the first block's first.
-  void (*directions)(const BlockInput& block, int first, double* directions);
-
-  /// 24 products (N) a brick, corner by corner, for the kBricksPerBlock bricks from `first` on.
-  void (*stiffness_product)(const ProductInput& input, int first, double* corner_products);
+  /// 24 products K u (N) a brick, corner by corner, `moves` x y z a node (u, m), for the kBricksPerBlock bricks from
+  /// `first` on.
+  void (*stiffness_product)(const BlockInput& block, const double* moves, int first, double* corner_products);
 
   /// Anchored matrices (kAnchoredSize x 16) and volume ratios (16) of the bricks from `first` on, guard left out, the
   /// springs along themselves times `material`; zero in lanes beyond the last brick.

@@ -60,7 +60,7 @@ class MultigridSystem : public IterativeSystem {
     definite_ = definite;
     if (!cycle_ || layouts_.front().bricks != body.grid.nodes) {
       layouts_ = multigrid::make_hierarchy(body.grid, kCoarsestNodes);
-      sums_ = {};
+      products_ = ProductWorkspace();
       cycle_ = std::make_unique<multigrid::Cycle>(layouts_);
     }
     held_ = supports.fixed;
@@ -95,7 +95,8 @@ class MultigridSystem : public IterativeSystem {
   std::unique_ptr<multigrid::Cycle> cycle_;
   std::vector<char> is_held_node_;
   std::vector<std::vector<const PointStiffness*>> points_of_brick_;  // empty where there are none at all
-  CornerSums sums_;
+  ProductWorkspace products_;
+  Eigen::VectorXd damping_product_;
   multigrid::Floats single_residual_;
   multigrid::Floats single_answer_;
   SolveReport report_;
@@ -212,7 +213,11 @@ void MultigridSystem::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& produc
 }
 
 void MultigridSystem::multiply_exactly(const Eigen::VectorXd& x, Eigen::VectorXd& product) {
-  multiply_stiffness(*body_, {.stiffness = 1, .damping = terms_->damping}, terms_->directions, x, sums_, product);
+  multiply_stiffness(*body_, x, products_, product);
+  if (terms_->damping != 0) {
+    multiply_damping(*body_, terms_->damping_positions, terms_->damping, x, products_, damping_product_);
+    product += damping_product_;
+  }
   if (terms_->mass_factor != 0) {
     for (Eigen::Index i = 0; i < x.size(); ++i) product[i] += terms_->mass_factor * body_->masses[i / 3] * x[i];
   }

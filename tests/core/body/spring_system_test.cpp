@@ -61,6 +61,31 @@ TEST(SpringSystem, PullsLikeTheListOfSprings) {
   }
 }
 
+TEST(SpringSystem, MultipliesAlongItsSpringsAsTheyAreDamped) {
+  for (const Model model : kSpringModels) {
+    Body body = shaken_body(model);
+    body.law.guard = 0;
+    body.damping.beta = 0;
+    Points undamped;
+    SpringSystem().forces(body, undamped);
+    constexpr double kFactor = 2;  // so large that little of it is lost in the elastic part
+    body.damping.beta = kFactor;
+    Points damped;
+    SpringSystem().forces(body, damped);
+    const Points expected = undamped - damped;
+    const Eigen::VectorXd rates = body.velocities.reshaped<Eigen::RowMajor>();
+    body.velocities.setZero();
+    for (const SpringKernel& kernel : all_spring_kernels()) {
+      if (kernel.tile == nullptr) continue;
+      Eigen::VectorXd product;
+      SpringSystem(kernel).multiply_along(body, body.positions, kFactor, rates, product);
+      EXPECT_LT((product - expected.reshaped<Eigen::RowMajor>()).cwiseAbs().maxCoeff(),
+                1e-12 * expected.cwiseAbs().maxCoeff())
+          << model_name(model) << ' ' << kernel.name;
+    }
+  }
+}
+
 /// A fork: two prongs in the same cells, joined to one handle and not to each other.
 BrickGrid fork_grid() {
   constexpr int kHandle = 2;  // bricks along x

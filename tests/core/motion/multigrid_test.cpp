@@ -88,7 +88,6 @@ TEST(Multigrid, EqualsTheDirectSolverFarFromRest) {
   problem.terms.mass_factor = 1e4;
   problem.terms.damping = 0.7;
   problem.terms.damping_positions = problem.body.rest_positions;
-  find_directions(problem.body, problem.body.rest_positions, problem.terms.directions);
   PointStiffness point{.brick = 40, .weights = Eigen::Matrix<double, 8, 1>::Constant(0.125)};
   point.stiffness = 1e3 * Mat3::Identity();
   problem.terms.points.push_back(point);
@@ -299,17 +298,8 @@ TEST(MultigridKernels, AllInstructionSetsGiveTheSameBits) {
       apply(block, x.data(), forces.data());
       matrix.insert(matrix.end(), forces.begin(), forces.end());
     }
-    BlockInput at_rest = input;
-    at_rest.positions = problem.body.rest_positions.data();
-    std::vector<double> directions(2 * multigrid::kDirectionsOfBlock);
-    kernels.directions(at_rest, 8, directions.data());
     std::vector<double> products(24 * static_cast<std::size_t>(input.brick_count));
-    kernels.stiffness_product({.block = input,
-                               .moves = problem.forces.data(),
-                               .stiffness = 1,
-                               .damping = 0.1,
-                               .directions = directions.data()},
-                              8, products.data());
+    kernels.stiffness_product(input, problem.forces.data(), 8, products.data());
     for (const double value : products) matrix.push_back(static_cast<float>(value));
     return matrix;
   };
