@@ -1,5 +1,7 @@
 #include "core/world/squeeze.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,6 +14,7 @@ namespace sprung {
 namespace {
 
 constexpr int kStepsBetweenLooks = 8;
+constexpr std::size_t kBricksPerTask = 512;
 constexpr double kSuspectVolume = 0.4;
 constexpr double kCrushedShare = 0.05;  // of the bricks
 constexpr double kRecoverySteps = 20;   // a brick found too flat or inside out comes back within about that many steps
@@ -74,13 +77,20 @@ int guarded_bricks(const Body& body) { return flattened_bricks(body, body.law.gu
 bool is_crushed(const Body& body) { return guarded_bricks(body) > kCrushedShare * body.grid.brick_count(); }
 
 void SqueezeWatch::look(const Body& body, double dt) {
-  suspects_.clear();
   const double least = kSuspectVolume * body.grid.brick_volume();
+  is_suspect_.resize(body.grid.nodes.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, is_suspect_.size(), kBricksPerTask),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      for (std::size_t brick = range.begin(); brick < range.end(); ++brick) {
+                        const auto& nodes = body.grid.nodes[brick];
+                        const BrickColumns now = columns_of(nodes, body.positions);
+                        const BrickColumns later = now + kStepsBetweenLooks * dt * columns_of(nodes, body.velocities);
+                        is_suspect_[brick] = std::min(smallest_volume(now), smallest_volume(later)) < least ? 1 : 0;
+                      }
+                    });
+  suspects_.clear();
   for (int brick = 0; brick < body.grid.brick_count(); ++brick) {
-    const auto& nodes = body.grid.nodes[static_cast<std::size_t>(brick)];
-    const BrickColumns now = columns_of(nodes, body.positions);
-    const BrickColumns later = now + kStepsBetweenLooks * dt * columns_of(nodes, body.velocities);
-    if (std::min(smallest_volume(now), smallest_volume(later)) < least) suspects_.push_back(brick);
+    if (is_suspect_[static_cast<std::size_t>(brick)] != 0) suspects_.push_back(brick);
   }
 }
 

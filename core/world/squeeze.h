@@ -49,7 +49,8 @@ class SqueezeWatch {
  private:
   void look(const Body& body, double dt);
 
-  std::vector<int> suspects_;  // bricks
+  std::vector<char> is_suspect_;  // a brick
+  std::vector<int> suspects_;     // bricks
   std::vector<Squeeze> found_;
   int steps_to_look_ = 0;
 };
