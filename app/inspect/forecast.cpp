@@ -16,7 +16,7 @@ namespace {
 constexpr double kBytesOfProgram = 130e6;      // libraries, and what the driver compiles
 constexpr double kBytesAPixel = 120;           // colour, depth, light and copies of them, a sample
 constexpr double kBytesABrick = 900;           // grid, patches, state and tiles
-constexpr double kBytesABrickImplicit = 3900;  // the multigrid's matrices and vectors as well
+constexpr double kBytesABrickImplicit = 3200;  // the multigrid's matrices and vectors as well
 constexpr double kBytesASkinVertex = 400;      // at rest, embedding, contact and what the driver keeps
 constexpr double kSecondsToMeasure = 0.3;
 
