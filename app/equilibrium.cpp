@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "app/crushed_bodies.h"
 #include "app/interrupt.h"
 #include "app/load_driver.h"
 #include "app/pin_movements.h"
@@ -127,6 +128,7 @@ Recording record_equilibria(Production& production, const Scene& scene, const Co
   loading.note_trouble(console);
   progress.finish(loading.is_linear() ? fmt::format("{} frames", frames)
                                       : fmt::format("{} frames, {} Newton steps", frames, loading.iterations()));
+  if (!loading.is_linear()) warn_of_crushed_bodies(production.world, console);
   return recorder.finish();
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "app/crushed_bodies.h"
 #include "app/equilibrium.h"
 #include "app/inspect/forecast.h"
 #include "app/interrupt.h"
@@ -21,7 +22,6 @@
 #include "core/motion/statics.h"
 #include "core/world/load_forces.h"
 #include "core/world/overlap.h"
-#include "core/world/squeeze.h"
 
 namespace sprung {
 namespace {
@@ -35,21 +35,6 @@ int inverted_bricks(const World& world) {
   int count = 0;
   for (const Actor& actor : world.actors) count += inverted_bricks(actor.body);
   return count;
-}
-
-/// A material that cannot carry its own weight, or a fall it cannot take, ends with bricks pressed flat: the picture is
-/// then not what the material would do.
-void warn_of_crushed_bodies(const World& world, const Console& console) {
-  for (std::size_t i = 0; i < world.actors.size(); ++i) {
-    const Body& body = world.actors[i].body;
-    const int inverted = inverted_bricks(body);
-    if (inverted == 0 && !is_crushed(body)) continue;
-    console.warn(fmt::format(
-        "body {}: of {} bricks {} are inside out and {} pressed to less than {} of their volume at the end, where the "
-        "guard against turning inside out carries them, not their springs: the material is too soft for its weight or "
-        "its fall; a stiffer or lighter material (young, density) or a smaller body carries itself",
-        i + 1, body.grid.brick_count(), inverted, guarded_bricks(body) - inverted, body.law.guard_ratio));
-  }
 }
 
 /// How deep the contact points of skins were in each other and in obstacles at the ends of frames.
@@ -214,10 +199,10 @@ class Runner {
     if (seconds > scene_.solver.time_limit) {
       throw Error(ErrorKind::kBadInput,
                   fmt::format("the simulation would take about {}, longer than --time-limit ({}); {}",
-                              duration_text(seconds), duration_text(scene_.solver.time_limit), kRemedy));
+                              duration_text(seconds), duration_text(scene_.solver.time_limit), remedy_for(plan_)));
     }
     if (seconds < kLongRun) return;
-    console_.warn(fmt::format("the simulation needs about {} more; {}", duration_text(seconds), kRemedy));
+    console_.warn(fmt::format("the simulation needs about {} more; {}", duration_text(seconds), remedy_for(plan_)));
   }
 
   World& world_;

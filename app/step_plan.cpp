@@ -14,8 +14,8 @@ namespace sprung {
 namespace {
 
 constexpr double kManySteps = 20000;   // a frame, from which on a warning is due
-constexpr double kImplicitCost = 150;  // explicit steps that take as long as an implicit one
-constexpr double kCoupledCost = 300;   // of bodies that may touch each other, or are glued
+constexpr double kImplicitCost = 300;  // explicit steps that take as long as an implicit one
+constexpr double kCoupledCost = 600;   // of bodies that may touch each other, or are glued
 constexpr double kStepsAVibration = 20;
 constexpr long kFewestSteps = 2;  // implicit ones, a frame
 constexpr long kMostSteps = 16;
@@ -40,10 +40,16 @@ long implicit_steps(const World& world, double frame) {
 
 }  // namespace
 
+std::string_view remedy_for(const StepPlan& plan) {
+  if (plan.is_implicit()) return "fewer bricks or a shorter --duration make it quicker";
+  return "fewer bricks, a softer material, a shorter --duration or, for stiff bodies, --integrator auto make it "
+         "quicker";
+}
+
 std::string warning_of(const StepPlan& plan) {
   if (static_cast<double>(plan.steps.count) < kManySteps) return "";
   return fmt::format("a frame takes {} steps of {}, for bricks are stiff and small or something is fast; {}",
-                     plan.steps.count, readable(plan.steps.dt, Dimension::kTime), kRemedy);
+                     plan.steps.count, readable(plan.steps.dt, Dimension::kTime), remedy_for(plan));
 }
 
 StepPlan plan_steps(const World& world, const Scene& scene) {

@@ -71,7 +71,7 @@ void place(Body& body, const Mat3& rotation, const Vec3& translation) {
   move(body.rest_positions);
   move(body.positions);
   body.velocities = body.velocities * rotation.transpose();
-  if (body.small_strain_stiffness.size() == 0) return;
+  if (!body.is_hexahedral()) return;
   for (int a = 0; a < 24; a += 3) {
     for (int b = 0; b < 24; b += 3) {
       const Mat3 block = body.small_strain_stiffness.block<3, 3>(a, b);

@@ -37,6 +37,8 @@ struct Body {
   std::shared_ptr<const BrickTiles> tiles;  // how the springs are computed, see lay_tiles()
 
   [[nodiscard]] int node_count() const { return static_cast<int>(positions.rows()); }
+  /// Trilinear hexahedra in place of springs (Model::kFem).
+  [[nodiscard]] bool is_hexahedral() const { return small_strain_stiffness.size() > 0; }
 };
 
 /// A brick keeps at least this share of a full brick's stiffness and mass: slivers would cost step size for nothing.

@@ -134,12 +134,12 @@ BrickMatrix without_negative_curvature(const BrickMatrix& hessian) {
 }
 
 BrickMatrix body_brick_hessian(const Body& body, std::size_t brick) {
-  if (body.small_strain_stiffness.size() > 0) return body.stiffness_scale[brick] * body.small_strain_stiffness;
+  if (body.is_hexahedral()) return body.stiffness_scale[brick] * body.small_strain_stiffness;
   return body.stiffness_scale[brick] * brick_hessian(body.law, body.grid.brick_size, brick_corners(body, brick));
 }
 
 BrickMatrix rest_brick_hessian(const Body& body) {
-  if (body.small_strain_stiffness.size() > 0) return body.small_strain_stiffness;
+  if (body.is_hexahedral()) return body.small_strain_stiffness;
   CornerVectors<double> rest{};
   for (int corner = 0; corner < 8; ++corner) {
     for (int axis = 0; axis < 3; ++axis) {

@@ -12,8 +12,6 @@ namespace {
 
 using BrickVector = Eigen::Matrix<double, 24, 1>;
 
-bool is_hexahedral(const Body& body) { return body.small_strain_stiffness.size() > 0; }
-
 BrickVector at_corners(const Body& body, std::size_t brick, const Points& values) {
   BrickVector gathered;
   for (std::size_t corner = 0; corner < 8; ++corner) {
@@ -48,7 +46,7 @@ void sum_hexahedra(const Body& body, CornerSums& sums, Points& forces) {
 }
 
 BrickVector elastic_forces(const Body& body, std::size_t brick) {
-  if (is_hexahedral(body)) {
+  if (body.is_hexahedral()) {
     return -body.stiffness_scale[brick] * (body.small_strain_stiffness * displacement(body, brick));
   }
   CornerVectors<double> force{};
@@ -67,7 +65,7 @@ double sum_over_bricks(const Body& body, const Number& number) {
 }  // namespace
 
 void spring_forces(const Body& body, ForceWorkspace& workspace, Points& forces) {
-  if (is_hexahedral(body)) {
+  if (body.is_hexahedral()) {
     sum_hexahedra(body, workspace.hexahedra, forces);
   } else {
     workspace.springs.forces(body, forces);
@@ -75,7 +73,7 @@ void spring_forces(const Body& body, ForceWorkspace& workspace, Points& forces) 
 }
 
 double elastic_energy(const Body& body, ForceWorkspace& workspace) {
-  if (!is_hexahedral(body)) return workspace.springs.energy(body);
+  if (!body.is_hexahedral()) return workspace.springs.energy(body);
   return sum_over_bricks(body, [&](std::size_t brick) { return hexahedron_energy(body, brick); });
 }
 

@@ -12,7 +12,7 @@ namespace {
 /// A brick's stiffness along its springs where the damping is measured, column by column.
 BrickMatrix brick_stiffness_along(const Body& body, std::size_t brick, const StepTerms& terms) {
   const double scale = body.stiffness_scale[brick];
-  if (body.small_strain_stiffness.size() > 0) return scale * body.small_strain_stiffness;
+  if (body.is_hexahedral()) return scale * body.small_strain_stiffness;
   CornerVectors<double> x{};
   for (std::size_t i = 0; i < 24; ++i) {
     x[i] = terms.damping_positions(body.grid.nodes[brick][i / 3], static_cast<int>(i % 3));

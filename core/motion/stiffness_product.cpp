@@ -9,8 +9,6 @@ namespace {
 
 constexpr int kBlocksPerTask = 32;
 
-bool is_hexahedral(const Body& body) { return body.small_strain_stiffness.size() > 0; }
-
 void multiply_hexahedra(const Body& body, const Eigen::VectorXd& u, double* products) {
   tbb::parallel_for(0, body.grid.brick_count(), [&](int brick) {
     const auto b = static_cast<std::size_t>(brick);
@@ -39,7 +37,7 @@ void multiply_springs(const Body& body, const Eigen::VectorXd& u, double* produc
 void multiply_stiffness(const Body& body, const Eigen::VectorXd& u, ProductWorkspace& workspace,
                         Eigen::VectorXd& product) {
   double* products = workspace.sums.room(body.grid);
-  if (is_hexahedral(body)) {
+  if (body.is_hexahedral()) {
     multiply_hexahedra(body, u, products);
   } else {
     multiply_springs(body, u, products);
@@ -50,7 +48,7 @@ void multiply_stiffness(const Body& body, const Eigen::VectorXd& u, ProductWorks
 
 void multiply_damping(const Body& body, const Points& positions, double factor, const Eigen::VectorXd& u,
                       ProductWorkspace& workspace, Eigen::VectorXd& product) {
-  if (is_hexahedral(body)) {
+  if (body.is_hexahedral()) {
     multiply_stiffness(body, u, workspace, product);
     product *= factor;
   } else {

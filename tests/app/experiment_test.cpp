@@ -254,6 +254,24 @@ TEST_F(ExperimentProgram, ValidatePrintsTheTableOfEquations) {
   EXPECT_NE(run("validate --case equations --model m1").err.find("no answer to that choice"), std::string::npos);
 }
 
+TEST_F(ExperimentProgram, StaticsWarnOfBodiesThatAreCrushed) {
+  static_cast<void>(folder_.write("pushed.toml", R"(duration = 0.1
+fps = 24
+[[body]]
+box = [0.08, 0.02, 0.02]
+brick_size = 0.01
+material = { young = 1e4, poisson = 0.3, density = 1000 }
+[[body.pin]]
+box = { min = [0, 0, 0], max = [0.1, 1, 1] }
+[[body.pin]]
+box = { min = [0.9, 0, 0], max = [1, 1, 1] }
+keyframes = [{ t = 0 }, { t = 0.1, translate = [-0.078, 0, 0] }]
+)"));
+  const ProgramRun pushed = run("simulate pushed.toml -o pushed.h5 --scheme static");
+  EXPECT_EQ(pushed.exit_code, 0) << pushed.err;
+  EXPECT_NE(pushed.err.find("pressed to less than"), std::string::npos) << pushed.err;
+}
+
 TEST_F(ExperimentProgram, RefusesWhatItsSolversCannotDo) {
   const std::string two_bodies = kBeam + "[[body]]\nbox = [0.4, 0.1, 0.1]\nbricks = 4\n";
   static_cast<void>(folder_.write("two.toml", two_bodies + "[solver]\nscheme = \"modes\"\n"));

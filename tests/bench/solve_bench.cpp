@@ -99,7 +99,12 @@ int main(int argc, char** argv) {
     if (std::string_view(argv[i]) == "--direct-up-to" && i + 1 < argc) {
       direct_up_to = std::atoi(argv[++i]);
     } else {
-      sizes.push_back(std::atoi(argv[i]));
+      const int size = std::atoi(argv[i]);
+      if (size < 4 || size % 4 != 0) {
+        fmt::print(stderr, "{}: what is '{}'? Bricks along the longest side: multiples of 4\n", argv[0], argv[i]);
+        return 2;
+      }
+      sizes.push_back(size);
     }
   }
   if (sizes.empty()) sizes = {32, 64, 128};

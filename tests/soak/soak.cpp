@@ -55,7 +55,7 @@ int main(int argc, char** argv) {
   app.add_option("--drops", options.drops, "how many");
   app.add_option("--seed", options.seed, "of the series");
   app.add_option("--first", options.first, "number of the first drop: to see one again, with --drops 1");
-  app.add_option("--least-poisson", options.least_poisson, "of the materials");
+  app.add_option("--least-poisson", options.least_poisson, "of the materials")->check(CLI::Range(-0.9, 0.49));
   app.add_flag("--verbose", options.verbose, "a line for every drop, not only for those that fail");
   CLI11_PARSE(app, argc, argv);
   return sprung::test::soak(options) == 0 ? 0 : 1;

@@ -153,7 +153,7 @@ bool MultigridSystem::needs_pull(int block) const {
 }
 
 bool MultigridSystem::is_peculiar(std::size_t brick, double volume_ratio) const {
-  if (volume_ratio < body_->law.guard_ratio || definite_ || body_->small_strain_stiffness.size() > 0) return true;
+  if (volume_ratio < body_->law.guard_ratio || definite_ || body_->is_hexahedral()) return true;
   if (!points_of_brick_.empty() && !points_of_brick_[brick].empty()) return true;
   return std::any_of(body_->grid.nodes[brick].begin(), body_->grid.nodes[brick].end(),
                      [&](int node) { return is_held_node_[static_cast<std::size_t>(node)] != 0; });

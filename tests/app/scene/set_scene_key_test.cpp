@@ -26,6 +26,14 @@ TEST(SetSceneKey, SetsItInEveryBody) {
   EXPECT_DOUBLE_EQ(scene.bodies[1].material.density, built_in_materials()->find("rubber").density);
 }
 
+TEST(SetSceneKey, WordsMayHaveTheQuotesOfASceneFile) {
+  Scene scene = two_bodies();
+  set_scene_key(scene, "body.material.young", "\"7 kPa\"");
+  EXPECT_DOUBLE_EQ(scene.bodies[0].material.young, 7e3);
+  set_scene_key(scene, "solver.scheme", "'verlet'");
+  EXPECT_EQ(scene.solver.scheme, Solver::kVerlet);
+}
+
 TEST(SetSceneKey, PairsAreWrittenInThreeWays) {
   Scene scene = two_bodies();
   set_scene_key(scene, "render.resolution", "640x360");
