@@ -181,7 +181,7 @@ void set_key(Owner& owner, std::string_view path, const Given& given) {
 void set_scene_key(Scene& scene, std::string_view path, std::string_view text) {
   if (path == "materials") refuse(path);  // they would come too late for the bodies
   const bool is_quoted =
-      text.size() > 1 && (text.front() == '"' || text.front() == '\'') && text.back() == text.front();
+      text.size() > 1 && (text[0] == '"' || text[0] == '\'') && text.find(text[0], 1) == text.size() - 1;
   if (is_quoted) text = text.substr(1, text.size() - 2);  // as a scene file has it
   set_key(scene, path, {.text = text, .library = *scene.library});
 }

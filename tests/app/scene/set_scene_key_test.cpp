@@ -32,6 +32,8 @@ TEST(SetSceneKey, WordsMayHaveTheQuotesOfASceneFile) {
   EXPECT_DOUBLE_EQ(scene.bodies[0].material.young, 7e3);
   set_scene_key(scene, "solver.scheme", "'verlet'");
   EXPECT_EQ(scene.solver.scheme, Solver::kVerlet);
+  set_scene_key(scene, "render.caption", "\"soft\" and \"stiff\"");
+  EXPECT_EQ(scene.render.caption, "\"soft\" and \"stiff\"");
 }
 
 TEST(SetSceneKey, PairsAreWrittenInThreeWays) {
