@@ -1,10 +1,12 @@
-// Solves the stiffness of cantilevers under gravity and prints a table: multigrid beside CHOLMOD and conjugate
-// gradients with the diagonal, all in one run, so that ratios hold on a busy machine. Options: the bricks along the
-// longest sides, and "--direct-up-to N" bricks (default 20 000; beyond, the direct solver takes minutes and gigabytes).
+// Solves the stiffness of cantilevers and of bears on held feet under gravity and prints a table: multigrid beside
+// CHOLMOD and conjugate gradients with the diagonal, all in one run, so that ratios hold on a busy machine. Options:
+// the bricks along the longest sides, and "--direct-up-to N" bricks (default 20 000; beyond, the direct solver takes
+// minutes and gigabytes).
 #include <fmt/format.h>
 
 #include <Eigen/IterativeLinearSolvers>
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -13,6 +15,7 @@
 #include "core/motion/implicit_motion.h"
 #include "core/motion/statics.h"
 #include "core/motion/stiffness_matrix.h"
+#include "tests/bench/bench_bodies.h"
 
 namespace {
 
@@ -25,52 +28,68 @@ double seconds(const Work& work) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-struct Beam {
+/// The paper's cantilever, n x n/4 x n/4 bricks.
+Body cantilever(int n) {
+  return make_body(make_box_grid({n, n / 4, n / 4}, 0.4 / n), Model::kCalibrated,
+                   {.name = "bench", .young = 1000, .poisson = 0.3, .density = 1, .damping = 0.02, .source = ""});
+}
+
+/// At rest, of about as many bricks as that cantilever.
+Body bear(int n) {
+  Body body = test::bench_body("bear", n * (n / 4) * (n / 4), Model::kCalibrated);
+  body.positions = body.rest_positions;
+  body.velocities.setZero();
+  return body;
+}
+
+struct BenchShape {
+  const char* name;
+  Body (*make)(int n);
+  int held_axis;  // where the lattice is lowest along it
+};
+constexpr std::array kShapes{BenchShape{"cantilever", cantilever, 0}, BenchShape{"bear", bear, 1}};
+
+struct Held {
   Actor actor;
   Supports supports;
   Points loads;
 
-  /// The paper's cantilever, clamped at x = 0, n bricks long.
-  explicit Beam(int n)
-      : actor{.body = make_body(
-                  make_box_grid({n, n / 4, n / 4}, 0.4 / n), Model::kCalibrated,
-                  {.name = "bench", .young = 1000, .poisson = 0.3, .density = 1, .damping = 0.02, .source = ""}),
-              .contacts = {},
-              .pinned = {}},
+  Held(const BenchShape& shape, int n)
+      : actor{.body = shape.make(n), .contacts = {}, .pinned = {}},
         supports(actor.body.node_count()),
         loads(actor.body.masses * Vec3(0, -1, 0).transpose()) {
+    const std::vector<Eigen::Vector3i>& lattice = actor.body.grid.lattice;
+    int low = lattice.front()[shape.held_axis];
+    for (const Eigen::Vector3i& place : lattice) low = std::min(low, place[shape.held_axis]);
     for (int node = 0; node < actor.body.node_count(); ++node) {
-      if (actor.body.grid.lattice[static_cast<std::size_t>(node)].x() != 0) continue;
+      if (lattice[static_cast<std::size_t>(node)][shape.held_axis] != low) continue;
       supports.fix(node);
       actor.pinned.push_back({.node = node});
     }
   }
 };
 
-double static_solve(int n, NewtonSystem& system) {
-  Beam beam(n);
-  const Points start = beam.actor.body.positions;
-  return seconds([&] { solve_static(beam.actor.body, beam.supports, beam.loads, start, system, {.tolerance = 1e-6}); });
+double static_solve(Held held, NewtonSystem& system) {
+  const Points start = held.actor.body.positions;
+  return seconds([&] { solve_static(held.actor.body, held.supports, held.loads, start, system, {.tolerance = 1e-6}); });
 }
 
 /// Linearize and solve once.
-double linear_solve(int n, NewtonSystem& system, double tolerance) {
-  const Beam beam(n);
+double linear_solve(const Held& held, NewtonSystem& system, double tolerance) {
   const StepTerms none;
-  const Eigen::Map<const Eigen::VectorXd> forces(beam.loads.data(), beam.loads.size());
+  const Eigen::Map<const Eigen::VectorXd> forces(held.loads.data(), held.loads.size());
   return seconds([&] {
-    if (!system.linearize(beam.actor.body, beam.supports, false, none) || system.solve(forces, tolerance).size() == 0) {
+    if (!system.linearize(held.actor.body, held.supports, false, none) || system.solve(forces, tolerance).size() == 0) {
       std::abort();
     }
   });
 }
 
-double diagonal_solve(int n) {
-  const Beam beam(n);
-  const FreeDofs dofs(beam.supports);
-  const Eigen::Map<const Eigen::VectorXd> forces(beam.loads.data(), beam.loads.size());
+double diagonal_solve(const Held& held) {
+  const FreeDofs dofs(held.supports);
+  const Eigen::Map<const Eigen::VectorXd> forces(held.loads.data(), held.loads.size());
   return seconds([&] {
-    const Eigen::SparseMatrix<double> matrix = stiffness_matrix(beam.actor.body, dofs, false, {});
+    const Eigen::SparseMatrix<double> matrix = stiffness_matrix(held.actor.body, dofs, false, {});
     Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower> solver(matrix);
     solver.setTolerance(1e-6);
     if (solver.solve(dofs.gather(forces)).size() == 0) std::abort();
@@ -78,16 +97,29 @@ double diagonal_solve(int n) {
 }
 
 /// Of the second of two steps, and how many Newton iterations it took.
-std::pair<double, long> implicit_step(int n) {
-  Beam beam(n);
+std::pair<double, long> implicit_step(Held held) {
   World world;
-  world.actors.push_back(std::move(beam.actor));
+  world.actors.push_back(std::move(held.actor));
   world.gravity = {0, -1, 0};
   ImplicitMotion motion(world, {});
   motion.advance(0.01, 1, 0);
   const long before = motion.report().newton_iterations;
   const double time = seconds([&] { motion.advance(0.01, 1, 0.01); });
   return {time, motion.report().newton_iterations - before};
+}
+
+void print_row(const char* name, const Held& body, int direct_up_to) {
+  const int bricks = body.actor.body.grid.brick_count();
+  const double linear = linear_solve(body, *make_multigrid_system(), 1e-6);
+  const double still = static_solve(body, *make_multigrid_system());
+  const auto [step, iterations] = implicit_step(body);
+  const bool has_direct = bricks <= direct_up_to;
+  const double direct = has_direct ? linear_solve(body, *make_direct_system(), 0) : 0;
+  const double still_direct = has_direct ? static_solve(body, *make_direct_system()) : 0;
+  const auto time = [](bool is_there, double value) { return is_there ? fmt::format("{:.3g}", value) : "-"; };
+  fmt::print("| {} | {} | {:.3g} | {} | {:.3g} | {:.3g} | {} | {:.3g} | {} |\n", name, bricks, linear,
+             time(has_direct, direct), diagonal_solve(body), still, time(has_direct, still_direct), step, iterations);
+  std::fflush(stdout);
 }
 
 }  // namespace
@@ -109,20 +141,9 @@ int main(int argc, char** argv) {
   }
   if (sizes.empty()) sizes = {32, 64, 128};
   fmt::print(
-      "| bricks | linear, s | CHOLMOD, s | diagonal CG, s | static to 1e-6, s | CHOLMOD, s | implicit step, s | Newton "
-      "iterations |\n| --- | --- | --- | --- | --- | --- | --- | --- |\n");
-  for (const int n : sizes) {
-    const int bricks = n * (n / 4) * (n / 4);
-    const auto multigrid = make_multigrid_system();
-    const double linear = linear_solve(n, *multigrid, 1e-6);
-    const double still = static_solve(n, *make_multigrid_system());
-    const auto [step, iterations] = implicit_step(n);
-    const bool has_direct = bricks <= direct_up_to;
-    const double direct = has_direct ? linear_solve(n, *make_direct_system(), 0) : 0;
-    const double still_direct = has_direct ? static_solve(n, *make_direct_system()) : 0;
-    const auto time = [](bool is_there, double value) { return is_there ? fmt::format("{:.3g}", value) : "-"; };
-    fmt::print("| {} | {:.3g} | {} | {:.3g} | {:.3g} | {} | {:.3g} | {} |\n", bricks, linear, time(has_direct, direct),
-               diagonal_solve(n), still, time(has_direct, still_direct), step, iterations);
-    std::fflush(stdout);
+      "| body | bricks | linear, s | CHOLMOD, s | diagonal CG, s | static to 1e-6, s | CHOLMOD, s | implicit step, s | "
+      "Newton iterations |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
+  for (const BenchShape& shape : kShapes) {
+    for (const int n : sizes) print_row(shape.name, Held(shape, n), direct_up_to);
   }
 }
