@@ -10,7 +10,7 @@
 #include "app/placed_loads.h"
 #include "app/regions.h"
 #include "app/units.h"
-#include "core/bricks/slivers.h"
+#include "core/bricks/pieces.h"
 #include "core/bricks/voxelize.h"
 #include "core/error.h"
 #include "core/soft_body.h"

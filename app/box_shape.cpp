@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/bricks/brick_faces.h"
+#include "core/bricks/brick_grid.h"
 #include "core/error.h"
 
 namespace sprung {

@@ -10,7 +10,7 @@
 #include "app/glue_bodies.h"
 #include "app/placed_loads.h"
 #include "app/start_checks.h"
-#include "core/world/squeeze.h"
+#include "core/contact/inversion_guard.h"
 
 namespace sprung {
 namespace {

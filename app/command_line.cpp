@@ -19,7 +19,7 @@
 #include "app/scene/scene_values.h"
 #include "app/wrong_words.h"
 #include "core/error.h"
-#include "core/nearest.h"
+#include "core/text.h"
 
 namespace sprung {
 namespace {

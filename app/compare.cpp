@@ -4,8 +4,8 @@
 
 #include "app/writable.h"
 #include "core/error.h"
-#include "render/compare.h"
-#include "render/png.h"
+#include "render/image/compare.h"
+#include "render/image/png.h"
 
 namespace sprung {
 

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <random>
 
-#include "core/rotation.h"
+#include "core/pose.h"
 
 namespace sprung {
 namespace {

@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "app/load_body.h"
-#include "core/world/pose.h"
+#include "core/pose.h"
 
 namespace sprung {
 

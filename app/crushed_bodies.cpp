@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/world/squeeze.h"
+#include "core/contact/inversion_guard.h"
 
 namespace sprung {
 

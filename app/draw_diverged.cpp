@@ -6,8 +6,8 @@
 
 #include "app/report/experiment_picture.h"
 #include "app/writable.h"
-#include "core/motion/diverged.h"
-#include "render/png.h"
+#include "core/error.h"
+#include "render/image/png.h"
 
 namespace sprung {
 namespace {

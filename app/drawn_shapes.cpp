@@ -1,6 +1,6 @@
 #include "app/drawn_shapes.h"
 
-#include "core/bricks/smooth_ride.h"
+#include "core/bricks/embedding.h"
 
 namespace sprung {
 Eigen::Vector3f srgb(const Color& color) { return Eigen::Vector3f(color.red, color.green, color.blue) / 255.0F; }

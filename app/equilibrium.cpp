@@ -12,10 +12,9 @@
 #include "app/pin_movements.h"
 #include "app/progress.h"
 #include "app/scene/motion_only.h"
+#include "core/dynamics/statics/modes.h"
+#include "core/dynamics/statics/statics.h"
 #include "core/error.h"
-#include "core/motion/linear_response.h"
-#include "core/motion/modes.h"
-#include "core/motion/statics.h"
 
 namespace sprung {
 namespace {

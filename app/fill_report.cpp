@@ -8,7 +8,7 @@
 
 #include "app/units.h"
 #include "core/bricks/voxelize.h"
-#include "core/count_of.h"
+#include "core/text.h"
 
 namespace sprung {
 namespace {

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "app/units.h"
+#include "core/contact/glue.h"
 #include "core/error.h"
-#include "core/world/glue.h"
 
 namespace sprung {
 namespace {

@@ -12,14 +12,14 @@
 #include "app/selector.h"
 #include "app/shapes.h"
 #include "app/units.h"
-#include "core/bricks/brick_size.h"
+#include "core/bricks/thin_parts.h"
 #include "core/bricks/voxelize.h"
 #include "core/error.h"
-#include "core/mesh/read/file_checks.h"
-#include "core/mesh/read_mesh.h"
-#include "core/rotation.h"
+#include "core/io/decode_image.h"
+#include "core/mesh/io/file_checks.h"
+#include "core/mesh/io/read_mesh.h"
+#include "core/pose.h"
 #include "core/soft_body.h"
-#include "render/decode.h"
 
 namespace sprung {
 namespace {

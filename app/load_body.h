@@ -6,8 +6,8 @@
 #include "app/console.h"
 #include "app/scene/scene.h"
 #include "core/bricks/brick_grid.h"
-#include "core/mesh/solids.h"
-#include "core/mesh/thickness.h"
+#include "core/mesh/query/thickness.h"
+#include "core/mesh/repair/solids.h"
 
 namespace sprung {
 

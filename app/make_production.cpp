@@ -6,7 +6,7 @@
 
 #include "app/progress.h"
 #include "app/units.h"
-#include "core/count_of.h"
+#include "core/text.h"
 
 namespace sprung {
 namespace {

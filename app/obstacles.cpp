@@ -4,9 +4,9 @@
 
 #include "app/shapes.h"
 #include "core/error.h"
-#include "core/mesh/read_mesh.h"
-#include "core/mesh/solids.h"
-#include "core/rotation.h"
+#include "core/mesh/io/read_mesh.h"
+#include "core/mesh/repair/solids.h"
+#include "core/pose.h"
 
 namespace sprung {
 namespace {

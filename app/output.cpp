@@ -8,10 +8,9 @@
 
 #include "app/numbered_name.h"
 #include "app/writable.h"
-#include "core/count_of.h"
 #include "core/error.h"
-#include "core/nearest.h"
-#include "core/output/file_lock.h"
+#include "core/io/file_lock.h"
+#include "core/text.h"
 #include "render/film.h"
 
 namespace sprung {

@@ -1,8 +1,8 @@
 #include "app/picture_writer.h"
 
 #include "app/writable.h"
-#include "render/exr.h"
-#include "render/png.h"
+#include "render/image/exr.h"
+#include "render/image/png.h"
 
 namespace sprung {
 namespace {

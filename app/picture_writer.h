@@ -10,8 +10,7 @@
 
 #include "app/output.h"
 #include "render/film.h"
-#include "render/image.h"
-#include "render/passes.h"
+#include "render/image/image.h"
 
 namespace sprung {
 

@@ -1,6 +1,6 @@
 #pragma once
 #include "app/build_world.h"
-#include "core/motion/newton_system.h"
+#include "core/dynamics/linear/linear_solver.h"
 #include "core/world/keyframes.h"
 
 namespace sprung {

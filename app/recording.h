@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/build_world.h"
-#include "core/motion/motion_memory.h"
+#include "core/dynamics/integrator_state.h"
 
 namespace sprung {
 

@@ -13,8 +13,8 @@
 #include "app/picture_writer.h"
 #include "app/progress.h"
 #include "app/units.h"
-#include "core/count_of.h"
 #include "core/error.h"
+#include "core/text.h"
 
 namespace sprung {
 namespace {

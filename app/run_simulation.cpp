@@ -16,8 +16,8 @@
 #include "app/simulate.h"
 #include "app/with_scene.h"
 #include "app/writable.h"
-#include "core/count_of.h"
 #include "core/error.h"
+#include "core/text.h"
 
 namespace sprung {
 namespace {

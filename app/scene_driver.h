@@ -5,7 +5,7 @@
 
 #include "app/build_world.h"
 #include "app/load_driver.h"
-#include "core/motion/motion_memory.h"
+#include "core/dynamics/integrator_state.h"
 #include "core/world/keyframes.h"
 
 namespace sprung {

@@ -9,9 +9,9 @@
 #include <numeric>
 
 #include "core/error.h"
-#include "core/mesh/read_mesh.h"
-#include "core/mesh/winding_tree.h"
-#include "core/nearest.h"
+#include "core/mesh/io/read_mesh.h"
+#include "core/mesh/query/winding_tree.h"
+#include "core/text.h"
 
 namespace sprung {
 namespace {

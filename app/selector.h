@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "app/load_body.h"
-#include "core/mesh/nearest_triangle.h"
+#include "core/mesh/query/closest_triangle.h"
 
 namespace sprung {
 

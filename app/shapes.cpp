@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/bricks/corner.h"
+#include "core/bricks/brick_topology.h"
 
 namespace sprung {
 namespace {

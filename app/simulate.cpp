@@ -15,13 +15,13 @@
 #include "app/scene_driver.h"
 #include "app/step_plan.h"
 #include "app/units.h"
-#include "core/count_of.h"
+#include "core/contact/penetration.h"
+#include "core/dynamics/explicit/adaptive_integrator.h"
+#include "core/dynamics/implicit/implicit_motion.h"
+#include "core/dynamics/statics/statics.h"
 #include "core/error.h"
-#include "core/motion/careful_motion.h"
-#include "core/motion/implicit_motion.h"
-#include "core/motion/statics.h"
+#include "core/text.h"
 #include "core/world/load_forces.h"
-#include "core/world/overlap.h"
 
 namespace sprung {
 namespace {

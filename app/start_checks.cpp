@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "app/units.h"
+#include "core/contact/broad_phase.h"
+#include "core/contact/penetration.h"
 #include "core/error.h"
-#include "core/world/near_boxes.h"
-#include "core/world/overlap.h"
 
 namespace sprung {
 namespace {

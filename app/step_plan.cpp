@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "app/units.h"
+#include "core/dynamics/implicit/implicit_motion.h"
 #include "core/error.h"
-#include "core/motion/why_not_implicit.h"
 
 namespace sprung {
 namespace {

@@ -3,7 +3,7 @@
 #include <string_view>
 
 #include "app/scene/scene.h"
-#include "core/motion/careful_motion.h"
+#include "core/dynamics/explicit/adaptive_integrator.h"
 
 namespace sprung {
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 
@@ -15,6 +16,17 @@ class Error : public std::runtime_error {
 
  private:
   ErrorKind kind_;
+};
+
+/// The motion of an actor came to no good end. The world stands where it was right for the last time.
+class Diverged : public Error {
+ public:
+  Diverged(std::size_t actor, const std::string& message) : Error(ErrorKind::kDiverged, message), actor_(actor) {}
+  /// In World::actors.
+  [[nodiscard]] std::size_t actor() const { return actor_; }
+
+ private:
+  std::size_t actor_;
 };
 
 }  // namespace sprung

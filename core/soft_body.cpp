@@ -6,12 +6,11 @@
 #include <span>
 
 #include "core/bricks/pieces.h"
-#include "core/bricks/slivers.h"
 #include "core/bricks/voxelize.h"
 #include "core/error.h"
-#include "core/mesh/coarsen.h"
-#include "core/mesh/submesh.h"
-#include "core/skin/corner_normals.h"
+#include "core/mesh/repair/coarsen.h"
+#include "core/mesh/repair/submesh.h"
+#include "core/skin/skin.h"
 
 namespace sprung {
 namespace {

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "core/mesh/solids.h"
+#include "core/mesh/repair/solids.h"
 #include "core/skin/skin.h"
 #include "core/world/world.h"
 

@@ -3,15 +3,9 @@
 #include <array>
 #include <vector>
 
-namespace sprung {
+#include "core/io/decode_image.h"
 
-/// Light from all around: rows from straight up to straight down, each once around the vertical, with -z in its middle
-/// and +x a quarter to its right.
-struct Panorama {
-  int width = 0;
-  int height = 0;
-  std::vector<Eigen::Vector3f> light;  // linear; width * height
-};
+namespace sprung {
 
 /// What the upper half of a panorama does to surfaces; from below comes what the floor sends back.
 struct Environment {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "core/error.h"
-#include "core/output/file_lock.h"
-#include "render/process.h"
+#include "core/io/file_lock.h"
+#include "core/io/process.h"
 
 namespace sprung {
 

@@ -1,8 +1,248 @@
 #include "render/light_maps.h"
 
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 #include "render/shaders.h"
 
 namespace sprung {
+namespace {
+
+/// Nothing beyond the map.
+void set_border(const GlFunctions& gl) {
+  const std::array<float, 4> border{};
+  gl.TexParameterfv(GL_TEXTURE_2D, GL_TEXTURE_BORDER_COLOR, border.data());
+}
+
+}  // namespace
+
+MapBrush::MapBrush(const GlFunctions& gl)
+    : gl_(gl),
+      no_buffers_(make_vertex_array(gl)),
+      depth_program_(load_program(gl, "depth.vert", "depth.frag")),
+      blur_program_(load_program(gl, "screen.vert", "blur.frag")) {}
+
+LightMap MapBrush::make_map(int size, const TextureFormat* color, bool depth) const {
+  LightMap map;
+  map.size = size;
+  if (color != nullptr) {
+    map.color = make_texture(gl_, size, size, *color);
+    set_border(gl_);
+  }
+  if (depth) map.depth = make_texture(gl_, size, size, map_format::kDepth);
+  map.target = make_texture_target(gl_, color != nullptr ? &map.color : nullptr, depth ? &map.depth : nullptr);
+  return map;
+}
+
+void MapBrush::fill(const LightMap& map) const {
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, map.target.name());
+  gl_.Viewport(0, 0, map.size, map.size);
+  gl_.BindVertexArray(no_buffers_.name());
+  gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void MapBrush::clear(const LightMap& map) const {
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, map.target.name());
+  gl_.Viewport(0, 0, map.size, map.size);
+  gl_.ClearColor(0, 0, 0, 0);
+  gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+}
+
+void MapBrush::make_mipmaps(const GlTexture& texture) const {
+  bind_texture(gl_, 0, texture);
+  gl_.GenerateMipmap(GL_TEXTURE_2D);
+}
+
+void MapBrush::blur(const LightMap& from, const LightMap& pass, const LightMap& to,
+                    const Eigen::Vector2f& reach) const {
+  blur_program_.use();
+  blur_program_.set("source", 0);
+  bind_texture(gl_, 0, from.color);
+  blur_program_.set("reach", Eigen::Vector2f(reach.x(), 0));
+  fill(pass);
+  bind_texture(gl_, 0, pass.color);
+  blur_program_.set("reach", Eigen::Vector2f(0, reach.y()));
+  fill(to);
+}
+
+void MapBrush::draw_depth(const LightMap& map, const LightView& view, const std::vector<SkinBuffers>& skins,
+                          Detail detail, const DrawFrame& frame) const {
+  clear(map);
+  depth_program_.use();
+  frame.set_common(depth_program_);
+  depth_program_.set("clip_from_stage", view.clip_from_stage.cast<float>().eval());
+  for (const SkinBuffers& skin : skins) {
+    if (!skin.is_ghost()) skin.draw(detail);
+  }
+}
+
+namespace {
+
+constexpr int kUndersideSize = 128;
+constexpr int kUndersideColorSize = 2 * kUndersideSize;
+constexpr int kSkySize = 96;
+constexpr int kLightSize = 128;
+constexpr int kFarLightSize = 32;
+constexpr double kFarBlur = 0.75;  // of a body's radius: three standard deviations
+constexpr float kShaded = 0.5F;    // depth of the ground where there may be shadow
+
+/// How far it is from the highest body to the ground along the key light; an upper bound.
+double longest_way(const DrawFrame& frame) {
+  return std::max(frame.light.bodies.high.y() - frame.ground_height, 1e-3 * frame.body_radius) / to_key_light().y();
+}
+
+std::string shadow_settings(Quality quality) {
+  const bool is_high = quality == Quality::kHigh;
+  return fmt::format("#define SHADED {:.3f}\n#define SEARCH {}\n#define TAPS {}\n", kShaded, is_high ? 12 : 6,
+                     is_high ? 32 : 12);
+}
+
+std::string light_settings(int shadow_size) {
+  return fmt::format("#define SHADOW_LOD {:.3f}\n", std::log2(static_cast<double>(shadow_size) / kLightSize));
+}
+
+}  // namespace
+
+GroundMaps::GroundMaps(const GlFunctions& gl, const MapBrush& brush, Quality quality, const LightMap& key)
+    : gl_(gl),
+      brush_(brush),
+      key_(key),
+      key_mask_(brush.make_map(key.size / 2, &map_format::kMask, false)),
+      underside_color_(brush.make_map(kUndersideColorSize, &map_format::kColor, true)),
+      underside_(brush.make_map(kUndersideSize, &map_format::kMask, false)),
+      sky_(brush.make_map(kSkySize, &map_format::kFlatColor, false)),
+      shadow_(brush.make_map(key.size / 2, &map_format::kShadow, true)),
+      light_(brush.make_map(kLightSize, &map_format::kFlatColor, false)),
+      far_light_pass_(brush.make_map(kFarLightSize, &map_format::kFlatColor, false)),
+      far_light_(brush.make_map(kFarLightSize, &map_format::kFlatColor, false)),
+      tint_(brush.make_map(key.size / 2, &map_format::kFlatColor, false)),
+      underside_programs_(load_skin_programs(gl, "underside.frag")),
+      underside_filter_program_(load_program(gl, "screen.vert", "underside_filter.frag")),
+      sky_program_(load_program(gl, "screen.vert", "ground_sky.frag")),
+      key_mask_program_(load_program(gl, "screen.vert", "key_mask.frag")),
+      shaded_program_(load_program(gl, "screen.vert", "ground_shadow.frag", shadow_settings(quality))),
+      shadow_program_(
+          load_program(gl, "screen.vert", "ground_shadow.frag", shadow_settings(quality) + "#define SHADOW\n")),
+      light_program_(load_program(gl, "screen.vert", "ground_light.frag", light_settings(shadow_.size))),
+      tint_program_(load_program(gl, "screen.vert", "ground_tint.frag")) {}
+
+void GroundMaps::draw(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const DrawFrame& frame,
+                      PassClock& clock) const {
+  if (frame.has_ground) {
+    draw_underside(skins, textures, frame);
+    clock.stop("underside map");
+    draw_sky(frame);
+    clock.stop("ground sky");
+    draw_key_mask(frame);
+    clock.stop("key mask");
+    draw_shadow(frame);
+    clock.stop("ground shadow");
+  } else {  // a floor far below, which nothing shades
+    brush_.clear(sky_);
+    brush_.clear(shadow_);
+    brush_.make_mipmaps(shadow_.color);
+  }
+  draw_light(light_program_, light_, frame);
+  const Eigen::Array2d reach = kFarBlur * frame.body_radius / frame.light.ground.sides.array();
+  brush_.blur(light_, far_light_pass_, far_light_, reach.cast<float>());
+  if (frame.has_ground) draw_light(tint_program_, tint_, frame);
+  clock.stop("ground light");
+}
+
+void GroundMaps::draw_underside(const std::vector<SkinBuffers>& skins, const TextureSet& textures,
+                                const DrawFrame& frame) const {
+  gl_.Enable(GL_DEPTH_TEST);
+  brush_.clear(underside_color_);
+  for (const GlProgram* program :
+       {&underside_programs_.plain, &underside_programs_.textured, &underside_programs_.mapped}) {
+    program->use();
+    frame.set_common(*program);
+    program->set("clip_from_stage", frame.light.nadir.clip_from_stage.cast<float>().eval());
+  }
+  for (const SkinBuffers& skin : skins) {
+    if (!skin.is_ghost()) skin.draw(underside_programs_, textures, 0, Detail::kCoarsest);
+  }
+  gl_.Disable(GL_DEPTH_TEST);
+  brush_.make_mipmaps(underside_color_.color);
+
+  underside_filter_program_.use();
+  bind_texture(gl_, 0, underside_color_.depth);
+  underside_filter_program_.set("underside_depth", 0);
+  brush_.fill(underside_);
+  brush_.make_mipmaps(underside_.color);
+}
+
+void GroundMaps::draw_sky(const DrawFrame& frame) const {
+  const LightView& nadir = frame.light.nadir;
+  sky_program_.use();
+  frame.set_common(sky_program_);
+  sky_program_.set("underside_rectangle", lookup_rectangle(nadir));
+  sky_program_.set("underside_heights",
+                   Eigen::Vector2d(nadir.low.z() - frame.ground_height, nadir.sides.z()).cast<float>().eval());
+  sky_program_.set("underside_texels", static_cast<float>(kUndersideSize));
+  bind_texture(gl_, 0, underside_.color);
+  sky_program_.set("underside", 0);
+  bind_texture(gl_, 1, underside_color_.color);
+  sky_program_.set("underside_color", 1);
+  brush_.fill(sky_);
+}
+
+void GroundMaps::draw_key_mask(const DrawFrame& frame) const {
+  const LightView& key = frame.light.key;
+  // Clip coordinates are 2 (u, v, depth) - 1; the row of the inverse that gives y, less the ground's height.
+  const Eigen::RowVector4d y = key.clip_from_stage.inverse().row(1);
+  const Eigen::Vector4d height(2 * y[0], 2 * y[1], 2 * y[2], y[3] - y[0] - y[1] - y[2] - frame.ground_height);
+  key_mask_program_.use();
+  frame.set_common(key_mask_program_);
+  key_mask_program_.set("longest_way", static_cast<float>(longest_way(frame)));
+  key_mask_program_.set("height_from_light", height.cast<float>().eval());
+  bind_texture(gl_, 0, key_.depth);
+  key_mask_program_.set("key_depth", 0);
+  brush_.fill(key_mask_);
+  brush_.make_mipmaps(key_mask_.color);
+}
+
+/// First, in the depth, where there may be shadow. There it is looked for: an early depth test keeps llvmpipe from
+/// running the costly shader elsewhere.
+void GroundMaps::draw_shadow(const DrawFrame& frame) const {
+  gl_.Enable(GL_DEPTH_TEST);
+  gl_.DepthFunc(GL_ALWAYS);
+  draw_shadow(shaded_program_, frame);
+  gl_.DepthFunc(GL_EQUAL);
+  draw_shadow(shadow_program_, frame);
+  gl_.DepthFunc(GL_LESS);
+  gl_.Disable(GL_DEPTH_TEST);
+  brush_.make_mipmaps(shadow_.color);
+}
+
+void GroundMaps::draw_shadow(const GlProgram& program, const DrawFrame& frame) const {
+  program.use();
+  frame.set_common(program);
+  const Eigen::Vector2f sides = frame.light.key.sides.head<2>().cast<float>();
+  program.set("mask_texels", static_cast<float>(key_mask_.size) / sides.x());
+  program.set("mask_texel_size", (Eigen::Vector2f(1, sides.x() / sides.y()) / key_mask_.size).eval());
+  program.set("longest_way", static_cast<float>(longest_way(frame)));
+  const double lowest = std::max(frame.light.bodies.low.y() - frame.ground_height, 0.0) / to_key_light().y();
+  program.set("lowest_way", static_cast<float>(lowest));
+  bind_texture(gl_, 0, key_mask_.color);
+  program.set("key_mask", 0);
+  program.set("screen_depth", kShaded);
+  brush_.fill(shadow_);
+}
+
+void GroundMaps::draw_light(const GlProgram& program, const LightMap& map, const DrawFrame& frame) const {
+  program.use();
+  frame.set_common(program);
+  bind_texture(gl_, 0, sky_.color);
+  program.set("ground_sky", 0);
+  bind_texture(gl_, 1, shadow_.color);
+  program.set("ground_shadow", 1);
+  brush_.fill(map);
+}
 
 namespace {
 

@@ -1,9 +1,101 @@
 #pragma once
 #include <vector>
 
-#include "render/ground_maps.h"
+#include "render/frame.h"
+#include "render/gl/pass_clock.h"
+#include "render/skin_buffers.h"
 
 namespace sprung {
+
+/// A square texture to draw into.
+struct LightMap {
+  int size = 0;  // texels along a side
+  GlTexture color;
+  GlTexture depth;
+  GlFramebuffer target;
+};
+
+/// Formats of maps. llvmpipe reads bytes several times quicker than half floats.
+namespace map_format {
+inline constexpr TextureFormat kDepth{GL_DEPTH_COMPONENT16, GL_DEPTH_COMPONENT, GL_UNSIGNED_SHORT, false, false,
+                                      GL_CLAMP_TO_EDGE};
+inline constexpr TextureFormat kColor{GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, true, true, GL_CLAMP_TO_EDGE};
+inline constexpr TextureFormat kFlatColor{GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, false, true, GL_CLAMP_TO_EDGE};
+inline constexpr TextureFormat kMask{GL_RG8, GL_RG, GL_UNSIGNED_BYTE, true, true, GL_CLAMP_TO_BORDER};
+inline constexpr TextureFormat kShadow{GL_R8, GL_RED, GL_UNSIGNED_BYTE, true, true, GL_CLAMP_TO_EDGE};
+inline constexpr TextureFormat kMoments{GL_RG32F, GL_RG, GL_FLOAT, false, true, GL_CLAMP_TO_EDGE};
+}  // namespace map_format
+
+/// Draws into light maps.
+class MapBrush {
+ public:
+  explicit MapBrush(const GlFunctions& gl);
+
+  /// Without colours where `color` is null.
+  [[nodiscard]] LightMap make_map(int size, const TextureFormat* color, bool depth) const;
+  /// The program in use over all of the map.
+  void fill(const LightMap& map) const;
+  void clear(const LightMap& map) const;
+  void make_mipmaps(const GlTexture& texture) const;
+  /// Gaussian along both axes, by way of `pass`, which is as large as `to`. `reach`: three standard deviations, in
+  /// texture coordinates.
+  void blur(const LightMap& from, const LightMap& pass, const LightMap& to, const Eigen::Vector2f& reach) const;
+  /// The depths of all bodies, seen in parallel lines.
+  void draw_depth(const LightMap& map, const LightView& view, const std::vector<SkinBuffers>& skins, Detail detail,
+                  const DrawFrame& frame) const;
+
+ private:
+  const GlFunctions& gl_;
+  GlVertexArray no_buffers_;
+  GlProgram depth_program_;
+  GlProgram blur_program_;
+};
+
+/// The light on the ground by place, in the rectangle of it on which the bodies change it:
+/// - sky: how much of the sky the bodies hide, and the light they send down instead
+/// - shadow: how much of the key light they hide
+/// - light: what the ground sends back, coarsely; and blurred, for what is high above it
+/// - tint: how much darker the floor looks
+class GroundMaps {
+ public:
+  /// `key`: the map of depths along the key light.
+  GroundMaps(const GlFunctions& gl, const MapBrush& brush, Quality quality, const LightMap& key);
+  void draw(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const DrawFrame& frame,
+            PassClock& clock) const;
+
+  [[nodiscard]] const GlTexture& light() const { return light_.color; }
+  [[nodiscard]] const GlTexture& tint() const { return tint_.color; }
+  [[nodiscard]] const GlTexture& far_light() const { return far_light_.color; }
+
+ private:
+  void draw_underside(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const DrawFrame& frame) const;
+  void draw_sky(const DrawFrame& frame) const;
+  void draw_key_mask(const DrawFrame& frame) const;
+  void draw_shadow(const DrawFrame& frame) const;
+  void draw_shadow(const GlProgram& program, const DrawFrame& frame) const;
+  void draw_light(const GlProgram& program, const LightMap& map, const DrawFrame& frame) const;
+
+  const GlFunctions& gl_;
+  const MapBrush& brush_;
+  const LightMap& key_;
+  LightMap key_mask_;
+  LightMap underside_color_;
+  LightMap underside_;
+  LightMap sky_;
+  LightMap shadow_;
+  LightMap light_;
+  LightMap far_light_pass_;
+  LightMap far_light_;
+  LightMap tint_;
+  SkinPrograms underside_programs_;
+  GlProgram underside_filter_program_;
+  GlProgram sky_program_;
+  GlProgram key_mask_program_;
+  GlProgram shaded_program_;
+  GlProgram shadow_program_;
+  GlProgram light_program_;
+  GlProgram tint_program_;
+};
 
 /// Everything that is drawn from the side of the light, before the picture: the light on the ground, and
 /// - key: depth along the key light; soft shadows of the bodies on themselves and each other

@@ -10,7 +10,7 @@ namespace sprung {
 
 namespace {
 
-using Pixels = std::vector<Eigen::Vector4f>;
+using FloatPixels = std::vector<Eigen::Vector4f>;
 
 constexpr TextureFormat kNumbers{GL_RGBA32F, GL_RGBA, GL_FLOAT, false, false, GL_CLAMP_TO_EDGE};
 constexpr TextureFormat kDepth{GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, false, false, GL_CLAMP_TO_EDGE};
@@ -84,8 +84,8 @@ void PassDrawer::draw_skins(const std::vector<SkinBuffers>& skins, const std::ve
 }
 
 void PassDrawer::read(const View& view, const Camera& camera, Passes& passes) const {
-  Pixels places(passes.depth.size());
-  Pixels normals(passes.depth.size());
+  FloatPixels places(passes.depth.size());
+  FloatPixels normals(passes.depth.size());
   gl_.ReadBuffer(GL_COLOR_ATTACHMENT0);
   gl_.ReadPixels(0, 0, width_, height_, GL_RGBA, GL_FLOAT, places.data());
   gl_.ReadBuffer(GL_COLOR_ATTACHMENT1);

@@ -1,8 +1,9 @@
 #pragma once
 #include <vector>
 
-#include "render/passes.h"
-#include "render/view.h"
+#include "render/frame.h"
+#include "render/image/image.h"
+#include "render/skin_buffers.h"
 
 namespace sprung {
 

@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 #include "render/gl/context.h"
-#include "render/pass_clock.h"
+#include "render/gl/pass_clock.h"
 #include "render/pass_drawer.h"
 #include "render/screen.h"
 

@@ -4,15 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "core/skin/appearance.h"
 #include "core/skin/skin.h"
 #include "render/camera.h"
-#include "render/color_map.h"
 #include "render/environment.h"
-#include "render/image.h"
-#include "render/look.h"
-#include "render/pass_time.h"
-#include "render/passes.h"
-#include "render/quality.h"
+#include "render/image/color_map.h"
+#include "render/image/image.h"
 
 namespace sprung {
 

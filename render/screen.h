@@ -2,10 +2,26 @@
 #include <optional>
 #include <vector>
 
-#include "render/environment_texture.h"
-#include "render/view.h"
+#include "render/environment.h"
+#include "render/frame.h"
+#include "render/gl/objects.h"
+#include "render/light_maps.h"
 
 namespace sprung {
+
+/// An environment on the device, for shaders with ENVIRONMENT defined.
+class EnvironmentTexture {
+ public:
+  EnvironmentTexture(const GlFunctions& gl, const Environment& environment);
+  /// Binds the texture to a unit, and sets the uniforms that go with it.
+  void bind(const GlProgram& program, int unit) const;
+
+ private:
+  const GlFunctions& gl_;
+  std::array<Eigen::Vector3f, 9> irradiance_;
+  float brightest_;
+  GlTexture reflections_;
+};
 
 /// Along each side of a pixel.
 [[nodiscard]] constexpr int sample_side(int samples) { return samples == 16 ? 4 : samples == 4 ? 2 : 1; }

@@ -2,7 +2,7 @@
 #include <string>
 
 #include "app/build_world.h"
-#include "core/output/cache.h"
+#include "core/io/cache.h"
 
 namespace sprung {
 

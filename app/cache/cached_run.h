@@ -1,6 +1,6 @@
 #pragma once
 #include "app/recording.h"
-#include "core/output/cache.h"
+#include "core/io/cache.h"
 
 namespace sprung {
 

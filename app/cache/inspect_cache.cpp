@@ -4,8 +4,8 @@
 
 #include "app/cache/cache_header.h"
 #include "app/json_text.h"
-#include "core/count_of.h"
 #include "core/error.h"
+#include "core/text.h"
 
 namespace sprung {
 namespace {

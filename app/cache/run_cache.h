@@ -5,8 +5,8 @@
 
 #include "app/build_world.h"
 #include "app/recording.h"
-#include "core/motion/motion_memory.h"
-#include "core/output/cache.h"
+#include "core/dynamics/integrator_state.h"
+#include "core/io/cache.h"
 
 namespace sprung {
 

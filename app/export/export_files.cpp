@@ -12,13 +12,12 @@
 #include "app/interrupt.h"
 #include "app/progress.h"
 #include "app/report/whole_file.h"
-#include "core/count_of.h"
 #include "core/error.h"
-#include "core/nearest.h"
-#include "core/output/animated_glb.h"
-#include "core/output/mesh_export.h"
-#include "core/output/point_cache.h"
-#include "core/output/xdmf.h"
+#include "core/io/animated_glb.h"
+#include "core/io/mesh_export.h"
+#include "core/io/point_cache.h"
+#include "core/io/xdmf.h"
+#include "core/text.h"
 
 namespace sprung {
 namespace {

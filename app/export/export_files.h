@@ -9,7 +9,7 @@
 #include "app/console.h"
 #include "app/frame_range.h"
 #include "app/numbered_name.h"
-#include "core/output/cache.h"
+#include "core/io/cache.h"
 
 namespace sprung {
 

@@ -13,7 +13,7 @@
 #include "app/with_scene.h"
 #include "app/writable.h"
 #include "core/error.h"
-#include "core/output/mesh_export.h"
+#include "core/io/mesh_export.h"
 
 namespace sprung {
 namespace {

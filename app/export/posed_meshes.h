@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "app/build_world.h"
-#include "core/output/posed_mesh.h"
+#include "core/io/mesh_export.h"
 
 namespace sprung {
 

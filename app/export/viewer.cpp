@@ -9,7 +9,7 @@
 
 #include "app/export/viewer_page.h"
 #include "app/report/png_base64.h"
-#include "core/output/animated_glb.h"
+#include "core/io/animated_glb.h"
 
 namespace sprung {
 namespace {

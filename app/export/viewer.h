@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "core/output/posed_mesh.h"
+#include "core/io/mesh_export.h"
 #include "render/camera.h"
 
 namespace sprung {

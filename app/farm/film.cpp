@@ -9,9 +9,9 @@
 #include "app/output.h"
 #include "app/picture_writer.h"
 #include "app/progress.h"
-#include "core/count_of.h"
 #include "core/error.h"
-#include "render/png.h"
+#include "core/text.h"
+#include "render/image/png.h"
 
 namespace sprung {
 namespace {

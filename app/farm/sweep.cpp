@@ -9,8 +9,8 @@
 #include "app/scene/make_scene.h"
 #include "app/scene/scene_file.h"
 #include "app/writable.h"
-#include "core/count_of.h"
 #include "core/error.h"
+#include "core/text.h"
 
 namespace sprung {
 namespace {

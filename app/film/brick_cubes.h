@@ -5,7 +5,7 @@
 
 #include "app/build_world.h"
 #include "app/scene/scene_render.h"
-#include "core/bricks/brick_faces.h"
+#include "core/bricks/brick_grid.h"
 #include "render/renderer.h"
 
 namespace sprung {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "app/build_world.h"
-#include "core/mesh/nearest_triangle.h"
+#include "core/mesh/query/closest_triangle.h"
 
 namespace sprung {
 

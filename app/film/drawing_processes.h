@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "render/image.h"
+#include "render/image/image.h"
 
 namespace sprung {
 

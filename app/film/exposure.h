@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "render/image.h"
+#include "render/image/image.h"
 
 namespace sprung {
 

@@ -3,7 +3,7 @@
 
 #include "app/film/field_values.h"
 #include "app/scene/scene.h"
-#include "render/legend.h"
+#include "render/image/legend.h"
 
 namespace sprung {
 

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "app/drawn_shapes.h"
-#include "core/bricks/corner.h"
+#include "core/bricks/brick_topology.h"
 
 namespace sprung {
 namespace {

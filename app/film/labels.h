@@ -4,8 +4,8 @@
 
 #include "app/scene/scene.h"
 #include "render/camera.h"
-#include "render/legend.h"
-#include "render/plot.h"
+#include "render/image/legend.h"
+#include "render/image/plot.h"
 
 namespace sprung {
 

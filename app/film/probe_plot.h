@@ -1,6 +1,6 @@
 #pragma once
 #include "app/recording.h"
-#include "render/plot.h"
+#include "render/image/plot.h"
 
 namespace sprung {
 

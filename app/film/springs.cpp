@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/body/brick_topology.h"
+#include "core/bricks/brick_topology.h"
 
 namespace sprung {
 

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "core/error.h"
-#include "core/mesh/read/file_checks.h"
-#include "render/decode.h"
+#include "core/io/decode_image.h"
+#include "core/mesh/io/file_checks.h"
 
 namespace sprung {
 

@@ -1,6 +1,6 @@
 #pragma once
 #include "app/make_production.h"
-#include "render/image.h"
+#include "render/image/image.h"
 
 namespace sprung {
 

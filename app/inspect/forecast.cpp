@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <chrono>
 
-#include "core/motion/careful_motion.h"
-#include "core/motion/implicit_motion.h"
+#include "core/dynamics/explicit/adaptive_integrator.h"
+#include "core/dynamics/implicit/implicit_motion.h"
 #include "render/renderer.h"
 
 namespace sprung {

@@ -8,8 +8,8 @@
 #include "app/with_scene.h"
 #include "app/writable.h"
 #include "core/error.h"
-#include "core/output/cache.h"
-#include "render/png.h"
+#include "core/io/cache.h"
+#include "render/image/png.h"
 
 namespace sprung {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <set>
 
-#include "core/motion/integrator.h"
-#include "core/skin/corner_normals.h"
+#include "core/dynamics/explicit/integrator.h"
+#include "core/skin/skin.h"
 
 namespace sprung {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "app/inspect/forecast.h"
 #include "app/make_production.h"
-#include "core/mesh/repair.h"
+#include "core/mesh/repair/repair.h"
 
 namespace sprung {
 

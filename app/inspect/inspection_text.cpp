@@ -7,7 +7,7 @@
 #include "app/json_text.h"
 #include "app/progress.h"
 #include "app/units.h"
-#include "core/count_of.h"
+#include "core/text.h"
 
 namespace sprung {
 namespace {

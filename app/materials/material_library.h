@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/law/material.h"
-#include "render/look.h"
+#include "core/skin/appearance.h"
 
 namespace sprung {
 

@@ -9,7 +9,7 @@
 #include "app/python/bindings.h"
 #include "core/body/brick_measures.h"
 #include "core/error.h"
-#include "core/nearest.h"
+#include "core/text.h"
 
 namespace py = pybind11;
 

@@ -5,8 +5,8 @@
 
 #include "app/python/bindings.h"
 #include "core/error.h"
-#include "core/mesh/read/mesh_bytes.h"
-#include "core/mesh/read_mesh.h"
+#include "core/mesh/io/read_mesh.h"
+#include "core/mesh/io/reader_process.h"
 
 namespace py = pybind11;
 

@@ -6,7 +6,7 @@
 #include <variant>
 
 #include "app/python/bindings.h"
-#include "core/mesh/read_mesh.h"
+#include "core/mesh/io/read_mesh.h"
 
 namespace py = pybind11;
 

@@ -7,10 +7,9 @@
 #include <type_traits>
 
 #include "app/pin_movements.h"
+#include "core/contact/inversion_guard.h"
+#include "core/dynamics/statics/statics.h"
 #include "core/error.h"
-#include "core/motion/linear_response.h"
-#include "core/motion/statics.h"
-#include "core/world/squeeze.h"
 #include "render/renderer.h"
 
 namespace sprung {

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "core/motion/careful_motion.h"
+#include "core/dynamics/explicit/adaptive_integrator.h"
 #include "core/soft_body.h"
-#include "render/image.h"
+#include "render/image/image.h"
 
 namespace sprung {
 

@@ -6,7 +6,7 @@
 #include <functional>
 #include <utility>
 
-#include "core/bricks/brick_faces.h"
+#include "core/bricks/brick_grid.h"
 
 namespace sprung {
 

@@ -6,7 +6,7 @@
 
 #include "app/report/brick_skin.h"
 #include "core/body/brick_kernel.h"
-#include "render/color_map.h"
+#include "render/image/color_map.h"
 #include "render/renderer.h"
 
 namespace sprung {

@@ -3,7 +3,7 @@
 
 #include "core/body/body.h"
 #include "core/body/membrane.h"
-#include "render/image.h"
+#include "render/image/image.h"
 
 namespace sprung {
 

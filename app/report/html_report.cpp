@@ -8,7 +8,7 @@
 #include "app/report/png_base64.h"
 #include "app/report/report_style.h"
 #include "app/report/whole_file.h"
-#include "render/color_map.h"
+#include "render/image/color_map.h"
 
 namespace sprung {
 

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "core/motion/statics.h"
+#include "core/dynamics/statics/statics.h"
 
 namespace sprung {
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "render/png.h"
+#include "render/image/png.h"
 
 namespace sprung {
 

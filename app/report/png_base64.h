@@ -3,7 +3,7 @@
 #include <span>
 #include <string>
 
-#include "render/image.h"
+#include "render/image/image.h"
 
 namespace sprung {
 

@@ -7,7 +7,7 @@
 #include "app/scene/scenarios.h"
 #include "app/scene/scene_file.h"
 #include "core/error.h"
-#include "core/mesh/read_mesh.h"
+#include "core/mesh/io/read_mesh.h"
 
 namespace sprung {
 namespace {

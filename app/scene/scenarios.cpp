@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "core/error.h"
-#include "core/nearest.h"
+#include "core/text.h"
 
 namespace sprung {
 namespace {

@@ -9,9 +9,9 @@
 #include "app/scene/selection.h"
 #include "core/law/brick_law.h"
 #include "core/law/material.h"
-#include "core/mesh/repair.h"
+#include "core/mesh/repair/repair.h"
+#include "core/skin/appearance.h"
 #include "core/world/keyframes.h"
-#include "render/look.h"
 
 namespace sprung {
 

@@ -6,7 +6,7 @@
 #include <iterator>
 
 #include "app/scene/motion_only.h"
-#include "core/nearest.h"
+#include "core/text.h"
 
 namespace sprung {
 namespace {

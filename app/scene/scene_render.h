@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "app/scene/selection.h"
-#include "render/color_map.h"
-#include "render/quality.h"
+#include "render/image/color_map.h"
+#include "render/image/image.h"
 
 namespace sprung {
 

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "core/nearest.h"
+#include "core/text.h"
 
 namespace sprung {
 namespace {

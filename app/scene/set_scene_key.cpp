@@ -7,8 +7,8 @@
 #include "app/scene/scene_tables.h"
 #include "app/scene/scene_values.h"
 #include "core/error.h"
-#include "core/mesh/read/file_checks.h"
-#include "core/nearest.h"
+#include "core/mesh/io/file_checks.h"
+#include "core/text.h"
 
 namespace sprung {
 namespace {

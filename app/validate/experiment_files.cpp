@@ -6,7 +6,7 @@
 
 #include "app/scene/scene_file.h"
 #include "core/error.h"
-#include "core/nearest.h"
+#include "core/text.h"
 
 namespace sprung {
 namespace {

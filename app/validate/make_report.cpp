@@ -13,8 +13,8 @@
 #include "app/report/html_report.h"
 #include "app/report/plots.h"
 #include "app/simulate.h"
-#include "core/count_of.h"
 #include "core/error.h"
+#include "core/text.h"
 
 namespace sprung {
 namespace {

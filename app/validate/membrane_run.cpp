@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/motion/membrane_statics.h"
+#include "core/dynamics/statics/membrane_statics.h"
 
 namespace sprung {
 namespace {

@@ -6,8 +6,8 @@
 #include <random>
 
 #include "app/validate/built_in_cases.h"
+#include "core/dynamics/statics/statics.h"
 #include "core/error.h"
-#include "core/motion/linear_response.h"
 
 namespace sprung {
 namespace {

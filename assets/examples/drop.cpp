@@ -1,9 +1,9 @@
 // A mesh, a material, 100 steps, a picture: drop MESH PICTURE.png. Build it with the CMakeLists.txt beside it.
+#include <sprung/core/dynamics/explicit/integrator.h>
 #include <sprung/core/law/material.h>
-#include <sprung/core/mesh/read_mesh.h>
-#include <sprung/core/motion/integrator.h>
+#include <sprung/core/mesh/io/read_mesh.h>
 #include <sprung/core/soft_body.h>
-#include <sprung/render/png.h>
+#include <sprung/render/image/png.h>
 #include <sprung/render/renderer.h>
 
 int main(int count, char** words) {

@@ -1,5 +1,6 @@
 #include "core/body/body.h"
 
+#include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 #include "core/body/brick_kernel.h"
 #include "core/body/brick_tiles.h"
 #include "core/law/hexahedron.h"
+#include "core/types.h"
 
 namespace sprung {
 namespace {
@@ -106,6 +108,35 @@ int flattened_bricks(const Body& body, double ratio) {
     count += volume_ratio(body, brick) <= ratio ? 1 : 0;
   }
   return count;
+}
+
+namespace {
+
+constexpr int kNodesPerTask = 512;
+
+}  // namespace
+
+double* CornerSums::room(const BrickGrid& grid) {
+  if (lists_.first.empty()) {
+    lists_ = list_corners(grid.nodes, grid.node_count());
+    at_corners_.resize(3 * lists_.corners.size());
+  }
+  return at_corners_.data();
+}
+
+void CornerSums::sum(double* sums) const {
+  const int nodes = static_cast<int>(lists_.first.size()) - 1;
+  tbb::parallel_for(tbb::blocked_range<int>(0, nodes, kNodesPerTask), [&](const tbb::blocked_range<int>& range) {
+    for (int node = range.begin(); node < range.end(); ++node) {
+      Vec3 sum = Vec3::Zero();
+      const auto n = static_cast<std::size_t>(node);
+      for (int i = lists_.first[n]; i < lists_.first[n + 1]; ++i) {
+        const auto corner = static_cast<std::size_t>(lists_.corners[static_cast<std::size_t>(i)]);
+        sum += Eigen::Map<const Vec3>(&at_corners_[3 * corner]);
+      }
+      Eigen::Map<Vec3>(sums + 3 * static_cast<std::ptrdiff_t>(node)) = sum;
+    }
+  });
 }
 
 }  // namespace sprung

@@ -4,8 +4,10 @@
 #include <vector>
 
 #include "core/bricks/brick_grid.h"
+#include "core/bricks/brick_topology.h"
 #include "core/law/brick_law.h"
 #include "core/law/material.h"
+#include "core/types.h"
 
 namespace sprung {
 
@@ -63,5 +65,50 @@ void place(Body& body, const Mat3& rotation, const Vec3& translation);
 [[nodiscard]] int inverted_bricks(const Body& body);
 /// How many bricks keep at most that share of their volume.
 [[nodiscard]] int flattened_bricks(const Body& body, double ratio);
+
+/// What the eight corners of a brick have (places in m, velocities in m/s), a column each.
+using BrickColumns = Eigen::Matrix<double, 3, 8>;
+
+/// `nodes`: of the brick, by corner; `values`: per node of the body, m x 3.
+[[nodiscard]] inline BrickColumns columns_of(const std::array<int, 8>& nodes, const Points& values) {
+  BrickColumns columns;
+  for (int corner = 0; corner < 8; ++corner) {
+    columns.col(corner) = values.row(nodes[static_cast<std::size_t>(corner)]).transpose();
+  }
+  return columns;
+}
+
+/// The mean axes (columns), each from the brick's low to its high side.
+[[nodiscard]] inline Mat3 mean_axes_of(const BrickColumns& x) {
+  Mat3 axes = Mat3::Zero();
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int corner = 0; corner < 8; ++corner) {
+      axes.col(axis) += (on_high_side(corner, axis) ? 0.25 : -0.25) * x.col(corner);
+    }
+  }
+  return axes;
+}
+
+/// Areas that three axes span two by two: the gradient of their determinant, and what carries normals along.
+[[nodiscard]] inline Mat3 areas_of(const Mat3& axes) {
+  Mat3 areas;
+  areas << axes.col(1).cross(axes.col(2)), axes.col(2).cross(axes.col(0)), axes.col(0).cross(axes.col(1));
+  return areas;
+}
+
+/// Sums at nodes of what is known at the corners of bricks, in the order of the bricks: the same bits for any number of
+/// threads. For one body; kept from step to step.
+class CornerSums {
+ public:
+  /// Room for x y z at each corner, 24 numbers a brick.
+  [[nodiscard]] double* room(const BrickGrid& grid);
+
+  /// x y z a node, to `sums`.
+  void sum(double* sums) const;
+
+ private:
+  CornerLists lists_;
+  std::vector<double> at_corners_;
+};
 
 }  // namespace sprung

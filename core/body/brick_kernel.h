@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/body/brick_topology.h"
+#include "core/bricks/brick_topology.h"
 #include "core/law/brick_law.h"
 
 namespace sprung {

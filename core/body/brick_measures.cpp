@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/body/brick_columns.h"
+#include "core/body/body.h"
 
 namespace sprung {
 namespace {

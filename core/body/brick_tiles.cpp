@@ -6,13 +6,119 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <numeric>
 #include <span>
+#include <unordered_map>
 
-#include "core/body/brick_layers.h"
-#include "core/body/face_shares.h"
-#include "core/bricks/corner.h"
+#include "core/bricks/brick_topology.h"
 
 namespace sprung {
+namespace {
+
+bool comes_before(const Eigen::Vector3i& a, const Eigen::Vector3i& b) {
+  return std::array{a.z(), a.y(), a.x()} < std::array{b.z(), b.y(), b.x()};
+}
+
+/// Whether the high side of one brick is the low side of the other.
+bool are_joined(const BrickGrid& grid, std::size_t brick, std::size_t next, int axis) {
+  for (int corner = 0; corner < 8; ++corner) {
+    if (on_high_side(corner, axis)) continue;
+    const auto low = static_cast<std::size_t>(corner);
+    if (grid.nodes[next][low] != grid.nodes[brick][low | 1U << static_cast<unsigned>(axis)]) return false;
+  }
+  return true;
+}
+
+/// The first brick behind this one, or the number of bricks. `from` is where the search begins: not behind the result.
+std::size_t brick_behind(const BrickGrid& grid, std::size_t brick, int axis, std::size_t& from) {
+  const Eigen::Vector3i cell = grid.cells[brick] + Eigen::Vector3i::Unit(axis);
+  while (from < grid.cells.size() && comes_before(grid.cells[from], cell)) ++from;
+  for (std::size_t next = from; next < grid.cells.size() && grid.cells[next] == cell; ++next) {
+    if (are_joined(grid, brick, next, axis)) return next;
+  }
+  return grid.cells.size();
+}
+
+}  // namespace
+
+FaceShares share_faces(const BrickGrid& grid, const std::vector<double>& shares) {
+  FaceShares faces;
+  faces.low.fill(shares);
+  faces.high.fill(std::vector<double>(shares.size(), 0));
+  // Cells ascend, and so do those behind them. All axes at once: a large body's bricks come from memory only once.
+  std::array<std::size_t, 3> from{};
+  for (std::size_t brick = 0; brick < shares.size(); ++brick) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::size_t next = brick_behind(grid, brick, static_cast<int>(axis), from[axis]);
+      (next < shares.size() ? faces.low[axis][next] : faces.high[axis][brick]) += shares[brick];
+    }
+  }
+  return faces;
+}
+
+namespace {
+
+/// Numbers the places of a lattice whose nodes are in its order.
+std::vector<int> places_of(const std::vector<Eigen::Vector3i>& lattice) {
+  std::vector<int> places(lattice.size(), 0);
+  for (std::size_t i = 1; i < lattice.size(); ++i) {
+    places[i] = places[i - 1] + (lattice[i] == lattice[i - 1] ? 0 : 1);
+  }
+  return places;
+}
+
+/// What holds a place of the lattice in each layer.
+class Holders {
+ public:
+  explicit Holders(const std::vector<Eigen::Vector3i>& lattice) : places_(places_of(lattice)) {}
+
+  /// The first layer in which these nodes meet none but themselves.
+  [[nodiscard]] std::size_t layer_for(const std::array<int, 8>& nodes) const {
+    std::size_t layer = 0;
+    while (layer < holders_.size() && !is_free(holders_[layer], nodes)) ++layer;
+    return layer;
+  }
+  void put(std::size_t layer, const std::array<int, 8>& nodes) {
+    if (layer == holders_.size()) holders_.emplace_back();
+    for (const int node : nodes) holders_[layer].emplace(place_of(node), node);
+  }
+
+ private:
+  [[nodiscard]] int place_of(int node) const { return places_[static_cast<std::size_t>(node)]; }
+  [[nodiscard]] bool is_free(const std::unordered_map<int, int>& holders, const std::array<int, 8>& nodes) const {
+    return std::all_of(nodes.begin(), nodes.end(), [&](int node) {
+      const auto found = holders.find(place_of(node));
+      return found == holders.end() || found->second == node;
+    });
+  }
+
+  std::vector<int> places_;
+  std::vector<std::unordered_map<int, int>> holders_;
+};
+
+bool has_no_doubles(const std::vector<Eigen::Vector3i>& ordered) {
+  return std::adjacent_find(ordered.begin(), ordered.end()) == ordered.end();
+}
+
+}  // namespace
+
+std::vector<std::vector<int>> layers_of(const BrickGrid& grid) {
+  if (has_no_doubles(grid.lattice)) {
+    std::vector<int> all(grid.cells.size());
+    std::iota(all.begin(), all.end(), 0);
+    return {std::move(all)};
+  }
+  Holders holders(grid.lattice);
+  std::vector<std::vector<int>> layers;
+  for (std::size_t brick = 0; brick < grid.cells.size(); ++brick) {
+    const std::size_t layer = holders.layer_for(grid.nodes[brick]);
+    holders.put(layer, grid.nodes[brick]);
+    if (layer == layers.size()) layers.emplace_back();
+    layers[layer].push_back(static_cast<int>(brick));
+  }
+  return layers;
+}
+
 namespace {
 
 using Cell = Eigen::Vector3i;

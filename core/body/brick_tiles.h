@@ -1,11 +1,29 @@
 #pragma once
+#include <array>
 #include <cstddef>
 #include <vector>
 
-#include "core/body/kernel/tile.h"
+#include "core/body/kernel/tile_pass.h"
 #include "core/bricks/brick_grid.h"
 
 namespace sprung {
+
+/// How stiff the springs in the bricks' faces are, in full bricks: the bricks on both sides of a face add up, and the
+/// face counts for one of them. Face a is the one across axis a; bricks are on two sides of it where they have all four
+/// of its nodes in common.
+struct FaceShares {
+  std::array<std::vector<double>, 3> low;   // of each brick's face on the low side
+  std::array<std::vector<double>, 3> high;  // on the high side; 0 where it counts for the brick behind it
+};
+
+/// `shares` per brick: of how many full bricks it has the stiffness. Cost: linear in the bricks but for a search in a
+/// row of them.
+[[nodiscard]] FaceShares share_faces(const BrickGrid& grid, const std::vector<double>& shares);
+
+/// Bricks that share no cell, and whose nodes share no place of the lattice, by their rows in the grid, ascending: most
+/// grids are one such layer; where parts of a body pass through the same cells, they fall into several. Every brick is
+/// in one. Cost: linear in the bricks.
+[[nodiscard]] std::vector<std::vector<int>> layers_of(const BrickGrid& grid);
 
 /// A part of a body's bricks for one thread at a time, see TileView.
 struct BrickTile {

@@ -1,13 +1,109 @@
 #include "core/body/forces.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "core/body/brick_kernel.h"
+#include "core/body/brick_tiles.h"
+#include "core/body/kernel/pack.h"
 
 namespace sprung {
+namespace {
+
+constexpr int kSharedPerTask = 64;  // rows
+
+PassInput input_of(const Body& body, Pass pass) {
+  PassInput input;
+  input.pass = pass;
+  input.law = body.law;
+  input.brick_size = body.grid.brick_size;
+  input.beta = body.damping.beta;
+  // Only Pass::kMove, which has the body to itself, writes there.
+  input.positions = const_cast<double*>(body.positions.data());
+  input.velocities = const_cast<double*>(body.velocities.data());
+  return input;
+}
+
+/// Calls visit(0 .. count - 1), in parallel where that is worth it.
+template <class Visit>
+void each(std::size_t count, std::size_t per_task, const Visit& visit) {
+  const auto visit_range = [&](const tbb::blocked_range<std::size_t>& range) {
+    const FlushDenormals flush;
+    for (std::size_t i = range.begin(); i < range.end(); ++i) visit(i);
+  };
+  if (count <= per_task) {
+    visit_range({0, count});
+  } else {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, per_task), visit_range);
+  }
+}
+
+}  // namespace
+
+void SpringSystem::run(const BrickTiles& tiles, const PassInput& input) {
+  shared_.resize(tiles.shared_size);
+  energies_.assign(tiles.tiles.size(), {});
+  scratch_.resize(static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()));
+  each(tiles.tiles.size(), 1, [&](std::size_t i) {
+    const BrickTile& tile = tiles.tiles[i];
+    // Below 0: a thread that has met no task yet.
+    const int thread = std::max(0, tbb::this_task_arena::current_thread_index());
+    std::vector<CacheLine>& scratch = scratch_[static_cast<std::size_t>(thread)];
+    if (scratch.empty()) scratch.resize(kScratchSize / 8);
+    kernel_.tile(tile.view(), input, scratch.front().values, shared_.data() + tile.shared_offset, energies_[i]);
+  });
+  if (input.pass == Pass::kEnergy) return;
+  each(tiles.shared.size(), kSharedPerTask,
+       [&](std::size_t i) { kernel_.shared(tiles.shared[i], tiles.parts.data(), shared_.data(), input); });
+}
+
+void SpringSystem::forces(const Body& body, Points& forces) {
+  forces.resize(body.node_count(), 3);
+  PassInput input = input_of(body, Pass::kForces);
+  input.forces = forces.data();
+  run(*body.tiles, input);
+  // Numbers that are not finite must not wait in the scratch: lanes behind a run are computed too, times zero.
+  if (!forces.allFinite()) scratch_.clear();
+}
+
+void SpringSystem::multiply_along(const Body& body, const Points& positions, double factor, const Eigen::VectorXd& u,
+                                  Eigen::VectorXd& product) {
+  product.resize(u.size());
+  PassInput input = input_of(body, Pass::kDamping);
+  input.beta = -factor;
+  input.positions = const_cast<double*>(positions.data());
+  input.velocities = const_cast<double*>(u.data());
+  input.forces = product.data();
+  run(*body.tiles, input);
+  if (!product.allFinite()) scratch_.clear();
+}
+
+double SpringSystem::energy(const Body& body) {
+  PassInput input = input_of(body, Pass::kEnergy);
+  run(*body.tiles, input);
+  double sum = 0;
+  for (const auto& lanes : energies_) {
+    for (const double energy : lanes) sum += energy;
+  }
+  if (!std::isfinite(sum)) scratch_.clear();
+  return sum;
+}
+
+void SpringSystem::move(Body& body, const Step& step, const Eigen::VectorXd& inverse_masses) {
+  PassInput input = input_of(body, Pass::kMove);
+  input.inverse_masses = inverse_masses.data();
+  input.beta = step.damping.beta;
+  input.drift = step.drift;
+  input.kick = step.kick;
+  input.keep = 1 - step.kick * step.damping.alpha;
+  for (int k = 0; k < 3; ++k) input.gravity_kick[static_cast<std::size_t>(k)] = step.kick * step.gravity[k];
+  run(*body.tiles, input);
+}
+
 namespace {
 
 using BrickVector = Eigen::Matrix<double, 24, 1>;

@@ -1,9 +1,55 @@
 #pragma once
+#include <vector>
+
 #include "core/body/body.h"
-#include "core/body/corner_sums.h"
-#include "core/body/spring_system.h"
+#include "core/body/kernel/tile_pass.h"
 
 namespace sprung {
+
+/// The springs of a body at work, with the room they need, kept from step to step. Tiles are computed in parallel and
+/// what they add to shared nodes is summed in a fixed order: the same bits for any number of threads. Not for the
+/// trilinear hexahedra of Model::kFem, which are no springs.
+class SpringSystem {
+ public:
+  explicit SpringSystem(const SpringKernel& kernel = best_spring_kernel()) : kernel_(kernel) {}
+
+  /// Forces on the nodes, m x 3, N, as spring_forces().
+  void forces(const Body& body, Points& forces);
+
+  /// `factor` times the stiffness of the springs along themselves times u (3 m), without the guard and without what
+  /// tensions add by turning: the damping forces of rates u, with nodes at `positions` (m x 3, m), times -factor /
+  /// beta.
+  void multiply_along(const Body& body, const Points& positions, double factor, const Eigen::VectorXd& u,
+                      Eigen::VectorXd& product);
+
+  /// J, as elastic_energy().
+  [[nodiscard]] double energy(const Body& body);
+
+  /// What happens in a step.
+  struct Step {
+    double drift = 0;             // s
+    double kick = 0;              // s
+    Rayleigh damping{};           // in place of the body's
+    Vec3 gravity = Vec3::Zero();  // m/s^2
+  };
+
+  /// body.positions += drift * velocities, then body.velocities += kick * (forces / m + gravity - alpha velocities).
+  /// Inverse masses per node in 1/kg.
+  void move(Body& body, const Step& step, const Eigen::VectorXd& inverse_masses);
+
+ private:
+  void run(const BrickTiles& tiles, const PassInput& input);
+
+  /// Scratch in whole cache lines: a pack that lies across two costs twice.
+  struct alignas(64) CacheLine {
+    double values[8] = {};
+  };
+
+  SpringKernel kernel_;
+  std::vector<double> shared_;                   // forces
+  std::vector<EnergyLanes> energies_;            // a tile
+  std::vector<std::vector<CacheLine>> scratch_;  // a thread
+};
 
 /// Room for the forces of one body, kept between steps.
 struct ForceWorkspace {

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cstdint>
 #include <iterator>
+#include <map>
 #include <numeric>
 #include <utility>
 
-#include "core/bricks/corner.h"
+#include "core/bricks/brick_topology.h"
 
 namespace sprung {
 namespace {
@@ -165,6 +166,104 @@ BrickGrid make_box_grid(const Eigen::Vector3i& counts, double brick_size) {
   grid.fill.assign(grid.cells.size(), 1.0);
   number_nodes(grid);
   return grid;
+}
+
+namespace {
+
+/// Whether brick `other` shares the face of `brick` on that side.
+bool shares_face(const BrickGrid& grid, std::size_t brick, std::size_t other, int side) {
+  const int axis = side / 2;
+  const bool high = side % 2 != 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    if (on_high_side(corner, axis) != high) continue;
+    const auto across = static_cast<std::size_t>(corner ^ (1 << axis));
+    if (grid.nodes[brick][static_cast<std::size_t>(corner)] != grid.nodes[other][across]) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::array<int, 6> face_neighbours(const BrickGrid& grid, const CellIndex& index, std::size_t brick) {
+  std::array<int, 6> neighbours{};
+  for (int side = 0; side < 6; ++side) {
+    Eigen::Vector3i cell = grid.cells[brick];
+    cell[side / 2] += side % 2 == 0 ? -1 : 1;
+    int other = index.at(cell);
+    while (other >= 0 && !shares_face(grid, brick, static_cast<std::size_t>(other), side)) {
+      ++other;
+      if (other == grid.brick_count() || grid.cells[static_cast<std::size_t>(other)] != cell) other = -1;
+    }
+    neighbours[static_cast<std::size_t>(side)] = other;
+  }
+  return neighbours;
+}
+
+CornerLists list_corners(const std::vector<std::array<int, 8>>& bricks, int node_count) {
+  CornerLists lists;
+  lists.first.assign(static_cast<std::size_t>(node_count) + 1, 0);
+  for (const std::array<int, 8>& brick : bricks) {
+    for (const int node : brick) ++lists.first[static_cast<std::size_t>(node) + 1];
+  }
+  std::partial_sum(lists.first.begin(), lists.first.end(), lists.first.begin());
+  std::vector<int> next(lists.first.begin(), lists.first.end() - 1);
+  lists.corners.resize(8 * bricks.size());
+  int corner = 0;
+  for (const std::array<int, 8>& brick : bricks) {
+    for (const int node : brick) {
+      int& place = next[static_cast<std::size_t>(node)];
+      lists.corners[static_cast<std::size_t>(place++)] = corner++;
+    }
+  }
+  return lists;
+}
+
+namespace {
+
+/// Of a brick, on one side.
+std::array<int, 4> corners_on(int side) {
+  const int axis = side / 2;
+  const bool high = side % 2 != 0;
+  const int base = high ? 1 << axis : 0;
+  const int j = 1 << ((axis + 1) % 3);
+  const int k = 1 << ((axis + 2) % 3);
+  std::array<int, 4> corners{base, base | j, base | j | k, base | k};
+  if (!high) std::swap(corners[1], corners[3]);
+  return corners;
+}
+
+std::array<int, 4> sorted(std::array<int, 4> nodes) {
+  std::sort(nodes.begin(), nodes.end());
+  return nodes;
+}
+
+}  // namespace
+
+std::vector<BrickFace> brick_faces(const BrickGrid& grid, const std::vector<bool>& shown) {
+  std::vector<BrickFace> faces;
+  faces.reserve(6 * grid.nodes.size());
+  for (std::size_t brick = 0; brick < grid.nodes.size(); ++brick) {
+    if (!shown[brick]) continue;
+    for (int side = 0; side < 6; ++side) {
+      BrickFace face{.nodes = {}, .side = side, .brick = static_cast<int>(brick)};
+      const std::array<int, 4> corners = corners_on(side);
+      for (std::size_t c = 0; c < 4; ++c) face.nodes[c] = grid.nodes[brick][static_cast<std::size_t>(corners[c])];
+      faces.push_back(face);
+    }
+  }
+  return faces;
+}
+
+std::vector<BrickFace> outer_faces(const BrickGrid& grid, const std::vector<bool>& shown) {
+  std::vector<BrickFace> faces = brick_faces(grid, shown);
+  std::map<std::array<int, 4>, int> uses;
+  for (const BrickFace& face : faces) ++uses[sorted(face.nodes)];
+  std::erase_if(faces, [&](const BrickFace& face) { return uses[sorted(face.nodes)] > 1; });
+  return faces;
+}
+
+std::vector<BrickFace> outer_faces(const BrickGrid& grid) {
+  return outer_faces(grid, std::vector<bool>(grid.nodes.size(), true));
 }
 
 }  // namespace sprung

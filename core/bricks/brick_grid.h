@@ -1,6 +1,8 @@
 #pragma once
 #include <array>
 #include <bitset>
+#include <cstdint>
+#include <unordered_map>
 #include <vector>
 
 #include "core/disjoint_sets.h"
@@ -58,5 +60,59 @@ void remove_bricks(BrickGrid& grid, const std::vector<bool>& gone, const std::ve
 
 /// How many pieces the bricks hang together in, by their nodes.
 [[nodiscard]] int count_connected(const BrickGrid& grid);
+
+/// Finds the bricks at a cell of the lattice.
+class CellIndex {
+ public:
+  explicit CellIndex(const BrickGrid& grid) : CellIndex(grid.cells) {}
+  /// The same for any rows of cells.
+  explicit CellIndex(const std::vector<Eigen::Vector3i>& cells) {
+    row_of_cell_.reserve(cells.size());
+    for (std::size_t i = 0; i < cells.size(); ++i) row_of_cell_.emplace(key(cells[i]), static_cast<int>(i));
+  }
+
+  /// The first one where the cell comes several times; the others follow it. -1: there is none.
+  [[nodiscard]] int at(const Eigen::Vector3i& cell) const {
+    const auto found = row_of_cell_.find(key(cell));
+    return found == row_of_cell_.end() ? -1 : found->second;
+  }
+
+ private:
+  /// 21 bits an axis, for cells from -2^20 to 2^20.
+  static std::uint64_t key(const Eigen::Vector3i& cell) {
+    const auto part = [&](int axis) { return static_cast<std::uint64_t>(cell[axis] + (1 << 20)) & 0x1fffffU; };
+    return part(0) | part(1) << 21 | part(2) << 42;
+  }
+
+  std::unordered_map<std::uint64_t, int> row_of_cell_;
+};
+
+/// The bricks that share a face with a brick, by side: 2 axis, + 1 on the high side; -1: none there. Of several the
+/// first. `index` is the grid's.
+[[nodiscard]] std::array<int, 6> face_neighbours(const BrickGrid& grid, const CellIndex& index, std::size_t brick);
+
+/// Which corners of bricks meet at each node, in the order of the bricks: those of node i are corners[first[i]] ..
+/// corners[first[i + 1] - 1], a corner counted as 8 brick + corner.
+struct CornerLists {
+  std::vector<int> first;
+  std::vector<int> corners;
+};
+
+/// `bricks` by their nodes, corner by corner.
+[[nodiscard]] CornerLists list_corners(const std::vector<std::array<int, 8>>& bricks, int node_count);
+
+/// One of the six sides of a brick.
+struct BrickFace {
+  std::array<int, 4> nodes;  // counter-clockwise from outside
+  int side;                  // 2 axis + (1 on the high side)
+  int brick;
+};
+
+/// All sides of the bricks that are `shown` (one entry a brick), brick by brick.
+[[nodiscard]] std::vector<BrickFace> brick_faces(const BrickGrid& grid, const std::vector<bool>& shown);
+
+/// Those that no two of the shown bricks share.
+[[nodiscard]] std::vector<BrickFace> outer_faces(const BrickGrid& grid, const std::vector<bool>& shown);
+[[nodiscard]] std::vector<BrickFace> outer_faces(const BrickGrid& grid);
 
 }  // namespace sprung

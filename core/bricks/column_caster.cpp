@@ -4,8 +4,6 @@
 #include <cstdint>
 #include <utility>
 
-#include "core/bricks/snapped_triangle.h"
-
 namespace sprung {
 namespace {
 

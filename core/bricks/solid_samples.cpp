@@ -4,12 +4,159 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <numeric>
 
-#include "core/bricks/sample_lines.h"
+#include "core/bricks/column_caster.h"
 #include "core/disjoint_sets.h"
 
 namespace sprung {
+namespace {
+
+constexpr std::int64_t kSnapPitch = kSnap / kSamplesAlong;
+
+struct Crossing {
+  std::int64_t line;
+  double depth;  // cells
+  int turn;      // +1 entering, -1 leaving
+};
+
+/// The lines between two places (both at least 0): first and last.
+std::pair<std::int64_t, std::int64_t> lines_between(std::int64_t low, std::int64_t high) {
+  return {(low + kSnapPitch / 2 - 1) / kSnapPitch, (high + kSnapPitch / 2) / kSnapPitch - 1};
+}
+
+class LineCaster {
+ public:
+  LineCaster(const CellSurface& surface, int axis)
+      : surface_(surface), axis_(axis), along_u_(std::int64_t{surface.counts[(axis + 1) % 3]} * kSamplesAlong) {}
+
+  std::vector<InsideRun> runs() {
+    for (int t = 0; t < surface_.triangles.rows(); ++t) cross_triangle(t);
+    sort_crossings();
+    std::vector<InsideRun> runs;
+    runs.reserve(crossings_.size() / 2);
+    for (std::size_t begin = 0; begin < crossings_.size();) begin = add_line(begin, runs);
+    return runs;
+  }
+
+ private:
+  void cross_triangle(int t) {
+    const SnappedTriangle triangle(surface_, t, axis_);
+    if (triangle.is_empty()) return;
+    const auto [low_u, low_v] = triangle.low();
+    const auto [high_u, high_v] = triangle.high();
+    const auto [first_u, last_u] = lines_between(low_u, high_u);
+    const auto [first_v, last_v] = lines_between(low_v, high_v);
+    for (std::int64_t v = first_v; v <= last_v; ++v) {
+      for (std::int64_t u = first_u; u <= last_u; ++u) {
+        const std::optional<double> depth =
+            triangle.depth_at({u * kSnapPitch + kSnapPitch / 2, v * kSnapPitch + kSnapPitch / 2});
+        if (depth) crossings_.push_back({v * along_u_ + u, *depth, triangle.turn()});
+      }
+    }
+  }
+
+  void sort_crossings() {
+    std::stable_sort(crossings_.begin(), crossings_.end(), [](const Crossing& a, const Crossing& b) {
+      return a.line != b.line ? a.line < b.line : a.depth < b.depth;
+    });
+  }
+
+  /// Returns where the next line begins.
+  std::size_t add_line(std::size_t begin, std::vector<InsideRun>& runs) const {
+    const std::int64_t line = crossings_[begin].line;
+    const std::size_t runs_before = runs.size();
+    int winding = 0;
+    std::size_t i = begin;
+    double entered = 0;
+    for (; i < crossings_.size() && crossings_[i].line == line; ++i) {
+      const int before = winding;
+      winding += crossings_[i].turn;
+      if (before == 0) entered = crossings_[i].depth;
+      if (winding != 0 || crossings_[i].depth <= entered) continue;
+      runs.push_back(
+          {static_cast<int>(line % along_u_), static_cast<int>(line / along_u_), entered, crossings_[i].depth});
+    }
+    if (winding != 0) runs.resize(runs_before);
+    return i;
+  }
+
+  const CellSurface& surface_;
+  int axis_;
+  std::int64_t along_u_;
+  std::vector<Crossing> crossings_;
+};
+
+}  // namespace
+
+std::vector<InsideRun> inside_runs(const CellSurface& surface, int axis) { return LineCaster(surface, axis).runs(); }
+
+namespace {
+
+constexpr double kNudge = 1e-3;  // bricks inward, so that a point on a face is in the cell of its solid
+constexpr double kOutward = 16;  // how much more than a way inward a way outward costs
+constexpr double kNear = 0.25;   // bricks: solid this near in the point's own cell is taken without a look around
+
+std::vector<Eigen::Vector3i> cells_of(const std::vector<SolidPatch>& patches) {
+  std::vector<Eigen::Vector3i> cells;
+  cells.reserve(patches.size());
+  for (const SolidPatch& patch : patches) cells.push_back(patch.cell);
+  return cells;
+}
+
+double cost_of(const Vec3& way, const Vec3& inward) {
+  const double along = way.dot(inward);
+  return way.squaredNorm() + (along < 0 ? kOutward * along * along : 0);
+}
+
+double cost_to(const SolidPatch& patch, const Vec3& place, const Vec3& inward) {
+  double least = std::numeric_limits<double>::infinity();
+  const Vec3 local = place - patch.cell.cast<double>();
+  for (std::size_t i = patch.samples._Find_first(); i < patch.samples.size(); i = patch.samples._Find_next(i)) {
+    const Vec3 sample =
+        (Vec3(static_cast<double>(i & 7), static_cast<double>(i >> 3 & 7), static_cast<double>(i >> 6)).array() + 0.5) /
+        8;
+    least = std::min(least, cost_of(sample - local, inward));
+  }
+  for (const Eigen::Vector3f& spot : patch.spots) least = std::min(least, cost_of(spot.cast<double>() - local, inward));
+  return least;
+}
+
+}  // namespace
+
+SolidFinder::SolidFinder(const BrickGrid& grid) : grid_(grid), bricks_(grid.cells), patches_(cells_of(grid.patches)) {}
+
+void SolidFinder::consider(const Eigen::Vector3i& cell, const Vec3& place, const Vec3& inward, Nearest& nearest) const {
+  const auto offer = [&](int brick, double cost) {
+    if (cost < nearest.cost) nearest = {brick, cost};
+  };
+  const int first = patches_.at(cell);
+  if (first < 0) {
+    const int brick = bricks_.at(cell);
+    const Vec3 low = cell.cast<double>();
+    if (brick >= 0) offer(brick, cost_of(place.cwiseMax(low).cwiseMin(low + Vec3::Ones()) - place, inward));
+    return;
+  }
+  for (auto i = static_cast<std::size_t>(first); i < grid_.patches.size() && grid_.patches[i].cell == cell; ++i) {
+    offer(grid_.patches[i].brick, cost_to(grid_.patches[i], place, inward));
+  }
+}
+
+int SolidFinder::under(const Vec3& place, const Vec3& inward) const {
+  if (grid_.patches.empty()) return -1;
+  const Eigen::Vector3i centre = (place + kNudge * inward).array().floor().cast<int>();
+  Nearest nearest{.cost = std::numeric_limits<double>::infinity()};
+  consider(centre, place, inward, nearest);
+  if (nearest.cost <= kNear * kNear) return nearest.brick;
+  for (int i = 0; i < 27; ++i) {
+    const Eigen::Vector3i offset(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+    if (i != 13) consider(centre + offset, place, inward, nearest);
+  }
+  return nearest.brick;
+}
+
 namespace {
 
 constexpr int kSamples = 512;

@@ -1,15 +1,51 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <unordered_map>
 #include <vector>
 
 #include "core/bricks/brick_grid.h"
 #include "core/bricks/column_caster.h"
-#include "core/bricks/sample_lines.h"
 #include "core/disjoint_sets.h"
-#include "core/mesh/triangle_grid.h"
+#include "core/mesh/query/triangle_grid.h"
 
 namespace sprung {
+
+/// Samples of a cell along each axis: at (i + 1/2) / 8.
+inline constexpr int kSamplesAlong = 8;
+
+/// A stretch inside the surface of a line through samples.
+struct InsideRun {
+  int u;        // sample numbers along the two axes that follow the line's own one: its place
+  int v;        //
+  double from;  // cells
+  double to;
+};
+
+/// What is inside the surface of the lines through all samples of the box along `axis`, by place and from low to high.
+/// Inside is where the surface winds around a point at all. Ties are broken as in cast_columns(). A line that does not
+/// leave the surface as often as it enters says nothing.
+[[nodiscard]] std::vector<InsideRun> inside_runs(const CellSurface& surface, int axis);
+
+/// Finds the brick whose solid is under a place of the surface, by the grid's patches.
+class SolidFinder {
+ public:
+  explicit SolidFinder(const BrickGrid& grid);
+
+  /// `place` and `inward` (unit, or zero where unknown) in lattice units. -1: nothing is known near the place.
+  [[nodiscard]] int under(const Vec3& place, const Vec3& inward) const;
+
+ private:
+  struct Nearest {
+    int brick = -1;
+    double cost;  // squared bricks
+  };
+  void consider(const Eigen::Vector3i& cell, const Vec3& place, const Vec3& inward, Nearest& nearest) const;
+
+  const BrickGrid& grid_;
+  CellIndex bricks_;
+  CellIndex patches_;
+};
 
 /// A stretch of a line through samples that lies inside, in a cell, but too short to hold a sample.
 struct Spot {

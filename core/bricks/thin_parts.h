@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "core/bricks/brick_grid.h"
-#include "core/mesh/thickness.h"
+#include "core/mesh/query/thickness.h"
 
 namespace sprung {
 
@@ -17,5 +17,25 @@ struct ThinPart {
 /// and its neighbours is nearer to its far wall than the side of a brick, so the edge of a thick part does not; groups
 /// of less than four bricks are left out in bodies that have more. `samples` in the grid's frame.
 [[nodiscard]] std::vector<ThinPart> find_thin_parts(const BrickGrid& grid, const std::vector<WallSample>& samples);
+
+inline constexpr double kBrickBudget = 50000;  // bricks of one body
+
+/// A brick size and why.
+struct BrickChoice {
+  double size = 0;
+  double thickness = 0;  // of the thinnest part that counts: 95 % of the surface bounds more than that
+  double across = 0;     // bricks across it
+  enum class Reason {
+    kThickness,  // two bricks are across the thinnest part that counts
+    kShape,      // that would be less than 12 bricks along the longest side
+    kBudget      // that would be more bricks than the budget
+  } reason = Reason::kThickness;
+};
+
+/// Chooses the side of the bricks of one body from the thickness of its thinnest part that counts and a budget. `walls`
+/// by solid; `longest` is the longest side of the body. Units of the solids.
+[[nodiscard]] BrickChoice choose_brick_size(const std::vector<Solid>& solids,
+                                            const std::vector<std::vector<WallSample>>& walls, double longest,
+                                            double budget = kBrickBudget);
 
 }  // namespace sprung

@@ -1,19 +1,206 @@
 #include "core/bricks/voxelize.h"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <numeric>
 
 #include "core/bricks/column_caster.h"
-#include "core/bricks/shell_cells.h"
-#include "core/bricks/winding_cells.h"
 #include "core/error.h"
+#include "core/mesh/query/winding_tree.h"
 
 namespace sprung {
+namespace {
+
+constexpr int kBlock = 4;      // cells along a block's side
+constexpr int kSamples = 4;    // along a cell's side
+constexpr double kSure = 0.2;  // this far from 1/2 the winding number decides for a whole block
+
+class Filler {
+ public:
+  Filler(const CellSurface& surface, CellSums& sums)
+      : surface_(surface), sums_(sums), tree_(surface.points, surface.triangles), touched_(sums.weight.size(), 0) {
+    for (int t = 0; t < surface.triangles.rows(); ++t) mark(t);
+  }
+
+  void fill_block(const Eigen::Vector3i& low) {
+    const Eigen::Vector3i high = (low.array() + kBlock).min(surface_.counts.array());
+    bool is_near = false;
+    visit(low, high, [&](const Eigen::Vector3i&, std::size_t i) { is_near = is_near || touched_[i] != 0; });
+    const double middle = winding(0.5 * (low + high).cast<double>());
+    const bool is_sure = !is_near && std::abs(middle - 0.5) > kSure;
+    visit(low, high, [&](const Eigen::Vector3i& cell, std::size_t i) {
+      sums_.weight[i] = 1;
+      sums_.weighted[i] = static_cast<float>(is_sure            ? (middle > 0.5 ? 1 : 0)
+                                             : touched_[i] != 0 ? sampled(cell)
+                                                                : inside(cell.cast<double>().array() + 0.5));
+    });
+  }
+
+ private:
+  [[nodiscard]] std::size_t row_of(const Eigen::Vector3i& cell) const {
+    return (static_cast<std::size_t>(cell.z()) * static_cast<std::size_t>(surface_.counts.y()) +
+            static_cast<std::size_t>(cell.y())) *
+               static_cast<std::size_t>(surface_.counts.x()) +
+           static_cast<std::size_t>(cell.x());
+  }
+
+  template <class Visit>
+  void visit(const Eigen::Vector3i& low, const Eigen::Vector3i& high, const Visit& call) const {
+    for (int z = low.z(); z < high.z(); ++z) {
+      for (int y = low.y(); y < high.y(); ++y) {
+        for (int x = low.x(); x < high.x(); ++x) call(Eigen::Vector3i(x, y, z), row_of({x, y, z}));
+      }
+    }
+  }
+
+  /// Cells in the triangle's box that its plane cuts.
+  void mark(int t) {
+    const auto corner = [&](int k) -> Vec3 { return surface_.points.row(surface_.triangles(t, k)); };
+    const Vec3 a = corner(0);
+    const Vec3 b = corner(1);
+    const Vec3 c = corner(2);
+    const Vec3 normal = (b - a).cross(c - a);
+    const double reach = 0.5 * normal.cwiseAbs().sum();
+    const Eigen::Array3i low = a.cwiseMin(b).cwiseMin(c).array().floor().cast<int>();
+    const Eigen::Array3i high = a.cwiseMax(b).cwiseMax(c).array().floor().cast<int>() + 1;
+    visit(low.max(0), high.min(surface_.counts.array()), [&](const Eigen::Vector3i& cell, std::size_t i) {
+      const Vec3 middle = cell.cast<double>().array() + 0.5;
+      if (std::abs(normal.dot(middle - a)) <= reach) touched_[i] = 1;
+    });
+  }
+
+  [[nodiscard]] double winding(const Vec3& place) const { return std::abs(tree_.at(place)); }
+  [[nodiscard]] double inside(const Vec3& place) const { return winding(place) > 0.5 ? 1 : 0; }
+
+  [[nodiscard]] double sampled(const Eigen::Vector3i& cell) const {
+    double sum = 0;
+    for (int i = 0; i < kSamples * kSamples * kSamples; ++i) {
+      const Eigen::Array3i place(i % kSamples, i / kSamples % kSamples, i / (kSamples * kSamples));
+      sum += inside(cell.cast<double>().array() + (place.cast<double>() + 0.5) / kSamples);
+    }
+    return sum / (kSamples * kSamples * kSamples);
+  }
+
+  const CellSurface& surface_;
+  CellSums& sums_;
+  WindingTree tree_;
+  std::vector<std::uint8_t> touched_;
+};
+
+}  // namespace
+
+void fill_by_winding(const CellSurface& surface, CellSums& sums) {
+  Filler filler(surface, sums);
+  const Eigen::Vector3i blocks = (surface.counts.array() + kBlock - 1) / kBlock;
+  tbb::parallel_for(0, blocks.prod(), [&](int block) {
+    const Eigen::Vector3i place(block % blocks.x(), block / blocks.x() % blocks.y(), block / (blocks.x() * blocks.y()));
+    filler.fill_block(kBlock * place);
+  });
+}
+
+namespace {
+
+constexpr std::uint64_t kAll = ~std::uint64_t{0};
+
+using Corners = std::array<Vec3, 3>;
+
+double squared_distance_to_side(const Vec3& a, const Vec3& b, const Vec3& place) {
+  const Vec3 along = b - a;
+  const double length = along.squaredNorm();
+  const double share = length > 0 ? std::clamp((place - a).dot(along) / length, 0.0, 1.0) : 0.0;
+  return (a + share * along - place).squaredNorm();
+}
+
+/// A triangle, ready to be asked how far places are.
+class Triangle {
+ public:
+  explicit Triangle(const Corners& corners) : corners_(corners) {
+    normal_ = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+    if (normal_.norm() > 0) normal_.normalize();
+  }
+
+  [[nodiscard]] double squared_distance(const Vec3& place) const {
+    if (is_above(place)) {
+      const double height = normal_.dot(place - corners_[0]);
+      return height * height;
+    }
+    return std::min({squared_distance_to_side(corners_[0], corners_[1], place),
+                     squared_distance_to_side(corners_[1], corners_[2], place),
+                     squared_distance_to_side(corners_[2], corners_[0], place)});
+  }
+
+ private:
+  [[nodiscard]] bool is_above(const Vec3& place) const {
+    if (normal_.isZero(0)) return false;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 side = corners_[(k + 1) % 3] - corners_[k];
+      if (normal_.cross(side).dot(place - corners_[k]) < 0) return false;
+    }
+    return true;
+  }
+
+  Corners corners_;
+  Vec3 normal_;
+};
+
+/// The samples of a cell that lie within `reach` of the triangle, with those known already.
+std::uint64_t near_samples(const Triangle& triangle, const Vec3& low, double reach, std::uint64_t known) {
+  if (known == kAll) return known;
+  const double half_diagonal = std::sqrt(3.0) / 2;
+  const double middle = std::sqrt(triangle.squared_distance(low.array() + 0.5));
+  if (middle > reach + half_diagonal) return known;
+  if (middle < reach - half_diagonal) return kAll;
+  for (int i = 0; i < kSamples * kSamples * kSamples; ++i) {
+    const std::uint64_t bit = std::uint64_t{1} << i;
+    if ((known & bit) != 0) continue;
+    const Eigen::Array3i place(i % kSamples, i / kSamples % kSamples, i / (kSamples * kSamples));
+    if (triangle.squared_distance(low.array() + (place.cast<double>() + 0.5) / kSamples) <= reach * reach) known |= bit;
+  }
+  return known;
+}
+
+}  // namespace
+
+void fill_shell(const CellSurface& surface, double thickness, CellSums& sums) {
+  // A little more than half, so that samples in line with a face of the shell do not depend on rounding.
+  constexpr double kMargin = 1e-6;
+  const double sampled = std::max(1.0, thickness);
+  const double reach = sampled / 2 + kMargin;
+  std::vector<std::uint64_t> samples(sums.weight.size(), 0);
+  for (const auto& row : surface.triangles.rowwise()) {
+    const Corners corners{surface.points.row(row[0]), surface.points.row(row[1]), surface.points.row(row[2])};
+    const Triangle triangle(corners);
+    const Vec3 lowest = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]).array() - reach;
+    const Vec3 highest = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]).array() + reach;
+    const Eigen::Array3i low = lowest.array().floor().cast<int>().max(0);
+    const Eigen::Array3i high = (highest.array().floor().cast<int>() + 1).min(surface.counts.array());
+    for (int z = low.z(); z < high.z(); ++z) {
+      for (int y = low.y(); y < high.y(); ++y) {
+        for (int x = low.x(); x < high.x(); ++x) {
+          const auto cell = static_cast<std::size_t>(x) +
+                            static_cast<std::size_t>(surface.counts.x()) *
+                                (static_cast<std::size_t>(y) +
+                                 static_cast<std::size_t>(surface.counts.y()) * static_cast<std::size_t>(z));
+          samples[cell] = near_samples(triangle, Vec3(x, y, z), reach, samples[cell]);
+        }
+      }
+    }
+  }
+  const double share = thickness / sampled / (kSamples * kSamples * kSamples);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    sums.weight[i] = 1;
+    sums.weighted[i] = static_cast<float>(share * std::popcount(samples[i]));
+  }
+}
+
 namespace {
 
 /// A length this near a whole number of bricks, relative to the length, is that number: file formats round to float.

@@ -1,8 +1,20 @@
 #pragma once
 #include "core/bricks/brick_grid.h"
-#include "core/mesh/solids.h"
+#include "core/bricks/column_caster.h"
+#include "core/mesh/repair/solids.h"
 
 namespace sprung {
+
+/// Sets `sums` to the share of each cell where the triangles' generalised winding number is beyond 1/2, whichever way
+/// they are turned: for surfaces with gaps, where rays leak. Cells that a triangle may touch are sampled at 64 points,
+/// others at their middle, or 64 together where none of them is near a triangle or a gap. Works in parallel;
+/// deterministic. Cost: some 60 microseconds a cell at the surface.
+void fill_by_winding(const CellSurface& surface, CellSums& sums);
+
+/// Sets `sums` to the share of each cell that lies within half of `thickness` (in cells, > 0) from the triangles, at 64
+/// points a cell. A shell thinner than a cell is sampled as if it were one cell thick, and the shares are reduced to
+/// its thickness: so its cells still hang together by faces, and hold its mass. Deterministic.
+void fill_shell(const CellSurface& surface, double thickness, CellSums& sums);
 
 /// The bricks of side `brick_size` that a solid touches, with the fraction of each that is solid. The lattice starts
 /// at the low corner of the solid's bounding box; a box that is a whole number of bricks long gets exactly those.

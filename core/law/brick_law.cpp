@@ -6,7 +6,7 @@
 #include <array>
 
 #include "core/error.h"
-#include "core/nearest.h"
+#include "core/text.h"
 
 namespace sprung {
 namespace {

@@ -31,4 +31,23 @@ struct SkinOptions {
 /// Makes the skin of a mesh (already in metres). Deterministic.
 [[nodiscard]] Skin make_skin(const SurfaceMesh& mesh, const SkinOptions& options);
 
+/// Vertices split so that each has one normal.
+struct SplitVertices {
+  std::vector<int> source;  // k; the mesh vertex that each split vertex copies
+  Points normals;           // k x 3, unit
+  Triangles triangles;      // t x 3, indices of split vertices
+};
+
+/// Normals for drawing. The mesh's own are kept where it has them (turned where they point inwards); else corners at
+/// one point share the angle-weighted mean normal of their triangles as long as these meet at less than
+/// `crease_angle` degrees, so that sharp edges stay sharp.
+[[nodiscard]] SplitVertices split_at_creases(const SurfaceMesh& mesh, double crease_angle);
+
+/// Row numbers that call equal positions equal: point_of[i] == point_of[j] where rows i and j are the same point.
+[[nodiscard]] std::vector<int> weld_points(const Points& positions);
+
+/// Halves every edge longer than max_edge (m), again and again, with both its triangles, so that no gap opens: edges
+/// that are equal by position are split alike. New vertices are appended; the first ones stay as they were.
+void refine(Skin& skin, double max_edge);
+
 }  // namespace sprung

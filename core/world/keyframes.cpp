@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "core/rotation.h"
+#include "core/pose.h"
 
 namespace sprung {
 namespace {

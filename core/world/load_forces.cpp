@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "core/body/brick_columns.h"
-#include "core/world/muscle.h"
+#include "core/body/body.h"
+#include "core/world/loads.h"
 
 namespace sprung {
 namespace {

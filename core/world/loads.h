@@ -2,6 +2,7 @@
 #include <array>
 #include <vector>
 
+#include "core/law/material.h"
 #include "core/types.h"
 
 namespace sprung {
@@ -46,5 +47,14 @@ struct GluedPoint {
   std::array<int, 2> bricks;
   std::array<Eigen::Matrix<double, 8, 1>, 2> weights;  // of the bricks' corners
 };
+
+/// What a muscle pulls with along its direction and two across it. Tensions of constant size along the brick's own
+/// directions have the energy V sum_i stress_i |F e_i|. Together with the springs' they are zero in the muscle's shape.
+struct MuscleTension {
+  Mat3 frame;   // columns: e_i, unit, in the frame of the grid
+  Vec3 stress;  // Pa
+};
+
+[[nodiscard]] MuscleTension tension_of(const Muscle& muscle, const Material& material);
 
 }  // namespace sprung

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "render/png.h"
+#include "render/image/png.h"
 #include "tests/support/run_program.h"
 
 namespace sprung {

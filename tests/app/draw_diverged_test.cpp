@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/motion/diverged.h"
-#include "render/png.h"
+#include "core/error.h"
+#include "render/image/png.h"
 #include "tests/support/bodies.h"
 #include "tests/support/temp_folder.h"
 

@@ -6,7 +6,7 @@
 #include "app/pin_movements.h"
 #include "app/scene/scene_file.h"
 #include "app/simulate.h"
-#include "core/motion/statics.h"
+#include "core/dynamics/statics/statics.h"
 #include "tests/support/error_message.h"
 #include "tests/support/run_program.h"
 

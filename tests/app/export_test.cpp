@@ -2,7 +2,7 @@
 
 #include <set>
 
-#include "core/mesh/read_mesh.h"
+#include "core/mesh/io/read_mesh.h"
 #include "tests/support/running_program.h"
 
 namespace sprung {

@@ -3,7 +3,7 @@
 #include <regex>
 
 #include "app/inspect/forecast.h"
-#include "render/png.h"
+#include "render/image/png.h"
 #include "tests/support/json_number.h"
 #include "tests/support/run_program.h"
 

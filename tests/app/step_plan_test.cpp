@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/motion/integrator.h"
+#include "core/dynamics/explicit/integrator.h"
 #include "tests/support/bodies.h"
 
 namespace sprung {

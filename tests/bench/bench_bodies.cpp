@@ -6,7 +6,7 @@
 
 #include "core/body/brick_tiles.h"
 #include "core/bricks/voxelize.h"
-#include "core/mesh/read_mesh.h"
+#include "core/mesh/io/read_mesh.h"
 
 namespace sprung::test {
 namespace {

@@ -2,7 +2,7 @@
 #include <string>
 
 #include "core/body/body.h"
-#include "core/mesh/solids.h"
+#include "core/mesh/repair/solids.h"
 
 namespace sprung::test {
 

@@ -6,7 +6,7 @@
 #include <ctime>
 
 #include "core/error.h"
-#include "core/output/cache.h"
+#include "core/io/cache.h"
 
 namespace {
 

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
-#include "core/body/spring_system.h"
+#include "core/body/forces.h"
 #include "tests/bench/bench_bodies.h"
 #include "tests/bench/machine_limits.h"
 #include "tests/bench/spring_list.h"

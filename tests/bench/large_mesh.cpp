@@ -7,7 +7,7 @@
 #include <ctime>
 
 #include "core/bricks/voxelize.h"
-#include "core/mesh/solids.h"
+#include "core/mesh/repair/solids.h"
 #include "tests/support/meshes.h"
 
 namespace {

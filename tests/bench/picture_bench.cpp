@@ -15,7 +15,7 @@
 #include "app/scene/scene_file.h"
 #include "core/error.h"
 #include "render/film.h"
-#include "render/png.h"
+#include "render/image/png.h"
 
 namespace {
 

@@ -12,9 +12,9 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "core/motion/implicit_motion.h"
-#include "core/motion/statics.h"
-#include "core/motion/stiffness_matrix.h"
+#include "core/dynamics/implicit/implicit_motion.h"
+#include "core/dynamics/linear/stiffness.h"
+#include "core/dynamics/statics/statics.h"
 #include "tests/bench/bench_bodies.h"
 
 namespace {

@@ -8,10 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/body/brick_topology.h"
+#include "core/bricks/brick_topology.h"
+#include "core/dynamics/statics/statics.h"
 #include "core/law/hexahedron.h"
-#include "core/motion/linear_response.h"
-#include "core/motion/statics.h"
 #include "tests/support/bodies.h"
 
 namespace sprung {

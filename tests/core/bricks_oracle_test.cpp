@@ -9,7 +9,7 @@
 #include <tuple>
 
 #include "core/bricks/voxelize.h"
-#include "core/mesh/read_mesh.h"
+#include "core/mesh/io/read_mesh.h"
 #include "tests/support/meshes.h"
 
 namespace sprung {

@@ -7,7 +7,7 @@
 
 #include "core/bricks/voxelize.h"
 #include "core/error.h"
-#include "core/mesh/read_mesh.h"
+#include "core/mesh/io/read_mesh.h"
 #include "tests/support/meshes.h"
 #include "tests/support/sanitized.h"
 

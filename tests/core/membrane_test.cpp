@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/dynamics/statics/membrane_statics.h"
 #include "core/error.h"
-#include "core/motion/membrane_statics.h"
 #include "tests/support/bodies.h"
 
 namespace sprung {

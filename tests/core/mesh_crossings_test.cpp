@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "core/mesh/crossings.h"
-#include "core/mesh/read_mesh.h"
-#include "core/mesh/solids.h"
+#include "core/mesh/io/read_mesh.h"
+#include "core/mesh/query/self_intersections.h"
+#include "core/mesh/repair/solids.h"
 #include "tests/support/meshes.h"
 
 namespace sprung {

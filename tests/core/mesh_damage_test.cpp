@@ -6,7 +6,7 @@
 #include <set>
 
 #include "core/bricks/voxelize.h"
-#include "core/mesh/solids.h"
+#include "core/mesh/repair/solids.h"
 #include "tests/support/meshes.h"
 
 namespace sprung {

@@ -8,8 +8,8 @@
 #include <fstream>
 
 #include "core/error.h"
-#include "core/mesh/read_mesh.h"
-#include "core/mesh/solids.h"
+#include "core/mesh/io/read_mesh.h"
+#include "core/mesh/repair/solids.h"
 #include "tests/support/meshes.h"
 
 namespace sprung {

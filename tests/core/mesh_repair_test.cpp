@@ -9,9 +9,9 @@
 
 #include "core/bricks/voxelize.h"
 #include "core/error.h"
-#include "core/mesh/solids.h"
-#include "core/mesh/submesh.h"
-#include "core/mesh/winding_tree.h"
+#include "core/mesh/query/winding_tree.h"
+#include "core/mesh/repair/solids.h"
+#include "core/mesh/repair/submesh.h"
 #include "tests/support/meshes.h"
 
 namespace sprung {

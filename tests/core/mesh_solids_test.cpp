@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "core/error.h"
-#include "core/mesh/solids.h"
+#include "core/mesh/repair/solids.h"
 #include "tests/support/meshes.h"
 
 namespace sprung {

@@ -4,11 +4,10 @@
 
 #include "core/body/brick_hessian.h"
 #include "core/body/forces.h"
+#include "core/dynamics/energy.h"
+#include "core/dynamics/explicit/adaptive_integrator.h"
+#include "core/dynamics/explicit/integrator.h"
 #include "core/error.h"
-#include "core/motion/careful_motion.h"
-#include "core/motion/diverged.h"
-#include "core/motion/energy_watch.h"
-#include "core/motion/integrator.h"
 #include "tests/support/bodies.h"
 #include "tests/support/worlds.h"
 

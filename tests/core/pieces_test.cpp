@@ -7,10 +7,9 @@
 #include <tuple>
 
 #include "core/bricks/embedding.h"
-#include "core/bricks/slivers.h"
 #include "core/bricks/voxelize.h"
 #include "core/disjoint_sets.h"
-#include "core/mesh/solids.h"
+#include "core/mesh/repair/solids.h"
 #include "tests/support/comb.h"
 
 namespace sprung {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <random>
 
+#include "core/dynamics/statics/membrane_statics.h"
 #include "core/error.h"
 #include "core/law/rectangle_law.h"
-#include "core/motion/membrane_statics.h"
 #include "tests/support/bodies.h"
 
 namespace sprung {

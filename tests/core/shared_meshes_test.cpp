@@ -6,9 +6,9 @@
 #include <string>
 
 #include "core/bricks/voxelize.h"
-#include "core/mesh/read_mesh.h"
-#include "core/mesh/solids.h"
-#include "core/mesh/submesh.h"
+#include "core/mesh/io/read_mesh.h"
+#include "core/mesh/repair/solids.h"
+#include "core/mesh/repair/submesh.h"
 #include "tests/support/meshes.h"
 
 namespace sprung {

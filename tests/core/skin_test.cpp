@@ -7,7 +7,6 @@
 #include <random>
 
 #include "core/bricks/embedding.h"
-#include "core/skin/corner_normals.h"
 #include "tests/support/bodies.h"
 
 namespace sprung {

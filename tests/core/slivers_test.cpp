@@ -1,6 +1,6 @@
-#include "core/bricks/slivers.h"
-
 #include <gtest/gtest.h>
+
+#include "core/bricks/pieces.h"
 
 namespace sprung {
 namespace {

@@ -1,8 +1,8 @@
-#include "core/bricks/smooth_ride.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "core/bricks/embedding.h"
 
 namespace sprung {
 namespace {

@@ -1,12 +1,12 @@
-#include "core/motion/statics.h"
+#include "core/dynamics/statics/statics.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
 #include "core/body/forces.h"
+#include "core/dynamics/statics/modes.h"
 #include "core/error.h"
-#include "core/motion/modes.h"
 #include "tests/support/bodies.h"
 
 namespace sprung {

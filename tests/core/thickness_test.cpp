@@ -1,11 +1,10 @@
-#include "core/mesh/thickness.h"
+#include "core/mesh/query/thickness.h"
 
 #include <gtest/gtest.h>
 
-#include "core/bricks/brick_size.h"
 #include "core/bricks/thin_parts.h"
 #include "core/bricks/voxelize.h"
-#include "core/mesh/read_mesh.h"
+#include "core/mesh/io/read_mesh.h"
 #include "tests/support/comb.h"
 
 namespace sprung {

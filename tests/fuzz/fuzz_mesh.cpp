@@ -5,12 +5,9 @@
 #include <string_view>
 
 #include "core/error.h"
-#include "core/mesh/read/file_checks.h"
-#include "core/mesh/read/mesh_bytes.h"
-#include "core/mesh/read/obj_reader.h"
-#include "core/mesh/read/off_reader.h"
-#include "core/mesh/read/ply_reader.h"
-#include "core/mesh/read/stl_reader.h"
+#include "core/mesh/io/file_checks.h"
+#include "core/mesh/io/reader_process.h"
+#include "core/mesh/io/readers.h"
 
 namespace sprung {
 namespace {

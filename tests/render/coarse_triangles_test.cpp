@@ -1,9 +1,8 @@
-#include "render/coarse_triangles.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 
+#include "render/skin_buffers.h"
 #include "tests/support/still_life.h"
 
 namespace sprung {

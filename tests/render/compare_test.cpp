@@ -1,4 +1,4 @@
-#include "render/compare.h"
+#include "render/image/compare.h"
 
 #include <gtest/gtest.h>
 

@@ -8,8 +8,8 @@
 #include <fstream>
 #include <numbers>
 
-#include "render/decode.h"
-#include "render/png.h"
+#include "core/io/decode_image.h"
+#include "render/image/png.h"
 #include "tests/support/error_message.h"
 #include "tests/support/golden.h"
 #include "tests/support/still_life.h"

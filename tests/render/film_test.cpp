@@ -9,7 +9,7 @@
 #include <string>
 
 #include "core/error.h"
-#include "render/process.h"
+#include "core/io/process.h"
 #include "tests/support/error_message.h"
 #include "tests/support/temp_folder.h"
 

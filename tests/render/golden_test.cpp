@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "render/png.h"
+#include "render/image/png.h"
 
 namespace sprung {
 namespace {

@@ -1,4 +1,4 @@
-#include "render/legend.h"
+#include "render/image/legend.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "render/exr.h"
+#include "render/image/exr.h"
 #include "tests/support/error_message.h"
 #include "tests/support/still_life.h"
 #include "tests/support/temp_folder.h"

@@ -1,4 +1,4 @@
-#include "render/png.h"
+#include "render/image/png.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

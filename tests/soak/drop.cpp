@@ -9,14 +9,13 @@
 #include <random>
 
 #include "core/bricks/pieces.h"
-#include "core/bricks/slivers.h"
 #include "core/bricks/voxelize.h"
+#include "core/contact/inversion_guard.h"
+#include "core/dynamics/energy.h"
+#include "core/dynamics/explicit/adaptive_integrator.h"
 #include "core/error.h"
-#include "core/mesh/read_mesh.h"
-#include "core/motion/careful_motion.h"
-#include "core/motion/energy_watch.h"
+#include "core/mesh/io/read_mesh.h"
 #include "core/soft_body.h"
-#include "core/world/squeeze.h"
 #include "tests/support/meshes.h"
 
 namespace sprung::test {

@@ -10,7 +10,7 @@
 #include <sstream>
 
 #include "core/error.h"
-#include "core/mesh/read_mesh.h"
+#include "core/mesh/io/read_mesh.h"
 #include "tests/soak/mesh_corpus.h"
 #include "tests/soak/mutation.h"
 #include "tests/support/meshes.h"

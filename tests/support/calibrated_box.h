@@ -1,8 +1,7 @@
 #pragma once
 #include <cmath>
 
-#include "core/motion/integrator.h"
-#include "core/motion/stable_step.h"
+#include "core/dynamics/explicit/integrator.h"
 #include "tests/support/bodies.h"
 
 namespace sprung::test {

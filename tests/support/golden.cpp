@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "render/png.h"
+#include "render/image/png.h"
 
 namespace sprung {
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "render/compare.h"
+#include "render/image/compare.h"
 
 namespace sprung {
 

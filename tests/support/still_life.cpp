@@ -9,7 +9,7 @@
 #include <numbers>
 #include <utility>
 
-#include "render/png.h"
+#include "render/image/png.h"
 #include "tests/support/temp_folder.h"
 
 namespace sprung {

@@ -2,10 +2,8 @@
 
 #include <algorithm>
 
-#include "core/body/kernel/brick_run.h"
-#include "core/body/kernel/node_runs.h"
-#include "core/body/kernel/run_cursor.h"
-#include "core/body/kernel/spring_runs.h"
+#include "core/body/kernel/brick_springs.h"
+#include "core/body/kernel/tile_runs.h"
 
 #define SPRUNG_QUOTE(name) #name
 #define SPRUNG_NAME_OF(name) SPRUNG_QUOTE(name)

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "core/output/cache.h"
+#include "core/io/cache.h"
 #include "tests/support/running_program.h"
 #include "tests/support/sanitized.h"
 

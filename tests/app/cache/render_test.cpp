@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "app/frame_range.h"
-#include "render/png.h"
+#include "render/image/png.h"
 #include "tests/support/error_message.h"
 #include "tests/support/run_program.h"
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/rotation.h"
+#include "core/pose.h"
 #include "tests/support/bodies.h"
 
 namespace sprung {

@@ -1,5 +1,3 @@
-#include "core/body/spring_system.h"
-
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/body/forces.h"
-#include "core/motion/implicit_motion.h"
+#include "core/dynamics/implicit/implicit_motion.h"
 #include "tests/support/calibrated_box.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/worlds.h"

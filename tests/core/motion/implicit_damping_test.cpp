@@ -1,4 +1,4 @@
-#include "core/motion/implicit_damping.h"
+#include "core/dynamics/explicit/implicit_damping.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "core/body/forces.h"
-#include "core/motion/implicit_motion.h"
-#include "core/motion/integrator.h"
+#include "core/dynamics/explicit/integrator.h"
+#include "core/dynamics/implicit/implicit_motion.h"
 #include "tests/support/bodies.h"
 #include "tests/support/worlds.h"
 

@@ -1,4 +1,4 @@
-#include "core/motion/implicit_motion.h"
+#include "core/dynamics/implicit/implicit_motion.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -6,9 +6,9 @@
 #include <Eigen/Geometry>
 
 #include "core/body/forces.h"
+#include "core/dynamics/explicit/integrator.h"
+#include "core/dynamics/statics/statics.h"
 #include "core/error.h"
-#include "core/motion/integrator.h"
-#include "core/motion/statics.h"
 #include "tests/support/bodies.h"
 #include "tests/support/calibrated_box.h"
 #include "tests/support/worlds.h"

@@ -4,12 +4,12 @@
 #include <Eigen/Geometry>
 
 #include "core/body/forces.h"
+#include "core/contact/contact_surface.h"
+#include "core/contact/glue.h"
+#include "core/dynamics/energy.h"
+#include "core/dynamics/explicit/adaptive_integrator.h"
+#include "core/dynamics/implicit/implicit_motion.h"
 #include "core/error.h"
-#include "core/motion/careful_motion.h"
-#include "core/motion/energy_watch.h"
-#include "core/motion/implicit_motion.h"
-#include "core/world/contact_skin.h"
-#include "core/world/glue.h"
 #include "tests/support/horseshoe.h"
 #include "tests/support/touching.h"
 

@@ -2,9 +2,9 @@
 #include <tbb/global_control.h>
 
 #include "core/body/forces.h"
-#include "core/motion/multigrid/level.h"
-#include "core/motion/newton_system.h"
-#include "core/motion/stiffness_product.h"
+#include "core/dynamics/linear/linear_solver.h"
+#include "core/dynamics/linear/multigrid_level.h"
+#include "core/dynamics/linear/stiffness.h"
 #include "tests/support/bodies.h"
 
 namespace sprung {

@@ -1,4 +1,4 @@
-#include "core/motion/obstacle_potential.h"
+#include "core/contact/obstacle_potential.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,12 @@
-#include "core/motion/skin_potential.h"
+#include "core/contact/skin_potential.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <random>
 
-#include "core/world/glue.h"
+#include "core/contact/glue.h"
+#include "core/dynamics/implicit/coupling.h"
 #include "tests/support/touching.h"
 
 namespace sprung {

@@ -3,12 +3,11 @@
 #include <algorithm>
 
 #include "core/bricks/pieces.h"
-#include "core/bricks/slivers.h"
 #include "core/bricks/voxelize.h"
-#include "core/mesh/solids.h"
-#include "core/motion/implicit_motion.h"
-#include "core/motion/integrator.h"
-#include "core/motion/statics.h"
+#include "core/dynamics/explicit/integrator.h"
+#include "core/dynamics/implicit/implicit_motion.h"
+#include "core/dynamics/statics/statics.h"
+#include "core/mesh/repair/solids.h"
 #include "tests/support/bodies.h"
 #include "tests/support/comb.h"
 

@@ -1,4 +1,4 @@
-#include "core/output/cache.h"
+#include "core/io/cache.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>

@@ -1,10 +1,9 @@
-#include "core/output/glb_vertices.h"
-
 #include <gtest/gtest.h>
 
 #include <cstring>
 #include <numbers>
 
+#include "core/io/animated_glb.h"
 #include "tests/support/temp_folder.h"
 
 namespace sprung {

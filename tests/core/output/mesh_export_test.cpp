@@ -1,11 +1,11 @@
-#include "core/output/mesh_export.h"
+#include "core/io/mesh_export.h"
 
 #include <gtest/gtest.h>
 
-#include "core/mesh/read_mesh.h"
-#include "core/output/animated_glb.h"
-#include "core/output/point_cache.h"
-#include "core/output/xdmf.h"
+#include "core/io/animated_glb.h"
+#include "core/io/point_cache.h"
+#include "core/io/xdmf.h"
+#include "core/mesh/io/read_mesh.h"
 #include "tests/support/bodies.h"
 #include "tests/support/json_number.h"
 #include "tests/support/run_program.h"

@@ -5,7 +5,7 @@
 
 #include <assimp/Importer.hpp>
 
-#include "core/output/mesh_export.h"
+#include "core/io/mesh_export.h"
 #include "tests/support/run_program.h"
 
 namespace sprung {

@@ -1,11 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "core/mesh/read/mtl_reader.h"
-#include "core/mesh/read/obj_reader.h"
-#include "core/mesh/read/off_reader.h"
-#include "core/mesh/read/ply_reader.h"
-#include "core/mesh/read/stl_reader.h"
-#include "core/mesh/read/text_scanner.h"
+#include "core/mesh/io/obj_reader.h"
+#include "core/mesh/io/readers.h"
+#include "core/mesh/io/text_scanner.h"
 #include "tests/support/error_message.h"
 
 /// What the readers of OBJ, PLY, STL and OFF make of texts that are unusual or damaged.

@@ -1,5 +1,3 @@
-#include "core/mesh/read/reading_child.h"
-
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -11,7 +9,7 @@
 #include <fstream>
 
 #include "core/error.h"
-#include "core/mesh/read/mesh_bytes.h"
+#include "core/mesh/io/reader_process.h"
 #include "tests/support/error_message.h"
 #include "tests/support/meshes.h"
 #include "tests/support/sanitized.h"

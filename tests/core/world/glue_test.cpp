@@ -1,12 +1,12 @@
-#include "core/world/glue.h"
+#include "core/contact/glue.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 
 #include "core/body/forces.h"
-#include "core/motion/careful_motion.h"
-#include "core/world/contact_skin.h"
+#include "core/contact/contact_surface.h"
+#include "core/dynamics/explicit/adaptive_integrator.h"
 #include "tests/support/touching.h"
 
 namespace sprung {

@@ -5,9 +5,9 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "core/body/brick_columns.h"
+#include "core/body/body.h"
 #include "core/body/forces.h"
-#include "core/motion/integrator.h"
+#include "core/dynamics/explicit/integrator.h"
 #include "core/world/load_forces.h"
 #include "tests/support/touching.h"
 

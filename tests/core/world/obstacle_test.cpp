@@ -8,8 +8,8 @@
 
 #include "app/box_shape.h"
 #include "core/body/forces.h"
-#include "core/motion/careful_motion.h"
-#include "core/world/overlap.h"
+#include "core/contact/penetration.h"
+#include "core/dynamics/explicit/adaptive_integrator.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/touching.h"
 

@@ -1,4 +1,4 @@
-#include "core/world/skin_contact.h"
+#include "core/contact/skin_contact.h"
 
 #include <gtest/gtest.h>
 
@@ -6,9 +6,9 @@
 #include <numbers>
 
 #include "core/body/forces.h"
-#include "core/motion/careful_motion.h"
-#include "core/motion/energy_watch.h"
-#include "core/world/squeeze.h"
+#include "core/contact/inversion_guard.h"
+#include "core/dynamics/energy.h"
+#include "core/dynamics/explicit/adaptive_integrator.h"
 #include "tests/support/horseshoe.h"
 #include "tests/support/touching.h"
 

@@ -1,13 +1,12 @@
-#include "core/world/squeeze.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 
 #include "core/body/forces.h"
-#include "core/motion/careful_motion.h"
-#include "core/motion/energy_watch.h"
-#include "core/world/impulses.h"
+#include "core/contact/contact_solver.h"
+#include "core/contact/inversion_guard.h"
+#include "core/dynamics/energy.h"
+#include "core/dynamics/explicit/adaptive_integrator.h"
 #include "tests/support/bodies.h"
 #include "tests/support/touching.h"
 #include "tests/support/worlds.h"

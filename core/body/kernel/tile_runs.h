@@ -1,0 +1,119 @@
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include "core/body/kernel/pack.h"
+#include "core/body/kernel/tile_pass.h"
+
+namespace sprung::SPRUNG_INSTRUCTION_SET {
+
+/// A part of a run: its places begin .. end - 1, counted from the run's first.
+struct RunPart {
+  const Run& run;
+  int begin;
+  int end;
+
+  [[nodiscard]] int place() const { return run.place + begin; }
+  [[nodiscard]] int count() const { return end - begin; }
+
+  /// Calls visit(place) for each pack.
+  template <class Visit>
+  void each_pack(const Visit& visit) const {
+    for (int i = begin; i < end; i += kLanes) visit(run.place + i);
+  }
+};
+
+/// Goes through the runs of one kind in a plane, up to one place after the other.
+class RunCursor {
+ public:
+  RunCursor(const TileView& tile, int plane, RunKind kind)
+      : run_(tile.runs + tile.first_run[plane * kRunKinds + kind]),
+        last_(tile.runs + tile.first_run[plane * kRunKinds + kind + 1]),
+        unit_(kind < kPlaces ? 1 : kPackPadding) {}
+
+  /// Calls visit(part) for all nodes, or packs, that begin before this place and were not visited yet.
+  template <class Visit>
+  void go_to(int place, const Visit& visit) {
+    while (run_ != last_ && run_->place + done_ < place) {
+      const int end = std::min(run_->count, (place - run_->place + unit_ - 1) & -unit_);
+      visit(RunPart{*run_, done_, end});
+      done_ = end;
+      if (end < run_->count) return;
+      ++run_;
+      done_ = 0;
+    }
+  }
+
+ private:
+  const Run* run_;
+  const Run* last_;
+  int unit_;      // places
+  int done_ = 0;  // of the run's places
+};
+
+/// Three components in arrays of their own.
+template <class Number>
+struct Three {
+  Number* x;
+  Number* y;
+  Number* z;
+};
+
+/// Takes `count` points x y z x y z ... apart, `drift` times their rates added. The rates as well where they are asked.
+template <bool kRates>
+void take_apart(const double* __restrict points, const double* __restrict rates, double drift, int count,
+                const Three<double>& to, const Three<double>& rates_to) {
+  double* __restrict x = to.x;
+  double* __restrict y = to.y;
+  double* __restrict z = to.z;
+  double* __restrict u = rates_to.x;
+  double* __restrict v = rates_to.y;
+  double* __restrict w = rates_to.z;
+  for (int i = 0; i < count; ++i) {
+    x[i] = points[3 * i] + drift * rates[3 * i];
+    y[i] = points[3 * i + 1] + drift * rates[3 * i + 1];
+    z[i] = points[3 * i + 2] + drift * rates[3 * i + 2];
+    if constexpr (kRates) {
+      u[i] = rates[3 * i];
+      v[i] = rates[3 * i + 1];
+      w[i] = rates[3 * i + 2];
+    }
+  }
+}
+
+/// values += factor * rates
+inline void add_rates(double* __restrict values, const double* __restrict rates, double factor, int count) {
+  for (int i = 0; i < count; ++i) values[i] += factor * rates[i];
+}
+
+/// What is left to do for nodes once their forces are known.
+inline void finish_nodes(const PassInput& input, int node, int count, const Three<const double>& forces) {
+  const std::ptrdiff_t first = 3 * static_cast<std::ptrdiff_t>(node);
+  const double* __restrict x = forces.x;
+  const double* __restrict y = forces.y;
+  const double* __restrict z = forces.z;
+  if (input.pass != Pass::kMove) {
+    double* __restrict to = input.forces + first;
+    for (int i = 0; i < count; ++i) {
+      to[3 * i] = x[i];
+      to[3 * i + 1] = y[i];
+      to[3 * i + 2] = z[i];
+    }
+    return;
+  }
+  double* __restrict velocities = input.velocities + first;
+  if (input.drift != 0) add_rates(input.positions + first, velocities, input.drift, 3 * count);
+  const double* __restrict inverse_masses = input.inverse_masses + node;
+  const double keep = input.keep;
+  const double kick = input.kick;
+  const std::array<double, 3> gravity = input.gravity_kick;
+  for (int i = 0; i < count; ++i) {
+    const double by_force = kick * inverse_masses[i];
+    velocities[3 * i] = keep * velocities[3 * i] + by_force * x[i] + gravity[0];
+    velocities[3 * i + 1] = keep * velocities[3 * i + 1] + by_force * y[i] + gravity[1];
+    velocities[3 * i + 2] = keep * velocities[3 * i + 2] + by_force * z[i] + gravity[2];
+  }
+}
+
+}  // namespace sprung::SPRUNG_INSTRUCTION_SET

@@ -1,0 +1,268 @@
+#include "core/contact/contact_candidates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include "core/body/body.h"
+
+namespace sprung {
+namespace {
+
+constexpr double kFacing = 0.2;  // cosine between the normals of what touches, at most
+constexpr double kBent = 0.5;    // rad, that a brick's normals may turn, against each other and until it is looked at
+
+/// A normal of the skin at rest carried along by its brick, unit.
+Vec3 carried_normal(const Body& body, int brick, const Vec3& normal) {
+  const auto& nodes = body.grid.nodes[static_cast<std::size_t>(brick)];
+  const Vec3 along = mean_axes_of(columns_of(nodes, body.rest_positions)).transpose() * normal;
+  return (areas_of(mean_axes_of(columns_of(nodes, body.positions))) * along).normalized();
+}
+
+bool hang_together(const Body& body, int a, int b) {
+  const auto brick_a = static_cast<std::size_t>(a);
+  const auto brick_b = static_cast<std::size_t>(b);
+  if ((body.grid.cells[brick_a] - body.grid.cells[brick_b]).cwiseAbs().maxCoeff() > 1) return false;
+  const auto& nodes = body.grid.nodes[brick_b];
+  return std::any_of(body.grid.nodes[brick_a].begin(), body.grid.nodes[brick_a].end(),
+                     [&](int node) { return std::find(nodes.begin(), nodes.end(), node) != nodes.end(); });
+}
+
+AlignedBox box_of(const Body& body, int brick) {
+  AlignedBox box;
+  for (const int node : body.grid.nodes[static_cast<std::size_t>(brick)]) box.extend(Vec3(body.positions.row(node)));
+  return box;
+}
+
+}  // namespace
+
+SkinPairs::SkinPairs(const std::vector<const ContactSkin*>& skins, std::size_t actor, std::size_t other)
+    : skins_(skins) {
+  const auto add = [&](std::size_t which) {
+    const std::size_t count = skins[which]->points.size();
+    sides_.push_back({.actor = which,
+                      .positions = Points(static_cast<Eigen::Index>(count), 3),
+                      .finds = std::vector<long>(count, 0),
+                      .watched = std::vector<int>(count, -1)});
+  };
+  add(actor);
+  if (other != actor) add(other);
+}
+
+bool SkinPairs::may_touch(const Place& a, const Place& b) const {
+  const bool is_self = sides_.size() == 1;
+  if (!is_self && a.side == b.side) return false;
+  if (a.turn + b.turn > 0 && a.normal.dot(b.normal) > a.cosine * b.cosine - a.sine * b.sine) return false;
+  if (!is_self) return true;
+  const std::vector<int>& neighbours = skin_of(a).neighbours[a.row];
+  return !std::binary_search(neighbours.begin(), neighbours.end(), static_cast<int>(b.row));
+}
+
+void SkinPairs::add_places(const Group& group, std::size_t side, const AlignedBox& near) {
+  const Body& body = group[sides_[side].actor]->body;
+  const ContactSkin& skin = skin_of(sides_[side]);
+  const AlignedBox near_bricks = widened(near, body.grid.brick_size);  // skins may lie a little outside them
+  for (std::size_t row = 0; row < skin.bricks.size(); ++row) {
+    if (!near_bricks.intersects(box_of(body, skin.bricks[row]))) continue;
+    Place place{.side = side, .row = row, .box = {}, .normal = {}, .turn = 0, .cosine = 0, .sine = 0};
+    find(group, place);
+    if (!near.intersects(place.box)) continue;
+    place.normal = carried_normal(body, skin.bricks[row], skin.cones[row].axis);
+    place.turn = (std::acos(kFacing) - kBent) / 2 - skin.cones[row].spread;
+    place.cosine = std::cos(place.turn);
+    place.sine = std::sin(place.turn);
+    places_.push_back(place);
+  }
+}
+
+void SkinPairs::seek(const Group& group, double margin) {
+  ++finds_;
+  places_.clear();
+  for (std::size_t side = 0; side < sides_.size(); ++side) {
+    const Body& facing = group[sides_[sides_.size() - 1 - side].actor]->body;
+    add_places(group, side, widened(box_around(facing.positions), margin + facing.grid.brick_size));
+  }
+  std::vector<AlignedBox> boxes;
+  boxes.reserve(places_.size());
+  for (const Place& place : places_) boxes.push_back(widened(place.box, margin / 2));
+  near_ = overlapping_boxes(boxes, [&](int a, int b) {
+    return may_touch(places_[static_cast<std::size_t>(a)], places_[static_cast<std::size_t>(b)]);
+  });
+  keep_near_places();
+}
+
+void SkinPairs::keep_near_places() {
+  std::vector<int> row_of(places_.size(), -1);
+  std::vector<Place> kept;
+  const auto keep = [&](int& place) {
+    int& row = row_of[static_cast<std::size_t>(place)];
+    if (row < 0) {
+      row = static_cast<int>(kept.size());
+      kept.push_back(places_[static_cast<std::size_t>(place)]);
+    }
+    place = row;
+  };
+  for (auto& [first, second] : near_) {
+    keep(first);
+    keep(second);
+  }
+  places_ = std::move(kept);
+}
+
+void SkinPairs::find(const Group& group, Place& place) {
+  const ContactSkin& skin = skin_of(place);
+  Side& side = sides_[place.side];
+  const Body& body = group[side.actor]->body;
+  place.box.setEmpty();
+  const auto add = [&](int point) {
+    long& found = side.finds[static_cast<std::size_t>(point)];
+    if (found != finds_) {
+      side.positions.row(point) =
+          carried(body, skin.points[static_cast<std::size_t>(point)], body.positions).transpose();
+    }
+    found = finds_;
+    place.box.extend(Vec3(side.positions.row(point)));
+  };
+  for (int i = skin.first_point[place.row]; i < skin.first_point[place.row + 1]; ++i) add(i);
+  for (int i = skin.first_triangle[place.row]; i < skin.first_triangle[place.row + 1]; ++i) {
+    for (const int corner : skin.triangles[static_cast<std::size_t>(i)]) add(corner);
+  }
+}
+
+RigidMotion SkinPairs::rigid_motion(const Group& group) const {
+  Group both;
+  for (const Side& side : sides_) both.push_back(group[side.actor]);
+  return rigid_motion_of(both);
+}
+
+double SkinPairs::fastest_of(const Group& group, std::size_t side, std::size_t row, const RigidMotion& rigid) const {
+  const Body& body = group[sides_[side].actor]->body;
+  const ContactSkin& skin = skin_of(sides_[side]);
+  double most = 0;
+  for (int i = skin.first_point[row]; i < skin.first_point[row + 1]; ++i) {
+    const ContactPoint& point = skin.points[static_cast<std::size_t>(i)];
+    const Vec3 velocity = carried(body, point, body.velocities);
+    most = std::max(most, (velocity - rigid.at(carried(body, point, body.positions))).squaredNorm());
+  }
+  return std::sqrt(most);
+}
+
+double SkinPairs::fastest(const Group& group) const {
+  const RigidMotion rigid = rigid_motion(group);
+  double most = 0;
+  for (std::size_t side = 0; side < sides_.size(); ++side) {
+    const std::size_t count = skin_of(sides_[side]).bricks.size();
+    for (std::size_t row = 0; row < count; ++row) most = std::max(most, fastest_of(group, side, row, rigid));
+  }
+  return most;
+}
+
+double SkinPairs::fastest_near(const Group& group) const {
+  const RigidMotion rigid = rigid_motion(group);
+  double most = 0;
+  for (const Place& place : places_) most = std::max(most, fastest_of(group, place.side, place.row, rigid));
+  return most;
+}
+
+double SkinPairs::closing_speed(const Group& group, double dt) const {
+  const auto velocity_of = [&](const Place& place) {
+    const Body& body = group[sides_[place.side].actor]->body;
+    const int brick = skin_of(place).bricks[place.row];
+    return carried(body, brick, Eigen::Matrix<double, 8, 1>::Constant(0.125), body.velocities);
+  };
+  double fastest = 0;
+  for (const auto& [first, second] : near_) {
+    const Place& a = places_[static_cast<std::size_t>(first)];
+    const Place& b = places_[static_cast<std::size_t>(second)];
+    const double brick = std::min(a.box.diagonal().norm(), b.box.diagonal().norm());
+    const Vec3 way = b.box.center() - a.box.center();
+    if (a.normal.dot(way) < -brick / 2 && b.normal.dot(way) > brick / 2) continue;  // back to back
+    const Vec3 speed = velocity_of(b) - velocity_of(a);
+    const double nearest = std::clamp(-way.dot(speed) / std::max(speed.squaredNorm(), 1e-300), 0.0, dt);
+    const double reach = brick + (a.box.diagonal().norm() + b.box.diagonal().norm()) / 2;
+    if ((way + nearest * speed).norm() < reach) fastest = std::max(fastest, speed.norm());
+  }
+  return fastest;
+}
+
+int SkinPairs::watched_row(const Group& group, std::size_t side, int point) {
+  int& row = sides_[side].watched[static_cast<std::size_t>(point)];
+  if (row < 0) {
+    row = static_cast<int>(watched_.size());
+    const std::size_t actor = sides_[side].actor;
+    const ContactSkin& skin = *skins_[actor];
+    const int brick = skin.points[static_cast<std::size_t>(point)].brick;
+    watched_.push_back({actor, point, carried_normal(group[actor]->body, brick, skin.normals.row(point))});
+  }
+  return row;
+}
+
+void SkinPairs::pair_up(const Group& group, const SkinReach& reach, const Place& facing, std::size_t side, int point) {
+  const ContactSkin& across = skin_of(facing);
+  const Points& corners = sides_[facing.side].positions;
+  const Vec3 place = sides_[side].positions.row(point);
+  const int brick = skin_of(sides_[side]).points[static_cast<std::size_t>(point)].brick;
+  const auto hangs_together = [&](int corner) {
+    return hang_together(group[sides_[side].actor]->body, brick, across.points[static_cast<std::size_t>(corner)].brick);
+  };
+  for (int t = across.first_triangle[facing.row]; t < across.first_triangle[facing.row + 1]; ++t) {
+    const std::array<int, 3>& triangle = across.triangles[static_cast<std::size_t>(t)];
+    const Vec3 a = corners.row(triangle[0]);
+    const Vec3 b = corners.row(triangle[1]);
+    const Vec3 c = corners.row(triangle[2]);
+    if (((a.cwiseMin(b).cwiseMin(c) - place).array() > reach.margin).any()) continue;
+    if (((place - a.cwiseMax(b).cwiseMax(c)).array() > reach.margin).any()) continue;
+    const Vec3 area = (b - a).cross(c - a);
+    if (area.dot(place - a) < -(reach.deepest + reach.margin) * area.norm()) continue;
+    const int row = watched_row(group, side, point);
+    if (watched(row).normal.dot(area) > kFacing * area.norm()) continue;
+    if (side == facing.side && std::any_of(triangle.begin(), triangle.end(), hangs_together)) continue;
+    SkinPair pair{row, {}};
+    for (std::size_t i = 0; i < 3; ++i) pair.corners[i] = watched_row(group, facing.side, triangle[i]);
+    pairs_.push_back(pair);
+  }
+}
+
+void SkinPairs::pair_up(const Group& group, const Place& place, const Place& facing, const SkinReach& reach) {
+  const ContactSkin& skin = skin_of(place);
+  const AlignedBox around = widened(facing.box, reach.margin);
+  for (int point = skin.first_point[place.row]; point < skin.first_point[place.row + 1]; ++point) {
+    if (!around.contains(Vec3(sides_[place.side].positions.row(point)))) continue;
+    pair_up(group, reach, facing, place.side, point);
+  }
+}
+
+void SkinPairs::look(const Group& group, const SkinReach& reach) {
+  watched_.clear();
+  pairs_.clear();
+  nearest_beyond_ = std::numeric_limits<double>::infinity();
+  for (Side& side : sides_) std::fill(side.watched.begin(), side.watched.end(), -1);
+  ++finds_;
+  for (Place& place : places_) find(group, place);
+  for (const auto& [brick, other] : near_) {
+    const Place& a = places_[static_cast<std::size_t>(brick)];
+    const Place& b = places_[static_cast<std::size_t>(other)];
+    const double distance = a.box.exteriorDistance(b.box);
+    nearest_beyond_ = std::min(nearest_beyond_, std::max(distance, reach.margin));
+    if (distance > reach.margin) continue;
+    pair_up(group, a, b, reach);
+    pair_up(group, b, a, reach);
+  }
+  const auto order = [&](const SkinPair& pair) {
+    const WatchedPoint& point = watched(pair.point);
+    return std::tuple(point.actor, point.point, watched(pair.corners[0]).actor, pair.corners);
+  };
+  std::sort(pairs_.begin(), pairs_.end(), [&](const SkinPair& a, const SkinPair& b) { return order(a) < order(b); });
+}
+
+void SkinPairs::follow(const Group& group) {
+  for (WatchedPoint& watched : watched_) {
+    const ContactPoint& point = skins_[watched.actor]->points[static_cast<std::size_t>(watched.point)];
+    const Body& body = group[watched.actor]->body;
+    watched.place = carried(body, point, body.positions);
+    watched.velocity = carried(body, point, body.velocities);
+  }
+}
+
+}  // namespace sprung

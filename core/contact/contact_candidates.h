@@ -1,0 +1,109 @@
+#pragma once
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "core/contact/broad_phase.h"
+#include "core/contact/contact_surface.h"
+#include "core/contact/contacts.h"
+
+namespace sprung {
+
+/// A point of a skin that is watched.
+struct WatchedPoint {
+  std::size_t actor;  // of the group
+  int point;          // of its skin
+  Vec3 normal;        // of the skin there, when last looked
+  Vec3 place = Vec3::Zero();
+  Vec3 velocity = Vec3::Zero();
+};
+
+/// A point and a triangle near it: rows of what is watched.
+struct SkinPair {
+  int point;
+  std::array<int, 3> corners;
+};
+
+/// How far apart points and triangles are that may come to touch, m.
+struct SkinReach {
+  double margin;   // outside
+  double deepest;  // inside: what is deeper came from the other side
+};
+
+/// Points and triangles of two skins of a group, or of one skin, that are near and face each other; within one they
+/// must not hang together through a common neighbour of their bricks. Bricks are compared first, by their boxes and by
+/// where their normals may point: that is sought from further away, and less often.
+class SkinPairs {
+ public:
+  /// Of two actors of the group, or of one with itself.
+  SkinPairs(const std::vector<const ContactSkin*>& skins, std::size_t actor, std::size_t other);
+
+  /// Seeks the bricks whose skins are within `margin` (m) of each other. Deterministic.
+  void seek(const Group& group, double margin);
+
+  /// Of all points, and of those in bricks found so, m/s, seen from the rigid motion that is nearest to the bodies'.
+  [[nodiscard]] double fastest(const Group& group) const;
+  [[nodiscard]] double fastest_near(const Group& group) const;
+
+  /// Of those of the bricks that may meet within dt (s) as they move, how fast they come closer at most, m/s.
+  [[nodiscard]] double closing_speed(const Group& group, double dt) const;
+
+  /// Finds points and triangles among those bricks. Deterministic.
+  void look(const Group& group, const SkinReach& reach);
+
+  /// Takes down where the watched points are, and how fast.
+  void follow(const Group& group);
+
+  /// Whether any bricks are near each other, and how near (m) those are whose points and triangles make no pairs: at
+  /// least this.
+  [[nodiscard]] bool has_near_bricks() const { return !near_.empty(); }
+  [[nodiscard]] double nearest_beyond() const { return nearest_beyond_; }
+
+  [[nodiscard]] const WatchedPoint& watched(int row) const { return watched_[static_cast<std::size_t>(row)]; }
+  /// Ordered by the point and, for each, by the actor of the triangle.
+  [[nodiscard]] const std::vector<SkinPair>& pairs() const { return pairs_; }
+
+ private:
+  /// One of the skins.
+  struct Side {
+    std::size_t actor;
+    Points positions;          // of its points, as far as they were found
+    std::vector<long> finds;   // by point: the search that found it
+    std::vector<int> watched;  // by point: row in watched_, or -1
+  };
+  /// A brick of a skin.
+  struct Place {
+    std::size_t side;
+    std::size_t row;  // in the skin's bricks
+    AlignedBox box;   // m, of its points and triangles
+    Vec3 normal;      // the axis of its normals
+    double turn;      // rad: those of two bricks may touch whose axes are further apart than their turns add up to
+    double cosine;    // of the turn
+    double sine;
+  };
+
+  [[nodiscard]] const ContactSkin& skin_of(const Side& side) const { return *skins_[side.actor]; }
+  [[nodiscard]] const ContactSkin& skin_of(const Place& place) const { return skin_of(sides_[place.side]); }
+  [[nodiscard]] RigidMotion rigid_motion(const Group& group) const;
+  [[nodiscard]] double fastest_of(const Group& group, std::size_t side, std::size_t row,
+                                  const RigidMotion& rigid) const;
+  /// The bricks of a side that are near the box, and where they are.
+  void add_places(const Group& group, std::size_t side, const AlignedBox& near);
+  void keep_near_places();
+  void find(const Group& group, Place& place);
+  [[nodiscard]] bool may_touch(const Place& a, const Place& b) const;
+  void pair_up(const Group& group, const Place& place, const Place& facing, const SkinReach& reach);
+  void pair_up(const Group& group, const SkinReach& reach, const Place& facing, std::size_t side, int point);
+  int watched_row(const Group& group, std::size_t side, int point);
+
+  const std::vector<const ContactSkin*>& skins_;  // by actor of the group
+  std::vector<Side> sides_;                       // two, or one
+  std::vector<Place> places_;                     // of bricks that are near others
+  std::vector<std::pair<int, int>> near_;         // rows of places_
+  double nearest_beyond_ = 0;
+  long finds_ = 0;
+  std::vector<WatchedPoint> watched_;
+  std::vector<SkinPair> pairs_;
+};
+
+}  // namespace sprung

@@ -1,0 +1,253 @@
+#include "core/contact/contact_solver.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/bricks/brick_topology.h"
+#include "core/contact/glue.h"
+
+namespace sprung {
+namespace {
+
+constexpr int kMostSweeps = 30;
+constexpr int kMostSweepsOfSqueezes = 100;  // rare, and what they miss grows
+constexpr double kTolerance = 1e-4;         // bricks that a point may miss its limit by in a step
+
+double dot(double a, double b) { return a * b; }
+double dot(const Vec3& a, const Vec3& b) { return a.dot(b); }
+double largest(double a) { return std::abs(a); }
+double largest(const Vec3& a) { return a.cwiseAbs().maxCoeff(); }
+
+/// Of the limited volume ratio by the brick's corners, 1/m.
+Eigen::Matrix<double, 3, 8> corner_gradients(const Squeeze& squeeze) {
+  Eigen::Matrix<double, 3, 8> gradients = Eigen::Matrix<double, 3, 8>::Zero();
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int corner = 0; corner < 8; ++corner) {
+      const bool is_end = squeeze.corner == Squeeze::kMeanAxes || (corner | 1 << axis) == (squeeze.corner | 1 << axis);
+      if (!is_end) continue;
+      const double share = squeeze.corner == Squeeze::kMeanAxes ? 0.25 : 1;
+      gradients.col(corner) += (on_high_side(corner, axis) ? share : -share) * squeeze.gradient.col(axis);
+    }
+  }
+  return gradients;
+}
+
+}  // namespace
+
+Impulses::Impulses(Group group, std::vector<Eigen::VectorXd> inverse_masses, std::vector<GluedPoint> glue)
+    : group_(std::move(group)),
+      inverse_masses_(std::move(inverse_masses)),
+      glue_(std::move(glue)),
+      smallest_brick_(smallest_brick(group_)),
+      obstacle_contact_(skins_),
+      skin_contacts_(skins_),
+      squeeze_watches_(group_.size()) {
+  for (Actor* actor : group_) {
+    skins_.push_back(&contact_skin_of(*actor));
+    places_.emplace_back(static_cast<std::size_t>(actor->body.node_count()), -1);
+  }
+}
+
+Vec3 Impulses::TouchLimit::lack(const Nodes& all, Vec3 Pushed::*velocity) const {
+  Vec3 result = goal;
+  for (const Part& part : parts) result -= part.weight * all[part.place].*velocity;
+  return result;
+}
+
+void Impulses::TouchLimit::push(const Vec3& size, Nodes& all) const {
+  for (const Part& part : parts) all[part.place].now += part.weight * size;
+}
+
+/// Friction gives as much sideways as its coefficient allows for what presses.
+Vec3 Impulses::TouchLimit::allowed(const Vec3& size) const {
+  if (is_glue) return size;
+  const double pressing = size.dot(normal);
+  if (!(pressing > 0)) return Vec3::Zero();
+  const Vec3 sideways = size - pressing * normal;
+  const double length = sideways.norm();
+  const double most = friction * pressing;
+  return length > most ? Vec3(pressing * normal + most / length * sideways) : size;
+}
+
+double Impulses::SqueezeLimit::lack(const Nodes& all, Vec3 Pushed::*velocity) const {
+  double result = least_speed;
+  for (std::size_t i = 0; i < node_count; ++i) result -= gradients[i].dot(all[nodes[i]].*velocity);
+  return result;
+}
+
+void Impulses::SqueezeLimit::push(double size, Nodes& all) const {
+  for (std::size_t i = 0; i < node_count; ++i) all[nodes[i]].now += size * gradients[i];
+}
+
+double Impulses::SqueezeLimit::allowed(double size) { return std::max(0.0, size); }
+
+std::size_t Impulses::place_of(std::size_t actor, int node) {
+  int& place = places_[actor][static_cast<std::size_t>(node)];
+  if (place < 0) {
+    place = static_cast<int>(nodes_.size());
+    const Vec3 velocity = group_[actor]->body.velocities.row(node);
+    nodes_.push_back({.actor = actor,
+                      .node = node,
+                      .inverse_mass = inverse_masses_[actor][node],
+                      .free_velocity = velocity,
+                      .velocity = velocity});
+  }
+  return static_cast<std::size_t>(place);
+}
+
+void Impulses::forget_limits() {
+  for (const Pushed& node : nodes_) places_[node.actor][static_cast<std::size_t>(node.node)] = -1;
+  nodes_.clear();
+  std::swap(touches_, touches_before_);
+  std::swap(squeezed_, squeezed_before_);
+  touches_.clear();
+  squeezed_.clear();
+}
+
+void Impulses::find_touches(const World& world, double elapsed, double dt) {
+  found_.clear();
+  if (!world.obstacles.empty()) {
+    std::vector<Pose> poses;
+    for (const Obstacle& obstacle : world.obstacles) poses.push_back(pose_after(obstacle, elapsed));
+    obstacle_contact_.find(world, poses, dt, group_, found_);
+  }
+  skin_contacts_.find(world, dt, group_, found_);
+  add_glue(glue_, group_, dt, found_);
+  std::sort(found_.list.begin(), found_.list.end(), [](const Touch& a, const Touch& b) { return a.key < b.key; });
+  parts_.clear();
+  for (const Share& share : found_.shares) {
+    parts_.push_back({place_of(static_cast<std::size_t>(share.actor), share.node), share.weight});
+  }
+  for (const Touch& touch : found_.list) {
+    touches_.push_back({.key = touch.key,
+                        .parts = std::span(parts_).subspan(touch.first, touch.last - touch.first),
+                        .normal = touch.normal,
+                        .goal = touch.goal,
+                        .friction = touch.friction,
+                        .is_glue = touch.is_glue});
+  }
+}
+
+void Impulses::find_squeezes(double dt) {
+  std::vector<const std::vector<Squeeze>*> found(group_.size());
+  tbb::parallel_for(std::size_t{0}, group_.size(),
+                    [&](std::size_t actor) { found[actor] = &squeeze_watches_[actor].find(group_[actor]->body, dt); });
+  for (std::size_t actor = 0; actor < group_.size(); ++actor) add_squeezes(actor, *found[actor]);
+}
+
+void Impulses::add_squeezes(std::size_t actor, const std::vector<Squeeze>& squeezes) {
+  const Body& body = group_[actor]->body;
+  for (const Squeeze& squeeze : squeezes) {
+    const auto& nodes = body.grid.nodes[static_cast<std::size_t>(squeeze.brick)];
+    const double size = body.grid.brick_size;  // so that both kinds of limit measure speeds
+    const Eigen::Matrix<double, 3, 8> gradients = size * corner_gradients(squeeze);
+    SqueezeLimit limit{.key = touch_key(0, actor, squeeze.brick, 0) * 2 + static_cast<std::uint64_t>(squeeze.corner),
+                       .least_speed = squeeze.least_rate * size};
+    for (int corner = 0; corner < 8; ++corner) {
+      if (gradients.col(corner).isZero(0)) continue;
+      limit.gradients[limit.node_count] = gradients.col(corner);
+      limit.nodes[limit.node_count] = place_of(actor, nodes[static_cast<std::size_t>(corner)]);
+      ++limit.node_count;
+    }
+    squeezed_.push_back(limit);
+  }
+}
+
+void Impulses::bound_answers() {
+  each_limit([&](const auto& limit) {
+    for (std::size_t i = 0; i < limit.count(); ++i) nodes_[limit.place(i)].pull += limit.pull(i);
+  });
+  each_limit([&](auto& limit) {
+    for (std::size_t i = 0; i < limit.count(); ++i) {
+      const Pushed& node = nodes_[limit.place(i)];
+      limit.inverse_mass += limit.pull(i) * node.inverse_mass * node.pull;
+    }
+  });
+}
+
+void Impulses::start_from_before() {
+  const auto take_over = [](const auto& before, auto& limits) {
+    auto old = before.begin();
+    for (auto& limit : limits) {
+      while (old != before.end() && old->key < limit.key) ++old;
+      if (old != before.end() && old->key == limit.key && limit.inverse_mass > 0) limit.impulse = old->impulse;
+    }
+  };
+  take_over(touches_before_, touches_);
+  take_over(squeezed_before_, squeezed_);
+  // Of these impulses that share is best which leaves least energy in what the limits lack: no more than none leaves.
+  double wanted = 0;
+  each_limit([&](const auto& limit) {
+    wanted += dot(limit.lack(nodes_, &Pushed::free_velocity), limit.impulse.last);
+    limit.push(limit.impulse.last, nodes_);
+  });
+  double answered = 0;
+  for (const Pushed& node : nodes_) answered += node.inverse_mass * node.now.squaredNorm();
+  const double share = answered > 0 ? std::clamp(wanted / answered, 0.0, 1.0) : 0;
+  each_limit([&](auto& limit) {
+    limit.impulse.last *= share;
+    limit.impulse.ahead = limit.impulse.last;
+  });
+  for (Pushed& node : nodes_) {
+    node.last = share * node.now;
+    node.velocity = node.free_velocity + node.inverse_mass * node.last;
+    node.now.setZero();
+  }
+}
+
+Impulses::Sweep Impulses::sweep() {
+  Sweep result;
+  each_limit([&](auto& limit) {
+    if (limit.inverse_mass <= 0) return;
+    auto& [last, ahead] = limit.impulse;
+    using Impulse = std::remove_reference_t<decltype(last)>;
+    const Impulse wanted = ahead + limit.lack(nodes_, &Pushed::velocity) / limit.inverse_mass;
+    const Impulse size = limit.allowed(wanted);
+    limit.push(size, nodes_);
+    const Impulse change = size - ahead;
+    result.furthest = std::max(result.furthest, largest(change) * limit.inverse_mass);
+    result.uphill -= dot(change, Impulse(size - last)) * limit.inverse_mass;
+    ahead = last;
+    last = size;
+  });
+  return result;
+}
+
+void Impulses::look_ahead(double lead) {
+  // What is ahead still holds the sweep before.
+  each_limit([&](auto& limit) {
+    auto& [last, ahead] = limit.impulse;
+    ahead = last + lead * (last - ahead);
+  });
+  for (Pushed& node : nodes_) {
+    node.velocity = node.free_velocity + node.inverse_mass * (node.now + lead * (node.now - node.last));
+    node.last = node.now;
+    node.now.setZero();
+  }
+}
+
+void Impulses::apply(const World& world, double elapsed, double dt) {
+  forget_limits();
+  find_touches(world, elapsed, dt);
+  find_squeezes(dt);
+  if (nodes_.empty()) return;
+  bound_answers();
+  start_from_before();
+  const int most = squeezed_.empty() ? kMostSweeps : kMostSweepsOfSqueezes;
+  const double tolerance = kTolerance * smallest_brick_ / dt;
+  double momentum = 1;  // Nesterov's sequence
+  for (int i = 0; i < most; ++i) {
+    const Sweep done = sweep();
+    if (done.uphill > 0) momentum = 1;
+    const double next = (1 + std::sqrt(1 + 4 * momentum * momentum)) / 2;
+    const bool is_last = i + 1 == most || !(done.furthest >= tolerance);
+    look_ahead(is_last || done.uphill > 0 ? 0 : (momentum - 1) / next);
+    if (is_last) break;
+    momentum = next;
+  }
+  for (const Pushed& node : nodes_) group_[node.actor]->body.velocities.row(node.node) = node.velocity.transpose();
+}
+
+}  // namespace sprung

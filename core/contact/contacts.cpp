@@ -1,0 +1,76 @@
+#include "core/contact/contacts.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sprung {
+namespace {
+
+constexpr double kRecoverySteps = 20;
+constexpr double kLeastGravity = 0.1;  // m/s^2: without gravity too a point comes up
+constexpr double kMostSteps = 24;      // what is pressed together can be fast within a few steps
+
+}  // namespace
+
+double smallest_brick(const Group& group) {
+  double size = std::numeric_limits<double>::infinity();
+  for (const Actor* actor : group) size = std::min(size, actor->body.grid.brick_size);
+  return size;
+}
+
+RigidMotion rigid_motion_of(const Group& group) {
+  Vec3 middle = Vec3::Zero();
+  Vec3 momentum = Vec3::Zero();
+  double mass = 0;
+  for (const Actor* actor : group) {
+    middle += actor->body.positions.transpose() * actor->body.masses;
+    momentum += actor->body.velocities.transpose() * actor->body.masses;
+    mass += actor->body.masses.sum();
+  }
+  middle /= mass;
+  Mat3 inertia = Mat3::Zero();
+  Vec3 angular_momentum = Vec3::Zero();
+  for (const Actor* actor : group) {
+    const Body& body = actor->body;
+    for (int node = 0; node < body.node_count(); ++node) {
+      const Vec3 arm = body.positions.row(node).transpose() - middle;
+      inertia += body.masses[node] * (arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose());
+      angular_momentum += body.masses[node] * arm.cross(Vec3(body.velocities.row(node)));
+    }
+  }
+  const Vec3 spin = inertia.ldlt().solve(angular_momentum);
+  return {.shift = momentum / mass - spin.cross(middle), .spin = spin};
+}
+
+void Touches::append(const Touches& other) {
+  const std::size_t start = shares.size();
+  shares.insert(shares.end(), other.shares.begin(), other.shares.end());
+  for (Touch touch : other.list) {
+    touch.first += start;
+    touch.last += start;
+    list.push_back(touch);
+  }
+}
+
+void add_shares(const Group& group, std::size_t actor, int brick, const Eigen::Matrix<double, 8, 1>& weights,
+                Touches& touches) {
+  const auto& nodes = group[actor]->body.grid.nodes[static_cast<std::size_t>(brick)];
+  for (int i = 0; i < 8; ++i) {
+    if (weights[i] == 0) continue;
+    touches.shares.push_back({static_cast<int>(actor), nodes[static_cast<std::size_t>(i)], weights[i]});
+  }
+}
+
+double least_speed(double gap, double gravity, double dt) {
+  if (gap >= 0) return -gap / dt;
+  return std::min(-gap / (kRecoverySteps * dt), std::sqrt(-2 * std::max(gravity, kLeastGravity) * gap));
+}
+
+int steps_until_look(double margin, double speed, double gravity, double dt) {
+  const double steps = std::min(margin / (4 * speed * dt), std::sqrt(margin / gravity) / dt);
+  return steps >= 1 ? static_cast<int>(std::min(steps, kMostSteps)) : 1;
+}
+
+}  // namespace sprung

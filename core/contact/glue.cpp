@@ -1,0 +1,112 @@
+#include "core/contact/glue.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/contact/contact_surface.h"
+#include "core/pose.h"
+#include "core/world/obstacle.h"
+
+namespace sprung {
+namespace {
+
+constexpr double kRecoverySteps = 4;  // what has come apart by rounding is together again after about that many
+constexpr std::size_t kGlue = (1U << 14U) - 1;  // in place of what touches, in a key: above all of that
+
+/// Where the grid of a body that is not bent yet lies in the world.
+Pose pose_of(const Body& body) {
+  Pose pose;
+  const auto& nodes = body.grid.nodes[0];
+  const Vec3 corner = body.positions.row(nodes[0]);
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vec3 next = body.positions.row(nodes[std::size_t{1} << axis]);
+    pose.rotation.col(axis) = (next - corner) / body.grid.brick_size;
+  }
+  pose.translation = corner - pose.rotation * Vec3(body.grid.rest_positions().row(nodes[0]));
+  return pose;
+}
+
+/// Of the points within the distance of a surface the nearest at each corner of a brick, by its row.
+std::vector<int> nearest_points(const Actor& actor, const Points& places, const MeshDistance& surface,
+                                double distance) {
+  struct Candidate {
+    int row;
+    double gap;
+  };
+  std::map<std::pair<int, int>, Candidate> nearest;
+  for (int row = 0; row < places.rows(); ++row) {
+    const double gap = std::abs(surface.nearest(places.row(row)).distance);
+    if (gap > distance) continue;
+    int corner = 0;
+    trilinear_weights(actor.contacts.local.row(row)).maxCoeff(&corner);
+    const auto key = std::pair(actor.contacts.brick[static_cast<std::size_t>(row)], corner);
+    const auto [place, is_new] = nearest.try_emplace(key, Candidate{row, gap});
+    if (!is_new && gap < place->second.gap) place->second = {row, gap};
+  }
+  std::vector<int> rows;
+  rows.reserve(nearest.size());
+  for (const auto& [key, candidate] : nearest) rows.push_back(candidate.row);
+  return rows;
+}
+
+}  // namespace
+
+std::vector<GluedPoint> glue_between(const World& world, std::size_t a, std::size_t b, double distance) {
+  if (world.actors[b].body.grid.brick_size < world.actors[a].body.grid.brick_size) std::swap(a, b);
+  const Actor& one = world.actors[a];
+  const Actor& other = world.actors[b];
+  if (other.contact_triangles.rows() == 0) return {};
+  const MeshDistance surface(deform_points(other.body.grid, other.contacts, other.body.positions),
+                             other.contact_triangles);
+  const Points places = deform_points(one.body.grid, one.contacts, one.body.positions);
+  const std::vector<int> rows = nearest_points(one, places, surface, distance);
+  const Pose pose = pose_of(other.body);
+  const Points there = (places(rows, Eigen::all).rowwise() - pose.translation.transpose()) * pose.rotation;
+  const Embedding embedding = embed(other.body.grid, there);
+  std::vector<GluedPoint> glue;
+  glue.reserve(rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    glue.push_back({.actors = {a, b},
+                    .bricks = {one.contacts.brick[static_cast<std::size_t>(rows[i])], embedding.brick[i]},
+                    .weights = {trilinear_weights(one.contacts.local.row(rows[i])),
+                                trilinear_weights(embedding.local.row(static_cast<Eigen::Index>(i)))}});
+  }
+  return glue;
+}
+
+std::vector<GluedPoint> glue_within(const World& world, std::span<const std::size_t> actors) {
+  std::vector<GluedPoint> within;
+  for (GluedPoint point : world.glue) {
+    const auto first = std::find(actors.begin(), actors.end(), point.actors[0]);
+    if (first == actors.end()) continue;  // what is glued together is in one group
+    const auto second = std::find(actors.begin(), actors.end(), point.actors[1]);
+    point.actors[0] = static_cast<std::size_t>(first - actors.begin());
+    point.actors[1] = static_cast<std::size_t>(second - actors.begin());
+    within.push_back(point);
+  }
+  return within;
+}
+
+void add_glue(const std::vector<GluedPoint>& glue, const Group& group, double dt, Touches& touches) {
+  for (std::size_t i = 0; i < glue.size(); ++i) {
+    const GluedPoint& point = glue[i];
+    const std::size_t first = touches.shares.size();
+    Vec3 apart = Vec3::Zero();
+    for (std::size_t side = 0; side < 2; ++side) {
+      const double sign = side == 0 ? 1 : -1;
+      const Body& body = group[point.actors[side]]->body;
+      apart += sign * carried(body, point.bricks[side], point.weights[side], body.positions);
+      add_shares(group, point.actors[side], point.bricks[side], sign * point.weights[side], touches);
+    }
+    touches.list.push_back({.key = touch_key(kGlue, 0, 0, 0) + i,
+                            .first = first,
+                            .last = touches.shares.size(),
+                            .normal = Vec3::Zero(),
+                            .goal = -apart / (kRecoverySteps * dt),
+                            .friction = 0,
+                            .is_glue = true});
+  }
+}
+
+}  // namespace sprung

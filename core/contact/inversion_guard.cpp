@@ -1,0 +1,121 @@
+#include "core/contact/inversion_guard.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/body/body.h"
+#include "core/body/forces.h"
+#include "core/bricks/brick_topology.h"
+
+namespace sprung {
+namespace {
+
+constexpr int kStepsBetweenLooks = 8;
+constexpr std::size_t kBricksPerTask = 512;
+constexpr double kSuspectVolume = 0.4;
+constexpr double kCrushedShare = 0.05;  // of the bricks
+constexpr double kRecoverySteps = 20;   // a brick found too flat or inside out comes back within about that many steps
+constexpr double kFastestRecovery =
+    0.02;  // of the speed of sound, that its corners come apart at: that gives no energy worth the name
+
+/// The three edges at a corner, or the mean axes, as columns, each from its low to its high end.
+Mat3 edges_at(int corner, const BrickColumns& x) {
+  if (corner == Squeeze::kMeanAxes) return mean_axes_of(x);
+  Mat3 edges;
+  for (int axis = 0; axis < 3; ++axis) edges.col(axis) = x.col(corner | 1 << axis) - x.col(corner & ~(1 << axis));
+  return edges;
+}
+
+/// Of the volumes that the edges span at the eight corners and the mean axes between them.
+double smallest_volume(const BrickColumns& x) {
+  std::array<Vec3, 12> edges;
+  for (std::size_t i = 0; i < edges.size(); ++i) edges[i] = x.col(kEdges[i].to) - x.col(kEdges[i].from);
+  const auto volume = [](const Vec3& a, const Vec3& b, const Vec3& c) { return a.dot(b.cross(c)); };
+  const auto mean = [&](std::size_t axis) {
+    const Vec3* four = &edges[4 * axis];
+    return Vec3(0.25 * ((four[0] + four[1]) + (four[2] + four[3])));
+  };
+  double smallest = volume(mean(0), mean(1), mean(2));
+  for (std::size_t corner = 0; corner < 8; ++corner) {
+    const std::size_t high_x = corner & 1;
+    const std::size_t high_y = corner >> 1 & 1;
+    const std::size_t high_z = corner >> 2 & 1;
+    smallest = std::min(
+        smallest, volume(edges[high_y + 2 * high_z], edges[4 + high_z + 2 * high_x], edges[8 + high_x + 2 * high_y]));
+  }
+  return smallest;
+}
+
+}  // namespace
+
+double meeting_speed(const World& world) {
+  const bool is_alone = world.obstacles.empty() && (world.actors.size() < 2 || !world.bodies_touch);
+  if (is_alone) return 0;
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const Actor& actor : world.actors) lowest = std::min(lowest, actor.body.positions.col(1).minCoeff());
+  double highest = lowest;
+  double fastest = 0;
+  for (const Actor& actor : world.actors) {
+    highest = std::max(highest, actor.body.positions.col(1).minCoeff());
+    fastest = std::max(fastest, largest_speed(actor.body));
+  }
+  for (const Obstacle& obstacle : world.obstacles) lowest = std::min(lowest, obstacle.pose.translation.y());
+  return std::sqrt(fastest * fastest + 2 * world.gravity.norm() * (highest - lowest));
+}
+
+void brace(Body& body, double gravity, double speed) {
+  const Vec3 extent = body.positions.colwise().maxCoeff() - body.positions.colwise().minCoeff();
+  const double pressure = body.material.density * (gravity * extent.maxCoeff() + speed * speed);
+  body.law.guard *= std::max(1.0, pressure / body.material.young);
+}
+
+int guarded_bricks(const Body& body) { return flattened_bricks(body, body.law.guard_ratio); }
+
+bool is_crushed(const Body& body) { return guarded_bricks(body) > kCrushedShare * body.grid.brick_count(); }
+
+void SqueezeWatch::look(const Body& body, double dt) {
+  const double least = kSuspectVolume * body.grid.brick_volume();
+  is_suspect_.resize(body.grid.nodes.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, is_suspect_.size(), kBricksPerTask),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      for (std::size_t brick = range.begin(); brick < range.end(); ++brick) {
+                        const auto& nodes = body.grid.nodes[brick];
+                        const BrickColumns now = columns_of(nodes, body.positions);
+                        const BrickColumns later = now + kStepsBetweenLooks * dt * columns_of(nodes, body.velocities);
+                        is_suspect_[brick] = std::min(smallest_volume(now), smallest_volume(later)) < least ? 1 : 0;
+                      }
+                    });
+  suspects_.clear();
+  for (int brick = 0; brick < body.grid.brick_count(); ++brick) {
+    if (is_suspect_[static_cast<std::size_t>(brick)] != 0) suspects_.push_back(brick);
+  }
+}
+
+const std::vector<Squeeze>& SqueezeWatch::find(const Body& body, double dt) {
+  if (steps_to_look_ == 0) look(body, dt);
+  steps_to_look_ = (steps_to_look_ + 1) % kStepsBetweenLooks;
+  found_.clear();
+  const double volume = body.grid.brick_volume();
+  const double fastest = kFastestRecovery * std::sqrt(body.material.young / body.material.density) * dt;  // m
+  for (const int brick : suspects_) {
+    const auto& nodes = body.grid.nodes[static_cast<std::size_t>(brick)];
+    const BrickColumns x = columns_of(nodes, body.positions);
+    const BrickColumns v = columns_of(nodes, body.velocities);
+    for (int corner = 0; corner <= Squeeze::kMeanAxes; ++corner) {
+      const Mat3 edges = edges_at(corner, x);
+      const Mat3 areas = areas_of(edges) / volume;
+      const double lack = kLeastVolume - edges.col(0).dot(areas.col(0));
+      const double rate = edges_at(corner, v).cwiseProduct(areas).sum();
+      const double recovery = std::min(lack / kRecoverySteps, fastest * areas.norm());
+      const double least_rate = (lack > 0 ? recovery : lack) / dt;
+      if (!(rate < least_rate)) continue;  // nor where a number is not finite
+      found_.push_back({.brick = brick, .corner = corner, .gradient = areas, .least_rate = least_rate});
+    }
+  }
+  return found_;
+}
+
+}  // namespace sprung

@@ -1,0 +1,77 @@
+#include "core/contact/narrow_phase.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sprung {
+namespace {
+
+constexpr double kBeside = 0.05;    // of a triangle: what stands a little beside it counts as over it
+constexpr double kTouching = 0.15;  // of the depth: what is that near to a triangle that it stands over touches it
+
+/// False where the point does not stand over the triangle.
+bool stand(const SkinPairs& pairs, const SkinPair& pair, double depth, SkinStance& stance) {
+  const WatchedPoint& point = pairs.watched(pair.point);
+  std::array<const WatchedPoint*, 3> corners{};
+  for (std::size_t i = 0; i < 3; ++i) corners[i] = &pairs.watched(pair.corners[i]);
+  const Vec3 ahead = corners[1]->place - corners[0]->place;
+  const Vec3 aside = corners[2]->place - corners[0]->place;
+  const Vec3 area = ahead.cross(aside);
+  const double size = area.norm();
+  const Vec3 off = point.place - corners[0]->place;
+  stance.pair = &pair;
+  stance.normal = area / size;
+  stance.gap = stance.normal.dot(off);
+  stance.weights.y() = off.cross(aside).dot(area) / (size * size);
+  stance.weights.z() = ahead.cross(off).dot(area) / (size * size);
+  stance.weights.x() = 1 - stance.weights.y() - stance.weights.z();
+  return stance.gap > -depth && stance.weights.minCoeff() > -kBeside;  // not where the triangle has no area
+}
+
+}  // namespace
+
+std::vector<SkinRun> runs_of(const SkinPairs& pairs) {
+  const std::vector<SkinPair>& all = pairs.pairs();
+  std::vector<SkinRun> runs;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const bool goes_on =
+        i > 0 && all[i].point == all[i - 1].point && other_of(pairs, all[i]) == other_of(pairs, all[i - 1]);
+    if (!goes_on) runs.push_back({.first = i, .end = i, .last = i});
+    runs.back().end = i + 1;
+  }
+  return runs;
+}
+
+SkinStance nearest_stance(const SkinPairs& pairs, SkinRun& run, double depth) {
+  SkinStance nearest;
+  const std::vector<SkinPair>& all = pairs.pairs();
+  if (stand(pairs, all[run.last], depth, nearest) && std::abs(nearest.gap) < kTouching * depth) return nearest;
+  nearest.pair = nullptr;
+  for (std::size_t i = run.first; i < run.end; ++i) {
+    SkinStance stance;
+    if (!stand(pairs, all[i], depth, stance)) continue;
+    if (nearest.pair != nullptr && std::abs(stance.gap) >= std::abs(nearest.gap)) continue;
+    nearest = stance;
+    run.last = i;
+  }
+  return nearest;
+}
+
+TriangleRide ride_of(const SkinPairs& pairs, const ContactSkin& skin, const SkinStance& stance) {
+  TriangleRide ride;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const int row = pairs.watched(stance.pair->corners[i]).point;
+    const ContactPoint& corner = skin.points[static_cast<std::size_t>(row)];
+    const auto begin = ride.bricks.begin();
+    const auto same = static_cast<std::size_t>(
+        std::find(begin, begin + static_cast<std::ptrdiff_t>(ride.count), corner.brick) - begin);
+    if (same == ride.count) {
+      ride.bricks[ride.count] = corner.brick;
+      ride.weights[ride.count++].setZero();
+    }
+    ride.weights[same] -= stance.weights[static_cast<Eigen::Index>(i)] * corner.weights;
+  }
+  return ride;
+}
+
+}  // namespace sprung

@@ -1,0 +1,44 @@
+#pragma once
+#include <array>
+#include <vector>
+
+#include "core/contact/contact_candidates.h"
+
+namespace sprung {
+
+/// How a point of a skin stands to a triangle.
+struct SkinStance {
+  const SkinPair* pair = nullptr;
+  double gap = 0;  // m, from the triangle's plane
+  Vec3 normal;     // of the triangle
+  Vec3 weights;    // of the triangle's corners at the place below the point
+};
+
+/// The pairs of one point with triangles of one actor, and where it stood last.
+struct SkinRun {
+  std::size_t first;
+  std::size_t end;
+  std::size_t last;
+};
+
+/// The actor that a pair's triangle belongs to.
+[[nodiscard]] inline std::size_t other_of(const SkinPairs& pairs, const SkinPair& pair) {
+  return pairs.watched(pair.corners[0]).actor;
+}
+
+[[nodiscard]] std::vector<SkinRun> runs_of(const SkinPairs& pairs);
+
+/// To the nearest of the triangles that the point stands over, where SkinPairs::follow() saw them; without a pair where
+/// there is none. What is further inside than `depth` (m) came from the other side. While a point that touches stays
+/// over a triangle, it is not compared with the others.
+[[nodiscard]] SkinStance nearest_stance(const SkinPairs& pairs, SkinRun& run, double depth);
+
+/// Weights of the corners of the bricks that a triangle's place rides in, brick by brick.
+struct TriangleRide {
+  std::array<int, 3> bricks{};
+  std::array<Eigen::Matrix<double, 8, 1>, 3> weights;
+  std::size_t count = 0;
+};
+[[nodiscard]] TriangleRide ride_of(const SkinPairs& pairs, const ContactSkin& skin, const SkinStance& stance);
+
+}  // namespace sprung

@@ -1,0 +1,140 @@
+#include "core/contact/obstacle_potential.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/contact/broad_phase.h"
+
+namespace sprung {
+namespace {
+
+constexpr double kHardness = 20;        // times E h of the brick
+constexpr double kPointsInContact = 4;  // of a brick, that share its hardness: more are softer each
+
+/// Pa, of a brick in its region; what is cut by the surface is as hard as a full one.
+double young_at(const Body& body, int brick) {
+  return body.material.young * std::max(1.0, body.stiffness_scale[static_cast<std::size_t>(brick)]);
+}
+
+}  // namespace
+
+std::vector<double> point_hardness(const Actor& actor, const ContactSkin& skin) {
+  const Body& body = actor.body;
+  std::vector<double> hardness(skin.points.size());
+  for (std::size_t i = 0; i < skin.bricks.size(); ++i) {
+    const double count = skin.first_point[i + 1] - skin.first_point[i];
+    const double whole = kHardness * young_at(body, skin.bricks[i]) * body.grid.brick_size;
+    for (int p = skin.first_point[i]; p < skin.first_point[i + 1]; ++p) {
+      hardness[static_cast<std::size_t>(p)] = whole / std::max(1.0, count / kPointsInContact);
+    }
+  }
+  return hardness;
+}
+
+double pair_hardness(double hardness, const Body& body, int brick, const Body& other, int other_brick) {
+  return hardness * std::min(1.0, young_at(other, other_brick) / young_at(body, brick));
+}
+
+double glue_hardness(const Body& body, int brick, const Body& other, int other_brick) {
+  const double whole = kHardness * young_at(body, brick) * body.grid.brick_size;
+  return pair_hardness(whole, body, brick, other, other_brick);
+}
+
+ObstaclePotential::ObstaclePotential(Actor& actor, const Obstacle& obstacle, double slip_speed)
+    : actor_(actor),
+      obstacle_(obstacle),
+      skin_(contact_skin_of(actor)),
+      slip_speed_(slip_speed),
+      points_(skin_.points.size()),
+      asked_(skin_.bricks.size()) {
+  const std::vector<double> hardness = point_hardness(actor, skin_);
+  for (std::size_t p = 0; p < points_.size(); ++p) points_[p].stiffness = hardness[p];
+}
+
+/// Distances are asked for again only where the brick may have come near since.
+bool ObstaclePotential::is_far(std::size_t brick, const Points& positions) {
+  AlignedBox box;
+  for (const int node : actor_.body.grid.nodes[static_cast<std::size_t>(skin_.bricks[brick])]) {
+    box.extend(Vec3(positions.row(node)));
+  }
+  // Points lie in the hull of the corners, or a little outside where the surface has no brick of its own.
+  const double reach = box.diagonal().norm();
+  const Vec3 middle = pose_.rotation.transpose() * (box.center() - pose_.translation);
+  Asked& asked = asked_[brick];
+  if (asked.distance - (middle - asked.place).norm() > reach) return true;
+  asked = {.place = middle, .distance = gap_to(obstacle_.shape, {}, middle).distance};
+  return asked.distance > reach;
+}
+
+/// Calls visit(point, its brick and weights, place, gap) for the points that are inside the obstacle or were when
+/// friction was last updated.
+template <class Visit>
+void ObstaclePotential::for_touching_points(const Points& positions, const Visit& visit) {
+  for (std::size_t i = 0; i < skin_.bricks.size(); ++i) {
+    const bool far = is_far(i, positions);
+    const auto last = static_cast<std::size_t>(skin_.first_point[i + 1]);
+    for (auto p = static_cast<std::size_t>(skin_.first_point[i]); p < last; ++p) {
+      if (far && points_[p].pressing == 0) continue;
+      const Vec3 place = carried(actor_.body, skin_.points[p], positions);
+      const Gap gap = gap_to(obstacle_.shape, pose_, place);
+      if (gap.distance < 0 || points_[p].pressing > 0) visit(points_[p], skin_.points[p], place, gap);
+    }
+  }
+}
+
+void ObstaclePotential::begin(const Points& positions, double elapsed, double dt) {
+  slip_ = slip_speed_ * dt;
+  const Pose before = pose_after(obstacle_, elapsed);
+  pose_ = pose_after(obstacle_, elapsed + dt);
+  const Mat3 turn = pose_.rotation * before.rotation.transpose();
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    const Vec3 place = carried(actor_.body, skin_.points[p], positions);
+    points_[p].start = pose_.translation + turn * (place - before.translation);
+  }
+  update_friction(positions);
+}
+
+double ObstaclePotential::update_friction(const Points& positions) {
+  double change = 0;
+  for_touching_points(positions, [&](Point& point, const ContactPoint&, const Vec3&, const Gap& gap) {
+    const double pressing = point.stiffness * std::max(0.0, -gap.distance);
+    change = std::max(change, std::abs(pressing - point.pressing));
+    point.pressing = pressing;
+    point.normal = gap.normal;
+  });
+  return obstacle_.friction > 0 ? change : 0;
+}
+
+double ObstaclePotential::largest_normal_force() const {
+  double largest = 0;
+  for (const Point& point : points_) largest = std::max(largest, point.pressing);
+  return largest;
+}
+
+Grip ObstaclePotential::grip(const Point& point, const Vec3& place) const {
+  return {place - point.start, point.normal, obstacle_.friction * point.pressing, slip_};
+}
+
+double ObstaclePotential::add_forces(const Points& positions, Points& forces) {
+  double energy = 0;
+  for_touching_points(positions, [&](Point& point, const ContactPoint& at, const Vec3& place, const Gap& gap) {
+    const double depth = std::max(0.0, -gap.distance);
+    const Grip held = grip(point, place);
+    energy += 0.5 * point.stiffness * depth * depth;
+    energy += held.energy();
+    const Vec3 force = point.stiffness * depth * gap.normal + held.force();
+    const auto& nodes = actor_.body.grid.nodes[static_cast<std::size_t>(at.brick)];
+    for (std::size_t c = 0; c < 8; ++c) forces.row(nodes[c]) += at.weights[static_cast<int>(c)] * force.transpose();
+  });
+  return energy;
+}
+
+void ObstaclePotential::add_stiffness(const Points& positions, std::vector<PointStiffness>& points) {
+  for_touching_points(positions, [&](Point& point, const ContactPoint& at, const Vec3& place, const Gap& gap) {
+    Mat3 stiffness = grip(point, place).stiffness();
+    if (gap.distance < 0) stiffness += point.stiffness * gap.normal * gap.normal.transpose();
+    points.push_back({.brick = at.brick, .weights = at.weights, .stiffness = stiffness});
+  });
+}
+
+}  // namespace sprung

@@ -1,0 +1,108 @@
+#include "core/contact/penetration.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "core/body/body.h"
+#include "core/contact/broad_phase.h"
+#include "core/world/obstacle.h"
+
+namespace sprung {
+namespace {
+
+/// Where the contact points that can move are, m.
+Points free_points(const Actor& actor) {
+  std::vector<bool> is_held(static_cast<std::size_t>(actor.body.node_count()));
+  for (const HeldNode& held : actor.pinned) is_held[static_cast<std::size_t>(held.node)] = true;
+  const Points points = deform_points(actor.body.grid, actor.contacts, actor.body.positions);
+  std::vector<int> rows;
+  rows.reserve(static_cast<std::size_t>(points.rows()));
+  for (int point = 0; point < points.rows(); ++point) {
+    const auto brick = static_cast<std::size_t>(actor.contacts.brick[static_cast<std::size_t>(point)]);
+    const auto& nodes = actor.body.grid.nodes[brick];
+    const bool is_free =
+        std::any_of(nodes.begin(), nodes.end(), [&](int node) { return !is_held[static_cast<std::size_t>(node)]; });
+    if (is_free) rows.push_back(point);
+  }
+  return points(rows, Eigen::all);
+}
+
+/// The middles of the bricks, m.
+Points brick_middles(const Body& body) {
+  Points middles(body.grid.brick_count(), 3);
+  for (int brick = 0; brick < body.grid.brick_count(); ++brick) {
+    middles.row(brick) =
+        columns_of(body.grid.nodes[static_cast<std::size_t>(brick)], body.positions).rowwise().mean().transpose();
+  }
+  return middles;
+}
+
+/// The surface of a body as it is now.
+class Surface {
+ public:
+  /// `actor` has contact triangles.
+  explicit Surface(const Actor& actor)
+      : points_(deform_points(actor.body.grid, actor.contacts, actor.body.positions)),
+        box_(box_around(points_)),
+        distance_(points_, actor.contact_triangles) {}
+
+  [[nodiscard]] double depth_of(const Points& points) const {
+    double depth = 0;
+    for (const auto& row : points.rowwise()) {
+      const Vec3 place = row;
+      if (box_.contains(place)) depth = std::max(depth, -distance_.nearest(place).distance);
+    }
+    return depth;
+  }
+
+ private:
+  Points points_;
+  AlignedBox box_;
+  MeshDistance distance_;
+};
+
+double depth_in(const Obstacle& obstacle, const Points& points) {
+  double depth = 0;
+  for (const auto& row : points.rowwise()) {
+    depth = std::max(depth, -gap_to(obstacle.shape, obstacle.pose, row).distance);
+  }
+  return depth;
+}
+
+}  // namespace
+
+double depth_in(const Obstacle& obstacle, const Actor& actor) { return depth_in(obstacle, free_points(actor)); }
+
+double depth_in(const Actor& other, const Actor& actor) {
+  if (other.contact_triangles.rows() == 0) return 0;
+  const Points points = free_points(actor);
+  if (points.rows() == 0) return 0;
+  const Surface surface(other);
+  return std::max(surface.depth_of(points), surface.depth_of(brick_middles(actor.body)));
+}
+
+double deepest_overlap(const World& world) {
+  std::vector<Points> points;
+  std::vector<AlignedBox> boxes;
+  double depth = 0;
+  for (const Actor& actor : world.actors) {
+    points.push_back(free_points(actor));
+    boxes.push_back(box_around(actor.body.positions));
+    for (const Obstacle& obstacle : world.obstacles) depth = std::max(depth, depth_in(obstacle, points.back()));
+  }
+  if (!world.bodies_touch) return depth;
+  std::vector<std::optional<Surface>> surfaces(world.actors.size());
+  const auto look = [&](int row, int other) {
+    const auto target = static_cast<std::size_t>(other);
+    if (world.actors[target].contact_triangles.rows() == 0) return;
+    if (!surfaces[target]) surfaces[target].emplace(world.actors[target]);
+    depth = std::max(depth, surfaces[target]->depth_of(points[static_cast<std::size_t>(row)]));
+  };
+  for (const auto& [a, b] : overlapping_boxes(boxes)) {
+    look(a, b);
+    look(b, a);
+  }
+  return depth;
+}
+
+}  // namespace sprung

@@ -1,0 +1,161 @@
+#include "core/contact/skin_contact.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/body/body.h"
+#include "core/contact/broad_phase.h"
+
+namespace sprung {
+namespace {
+
+constexpr double kMargin = 0.3;   // bricks: what is nearer than that is watched
+constexpr double kFarMargin = 1;  // bricks: what may soon be that near is looked at
+constexpr double kDeepest = 0.7;  // bricks: what is deeper came from the other side
+constexpr double kPressed = 0.4;  // of its volume, that a brick keeps: what it carries is pushed out of no skin ...
+constexpr double kFlat = 0.15;    // ... nor held by that of its own body
+
+}  // namespace
+
+void SkinContact::add(const Group& group, const Held& held, Touches& touches) const {
+  const std::size_t first = touches.shares.size();
+  const SkinStance& stance = held.stance;
+  const WatchedPoint& point = pairs_.watched(stance.pair->point);
+  const ContactPoint& at = skins_[point.actor]->points[static_cast<std::size_t>(point.point)];
+  add_shares(group, point.actor, at.brick, at.weights, touches);
+  const std::size_t other = other_of(pairs_, *stance.pair);
+  const TriangleRide ride = ride_of(pairs_, *skins_[other], stance);
+  for (std::size_t i = 0; i < ride.count; ++i) add_shares(group, other, ride.bricks[i], ride.weights[i], touches);
+  const double other_friction = group[other]->friction;
+  touches.list.push_back({.key = held.key,
+                          .first = first,
+                          .last = touches.shares.size(),
+                          .normal = stance.normal,
+                          .goal = held.least_speed * stance.normal,
+                          .friction = std::sqrt(group[point.actor]->friction * other_friction)});
+}
+
+/// Pushed out of each other, skins of bricks that have no room left would press those flat, and for ever: the guard
+/// against that pushes back, and each gives energy to the other. They are kept from going deeper, no more; and where
+/// not even that can be had, a body had rather lie in itself than turn inside out.
+double SkinContact::room_of(const Group& group, const SkinPair& pair) const {
+  const auto of = [&](int row) {
+    const WatchedPoint& point = pairs_.watched(row);
+    const Body& body = group[point.actor]->body;
+    const int brick = skins_[point.actor]->points[static_cast<std::size_t>(point.point)].brick;
+    const Mat3 axes = mean_axes_of(columns_of(body.grid.nodes[static_cast<std::size_t>(brick)], body.positions));
+    return axes.determinant() / body.grid.brick_volume();
+  };
+  double least = of(pair.point);
+  for (const int corner : pair.corners) least = std::min(least, of(corner));
+  return least;
+}
+
+bool SkinContact::has_to_be_held(const World& world, double dt, const Group& group, Held& held) const {
+  const SkinStance& stance = held.stance;
+  const WatchedPoint& point = pairs_.watched(stance.pair->point);
+  Vec3 velocity = point.velocity;
+  for (std::size_t i = 0; i < 3; ++i) {
+    velocity -= stance.weights[static_cast<Eigen::Index>(i)] * pairs_.watched(stance.pair->corners[i]).velocity;
+  }
+  const double speed = stance.normal.dot(velocity);
+  if (!(stance.gap + dt * speed <= 0)) return false;
+  const double room = stance.gap >= 0 ? 1 : room_of(group, *stance.pair);
+  if (room < kFlat && actors_[0] == actors_[1]) return false;
+  held.least_speed = room > kPressed ? least_speed(stance.gap, world.gravity.norm(), dt) : 0;
+  held.pull = held.least_speed - speed;
+  const ContactPoint& at = skins_[point.actor]->points[static_cast<std::size_t>(point.point)];
+  held.key = touch_key(world.obstacles.size() + other_of(pairs_, *stance.pair), point.actor, at.brick, at.corner);
+  return true;
+}
+
+void SkinContact::keep_hardest() {
+  std::stable_sort(held_.begin(), held_.end(),
+                   [](const Held& a, const Held& b) { return std::pair(a.key, -a.pull) < std::pair(b.key, -b.pull); });
+  const auto end = std::unique(held_.begin(), held_.end(), [](const Held& a, const Held& b) { return a.key == b.key; });
+  held_.erase(end, held_.end());
+}
+
+void SkinContact::look(const Group& group, double gravity, double dt) {
+  if (steps_to_look_ == 0) {
+    const double brick = std::min(group[actors_[0]]->body.grid.brick_size, group[actors_[1]]->body.grid.brick_size);
+    if (steps_to_seek_ <= 0) {
+      pairs_.seek(group, kFarMargin * brick);
+      steps_to_seek_ = steps_until_look((kFarMargin - kMargin) * brick, pairs_.fastest(group), gravity, dt);
+    }
+    depth_ = kDeepest * brick;
+    pairs_.look(group, {.margin = kMargin * brick, .deepest = depth_});
+    runs_ = runs_of(pairs_);
+    steps_to_look_ = steps_to_seek_;
+    if (pairs_.has_near_bricks()) {
+      const int steps = steps_until_look(pairs_.nearest_beyond(), pairs_.fastest_near(group), gravity, dt);
+      steps_to_look_ = std::min(steps, steps_to_seek_);
+    }
+  }
+  --steps_to_seek_;
+  --steps_to_look_;
+}
+
+void SkinContact::find(const World& world, double dt, const Group& group, Touches& touches) {
+  look(group, world.gravity.norm(), dt);
+  pairs_.follow(group);
+  held_.clear();
+  for (SkinRun& run : runs_) {
+    Held nearest{.stance = nearest_stance(pairs_, run, depth_)};
+    if (nearest.stance.pair != nullptr && has_to_be_held(world, dt, group, nearest)) held_.push_back(nearest);
+  }
+  keep_hardest();
+  for (const Held& held : held_) add(group, held, touches);
+}
+
+namespace {
+
+constexpr double kBodyMargin = 2;  // bricks: bodies nearer than that are watched
+
+/// Of any node, m/s, seen from the rigid motion of all.
+double fastest(const Group& group) {
+  const RigidMotion rigid = rigid_motion_of(group);
+  double most = 0;
+  for (const Actor* actor : group) {
+    const Body& body = actor->body;
+    for (int node = 0; node < body.node_count(); ++node) {
+      const Vec3 velocity = body.velocities.row(node);
+      most = std::max(most, (velocity - rigid.at(body.positions.row(node))).squaredNorm());
+    }
+  }
+  return std::sqrt(most);
+}
+
+}  // namespace
+
+void SkinContacts::seek(const World& world, const Group& group, double dt) {
+  const double margin = kBodyMargin * smallest_brick(group);
+  steps_to_seek_ = steps_until_look(margin, fastest(group), world.gravity.norm(), dt);
+  std::map<std::pair<std::size_t, std::size_t>, SkinContact> contacts;
+  for (const auto& pair : near_skins(world, group, margin)) {
+    if (auto known = contacts_.extract(pair)) {
+      contacts.insert(std::move(known));
+    } else {
+      contacts.try_emplace(pair, skins_, pair.first, pair.second);
+    }
+  }
+  contacts_ = std::move(contacts);
+}
+
+void SkinContacts::find(const World& world, double dt, const Group& group, Touches& touches) {
+  if (steps_to_seek_ == 0) seek(world, group, dt);
+  --steps_to_seek_;
+  std::vector<SkinContact*> contacts;
+  contacts.reserve(contacts_.size());
+  for (auto& [pair, contact] : contacts_) contacts.push_back(&contact);
+  found_.resize(contacts.size());
+  tbb::parallel_for(std::size_t{0}, contacts.size(), [&](std::size_t i) {
+    found_[i].clear();
+    contacts[i]->find(world, dt, group, found_[i]);
+  });
+  for (const Touches& found : found_) touches.append(found);
+}
+
+}  // namespace sprung

@@ -1,0 +1,217 @@
+#include "core/contact/skin_potential.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/contact/broad_phase.h"
+#include "core/contact/obstacle_potential.h"
+
+namespace sprung {
+namespace {
+
+constexpr double kMargin = 1;   // bricks: what is nearer than that may touch within the step
+constexpr double kDeepest = 1;  // bricks: what is deeper came from the other side
+
+}  // namespace
+
+SkinPotential::SkinPotential(const World& world, const Group& group, const std::vector<GluedPoint>& glue,
+                             const Step& step, const std::vector<Eigen::VectorXd*>& pushed_in)
+    : group_(group), glue_(glue), slip_(step.slip) {
+  for (Actor* actor : group) {
+    skins_.push_back(&contact_skin_of(*actor));
+    starts_.push_back(actor->body.positions);
+  }
+  watch(world, pushed_in);
+  refresh();
+  lift(world.gravity.norm(), step.dt);
+  update_friction();
+}
+
+void SkinPotential::lift(double gravity, double dt) {
+  for (Watch& watch : watches_) {
+    if (watch.forgiven > 0) watch.forgiven -= dt * least_speed(-watch.forgiven, gravity, dt);
+  }
+}
+
+void SkinPotential::watch(const World& world, const std::vector<Eigen::VectorXd*>& pushed_in) {
+  std::vector<std::vector<double>> hardness(group_.size());
+  double largest_brick = 0;
+  for (const Actor* actor : group_) largest_brick = std::max(largest_brick, actor->body.grid.brick_size);
+  for (const auto& [a, b] : near_skins(world, group_, kMargin * largest_brick)) {
+    const double brick = std::min(group_[a]->body.grid.brick_size, group_[b]->body.grid.brick_size);
+    SkinPairs& pairs = pairs_.emplace_back(skins_, a, b);
+    pairs.seek(group_, kMargin * brick);
+    pairs.look(group_, {.margin = kMargin * brick, .deepest = kDeepest * brick});
+    for (const SkinRun& run : runs_of(pairs)) {
+      const SkinPair& pair = pairs.pairs()[run.first];
+      const WatchedPoint& point = pairs.watched(pair.point);
+      std::vector<double>& own = hardness[point.actor];
+      if (own.empty()) own = point_hardness(*group_[point.actor], *skins_[point.actor]);
+      watches_.push_back(
+          {.pairs = &pairs,
+           .run = run,
+           .depth = kDeepest * brick,
+           .hardness = own[static_cast<std::size_t>(point.point)],
+           .friction = std::sqrt(group_[point.actor]->friction * group_[other_of(pairs, pair)]->friction),
+           .pushed_in = (*pushed_in[point.actor])[point.point]});
+    }
+  }
+}
+
+void SkinPotential::refresh() {
+  if (!holds_.empty()) {
+    for (Watch& watch : watches_) watch.pushed_in = 0;
+  }
+  for (const Hold& hold : holds_) {
+    if (!hold.is_glue) watches_[hold.watch].pushed_in = depth(hold, sum(hold.place, false));
+  }
+  holds_.clear();
+  add_glue();
+  for (SkinPairs& pairs : pairs_) pairs.follow(group_);
+  for (std::size_t i = 0; i < watches_.size(); ++i) {
+    Watch& watch = watches_[i];
+    const SkinStance stance = nearest_stance(*watch.pairs, watch.run, watch.depth);
+    if (stance.pair != watch.pair) watch.forgiven = std::max(0.0, -stance.gap - watch.pushed_in);
+    watch.pair = stance.pair;
+    if (stance.pair != nullptr) add_stance(i, stance);
+  }
+}
+
+void SkinPotential::add_glue() {
+  for (const GluedPoint& point : glue_) {
+    Coupling place;
+    for (std::size_t side = 0; side < 2; ++side) {
+      place.corners.push_back({.body = point.actors[side],
+                               .brick = point.bricks[side],
+                               .weights = (side == 0 ? 1 : -1) * point.weights[side]});
+    }
+    const double stiffness =
+        glue_hardness(group_[point.actors[0]]->body, point.bricks[0], group_[point.actors[1]]->body, point.bricks[1]);
+    holds_.push_back({.watch = 0,
+                      .is_glue = true,
+                      .place = std::move(place),
+                      .stiffness = stiffness,
+                      .normal = Vec3::Zero(),
+                      .start = Vec3::Zero()});
+  }
+}
+
+void SkinPotential::add_stance(std::size_t watch, const SkinStance& stance) {
+  const SkinPairs& pairs = *watches_[watch].pairs;
+  const WatchedPoint& point = pairs.watched(stance.pair->point);
+  const ContactPoint& at = skins_[point.actor]->points[static_cast<std::size_t>(point.point)];
+  const std::size_t other = other_of(pairs, *stance.pair);
+  const TriangleRide ride = ride_of(pairs, *skins_[other], stance);
+  Coupling place;
+  place.corners.push_back({.body = point.actor, .brick = at.brick, .weights = at.weights});
+  for (std::size_t i = 0; i < ride.count; ++i) {
+    place.corners.push_back({.body = other, .brick = ride.bricks[i], .weights = ride.weights[i]});
+  }
+  const double stiffness =
+      pair_hardness(watches_[watch].hardness, group_[point.actor]->body, at.brick, group_[other]->body, ride.bricks[0]);
+  const Vec3 start = sum(place, true);
+  holds_.push_back({.watch = watch,
+                    .is_glue = false,
+                    .place = std::move(place),
+                    .stiffness = stiffness,
+                    .normal = stance.normal,
+                    .start = start});
+}
+
+Vec3 SkinPotential::sum(const Coupling& place, bool at_start) const {
+  Vec3 sum = Vec3::Zero();
+  for (const CoupledCorners& corners : place.corners) {
+    const Body& body = group_[corners.body]->body;
+    sum += carried(body, corners.brick, corners.weights, at_start ? starts_[corners.body] : body.positions);
+  }
+  return sum;
+}
+
+/// m, that the point has been pushed in.
+double SkinPotential::depth(const Hold& hold, const Vec3& now) const {
+  return std::max(0.0, -hold.normal.dot(now) - watches_[hold.watch].forgiven);
+}
+
+void SkinPotential::remember(const std::vector<Eigen::VectorXd*>& pushed_in) const {
+  for (std::size_t i = 0; i < group_.size(); ++i) {
+    pushed_in[i]->setZero(static_cast<Eigen::Index>(skins_[i]->points.size()));
+  }
+  for (const Hold& hold : holds_) {
+    if (hold.is_glue) continue;
+    const SkinPairs& pairs = *watches_[hold.watch].pairs;
+    const WatchedPoint& point = pairs.watched(watches_[hold.watch].pair->point);
+    double& deepest = (*pushed_in[point.actor])[point.point];
+    deepest = std::max(deepest, depth(hold, sum(hold.place, false)));
+  }
+}
+
+double SkinPotential::update_friction() {
+  double change = 0;
+  std::vector<double> pressing(watches_.size());
+  for (const Hold& hold : holds_) {
+    if (hold.is_glue) continue;
+    pressing[hold.watch] = hold.stiffness * depth(hold, sum(hold.place, false));
+  }
+  for (std::size_t i = 0; i < watches_.size(); ++i) {
+    if (watches_[i].friction > 0) change = std::max(change, std::abs(pressing[i] - watches_[i].pressing));
+    watches_[i].pressing = pressing[i];
+  }
+  return change;
+}
+
+double SkinPotential::largest_normal_force() const {
+  double largest = 0;
+  for (const Watch& watch : watches_) largest = std::max(largest, watch.pressing);
+  return largest;
+}
+
+Grip SkinPotential::grip(const Hold& hold, const Vec3& now) const {
+  const Watch& watch = watches_[hold.watch];
+  return {now - hold.start, hold.normal, watch.friction * watch.pressing, slip_};
+}
+
+double SkinPotential::add_forces(const std::vector<Points*>& forces) const {
+  double energy = 0;
+  for (const Hold& hold : holds_) {
+    const Vec3 now = sum(hold.place, false);
+    Vec3 force;
+    if (hold.is_glue) {
+      energy += 0.5 * hold.stiffness * now.squaredNorm();
+      force = -hold.stiffness * now;
+    } else {
+      const double deep = depth(hold, now);
+      if (deep == 0 && watches_[hold.watch].pressing == 0) continue;
+      const Grip held = grip(hold, now);
+      energy += 0.5 * hold.stiffness * deep * deep;
+      energy += held.energy();
+      force = hold.stiffness * deep * hold.normal + held.force();
+    }
+    for (const CoupledCorners& corners : hold.place.corners) {
+      const auto& nodes = group_[corners.body]->body.grid.nodes[static_cast<std::size_t>(corners.brick)];
+      for (std::size_t c = 0; c < 8; ++c) {
+        forces[corners.body]->row(nodes[c]) += corners.weights[static_cast<Eigen::Index>(c)] * force.transpose();
+      }
+    }
+  }
+  return energy;
+}
+
+std::vector<Coupling> SkinPotential::couplings() const {
+  std::vector<Coupling> couplings;
+  for (const Hold& hold : holds_) {
+    const Vec3 now = sum(hold.place, false);
+    Mat3 stiffness = Mat3::Zero();
+    if (hold.is_glue) {
+      stiffness = hold.stiffness * Mat3::Identity();
+    } else {
+      const bool touches = depth(hold, now) > 0;
+      if (!touches && watches_[hold.watch].pressing == 0) continue;
+      stiffness = grip(hold, now).stiffness();
+      if (touches) stiffness += hold.stiffness * hold.normal * hold.normal.transpose();
+    }
+    couplings.push_back({.corners = hold.place.corners, .stiffness = stiffness});
+  }
+  return couplings;
+}
+
+}  // namespace sprung

@@ -1,0 +1,90 @@
+#pragma once
+#include <list>
+#include <vector>
+
+#include "core/contact/narrow_phase.h"
+#include "core/contact/obstacle_potential.h"
+#include "core/contact/point_stiffness.h"
+#include "core/world/world.h"
+
+namespace sprung {
+
+/// Contact of the bodies of a group with each other and themselves, and their glue, as an energy, for a step that looks
+/// for a minimum. The law is ObstaclePotential's: a point of a skin that is inside another is pushed back by k times
+/// its depth below the triangle that it stands over, k by the softer of both; friction is Coulomb's with the normal
+/// force of the iteration before. What is glued is held by k times its distance. Which triangle a point stands over,
+/// and where it points to, is taken anew before each of Newton's directions; in between the surfaces are flat. What
+/// is found inside without having been pushed in, as where edges have crossed between their points, is forgiven that
+/// depth, and lifted by least_speed(): contact makes no energy. Forces add up to nothing: momentum is kept.
+class SkinPotential {
+ public:
+  /// Of a step.
+  struct Step {
+    double dt;    // s
+    double slip;  // m, that a point may creep before it slides
+  };
+  /// For a step from where the bodies are, in which nothing near anything moves by more than half a brick. `glue` by
+  /// rows of the group; `pushed_in` by actor and point of its skin, from remember(). All have to outlive it.
+  SkinPotential(const World& world, const Group& group, const std::vector<GluedPoint>& glue, const Step& step,
+                const std::vector<Eigen::VectorXd*>& pushed_in);
+  SkinPotential(const SkinPotential&) = delete;
+  SkinPotential& operator=(const SkinPotential&) = delete;
+
+  /// Whether there is anything that could hold.
+  [[nodiscard]] bool any() const { return !glue_.empty() || !watches_.empty(); }
+
+  /// Takes triangles and normals from where the bodies are now.
+  void refresh();
+  /// Takes normal forces, for friction, likewise. Returns the largest change of one, N, where there is friction.
+  double update_friction();
+  [[nodiscard]] double largest_normal_force() const;
+
+  /// J; adds forces (m x 3, N), by actor of the group.
+  double add_forces(const std::vector<Points*>& forces) const;
+  [[nodiscard]] std::vector<Coupling> couplings() const;
+
+  /// How far points have been pushed into what they touch, m, for the step to come.
+  void remember(const std::vector<Eigen::VectorXd*>& pushed_in) const;
+
+ private:
+  /// A point that may touch triangles of an actor.
+  struct Watch {
+    const SkinPairs* pairs;
+    SkinRun run;
+    double depth;                    // m, below which what is inside came from the other side
+    double hardness;                 // N/m, of the point by itself
+    double friction;                 // Coulomb's coefficient
+    double pushed_in;                // m, when last looked at
+    double forgiven = 0;             // m, of the depth
+    const SkinPair* pair = nullptr;  // that it stood at then
+    double pressing = 0;             // N, for friction
+  };
+  /// What holds a place now.
+  struct Hold {
+    std::size_t watch;  // in watches_; not read where it is glue
+    bool is_glue;
+    Coupling place;  // without its stiffness
+    double stiffness;
+    Vec3 normal;
+    Vec3 start;  // m, when the step began
+  };
+
+  void watch(const World& world, const std::vector<Eigen::VectorXd*>& pushed_in);
+  void lift(double gravity, double dt);
+  [[nodiscard]] double depth(const Hold& hold, const Vec3& now) const;
+  void add_glue();
+  void add_stance(std::size_t watch, const SkinStance& stance);
+  [[nodiscard]] Vec3 sum(const Coupling& place, bool at_start) const;
+  [[nodiscard]] Grip grip(const Hold& hold, const Vec3& now) const;
+
+  const Group& group_;
+  const std::vector<GluedPoint>& glue_;
+  double slip_;
+  std::vector<const ContactSkin*> skins_;  // by actor
+  std::vector<Points> starts_;             // by actor, m x 3, m
+  std::list<SkinPairs> pairs_;
+  std::vector<Watch> watches_;
+  std::vector<Hold> holds_;
+};
+
+}  // namespace sprung

@@ -1,0 +1,200 @@
+#include "core/dynamics/explicit/adaptive_integrator.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "core/body/forces.h"
+#include "core/contact/broad_phase.h"
+#include "core/dynamics/energy.h"
+#include "core/error.h"
+
+namespace sprung {
+namespace {
+
+constexpr double kFurthestMove = 0.25;  // of a brick, in a step
+constexpr int kMostHalvings = 4;
+constexpr double kBrickStepsBetween = 2e6;
+constexpr double kMostSteps = 1e12;  // at a time: more than anybody waits for
+
+/// What can be taken back.
+struct State {
+  Points positions;
+  Points velocities;
+};
+
+std::vector<State> state_of(const World& world) {
+  std::vector<State> states;
+  for (const Actor& actor : world.actors) states.push_back({actor.body.positions, actor.body.velocities});
+  return states;
+}
+
+void restore(const std::vector<State>& states, World& world) {
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    world.actors[i].body.positions = states[i].positions;
+    world.actors[i].body.velocities = states[i].velocities;
+  }
+}
+
+/// What is wrong with an actor, and the brick where it is worst.
+struct Trouble {
+  std::size_t actor;
+  std::size_t brick;
+  std::string what;
+};
+
+bool is_finite(const Body& body, std::size_t brick) {
+  const auto& nodes = body.grid.nodes[brick];
+  return std::all_of(nodes.begin(), nodes.end(), [&](int node) {
+    return body.positions.row(node).allFinite() && body.velocities.row(node).allFinite();
+  });
+}
+
+/// The first brick with a number that is not finite; else the one whose corners move fastest.
+std::size_t worst_brick(const Body& body) {
+  std::size_t worst = 0;
+  double fastest = -1;
+  for (std::size_t brick = 0; brick < body.grid.nodes.size(); ++brick) {
+    if (!is_finite(body, brick)) return brick;
+    double speed = 0;
+    for (const int node : body.grid.nodes[brick]) speed = std::max(speed, body.velocities.row(node).squaredNorm());
+    if (speed <= fastest) continue;
+    fastest = speed;
+    worst = brick;
+  }
+  return worst;
+}
+
+std::optional<Trouble> find_trouble(const World& world, const std::vector<Energy>& before,
+                                    std::span<const GroupSteps> groups) {
+  for (std::size_t i = 0; i < world.actors.size(); ++i) {
+    const Body& body = world.actors[i].body;
+    if (body.positions.allFinite() && body.velocities.allFinite()) continue;
+    return Trouble{i, worst_brick(body), "a number that is not finite"};
+  }
+  const std::vector<Energy> after = energies_of(world);
+  for (const GroupSteps& group : groups) {
+    std::string gain = energy_from_nowhere(world, group.actors, before, after);
+    if (gain.empty()) continue;
+    const std::size_t worst =
+        *std::max_element(group.actors.begin(), group.actors.end(), [&](std::size_t a, std::size_t b) {
+          return after[a].sum() - before[a].sum() < after[b].sum() - before[b].sum();
+        });
+    return Trouble{worst, worst_brick(world.actors[worst].body), std::move(gain)};
+  }
+  return std::nullopt;
+}
+
+/// "body 1, brick 12 at (0.1, 0.02, 0) m at rest".
+std::string place_of(const World& world, const Trouble& trouble) {
+  const Body& body = world.actors[trouble.actor].body;
+  Vec3 middle = Vec3::Zero();
+  for (const int node : body.grid.nodes[trouble.brick]) middle += body.rest_positions.row(node).transpose() / 8;
+  return fmt::format("body {}, brick {} at ({:.4g}, {:.4g}, {:.4g}) m at rest", trouble.actor + 1, trouble.brick + 1,
+                     middle.x(), middle.y(), middle.z());
+}
+
+/// s, that an actor took.
+double step_of(std::span<const GroupSteps> groups, std::size_t actor) {
+  const auto group = std::find_if(groups.begin(), groups.end(), [&](const GroupSteps& one) {
+    return std::find(one.actors.begin(), one.actors.end(), actor) != one.actors.end();
+  });
+  return group->steps.dt;
+}
+
+}  // namespace
+
+std::vector<GroupSteps> choose_steps(const World& world, double time) {
+  std::vector<GroupSteps> groups;
+  double carried = 0;  // m/s, by obstacles
+  for (const Obstacle& obstacle : world.obstacles) carried = std::max(carried, obstacle.velocity.norm());
+  for (std::vector<std::size_t>& actors : contact_groups(world, time)) {
+    double step = std::numeric_limits<double>::infinity();
+    double brick = step;
+    double speed = 0;
+    for (const std::size_t i : actors) {
+      const Body& body = world.actors[i].body;
+      step = std::min(step, stable_step(body));
+      brick = std::min(brick, body.grid.brick_size);
+      speed = std::max(speed, largest_speed(body));
+    }
+    const double most = speed + carried + world.gravity.norm() * time;
+    const bool can_meet = !world.obstacles.empty() || actors.size() > 1;
+    if (can_meet && most > 0) step = std::min(step, kFurthestMove * brick / most);
+    if (!(time / step <= kMostSteps)) {
+      throw Diverged(actors.front(),
+                     fmt::format("body {} moves at {:.3g} m/s, which takes more steps than can be done: "
+                                 "the motion diverged; use slower bodies, larger bricks or less gravity",
+                                 actors.front() + 1, speed));
+    }
+    const long count = std::max(1L, static_cast<long>(std::ceil(time / step)));
+    groups.push_back({.actors = std::move(actors), .steps = {.count = count, .dt = time / static_cast<double>(count)}});
+  }
+  return groups;
+}
+
+bool CarefulMotion::run(std::span<const GroupSteps> groups, double time, const Between& between) {
+  double brick_steps = 0;
+  long chunks = std::numeric_limits<long>::max();
+  for (const GroupSteps& group : groups) {
+    for (const std::size_t i : group.actors) {
+      brick_steps += static_cast<double>(group.steps.count) * world_.actors[i].body.grid.brick_count();
+    }
+    chunks = std::min(chunks, group.steps.count);
+  }
+  chunks = std::clamp(static_cast<long>(std::ceil(brick_steps / kBrickStepsBetween)), 1L, chunks);
+  std::vector<GroupSteps> chunk(groups.begin(), groups.end());
+  for (long done = 0; done < chunks; ++done) {
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+      const Steps& all = groups[i].steps;
+      const long first = all.count * done / chunks;
+      chunk[i].steps.count = all.count * (done + 1) / chunks - first;
+      chunk[i].elapsed = all.dt * static_cast<double>(first);
+    }
+    try {
+      advance(world_, scheme_, chunk, time);
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::kDiverged) throw;
+      return false;
+    }
+    between(static_cast<double>(done + 1) / static_cast<double>(chunks));
+  }
+  return true;
+}
+
+std::vector<GroupSteps> CarefulMotion::advance_frame(double time, double duration, const Between& between,
+                                                     const Tell& tell) {
+  const std::vector<State> start = state_of(world_);
+  const std::vector<Energy> before = energies_of(world_);
+  const std::vector<GroupSteps> stable = choose_steps(world_, duration);
+  while (true) {
+    const long parts = 1L << halvings_;
+    std::vector<GroupSteps> groups = stable;
+    for (GroupSteps& group : groups) {
+      group.steps = {group.steps.count * parts, group.steps.dt / static_cast<double>(parts)};
+    }
+    const bool is_through = run(groups, time, between);
+    const std::optional<Trouble> trouble = find_trouble(world_, before, groups);
+    if (is_through && !trouble) {
+      move_obstacles(world_.obstacles, duration);
+      return groups;
+    }
+    const std::string what = fmt::format("{} between t = {:.6g} s and {:.6g} s: {}", place_of(world_, *trouble), time,
+                                         time + duration, trouble->what);
+    restore(start, world_);
+    const double dt = step_of(groups, trouble->actor);
+    if (halvings_ == kMostHalvings) {
+      throw Diverged(trouble->actor,
+                     what + fmt::format(", with steps of {:.3g} s too: the motion diverged; use more bricks, a stiffer "
+                                        "material, more damping or a shorter fall",
+                                        dt));
+    }
+    ++halvings_;
+    tell(what + fmt::format("; the frame is done again in steps half as long, {:.3g} s", dt / 2));
+  }
+}
+
+}  // namespace sprung

@@ -1,0 +1,45 @@
+#pragma once
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/dynamics/explicit/integrator.h"
+#include "core/dynamics/integrator_state.h"
+
+namespace sprung {
+
+/// Who may touch whom within `time` (s), and for each group the longest steps that are stable and in which nothing can
+/// run through what it meets: at the speed it has, with what gravity can add in that time, no node moves further than a
+/// quarter of the group's smallest brick in a step. Throws Diverged where that would be more steps than can be done.
+[[nodiscard]] std::vector<GroupSteps> choose_steps(const World& world, double time);
+
+/// Moves a world frame by frame and lets no trouble pass: a number that is not finite, or energy from nowhere, is found
+/// in the frame it appears in. The frame is then taken back and done again in steps half as long, up to a few times.
+class CarefulMotion {
+ public:
+  /// Called every now and then with the share of the frame that is done; may throw.
+  using Between = std::function<void(double share)>;
+  /// Hears why a frame is taken back.
+  using Tell = std::function<void(const std::string& message)>;
+
+  CarefulMotion(World& world, Scheme scheme) : world_(world), scheme_(scheme) {}
+
+  /// From `time` on by `duration` (s); obstacles move evenly. Returns the steps each group took. Deterministic for any
+  /// number of threads. Throws Diverged naming time, body, the brick's place and what to change where no step is short
+  /// enough.
+  std::vector<GroupSteps> advance_frame(double time, double duration, const Between& between, const Tell& tell);
+
+  /// What the next frame depends on beside positions and velocities.
+  void pass(MotionMemory& memory) { memory.pass_as_double(halvings_); }
+
+ private:
+  /// Whether it came through with finite positions.
+  bool run(std::span<const GroupSteps> groups, double time, const Between& between);
+
+  World& world_;
+  Scheme scheme_;
+  int halvings_ = 0;  // kept from frame to frame
+};
+
+}  // namespace sprung

@@ -1,0 +1,250 @@
+#include "core/dynamics/explicit/integrator.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/body/body.h"
+#include "core/body/brick_hessian.h"
+#include "core/body/forces.h"
+#include "core/contact/broad_phase.h"
+#include "core/contact/contact_solver.h"
+#include "core/contact/glue.h"
+#include "core/dynamics/explicit/implicit_damping.h"
+#include "core/error.h"
+#include "core/world/load_forces.h"
+
+namespace sprung {
+namespace {
+
+/// What the volume guard can add to a brick's stiffness, in units of guard / h^2: the squared gradient of the volume
+/// ratio of a brick pressed flat to the guard's threshold along one axis.
+constexpr double kGuardGradient = 0.6;
+constexpr double kGuardAreas = 1.18;   // of that brick: the sum of its three faces' squared areas, in h^4
+constexpr double kMayBePressed = 0.6;  // bricks with less than that share of their volume may soon feel the guard
+
+/// How many times that gradient, squared, a brick has by now that is pressed one way and drawn out another.
+double guard_growth(const Body& body) {
+  const double h = body.grid.brick_size;
+  double largest = kGuardAreas;
+  for (const auto& nodes : body.grid.nodes) {
+    const Mat3 axes = mean_axes_of(columns_of(nodes, body.positions));
+    const Mat3 areas = areas_of(axes) / (h * h);
+    if (axes.col(0).dot(areas.col(0)) < kMayBePressed * h) largest = std::max(largest, areas.squaredNorm());
+  }
+  return largest / kGuardAreas;
+}
+
+}  // namespace
+
+double largest_frequency_squared(const Body& body) {
+  const double h = body.grid.brick_size;
+  const double guard = kGuardGradient * guard_growth(body) * body.law.guard / (h * h);
+  const double stiffness = largest_brick_stiffness(body) + guard;
+  double share = 0;
+  for (const double scale : body.stiffness_scale) share += scale;
+  const double corner_mass = body.masses.sum() / share / 8;
+  return stiffness / corner_mass;
+}
+
+/// Leapfrog with damping c = alpha + beta omega^2 is stable while omega^2 dt^2 + 2 c dt < 4.
+double stable_step(const Body& body, double safety) {
+  const double squared = largest_frequency_squared(body);
+  const Rayleigh ours = damping_shares(body, squared).explicit_part;
+  const double damping = ours.alpha + ours.beta * squared;
+  return safety * 4 / (damping + std::sqrt(damping * damping + 4 * squared));
+}
+
+double stable_step(const World& world, double safety) {
+  double step = std::numeric_limits<double>::infinity();
+  for (const Actor& actor : world.actors) step = std::min(step, stable_step(actor.body, safety));
+  return step;
+}
+
+namespace {
+
+/// One actor on its way through a number of steps.
+class Mover {
+ public:
+  Mover(Actor& actor, const World& world)
+      : actor_(actor),
+        world_(world),
+        inverse_masses_(actor.body.masses.cwiseInverse()),
+        damping_(damping_shares(actor.body, largest_frequency_squared(actor.body))),
+        implicit_damping_(actor, damping_.implicit_beta),
+        loads_(actor, world) {}
+
+  /// velocities += dt (forces / m + gravity - alpha v); held nodes keep their velocity.
+  void kick(double dt) {
+    Body& body = actor_.body;
+    if (loads_.any()) {
+      settle();
+      body.velocities += dt * (inverse_masses_.asDiagonal() * loads_.forces());
+    }
+    if (body.model == Model::kFem) {
+      settle();
+      spring_forces(body, workspace_, forces_);
+      body.velocities *= 1 - dt * body.damping.alpha;
+      body.velocities += dt * (inverse_masses_.asDiagonal() * forces_);
+      body.velocities.rowwise() += dt * world_.gravity.transpose();
+    } else {
+      workspace_.springs.move(
+          body, {.drift = pending_drift_, .kick = dt, .damping = damping_.explicit_part, .gravity = world_.gravity},
+          inverse_masses_);
+      pending_drift_ = 0;
+    }
+    for (const HeldNode& held : actor_.pinned) {
+      for (int axis = 0; axis < 3; ++axis) {
+        if (held.axes[static_cast<std::size_t>(axis)]) body.velocities(held.node, axis) = held.velocity[axis];
+      }
+    }
+    implicit_damping_.pass(dt);  // what is held has its velocity: it leads the rest
+  }
+
+  /// positions += dt velocities: put off to the next kick, which has them at hand anyway.
+  void drift(double dt) { pending_drift_ += dt; }
+
+  /// The last of a number of steps is done.
+  void finish() {
+    settle();
+    implicit_damping_.settle();
+  }
+
+  /// Does what was put off.
+  void settle() {
+    if (pending_drift_ != 0) actor_.body.positions += pending_drift_ * actor_.body.velocities;
+    pending_drift_ = 0;
+  }
+
+ private:
+  Actor& actor_;
+  const World& world_;
+  Eigen::VectorXd inverse_masses_;
+  DampingShares damping_;
+  ImplicitDamping implicit_damping_;
+  LoadForces loads_;
+  ForceWorkspace workspace_;
+  Points forces_;
+  double pending_drift_ = 0;  // s
+};
+
+/// 1/kg, per node; nothing pushes what is held.
+Eigen::VectorXd pushed_inverse_masses(const Actor& actor) {
+  Eigen::VectorXd inverse_masses = actor.body.masses.cwiseInverse();
+  for (const HeldNode& held : actor.pinned) inverse_masses[held.node] = 0;
+  return inverse_masses;
+}
+
+/// Actors that touch each other on their way through a number of steps.
+class GroupMover {
+ public:
+  GroupMover(World& world, const GroupSteps& group) : world_(world), elapsed_(group.elapsed) {
+    Group actors;
+    std::vector<Eigen::VectorXd> inverse_masses;
+    for (const std::size_t i : group.actors) {
+      actors.push_back(&world.actors[i]);
+      inverse_masses.push_back(pushed_inverse_masses(world.actors[i]));
+      movers_.push_back(std::make_unique<Mover>(world.actors[i], world));
+    }
+    impulses_.emplace(std::move(actors), std::move(inverse_masses), glue_within(world, group.actors));
+  }
+
+  void kick(double dt) {
+    each([&](Mover& mover) { mover.kick(dt); });
+  }
+
+  void keep_limits(double dt) {
+    impulses_->apply(world_, elapsed_, dt);
+    elapsed_ += dt;
+  }
+
+  void drift(double dt) {
+    for (const auto& mover : movers_) mover->drift(dt);
+  }
+
+  void finish() {
+    each([&](Mover& mover) { mover.finish(); });
+  }
+
+ private:
+  template <class Visit>
+  void each(const Visit& visit) {
+    if (movers_.size() == 1) {
+      visit(*movers_.front());
+      return;
+    }
+    tbb::parallel_for(std::size_t{0}, movers_.size(),
+                      [&](std::size_t i) { tbb::this_task_arena::isolate([&] { visit(*movers_[i]); }); });
+  }
+
+  const World& world_;
+  double elapsed_;
+  std::vector<std::unique_ptr<Mover>> movers_;
+  std::optional<Impulses> impulses_;
+};
+
+void check_finite(const World& world, double time) {
+  for (std::size_t i = 0; i < world.actors.size(); ++i) {
+    if (world.actors[i].body.positions.allFinite()) continue;
+    throw Error(ErrorKind::kDiverged,
+                fmt::format("body {} has a position that is not finite at t = {:.6g} s: the motion diverged; use more "
+                            "bricks, a stiffer material or a shorter fall",
+                            i + 1, time));
+  }
+}
+
+/// v += dt a; x += dt v. First order, symplectic.
+void euler(GroupMover& mover, double dt, long steps) {
+  for (long step = 0; step < steps; ++step) {
+    mover.kick(dt);
+    mover.keep_limits(dt);
+    mover.drift(dt);
+  }
+}
+
+/// Half a kick, drift, half a kick; the half kicks that meet between two steps are one. Second order, symplectic.
+void verlet(GroupMover& mover, double dt, long steps) {
+  for (long step = 0; step < steps; ++step) {
+    mover.kick(step == 0 ? dt / 2 : dt);
+    mover.keep_limits(dt);
+    mover.drift(dt);
+  }
+  if (steps > 0) mover.kick(dt / 2);
+}
+
+}  // namespace
+
+void advance(World& world, Scheme scheme, std::span<const GroupSteps> groups, double time) {
+  const auto advance_group = [&](const GroupSteps& group) {
+    GroupMover mover(world, group);
+    if (scheme == Scheme::kVerlet) {
+      verlet(mover, group.steps.dt, group.steps.count);
+    } else {
+      euler(mover, group.steps.dt, group.steps.count);
+    }
+    mover.finish();
+  };
+  // A thread that waits within one group's steps must not begin another group's: the first would stand still.
+  tbb::parallel_for(std::size_t{0}, groups.size(),
+                    [&](std::size_t i) { tbb::this_task_arena::isolate([&] { advance_group(groups[i]); }); });
+  if (!groups.empty()) check_finite(world, time + groups[0].steps.dt * static_cast<double>(groups[0].steps.count));
+}
+
+void advance(World& world, Scheme scheme, double dt, long steps, double time) {
+  std::vector<GroupSteps> groups;
+  const double duration = dt * static_cast<double>(steps);
+  for (std::vector<std::size_t>& actors : contact_groups(world, duration)) {
+    groups.push_back({.actors = std::move(actors), .steps = {.count = steps, .dt = dt}});
+  }
+  advance(world, scheme, groups, time);
+  move_obstacles(world.obstacles, duration);
+}
+
+}  // namespace sprung

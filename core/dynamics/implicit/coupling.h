@@ -1,0 +1,27 @@
+#pragma once
+#include <span>
+#include <vector>
+
+#include "core/dynamics/linear/linear_solver.h"
+
+namespace sprung {
+
+/// The parts that couplings have in single bodies, for StepTerms::coupled: no less than what they are there. By body.
+[[nodiscard]] std::vector<std::vector<PointStiffness>> own_parts(const std::vector<Coupling>& couplings,
+                                                                 std::size_t bodies);
+
+/// A body of a coupled system; `system` is linearized.
+struct CoupledBody {
+  const Body* body;
+  const Supports* supports;
+  IterativeSystem* system;
+};
+
+/// u for the forces (both one body after the other, 3 m each) with all bodies' K + terms and the couplings between
+/// them: by conjugate gradients, each body preconditioned by itself. Ends and what it gives as NewtonSystem::solve(),
+/// but that it takes what it has, if that is nearly as good, where that takes too long. The same bits for any number of
+/// threads.
+[[nodiscard]] Eigen::VectorXd solve_coupled(std::span<const CoupledBody> bodies, const std::vector<Coupling>& couplings,
+                                            const Eigen::VectorXd& forces, double tolerance, SolveReport& report);
+
+}  // namespace sprung

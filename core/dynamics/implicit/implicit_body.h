@@ -1,0 +1,137 @@
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "core/body/forces.h"
+#include "core/contact/obstacle_potential.h"
+#include "core/dynamics/implicit/implicit_motion.h"
+#include "core/dynamics/linear/linear_solver.h"
+#include "core/dynamics/linear/stiffness.h"
+#include "core/world/loads.h"
+#include "core/world/world.h"
+
+namespace sprung {
+
+/// The muscles of a body as an energy, for steps that look for a minimum; see MuscleTension.
+class MusclePotential {
+ public:
+  /// The actor has to outlive it.
+  explicit MusclePotential(const Actor& actor) : actor_(actor) {}
+
+  /// Before a step: the muscles contract as they do now.
+  void begin();
+
+  /// J, of the body where it stands; adds forces (m x 3, N).
+  double add_forces(Points& forces) const;
+  /// What pulls stiffens a brick against turning, what pushes softens it; with `definite` that is left out.
+  void add_stiffness(bool definite, std::vector<PointStiffness>& points) const;
+
+ private:
+  /// One of a brick's directions e_i.
+  struct Draw {
+    int brick;
+    Eigen::Matrix<double, 8, 1> weights;  // of the brick's corners in F e_i, 1/m
+    Vec3 along;                           // F e_i
+    double energy;                        // J, for a length of one
+  };
+  template <class Visit>
+  void for_draws(const Visit& visit) const;
+
+  const Actor& actor_;
+  std::vector<MuscleTension> tensions_;  // by muscle
+};
+
+/// What one actor adds to the potential that an implicit step minimises, see ImplicitMotion: everything but contact
+/// with other bodies and itself, and glue.
+class ImplicitBody {
+ public:
+  /// All have to outlive it.
+  ImplicitBody(Actor& actor, const World& world, const ImplicitOptions& options);
+
+  /// Before a step of dt; obstacles have moved by themselves for `elapsed` (s) when it begins. What is held is then at
+  /// the end of its way, the rest where it was; velocities are zero: damping comes from the potential.
+  void begin(double elapsed, double dt);
+  /// Moves what is not held to where the velocities lead, or back.
+  void drift();
+  void stay();
+
+  /// The potential (J) at the positions, and its forces; others' may be added to them.
+  double evaluate();
+  [[nodiscard]] Points& forces() { return forces_; }
+  /// Nothing pushes what is held.
+  void release_held();
+  /// Whether the forces left over are small beside those at work.
+  [[nodiscard]] bool is_found() const;
+  /// J, that rounding makes of the potential.
+  [[nodiscard]] double noise() const;
+  /// Takes normal forces, for friction, from where the body is; false where they changed by much.
+  [[nodiscard]] bool settle_friction();
+
+  /// Newton's matrix at the positions, by itself or as a part of a coupled system.
+  [[nodiscard]] bool linearize(bool definite);
+  [[nodiscard]] bool linearize(bool definite, std::vector<PointStiffness> coupled);
+  [[nodiscard]] Eigen::VectorXd solve(double tolerance);
+
+  void finish(double dt);
+  /// Puts the body where it was before the step began, or was finished.
+  void undo();
+
+  /// What the next step depends on beside positions and velocities.
+  void pass(MotionMemory& memory);
+
+  [[nodiscard]] Actor& actor() const { return actor_; }
+  [[nodiscard]] const Supports& supports() const { return supports_; }
+  [[nodiscard]] double slip_speed() const { return slip_speed_; }
+  [[nodiscard]] SolveReport solves() const { return alone_->report(); }
+  [[nodiscard]] Eigen::VectorXd& pushed_in() { return history_.pushed_in; }
+  [[nodiscard]] IterativeSystem& system() { return *coupled_; }
+
+ private:
+  /// Of a step that can be undone.
+  struct History {
+    bool is_there = false;
+    double last_dt = 0;
+    Points positions;
+    Points velocities;
+    Eigen::VectorXd pushed_in;  // of its skin's points, m, see SkinPotential
+  };
+
+  void aim(double dt);
+  void hold(double dt);
+  void take_terms(bool definite);
+
+  Actor& actor_;
+  Body& body_;
+  const World& world_;
+  const ImplicitOptions& options_;
+  Supports supports_;
+  double size_;        // m
+  double slip_speed_;  // m/s
+  double stiffness_;   // N/m, the largest of a brick
+  std::vector<ObstaclePotential> obstacles_;
+  MusclePotential muscles_;
+  std::unique_ptr<NewtonSystem> alone_ = make_quick_system();
+  std::unique_ptr<IterativeSystem> coupled_ = make_multigrid_system();
+  StepTerms terms_;
+
+  // of the step at hand
+  double span_ = 0;         // s
+  double reach_ = 0;        // m, from the origin
+  Points positions_;        // before it
+  Points velocities_;       // before it
+  Points held_;             // where nodes stay but for what is held
+  Points origin_;           // x0
+  Points goal_;             // where inertia and gravity alone lead
+  double mass_factor_ = 0;  // 1/s^2
+  double weight_ = 0;       // N, and the size of the loads
+
+  History history_;  // of the step before
+  History before_;   // as it was before the step at hand
+
+  ForceWorkspace workspace_;
+  ProductWorkspace products_;
+  Points forces_;
+  double work_ = 0;  // size of the forces at work, N
+};
+
+}  // namespace sprung

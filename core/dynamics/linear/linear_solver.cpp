@@ -1,0 +1,93 @@
+#include "core/dynamics/linear/linear_solver.h"
+
+#include <Eigen/CholmodSupport>
+#include <optional>
+
+#include "core/dynamics/linear/stiffness.h"
+
+namespace sprung {
+namespace {
+
+/// Added to the diagonal of a matrix that may be singular, relative to its largest entry.
+constexpr double kShift = 1e-9;
+
+class DirectSystem : public NewtonSystem {
+ public:
+  DirectSystem() { cholesky_.cholmod().print = 0; }
+
+  bool linearize(const Body& body, const Supports& supports, bool definite, const StepTerms& terms) override {
+    dofs_.emplace(supports);
+    const Eigen::SparseMatrix<double> matrix = stiffness_matrix(body, *dofs_, definite, terms);
+    cholesky_.setShift(definite ? kShift * matrix.diagonal().maxCoeff() : 0);
+    cholesky_.compute(matrix);
+    return cholesky_.info() == Eigen::Success;
+  }
+
+  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& forces, double /*tolerance*/) override {
+    ++report_.solves;
+    return dofs_->scatter(cholesky_.solve(dofs_->gather(forces)));
+  }
+
+  [[nodiscard]] SolveReport report() const override { return report_; }
+
+ private:
+  std::optional<FreeDofs> dofs_;
+  Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>, Eigen::Lower> cholesky_;
+  SolveReport report_;
+};
+
+}  // namespace
+
+std::unique_ptr<NewtonSystem> make_direct_system() { return std::make_unique<DirectSystem>(); }
+
+namespace {
+
+constexpr int kFewBricks = 200;     // the direct solver is as quick up to there
+constexpr int kManyBricks = 40000;  // and needs gigabytes from there on
+
+class QuickSystem : public NewtonSystem {
+ public:
+  bool linearize(const Body& body, const Supports& supports, bool definite, const StepTerms& terms) override {
+    body_ = &body;
+    supports_ = &supports;
+    definite_ = definite;
+    terms_ = &terms;
+    is_direct_ = body.grid.brick_count() <= kFewBricks;
+    return now().linearize(body, supports, definite, terms);
+  }
+
+  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& forces, double tolerance) override {
+    const long indefinite = multigrid_->report().indefinite;
+    Eigen::VectorXd answer = now().solve(forces, tolerance);
+    const bool is_lost = answer.size() == 0 && multigrid_->report().indefinite == indefinite;
+    if (is_direct_ || !is_lost || body_->grid.brick_count() > kManyBricks) return answer;
+    if (!direct_->linearize(*body_, *supports_, definite_, *terms_)) return {};
+    ++gone_direct_;
+    return direct_->solve(forces, tolerance);
+  }
+
+  [[nodiscard]] SolveReport report() const override {
+    SolveReport report = multigrid_->report();
+    report.solves += direct_->report().solves - gone_direct_;
+    report.gone_direct = gone_direct_;
+    return report;
+  }
+
+ private:
+  [[nodiscard]] NewtonSystem& now() const { return is_direct_ ? *direct_ : *multigrid_; }
+
+  std::unique_ptr<NewtonSystem> direct_ = make_direct_system();
+  std::unique_ptr<NewtonSystem> multigrid_ = make_multigrid_system();
+  const Body* body_ = nullptr;
+  const Supports* supports_ = nullptr;
+  const StepTerms* terms_ = nullptr;
+  bool definite_ = false;
+  bool is_direct_ = true;
+  long gone_direct_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<NewtonSystem> make_quick_system() { return std::make_unique<QuickSystem>(); }
+
+}  // namespace sprung

@@ -1,0 +1,131 @@
+#pragma once
+#include <Eigen/Core>
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include "core/body/body.h"
+#include "core/contact/point_stiffness.h"
+
+namespace sprung {
+
+/// Which of a body's 3 m degrees of freedom (3 node + axis) keep the value that its positions have.
+struct Supports {
+  std::vector<bool> fixed;  // 3 m
+
+  explicit Supports(int node_count) : fixed(3 * static_cast<std::size_t>(node_count), false) {}
+  void fix(int node, int axis) { fixed[static_cast<std::size_t>(3 * node + axis)] = true; }
+  void fix(int node) {
+    for (int axis = 0; axis < 3; ++axis) fix(node, axis);
+  }
+};
+
+/// What a step in time adds to the stiffness K of a body; as it comes, nothing.
+struct StepTerms {
+  double mass_factor = 0;              // 1/s^2: times the masses
+  double damping = 0;                  // times the springs' stiffness along themselves, without the guard ...
+  Points damping_positions;            // ... where the nodes are here (m x 3, m); not read where damping is zero
+  std::vector<PointStiffness> points;  // contacts, muscles
+  /// The body's own part of what couples it to others: in the preconditioner of an IterativeSystem only.
+  std::vector<PointStiffness> coupled;
+};
+
+/// How the solving went so far.
+struct SolveReport {
+  long solves = 0;
+  long iterations = 0;   // of an iterative solver, all solves
+  int most = 0;          // iterations of one solve
+  long indefinite = 0;   // solves that found the matrix not positive definite
+  long gone_direct = 0;  // solves that the iterative solver had to leave to the direct one
+};
+
+/// The linear systems that Newton's method and linear statics meet: (K + terms) u = f, with K the second derivative of
+/// the elastic energy at a body's positions and u zero where it is supported. The seam between the equations and the
+/// ways to solve them. The same bits for any number of threads.
+class NewtonSystem {
+ public:
+  virtual ~NewtonSystem() = default;
+
+  /// Takes K at body.positions; with `definite`, each brick's K without its negative curvature, and
+  /// motions that meet no resistance held by a stiffness below rounding. Body and terms have to stay as they are until
+  /// the last solve(). False where the matrix is seen not to be positive definite, and then solve() must not be called.
+  virtual bool linearize(const Body& body, const Supports& supports, bool definite, const StepTerms& terms) = 0;
+
+  /// u (3 m, m) for the forces f (3 m, N); entries of f at supports are ignored. An iterative solver stops where the
+  /// forces left over are `tolerance` of f (Euclidean norms). Empty where the matrix turns out not to be positive
+  /// definite, or no answer is found.
+  [[nodiscard]] virtual Eigen::VectorXd solve(const Eigen::VectorXd& forces, double tolerance) = 0;
+
+  [[nodiscard]] virtual SolveReport report() const = 0;
+};
+
+/// One that can be a part of a larger system.
+class IterativeSystem : public NewtonSystem {
+ public:
+  /// (K + terms) u, N, without what is coupled; zero at supports.
+  virtual void multiply(const Eigen::VectorXd& u, Eigen::VectorXd& forces) = 0;
+  /// About the u for the forces, zero at supports. Symmetric and positive definite but for rounding.
+  virtual void precondition(const Eigen::VectorXd& forces, Eigen::VectorXd& u) = 0;
+};
+
+/// Sparse Cholesky (CHOLMOD, supernodal): exact, for small bodies and as the oracle of others. Memory and time grow
+/// faster than the body: some 250 MB and 2 s at 16 000 bricks.
+[[nodiscard]] std::unique_ptr<NewtonSystem> make_direct_system();
+
+/// Conjugate gradients preconditioned by geometric multigrid on the hierarchy of bricks: Galerkin's coarse bricks, each
+/// of up to eight children that hang together, Chebyshev-Jacobi smoothing, the cycle in single precision, the products
+/// outside it exact and in double. Time and memory (some 1.7 kB a brick) grow with the body. Gives up after
+/// `max_iterations` of a solve.
+[[nodiscard]] std::unique_ptr<IterativeSystem> make_multigrid_system(int max_iterations = 150);
+
+/// The quicker of the two for the body's size; where multigrid gives up the direct solver answers, if the body is not
+/// too large for it.
+[[nodiscard]] std::unique_ptr<NewtonSystem> make_quick_system();
+
+/// When conjugate gradients end.
+struct GradientsEnd {
+  double tolerance;    // of the forces, left over
+  double will_do = 0;  // likewise, where the iterations run out
+  int max_iterations;
+};
+
+/// Solves A x = forces by flexible conjugate gradients (Polak-Ribiere: rounding makes a preconditioner not quite the
+/// same in each iteration), by multiply(x, product) and precondition(residual, answer). `forces` and what these give
+/// are zero where A is. Empty where A is not positive definite, or no answer is found.
+template <class Multiply, class Precondition>
+Eigen::VectorXd conjugate_gradients(const Eigen::VectorXd& forces, const GradientsEnd& end, const Multiply& multiply,
+                                    const Precondition& precondition, SolveReport& report) {
+  ++report.solves;
+  Eigen::VectorXd residual = forces;
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(residual.size());
+  const double goal = end.tolerance * forces.norm();
+  if (goal == 0) return x;
+  Eigen::VectorXd z;
+  Eigen::VectorXd product;
+  precondition(residual, z);
+  Eigen::VectorXd direction = z;
+  double descent = residual.dot(z);
+  for (int iteration = 1; iteration <= end.max_iterations; ++iteration) {
+    ++report.iterations;
+    report.most = std::max(report.most, iteration);
+    multiply(direction, product);
+    const double curvature = direction.dot(product);
+    if (!(curvature > 0)) {
+      ++report.indefinite;
+      return {};
+    }
+    const double step = descent / curvature;
+    x += step * direction;
+    residual -= step * product;
+    if (residual.norm() <= goal) return x;
+    precondition(residual, z);
+    const double next = residual.dot(z);
+    direction = z - step * z.dot(product) / descent * direction;
+    descent = next;
+    if (!(descent > 0)) break;
+  }
+  if (residual.norm() <= end.will_do * forces.norm()) return x;
+  return {};
+}
+
+}  // namespace sprung

@@ -1,0 +1,251 @@
+#include <tbb/parallel_for.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <atomic>
+
+#include "core/body/brick_hessian.h"
+#include "core/body/forces.h"
+#include "core/dynamics/linear/linear_solver.h"
+#include "core/dynamics/linear/multigrid_level.h"
+#include "core/dynamics/linear/stiffness.h"
+
+namespace sprung {
+namespace {
+
+using multigrid::kLanes;
+
+constexpr int kCoarsestNodes = 100;
+constexpr double kShift = 1e-9;  // see direct_system.cpp
+
+/// Coarse bricks are too stiff in bending the nearer the material is to incompressible; the smoother makes up for it.
+int smoothing_steps(const Body& body) {
+  if (body.material.poisson > 0.47) return 5;
+  return body.material.poisson > 0.4 ? 3 : 2;
+}
+
+/// A whole brick matrix to its anchored part and its pull, in one lane of a block.
+void put(const BrickMatrix& whole, float* matrix, float* pull) {
+  for (std::size_t a = 0; a < 21; ++a) {
+    for (std::size_t b = 0; b <= a; ++b) {
+      matrix[anchored_index(a, b) * kLanes] =
+          static_cast<float>(whole(static_cast<int>(a + 3), static_cast<int>(b + 3)));
+    }
+  }
+  if (pull == nullptr) return;
+  for (int row = 0; row < 24; ++row) {
+    for (int k = 0; k < 3; ++k) {
+      double sum = 0;
+      for (int corner = 0; corner < 8; ++corner) sum += whole(row, 3 * corner + k);
+      pull[(3 * row + k) * kLanes] = static_cast<float>(sum);
+    }
+  }
+}
+
+/// Whether a symmetric matrix has an eigenvalue clearly below zero.
+bool bends_downward(const BrickMatrix& matrix) {
+  const double raise = 1e-7 * matrix.trace();
+  return Eigen::LLT<BrickMatrix>(matrix + raise * BrickMatrix::Identity()).info() != Eigen::Success;
+}
+
+class MultigridSystem : public IterativeSystem {
+ public:
+  explicit MultigridSystem(int max_iterations) : max_iterations_(max_iterations) {}
+
+  bool linearize(const Body& body, const Supports& supports, bool definite, const StepTerms& terms) override {
+    body_ = &body;
+    terms_ = &terms;
+    definite_ = definite;
+    if (!cycle_ || layouts_.front().bricks != body.grid.nodes) {
+      layouts_ = multigrid::make_hierarchy(body.grid, kCoarsestNodes);
+      products_ = ProductWorkspace();
+      cycle_ = std::make_unique<multigrid::Cycle>(layouts_);
+    }
+    held_ = supports.fixed;
+    fill_finest();
+    return cycle_->prepare(smoothing_steps(body), fastest_of_brick());
+  }
+
+  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& forces, double tolerance) override;
+
+  void multiply(const Eigen::VectorXd& u, Eigen::VectorXd& forces) override;
+  void precondition(const Eigen::VectorXd& forces, Eigen::VectorXd& u) override;
+
+  [[nodiscard]] SolveReport report() const override { return report_; }
+
+ private:
+  void fill_finest();
+  void fill_block(int block, const EdgeCoupling& coupling);
+  [[nodiscard]] double fastest_of_brick() const;
+  [[nodiscard]] bool is_peculiar(std::size_t brick, double volume_ratio) const;
+  [[nodiscard]] bool needs_pull(int block) const;
+  [[nodiscard]] BrickMatrix peculiar_matrix(std::size_t brick) const;
+  void multiply_exactly(const Eigen::VectorXd& x, Eigen::VectorXd& product);
+  void release_held(Eigen::VectorXd& vector) const;
+
+  int max_iterations_;
+  const Body* body_ = nullptr;
+  const StepTerms* terms_ = nullptr;
+  bool definite_ = false;
+  std::atomic<bool> is_guarded_ = false;  // any brick pressed so flat that its guard is at work
+  std::vector<bool> held_;
+  std::vector<multigrid::Layout> layouts_;
+  std::unique_ptr<multigrid::Cycle> cycle_;
+  std::vector<char> is_held_node_;
+  std::vector<std::vector<const PointStiffness*>> points_of_brick_;  // empty where there are none at all
+  ProductWorkspace products_;
+  Eigen::VectorXd damping_product_;
+  multigrid::Floats single_residual_;
+  multigrid::Floats single_answer_;
+  SolveReport report_;
+};
+
+void MultigridSystem::fill_finest() {
+  const auto nodes = static_cast<std::size_t>(body_->node_count());
+  is_held_node_.assign(nodes, 0);
+  for (std::size_t i = 0; i < held_.size(); ++i) {
+    if (held_[i]) is_held_node_[i / 3] = 1;
+  }
+  points_of_brick_.clear();
+  if (!terms_->points.empty() || !terms_->coupled.empty()) points_of_brick_.resize(body_->grid.nodes.size());
+  for (const std::vector<PointStiffness>* points : {&terms_->points, &terms_->coupled}) {
+    for (const PointStiffness& point : *points)
+      points_of_brick_[static_cast<std::size_t>(point.brick)].push_back(&point);
+  }
+  multigrid::Level& finest = cycle_->finest();
+  finest.held.assign(held_.begin(), held_.end());
+  finest.clear_pulls();
+  for (int block = 0; block < finest.block_count(); ++block) {
+    if (needs_pull(block)) finest.add_pull(block);
+  }
+  const EdgeCoupling coupling = edge_coupling(body_->law);
+  is_guarded_ = false;
+  tbb::parallel_for(0, finest.block_count(), [&](int block) { fill_block(block, coupling); });
+  const double shift = definite_ ? kShift * largest_brick_stiffness(*body_) : 0;
+  for (std::size_t node = 0; node < nodes; ++node) {
+    finest.diagonal[node] = terms_->mass_factor * body_->masses[static_cast<Eigen::Index>(node)] + shift;
+  }
+}
+
+/// The fastest eigenvalue of a full brick at rest over its nodes' own blocks; 0 where bricks are too far from that.
+double MultigridSystem::fastest_of_brick() const {
+  if (definite_ || !points_of_brick_.empty() || is_guarded_) return 0;
+  const BrickMatrix brick = rest_brick_hessian(*body_);
+  BrickMatrix blocks = BrickMatrix::Zero();
+  for (int i = 0; i < 24; i += 3) blocks.block<3, 3>(i, i) = brick.block<3, 3>(i, i);
+  return Eigen::GeneralizedSelfAdjointEigenSolver<BrickMatrix>(brick, blocks, Eigen::EigenvaluesOnly)
+      .eigenvalues()
+      .maxCoeff();
+}
+
+bool MultigridSystem::needs_pull(int block) const {
+  const auto first = static_cast<std::size_t>(block * kLanes);
+  const std::size_t last = std::min(first + kLanes, body_->grid.nodes.size());
+  for (std::size_t brick = first; brick < last; ++brick) {
+    if (!points_of_brick_.empty() && !points_of_brick_[brick].empty()) return true;
+    for (const int node : body_->grid.nodes[brick]) {
+      if (is_held_node_[static_cast<std::size_t>(node)] != 0) return true;
+    }
+  }
+  return false;
+}
+
+bool MultigridSystem::is_peculiar(std::size_t brick, double volume_ratio) const {
+  if (volume_ratio < body_->law.guard_ratio || definite_ || body_->is_hexahedral()) return true;
+  if (!points_of_brick_.empty() && !points_of_brick_[brick].empty()) return true;
+  return std::any_of(body_->grid.nodes[brick].begin(), body_->grid.nodes[brick].end(),
+                     [&](int node) { return is_held_node_[static_cast<std::size_t>(node)] != 0; });
+}
+
+void MultigridSystem::fill_block(int block, const EdgeCoupling& coupling) {
+  multigrid::Level& finest = cycle_->finest();
+  float* matrix = finest.matrix(block);
+  const int first = block * kLanes;
+  std::array<float, kLanes> volume_ratios{};
+  multigrid::kernels().stiffness_matrices(block_input(*body_), coupling, 1 + terms_->damping, first, matrix,
+                                          volume_ratios.data());
+  float* pull = needs_pull(block) ? finest.add_pull(block) : nullptr;
+  for (int brick = first; brick < std::min(first + kLanes, body_->grid.brick_count()); ++brick) {
+    const int lane = brick - first;
+    const auto b = static_cast<std::size_t>(brick);
+    const auto volume_ratio = static_cast<double>(volume_ratios[static_cast<std::size_t>(lane)]);
+    if (volume_ratio < body_->law.guard_ratio) is_guarded_ = true;
+    if (!is_peculiar(b, volume_ratio)) continue;
+    put(peculiar_matrix(b), matrix + lane, pull == nullptr ? nullptr : pull + lane);
+  }
+}
+
+/// The matrix of a brick that is more than its springs, held degrees of freedom taken out.
+BrickMatrix MultigridSystem::peculiar_matrix(std::size_t brick) const {
+  BrickMatrix matrix = (1 + terms_->damping) * body_brick_hessian(*body_, brick);
+  if (definite_ && bends_downward(matrix)) matrix = without_negative_curvature(matrix);
+  if (!points_of_brick_.empty()) {
+    for (const PointStiffness* point : points_of_brick_[brick]) add_point_stiffness(*point, matrix);
+  }
+  for (int i = 0; i < 24; ++i) {
+    const int node = body_->grid.nodes[brick][static_cast<std::size_t>(i / 3)];
+    if (!held_[static_cast<std::size_t>(3 * node + i % 3)]) continue;
+    matrix.row(i).setZero();
+    matrix.col(i).setZero();
+  }
+  return matrix;
+}
+
+void MultigridSystem::release_held(Eigen::VectorXd& vector) const {
+  for (Eigen::Index i = 0; i < vector.size(); ++i) {
+    if (held_[static_cast<std::size_t>(i)]) vector[i] = 0;
+  }
+}
+
+void MultigridSystem::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& product) {
+  if (definite_) {
+    cycle_->finest().multiply(x, product);
+    for (PointStiffness point : terms_->coupled) {
+      point.stiffness = -point.stiffness;
+      add_point_product(*body_, point, x, product);
+    }
+  } else {
+    multiply_exactly(x, product);
+  }
+  release_held(product);
+}
+
+void MultigridSystem::multiply_exactly(const Eigen::VectorXd& x, Eigen::VectorXd& product) {
+  multiply_stiffness(*body_, x, products_, product);
+  if (terms_->damping != 0) {
+    multiply_damping(*body_, terms_->damping_positions, terms_->damping, x, products_, damping_product_);
+    product += damping_product_;
+  }
+  if (terms_->mass_factor != 0) {
+    for (Eigen::Index i = 0; i < x.size(); ++i) product[i] += terms_->mass_factor * body_->masses[i / 3] * x[i];
+  }
+  for (const PointStiffness& point : terms_->points) add_point_product(*body_, point, x, product);
+}
+
+void MultigridSystem::precondition(const Eigen::VectorXd& residual, Eigen::VectorXd& answer) {
+  const double largest = residual.lpNorm<Eigen::Infinity>();  // brings single precision into its range
+  if (largest == 0) {
+    answer.setZero(residual.size());
+    return;
+  }
+  single_residual_ = (residual / largest).cast<float>();
+  cycle_->apply(single_residual_, single_answer_);
+  answer = largest * single_answer_.cast<double>();
+}
+
+Eigen::VectorXd MultigridSystem::solve(const Eigen::VectorXd& forces, double tolerance) {
+  Eigen::VectorXd free = forces;
+  release_held(free);
+  return conjugate_gradients(
+      free, {.tolerance = tolerance, .max_iterations = max_iterations_},
+      [&](const auto& x, auto& product) { multiply(x, product); },
+      [&](const auto& residual, auto& answer) { precondition(residual, answer); }, report_);
+}
+
+}  // namespace
+
+std::unique_ptr<IterativeSystem> make_multigrid_system(int max_iterations) {
+  return std::make_unique<MultigridSystem>(max_iterations);
+}
+
+}  // namespace sprung

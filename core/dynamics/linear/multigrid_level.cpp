@@ -1,0 +1,386 @@
+#include "core/dynamics/linear/multigrid_level.h"
+
+#include <tbb/parallel_for.h>
+
+#include <Eigen/LU>
+#include <numeric>
+
+namespace sprung::multigrid {
+namespace {
+
+constexpr int kNodesPerTask = 512;
+constexpr int kBlocksPerTask = 8;
+constexpr int kPowerSteps = 10;
+constexpr double kPowerMargin = 1.1;  // the power iteration comes from below
+
+template <class Body>
+void for_nodes(int count, const Body& body) {
+  tbb::parallel_for(tbb::blocked_range<int>(0, count, kNodesPerTask), [&](const tbb::blocked_range<int>& range) {
+    for (int node = range.begin(); node < range.end(); ++node) body(node);
+  });
+}
+
+/// The inverse between the axes that are free, zero in the others.
+Eigen::Matrix3f inverse_of_free(Eigen::Matrix3d block, const char* held) {
+  for (int k = 0; k < 3; ++k) {
+    if (held[k] == 0) continue;
+    block.row(k).setZero();
+    block.col(k).setZero();
+    block(k, k) = 1;
+  }
+  Eigen::Matrix3d inverse = block.inverse();
+  for (int k = 0; k < 3; ++k) {
+    if (held[k] != 0) inverse(k, k) = 0;
+  }
+  return inverse.cast<float>();
+}
+
+}  // namespace
+
+Level::Level(const Layout& layout) : layout_(&layout) {
+  const std::size_t blocks = (layout.bricks.size() + kLanes - 1) / kLanes;
+  matrices_.assign(kAnchoredSize * kLanes * blocks, 0);
+  rounded_.assign(matrices_.size(), 0);
+  units_.assign(kLanes * blocks, 0);
+  pull_of_block_.assign(blocks, -1);
+  diagonal.assign(static_cast<std::size_t>(layout.node_count), 0);
+  held.assign(3 * static_cast<std::size_t>(layout.node_count), 0);
+  corner_forces_.resize(static_cast<Eigen::Index>(24 * kLanes * blocks));
+  corner_places_.reserve(layout.corners.corners.size());
+  for (const int corner : layout.corners.corners) {
+    const auto brick = static_cast<std::size_t>(corner / 8);
+    corner_places_.push_back((brick / kLanes * 24 + 3 * static_cast<std::size_t>(corner % 8)) * kLanes +
+                             brick % kLanes);
+  }
+}
+
+FineMatrices Level::matrices() const {
+  return {.matrices = matrices_.data(), .pulls = pulls_.data(), .pull_of_block = pull_of_block_.data()};
+}
+
+float* Level::add_pull(int block) {
+  int& pull = pull_of_block_[static_cast<std::size_t>(block)];
+  if (pull < 0) {
+    pull = static_cast<int>(pulls_.size() / (kPullSize * kLanes));
+    pulls_.resize(pulls_.size() + kPullSize * kLanes, 0);
+  }
+  return &pulls_[kPullSize * kLanes * static_cast<std::size_t>(pull)];
+}
+
+LevelBlock Level::input(int block) const {
+  const auto b = static_cast<std::size_t>(block);
+  const int pull = pull_of_block_[b];
+  return {.matrix = &matrices_[kAnchoredSize * kLanes * b],
+          .rounded = &rounded_[kAnchoredSize * kLanes * b],
+          .units = &units_[kLanes * b],
+          .pull = pull < 0 ? nullptr : &pulls_[kPullSize * kLanes * static_cast<std::size_t>(pull)],
+          .nodes = &layout_->bricks[kLanes * b],
+          .count = std::min(kLanes, static_cast<int>(layout_->bricks.size()) - block * kLanes)};
+}
+
+void Level::clear_pulls() {
+  pulls_.clear();
+  std::fill(pull_of_block_.begin(), pull_of_block_.end(), -1);
+}
+
+void Level::coarsen(const Level& fine) {
+  clear_pulls();
+  const std::span<const Children> children = layout_->children;
+  std::vector<float> pulls(kPullSize * kLanes * static_cast<std::size_t>(block_count()));
+  std::vector<char> has_pull(static_cast<std::size_t>(block_count()));
+  tbb::parallel_for(0, block_count(), [&](int block) {
+    const auto b = static_cast<std::size_t>(block);
+    const auto bricks = children.subspan(b * kLanes, std::min<std::size_t>(kLanes, children.size() - b * kLanes));
+    has_pull[b] = kernels().coarsen(fine.matrices(), bricks, matrix(block), &pulls[b * kPullSize * kLanes]) ? 1 : 0;
+  });
+  for (int block = 0; block < block_count(); ++block) {
+    if (has_pull[static_cast<std::size_t>(block)] == 0) continue;
+    float* pull = add_pull(block);
+    std::copy_n(&pulls[static_cast<std::size_t>(block) * kPullSize * kLanes], kPullSize * kLanes, pull);
+  }
+  const Interpolation& hang = fine.layout().to_coarse;
+  for (std::size_t node = 0; node < diagonal.size(); ++node) {
+    double sum = 0;
+    std::array<char, 3> all_held{1, 1, 1};
+    for (int i = hang.first_fine[node]; i < hang.first_fine[node + 1]; ++i) {
+      const auto from = static_cast<std::size_t>(hang.fine_nodes[static_cast<std::size_t>(i)]);
+      sum += fine.diagonal[from] / hang.counts[from];
+      for (std::size_t k = 0; k < 3; ++k) all_held[k] = all_held[k] != 0 && fine.held[3 * from + k] != 0 ? 1 : 0;
+    }
+    diagonal[node] = sum;
+    std::copy(all_held.begin(), all_held.end(), &held[3 * node]);
+  }
+}
+
+void Level::release_held(Floats& x) const {
+  for_nodes(layout_->node_count, [&](int node) {
+    for (int i = 3 * node; i < 3 * node + 3; ++i) {
+      if (held[static_cast<std::size_t>(i)] != 0) x[i] = 0;
+    }
+  });
+}
+
+template <class Vector, class Apply>
+void Level::multiply_bricks(const Vector& x, Vector& product, Apply apply) const {
+  using Number = typename Vector::Scalar;
+  Vector* room = nullptr;
+  if constexpr (std::is_same_v<Number, float>) {
+    room = &corner_forces_;
+  } else {
+    corner_forces_double_.resize(corner_forces_.size());
+    room = &corner_forces_double_;
+  }
+  Number* forces = room->data();
+  product.resize(x.size());
+  tbb::parallel_for(tbb::blocked_range<int>(0, block_count(), kBlocksPerTask),
+                    [&](const tbb::blocked_range<int>& range) {
+                      for (int block = range.begin(); block < range.end(); ++block) {
+                        apply(input(block), x.data(), forces + 24 * kLanes * static_cast<std::size_t>(block));
+                      }
+                    });
+  for_nodes(layout_->node_count, [&](int node) {
+    const auto n = static_cast<std::size_t>(node);
+    const auto inertia = static_cast<Number>(diagonal[n]);
+    Number sum[3];
+    for (int k = 0; k < 3; ++k) sum[k] = inertia * x[3 * node + k];
+    for (int i = layout_->corners.first[n]; i < layout_->corners.first[n + 1]; ++i) {
+      const Number* force = forces + corner_places_[static_cast<std::size_t>(i)];
+      for (int k = 0; k < 3; ++k) sum[k] += force[k * kLanes];
+    }
+    for (int k = 0; k < 3; ++k) product[3 * node + k] = sum[k];
+  });
+}
+
+void Level::multiply(const Floats& x, Floats& product) const { multiply_bricks(x, product, kernels().apply); }
+
+void Level::multiply_rounded(const Floats& x, Floats& product) const {
+  multiply_bricks(x, product, kernels().apply_rounded);
+}
+
+void Level::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& product) const {
+  multiply_bricks(x, product, kernels().apply_double);
+}
+
+double Level::entry(std::size_t brick, std::size_t row, std::size_t column) const {
+  const std::size_t block = brick / kLanes;
+  const std::size_t lane = brick % kLanes;
+  if (row < 3) std::swap(row, column);
+  if (row >= 3 && column >= 3) {
+    const std::size_t index = anchored_index(std::max(row, column) - 3, std::min(row, column) - 3);
+    return static_cast<double>(matrices_[(block * kAnchoredSize + index) * kLanes + lane]);
+  }
+  const int pull = pull_of_block_[block];
+  double rest = 0;
+  if (pull >= 0) {
+    rest = static_cast<double>(pulls_[(static_cast<std::size_t>(pull) * kPullSize + 3 * row + column) * kLanes + lane]);
+  }
+  for (std::size_t corner = 1; corner < 8; ++corner) rest -= entry(brick, row, 3 * corner + column);
+  return rest;
+}
+
+void Level::prepare_smoother(double fastest_of_brick) {
+  std::vector<float> blocks(48 * kLanes * static_cast<std::size_t>(block_count()));
+  tbb::parallel_for(0, block_count(), [&](int block) {
+    const auto b = static_cast<std::size_t>(block);
+    kernels().corner_blocks(input(block), &blocks[48 * kLanes * b]);
+    kernels().round(matrix(block), &rounded_[kAnchoredSize * kLanes * b], &units_[kLanes * b]);
+  });
+  inverse_blocks_.resize(static_cast<std::size_t>(layout_->node_count));
+  for_nodes(layout_->node_count, [&](int node) {
+    const auto n = static_cast<std::size_t>(node);
+    Eigen::Matrix3d sum = diagonal[n] * Eigen::Matrix3d::Identity();
+    for (int i = layout_->corners.first[n]; i < layout_->corners.first[n + 1]; ++i) {
+      const auto corner = static_cast<std::size_t>(layout_->corners.corners[static_cast<std::size_t>(i)]);
+      const std::size_t brick = corner / 8;
+      const float* entry = &blocks[(brick / kLanes * 48 + corner % 8 * 6) * kLanes + brick % kLanes];
+      for (int r = 0; r < 3; ++r) {
+        for (int c = r; c < 3; ++c, entry += kLanes) sum(c, r) += static_cast<double>(*entry);
+      }
+    }
+    inverse_blocks_[n] = inverse_of_free(sum.selfadjointView<Eigen::Lower>(), &held[3 * n]);
+  });
+  fastest_ = static_cast<float>(fastest_of_brick);
+  if (fastest_of_brick == 0) find_fastest();
+}
+
+void Level::find_fastest() {
+  Floats x(3 * layout_->node_count);
+  std::uint32_t state = 12345;
+  for (float& value : x) {
+    state = state * 1664525U + 1013904223U;
+    value = static_cast<float>(state >> 8U) / static_cast<float>(1U << 24U) - 0.5F;
+  }
+  double growth = 1;
+  for (int step = 0; step < kPowerSteps; ++step) {
+    multiply(x, product_);
+    for_nodes(layout_->node_count, [&](int node) {
+      x.segment<3>(3 * node) = inverse_blocks_[static_cast<std::size_t>(node)] * product_.segment<3>(3 * node);
+    });
+    growth = x.cast<double>().norm();
+    if (!(growth > 0)) {
+      growth = 1;
+      break;
+    }
+    x *= static_cast<float>(1 / growth);
+  }
+  fastest_ = static_cast<float>(kPowerMargin * growth);
+}
+
+void Level::smooth(int steps, Floats& x, Floats& residual, bool with_residual) const {
+  direction_.resize(x.size());
+  for (int step = 1; step <= steps; ++step) {
+    const auto s = static_cast<float>(step);
+    const float keep = (2 * s - 3) / (2 * s + 1);
+    const float take = (8 * s - 4) / ((2 * s + 1) * fastest_);
+    const bool is_first = step == 1;
+    for_nodes(layout_->node_count, [&](int node) {
+      Eigen::Vector3f d = take * (inverse_blocks_[static_cast<std::size_t>(node)] * residual.segment<3>(3 * node));
+      if (!is_first) d += keep * direction_.segment<3>(3 * node);
+      direction_.segment<3>(3 * node) = d;
+      x.segment<3>(3 * node) += d;
+    });
+    if (step == steps && !with_residual) break;
+    multiply_rounded(direction_, product_);
+    for_nodes(layout_->node_count, [&](int node) { residual.segment<3>(3 * node) -= product_.segment<3>(3 * node); });
+  }
+}
+
+void Level::smooth(int steps, Floats& x, Floats& residual) const { smooth(steps, x, residual, true); }
+
+Eigen::MatrixXd Level::dense() const {
+  const Eigen::Index size = 3 * layout_->node_count;
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(size, size);
+  for (std::size_t brick = 0; brick < layout_->bricks.size(); ++brick) {
+    for (std::size_t row = 0; row < 24; ++row) {
+      for (std::size_t column = 0; column < 24; ++column) {
+        matrix(3 * layout_->bricks[brick][row / 3] + static_cast<int>(row % 3),
+               3 * layout_->bricks[brick][column / 3] + static_cast<int>(column % 3)) += entry(brick, row, column);
+      }
+    }
+  }
+  for (Eigen::Index i = 0; i < size; ++i) {
+    matrix(i, i) += diagonal[static_cast<std::size_t>(i / 3)];
+    if (held[static_cast<std::size_t>(i)] == 0) continue;
+    matrix.row(i).setZero();
+    matrix.col(i).setZero();
+    matrix(i, i) = 1;
+  }
+  return matrix;
+}
+
+void restrict_to_coarse(const Interpolation& hang, const Floats& fine, Floats& coarse) {
+  const int count = static_cast<int>(hang.first_fine.size()) - 1;
+  coarse.resize(Eigen::Index{3} * count);
+  for_nodes(count, [&](int node) {
+    Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+    const auto n = static_cast<std::size_t>(node);
+    for (int i = hang.first_fine[n]; i < hang.first_fine[n + 1]; ++i) {
+      const int from = hang.fine_nodes[static_cast<std::size_t>(i)];
+      sum += fine.segment<3>(3 * from) / static_cast<float>(hang.counts[static_cast<std::size_t>(from)]);
+    }
+    coarse.segment<3>(3 * node) = sum;
+  });
+}
+
+void add_from_coarse(const Interpolation& hang, const Floats& coarse, Floats& fine) {
+  for_nodes(static_cast<int>(hang.counts.size()), [&](int node) {
+    const auto n = static_cast<std::size_t>(node);
+    Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+    for (std::size_t i = 0; i < hang.counts[n]; ++i) sum += coarse.segment<3>(3 * hang.coarse_nodes[n][i]);
+    fine.segment<3>(3 * node) += sum / static_cast<float>(hang.counts[n]);
+  });
+}
+
+namespace {
+
+/// What the coarsest level's diagonal is raised by, relative: single precision leaves no more certain.
+constexpr double kRaise = 1e-7;
+
+/// Of the residual: a coarse level that the first step brings so low takes no second one.
+constexpr float kEnough = 0.25F;
+
+double dot(const Floats& a, const Floats& b) { return static_cast<double>(a.dot(b)); }
+
+}  // namespace
+
+Cycle::Cycle(const std::vector<Layout>& layouts) : rooms_(layouts.size()) {
+  levels_.reserve(layouts.size());
+  for (const Layout& layout : layouts) levels_.emplace_back(layout);
+}
+
+bool Cycle::prepare(int steps, double fastest_of_brick) {
+  steps_ = steps;
+  for (std::size_t i = 0; i < levels_.size(); ++i) {
+    if (i > 0) levels_[i].coarsen(levels_[i - 1]);
+    if (i + 1 < levels_.size()) levels_[i].prepare_smoother(i == 0 ? fastest_of_brick : 0);
+  }
+  Eigen::MatrixXd dense = levels_.back().dense();
+  dense.diagonal() *= 1 + kRaise;
+  coarsest_.compute(dense);
+  return coarsest_.info() == Eigen::Success;
+}
+
+void Cycle::apply(const Floats& b, Floats& x) const {
+  rooms_[0].residual = b;
+  descend(0, rooms_[0].residual, x);
+}
+
+void Cycle::descend(std::size_t level, Floats& residual, Floats& x) const {
+  x.setZero(residual.size());
+  if (level + 1 == levels_.size()) {
+    solve_coarsest(residual, x);
+    return;
+  }
+  const Level& here = levels_[level];
+  const Interpolation& hang = here.layout().to_coarse;
+  Room& room = rooms_[level];
+  Room& coarse = rooms_[level + 1];
+  here.smooth(steps_, x, residual);
+  restrict_to_coarse(hang, residual, coarse.right);
+  solve_coarse(level + 1, coarse.right, coarse.answer);
+  room.correction.setZero(x.size());
+  add_from_coarse(hang, coarse.answer, room.correction);
+  here.release_held(room.correction);
+  x += room.correction;
+  here.multiply(room.correction, room.product);
+  residual -= room.product;
+  here.smooth_last(steps_, x, residual);
+}
+
+void Cycle::solve_coarse(std::size_t level, const Floats& b, Floats& x) const {
+  Room& room = rooms_[level];
+  room.residual = b;
+  descend(level, room.residual, x);
+  if (level + 1 == levels_.size()) return;
+  const Level& here = levels_[level];
+  here.multiply(x, room.first_product);
+  const double curvature = dot(x, room.first_product);
+  const double descent = dot(x, b);
+  if (!(curvature > 0)) return;
+  const auto step = static_cast<float>(descent / curvature);
+  room.left = b - step * room.first_product;
+  if (room.left.norm() <= kEnough * b.norm()) {
+    x *= step;
+    return;
+  }
+  room.residual = room.left;
+  descend(level, room.residual, room.second);
+  here.multiply(room.second, room.product);
+  const double mixed = dot(room.second, room.first_product);
+  const double second_curvature = dot(room.second, room.product) - mixed * mixed / curvature;
+  if (!(second_curvature > 0)) {
+    x *= step;
+    return;
+  }
+  const double second_step = dot(room.second, room.left) / second_curvature;
+  x = static_cast<float>(descent / curvature - mixed * second_step / curvature) * x +
+      static_cast<float>(second_step) * room.second;
+}
+
+void Cycle::solve_coarsest(const Floats& residual, Floats& x) const {
+  const Eigen::VectorXd exact = coarsest_.solve(residual.cast<double>());
+  x = exact.cast<float>();
+  levels_.back().release_held(x);
+}
+
+}  // namespace sprung::multigrid

@@ -1,0 +1,216 @@
+#include "core/dynamics/statics/statics.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/body/brick_hessian.h"
+#include "core/body/forces.h"
+#include "core/error.h"
+
+namespace sprung {
+namespace {
+
+/// K u: the forces (m x 3, N) that hold the displacements u.
+Points holding_forces(const Body& body, const Points& displacements) {
+  Points forces = Points::Zero(body.node_count(), 3);
+  for (std::size_t brick = 0; brick < body.grid.nodes.size(); ++brick) {
+    const auto& nodes = body.grid.nodes[brick];
+    Eigen::Matrix<double, 24, 1> u;
+    for (int c = 0; c < 8; ++c) {
+      u.segment<3>(Eigen::Index{3} * c) = displacements.row(nodes[static_cast<std::size_t>(c)]).transpose();
+    }
+    const Eigen::Matrix<double, 24, 1> f = body_brick_hessian(body, brick) * u;
+    for (int c = 0; c < 8; ++c) {
+      forces.row(nodes[static_cast<std::size_t>(c)]) += f.segment<3>(Eigen::Index{3} * c).transpose();
+    }
+  }
+  return forces;
+}
+
+}  // namespace
+
+LinearResponse linear_response(const Body& body, const Supports& supports, const Points& loads, const Points& movements,
+                               NewtonSystem& system) {
+  LinearResponse response;
+  response.displacements = Points::Zero(body.node_count(), 3);
+  for (Eigen::Index i = 0; i < movements.size(); ++i) {
+    if (supports.fixed[static_cast<std::size_t>(i)]) response.displacements.data()[i] = movements.data()[i];
+  }
+  if (std::find(supports.fixed.begin(), supports.fixed.end(), false) != supports.fixed.end()) {
+    const Points driving = loads - holding_forces(body, response.displacements);
+    const Eigen::VectorXd free = solve_linear(body, supports, driving, system);
+    response.displacements += Eigen::Map<const Points>(free.data(), body.node_count(), 3);
+  }
+  response.reactions = holding_forces(body, response.displacements) - loads;
+  for (Eigen::Index i = 0; i < movements.size(); ++i) {
+    if (!supports.fixed[static_cast<std::size_t>(i)]) response.reactions.data()[i] = 0;
+  }
+  return response;
+}
+
+namespace {
+
+constexpr double kLongestStep = 0.5;       // body lengths; a longer one leads nowhere
+constexpr double kFree = 100;              // a displacement of that many body lengths is no deformation
+constexpr double kNewtonTolerance = 1e-4;  // of a direction; Newton's method takes care of what is left
+constexpr double kLinearTolerance = 1e-11;
+
+Eigen::Map<const Eigen::VectorXd> flat(const Points& points) { return {points.data(), points.size()}; }
+
+double extent(const Body& body) {
+  return (body.positions.colwise().maxCoeff() - body.positions.colwise().minCoeff()).maxCoeff() +
+         body.positions.cwiseAbs().maxCoeff();
+}
+
+/// Newton's method at one load.
+class Equilibrium {
+ public:
+  Equilibrium(Body& body, const Supports& supports, const Points& loads, NewtonSystem& system,
+              const StaticOptions& options)
+      : body_(body),
+        supports_(supports),
+        loads_(loads),
+        system_(system),
+        options_(options),
+        rounding_(4 * std::numeric_limits<double>::epsilon() * extent(body)),
+        rounding_force_(8 * largest_brick_stiffness(body) * rounding_) {}
+
+  /// False where it does not converge; the body is then anywhere.
+  bool find(StaticReport& report) {
+    for (int iteration = 0; iteration < options_.max_iterations; ++iteration) {
+      const Eigen::VectorXd residual = unbalanced();
+      report.residual = residual.lpNorm<Eigen::Infinity>() / largest_force_;
+      if (!std::isfinite(report.residual)) return false;
+      if (report.residual <= std::max(options_.tolerance, rounding_force_ / largest_force_)) return true;
+      ++report.iterations;
+      if (!step(residual)) return false;
+    }
+    return false;
+  }
+
+ private:
+  /// Force on each free degree of freedom, 3 m; also notes the largest force at work.
+  Eigen::VectorXd unbalanced() {
+    spring_forces(body_, workspace_, forces_);
+    Eigen::VectorXd total = flat(forces_) + flat(loads_);
+    largest_force_ = std::max({flat(forces_).lpNorm<Eigen::Infinity>(), flat(loads_).lpNorm<Eigen::Infinity>(),
+                               std::numeric_limits<double>::min()});
+    for (int i = 0; i < total.size(); ++i) {
+      if (supports_.fixed[static_cast<std::size_t>(i)]) total[i] = 0;
+    }
+    return total;
+  }
+
+  double potential() { return elastic_energy(body_, workspace_) - flat(loads_).dot(flat(body_.positions)); }
+
+  /// One step downhill. False where no step lowers the energy any more.
+  bool step(const Eigen::VectorXd& residual) {
+    const Eigen::VectorXd direction = downhill(residual);
+    if (direction.size() == 0) return false;
+    const double slope = direction.dot(residual);
+    const Points before = body_.positions;
+    const double energy = potential();
+    // Close to the minimum the energy no longer resolves a step (what a rounded position costs in energy); a full
+    // Newton step is then right.
+    const double noise = rounding_ * (flat(loads_).lpNorm<1>() + corner_force_sum(body_));
+    for (double share = 1; share > 1e-8; share /= 2) {
+      body_.positions = before;
+      Eigen::Map<Eigen::VectorXd>(body_.positions.data(), body_.positions.size()) += share * direction;
+      if (potential() <= energy - 1e-4 * share * slope + noise) return true;
+    }
+    body_.positions = before;
+    return false;
+  }
+
+  /// Newton's direction, from the true curvature where that is positive, else from its positive part; empty: neither.
+  Eigen::VectorXd downhill(const Eigen::VectorXd& residual) {
+    for (const bool definite : {false, true}) {
+      if (!system_.linearize(body_, supports_, definite, no_terms_)) continue;
+      Eigen::VectorXd direction = system_.solve(residual, kNewtonTolerance);
+      if (direction.size() == 0) continue;
+      const double longest = direction.cwiseAbs().maxCoeff() / (kLongestStep * extent(body_));
+      if (!direction.allFinite() || (longest > 1 && !definite)) continue;
+      return direction / std::max(1.0, longest);
+    }
+    return {};
+  }
+
+  Body& body_;
+  const Supports& supports_;
+  const Points& loads_;
+  NewtonSystem& system_;
+  const StepTerms no_terms_;
+  const StaticOptions& options_;
+  double rounding_;        // of a position, m
+  double rounding_force_;  // that it makes, N
+  ForceWorkspace workspace_;
+  Points forces_;
+  double largest_force_ = 0;
+};
+
+}  // namespace
+
+Eigen::VectorXd solve_linear(const Body& body, const Supports& supports, const Points& loads, NewtonSystem& system) {
+  // A motion without resistance (plain springs let a thin bar twist) does no harm where no load drives it: then the
+  // second, slightly held system answers.
+  const StepTerms no_terms;
+  for (const bool definite : {false, true}) {
+    if (!system.linearize(body, supports, definite, no_terms)) continue;
+    Eigen::VectorXd displacement = system.solve(flat(loads), kLinearTolerance);
+    if (displacement.size() > 0 && displacement.cwiseAbs().maxCoeff() < kFree * extent(body)) return displacement;
+  }
+  throw Error(ErrorKind::kBadInput, "the supports leave the body free to move under its loads: hold more of it");
+}
+
+StaticReport solve_static(Body& body, const Supports& supports, const Points& loads, const Points& start,
+                          NewtonSystem& system, const StaticOptions& options) {
+  const Points goal = body.positions;
+  const auto move_supports = [&](double share) {
+    for (int i = 0; i < goal.size(); ++i) {
+      if (!supports.fixed[static_cast<std::size_t>(i)]) continue;
+      body.positions.data()[i] = start.data()[i] + share * (goal.data()[i] - start.data()[i]);
+    }
+  };
+  StaticReport report;
+  report.load_steps = 0;
+  double done = 0;
+  double stride = 1;
+  body.positions = start;
+  while (done < 1) {
+    const double share = std::min(1.0, done + stride);
+    const Points before = body.positions;
+    move_supports(share);
+    const Points load = share * loads;
+    if (Equilibrium(body, supports, load, system, options).find(report)) {
+      done = share;
+      ++report.load_steps;
+      stride *= 2;
+      continue;
+    }
+    body.positions = before;
+    stride = std::min(stride, share - done) / 2;
+    if (stride * options.max_load_steps < 1) {
+      throw Error(ErrorKind::kDiverged,
+                  fmt::format("no equilibrium found beyond {:.3g} of the load (residual {:.2g}): the body may have "
+                              "buckled or collapsed; use a stiffer material, a smaller load or more bricks",
+                              done, report.residual));
+    }
+  }
+  return report;
+}
+
+Points reactions(const Body& body, const Supports& supports, const Points& loads) {
+  ForceWorkspace workspace;
+  Points forces;
+  spring_forces(body, workspace, forces);
+  Points held = -(forces + loads);
+  for (int i = 0; i < held.size(); ++i) {
+    if (!supports.fixed[static_cast<std::size_t>(i)]) held.data()[i] = 0;
+  }
+  return held;
+}
+
+}  // namespace sprung

@@ -1,0 +1,45 @@
+#pragma once
+#include "core/dynamics/linear/linear_solver.h"
+
+namespace sprung {
+
+/// How a body answers small loads and small movements of its supports, at the positions it has.
+struct LinearResponse {
+  Points displacements;  // m x 3, m
+  Points reactions;      // m x 3, N: of the supports, zero on free degrees of freedom
+};
+
+/// Solves K u = loads (m x 3, N) with u = `movements` (m x 3, m) where it is supported; the other entries of
+/// `movements` are ignored. Throws Error(kBadInput) where the supports leave the body free to move.
+[[nodiscard]] LinearResponse linear_response(const Body& body, const Supports& supports, const Points& loads,
+                                             const Points& movements, NewtonSystem& system);
+
+struct StaticOptions {
+  double tolerance = 1e-9;   // largest force left on a free node over the largest force at work (loads, reactions)
+  int max_iterations = 200;  // of Newton's method, in each load step
+  int max_load_steps = 256;  // the load is cut in ever more steps where Newton's method does not get there
+};
+
+struct StaticReport {
+  int iterations = 0;  // of Newton's method, all load steps
+  int load_steps = 1;
+  double residual = 0;  // as StaticOptions::tolerance measures it
+};
+
+/// Small displacements (3 m, m) under `loads` (m x 3, N): one linear solve at the positions the body has.
+/// Throws Error(kBadInput) where the supports leave the body free to move.
+[[nodiscard]] Eigen::VectorXd solve_linear(const Body& body, const Supports& supports, const Points& loads,
+                                           NewtonSystem& system);
+
+/// Moves the body into equilibrium under dead loads (m x 3, N): the minimum of elastic energy - loads . positions, by
+/// Newton's method with a line search, large deformations and volume guard included. Supported degrees of freedom keep
+/// the positions they come with; `start` (m x 3, m) is where they were before, so that both loads and movements of the
+/// supports are applied in steps where one is not enough.
+/// Throws Error(kDiverged) with load share and residual where no equilibrium is found.
+StaticReport solve_static(Body& body, const Supports& supports, const Points& loads, const Points& start,
+                          NewtonSystem& system, const StaticOptions& options = {});
+
+/// Forces that the supports exert (m x 3, N); zero on free degrees of freedom.
+[[nodiscard]] Points reactions(const Body& body, const Supports& supports, const Points& loads);
+
+}  // namespace sprung

@@ -1,0 +1,131 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/bricks/embedding.h"
+#include "core/io/file_lock.h"
+#include "core/io/hdf5_file.h"
+#include "core/pose.h"
+#include "core/skin/skin.h"
+#include "core/world/world.h"
+
+namespace sprung {
+
+/// sRGB, as in scenes.
+using CachedColor = std::array<std::uint8_t, 3>;
+
+/// One soft body as it does not change: row of World::actors.
+struct CachedActor {
+  int body = 0;  // row of the scene's bodies
+  int copy = 0;  // of the body, which one
+  CachedColor color{};
+  BrickGrid grid;                       // without patches, which only embed() reads
+  std::vector<double> stiffness_scale;  // per brick: fill times the stiffness of its region over the body's
+  std::vector<int> regions;             // per brick: of the scene's body, counted from 1; 0: of none
+  Eigen::VectorXd masses;               // per node, kg
+  Points rest_positions;                // m x 3, m
+  std::vector<int> pinned;              // nodes that pins hold at any time
+  Skin skin;
+  Embedding embedding;
+  std::vector<int> carried;  // rows of the body's mesh that ride on this actor ...
+  Embedding carried_embedding;
+};
+
+/// Something solid as it is drawn; how it moves is in the scene.
+struct CachedObstacle {
+  CachedColor color{};
+  Pose start;
+  Skin skin;  // in the frame of its shape; empty: level ground
+};
+
+/// What a run is made from.
+struct CacheHeader {
+  std::string version;        // of the program
+  std::string build;          // which of all that have this version
+  std::string scene;          // TOML, as resolved
+  std::string progress_name;  // "time_s", "load", "mode"
+  double size = 0;            // m, longest side of the largest body
+  double position_error = 0;  // m: a node's coordinate may be that far off in a frame; 0: every bit is kept
+  double velocity_error = 0;  // m/s, likewise
+  std::vector<std::string> probes;
+  std::vector<Skin> meshes;  // of the scene's bodies, as their files have them; normals: 0 rows where those have none
+  std::vector<CachedActor> actors;
+  std::vector<CachedObstacle> obstacles;
+};
+
+/// What a frame has beside the state of its nodes.
+struct CachedFrame {
+  double progress = 0;         // time (s), or share of the load, or number of the mode
+  std::vector<double> probes;  // 12 each: position, displacement (m), force (N), torque (N m)
+  std::uint64_t state_hash = 0;
+  double seconds = 0;  // that it took, wall clock
+};
+inline constexpr std::size_t kNumbersOfProbe = 12;
+
+/// A cache on its way: grows by a frame at a time, and is readable with all of them whenever the program is killed.
+/// Where its header allows errors, positions and velocities are rounded to multiples of a power of two, whose zeros
+/// compress; the last two frames are kept to the last bit as well, for a run that goes on.
+class CacheWriter {
+ public:
+  /// Writes what does not change beside the file. The memory is what the motion carries from frame to frame beside
+  /// positions and velocities, `memory_size` numbers. Throws Error(kFailed).
+  CacheWriter(std::filesystem::path file, const CacheHeader& header, std::size_t memory_size);
+  ~CacheWriter();
+  CacheWriter(const CacheWriter&) = delete;
+  CacheWriter& operator=(const CacheWriter&) = delete;
+
+  /// Positions and velocities by actor (m x 3, m and m/s). Throws Error(kFailed) where it cannot be written, or the
+  /// file is gone or no longer this one; what was appended before stays.
+  void append(const CachedFrame& frame, const std::vector<const Points*>& positions,
+              const std::vector<const Points*>& velocities, const std::vector<double>& memory);
+
+  /// Gives the file its name, in place of what had it. From then on it is the one that grows.
+  void publish();
+
+  void close();
+
+ private:
+  std::filesystem::path file_;     // its name
+  std::filesystem::path written_;  // where it is: beside that, then there
+  FileLock lock_;                  // held as long as it grows
+  std::size_t frames_ = 0;
+  double position_error_;
+  double velocity_error_;
+  Hdf5Writer hdf5_;
+};
+
+class CacheReader {
+ public:
+  /// Throws Error(kBadInput) where the file is no cache, or one of another layout.
+  explicit CacheReader(const std::filesystem::path& file);
+
+  [[nodiscard]] const CacheHeader& header() const { return header_; }
+  [[nodiscard]] std::size_t frame_count() const { return frame_count_; }
+
+  [[nodiscard]] CachedFrame frame(std::size_t frame) const;
+  /// By actor, m x 3, m.
+  [[nodiscard]] std::vector<Points> positions(std::size_t frame) const;
+  /// By actor, m x 3, m/s.
+  [[nodiscard]] std::vector<Points> velocities(std::size_t frame) const;
+  /// The same to the last bit, of the last or the last but one frame.
+  [[nodiscard]] std::vector<Points> exact_positions(std::size_t frame) const;
+  [[nodiscard]] std::vector<Points> exact_velocities(std::size_t frame) const;
+  /// Of the motion after the last or the last but one frame.
+  [[nodiscard]] std::vector<double> memory(std::size_t frame) const;
+
+ private:
+  [[nodiscard]] std::vector<Points> states(const char* name, std::size_t frame) const;
+  [[nodiscard]] std::vector<Points> exact_states(std::size_t which, std::size_t frame) const;
+
+  Hdf5Reader hdf5_;
+  CacheHeader header_;
+  std::size_t frame_count_ = 0;
+};
+
+/// True where the file's name ends in .h5.
+[[nodiscard]] bool is_cache_file(const std::filesystem::path& file);
+
+}  // namespace sprung

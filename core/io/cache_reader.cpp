@@ -1,0 +1,149 @@
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "core/io/cache.h"
+#include "core/io/cache_format.h"
+#include "core/mesh/io/file_checks.h"
+
+namespace sprung {
+namespace {
+
+using Cells = Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>;
+using Bricks = Eigen::Matrix<int, Eigen::Dynamic, 8, Eigen::RowMajor>;
+using Numbers = Eigen::Matrix<double, Eigen::Dynamic, 1>;
+
+std::vector<Eigen::Vector3i> list_of(const Cells& rows) {
+  std::vector<Eigen::Vector3i> list;
+  list.reserve(static_cast<std::size_t>(rows.rows()));
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) list.emplace_back(rows.row(i));
+  return list;
+}
+
+BrickGrid read_grid(const Hdf5Reader& hdf5, const std::string& folder) {
+  BrickGrid grid;
+  grid.origin = read_matrix<Numbers>(hdf5, folder + "/origin");
+  grid.brick_size = hdf5.read<double>(folder + "/brick_size").values.at(0);
+  grid.cells = list_of(read_matrix<Cells>(hdf5, folder + "/cells"));
+  grid.fill = hdf5.read<double>(folder + "/fill").values;
+  const auto bricks = read_matrix<Bricks>(hdf5, folder + "/nodes");
+  grid.nodes.resize(static_cast<std::size_t>(bricks.rows()));
+  std::copy_n(bricks.data(), bricks.size(), grid.nodes.empty() ? nullptr : grid.nodes[0].data());
+  grid.lattice = list_of(read_matrix<Cells>(hdf5, folder + "/lattice"));
+  return grid;
+}
+
+CachedColor read_color(const Hdf5Reader& hdf5, const std::string& name) {
+  const std::vector<std::uint8_t> values = hdf5.read<std::uint8_t>(name).values;
+  return {values.at(0), values.at(1), values.at(2)};
+}
+
+CachedActor read_actor(const Hdf5Reader& hdf5, const std::string& folder) {
+  CachedActor actor;
+  actor.body = hdf5.read<int>(folder + "/body").values.at(0);
+  actor.color = read_color(hdf5, folder + "/color");
+  actor.grid = read_grid(hdf5, folder);
+  actor.stiffness_scale = hdf5.read<double>(folder + "/stiffness_scale").values;
+  actor.regions = hdf5.read<int>(folder + "/regions").values;
+  actor.masses = read_matrix<Numbers>(hdf5, folder + "/masses");
+  actor.rest_positions = read_matrix<Points>(hdf5, folder + "/rest_positions");
+  if (hdf5.has(folder + "/pinned")) actor.pinned = hdf5.read<int>(folder + "/pinned").values;
+  actor.skin = read_skin(hdf5, folder + "/skin");
+  actor.embedding.brick = hdf5.read<int>(folder + "/skin/brick").values;
+  actor.embedding.local = read_matrix<Points>(hdf5, folder + "/skin/place_in_brick");
+  actor.copy = hdf5.read<int>(folder + "/copy").values.at(0);
+  actor.carried = hdf5.read<int>(folder + "/mesh/vertices").values;
+  actor.carried_embedding.brick = hdf5.read<int>(folder + "/mesh/brick").values;
+  actor.carried_embedding.local = read_matrix<Points>(hdf5, folder + "/mesh/place_in_brick");
+  return actor;
+}
+
+CachedObstacle read_obstacle(const Hdf5Reader& hdf5, const std::string& folder) {
+  CachedObstacle obstacle;
+  obstacle.color = read_color(hdf5, folder + "/color");
+  obstacle.start.translation = read_matrix<Numbers>(hdf5, folder + "/translation");
+  obstacle.start.rotation = read_matrix<Points>(hdf5, folder + "/rotation");
+  obstacle.skin = read_skin(hdf5, folder + "/skin");
+  return obstacle;
+}
+
+Hdf5Reader open_cache(const std::filesystem::path& file) {
+  check_readable(file);
+  Hdf5Reader hdf5(file);
+  if (!hdf5.has(kLayoutName) || !hdf5.has(kProgressName)) {
+    throw Error(ErrorKind::kBadInput, fmt::format("'{}' is an HDF5 file, but no cache of sprung", file.string()));
+  }
+  const int layout = hdf5.read<int>(kLayoutName).values.at(0);
+  if (layout != kCacheLayout) {
+    throw Error(ErrorKind::kBadInput, fmt::format("'{}' has layout {}; this program reads layout {}: simulate anew",
+                                                  file.string(), layout, kCacheLayout));
+  }
+  return hdf5;
+}
+
+CacheHeader read_header(const Hdf5Reader& hdf5) {
+  CacheHeader header;
+  header.version = hdf5.read_text("/version");
+  header.build = hdf5.read_text("/build");
+  header.scene = hdf5.read_text("/scene");
+  header.progress_name = hdf5.read_text("/progress_name");
+  header.size = hdf5.read<double>("/size").values.at(0);
+  header.position_error = hdf5.read<double>("/position_error").values.at(0);
+  header.velocity_error = hdf5.read<double>("/velocity_error").values.at(0);
+  header.probes = hdf5.read_texts("/probes");
+  const auto meshes = static_cast<std::size_t>(hdf5.read<int>("/mesh_count").values.at(0));
+  const auto actors = static_cast<std::size_t>(hdf5.read<int>("/actor_count").values.at(0));
+  const auto obstacles = static_cast<std::size_t>(hdf5.read<int>("/obstacle_count").values.at(0));
+  for (std::size_t i = 0; i < meshes; ++i) header.meshes.push_back(read_skin(hdf5, mesh_folder(i)));
+  for (std::size_t i = 0; i < actors; ++i) header.actors.push_back(read_actor(hdf5, actor_folder(i)));
+  for (std::size_t i = 0; i < obstacles; ++i) header.obstacles.push_back(read_obstacle(hdf5, obstacle_folder(i)));
+  return header;
+}
+
+}  // namespace
+
+CacheReader::CacheReader(const std::filesystem::path& file)
+    : hdf5_(open_cache(file)), header_(read_header(hdf5_)), frame_count_(hdf5_.shape_of(kProgressName).at(0)) {}
+
+CachedFrame CacheReader::frame(std::size_t frame) const {
+  return {.progress = hdf5_.read_row<double>(kProgressName, frame).values.at(0),
+          .probes = hdf5_.read_row<double>(kProbesName, frame).values,
+          .state_hash = hdf5_.read_row<std::uint64_t>(kHashName, frame).values.at(0),
+          .seconds = hdf5_.read_row<double>(kSecondsName, frame).values.at(0)};
+}
+
+std::vector<Points> CacheReader::positions(std::size_t frame) const { return states("/positions", frame); }
+
+std::vector<Points> CacheReader::velocities(std::size_t frame) const { return states("/velocities", frame); }
+
+std::vector<Points> CacheReader::exact_positions(std::size_t frame) const {
+  return header_.position_error > 0 ? exact_states(0, frame) : positions(frame);
+}
+
+std::vector<Points> CacheReader::exact_velocities(std::size_t frame) const {
+  return header_.position_error > 0 ? exact_states(1, frame) : velocities(frame);
+}
+
+std::vector<double> CacheReader::memory(std::size_t frame) const {
+  return hdf5_.read_row<double>(kMemoryName, frame % 2).values;
+}
+
+std::vector<Points> CacheReader::states(const char* name, std::size_t frame) const {
+  std::vector<Points> all;
+  for (std::size_t i = 0; i < header_.actors.size(); ++i) {
+    const std::string path = actor_folder(i) + name;
+    all.push_back(matrix_from<Points>(hdf5_.read_row<double>(path, frame), path));
+  }
+  return all;
+}
+
+std::vector<Points> CacheReader::exact_states(std::size_t which, std::size_t frame) const {
+  std::vector<Points> all;
+  for (std::size_t i = 0; i < header_.actors.size(); ++i) {
+    const std::vector<double> row = hdf5_.read_row<double>(actor_folder(i) + kExactName, frame % 2).values;
+    const Eigen::Index nodes = header_.actors[i].rest_positions.rows();
+    all.emplace_back(Eigen::Map<const Points>(row.data() + static_cast<Eigen::Index>(which) * 3 * nodes, nodes, 3));
+  }
+  return all;
+}
+
+}  // namespace sprung

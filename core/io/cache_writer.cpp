@@ -1,0 +1,170 @@
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/io/cache.h"
+#include "core/io/cache_format.h"
+
+namespace sprung {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Cells = Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>;
+
+fs::path beside(const fs::path& file) {
+  fs::path name = file;
+  name += ".partial";
+  return name;
+}
+
+Cells rows_of(const std::vector<Eigen::Vector3i>& list) {
+  Cells rows(list.size(), 3);
+  for (std::size_t i = 0; i < list.size(); ++i) rows.row(static_cast<Eigen::Index>(i)) = list[i];
+  return rows;
+}
+
+void write_number(Hdf5Writer& hdf5, const std::string& name, double value) {
+  hdf5.write(name, std::span<const double>(&value, 1), {1});
+}
+void write_number(Hdf5Writer& hdf5, const std::string& name, int value) {
+  hdf5.write(name, std::span<const int>(&value, 1), {1});
+}
+
+template <class Values>
+void write_list(Hdf5Writer& hdf5, const std::string& name, const Values& values) {
+  hdf5.write(name, std::span(values.data(), values.size()), {values.size()});
+}
+
+void write_grid(Hdf5Writer& hdf5, const std::string& folder, const BrickGrid& grid) {
+  hdf5.write(folder + "/origin", std::span<const double>(grid.origin.data(), 3), {3});
+  write_number(hdf5, folder + "/brick_size", grid.brick_size);
+  write_matrix(hdf5, folder + "/cells", rows_of(grid.cells));
+  write_list(hdf5, folder + "/fill", grid.fill);
+  hdf5.write(folder + "/nodes",
+             std::span<const int>(grid.nodes.empty() ? nullptr : grid.nodes[0].data(), 8 * grid.nodes.size()),
+             {grid.nodes.size(), 8});
+  write_matrix(hdf5, folder + "/lattice", rows_of(grid.lattice));
+}
+
+void write_actor(Hdf5Writer& hdf5, const std::string& folder, const CachedActor& actor, bool is_exact) {
+  write_number(hdf5, folder + "/body", actor.body);
+  write_list(hdf5, folder + "/color", actor.color);
+  write_grid(hdf5, folder, actor.grid);
+  write_list(hdf5, folder + "/stiffness_scale", actor.stiffness_scale);
+  write_list(hdf5, folder + "/regions", actor.regions);
+  hdf5.write(folder + "/masses", flat_values(actor.masses), {static_cast<std::size_t>(actor.masses.size())});
+  write_matrix(hdf5, folder + "/rest_positions", actor.rest_positions);
+  write_list(hdf5, folder + "/pinned", actor.pinned);
+  write_skin(hdf5, folder + "/skin", actor.skin);
+  write_list(hdf5, folder + "/skin/brick", actor.embedding.brick);
+  write_matrix(hdf5, folder + "/skin/place_in_brick", actor.embedding.local);
+  write_number(hdf5, folder + "/copy", actor.copy);
+  write_list(hdf5, folder + "/mesh/vertices", actor.carried);
+  write_list(hdf5, folder + "/mesh/brick", actor.carried_embedding.brick);
+  write_matrix(hdf5, folder + "/mesh/place_in_brick", actor.carried_embedding.local);
+  const ArrayShape state{static_cast<std::size_t>(actor.rest_positions.rows()), 3};
+  hdf5.make_series<double>(folder + "/positions", state);
+  hdf5.make_series<double>(folder + "/velocities", state);
+  hdf5.make_slots(folder + kExactName, 2, is_exact ? 0 : 6 * state[0]);
+}
+
+void write_obstacle(Hdf5Writer& hdf5, const std::string& folder, const CachedObstacle& obstacle) {
+  write_list(hdf5, folder + "/color", obstacle.color);
+  hdf5.write(folder + "/translation", std::span<const double>(obstacle.start.translation.data(), 3), {3});
+  write_matrix(hdf5, folder + "/rotation", Points(obstacle.start.rotation));
+  write_skin(hdf5, folder + "/skin", obstacle.skin);
+}
+
+/// To the nearest multiples of the largest power of two that keeps within the error; as they are where that is 0.
+void append_rounded(Hdf5Writer& hdf5, const std::string& name, const Points& values, double error) {
+  if (error == 0) return hdf5.append(name, flat_values(values));
+  const double step = std::exp2(std::floor(std::log2(2 * error)));
+  const Points rounded = (values / step).array().round() * step;
+  hdf5.append(name, flat_values(rounded));
+}
+
+void write_header(Hdf5Writer& hdf5, const CacheHeader& header) {
+  write_number(hdf5, kLayoutName, kCacheLayout);
+  hdf5.write_text("/version", header.version);
+  hdf5.write_text("/build", header.build);
+  hdf5.write_text("/scene", header.scene);
+  hdf5.write_text("/progress_name", header.progress_name);
+  write_number(hdf5, "/size", header.size);
+  write_number(hdf5, "/position_error", header.position_error);
+  write_number(hdf5, "/velocity_error", header.velocity_error);
+  hdf5.write_texts("/probes", header.probes);
+  write_number(hdf5, "/mesh_count", static_cast<int>(header.meshes.size()));
+  write_number(hdf5, "/actor_count", static_cast<int>(header.actors.size()));
+  write_number(hdf5, "/obstacle_count", static_cast<int>(header.obstacles.size()));
+  for (std::size_t i = 0; i < header.meshes.size(); ++i) write_skin(hdf5, mesh_folder(i), header.meshes[i]);
+  for (std::size_t i = 0; i < header.actors.size(); ++i)
+    write_actor(hdf5, actor_folder(i), header.actors[i], header.position_error == 0);
+  for (std::size_t i = 0; i < header.obstacles.size(); ++i) {
+    write_obstacle(hdf5, obstacle_folder(i), header.obstacles[i]);
+  }
+}
+
+}  // namespace
+
+CacheWriter::CacheWriter(fs::path file, const CacheHeader& header, std::size_t memory_size)
+    : file_(std::move(file)),
+      written_(beside(file_)),
+      lock_(written_),
+      position_error_(header.position_error),
+      velocity_error_(header.velocity_error),
+      hdf5_(written_) {
+  write_header(hdf5_, header);
+  hdf5_.make_series<double>(kProgressName, {});
+  hdf5_.make_series<double>(kProbesName, {header.probes.size(), kNumbersOfProbe});
+  hdf5_.make_series<std::uint64_t>(kHashName, {});
+  hdf5_.make_series<double>(kSecondsName, {});
+  hdf5_.make_slots(kMemoryName, 2, memory_size);
+  hdf5_.start_series();
+}
+
+CacheWriter::~CacheWriter() {
+  std::error_code ignored;
+  if (written_ != file_) fs::remove(written_, ignored);
+}
+
+void CacheWriter::append(const CachedFrame& frame, const std::vector<const Points*>& positions,
+                         const std::vector<const Points*>& velocities, const std::vector<double>& memory) {
+  if (!lock_.is_of(written_)) {
+    throw Error(ErrorKind::kFailed,
+                fmt::format("'{}' is gone or was replaced while it was being written", written_.string()));
+  }
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const std::string folder = actor_folder(i);
+    append_rounded(hdf5_, folder + "/positions", *positions[i], position_error_);
+    append_rounded(hdf5_, folder + "/velocities", *velocities[i], velocity_error_);
+    if (position_error_ == 0) continue;
+    std::vector<double> exact(positions[i]->data(), positions[i]->data() + positions[i]->size());
+    exact.insert(exact.end(), velocities[i]->data(), velocities[i]->data() + velocities[i]->size());
+    hdf5_.fill_slot(folder + kExactName, frames_ % 2, exact);
+  }
+  hdf5_.append(kProbesName, std::span<const double>(frame.probes));
+  hdf5_.append(kHashName, std::span<const std::uint64_t>(&frame.state_hash, 1));
+  hdf5_.append(kSecondsName, std::span<const double>(&frame.seconds, 1));
+  hdf5_.fill_slot(kMemoryName, frames_ % 2, memory);
+  hdf5_.append(kProgressName, std::span<const double>(&frame.progress, 1));
+  ++frames_;
+}
+
+void CacheWriter::publish() {
+  std::error_code error;
+  fs::rename(written_, file_, error);
+  if (error) {
+    throw Error(ErrorKind::kFailed, fmt::format("cannot write '{}': {}", file_.string(), error.message()));
+  }
+  written_ = file_;
+  hdf5_.rename(file_);
+}
+
+void CacheWriter::close() { hdf5_.close(); }
+
+bool is_cache_file(const fs::path& file) { return file.extension() == ".h5"; }
+
+}  // namespace sprung

@@ -1,0 +1,297 @@
+#include "core/io/hdf5_file.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <numeric>
+
+#include "core/error.h"
+#include "core/io/hdf5_handle.h"
+
+namespace sprung {
+
+struct Hdf5Reader::Open {
+  std::filesystem::path path;
+  Hdf5Handle file;
+
+  template <class Result>
+  Result check(Result result, const std::string& name) const {
+    if (result >= 0) return result;
+    const std::string what = name.empty() ? "" : name + " of ";
+    throw Error(ErrorKind::kBadInput, "cannot read " + what + "'" + path.string() + "': " + hdf5_reason());
+  }
+
+  [[nodiscard]] Hdf5Handle set(const std::string& name) const {
+    return {check(H5Dopen2(file.get(), name.c_str(), H5P_DEFAULT), name), H5Dclose};
+  }
+};
+
+Hdf5Reader::Hdf5Reader(std::filesystem::path file) : open_(std::make_unique<Open>()) {
+  open_->path = std::move(file);
+  const Hdf5Handle access = hdf5_access();
+  // As a reader beside a writer, whether there still is one or not: a writer that was killed leaves its mark.
+  const hid_t id = H5Fopen(open_->path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access.get());
+  open_->file = {open_->check(id, ""), H5Fclose};
+}
+
+Hdf5Reader::~Hdf5Reader() = default;
+Hdf5Reader::Hdf5Reader(Hdf5Reader&&) noexcept = default;
+Hdf5Reader& Hdf5Reader::operator=(Hdf5Reader&&) noexcept = default;
+
+bool Hdf5Reader::has(const std::string& name) const {
+  for (auto slash = name.find('/', 1);; slash = name.find('/', slash + 1)) {
+    if (H5Lexists(open_->file.get(), name.substr(0, slash).c_str(), H5P_DEFAULT) <= 0) return false;
+    if (slash == std::string::npos) return true;
+  }
+}
+
+ArrayShape Hdf5Reader::shape_of(const std::string& name) const {
+  const Hdf5Handle set = open_->set(name);
+  const Hdf5Handle space(open_->check(H5Dget_space(set.get()), name), H5Sclose);
+  std::vector<hsize_t> counts(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space.get())));
+  H5Sget_simple_extent_dims(space.get(), counts.data(), nullptr);
+  return {counts.begin(), counts.end()};
+}
+
+template <class Value>
+Array<Value> Hdf5Reader::read(const std::string& name) const {
+  Array<Value> array{.shape = shape_of(name), .values = {}};
+  const Hdf5Handle set = open_->set(name);
+  array.values.resize(std::accumulate(array.shape.begin(), array.shape.end(), std::size_t{1}, std::multiplies<>()));
+  if (array.values.empty()) return array;
+  open_->check(H5Dread(set.get(), hdf5_type<Value>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, array.values.data()), name);
+  return array;
+}
+
+template <class Value>
+Array<Value> Hdf5Reader::read_row(const std::string& name, std::size_t row) const {
+  const ArrayShape whole = shape_of(name);
+  Array<Value> array{.shape = ArrayShape(whole.begin() + 1, whole.end()), .values = {}};
+  array.values.resize(std::accumulate(array.shape.begin(), array.shape.end(), std::size_t{1}, std::multiplies<>()));
+  if (array.values.empty()) return array;
+  const Hdf5Handle set = open_->set(name);
+  const Hdf5Handle space(open_->check(H5Dget_space(set.get()), name), H5Sclose);
+  std::vector<hsize_t> start(whole.size(), 0);
+  std::vector<hsize_t> count(whole.begin(), whole.end());
+  start[0] = row;
+  count[0] = 1;
+  H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr);
+  const Hdf5Handle memory(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr), H5Sclose);
+  open_->check(H5Dread(set.get(), hdf5_type<Value>(), memory.get(), space.get(), H5P_DEFAULT, array.values.data()),
+               name);
+  return array;
+}
+
+std::string Hdf5Reader::read_text(const std::string& name) const {
+  const Hdf5Handle set = open_->set(name);
+  const Hdf5Handle type(open_->check(H5Dget_type(set.get()), name), H5Tclose);
+  std::string text(H5Tget_size(type.get()), '\0');
+  open_->check(H5Dread(set.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()), name);
+  return text.substr(0, text.find('\0'));
+}
+
+std::vector<std::string> Hdf5Reader::read_texts(const std::string& name) const {
+  const std::size_t count = shape_of(name).at(0);
+  const Hdf5Handle set = open_->set(name);
+  const Hdf5Handle type(open_->check(H5Dget_type(set.get()), name), H5Tclose);
+  const std::size_t width = H5Tget_size(type.get());
+  std::string all(count * width, '\0');
+  if (count > 0) open_->check(H5Dread(set.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, all.data()), name);
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string padded = all.substr(i * width, width);
+    texts.push_back(padded.substr(0, padded.find('\0')));
+  }
+  return texts;
+}
+
+template Array<double> Hdf5Reader::read(const std::string&) const;
+template Array<float> Hdf5Reader::read(const std::string&) const;
+template Array<int> Hdf5Reader::read(const std::string&) const;
+template Array<std::uint8_t> Hdf5Reader::read(const std::string&) const;
+template Array<std::uint64_t> Hdf5Reader::read(const std::string&) const;
+template Array<double> Hdf5Reader::read_row(const std::string&, std::size_t) const;
+template Array<std::uint64_t> Hdf5Reader::read_row(const std::string&, std::size_t) const;
+
+namespace {
+
+constexpr std::size_t kChunkBytes = 1 << 18;
+constexpr unsigned kEffort = 1;  // of compression, 1 to 9: more gains little on the digits of positions
+
+std::vector<hsize_t> sizes(const ArrayShape& shape) { return {shape.begin(), shape.end()}; }
+
+std::size_t product(std::span<const std::size_t> counts) {
+  return std::accumulate(counts.begin(), counts.end(), std::size_t{1}, std::multiplies<>());
+}
+
+Hdf5Handle space_of(const ArrayShape& shape) {
+  const std::vector<hsize_t> counts = sizes(shape);
+  return {H5Screate_simple(static_cast<int>(counts.size()), counts.data(), nullptr), H5Sclose};
+}
+
+/// Makes the folders in a name.
+Hdf5Handle links() {
+  Hdf5Handle properties(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
+  H5Pset_create_intermediate_group(properties.get(), 1);
+  return properties;
+}
+
+/// `axis`: the one that is cut so that a chunk has a good size; those before it have one row a chunk.
+Hdf5Handle compressed(const ArrayShape& shape, std::size_t axis, std::size_t value_bytes) {
+  ArrayShape chunk = shape;
+  std::fill_n(chunk.begin(), axis, 1);
+  std::replace(chunk.begin(), chunk.end(), std::size_t{0}, std::size_t{1});
+  if (axis < chunk.size()) {
+    const std::size_t row = value_bytes * product(std::span(chunk).subspan(axis + 1));
+    chunk[axis] = std::clamp<std::size_t>(kChunkBytes / std::max<std::size_t>(row, 1), 1, chunk[axis]);
+  }
+  const std::vector<hsize_t> counts = sizes(chunk);
+  Hdf5Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  H5Pset_chunk(properties.get(), static_cast<int>(counts.size()), counts.data());
+  H5Pset_shuffle(properties.get());
+  H5Pset_deflate(properties.get(), kEffort);
+  return properties;
+}
+
+}  // namespace
+
+struct Hdf5Writer::Open {
+  std::filesystem::path path;
+  Hdf5Handle file;
+  std::map<std::string, Hdf5Handle> series;  // and slots
+
+  /// A file that could not be written is left as a killed program leaves it: closing it would write down a size that it
+  /// never reached, and nobody could open it again.
+  template <class Result>
+  Result check(Result result) {
+    if (result < 0) {
+      const std::string reason = hdf5_reason();
+      for (auto& [name, set] : series) set.abandon();
+      file.abandon();
+      throw Error(ErrorKind::kFailed, "cannot write '" + path.string() + "': " + reason);
+    }
+    return result;
+  }
+
+  Hdf5Handle make(const std::string& name, hid_t type, const Hdf5Handle& space, hid_t properties) {
+    const Hdf5Handle folders = links();  // outlives the call: HDF5 forgets what went wrong with the next one
+    return {check(H5Dcreate2(file.get(), name.c_str(), type, space.get(), folders.get(), properties, H5P_DEFAULT)),
+            H5Dclose};
+  }
+
+  [[nodiscard]] hid_t at(const std::string& name) const { return series.at(name).get(); }
+};
+
+Hdf5Writer::Hdf5Writer(std::filesystem::path file) : open_(std::make_unique<Open>()) {
+  open_->path = std::move(file);
+  const Hdf5Handle access = hdf5_access();
+  open_->file = {open_->check(H5Fcreate(open_->path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get())), H5Fclose};
+}
+
+Hdf5Writer::~Hdf5Writer() = default;
+Hdf5Writer::Hdf5Writer(Hdf5Writer&&) noexcept = default;
+Hdf5Writer& Hdf5Writer::operator=(Hdf5Writer&&) noexcept = default;
+
+template <class Value>
+void Hdf5Writer::write(const std::string& name, std::span<const Value> values, const ArrayShape& shape) {
+  const bool is_empty = product(shape) == 0;
+  const Hdf5Handle properties =
+      is_empty ? Hdf5Handle(H5Pcreate(H5P_DATASET_CREATE), H5Pclose) : compressed(shape, 0, sizeof(Value));
+  const Hdf5Handle set = open_->make(name, hdf5_type<Value>(), space_of(shape), properties.get());
+  if (is_empty) return;
+  open_->check(H5Dwrite(set.get(), hdf5_type<Value>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
+}
+
+void Hdf5Writer::write_text(const std::string& name, const std::string& text) {
+  const Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  H5Tset_size(type.get(), text.size() + 1);
+  const Hdf5Handle set = open_->make(name, type.get(), Hdf5Handle(H5Screate(H5S_SCALAR), H5Sclose), H5P_DEFAULT);
+  open_->check(H5Dwrite(set.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str()));
+}
+
+void Hdf5Writer::write_texts(const std::string& name, const std::vector<std::string>& texts) {
+  std::size_t width = 1;
+  for (const std::string& text : texts) width = std::max(width, text.size());
+  std::string all;
+  for (const std::string& text : texts) all += text + std::string(width - text.size(), '\0');
+  const Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  H5Tset_size(type.get(), width);
+  H5Tset_strpad(type.get(), H5T_STR_NULLPAD);
+  const Hdf5Handle set = open_->make(name, type.get(), space_of({texts.size()}), H5P_DEFAULT);
+  if (texts.empty()) return;
+  open_->check(H5Dwrite(set.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, all.data()));
+}
+
+template <class Value>
+void Hdf5Writer::make_series(const std::string& name, const ArrayShape& row) {
+  ArrayShape shape{1};
+  shape.insert(shape.end(), row.begin(), row.end());
+  const Hdf5Handle properties = compressed(shape, 1, sizeof(Value));
+  std::vector<hsize_t> now = sizes(shape);
+  std::vector<hsize_t> most = now;
+  now[0] = 0;
+  most[0] = H5S_UNLIMITED;
+  const Hdf5Handle space(H5Screate_simple(static_cast<int>(now.size()), now.data(), most.data()), H5Sclose);
+  open_->series[name] = open_->make(name, hdf5_type<Value>(), space, properties.get());
+}
+
+void Hdf5Writer::make_slots(const std::string& name, std::size_t rows, std::size_t columns) {
+  const Hdf5Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  H5Pset_alloc_time(properties.get(), H5D_ALLOC_TIME_EARLY);
+  open_->series[name] = open_->make(name, hdf5_type<double>(), space_of({rows, columns}), properties.get());
+}
+
+void Hdf5Writer::start_series() { open_->check(H5Fstart_swmr_write(open_->file.get())); }
+
+template <class Value>
+void Hdf5Writer::append(const std::string& name, std::span<const Value> row) {
+  const hid_t set = open_->at(name);
+  const Hdf5Handle before(open_->check(H5Dget_space(set)), H5Sclose);
+  std::vector<hsize_t> shape(static_cast<std::size_t>(H5Sget_simple_extent_ndims(before.get())));
+  H5Sget_simple_extent_dims(before.get(), shape.data(), nullptr);
+  std::vector<hsize_t> start(shape.size(), 0);
+  std::vector<hsize_t> count = shape;
+  start[0] = shape[0]++;
+  count[0] = 1;
+  open_->check(H5Dset_extent(set, shape.data()));
+  if (row.empty()) return;
+  const Hdf5Handle space(open_->check(H5Dget_space(set)), H5Sclose);
+  H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr);
+  const Hdf5Handle memory(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr), H5Sclose);
+  open_->check(H5Dwrite(set, hdf5_type<Value>(), memory.get(), space.get(), H5P_DEFAULT, row.data()));
+  open_->check(H5Dflush(set));
+}
+
+void Hdf5Writer::fill_slot(const std::string& name, std::size_t row, std::span<const double> values) {
+  if (values.empty()) return;
+  const hid_t set = open_->at(name);
+  const Hdf5Handle space(open_->check(H5Dget_space(set)), H5Sclose);
+  const std::array<hsize_t, 2> start{row, 0};
+  const std::array<hsize_t, 2> count{1, values.size()};
+  H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr);
+  const Hdf5Handle memory(H5Screate_simple(2, count.data(), nullptr), H5Sclose);
+  open_->check(H5Dwrite(set, hdf5_type<double>(), memory.get(), space.get(), H5P_DEFAULT, values.data()));
+  open_->check(H5Dflush(set));
+}
+
+void Hdf5Writer::close() {
+  for (auto& [name, set] : open_->series) open_->check(set.reset());
+  open_->series.clear();
+  open_->check(open_->file.reset());
+}
+
+void Hdf5Writer::rename(std::filesystem::path file) { open_->path = std::move(file); }
+
+template void Hdf5Writer::write(const std::string&, std::span<const double>, const ArrayShape&);
+template void Hdf5Writer::write(const std::string&, std::span<const float>, const ArrayShape&);
+template void Hdf5Writer::write(const std::string&, std::span<const int>, const ArrayShape&);
+template void Hdf5Writer::write(const std::string&, std::span<const std::uint8_t>, const ArrayShape&);
+template void Hdf5Writer::write(const std::string&, std::span<const std::uint64_t>, const ArrayShape&);
+template void Hdf5Writer::make_series<double>(const std::string&, const ArrayShape&);
+template void Hdf5Writer::make_series<float>(const std::string&, const ArrayShape&);
+template void Hdf5Writer::make_series<std::uint64_t>(const std::string&, const ArrayShape&);
+template void Hdf5Writer::append(const std::string&, std::span<const double>);
+template void Hdf5Writer::append(const std::string&, std::span<const float>);
+template void Hdf5Writer::append(const std::string&, std::span<const std::uint64_t>);
+
+}  // namespace sprung

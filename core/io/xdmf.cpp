@@ -1,0 +1,151 @@
+#include "core/io/xdmf.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <array>
+
+#include "core/body/brick_measures.h"
+#include "core/error.h"
+#include "core/io/cache_format.h"
+#include "core/io/mesh_export.h"
+#include "core/skin/skin.h"
+
+namespace sprung {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Our corners, in which x runs fastest, in the order in which VTK goes around a hexahedron.
+constexpr std::array<int, 8> kCornersOfVtk{0, 1, 3, 2, 4, 5, 7, 6};
+
+using Hexahedra = Eigen::Matrix<int, Eigen::Dynamic, 8, Eigen::RowMajor>;
+
+/// A number for each brick.
+struct CellField {
+  std::string name;
+  const std::string& folder;
+  bool is_whole_numbers = false;
+};
+
+fs::path with_ending(fs::path file, const char* ending) {
+  file += ending;
+  return file;
+}
+
+}  // namespace
+
+/// An array in the file of numbers.
+struct XdmfWriter::Item {
+  std::string name;
+  ArrayShape shape;
+  bool is_whole_numbers = false;
+};
+
+XdmfWriter::XdmfWriter(fs::path file, const World& world)
+    : file_(std::move(file)),
+      numbers_(with_ending(file_, ".h5")),
+      world_(world),
+      hdf5_(with_ending(numbers_, ".partial")) {}
+
+XdmfWriter::~XdmfWriter() {
+  std::error_code ignored;
+  fs::remove(with_ending(numbers_, ".partial"), ignored);
+}
+
+std::string XdmfWriter::item_text(const Item& item) const {
+  return fmt::format("<DataItem Format=\"HDF\" Dimensions=\"{}\" NumberType=\"{}\" Precision=\"4\">{}:{}</DataItem>",
+                     fmt::join(item.shape, " "), item.is_whole_numbers ? "Int" : "Float", numbers_.filename().string(),
+                     item.name);
+}
+
+void XdmfWriter::write_bricks(const std::string& folder, const Body& body) {
+  Hexahedra hexahedra(body.grid.brick_count(), 8);
+  Eigen::VectorXf fill(body.grid.brick_count());
+  for (Eigen::Index brick = 0; brick < hexahedra.rows(); ++brick) {
+    const auto row = static_cast<std::size_t>(brick);
+    for (std::size_t k = 0; k < 8; ++k) {
+      hexahedra(brick, static_cast<Eigen::Index>(k)) = body.grid.nodes[row][static_cast<std::size_t>(kCornersOfVtk[k])];
+    }
+    fill[brick] = static_cast<float>(body.grid.fill[row]);
+  }
+  write_matrix(hdf5_, folder + "/hexahedra", hexahedra);
+  write_matrix(hdf5_, folder + "/fill", fill);
+  write_matrix(hdf5_, folder + "/young", Eigen::VectorXf(brick_youngs(body).cast<float>()));
+}
+
+void XdmfWriter::add_actor(const std::vector<int>& regions, const Triangles& skin) {
+  const Body& body = world_.actors.at(triangle_counts_.size()).body;
+  triangle_counts_.push_back(skin.rows());
+  const std::string bricks = fmt::format("/bricks_{}", triangle_counts_.size());
+  write_bricks(bricks, body);
+  hdf5_.write(bricks + "/region", std::span<const int>(regions), {regions.size()});
+  write_matrix(hdf5_, fmt::format("/skin_{}/triangles", triangle_counts_.size()), skin);
+}
+
+std::string XdmfWriter::brick_grid(std::size_t actor, const std::string& folder, const Points& nodes,
+                                   const Points& velocities) {
+  const Body& body = world_.actors[actor].body;
+  const auto bricks = static_cast<std::size_t>(body.grid.brick_count());
+  const auto count = static_cast<std::size_t>(nodes.rows());
+  const std::string fixed = fmt::format("/bricks_{}", actor + 1);
+  const std::string place = folder + fixed;
+  const auto measured = [&](BrickMeasure measure) {
+    return Eigen::VectorXf(measure_bricks(body, measure, nodes).cast<float>());
+  };
+  write_matrix(hdf5_, place + "/nodes", Floats3(nodes.cast<float>()));
+  write_matrix(hdf5_, place + "/velocity", Floats3(velocities.cast<float>()));
+  write_matrix(hdf5_, place + "/stretch", measured(BrickMeasure::kStretch));
+  write_matrix(hdf5_, place + "/stress", measured(BrickMeasure::kStress));
+  std::string text = fmt::format(
+      "<Grid Name=\"bricks {}\" GridType=\"Uniform\">\n<Topology TopologyType=\"Hexahedron\" NumberOfElements=\"{}\">"
+      "{}</Topology>\n<Geometry GeometryType=\"XYZ\">{}</Geometry>\n",
+      actor + 1, bricks, item_text({fixed + "/hexahedra", {bricks, 8}, true}),
+      item_text({place + "/nodes", {count, 3}}));
+  for (const CellField& field :
+       {CellField{"region", fixed, true}, {"young", fixed}, {"fill", fixed}, {"stretch", place}, {"stress", place}}) {
+    text += fmt::format("<Attribute Name=\"{}\" AttributeType=\"Scalar\" Center=\"Cell\">{}</Attribute>\n", field.name,
+                        item_text({field.folder + "/" + field.name, {bricks, 1}, field.is_whole_numbers}));
+  }
+  return text +
+         fmt::format("<Attribute Name=\"velocity\" AttributeType=\"Vector\" Center=\"Node\">{}</Attribute>\n</Grid>\n",
+                     item_text({place + "/velocity", {count, 3}}));
+}
+
+std::string XdmfWriter::skin_grid(std::size_t actor, const std::string& folder, const Points& skin) {
+  const auto triangles = static_cast<std::size_t>(triangle_counts_.at(actor));
+  const std::string name = fmt::format("/skin_{}", actor + 1);
+  write_matrix(hdf5_, folder + name + "/positions", Floats3(skin.cast<float>()));
+  return fmt::format(
+      "<Grid Name=\"skin {}\" GridType=\"Uniform\">\n<Topology TopologyType=\"Triangle\" NumberOfElements=\"{}\">{}"
+      "</Topology>\n<Geometry GeometryType=\"XYZ\">{}</Geometry>\n</Grid>\n",
+      actor + 1, triangles, item_text({name + "/triangles", {triangles, 3}, true}),
+      item_text({folder + name + "/positions", {static_cast<std::size_t>(skin.rows()), 3}}));
+}
+
+void XdmfWriter::add_frame(double time, const std::vector<Points>& nodes, const std::vector<Points>& velocities,
+                           const std::vector<Points>& skins) {
+  const std::string folder = fmt::format("/frame_{}", ++frame_count_);
+  frames_ += fmt::format(
+      "<Grid Name=\"frame {}\" GridType=\"Collection\" CollectionType=\"Spatial\">\n<Time Value=\"{:.9g}\"/>\n",
+      frame_count_, time);
+  for (std::size_t actor = 0; actor < nodes.size(); ++actor) {
+    frames_ += brick_grid(actor, folder, nodes[actor], velocities[actor]) + skin_grid(actor, folder, skins[actor]);
+  }
+  frames_ += "</Grid>\n";
+}
+
+void XdmfWriter::close() {
+  hdf5_.close();
+  std::error_code error;
+  fs::rename(with_ending(numbers_, ".partial"), numbers_, error);
+  if (error) {
+    throw Error(ErrorKind::kFailed, fmt::format("cannot write '{}': {}", numbers_.string(), error.message()));
+  }
+  write_bytes(file_,
+              fmt::format("<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n<Domain>\n<Grid Name=\"film\" "
+                          "GridType=\"Collection\" CollectionType=\"Temporal\">\n{}</Grid>\n</Domain>\n</Xdmf>\n",
+                          frames_));
+}
+
+}  // namespace sprung

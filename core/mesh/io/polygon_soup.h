@@ -1,0 +1,56 @@
+#pragma once
+#include <array>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/mesh/surface_mesh.h"
+#include "core/types.h"
+
+namespace sprung {
+
+/// Cuts a polygon of n >= 3 corners (rows of `points`) into exactly n - 2 triangles of its corners, same winding,
+/// appended to `triangles`. Convex polygons become a fan; others are cut ear by ear in the plane of their area vector.
+void cut_polygon(const Points& points, std::span<const int> polygon, std::vector<std::array<int, 3>>& triangles);
+
+/// A corner of a polygon: rows of the soup's lists, counted from 0; -1 where the file gives none.
+struct Corner {
+  int position = 0;
+  int uv = -1;
+  int normal = -1;
+};
+
+/// Polygons as a file lists them, each corner with a UV and a normal of its own.
+struct PolygonSoup {
+  std::vector<Vec3> positions;
+  std::vector<Eigen::Vector4f> colors;  // of the positions, sRGB in [0, 1]; as many as these, or none
+  std::vector<Eigen::Vector2f> uvs;
+  std::vector<Eigen::Vector3f> normals;
+  std::vector<Corner> corners;     // of all polygons, one after the other
+  std::vector<int> corner_counts;  // of each polygon, at least 3
+  std::vector<int> polygon_parts;  // of each polygon, an index into parts
+  std::vector<Part> parts;         // their triangles are not counted yet
+  std::vector<SurfaceMaterial> materials;
+  std::vector<std::string> notes;
+  long lines = 0;  // in the file, which are left out
+  bool single_precision = false;
+};
+
+/// A position with the place of it in the message where it is not finite. Throws Error(kBadInput).
+void add_position(PolygonSoup& soup, const Vec3& position, std::string_view name);
+
+/// A UV or a normal; what is not finite, which does no harm to the shape, becomes 0. Normals are brought to length 1.
+void add_uv(PolygonSoup& soup, const Eigen::Vector2d& uv);
+void add_normal(PolygonSoup& soup, const Vec3& normal);
+
+/// The reason to refuse a file that holds points and lines at most.
+[[nodiscard]] std::string no_faces(long points, long lines);
+
+/// The soup as a mesh: polygons are cut into triangles and ordered by part, vertices split where UVs or normals
+/// differ. Positions that no polygon uses are kept. Parts without a triangle are left out.
+/// Preconditions: rows of corners are in range. Throws Error(kBadInput) where there is no polygon, or more than an int
+/// can count.
+[[nodiscard]] SurfaceMesh mesh_from(PolygonSoup soup, std::string_view name);
+
+}  // namespace sprung

@@ -1,0 +1,160 @@
+#include "core/mesh/io/read_mesh.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstring>
+#include <fstream>
+
+#include "core/error.h"
+#include "core/mesh/io/file_checks.h"
+#include "core/mesh/io/reader_process.h"
+#include "core/mesh/io/readers.h"
+#include "core/mesh/io/text_scanner.h"
+
+namespace sprung {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uintmax_t kLargestFile = std::uintmax_t{1} << 32;  // bytes
+
+[[noreturn]] void refuse(const fs::path& file, const std::string& reason) {
+  throw Error(ErrorKind::kBadInput, fmt::format("{}: {}", file.string(), reason));
+}
+
+void check_size(const fs::path& file) {
+  const std::uintmax_t size = fs::file_size(file);
+  if (size == 0) refuse(file, "empty file");
+  if (size > kLargestFile) {
+    refuse(file, fmt::format("its {:.1f} GB are more than the {:.1f} GB that are read; simplify the mesh",
+                             static_cast<double>(size) * 1e-9, static_cast<double>(kLargestFile) * 1e-9));
+  }
+}
+
+/// Bytes that a reader takes in: the file and, of a glTF, the buffers beside it.
+std::uintmax_t bytes_to_read(const fs::path& file) {
+  std::uintmax_t bytes = fs::file_size(file);
+  if (lower_extension(file) != ".gltf") return bytes;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(fs::absolute(file).parent_path(), error)) {
+    if (lower_extension(entry.path()) == ".bin" && entry.is_regular_file(error)) bytes += entry.file_size(error);
+  }
+  return bytes;
+}
+
+/// Ten times and more of what sound files were seen to take: 15 bytes a byte of XML, and 10 MB a second.
+ReadingLimits limits_for(const fs::path& file) {
+  constexpr std::uint64_t kBytesPerByte = 64;
+  const std::uintmax_t bytes = std::min(bytes_to_read(file), kLargestFile);
+  const auto physical =
+      static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+  ReadingLimits limits;
+  limits.memory = std::min(limits.memory + kBytesPerByte * bytes, std::max(limits.memory, physical / 4 * 3));
+  limits.cpu_time += static_cast<int>(2 * (bytes >> 20));
+  limits.wall_time = 5 * limits.cpu_time;
+  return limits;
+}
+
+}  // namespace
+
+SurfaceMesh read_mesh_here(const fs::path& file) {
+  const std::string name = file.string();
+  const std::string format = lower_extension(file);
+  const std::string bytes = read_bytes(file);
+  const std::string_view text = without_byte_order_mark(bytes);
+  if (format == ".obj") {
+    return read_obj(text, name, [&](const std::string& companion) { return read_companion(companion, file); });
+  }
+  if (format == ".ply") return read_ply(text, name);
+  if (format == ".stl") return read_stl(text, name);
+  if (format == ".off") return read_off(text, name);
+  if (format == ".glb") check_glb(bytes, name);
+  if (format == ".gltf") check_gltf(bytes, name);
+  if (format == ".3mf") check_3mf(bytes, name);
+  return read_by_assimp(file);
+}
+
+SurfaceMesh read_mesh(const fs::path& file) {
+  check_readable(file);
+  check_size(file);
+  SurfaceMesh mesh = read_in_child(file, limits_for(file), [&] { return read_mesh_here(file); });
+  if (const std::string fault = find_fault(mesh); !fault.empty()) refuse(file, fault);
+  read_textures(mesh, file);
+  return mesh;
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uintmax_t kLargestText = std::uintmax_t{1} << 26;     // bytes
+constexpr std::uintmax_t kLargestTexture = std::uintmax_t{1} << 30;  // bytes, encoded
+
+/// %20 and the like, which stand in the URIs of glTF and Collada.
+std::string decode_percent(const std::string& text) {
+  std::string decoded;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    unsigned code = 0;
+    const char* digits = text.data() + i + 1;
+    if (text[i] == '%' && i + 2 < text.size() && std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2) {
+      decoded += static_cast<char>(code);
+      i += 2;
+    } else {
+      decoded += text[i];
+    }
+  }
+  return decoded;
+}
+
+/// The file a path in a mesh means, which may come from another system: backslashes, absolute, encoded.
+std::optional<fs::path> find_companion(std::string path, const fs::path& folder) {
+  std::replace(path.begin(), path.end(), '\\', '/');
+  if (path.starts_with("file://")) path.erase(0, 7);
+  for (const std::string& spelling : {path, decode_percent(path)}) {
+    const fs::path given(spelling);
+    for (const fs::path& candidate : {folder / given, folder / given.filename()}) {
+      std::error_code error;
+      if (fs::is_regular_file(candidate, error)) return candidate;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> read_all(const fs::path& file, std::uintmax_t largest) {
+  std::error_code error;
+  const std::uintmax_t size = fs::file_size(file, error);
+  std::ifstream stream(file, std::ios::binary);
+  if (error || !stream || size > largest) return std::nullopt;
+  std::string bytes(size, '\0');
+  stream.read(bytes.data(), static_cast<std::streamsize>(size));
+  if (!stream) return std::nullopt;
+  return bytes;
+}
+
+}  // namespace
+
+std::optional<std::string> read_companion(const std::string& name, const fs::path& mesh_file) {
+  const auto file = find_companion(name, mesh_file.parent_path());
+  return file ? read_all(*file, kLargestText) : std::nullopt;
+}
+
+void read_textures(SurfaceMesh& mesh, const fs::path& mesh_file) {
+  for (SurfaceMaterial& material : mesh.materials) {
+    if (material.texture_name.empty() || !material.texture.empty()) continue;
+    const auto file = find_companion(material.texture_name, mesh_file.parent_path());
+    if (!file) {
+      mesh.notes.push_back(fmt::format("texture '{}' of material '{}' is not there; drawn without it",
+                                       material.texture_name, material.name));
+    } else if (const auto bytes = read_all(*file, kLargestTexture); bytes && !bytes->empty()) {
+      material.texture.resize(bytes->size());
+      std::memcpy(material.texture.data(), bytes->data(), bytes->size());
+    } else {
+      mesh.notes.push_back(fmt::format("texture '{}' cannot be read; drawn without it", material.texture_name));
+    }
+  }
+}
+
+}  // namespace sprung

@@ -1,0 +1,157 @@
+#include "core/mesh/repair/close_shells.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "core/mesh/repair/fill_hole.h"
+
+namespace sprung {
+namespace {
+
+/// A cap runs against the sides of the surface: from `from` to `to` here is from `to` to `from` there.
+struct Rim {
+  std::vector<int> corners;
+  std::vector<int> triangles;  // at the side from corner i to i + 1
+};
+
+/// Cuts a walk along open sides into loops that meet no point twice.
+class RimWalker {
+ public:
+  explicit RimWalker(const std::vector<OpenSide>& open) {
+    for (const OpenSide& side : open) leaving_.emplace(side.to, Step{side.from, side.triangle});
+  }
+
+  std::vector<Rim> rims() {
+    while (!leaving_.empty()) walk_from(leaving_.begin()->first);
+    return std::move(rims_);
+  }
+
+ private:
+  struct Step {
+    int to;
+    int triangle;
+  };
+
+  void walk_from(int start) {
+    std::vector<int> path{start};
+    std::vector<int> triangles;
+    std::map<int, std::size_t> place{{start, 0}};
+    for (auto next = leaving_.find(start); next != leaving_.end(); next = leaving_.find(path.back())) {
+      const Step step = next->second;
+      leaving_.erase(next);
+      triangles.push_back(step.triangle);
+      const auto seen = place.find(step.to);
+      if (seen == place.end()) {
+        place.emplace(step.to, path.size());
+        path.push_back(step.to);
+        continue;
+      }
+      cut_off(seen->second, path, triangles, place);
+    }
+  }
+
+  /// Takes the loop off the end of the path that begins at `first`. Two sides on one edge need no cap.
+  void cut_off(std::size_t first, std::vector<int>& path, std::vector<int>& triangles,
+               std::map<int, std::size_t>& place) {
+    const auto begin = static_cast<std::ptrdiff_t>(first);
+    Rim rim{{path.begin() + begin, path.end()}, {triangles.begin() + begin, triangles.end()}};
+    for (std::size_t i = first + 1; i < path.size(); ++i) place.erase(path[i]);
+    path.resize(first + 1);
+    triangles.resize(first);
+    if (rim.corners.size() > 2) rims_.push_back(std::move(rim));
+  }
+
+  std::multimap<int, Step> leaving_;
+  std::vector<Rim> rims_;
+};
+
+Hole hole_of(const WeldedMesh& mesh, const Rim& rim) {
+  const auto corners = static_cast<int>(rim.corners.size());
+  Hole hole{mesh.points(rim.corners, Eigen::all), Points(corners, 3)};
+  for (int i = 0; i < corners; ++i) {
+    const int from = rim.corners[static_cast<std::size_t>(i)];
+    const int to = rim.corners[static_cast<std::size_t>((i + 1) % corners)];
+    const int apex = mesh.triangles.row(rim.triangles[static_cast<std::size_t>(i)]).sum() - from - to;
+    hole.beyond.row(i) = mesh.points.row(apex);
+  }
+  return hole;
+}
+
+double area_of(const Points& points, const Triangles& triangles) {
+  double area = 0;
+  for (const auto& t : triangles.rowwise()) {
+    const Vec3 a = points.row(t[0]);
+    area += 0.5 * (points.row(t[1]).transpose() - a).cross(points.row(t[2]).transpose() - a).norm();
+  }
+  return area;
+}
+
+/// Triangles and points that are added to a mesh, all at once at the end.
+struct Added {
+  std::vector<Points> points;
+  std::vector<Triangles> triangles;
+  int point_count = 0;
+  int triangle_count = 0;
+};
+
+/// The cap's triangles by rows of the mesh's points.
+Triangles placed(const Cap& cap, const Rim& rim, int first_new) {
+  Triangles triangles = cap.triangles;
+  const auto corners = static_cast<int>(rim.corners.size());
+  for (int& row : triangles.reshaped()) {
+    row = row < corners ? rim.corners[static_cast<std::size_t>(row)] : first_new + row - corners;
+  }
+  return triangles;
+}
+
+void append(const Added& added, WeldedMesh& mesh) {
+  Eigen::Index point = mesh.points.rows();
+  Eigen::Index triangle = mesh.triangles.rows();
+  mesh.points.conservativeResize(point + added.point_count, 3);
+  mesh.triangles.conservativeResize(triangle + added.triangle_count, 3);
+  for (std::size_t i = 0; i < added.points.size(); ++i) {
+    mesh.points.middleRows(point, added.points[i].rows()) = added.points[i];
+    mesh.triangles.middleRows(triangle, added.triangles[i].rows()) = added.triangles[i];
+    point += added.points[i].rows();
+    triangle += added.triangles[i].rows();
+  }
+  mesh.source.resize(static_cast<std::size_t>(triangle), -1);
+  mesh.turned.resize(static_cast<std::size_t>(triangle), false);
+}
+
+}  // namespace
+
+Closing close_shells(WeldedMesh& mesh, Shells& shells) {
+  Closing closing;
+  closing.cap_areas.resize(shells.shells.size());
+  std::map<int, std::vector<OpenSide>> open;
+  for (const OpenSide& side : shells.open) open[side.shell].push_back(side);
+  const auto old_points = static_cast<int>(mesh.points.rows());
+  const auto old_triangles = static_cast<int>(mesh.triangles.rows());
+  Added added;
+  for (const auto& [shell, sides] : open) {
+    for (const Rim& rim : RimWalker(sides).rims()) {
+      const Cap cap = fill_hole(hole_of(mesh, rim));
+      Points corners(mesh.points(rim.corners, Eigen::all));
+      Points all(corners.rows() + cap.points.rows(), 3);
+      all << corners, cap.points;
+      closing.cap_areas[static_cast<std::size_t>(shell)] += area_of(all, cap.triangles);
+      ++(cap.flat ? closing.flat : closing.smooth);
+      std::vector<int>& rows = shells.shells[static_cast<std::size_t>(shell)].triangles;
+      for (int t = 0; t < cap.triangles.rows(); ++t) rows.push_back(old_triangles + added.triangle_count + t);
+      added.triangles.push_back(placed(cap, rim, old_points + added.point_count));
+      added.points.push_back(cap.points);
+      added.point_count += static_cast<int>(cap.points.rows());
+      added.triangle_count += static_cast<int>(cap.triangles.rows());
+    }
+  }
+  append(added, mesh);
+  for (const auto& [shell, sides] : open) {
+    measure(mesh.points, mesh.triangles, shells.shells[static_cast<std::size_t>(shell)]);
+  }
+  shells.open.clear();
+  return closing;
+}
+
+}  // namespace sprung

@@ -1,0 +1,241 @@
+#include "core/mesh/repair/components.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <set>
+#include <tuple>
+#include <utility>
+
+namespace sprung {
+
+std::vector<Side> sorted_sides(const Triangles& triangles) {
+  std::vector<Side> sides;
+  sides.reserve(3 * static_cast<std::size_t>(triangles.rows()));
+  for (int t = 0; t < triangles.rows(); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      const int a = triangles(t, k);
+      const int b = triangles(t, (k + 1) % 3);
+      sides.push_back({std::min(a, b), std::max(a, b), t, a < b});
+    }
+  }
+  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+    return std::tie(a.low, a.high, a.triangle) < std::tie(b.low, b.high, b.triangle);
+  });
+  return sides;
+}
+
+SidePairs::SidePairs(const Points& points, const Triangles& triangles, const std::vector<int>& pieces)
+    : points_(points), triangles_(triangles), pieces_(pieces), sets_(static_cast<std::size_t>(triangles.rows())) {}
+
+void SidePairs::pair(std::span<const Side> edge) {
+  if (edge.size() == 2 && edge[0].forward != edge[1].forward) {
+    sets_.merge(edge[0].triangle, edge[1].triangle);
+  } else if (edge.size() <= 2) {
+    open_.insert(open_.end(), edge.begin(), edge.end());
+  } else {
+    pair_many(edge);
+  }
+}
+
+void SidePairs::pair_many(std::span<const Side> edge) {
+  std::vector<Side> around(edge.begin(), edge.end());
+  sort_around(around);
+  std::set<int> pieces;
+  for (const Side& side : around) pieces.insert(piece_of(side));
+  std::vector<Side> left;
+  for (const int piece : pieces) {
+    std::vector<Side> own;
+    std::copy_if(around.begin(), around.end(), std::back_inserter(own),
+                 [&](const Side& side) { return piece_of(side) == piece; });
+    pair_around(own);
+    left.insert(left.end(), own.begin(), own.end());
+  }
+  sort_around(left);
+  pair_around(left);
+  open_.insert(open_.end(), left.begin(), left.end());
+}
+
+/// Seen along the edge, matter begins at a side that runs backward and ends at the next one that runs forward.
+void SidePairs::pair_around(std::vector<Side>& sides) {
+  for (std::size_t i = 0; i < sides.size() && sides.size() > 1;) {
+    const std::size_t next = (i + 1) % sides.size();
+    if (sides[i].forward || !sides[next].forward) {
+      ++i;
+      continue;
+    }
+    sets_.merge(sides[i].triangle, sides[next].triangle);
+    sides.erase(sides.begin() + static_cast<std::ptrdiff_t>(std::max(i, next)));
+    sides.erase(sides.begin() + static_cast<std::ptrdiff_t>(std::min(i, next)));
+    i = 0;
+  }
+}
+
+/// By the angle of their triangles about the edge.
+void SidePairs::sort_around(std::vector<Side>& edge) const {
+  if (edge.empty()) return;
+  const Vec3 low = points_.row(edge[0].low);
+  const Vec3 axis = (points_.row(edge[0].high).transpose() - low).normalized();
+  const Vec3 across = axis.unitOrthogonal();
+  std::vector<std::pair<double, Side>> angles;
+  for (const Side& side : edge) {
+    const int apex = triangles_.row(side.triangle).sum() - side.low - side.high;
+    const Vec3 out = points_.row(apex).transpose() - low;
+    angles.emplace_back(std::atan2(out.dot(axis.cross(across)), out.dot(across)), side);
+  }
+  std::stable_sort(angles.begin(), angles.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (std::size_t i = 0; i < edge.size(); ++i) edge[i] = angles[i].second;
+}
+
+namespace {
+
+struct Neighbour {
+  int triangle;
+  bool agrees;  // the two triangles run through their edge in opposite directions
+};
+
+int count_loops(const std::vector<Side>& open, Eigen::Index points) {
+  DisjointSets sets(static_cast<std::size_t>(points));
+  for (const Side& side : open) sets.merge(side.low, side.high);
+  std::vector<int> roots;
+  roots.reserve(open.size());
+  for (const Side& side : open) roots.push_back(sets.find(side.low));
+  std::sort(roots.begin(), roots.end());
+  return static_cast<int>(std::unique(roots.begin(), roots.end()) - roots.begin());
+}
+
+/// Across edges of exactly two triangles.
+std::vector<std::vector<Neighbour>> find_neighbours(const std::vector<Side>& sides, Eigen::Index triangles) {
+  std::vector<std::vector<Neighbour>> neighbours(static_cast<std::size_t>(triangles));
+  for_each_edge(sides, [&](std::span<const Side> edge) {
+    if (edge.size() != 2) return;
+    const bool agrees = edge[0].forward != edge[1].forward;
+    neighbours[static_cast<std::size_t>(edge[0].triangle)].push_back({edge[1].triangle, agrees});
+    neighbours[static_cast<std::size_t>(edge[1].triangle)].push_back({edge[0].triangle, agrees});
+  });
+  return neighbours;
+}
+
+/// Six times the signed volume between a triangle and the origin.
+double six_volumes(const Vec3& a, const Vec3& b, const Vec3& c) { return a.dot(b.cross(c)); }
+
+/// Collects the triangles that hang together with `seed`, and which of them must turn over to agree with it.
+class ShellWalker {
+ public:
+  explicit ShellWalker(const std::vector<std::vector<Neighbour>>& neighbours)
+      : neighbours_(neighbours), state_(neighbours.size(), State::kUnseen) {}
+
+  [[nodiscard]] bool seen(int triangle) const { return state_[static_cast<std::size_t>(triangle)] != State::kUnseen; }
+  [[nodiscard]] bool turns(int triangle) const { return state_[static_cast<std::size_t>(triangle)] == State::kTurned; }
+  /// Edges met from both sides whose two triangles cannot agree.
+  [[nodiscard]] int one_sided() const { return conflicts_ / 2; }
+
+  std::vector<int> walk(int seed) {
+    std::vector<int> shell{seed};
+    state(seed) = State::kKept;
+    for (std::size_t i = 0; i < shell.size(); ++i) {
+      const int from = shell[i];
+      for (const auto& [to, agrees] : neighbours_[static_cast<std::size_t>(from)]) {
+        const State wanted = turns(from) == agrees ? State::kTurned : State::kKept;
+        if (!seen(to)) {
+          state(to) = wanted;
+          shell.push_back(to);
+        } else if (state(to) != wanted) {
+          ++conflicts_;
+        }
+      }
+    }
+    std::sort(shell.begin(), shell.end());
+    return shell;
+  }
+
+ private:
+  enum class State : std::uint8_t { kUnseen, kKept, kTurned };
+  State& state(int triangle) { return state_[static_cast<std::size_t>(triangle)]; }
+
+  const std::vector<std::vector<Neighbour>>& neighbours_;
+  std::vector<State> state_;
+  int conflicts_ = 0;
+};
+
+/// Turns the triangles of each connected piece to agree, the few as the many; gives each triangle its piece.
+std::vector<int> orient(const std::vector<std::vector<Neighbour>>& neighbours, Triangles& triangles, Shells& result) {
+  ShellWalker walker(neighbours);
+  std::vector<int> pieces(neighbours.size());
+  result.turned.assign(neighbours.size(), false);
+  for (int seed = 0; seed < triangles.rows(); ++seed) {
+    if (walker.seen(seed)) continue;
+    const std::vector<int> piece = walker.walk(seed);
+    const auto turning = std::count_if(piece.begin(), piece.end(), [&](int t) { return walker.turns(t); });
+    const bool keep_turned = 2 * turning > static_cast<std::ptrdiff_t>(piece.size());
+    for (const int t : piece) {
+      pieces[static_cast<std::size_t>(t)] = seed;
+      if (walker.turns(t) == keep_turned) continue;
+      std::swap(triangles(t, 1), triangles(t, 2));
+      result.turned[static_cast<std::size_t>(t)] = true;
+    }
+  }
+  result.faults.one_sided = walker.one_sided();
+  return pieces;
+}
+
+void collect_shells(const Points& points, const Triangles& triangles, SidePairs& pairs, Shells& result) {
+  std::vector<int> number(static_cast<std::size_t>(triangles.rows()), -1);
+  const auto shell_of = [&](int t) -> int& { return number[static_cast<std::size_t>(pairs.shell_of(t))]; };
+  for (int t = 0; t < triangles.rows(); ++t) {
+    if (shell_of(t) < 0) {
+      shell_of(t) = static_cast<int>(result.shells.size());
+      result.shells.emplace_back();
+    }
+    result.shells[static_cast<std::size_t>(shell_of(t))].triangles.push_back(t);
+  }
+  for (Shell& shell : result.shells) measure(points, triangles, shell);
+  for (const Side& side : pairs.open()) {
+    result.open.push_back({side.forward ? side.low : side.high, side.forward ? side.high : side.low, side.triangle,
+                           shell_of(side.triangle)});
+  }
+}
+
+}  // namespace
+
+void measure(const Points& points, const Triangles& triangles, Shell& shell) {
+  shell.low = shell.high = points.row(triangles(shell.triangles.front(), 0));
+  for (const int t : shell.triangles) {
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 p = points.row(triangles(t, k));
+      shell.low = shell.low.cwiseMin(p);
+      shell.high = shell.high.cwiseMax(p);
+    }
+  }
+  const Vec3 centre = 0.5 * (shell.low + shell.high);
+  double sum = 0;
+  for (const int t : shell.triangles) {
+    const auto corner = [&](int k) -> Vec3 { return points.row(triangles(t, k)).transpose() - centre; };
+    sum += six_volumes(corner(0), corner(1), corner(2));
+  }
+  shell.volume = sum / 6;
+}
+
+Shells find_shells(const Points& points, Triangles& triangles) {
+  Shells result;
+  std::vector<Side> sides = sorted_sides(triangles);
+  const std::vector<int> pieces = orient(find_neighbours(sides, triangles.rows()), triangles, result);
+  for (Side& side : sides) {
+    if (result.turned[static_cast<std::size_t>(side.triangle)]) side.forward = !side.forward;
+  }
+  SidePairs pairs(points, triangles, pieces);
+  std::vector<Side> single;
+  for_each_edge(sides, [&](std::span<const Side> edge) {
+    pairs.pair(edge);
+    if (edge.size() == 1) single.push_back(edge[0]);
+    if (edge.size() > 2) ++result.faults.non_manifold;
+  });
+  result.faults.open = static_cast<int>(single.size());
+  result.faults.loops = count_loops(single, points.rows());
+  collect_shells(points, triangles, pairs, result);
+  return result;
+}
+
+}  // namespace sprung

@@ -1,0 +1,39 @@
+#pragma once
+#include <array>
+#include <vector>
+
+#include "core/mesh/repair/components.h"
+#include "core/types.h"
+
+namespace sprung {
+
+/// How much the triangles whose rows are given enclose: the median, over at most 1000 of them, of the winding number in
+/// their middles, without sign. 1/2 for a closed surface, 0.3 for half a sphere, 0 for a sheet, a band, or triangles at
+/// random. Changes little where triangles are missing or do not quite meet.
+[[nodiscard]] double enclosure(const Points& points, const Triangles& triangles, const std::vector<int>& rows);
+
+/// From this on a surface counts as the boundary of something.
+inline constexpr double kEncloses = 0.25;
+
+/// A shell that bounds matter from outside, with the cavities in it.
+struct Nest {
+  const Shell* outer;
+  std::vector<const Shell*> cavities;
+  bool is_buried = false;  // it lies in the matter of another nest and adds nothing to it
+};
+
+/// The nests that are one solid.
+using NestGroup = std::vector<Nest>;
+
+/// Closed shells in their nests, from the largest to the smallest: a shell is a cavity of the smallest nest around it
+/// when it is turned the other way and in none of that nest's cavities.
+[[nodiscard]] std::vector<Nest> nest_shells(const Points& points, const Triangles& triangles,
+                                            const std::vector<Shell>& shells);
+
+/// Groups the nests that cross (pairs of rows of `triangles`) or of which one lies in the matter of the other, and
+/// marks those that do.
+[[nodiscard]] std::vector<NestGroup> unite_nests(const Points& points, const Triangles& triangles,
+                                                 std::vector<Nest> nests,
+                                                 const std::vector<std::array<int, 2>>& crossings);
+
+}  // namespace sprung

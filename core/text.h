@@ -1,0 +1,23 @@
+#pragma once
+#include <fmt/format.h>
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace sprung {
+
+/// "1 triangle", "2 triangles"; `things` where the plural is not the thing with an s.
+[[nodiscard]] inline std::string count_of(long count, std::string_view thing, std::string_view things = "") {
+  if (count == 1) return fmt::format("1 {}", thing);
+  if (things.empty()) return fmt::format("{} {}s", count, thing);
+  return fmt::format("{} {}", count, things);
+}
+
+/// The known word closest to a mistyped one by edit distance, or empty where none is close.
+[[nodiscard]] std::string_view nearest_word(std::string_view word, std::span<const std::string_view> known);
+
+/// "; did you mean 'rubber'?" where a known word is close, else "; known are: a, b, c".
+[[nodiscard]] std::string did_you_mean(std::string_view word, std::span<const std::string_view> known);
+
+}  // namespace sprung

@@ -1,0 +1,217 @@
+#include "render/frame.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace sprung {
+namespace {
+
+constexpr double kKeyAzimuth = -28;     // degrees about y, as a camera's
+constexpr double kKeyElevation = 52;    // degrees
+constexpr double kSmallestSize = 1e-9;  // m
+constexpr double kGrid = 0.25;          // of a body's radius: to what the maps' sides are rounded
+
+/// Low and high of all shapes along three directions (rows), in stage space.
+Bounds extent(const std::vector<SkinShape>& shapes, const StageSpace& space, const Mat3& directions) {
+  Bounds bounds;
+  const Mat3 scaled = directions.transpose() * space.scale;
+  for (const SkinShape& shape : shapes) {
+    bounds.include(((shape.positions.cast<double>().rowwise() - space.center.transpose()) * scaled).eval());
+  }
+  if (bounds.empty()) bounds.low = bounds.high = Vec3::Zero();
+  return bounds;
+}
+
+/// Outwards by `border`, then to multiples of `grid`.
+Bounds widened(Bounds bounds, const Vec3& border, double grid) {
+  for (int k = 0; k < 3; ++k) {
+    bounds.low[k] = grid * std::floor((bounds.low[k] - border[k]) / grid);
+    bounds.high[k] = grid * std::ceil((bounds.high[k] + border[k]) / grid);
+  }
+  return bounds;
+}
+
+LightView view(const Bounds& bounds, const Mat3& directions) {
+  LightView light;
+  light.low = bounds.low;
+  light.sides = (bounds.high - bounds.low).cwiseMax(Vec3::Constant(1e-6));
+  light.clip_from_stage.setIdentity();
+  const Vec3 stretch = 2 * light.sides.cwiseInverse();
+  light.clip_from_stage.topLeftCorner<3, 3>() = stretch.asDiagonal() * directions;
+  light.clip_from_stage.topRightCorner<3, 1>() = -stretch.cwiseProduct(light.low) - Vec3::Ones();
+  return light;
+}
+
+Mat3 rows(const Vec3& right, const Vec3& up, const Vec3& away) {
+  Mat3 matrix;
+  matrix << right.transpose(), up.transpose(), away.transpose();
+  return matrix;
+}
+
+}  // namespace
+
+StageSpace::StageSpace(const Bounds& bounds)
+    : center(0.5 * (bounds.low + bounds.high)),
+      scale(1 / std::max(0.5 * (bounds.high - bounds.low).norm(), kSmallestSize)) {
+  center = center.cast<float>().cast<double>();  // the shaders subtract it in single precision
+}
+
+Vec3 to_key_light() {
+  const double a = kKeyAzimuth * std::numbers::pi / 180;
+  const double e = kKeyElevation * std::numbers::pi / 180;
+  return {std::sin(a) * std::cos(e), std::sin(e), std::cos(a) * std::cos(e)};
+}
+
+LightFrame fit_light(const std::vector<SkinShape>& shapes, const StageSpace& space, double body_radius,
+                     double ground_height) {
+  LightFrame frame;
+  const double grid = kGrid * body_radius;
+  const Vec3 x = Vec3::UnitX();
+  const Vec3 y = Vec3::UnitY();
+  const Vec3 z = Vec3::UnitZ();
+  const Vec3 light = to_key_light();
+
+  const Vec3 right = y.cross(light).normalized();
+  const Mat3 key = rows(right, light.cross(right), -light);
+  frame.key = view(widened(extent(shapes, space, key), Vec3::Constant(0.1 * body_radius), grid), key);
+
+  const Bounds box = extent(shapes, space, Mat3::Identity());
+  frame.bodies = box;
+  const Vec3 around(0.6 * body_radius, 0.05 * body_radius, 0.6 * body_radius);
+  Bounds down = widened(box, around, grid);
+  frame.zenith = view({{down.low.x(), down.low.z(), -down.high.y()}, {down.high.x(), down.high.z(), -down.low.y()}},
+                      rows(x, z, -y));
+  const double floor = std::min(ground_height, box.low.y()) - 0.01 * body_radius;
+  frame.nadir =
+      view({{down.low.x(), down.low.z(), floor}, {down.high.x(), down.high.z(), down.high.y()}}, rows(x, z, y));
+
+  // Where rays from the light through the bodies meet the ground: p - light * (height above ground) / light_y.
+  Bounds cast = extent(shapes, space, rows(x - y * (light.x() / light.y()), y, z - y * (light.z() / light.y())));
+  const Vec3 shift = light * (ground_height / light.y());
+  cast.low += Vec3(shift.x(), 0, shift.z());
+  cast.high += Vec3(shift.x(), 0, shift.z());
+  Bounds floor_box;
+  floor_box.low = box.low.cwiseMin(cast.low);
+  floor_box.high = box.high.cwiseMax(cast.high);
+  floor_box = widened(floor_box, Vec3::Constant(1.6 * body_radius), grid);
+  frame.ground.low = {floor_box.low.x(), floor_box.low.z()};
+  frame.ground.sides = {floor_box.high.x() - floor_box.low.x(), floor_box.high.z() - floor_box.low.z()};
+  return frame;
+}
+
+void DrawFrame::set_common(const GlProgram& program) const {
+  program.set("stage_center", space.center.cast<float>().eval());
+  program.set("stage_scale", static_cast<float>(space.scale));
+  program.set("to_key", to_key_light().cast<float>().eval());
+  program.set("sky_on_ground", sky_on_ground);
+  program.set("body_radius", static_cast<float>(body_radius));
+  program.set("ground_height", static_cast<float>(ground_height));
+  program.set("ground_rectangle", rectangle(light.ground.low, light.ground.sides));
+  program.set("light_from_stage", light.key.clip_from_stage.cast<float>().eval());
+}
+
+Eigen::Vector4f rectangle(const Eigen::Vector2d& low, const Eigen::Vector2d& sides) {
+  Eigen::Vector4f values;
+  values << low.cast<float>(), sides.cast<float>();
+  return values;
+}
+
+Eigen::Vector4f lookup_rectangle(const LightView& view) {
+  return rectangle(view.low.head<2>(), view.sides.head<2>().cwiseInverse());
+}
+
+namespace {
+
+constexpr double kFar = 100;  // stage space, where 1 is the radius of everything; the end of what is drawn
+
+Eigen::Matrix4d view_from_stage(const Vec3& eye, const Vec3& target, const Vec3& up) {
+  const Vec3 backwards = (eye - target).normalized();
+  const Vec3 right = up.cross(backwards).normalized();
+  Eigen::Matrix4d view = Eigen::Matrix4d::Identity();
+  view.row(0).head<3>() = right;
+  view.row(1).head<3>() = backwards.cross(right);
+  view.row(2).head<3>() = backwards;
+  view.topRightCorner<3, 1>() = -view.topLeftCorner<3, 3>() * eye;
+  return view;
+}
+
+/// With a slope for x and one for y (downwards: pictures begin at the top) at a distance of 1.
+Eigen::Matrix4d perspective(const Eigen::Vector2d& slopes, double shift, double near, double far) {
+  Eigen::Matrix4d clip = Eigen::Matrix4d::Zero();
+  clip(0, 0) = 1 / slopes.x();
+  clip(0, 2) = -shift;
+  clip(1, 1) = 1 / slopes.y();
+  clip(2, 2) = -(far + near) / (far - near);
+  clip(2, 3) = -2 * far * near / (far - near);
+  clip(3, 2) = -1;
+  return clip;
+}
+
+Eigen::Matrix4d parallel(const Eigen::Vector2d& halves, double shift, double near, double far) {
+  Eigen::Matrix4d clip = Eigen::Matrix4d::Identity();
+  clip(0, 0) = 1 / halves.x();
+  clip(0, 3) = shift;
+  clip(1, 1) = 1 / halves.y();
+  clip(2, 2) = -2 / (far - near);
+  clip(2, 3) = -(far + near) / (far - near);
+  return clip;
+}
+
+}  // namespace
+
+View make_view(const DrawFrame& frame, const Camera& camera, double aspect) {
+  const Vec3 eye = frame.space.from_world(camera.eye);
+  const Vec3 target = frame.space.from_world(camera.target);
+  const double away = eye.norm();
+  const Eigen::Matrix4d turn = view_from_stage(eye, target, camera.up);
+  const double slope = std::tan(camera.vertical_field_of_view * std::numbers::pi / 360);
+  const Eigen::Vector2d slopes(slope * aspect, -slope);
+  View view{.frame = frame, .eye = eye};
+  view.sight_height = Vec3(slopes.x() * turn(0, 1), slopes.y() * turn(1, 1), -turn(2, 1));
+  view.sight_slopes = slopes;
+  const double far = away + kFar;
+  if (camera.orthographic) {
+    const double near = away - kFar;
+    view.clip_from_stage = parallel(slopes * (eye - target).norm(), camera.shift, near, far) * turn;
+    view.distance_terms = {far - near, near, 0, 1};
+    view.eye = eye + kFar * kFar * (eye - target).normalized();
+  } else {
+    view.near = std::max(0.02 * away, 0.002);
+    view.clip_from_stage = perspective(slopes, camera.shift, view.near, far) * turn;
+    view.distance_terms = {0, 1, 1 / far - 1 / view.near, 1 / view.near};
+  }
+  return view;
+}
+
+PixelRectangle seen_rectangle(const View& view, int width, int height) {
+  Eigen::Array2d low(1, 1);
+  Eigen::Array2d high(-1, -1);
+  const Bounds& bounds = view.frame.light.bodies;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 place((corner & 1) != 0 ? bounds.high.x() : bounds.low.x(),
+                     (corner & 2) != 0 ? bounds.high.y() : bounds.low.y(),
+                     (corner & 4) != 0 ? bounds.high.z() : bounds.low.z());
+    const Eigen::Vector4d clip = view.clip_from_stage * place.homogeneous();
+    if (view.near > 0 && clip.w() < view.near) return {0, 0, width, height};
+    low = low.min(clip.head<2>().array() / clip.w());
+    high = high.max(clip.head<2>().array() / clip.w());
+  }
+  const auto pixel = [](double clip, int size) {
+    return std::clamp(static_cast<int>(std::floor((0.5 + 0.5 * std::clamp(clip, -1.0, 1.0)) * size)), 0, size - 1);
+  };
+  PixelRectangle seen{pixel(low.x(), width), pixel(low.y(), height), 0, 0};
+  seen.width = std::max(0, pixel(high.x(), width) - seen.left + 1);
+  seen.height = std::max(0, pixel(high.y(), height) - seen.top + 1);
+  return seen;
+}
+
+Vec3 floor_depth(const View& view) {
+  const Eigen::Matrix4d stage = view.clip_from_stage.inverse();
+  const Eigen::RowVector4d p = stage.row(1) - view.frame.ground_height * stage.row(3);
+  return {-p[0] / p[2], -p[1] / p[2], 0.5 - 0.5 * (p[3] - p[0] - p[1]) / p[2]};
+}
+
+}  // namespace sprung

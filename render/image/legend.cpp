@@ -1,0 +1,152 @@
+#include "render/image/legend.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sprung {
+
+namespace {
+
+constexpr Ink kDark{38, 40, 44};
+constexpr double kLetters = 0.030;         // of the picture's height ...
+constexpr double kSmallestLetters = 11.0;  // pixels
+constexpr double kBarHeight = 0.46;        // of the picture's height
+constexpr double kLeastRoom = 0.285;       // of the picture's height: for a legend
+constexpr double kBarWidth = 0.024;        // of the picture's height
+
+std::string tick_text(double tick) { return fmt::format("{:.6g}", tick); }
+
+void fill(Image& image, double left, double top, double right, double bottom, const Ink& ink, double share = 1) {
+  for (int y = static_cast<int>(std::lround(top)); y < std::lround(bottom); ++y) {
+    for (int x = static_cast<int>(std::lround(left)); x < std::lround(right); ++x) mix_pixel(image, x, y, ink, share);
+  }
+}
+
+Ink ink_of(const Eigen::Vector3f& color) {
+  Ink ink{};
+  for (int c = 0; c < 3; ++c) {
+    ink[static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(std::lround(255 * std::clamp(color[c], 0.0F, 1.0F)));
+  }
+  return ink;
+}
+
+/// A rectangle with a thin dark line around it.
+void fill_framed(Image& image, double left, double top, double right, double bottom, const Ink& ink) {
+  const double line = std::max(1.0, image.height / 540.0);
+  fill(image, left - line, top - line, right + line, bottom + line, kDark, 0.75);
+  fill(image, left, top, right, bottom, ink);
+}
+
+void draw_scale(Image& image, const Legend& legend, const Font& font, double left, double top) {
+  const double size = letters_height(image.height);
+  const double height = kBarHeight * image.height;
+  const double width = kBarWidth * image.height;
+  fill_framed(image, left, top, left + width, top + height, kDark);
+  const auto rows = static_cast<int>(std::lround(top + height) - std::lround(top));
+  for (int row = 0; row < rows; ++row) {
+    const double share = 1 - (row + 0.5) / rows;
+    const double y = static_cast<double>(std::lround(top)) + row;
+    fill(image, left, y, left + width, y + 1, ink_of(map_color(legend.map, share)));
+  }
+  for (const double tick : round_ticks(legend.low, legend.high, height / (1.4 * size))) {
+    const double y = top + height * (1 - (tick - legend.low) / (legend.high - legend.low));
+    const double line = std::max(1.0, image.height / 540.0);
+    fill(image, left + width, y - line / 2, left + width + 0.3 * size, y + line / 2, kDark, 0.75);
+    font.write(image, left + width + 0.5 * size, y + 0.31 * size, size, tick_text(tick), kDark);
+  }
+}
+
+void draw_swatches(Image& image, const Legend& legend, const Font& font, double left, double top) {
+  const double size = letters_height(image.height);
+  double y = top;
+  for (const Legend::Swatch& swatch : legend.swatches) {
+    fill_framed(image, left, y, left + 1.1 * size, y + 0.9 * size, ink_of(swatch.color));
+    font.write(image, left + 1.6 * size, y + 0.78 * size, size, swatch.name, kDark);
+    y += 1.5 * size;
+  }
+}
+
+}  // namespace
+
+double letters_height(int height) { return std::max(kSmallestLetters, kLetters * height); }
+
+double round_length(double most) {
+  const double power = std::pow(10, std::floor(std::log10(most)));
+  for (const double factor : {5.0, 2.0}) {
+    if (factor * power <= most * (1 + 1e-9)) return factor * power;
+  }
+  return power;
+}
+
+std::vector<double> round_ticks(double low, double high, double most) {
+  if (!(high > low)) return {low};
+  const double step = round_length((high - low) / 3.5);
+  std::vector<double> ticks;
+  for (double tick = std::ceil(low / step - 1e-6); tick * step <= high + 1e-6 * step; ++tick) {
+    ticks.push_back(tick == 0 ? 0 : tick * step);
+  }
+  std::vector<double> few;
+  const double stride = std::ceil(static_cast<double>(ticks.size()) / std::max(most, 1.0));
+  for (std::size_t i = 0; i < ticks.size(); i += static_cast<std::size_t>(stride)) few.push_back(ticks[i]);
+  return few;
+}
+
+double legend_width(const Legend& legend, int height, const Font& font) {
+  const double size = letters_height(height);
+  double content = font.width(legend.title, size);
+  const auto include = [&](double beside, const std::string& text) {
+    content = std::max(content, beside + font.width(text, size));
+  };
+  if (legend.swatches.empty()) {
+    for (const double tick : round_ticks(legend.low, legend.high)) {
+      include(kBarWidth * height + 0.5 * size, tick_text(tick));
+    }
+  }
+  for (const Legend::Swatch& swatch : legend.swatches) include(1.6 * size, swatch.name);
+  return std::max(content + 2 * kLabelMargin * height, kLeastRoom * height);
+}
+
+void draw_legend(Image& image, const Legend& legend, const Font& font) {
+  const double size = letters_height(image.height);
+  const double left = image.width - legend_width(legend, image.height, font) + kLabelMargin * image.height;
+  const double height =
+      legend.swatches.empty() ? kBarHeight * image.height : 1.5 * size * static_cast<double>(legend.swatches.size());
+  const double top = 0.5 * (image.height - height);
+  font.write(image, left, top - 0.9 * size, size, legend.title, kDark);
+  if (legend.swatches.empty()) {
+    draw_scale(image, legend, font, left, top);
+  } else {
+    draw_swatches(image, legend, font, left, top);
+  }
+}
+
+void draw_name(Image& image, const std::string& text, const Font& font) {
+  const double size = 1.2 * letters_height(image.height);
+  const double left = 0.5 * (image.width - font.width(text, size));
+  font.write(image, left, kLabelMargin * image.height + 0.8 * size, size, text, kDark);
+}
+
+void draw_caption(Image& image, const std::string& text, const Font& font) {
+  const double size = 1.35 * letters_height(image.height);
+  font.write(image, kLabelMargin * image.height, kLabelMargin * image.height + 0.8 * size, size, text, kDark);
+}
+
+void draw_footer(Image& image, const std::string& text, const Font& font) {
+  font.write(image, kLabelMargin * image.height, (1 - kLabelMargin) * image.height, letters_height(image.height), text,
+             kDark);
+}
+
+void draw_scale_bar(Image& image, double pixels, const std::string& length, const Font& font) {
+  const double size = letters_height(image.height);
+  const double right = image.width - kLabelMargin * image.height;
+  const double bottom = (1 - kLabelMargin) * image.height;
+  const double thick = std::max(2.0, 0.18 * size);
+  fill(image, right - pixels - 1, bottom - thick - 1, right + 1, bottom + 1, {255, 255, 255}, 0.6);
+  fill(image, right - pixels, bottom - thick, right, bottom, kDark);
+  font.write(image, right - 0.5 * (pixels + font.width(length, size)), bottom - thick - 0.45 * size, size, length,
+             kDark);
+}
+
+}  // namespace sprung
