@@ -30,13 +30,13 @@ constexpr std::array<Color, 8> kPalette{{{0xd8, 0x32, 0x2a},
 
 /// Which solid each vertex of a mesh belongs to; the first, where none has it.
 std::vector<int> solids_of_vertices(const LoadedBody& loaded) {
-  std::vector<int> owners(static_cast<std::size_t>(loaded.mesh.positions.rows()), -1);
+  std::vector<int> owners(loaded.mesh.positions.rows(), -1);
   for (std::size_t solid = 0; solid < loaded.solids.size(); ++solid) {
     for (const int triangle : loaded.solids[solid].source) {
       if (triangle < 0) continue;
       for (const int vertex : loaded.mesh.triangles.row(triangle)) {
-        int& owner = owners[static_cast<std::size_t>(vertex)];
-        if (owner < 0) owner = static_cast<int>(solid);
+        int& owner = owners[vertex];
+        if (owner < 0) owner = int(solid);
       }
     }
   }
@@ -62,7 +62,7 @@ CarriedVertices carry(const LoadedBody& loaded, std::size_t solid, const std::ve
                       const BrickGrid& grid) {
   CarriedVertices carried;
   for (std::size_t vertex = 0; vertex < owners.size(); ++vertex) {
-    if (owners[vertex] == static_cast<int>(solid)) carried.vertices.push_back(static_cast<int>(vertex));
+    if (owners[vertex] == int(solid)) carried.vertices.push_back(int(vertex));
   }
   const Points outward = outward_of(loaded.mesh, loaded.solids[solid]);
   carried.embedding =
@@ -98,7 +98,7 @@ Points velocities_of(const SceneBody& scene_body, const Actor& actor, const Vec3
   }
   for (const HeldNode& held : actor.pinned) {
     for (int axis = 0; axis < 3; ++axis) {
-      if (held.axes[static_cast<std::size_t>(axis)]) velocities(held.node, axis) = 0;
+      if (held.axes[axis]) velocities(held.node, axis) = 0;
     }
   }
   return velocities;
@@ -123,7 +123,7 @@ void BodyBuilder::fill_solids() {
 void BodyBuilder::add_solids() {
   const std::vector<Pose> poses = poses_of(body_, loaded_);
   for (const Filled& filled : filled_) {
-    for (std::size_t copy = 0; copy < poses.size(); ++copy) put(filled, poses[copy], static_cast<int>(copy));
+    for (std::size_t copy = 0; copy < poses.size(); ++copy) put(filled, poses[copy], int(copy));
   }
   const SurfaceMesh& mesh = loaded_.mesh;
   production_.meshes.push_back({.positions = mesh.positions,
@@ -200,7 +200,7 @@ void BodyBuilder::tell(const Console& console) const {
                 fmt::format("{}: the pins hold no node; make what they choose at least a brick ({}) thick",
                             loaded_.name, readable(loaded_.brick_size, Dimension::kLength)));
   }
-  const int free_solids = static_cast<int>(loaded_.solids.size()) - held_solids_;
+  const int free_solids = isize(loaded_.solids) - held_solids_;
   if (free_solids == 0) return;
   console.warn(fmt::format("{}: {} of {} solids are not held by the pins and will fall", loaded_.name, free_solids,
                            loaded_.solids.size()));

@@ -45,11 +45,11 @@ SurfaceMesh surface_of(const BrickGrid& grid) {
   }
   SurfaceMesh mesh;
   mesh.positions = grid.rest_positions();
-  mesh.triangles.resize(static_cast<Eigen::Index>(triangles.size()), 3);
+  mesh.triangles.resize(triangles.size(), 3);
   for (std::size_t i = 0; i < triangles.size(); ++i) {
-    mesh.triangles.row(static_cast<Eigen::Index>(i)) = triangles[i].transpose();
+    mesh.triangles.row(i) = triangles[i].transpose();
   }
-  mesh.parts = {Part{.name = "box", .triangle_count = static_cast<int>(triangles.size())}};
+  mesh.parts = {Part{.name = "box", .triangle_count = isize(triangles)}};
   return mesh;
 }
 

@@ -71,7 +71,7 @@ int count_in(std::string_view name, const std::string& text) {
 /// The words again, as a shell takes them.
 std::string command_of(int argc, const char* const* argv) {
   std::string command;
-  for (const std::string word : std::span(argv, static_cast<std::size_t>(argc))) {
+  for (const std::string word : std::span(argv, argc)) {
     const bool is_plain = !word.empty() && std::all_of(word.begin(), word.end(), [](unsigned char letter) {
       return std::isalnum(letter) != 0 ||
              std::string_view("_-+=./:,@%").find(static_cast<char>(letter)) != std::string_view::npos;

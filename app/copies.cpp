@@ -15,9 +15,7 @@ class Chance {
   explicit Chance(int seed) : engine_(static_cast<std::uint64_t>(seed)) {}
 
   /// In [low, high).
-  double between(double low, double high) {
-    return low + (high - low) * std::ldexp(static_cast<double>(engine_() >> 11U), -53);
-  }
+  double between(double low, double high) { return low + (high - low) * std::ldexp(engine_() >> 11U, -53); }
   Vec3 in_cube(double reach) {
     const double x = between(-reach, reach);
     const double y = between(-reach, reach);

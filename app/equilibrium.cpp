@@ -80,7 +80,7 @@ class Loading {
                 NewtonSystem& system) {
     const Points start = body.positions;
     for (Eigen::Index i = 0; i < start.size(); ++i) {
-      if (!supports.fixed[static_cast<std::size_t>(i)]) continue;
+      if (!supports.fixed[i]) continue;
       body.positions.data()[i] = body.rest_positions.data()[i] + movements.data()[i];
     }
     iterations_ += solve_static(body, supports, loads, start, system).iterations;
@@ -117,7 +117,7 @@ Recording record_equilibria(Production& production, const Scene& scene, const Co
   Progress progress(console, loading.is_linear() ? "linear" : "static", frames);
   for (int frame = first; frame < frames; ++frame) {
     stop_if_interrupted();
-    const double share = frames == 1 ? 1.0 : static_cast<double>(frame) / (frames - 1);
+    const double share = frames == 1 ? 1.0 : double(frame) / (frames - 1);
     // Nothing is solved for the first of several: no load, no displacement.
     const std::vector<Points> reactions =
         share == 0 ? std::vector<Points>{} : loading.apply(share, time_of(scene, frame));
@@ -145,8 +145,8 @@ Recording record_modes(Production& production, const Scene& scene, const Console
   Recorder recorder(scene, production, "mode", cache);
   const int first = recorder.take_up(production.world, [](MotionMemory&) {});
   for (int frame = first; frame < frames; ++frame) {
-    const double place = static_cast<double>(frame) * count / frames;
-    const int mode = std::min(static_cast<int>(place), count - 1);
+    const double place = double(frame) * count / frames;
+    const int mode = std::min(int(place), count - 1);
     const Eigen::VectorXd shape = modes.shapes.col(mode) / modes.shapes.col(mode).cwiseAbs().maxCoeff();
     const double swing = kModeSwing * production.size * std::sin(2 * std::numbers::pi * (place - mode));
     actor.body.positions = actor.body.rest_positions;

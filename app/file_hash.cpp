@@ -14,7 +14,7 @@ std::string file_hash(const std::filesystem::path& file) {
   std::uint64_t hash = 0xcbf29ce484222325U;
   std::vector<char> block(1 << 20);
   while (bytes.read(block.data(), static_cast<std::streamsize>(block.size())) || bytes.gcount() > 0) {
-    for (const char byte : std::span(block.data(), static_cast<std::size_t>(bytes.gcount()))) {
+    for (const char byte : std::span(block.data(), bytes.gcount())) {
       hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3U;
     }
   }

@@ -18,7 +18,7 @@ int number_in(std::string_view text, std::string_view words) {
 
 }  // namespace
 
-FrameRange whole_film(std::size_t frames) { return {.first = 1, .last = static_cast<int>(frames)}; }
+FrameRange whole_film(std::size_t frames) { return {.first = 1, .last = int(frames)}; }
 
 FrameRange parse_frame_range(std::string_view words, std::size_t frames) {
   FrameRange range = whole_film(frames);
@@ -28,7 +28,7 @@ FrameRange parse_frame_range(std::string_view words, std::size_t frames) {
   const std::string_view after = colon == std::string_view::npos ? before : words.substr(colon + 1);
   if (!before.empty()) range.first = number_in(before, words);
   if (!after.empty()) range.last = number_in(after, words);
-  if (range.first >= 1 && range.first <= range.last && range.last <= static_cast<int>(frames)) return range;
+  if (range.first >= 1 && range.first <= range.last && range.last <= int(frames)) return range;
   throw Error(ErrorKind::kUsage, fmt::format("--frames: {} is not within the {} frames that there are", words, frames));
 }
 

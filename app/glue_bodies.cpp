@@ -16,7 +16,7 @@ constexpr double kNear = 0.5;  // of the smaller bricks
 std::vector<std::size_t> actors_of(const Production& production, int body) {
   std::vector<std::size_t> actors;
   for (std::size_t i = 0; i < production.origins.size(); ++i) {
-    if (production.origins[i].body + 1 == static_cast<std::size_t>(body)) actors.push_back(i);
+    if (production.origins[i].body + 1 == std::size_t(body)) actors.push_back(i);
   }
   return actors;
 }

@@ -100,7 +100,7 @@ void take_out(const std::vector<Cut>& cuts, LoadedBody& loaded) {
   std::vector<bool> is_gone(grid.cells.size());
   const Selector selector(loaded);
   for (const Cut& cut : cuts) {
-    for (const int brick : selector.bricks(cut, grid, 0)) is_gone[static_cast<std::size_t>(brick)] = true;
+    for (const int brick : selector.bricks(cut, grid, 0)) is_gone[brick] = true;
   }
   std::vector<Eigen::Vector3i> kept;
   for (std::size_t brick = 0; brick < is_gone.size(); ++brick) {
@@ -211,7 +211,7 @@ std::vector<std::vector<WallSample>> sample_walls(const LoadedBody& loaded) {
   double bricks = 0;
   for (const Solid& solid : loaded.solids) bricks += surface_area(solid) / (loaded.brick_size * loaded.brick_size);
   const double count = std::clamp(kWallSamplesABrick * bricks, kFewestWallSamples, kMostWallSamples);
-  return sample_thickness(loaded.solids, static_cast<int>(count));
+  return sample_thickness(loaded.solids, int(count));
 }
 
 void choose_bricks(LoadedBody& loaded, const Console& console) {

@@ -21,7 +21,7 @@
 namespace sprung {
 namespace {
 
-constexpr int kFailed = static_cast<int>(ErrorKind::kFailed);
+constexpr int kFailed = int(ErrorKind::kFailed);
 
 /// The exit code.
 int run(int argc, const char* const* argv, Console& console) {
@@ -67,7 +67,7 @@ int run(int argc, const char* const* argv, Console& console) {
 /// The exit code that fits how it ended.
 int exit_code(int argc, const char* const* argv) {
   Console console = Console::of_process();
-  const std::span words(argv, static_cast<std::size_t>(argc));
+  const std::span words(argv, argc);
   console.log_json =
       std::count(words.begin(), words.end(), std::string_view("--log-json")) > 0;  // of mistakes in the others too
   catch_interrupts();
@@ -82,7 +82,7 @@ int exit_code(int argc, const char* const* argv) {
   } catch (const Error& error) {
     if (is_interrupted()) return kInterruptedExitCode;  // whatever failed, it was told to stop
     console.error(error.what());
-    return static_cast<int>(error.kind());
+    return int(error.kind());
   } catch (const std::bad_alloc&) {
     console.error("out of memory; fewer bricks, fewer frames or a smaller mesh need less");
     return kFailed;

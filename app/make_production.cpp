@@ -19,7 +19,7 @@ std::vector<LoadedBody> load_bodies(const Scene& scene, const Console& console) 
   for (const SceneBody& body : scene.bodies) {
     const LoadedBody& loaded = bodies.emplace_back(load_body(body, console));
     triangles += loaded.mesh.triangles.rows();
-    solids += static_cast<long>(loaded.solids.size());
+    solids += long(loaded.solids.size());
   }
   progress.finish(fmt::format("{}, {}", count_of(triangles, "triangle"), count_of(solids, "solid")));
   return bodies;
@@ -42,9 +42,9 @@ class ThinParts {
   std::vector<ThinPart> find(const BrickGrid& grid, std::size_t solid) {
     if (solid >= body_.walls.size() || body_.solids[solid].thickness > 0) return {};  // of shells load_body() warns
     std::vector<ThinPart> parts = find_thin_parts(grid, body_.walls[solid]);
-    count_ += static_cast<long>(parts.size());
+    count_ += long(parts.size());
     for (const ThinPart& part : parts) {
-      bricks_ += static_cast<long>(part.bricks.size());
+      bricks_ += long(part.bricks.size());
       if (thinnest_.thickness == 0 || part.thickness < thinnest_.thickness) thinnest_ = part;
     }
     return parts;
@@ -73,7 +73,7 @@ void find_thin_parts(const Scene& scene, Preparation& prepared, const Console& c
   std::size_t actor = 0;
   for (std::size_t body = 0; body < prepared.bodies.size(); ++body) {
     ThinParts parts(prepared.bodies[body]);
-    const auto copies = static_cast<std::size_t>(copy_count(scene.bodies[body]));
+    const std::size_t copies = copy_count(scene.bodies[body]);
     for (std::size_t solid = 0; solid < prepared.bodies[body].solids.size(); ++solid, actor += copies) {
       const std::vector<ThinPart> found = parts.find(world.actors[actor].body.grid, solid);
       prepared.thin_parts.insert(prepared.thin_parts.end(), copies, found);

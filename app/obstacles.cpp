@@ -46,7 +46,7 @@ Made make_mesh(const SceneObstacle& obstacle, const Console& console) {
   Points points(0, 3);
   Triangles triangles(0, 3);
   for (const Solid& solid : found.solids) {
-    const auto first = static_cast<int>(points.rows());
+    const auto first = int(points.rows());
     const auto before = triangles.rows();
     points.conservativeResize(first + solid.points.rows(), 3);
     points.bottomRows(solid.points.rows()) = placed(solid.points);

@@ -137,7 +137,7 @@ void check_output(const Output& output, bool overwrite) {
   }
   const std::vector<fs::path> pictures = existing_pictures(output);
   if (!overwrite && !pictures.empty()) {
-    const auto more = static_cast<long>(pictures.size()) - 1;
+    const auto more = long(pictures.size()) - 1;
     throw Error(ErrorKind::kUsage,
                 more == 0 ? fmt::format("'{}' exists; say --overwrite to replace it", pictures.front().string())
                           : fmt::format("'{}' and {} exist; say --overwrite to replace them", pictures.front().string(),

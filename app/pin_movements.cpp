@@ -28,7 +28,7 @@ Points pin_movements(const Scene& scene, const Production& production, std::size
     for (const int node : pinned.nodes) {
       const Vec3 moves = way(movement, time, start.row(node).transpose() - pinned.centre, small);
       for (int axis = 0; axis < 3; ++axis) {
-        if (pin.axes.held[static_cast<std::size_t>(axis)]) moved(node, axis) = moves[axis];
+        if (pin.axes.held[axis]) moved(node, axis) = moves[axis];
       }
     }
   }
@@ -39,7 +39,7 @@ Supports supports_of(const Actor& actor) {
   Supports supports(actor.body.node_count());
   for (const HeldNode& held : actor.pinned) {
     for (int axis = 0; axis < 3; ++axis) {
-      if (held.axes[static_cast<std::size_t>(axis)]) supports.fix(held.node, axis);
+      if (held.axes[axis]) supports.fix(held.node, axis);
     }
   }
   return supports;

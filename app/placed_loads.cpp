@@ -13,7 +13,7 @@ namespace {
 Eigen::VectorXd volumes_of(const std::vector<int>& bricks, const BrickGrid& grid) {
   Eigen::VectorXd volumes = Eigen::VectorXd::Zero(grid.node_count());
   for (const int brick : bricks) {
-    const auto row = static_cast<std::size_t>(brick);
+    const std::size_t row = brick;
     for (const int node : grid.nodes[row]) volumes[node] += grid.fill[row] * grid.brick_volume() / 8;
   }
   return volumes;

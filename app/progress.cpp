@@ -56,7 +56,7 @@ void Progress::draw() {
   }
   is_drawn_ = true;
   const double part = total_ > 0 ? std::clamp(done_ / total_, 0.0, 1.0) : 0;
-  const int filled = static_cast<int>(part * kBarWidth);
+  const int filled = int(part * kBarWidth);
   std::string line = fmt::format("\r\033[K{:<9} ", stage_);
   if (total_ > 0) line += fmt::format("[{:#<{}}{:.<{}}] {:3.0f} %", "", filled, "", kBarWidth - filled, 100 * part);
   if (done_ > 0) line += fmt::format("  {}  {} to go", rate(), duration_text(seconds_to_go()));

@@ -30,7 +30,7 @@ Recorder::Recorder(const Scene& scene, const Production& production, std::string
 Recorder::PointSeat Recorder::seat_of(const Probe& probe) const {
   for (std::size_t actor = 0; actor < production_.origins.size(); ++actor) {
     const Origin& origin = production_.origins[actor];
-    if (origin.body != static_cast<std::size_t>(probe.body - 1)) continue;
+    if (origin.body != std::size_t(probe.body - 1)) continue;
     const Body& body = production_.world.actors[actor].body;
     PointSeat seat{.actor = actor, .embedding = embed(body.grid, (origin.bricks_from_rest * *probe.point).transpose())};
     if (seat.embedding.outside > 0) continue;
@@ -96,7 +96,7 @@ ProbeSample Recorder::point_sample(const PointSeat& seat) const {
 
 ProbeSample Recorder::pin_sample(const Probe& probe, const std::vector<Points>& reactions, double time,
                                  bool small) const {
-  const auto row = static_cast<std::size_t>(probe.body - 1);
+  const std::size_t row = probe.body - 1;
   const SceneBody& scene_body = scene_.bodies[row];
   ProbeSample sample;
   int count = 0;
@@ -114,7 +114,7 @@ ProbeSample Recorder::pin_sample(const Probe& probe, const std::vector<Points>& 
         sample.displacement += (body.positions.row(node) - body.rest_positions.row(node)).transpose();
         if (reactions.empty()) continue;
         Vec3 force = reactions[actor].row(node);
-        for (int axis = 0; axis < 3; ++axis) force[axis] *= pin.axes.held[static_cast<std::size_t>(axis)] ? 1 : 0;
+        for (int axis = 0; axis < 3; ++axis) force[axis] *= pin.axes.held[axis] ? 1 : 0;
         const Vec3 arm = (small ? body.rest_positions : body.positions).row(node).transpose() - centre;
         sample.force += force;
         sample.torque += arm.cross(force);
@@ -134,7 +134,7 @@ Recording Recorder::finish() {
 std::uint64_t state_hash(const World& world) {
   std::uint64_t hash = 0xcbf29ce484222325U;
   const auto add = [&](const Points& points) {
-    for (const double value : std::span(points.data(), static_cast<std::size_t>(points.size()))) {
+    for (const double value : std::span(points.data(), points.size())) {
       const auto bits = std::bit_cast<std::uint64_t>(value);
       for (unsigned byte = 0; byte < 8; ++byte) hash = (hash ^ ((bits >> (8 * byte)) & 0xffU)) * 0x100000001b3U;
     }

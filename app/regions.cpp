@@ -50,8 +50,8 @@ std::vector<int> apply_regions(const std::vector<Region>& regions, const Selecto
     check_ratio(region.material, body.material);
     if (region.gradient) check_ratio(region.gradient->material, body.material);
     for (const int brick : selector.bricks(region, body.grid, solid)) {
-      filled[static_cast<std::size_t>(brick)] = stuff_at(region, selector, middles.row(brick));
-      regions_of_bricks[static_cast<std::size_t>(brick)] = static_cast<int>(row) + 1;
+      filled[brick] = stuff_at(region, selector, middles.row(brick));
+      regions_of_bricks[brick] = int(row) + 1;
     }
   }
   const double corner_mass = body.material.density * body.grid.brick_volume() / 8;

@@ -30,12 +30,10 @@ std::string ground_report(const Production& production, double lowest) {
 
 /// Frames to draw, in order: all of the range, or as many as a sheet has places for.
 std::vector<std::size_t> chosen_frames(const FrameRange& range, const SceneRender& render) {
-  const auto first = static_cast<std::size_t>(range.first - 1);
-  const auto count = static_cast<std::size_t>(range.count());
+  const std::size_t first = range.first - 1;
+  const std::size_t count = range.count();
   std::vector<std::size_t> frames;
-  const std::size_t wanted =
-      render.sheet ? static_cast<std::size_t>((*render.sheet)[0]) * static_cast<std::size_t>((*render.sheet)[1])
-                   : count;
+  const std::size_t wanted = render.sheet ? std::size_t((*render.sheet)[0]) * std::size_t((*render.sheet)[1]) : count;
   const std::size_t chosen = std::min(wanted, count);
   for (std::size_t i = 0; i < chosen; ++i) {
     frames.push_back(first + (chosen > 1 ? (i * (count - 1) + (chosen - 1) / 2) / (chosen - 1) : 0));
@@ -106,7 +104,7 @@ void draw_here(const Task& task, FilmCrew& crew, const Console& console, Progres
     } else {
       writer.write(std::move(drawing));
     }
-    progress.update(static_cast<double>(i + 1));
+    progress.update(double(i + 1));
   }
   if (task.render.sheet) writer.write({.image = crew.sheet(sheet)});
   writer.close();
@@ -116,8 +114,7 @@ void draw_here(const Task& task, FilmCrew& crew, const Console& console, Progres
 void draw_some(const Task& task, FilmCrew& crew, std::size_t first, std::size_t step,
                const DrawingProcesses::Send& send) {
   const auto [width, height] = task.render.resolution;
-  PictureWriter writer(task.films(false), width, height, task.fps, task.range.first + static_cast<int>(first),
-                       static_cast<int>(step));
+  PictureWriter writer(task.films(false), width, height, task.fps, task.range.first + int(first), int(step));
   for (std::size_t i = first; i < task.frames.size(); i += step) {
     stop_if_interrupted();
     Drawing drawing = task.draw(crew, task.frames[i], crew.moments(task.frames[i]));
@@ -142,7 +139,7 @@ void draw_by_processes(const Task& task, FilmCrew& crew, std::size_t count, cons
     stop_if_interrupted();
     Image image = processes.receive(i % count);
     if (has(task.outputs, Output::Kind::kFilm)) writer.write({.image = std::move(image)});
-    progress.update(static_cast<double>(i + 1));
+    progress.update(double(i + 1));
   }
   processes.finish();
   writer.close();
@@ -152,7 +149,7 @@ void draw_by_processes(const Task& task, FilmCrew& crew, std::size_t count, cons
 std::size_t processes_for(const Task& task, int jobs) {
   const std::size_t frames = task.frames.size();
   if (task.render.sheet) return 1;
-  if (jobs > 0) return std::min(frames, static_cast<std::size_t>(jobs));
+  if (jobs > 0) return std::min<std::size_t>(frames, jobs);
   const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
   return std::clamp(frames / kLeastFrames, std::size_t{1}, std::min(cores, kMostProcesses));
 }
@@ -164,7 +161,7 @@ void render_film(const std::vector<FilmRun>& runs, const std::optional<Environme
   const Scene& scene = runs.front().scene;
   check_outputs(scene.render, runs.size(), outputs);
   const Task task{range, chosen_frames(range, scene.render), outputs, scene.render, scene.fps};
-  Progress progress(console, "render", static_cast<double>(task.frames.size()), 1, "frames/s");
+  Progress progress(console, "render", double(task.frames.size()), 1, "frames/s");
   FilmCrew crew(runs, surroundings);
   const std::size_t processes = processes_for(task, jobs);
   if (processes > 1 && end_worker_threads()) {
@@ -173,8 +170,8 @@ void render_film(const std::vector<FilmRun>& runs, const std::optional<Environme
     draw_here(task, crew, console, progress);
   }
   const auto [width, height] = scene.render.resolution;
-  progress.finish(fmt::format("{} of {} x {} pixels{}", count_of(static_cast<long>(task.frames.size()), "picture"),
-                              width, height, ground_report(runs.front().production, crew.lowest())));
+  progress.finish(fmt::format("{} of {} x {} pixels{}", count_of(task.frames.size(), "picture"), width, height,
+                              ground_report(runs.front().production, crew.lowest())));
 }
 
 }  // namespace sprung

@@ -95,7 +95,7 @@ void SceneDriver::pass(MotionMemory& memory) {
     for (Grip& grip : grips) {
       bool is_caught = grip.caught.has_value();
       Catch caught = grip.caught.value_or(Catch{});
-      caught.positions.conservativeResize(static_cast<Eigen::Index>(grip.pinned->nodes.size()), 3);
+      caught.positions.conservativeResize(grip.pinned->nodes.size(), 3);
       if (!is_caught) caught.positions.setZero();
       memory.pass_as_double(is_caught);
       memory.pass(caught.time);
@@ -115,12 +115,12 @@ void SceneDriver::carry(Grip& grip, Actor& actor, double begin, double end, std:
   }
   const Placement placement = between(grip.movement, grip.caught->time, end);
   for (std::size_t k = 0; k < nodes.size(); ++k) {
-    const Vec3 start = grip.caught->positions.row(static_cast<Eigen::Index>(k));
+    const Vec3 start = grip.caught->positions.row(k);
     const Vec3 goal = start + placement.way(start - grip.caught->centre);
     const auto [place, is_new] = held.try_emplace(nodes[k], HeldNode{.node = nodes[k], .axes = {false, false, false}});
     for (int axis = 0; axis < 3; ++axis) {
-      if (!grip.pin->axes.held[static_cast<std::size_t>(axis)]) continue;
-      place->second.axes[static_cast<std::size_t>(axis)] = true;
+      if (!grip.pin->axes.held[axis]) continue;
+      place->second.axes[axis] = true;
       place->second.velocity[axis] = (goal[axis] - body.positions(nodes[k], axis)) / (end - begin);
       body.velocities(nodes[k], axis) = place->second.velocity[axis];
     }

@@ -39,7 +39,7 @@ std::vector<int> row_nearest_to(const Vec3& place, const Points& points) {
   Eigen::Index row = 0;
   if (points.rows() == 0) return {};
   (points.rowwise() - place.transpose()).rowwise().squaredNorm().minCoeff(&row);
-  return {static_cast<int>(row)};
+  return {int(row)};
 }
 
 }  // namespace
@@ -55,7 +55,7 @@ std::vector<int> Selector::nodes(const Selection& selection, const Points& place
 Points brick_middles(const BrickGrid& grid) {
   Points middles(grid.brick_count(), 3);
   for (int brick = 0; brick < grid.brick_count(); ++brick) {
-    const Vec3 cell = grid.cells[static_cast<std::size_t>(brick)].cast<double>().array() + 0.5;
+    const Vec3 cell = grid.cells[brick].cast<double>().array() + 0.5;
     middles.row(brick) = (grid.origin + grid.brick_size * cell).transpose();
   }
   return middles;
@@ -78,7 +78,7 @@ std::vector<int> Selector::bricks(const Selection& selection, const BrickGrid& g
 
 std::vector<int> Selector::triangles(const Selection& selection, const Points& middles, std::size_t solid) const {
   if (is_whole(selection)) {
-    std::vector<int> all(static_cast<std::size_t>(middles.rows()));
+    std::vector<int> all(middles.rows());
     std::iota(all.begin(), all.end(), 0);
     return all;
   }
@@ -152,7 +152,7 @@ Selector::Test Selector::nearest_to_paint(const Color& paint, double depth) cons
   const double deepest = depth + kRounding * body_.extent.maxCoeff();
   return [this, deepest, chosen = vertices_of(paint)](const Vec3& place) {
     const SurfacePlace found = surface().at(place);
-    return found.distance <= deepest && chosen[static_cast<std::size_t>(nearest_vertex(found))];
+    return found.distance <= deepest && chosen[nearest_vertex(found)];
   };
 }
 
@@ -171,10 +171,10 @@ Triangles Selector::triangles_of(const std::string& part) const {
 std::vector<bool> Selector::vertices_of(const Color& paint) const {
   const auto& colors = body_.mesh.colors;
   const Eigen::RowVector3f wanted(paint.red, paint.green, paint.blue);
-  std::vector<bool> chosen(static_cast<std::size_t>(body_.mesh.positions.rows()));
+  std::vector<bool> chosen(body_.mesh.positions.rows());
   for (int row = 0; row < colors.rows(); ++row) {
     const Eigen::RowVector3f levels = 255 * colors.row(row).head<3>();
-    chosen[static_cast<std::size_t>(row)] = (levels - wanted).cwiseAbs().maxCoeff() <= kSamePaint;
+    chosen[row] = (levels - wanted).cwiseAbs().maxCoeff() <= kSamePaint;
   }
   if (std::find(chosen.begin(), chosen.end(), true) != chosen.end()) return chosen;
   throw Error(ErrorKind::kBadInput,

@@ -31,12 +31,12 @@ Eigen::Vector2d on_circle(int step, int count) {
 /// A circle at each point of the profile (outside on its right, going up), and triangles between two that follow each
 /// other and are not a crease: those are at one place.
 SurfaceMesh revolve(const std::vector<ProfilePoint>& profile, const std::string& name) {
-  const auto rings = static_cast<int>(profile.size());
+  const auto rings = isize(profile);
   SurfaceMesh mesh;
   mesh.positions.resize(rings * kAround, 3);
   mesh.normals.resize(rings * kAround, 3);
   for (int ring = 0; ring < rings; ++ring) {
-    const auto& [place, normal] = profile[static_cast<std::size_t>(ring)];
+    const auto& [place, normal] = profile[ring];
     for (int k = 0; k < kAround; ++k) {
       const Eigen::Vector2d around = on_circle(k, kAround);
       mesh.positions.row(ring * kAround + k) << place.x() * around.x(), place.y(), place.x() * around.y();
@@ -46,8 +46,8 @@ SurfaceMesh revolve(const std::vector<ProfilePoint>& profile, const std::string&
   }
   std::vector<Eigen::RowVector3i> triangles;
   for (int ring = 0; ring + 1 < rings; ++ring) {
-    const Eigen::Vector2d& low = profile[static_cast<std::size_t>(ring)].place;
-    const Eigen::Vector2d& high = profile[static_cast<std::size_t>(ring) + 1].place;
+    const Eigen::Vector2d& low = profile[ring].place;
+    const Eigen::Vector2d& high = profile[ring + 1].place;
     if (low == high) continue;
     for (int k = 0; k < kAround; ++k) {
       const int here = ring * kAround + k;
@@ -56,9 +56,9 @@ SurfaceMesh revolve(const std::vector<ProfilePoint>& profile, const std::string&
       if (low.x() > 0) triangles.emplace_back(here, beside + kAround, beside);
     }
   }
-  mesh.triangles.resize(static_cast<Eigen::Index>(triangles.size()), 3);
-  for (std::size_t i = 0; i < triangles.size(); ++i) mesh.triangles.row(static_cast<Eigen::Index>(i)) = triangles[i];
-  mesh.parts = {Part{.name = name, .triangle_count = static_cast<int>(triangles.size())}};
+  mesh.triangles.resize(triangles.size(), 3);
+  for (std::size_t i = 0; i < triangles.size(); ++i) mesh.triangles.row(i) = triangles[i];
+  mesh.parts = {Part{.name = name, .triangle_count = isize(triangles)}};
   return mesh;
 }
 

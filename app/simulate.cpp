@@ -160,10 +160,10 @@ class Runner {
     };
     if (implicit_) {
       const long count = std::max(1L, std::lround(std::ceil(duration / plan_.steps.dt - kRounding)));
-      const double dt = duration / static_cast<double>(count);
+      const double dt = duration / double(count);
       for (long step = 0; step < count; ++step) {
-        implicit_->advance(dt, 1, begin + dt * static_cast<double>(step));
-        between(static_cast<double>(step + 1) / static_cast<double>(count));
+        implicit_->advance(dt, 1, begin + dt * double(step));
+        between(double(step + 1) / double(count));
       }
       return;
     }

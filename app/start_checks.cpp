@@ -62,8 +62,8 @@ void check_start(const Scene& scene, const Production& production) {
   }
   if (!world.bodies_touch) return;
   for (const auto& [a, b] : overlapping_boxes(boxes)) {
-    check_pair(production, static_cast<std::size_t>(a), static_cast<std::size_t>(b));
-    check_pair(production, static_cast<std::size_t>(b), static_cast<std::size_t>(a));
+    check_pair(production, a, b);
+    check_pair(production, b, a);
   }
 }
 

@@ -35,7 +35,7 @@ double shortest_period(const World& world) {
 
 long implicit_steps(const World& world, double frame) {
   const double wanted = std::ceil(frame * kStepsAVibration / shortest_period(world));
-  return std::clamp(static_cast<long>(std::min(wanted, 1e6)), kFewestSteps, kMostSteps);
+  return std::clamp(long(std::min(wanted, 1e6)), kFewestSteps, kMostSteps);
 }
 
 }  // namespace
@@ -47,7 +47,7 @@ std::string_view remedy_for(const StepPlan& plan) {
 }
 
 std::string warning_of(const StepPlan& plan) {
-  if (static_cast<double>(plan.steps.count) < kManySteps) return "";
+  if (double(plan.steps.count) < kManySteps) return "";
   return fmt::format("a frame takes {} steps of {}, for bricks are stiff and small or something is fast; {}",
                      plan.steps.count, readable(plan.steps.dt, Dimension::kTime), remedy_for(plan));
 }
@@ -61,7 +61,7 @@ StepPlan plan_steps(const World& world, const Scene& scene) {
     for (const std::size_t i : group.actors) {
       const int count = world.actors[i].body.grid.brick_count();
       bricks += count;
-      brick_steps += count * static_cast<double>(group.steps.count);
+      brick_steps += count * double(group.steps.count);
     }
     if (group.steps.count > short_ones.count) short_ones = group.steps;
   }
@@ -76,7 +76,7 @@ StepPlan plan_steps(const World& world, const Scene& scene) {
   }
   if (plan.scheme == Solver::kAuto) {
     const bool is_coupled = !world.glue.empty() || (world.bodies_touch && world.actors.size() > 1);
-    const double dear = (is_coupled ? kCoupledCost : kImplicitCost) * static_cast<double>(long_ones);
+    const double dear = (is_coupled ? kCoupledCost : kImplicitCost) * double(long_ones);
     const bool is_implicit = why_not.empty() && brick_steps > kWorthwhile * dear * bricks;
     plan.scheme = is_implicit ? Solver::kBdf2 : Solver::kEuler;
     plan.reason = fmt::format(
@@ -88,8 +88,8 @@ StepPlan plan_steps(const World& world, const Scene& scene) {
   plan.steps = short_ones;
   plan.brick_steps = brick_steps;
   if (plan.is_implicit()) {
-    plan.steps = {.count = long_ones, .dt = frame / static_cast<double>(long_ones)};
-    plan.brick_steps = bricks * static_cast<double>(long_ones);
+    plan.steps = {.count = long_ones, .dt = frame / double(long_ones)};
+    plan.brick_steps = bricks * double(long_ones);
   }
   return plan;
 }

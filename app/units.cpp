@@ -142,7 +142,7 @@ double parse_quantity(std::string_view text, Dimension dimension) {
   const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), number);
   if (error == std::errc::result_out_of_range) refuse(text, "is out of range", dimension);
   if (error != std::errc{} || !std::isfinite(number)) refuse(text, "is no number", dimension);
-  rest = trim(rest.substr(static_cast<std::size_t>(end - rest.data())));
+  rest = trim(rest.substr(end - rest.data()));
   return rest.empty() ? number : number * unit_value(text, rest, dimension);
 }
 

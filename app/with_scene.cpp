@@ -18,7 +18,7 @@ void with_scene(const SceneOptions& options, const std::function<void(const Scen
   }
   std::optional<tbb::global_control> threads;
   if (options.threads > 0) {
-    threads.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
+    threads.emplace(tbb::global_control::max_allowed_parallelism, options.threads);
   }
   work(scene);
 }

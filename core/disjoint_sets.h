@@ -12,9 +12,9 @@ class DisjointSets {
   explicit DisjointSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
 
   [[nodiscard]] int find(int item) {
-    while (parent_[static_cast<std::size_t>(item)] != item) {
-      int& up = parent_[static_cast<std::size_t>(item)];
-      up = parent_[static_cast<std::size_t>(up)];
+    while (parent_[item] != item) {
+      int& up = parent_[item];
+      up = parent_[up];
       item = up;
     }
     return item;
@@ -23,7 +23,7 @@ class DisjointSets {
   void merge(int a, int b) {
     a = find(a);
     b = find(b);
-    parent_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+    parent_[std::max(a, b)] = std::min(a, b);
   }
 
   [[nodiscard]] std::size_t size() const { return parent_.size(); }

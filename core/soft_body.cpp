@@ -34,16 +34,15 @@ Points outward_at(const Points& points, const Triangles& triangles) {
 /// Lets the skin touch: each position that triangles use, once; finer than the bricks can follow it need not be.
 void add_contacts(const Skin& skin, Actor& actor) {
   const std::vector<int> point_of = weld_points(skin.positions);
-  const auto position_of = [&](int vertex) { return point_of[static_cast<std::size_t>(vertex)]; };
+  const auto position_of = [&](int vertex) { return point_of[vertex]; };
   std::vector<int> rows;
-  for (const int vertex : std::span(skin.triangles.data(), static_cast<std::size_t>(skin.triangles.size()))) {
+  for (const int vertex : std::span(skin.triangles.data(), skin.triangles.size())) {
     rows.push_back(position_of(vertex));
   }
   std::sort(rows.begin(), rows.end());
   rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
-  const Triangles triangles = skin.triangles.unaryExpr([&](int vertex) {
-    return static_cast<int>(std::lower_bound(rows.begin(), rows.end(), position_of(vertex)) - rows.begin());
-  });
+  const Triangles triangles = skin.triangles.unaryExpr(
+      [&](int vertex) { return int(std::lower_bound(rows.begin(), rows.end(), position_of(vertex)) - rows.begin()); });
   const double shortest = kShortestContactEdge * actor.body.grid.brick_size;
   const CoarseSurface surface = coarsen(skin.positions(rows, Eigen::all), triangles, shortest);
   actor.contacts = embed(actor.body.grid, surface.points, outward_at(surface.points, surface.triangles));

@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <iterator>
 
 namespace sprung {
 
@@ -12,5 +13,14 @@ using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
 /// n x 3: the three vertex indices of a triangle a row, counter-clockwise seen from outside.
 using Triangles = Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>;
+
+/// The weights of a brick's eight corners in a point; their sum is 1.
+using CornerWeights = Eigen::Matrix<double, 8, 1>;
+
+/// How many there are, as the type of indices: meshes and grids count in int, as their files and Eigen do.
+template <class Container>
+[[nodiscard]] constexpr int isize(const Container& container) {
+  return int(std::size(container));
+}
 
 }  // namespace sprung

@@ -73,14 +73,14 @@ Camera frame_points(const Points& points, double aspect, double azimuth, double 
   for (const auto& point : points.rowwise()) {
     const Vec3 q = axes.transpose() * (point.transpose() - center);
     for (int k = 0; k < 2; ++k) {
-      Extent& e = extent[static_cast<std::size_t>(k)];
+      Extent& e = extent[k];
       e.high = std::max(e.high, q[k] + nearer * slope[k] * q.z());
       e.low = std::min(e.low, q[k] - nearer * slope[k] * q.z());
     }
   }
   Vec3 eye;
   for (int k = 0; k < 2; ++k) {
-    eye[k] = 0.5 * (extent[static_cast<std::size_t>(k)].high + extent[static_cast<std::size_t>(k)].low);
+    eye[k] = 0.5 * (extent[k].high + extent[k].low);
   }
   eye.z() =
       std::max((extent[0].high - extent[0].low) / (2 * slope.x()), (extent[1].high - extent[1].low) / (2 * slope.y()));

@@ -29,16 +29,16 @@ double solid_angle(const Panorama& panorama, int y) {
 }
 
 std::size_t texel(const Panorama& panorama, int x, int y) {
-  return static_cast<std::size_t>(y) * static_cast<std::size_t>(panorama.width) + static_cast<std::size_t>(x);
+  return std::size_t(y) * std::size_t(panorama.width) + std::size_t(x);
 }
 
 /// The mean of what each texel of a panorama of that height covers, weighted by solid angle; nothing below the horizon.
 Panorama upper_half(const Panorama& panorama, int height) {
   Panorama small{2 * height, height, {}};
-  small.light.resize(2 * static_cast<std::size_t>(height) * static_cast<std::size_t>(height), Eigen::Vector3f::Zero());
+  small.light.resize(2 * std::size_t(height) * std::size_t(height), Eigen::Vector3f::Zero());
   std::vector<double> weights(small.light.size());
   std::vector<Eigen::Vector3d> sums(small.light.size(), Eigen::Vector3d::Zero());
-  const auto scaled = [](int i, int from, int to) { return static_cast<int>((i + 0.5) * to / from); };
+  const auto scaled = [](int i, int from, int to) { return int((i + 0.5) * to / from); };
   // Each texel is taken in where its middle lies; those of a panorama smaller than the result several times.
   const int repeat = std::max(1, (height + panorama.height - 1) / panorama.height);
   for (int y = 0; y < repeat * panorama.height / 2; ++y) {
@@ -106,7 +106,7 @@ Panorama reflection(const Panorama& source, int height, float roughness) {
       if (direction.y() <= 0) continue;  // the floor is none of its business
       directions.push_back(direction);
       lights.push_back(source.light[texel(source, x, y)]);
-      angles.push_back(static_cast<float>(solid_angle(source, y)));
+      angles.push_back(float(solid_angle(source, y)));
     }
   }
   for (int y = 0; y < height; ++y) {
@@ -145,7 +145,7 @@ Environment::Environment(const Panorama& panorama) {
   for (Eigen::Vector3f& light : sky.light) light *= factor;
   for (std::size_t i = 0; i < reflections.size(); ++i) {
     const int height = kHeight >> i;
-    reflections[i] = reflection(upper_half(sky, height), height, static_cast<float>(i + 1) / kSharpest);
+    reflections[i] = reflection(upper_half(sky, height), height, float(i + 1) / kSharpest);
   }
 }
 

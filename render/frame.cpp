@@ -104,11 +104,11 @@ LightFrame fit_light(const std::vector<SkinShape>& shapes, const StageSpace& spa
 
 void DrawFrame::set_common(const GlProgram& program) const {
   program.set("stage_center", space.center.cast<float>().eval());
-  program.set("stage_scale", static_cast<float>(space.scale));
+  program.set("stage_scale", float(space.scale));
   program.set("to_key", to_key_light().cast<float>().eval());
   program.set("sky_on_ground", sky_on_ground);
-  program.set("body_radius", static_cast<float>(body_radius));
-  program.set("ground_height", static_cast<float>(ground_height));
+  program.set("body_radius", float(body_radius));
+  program.set("ground_height", float(ground_height));
   program.set("ground_rectangle", rectangle(light.ground.low, light.ground.sides));
   program.set("light_from_stage", light.key.clip_from_stage.cast<float>().eval());
 }
@@ -200,7 +200,7 @@ PixelRectangle seen_rectangle(const View& view, int width, int height) {
     high = high.max(clip.head<2>().array() / clip.w());
   }
   const auto pixel = [](double clip, int size) {
-    return std::clamp(static_cast<int>(std::floor((0.5 + 0.5 * std::clamp(clip, -1.0, 1.0)) * size)), 0, size - 1);
+    return std::clamp(int(std::floor((0.5 + 0.5 * std::clamp(clip, -1.0, 1.0)) * size)), 0, size - 1);
   };
   PixelRectangle seen{pixel(low.x(), width), pixel(low.y(), height), 0, 0};
   seen.width = std::max(0, pixel(high.x(), width) - seen.left + 1);

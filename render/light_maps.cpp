@@ -102,7 +102,7 @@ std::string shadow_settings(Quality quality) {
 }
 
 std::string light_settings(int shadow_size) {
-  return fmt::format("#define SHADOW_LOD {:.3f}\n", std::log2(static_cast<double>(shadow_size) / kLightSize));
+  return fmt::format("#define SHADOW_LOD {:.3f}\n", std::log2(double(shadow_size) / kLightSize));
 }
 
 }  // namespace
@@ -183,7 +183,7 @@ void GroundMaps::draw_sky(const DrawFrame& frame) const {
   sky_program_.set("underside_rectangle", lookup_rectangle(nadir));
   sky_program_.set("underside_heights",
                    Eigen::Vector2d(nadir.low.z() - frame.ground_height, nadir.sides.z()).cast<float>().eval());
-  sky_program_.set("underside_texels", static_cast<float>(kUndersideSize));
+  sky_program_.set("underside_texels", float(kUndersideSize));
   bind_texture(gl_, 0, underside_.color);
   sky_program_.set("underside", 0);
   bind_texture(gl_, 1, underside_color_.color);
@@ -198,7 +198,7 @@ void GroundMaps::draw_key_mask(const DrawFrame& frame) const {
   const Eigen::Vector4d height(2 * y[0], 2 * y[1], 2 * y[2], y[3] - y[0] - y[1] - y[2] - frame.ground_height);
   key_mask_program_.use();
   frame.set_common(key_mask_program_);
-  key_mask_program_.set("longest_way", static_cast<float>(longest_way(frame)));
+  key_mask_program_.set("longest_way", float(longest_way(frame)));
   key_mask_program_.set("height_from_light", height.cast<float>().eval());
   bind_texture(gl_, 0, key_.depth);
   key_mask_program_.set("key_depth", 0);
@@ -223,11 +223,11 @@ void GroundMaps::draw_shadow(const GlProgram& program, const DrawFrame& frame) c
   program.use();
   frame.set_common(program);
   const Eigen::Vector2f sides = frame.light.key.sides.head<2>().cast<float>();
-  program.set("mask_texels", static_cast<float>(key_mask_.size) / sides.x());
+  program.set("mask_texels", float(key_mask_.size) / sides.x());
   program.set("mask_texel_size", (Eigen::Vector2f(1, sides.x() / sides.y()) / key_mask_.size).eval());
-  program.set("longest_way", static_cast<float>(longest_way(frame)));
+  program.set("longest_way", float(longest_way(frame)));
   const double lowest = std::max(frame.light.bodies.low.y() - frame.ground_height, 0.0) / to_key_light().y();
-  program.set("lowest_way", static_cast<float>(lowest));
+  program.set("lowest_way", float(lowest));
   bind_texture(gl_, 0, key_mask_.color);
   program.set("key_mask", 0);
   program.set("screen_depth", kShaded);
@@ -293,10 +293,9 @@ void LightMaps::bind(const GlProgram& program, const DrawFrame& frame, int first
   const LightView& zenith = frame.light.zenith;
   frame.set_common(program);
   program.set("light_texel", Eigen::Vector2f(key.sides.head<2>().cwiseInverse().cast<float>()));
-  program.set("key_depth_range", static_cast<float>(key.sides.z()));
+  program.set("key_depth_range", float(key.sides.z()));
   program.set("zenith_rectangle", lookup_rectangle(zenith));
-  program.set("zenith_heights", Eigen::Vector2f(static_cast<float>(-zenith.low.z() - zenith.sides.z()),
-                                                static_cast<float>(1 / zenith.sides.z())));
+  program.set("zenith_heights", Eigen::Vector2f(-zenith.low.z() - zenith.sides.z(), float(1 / zenith.sides.z())));
   bind_texture(gl_, first_unit, key_.depth, shadow_sampler_.name());
   program.set("key_shadow_map", first_unit);
   bind_texture(gl_, first_unit + 1, key_.depth);

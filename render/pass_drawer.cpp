@@ -35,11 +35,11 @@ Line line_of_sight(const Eigen::Matrix4d& stage_from_clip, double x, double y) {
 }
 
 void set(Passes& passes, std::size_t pixel, const Sight& sight, double depth) {
-  passes.depth[pixel] = static_cast<float>(depth);
+  passes.depth[pixel] = float(depth);
   passes.id[pixel] = sight.id;
   for (std::size_t k = 0; k < 3; ++k) {
-    passes.position[k][pixel] = static_cast<float>(sight.place[static_cast<int>(k)]);
-    passes.normal[k][pixel] = static_cast<float>(sight.normal[static_cast<int>(k)]);
+    passes.position[k][pixel] = float(sight.place[k]);
+    passes.normal[k][pixel] = float(sight.normal[k]);
   }
 }
 
@@ -76,7 +76,7 @@ void PassDrawer::draw_skins(const std::vector<SkinBuffers>& skins, const std::ve
   program_.set("clip_from_stage", view.clip_from_stage.cast<float>().eval());
   for (std::size_t i = 0; i < skins.size(); ++i) {
     if (skins[i].is_ghost()) continue;
-    program_.set("id", static_cast<float>(ids[i]));
+    program_.set("id", float(ids[i]));
     skins[i].draw(Detail::kFull);
   }
   gl_.FrontFace(GL_CCW);
@@ -95,7 +95,7 @@ void PassDrawer::read(const View& view, const Camera& camera, Passes& passes) co
   const double ground = view.frame.ground_height;
   for (int y = 0; y < height_; ++y) {
     for (int x = 0; x < width_; ++x) {
-      const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+      const auto pixel = std::size_t(y) * std::size_t(width_) + std::size_t(x);
       const bool is_skin = places[pixel].w() >= 0;
       Vec3 place = places[pixel].head<3>().cast<double>();
       Vec3 normal = normals[pixel].head<3>().cast<double>().normalized();

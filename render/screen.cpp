@@ -29,9 +29,9 @@ GlTexture make_reflections(const GlFunctions& gl, const Environment& environment
   std::vector<const float*> levels;
   levels.reserve(environment.reflections.size());
   for (const Panorama& level : environment.reflections) {
-    Eigen::Matrix3Xf& root = roots.emplace_back(3, static_cast<Eigen::Index>(level.light.size()));
+    Eigen::Matrix3Xf& root = roots.emplace_back(3, level.light.size());
     for (std::size_t i = 0; i < level.light.size(); ++i) {
-      root.col(static_cast<Eigen::Index>(i)) = (level.light[i] / brightest).cwiseMin(1.0F).cwiseSqrt();
+      root.col(i) = (level.light[i] / brightest).cwiseMin(1.0F).cwiseSqrt();
     }
   }
   for (const Eigen::Matrix3Xf& root : roots) levels.push_back(root.data());
@@ -139,7 +139,7 @@ Image Screen::read() const {
   Image image(width_, height_);
   gl_.ReadPixels(0, 0, width_, height_, GL_RGB, GL_UNSIGNED_BYTE, image.pixels.data());
   if (!is_transparent_) return image;
-  image.alpha.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
+  image.alpha.resize(std::size_t(width_) * std::size_t(height_));
   gl_.ReadPixels(0, 0, width_, height_, GL_ALPHA, GL_UNSIGNED_BYTE, image.alpha.data());
   return image;
 }
@@ -173,7 +173,7 @@ void Screen::draw_surfaces(const std::vector<SkinBuffers>& skins, const TextureS
 }
 
 Screen::Sight::Sight(const View& view) {
-  const auto rounded = [](double value) { return static_cast<float>(std::round(kRounding * value) / kRounding); };
+  const auto rounded = [](double value) { return float(std::round(kRounding * value) / kRounding); };
   height = view.sight_height.unaryExpr(rounded);
   slopes = view.sight_slopes.unaryExpr(rounded);
 }

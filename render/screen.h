@@ -37,7 +37,7 @@ class Screen {
   [[nodiscard]] Image read() const;
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] int height() const { return height_; }
-  [[nodiscard]] double aspect() const { return static_cast<double>(width_) / height_; }
+  [[nodiscard]] double aspect() const { return double(width_) / height_; }
 
  private:
   /// What the backdrop depends on, see View; rounded, so that it is the same all the way around.

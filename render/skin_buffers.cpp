@@ -18,13 +18,13 @@ template <class Key>
 std::vector<int> first_with_same(const std::vector<Key>& keys) {
   std::vector<int> order(keys.size());
   std::iota(order.begin(), order.end(), 0);
-  const auto key = [&keys](int i) { return std::pair(keys[static_cast<std::size_t>(i)], i); };
+  const auto key = [&keys](int i) { return std::pair(keys[i], i); };
   std::sort(order.begin(), order.end(), [&](int a, int b) { return key(a) < key(b); });
   std::vector<int> first(keys.size());
   for (std::size_t i = 0; i < order.size(); ++i) {
-    const auto at = static_cast<std::size_t>(order[i]);
-    const bool is_new = i == 0 || keys[at] != keys[static_cast<std::size_t>(order[i - 1])];
-    first[at] = is_new ? order[i] : first[static_cast<std::size_t>(order[i - 1])];
+    const std::size_t at = order[i];
+    const bool is_new = i == 0 || keys[at] != keys[order[i - 1]];
+    first[at] = is_new ? order[i] : first[order[i - 1]];
   }
   return first;
 }
@@ -49,12 +49,12 @@ std::vector<int> welded(const Skin& skin) {
 std::vector<int> cluster(const Skin& skin, double cell) {
   const std::vector<int> weld = welded(skin);
   Points normals = Points::Zero(skin.positions.rows(), 3);
-  for (int i = 0; i < normals.rows(); ++i) normals.row(weld[static_cast<std::size_t>(i)]) += skin.normals.row(i);
+  for (int i = 0; i < normals.rows(); ++i) normals.row(weld[i]) += skin.normals.row(i);
   std::vector<std::array<int, 4>> keys;
   for (const int vertex : weld) {
     std::array<int, 4> key{};
     for (int k = 0; k < 3; ++k) {
-      key[static_cast<std::size_t>(k)] = static_cast<int>(std::floor(skin.positions(vertex, k) / cell));
+      key[k] = int(std::floor(skin.positions(vertex, k) / cell));
       if (normals(vertex, k) < 0) key[3] |= 1 << k;
     }
     keys.push_back(key);
@@ -66,7 +66,7 @@ std::vector<int> cluster(const Skin& skin, double cell) {
 std::array<int, 3> corners(const Skin& skin, const std::vector<int>& stand_in, int triangle) {
   std::array<int, 3> corners{};
   for (int k = 0; k < 3; ++k) {
-    corners[static_cast<std::size_t>(k)] = stand_in[static_cast<std::size_t>(skin.triangles(triangle, k))];
+    corners[k] = stand_in[skin.triangles(triangle, k)];
   }
   return corners;
 }
@@ -152,8 +152,8 @@ double radius(const Skin& skin) {
 
 CoarseTriangles triangles_for_maps(const Skin& skin, double cell) {
   CoarseTriangles coarse = coarse_triangles(skin, std::max(cell * radius(skin), 1e-12));
-  const auto all = static_cast<std::size_t>(skin.triangles.rows());
-  if (static_cast<double>(coarse.triangles.rows()) >= kFewest * static_cast<double>(all)) return coarse;
+  const std::size_t all = skin.triangles.rows();
+  if (double(coarse.triangles.rows()) >= kFewest * double(all)) return coarse;
   coarse.triangles = skin.triangles;
   coarse.first.resize(all + 1);
   std::iota(coarse.first.begin(), coarse.first.end(), 0);
@@ -165,8 +165,7 @@ constexpr TextureFormat kPicture{GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, tru
 template <class Matrix>
 void upload(const GlFunctions& gl, const GlBuffer& buffer, const Matrix& rows, GLenum usage) {
   gl.BindBuffer(GL_ARRAY_BUFFER, buffer.name());
-  gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(rows.size() * static_cast<long>(sizeof(float))), rows.data(),
-                usage);
+  gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(rows.size() * long(sizeof(float))), rows.data(), usage);
 }
 
 void describe(const GlFunctions& gl, Attribute attribute, int components) {
@@ -178,7 +177,7 @@ GlTexture make_color_map(const GlFunctions& gl, ColorMap map) {
   constexpr int kSteps = 256;
   Eigen::Matrix<float, 4, kSteps> colors = Eigen::Matrix<float, 4, kSteps>::Ones();
   for (int i = 0; i < kSteps; ++i) {
-    colors.col(i).head<3>() = root_from_srgb(map_color(map, static_cast<double>(i) / (kSteps - 1)));
+    colors.col(i).head<3>() = root_from_srgb(map_color(map, double(i) / (kSteps - 1)));
   }
   return make_texture(gl, kSteps, 1, {GL_RGBA8, GL_RGBA, GL_FLOAT, false, true, GL_CLAMP_TO_EDGE}, colors.data());
 }
@@ -194,12 +193,12 @@ TextureSet::TextureSet(const GlFunctions& gl, ColorMap map) : gl_(gl), color_map
 int TextureSet::add(const SurfaceMaterial& material) {
   if (material.texture.empty()) return 0;
   for (std::size_t i = 1; i < sources_.size(); ++i) {
-    if (*sources_[i] == material.texture) return static_cast<int>(i);
+    if (*sources_[i] == material.texture) return int(i);
   }
   const Pixels pixels = decode_pixels(material.texture, "texture " + material.texture_name);
   textures_.push_back(make_texture(gl_, pixels.width, pixels.height, kPicture, pixels.rgba.data()));
   sources_.push_back(&material.texture);
-  return static_cast<int>(textures_.size()) - 1;
+  return isize(textures_) - 1;
 }
 
 SkinPrograms load_skin_programs(const GlFunctions& gl, std::string_view fragment) {
@@ -226,8 +225,8 @@ SkinBuffers::SkinBuffers(const GlFunctions& gl, const Skin& skin, const Eigen::V
   upload_indices({&skin.triangles, &coarse.triangles, &coarsest.triangles});
   upload_attributes(skin);
   const auto fewer_of = [](const Range& all, const CoarseTriangles& fewer, int first, int count) {
-    const int low = fewer.first[static_cast<std::size_t>(first)];
-    return Range{all.first + low, fewer.first[static_cast<std::size_t>(first + count)] - low};
+    const int low = fewer.first[first];
+    return Range{all.first + low, fewer.first[first + count] - low};
   };
   const auto paint = [&](int first, int count, const Eigen::Vector3f& color) {
     return Paint{{{{first, count}, fewer_of(all_[1], coarse, first, count), fewer_of(all_[2], coarsest, first, count)}},
@@ -238,7 +237,7 @@ SkinBuffers::SkinBuffers(const GlFunctions& gl, const Skin& skin, const Eigen::V
   for (const Part& part : skin.parts) {
     Paint next = paint(part.first_triangle, part.triangle_count, plain);
     if (part.material >= 0) {
-      const SurfaceMaterial& material = skin.materials[static_cast<std::size_t>(part.material)];
+      const SurfaceMaterial& material = skin.materials[part.material];
       next.color = root_from_srgb(material.color.head<3>().eval());
       if (skin.uvs.rows() > 0) next.texture = textures.add(material);
     }
@@ -266,7 +265,7 @@ void SkinBuffers::upload_indices(const std::array<const Triangles*, kDetails>& t
   constexpr auto kBytes = static_cast<GLsizeiptr>(3 * sizeof(int));
   int count = 0;
   for (std::size_t i = 0; i < kDetails; ++i) {
-    all_[i] = {count, static_cast<int>(triangles[i]->rows())};
+    all_[i] = {count, int(triangles[i]->rows())};
     count += all_[i].count;
   }
   gl_.BindVertexArray(array_.name());
@@ -312,12 +311,12 @@ void SkinBuffers::draw(const Range& range) const {
 
 void SkinBuffers::draw(Detail detail) const {
   gl_.BindVertexArray(array_.name());
-  draw(all_[static_cast<std::size_t>(detail)]);
+  draw(all_[std::size_t(detail)]);
 }
 
 void SkinBuffers::use(const GlProgram& program, const GlTexture& texture, int unit) const {
   program.use();
-  program.set("look", static_cast<float>(look_));
+  program.set("look", float(look_));
   program.set("base_texture", unit);
   bind_texture(gl_, unit, texture);
 }
@@ -328,14 +327,14 @@ void SkinBuffers::draw(const SkinPrograms& programs, const TextureSet& textures,
   if (!has_colors_) gl_.VertexAttrib4f(kColor, 1, 1, 1, 1);
   if (is_mapped_) {
     use(programs.mapped, textures.color_map(), unit);
-    draw(all_[static_cast<std::size_t>(detail)]);
+    draw(all_[std::size_t(detail)]);
     return;
   }
   for (const Paint& paint : paints_) {
     const GlProgram& program = paint.texture == 0 ? programs.plain : programs.textured;
     use(program, textures[paint.texture], unit);
     program.set("base_color", paint.color);
-    draw(paint.ranges[static_cast<std::size_t>(detail)]);
+    draw(paint.ranges[std::size_t(detail)]);
   }
 }
 

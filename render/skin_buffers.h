@@ -34,7 +34,7 @@ class TextureSet {
   /// cannot be decoded.
   [[nodiscard]] int add(const SurfaceMaterial& material);
   [[nodiscard]] const GlTexture& color_map() const { return color_map_; }
-  [[nodiscard]] const GlTexture& operator[](int index) const { return textures_[static_cast<std::size_t>(index)]; }
+  [[nodiscard]] const GlTexture& operator[](int index) const { return textures_[index]; }
 
  private:
   const GlFunctions& gl_;

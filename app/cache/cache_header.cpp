@@ -74,7 +74,7 @@ CacheHeader cache_header(const Scene& scene, const Production& production, std::
     const Body& body = production.world.actors[i].body;
     const DrawnSkin& drawn = production.skins[i];
     CachedActor& actor = header.actors.emplace_back();
-    actor.body = static_cast<int>(production.origins[i].body);
+    actor.body = int(production.origins[i].body);
     actor.color = bytes_of(drawn.color);
     actor.grid = body.grid;
     actor.stiffness_scale = body.stiffness_scale;

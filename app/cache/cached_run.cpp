@@ -27,7 +27,7 @@ Production cached_production(const CacheHeader& header, const Scene& scene) {
   production.meshes = header.meshes;
   production.world.gravity = scene.gravity;
   for (const CachedActor& cached : header.actors) {
-    const auto row = static_cast<std::size_t>(cached.body);
+    const std::size_t row = cached.body;
     if (row >= scene.bodies.size()) throw Error(ErrorKind::kBadInput, "the cache is damaged: a body that no scene has");
     production.world.actors.push_back({.body = cached_body(cached, scene.bodies[row]), .contacts = {}, .pinned = {}});
     production.skins.push_back({.skin = cached.skin, .embedding = cached.embedding, .color = color_of(cached.color)});

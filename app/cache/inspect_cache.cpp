@@ -36,7 +36,7 @@ CacheFacts facts_of(const CacheReader& cache, const std::filesystem::path& file)
                    .frames = cache.frame_count(),
                    .planned = frame_count(cached_scene(header)),
                    .progress_name = header.progress_name,
-                   .solids = static_cast<long>(header.actors.size()),
+                   .solids = long(header.actors.size()),
                    .bytes = std::filesystem::file_size(file),
                    .accuracy = position_accuracy(header),
                    .position_error = header.position_error,
@@ -62,7 +62,7 @@ std::string text_of(const CacheFacts& facts) {
       "{:.4g} MB, written by sprung {} (build {})\n",
       facts.frames, facts.planned, facts.progress_name, facts.progress, facts.state_hash,
       count_of(facts.solids, "solid"), count_of(facts.bricks, "brick"), facts.nodes, facts.skin_vertices,
-      facts.accuracy, velocities, 1e-6 * static_cast<double>(facts.bytes), facts.version, facts.build);
+      facts.accuracy, velocities, 1e-6 * double(facts.bytes), facts.version, facts.build);
 }
 
 std::string json_of(const CacheFacts& facts) {

@@ -79,7 +79,7 @@ void name_runs(std::vector<CachedFilm>& films) {
       if (!words[i].empty() && films[i].name.find(words[i]) == std::string::npos) films[i].name += ", " + words[i];
     }
   };
-  add([](const SceneBody& body) { return std::string(model_names()[static_cast<std::size_t>(body.model)]); });
+  add([](const SceneBody& body) { return std::string(model_name(body.model)); });
   add([](const SceneBody& body) { return body.material.name; });
 }
 

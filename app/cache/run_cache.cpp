@@ -38,7 +38,7 @@ int RunCache::begin(const Scene& scene, const Production& production, const std:
                   fmt::format("'{}' cannot go on: {}; --overwrite begins anew", file_.string(), text));
     }
     const int most = sprung::frame_count(scene);
-    if (static_cast<int>(old_->frame_count()) > most) {
+    if (int(old_->frame_count()) > most) {
       throw Error(ErrorKind::kBadInput, fmt::format("'{}' has {} frames already, more than the {} of this duration",
                                                     file_.string(), old_->frame_count(), most));
     }
@@ -57,14 +57,14 @@ void RunCache::copy_old_frames() {
     const std::vector<Points> velocities = is_last ? old_->exact_velocities(frame) : old_->velocities(frame);
     writer_->append(old_->frame(frame), addresses(positions), addresses(velocities), old_->memory(frame));
   }
-  frame_count_ = static_cast<int>(count);
+  frame_count_ = int(count);
   if (count > 0) writer_->publish();
 }
 
-CachedFrame RunCache::frame(int frame) const { return old_->frame(static_cast<std::size_t>(frame)); }
+CachedFrame RunCache::frame(int frame) const { return old_->frame(frame); }
 
 MotionMemory RunCache::restore(World& world) const {
-  const auto last = static_cast<std::size_t>(frame_count_ - 1);
+  const std::size_t last = frame_count_ - 1;
   const std::vector<Points> positions = old_->exact_positions(last);
   const std::vector<Points> velocities = old_->exact_velocities(last);
   for (std::size_t i = 0; i < world.actors.size(); ++i) {

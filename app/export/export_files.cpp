@@ -36,7 +36,7 @@ constexpr std::string_view kExamples =
 
 std::size_t mesh_count(const Scene& scene) {
   std::size_t count = 0;
-  for (const SceneBody& body : scene.bodies) count += static_cast<std::size_t>(copy_count(body));
+  for (const SceneBody& body : scene.bodies) count += std::size_t(copy_count(body));
   return count;
 }
 
@@ -51,7 +51,7 @@ template <class Visit>
 void each_frame(const Film& film, const FrameRange& range, int stride, const Visit& visit) {
   for (int frame = range.first; frame <= range.last; frame += stride) {
     stop_if_interrupted();
-    visit(frame, posed_meshes(film.production, film.scene, film.cache.positions(static_cast<std::size_t>(frame - 1))));
+    visit(frame, posed_meshes(film.production, film.scene, film.cache.positions(frame - 1)));
   }
 }
 
@@ -67,7 +67,7 @@ void export_numbered(const ExportTarget& target, const Film& film, const FrameRa
 }
 
 void export_animation(const ExportTarget& target, const Film& film, const FrameRange& range, const Console& console) {
-  const int stride = (range.count() - 2) / static_cast<int>(kMostTargets) + 1;
+  const int stride = (range.count() - 2) / int(kMostTargets) + 1;
   if (stride > 1) {
     console.warn(
         fmt::format("{}: {} frames are more than players take well; every {}th is in the file, what is "
@@ -95,9 +95,9 @@ void export_page(const ExportTarget& target, const Film& film, const FrameRange&
   ViewerFilm viewer;
   each_frame(film, range, 1, [&](int, const std::vector<PosedMesh>& meshes) { viewer.add_frame(meshes); });
   const Reach reach = reach_of(film.production, cached_recording(film.cache));
-  const Camera camera = cameras_of(film.scene, reach, 0).at(static_cast<std::size_t>(range.first - 1));
+  const Camera camera = cameras_of(film.scene, reach, 0).at(range.first - 1);
   const auto [width, height] = film.scene.render.resolution;
-  write_whole_file(target.file, viewer.page(film.scene.fps, camera, static_cast<double>(width) / height));
+  write_whole_file(target.file, viewer.page(film.scene.fps, camera, double(width) / height));
 }
 
 void export_points(const ExportTarget& target, const Film& film, const FrameRange& range) {
@@ -124,7 +124,7 @@ void export_xdmf(const ExportTarget& target, const Film& film, const FrameRange&
   }
   for (int frame = range.first; frame <= range.last; ++frame) {
     stop_if_interrupted();
-    const auto row = static_cast<std::size_t>(frame - 1);
+    const std::size_t row = frame - 1;
     const std::vector<Points> nodes = film.cache.positions(row);
     std::vector<Points> skins;
     for (std::size_t actor = 0; actor < nodes.size(); ++actor) {

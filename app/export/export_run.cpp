@@ -109,7 +109,7 @@ void export_run(const SceneOptions& options, const Console& console) {
   if (options.list) return print_formats();
   if (is_cache_file(options.input)) return export_cache(options, console);
   with_scene(options, [&](const Scene& scene) {
-    const FrameRange range = parse_frame_range(options.frames, static_cast<std::size_t>(frame_count(scene)));
+    const FrameRange range = parse_frame_range(options.frames, frame_count(scene));
     const std::vector<ExportTarget> targets = targets_of(options, scene, range);
     Production production = make_production(scene, console);
     const PassingCache passing(files_of(targets.front(), scene, range).front());

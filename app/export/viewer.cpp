@@ -21,7 +21,7 @@ std::string text_of(const std::vector<Floats3>& frames, const Vec3& low, double 
   std::vector<std::uint16_t> steps;
   for (const Floats3& frame : frames) {
     for (Eigen::Index i = 0; i < frame.size(); ++i) {
-      const double place = (static_cast<double>(frame.data()[i]) - low[i % 3]) / step;
+      const double place = (double(frame.data()[i]) - low[i % 3]) / step;
       steps.push_back(static_cast<std::uint16_t>(std::lround(std::clamp(place, 0.0, kSteps))));
     }
   }

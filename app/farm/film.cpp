@@ -65,9 +65,9 @@ void make_film(const SceneOptions& options, const Console& console) {
   const Output pictures = parse_output(options.input);
   const int last = pictures.kind == Output::Kind::kPictures ? last_number(pictures) : 0;
   if (last == 0) throw Error(ErrorKind::kBadInput, fmt::format("'{}': no numbered pictures are there", options.input));
-  const std::size_t count = options.frames.empty() ? static_cast<std::size_t>(last) : kMostFrames;
+  const std::size_t count = options.frames.empty() ? std::size_t(last) : kMostFrames;
   FrameRange range = parse_frame_range(options.frames, count);
-  if (range.last == static_cast<int>(kMostFrames)) range.last = last;
+  if (range.last == int(kMostFrames)) range.last = last;
   if (const std::string gaps = gaps_in(pictures, range); !gaps.empty()) {
     throw Error(ErrorKind::kBadInput, fmt::format("'{}': these pictures are missing: {}", options.input, gaps));
   }

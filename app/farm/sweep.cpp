@@ -83,7 +83,7 @@ void write_runs(const SceneOptions& options, const Console& console) {
                    fmt::format("# All runs one after the other, then their table.\nsh {}\n"
                                "sprung sweep {} --table | tee {}\n",
                                quoted(folder / "commands"), quoted(folder), quoted(folder / "table.csv")));
-  console.note(count_of(static_cast<long>(choices.size()), "run"));
+  console.note(count_of(choices.size(), "run"));
   fmt::print("{}\n", (fs::path(options.outputs.front()) / "commands").string());
 }
 
@@ -121,7 +121,7 @@ void print_table(const SceneOptions& options, const Console& console) {
     }
     const CacheReader cache(file);
     const int planned = frame_count(cached_scene(cache.header()));
-    if (static_cast<int>(cache.frame_count()) < planned) {
+    if (int(cache.frame_count()) < planned) {
       console.warn(fmt::format("run {} has {} of its {} frames", name, cache.frame_count(), planned));
     }
     if (!has_header) print_header(cache.header());

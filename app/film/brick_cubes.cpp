@@ -20,8 +20,8 @@ auto mixed(const Values& corners, double u, double v) {
 /// Where the vertex of a cell is in a face; `corner` counter-clockwise.
 std::pair<double, double> place_in_face(int cell, int corner, double rim) {
   const std::array<double, kCells + 1> borders{0, rim, 1 - rim, 1};
-  const auto u = static_cast<std::size_t>(cell % kCells + (corner == 1 || corner == 2 ? 1 : 0));
-  const auto v = static_cast<std::size_t>(cell / kCells + (corner >= 2 ? 1 : 0));
+  const std::size_t u = cell % kCells + (corner == 1 || corner == 2 ? 1 : 0);
+  const std::size_t v = cell / kCells + (corner >= 2 ? 1 : 0);
   return {borders[u], borders[v]};
 }
 
@@ -54,12 +54,12 @@ BrickCubes::BrickCubes(const BrickGrid& grid, const std::vector<bool>& shown, bo
 }
 
 void BrickCubes::lay_out(const Eigen::Vector3f& color) {
-  const auto count = static_cast<Eigen::Index>(faces_.size());
+  const Eigen::Index count = faces_.size();
   skin_.colors.resize(kFaceVertices * count, 4);
   skin_.triangles.resize(2 * kCells * kCells * count, 3);
   for (Eigen::Index face = 0; face < count; ++face) {
     for (int cell = 0; cell < kCells * kCells; ++cell) {
-      const auto first = static_cast<int>(kFaceVertices * face) + 4 * cell;
+      const auto first = int(kFaceVertices * face) + 4 * cell;
       const auto triangle = 2 * (kCells * kCells * face + cell);
       skin_.triangles.row(triangle) << first, first + 1, first + 2;
       skin_.triangles.row(triangle + 1) << first, first + 2, first + 3;
@@ -79,19 +79,19 @@ std::array<Vec3, 4> BrickCubes::corners(const BrickFace& face, const Points& nod
   for (std::size_t c = 0; c < 4; ++c) places[c] = nodes.row(face.nodes[c]);
   if (!exploded_) return places;
   Vec3 middle = Vec3::Zero();
-  for (const int node : grid_.nodes[static_cast<std::size_t>(face.brick)]) middle += nodes.row(node).transpose() / 8;
+  for (const int node : grid_.nodes[face.brick]) middle += nodes.row(node).transpose() / 8;
   for (Vec3& place : places) place += 2 * kGap * (middle - place);
   return places;
 }
 
 SkinShape BrickCubes::shape(const Points& nodes, const Eigen::VectorXd& shares) const {
-  const auto count = static_cast<Eigen::Index>(faces_.size());
+  const Eigen::Index count = faces_.size();
   SkinShape shape;
   shape.positions.resize(kFaceVertices * count, 3);
   shape.normals.resize(kFaceVertices * count, 3);
   if (shares.size() > 0) shape.shares.resize(kFaceVertices * count);
   for (Eigen::Index i = 0; i < count; ++i) {
-    const BrickFace& face = faces_[static_cast<std::size_t>(i)];
+    const BrickFace& face = faces_[i];
     const std::array<Vec3, 4> places = corners(face, nodes);
     const Vec3 normal = (places[2] - places[0]).cross(places[3] - places[1]);
     for (int vertex = 0; vertex < kFaceVertices; ++vertex) {
@@ -103,7 +103,7 @@ SkinShape BrickCubes::shape(const Points& nodes, const Eigen::VectorXd& shares) 
       std::array<double, 4> of_corners{};
       for (std::size_t c = 0; c < 4; ++c) of_corners[c] = shares[face.nodes[c]];
       const bool is_rim = vertex / 4 != kCells * kCells / 2;
-      shape.shares[row] = static_cast<float>(std::clamp(mixed(of_corners, u, v), 0.0, 1.0) + (is_rim ? 2 : 0));
+      shape.shares[row] = float(std::clamp(mixed(of_corners, u, v), 0.0, 1.0) + (is_rim ? 2 : 0));
     }
   }
   return shape;

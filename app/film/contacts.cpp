@@ -36,8 +36,8 @@ class Thinned {
     if (cells_.insert({at(0), at(1), at(2)}).second) places_.push_back(place);
   }
   [[nodiscard]] Points points() const {
-    Points points(static_cast<Eigen::Index>(places_.size()), 3);
-    for (std::size_t i = 0; i < places_.size(); ++i) points.row(static_cast<Eigen::Index>(i)) = places_[i].transpose();
+    Points points(places_.size(), 3);
+    for (std::size_t i = 0; i < places_.size(); ++i) points.row(i) = places_[i].transpose();
     return points;
   }
 

@@ -44,7 +44,7 @@ void write_all(int pipe, const void* data, std::size_t size) {
     }
     if (done <= 0) throw Interrupted{};  // whoever asked has gone
     bytes += done;
-    size -= static_cast<std::size_t>(done);
+    size -= std::size_t(done);
   }
 }
 
@@ -59,7 +59,7 @@ bool read_all(int pipe, void* data, std::size_t size) {
     }
     if (done <= 0) return false;
     bytes += done;
-    size -= static_cast<std::size_t>(done);
+    size -= std::size_t(done);
   }
   return true;
 }

@@ -60,7 +60,7 @@ FieldWords words_of(Field field) {
 
 /// The values below and above which that share of them lies.
 std::pair<double, double> extremes(std::vector<double>& values) {
-  const auto rank = static_cast<std::ptrdiff_t>(kUtmost * static_cast<double>(values.size()));
+  const auto rank = std::ptrdiff_t(kUtmost * double(values.size()));
   const auto low = values.begin() + rank;
   std::nth_element(values.begin(), low, values.end());
   const double lowest = *low;
@@ -88,7 +88,7 @@ FieldColors::FieldColors(const Scene& scene, const Production& production, const
 void FieldColors::find_range() {
   const std::size_t frames = is_moving(field_) ? recording_.frames.size() : 1;
   std::size_t count = 0;
-  for (const Actor& actor : production_.world.actors) count += static_cast<std::size_t>(actor.body.node_count());
+  for (const Actor& actor : production_.world.actors) count += std::size_t(actor.body.node_count());
   const std::size_t stride = 1 + frames * count / kMostValues;
   std::vector<double> values;
   values.reserve(frames * count / stride + frames);
@@ -96,8 +96,8 @@ void FieldColors::find_range() {
   for (std::size_t frame = 0; frame < frames; ++frame) {
     for (std::size_t actor = 0; actor < production_.world.actors.size(); ++actor) {
       const Eigen::VectorXd of_actor = field_values(field_, production_, recording_, frame, actor, fps_);
-      const auto size = static_cast<std::size_t>(of_actor.size());
-      for (; next < size; next += stride) values.push_back(of_actor[static_cast<Eigen::Index>(next)]);
+      const std::size_t size = of_actor.size();
+      for (; next < size; next += stride) values.push_back(of_actor[next]);
       next -= size;
     }
   }

@@ -17,7 +17,7 @@ Eigen::VectorXd speeds(const Recording& recording, std::size_t frame, std::size_
   const auto& frames = recording.frames;
   if (from == to) return Eigen::VectorXd::Zero(frames[frame][actor].rows());
   const Floats3 way = frames[to][actor] - frames[from][actor];
-  return way.rowwise().norm().cast<double>() * (fps / static_cast<double>(to - from));
+  return way.rowwise().norm().cast<double>() * (fps / double(to - from));
 }
 
 }  // namespace

@@ -116,7 +116,7 @@ Reach reach_of(const Production& production, const Recording& recording) {
   const Eigen::Matrix<double, 26, 3> ways = directions();
   Reach reach;
   for (const std::vector<Floats3>& frame : recording.frames) {
-    Points& furthest = reach.bodies.emplace_back(static_cast<Eigen::Index>(26 * frame.size()), 3);
+    Points& furthest = reach.bodies.emplace_back(26 * frame.size(), 3);
     Vec3 sum = Vec3::Zero();
     Eigen::Index nodes = 0;
     Eigen::Index next = 0;
@@ -131,7 +131,7 @@ Reach reach_of(const Production& production, const Recording& recording) {
         furthest.row(next++) = skin.row(row);
       }
     }
-    reach.middles.emplace_back(sum / static_cast<double>(std::max<Eigen::Index>(nodes, 1)));
+    reach.middles.emplace_back(sum / double(std::max<Eigen::Index>(nodes, 1)));
   }
   reach.lowest = reach.bounds.low.y();
   add_obstacles(production, recording, reach);
@@ -158,7 +158,7 @@ Reach joined(const std::vector<Reach>& runs) {
     for (const Reach& run : runs) {
       const std::size_t at = std::min(frame, run.bodies.size() - 1);
       parts.push_back(run.bodies[at]);
-      all.middles[frame] += run.middles[at] / static_cast<double>(runs.size());
+      all.middles[frame] += run.middles[at] / double(runs.size());
     }
     all.bodies[frame] = stacked(parts);
   }
@@ -173,17 +173,17 @@ std::vector<Camera> cameras_of(const Scene& scene, const Reach& reach, double re
   const double aspect = (1 - reserved) * scene.render.resolution[0] / scene.render.resolution[1];
   std::vector<Points> stops;
   const int count = chosen.orbit == 0 ? 1 : kStops;
-  stops.reserve(static_cast<std::size_t>(count));
+  stops.reserve(count);
   for (int stop = 0; stop < count; ++stop)
     stops.push_back(turned(seen, center, -chosen.orbit * stop / std::max(1, count - 1)));
   const Camera first = frame_points(stacked(stops), aspect, chosen.azimuth, chosen.elevation, chosen.orthographic);
   std::vector<Camera> cameras;
   for (std::size_t frame = 0; frame < frames; ++frame) {
-    const double way = frames > 1 ? static_cast<double>(frame) / static_cast<double>(frames - 1) : 0;
+    const double way = frames > 1 ? double(frame) / double(frames - 1) : 0;
     Camera camera = carried_around(first, center, way * chosen.orbit);
     double zoom = chosen.zoom;
     if (!chosen.keyframes.empty()) {
-      const CameraKeyframe at = placed(chosen.keyframes, time_of(scene, static_cast<int>(frame)));
+      const CameraKeyframe at = placed(chosen.keyframes, time_of(scene, int(frame)));
       camera = frame_points(seen, aspect, at.azimuth, at.elevation, chosen.orthographic);
       zoom = at.zoom;
     }

@@ -26,14 +26,14 @@ std::size_t longest_of(const std::vector<FilmRun>& runs) {
   const auto shorter = [](const FilmRun& a, const FilmRun& b) {
     return a.recording.frames.size() < b.recording.frames.size();
   };
-  return static_cast<std::size_t>(std::max_element(runs.begin(), runs.end(), shorter) - runs.begin());
+  return std::max_element(runs.begin(), runs.end(), shorter) - runs.begin();
 }
 
 /// Runs beside each other and pictures of a sheet have their part of the resolution each.
 Scene with_panel_size(Scene scene, std::size_t runs, const Labels& labels) {
   if (!scene.render.sheet && runs == 1) return scene;
   auto [columns, rows] = scene.render.sheet.value_or(std::array{1, 1});
-  columns *= static_cast<int>(runs);
+  columns *= int(runs);
   auto& [width, height] = scene.render.resolution;
   width = std::max(1, (width - labels.reserved(width, height)) / columns);
   height = std::max(1, height / rows);
@@ -124,7 +124,7 @@ Image FilmCrew::draw(std::size_t frame, const Moments& moments) {
   for (std::size_t i = 0; i < panels_.size(); ++i) {
     Exposure exposure;
     for (std::size_t j = 0; j < moments[i].size(); ++j) {
-      exposure.add(renderer(panels_[i]).draw(moments[i][j], this->camera(frame, static_cast<int>(j))));
+      exposure.add(renderer(panels_[i]).draw(moments[i][j], this->camera(frame, int(j))));
     }
     pictures.push_back(exposure.mean());
     if (panels_.size() > 1) labels_.write_name(pictures.back(), panels_[i].run.name);
@@ -132,8 +132,7 @@ Image FilmCrew::draw(std::size_t frame, const Moments& moments) {
       labels_.write_plot(pictures.back(), plot_of(panels_[i].run.recording, panels_[i].frame(frame)));
     }
   }
-  Image image = panels_.size() == 1 ? std::move(pictures.front())
-                                    : sheet_of(pictures, static_cast<int>(pictures.size()), margin());
+  Image image = panels_.size() == 1 ? std::move(pictures.front()) : sheet_of(pictures, isize(pictures), margin());
   labels_.write_frame(image, camera, frame, frames(), panels_[longest_].run.recording.progress[frame]);
   if (!scene_.render.sheet) labels_.write_legend(image);
   return image;
@@ -166,7 +165,7 @@ Image FilmCrew::sheet(const std::vector<Image>& pictures) const {
 }
 
 int FilmCrew::margin() const {
-  const int columns = scene_.render.sheet ? (*scene_.render.sheet)[0] : static_cast<int>(panels_.size());
+  const int columns = scene_.render.sheet ? (*scene_.render.sheet)[0] : isize(panels_);
   return scene_.render.resolution[0] - columns * scene_of_panel_.render.resolution[0];
 }
 

@@ -34,7 +34,7 @@ Skin at_rest(Skin skin, const SkinShape& shape) {
   return skin;
 }
 
-int id_of(std::size_t actor) { return static_cast<int>(actor) + 1; }
+int id_of(std::size_t actor) { return int(actor) + 1; }
 
 Points rows_of(const Points& nodes, const std::vector<int>& rows) { return nodes(rows, Eigen::all); }
 
@@ -160,8 +160,8 @@ void FilmStage::add_springs(std::size_t actor) {
     Points from(springs->rest.size(), 3);
     Points to(springs->rest.size(), 3);
     for (Eigen::Index i = 0; i < springs->rest.size(); ++i) {
-      from.row(i) = nodes.row(springs->nodes[static_cast<std::size_t>(i)][0]);
-      to.row(i) = nodes.row(springs->nodes[static_cast<std::size_t>(i)][1]);
+      from.row(i) = nodes.row(springs->nodes[i][0]);
+      to.row(i) = nodes.row(springs->nodes[i][1]);
     }
     return rods->shape(from, to, (springs->stretches(nodes).array() / ends + 0.5).max(0.0).min(1.0));
   };
@@ -178,7 +178,7 @@ double FilmStage::furthest_stretch() const {
     const SpringSet springs = springs_of(body, std::vector<bool>(body.grid.cells.size(), true));
     for (const std::vector<Floats3>& frame : recording_.frames) {
       Eigen::VectorXd stretches = springs.stretches(frame[actor].cast<double>()).cwiseAbs();
-      const auto rank = static_cast<Eigen::Index>(kUtmost * static_cast<double>(stretches.size()));
+      const auto rank = Eigen::Index(kUtmost * double(stretches.size()));
       std::nth_element(stretches.begin(), stretches.end() - 1 - rank, stretches.end());
       furthest = std::max(furthest, stretches[stretches.size() - 1 - rank]);
     }
@@ -244,11 +244,11 @@ void FilmStage::add_trace(const ProbeTrack& track, const Eigen::Vector3f& color)
   if (track.samples.size() < 2) return;
   const auto rods = std::make_shared<const Rods>(track.samples.size() - 1, kTraceRadius * production_.size);
   const auto shape = [rods, &track](std::size_t frame) {
-    const auto count = static_cast<Eigen::Index>(track.samples.size() - 1);
+    const Eigen::Index count = track.samples.size() - 1;
     Points from(count, 3);
     Points to(count, 3);
     for (Eigen::Index i = 0; i < count; ++i) {
-      const auto row = static_cast<std::size_t>(i);
+      const std::size_t row = i;
       from.row(i) = track.samples[std::min(row, frame)].position.transpose();
       to.row(i) = track.samples[std::min(row + 1, frame)].position.transpose();
     }

@@ -23,7 +23,7 @@ Labels::Labels(const SceneRender& render, std::optional<Legend> legend, bool nam
 
 int Labels::reserved(int width, int height) const {
   if (!legend_) return 0;
-  return static_cast<int>(std::min(kMostForLegend * width, legend_width(*legend_, height, *font_)));
+  return int(std::min(kMostForLegend * width, legend_width(*legend_, height, *font_)));
 }
 
 void Labels::write_name(Image& image, const std::string& name) const { draw_name(image, name, *font_); }

@@ -38,9 +38,8 @@ struct RoundShape {
   std::map<std::pair<int, int>, int> middles_;
 
   int between(int a, int b) {
-    const auto [found, is_new] = middles_.try_emplace(std::minmax(a, b), static_cast<int>(places.size()));
-    if (is_new)
-      places.push_back((places[static_cast<std::size_t>(a)] + places[static_cast<std::size_t>(b)]).normalized());
+    const auto [found, is_new] = middles_.try_emplace(std::minmax(a, b), isize(places));
+    if (is_new) places.push_back((places[a] + places[b]).normalized());
     return found->second;
   }
 };
@@ -59,10 +58,10 @@ void reserve(Skin& skin, Eigen::Index vertices, Eigen::Index triangles) {
 }  // namespace
 
 Rods::Rods(std::size_t count, double radius) : radius_(radius) {
-  const auto rods = static_cast<Eigen::Index>(count);
+  const Eigen::Index rods = count;
   reserve(skin_, kRodVertices * rods, kRodTriangles * rods);
   for (Eigen::Index rod = 0; rod < rods; ++rod) {
-    const auto first = static_cast<int>(kRodVertices * rod);
+    const auto first = int(kRodVertices * rod);
     for (int side = 0; side < kSides; ++side) {
       const int next = (side + 1) % kSides;
       const Eigen::Index triangle = kRodTriangles * rod + 2 * side;
@@ -88,20 +87,20 @@ SkinShape Rods::shape(const Points& from, const Points& to, const Eigen::VectorX
       const Vec3 end = vertex < kSides ? from.row(rod) : to.row(rod);
       shape.positions.row(row) = (end + radius_ * normal).cast<float>().transpose();
       shape.normals.row(row) = normal.cast<float>().transpose();
-      if (shares.size() > 0) shape.shares[row] = static_cast<float>(shares[rod]);
+      if (shares.size() > 0) shape.shares[row] = float(shares[rod]);
     }
   }
   return shape;
 }
 
 Balls::Balls(std::size_t count, double radius) : radius_(radius) {
-  const auto balls = static_cast<Eigen::Index>(count);
+  const Eigen::Index balls = count;
   const RoundShape& round = round_shape();
-  const auto vertices = static_cast<Eigen::Index>(round.places.size());
-  reserve(skin_, vertices * balls, static_cast<Eigen::Index>(round.triangles.size()) * balls);
+  const Eigen::Index vertices = round.places.size();
+  reserve(skin_, vertices * balls, Eigen::Index(round.triangles.size()) * balls);
   Eigen::Index triangle = 0;
   for (Eigen::Index ball = 0; ball < balls; ++ball) {
-    const auto first = static_cast<int>(vertices * ball);
+    const auto first = int(vertices * ball);
     for (const auto& corners : round.triangles) {
       skin_.triangles.row(triangle++) << first + corners[0], first + corners[1], first + corners[2];
     }
@@ -110,7 +109,7 @@ Balls::Balls(std::size_t count, double radius) : radius_(radius) {
 
 SkinShape Balls::shape(const Points& middles, const Vec3& idle) const {
   const std::vector<Vec3>& places = round_shape().places;
-  const auto vertices = static_cast<Eigen::Index>(places.size());
+  const Eigen::Index vertices = places.size();
   const Eigen::Index count = skin_.positions.rows() / vertices;
   SkinShape shape;
   shape.positions.resize(skin_.positions.rows(), 3);
@@ -119,7 +118,7 @@ SkinShape Balls::shape(const Points& middles, const Vec3& idle) const {
     const bool is_shown = ball < middles.rows();
     const Vec3 middle = is_shown ? Vec3(middles.row(ball).transpose()) : idle;
     for (Eigen::Index vertex = 0; vertex < vertices; ++vertex) {
-      const Vec3& normal = places[static_cast<std::size_t>(vertex)];
+      const Vec3& normal = places[vertex];
       const Eigen::Index row = vertices * ball + vertex;
       shape.positions.row(row) = (middle + (is_shown ? radius_ : 0) * normal).cast<float>().transpose();
       shape.normals.row(row) = normal.cast<float>().transpose();

@@ -10,7 +10,7 @@ namespace sprung {
 Eigen::VectorXd SpringSet::stretches(const Points& positions) const {
   Eigen::VectorXd values(rest.size());
   for (Eigen::Index i = 0; i < values.size(); ++i) {
-    const auto& [a, b] = nodes[static_cast<std::size_t>(i)];
+    const auto& [a, b] = nodes[i];
     values[i] = (positions.row(b) - positions.row(a)).norm() / rest[i] - 1;
   }
   return values;
@@ -20,8 +20,8 @@ SpringSet springs_of(const Body& body, const std::vector<bool>& shown) {
   SpringSet springs;
   const auto add = [&](const std::array<int, 8>& brick, const auto& pairs) {
     for (const auto& [from, to] : pairs) {
-      const int a = brick[static_cast<std::size_t>(from)];
-      const int b = brick[static_cast<std::size_t>(to)];
+      const int a = brick[from];
+      const int b = brick[to];
       springs.nodes.push_back({std::min(a, b), std::max(a, b)});
     }
   };
@@ -33,9 +33,9 @@ SpringSet springs_of(const Body& body, const std::vector<bool>& shown) {
   }
   std::sort(springs.nodes.begin(), springs.nodes.end());
   springs.nodes.erase(std::unique(springs.nodes.begin(), springs.nodes.end()), springs.nodes.end());
-  springs.rest.resize(static_cast<Eigen::Index>(springs.nodes.size()));
+  springs.rest.resize(springs.nodes.size());
   for (Eigen::Index i = 0; i < springs.rest.size(); ++i) {
-    const auto& [a, b] = springs.nodes[static_cast<std::size_t>(i)];
+    const auto& [a, b] = springs.nodes[i];
     springs.rest[i] = (body.rest_positions.row(b) - body.rest_positions.row(a)).norm();
   }
   return springs;

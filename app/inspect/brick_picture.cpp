@@ -25,7 +25,7 @@ Points cap_points(const Solid& solid) {
   constexpr int kAlong = 12;
   std::vector<Vec3> places;
   for (Eigen::Index t = 0; t < solid.triangles.rows(); ++t) {
-    if (solid.source[static_cast<std::size_t>(t)] >= 0) continue;
+    if (solid.source[t] >= 0) continue;
     const Vec3 a = solid.points.row(solid.triangles(t, 0));
     const Vec3 b = solid.points.row(solid.triangles(t, 1)).transpose() - a;
     const Vec3 c = solid.points.row(solid.triangles(t, 2)).transpose() - a;
@@ -33,8 +33,8 @@ Points cap_points(const Solid& solid) {
       for (int j = 0; i + j <= kAlong; ++j) places.emplace_back(a + (i * b + j * c) / kAlong);
     }
   }
-  Points points(static_cast<Eigen::Index>(places.size()), 3);
-  for (Eigen::Index i = 0; i < points.rows(); ++i) points.row(i) = places[static_cast<std::size_t>(i)];
+  Points points(places.size(), 3);
+  for (Eigen::Index i = 0; i < points.rows(); ++i) points.row(i) = places[i];
   return points;
 }
 
@@ -43,12 +43,12 @@ std::vector<Eigen::Vector3f> brick_colors(const BrickGrid& grid, const Solid& so
   std::vector<Eigen::Vector3f> colors;
   for (const double fill : grid.fill) colors.push_back(fill < kHalfFull ? kPartlyFull : kSound);
   for (const ThinPart& part : thin_parts) {
-    for (const int brick : part.bricks) colors[static_cast<std::size_t>(brick)] = kThin;
+    for (const int brick : part.bricks) colors[brick] = kThin;
   }
   for (std::size_t i = 0; i + 1 < grid.cells.size(); ++i) {
     if (grid.cells[i] == grid.cells[i + 1]) colors[i] = colors[i + 1] = kDivided;
   }
-  for (const int brick : embed(grid, cap_points(solid)).brick) colors[static_cast<std::size_t>(brick)] = kMended;
+  for (const int brick : embed(grid, cap_points(solid)).brick) colors[brick] = kMended;
   return colors;
 }
 

@@ -33,7 +33,7 @@ double seconds_of_implicit_frame(World world, const StepPlan& plan) {
   ImplicitMotion motion(world,
                         {.scheme = plan.scheme == Solver::kBdf2 ? ImplicitScheme::kBdf2 : ImplicitScheme::kEuler});
   motion.advance(plan.steps.dt, 1, 0);
-  return seconds_since(start) * static_cast<double>(plan.steps.count);
+  return seconds_since(start) * double(plan.steps.count);
 }
 
 /// Of explicit steps, all bodies together: what every call takes, and what each of its steps takes beside.
@@ -52,9 +52,9 @@ double seconds_of_explicit_frame(World world, const StepPlan& plan) {
   const double whole = plan.brick_steps / bricks;  // steps of the frame
   double seconds = 0;
   double a_step = one;
-  for (long steps = 2; seconds < kSecondsToMeasure && static_cast<double>(steps) <= std::max(whole, 2.0); steps *= 2) {
+  for (long steps = 2; seconds < kSecondsToMeasure && double(steps) <= std::max(whole, 2.0); steps *= 2) {
     const double more = seconds_of(1 + steps);
-    a_step = std::max(more - one, 0.0) / static_cast<double>(steps);
+    a_step = std::max(more - one, 0.0) / double(steps);
     seconds += more;
   }
   return one + a_step * std::max(whole - 1, 0.0);
@@ -81,7 +81,7 @@ double seconds_a_picture(const Production& production, const Scene& scene) {
                             .height = height,
                             .samples = scene.render.samples.value_or(samples_of(scene.render.quality)),
                             .quality = scene.render.quality});
-  const Camera camera = frame_bounds(stage.bounds, static_cast<double>(width) / height);
+  const Camera camera = frame_bounds(stage.bounds, double(width) / height);
   static_cast<void>(renderer.draw(shapes, camera));  // the first one waits for the driver's compiler
   const auto start = std::chrono::steady_clock::now();
   static_cast<void>(renderer.draw(shapes, camera));
@@ -96,15 +96,15 @@ double memory_forecast(const Production& production, const Scene& scene) {
   double nodes = 0;
   for (std::size_t i = 0; i < production.world.actors.size(); ++i) {
     bytes += bytes_a_brick * production.world.actors[i].body.grid.brick_count();
-    bytes += kBytesASkinVertex * static_cast<double>(production.skins[i].skin.positions.rows());
+    bytes += kBytesASkinVertex * double(production.skins[i].skin.positions.rows());
     nodes += production.world.actors[i].body.node_count();
   }
   const auto [width, height] = scene.render.resolution;
-  return bytes + 3 * sizeof(float) * nodes * frame_count(scene) + kBytesAPixel * static_cast<double>(width) * height;
+  return bytes + 3 * sizeof(float) * nodes * frame_count(scene) + kBytesAPixel * double(width) * height;
 }
 
 std::string warning_of_memory(double bytes) {
-  const double present = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  const double present = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE));
   if (bytes < present) return "";
   return fmt::format(
       "needs about {:.3g} GB of memory, of which this machine has {:.3g} GB; larger bricks or a shorter "

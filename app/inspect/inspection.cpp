@@ -16,8 +16,7 @@ bool is_closed(const Triangles& triangles, const std::vector<int>& place_of) {
   std::vector<std::array<int, 2>> edges;
   for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
     std::array<int, 3> corners{};
-    for (int c = 0; c < 3; ++c)
-      corners[static_cast<std::size_t>(c)] = place_of[static_cast<std::size_t>(triangles(t, c))];
+    for (int c = 0; c < 3; ++c) corners[c] = place_of[triangles(t, c)];
     if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) continue;
     for (std::size_t c = 0; c < 3; ++c) {
       const auto [low, high] = std::minmax(corners[c], corners[(c + 1) % 3]);
@@ -37,13 +36,13 @@ MeshFacts mesh_facts(const LoadedBody& body, double unit) {
   MeshFacts facts;
   const std::vector<int> place_of = weld_points(body.mesh.positions);
   std::set<int> used;
-  for (const int vertex : std::span(body.mesh.triangles.data(), static_cast<std::size_t>(body.mesh.triangles.size()))) {
-    used.insert(place_of[static_cast<std::size_t>(vertex)]);
+  for (const int vertex : std::span(body.mesh.triangles.data(), body.mesh.triangles.size())) {
+    used.insert(place_of[vertex]);
   }
-  facts.vertices = static_cast<long>(used.size());
+  facts.vertices = long(used.size());
   facts.triangles = body.mesh.triangles.rows();
-  facts.parts = static_cast<long>(body.mesh.parts.size());
-  facts.solids = static_cast<long>(body.solids.size());
+  facts.parts = long(body.mesh.parts.size());
+  facts.solids = long(body.solids.size());
   facts.is_closed = is_closed(body.mesh.triangles, place_of);
   for (const Solid& solid : body.solids) facts.volume += solid.volume / (unit * unit * unit);
   std::vector<WallSample> all;

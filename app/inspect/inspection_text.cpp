@@ -53,9 +53,8 @@ std::string brick_lines(const BodyFacts& body) {
                                    100 * bricks.volume_error));
   for (std::size_t i = 0; i < std::min<std::size_t>(bricks.thin_parts.size(), 3); ++i) {
     const ThinPart& part = bricks.thin_parts[i];
-    text +=
-        line("thin part", fmt::format("{}, about {} thick", count_of(static_cast<long>(part.bricks.size()), "brick"),
-                                      readable(part.thickness, Dimension::kLength)));
+    text += line("thin part", fmt::format("{}, about {} thick", count_of(part.bricks.size(), "brick"),
+                                          readable(part.thickness, Dimension::kLength)));
   }
   if (bricks.thin_parts.size() > 3) {
     text += line("", fmt::format("and {} more parts thinner than a brick", bricks.thin_parts.size() - 3));

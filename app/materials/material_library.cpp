@@ -29,7 +29,7 @@ void MaterialLibrary::add(std::string_view text, const std::filesystem::path& fi
       materials_.push_back(std::move(material));
       continue;
     }
-    const bool is_here = known - materials_.begin() >= static_cast<std::ptrdiff_t>(before);
+    const bool is_here = known - materials_.begin() >= std::ptrdiff_t(before);
     const toml::table& place = *(*table["material"].as_array())[i].as_table();
     mistakes.add(place.source(), fmt::format("material.name: '{}' is there already, {}; choose another name",
                                              material.name, is_here ? "in this file" : "built in or in another file"));

@@ -17,7 +17,7 @@ SurfaceMesh make_mesh(const Points& positions, const Triangles& triangles) {
   SurfaceMesh mesh;
   mesh.positions = positions;
   mesh.triangles = triangles;
-  mesh.parts.push_back({.name = "mesh", .triangle_count = static_cast<int>(triangles.rows())});
+  mesh.parts.push_back({.name = "mesh", .triangle_count = int(triangles.rows())});
   const std::string fault = find_fault(mesh);
   if (!fault.empty()) throw Error(ErrorKind::kBadInput, fmt::format("the mesh is not one: {}", fault));
   return mesh;

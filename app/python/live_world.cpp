@@ -108,15 +108,15 @@ void LiveWorld::advance(double duration, const Between& between) {
 
 void LiveWorld::step(double dt, long count, const Between& between) {
   check(dt > 0 && std::isfinite(dt), "dt (s)", dt, "above 0");
-  check(count >= 0, "count", static_cast<double>(count), "0 or above");
+  check(count >= 0, "count", double(count), "0 or above");
   brace_bodies();
   double bricks = 0;
   for (const Actor& actor : world_.actors) bricks += actor.body.grid.brick_count();
-  const long at_once = std::max(1L, static_cast<long>(kBrickStepsBetween / std::max(1.0, bricks)));
+  const long at_once = std::max(1L, long(kBrickStepsBetween / std::max(1.0, bricks)));
   const double stable = stable_step();
   const auto steps = [&] {
     for (long done = 0; done < count; done += at_once) {
-      const double time = time_ + dt * static_cast<double>(done);
+      const double time = time_ + dt * double(done);
       sprung::advance(world_, Scheme::kSymplecticEuler, dt, std::min(at_once, count - done), time);
       between();
     }
@@ -128,7 +128,7 @@ void LiveWorld::step(double dt, long count, const Between& between) {
     throw Error(error.kind(),
                 fmt::format("steps of {:.4g} s are too long, up to {:.4g} s are stable; {}", dt, stable, error.what()));
   }
-  time_ += dt * static_cast<double>(count);
+  time_ += dt * double(count);
 }
 
 void LiveWorld::settle(std::size_t row, bool linear) {
@@ -156,17 +156,17 @@ void LiveWorld::settle(std::size_t row, bool linear) {
 void LiveWorld::pin(std::size_t row, const std::vector<long>& nodes) {
   Actor& actor = world_.actors[row];
   const int count = actor.body.node_count();
-  std::vector<bool> is_held(static_cast<std::size_t>(count));
+  std::vector<bool> is_held(count);
   for (const long node : nodes) {
     if (node < 0 || node >= count) {
       throw Error(ErrorKind::kBadInput,
                   fmt::format("there is no node {} to pin: the body's nodes are 0 to {}", node, count - 1));
     }
-    is_held[static_cast<std::size_t>(node)] = true;
+    is_held[node] = true;
   }
   actor.pinned.clear();
   for (int node = 0; node < count; ++node) {
-    if (!is_held[static_cast<std::size_t>(node)]) continue;
+    if (!is_held[node]) continue;
     actor.pinned.push_back({.node = node});
     actor.body.velocities.row(node).setZero();
   }
@@ -200,7 +200,7 @@ Image LiveWorld::draw(int width, int height, double azimuth, double elevation) c
   stage.has_ground = ground.has_value();
   if (ground) stage.ground.height = *ground;
   Renderer renderer(stage, {.width = width, .height = height});
-  return renderer.draw(shapes, frame_bounds(stage.bounds, static_cast<double>(width) / height, azimuth, elevation));
+  return renderer.draw(shapes, frame_bounds(stage.bounds, double(width) / height, azimuth, elevation));
 }
 
 }  // namespace sprung

@@ -94,15 +94,14 @@ std::string with_minus(std::string text) {
 std::string raised(int number) {
   constexpr std::array<const char*, 10> kDigits{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
   std::string text;
-  for (const char digit : std::to_string(number))
-    text += digit == '-' ? "⁻" : kDigits[static_cast<std::size_t>(digit - '0')];
+  for (const char digit : std::to_string(number)) text += digit == '-' ? "⁻" : kDigits[digit - '0'];
   return text;
 }
 
 /// A value of a log axis: short as it is, else as 2·10⁻⁵.
 std::string free_text(double value) {
   if (value == 0 || (std::abs(value) < 1e5 && std::abs(value) > 9e-4)) return with_minus(fmt::format("{:.6g}", value));
-  const int power = static_cast<int>(std::floor(std::log10(std::abs(value)) + kSlack));
+  const int power = int(std::floor(std::log10(std::abs(value)) + kSlack));
   const double lead = value / std::pow(10.0, power);
   const std::string tens = "10" + raised(power);
   return std::abs(lead - 1) < 1e-6 ? tens : with_minus(fmt::format("{:.3g}", lead)) + "·" + tens;
@@ -131,7 +130,7 @@ std::vector<std::string> tick_texts(const AxisRange& range) {
   }
   const bool free = range.scale == Scale::kLog || largest >= 1e5 || step < 1e-4;
   // 2.5 needs a decimal more than its order of magnitude.
-  int decimals = std::max(0, static_cast<int>(-std::floor(std::log10(step) + kSlack)));
+  int decimals = std::max(0, int(-std::floor(std::log10(step) + kSlack)));
   if (std::abs(step * std::pow(10.0, decimals) - std::round(step * std::pow(10.0, decimals))) > 1e-6) ++decimals;
   std::vector<std::string> texts;
   for (const double tick : range.ticks) {

@@ -21,8 +21,7 @@ constexpr int kWantedSplit = 48;     // the same over all bricks along a body
 using CornerColors = std::function<Eigen::Vector3f(const BrickFace& face, std::size_t corner)>;
 
 CornerColors by_node(const std::vector<Eigen::Vector3f>& colors) {
-  return
-      [&](const BrickFace& face, std::size_t corner) { return colors[static_cast<std::size_t>(face.nodes[corner])]; };
+  return [&](const BrickFace& face, std::size_t corner) { return colors[face.nodes[corner]]; };
 }
 
 /// Sums of the normals of the faces at each node, one sum for each side that faces can look to: 6 m x 3.
@@ -56,7 +55,7 @@ class FaceWriter {
   FaceWriter(Skin& skin, std::vector<double> borders) : skin_(skin), borders_(std::move(borders)) {}
 
   [[nodiscard]] Eigen::Index cells_per_face() const {
-    const auto cells = static_cast<Eigen::Index>(borders_.size() - 1);
+    const Eigen::Index cells = borders_.size() - 1;
     return cells * cells;
   }
 
@@ -74,10 +73,10 @@ class FaceWriter {
           skin_.positions.row(vertex_) = mixed(place, u, v);
           skin_.normals.row(vertex_) = mixed(normal, u, v).normalized();
           const Vec3 tint = (rim ? kRimShade : 1.0) * mixed(color, u, v);
-          for (int c = 0; c < 3; ++c) skin_.colors(vertex_, c) = static_cast<float>(tint[c]);
+          for (int c = 0; c < 3; ++c) skin_.colors(vertex_, c) = float(tint[c]);
           skin_.colors(vertex_++, 3) = 1;
         }
-        const auto first = static_cast<int>(vertex_ - 4);
+        const auto first = int(vertex_ - 4);
         skin_.triangles.row(triangle_++) << first, first + 1, first + 2;
         skin_.triangles.row(triangle_++) << first, first + 2, first + 3;
       }
@@ -96,7 +95,7 @@ Skin skin_of(const std::vector<BrickFace>& faces, const Points& positions, const
              double rim) {
   Skin skin;
   FaceWriter writer(skin, cell_borders(split, std::min(rim, kWidestRim)));
-  const Eigen::Index cells = writer.cells_per_face() * static_cast<Eigen::Index>(faces.size());
+  const Eigen::Index cells = writer.cells_per_face() * Eigen::Index(faces.size());
   skin.positions.resize(4 * cells, 3);
   skin.normals.resize(4 * cells, 3);
   skin.colors.resize(4 * cells, 4);
@@ -128,9 +127,7 @@ Skin brick_skin(const Body& body, const Points& positions, const std::vector<Eig
 
 Skin colored_bricks(const Body& body, const Points& positions, const std::vector<Eigen::Vector3f>& colors,
                     double line) {
-  const CornerColors by_brick = [&](const BrickFace& face, std::size_t) {
-    return colors[static_cast<std::size_t>(face.brick)];
-  };
+  const CornerColors by_brick = [&](const BrickFace& face, std::size_t) { return colors[face.brick]; };
   return brick_skin(body, positions, by_brick, line);
 }
 
@@ -143,7 +140,7 @@ Skin membrane_skin(const Membrane& membrane, const Points& positions, const std:
   }
   const double longest =
       (membrane.rest_positions.colwise().maxCoeff() - membrane.rest_positions.colwise().minCoeff()).maxCoeff();
-  const int faces_along = static_cast<int>(std::lround(longest / membrane.law.sides[0]));
+  const int faces_along = int(std::lround(longest / membrane.law.sides[0]));
   return skin_of(faces, positions, by_node(colors), split_for(faces_along), line / membrane.law.sides[0]);
 }
 

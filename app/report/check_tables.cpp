@@ -151,7 +151,7 @@ class Matrix {
     const std::vector<Key> before = keys_;
     const auto rank = [&](const Key& key, std::size_t depth) {
       return std::find_if(before.begin(), before.end(), [&](const Key& other) {
-        return std::equal(key.begin(), key.begin() + static_cast<std::ptrdiff_t>(depth), other.begin());
+        return std::equal(key.begin(), key.begin() + std::ptrdiff_t(depth), other.begin());
       });
     };
     std::stable_sort(keys_.begin(), keys_.end(), [&](const Key& a, const Key& b) {

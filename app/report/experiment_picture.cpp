@@ -24,7 +24,7 @@ double brick_strain(const Body& body, std::size_t brick) {
   const auto axes = detail::mean_axes(brick_corners(body, brick));
   Mat3 gradient;
   for (int i = 0; i < 3; ++i) {
-    for (int c = 0; c < 3; ++c) gradient(c, i) = axes[static_cast<std::size_t>(i)][static_cast<std::size_t>(c)];
+    for (int c = 0; c < 3; ++c) gradient(c, i) = axes[i][c];
   }
   gradient /= body.grid.brick_size;
   return (0.5 * (gradient.transpose() * gradient - Mat3::Identity())).norm();
@@ -68,7 +68,7 @@ Image draw_on_white(const Skin& skin, const ExperimentPictureOptions& options) {
   stage.bounds.include(skin.positions);
   stage.has_ground = options.has_ground;
   stage.ground.height = stage.bounds.low.y();
-  const double aspect = static_cast<double>(options.width) / options.height;
+  const double aspect = double(options.width) / options.height;
   const Camera camera = frame_points(skin.positions, aspect, options.azimuth, options.elevation);
   const Image backdrop = draw(stage, {}, camera, options);
   stage.skins = {&skin};

@@ -47,7 +47,7 @@ std::string color_bar(const ColorBar& colors) {
   std::string stops;
   constexpr int kStops = 8;
   for (int i = 0; i <= kStops; ++i) {
-    const Eigen::Vector3f color = 255 * map_color(ColorMap::kViridis, static_cast<double>(i) / kStops);
+    const Eigen::Vector3f color = 255 * map_color(ColorMap::kViridis, double(i) / kStops);
     stops += fmt::format(",rgb({:.0f} {:.0f} {:.0f})", color.x(), color.y(), color.z());
   }
   return fmt::format(

@@ -33,7 +33,7 @@ double cantilever_deflection(Model model, double poisson, int across) {
   Points weight = Points::Zero(body.node_count(), 3);
   weight.col(1) = -body.masses;  // 1 kg/m^3 at 1 m/s^2
   for (int node = 0; node < body.node_count(); ++node) {
-    if (body.grid.lattice[static_cast<std::size_t>(node)].x() == 0) supports.fix(node);
+    if (body.grid.lattice[node].x() == 0) supports.fix(node);
   }
   const auto system = make_direct_system();
   const Eigen::VectorXd moved = solve_linear(body, supports, weight, *system);
@@ -42,7 +42,7 @@ double cantilever_deflection(Model model, double poisson, int across) {
     for (const int z : {0, across}) {
       const Eigen::Vector3i corner(4 * across, y, z);
       for (int node = 0; node < body.node_count(); ++node) {
-        if (body.grid.lattice[static_cast<std::size_t>(node)] == corner) corners -= moved[3 * node + 1];
+        if (body.grid.lattice[node] == corner) corners -= moved[3 * node + 1];
       }
     }
   }

@@ -255,7 +255,7 @@ Figure node_error_figure(const std::vector<NodeErrors>& errors, double poisson) 
     plot.guide = GuideLine{0, ""};
     figure.panels.push_back({.plot = std::move(plot)});
   }
-  const double wide = (figure.width - 24) / static_cast<double>(std::max<std::size_t>(1, figure.panels.size()));
+  const double wide = (figure.width - 24) / double(std::max<std::size_t>(1, figure.panels.size()));
   double left = 12;
   for (Panel& panel : figure.panels) {
     panel = {std::move(panel.plot), left, kHeadingHeight, wide, figure.height - kHeadingHeight - 6};

@@ -22,7 +22,7 @@ constexpr std::string_view kFonts = "Inter, 'Segoe UI', 'Helvetica Neue', Arial,
 
 double text_width(std::string_view text, double size) {
   const auto letters = std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; });
-  return kLetter * size * static_cast<double>(letters);
+  return kLetter * size * double(letters);
 }
 
 /// Where a plot's data are drawn, px, and what its axes show.
@@ -188,7 +188,7 @@ std::string curve_shape(const Field& f, const Curve& curve) {
 
 /// "34", "1.8", "0.42".
 std::string two_digits(double value) {
-  const int decimals = value == 0 ? 0 : std::clamp(1 - static_cast<int>(std::floor(std::log10(std::abs(value)))), 0, 6);
+  const int decimals = value == 0 ? 0 : std::clamp(1 - int(std::floor(std::log10(std::abs(value)))), 0, 6);
   return fmt::format("{:.{}f}", value, decimals);
 }
 

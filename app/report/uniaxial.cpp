@@ -36,15 +36,15 @@ struct FaceForces {
 FaceForces face_forces(const BrickLaw& law, double s, double t) {
   CornerVectors<double> x{};
   for (std::size_t i = 0; i < x.size(); ++i) {
-    const auto axis = static_cast<int>(i % 3);
-    if (on_high_side(static_cast<int>(i / 3), axis)) x[i] = axis == 0 ? s : t;
+    const auto axis = int(i % 3);
+    if (on_high_side(int(i / 3), axis)) x[i] = axis == 0 ? s : t;
   }
   CornerVectors<double> force{};
   brick_forces<double>(law, 1, x, nullptr, force);
   FaceForces faces;
   for (std::size_t i = 0; i < x.size(); i += 3) {
-    if (on_high_side(static_cast<int>(i / 3), 0)) faces.along -= force[i];
-    if (on_high_side(static_cast<int>(i / 3), 1)) faces.sideways -= force[i + 1];
+    if (on_high_side(int(i / 3), 0)) faces.along -= force[i];
+    if (on_high_side(int(i / 3), 1)) faces.sideways -= force[i + 1];
   }
   return faces;
 }

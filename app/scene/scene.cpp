@@ -22,7 +22,7 @@ bool is_motion(const Scene& scene) {
 int frame_count(const Scene& scene) {
   const bool has_loads = scene.solver.scheme == Solver::kStatic || scene.solver.scheme == Solver::kLinear;
   if (has_loads && scene.solver.load_steps) return *scene.solver.load_steps + 1;
-  return std::max(1, static_cast<int>(std::lround(scene.duration * scene.fps)));
+  return std::max(1, int(std::lround(scene.duration * scene.fps)));
 }
 
 double time_of(const Scene& scene, int frame) {

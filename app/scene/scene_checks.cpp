@@ -77,11 +77,11 @@ void check_glue(const toml::array& all, const Scene& scene, SceneMistakes& mista
   for (std::size_t i = 0; i < scene.glue.size(); ++i) {
     const auto& bodies = scene.glue[i].bodies;
     for (const int body : bodies) {
-      if (static_cast<std::size_t>(body) <= scene.bodies.size()) continue;
+      if (std::size_t(body) <= scene.bodies.size()) continue;
       mistakes.add(all[i].source(), fmt::format("glue.bodies: there is no body {}", body));
     }
-    const bool is_alone = bodies[0] == bodies[1] && static_cast<std::size_t>(bodies[0]) <= scene.bodies.size() &&
-                          copy_count(scene.bodies[static_cast<std::size_t>(bodies[0] - 1)]) == 1;
+    const bool is_alone = bodies[0] == bodies[1] && std::size_t(bodies[0]) <= scene.bodies.size() &&
+                          copy_count(scene.bodies[bodies[0] - 1]) == 1;
     if (is_alone) mistakes.add(all[i].source(), fmt::format("glue.bodies: body {} has no copies", bodies[0]));
   }
 }
@@ -113,7 +113,7 @@ void check_holding(const toml::array& bodies, const Scene& scene, SceneMistakes&
 void check_probes(const toml::array& probes, const Scene& scene, SceneMistakes& mistakes) {
   for (std::size_t i = 0; i < scene.probes.size(); ++i) {
     const Probe& probe = scene.probes[i];
-    const auto body = static_cast<std::size_t>(probe.body - 1);
+    const std::size_t body = probe.body - 1;
     if (body >= scene.bodies.size()) {
       mistakes.add(probes[i].source(), fmt::format("probe.body: there is no body {}", probe.body));
     } else if (!probe.pin.empty()) {

@@ -254,7 +254,7 @@ class Walk {
   std::size_t row_of(std::string_view name) {
     const auto is_it = [&](const TableText& table) { return table.name == name; };
     const auto found = std::find_if(tables_.begin(), tables_.end(), is_it);
-    const auto row = static_cast<std::size_t>(found - tables_.begin());
+    const std::size_t row = found - tables_.begin();
     if (found == tables_.end()) tables_.emplace_back().name = name;
     return row;
   }

@@ -140,7 +140,7 @@ std::string toml_text(std::string_view value) {
   for (const char letter : value) {
     if (letter == '"' || letter == '\\') text += '\\';
     if (static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f) {
-      text += fmt::format("\\u{:04x}", static_cast<unsigned>(letter));
+      text += fmt::format("\\u{:04x}", unsigned(letter));
     } else {
       text += letter;
     }

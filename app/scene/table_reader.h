@@ -98,8 +98,8 @@ class TableReader {
   static void value_of(const toml::node& node, const std::string&, const KeyInfo& key, int& value) {
     const auto* number = node.as_integer();
     if (number == nullptr) refuse_type(node, "a whole number");
-    check_range(static_cast<double>(number->get()), key);
-    value = static_cast<int>(number->get());
+    check_range(double(number->get()), key);
+    value = int(number->get());
   }
 
   static void value_of(const toml::node& node, const std::string& path, const KeyInfo& key, BrickCount& value) {
@@ -109,8 +109,7 @@ class TableReader {
 
   void value_of(const toml::node& node, const std::string& path, const KeyInfo& key, Vec3& value) {
     const toml::array& array = array_of(node, 3, "an array of 3 numbers");
-    for (int i = 0; i < 3; ++i)
-      try_value(array[static_cast<std::size_t>(i)], fmt::format("{}[{}]", path, i), key, value[i]);
+    for (int i = 0; i < 3; ++i) try_value(array[i], fmt::format("{}[{}]", path, i), key, value[i]);
   }
 
   template <std::size_t count>

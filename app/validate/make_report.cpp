@@ -116,7 +116,7 @@ void add_plots(const std::vector<FinishedCase>& cases, const std::filesystem::pa
 
 void make_report(const std::filesystem::path& folder, const std::vector<FinishedCase>& cases, double seconds,
                  const Console& console) {
-  Progress progress(console, "report", static_cast<double>(cases.size()));
+  Progress progress(console, "report", double(cases.size()));
   std::error_code failure;
   std::filesystem::create_directories(folder, failure);
   if (failure) throw Error(ErrorKind::kFailed, fmt::format("cannot make the folder '{}'", folder.string()));
@@ -127,7 +127,7 @@ void make_report(const std::filesystem::path& folder, const std::vector<Finished
     report.experiments.push_back(described(one));
     report.tables.push_back({.experiment = one.name, .table = one.result.table});
     add_picture(one, report);
-    progress.update(static_cast<double>(report.experiments.size()));
+    progress.update(double(report.experiments.size()));
   }
   add_plots(cases, folder, report);
   write_html_report(report, folder / "report.html");

@@ -90,7 +90,7 @@ CaseResult run_membrane_patch(const Choice& choice) {
   CaseResult result;
   for (const double poisson :
        choice.poisson ? std::vector<double>{*choice.poisson} : std::vector<double>(kRatios.begin(), kRatios.end())) {
-    const MembraneCounts drawn{2 + static_cast<int>(random() % 4), 2 + static_cast<int>(random() % 4)};
+    const MembraneCounts drawn{2 + int(random() % 4), 2 + int(random() % 4)};
     const MembraneCounts counts = membrane_counts(choice, {drawn}).front();
     for (const MembraneModel& model : membrane_models(choice)) {
       Check inner = membrane_check("membrane_patch", model, poisson, counts);

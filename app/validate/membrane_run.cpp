@@ -39,7 +39,7 @@ std::vector<MembraneModel> membrane_models(const Choice& choice) {
 
 std::vector<MembraneCounts> membrane_counts(const Choice& choice, std::vector<MembraneCounts> varied) {
   if (!choice.bricks) return varied;
-  return {{*choice.bricks, std::max(1, static_cast<int>(std::lround(*choice.bricks / kSlenderness)))}};
+  return {{*choice.bricks, std::max(1, int(std::lround(*choice.bricks / kSlenderness)))}};
 }
 
 Material membrane_material(double poisson) {

@@ -38,11 +38,11 @@ Row row_of(const std::string& line, const std::string& place) {
 
 KnownSolution solution_of(double poisson, const std::vector<Row>& rows) {
   KnownSolution solution{.poisson = poisson, .places = {}, .displacements = {}};
-  const auto count = static_cast<Eigen::Index>(rows.size());
+  const Eigen::Index count = rows.size();
   solution.places.resize(count, 3);
   solution.displacements.resize(count, 3);
   for (Eigen::Index i = 0; i < count; ++i) {
-    const Row& row = rows[static_cast<std::size_t>(i)];
+    const Row& row = rows[i];
     solution.places.row(i) << row[1], row[2], row[3];
     solution.displacements.row(i) << row[4], row[5], row[6];
   }
@@ -73,7 +73,7 @@ std::vector<KnownSolution> read_known_solutions(const std::filesystem::path& fil
 double NodeErrors::mean_error() const {
   double sum = 0;
   for (const NodeError& node : nodes) sum += node.error.norm();
-  return sum / static_cast<double>(nodes.size()) / largest;
+  return sum / double(nodes.size()) / largest;
 }
 
 double NodeErrors::max_error() const {

@@ -51,7 +51,7 @@ Patch strained(const Eigen::Vector3i& counts, Model model, const Material& mater
   patch.uniform = body.rest_positions * strain;
   Supports supports(body.node_count());
   for (int node = 0; node < body.node_count(); ++node) {
-    if (!is_inside(body.grid.lattice[static_cast<std::size_t>(node)], counts)) supports.fix(node);
+    if (!is_inside(body.grid.lattice[node], counts)) supports.fix(node);
   }
   const auto system = make_direct_system();
   const Points no_loads = Points::Zero(body.node_count(), 3);
@@ -149,7 +149,7 @@ CaseResult run_patch(const Choice& choice) {
   for (const double poisson : ratios) {
     Eigen::Vector3i counts(3, 2, 2);
     if (poisson != ratios.front()) {
-      for (int& count : counts) count = 2 + static_cast<int>(random() % 3);
+      for (int& count : counts) count = 2 + int(random() % 3);
     }
     if (choice.bricks) counts = {*choice.bricks, 2, 2};
     for (const Model model : models) add_checks(model, poisson, counts, result.checks);

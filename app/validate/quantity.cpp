@@ -58,7 +58,7 @@ Quantity measure(const Recording& recording, const NodeErrors* errors, const std
     for (const ProbeField& field : kFields) {
       if (field.name != start.substr(field_dot + 1)) continue;
       const Vec3& value = track.samples.back().*field.value;
-      return {.value = value[static_cast<int>(axis)], .unit = std::string(field.unit)};
+      return {.value = value[axis], .unit = std::string(field.unit)};
     }
   }
   refuse(quantity);

@@ -54,7 +54,7 @@ int own_bricks(const SceneBody& body) {
   const double longest = body.box ? body.box->maxCoeff() : body.size.value_or(kDefaultSize);
   const BrickCount count = body.bricks.value_or(kDefaultBricks);
   if (count.is_auto()) throw Error(ErrorKind::kBadInput, "an experiment needs a number of bricks, not \"auto\"");
-  return body.brick_size ? static_cast<int>(std::lround(longest / *body.brick_size)) : count.along;
+  return body.brick_size ? int(std::lround(longest / *body.brick_size)) : count.along;
 }
 
 Scene with_variant(Scene scene, const Variant& variant) {

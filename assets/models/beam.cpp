@@ -16,7 +16,7 @@ struct Lattice {
   std::vector<Cell> points;
 
   int number(const Cell& point) {
-    const auto [it, added] = numbers.try_emplace(point, static_cast<int>(points.size()));
+    const auto [it, added] = numbers.try_emplace(point, isize(points));
     if (added) points.push_back(point);
     return it->second;
   }
@@ -53,25 +53,25 @@ void add_faces(const Cell& counts, std::size_t axis, Lattice& lattice, std::vect
 Toy make_box(const Vec3& size, double cell, const Color& color) {
   Cell counts{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    counts[axis] = static_cast<int>(std::lround(size[static_cast<Eigen::Index>(axis)] / cell));
+    counts[axis] = int(std::lround(size[axis] / cell));
   }
   Lattice lattice;
   std::vector<Eigen::RowVector3i> triangles;
   for (std::size_t axis = 0; axis < 3; ++axis) add_faces(counts, axis, lattice, triangles);
 
   Toy toy;
-  const auto count = static_cast<Eigen::Index>(lattice.points.size());
+  const auto count = Eigen::Index(lattice.points.size());
   toy.positions.resize(count, 3);
   toy.colors.resize(count, 3);
   for (Eigen::Index row = 0; row < count; ++row) {
-    const Cell& point = lattice.points[static_cast<std::size_t>(row)];
-    const Vec3 share(static_cast<double>(point[0]) / counts[0] - 0.5, static_cast<double>(point[1]) / counts[1],
-                     static_cast<double>(point[2]) / counts[2] - 0.5);
+    const Cell& point = lattice.points[row];
+    const Vec3 share(double(point[0]) / counts[0] - 0.5, double(point[1]) / counts[1],
+                     double(point[2]) / counts[2] - 0.5);
     toy.positions.row(row) = share.cwiseProduct(size).cast<float>();
     toy.colors.row(row) = (255 * color).array().round().cast<unsigned char>();
   }
-  toy.triangles.resize(static_cast<Eigen::Index>(triangles.size()), 3);
-  for (std::size_t t = 0; t < triangles.size(); ++t) toy.triangles.row(static_cast<Eigen::Index>(t)) = triangles[t];
+  toy.triangles.resize(triangles.size(), 3);
+  for (std::size_t t = 0; t < triangles.size(); ++t) toy.triangles.row(t) = triangles[t];
   return toy;
 }
 

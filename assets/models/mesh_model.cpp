@@ -116,24 +116,24 @@ Toy mesh_model(const Model& model) {
   constexpr double kMetres = 0.01;
   Surface surface = delaunay_surface(model);
   relax(model, surface, 8);
-  const auto count = static_cast<Eigen::Index>(surface.number_of_vertices());
+  const auto count = Eigen::Index(surface.number_of_vertices());
   Toy toy;
   toy.positions.resize(count, 3);
   toy.normals.resize(count, 3);
   toy.colors.resize(count, 3);
   for (const auto v : surface.vertices()) {
-    const auto row = static_cast<Eigen::Index>(v.idx());
+    const auto row = Eigen::Index(v.idx());
     const Vec3 p = vec_from(surface.point(v));
     const Color color = (255 * color_at(model, p)).array().round();
     toy.positions.row(row) = (kMetres * p).cast<float>();
     toy.normals.row(row) = gradient(model.shape, p, kGradientStep).normalized().cast<float>();
     toy.colors.row(row) = color.cast<unsigned char>();
   }
-  toy.triangles.resize(static_cast<Eigen::Index>(surface.number_of_faces()), 3);
+  toy.triangles.resize(surface.number_of_faces(), 3);
   for (const auto f : surface.faces()) {
     int corner = 0;
     for (const auto v : CGAL::vertices_around_face(surface.halfedge(f), surface)) {
-      toy.triangles(static_cast<Eigen::Index>(f.idx()), corner++) = static_cast<int>(v.idx());
+      toy.triangles(f.idx(), corner++) = int(v.idx());
     }
   }
   return toy;

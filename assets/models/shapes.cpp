@@ -47,13 +47,13 @@ double refine_nearest(const Curve& curve, const Vec3& p, double start, bool clos
 
 std::vector<Vec3> sample(const Curve& curve) {
   std::vector<Vec3> samples;
-  for (int i = 0; i <= kSamples; ++i) samples.push_back(curve(static_cast<double>(i) / kSamples));
+  for (int i = 0; i <= kSamples; ++i) samples.push_back(curve(double(i) / kSamples));
   return samples;
 }
 
 double place_of_nearest(const std::vector<Vec3>& samples, const Vec3& p) {
   const auto nearer = [&](const Vec3& a, const Vec3& b) { return (a - p).squaredNorm() < (b - p).squaredNorm(); };
-  return static_cast<double>(std::min_element(samples.begin(), samples.end(), nearer) - samples.begin()) / kSamples;
+  return double(std::min_element(samples.begin(), samples.end(), nearer) - samples.begin()) / kSamples;
 }
 
 }  // namespace
@@ -98,8 +98,8 @@ Shape tube(Curve curve, Width radius, bool closed) {
   const Vec3 middle = std::accumulate(samples.begin(), samples.end(), Vec3(Vec3::Zero())) / (kSamples + 1);
   double reach = 0;
   for (int i = 0; i <= kSamples; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    reach = std::max(reach, (samples[at] - middle).norm() + radius(static_cast<double>(i) / kSamples));
+    const auto at = std::size_t(i);
+    reach = std::max(reach, (samples[at] - middle).norm() + radius(double(i) / kSamples));
   }
   return [=, curve = std::move(curve), radius = std::move(radius), nearest = std::move(nearest)](const Vec3& p) {
     if (const double rough = (p - middle).norm() - reach; rough > kFar) return rough;

@@ -76,7 +76,7 @@ Model make_torus() {
   torus.base = [dough](const Vec3&) -> const Color& { return dough; };
   torus.layers = {{icing(), color_from_hex(0xF277A6), 0.22}};
   for (int i = 0; i < kSprinkles; ++i) {
-    torus.layers.push_back({sprinkle(i, kSprinkles), sugar[static_cast<std::size_t>(i) % sugar.size()], 0.2});
+    torus.layers.push_back({sprinkle(i, kSprinkles), sugar[std::size_t(i) % sugar.size()], 0.2});
   }
   return torus;
 }

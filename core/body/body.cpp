@@ -86,7 +86,7 @@ std::array<double, 24> brick_corners(const Body& body, std::size_t brick) {
   std::array<double, 24> x{};
   for (std::size_t corner = 0; corner < 8; ++corner) {
     for (std::size_t k = 0; k < 3; ++k) {
-      x[3 * corner + k] = body.positions(body.grid.nodes[brick][corner], static_cast<int>(k));
+      x[3 * corner + k] = body.positions(body.grid.nodes[brick][corner], k);
     }
   }
   return x;
@@ -125,16 +125,16 @@ double* CornerSums::room(const BrickGrid& grid) {
 }
 
 void CornerSums::sum(double* sums) const {
-  const int nodes = static_cast<int>(lists_.first.size()) - 1;
+  const int nodes = isize(lists_.first) - 1;
   tbb::parallel_for(tbb::blocked_range<int>(0, nodes, kNodesPerTask), [&](const tbb::blocked_range<int>& range) {
     for (int node = range.begin(); node < range.end(); ++node) {
       Vec3 sum = Vec3::Zero();
-      const auto n = static_cast<std::size_t>(node);
+      const std::size_t n = node;
       for (int i = lists_.first[n]; i < lists_.first[n + 1]; ++i) {
-        const auto corner = static_cast<std::size_t>(lists_.corners[static_cast<std::size_t>(i)]);
+        const std::size_t corner = lists_.corners[i];
         sum += Eigen::Map<const Vec3>(&at_corners_[3 * corner]);
       }
-      Eigen::Map<Vec3>(sums + 3 * static_cast<std::ptrdiff_t>(node)) = sum;
+      Eigen::Map<Vec3>(sums + 3 * std::ptrdiff_t(node)) = sum;
     }
   });
 }

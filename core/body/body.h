@@ -38,7 +38,7 @@ struct Body {
   Points velocities;                        // m x 3, m/s
   std::shared_ptr<const BrickTiles> tiles;  // how the springs are computed, see lay_tiles()
 
-  [[nodiscard]] int node_count() const { return static_cast<int>(positions.rows()); }
+  [[nodiscard]] int node_count() const { return int(positions.rows()); }
   /// Trilinear hexahedra in place of springs (Model::kFem).
   [[nodiscard]] bool is_hexahedral() const { return small_strain_stiffness.size() > 0; }
 };
@@ -73,7 +73,7 @@ using BrickColumns = Eigen::Matrix<double, 3, 8>;
 [[nodiscard]] inline BrickColumns columns_of(const std::array<int, 8>& nodes, const Points& values) {
   BrickColumns columns;
   for (int corner = 0; corner < 8; ++corner) {
-    columns.col(corner) = values.row(nodes[static_cast<std::size_t>(corner)]).transpose();
+    columns.col(corner) = values.row(nodes[corner]).transpose();
   }
   return columns;
 }

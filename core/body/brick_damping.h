@@ -33,8 +33,8 @@ void damping_product(const BrickLaw& law, const SpringDirections<T>& directions,
                      CornerVectors<T>& product) {
   const auto add = [&](CornerPair pair, const std::array<T, 3>& direction, const T& force) {
     for (std::size_t k = 0; k < 3; ++k) {
-      product[static_cast<std::size_t>(3 * pair.from) + k] -= force * direction[k];
-      product[static_cast<std::size_t>(3 * pair.to) + k] += force * direction[k];
+      product[3 * pair.from + k] -= force * direction[k];
+      product[3 * pair.to + k] += force * direction[k];
     }
   };
   std::array<T, 12> rates;

@@ -32,15 +32,14 @@ void add_edges(BrickMatrix& hessian, const BrickLaw& law, double h, const Corner
     const auto spring = detail::measure(detail::between(x, kEdges[e]), h);
     stretch[e] = spring.stretch;
     directions[e] = to_vector(spring.direction);
-    stretch_by_corner.block<1, 3>(static_cast<int>(e), 3 * kEdges[e].from) = -directions[e].transpose();
-    stretch_by_corner.block<1, 3>(static_cast<int>(e), 3 * kEdges[e].to) = directions[e].transpose();
+    stretch_by_corner.block<1, 3>(e, 3 * kEdges[e].from) = -directions[e].transpose();
+    stretch_by_corner.block<1, 3>(e, 3 * kEdges[e].to) = directions[e].transpose();
   }
   Eigen::Matrix<double, 12, 12> coupling;
   for (std::size_t e = 0; e < 12; ++e) {
     std::array<double, 12> unit{};
     unit[e] = 1;
-    coupling.col(static_cast<int>(e)) =
-        Eigen::Map<const Eigen::Matrix<double, 12, 1>>(detail::edge_tensions(law, unit).data());
+    coupling.col(e) = Eigen::Map<const Eigen::Matrix<double, 12, 1>>(detail::edge_tensions(law, unit).data());
   }
   hessian += stretch_by_corner.transpose() * coupling * stretch_by_corner;
   const std::array<double, 12> tension = detail::edge_tensions(law, stretch);
@@ -76,12 +75,12 @@ void add_axes_correction(AxesMatrix& second, const BrickLaw& law, double h,
   double stretch = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto spring = detail::measure(axes[i], h);
-    slope.segment<3>(3 * static_cast<int>(i)) = to_vector(spring.direction);
+    slope.segment<3>(3 * int(i)) = to_vector(spring.direction);
     stretch += spring.stretch;
   }
   second += law.axes * slope * slope.transpose();
   for (std::size_t i = 0; i < 3; ++i) {
-    const int row = 3 * static_cast<int>(i);
+    const int row = 3 * int(i);
     second.block<3, 3>(row, row) += sideways(slope.segment<3>(row), law.axes * stretch, to_vector(axes[i]).norm());
   }
 }
@@ -96,7 +95,7 @@ void add_guard(AxesMatrix& second, const BrickLaw& law, double volume, const std
   // d(a_{i+1} x a_{i+2}) / d a_{i+1} = -[a_{i+2}], and the transposed block opposite.
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3;
-    const Mat3 block = law.guard * lack / volume * cross_matrix(axes[static_cast<std::size_t>((i + 2) % 3)]);
+    const Mat3 block = law.guard * lack / volume * cross_matrix(axes[(i + 2) % 3]);
     second.block<3, 3>(3 * i, 3 * j) += block;
     second.block<3, 3>(3 * j, 3 * i) += block.transpose();
   }
@@ -143,7 +142,7 @@ BrickMatrix rest_brick_hessian(const Body& body) {
   CornerVectors<double> rest{};
   for (int corner = 0; corner < 8; ++corner) {
     for (int axis = 0; axis < 3; ++axis) {
-      rest[static_cast<std::size_t>(3 * corner + axis)] = on_high_side(corner, axis) ? body.grid.brick_size : 0;
+      rest[3 * corner + axis] = on_high_side(corner, axis) ? body.grid.brick_size : 0;
     }
   }
   return brick_hessian(body.law, body.grid.brick_size, rest);

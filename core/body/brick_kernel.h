@@ -22,8 +22,8 @@ struct Spring {
 
 template <class T>
 std::array<T, 3> between(const CornerVectors<T>& x, CornerPair pair) {
-  const auto a = static_cast<std::size_t>(3 * pair.from);
-  const auto b = static_cast<std::size_t>(3 * pair.to);
+  const std::size_t a = 3 * pair.from;
+  const std::size_t b = 3 * pair.to;
   return {x[b] - x[a], x[b + 1] - x[a + 1], x[b + 2] - x[a + 2]};
 }
 
@@ -51,8 +51,8 @@ template <class T>
 void pull(CornerVectors<T>& force, CornerPair pair, const std::array<T, 3>& direction, const T& tension) {
   for (std::size_t k = 0; k < 3; ++k) {
     const T part = tension * direction[k];
-    force[static_cast<std::size_t>(3 * pair.from) + k] += part;
-    force[static_cast<std::size_t>(3 * pair.to) + k] -= part;
+    force[3 * pair.from + k] += part;
+    force[3 * pair.to + k] -= part;
   }
 }
 
@@ -91,7 +91,7 @@ std::array<std::array<T, 3>, 3> mean_axes(const CornerVectors<T>& x) {
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t c = 0; c < 3; ++c) axes[i][c] = T(0.0);
     for (int side = 0; side < 4; ++side) {
-      const auto edge = between(x, brick_edge(static_cast<int>(i), side));
+      const auto edge = between(x, brick_edge(int(i), side));
       for (std::size_t c = 0; c < 3; ++c) axes[i][c] += 0.25 * edge[c];
     }
   }
@@ -105,7 +105,7 @@ void pull_axes(CornerVectors<T>& force, const std::array<std::array<T, 3>, 3>& p
     for (int axis = 0; axis < 3; ++axis) {
       const double side = on_high_side(corner, axis) ? -0.25 : 0.25;
       for (std::size_t k = 0; k < 3; ++k) {
-        force[static_cast<std::size_t>(3 * corner) + k] += side * pulls[static_cast<std::size_t>(axis)][k];
+        force[3 * corner + k] += side * pulls[axis][k];
       }
     }
   }

@@ -50,7 +50,7 @@ double measure_brick(BrickMeasure measure, const Mat3& gradient, double young, d
 Eigen::VectorXd brick_youngs(const Body& body) {
   Eigen::VectorXd youngs(body.grid.brick_count());
   for (Eigen::Index brick = 0; brick < youngs.size(); ++brick) {
-    const auto row = static_cast<std::size_t>(brick);
+    const std::size_t row = brick;
     youngs[brick] = body.material.young * body.stiffness_scale[row] / std::max(body.grid.fill[row], kStiffnessFloor);
   }
   return youngs;
@@ -61,7 +61,7 @@ Eigen::VectorXd measure_bricks(const Body& body, BrickMeasure measure, const Poi
   Eigen::VectorXd values(body.grid.brick_count());
   tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, values.size(), 512), [&](const auto& range) {
     for (Eigen::Index brick = range.begin(); brick < range.end(); ++brick) {
-      const Mat3 gradient = mean_gradient(body, static_cast<std::size_t>(brick), positions);
+      const Mat3 gradient = mean_gradient(body, brick, positions);
       values[brick] = measure_brick(measure, gradient, youngs[brick], body.material.poisson);
     }
   });
@@ -73,7 +73,7 @@ Eigen::VectorXd node_means(const BrickGrid& grid, const Eigen::VectorXd& of_bric
   Eigen::VectorXd weights = Eigen::VectorXd::Zero(grid.node_count());
   for (std::size_t brick = 0; brick < grid.nodes.size(); ++brick) {
     for (const int node : grid.nodes[brick]) {
-      sums[node] += grid.fill[brick] * of_bricks[static_cast<Eigen::Index>(brick)];
+      sums[node] += grid.fill[brick] * of_bricks[brick];
       weights[node] += grid.fill[brick];
     }
   }

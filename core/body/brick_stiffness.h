@@ -92,8 +92,8 @@ void stiffness_product(const BrickLaw& law, double h, const CornerVectors<T>& x,
     const T along = tension_rate - sideways * rate;
     for (std::size_t k = 0; k < 3; ++k) {
       const T force = along * spring.direction[k] + sideways * du[k];
-      product[static_cast<std::size_t>(3 * pair.from) + k] -= force;
-      product[static_cast<std::size_t>(3 * pair.to) + k] += force;
+      product[3 * pair.from + k] -= force;
+      product[3 * pair.to + k] += force;
     }
   };
   std::array<detail::Spring<T>, 12> edges;
@@ -133,7 +133,7 @@ void add_coupled_edges(const EdgeCoupling& coupling, double material, const std:
   const auto edge_at = [](int corner, int axis) {
     const int j = (axis + 1) % 3;
     const int k = (axis + 2) % 3;
-    return static_cast<std::size_t>(4 * axis + (on_high_side(corner, j) ? 1 : 0) + (on_high_side(corner, k) ? 2 : 0));
+    return 4 * axis + (on_high_side(corner, j) ? 1 : 0) + (on_high_side(corner, k) ? 2 : 0);
   };
   const auto side = [](int corner, int axis) { return on_high_side(corner, axis) ? 1.0 : -1.0; };
   for (int a = 1; a < 8; ++a) {
@@ -148,9 +148,9 @@ void add_coupled_edges(const EdgeCoupling& coupling, double material, const std:
           for (std::size_t c = 0; c < 3; ++c) sum[c] += factor * edges[f].direction[c];
         }
         for (std::size_t r = 0; r < 3; ++r) {
-          const auto row = static_cast<std::size_t>(3 * (a - 1)) + r;
+          const auto row = std::size_t(3 * (a - 1)) + r;
           for (std::size_t c = 0; c < 3; ++c) {
-            const auto column = static_cast<std::size_t>(3 * (b - 1)) + c;
+            const auto column = std::size_t(3 * (b - 1)) + c;
             if (column <= row) matrix[anchored_index(row, column)] += edges[e].direction[r] * sum[c];
           }
         }
@@ -181,7 +181,7 @@ void add_axes(const BrickLaw& law, double h, double material, const CornerVector
         entry -= sideways * springs[i].direction[r] * springs[i].direction[c];
         if (r == c) entry += sideways;
       }
-      sum += (on_high_side(b, static_cast<int>(j)) ? 0.0625 : -0.0625) * entry;
+      sum += (on_high_side(b, int(j)) ? 0.0625 : -0.0625) * entry;
     }
     return sum;
   };
@@ -191,11 +191,11 @@ void add_axes(const BrickLaw& law, double h, double material, const CornerVector
         std::array<T, 3> parts;
         for (std::size_t i = 0; i < 3; ++i) parts[i] = axis_by_corner(i, r, c, b);
         for (int a = b; a < 8; ++a) {
-          const auto row = static_cast<std::size_t>(3 * (a - 1)) + r;
-          const auto column = static_cast<std::size_t>(3 * (b - 1)) + c;
+          const auto row = std::size_t(3 * (a - 1)) + r;
+          const auto column = std::size_t(3 * (b - 1)) + c;
           if (column > row) continue;
           for (std::size_t i = 0; i < 3; ++i) {
-            matrix[anchored_index(row, column)] += (on_high_side(a, static_cast<int>(i)) ? 1.0 : -1.0) * parts[i];
+            matrix[anchored_index(row, column)] += (on_high_side(a, int(i)) ? 1.0 : -1.0) * parts[i];
           }
         }
       }
@@ -211,10 +211,10 @@ void add_spring(CornerPair pair, const std::array<T, 3>& d, const T& along, cons
     for (std::size_t c = 0; c < 3; ++c) {
       T value = (along - sideways) * d[r] * d[c];
       if (r == c) value += sideways;
-      const auto to = static_cast<std::size_t>(3 * (pair.to - 1));
+      const std::size_t to = 3 * (pair.to - 1);
       if (c <= r) matrix[anchored_index(to + r, to + c)] += value;
       if (pair.from == 0) continue;
-      const auto from = static_cast<std::size_t>(3 * (pair.from - 1));
+      const std::size_t from = 3 * (pair.from - 1);
       if (c <= r) matrix[anchored_index(from + r, from + c)] += value;
       const bool to_is_row = pair.to > pair.from;
       matrix[to_is_row ? anchored_index(to + r, from + c) : anchored_index(from + r, to + c)] -= value;

@@ -23,8 +23,8 @@ bool comes_before(const Eigen::Vector3i& a, const Eigen::Vector3i& b) {
 bool are_joined(const BrickGrid& grid, std::size_t brick, std::size_t next, int axis) {
   for (int corner = 0; corner < 8; ++corner) {
     if (on_high_side(corner, axis)) continue;
-    const auto low = static_cast<std::size_t>(corner);
-    if (grid.nodes[next][low] != grid.nodes[brick][low | 1U << static_cast<unsigned>(axis)]) return false;
+    const std::size_t low = corner;
+    if (grid.nodes[next][low] != grid.nodes[brick][low | 1U << unsigned(axis)]) return false;
   }
   return true;
 }
@@ -49,7 +49,7 @@ FaceShares share_faces(const BrickGrid& grid, const std::vector<double>& shares)
   std::array<std::size_t, 3> from{};
   for (std::size_t brick = 0; brick < shares.size(); ++brick) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::size_t next = brick_behind(grid, brick, static_cast<int>(axis), from[axis]);
+      const std::size_t next = brick_behind(grid, brick, int(axis), from[axis]);
       (next < shares.size() ? faces.low[axis][next] : faces.high[axis][brick]) += shares[brick];
     }
   }
@@ -84,7 +84,7 @@ class Holders {
   }
 
  private:
-  [[nodiscard]] int place_of(int node) const { return places_[static_cast<std::size_t>(node)]; }
+  [[nodiscard]] int place_of(int node) const { return places_[node]; }
   [[nodiscard]] bool is_free(const std::unordered_map<int, int>& holders, const std::array<int, 8>& nodes) const {
     return std::all_of(nodes.begin(), nodes.end(), [&](int node) {
       const auto found = holders.find(place_of(node));
@@ -114,7 +114,7 @@ std::vector<std::vector<int>> layers_of(const BrickGrid& grid) {
     const std::size_t layer = holders.layer_for(grid.nodes[brick]);
     holders.put(layer, grid.nodes[brick]);
     if (layer == layers.size()) layers.emplace_back();
-    layers[layer].push_back(static_cast<int>(brick));
+    layers[layer].push_back(int(brick));
   }
   return layers;
 }
@@ -136,9 +136,9 @@ constexpr int kShortRow = 24;      // places
 constexpr int kShared = -2;  // owner of nodes that more than one tile has
 
 Box bounds_of(const BrickGrid& grid, std::span<const int> bricks) {
-  Box box{grid.cells[static_cast<std::size_t>(bricks.front())], grid.cells[static_cast<std::size_t>(bricks.front())]};
+  Box box{grid.cells[bricks.front()], grid.cells[bricks.front()]};
   for (const int brick : bricks) {
-    const Cell& cell = grid.cells[static_cast<std::size_t>(brick)];
+    const Cell& cell = grid.cells[brick];
     box.low = box.low.cwiseMin(cell);
     box.high = box.high.cwiseMax(cell + Cell::Ones());
   }
@@ -162,11 +162,11 @@ std::vector<std::vector<int>> cut(const BrickGrid& grid, const std::vector<int>&
   const Box box = bounds_of(grid, bricks);
   const Cell size = box.high - box.low;
   const Cell counts = cuts_of(size);
-  std::vector<std::vector<int>> tiles(static_cast<std::size_t>(counts.prod()));
+  std::vector<std::vector<int>> tiles(counts.prod());
   for (const int brick : bricks) {
-    const Cell place = grid.cells[static_cast<std::size_t>(brick)] - box.low;
+    const Cell place = grid.cells[brick] - box.low;
     const Cell tile = place.cwiseProduct(counts).cwiseQuotient(size);
-    tiles[static_cast<std::size_t>(tile.x() + counts.x() * (tile.y() + counts.y() * tile.z()))].push_back(brick);
+    tiles[tile.x() + counts.x() * (tile.y() + counts.y() * tile.z())].push_back(brick);
   }
   std::erase_if(tiles, [](const std::vector<int>& tile) { return tile.empty(); });
   return tiles;
@@ -178,10 +178,10 @@ std::vector<int> owners_of(const BrickGrid& grid, const std::vector<std::vector<
   std::vector<int> owners(grid.lattice.size(), kNone);
   for (std::size_t tile = 0; tile < tiles.size(); ++tile) {
     for (const int brick : tiles[tile]) {
-      for (const int node : grid.nodes[static_cast<std::size_t>(brick)]) {
-        int& owner = owners[static_cast<std::size_t>(node)];
-        const bool is_new = owner == kNone || owner == static_cast<int>(tile);
-        owner = is_new ? static_cast<int>(tile) : kShared;
+      for (const int node : grid.nodes[brick]) {
+        int& owner = owners[node];
+        const bool is_new = owner == kNone || owner == int(tile);
+        owner = is_new ? int(tile) : kShared;
       }
     }
   }
@@ -208,7 +208,7 @@ class TileMaker {
     tile_.pitch = size.x() + 1;
     tile_.planes = size.z() + 1;
     places_ = kFirstPlace + (size.y() + 1) * tile_.pitch + kPackPadding;
-    const auto all = static_cast<std::size_t>(tile_.planes) * static_cast<std::size_t>(places_);
+    const auto all = std::size_t(tile_.planes) * std::size_t(places_);
     bricks_.assign(all, -1);
     nodes_.assign(all, -1);
     for (std::vector<double>& face : last_faces_) face.assign(all, 0);
@@ -230,18 +230,17 @@ class TileMaker {
 
  private:
   [[nodiscard]] std::size_t slot(int plane, int place) const {
-    return static_cast<std::size_t>(plane) * static_cast<std::size_t>(places_) + static_cast<std::size_t>(place);
+    return std::size_t(plane) * std::size_t(places_) + std::size_t(place);
   }
 
   void put(const BrickGrid& grid, int brick) {
-    const auto b = static_cast<std::size_t>(brick);
+    const std::size_t b = brick;
     const Cell cell = grid.cells[b] - box_.low;
     const int place = kFirstPlace + cell.y() * tile_.pitch + cell.x();
     bricks_[slot(cell.z(), place)] = brick;
     for (int corner = 0; corner < 8; ++corner) {
       const int there = place + (on_high_side(corner, 0) ? 1 : 0) + (on_high_side(corner, 1) ? tile_.pitch : 0);
-      nodes_[slot(cell.z() + (on_high_side(corner, 2) ? 1 : 0), there)] =
-          grid.nodes[b][static_cast<std::size_t>(corner)];
+      nodes_[slot(cell.z() + (on_high_side(corner, 2) ? 1 : 0), there)] = grid.nodes[b][corner];
     }
     last_faces_[0][slot(cell.z() + 1, place)] = faces_.high[2][b];
     last_faces_[1][slot(cell.z(), place + tile_.pitch)] = faces_.high[1][b];
@@ -249,7 +248,7 @@ class TileMaker {
   }
 
   /// Lists are made in the order of RunKind, plane by plane.
-  void close_list() { tile_.first_run.push_back(static_cast<int>(tile_.runs.size())); }
+  void close_list() { tile_.first_run.push_back(isize(tile_.runs)); }
 
   /// Calls visit(place, count) for packs that hold all such places, as long as they follow each other. They begin at
   /// multiples of a pack, where fewer loads lie across two cache lines, but for a short row that takes one less so.
@@ -276,7 +275,7 @@ class TileMaker {
   }
 
   void add_run(int place, int count, std::size_t first, int node = 0) {
-    tile_.runs.push_back({.place = place, .count = count, .first = static_cast<int>(first), .node = node});
+    tile_.runs.push_back({.place = place, .count = count, .first = int(first), .node = node});
   }
 
   /// Calls visit(place, count) for nodes that follow each other in the plane and in the body.
@@ -302,13 +301,13 @@ class TileMaker {
   void list_pulled(int plane, const std::vector<int>& owners, bool shared) {
     close_list();
     each_run_of_nodes(
-        plane, [&](int node) { return (owners[static_cast<std::size_t>(node)] == kShared) == shared; },
+        plane, [&](int node) { return (owners[node] == kShared) == shared; },
         [&](int begin, int count) {
           const int node = nodes_[slot(plane, begin)];
           add_run(begin, count, shared_size_, node);
           if (!shared) return;
           parts_.push_back({node, count, shared_size_});
-          shared_size_ += 3 * static_cast<std::size_t>(count);
+          shared_size_ += 3 * std::size_t(count);
         });
   }
 
@@ -330,7 +329,7 @@ class TileMaker {
             auto share = pack.begin();
             for (const std::vector<double>* list : {&shares_, &faces_.low[2], &faces_.low[1], &faces_.low[0]}) {
               for (int i = place; i < place + kPackPadding; ++i, ++share) {
-                if (brick_at(i) >= 0) *share = (*list)[static_cast<std::size_t>(brick_at(i))];
+                if (brick_at(i) >= 0) *share = (*list)[brick_at(i)];
               }
             }
             tile_.packs.push_back(keep(pack));
@@ -340,7 +339,7 @@ class TileMaker {
 
   /// Where these shares are; one that came before is not kept again.
   int keep(const SharePack& pack) {
-    const auto [known, is_new] = kept_.try_emplace(pack, static_cast<int>(tile_.shares.size()));
+    const auto [known, is_new] = kept_.try_emplace(pack, isize(tile_.shares));
     if (is_new) tile_.shares.insert(tile_.shares.end(), pack.begin(), pack.end());
     return known->second;
   }

@@ -47,12 +47,12 @@ void each(std::size_t count, std::size_t per_task, const Visit& visit) {
 void SpringSystem::run(const BrickTiles& tiles, const PassInput& input) {
   shared_.resize(tiles.shared_size);
   energies_.assign(tiles.tiles.size(), {});
-  scratch_.resize(static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()));
+  scratch_.resize(tbb::this_task_arena::max_concurrency());
   each(tiles.tiles.size(), 1, [&](std::size_t i) {
     const BrickTile& tile = tiles.tiles[i];
     // Below 0: a thread that has met no task yet.
     const int thread = std::max(0, tbb::this_task_arena::current_thread_index());
-    std::vector<CacheLine>& scratch = scratch_[static_cast<std::size_t>(thread)];
+    std::vector<CacheLine>& scratch = scratch_[thread];
     if (scratch.empty()) scratch.resize(kScratchSize / 8);
     kernel_.tile(tile.view(), input, scratch.front().values, shared_.data() + tile.shared_offset, energies_[i]);
   });
@@ -100,7 +100,7 @@ void SpringSystem::move(Body& body, const Step& step, const Eigen::VectorXd& inv
   input.drift = step.drift;
   input.kick = step.kick;
   input.keep = 1 - step.kick * step.damping.alpha;
-  for (int k = 0; k < 3; ++k) input.gravity_kick[static_cast<std::size_t>(k)] = step.kick * step.gravity[k];
+  for (int k = 0; k < 3; ++k) input.gravity_kick[k] = step.kick * step.gravity[k];
   run(*body.tiles, input);
 }
 
@@ -111,7 +111,7 @@ using BrickVector = Eigen::Matrix<double, 24, 1>;
 BrickVector at_corners(const Body& body, std::size_t brick, const Points& values) {
   BrickVector gathered;
   for (std::size_t corner = 0; corner < 8; ++corner) {
-    gathered.segment<3>(static_cast<Eigen::Index>(3 * corner)) = values.row(body.grid.nodes[brick][corner]);
+    gathered.segment<3>(3 * corner) = values.row(body.grid.nodes[brick][corner]);
   }
   return gathered;
 }

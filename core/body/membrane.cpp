@@ -12,7 +12,7 @@ namespace {
 RectangleVector corners_of(const Membrane& membrane, const std::array<int, 4>& nodes) {
   RectangleVector x;
   for (Eigen::Index corner = 0; corner < 4; ++corner) {
-    x.segment<2>(2 * corner) = membrane.positions.row(nodes[static_cast<std::size_t>(corner)]).transpose();
+    x.segment<2>(2 * corner) = membrane.positions.row(nodes[corner]).transpose();
   }
   return x;
 }
@@ -41,7 +41,7 @@ Membrane make_membrane(int columns, int rows, const Vec2& size, RectangleModel m
   }
   membrane.positions = membrane.rest_positions;
   membrane.masses = Eigen::VectorXd::Zero(nodes);
-  membrane.fixed.assign(2 * static_cast<std::size_t>(nodes), false);
+  membrane.fixed.assign(2 * std::size_t(nodes), false);
   const double corner_mass = material.density * size.x() * size.y() / (4.0 * columns * rows);
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
@@ -58,7 +58,7 @@ Points2 spring_forces(const Membrane& membrane) {
   for (const auto& nodes : membrane.rectangles) {
     const RectangleVector force = rectangle_forces(membrane.law, corners_of(membrane, nodes));
     for (Eigen::Index corner = 0; corner < 4; ++corner) {
-      forces.row(nodes[static_cast<std::size_t>(corner)]) += force.segment<2>(2 * corner).transpose();
+      forces.row(nodes[corner]) += force.segment<2>(2 * corner).transpose();
     }
   }
   return forces;
@@ -77,9 +77,9 @@ Eigen::SparseMatrix<double> stiffness_matrix(const Membrane& membrane, bool defi
     RectangleMatrix hessian = rectangle_hessian(membrane.law, corners_of(membrane, nodes));
     if (definite) hessian = without_negative_curvature(hessian);
     for (int b = 0; b < 8; ++b) {
-      const int column = 2 * nodes[static_cast<std::size_t>(b / 2)] + b % 2;
+      const int column = 2 * nodes[b / 2] + b % 2;
       for (int a = 0; a < 8; ++a) {
-        const int row = 2 * nodes[static_cast<std::size_t>(a / 2)] + a % 2;
+        const int row = 2 * nodes[a / 2] + a % 2;
         if (row >= column) entries.emplace_back(row, column, hessian(a, b));
       }
     }
@@ -94,7 +94,7 @@ MembraneSurface membrane_surface(const Membrane& membrane) {
   MembraneSurface surface;
   surface.positions = Points::Zero(membrane.node_count(), 3);
   surface.positions.leftCols<2>() = membrane.positions;
-  surface.triangles.resize(2 * static_cast<Eigen::Index>(membrane.rectangles.size()), 3);
+  surface.triangles.resize(2 * Eigen::Index(membrane.rectangles.size()), 3);
   Eigen::Index triangle = 0;
   for (const auto& nodes : membrane.rectangles) {
     surface.triangles.row(triangle++) << nodes[0], nodes[1], nodes[3];

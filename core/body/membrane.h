@@ -23,8 +23,8 @@ struct Membrane {
   Eigen::VectorXd masses;                      // per node, kg; sum = density * area * 1 m
   std::vector<bool> fixed;                     // 2 m: the degrees of freedom (2 node + axis) that are supported
 
-  [[nodiscard]] int node_count() const { return static_cast<int>(positions.rows()); }
-  void fix(int node, int axis) { fixed[2 * static_cast<std::size_t>(node) + static_cast<std::size_t>(axis)] = true; }
+  [[nodiscard]] int node_count() const { return int(positions.rows()); }
+  void fix(int node, int axis) { fixed[2 * std::size_t(node) + axis] = true; }
 };
 
 /// A free membrane at rest of the given size (m), low corner at the origin, cut in columns x rows rectangles. Node

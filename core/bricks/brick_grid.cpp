@@ -36,8 +36,7 @@ class LatticeOrder {
   [[nodiscard]] Eigen::Vector3i point(std::int64_t key) const {
     const std::int64_t row = key / step(1);
     const std::int64_t rows = step(2) / step(1);
-    return low_ +
-           Eigen::Vector3i(static_cast<int>(key % step(1)), static_cast<int>(row % rows), static_cast<int>(row / rows));
+    return low_ + Eigen::Vector3i(int(key % step(1)), int(row % rows), int(row / rows));
   }
 
  private:
@@ -62,7 +61,7 @@ double BrickGrid::volume() const { return std::accumulate(fill.begin(), fill.end
 Points BrickGrid::rest_positions() const {
   Points positions(node_count(), 3);
   for (int m = 0; m < node_count(); ++m) {
-    positions.row(m) = origin + brick_size * lattice[static_cast<std::size_t>(m)].cast<double>();
+    positions.row(m) = origin + brick_size * lattice[m].cast<double>();
   }
   return positions;
 }
@@ -88,7 +87,7 @@ void number_nodes(BrickGrid& grid) {
     std::size_t node = 0;
     for (std::size_t i = 0; i < cell_keys.size(); ++i) {
       while (node_keys[node] != cell_keys[i] + step) ++node;
-      grid.nodes[i][corner] = static_cast<int>(node);
+      grid.nodes[i][corner] = int(node);
     }
   }
 }
@@ -96,21 +95,21 @@ void number_nodes(BrickGrid& grid) {
 void number_nodes(BrickGrid& grid, DisjointSets& corners) {
   const LatticeOrder order(grid.cells);
   std::vector<std::pair<std::int64_t, int>> found;  // place and name of each node
-  for (int corner = 0; corner < static_cast<int>(corners.size()); ++corner) {
+  for (int corner = 0; corner < isize(corners); ++corner) {
     if (corners.find(corner) != corner) continue;
     const Eigen::Vector3i offset(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
-    found.emplace_back(order.key(grid.cells[static_cast<std::size_t>(corner / 8)] + offset), corner);
+    found.emplace_back(order.key(grid.cells[corner / 8] + offset), corner);
   }
   std::sort(found.begin(), found.end());
   std::vector<int> node_of(corners.size(), -1);
   grid.lattice.clear();
   for (const auto& [key, corner] : found) {
-    node_of[static_cast<std::size_t>(corner)] = grid.node_count();
+    node_of[corner] = grid.node_count();
     grid.lattice.push_back(order.point(key));
   }
   grid.nodes.resize(grid.cells.size());
   for (std::size_t corner = 0; corner < corners.size(); ++corner) {
-    grid.nodes[corner / 8][corner % 8] = node_of[static_cast<std::size_t>(corners.find(static_cast<int>(corner)))];
+    grid.nodes[corner / 8][corner % 8] = node_of[corners.find(int(corner))];
   }
 }
 
@@ -123,8 +122,8 @@ void remove_bricks(BrickGrid& grid, const std::vector<bool>& gone, const std::ve
     grid.cells[kept] = grid.cells[i];
     grid.fill[kept] = grid.fill[i];
     grid.nodes[kept] = grid.nodes[i];
-    for (const int node : grid.nodes[i]) new_node[static_cast<std::size_t>(node)] = 0;
-    new_row[i] = static_cast<int>(kept++);
+    for (const int node : grid.nodes[i]) new_node[node] = 0;
+    new_row[i] = int(kept++);
   }
   grid.cells.resize(kept);
   grid.fill.resize(kept);
@@ -132,16 +131,16 @@ void remove_bricks(BrickGrid& grid, const std::vector<bool>& gone, const std::ve
   int nodes = 0;
   for (std::size_t m = 0; m < grid.lattice.size(); ++m) {
     if (new_node[m] < 0) continue;
-    grid.lattice[static_cast<std::size_t>(nodes)] = grid.lattice[m];
+    grid.lattice[nodes] = grid.lattice[m];
     new_node[m] = nodes++;
   }
-  grid.lattice.resize(static_cast<std::size_t>(nodes));
+  grid.lattice.resize(nodes);
   for (auto& corners : grid.nodes) {
-    for (int& node : corners) node = new_node[static_cast<std::size_t>(node)];
+    for (int& node : corners) node = new_node[node];
   }
   for (SolidPatch& patch : grid.patches) {
-    const auto brick = static_cast<std::size_t>(patch.brick);
-    patch.brick = new_row[static_cast<std::size_t>(gone[brick] ? heir[brick] : patch.brick)];
+    const std::size_t brick = patch.brick;
+    patch.brick = new_row[gone[brick] ? heir[brick] : patch.brick];
   }
 }
 
@@ -176,8 +175,8 @@ bool shares_face(const BrickGrid& grid, std::size_t brick, std::size_t other, in
   const bool high = side % 2 != 0;
   for (int corner = 0; corner < 8; ++corner) {
     if (on_high_side(corner, axis) != high) continue;
-    const auto across = static_cast<std::size_t>(corner ^ (1 << axis));
-    if (grid.nodes[brick][static_cast<std::size_t>(corner)] != grid.nodes[other][across]) return false;
+    const std::size_t across = corner ^ (1 << axis);
+    if (grid.nodes[brick][corner] != grid.nodes[other][across]) return false;
   }
   return true;
 }
@@ -190,20 +189,20 @@ std::array<int, 6> face_neighbours(const BrickGrid& grid, const CellIndex& index
     Eigen::Vector3i cell = grid.cells[brick];
     cell[side / 2] += side % 2 == 0 ? -1 : 1;
     int other = index.at(cell);
-    while (other >= 0 && !shares_face(grid, brick, static_cast<std::size_t>(other), side)) {
+    while (other >= 0 && !shares_face(grid, brick, other, side)) {
       ++other;
-      if (other == grid.brick_count() || grid.cells[static_cast<std::size_t>(other)] != cell) other = -1;
+      if (other == grid.brick_count() || grid.cells[other] != cell) other = -1;
     }
-    neighbours[static_cast<std::size_t>(side)] = other;
+    neighbours[side] = other;
   }
   return neighbours;
 }
 
 CornerLists list_corners(const std::vector<std::array<int, 8>>& bricks, int node_count) {
   CornerLists lists;
-  lists.first.assign(static_cast<std::size_t>(node_count) + 1, 0);
+  lists.first.assign(std::size_t(node_count) + 1, 0);
   for (const std::array<int, 8>& brick : bricks) {
-    for (const int node : brick) ++lists.first[static_cast<std::size_t>(node) + 1];
+    for (const int node : brick) ++lists.first[node + 1];
   }
   std::partial_sum(lists.first.begin(), lists.first.end(), lists.first.begin());
   std::vector<int> next(lists.first.begin(), lists.first.end() - 1);
@@ -211,8 +210,8 @@ CornerLists list_corners(const std::vector<std::array<int, 8>>& bricks, int node
   int corner = 0;
   for (const std::array<int, 8>& brick : bricks) {
     for (const int node : brick) {
-      int& place = next[static_cast<std::size_t>(node)];
-      lists.corners[static_cast<std::size_t>(place++)] = corner++;
+      int& place = next[node];
+      lists.corners[place++] = corner++;
     }
   }
   return lists;
@@ -245,9 +244,9 @@ std::vector<BrickFace> brick_faces(const BrickGrid& grid, const std::vector<bool
   for (std::size_t brick = 0; brick < grid.nodes.size(); ++brick) {
     if (!shown[brick]) continue;
     for (int side = 0; side < 6; ++side) {
-      BrickFace face{.nodes = {}, .side = side, .brick = static_cast<int>(brick)};
+      BrickFace face{.nodes = {}, .side = side, .brick = int(brick)};
       const std::array<int, 4> corners = corners_on(side);
-      for (std::size_t c = 0; c < 4; ++c) face.nodes[c] = grid.nodes[brick][static_cast<std::size_t>(corners[c])];
+      for (std::size_t c = 0; c < 4; ++c) face.nodes[c] = grid.nodes[brick][corners[c]];
       faces.push_back(face);
     }
   }

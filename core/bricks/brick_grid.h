@@ -34,8 +34,8 @@ struct BrickGrid {
   std::vector<Eigen::Vector3i> lattice;   // m; lattice coordinates of each node, ordered by z, then y, then x
   std::vector<SolidPatch> patches;        // of the cells that the surface cuts, ordered as cells; empty: not looked for
 
-  [[nodiscard]] int brick_count() const { return static_cast<int>(cells.size()); }
-  [[nodiscard]] int node_count() const { return static_cast<int>(lattice.size()); }
+  [[nodiscard]] int brick_count() const { return isize(cells); }
+  [[nodiscard]] int node_count() const { return isize(lattice); }
   [[nodiscard]] double brick_volume() const { return brick_size * brick_size * brick_size; }
   /// Volume of the solid in the bricks: sum of fill h^3, m^3.
   [[nodiscard]] double volume() const;
@@ -68,7 +68,7 @@ class CellIndex {
   /// The same for any rows of cells.
   explicit CellIndex(const std::vector<Eigen::Vector3i>& cells) {
     row_of_cell_.reserve(cells.size());
-    for (std::size_t i = 0; i < cells.size(); ++i) row_of_cell_.emplace(key(cells[i]), static_cast<int>(i));
+    for (std::size_t i = 0; i < cells.size(); ++i) row_of_cell_.emplace(key(cells[i]), i);
   }
 
   /// The first one where the cell comes several times; the others follow it. -1: there is none.

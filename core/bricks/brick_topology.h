@@ -23,7 +23,7 @@ namespace detail {
 constexpr std::array<CornerPair, 12> make_edges() {
   std::array<CornerPair, 12> edges{};
   for (int axis = 0; axis < 3; ++axis) {
-    for (int side = 0; side < 4; ++side) edges[static_cast<std::size_t>(4 * axis + side)] = brick_edge(axis, side);
+    for (int side = 0; side < 4; ++side) edges[4 * axis + side] = brick_edge(axis, side);
   }
   return edges;
 }

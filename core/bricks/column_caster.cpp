@@ -41,13 +41,13 @@ class Caster {
   }
 
   void add_sums(const std::vector<Crossing>& crossings, CellSums& sums) const {
-    const auto length = static_cast<std::size_t>(surface_.counts[axis_]);
+    const std::size_t length = surface_.counts[axis_];
     Column column{std::vector<float>(length), std::vector<float>(length)};
     for (std::int64_t cell = 0, i = 0; cell < std::int64_t{surface_.counts[axis_u_]} * surface_.counts[axis_v_];
          ++cell) {
       std::fill(column.lengths.begin(), column.lengths.end(), 0.0F);
       std::fill(column.crossings.begin(), column.crossings.end(), 0.0F);
-      auto at = static_cast<std::size_t>(i);
+      auto at = std::size_t(i);
       while (at < crossings.size() && crossings[at].ray / kRays == cell) at = add_ray(crossings, at, column);
       i = static_cast<std::int64_t>(at);
       add_column(cell, column, sums);
@@ -83,17 +83,16 @@ class Caster {
   /// By counting, since rays are dense; then the few crossings of each ray by depth.
   void sort_by_ray() {
     const std::int64_t cells = std::int64_t{surface_.counts[axis_u_]} * surface_.counts[axis_v_];
-    std::vector<std::size_t> next(static_cast<std::size_t>(cells * kRays) + 1, 0);
-    for (const Crossing& crossing : crossings_) ++next[static_cast<std::size_t>(crossing.ray) + 1];
+    std::vector<std::size_t> next(std::size_t(cells * kRays) + 1, 0);
+    for (const Crossing& crossing : crossings_) ++next[crossing.ray + 1];
     for (std::size_t i = 1; i < next.size(); ++i) next[i] += next[i - 1];
     std::vector<Crossing> sorted(crossings_.size());
-    for (const Crossing& crossing : crossings_) sorted[next[static_cast<std::size_t>(crossing.ray)]++] = crossing;
+    for (const Crossing& crossing : crossings_) sorted[next[crossing.ray]++] = crossing;
     crossings_.swap(sorted);
     const auto deeper = [](const Crossing& a, const Crossing& b) { return a.depth < b.depth; };
     for (std::size_t begin = 0, end = 0; begin < crossings_.size(); begin = end) {
       while (end < crossings_.size() && crossings_[end].ray == crossings_[begin].ray) ++end;
-      std::stable_sort(crossings_.begin() + static_cast<std::ptrdiff_t>(begin),
-                       crossings_.begin() + static_cast<std::ptrdiff_t>(end), deeper);
+      std::stable_sort(crossings_.begin() + std::ptrdiff_t(begin), crossings_.begin() + std::ptrdiff_t(end), deeper);
     }
   }
 
@@ -107,37 +106,36 @@ class Caster {
       if (winding != 0) add_length(crossings[i - 1].depth, depth, column.lengths);
       winding += crossings[i].turn;
       // A crossing just between two cells measures neither.
-      if (const double cell = std::floor(depth); cell != depth)
-        column.crossings[static_cast<std::size_t>(cell)] += 1.0F;
+      if (const double cell = std::floor(depth); cell != depth) column.crossings[std::size_t(cell)] += 1.0F;
     }
     return i;
   }
 
   static void add_length(double from, double to, std::vector<float>& lengths) {
-    const auto last = static_cast<std::ptrdiff_t>(lengths.size()) - 1;
-    const std::ptrdiff_t first_cell = std::min(static_cast<std::ptrdiff_t>(from), last);
-    const std::ptrdiff_t last_cell = std::min(static_cast<std::ptrdiff_t>(to), last);
+    const auto last = std::ptrdiff_t(lengths.size()) - 1;
+    const std::ptrdiff_t first_cell = std::min(std::ptrdiff_t(from), last);
+    const std::ptrdiff_t last_cell = std::min(std::ptrdiff_t(to), last);
     float* cells = lengths.data();
     if (first_cell == last_cell) {
-      cells[first_cell] += static_cast<float>(to - from);
+      cells[first_cell] += float(to - from);
       return;
     }
-    cells[first_cell] += static_cast<float>(static_cast<double>(first_cell + 1) - from);
+    cells[first_cell] += float(double(first_cell + 1) - from);
     for (std::ptrdiff_t i = first_cell + 1; i < last_cell; ++i) cells[i] += 1.0F;
-    cells[last_cell] += static_cast<float>(to - static_cast<double>(last_cell));
+    cells[last_cell] += float(to - double(last_cell));
   }
 
   void add_column(std::int64_t cell, const Column& column, CellSums& sums) const {
     const std::array<std::int64_t, 3> strides{1, surface_.counts[0],
                                               std::int64_t{surface_.counts[0]} * surface_.counts[1]};
-    const auto stride_of = [&](int axis) { return strides[static_cast<std::size_t>(axis)]; };
-    auto at = static_cast<std::size_t>(cell % surface_.counts[axis_u_] * stride_of(axis_u_) +
-                                       cell / surface_.counts[axis_u_] * stride_of(axis_v_));
+    const auto stride_of = [&](int axis) { return strides[axis]; };
+    auto at = std::size_t(cell % surface_.counts[axis_u_] * stride_of(axis_u_) +
+                          cell / surface_.counts[axis_u_] * stride_of(axis_v_));
     for (std::size_t i = 0; i < column.lengths.size(); ++i) {
       const float weight = column.crossings[i] * column.crossings[i] + kLeastWeight;
-      sums.weighted[at] += weight * column.lengths[i] / static_cast<float>(kRays);
+      sums.weighted[at] += weight * column.lengths[i] / float(kRays);
       sums.weight[at] += weight;
-      at += static_cast<std::size_t>(stride_of(axis_));
+      at += std::size_t(stride_of(axis_));
     }
   }
 

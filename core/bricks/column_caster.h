@@ -47,9 +47,9 @@ class SnappedTriangle {
  public:
   SnappedTriangle(const CellSurface& surface, int row, int axis) {
     for (std::size_t k = 0; k < 3; ++k) {
-      const int point = surface.triangles(row, static_cast<Eigen::Index>(k));
+      const int point = surface.triangles(row, k);
       const auto snapped = [&](int across) {
-        return std::llround(surface.points(point, (axis + across) % 3) * static_cast<double>(kSnap));
+        return std::llround(surface.points(point, (axis + across) % 3) * double(kSnap));
       };
       corners_[k] = {snapped(1), snapped(2)};
       depths_[k] = surface.points(point, axis);
@@ -83,8 +83,8 @@ class SnappedTriangle {
       const SnappedPlace& b = corners_[(k + 2) % 3];
       const std::int64_t side = side_of(a, b, place);
       if (side < 0 || (side == 0 && !owns_edge(a, b))) return std::nullopt;
-      weighted += static_cast<double>(side) * depths_[k];
-      sum += static_cast<double>(side);
+      weighted += double(side) * depths_[k];
+      sum += double(side);
     }
     return weighted / sum;
   }

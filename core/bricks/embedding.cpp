@@ -45,7 +45,7 @@ class BrickFinder {
     int best = -1;
     double best_distance = std::numeric_limits<double>::infinity();
     const auto consider = [&](int brick) {
-      const double distance = distance_squared(place, grid_.cells[static_cast<std::size_t>(brick)]);
+      const double distance = distance_squared(place, grid_.cells[brick]);
       if (distance < best_distance) {
         best = brick;
         best_distance = distance;
@@ -80,17 +80,17 @@ double distance_from_brick(const Vec3& local) {
 
 Eigen::Matrix<double, 3, 8> corner_positions(const BrickGrid& grid, int brick, const Points& node_positions) {
   Eigen::Matrix<double, 3, 8> corners;
-  const auto& nodes = grid.nodes[static_cast<std::size_t>(brick)];
+  const auto& nodes = grid.nodes[brick];
   for (int corner = 0; corner < 8; ++corner) {
-    corners.col(corner) = node_positions.row(nodes[static_cast<std::size_t>(corner)]).transpose();
+    corners.col(corner) = node_positions.row(nodes[corner]).transpose();
   }
   return corners;
 }
 
 }  // namespace
 
-Eigen::Matrix<double, 8, 1> trilinear_weights(const Vec3& local) {
-  Eigen::Matrix<double, 8, 1> weights;
+CornerWeights trilinear_weights(const Vec3& local) {
+  CornerWeights weights;
   for (int corner = 0; corner < 8; ++corner) {
     double weight = 1;
     for (int axis = 0; axis < 3; ++axis) weight *= on_high_side(corner, axis) ? local[axis] : 1 - local[axis];
@@ -118,7 +118,7 @@ Embedding embed(const BrickGrid& grid, const Points& points, const Points& outwa
   const BrickFinder finder(grid);
   const SolidFinder solid(grid);
   Embedding embedding;
-  embedding.brick.resize(static_cast<std::size_t>(points.rows()));
+  embedding.brick.resize(points.rows());
   embedding.local.resize(points.rows(), 3);
   for (int i = 0; i < points.rows(); ++i) {
     const Vec3 place = (points.row(i).transpose() - grid.origin) / grid.brick_size;
@@ -126,8 +126,8 @@ Embedding embed(const BrickGrid& grid, const Points& points, const Points& outwa
     int brick = solid.under(place, inward);
     if (brick < 0) brick = finder.holding(place);
     if (brick < 0) brick = finder.nearest(place);
-    const Vec3 local = place - grid.cells[static_cast<std::size_t>(brick)].cast<double>();
-    embedding.brick[static_cast<std::size_t>(i)] = brick;
+    const Vec3 local = place - grid.cells[brick].cast<double>();
+    embedding.brick[i] = brick;
     embedding.local.row(i) = local;
     const double distance = distance_from_brick(local);
     if (distance < kRounding) continue;
@@ -139,9 +139,9 @@ Embedding embed(const BrickGrid& grid, const Points& points, const Points& outwa
 
 Points deform_points(const BrickGrid& grid, const Embedding& embedding, const Points& node_positions) {
   Points deformed(embedding.local.rows(), 3);
-  tbb::parallel_for(tbb::blocked_range<int>(0, static_cast<int>(deformed.rows()), 2048), [&](const auto& range) {
+  tbb::parallel_for(tbb::blocked_range<int>(0, int(deformed.rows()), 2048), [&](const auto& range) {
     for (int i = range.begin(); i < range.end(); ++i) {
-      const auto corners = corner_positions(grid, embedding.brick[static_cast<std::size_t>(i)], node_positions);
+      const auto corners = corner_positions(grid, embedding.brick[i], node_positions);
       deformed.row(i) = corners * trilinear_weights(embedding.local.row(i));
     }
   });
@@ -153,10 +153,10 @@ Eigen::VectorXd mix_at_points(const BrickGrid& grid, const Embedding& embedding,
   for (Eigen::Index i = 0; i < mixed.size(); ++i) {
     const Vec3 inside = embedding.local.row(i).transpose().cwiseMax(0.0).cwiseMin(1.0);
     const auto weights = trilinear_weights(inside);
-    const auto& nodes = grid.nodes[static_cast<std::size_t>(embedding.brick[static_cast<std::size_t>(i)])];
+    const auto& nodes = grid.nodes[embedding.brick[i]];
     mixed[i] = 0;
     for (int corner = 0; corner < 8; ++corner) {
-      mixed[i] += weights[corner] * of_nodes[nodes[static_cast<std::size_t>(corner)]];
+      mixed[i] += weights[corner] * of_nodes[nodes[corner]];
     }
   }
   return mixed;
@@ -165,9 +165,9 @@ Eigen::VectorXd mix_at_points(const BrickGrid& grid, const Embedding& embedding,
 Points deform_normals(const BrickGrid& grid, const Embedding& embedding, const Points& normals,
                       const Points& node_positions) {
   Points deformed(normals.rows(), 3);
-  tbb::parallel_for(tbb::blocked_range<int>(0, static_cast<int>(deformed.rows()), 2048), [&](const auto& range) {
+  tbb::parallel_for(tbb::blocked_range<int>(0, int(deformed.rows()), 2048), [&](const auto& range) {
     for (int i = range.begin(); i < range.end(); ++i) {
-      const auto corners = corner_positions(grid, embedding.brick[static_cast<std::size_t>(i)], node_positions);
+      const auto corners = corner_positions(grid, embedding.brick[i], node_positions);
       const Mat3 gradient = corners * trilinear_gradients(embedding.local.row(i)) / grid.brick_size;
       // The cofactor matrix is the inverse transpose up to a positive factor, and finite for a flattened brick.
       Mat3 cofactors;
@@ -189,15 +189,15 @@ Vec3 corner_place(int corner) {
 }  // namespace
 
 SmoothRide::SmoothRide(const BrickGrid& grid, const Points& nodes)
-    : grid_(grid), nodes_(nodes), gradients_(static_cast<std::size_t>(grid.node_count()), Mat3::Zero()) {
+    : grid_(grid), nodes_(nodes), gradients_(grid.node_count(), Mat3::Zero()) {
   std::vector<int> counts(gradients_.size(), 0);
   for (const auto& brick : grid.nodes) {
     Eigen::Matrix<double, 3, 8> corners;
     for (int corner = 0; corner < 8; ++corner) {
-      corners.col(corner) = nodes.row(brick[static_cast<std::size_t>(corner)]).transpose();
+      corners.col(corner) = nodes.row(brick[corner]).transpose();
     }
     for (int corner = 0; corner < 8; ++corner) {
-      const auto node = static_cast<std::size_t>(brick[static_cast<std::size_t>(corner)]);
+      const std::size_t node = brick[corner];
       gradients_[node] += corners * trilinear_gradients(corner_place(corner)) / grid.brick_size;
       ++counts[node];
     }
@@ -209,12 +209,12 @@ SmoothRide::Place SmoothRide::place(int brick, const Vec3& local) const {
   const Vec3 inside = local.cwiseMax(0.0).cwiseMin(1.0);
   const Vec3 step = inside.array().square() * (3 - 2 * inside.array());
   const Vec3 slope = 6 * inside.array() * (1 - inside.array()) / grid_.brick_size;
-  const Eigen::Matrix<double, 8, 1> weights = trilinear_weights(step);
+  const CornerWeights weights = trilinear_weights(step);
   const Eigen::Matrix<double, 8, 3> weight_gradients = trilinear_gradients(step) * slope.asDiagonal();
   Place place{Vec3::Zero(), Mat3::Zero()};
   for (int corner = 0; corner < 8; ++corner) {
-    const int node = grid_.nodes[static_cast<std::size_t>(brick)][static_cast<std::size_t>(corner)];
-    const Mat3& gradient = gradients_[static_cast<std::size_t>(node)];
+    const int node = grid_.nodes[brick][corner];
+    const Mat3& gradient = gradients_[node];
     const Vec3 there = nodes_.row(node).transpose() + grid_.brick_size * (gradient * (local - corner_place(corner)));
     place.position += weights[corner] * there;
     place.gradient += weights[corner] * gradient + there * weight_gradients.row(corner);
@@ -226,8 +226,7 @@ Points SmoothRide::points(const Embedding& embedding) const {
   Points deformed(embedding.local.rows(), 3);
   tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, deformed.rows(), 1024), [&](const auto& range) {
     for (Eigen::Index i = range.begin(); i < range.end(); ++i) {
-      deformed.row(i) =
-          place(embedding.brick[static_cast<std::size_t>(i)], embedding.local.row(i)).position.transpose();
+      deformed.row(i) = place(embedding.brick[i], embedding.local.row(i)).position.transpose();
     }
   });
   return deformed;
@@ -237,7 +236,7 @@ Points SmoothRide::normals(const Embedding& embedding, const Points& at_rest) co
   Points deformed(at_rest.rows(), 3);
   tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, deformed.rows(), 1024), [&](const auto& range) {
     for (Eigen::Index i = range.begin(); i < range.end(); ++i) {
-      const Mat3 f = place(embedding.brick[static_cast<std::size_t>(i)], embedding.local.row(i)).gradient;
+      const Mat3 f = place(embedding.brick[i], embedding.local.row(i)).gradient;
       Mat3 cofactors;
       cofactors << f.col(1).cross(f.col(2)), f.col(2).cross(f.col(0)), f.col(0).cross(f.col(1));
       deformed.row(i) = cofactors * at_rest.row(i).transpose();

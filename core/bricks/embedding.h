@@ -16,7 +16,7 @@ struct Embedding {
 };
 
 /// The shares of a brick's eight corners in the point at `local` (0..1 along each axis); their sum is 1.
-[[nodiscard]] Eigen::Matrix<double, 8, 1> trilinear_weights(const Vec3& local);
+[[nodiscard]] CornerWeights trilinear_weights(const Vec3& local);
 
 /// Their derivatives by the place in the brick: 8 x 3.
 [[nodiscard]] Eigen::Matrix<double, 8, 3> trilinear_gradients(const Vec3& local);

@@ -19,7 +19,7 @@ constexpr double kHalf = 0.5;  // a cell that no line crosses the surface in is 
 PieceList::PieceList(const CellSurface& surface, const BrickGrid& grid) : grid_(grid), samples_(surface, grid) {
   for (int brick = 0; brick < grid_.brick_count(); ++brick) {
     first_.push_back(count());
-    const double fill = grid_.fill[static_cast<std::size_t>(brick)];
+    const double fill = grid_.fill[brick];
     const CutCell* cell = cut(brick);
     if (cell == nullptr || cell->weights.size() < 2) {
       pieces_.push_back({brick, fill});
@@ -27,36 +27,34 @@ PieceList::PieceList(const CellSurface& surface, const BrickGrid& grid) : grid_(
     }
     ++divided_;
     const double sum = std::accumulate(cell->weights.begin(), cell->weights.end(), 0.0);
-    for (const float weight : cell->weights) pieces_.push_back({brick, fill * static_cast<double>(weight) / sum});
+    for (const float weight : cell->weights) pieces_.push_back({brick, fill * double(weight) / sum});
   }
   first_.push_back(count());
 }
 
 const CutCell* PieceList::cut(int brick) const {
   const int cell = samples_.cut_cell_of(brick);
-  return cell < 0 ? nullptr : &samples_.cut_cells()[static_cast<std::size_t>(cell)];
+  return cell < 0 ? nullptr : &samples_.cut_cells()[cell];
 }
 
-bool PieceList::is_whole(int brick) const {
-  return cut(brick) == nullptr && grid_.fill[static_cast<std::size_t>(brick)] >= kHalf;
-}
+bool PieceList::is_whole(int brick) const { return cut(brick) == nullptr && grid_.fill[brick] >= kHalf; }
 
 int PieceList::at(int brick, int sample) const {
   const CutCell* cell = cut(brick);
   if (cell == nullptr) return is_whole(brick) ? first(brick) : -1;
-  const int number = cell->piece[static_cast<std::size_t>(sample)];
+  const int number = cell->piece[sample];
   return number == 0 ? -1 : first(brick) + number - 1;
 }
 
 int PieceList::beside(int brick, const Eigen::Vector3i& offset) const {
-  return samples_.brick_at(grid_.cells[static_cast<std::size_t>(brick)] + offset);
+  return samples_.brick_at(grid_.cells[brick] + offset);
 }
 
 std::vector<PieceItem> PieceList::items(int brick) const {
   std::vector<PieceItem> items;
   const CutCell* cell = cut(brick);
   const CutCell whole{.brick = brick, .spots = {}, .piece = {}, .weights = {}};
-  const int samples = static_cast<int>(whole.lines.size() + (cell == nullptr ? 0 : cell->spots.size()));
+  const int samples = int(whole.lines.size() + (cell == nullptr ? 0 : cell->spots.size()));
   for (int sample = 0; sample < samples; ++sample) {
     const int piece = at(brick, sample);
     if (piece >= 0) items.push_back({samples_.place_of(cell == nullptr ? whole : *cell, sample), piece});
@@ -104,13 +102,13 @@ class Linker {
 
  private:
   [[nodiscard]] bool are_joined(int low, int high) const {
-    const auto& faces = faces_of_[static_cast<std::size_t>(low)];
+    const auto& faces = faces_of_[low];
     return std::find(faces.begin(), faces.end(), high) != faces.end();
   }
 
   void join(int low, int high, int axis) {
     if (low < 0 || high < 0 || are_joined(low, high)) return;
-    faces_of_[static_cast<std::size_t>(low)].push_back(high);
+    faces_of_[low].push_back(high);
     sets_.merge(low, high);
     for (int corner = 0; corner < 8; ++corner) {
       if (!on_high_side(corner, axis)) links_.corners.merge(8 * low + corner + (1 << axis), 8 * high + corner);
@@ -130,8 +128,8 @@ class Linker {
     for (int sample = 0; sample < kSamplesAlong * kSamplesAlong * kSamplesAlong; ++sample) {
       if (sample / stride % kSamplesAlong != 0) continue;
       const int last = sample + (kSamplesAlong - 1) * stride;
-      const bool goes_up = low == nullptr || (low->lines[static_cast<std::size_t>(last)] >> (3 + axis) & 1) != 0;
-      const bool goes_down = high == nullptr || (high->below[static_cast<std::size_t>(sample)] >> axis & 1) != 0;
+      const bool goes_up = low == nullptr || (low->lines[last] >> (3 + axis) & 1) != 0;
+      const bool goes_down = high == nullptr || (high->below[sample] >> axis & 1) != 0;
       if (goes_up && goes_down) join(list_.at(brick, last), list_.at(other, sample), axis);
     }
     join_by_sight(brick, other, axis);
@@ -146,7 +144,7 @@ class Linker {
       }
     }
     if (are_all_joined) return;
-    const double face = list_.grid().cells[static_cast<std::size_t>(other)][axis];
+    const double face = list_.grid().cells[other][axis];
     const std::vector<PieceItem> low = items_near(brick, axis, face);
     const std::vector<PieceItem> high = items_near(other, axis, face);
     for (const PieceItem& a : low) {
@@ -169,9 +167,9 @@ class Linker {
   void attach() {
     std::vector<double> volume(list_.pieces().size(), 0);
     for (int piece = 0; piece < list_.count(); ++piece) {
-      volume[static_cast<std::size_t>(sets_.find(piece))] += list_.pieces()[static_cast<std::size_t>(piece)].fill;
+      volume[sets_.find(piece)] += list_.pieces()[piece].fill;
     }
-    const auto main = static_cast<int>(std::max_element(volume.begin(), volume.end()) - volume.begin());
+    const auto main = int(std::max_element(volume.begin(), volume.end()) - volume.begin());
     std::vector<Contact> contacts;
     for (int piece = 0; piece < list_.count(); ++piece) {
       if (sets_.find(piece) != main) list_contacts(piece, contacts);
@@ -229,8 +227,8 @@ class Linker {
   void unite(int a, int b) {
     sets_.merge(a, b);
     std::vector<int>& same = links_.same_brick;
-    const int from = std::max(same[static_cast<std::size_t>(a)], same[static_cast<std::size_t>(b)]);
-    const int to = std::min(same[static_cast<std::size_t>(a)], same[static_cast<std::size_t>(b)]);
+    const int from = std::max(same[a], same[b]);
+    const int to = std::min(same[a], same[b]);
     const int brick = list_.brick_of(a);
     std::replace(same.begin() + list_.first(brick), same.begin() + list_.first(brick + 1), from, to);
     for (int corner = 0; corner < 8; ++corner) links_.corners.merge(8 * a + corner, 8 * b + corner);
@@ -274,8 +272,8 @@ class Linker {
 
   /// The items nearest to the edge or corner between two pieces.
   [[nodiscard]] bool see_each_other(int a, int b, const Eigen::Vector3i& offset) const {
-    const Vec3 middle = list_.grid().cells[static_cast<std::size_t>(list_.brick_of(a))].cast<double>() +
-                        Vec3::Constant(0.5) + offset.cast<double>() / 2;
+    const Vec3 middle =
+        list_.grid().cells[list_.brick_of(a)].cast<double>() + Vec3::Constant(0.5) + offset.cast<double>() / 2;
     const auto nearest = [&](int piece, const Vec3& to) {
       const std::vector<Vec3> places = places_of(piece);
       const auto found = std::min_element(places.begin(), places.end(), [&](const Vec3& p, const Vec3& q) {
@@ -305,14 +303,14 @@ namespace {
 SolidPatch patch_of(const PieceList& list, int piece, int row) {
   const int brick = list.brick_of(piece);
   const CutCell& cell = *list.cut(brick);
-  const Eigen::Vector3i& at = list.grid().cells[static_cast<std::size_t>(brick)];
+  const Eigen::Vector3i& at = list.grid().cells[brick];
   SolidPatch patch{.cell = at, .brick = row, .samples = {}, .spots = {}};
   for (std::size_t sample = 0; sample < cell.piece.size(); ++sample) {
-    if (list.at(brick, static_cast<int>(sample)) != piece) continue;
+    if (list.at(brick, int(sample)) != piece) continue;
     if (sample < patch.samples.size()) {
       patch.samples.set(sample);
     } else {
-      const Vec3 place = list.samples().place_of(cell, static_cast<int>(sample));
+      const Vec3 place = list.samples().place_of(cell, int(sample));
       patch.spots.emplace_back((place - at.cast<double>()).cast<float>());
     }
   }
@@ -332,20 +330,20 @@ BrickGrid rebuilt(const PieceList& list, PieceLinks& links, std::vector<bool>& u
   grid.brick_size = list.grid().brick_size;
   std::vector<int> row(list.pieces().size(), -1);
   for (int piece = 0; piece < list.count(); ++piece) {
-    const auto [brick, fill] = list.pieces()[static_cast<std::size_t>(piece)];
-    int& first = row[static_cast<std::size_t>(links.same_brick[static_cast<std::size_t>(piece)])];
+    const auto [brick, fill] = list.pieces()[piece];
+    int& first = row[links.same_brick[piece]];
     if (first < 0) {
       first = grid.brick_count();
-      grid.cells.push_back(list.grid().cells[static_cast<std::size_t>(brick)]);
+      grid.cells.push_back(list.grid().cells[brick]);
       grid.fill.push_back(0);
       unseen.push_back(is_unseen(list, brick));
     }
-    row[static_cast<std::size_t>(piece)] = first;
-    grid.fill[static_cast<std::size_t>(first)] += fill;
+    row[piece] = first;
+    grid.fill[first] += fill;
     if (list.cut(brick) != nullptr) grid.patches.push_back(patch_of(list, piece, first));
   }
   DisjointSets corners(8 * grid.cells.size());
-  const auto of_brick = [&](int corner) { return 8 * row[static_cast<std::size_t>(corner / 8)] + corner % 8; };
+  const auto of_brick = [&](int corner) { return 8 * row[corner / 8] + corner % 8; };
   for (int corner = 0; corner < 8 * list.count(); ++corner) {
     corners.merge(of_brick(corner), of_brick(links.corners.find(corner)));
   }
@@ -362,13 +360,13 @@ void give_away(const std::vector<bool>& unseen, BrickGrid& grid) {
   for (std::size_t i = 0; i < grid.cells.size(); ++i) {
     if (!unseen[i]) continue;
     for (const int other : face_neighbours(grid, index, i)) {
-      const auto row = static_cast<std::size_t>(other);
+      const std::size_t row = other;
       if (other < 0 || unseen[row]) continue;
-      if (heir[i] < 0 || fill[row] > fill[static_cast<std::size_t>(heir[i])]) heir[i] = other;
+      if (heir[i] < 0 || fill[row] > fill[heir[i]]) heir[i] = other;
     }
     if (heir[i] < 0) continue;
     gone[i] = true;
-    grid.fill[static_cast<std::size_t>(heir[i])] += fill[i];
+    grid.fill[heir[i]] += fill[i];
   }
   remove_bricks(grid, gone, heir);
 }
@@ -381,23 +379,22 @@ void drop_specks(BrickGrid& grid, PieceReport& report) {
   }
   std::vector<double> volume(grid.lattice.size(), 0);
   for (std::size_t i = 0; i < grid.cells.size(); ++i) {
-    volume[static_cast<std::size_t>(sets.find(grid.nodes[i][0]))] += grid.fill[i];
+    volume[sets.find(grid.nodes[i][0])] += grid.fill[i];
   }
   const double sum = std::accumulate(grid.fill.begin(), grid.fill.end(), 0.0);
   std::vector<bool> gone(grid.cells.size(), false);
   double lost = 0;
   for (std::size_t i = 0; i < grid.cells.size(); ++i) {
-    if (volume[static_cast<std::size_t>(sets.find(grid.nodes[i][0]))] >= kSpeckShare * sum) continue;
+    if (volume[sets.find(grid.nodes[i][0])] >= kSpeckShare * sum) continue;
     gone[i] = true;
     ++report.dropped;
     lost += grid.fill[i];
   }
   report.floating =
-      static_cast<int>(std::count_if(volume.begin(), volume.end(), [&](double v) { return v >= kSpeckShare * sum; })) -
-      1;
+      int(std::count_if(volume.begin(), volume.end(), [&](double v) { return v >= kSpeckShare * sum; })) - 1;
   if (report.dropped == 0) return;
   report.dropped_volume = lost * grid.brick_volume();
-  std::erase_if(grid.patches, [&](const SolidPatch& patch) { return gone[static_cast<std::size_t>(patch.brick)]; });
+  std::erase_if(grid.patches, [&](const SolidPatch& patch) { return gone[patch.brick]; });
   remove_bricks(grid, gone, std::vector<int>(gone.size(), 0));
   for (double& fill : grid.fill) fill *= sum / (sum - lost);
 }
@@ -438,9 +435,9 @@ int strongest(const BrickGrid& grid, const Neighbours& neighbours) {
   int best = -1;
   double best_fill = kStrongFill;
   for (const int neighbour : neighbours) {
-    if (neighbour < 0 || grid.fill[static_cast<std::size_t>(neighbour)] < best_fill) continue;
+    if (neighbour < 0 || grid.fill[neighbour] < best_fill) continue;
     best = neighbour;
-    best_fill = grid.fill[static_cast<std::size_t>(neighbour)];
+    best_fill = grid.fill[neighbour];
   }
   return best;
 }
@@ -461,16 +458,15 @@ int absorb_slivers(BrickGrid& grid, double least_fill) {
   for (std::size_t i = 0; i < count; ++i) {
     if (grid.fill[i] >= least_fill || receiver[i] < 0) continue;
     const bool is_needed = std::any_of(neighbours[i].begin(), neighbours[i].end(), [&](int other) {
-      return other >= 0 && grid.fill[static_cast<std::size_t>(other)] < kStrongFill &&
-             receiver[static_cast<std::size_t>(other)] < 0;
+      return other >= 0 && grid.fill[other] < kStrongFill && receiver[other] < 0;
     });
     if (is_needed) continue;
     gone[i] = true;
-    fill[static_cast<std::size_t>(receiver[i])] += grid.fill[i];
+    fill[receiver[i]] += grid.fill[i];
   }
   grid.fill = std::move(fill);
   remove_bricks(grid, gone, receiver);
-  return static_cast<int>(std::count(gone.begin(), gone.end(), true));
+  return int(std::count(gone.begin(), gone.end(), true));
 }
 
 }  // namespace sprung

@@ -28,12 +28,12 @@ class PieceList {
   [[nodiscard]] const SolidSamples& samples() const { return samples_; }
   [[nodiscard]] const BrickGrid& grid() const { return grid_; }
   [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
-  [[nodiscard]] int count() const { return static_cast<int>(pieces_.size()); }
+  [[nodiscard]] int count() const { return isize(pieces_); }
   [[nodiscard]] int divided() const { return divided_; }
 
   /// Those of a brick are first(brick) .. first(brick + 1) - 1.
-  [[nodiscard]] int first(int brick) const { return first_[static_cast<std::size_t>(brick)]; }
-  [[nodiscard]] int brick_of(int piece) const { return pieces_[static_cast<std::size_t>(piece)].brick; }
+  [[nodiscard]] int first(int brick) const { return first_[brick]; }
+  [[nodiscard]] int brick_of(int piece) const { return pieces_[piece].brick; }
   /// The samples of a brick, or null where the surface does not cut it.
   [[nodiscard]] const CutCell* cut(int brick) const;
   /// Whether all of its samples are inside.

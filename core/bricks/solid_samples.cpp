@@ -76,8 +76,7 @@ class LineCaster {
       winding += crossings_[i].turn;
       if (before == 0) entered = crossings_[i].depth;
       if (winding != 0 || crossings_[i].depth <= entered) continue;
-      runs.push_back(
-          {static_cast<int>(line % along_u_), static_cast<int>(line / along_u_), entered, crossings_[i].depth});
+      runs.push_back({int(line % along_u_), int(line / along_u_), entered, crossings_[i].depth});
     }
     if (winding != 0) runs.resize(runs_before);
     return i;
@@ -115,9 +114,7 @@ double cost_to(const SolidPatch& patch, const Vec3& place, const Vec3& inward) {
   double least = std::numeric_limits<double>::infinity();
   const Vec3 local = place - patch.cell.cast<double>();
   for (std::size_t i = patch.samples._Find_first(); i < patch.samples.size(); i = patch.samples._Find_next(i)) {
-    const Vec3 sample =
-        (Vec3(static_cast<double>(i & 7), static_cast<double>(i >> 3 & 7), static_cast<double>(i >> 6)).array() + 0.5) /
-        8;
+    const Vec3 sample = (Vec3(double(i & 7), double(i >> 3 & 7), double(i >> 6)).array() + 0.5) / 8;
     least = std::min(least, cost_of(sample - local, inward));
   }
   for (const Eigen::Vector3f& spot : patch.spots) least = std::min(least, cost_of(spot.cast<double>() - local, inward));
@@ -139,7 +136,7 @@ void SolidFinder::consider(const Eigen::Vector3i& cell, const Vec3& place, const
     if (brick >= 0) offer(brick, cost_of(place.cwiseMax(low).cwiseMin(low + Vec3::Ones()) - place, inward));
     return;
   }
-  for (auto i = static_cast<std::size_t>(first); i < grid_.patches.size() && grid_.patches[i].cell == cell; ++i) {
+  for (auto i = std::size_t(first); i < grid_.patches.size() && grid_.patches[i].cell == cell; ++i) {
     offer(grid_.patches[i].brick, cost_to(grid_.patches[i], place, inward));
   }
 }
@@ -168,10 +165,10 @@ constexpr std::size_t kMostPieces = 100;
 
 constexpr std::array<int, 3> kStride{1, kSamplesAlong, kSamplesAlong* kSamplesAlong};
 
-int inside_bits(const CutCell& cell, int sample) { return cell.lines[static_cast<std::size_t>(sample)] & 7; }
+int inside_bits(const CutCell& cell, int sample) { return cell.lines[sample] & 7; }
 bool is_inside(const CutCell& cell, int sample) { return inside_bits(cell, sample) == 7; }
 
-int along(int sample, int axis) { return sample / kStride[static_cast<std::size_t>(axis)] % kSamplesAlong; }
+int along(int sample, int axis) { return sample / kStride[axis] % kSamplesAlong; }
 
 /// Calls visit(sample) for the samples of the cell within `reach` pitches of a place along every axis.
 template <class Visit>
@@ -200,15 +197,15 @@ void join_along_lines(const CutCell& cell, DisjointSets& sets) {
   for (int sample = 0; sample < kSamples; ++sample) {
     if (!is_inside(cell, sample)) continue;
     for (int axis = 0; axis < 3; ++axis) {
-      const int next = sample + kStride[static_cast<std::size_t>(axis)];
-      const bool goes_on = (cell.lines[static_cast<std::size_t>(sample)] >> (3 + axis) & 1) != 0;
+      const int next = sample + kStride[axis];
+      const bool goes_on = (cell.lines[sample] >> (3 + axis) & 1) != 0;
       if (goes_on && along(sample, axis) + 1 < kSamplesAlong && is_inside(cell, next)) sets.merge(sample, next);
     }
   }
 }
 
 float weight_of(const CutCell& cell, int item) {
-  if (item >= kSamples) return cell.spots[static_cast<std::size_t>(item - kSamples)].weight;
+  if (item >= kSamples) return cell.spots[item - kSamples].weight;
   return is_inside(cell, item) ? 1.0F : 0.0F;
 }
 
@@ -216,21 +213,21 @@ bool is_solid(const CutCell& cell, int item) { return item >= kSamples || is_ins
 
 /// Numbers the sets in the order of their first members; too small ones beside a larger one are 0.
 void number_pieces(DisjointSets& sets, CutCell& cell) {
-  const int count = static_cast<int>(sets.size());
+  const int count = isize(sets);
   std::vector<float> weights(sets.size(), 0);
-  for (int item = 0; item < count; ++item) weights[static_cast<std::size_t>(sets.find(item))] += weight_of(cell, item);
+  for (int item = 0; item < count; ++item) weights[sets.find(item)] += weight_of(cell, item);
   const float heaviest = *std::max_element(weights.begin(), weights.end());
   const float least = std::min(heaviest, kLeastPiece);
   std::vector<std::uint8_t> number(sets.size(), 0);
   cell.piece.assign(sets.size(), 0);
   for (int item = 0; item < count; ++item) {
     if (!is_solid(cell, item)) continue;
-    const auto set = static_cast<std::size_t>(sets.find(item));
+    const std::size_t set = sets.find(item);
     if (number[set] == 0 && weights[set] >= least && cell.weights.size() < kMostPieces) {
       cell.weights.push_back(weights[set]);
       number[set] = static_cast<std::uint8_t>(cell.weights.size());
     }
-    cell.piece[static_cast<std::size_t>(item)] = number[set];
+    cell.piece[item] = number[set];
   }
 }
 
@@ -238,39 +235,36 @@ void number_pieces(DisjointSets& sets, CutCell& cell) {
 
 SolidSamples::SolidSamples(const CellSurface& surface, const BrickGrid& grid)
     : grid_(grid), counts_(surface.counts), triangles_(surface.points, surface.triangles, surface.counts) {
-  brick_at_.assign(static_cast<std::size_t>(counts_.cast<std::int64_t>().prod()), -1);
+  brick_at_.assign(counts_.cast<std::int64_t>().prod(), -1);
   for (int brick = 0; brick < grid.brick_count(); ++brick) {
-    const Eigen::Vector3i& cell = grid.cells[static_cast<std::size_t>(brick)];
-    brick_at_[(static_cast<std::size_t>(cell.z()) * static_cast<std::size_t>(counts_.y()) +
-               static_cast<std::size_t>(cell.y())) *
-                  static_cast<std::size_t>(counts_.x()) +
-              static_cast<std::size_t>(cell.x())] = brick;
+    const Eigen::Vector3i& cell = grid.cells[brick];
+    brick_at_[(std::size_t(cell.z()) * std::size_t(counts_.y()) + std::size_t(cell.y())) * std::size_t(counts_.x()) +
+              cell.x()] = brick;
   }
   cut_cell_of_.assign(grid.cells.size(), -1);
   std::array<std::vector<InsideRun>, 3> runs;
   for (int axis = 0; axis < 3; ++axis) {
-    runs[static_cast<std::size_t>(axis)] = inside_runs(surface, axis);
-    mark_cut(runs[static_cast<std::size_t>(axis)], axis);
+    runs[axis] = inside_runs(surface, axis);
+    mark_cut(runs[axis], axis);
   }
   for (int axis = 0; axis < 3; ++axis) {
-    for (const InsideRun& run : runs[static_cast<std::size_t>(axis)]) add_run(run, axis);
-    runs[static_cast<std::size_t>(axis)] = {};
+    for (const InsideRun& run : runs[axis]) add_run(run, axis);
+    runs[axis] = {};
   }
   tbb::parallel_for(std::size_t{0}, cut_cells_.size(), [&](std::size_t i) { find_pieces(cut_cells_[i]); });
 }
 
 int SolidSamples::brick_at(const Eigen::Vector3i& cell) const {
   if ((cell.array() < 0).any() || (cell.array() >= counts_.array()).any()) return -1;
-  return brick_at_[(static_cast<std::size_t>(cell.z()) * static_cast<std::size_t>(counts_.y()) +
-                    static_cast<std::size_t>(cell.y())) *
-                       static_cast<std::size_t>(counts_.x()) +
-                   static_cast<std::size_t>(cell.x())];
+  return brick_at_[(std::size_t(cell.z()) * std::size_t(counts_.y()) + std::size_t(cell.y())) *
+                       std::size_t(counts_.x()) +
+                   cell.x()];
 }
 
 Vec3 SolidSamples::place_of(const CutCell& cell, int sample) const {
-  if (sample >= kSamples) return cell.spots[static_cast<std::size_t>(sample - kSamples)].place;
+  if (sample >= kSamples) return cell.spots[sample - kSamples].place;
   const Vec3 local(along(sample, 0) + 0.5, along(sample, 1) + 0.5, along(sample, 2) + 0.5);
-  return grid_.cells[static_cast<std::size_t>(cell.brick)].cast<double>() + local * kPitch;
+  return grid_.cells[cell.brick].cast<double>() + local * kPitch;
 }
 
 /// The cells where a run begins or ends, but for those that it only touches.
@@ -278,9 +272,9 @@ void SolidSamples::mark_cut(const std::vector<InsideRun>& runs, int axis) {
   for (const InsideRun& run : runs) {
     for (const double end : {run.from, run.to}) {
       if (end == std::floor(end)) continue;
-      const int brick = brick_at(cell_on(run, axis, static_cast<int>(std::floor(end))));
-      if (brick < 0 || cut_cell_of_[static_cast<std::size_t>(brick)] >= 0) continue;
-      cut_cell_of_[static_cast<std::size_t>(brick)] = static_cast<int>(cut_cells_.size());
+      const int brick = brick_at(cell_on(run, axis, int(std::floor(end))));
+      if (brick < 0 || cut_cell_of_[brick] >= 0) continue;
+      cut_cell_of_[brick] = isize(cut_cells_);
       cut_cells_.push_back({.brick = brick, .spots = {}, .piece = {}, .weights = {}});
     }
   }
@@ -294,13 +288,13 @@ void SolidSamples::add_run(const InsideRun& run, int axis) {
                 .high_sample = 0,
                 .high_brick = -1,
                 .axis = axis};
-  const int last_cell = std::min(static_cast<int>(std::ceil(run.to)), counts_[axis]) - 1;
-  for (int c = static_cast<int>(run.from); c <= last_cell; ++c) {
+  const int last_cell = std::min(int(std::ceil(run.to)), counts_[axis]) - 1;
+  for (int c = int(run.from); c <= last_cell; ++c) {
     link.high_brick = brick_at(cell_on(run, axis, c));
-    link.high_cell = link.high_brick < 0 ? -1 : cut_cell_of_[static_cast<std::size_t>(link.high_brick)];
+    link.high_cell = link.high_brick < 0 ? -1 : cut_cell_of_[link.high_brick];
     Stretch stretch{0, 0};
     if (link.high_cell >= 0) {
-      stretch = add_stretch(run, axis, c, cut_cells_[static_cast<std::size_t>(link.high_cell)]);
+      stretch = add_stretch(run, axis, c, cut_cells_[link.high_cell]);
       if (stretch.first < 0) link.high_brick = -1;
     }
     link.high_sample = stretch.first;
@@ -316,18 +310,15 @@ void SolidSamples::add_run(const InsideRun& run, int axis) {
 
 /// The part of a run in the c-th cell along it.
 SolidSamples::Stretch SolidSamples::add_stretch(const InsideRun& run, int axis, int c, CutCell& cell) {
-  const auto first = static_cast<int>(std::ceil(run.from * kSamplesAlong - 0.5));
-  const auto last = static_cast<int>(std::floor(run.to * kSamplesAlong - 0.5));
+  const auto first = int(std::ceil(run.from * kSamplesAlong - 0.5));
+  const auto last = int(std::floor(run.to * kSamplesAlong - 0.5));
   const int begin = std::max(first, c * kSamplesAlong);
   const int end = std::min(last, c * kSamplesAlong + kSamplesAlong - 1);
   if (begin > end) return add_spot(run, axis, c, cell);
-  const int across = run.u % kSamplesAlong * kStride[static_cast<std::size_t>((axis + 1) % 3)] +
-                     run.v % kSamplesAlong * kStride[static_cast<std::size_t>((axis + 2) % 3)];
-  const auto sample_at = [&](int s) {
-    return across + (s - c * kSamplesAlong) * kStride[static_cast<std::size_t>(axis)];
-  };
+  const int across = run.u % kSamplesAlong * kStride[(axis + 1) % 3] + run.v % kSamplesAlong * kStride[(axis + 2) % 3];
+  const auto sample_at = [&](int s) { return across + (s - c * kSamplesAlong) * kStride[axis]; };
   for (int s = begin; s <= end; ++s) {
-    const auto sample = static_cast<std::size_t>(sample_at(s));
+    const std::size_t sample = sample_at(s);
     cell.lines[sample] |= static_cast<std::uint8_t>(1U << axis | (s < last ? 8U << axis : 0U));
     cell.below[sample] |= static_cast<std::uint8_t>(s > first ? 1U << axis : 0U);
   }
@@ -335,15 +326,15 @@ SolidSamples::Stretch SolidSamples::add_stretch(const InsideRun& run, int axis, 
 }
 
 SolidSamples::Stretch SolidSamples::add_spot(const InsideRun& run, int axis, int c, CutCell& cell) {
-  const double from = std::max(run.from, static_cast<double>(c));
+  const double from = std::max(run.from, double(c));
   const double to = std::min(run.to, c + 1.0);
   if (to - from < kShortest) return {-1, -1};
   Vec3 middle;
   middle[axis] = (from + to) / 2;
   middle[(axis + 1) % 3] = (run.u + 0.5) * kPitch;
   middle[(axis + 2) % 3] = (run.v + 0.5) * kPitch;
-  const int spot = kSamples + static_cast<int>(cell.spots.size());
-  cell.spots.push_back({middle, static_cast<float>((to - from) / kPitch / 3)});
+  const int spot = kSamples + isize(cell.spots);
+  cell.spots.push_back({middle, float((to - from) / kPitch / 3)});
   return {spot, spot};
 }
 
@@ -365,7 +356,7 @@ void SolidSamples::join_diagonally(const CutCell& cell, DisjointSets& sets) cons
     is_one = sets.find(sample) == sets.find(first);
   }
   if (is_one) return;
-  const Vec3 corner = grid_.cells[static_cast<std::size_t>(cell.brick)].cast<double>();
+  const Vec3 corner = grid_.cells[cell.brick].cast<double>();
   for (int sample = 0; sample < kSamples; ++sample) {
     if (!is_inside(cell, sample)) continue;
     const Vec3 place = place_of(cell, sample);
@@ -377,9 +368,9 @@ void SolidSamples::join_diagonally(const CutCell& cell, DisjointSets& sets) cons
 }
 
 void SolidSamples::join_spots(const CutCell& cell, DisjointSets& sets) const {
-  const Vec3 corner = grid_.cells[static_cast<std::size_t>(cell.brick)].cast<double>();
+  const Vec3 corner = grid_.cells[cell.brick].cast<double>();
   for (std::size_t i = 0; i < cell.spots.size(); ++i) {
-    const int item = kSamples + static_cast<int>(i);
+    const int item = kSamples + int(i);
     const Vec3& place = cell.spots[i].place;
     const auto join = [&](int other) {
       if (sets.find(other) != sets.find(item) && sees(place, place_of(cell, other))) sets.merge(item, other);
@@ -388,7 +379,7 @@ void SolidSamples::join_spots(const CutCell& cell, DisjointSets& sets) const {
       if (is_inside(cell, other)) join(other);
     });
     for (std::size_t j = 0; j < i; ++j) {
-      if ((cell.spots[j].place - place).norm() < kSpotReach * kPitch) join(kSamples + static_cast<int>(j));
+      if ((cell.spots[j].place - place).norm() < kSpotReach * kPitch) join(kSamples + int(j));
     }
   }
 }

@@ -81,7 +81,7 @@ class SolidSamples {
   SolidSamples(const CellSurface& surface, const BrickGrid& grid);
 
   /// The cut cell of a brick, or -1 where the surface does not cut it.
-  [[nodiscard]] int cut_cell_of(int brick) const { return cut_cell_of_[static_cast<std::size_t>(brick)]; }
+  [[nodiscard]] int cut_cell_of(int brick) const { return cut_cell_of_[brick]; }
   [[nodiscard]] const std::vector<CutCell>& cut_cells() const { return cut_cells_; }
   [[nodiscard]] const std::vector<SpotLink>& spot_links() const { return spot_links_; }
   /// The brick at a cell, or -1.

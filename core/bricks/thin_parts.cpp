@@ -17,16 +17,16 @@ using Lists = std::vector<std::vector<int>>;
 
 /// The samples in each brick.
 Lists samples_by_brick(const BrickGrid& grid, const std::vector<WallSample>& samples) {
-  Points places(static_cast<Eigen::Index>(samples.size()), 3);
+  Points places(samples.size(), 3);
   Points normals(places.rows(), 3);
   for (Eigen::Index i = 0; i < places.rows(); ++i) {
-    places.row(i) = samples[static_cast<std::size_t>(i)].place;
-    normals.row(i) = samples[static_cast<std::size_t>(i)].outward;
+    places.row(i) = samples[i].place;
+    normals.row(i) = samples[i].outward;
   }
   const Embedding embedding = embed(grid, places, normals);
   Lists lists(grid.cells.size());
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    lists[static_cast<std::size_t>(embedding.brick[i])].push_back(static_cast<int>(i));
+    lists[embedding.brick[i]].push_back(int(i));
   }
   return lists;
 }
@@ -37,7 +37,7 @@ std::vector<double> median_thickness(const BrickGrid& grid, const std::vector<Wa
   Lists at_node(grid.lattice.size());
   for (std::size_t brick = 0; brick < grid.cells.size(); ++brick) {
     for (const int node : grid.nodes[brick]) {
-      std::vector<int>& list = at_node[static_cast<std::size_t>(node)];
+      std::vector<int>& list = at_node[node];
       list.insert(list.end(), in_brick[brick].begin(), in_brick[brick].end());
     }
   }
@@ -46,12 +46,12 @@ std::vector<double> median_thickness(const BrickGrid& grid, const std::vector<Wa
   for (std::size_t brick = 0; brick < grid.cells.size(); ++brick) {
     pool.clear();
     for (const int node : grid.nodes[brick]) {
-      for (const int sample : at_node[static_cast<std::size_t>(node)]) {
-        pool.push_back(samples[static_cast<std::size_t>(sample)].thickness);
+      for (const int sample : at_node[node]) {
+        pool.push_back(samples[sample].thickness);
       }
     }
     if (pool.empty()) continue;
-    const auto middle = pool.begin() + static_cast<std::ptrdiff_t>(pool.size() / 2);
+    const auto middle = pool.begin() + std::ptrdiff_t(pool.size() / 2);
     std::nth_element(pool.begin(), middle, pool.end());
     medians[brick] = *middle;
   }
@@ -64,10 +64,10 @@ ThinPart measured(std::vector<int> bricks, const std::vector<double>& medians, c
                   const Lists& in_brick) {
   ThinPart part{.bricks = std::move(bricks), .thickness = std::numeric_limits<double>::infinity()};
   for (const int brick : part.bricks) {
-    const auto row = static_cast<std::size_t>(brick);
+    const std::size_t row = brick;
     if (medians[row] >= part.thickness || in_brick[row].empty()) continue;
     part.thickness = medians[row];
-    part.place = samples[static_cast<std::size_t>(in_brick[row].front())].place;
+    part.place = samples[in_brick[row].front()].place;
   }
   return part;
 }
@@ -87,10 +87,10 @@ std::vector<ThinPart> find_thin_parts(const BrickGrid& grid, const std::vector<W
   Lists groups(grid.lattice.size());
   for (std::size_t brick = 0; brick < grid.cells.size(); ++brick) {
     if (is_thin(brick)) {
-      groups[static_cast<std::size_t>(sets.find(grid.nodes[brick][0]))].push_back(static_cast<int>(brick));
+      groups[sets.find(grid.nodes[brick][0])].push_back(int(brick));
     }
   }
-  const auto least = static_cast<std::size_t>(std::min(kFewestBricks, grid.brick_count()));
+  const auto least = std::size_t(std::min(kFewestBricks, grid.brick_count()));
   std::vector<ThinPart> parts;
   for (std::vector<int>& group : groups) {
     if (group.size() < least) continue;

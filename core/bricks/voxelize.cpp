@@ -38,18 +38,17 @@ class Filler {
     const bool is_sure = !is_near && std::abs(middle - 0.5) > kSure;
     visit(low, high, [&](const Eigen::Vector3i& cell, std::size_t i) {
       sums_.weight[i] = 1;
-      sums_.weighted[i] = static_cast<float>(is_sure            ? (middle > 0.5 ? 1 : 0)
-                                             : touched_[i] != 0 ? sampled(cell)
-                                                                : inside(cell.cast<double>().array() + 0.5));
+      sums_.weighted[i] = float(is_sure            ? (middle > 0.5 ? 1 : 0)
+                                : touched_[i] != 0 ? sampled(cell)
+                                                   : inside(cell.cast<double>().array() + 0.5));
     });
   }
 
  private:
   [[nodiscard]] std::size_t row_of(const Eigen::Vector3i& cell) const {
-    return (static_cast<std::size_t>(cell.z()) * static_cast<std::size_t>(surface_.counts.y()) +
-            static_cast<std::size_t>(cell.y())) *
-               static_cast<std::size_t>(surface_.counts.x()) +
-           static_cast<std::size_t>(cell.x());
+    return (std::size_t(cell.z()) * std::size_t(surface_.counts.y()) + std::size_t(cell.y())) *
+               std::size_t(surface_.counts.x()) +
+           std::size_t(cell.x());
   }
 
   template <class Visit>
@@ -185,10 +184,8 @@ void fill_shell(const CellSurface& surface, double thickness, CellSums& sums) {
     for (int z = low.z(); z < high.z(); ++z) {
       for (int y = low.y(); y < high.y(); ++y) {
         for (int x = low.x(); x < high.x(); ++x) {
-          const auto cell = static_cast<std::size_t>(x) +
-                            static_cast<std::size_t>(surface.counts.x()) *
-                                (static_cast<std::size_t>(y) +
-                                 static_cast<std::size_t>(surface.counts.y()) * static_cast<std::size_t>(z));
+          const auto cell = std::size_t(x) + std::size_t(surface.counts.x()) *
+                                                 (std::size_t(y) + std::size_t(surface.counts.y()) * std::size_t(z));
           samples[cell] = near_samples(triangle, Vec3(x, y, z), reach, samples[cell]);
         }
       }
@@ -197,7 +194,7 @@ void fill_shell(const CellSurface& surface, double thickness, CellSums& sums) {
   const double share = thickness / sampled / (kSamples * kSamples * kSamples);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     sums.weight[i] = 1;
-    sums.weighted[i] = static_cast<float>(share * std::popcount(samples[i]));
+    sums.weighted[i] = float(share * std::popcount(samples[i]));
   }
 }
 
@@ -229,7 +226,7 @@ Eigen::Vector3i count_cells(const Vec3& extent, double brick_size) {
                               "more than {} bricks long or hold more than 2^31; use larger bricks",
                               brick_size, extent.x(), extent.y(), extent.z(), kMostCellsPerAxis));
     }
-    counts[axis] = static_cast<int>(count);
+    counts[axis] = int(count);
   }
   return counts;
 }
@@ -255,7 +252,7 @@ void collect_cells(const CellSums& sums, const Eigen::Vector3i& counts, BrickGri
   for (int z = 0; z < counts.z(); ++z) {
     for (int y = 0; y < counts.y(); ++y) {
       for (int x = 0; x < counts.x(); ++x, ++i) {
-        const double share = static_cast<double>(sums.weighted[i]) / static_cast<double>(sums.weight[i]);
+        const double share = double(sums.weighted[i]) / double(sums.weight[i]);
         if (share < kSliver) continue;
         grid.cells.emplace_back(x, y, z);
         grid.fill.push_back(share > 1 - kSliver ? 1.0 : share);
@@ -301,7 +298,7 @@ BrickGrid voxelize(const Solid& solid, double brick_size) {
   const Eigen::Vector3i counts = count_cells(high - low, brick_size);
   const CellSurface surface{in_cells(solid.points, low, high, counts, brick_size), solid.triangles, counts};
 
-  const auto cells = static_cast<std::size_t>(counts.cast<std::int64_t>().prod());
+  const std::size_t cells = counts.cast<std::int64_t>().prod();
   CellSums sums{std::vector<float>(cells, 0.0F), std::vector<float>(cells, 0.0F)};
   if (solid.thickness > 0) {
     fill_shell(surface, solid.thickness / brick_size, sums);

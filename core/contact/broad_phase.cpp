@@ -41,7 +41,7 @@ class Cells {
       const Eigen::Array3d place = ((boxes[i].center() - low_) / side_).array().floor();
       entries_.push_back({static_cast<std::int64_t>(place.x()) + row_ * static_cast<std::int64_t>(place.y()) +
                               layer_ * static_cast<std::int64_t>(place.z()),
-                          static_cast<int>(i)});
+                          int(i)});
     }
     std::sort(entries_.begin(), entries_.end(),
               [](const Entry& a, const Entry& b) { return a.cell != b.cell ? a.cell < b.cell : a.box < b.box; });
@@ -93,7 +93,7 @@ std::vector<std::pair<int, int>> overlapping_boxes(const std::vector<AlignedBox>
                                                    const std::function<bool(int, int)>& is_kept) {
   std::vector<std::pair<int, int>> pairs;
   Cells(boxes).each_pair([&](int a, int b) {
-    if (!boxes[static_cast<std::size_t>(a)].intersects(boxes[static_cast<std::size_t>(b)])) return;
+    if (!boxes[a].intersects(boxes[b])) return;
     const std::pair<int, int> pair = std::minmax(a, b);
     if (is_kept(pair.first, pair.second)) pairs.push_back(pair);
   });
@@ -174,10 +174,10 @@ std::vector<std::vector<std::size_t>> contact_groups(const World& world, double 
     for (const auto& [a, b] : overlapping_boxes(boxes)) sets.merge(a, b);
   }
   for (const GluedPoint& point : world.glue) {
-    sets.merge(static_cast<int>(point.actors[0]), static_cast<int>(point.actors[1]));
+    sets.merge(int(point.actors[0]), int(point.actors[1]));
   }
   std::map<int, std::vector<std::size_t>> members;  // by the lowest
-  for (std::size_t i = 0; i < count; ++i) members[sets.find(static_cast<int>(i))].push_back(i);
+  for (std::size_t i = 0; i < count; ++i) members[sets.find(int(i))].push_back(i);
   std::vector<std::vector<std::size_t>> groups;
   groups.reserve(members.size());
   for (auto& [first, group] : members) groups.push_back(std::move(group));

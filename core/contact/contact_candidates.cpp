@@ -15,14 +15,14 @@ constexpr double kBent = 0.5;    // rad, that a brick's normals may turn, agains
 
 /// A normal of the skin at rest carried along by its brick, unit.
 Vec3 carried_normal(const Body& body, int brick, const Vec3& normal) {
-  const auto& nodes = body.grid.nodes[static_cast<std::size_t>(brick)];
+  const auto& nodes = body.grid.nodes[brick];
   const Vec3 along = mean_axes_of(columns_of(nodes, body.rest_positions)).transpose() * normal;
   return (areas_of(mean_axes_of(columns_of(nodes, body.positions))) * along).normalized();
 }
 
 bool hang_together(const Body& body, int a, int b) {
-  const auto brick_a = static_cast<std::size_t>(a);
-  const auto brick_b = static_cast<std::size_t>(b);
+  const std::size_t brick_a = a;
+  const std::size_t brick_b = b;
   if ((body.grid.cells[brick_a] - body.grid.cells[brick_b]).cwiseAbs().maxCoeff() > 1) return false;
   const auto& nodes = body.grid.nodes[brick_b];
   return std::any_of(body.grid.nodes[brick_a].begin(), body.grid.nodes[brick_a].end(),
@@ -31,7 +31,7 @@ bool hang_together(const Body& body, int a, int b) {
 
 AlignedBox box_of(const Body& body, int brick) {
   AlignedBox box;
-  for (const int node : body.grid.nodes[static_cast<std::size_t>(brick)]) box.extend(Vec3(body.positions.row(node)));
+  for (const int node : body.grid.nodes[brick]) box.extend(Vec3(body.positions.row(node)));
   return box;
 }
 
@@ -42,7 +42,7 @@ SkinPairs::SkinPairs(const std::vector<const ContactSkin*>& skins, std::size_t a
   const auto add = [&](std::size_t which) {
     const std::size_t count = skins[which]->points.size();
     sides_.push_back({.actor = which,
-                      .positions = Points(static_cast<Eigen::Index>(count), 3),
+                      .positions = Points(count, 3),
                       .finds = std::vector<long>(count, 0),
                       .watched = std::vector<int>(count, -1)});
   };
@@ -56,7 +56,7 @@ bool SkinPairs::may_touch(const Place& a, const Place& b) const {
   if (a.turn + b.turn > 0 && a.normal.dot(b.normal) > a.cosine * b.cosine - a.sine * b.sine) return false;
   if (!is_self) return true;
   const std::vector<int>& neighbours = skin_of(a).neighbours[a.row];
-  return !std::binary_search(neighbours.begin(), neighbours.end(), static_cast<int>(b.row));
+  return !std::binary_search(neighbours.begin(), neighbours.end(), b.row);
 }
 
 void SkinPairs::add_places(const Group& group, std::size_t side, const AlignedBox& near) {
@@ -86,9 +86,7 @@ void SkinPairs::seek(const Group& group, double margin) {
   std::vector<AlignedBox> boxes;
   boxes.reserve(places_.size());
   for (const Place& place : places_) boxes.push_back(widened(place.box, margin / 2));
-  near_ = overlapping_boxes(boxes, [&](int a, int b) {
-    return may_touch(places_[static_cast<std::size_t>(a)], places_[static_cast<std::size_t>(b)]);
-  });
+  near_ = overlapping_boxes(boxes, [&](int a, int b) { return may_touch(places_[a], places_[b]); });
   keep_near_places();
 }
 
@@ -96,10 +94,10 @@ void SkinPairs::keep_near_places() {
   std::vector<int> row_of(places_.size(), -1);
   std::vector<Place> kept;
   const auto keep = [&](int& place) {
-    int& row = row_of[static_cast<std::size_t>(place)];
+    int& row = row_of[place];
     if (row < 0) {
-      row = static_cast<int>(kept.size());
-      kept.push_back(places_[static_cast<std::size_t>(place)]);
+      row = isize(kept);
+      kept.push_back(places_[place]);
     }
     place = row;
   };
@@ -116,17 +114,16 @@ void SkinPairs::find(const Group& group, Place& place) {
   const Body& body = group[side.actor]->body;
   place.box.setEmpty();
   const auto add = [&](int point) {
-    long& found = side.finds[static_cast<std::size_t>(point)];
+    long& found = side.finds[point];
     if (found != finds_) {
-      side.positions.row(point) =
-          carried(body, skin.points[static_cast<std::size_t>(point)], body.positions).transpose();
+      side.positions.row(point) = carried(body, skin.points[point], body.positions).transpose();
     }
     found = finds_;
     place.box.extend(Vec3(side.positions.row(point)));
   };
   for (int i = skin.first_point[place.row]; i < skin.first_point[place.row + 1]; ++i) add(i);
   for (int i = skin.first_triangle[place.row]; i < skin.first_triangle[place.row + 1]; ++i) {
-    for (const int corner : skin.triangles[static_cast<std::size_t>(i)]) add(corner);
+    for (const int corner : skin.triangles[i]) add(corner);
   }
 }
 
@@ -141,7 +138,7 @@ double SkinPairs::fastest_of(const Group& group, std::size_t side, std::size_t r
   const ContactSkin& skin = skin_of(sides_[side]);
   double most = 0;
   for (int i = skin.first_point[row]; i < skin.first_point[row + 1]; ++i) {
-    const ContactPoint& point = skin.points[static_cast<std::size_t>(i)];
+    const ContactPoint& point = skin.points[i];
     const Vec3 velocity = carried(body, point, body.velocities);
     most = std::max(most, (velocity - rigid.at(carried(body, point, body.positions))).squaredNorm());
   }
@@ -169,12 +166,12 @@ double SkinPairs::closing_speed(const Group& group, double dt) const {
   const auto velocity_of = [&](const Place& place) {
     const Body& body = group[sides_[place.side].actor]->body;
     const int brick = skin_of(place).bricks[place.row];
-    return carried(body, brick, Eigen::Matrix<double, 8, 1>::Constant(0.125), body.velocities);
+    return carried(body, brick, CornerWeights::Constant(0.125), body.velocities);
   };
   double fastest = 0;
   for (const auto& [first, second] : near_) {
-    const Place& a = places_[static_cast<std::size_t>(first)];
-    const Place& b = places_[static_cast<std::size_t>(second)];
+    const Place& a = places_[first];
+    const Place& b = places_[second];
     const double brick = std::min(a.box.diagonal().norm(), b.box.diagonal().norm());
     const Vec3 way = b.box.center() - a.box.center();
     if (a.normal.dot(way) < -brick / 2 && b.normal.dot(way) > brick / 2) continue;  // back to back
@@ -187,12 +184,12 @@ double SkinPairs::closing_speed(const Group& group, double dt) const {
 }
 
 int SkinPairs::watched_row(const Group& group, std::size_t side, int point) {
-  int& row = sides_[side].watched[static_cast<std::size_t>(point)];
+  int& row = sides_[side].watched[point];
   if (row < 0) {
-    row = static_cast<int>(watched_.size());
+    row = isize(watched_);
     const std::size_t actor = sides_[side].actor;
     const ContactSkin& skin = *skins_[actor];
-    const int brick = skin.points[static_cast<std::size_t>(point)].brick;
+    const int brick = skin.points[point].brick;
     watched_.push_back({actor, point, carried_normal(group[actor]->body, brick, skin.normals.row(point))});
   }
   return row;
@@ -202,12 +199,12 @@ void SkinPairs::pair_up(const Group& group, const SkinReach& reach, const Place&
   const ContactSkin& across = skin_of(facing);
   const Points& corners = sides_[facing.side].positions;
   const Vec3 place = sides_[side].positions.row(point);
-  const int brick = skin_of(sides_[side]).points[static_cast<std::size_t>(point)].brick;
+  const int brick = skin_of(sides_[side]).points[point].brick;
   const auto hangs_together = [&](int corner) {
-    return hang_together(group[sides_[side].actor]->body, brick, across.points[static_cast<std::size_t>(corner)].brick);
+    return hang_together(group[sides_[side].actor]->body, brick, across.points[corner].brick);
   };
   for (int t = across.first_triangle[facing.row]; t < across.first_triangle[facing.row + 1]; ++t) {
-    const std::array<int, 3>& triangle = across.triangles[static_cast<std::size_t>(t)];
+    const std::array<int, 3>& triangle = across.triangles[t];
     const Vec3 a = corners.row(triangle[0]);
     const Vec3 b = corners.row(triangle[1]);
     const Vec3 c = corners.row(triangle[2]);
@@ -241,8 +238,8 @@ void SkinPairs::look(const Group& group, const SkinReach& reach) {
   ++finds_;
   for (Place& place : places_) find(group, place);
   for (const auto& [brick, other] : near_) {
-    const Place& a = places_[static_cast<std::size_t>(brick)];
-    const Place& b = places_[static_cast<std::size_t>(other)];
+    const Place& a = places_[brick];
+    const Place& b = places_[other];
     const double distance = a.box.exteriorDistance(b.box);
     nearest_beyond_ = std::min(nearest_beyond_, std::max(distance, reach.margin));
     if (distance > reach.margin) continue;
@@ -258,7 +255,7 @@ void SkinPairs::look(const Group& group, const SkinReach& reach) {
 
 void SkinPairs::follow(const Group& group) {
   for (WatchedPoint& watched : watched_) {
-    const ContactPoint& point = skins_[watched.actor]->points[static_cast<std::size_t>(watched.point)];
+    const ContactPoint& point = skins_[watched.actor]->points[watched.point];
     const Body& body = group[watched.actor]->body;
     watched.place = carried(body, point, body.positions);
     watched.velocity = carried(body, point, body.velocities);

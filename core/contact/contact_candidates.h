@@ -59,7 +59,7 @@ class SkinPairs {
   [[nodiscard]] bool has_near_bricks() const { return !near_.empty(); }
   [[nodiscard]] double nearest_beyond() const { return nearest_beyond_; }
 
-  [[nodiscard]] const WatchedPoint& watched(int row) const { return watched_[static_cast<std::size_t>(row)]; }
+  [[nodiscard]] const WatchedPoint& watched(int row) const { return watched_[row]; }
   /// Ordered by the point and, for each, by the actor of the triangle.
   [[nodiscard]] const std::vector<SkinPair>& pairs() const { return pairs_; }
 

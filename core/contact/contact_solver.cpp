@@ -46,7 +46,7 @@ Impulses::Impulses(Group group, std::vector<Eigen::VectorXd> inverse_masses, std
       squeeze_watches_(group_.size()) {
   for (Actor* actor : group_) {
     skins_.push_back(&contact_skin_of(*actor));
-    places_.emplace_back(static_cast<std::size_t>(actor->body.node_count()), -1);
+    places_.emplace_back(actor->body.node_count(), -1);
   }
 }
 
@@ -84,9 +84,9 @@ void Impulses::SqueezeLimit::push(double size, Nodes& all) const {
 double Impulses::SqueezeLimit::allowed(double size) { return std::max(0.0, size); }
 
 std::size_t Impulses::place_of(std::size_t actor, int node) {
-  int& place = places_[actor][static_cast<std::size_t>(node)];
+  int& place = places_[actor][node];
   if (place < 0) {
-    place = static_cast<int>(nodes_.size());
+    place = isize(nodes_);
     const Vec3 velocity = group_[actor]->body.velocities.row(node);
     nodes_.push_back({.actor = actor,
                       .node = node,
@@ -94,11 +94,11 @@ std::size_t Impulses::place_of(std::size_t actor, int node) {
                       .free_velocity = velocity,
                       .velocity = velocity});
   }
-  return static_cast<std::size_t>(place);
+  return place;
 }
 
 void Impulses::forget_limits() {
-  for (const Pushed& node : nodes_) places_[node.actor][static_cast<std::size_t>(node.node)] = -1;
+  for (const Pushed& node : nodes_) places_[node.actor][node.node] = -1;
   nodes_.clear();
   std::swap(touches_, touches_before_);
   std::swap(squeezed_, squeezed_before_);
@@ -118,7 +118,7 @@ void Impulses::find_touches(const World& world, double elapsed, double dt) {
   std::sort(found_.list.begin(), found_.list.end(), [](const Touch& a, const Touch& b) { return a.key < b.key; });
   parts_.clear();
   for (const Share& share : found_.shares) {
-    parts_.push_back({place_of(static_cast<std::size_t>(share.actor), share.node), share.weight});
+    parts_.push_back({place_of(share.actor, share.node), share.weight});
   }
   for (const Touch& touch : found_.list) {
     touches_.push_back({.key = touch.key,
@@ -140,7 +140,7 @@ void Impulses::find_squeezes(double dt) {
 void Impulses::add_squeezes(std::size_t actor, const std::vector<Squeeze>& squeezes) {
   const Body& body = group_[actor]->body;
   for (const Squeeze& squeeze : squeezes) {
-    const auto& nodes = body.grid.nodes[static_cast<std::size_t>(squeeze.brick)];
+    const auto& nodes = body.grid.nodes[squeeze.brick];
     const double size = body.grid.brick_size;  // so that both kinds of limit measure speeds
     const Eigen::Matrix<double, 3, 8> gradients = size * corner_gradients(squeeze);
     SqueezeLimit limit{.key = touch_key(0, actor, squeeze.brick, 0) * 2 + static_cast<std::uint64_t>(squeeze.corner),
@@ -148,7 +148,7 @@ void Impulses::add_squeezes(std::size_t actor, const std::vector<Squeeze>& squee
     for (int corner = 0; corner < 8; ++corner) {
       if (gradients.col(corner).isZero(0)) continue;
       limit.gradients[limit.node_count] = gradients.col(corner);
-      limit.nodes[limit.node_count] = place_of(actor, nodes[static_cast<std::size_t>(corner)]);
+      limit.nodes[limit.node_count] = place_of(actor, nodes[corner]);
       ++limit.node_count;
     }
     squeezed_.push_back(limit);

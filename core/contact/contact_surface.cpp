@@ -15,7 +15,7 @@ std::vector<int> starts_of(const std::vector<int>& values, const std::vector<int
   std::vector<int> first{0};
   for (const int value : values) {
     const auto end = std::upper_bound(ascending.begin() + first.back(), ascending.end(), value);
-    first.push_back(static_cast<int>(end - ascending.begin()));
+    first.push_back(int(end - ascending.begin()));
   }
   return first;
 }
@@ -35,10 +35,10 @@ void make_unique(std::vector<int>& values) {
 /// A brick, and those that share a node with it.
 std::vector<int> bricks_around(const Body& body, const CornerLists& at_nodes, int brick) {
   std::vector<int> around;
-  for (const int node : body.grid.nodes[static_cast<std::size_t>(brick)]) {
-    const auto row = static_cast<std::size_t>(node);
+  for (const int node : body.grid.nodes[brick]) {
+    const std::size_t row = node;
     for (int i = at_nodes.first[row]; i < at_nodes.first[row + 1]; ++i) {
-      around.push_back(at_nodes.corners[static_cast<std::size_t>(i)] / 8);
+      around.push_back(at_nodes.corners[i] / 8);
     }
   }
   make_unique(around);
@@ -48,14 +48,14 @@ std::vector<int> bricks_around(const Body& body, const CornerLists& at_nodes, in
 std::vector<std::vector<int>> neighbours_among(const std::vector<int>& bricks, const Body& body) {
   std::vector<int> row_of(body.grid.nodes.size(), -1);
   for (std::size_t row = 0; row < bricks.size(); ++row) {
-    row_of[static_cast<std::size_t>(bricks[row])] = static_cast<int>(row);
+    row_of[bricks[row]] = int(row);
   }
   const CornerLists at_nodes = list_corners(body.grid.nodes, body.node_count());
   std::vector<std::vector<int>> neighbours(bricks.size());
   for (std::size_t row = 0; row < bricks.size(); ++row) {
     for (const int between : bricks_around(body, at_nodes, bricks[row])) {
       for (const int brick : bricks_around(body, at_nodes, between)) {
-        const int other = row_of[static_cast<std::size_t>(brick)];
+        const int other = row_of[brick];
         if (other >= 0) neighbours[row].push_back(other);
       }
     }
@@ -77,12 +77,12 @@ ContactSkin::ContactSkin(const Actor& actor) {
 std::vector<int> ContactSkin::add_points(const Embedding& embedding) {
   std::vector<int> order(embedding.brick.size());
   std::iota(order.begin(), order.end(), 0);
-  const auto brick_of = [&](int row) { return embedding.brick[static_cast<std::size_t>(row)]; };
+  const auto brick_of = [&](int row) { return embedding.brick[row]; };
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return brick_of(a) < brick_of(b); });
   std::vector<int> place_of(order.size());
   std::vector<int> brick_of_point;
   for (const int row : order) {
-    place_of[static_cast<std::size_t>(row)] = static_cast<int>(points.size());
+    place_of[row] = isize(points);
     const auto weights = trilinear_weights(embedding.local.row(row));
     int corner = 0;
     weights.maxCoeff(&corner);
@@ -98,22 +98,20 @@ void ContactSkin::add_triangles(const Actor& actor, const std::vector<int>& plac
   for (int row = 0; row < actor.contact_triangles.rows(); ++row) {
     std::array<int, 3> corners{};
     for (int i = 0; i < 3; ++i) {
-      corners[static_cast<std::size_t>(i)] = place_of[static_cast<std::size_t>(actor.contact_triangles(row, i))];
+      corners[i] = place_of[actor.contact_triangles(row, i)];
     }
     triangles.push_back(corners);
   }
-  const auto owner = [&](const std::array<int, 3>& corners) {
-    return points[static_cast<std::size_t>(corners[0])].brick;
-  };
+  const auto owner = [&](const std::array<int, 3>& corners) { return points[corners[0]].brick; };
   std::stable_sort(triangles.begin(), triangles.end(),
                    [&](const auto& a, const auto& b) { return owner(a) < owner(b); });
-  normals = Points::Zero(static_cast<Eigen::Index>(points.size()), 3);
+  normals = Points::Zero(points.size(), 3);
   std::vector<int> brick_of_triangle;
   for (const std::array<int, 3>& corners : triangles) {
     brick_of_triangle.push_back(owner(corners));
     std::array<Vec3, 3> x;
     for (std::size_t i = 0; i < 3; ++i) {
-      x[i] = carried(actor.body, points[static_cast<std::size_t>(corners[i])], actor.body.rest_positions);
+      x[i] = carried(actor.body, points[corners[i]], actor.body.rest_positions);
     }
     const Vec3 area = (x[1] - x[0]).cross(x[2] - x[0]);
     for (const int corner : corners) normals.row(corner) += area.transpose();

@@ -9,8 +9,8 @@ namespace sprung {
 /// A contact point of a body.
 struct ContactPoint {
   int brick;
-  int corner;                           // of the brick, the nearest
-  Eigen::Matrix<double, 8, 1> weights;  // of the brick's corners
+  int corner;             // of the brick, the nearest
+  CornerWeights weights;  // of the brick's corners
 };
 
 /// The normals of a brick's points at rest: none is further than `spread` (rad) from `axis`.
@@ -44,11 +44,10 @@ struct ContactSkin {
 [[nodiscard]] const ContactSkin& contact_skin_of(Actor& actor);
 
 /// What a point has of what its brick's corners have (m x 3, per node of the body).
-[[nodiscard]] inline Vec3 carried(const Body& body, int brick, const Eigen::Matrix<double, 8, 1>& weights,
-                                  const Points& values) {
-  const auto& nodes = body.grid.nodes[static_cast<std::size_t>(brick)];
+[[nodiscard]] inline Vec3 carried(const Body& body, int brick, const CornerWeights& weights, const Points& values) {
+  const auto& nodes = body.grid.nodes[brick];
   Vec3 sum = Vec3::Zero();
-  for (int i = 0; i < 8; ++i) sum += weights[i] * values.row(nodes[static_cast<std::size_t>(i)]).transpose();
+  for (int i = 0; i < 8; ++i) sum += weights[i] * values.row(nodes[i]).transpose();
   return sum;
 }
 [[nodiscard]] inline Vec3 carried(const Body& body, const ContactPoint& point, const Points& values) {

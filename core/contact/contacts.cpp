@@ -54,12 +54,11 @@ void Touches::append(const Touches& other) {
   }
 }
 
-void add_shares(const Group& group, std::size_t actor, int brick, const Eigen::Matrix<double, 8, 1>& weights,
-                Touches& touches) {
-  const auto& nodes = group[actor]->body.grid.nodes[static_cast<std::size_t>(brick)];
+void add_shares(const Group& group, std::size_t actor, int brick, const CornerWeights& weights, Touches& touches) {
+  const auto& nodes = group[actor]->body.grid.nodes[brick];
   for (int i = 0; i < 8; ++i) {
     if (weights[i] == 0) continue;
-    touches.shares.push_back({static_cast<int>(actor), nodes[static_cast<std::size_t>(i)], weights[i]});
+    touches.shares.push_back({int(actor), nodes[i], weights[i]});
   }
 }
 
@@ -70,7 +69,7 @@ double least_speed(double gap, double gravity, double dt) {
 
 int steps_until_look(double margin, double speed, double gravity, double dt) {
   const double steps = std::min(margin / (4 * speed * dt), std::sqrt(margin / gravity) / dt);
-  return steps >= 1 ? static_cast<int>(std::min(steps, kMostSteps)) : 1;
+  return steps >= 1 ? int(std::min(steps, kMostSteps)) : 1;
 }
 
 }  // namespace sprung

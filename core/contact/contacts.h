@@ -57,8 +57,7 @@ struct Touches {
 };
 
 /// Appends the shares of a point that rides in a brick, without those that are zero.
-void add_shares(const Group& group, std::size_t actor, int brick, const Eigen::Matrix<double, 8, 1>& weights,
-                Touches& touches);
+void add_shares(const Group& group, std::size_t actor, int brick, const CornerWeights& weights, Touches& touches);
 
 /// What touches what near which corner of which brick; `other` counts obstacles, then actors.
 [[nodiscard]] inline std::uint64_t touch_key(std::size_t other, std::size_t actor, int brick, int corner) {

@@ -40,7 +40,7 @@ std::vector<int> nearest_points(const Actor& actor, const Points& places, const 
     if (gap > distance) continue;
     int corner = 0;
     trilinear_weights(actor.contacts.local.row(row)).maxCoeff(&corner);
-    const auto key = std::pair(actor.contacts.brick[static_cast<std::size_t>(row)], corner);
+    const auto key = std::pair(actor.contacts.brick[row], corner);
     const auto [place, is_new] = nearest.try_emplace(key, Candidate{row, gap});
     if (!is_new && gap < place->second.gap) place->second = {row, gap};
   }
@@ -67,10 +67,10 @@ std::vector<GluedPoint> glue_between(const World& world, std::size_t a, std::siz
   std::vector<GluedPoint> glue;
   glue.reserve(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    glue.push_back({.actors = {a, b},
-                    .bricks = {one.contacts.brick[static_cast<std::size_t>(rows[i])], embedding.brick[i]},
-                    .weights = {trilinear_weights(one.contacts.local.row(rows[i])),
-                                trilinear_weights(embedding.local.row(static_cast<Eigen::Index>(i)))}});
+    glue.push_back(
+        {.actors = {a, b},
+         .bricks = {one.contacts.brick[rows[i]], embedding.brick[i]},
+         .weights = {trilinear_weights(one.contacts.local.row(rows[i])), trilinear_weights(embedding.local.row(i))}});
   }
   return glue;
 }
@@ -81,8 +81,8 @@ std::vector<GluedPoint> glue_within(const World& world, std::span<const std::siz
     const auto first = std::find(actors.begin(), actors.end(), point.actors[0]);
     if (first == actors.end()) continue;  // what is glued together is in one group
     const auto second = std::find(actors.begin(), actors.end(), point.actors[1]);
-    point.actors[0] = static_cast<std::size_t>(first - actors.begin());
-    point.actors[1] = static_cast<std::size_t>(second - actors.begin());
+    point.actors[0] = std::size_t(first - actors.begin());
+    point.actors[1] = std::size_t(second - actors.begin());
     within.push_back(point);
   }
   return within;

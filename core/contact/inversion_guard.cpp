@@ -90,7 +90,7 @@ void SqueezeWatch::look(const Body& body, double dt) {
                     });
   suspects_.clear();
   for (int brick = 0; brick < body.grid.brick_count(); ++brick) {
-    if (is_suspect_[static_cast<std::size_t>(brick)] != 0) suspects_.push_back(brick);
+    if (is_suspect_[brick] != 0) suspects_.push_back(brick);
   }
 }
 
@@ -101,7 +101,7 @@ const std::vector<Squeeze>& SqueezeWatch::find(const Body& body, double dt) {
   const double volume = body.grid.brick_volume();
   const double fastest = kFastestRecovery * std::sqrt(body.material.young / body.material.density) * dt;  // m
   for (const int brick : suspects_) {
-    const auto& nodes = body.grid.nodes[static_cast<std::size_t>(brick)];
+    const auto& nodes = body.grid.nodes[brick];
     const BrickColumns x = columns_of(nodes, body.positions);
     const BrickColumns v = columns_of(nodes, body.velocities);
     for (int corner = 0; corner <= Squeeze::kMeanAxes; ++corner) {

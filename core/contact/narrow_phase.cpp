@@ -61,15 +61,14 @@ TriangleRide ride_of(const SkinPairs& pairs, const ContactSkin& skin, const Skin
   TriangleRide ride;
   for (std::size_t i = 0; i < 3; ++i) {
     const int row = pairs.watched(stance.pair->corners[i]).point;
-    const ContactPoint& corner = skin.points[static_cast<std::size_t>(row)];
+    const ContactPoint& corner = skin.points[row];
     const auto begin = ride.bricks.begin();
-    const auto same = static_cast<std::size_t>(
-        std::find(begin, begin + static_cast<std::ptrdiff_t>(ride.count), corner.brick) - begin);
+    const auto same = std::size_t(std::find(begin, begin + std::ptrdiff_t(ride.count), corner.brick) - begin);
     if (same == ride.count) {
       ride.bricks[ride.count] = corner.brick;
       ride.weights[ride.count++].setZero();
     }
-    ride.weights[same] -= stance.weights[static_cast<Eigen::Index>(i)] * corner.weights;
+    ride.weights[same] -= stance.weights[i] * corner.weights;
   }
   return ride;
 }

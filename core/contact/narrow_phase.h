@@ -36,7 +36,7 @@ struct SkinRun {
 /// Weights of the corners of the bricks that a triangle's place rides in, brick by brick.
 struct TriangleRide {
   std::array<int, 3> bricks{};
-  std::array<Eigen::Matrix<double, 8, 1>, 3> weights;
+  std::array<CornerWeights, 3> weights;
   std::size_t count = 0;
 };
 [[nodiscard]] TriangleRide ride_of(const SkinPairs& pairs, const ContactSkin& skin, const SkinStance& stance);

@@ -30,7 +30,7 @@ void ObstacleContact::look_at_brick(const Shape& shape, const Pose& pose, const 
   const ContactSkin& skin = *skins_[near.actor];
   const double margin = kMargin * body.grid.brick_size;
   near.brick = skin.bricks[at];
-  const BrickColumns x = columns_of(body.grid.nodes[static_cast<std::size_t>(near.brick)], body.positions);
+  const BrickColumns x = columns_of(body.grid.nodes[near.brick], body.positions);
   const Vec3 middle = x.rowwise().mean();
   const double far = reach_of(x, middle) + margin;
   const auto in_frame = [&](const Vec3& place) -> Vec3 {
@@ -44,7 +44,7 @@ void ObstacleContact::look_at_brick(const Shape& shape, const Pose& pose, const 
   // Which points are nearest, and about how near, is told as if the surface were flat across a brick.
   std::vector<NearPoint> nearest;
   for (int i = skin.first_point[at]; i < skin.first_point[at + 1]; ++i) {
-    const ContactPoint& point = skin.points[static_cast<std::size_t>(i)];
+    const ContactPoint& point = skin.points[i];
     const Vec3 place = in_frame(x * point.weights);
     const double gap = asked.gap.distance + asked.gap.normal.dot(place - here) - kCurved * body.grid.brick_size;
     nearest.push_back({&point, {place, {gap, asked.gap.normal}}});
@@ -55,7 +55,7 @@ void ObstacleContact::look_at_brick(const Shape& shape, const Pose& pose, const 
   std::array<int, 8> kept{};
   for (const NearPoint& one : nearest) {
     if (one.asked.gap.distance > margin) break;
-    if (kept[static_cast<std::size_t>(one.point->corner)]++ < kPointsACorner) points_.push_back(one);
+    if (kept[one.point->corner]++ < kPointsACorner) points_.push_back(one);
   }
   near.last = points_.size();
   if (near.last > near.first) near_.push_back(near);
@@ -117,14 +117,13 @@ bool ObstacleContact::has_to_be_held(const BrickMotion& motion, const Hold& hold
 void ObstacleContact::touch_brick(const World& world, const std::vector<Pose>& poses, double dt, const Group& group,
                                   const Near& near, Touches& touches) {
   const Body& body = group[near.actor]->body;
-  const auto& nodes = body.grid.nodes[static_cast<std::size_t>(near.brick)];
+  const auto& nodes = body.grid.nodes[near.brick];
   const Hold hold{world.obstacles[near.obstacle], poses[near.obstacle], world.gravity.norm(), dt};
   const BrickMotion motion{columns_of(nodes, body.positions), columns_of(nodes, body.velocities), body.grid.brick_size};
   const auto add = [&](const Held& held, std::uint64_t rank) {
     const std::size_t first = touches.shares.size();
     for (std::size_t corner = 0; corner < 8; ++corner) {
-      touches.shares.push_back(
-          {static_cast<int>(near.actor), nodes[corner], held.point->weights[static_cast<Eigen::Index>(corner)]});
+      touches.shares.push_back({int(near.actor), nodes[corner], held.point->weights[corner]});
     }
     touches.list.push_back({.key = touch_key(near.obstacle, near.actor, near.brick, held.point->corner) | rank << 63,
                             .first = first,
@@ -137,7 +136,7 @@ void ObstacleContact::touch_brick(const World& world, const std::vector<Pose>& p
   for (std::size_t i = near.first; i < near.last; ++i) {
     Held held;
     if (!has_to_be_held(motion, hold, points_[i], held)) continue;
-    Held& found = deepest[static_cast<std::size_t>(held.point->corner)];
+    Held& found = deepest[held.point->corner];
     if (found.point == nullptr || held.pull > found.pull) std::swap(found, held);
     if (held.point != nullptr && held.gap < -kLeftIn * motion.brick_size) add(held, 1);
   }

@@ -13,7 +13,7 @@ constexpr double kPointsInContact = 4;  // of a brick, that share its hardness: 
 
 /// Pa, of a brick in its region; what is cut by the surface is as hard as a full one.
 double young_at(const Body& body, int brick) {
-  return body.material.young * std::max(1.0, body.stiffness_scale[static_cast<std::size_t>(brick)]);
+  return body.material.young * std::max(1.0, body.stiffness_scale[brick]);
 }
 
 }  // namespace
@@ -25,7 +25,7 @@ std::vector<double> point_hardness(const Actor& actor, const ContactSkin& skin) 
     const double count = skin.first_point[i + 1] - skin.first_point[i];
     const double whole = kHardness * young_at(body, skin.bricks[i]) * body.grid.brick_size;
     for (int p = skin.first_point[i]; p < skin.first_point[i + 1]; ++p) {
-      hardness[static_cast<std::size_t>(p)] = whole / std::max(1.0, count / kPointsInContact);
+      hardness[p] = whole / std::max(1.0, count / kPointsInContact);
     }
   }
   return hardness;
@@ -54,7 +54,7 @@ ObstaclePotential::ObstaclePotential(Actor& actor, const Obstacle& obstacle, dou
 /// Distances are asked for again only where the brick may have come near since.
 bool ObstaclePotential::is_far(std::size_t brick, const Points& positions) {
   AlignedBox box;
-  for (const int node : actor_.body.grid.nodes[static_cast<std::size_t>(skin_.bricks[brick])]) {
+  for (const int node : actor_.body.grid.nodes[skin_.bricks[brick]]) {
     box.extend(Vec3(positions.row(node)));
   }
   // Points lie in the hull of the corners, or a little outside where the surface has no brick of its own.
@@ -72,8 +72,8 @@ template <class Visit>
 void ObstaclePotential::for_touching_points(const Points& positions, const Visit& visit) {
   for (std::size_t i = 0; i < skin_.bricks.size(); ++i) {
     const bool far = is_far(i, positions);
-    const auto last = static_cast<std::size_t>(skin_.first_point[i + 1]);
-    for (auto p = static_cast<std::size_t>(skin_.first_point[i]); p < last; ++p) {
+    const std::size_t last = skin_.first_point[i + 1];
+    for (auto p = std::size_t(skin_.first_point[i]); p < last; ++p) {
       if (far && points_[p].pressing == 0) continue;
       const Vec3 place = carried(actor_.body, skin_.points[p], positions);
       const Gap gap = gap_to(obstacle_.shape, pose_, place);
@@ -123,8 +123,8 @@ double ObstaclePotential::add_forces(const Points& positions, Points& forces) {
     energy += 0.5 * point.stiffness * depth * depth;
     energy += held.energy();
     const Vec3 force = point.stiffness * depth * gap.normal + held.force();
-    const auto& nodes = actor_.body.grid.nodes[static_cast<std::size_t>(at.brick)];
-    for (std::size_t c = 0; c < 8; ++c) forces.row(nodes[c]) += at.weights[static_cast<int>(c)] * force.transpose();
+    const auto& nodes = actor_.body.grid.nodes[at.brick];
+    for (std::size_t c = 0; c < 8; ++c) forces.row(nodes[c]) += at.weights[c] * force.transpose();
   });
   return energy;
 }

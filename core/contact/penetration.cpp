@@ -12,16 +12,15 @@ namespace {
 
 /// Where the contact points that can move are, m.
 Points free_points(const Actor& actor) {
-  std::vector<bool> is_held(static_cast<std::size_t>(actor.body.node_count()));
-  for (const HeldNode& held : actor.pinned) is_held[static_cast<std::size_t>(held.node)] = true;
+  std::vector<bool> is_held(actor.body.node_count());
+  for (const HeldNode& held : actor.pinned) is_held[held.node] = true;
   const Points points = deform_points(actor.body.grid, actor.contacts, actor.body.positions);
   std::vector<int> rows;
-  rows.reserve(static_cast<std::size_t>(points.rows()));
+  rows.reserve(points.rows());
   for (int point = 0; point < points.rows(); ++point) {
-    const auto brick = static_cast<std::size_t>(actor.contacts.brick[static_cast<std::size_t>(point)]);
+    const std::size_t brick = actor.contacts.brick[point];
     const auto& nodes = actor.body.grid.nodes[brick];
-    const bool is_free =
-        std::any_of(nodes.begin(), nodes.end(), [&](int node) { return !is_held[static_cast<std::size_t>(node)]; });
+    const bool is_free = std::any_of(nodes.begin(), nodes.end(), [&](int node) { return !is_held[node]; });
     if (is_free) rows.push_back(point);
   }
   return points(rows, Eigen::all);
@@ -31,8 +30,7 @@ Points free_points(const Actor& actor) {
 Points brick_middles(const Body& body) {
   Points middles(body.grid.brick_count(), 3);
   for (int brick = 0; brick < body.grid.brick_count(); ++brick) {
-    middles.row(brick) =
-        columns_of(body.grid.nodes[static_cast<std::size_t>(brick)], body.positions).rowwise().mean().transpose();
+    middles.row(brick) = columns_of(body.grid.nodes[brick], body.positions).rowwise().mean().transpose();
   }
   return middles;
 }
@@ -93,10 +91,10 @@ double deepest_overlap(const World& world) {
   if (!world.bodies_touch) return depth;
   std::vector<std::optional<Surface>> surfaces(world.actors.size());
   const auto look = [&](int row, int other) {
-    const auto target = static_cast<std::size_t>(other);
+    const std::size_t target = other;
     if (world.actors[target].contact_triangles.rows() == 0) return;
     if (!surfaces[target]) surfaces[target].emplace(world.actors[target]);
-    depth = std::max(depth, surfaces[target]->depth_of(points[static_cast<std::size_t>(row)]));
+    depth = std::max(depth, surfaces[target]->depth_of(points[row]));
   };
   for (const auto& [a, b] : overlapping_boxes(boxes)) {
     look(a, b);

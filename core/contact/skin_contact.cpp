@@ -23,7 +23,7 @@ void SkinContact::add(const Group& group, const Held& held, Touches& touches) co
   const std::size_t first = touches.shares.size();
   const SkinStance& stance = held.stance;
   const WatchedPoint& point = pairs_.watched(stance.pair->point);
-  const ContactPoint& at = skins_[point.actor]->points[static_cast<std::size_t>(point.point)];
+  const ContactPoint& at = skins_[point.actor]->points[point.point];
   add_shares(group, point.actor, at.brick, at.weights, touches);
   const std::size_t other = other_of(pairs_, *stance.pair);
   const TriangleRide ride = ride_of(pairs_, *skins_[other], stance);
@@ -44,8 +44,8 @@ double SkinContact::room_of(const Group& group, const SkinPair& pair) const {
   const auto of = [&](int row) {
     const WatchedPoint& point = pairs_.watched(row);
     const Body& body = group[point.actor]->body;
-    const int brick = skins_[point.actor]->points[static_cast<std::size_t>(point.point)].brick;
-    const Mat3 axes = mean_axes_of(columns_of(body.grid.nodes[static_cast<std::size_t>(brick)], body.positions));
+    const int brick = skins_[point.actor]->points[point.point].brick;
+    const Mat3 axes = mean_axes_of(columns_of(body.grid.nodes[brick], body.positions));
     return axes.determinant() / body.grid.brick_volume();
   };
   double least = of(pair.point);
@@ -58,7 +58,7 @@ bool SkinContact::has_to_be_held(const World& world, double dt, const Group& gro
   const WatchedPoint& point = pairs_.watched(stance.pair->point);
   Vec3 velocity = point.velocity;
   for (std::size_t i = 0; i < 3; ++i) {
-    velocity -= stance.weights[static_cast<Eigen::Index>(i)] * pairs_.watched(stance.pair->corners[i]).velocity;
+    velocity -= stance.weights[i] * pairs_.watched(stance.pair->corners[i]).velocity;
   }
   const double speed = stance.normal.dot(velocity);
   if (!(stance.gap + dt * speed <= 0)) return false;
@@ -66,7 +66,7 @@ bool SkinContact::has_to_be_held(const World& world, double dt, const Group& gro
   if (room < kFlat && actors_[0] == actors_[1]) return false;
   held.least_speed = room > kPressed ? least_speed(stance.gap, world.gravity.norm(), dt) : 0;
   held.pull = held.least_speed - speed;
-  const ContactPoint& at = skins_[point.actor]->points[static_cast<std::size_t>(point.point)];
+  const ContactPoint& at = skins_[point.actor]->points[point.point];
   held.key = touch_key(world.obstacles.size() + other_of(pairs_, *stance.pair), point.actor, at.brick, at.corner);
   return true;
 }

@@ -51,7 +51,7 @@ void SkinPotential::watch(const World& world, const std::vector<Eigen::VectorXd*
           {.pairs = &pairs,
            .run = run,
            .depth = kDeepest * brick,
-           .hardness = own[static_cast<std::size_t>(point.point)],
+           .hardness = own[point.point],
            .friction = std::sqrt(group_[point.actor]->friction * group_[other_of(pairs, pair)]->friction),
            .pushed_in = (*pushed_in[point.actor])[point.point]});
     }
@@ -99,7 +99,7 @@ void SkinPotential::add_glue() {
 void SkinPotential::add_stance(std::size_t watch, const SkinStance& stance) {
   const SkinPairs& pairs = *watches_[watch].pairs;
   const WatchedPoint& point = pairs.watched(stance.pair->point);
-  const ContactPoint& at = skins_[point.actor]->points[static_cast<std::size_t>(point.point)];
+  const ContactPoint& at = skins_[point.actor]->points[point.point];
   const std::size_t other = other_of(pairs, *stance.pair);
   const TriangleRide ride = ride_of(pairs, *skins_[other], stance);
   Coupling place;
@@ -134,7 +134,7 @@ double SkinPotential::depth(const Hold& hold, const Vec3& now) const {
 
 void SkinPotential::remember(const std::vector<Eigen::VectorXd*>& pushed_in) const {
   for (std::size_t i = 0; i < group_.size(); ++i) {
-    pushed_in[i]->setZero(static_cast<Eigen::Index>(skins_[i]->points.size()));
+    pushed_in[i]->setZero(skins_[i]->points.size());
   }
   for (const Hold& hold : holds_) {
     if (hold.is_glue) continue;
@@ -187,9 +187,9 @@ double SkinPotential::add_forces(const std::vector<Points*>& forces) const {
       force = hold.stiffness * deep * hold.normal + held.force();
     }
     for (const CoupledCorners& corners : hold.place.corners) {
-      const auto& nodes = group_[corners.body]->body.grid.nodes[static_cast<std::size_t>(corners.brick)];
+      const auto& nodes = group_[corners.body]->body.grid.nodes[corners.brick];
       for (std::size_t c = 0; c < 8; ++c) {
-        forces[corners.body]->row(nodes[c]) += corners.weights[static_cast<Eigen::Index>(c)] * force.transpose();
+        forces[corners.body]->row(nodes[c]) += corners.weights[c] * force.transpose();
       }
     }
   }

@@ -24,7 +24,7 @@ class MotionMemory {
   }
   template <class Number>
   void pass_as_double(Number& number) {
-    auto value = static_cast<double>(number);
+    auto value = double(number);
     pass(value);
     number = static_cast<Number>(value);
   }

@@ -24,7 +24,7 @@ std::string quoted(const std::string& text) {
   std::string out = "\"";
   for (const char letter : text) {
     if (static_cast<unsigned char>(letter) < 0x20) {
-      out += fmt::format("\\u{:04x}", static_cast<int>(letter));
+      out += fmt::format("\\u{:04x}", letter);
       continue;
     }
     if (letter == '"' || letter == '\\') out += '\\';
@@ -60,8 +60,8 @@ class GlbFilm {
     const std::string targets = targets_of(vertices);
     std::vector<std::string> primitives;
     for (const PosedPart& part : parts_of(mesh.first)) {
-      const auto* indices = mesh.first.rest->triangles.data() + 3 * static_cast<std::ptrdiff_t>(part.first_triangle);
-      const int index = buffer_.add_indices({indices, 3 * static_cast<std::size_t>(part.triangle_count)});
+      const auto* indices = mesh.first.rest->triangles.data() + 3 * std::ptrdiff_t(part.first_triangle);
+      const int index = buffer_.add_indices({indices, 3 * std::size_t(part.triangle_count)});
       primitives.push_back(fmt::format("{{\"attributes\":{{{}}},\"indices\":{},\"material\":{}{}}}", attributes, index,
                                        material_of(part), targets));
     }
@@ -128,7 +128,7 @@ class GlbFilm {
 
   std::size_t material_of(const PosedPart& part) {
     const auto known = std::find(material_names_.begin(), material_names_.end(), part.material);
-    if (known != material_names_.end()) return static_cast<std::size_t>(known - material_names_.begin());
+    if (known != material_names_.end()) return known - material_names_.begin();
     material_names_.push_back(part.material);
     std::string texture;
     if (part.source != nullptr && !ending_of_texture(*part.source).empty()) {
@@ -155,7 +155,7 @@ class GlbFilm {
   /// One sampler for all: at frame f the target f - 1 has all the weight.
   std::string animation_of(const std::vector<double>& times) {
     std::vector<float> seconds(times.begin(), times.end());
-    for (float& second : seconds) second -= static_cast<float>(times.front());
+    for (float& second : seconds) second -= float(times.front());
     std::vector<float> weights(frames_ * (frames_ - 1), 0);
     for (std::size_t frame = 1; frame < frames_; ++frame) weights[frame * (frames_ - 1) + frame - 1] = 1;
     const int input = buffer_.add_scalars(seconds, true);
@@ -192,7 +192,7 @@ double write_animated_glb(const std::vector<AnimatedMesh>& meshes, const std::ve
   if (bytes > kMostBytes) {
     throw Error(ErrorKind::kBadInput,
                 fmt::format("'{}' would have {:.1f} GB, more than the 4 GB of a .glb; export fewer frames (--frames)",
-                            file.string(), 1e-9 * static_cast<double>(bytes)));
+                            file.string(), 1e-9 * double(bytes)));
   }
   GlbFilm film(times.size(), numbers);
   double error = 0;
@@ -236,25 +236,25 @@ Eigen::Matrix<Value, Eigen::Dynamic, 4, Eigen::RowMajor> padded(
 
 template <class Matrix>
 std::size_t size_of(const Matrix& rows) {
-  return static_cast<std::size_t>(rows.size()) * sizeof(float);
+  return std::size_t(rows.size()) * sizeof(float);
 }
 
 }  // namespace
 
 int GlbBuffer::add_view(const void* data, std::size_t size, Use use, std::size_t stride) {
   bytes_.resize((bytes_.size() + 3) / 4 * 4, '\0');
-  const std::string target = use == Use::kOther ? "" : fmt::format(",\"target\":{}", static_cast<int>(use));
+  const std::string target = use == Use::kOther ? "" : fmt::format(",\"target\":{}", int(use));
   const std::string apart = stride == 0 ? "" : fmt::format(",\"byteStride\":{}", stride);
   views_.push_back(
       fmt::format("{{\"buffer\":0,\"byteOffset\":{},\"byteLength\":{}{}{}}}", bytes_.size(), size, apart, target));
   bytes_.append(static_cast<const char*>(data), size);
-  return static_cast<int>(views_.size()) - 1;
+  return isize(views_) - 1;
 }
 
 int GlbBuffer::add_accessor(int view, const char* type, int component, std::size_t count, const std::string& bounds) {
   accessors_.push_back(fmt::format("{{\"bufferView\":{},\"componentType\":{},\"count\":{},\"type\":\"{}\"{}}}", view,
                                    component, count, type, bounds));
-  return static_cast<int>(accessors_.size()) - 1;
+  return isize(accessors_) - 1;
 }
 
 int GlbBuffer::add_vectors(const Floats3& rows, bool with_bounds) {
@@ -265,34 +265,34 @@ int GlbBuffer::add_vectors(const Floats3& rows, bool with_bounds) {
     const Eigen::RowVector3f high = rows.colwise().maxCoeff();
     bounds = fmt::format(",\"min\":{},\"max\":{}", list_of(low), list_of(high));
   }
-  return add_accessor(view, "VEC3", kFloat, static_cast<std::size_t>(rows.rows()), bounds);
+  return add_accessor(view, "VEC3", kFloat, rows.rows(), bounds);
 }
 
 int GlbBuffer::add_shorts(const Shorts3& rows) {
   const auto wide = padded(rows);
-  const int view = add_view(wide.data(), static_cast<std::size_t>(wide.size()) * sizeof(std::int16_t), Use::kVertices,
-                            4 * sizeof(std::int16_t));
+  const int view =
+      add_view(wide.data(), std::size_t(wide.size()) * sizeof(std::int16_t), Use::kVertices, 4 * sizeof(std::int16_t));
   const std::string bounds = fmt::format(",\"min\":[{}],\"max\":[{}]", fmt::join(rows.colwise().minCoeff().eval(), ","),
                                          fmt::join(rows.colwise().maxCoeff().eval(), ","));
-  return add_accessor(view, "VEC3", kShort, static_cast<std::size_t>(rows.rows()), bounds);
+  return add_accessor(view, "VEC3", kShort, rows.rows(), bounds);
 }
 
 int GlbBuffer::add_bytes(const Bytes3& rows) {
   const auto wide = padded(rows);
-  const int view = add_view(wide.data(), static_cast<std::size_t>(wide.size()), Use::kVertices, 4);
-  return add_accessor(view, "VEC3", kByte, static_cast<std::size_t>(rows.rows()), ",\"normalized\":true");
+  const int view = add_view(wide.data(), wide.size(), Use::kVertices, 4);
+  return add_accessor(view, "VEC3", kByte, rows.rows(), ",\"normalized\":true");
 }
 
 int GlbBuffer::add_uvs(const Floats2& rows) {
   Floats2 down = rows;  // v runs down in glTF
   down.col(1) = 1.0F - down.col(1).array();
   const int view = add_view(down.data(), size_of(down), Use::kVertices);
-  return add_accessor(view, "VEC2", kFloat, static_cast<std::size_t>(down.rows()), "");
+  return add_accessor(view, "VEC2", kFloat, down.rows(), "");
 }
 
 int GlbBuffer::add_colors(const Floats4& rows) {
   const int view = add_view(rows.data(), size_of(rows), Use::kVertices);
-  return add_accessor(view, "VEC4", kFloat, static_cast<std::size_t>(rows.rows()), "");
+  return add_accessor(view, "VEC4", kFloat, rows.rows(), "");
 }
 
 int GlbBuffer::add_indices(std::span<const int> indices) {
@@ -402,7 +402,7 @@ GlbVertices add_quantized(GlbBuffer& buffer, const AnimatedMesh& mesh) {
   const Eigen::RowVector3f& origin = lattice.origin;
   vertices.placement = fmt::format(",\"translation\":[{0:.9g},{1:.9g},{2:.9g}],\"scale\":[{3:.9g},{3:.9g},{3:.9g}]",
                                    origin.x(), origin.y(), origin.z(), lattice.step);
-  vertices.error = 0.5 * static_cast<double>(lattice.step);
+  vertices.error = 0.5 * double(lattice.step);
   return vertices;
 }
 

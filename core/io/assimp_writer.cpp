@@ -15,9 +15,7 @@
 namespace sprung {
 namespace {
 
-aiVector3D vector_of(const Eigen::RowVector3d& row) {
-  return {static_cast<float>(row[0]), static_cast<float>(row[1]), static_cast<float>(row[2])};
-}
+aiVector3D vector_of(const Eigen::RowVector3d& row) { return {float(row[0]), float(row[1]), float(row[2])}; }
 
 float linear_from_srgb(float srgb) {
   return srgb <= 0.04045F ? srgb / 12.92F : std::pow((srgb + 0.055F) / 1.055F, 2.4F);
@@ -30,22 +28,22 @@ struct Vertices {
 };
 
 Vertices vertices_of(const PosedMesh& mesh, const PosedPart& part, bool is_only_one) {
-  std::vector<bool> is_used(static_cast<std::size_t>(mesh.positions.rows()), is_only_one);
+  std::vector<bool> is_used(mesh.positions.rows(), is_only_one);
   const auto triangles = mesh.rest->triangles.middleRows(part.first_triangle, part.triangle_count);
   for (const auto& triangle : triangles.rowwise()) {
-    for (const int corner : triangle) is_used[static_cast<std::size_t>(corner)] = true;
+    for (const int corner : triangle) is_used[corner] = true;
   }
   Vertices vertices;
   vertices.number.resize(is_used.size());
   for (std::size_t i = 0; i < is_used.size(); ++i) {
-    vertices.number[i] = static_cast<unsigned>(vertices.rows.size());
-    if (is_used[i]) vertices.rows.push_back(static_cast<int>(i));
+    vertices.number[i] = unsigned(vertices.rows.size());
+    if (is_used[i]) vertices.rows.push_back(int(i));
   }
   return vertices;
 }
 
 void fill_vertices(const PosedMesh& posed, const std::vector<int>& rows, bool is_linear, aiMesh& mesh) {
-  mesh.mNumVertices = static_cast<unsigned>(rows.size());
+  mesh.mNumVertices = unsigned(rows.size());
   mesh.mVertices = new aiVector3D[rows.size()];
   if (posed.normals.rows() > 0) mesh.mNormals = new aiVector3D[rows.size()];
   if (posed.rest->uvs.rows() > 0) mesh.mTextureCoords[0] = new aiVector3D[rows.size()];
@@ -67,14 +65,14 @@ void fill_vertices(const PosedMesh& posed, const std::vector<int>& rows, bool is
 
 void fill_faces(const PosedMesh& posed, const PosedPart& part, const std::vector<unsigned>& number, aiMesh& mesh) {
   mesh.mPrimitiveTypes = aiPrimitiveType_TRIANGLE;
-  mesh.mNumFaces = static_cast<unsigned>(part.triangle_count);
+  mesh.mNumFaces = unsigned(part.triangle_count);
   mesh.mFaces = new aiFace[mesh.mNumFaces];
   for (unsigned t = 0; t < mesh.mNumFaces; ++t) {
     mesh.mFaces[t].mNumIndices = 3;
     mesh.mFaces[t].mIndices = new unsigned[3];
     for (int k = 0; k < 3; ++k) {
-      const int corner = posed.rest->triangles(part.first_triangle + static_cast<int>(t), k);
-      mesh.mFaces[t].mIndices[k] = number[static_cast<std::size_t>(corner)];
+      const int corner = posed.rest->triangles(part.first_triangle + int(t), k);
+      mesh.mFaces[t].mIndices[k] = number[corner];
     }
   }
 }
@@ -94,7 +92,7 @@ class SceneBuilder {
     if (is_flat_) {
       hang_all(meshes, *scene->mRootNode);
     } else {
-      scene->mRootNode->mNumChildren = static_cast<unsigned>(meshes.size());
+      scene->mRootNode->mNumChildren = unsigned(meshes.size());
       scene->mRootNode->mChildren = new aiNode*[meshes.size()];
       for (std::size_t i = 0; i < meshes.size(); ++i) scene->mRootNode->mChildren[i] = node_of(meshes[i], *scene);
     }
@@ -108,7 +106,7 @@ class SceneBuilder {
   template <class Thing>
   static void hand_over(const std::vector<Thing*>& things, unsigned& count, Thing**& list) {
     if (things.empty()) return;
-    count = static_cast<unsigned>(things.size());
+    count = unsigned(things.size());
     list = new Thing*[things.size()];
     std::copy(things.begin(), things.end(), list);
   }
@@ -122,7 +120,7 @@ class SceneBuilder {
       hang({mesh_of(posed, parts.front(), true)}, *node);
       return node;
     }
-    node->mNumChildren = static_cast<unsigned>(parts.size());
+    node->mNumChildren = unsigned(parts.size());
     node->mChildren = new aiNode*[parts.size()];
     for (std::size_t i = 0; i < parts.size(); ++i) {
       node->mChildren[i] = new aiNode(parts[i].name);
@@ -145,7 +143,7 @@ class SceneBuilder {
   }
 
   static void hang(const std::vector<unsigned>& meshes, aiNode& node) {
-    node.mNumMeshes = static_cast<unsigned>(meshes.size());
+    node.mNumMeshes = unsigned(meshes.size());
     node.mMeshes = new unsigned[meshes.size()];
     std::copy(meshes.begin(), meshes.end(), node.mMeshes);
   }
@@ -159,12 +157,12 @@ class SceneBuilder {
     fill_vertices(posed, vertices.rows, is_gltf_, *mesh);
     fill_faces(posed, part, vertices.number, *mesh);
     meshes_.push_back(mesh);
-    return static_cast<unsigned>(meshes_.size() - 1);
+    return unsigned(meshes_.size() - 1);
   }
 
   unsigned material_of(const PosedPart& part) {
     const auto known = std::find(names_.begin(), names_.end(), part.material);
-    if (known != names_.end()) return static_cast<unsigned>(known - names_.begin());
+    if (known != names_.end()) return unsigned(known - names_.begin());
     names_.push_back(part.material);
     auto* material = new aiMaterial;
     const aiString name(part.material);
@@ -180,7 +178,7 @@ class SceneBuilder {
     material->AddProperty(&roughness, 1, AI_MATKEY_ROUGHNESS_FACTOR);
     add_texture(part, *material);
     materials_.push_back(material);
-    return static_cast<unsigned>(materials_.size() - 1);
+    return unsigned(materials_.size() - 1);
   }
 
   void add_texture(const PosedPart& part, aiMaterial& material) {
@@ -192,7 +190,7 @@ class SceneBuilder {
 
   std::string embed_texture(const SurfaceMaterial& source) {
     auto* texture = new aiTexture;
-    texture->mWidth = static_cast<unsigned>(source.texture.size());
+    texture->mWidth = unsigned(source.texture.size());
     texture->pcData = new aiTexel[source.texture.size() / sizeof(aiTexel) + 1];
     std::memcpy(texture->pcData, source.texture.data(), source.texture.size());
     std::strcpy(texture->achFormatHint, ending_of_texture(source) == ".png" ? "png" : "jpg");

@@ -18,7 +18,7 @@ void write_materials(Hdf5Writer& hdf5, const std::string& folder, const std::vec
   for (std::size_t i = 0; i < materials.size(); ++i) {
     names.push_back(materials[i].name);
     texture_names.push_back(materials[i].texture_name);
-    colors.row(static_cast<Eigen::Index>(i)) = materials[i].color;
+    colors.row(i) = materials[i].color;
     if (materials[i].texture.empty()) continue;
     const auto* bytes = reinterpret_cast<const std::uint8_t*>(materials[i].texture.data());
     hdf5.write(texture_name(folder, i), std::span(bytes, materials[i].texture.size()), {materials[i].texture.size()});
@@ -36,7 +36,7 @@ std::vector<SurfaceMaterial> read_materials(const Hdf5Reader& hdf5, const std::s
   for (std::size_t i = 0; i < names.size(); ++i) {
     materials[i].name = names[i];
     materials[i].texture_name = texture_names.at(i);
-    materials[i].color = colors.row(static_cast<Eigen::Index>(i));
+    materials[i].color = colors.row(i);
     if (!hdf5.has(texture_name(folder, i))) continue;
     const std::vector<std::uint8_t> bytes = hdf5.read<std::uint8_t>(texture_name(folder, i)).values;
     for (const std::uint8_t byte : bytes) materials[i].texture.push_back(std::byte{byte});
@@ -57,7 +57,7 @@ void write_skin(Hdf5Writer& hdf5, const std::string& folder, const Skin& skin) {
   for (std::size_t i = 0; i < skin.parts.size(); ++i) {
     const Part& part = skin.parts[i];
     names.push_back(part.name);
-    parts.row(static_cast<Eigen::Index>(i)) << part.first_triangle, part.triangle_count, part.material;
+    parts.row(i) << part.first_triangle, part.triangle_count, part.material;
   }
   hdf5.write_texts(folder + "/part_names", names);
   write_matrix(hdf5, folder + "/parts", parts);
@@ -74,10 +74,8 @@ Skin read_skin(const Hdf5Reader& hdf5, const std::string& folder) {
   const std::vector<std::string> names = hdf5.read_texts(folder + "/part_names");
   const auto parts = read_matrix<Rows3>(hdf5, folder + "/parts");
   for (Eigen::Index i = 0; i < parts.rows(); ++i) {
-    skin.parts.push_back({.name = names.at(static_cast<std::size_t>(i)),
-                          .first_triangle = parts(i, 0),
-                          .triangle_count = parts(i, 1),
-                          .material = parts(i, 2)});
+    skin.parts.push_back(
+        {.name = names.at(i), .first_triangle = parts(i, 0), .triangle_count = parts(i, 1), .material = parts(i, 2)});
   }
   skin.materials = read_materials(hdf5, folder);
   return skin;

@@ -32,13 +32,12 @@ inline constexpr const char* kExactName = "/exact_state";
 /// A matrix stored row by row, as numbers in a row.
 template <class Matrix>
 [[nodiscard]] std::span<const typename Matrix::Scalar> flat_values(const Matrix& matrix) {
-  return {matrix.data(), static_cast<std::size_t>(matrix.size())};
+  return {matrix.data(), std::size_t(matrix.size())};
 }
 
 template <class Matrix>
 void write_matrix(Hdf5Writer& hdf5, const std::string& name, const Matrix& matrix) {
-  hdf5.write(name, flat_values(matrix),
-             {static_cast<std::size_t>(matrix.rows()), static_cast<std::size_t>(matrix.cols())});
+  hdf5.write(name, flat_values(matrix), {std::size_t(matrix.rows()), std::size_t(matrix.cols())});
 }
 
 /// Throws Error(kBadInput) where the file has another number of columns.
@@ -49,7 +48,7 @@ template <class Matrix>
   if (array.shape.empty() || columns != kColumns) {
     throw Error(ErrorKind::kBadInput, name + ": the cache is damaged: not the shape it should have");
   }
-  return Eigen::Map<const Matrix>(array.values.data(), static_cast<Eigen::Index>(array.shape[0]), kColumns);
+  return Eigen::Map<const Matrix>(array.values.data(), array.shape[0], kColumns);
 }
 
 template <class Matrix>

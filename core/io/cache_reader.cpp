@@ -14,7 +14,7 @@ using Numbers = Eigen::Matrix<double, Eigen::Dynamic, 1>;
 
 std::vector<Eigen::Vector3i> list_of(const Cells& rows) {
   std::vector<Eigen::Vector3i> list;
-  list.reserve(static_cast<std::size_t>(rows.rows()));
+  list.reserve(rows.rows());
   for (Eigen::Index i = 0; i < rows.rows(); ++i) list.emplace_back(rows.row(i));
   return list;
 }
@@ -26,7 +26,7 @@ BrickGrid read_grid(const Hdf5Reader& hdf5, const std::string& folder) {
   grid.cells = list_of(read_matrix<Cells>(hdf5, folder + "/cells"));
   grid.fill = hdf5.read<double>(folder + "/fill").values;
   const auto bricks = read_matrix<Bricks>(hdf5, folder + "/nodes");
-  grid.nodes.resize(static_cast<std::size_t>(bricks.rows()));
+  grid.nodes.resize(bricks.rows());
   std::copy_n(bricks.data(), bricks.size(), grid.nodes.empty() ? nullptr : grid.nodes[0].data());
   grid.lattice = list_of(read_matrix<Cells>(hdf5, folder + "/lattice"));
   return grid;
@@ -90,9 +90,9 @@ CacheHeader read_header(const Hdf5Reader& hdf5) {
   header.position_error = hdf5.read<double>("/position_error").values.at(0);
   header.velocity_error = hdf5.read<double>("/velocity_error").values.at(0);
   header.probes = hdf5.read_texts("/probes");
-  const auto meshes = static_cast<std::size_t>(hdf5.read<int>("/mesh_count").values.at(0));
-  const auto actors = static_cast<std::size_t>(hdf5.read<int>("/actor_count").values.at(0));
-  const auto obstacles = static_cast<std::size_t>(hdf5.read<int>("/obstacle_count").values.at(0));
+  const std::size_t meshes = hdf5.read<int>("/mesh_count").values.at(0);
+  const std::size_t actors = hdf5.read<int>("/actor_count").values.at(0);
+  const std::size_t obstacles = hdf5.read<int>("/obstacle_count").values.at(0);
   for (std::size_t i = 0; i < meshes; ++i) header.meshes.push_back(read_skin(hdf5, mesh_folder(i)));
   for (std::size_t i = 0; i < actors; ++i) header.actors.push_back(read_actor(hdf5, actor_folder(i)));
   for (std::size_t i = 0; i < obstacles; ++i) header.obstacles.push_back(read_obstacle(hdf5, obstacle_folder(i)));
@@ -141,7 +141,7 @@ std::vector<Points> CacheReader::exact_states(std::size_t which, std::size_t fra
   for (std::size_t i = 0; i < header_.actors.size(); ++i) {
     const std::vector<double> row = hdf5_.read_row<double>(actor_folder(i) + kExactName, frame % 2).values;
     const Eigen::Index nodes = header_.actors[i].rest_positions.rows();
-    all.emplace_back(Eigen::Map<const Points>(row.data() + static_cast<Eigen::Index>(which) * 3 * nodes, nodes, 3));
+    all.emplace_back(Eigen::Map<const Points>(row.data() + Eigen::Index(which) * 3 * nodes, nodes, 3));
   }
   return all;
 }

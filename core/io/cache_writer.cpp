@@ -22,7 +22,7 @@ fs::path beside(const fs::path& file) {
 
 Cells rows_of(const std::vector<Eigen::Vector3i>& list) {
   Cells rows(list.size(), 3);
-  for (std::size_t i = 0; i < list.size(); ++i) rows.row(static_cast<Eigen::Index>(i)) = list[i];
+  for (std::size_t i = 0; i < list.size(); ++i) rows.row(i) = list[i];
   return rows;
 }
 
@@ -55,7 +55,7 @@ void write_actor(Hdf5Writer& hdf5, const std::string& folder, const CachedActor&
   write_grid(hdf5, folder, actor.grid);
   write_list(hdf5, folder + "/stiffness_scale", actor.stiffness_scale);
   write_list(hdf5, folder + "/regions", actor.regions);
-  hdf5.write(folder + "/masses", flat_values(actor.masses), {static_cast<std::size_t>(actor.masses.size())});
+  hdf5.write(folder + "/masses", flat_values(actor.masses), {std::size_t(actor.masses.size())});
   write_matrix(hdf5, folder + "/rest_positions", actor.rest_positions);
   write_list(hdf5, folder + "/pinned", actor.pinned);
   write_skin(hdf5, folder + "/skin", actor.skin);
@@ -65,7 +65,7 @@ void write_actor(Hdf5Writer& hdf5, const std::string& folder, const CachedActor&
   write_list(hdf5, folder + "/mesh/vertices", actor.carried);
   write_list(hdf5, folder + "/mesh/brick", actor.carried_embedding.brick);
   write_matrix(hdf5, folder + "/mesh/place_in_brick", actor.carried_embedding.local);
-  const ArrayShape state{static_cast<std::size_t>(actor.rest_positions.rows()), 3};
+  const ArrayShape state{std::size_t(actor.rest_positions.rows()), 3};
   hdf5.make_series<double>(folder + "/positions", state);
   hdf5.make_series<double>(folder + "/velocities", state);
   hdf5.make_slots(folder + kExactName, 2, is_exact ? 0 : 6 * state[0]);
@@ -96,9 +96,9 @@ void write_header(Hdf5Writer& hdf5, const CacheHeader& header) {
   write_number(hdf5, "/position_error", header.position_error);
   write_number(hdf5, "/velocity_error", header.velocity_error);
   hdf5.write_texts("/probes", header.probes);
-  write_number(hdf5, "/mesh_count", static_cast<int>(header.meshes.size()));
-  write_number(hdf5, "/actor_count", static_cast<int>(header.actors.size()));
-  write_number(hdf5, "/obstacle_count", static_cast<int>(header.obstacles.size()));
+  write_number(hdf5, "/mesh_count", isize(header.meshes));
+  write_number(hdf5, "/actor_count", isize(header.actors));
+  write_number(hdf5, "/obstacle_count", isize(header.obstacles));
   for (std::size_t i = 0; i < header.meshes.size(); ++i) write_skin(hdf5, mesh_folder(i), header.meshes[i]);
   for (std::size_t i = 0; i < header.actors.size(); ++i)
     write_actor(hdf5, actor_folder(i), header.actors[i], header.position_error == 0);

@@ -13,6 +13,8 @@
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"  // g++ 12 takes the fields of file input for used
 #endif
 #include <stb/stb_image.h>
+
+#include "core/types.h"
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic pop
 #endif
@@ -31,9 +33,9 @@ Decoded<Value> decode(Value* (*load)(const stbi_uc*, int, int*, int*, int*, int)
   if (encoded.empty()) throw Error(ErrorKind::kBadInput, name + ": the picture is empty");
   if (encoded.size() > INT_MAX) throw Error(ErrorKind::kBadInput, name + ": the picture is larger than 2 GB");
   int found = 0;
-  Decoded<Value> data(load(reinterpret_cast<const stbi_uc*>(encoded.data()), static_cast<int>(encoded.size()), &width,
-                           &height, &found, channels),
-                      stbi_image_free);
+  Decoded<Value> data(
+      load(reinterpret_cast<const stbi_uc*>(encoded.data()), isize(encoded), &width, &height, &found, channels),
+      stbi_image_free);
   if (data != nullptr) return data;
   throw Error(ErrorKind::kBadInput,
               name + ": not a picture that can be read (" + stbi_failure_reason() + "); PNG and JPEG are sure to work");
@@ -44,15 +46,14 @@ Decoded<Value> decode(Value* (*load)(const stbi_uc*, int, int*, int*, int*, int)
 Pixels decode_pixels(std::span<const std::byte> encoded, const std::string& name) {
   Pixels pixels;
   const auto data = decode(stbi_load_from_memory, encoded, STBI_rgb_alpha, pixels.width, pixels.height, name);
-  pixels.rgba.assign(
-      data.get(), data.get() + 4U * static_cast<std::size_t>(pixels.width) * static_cast<std::size_t>(pixels.height));
+  pixels.rgba.assign(data.get(), data.get() + 4U * std::size_t(pixels.width) * std::size_t(pixels.height));
   return pixels;
 }
 
 Panorama decode_panorama(std::span<const std::byte> encoded, const std::string& name) {
   Panorama panorama;
   const auto data = decode(stbi_loadf_from_memory, encoded, STBI_rgb, panorama.width, panorama.height, name);
-  const auto count = static_cast<std::size_t>(panorama.width) * static_cast<std::size_t>(panorama.height);
+  const auto count = std::size_t(panorama.width) * std::size_t(panorama.height);
   for (std::size_t i = 0; i < count; ++i) panorama.light.emplace_back(data.get() + 3 * i);
   return panorama;
 }

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/io/hdf5_handle.h"
+#include "core/types.h"
 
 namespace sprung {
 
@@ -48,7 +49,7 @@ bool Hdf5Reader::has(const std::string& name) const {
 ArrayShape Hdf5Reader::shape_of(const std::string& name) const {
   const Hdf5Handle set = open_->set(name);
   const Hdf5Handle space(open_->check(H5Dget_space(set.get()), name), H5Sclose);
-  std::vector<hsize_t> counts(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space.get())));
+  std::vector<hsize_t> counts(H5Sget_simple_extent_ndims(space.get()));
   H5Sget_simple_extent_dims(space.get(), counts.data(), nullptr);
   return {counts.begin(), counts.end()};
 }
@@ -76,7 +77,7 @@ Array<Value> Hdf5Reader::read_row(const std::string& name, std::size_t row) cons
   start[0] = row;
   count[0] = 1;
   H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr);
-  const Hdf5Handle memory(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr), H5Sclose);
+  const Hdf5Handle memory(H5Screate_simple(isize(count), count.data(), nullptr), H5Sclose);
   open_->check(H5Dread(set.get(), hdf5_type<Value>(), memory.get(), space.get(), H5P_DEFAULT, array.values.data()),
                name);
   return array;
@@ -126,7 +127,7 @@ std::size_t product(std::span<const std::size_t> counts) {
 
 Hdf5Handle space_of(const ArrayShape& shape) {
   const std::vector<hsize_t> counts = sizes(shape);
-  return {H5Screate_simple(static_cast<int>(counts.size()), counts.data(), nullptr), H5Sclose};
+  return {H5Screate_simple(isize(counts), counts.data(), nullptr), H5Sclose};
 }
 
 /// Makes the folders in a name.
@@ -147,7 +148,7 @@ Hdf5Handle compressed(const ArrayShape& shape, std::size_t axis, std::size_t val
   }
   const std::vector<hsize_t> counts = sizes(chunk);
   Hdf5Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-  H5Pset_chunk(properties.get(), static_cast<int>(counts.size()), counts.data());
+  H5Pset_chunk(properties.get(), isize(counts), counts.data());
   H5Pset_shuffle(properties.get());
   H5Pset_deflate(properties.get(), kEffort);
   return properties;
@@ -231,7 +232,7 @@ void Hdf5Writer::make_series(const std::string& name, const ArrayShape& row) {
   std::vector<hsize_t> most = now;
   now[0] = 0;
   most[0] = H5S_UNLIMITED;
-  const Hdf5Handle space(H5Screate_simple(static_cast<int>(now.size()), now.data(), most.data()), H5Sclose);
+  const Hdf5Handle space(H5Screate_simple(isize(now), now.data(), most.data()), H5Sclose);
   open_->series[name] = open_->make(name, hdf5_type<Value>(), space, properties.get());
 }
 
@@ -247,7 +248,7 @@ template <class Value>
 void Hdf5Writer::append(const std::string& name, std::span<const Value> row) {
   const hid_t set = open_->at(name);
   const Hdf5Handle before(open_->check(H5Dget_space(set)), H5Sclose);
-  std::vector<hsize_t> shape(static_cast<std::size_t>(H5Sget_simple_extent_ndims(before.get())));
+  std::vector<hsize_t> shape(H5Sget_simple_extent_ndims(before.get()));
   H5Sget_simple_extent_dims(before.get(), shape.data(), nullptr);
   std::vector<hsize_t> start(shape.size(), 0);
   std::vector<hsize_t> count = shape;
@@ -257,7 +258,7 @@ void Hdf5Writer::append(const std::string& name, std::span<const Value> row) {
   if (row.empty()) return;
   const Hdf5Handle space(open_->check(H5Dget_space(set)), H5Sclose);
   H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr);
-  const Hdf5Handle memory(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr), H5Sclose);
+  const Hdf5Handle memory(H5Screate_simple(isize(count), count.data(), nullptr), H5Sclose);
   open_->check(H5Dwrite(set, hdf5_type<Value>(), memory.get(), space.get(), H5P_DEFAULT, row.data()));
   open_->check(H5Dflush(set));
 }

@@ -19,8 +19,7 @@ namespace sprung {
 std::vector<PosedPart> parts_of(const PosedMesh& mesh) {
   std::vector<Part> parts = mesh.rest->parts;
   if (parts.empty()) {
-    parts.push_back(
-        {.name = mesh.name, .first_triangle = 0, .triangle_count = static_cast<int>(mesh.rest->triangles.rows())});
+    parts.push_back({.name = mesh.name, .first_triangle = 0, .triangle_count = int(mesh.rest->triangles.rows())});
   }
   std::vector<PosedPart> all;
   for (const Part& part : parts) {
@@ -31,7 +30,7 @@ std::vector<PosedPart> parts_of(const PosedMesh& mesh) {
     posed.color << mesh.color, 1;
     if (mesh.rest->colors.rows() > 0) posed.color.setOnes();  // which programs multiply by those
     if (part.material >= 0) {
-      posed.source = &mesh.rest->materials[static_cast<std::size_t>(part.material)];
+      posed.source = &mesh.rest->materials[part.material];
       posed.color = posed.source->color;
       posed.material = posed.source->name.empty() ? mesh.name + " " + std::to_string(part.material + 1)
                                                   : mesh.name + " " + posed.source->name;
@@ -179,7 +178,7 @@ void export_meshes(const std::vector<PosedMesh>& meshes, const std::filesystem::
   const MeshFormat* format = find_mesh_format(file);
   if (format == nullptr) throw Error(ErrorKind::kUsage, fmt::format("'{}': no known format", file.string()));
   for (const PosedMesh& mesh : meshes) {
-    const auto count = static_cast<std::size_t>(mesh.positions.rows());
+    const std::size_t count = mesh.positions.rows();
     if (format->most_vertices == 0 || count <= format->most_vertices) continue;
     throw Error(ErrorKind::kBadInput, fmt::format("{} has {} vertices, more than the {} that {} files can hold",
                                                   mesh.name, count, format->most_vertices, format->ending));
@@ -291,9 +290,9 @@ void write_obj(const std::vector<PosedMesh>& meshes, const std::filesystem::path
       text += fmt::format("g {}\nusemtl {}\n", one_word(part.name), one_word(part.material));
       add_triangles(mesh, part, firsts, text);
     }
-    firsts.vertex += static_cast<int>(mesh.positions.rows());
-    firsts.uv += static_cast<int>(mesh.rest->uvs.rows());
-    firsts.normal += static_cast<int>(mesh.normals.rows());
+    firsts.vertex += int(mesh.positions.rows());
+    firsts.uv += int(mesh.rest->uvs.rows());
+    firsts.normal += int(mesh.normals.rows());
   }
   write_bytes(materials, material_texts);
   write_bytes(file, text);

@@ -40,7 +40,7 @@ void write_pc2(const std::vector<Floats3>& frames, const std::filesystem::path& 
   add_little(bytes, 1.0F);  // frames from one sample to the next
   add_little(bytes, static_cast<std::int32_t>(frames.size()));
   for (const Floats3& frame : frames) {
-    add_bytes(bytes, frame.data(), static_cast<std::size_t>(frame.size()) * sizeof(float));
+    add_bytes(bytes, frame.data(), std::size_t(frame.size()) * sizeof(float));
   }
   write_bytes(file, bytes);
 }
@@ -49,9 +49,9 @@ void write_mdd(const std::vector<Floats3>& frames, std::span<const double> times
   std::string bytes;
   add_big(bytes, static_cast<std::int32_t>(frames.size()));
   add_big(bytes, count_of_points(frames));
-  for (const double time : times) add_big(bytes, static_cast<float>(time));
+  for (const double time : times) add_big(bytes, float(time));
   for (const Floats3& frame : frames) {
-    for (const float value : std::span(frame.data(), static_cast<std::size_t>(frame.size()))) add_big(bytes, value);
+    for (const float value : std::span(frame.data(), frame.size())) add_big(bytes, value);
   }
   write_bytes(file, bytes);
 }

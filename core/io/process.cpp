@@ -124,7 +124,7 @@ bool ChildProcess::write(std::span<const std::byte> data) {
   while (!data.empty()) {
     const ssize_t count = ::write(input_, data.data(), data.size());
     if (count >= 0) {
-      data = data.subspan(static_cast<std::size_t>(count));
+      data = data.subspan(count);
     } else if (errno != EINTR) {
       return false;
     }
@@ -143,9 +143,9 @@ int ChildProcess::finish() {
 
 std::string ChildProcess::last_words() const {
   const off_t size = lseek(messages_, 0, SEEK_END);
-  std::string words(static_cast<std::size_t>(std::clamp<off_t>(size, 0, kLastWords)), '\0');
+  std::string words(std::clamp<off_t>(size, 0, kLastWords), '\0');
   const ssize_t count = pread(messages_, words.data(), words.size(), std::max<off_t>(size - kLastWords, 0));
-  words.resize(static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
+  words.resize(std::max<ssize_t>(count, 0));
   const std::size_t first = words.find_first_not_of(" \r\n\t");
   if (first == std::string::npos) return "it said nothing";
   return words.substr(first, words.find_last_not_of(" \r\n\t") - first + 1);

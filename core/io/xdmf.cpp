@@ -63,11 +63,11 @@ void XdmfWriter::write_bricks(const std::string& folder, const Body& body) {
   Hexahedra hexahedra(body.grid.brick_count(), 8);
   Eigen::VectorXf fill(body.grid.brick_count());
   for (Eigen::Index brick = 0; brick < hexahedra.rows(); ++brick) {
-    const auto row = static_cast<std::size_t>(brick);
+    const std::size_t row = brick;
     for (std::size_t k = 0; k < 8; ++k) {
-      hexahedra(brick, static_cast<Eigen::Index>(k)) = body.grid.nodes[row][static_cast<std::size_t>(kCornersOfVtk[k])];
+      hexahedra(brick, k) = body.grid.nodes[row][kCornersOfVtk[k]];
     }
-    fill[brick] = static_cast<float>(body.grid.fill[row]);
+    fill[brick] = float(body.grid.fill[row]);
   }
   write_matrix(hdf5_, folder + "/hexahedra", hexahedra);
   write_matrix(hdf5_, folder + "/fill", fill);
@@ -86,8 +86,8 @@ void XdmfWriter::add_actor(const std::vector<int>& regions, const Triangles& ski
 std::string XdmfWriter::brick_grid(std::size_t actor, const std::string& folder, const Points& nodes,
                                    const Points& velocities) {
   const Body& body = world_.actors[actor].body;
-  const auto bricks = static_cast<std::size_t>(body.grid.brick_count());
-  const auto count = static_cast<std::size_t>(nodes.rows());
+  const std::size_t bricks = body.grid.brick_count();
+  const std::size_t count = nodes.rows();
   const std::string fixed = fmt::format("/bricks_{}", actor + 1);
   const std::string place = folder + fixed;
   const auto measured = [&](BrickMeasure measure) {
@@ -113,14 +113,14 @@ std::string XdmfWriter::brick_grid(std::size_t actor, const std::string& folder,
 }
 
 std::string XdmfWriter::skin_grid(std::size_t actor, const std::string& folder, const Points& skin) {
-  const auto triangles = static_cast<std::size_t>(triangle_counts_.at(actor));
+  const std::size_t triangles = triangle_counts_.at(actor);
   const std::string name = fmt::format("/skin_{}", actor + 1);
   write_matrix(hdf5_, folder + name + "/positions", Floats3(skin.cast<float>()));
   return fmt::format(
       "<Grid Name=\"skin {}\" GridType=\"Uniform\">\n<Topology TopologyType=\"Triangle\" NumberOfElements=\"{}\">{}"
       "</Topology>\n<Geometry GeometryType=\"XYZ\">{}</Geometry>\n</Grid>\n",
       actor + 1, triangles, item_text({name + "/triangles", {triangles, 3}, true}),
-      item_text({folder + name + "/positions", {static_cast<std::size_t>(skin.rows()), 3}}));
+      item_text({folder + name + "/positions", {std::size_t(skin.rows()), 3}}));
 }
 
 void XdmfWriter::add_frame(double time, const std::vector<Points>& nodes, const std::vector<Points>& velocities,

@@ -94,7 +94,7 @@ BrickLaw law_of(Model model, const Material& material, double h) {
 
 std::span<const std::string_view> model_names() { return kModelNames; }
 
-std::string_view model_name(Model model) { return kModelNames[static_cast<std::size_t>(model)]; }
+std::string_view model_name(Model model) { return kModelNames[std::size_t(model)]; }
 
 Model model_from_name(std::string_view name) {
   const auto found = std::find(kModelNames.begin(), kModelNames.end(), name);

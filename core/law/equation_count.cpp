@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/types.h"
 
 namespace sprung {
 namespace {
@@ -30,20 +31,19 @@ class Network {
     const int masks = 1 << configuration.dimensions;
     for (int differing = 1; differing <= configuration.dimensions; ++differing) {
       for (int mask = 1; mask < masks; ++mask) {
-        if (std::popcount(static_cast<unsigned>(mask)) == differing && has(differing)) add_springs(mask);
+        if (std::popcount(unsigned(mask)) == differing && has(differing)) add_springs(mask);
       }
     }
     if (!configuration.corrected) return;
     for (int apart = 0; apart < configuration.dimensions; ++apart) {
       for (int i = 0; i + apart < configuration.dimensions; ++i) {
         const int j = i + apart;
-        correction_class_[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] =
-            class_of(apart == 0 ? UnknownClass{-2, side(i)} : UnknownClass{-1, side(i), side(j)});
+        correction_class_[i][j] = class_of(apart == 0 ? UnknownClass{-2, side(i)} : UnknownClass{-1, side(i), side(j)});
       }
     }
   }
 
-  [[nodiscard]] int unknowns() const { return static_cast<int>(classes_.size()); }
+  [[nodiscard]] int unknowns() const { return isize(classes_); }
 
   /// One equation's coefficients, 1/m: sum of s s' / volume for the stretches s, s' under two strains, unknown by
   /// unknown.
@@ -70,12 +70,12 @@ class Network {
     return std::find(kinds.begin(), kinds.end(), differing) != kinds.end();
   }
 
-  [[nodiscard]] double side(int axis) const { return configuration_.sides[static_cast<std::size_t>(axis)]; }
+  [[nodiscard]] double side(int axis) const { return configuration_.sides[axis]; }
 
   int class_of(UnknownClass wanted) {
     std::sort(wanted.begin(), wanted.end());
     const auto found = std::find(classes_.begin(), classes_.end(), wanted);
-    if (found != classes_.end()) return static_cast<int>(found - classes_.begin());
+    if (found != classes_.end()) return int(found - classes_.begin());
     classes_.push_back(std::move(wanted));
     return unknowns() - 1;
   }
@@ -103,8 +103,8 @@ class Network {
   void add_correction(const Strain& strain, const Strain& other, Eigen::RowVectorXd& row) const {
     for (int i = 0; i < configuration_.dimensions; ++i) {
       for (int j = 0; j < configuration_.dimensions; ++j) {
-        const auto low = static_cast<std::size_t>(std::min(i, j));
-        const auto high = static_cast<std::size_t>(std::max(i, j));
+        const std::size_t low = std::min(i, j);
+        const std::size_t high = std::max(i, j);
         row[correction_class_[low][high]] += side(i) * strain(i, i) * side(j) * other(j, j);
       }
     }
@@ -133,8 +133,7 @@ class Equations {
     if (row.cwiseAbs().maxCoeff() < kSame && std::abs(right) < kSame) return;
     const Eigen::Index count = found_.right.size();
     for (Eigen::Index i = 0; i < count; ++i) {
-      const bool same = found_.kinds[static_cast<std::size_t>(i)] == kind &&
-                        std::abs(found_.right[i] - right) < kSame &&
+      const bool same = found_.kinds[i] == kind && std::abs(found_.right[i] - right) < kSame &&
                         (found_.matrix.row(i) - row).norm() < kSame * row.norm();
       if (same) return;
     }
@@ -192,19 +191,19 @@ void find_solvable_ratios(const SpringConfiguration& configuration, EquationCoun
 EquationCount count_equations(const SpringConfiguration& configuration) {
   const SpringEquations equations = spring_equations(configuration, kAnyPoisson);
   const auto of_kind = [&](EquationKind kind) {
-    return static_cast<int>(std::count(equations.kinds.begin(), equations.kinds.end(), kind));
+    return int(std::count(equations.kinds.begin(), equations.kinds.end(), kind));
   };
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> solver;
   solver.setThreshold(kSame);
   solver.compute(equations.matrix);
   EquationCount count;
   count.name = configuration.name;
-  count.unknowns = static_cast<int>(equations.matrix.cols());
-  count.equations = static_cast<int>(equations.matrix.rows());
+  count.unknowns = int(equations.matrix.cols());
+  count.equations = int(equations.matrix.rows());
   count.young_equations = of_kind(EquationKind::kYoung);
   count.poisson_equations = of_kind(EquationKind::kPoisson);
   count.shear_equations = of_kind(EquationKind::kShear);
-  count.rank = static_cast<int>(solver.rank());
+  count.rank = int(solver.rank());
   find_solvable_ratios(configuration, count);
   return count;
 }

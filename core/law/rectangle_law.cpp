@@ -29,9 +29,9 @@ Springs measure(const RectangleLaw& law, const RectangleVector& x) {
   const std::array<double, 3> rest{law.sides[0], law.sides[1], std::hypot(law.sides[0], law.sides[1])};
   Springs springs;
   for (int s = 0; s < 6; ++s) {
-    const Ends ends = kSprings[static_cast<std::size_t>(s)];
+    const Ends ends = kSprings[s];
     const Eigen::Vector2d along = x.segment<2>(2 * ends.to) - x.segment<2>(2 * ends.from);
-    const double rest_length = rest[static_cast<std::size_t>(s / 2)];
+    const double rest_length = rest[s / 2];
     const double length = along.norm();
     springs.directions.col(s) = along / length;
     springs.lengths[s] = length;
@@ -45,7 +45,7 @@ Springs measure(const RectangleLaw& law, const RectangleVector& x) {
 Eigen::Matrix<double, 6, 6> coupling(const RectangleLaw& law) {
   Eigen::Matrix<double, 6, 6> matrix = Eigen::Matrix<double, 6, 6>::Zero();
   for (Eigen::Index axis = 0; axis < 2; ++axis) {
-    const auto i = static_cast<std::size_t>(axis);
+    const std::size_t i = axis;
     const double mean = law.axial_self[i] / 4;
     const double half_difference = law.bending[i] / 4;
     auto block = matrix.block<2, 2>(2 * axis, 2 * axis);
@@ -61,7 +61,7 @@ Eigen::Matrix<double, 6, 6> coupling(const RectangleLaw& law) {
 Eigen::Matrix<double, 6, 8> length_gradients(const Springs& springs) {
   Eigen::Matrix<double, 6, 8> gradients = Eigen::Matrix<double, 6, 8>::Zero();
   for (int s = 0; s < 6; ++s) {
-    const Ends ends = kSprings[static_cast<std::size_t>(s)];
+    const Ends ends = kSprings[s];
     gradients.block<1, 2>(s, 2 * ends.to) = springs.directions.col(s).transpose();
     gradients.block<1, 2>(s, 2 * ends.from) = -springs.directions.col(s).transpose();
   }
@@ -148,8 +148,8 @@ RectangleMatrix rectangle_hessian(const RectangleLaw& law, const RectangleVector
     // A tension resists turning its spring.
     const Eigen::Vector2d across(-springs.directions(1, s), springs.directions(0, s));
     const Eigen::Matrix2d turning = tensions[s] / springs.lengths[s] * across * across.transpose();
-    const Eigen::Index a = 2 * kSprings[static_cast<std::size_t>(s)].from;
-    const Eigen::Index b = 2 * kSprings[static_cast<std::size_t>(s)].to;
+    const Eigen::Index a = 2 * kSprings[s].from;
+    const Eigen::Index b = 2 * kSprings[s].to;
     hessian.block<2, 2>(a, a) += turning;
     hessian.block<2, 2>(b, b) += turning;
     hessian.block<2, 2>(a, b) -= turning;

@@ -72,7 +72,7 @@ SplitVertices keep_normals(const SurfaceMesh& mesh, const Points& faces) {
     for (int c = 0; c < 3; ++c) around.row(mesh.triangles(t, c)) += faces.row(t);
   }
   SplitVertices split;
-  split.source.resize(static_cast<std::size_t>(mesh.positions.rows()));
+  split.source.resize(mesh.positions.rows());
   std::iota(split.source.begin(), split.source.end(), 0);
   split.triangles = mesh.triangles;
   split.normals.resize(mesh.positions.rows(), 3);
@@ -94,14 +94,14 @@ CornerLists list_corners(const Triangles& triangles, const std::vector<int>& poi
   CornerLists lists;
   lists.first.assign(point_of.size() + 1, 0);
   for (int i = 0; i < triangles.size(); ++i) {
-    ++lists.first[static_cast<std::size_t>(point_of[static_cast<std::size_t>(triangles.data()[i])]) + 1];
+    ++lists.first[point_of[triangles.data()[i]] + 1];
   }
   std::partial_sum(lists.first.begin(), lists.first.end(), lists.first.begin());
   std::vector<int> next(lists.first.begin(), lists.first.end() - 1);
-  lists.corners.resize(static_cast<std::size_t>(triangles.size()));
+  lists.corners.resize(triangles.size());
   for (int i = 0; i < triangles.size(); ++i) {
-    const auto point = static_cast<std::size_t>(point_of[static_cast<std::size_t>(triangles.data()[i])]);
-    lists.corners[static_cast<std::size_t>(next[point]++)] = i;
+    const std::size_t point = point_of[triangles.data()[i]];
+    lists.corners[next[point]++] = i;
   }
   return lists;
 }
@@ -115,20 +115,20 @@ class CreaseSplitter {
   }
 
   void split_point(const int* begin, const int* end) {
-    std::vector<int> group(static_cast<std::size_t>(end - begin));
+    std::vector<int> group(end - begin);
     std::iota(group.begin(), group.end(), 0);
     join_smooth_neighbours(begin, group);
     std::map<int, Vec3> normal_of_group;
     for (std::size_t i = 0; i < group.size(); ++i) {
       const Vec3 face = unit_or(faces_.row(begin[i] / 3), Vec3::Zero());
-      normal_of_group.try_emplace(root(group, static_cast<int>(i)), Vec3::Zero()).first->second +=
+      normal_of_group.try_emplace(root(group, int(i)), Vec3::Zero()).first->second +=
           corner_angle(mesh_, begin[i] / 3, begin[i] % 3) * face;
     }
     std::map<std::pair<int, int>, int> made;  // (mesh vertex, group) to split vertex
     for (std::size_t i = 0; i < group.size(); ++i) {
       const int vertex = mesh_.triangles.data()[begin[i]];
-      const int of = root(group, static_cast<int>(i));
-      const auto [entry, is_new] = made.try_emplace({vertex, of}, static_cast<int>(split_.source.size()));
+      const int of = root(group, int(i));
+      const auto [entry, is_new] = made.try_emplace({vertex, of}, isize(split_.source));
       if (is_new) {
         split_.source.push_back(vertex);
         normals_.push_back(unit_or(normal_of_group.at(of), Vec3::UnitY()));
@@ -138,14 +138,14 @@ class CreaseSplitter {
   }
 
   SplitVertices finish() {
-    split_.normals.resize(static_cast<int>(normals_.size()), 3);
-    for (std::size_t i = 0; i < normals_.size(); ++i) split_.normals.row(static_cast<int>(i)) = normals_[i];
+    split_.normals.resize(isize(normals_), 3);
+    for (std::size_t i = 0; i < normals_.size(); ++i) split_.normals.row(i) = normals_[i];
     return std::move(split_);
   }
 
  private:
   static int root(std::vector<int>& group, int i) {
-    while (group[static_cast<std::size_t>(i)] != i) i = group[static_cast<std::size_t>(i)];
+    while (group[i] != i) i = group[i];
     return i;
   }
 
@@ -154,9 +154,9 @@ class CreaseSplitter {
     for (std::size_t a = 0; a < group.size(); ++a) {
       for (std::size_t b = a + 1; b < group.size(); ++b) {
         if (!share_edge(corners[a], corners[b]) || !is_smooth(corners[a] / 3, corners[b] / 3)) continue;
-        const int low = root(group, static_cast<int>(a));
-        const int high = root(group, static_cast<int>(b));
-        group[static_cast<std::size_t>(std::max(low, high))] = std::min(low, high);
+        const int low = root(group, int(a));
+        const int high = root(group, int(b));
+        group[std::max(low, high)] = std::min(low, high);
       }
     }
   }
@@ -190,13 +190,13 @@ std::vector<int> weld_points(const Points& positions) {
     }
     return a < b;
   };
-  std::vector<int> order(static_cast<std::size_t>(positions.rows()));
+  std::vector<int> order(positions.rows());
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), before);
   std::vector<int> point_of(order.size());
   for (std::size_t i = 0; i < order.size(); ++i) {
     const bool same = i > 0 && positions.row(order[i]) == positions.row(order[i - 1]);
-    point_of[static_cast<std::size_t>(order[i])] = same ? point_of[static_cast<std::size_t>(order[i - 1])] : order[i];
+    point_of[order[i]] = same ? point_of[order[i - 1]] : order[i];
   }
   return point_of;
 }
@@ -208,8 +208,7 @@ SplitVertices split_at_creases(const SurfaceMesh& mesh, double crease_angle) {
   CreaseSplitter splitter(mesh, faces, crease_angle);
   for (std::size_t point = 0; point + 1 < lists.first.size(); ++point) {
     if (lists.first[point] == lists.first[point + 1]) continue;
-    splitter.split_point(&lists.corners[static_cast<std::size_t>(lists.first[point])],
-                         lists.corners.data() + lists.first[point + 1]);
+    splitter.split_point(&lists.corners[lists.first[point]], lists.corners.data() + lists.first[point + 1]);
   }
   return splitter.finish();
 }
@@ -224,23 +223,22 @@ class Refiner {
   /// False where no edge was too long.
   bool run(Skin& refined) {
     for (const Part& part : skin_.parts) {
-      const auto first = static_cast<int>(triangles_.size());
+      const auto first = isize(triangles_);
       for (int t = 0; t < part.triangle_count; ++t) split_triangle(part.first_triangle + t);
       refined.parts.push_back(part);
       refined.parts.back().first_triangle = first;
-      refined.parts.back().triangle_count = static_cast<int>(triangles_.size()) - first;
+      refined.parts.back().triangle_count = isize(triangles_) - first;
     }
     if (ends_.empty()) return false;
     refined.materials = skin_.materials;
     refined.positions = with_midpoints(skin_.positions);
     refined.normals = with_midpoints(skin_.normals);
-    refined.normals.bottomRows(static_cast<int>(ends_.size())).rowwise().normalize();
+    refined.normals.bottomRows(isize(ends_)).rowwise().normalize();
     if (skin_.uvs.rows() > 0) refined.uvs = with_midpoints(skin_.uvs);
     if (skin_.colors.rows() > 0) refined.colors = with_midpoints(skin_.colors);
-    refined.triangles.resize(static_cast<int>(triangles_.size()), 3);
+    refined.triangles.resize(isize(triangles_), 3);
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
-      for (int c = 0; c < 3; ++c)
-        refined.triangles(static_cast<int>(t), c) = triangles_[t][static_cast<std::size_t>(c)];
+      for (int c = 0; c < 3; ++c) refined.triangles(t, c) = triangles_[t][c];
     }
     return true;
   }
@@ -248,10 +246,10 @@ class Refiner {
  private:
   template <class Rows>
   [[nodiscard]] Rows with_midpoints(const Rows& rows) const {
-    Rows all(rows.rows() + static_cast<int>(ends_.size()), rows.cols());
+    Rows all(rows.rows() + isize(ends_), rows.cols());
     all.topRows(rows.rows()) = rows;
     for (std::size_t i = 0; i < ends_.size(); ++i) {
-      all.row(rows.rows() + static_cast<int>(i)) = (rows.row(ends_[i][0]) + rows.row(ends_[i][1])) / 2;
+      all.row(rows.rows() + int(i)) = (rows.row(ends_[i][0]) + rows.row(ends_[i][1])) / 2;
     }
     return all;
   }
@@ -261,7 +259,7 @@ class Refiner {
     if ((skin_.positions.row(a) - skin_.positions.row(b)).squaredNorm() <= max_squared_) return -1;
     if (a > b) std::swap(a, b);
     const std::uint64_t key = static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint32_t>(b);
-    const int next = static_cast<int>(skin_.positions.rows()) + static_cast<int>(ends_.size());
+    const int next = int(skin_.positions.rows()) + isize(ends_);
     const auto [entry, is_new] = middles_.try_emplace(key, next);
     if (is_new) ends_.push_back({a, b});
     return entry->second;
@@ -270,7 +268,7 @@ class Refiner {
   void split_triangle(int triangle) {
     std::array<int, 3> v{};
     std::array<int, 3> m{};  // m[i]: middle of the edge from v[i] to v[i + 1]
-    for (std::size_t i = 0; i < 3; ++i) v[i] = skin_.triangles(triangle, static_cast<int>(i));
+    for (std::size_t i = 0; i < 3; ++i) v[i] = skin_.triangles(triangle, i);
     std::size_t halved = 0;
     for (std::size_t i = 0; i < 3; ++i) {
       m[i] = middle(v[i], v[(i + 1) % 3]);

@@ -47,8 +47,8 @@ void Movement::find_slopes() {
 
 Movement::Point Movement::at(double time) const {
   const auto is_later = [](double moment, const Keyframe& keyframe) { return moment < keyframe.time; };
-  const auto next = static_cast<std::size_t>(std::upper_bound(keyframes_.begin(), keyframes_.end(), time, is_later) -
-                                             keyframes_.begin());
+  const auto next =
+      std::size_t(std::upper_bound(keyframes_.begin(), keyframes_.end(), time, is_later) - keyframes_.begin());
   if (next == 0) return {values_.empty() ? values_of({}) : values_.front(), Values::Zero()};
   const std::size_t last = next - 1;
   if (next == keyframes_.size() || interpolation_ == Interpolation::kHeld) return {values_[last], Values::Zero()};

@@ -18,9 +18,9 @@ void add_carried(const Body& body, const Embedding& points, const Points& at_poi
     const Eigen::RowVector3d force = at_points.row(row);
     if (force.isZero(0)) continue;
     const auto weights = trilinear_weights(points.local.row(row));
-    const auto& nodes = body.grid.nodes[static_cast<std::size_t>(points.brick[static_cast<std::size_t>(row)])];
+    const auto& nodes = body.grid.nodes[points.brick[row]];
     for (int corner = 0; corner < 8; ++corner) {
-      at_nodes.row(nodes[static_cast<std::size_t>(corner)]) += weights[corner] * force;
+      at_nodes.row(nodes[corner]) += weights[corner] * force;
     }
   }
 }
@@ -91,14 +91,14 @@ void LoadForces::add_muscle(const Muscle& muscle) {
   const double h = body.grid.brick_size;
   const auto [frame, stress] = tension_of(muscle, body.material);
   for (const int brick : muscle.bricks) {
-    const auto row = static_cast<std::size_t>(brick);
+    const std::size_t row = brick;
     const auto& nodes = body.grid.nodes[row];
     const Mat3 drawn = mean_axes_of(columns_of(nodes, body.positions)) / h * frame;  // columns: F e_i
     const Vec3 tension = body.stiffness_scale[row] * stress.array() / drawn.colwise().norm().transpose().array();
     const Mat3 stress_on_faces = drawn * tension.asDiagonal() * frame.transpose();  // first Piola-Kirchhoff, Pa
     const Mat3 pull = 0.25 * h * h * stress_on_faces;                               // N, at each corner of a face
     for (int corner = 0; corner < 8; ++corner) {
-      const int node = nodes[static_cast<std::size_t>(corner)];
+      const int node = nodes[corner];
       for (int axis = 0; axis < 3; ++axis) {
         forces_.row(node) += (on_high_side(corner, axis) ? -1.0 : 1.0) * pull.col(axis).transpose();
       }

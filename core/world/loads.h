@@ -45,7 +45,7 @@ struct Wind {
 struct GluedPoint {
   std::array<std::size_t, 2> actors;  // rows of World::actors
   std::array<int, 2> bricks;
-  std::array<Eigen::Matrix<double, 8, 1>, 2> weights;  // of the bricks' corners
+  std::array<CornerWeights, 2> weights;  // of the bricks' corners
 };
 
 /// What a muscle pulls with along its direction and two across it. Tensions of constant size along the brick's own

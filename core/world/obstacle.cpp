@@ -22,7 +22,7 @@ Vec3 barycentric(const std::array<Vec3, 3>& x, const Vec3& place) {
   for (std::size_t i = 0; i < 3; ++i) {
     const Vec3& a = x[(i + 1) % 3];
     const Vec3& b = x[(i + 2) % 3];
-    weights[static_cast<Eigen::Index>(i)] = (b - a).cross(place - a).dot(normal) / area;
+    weights[i] = (b - a).cross(place - a).dot(normal) / area;
   }
   return weights;
 }
@@ -79,10 +79,10 @@ class MeshDistance::Tree {
     const std::array<int, 3> corners = corners_of(row);
     const Vec3 weights = barycentric(places(corners), closest);
     for (std::size_t i = 0; i < 3; ++i) {
-      if (weights[static_cast<Eigen::Index>(i)] > 1 - kOnSide) return vertex_normals_.row(corners[i]);
+      if (weights[i] > 1 - kOnSide) return vertex_normals_.row(corners[i]);
     }
     for (std::size_t i = 0; i < 3; ++i) {
-      if (weights[static_cast<Eigen::Index>(i)] > kOnSide) continue;
+      if (weights[i] > kOnSide) continue;
       return edge_normals_.at(std::minmax(corners[(i + 1) % 3], corners[(i + 2) % 3]));
     }
     return normals_.row(row);

@@ -58,9 +58,9 @@ constexpr std::array<std::array<float, 3>, 9> kEmber{{{0.167F, 0.649F, 0.954F},
                                                       {0.991F, 0.462F, 0.225F}}};
 
 Eigen::Vector3f between(Stops stops, double share) {
-  const double at = share * static_cast<double>(stops.size() - 1);
-  const auto from = std::min(static_cast<std::size_t>(at), stops.size() - 2);
-  const auto part = static_cast<float>(at - static_cast<double>(from));
+  const double at = share * double(stops.size() - 1);
+  const auto from = std::min(std::size_t(at), stops.size() - 2);
+  const auto part = float(at - double(from));
   return (1 - part) * Eigen::Map<const Eigen::Vector3f>(stops[from].data()) +
          part * Eigen::Map<const Eigen::Vector3f>(stops[from + 1].data());
 }

@@ -18,11 +18,11 @@ double block_difference(const Image& a, const Image& b, int left, int top) {
   long sum = 0;
   for (int y = top; y < bottom; ++y) {
     for (int i = 3 * (y * a.width + left); i < 3 * (y * a.width + right); ++i) {
-      const auto at = static_cast<std::size_t>(i);
+      const std::size_t at = i;
       sum += std::abs(int{a.pixels[at]} - int{b.pixels[at]});
     }
   }
-  return static_cast<double>(sum) / (3.0 * (right - left) * (bottom - top));
+  return double(sum) / (3.0 * (right - left) * (bottom - top));
 }
 
 /// Rec. 709 weights of the stored bytes.
@@ -36,8 +36,8 @@ class Sums {
  public:
   template <class Value>
   Sums(int width, int height, Value value)
-      : stride_(static_cast<std::size_t>(width) + 1), sums_(stride_ * (static_cast<std::size_t>(height) + 1)) {
-    for (std::size_t y = 0; y < static_cast<std::size_t>(height); ++y) {
+      : stride_(std::size_t(width) + 1), sums_(stride_ * (std::size_t(height) + 1)) {
+    for (std::size_t y = 0; y < std::size_t(height); ++y) {
       double row = 0;
       for (std::size_t x = 0; x + 1 < stride_; ++x) {
         row += value(y * (stride_ - 1) + x);
@@ -50,9 +50,7 @@ class Sums {
   }
 
  private:
-  [[nodiscard]] double at(int x, int y) const {
-    return sums_[static_cast<std::size_t>(y) * stride_ + static_cast<std::size_t>(x)];
-  }
+  [[nodiscard]] double at(int x, int y) const { return sums_[std::size_t(y) * stride_ + x]; }
   std::size_t stride_;
   std::vector<double> sums_;
 };
@@ -71,7 +69,7 @@ ImageDifference compare_images(const Image& a, const Image& b) {
       sum += block * std::min(kBlock, a.width - left) * std::min(kBlock, a.height - top);
     }
   }
-  difference.mean = sum / (static_cast<double>(a.width) * a.height);
+  difference.mean = sum / (double(a.width) * a.height);
   return difference;
 }
 
@@ -86,7 +84,7 @@ double structural_similarity(const Image& a, const Image& b) {
   const Sums sum_ab = sums([&](std::size_t p) { return brightness(a, p) * brightness(b, p); });
   const int width = std::min(kBlock, a.width);
   const int height = std::min(kBlock, a.height);
-  const double pixels = static_cast<double>(width) * height;
+  const double pixels = double(width) * height;
   double total = 0;
   long windows = 0;
   for (int y = 0; y + height <= a.height; ++y) {
@@ -100,7 +98,7 @@ double structural_similarity(const Image& a, const Image& b) {
       total += (2 * ma * mb + kC1) * (2 * ab + kC2) / ((ma * ma + mb * mb + kC1) * (va + vb + kC2));
     }
   }
-  return total / static_cast<double>(windows);
+  return total / double(windows);
 }
 
 Image difference_picture(const Image& a, const Image& b) {

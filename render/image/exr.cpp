@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "core/error.h"
+#include "core/types.h"
 
 namespace sprung {
 
@@ -85,7 +86,7 @@ void write_exr(const Passes& passes, const std::filesystem::path& file) {
   }
   EXRHeader header{};
   InitEXRHeader(&header);
-  header.num_channels = static_cast<int>(channels.size());
+  header.num_channels = isize(channels);
   header.channels = infos.data();
   header.pixel_types = types.data();
   header.requested_pixel_types = types.data();

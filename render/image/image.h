@@ -15,7 +15,7 @@ struct Image {
   std::vector<std::uint8_t> alpha;   // width * height, the colours not multiplied by it; empty: opaque
 
   Image() = default;
-  Image(int w, int h) : width(w), height(h), pixels(3U * static_cast<std::size_t>(w) * static_cast<std::size_t>(h)) {}
+  Image(int w, int h) : width(w), height(h), pixels(3U * std::size_t(w) * std::size_t(h)) {}
 };
 
 /// How fine light and edges are drawn: kPreview takes one sample a pixel and coarse shadows, kDefault four, kHigh
@@ -50,7 +50,7 @@ struct Passes {
 
   Passes() = default;
   Passes(int w, int h) : width(w), height(h) {
-    const auto size = static_cast<std::size_t>(w) * static_cast<std::size_t>(h);
+    const auto size = std::size_t(w) * std::size_t(h);
     depth.assign(size, kNothing);
     normal.fill(Plane(size, 0));
     position.fill(Plane(size, 0));

@@ -19,15 +19,15 @@ constexpr double kBarWidth = 0.024;        // of the picture's height
 std::string tick_text(double tick) { return fmt::format("{:.6g}", tick); }
 
 void fill(Image& image, double left, double top, double right, double bottom, const Ink& ink, double share = 1) {
-  for (int y = static_cast<int>(std::lround(top)); y < std::lround(bottom); ++y) {
-    for (int x = static_cast<int>(std::lround(left)); x < std::lround(right); ++x) mix_pixel(image, x, y, ink, share);
+  for (int y = int(std::lround(top)); y < std::lround(bottom); ++y) {
+    for (int x = int(std::lround(left)); x < std::lround(right); ++x) mix_pixel(image, x, y, ink, share);
   }
 }
 
 Ink ink_of(const Eigen::Vector3f& color) {
   Ink ink{};
   for (int c = 0; c < 3; ++c) {
-    ink[static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(std::lround(255 * std::clamp(color[c], 0.0F, 1.0F)));
+    ink[c] = static_cast<std::uint8_t>(std::lround(255 * std::clamp(color[c], 0.0F, 1.0F)));
   }
   return ink;
 }
@@ -44,10 +44,10 @@ void draw_scale(Image& image, const Legend& legend, const Font& font, double lef
   const double height = kBarHeight * image.height;
   const double width = kBarWidth * image.height;
   fill_framed(image, left, top, left + width, top + height, kDark);
-  const auto rows = static_cast<int>(std::lround(top + height) - std::lround(top));
+  const auto rows = int(std::lround(top + height) - std::lround(top));
   for (int row = 0; row < rows; ++row) {
     const double share = 1 - (row + 0.5) / rows;
-    const double y = static_cast<double>(std::lround(top)) + row;
+    const double y = double(std::lround(top)) + row;
     fill(image, left, y, left + width, y + 1, ink_of(map_color(legend.map, share)));
   }
   for (const double tick : round_ticks(legend.low, legend.high, height / (1.4 * size))) {
@@ -88,8 +88,8 @@ std::vector<double> round_ticks(double low, double high, double most) {
     ticks.push_back(tick == 0 ? 0 : tick * step);
   }
   std::vector<double> few;
-  const double stride = std::ceil(static_cast<double>(ticks.size()) / std::max(most, 1.0));
-  for (std::size_t i = 0; i < ticks.size(); i += static_cast<std::size_t>(stride)) few.push_back(ticks[i]);
+  const double stride = std::ceil(double(ticks.size()) / std::max(most, 1.0));
+  for (std::size_t i = 0; i < ticks.size(); i += std::size_t(stride)) few.push_back(ticks[i]);
   return few;
 }
 
@@ -112,7 +112,7 @@ void draw_legend(Image& image, const Legend& legend, const Font& font) {
   const double size = letters_height(image.height);
   const double left = image.width - legend_width(legend, image.height, font) + kLabelMargin * image.height;
   const double height =
-      legend.swatches.empty() ? kBarHeight * image.height : 1.5 * size * static_cast<double>(legend.swatches.size());
+      legend.swatches.empty() ? kBarHeight * image.height : 1.5 * size * double(legend.swatches.size());
   const double top = 0.5 * (image.height - height);
   font.write(image, left, top - 0.9 * size, size, legend.title, kDark);
   if (legend.swatches.empty()) {

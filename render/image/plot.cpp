@@ -24,25 +24,25 @@ struct Frame {
   std::size_t frames;
 
   [[nodiscard]] double x(double frame) const {
-    return left + (right - left) * frame / static_cast<double>(std::max<std::size_t>(frames - 1, 1));
+    return left + (right - left) * frame / double(std::max<std::size_t>(frames - 1, 1));
   }
   [[nodiscard]] double y(double value) const { return bottom - (bottom - top) * (value - low) / (high - low); }
 };
 
 void fill(Image& image, double left, double top, double right, double bottom, const Ink& ink, double share) {
-  for (int y = static_cast<int>(std::lround(top)); y < std::lround(bottom); ++y) {
-    for (int x = static_cast<int>(std::lround(left)); x < std::lround(right); ++x) mix_pixel(image, x, y, ink, share);
+  for (int y = int(std::lround(top)); y < std::lround(bottom); ++y) {
+    for (int x = int(std::lround(left)); x < std::lround(right); ++x) mix_pixel(image, x, y, ink, share);
   }
 }
 
 void dot(Image& image, double x, double y, double radius, const Ink& ink) {
-  const int reach = static_cast<int>(std::ceil(radius)) + 1;
+  const int reach = int(std::ceil(radius)) + 1;
   for (int j = -reach; j <= reach; ++j) {
     for (int i = -reach; i <= reach; ++i) {
       const double px = std::floor(x) + i;
       const double py = std::floor(y) + j;
       const double share = std::clamp(radius + 0.5 - std::hypot(px + 0.5 - x, py + 0.5 - y), 0.0, 1.0);
-      mix_pixel(image, static_cast<int>(px), static_cast<int>(py), ink, share);
+      mix_pixel(image, int(px), int(py), ink, share);
     }
   }
 }
@@ -51,20 +51,20 @@ std::string text_of(double tick) { return fmt::format("{:.6g}", tick); }
 
 /// Column by column, thick enough to hold together where it is steep.
 void draw_curve(Image& image, const Frame& frame, const Plot::Curve& curve, std::size_t now, double thick) {
-  const double end = frame.x(static_cast<double>(now));
+  const double end = frame.x(double(now));
   const auto height = [&](double x) {
     const double at = std::clamp((x - frame.left) / (frame.right - frame.left), 0.0, 1.0) *
-                      static_cast<double>(std::max<std::size_t>(frame.frames - 1, 1));
-    const auto before = std::min(static_cast<std::size_t>(at), curve.values.size() - 1);
+                      double(std::max<std::size_t>(frame.frames - 1, 1));
+    const auto before = std::min(std::size_t(at), curve.values.size() - 1);
     const auto after = std::min(before + 1, curve.values.size() - 1);
-    return frame.y(std::lerp(curve.values[before], curve.values[after], at - static_cast<double>(before)));
+    return frame.y(std::lerp(curve.values[before], curve.values[after], at - double(before)));
   };
-  for (int x = static_cast<int>(std::ceil(frame.left)); x + 0.5 <= end; ++x) {
+  for (int x = int(std::ceil(frame.left)); x + 0.5 <= end; ++x) {
     const double from = height(x);
     const double to = height(x + 1);
     const double top = std::min(from, to) - thick / 2;
     const double bottom = std::max(from, to) + thick / 2;
-    for (int y = static_cast<int>(std::floor(top)); y <= static_cast<int>(std::floor(bottom)); ++y) {
+    for (int y = int(std::floor(top)); y <= int(std::floor(bottom)); ++y) {
       mix_pixel(image, x, y, curve.ink, std::clamp(std::min(y + 1.0, bottom) - std::max(1.0 * y, top), 0.0, 1.0));
     }
   }

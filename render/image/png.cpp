@@ -58,9 +58,9 @@ Bytes interleaved(const Image& image) {
 Bytes filtered_rows(const Image& image) {
   const Bytes bytes = interleaved(image);
   const std::size_t step = image.alpha.empty() ? kRgb : 4;
-  const std::size_t row_bytes = step * static_cast<std::size_t>(image.width);
-  Bytes rows((row_bytes + 1) * static_cast<std::size_t>(image.height));
-  for (std::size_t y = 0; y < static_cast<std::size_t>(image.height); ++y) {
+  const std::size_t row_bytes = step * std::size_t(image.width);
+  Bytes rows((row_bytes + 1) * std::size_t(image.height));
+  for (std::size_t y = 0; y < std::size_t(image.height); ++y) {
     const std::uint8_t* from = bytes.data() + y * row_bytes;
     std::uint8_t* to = rows.data() + y * (row_bytes + 1);
     *to++ = kSubFilter;
@@ -94,8 +94,8 @@ void append_chunk(Bytes& bytes, std::string_view name, const Bytes& data) {
 /// As ISO/IEC 15948 has it.
 Bytes encode(const Image& image) {
   Bytes header;
-  append_number(header, static_cast<std::size_t>(image.width));
-  append_number(header, static_cast<std::size_t>(image.height));
+  append_number(header, image.width);
+  append_number(header, image.height);
   const std::uint8_t color_type = image.alpha.empty() ? 2 : 6;
   for (const std::uint8_t value : {std::uint8_t{8}, color_type, std::uint8_t{0}, std::uint8_t{0}, std::uint8_t{0}}) {
     header.push_back(value);

@@ -63,7 +63,7 @@ double Font::width(std::string_view text, double size) const {
   while (!text.empty()) {
     int advance = 0;
     stbtt_GetCodepointHMetrics(info, take_letter(text), &advance, nullptr);
-    width += advance * static_cast<double>(stbtt_ScaleForPixelHeight(info, static_cast<float>(size)));
+    width += advance * double(stbtt_ScaleForPixelHeight(info, float(size)));
   }
   return width;
 }
@@ -79,14 +79,14 @@ void Font::write(Image& image, double x, double y, double size, std::string_view
 void Font::blend(Image& image, double x, double y, double size, std::string_view text, const Ink& ink,
                  double strength) const {
   const stbtt_fontinfo* info = &outlines_->info;
-  const float scale = stbtt_ScaleForPixelHeight(info, static_cast<float>(size));
+  const float scale = stbtt_ScaleForPixelHeight(info, float(size));
   std::vector<unsigned char> glyph;
   while (!text.empty()) {
     const int letter = take_letter(text);
     const double left = std::floor(x);
     const double top = std::floor(y);
-    const auto shift_x = static_cast<float>(x - left);
-    const auto shift_y = static_cast<float>(y - top);
+    const auto shift_x = float(x - left);
+    const auto shift_y = float(y - top);
     int x0 = 0;
     int y0 = 0;
     int x1 = 0;
@@ -94,24 +94,23 @@ void Font::blend(Image& image, double x, double y, double size, std::string_view
     stbtt_GetCodepointBitmapBoxSubpixel(info, letter, scale, scale, shift_x, shift_y, &x0, &y0, &x1, &y1);
     const int columns = x1 - x0;
     const int rows = y1 - y0;
-    glyph.assign(static_cast<std::size_t>(std::max(columns * rows, 0)), 0);
+    glyph.assign(std::max(columns * rows, 0), 0);
     stbtt_MakeCodepointBitmapSubpixel(info, glyph.data(), columns, rows, columns, scale, scale, shift_x, shift_y,
                                       letter);
     for (std::size_t i = 0; i < glyph.size(); ++i) {
-      const int column = static_cast<int>(i) % columns;
-      const int row = static_cast<int>(i) / columns;
-      mix_pixel(image, static_cast<int>(left) + x0 + column, static_cast<int>(top) + y0 + row, ink,
-                strength * glyph[i] / 255);
+      const int column = int(i) % columns;
+      const int row = int(i) / columns;
+      mix_pixel(image, int(left) + x0 + column, int(top) + y0 + row, ink, strength * glyph[i] / 255);
     }
     int advance = 0;
     stbtt_GetCodepointHMetrics(info, letter, &advance, nullptr);
-    x += static_cast<double>(scale) * advance;
+    x += double(scale) * advance;
   }
 }
 
 void mix_pixel(Image& image, int x, int y, const Ink& ink, double share) {
   if (x < 0 || y < 0 || x >= image.width || y >= image.height || share <= 0) return;
-  const auto at = static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x);
+  const auto at = std::size_t(y) * std::size_t(image.width) + std::size_t(x);
   double before = 1;  // how opaque it is
   if (!image.alpha.empty()) {
     before = image.alpha[at] / 255.0;

@@ -84,7 +84,7 @@ TEST(Experiment, LinearAnswerGrowsWithTheLoad) {
   const double whole = tip.samples.at(4).displacement.y();
   EXPECT_NEAR(whole / 40, -0.98188 * 0.004004546, 1e-6);  // the calibrated brick's 0.982 of the reference
   for (std::size_t frame = 0; frame <= 4; ++frame) {
-    EXPECT_NEAR(tip.samples.at(frame).displacement.y(), static_cast<double>(frame) / 4 * whole, 1e-12);
+    EXPECT_NEAR(tip.samples.at(frame).displacement.y(), double(frame) / 4 * whole, 1e-12);
   }
 }
 

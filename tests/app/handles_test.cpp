@@ -61,7 +61,7 @@ TEST(Handles, WhatIsLetGoFliesOnWithItsVelocity) {
   for (const auto frame : {3, 6, 10}) {
     const double flight = 0.05 * frame - 0.12;
     const Vec3 expected(2 * 0.05 * frame, -5 * flight * flight, 0);
-    EXPECT_LT((places[static_cast<std::size_t>(frame)] - expected).norm(), 1e-9) << frame;
+    EXPECT_LT((places[frame] - expected).norm(), 1e-9) << frame;
   }
 }
 

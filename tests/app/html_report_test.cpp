@@ -75,7 +75,7 @@ TEST(HtmlReport, ShowsErrorsOverTheGridsInAMatrix) {
   for (const char* model : {"calibrated", "fem"}) {
     for (const double across : {1.0, 2.0, 4.0}) {
       report.checks.push_back(check("bending", model, across, 1 + 0.1 / across, 0.06));
-      report.checks.back().grid = std::to_string(static_cast<int>(across)) + "x1x1";
+      report.checks.back().grid = std::to_string(int(across)) + "x1x1";
     }
   }
   report.checks.back().measured = kNone;

@@ -31,14 +31,14 @@ class Film {
     recording_ = simulate(*production_, scene_, silent);
   }
 
-  [[nodiscard]] int last() const { return static_cast<int>(recording_.frames.size()) - 1; }
-  [[nodiscard]] int frame_at(double time) const { return static_cast<int>(std::lround(time * scene_.fps)); }
+  [[nodiscard]] int last() const { return isize(recording_.frames) - 1; }
+  [[nodiscard]] int frame_at(double time) const { return int(std::lround(time * scene_.fps)); }
   [[nodiscard]] std::size_t bodies() const { return production_->world.actors.size(); }
   [[nodiscard]] const Body& body(std::size_t actor) const { return production_->world.actors[actor].body; }
   [[nodiscard]] const Recording& recording() const { return recording_; }
 
   [[nodiscard]] Points nodes(int frame, std::size_t actor = 0) const {
-    return recording_.frames.at(static_cast<std::size_t>(frame)).at(actor).cast<double>();
+    return recording_.frames.at(frame).at(actor).cast<double>();
   }
   [[nodiscard]] Points skin(int frame, std::size_t actor = 0) const {
     return skin_positions(*production_, actor, nodes(frame, actor));

@@ -88,7 +88,7 @@ TEST(Copies, StandInRows) {
                       "[[body.pin]]\nbox = { min = [0, 0, 0], max = [1, 0.1, 1] }\n"));
   ASSERT_EQ(places.size(), 6U);
   for (std::size_t i = 0; i < 6; ++i) {
-    const Vec3 expected(1 + 0.5 * static_cast<double>(i % 2), 0.05 + 0.2 * static_cast<double>(i / 2), 0);
+    const Vec3 expected(1 + 0.5 * double(i % 2), 0.05 + 0.2 * double(i / 2), 0);
     EXPECT_LT((places[i] - expected).norm(), 1e-12);
   }
 }
@@ -105,7 +105,7 @@ TEST(Copies, AreScatteredByTheirSeed) {
   EXPECT_NE(places, scattered("4"));
   double furthest = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {
-    const double shift = places[i].x() - static_cast<double>(i % 5);
+    const double shift = places[i].x() - double(i % 5);
     EXPECT_LE(std::abs(shift), 0.2);
     furthest = std::max(furthest, std::abs(shift));
   }

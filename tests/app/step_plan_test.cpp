@@ -64,7 +64,7 @@ TEST(StepPlanning, WhatIsNamedIsTakenAndFillsTheFrame) {
     const StepPlan plan = plan_steps(block(1e5), scene);
     EXPECT_EQ(plan.scheme, scheme);
     EXPECT_TRUE(plan.reason.empty());
-    EXPECT_NEAR(plan.steps.dt * static_cast<double>(plan.steps.count), 1 / scene.fps, 1e-12);
+    EXPECT_NEAR(plan.steps.dt * double(plan.steps.count), 1 / scene.fps, 1e-12);
   }
 }
 

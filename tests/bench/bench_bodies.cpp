@@ -16,7 +16,7 @@ constexpr double kBrickSize = 0.01;  // m
 BrickGrid ball_shell(double bricks) {
   const double thickness = 2;
   const double radius = std::sqrt(bricks / (4 * std::numbers::pi * thickness));
-  const int reach = static_cast<int>(std::ceil(radius + thickness));
+  const int reach = int(std::ceil(radius + thickness));
   BrickGrid grid;
   grid.brick_size = kBrickSize;
   for (int z = -reach; z < reach; ++z) {
@@ -42,15 +42,14 @@ BrickGrid model_grid(const std::string& model, double bricks) {
 }
 
 BrickGrid grid_of(const std::string& shape, double bricks) {
-  if (shape == "box")
-    return make_box_grid(Eigen::Vector3i::Constant(static_cast<int>(std::round(std::cbrt(bricks)))), kBrickSize);
+  if (shape == "box") return make_box_grid(Eigen::Vector3i::Constant(int(std::round(std::cbrt(bricks)))), kBrickSize);
   if (shape == "shell") return ball_shell(bricks);
   return model_grid(shape, bricks);
 }
 
 template <class T>
 double size_of(const std::vector<T>& values) {
-  return static_cast<double>(values.capacity() * sizeof(T));
+  return double(values.capacity() * sizeof(T));
 }
 
 double size_of(const BrickTiles& tiles) {
@@ -58,7 +57,7 @@ double size_of(const BrickTiles& tiles) {
   for (const BrickTile& tile : tiles.tiles) {
     sum += size_of(tile.runs) + size_of(tile.first_run) + size_of(tile.shares) + size_of(tile.packs);
   }
-  return sum + static_cast<double>((tiles.shared_size + kScratchSize) * sizeof(double));
+  return sum + double((tiles.shared_size + kScratchSize) * sizeof(double));
 }
 
 }  // namespace
@@ -87,8 +86,8 @@ double bytes_per_brick(const Body& body) {
   const double arrays = size_of(grid.cells) + size_of(grid.fill) + size_of(grid.nodes) + size_of(grid.lattice) +
                         size_of(body.stiffness_scale);
   // Rest positions, positions and velocities; masses, and their inverses while it moves.
-  const double state = static_cast<double>(body.node_count()) * (3 * 3 + 2) * sizeof(double);
-  return (arrays + state + size_of(*body.tiles)) / static_cast<double>(grid.cells.size());
+  const double state = double(body.node_count()) * (3 * 3 + 2) * sizeof(double);
+  return (arrays + state + size_of(*body.tiles)) / double(grid.cells.size());
 }
 
 }  // namespace sprung::test

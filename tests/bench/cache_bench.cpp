@@ -25,8 +25,7 @@ Frames frames_of(const CacheReader& cache) {
     all.frames.push_back(cache.frame(frame));
     all.positions.push_back(cache.positions(frame));
     all.velocities.push_back(cache.velocities(frame));
-    for (const Points& points : all.positions.back())
-      all.megabytes += 2e-6 * sizeof(double) * static_cast<double>(points.size());
+    for (const Points& points : all.positions.back()) all.megabytes += 2e-6 * sizeof(double) * double(points.size());
   }
   return all;
 }
@@ -37,7 +36,7 @@ std::vector<const Points*> addresses(const std::vector<Points>& all) {
   return list;
 }
 
-double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+double processor_seconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
 
 void write(const std::filesystem::path& file, const CacheHeader& header, const Frames& all) {
   CacheWriter writer(file, header, 0);
@@ -48,7 +47,7 @@ void write(const std::filesystem::path& file, const CacheHeader& header, const F
   writer.close();
 }
 
-double size_of(const std::filesystem::path& file) { return static_cast<double>(std::filesystem::file_size(file)); }
+double size_of(const std::filesystem::path& file) { return double(std::filesystem::file_size(file)); }
 
 void print_row(const std::filesystem::path& file, CacheHeader header, const Frames& all, double share, double fps) {
   header.position_error = share * header.size;
@@ -67,7 +66,7 @@ void print_row(const std::filesystem::path& file, CacheHeader header, const Fram
   const double bytes_of_frames = bytes - size_of(file);
   const std::string error = share > 0 ? fmt::format("{:g} of the size", share) : "none";
   fmt::print("| {} | {:.0f} | {:.0f} | {:.1f} | {:.0f} | {:.0f} |\n", error, 1e-3 * (bytes - bytes_of_frames),
-             1e-3 * bytes_of_frames / static_cast<double>(all.frames.size()), 1e6 * all.megabytes / bytes_of_frames,
+             1e-3 * bytes_of_frames / double(all.frames.size()), 1e6 * all.megabytes / bytes_of_frames,
              all.megabytes / (written - begin), all.megabytes / (read - written));
   std::filesystem::remove(file);
 }

@@ -30,12 +30,11 @@ Body body_of(const Case& test) {
 
 void count(benchmark::State& state, double bricks) {
   state.counters["bricks"] = bricks;
-  state.counters["brick_steps"] =
-      benchmark::Counter(bricks * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+  state.counters["brick_steps"] = benchmark::Counter(bricks * double(state.iterations()), benchmark::Counter::kIsRate);
 }
 
 void explicit_step(benchmark::State& state, const Case& test) {
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(test.threads));
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, test.threads);
   Body body = body_of(test);
   const Eigen::VectorXd inverse_masses = body.masses.cwiseInverse();
   SpringSystem springs;
@@ -64,12 +63,11 @@ void spring_rows_step(benchmark::State& state) {
   SpringRows rows({64, 65, 65});
   const LimitLoops loops = best_loops();
   for (auto _ : state) loops.rows(rows, kStep);
-  count(state, static_cast<double>(rows.brick_count()));
+  count(state, double(rows.brick_count()));
 }
 
 void add(const char* kind, const Case& test, void (*run)(benchmark::State&, const Case&)) {
-  const std::string shape =
-      test.shape == "box" ? box_name(static_cast<int>(std::round(std::cbrt(test.bricks)))) : test.shape;
+  const std::string shape = test.shape == "box" ? box_name(int(std::round(std::cbrt(test.bricks)))) : test.shape;
   benchmark::RegisterBenchmark(fmt::format("{}/{}/{}/{}/{}", kind, shape, model_name(test.model),
                                            test.damped ? "damped" : "undamped", test.threads)
                                    .c_str(),

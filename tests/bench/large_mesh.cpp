@@ -19,14 +19,14 @@ struct Clock {
   [[nodiscard]] std::string elapsed() const {
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
     return fmt::format("{:8.2f} s {:8.2f} s of processor", wall.count(),
-                       static_cast<double>(std::clock() - processor) / CLOCKS_PER_SEC);
+                       double(std::clock() - processor) / CLOCKS_PER_SEC);
   }
 };
 
 double gigabytes_at_most() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / (1 << 20);
+  return double(usage.ru_maxrss) / (1 << 20);
 }
 
 }  // namespace

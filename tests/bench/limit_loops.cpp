@@ -13,7 +13,7 @@ namespace {
 template <class Operation>
 double repeat(long rounds, const Operation& operation) {
   std::array<Pack, test::kChains> values;
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] = 1.0 + 0.1 * static_cast<double>(i);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = 1.0 + 0.1 * double(i);
   for (long round = 0; round < rounds; ++round) {
     for (Pack& value : values) value = operation(value);
   }

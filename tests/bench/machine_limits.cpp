@@ -48,18 +48,18 @@ double shortest(int threads, const Work& work) {
 
 /// Packs a second of one of the loops.
 double rate(int threads, double (*loop)(long), long rounds) {
-  std::vector<double> results(static_cast<std::size_t>(threads));
-  const double time = shortest(threads, [&](int thread) { results[static_cast<std::size_t>(thread)] = loop(rounds); });
-  return static_cast<double>(rounds) * kChains * threads / time;
+  std::vector<double> results(threads);
+  const double time = shortest(threads, [&](int thread) { results[thread] = loop(rounds); });
+  return double(rounds) * kChains * threads / time;
 }
 
 double bandwidth(int threads) {
   const std::vector<double> zeros(kArray);
-  std::vector<std::vector<double>> a(static_cast<std::size_t>(threads), zeros);
+  std::vector<std::vector<double>> a(threads, zeros);
   std::vector<std::vector<double>> b = a;
   std::vector<std::vector<double>> c = a;
   const double time = shortest(threads, [&](int thread) {
-    const auto t = static_cast<std::size_t>(thread);
+    const auto t = std::size_t(thread);
     const double* from = a[t].data();
     const double* more = b[t].data();
     double* to = c[t].data();

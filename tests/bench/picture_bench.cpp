@@ -27,11 +27,11 @@ class Stopwatch {
  public:
   /// Prints the time since the last print, by picture.
   void print(std::string_view stage, int pictures) {
-    const double processor = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+    const double processor = double(std::clock()) / CLOCKS_PER_SEC;
     const auto wall = std::chrono::steady_clock::now();
     row(stage, std::chrono::duration<double>(wall - wall_).count() / pictures, (processor - processor_) / pictures);
     wall_ = std::chrono::steady_clock::now();
-    processor_ = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+    processor_ = double(std::clock()) / CLOCKS_PER_SEC;
   }
   static void row(std::string_view stage, double wall, double processor) {
     fmt::print("{:28} {:8.1f} {:8.1f}\n", stage, 1e3 * wall, 1e3 * processor);
@@ -39,7 +39,7 @@ class Stopwatch {
 
  private:
   std::chrono::steady_clock::time_point wall_ = std::chrono::steady_clock::now();
-  double processor_ = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+  double processor_ = double(std::clock()) / CLOCKS_PER_SEC;
 };
 
 /// A recording of one frame.

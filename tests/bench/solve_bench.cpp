@@ -62,7 +62,7 @@ struct Held {
     int low = lattice.front()[shape.held_axis];
     for (const Eigen::Vector3i& place : lattice) low = std::min(low, place[shape.held_axis]);
     for (int node = 0; node < actor.body.node_count(); ++node) {
-      if (lattice[static_cast<std::size_t>(node)][shape.held_axis] != low) continue;
+      if (lattice[node][shape.held_axis] != low) continue;
       supports.fix(node);
       actor.pinned.push_back({.node = node});
     }

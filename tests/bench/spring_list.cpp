@@ -26,16 +26,14 @@ SpringList::SpringList(const Body& body) {
   std::map<Pair, std::size_t> face_of;
   for (std::size_t i = 0; i < body.grid.nodes.size(); ++i) {
     const auto& nodes = body.grid.nodes[i];
-    const auto ends = [&](CornerPair pair) {
-      return Pair(nodes[static_cast<std::size_t>(pair.from)], nodes[static_cast<std::size_t>(pair.to)]);
-    };
+    const auto ends = [&](CornerPair pair) { return Pair(nodes[pair.from], nodes[pair.to]); };
     const double share = body.stiffness_scale[i];
     Brick brick{.edges = {}, .nodes = nodes, .share = share};
     for (std::size_t e = 0; e < 12; ++e) {
       const auto [found, is_new] = edge_of.emplace(ends(kEdges[e]), edges_.size());
       if (is_new) edges_.push_back({.from = found->first.first, .to = found->first.second, .stiffness = 0});
       edges_[found->second].stiffness += share * body.law.edge;
-      brick.edges[e] = static_cast<int>(found->second);
+      brick.edges[e] = int(found->second);
     }
     bricks_.push_back(brick);
     for (const CornerPair pair : kFaceDiagonals) {
@@ -65,17 +63,17 @@ void SpringList::couple(const Body& body, const Brick& brick, Points& forces) {
   BrickLaw corrections = body.law;
   corrections.edge = 0;
   std::array<double, 12> driving{};
-  for (std::size_t e = 0; e < 12; ++e) driving[e] = edges_[static_cast<std::size_t>(brick.edges[e])].driving;
+  for (std::size_t e = 0; e < 12; ++e) driving[e] = edges_[brick.edges[e]].driving;
   const std::array<double, 12> tensions = detail::edge_tensions(corrections, driving);
   for (std::size_t e = 0; e < 12; ++e) {
-    edges_[static_cast<std::size_t>(brick.edges[e])].tension += brick.share * tensions[e];
+    edges_[brick.edges[e]].tension += brick.share * tensions[e];
   }
   CornerVectors<double> x{};
   CornerVectors<double> rates{};
   CornerVectors<double> force{};
   for (std::size_t corner = 0; corner < 8; ++corner) {
     for (int k = 0; k < 3; ++k) {
-      const std::size_t place = 3 * corner + static_cast<std::size_t>(k);
+      const std::size_t place = 3 * corner + std::size_t(k);
       x[place] = body.positions(brick.nodes[corner], k);
       rates[place] = body.damping.beta * body.velocities(brick.nodes[corner], k);
     }

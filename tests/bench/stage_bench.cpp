@@ -28,7 +28,7 @@ void voxelisation(benchmark::State& state, const std::string& model) {
 /// From bricks to a body ready to move, in fresh memory, as programs make it. Without that, bodies small enough for
 /// the allocator to keep their memory would be spared what it takes to get it: half of the time.
 void body_making(benchmark::State& state, double side) {
-  const BrickGrid grid = make_box_grid(Eigen::Vector3i::Constant(static_cast<int>(side)), 0.01);
+  const BrickGrid grid = make_box_grid(Eigen::Vector3i::Constant(int(side)), 0.01);
   const Material material{.name = "bench", .young = 1e4, .poisson = 0.3, .density = 1000, .damping = 0, .source = ""};
   std::optional<Body> body;
   for (auto _ : state) {
@@ -53,7 +53,7 @@ void skinning(benchmark::State& state, const std::string& model) {
     benchmark::DoNotOptimize(deform_points(grid, embedding, nodes).data());
     benchmark::DoNotOptimize(deform_normals(grid, embedding, solid.points, nodes).data());
   }
-  state.counters["things"] = static_cast<double>(solid.points.rows());
+  state.counters["things"] = double(solid.points.rows());
 }
 
 template <class... Arguments>

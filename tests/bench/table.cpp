@@ -57,7 +57,7 @@ void TableReporter::ReportRuns(const std::vector<Run>& runs) {
     const std::string& name = run.run_name.function_name;
     GetErrorStream() << name << '\n';
     if (results_.count(name) == 0) order_.push_back(name);
-    Result result{run.real_accumulated_time / static_cast<double>(run.iterations), {}};
+    Result result{run.real_accumulated_time / double(run.iterations), {}};
     for (const auto& [key, value] : run.counters) result.counters[key] = value.value;
     Result& best = results_[name];
     if (best.time == 0 || result.time < best.time) best = result;

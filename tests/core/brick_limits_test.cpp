@@ -99,7 +99,7 @@ double bar_torque(int across, bool twist_coupling) {
   Points turned = Points::Zero(body.node_count(), 3);
   Points arms = Points::Zero(body.node_count(), 3);
   for (int node = 0; node < body.node_count(); ++node) {
-    const int x = body.grid.lattice[static_cast<std::size_t>(node)].x();
+    const int x = body.grid.lattice[node].x();
     if (x == 0) supports.fix(node);
     if (x != 4 * across) continue;
     supports.fix(node, 1);
@@ -123,13 +123,13 @@ double sheared_cube_yield(int bricks, bool corner_coupling) {
       for (int axis = 0; axis < 2; ++axis) {
         const bool high = on_high_side(corner, axis);
         if (body.grid.cells[brick][axis] != (high ? bricks - 1 : 0)) continue;
-        loads(body.grid.nodes[brick][static_cast<std::size_t>(corner)], 1 - axis) += (high ? 1 : -1) * h * h / 4;
+        loads(body.grid.nodes[brick][corner], 1 - axis) += (high ? 1 : -1) * h * h / 4;
       }
     }
   }
   Supports supports(body.node_count());
   for (int node = 0; node < body.node_count(); ++node) {  // against rigid motion only: no forces there
-    const Eigen::Vector3i& place = body.grid.lattice[static_cast<std::size_t>(node)];
+    const Eigen::Vector3i& place = body.grid.lattice[node];
     if (place == Eigen::Vector3i(0, 0, 0)) supports.fix(node);
     if (place == Eigen::Vector3i(bricks, 0, 0)) supports.fix(node, 1);
     if (place == Eigen::Vector3i(bricks, 0, 0) || place == Eigen::Vector3i(0, bricks, 0)) supports.fix(node, 2);
@@ -161,7 +161,7 @@ double bracket_sag(int across, bool corner_coupling, double corner_stiffness) {
   loads.col(1) = -body.masses;
   std::vector<int> tip;  // the node in the middle of the end, or the four around it
   for (int node = 0; node < body.node_count(); ++node) {
-    const Eigen::Vector3i& place = body.grid.lattice[static_cast<std::size_t>(node)];
+    const Eigen::Vector3i& place = body.grid.lattice[node];
     if (place.y() == 0) supports.fix(node);
     const int off = std::max(std::abs(2 * place.y() - 3 * across), std::abs(2 * place.z() - across));
     if (place.x() == 3 * across && off <= across % 2) tip.push_back(node);
@@ -169,7 +169,7 @@ double bracket_sag(int across, bool corner_coupling, double corner_stiffness) {
   const Eigen::VectorXd u = solve_linear(body, supports, loads, *make_direct_system());
   double sum = 0;
   for (const int node : tip) sum -= u[3 * node + 1];
-  return sum / static_cast<double>(tip.size()) / 0.00168401;
+  return sum / double(tip.size()) / 0.00168401;
 }
 
 TEST(BrickLimits, WithoutTheCornerCouplingTheXyzModesAreTheHexahedrons) {

@@ -41,8 +41,8 @@ TEST(BrickGrid, NodesAreTheDistinctCornersInOrder) {
     for (int corner = 0; corner < 8; ++corner) {
       const Eigen::Vector3i expected = grid.cells[i] + Eigen::Vector3i(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
       corners.insert(zyx(expected));
-      const int node = grid.nodes[i][static_cast<std::size_t>(corner)];
-      ASSERT_EQ(grid.lattice.at(static_cast<std::size_t>(node)), expected);
+      const int node = grid.nodes[i][corner];
+      ASSERT_EQ(grid.lattice.at(node), expected);
     }
   }
   ASSERT_EQ(grid.lattice.size(), corners.size());

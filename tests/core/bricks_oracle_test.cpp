@@ -21,14 +21,14 @@ using Cell = std::tuple<int, int, int>;
 
 Mesh cgal_mesh(const Solid& solid) {
   std::vector<Kernel::Point_3> points;
-  points.reserve(static_cast<std::size_t>(solid.points.rows()));
+  points.reserve(solid.points.rows());
   std::vector<std::vector<std::size_t>> faces;
   for (int p = 0; p < solid.points.rows(); ++p) {
     points.emplace_back(solid.points(p, 0), solid.points(p, 1), solid.points(p, 2));
   }
   for (int t = 0; t < solid.triangles.rows(); ++t) {
     auto& face = faces.emplace_back();
-    for (int k = 0; k < 3; ++k) face.push_back(static_cast<std::size_t>(solid.triangles(t, k)));
+    for (int k = 0; k < 3; ++k) face.push_back(solid.triangles(t, k));
   }
   Mesh mesh;
   CGAL::Polygon_mesh_processing::polygon_soup_to_polygon_mesh(points, faces, mesh);

@@ -25,7 +25,7 @@ double longest_side(const Points& points) {
 
 double fill_at(const BrickGrid& grid, const Eigen::Vector3i& cell) {
   const auto found = std::find(grid.cells.begin(), grid.cells.end(), cell);
-  return found == grid.cells.end() ? 0 : grid.fill[static_cast<std::size_t>(found - grid.cells.begin())];
+  return found == grid.cells.end() ? 0 : grid.fill[found - grid.cells.begin()];
 }
 
 bool all_full(const BrickGrid& grid) {

@@ -84,7 +84,7 @@ double misfit(const SpringEquations& equations, const Eigen::VectorXd& stiffness
   const Eigen::VectorXd left = equations.matrix * stiffnesses - equations.right;
   double worst = 0;
   for (Eigen::Index i = 0; i < left.size(); ++i) {
-    if (equations.kinds[static_cast<std::size_t>(i)] == kind) worst = std::max(worst, std::abs(left[i]));
+    if (equations.kinds[i] == kind) worst = std::max(worst, std::abs(left[i]));
   }
   return worst;
 }

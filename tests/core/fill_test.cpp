@@ -23,7 +23,7 @@ double share_inside(const Vec3& low, double size, const Inside& inside) {
     const Vec3 place(i % kAlong + 0.5, i / kAlong % kAlong + 0.5, i / (kAlong * kAlong) + 0.5);
     count += inside(low + size / kAlong * place) ? 1 : 0;
   }
-  return static_cast<double>(count) / (kAlong * kAlong * kAlong);
+  return double(count) / (kAlong * kAlong * kAlong);
 }
 
 /// Mean difference of the fill of the bricks that the surface cuts.
@@ -66,8 +66,8 @@ TEST(Fill, OfBricksCutByASphereIsWithinOnePercentOnAverage) {
     triangles.emplace_back(0, at(i + 1, 1), at(i, 1));
     triangles.emplace_back(1, at(i, kRows - 1), at(i + 1, kRows - 1));
   }
-  Triangles rows(static_cast<Eigen::Index>(triangles.size()), 3);
-  for (Eigen::Index t = 0; t < rows.rows(); ++t) rows.row(t) = triangles[static_cast<std::size_t>(t)];
+  Triangles rows(triangles.size(), 3);
+  for (Eigen::Index t = 0; t < rows.rows(); ++t) rows.row(t) = triangles[t];
   const Solid solid = find_solids(test::mesh_of(points, rows), "sphere").solids.at(0);
   EXPECT_NEAR(solid.volume, 4.0 / 3 * std::numbers::pi, 5e-3);
   EXPECT_LT(mean_error(voxelize(solid, 0.17), [](const Vec3& p) { return p.norm() < 1; }), 0.01);

@@ -19,8 +19,8 @@ std::vector<std::array<int, 2>> crossings_of(const SurfaceMesh& mesh) {
 std::vector<std::array<int, 2>> crossings_of(const std::array<Vec3, 5>& points,
                                              std::initializer_list<Eigen::RowVector3i> rows) {
   Points positions(5, 3);
-  for (int i = 0; i < 5; ++i) positions.row(i) = points[static_cast<std::size_t>(i)];
-  Triangles triangles(static_cast<int>(rows.size()), 3);
+  for (int i = 0; i < 5; ++i) positions.row(i) = points[i];
+  Triangles triangles(isize(rows), 3);
   int next = 0;
   for (const Eigen::RowVector3i& row : rows) triangles.row(next++) = row;
   return find_crossings(positions, triangles);

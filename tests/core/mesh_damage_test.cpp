@@ -19,7 +19,7 @@ constexpr double kCell = 5.0 / 64;  // 64 along the torus
 /// Reproducible on any machine.
 class Dice {
  public:
-  double throw_one() { return static_cast<double>(random_()) / 4294967296.0; }
+  double throw_one() { return double(random_()) / 4294967296.0; }
 
  private:
   std::mt19937 random_{20};

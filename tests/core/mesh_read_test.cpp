@@ -113,7 +113,7 @@ TEST_F(ReadMesh, KeepsUvsMaterialAndTextureOfAnObj) {
   ASSERT_EQ(mesh.parts.size(), 1U);
   EXPECT_EQ(mesh.parts[0].triangle_count, 12);
   ASSERT_GE(mesh.parts[0].material, 0);
-  const SurfaceMaterial& material = mesh.materials.at(static_cast<std::size_t>(mesh.parts[0].material));
+  const SurfaceMaterial& material = mesh.materials.at(mesh.parts[0].material);
   EXPECT_EQ(material.name, "red");
   EXPECT_TRUE(material.color.isApprox(Eigen::Vector4f(0.75F, 0.5F, 0.25F, 1.0F)));
   EXPECT_EQ(material.texture.size(), 7U);
@@ -126,7 +126,7 @@ TEST_F(ReadMesh, NotesATextureThatIsNotThere) {
   const SurfaceMesh mesh = read_mesh(file);
   ASSERT_EQ(mesh.notes.size(), 1U);
   EXPECT_NE(mesh.notes[0].find("absent.png"), std::string::npos);
-  EXPECT_TRUE(mesh.materials.at(static_cast<std::size_t>(mesh.parts[0].material)).texture.empty());
+  EXPECT_TRUE(mesh.materials.at(mesh.parts[0].material).texture.empty());
 }
 
 TEST_F(ReadMesh, AppliesMirroringNodesToWindingAndNormals) {
@@ -184,7 +184,7 @@ TEST_F(ReadMesh, ReadsBinaryPlyWhateverItsFirstByte) {
     const std::uint32_t first = 0xBF000000U | low;  // about -0.5
     const SurfaceMesh mesh = read_mesh(write("tetrahedron.ply", binary_ply(first)));
     ASSERT_EQ(mesh.triangles.rows(), 4) << low;
-    EXPECT_EQ(mesh.positions(0, 0), static_cast<double>(std::bit_cast<float>(first)));
+    EXPECT_EQ(mesh.positions(0, 0), double(std::bit_cast<float>(first)));
     ASSERT_EQ(mesh.colors.rows(), 4);
     EXPECT_TRUE(mesh.colors.row(0).isApprox(Eigen::RowVector4f(1, 128.0F / 255, 0, 1), 1e-6F)) << mesh.colors.row(0);
     EXPECT_EQ(find_solids(mesh, "tetrahedron").solids.size(), 1U);
@@ -213,7 +213,7 @@ TEST(ReadSharedMesh, KeepsColoursAndTextures) {
   const SurfaceMesh duck = read_mesh(test::shared_mesh("Duck.glb"));
   EXPECT_EQ(duck.uvs.rows(), duck.positions.rows());
   EXPECT_EQ(duck.normals.rows(), duck.positions.rows());
-  EXPECT_GT(duck.materials.at(static_cast<std::size_t>(duck.parts.at(0).material)).texture.size(), 1000U);
+  EXPECT_GT(duck.materials.at(duck.parts.at(0).material).texture.size(), 1000U);
   EXPECT_EQ(read_mesh(test::shared_mesh("test_pos_color.ply")).colors.rows(), 114);
   EXPECT_EQ(read_mesh(test::shared_mesh("scallop.glb")).colors.rows(), 60002);
   EXPECT_EQ(read_mesh(test::shared_mesh("blobby-shuffled.off")).triangles.rows(), 4050);

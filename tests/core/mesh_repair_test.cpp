@@ -154,8 +154,7 @@ TEST(Repair, ClosesACurvedHoleSmoothly) {
 TEST(Repair, StitchesRimsThatAlmostMeet) {
   SurfaceMesh cracked = test::unwelded(test::torus_mesh(2, 0.5));
   std::mt19937 random(5);
-  for (double& coordinate : cracked.positions.reshaped())
-    coordinate += 1e-4 * (static_cast<double>(random()) / 4294967296.0 - 0.5);
+  for (double& coordinate : cracked.positions.reshaped()) coordinate += 1e-4 * (double(random()) / 4294967296.0 - 0.5);
   const Solids found = find_solids(cracked, "torus");
   ASSERT_EQ(found.solids.size(), 1U);
   EXPECT_TRUE(found.solids[0].closed);
@@ -187,7 +186,7 @@ TEST(Repair, RefusesWhatEnclosesNothingByName) {
 TEST(Repair, RefusesTrianglesWithoutAnInside) {
   std::mt19937 random(3);
   Points points(3000, 3);
-  for (double& coordinate : points.reshaped()) coordinate = static_cast<double>(random()) / 4294967296.0;
+  for (double& coordinate : points.reshaped()) coordinate = double(random()) / 4294967296.0;
   for (int p = 0; p < points.rows(); ++p) points.row(p) = points.row(p) * 0.1 + points.row(p / 3 * 3);
   Triangles triangles(1000, 3);
   for (int t = 0; t < 1000; ++t) triangles.row(t) << 3 * t, 3 * t + 1, 3 * t + 2;
@@ -236,7 +235,7 @@ TEST(WindingTree, AgreesWithTheSolidAngles) {
   const WindingTree tree(mesh.positions, mesh.triangles);
   std::mt19937 random(7);
   for (int i = 0; i < 500; ++i) {
-    const auto coordinate = [&](double reach) { return reach * (static_cast<double>(random()) / 2147483648.0 - 1); };
+    const auto coordinate = [&](double reach) { return reach * (double(random()) / 2147483648.0 - 1); };
     const Vec3 place(coordinate(3), coordinate(3), coordinate(1));
     double angle = 0;
     for (const auto& t : mesh.triangles.rowwise()) {

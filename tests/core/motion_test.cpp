@@ -52,7 +52,7 @@ TEST(Motion, FreeFallIsTheClosedForm) {
     World world = world_of(box_body({2, 2, 2}, 0.1, Model::kCalibrated, 0.3), {0, -g, 0});
     const Points start = world.actors[0].body.positions;
     advance(world, scheme, dt, steps, 0);
-    const auto n = static_cast<double>(steps);
+    const auto n = double(steps);
     // Symplectic Euler's sum of an arithmetic series; Verlet is exact for a constant force.
     const double drop = scheme == Scheme::kVerlet ? g * n * n * dt * dt / 2 : g * dt * dt * n * (n + 1) / 2;
     const Points fall = start - world.actors[0].body.positions;
@@ -88,7 +88,7 @@ TEST(Motion, EnergyIsKeptToTheSchemesOrder) {
     const double start = elastic_energy(body);
     const double dt = share * stable_step(world, 1);
     double worst = 0;
-    for (int i = 0; i < static_cast<int>(40 / share); ++i) {
+    for (int i = 0; i < int(40 / share); ++i) {
       advance(world, scheme, dt, 1, 0);
       worst = std::max(worst, std::abs(elastic_energy(body) + kinetic_energy(body) - start) / start);
     }
@@ -122,7 +122,7 @@ TEST(Motion, ElasticBarBouncesAsInClosedForm) {
     if (turned == 0 && centre_speed() >= 0) turned = time;
   }
   EXPECT_NEAR(turned, contact_time / 2, 0.01 * contact_time);
-  advance(world, Scheme::kVerlet, dt, static_cast<long>(contact_time / dt), time);
+  advance(world, Scheme::kVerlet, dt, long(contact_time / dt), time);
   EXPECT_NEAR(centre_speed(), speed, 0.03 * speed);
   EXPECT_GT(body.positions.col(1).minCoeff(), 0);
 }
@@ -139,13 +139,13 @@ TEST(Motion, FrictionSticksBelowItsAngleAndSlidesAboveIt) {
     const Body& body = world.actors[0].body;
     const auto centre = [&] { return (body.positions.transpose() * body.masses).x() / body.masses.sum(); };
     const double dt = stable_step(world);
-    const long settle = static_cast<long>(0.2 / dt);
+    const long settle = long(0.2 / dt);
     advance(world, Scheme::kSymplecticEuler, dt, settle, 0);
     const double x0 = centre();
     const double v0 = linear_momentum(body).x() / body.masses.sum();
-    const long steps = static_cast<long>(0.5 / dt);
+    const long steps = long(0.5 / dt);
     advance(world, Scheme::kSymplecticEuler, dt, steps, 0);
-    const double t = static_cast<double>(steps) * dt;
+    const double t = double(steps) * dt;
     const double a = g * (std::sin(tilt) - friction * std::cos(tilt));
     const double expected = friction < std::tan(tilt) ? v0 * t + a * t * t / 2 : 0;
     EXPECT_NEAR(centre() - x0, expected, friction < std::tan(tilt) ? 0.03 * expected : 1e-3 * 0.12) << friction;
@@ -162,7 +162,7 @@ TEST(Motion, DroppedCubeOnItsCornerKeepsNoBrickInverted) {
     world.obstacles = {level_ground(0)};
     world.actors[0].body.velocities.col(1).setConstant(-speed);
     const double dt = stable_step(world);
-    advance(world, Scheme::kSymplecticEuler, dt, static_cast<long>(0.4 / dt), 0);
+    advance(world, Scheme::kSymplecticEuler, dt, long(0.4 / dt), 0);
     EXPECT_EQ(inverted_bricks(world.actors[0].body), 0) << speed;
     EXPECT_GT(world.actors[0].body.positions.col(1).minCoeff(), -0.002) << speed;
   }
@@ -176,9 +176,9 @@ TEST(Motion, SymmetricCubeBouncesWithoutTumbling) {
   place(body, Mat3::Identity(), Vec3(0, 0.05, 0));
   const double dt = stable_step(world);
   for (int look = 0; look < 20; ++look) {
-    advance(world, Scheme::kSymplecticEuler, dt, static_cast<long>(0.1 / dt), 0.1 * look);
+    advance(world, Scheme::kSymplecticEuler, dt, long(0.1 / dt), 0.1 * look);
     for (int node = 0; node < body.node_count(); ++node) {
-      const Eigen::Vector3i& place = body.grid.lattice[static_cast<std::size_t>(node)];
+      const Eigen::Vector3i& place = body.grid.lattice[node];
       const int mirror = (2 - place.x()) + 3 * place.y() + 9 * place.z();
       EXPECT_NEAR(body.positions(node, 1), body.positions(mirror, 1), 1e-9) << "t = " << 0.1 * (look + 1);
     }
@@ -196,7 +196,7 @@ TEST(Motion, SlightOverlapWithTheGroundIsLiftedGently) {
   const double dt = stable_step(world);
   double highest = -h;
   for (int look = 0; look < 100; ++look) {
-    advance(world, Scheme::kSymplecticEuler, dt, static_cast<long>(0.01 / dt), 0.01 * look);
+    advance(world, Scheme::kSymplecticEuler, dt, long(0.01 / dt), 0.01 * look);
     highest = std::max(highest, body.positions.col(1).minCoeff());
   }
   EXPECT_LT(highest, h);

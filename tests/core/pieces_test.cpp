@@ -43,7 +43,7 @@ std::vector<int> pieces_without(const BrickGrid& grid, const IsOut& is_out) {
     const int name = sets.find(grid.nodes[i][0]);
     auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end()) found = names.insert(names.end(), name);
-    piece[i] = static_cast<int>(found - names.begin());
+    piece[i] = int(found - names.begin());
   }
   return piece;
 }
@@ -59,7 +59,7 @@ void expect_in_order(const BrickGrid& grid) {
   EXPECT_TRUE(std::is_sorted(grid.lattice.begin(), grid.lattice.end(), before));
   for (std::size_t i = 0; i < grid.cells.size(); ++i) {
     for (int corner = 0; corner < 8; ++corner) {
-      const auto node = static_cast<std::size_t>(grid.nodes[i][static_cast<std::size_t>(corner)]);
+      const auto node = std::size_t(grid.nodes[i][corner]);
       const Eigen::Vector3i offset(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
       ASSERT_EQ(grid.lattice.at(node), grid.cells[i] + offset);
     }
@@ -79,7 +79,7 @@ TEST(SplitPieces, LeavesASolidWithoutGapsAsItIs) {
     EXPECT_EQ(std::adjacent_find(grid.cells.begin(), grid.cells.end()), grid.cells.end());
     long repeated = 0;
     for (std::size_t m = 1; m < grid.lattice.size(); ++m) repeated += grid.lattice[m] == grid.lattice[m - 1] ? 1 : 0;
-    EXPECT_LT(static_cast<double>(repeated), 0.005 * grid.node_count()) << "at slivers only";
+    EXPECT_LT(double(repeated), 0.005 * grid.node_count()) << "at slivers only";
     EXPECT_NEAR(grid.volume(), plain.volume(), 1e-9 * plain.volume());
     EXPECT_EQ(count_connected(grid), 1);
     expect_in_order(grid);
@@ -160,11 +160,11 @@ class Ride : public ::testing::Test {
         tooth.push_back(x < 2.42 ? 0 : 1);
       }
     }
-    points.resize(static_cast<Eigen::Index>(places.size()), 3);
+    points.resize(places.size(), 3);
     normals.resize(points.rows(), 3);
     for (Eigen::Index i = 0; i < points.rows(); ++i) {
-      points.row(i) = places[static_cast<std::size_t>(i)];
-      normals.row(i) = outwards[static_cast<std::size_t>(i)];
+      points.row(i) = places[i];
+      normals.row(i) = outwards[i];
     }
   }
 
@@ -177,7 +177,7 @@ class Ride : public ::testing::Test {
     const Embedding embedding = embed(grid_, points, normals);
     int wrong = 0;
     for (std::size_t i = 0; i < tooth.size(); ++i) {
-      wrong += piece[static_cast<std::size_t>(embedding.brick[i])] != tooth[i] ? 1 : 0;
+      wrong += piece[embedding.brick[i]] != tooth[i] ? 1 : 0;
     }
     EXPECT_EQ(wrong, 0) << "of " << tooth.size() << " points";
     EXPECT_LT(embedding.furthest, 1);

@@ -128,8 +128,8 @@ TEST(Rectangle, CorrectionIsThePapersPerpendicularForce) {
           moved[i] = p[i];
           return moved;
         });
-        const double length = sides[static_cast<std::size_t>(i)];
-        const double width = sides[static_cast<std::size_t>(j)];
+        const double length = sides[i];
+        const double width = sides[j];
         const double force = material.young * width;  // at a strain of 1
         const double perpendicular = length * force * (1 - 3 * poisson) / (8 * width);
         const RectangleVector felt = -correction * u;
@@ -157,8 +157,8 @@ TEST(Rectangle, CalibratedBendsLikeTheContinuum) {
           moved[i] = p[i] * p[j];  // the other terms of pure bending are the same at every corner
           return moved;
         });
-        const double length = sides[static_cast<std::size_t>(i)];
-        const double width = sides[static_cast<std::size_t>(j)];
+        const double length = sides[i];
+        const double width = sides[j];
         const double energy = material.young * length * std::pow(width, 3) / 12;
         EXPECT_NEAR(u.dot(stiffness * u) / energy, 1, 1e-12) << where(material, sides);
       }

@@ -43,8 +43,8 @@ bool is_closed(const Skin& skin) {
   std::map<std::pair<int, int>, int> balance;
   for (int t = 0; t < skin.triangles.rows(); ++t) {
     for (int c = 0; c < 3; ++c) {
-      const int a = point[static_cast<std::size_t>(skin.triangles(t, c))];
-      const int b = point[static_cast<std::size_t>(skin.triangles(t, (c + 1) % 3))];
+      const int a = point[skin.triangles(t, c)];
+      const int b = point[skin.triangles(t, (c + 1) % 3)];
       balance[{std::min(a, b), std::max(a, b)}] += a < b ? 1 : -1;
     }
   }

@@ -7,7 +7,7 @@ namespace {
 
 /// A row of bricks along x with these fills.
 BrickGrid row(const std::vector<double>& fills) {
-  BrickGrid grid = make_box_grid({static_cast<int>(fills.size()), 1, 1}, 0.1);
+  BrickGrid grid = make_box_grid({isize(fills), 1, 1}, 0.1);
   grid.fill = fills;
   return grid;
 }

@@ -26,7 +26,7 @@ class Cantilever {
         loads(Points::Zero(body.node_count(), 3)) {
     loads.col(1) = -body.masses;
     for (int node = 0; node < body.node_count(); ++node) {
-      const Eigen::Vector3i& place = body.grid.lattice[static_cast<std::size_t>(node)];
+      const Eigen::Vector3i& place = body.grid.lattice[node];
       if (place.x() == 0) supports.fix(node);
       const bool is_corner = place.y() % across == 0 && place.z() % across == 0;
       if (place.x() == 4 * across && is_corner) tip.push_back(node);
@@ -38,7 +38,7 @@ class Cantilever {
     const Eigen::VectorXd u = solve_linear(body, supports, loads, *system);
     double sum = 0;
     for (const int node : tip) sum -= u[3 * node + 1];
-    return sum / static_cast<double>(tip.size());
+    return sum / double(tip.size());
   }
 
   Body body;
@@ -94,7 +94,7 @@ TEST(Statics, MovedSupportsPullTheBodyAlong) {
   Supports supports(bar.node_count());
   const Points start = bar.positions;
   for (int node = 0; node < bar.node_count(); ++node) {
-    const int x = bar.grid.lattice[static_cast<std::size_t>(node)].x();
+    const int x = bar.grid.lattice[node].x();
     if (x == 0 || x == 4) supports.fix(node);
     if (x == 4) bar.positions(node, 0) += 4e-6;
   }
@@ -105,7 +105,7 @@ TEST(Statics, MovedSupportsPullTheBodyAlong) {
   const Points held = reactions(bar, supports, no_loads);
   for (int node = 0; node < bar.node_count(); ++node) {
     EXPECT_NEAR(bar.positions(node, 0), (1 + 1e-5) * start(node, 0), 1e-12);
-    if (bar.grid.lattice[static_cast<std::size_t>(node)].x() == 4) pull += held(node, 0);
+    if (bar.grid.lattice[node].x() == 4) pull += held(node, 0);
   }
   EXPECT_NEAR(pull, 1000 * 0.01 * 1e-5, 1e-5 * 1e-4);  // E A strain
 }

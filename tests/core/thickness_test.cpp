@@ -62,7 +62,7 @@ TEST(ThinParts, AreTheFinsAndNotTheEdgesOfTheBlock) {
   for (const ThinPart& part : parts) {
     EXPECT_NEAR(part.thickness, 0.3, 1e-9);
     EXPECT_GT(part.place.y(), 1);
-    for (const int brick : part.bricks) EXPECT_GE(grid.cells[static_cast<std::size_t>(brick)].y(), 1);
+    for (const int brick : part.bricks) EXPECT_GE(grid.cells[brick].y(), 1);
   }
   EXPECT_TRUE(find_thin_parts(voxelize(solid, 0.25), sample_thickness(solid, 5000)).empty());
   const Solid ball = only(test::torus_mesh(3, 1.5));

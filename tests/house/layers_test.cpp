@@ -36,6 +36,18 @@ const std::vector<std::string> kFolders{
     "render/image",
     "render/gl",
     "render",
+    "app/scene",
+    "app/materials",
+    "app/validate",
+    "app/report",
+    "app/cache",
+    "app/film",
+    "app/export",
+    "app/farm",
+    "app/help",
+    "app/inspect",
+    "app",
+    "app/python",
 };
 
 struct Include {
@@ -63,7 +75,7 @@ std::vector<Include> includes_of(const fs::path& top) {
 int rank(const std::string& file) {
   const std::string folder = fs::path(file).parent_path();
   const auto found = std::find(kFolders.begin(), kFolders.end(), folder);
-  return found == kFolders.end() ? -1 : static_cast<int>(found - kFolders.begin());
+  return found == kFolders.end() ? -1 : int(found - kFolders.begin());
 }
 
 /// Empty where the include is allowed, else what is wrong with it.

@@ -43,7 +43,7 @@ TEST(CoarseTriangles, AThinPartKeepsItsFaces) {
 TEST(CoarseTriangles, KnowWhichTrianglesTheyComeFrom) {
   const Skin skin = ball();
   const CoarseTriangles coarse = coarse_triangles(skin, 0.1);
-  ASSERT_EQ(static_cast<Eigen::Index>(coarse.first.size()), skin.triangles.rows() + 1);
+  ASSERT_EQ(coarse.first.size(), skin.triangles.rows() + 1);
   EXPECT_EQ(coarse.first.front(), 0);
   EXPECT_EQ(coarse.first.back(), coarse.triangles.rows());
   for (std::size_t t = 0; t + 1 < coarse.first.size(); ++t) {

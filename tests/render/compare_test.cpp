@@ -11,8 +11,8 @@ Image noise(unsigned seed, int amount) {
   std::mt19937 random(seed);
   Image image(48, 32);
   for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-    const int wave = 100 + static_cast<int>(i % 144);
-    image.pixels[i] = static_cast<std::uint8_t>(wave + static_cast<int>(random() % static_cast<unsigned>(amount + 1)));
+    const int wave = 100 + int(i % 144);
+    image.pixels[i] = static_cast<std::uint8_t>(wave + int(random() % unsigned(amount + 1)));
   }
   return image;
 }

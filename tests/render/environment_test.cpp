@@ -74,7 +74,7 @@ TEST(Environment, KeepsDirectionsAndColours) {
   for (const Panorama& level : sky.reflections) {
     const auto brightest = std::max_element(level.light.begin(), level.light.end(),
                                             [](const Light& a, const Light& b) { return a.x() < b.x(); });
-    const auto at = static_cast<int>(brightest - level.light.begin());
+    const auto at = int(brightest - level.light.begin());
     EXPECT_NEAR((at % level.width + 0.5) / level.width, 0.75 + 18.4 / 360, 0.04);  // a little behind +x
     EXPECT_LT(brightest->x(), before);                                             // the rougher, the smoother
     before = brightest->x();
@@ -140,7 +140,7 @@ TEST(Renderer, SurroundingsColourBodiesAndFloor) {
   const Image studio = balls.picture(std::nullopt);
   const Image green = balls.picture(Environment(panorama(16, [](const Light&) { return Light(0.1F, 1, 0.1F); })));
   const auto greenness = [](const Image& image, int x, int y) {
-    const auto at = 3 * static_cast<std::size_t>(y * image.width + x);
+    const auto at = 3 * std::size_t(y * image.width + x);
     return image.pixels[at + 1] - std::max(image.pixels[at], image.pixels[at + 2]);
   };
   for (const auto& [x, y] : {std::pair{110, 60}, {210, 60}, {10, 170}}) {  // plastic, steel, floor

@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "core/io/process.h"
+#include "core/types.h"
 #include "tests/support/error_message.h"
 #include "tests/support/temp_folder.h"
 
@@ -20,8 +21,7 @@ std::string output_of(const std::string& command) {
   std::string text;
   std::FILE* pipe = popen(command.c_str(), "r");
   std::array<char, 256> part{};
-  while (pipe != nullptr && std::fgets(part.data(), static_cast<int>(part.size()), pipe) != nullptr)
-    text += part.data();
+  while (pipe != nullptr && std::fgets(part.data(), isize(part), pipe) != nullptr) text += part.data();
   if (pipe != nullptr) pclose(pipe);
   return text;
 }

@@ -63,7 +63,7 @@ TEST(Passes, HoldTogetherInEveryPixel) {
   std::array<int, 3> count{};
   for (std::size_t i = 0; i < passes.depth.size(); ++i) {
     const Pixel pixel{passes, i};
-    const auto id = static_cast<std::size_t>(passes.id[i]);
+    const auto id = std::size_t(passes.id[i]);
     ASSERT_LT(id, count.size());
     ++count[id];
     ASSERT_LT(passes.depth[i], 100);  // the camera looks down: ground everywhere
@@ -106,12 +106,12 @@ TEST(Exr, ReadsBackWhatWasWritten) {
   const TempFolder folder;
   Passes passes(5, 3);
   for (std::size_t i = 0; i < 15; ++i) {
-    const auto number = static_cast<float>(i);
+    const auto number = float(i);
     passes.depth[i] = 0.1F * number;
     passes.id[i] = number;
     for (std::size_t k = 0; k < 3; ++k) {
-      passes.normal[k][i] = number - static_cast<float>(k);
-      passes.position[k][i] = 1e-3F * number + static_cast<float>(k);
+      passes.normal[k][i] = number - float(k);
+      passes.position[k][i] = 1e-3F * number + float(k);
     }
   }
   write_exr(passes, folder.path() / "p.exr");

@@ -26,7 +26,7 @@ std::string error(ErrorKind kind, Act act) {
   try {
     act();
   } catch (const Error& error) {
-    EXPECT_EQ(static_cast<int>(error.kind()), static_cast<int>(kind));
+    EXPECT_EQ(int(error.kind()), int(kind));
     return error.what();
   }
   ADD_FAILURE() << "nothing was thrown";
@@ -64,8 +64,7 @@ TEST_F(Png, LeavesOneFileAndReplacesTheOld) {
 TEST_F(Png, SmoothPicturesGetSmall) {
   Image image(256, 256);
   for (int y = 0; y < 256; ++y) {
-    for (int x = 0; x < 256; ++x)
-      image.pixels[static_cast<std::size_t>(3 * (256 * y + x))] = static_cast<std::uint8_t>(x);
+    for (int x = 0; x < 256; ++x) image.pixels[3 * (256 * y + x)] = static_cast<std::uint8_t>(x);
   }
   write_png(image, folder_ / "ramp.png");
   EXPECT_LT(std::filesystem::file_size(folder_ / "ramp.png"), 2000U);

@@ -27,7 +27,7 @@ TEST(RenderGolden, TexturedBox) {
   Image picture(64, 64);  // checks, darker towards the lower right
   for (int y = 0; y < 64; ++y) {
     for (int x = 0; x < 64; ++x) {
-      const auto at = 3 * static_cast<std::size_t>(64 * y + x);
+      const auto at = 3 * std::size_t(64 * y + x);
       const bool light = ((x / 8) + (y / 8)) % 2 == 0;
       picture.pixels[at] = static_cast<std::uint8_t>(light ? 230 : 40);
       picture.pixels[at + 1] = static_cast<std::uint8_t>(250 - 3 * x);
@@ -63,7 +63,7 @@ TEST(RenderGolden, ManyBodies) {
     const Vec3 up(0, 0.2 + (i == 3 ? 0.4 : 0.0), 0);
     scene.add(i % 2 == 0 ? make_sphere_skin(place + up, 0.2)
                          : make_box_skin(place - Vec3(0.18, 0, 0.18), place + Vec3(0.18, 0.36, 0.18)),
-              colors[static_cast<std::size_t>(i % 4)]);
+              colors[i % 4]);
   }
   scene.add(make_ring_skin({0, 0.12, 0}, 0.3, 0.12), kCream);
   expect_golden(draw_scene(scene, kSmall), "render_many_bodies");

@@ -20,14 +20,14 @@ namespace {
 constexpr RenderOptions kSmall{320, 180, 4};
 
 Eigen::Vector3d pixel(const Image& image, int x, int y) {
-  const auto at = 3 * static_cast<std::size_t>(y * image.width + x);
+  const auto at = 3 * std::size_t(y * image.width + x);
   return {double(image.pixels[at]), double(image.pixels[at + 1]), double(image.pixels[at + 2])};
 }
 
 double psnr(const Image& a, const Image& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.pixels.size(); ++i) sum += std::pow(double(a.pixels[i]) - double(b.pixels[i]), 2);
-  return sum == 0 ? 1e9 : 10 * std::log10(255.0 * 255.0 * static_cast<double>(a.pixels.size()) / sum);
+  return sum == 0 ? 1e9 : 10 * std::log10(255.0 * 255.0 * double(a.pixels.size()) / sum);
 }
 
 std::uint64_t hash(const Image& image) {  // FNV-1a

@@ -34,11 +34,9 @@ constexpr std::array kShapeNames{"bricks", "box", "torus", "bear"};
 class Dice {
  public:
   Dice(std::uint32_t seed, std::uint32_t index) : engine_(seed * 1000003U + index) {}
-  double between(double low, double high) {
-    return low + (high - low) * (static_cast<double>(engine_()) / 4294967296.0);
-  }
+  double between(double low, double high) { return low + (high - low) * (double(engine_()) / 4294967296.0); }
   double log_between(double low, double high) { return std::exp(between(std::log(low), std::log(high))); }
-  int whole(int low, int high) { return low + static_cast<int>(engine_() % static_cast<unsigned>(high - low + 1)); }
+  int whole(int low, int high) { return low + int(engine_() % unsigned(high - low + 1)); }
   Mat3 rotation() {
     const auto angle = [&] { return between(0, 2 * std::numbers::pi); };
     return (Eigen::AngleAxisd(angle(), Vec3::UnitX()) * Eigen::AngleAxisd(angle(), Vec3::UnitY()) *
@@ -117,15 +115,15 @@ Drop random_drop(std::uint32_t seed, std::uint32_t index, double least_poisson) 
   drop.duration = fall + kPeriods * drop.period;
   drop.description = fmt::format(
       "{} of {} bricks, {:.3g} m, E {:.3g} Pa, nu {:.3g}, {:.4g} kg/m^3, damping {:.3g}, {:.3g} m/s, friction {:.2g}",
-      kShapeNames[static_cast<std::size_t>(shape)], actor.body.grid.brick_count(), size, material.young,
-      material.poisson, material.density, material.damping, speed, drop.world.obstacles[0].friction);
+      kShapeNames[std::size_t(shape)], actor.body.grid.brick_count(), size, material.young, material.poisson,
+      material.density, material.damping, speed, drop.world.obstacles[0].friction);
   return drop;
 }
 
 DropResult run_drop(Drop& drop) {
   DropResult result;
   const Actor& actor = drop.world.actors.front();
-  const int frames = static_cast<int>(std::ceil(drop.duration / drop.period * kFramesPerPeriod));
+  const int frames = int(std::ceil(drop.duration / drop.period * kFramesPerPeriod));
   const double frame = drop.duration / frames;
   const double scale = actor.body.masses.sum() * kGravity * actor.body.grid.brick_size;
   const double first = energy_of(actor.body, drop.world.gravity).sum();

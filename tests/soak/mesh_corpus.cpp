@@ -21,28 +21,27 @@ aiVector3D vector_of(const Eigen::Ref<const Eigen::RowVector3d>& v) {
 aiMesh* assimp_mesh(const SurfaceMesh& mesh) {
   auto* made = new aiMesh;
   made->mPrimitiveTypes = aiPrimitiveType_TRIANGLE;
-  const auto vertices = static_cast<std::size_t>(mesh.positions.rows());
-  made->mNumVertices = static_cast<unsigned>(vertices);
+  const auto vertices = std::size_t(mesh.positions.rows());
+  made->mNumVertices = unsigned(vertices);
   made->mVertices = new aiVector3D[vertices];
   made->mNormals = new aiVector3D[vertices];
   made->mTextureCoords[0] = new aiVector3D[vertices];
   made->mNumUVComponents[0] = 2;
   made->mColors[0] = new aiColor4D[vertices];
   for (std::size_t v = 0; v < vertices; ++v) {
-    const Eigen::RowVector3d position = mesh.positions.row(static_cast<Eigen::Index>(v));
+    const Eigen::RowVector3d position = mesh.positions.row(v);
     made->mVertices[v] = vector_of(position);
     made->mNormals[v] = vector_of(position.stableNormalized());
     made->mTextureCoords[0][v] = aiVector3D(made->mVertices[v].x, made->mVertices[v].y, 0);
     made->mColors[0][v] = aiColor4D(1, 0.5F, 0.25F, 1);
   }
-  made->mNumFaces = static_cast<unsigned>(mesh.triangles.rows());
+  made->mNumFaces = unsigned(mesh.triangles.rows());
   made->mFaces = new aiFace[made->mNumFaces];
   for (unsigned f = 0; f < made->mNumFaces; ++f) {
     made->mFaces[f].mNumIndices = 3;
     made->mFaces[f].mIndices = new unsigned[3];
     for (unsigned k = 0; k < 3; ++k) {
-      made->mFaces[f].mIndices[k] =
-          static_cast<unsigned>(mesh.triangles(static_cast<Eigen::Index>(f), static_cast<Eigen::Index>(k)));
+      made->mFaces[f].mIndices[k] = unsigned(mesh.triangles(f, k));
     }
   }
   return made;
@@ -64,7 +63,7 @@ aiMaterial* red_material(bool has_texture) {
 void fill_scene(const std::vector<SurfaceMesh>& meshes, bool has_texture, aiScene& scene) {
   scene.mNumMaterials = 1;
   scene.mMaterials = new aiMaterial* [1] { red_material(has_texture) };
-  scene.mNumMeshes = static_cast<unsigned>(meshes.size());
+  scene.mNumMeshes = unsigned(meshes.size());
   scene.mMeshes = new aiMesh*[scene.mNumMeshes];
   scene.mRootNode = new aiNode("root");
   for (unsigned m = 0; m < scene.mNumMeshes; ++m) {

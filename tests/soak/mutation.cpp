@@ -18,8 +18,8 @@ void blow_up_number(std::string& bytes, std::size_t at, std::mt19937_64& random)
   static const std::array<std::string, 10> kWords{
       "4294967295", "99999999999999", "-1", "nan", "1e308", "-1e-320", "0", "inf", "2147483648", "65536"};
   const auto is_digit = [](unsigned char c) { return std::isdigit(c) != 0; };
-  const auto begin = std::find_if(bytes.begin() + static_cast<std::ptrdiff_t>(at), bytes.end(), is_digit);
-  const bool is_near = begin - bytes.begin() - static_cast<std::ptrdiff_t>(at) < 20 && begin != bytes.end();
+  const auto begin = std::find_if(bytes.begin() + std::ptrdiff_t(at), bytes.end(), is_digit);
+  const bool is_near = begin - bytes.begin() - std::ptrdiff_t(at) < 20 && begin != bytes.end();
   if (is_near && random() % 4 != 0) {
     bytes.replace(begin, std::find_if_not(begin, bytes.end(), is_digit), kWords[random() % kWords.size()]);
     return;

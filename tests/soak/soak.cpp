@@ -22,7 +22,7 @@ void print(std::uint32_t seed, std::uint32_t index, const Drop& drop, const Drop
       "{} frames taken back, {:.2g} M brick-steps, {:.2f} s\n",
       seed, index, drop.description, result.fault.empty() ? "well" : result.fault, result.is_crushed ? ", crushed" : "",
       result.deepest, result.energy_gain, result.smallest_volume, result.inverted_on_the_way, result.halvings,
-      static_cast<double>(result.brick_steps) * 1e-6, seconds);
+      double(result.brick_steps) * 1e-6, seconds);
   std::fflush(stdout);
 }
 

@@ -21,7 +21,7 @@ inline CornerVectors<double> rest_brick(double h) {
   CornerVectors<double> x{};
   for (int corner = 0; corner < 8; ++corner) {
     for (int axis = 0; axis < 3; ++axis) {
-      x[static_cast<std::size_t>(3 * corner + axis)] = on_high_side(corner, axis) ? h : 0;
+      x[3 * corner + axis] = on_high_side(corner, axis) ? h : 0;
     }
   }
   return x;

@@ -13,8 +13,8 @@ inline Body calibrated_box(const Eigen::Vector3i& counts, double h, double poiss
 
 /// By as few explicit steps of equal length as are stable at the start; duration in s.
 inline void advance_by_stable_steps(World& world, Scheme scheme, double duration) {
-  const auto steps = static_cast<long>(std::ceil(duration / stable_step(world)));
-  advance(world, scheme, duration / static_cast<double>(steps), steps, 0);
+  const auto steps = long(std::ceil(duration / stable_step(world)));
+  advance(world, scheme, duration / double(steps), steps, 0);
 }
 
 }  // namespace sprung::test

@@ -16,7 +16,7 @@ inline SurfaceMesh comb_mesh(const std::vector<std::pair<double, double>>& teeth
     xs.push_back(to);
   }
   const std::vector<double> ys{0, back, back + height};
-  const auto columns = static_cast<int>(xs.size()) - 1;
+  const auto columns = isize(xs) - 1;
   const auto is_solid = [&](int i, int j) { return i >= 0 && i < columns && (j == 0 || (j == 1 && i % 2 == 0)); };
   std::vector<Vec3> corners;
   const auto quad = [&](const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
@@ -25,8 +25,8 @@ inline SurfaceMesh comb_mesh(const std::vector<std::pair<double, double>>& teeth
   for (int i = 0; i < columns; ++i) {
     for (int j = 0; j < 2; ++j) {
       if (!is_solid(i, j)) continue;
-      const double x0 = xs[static_cast<std::size_t>(i)], x1 = xs[static_cast<std::size_t>(i) + 1];
-      const double y0 = ys[static_cast<std::size_t>(j)], y1 = ys[static_cast<std::size_t>(j) + 1];
+      const double x0 = xs[i], x1 = xs[i + 1];
+      const double y0 = ys[j], y1 = ys[j + 1];
       quad({x0, y0, depth}, {x1, y0, depth}, {x1, y1, depth}, {x0, y1, depth});
       quad({x0, y0, 0}, {x0, y1, 0}, {x1, y1, 0}, {x1, y0, 0});
       if (!is_solid(i - 1, j)) quad({x0, y0, 0}, {x0, y0, depth}, {x0, y1, depth}, {x0, y1, 0});
@@ -35,11 +35,11 @@ inline SurfaceMesh comb_mesh(const std::vector<std::pair<double, double>>& teeth
       if (!is_solid(i, j + 1)) quad({x0, y1, 0}, {x0, y1, depth}, {x1, y1, depth}, {x1, y1, 0});
     }
   }
-  Points positions(static_cast<Eigen::Index>(corners.size()), 3);
+  Points positions(corners.size(), 3);
   Triangles triangles(positions.rows() / 3, 3);
   for (Eigen::Index i = 0; i < positions.rows(); ++i) {
-    positions.row(i) = corners[static_cast<std::size_t>(i)];
-    triangles(i / 3, i % 3) = static_cast<int>(i);
+    positions.row(i) = corners[i];
+    triangles(i / 3, i % 3) = int(i);
   }
   return mesh_of(std::move(positions), std::move(triangles));
 }

@@ -32,10 +32,10 @@ inline Actor closing_horseshoe(double h) {
 inline double gap_of_horseshoe(const Body& body) {
   double least = std::numeric_limits<double>::infinity();
   for (int node = 0; node < body.node_count(); ++node) {
-    const Eigen::Vector3i& place = body.grid.lattice[static_cast<std::size_t>(node)];
+    const Eigen::Vector3i& place = body.grid.lattice[node];
     if (place.x() != 2 || place.y() < 4) continue;
     for (int other = 0; other < body.node_count(); ++other) {
-      if (body.grid.lattice[static_cast<std::size_t>(other)] != Eigen::Vector3i(4, place.y(), place.z())) continue;
+      if (body.grid.lattice[other] != Eigen::Vector3i(4, place.y(), place.z())) continue;
       least = std::min(least, body.positions(other, 0) - body.positions(node, 0));
     }
   }

@@ -17,7 +17,7 @@ inline SurfaceMesh mesh_of(Points positions, Triangles triangles) {
   SurfaceMesh mesh;
   mesh.positions = std::move(positions);
   mesh.triangles = std::move(triangles);
-  mesh.parts.push_back({.name = "test", .triangle_count = static_cast<int>(mesh.triangles.rows())});
+  mesh.parts.push_back({.name = "test", .triangle_count = int(mesh.triangles.rows())});
   return mesh;
 }
 
@@ -59,7 +59,7 @@ inline SurfaceMesh joined(const SurfaceMesh& a, const SurfaceMesh& b) {
   Points positions(a.positions.rows() + b.positions.rows(), 3);
   positions << a.positions, b.positions;
   Triangles triangles(a.triangles.rows() + b.triangles.rows(), 3);
-  triangles << a.triangles, (b.triangles.array() + static_cast<int>(a.positions.rows())).matrix();
+  triangles << a.triangles, (b.triangles.array() + int(a.positions.rows())).matrix();
   return mesh_of(std::move(positions), std::move(triangles));
 }
 

@@ -30,11 +30,11 @@ Skin make_grid(int columns, int rows, const std::function<Vec3(double, double)>&
   for (int i = 0; i <= columns; ++i) {
     for (int j = 0; j <= rows; ++j) {
       const int vertex = i * (rows + 1) + j;
-      const double u = static_cast<double>(i) / columns;
-      const double v = static_cast<double>(j) / rows;
+      const double u = double(i) / columns;
+      const double v = double(j) / rows;
       skin.positions.row(vertex) = place(u, v).transpose();
       skin.normals.row(vertex) = normal(u, v).transpose();
-      skin.uvs.row(vertex) << static_cast<float>(u), static_cast<float>(v);
+      skin.uvs.row(vertex) << float(u), float(v);
     }
   }
   int triangle = 0;
@@ -88,7 +88,7 @@ Skin make_box_skin(const Vec3& low, const Vec3& high) {
   const Vec3 middle = 0.5 * (low + high);
   const Vec3 half = 0.5 * (high - low);
   for (int s = 0; s < 6; ++s) {
-    const auto& [normal, up] = sides[static_cast<std::size_t>(s)];
+    const auto& [normal, up] = sides[s];
     const Vec3 right = up.cross(normal);
     for (int corner = 0; corner < 4; ++corner) {
       const int u = corner & 1;
@@ -97,7 +97,7 @@ Skin make_box_skin(const Vec3& low, const Vec3& high) {
       skin.positions.row(vertex) =
           (middle + half.cwiseProduct(normal + (2 * u - 1) * right + (2 * v - 1) * up)).transpose();
       skin.normals.row(vertex) = normal.transpose();
-      skin.uvs.row(vertex) << static_cast<float>(u), static_cast<float>(v);
+      skin.uvs.row(vertex) << float(u), float(v);
     }
     skin.triangles.row(2 * s) << 4 * s, 4 * s + 1, 4 * s + 3;
     skin.triangles.row(2 * s + 1) << 4 * s, 4 * s + 3, 4 * s + 2;
@@ -115,7 +115,7 @@ void set_texture(Skin& skin, const Image& picture) {
   material.texture.resize(bytes.size());
   std::memcpy(material.texture.data(), bytes.data(), bytes.size());
   skin.materials = {material};
-  skin.parts = {{"all", 0, static_cast<int>(skin.triangles.rows()), 0}};
+  skin.parts = {{"all", 0, int(skin.triangles.rows()), 0}};
 }
 
 void StillLife::add(Skin skin, const Eigen::Vector3f& color) {
@@ -155,7 +155,7 @@ StillLife ball_on_ground() {
 Image draw_scene(const StillLife& scene, const RenderOptions& options, double azimuth, double elevation) {
   const Stage stage = scene.stage();
   Renderer renderer(stage, options);
-  const double aspect = static_cast<double>(options.width) / options.height;
+  const double aspect = double(options.width) / options.height;
   return renderer.draw(scene.shapes(), frame_bounds(stage.bounds, aspect, azimuth, elevation));
 }
 

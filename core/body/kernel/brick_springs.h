@@ -327,7 +327,7 @@ class PackForces {
 
  private:
   [[nodiscard]] [[gnu::always_inline]] Pack3 between(CornerPair pair, int values) const {
-    const auto at = [&](int corner) { return rows_[static_cast<std::size_t>(corner) >> 1].three(values, corner & 1); };
+    const auto at = [&](int corner) { return rows_[std::size_t(corner) >> 1].three(values, corner & 1); };
     return at(pair.to) - at(pair.from);
   }
 
@@ -337,8 +337,8 @@ class PackForces {
   /// To the sum at the node.
   [[gnu::always_inline]] void give(int corner) const {
     const int array = (corner & 1) == 0 ? kForceLow : kForceHigh;
-    const Place row = rows_[static_cast<std::size_t>(corner) >> 1];
-    row.set_three(array, row.three(array) + forces_[static_cast<std::size_t>(corner)]);
+    const Place row = rows_[std::size_t(corner) >> 1];
+    row.set_three(array, row.three(array) + forces_[corner]);
   }
 
   /// To the sums at the edges.
@@ -346,9 +346,9 @@ class PackForces {
     std::array<Pack, 12> stretches;
 #pragma GCC unroll 12
     for (std::size_t edge = 0; edge < 12; ++edge) {
-      const auto from = static_cast<std::size_t>(kEdges[edge].from);
-      const int axis = static_cast<int>(edge / 4);
-      stretches[edge] = load(rows_[from >> 1].at(kStretch + axis, static_cast<int>(from & 1)));
+      const std::size_t from = kEdges[edge].from;
+      const int axis = int(edge / 4);
+      stretches[edge] = load(rows_[from >> 1].at(kStretch + axis, from & 1));
     }
     const std::array<Pack, 12> tensions = edge_tensions<kLayout>(springs_, stretches);
 #pragma GCC unroll 12
@@ -357,8 +357,8 @@ class PackForces {
       if constexpr (kPart == Part::kEnergy) {
         add_energy(energy_, place_, 0.5 * springs_.size_squared * tension * stretches[edge]);
       } else {
-        const auto from = static_cast<std::size_t>(kEdges[edge].from);
-        const int axis = static_cast<int>(edge / 4);
+        const std::size_t from = kEdges[edge].from;
+        const int axis = int(edge / 4);
         add(tension, rows_[from >> 1].at((from & 1) == 0 ? kTensionLow + axis : kTensionHigh + axis - 1));
       }
     }
@@ -377,8 +377,8 @@ class PackForces {
   [[gnu::always_inline]] void pull_face(CornerPair pair, const Pack& stiffness) {
     if constexpr (!kLayout.faces) return;
     const Pack3 force = force_of(springs_.face, pair, between(pair, kPosition), stiffness);
-    Pack3& from = forces_[static_cast<std::size_t>(pair.from)];
-    Pack3& to = forces_[static_cast<std::size_t>(pair.to)];
+    Pack3& from = forces_[pair.from];
+    Pack3& to = forces_[pair.to];
     from = from + force;
     to = to - force;
   }
@@ -398,8 +398,8 @@ class PackForces {
     if constexpr (kPart != Part::kDamping) guard(d, forces);
 #pragma GCC unroll 12
     for (std::size_t i = 0; i < 4; ++i) {
-      forces_[static_cast<std::size_t>(kInnerDiagonals[i].from)] = forces[i];
-      forces_[static_cast<std::size_t>(kInnerDiagonals[i].to)] = -forces[i];
+      forces_[kInnerDiagonals[i].from] = forces[i];
+      forces_[kInnerDiagonals[i].to] = -forces[i];
     }
   }
 

@@ -18,7 +18,7 @@ namespace simd = std::experimental;
 /// products and sums does.
 using Pack = simd::native_simd<double>;
 using FloatPack = simd::rebind_simd_t<float, Pack>;
-inline constexpr int kLanes = static_cast<int>(Pack::size());
+inline constexpr int kLanes = int(Pack::size());
 
 struct Pack3 {
   Pack x, y, z;

@@ -136,7 +136,7 @@ class Walk {
   }
 
   void copy_in(const Place& to, const RunPart& part) const {
-    const std::ptrdiff_t first = 3 * static_cast<std::ptrdiff_t>(part.run.node + part.begin);
+    const std::ptrdiff_t first = 3 * std::ptrdiff_t(part.run.node + part.begin);
     take_apart<is_damped(kPart)>(input_.positions + first, input_.velocities + first, input_.drift, part.count(),
                                  three(to, kPosition, part.place()), three(to, kVelocity, part.place()));
   }
@@ -260,8 +260,8 @@ void finish_shared(const SharedNodes& nodes, const SharedPart* parts, const doub
       const int begin = std::max(first, part.node);
       const int end = std::min(last, part.node + part.count);
       for (std::size_t axis = 0; begin < end && axis < 3; ++axis) {
-        const double* from = shared + part.offset + axis * static_cast<std::size_t>(part.count) + (begin - part.node);
-        add_rates(&sums[axis][static_cast<std::size_t>(begin - first)], from, 1, end - begin);
+        const double* from = shared + part.offset + axis * std::size_t(part.count) + (begin - part.node);
+        add_rates(&sums[axis][begin - first], from, 1, end - begin);
       }
     }
     finish_nodes(input, first, last - first, {sums[0].data(), sums[1].data(), sums[2].data()});

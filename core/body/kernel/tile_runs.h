@@ -89,7 +89,7 @@ inline void add_rates(double* __restrict values, const double* __restrict rates,
 
 /// What is left to do for nodes once their forces are known.
 inline void finish_nodes(const PassInput& input, int node, int count, const Three<const double>& forces) {
-  const std::ptrdiff_t first = 3 * static_cast<std::ptrdiff_t>(node);
+  const std::ptrdiff_t first = 3 * std::ptrdiff_t(node);
   const double* __restrict x = forces.x;
   const double* __restrict y = forces.y;
   const double* __restrict z = forces.z;

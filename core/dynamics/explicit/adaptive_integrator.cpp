@@ -130,8 +130,8 @@ std::vector<GroupSteps> choose_steps(const World& world, double time) {
                                  "the motion diverged; use slower bodies, larger bricks or less gravity",
                                  actors.front() + 1, speed));
     }
-    const long count = std::max(1L, static_cast<long>(std::ceil(time / step)));
-    groups.push_back({.actors = std::move(actors), .steps = {.count = count, .dt = time / static_cast<double>(count)}});
+    const long count = std::max(1L, long(std::ceil(time / step)));
+    groups.push_back({.actors = std::move(actors), .steps = {.count = count, .dt = time / double(count)}});
   }
   return groups;
 }
@@ -141,18 +141,18 @@ bool CarefulMotion::run(std::span<const GroupSteps> groups, double time, const B
   long chunks = std::numeric_limits<long>::max();
   for (const GroupSteps& group : groups) {
     for (const std::size_t i : group.actors) {
-      brick_steps += static_cast<double>(group.steps.count) * world_.actors[i].body.grid.brick_count();
+      brick_steps += double(group.steps.count) * world_.actors[i].body.grid.brick_count();
     }
     chunks = std::min(chunks, group.steps.count);
   }
-  chunks = std::clamp(static_cast<long>(std::ceil(brick_steps / kBrickStepsBetween)), 1L, chunks);
+  chunks = std::clamp(long(std::ceil(brick_steps / kBrickStepsBetween)), 1L, chunks);
   std::vector<GroupSteps> chunk(groups.begin(), groups.end());
   for (long done = 0; done < chunks; ++done) {
     for (std::size_t i = 0; i < groups.size(); ++i) {
       const Steps& all = groups[i].steps;
       const long first = all.count * done / chunks;
       chunk[i].steps.count = all.count * (done + 1) / chunks - first;
-      chunk[i].elapsed = all.dt * static_cast<double>(first);
+      chunk[i].elapsed = all.dt * double(first);
     }
     try {
       advance(world_, scheme_, chunk, time);
@@ -160,7 +160,7 @@ bool CarefulMotion::run(std::span<const GroupSteps> groups, double time, const B
       if (error.kind() != ErrorKind::kDiverged) throw;
       return false;
     }
-    between(static_cast<double>(done + 1) / static_cast<double>(chunks));
+    between(double(done + 1) / double(chunks));
   }
   return true;
 }
@@ -174,7 +174,7 @@ std::vector<GroupSteps> CarefulMotion::advance_frame(double time, double duratio
     const long parts = 1L << halvings_;
     std::vector<GroupSteps> groups = stable;
     for (GroupSteps& group : groups) {
-      group.steps = {group.steps.count * parts, group.steps.dt / static_cast<double>(parts)};
+      group.steps = {group.steps.count * parts, group.steps.dt / double(parts)};
     }
     const bool is_through = run(groups, time, between);
     const std::optional<Trouble> trouble = find_trouble(world_, before, groups);

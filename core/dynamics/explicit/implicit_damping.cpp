@@ -33,7 +33,7 @@ void ImplicitDamping::multiply(const Eigen::VectorXd& u, Eigen::VectorXd& produc
   springs_.multiply_along(actor_.body, actor_.body.positions, due_ * beta_, u, product);
   for (const HeldNode& held : actor_.pinned) {
     for (int axis = 0; axis < 3; ++axis) {
-      if (held.axes[static_cast<std::size_t>(axis)]) product[3 * held.node + axis] = 0;
+      if (held.axes[axis]) product[3 * held.node + axis] = 0;
     }
   }
 }

@@ -102,7 +102,7 @@ class Mover {
     }
     for (const HeldNode& held : actor_.pinned) {
       for (int axis = 0; axis < 3; ++axis) {
-        if (held.axes[static_cast<std::size_t>(axis)]) body.velocities(held.node, axis) = held.velocity[axis];
+        if (held.axes[axis]) body.velocities(held.node, axis) = held.velocity[axis];
       }
     }
     implicit_damping_.pass(dt);  // what is held has its velocity: it leads the rest
@@ -234,12 +234,12 @@ void advance(World& world, Scheme scheme, std::span<const GroupSteps> groups, do
   // A thread that waits within one group's steps must not begin another group's: the first would stand still.
   tbb::parallel_for(std::size_t{0}, groups.size(),
                     [&](std::size_t i) { tbb::this_task_arena::isolate([&] { advance_group(groups[i]); }); });
-  if (!groups.empty()) check_finite(world, time + groups[0].steps.dt * static_cast<double>(groups[0].steps.count));
+  if (!groups.empty()) check_finite(world, time + groups[0].steps.dt * double(groups[0].steps.count));
 }
 
 void advance(World& world, Scheme scheme, double dt, long steps, double time) {
   std::vector<GroupSteps> groups;
-  const double duration = dt * static_cast<double>(steps);
+  const double duration = dt * double(steps);
   for (std::vector<std::size_t>& actors : contact_groups(world, duration)) {
     groups.push_back({.actors = std::move(actors), .steps = {.count = steps, .dt = dt}});
   }

@@ -40,7 +40,7 @@ class CoupledSystem {
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       const std::vector<bool>& fixed = bodies_[i].supports->fixed;
       for (std::size_t dof = 0; dof < fixed.size(); ++dof) {
-        if (fixed[dof]) vector[starts_[i] + static_cast<Eigen::Index>(dof)] = 0;
+        if (fixed[dof]) vector[starts_[i] + dof] = 0;
       }
     }
   }
@@ -60,9 +60,9 @@ class CoupledSystem {
   template <class Visit>
   void each_node(const Coupling& coupling, const Visit& visit) const {
     for (const CoupledCorners& corners : coupling.corners) {
-      const auto& nodes = bodies_[corners.body].body->grid.nodes[static_cast<std::size_t>(corners.brick)];
+      const auto& nodes = bodies_[corners.body].body->grid.nodes[corners.brick];
       for (std::size_t c = 0; c < 8; ++c) {
-        visit(starts_[corners.body] + Eigen::Index{3} * nodes[c], corners.weights[static_cast<Eigen::Index>(c)]);
+        visit(starts_[corners.body] + Eigen::Index{3} * nodes[c], corners.weights[c]);
       }
     }
   }

@@ -28,13 +28,13 @@ void MusclePotential::for_draws(const Visit& visit) const {
       weights.row(corner) = sides.transpose() * tension.frame / (4 * h);
     }
     for (const int brick : actor_.loads.muscles[m].bricks) {
-      const auto b = static_cast<std::size_t>(brick);
+      const std::size_t b = brick;
       const double volume = body.stiffness_scale[b] * body.grid.brick_volume();
       for (int i = 0; i < 3; ++i) {
         Draw draw{
             .brick = brick, .weights = weights.col(i), .along = Vec3::Zero(), .energy = volume * tension.stress[i]};
         for (std::size_t c = 0; c < 8; ++c) {
-          draw.along += draw.weights[static_cast<int>(c)] * body.positions.row(body.grid.nodes[b][c]).transpose();
+          draw.along += draw.weights[c] * body.positions.row(body.grid.nodes[b][c]).transpose();
         }
         visit(draw);
       }
@@ -48,8 +48,8 @@ double MusclePotential::add_forces(Points& forces) const {
     const double length = draw.along.norm();
     energy += draw.energy * length;
     const Vec3 pull = draw.energy / length * draw.along;
-    const auto& nodes = actor_.body.grid.nodes[static_cast<std::size_t>(draw.brick)];
-    for (std::size_t c = 0; c < 8; ++c) forces.row(nodes[c]) -= draw.weights[static_cast<int>(c)] * pull.transpose();
+    const auto& nodes = actor_.body.grid.nodes[draw.brick];
+    for (std::size_t c = 0; c < 8; ++c) forces.row(nodes[c]) -= draw.weights[c] * pull.transpose();
   });
   return energy;
 }
@@ -89,7 +89,7 @@ ImplicitBody::ImplicitBody(Actor& actor, const World& world, const ImplicitOptio
       stiffness_(largest_brick_stiffness(body_)),
       muscles_(actor) {
   for (const Obstacle& obstacle : world.obstacles) obstacles_.emplace_back(actor, obstacle, slip_speed_);
-  history_.pushed_in.setZero(static_cast<Eigen::Index>(contact_skin_of(actor).points.size()));
+  history_.pushed_in.setZero(contact_skin_of(actor).points.size());
 }
 
 void ImplicitBody::pass(MotionMemory& memory) {
@@ -144,7 +144,7 @@ void ImplicitBody::hold(double dt) {
   std::fill(supports_.fixed.begin(), supports_.fixed.end(), false);
   for (const HeldNode& held : actor_.pinned) {
     for (int axis = 0; axis < 3; ++axis) {
-      if (!held.axes[static_cast<std::size_t>(axis)]) continue;
+      if (!held.axes[axis]) continue;
       supports_.fix(held.node, axis);
       body_.positions(held.node, axis) += dt * held.velocity[axis];
     }
@@ -153,7 +153,7 @@ void ImplicitBody::hold(double dt) {
 
 void ImplicitBody::drift() {
   for (Eigen::Index i = 0; i < held_.size(); ++i) {
-    if (supports_.fixed[static_cast<std::size_t>(i)]) continue;
+    if (supports_.fixed[i]) continue;
     body_.positions.data()[i] = terms_.damping_positions.data()[i];
   }
 }
@@ -164,7 +164,7 @@ void ImplicitBody::finish(double dt) {
   body_.velocities = (body_.positions - origin_) / span_;
   for (const HeldNode& held : actor_.pinned) {
     for (int axis = 0; axis < 3; ++axis) {
-      if (held.axes[static_cast<std::size_t>(axis)]) body_.velocities(held.node, axis) = held.velocity[axis];
+      if (held.axes[axis]) body_.velocities(held.node, axis) = held.velocity[axis];
     }
   }
   history_ = {.is_there = true,
@@ -204,15 +204,14 @@ double ImplicitBody::evaluate() {
 
 void ImplicitBody::release_held() {
   for (Eigen::Index i = 0; i < forces_.size(); ++i) {
-    if (supports_.fixed[static_cast<std::size_t>(i)]) forces_.data()[i] = 0;
+    if (supports_.fixed[i]) forces_.data()[i] = 0;
   }
 }
 
 bool ImplicitBody::is_found() const {
   // What positions rounded to their last digit leave of forces.
   const double rounding = 8 * std::numeric_limits<double>::epsilon() * reach_ *
-                          (stiffness_ + mass_factor_ * body_.masses.maxCoeff()) *
-                          std::sqrt(static_cast<double>(body_.node_count()));
+                          (stiffness_ + mass_factor_ * body_.masses.maxCoeff()) * std::sqrt(body_.node_count());
   return forces_.norm() <= std::max(options_.tolerance * work_, rounding);
 }
 

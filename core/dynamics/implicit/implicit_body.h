@@ -30,9 +30,9 @@ class MusclePotential {
   /// One of a brick's directions e_i.
   struct Draw {
     int brick;
-    Eigen::Matrix<double, 8, 1> weights;  // of the brick's corners in F e_i, 1/m
-    Vec3 along;                           // F e_i
-    double energy;                        // J, for a length of one
+    CornerWeights weights;  // of the brick's corners in F e_i, 1/m
+    Vec3 along;             // F e_i
+    double energy;          // J, for a length of one
   };
   template <class Visit>
   void for_draws(const Visit& visit) const;

@@ -47,10 +47,10 @@ void ImplicitMotion::advance(double dt, long steps, double time) {
         group.bodies.push_back(bodies_[row].get());
       }
       group.glue = glue_within(world_, group.rows);
-      advance(group, {.elapsed = dt * static_cast<double>(step), .dt = dt, .begin = time});
+      advance(group, {.elapsed = dt * double(step), .dt = dt, .begin = time});
     }
   }
-  move_obstacles(world_.obstacles, dt * static_cast<double>(steps));
+  move_obstacles(world_.obstacles, dt * double(steps));
 }
 
 void ImplicitMotion::advance(const Together& group, const Span& span) {

@@ -13,8 +13,8 @@ namespace sprung {
 struct Supports {
   std::vector<bool> fixed;  // 3 m
 
-  explicit Supports(int node_count) : fixed(3 * static_cast<std::size_t>(node_count), false) {}
-  void fix(int node, int axis) { fixed[static_cast<std::size_t>(3 * node + axis)] = true; }
+  explicit Supports(int node_count) : fixed(3 * std::size_t(node_count), false) {}
+  void fix(int node, int axis) { fixed[3 * node + axis] = true; }
   void fix(int node) {
     for (int axis = 0; axis < 3; ++axis) fix(node, axis);
   }

@@ -28,8 +28,7 @@ int smoothing_steps(const Body& body) {
 void put(const BrickMatrix& whole, float* matrix, float* pull) {
   for (std::size_t a = 0; a < 21; ++a) {
     for (std::size_t b = 0; b <= a; ++b) {
-      matrix[anchored_index(a, b) * kLanes] =
-          static_cast<float>(whole(static_cast<int>(a + 3), static_cast<int>(b + 3)));
+      matrix[anchored_index(a, b) * kLanes] = float(whole(a + 3, b + 3));
     }
   }
   if (pull == nullptr) return;
@@ -37,7 +36,7 @@ void put(const BrickMatrix& whole, float* matrix, float* pull) {
     for (int k = 0; k < 3; ++k) {
       double sum = 0;
       for (int corner = 0; corner < 8; ++corner) sum += whole(row, 3 * corner + k);
-      pull[(3 * row + k) * kLanes] = static_cast<float>(sum);
+      pull[(3 * row + k) * kLanes] = float(sum);
     }
   }
 }
@@ -101,7 +100,7 @@ class MultigridSystem : public IterativeSystem {
 };
 
 void MultigridSystem::fill_finest() {
-  const auto nodes = static_cast<std::size_t>(body_->node_count());
+  const std::size_t nodes = body_->node_count();
   is_held_node_.assign(nodes, 0);
   for (std::size_t i = 0; i < held_.size(); ++i) {
     if (held_[i]) is_held_node_[i / 3] = 1;
@@ -109,8 +108,7 @@ void MultigridSystem::fill_finest() {
   points_of_brick_.clear();
   if (!terms_->points.empty() || !terms_->coupled.empty()) points_of_brick_.resize(body_->grid.nodes.size());
   for (const std::vector<PointStiffness>* points : {&terms_->points, &terms_->coupled}) {
-    for (const PointStiffness& point : *points)
-      points_of_brick_[static_cast<std::size_t>(point.brick)].push_back(&point);
+    for (const PointStiffness& point : *points) points_of_brick_[point.brick].push_back(&point);
   }
   multigrid::Level& finest = cycle_->finest();
   finest.held.assign(held_.begin(), held_.end());
@@ -123,7 +121,7 @@ void MultigridSystem::fill_finest() {
   tbb::parallel_for(0, finest.block_count(), [&](int block) { fill_block(block, coupling); });
   const double shift = definite_ ? kShift * largest_brick_stiffness(*body_) : 0;
   for (std::size_t node = 0; node < nodes; ++node) {
-    finest.diagonal[node] = terms_->mass_factor * body_->masses[static_cast<Eigen::Index>(node)] + shift;
+    finest.diagonal[node] = terms_->mass_factor * body_->masses[node] + shift;
   }
 }
 
@@ -139,12 +137,12 @@ double MultigridSystem::fastest_of_brick() const {
 }
 
 bool MultigridSystem::needs_pull(int block) const {
-  const auto first = static_cast<std::size_t>(block * kLanes);
+  const std::size_t first = block * kLanes;
   const std::size_t last = std::min(first + kLanes, body_->grid.nodes.size());
   for (std::size_t brick = first; brick < last; ++brick) {
     if (!points_of_brick_.empty() && !points_of_brick_[brick].empty()) return true;
     for (const int node : body_->grid.nodes[brick]) {
-      if (is_held_node_[static_cast<std::size_t>(node)] != 0) return true;
+      if (is_held_node_[node] != 0) return true;
     }
   }
   return false;
@@ -154,7 +152,7 @@ bool MultigridSystem::is_peculiar(std::size_t brick, double volume_ratio) const 
   if (volume_ratio < body_->law.guard_ratio || definite_ || body_->is_hexahedral()) return true;
   if (!points_of_brick_.empty() && !points_of_brick_[brick].empty()) return true;
   return std::any_of(body_->grid.nodes[brick].begin(), body_->grid.nodes[brick].end(),
-                     [&](int node) { return is_held_node_[static_cast<std::size_t>(node)] != 0; });
+                     [&](int node) { return is_held_node_[node] != 0; });
 }
 
 void MultigridSystem::fill_block(int block, const EdgeCoupling& coupling) {
@@ -167,8 +165,8 @@ void MultigridSystem::fill_block(int block, const EdgeCoupling& coupling) {
   float* pull = needs_pull(block) ? finest.add_pull(block) : nullptr;
   for (int brick = first; brick < std::min(first + kLanes, body_->grid.brick_count()); ++brick) {
     const int lane = brick - first;
-    const auto b = static_cast<std::size_t>(brick);
-    const auto volume_ratio = static_cast<double>(volume_ratios[static_cast<std::size_t>(lane)]);
+    const std::size_t b = brick;
+    const auto volume_ratio = double(volume_ratios[lane]);
     if (volume_ratio < body_->law.guard_ratio) is_guarded_ = true;
     if (!is_peculiar(b, volume_ratio)) continue;
     put(peculiar_matrix(b), matrix + lane, pull == nullptr ? nullptr : pull + lane);
@@ -183,8 +181,8 @@ BrickMatrix MultigridSystem::peculiar_matrix(std::size_t brick) const {
     for (const PointStiffness* point : points_of_brick_[brick]) add_point_stiffness(*point, matrix);
   }
   for (int i = 0; i < 24; ++i) {
-    const int node = body_->grid.nodes[brick][static_cast<std::size_t>(i / 3)];
-    if (!held_[static_cast<std::size_t>(3 * node + i % 3)]) continue;
+    const int node = body_->grid.nodes[brick][i / 3];
+    if (!held_[3 * node + i % 3]) continue;
     matrix.row(i).setZero();
     matrix.col(i).setZero();
   }
@@ -193,7 +191,7 @@ BrickMatrix MultigridSystem::peculiar_matrix(std::size_t brick) const {
 
 void MultigridSystem::release_held(Eigen::VectorXd& vector) const {
   for (Eigen::Index i = 0; i < vector.size(); ++i) {
-    if (held_[static_cast<std::size_t>(i)]) vector[i] = 0;
+    if (held_[i]) vector[i] = 0;
   }
 }
 

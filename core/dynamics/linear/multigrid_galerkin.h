@@ -38,8 +38,7 @@ struct Octant {
     alignas(64) std::array<float, kLanes> picked{};
     for (std::size_t i = 0; i < kLanes; ++i) {
       if (from[i] < 0) continue;
-      picked[i] =
-          values[(static_cast<std::size_t>(from[i]) * entries + entry) * kLanes + static_cast<std::size_t>(lanes[i])];
+      picked[i] = values[(std::size_t(from[i]) * entries + entry) * kLanes + lanes[i]];
     }
     return load<Floats>(picked.data());
   }

@@ -12,7 +12,7 @@ namespace {
 
 struct CellHash {
   std::size_t operator()(const Eigen::Vector3i& cell) const {
-    const auto part = [&](int axis) { return static_cast<std::size_t>(cell[axis] + (1 << 20)) & 0x1fffffU; };
+    const auto part = [&](int axis) { return std::size_t(cell[axis] + (1 << 20)) & 0x1fffffU; };
     return part(0) | part(1) << 21U | part(2) << 42U;
   }
 };
@@ -30,15 +30,14 @@ std::vector<std::vector<int>> hanging_together(const std::vector<int>& children,
   DisjointSets sets(children.size());
   for (std::size_t a = 0; a < children.size(); ++a) {
     for (std::size_t b = 0; b < a; ++b) {
-      if (share_a_node(fine.bricks[static_cast<std::size_t>(children[a])],
-                       fine.bricks[static_cast<std::size_t>(children[b])])) {
-        sets.merge(static_cast<int>(a), static_cast<int>(b));
+      if (share_a_node(fine.bricks[children[a]], fine.bricks[children[b]])) {
+        sets.merge(int(a), int(b));
       }
     }
   }
   std::vector<std::vector<int>> groups(children.size());
   for (std::size_t a = 0; a < children.size(); ++a) {
-    groups[static_cast<std::size_t>(sets.find(static_cast<int>(a)))].push_back(children[a]);
+    groups[sets.find(int(a))].push_back(children[a]);
   }
   std::erase_if(groups, [](const std::vector<int>& group) { return group.empty(); });
   return groups;
@@ -47,8 +46,8 @@ std::vector<std::vector<int>> hanging_together(const std::vector<int>& children,
 /// Adds a brick's child; to a new brick at the same cell where another child has its place already (two that do not
 /// hang together on the finest level may do so on a coarser one).
 void add_child(const Layout& fine, int child, std::size_t first_brick, Layout& coarse, std::vector<int>& parents) {
-  const Eigen::Vector3i& place = fine.cells[static_cast<std::size_t>(child)];
-  const auto octant = static_cast<std::size_t>(octant_of(place));
+  const Eigen::Vector3i& place = fine.cells[child];
+  const std::size_t octant = octant_of(place);
   std::size_t brick = first_brick;
   while (brick < coarse.children.size() && coarse.children[brick][octant] >= 0) ++brick;
   if (brick == coarse.children.size()) {
@@ -56,7 +55,7 @@ void add_child(const Layout& fine, int child, std::size_t first_brick, Layout& c
     coarse.children.emplace_back().fill(-1);
   }
   coarse.children[brick][octant] = child;
-  parents[static_cast<std::size_t>(child)] = static_cast<int>(brick);
+  parents[child] = int(brick);
 }
 
 /// Coarse bricks with their children; their nodes are still to be found. Returns each child's coarse brick.
@@ -67,7 +66,7 @@ std::vector<int> join_bricks(const Layout& fine, Layout& coarse) {
   for (std::size_t brick = 0; brick < fine.cells.size(); ++brick) {
     const auto [found, is_new] = cell_at.emplace(half(fine.cells[brick]), cells.size());
     if (is_new) cells.emplace_back();
-    cells[found->second].push_back(static_cast<int>(brick));
+    cells[found->second].push_back(int(brick));
   }
   std::vector<int> parents(fine.cells.size());
   for (const std::vector<int>& cell : cells) {
@@ -100,20 +99,20 @@ void for_each_hanging(const Layout& fine, const std::vector<int>& parents, const
   std::array<std::array<std::vector<int>, 8>, 8> table;
   for (int octant = 0; octant < 8; ++octant) {
     for (int corner = 0; corner < 8; ++corner) {
-      table[static_cast<std::size_t>(octant)][static_cast<std::size_t>(corner)] = supports(octant, corner);
+      table[octant][corner] = supports(octant, corner);
     }
   }
   for (std::size_t brick = 0; brick < fine.bricks.size(); ++brick) {
-    const auto octant = static_cast<std::size_t>(octant_of(fine.cells[brick]));
+    const std::size_t octant = octant_of(fine.cells[brick]);
     for (std::size_t corner = 0; corner < 8; ++corner) {
-      visit(static_cast<std::size_t>(fine.bricks[brick][corner]), 8 * parents[brick], table[octant][corner]);
+      visit(fine.bricks[brick][corner], 8 * parents[brick], table[octant][corner]);
     }
   }
 }
 
 void join_nodes(Layout& fine, const std::vector<int>& parents, Layout& coarse) {
   Interpolation& hang = fine.to_coarse;
-  const auto fine_nodes = static_cast<std::size_t>(fine.node_count);
+  const std::size_t fine_nodes = fine.node_count;
   hang.coarse_nodes.resize(fine_nodes);
   hang.counts.assign(fine_nodes, 0);
   DisjointSets sets(8 * coarse.cells.size());
@@ -131,32 +130,32 @@ void join_nodes(Layout& fine, const std::vector<int>& parents, Layout& coarse) {
   std::vector<int> number(8 * coarse.cells.size(), -1);
   coarse.bricks.resize(coarse.cells.size());
   for (std::size_t corner = 0; corner < number.size(); ++corner) {
-    int& node = number[static_cast<std::size_t>(sets.find(static_cast<int>(corner)))];
+    int& node = number[sets.find(int(corner))];
     if (node < 0) node = coarse.node_count++;
     coarse.bricks[corner / 8][corner % 8] = node;
   }
   for (std::size_t node = 0; node < fine_nodes; ++node) {
     for (std::size_t i = 0; i < hang.counts[node]; ++i) {
       int& corner = hang.coarse_nodes[node][i];
-      corner = number[static_cast<std::size_t>(sets.find(corner))];
+      corner = number[sets.find(corner)];
     }
   }
 }
 
 void list_fine_nodes(Interpolation& hang, int coarse_nodes) {
-  hang.first_fine.assign(static_cast<std::size_t>(coarse_nodes) + 1, 0);
+  hang.first_fine.assign(std::size_t(coarse_nodes) + 1, 0);
   for (std::size_t node = 0; node < hang.counts.size(); ++node) {
     for (std::size_t i = 0; i < hang.counts[node]; ++i) {
-      ++hang.first_fine[static_cast<std::size_t>(hang.coarse_nodes[node][i]) + 1];
+      ++hang.first_fine[hang.coarse_nodes[node][i] + 1];
     }
   }
   std::partial_sum(hang.first_fine.begin(), hang.first_fine.end(), hang.first_fine.begin());
   std::vector<int> next(hang.first_fine.begin(), hang.first_fine.end() - 1);
-  hang.fine_nodes.resize(static_cast<std::size_t>(hang.first_fine.back()));
+  hang.fine_nodes.resize(hang.first_fine.back());
   for (std::size_t node = 0; node < hang.counts.size(); ++node) {
     for (std::size_t i = 0; i < hang.counts[node]; ++i) {
-      int& place = next[static_cast<std::size_t>(hang.coarse_nodes[node][i])];
-      hang.fine_nodes[static_cast<std::size_t>(place++)] = static_cast<int>(node);
+      int& place = next[hang.coarse_nodes[node][i]];
+      hang.fine_nodes[place++] = int(node);
     }
   }
 }

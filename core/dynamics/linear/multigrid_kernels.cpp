@@ -21,9 +21,9 @@ CornerVectors<P> gather(const BlockInput& input, const double* values, int first
   alignas(64) Number places[24][P::Lanes::size()];
   for (int lane = 0; lane < lanes; ++lane) {
     const BrickNodes& nodes = input.nodes[std::min(first + lane, input.brick_count - 1)];
-    const double* origin = values + 3 * static_cast<std::ptrdiff_t>(nodes[0]);
+    const double* origin = values + 3 * std::ptrdiff_t(nodes[0]);
     for (std::size_t corner = 0; corner < 8; ++corner) {
-      const double* value = values + 3 * static_cast<std::ptrdiff_t>(nodes[corner]);
+      const double* value = values + 3 * std::ptrdiff_t(nodes[corner]);
       for (std::size_t k = 0; k < 3; ++k) places[3 * corner + k][lane] = static_cast<Number>(value[k] - origin[k]);
     }
   }
@@ -43,8 +43,7 @@ CornerVectors<P> gather(const BlockInput& input, const double* values, int first
   for (int lane = 0; lane < lanes; ++lane) {
     const std::ptrdiff_t brick = first + lane;
     for (std::size_t i = 0; i < 24; ++i) {
-      corner_products[24 * brick + static_cast<int>(i)] =
-          block.stiffness_scale[brick] * product[i].lanes[static_cast<std::size_t>(lane)];
+      corner_products[24 * brick + int(i)] = block.stiffness_scale[brick] * product[i].lanes[lane];
     }
   }
 }
@@ -55,7 +54,7 @@ CornerVectors<P> gather(const BlockInput& input, const double* values, int first
   const double h = input.brick_size;
   Floats scale(0.0);
   for (int lane = 0; lane < std::min(kLanes, input.brick_count - first); ++lane) {
-    scale.lanes[static_cast<std::size_t>(lane)] = static_cast<float>(input.stiffness_scale[first + lane]);
+    scale.lanes[lane] = float(input.stiffness_scale[first + lane]);
   }
   std::array<Floats, kAnchoredSize> packed;
   anchored_stiffness<Floats>(*input.law, coupling, h, material, x, packed);
@@ -138,7 +137,7 @@ template <class Number, class Entry>
   for (int lane = 0; lane < kLanes; ++lane) {
     const BrickNodes& nodes = block.nodes[std::min(lane, block.count - 1)];
     for (std::size_t corner = 0; corner < 8; ++corner) {
-      const Number* value = x + 3 * static_cast<std::ptrdiff_t>(nodes[corner]);
+      const Number* value = x + 3 * std::ptrdiff_t(nodes[corner]);
       for (std::size_t k = 0; k < 3; ++k) places[3 * corner + k][lane] = value[k];
     }
   }

@@ -43,14 +43,13 @@ Level::Level(const Layout& layout) : layout_(&layout) {
   rounded_.assign(matrices_.size(), 0);
   units_.assign(kLanes * blocks, 0);
   pull_of_block_.assign(blocks, -1);
-  diagonal.assign(static_cast<std::size_t>(layout.node_count), 0);
-  held.assign(3 * static_cast<std::size_t>(layout.node_count), 0);
-  corner_forces_.resize(static_cast<Eigen::Index>(24 * kLanes * blocks));
+  diagonal.assign(layout.node_count, 0);
+  held.assign(3 * std::size_t(layout.node_count), 0);
+  corner_forces_.resize(24 * kLanes * blocks);
   corner_places_.reserve(layout.corners.corners.size());
   for (const int corner : layout.corners.corners) {
-    const auto brick = static_cast<std::size_t>(corner / 8);
-    corner_places_.push_back((brick / kLanes * 24 + 3 * static_cast<std::size_t>(corner % 8)) * kLanes +
-                             brick % kLanes);
+    const std::size_t brick = corner / 8;
+    corner_places_.push_back((brick / kLanes * 24 + 3 * std::size_t(corner % 8)) * kLanes + brick % kLanes);
   }
 }
 
@@ -59,23 +58,23 @@ FineMatrices Level::matrices() const {
 }
 
 float* Level::add_pull(int block) {
-  int& pull = pull_of_block_[static_cast<std::size_t>(block)];
+  int& pull = pull_of_block_[block];
   if (pull < 0) {
-    pull = static_cast<int>(pulls_.size() / (kPullSize * kLanes));
+    pull = int(pulls_.size() / (kPullSize * kLanes));
     pulls_.resize(pulls_.size() + kPullSize * kLanes, 0);
   }
-  return &pulls_[kPullSize * kLanes * static_cast<std::size_t>(pull)];
+  return &pulls_[kPullSize * kLanes * std::size_t(pull)];
 }
 
 LevelBlock Level::input(int block) const {
-  const auto b = static_cast<std::size_t>(block);
+  const std::size_t b = block;
   const int pull = pull_of_block_[b];
   return {.matrix = &matrices_[kAnchoredSize * kLanes * b],
           .rounded = &rounded_[kAnchoredSize * kLanes * b],
           .units = &units_[kLanes * b],
-          .pull = pull < 0 ? nullptr : &pulls_[kPullSize * kLanes * static_cast<std::size_t>(pull)],
+          .pull = pull < 0 ? nullptr : &pulls_[kPullSize * kLanes * std::size_t(pull)],
           .nodes = &layout_->bricks[kLanes * b],
-          .count = std::min(kLanes, static_cast<int>(layout_->bricks.size()) - block * kLanes)};
+          .count = std::min(kLanes, isize(layout_->bricks) - block * kLanes)};
 }
 
 void Level::clear_pulls() {
@@ -86,24 +85,24 @@ void Level::clear_pulls() {
 void Level::coarsen(const Level& fine) {
   clear_pulls();
   const std::span<const Children> children = layout_->children;
-  std::vector<float> pulls(kPullSize * kLanes * static_cast<std::size_t>(block_count()));
-  std::vector<char> has_pull(static_cast<std::size_t>(block_count()));
+  std::vector<float> pulls(kPullSize * kLanes * std::size_t(block_count()));
+  std::vector<char> has_pull(block_count());
   tbb::parallel_for(0, block_count(), [&](int block) {
-    const auto b = static_cast<std::size_t>(block);
+    const std::size_t b = block;
     const auto bricks = children.subspan(b * kLanes, std::min<std::size_t>(kLanes, children.size() - b * kLanes));
     has_pull[b] = kernels().coarsen(fine.matrices(), bricks, matrix(block), &pulls[b * kPullSize * kLanes]) ? 1 : 0;
   });
   for (int block = 0; block < block_count(); ++block) {
-    if (has_pull[static_cast<std::size_t>(block)] == 0) continue;
+    if (has_pull[block] == 0) continue;
     float* pull = add_pull(block);
-    std::copy_n(&pulls[static_cast<std::size_t>(block) * kPullSize * kLanes], kPullSize * kLanes, pull);
+    std::copy_n(&pulls[std::size_t(block) * kPullSize * kLanes], kPullSize * kLanes, pull);
   }
   const Interpolation& hang = fine.layout().to_coarse;
   for (std::size_t node = 0; node < diagonal.size(); ++node) {
     double sum = 0;
     std::array<char, 3> all_held{1, 1, 1};
     for (int i = hang.first_fine[node]; i < hang.first_fine[node + 1]; ++i) {
-      const auto from = static_cast<std::size_t>(hang.fine_nodes[static_cast<std::size_t>(i)]);
+      const std::size_t from = hang.fine_nodes[i];
       sum += fine.diagonal[from] / hang.counts[from];
       for (std::size_t k = 0; k < 3; ++k) all_held[k] = all_held[k] != 0 && fine.held[3 * from + k] != 0 ? 1 : 0;
     }
@@ -115,7 +114,7 @@ void Level::coarsen(const Level& fine) {
 void Level::release_held(Floats& x) const {
   for_nodes(layout_->node_count, [&](int node) {
     for (int i = 3 * node; i < 3 * node + 3; ++i) {
-      if (held[static_cast<std::size_t>(i)] != 0) x[i] = 0;
+      if (held[i] != 0) x[i] = 0;
     }
   });
 }
@@ -135,16 +134,16 @@ void Level::multiply_bricks(const Vector& x, Vector& product, Apply apply) const
   tbb::parallel_for(tbb::blocked_range<int>(0, block_count(), kBlocksPerTask),
                     [&](const tbb::blocked_range<int>& range) {
                       for (int block = range.begin(); block < range.end(); ++block) {
-                        apply(input(block), x.data(), forces + 24 * kLanes * static_cast<std::size_t>(block));
+                        apply(input(block), x.data(), forces + 24 * kLanes * std::size_t(block));
                       }
                     });
   for_nodes(layout_->node_count, [&](int node) {
-    const auto n = static_cast<std::size_t>(node);
+    const std::size_t n = node;
     const auto inertia = static_cast<Number>(diagonal[n]);
     Number sum[3];
     for (int k = 0; k < 3; ++k) sum[k] = inertia * x[3 * node + k];
     for (int i = layout_->corners.first[n]; i < layout_->corners.first[n + 1]; ++i) {
-      const Number* force = forces + corner_places_[static_cast<std::size_t>(i)];
+      const Number* force = forces + corner_places_[i];
       for (int k = 0; k < 3; ++k) sum[k] += force[k * kLanes];
     }
     for (int k = 0; k < 3; ++k) product[3 * node + k] = sum[k];
@@ -167,39 +166,39 @@ double Level::entry(std::size_t brick, std::size_t row, std::size_t column) cons
   if (row < 3) std::swap(row, column);
   if (row >= 3 && column >= 3) {
     const std::size_t index = anchored_index(std::max(row, column) - 3, std::min(row, column) - 3);
-    return static_cast<double>(matrices_[(block * kAnchoredSize + index) * kLanes + lane]);
+    return matrices_[(block * kAnchoredSize + index) * kLanes + lane];
   }
   const int pull = pull_of_block_[block];
   double rest = 0;
   if (pull >= 0) {
-    rest = static_cast<double>(pulls_[(static_cast<std::size_t>(pull) * kPullSize + 3 * row + column) * kLanes + lane]);
+    rest = double(pulls_[(std::size_t(pull) * kPullSize + 3 * row + column) * kLanes + lane]);
   }
   for (std::size_t corner = 1; corner < 8; ++corner) rest -= entry(brick, row, 3 * corner + column);
   return rest;
 }
 
 void Level::prepare_smoother(double fastest_of_brick) {
-  std::vector<float> blocks(48 * kLanes * static_cast<std::size_t>(block_count()));
+  std::vector<float> blocks(48 * kLanes * std::size_t(block_count()));
   tbb::parallel_for(0, block_count(), [&](int block) {
-    const auto b = static_cast<std::size_t>(block);
+    const std::size_t b = block;
     kernels().corner_blocks(input(block), &blocks[48 * kLanes * b]);
     kernels().round(matrix(block), &rounded_[kAnchoredSize * kLanes * b], &units_[kLanes * b]);
   });
-  inverse_blocks_.resize(static_cast<std::size_t>(layout_->node_count));
+  inverse_blocks_.resize(layout_->node_count);
   for_nodes(layout_->node_count, [&](int node) {
-    const auto n = static_cast<std::size_t>(node);
+    const std::size_t n = node;
     Eigen::Matrix3d sum = diagonal[n] * Eigen::Matrix3d::Identity();
     for (int i = layout_->corners.first[n]; i < layout_->corners.first[n + 1]; ++i) {
-      const auto corner = static_cast<std::size_t>(layout_->corners.corners[static_cast<std::size_t>(i)]);
+      const std::size_t corner = layout_->corners.corners[i];
       const std::size_t brick = corner / 8;
       const float* entry = &blocks[(brick / kLanes * 48 + corner % 8 * 6) * kLanes + brick % kLanes];
       for (int r = 0; r < 3; ++r) {
-        for (int c = r; c < 3; ++c, entry += kLanes) sum(c, r) += static_cast<double>(*entry);
+        for (int c = r; c < 3; ++c, entry += kLanes) sum(c, r) += double(*entry);
       }
     }
     inverse_blocks_[n] = inverse_of_free(sum.selfadjointView<Eigen::Lower>(), &held[3 * n]);
   });
-  fastest_ = static_cast<float>(fastest_of_brick);
+  fastest_ = float(fastest_of_brick);
   if (fastest_of_brick == 0) find_fastest();
 }
 
@@ -208,33 +207,32 @@ void Level::find_fastest() {
   std::uint32_t state = 12345;
   for (float& value : x) {
     state = state * 1664525U + 1013904223U;
-    value = static_cast<float>(state >> 8U) / static_cast<float>(1U << 24U) - 0.5F;
+    value = float(state >> 8U) / float(1U << 24U) - 0.5F;
   }
   double growth = 1;
   for (int step = 0; step < kPowerSteps; ++step) {
     multiply(x, product_);
-    for_nodes(layout_->node_count, [&](int node) {
-      x.segment<3>(3 * node) = inverse_blocks_[static_cast<std::size_t>(node)] * product_.segment<3>(3 * node);
-    });
+    for_nodes(layout_->node_count,
+              [&](int node) { x.segment<3>(3 * node) = inverse_blocks_[node] * product_.segment<3>(3 * node); });
     growth = x.cast<double>().norm();
     if (!(growth > 0)) {
       growth = 1;
       break;
     }
-    x *= static_cast<float>(1 / growth);
+    x *= float(1 / growth);
   }
-  fastest_ = static_cast<float>(kPowerMargin * growth);
+  fastest_ = float(kPowerMargin * growth);
 }
 
 void Level::smooth(int steps, Floats& x, Floats& residual, bool with_residual) const {
   direction_.resize(x.size());
   for (int step = 1; step <= steps; ++step) {
-    const auto s = static_cast<float>(step);
+    const auto s = float(step);
     const float keep = (2 * s - 3) / (2 * s + 1);
     const float take = (8 * s - 4) / ((2 * s + 1) * fastest_);
     const bool is_first = step == 1;
     for_nodes(layout_->node_count, [&](int node) {
-      Eigen::Vector3f d = take * (inverse_blocks_[static_cast<std::size_t>(node)] * residual.segment<3>(3 * node));
+      Eigen::Vector3f d = take * (inverse_blocks_[node] * residual.segment<3>(3 * node));
       if (!is_first) d += keep * direction_.segment<3>(3 * node);
       direction_.segment<3>(3 * node) = d;
       x.segment<3>(3 * node) += d;
@@ -253,14 +251,14 @@ Eigen::MatrixXd Level::dense() const {
   for (std::size_t brick = 0; brick < layout_->bricks.size(); ++brick) {
     for (std::size_t row = 0; row < 24; ++row) {
       for (std::size_t column = 0; column < 24; ++column) {
-        matrix(3 * layout_->bricks[brick][row / 3] + static_cast<int>(row % 3),
-               3 * layout_->bricks[brick][column / 3] + static_cast<int>(column % 3)) += entry(brick, row, column);
+        matrix(3 * layout_->bricks[brick][row / 3] + int(row % 3),
+               3 * layout_->bricks[brick][column / 3] + int(column % 3)) += entry(brick, row, column);
       }
     }
   }
   for (Eigen::Index i = 0; i < size; ++i) {
-    matrix(i, i) += diagonal[static_cast<std::size_t>(i / 3)];
-    if (held[static_cast<std::size_t>(i)] == 0) continue;
+    matrix(i, i) += diagonal[i / 3];
+    if (held[i] == 0) continue;
     matrix.row(i).setZero();
     matrix.col(i).setZero();
     matrix(i, i) = 1;
@@ -269,25 +267,25 @@ Eigen::MatrixXd Level::dense() const {
 }
 
 void restrict_to_coarse(const Interpolation& hang, const Floats& fine, Floats& coarse) {
-  const int count = static_cast<int>(hang.first_fine.size()) - 1;
+  const int count = isize(hang.first_fine) - 1;
   coarse.resize(Eigen::Index{3} * count);
   for_nodes(count, [&](int node) {
     Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-    const auto n = static_cast<std::size_t>(node);
+    const std::size_t n = node;
     for (int i = hang.first_fine[n]; i < hang.first_fine[n + 1]; ++i) {
-      const int from = hang.fine_nodes[static_cast<std::size_t>(i)];
-      sum += fine.segment<3>(3 * from) / static_cast<float>(hang.counts[static_cast<std::size_t>(from)]);
+      const int from = hang.fine_nodes[i];
+      sum += fine.segment<3>(3 * from) / float(hang.counts[from]);
     }
     coarse.segment<3>(3 * node) = sum;
   });
 }
 
 void add_from_coarse(const Interpolation& hang, const Floats& coarse, Floats& fine) {
-  for_nodes(static_cast<int>(hang.counts.size()), [&](int node) {
-    const auto n = static_cast<std::size_t>(node);
+  for_nodes(isize(hang.counts), [&](int node) {
+    const std::size_t n = node;
     Eigen::Vector3f sum = Eigen::Vector3f::Zero();
     for (std::size_t i = 0; i < hang.counts[n]; ++i) sum += coarse.segment<3>(3 * hang.coarse_nodes[n][i]);
-    fine.segment<3>(3 * node) += sum / static_cast<float>(hang.counts[n]);
+    fine.segment<3>(3 * node) += sum / float(hang.counts[n]);
   });
 }
 
@@ -299,7 +297,7 @@ constexpr double kRaise = 1e-7;
 /// Of the residual: a coarse level that the first step brings so low takes no second one.
 constexpr float kEnough = 0.25F;
 
-double dot(const Floats& a, const Floats& b) { return static_cast<double>(a.dot(b)); }
+double dot(const Floats& a, const Floats& b) { return a.dot(b); }
 
 }  // namespace
 
@@ -357,7 +355,7 @@ void Cycle::solve_coarse(std::size_t level, const Floats& b, Floats& x) const {
   const double curvature = dot(x, room.first_product);
   const double descent = dot(x, b);
   if (!(curvature > 0)) return;
-  const auto step = static_cast<float>(descent / curvature);
+  const auto step = float(descent / curvature);
   room.left = b - step * room.first_product;
   if (room.left.norm() <= kEnough * b.norm()) {
     x *= step;
@@ -373,8 +371,7 @@ void Cycle::solve_coarse(std::size_t level, const Floats& b, Floats& x) const {
     return;
   }
   const double second_step = dot(room.second, room.left) / second_curvature;
-  x = static_cast<float>(descent / curvature - mixed * second_step / curvature) * x +
-      static_cast<float>(second_step) * room.second;
+  x = float(descent / curvature - mixed * second_step / curvature) * x + float(second_step) * room.second;
 }
 
 void Cycle::solve_coarsest(const Floats& residual, Floats& x) const {

@@ -15,10 +15,8 @@ class Level {
   explicit Level(const Layout& layout);
 
   [[nodiscard]] const Layout& layout() const { return *layout_; }
-  [[nodiscard]] int block_count() const { return static_cast<int>(pull_of_block_.size()); }
-  [[nodiscard]] float* matrix(int block) {
-    return &matrices_[kAnchoredSize * kLanes * static_cast<std::size_t>(block)];
-  }
+  [[nodiscard]] int block_count() const { return isize(pull_of_block_); }
+  [[nodiscard]] float* matrix(int block) { return &matrices_[kAnchoredSize * kLanes * std::size_t(block)]; }
   [[nodiscard]] FineMatrices matrices() const;
 
   /// Gives a block room for pulls (zero), if it has none yet.

@@ -18,11 +18,11 @@ void add_point_stiffness(const PointStiffness& point, BrickMatrix& matrix) {
 
 void add_point_product(const Body& body, const PointStiffness& point, const Eigen::VectorXd& x,
                        Eigen::VectorXd& product) {
-  const auto& nodes = body.grid.nodes[static_cast<std::size_t>(point.brick)];
+  const auto& nodes = body.grid.nodes[point.brick];
   Vec3 moved = Vec3::Zero();
-  for (std::size_t c = 0; c < 8; ++c) moved += point.weights[static_cast<int>(c)] * x.segment<3>(3 * nodes[c]);
+  for (std::size_t c = 0; c < 8; ++c) moved += point.weights[c] * x.segment<3>(3 * nodes[c]);
   const Vec3 force = point.stiffness * moved;
-  for (std::size_t c = 0; c < 8; ++c) product.segment<3>(3 * nodes[c]) += point.weights[static_cast<int>(c)] * force;
+  for (std::size_t c = 0; c < 8; ++c) product.segment<3>(3 * nodes[c]) += point.weights[c] * force;
 }
 
 namespace {
@@ -33,13 +33,13 @@ BrickMatrix brick_stiffness_along(const Body& body, std::size_t brick, const Ste
   if (body.is_hexahedral()) return scale * body.small_strain_stiffness;
   CornerVectors<double> x{};
   for (std::size_t i = 0; i < 24; ++i) {
-    x[i] = terms.damping_positions(body.grid.nodes[brick][i / 3], static_cast<int>(i % 3));
+    x[i] = terms.damping_positions(body.grid.nodes[brick][i / 3], i % 3);
   }
   const auto directions = spring_directions(body.grid.brick_size, x);
   BrickMatrix matrix;
   for (int column = 0; column < 24; ++column) {
     CornerVectors<double> unit{};
-    unit[static_cast<std::size_t>(column)] = 1;
+    unit[column] = 1;
     CornerVectors<double> product{};
     damping_product(body.law, directions, unit, product);
     matrix.col(column) = scale * Eigen::Map<const Eigen::Matrix<double, 24, 1>>(product.data());
@@ -57,22 +57,22 @@ FreeDofs::FreeDofs(const Supports& supports) {
 Eigen::VectorXd FreeDofs::gather(const Eigen::VectorXd& all) const {
   Eigen::VectorXd free(count);
   for (std::size_t i = 0; i < index.size(); ++i) {
-    if (index[i] >= 0) free[index[i]] = all[static_cast<int>(i)];
+    if (index[i] >= 0) free[index[i]] = all[i];
   }
   return free;
 }
 
 Eigen::VectorXd FreeDofs::scatter(const Eigen::VectorXd& free) const {
-  Eigen::VectorXd all = Eigen::VectorXd::Zero(static_cast<int>(index.size()));
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(isize(index));
   for (std::size_t i = 0; i < index.size(); ++i) {
-    if (index[i] >= 0) all[static_cast<int>(i)] = free[index[i]];
+    if (index[i] >= 0) all[i] = free[index[i]];
   }
   return all;
 }
 
 Eigen::SparseMatrix<double> stiffness_matrix(const Body& body, const FreeDofs& dofs, bool definite,
                                              const StepTerms& terms) {
-  const auto bricks = static_cast<std::size_t>(body.grid.brick_count());
+  const std::size_t bricks = body.grid.brick_count();
   std::vector<BrickMatrix> hessians(bricks);
   tbb::parallel_for(std::size_t{0}, bricks, [&](std::size_t brick) {
     const BrickMatrix hessian = body_brick_hessian(body, brick);
@@ -80,25 +80,24 @@ Eigen::SparseMatrix<double> stiffness_matrix(const Body& body, const FreeDofs& d
     if (terms.damping != 0) hessians[brick] += terms.damping * brick_stiffness_along(body, brick, terms);
   });
   for (const PointStiffness& point : terms.points) {
-    add_point_stiffness(point, hessians[static_cast<std::size_t>(point.brick)]);
+    add_point_stiffness(point, hessians[point.brick]);
   }
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(300 * bricks);
   for (std::size_t brick = 0; brick < bricks; ++brick) {
     const auto& nodes = body.grid.nodes[brick];
     for (int b = 0; b < 24; ++b) {
-      const int column = dofs.index[static_cast<std::size_t>(3 * nodes[static_cast<std::size_t>(b / 3)] + b % 3)];
+      const int column = dofs.index[3 * nodes[b / 3] + b % 3];
       if (column < 0) continue;
       for (int a = 0; a < 24; ++a) {
-        const int row = dofs.index[static_cast<std::size_t>(3 * nodes[static_cast<std::size_t>(a / 3)] + a % 3)];
+        const int row = dofs.index[3 * nodes[a / 3] + a % 3];
         if (row >= column) entries.emplace_back(row, column, hessians[brick](a, b));
       }
     }
   }
   for (std::size_t i = 0; i < dofs.index.size(); ++i) {
     if (dofs.index[i] < 0 || terms.mass_factor == 0) continue;
-    entries.emplace_back(dofs.index[i], dofs.index[i],
-                         terms.mass_factor * body.masses[static_cast<Eigen::Index>(i / 3)]);
+    entries.emplace_back(dofs.index[i], dofs.index[i], terms.mass_factor * body.masses[i / 3]);
   }
   Eigen::SparseMatrix<double> matrix(dofs.count, dofs.count);
   matrix.setFromTriplets(entries.begin(), entries.end());
@@ -111,11 +110,10 @@ constexpr int kBlocksPerTask = 32;
 
 void multiply_hexahedra(const Body& body, const Eigen::VectorXd& u, double* products) {
   tbb::parallel_for(0, body.grid.brick_count(), [&](int brick) {
-    const auto b = static_cast<std::size_t>(brick);
+    const std::size_t b = brick;
     Eigen::Matrix<double, 24, 1> moves;
     for (int c = 0; c < 8; ++c) {
-      moves.segment<3>(Eigen::Index{3} * c) =
-          u.segment<3>(Eigen::Index{3} * body.grid.nodes[b][static_cast<std::size_t>(c)]);
+      moves.segment<3>(Eigen::Index{3} * c) = u.segment<3>(Eigen::Index{3} * body.grid.nodes[b][c]);
     }
     Eigen::Map<Eigen::Matrix<double, 24, 1>> product(products + 24 * b);
     product = body.stiffness_scale[b] * (body.small_strain_stiffness * moves);

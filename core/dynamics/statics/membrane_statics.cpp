@@ -23,7 +23,7 @@ Eigen::Map<const Eigen::VectorXd> flat(const Points2& points) { return {points.d
 
 void release_supported(const Membrane& membrane, Eigen::VectorXd& forces) {
   for (Eigen::Index i = 0; i < forces.size(); ++i) {
-    if (membrane.fixed[static_cast<std::size_t>(i)]) forces[i] = 0;
+    if (membrane.fixed[i]) forces[i] = 0;
   }
 }
 
@@ -33,8 +33,7 @@ Eigen::SparseMatrix<double> supported_stiffness(const Membrane& membrane, bool d
   const double held = matrix.diagonal().maxCoeff();
   for (int column = 0; column < matrix.outerSize(); ++column) {
     for (Eigen::SparseMatrix<double>::InnerIterator entry(matrix, column); entry; ++entry) {
-      const bool fixed =
-          membrane.fixed[static_cast<std::size_t>(entry.row())] || membrane.fixed[static_cast<std::size_t>(column)];
+      const bool fixed = membrane.fixed[entry.row()] || membrane.fixed[column];
       if (fixed) entry.valueRef() = entry.row() == column ? held : 0;
     }
   }
@@ -99,7 +98,7 @@ bool find_equilibrium(Membrane& membrane, const Points2& loads, const StaticOpti
     if (report.residual <= std::max(options.tolerance, rounding_force / largest)) return true;
     ++report.iterations;
     // Close to the minimum the energy no longer resolves a step; a full Newton step is then right.
-    const double tensions = std::sqrt(12 * static_cast<double>(membrane.rectangles.size()) * stiffness *
+    const double tensions = std::sqrt(12 * double(membrane.rectangles.size()) * stiffness *
                                       std::max(0.0, elastic_energy(membrane)));  // at most, all springs together
     const double noise = rounding * (flat(loads).lpNorm<1>() + tensions);
     if (!step(membrane, loads, residual, noise)) return false;
@@ -148,7 +147,7 @@ StaticReport solve_static(Membrane& membrane, const Points2& loads, const Static
 Points2 reactions(const Membrane& membrane, const Points2& loads) {
   Points2 held = -(spring_forces(membrane) + loads);
   for (Eigen::Index i = 0; i < held.size(); ++i) {
-    if (!membrane.fixed[static_cast<std::size_t>(i)]) held.data()[i] = 0;
+    if (!membrane.fixed[i]) held.data()[i] = 0;
   }
   return held;
 }

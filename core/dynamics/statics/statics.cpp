@@ -20,11 +20,11 @@ Points holding_forces(const Body& body, const Points& displacements) {
     const auto& nodes = body.grid.nodes[brick];
     Eigen::Matrix<double, 24, 1> u;
     for (int c = 0; c < 8; ++c) {
-      u.segment<3>(Eigen::Index{3} * c) = displacements.row(nodes[static_cast<std::size_t>(c)]).transpose();
+      u.segment<3>(Eigen::Index{3} * c) = displacements.row(nodes[c]).transpose();
     }
     const Eigen::Matrix<double, 24, 1> f = body_brick_hessian(body, brick) * u;
     for (int c = 0; c < 8; ++c) {
-      forces.row(nodes[static_cast<std::size_t>(c)]) += f.segment<3>(Eigen::Index{3} * c).transpose();
+      forces.row(nodes[c]) += f.segment<3>(Eigen::Index{3} * c).transpose();
     }
   }
   return forces;
@@ -37,7 +37,7 @@ LinearResponse linear_response(const Body& body, const Supports& supports, const
   LinearResponse response;
   response.displacements = Points::Zero(body.node_count(), 3);
   for (Eigen::Index i = 0; i < movements.size(); ++i) {
-    if (supports.fixed[static_cast<std::size_t>(i)]) response.displacements.data()[i] = movements.data()[i];
+    if (supports.fixed[i]) response.displacements.data()[i] = movements.data()[i];
   }
   if (std::find(supports.fixed.begin(), supports.fixed.end(), false) != supports.fixed.end()) {
     const Points driving = loads - holding_forces(body, response.displacements);
@@ -46,7 +46,7 @@ LinearResponse linear_response(const Body& body, const Supports& supports, const
   }
   response.reactions = holding_forces(body, response.displacements) - loads;
   for (Eigen::Index i = 0; i < movements.size(); ++i) {
-    if (!supports.fixed[static_cast<std::size_t>(i)]) response.reactions.data()[i] = 0;
+    if (!supports.fixed[i]) response.reactions.data()[i] = 0;
   }
   return response;
 }
@@ -99,7 +99,7 @@ class Equilibrium {
     largest_force_ = std::max({flat(forces_).lpNorm<Eigen::Infinity>(), flat(loads_).lpNorm<Eigen::Infinity>(),
                                std::numeric_limits<double>::min()});
     for (int i = 0; i < total.size(); ++i) {
-      if (supports_.fixed[static_cast<std::size_t>(i)]) total[i] = 0;
+      if (supports_.fixed[i]) total[i] = 0;
     }
     return total;
   }
@@ -170,7 +170,7 @@ StaticReport solve_static(Body& body, const Supports& supports, const Points& lo
   const Points goal = body.positions;
   const auto move_supports = [&](double share) {
     for (int i = 0; i < goal.size(); ++i) {
-      if (!supports.fixed[static_cast<std::size_t>(i)]) continue;
+      if (!supports.fixed[i]) continue;
       body.positions.data()[i] = start.data()[i] + share * (goal.data()[i] - start.data()[i]);
     }
   };
@@ -208,7 +208,7 @@ Points reactions(const Body& body, const Supports& supports, const Points& loads
   spring_forces(body, workspace, forces);
   Points held = -(forces + loads);
   for (int i = 0; i < held.size(); ++i) {
-    if (!supports.fixed[static_cast<std::size_t>(i)]) held.data()[i] = 0;
+    if (!supports.fixed[i]) held.data()[i] = 0;
   }
   return held;
 }

@@ -163,7 +163,7 @@ class MeshBuilder {
       colors = colors || instance.mesh->HasVertexColors(0);
     }
     if (vertices > std::size_t{std::numeric_limits<int>::max()}) refuse("more than 2^31 vertices; simplify the mesh");
-    const int n = static_cast<int>(vertices);
+    const int n = int(vertices);
     mesh_.positions.setZero(n, 3);
     // Where only some meshes bring an attribute, the others get a neutral value: no normal, no offset, white.
     if (normals) mesh_.normals.setZero(n, 3);
@@ -176,17 +176,17 @@ class MeshBuilder {
     if (instance.mesh->HasNormals()) add_normals(instance);
     if (instance.mesh->HasTextureCoords(0)) add_uvs(*instance.mesh);
     if (instance.mesh->HasVertexColors(0)) add_colors(*instance.mesh);
-    const auto first = static_cast<int>(triangles_.size());
+    const auto first = isize(triangles_);
     add_faces(instance);
-    const auto count = static_cast<int>(triangles_.size()) - first;
+    const auto count = isize(triangles_) - first;
     if (count > 0) mesh_.parts.push_back({instance.name, first, count, instance.material});
-    first_vertex_ += static_cast<int>(instance.mesh->mNumVertices);
+    first_vertex_ += int(instance.mesh->mNumVertices);
   }
 
   SurfaceMesh finish() {
-    mesh_.triangles.resize(static_cast<int>(triangles_.size()), 3);
+    mesh_.triangles.resize(isize(triangles_), 3);
     for (int t = 0; t < mesh_.triangles.rows(); ++t) {
-      const auto& corners = triangles_[static_cast<std::size_t>(t)];
+      const auto& corners = triangles_[t];
       mesh_.triangles.row(t) = Eigen::Vector3i(corners[0], corners[1], corners[2]);
     }
     if (triangles_.empty()) refuse(no_faces(mesh_.positions.rows(), lines_));
@@ -267,7 +267,7 @@ class MeshBuilder {
     return row(vertex);
   }
 
-  [[nodiscard]] int row(unsigned vertex) const { return first_vertex_ + static_cast<int>(vertex); }
+  [[nodiscard]] int row(unsigned vertex) const { return first_vertex_ + int(vertex); }
 
   SurfaceMesh mesh_;
   std::vector<std::array<int, 3>> triangles_;
@@ -354,7 +354,7 @@ SurfaceMesh read_by_assimp(const std::filesystem::path& file) {
   collect_instances(scene, *scene.mRootNode, Transform::Identity(), instances);
   for (Instance& instance : instances) {
     const unsigned material = instance.mesh->mMaterialIndex;
-    if (!is_placeholder(scene, material, is_gltf)) instance.material = static_cast<int>(material);
+    if (!is_placeholder(scene, material, is_gltf)) instance.material = int(material);
   }
   MeshBuilder builder(instances, is_gltf, file.string());
   for (const Instance& instance : instances) builder.add(instance);

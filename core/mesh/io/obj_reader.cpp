@@ -39,7 +39,7 @@ void read_color(TextScanner& scanner, Eigen::Vector4f& color) {
   for (int channel = 0; channel < 3; ++channel) {
     const auto value = number_of(scanner.word());
     if (!value || !(*value >= 0)) return;
-    color[channel] = static_cast<float>(std::min(*value, 1.0));
+    color[channel] = float(std::min(*value, 1.0));
   }
 }
 
@@ -146,18 +146,18 @@ class ObjReader {
   /// the first face at fault is the one that is named.
   void take_face() {
     if (!fault_.empty()) return;
-    const auto first = static_cast<long>(soup_.corners.size());
+    const long first = soup_.corners.size();
     for (std::string_view word = scanner_.word(); !word.empty(); word = scanner_.word()) {
       soup_.corners.push_back(take_corner(word));
     }
     const long count = std::ssize(soup_.corners) - first;
     ++faces_;
     if (count < 3 || !fault_.empty()) {
-      soup_.corners.resize(static_cast<std::size_t>(first));
+      soup_.corners.resize(first);
       ++loose_;
       return;
     }
-    soup_.corner_counts.push_back(static_cast<int>(count));
+    soup_.corner_counts.push_back(int(count));
     soup_.polygon_parts.push_back(part());
     places_.push_back({faces_, scanner_.line()});
   }
@@ -188,19 +188,19 @@ class ObjReader {
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), index);
     if (error == std::errc::invalid_argument) refuse_corner(word);
     const long row = index < 0 ? so_far + index : index - 1L;
-    const auto length = static_cast<std::size_t>(end - word.data());
+    const std::size_t length = end - word.data();
     if ((error != std::errc{} || row < 0) && fault_.empty()) {
       fault_ = fmt::format("{}:{}: face {} refers to {} {} of {} (index out of range)", name_, scanner_.line(),
                            faces_ + 1, thing, word.substr(0, length), so_far);
     }
     word.remove_prefix(length);
-    return static_cast<int>(std::max(row, 0L));
+    return int(std::max(row, 0L));
   }
 
   /// The part of this group and material, made where there is none yet.
   int part() {
     if (part_ >= 0) return part_;
-    const auto [found, is_new] = parts_.try_emplace({group_, material_}, static_cast<int>(soup_.parts.size()));
+    const auto [found, is_new] = parts_.try_emplace({group_, material_}, isize(soup_.parts));
     if (is_new) soup_.parts.push_back({.name = group_, .material = material()});
     return part_ = found->second;
   }
@@ -208,7 +208,7 @@ class ObjReader {
   int material() {
     if (material_.empty()) return -1;
     for (std::size_t i = soup_.materials.size(); i-- > 0;) {
-      if (soup_.materials[i].name == material_) return static_cast<int>(i);
+      if (soup_.materials[i].name == material_) return int(i);
     }
     return -1;
   }

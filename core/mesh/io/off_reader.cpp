@@ -53,7 +53,7 @@ Counts read_counts(TextScanner& scanner) {
   }
   static_cast<void>(scanner.rest());  // the number of edges, which nobody fills in
   // A vertex or a face takes at least 6 or 4 bytes: one-digit numbers and what stands between them.
-  const auto size = static_cast<double>(scanner.after().size());
+  const auto size = double(scanner.after().size());
   const auto check = [&](double count, std::string_view things, double least_bytes) {
     if (count * least_bytes <= size + least_bytes) return;
     scanner.refuse(
@@ -61,7 +61,7 @@ Counts read_counts(TextScanner& scanner) {
   };
   check(*vertices, "vertices", 6);
   check(*faces, "faces", 4);
-  return {static_cast<long>(*vertices), static_cast<long>(*faces)};
+  return {long(*vertices), long(*faces)};
 }
 
 /// The numbers that are left of a line, up to 16, and whether one of them has a decimal point.
@@ -87,7 +87,7 @@ Eigen::Vector4f color_of(std::span<const double> values, bool fractions) {
   Eigen::Vector4f color = Eigen::Vector4f::Ones();
   if (values.size() < 3) return color;
   for (std::size_t i = 0; i < std::min<std::size_t>(values.size(), 4); ++i) {
-    color[static_cast<int>(i)] = static_cast<float>(fractions ? values[i] : values[i] / 255);
+    color[i] = float(fractions ? values[i] : values[i] / 255);
   }
   return color.array().isFinite().all() ? Eigen::Vector4f(color.cwiseMax(0.0F).cwiseMin(1.0F))
                                         : Eigen::Vector4f::Ones();
@@ -125,12 +125,12 @@ void read_face(TextScanner& scanner, const VertexLayout& layout, long face, Poly
       scanner.refuse(fmt::format("{} refers to vertex {}, but they run from 0 to {} (index out of range)", what.text(),
                                  vertex, std::ssize(soup.positions) - 1));
     }
-    const int row = static_cast<int>(vertex);
+    const int row = int(vertex);
     soup.corners.push_back({row, layout.uvs ? row : -1, layout.normals ? row : -1});
   }
   static_cast<void>(scanner.rest());
   if (corners >= 3) {
-    soup.corner_counts.push_back(static_cast<int>(corners));
+    soup.corner_counts.push_back(int(corners));
     soup.polygon_parts.push_back(0);
   } else {
     soup.corners.resize(first);

@@ -64,7 +64,7 @@ void read_element(TextScanner& scanner, PlyHeader& header) {
   if (!count || !(*count >= 0 && *count < 0x1p53)) {
     scanner.refuse(fmt::format("the element '{}' has no count", element.name));
   }
-  element.count = static_cast<long>(*count);
+  element.count = long(*count);
 }
 
 void read_property(TextScanner& scanner, PlyHeader& header) {
@@ -99,8 +99,8 @@ std::size_t least_bytes(const PlyElement& element, PlyFormat format) {
 
 void check_counts(const PlyHeader& header, std::size_t body, const std::string& name) {
   for (const PlyElement& element : header.elements) {
-    const double least = static_cast<double>(std::max<std::size_t>(1, least_bytes(element, header.format)));
-    if (static_cast<double>(element.count) * least <= static_cast<double>(body) + 1) continue;
+    const double least = double(std::max<std::size_t>(1, least_bytes(element, header.format)));
+    if (double(element.count) * least <= double(body) + 1) continue;
     throw Error(ErrorKind::kBadInput,
                 fmt::format("{}: header declares {} of '{}', more than the file can hold ({} bytes after the header)",
                             name, element.count, element.name, body));
@@ -111,12 +111,12 @@ void check_counts(const PlyHeader& header, std::size_t body, const std::string& 
 
 std::size_t size_of(PlyType type) {
   constexpr std::size_t kSizes[] = {1, 1, 2, 2, 4, 4, 4, 8};
-  return kSizes[static_cast<std::size_t>(type)];
+  return kSizes[std::size_t(type)];
 }
 
 int PlyElement::find(std::initializer_list<std::string_view> names) const {
   for (std::size_t i = 0; i < properties.size(); ++i) {
-    if (std::find(names.begin(), names.end(), properties[i].name) != names.end()) return static_cast<int>(i);
+    if (std::find(names.begin(), names.end(), properties[i].name) != names.end()) return int(i);
   }
   return -1;
 }
@@ -147,7 +147,7 @@ template <class Number>
 double decode(const char* bytes) {
   Number number;
   std::memcpy(&number, bytes, sizeof number);
-  return static_cast<double>(number);
+  return number;
 }
 
 double decode(PlyType type, const char* bytes) {
@@ -301,14 +301,14 @@ class PlyReader {
     }
   }
 
-  [[nodiscard]] double number(int place) const { return entry_.numbers[static_cast<std::size_t>(place)]; }
+  [[nodiscard]] double number(int place) const { return entry_.numbers[place]; }
 
   void read_vertices(const PlyElement& element) {
     const VertexPlaces places(element);
     if (!has_all(places.position)) data_.refuse("its vertices have no x, y and z");
     has_normals_ = has_all(places.normal);
     has_vertex_uvs_ = has_all(places.uv) && !has_corner_uvs();
-    const auto type = [&](int place) { return element.properties[static_cast<std::size_t>(place)].type; };
+    const auto type = [&](int place) { return element.properties[place].type; };
     soup_.single_precision = header_.format != PlyFormat::kText && type(places.position[0]) == PlyType::kFloat32;
     const double scale = has_all(places.color) ? full_scale(type(places.color[0])) : 1;
     read_all(element, [&](const Named&) {
@@ -336,8 +336,8 @@ class PlyReader {
   }
 
   int row_of(double vertex, const Named& what) const {
-    if (vertex >= 0 && vertex < static_cast<double>(vertices_) && vertex == std::floor(vertex)) {
-      return static_cast<int>(vertex);
+    if (vertex >= 0 && vertex < double(vertices_) && vertex == std::floor(vertex)) {
+      return int(vertex);
     }
     data_.refuse(fmt::format("{} refers to vertex {}, but they run from 0 to {} (index out of range)", what.text(),
                              vertex, vertices_ - 1));
@@ -348,18 +348,18 @@ class PlyReader {
     for (std::size_t i = 0; i < vertices.size(); ++i) {
       Corner corner{.position = row_of(vertices[i], what)};
       if (uvs.size() == 2 * vertices.size()) {
-        corner.uv = static_cast<int>(soup_.uvs.size());
+        corner.uv = isize(soup_.uvs);
         add_uv(soup_, {uvs[2 * i], uvs[2 * i + 1]});
       }
       soup_.corners.push_back(corner);
     }
-    soup_.corner_counts.push_back(static_cast<int>(vertices.size()));
+    soup_.corner_counts.push_back(isize(vertices));
     soup_.polygon_parts.push_back(0);
   }
 
   int list_place(const PlyElement& element) {
     const int place = element.find({"vertex_indices", "vertex_index"});
-    if (place < 0 || !element.properties[static_cast<std::size_t>(place)].is_list) {
+    if (place < 0 || !element.properties[place].is_list) {
       data_.refuse(fmt::format("the element '{}' has no list of vertex_indices", element.name));
     }
     return place;
@@ -367,11 +367,11 @@ class PlyReader {
 
   void read_faces(const PlyElement& element) {
     if (element.count == 0) return;
-    const auto vertices = static_cast<std::size_t>(list_place(element));
+    const std::size_t vertices = list_place(element);
     const int uvs = element.find({"texcoord", "texture_coordinates"});
     read_all(element, [&](const Named& what) {
       std::span<const double> corner_uvs;
-      if (uvs >= 0) corner_uvs = entry_.lists[static_cast<std::size_t>(uvs)];
+      if (uvs >= 0) corner_uvs = entry_.lists[uvs];
       add_polygon(entry_.lists[vertices], corner_uvs, what);
     });
   }
@@ -379,7 +379,7 @@ class PlyReader {
   /// Each vertex of a strip makes a triangle with the two before it, turned over every other time; -1 begins anew.
   void read_strips(const PlyElement& element) {
     if (element.count == 0) return;
-    const auto place = static_cast<std::size_t>(list_place(element));
+    const std::size_t place = list_place(element);
     read_all(element, [&](const Named& what) {
       const std::vector<double>& strip = entry_.lists[place];
       std::size_t begin = 0;

@@ -73,7 +73,7 @@ class EarClipper {
       }
     }
     const auto ear = corner(best);
-    left_.erase(left_.begin() + static_cast<std::ptrdiff_t>(best));
+    left_.erase(left_.begin() + std::ptrdiff_t(best));
     return ear;
   }
 
@@ -135,20 +135,20 @@ class Vertices {
 
   /// A number for the corner's vertex, equal for equal corners.
   int find_or_add(const Corner& corner) {
-    int& first = first_[static_cast<std::size_t>(corner.position)];
-    for (int i = first; i >= 0; i = next_[static_cast<std::size_t>(i)]) {
-      const Corner& known = corners_[static_cast<std::size_t>(i)];
+    int& first = first_[corner.position];
+    for (int i = first; i >= 0; i = next_[i]) {
+      const Corner& known = corners_[i];
       if (known.uv == corner.uv && known.normal == corner.normal) return i;
     }
     next_.push_back(first);
     corners_.push_back(corner);
-    return first = static_cast<int>(corners_.size()) - 1;
+    return first = isize(corners_) - 1;
   }
 
   /// Positions that no corner uses become vertices, too.
   void add_unused() {
     for (std::size_t p = 0; p < first_.size(); ++p) {
-      if (first_[p] < 0) static_cast<void>(find_or_add({static_cast<int>(p)}));
+      if (first_[p] < 0) static_cast<void>(find_or_add({int(p)}));
     }
   }
 
@@ -157,7 +157,7 @@ class Vertices {
     std::vector<int> rows(corners_.size());
     int row = 0;
     for (const int first : first_) {
-      for (int i = first; i >= 0; i = next_[static_cast<std::size_t>(i)]) rows[static_cast<std::size_t>(i)] = row++;
+      for (int i = first; i >= 0; i = next_[i]) rows[i] = row++;
     }
     return rows;
   }
@@ -172,11 +172,11 @@ class Vertices {
 
 template <class Rows, class List>
 void fill_row(Rows& rows, int row, const List& list, int index) {
-  if (rows.rows() > 0 && index >= 0) rows.row(row) = list[static_cast<std::size_t>(index)];
+  if (rows.rows() > 0 && index >= 0) rows.row(row) = list[index];
 }
 
 void fill_vertices(const PolygonSoup& soup, const Vertices& vertices, const std::vector<int>& rows, SurfaceMesh& mesh) {
-  const auto count = static_cast<int>(rows.size());
+  const auto count = isize(rows);
   mesh.positions.resize(count, 3);
   if (!soup.colors.empty()) mesh.colors.resize(count, 4);
   if (!soup.uvs.empty()) mesh.uvs.setZero(count, 2);
@@ -196,8 +196,8 @@ std::vector<std::vector<std::array<int, 3>>> cut(const PolygonSoup& soup, const 
   std::vector<std::vector<std::array<int, 3>>> triangles(soup.parts.size());
   std::span<const int> left(corner_rows);
   for (std::size_t p = 0; p < soup.corner_counts.size(); ++p) {
-    const auto count = static_cast<std::size_t>(soup.corner_counts[p]);
-    cut_polygon(positions, left.first(count), triangles[static_cast<std::size_t>(soup.polygon_parts[p])]);
+    const std::size_t count = soup.corner_counts[p];
+    cut_polygon(positions, left.first(count), triangles[soup.polygon_parts[p]]);
     left = left.subspan(count);
   }
   return triangles;
@@ -207,12 +207,12 @@ void fill_triangles(const std::vector<std::vector<std::array<int, 3>>>& triangle
                     SurfaceMesh& mesh) {
   std::size_t count = 0;
   for (const auto& of_part : triangles) count += of_part.size();
-  mesh.triangles.resize(static_cast<int>(count), 3);
+  mesh.triangles.resize(count, 3);
   int row = 0;
   for (std::size_t p = 0; p < parts.size(); ++p) {
     if (triangles[p].empty()) continue;
     parts[p].first_triangle = row;
-    parts[p].triangle_count = static_cast<int>(triangles[p].size());
+    parts[p].triangle_count = isize(triangles[p]);
     for (const auto& corners : triangles[p]) mesh.triangles.row(row++) << corners[0], corners[1], corners[2];
     mesh.parts.push_back(std::move(parts[p]));
   }
@@ -256,7 +256,7 @@ SurfaceMesh mesh_from(PolygonSoup soup, std::string_view name) {
   for (const Corner& corner : soup.corners) corner_rows.push_back(vertices.find_or_add(corner));
   vertices.add_unused();
   const std::vector<int> rows = vertices.rows();
-  for (int& vertex : corner_rows) vertex = rows[static_cast<std::size_t>(vertex)];
+  for (int& vertex : corner_rows) vertex = rows[vertex];
 
   SurfaceMesh mesh;
   fill_vertices(soup, vertices, rows, mesh);

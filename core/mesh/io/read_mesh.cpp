@@ -30,7 +30,7 @@ void check_size(const fs::path& file) {
   if (size == 0) refuse(file, "empty file");
   if (size > kLargestFile) {
     refuse(file, fmt::format("its {:.1f} GB are more than the {:.1f} GB that are read; simplify the mesh",
-                             static_cast<double>(size) * 1e-9, static_cast<double>(kLargestFile) * 1e-9));
+                             double(size) * 1e-9, double(kLargestFile) * 1e-9));
   }
 }
 
@@ -53,7 +53,7 @@ ReadingLimits limits_for(const fs::path& file) {
       static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
   ReadingLimits limits;
   limits.memory = std::min(limits.memory + kBytesPerByte * bytes, std::max(limits.memory, physical / 4 * 3));
-  limits.cpu_time += static_cast<int>(2 * (bytes >> 20));
+  limits.cpu_time += int(2 * (bytes >> 20));
   limits.wall_time = 5 * limits.cpu_time;
   return limits;
 }

@@ -40,7 +40,7 @@ class Writer {
   template <class Scalar, int columns>
   void put(const Eigen::Matrix<Scalar, Eigen::Dynamic, columns, Eigen::RowMajor>& rows) {
     put(static_cast<std::uint64_t>(rows.rows()));
-    append(rows.data(), sizeof(Scalar) * static_cast<std::size_t>(rows.size()));
+    append(rows.data(), sizeof(Scalar) * std::size_t(rows.size()));
   }
   void put(const Part& part) {
     put(part.name);
@@ -92,8 +92,8 @@ class Reader {
   }
   template <class Scalar, int columns>
   void get(Eigen::Matrix<Scalar, Eigen::Dynamic, columns, Eigen::RowMajor>& rows) {
-    rows.resize(static_cast<Eigen::Index>(take_count(sizeof(Scalar) * columns)), columns);
-    take(rows.data(), sizeof(Scalar) * static_cast<std::size_t>(rows.size()));
+    rows.resize(take_count(sizeof(Scalar) * columns), columns);
+    take(rows.data(), sizeof(Scalar) * std::size_t(rows.size()));
   }
   void get(Part& part) {
     get(part.name);
@@ -258,7 +258,7 @@ void write_all(int pipe, std::span<const std::byte> bytes) {
   while (!bytes.empty()) {
     const ssize_t count = write(pipe, bytes.data(), bytes.size());
     if (count < 0 && errno != EINTR) _exit(1);
-    bytes = bytes.subspan(static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
+    bytes = bytes.subspan(std::max<ssize_t>(count, 0));
   }
 }
 
@@ -327,7 +327,7 @@ class Child {
     while (true) {
       const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now()).count();
       if (left <= 0) return false;
-      const int ready = poll(&waiting, 1, static_cast<int>(std::min<long>(left, 1000)));
+      const int ready = poll(&waiting, 1, int(std::min<long>(left, 1000)));
       if (ready > 0 || (ready < 0 && errno != EINTR)) return true;
     }
   }

@@ -19,7 +19,7 @@ constexpr std::size_t kFacet = 50;
 
 std::uint32_t word_at(std::string_view bytes, std::size_t at, int size) {
   std::uint32_t word = 0;
-  for (int i = size; i-- > 0;) word = word << 8 | static_cast<unsigned char>(bytes[at + static_cast<std::size_t>(i)]);
+  for (int i = size; i-- > 0;) word = word << 8 | static_cast<unsigned char>(bytes[at + i]);
   return word;
 }
 
@@ -27,7 +27,7 @@ double float_at(std::string_view bytes, std::size_t at) {
   const std::uint32_t word = word_at(bytes, at, 4);
   float value = 0;
   std::memcpy(&value, &word, sizeof value);
-  return static_cast<double>(value);
+  return value;
 }
 
 std::size_t binary_size(std::string_view bytes) {
@@ -45,15 +45,15 @@ bool is_text(std::string_view bytes) {
 
 /// 5 bits a channel: red lowest in files of Magics, which name a colour in the header, else blue lowest.
 Eigen::Vector4f facet_color(std::uint32_t word, bool is_magics) {
-  const auto channel = [&](int shift) { return static_cast<float>(word >> shift & 31U) / 31.0F; };
+  const auto channel = [&](int shift) { return float(word >> shift & 31U) / 31.0F; };
   return is_magics ? Eigen::Vector4f(channel(0), channel(5), channel(10), 1)
                    : Eigen::Vector4f(channel(10), channel(5), channel(0), 1);
 }
 
 void close_polygon(PolygonSoup& soup, int corners) {
-  for (int i = 0; i < corners; ++i) soup.corners.push_back({static_cast<int>(soup.positions.size()) - corners + i});
+  for (int i = 0; i < corners; ++i) soup.corners.push_back({isize(soup.positions) - corners + i});
   soup.corner_counts.push_back(corners);
-  soup.polygon_parts.push_back(static_cast<int>(soup.parts.size()) - 1);
+  soup.polygon_parts.push_back(isize(soup.parts) - 1);
 }
 
 PolygonSoup read_binary(std::string_view bytes, const std::string& name) {

@@ -99,7 +99,7 @@ std::string_view TextScanner::word_ahead() {
 
 std::string_view TextScanner::rest() {
   if (left_.empty()) return {};
-  const auto begin = static_cast<std::size_t>(left_.data() - whole_.data());
+  const std::size_t begin = left_.data() - whole_.data();
   left_ = {};
   return whole_.substr(begin);
 }
@@ -123,7 +123,7 @@ long TextScanner::integer_ahead(const Named& what) {
   if (!(std::abs(value) <= kMost) || value != std::floor(value)) {
     refuse(fmt::format("{} holds {}, where a whole number must be", what.text(), value));
   }
-  return static_cast<long>(value);
+  return long(value);
 }
 
 void TextScanner::refuse(const std::string& reason) const {

@@ -20,7 +20,7 @@ class TriangleBox : public CGAL::Box_intersection_d::Box_d<double, 3, CGAL::Box_
  public:
   TriangleBox(const CGAL::Bbox_3& bounds, int row) : Box_d(bounds), row_(row) {}
   [[nodiscard]] int row() const { return row_; }
-  [[nodiscard]] std::size_t id() const { return static_cast<std::size_t>(row_); }
+  [[nodiscard]] std::size_t id() const { return row_; }
 
  private:
   int row_;
@@ -30,7 +30,7 @@ class TriangleBox : public CGAL::Box_intersection_d::Box_d<double, 3, CGAL::Box_
 class PairTest {
  public:
   PairTest(const Points& points, const Triangles& triangles) : triangles_(triangles) {
-    points_.reserve(static_cast<std::size_t>(points.rows()));
+    points_.reserve(points.rows());
     for (const auto& point : points.rowwise()) points_.emplace_back(point.x(), point.y(), point.z());
   }
 
@@ -48,8 +48,8 @@ class PairTest {
     for (int i = 0; i < 3; ++i) {
       for (int j = 0; j < 3; ++j) {
         if (triangles_(a, i) != triangles_(b, j) || shared == 2) continue;
-        at_a[static_cast<std::size_t>(shared)] = i;
-        at_b[static_cast<std::size_t>(shared)] = j;
+        at_a[shared] = i;
+        at_b[shared] = j;
         ++shared;
       }
     }
@@ -63,9 +63,7 @@ class PairTest {
   }
 
  private:
-  [[nodiscard]] const Point& corner(int t, int c) const {
-    return points_[static_cast<std::size_t>(triangles_(t, c % 3))];
-  }
+  [[nodiscard]] const Point& corner(int t, int c) const { return points_[triangles_(t, c % 3)]; }
   [[nodiscard]] Kernel::Triangle_3 triangle(int t) const { return {corner(t, 0), corner(t, 1), corner(t, 2)}; }
   [[nodiscard]] Kernel::Segment_3 opposite_side(int t, int c) const { return {corner(t, c + 1), corner(t, c + 2)}; }
 
@@ -95,7 +93,7 @@ std::vector<Pair> near_pairs(const PairTest& test, int triangles) {
 
 std::vector<std::array<int, 2>> find_crossings(const Points& points, const Triangles& triangles) {
   const PairTest test(points, triangles);
-  const std::vector<Pair> pairs = near_pairs(test, static_cast<int>(triangles.rows()));
+  const std::vector<Pair> pairs = near_pairs(test, int(triangles.rows()));
   const auto join = [](std::vector<Pair> all, const std::vector<Pair>& more) {
     all.insert(all.end(), more.begin(), more.end());
     return all;

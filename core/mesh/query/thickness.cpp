@@ -22,7 +22,7 @@ Vec3 area_vector(const Solid& solid, int t) {
 /// Sums of the triangles' areas up to each.
 std::vector<double> running_areas(const Solid& solid) {
   std::vector<double> sums;
-  sums.reserve(static_cast<std::size_t>(solid.triangles.rows()));
+  sums.reserve(solid.triangles.rows());
   double sum = 0;
   for (int t = 0; t < solid.triangles.rows(); ++t) sums.push_back(sum += area_vector(solid, t).norm() / 2);
   return sums;
@@ -51,18 +51,18 @@ std::vector<WallSample> sample_thickness(const Solid& solid, int count) {
   const std::vector<double> areas = running_areas(solid);
   const Vec3 low = solid.points.colwise().minCoeff();
   const Vec3 extent = solid.points.colwise().maxCoeff().transpose() - low;
-  const double along = std::clamp(std::sqrt(static_cast<double>(solid.triangles.rows()) / 4), kFewestCells, kMostCells);
+  const double along = std::clamp(std::sqrt(double(solid.triangles.rows()) / 4), kFewestCells, kMostCells);
   const double cell = extent.maxCoeff() / along;
   const Eigen::Vector3i counts = (extent / cell).array().ceil().max(1).cast<int>();
   const Points points = (solid.points.rowwise() - low.transpose()) / cell;
   const TriangleGrid triangles(points, solid.triangles, counts);
 
   std::vector<WallSample> samples;
-  samples.reserve(static_cast<std::size_t>(count));
+  samples.reserve(count);
   for (int i = 0; i < count; ++i) {
     const double at = areas.back() * (i + 0.5) / count;
     const auto found = std::lower_bound(areas.begin(), areas.end(), at);
-    const auto t = static_cast<int>(found - areas.begin());
+    const auto t = int(found - areas.begin());
     const Vec3 outward = area_vector(solid, t).stableNormalized();
     const Vec3 place = point_in(solid, t, i);
     const double way = kInside + triangles.free_way((place - low) / cell - kInside * outward, -outward);
@@ -78,7 +78,7 @@ std::vector<std::vector<WallSample>> sample_thickness(const std::vector<Solid>& 
   for (const Solid& solid : solids) sum += areas.emplace_back(surface_area(solid));
   std::vector<std::vector<WallSample>> samples;
   for (std::size_t i = 0; i < solids.size(); ++i) {
-    samples.push_back(sample_thickness(solids[i], std::max(1, static_cast<int>(std::lround(count * areas[i] / sum)))));
+    samples.push_back(sample_thickness(solids[i], std::max(1, int(std::lround(count * areas[i] / sum)))));
   }
   return samples;
 }
@@ -88,9 +88,9 @@ double thickness_quantile(const std::vector<WallSample>& samples, double share) 
   std::vector<double> sorted;
   sorted.reserve(samples.size());
   for (const WallSample& sample : samples) sorted.push_back(sample.thickness);
-  const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(sorted.size() - 1));
+  const auto rank = std::ptrdiff_t(share * double(sorted.size() - 1));
   std::nth_element(sorted.begin(), sorted.begin() + rank, sorted.end());
-  return sorted[static_cast<std::size_t>(rank)];
+  return sorted[rank];
 }
 
 }  // namespace sprung

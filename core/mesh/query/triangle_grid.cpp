@@ -14,7 +14,7 @@ Eigen::Vector3i cell_of(const Vec3& place, const Eigen::Vector3i& counts) {
 }
 
 std::size_t number_of(const Eigen::Vector3i& cell, const Eigen::Vector3i& counts) {
-  return static_cast<std::size_t>((std::int64_t{cell.z()} * counts.y() + cell.y()) * counts.x() + cell.x());
+  return (std::int64_t{cell.z()} * counts.y() + cell.y()) * counts.x() + cell.x();
 }
 
 }  // namespace
@@ -39,7 +39,7 @@ void TriangleGrid::for_each_cell(int triangle, const Visit& visit) const {
 
 TriangleGrid::TriangleGrid(const Points& points, const Triangles& triangles, const Eigen::Vector3i& counts)
     : points_(points), triangles_(triangles), counts_(counts) {
-  first_.assign(static_cast<std::size_t>(counts.cast<std::int64_t>().prod()) + 1, 0);
+  first_.assign(std::size_t(counts.cast<std::int64_t>().prod()) + 1, 0);
   for (int t = 0; t < triangles_.rows(); ++t) for_each_cell(t, [&](std::size_t cell) { ++first_[cell + 1]; });
   for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
   sorted_.resize(first_.back());

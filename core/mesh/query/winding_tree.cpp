@@ -17,7 +17,7 @@ constexpr double kFar = 3.0;  // times the reach of a node: the beta of the pape
 constexpr double kInPlane = 1e-12;
 
 std::vector<int> all_rows(const Triangles& triangles) {
-  std::vector<int> rows(static_cast<std::size_t>(triangles.rows()));
+  std::vector<int> rows(triangles.rows());
   std::iota(rows.begin(), rows.end(), 0);
   return rows;
 }
@@ -41,13 +41,13 @@ WindingTree::WindingTree(const Points& points, const Triangles& triangles)
 
 WindingTree::WindingTree(const Points& points, const Triangles& triangles, std::vector<int> rows)
     : points_(points), triangles_(triangles), rows_(std::move(rows)) {
-  nodes_.push_back({.first = 0, .count = static_cast<int>(rows_.size())});
-  for (int node = 0; node < static_cast<int>(nodes_.size()); ++node) build(node);
+  nodes_.push_back({.first = 0, .count = isize(rows_)});
+  for (int node = 0; node < isize(nodes_); ++node) build(node);
 }
 
 /// Splits a node at the median of its triangles along the longest side.
 void WindingTree::build(int node) {
-  Node parent = nodes_[static_cast<std::size_t>(node)];
+  Node parent = nodes_[node];
   measure(parent);
   if (parent.count > kLeaf) {
     const auto middle = [&](int t, int axis) { return points_(triangles_.row(t), axis).sum(); };
@@ -65,17 +65,17 @@ void WindingTree::build(int node) {
     const int half = parent.count / 2;
     std::nth_element(begin, begin + half, end,
                      [&](int a, int b) { return std::pair(middle(a, axis), a) < std::pair(middle(b, axis), b); });
-    parent.children = static_cast<int>(nodes_.size());
+    parent.children = isize(nodes_);
     nodes_.push_back({.first = parent.first, .count = half});
     nodes_.push_back({.first = parent.first + half, .count = parent.count - half});
   }
-  nodes_[static_cast<std::size_t>(node)] = parent;
+  nodes_[node] = parent;
 }
 
 void WindingTree::measure(Node& node) const {
   double area = 0;
   for (int i = node.first; i < node.first + node.count; ++i) {
-    const auto corners = triangles_.row(rows_[static_cast<std::size_t>(i)]);
+    const auto corners = triangles_.row(rows_[i]);
     const Vec3 a = points_.row(corners[0]);
     const Vec3 b = points_.row(corners[1]);
     const Vec3 c = points_.row(corners[2]);
@@ -87,10 +87,10 @@ void WindingTree::measure(Node& node) const {
   if (area > 0) {
     node.centre /= area;
   } else {
-    node.centre = points_.row(triangles_(rows_[static_cast<std::size_t>(node.first)], 0));
+    node.centre = points_.row(triangles_(rows_[node.first], 0));
   }
   for (int i = node.first; i < node.first + node.count; ++i) {
-    for (const int corner : triangles_.row(rows_[static_cast<std::size_t>(i)])) {
+    for (const int corner : triangles_.row(rows_[i])) {
       node.reach = std::max(node.reach, (points_.row(corner).transpose() - node.centre).norm());
     }
   }
@@ -99,7 +99,7 @@ void WindingTree::measure(Node& node) const {
 double WindingTree::near(const Node& node, const Vec3& place) const {
   double angle = 0;
   for (int i = node.first; i < node.first + node.count; ++i) {
-    const auto corners = triangles_.row(rows_[static_cast<std::size_t>(i)]);
+    const auto corners = triangles_.row(rows_[i]);
     angle += solid_angle(points_.row(corners[0]), points_.row(corners[1]), points_.row(corners[2]), place);
   }
   return angle;
@@ -110,7 +110,7 @@ double WindingTree::at(const Vec3& place) const {
   std::array<int, 64> stack{};  // halving leaves no more than 32 levels of one node each
   std::size_t depth = 1;
   while (depth > 0) {
-    const Node& node = nodes_[static_cast<std::size_t>(stack[--depth])];
+    const Node& node = nodes_[stack[--depth]];
     const Vec3 away = node.centre - place;
     const double distance = away.norm();
     if (distance > kFar * node.reach) {

@@ -19,14 +19,12 @@ using Crossings = std::vector<std::array<int, 2>>;  // pairs of rows of the tria
 
 /// Those of all triangles but the ones of pieces that were dropped.
 Crossings crossings_of(const WeldedMesh& mesh, const std::vector<Shell>& shells) {
-  std::vector<bool> is_kept(static_cast<std::size_t>(mesh.triangles.rows()), false);
+  std::vector<bool> is_kept(mesh.triangles.rows(), false);
   for (const Shell& shell : shells) {
-    for (const int t : shell.triangles) is_kept[static_cast<std::size_t>(t)] = true;
+    for (const int t : shell.triangles) is_kept[t] = true;
   }
   Crossings crossings = find_crossings(mesh.points, mesh.triangles);
-  std::erase_if(crossings, [&](const auto& pair) {
-    return !is_kept[static_cast<std::size_t>(pair[0])] || !is_kept[static_cast<std::size_t>(pair[1])];
-  });
+  std::erase_if(crossings, [&](const auto& pair) { return !is_kept[pair[0]] || !is_kept[pair[1]]; });
   return crossings;
 }
 
@@ -42,8 +40,7 @@ std::vector<NestGroup> group_nests(const WeldedMesh& mesh, const std::vector<Nes
 /// Whether a triangle of the group crosses another.
 bool overlaps(const NestGroup& group, const std::vector<bool>& crosses) {
   const auto any = [&](const Shell* shell) {
-    return std::any_of(shell->triangles.begin(), shell->triangles.end(),
-                       [&](int t) { return crosses[static_cast<std::size_t>(t)]; });
+    return std::any_of(shell->triangles.begin(), shell->triangles.end(), [&](int t) { return crosses[t]; });
   };
   return std::any_of(group.begin(), group.end(), [&](const Nest& nest) {
     return any(nest.outer) || std::any_of(nest.cavities.begin(), nest.cavities.end(), any);
@@ -55,26 +52,24 @@ void note_nests(const std::vector<Nest>& nests, std::vector<Repair>& repairs) {
       std::count_if(nests.begin(), nests.end(), [](const Nest& nest) { return nest.outer->volume < 0; });
   add_repair(repairs, "inside_out", inverted, "turned " + count_of(inverted, "inside-out solid") + " outwards");
   long cavities = 0;
-  for (const Nest& nest : nests) cavities += static_cast<long>(nest.cavities.size());
+  for (const Nest& nest : nests) cavities += long(nest.cavities.size());
   add_repair(repairs, "cavity", cavities, "kept " + count_of(cavities, "cavity", "cavities"), true);
 }
 
 void note_union(const std::vector<NestGroup>& groups, std::vector<Repair>& repairs) {
   long united = 0;
-  for (const NestGroup& group : groups) united += group.size() > 1 ? static_cast<long>(group.size()) : 0;
+  for (const NestGroup& group : groups) united += group.size() > 1 ? long(group.size()) : 0;
   add_repair(repairs, "united", united,
              fmt::format("united {} that overlap, touch or lie in one another ({} left)",
-                         count_of(united, "body", "bodies"), count_of(static_cast<long>(groups.size()), "solid")));
+                         count_of(united, "body", "bodies"), count_of(groups.size(), "solid")));
 }
 
 /// Caps may cross what is near their hole; only what the mesh has itself is worth a word.
 void note_crossings(const WeldedMesh& mesh, Crossings crossings, Solids& made) {
-  std::erase_if(crossings, [&](const auto& pair) {
-    return mesh.source[static_cast<std::size_t>(pair[0])] < 0 || mesh.source[static_cast<std::size_t>(pair[1])] < 0;
-  });
+  std::erase_if(crossings, [&](const auto& pair) { return mesh.source[pair[0]] < 0 || mesh.source[pair[1]] < 0; });
   if (crossings.empty()) return;
   made.crossing = mesh.points(mesh.triangles.row(crossings.front()[0]), Eigen::all).colwise().mean();
-  const auto pairs = static_cast<long>(crossings.size());
+  const long pairs = crossings.size();
   add_repair(made.repairs, "self_intersection", pairs,
              fmt::format("the surface crosses itself: {}; what overlaps is filled once",
                          count_of(pairs, "pair of triangles", "pairs of triangles")));
@@ -86,8 +81,8 @@ Solids assemble_solids(const WeldedMesh& mesh, const std::vector<Shell>& shells,
   const Crossings crossings = crossings_of(mesh, shells);
   const std::vector<Nest> nests = nest_shells(mesh.points, mesh.triangles, shells);
   const std::vector<NestGroup> groups = group_nests(mesh, nests, crossings, repair);
-  std::vector<bool> crosses(static_cast<std::size_t>(mesh.triangles.rows()), false);
-  for (const auto& [a, b] : crossings) crosses[static_cast<std::size_t>(a)] = true;
+  std::vector<bool> crosses(mesh.triangles.rows(), false);
+  for (const auto& [a, b] : crossings) crosses[a] = true;
   Solids made;
   for (const NestGroup& group : groups) {
     made.solids.push_back(cut_solid(mesh, group));
@@ -112,13 +107,13 @@ double triangle_area(const WeldedMesh& mesh, int t) {
 }
 
 void take_triangles(const WeldedMesh& mesh, const std::vector<Row>& rows, Solid& solid) {
-  solid.triangles.resize(static_cast<int>(rows.size()), 3);
+  solid.triangles.resize(isize(rows), 3);
   for (int t = 0; t < solid.triangles.rows(); ++t) {
-    const auto [row, turn] = rows[static_cast<std::size_t>(t)];
+    const auto [row, turn] = rows[t];
     solid.triangles.row(t) = mesh.triangles.row(row);
     if (turn) std::swap(solid.triangles(t, 1), solid.triangles(t, 2));
-    solid.source.push_back(mesh.source[static_cast<std::size_t>(row)]);
-    solid.turned.push_back(mesh.turned[static_cast<std::size_t>(row)] != turn);
+    solid.source.push_back(mesh.source[row]);
+    solid.turned.push_back(mesh.turned[row] != turn);
   }
 }
 
@@ -127,7 +122,7 @@ void take_points(const WeldedMesh& mesh, Solid& solid) {
   std::sort(used.begin(), used.end());
   used.erase(std::unique(used.begin(), used.end()), used.end());
   for (int& corner : solid.triangles.reshaped<Eigen::RowMajor>()) {
-    corner = static_cast<int>(std::lower_bound(used.begin(), used.end(), corner) - used.begin());
+    corner = int(std::lower_bound(used.begin(), used.end(), corner) - used.begin());
   }
   solid.points = mesh.points(used, Eigen::all);
 }
@@ -156,7 +151,7 @@ Solid cut_solid(const WeldedMesh& mesh, const NestGroup& group) {
 double given_area(const WeldedMesh& mesh, const std::vector<int>& rows) {
   double area = 0;
   for (const int t : rows) {
-    if (mesh.source[static_cast<std::size_t>(t)] >= 0) area += triangle_area(mesh, t);
+    if (mesh.source[t] >= 0) area += triangle_area(mesh, t);
   }
   return area;
 }

@@ -54,7 +54,7 @@ class RimWalker {
   /// Takes the loop off the end of the path that begins at `first`. Two sides on one edge need no cap.
   void cut_off(std::size_t first, std::vector<int>& path, std::vector<int>& triangles,
                std::map<int, std::size_t>& place) {
-    const auto begin = static_cast<std::ptrdiff_t>(first);
+    const std::ptrdiff_t begin = first;
     Rim rim{{path.begin() + begin, path.end()}, {triangles.begin() + begin, triangles.end()}};
     for (std::size_t i = first + 1; i < path.size(); ++i) place.erase(path[i]);
     path.resize(first + 1);
@@ -67,12 +67,12 @@ class RimWalker {
 };
 
 Hole hole_of(const WeldedMesh& mesh, const Rim& rim) {
-  const auto corners = static_cast<int>(rim.corners.size());
+  const auto corners = isize(rim.corners);
   Hole hole{mesh.points(rim.corners, Eigen::all), Points(corners, 3)};
   for (int i = 0; i < corners; ++i) {
-    const int from = rim.corners[static_cast<std::size_t>(i)];
-    const int to = rim.corners[static_cast<std::size_t>((i + 1) % corners)];
-    const int apex = mesh.triangles.row(rim.triangles[static_cast<std::size_t>(i)]).sum() - from - to;
+    const int from = rim.corners[i];
+    const int to = rim.corners[(i + 1) % corners];
+    const int apex = mesh.triangles.row(rim.triangles[i]).sum() - from - to;
     hole.beyond.row(i) = mesh.points.row(apex);
   }
   return hole;
@@ -98,9 +98,9 @@ struct Added {
 /// The cap's triangles by rows of the mesh's points.
 Triangles placed(const Cap& cap, const Rim& rim, int first_new) {
   Triangles triangles = cap.triangles;
-  const auto corners = static_cast<int>(rim.corners.size());
+  const auto corners = isize(rim.corners);
   for (int& row : triangles.reshaped()) {
-    row = row < corners ? rim.corners[static_cast<std::size_t>(row)] : first_new + row - corners;
+    row = row < corners ? rim.corners[row] : first_new + row - corners;
   }
   return triangles;
 }
@@ -116,8 +116,8 @@ void append(const Added& added, WeldedMesh& mesh) {
     point += added.points[i].rows();
     triangle += added.triangles[i].rows();
   }
-  mesh.source.resize(static_cast<std::size_t>(triangle), -1);
-  mesh.turned.resize(static_cast<std::size_t>(triangle), false);
+  mesh.source.resize(triangle, -1);
+  mesh.turned.resize(triangle, false);
 }
 
 }  // namespace
@@ -127,8 +127,8 @@ Closing close_shells(WeldedMesh& mesh, Shells& shells) {
   closing.cap_areas.resize(shells.shells.size());
   std::map<int, std::vector<OpenSide>> open;
   for (const OpenSide& side : shells.open) open[side.shell].push_back(side);
-  const auto old_points = static_cast<int>(mesh.points.rows());
-  const auto old_triangles = static_cast<int>(mesh.triangles.rows());
+  const auto old_points = int(mesh.points.rows());
+  const auto old_triangles = int(mesh.triangles.rows());
   Added added;
   for (const auto& [shell, sides] : open) {
     for (const Rim& rim : RimWalker(sides).rims()) {
@@ -136,19 +136,19 @@ Closing close_shells(WeldedMesh& mesh, Shells& shells) {
       Points corners(mesh.points(rim.corners, Eigen::all));
       Points all(corners.rows() + cap.points.rows(), 3);
       all << corners, cap.points;
-      closing.cap_areas[static_cast<std::size_t>(shell)] += area_of(all, cap.triangles);
+      closing.cap_areas[shell] += area_of(all, cap.triangles);
       ++(cap.flat ? closing.flat : closing.smooth);
-      std::vector<int>& rows = shells.shells[static_cast<std::size_t>(shell)].triangles;
+      std::vector<int>& rows = shells.shells[shell].triangles;
       for (int t = 0; t < cap.triangles.rows(); ++t) rows.push_back(old_triangles + added.triangle_count + t);
       added.triangles.push_back(placed(cap, rim, old_points + added.point_count));
       added.points.push_back(cap.points);
-      added.point_count += static_cast<int>(cap.points.rows());
-      added.triangle_count += static_cast<int>(cap.triangles.rows());
+      added.point_count += int(cap.points.rows());
+      added.triangle_count += int(cap.triangles.rows());
     }
   }
   append(added, mesh);
   for (const auto& [shell, sides] : open) {
-    measure(mesh.points, mesh.triangles, shells.shells[static_cast<std::size_t>(shell)]);
+    measure(mesh.points, mesh.triangles, shells.shells[shell]);
   }
   shells.open.clear();
   return closing;

@@ -23,15 +23,15 @@ using Mesh = CGAL::Surface_mesh<Point>;
 
 /// False where the triangles are not a surface that a Mesh can be.
 bool make_mesh(const Points& points, const Triangles& triangles, Mesh& mesh) {
-  std::vector<std::array<std::size_t, 3>> corners(static_cast<std::size_t>(triangles.rows()));
+  std::vector<std::array<std::size_t, 3>> corners(triangles.rows());
   for (int row = 0; row < triangles.rows(); ++row) {
     for (int i = 0; i < 3; ++i) {
-      corners[static_cast<std::size_t>(row)][static_cast<std::size_t>(i)] = static_cast<std::size_t>(triangles(row, i));
+      corners[row][i] = std::size_t(triangles(row, i));
     }
   }
   if (!PMP::is_polygon_soup_a_polygon_mesh(corners)) return false;
   std::vector<Point> places;
-  places.reserve(static_cast<std::size_t>(points.rows()));
+  places.reserve(points.rows());
   for (const auto& row : points.rowwise()) places.emplace_back(row.x(), row.y(), row.z());
   PMP::polygon_soup_to_polygon_mesh(places, corners, mesh);
   return true;
@@ -43,12 +43,12 @@ CoarseSurface surface_of(const Mesh& mesh) {
                         .triangles = Triangles(mesh.number_of_faces(), 3)};
   for (const auto vertex : mesh.vertices()) {
     const Point& place = mesh.point(vertex);
-    surface.points.row(static_cast<int>(vertex.idx())) << place.x(), place.y(), place.z();
+    surface.points.row(vertex.idx()) << place.x(), place.y(), place.z();
   }
   for (const auto face : mesh.faces()) {
     int corner = 0;
     for (const auto vertex : mesh.vertices_around_face(mesh.halfedge(face))) {
-      surface.triangles(static_cast<int>(face.idx()), corner++) = static_cast<int>(vertex.idx());
+      surface.triangles(face.idx(), corner++) = int(vertex.idx());
     }
   }
   return surface;

@@ -13,7 +13,7 @@ namespace sprung {
 
 std::vector<Side> sorted_sides(const Triangles& triangles) {
   std::vector<Side> sides;
-  sides.reserve(3 * static_cast<std::size_t>(triangles.rows()));
+  sides.reserve(3 * std::size_t(triangles.rows()));
   for (int t = 0; t < triangles.rows(); ++t) {
     for (int k = 0; k < 3; ++k) {
       const int a = triangles(t, k);
@@ -28,7 +28,7 @@ std::vector<Side> sorted_sides(const Triangles& triangles) {
 }
 
 SidePairs::SidePairs(const Points& points, const Triangles& triangles, const std::vector<int>& pieces)
-    : points_(points), triangles_(triangles), pieces_(pieces), sets_(static_cast<std::size_t>(triangles.rows())) {}
+    : points_(points), triangles_(triangles), pieces_(pieces), sets_(triangles.rows()) {}
 
 void SidePairs::pair(std::span<const Side> edge) {
   if (edge.size() == 2 && edge[0].forward != edge[1].forward) {
@@ -67,8 +67,8 @@ void SidePairs::pair_around(std::vector<Side>& sides) {
       continue;
     }
     sets_.merge(sides[i].triangle, sides[next].triangle);
-    sides.erase(sides.begin() + static_cast<std::ptrdiff_t>(std::max(i, next)));
-    sides.erase(sides.begin() + static_cast<std::ptrdiff_t>(std::min(i, next)));
+    sides.erase(sides.begin() + std::ptrdiff_t(std::max(i, next)));
+    sides.erase(sides.begin() + std::ptrdiff_t(std::min(i, next)));
     i = 0;
   }
 }
@@ -97,23 +97,23 @@ struct Neighbour {
 };
 
 int count_loops(const std::vector<Side>& open, Eigen::Index points) {
-  DisjointSets sets(static_cast<std::size_t>(points));
+  DisjointSets sets(points);
   for (const Side& side : open) sets.merge(side.low, side.high);
   std::vector<int> roots;
   roots.reserve(open.size());
   for (const Side& side : open) roots.push_back(sets.find(side.low));
   std::sort(roots.begin(), roots.end());
-  return static_cast<int>(std::unique(roots.begin(), roots.end()) - roots.begin());
+  return int(std::unique(roots.begin(), roots.end()) - roots.begin());
 }
 
 /// Across edges of exactly two triangles.
 std::vector<std::vector<Neighbour>> find_neighbours(const std::vector<Side>& sides, Eigen::Index triangles) {
-  std::vector<std::vector<Neighbour>> neighbours(static_cast<std::size_t>(triangles));
+  std::vector<std::vector<Neighbour>> neighbours(triangles);
   for_each_edge(sides, [&](std::span<const Side> edge) {
     if (edge.size() != 2) return;
     const bool agrees = edge[0].forward != edge[1].forward;
-    neighbours[static_cast<std::size_t>(edge[0].triangle)].push_back({edge[1].triangle, agrees});
-    neighbours[static_cast<std::size_t>(edge[1].triangle)].push_back({edge[0].triangle, agrees});
+    neighbours[edge[0].triangle].push_back({edge[1].triangle, agrees});
+    neighbours[edge[1].triangle].push_back({edge[0].triangle, agrees});
   });
   return neighbours;
 }
@@ -127,8 +127,8 @@ class ShellWalker {
   explicit ShellWalker(const std::vector<std::vector<Neighbour>>& neighbours)
       : neighbours_(neighbours), state_(neighbours.size(), State::kUnseen) {}
 
-  [[nodiscard]] bool seen(int triangle) const { return state_[static_cast<std::size_t>(triangle)] != State::kUnseen; }
-  [[nodiscard]] bool turns(int triangle) const { return state_[static_cast<std::size_t>(triangle)] == State::kTurned; }
+  [[nodiscard]] bool seen(int triangle) const { return state_[triangle] != State::kUnseen; }
+  [[nodiscard]] bool turns(int triangle) const { return state_[triangle] == State::kTurned; }
   /// Edges met from both sides whose two triangles cannot agree.
   [[nodiscard]] int one_sided() const { return conflicts_ / 2; }
 
@@ -137,7 +137,7 @@ class ShellWalker {
     state(seed) = State::kKept;
     for (std::size_t i = 0; i < shell.size(); ++i) {
       const int from = shell[i];
-      for (const auto& [to, agrees] : neighbours_[static_cast<std::size_t>(from)]) {
+      for (const auto& [to, agrees] : neighbours_[from]) {
         const State wanted = turns(from) == agrees ? State::kTurned : State::kKept;
         if (!seen(to)) {
           state(to) = wanted;
@@ -153,7 +153,7 @@ class ShellWalker {
 
  private:
   enum class State : std::uint8_t { kUnseen, kKept, kTurned };
-  State& state(int triangle) { return state_[static_cast<std::size_t>(triangle)]; }
+  State& state(int triangle) { return state_[triangle]; }
 
   const std::vector<std::vector<Neighbour>>& neighbours_;
   std::vector<State> state_;
@@ -169,12 +169,12 @@ std::vector<int> orient(const std::vector<std::vector<Neighbour>>& neighbours, T
     if (walker.seen(seed)) continue;
     const std::vector<int> piece = walker.walk(seed);
     const auto turning = std::count_if(piece.begin(), piece.end(), [&](int t) { return walker.turns(t); });
-    const bool keep_turned = 2 * turning > static_cast<std::ptrdiff_t>(piece.size());
+    const bool keep_turned = 2 * turning > std::ptrdiff_t(piece.size());
     for (const int t : piece) {
-      pieces[static_cast<std::size_t>(t)] = seed;
+      pieces[t] = seed;
       if (walker.turns(t) == keep_turned) continue;
       std::swap(triangles(t, 1), triangles(t, 2));
-      result.turned[static_cast<std::size_t>(t)] = true;
+      result.turned[t] = true;
     }
   }
   result.faults.one_sided = walker.one_sided();
@@ -182,14 +182,14 @@ std::vector<int> orient(const std::vector<std::vector<Neighbour>>& neighbours, T
 }
 
 void collect_shells(const Points& points, const Triangles& triangles, SidePairs& pairs, Shells& result) {
-  std::vector<int> number(static_cast<std::size_t>(triangles.rows()), -1);
-  const auto shell_of = [&](int t) -> int& { return number[static_cast<std::size_t>(pairs.shell_of(t))]; };
+  std::vector<int> number(triangles.rows(), -1);
+  const auto shell_of = [&](int t) -> int& { return number[pairs.shell_of(t)]; };
   for (int t = 0; t < triangles.rows(); ++t) {
     if (shell_of(t) < 0) {
-      shell_of(t) = static_cast<int>(result.shells.size());
+      shell_of(t) = isize(result.shells);
       result.shells.emplace_back();
     }
-    result.shells[static_cast<std::size_t>(shell_of(t))].triangles.push_back(t);
+    result.shells[shell_of(t)].triangles.push_back(t);
   }
   for (Shell& shell : result.shells) measure(points, triangles, shell);
   for (const Side& side : pairs.open()) {
@@ -223,7 +223,7 @@ Shells find_shells(const Points& points, Triangles& triangles) {
   std::vector<Side> sides = sorted_sides(triangles);
   const std::vector<int> pieces = orient(find_neighbours(sides, triangles.rows()), triangles, result);
   for (Side& side : sides) {
-    if (result.turned[static_cast<std::size_t>(side.triangle)]) side.forward = !side.forward;
+    if (result.turned[side.triangle]) side.forward = !side.forward;
   }
   SidePairs pairs(points, triangles, pieces);
   std::vector<Side> single;
@@ -232,7 +232,7 @@ Shells find_shells(const Points& points, Triangles& triangles) {
     if (edge.size() == 1) single.push_back(edge[0]);
     if (edge.size() > 2) ++result.faults.non_manifold;
   });
-  result.faults.open = static_cast<int>(single.size());
+  result.faults.open = isize(single);
   result.faults.loops = count_loops(single, points.rows());
   collect_shells(points, triangles, pairs, result);
   return result;

@@ -47,7 +47,7 @@ class SidePairs {
   void pair_many(std::span<const Side> edge);
   void pair_around(std::vector<Side>& sides);
   void sort_around(std::vector<Side>& edge) const;
-  [[nodiscard]] int piece_of(const Side& side) const { return pieces_[static_cast<std::size_t>(side.triangle)]; }
+  [[nodiscard]] int piece_of(const Side& side) const { return pieces_[side.triangle]; }
 
   const Points& points_;
   const Triangles& triangles_;

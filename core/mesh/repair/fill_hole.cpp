@@ -37,7 +37,7 @@ bool is_flat(const Points& rim) {
 
 std::vector<Point> points_of(const Points& rows) {
   std::vector<Point> points;
-  points.reserve(static_cast<std::size_t>(rows.rows()));
+  points.reserve(rows.rows());
   for (const auto& row : rows.rowwise()) points.emplace_back(row.x(), row.y(), row.z());
   return points;
 }
@@ -68,7 +68,7 @@ std::vector<Corners> triangulate(const Hole& hole, bool flat) {
   } catch (const std::exception&) {
     return {};
   }
-  const int corners = static_cast<int>(hole.rim.rows());
+  const int corners = int(hole.rim.rows());
   std::vector<Corners> triangles;
   triangles.reserve(found.size());
   for (const auto& t : found) triangles.push_back({t.first, t.second, t.third});
@@ -78,15 +78,15 @@ std::vector<Corners> triangulate(const Hole& hole, bool flat) {
 }
 
 Triangles rows_of(const std::vector<Corners>& triangles) {
-  Triangles rows(static_cast<int>(triangles.size()), 3);
+  Triangles rows(isize(triangles), 3);
   for (int t = 0; t < rows.rows(); ++t) {
-    for (int k = 0; k < 3; ++k) rows(t, k) = triangles[static_cast<std::size_t>(t)][static_cast<std::size_t>(k)];
+    for (int k = 0; k < 3; ++k) rows(t, k) = triangles[t][k];
   }
   return rows;
 }
 
 Cap fan(const Points& rim) {
-  const int corners = static_cast<int>(rim.rows());
+  const int corners = int(rim.rows());
   Cap cap{.points = rim.colwise().mean(), .triangles = Triangles(corners, 3), .flat = false};
   for (int i = 0; i < corners; ++i) cap.triangles.row(i) << i, (i + 1) % corners, corners;
   return cap;
@@ -99,7 +99,7 @@ class Patch {
   static std::optional<Patch> make(const Hole& hole, const std::vector<Corners>& cap) {
     Patch patch;
     for (const Point& point : points_of(hole.rim)) patch.mesh_.add_vertex(point);
-    const auto corners = static_cast<int>(hole.rim.rows());
+    const auto corners = int(hole.rim.rows());
     for (const Corners& t : cap) {
       const auto face = patch.mesh_.add_face(vertex(t[0]), vertex(t[1]), vertex(t[2]));
       if (face == Mesh::null_face()) return std::nullopt;
@@ -108,7 +108,7 @@ class Patch {
     const std::vector<Point> beyond = points_of(hole.beyond);
     for (int i = 0; i < corners; ++i) {
       // Triangles at the rim that follow each other often share their third corner.
-      const auto here = static_cast<std::size_t>(i);
+      const std::size_t here = i;
       const bool is_shared = i > 0 && beyond[here] == beyond[here - 1];
       const Vertex apex = is_shared ? Vertex(static_cast<Mesh::size_type>(patch.mesh_.number_of_vertices() - 1))
                                     : patch.mesh_.add_vertex(beyond[here]);
@@ -141,18 +141,17 @@ class Patch {
       Corners t{};
       std::size_t k = 0;
       for (const Vertex v : mesh_.vertices_around_face(mesh_.halfedge(face))) {
-        const int row = static_cast<int>(v);
-        const auto [place, is_new] =
-            rows.try_emplace(v, row < corners ? row : corners + static_cast<int>(points.size()));
+        const int row = int(v);
+        const auto [place, is_new] = rows.try_emplace(v, row < corners ? row : corners + isize(points));
         if (is_new && row >= corners) points.push_back(mesh_.point(v));
         t[k++] = place->second;
       }
       triangles.push_back(t);
     }
     cap.triangles = rows_of(triangles);
-    cap.points.resize(static_cast<int>(points.size()), 3);
+    cap.points.resize(isize(points), 3);
     for (int p = 0; p < cap.points.rows(); ++p) {
-      const Point& point = points[static_cast<std::size_t>(p)];
+      const Point& point = points[p];
       cap.points.row(p) << point.x(), point.y(), point.z();
     }
     return cap;
@@ -168,7 +167,7 @@ std::optional<Cap> smooth_cap(const Hole& hole, const std::vector<Corners>& tria
   try {
     std::optional<Patch> patch = Patch::make(hole, triangles);
     if (!patch || !patch->refine_and_fair(hole.rim)) return std::nullopt;
-    return patch->cap(static_cast<int>(hole.rim.rows()));
+    return patch->cap(int(hole.rim.rows()));
   } catch (const std::exception&) {
     return std::nullopt;
   }

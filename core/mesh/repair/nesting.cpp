@@ -18,7 +18,7 @@ double enclosure(const Points& points, const Triangles& triangles, const std::ve
     const Vec3 middle = points(triangles.row(rows[i]), Eigen::all).colwise().mean();
     windings.push_back(tree.at(middle));
   }
-  const auto median = windings.begin() + static_cast<std::ptrdiff_t>(windings.size() / 2);
+  const auto median = windings.begin() + std::ptrdiff_t(windings.size() / 2);
   std::nth_element(windings.begin(), median, windings.end());
   return std::abs(*median);
 }
@@ -56,9 +56,9 @@ class Containment {
 
 /// For each triangle the nest that it is of, or -1.
 std::vector<int> nest_of_triangles(const std::vector<Nest>& nests, Eigen::Index triangles) {
-  std::vector<int> number(static_cast<std::size_t>(triangles), -1);
+  std::vector<int> number(triangles, -1);
   const auto mark = [&](const Shell& shell, std::size_t nest) {
-    for (const int t : shell.triangles) number[static_cast<std::size_t>(t)] = static_cast<int>(nest);
+    for (const int t : shell.triangles) number[t] = int(nest);
   };
   for (std::size_t i = 0; i < nests.size(); ++i) {
     mark(*nests[i].outer, i);
@@ -98,23 +98,23 @@ std::vector<NestGroup> unite_nests(const Points& points, const Triangles& triang
   const std::vector<int> number = nest_of_triangles(nests, triangles.rows());
   std::vector<bool> crosses(nests.size(), false);
   for (const auto& [a, b] : crossings) {
-    const int nest_a = number[static_cast<std::size_t>(a)];
-    const int nest_b = number[static_cast<std::size_t>(b)];
+    const int nest_a = number[a];
+    const int nest_b = number[b];
     if (nest_a < 0 || nest_b < 0 || nest_a == nest_b) continue;
     sets.merge(nest_a, nest_b);
-    crosses[static_cast<std::size_t>(nest_a)] = crosses[static_cast<std::size_t>(nest_b)] = true;
+    crosses[nest_a] = crosses[nest_b] = true;
   }
   Containment containment(points, triangles);
   for (std::size_t inner = 0; inner < nests.size(); ++inner) {
     for (std::size_t outer = 0; outer < inner; ++outer) {
       if (!containment.is_in_matter(nests[outer], *nests[inner].outer)) continue;
-      sets.merge(static_cast<int>(outer), static_cast<int>(inner));
+      sets.merge(int(outer), int(inner));
       nests[inner].is_buried = !crosses[inner];
     }
   }
   std::map<int, NestGroup> groups;
   for (std::size_t i = 0; i < nests.size(); ++i) {
-    groups[sets.find(static_cast<int>(i))].push_back(std::move(nests[i]));
+    groups[sets.find(int(i))].push_back(std::move(nests[i]));
   }
   std::vector<NestGroup> list;
   list.reserve(groups.size());

@@ -32,7 +32,7 @@ struct Repair {
 /// Lists a repair where there was any.
 inline void add_repair(std::vector<Repair>& repairs, const char* kind, long count, const std::string& text,
                        bool harmless = false) {
-  if (count > 0) repairs.push_back({kind, static_cast<int>(count), text, harmless});
+  if (count > 0) repairs.push_back({kind, int(count), text, harmless});
 }
 
 /// What to do about a surface that does not bound solids as it is.

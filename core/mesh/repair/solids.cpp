@@ -134,7 +134,7 @@ class Mender {
   /// For each shell whether it is the boundary of something, not counting the caps.
   std::vector<bool> close_holes() {
     std::vector<bool> encloses(shells_.shells.size(), true);
-    for (const OpenSide& side : shells_.open) encloses[static_cast<std::size_t>(side.shell)] = false;
+    for (const OpenSide& side : shells_.open) encloses[side.shell] = false;
     for (std::size_t i = 0; i < encloses.size(); ++i) {
       if (encloses[i]) continue;
       encloses[i] = enclosure(mesh_.points, mesh_.triangles, shells_.shells[i].triangles) >= kEncloses;
@@ -166,7 +166,7 @@ class Mender {
       Shell& shell = shells_.shells[i];
       if (encloses[i] || (largest > 0 && std::abs(shell.volume) > kDebris * largest)) kept.push_back(std::move(shell));
     }
-    dropped_ = static_cast<int>(shells_.shells.size() - kept.size());
+    dropped_ = int(shells_.shells.size() - kept.size());
     shells_.shells = std::move(kept);
     return enclosing;
   }
@@ -175,7 +175,7 @@ class Mender {
   bool take_as_soup() {
     std::vector<int> rows;
     for (int t = 0; t < mesh_.triangles.rows(); ++t) {
-      if (mesh_.source[static_cast<std::size_t>(t)] >= 0) rows.push_back(t);
+      if (mesh_.source[t] >= 0) rows.push_back(t);
     }
     if (dropped_ < 2 || enclosure(mesh_.points, mesh_.triangles, rows) < kEncloses) return false;
     Shell all;
@@ -210,8 +210,8 @@ class Mender {
   void drop_specks() {
     double largest = 0;
     for (const Solid& solid : result_.solids) largest = std::max(largest, solid.volume);
-    const auto dropped = static_cast<long>(
-        std::erase_if(result_.solids, [&](const Solid& solid) { return solid.volume < kSpeckShare * largest; }));
+    const auto dropped =
+        long(std::erase_if(result_.solids, [&](const Solid& solid) { return solid.volume < kSpeckShare * largest; }));
     add("dropped_speck", dropped,
         fmt::format("dropped {}, smaller than {} of the largest solid", count_of(dropped, "floating speck"),
                     kSpeckShare));
@@ -222,7 +222,7 @@ class Mender {
     find_oriented_shells();
     std::vector<double> rims(shells_.shells.size());
     for (const OpenSide& side : shells_.open) {
-      rims[static_cast<std::size_t>(side.shell)] += (mesh_.points.row(side.from) - mesh_.points.row(side.to)).norm();
+      rims[side.shell] += (mesh_.points.row(side.from) - mesh_.points.row(side.to)).norm();
     }
     const double thickness = options_.thickness;
     for (std::size_t i = 0; i < rims.size(); ++i) {
@@ -235,7 +235,7 @@ class Mender {
       result_.solids.push_back(std::move(solid));
     }
     if (result_.solids.empty()) refuse("no triangle has an area");
-    const auto count = static_cast<long>(result_.solids.size());
+    const long count = result_.solids.size();
     add("thickened", count, "made " + count_of(count, "piece") + " of the surface a shell", true);
   }
 

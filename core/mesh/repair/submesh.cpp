@@ -23,21 +23,21 @@ std::vector<Part> parts_of(const std::vector<Part>& parts, const std::vector<int
     const auto last = std::lower_bound(first, triangles.end(), part.first_triangle + part.triangle_count);
     if (first == last) continue;
     chosen.push_back(part);
-    chosen.back().first_triangle = static_cast<int>(first - triangles.begin());
-    chosen.back().triangle_count = static_cast<int>(last - first);
+    chosen.back().first_triangle = int(first - triangles.begin());
+    chosen.back().triangle_count = int(last - first);
   }
   return chosen;
 }
 
 /// For each point of the solid a vertex of the mesh, or -1 where only caps have it.
 std::vector<int> vertices_of_points(const SurfaceMesh& mesh, const Solid& solid) {
-  std::vector<int> vertices(static_cast<std::size_t>(solid.points.rows()), -1);
+  std::vector<int> vertices(solid.points.rows(), -1);
   for (int t = 0; t < solid.triangles.rows(); ++t) {
-    const int row = solid.source[static_cast<std::size_t>(t)];
+    const int row = solid.source[t];
     if (row < 0) continue;
     for (int k = 0; k < 3; ++k) {
-      const int corner = solid.turned[static_cast<std::size_t>(t)] ? (3 - k) % 3 : k;
-      vertices[static_cast<std::size_t>(solid.triangles(t, k))] = mesh.triangles(row, corner);
+      const int corner = solid.turned[t] ? (3 - k) % 3 : k;
+      vertices[solid.triangles(t, k)] = mesh.triangles(row, corner);
     }
   }
   return vertices;
@@ -56,25 +56,25 @@ int nearest_vertex(const Solid& solid, const Caps& caps, const std::vector<int>&
   int nearest = 0;
   for (const int other : caps.points) {
     const double distance = (solid.points.row(other) - solid.points.row(point)).squaredNorm();
-    if (vertices[static_cast<std::size_t>(other)] < 0 || distance >= least) continue;
+    if (vertices[other] < 0 || distance >= least) continue;
     least = distance;
-    nearest = vertices[static_cast<std::size_t>(other)];
+    nearest = vertices[other];
   }
   return nearest;
 }
 
 Caps find_caps(const SurfaceMesh& mesh, const Solid& solid) {
   Caps caps;
-  const auto count = static_cast<int>(std::count(solid.source.begin(), solid.source.end(), -1));
+  const auto count = int(std::count(solid.source.begin(), solid.source.end(), -1));
   caps.triangles.resize(count, 3);
-  std::vector<int> row_of(static_cast<std::size_t>(solid.points.rows()), -1);
+  std::vector<int> row_of(solid.points.rows(), -1);
   int next = 0;
   for (int t = 0; t < solid.triangles.rows(); ++t) {
-    if (solid.source[static_cast<std::size_t>(t)] >= 0) continue;
+    if (solid.source[t] >= 0) continue;
     for (int k = 0; k < 3; ++k) {
-      int& row = row_of[static_cast<std::size_t>(solid.triangles(t, k))];
+      int& row = row_of[solid.triangles(t, k)];
       if (row < 0) {
-        row = static_cast<int>(caps.points.size());
+        row = isize(caps.points);
         caps.points.push_back(solid.triangles(t, k));
       }
       caps.triangles(next, k) = row;
@@ -84,7 +84,7 @@ Caps find_caps(const SurfaceMesh& mesh, const Solid& solid) {
   if (mesh.uvs.rows() + mesh.colors.rows() + mesh.normals.rows() == 0) return caps;
   const std::vector<int> vertices = vertices_of_points(mesh, solid);
   for (const int point : caps.points) {
-    const int vertex = vertices[static_cast<std::size_t>(point)];
+    const int vertex = vertices[point];
     caps.lookalike.push_back(vertex >= 0 ? vertex : nearest_vertex(solid, caps, vertices, point));
   }
   return caps;
@@ -111,8 +111,8 @@ void append_rows(Rows& rows, const More& more) {
 void add_caps(const SurfaceMesh& mesh, const Solid& solid, SurfaceMesh& part) {
   const Caps caps = find_caps(mesh, solid);
   if (caps.triangles.rows() == 0) return;
-  const auto first_vertex = static_cast<int>(part.positions.rows());
-  const auto first_triangle = static_cast<int>(part.triangles.rows());
+  const auto first_vertex = int(part.positions.rows());
+  const auto first_triangle = int(part.triangles.rows());
   const Points points = solid.points(caps.points, Eigen::all);
   append_rows(part.positions, points);
   append_rows(part.triangles, (caps.triangles.array() + first_vertex).matrix());
@@ -121,7 +121,7 @@ void add_caps(const SurfaceMesh& mesh, const Solid& solid, SurfaceMesh& part) {
   if (mesh.colors.rows() > 0) append_rows(part.colors, mesh.colors(caps.lookalike, Eigen::all));
   part.parts.push_back({.name = "cap",
                         .first_triangle = first_triangle,
-                        .triangle_count = static_cast<int>(caps.triangles.rows()),
+                        .triangle_count = int(caps.triangles.rows()),
                         .material = part.parts.empty() ? -1 : part.parts.front().material});
 }
 
@@ -130,9 +130,9 @@ void add_caps(const SurfaceMesh& mesh, const Solid& solid, SurfaceMesh& part) {
 SurfaceMesh submesh(const SurfaceMesh& mesh, const Solid& solid) {
   std::vector<int> order;
   for (std::size_t t = 0; t < solid.source.size(); ++t) {
-    if (solid.source[t] >= 0) order.push_back(static_cast<int>(t));
+    if (solid.source[t] >= 0) order.push_back(int(t));
   }
-  const auto source = [&](int t) { return solid.source[static_cast<std::size_t>(t)]; };
+  const auto source = [&](int t) { return solid.source[t]; };
   std::sort(order.begin(), order.end(), [&](int a, int b) { return source(a) < source(b); });
   std::vector<int> rows;
   rows.reserve(order.size());
@@ -140,15 +140,15 @@ SurfaceMesh submesh(const SurfaceMesh& mesh, const Solid& solid) {
   SurfaceMesh part;
   part.triangles = mesh.triangles(rows, Eigen::all);
   for (std::size_t i = 0; i < order.size(); ++i) {
-    const auto row = static_cast<Eigen::Index>(i);
-    if (solid.turned[static_cast<std::size_t>(order[i])]) std::swap(part.triangles(row, 1), part.triangles(row, 2));
+    const Eigen::Index row = i;
+    if (solid.turned[order[i]]) std::swap(part.triangles(row, 1), part.triangles(row, 2));
   }
-  std::vector<int> new_vertex(static_cast<std::size_t>(mesh.positions.rows()), -1);
+  std::vector<int> new_vertex(mesh.positions.rows(), -1);
   std::vector<int> vertices;
   for (int& vertex : part.triangles.reshaped<Eigen::RowMajor>()) {
-    int& number = new_vertex[static_cast<std::size_t>(vertex)];
+    int& number = new_vertex[vertex];
     if (number < 0) {
-      number = static_cast<int>(vertices.size());
+      number = isize(vertices);
       vertices.push_back(vertex);
     }
     vertex = number;

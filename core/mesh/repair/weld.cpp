@@ -16,14 +16,14 @@ namespace {
 /// For each vertex the first vertex at the same position.
 std::vector<int> first_at_position(const Points& positions) {
   const auto key = [&](int v) { return std::tuple(positions(v, 0), positions(v, 1), positions(v, 2)); };
-  std::vector<int> order(static_cast<std::size_t>(positions.rows()));
+  std::vector<int> order(positions.rows());
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [&](int a, int b) { return std::tuple(key(a), a) < std::tuple(key(b), b); });
   std::vector<int> first(order.size());
   int representative = 0;
   for (std::size_t i = 0; i < order.size(); ++i) {
     if (i == 0 || key(order[i]) != key(representative)) representative = order[i];
-    first[static_cast<std::size_t>(order[i])] = representative;
+    first[order[i]] = representative;
   }
   return first;
 }
@@ -60,7 +60,7 @@ std::vector<bool> find_repeated(const std::vector<std::array<int, 3>>& triangles
     }
     if (balance == 0) facing.push_back(all[begin].triangle);
   }
-  const auto dropped = static_cast<std::size_t>(std::count(repeated.begin(), repeated.end(), true));
+  const auto dropped = std::size_t(std::count(repeated.begin(), repeated.end(), true));
   if (2 * facing.size() < triangles.size() - dropped) {
     for (const std::size_t t : facing) repeated[t] = true;
   }
@@ -69,15 +69,15 @@ std::vector<bool> find_repeated(const std::vector<std::array<int, 3>>& triangles
 
 /// Numbers the points by first use and copies what is used.
 void set_rows(const Points& positions, const std::vector<std::array<int, 3>>& triangles, WeldedMesh& welded) {
-  std::vector<int> new_row(static_cast<std::size_t>(positions.rows()), -1);
+  std::vector<int> new_row(positions.rows(), -1);
   std::vector<int> used;
-  welded.triangles.resize(static_cast<int>(triangles.size()), 3);
+  welded.triangles.resize(isize(triangles), 3);
   for (int t = 0; t < welded.triangles.rows(); ++t) {
     for (int k = 0; k < 3; ++k) {
-      const int vertex = triangles[static_cast<std::size_t>(t)][static_cast<std::size_t>(k)];
-      int& row = new_row[static_cast<std::size_t>(vertex)];
+      const int vertex = triangles[t][k];
+      int& row = new_row[vertex];
       if (row < 0) {
-        row = static_cast<int>(used.size());
+        row = isize(used);
         used.push_back(vertex);
       }
       welded.triangles(t, k) = row;
@@ -88,9 +88,9 @@ void set_rows(const Points& positions, const std::vector<std::array<int, 3>>& tr
 
 /// Vertices that triangles use.
 int count_used(const SurfaceMesh& mesh) {
-  std::vector<bool> used(static_cast<std::size_t>(mesh.positions.rows()), false);
-  for (const int vertex : mesh.triangles.reshaped()) used[static_cast<std::size_t>(vertex)] = true;
-  return static_cast<int>(std::count(used.begin(), used.end(), true));
+  std::vector<bool> used(mesh.positions.rows(), false);
+  for (const int vertex : mesh.triangles.reshaped()) used[vertex] = true;
+  return int(std::count(used.begin(), used.end(), true));
 }
 
 }  // namespace
@@ -103,7 +103,7 @@ WeldedMesh weld(const SurfaceMesh& mesh) {
   for (int t = 0; t < mesh.triangles.rows(); ++t) {
     std::array<int, 3> corners{};
     for (int k = 0; k < 3; ++k) {
-      corners[static_cast<std::size_t>(k)] = first[static_cast<std::size_t>(mesh.triangles(t, k))];
+      corners[k] = first[mesh.triangles(t, k)];
     }
     if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) {
       ++welded.without_area;
@@ -125,8 +125,8 @@ WeldedMesh weld(const SurfaceMesh& mesh) {
   set_rows(mesh.positions, kept, welded);
   welded.turned.assign(kept.size(), false);
   const int used = count_used(mesh);
-  welded.unreferenced = static_cast<int>(mesh.positions.rows()) - used;
-  if (welded.without_area + welded.repeated == 0) welded.joined = used - static_cast<int>(welded.points.rows());
+  welded.unreferenced = int(mesh.positions.rows()) - used;
+  if (welded.without_area + welded.repeated == 0) welded.joined = used - int(welded.points.rows());
   return welded;
 }
 
@@ -137,16 +137,15 @@ constexpr double kOfDiagonal = 1e-3;
 
 /// For each point the distance within which it may be joined: 0 away from open sides.
 std::vector<double> reaches(const std::vector<OpenSide>& open, const WeldedMesh& mesh) {
-  std::vector<bool> is_open(static_cast<std::size_t>(mesh.points.rows()), false);
-  for (const OpenSide& side : open) is_open[static_cast<std::size_t>(side.from)] = true;
+  std::vector<bool> is_open(mesh.points.rows(), false);
+  for (const OpenSide& side : open) is_open[side.from] = true;
   std::vector<double> reach(is_open.size(), std::numeric_limits<double>::infinity());
   for (int t = 0; t < mesh.triangles.rows(); ++t) {
     for (int k = 0; k < 3; ++k) {
       const int a = mesh.triangles(t, k);
       const int b = mesh.triangles(t, (k + 1) % 3);
       const double length = kOfShortestSide * (mesh.points.row(a) - mesh.points.row(b)).norm();
-      for (const int end : {a, b})
-        reach[static_cast<std::size_t>(end)] = std::min(reach[static_cast<std::size_t>(end)], length);
+      for (const int end : {a, b}) reach[end] = std::min(reach[end], length);
     }
   }
   const double most = kOfDiagonal * (mesh.points.colwise().maxCoeff() - mesh.points.colwise().minCoeff()).norm();
@@ -158,7 +157,7 @@ std::vector<double> reaches(const std::vector<OpenSide>& open, const WeldedMesh&
 std::vector<int> find_partners(const Points& points, const std::vector<double>& reach) {
   std::vector<int> order;
   for (int p = 0; p < points.rows(); ++p) {
-    if (reach[static_cast<std::size_t>(p)] > 0) order.push_back(p);
+    if (reach[p] > 0) order.push_back(p);
   }
   std::sort(order.begin(), order.end(),
             [&](int a, int b) { return std::tuple(points(a, 0), a) < std::tuple(points(b, 0), b); });
@@ -166,17 +165,17 @@ std::vector<int> find_partners(const Points& points, const std::vector<double>& 
   std::iota(partner.begin(), partner.end(), 0);
   for (std::size_t i = 0; i < order.size(); ++i) {
     const int a = order[i];
-    const double reach_a = reach[static_cast<std::size_t>(a)];
+    const double reach_a = reach[a];
     for (std::size_t j = i + 1; j < order.size() && points(order[j], 0) - points(a, 0) < reach_a; ++j) {
       const int b = order[j];
       const double distance = (points.row(a) - points.row(b)).norm();
-      if (distance >= std::min(reach_a, reach[static_cast<std::size_t>(b)])) continue;
-      int& of_later = partner[static_cast<std::size_t>(std::max(a, b))];
+      if (distance >= std::min(reach_a, reach[b])) continue;
+      int& of_later = partner[std::max(a, b)];
       of_later = std::min(of_later, std::min(a, b));
     }
   }
   // Partners come before what joins them, so those are settled already.
-  for (int& to : partner) to = partner[static_cast<std::size_t>(to)];
+  for (int& to : partner) to = partner[to];
   return partner;
 }
 
@@ -186,21 +185,21 @@ int stitch(const std::vector<OpenSide>& open, WeldedMesh& mesh) {
   const std::vector<int> partner = find_partners(mesh.points, reaches(open, mesh));
   int joined = 0;
   for (std::size_t p = 0; p < partner.size(); ++p) {
-    if (partner[p] != static_cast<int>(p)) ++joined;
+    if (partner[p] != int(p)) ++joined;
   }
   if (joined == 0) return 0;
   int kept = 0;
   for (int t = 0; t < mesh.triangles.rows(); ++t) {
-    for (int k = 0; k < 3; ++k) mesh.triangles(kept, k) = partner[static_cast<std::size_t>(mesh.triangles(t, k))];
+    for (int k = 0; k < 3; ++k) mesh.triangles(kept, k) = partner[mesh.triangles(t, k)];
     const auto row = mesh.triangles.row(kept);
     if (row[0] == row[1] || row[1] == row[2] || row[2] == row[0]) continue;
-    mesh.source[static_cast<std::size_t>(kept)] = mesh.source[static_cast<std::size_t>(t)];
-    mesh.turned[static_cast<std::size_t>(kept)] = mesh.turned[static_cast<std::size_t>(t)];
+    mesh.source[kept] = mesh.source[t];
+    mesh.turned[kept] = mesh.turned[t];
     ++kept;
   }
   mesh.triangles.conservativeResize(kept, 3);
-  mesh.source.resize(static_cast<std::size_t>(kept));
-  mesh.turned.resize(static_cast<std::size_t>(kept));
+  mesh.source.resize(kept);
+  mesh.turned.resize(kept);
   return joined;
 }
 

@@ -194,8 +194,8 @@ TEST(Resume, RoundedCachesSayHowFarOffTheyAre) {
                 .out.find("positions to within 1e-05 m, velocities to within 0.00024 m/s\n"),
             std::string::npos);
   EXPECT_NE(run_program(folder, "inspect rounded.h5 --json").out.find("\"position_error\": 1e-05"), std::string::npos);
-  EXPECT_LT(1.7 * static_cast<double>(std::filesystem::file_size(folder.path() / "rounded.h5")),
-            static_cast<double>(std::filesystem::file_size(folder.path() / "exact.h5")));
+  EXPECT_LT(1.7 * double(std::filesystem::file_size(folder.path() / "rounded.h5")),
+            double(std::filesystem::file_size(folder.path() / "exact.h5")));
   EXPECT_EQ(run_program(folder, simulate + "-o other.h5 --position-error 0").exit_code, 2);
   EXPECT_EQ(run_program(folder, simulate + "-o folder/ --position-error 1mm").exit_code, 2);
 }

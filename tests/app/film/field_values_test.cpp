@@ -50,7 +50,7 @@ TEST(FieldValues, AreThoseOfADrawnBar) {
   for (const auto& [field, value] : expected) {
     const Eigen::VectorXd found = bar.values(field);
     ASSERT_EQ(found.size(), 5 * 3 * 3);
-    EXPECT_LT((found.array() - value).abs().maxCoeff(), 1e-5 * value) << static_cast<int>(field);
+    EXPECT_LT((found.array() - value).abs().maxCoeff(), 1e-5 * value) << int(field);
   }
   EXPECT_NEAR(bar.values(Field::kDisplacement).maxCoeff(), 0.1 * (kStretch - 1), 1e-6);
   EXPECT_NEAR(bar.values(Field::kDisplacement).minCoeff(), 0, 1e-6);

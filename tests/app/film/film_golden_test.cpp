@@ -43,7 +43,7 @@ struct Film {
       node[0] += amount * 0.12 * x;
     }
     recording.frames.push_back({nodes.cast<float>()});
-    recording.progress.push_back(0.25 * static_cast<double>(recording.progress.size()));
+    recording.progress.push_back(0.25 * double(recording.progress.size()));
   }
 
   [[nodiscard]] Image picture(int frame = 3) const {

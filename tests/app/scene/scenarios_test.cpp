@@ -39,7 +39,7 @@ Recording record(Scenario scenario) {
 
 /// Where the probe is at a time, from its start, m.
 Vec3 at(const Recording& recording, std::size_t probe, double time) {
-  return recording.probes.at(probe).samples.at(static_cast<std::size_t>(time * 24)).displacement;
+  return recording.probes.at(probe).samples.at(std::size_t(time * 24)).displacement;
 }
 
 TEST(Scenarios, StretchPullsAndBringsBack) {

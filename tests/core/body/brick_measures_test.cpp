@@ -71,7 +71,7 @@ TEST(NodeMeans, WeighBricksByTheirFill) {
   EXPECT_NEAR(means.minCoeff(), 3, 1e-12);
   EXPECT_NEAR(means.maxCoeff(), 6, 1e-12);
   for (const int node : grid.nodes[0]) {
-    const bool is_shared = grid.lattice[static_cast<std::size_t>(node)].x() == 1;
+    const bool is_shared = grid.lattice[node].x() == 1;
     EXPECT_NEAR(means[node], is_shared ? 4 : 3, 1e-12);
   }
 }

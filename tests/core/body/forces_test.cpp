@@ -48,7 +48,7 @@ TEST(BrickForces, AreTheGradientOfTheEnergy) {
         CornerVectors<double> low = x;
         high[i] += step;
         low[i] -= step;
-        difference[static_cast<int>(i)] = -(brick_energy(law, h, high) - brick_energy(law, h, low)) / (2 * step);
+        difference[int(i)] = -(brick_energy(law, h, high) - brick_energy(law, h, low)) / (2 * step);
       }
       EXPECT_LT((as_vector(force) - difference).norm(), 1e-7 * difference.norm()) << squeeze;
     }
@@ -93,7 +93,7 @@ TEST(BrickForces, HaveTheHessianAsTheirDerivative) {
         brick_forces<double>(law, h, moved, nullptr, high);
         moved[i] = x[i] - step;
         brick_forces<double>(law, h, moved, nullptr, low);
-        difference.col(static_cast<int>(i)) = -(as_vector(high) - as_vector(low)) / (2 * step);
+        difference.col(int(i)) = -(as_vector(high) - as_vector(low)) / (2 * step);
       }
       const BrickMatrix hessian = brick_hessian(law, h, x);
       EXPECT_LT((hessian - difference).norm(), 1e-7 * hessian.norm()) << squeeze;
@@ -118,7 +118,7 @@ TEST(BrickForces, DampingTakesEnergyAndLeavesRigidMotionAlone) {
   const Vec3 omega(0.3, -0.2, 0.5);
   for (std::size_t corner = 0; corner < 8; ++corner) {
     const Vec3 rate = omega.cross(Vec3(x[3 * corner], x[3 * corner + 1], x[3 * corner + 2])) + Vec3(1, 2, 3);
-    for (std::size_t k = 0; k < 3; ++k) spin[3 * corner + k] = rate[static_cast<int>(k)];
+    for (std::size_t k = 0; k < 3; ++k) spin[3 * corner + k] = rate[int(k)];
   }
   EXPECT_LT(damping_force(spin).norm(), 1e-10 * as_vector(elastic).norm());
   CornerVectors<double> shear{};

@@ -95,7 +95,7 @@ BrickGrid fork_grid() {
   std::vector<std::array<int, 2>> node_of(box.lattice.size());
   for (std::size_t node = 0; node < box.lattice.size(); ++node) {
     for (int prong = 0; prong < (box.lattice[node].x() > kHandle ? 2 : 1); ++prong) {
-      node_of[node][static_cast<std::size_t>(prong)] = fork.node_count();
+      node_of[node][prong] = fork.node_count();
       if (prong == 0) node_of[node][1] = fork.node_count();
       fork.lattice.push_back(box.lattice[node]);
     }
@@ -104,7 +104,7 @@ BrickGrid fork_grid() {
     for (std::size_t prong = 0; prong < (box.cells[brick].x() >= kHandle ? 2U : 1U); ++prong) {
       fork.cells.push_back(box.cells[brick]);
       std::array<int, 8>& nodes = fork.nodes.emplace_back(box.nodes[brick]);
-      for (int& node : nodes) node = node_of[static_cast<std::size_t>(node)][prong];
+      for (int& node : nodes) node = node_of[node][prong];
     }
   }
   fork.fill.clear();

@@ -44,7 +44,7 @@ TEST(ImplicitContact, DroppedCubeBouncesAndComesToRestOnTheGround) {
     EXPECT_LT(deepest, 0.02 * size);
     EXPECT_GT(fastest_up, 0.05);
     EXPECT_EQ(inverted_bricks(body), 0);
-    EXPECT_LT(body.velocities.rowwise().norm().maxCoeff(), 0.01 * fastest_down) << static_cast<int>(scheme);
+    EXPECT_LT(body.velocities.rowwise().norm().maxCoeff(), 0.01 * fastest_down) << int(scheme);
     EXPECT_LT(-body.positions.col(1).minCoeff(), 0.005 * size);  // at rest
   }
 }

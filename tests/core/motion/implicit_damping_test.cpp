@@ -50,7 +50,7 @@ TEST(ImplicitDamping, VibrationDiesAwayAsInImplicitMotion) {
     const double time = 2 * kLength / std::sqrt(1e5 / 2.6 / 1000);  // about a period
     const double dt = stable_step(world);
     const long steps = std::lround(std::ceil(time / dt));
-    advance(world, Scheme::kVerlet, time / static_cast<double>(steps), steps, 0);
+    advance(world, Scheme::kVerlet, time / double(steps), steps, 0);
     ImplicitMotion(implicit, {.scheme = ImplicitScheme::kBdf2}).advance(time / 200, 200, 0);
     const auto left = [&](const World& one) {
       return (kinetic_energy(one.actors[0].body) + elastic_energy(one.actors[0].body)) / before;

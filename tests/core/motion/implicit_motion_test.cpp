@@ -25,7 +25,7 @@ constexpr double kGravity = 9.81;
 
 void pin_left_end(Actor& actor) {
   for (int node = 0; node < actor.body.node_count(); ++node) {
-    if (actor.body.grid.lattice[static_cast<std::size_t>(node)].x() == 0) actor.pinned.push_back({.node = node});
+    if (actor.body.grid.lattice[node].x() == 0) actor.pinned.push_back({.node = node});
   }
 }
 
@@ -34,7 +34,7 @@ double energy(const Body& body) { return elastic_energy(body) + kinetic_energy(b
 TEST(Implicit, FreeFallIsTheClosedForm) {
   const double dt = 0.01;
   const long steps = 20;
-  const auto n = static_cast<double>(steps);
+  const auto n = double(steps);
   for (const ImplicitScheme scheme : {ImplicitScheme::kEuler, ImplicitScheme::kBdf2}) {
     World world = world_of(calibrated_box({2, 2, 2}, 0.1, 0.3), {0, -kGravity, 0});
     const Points start = world.actors[0].body.positions;
@@ -45,7 +45,7 @@ TEST(Implicit, FreeFallIsTheClosedForm) {
     const double exact = kGravity * n * n * dt * dt / 2;
     const double drop =
         scheme == ImplicitScheme::kEuler ? kGravity * dt * dt * n * (n + 1) / 2 : exact + 0.75 * kGravity * dt * dt;
-    EXPECT_LT((fall.col(1).array() - drop).abs().maxCoeff(), 1e-6) << static_cast<int>(scheme);
+    EXPECT_LT((fall.col(1).array() - drop).abs().maxCoeff(), 1e-6) << int(scheme);
     EXPECT_NEAR(world.actors[0].body.velocities(0, 1), -kGravity * n * dt, 1e-6);
   }
 }
@@ -92,7 +92,7 @@ constexpr double kTime = 0.016;
 template <class Move>
 Points positions_after(const Move& move, long steps) {
   World world = world_of(released());
-  move(world, kTime / static_cast<double>(steps), steps);
+  move(world, kTime / double(steps), steps);
   return world.actors[0].body.positions;
 }
 
@@ -198,7 +198,7 @@ TEST(Implicit, ForcesBendABeamAsTheStaticsDo) {
   pin_left_end(actor);
   actor.loads.forces = Points::Zero(actor.body.node_count(), 3);
   for (int node = 0; node < actor.body.node_count(); ++node) {
-    if (actor.body.grid.lattice[static_cast<std::size_t>(node)].x() == 8) actor.loads.forces(node, 1) = -2e-3;
+    if (actor.body.grid.lattice[node].x() == 8) actor.loads.forces(node, 1) = -2e-3;
   }
   Body still = actor.body;
   Supports supports(still.node_count());
@@ -221,7 +221,7 @@ TEST(Implicit, MusclesCurlABeamAsInExplicitSteps) {
     actor.body.damping = {.alpha = 6, .beta = 2e-3};
     Muscle muscle{.bricks = {}, .direction = Vec3::UnitX(), .contraction = 0.25};
     for (int brick = 0; brick < actor.body.grid.brick_count(); ++brick) {
-      if (actor.body.grid.cells[static_cast<std::size_t>(brick)].y() == 1) muscle.bricks.push_back(brick);
+      if (actor.body.grid.cells[brick].y() == 1) muscle.bricks.push_back(brick);
     }
     actor.loads.muscles = {muscle};
     return world;

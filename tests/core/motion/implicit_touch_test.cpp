@@ -149,7 +149,7 @@ TEST(ImplicitTouch, GlueHoldsWhatHangs) {
     world.glue = glue_between(world, 0, 1, 0.001);
     Actor& upper = world.actors[0];
     for (int node = 0; node < upper.body.node_count(); ++node) {
-      if (upper.body.grid.lattice[static_cast<std::size_t>(node)].y() == 3) upper.pinned.push_back({.node = node});
+      if (upper.body.grid.lattice[node].y() == 3) upper.pinned.push_back({.node = node});
     }
     for (Actor& actor : world.actors) actor.body.damping = {.alpha = 8, .beta = 2e-3};
     return world;

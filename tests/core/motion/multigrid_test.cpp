@@ -40,7 +40,7 @@ struct Problem {
       : body(make_body(std::move(grid), model, test_material(poisson, 1e5))), supports(body.node_count()) {
     const int low = body.grid.lattice.front().z();
     for (int node = 0; node < body.node_count(); ++node) {
-      if (body.grid.lattice[static_cast<std::size_t>(node)].z() == low) supports.fix(node);
+      if (body.grid.lattice[node].z() == low) supports.fix(node);
     }
     forces = Eigen::VectorXd::Zero(3 * body.node_count());
     for (int node = 0; node < body.node_count(); ++node) forces[3 * node + 1] = -9.81 * body.masses[node];
@@ -52,7 +52,7 @@ Problem cantilever(int n, double poisson) {
   Problem problem(make_box_grid({n, n / 4, n / 4}, 0.4 / n), poisson);
   problem.supports = Supports(problem.body.node_count());
   for (int node = 0; node < problem.body.node_count(); ++node) {
-    if (problem.body.grid.lattice[static_cast<std::size_t>(node)].x() == 0) problem.supports.fix(node);
+    if (problem.body.grid.lattice[node].x() == 0) problem.supports.fix(node);
   }
   return problem;
 }
@@ -88,13 +88,13 @@ TEST(Multigrid, EqualsTheDirectSolverFarFromRest) {
   problem.terms.mass_factor = 1e4;
   problem.terms.damping = 0.7;
   problem.terms.damping_positions = problem.body.rest_positions;
-  PointStiffness point{.brick = 40, .weights = Eigen::Matrix<double, 8, 1>::Constant(0.125)};
+  PointStiffness point{.brick = 40, .weights = CornerWeights::Constant(0.125)};
   point.stiffness = 1e3 * Mat3::Identity();
   problem.terms.points.push_back(point);
   // Half turned over: the guard is at work.
   const auto& nodes = problem.body.grid.nodes[60];
   for (const int corner : {1, 3, 5, 7}) {
-    problem.body.positions(nodes[static_cast<std::size_t>(corner)], 0) -= 0.8 * problem.body.grid.brick_size;
+    problem.body.positions(nodes[corner], 0) -= 0.8 * problem.body.grid.brick_size;
   }
   const auto direct = make_direct_system();
   if (!direct->linearize(problem.body, problem.supports, false, problem.terms)) problem.terms.mass_factor = 1e7;
@@ -137,8 +137,8 @@ TEST(Multigrid, ThinPartsAndTwoMaterialsTakeFewIterations) {
   EXPECT_LT(count(Problem(bracket(24))), 25);
   Problem lumps(make_box_grid({24, 8, 12}, 0.01));
   for (int i = 0; i < lumps.body.grid.brick_count(); ++i) {
-    const Eigen::Vector3i lump = lumps.body.grid.cells[static_cast<std::size_t>(i)] / 4;
-    if (lump.sum() % 2 == 1) lumps.body.stiffness_scale[static_cast<std::size_t>(i)] *= 1000;
+    const Eigen::Vector3i lump = lumps.body.grid.cells[i] / 4;
+    if (lump.sum() % 2 == 1) lumps.body.stiffness_scale[i] *= 1000;
   }
   EXPECT_LT(count(lumps), 25);
 }
@@ -149,7 +149,7 @@ TEST(Multigrid, SlenderBeamsTakeFewIterations) {
     Problem problem(make_box_grid(counts, 0.01));
     problem.supports = Supports(problem.body.node_count());
     for (int node = 0; node < problem.body.node_count(); ++node) {
-      if (problem.body.grid.lattice[static_cast<std::size_t>(node)].x() == 0) problem.supports.fix(node);
+      if (problem.body.grid.lattice[node].x() == 0) problem.supports.fix(node);
     }
     const auto multigrid = make_multigrid_system();
     EXPECT_GT(solve(*multigrid, problem, 1e-6).size(), 0);
@@ -181,9 +181,9 @@ void make_symmetric(float* pull) {
       for (std::size_t c = 0; c < r; ++c) {
         double skew = 0;
         for (std::size_t corner = 1; corner < 8; ++corner) {
-          skew += static_cast<double>(at(corner, r, c, lane) - at(corner, c, r, lane));
+          skew += double(at(corner, r, c, lane) - at(corner, c, r, lane));
         }
-        at(0, r, c, lane) = static_cast<float>(static_cast<double>(at(0, c, r, lane)) - skew);
+        at(0, r, c, lane) = float(double(at(0, c, r, lane)) - skew);
       }
     }
   }
@@ -201,7 +201,7 @@ void fill_at_random(multigrid::Level& level, int bricks) {
   }
   const int last = level.block_count() - 1;
   for (int lane = bricks % multigrid::kLanes; lane > 0 && lane < multigrid::kLanes; ++lane) {
-    const auto l = static_cast<std::size_t>(lane);
+    const auto l = std::size_t(lane);
     for (std::size_t i = 0; i < kAnchoredSize; ++i) level.matrix(last)[i * multigrid::kLanes + l] = 0;
     for (std::size_t i = 0; i < multigrid::kPullSize; ++i) level.add_pull(last)[i * multigrid::kLanes + l] = 0;
   }
@@ -212,7 +212,7 @@ Eigen::MatrixXd fine_from_coarse(const multigrid::Layout& fine, const multigrid:
   const multigrid::Interpolation& hang = fine.to_coarse;
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(3 * fine.node_count, 3 * coarse.node_count);
   for (int node = 0; node < fine.node_count; ++node) {
-    const auto n = static_cast<std::size_t>(node);
+    const auto n = std::size_t(node);
     for (std::size_t i = 0; i < hang.counts[n]; ++i) {
       matrix.block<3, 3>(3 * node, 3 * hang.coarse_nodes[n][i]) += Mat3::Identity() / hang.counts[n];
     }
@@ -298,9 +298,9 @@ TEST(MultigridKernels, AllInstructionSetsGiveTheSameBits) {
       apply(block, x.data(), forces.data());
       matrix.insert(matrix.end(), forces.begin(), forces.end());
     }
-    std::vector<double> products(24 * static_cast<std::size_t>(input.brick_count));
+    std::vector<double> products(24 * std::size_t(input.brick_count));
     kernels.stiffness_product(input, problem.forces.data(), 8, products.data());
-    for (const double value : products) matrix.push_back(static_cast<float>(value));
+    for (const double value : products) matrix.push_back(float(value));
     return matrix;
   };
   const auto all = multigrid::all_kernels();

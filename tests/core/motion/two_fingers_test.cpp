@@ -31,7 +31,7 @@ class TwoFingers : public ::testing::Test {
   static std::vector<int> end_nodes(const Body& body, bool left) {
     std::vector<int> nodes;
     for (int node = 0; node < body.node_count(); ++node) {
-      const Eigen::Vector3i& place = body.grid.lattice[static_cast<std::size_t>(node)];
+      const Eigen::Vector3i& place = body.grid.lattice[node];
       if (place.y() == 8 && place.x() == (left ? 0 : 5)) nodes.push_back(node);
     }
     return nodes;
@@ -40,7 +40,7 @@ class TwoFingers : public ::testing::Test {
   static std::vector<int> foot_nodes(const Body& body) {
     std::vector<int> nodes;
     for (int node = 0; node < body.node_count(); ++node) {
-      if (body.grid.lattice[static_cast<std::size_t>(node)].y() == 0) nodes.push_back(node);
+      if (body.grid.lattice[node].y() == 0) nodes.push_back(node);
     }
     return nodes;
   }
@@ -48,7 +48,7 @@ class TwoFingers : public ::testing::Test {
   static double mean_x(const Points& moved, const std::vector<int>& nodes) {
     double sum = 0;
     for (const int node : nodes) sum += moved(node, 0);
-    return sum / static_cast<double>(nodes.size());
+    return sum / double(nodes.size());
   }
 
   /// How far the right finger's end comes along, over the way of the left one's.
@@ -106,7 +106,7 @@ TEST_F(TwoFingers, MultigridKeepsThemApart) {
 TEST_F(TwoFingers, InMotionByExplicitSteps) {
   World world = world_of_pulled();
   const double dt = stable_step(world);
-  advance(world, Scheme::kSymplecticEuler, dt, static_cast<long>(0.5 / dt), 0);
+  advance(world, Scheme::kSymplecticEuler, dt, long(0.5 / dt), 0);
   expect_only_one_moved(world);
 }
 

@@ -58,17 +58,17 @@ CacheHeader box_header(int side) {
 /// Made up, so that every number of a frame tells which it is.
 Points state_of(const CacheHeader& header, std::size_t frame, double kind) {
   const Points& rest = header.actors[0].rest_positions;
-  return rest.array() * std::sqrt(2.0) + kind + static_cast<double>(frame) / 3;
+  return rest.array() * std::sqrt(2.0) + kind + double(frame) / 3;
 }
 
 void append(CacheWriter& writer, const CacheHeader& header, std::size_t frame) {
   const Points positions = state_of(header, frame, 0);
   const Points velocities = state_of(header, frame, 100);
-  CachedFrame made{.progress = static_cast<double>(frame) / 24, .probes = std::vector<double>(kNumbersOfProbe, 0.1)};
-  made.probes[3] = static_cast<double>(frame);
+  CachedFrame made{.progress = double(frame) / 24, .probes = std::vector<double>(kNumbersOfProbe, 0.1)};
+  made.probes[3] = double(frame);
   made.state_hash = ~std::uint64_t{frame};
-  made.seconds = 0.25 * static_cast<double>(frame);
-  writer.append(made, {&positions}, {&velocities}, std::vector<double>(kMemory, static_cast<double>(frame)));
+  made.seconds = 0.25 * double(frame);
+  writer.append(made, {&positions}, {&velocities}, std::vector<double>(kMemory, double(frame)));
 }
 
 void write_frames(const std::filesystem::path& file, const CacheHeader& header, std::size_t count) {
@@ -85,14 +85,14 @@ void expect_frames(const CacheReader& reader, const CacheHeader& header) {
     EXPECT_EQ(reader.positions(frame).at(0), state_of(header, frame, 0)) << frame;
     EXPECT_EQ(reader.velocities(frame).at(0), state_of(header, frame, 100)) << frame;
     const CachedFrame read = reader.frame(frame);
-    EXPECT_EQ(read.progress, static_cast<double>(frame) / 24);
-    EXPECT_EQ(read.probes.at(3), static_cast<double>(frame));
+    EXPECT_EQ(read.progress, double(frame) / 24);
+    EXPECT_EQ(read.probes.at(3), double(frame));
     EXPECT_EQ(read.state_hash, ~std::uint64_t{frame});
-    EXPECT_EQ(read.seconds, 0.25 * static_cast<double>(frame));
+    EXPECT_EQ(read.seconds, 0.25 * double(frame));
   }
   if (reader.frame_count() == 0) return;
   const std::size_t last = reader.frame_count() - 1;
-  EXPECT_EQ(reader.memory(last), std::vector<double>(kMemory, static_cast<double>(last)));
+  EXPECT_EQ(reader.memory(last), std::vector<double>(kMemory, double(last)));
 }
 
 TEST(Cache, GivesBackEveryBit) {

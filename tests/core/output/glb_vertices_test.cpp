@@ -70,9 +70,9 @@ class Player {
   [[nodiscard]] Floats3 rows_of(int accessor, Eigen::Index columns, float unit) const {
     using Rows = Eigen::Matrix<Value, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
     Rows rows(count_, columns);
-    const auto size = static_cast<std::size_t>(rows.size()) * sizeof(Value);
-    EXPECT_EQ(number("byteLength", accessor), static_cast<int>(size));
-    std::memcpy(rows.data(), &buffer_.bytes()[static_cast<std::size_t>(number("byteOffset", accessor))], size);
+    const auto size = std::size_t(rows.size()) * sizeof(Value);
+    EXPECT_EQ(number("byteLength", accessor), int(size));
+    std::memcpy(rows.data(), &buffer_.bytes()[number("byteOffset", accessor)], size);
     return unit * rows.leftCols(3).template cast<float>();
   }
   [[nodiscard]] Floats3 rows(int accessor) const {
@@ -128,7 +128,7 @@ TEST(QuantizedGlb, HasHalfTheSize) {
   const auto size_of = [&](GlbNumbers numbers) {
     const double error = write_animated_glb({film}, {0, 1, 2, 3, 4}, folder.path() / "film.glb", numbers);
     EXPECT_EQ(error > 0, numbers == GlbNumbers::kQuantized);
-    return static_cast<double>(std::filesystem::file_size(folder.path() / "film.glb"));
+    return double(std::filesystem::file_size(folder.path() / "film.glb"));
   };
   EXPECT_LT(size_of(GlbNumbers::kQuantized), 0.6 * size_of(GlbNumbers::kFloats));
 }

@@ -17,7 +17,7 @@ namespace {
 /// place, which no writer may make one of.
 Skin sheet(int n) {
   Skin skin;
-  const auto count = static_cast<Eigen::Index>(n) * n;
+  const auto count = Eigen::Index(n) * n;
   skin.positions.resize(count, 3);
   skin.normals.resize(count, 3);
   skin.uvs.resize(count, 2);
@@ -27,7 +27,7 @@ Skin sheet(int n) {
     for (int j = 0; j < n; ++j) {
       const Eigen::Index row = i * n + j;
       skin.positions.row(row) << j, i, std::sin(i + 2.0 * j);
-      skin.uvs.row(row) << static_cast<float>(j) / static_cast<float>(n), static_cast<float>(i) / static_cast<float>(n);
+      skin.uvs.row(row) << float(j) / float(n), float(i) / float(n);
       if (i == 0 || j == 0) continue;
       skin.triangles.row(next++) << i * n + j, i * n + j - n, i * n + j - 1;
       skin.triangles.row(next++) << i * n + j - 1, i * n + j - n, i * n + j - n - 1;
@@ -35,7 +35,7 @@ Skin sheet(int n) {
   }
   skin.positions.row(1) = skin.positions.row(0);
   skin.normals = Points::Random(count, 3).rowwise().normalized();
-  const int half = static_cast<int>(skin.triangles.rows()) / 2;
+  const int half = int(skin.triangles.rows()) / 2;
   skin.parts = {{.name = "front", .first_triangle = 0, .triangle_count = half, .material = 0},
                 {.name = "back", .first_triangle = half, .triangle_count = half, .material = 1}};
   skin.materials = {{.name = "red", .color = {0.8F, 0.1F, 0.2F, 1}, .texture = {}, .texture_name = ""},
@@ -88,7 +88,7 @@ TEST_P(MeshExport, ComesBackAsItWas) {
   ASSERT_EQ(read.parts.size(), 2U);
   EXPECT_EQ(read.parts[0].triangle_count, skin.parts[0].triangle_count);
   ASSERT_GE(read.parts[1].material, 0);
-  const Eigen::Vector4f color = read.materials[static_cast<std::size_t>(read.parts[1].material)].color;
+  const Eigen::Vector4f color = read.materials[read.parts[1].material].color;
   EXPECT_LT((color - skin.materials[1].color).cwiseAbs().maxCoeff(), 0.01F) << color.transpose();
 }
 

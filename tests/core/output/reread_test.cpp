@@ -158,7 +158,7 @@ TEST_P(Reading, ByAssimpFindsBodiesInTheirOrder) {
   for (int i = 0; i < 12; ++i) skins.push_back(strip(2 + i));
   std::vector<PosedMesh> meshes;
   for (const Skin& skin : skins) {
-    const auto number = static_cast<double>(meshes.size());
+    const auto number = double(meshes.size());
     meshes.push_back({.name = "strip" + std::to_string(meshes.size()),
                       .rest = &skin,
                       .positions = skin.positions.array() + number,

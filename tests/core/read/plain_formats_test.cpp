@@ -79,7 +79,7 @@ TEST(ReadObj, MakesAPartOfEachGroupAndMaterial) {
   EXPECT_EQ(mesh.parts[0].triangle_count, 2);
   EXPECT_EQ(mesh.parts[1].first_triangle, 2);
   EXPECT_EQ(mesh.parts[2].name, "two");
-  EXPECT_EQ(mesh.materials.at(static_cast<std::size_t>(mesh.parts[2].material)).texture_name, "my skin.png");
+  EXPECT_EQ(mesh.materials.at(mesh.parts[2].material).texture_name, "my skin.png");
 }
 
 TEST(ReadObj, NamesLineAndFace) {

@@ -25,8 +25,8 @@ World weightless(Actor actor) {
 }
 
 std::vector<int> all_triangles(const Actor& actor) {
-  std::vector<int> rows(static_cast<std::size_t>(actor.contact_triangles.rows()));
-  for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = static_cast<int>(i);
+  std::vector<int> rows(actor.contact_triangles.rows());
+  for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = int(i);
   return rows;
 }
 

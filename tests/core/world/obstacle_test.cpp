@@ -67,7 +67,7 @@ void run(World& world, double duration, double fps) {
   const long frames = std::lround(duration * fps);
   for (long frame = 0; frame < frames; ++frame) {
     static_cast<void>(motion.advance_frame(
-        static_cast<double>(frame) / fps, 1 / fps, [](double) {}, [](const std::string& what) { FAIL() << what; }));
+        double(frame) / fps, 1 / fps, [](double) {}, [](const std::string& what) { FAIL() << what; }));
   }
 }
 

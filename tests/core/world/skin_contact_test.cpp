@@ -48,7 +48,7 @@ void run(World& world, double duration, double fps = 50) {
   const long frames = std::lround(duration * fps);
   for (long frame = 0; frame < frames; ++frame) {
     static_cast<void>(motion.advance_frame(
-        static_cast<double>(frame) / fps, 1 / fps, [](double) {}, [](const std::string& what) { FAIL() << what; }));
+        double(frame) / fps, 1 / fps, [](double) {}, [](const std::string& what) { FAIL() << what; }));
   }
 }
 
@@ -84,15 +84,15 @@ TEST(SkinContact, StackComesToRest) {
   }
   run(world, 1);
   for (int i = 0; i < 3; ++i) {
-    const Body& body = world.actors[static_cast<std::size_t>(i)].body;
-    EXPECT_NEAR(centre_of(world.actors[static_cast<std::size_t>(i)]).y(), 0.03 + 0.06 * i, 0.004) << i;
+    const Body& body = world.actors[i].body;
+    EXPECT_NEAR(centre_of(world.actors[i]).y(), 0.03 + 0.06 * i, 0.004) << i;
     EXPECT_LT(std::sqrt(body.velocities.rowwise().squaredNorm().maxCoeff()), 0.002) << i;
     EXPECT_EQ(inverted_bricks(body), 0);
   }
   // No deeper in each other than a small part of a brick.
   for (int i = 0; i < 2; ++i) {
-    const double top = world.actors[static_cast<std::size_t>(i)].body.positions.col(1).maxCoeff();
-    const double bottom = world.actors[static_cast<std::size_t>(i) + 1].body.positions.col(1).minCoeff();
+    const double top = world.actors[i].body.positions.col(1).maxCoeff();
+    const double bottom = world.actors[i + 1].body.positions.col(1).minCoeff();
     EXPECT_LT(top - bottom, 0.0008) << i;
   }
 }

@@ -79,9 +79,9 @@ TEST(Squeeze, BrickTurnedOverBetweenItsCornersIsFound) {
   for (int corner = 0; corner < 8; ++corner) {
     const double turn = (corner & 4) != 0 ? 2.6 : 0;  // rad, of the high face about z
     const Vec3 middle(0.01, 0.01, 0);
-    const Vec3 place = body.positions.row(nodes[static_cast<std::size_t>(corner)]);
+    const Vec3 place = body.positions.row(nodes[corner]);
     const Vec3 turned = middle + Eigen::AngleAxisd(turn, Vec3::UnitZ()) * (place - middle);
-    body.positions.row(nodes[static_cast<std::size_t>(corner)]) = turned.transpose();
+    body.positions.row(nodes[corner]) = turned.transpose();
   }
   SqueezeWatch watch;
   const std::vector<Squeeze>& found = watch.find(body, 1e-5);
