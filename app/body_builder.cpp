@@ -52,7 +52,7 @@ Points outward_of(const SurfaceMesh& mesh, const Solid& solid) {
     const auto corners = mesh.triangles.row(solid.source[t]);
     const Eigen::RowVector3d a = mesh.positions.row(corners[0]);
     const Eigen::RowVector3d b = mesh.positions.row(corners[1]);
-    const Eigen::RowVector3d normal = (b - a).cross(mesh.positions.row(corners[2]) - a) * (solid.turned[t] ? -1 : 1);
+    const Eigen::RowVector3d normal = (b - a).cross(mesh.positions.row(corners[2]) - a) * (solid.flipped[t] ? -1 : 1);
     for (const int vertex : corners) sums.row(vertex) += normal;
   }
   return sums;
@@ -71,18 +71,18 @@ CarriedVertices carry(const LoadedBody& loaded, std::size_t solid, const std::ve
 }
 
 /// Every node that a pin holds at the start, once, with the axes of all its pins.
-std::vector<HeldNode> held_nodes(const std::vector<PinnedNodes>& pinned, const std::vector<Pin>& pins) {
-  std::map<int, HeldNode> held;
+std::vector<KinematicNode> held_nodes(const std::vector<PinnedNodes>& pinned, const std::vector<Pin>& pins) {
+  std::map<int, KinematicNode> held;
   for (const PinnedNodes& group : pinned) {
     if (pins[group.pin].from > 0) continue;
     for (const int node : group.nodes) {
-      const auto [place, is_new] = held.try_emplace(node, HeldNode{.node = node, .axes = {false, false, false}});
+      const auto [place, is_new] = held.try_emplace(node, KinematicNode{.node = node, .axes = {false, false, false}});
       for (std::size_t axis = 0; axis < 3; ++axis) {
         if (pins[group.pin].axes.held[axis]) place->second.axes[axis] = true;
       }
     }
   }
-  std::vector<HeldNode> list;
+  std::vector<KinematicNode> list;
   list.reserve(held.size());
   for (const auto& [node, entry] : held) list.push_back(entry);
   return list;
@@ -96,7 +96,7 @@ Points velocities_of(const SceneBody& scene_body, const Actor& actor, const Vec3
     const Vec3 arm = actor.body.positions.row(node).transpose() - middle;
     velocities.row(node) = (scene_body.velocity + spin.cross(arm)).transpose();
   }
-  for (const HeldNode& held : actor.pinned) {
+  for (const KinematicNode& held : actor.pinned) {
     for (int axis = 0; axis < 3; ++axis) {
       if (held.axes[axis]) velocities(held.node, axis) = 0;
     }
@@ -147,7 +147,7 @@ BodyBuilder::Filled BodyBuilder::fill(std::size_t solid) {
   report_.add(filled.drawn.embedding);
   filled.carried = carry(loaded_, solid, solid_of_vertex_, body.grid);
   filled.actor.friction = body_.friction;
-  filled.actor.touches_itself = filled.actor.touches_itself && touches_itself_;
+  filled.actor.collides_with_itself = filled.actor.collides_with_itself && touches_itself_;
   filled.pins = find_pins(body, solid);
   held_solids_ += filled.pins.empty() ? 0 : 1;
   filled.actor.pinned = held_nodes(filled.pins, body_.pins);

@@ -13,8 +13,8 @@ class BodyBuilder {
   /// Body `index` of the scene. All have to outlive it.
   BodyBuilder(const Scene& scene, std::size_t index, const LoadedBody& loaded, Production& production);
 
-  /// Touches nothing but this builder: those of other bodies may be filled at the same time. Throws Error(kBadInput)
-  /// where a region, a pin or a cut speaks of what is not there.
+  /// ContactList nothing but this builder: those of other bodies may be filled at the same time. Throws
+  /// Error(kBadInput) where a region, a pin or a cut speaks of what is not there.
   void fill_solids();
 
   /// What was filled, into the production.

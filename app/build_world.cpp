@@ -35,7 +35,7 @@ std::vector<std::exception_ptr> fill_bodies(std::deque<BodyBuilder>& builders) {
 Production build_world(const Scene& scene, const std::vector<LoadedBody>& bodies, const Console& console) {
   Production production;
   production.world.gravity = scene.gravity;
-  production.world.bodies_touch = scene.contact.bodies;
+  production.world.bodies_collide = scene.contact.bodies;
   std::deque<BodyBuilder> builders;
   for (std::size_t i = 0; i < bodies.size(); ++i) builders.emplace_back(scene, i, bodies[i], production);
   const std::vector<std::exception_ptr> failures = fill_bodies(builders);
@@ -52,8 +52,8 @@ Production build_world(const Scene& scene, const std::vector<LoadedBody>& bodies
   }
   if (!is_motion(scene)) return production;
   for (std::size_t i = 0; i < scene.glue.size(); ++i) glue_bodies(scene, i, production);
-  const double speed = meeting_speed(production.world);
-  for (Actor& actor : production.world.actors) brace(actor.body, scene.gravity.norm(), speed);
+  const double speed = impact_speed(production.world);
+  for (Actor& actor : production.world.actors) stiffen_volume_guard(actor.body, scene.gravity.norm(), speed);
   check_start(scene, production);
   return production;
 }

@@ -34,7 +34,7 @@ constexpr const char* kGreeting =
     "  sprung materials                         what it can be made of\n\n"
     "All commands: sprung --help\n";
 
-std::string help_text(CLI::App& app, const CLI::App& help, const Words& words) {
+std::string help_text(CLI::App& app, const CLI::App& help, const RawOptions& words) {
   refuse_extras(help, "unexpected");
   for (CLI::App* command : app.get_subcommands({})) show_all(*command);
   if (words.topic == "scene") return words.json_schema ? scene_schema() : scene_reference();
@@ -133,7 +133,7 @@ bool given(const CLI::App& command, const char* option) {
   return known != nullptr && known->count() > 0;
 }
 
-SceneOptions read_scene_options(const CLI::App& command, Words& words) {
+SceneOptions read_scene_options(const CLI::App& command, RawOptions& words) {
   refuse_extras(command, "more than one input; what is");
   refuse_repeated(command);
   SceneOptions options = std::move(words.scene);
@@ -168,22 +168,22 @@ SceneOptions read_scene_options(const CLI::App& command, Words& words) {
   return options;
 }
 
-void read_scene_command(const CLI::App& command, Words& words, CommandLine& line) {
+void read_scene_command(const CLI::App& command, RawOptions& words, CommandLine& line) {
   line.scene = read_scene_options(command, words);
 }
 
-void read_film(const CLI::App& command, Words& words, CommandLine& line) {
+void read_film(const CLI::App& command, RawOptions& words, CommandLine& line) {
   read_scene_command(command, words, line);
   read_choice<double, Scene>(command, "--fps", "fps", words.fps, line.scene.fps);
 }
 
-void read_materials(const CLI::App& command, Words& words, CommandLine& line) {
+void read_materials(const CLI::App& command, RawOptions& words, CommandLine& line) {
   refuse_extras(command, "unexpected");
   refuse_repeated(command);
   line.materials = std::move(words.materials);
 }
 
-void read_validate(const CLI::App& command, Words& words, CommandLine& line) {
+void read_validate(const CLI::App& command, RawOptions& words, CommandLine& line) {
   refuse_extras(command, "unexpected");
   refuse_repeated(command);
   line.validate = std::move(words.validate);
@@ -195,7 +195,7 @@ void read_validate(const CLI::App& command, Words& words, CommandLine& line) {
   line.scene.verbose = words.scene.verbose;
 }
 
-void read_compare(const CLI::App& command, Words& words, CommandLine& line) {
+void read_compare(const CLI::App& command, RawOptions& words, CommandLine& line) {
   refuse_extras(command, "unexpected");
   refuse_repeated(command);
   line.compare = std::move(words.compare);
@@ -207,7 +207,7 @@ void read_compare(const CLI::App& command, Words& words, CommandLine& line) {
 struct CommandReader {
   const char* name;
   CommandLine::Command command;
-  void (*read)(const CLI::App& command, Words& words, CommandLine& line);
+  void (*read)(const CLI::App& command, RawOptions& words, CommandLine& line);
 };
 
 constexpr std::array<CommandReader, 10> kReaders{{
@@ -224,7 +224,7 @@ constexpr std::array<CommandReader, 10> kReaders{{
 }};
 
 /// Fills the words that the commands were given. Returns what --help or --version show; else nothing.
-std::optional<std::string> fill_words(CLI::App& app, int argc, const char* const* argv) {
+std::optional<std::string> fill_options(CLI::App& app, int argc, const char* const* argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {
@@ -250,12 +250,12 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   app.footer(
       "Try: sprung animate bunny.obj -o bunny.mp4\nHelp on a command: sprung COMMAND --help\n"
       "Exit codes: 0 done, 1 failed, 2 wrong usage, 3 bad input, 4 diverged,\n130 interrupted.");
-  Words words;
+  RawOptions words;
   add_commands(app, words);
   for (CLI::App* command : app.get_subcommands({})) accept_repeated(*command);
   CommandLine line;
   line.text = kGreeting;
-  if (const std::optional<std::string> shown = fill_words(app, argc, argv)) {
+  if (const std::optional<std::string> shown = fill_options(app, argc, argv)) {
     line.text = *shown;
     return line;
   }

@@ -9,30 +9,32 @@ namespace sprung {
 namespace {
 
 /// What every command that works for a while says of it.
-void add_messages(CLI::App& command, Words& words, const std::string& verbose = "more about every stage") {
+void add_messages(CLI::App& command, RawOptions& words, const std::string& verbose = "more about every stage") {
   command.add_flag("--quiet", words.scene.quiet, "warnings and errors only");
   command.add_flag("--verbose", words.scene.verbose, verbose);
   command.add_flag("--log-json", words.log_json, "messages and progress as JSON on stderr, an object a line");
 }
 
-void add_outputs(CLI::App& command, Words& words, const std::string& help, const std::string& placeholder = "OUT") {
+void add_outputs(CLI::App& command, RawOptions& words, const std::string& help,
+                 const std::string& placeholder = "OUT") {
   command.add_option("-o,--output", words.scene.outputs, help)->allow_extra_args(false)->option_text(placeholder);
 }
 
-void add_sets(CLI::App& command, Words& words, const std::string& help, const std::string& placeholder = "KEY=VALUE") {
+void add_sets(CLI::App& command, RawOptions& words, const std::string& help,
+              const std::string& placeholder = "KEY=VALUE") {
   command.add_option("--set", words.set, help + "; may be given several times")
       ->allow_extra_args(false)
       ->option_text(placeholder);
 }
 
-void add_scene_option(CLI::App& command, Words& words, std::size_t row) {
+void add_scene_option(CLI::App& command, RawOptions& words, std::size_t row) {
   const KeyOption& option = key_options()[row];
   CLI::Option* added = command.add_option(option.option, words.scene_values[row], help_of(option));
   added->option_text(option.example);
   if (!option.use.is_common) added->group(kMoreOptions);
 }
 
-void add_scene_options(CLI::App& command, Words& words, bool has_pictures, const std::string& examples,
+void add_scene_options(CLI::App& command, RawOptions& words, bool has_pictures, const std::string& examples,
                        const std::string& input = "a mesh file, or a scene (.toml)") {
   command.add_option("INPUT", words.scene.input, input);
   for (std::size_t i = 0; i < words.scene_values.size(); ++i) {
@@ -57,12 +59,12 @@ void add_scene_options(CLI::App& command, Words& words, bool has_pictures, const
   command.allow_extras();
 }
 
-CLI::Option* add_jobs(CLI::App& command, Words& words) {
+CLI::Option* add_jobs(CLI::App& command, RawOptions& words) {
   return command.add_option("--jobs", words.jobs, "so many processes draw; default: one a core, for 24 frames each")
       ->option_text("N");
 }
 
-void add_animate(CLI::App& app, Words& words) {
+void add_animate(CLI::App& app, RawOptions& words) {
   CLI::App* animate = app.add_subcommand("animate", "mesh or scene in, pictures or film out");
   add_outputs(*animate, words, "folder/, folder/frame_{:04}.png, or film.mp4, .webm, .gif; may be given several times");
   animate->add_flag("--overwrite", words.scene.overwrite, "replace pictures and films that exist");
@@ -73,7 +75,7 @@ void add_animate(CLI::App& app, Words& words) {
                     "  sprung animate scene.toml -o out/f_{:04}.png --color-by stress --set render.ghost=true\n");
 }
 
-void add_simulate(CLI::App& app, Words& words) {
+void add_simulate(CLI::App& app, RawOptions& words) {
   CLI::App* simulate = app.add_subcommand("simulate", "mesh or scene in, its motion out: a cache, measurements");
   add_outputs(*simulate, words,
               "RUN.h5, a cache of all frames, or folder/ for probes.csv, probes.json and manifest.json; or both");
@@ -91,7 +93,7 @@ void add_simulate(CLI::App& app, Words& words) {
       "  sprung simulate beam.toml -o out/\n");
 }
 
-void add_render(CLI::App& app, Words& words) {
+void add_render(CLI::App& app, RawOptions& words) {
   CLI::App* render = app.add_subcommand("render", "a cache in, pictures or film out");
   render->add_option("INPUT", words.scene.input, "a cache (.h5)");
   render->add_option("MORE", words.scene.others, "more caches, with --side-by-side");
@@ -112,7 +114,7 @@ void add_render(CLI::App& app, Words& words) {
   render->allow_extras();
 }
 
-void add_export(CLI::App& app, Words& words) {
+void add_export(CLI::App& app, RawOptions& words) {
   CLI::App* command = app.add_subcommand("export", "a cache, mesh or scene in, deformed meshes out");
   add_outputs(*command, words,
               "skin_{:04}.obj or another format, film.glb, film.html, points.pc2, points.mdd, run.xdmf; may be given "
@@ -128,7 +130,7 @@ void add_export(CLI::App& app, Words& words) {
       "a cache (.h5), a mesh file, or a scene (.toml)");
 }
 
-void add_film(CLI::App& app, Words& words) {
+void add_film(CLI::App& app, RawOptions& words) {
   CLI::App* film = app.add_subcommand("film", "numbered pictures in, a film out");
   film->add_option("INPUT", words.scene.input, "folder/, or folder/frame_{:04}.png");
   add_outputs(*film, words, "film.mp4, .webm, .gif; may be given several times");
@@ -141,7 +143,7 @@ void add_film(CLI::App& app, Words& words) {
   film->allow_extras();
 }
 
-void add_sweep(CLI::App& app, Words& words) {
+void add_sweep(CLI::App& app, RawOptions& words) {
   CLI::App* sweep = app.add_subcommand("sweep", "a scene and lists of values in, a folder and a command a run out");
   sweep->add_option("INPUT", words.scene.input, "a mesh file, a scene (.toml), or with --table the folder of a sweep");
   add_outputs(*sweep, words, "the folder for all runs", "FOLDER");
@@ -155,7 +157,7 @@ void add_sweep(CLI::App& app, Words& words) {
   sweep->allow_extras();
 }
 
-void add_inspect(CLI::App& app, Words& words) {
+void add_inspect(CLI::App& app, RawOptions& words) {
   CLI::App* inspect =
       app.add_subcommand("inspect", "mesh, scene or cache in, what it is and what its film will take out");
   inspect->add_flag("--json", words.scene.json, "the facts as JSON");
@@ -169,7 +171,7 @@ void add_inspect(CLI::App& app, Words& words) {
       "a mesh file, a scene (.toml), or a cache (.h5)");
 }
 
-void add_validate(CLI::App& app, Words& words) {
+void add_validate(CLI::App& app, RawOptions& words) {
   CLI::App* validate = app.add_subcommand("validate", "experiments, measured against theory and reference");
   validate->add_option("FILES", words.validate.cases, "scenes with [[expect]]; default: the built-in experiments");
   validate->add_option("--case", words.validate.cases, "a built-in experiment; may be given several times")
@@ -189,7 +191,7 @@ void add_validate(CLI::App& app, Words& words) {
   validate->allow_extras();
 }
 
-void add_compare(CLI::App& app, Words& words) {
+void add_compare(CLI::App& app, RawOptions& words) {
   CLI::App* compare = app.add_subcommand("compare", "two pictures: how much they differ; exit code 1 if too much");
   compare->add_option("A", words.compare.first, "a PNG")->option_text("A.png");
   compare->add_option("B", words.compare.second, "another")->option_text("B.png");
@@ -206,7 +208,7 @@ void add_compare(CLI::App& app, Words& words) {
   compare->allow_extras();
 }
 
-void add_materials(CLI::App& app, Words& words) {
+void add_materials(CLI::App& app, RawOptions& words) {
   MaterialsOptions& asked = words.materials;
   CLI::App* materials = app.add_subcommand("materials", "what bodies can be made of, with sources and uncertainties");
   materials->add_option("WORDS", asked.words, "these only: part of a name, or a class");
@@ -224,7 +226,7 @@ void add_materials(CLI::App& app, Words& words) {
   materials->allow_extras();
 }
 
-void add_help(CLI::App& app, Words& words) {
+void add_help(CLI::App& app, RawOptions& words) {
   CLI::App* help = app.add_subcommand("help", "on a command, or on the keys of a scene: sprung help scene");
   help->add_option("TOPIC", words.topic,
                    "a command; scene, its keys; man, the manual as roff; bash, zsh or fish, completions for it");
@@ -235,7 +237,7 @@ void add_help(CLI::App& app, Words& words) {
 
 }  // namespace
 
-void add_commands(CLI::App& app, Words& words) {
+void add_commands(CLI::App& app, RawOptions& words) {
   add_animate(app, words);
   add_simulate(app, words);
   add_render(app, words);

@@ -12,7 +12,7 @@ class App;
 namespace sprung {
 
 /// Everything that CLI11 fills in.
-struct Words {
+struct RawOptions {
   SceneOptions scene;
   ValidateOptions validate;
   CompareOptions compare;
@@ -36,7 +36,7 @@ struct Words {
 inline constexpr const char* kMoreOptions = "";
 
 /// All commands with their options, which write into the words; these have to outlive the parsing.
-void add_commands(CLI::App& app, Words& words);
+void add_commands(CLI::App& app, RawOptions& words);
 
 /// Lets the help of a command name all its options.
 void show_all(CLI::App& command);

@@ -34,9 +34,9 @@ class Chance {
 
 /// The middle of the bottom of the turned body's bounding box goes to `position`.
 Pose pose_at(const Vec3& position, const Mat3& rotation, const LoadedBody& loaded) {
-  const Points turned = loaded.mesh.positions * rotation.transpose();
-  const Vec3 low = turned.colwise().minCoeff();
-  const Vec3 high = turned.colwise().maxCoeff();
+  const Points flipped = loaded.mesh.positions * rotation.transpose();
+  const Vec3 low = flipped.colwise().minCoeff();
+  const Vec3 high = flipped.colwise().maxCoeff();
   const Vec3 middle = (low + high) / 2;
   return {.rotation = rotation, .translation = position - Vec3(middle.x(), low.y(), middle.z())};
 }

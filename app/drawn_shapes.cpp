@@ -5,11 +5,11 @@
 namespace sprung {
 Eigen::Vector3f srgb(const Color& color) { return Eigen::Vector3f(color.red, color.green, color.blue) / 255.0F; }
 
-SkinShape shape_of(const Production& production, std::size_t actor, const Points& nodes, Riding riding) {
+SkinShape shape_of(const Production& production, std::size_t actor, const Points& nodes, SkinInterpolation riding) {
   const DrawnSkin& drawn = production.skins[actor];
   const BrickGrid& grid = production.world.actors[actor].body.grid;
-  if (riding == Riding::kSmooth) {
-    const SmoothRide ride(grid, nodes);
+  if (riding == SkinInterpolation::kSmooth) {
+    const SmoothEmbedding ride(grid, nodes);
     return {.positions = ride.points(drawn.embedding).cast<float>(),
             .normals = ride.normals(drawn.embedding, drawn.skin.normals).cast<float>()};
   }

@@ -9,7 +9,7 @@ namespace sprung {
 
 /// The skin of one actor for these positions of its nodes, m.
 [[nodiscard]] SkinShape shape_of(const Production& production, std::size_t actor, const Points& nodes,
-                                 Riding riding = Riding::kBricks);
+                                 SkinInterpolation riding = SkinInterpolation::kBricks);
 
 /// An obstacle at that time of the film (s).
 [[nodiscard]] SkinShape shape_of(const StageObstacle& obstacle, double time);

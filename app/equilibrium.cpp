@@ -32,7 +32,7 @@ class Loading {
                   "a body without pins cannot come to rest; give it a [[body.pin]], or use "
                   "solver.scheme euler or verlet");
     }
-    for (std::size_t i = 0; i < production.world.actors.size(); ++i) systems_.push_back(make_quick_system());
+    for (std::size_t i = 0; i < production.world.actors.size(); ++i) systems_.push_back(make_default_solver());
   }
 
   /// The shape under a share of the weight, with the pins where they are at a time (s). Reactions by actor, m x 3, N.
@@ -59,17 +59,17 @@ class Loading {
       const SolveReport report = systems_[i]->report();
       console.detail(fmt::format("body {}: {} linear solves, {} multigrid iterations, at most {} in one", i + 1,
                                  report.solves, report.iterations, report.most));
-      if (report.gone_direct == 0) continue;
+      if (report.fallbacks == 0) continue;
       console.note(
           fmt::format("body {}: multigrid did not converge in {} of {} linear solves; the slower direct solver "
                       "took over",
-                      i + 1, report.gone_direct, report.solves));
+                      i + 1, report.fallbacks, report.solves));
     }
   }
 
  private:
   static Points answer(Body& body, const Supports& supports, const Points& loads, const Points& movements,
-                       NewtonSystem& system) {
+                       LinearSolver& system) {
     body.positions = body.rest_positions;
     const LinearResponse response = linear_response(body, supports, loads, movements, system);
     body.positions += response.displacements;
@@ -77,7 +77,7 @@ class Loading {
   }
 
   Points settle(Body& body, const Supports& supports, const Points& loads, const Points& movements,
-                NewtonSystem& system) {
+                LinearSolver& system) {
     const Points start = body.positions;
     for (Eigen::Index i = 0; i < start.size(); ++i) {
       if (!supports.fixed[i]) continue;
@@ -90,7 +90,7 @@ class Loading {
   Production& production_;
   const Scene& scene_;
   bool is_linear_;
-  std::vector<std::unique_ptr<NewtonSystem>> systems_;  // by actor
+  std::vector<std::unique_ptr<LinearSolver>> systems_;  // by actor
   int iterations_ = 0;
 };
 
@@ -113,7 +113,7 @@ Recording record_equilibria(Production& production, const Scene& scene, const Co
   const int frames = frame_count(scene);
   Loading loading(production, scene);
   Recorder recorder(scene, production, "load", cache);
-  const int first = recorder.take_up(production.world, [](MotionMemory&) {});
+  const int first = recorder.take_up(production.world, [](IntegratorState&) {});
   Progress progress(console, loading.is_linear() ? "linear" : "static", frames);
   for (int frame = first; frame < frames; ++frame) {
     stop_if_interrupted();
@@ -143,7 +143,7 @@ Recording record_modes(Production& production, const Scene& scene, const Console
   const int frames = frame_count(scene);
   const int count = scene.solver.modes;
   Recorder recorder(scene, production, "mode", cache);
-  const int first = recorder.take_up(production.world, [](MotionMemory&) {});
+  const int first = recorder.take_up(production.world, [](IntegratorState&) {});
   for (int frame = first; frame < frames; ++frame) {
     const double place = double(frame) * count / frames;
     const int mode = std::min(int(place), count - 1);

@@ -38,7 +38,7 @@ Points forces_of(const BodyForce& force, const ForcedPart& part, double volume) 
 
 }  // namespace
 
-LoadDriver::Curve::Curve(const Course& course) {
+LoadDriver::Curve::Curve(const StrengthCurve& course) {
   std::vector<Keyframe> keyframes;
   keyframes.reserve(course.keyframes.size() + 1);
   for (const Strength& one : course.keyframes)
@@ -62,12 +62,13 @@ void LoadDriver::Curve::add_moments(std::vector<double>& moments) const {
 
 LoadDriver::LoadDriver(const Scene& scene, Production& production) : scene_(scene), production_(production) {
   if (!scene.gravity_keyframes.empty()) gravity_.emplace_back(scene.gravity_keyframes);
-  if (scene.wind) wind_.emplace_back(static_cast<const Course&>(*scene.wind));
+  if (scene.wind) wind_.emplace_back(static_cast<const StrengthCurve&>(*scene.wind));
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     BodyCurves& curves = bodies_.emplace_back();
-    for (const BodyForce& force : scene.bodies[i].forces) curves.forces.emplace_back(static_cast<const Course&>(force));
+    for (const BodyForce& force : scene.bodies[i].forces)
+      curves.forces.emplace_back(static_cast<const StrengthCurve&>(force));
     for (const BodyMuscle& muscle : scene.bodies[i].muscles) {
-      curves.muscles.emplace_back(static_cast<const Course&>(muscle));
+      curves.muscles.emplace_back(static_cast<const StrengthCurve&>(muscle));
     }
     curves.volumes = forced_volumes(scene, production, i);
   }

@@ -25,7 +25,7 @@ class LoadDriver {
   /// A number or vector over time.
   class Curve {
    public:
-    explicit Curve(const Course& course);
+    explicit Curve(const StrengthCurve& course);
     explicit Curve(const std::vector<GravityKeyframe>& keyframes);
     [[nodiscard]] Vec3 at(double time) const { return movement_.placement(time).shift; }
     [[nodiscard]] double strength(double time) const { return at(time).x(); }

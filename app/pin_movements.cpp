@@ -37,7 +37,7 @@ Points pin_movements(const Scene& scene, const Production& production, std::size
 
 Supports supports_of(const Actor& actor) {
   Supports supports(actor.body.node_count());
-  for (const HeldNode& held : actor.pinned) {
+  for (const KinematicNode& held : actor.pinned) {
     for (int axis = 0; axis < 3; ++axis) {
       if (held.axes[axis]) supports.fix(held.node, axis);
     }

@@ -43,10 +43,10 @@ Recorder::PointSeat Recorder::seat_of(const Probe& probe) const {
                           probe.name, probe.point->x(), probe.point->y(), probe.point->z(), probe.body));
 }
 
-int Recorder::take_up(World& world, const std::function<void(MotionMemory&)>& pass) {
+int Recorder::take_up(World& world, const std::function<void(IntegratorState&)>& serialize) {
   if (cache_ == nullptr) return 0;
-  MotionMemory empty;
-  pass(empty);
+  IntegratorState empty;
+  serialize(empty);
   const int count = cache_->begin(scene_, production_, recording_.progress_name, empty.row().size());
   for (int i = 0; i < count; ++i) {
     const CachedFrame frame = cache_->frame(i);
@@ -57,14 +57,14 @@ int Recorder::take_up(World& world, const std::function<void(MotionMemory&)>& pa
     }
   }
   if (count == 0) return 0;
-  MotionMemory memory = cache_->restore(world);
-  pass(memory);
+  IntegratorState state = cache_->restore(world);
+  serialize(state);
   frame_began_ = std::chrono::steady_clock::now();
   return count;
 }
 
 void Recorder::add(double progress, const std::vector<Points>& reactions, double time, bool small,
-                   const MotionMemory& memory) {
+                   const IntegratorState& state) {
   if (cache_ == nullptr) {
     std::vector<Floats3>& frame = recording_.frames.emplace_back();
     for (const Actor& actor : production_.world.actors) frame.emplace_back(actor.body.positions.cast<float>());
@@ -83,7 +83,7 @@ void Recorder::add(double progress, const std::vector<Points>& reactions, double
                           .probes = numbers_of(recording_.probes),
                           .state_hash = state_hash(production_.world),
                           .seconds = recording_.seconds.back()};
-  cache_->add(frame, memory);
+  cache_->add(frame, state);
 }
 
 ProbeSample Recorder::point_sample(const PointSeat& seat) const {

@@ -37,9 +37,9 @@ struct Recording {
   std::vector<double> seconds;               // likewise: that it took, wall clock
   std::string progress_name;                 // "time_s", "load", "mode"
   std::vector<ProbeTrack> probes;
-  Eigen::VectorXd frequencies;   // Hz, of modes
-  double deepest_overlap = 0;    // m, of skins in what they touch, at the end of any frame moved through
-  std::uint64_t state_hash = 0;  // of the last frame's node positions and velocities, every bit of them
+  Eigen::VectorXd frequencies;     // Hz, of modes
+  double deepest_penetration = 0;  // m, of skins in what they touch, at the end of any frame moved through
+  std::uint64_t state_hash = 0;    // of the last frame's node positions and velocities, every bit of them
 };
 
 /// Takes down frames as a production goes through them.
@@ -51,12 +51,12 @@ class Recorder {
 
   /// Takes up the frames that the cache has: the world, that of the production, then stands as after the last of them,
   /// and `pass` has given the motion what it remembers. Returns how many they are. To be called before the first add().
-  int take_up(World& world, const std::function<void(MotionMemory&)>& pass);
+  int take_up(World& world, const std::function<void(IntegratorState&)>& serialize);
 
   /// The production as it stands. `reactions` of the pins' nodes by actor (m x 3, N); none: no forces. `time` in the
   /// film (s), for the pins' movement; with `small`, torques are those of the shape at rest.
   void add(double progress, const std::vector<Points>& reactions, double time, bool small,
-           const MotionMemory& memory = {});
+           const IntegratorState& state = {});
 
   /// The recording, complete.
   [[nodiscard]] Recording finish();

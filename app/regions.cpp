@@ -61,7 +61,7 @@ std::vector<int> apply_regions(const std::vector<Region>& regions, const Selecto
     for (const int node : body.grid.nodes[brick]) body.masses[node] += more_mass * body.stiffness_scale[brick];
     body.stiffness_scale[brick] *= filled[brick].young / body.material.young;
   }
-  lay_tiles(body);
+  build_tiles(body);
   return regions_of_bricks;
 }
 

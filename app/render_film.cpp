@@ -75,7 +75,7 @@ struct Task {
                  [wanted](const Output& output) { return (output.kind == Output::Kind::kFilm) == wanted; });
     return some;
   }
-  [[nodiscard]] Drawing draw(FilmCrew& crew, std::size_t frame, const FilmCrew::Moments& moments) const {
+  [[nodiscard]] Drawing draw(FilmPipeline& crew, std::size_t frame, const FilmPipeline::Moments& moments) const {
     Drawing drawing;
     if (has(outputs, Output::Kind::kPictures) || has(outputs, Output::Kind::kFilm))
       drawing.image = crew.draw(frame, moments);
@@ -84,7 +84,7 @@ struct Task {
   }
 };
 
-void draw_here(const Task& task, FilmCrew& crew, const Console& console, Progress& progress) {
+void draw_here(const Task& task, FilmPipeline& crew, const Console& console, Progress& progress) {
   console.detail(fmt::format("drawn by {}", crew.driver()));
   const auto [width, height] = task.render.resolution;
   PictureWriter writer(task.outputs, width, height, task.fps, task.range.first);
@@ -96,7 +96,7 @@ void draw_here(const Task& task, FilmCrew& crew, const Console& console, Progres
   std::vector<Image> sheet;
   for (std::size_t i = 0; i < task.frames.size(); ++i) {
     stop_if_interrupted();
-    const FilmCrew::Moments moments = next.get();
+    const FilmPipeline::Moments moments = next.get();
     if (i + 1 < task.frames.size()) next = make_ready(i + 1);
     Drawing drawing = task.draw(crew, task.frames[i], moments);
     if (task.render.sheet) {
@@ -111,7 +111,7 @@ void draw_here(const Task& task, FilmCrew& crew, const Console& console, Progres
 }
 
 /// Every `step`th frame from `first` on: pictures are written here, films are the asker's.
-void draw_some(const Task& task, FilmCrew& crew, std::size_t first, std::size_t step,
+void draw_some(const Task& task, FilmPipeline& crew, std::size_t first, std::size_t step,
                const DrawingProcesses::Send& send) {
   const auto [width, height] = task.render.resolution;
   PictureWriter writer(task.films(false), width, height, task.fps, task.range.first + int(first), int(step));
@@ -124,7 +124,7 @@ void draw_some(const Task& task, FilmCrew& crew, std::size_t first, std::size_t 
   writer.close();
 }
 
-void draw_by_processes(const Task& task, FilmCrew& crew, std::size_t count, const Console& console,
+void draw_by_processes(const Task& task, FilmPipeline& crew, std::size_t count, const Console& console,
                        Progress& progress) {
   console.detail(fmt::format("drawn by {} processes", count));
   const std::size_t threads = std::max(1U, std::thread::hardware_concurrency()) / count;
@@ -162,7 +162,7 @@ void render_film(const std::vector<FilmRun>& runs, const std::optional<Environme
   check_outputs(scene.render, runs.size(), outputs);
   const Task task{range, chosen_frames(range, scene.render), outputs, scene.render, scene.fps};
   Progress progress(console, "render", double(task.frames.size()), 1, "frames/s");
-  FilmCrew crew(runs, surroundings);
+  FilmPipeline crew(runs, surroundings);
   const std::size_t processes = processes_for(task, jobs);
   if (processes > 1 && end_worker_threads()) {
     draw_by_processes(task, crew, processes, console, progress);

@@ -77,8 +77,8 @@ void SceneDriver::aim(double begin, double end) {
   for (std::size_t i = 0; i < grips_.size(); ++i) {
     if (grips_[i].empty()) continue;
     Actor& actor = production_.world.actors[i];
-    std::map<int, HeldNode> held;
-    for (Grip& grip : grips_[i]) {
+    std::map<int, KinematicNode> held;
+    for (FrictionPotential& grip : grips_[i]) {
       if (holds(*grip.pin, begin)) {
         carry(grip, actor, begin, end, held);
       } else {
@@ -90,23 +90,24 @@ void SceneDriver::aim(double begin, double end) {
   }
 }
 
-void SceneDriver::pass(MotionMemory& memory) {
-  for (std::vector<Grip>& grips : grips_) {
-    for (Grip& grip : grips) {
+void SceneDriver::serialize(IntegratorState& state) {
+  for (std::vector<FrictionPotential>& grips : grips_) {
+    for (FrictionPotential& grip : grips) {
       bool is_caught = grip.caught.has_value();
       Catch caught = grip.caught.value_or(Catch{});
       caught.positions.conservativeResize(grip.pinned->nodes.size(), 3);
       if (!is_caught) caught.positions.setZero();
-      memory.pass_as_double(is_caught);
-      memory.pass(caught.time);
-      memory.pass(caught.centre);
-      memory.pass(caught.positions);
+      state.serialize_as_double(is_caught);
+      state.serialize(caught.time);
+      state.serialize(caught.centre);
+      state.serialize(caught.positions);
       grip.caught = is_caught ? std::optional(caught) : std::nullopt;
     }
   }
 }
 
-void SceneDriver::carry(Grip& grip, Actor& actor, double begin, double end, std::map<int, HeldNode>& held) const {
+void SceneDriver::carry(FrictionPotential& grip, Actor& actor, double begin, double end,
+                        std::map<int, KinematicNode>& held) const {
   const std::vector<int>& nodes = grip.pinned->nodes;
   Body& body = actor.body;
   if (!grip.caught) {
@@ -117,7 +118,8 @@ void SceneDriver::carry(Grip& grip, Actor& actor, double begin, double end, std:
   for (std::size_t k = 0; k < nodes.size(); ++k) {
     const Vec3 start = grip.caught->positions.row(k);
     const Vec3 goal = start + placement.way(start - grip.caught->centre);
-    const auto [place, is_new] = held.try_emplace(nodes[k], HeldNode{.node = nodes[k], .axes = {false, false, false}});
+    const auto [place, is_new] =
+        held.try_emplace(nodes[k], KinematicNode{.node = nodes[k], .axes = {false, false, false}});
     for (int axis = 0; axis < 3; ++axis) {
       if (!grip.pin->axes.held[axis]) continue;
       place->second.axes[axis] = true;

@@ -27,7 +27,7 @@ class SceneDriver {
   void aim(double begin, double end);
 
   /// How nodes were caught by the pins that hold now.
-  void pass(MotionMemory& memory);
+  void serialize(IntegratorState& state);
 
  private:
   /// Nodes as a pin caught them.
@@ -37,20 +37,20 @@ class SceneDriver {
     Points positions;            // m, in the order of the nodes
   };
   /// A pin and those of its nodes that belong to one actor.
-  struct Grip {
+  struct FrictionPotential {
     const Pin* pin;
     const PinnedNodes* pinned;
     Movement movement;
     std::optional<Catch> caught{};
   };
 
-  void carry(Grip& grip, Actor& actor, double begin, double end, std::map<int, HeldNode>& held) const;
+  void carry(FrictionPotential& grip, Actor& actor, double begin, double end, std::map<int, KinematicNode>& held) const;
 
   const Scene& scene_;
   Production& production_;
   LoadDriver loads_;
-  std::vector<std::vector<Grip>> grips_;  // by actor
-  std::vector<double> moments_;           // s, rising: where pieces end
+  std::vector<std::vector<FrictionPotential>> grips_;  // by actor
+  std::vector<double> moments_;                        // s, rising: where pieces end
 };
 
 }  // namespace sprung

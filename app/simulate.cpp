@@ -41,7 +41,7 @@ int inverted_bricks(const World& world) {
 class OverlapWatch {
  public:
   void look(const World& world, int frame) {
-    const double depth = deepest_overlap(world);
+    const double depth = deepest_penetration(world);
     if (depth <= deepest_) return;
     deepest_ = depth;
     frame_ = frame;
@@ -101,17 +101,17 @@ class Runner {
   }
 
   /// What the next frame depends on beside positions and velocities.
-  void pass(MotionMemory& memory) {
-    motion_.pass(memory);
-    if (implicit_) implicit_->pass(memory);
-    driver_.pass(memory);
+  void serialize(IntegratorState& state) {
+    motion_.serialize(state);
+    if (implicit_) implicit_->serialize(state);
+    driver_.serialize(state);
   }
   /// How deep skins were in what they touch, m.
   [[nodiscard]] double deepest() const { return overlaps_.deepest(); }
-  [[nodiscard]] MotionMemory memory() {
-    MotionMemory memory;
-    pass(memory);
-    return memory;
+  [[nodiscard]] IntegratorState state() {
+    IntegratorState state;
+    serialize(state);
+    return state;
   }
 
   /// From the frame before to this one.
@@ -183,11 +183,11 @@ class Runner {
           fmt::format("{} implicit steps found no end, or made energy from nowhere, and were made again in halves",
                       report.halvings));
     }
-    if (report.solves.gone_direct > 0) {
+    if (report.solves.fallbacks > 0) {
       console_.note(
           fmt::format("multigrid did not converge in {} of {} linear solves; the slower direct solver took "
                       "over",
-                      report.solves.gone_direct, report.solves.solves));
+                      report.solves.fallbacks, report.solves.solves));
     }
   }
 
@@ -217,7 +217,7 @@ class Runner {
   double total_;
   double before_ = 0;  // of that, done by an earlier run
   std::optional<Progress> progress_;
-  CarefulMotion motion_;
+  AdaptiveIntegrator motion_;
   bool is_judged_ = false;
 };
 
@@ -225,15 +225,15 @@ Recording record_motion(Production& production, const Scene& scene, const Consol
   const int frames = frame_count(scene);
   Recorder recorder(scene, production, "time_s", cache);
   Runner runner(production, scene, console, cache != nullptr);
-  const int first = recorder.take_up(production.world, [&](MotionMemory& memory) { runner.pass(memory); });
+  const int first = recorder.take_up(production.world, [&](IntegratorState& state) { runner.serialize(state); });
   runner.begin_at(first);
   for (int frame = first; frame < frames; ++frame) {
     stop_if_interrupted();
     if (frame > 0) runner.run_frame(frame);
-    recorder.add(frame / scene.fps, runner.pin_reactions(), time_of(scene, frame), false, runner.memory());
+    recorder.add(frame / scene.fps, runner.pin_reactions(), time_of(scene, frame), false, runner.state());
   }
   runner.finish(first, frames);
-  recorder.recording().deepest_overlap = runner.deepest();
+  recorder.recording().deepest_penetration = runner.deepest();
   return recorder.finish();
 }
 

@@ -21,7 +21,7 @@ std::string allowance(const Actor& actor) {
 void check_obstacle(const Scene& scene, const Production& production, std::size_t actor, std::size_t row) {
   const Obstacle& obstacle = production.world.obstacles[row];
   const Actor& body = production.world.actors[actor];
-  const double depth = depth_in(obstacle, body);
+  const double depth = penetration_depth(obstacle, body);
   if (depth <= body.body.grid.brick_size) return;
   const std::size_t index = production.origins[actor].body;
   const std::string deep = readable(depth, Dimension::kLength);
@@ -41,7 +41,7 @@ void check_obstacle(const Scene& scene, const Production& production, std::size_
 void check_pair(const Production& production, std::size_t a, std::size_t b) {
   const Actor& one = production.world.actors[a];
   const Actor& other = production.world.actors[b];
-  const double depth = depth_in(other, one);
+  const double depth = penetration_depth(other, one);
   const double allowed = std::min(one.body.grid.brick_size, other.body.grid.brick_size);
   if (depth <= allowed) return;
   throw Error(ErrorKind::kBadInput,
@@ -60,7 +60,7 @@ void check_start(const Scene& scene, const Production& production) {
     boxes.push_back(box_around(world.actors[i].body.positions));
     for (std::size_t row = 0; row < world.obstacles.size(); ++row) check_obstacle(scene, production, i, row);
   }
-  if (!world.bodies_touch) return;
+  if (!world.bodies_collide) return;
   for (const auto& [a, b] : overlapping_boxes(boxes)) {
     check_pair(production, a, b);
     check_pair(production, b, a);

@@ -68,14 +68,14 @@ StepPlan plan_steps(const World& world, const Scene& scene) {
   const long long_ones = implicit_steps(world, frame);
   StepPlan plan;
   plan.scheme = scene.solver.scheme;
-  const std::string why_not = why_not_implicit(world);
+  const std::string why_not = check_implicit_support(world);
   if (plan.is_implicit() && !why_not.empty()) {
     throw Error(ErrorKind::kBadInput, fmt::format("{}, which needs explicit steps: solver.scheme euler or verlet, or "
                                                   "auto, which then takes them",
                                                   why_not));
   }
   if (plan.scheme == Solver::kAuto) {
-    const bool is_coupled = !world.glue.empty() || (world.bodies_touch && world.actors.size() > 1);
+    const bool is_coupled = !world.glue.empty() || (world.bodies_collide && world.actors.size() > 1);
     const double dear = (is_coupled ? kCoupledCost : kImplicitCost) * double(long_ones);
     const bool is_implicit = why_not.empty() && brick_steps > kWorthwhile * dear * bricks;
     plan.scheme = is_implicit ? Solver::kBdf2 : Solver::kEuler;

@@ -66,7 +66,7 @@ SoftBody make_soft_body(const SurfaceMesh& mesh, const Solid& solid, BrickGrid g
   made.skin = make_skin(submesh(mesh, solid), {.max_edge = kLongestSkinEdge * bricks.brick_size});
   made.embedding = embed(bricks, made.skin.positions, made.skin.normals);
   add_contacts(made.skin, made.actor);
-  made.actor.touches_itself = solid.closed && !solid.overlaps && solid.thickness == 0;
+  made.actor.collides_with_itself = solid.closed && !solid.overlaps && solid.thickness == 0;
   return made;
 }
 

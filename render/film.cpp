@@ -17,7 +17,7 @@ namespace sprung {
 
 namespace {
 
-using Words = std::vector<std::string>;
+using RawOptions = std::vector<std::string>;
 
 std::string lower_extension(const std::filesystem::path& file) {
   std::string extension = file.extension().string();
@@ -37,47 +37,48 @@ std::string video_filter(int width, int height) {
   return filter + "scale=out_color_matrix=bt709:out_range=tv:flags=bicubic+accurate_rnd+full_chroma_int,format=yuv420p";
 }
 
-Words encoder(const std::string& extension, int width, int height) {
+RawOptions encoder(const std::string& extension, int width, int height) {
   if (extension == ".gif") {
     return {"-filter_complex", "split[a][b];[a]palettegen=stats_mode=full[p];[b][p]paletteuse=dither=sierra2_4a",
             "-loop", "0"};
   }
-  Words words{"-vf",
-              video_filter(width, height),
-              "-pix_fmt",
-              "yuv420p",
-              "-colorspace",
-              "bt709",
-              "-color_primaries",
-              "bt709",
-              "-color_trc",
-              "bt709",
-              "-color_range",
-              "tv"};
-  const Words codec = extension == ".webm"
-                          ? Words{"-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-cpu-used", "4", "-row-mt", "1"}
-                          : Words{"-c:v", "libx264", "-preset", "veryfast", "-crf", "16", "-movflags", "+faststart"};
+  RawOptions words{"-vf",
+                   video_filter(width, height),
+                   "-pix_fmt",
+                   "yuv420p",
+                   "-colorspace",
+                   "bt709",
+                   "-color_primaries",
+                   "bt709",
+                   "-color_trc",
+                   "bt709",
+                   "-color_range",
+                   "tv"};
+  const RawOptions codec =
+      extension == ".webm"
+          ? RawOptions{"-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-cpu-used", "4", "-row-mt", "1"}
+          : RawOptions{"-c:v", "libx264", "-preset", "veryfast", "-crf", "16", "-movflags", "+faststart"};
   words.insert(words.end(), codec.begin(), codec.end());
   return words;
 }
 
-Words ffmpeg_command(const std::filesystem::path& file, int width, int height, double fps) {
-  Words words{"ffmpeg",
-              "-hide_banner",
-              "-loglevel",
-              "error",
-              "-y",
-              "-f",
-              "rawvideo",
-              "-pix_fmt",
-              "rgb24",
-              "-video_size",
-              fmt::format("{}x{}", width, height),
-              "-framerate",
-              fmt::format("{:.6f}", fps),
-              "-i",
-              "pipe:0"};
-  const Words rest = encoder(lower_extension(file), width, height);
+RawOptions ffmpeg_command(const std::filesystem::path& file, int width, int height, double fps) {
+  RawOptions words{"ffmpeg",
+                   "-hide_banner",
+                   "-loglevel",
+                   "error",
+                   "-y",
+                   "-f",
+                   "rawvideo",
+                   "-pix_fmt",
+                   "rgb24",
+                   "-video_size",
+                   fmt::format("{}x{}", width, height),
+                   "-framerate",
+                   fmt::format("{:.6f}", fps),
+                   "-i",
+                   "pipe:0"};
+  const RawOptions rest = encoder(lower_extension(file), width, height);
   words.insert(words.end(), rest.begin(), rest.end());
   words.push_back("file:" + file.string());
   return words;

@@ -15,7 +15,7 @@ Body cached_body(const CachedActor& cached, const SceneBody& scene_body) {
   body.positions = cached.rest_positions;
   if (body.stiffness_scale == cached.stiffness_scale) return body;
   body.stiffness_scale = cached.stiffness_scale;
-  lay_tiles(body);
+  build_tiles(body);
   return body;
 }
 

@@ -63,7 +63,7 @@ void RunCache::copy_old_frames() {
 
 CachedFrame RunCache::frame(int frame) const { return old_->frame(frame); }
 
-MotionMemory RunCache::restore(World& world) const {
+IntegratorState RunCache::restore(World& world) const {
   const std::size_t last = frame_count_ - 1;
   const std::vector<Points> positions = old_->exact_positions(last);
   const std::vector<Points> velocities = old_->exact_velocities(last);
@@ -71,17 +71,17 @@ MotionMemory RunCache::restore(World& world) const {
     world.actors[i].body.positions = positions[i];
     world.actors[i].body.velocities = velocities[i];
   }
-  return MotionMemory(old_->memory(last));
+  return IntegratorState(old_->memory(last));
 }
 
-void RunCache::add(const CachedFrame& frame, const MotionMemory& memory) {
+void RunCache::add(const CachedFrame& frame, const IntegratorState& state) {
   std::vector<const Points*> positions;
   std::vector<const Points*> velocities;
   for (const Actor& actor : production_->world.actors) {
     positions.push_back(&actor.body.positions);
     velocities.push_back(&actor.body.velocities);
   }
-  writer_->append(frame, positions, velocities, memory.row());
+  writer_->append(frame, positions, velocities, state.row());
   if (frame_count_++ == 0) writer_->publish();
 }
 

@@ -27,10 +27,10 @@ class RunCache {
   /// A frame that is there.
   [[nodiscard]] CachedFrame frame(int frame) const;
   /// Brings the nodes to where they were after the last frame that is there; what the motion remembered.
-  [[nodiscard]] MotionMemory restore(World& world) const;
+  [[nodiscard]] IntegratorState restore(World& world) const;
 
   /// The next frame, as the world stands. Throws Error(kFailed); what is there stays readable.
-  void add(const CachedFrame& frame, const MotionMemory& memory);
+  void add(const CachedFrame& frame, const IntegratorState& state);
 
   /// Nothing more will come.
   void close();

@@ -78,7 +78,7 @@ Points with_ground(const Points& points, const std::optional<double>& ground) {
   return stacked({points, below});
 }
 
-Points turned(const Points& points, const Vec3& center, double degrees) {
+Points flipped(const Points& points, const Vec3& center, double degrees) {
   const Mat3 turn = Eigen::AngleAxisd(degrees * std::numbers::pi / 180, Vec3::UnitY()).toRotationMatrix();
   return ((points.rowwise() - center.transpose()) * turn.transpose()).rowwise() + center.transpose();
 }
@@ -175,7 +175,7 @@ std::vector<Camera> cameras_of(const Scene& scene, const Reach& reach, double re
   const int count = chosen.orbit == 0 ? 1 : kStops;
   stops.reserve(count);
   for (int stop = 0; stop < count; ++stop)
-    stops.push_back(turned(seen, center, -chosen.orbit * stop / std::max(1, count - 1)));
+    stops.push_back(flipped(seen, center, -chosen.orbit * stop / std::max(1, count - 1)));
   const Camera first = frame_points(stacked(stops), aspect, chosen.azimuth, chosen.elevation, chosen.orthographic);
   std::vector<Camera> cameras;
   for (std::size_t frame = 0; frame < frames; ++frame) {

@@ -55,7 +55,7 @@ Stage in(const std::optional<Environment>& surroundings, Stage stage) {
 
 }  // namespace
 
-FilmCrew::Colors FilmCrew::common_colors(const std::vector<FilmRun>& runs) {
+FilmPipeline::Colors FilmPipeline::common_colors(const std::vector<FilmRun>& runs) {
   Colors colors{runs.front().scene, std::nullopt};
   SceneRender& render = colors.scene.render;
   if (render.color_by == Field::kSkin && !render.springs) return colors;
@@ -74,15 +74,15 @@ FilmCrew::Colors FilmCrew::common_colors(const std::vector<FilmRun>& runs) {
   return colors;
 }
 
-std::size_t FilmCrew::Panel::frame(std::size_t of_film) const {
+std::size_t FilmPipeline::Panel::frame(std::size_t of_film) const {
   return std::min(of_film, run.recording.frames.size() - 1);
 }
 
-FilmCrew::FilmCrew(const std::vector<FilmRun>& runs, const std::optional<Environment>& surroundings)
-    : FilmCrew(runs, surroundings, common_colors(runs)) {}
+FilmPipeline::FilmPipeline(const std::vector<FilmRun>& runs, const std::optional<Environment>& surroundings)
+    : FilmPipeline(runs, surroundings, common_colors(runs)) {}
 
-FilmCrew::FilmCrew(const std::vector<FilmRun>& runs, const std::optional<Environment>& surroundings,
-                   const Colors& colors)
+FilmPipeline::FilmPipeline(const std::vector<FilmRun>& runs, const std::optional<Environment>& surroundings,
+                           const Colors& colors)
     : surroundings_(surroundings),
       scene_(colors.scene),
       reach_(common_reach(runs)),
@@ -99,7 +99,7 @@ FilmCrew::FilmCrew(const std::vector<FilmRun>& runs, const std::optional<Environ
   }
 }
 
-Renderer& FilmCrew::renderer(Panel& panel) {
+Renderer& FilmPipeline::renderer(Panel& panel) {
   if (!panel.renderer) {
     panel.renderer = std::make_unique<Renderer>(in(surroundings_, panel.stage.stage(reach_.bounds)),
                                                 options_of(scene_of_panel_.render));
@@ -107,7 +107,7 @@ Renderer& FilmCrew::renderer(Panel& panel) {
   return *panel.renderer;
 }
 
-FilmCrew::Moments FilmCrew::moments(std::size_t frame) const {
+FilmPipeline::Moments FilmPipeline::moments(std::size_t frame) const {
   const double open = scene_.render.motion_blur / 360;
   const int count = exposures();
   Moments moments;
@@ -118,7 +118,7 @@ FilmCrew::Moments FilmCrew::moments(std::size_t frame) const {
   return moments;
 }
 
-Image FilmCrew::draw(std::size_t frame, const Moments& moments) {
+Image FilmPipeline::draw(std::size_t frame, const Moments& moments) {
   const Camera& camera = cameras_[frame];
   std::vector<Image> pictures;
   for (std::size_t i = 0; i < panels_.size(); ++i) {
@@ -138,12 +138,12 @@ Image FilmCrew::draw(std::size_t frame, const Moments& moments) {
   return image;
 }
 
-int FilmCrew::exposures() const {
+int FilmPipeline::exposures() const {
   if (scene_.camera.aperture > 0) return kLensExposures;
   return scene_.render.motion_blur > 0 ? kExposures : 1;
 }
 
-Camera FilmCrew::camera(std::size_t frame, int exposure) const {
+Camera FilmPipeline::camera(std::size_t frame, int exposure) const {
   Camera camera = cameras_[frame];
   if (scene_.camera.aperture <= 0) return camera;
   const Vec3 ahead = (camera.target - camera.eye).normalized();
@@ -154,17 +154,17 @@ Camera FilmCrew::camera(std::size_t frame, int exposure) const {
   return camera;
 }
 
-Passes FilmCrew::passes(std::size_t frame, const Moments& moments) {
+Passes FilmPipeline::passes(std::size_t frame, const Moments& moments) {
   return renderer(panels_.front()).draw_passes(moments.front().front(), cameras_[frame]);
 }
 
-Image FilmCrew::sheet(const std::vector<Image>& pictures) const {
+Image FilmPipeline::sheet(const std::vector<Image>& pictures) const {
   Image image = sheet_of(pictures, (*scene_.render.sheet)[0], margin());
   labels_.write_legend(image);
   return image;
 }
 
-int FilmCrew::margin() const {
+int FilmPipeline::margin() const {
   const int columns = scene_.render.sheet ? (*scene_.render.sheet)[0] : isize(panels_);
   return scene_.render.resolution[0] - columns * scene_of_panel_.render.resolution[0];
 }

@@ -20,13 +20,13 @@ struct FilmRun {
 /// Everything that a picture of a film is made with: of one run, or of several side by side with one camera and one
 /// range of colours, as the scene of the first has it. A run that is shorter than the others stays where it ends.
 /// OpenGL is begun with the first picture: a crew can be handed to another process before.
-class FilmCrew {
+class FilmPipeline {
  public:
   /// The skins at the moments of a picture, by run and moment: one, or as many as blur takes.
   using Moments = std::vector<std::vector<std::vector<SkinShape>>>;
 
   /// All runs are in the same surroundings, which outlive the crew; none: in the studio.
-  FilmCrew(const std::vector<FilmRun>& runs, const std::optional<Environment>& surroundings);
+  FilmPipeline(const std::vector<FilmRun>& runs, const std::optional<Environment>& surroundings);
 
   [[nodiscard]] std::size_t frames() const { return cameras_.size(); }
   [[nodiscard]] double lowest() const { return reach_.lowest; }  // m, of all bodies in all frames
@@ -46,7 +46,7 @@ class FilmCrew {
     std::optional<Legend> legend;
   };
   [[nodiscard]] static Colors common_colors(const std::vector<FilmRun>& runs);
-  FilmCrew(const std::vector<FilmRun>& runs, const std::optional<Environment>& surroundings, const Colors& colors);
+  FilmPipeline(const std::vector<FilmRun>& runs, const std::optional<Environment>& surroundings, const Colors& colors);
 
   /// The part of a picture that shows one run.
   struct Panel {

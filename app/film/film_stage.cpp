@@ -64,7 +64,7 @@ FilmStage::FilmStage(const Scene& scene, const Production& production, const Rec
 
 Stage FilmStage::stage(const Bounds& bounds) const {
   Stage stage;
-  for (const Player& player : players_) {
+  for (const StageItem& player : items_) {
     stage.skins.push_back(player.skin.get());
     stage.default_colors.push_back(player.color);
     stage.looks.push_back(player.look);
@@ -96,7 +96,7 @@ FilmStage::Moment FilmStage::moment(std::size_t frame, double part) const {
 std::vector<SkinShape> FilmStage::shapes(std::size_t frame, double part) const {
   const Moment now = moment(frame, part);
   std::vector<SkinShape> shapes;
-  for (const Player& player : players_) shapes.push_back(player.shape(now));
+  for (const StageItem& player : items_) shapes.push_back(player.shape(now));
   return shapes;
 }
 
@@ -126,17 +126,17 @@ void FilmStage::add_skin(std::size_t actor) {
   const DrawnSkin& drawn = production_.skins[actor];
   const BrickGrid& grid = production_.world.actors[actor].body.grid;
   const SceneBody& body = scene_.bodies[production_.origins[actor].body];
-  players_.push_back({std::shared_ptr<const Skin>(&drawn.skin, [](const Skin*) {}), srgb(drawn.color),
-                      colors_.is_mapped() ? Look::kChart : look_of(body, *scene_.library), false, id_of(actor),
-                      [this, actor, &drawn, &grid, riding = body.skin](const Moment& now) {
-                        SkinShape shape = shape_of(production_, actor, now.nodes[actor], riding);
-                        const Eigen::VectorXd of_nodes = shares(now, actor);
-                        if (of_nodes.size() > 0) {
-                          shape.shares =
-                              mix_at_points(grid, drawn.embedding, of_nodes).cwiseMax(0.0).cwiseMin(1.0).cast<float>();
-                        }
-                        return shape;
-                      }});
+  items_.push_back({std::shared_ptr<const Skin>(&drawn.skin, [](const Skin*) {}), srgb(drawn.color),
+                    colors_.is_mapped() ? Look::kChart : look_of(body, *scene_.library), false, id_of(actor),
+                    [this, actor, &drawn, &grid, riding = body.skin](const Moment& now) {
+                      SkinShape shape = shape_of(production_, actor, now.nodes[actor], riding);
+                      const Eigen::VectorXd of_nodes = shares(now, actor);
+                      if (of_nodes.size() > 0) {
+                        shape.shares =
+                            interpolate(grid, drawn.embedding, of_nodes).cwiseMax(0.0).cwiseMin(1.0).cast<float>();
+                      }
+                      return shape;
+                    }});
 }
 
 void FilmStage::add_bricks(std::size_t actor) {
@@ -147,7 +147,7 @@ void FilmStage::add_bricks(std::size_t actor) {
   const auto cubes =
       std::make_shared<const BrickCubes>(body.grid, bricks_left(body.grid, scene_.render.cut), exploded, color);
   const auto skin = std::make_shared<const Skin>(at_rest(cubes->skin(), cubes->shape(body.rest_positions, {})));
-  players_.push_back(
+  items_.push_back(
       {skin, color, colors_.is_mapped() ? Look::kChart : Look::kRubber, false, id_of(actor),
        [this, actor, cubes](const Moment& now) { return cubes->shape(now.nodes[actor], shares(now, actor)); }});
 }
@@ -166,8 +166,8 @@ void FilmStage::add_springs(std::size_t actor) {
     return rods->shape(from, to, (springs->stretches(nodes).array() / ends + 0.5).max(0.0).min(1.0));
   };
   const auto skin = std::make_shared<const Skin>(at_rest(rods->skin(), shape(body.rest_positions)));
-  players_.push_back({skin, Eigen::Vector3f::Ones(), Look::kChart, false, id_of(actor),
-                      [actor, shape](const Moment& now) { return shape(now.nodes[actor]); }});
+  items_.push_back({skin, Eigen::Vector3f::Ones(), Look::kChart, false, id_of(actor),
+                    [actor, shape](const Moment& now) { return shape(now.nodes[actor]); }});
 }
 
 /// Over all frames, so that the colours mean the same in each.
@@ -190,7 +190,7 @@ void FilmStage::add_balls(std::size_t actor, std::vector<int> nodes, double radi
   const auto balls = std::make_shared<const Balls>(nodes.size(), radius);
   const Points& rest = production_.world.actors[actor].body.rest_positions;
   const auto skin = std::make_shared<const Skin>(at_rest(balls->skin(), balls->shape(rows_of(rest, nodes))));
-  players_.push_back(
+  items_.push_back(
       {skin, color, Look::kPlastic, false, id_of(actor), [actor, balls, nodes = std::move(nodes)](const Moment& now) {
          return balls->shape(rows_of(now.nodes[actor], nodes));
        }});
@@ -217,15 +217,15 @@ void FilmStage::add_pins(std::size_t actor) {
 void FilmStage::add_ghost(std::size_t actor) {
   const DrawnSkin& drawn = production_.skins[actor];
   SkinShape shape = shape_of(production_, actor, production_.world.actors[actor].body.rest_positions);
-  players_.push_back({std::shared_ptr<const Skin>(&drawn.skin, [](const Skin*) {}), srgb(drawn.color), Look::kRubber,
-                      true, id_of(actor),
-                      [shape = std::move(shape)](const Moment&) -> SkinShape { return SkinShape(shape); }});
+  items_.push_back({std::shared_ptr<const Skin>(&drawn.skin, [](const Skin*) {}), srgb(drawn.color), Look::kRubber,
+                    true, id_of(actor),
+                    [shape = std::move(shape)](const Moment&) -> SkinShape { return SkinShape(shape); }});
 }
 
 void FilmStage::add_obstacle(const StageObstacle& obstacle, int id) {
-  players_.push_back({std::shared_ptr<const Skin>(&obstacle.skin, [](const Skin*) {}), srgb(obstacle.color),
-                      Look::kPlastic, false, id,
-                      [&obstacle](const Moment& now) { return shape_of(obstacle, now.time); }});
+  items_.push_back({std::shared_ptr<const Skin>(&obstacle.skin, [](const Skin*) {}), srgb(obstacle.color),
+                    Look::kPlastic, false, id,
+                    [&obstacle](const Moment& now) { return shape_of(obstacle, now.time); }});
 }
 
 void FilmStage::add_contacts() {
@@ -236,7 +236,7 @@ void FilmStage::add_contacts() {
     return balls->shape(contacts->at(now.nodes, now.time), now.nodes.front().row(0).transpose());
   };
   const auto skin = std::make_shared<const Skin>(at_rest(balls->skin(), shape(moment(0, 0))));
-  players_.push_back({skin, kContactColor, Look::kPlastic, false, 0, shape});
+  items_.push_back({skin, kContactColor, Look::kPlastic, false, 0, shape});
 }
 
 /// As far as the probe has come.
@@ -255,7 +255,7 @@ void FilmStage::add_trace(const ProbeTrack& track, const Eigen::Vector3f& color)
     return rods->shape(from, to, {});
   };
   const auto skin = std::make_shared<const Skin>(at_rest(rods->skin(), shape(track.samples.size() - 1)));
-  players_.push_back({skin, color, Look::kPlastic, false, 0, [shape](const Moment& now) { return shape(now.frame); }});
+  items_.push_back({skin, color, Look::kPlastic, false, 0, [shape](const Moment& now) { return shape(now.frame); }});
 }
 
 }  // namespace sprung

@@ -38,7 +38,7 @@ class FilmStage {
     std::vector<Points> nodes;  // by actor
   };
   /// A skin of the stage and what becomes of it.
-  struct Player {
+  struct StageItem {
     std::shared_ptr<const Skin> skin;
     Eigen::Vector3f color;  // sRGB
     Look look;
@@ -66,7 +66,7 @@ class FilmStage {
   const Recording& recording_;
   FieldColors colors_;
   double stretch_ = 0;  // of springs, to both sides: the ends of their colours
-  std::vector<Player> players_;
+  std::vector<StageItem> items_;
 };
 
 }  // namespace sprung

@@ -83,22 +83,22 @@ void LiveWorld::keep_memory(const Work& work) {
   put_back();
 }
 
-void LiveWorld::brace_bodies() {
+void LiveWorld::stiffen_volume_guards() {
   if (is_braced_) return;
   is_braced_ = true;
-  const double speed = meeting_speed(world_);
+  const double speed = impact_speed(world_);
   for (std::size_t row = 0; row < drawn_.size(); ++row) {
     Body& body = world_.actors[row].body;
     body.law.guard = drawn_[row].guard;
-    brace(body, world_.gravity.norm(), speed);
+    stiffen_volume_guard(body, world_.gravity.norm(), speed);
   }
 }
 
 void LiveWorld::advance(double duration, const Between& between) {
   check(duration >= 0 && std::isfinite(duration), "duration (s)", duration, "0 or above");
   if (duration == 0) return;
-  brace_bodies();
-  CarefulMotion motion(world_, Scheme::kSymplecticEuler);
+  stiffen_volume_guards();
+  AdaptiveIntegrator motion(world_, Scheme::kSymplecticEuler);
   keep_memory([&] {
     motion.advance_frame(
         time_, duration, [&](double) { between(); }, [](const std::string&) {});
@@ -109,7 +109,7 @@ void LiveWorld::advance(double duration, const Between& between) {
 void LiveWorld::step(double dt, long count, const Between& between) {
   check(dt > 0 && std::isfinite(dt), "dt (s)", dt, "above 0");
   check(count >= 0, "count", double(count), "0 or above");
-  brace_bodies();
+  stiffen_volume_guards();
   double bricks = 0;
   for (const Actor& actor : world_.actors) bricks += actor.body.grid.brick_count();
   const long at_once = std::max(1L, long(kBrickStepsBetween / std::max(1.0, bricks)));
@@ -140,7 +140,7 @@ void LiveWorld::settle(std::size_t row, bool linear) {
     Body& body = actor.body;
     const Supports supports = supports_of(actor);
     const Points loads = body.masses * world_.gravity.transpose();
-    const std::unique_ptr<NewtonSystem> system = make_quick_system();
+    const std::unique_ptr<LinearSolver> system = make_default_solver();
     if (linear) {
       const Points still = Points::Zero(body.node_count(), 3);
       body.positions = body.rest_positions;

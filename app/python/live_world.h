@@ -59,7 +59,7 @@ class LiveWorld {
   /// Does `work`, with the memory of all bodies' states where it was before.
   template <class Work>
   void keep_memory(const Work& work);
-  void brace_bodies();
+  void stiffen_volume_guards();
 
   World world_;
   std::deque<Drawn> drawn_;  // by actor

@@ -35,7 +35,7 @@ double cantilever_deflection(Model model, double poisson, int across) {
   for (int node = 0; node < body.node_count(); ++node) {
     if (body.grid.lattice[node].x() == 0) supports.fix(node);
   }
-  const auto system = make_direct_system();
+  const auto system = make_direct_solver();
   const Eigen::VectorXd moved = solve_linear(body, supports, weight, *system);
   double corners = 0;
   for (const int y : {0, across}) {

@@ -216,10 +216,10 @@ void spread(std::vector<CurveName>& names, double top, double bottom) {
   const int rounds = 200;
   for (int round = 0; round < rounds; ++round) {
     for (std::size_t i = 1; i < names.size(); ++i) {
-      const double lack = kNameStep - (names[i].y - names[i - 1].y);
-      if (lack <= 0) continue;
-      names[i - 1].y -= 0.5 * lack;
-      names[i].y += 0.5 * lack;
+      const double deficit = kNameStep - (names[i].y - names[i - 1].y);
+      if (deficit <= 0) continue;
+      names[i - 1].y -= 0.5 * deficit;
+      names[i].y += 0.5 * deficit;
     }
     if (names.front().y < top) names.front().y = top;
     if (names.back().y > bottom) names.back().y = bottom;

@@ -66,8 +66,8 @@ inline constexpr Names<Look, 4> kNames<Look>{
     "look",
     {{{"plastic", Look::kPlastic}, {"gelatin", Look::kGelatin}, {"rubber", Look::kRubber}, {"steel", Look::kSteel}}}};
 template <>
-inline constexpr Names<Riding, 2> kNames<Riding>{"way to ride",
-                                                 {{{"bricks", Riding::kBricks}, {"smooth", Riding::kSmooth}}}};
+inline constexpr Names<SkinInterpolation, 2> kNames<SkinInterpolation>{
+    "way to ride", {{{"bricks", SkinInterpolation::kBricks}, {"smooth", SkinInterpolation::kSmooth}}}};
 template <>
 inline constexpr Names<MaterialClass, 9> kNames<MaterialClass>{"class of materials",
                                                                {{{"gelatin", MaterialClass::kGelatin},

@@ -105,7 +105,7 @@ struct GravityKeyframe {
 };
 
 /// Air that moves past all bodies.
-struct SceneWind : Course {
+struct SceneWind : StrengthCurve {
   Vec3 velocity = Vec3::Zero();  // m/s
   double density = 1.2;          // kg/m^3
   double drag = 1;

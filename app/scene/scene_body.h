@@ -20,9 +20,9 @@ inline constexpr int kDefaultBricks = 24;    // along the longest side
 inline constexpr std::string_view kDefaultMaterial = "gelatin";
 
 /// How the skin rides on the bricks.
-enum class Riding {
+enum class SkinInterpolation {
   kBricks,  // trilinear in each brick: creases where bricks bend
-  kSmooth   // smooth across bricks, see SmoothRide
+  kSmooth   // smooth across bricks, see SmoothEmbedding
 };
 
 /// Directions of the world, x y z.
@@ -53,20 +53,20 @@ struct Strength {
 
 /// How strong something is over the film: as its keyframes say, before the first as at the first; without any, always
 /// at full strength.
-struct Course {
+struct StrengthCurve {
   std::vector<Strength> keyframes;
   Interpolation interpolation = Interpolation::kLinear;
 };
 
 /// A force on a part of a body, or on all of it: one of the three.
-struct BodyForce : Selection, Course {
+struct BodyForce : Selection, StrengthCurve {
   std::optional<Vec3> total;       // N, shared out by volume
   std::optional<Vec3> per_volume;  // N/m^3
   std::optional<double> pressure;  // Pa, on the skin, inward
 };
 
 /// A part of a body, or all of it, that contracts along a direction and keeps its volume.
-struct BodyMuscle : Selection, Course {
+struct BodyMuscle : Selection, StrengthCurve {
   Vec3 direction = Vec3::UnitX();  // of any length, in the body before it is turned
   double contraction = 0;          // share of the length
 };
@@ -144,7 +144,7 @@ struct SceneBody {
   Model model = Model::kCalibrated;
   std::optional<Color> color;  // of what the file leaves without colour
   std::optional<Look> look;    // as the material has it
-  Riding skin = Riding::kBricks;
+  SkinInterpolation skin = SkinInterpolation::kBricks;
   Vec3 velocity = Vec3::Zero();  // m/s
   Vec3 spin = Vec3::Zero();      // degrees/s about the axes of the world through the middle of the bounding box
   double friction = 0.5;         // on other bodies: the geometric mean of both

@@ -67,7 +67,8 @@ void check_times(const toml::array& places, const std::string& path, const std::
   }
 }
 
-void check_course(const toml::table& table, const std::string& path, const Course& course, SceneMistakes& mistakes) {
+void check_course(const toml::table& table, const std::string& path, const StrengthCurve& course,
+                  SceneMistakes& mistakes) {
   if (!course.keyframes.empty()) {
     check_times(*table.get("keyframes")->as_array(), path, course.keyframes, mistakes);
   }

@@ -58,8 +58,8 @@ struct KeyTypes<SceneBody>
     : Types<std::filesystem::path, std::optional<Vec3>, std::optional<SphereShape>, std::optional<CylinderShape>,
             std::optional<TorusShape>, std::vector<Cut>, std::optional<double>, RepairMode, Vec3,
             std::optional<BrickCount>, Material, Model, std::optional<Color>, std::optional<Copies>, std::vector<Pin>,
-            std::vector<Region>, std::vector<BodyForce>, std::vector<BodyMuscle>, double, std::optional<Look>, Riding> {
-};
+            std::vector<Region>, std::vector<BodyForce>, std::vector<BodyMuscle>, double, std::optional<Look>,
+            SkinInterpolation> {};
 template <>
 struct KeyTypes<Strength> : Types<double> {};
 template <>

@@ -53,7 +53,7 @@ Patch strained(const Eigen::Vector3i& counts, Model model, const Material& mater
   for (int node = 0; node < body.node_count(); ++node) {
     if (!is_inside(body.grid.lattice[node], counts)) supports.fix(node);
   }
-  const auto system = make_direct_system();
+  const auto system = make_direct_solver();
   const Points no_loads = Points::Zero(body.node_count(), 3);
   patch.response = linear_response(body, supports, no_loads, patch.uniform, *system);
   body.positions += patch.response.displacements;

@@ -11,7 +11,7 @@ const Vec3 kFoot(5.3, 2.35, 7.9);
 const Vec3 kHand(8.0, 7.7, 4.2);
 
 /// The outer ear leans outwards and a little to the front.
-Shape ear_turned(Shape shape) { return turned(std::move(shape), kEar, Vec3(0, 0.5, -1), 24); }
+Shape ear_turned(Shape shape) { return flipped(std::move(shape), kEar, Vec3(0, 0.5, -1), 24); }
 
 Shape ears() {
   const Shape cup = ear_turned(ellipsoid(kEar, Vec3(2.5, 2.5, 1.35)));
@@ -37,7 +37,7 @@ Shape trunk() {
 }
 
 /// The feet turn out a little.
-Shape foot_turned(Shape shape) { return turned(std::move(shape), kFoot, Vec3::UnitY(), 16); }
+Shape foot_turned(Shape shape) { return flipped(std::move(shape), kFoot, Vec3::UnitY(), 16); }
 
 Shape legs() {
   const Shape sole = foot_turned(ellipsoid(kFoot, Vec3(2.5, 2.85, 1.7)));

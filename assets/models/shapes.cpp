@@ -112,7 +112,7 @@ Shape above(double height) {
   return [=](const Vec3& p) { return height - p.y(); };
 }
 
-Shape turned(Shape shape, const Vec3& center, const Vec3& axis, double degrees) {
+Shape flipped(Shape shape, const Vec3& center, const Vec3& axis, double degrees) {
   const Mat3 back = Eigen::AngleAxisd(-degrees * std::numbers::pi / 180, axis.normalized()).toRotationMatrix();
   return [=, shape = std::move(shape)](const Vec3& p) { return shape(center + back * (p - center)); };
 }

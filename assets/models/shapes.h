@@ -27,7 +27,7 @@ using Place = std::function<double(const Vec3&)>;
 [[nodiscard]] Shape above(double height);
 
 /// The shape turned about an axis through `center`, degrees.
-[[nodiscard]] Shape turned(Shape shape, const Vec3& center, const Vec3& axis, double degrees);
+[[nodiscard]] Shape flipped(Shape shape, const Vec3& center, const Vec3& axis, double degrees);
 /// The shape of the half space x > 0, seen in both halves.
 [[nodiscard]] Shape mirrored(Shape shape);
 /// Union, difference and intersection with the seam rounded over about `blend`; 0: sharp.

@@ -54,7 +54,7 @@ Body make_body(BrickGrid grid, Model model, const Material& material) {
   body.material = material;
   body.stiffness_scale.reserve(body.grid.fill.size());
   for (const double fill : body.grid.fill) body.stiffness_scale.push_back(std::max(fill, kStiffnessFloor));
-  tbb::parallel_invoke([&] { lay_tiles(body); },
+  tbb::parallel_invoke([&] { build_tiles(body); },
                        [&] {
                          body.masses = lump_masses(body);
                          put_at_rest(body);
@@ -62,7 +62,7 @@ Body make_body(BrickGrid grid, Model model, const Material& material) {
   return body;
 }
 
-void lay_tiles(Body& body) {
+void build_tiles(Body& body) {
   body.tiles = std::make_shared<const BrickTiles>(make_brick_tiles(body.grid, body.stiffness_scale));
 }
 

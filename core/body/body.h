@@ -36,7 +36,7 @@ struct Body {
   Points rest_positions;                    // m x 3, m: the grid's nodes moved to where the body starts
   Points positions;                         // m x 3, m
   Points velocities;                        // m x 3, m/s
-  std::shared_ptr<const BrickTiles> tiles;  // how the springs are computed, see lay_tiles()
+  std::shared_ptr<const BrickTiles> tiles;  // how the springs are computed, see build_tiles()
 
   [[nodiscard]] int node_count() const { return int(positions.rows()); }
   /// Trilinear hexahedra in place of springs (Model::kFem).
@@ -51,7 +51,7 @@ inline constexpr double kStiffnessFloor = 0.01;
 [[nodiscard]] Body make_body(BrickGrid grid, Model model, const Material& material);
 
 /// Cuts the body's bricks into tiles anew: due after a change of its stiffness_scale. make_body() has done it already.
-void lay_tiles(Body& body);
+void build_tiles(Body& body);
 
 /// Turns (then moves) the whole body, rest shape and state; rotation is applied about the origin.
 void place(Body& body, const Mat3& rotation, const Vec3& translation);

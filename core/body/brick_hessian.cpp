@@ -86,8 +86,8 @@ void add_axes_correction(AxesMatrix& second, const BrickLaw& law, double h,
 }
 
 void add_guard(AxesMatrix& second, const BrickLaw& law, double volume, const std::array<Vec3, 3>& axes) {
-  const double lack = law.guard_ratio - axes[0].dot(axes[1].cross(axes[2])) / volume;
-  if (lack <= 0) return;
+  const double deficit = law.guard_ratio - axes[0].dot(axes[1].cross(axes[2])) / volume;
+  if (deficit <= 0) return;
   Eigen::Matrix<double, 9, 1> slope;
   slope << axes[1].cross(axes[2]), axes[2].cross(axes[0]), axes[0].cross(axes[1]);
   slope /= volume;
@@ -95,7 +95,7 @@ void add_guard(AxesMatrix& second, const BrickLaw& law, double volume, const std
   // d(a_{i+1} x a_{i+2}) / d a_{i+1} = -[a_{i+2}], and the transposed block opposite.
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3;
-    const Mat3 block = law.guard * lack / volume * cross_matrix(axes[(i + 2) % 3]);
+    const Mat3 block = law.guard * deficit / volume * cross_matrix(axes[(i + 2) % 3]);
     second.block<3, 3>(3 * i, 3 * j) += block;
     second.block<3, 3>(3 * j, 3 * i) += block.transpose();
   }

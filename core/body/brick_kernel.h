@@ -121,9 +121,9 @@ T axes_energy(const BrickLaw& law, double h, const CornerVectors<T>& x, const Co
   const double volume = h * h * h;
   const std::array<std::array<T, 3>, 3> areas{cross(axes[1], axes[2]), cross(axes[2], axes[0]),
                                               cross(axes[0], axes[1])};
-  const T lack = max(law.guard_ratio - dot(axes[0], areas[0]) * (1 / volume), T(0.0));
-  const T push = law.guard / volume * lack;
-  T energy = 0.5 * law.guard * lack * lack;
+  const T deficit = max(law.guard_ratio - dot(axes[0], areas[0]) * (1 / volume), T(0.0));
+  const T push = law.guard / volume * deficit;
+  T energy = 0.5 * law.guard * deficit * deficit;
   std::array<std::array<T, 3>, 3> pulls;
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t k = 0; k < 3; ++k) pulls[i][k] = T(0.0) - push * areas[i][k];

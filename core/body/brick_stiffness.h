@@ -56,10 +56,10 @@ void add_axes_product(const BrickLaw& law, double h, const CornerVectors<T>& x, 
   const std::array<T, 3> tension_rates = axes_tensions(law, rates);
   const double volume = h * h * h;
   const std::array<std::array<T, 3>, 3> areas{cross(a[1], a[2]), cross(a[2], a[0]), cross(a[0], a[1])};
-  const T lack = max(law.guard_ratio - dot(a[0], areas[0]) * (1 / volume), T(0.0));
+  const T deficit = max(law.guard_ratio - dot(a[0], areas[0]) * (1 / volume), T(0.0));
   const T slope = (1 / volume) * (dot(da[0], areas[0]) + dot(da[1], areas[1]) + dot(da[2], areas[2]));
-  const T guard = law.guard / volume * step_above_zero(lack) * slope;
-  const T push = law.guard / volume * lack;
+  const T guard = law.guard / volume * step_above_zero(deficit) * slope;
+  const T push = law.guard / volume * deficit;
   std::array<std::array<T, 3>, 3> pulls;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3;

@@ -16,7 +16,7 @@ constexpr std::int64_t kShuffle = 5;
 /// Weight of a direction that does not cross the surface in a cell at all: decides only where none does.
 constexpr float kLeastWeight = 1e-6F;
 
-struct Crossing {
+struct Intersection {
   std::int64_t ray;  // rays of one column of cells are consecutive
   double depth;      // cells from the box's low side
   int turn;          // +1 entering, -1 leaving
@@ -34,13 +34,13 @@ class Caster {
       : surface_(surface), axis_(axis), axis_u_((axis + 1) % 3), axis_v_((axis + 2) % 3) {}
 
   /// All crossings, ordered by ray and depth.
-  std::vector<Crossing> crossings() {
+  std::vector<Intersection> crossings() {
     for (int t = 0; t < surface_.triangles.rows(); ++t) cross_triangle(t);
     sort_by_ray();
     return std::move(crossings_);
   }
 
-  void add_sums(const std::vector<Crossing>& crossings, CellSums& sums) const {
+  void add_sums(const std::vector<Intersection>& crossings, CellSums& sums) const {
     const std::size_t length = surface_.counts[axis_];
     Column column{std::vector<float>(length), std::vector<float>(length)};
     for (std::int64_t cell = 0, i = 0; cell < std::int64_t{surface_.counts[axis_u_]} * surface_.counts[axis_v_];
@@ -84,12 +84,12 @@ class Caster {
   void sort_by_ray() {
     const std::int64_t cells = std::int64_t{surface_.counts[axis_u_]} * surface_.counts[axis_v_];
     std::vector<std::size_t> next(std::size_t(cells * kRays) + 1, 0);
-    for (const Crossing& crossing : crossings_) ++next[crossing.ray + 1];
+    for (const Intersection& crossing : crossings_) ++next[crossing.ray + 1];
     for (std::size_t i = 1; i < next.size(); ++i) next[i] += next[i - 1];
-    std::vector<Crossing> sorted(crossings_.size());
-    for (const Crossing& crossing : crossings_) sorted[next[crossing.ray]++] = crossing;
+    std::vector<Intersection> sorted(crossings_.size());
+    for (const Intersection& crossing : crossings_) sorted[next[crossing.ray]++] = crossing;
     crossings_.swap(sorted);
-    const auto deeper = [](const Crossing& a, const Crossing& b) { return a.depth < b.depth; };
+    const auto deeper = [](const Intersection& a, const Intersection& b) { return a.depth < b.depth; };
     for (std::size_t begin = 0, end = 0; begin < crossings_.size(); begin = end) {
       while (end < crossings_.size() && crossings_[end].ray == crossings_[begin].ray) ++end;
       std::stable_sort(crossings_.begin() + std::ptrdiff_t(begin), crossings_.begin() + std::ptrdiff_t(end), deeper);
@@ -97,7 +97,7 @@ class Caster {
   }
 
   /// Adds one ray to its column of cells; returns where the next ray's crossings begin.
-  static std::size_t add_ray(const std::vector<Crossing>& crossings, std::size_t begin, Column& column) {
+  static std::size_t add_ray(const std::vector<Intersection>& crossings, std::size_t begin, Column& column) {
     const std::int64_t ray = crossings[begin].ray;
     int winding = 0;
     std::size_t i = begin;
@@ -143,7 +143,7 @@ class Caster {
   int axis_;
   int axis_u_;
   int axis_v_;
-  std::vector<Crossing> crossings_;
+  std::vector<Intersection> crossings_;
 };
 
 }  // namespace

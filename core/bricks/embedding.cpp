@@ -148,7 +148,7 @@ Points deform_points(const BrickGrid& grid, const Embedding& embedding, const Po
   return deformed;
 }
 
-Eigen::VectorXd mix_at_points(const BrickGrid& grid, const Embedding& embedding, const Eigen::VectorXd& of_nodes) {
+Eigen::VectorXd interpolate(const BrickGrid& grid, const Embedding& embedding, const Eigen::VectorXd& of_nodes) {
   Eigen::VectorXd mixed(embedding.local.rows());
   for (Eigen::Index i = 0; i < mixed.size(); ++i) {
     const Vec3 inside = embedding.local.row(i).transpose().cwiseMax(0.0).cwiseMin(1.0);
@@ -188,7 +188,7 @@ Vec3 corner_place(int corner) {
 
 }  // namespace
 
-SmoothRide::SmoothRide(const BrickGrid& grid, const Points& nodes)
+SmoothEmbedding::SmoothEmbedding(const BrickGrid& grid, const Points& nodes)
     : grid_(grid), nodes_(nodes), gradients_(grid.node_count(), Mat3::Zero()) {
   std::vector<int> counts(gradients_.size(), 0);
   for (const auto& brick : grid.nodes) {
@@ -205,7 +205,7 @@ SmoothRide::SmoothRide(const BrickGrid& grid, const Points& nodes)
   for (std::size_t node = 0; node < counts.size(); ++node) gradients_[node] /= std::max(counts[node], 1);
 }
 
-SmoothRide::Place SmoothRide::place(int brick, const Vec3& local) const {
+SmoothEmbedding::Place SmoothEmbedding::place(int brick, const Vec3& local) const {
   const Vec3 inside = local.cwiseMax(0.0).cwiseMin(1.0);
   const Vec3 step = inside.array().square() * (3 - 2 * inside.array());
   const Vec3 slope = 6 * inside.array() * (1 - inside.array()) / grid_.brick_size;
@@ -222,7 +222,7 @@ SmoothRide::Place SmoothRide::place(int brick, const Vec3& local) const {
   return place;
 }
 
-Points SmoothRide::points(const Embedding& embedding) const {
+Points SmoothEmbedding::points(const Embedding& embedding) const {
   Points deformed(embedding.local.rows(), 3);
   tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, deformed.rows(), 1024), [&](const auto& range) {
     for (Eigen::Index i = range.begin(); i < range.end(); ++i) {
@@ -232,7 +232,7 @@ Points SmoothRide::points(const Embedding& embedding) const {
   return deformed;
 }
 
-Points SmoothRide::normals(const Embedding& embedding, const Points& at_rest) const {
+Points SmoothEmbedding::normals(const Embedding& embedding, const Points& at_rest) const {
   Points deformed(at_rest.rows(), 3);
   tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, deformed.rows(), 1024), [&](const auto& range) {
     for (Eigen::Index i = range.begin(); i < range.end(); ++i) {

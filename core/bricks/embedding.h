@@ -31,8 +31,8 @@ struct Embedding {
 [[nodiscard]] Points deform_points(const BrickGrid& grid, const Embedding& embedding, const Points& node_positions);
 
 /// What the nodes carry (m), mixed at the embedded points; n. Points outside their brick count as on its side.
-[[nodiscard]] Eigen::VectorXd mix_at_points(const BrickGrid& grid, const Embedding& embedding,
-                                            const Eigen::VectorXd& of_nodes);
+[[nodiscard]] Eigen::VectorXd interpolate(const BrickGrid& grid, const Embedding& embedding,
+                                          const Eigen::VectorXd& of_nodes);
 
 /// Rest normals carried by the inverse transpose of the deformation gradient at each point; n x 3, not normalised.
 [[nodiscard]] Points deform_normals(const BrickGrid& grid, const Embedding& embedding, const Points& normals,
@@ -44,10 +44,10 @@ struct Embedding {
 ///   f(p) = sum_k w_k(p) L_k(p),   w_k = products of s or 1 - s along the axes,   s(t) = 3 t^2 - 2 t^3,
 /// so that f and its gradient agree on faces that bricks share. It goes through the nodes, and a rigid or affine motion
 /// of them moves the points in exactly the same way.
-class SmoothRide {
+class SmoothEmbedding {
  public:
   /// For these positions of the nodes (m x 3, m); both outlive it.
-  SmoothRide(const BrickGrid& grid, const Points& nodes);
+  SmoothEmbedding(const BrickGrid& grid, const Points& nodes);
 
   /// n x 3, m.
   [[nodiscard]] Points points(const Embedding& embedding) const;

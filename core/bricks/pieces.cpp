@@ -70,7 +70,7 @@ constexpr double kReach = 2.2;       // ... and how far it may lie apart
 constexpr double kUnknownGap = 0.5;  // cells, between pieces of which one has no samples
 
 /// Pieces of two sets that are neighbours: through a face across `axis`, or (-1) in the same cell.
-struct Contact {
+struct PieceContact {
   int low;
   int high;
   int axis;
@@ -170,13 +170,13 @@ class Linker {
       volume[sets_.find(piece)] += list_.pieces()[piece].fill;
     }
     const auto main = int(std::max_element(volume.begin(), volume.end()) - volume.begin());
-    std::vector<Contact> contacts;
+    std::vector<PieceContact> contacts;
     for (int piece = 0; piece < list_.count(); ++piece) {
-      if (sets_.find(piece) != main) list_contacts(piece, contacts);
+      if (sets_.find(piece) != main) list_piece_contacts(piece, contacts);
     }
     std::stable_sort(contacts.begin(), contacts.end(),
-                     [](const Contact& a, const Contact& b) { return a.gap < b.gap; });
-    for (const Contact& contact : contacts) {
+                     [](const PieceContact& a, const PieceContact& b) { return a.gap < b.gap; });
+    for (const PieceContact& contact : contacts) {
       if (sets_.find(contact.low) == sets_.find(contact.high)) continue;
       ++links_.attached;
       if (contact.axis >= 0) {
@@ -187,13 +187,13 @@ class Linker {
     }
   }
 
-  void list_contacts(int piece, std::vector<Contact>& contacts) {
+  void list_piece_contacts(int piece, std::vector<PieceContact>& contacts) {
     const int brick = list_.brick_of(piece);
     const auto add = [&](int other_brick, int axis, bool is_above) {
       for (int other = list_.first(other_brick); other < list_.first(other_brick + 1); ++other) {
         if (sets_.find(other) == sets_.find(piece)) continue;
         const double gap = gap_between(piece, other);
-        contacts.push_back(is_above ? Contact{piece, other, axis, gap} : Contact{other, piece, axis, gap});
+        contacts.push_back(is_above ? PieceContact{piece, other, axis, gap} : PieceContact{other, piece, axis, gap});
       }
     };
     add(brick, -1, true);

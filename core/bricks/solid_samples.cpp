@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::int64_t kSnapPitch = kSnap / kSamplesAlong;
 
-struct Crossing {
+struct Intersection {
   std::int64_t line;
   double depth;  // cells
   int turn;      // +1 entering, -1 leaving
@@ -59,7 +59,7 @@ class LineCaster {
   }
 
   void sort_crossings() {
-    std::stable_sort(crossings_.begin(), crossings_.end(), [](const Crossing& a, const Crossing& b) {
+    std::stable_sort(crossings_.begin(), crossings_.end(), [](const Intersection& a, const Intersection& b) {
       return a.line != b.line ? a.line < b.line : a.depth < b.depth;
     });
   }
@@ -85,7 +85,7 @@ class LineCaster {
   const CellSurface& surface_;
   int axis_;
   std::int64_t along_u_;
-  std::vector<Crossing> crossings_;
+  std::vector<Intersection> crossings_;
 };
 
 }  // namespace

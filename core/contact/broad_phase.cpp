@@ -113,29 +113,29 @@ double time_to_move(double way, double speed, double gravity, double most) {
 
 }  // namespace
 
-std::vector<std::pair<std::size_t, std::size_t>> near_skins(const World& world, const Group& group, double margin) {
+std::vector<std::pair<std::size_t, std::size_t>> broad_phase(const World& world, const Group& group, double margin) {
   std::vector<AlignedBox> boxes;
   std::vector<std::pair<std::size_t, std::size_t>> near;
   for (std::size_t i = 0; i < group.size(); ++i) {
     const Body& body = group[i]->body;
     boxes.push_back(
         widened(box_around(body.positions), margin + body.grid.brick_size));  // skins may lie outside bricks
-    if (group[i]->touches_itself) near.emplace_back(i, i);
+    if (group[i]->collides_with_itself) near.emplace_back(i, i);
   }
-  if (world.bodies_touch) {
+  if (world.bodies_collide) {
     for (const auto& [a, b] : overlapping_boxes(boxes)) near.emplace_back(a, b);
   }
   return near;
 }
 
-double longest_stride(const World& world, const Group& group, double dt) {
-  std::vector<const ContactSkin*> skins;
-  for (Actor* actor : group) skins.push_back(&contact_skin_of(*actor));
+double max_step_size(const World& world, const Group& group, double dt) {
+  std::vector<const ContactSurface*> skins;
+  for (Actor* actor : group) skins.push_back(&contact_surface_of(*actor));
   double fastest = 0;
   for (const Actor* actor : group) fastest = std::max(fastest, actor->body.velocities.rowwise().norm().maxCoeff());
   double stride = dt;
-  for (const auto& [a, b] : near_skins(world, group, 2 * (fastest + world.gravity.norm() * dt) * dt)) {
-    SkinPairs pairs(skins, a, b);
+  for (const auto& [a, b] : broad_phase(world, group, 2 * (fastest + world.gravity.norm() * dt) * dt)) {
+    ContactCandidates pairs(skins, a, b);
     const double brick = std::min(group[a]->body.grid.brick_size, group[b]->body.grid.brick_size);
     const double gravity = a == b ? 0 : world.gravity.norm();  // all of a body falls alike
     // Two that come from either side are twice as fast.
@@ -168,7 +168,7 @@ AlignedBox reach_of(const Body& body, const Vec3& gravity, double time) {
 std::vector<std::vector<std::size_t>> contact_groups(const World& world, double time) {
   const auto count = world.actors.size();
   DisjointSets sets(count);
-  if (world.bodies_touch && count > 1) {
+  if (world.bodies_collide && count > 1) {
     std::vector<AlignedBox> boxes;
     for (const Actor& actor : world.actors) boxes.push_back(reach_of(actor.body, world.gravity, time));
     for (const auto& [a, b] : overlapping_boxes(boxes)) sets.merge(a, b);

@@ -25,12 +25,12 @@ using AlignedBox = Eigen::AlignedBox3d;
 
 /// Pairs of a group's actors whose skins may be within `margin` (m) of each other, where bodies touch; those of one
 /// that touches itself twice the same. In a fixed order.
-[[nodiscard]] std::vector<std::pair<std::size_t, std::size_t>> near_skins(const World& world, const Group& group,
-                                                                          double margin);
+[[nodiscard]] std::vector<std::pair<std::size_t, std::size_t>> broad_phase(const World& world, const Group& group,
+                                                                           double margin);
 
 /// s: `dt`, or as long as no two surfaces that are near each other get closer by more than half a brick: what moves
 /// further in a step may come out on the other side.
-[[nodiscard]] double longest_stride(const World& world, const Group& group, double dt);
+[[nodiscard]] double max_step_size(const World& world, const Group& group, double dt);
 
 /// Rows of world.actors that may come to touch each other within `time` (s), group by group, each ascending: as far as
 /// their momentum, the speeds of their nodes about it, and gravity lead them.

@@ -20,7 +20,7 @@ Vec3 carried_normal(const Body& body, int brick, const Vec3& normal) {
   return (areas_of(mean_axes_of(columns_of(nodes, body.positions))) * along).normalized();
 }
 
-bool hang_together(const Body& body, int a, int b) {
+bool are_connected(const Body& body, int a, int b) {
   const std::size_t brick_a = a;
   const std::size_t brick_b = b;
   if ((body.grid.cells[brick_a] - body.grid.cells[brick_b]).cwiseAbs().maxCoeff() > 1) return false;
@@ -37,20 +37,21 @@ AlignedBox box_of(const Body& body, int brick) {
 
 }  // namespace
 
-SkinPairs::SkinPairs(const std::vector<const ContactSkin*>& skins, std::size_t actor, std::size_t other)
+ContactCandidates::ContactCandidates(const std::vector<const ContactSurface*>& skins, std::size_t actor,
+                                     std::size_t other)
     : skins_(skins) {
   const auto add = [&](std::size_t which) {
     const std::size_t count = skins[which]->points.size();
     sides_.push_back({.actor = which,
                       .positions = Points(count, 3),
                       .finds = std::vector<long>(count, 0),
-                      .watched = std::vector<int>(count, -1)});
+                      .tracked = std::vector<int>(count, -1)});
   };
   add(actor);
   if (other != actor) add(other);
 }
 
-bool SkinPairs::may_touch(const Place& a, const Place& b) const {
+bool ContactCandidates::may_touch(const Place& a, const Place& b) const {
   const bool is_self = sides_.size() == 1;
   if (!is_self && a.side == b.side) return false;
   if (a.turn + b.turn > 0 && a.normal.dot(b.normal) > a.cosine * b.cosine - a.sine * b.sine) return false;
@@ -59,9 +60,9 @@ bool SkinPairs::may_touch(const Place& a, const Place& b) const {
   return !std::binary_search(neighbours.begin(), neighbours.end(), b.row);
 }
 
-void SkinPairs::add_places(const Group& group, std::size_t side, const AlignedBox& near) {
+void ContactCandidates::add_places(const Group& group, std::size_t side, const AlignedBox& near) {
   const Body& body = group[sides_[side].actor]->body;
-  const ContactSkin& skin = skin_of(sides_[side]);
+  const ContactSurface& skin = skin_of(sides_[side]);
   const AlignedBox near_bricks = widened(near, body.grid.brick_size);  // skins may lie a little outside them
   for (std::size_t row = 0; row < skin.bricks.size(); ++row) {
     if (!near_bricks.intersects(box_of(body, skin.bricks[row]))) continue;
@@ -76,7 +77,7 @@ void SkinPairs::add_places(const Group& group, std::size_t side, const AlignedBo
   }
 }
 
-void SkinPairs::seek(const Group& group, double margin) {
+void ContactCandidates::seek(const Group& group, double margin) {
   ++finds_;
   places_.clear();
   for (std::size_t side = 0; side < sides_.size(); ++side) {
@@ -90,7 +91,7 @@ void SkinPairs::seek(const Group& group, double margin) {
   keep_near_places();
 }
 
-void SkinPairs::keep_near_places() {
+void ContactCandidates::keep_near_places() {
   std::vector<int> row_of(places_.size(), -1);
   std::vector<Place> kept;
   const auto keep = [&](int& place) {
@@ -108,8 +109,8 @@ void SkinPairs::keep_near_places() {
   places_ = std::move(kept);
 }
 
-void SkinPairs::find(const Group& group, Place& place) {
-  const ContactSkin& skin = skin_of(place);
+void ContactCandidates::find(const Group& group, Place& place) {
+  const ContactSurface& skin = skin_of(place);
   Side& side = sides_[place.side];
   const Body& body = group[side.actor]->body;
   place.box.setEmpty();
@@ -127,15 +128,16 @@ void SkinPairs::find(const Group& group, Place& place) {
   }
 }
 
-RigidMotion SkinPairs::rigid_motion(const Group& group) const {
+RigidMotion ContactCandidates::rigid_motion(const Group& group) const {
   Group both;
   for (const Side& side : sides_) both.push_back(group[side.actor]);
   return rigid_motion_of(both);
 }
 
-double SkinPairs::fastest_of(const Group& group, std::size_t side, std::size_t row, const RigidMotion& rigid) const {
+double ContactCandidates::fastest_of(const Group& group, std::size_t side, std::size_t row,
+                                     const RigidMotion& rigid) const {
   const Body& body = group[sides_[side].actor]->body;
-  const ContactSkin& skin = skin_of(sides_[side]);
+  const ContactSurface& skin = skin_of(sides_[side]);
   double most = 0;
   for (int i = skin.first_point[row]; i < skin.first_point[row + 1]; ++i) {
     const ContactPoint& point = skin.points[i];
@@ -145,7 +147,7 @@ double SkinPairs::fastest_of(const Group& group, std::size_t side, std::size_t r
   return std::sqrt(most);
 }
 
-double SkinPairs::fastest(const Group& group) const {
+double ContactCandidates::fastest(const Group& group) const {
   const RigidMotion rigid = rigid_motion(group);
   double most = 0;
   for (std::size_t side = 0; side < sides_.size(); ++side) {
@@ -155,14 +157,14 @@ double SkinPairs::fastest(const Group& group) const {
   return most;
 }
 
-double SkinPairs::fastest_near(const Group& group) const {
+double ContactCandidates::fastest_near(const Group& group) const {
   const RigidMotion rigid = rigid_motion(group);
   double most = 0;
   for (const Place& place : places_) most = std::max(most, fastest_of(group, place.side, place.row, rigid));
   return most;
 }
 
-double SkinPairs::closing_speed(const Group& group, double dt) const {
+double ContactCandidates::closing_speed(const Group& group, double dt) const {
   const auto velocity_of = [&](const Place& place) {
     const Body& body = group[sides_[place.side].actor]->body;
     const int brick = skin_of(place).bricks[place.row];
@@ -183,25 +185,26 @@ double SkinPairs::closing_speed(const Group& group, double dt) const {
   return fastest;
 }
 
-int SkinPairs::watched_row(const Group& group, std::size_t side, int point) {
-  int& row = sides_[side].watched[point];
+int ContactCandidates::tracked_row(const Group& group, std::size_t side, int point) {
+  int& row = sides_[side].tracked[point];
   if (row < 0) {
-    row = isize(watched_);
+    row = isize(tracked_);
     const std::size_t actor = sides_[side].actor;
-    const ContactSkin& skin = *skins_[actor];
+    const ContactSurface& skin = *skins_[actor];
     const int brick = skin.points[point].brick;
-    watched_.push_back({actor, point, carried_normal(group[actor]->body, brick, skin.normals.row(point))});
+    tracked_.push_back({actor, point, carried_normal(group[actor]->body, brick, skin.normals.row(point))});
   }
   return row;
 }
 
-void SkinPairs::pair_up(const Group& group, const SkinReach& reach, const Place& facing, std::size_t side, int point) {
-  const ContactSkin& across = skin_of(facing);
+void ContactCandidates::pair_up(const Group& group, const ContactRange& reach, const Place& facing, std::size_t side,
+                                int point) {
+  const ContactSurface& across = skin_of(facing);
   const Points& corners = sides_[facing.side].positions;
   const Vec3 place = sides_[side].positions.row(point);
   const int brick = skin_of(sides_[side]).points[point].brick;
   const auto hangs_together = [&](int corner) {
-    return hang_together(group[sides_[side].actor]->body, brick, across.points[corner].brick);
+    return are_connected(group[sides_[side].actor]->body, brick, across.points[corner].brick);
   };
   for (int t = across.first_triangle[facing.row]; t < across.first_triangle[facing.row + 1]; ++t) {
     const std::array<int, 3>& triangle = across.triangles[t];
@@ -212,17 +215,18 @@ void SkinPairs::pair_up(const Group& group, const SkinReach& reach, const Place&
     if (((place - a.cwiseMax(b).cwiseMax(c)).array() > reach.margin).any()) continue;
     const Vec3 area = (b - a).cross(c - a);
     if (area.dot(place - a) < -(reach.deepest + reach.margin) * area.norm()) continue;
-    const int row = watched_row(group, side, point);
-    if (watched(row).normal.dot(area) > kFacing * area.norm()) continue;
+    const int row = tracked_row(group, side, point);
+    if (tracked(row).normal.dot(area) > kFacing * area.norm()) continue;
     if (side == facing.side && std::any_of(triangle.begin(), triangle.end(), hangs_together)) continue;
-    SkinPair pair{row, {}};
-    for (std::size_t i = 0; i < 3; ++i) pair.corners[i] = watched_row(group, facing.side, triangle[i]);
+    CandidatePair pair{row, {}};
+    for (std::size_t i = 0; i < 3; ++i) pair.corners[i] = tracked_row(group, facing.side, triangle[i]);
     pairs_.push_back(pair);
   }
 }
 
-void SkinPairs::pair_up(const Group& group, const Place& place, const Place& facing, const SkinReach& reach) {
-  const ContactSkin& skin = skin_of(place);
+void ContactCandidates::pair_up(const Group& group, const Place& place, const Place& facing,
+                                const ContactRange& reach) {
+  const ContactSurface& skin = skin_of(place);
   const AlignedBox around = widened(facing.box, reach.margin);
   for (int point = skin.first_point[place.row]; point < skin.first_point[place.row + 1]; ++point) {
     if (!around.contains(Vec3(sides_[place.side].positions.row(point)))) continue;
@@ -230,11 +234,11 @@ void SkinPairs::pair_up(const Group& group, const Place& place, const Place& fac
   }
 }
 
-void SkinPairs::look(const Group& group, const SkinReach& reach) {
-  watched_.clear();
+void ContactCandidates::look(const Group& group, const ContactRange& reach) {
+  tracked_.clear();
   pairs_.clear();
   nearest_beyond_ = std::numeric_limits<double>::infinity();
-  for (Side& side : sides_) std::fill(side.watched.begin(), side.watched.end(), -1);
+  for (Side& side : sides_) std::fill(side.tracked.begin(), side.tracked.end(), -1);
   ++finds_;
   for (Place& place : places_) find(group, place);
   for (const auto& [brick, other] : near_) {
@@ -246,19 +250,20 @@ void SkinPairs::look(const Group& group, const SkinReach& reach) {
     pair_up(group, a, b, reach);
     pair_up(group, b, a, reach);
   }
-  const auto order = [&](const SkinPair& pair) {
-    const WatchedPoint& point = watched(pair.point);
-    return std::tuple(point.actor, point.point, watched(pair.corners[0]).actor, pair.corners);
+  const auto order = [&](const CandidatePair& pair) {
+    const TrackedPoint& point = tracked(pair.point);
+    return std::tuple(point.actor, point.point, tracked(pair.corners[0]).actor, pair.corners);
   };
-  std::sort(pairs_.begin(), pairs_.end(), [&](const SkinPair& a, const SkinPair& b) { return order(a) < order(b); });
+  std::sort(pairs_.begin(), pairs_.end(),
+            [&](const CandidatePair& a, const CandidatePair& b) { return order(a) < order(b); });
 }
 
-void SkinPairs::follow(const Group& group) {
-  for (WatchedPoint& watched : watched_) {
-    const ContactPoint& point = skins_[watched.actor]->points[watched.point];
-    const Body& body = group[watched.actor]->body;
-    watched.place = carried(body, point, body.positions);
-    watched.velocity = carried(body, point, body.velocities);
+void ContactCandidates::follow(const Group& group) {
+  for (TrackedPoint& tracked : tracked_) {
+    const ContactPoint& point = skins_[tracked.actor]->points[tracked.point];
+    const Body& body = group[tracked.actor]->body;
+    tracked.place = carried(body, point, body.positions);
+    tracked.velocity = carried(body, point, body.velocities);
   }
 }
 

@@ -10,7 +10,7 @@
 namespace sprung {
 
 /// A point of a skin that is watched.
-struct WatchedPoint {
+struct TrackedPoint {
   std::size_t actor;  // of the group
   int point;          // of its skin
   Vec3 normal;        // of the skin there, when last looked
@@ -19,13 +19,13 @@ struct WatchedPoint {
 };
 
 /// A point and a triangle near it: rows of what is watched.
-struct SkinPair {
+struct CandidatePair {
   int point;
   std::array<int, 3> corners;
 };
 
 /// How far apart points and triangles are that may come to touch, m.
-struct SkinReach {
+struct ContactRange {
   double margin;   // outside
   double deepest;  // inside: what is deeper came from the other side
 };
@@ -33,10 +33,10 @@ struct SkinReach {
 /// Points and triangles of two skins of a group, or of one skin, that are near and face each other; within one they
 /// must not hang together through a common neighbour of their bricks. Bricks are compared first, by their boxes and by
 /// where their normals may point: that is sought from further away, and less often.
-class SkinPairs {
+class ContactCandidates {
  public:
   /// Of two actors of the group, or of one with itself.
-  SkinPairs(const std::vector<const ContactSkin*>& skins, std::size_t actor, std::size_t other);
+  ContactCandidates(const std::vector<const ContactSurface*>& skins, std::size_t actor, std::size_t other);
 
   /// Seeks the bricks whose skins are within `margin` (m) of each other. Deterministic.
   void seek(const Group& group, double margin);
@@ -49,7 +49,7 @@ class SkinPairs {
   [[nodiscard]] double closing_speed(const Group& group, double dt) const;
 
   /// Finds points and triangles among those bricks. Deterministic.
-  void look(const Group& group, const SkinReach& reach);
+  void look(const Group& group, const ContactRange& reach);
 
   /// Takes down where the watched points are, and how fast.
   void follow(const Group& group);
@@ -59,9 +59,9 @@ class SkinPairs {
   [[nodiscard]] bool has_near_bricks() const { return !near_.empty(); }
   [[nodiscard]] double nearest_beyond() const { return nearest_beyond_; }
 
-  [[nodiscard]] const WatchedPoint& watched(int row) const { return watched_[row]; }
+  [[nodiscard]] const TrackedPoint& tracked(int row) const { return tracked_[row]; }
   /// Ordered by the point and, for each, by the actor of the triangle.
-  [[nodiscard]] const std::vector<SkinPair>& pairs() const { return pairs_; }
+  [[nodiscard]] const std::vector<CandidatePair>& pairs() const { return pairs_; }
 
  private:
   /// One of the skins.
@@ -69,7 +69,7 @@ class SkinPairs {
     std::size_t actor;
     Points positions;          // of its points, as far as they were found
     std::vector<long> finds;   // by point: the search that found it
-    std::vector<int> watched;  // by point: row in watched_, or -1
+    std::vector<int> tracked;  // by point: row in tracked_, or -1
   };
   /// A brick of a skin.
   struct Place {
@@ -82,8 +82,8 @@ class SkinPairs {
     double sine;
   };
 
-  [[nodiscard]] const ContactSkin& skin_of(const Side& side) const { return *skins_[side.actor]; }
-  [[nodiscard]] const ContactSkin& skin_of(const Place& place) const { return skin_of(sides_[place.side]); }
+  [[nodiscard]] const ContactSurface& skin_of(const Side& side) const { return *skins_[side.actor]; }
+  [[nodiscard]] const ContactSurface& skin_of(const Place& place) const { return skin_of(sides_[place.side]); }
   [[nodiscard]] RigidMotion rigid_motion(const Group& group) const;
   [[nodiscard]] double fastest_of(const Group& group, std::size_t side, std::size_t row,
                                   const RigidMotion& rigid) const;
@@ -92,18 +92,18 @@ class SkinPairs {
   void keep_near_places();
   void find(const Group& group, Place& place);
   [[nodiscard]] bool may_touch(const Place& a, const Place& b) const;
-  void pair_up(const Group& group, const Place& place, const Place& facing, const SkinReach& reach);
-  void pair_up(const Group& group, const SkinReach& reach, const Place& facing, std::size_t side, int point);
-  int watched_row(const Group& group, std::size_t side, int point);
+  void pair_up(const Group& group, const Place& place, const Place& facing, const ContactRange& reach);
+  void pair_up(const Group& group, const ContactRange& reach, const Place& facing, std::size_t side, int point);
+  int tracked_row(const Group& group, std::size_t side, int point);
 
-  const std::vector<const ContactSkin*>& skins_;  // by actor of the group
-  std::vector<Side> sides_;                       // two, or one
-  std::vector<Place> places_;                     // of bricks that are near others
-  std::vector<std::pair<int, int>> near_;         // rows of places_
+  const std::vector<const ContactSurface*>& skins_;  // by actor of the group
+  std::vector<Side> sides_;                          // two, or one
+  std::vector<Place> places_;                        // of bricks that are near others
+  std::vector<std::pair<int, int>> near_;            // rows of places_
   double nearest_beyond_ = 0;
   long finds_ = 0;
-  std::vector<WatchedPoint> watched_;
-  std::vector<SkinPair> pairs_;
+  std::vector<TrackedPoint> tracked_;
+  std::vector<CandidatePair> pairs_;
 };
 
 }  // namespace sprung

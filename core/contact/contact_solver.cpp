@@ -21,13 +21,14 @@ double largest(double a) { return std::abs(a); }
 double largest(const Vec3& a) { return a.cwiseAbs().maxCoeff(); }
 
 /// Of the limited volume ratio by the brick's corners, 1/m.
-Eigen::Matrix<double, 3, 8> corner_gradients(const Squeeze& squeeze) {
+Eigen::Matrix<double, 3, 8> corner_gradients(const InversionRate& squeeze) {
   Eigen::Matrix<double, 3, 8> gradients = Eigen::Matrix<double, 3, 8>::Zero();
   for (int axis = 0; axis < 3; ++axis) {
     for (int corner = 0; corner < 8; ++corner) {
-      const bool is_end = squeeze.corner == Squeeze::kMeanAxes || (corner | 1 << axis) == (squeeze.corner | 1 << axis);
+      const bool is_end =
+          squeeze.corner == InversionRate::kMeanAxes || (corner | 1 << axis) == (squeeze.corner | 1 << axis);
       if (!is_end) continue;
-      const double share = squeeze.corner == Squeeze::kMeanAxes ? 0.25 : 1;
+      const double share = squeeze.corner == InversionRate::kMeanAxes ? 0.25 : 1;
       gradients.col(corner) += (on_high_side(corner, axis) ? share : -share) * squeeze.gradient.col(axis);
     }
   }
@@ -36,7 +37,7 @@ Eigen::Matrix<double, 3, 8> corner_gradients(const Squeeze& squeeze) {
 
 }  // namespace
 
-Impulses::Impulses(Group group, std::vector<Eigen::VectorXd> inverse_masses, std::vector<GluedPoint> glue)
+ContactSolver::ContactSolver(Group group, std::vector<Eigen::VectorXd> inverse_masses, std::vector<GluedPoint> glue)
     : group_(std::move(group)),
       inverse_masses_(std::move(inverse_masses)),
       glue_(std::move(glue)),
@@ -45,23 +46,23 @@ Impulses::Impulses(Group group, std::vector<Eigen::VectorXd> inverse_masses, std
       skin_contacts_(skins_),
       squeeze_watches_(group_.size()) {
   for (Actor* actor : group_) {
-    skins_.push_back(&contact_skin_of(*actor));
+    skins_.push_back(&contact_surface_of(*actor));
     places_.emplace_back(actor->body.node_count(), -1);
   }
 }
 
-Vec3 Impulses::TouchLimit::lack(const Nodes& all, Vec3 Pushed::*velocity) const {
+Vec3 ContactSolver::ContactConstraint::residual(const Nodes& all, Vec3 Pushed::*velocity) const {
   Vec3 result = goal;
   for (const Part& part : parts) result -= part.weight * all[part.place].*velocity;
   return result;
 }
 
-void Impulses::TouchLimit::push(const Vec3& size, Nodes& all) const {
+void ContactSolver::ContactConstraint::push(const Vec3& size, Nodes& all) const {
   for (const Part& part : parts) all[part.place].now += part.weight * size;
 }
 
 /// Friction gives as much sideways as its coefficient allows for what presses.
-Vec3 Impulses::TouchLimit::allowed(const Vec3& size) const {
+Vec3 ContactSolver::ContactConstraint::allowed(const Vec3& size) const {
   if (is_glue) return size;
   const double pressing = size.dot(normal);
   if (!(pressing > 0)) return Vec3::Zero();
@@ -71,19 +72,19 @@ Vec3 Impulses::TouchLimit::allowed(const Vec3& size) const {
   return length > most ? Vec3(pressing * normal + most / length * sideways) : size;
 }
 
-double Impulses::SqueezeLimit::lack(const Nodes& all, Vec3 Pushed::*velocity) const {
+double ContactSolver::InversionConstraint::residual(const Nodes& all, Vec3 Pushed::*velocity) const {
   double result = least_speed;
   for (std::size_t i = 0; i < node_count; ++i) result -= gradients[i].dot(all[nodes[i]].*velocity);
   return result;
 }
 
-void Impulses::SqueezeLimit::push(double size, Nodes& all) const {
+void ContactSolver::InversionConstraint::push(double size, Nodes& all) const {
   for (std::size_t i = 0; i < node_count; ++i) all[nodes[i]].now += size * gradients[i];
 }
 
-double Impulses::SqueezeLimit::allowed(double size) { return std::max(0.0, size); }
+double ContactSolver::InversionConstraint::allowed(double size) { return std::max(0.0, size); }
 
-std::size_t Impulses::place_of(std::size_t actor, int node) {
+std::size_t ContactSolver::place_of(std::size_t actor, int node) {
   int& place = places_[actor][node];
   if (place < 0) {
     place = isize(nodes_);
@@ -97,7 +98,7 @@ std::size_t Impulses::place_of(std::size_t actor, int node) {
   return place;
 }
 
-void Impulses::forget_limits() {
+void ContactSolver::forget_limits() {
   for (const Pushed& node : nodes_) places_[node.actor][node.node] = -1;
   nodes_.clear();
   std::swap(touches_, touches_before_);
@@ -106,7 +107,7 @@ void Impulses::forget_limits() {
   squeezed_.clear();
 }
 
-void Impulses::find_touches(const World& world, double elapsed, double dt) {
+void ContactSolver::find_contacts(const World& world, double elapsed, double dt) {
   found_.clear();
   if (!world.obstacles.empty()) {
     std::vector<Pose> poses;
@@ -115,12 +116,12 @@ void Impulses::find_touches(const World& world, double elapsed, double dt) {
   }
   skin_contacts_.find(world, dt, group_, found_);
   add_glue(glue_, group_, dt, found_);
-  std::sort(found_.list.begin(), found_.list.end(), [](const Touch& a, const Touch& b) { return a.key < b.key; });
+  std::sort(found_.list.begin(), found_.list.end(), [](const Contact& a, const Contact& b) { return a.key < b.key; });
   parts_.clear();
   for (const Share& share : found_.shares) {
     parts_.push_back({place_of(share.actor, share.node), share.weight});
   }
-  for (const Touch& touch : found_.list) {
+  for (const Contact& touch : found_.list) {
     touches_.push_back({.key = touch.key,
                         .parts = std::span(parts_).subspan(touch.first, touch.last - touch.first),
                         .normal = touch.normal,
@@ -130,21 +131,22 @@ void Impulses::find_touches(const World& world, double elapsed, double dt) {
   }
 }
 
-void Impulses::find_squeezes(double dt) {
-  std::vector<const std::vector<Squeeze>*> found(group_.size());
+void ContactSolver::find_inversions(double dt) {
+  std::vector<const std::vector<InversionRate>*> found(group_.size());
   tbb::parallel_for(std::size_t{0}, group_.size(),
                     [&](std::size_t actor) { found[actor] = &squeeze_watches_[actor].find(group_[actor]->body, dt); });
-  for (std::size_t actor = 0; actor < group_.size(); ++actor) add_squeezes(actor, *found[actor]);
+  for (std::size_t actor = 0; actor < group_.size(); ++actor) add_inversions(actor, *found[actor]);
 }
 
-void Impulses::add_squeezes(std::size_t actor, const std::vector<Squeeze>& squeezes) {
+void ContactSolver::add_inversions(std::size_t actor, const std::vector<InversionRate>& squeezes) {
   const Body& body = group_[actor]->body;
-  for (const Squeeze& squeeze : squeezes) {
+  for (const InversionRate& squeeze : squeezes) {
     const auto& nodes = body.grid.nodes[squeeze.brick];
     const double size = body.grid.brick_size;  // so that both kinds of limit measure speeds
     const Eigen::Matrix<double, 3, 8> gradients = size * corner_gradients(squeeze);
-    SqueezeLimit limit{.key = touch_key(0, actor, squeeze.brick, 0) * 2 + static_cast<std::uint64_t>(squeeze.corner),
-                       .least_speed = squeeze.least_rate * size};
+    InversionConstraint limit{
+        .key = touch_key(0, actor, squeeze.brick, 0) * 2 + static_cast<std::uint64_t>(squeeze.corner),
+        .least_speed = squeeze.least_rate * size};
     for (int corner = 0; corner < 8; ++corner) {
       if (gradients.col(corner).isZero(0)) continue;
       limit.gradients[limit.node_count] = gradients.col(corner);
@@ -155,7 +157,7 @@ void Impulses::add_squeezes(std::size_t actor, const std::vector<Squeeze>& squee
   }
 }
 
-void Impulses::bound_answers() {
+void ContactSolver::compute_row_sums() {
   each_limit([&](const auto& limit) {
     for (std::size_t i = 0; i < limit.count(); ++i) nodes_[limit.place(i)].pull += limit.pull(i);
   });
@@ -167,7 +169,7 @@ void Impulses::bound_answers() {
   });
 }
 
-void Impulses::start_from_before() {
+void ContactSolver::warm_start() {
   const auto take_over = [](const auto& before, auto& limits) {
     auto old = before.begin();
     for (auto& limit : limits) {
@@ -177,10 +179,11 @@ void Impulses::start_from_before() {
   };
   take_over(touches_before_, touches_);
   take_over(squeezed_before_, squeezed_);
-  // Of these impulses that share is best which leaves least energy in what the limits lack: no more than none leaves.
+  // Of these impulses that share is best which leaves least energy in what the limits residual: no more than none
+  // leaves.
   double wanted = 0;
   each_limit([&](const auto& limit) {
-    wanted += dot(limit.lack(nodes_, &Pushed::free_velocity), limit.impulse.last);
+    wanted += dot(limit.residual(nodes_, &Pushed::free_velocity), limit.impulse.last);
     limit.push(limit.impulse.last, nodes_);
   });
   double answered = 0;
@@ -197,13 +200,13 @@ void Impulses::start_from_before() {
   }
 }
 
-Impulses::Sweep Impulses::sweep() {
+ContactSolver::Sweep ContactSolver::sweep() {
   Sweep result;
   each_limit([&](auto& limit) {
     if (limit.inverse_mass <= 0) return;
     auto& [last, ahead] = limit.impulse;
     using Impulse = std::remove_reference_t<decltype(last)>;
-    const Impulse wanted = ahead + limit.lack(nodes_, &Pushed::velocity) / limit.inverse_mass;
+    const Impulse wanted = ahead + limit.residual(nodes_, &Pushed::velocity) / limit.inverse_mass;
     const Impulse size = limit.allowed(wanted);
     limit.push(size, nodes_);
     const Impulse change = size - ahead;
@@ -215,7 +218,7 @@ Impulses::Sweep Impulses::sweep() {
   return result;
 }
 
-void Impulses::look_ahead(double lead) {
+void ContactSolver::extrapolate(double lead) {
   // What is ahead still holds the sweep before.
   each_limit([&](auto& limit) {
     auto& [last, ahead] = limit.impulse;
@@ -228,13 +231,13 @@ void Impulses::look_ahead(double lead) {
   }
 }
 
-void Impulses::apply(const World& world, double elapsed, double dt) {
+void ContactSolver::apply(const World& world, double elapsed, double dt) {
   forget_limits();
-  find_touches(world, elapsed, dt);
-  find_squeezes(dt);
+  find_contacts(world, elapsed, dt);
+  find_inversions(dt);
   if (nodes_.empty()) return;
-  bound_answers();
-  start_from_before();
+  compute_row_sums();
+  warm_start();
   const int most = squeezed_.empty() ? kMostSweeps : kMostSweepsOfSqueezes;
   const double tolerance = kTolerance * smallest_brick_ / dt;
   double momentum = 1;  // Nesterov's sequence
@@ -243,7 +246,7 @@ void Impulses::apply(const World& world, double elapsed, double dt) {
     if (done.uphill > 0) momentum = 1;
     const double next = (1 + std::sqrt(1 + 4 * momentum * momentum)) / 2;
     const bool is_last = i + 1 == most || !(done.furthest >= tolerance);
-    look_ahead(is_last || done.uphill > 0 ? 0 : (momentum - 1) / next);
+    extrapolate(is_last || done.uphill > 0 ? 0 : (momentum - 1) / next);
     if (is_last) break;
     momentum = next;
   }

@@ -19,10 +19,10 @@ namespace sprung {
 /// Nesterov's method to accelerate multibody dynamics with friction and contact", ACM Transactions on Graphics 34(3),
 /// 2015), with the row sums of the limits' coupling as their step. In a sweep each limit sees the same velocities, so
 /// that the order of the limits does not matter: a symmetric impact stays symmetric but for rounding. Deterministic.
-class Impulses {
+class ContactSolver {
  public:
   /// `inverse_masses` by actor of the group and node, 1/kg; 0 for nodes that are held. `glue` by rows of the group.
-  Impulses(Group group, std::vector<Eigen::VectorXd> inverse_masses, std::vector<GluedPoint> glue = {});
+  ContactSolver(Group group, std::vector<Eigen::VectorXd> inverse_masses, std::vector<GluedPoint> glue = {});
 
   /// Changes the bodies' velocities so that moving by dt keeps every limit. `elapsed`: since the obstacles were where
   /// the world has them, s.
@@ -52,7 +52,7 @@ class Impulses {
     std::size_t place;  // in nodes_
     double weight;
   };
-  struct TouchLimit {
+  struct ContactConstraint {
     std::uint64_t key;            // of the place it works at, increasing
     std::span<const Part> parts;  // in parts_
     Vec3 normal;
@@ -66,12 +66,12 @@ class Impulses {
     [[nodiscard]] std::size_t place(std::size_t i) const { return parts[i].place; }
     [[nodiscard]] double pull(std::size_t i) const { return std::abs(parts[i].weight); }
     /// Of velocity to what the limit asks, sideways too.
-    [[nodiscard]] Vec3 lack(const Nodes& all, Vec3 Pushed::*velocity) const;
+    [[nodiscard]] Vec3 residual(const Nodes& all, Vec3 Pushed::*velocity) const;
     void push(const Vec3& size, Nodes& all) const;
     /// What it may push.
     [[nodiscard]] Vec3 allowed(const Vec3& size) const;
   };
-  struct SqueezeLimit {
+  struct InversionConstraint {
     std::uint64_t key;                   // of the place it works at, increasing
     std::array<std::size_t, 8> nodes{};  // places in nodes_
     std::array<Vec3, 8> gradients{};
@@ -83,19 +83,19 @@ class Impulses {
     [[nodiscard]] std::size_t count() const { return node_count; }
     [[nodiscard]] std::size_t place(std::size_t i) const { return nodes[i]; }
     [[nodiscard]] double pull(std::size_t i) const { return gradients[i].norm(); }
-    [[nodiscard]] double lack(const Nodes& all, Vec3 Pushed::*velocity) const;
+    [[nodiscard]] double residual(const Nodes& all, Vec3 Pushed::*velocity) const;
     void push(double size, Nodes& all) const;
     [[nodiscard]] static double allowed(double size);
   };
 
   std::size_t place_of(std::size_t actor, int node);
   void forget_limits();
-  void find_touches(const World& world, double elapsed, double dt);
-  void find_squeezes(double dt);
-  void add_squeezes(std::size_t actor, const std::vector<Squeeze>& squeezes);
-  void bound_answers();
+  void find_contacts(const World& world, double elapsed, double dt);
+  void find_inversions(double dt);
+  void add_inversions(std::size_t actor, const std::vector<InversionRate>& squeezes);
+  void compute_row_sums();
   /// Takes over a good share of the step before's impulses.
-  void start_from_before();
+  void warm_start();
   /// How far a sweep changed the impulses, as speeds (m/s), and whether the acceleration still points downhill.
   struct Sweep {
     double furthest = 0;
@@ -105,26 +105,26 @@ class Impulses {
   /// Does the same to every limit of either kind.
   template <class Visit>
   void each_limit(const Visit& visit) {
-    for (TouchLimit& limit : touches_) visit(limit);
-    for (SqueezeLimit& limit : squeezed_) visit(limit);
+    for (ContactConstraint& limit : touches_) visit(limit);
+    for (InversionConstraint& limit : squeezed_) visit(limit);
   }
   /// The next sweep starts ahead of this one's end by `lead` times what it changed.
-  void look_ahead(double lead);
+  void extrapolate(double lead);
 
   Group group_;
   std::vector<Eigen::VectorXd> inverse_masses_;
   std::vector<GluedPoint> glue_;
   double smallest_brick_;  // m
-  std::vector<const ContactSkin*> skins_;
+  std::vector<const ContactSurface*> skins_;
   ObstacleContact obstacle_contact_;
   SkinContacts skin_contacts_;
-  std::vector<SqueezeWatch> squeeze_watches_;
-  Touches found_;
+  std::vector<InversionGuard> squeeze_watches_;
+  ContactList found_;
   std::vector<Part> parts_;
-  std::vector<TouchLimit> touches_;
-  std::vector<SqueezeLimit> squeezed_;
-  std::vector<TouchLimit> touches_before_;  // in the step before, without their parts
-  std::vector<SqueezeLimit> squeezed_before_;
+  std::vector<ContactConstraint> touches_;
+  std::vector<InversionConstraint> squeezed_;
+  std::vector<ContactConstraint> touches_before_;  // in the step before, without their parts
+  std::vector<InversionConstraint> squeezed_before_;
   Nodes nodes_;
   std::vector<std::vector<int>> places_;  // by actor, by node: in nodes_, or -1
 };

@@ -66,7 +66,7 @@ std::vector<std::vector<int>> neighbours_among(const std::vector<int>& bricks, c
 
 }  // namespace
 
-ContactSkin::ContactSkin(const Actor& actor) {
+ContactSurface::ContactSurface(const Actor& actor) {
   add_triangles(actor, add_points(actor.contacts));
   for (std::size_t row = 0; row < bricks.size(); ++row) {
     cones.push_back(cone_of(normals.middleRows(first_point[row], first_point[row + 1] - first_point[row])));
@@ -74,7 +74,7 @@ ContactSkin::ContactSkin(const Actor& actor) {
   neighbours = neighbours_among(bricks, actor.body);
 }
 
-std::vector<int> ContactSkin::add_points(const Embedding& embedding) {
+std::vector<int> ContactSurface::add_points(const Embedding& embedding) {
   std::vector<int> order(embedding.brick.size());
   std::iota(order.begin(), order.end(), 0);
   const auto brick_of = [&](int row) { return embedding.brick[row]; };
@@ -94,7 +94,7 @@ std::vector<int> ContactSkin::add_points(const Embedding& embedding) {
   return place_of;
 }
 
-void ContactSkin::add_triangles(const Actor& actor, const std::vector<int>& place_of) {
+void ContactSurface::add_triangles(const Actor& actor, const std::vector<int>& place_of) {
   for (int row = 0; row < actor.contact_triangles.rows(); ++row) {
     std::array<int, 3> corners{};
     for (int i = 0; i < 3; ++i) {
@@ -120,8 +120,8 @@ void ContactSkin::add_triangles(const Actor& actor, const std::vector<int>& plac
   normals.rowwise().normalize();
 }
 
-const ContactSkin& contact_skin_of(Actor& actor) {
-  if (!actor.contact_skin) actor.contact_skin = std::make_shared<const ContactSkin>(actor);
+const ContactSurface& contact_surface_of(Actor& actor) {
+  if (!actor.contact_skin) actor.contact_skin = std::make_shared<const ContactSurface>(actor);
   return *actor.contact_skin;
 }
 

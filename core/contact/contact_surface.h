@@ -20,8 +20,8 @@ struct NormalCone {
 };
 
 /// What touches on a body's behalf, arranged by brick.
-struct ContactSkin {
-  explicit ContactSkin(const Actor& actor);
+struct ContactSurface {
+  explicit ContactSurface(const Actor& actor);
 
   std::vector<int> bricks;                    // b; that hold points, ascending
   std::vector<ContactPoint> points;           // n; grouped by brick
@@ -41,7 +41,7 @@ struct ContactSkin {
 };
 
 /// Made when it is first asked for: contacts, their triangles and the rest shape do not change after that.
-[[nodiscard]] const ContactSkin& contact_skin_of(Actor& actor);
+[[nodiscard]] const ContactSurface& contact_surface_of(Actor& actor);
 
 /// What a point has of what its brick's corners have (m x 3, per node of the body).
 [[nodiscard]] inline Vec3 carried(const Body& body, int brick, const CornerWeights& weights, const Points& values) {

@@ -44,17 +44,17 @@ RigidMotion rigid_motion_of(const Group& group) {
   return {.shift = momentum / mass - spin.cross(middle), .spin = spin};
 }
 
-void Touches::append(const Touches& other) {
+void ContactList::append(const ContactList& other) {
   const std::size_t start = shares.size();
   shares.insert(shares.end(), other.shares.begin(), other.shares.end());
-  for (Touch touch : other.list) {
+  for (Contact touch : other.list) {
     touch.first += start;
     touch.last += start;
     list.push_back(touch);
   }
 }
 
-void add_shares(const Group& group, std::size_t actor, int brick, const CornerWeights& weights, Touches& touches) {
+void add_shares(const Group& group, std::size_t actor, int brick, const CornerWeights& weights, ContactList& touches) {
   const auto& nodes = group[actor]->body.grid.nodes[brick];
   for (int i = 0; i < 8; ++i) {
     if (weights[i] == 0) continue;
@@ -67,7 +67,7 @@ double least_speed(double gap, double gravity, double dt) {
   return std::min(-gap / (kRecoverySteps * dt), std::sqrt(-2 * std::max(gravity, kLeastGravity) * gap));
 }
 
-int steps_until_look(double margin, double speed, double gravity, double dt) {
+int steps_until_update(double margin, double speed, double gravity, double dt) {
   const double steps = std::min(margin / (4 * speed * dt), std::sqrt(margin / gravity) / dt);
   return steps >= 1 ? int(std::min(steps, kMostSteps)) : 1;
 }

@@ -32,7 +32,7 @@ struct Share {
 
 /// A point of a skin that another surface has to hold in the step to come. The sum of weight times velocity over its
 /// shares has to be at least goal along the normal; friction strives for goal sideways.
-struct Touch {
+struct Contact {
   std::uint64_t key;     // of the place, the same from step to step
   std::size_t first;     // of its shares
   std::size_t last;      // one past them
@@ -42,22 +42,22 @@ struct Touch {
   bool is_glue = false;  // reaches its goal in every direction, by pulling too
 };
 
-struct Touches {
-  std::vector<Touch> list;
+struct ContactList {
+  std::vector<Contact> list;
   std::vector<Share> shares;
 
-  [[nodiscard]] std::span<const Share> shares_of(const Touch& touch) const {
+  [[nodiscard]] std::span<const Share> shares_of(const Contact& touch) const {
     return std::span(shares).subspan(touch.first, touch.last - touch.first);
   }
   void clear() {
     list.clear();
     shares.clear();
   }
-  void append(const Touches& other);
+  void append(const ContactList& other);
 };
 
 /// Appends the shares of a point that rides in a brick, without those that are zero.
-void add_shares(const Group& group, std::size_t actor, int brick, const CornerWeights& weights, Touches& touches);
+void add_shares(const Group& group, std::size_t actor, int brick, const CornerWeights& weights, ContactList& touches);
 
 /// What touches what near which corner of which brick; `other` counts obstacles, then actors.
 [[nodiscard]] inline std::uint64_t touch_key(std::size_t other, std::size_t actor, int brick, int corner) {
@@ -72,6 +72,6 @@ void add_shares(const Group& group, std::size_t actor, int brick, const CornerWe
 /// How many steps what is found within `margin` (m) of a surface stays all there is: nothing comes nearer by half of
 /// it, at this speed (m/s), seen from any rigid motion, with room for as much again; nor does it fall further than half
 /// of it meanwhile. At most 24. `gravity` in m/s^2, its size.
-[[nodiscard]] int steps_until_look(double margin, double speed, double gravity, double dt);
+[[nodiscard]] int steps_until_update(double margin, double speed, double gravity, double dt);
 
 }  // namespace sprung

@@ -88,7 +88,7 @@ std::vector<GluedPoint> glue_within(const World& world, std::span<const std::siz
   return within;
 }
 
-void add_glue(const std::vector<GluedPoint>& glue, const Group& group, double dt, Touches& touches) {
+void add_glue(const std::vector<GluedPoint>& glue, const Group& group, double dt, ContactList& touches) {
   for (std::size_t i = 0; i < glue.size(); ++i) {
     const GluedPoint& point = glue[i];
     const std::size_t first = touches.shares.size();

@@ -15,6 +15,6 @@ namespace sprung {
 [[nodiscard]] std::vector<GluedPoint> glue_within(const World& world, std::span<const std::size_t> actors);
 
 /// Appends what each glued point of a group needs to stay together in the step to come, ordered by key.
-void add_glue(const std::vector<GluedPoint>& glue, const Group& group, double dt, Touches& touches);
+void add_glue(const std::vector<GluedPoint>& glue, const Group& group, double dt, ContactList& touches);
 
 }  // namespace sprung

@@ -23,7 +23,7 @@ constexpr double kFastestRecovery =
 
 /// The three edges at a corner, or the mean axes, as columns, each from its low to its high end.
 Mat3 edges_at(int corner, const BrickColumns& x) {
-  if (corner == Squeeze::kMeanAxes) return mean_axes_of(x);
+  if (corner == InversionRate::kMeanAxes) return mean_axes_of(x);
   Mat3 edges;
   for (int axis = 0; axis < 3; ++axis) edges.col(axis) = x.col(corner | 1 << axis) - x.col(corner & ~(1 << axis));
   return edges;
@@ -51,8 +51,8 @@ double smallest_volume(const BrickColumns& x) {
 
 }  // namespace
 
-double meeting_speed(const World& world) {
-  const bool is_alone = world.obstacles.empty() && (world.actors.size() < 2 || !world.bodies_touch);
+double impact_speed(const World& world) {
+  const bool is_alone = world.obstacles.empty() && (world.actors.size() < 2 || !world.bodies_collide);
   if (is_alone) return 0;
   double lowest = std::numeric_limits<double>::infinity();
   for (const Actor& actor : world.actors) lowest = std::min(lowest, actor.body.positions.col(1).minCoeff());
@@ -66,7 +66,7 @@ double meeting_speed(const World& world) {
   return std::sqrt(fastest * fastest + 2 * world.gravity.norm() * (highest - lowest));
 }
 
-void brace(Body& body, double gravity, double speed) {
+void stiffen_volume_guard(Body& body, double gravity, double speed) {
   const Vec3 extent = body.positions.colwise().maxCoeff() - body.positions.colwise().minCoeff();
   const double pressure = body.material.density * (gravity * extent.maxCoeff() + speed * speed);
   body.law.guard *= std::max(1.0, pressure / body.material.young);
@@ -76,7 +76,7 @@ int guarded_bricks(const Body& body) { return flattened_bricks(body, body.law.gu
 
 bool is_crushed(const Body& body) { return guarded_bricks(body) > kCrushedShare * body.grid.brick_count(); }
 
-void SqueezeWatch::look(const Body& body, double dt) {
+void InversionGuard::look(const Body& body, double dt) {
   const double least = kSuspectVolume * body.grid.brick_volume();
   is_suspect_.resize(body.grid.nodes.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, is_suspect_.size(), kBricksPerTask),
@@ -94,9 +94,9 @@ void SqueezeWatch::look(const Body& body, double dt) {
   }
 }
 
-const std::vector<Squeeze>& SqueezeWatch::find(const Body& body, double dt) {
-  if (steps_to_look_ == 0) look(body, dt);
-  steps_to_look_ = (steps_to_look_ + 1) % kStepsBetweenLooks;
+const std::vector<InversionRate>& InversionGuard::find(const Body& body, double dt) {
+  if (steps_to_update_ == 0) look(body, dt);
+  steps_to_update_ = (steps_to_update_ + 1) % kStepsBetweenLooks;
   found_.clear();
   const double volume = body.grid.brick_volume();
   const double fastest = kFastestRecovery * std::sqrt(body.material.young / body.material.density) * dt;  // m
@@ -104,13 +104,13 @@ const std::vector<Squeeze>& SqueezeWatch::find(const Body& body, double dt) {
     const auto& nodes = body.grid.nodes[brick];
     const BrickColumns x = columns_of(nodes, body.positions);
     const BrickColumns v = columns_of(nodes, body.velocities);
-    for (int corner = 0; corner <= Squeeze::kMeanAxes; ++corner) {
+    for (int corner = 0; corner <= InversionRate::kMeanAxes; ++corner) {
       const Mat3 edges = edges_at(corner, x);
       const Mat3 areas = areas_of(edges) / volume;
-      const double lack = kLeastVolume - edges.col(0).dot(areas.col(0));
+      const double deficit = kLeastVolume - edges.col(0).dot(areas.col(0));
       const double rate = edges_at(corner, v).cwiseProduct(areas).sum();
-      const double recovery = std::min(lack / kRecoverySteps, fastest * areas.norm());
-      const double least_rate = (lack > 0 ? recovery : lack) / dt;
+      const double recovery = std::min(deficit / kRecoverySteps, fastest * areas.norm());
+      const double least_rate = (deficit > 0 ? recovery : deficit) / dt;
       if (!(rate < least_rate)) continue;  // nor where a number is not finite
       found_.push_back({.brick = brick, .corner = corner, .gradient = areas, .least_rate = least_rate});
     }

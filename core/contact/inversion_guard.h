@@ -14,12 +14,12 @@ inline constexpr double kLeastVolume = 0.1;
 
 /// How fast anything in a world may be when it meets something, m/s: as it starts, with the fall from where it is to
 /// the lowest thing there. 0 where there is nothing to meet. Obstacles' later movements are not known to it.
-[[nodiscard]] double meeting_speed(const World& world);
+[[nodiscard]] double impact_speed(const World& world);
 
 /// Makes the volume guard of a body strong enough for what it meets, where its material is softer than that: the
 /// pressure of its own weight, density g length, and that of stopping from `speed` (m/s), density speed^2. Call before
 /// the first step is chosen; a guard costs step size. Bodies that are stiff enough stay as they are.
-void brace(Body& body, double gravity, double speed);
+void stiffen_volume_guard(Body& body, double gravity, double speed);
 
 /// How many bricks have less than the volume at which the guard of their law begins to act.
 [[nodiscard]] int guarded_bricks(const Body& body);
@@ -30,7 +30,7 @@ void brace(Body& body, double gravity, double speed);
 [[nodiscard]] bool is_crushed(const Body& body);
 
 /// A brick that would be pressed too far in the step to come.
-struct Squeeze {
+struct InversionRate {
   int brick;
   int corner;         // where; kMeanAxes: between its mean axes
   Mat3 gradient;      // of the volume ratio there by the three edges or axes (columns, low to high end), 1/m
@@ -41,18 +41,18 @@ struct Squeeze {
 
 /// Watches for bricks that are about to be turned inside out. All bricks are looked at every few steps only, those
 /// found flat or collapsing then in every step: in ordinary motion it costs little.
-class SqueezeWatch {
+class InversionGuard {
  public:
   /// What moving by dt would press too far; call once a step.
-  [[nodiscard]] const std::vector<Squeeze>& find(const Body& body, double dt);
+  [[nodiscard]] const std::vector<InversionRate>& find(const Body& body, double dt);
 
  private:
   void look(const Body& body, double dt);
 
   std::vector<char> is_suspect_;  // a brick
   std::vector<int> suspects_;     // bricks
-  std::vector<Squeeze> found_;
-  int steps_to_look_ = 0;
+  std::vector<InversionRate> found_;
+  int steps_to_update_ = 0;
 };
 
 }  // namespace sprung

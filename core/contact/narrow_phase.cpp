@@ -10,10 +10,10 @@ constexpr double kBeside = 0.05;    // of a triangle: what stands a little besid
 constexpr double kTouching = 0.15;  // of the depth: what is that near to a triangle that it stands over touches it
 
 /// False where the point does not stand over the triangle.
-bool stand(const SkinPairs& pairs, const SkinPair& pair, double depth, SkinStance& stance) {
-  const WatchedPoint& point = pairs.watched(pair.point);
-  std::array<const WatchedPoint*, 3> corners{};
-  for (std::size_t i = 0; i < 3; ++i) corners[i] = &pairs.watched(pair.corners[i]);
+bool stand(const ContactCandidates& pairs, const CandidatePair& pair, double depth, PointTriangleContact& stance) {
+  const TrackedPoint& point = pairs.tracked(pair.point);
+  std::array<const TrackedPoint*, 3> corners{};
+  for (std::size_t i = 0; i < 3; ++i) corners[i] = &pairs.tracked(pair.corners[i]);
   const Vec3 ahead = corners[1]->place - corners[0]->place;
   const Vec3 aside = corners[2]->place - corners[0]->place;
   const Vec3 area = ahead.cross(aside);
@@ -30,8 +30,8 @@ bool stand(const SkinPairs& pairs, const SkinPair& pair, double depth, SkinStanc
 
 }  // namespace
 
-std::vector<SkinRun> runs_of(const SkinPairs& pairs) {
-  const std::vector<SkinPair>& all = pairs.pairs();
+std::vector<SkinRun> runs_of(const ContactCandidates& pairs) {
+  const std::vector<CandidatePair>& all = pairs.pairs();
   std::vector<SkinRun> runs;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const bool goes_on =
@@ -42,13 +42,13 @@ std::vector<SkinRun> runs_of(const SkinPairs& pairs) {
   return runs;
 }
 
-SkinStance nearest_stance(const SkinPairs& pairs, SkinRun& run, double depth) {
-  SkinStance nearest;
-  const std::vector<SkinPair>& all = pairs.pairs();
+PointTriangleContact closest_triangle(const ContactCandidates& pairs, SkinRun& run, double depth) {
+  PointTriangleContact nearest;
+  const std::vector<CandidatePair>& all = pairs.pairs();
   if (stand(pairs, all[run.last], depth, nearest) && std::abs(nearest.gap) < kTouching * depth) return nearest;
   nearest.pair = nullptr;
   for (std::size_t i = run.first; i < run.end; ++i) {
-    SkinStance stance;
+    PointTriangleContact stance;
     if (!stand(pairs, all[i], depth, stance)) continue;
     if (nearest.pair != nullptr && std::abs(stance.gap) >= std::abs(nearest.gap)) continue;
     nearest = stance;
@@ -57,10 +57,11 @@ SkinStance nearest_stance(const SkinPairs& pairs, SkinRun& run, double depth) {
   return nearest;
 }
 
-TriangleRide ride_of(const SkinPairs& pairs, const ContactSkin& skin, const SkinStance& stance) {
-  TriangleRide ride;
+TriangleStencil contact_stencil(const ContactCandidates& pairs, const ContactSurface& skin,
+                                const PointTriangleContact& stance) {
+  TriangleStencil ride;
   for (std::size_t i = 0; i < 3; ++i) {
-    const int row = pairs.watched(stance.pair->corners[i]).point;
+    const int row = pairs.tracked(stance.pair->corners[i]).point;
     const ContactPoint& corner = skin.points[row];
     const auto begin = ride.bricks.begin();
     const auto same = std::size_t(std::find(begin, begin + std::ptrdiff_t(ride.count), corner.brick) - begin);

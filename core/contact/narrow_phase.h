@@ -7,8 +7,8 @@
 namespace sprung {
 
 /// How a point of a skin stands to a triangle.
-struct SkinStance {
-  const SkinPair* pair = nullptr;
+struct PointTriangleContact {
+  const CandidatePair* pair = nullptr;
   double gap = 0;  // m, from the triangle's plane
   Vec3 normal;     // of the triangle
   Vec3 weights;    // of the triangle's corners at the place below the point
@@ -22,23 +22,24 @@ struct SkinRun {
 };
 
 /// The actor that a pair's triangle belongs to.
-[[nodiscard]] inline std::size_t other_of(const SkinPairs& pairs, const SkinPair& pair) {
-  return pairs.watched(pair.corners[0]).actor;
+[[nodiscard]] inline std::size_t other_of(const ContactCandidates& pairs, const CandidatePair& pair) {
+  return pairs.tracked(pair.corners[0]).actor;
 }
 
-[[nodiscard]] std::vector<SkinRun> runs_of(const SkinPairs& pairs);
+[[nodiscard]] std::vector<SkinRun> runs_of(const ContactCandidates& pairs);
 
-/// To the nearest of the triangles that the point stands over, where SkinPairs::follow() saw them; without a pair where
-/// there is none. What is further inside than `depth` (m) came from the other side. While a point that touches stays
-/// over a triangle, it is not compared with the others.
-[[nodiscard]] SkinStance nearest_stance(const SkinPairs& pairs, SkinRun& run, double depth);
+/// To the nearest of the triangles that the point stands over, where ContactCandidates::follow() saw them; without a
+/// pair where there is none. What is further inside than `depth` (m) came from the other side. While a point that
+/// touches stays over a triangle, it is not compared with the others.
+[[nodiscard]] PointTriangleContact closest_triangle(const ContactCandidates& pairs, SkinRun& run, double depth);
 
 /// Weights of the corners of the bricks that a triangle's place rides in, brick by brick.
-struct TriangleRide {
+struct TriangleStencil {
   std::array<int, 3> bricks{};
   std::array<CornerWeights, 3> weights;
   std::size_t count = 0;
 };
-[[nodiscard]] TriangleRide ride_of(const SkinPairs& pairs, const ContactSkin& skin, const SkinStance& stance);
+[[nodiscard]] TriangleStencil contact_stencil(const ContactCandidates& pairs, const ContactSurface& skin,
+                                              const PointTriangleContact& stance);
 
 }  // namespace sprung

@@ -27,7 +27,7 @@ double reach_of(const BrickColumns& x, const Vec3& middle) {
 }  // namespace
 
 void ObstacleContact::look_at_brick(const Shape& shape, const Pose& pose, const Body& body, std::size_t at, Near near) {
-  const ContactSkin& skin = *skins_[near.actor];
+  const ContactSurface& skin = *skins_[near.actor];
   const double margin = kMargin * body.grid.brick_size;
   near.brick = skin.bricks[at];
   const BrickColumns x = columns_of(body.grid.nodes[near.brick], body.positions);
@@ -39,7 +39,7 @@ void ObstacleContact::look_at_brick(const Shape& shape, const Pose& pose, const 
   Asked& asked = middles_[near.obstacle][near.actor][at];
   const Vec3 here = in_frame(middle);
   if (asked.least(here) > far) return;
-  asked = {here, gap_to(shape, {}, here)};
+  asked = {here, signed_distance(shape, {}, here)};
   if (asked.gap.distance > far) return;
   // Which points are nearest, and about how near, is told as if the surface were flat across a brick.
   std::vector<NearPoint> nearest;
@@ -66,7 +66,7 @@ Gap ObstacleContact::gap_now(const Shape& shape, double brick_size, const Vec3& 
   if (near.is_exact && moved.norm() <= kFlat * brick_size) {
     return {near.asked.gap.distance + near.asked.gap.normal.dot(moved), near.asked.gap.normal};
   }
-  near.asked = {place, gap_to(shape, {}, place)};
+  near.asked = {place, signed_distance(shape, {}, place)};
   near.is_exact = true;
   return near.asked.gap;
 }
@@ -74,7 +74,7 @@ Gap ObstacleContact::gap_now(const Shape& shape, double brick_size, const Vec3& 
 void ObstacleContact::look(const World& world, const std::vector<Pose>& poses, double dt, const Group& group) {
   near_.clear();
   points_.clear();
-  int steps = steps_until_look(1, 0, 0, dt);
+  int steps = steps_until_update(1, 0, 0, dt);
   for (std::size_t o = 0; o < poses.size(); ++o) {
     const Obstacle& obstacle = world.obstacles[o];
     for (std::size_t actor = 0; actor < group.size(); ++actor) {
@@ -84,13 +84,13 @@ void ObstacleContact::look(const World& world, const std::vector<Pose>& poses, d
           std::sqrt((body.positions.rowwise() - middle.transpose()).rowwise().squaredNorm().maxCoeff());
       const double speed =
           largest_speed(body) + velocity_at(obstacle, poses[o], middle).norm() + obstacle.spin.norm() * around;
-      steps = std::min(steps, steps_until_look(kMargin * body.grid.brick_size, speed, world.gravity.norm(), dt));
+      steps = std::min(steps, steps_until_update(kMargin * body.grid.brick_size, speed, world.gravity.norm(), dt));
       for (std::size_t place = 0; place < skins_[actor]->bricks.size(); ++place) {
         look_at_brick(obstacle.shape, poses[o], body, place, {o, actor, 0, 0, 0});
       }
     }
   }
-  steps_to_look_ = steps;
+  steps_to_update_ = steps;
 }
 
 bool ObstacleContact::has_to_be_held(const BrickMotion& motion, const Hold& hold, NearPoint& near, Held& held) {
@@ -115,7 +115,7 @@ bool ObstacleContact::has_to_be_held(const BrickMotion& motion, const Hold& hold
 }
 
 void ObstacleContact::touch_brick(const World& world, const std::vector<Pose>& poses, double dt, const Group& group,
-                                  const Near& near, Touches& touches) {
+                                  const Near& near, ContactList& touches) {
   const Body& body = group[near.actor]->body;
   const auto& nodes = body.grid.nodes[near.brick];
   const Hold hold{world.obstacles[near.obstacle], poses[near.obstacle], world.gravity.norm(), dt};
@@ -146,15 +146,15 @@ void ObstacleContact::touch_brick(const World& world, const std::vector<Pose>& p
 }
 
 void ObstacleContact::find(const World& world, const std::vector<Pose>& poses, double dt, const Group& group,
-                           Touches& touches) {
+                           ContactList& touches) {
   if (middles_.empty()) {
     middles_.resize(poses.size());
     for (auto& by_actor : middles_) {
-      for (const ContactSkin* skin : skins_) by_actor.emplace_back(skin->bricks.size());
+      for (const ContactSurface* skin : skins_) by_actor.emplace_back(skin->bricks.size());
     }
   }
-  if (steps_to_look_ == 0) look(world, poses, dt, group);
-  --steps_to_look_;
+  if (steps_to_update_ == 0) look(world, poses, dt, group);
+  --steps_to_update_;
   for (const Near& near : near_) touch_brick(world, poses, dt, group, near, touches);
 }
 

@@ -11,12 +11,12 @@ namespace sprung {
 /// those near an obstacle then in every step.
 class ObstacleContact {
  public:
-  explicit ObstacleContact(const std::vector<const ContactSkin*>& skins) : skins_(skins) {}
+  explicit ObstacleContact(const std::vector<const ContactSurface*>& skins) : skins_(skins) {}
 
   /// Appends the points that moving by dt would leave inside an obstacle, near each corner of a brick the one that lies
   /// deepest. Others are held by it or found in the next step; one that lies too deep in spite of that is appended too:
   /// two points that press alike would take turns and both sink in. `poses`: where the obstacles are now.
-  void find(const World& world, const std::vector<Pose>& poses, double dt, const Group& group, Touches& touches);
+  void find(const World& world, const std::vector<Pose>& poses, double dt, const Group& group, ContactList& touches);
 
  private:
   /// What was last asked about a place, in the obstacle's frame.
@@ -67,13 +67,13 @@ class ObstacleContact {
   void look(const World& world, const std::vector<Pose>& poses, double dt, const Group& group);
   void look_at_brick(const Shape& shape, const Pose& pose, const Body& body, std::size_t at, Near near);
   void touch_brick(const World& world, const std::vector<Pose>& poses, double dt, const Group& group, const Near& near,
-                   Touches& touches);
+                   ContactList& touches);
 
-  const std::vector<const ContactSkin*>& skins_;  // by actor of the group
+  const std::vector<const ContactSurface*>& skins_;  // by actor of the group
   std::vector<Near> near_;
   std::vector<NearPoint> points_;
   std::vector<std::vector<std::vector<Asked>>> middles_;  // by obstacle, actor and place in the skin's bricks
-  int steps_to_look_ = 0;
+  int steps_to_update_ = 0;
 };
 
 }  // namespace sprung

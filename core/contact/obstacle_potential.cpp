@@ -18,7 +18,7 @@ double young_at(const Body& body, int brick) {
 
 }  // namespace
 
-std::vector<double> point_hardness(const Actor& actor, const ContactSkin& skin) {
+std::vector<double> contact_stiffness(const Actor& actor, const ContactSurface& skin) {
   const Body& body = actor.body;
   std::vector<double> hardness(skin.points.size());
   for (std::size_t i = 0; i < skin.bricks.size(); ++i) {
@@ -31,23 +31,23 @@ std::vector<double> point_hardness(const Actor& actor, const ContactSkin& skin) 
   return hardness;
 }
 
-double pair_hardness(double hardness, const Body& body, int brick, const Body& other, int other_brick) {
+double pair_stiffness(double hardness, const Body& body, int brick, const Body& other, int other_brick) {
   return hardness * std::min(1.0, young_at(other, other_brick) / young_at(body, brick));
 }
 
-double glue_hardness(const Body& body, int brick, const Body& other, int other_brick) {
+double glue_stiffness(const Body& body, int brick, const Body& other, int other_brick) {
   const double whole = kHardness * young_at(body, brick) * body.grid.brick_size;
-  return pair_hardness(whole, body, brick, other, other_brick);
+  return pair_stiffness(whole, body, brick, other, other_brick);
 }
 
 ObstaclePotential::ObstaclePotential(Actor& actor, const Obstacle& obstacle, double slip_speed)
     : actor_(actor),
       obstacle_(obstacle),
-      skin_(contact_skin_of(actor)),
+      skin_(contact_surface_of(actor)),
       slip_speed_(slip_speed),
       points_(skin_.points.size()),
       asked_(skin_.bricks.size()) {
-  const std::vector<double> hardness = point_hardness(actor, skin_);
+  const std::vector<double> hardness = contact_stiffness(actor, skin_);
   for (std::size_t p = 0; p < points_.size(); ++p) points_[p].stiffness = hardness[p];
 }
 
@@ -62,7 +62,7 @@ bool ObstaclePotential::is_far(std::size_t brick, const Points& positions) {
   const Vec3 middle = pose_.rotation.transpose() * (box.center() - pose_.translation);
   Asked& asked = asked_[brick];
   if (asked.distance - (middle - asked.place).norm() > reach) return true;
-  asked = {.place = middle, .distance = gap_to(obstacle_.shape, {}, middle).distance};
+  asked = {.place = middle, .distance = signed_distance(obstacle_.shape, {}, middle).distance};
   return asked.distance > reach;
 }
 
@@ -76,7 +76,7 @@ void ObstaclePotential::for_touching_points(const Points& positions, const Visit
     for (auto p = std::size_t(skin_.first_point[i]); p < last; ++p) {
       if (far && points_[p].pressing == 0) continue;
       const Vec3 place = carried(actor_.body, skin_.points[p], positions);
-      const Gap gap = gap_to(obstacle_.shape, pose_, place);
+      const Gap gap = signed_distance(obstacle_.shape, pose_, place);
       if (gap.distance < 0 || points_[p].pressing > 0) visit(points_[p], skin_.points[p], place, gap);
     }
   }
@@ -111,7 +111,7 @@ double ObstaclePotential::largest_normal_force() const {
   return largest;
 }
 
-Grip ObstaclePotential::grip(const Point& point, const Vec3& place) const {
+FrictionPotential ObstaclePotential::grip(const Point& point, const Vec3& place) const {
   return {place - point.start, point.normal, obstacle_.friction * point.pressing, slip_};
 }
 
@@ -119,7 +119,7 @@ double ObstaclePotential::add_forces(const Points& positions, Points& forces) {
   double energy = 0;
   for_touching_points(positions, [&](Point& point, const ContactPoint& at, const Vec3& place, const Gap& gap) {
     const double depth = std::max(0.0, -gap.distance);
-    const Grip held = grip(point, place);
+    const FrictionPotential held = grip(point, place);
     energy += 0.5 * point.stiffness * depth * depth;
     energy += held.energy();
     const Vec3 force = point.stiffness * depth * gap.normal + held.force();

@@ -10,21 +10,21 @@ namespace sprung {
 
 /// What pushes back a contact point of a body that is inside something, in steps that have contact as an energy, N/m
 /// by point: twenty times the stiffness E h of its brick, shared among the points of the brick.
-[[nodiscard]] std::vector<double> point_hardness(const Actor& actor, const ContactSkin& skin);
+[[nodiscard]] std::vector<double> contact_stiffness(const Actor& actor, const ContactSurface& skin);
 
 /// The same of two bodies that touch: by the softer of the bricks.
-[[nodiscard]] double pair_hardness(double hardness, const Body& body, int brick, const Body& other, int other_brick);
+[[nodiscard]] double pair_stiffness(double hardness, const Body& body, int brick, const Body& other, int other_brick);
 
 /// N/m, of a point that is glued to another body at those bricks.
-[[nodiscard]] double glue_hardness(const Body& body, int brick, const Body& other, int other_brick);
+[[nodiscard]] double glue_stiffness(const Body& body, int brick, const Body& other, int other_brick);
 
 /// Coulomb's friction of a pressed point as an energy, smooth where it sticks: it grows with the square of the way up
 /// to `slip`, in proportion beyond (Li et al., "Incremental Potential Contact", 2020).
-class Grip {
+class FrictionPotential {
  public:
   /// `moved` (m) since the step began, of which only what lies across the unit `normal` counts; `most` (N): coefficient
   /// times normal force; `slip` (m): that a point may creep before it slides.
-  Grip(const Vec3& moved, const Vec3& normal, double most, double slip)
+  FrictionPotential(const Vec3& moved, const Vec3& normal, double most, double slip)
       : way_(moved - normal.dot(moved) * normal), normal_(normal), length_(way_.norm()), most_(most), slip_(slip) {}
 
   /// J.
@@ -88,13 +88,13 @@ class ObstaclePotential {
   };
 
   [[nodiscard]] bool is_far(std::size_t brick, const Points& positions);
-  [[nodiscard]] Grip grip(const Point& point, const Vec3& place) const;
+  [[nodiscard]] FrictionPotential grip(const Point& point, const Vec3& place) const;
   template <class Visit>
   void for_touching_points(const Points& positions, const Visit& visit);
 
   const Actor& actor_;
   const Obstacle& obstacle_;
-  const ContactSkin& skin_;
+  const ContactSurface& skin_;
   double slip_speed_;
   double slip_ = 0;            // m
   Pose pose_;                  // at the end of the step

@@ -13,7 +13,7 @@ namespace {
 /// Where the contact points that can move are, m.
 Points free_points(const Actor& actor) {
   std::vector<bool> is_held(actor.body.node_count());
-  for (const HeldNode& held : actor.pinned) is_held[held.node] = true;
+  for (const KinematicNode& held : actor.pinned) is_held[held.node] = true;
   const Points points = deform_points(actor.body.grid, actor.contacts, actor.body.positions);
   std::vector<int> rows;
   rows.reserve(points.rows());
@@ -59,19 +59,21 @@ class Surface {
   MeshDistance distance_;
 };
 
-double depth_in(const Obstacle& obstacle, const Points& points) {
+double penetration_depth(const Obstacle& obstacle, const Points& points) {
   double depth = 0;
   for (const auto& row : points.rowwise()) {
-    depth = std::max(depth, -gap_to(obstacle.shape, obstacle.pose, row).distance);
+    depth = std::max(depth, -signed_distance(obstacle.shape, obstacle.pose, row).distance);
   }
   return depth;
 }
 
 }  // namespace
 
-double depth_in(const Obstacle& obstacle, const Actor& actor) { return depth_in(obstacle, free_points(actor)); }
+double penetration_depth(const Obstacle& obstacle, const Actor& actor) {
+  return penetration_depth(obstacle, free_points(actor));
+}
 
-double depth_in(const Actor& other, const Actor& actor) {
+double penetration_depth(const Actor& other, const Actor& actor) {
   if (other.contact_triangles.rows() == 0) return 0;
   const Points points = free_points(actor);
   if (points.rows() == 0) return 0;
@@ -79,16 +81,17 @@ double depth_in(const Actor& other, const Actor& actor) {
   return std::max(surface.depth_of(points), surface.depth_of(brick_middles(actor.body)));
 }
 
-double deepest_overlap(const World& world) {
+double deepest_penetration(const World& world) {
   std::vector<Points> points;
   std::vector<AlignedBox> boxes;
   double depth = 0;
   for (const Actor& actor : world.actors) {
     points.push_back(free_points(actor));
     boxes.push_back(box_around(actor.body.positions));
-    for (const Obstacle& obstacle : world.obstacles) depth = std::max(depth, depth_in(obstacle, points.back()));
+    for (const Obstacle& obstacle : world.obstacles)
+      depth = std::max(depth, penetration_depth(obstacle, points.back()));
   }
-  if (!world.bodies_touch) return depth;
+  if (!world.bodies_collide) return depth;
   std::vector<std::optional<Surface>> surfaces(world.actors.size());
   const auto look = [&](int row, int other) {
     const std::size_t target = other;

@@ -19,14 +19,14 @@ constexpr double kFlat = 0.15;    // ... nor held by that of its own body
 
 }  // namespace
 
-void SkinContact::add(const Group& group, const Held& held, Touches& touches) const {
+void SkinContact::add(const Group& group, const Held& held, ContactList& touches) const {
   const std::size_t first = touches.shares.size();
-  const SkinStance& stance = held.stance;
-  const WatchedPoint& point = pairs_.watched(stance.pair->point);
+  const PointTriangleContact& stance = held.stance;
+  const TrackedPoint& point = pairs_.tracked(stance.pair->point);
   const ContactPoint& at = skins_[point.actor]->points[point.point];
   add_shares(group, point.actor, at.brick, at.weights, touches);
   const std::size_t other = other_of(pairs_, *stance.pair);
-  const TriangleRide ride = ride_of(pairs_, *skins_[other], stance);
+  const TriangleStencil ride = contact_stencil(pairs_, *skins_[other], stance);
   for (std::size_t i = 0; i < ride.count; ++i) add_shares(group, other, ride.bricks[i], ride.weights[i], touches);
   const double other_friction = group[other]->friction;
   touches.list.push_back({.key = held.key,
@@ -40,9 +40,9 @@ void SkinContact::add(const Group& group, const Held& held, Touches& touches) co
 /// Pushed out of each other, skins of bricks that have no room left would press those flat, and for ever: the guard
 /// against that pushes back, and each gives energy to the other. They are kept from going deeper, no more; and where
 /// not even that can be had, a body had rather lie in itself than turn inside out.
-double SkinContact::room_of(const Group& group, const SkinPair& pair) const {
+double SkinContact::room_of(const Group& group, const CandidatePair& pair) const {
   const auto of = [&](int row) {
-    const WatchedPoint& point = pairs_.watched(row);
+    const TrackedPoint& point = pairs_.tracked(row);
     const Body& body = group[point.actor]->body;
     const int brick = skins_[point.actor]->points[point.point].brick;
     const Mat3 axes = mean_axes_of(columns_of(body.grid.nodes[brick], body.positions));
@@ -54,11 +54,11 @@ double SkinContact::room_of(const Group& group, const SkinPair& pair) const {
 }
 
 bool SkinContact::has_to_be_held(const World& world, double dt, const Group& group, Held& held) const {
-  const SkinStance& stance = held.stance;
-  const WatchedPoint& point = pairs_.watched(stance.pair->point);
+  const PointTriangleContact& stance = held.stance;
+  const TrackedPoint& point = pairs_.tracked(stance.pair->point);
   Vec3 velocity = point.velocity;
   for (std::size_t i = 0; i < 3; ++i) {
-    velocity -= stance.weights[i] * pairs_.watched(stance.pair->corners[i]).velocity;
+    velocity -= stance.weights[i] * pairs_.tracked(stance.pair->corners[i]).velocity;
   }
   const double speed = stance.normal.dot(velocity);
   if (!(stance.gap + dt * speed <= 0)) return false;
@@ -79,31 +79,31 @@ void SkinContact::keep_hardest() {
 }
 
 void SkinContact::look(const Group& group, double gravity, double dt) {
-  if (steps_to_look_ == 0) {
+  if (steps_to_update_ == 0) {
     const double brick = std::min(group[actors_[0]]->body.grid.brick_size, group[actors_[1]]->body.grid.brick_size);
     if (steps_to_seek_ <= 0) {
       pairs_.seek(group, kFarMargin * brick);
-      steps_to_seek_ = steps_until_look((kFarMargin - kMargin) * brick, pairs_.fastest(group), gravity, dt);
+      steps_to_seek_ = steps_until_update((kFarMargin - kMargin) * brick, pairs_.fastest(group), gravity, dt);
     }
     depth_ = kDeepest * brick;
     pairs_.look(group, {.margin = kMargin * brick, .deepest = depth_});
     runs_ = runs_of(pairs_);
-    steps_to_look_ = steps_to_seek_;
+    steps_to_update_ = steps_to_seek_;
     if (pairs_.has_near_bricks()) {
-      const int steps = steps_until_look(pairs_.nearest_beyond(), pairs_.fastest_near(group), gravity, dt);
-      steps_to_look_ = std::min(steps, steps_to_seek_);
+      const int steps = steps_until_update(pairs_.nearest_beyond(), pairs_.fastest_near(group), gravity, dt);
+      steps_to_update_ = std::min(steps, steps_to_seek_);
     }
   }
   --steps_to_seek_;
-  --steps_to_look_;
+  --steps_to_update_;
 }
 
-void SkinContact::find(const World& world, double dt, const Group& group, Touches& touches) {
+void SkinContact::find(const World& world, double dt, const Group& group, ContactList& touches) {
   look(group, world.gravity.norm(), dt);
   pairs_.follow(group);
   held_.clear();
   for (SkinRun& run : runs_) {
-    Held nearest{.stance = nearest_stance(pairs_, run, depth_)};
+    Held nearest{.stance = closest_triangle(pairs_, run, depth_)};
     if (nearest.stance.pair != nullptr && has_to_be_held(world, dt, group, nearest)) held_.push_back(nearest);
   }
   keep_hardest();
@@ -132,9 +132,9 @@ double fastest(const Group& group) {
 
 void SkinContacts::seek(const World& world, const Group& group, double dt) {
   const double margin = kBodyMargin * smallest_brick(group);
-  steps_to_seek_ = steps_until_look(margin, fastest(group), world.gravity.norm(), dt);
+  steps_to_seek_ = steps_until_update(margin, fastest(group), world.gravity.norm(), dt);
   std::map<std::pair<std::size_t, std::size_t>, SkinContact> contacts;
-  for (const auto& pair : near_skins(world, group, margin)) {
+  for (const auto& pair : broad_phase(world, group, margin)) {
     if (auto known = contacts_.extract(pair)) {
       contacts.insert(std::move(known));
     } else {
@@ -144,7 +144,7 @@ void SkinContacts::seek(const World& world, const Group& group, double dt) {
   contacts_ = std::move(contacts);
 }
 
-void SkinContacts::find(const World& world, double dt, const Group& group, Touches& touches) {
+void SkinContacts::find(const World& world, double dt, const Group& group, ContactList& touches) {
   if (steps_to_seek_ == 0) seek(world, group, dt);
   --steps_to_seek_;
   std::vector<SkinContact*> contacts;
@@ -155,7 +155,7 @@ void SkinContacts::find(const World& world, double dt, const Group& group, Touch
     found_[i].clear();
     contacts[i]->find(world, dt, group, found_[i]);
   });
-  for (const Touches& found : found_) touches.append(found);
+  for (const ContactList& found : found_) touches.append(found);
 }
 
 }  // namespace sprung

@@ -17,17 +17,17 @@ namespace sprung {
 class SkinContact {
  public:
   /// Of two actors of the group, or of one with itself.
-  SkinContact(const std::vector<const ContactSkin*>& skins, std::size_t actor, std::size_t other)
+  SkinContact(const std::vector<const ContactSurface*>& skins, std::size_t actor, std::size_t other)
       : skins_(skins), actors_{actor, other}, pairs_(skins, actor, other) {}
 
   /// Appends, ordered by key, the points that moving by dt would leave inside another skin, at most one near each
   /// corner of a brick and for each body that it touches: the one that is held hardest.
-  void find(const World& world, double dt, const Group& group, Touches& touches);
+  void find(const World& world, double dt, const Group& group, ContactList& touches);
 
  private:
   /// What a point needs that has to be held.
   struct Held {
-    SkinStance stance;
+    PointTriangleContact stance;
     std::uint64_t key = 0;
     double least_speed = 0;
     double pull = 0;  // along the normal, that meeting its limit takes, m/s
@@ -38,19 +38,19 @@ class SkinContact {
   /// Of what stands near the same corner of the same brick, that which is held hardest.
   void keep_hardest();
   /// Least of both sides: volume of a brick over that at rest.
-  [[nodiscard]] double room_of(const Group& group, const SkinPair& pair) const;
+  [[nodiscard]] double room_of(const Group& group, const CandidatePair& pair) const;
   /// Whether moving by dt would leave it inside; then what it needs.
   [[nodiscard]] bool has_to_be_held(const World& world, double dt, const Group& group, Held& held) const;
-  void add(const Group& group, const Held& held, Touches& touches) const;
+  void add(const Group& group, const Held& held, ContactList& touches) const;
 
-  const std::vector<const ContactSkin*>& skins_;  // by actor of the group
+  const std::vector<const ContactSurface*>& skins_;  // by actor of the group
   std::array<std::size_t, 2> actors_;
-  SkinPairs pairs_;
+  ContactCandidates pairs_;
   double depth_ = 0;  // m, below which what is inside came from the other side
   std::vector<SkinRun> runs_;
   std::vector<Held> held_;  // of this step
   int steps_to_seek_ = 0;
-  int steps_to_look_ = 0;
+  int steps_to_update_ = 0;
 };
 
 /// Where the skins of a group's bodies touch each other and themselves: looks after which bodies are near each other,
@@ -58,18 +58,18 @@ class SkinContact {
 class SkinContacts {
  public:
   /// By actor of the group; the list has to outlive it.
-  explicit SkinContacts(const std::vector<const ContactSkin*>& skins) : skins_(skins) {}
+  explicit SkinContacts(const std::vector<const ContactSurface*>& skins) : skins_(skins) {}
 
   /// Appends what SkinContact finds, ordered by pair, itself by key.
-  void find(const World& world, double dt, const Group& group, Touches& touches);
+  void find(const World& world, double dt, const Group& group, ContactList& touches);
 
  private:
   /// Bodies that may come to touch before the next time.
   void seek(const World& world, const Group& group, double dt);
 
-  const std::vector<const ContactSkin*>& skins_;
+  const std::vector<const ContactSurface*>& skins_;
   std::map<std::pair<std::size_t, std::size_t>, SkinContact> contacts_;  // actors of the group; twice the same: itself
-  std::vector<Touches> found_;                                           // by pair
+  std::vector<ContactList> found_;                                       // by pair
   int steps_to_seek_ = 0;
 };
 

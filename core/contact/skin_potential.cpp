@@ -18,7 +18,7 @@ SkinPotential::SkinPotential(const World& world, const Group& group, const std::
                              const Step& step, const std::vector<Eigen::VectorXd*>& pushed_in)
     : group_(group), glue_(glue), slip_(step.slip) {
   for (Actor* actor : group) {
-    skins_.push_back(&contact_skin_of(*actor));
+    skins_.push_back(&contact_surface_of(*actor));
     starts_.push_back(actor->body.positions);
   }
   watch(world, pushed_in);
@@ -29,7 +29,8 @@ SkinPotential::SkinPotential(const World& world, const Group& group, const std::
 
 void SkinPotential::lift(double gravity, double dt) {
   for (Watch& watch : watches_) {
-    if (watch.forgiven > 0) watch.forgiven -= dt * least_speed(-watch.forgiven, gravity, dt);
+    if (watch.initial_penetration > 0)
+      watch.initial_penetration -= dt * least_speed(-watch.initial_penetration, gravity, dt);
   }
 }
 
@@ -37,16 +38,16 @@ void SkinPotential::watch(const World& world, const std::vector<Eigen::VectorXd*
   std::vector<std::vector<double>> hardness(group_.size());
   double largest_brick = 0;
   for (const Actor* actor : group_) largest_brick = std::max(largest_brick, actor->body.grid.brick_size);
-  for (const auto& [a, b] : near_skins(world, group_, kMargin * largest_brick)) {
+  for (const auto& [a, b] : broad_phase(world, group_, kMargin * largest_brick)) {
     const double brick = std::min(group_[a]->body.grid.brick_size, group_[b]->body.grid.brick_size);
-    SkinPairs& pairs = pairs_.emplace_back(skins_, a, b);
+    ContactCandidates& pairs = pairs_.emplace_back(skins_, a, b);
     pairs.seek(group_, kMargin * brick);
     pairs.look(group_, {.margin = kMargin * brick, .deepest = kDeepest * brick});
     for (const SkinRun& run : runs_of(pairs)) {
-      const SkinPair& pair = pairs.pairs()[run.first];
-      const WatchedPoint& point = pairs.watched(pair.point);
+      const CandidatePair& pair = pairs.pairs()[run.first];
+      const TrackedPoint& point = pairs.tracked(pair.point);
       std::vector<double>& own = hardness[point.actor];
-      if (own.empty()) own = point_hardness(*group_[point.actor], *skins_[point.actor]);
+      if (own.empty()) own = contact_stiffness(*group_[point.actor], *skins_[point.actor]);
       watches_.push_back(
           {.pairs = &pairs,
            .run = run,
@@ -67,13 +68,13 @@ void SkinPotential::refresh() {
   }
   holds_.clear();
   add_glue();
-  for (SkinPairs& pairs : pairs_) pairs.follow(group_);
+  for (ContactCandidates& pairs : pairs_) pairs.follow(group_);
   for (std::size_t i = 0; i < watches_.size(); ++i) {
     Watch& watch = watches_[i];
-    const SkinStance stance = nearest_stance(*watch.pairs, watch.run, watch.depth);
-    if (stance.pair != watch.pair) watch.forgiven = std::max(0.0, -stance.gap - watch.pushed_in);
+    const PointTriangleContact stance = closest_triangle(*watch.pairs, watch.run, watch.depth);
+    if (stance.pair != watch.pair) watch.initial_penetration = std::max(0.0, -stance.gap - watch.pushed_in);
     watch.pair = stance.pair;
-    if (stance.pair != nullptr) add_stance(i, stance);
+    if (stance.pair != nullptr) add_contact(i, stance);
   }
 }
 
@@ -86,7 +87,7 @@ void SkinPotential::add_glue() {
                                .weights = (side == 0 ? 1 : -1) * point.weights[side]});
     }
     const double stiffness =
-        glue_hardness(group_[point.actors[0]]->body, point.bricks[0], group_[point.actors[1]]->body, point.bricks[1]);
+        glue_stiffness(group_[point.actors[0]]->body, point.bricks[0], group_[point.actors[1]]->body, point.bricks[1]);
     holds_.push_back({.watch = 0,
                       .is_glue = true,
                       .place = std::move(place),
@@ -96,19 +97,19 @@ void SkinPotential::add_glue() {
   }
 }
 
-void SkinPotential::add_stance(std::size_t watch, const SkinStance& stance) {
-  const SkinPairs& pairs = *watches_[watch].pairs;
-  const WatchedPoint& point = pairs.watched(stance.pair->point);
+void SkinPotential::add_contact(std::size_t watch, const PointTriangleContact& stance) {
+  const ContactCandidates& pairs = *watches_[watch].pairs;
+  const TrackedPoint& point = pairs.tracked(stance.pair->point);
   const ContactPoint& at = skins_[point.actor]->points[point.point];
   const std::size_t other = other_of(pairs, *stance.pair);
-  const TriangleRide ride = ride_of(pairs, *skins_[other], stance);
+  const TriangleStencil ride = contact_stencil(pairs, *skins_[other], stance);
   Coupling place;
   place.corners.push_back({.body = point.actor, .brick = at.brick, .weights = at.weights});
   for (std::size_t i = 0; i < ride.count; ++i) {
     place.corners.push_back({.body = other, .brick = ride.bricks[i], .weights = ride.weights[i]});
   }
-  const double stiffness =
-      pair_hardness(watches_[watch].hardness, group_[point.actor]->body, at.brick, group_[other]->body, ride.bricks[0]);
+  const double stiffness = pair_stiffness(watches_[watch].hardness, group_[point.actor]->body, at.brick,
+                                          group_[other]->body, ride.bricks[0]);
   const Vec3 start = sum(place, true);
   holds_.push_back({.watch = watch,
                     .is_glue = false,
@@ -129,7 +130,7 @@ Vec3 SkinPotential::sum(const Coupling& place, bool at_start) const {
 
 /// m, that the point has been pushed in.
 double SkinPotential::depth(const Hold& hold, const Vec3& now) const {
-  return std::max(0.0, -hold.normal.dot(now) - watches_[hold.watch].forgiven);
+  return std::max(0.0, -hold.normal.dot(now) - watches_[hold.watch].initial_penetration);
 }
 
 void SkinPotential::remember(const std::vector<Eigen::VectorXd*>& pushed_in) const {
@@ -138,8 +139,8 @@ void SkinPotential::remember(const std::vector<Eigen::VectorXd*>& pushed_in) con
   }
   for (const Hold& hold : holds_) {
     if (hold.is_glue) continue;
-    const SkinPairs& pairs = *watches_[hold.watch].pairs;
-    const WatchedPoint& point = pairs.watched(watches_[hold.watch].pair->point);
+    const ContactCandidates& pairs = *watches_[hold.watch].pairs;
+    const TrackedPoint& point = pairs.tracked(watches_[hold.watch].pair->point);
     double& deepest = (*pushed_in[point.actor])[point.point];
     deepest = std::max(deepest, depth(hold, sum(hold.place, false)));
   }
@@ -165,7 +166,7 @@ double SkinPotential::largest_normal_force() const {
   return largest;
 }
 
-Grip SkinPotential::grip(const Hold& hold, const Vec3& now) const {
+FrictionPotential SkinPotential::grip(const Hold& hold, const Vec3& now) const {
   const Watch& watch = watches_[hold.watch];
   return {now - hold.start, hold.normal, watch.friction * watch.pressing, slip_};
 }
@@ -181,7 +182,7 @@ double SkinPotential::add_forces(const std::vector<Points*>& forces) const {
     } else {
       const double deep = depth(hold, now);
       if (deep == 0 && watches_[hold.watch].pressing == 0) continue;
-      const Grip held = grip(hold, now);
+      const FrictionPotential held = grip(hold, now);
       energy += 0.5 * hold.stiffness * deep * deep;
       energy += held.energy();
       force = hold.stiffness * deep * hold.normal + held.force();

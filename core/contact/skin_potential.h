@@ -49,15 +49,15 @@ class SkinPotential {
  private:
   /// A point that may touch triangles of an actor.
   struct Watch {
-    const SkinPairs* pairs;
+    const ContactCandidates* pairs;
     SkinRun run;
-    double depth;                    // m, below which what is inside came from the other side
-    double hardness;                 // N/m, of the point by itself
-    double friction;                 // Coulomb's coefficient
-    double pushed_in;                // m, when last looked at
-    double forgiven = 0;             // m, of the depth
-    const SkinPair* pair = nullptr;  // that it stood at then
-    double pressing = 0;             // N, for friction
+    double depth;                         // m, below which what is inside came from the other side
+    double hardness;                      // N/m, of the point by itself
+    double friction;                      // Coulomb's coefficient
+    double pushed_in;                     // m, when last looked at
+    double initial_penetration = 0;       // m, of the depth
+    const CandidatePair* pair = nullptr;  // that it stood at then
+    double pressing = 0;                  // N, for friction
   };
   /// What holds a place now.
   struct Hold {
@@ -73,16 +73,16 @@ class SkinPotential {
   void lift(double gravity, double dt);
   [[nodiscard]] double depth(const Hold& hold, const Vec3& now) const;
   void add_glue();
-  void add_stance(std::size_t watch, const SkinStance& stance);
+  void add_contact(std::size_t watch, const PointTriangleContact& stance);
   [[nodiscard]] Vec3 sum(const Coupling& place, bool at_start) const;
-  [[nodiscard]] Grip grip(const Hold& hold, const Vec3& now) const;
+  [[nodiscard]] FrictionPotential grip(const Hold& hold, const Vec3& now) const;
 
   const Group& group_;
   const std::vector<GluedPoint>& glue_;
   double slip_;
-  std::vector<const ContactSkin*> skins_;  // by actor
-  std::vector<Points> starts_;             // by actor, m x 3, m
-  std::list<SkinPairs> pairs_;
+  std::vector<const ContactSurface*> skins_;  // by actor
+  std::vector<Points> starts_;                // by actor, m x 3, m
+  std::list<ContactCandidates> pairs_;
   std::vector<Watch> watches_;
   std::vector<Hold> holds_;
 };

@@ -16,7 +16,7 @@ constexpr double kMostGain = 0.3;  // of what moves and strains a body, that a f
 bool is_driven(const Actor& actor) {
   if (!actor.loads.empty()) return true;
   return std::any_of(actor.pinned.begin(), actor.pinned.end(),
-                     [](const HeldNode& held) { return !held.velocity.isZero(); });
+                     [](const KinematicNode& held) { return !held.velocity.isZero(); });
 }
 
 Energy sum_of(const std::vector<Energy>& all, std::span<const std::size_t> actors) {
@@ -61,8 +61,8 @@ std::vector<Energy> energies_of(const World& world, std::span<const std::size_t>
   return some;
 }
 
-std::string energy_from_nowhere(const World& world, std::span<const std::size_t> actors,
-                                const std::vector<Energy>& before, const std::vector<Energy>& after) {
+std::string energy_gain(const World& world, std::span<const std::size_t> actors, const std::vector<Energy>& before,
+                        const std::vector<Energy>& after) {
   if (std::any_of(world.obstacles.begin(), world.obstacles.end(),
                   [](const Obstacle& one) { return one.is_moving(); }) ||
       world.wind.blows() ||

@@ -24,7 +24,7 @@ struct Energy {
 /// What is wrong where actors that move together have more energy after a while than they can have got, in words; else
 /// empty, also where a handle, a load, the wind or an obstacle on its way may have given it. Obstacles at rest and what
 /// holds a body still take energy and give none, but for lifting what starts a little too deep; bodies hand it on.
-[[nodiscard]] std::string energy_from_nowhere(const World& world, std::span<const std::size_t> actors,
-                                              const std::vector<Energy>& before, const std::vector<Energy>& after);
+[[nodiscard]] std::string energy_gain(const World& world, std::span<const std::size_t> actors,
+                                      const std::vector<Energy>& before, const std::vector<Energy>& after);
 
 }  // namespace sprung

@@ -8,14 +8,14 @@ namespace sprung {
 
 /// What a motion carries on from frame to frame beside positions and velocities, as a row of numbers: one function of
 /// a motion passes all it has, in the same order whether it puts it in or takes it out.
-class MotionMemory {
+class IntegratorState {
  public:
   /// Puts in.
-  MotionMemory() = default;
+  IntegratorState() = default;
   /// Takes out. Asserts that there is as much as is asked for.
-  explicit MotionMemory(std::vector<double> row) : row_(std::move(row)), next_(0) {}
+  explicit IntegratorState(std::vector<double> row) : row_(std::move(row)), next_(0) {}
 
-  void pass(double& value) {
+  void serialize(double& value) {
     if (!next_) {
       row_.push_back(value);
     } else {
@@ -23,17 +23,17 @@ class MotionMemory {
     }
   }
   template <class Number>
-  void pass_as_double(Number& number) {
+  void serialize_as_double(Number& number) {
     auto value = double(number);
-    pass(value);
+    serialize(value);
     number = static_cast<Number>(value);
   }
   /// The count of rows is known on both sides.
-  void pass(Points& points) {
-    for (double& value : points.reshaped<Eigen::RowMajor>()) pass(value);
+  void serialize(Points& points) {
+    for (double& value : points.reshaped<Eigen::RowMajor>()) serialize(value);
   }
-  void pass(Vec3& vector) {
-    for (double& value : vector) pass(value);
+  void serialize(Vec3& vector) {
+    for (double& value : vector) serialize(value);
   }
 
   [[nodiscard]] const std::vector<double>& row() const { return row_; }

@@ -22,8 +22,8 @@ void add_little(std::string& bytes, Value value) {
 template <class Value>
 void add_big(std::string& bytes, Value value) {
   static_assert(sizeof(value) == 4);
-  const std::uint32_t turned = __builtin_bswap32(std::bit_cast<std::uint32_t>(value));
-  add_bytes(bytes, &turned, sizeof(turned));
+  const std::uint32_t flipped = __builtin_bswap32(std::bit_cast<std::uint32_t>(value));
+  add_bytes(bytes, &flipped, sizeof(flipped));
 }
 
 std::int32_t count_of_points(const std::vector<Floats3>& frames) {

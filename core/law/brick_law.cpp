@@ -22,9 +22,10 @@ void calibrate_stretch(BrickLaw& law, const Material& material, double h) {
   const double springs_self = springs_cross + 4 * law.edge + 2 * law.face;
   law.axial_cross = h * material.lame_lambda() - springs_cross;
   law.axial_self = h * (material.lame_lambda() + 2 * material.shear_modulus()) - springs_self;
-  const double lack = law.axial_self + 2 * law.axial_cross + 4 * law.edge;  // edges that all stretch by 1: twice W / 3
-  if (lack >= 0) return;
-  law.axes = lack / 3;
+  const double deficit =
+      law.axial_self + 2 * law.axial_cross + 4 * law.edge;  // edges that all stretch by 1: twice W / 3
+  if (deficit >= 0) return;
+  law.axes = deficit / 3;
   law.axial_self -= law.axes;
   law.axial_cross -= law.axes;
 }

@@ -51,8 +51,8 @@ const Points& LoadForces::forces() {
 }
 
 const Points& LoadForces::forces_beside_muscles() {
-  if (steps_to_look_ == 0) find_skin_forces();
-  steps_to_look_ = (steps_to_look_ + 1) % kStepsBetweenLooks;
+  if (steps_to_update_ == 0) find_skin_forces();
+  steps_to_update_ = (steps_to_update_ + 1) % kStepsBetweenLooks;
   forces_ = skin_forces_;
   if (actor_.loads.forces.rows() > 0) forces_ += actor_.loads.forces;
   return forces_;

@@ -26,7 +26,7 @@ class LoadForces {
   const World& world_;
   Points skin_forces_;  // m x 3, N
   Points forces_;       // m x 3, N
-  int steps_to_look_ = 0;
+  int steps_to_update_ = 0;
 };
 
 }  // namespace sprung

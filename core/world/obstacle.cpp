@@ -196,7 +196,7 @@ Vec3 velocity_at(const Obstacle& obstacle, const Pose& pose, const Vec3& place) 
   return obstacle.velocity + obstacle.spin.cross(place - pose.translation);
 }
 
-Gap gap_to(const Shape& shape, const Pose& pose, const Vec3& place) {
+Gap signed_distance(const Shape& shape, const Pose& pose, const Vec3& place) {
   const Vec3 x = pose.rotation.transpose() * (place - pose.translation);
   Gap gap = std::visit([&](const auto& solid) { return gap_in_frame(solid, x); }, shape);
   gap.normal = pose.rotation * gap.normal;

@@ -98,6 +98,6 @@ struct Gap {
   double distance;
   Vec3 normal;
 };
-[[nodiscard]] Gap gap_to(const Shape& shape, const Pose& pose, const Vec3& place);
+[[nodiscard]] Gap signed_distance(const Shape& shape, const Pose& pose, const Vec3& place);
 
 }  // namespace sprung

@@ -30,7 +30,7 @@ TEST_P(EveryScene, BeginsSoundly) {
   Production production = make_production(scene, silent);
   const Recording recording = simulate(production, scene, silent);
   EXPECT_EQ(recording.frames.size(), 2U);
-  EXPECT_LT(recording.deepest_overlap, 0.01 * production.size);
+  EXPECT_LT(recording.deepest_penetration, 0.01 * production.size);
   for (const Actor& actor : production.world.actors) {
     EXPECT_EQ(inverted_bricks(actor.body), 0);
     EXPECT_NE(actor.body.positions, actor.body.rest_positions) << "nothing moves";

@@ -57,7 +57,7 @@ TEST(Experiment, StaticSceneIsTheStaticSolution) {
     if (body.rest_positions(i, 0) < 1e-9) supports.fix(i);
   }
   const Points loads = body.masses * Vec3(0, -1, 0).transpose();
-  const auto system = make_direct_system();
+  const auto system = make_direct_solver();
   solve_static(body, supports, loads, body.positions, *system);
   const Points moved = body.positions - body.rest_positions;
   const Body& made = production.world.actors.at(0).body;
@@ -115,7 +115,7 @@ TEST(Experiment, MovedPinsArriveInMotionAndAtRest) {
     const Body& body = production.world.actors.at(0).body;
     const Points goal =
         body.rest_positions + pin_movements(scene_of("duration = 0.25\n" + text), production, 0, 0.25, false);
-    for (const HeldNode& held : production.world.actors.at(0).pinned) {
+    for (const KinematicNode& held : production.world.actors.at(0).pinned) {
       EXPECT_LT((body.positions.row(held.node) - goal.row(held.node)).norm(), 1e-9) << scheme;
     }
   }

@@ -87,7 +87,7 @@ class Film {
     int inverted = 0;
     for (const Actor& actor : production_->world.actors) inverted += inverted_bricks(actor.body);
     EXPECT_EQ(inverted, 0);
-    EXPECT_LT(recording_.deepest_overlap, 0.01 * production_->size);
+    EXPECT_LT(recording_.deepest_penetration, 0.01 * production_->size);
   }
 
  private:
@@ -159,9 +159,9 @@ TEST_F(SceneFacts, BarSagsUnderItsWeight) {
 TEST_F(SceneFacts, BarIsTwistedByAFullTurnAndBack) {
   const Film film("twist", {{"body.bricks", "12"}});
   film.expect_sound();
-  const int turned = film.frame_at(1.9);
+  const int flipped = film.frame_at(1.9);
   const Vec3 low(0.5, 1, 0.5);
-  const Vec3 edge = film.part(turned, 0, low, low) - film.part(turned, 0, Vec3(0.5, 0, 0.5), Vec3(0.5, 0, 0.5));
+  const Vec3 edge = film.part(flipped, 0, low, low) - film.part(flipped, 0, Vec3(0.5, 0, 0.5), Vec3(0.5, 0, 0.5));
   EXPECT_LT(edge.normalized().y(), -0.99);
   EXPECT_LT((film.nodes(film.last()) - film.nodes(0)).rowwise().norm().maxCoeff(), 0.01 * 0.24);
 }

@@ -86,7 +86,7 @@ class SelectorTest : public testing::Test {
     const Production production = produce(body + "[[body.pin]]\n" + selection);
     const Actor& actor = production.world.actors.at(0);
     std::vector<Vec3> places;
-    for (const HeldNode& node : actor.pinned) places.emplace_back(actor.body.rest_positions.row(node.node));
+    for (const KinematicNode& node : actor.pinned) places.emplace_back(actor.body.rest_positions.row(node.node));
     return places;
   }
 

@@ -69,13 +69,13 @@ struct Held {
   }
 };
 
-double static_solve(Held held, NewtonSystem& system) {
+double static_solve(Held held, LinearSolver& system) {
   const Points start = held.actor.body.positions;
   return seconds([&] { solve_static(held.actor.body, held.supports, held.loads, start, system, {.tolerance = 1e-6}); });
 }
 
 /// Linearize and solve once.
-double linear_solve(const Held& held, NewtonSystem& system, double tolerance) {
+double linear_solve(const Held& held, LinearSolver& system, double tolerance) {
   const StepTerms none;
   const Eigen::Map<const Eigen::VectorXd> forces(held.loads.data(), held.loads.size());
   return seconds([&] {
@@ -110,12 +110,12 @@ std::pair<double, long> implicit_step(Held held) {
 
 void print_row(const char* name, const Held& body, int direct_up_to) {
   const int bricks = body.actor.body.grid.brick_count();
-  const double linear = linear_solve(body, *make_multigrid_system(), 1e-6);
-  const double still = static_solve(body, *make_multigrid_system());
+  const double linear = linear_solve(body, *make_multigrid_solver(), 1e-6);
+  const double still = static_solve(body, *make_multigrid_solver());
   const auto [step, iterations] = implicit_step(body);
   const bool has_direct = bricks <= direct_up_to;
-  const double direct = has_direct ? linear_solve(body, *make_direct_system(), 0) : 0;
-  const double still_direct = has_direct ? static_solve(body, *make_direct_system()) : 0;
+  const double direct = has_direct ? linear_solve(body, *make_direct_solver(), 0) : 0;
+  const double still_direct = has_direct ? static_solve(body, *make_direct_solver()) : 0;
   const auto time = [](bool is_there, double value) { return is_there ? fmt::format("{:.3g}", value) : "-"; };
   fmt::print("| {} | {} | {:.3g} | {} | {:.3g} | {:.3g} | {} | {:.3g} | {} |\n", name, bricks, linear,
              time(has_direct, direct), diagonal_solve(body), still, time(has_direct, still_direct), step, iterations);

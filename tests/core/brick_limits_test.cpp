@@ -96,7 +96,7 @@ double bar_torque(int across, bool twist_coupling) {
   }
   const double angle = 10 * std::numbers::pi / 180;
   Supports supports(body.node_count());
-  Points turned = Points::Zero(body.node_count(), 3);
+  Points flipped = Points::Zero(body.node_count(), 3);
   Points arms = Points::Zero(body.node_count(), 3);
   for (int node = 0; node < body.node_count(); ++node) {
     const int x = body.grid.lattice[node].x();
@@ -105,12 +105,12 @@ double bar_torque(int across, bool twist_coupling) {
     supports.fix(node, 1);
     supports.fix(node, 2);
     arms.row(node) = body.positions.row(node);
-    turned(node, 1) = -angle * (arms(node, 2) - 0.05);
-    turned(node, 2) = angle * (arms(node, 1) - 0.05);
+    flipped(node, 1) = -angle * (arms(node, 2) - 0.05);
+    flipped(node, 2) = angle * (arms(node, 1) - 0.05);
   }
   const Points none = Points::Zero(body.node_count(), 3);
-  const LinearResponse response = linear_response(body, supports, none, turned, *make_direct_system());
-  return turned.cwiseProduct(response.reactions).sum() / angle / 0.002368735;
+  const LinearResponse response = linear_response(body, supports, none, flipped, *make_direct_solver());
+  return flipped.cwiseProduct(response.reactions).sum() / angle / 0.002368735;
 }
 
 /// The work of unit shear stress on the faces of a free unit cube, over that of an elastic one.
@@ -134,7 +134,7 @@ double sheared_cube_yield(int bricks, bool corner_coupling) {
     if (place == Eigen::Vector3i(bricks, 0, 0)) supports.fix(node, 1);
     if (place == Eigen::Vector3i(bricks, 0, 0) || place == Eigen::Vector3i(0, bricks, 0)) supports.fix(node, 2);
   }
-  const Eigen::VectorXd u = solve_linear(body, supports, loads, *make_direct_system());
+  const Eigen::VectorXd u = solve_linear(body, supports, loads, *make_direct_solver());
   return u.dot(Eigen::Map<const Eigen::VectorXd>(loads.data(), loads.size())) * kMaterial.shear_modulus();
 }
 
@@ -166,7 +166,7 @@ double bracket_sag(int across, bool corner_coupling, double corner_stiffness) {
     const int off = std::max(std::abs(2 * place.y() - 3 * across), std::abs(2 * place.z() - across));
     if (place.x() == 3 * across && off <= across % 2) tip.push_back(node);
   }
-  const Eigen::VectorXd u = solve_linear(body, supports, loads, *make_direct_system());
+  const Eigen::VectorXd u = solve_linear(body, supports, loads, *make_direct_solver());
   double sum = 0;
   for (const int node : tip) sum -= u[3 * node + 1];
   return sum / double(tip.size()) / 0.00168401;

@@ -12,7 +12,7 @@ using test::box_mesh;
 using test::joined;
 
 std::vector<std::array<int, 2>> crossings_of(const SurfaceMesh& mesh) {
-  return find_crossings(mesh.positions, mesh.triangles);
+  return find_self_intersections(mesh.positions, mesh.triangles);
 }
 
 /// Triangles with these corners, 5 points.
@@ -23,7 +23,7 @@ std::vector<std::array<int, 2>> crossings_of(const std::array<Vec3, 5>& points,
   Triangles triangles(isize(rows), 3);
   int next = 0;
   for (const Eigen::RowVector3i& row : rows) triangles.row(next++) = row;
-  return find_crossings(positions, triangles);
+  return find_self_intersections(positions, triangles);
 }
 
 TEST(Crossings, NeighboursOfAnEmbeddedSurfaceDoNotCross) {
@@ -61,7 +61,7 @@ TEST(Crossings, AsManyAsAnotherProgramCounts) {
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "the shared meshes are not there";
   const Solids found = find_solids(read_mesh(file), "band");
   ASSERT_EQ(found.solids.size(), 1U);
-  EXPECT_EQ(find_crossings(found.solids[0].points, found.solids[0].triangles).size(), 338U);
+  EXPECT_EQ(find_self_intersections(found.solids[0].points, found.solids[0].triangles).size(), 338U);
 }
 
 }  // namespace

@@ -129,9 +129,9 @@ TEST(FindSolids, GivesACavityToTheSolidAroundIt) {
   EXPECT_DOUBLE_EQ(found.solids[0].volume, 64 - 8);
   EXPECT_NEAR(volume_of(found.solids[0]), 64 - 8, 1e-12);
   EXPECT_DOUBLE_EQ(found.solids[1].volume, 1);
-  const Solids turned = find_solids(inside_out(joined(joined(hole, outer), stone)), "nut");
-  EXPECT_DOUBLE_EQ(turned.solids.at(0).volume, 64 - 8);
-  EXPECT_DOUBLE_EQ(turned.solids.at(1).volume, 1);
+  const Solids flipped = find_solids(inside_out(joined(joined(hole, outer), stone)), "nut");
+  EXPECT_DOUBLE_EQ(flipped.solids.at(0).volume, 64 - 8);
+  EXPECT_DOUBLE_EQ(flipped.solids.at(1).volume, 1);
 }
 
 TEST(FindSolids, UnitesASolidWithTheOneAroundItThatIsTurnedTheSameWay) {

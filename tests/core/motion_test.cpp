@@ -114,14 +114,14 @@ TEST(Motion, ElasticBarBouncesAsInClosedForm) {
   const double contact_time = 2 * length / std::sqrt(body.material.young / body.material.density);
   const double dt = stable_step(world);
   const auto centre_speed = [&] { return linear_momentum(body).y() / body.masses.sum(); };
-  double turned = 0;
+  double flipped = 0;
   double time = 0;
   while (time < 0.5 * contact_time || (centre_speed() < 0.5 * speed && time < 2 * contact_time)) {
     advance(world, Scheme::kVerlet, dt, 1, time);
     time += dt;
-    if (turned == 0 && centre_speed() >= 0) turned = time;
+    if (flipped == 0 && centre_speed() >= 0) flipped = time;
   }
-  EXPECT_NEAR(turned, contact_time / 2, 0.01 * contact_time);
+  EXPECT_NEAR(flipped, contact_time / 2, 0.01 * contact_time);
   advance(world, Scheme::kVerlet, dt, long(contact_time / dt), time);
   EXPECT_NEAR(centre_speed(), speed, 0.03 * speed);
   EXPECT_GT(body.positions.col(1).minCoeff(), 0);
@@ -205,7 +205,7 @@ TEST(Motion, SlightOverlapWithTheGroundIsLiftedGently) {
 
 /// A node with hardly any mass makes the step, which counts on lumped masses, too long: found within the frame, said,
 /// and cured by halving it.
-TEST(CarefulMotion, HalvesTheStepWhereEnergyComesFromNowhere) {
+TEST(AdaptiveIntegrator, HalvesTheStepWhereEnergyComesFromNowhere) {
   World world = world_of(box_body({3, 2, 2}, 0.02, Model::kCalibrated, 0.3));
   Body& body = world.actors[0].body;
   std::mt19937 random(4);
@@ -213,7 +213,7 @@ TEST(CarefulMotion, HalvesTheStepWhereEnergyComesFromNowhere) {
   body.masses[0] /= 40;
   const double before = energy_of(body, world.gravity).sum();
   std::vector<std::string> said;
-  CarefulMotion motion(world, Scheme::kSymplecticEuler);
+  AdaptiveIntegrator motion(world, Scheme::kSymplecticEuler);
   const double frame = 200 * stable_step(world);
   static_cast<void>(motion.advance_frame(
       0, frame, [](double) {}, [&](const std::string& line) { said.push_back(line); }));
@@ -222,16 +222,16 @@ TEST(CarefulMotion, HalvesTheStepWhereEnergyComesFromNowhere) {
   EXPECT_LT(energy_of(body, world.gravity).sum(), 1.5 * before);
 }
 
-TEST(CarefulMotion, EnergyBeyondNumbersIsNoMotion) {
+TEST(AdaptiveIntegrator, EnergyBeyondNumbersIsNoMotion) {
   World world = world_of(box_body({2, 1, 1}, 0.02, Model::kCalibrated, 0.3));
   world.actors[0].body.velocities.setConstant(1e160);  // finite, its square is not
-  CarefulMotion motion(world, Scheme::kSymplecticEuler);
+  AdaptiveIntegrator motion(world, Scheme::kSymplecticEuler);
   EXPECT_THROW(static_cast<void>(motion.advance_frame(
                    0, 1e-3, [](double) {}, [](const std::string&) {})),
                Diverged);
 }
 
-TEST(CarefulMotion, RefusesMoreStepsThanCanBeDone) {
+TEST(AdaptiveIntegrator, RefusesMoreStepsThanCanBeDone) {
   World world = world_of(box_body({2, 1, 1}, 0.02, Model::kCalibrated, 0.3));
   world.obstacles.push_back(level_ground(-1));
   world.actors[0].body.velocities.setConstant(1e100);
@@ -243,10 +243,10 @@ TEST(CarefulMotion, RefusesMoreStepsThanCanBeDone) {
   }
 }
 
-TEST(CarefulMotion, GivesUpWithTimeBodyAndRemedy) {
+TEST(AdaptiveIntegrator, GivesUpWithTimeBodyAndRemedy) {
   World world = world_of(box_body({2, 1, 1}, 0.02, Model::kCalibrated, 0.3));
   world.actors[0].body.velocities(3, 1) = std::nan("");
-  CarefulMotion motion(world, Scheme::kVerlet);
+  AdaptiveIntegrator motion(world, Scheme::kVerlet);
   int said = 0;
   try {
     static_cast<void>(motion.advance_frame(
@@ -271,7 +271,7 @@ TEST(Motion, PinnedNodesStay) {
   ASSERT_EQ(actor.pinned.size(), 4U);
   const Points rest = actor.body.positions;
   advance(world, Scheme::kVerlet, stable_step(world), 500, 0);
-  for (const HeldNode& held : actor.pinned) EXPECT_EQ(actor.body.positions.row(held.node), rest.row(held.node));
+  for (const KinematicNode& held : actor.pinned) EXPECT_EQ(actor.body.positions.row(held.node), rest.row(held.node));
   EXPECT_LT(actor.body.positions.col(1).minCoeff(), -1e-5);
 }
 

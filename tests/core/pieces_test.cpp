@@ -118,9 +118,9 @@ TEST(SplitPieces, HoldsHoweverTheFingersLie) {
   SurfaceMesh mesh = comb_mesh({{0, 1.3}, {1.4, 2.2}, {2.25, 4}}, 2, 7, 1.6);
   for (int turn = 1; turn < 6; ++turn) {
     const Mat3 rotation = Eigen::AngleAxisd(0.7 * turn, Vec3(1, 2, turn).normalized()).toRotationMatrix();
-    SurfaceMesh turned = mesh;
-    turned.positions = mesh.positions * rotation.transpose();
-    const Solid solid = only(turned);
+    SurfaceMesh flipped = mesh;
+    flipped.positions = mesh.positions * rotation.transpose();
+    const Solid solid = only(flipped);
     PieceReport report;
     const BrickGrid grid = split(solid, 1, &report);
     EXPECT_GT(report.divided, 0) << turn;

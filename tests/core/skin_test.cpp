@@ -102,9 +102,9 @@ TEST(Skin, RefiningHalvesLongEdgesWithoutGaps) {
   EXPECT_LT((skin.normals.rowwise().norm().array() - 1).abs().maxCoeff(), 1e-12);
 }
 
-class Riding : public ::testing::Test {
+class SkinInterpolation : public ::testing::Test {
  protected:
-  Riding() : grid_(make_box_grid({4, 3, 5}, 0.02)), points_(500, 3) {
+  SkinInterpolation() : grid_(make_box_grid({4, 3, 5}, 0.02)), points_(500, 3) {
     std::mt19937 random(1);
     std::uniform_real_distribution<double> anywhere(-0.01, 0.11);  // some of them outside every brick
     for (double& coordinate : points_.reshaped()) coordinate = anywhere(random);
@@ -116,7 +116,7 @@ class Riding : public ::testing::Test {
   Embedding embedding_;
 };
 
-TEST_F(Riding, RestNodesLeaveEveryPointWhereItIs) {
+TEST_F(SkinInterpolation, RestNodesLeaveEveryPointWhereItIs) {
   EXPECT_GT(embedding_.outside, 0);
   EXPECT_LT(embedding_.outside, 500);
   EXPECT_GT(embedding_.furthest, 2);  // the box ends at 0.06 of 0.11 along y, in bricks of 0.02
@@ -125,7 +125,7 @@ TEST_F(Riding, RestNodesLeaveEveryPointWhereItIs) {
   EXPECT_LT((at_rest - points_).cwiseAbs().maxCoeff(), 1e-15);
 }
 
-TEST_F(Riding, RigidMotionIsFollowedRigidly) {
+TEST_F(SkinInterpolation, RigidMotionIsFollowedRigidly) {
   const Mat3 turn = Eigen::AngleAxisd(2.1, Vec3(1, -2, 0.5).normalized()).toRotationMatrix();
   const Eigen::RowVector3d shift(0.4, -1, 3);
   const Points nodes = (grid_.rest_positions() * turn.transpose()).rowwise() + shift;
@@ -133,11 +133,11 @@ TEST_F(Riding, RigidMotionIsFollowedRigidly) {
   EXPECT_LT((deform_points(grid_, embedding_, nodes) - expected).cwiseAbs().maxCoeff(), 1e-12);
   Points normals(points_.rows(), 3);
   normals.rowwise() = Eigen::RowVector3d(0.6, 0, 0.8);
-  const Points turned = deform_normals(grid_, embedding_, normals, nodes);
-  EXPECT_LT((turned - normals * turn.transpose()).cwiseAbs().maxCoeff(), 1e-12);
+  const Points flipped = deform_normals(grid_, embedding_, normals, nodes);
+  EXPECT_LT((flipped - normals * turn.transpose()).cwiseAbs().maxCoeff(), 1e-12);
 }
 
-TEST_F(Riding, NormalsFollowTheInverseTranspose) {
+TEST_F(SkinInterpolation, NormalsFollowTheInverseTranspose) {
   Mat3 stretch;
   stretch << 2, 0.3, 0, 0, 0.5, 0.1, 0, 0, 1.5;
   const Points nodes = grid_.rest_positions() * stretch.transpose();

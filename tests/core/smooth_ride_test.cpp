@@ -22,7 +22,7 @@ Points bent(const Points& rest) {
   return nodes;
 }
 
-TEST(SmoothRide, FollowsAffineMotionsExactly) {
+TEST(SmoothEmbedding, FollowsAffineMotionsExactly) {
   const BrickGrid grid = bar();
   const Embedding embedding = embed(grid, (Points(4, 3) << 0.01, 0.02, 0.03, 0.05, 0.05, 0.05, 0.29, 0.09, 0.001,  //
                                            0.31, -0.02, 0.05)
@@ -33,15 +33,15 @@ TEST(SmoothRide, FollowsAffineMotionsExactly) {
   const Points nodes = (rest * map.transpose()).rowwise() + Eigen::RowVector3d(1, 2, 3);
   const Points there = deform_points(grid, embedding, nodes);
   const Points normals = Points::Constant(4, 3, 0.5);
-  EXPECT_LT((SmoothRide(grid, nodes).points(embedding) - there).cwiseAbs().maxCoeff(), 1e-12);
-  EXPECT_LT((SmoothRide(grid, nodes).normals(embedding, normals) - deform_normals(grid, embedding, normals, nodes))
+  EXPECT_LT((SmoothEmbedding(grid, nodes).points(embedding) - there).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_LT((SmoothEmbedding(grid, nodes).normals(embedding, normals) - deform_normals(grid, embedding, normals, nodes))
                 .cwiseAbs()
                 .maxCoeff(),
             1e-12);
 }
 
 // Across a face the slope of a trilinear skin jumps; that of the smooth one changes as little as within a brick.
-TEST(SmoothRide, HasNoCreasesBetweenBricks) {
+TEST(SmoothEmbedding, HasNoCreasesBetweenBricks) {
   const BrickGrid grid = bar();
   const Points nodes = bent(grid.rest_positions());
   const Embedding embedding = line(grid, 1200);
@@ -52,25 +52,25 @@ TEST(SmoothRide, HasNoCreasesBetweenBricks) {
     }
     return largest;
   };
-  EXPECT_LT(largest_kink(SmoothRide(grid, nodes).points(embedding)),
+  EXPECT_LT(largest_kink(SmoothEmbedding(grid, nodes).points(embedding)),
             0.1 * largest_kink(deform_points(grid, embedding, nodes)));
 }
 
-TEST(SmoothRide, GoesThroughTheNodesAndNearTheRest) {
+TEST(SmoothEmbedding, GoesThroughTheNodesAndNearTheRest) {
   const BrickGrid grid = bar();
   const Points nodes = bent(grid.rest_positions());
   const Points corners = grid.rest_positions();
-  EXPECT_LT((SmoothRide(grid, nodes).points(embed(grid, corners)) - nodes).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_LT((SmoothEmbedding(grid, nodes).points(embed(grid, corners)) - nodes).cwiseAbs().maxCoeff(), 1e-12);
   const Embedding embedding = line(grid, 100);
-  const Points smooth = SmoothRide(grid, nodes).points(embedding);
+  const Points smooth = SmoothEmbedding(grid, nodes).points(embedding);
   EXPECT_LT((smooth - deform_points(grid, embedding, nodes)).cwiseAbs().maxCoeff(), 0.1 * grid.brick_size);
 }
 
 // By differences of the points that a normal stands on.
-TEST(SmoothRide, NormalsStandOnTheSurface) {
+TEST(SmoothEmbedding, NormalsStandOnTheSurface) {
   const BrickGrid grid = bar();
   const Points nodes = bent(grid.rest_positions());
-  const SmoothRide ride(grid, nodes);
+  const SmoothEmbedding ride(grid, nodes);
   const double step = 1e-6;
   Points patch(3, 3);
   patch << 0.13, 0.1, 0.04, 0.13 + step, 0.1, 0.04, 0.13, 0.1, 0.04 + step;

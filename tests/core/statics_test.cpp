@@ -34,7 +34,7 @@ class Cantilever {
   }
 
   [[nodiscard]] double linear_sag() const {
-    const auto system = make_direct_system();
+    const auto system = make_direct_solver();
     const Eigen::VectorXd u = solve_linear(body, supports, loads, *system);
     double sum = 0;
     for (const int node : tip) sum -= u[3 * node + 1];
@@ -66,7 +66,7 @@ TEST(Statics, OtherModelsAreAsStiffAsTheyAreKnownToBe) {
 
 TEST(Statics, SmallLoadsGiveTheLinearAnswer) {
   Cantilever beam(Model::kCalibrated, 0.3, 2);
-  const auto system = make_direct_system();
+  const auto system = make_direct_solver();
   const Eigen::VectorXd linear = solve_linear(beam.body, beam.supports, 1e-4 * beam.loads, *system);
   const Points start = beam.body.positions;
   solve_static(beam.body, beam.supports, 1e-4 * beam.loads, start, *system);
@@ -76,7 +76,7 @@ TEST(Statics, SmallLoadsGiveTheLinearAnswer) {
 
 TEST(Statics, LargeLoadsReachEquilibrium) {
   Cantilever beam(Model::kCalibrated, 0.3, 2);
-  const auto system = make_direct_system();
+  const auto system = make_direct_solver();
   const Points start = beam.body.positions;
   const Points loads = 78 * beam.loads;
   const StaticReport report = solve_static(beam.body, beam.supports, loads, start, *system);
@@ -98,7 +98,7 @@ TEST(Statics, MovedSupportsPullTheBodyAlong) {
     if (x == 0 || x == 4) supports.fix(node);
     if (x == 4) bar.positions(node, 0) += 4e-6;
   }
-  const auto system = make_direct_system();
+  const auto system = make_direct_solver();
   const Points no_loads = Points::Zero(bar.node_count(), 3);
   solve_static(bar, supports, no_loads, start, *system);
   double pull = 0;
@@ -113,7 +113,7 @@ TEST(Statics, MovedSupportsPullTheBodyAlong) {
 TEST(Statics, FreeBodiesAreRefused) {
   Cantilever beam(Model::kCalibrated, 0.3, 1);
   const Supports none(beam.body.node_count());
-  const auto system = make_direct_system();
+  const auto system = make_direct_solver();
   EXPECT_THROW((void)solve_linear(beam.body, none, beam.loads, *system), Error);
 }
 

@@ -108,7 +108,7 @@ Drop random_drop(std::uint32_t seed, std::uint32_t index, double least_poisson) 
   const double speed = dice.whole(0, 4) == 0 ? 0 : dice.between(0, 10);
   const Vec3 velocity = speed * Vec3(dice.between(-0.5, 0.5), -1, dice.between(-0.5, 0.5));
   actor.body.velocities.rowwise() = velocity.transpose();
-  brace(actor.body, kGravity, meeting_speed(drop.world));
+  stiffen_volume_guard(actor.body, kGravity, impact_speed(drop.world));
   drop.size = size;
   drop.period = 2 * size / std::sqrt(material.shear_modulus() / material.density);
   const double fall = gap / std::max(speed, std::sqrt(kGravity * gap / 2));
@@ -127,7 +127,7 @@ DropResult run_drop(Drop& drop) {
   const double frame = drop.duration / frames;
   const double scale = actor.body.masses.sum() * kGravity * actor.body.grid.brick_size;
   const double first = energy_of(actor.body, drop.world.gravity).sum();
-  CarefulMotion motion(drop.world, Scheme::kSymplecticEuler);
+  AdaptiveIntegrator motion(drop.world, Scheme::kSymplecticEuler);
   try {
     for (int i = 0; i < frames; ++i) {
       const std::vector<GroupSteps> groups = motion.advance_frame(

@@ -436,10 +436,10 @@ class PackForces {
     const Axes axes = axes_of(d);
     const Pack3 area_x = cross(axes.y, axes.z);
     const Pack strength = share_ * springs_.law.guard;
-    const Pack lack = springs_.law.guard_ratio - dot(axes.x, area_x) * (springs_.per_volume / 64);
-    if (simd::none_of(strength * lack > 0.0)) [[likely]]
+    const Pack deficit = springs_.law.guard_ratio - dot(axes.x, area_x) * (springs_.per_volume / 64);
+    if (simd::none_of(strength * deficit > 0.0)) [[likely]]
       return;
-    const Pack active = simd::max(lack, Pack(0.0));
+    const Pack active = simd::max(deficit, Pack(0.0));
     const Pack size = -0.25 / 16 * springs_.per_volume * strength * active;
     add_axes({size * area_x, size * cross(axes.z, axes.x), size * cross(axes.x, axes.y)}, forces);
     if constexpr (kPart == Part::kEnergy) add_energy(energy_, place_, 0.5 * strength * active * active);

@@ -49,8 +49,8 @@ struct Pack3 {
 [[gnu::always_inline]] inline Pack inverse_root(const Pack& q) {
   const FloatPack guess = 1.0F / simd::sqrt(simd::static_simd_cast<FloatPack>(q));
   const Pack first = simd::static_simd_cast<Pack>(guess);
-  const Pack lack = 1.0 - q * (first * first);
-  return first + first * (lack * (0.5 + 0.375 * lack));
+  const Pack deficit = 1.0 - q * (first * first);
+  return first + first * (deficit * (0.5 + 0.375 * deficit));
 }
 
 }  // namespace sprung::SPRUNG_INSTRUCTION_SET

@@ -77,7 +77,7 @@ std::optional<Trouble> find_trouble(const World& world, const std::vector<Energy
   }
   const std::vector<Energy> after = energies_of(world);
   for (const GroupSteps& group : groups) {
-    std::string gain = energy_from_nowhere(world, group.actors, before, after);
+    std::string gain = energy_gain(world, group.actors, before, after);
     if (gain.empty()) continue;
     const std::size_t worst =
         *std::max_element(group.actors.begin(), group.actors.end(), [&](std::size_t a, std::size_t b) {
@@ -136,7 +136,7 @@ std::vector<GroupSteps> choose_steps(const World& world, double time) {
   return groups;
 }
 
-bool CarefulMotion::run(std::span<const GroupSteps> groups, double time, const Between& between) {
+bool AdaptiveIntegrator::run(std::span<const GroupSteps> groups, double time, const Between& between) {
   double brick_steps = 0;
   long chunks = std::numeric_limits<long>::max();
   for (const GroupSteps& group : groups) {
@@ -165,8 +165,8 @@ bool CarefulMotion::run(std::span<const GroupSteps> groups, double time, const B
   return true;
 }
 
-std::vector<GroupSteps> CarefulMotion::advance_frame(double time, double duration, const Between& between,
-                                                     const Tell& tell) {
+std::vector<GroupSteps> AdaptiveIntegrator::advance_frame(double time, double duration, const Between& between,
+                                                          const Tell& tell) {
   const std::vector<State> start = state_of(world_);
   const std::vector<Energy> before = energies_of(world_);
   const std::vector<GroupSteps> stable = choose_steps(world_, duration);

@@ -16,14 +16,14 @@ namespace sprung {
 
 /// Moves a world frame by frame and lets no trouble pass: a number that is not finite, or energy from nowhere, is found
 /// in the frame it appears in. The frame is then taken back and done again in steps half as long, up to a few times.
-class CarefulMotion {
+class AdaptiveIntegrator {
  public:
   /// Called every now and then with the share of the frame that is done; may throw.
   using Between = std::function<void(double share)>;
   /// Hears why a frame is taken back.
   using Tell = std::function<void(const std::string& message)>;
 
-  CarefulMotion(World& world, Scheme scheme) : world_(world), scheme_(scheme) {}
+  AdaptiveIntegrator(World& world, Scheme scheme) : world_(world), scheme_(scheme) {}
 
   /// From `time` on by `duration` (s); obstacles move evenly. Returns the steps each group took. Deterministic for any
   /// number of threads. Throws Diverged naming time, body, the brick's place and what to change where no step is short
@@ -31,7 +31,7 @@ class CarefulMotion {
   std::vector<GroupSteps> advance_frame(double time, double duration, const Between& between, const Tell& tell);
 
   /// What the next frame depends on beside positions and velocities.
-  void pass(MotionMemory& memory) { memory.pass_as_double(halvings_); }
+  void serialize(IntegratorState& state) { state.serialize_as_double(halvings_); }
 
  private:
   /// Whether it came through with finite positions.

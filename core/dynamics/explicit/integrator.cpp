@@ -100,7 +100,7 @@ class Mover {
           inverse_masses_);
       pending_drift_ = 0;
     }
-    for (const HeldNode& held : actor_.pinned) {
+    for (const KinematicNode& held : actor_.pinned) {
       for (int axis = 0; axis < 3; ++axis) {
         if (held.axes[axis]) body.velocities(held.node, axis) = held.velocity[axis];
       }
@@ -138,7 +138,7 @@ class Mover {
 /// 1/kg, per node; nothing pushes what is held.
 Eigen::VectorXd pushed_inverse_masses(const Actor& actor) {
   Eigen::VectorXd inverse_masses = actor.body.masses.cwiseInverse();
-  for (const HeldNode& held : actor.pinned) inverse_masses[held.node] = 0;
+  for (const KinematicNode& held : actor.pinned) inverse_masses[held.node] = 0;
   return inverse_masses;
 }
 
@@ -187,7 +187,7 @@ class GroupMover {
   const World& world_;
   double elapsed_;
   std::vector<std::unique_ptr<Mover>> movers_;
-  std::optional<Impulses> impulses_;
+  std::optional<ContactSolver> impulses_;
 };
 
 void check_finite(const World& world, double time) {

@@ -21,7 +21,7 @@ class CoupledSystem {
 
   void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& product) {
     product.resize(x.size());
-    each_part(x, product, [&](IterativeSystem& system) { system.multiply(part_, answer_); });
+    each_part(x, product, [&](IterativeSolver& system) { system.multiply(part_, answer_); });
     for (const Coupling& coupling : couplings_) {
       Vec3 moved = Vec3::Zero();
       each_node(coupling, [&](Eigen::Index at, double weight) { moved += weight * x.segment<3>(at); });
@@ -33,7 +33,7 @@ class CoupledSystem {
 
   void precondition(const Eigen::VectorXd& residual, Eigen::VectorXd& answer) {
     answer.resize(residual.size());
-    each_part(residual, answer, [&](IterativeSystem& system) { system.precondition(part_, answer_); });
+    each_part(residual, answer, [&](IterativeSolver& system) { system.precondition(part_, answer_); });
   }
 
   void release_held(Eigen::VectorXd& vector) const {
@@ -100,7 +100,7 @@ Eigen::VectorXd solve_coupled(std::span<const CoupledBody> bodies, const std::ve
   Eigen::VectorXd free = forces;
   system.release_held(free);
   return conjugate_gradients(
-      free, {.tolerance = tolerance, .will_do = kWillDo, .max_iterations = kMostIterations},
+      free, {.tolerance = tolerance, .fallback_tolerance = kWillDo, .max_iterations = kMostIterations},
       [&](const auto& x, auto& product) { system.multiply(x, product); },
       [&](const auto& residual, auto& answer) { system.precondition(residual, answer); }, report);
 }

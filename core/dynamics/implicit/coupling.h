@@ -14,11 +14,11 @@ namespace sprung {
 struct CoupledBody {
   const Body* body;
   const Supports* supports;
-  IterativeSystem* system;
+  IterativeSolver* system;
 };
 
 /// u for the forces (both one body after the other, 3 m each) with all bodies' K + terms and the couplings between
-/// them: by conjugate gradients, each body preconditioned by itself. Ends and what it gives as NewtonSystem::solve(),
+/// them: by conjugate gradients, each body preconditioned by itself. Ends and what it gives as LinearSolver::solve(),
 /// but that it takes what it has, if that is nearly as good, where that takes too long. The same bits for any number of
 /// threads.
 [[nodiscard]] Eigen::VectorXd solve_coupled(std::span<const CoupledBody> bodies, const std::vector<Coupling>& couplings,

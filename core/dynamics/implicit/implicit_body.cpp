@@ -89,17 +89,17 @@ ImplicitBody::ImplicitBody(Actor& actor, const World& world, const ImplicitOptio
       stiffness_(largest_brick_stiffness(body_)),
       muscles_(actor) {
   for (const Obstacle& obstacle : world.obstacles) obstacles_.emplace_back(actor, obstacle, slip_speed_);
-  history_.pushed_in.setZero(contact_skin_of(actor).points.size());
+  history_.pushed_in.setZero(contact_surface_of(actor).points.size());
 }
 
-void ImplicitBody::pass(MotionMemory& memory) {
+void ImplicitBody::serialize(IntegratorState& state) {
   for (Points* points : {&history_.positions, &history_.velocities}) {
     if (points->rows() == 0) points->setZero(body_.node_count(), 3);
-    memory.pass(*points);
+    state.serialize(*points);
   }
-  for (double& depth : history_.pushed_in) memory.pass(depth);
-  memory.pass(history_.last_dt);
-  memory.pass_as_double(history_.is_there);
+  for (double& depth : history_.pushed_in) state.serialize(depth);
+  state.serialize(history_.last_dt);
+  state.serialize_as_double(history_.is_there);
 }
 
 void ImplicitBody::begin(double elapsed, double dt) {
@@ -142,7 +142,7 @@ void ImplicitBody::aim(double dt) {
 
 void ImplicitBody::hold(double dt) {
   std::fill(supports_.fixed.begin(), supports_.fixed.end(), false);
-  for (const HeldNode& held : actor_.pinned) {
+  for (const KinematicNode& held : actor_.pinned) {
     for (int axis = 0; axis < 3; ++axis) {
       if (!held.axes[axis]) continue;
       supports_.fix(held.node, axis);
@@ -162,7 +162,7 @@ void ImplicitBody::stay() { body_.positions = held_; }
 
 void ImplicitBody::finish(double dt) {
   body_.velocities = (body_.positions - origin_) / span_;
-  for (const HeldNode& held : actor_.pinned) {
+  for (const KinematicNode& held : actor_.pinned) {
     for (int axis = 0; axis < 3; ++axis) {
       if (held.axes[axis]) body_.velocities(held.node, axis) = held.velocity[axis];
     }
@@ -208,7 +208,7 @@ void ImplicitBody::release_held() {
   }
 }
 
-bool ImplicitBody::is_found() const {
+bool ImplicitBody::has_converged() const {
   // What positions rounded to their last digit leave of forces.
   const double rounding = 8 * std::numeric_limits<double>::epsilon() * reach_ *
                           (stiffness_ + mass_factor_ * body_.masses.maxCoeff()) * std::sqrt(body_.node_count());

@@ -61,7 +61,7 @@ class ImplicitBody {
   /// Nothing pushes what is held.
   void release_held();
   /// Whether the forces left over are small beside those at work.
-  [[nodiscard]] bool is_found() const;
+  [[nodiscard]] bool has_converged() const;
   /// J, that rounding makes of the potential.
   [[nodiscard]] double noise() const;
   /// Takes normal forces, for friction, from where the body is; false where they changed by much.
@@ -77,14 +77,14 @@ class ImplicitBody {
   void undo();
 
   /// What the next step depends on beside positions and velocities.
-  void pass(MotionMemory& memory);
+  void serialize(IntegratorState& state);
 
   [[nodiscard]] Actor& actor() const { return actor_; }
   [[nodiscard]] const Supports& supports() const { return supports_; }
   [[nodiscard]] double slip_speed() const { return slip_speed_; }
   [[nodiscard]] SolveReport solves() const { return alone_->report(); }
   [[nodiscard]] Eigen::VectorXd& pushed_in() { return history_.pushed_in; }
-  [[nodiscard]] IterativeSystem& system() { return *coupled_; }
+  [[nodiscard]] IterativeSolver& system() { return *coupled_; }
 
  private:
   /// Of a step that can be undone.
@@ -110,8 +110,8 @@ class ImplicitBody {
   double stiffness_;   // N/m, the largest of a brick
   std::vector<ObstaclePotential> obstacles_;
   MusclePotential muscles_;
-  std::unique_ptr<NewtonSystem> alone_ = make_quick_system();
-  std::unique_ptr<IterativeSystem> coupled_ = make_multigrid_system();
+  std::unique_ptr<LinearSolver> alone_ = make_default_solver();
+  std::unique_ptr<IterativeSolver> coupled_ = make_multigrid_solver();
   StepTerms terms_;
 
   // of the step at hand

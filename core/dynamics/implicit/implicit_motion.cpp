@@ -27,7 +27,7 @@ struct ImplicitMotion::Together {
 
 ImplicitMotion::ImplicitMotion(World& world, const ImplicitOptions& options)
     : world_(world), options_(options), counts_(std::make_unique<ImplicitCounts>()) {
-  const std::string why_not = why_not_implicit(world);
+  const std::string why_not = check_implicit_support(world);
   if (!why_not.empty()) {
     throw Error(
         ErrorKind::kBadInput,
@@ -57,7 +57,7 @@ void ImplicitMotion::advance(const Together& group, const Span& span) {
   double done = 0;  // of the step: one that is not found, or leads too far, is cut in halves
   double stride = 1;
   while (done < 1) {
-    const double most = longest_stride(world_, group.actors, stride * span.dt);
+    const double most = max_step_size(world_, group.actors, stride * span.dt);
     while (stride * span.dt > most && stride > kShortestStride) stride /= 2;
     const std::string trouble = try_step(group, span.elapsed + done * span.dt, stride * span.dt);
     if (trouble.empty()) {
@@ -80,14 +80,14 @@ std::string ImplicitMotion::try_step(const Together& group, double elapsed, doub
   const std::vector<Energy> before = energies_of(world_, group.rows);
   ImplicitStep step(world_, group.bodies, group.actors, group.glue, options_, dt);
   if (!step.make(elapsed, *counts_)) return "the search for a minimum finds no end";
-  std::string gain = energy_from_nowhere(world_, group.rows, before, energies_of(world_, group.rows));
+  std::string gain = energy_gain(world_, group.rows, before, energies_of(world_, group.rows));
   if (gain.empty()) return gain;
   for (ImplicitBody* body : group.bodies) body->undo();
   return gain;
 }
 
-void ImplicitMotion::pass(MotionMemory& memory) {
-  for (const auto& body : bodies_) body->pass(memory);
+void ImplicitMotion::serialize(IntegratorState& state) {
+  for (const auto& body : bodies_) body->serialize(state);
 }
 
 ImplicitMotion::Report ImplicitMotion::report() const {
@@ -102,12 +102,12 @@ ImplicitMotion::Report ImplicitMotion::report() const {
     report.solves.iterations += solves.iterations;
     report.solves.most = std::max(report.solves.most, solves.most);
     report.solves.indefinite += solves.indefinite;
-    report.solves.gone_direct += solves.gone_direct;
+    report.solves.fallbacks += solves.fallbacks;
   }
   return report;
 }
 
-std::string why_not_implicit(const World& world) {
+std::string check_implicit_support(const World& world) {
   for (const Obstacle& obstacle : world.obstacles) {
     if (obstacle.restitution > 0) return fmt::format("an obstacle has a restitution of {:.3g}", obstacle.restitution);
   }

@@ -39,7 +39,7 @@ struct ImplicitCounts;
 /// than half a brick. Deterministic for any number of threads. Body velocities are those of the scheme after each step.
 class ImplicitMotion {
  public:
-  /// Throws Error(kBadInput) for a world that why_not_implicit(). The world must outlive it.
+  /// Throws Error(kBadInput) for a world that check_implicit_support(). The world must outlive it.
   ImplicitMotion(World& world, const ImplicitOptions& options);
   ~ImplicitMotion();
 
@@ -48,7 +48,7 @@ class ImplicitMotion {
   void advance(double dt, long steps, double time);
 
   /// What the next step depends on beside positions and velocities: those of the step before.
-  void pass(MotionMemory& memory);
+  void serialize(IntegratorState& state);
 
   struct Report {
     SolveReport solves;
@@ -76,6 +76,6 @@ class ImplicitMotion {
 };
 
 /// What a world has that implicit steps cannot do: obstacles with a restitution. Empty: nothing.
-[[nodiscard]] std::string why_not_implicit(const World& world);
+[[nodiscard]] std::string check_implicit_support(const World& world);
 
 }  // namespace sprung

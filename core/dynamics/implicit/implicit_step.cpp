@@ -42,17 +42,17 @@ ImplicitStep::ImplicitStep(const World& world, std::vector<ImplicitBody*> bodies
 
 bool ImplicitStep::make(double elapsed, ImplicitCounts& counts) {
   begin(elapsed);
-  const bool is_found = find_minimum(counts);
-  if (is_found) ++counts.steps;
+  const bool has_converged = find_minimum(counts);
+  if (has_converged) ++counts.steps;
   for (ImplicitBody* body : bodies_) {
-    if (is_found) {
+    if (has_converged) {
       body->finish(dt_);
     } else {
       body->undo();
     }
   }
-  if (is_found) skins_.remember(pushed_in_);
-  return is_found;
+  if (has_converged) skins_.remember(pushed_in_);
+  return has_converged;
 }
 
 void ImplicitStep::begin(double elapsed) {
@@ -86,9 +86,9 @@ bool ImplicitStep::descend_to_minimum(ImplicitCounts& counts) {
     if (!is_known || skins_.any()) potential = evaluate();
     is_known = true;
     if (!std::isfinite(potential)) return false;
-    const bool is_found =
-        std::all_of(bodies_.begin(), bodies_.end(), [](const ImplicitBody* body) { return body->is_found(); });
-    if (is_found) return true;
+    const bool has_converged =
+        std::all_of(bodies_.begin(), bodies_.end(), [](const ImplicitBody* body) { return body->has_converged(); });
+    if (has_converged) return true;
     ++counts.iterations;
     if (!newton_step(potential, counts)) return false;
   }

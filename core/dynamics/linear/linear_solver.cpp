@@ -11,9 +11,9 @@ namespace {
 /// Added to the diagonal of a matrix that may be singular, relative to its largest entry.
 constexpr double kShift = 1e-9;
 
-class DirectSystem : public NewtonSystem {
+class DirectSolver : public LinearSolver {
  public:
-  DirectSystem() { cholesky_.cholmod().print = 0; }
+  DirectSolver() { cholesky_.cholmod().print = 0; }
 
   bool linearize(const Body& body, const Supports& supports, bool definite, const StepTerms& terms) override {
     dofs_.emplace(supports);
@@ -38,14 +38,14 @@ class DirectSystem : public NewtonSystem {
 
 }  // namespace
 
-std::unique_ptr<NewtonSystem> make_direct_system() { return std::make_unique<DirectSystem>(); }
+std::unique_ptr<LinearSolver> make_direct_solver() { return std::make_unique<DirectSolver>(); }
 
 namespace {
 
 constexpr int kFewBricks = 200;     // the direct solver is as quick up to there
 constexpr int kManyBricks = 40000;  // and needs gigabytes from there on
 
-class QuickSystem : public NewtonSystem {
+class DefaultSolver : public LinearSolver {
  public:
   bool linearize(const Body& body, const Supports& supports, bool definite, const StepTerms& terms) override {
     body_ = &body;
@@ -69,15 +69,15 @@ class QuickSystem : public NewtonSystem {
   [[nodiscard]] SolveReport report() const override {
     SolveReport report = multigrid_->report();
     report.solves += direct_->report().solves - gone_direct_;
-    report.gone_direct = gone_direct_;
+    report.fallbacks = gone_direct_;
     return report;
   }
 
  private:
-  [[nodiscard]] NewtonSystem& now() const { return is_direct_ ? *direct_ : *multigrid_; }
+  [[nodiscard]] LinearSolver& now() const { return is_direct_ ? *direct_ : *multigrid_; }
 
-  std::unique_ptr<NewtonSystem> direct_ = make_direct_system();
-  std::unique_ptr<NewtonSystem> multigrid_ = make_multigrid_system();
+  std::unique_ptr<LinearSolver> direct_ = make_direct_solver();
+  std::unique_ptr<LinearSolver> multigrid_ = make_multigrid_solver();
   const Body* body_ = nullptr;
   const Supports* supports_ = nullptr;
   const StepTerms* terms_ = nullptr;
@@ -88,6 +88,6 @@ class QuickSystem : public NewtonSystem {
 
 }  // namespace
 
-std::unique_ptr<NewtonSystem> make_quick_system() { return std::make_unique<QuickSystem>(); }
+std::unique_ptr<LinearSolver> make_default_solver() { return std::make_unique<DefaultSolver>(); }
 
 }  // namespace sprung

@@ -26,25 +26,25 @@ struct StepTerms {
   double damping = 0;                  // times the springs' stiffness along themselves, without the guard ...
   Points damping_positions;            // ... where the nodes are here (m x 3, m); not read where damping is zero
   std::vector<PointStiffness> points;  // contacts, muscles
-  /// The body's own part of what couples it to others: in the preconditioner of an IterativeSystem only.
+  /// The body's own part of what couples it to others: in the preconditioner of an IterativeSolver only.
   std::vector<PointStiffness> coupled;
 };
 
 /// How the solving went so far.
 struct SolveReport {
   long solves = 0;
-  long iterations = 0;   // of an iterative solver, all solves
-  int most = 0;          // iterations of one solve
-  long indefinite = 0;   // solves that found the matrix not positive definite
-  long gone_direct = 0;  // solves that the iterative solver had to leave to the direct one
+  long iterations = 0;  // of an iterative solver, all solves
+  int most = 0;         // iterations of one solve
+  long indefinite = 0;  // solves that found the matrix not positive definite
+  long fallbacks = 0;   // solves that the iterative solver had to leave to the direct one
 };
 
 /// The linear systems that Newton's method and linear statics meet: (K + terms) u = f, with K the second derivative of
 /// the elastic energy at a body's positions and u zero where it is supported. The seam between the equations and the
 /// ways to solve them. The same bits for any number of threads.
-class NewtonSystem {
+class LinearSolver {
  public:
-  virtual ~NewtonSystem() = default;
+  virtual ~LinearSolver() = default;
 
   /// Takes K at body.positions; with `definite`, each brick's K without its negative curvature, and
   /// motions that meet no resistance held by a stiffness below rounding. Body and terms have to stay as they are until
@@ -60,7 +60,7 @@ class NewtonSystem {
 };
 
 /// One that can be a part of a larger system.
-class IterativeSystem : public NewtonSystem {
+class IterativeSolver : public LinearSolver {
  public:
   /// (K + terms) u, N, without what is coupled; zero at supports.
   virtual void multiply(const Eigen::VectorXd& u, Eigen::VectorXd& forces) = 0;
@@ -70,22 +70,22 @@ class IterativeSystem : public NewtonSystem {
 
 /// Sparse Cholesky (CHOLMOD, supernodal): exact, for small bodies and as the oracle of others. Memory and time grow
 /// faster than the body: some 250 MB and 2 s at 16 000 bricks.
-[[nodiscard]] std::unique_ptr<NewtonSystem> make_direct_system();
+[[nodiscard]] std::unique_ptr<LinearSolver> make_direct_solver();
 
 /// Conjugate gradients preconditioned by geometric multigrid on the hierarchy of bricks: Galerkin's coarse bricks, each
 /// of up to eight children that hang together, Chebyshev-Jacobi smoothing, the cycle in single precision, the products
 /// outside it exact and in double. Time and memory (some 1.7 kB a brick) grow with the body. Gives up after
 /// `max_iterations` of a solve.
-[[nodiscard]] std::unique_ptr<IterativeSystem> make_multigrid_system(int max_iterations = 150);
+[[nodiscard]] std::unique_ptr<IterativeSolver> make_multigrid_solver(int max_iterations = 150);
 
 /// The quicker of the two for the body's size; where multigrid gives up the direct solver answers, if the body is not
 /// too large for it.
-[[nodiscard]] std::unique_ptr<NewtonSystem> make_quick_system();
+[[nodiscard]] std::unique_ptr<LinearSolver> make_default_solver();
 
 /// When conjugate gradients end.
-struct GradientsEnd {
-  double tolerance;    // of the forces, left over
-  double will_do = 0;  // likewise, where the iterations run out
+struct StoppingCriterion {
+  double tolerance;               // of the forces, left over
+  double fallback_tolerance = 0;  // likewise, where the iterations run out
   int max_iterations;
 };
 
@@ -93,8 +93,8 @@ struct GradientsEnd {
 /// same in each iteration), by multiply(x, product) and precondition(residual, answer). `forces` and what these give
 /// are zero where A is. Empty where A is not positive definite, or no answer is found.
 template <class Multiply, class Precondition>
-Eigen::VectorXd conjugate_gradients(const Eigen::VectorXd& forces, const GradientsEnd& end, const Multiply& multiply,
-                                    const Precondition& precondition, SolveReport& report) {
+Eigen::VectorXd conjugate_gradients(const Eigen::VectorXd& forces, const StoppingCriterion& end,
+                                    const Multiply& multiply, const Precondition& precondition, SolveReport& report) {
   ++report.solves;
   Eigen::VectorXd residual = forces;
   Eigen::VectorXd x = Eigen::VectorXd::Zero(residual.size());
@@ -124,7 +124,7 @@ Eigen::VectorXd conjugate_gradients(const Eigen::VectorXd& forces, const Gradien
     descent = next;
     if (!(descent > 0)) break;
   }
-  if (residual.norm() <= end.will_do * forces.norm()) return x;
+  if (residual.norm() <= end.fallback_tolerance * forces.norm()) return x;
   return {};
 }
 

@@ -47,9 +47,9 @@ bool bends_downward(const BrickMatrix& matrix) {
   return Eigen::LLT<BrickMatrix>(matrix + raise * BrickMatrix::Identity()).info() != Eigen::Success;
 }
 
-class MultigridSystem : public IterativeSystem {
+class MultigridSolver : public IterativeSolver {
  public:
-  explicit MultigridSystem(int max_iterations) : max_iterations_(max_iterations) {}
+  explicit MultigridSolver(int max_iterations) : max_iterations_(max_iterations) {}
 
   bool linearize(const Body& body, const Supports& supports, bool definite, const StepTerms& terms) override {
     body_ = &body;
@@ -99,7 +99,7 @@ class MultigridSystem : public IterativeSystem {
   SolveReport report_;
 };
 
-void MultigridSystem::fill_finest() {
+void MultigridSolver::fill_finest() {
   const std::size_t nodes = body_->node_count();
   is_held_node_.assign(nodes, 0);
   for (std::size_t i = 0; i < held_.size(); ++i) {
@@ -126,7 +126,7 @@ void MultigridSystem::fill_finest() {
 }
 
 /// The fastest eigenvalue of a full brick at rest over its nodes' own blocks; 0 where bricks are too far from that.
-double MultigridSystem::fastest_of_brick() const {
+double MultigridSolver::fastest_of_brick() const {
   if (definite_ || !points_of_brick_.empty() || is_guarded_) return 0;
   const BrickMatrix brick = rest_brick_hessian(*body_);
   BrickMatrix blocks = BrickMatrix::Zero();
@@ -136,7 +136,7 @@ double MultigridSystem::fastest_of_brick() const {
       .maxCoeff();
 }
 
-bool MultigridSystem::needs_pull(int block) const {
+bool MultigridSolver::needs_pull(int block) const {
   const std::size_t first = block * kLanes;
   const std::size_t last = std::min(first + kLanes, body_->grid.nodes.size());
   for (std::size_t brick = first; brick < last; ++brick) {
@@ -148,14 +148,14 @@ bool MultigridSystem::needs_pull(int block) const {
   return false;
 }
 
-bool MultigridSystem::is_peculiar(std::size_t brick, double volume_ratio) const {
+bool MultigridSolver::is_peculiar(std::size_t brick, double volume_ratio) const {
   if (volume_ratio < body_->law.guard_ratio || definite_ || body_->is_hexahedral()) return true;
   if (!points_of_brick_.empty() && !points_of_brick_[brick].empty()) return true;
   return std::any_of(body_->grid.nodes[brick].begin(), body_->grid.nodes[brick].end(),
                      [&](int node) { return is_held_node_[node] != 0; });
 }
 
-void MultigridSystem::fill_block(int block, const EdgeCoupling& coupling) {
+void MultigridSolver::fill_block(int block, const EdgeCoupling& coupling) {
   multigrid::Level& finest = cycle_->finest();
   float* matrix = finest.matrix(block);
   const int first = block * kLanes;
@@ -174,7 +174,7 @@ void MultigridSystem::fill_block(int block, const EdgeCoupling& coupling) {
 }
 
 /// The matrix of a brick that is more than its springs, held degrees of freedom taken out.
-BrickMatrix MultigridSystem::peculiar_matrix(std::size_t brick) const {
+BrickMatrix MultigridSolver::peculiar_matrix(std::size_t brick) const {
   BrickMatrix matrix = (1 + terms_->damping) * body_brick_hessian(*body_, brick);
   if (definite_ && bends_downward(matrix)) matrix = without_negative_curvature(matrix);
   if (!points_of_brick_.empty()) {
@@ -189,13 +189,13 @@ BrickMatrix MultigridSystem::peculiar_matrix(std::size_t brick) const {
   return matrix;
 }
 
-void MultigridSystem::release_held(Eigen::VectorXd& vector) const {
+void MultigridSolver::release_held(Eigen::VectorXd& vector) const {
   for (Eigen::Index i = 0; i < vector.size(); ++i) {
     if (held_[i]) vector[i] = 0;
   }
 }
 
-void MultigridSystem::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& product) {
+void MultigridSolver::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& product) {
   if (definite_) {
     cycle_->finest().multiply(x, product);
     for (PointStiffness point : terms_->coupled) {
@@ -208,7 +208,7 @@ void MultigridSystem::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& produc
   release_held(product);
 }
 
-void MultigridSystem::multiply_exactly(const Eigen::VectorXd& x, Eigen::VectorXd& product) {
+void MultigridSolver::multiply_exactly(const Eigen::VectorXd& x, Eigen::VectorXd& product) {
   multiply_stiffness(*body_, x, products_, product);
   if (terms_->damping != 0) {
     multiply_damping(*body_, terms_->damping_positions, terms_->damping, x, products_, damping_product_);
@@ -220,7 +220,7 @@ void MultigridSystem::multiply_exactly(const Eigen::VectorXd& x, Eigen::VectorXd
   for (const PointStiffness& point : terms_->points) add_point_product(*body_, point, x, product);
 }
 
-void MultigridSystem::precondition(const Eigen::VectorXd& residual, Eigen::VectorXd& answer) {
+void MultigridSolver::precondition(const Eigen::VectorXd& residual, Eigen::VectorXd& answer) {
   const double largest = residual.lpNorm<Eigen::Infinity>();  // brings single precision into its range
   if (largest == 0) {
     answer.setZero(residual.size());
@@ -231,7 +231,7 @@ void MultigridSystem::precondition(const Eigen::VectorXd& residual, Eigen::Vecto
   answer = largest * single_answer_.cast<double>();
 }
 
-Eigen::VectorXd MultigridSystem::solve(const Eigen::VectorXd& forces, double tolerance) {
+Eigen::VectorXd MultigridSolver::solve(const Eigen::VectorXd& forces, double tolerance) {
   Eigen::VectorXd free = forces;
   release_held(free);
   return conjugate_gradients(
@@ -242,8 +242,8 @@ Eigen::VectorXd MultigridSystem::solve(const Eigen::VectorXd& forces, double tol
 
 }  // namespace
 
-std::unique_ptr<IterativeSystem> make_multigrid_system(int max_iterations) {
-  return std::make_unique<MultigridSystem>(max_iterations);
+std::unique_ptr<IterativeSolver> make_multigrid_solver(int max_iterations) {
+  return std::make_unique<MultigridSolver>(max_iterations);
 }
 
 }  // namespace sprung

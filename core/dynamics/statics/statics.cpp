@@ -33,7 +33,7 @@ Points holding_forces(const Body& body, const Points& displacements) {
 }  // namespace
 
 LinearResponse linear_response(const Body& body, const Supports& supports, const Points& loads, const Points& movements,
-                               NewtonSystem& system) {
+                               LinearSolver& system) {
   LinearResponse response;
   response.displacements = Points::Zero(body.node_count(), 3);
   for (Eigen::Index i = 0; i < movements.size(); ++i) {
@@ -68,7 +68,7 @@ double extent(const Body& body) {
 /// Newton's method at one load.
 class Equilibrium {
  public:
-  Equilibrium(Body& body, const Supports& supports, const Points& loads, NewtonSystem& system,
+  Equilibrium(Body& body, const Supports& supports, const Points& loads, LinearSolver& system,
               const StaticOptions& options)
       : body_(body),
         supports_(supports),
@@ -141,7 +141,7 @@ class Equilibrium {
   Body& body_;
   const Supports& supports_;
   const Points& loads_;
-  NewtonSystem& system_;
+  LinearSolver& system_;
   const StepTerms no_terms_;
   const StaticOptions& options_;
   double rounding_;        // of a position, m
@@ -153,7 +153,7 @@ class Equilibrium {
 
 }  // namespace
 
-Eigen::VectorXd solve_linear(const Body& body, const Supports& supports, const Points& loads, NewtonSystem& system) {
+Eigen::VectorXd solve_linear(const Body& body, const Supports& supports, const Points& loads, LinearSolver& system) {
   // A motion without resistance (plain springs let a thin bar twist) does no harm where no load drives it: then the
   // second, slightly held system answers.
   const StepTerms no_terms;
@@ -166,7 +166,7 @@ Eigen::VectorXd solve_linear(const Body& body, const Supports& supports, const P
 }
 
 StaticReport solve_static(Body& body, const Supports& supports, const Points& loads, const Points& start,
-                          NewtonSystem& system, const StaticOptions& options) {
+                          LinearSolver& system, const StaticOptions& options) {
   const Points goal = body.positions;
   const auto move_supports = [&](double share) {
     for (int i = 0; i < goal.size(); ++i) {

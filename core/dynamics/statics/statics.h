@@ -12,7 +12,7 @@ struct LinearResponse {
 /// Solves K u = loads (m x 3, N) with u = `movements` (m x 3, m) where it is supported; the other entries of
 /// `movements` are ignored. Throws Error(kBadInput) where the supports leave the body free to move.
 [[nodiscard]] LinearResponse linear_response(const Body& body, const Supports& supports, const Points& loads,
-                                             const Points& movements, NewtonSystem& system);
+                                             const Points& movements, LinearSolver& system);
 
 struct StaticOptions {
   double tolerance = 1e-9;   // largest force left on a free node over the largest force at work (loads, reactions)
@@ -29,7 +29,7 @@ struct StaticReport {
 /// Small displacements (3 m, m) under `loads` (m x 3, N): one linear solve at the positions the body has.
 /// Throws Error(kBadInput) where the supports leave the body free to move.
 [[nodiscard]] Eigen::VectorXd solve_linear(const Body& body, const Supports& supports, const Points& loads,
-                                           NewtonSystem& system);
+                                           LinearSolver& system);
 
 /// Moves the body into equilibrium under dead loads (m x 3, N): the minimum of elastic energy - loads . positions, by
 /// Newton's method with a line search, large deformations and volume guard included. Supported degrees of freedom keep
@@ -37,7 +37,7 @@ struct StaticReport {
 /// supports are applied in steps where one is not enough.
 /// Throws Error(kDiverged) with load share and residual where no equilibrium is found.
 StaticReport solve_static(Body& body, const Supports& supports, const Points& loads, const Points& start,
-                          NewtonSystem& system, const StaticOptions& options = {});
+                          LinearSolver& system, const StaticOptions& options = {});
 
 /// Forces that the supports exert (m x 3, N); zero on free degrees of freedom.
 [[nodiscard]] Points reactions(const Body& body, const Supports& supports, const Points& loads);

@@ -91,7 +91,7 @@ std::vector<Pair> near_pairs(const PairTest& test, int triangles) {
 
 }  // namespace
 
-std::vector<std::array<int, 2>> find_crossings(const Points& points, const Triangles& triangles) {
+std::vector<std::array<int, 2>> find_self_intersections(const Points& points, const Triangles& triangles) {
   const PairTest test(points, triangles);
   const std::vector<Pair> pairs = near_pairs(test, int(triangles.rows()));
   const auto join = [](std::vector<Pair> all, const std::vector<Pair>& more) {

@@ -10,6 +10,6 @@ namespace sprung {
 /// ascending order. Exact, and deterministic: the predicates are CGAL's with exact arithmetic where rounding could
 /// matter. Triangles without area are left out. Cost: near linear in the triangles of a usual mesh; works in parallel.
 /// `points` p x 3, each place once; `triangles` t x 3.
-[[nodiscard]] std::vector<std::array<int, 2>> find_crossings(const Points& points, const Triangles& triangles);
+[[nodiscard]] std::vector<std::array<int, 2>> find_self_intersections(const Points& points, const Triangles& triangles);
 
 }  // namespace sprung

@@ -86,7 +86,7 @@ bool TriangleGrid::is_blocked(const Vec3& from, const Vec3& to) const {
 }
 
 /// Cell by cell along the ray, after Amanatides and Woo, "A fast voxel traversal algorithm" (1987).
-double TriangleGrid::free_way(const Vec3& from, const Vec3& direction) const {
+double TriangleGrid::cast_ray(const Vec3& from, const Vec3& direction) const {
   Eigen::Vector3i cell = cell_of(from, counts_);
   for (double best = kNever;;) {
     for (const int t : triangles_of(cell)) best = std::min(best, way_to(t, from, direction));

@@ -17,7 +17,7 @@ class TriangleGrid {
   [[nodiscard]] bool is_blocked(const Vec3& from, const Vec3& to) const;
 
   /// How far a ray runs until it meets a triangle, in lengths of `direction`; infinite where it meets none.
-  [[nodiscard]] double free_way(const Vec3& from, const Vec3& direction) const;
+  [[nodiscard]] double cast_ray(const Vec3& from, const Vec3& direction) const;
 
  private:
   [[nodiscard]] std::span<const int> triangles_of(const Eigen::Vector3i& cell) const;

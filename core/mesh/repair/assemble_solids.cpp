@@ -18,41 +18,41 @@ namespace {
 using Crossings = std::vector<std::array<int, 2>>;  // pairs of rows of the triangles
 
 /// Those of all triangles but the ones of pieces that were dropped.
-Crossings crossings_of(const WeldedMesh& mesh, const std::vector<Shell>& shells) {
+Crossings crossings_of(const WeldedMesh& mesh, const std::vector<SurfaceComponent>& shells) {
   std::vector<bool> is_kept(mesh.triangles.rows(), false);
-  for (const Shell& shell : shells) {
+  for (const SurfaceComponent& shell : shells) {
     for (const int t : shell.triangles) is_kept[t] = true;
   }
-  Crossings crossings = find_crossings(mesh.points, mesh.triangles);
+  Crossings crossings = find_self_intersections(mesh.points, mesh.triangles);
   std::erase_if(crossings, [&](const auto& pair) { return !is_kept[pair[0]] || !is_kept[pair[1]]; });
   return crossings;
 }
 
-std::vector<NestGroup> group_nests(const WeldedMesh& mesh, const std::vector<Nest>& nests, const Crossings& crossings,
-                                   RepairMode repair) {
+std::vector<NestGroup> group_nests(const WeldedMesh& mesh, const std::vector<NestedComponents>& nests,
+                                   const Crossings& crossings, RepairMode repair) {
   if (repair != RepairMode::kOff) return unite_nests(mesh.points, mesh.triangles, nests, crossings);
   std::vector<NestGroup> groups;
   groups.reserve(nests.size());
-  for (const Nest& nest : nests) groups.push_back({nest});
+  for (const NestedComponents& nest : nests) groups.push_back({nest});
   return groups;
 }
 
 /// Whether a triangle of the group crosses another.
 bool overlaps(const NestGroup& group, const std::vector<bool>& crosses) {
-  const auto any = [&](const Shell* shell) {
+  const auto any = [&](const SurfaceComponent* shell) {
     return std::any_of(shell->triangles.begin(), shell->triangles.end(), [&](int t) { return crosses[t]; });
   };
-  return std::any_of(group.begin(), group.end(), [&](const Nest& nest) {
+  return std::any_of(group.begin(), group.end(), [&](const NestedComponents& nest) {
     return any(nest.outer) || std::any_of(nest.cavities.begin(), nest.cavities.end(), any);
   });
 }
 
-void note_nests(const std::vector<Nest>& nests, std::vector<Repair>& repairs) {
+void note_nests(const std::vector<NestedComponents>& nests, std::vector<Repair>& repairs) {
   const auto inverted =
-      std::count_if(nests.begin(), nests.end(), [](const Nest& nest) { return nest.outer->volume < 0; });
+      std::count_if(nests.begin(), nests.end(), [](const NestedComponents& nest) { return nest.outer->volume < 0; });
   add_repair(repairs, "inside_out", inverted, "turned " + count_of(inverted, "inside-out solid") + " outwards");
   long cavities = 0;
-  for (const Nest& nest : nests) cavities += long(nest.cavities.size());
+  for (const NestedComponents& nest : nests) cavities += long(nest.cavities.size());
   add_repair(repairs, "cavity", cavities, "kept " + count_of(cavities, "cavity", "cavities"), true);
 }
 
@@ -77,9 +77,9 @@ void note_crossings(const WeldedMesh& mesh, Crossings crossings, Solids& made) {
 
 }  // namespace
 
-Solids assemble_solids(const WeldedMesh& mesh, const std::vector<Shell>& shells, RepairMode repair) {
+Solids assemble_solids(const WeldedMesh& mesh, const std::vector<SurfaceComponent>& shells, RepairMode repair) {
   const Crossings crossings = crossings_of(mesh, shells);
-  const std::vector<Nest> nests = nest_shells(mesh.points, mesh.triangles, shells);
+  const std::vector<NestedComponents> nests = nest_shells(mesh.points, mesh.triangles, shells);
   const std::vector<NestGroup> groups = group_nests(mesh, nests, crossings, repair);
   std::vector<bool> crosses(mesh.triangles.rows(), false);
   for (const auto& [a, b] : crossings) crosses[a] = true;
@@ -113,7 +113,7 @@ void take_triangles(const WeldedMesh& mesh, const std::vector<Row>& rows, Solid&
     solid.triangles.row(t) = mesh.triangles.row(row);
     if (turn) std::swap(solid.triangles(t, 1), solid.triangles(t, 2));
     solid.source.push_back(mesh.source[row]);
-    solid.turned.push_back(mesh.turned[row] != turn);
+    solid.flipped.push_back(mesh.flipped[row] != turn);
   }
 }
 
@@ -132,11 +132,11 @@ void take_points(const WeldedMesh& mesh, Solid& solid) {
 Solid cut_solid(const WeldedMesh& mesh, const NestGroup& group) {
   std::vector<Row> rows;
   Solid solid;
-  for (const Nest& nest : group) {
+  for (const NestedComponents& nest : group) {
     const bool inverted = nest.outer->volume < 0;
     double volume = std::abs(nest.outer->volume);
     for (const int t : nest.outer->triangles) rows.emplace_back(t, inverted);
-    for (const Shell* cavity : nest.cavities) {
+    for (const SurfaceComponent* cavity : nest.cavities) {
       volume -= std::abs(cavity->volume);
       for (const int t : cavity->triangles) rows.emplace_back(t, inverted);
     }

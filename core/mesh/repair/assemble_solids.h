@@ -11,7 +11,8 @@ namespace sprung {
 /// The solids that closed shells bound: each with its cavities, and as one what overlaps, touches or lies in another,
 /// unless `repair` is kOff. `shells` are of triangles of `mesh`, whose other triangles count nothing. Order: by the
 /// nests' (nest.h). Of the repairs those kinds that this finds: inside_out, cavity, united, self_intersection.
-[[nodiscard]] Solids assemble_solids(const WeldedMesh& mesh, const std::vector<Shell>& shells, RepairMode repair);
+[[nodiscard]] Solids assemble_solids(const WeldedMesh& mesh, const std::vector<SurfaceComponent>& shells,
+                                     RepairMode repair);
 
 /// The solid that a group of nests bounds: their triangles in the order of the mesh, inside-out nests turned, and the
 /// points they use. The volume is the sum of the nests that are not buried in others.

@@ -10,19 +10,19 @@ namespace sprung {
 namespace {
 
 /// A cap runs against the sides of the surface: from `from` to `to` here is from `to` to `from` there.
-struct Rim {
+struct BoundaryLoop {
   std::vector<int> corners;
   std::vector<int> triangles;  // at the side from corner i to i + 1
 };
 
 /// Cuts a walk along open sides into loops that meet no point twice.
-class RimWalker {
+class BoundaryWalker {
  public:
-  explicit RimWalker(const std::vector<OpenSide>& open) {
+  explicit BoundaryWalker(const std::vector<OpenSide>& open) {
     for (const OpenSide& side : open) leaving_.emplace(side.to, Step{side.from, side.triangle});
   }
 
-  std::vector<Rim> rims() {
+  std::vector<BoundaryLoop> rims() {
     while (!leaving_.empty()) walk_from(leaving_.begin()->first);
     return std::move(rims_);
   }
@@ -55,7 +55,7 @@ class RimWalker {
   void cut_off(std::size_t first, std::vector<int>& path, std::vector<int>& triangles,
                std::map<int, std::size_t>& place) {
     const std::ptrdiff_t begin = first;
-    Rim rim{{path.begin() + begin, path.end()}, {triangles.begin() + begin, triangles.end()}};
+    BoundaryLoop rim{{path.begin() + begin, path.end()}, {triangles.begin() + begin, triangles.end()}};
     for (std::size_t i = first + 1; i < path.size(); ++i) place.erase(path[i]);
     path.resize(first + 1);
     triangles.resize(first);
@@ -63,10 +63,10 @@ class RimWalker {
   }
 
   std::multimap<int, Step> leaving_;
-  std::vector<Rim> rims_;
+  std::vector<BoundaryLoop> rims_;
 };
 
-Hole hole_of(const WeldedMesh& mesh, const Rim& rim) {
+Hole hole_of(const WeldedMesh& mesh, const BoundaryLoop& rim) {
   const auto corners = isize(rim.corners);
   Hole hole{mesh.points(rim.corners, Eigen::all), Points(corners, 3)};
   for (int i = 0; i < corners; ++i) {
@@ -96,7 +96,7 @@ struct Added {
 };
 
 /// The cap's triangles by rows of the mesh's points.
-Triangles placed(const Cap& cap, const Rim& rim, int first_new) {
+Triangles placed(const Cap& cap, const BoundaryLoop& rim, int first_new) {
   Triangles triangles = cap.triangles;
   const auto corners = isize(rim.corners);
   for (int& row : triangles.reshaped()) {
@@ -117,12 +117,12 @@ void append(const Added& added, WeldedMesh& mesh) {
     triangle += added.triangles[i].rows();
   }
   mesh.source.resize(triangle, -1);
-  mesh.turned.resize(triangle, false);
+  mesh.flipped.resize(triangle, false);
 }
 
 }  // namespace
 
-Closing close_shells(WeldedMesh& mesh, Shells& shells) {
+Closing close_shells(WeldedMesh& mesh, SurfaceComponents& shells) {
   Closing closing;
   closing.cap_areas.resize(shells.shells.size());
   std::map<int, std::vector<OpenSide>> open;
@@ -131,7 +131,7 @@ Closing close_shells(WeldedMesh& mesh, Shells& shells) {
   const auto old_triangles = int(mesh.triangles.rows());
   Added added;
   for (const auto& [shell, sides] : open) {
-    for (const Rim& rim : RimWalker(sides).rims()) {
+    for (const BoundaryLoop& rim : BoundaryWalker(sides).rims()) {
       const Cap cap = fill_hole(hole_of(mesh, rim));
       Points corners(mesh.points(rim.corners, Eigen::all));
       Points all(corners.rows() + cap.points.rows(), 3);

@@ -16,6 +16,6 @@ struct Closing {
 /// Closes every loop of open sides by a cap (fill_hole.h), whose triangles (source -1) and points are appended to
 /// `mesh` and to their shells; measures those shells anew. A loop that touches itself is closed in pieces.
 /// Deterministic.
-Closing close_shells(WeldedMesh& mesh, Shells& shells);
+Closing close_shells(WeldedMesh& mesh, SurfaceComponents& shells);
 
 }  // namespace sprung

@@ -27,10 +27,10 @@ std::vector<Side> sorted_sides(const Triangles& triangles) {
   return sides;
 }
 
-SidePairs::SidePairs(const Points& points, const Triangles& triangles, const std::vector<int>& pieces)
+EdgePairs::EdgePairs(const Points& points, const Triangles& triangles, const std::vector<int>& pieces)
     : points_(points), triangles_(triangles), pieces_(pieces), sets_(triangles.rows()) {}
 
-void SidePairs::pair(std::span<const Side> edge) {
+void EdgePairs::pair(std::span<const Side> edge) {
   if (edge.size() == 2 && edge[0].forward != edge[1].forward) {
     sets_.merge(edge[0].triangle, edge[1].triangle);
   } else if (edge.size() <= 2) {
@@ -40,7 +40,7 @@ void SidePairs::pair(std::span<const Side> edge) {
   }
 }
 
-void SidePairs::pair_many(std::span<const Side> edge) {
+void EdgePairs::pair_many(std::span<const Side> edge) {
   std::vector<Side> around(edge.begin(), edge.end());
   sort_around(around);
   std::set<int> pieces;
@@ -59,7 +59,7 @@ void SidePairs::pair_many(std::span<const Side> edge) {
 }
 
 /// Seen along the edge, matter begins at a side that runs backward and ends at the next one that runs forward.
-void SidePairs::pair_around(std::vector<Side>& sides) {
+void EdgePairs::pair_around(std::vector<Side>& sides) {
   for (std::size_t i = 0; i < sides.size() && sides.size() > 1;) {
     const std::size_t next = (i + 1) % sides.size();
     if (sides[i].forward || !sides[next].forward) {
@@ -74,7 +74,7 @@ void SidePairs::pair_around(std::vector<Side>& sides) {
 }
 
 /// By the angle of their triangles about the edge.
-void SidePairs::sort_around(std::vector<Side>& edge) const {
+void EdgePairs::sort_around(std::vector<Side>& edge) const {
   if (edge.empty()) return;
   const Vec3 low = points_.row(edge[0].low);
   const Vec3 axis = (points_.row(edge[0].high).transpose() - low).normalized();
@@ -161,10 +161,11 @@ class ShellWalker {
 };
 
 /// Turns the triangles of each connected piece to agree, the few as the many; gives each triangle its piece.
-std::vector<int> orient(const std::vector<std::vector<Neighbour>>& neighbours, Triangles& triangles, Shells& result) {
+std::vector<int> orient(const std::vector<std::vector<Neighbour>>& neighbours, Triangles& triangles,
+                        SurfaceComponents& result) {
   ShellWalker walker(neighbours);
   std::vector<int> pieces(neighbours.size());
-  result.turned.assign(neighbours.size(), false);
+  result.flipped.assign(neighbours.size(), false);
   for (int seed = 0; seed < triangles.rows(); ++seed) {
     if (walker.seen(seed)) continue;
     const std::vector<int> piece = walker.walk(seed);
@@ -174,14 +175,14 @@ std::vector<int> orient(const std::vector<std::vector<Neighbour>>& neighbours, T
       pieces[t] = seed;
       if (walker.turns(t) == keep_turned) continue;
       std::swap(triangles(t, 1), triangles(t, 2));
-      result.turned[t] = true;
+      result.flipped[t] = true;
     }
   }
   result.faults.one_sided = walker.one_sided();
   return pieces;
 }
 
-void collect_shells(const Points& points, const Triangles& triangles, SidePairs& pairs, Shells& result) {
+void collect_shells(const Points& points, const Triangles& triangles, EdgePairs& pairs, SurfaceComponents& result) {
   std::vector<int> number(triangles.rows(), -1);
   const auto shell_of = [&](int t) -> int& { return number[pairs.shell_of(t)]; };
   for (int t = 0; t < triangles.rows(); ++t) {
@@ -191,7 +192,7 @@ void collect_shells(const Points& points, const Triangles& triangles, SidePairs&
     }
     result.shells[shell_of(t)].triangles.push_back(t);
   }
-  for (Shell& shell : result.shells) measure(points, triangles, shell);
+  for (SurfaceComponent& shell : result.shells) measure(points, triangles, shell);
   for (const Side& side : pairs.open()) {
     result.open.push_back({side.forward ? side.low : side.high, side.forward ? side.high : side.low, side.triangle,
                            shell_of(side.triangle)});
@@ -200,7 +201,7 @@ void collect_shells(const Points& points, const Triangles& triangles, SidePairs&
 
 }  // namespace
 
-void measure(const Points& points, const Triangles& triangles, Shell& shell) {
+void measure(const Points& points, const Triangles& triangles, SurfaceComponent& shell) {
   shell.low = shell.high = points.row(triangles(shell.triangles.front(), 0));
   for (const int t : shell.triangles) {
     for (int k = 0; k < 3; ++k) {
@@ -218,14 +219,14 @@ void measure(const Points& points, const Triangles& triangles, Shell& shell) {
   shell.volume = sum / 6;
 }
 
-Shells find_shells(const Points& points, Triangles& triangles) {
-  Shells result;
+SurfaceComponents find_shells(const Points& points, Triangles& triangles) {
+  SurfaceComponents result;
   std::vector<Side> sides = sorted_sides(triangles);
   const std::vector<int> pieces = orient(find_neighbours(sides, triangles.rows()), triangles, result);
   for (Side& side : sides) {
-    if (result.turned[side.triangle]) side.forward = !side.forward;
+    if (result.flipped[side.triangle]) side.forward = !side.forward;
   }
-  SidePairs pairs(points, triangles, pieces);
+  EdgePairs pairs(points, triangles, pieces);
   std::vector<Side> single;
   for_each_edge(sides, [&](std::span<const Side> edge) {
     pairs.pair(edge);

@@ -30,10 +30,10 @@ void for_each_edge(const std::vector<Side>& sides, const Visit& visit) {
 
 /// Finds the partners of sides of oriented triangles: two sides that run in opposite directions. Where more than two
 /// meet in an edge, those pair that have matter between them, first within each of the pieces given.
-class SidePairs {
+class EdgePairs {
  public:
   /// `pieces`: for each triangle a number of the piece that it hangs together with by edges of two triangles.
-  SidePairs(const Points& points, const Triangles& triangles, const std::vector<int>& pieces);
+  EdgePairs(const Points& points, const Triangles& triangles, const std::vector<int>& pieces);
 
   /// `edge`: all sides of one edge.
   void pair(std::span<const Side> edge);
@@ -58,7 +58,7 @@ class SidePairs {
 
 /// A piece of surface whose triangles hang together by their edges, all turned the same way round: the way that most
 /// of its triangles were given.
-struct Shell {
+struct SurfaceComponent {
   std::vector<int> triangles;  // rows of the triangles given, ascending
   double volume = 0;           // signed; negative where the shell was given inside out; of no meaning while it is open
   Vec3 low = Vec3::Zero();
@@ -81,19 +81,19 @@ struct OpenSide {
   int shell;
 };
 
-struct Shells {
-  std::vector<Shell> shells;
+struct SurfaceComponents {
+  std::vector<SurfaceComponent> shells;
   EdgeFaults faults;
   std::vector<OpenSide> open;
-  std::vector<bool> turned;  // for each triangle, whether it was turned over to agree with its neighbours
+  std::vector<bool> flipped;  // for each triangle, whether it was turned over to agree with its neighbours
 };
 
 /// Splits welded triangles into shells and turns them to agree; changes the order of corners of those it turns. Where
 /// more than two triangles meet in an edge, those pair that have matter between them, so that bodies that touch there
 /// come apart.
-[[nodiscard]] Shells find_shells(const Points& points, Triangles& triangles);
+[[nodiscard]] SurfaceComponents find_shells(const Points& points, Triangles& triangles);
 
 /// Sets volume and bounds from the shell's triangles.
-void measure(const Points& points, const Triangles& triangles, Shell& shell);
+void measure(const Points& points, const Triangles& triangles, SurfaceComponent& shell);
 
 }  // namespace sprung

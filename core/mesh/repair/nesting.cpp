@@ -31,7 +31,7 @@ class Containment {
   Containment(const Points& points, const Triangles& triangles) : points_(points), triangles_(triangles) {}
 
   /// True where most of three of the inner shell's corners, far apart in its list, lie inside the outer shell.
-  bool contains(const Shell& outer, const Shell& inner) {
+  bool contains(const SurfaceComponent& outer, const SurfaceComponent& inner) {
     if ((inner.low.array() < outer.low.array()).any() || (inner.high.array() > outer.high.array()).any()) return false;
     const WindingTree& tree = trees_.try_emplace(&outer, points_, triangles_, outer.triangles).first->second;
     int inside = 0;
@@ -43,44 +43,47 @@ class Containment {
   }
 
   /// In the outer shell and in none of its cavities.
-  bool is_in_matter(const Nest& nest, const Shell& inner) {
-    return contains(*nest.outer, inner) && std::none_of(nest.cavities.begin(), nest.cavities.end(),
-                                                        [&](const Shell* cavity) { return contains(*cavity, inner); });
+  bool is_in_matter(const NestedComponents& nest, const SurfaceComponent& inner) {
+    return contains(*nest.outer, inner) &&
+           std::none_of(nest.cavities.begin(), nest.cavities.end(),
+                        [&](const SurfaceComponent* cavity) { return contains(*cavity, inner); });
   }
 
  private:
   const Points& points_;
   const Triangles& triangles_;
-  std::map<const Shell*, WindingTree> trees_;
+  std::map<const SurfaceComponent*, WindingTree> trees_;
 };
 
 /// For each triangle the nest that it is of, or -1.
-std::vector<int> nest_of_triangles(const std::vector<Nest>& nests, Eigen::Index triangles) {
+std::vector<int> nest_of_triangles(const std::vector<NestedComponents>& nests, Eigen::Index triangles) {
   std::vector<int> number(triangles, -1);
-  const auto mark = [&](const Shell& shell, std::size_t nest) {
+  const auto mark = [&](const SurfaceComponent& shell, std::size_t nest) {
     for (const int t : shell.triangles) number[t] = int(nest);
   };
   for (std::size_t i = 0; i < nests.size(); ++i) {
     mark(*nests[i].outer, i);
-    for (const Shell* cavity : nests[i].cavities) mark(*cavity, i);
+    for (const SurfaceComponent* cavity : nests[i].cavities) mark(*cavity, i);
   }
   return number;
 }
 
 }  // namespace
 
-std::vector<Nest> nest_shells(const Points& points, const Triangles& triangles, const std::vector<Shell>& shells) {
-  std::vector<const Shell*> order;
+std::vector<NestedComponents> nest_shells(const Points& points, const Triangles& triangles,
+                                          const std::vector<SurfaceComponent>& shells) {
+  std::vector<const SurfaceComponent*> order;
   order.reserve(shells.size());
-  for (const Shell& shell : shells) order.push_back(&shell);
+  for (const SurfaceComponent& shell : shells) order.push_back(&shell);
   // So that whatever may hold a shell comes before it.
-  std::stable_sort(order.begin(), order.end(),
-                   [](const Shell* a, const Shell* b) { return std::abs(a->volume) > std::abs(b->volume); });
+  std::stable_sort(order.begin(), order.end(), [](const SurfaceComponent* a, const SurfaceComponent* b) {
+    return std::abs(a->volume) > std::abs(b->volume);
+  });
   Containment containment(points, triangles);
-  std::vector<Nest> nests;
-  for (const Shell* shell : order) {
+  std::vector<NestedComponents> nests;
+  for (const SurfaceComponent* shell : order) {
     // The smallest nest that holds it comes last.
-    const auto home = std::find_if(nests.rbegin(), nests.rend(), [&](const Nest& nest) {
+    const auto home = std::find_if(nests.rbegin(), nests.rend(), [&](const NestedComponents& nest) {
       return (nest.outer->volume < 0) != (shell->volume < 0) && containment.is_in_matter(nest, *shell);
     });
     if (home != nests.rend()) {
@@ -92,7 +95,8 @@ std::vector<Nest> nest_shells(const Points& points, const Triangles& triangles, 
   return nests;
 }
 
-std::vector<NestGroup> unite_nests(const Points& points, const Triangles& triangles, std::vector<Nest> nests,
+std::vector<NestGroup> unite_nests(const Points& points, const Triangles& triangles,
+                                   std::vector<NestedComponents> nests,
                                    const std::vector<std::array<int, 2>>& crossings) {
   DisjointSets sets(nests.size());
   const std::vector<int> number = nest_of_triangles(nests, triangles.rows());

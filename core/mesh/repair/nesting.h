@@ -16,24 +16,24 @@ namespace sprung {
 inline constexpr double kEncloses = 0.25;
 
 /// A shell that bounds matter from outside, with the cavities in it.
-struct Nest {
-  const Shell* outer;
-  std::vector<const Shell*> cavities;
+struct NestedComponents {
+  const SurfaceComponent* outer;
+  std::vector<const SurfaceComponent*> cavities;
   bool is_buried = false;  // it lies in the matter of another nest and adds nothing to it
 };
 
 /// The nests that are one solid.
-using NestGroup = std::vector<Nest>;
+using NestGroup = std::vector<NestedComponents>;
 
 /// Closed shells in their nests, from the largest to the smallest: a shell is a cavity of the smallest nest around it
 /// when it is turned the other way and in none of that nest's cavities.
-[[nodiscard]] std::vector<Nest> nest_shells(const Points& points, const Triangles& triangles,
-                                            const std::vector<Shell>& shells);
+[[nodiscard]] std::vector<NestedComponents> nest_shells(const Points& points, const Triangles& triangles,
+                                                        const std::vector<SurfaceComponent>& shells);
 
 /// Groups the nests that cross (pairs of rows of `triangles`) or of which one lies in the matter of the other, and
 /// marks those that do.
 [[nodiscard]] std::vector<NestGroup> unite_nests(const Points& points, const Triangles& triangles,
-                                                 std::vector<Nest> nests,
+                                                 std::vector<NestedComponents> nests,
                                                  const std::vector<std::array<int, 2>>& crossings);
 
 }  // namespace sprung

@@ -26,14 +26,14 @@ constexpr double kDebris = 0.01;
 
 constexpr const char* kAdvice = "ask for a shell with --thickness 3mm";
 
-bool has_volume(const WeldedMesh& mesh, const Shell& shell) {
+bool has_volume(const WeldedMesh& mesh, const SurfaceComponent& shell) {
   return std::abs(shell.volume) > kNoVolume * given_area(mesh, shell.triangles) * (shell.high - shell.low).norm();
 }
 
 /// Takes one mesh through all repairs to its solids.
-class Mender {
+class MeshRepairer {
  public:
-  Mender(const SurfaceMesh& mesh, const std::string& name, const SolidOptions& options)
+  MeshRepairer(const SurfaceMesh& mesh, const std::string& name, const SolidOptions& options)
       : name_(name), options_(options), mesh_(weld(mesh)) {}
 
   Solids solids() {
@@ -78,11 +78,11 @@ class Mender {
     }
   }
 
-  /// Shells with their triangles turned to agree.
+  /// SurfaceComponents with their triangles turned to agree.
   void find_oriented_shells() {
     shells_ = find_shells(mesh_.points, mesh_.triangles);
-    for (std::size_t t = 0; t < shells_.turned.size(); ++t) {
-      if (shells_.turned[t]) mesh_.turned[t] = !mesh_.turned[t];
+    for (std::size_t t = 0; t < shells_.flipped.size(); ++t) {
+      if (shells_.flipped[t]) mesh_.flipped[t] = !mesh_.flipped[t];
     }
   }
 
@@ -90,16 +90,16 @@ class Mender {
     find_oriented_shells();
     if (options_.repair == RepairMode::kOff) refuse_undecided();
     faults_ = shells_.faults;
-    if (!shells_.open.empty()) stitch_rims();
+    if (!shells_.open.empty()) stitch_boundaries();
     add("non_manifold_split", faults_.non_manifold,
         "cut the surface apart at " + count_of(faults_.non_manifold, "edge") +
             " with more than two triangles (non-manifold)");
-    const auto turned = std::count(mesh_.turned.begin(), mesh_.turned.end(), true);
-    add("oriented", turned, "turned " + count_of(turned, "triangle") + " to agree with their neighbours");
+    const auto flipped = std::count(mesh_.flipped.begin(), mesh_.flipped.end(), true);
+    add("oriented", flipped, "turned " + count_of(flipped, "triangle") + " to agree with their neighbours");
     const std::vector<bool> encloses = close_holes();
-    const double whole =
-        std::accumulate(shells_.shells.begin(), shells_.shells.end(), 0.0,
-                        [&](double sum, const Shell& shell) { return sum + given_area(mesh_, shell.triangles); });
+    const double whole = std::accumulate(
+        shells_.shells.begin(), shells_.shells.end(), 0.0,
+        [&](double sum, const SurfaceComponent& shell) { return sum + given_area(mesh_, shell.triangles); });
     if (drop_empty(encloses) < 0.5 * whole && take_as_soup()) return;
     if (shells_.shells.empty()) refuse_empty();
     add("dropped_flat", dropped_, "dropped " + count_of(dropped_, "piece") + " of the surface without volume");
@@ -116,15 +116,15 @@ class Mender {
       if (count > 0) found += (found.empty() ? "" : ", ") + text;
     };
     const EdgeFaults& faults = shells_.faults;
-    const auto turned = std::count(mesh_.turned.begin(), mesh_.turned.end(), true);
+    const auto flipped = std::count(mesh_.flipped.begin(), mesh_.flipped.end(), true);
     note(faults.open, fmt::format("{} in {}", count_of(faults.open, "open edge"), count_of(faults.loops, "loop")));
     note(faults.one_sided, count_of(faults.one_sided, "edge") + " where inside meets outside (one-sided surface)");
-    note(turned, count_of(turned, "triangle") + " turned against their neighbours");
+    note(flipped, count_of(flipped, "triangle") + " turned against their neighbours");
     if (found.empty() && !shells_.open.empty()) found = count_of(faults.non_manifold, "edge") + " (non-manifold)";
     if (!found.empty()) refuse(fmt::format("the surface does not enclose a solid: {}; use --repair auto", found));
   }
 
-  void stitch_rims() {
+  void stitch_boundaries() {
     const int stitched = stitch(shells_.open, mesh_);
     if (stitched == 0) return;
     add("stitched", stitched, "stitched " + count_of(stitched, "point") + " of rims that almost meet");
@@ -161,9 +161,9 @@ class Mender {
       largest = std::max(largest, std::abs(shells_.shells[i].volume));
       enclosing += given_area(mesh_, shells_.shells[i].triangles);
     }
-    std::vector<Shell> kept;
+    std::vector<SurfaceComponent> kept;
     for (std::size_t i = 0; i < encloses.size(); ++i) {
-      Shell& shell = shells_.shells[i];
+      SurfaceComponent& shell = shells_.shells[i];
       if (encloses[i] || (largest > 0 && std::abs(shell.volume) > kDebris * largest)) kept.push_back(std::move(shell));
     }
     dropped_ = int(shells_.shells.size() - kept.size());
@@ -178,7 +178,7 @@ class Mender {
       if (mesh_.source[t] >= 0) rows.push_back(t);
     }
     if (dropped_ < 2 || enclosure(mesh_.points, mesh_.triangles, rows) < kEncloses) return false;
-    Shell all;
+    SurfaceComponent all;
     all.triangles = rows;
     measure(mesh_.points, mesh_.triangles, all);
     if (!has_volume(mesh_, all)) return false;
@@ -226,7 +226,7 @@ class Mender {
     }
     const double thickness = options_.thickness;
     for (std::size_t i = 0; i < rims.size(); ++i) {
-      Shell& shell = shells_.shells[i];
+      SurfaceComponent& shell = shells_.shells[i];
       shell.volume =
           given_area(mesh_, shell.triangles) * thickness + rims[i] * std::numbers::pi / 8 * thickness * thickness;
       if (!(shell.volume > 0)) continue;
@@ -242,7 +242,7 @@ class Mender {
   const std::string& name_;
   const SolidOptions& options_;
   WeldedMesh mesh_;
-  Shells shells_;
+  SurfaceComponents shells_;
   EdgeFaults faults_;  // before stitching
   int dropped_ = 0;    // shells
   Solids result_;
@@ -251,7 +251,7 @@ class Mender {
 }  // namespace
 
 Solids find_solids(const SurfaceMesh& mesh, const std::string& name, const SolidOptions& options) {
-  return Mender(mesh, name, options).solids();
+  return MeshRepairer(mesh, name, options).solids();
 }
 
 }  // namespace sprung

@@ -36,7 +36,7 @@ std::vector<int> vertices_of_points(const SurfaceMesh& mesh, const Solid& solid)
     const int row = solid.source[t];
     if (row < 0) continue;
     for (int k = 0; k < 3; ++k) {
-      const int corner = solid.turned[t] ? (3 - k) % 3 : k;
+      const int corner = solid.flipped[t] ? (3 - k) % 3 : k;
       vertices[solid.triangles(t, k)] = mesh.triangles(row, corner);
     }
   }
@@ -141,7 +141,7 @@ SurfaceMesh submesh(const SurfaceMesh& mesh, const Solid& solid) {
   part.triangles = mesh.triangles(rows, Eigen::all);
   for (std::size_t i = 0; i < order.size(); ++i) {
     const Eigen::Index row = i;
-    if (solid.turned[order[i]]) std::swap(part.triangles(row, 1), part.triangles(row, 2));
+    if (solid.flipped[order[i]]) std::swap(part.triangles(row, 1), part.triangles(row, 2));
   }
   std::vector<int> new_vertex(mesh.positions.rows(), -1);
   std::vector<int> vertices;

@@ -123,7 +123,7 @@ WeldedMesh weld(const SurfaceMesh& mesh) {
     welded.source.push_back(source[t]);
   }
   set_rows(mesh.positions, kept, welded);
-  welded.turned.assign(kept.size(), false);
+  welded.flipped.assign(kept.size(), false);
   const int used = count_used(mesh);
   welded.unreferenced = int(mesh.positions.rows()) - used;
   if (welded.without_area + welded.repeated == 0) welded.joined = used - int(welded.points.rows());
@@ -194,12 +194,12 @@ int stitch(const std::vector<OpenSide>& open, WeldedMesh& mesh) {
     const auto row = mesh.triangles.row(kept);
     if (row[0] == row[1] || row[1] == row[2] || row[2] == row[0]) continue;
     mesh.source[kept] = mesh.source[t];
-    mesh.turned[kept] = mesh.turned[t];
+    mesh.flipped[kept] = mesh.flipped[t];
     ++kept;
   }
   mesh.triangles.conservativeResize(kept, 3);
   mesh.source.resize(kept);
-  mesh.turned.resize(kept);
+  mesh.flipped.resize(kept);
   return joined;
 }
 

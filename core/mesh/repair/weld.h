@@ -8,14 +8,14 @@ namespace sprung {
 
 /// The triangles of a mesh on points that are each there once.
 struct WeldedMesh {
-  Points points;             // p x 3, in the order of their first use
-  Triangles triangles;       // t x 3
-  std::vector<int> source;   // for each triangle, its row in SurfaceMesh::triangles; -1: it closes a hole
-  std::vector<bool> turned;  // for each triangle, whether it runs around the other way than in the mesh
-  int joined = 0;            // vertices of triangles less the points that they became
-  int unreferenced = 0;      // vertices that no triangle of the mesh uses
-  int without_area = 0;      // triangles left out because two of their corners fall together
-  int repeated = 0;          // triangles left out because others have the same three corners
+  Points points;              // p x 3, in the order of their first use
+  Triangles triangles;        // t x 3
+  std::vector<int> source;    // for each triangle, its row in SurfaceMesh::triangles; -1: it closes a hole
+  std::vector<bool> flipped;  // for each triangle, whether it runs around the other way than in the mesh
+  int joined = 0;             // vertices of triangles less the points that they became
+  int unreferenced = 0;       // vertices that no triangle of the mesh uses
+  int without_area = 0;       // triangles left out because two of their corners fall together
+  int repeated = 0;           // triangles left out because others have the same three corners
 };
 
 /// Joins vertices of exactly equal position and leaves out what then is no triangle. A sliver with three different

@@ -186,12 +186,12 @@ TEST(Body, FillScalesTheWholeLaw) {
 TEST(Body, TurnedHexahedraAnswerLikeUnturnedOnes) {
   std::mt19937 random(4);
   Body still = make_body(make_box_grid({2, 1, 1}, 0.1), Model::kFem, test_material(0.3));
-  Body turned = still;
+  Body flipped = still;
   const Mat3 turn = Eigen::AngleAxisd(0.7, Vec3(1, 2, -1).normalized()).toRotationMatrix();
-  place(turned, turn, Vec3(1, 0, 0));
+  place(flipped, turn, Vec3(1, 0, 0));
   shake(still, 0.01, random);
-  turned.positions += (still.positions - still.rest_positions) * turn.transpose();
-  EXPECT_NEAR(elastic_energy(turned) / elastic_energy(still), 1, 1e-9);
+  flipped.positions += (still.positions - still.rest_positions) * turn.transpose();
+  EXPECT_NEAR(elastic_energy(flipped) / elastic_energy(still), 1, 1e-9);
 }
 
 TEST(Body, CountsInvertedBricks) {

@@ -259,7 +259,7 @@ TEST(BrickTiles, FollowAChangeOfStiffness) {
   body.positions *= 1.1;
   const double energy = elastic_energy(body);
   for (double& scale : body.stiffness_scale) scale *= 3;
-  lay_tiles(body);
+  build_tiles(body);
   EXPECT_NEAR(elastic_energy(body) / energy, 3, 1e-12);
 }
 

@@ -90,7 +90,7 @@ TEST(ImplicitDamping, HeldNodesLead) {
   damping.pass(1e-3);
   damping.settle();
   EXPECT_GT(actor.body.velocities.col(0).sum(), before);
-  for (const HeldNode& held : actor.pinned) EXPECT_EQ(actor.body.velocities(held.node, 0), 0.01);
+  for (const KinematicNode& held : actor.pinned) EXPECT_EQ(actor.body.velocities(held.node, 0), 0.01);
   EXPECT_LE(actor.body.velocities.maxCoeff(), 0.0100001);
 }
 

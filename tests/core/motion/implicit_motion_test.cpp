@@ -148,9 +148,9 @@ TEST(Implicit, LongStepsEndInTheStaticEquilibrium) {
   pin_left_end(actor);
   Body still = actor.body;
   Supports supports(still.node_count());
-  for (const HeldNode& held : actor.pinned) supports.fix(held.node);
+  for (const KinematicNode& held : actor.pinned) supports.fix(held.node);
   const Points loads = still.masses * world.gravity.transpose();
-  const auto system = make_direct_system();
+  const auto system = make_direct_solver();
   const Points start = still.positions;
   solve_static(still, supports, loads, start, *system);
   ImplicitMotion(world, {.scheme = ImplicitScheme::kEuler, .tolerance = 1e-9}).advance(1, 12, 0);
@@ -162,13 +162,13 @@ TEST(Implicit, HandlesMoveAsTold) {
   World world = world_of(calibrated_box({4, 2, 2}, 0.02, 0.3));
   Actor& actor = world.actors[0];
   pin_left_end(actor);
-  for (HeldNode& held : actor.pinned) {
+  for (KinematicNode& held : actor.pinned) {
     held.velocity = {0.1, 0.2, 0};
     held.axes = {true, true, false};
   }
   const Points start = actor.body.positions;
   ImplicitMotion(world, {}).advance(0.01, 10, 0);
-  for (const HeldNode& held : actor.pinned) {
+  for (const KinematicNode& held : actor.pinned) {
     EXPECT_NEAR(actor.body.positions(held.node, 0), start(held.node, 0) + 0.01, 1e-12);
     EXPECT_NEAR(actor.body.positions(held.node, 1), start(held.node, 1) + 0.02, 1e-12);
   }
@@ -202,8 +202,8 @@ TEST(Implicit, ForcesBendABeamAsTheStaticsDo) {
   }
   Body still = actor.body;
   Supports supports(still.node_count());
-  for (const HeldNode& held : actor.pinned) supports.fix(held.node);
-  const auto system = make_direct_system();
+  for (const KinematicNode& held : actor.pinned) supports.fix(held.node);
+  const auto system = make_direct_solver();
   solve_static(still, supports, actor.loads.forces, Points(still.positions), *system);
   ImplicitMotion(world, {.scheme = ImplicitScheme::kEuler, .tolerance = 1e-9}).advance(1, 12, 0);
   const double way = (still.positions - still.rest_positions).norm();

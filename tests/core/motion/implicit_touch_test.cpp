@@ -31,7 +31,7 @@ double energy(const World& world) {
 }
 
 void run_by_explicit_steps(World& world, int frames) {
-  CarefulMotion motion(world, Scheme::kSymplecticEuler);
+  AdaptiveIntegrator motion(world, Scheme::kSymplecticEuler);
   for (int frame = 0; frame < frames; ++frame) {
     static_cast<void>(motion.advance_frame(
         frame * 0.02, 0.02, [](double) {}, [](const std::string& what) { ADD_FAILURE() << what; }));
@@ -111,11 +111,11 @@ TEST(ImplicitTouch, FastPlatesMeetInLongSteps) {
 /// The arms of a horseshoe stop at each other.
 TEST(ImplicitTouch, BodyDoesNotGoThroughItself) {
   const double h = 0.01;
-  const auto least_gap = [&](bool touches_itself) {
+  const auto least_gap = [&](bool collides_with_itself) {
     World world;
     world.gravity.setZero();
     world.actors.push_back(test::closing_horseshoe(h));
-    world.actors[0].touches_itself = touches_itself;
+    world.actors[0].collides_with_itself = collides_with_itself;
     ImplicitMotion motion(world, {});
     double least = std::numeric_limits<double>::infinity();
     for (int step = 0; step < 20; ++step) {

@@ -57,14 +57,14 @@ Problem cantilever(int n, double poisson) {
   return problem;
 }
 
-Eigen::VectorXd solve(NewtonSystem& system, const Problem& problem, double tolerance, bool definite = false) {
+Eigen::VectorXd solve(LinearSolver& system, const Problem& problem, double tolerance, bool definite = false) {
   EXPECT_TRUE(system.linearize(problem.body, problem.supports, definite, problem.terms));
   return system.solve(problem.forces, tolerance);
 }
 
 void expect_same(const Problem& problem, double error) {
-  const auto direct = make_direct_system();
-  const auto multigrid = make_multigrid_system();
+  const auto direct = make_direct_solver();
+  const auto multigrid = make_multigrid_solver();
   const Eigen::VectorXd right = solve(*direct, problem, 0);
   const Eigen::VectorXd found = solve(*multigrid, problem, 1e-11);
   ASSERT_EQ(found.size(), right.size());
@@ -96,7 +96,7 @@ TEST(Multigrid, EqualsTheDirectSolverFarFromRest) {
   for (const int corner : {1, 3, 5, 7}) {
     problem.body.positions(nodes[corner], 0) -= 0.8 * problem.body.grid.brick_size;
   }
-  const auto direct = make_direct_system();
+  const auto direct = make_direct_solver();
   if (!direct->linearize(problem.body, problem.supports, false, problem.terms)) problem.terms.mass_factor = 1e7;
   expect_same(problem, 1e-8);
 }
@@ -104,9 +104,9 @@ TEST(Multigrid, EqualsTheDirectSolverFarFromRest) {
 TEST(Multigrid, SaysThatAMatrixIsNotPositiveDefinite) {
   Problem problem = cantilever(16, 0.3);
   problem.body.positions.col(0) *= 0.5;  // pressed lengthwise: it would buckle
-  const auto direct = make_direct_system();
+  const auto direct = make_direct_solver();
   EXPECT_FALSE(direct->linearize(problem.body, problem.supports, false, problem.terms));
-  const auto multigrid = make_multigrid_system();
+  const auto multigrid = make_multigrid_solver();
   if (multigrid->linearize(problem.body, problem.supports, false, problem.terms)) {
     EXPECT_EQ(multigrid->solve(problem.forces, 1e-6).size(), 0);
     EXPECT_EQ(multigrid->report().indefinite, 1);
@@ -118,7 +118,7 @@ TEST(Multigrid, IterationsDoNotGrowWithTheBody) {
   for (const double poisson : {0.0, 0.3, 0.49}) {
     std::vector<long> iterations;
     for (const int n : {16, 32}) {
-      const auto multigrid = make_multigrid_system();
+      const auto multigrid = make_multigrid_solver();
       EXPECT_GT(solve(*multigrid, cantilever(n, poisson), 1e-6).size(), 0);
       iterations.push_back(multigrid->report().iterations);
     }
@@ -129,7 +129,7 @@ TEST(Multigrid, IterationsDoNotGrowWithTheBody) {
 
 TEST(Multigrid, ThinPartsAndTwoMaterialsTakeFewIterations) {
   const auto count = [](const Problem& problem) {
-    const auto multigrid = make_multigrid_system();
+    const auto multigrid = make_multigrid_solver();
     EXPECT_GT(solve(*multigrid, problem, 1e-6).size(), 0);
     return multigrid->report().iterations;
   };
@@ -151,7 +151,7 @@ TEST(Multigrid, SlenderBeamsTakeFewIterations) {
     for (int node = 0; node < problem.body.node_count(); ++node) {
       if (problem.body.grid.lattice[node].x() == 0) problem.supports.fix(node);
     }
-    const auto multigrid = make_multigrid_system();
+    const auto multigrid = make_multigrid_solver();
     EXPECT_GT(solve(*multigrid, problem, 1e-6).size(), 0);
     return multigrid->report().iterations;
   };
@@ -163,7 +163,7 @@ TEST(Multigrid, SameBitsForAnyNumberOfThreads) {
   const Problem problem(bracket(24));
   const auto run = [&](std::size_t threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    const auto multigrid = make_multigrid_system();
+    const auto multigrid = make_multigrid_solver();
     return solve(*multigrid, problem, 1e-6);
   };
   const Eigen::VectorXd one = run(1);

@@ -27,7 +27,7 @@ class SkinPotentialTest : public ::testing::Test {
     std::mt19937 random(7);
     for (Actor& actor : world_.actors) test::shake(actor.body, 0.05, random);
     for (std::size_t i = 0; i < 2; ++i) {
-      const std::size_t points = contact_skin_of(world_.actors[i]).points.size();
+      const std::size_t points = contact_surface_of(world_.actors[i]).points.size();
       pushed_in_[i].setConstant(points, 1);  // nothing to be forgiven
     }
     potential_.emplace(world_, group_, glue_, SkinPotential::Step{.dt = 0.01, .slip = 1e-5},

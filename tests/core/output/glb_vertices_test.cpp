@@ -38,9 +38,9 @@ Skin ball_of_points() {
 }
 
 /// What players make of a film: rows of its buffer, the later ones added to the first.
-class Player {
+class StageItem {
  public:
-  explicit Player(const AnimatedMesh& film) : vertices_(add_quantized(buffer_, film)), json_(buffer_.json()) {
+  explicit StageItem(const AnimatedMesh& film) : vertices_(add_quantized(buffer_, film)), json_(buffer_.json()) {
     count_ = film.first.positions.rows();
     std::sscanf(vertices_.placement.c_str(), ",\"translation\":[%f,%f,%f],\"scale\":[%f,", &origin_[0], &origin_[1],
                 &origin_[2], &scale_);
@@ -104,7 +104,7 @@ TEST(QuantizedGlb, KeepsPositionsWithinItsErrorAndNormalsWithinADegreeOrTwo) {
   for (const double degrees : {20.0, 180.0}) {
     SCOPED_TRACE(degrees);
     const AnimatedMesh film = turning_ball(ball, degrees);
-    const Player player(film);
+    const StageItem player(film);
     double way = 0.3;
     double error = 0;
     int float_frames = 0;

@@ -58,12 +58,12 @@ struct Reread {
   std::vector<std::vector<std::byte>> textures;
 };
 
-aiMatrix4x4 placement_of(const aiNode& node, unsigned mesh, const aiMatrix4x4& above, bool& is_found) {
+aiMatrix4x4 placement_of(const aiNode& node, unsigned mesh, const aiMatrix4x4& above, bool& has_converged) {
   const aiMatrix4x4 here = above * node.mTransformation;
-  is_found = std::find(node.mMeshes, node.mMeshes + node.mNumMeshes, mesh) != node.mMeshes + node.mNumMeshes;
-  for (unsigned i = 0; i < node.mNumChildren && !is_found; ++i) {
-    const aiMatrix4x4 below = placement_of(*node.mChildren[i], mesh, here, is_found);
-    if (is_found) return below;
+  has_converged = std::find(node.mMeshes, node.mMeshes + node.mNumMeshes, mesh) != node.mMeshes + node.mNumMeshes;
+  for (unsigned i = 0; i < node.mNumChildren && !has_converged; ++i) {
+    const aiMatrix4x4 below = placement_of(*node.mChildren[i], mesh, here, has_converged);
+    if (has_converged) return below;
   }
   return here;
 }
@@ -115,8 +115,8 @@ Reread reread(const std::filesystem::path& file) {
   for (unsigned i = 0; i < scene->mNumMeshes; ++i) {
     const aiMesh& mesh = *scene->mMeshes[i];
     read.names.emplace_back(mesh.mName.C_Str());
-    bool is_found = false;
-    const aiMatrix4x4 placement = placement_of(*scene->mRootNode, i, {}, is_found);
+    bool has_converged = false;
+    const aiMatrix4x4 placement = placement_of(*scene->mRootNode, i, {}, has_converged);
     for (unsigned t = 0; t < mesh.mNumFaces; ++t) {
       for (unsigned k = 0; k < 3; ++k) add_corner(mesh, mesh.mFaces[t].mIndices[k], placement, read);
     }

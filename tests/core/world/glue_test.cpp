@@ -43,8 +43,8 @@ TEST(Glue, HoldsWhereSkinsLieTogether) {
   world.glue = glue_between(world, 0, 1, 0.001);
   EXPECT_EQ(world.glue.size(), 25U);  // the nodes of the finer face
   EXPECT_LT(furthest_apart(world), 1e-12);
-  const std::vector<GluedPoint> turned = glue_between(world, 1, 0, 0.001);
-  EXPECT_EQ(turned.size(), world.glue.size());
+  const std::vector<GluedPoint> flipped = glue_between(world, 1, 0, 0.001);
+  EXPECT_EQ(flipped.size(), world.glue.size());
 }
 
 /// One is drawn away: the other follows, they stay together, and what they do to each other cancels.
@@ -57,7 +57,7 @@ TEST(Glue, KeepsTogetherWhatIsDrawnApart) {
     return Vec3(linear_momentum(world.actors[0].body) + linear_momentum(world.actors[1].body));
   };
   const Vec3 before = momentum();
-  CarefulMotion motion(world, Scheme::kSymplecticEuler);
+  AdaptiveIntegrator motion(world, Scheme::kSymplecticEuler);
   for (int frame = 0; frame < 20; ++frame) {
     static_cast<void>(motion.advance_frame(
         frame * 0.01, 0.01, [](double) {}, [](const std::string& message) { ADD_FAILURE() << message; }));

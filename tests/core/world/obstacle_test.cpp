@@ -34,15 +34,15 @@ TEST(Obstacle, GapIsASignedDistance) {
   for (const Shape& shape : all_shapes()) {
     for (int i = 0; i < 200; ++i) {
       const Vec3 place(range(random), range(random), range(random));
-      const Gap gap = gap_to(shape, pose, place);
+      const Gap gap = signed_distance(shape, pose, place);
       EXPECT_NEAR(gap.normal.norm(), 1, 1e-12) << shape.index();
       const double h = 1e-7;
-      const Gap ahead = gap_to(shape, pose, place + h * gap.normal);
+      const Gap ahead = signed_distance(shape, pose, place + h * gap.normal);
       const bool is_at_ridge = gap.distance < 0 && ahead.normal.dot(gap.normal) < 0.999;
       if (!is_at_ridge) {
         EXPECT_NEAR(ahead.distance - gap.distance, h, 1e-2 * h) << shape.index();
       }
-      EXPECT_NEAR(gap_to(shape, pose, place - gap.distance * gap.normal).distance, 0, 1e-9) << shape.index();
+      EXPECT_NEAR(signed_distance(shape, pose, place - gap.distance * gap.normal).distance, 0, 1e-9) << shape.index();
     }
   }
 }
@@ -56,14 +56,15 @@ TEST(Obstacle, MeshBoxIsTheBox) {
   std::uniform_real_distribution<double> range(-0.2, 0.8);
   for (int i = 0; i < 300; ++i) {
     const Vec3 place(range(random), range(random), range(random));
-    EXPECT_NEAR(gap_to(as_mesh, {}, place).distance, gap_to(as_box, {Mat3::Identity(), middle}, place).distance, 1e-12);
+    EXPECT_NEAR(signed_distance(as_mesh, {}, place).distance,
+                signed_distance(as_box, {Mat3::Identity(), middle}, place).distance, 1e-12);
   }
 }
 
 Vec3 centre_of(const Body& body) { return body.positions.transpose() * body.masses / body.masses.sum(); }
 
 void run(World& world, double duration, double fps) {
-  CarefulMotion motion(world, Scheme::kSymplecticEuler);
+  AdaptiveIntegrator motion(world, Scheme::kSymplecticEuler);
   const long frames = std::lround(duration * fps);
   for (long frame = 0; frame < frames; ++frame) {
     static_cast<void>(motion.advance_frame(
@@ -118,10 +119,10 @@ TEST(Obstacle, SquashedCubeComesBack) {
   plate.velocity.y() = -0.1;
   run(world, 0.27, 100);
   EXPECT_NEAR(body.positions.col(1).maxCoeff(), 0.0535, 0.0005);
-  EXPECT_LT(deepest_overlap(world), 0.0005);
+  EXPECT_LT(deepest_penetration(world), 0.0005);
   plate.velocity.y() = 0.5;
   run(world, 0.01, 100);
-  EXPECT_LT(deepest_overlap(world), 0.0005);
+  EXPECT_LT(deepest_penetration(world), 0.0005);
   run(world, 0.09, 100);
   plate.velocity.setZero();
   run(world, 1, 100);
@@ -146,8 +147,8 @@ TEST(Obstacle, TurningCylinderCarriesABodyAround) {
   table.spin.y() = 1;
   run(world, 1.5, 50);
   const Vec3 end = centre_of(body);
-  const double turned = std::atan2(-end.z(), end.x()) - std::atan2(-start.z(), start.x());
-  EXPECT_NEAR(turned, 1.5, 0.05);
+  const double flipped = std::atan2(-end.z(), end.x()) - std::atan2(-start.z(), start.x());
+  EXPECT_NEAR(flipped, 1.5, 0.05);
 }
 
 /// Soft and at rest it takes long steps; a few of them are a fall through most of a brick. It is found as it lands.
@@ -159,7 +160,7 @@ TEST(Obstacle, WhatBeginsToFallIsFoundInTime) {
   world.obstacles = {level_ground(0)};
   world.actors.push_back(touching_box({4, 4, 5}, h, soft, Vec3(0, 0.4 * h, 0)));
   run(world, 0.075, 1 / 0.075);
-  EXPECT_LT(deepest_overlap(world), 0.01 * h);
+  EXPECT_LT(deepest_penetration(world), 0.01 * h);
 }
 
 /// Two points near one corner of a brick press alike: held by turns only, both would sink in.
@@ -177,7 +178,7 @@ TEST(Obstacle, PointsThatShareACornerAreBothHeld) {
   actor.contact_triangles.resize(0, 3);
   for (int tenth = 1; tenth <= 4; ++tenth) {
     run(world, 0.1, 10);
-    EXPECT_LT(deepest_overlap(world), 0.04 * h) << tenth;
+    EXPECT_LT(deepest_penetration(world), 0.04 * h) << tenth;
   }
 }
 

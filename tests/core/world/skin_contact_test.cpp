@@ -44,7 +44,7 @@ Vec3 centre_of(const Actor& actor) {
 }
 
 void run(World& world, double duration, double fps = 50) {
-  CarefulMotion motion(world, Scheme::kSymplecticEuler);
+  AdaptiveIntegrator motion(world, Scheme::kSymplecticEuler);
   const long frames = std::lround(duration * fps);
   for (long frame = 0; frame < frames; ++frame) {
     static_cast<void>(motion.advance_frame(
@@ -100,11 +100,11 @@ TEST(SkinContact, StackComesToRest) {
 /// The arms stop at each other.
 TEST(SkinContact, BodyDoesNotGoThroughItself) {
   const double h = 0.01;
-  const auto least_gap = [&](bool touches_itself) {
+  const auto least_gap = [&](bool collides_with_itself) {
     World world;
     world.gravity.setZero();
     world.actors.push_back(closing_horseshoe(h));
-    world.actors[0].touches_itself = touches_itself;
+    world.actors[0].collides_with_itself = collides_with_itself;
     double least = std::numeric_limits<double>::infinity();
     for (int frame = 0; frame < 20; ++frame) {
       run(world, 0.005, 200);
@@ -125,7 +125,7 @@ TEST(SkinContact, HeapOfPressedBricksGivesNoEnergy) {
   Actor& actor = world.actors[0];
   actor.body.velocities.col(0) *= 0.2;
   actor.body.damping.beta = 2e-3;
-  brace(actor.body, world.gravity.norm(), meeting_speed(world));
+  stiffen_volume_guard(actor.body, world.gravity.norm(), impact_speed(world));
   double before = energy(world);
   for (int frame = 0; frame < 40; ++frame) {
     run(world, 0.7, 1 / 0.7);

@@ -26,8 +26,8 @@ TEST(Motion, CollapsingBodyKeepsNoBrickInverted) {
                            {0, -9.81, 0});
     world.obstacles = {level_ground(0)};
     world.actors[0].body.damping.beta = 0.01;
-    brace(world.actors[0].body, 9.81, meeting_speed(world));
-    CarefulMotion motion(world, Scheme::kSymplecticEuler);
+    stiffen_volume_guard(world.actors[0].body, 9.81, impact_speed(world));
+    AdaptiveIntegrator motion(world, Scheme::kSymplecticEuler);
     for (int frame = 0; frame < 30; ++frame) {
       static_cast<void>(motion.advance_frame(
           frame * 0.04, 0.04, [](double) {}, [](const std::string&) {}));
@@ -39,7 +39,7 @@ TEST(Motion, CollapsingBodyKeepsNoBrickInverted) {
 
 /// A wall is struck by what is far too heavy and fast for it: its bricks are crushed and come back, and none of that
 /// gives energy.
-TEST(Squeeze, CrushedBricksGiveNoEnergy) {
+TEST(InversionRate, CrushedBricksGiveNoEnergy) {
   Material soft = test_material(0.3, 5e3);
   soft.density = 500;
   Material heavy = test_material(0.3, 3e5);
@@ -55,12 +55,12 @@ TEST(Squeeze, CrushedBricksGiveNoEnergy) {
   world.actors[1].body.velocities.col(0).setConstant(10);
   for (Actor& actor : world.actors) {
     actor.body.damping = {};
-    brace(actor.body, 0, meeting_speed(world));
+    stiffen_volume_guard(actor.body, 0, impact_speed(world));
   }
   const auto energy = [&] {
     return energy_of(wall.body, world.gravity).sum() + energy_of(world.actors[1].body, world.gravity).sum();
   };
-  CarefulMotion motion(world, Scheme::kSymplecticEuler);
+  AdaptiveIntegrator motion(world, Scheme::kSymplecticEuler);
   double before = energy();
   for (int frame = 0; frame < 6; ++frame) {
     static_cast<void>(motion.advance_frame(
@@ -72,7 +72,7 @@ TEST(Squeeze, CrushedBricksGiveNoEnergy) {
 
 /// One face turned against the opposite one by more than a right angle: the corners may be in order, but between the
 /// mean axes no volume is left.
-TEST(Squeeze, BrickTurnedOverBetweenItsCornersIsFound) {
+TEST(InversionRate, BrickTurnedOverBetweenItsCornersIsFound) {
   World world = world_of(box_body({1, 1, 1}, 0.02, Model::kCalibrated, 0.3));
   Body& body = world.actors[0].body;
   const auto& nodes = body.grid.nodes[0];
@@ -80,16 +80,16 @@ TEST(Squeeze, BrickTurnedOverBetweenItsCornersIsFound) {
     const double turn = (corner & 4) != 0 ? 2.6 : 0;  // rad, of the high face about z
     const Vec3 middle(0.01, 0.01, 0);
     const Vec3 place = body.positions.row(nodes[corner]);
-    const Vec3 turned = middle + Eigen::AngleAxisd(turn, Vec3::UnitZ()) * (place - middle);
-    body.positions.row(nodes[corner]) = turned.transpose();
+    const Vec3 flipped = middle + Eigen::AngleAxisd(turn, Vec3::UnitZ()) * (place - middle);
+    body.positions.row(nodes[corner]) = flipped.transpose();
   }
-  SqueezeWatch watch;
-  const std::vector<Squeeze>& found = watch.find(body, 1e-5);
-  EXPECT_TRUE(
-      std::any_of(found.begin(), found.end(), [](const Squeeze& one) { return one.corner == Squeeze::kMeanAxes; }));
+  InversionGuard watch;
+  const std::vector<InversionRate>& found = watch.find(body, 1e-5);
+  EXPECT_TRUE(std::any_of(found.begin(), found.end(),
+                          [](const InversionRate& one) { return one.corner == InversionRate::kMeanAxes; }));
 
   const Vec3 momentum = linear_momentum(body);
-  Impulses impulses({&world.actors[0]}, {body.masses.cwiseInverse()});
+  ContactSolver impulses({&world.actors[0]}, {body.masses.cwiseInverse()});
   impulses.apply(world, 0, 1e-5);
   EXPECT_LT((linear_momentum(body) - momentum).norm(), 1e-12);
   EXPECT_LT(angular_momentum(body).norm(), 1e-12);
