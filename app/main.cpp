@@ -5,17 +5,16 @@
 #include <new>
 #include <span>
 
-#include "app/animate.h"
-#include "app/cache/render_cache.h"
-#include "app/command_line.h"
-#include "app/export/export_run.h"
-#include "app/farm/film.h"
-#include "app/farm/sweep.h"
-#include "app/inspect/inspect.h"
-#include "app/interrupt.h"
-#include "app/materials/list_materials.h"
-#include "app/run_simulation.h"
-#include "app/standard_files.h"
+#include "app/commands/animate.h"
+#include "app/commands/command_line.h"
+#include "app/commands/export.h"
+#include "app/commands/film.h"
+#include "app/commands/inspect.h"
+#include "app/commands/materials.h"
+#include "app/commands/render.h"
+#include "app/commands/simulate.h"
+#include "app/commands/sweep.h"
+#include "app/console/interrupt.h"
 #include "core/error.h"
 
 namespace sprung {

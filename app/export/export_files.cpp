@@ -4,19 +4,20 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
 
-#include "app/cache/cached_run.h"
-#include "app/export/posed_meshes.h"
+#include "app/console/console.h"
+#include "app/console/interrupt.h"
 #include "app/export/viewer.h"
+#include "app/film/drawn_shapes.h"
 #include "app/film/film_cameras.h"
-#include "app/interrupt.h"
-#include "app/progress.h"
-#include "app/report/whole_file.h"
 #include "core/error.h"
 #include "core/io/animated_glb.h"
+#include "core/io/files.h"
 #include "core/io/mesh_export.h"
 #include "core/io/point_cache.h"
 #include "core/io/xdmf.h"
+#include "core/simulation/run_cache.h"
 #include "core/text.h"
 
 namespace sprung {
@@ -34,7 +35,7 @@ constexpr std::string_view kExamples =
   throw Error(ErrorKind::kUsage, fmt::format("--output {}: {}; {}", words, reason, kExamples));
 }
 
-std::size_t mesh_count(const Scene& scene) {
+std::size_t mesh_count(const Film& scene) {
   std::size_t count = 0;
   for (const SceneBody& body : scene.bodies) count += std::size_t(copy_count(body));
   return count;
@@ -48,17 +49,18 @@ fs::path file_of_mesh(const fs::path& file, std::size_t mesh, std::size_t count)
 
 /// Calls visit(row, meshes) for every `stride`th frame of a range.
 template <class Visit>
-void each_frame(const Film& film, const FrameRange& range, int stride, const Visit& visit) {
+void each_frame(const CachedFilmView& view, const FrameRange& range, int stride, const Visit& visit) {
   for (int frame = range.first; frame <= range.last; frame += stride) {
     stop_if_interrupted();
-    visit(frame, posed_meshes(film.production, film.scene, film.cache.positions(frame - 1)));
+    visit(frame, posed_meshes(view.production, view.film, view.cache.positions(frame - 1)));
   }
 }
 
-double time_at(const Film& film, int frame) { return (frame - 1) / film.scene.fps; }
+double time_at(const CachedFilmView& view, int frame) { return (frame - 1) / view.film.fps; }
 
-void export_numbered(const ExportTarget& target, const Film& film, const FrameRange& range, const Console& console) {
-  each_frame(film, range, 1, [&](int frame, const std::vector<PosedMesh>& meshes) {
+void export_numbered(const ExportTarget& target, const CachedFilmView& view, const FrameRange& range,
+                     const Console& console) {
+  each_frame(view, range, 1, [&](int frame, const std::vector<PosedMesh>& meshes) {
     const fs::path file = target.numbered ? target.numbered->file(frame) : target.file;
     const std::string lost = frame == range.first ? lost_in(*find_mesh_format(file), meshes) : "";
     if (!lost.empty()) console.warn(fmt::format("{} files do not keep: {}", file.extension().string(), lost));
@@ -66,7 +68,8 @@ void export_numbered(const ExportTarget& target, const Film& film, const FrameRa
   });
 }
 
-void export_animation(const ExportTarget& target, const Film& film, const FrameRange& range, const Console& console) {
+void export_animation(const ExportTarget& target, const CachedFilmView& view, const FrameRange& range,
+                      const Console& console) {
   const int stride = (range.count() - 2) / int(kMostTargets) + 1;
   if (stride > 1) {
     console.warn(
@@ -76,8 +79,8 @@ void export_animation(const ExportTarget& target, const Film& film, const FrameR
   }
   std::vector<AnimatedMesh> animated;
   std::vector<double> times;
-  each_frame(film, range, stride, [&](int frame, std::vector<PosedMesh> meshes) {
-    times.push_back(time_at(film, frame));
+  each_frame(view, range, stride, [&](int frame, std::vector<PosedMesh> meshes) {
+    times.push_back(time_at(view, frame));
     for (std::size_t i = 0; i < meshes.size(); ++i) {
       if (animated.size() == i) animated.push_back({.first = meshes[i], .positions = {}, .normals = {}});
       animated[i].positions.emplace_back(meshes[i].positions.cast<float>());
@@ -91,20 +94,20 @@ void export_animation(const ExportTarget& target, const Film& film, const FrameR
   }
 }
 
-void export_page(const ExportTarget& target, const Film& film, const FrameRange& range) {
+void export_page(const ExportTarget& target, const CachedFilmView& view, const FrameRange& range) {
   ViewerFilm viewer;
-  each_frame(film, range, 1, [&](int, const std::vector<PosedMesh>& meshes) { viewer.add_frame(meshes); });
-  const Reach reach = reach_of(film.production, cached_recording(film.cache));
-  const Camera camera = cameras_of(film.scene, reach, 0).at(range.first - 1);
-  const auto [width, height] = film.scene.render.resolution;
-  write_whole_file(target.file, viewer.page(film.scene.fps, camera, double(width) / height));
+  each_frame(view, range, 1, [&](int, const std::vector<PosedMesh>& meshes) { viewer.add_frame(meshes); });
+  const Reach reach = reach_of(view.production, cached_recording(view.cache));
+  const Camera camera = cameras_of(view.film, reach, 0).at(range.first - 1);
+  const auto [width, height] = view.film.render.resolution;
+  write_whole_file(target.file, viewer.page(view.film.fps, camera, double(width) / height));
 }
 
-void export_points(const ExportTarget& target, const Film& film, const FrameRange& range) {
-  std::vector<std::vector<Floats3>> points(mesh_count(film.scene));
+void export_points(const ExportTarget& target, const CachedFilmView& view, const FrameRange& range) {
+  std::vector<std::vector<Floats3>> points(mesh_count(view.film));
   std::vector<double> times;
-  each_frame(film, range, 1, [&](int frame, const std::vector<PosedMesh>& meshes) {
-    times.push_back(time_at(film, frame));
+  each_frame(view, range, 1, [&](int frame, const std::vector<PosedMesh>& meshes) {
+    times.push_back(time_at(view, frame));
     for (std::size_t i = 0; i < meshes.size(); ++i) points[i].emplace_back(meshes[i].positions.cast<float>());
   });
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -117,20 +120,20 @@ void export_points(const ExportTarget& target, const Film& film, const FrameRang
   }
 }
 
-void export_xdmf(const ExportTarget& target, const Film& film, const FrameRange& range) {
-  XdmfWriter writer(target.file, film.production.world);
-  for (std::size_t actor = 0; actor < film.production.skins.size(); ++actor) {
-    writer.add_actor(film.production.origins[actor].regions, film.production.skins[actor].skin.triangles);
+void export_xdmf(const ExportTarget& target, const CachedFilmView& view, const FrameRange& range) {
+  XdmfWriter writer(target.file, view.production.world);
+  for (std::size_t actor = 0; actor < view.production.skins.size(); ++actor) {
+    writer.add_actor(view.production.origins[actor].regions, view.production.skins[actor].skin.triangles);
   }
   for (int frame = range.first; frame <= range.last; ++frame) {
     stop_if_interrupted();
     const std::size_t row = frame - 1;
-    const std::vector<Points> nodes = film.cache.positions(row);
+    const std::vector<Points> nodes = view.cache.positions(row);
     std::vector<Points> skins;
     for (std::size_t actor = 0; actor < nodes.size(); ++actor) {
-      skins.push_back(skin_positions(film.production, actor, nodes[actor]));
+      skins.push_back(skin_positions(view.production, actor, nodes[actor]));
     }
-    writer.add_frame(film.cache.frame(row).progress, nodes, film.cache.velocities(row), skins);
+    writer.add_frame(view.cache.frame(row).progress, nodes, view.cache.velocities(row), skins);
   }
   writer.close();
 }
@@ -156,7 +159,7 @@ ExportTarget parse_export_target(std::string_view words) {
   refuse(words, fmt::format("'{}' files cannot be written{}", ending, did_you_mean(ending, known)));
 }
 
-std::vector<fs::path> files_of(const ExportTarget& target, const Scene& scene, const FrameRange& range) {
+std::vector<fs::path> files_of(const ExportTarget& target, const Film& scene, const FrameRange& range) {
   std::vector<fs::path> files;
   if (target.kind == Kind::kMeshes && target.numbered) {
     for (int frame = range.first; frame <= range.last; ++frame) files.push_back(target.numbered->file(frame));
@@ -172,28 +175,76 @@ std::vector<fs::path> files_of(const ExportTarget& target, const Scene& scene, c
   return files;
 }
 
-void export_files(const ExportTarget& target, const Film& film, const FrameRange& range, const Console& console) {
+void export_files(const ExportTarget& target, const CachedFilmView& view, const FrameRange& range,
+                  const Console& console) {
   Progress progress(console, "export");
   switch (target.kind) {
     case Kind::kMeshes:
-      export_numbered(target, film, range, console);
+      export_numbered(target, view, range, console);
       break;
     case Kind::kAnimation:
-      export_animation(target, film, range, console);
+      export_animation(target, view, range, console);
       break;
     case Kind::kPage:
-      export_page(target, film, range);
+      export_page(target, view, range);
       break;
     case Kind::kPc2:
     case Kind::kMdd:
-      export_points(target, film, range);
+      export_points(target, view, range);
       break;
     case Kind::kXdmf:
-      export_xdmf(target, film, range);
+      export_xdmf(target, view, range);
       break;
   }
   const std::string name = target.numbered ? target.numbered->file(range.first).string() : target.file.string();
   progress.finish(fmt::format("{} to {}", count_of(range.count(), "frame"), name));
+}
+
+namespace {
+
+/// A body of the scene, or one of its copies.
+using BodyCopy = std::pair<std::size_t, int>;
+
+std::string name_of(const Film& scene, const BodyCopy& which) {
+  const SceneBody& body = scene.bodies[which.first];
+  std::string name = body.mesh.empty() ? std::string("body") : body.mesh.stem().string();
+  if (scene.bodies.size() > 1) name += fmt::format("_{}", which.first + 1);
+  if (copy_count(body) > 1) name += fmt::format("_{}", which.second + 1);
+  return name;
+}
+
+PosedMesh empty_mesh(const Production& production, const Film& scene, const BodyCopy& which, const Color& color) {
+  const Skin& rest = production.meshes[which.first];
+  PosedMesh mesh;
+  mesh.name = name_of(scene, which);
+  mesh.rest = &rest;
+  mesh.color = srgb(color);
+  mesh.positions.setZero(rest.positions.rows(), 3);
+  mesh.normals.setZero(rest.normals.rows(), 3);
+  return mesh;
+}
+
+}  // namespace
+
+std::vector<PosedMesh> posed_meshes(const Production& production, const Film& scene, const std::vector<Points>& nodes) {
+  std::map<BodyCopy, PosedMesh> meshes;
+  for (std::size_t actor = 0; actor < nodes.size(); ++actor) {
+    const BodyCopy which{production.origins[actor].body, production.origins[actor].copy};
+    if (!meshes.contains(which)) meshes[which] = empty_mesh(production, scene, which, production.skins[actor].color);
+    PosedMesh& mesh = meshes[which];
+    const CarriedVertices& carried = production.carried[actor];
+    const BrickGrid& grid = production.world.actors[actor].body.grid;
+    const Points& positions = nodes[actor];
+    mesh.positions(carried.vertices, Eigen::all) = deform_points(grid, carried.embedding, positions);
+    if (mesh.normals.rows() == 0) continue;
+    const Points rest = mesh.rest->normals(carried.vertices, Eigen::all);
+    mesh.normals(carried.vertices, Eigen::all) =
+        deform_normals(grid, carried.embedding, rest, positions).rowwise().normalized();
+  }
+  std::vector<PosedMesh> list;
+  list.reserve(meshes.size());
+  for (auto& [which, mesh] : meshes) list.push_back(std::move(mesh));
+  return list;
 }
 
 }  // namespace sprung

@@ -5,11 +5,13 @@
 #include <string_view>
 #include <vector>
 
-#include "app/build_world.h"
-#include "app/console.h"
-#include "app/frame_range.h"
-#include "app/numbered_name.h"
+#include "app/console/console.h"
+#include "app/film/film_output.h"
+#include "app/scene/film.h"
 #include "core/io/cache.h"
+#include "core/io/files.h"
+#include "core/io/mesh_export.h"
+#include "core/simulation/simulation.h"
 
 namespace sprung {
 
@@ -26,17 +28,23 @@ struct ExportTarget {
 [[nodiscard]] ExportTarget parse_export_target(std::string_view words);
 
 /// A film as it is in a cache.
-struct Film {
+struct CachedFilmView {
   const Production& production;
   const CacheReader& cache;
-  const Scene& scene;
+  const Film& film;
 };
 
 /// The files that would be written.
-[[nodiscard]] std::vector<std::filesystem::path> files_of(const ExportTarget& target, const Scene& scene,
+[[nodiscard]] std::vector<std::filesystem::path> files_of(const ExportTarget& target, const Film& scene,
                                                           const FrameRange& range);
 
 /// Writes them, each beside its name and renamed. Throws Error, Interrupted.
-void export_files(const ExportTarget& target, const Film& film, const FrameRange& range, const Console& console);
+void export_files(const ExportTarget& target, const CachedFilmView& view, const FrameRange& range,
+                  const Console& console);
+
+/// The meshes of all bodies and their copies for these positions of the nodes (by actor, m): vertices, order and
+/// triangles are those of the files. They point into the production.
+[[nodiscard]] std::vector<PosedMesh> posed_meshes(const Production& production, const Film& scene,
+                                                  const std::vector<Points>& nodes);
 
 }  // namespace sprung

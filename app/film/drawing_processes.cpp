@@ -15,7 +15,7 @@
 #include <string>
 #include <utility>
 
-#include "app/interrupt.h"
+#include "app/console/interrupt.h"
 #include "core/error.h"
 
 namespace sprung {

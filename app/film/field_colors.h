@@ -1,17 +1,27 @@
 #pragma once
 #include <optional>
 
-#include "app/film/field_values.h"
-#include "app/scene/scene.h"
+#include "app/scene/film.h"
+#include "app/scene/scene_render.h"
+#include "core/simulation/recorder.h"
 #include "render/image/legend.h"
 
 namespace sprung {
+
+/// A field at the nodes of one actor in one frame, SI: displacement from the start (m), speed by differences between
+/// frames (m/s), largest principal stretch, von Mises strain, von Mises stress (Pa), volume over volume at rest, fill,
+/// or Young's modulus (Pa) for kRegion. Not for kSkin.
+[[nodiscard]] Eigen::VectorXd field_values(Field field, const Production& production, const Recording& recording,
+                                           std::size_t frame, std::size_t actor, double fps);
+
+/// Whether it differs from frame to frame.
+[[nodiscard]] bool is_moving(Field field);
 
 /// What the colours of a film stand for: the same in all of its frames.
 class FieldColors {
  public:
   /// Looks at all frames for the range, unless the scene has it. `recording` outlives it.
-  FieldColors(const Scene& scene, const Production& production, const Recording& recording);
+  FieldColors(const Film& scene, const Production& production, const Recording& recording);
 
   [[nodiscard]] bool is_mapped() const { return field_ != Field::kSkin; }
   [[nodiscard]] ColorMap map() const { return map_; }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/drawn_shapes.h"
+#include "app/film/drawn_shapes.h"
 #include "core/bricks/brick_topology.h"
 
 namespace sprung {
@@ -84,7 +84,7 @@ Points flipped(const Points& points, const Vec3& center, double degrees) {
 }
 
 /// Everything that is to be seen, around one middle where the camera follows.
-Points points_to_see(const Scene& scene, const Reach& reach, const Vec3& center) {
+Points points_to_see(const Film& scene, const Reach& reach, const Vec3& center) {
   if (!scene.camera.follow) return with_ground(stacked({stacked(reach.bodies), reach.around}), reach.ground);
   std::vector<Points> parts;
   for (std::size_t frame = 0; frame < reach.bodies.size(); ++frame) {
@@ -165,7 +165,7 @@ Reach joined(const std::vector<Reach>& runs) {
   return all;
 }
 
-std::vector<Camera> cameras_of(const Scene& scene, const Reach& reach, double reserved) {
+std::vector<Camera> cameras_of(const Film& scene, const Reach& reach, double reserved) {
   const SceneCamera& chosen = scene.camera;
   const std::size_t frames = reach.bodies.size();
   const Vec3 center = 0.5 * (reach.bounds.low + reach.bounds.high);

@@ -1,6 +1,6 @@
 #pragma once
-#include "app/recording.h"
-#include "app/scene/scene.h"
+#include "app/scene/film.h"
+#include "core/simulation/recorder.h"
 #include "render/camera.h"
 
 namespace sprung {
@@ -23,7 +23,7 @@ struct Reach {
 
 /// One camera a frame: from where the scene says, seeing the whole motion (or, where it follows the bodies, each frame)
 /// as large as possible, in the part of the picture's width that is left beside `reserved` at the right.
-[[nodiscard]] std::vector<Camera> cameras_of(const Scene& scene, const Reach& reach, double reserved);
+[[nodiscard]] std::vector<Camera> cameras_of(const Film& scene, const Reach& reach, double reserved);
 
 /// Pixels that a metre has at the point that the camera looks at, in a picture of that height.
 [[nodiscard]] double pixels_per_metre(const Camera& camera, int height);

@@ -4,12 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include "app/drawn_shapes.h"
-#include "app/film/brick_cubes.h"
-#include "app/film/contacts.h"
-#include "app/film/probe_plot.h"
-#include "app/film/rods.h"
-#include "app/film/springs.h"
+#include "app/film/drawn_shapes.h"
+#include "app/film/labels.h"
+#include "app/film/overlays.h"
 
 namespace sprung {
 namespace {
@@ -40,7 +37,7 @@ Points rows_of(const Points& nodes, const std::vector<int>& rows) { return nodes
 
 }  // namespace
 
-FilmStage::FilmStage(const Scene& scene, const Production& production, const Recording& recording)
+FilmStage::FilmStage(const Film& scene, const Production& production, const Recording& recording)
     : scene_(scene), production_(production), recording_(recording), colors_(scene, production, recording) {
   const SceneRender& render = scene.render;
   if (render.springs) stretch_ = render.color_high ? *render.color_high : furthest_stretch();

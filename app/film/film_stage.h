@@ -20,7 +20,7 @@ struct ColorRange {
 class FilmStage {
  public:
   /// All three outlive it.
-  FilmStage(const Scene& scene, const Production& production, const Recording& recording);
+  FilmStage(const Film& scene, const Production& production, const Recording& recording);
 
   /// `bounds` of the whole motion, m.
   [[nodiscard]] Stage stage(const Bounds& bounds) const;
@@ -61,7 +61,7 @@ class FilmStage {
   void add_balls(std::size_t actor, std::vector<int> nodes, double radius, const Eigen::Vector3f& color);
   [[nodiscard]] double furthest_stretch() const;
 
-  const Scene& scene_;
+  const Film& scene_;
   const Production& production_;
   const Recording& recording_;
   FieldColors colors_;

@@ -2,7 +2,8 @@
 #include <optional>
 #include <string>
 
-#include "app/scene/scene.h"
+#include "app/scene/film.h"
+#include "core/simulation/recorder.h"
 #include "render/camera.h"
 #include "render/image/legend.h"
 #include "render/image/plot.h"
@@ -28,5 +29,11 @@ class Labels {
   std::optional<Legend> legend_;
   std::optional<Font> font_;  // where anything is written
 };
+
+/// sRGB, of a probe's trace and curve, by its place among the probes.
+[[nodiscard]] Eigen::Vector3f probe_color(std::size_t probe);
+
+/// How far each probe is from where it was in the first frame, in a unit in which the numbers are short.
+[[nodiscard]] Plot plot_of(const Recording& recording, std::size_t now);
 
 }  // namespace sprung

@@ -6,7 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <vector>
 
-#include "app/help/named_choices.h"
+#include "app/help/manual.h"
 
 namespace sprung {
 namespace {

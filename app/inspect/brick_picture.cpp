@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "app/drawn_shapes.h"
-#include "app/film/exposure.h"
+#include "app/film/drawn_shapes.h"
+#include "app/film/film_pipeline.h"
 #include "app/report/brick_skin.h"
 #include "render/renderer.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "app/make_production.h"
+#include "core/simulation/simulation.h"
 #include "render/image/image.h"
 
 namespace sprung {

@@ -24,7 +24,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-bool is_implicit(const Scene& scene, const World& world) {
+bool is_implicit(const Film& scene, const World& world) {
   return !is_motion(scene) || plan_steps(world, scene).is_implicit();
 }
 
@@ -65,7 +65,7 @@ double seconds_a_frame(const World& world, const StepPlan& plan) {
   return plan.is_implicit() ? seconds_of_implicit_frame(world, plan) : seconds_of_explicit_frame(world, plan);
 }
 
-double seconds_a_picture(const Production& production, const Scene& scene) {
+double seconds_a_picture(const Production& production, const Film& scene) {
   Stage stage;
   std::vector<SkinShape> shapes;
   for (const DrawnSkin& drawn : production.skins) {
@@ -90,7 +90,7 @@ double seconds_a_picture(const Production& production, const Scene& scene) {
 
 }  // namespace
 
-double memory_forecast(const Production& production, const Scene& scene) {
+double memory_forecast(const Production& production, const Film& scene) {
   const double bytes_a_brick = is_implicit(scene, production.world) ? kBytesABrickImplicit : kBytesABrick;
   double bytes = kBytesOfProgram;
   double nodes = 0;
@@ -112,7 +112,7 @@ std::string warning_of_memory(double bytes) {
       bytes / 1e9, present / 1e9);
 }
 
-Forecast make_forecast(const Production& production, const Scene& scene) {
+Forecast make_forecast(const Production& production, const Film& scene) {
   Forecast forecast;
   forecast.memory = memory_forecast(production, scene);
   forecast.frames = frame_count(scene);
@@ -122,6 +122,11 @@ Forecast make_forecast(const Production& production, const Scene& scene) {
   }
   forecast.seconds_drawing = seconds_a_picture(production, scene);
   return forecast;
+}
+
+void warn_of_memory(const Production& production, const Film& film, const Console& console) {
+  const std::string warning = warning_of_memory(memory_forecast(production, film));
+  if (!warning.empty()) console.warn(warning);
 }
 
 }  // namespace sprung

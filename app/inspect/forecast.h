@@ -1,9 +1,10 @@
 #pragma once
 #include <optional>
 
-#include "app/build_world.h"
-#include "app/scene/scene.h"
-#include "app/step_plan.h"
+#include "app/console/console.h"
+#include "app/scene/film.h"
+#include "core/simulation/simulation.h"
+#include "core/simulation/time_steps.h"
 
 namespace sprung {
 
@@ -17,12 +18,15 @@ struct Forecast {
 };
 
 /// Moves a copy of the world for a moment and draws one picture to find out. Throws Error where that fails.
-[[nodiscard]] Forecast make_forecast(const Production& production, const Scene& scene);
+[[nodiscard]] Forecast make_forecast(const Production& production, const Film& scene);
 
 /// Bytes, from the sizes of what is kept: no measurement.
-[[nodiscard]] double memory_forecast(const Production& production, const Scene& scene);
+[[nodiscard]] double memory_forecast(const Production& production, const Film& scene);
 
 /// A sentence where this machine does not have so much memory; else empty.
 [[nodiscard]] std::string warning_of_memory(double bytes);
+
+/// Tells that sentence before a film is made.
+void warn_of_memory(const Production& production, const Film& film, const Console& console);
 
 }  // namespace sprung

@@ -1,12 +1,18 @@
 #include "app/inspect/inspection.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <set>
 
+#include "app/console/console.h"
+#include "app/console/json_text.h"
 #include "core/dynamics/explicit/integrator.h"
 #include "core/skin/skin.h"
+#include "core/text.h"
+#include "core/units.h"
 
 namespace sprung {
 namespace {
@@ -78,7 +84,7 @@ void add_bricks(const Body& body, const std::vector<ThinPart>& thin_parts, Brick
 
 }  // namespace
 
-Inspection inspect(const Preparation& prepared, const Scene& scene) {
+Inspection inspect(const Preparation& prepared, const Film& scene) {
   Inspection inspection;
   std::size_t actor = 0;
   for (const LoadedBody& body : prepared.bodies) {
@@ -99,6 +105,175 @@ Inspection inspect(const Preparation& prepared, const Scene& scene) {
   inspection.stable_step = stable_step(prepared.production.world);
   inspection.forecast = make_forecast(prepared.production, scene);
   return inspection;
+}
+
+namespace {
+
+/// Cubes of the unit that a length reads best in: "1.2 cm3".
+std::string readable_volume(double volume) {
+  if (volume >= 1) return fmt::format("{:.4g} m3", volume);
+  if (volume >= 1e-6) return fmt::format("{:.4g} cm3", volume * 1e6);
+  return fmt::format("{:.4g} mm3", volume * 1e9);
+}
+
+std::string line(std::string_view name, const std::string& text) { return fmt::format("  {:<12}{}\n", name, text); }
+
+std::string mesh_lines(const BodyFacts& body) {
+  const MeshFacts& mesh = body.mesh;
+  std::string text = line("mesh", fmt::format("{}, {}, {}, {}, {}", count_of(mesh.vertices, "vertex", "vertices"),
+                                              count_of(mesh.triangles, "triangle"), count_of(mesh.parts, "part"),
+                                              count_of(mesh.solids, "solid"), mesh.is_closed ? "closed" : "open"));
+  text += line("volume", fmt::format("{:.4g} file units cubed, {}", mesh.volume,
+                                     readable_volume(body.bricks.volume / (1 + body.bricks.volume_error))));
+  const double longest = body.extent.maxCoeff();
+  if (mesh.median > 0) {
+    text +=
+        line("thickness", fmt::format("1 % of the surface below {:.3g} % of the longest side ({}), half below {:.3g} % "
+                                      "({})",
+                                      100 * mesh.thin, readable(mesh.thin * longest, Dimension::kLength),
+                                      100 * mesh.median, readable(mesh.median * longest, Dimension::kLength)));
+  }
+  for (const Repair& repair : mesh.repairs) text += line("repair", repair.text);
+  return text;
+}
+
+std::string brick_lines(const BodyFacts& body) {
+  const BrickFacts& bricks = body.bricks;
+  std::string text =
+      line("bricks", fmt::format("{} of {}, {}, {}", bricks.count, readable(bricks.size, Dimension::kLength),
+                                 count_of(bricks.nodes, "node"), count_of(bricks.solids, "connected piece")));
+  if (bricks.divided > 0) {
+    text +=
+        line("", fmt::format("{} share their cell with another piece of the solid", count_of(bricks.divided, "brick")));
+  }
+  text += line("fill", fmt::format("{:.2g} at least; volume {:+.2g} % of the mesh's", bricks.least_fill,
+                                   100 * bricks.volume_error));
+  for (std::size_t i = 0; i < std::min<std::size_t>(bricks.thin_parts.size(), 3); ++i) {
+    const ThinPart& part = bricks.thin_parts[i];
+    text += line("thin part", fmt::format("{}, about {} thick", count_of(part.bricks.size(), "brick"),
+                                          readable(part.thickness, Dimension::kLength)));
+  }
+  if (bricks.thin_parts.size() > 3) {
+    text += line("", fmt::format("and {} more parts thinner than a brick", bricks.thin_parts.size() - 3));
+  }
+  return text + line("mass", fmt::format("{:.4g} kg", bricks.mass));
+}
+
+std::string forecast_lines(const Inspection& inspection) {
+  const Forecast& forecast = inspection.forecast;
+  std::string text = fmt::format("stable step {}", readable(inspection.stable_step, Dimension::kTime));
+  if (forecast.plan) text += fmt::format(", {} steps a frame as planned", forecast.plan->steps.count);
+  text += fmt::format("\nforecast    {:.0f} MB", forecast.memory / 1e6);
+  if (forecast.seconds_simulating) {
+    const double frame = *forecast.seconds_simulating + forecast.seconds_drawing;
+    text += fmt::format(", {:.2g} s a frame ({:.2g} s to move, {:.2g} s to draw), {} for {} frames", frame,
+                        *forecast.seconds_simulating, forecast.seconds_drawing, duration_text(frame * forecast.frames),
+                        forecast.frames);
+  } else {
+    text += fmt::format(", {:.2g} s to draw a frame", forecast.seconds_drawing);
+  }
+  return text + "\n";
+}
+
+std::string json_flag(bool value) { return value ? "true" : "false"; }
+
+/// "[a, b]" of anything that `text` makes JSON of.
+template <class List, class Text>
+std::string json_list(const List& list, const Text& text) {
+  std::string all;
+  for (const auto& item : list) all += (all.empty() ? "" : ", ") + text(item);
+  return "[" + all + "]";
+}
+
+std::string json_of(const MeshFacts& mesh) {
+  const std::string repairs = json_list(mesh.repairs, [](const Repair& repair) {
+    return fmt::format(R"({{"kind": {}, "count": {}, "text": {}}})", json_text(repair.kind), repair.count,
+                       json_text(repair.text));
+  });
+  const auto or_null = [](double thickness) { return thickness > 0 ? json_text(thickness) : "null"; };
+  return fmt::format(R"({{"vertices": {}, "triangles": {}, "parts": {}, "solids": {}, "closed": {}, "volume": {}, )"
+                     R"("thickness_1_percent": {}, "thickness_median": {}, "repairs": {}}})",
+                     mesh.vertices, mesh.triangles, mesh.parts, mesh.solids, json_flag(mesh.is_closed),
+                     json_text(mesh.volume), or_null(mesh.thin), or_null(mesh.median), repairs);
+}
+
+std::string json_of(const BrickFacts& bricks, double unit) {
+  const std::string parts = json_list(bricks.thin_parts, [](const ThinPart& part) {
+    return fmt::format(R"({{"bricks": {}, "thickness": {}}})", part.bricks.size(), json_text(part.thickness));
+  });
+  return fmt::format(R"({{"count": {}, "nodes": {}, "size": {}, "solids": {}, "divided": {}, "min_fill": {}, )"
+                     R"("volume": {}, "volume_m3": {}, "volume_error": {}, "mass": {}, "thin_parts": {}}})",
+                     bricks.count, bricks.nodes, json_text(bricks.size), bricks.solids, bricks.divided,
+                     json_text(bricks.least_fill), json_text(bricks.volume / (unit * unit * unit)),
+                     json_text(bricks.volume), json_text(bricks.volume_error), json_text(bricks.mass), parts);
+}
+
+std::string json_of(const BodyFacts& body) {
+  return fmt::format(R"({{"name": {}, "unit": {}, "extent": {}, "mesh": {}, "bricks": {}}})", json_text(body.name),
+                     json_text(body.unit), json_text(body.extent), json_of(body.mesh), json_of(body.bricks, body.unit));
+}
+
+std::string json_of(const Forecast& forecast) {
+  const auto or_null = [](const std::optional<double>& value) { return value ? json_text(*value) : "null"; };
+  std::optional<double> frame = forecast.seconds_simulating;
+  if (frame) *frame += forecast.seconds_drawing;
+  return fmt::format(R"({{"memory_bytes": {}, "seconds_per_frame": {}, "seconds_moving": {}, "seconds_drawing": {}, )"
+                     R"("frames": {}, "steps_per_frame": {}}})",
+                     std::lround(forecast.memory), or_null(frame), or_null(forecast.seconds_simulating),
+                     json_text(forecast.seconds_drawing), forecast.frames,
+                     forecast.plan ? fmt::format("{}", forecast.plan->steps.count) : "null");
+}
+
+/// All bodies as one: sums, and the smallest of what does not add up.
+BodyFacts together(const std::vector<BodyFacts>& bodies) {
+  BodyFacts all = bodies.front();
+  double held = all.bricks.volume / (1 + all.bricks.volume_error);
+  for (std::size_t i = 1; i < bodies.size(); ++i) {
+    const auto& [mesh, bricks] = std::tie(bodies[i].mesh, bodies[i].bricks);
+    all.mesh.vertices += mesh.vertices;
+    all.mesh.triangles += mesh.triangles;
+    all.mesh.parts += mesh.parts;
+    all.mesh.solids += mesh.solids;
+    all.mesh.is_closed = all.mesh.is_closed && mesh.is_closed;
+    all.mesh.volume += mesh.volume;
+    all.mesh.thin = std::min(all.mesh.thin, mesh.thin);
+    all.mesh.median = std::min(all.mesh.median, mesh.median);
+    all.mesh.repairs.insert(all.mesh.repairs.end(), mesh.repairs.begin(), mesh.repairs.end());
+    all.bricks.count += bricks.count;
+    all.bricks.nodes += bricks.nodes;
+    all.bricks.solids += bricks.solids;
+    all.bricks.divided += bricks.divided;
+    all.bricks.size = std::min(all.bricks.size, bricks.size);
+    all.bricks.least_fill = std::min(all.bricks.least_fill, bricks.least_fill);
+    all.bricks.volume += bricks.volume;
+    all.bricks.mass += bricks.mass;
+    all.bricks.thin_parts.insert(all.bricks.thin_parts.end(), bricks.thin_parts.begin(), bricks.thin_parts.end());
+    held += bricks.volume / (1 + bricks.volume_error);
+  }
+  all.bricks.volume_error = all.bricks.volume / held - 1;
+  return all;
+}
+
+}  // namespace
+
+std::string inspection_text(const Inspection& inspection) {
+  std::string text;
+  for (const BodyFacts& body : inspection.bodies) {
+    text += fmt::format("{}  {} x {} x {}\n", body.name, readable(body.extent.x(), Dimension::kLength),
+                        readable(body.extent.y(), Dimension::kLength), readable(body.extent.z(), Dimension::kLength));
+    text += mesh_lines(body) + brick_lines(body);
+  }
+  return text + forecast_lines(inspection);
+}
+
+std::string inspection_json(const Inspection& inspection) {
+  const BodyFacts all = together(inspection.bodies);
+  return fmt::format(
+      "{{\"mesh\": {},\n \"bricks\": {},\n \"stable_step\": {},\n \"forecast\": {},\n \"warnings\": {},\n "
+      "\"bodies\": {}}}\n",
+      json_of(all.mesh), json_of(all.bricks, all.unit), json_text(inspection.stable_step), json_of(inspection.forecast),
+      json_list(inspection.warnings, [](const std::string& text) { return json_text(text); }),
+      json_list(inspection.bodies, [](const BodyFacts& body) { return json_of(body); }));
 }
 
 }  // namespace sprung

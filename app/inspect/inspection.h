@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "app/inspect/forecast.h"
-#include "app/make_production.h"
 #include "core/mesh/repair/repair.h"
+#include "core/simulation/simulation.h"
 
 namespace sprung {
 
@@ -51,7 +51,7 @@ struct Inspection {
 };
 
 /// Everything but the warnings.
-[[nodiscard]] Inspection inspect(const Preparation& prepared, const Scene& scene);
+[[nodiscard]] Inspection inspect(const Preparation& prepared, const Film& scene);
 
 /// For people: a few lines a body.
 [[nodiscard]] std::string inspection_text(const Inspection& inspection);

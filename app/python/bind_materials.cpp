@@ -1,7 +1,7 @@
 #include <pybind11/stl.h>
 
-#include "app/materials/material_library.h"
 #include "app/python/bindings.h"
+#include "app/scene/material_library.h"
 
 namespace py = pybind11;
 

@@ -6,10 +6,10 @@
 #include <string_view>
 #include <type_traits>
 
-#include "app/pin_movements.h"
 #include "core/contact/inversion_guard.h"
 #include "core/dynamics/statics/statics.h"
 #include "core/error.h"
+#include "core/simulation/drivers.h"
 #include "render/renderer.h"
 
 namespace sprung {

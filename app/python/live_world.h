@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/dynamics/explicit/adaptive_integrator.h"
-#include "core/soft_body.h"
+#include "core/simulation/soft_body.h"
 #include "render/image/image.h"
 
 namespace sprung {

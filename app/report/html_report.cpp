@@ -7,7 +7,7 @@
 #include "app/report/check_tables.h"
 #include "app/report/png_base64.h"
 #include "app/report/report_style.h"
-#include "app/report/whole_file.h"
+#include "core/io/files.h"
 #include "render/image/color_map.h"
 
 namespace sprung {

@@ -11,7 +11,7 @@
 
 #include "app/report/locking.h"
 #include "app/report/uniaxial.h"
-#include "app/report/whole_file.h"
+#include "core/io/files.h"
 
 namespace sprung {
 

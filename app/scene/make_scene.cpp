@@ -24,10 +24,10 @@ std::shared_ptr<const MaterialLibrary> library_of(const std::vector<Setting>& se
   return library;
 }
 
-Scene bare_mesh(const std::filesystem::path& mesh, const std::shared_ptr<const MaterialLibrary>& library) {
-  Scene scene;
+Film bare_mesh(const std::filesystem::path& mesh, const std::shared_ptr<const MaterialLibrary>& library) {
+  Film scene;
   scene.library = library;
-  scene.bodies.emplace_back().mesh = std::filesystem::absolute(mesh).lexically_normal();
+  scene.bodies.emplace_back(default_body()).mesh = std::filesystem::absolute(mesh).lexically_normal();
   return scene;
 }
 
@@ -39,7 +39,7 @@ double height_of(const SceneBody& body) {
   return scale * extent.y();
 }
 
-void apply(const Setting& setting, Scene& scene) {
+void apply(const Setting& setting, Film& scene) {
   try {
     set_scene_key(scene, setting.key, setting.value);
   } catch (const Error& error) {
@@ -49,13 +49,13 @@ void apply(const Setting& setting, Scene& scene) {
 
 }  // namespace
 
-Scene make_scene(const SceneOptions& options) {
+Film make_scene(const SceneOptions& options) {
   const bool is_scene = is_scene_file(options.input);
   if (is_scene && options.scenario) {
     throw Error(ErrorKind::kUsage, "--scenario is for a bare mesh; a scene file says itself what happens");
   }
   const auto library = library_of(options.settings);
-  Scene scene = is_scene ? read_scene(options.input, *library) : bare_mesh(options.input, library);
+  Film scene = is_scene ? read_scene(options.input, *library) : bare_mesh(options.input, library);
   for (const Setting& setting : options.settings) {
     if (!is_of_materials(setting)) apply(setting, scene);
   }

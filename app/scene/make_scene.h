@@ -1,10 +1,10 @@
 #pragma once
-#include "app/command_line.h"
+#include "app/commands/command_line.h"
 
 namespace sprung {
 
 /// The scene of a command line: options before scene file before defaults. Throws Error(kUsage) naming the option
 /// whose value is wrong, Error(kBadInput) for what is wrong in the scene file and for an unknown material.
-[[nodiscard]] Scene make_scene(const SceneOptions& options);
+[[nodiscard]] Film make_scene(const SceneOptions& options);
 
 }  // namespace sprung

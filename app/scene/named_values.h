@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/scene/scene.h"
+#include "app/scene/film.h"
 
 namespace sprung {
 

@@ -148,7 +148,7 @@ class Printer {
 
 }  // namespace
 
-std::string print_scene(const Scene& scene) {
+std::string print_scene(const Film& scene) {
   Printer printer;
   printer.print(scene, "");
   return printer.text();

@@ -79,7 +79,7 @@ SceneObstacle plate(double size, double bottom, double way, double duration) {
 }
 
 /// Between two plates that come together.
-void stage_squash(Scene& scene, SceneBody& body, double size, double height) {
+void stage_squash(Film& scene, SceneBody& body, double size, double height) {
   const double low = kPlateHeight * size;
   body.position.y() = low + kPlate * size;
   scene.obstacles.push_back(plate(size, low, kSquash * height, scene.duration));
@@ -121,7 +121,7 @@ bool needs_height(Scenario scenario) {
   return scenario == Scenario::kStretch || scenario == Scenario::kWobble || scenario == Scenario::kSquash;
 }
 
-void stage_scenario(Scene& scene, Scenario scenario, double height) {
+void stage_scenario(Film& scene, Scenario scenario, double height) {
   SceneObstacle ground;
   ground.plane = Plane{};
   scene.obstacles = {ground};

@@ -2,7 +2,7 @@
 #include <span>
 #include <string_view>
 
-#include "app/scene/scene.h"
+#include "app/scene/film.h"
 
 namespace sprung {
 
@@ -28,6 +28,6 @@ enum class Scenario {
 
 /// Sets what the scenario needs for bodies that are `height` (m) high; times are shares of the film's duration.
 /// Precondition: duration, gravity and the size of the bodies are set.
-void stage_scenario(Scene& scene, Scenario scenario, double height);
+void stage_scenario(Film& scene, Scenario scenario, double height);
 
 }  // namespace sprung

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <iterator>
 
-#include "app/scene/motion_only.h"
 #include "core/text.h"
 
 namespace sprung {
@@ -74,7 +73,7 @@ void check_course(const toml::table& table, const std::string& path, const Stren
   }
 }
 
-void check_glue(const toml::array& all, const Scene& scene, SceneMistakes& mistakes) {
+void check_glue(const toml::array& all, const Film& scene, SceneMistakes& mistakes) {
   for (std::size_t i = 0; i < scene.glue.size(); ++i) {
     const auto& bodies = scene.glue[i].bodies;
     for (const int body : bodies) {
@@ -91,7 +90,7 @@ constexpr std::string_view kMotionOnly =
     "only in a motion (solver.scheme euler, verlet, implicit-euler, bdf2 or auto) can there be";
 
 /// What acts on a body at rest is its weight, what its pins do, and forces that grow with them.
-void check_resting(const toml::table& table, const Scene& scene, SceneMistakes& mistakes) {
+void check_resting(const toml::table& table, const Film& scene, SceneMistakes& mistakes) {
   for (const MotionOnly& part : motion_only(scene)) {
     const toml::node* place = table.get(part.key);
     if (part.key == "body") place = place->as_array()->get(part.row);
@@ -100,7 +99,7 @@ void check_resting(const toml::table& table, const Scene& scene, SceneMistakes& 
 }
 
 /// Nothing can fall where there is no time.
-void check_holding(const toml::array& bodies, const Scene& scene, SceneMistakes& mistakes) {
+void check_holding(const toml::array& bodies, const Film& scene, SceneMistakes& mistakes) {
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const std::vector<Pin>& pins = scene.bodies[i].pins;
     const auto is_short = [](const Pin& pin) { return pin.from > 0 || pin.until; };
@@ -111,7 +110,7 @@ void check_holding(const toml::array& bodies, const Scene& scene, SceneMistakes&
   }
 }
 
-void check_probes(const toml::array& probes, const Scene& scene, SceneMistakes& mistakes) {
+void check_probes(const toml::array& probes, const Film& scene, SceneMistakes& mistakes) {
   for (std::size_t i = 0; i < scene.probes.size(); ++i) {
     const Probe& probe = scene.probes[i];
     const std::size_t body = probe.body - 1;
@@ -206,7 +205,7 @@ void check_together(const toml::table& table, const std::string& path, const Box
   mistakes.add(table.source(), fmt::format("{}: min must be below max along every axis", path));
 }
 
-void check_together(const toml::table& table, const std::string&, const Scene& scene, SceneMistakes& mistakes) {
+void check_together(const toml::table& table, const std::string&, const Film& scene, SceneMistakes& mistakes) {
   if (!scene.probes.empty()) check_probes(*table.get("probe")->as_array(), scene, mistakes);
   if (!scene.glue.empty()) check_glue(*table.get("glue")->as_array(), scene, mistakes);
   if (!scene.gravity_keyframes.empty()) {

@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "app/scene/scene.h"
+#include "app/scene/film.h"
 #include "app/scene/scene_keys.h"
 #include "app/scene/scene_mistakes.h"
 #include "app/scene/toml.h"
@@ -13,7 +13,7 @@ void check_rules(const toml::table& table, const std::string& path, std::span<co
                  SceneMistakes& mistakes);
 
 /// What is wrong with the values of a table taken together, each by itself being right.
-void check_together(const toml::table& table, const std::string& path, const Scene& scene, SceneMistakes& mistakes);
+void check_together(const toml::table& table, const std::string& path, const Film& scene, SceneMistakes& mistakes);
 void check_together(const toml::table& table, const std::string& path, const SceneBody& body, SceneMistakes& mistakes);
 void check_together(const toml::table& table, const std::string& path, const Box& box, SceneMistakes& mistakes);
 void check_together(const toml::table& table, const std::string& path, const HalfSpace& half, SceneMistakes& mistakes);

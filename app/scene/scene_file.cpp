@@ -29,20 +29,20 @@ bool is_scene_file(const std::filesystem::path& file) {
   return ending == ".toml";
 }
 
-Scene parse_scene(std::string_view text, const std::filesystem::path& file, SceneFiles files,
-                  const MaterialLibrary& library) {
+Film parse_scene(std::string_view text, const std::filesystem::path& file, SceneFiles files,
+                 const MaterialLibrary& library) {
   SceneMistakes mistakes(file.string());
   const toml::table table = parse_toml(text, mistakes);
   auto known = std::make_shared<MaterialLibrary>(library);
   if (files == SceneFiles::kPresent) add_materials(table, file.parent_path(), *known);
-  Scene scene;
+  Film scene;
   scene.library = known;
   TableReader(mistakes, file.parent_path(), files, *known).read(table, "", scene);
   mistakes.throw_if_any();
   return scene;
 }
 
-Scene read_scene(const std::filesystem::path& file, const MaterialLibrary& library) {
+Film read_scene(const std::filesystem::path& file, const MaterialLibrary& library) {
   check_readable(file);
   std::ifstream stream(file);
   std::ostringstream text;

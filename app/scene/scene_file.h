@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "app/scene/scene.h"
+#include "app/scene/film.h"
 
 namespace sprung {
 
@@ -12,23 +12,23 @@ namespace sprung {
 
 /// The scene in a TOML file. Throws one Error(kBadInput) with a line "file:line:column: key: what is wrong" for every
 /// mistake in it. `library`: the materials known by name, beside those of a file that the scene itself names.
-[[nodiscard]] Scene read_scene(const std::filesystem::path& file,
-                               const MaterialLibrary& library = *built_in_materials());
+[[nodiscard]] Film read_scene(const std::filesystem::path& file,
+                              const MaterialLibrary& library = *built_in_materials());
 
 /// Whether the files that a scene names have to be there.
 enum class SceneFiles { kPresent, kAnywhere };
 
 /// The same for text that stands in (or for) a file; mesh paths are relative to the file's folder.
-[[nodiscard]] Scene parse_scene(std::string_view text, const std::filesystem::path& file,
-                                SceneFiles files = SceneFiles::kPresent,
-                                const MaterialLibrary& library = *built_in_materials());
+[[nodiscard]] Film parse_scene(std::string_view text, const std::filesystem::path& file,
+                               SceneFiles files = SceneFiles::kPresent,
+                               const MaterialLibrary& library = *built_in_materials());
 
 /// The scene as TOML in SI units that parses to the same scene. A built-in material is written by its name.
-[[nodiscard]] std::string print_scene(const Scene& scene);
+[[nodiscard]] std::string print_scene(const Film& scene);
 
 /// Sets one key by its path and the words for its value: "render.resolution", "1280x720". Below "body" the key of
 /// every body is set; "body.material.young" makes the material a custom one. Of two keys that exclude each other the
 /// one set here stays. Throws Error(kBadInput).
-void set_scene_key(Scene& scene, std::string_view path, std::string_view text);
+void set_scene_key(Film& scene, std::string_view path, std::string_view text);
 
 }  // namespace sprung

@@ -9,24 +9,24 @@ constexpr Range kRatio{.low = 0, .high = 1};
 constexpr int kSampleCounts[] = {1, 4, 16};
 constexpr Range kZoom{.low = 0.01, .high = 100};
 
-const Key<Scene> kScene[] = {
+const Key<Film> kScene[] = {
     {{"materials", "file of further materials that bodies may name (TOML, as assets/materials.toml)"},
-     &Scene::materials},
-    {{"duration", "length of the film", Dimension::kTime, {0, 3600, true}}, &Scene::duration},
-    {{"fps", "pictures a second", Dimension::kRate, {0, 10000, true}}, &Scene::fps},
-    {{"gravity", "acceleration of everything", Dimension::kAcceleration}, &Scene::gravity},
-    {{"gravity_keyframes", "gravity over time, in place of gravity"}, &Scene::gravity_keyframes},
-    {{"wind", "air that moves past all bodies"}, &Scene::wind},
-    {{"solver", "how the frames come about"}, &Scene::solver},
-    {{"contact", "what touches what, beside obstacles"}, &Scene::contact},
-    {{"camera", "where the film is seen from"}, &Scene::camera},
-    {{"render", "the pictures"}, &Scene::render},
-    {{"body", "a mesh or a shape made of a soft material", Dimension::kNone, {}, true}, &Scene::bodies},
-    {{"obstacle", "the ground and other things that are not soft"}, &Scene::obstacles},
-    {{"glue", "bodies that stay together where they touch at the start"}, &Scene::glue},
-    {{"probe", "what is measured in every frame"}, &Scene::probes},
-    {{"experiment", "what `sprung validate` varies"}, &Scene::experiment},
-    {{"expect", "what `sprung validate` compares with"}, &Scene::expectations},
+     &Film::materials},
+    {{"duration", "length of the film", Dimension::kTime, {0, 3600, true}}, &Film::duration},
+    {{"fps", "pictures a second", Dimension::kRate, {0, 10000, true}}, &Film::fps},
+    {{"gravity", "acceleration of everything", Dimension::kAcceleration}, &Film::gravity},
+    {{"gravity_keyframes", "gravity over time, in place of gravity"}, &Film::gravity_keyframes},
+    {{"wind", "air that moves past all bodies"}, &Film::wind},
+    {{"solver", "how the frames come about"}, &Film::solver},
+    {{"contact", "what touches what, beside obstacles"}, &Film::contact},
+    {{"camera", "where the film is seen from"}, &Film::camera},
+    {{"render", "the pictures"}, &Film::render},
+    {{"body", "a mesh or a shape made of a soft material", Dimension::kNone, {}, true}, &Film::bodies},
+    {{"obstacle", "the ground and other things that are not soft"}, &Film::obstacles},
+    {{"glue", "bodies that stay together where they touch at the start"}, &Film::glue},
+    {{"probe", "what is measured in every frame"}, &Film::probes},
+    {{"experiment", "what `sprung validate` varies"}, &Film::experiment},
+    {{"expect", "what `sprung validate` compares with"}, &Film::expectations},
 };
 
 const Key<SceneSolver> kSolver[] = {
@@ -181,7 +181,7 @@ using Kind = KeyRule::Kind;
 }  // namespace
 
 template <>
-std::span<const Key<Scene>> keys() {
+std::span<const Key<Film>> keys() {
   return kScene;
 }
 template <>

@@ -4,8 +4,8 @@
 #include <string_view>
 #include <variant>
 
-#include "app/scene/scene.h"
-#include "app/units.h"
+#include "app/scene/film.h"
+#include "core/units.h"
 
 namespace sprung {
 
@@ -38,7 +38,7 @@ struct Types {
 template <class Owner>
 struct KeyTypes;
 template <>
-struct KeyTypes<Scene>
+struct KeyTypes<Film>
     : Types<std::filesystem::path, double, Vec3, std::vector<GravityKeyframe>, std::optional<SceneWind>,
             std::vector<SceneGlue>, SceneSolver, SceneContact, SceneCamera, SceneRender, std::vector<SceneBody>,
             std::vector<SceneObstacle>, std::vector<Probe>, Experiment, std::vector<Expectation>> {};
@@ -144,7 +144,7 @@ template <class Owner>
 [[nodiscard]] std::span<const Key<Owner>> keys();
 
 template <>
-std::span<const Key<Scene>> keys();
+std::span<const Key<Film>> keys();
 template <>
 std::span<const Key<SceneBody>> keys();
 template <>
@@ -244,6 +244,16 @@ template <>
 std::span<const KeyRule> rules<Probe>();
 template <>
 std::span<const KeyRule> rules<Gate>();
+
+/// What stands where nothing is said.
+template <class Owner>
+[[nodiscard]] Owner default_owner() {
+  return Owner{};
+}
+template <>
+[[nodiscard]] inline SceneBody default_owner() {
+  return default_body();
+}
 
 /// The key of that name, or null.
 template <class Owner>

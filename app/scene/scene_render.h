@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/scene/selection.h"
+#include "core/simulation/scene.h"
 #include "render/image/color_map.h"
 #include "render/image/image.h"
 

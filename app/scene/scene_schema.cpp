@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "app/json_text.h"
+#include "app/console/json_text.h"
 #include "app/scene/scene_tables.h"
 
 namespace sprung {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <regex>
 
-#include "app/json_text.h"
+#include "app/console/json_text.h"
 #include "app/scene/scene_values.h"
 
 namespace sprung {
@@ -17,7 +17,7 @@ namespace {
 template <class Value>
 constexpr std::string_view kTableName{};
 template <>
-constexpr std::string_view kTableName<Scene> = "scene";
+constexpr std::string_view kTableName<Film> = "scene";
 template <>
 constexpr std::string_view kTableName<SceneSolver> = "solver";
 template <>
@@ -238,7 +238,7 @@ class Walk {
     if (!path.empty()) tables_[row].paths.push_back(is_list ? fmt::format("[[{}]]", path) : fmt::format("[{}]", path));
     const bool is_new = tables_[row].keys.empty();
     tables_[row].rules = rules<Owner>();
-    const Owner fresh{};
+    const Owner fresh = default_owner<Owner>();
     for (const Key<Owner>& key : keys<Owner>()) {
       std::visit([&](auto field) { add(row, is_new, key, fresh.*field); }, key.member);
     }
@@ -284,7 +284,7 @@ class Walk {
 
 std::vector<TableText> scene_tables() {
   Walk walk;
-  walk.visit<Scene>("", false);
+  walk.visit<Film>("", false);
   return std::move(walk).tables();
 }
 

@@ -178,7 +178,7 @@ void set_key(Owner& owner, std::string_view path, const Given& given) {
 
 }  // namespace
 
-void set_scene_key(Scene& scene, std::string_view path, std::string_view text) {
+void set_scene_key(Film& scene, std::string_view path, std::string_view text) {
   if (path == "materials") refuse(path);  // they would come too late for the bodies
   const bool is_quoted =
       text.size() > 1 && (text[0] == '"' || text[0] == '\'') && text.find(text[0], 1) == text.size() - 1;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/materials/material_library.h"
+#include "app/scene/material_library.h"
 #include "app/scene/scene_checks.h"
 #include "app/scene/scene_file.h"
 #include "app/scene/scene_mistakes.h"
@@ -175,7 +175,7 @@ class TableReader {
     if (array == nullptr || !array->is_array_of_tables()) {
       refuse_type(node, fmt::format("written as [[{}]]", path));
     }
-    for (const toml::node& element : *array) value_of(element, path, key, values.emplace_back());
+    for (const toml::node& element : *array) value_of(element, path, key, values.emplace_back(default_owner<Owner>()));
   }
 
   SceneMistakes& mistakes_;

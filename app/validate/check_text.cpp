@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/json_text.h"
+#include "app/console/json_text.h"
 
 namespace sprung {
 namespace {

@@ -3,13 +3,13 @@
 #include <string>
 #include <vector>
 
-#include "app/scene/scene.h"
+#include "app/scene/film.h"
 
 namespace sprung {
 
 struct NamedScene {
   std::string name;
-  Scene scene;
+  Film scene;
 };
 
 /// The scene files of the experiments that come with the program, by name.

@@ -7,13 +7,13 @@
 #include <cmath>
 #include <ctime>
 
-#include "app/interrupt.h"
-#include "app/make_production.h"
-#include "app/progress.h"
+#include "app/console/console.h"
+#include "app/console/interrupt.h"
 #include "app/report/html_report.h"
 #include "app/report/plots.h"
-#include "app/simulate.h"
 #include "core/error.h"
+#include "core/simulation/simulate.h"
+#include "core/simulation/simulation.h"
 #include "core/text.h"
 
 namespace sprung {
@@ -24,7 +24,7 @@ constexpr double kShownSwing = 0.15;  // of the body's size: smaller displacemen
 
 /// The same scene with its middle grid, at a ratio that it is an experiment on, and of modes the first one at its
 /// widest.
-Scene scene_to_draw(Scene scene) {
+Film scene_to_draw(Film scene) {
   const std::vector<int>& grids = scene.experiment.bricks;
   if (!grids.empty()) scene.bodies.front().bricks = grids[grids.size() / 2];
   const std::vector<double>& ratios = scene.experiment.poisson;
@@ -46,9 +46,10 @@ double magnification_of(const Body& body, double size) {
   return std::max(1.0, decade * (most >= 5 * decade ? 5 : most >= 2 * decade ? 2 : 1));
 }
 
-ReportPicture picture_of(const std::string& name, const Scene& scene_as_it_is) {
-  const Console silent{.quiet = true};
-  const Scene scene = scene_to_draw(scene_as_it_is);
+ReportPicture picture_of(const std::string& name, const Film& scene_as_it_is) {
+  Console silent;
+  silent.quiet = true;
+  const Film scene = scene_to_draw(scene_as_it_is);
   Production production = make_production(scene, silent);
   static_cast<void>(simulate(production, scene, silent));
   const Body& body = production.world.actors.front().body;

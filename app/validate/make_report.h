@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "app/console.h"
-#include "app/scene/scene.h"
+#include "app/console/console.h"
+#include "app/scene/film.h"
 #include "app/validate/built_in_cases.h"
 
 namespace sprung {
@@ -13,7 +13,7 @@ namespace sprung {
 struct FinishedCase {
   std::string name{};
   CaseResult result{};
-  const Scene* scene = nullptr;
+  const Film* scene = nullptr;
   const BuiltInCase* built_in = nullptr;
 };
 

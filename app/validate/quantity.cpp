@@ -4,8 +4,8 @@
 
 #include <array>
 
-#include "app/units.h"
 #include "core/error.h"
+#include "core/units.h"
 
 namespace sprung {
 namespace {

@@ -1,8 +1,8 @@
 #pragma once
 #include <string>
 
-#include "app/recording.h"
 #include "app/validate/node_errors.h"
+#include "core/simulation/recorder.h"
 
 namespace sprung {
 

@@ -8,11 +8,11 @@
 #include <map>
 #include <set>
 
-#include "app/interrupt.h"
-#include "app/make_production.h"
-#include "app/simulate.h"
+#include "app/console/interrupt.h"
 #include "app/validate/quantity.h"
 #include "core/error.h"
+#include "core/simulation/simulate.h"
+#include "core/simulation/simulation.h"
 
 namespace sprung {
 namespace {
@@ -57,7 +57,7 @@ int own_bricks(const SceneBody& body) {
   return body.brick_size ? int(std::lround(longest / *body.brick_size)) : count.along;
 }
 
-Scene with_variant(Scene scene, const Variant& variant) {
+Film with_variant(Film scene, const Variant& variant) {
   for (SceneBody& body : scene.bodies) {
     body.model = variant.model;
     body.material.poisson = variant.poisson;
@@ -69,7 +69,7 @@ Scene with_variant(Scene scene, const Variant& variant) {
   return scene;
 }
 
-Eigen::Vector3i grid_counts(const Scene& scene, const Variant& variant) {
+Eigen::Vector3i grid_counts(const Film& scene, const Variant& variant) {
   const SceneBody& body = scene.bodies.front();
   if (!body.box) return Eigen::Vector3i::Constant(variant.bricks);
   return (*body.box * variant.bricks / body.box->maxCoeff()).array().round().cast<int>();
@@ -102,7 +102,7 @@ double most_crushed(Production& production, const Recording& recording) {
 /// The experiment's checks, run after run.
 class Runs {
  public:
-  Runs(const std::string& name, const Scene& scene, bool is_chosen, const Console& console)
+  Runs(const std::string& name, const Film& scene, bool is_chosen, const Console& console)
       : name_(name), scene_(scene), is_chosen_(is_chosen), console_(console) {
     silent_.quiet = true;
     if (!scene.experiment.nodes.empty()) known_ = read_known_solutions(scene.experiment.nodes);
@@ -151,7 +151,7 @@ class Runs {
   Outcome outcome_of(const Variant& variant) {
     Outcome outcome;
     try {
-      const Scene scene = with_variant(scene_, variant);
+      const Film scene = with_variant(scene_, variant);
       Production production = make_production(scene, silent_);
       outcome.recording = simulate(production, scene, silent_);
       compare_nodes(production, variant, outcome);
@@ -242,7 +242,7 @@ class Runs {
   }
 
   const std::string& name_;
-  const Scene& scene_;
+  const Film& scene_;
   bool is_chosen_;
   const Console& console_;
   Console silent_;
@@ -254,7 +254,7 @@ class Runs {
 
 }  // namespace
 
-CaseResult run_experiment(const std::string& name, const Scene& scene, const Choice& choice, const Console& console) {
+CaseResult run_experiment(const std::string& name, const Film& scene, const Choice& choice, const Console& console) {
   const SceneBody& body = scene.bodies.front();
   const bool is_chosen = choice.model || choice.poisson || choice.bricks;
   Runs runs(name, scene, is_chosen, console);

@@ -1,8 +1,8 @@
 #pragma once
 #include <string>
 
-#include "app/console.h"
-#include "app/scene/scene.h"
+#include "app/console/console.h"
+#include "app/scene/film.h"
 #include "app/validate/case_result.h"
 
 namespace sprung {
@@ -12,7 +12,7 @@ namespace sprung {
 /// springs one more check holds the most crushed brick of all frames against the volume at which the guard would act:
 /// what passes is the answer of the springs alone. `name` is for the checks. Throws Error(kBadInput) where a quantity
 /// is none of the scene's, Interrupted.
-[[nodiscard]] CaseResult run_experiment(const std::string& name, const Scene& scene, const Choice& choice,
+[[nodiscard]] CaseResult run_experiment(const std::string& name, const Film& scene, const Choice& choice,
                                         const Console& console);
 
 }  // namespace sprung

@@ -2,7 +2,7 @@
 #include <sprung/core/dynamics/explicit/integrator.h>
 #include <sprung/core/law/material.h>
 #include <sprung/core/mesh/io/read_mesh.h>
-#include <sprung/core/soft_body.h>
+#include <sprung/core/simulation/soft_body.h>
 #include <sprung/render/image/png.h>
 #include <sprung/render/renderer.h>
 

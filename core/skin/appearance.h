@@ -1,6 +1,14 @@
 #pragma once
+#include <cstdint>
 
 namespace sprung {
+
+/// sRGB, 8 bits a channel.
+struct Color {
+  std::uint8_t red = 0;
+  std::uint8_t green = 0;
+  std::uint8_t blue = 0;
+};
 
 /// How a surface takes light.
 enum class Look {

@@ -1,4 +1,4 @@
-#include "app/draw_diverged.h"
+#include "app/film/draw_diverged.h"
 
 #include <gtest/gtest.h>
 

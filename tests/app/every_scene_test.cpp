@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "app/make_production.h"
 #include "app/scene/scene_file.h"
-#include "app/simulate.h"
+#include "core/simulation/simulate.h"
+#include "core/simulation/simulation.h"
 
 namespace sprung {
 namespace {
@@ -24,9 +24,9 @@ std::vector<fs::path> scenes() {
 class EveryScene : public testing::TestWithParam<fs::path> {};
 
 TEST_P(EveryScene, BeginsSoundly) {
-  Scene scene = read_scene(GetParam());
+  Film scene = read_scene(GetParam());
   set_scene_key(scene, "duration", std::to_string(1.5 / scene.fps));
-  const Console silent{.quiet = true};
+  const Observer silent;
   Production production = make_production(scene, silent);
   const Recording recording = simulate(production, scene, silent);
   EXPECT_EQ(recording.frames.size(), 2U);

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-#include "app/make_production.h"
-#include "app/pin_movements.h"
 #include "app/scene/scene_file.h"
-#include "app/simulate.h"
 #include "core/dynamics/statics/statics.h"
+#include "core/simulation/drivers.h"
+#include "core/simulation/simulate.h"
+#include "core/simulation/simulation.h"
 #include "tests/support/error_message.h"
 #include "tests/support/run_program.h"
 
@@ -31,11 +31,11 @@ name = "root"
 pin = "root"
 )";
 
-Scene scene_of(const std::string& text) { return parse_scene(text, "/scene.toml"); }
+Film scene_of(const std::string& text) { return parse_scene(text, "/scene.toml"); }
 
 /// What simulate() makes of a scene.
-Recording record(const Scene& scene, Production& production) {
-  const Console silent{.quiet = true};
+Recording record(const Film& scene, Production& production) {
+  const Observer silent;
   production = make_production(scene, silent);
   return simulate(production, scene, silent);
 }

@@ -1,8 +1,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "app/load_body.h"
+#include "app/scene/film.h"
 #include "core/bricks/voxelize.h"
+#include "core/simulation/body_source.h"
 #include "tests/support/meshes.h"
 #include "tests/support/run_program.h"
 
@@ -57,11 +58,11 @@ class FarMesh : public testing::TestWithParam<std::string> {
 
   /// The bricks of the mesh brought to 1 m by the program; what it warned of goes to `warnings`.
   [[nodiscard]] BrickGrid bricks_of(const SurfaceMesh& mesh) const {
-    SceneBody body;
+    SceneBody body = default_body();
     body.mesh = folder_.write("torus." + GetParam(), text_of_format(mesh));
     body.size = 1;
     testing::internal::CaptureStderr();
-    const LoadedBody loaded = load_body(body, Console::of_process());
+    const LoadedBody loaded = load_body(body, Observer());
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
     EXPECT_EQ(loaded.solids.size(), 1U);
     return voxelize(loaded.solids.at(0), 1.0 / 16);

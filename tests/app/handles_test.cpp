@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "app/make_production.h"
 #include "app/scene/scene_file.h"
-#include "app/simulate.h"
+#include "core/simulation/simulate.h"
+#include "core/simulation/simulation.h"
 #include "tests/support/error_message.h"
 
 /// What pins of a scene hold, carry and let go of, and when.
@@ -27,8 +27,8 @@ box = { min = [0, 0, 0], max = [1, 1, 1] }
 
 /// Where the middle of the cube has gone, frame by frame.
 std::vector<Vec3> path(const std::string& text) {
-  const Scene scene = parse_scene(text, "/scene.toml");
-  const Console silent{.quiet = true};
+  const Film scene = parse_scene(text, "/scene.toml");
+  const Observer silent;
   Production production = make_production(scene, silent);
   std::vector<Vec3> places;
   const Recording recording = simulate(production, scene, silent);

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "app/make_production.h"
 #include "app/scene/scene_file.h"
-#include "app/simulate.h"
+#include "core/simulation/simulate.h"
+#include "core/simulation/simulation.h"
 #include "tests/support/error_message.h"
 
 /// What acts on bodies in a scene, and when.
@@ -34,8 +34,8 @@ box = { min = [0, 0, 0], max = [1, 0.01, 1] }
 )";
 
 Recording record(const std::string& text) {
-  const Scene scene = parse_scene(text, "/scene.toml");
-  const Console silent{.quiet = true};
+  const Film scene = parse_scene(text, "/scene.toml");
+  const Observer silent;
   Production production = make_production(scene, silent);
   return simulate(production, scene, silent);
 }
@@ -105,10 +105,10 @@ TEST(SceneLoads, WhatCannotBeIsRefused) {
   const std::string wind = "[wind]\nvelocity = [3, 0, 0]\n" + late;
   const std::string muscle = "[[body.muscle]]\ndirection = [0, 1, 0]\ncontraction = 0.3\n" + late;
   const auto message_by = [&](const std::string& load, Solver scheme) {
-    Scene scene = parse_scene(kCube + kFoot + load, "/scene.toml");
+    Film scene = parse_scene(kCube + kFoot + load, "/scene.toml");
     scene.solver.scheme = scheme;
     return error_message([&] {
-      const Console silent{.quiet = true};
+      const Observer silent;
       Production production = make_production(scene, silent);
       static_cast<void>(simulate(production, scene, silent));
     });

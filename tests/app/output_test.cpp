@@ -1,7 +1,6 @@
-#include "app/output.h"
-
 #include <gtest/gtest.h>
 
+#include "app/film/film_output.h"
 #include "tests/support/error_message.h"
 #include "tests/support/temp_folder.h"
 

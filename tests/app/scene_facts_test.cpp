@@ -5,9 +5,9 @@
 #include <cstdlib>
 #include <functional>
 
-#include "app/make_production.h"
 #include "app/scene/scene_file.h"
-#include "app/simulate.h"
+#include "core/simulation/simulate.h"
+#include "core/simulation/simulation.h"
 #include "tests/support/sanitized.h"
 
 /// What happens in every scene of assets/scenes, as its first line says. With bricks so coarse that it takes seconds;
@@ -18,15 +18,15 @@ namespace {
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
 /// A scene and what became of it.
-class Film {
+class FilmFacts {
  public:
-  explicit Film(const std::string& name, const Settings& coarser, const std::function<void(Scene&)>& change = {})
+  explicit FilmFacts(const std::string& name, const Settings& coarser, const std::function<void(Film&)>& change = {})
       : scene_(read_scene(SPRUNG_SOURCE_DIR "/assets/scenes/" + name + ".toml")) {
     if (std::getenv("SPRUNG_FULL_SCENES") == nullptr) {
       for (const auto& [key, value] : coarser) set_scene_key(scene_, key, value);
     }
     if (change) change(scene_);
-    const Console silent{.quiet = true};
+    const Observer silent;
     production_.emplace(make_production(scene_, silent));
     recording_ = simulate(*production_, scene_, silent);
   }
@@ -91,7 +91,7 @@ class Film {
   }
 
  private:
-  Scene scene_;
+  Film scene_;
   std::optional<Production> production_;
   Recording recording_;
 };
@@ -103,14 +103,14 @@ struct SceneFacts : testing::Test {
 };
 
 TEST_F(SceneFacts, DemoComesToRest) {
-  const Film film("demo", {{"body.bricks", "8"}});
+  const FilmFacts film("demo", {{"body.bricks", "8"}});
   film.expect_sound();
   EXPECT_GT(film.speed(film.frame_at(0.2)), 0.5);
   EXPECT_LT(film.travel_speed(film.last()), 0.03);
 }
 
 TEST_F(SceneFacts, OctopusLandsOnItsTentacles) {
-  const Film film("octopus", {{"body.bricks", "10"}});
+  const FilmFacts film("octopus", {{"body.bricks", "10"}});
   film.expect_sound();
   EXPECT_LT(film.skin(film.last()).col(1).minCoeff(), 0.001);
   EXPECT_LT(film.middle(film.last()).y(), film.middle(0).y() - 0.05);
@@ -119,11 +119,11 @@ TEST_F(SceneFacts, OctopusLandsOnItsTentacles) {
 /// What was pressed flat has in the end the shape that it has where no plate ever came; it may have rolled.
 TEST_F(SceneFacts, SquashedDoughnutReturnsToItsShape) {
   const Settings coarser{{"body.bricks", "10"}};
-  const Film film("squash", coarser);
+  const FilmFacts film("squash", coarser);
   film.expect_sound();
   const auto height = [&](int frame) { return film.skin(frame).col(1).maxCoeff(); };
   EXPECT_LT(height(film.frame_at(1.1)), 0.65 * height(0));
-  const Film untouched("squash", coarser, [](Scene& scene) { scene.obstacles.resize(1); });
+  const FilmFacts untouched("squash", coarser, [](Film& scene) { scene.obstacles.resize(1); });
   const Points shape = film.skin(film.last());
   const Points other = untouched.skin(untouched.last());
   const Eigen::Affine3d moved(Eigen::umeyama(shape.transpose(), other.transpose(), false));
@@ -132,7 +132,7 @@ TEST_F(SceneFacts, SquashedDoughnutReturnsToItsShape) {
 }
 
 TEST_F(SceneFacts, BarIsDrawnToTwiceItsLength) {
-  const Film film("stretch", {{"body.bricks", "8"}});
+  const FilmFacts film("stretch", {{"body.bricks", "8"}});
   film.expect_sound();
   const auto length = [&](int frame) {
     const Points x = film.nodes(frame);
@@ -148,7 +148,7 @@ TEST_F(SceneFacts, BarIsDrawnToTwiceItsLength) {
 
 /// Its tip sinks, what is held does not.
 TEST_F(SceneFacts, BarSagsUnderItsWeight) {
-  const Film film("sag", {});
+  const FilmFacts film("sag", {});
   film.expect_sound();
   const auto end = [&](int frame, double x) { return film.part(frame, 0, Vec3(x, 0, 0), Vec3(x, 1, 1)); };
   EXPECT_LT(end(film.last(), 1).y() - end(0, 1).y(), -0.01);
@@ -157,7 +157,7 @@ TEST_F(SceneFacts, BarSagsUnderItsWeight) {
 
 /// Each cross-section has turned by its share of the full turn, and all of it is undone.
 TEST_F(SceneFacts, BarIsTwistedByAFullTurnAndBack) {
-  const Film film("twist", {{"body.bricks", "12"}});
+  const FilmFacts film("twist", {{"body.bricks", "12"}});
   film.expect_sound();
   const int flipped = film.frame_at(1.9);
   const Vec3 low(0.5, 1, 0.5);
@@ -168,7 +168,7 @@ TEST_F(SceneFacts, BarIsTwistedByAFullTurnAndBack) {
 
 /// The ear carries the whole weight, and the bear hangs straight below it.
 TEST_F(SceneFacts, BearHangsFromOneEar) {
-  const Film film("hang", {{"body.bricks", "12"}});
+  const FilmFacts film("hang", {{"body.bricks", "12"}});
   film.expect_sound();
   const ProbeSample& ear = film.recording().probes.at(0).samples.back();
   const double weight = 9.81 * film.body(0).masses.sum();
@@ -180,7 +180,7 @@ TEST_F(SceneFacts, BearHangsFromOneEar) {
 }
 
 TEST_F(SceneFacts, TwentyBodiesComeToRestInTheBowl) {
-  const Film film("bowl", {{"body.bricks", "5"}});
+  const FilmFacts film("bowl", {{"body.bricks", "5"}});
   film.expect_sound();
   EXPECT_EQ(film.bodies(), 20U);
   EXPECT_LT(film.travel_speed(film.last()), 0.02);
@@ -192,7 +192,7 @@ TEST_F(SceneFacts, TwentyBodiesComeToRestInTheBowl) {
 }
 
 TEST_F(SceneFacts, StackOfFiveStands) {
-  const Film film("stack", {{"duration", "2"}});
+  const FilmFacts film("stack", {{"duration", "2"}});
   film.expect_sound();
   ASSERT_EQ(film.bodies(), 5U);
   double fastest = 0;  // of the last quarter of a second: all five swing together
@@ -207,7 +207,7 @@ TEST_F(SceneFacts, StackOfFiveStands) {
 }
 
 TEST_F(SceneFacts, BallGoesThroughTheRing) {
-  const Film film("ring", {{"body.bricks", "12"}, {"duration", "2.6"}});
+  const FilmFacts film("ring", {{"body.bricks", "12"}, {"duration", "2.6"}});
   film.expect_sound();
   EXPECT_GT(film.skin(0).col(1).minCoeff(), 0.15);
   EXPECT_LT(film.skin(film.last()).col(1).maxCoeff(), 0.15);
@@ -217,7 +217,7 @@ TEST_F(SceneFacts, BallGoesThroughTheRing) {
 
 /// The tips, a quarter of the width apart at rest each, meet and do not go through each other.
 TEST_F(SceneFacts, FingersCloseOnEachOther) {
-  const Film film("hand", {{"body.bricks", "12"}});
+  const FilmFacts film("hand", {{"body.bricks", "12"}});
   film.expect_sound();
   const auto gap = [&](int frame) {
     const Vec3 left = film.part(frame, 0, Vec3(0.25, 1, 0), Vec3(0.25, 1, 1));
@@ -232,7 +232,7 @@ TEST_F(SceneFacts, FingersCloseOnEachOther) {
 
 /// The soft one is drawn long, the stiff one is not, and what is glued stays together.
 TEST_F(SceneFacts, GlueHoldsASoftAndAStiffBlock) {
-  const Film film("glue", {{"duration", "1.2"}});
+  const FilmFacts film("glue", {{"duration", "1.2"}});
   film.expect_sound();
   const auto height = [&](int frame, std::size_t actor) {
     return film.part(frame, actor, Vec3(0, 1, 0), Vec3(1, 1, 1)).y() -
@@ -251,7 +251,7 @@ TEST_F(SceneFacts, GlueHoldsASoftAndAStiffBlock) {
 
 /// What of the wheel is on the ground stays where it is: it rolls.
 TEST_F(SceneFacts, WheelRolls) {
-  const Film film("wheel", {{"body.bricks", "12"}});
+  const FilmFacts film("wheel", {{"body.bricks", "12"}});
   film.expect_sound();
   EXPECT_NEAR(film.middle(film.last()).x() - film.middle(0).x(), 0.4, 0.01);
   double slipped = 0;
@@ -268,7 +268,7 @@ TEST_F(SceneFacts, WheelRolls) {
 }
 
 TEST_F(SceneFacts, MusclesBendATentacleToBothSides) {
-  const Film film("muscle", {{"body.bricks", "16"}});
+  const FilmFacts film("muscle", {{"body.bricks", "16"}});
   film.expect_sound();
   const auto tip = [&](double time) { return film.part(film.frame_at(time), 0, Vec3(0, 0.95, 0), Vec3(1, 1, 1)); };
   EXPECT_LT(tip(1.25).x() - tip(0).x(), -0.05);
@@ -276,7 +276,7 @@ TEST_F(SceneFacts, MusclesBendATentacleToBothSides) {
 }
 
 TEST_F(SceneFacts, WindBendsTheSheet) {
-  const Film film("wind", {{"duration", "1.2"}});
+  const FilmFacts film("wind", {{"duration", "1.2"}});
   film.expect_sound();
   const auto end = [&](double time) { return film.part(film.frame_at(time), 0, Vec3(0.95, 0, 0), Vec3(1, 1, 1)); };
   EXPECT_GT(end(0.8).z() - end(0).z(), 0.03);
@@ -284,7 +284,7 @@ TEST_F(SceneFacts, WindBendsTheSheet) {
 
 /// The wall gives way, swings back and throws the ball where it came from.
 TEST_F(SceneFacts, WallThrowsABallBack) {
-  const Film film("wall", {});
+  const FilmFacts film("wall", {});
   film.expect_sound();
   const auto shift = [&](int frame) { return film.middle(frame, 0).x() - film.middle(0, 0).x(); };
   double most = 0;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
-#include "app/make_production.h"
 #include "app/scene/scene_file.h"
+#include "core/simulation/simulation.h"
 #include "tests/support/error_message.h"
 #include "tests/support/temp_folder.h"
 
@@ -70,7 +70,7 @@ f 5 8 7 6
 class SelectorTest : public testing::Test {
  protected:
   [[nodiscard]] Production produce(const std::string& text) const {
-    const Console silent{.quiet = true};
+    const Observer silent;
     return make_production(parse_scene(text, folder_.path() / "scene.toml"), silent);
   }
 

@@ -1,12 +1,12 @@
-#include "app/shapes.h"
+#include "core/simulation/shapes.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-#include "app/make_production.h"
 #include "app/scene/scene_file.h"
 #include "core/bricks/voxelize.h"
+#include "core/simulation/simulation.h"
 #include "tests/support/error_message.h"
 
 /// Built-in bodies, how they start and how they are repeated.
@@ -16,7 +16,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 Production produce(const std::string& body) {
-  const Console silent{.quiet = true};
+  const Observer silent;
   return make_production(parse_scene("[[body]]\n" + body, "/scene.toml"), silent);
 }
 

@@ -1,8 +1,8 @@
-#include "app/step_plan.h"
-
 #include <gtest/gtest.h>
 
+#include "app/scene/film.h"
 #include "core/dynamics/explicit/integrator.h"
+#include "core/simulation/time_steps.h"
 #include "tests/support/bodies.h"
 
 namespace sprung {
@@ -17,14 +17,14 @@ World block(double young) {
   return world;
 }
 
-Scene scene_by(Solver scheme) {
-  Scene scene;
+Film scene_by(Solver scheme) {
+  Film scene;
   scene.solver.scheme = scheme;
   return scene;
 }
 
 TEST(StepPlanning, AutoTakesWhatIsForecastToBeQuicker) {
-  const Scene scene = scene_by(Solver::kAuto);
+  const Film scene = scene_by(Solver::kAuto);
   const StepPlan soft = plan_steps(block(2e4), scene);
   EXPECT_EQ(soft.scheme, Solver::kEuler);
   EXPECT_LE(soft.steps.dt, stable_step(block(2e4)));
@@ -37,7 +37,7 @@ TEST(StepPlanning, AutoTakesWhatIsForecastToBeQuicker) {
 
 /// A second block that may touch the first one makes implicit steps dearer, but does not forbid them.
 TEST(StepPlanning, BodiesThatTouchAreForecastDearer) {
-  const Scene scene = scene_by(Solver::kAuto);
+  const Film scene = scene_by(Solver::kAuto);
   const auto two_blocks = [](double young) {
     World world = block(young);
     world.actors.push_back(world.actors[0]);
@@ -60,7 +60,7 @@ TEST(StepPlanning, RestitutionNeedsExplicitSteps) {
 
 TEST(StepPlanning, WhatIsNamedIsTakenAndFillsTheFrame) {
   for (const Solver scheme : {Solver::kEuler, Solver::kVerlet, Solver::kImplicitEuler, Solver::kBdf2}) {
-    const Scene scene = scene_by(scheme);
+    const Film scene = scene_by(scheme);
     const StepPlan plan = plan_steps(block(1e5), scene);
     EXPECT_EQ(plan.scheme, scheme);
     EXPECT_TRUE(plan.reason.empty());

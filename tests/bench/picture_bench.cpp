@@ -8,12 +8,11 @@
 #include <ctime>
 #include <filesystem>
 
+#include "app/film/film_output.h"
 #include "app/film/film_stage.h"
-#include "app/make_production.h"
-#include "app/output.h"
-#include "app/picture_writer.h"
 #include "app/scene/scene_file.h"
 #include "core/error.h"
+#include "core/simulation/simulation.h"
 #include "render/film.h"
 #include "render/image/png.h"
 
@@ -52,7 +51,7 @@ Recording as_they_start(const Production& production) {
 }
 
 struct Subject {
-  Scene scene;
+  Film scene;
   Production production;
   Recording recording;
   FilmStage film;
@@ -62,7 +61,7 @@ struct Subject {
 
   explicit Subject(const std::filesystem::path& file)
       : scene(read_scene(file)),
-        production(make_production(scene, Console{.quiet = true})),
+        production(make_production(scene, Observer())),
         recording(as_they_start(production)),
         film(scene, production, recording),
         shapes(film.shapes(0)) {

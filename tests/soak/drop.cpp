@@ -15,7 +15,7 @@
 #include "core/dynamics/explicit/adaptive_integrator.h"
 #include "core/error.h"
 #include "core/mesh/io/read_mesh.h"
-#include "core/soft_body.h"
+#include "core/simulation/soft_body.h"
 #include "tests/support/meshes.h"
 
 namespace sprung::test {

@@ -1,6 +1,6 @@
 #pragma once
-#include "app/box_shape.h"
 #include "core/mesh/repair/weld.h"
+#include "core/simulation/shapes.h"
 #include "core/world/world.h"
 #include "tests/support/bodies.h"
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "app/frame_range.h"
+#include "app/film/film_output.h"
 #include "render/image/png.h"
 #include "tests/support/error_message.h"
 #include "tests/support/run_program.h"

@@ -2,11 +2,12 @@
 
 #include <random>
 
-#include "app/cache/run_cache.h"
-#include "app/make_production.h"
+#include "app/scene/cached_film.h"
 #include "app/scene/scene_file.h"
-#include "app/simulate.h"
 #include "core/error.h"
+#include "core/simulation/run_cache.h"
+#include "core/simulation/simulate.h"
+#include "core/simulation/simulation.h"
 #include "tests/support/error_message.h"
 #include "tests/support/run_program.h"
 #include "tests/support/sanitized.h"
@@ -14,7 +15,7 @@
 namespace sprung {
 namespace {
 
-const Console kSilent{.quiet = true};
+const Observer kSilent;
 
 /// What the scenes below have in common: some 0.6 s of two boxes.
 const std::string kTwoBoxes = R"(
@@ -71,10 +72,10 @@ std::vector<std::uint64_t> hashes_of(const std::filesystem::path& file) {
 
 Recording run(const std::string& text, double duration, const std::filesystem::path& file, bool resume,
               double position_error = 0) {
-  Scene scene = parse_scene(text, "/scene.toml");
+  Film scene = parse_scene(text, "/scene.toml");
   scene.duration = duration;
   Production production = make_production(scene, kSilent);
-  RunCache cache(file, resume, position_error);
+  RunCache cache(file, record_of(scene), resume, position_error);
   Recording recording = simulate(production, scene, kSilent, &cache);
   cache.close();
   return recording;

@@ -1,11 +1,10 @@
-#include "app/film/field_values.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "app/make_production.h"
+#include "app/film/field_colors.h"
 #include "app/scene/scene_file.h"
+#include "core/simulation/simulation.h"
 
 namespace sprung {
 namespace {
@@ -24,7 +23,7 @@ struct DrawnBar {
         make_production(parse_scene("[[body]]\nbox = [\"20 cm\", \"10 cm\", \"10 cm\"]\nbrick_size = \"5 cm\"\n"
                                     "material = { young = \"20 kPa\", poisson = 0.25, density = 1000 }\n",
                                     "/scene.toml"),
-                        Console{.quiet = true});
+                        Observer());
     Points nodes = production.world.actors[0].body.rest_positions;
     nodes.col(0) *= kStretch;
     recording.frames.push_back({nodes.cast<float>()});

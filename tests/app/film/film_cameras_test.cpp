@@ -25,8 +25,8 @@ Reach moving_cube(double offset = 0) {
   return reach;
 }
 
-Scene scene_with(const SceneCamera& camera) {
-  Scene scene;
+Film scene_with(const SceneCamera& camera) {
+  Film scene;
   scene.fps = 4;
   scene.duration = 1;
   scene.camera = camera;

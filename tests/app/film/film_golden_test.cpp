@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "app/film/surroundings.h"
-#include "app/make_production.h"
-#include "app/render_film.h"
+#include "app/film/film_pipeline.h"
+#include "app/film/render_film.h"
 #include "app/scene/scene_file.h"
+#include "core/simulation/simulation.h"
 #include "render/image/exr.h"
 #include "render/image/png.h"
 #include "tests/support/error_message.h"
@@ -22,14 +22,14 @@ constexpr const char* kBar =
     "[[body.pin]]\nbox = { min = [0, 0, 0], max = [0.01, 1, 1] }\n[[obstacle]]\nplane = { y = 0 }\n"
     "[render]\nresolution = [320, 180]\n";
 
-struct Film {
-  Scene scene;
+struct FilmUnderTest {
+  Film scene;
   Production production;
   Recording recording;
 
   /// `render`: further keys of [render], then tables.
-  explicit Film(const std::string& render) : scene(parse_scene(kBar + render, "/scene.toml")) {
-    production = make_production(scene, Console{.quiet = true});
+  explicit FilmUnderTest(const std::string& render) : scene(parse_scene(kBar + render, "/scene.toml")) {
+    production = make_production(scene, Console::of_few_words());
     for (int frame = 0; frame < 3; ++frame) add_frame(0.5 * frame);
   }
 
@@ -49,12 +49,12 @@ struct Film {
   [[nodiscard]] Image picture(int frame = 3) const {
     const TempFolder folder;
     render_film({{scene, production, recording}}, read_surroundings(scene.render), {.first = frame, .last = frame},
-                {parse_output((folder.path() / "p_{}.png").string())}, Console{.quiet = true});
+                {parse_output((folder.path() / "p_{}.png").string())}, Console::of_few_words());
     return read_png(folder.path() / ("p_" + std::to_string(frame) + ".png"));
   }
 };
 
-Image picture(const std::string& render, int frame = 3) { return Film(render).picture(frame); }
+Image picture(const std::string& render, int frame = 3) { return FilmUnderTest(render).picture(frame); }
 
 TEST(FilmGolden, StressWithLegend) {
   expect_golden(picture("color_by = \"stress\"\nframe_number = true\n"), "film_stress");
@@ -84,36 +84,36 @@ TEST(FilmGolden, Orthographic) {
 TEST(FilmGolden, MotionBlur) { expect_golden(picture("motion_blur = 180\n", 2), "film_motion_blur"); }
 
 TEST(FilmGolden, Sheet) {
-  Film film("sheet = [2, 2]\ncolor_by = \"displacement\"\n");
+  FilmUnderTest film("sheet = [2, 2]\ncolor_by = \"displacement\"\n");
   film.add_frame(1.5);
   const TempFolder folder;
   render_film({{film.scene, film.production, film.recording}}, std::nullopt, {.first = 1, .last = 4},
-              {parse_output((folder.path() / "s_{}.png").string())}, Console{.quiet = true});
+              {parse_output((folder.path() / "s_{}.png").string())}, Console::of_few_words());
   expect_golden(read_png(folder.path() / "s_1.png"), "film_sheet");
 }
 
 TEST(FilmGolden, SideBySide) {
-  Film first("color_by = \"displacement\"\n");
+  FilmUnderTest first("color_by = \"displacement\"\n");
   first.scene.render.resolution = {320, 130};
-  Film second("");
+  FilmUnderTest second("");
   second.recording.frames.pop_back();  // stays where it ends
   second.recording.progress.pop_back();
   const TempFolder folder;
   const std::vector<FilmRun> runs{{first.scene, first.production, first.recording, "bent"},
                                   {second.scene, second.production, second.recording, "half"}};
   render_film(runs, std::nullopt, {.first = 3, .last = 3}, {parse_output((folder.path() / "p_{}.png").string())},
-              Console{.quiet = true});
+              Console::of_few_words());
   expect_golden(read_png(folder.path() / "p_3.png"), "film_side_by_side");
 }
 
 TEST(FilmGolden, Contacts) {
-  Film film("contacts = true\n[camera]\nazimuth = -50\nelevation = 6\n");
+  FilmUnderTest film("contacts = true\n[camera]\nazimuth = -50\nelevation = 6\n");
   for (std::vector<Floats3>& frame : film.recording.frames) frame[0].col(1).array() -= 0.1F;  // onto the ground
   expect_golden(film.picture(), "film_contacts");
 }
 
 TEST(FilmGolden, TracesAndPlots) {
-  Film film("traces = true\nplots = true\n");
+  FilmUnderTest film("traces = true\nplots = true\n");
   film.recording.probes.push_back({.name = "tip", .samples = {}});
   for (const std::vector<Floats3>& frame : film.recording.frames) {
     const Vec3 tip = frame[0].row(frame[0].rows() - 1).cast<double>().transpose();
@@ -128,7 +128,7 @@ TEST(FilmGolden, Lens) { expect_golden(picture("[camera]\naperture = 0.08\nazimu
 
 // A film without flicker.
 TEST(FilmPictures, OfWhatStandsStillHasEqualPictures) {
-  Film film("color_by = \"strain\"\n");
+  FilmUnderTest film("color_by = \"strain\"\n");
   film.recording.frames[1] = film.recording.frames[0];
   EXPECT_EQ(film.picture(1).pixels, film.picture(2).pixels);
 }
@@ -139,7 +139,7 @@ TEST(FilmPictures, AreLitByThePanoramaThatTheSceneNames) {
   for (std::size_t i = 2; i < blue.pixels.size(); i += 3) blue.pixels[i] = 255;
   write_png(blue, folder.path() / "blue.png");
   write_png(Image(8, 4), folder.path() / "black.png");
-  Film film("");
+  FilmUnderTest film("");
   const Image studio = film.picture();
   film.scene.render.environment = folder.path() / "blue.png";
   const Image lit = film.picture();
@@ -151,11 +151,11 @@ TEST(FilmPictures, AreLitByThePanoramaThatTheSceneNames) {
 }
 
 TEST(FilmPictures, WritesPassesBesideItsPictures) {
-  const Film film("");
+  const FilmUnderTest film("");
   const TempFolder folder;
   render_film({{film.scene, film.production, film.recording}}, std::nullopt, {.first = 2, .last = 2},
               parse_outputs({folder.path().string() + "/", (folder.path() / "p_{}.exr").string()}),
-              Console{.quiet = true});
+              Console::of_few_words());
   ASSERT_TRUE(std::filesystem::exists(folder.path() / "frame_0002.png"));
   const Passes passes = read_exr(folder.path() / "p_2.exr");
   EXPECT_EQ(passes.width, 320);
@@ -174,10 +174,10 @@ TEST(FilmGolden, Looks) {
             ", 0, 0.16]\n";
     ++place;
   }
-  const Scene scene = parse_scene(kBar + more, "/scene.toml");
-  Film film("");
+  const Film scene = parse_scene(kBar + more, "/scene.toml");
+  FilmUnderTest film("");
   film.scene = scene;
-  film.production = make_production(scene, Console{.quiet = true});
+  film.production = make_production(scene, Console::of_few_words());
   film.recording = {};
   film.recording.progress = {0};
   film.recording.frames.emplace_back();
@@ -205,11 +205,11 @@ TEST(FilmColors, MeanTheSameInEveryFrame) {
 }
 
 TEST(FilmTransparent, HasAlphaAndNoFloor) {
-  const Film film("transparent = true\n");
+  const FilmUnderTest film("transparent = true\n");
   const TempFolder folder;
   const Output output = parse_output((folder.path() / "p_{}.png").string());
   render_film({{film.scene, film.production, film.recording}}, std::nullopt, {.first = 1, .last = 1}, {output},
-              Console{.quiet = true});
+              Console::of_few_words());
   const Image image = read_png(output.picture(1));
   ASSERT_EQ(image.alpha.size(), 320U * 180U);
   EXPECT_EQ(image.alpha.front(), 0);
@@ -218,7 +218,7 @@ TEST(FilmTransparent, HasAlphaAndNoFloor) {
   EXPECT_GT(std::count_if(image.alpha.begin(), image.alpha.end(), is_partly), 50);  // smooth edges
   EXPECT_EQ(error_message([&] {
               render_film({{film.scene, film.production, film.recording}}, std::nullopt, {.first = 1, .last = 1},
-                          {parse_output((folder.path() / "f.mp4").string())}, Console{.quiet = true});
+                          {parse_output((folder.path() / "f.mp4").string())}, Console::of_few_words());
             }),
             "render.transparent: films have no alpha; give a folder for pictures");
 }

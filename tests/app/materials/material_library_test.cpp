@@ -1,4 +1,4 @@
-#include "app/materials/material_library.h"
+#include "app/scene/material_library.h"
 
 #include <gtest/gtest.h>
 
@@ -84,10 +84,10 @@ TEST(MaterialLibrary, ASceneNamesMaterialsOfItsOwnFile) {
   static_cast<void>(folder.write("cube.obj", kCubeObj));
   static_cast<void>(folder.write("mine.toml", kMine));
   const std::string text = "materials = \"mine.toml\"\n[[body]]\nmesh = \"cube.obj\"\nmaterial = \"jelly\"\n";
-  const Scene scene = with_defaults(parse_scene(text, folder.path() / "scene.toml"));
+  const Film scene = with_defaults(parse_scene(text, folder.path() / "scene.toml"));
   EXPECT_EQ(scene.bodies[0].material.young, 5e3);
   EXPECT_EQ(scene.bodies[0].look, Look::kGelatin);
-  const Scene again = parse_scene(print_scene(scene), "/cache.toml", SceneFiles::kAnywhere);
+  const Film again = parse_scene(print_scene(scene), "/cache.toml", SceneFiles::kAnywhere);
   EXPECT_EQ(again.bodies[0].material.density, 1100);
   EXPECT_EQ(again.bodies[0].look, Look::kGelatin);
   const std::string nowhere = "materials = \"nine.toml\"\n[[body]]\nmesh = \"cube.obj\"\n";

@@ -5,9 +5,9 @@
 
 #include <cmath>
 
-#include "app/make_production.h"
 #include "app/scene/scene_file.h"
-#include "app/simulate.h"
+#include "core/simulation/simulate.h"
+#include "core/simulation/simulation.h"
 #include "tests/support/error_message.h"
 #include "tests/support/run_program.h"
 
@@ -17,9 +17,9 @@ namespace {
 /// A soft cube of 20 cm that does this for 2 s, with the middle of its upper face, its own and that
 /// of an upper edge watched.
 Recording record(Scenario scenario) {
-  Scene scene;
+  Film scene;
   scene.duration = 2;
-  SceneBody& body = scene.bodies.emplace_back();
+  SceneBody& body = scene.bodies.emplace_back(default_body());
   body.box = Vec3::Constant(0.2);
   body.size = 0.2;
   body.bricks = 3;
@@ -32,7 +32,7 @@ Recording record(Scenario scenario) {
   scene.probes[2].name = "edge";
   scene.probes[2].point = Vec3(0.1, 0.1, 0);
   stage_scenario(scene, scenario, 0.2);
-  const Console silent{.quiet = true};
+  const Observer silent;
   Production production = make_production(scene, silent);
   return simulate(production, scene, silent);
 }
@@ -96,7 +96,7 @@ TEST(Scenarios, AreScenesThatCanBePrintedAndSet) {
     const std::string words = fmt::format("animate cube.obj --print-scene --scenario {}", name);
     const ProgramRun run = run_program(folder, words + " --set 'body.spin=[0, 0, 1 rad/s]' --set camera.orbit=20");
     ASSERT_EQ(run.exit_code, 0) << run.err;
-    const Scene scene = parse_scene(run.out, folder.path() / "scene.toml");
+    const Film scene = parse_scene(run.out, folder.path() / "scene.toml");
     EXPECT_EQ(print_scene(scene), run.out) << name;
     EXPECT_DOUBLE_EQ(scene.camera.orbit, 20);
     const double spin = name == "throw" ? -240.765 : 57.296;  // degrees/s

@@ -96,7 +96,7 @@ samples = 1
 
 class SceneFile : public testing::Test {
  protected:
-  [[nodiscard]] Scene parse(const std::string& text) const { return parse_scene(text, folder_.path() / "scene.toml"); }
+  [[nodiscard]] Film parse(const std::string& text) const { return parse_scene(text, folder_.path() / "scene.toml"); }
 
   [[nodiscard]] std::string mistakes(const std::string& text) const {
     return error_message([&] { static_cast<void>(parse(text)); });
@@ -112,7 +112,7 @@ class SceneFile : public testing::Test {
 };
 
 TEST_F(SceneFile, ReadsWhatIsWritten) {
-  const Scene scene = parse(kWholeScene);
+  const Film scene = parse(kWholeScene);
   EXPECT_DOUBLE_EQ(scene.duration, 1.5);
   EXPECT_DOUBLE_EQ(scene.fps, 30);
   EXPECT_DOUBLE_EQ(scene.gravity.y(), -1.62);
@@ -143,7 +143,7 @@ TEST_F(SceneFile, ReadsWhatIsWritten) {
 }
 
 TEST_F(SceneFile, ReadsWhatIsMeasuredAndExpected) {
-  const Scene scene = parse(kWholeScene);
+  const Film scene = parse(kWholeScene);
   EXPECT_EQ(scene.solver.load_steps, 7);
   EXPECT_EQ(scene.solver.modes, 3);
   const Pin& pin = scene.bodies[0].pins.at(0);
@@ -186,7 +186,7 @@ TEST_F(SceneFile, RefusesWhatCannotBeMeasuredOrHeld) {
 
 TEST_F(SceneFile, PrintedSceneParsesToTheSameScene) {
   const std::string printed = print_scene(parse(kWholeScene));
-  const Scene again = parse(printed);
+  const Film again = parse(printed);
   EXPECT_EQ(print_scene(again), printed);
   EXPECT_EQ(again.bodies[0].mesh, cube_);
   EXPECT_EQ(again.bodies[0].position, Vec3(0, 0.3, -0.02));
@@ -205,7 +205,7 @@ TEST_F(SceneFile, PrintedSceneParsesToTheSameScene) {
 
 TEST_F(SceneFile, PrintedPathsWithQuotesParse) {
   const auto odd = folder_.write("a \"b\\c.obj", kCubeObj);
-  Scene scene = parse(kWholeScene);
+  Film scene = parse(kWholeScene);
   scene.bodies[0].mesh = odd;
   EXPECT_EQ(parse(print_scene(scene)).bodies[0].mesh, odd);
 }
@@ -269,8 +269,8 @@ TEST_F(SceneFile, RangesAreKept) {
   EXPECT_NE(body_mistakes("size = \"-3 cm\"").find("at least 1e-06 m"), std::string::npos);
 }
 
-TEST(Scene, FramesShowTimesFromZero) {
-  Scene scene;
+TEST(SceneFrames, ShowTimesFromZero) {
+  Film scene;
   scene.duration = 1;
   scene.fps = 24;
   EXPECT_EQ(frame_count(scene), 24);

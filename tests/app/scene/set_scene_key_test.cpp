@@ -7,14 +7,14 @@
 namespace sprung {
 namespace {
 
-Scene two_bodies() {
+Film two_bodies() {
   return parse_scene(
       "[[body]]\nmesh = \"a.obj\"\nsize = 0.1\n[[body]]\nmesh = \"b.obj\"\nscale = 0.01\nmaterial = \"rubber\"\n",
       "/scene.toml", SceneFiles::kAnywhere);
 }
 
 TEST(SetSceneKey, SetsItInEveryBody) {
-  Scene scene = two_bodies();
+  Film scene = two_bodies();
   set_scene_key(scene, "body.size", "30 cm");
   set_scene_key(scene, "body.material.young", "5 kPa");
   for (const SceneBody& body : scene.bodies) {
@@ -27,7 +27,7 @@ TEST(SetSceneKey, SetsItInEveryBody) {
 }
 
 TEST(SetSceneKey, WordsMayHaveTheQuotesOfASceneFile) {
-  Scene scene = two_bodies();
+  Film scene = two_bodies();
   set_scene_key(scene, "body.material.young", "\"7 kPa\"");
   EXPECT_DOUBLE_EQ(scene.bodies[0].material.young, 7e3);
   set_scene_key(scene, "solver.scheme", "'verlet'");
@@ -37,7 +37,7 @@ TEST(SetSceneKey, WordsMayHaveTheQuotesOfASceneFile) {
 }
 
 TEST(SetSceneKey, PairsAreWrittenInThreeWays) {
-  Scene scene = two_bodies();
+  Film scene = two_bodies();
   set_scene_key(scene, "render.resolution", "640x360");
   EXPECT_EQ(scene.render.resolution, (std::array<int, 2>{640, 360}));
   for (const char* pair : {"3x2", "[3, 2]", "3,2"}) {
@@ -50,7 +50,7 @@ TEST(SetSceneKey, PairsAreWrittenInThreeWays) {
 }
 
 TEST(SetSceneKey, RefusesWhatIsNoKeyOfAValue) {
-  Scene scene = two_bodies();
+  Film scene = two_bodies();
   EXPECT_NE(error_message([&] { set_scene_key(scene, "body.sise", "1"); }).find("did you mean 'size'"),
             std::string::npos);
   EXPECT_THROW(set_scene_key(scene, "body", "1"), Error);

@@ -6,10 +6,10 @@
 #include <numbers>
 #include <random>
 
-#include "app/box_shape.h"
 #include "core/body/forces.h"
 #include "core/contact/penetration.h"
 #include "core/dynamics/explicit/adaptive_integrator.h"
+#include "core/simulation/shapes.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/touching.h"
 

@@ -1,0 +1,91 @@
+#include "app/commands/film.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/console/console.h"
+#include "app/console/interrupt.h"
+#include "app/film/film_output.h"
+#include "core/error.h"
+#include "core/text.h"
+#include "render/image/png.h"
+
+namespace sprung {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostFrames = 1000000000;  // that --frames may name
+
+int last_number(const Output& pictures) {
+  int last = 0;
+  for (const fs::path& file : existing_pictures(pictures)) {
+    const std::string name = file.filename().string();
+    const auto digits = name.size() - pictures.before.size() - pictures.after.size();
+    if (digits > 9) continue;
+    last = std::max(last, std::stoi(name.substr(pictures.before.size(), digits)));
+  }
+  return last;
+}
+
+/// "25:48, 70" of the pictures that are not there; empty where all are.
+std::string gaps_in(const Output& pictures, const FrameRange& range) {
+  std::string gaps;
+  int missing = 0;  // in a row, up to the number before
+  for (int number = range.first; number <= range.last + 1; ++number) {
+    if (number <= range.last && !fs::exists(pictures.picture(number))) {
+      ++missing;
+    } else if (missing > 0) {
+      gaps += gaps.empty() ? "" : ", ";
+      gaps += missing == 1 ? fmt::format("{}", number - 1) : fmt::format("{}:{}", number - missing, number - 1);
+      missing = 0;
+    }
+  }
+  return gaps;
+}
+
+std::vector<Output> films_of(const SceneOptions& options) {
+  std::vector<Output> films = parse_outputs(options.outputs);
+  for (const Output& film : films) {
+    if (film.kind != Output::Kind::kFilm) {
+      throw Error(ErrorKind::kUsage, "film makes films of pictures: -o film.mp4, .webm or .gif");
+    }
+    check_output(film, options.overwrite);
+  }
+  return films;
+}
+
+}  // namespace
+
+void make_film(const SceneOptions& options, const Console& console) {
+  const std::vector<Output> films = films_of(options);
+  const Output pictures = parse_output(options.input);
+  const int last = pictures.kind == Output::Kind::kPictures ? last_number(pictures) : 0;
+  if (last == 0) throw Error(ErrorKind::kBadInput, fmt::format("'{}': no numbered pictures are there", options.input));
+  const std::size_t count = options.frames.empty() ? std::size_t(last) : kMostFrames;
+  FrameRange range = parse_frame_range(options.frames, count);
+  if (range.last == int(kMostFrames)) range.last = last;
+  if (const std::string gaps = gaps_in(pictures, range); !gaps.empty()) {
+    throw Error(ErrorKind::kBadInput, fmt::format("'{}': these pictures are missing: {}", options.input, gaps));
+  }
+  Progress progress(console, "film", range.count(), 1, "frames/s");
+  const Image first = read_png(pictures.picture(range.first));
+  PictureWriter writer(films, first.width, first.height, options.fps.value_or(Film{}.fps));
+  for (int number = range.first; number <= range.last; ++number) {
+    stop_if_interrupted();
+    Image image = read_png(pictures.picture(number));
+    if (image.width != first.width || image.height != first.height) {
+      throw Error(ErrorKind::kBadInput,
+                  fmt::format("'{}' is {} x {} pixels, those before {} x {}", pictures.picture(number).string(),
+                              image.width, image.height, first.width, first.height));
+    }
+    writer.write({.image = std::move(image)});
+    progress.update(number - range.first + 1);
+  }
+  writer.close();
+  progress.finish(count_of(range.count(), "picture"));
+  for (const std::string& output : options.outputs) fmt::print("{}\n", output);
+}
+
+}  // namespace sprung

@@ -1,0 +1,40 @@
+#include "app/film/draw_diverged.h"
+
+#include <fmt/format.h>
+
+#include <string>
+
+#include "app/report/experiment_picture.h"
+#include "core/error.h"
+#include "core/io/files.h"
+#include "render/image/png.h"
+
+namespace sprung {
+namespace {
+
+/// A sentence that tells of the picture, or none.
+std::string draw(const Body& body, const std::filesystem::path& picture) {
+  if (!body.positions.allFinite()) return "";
+  try {
+    const ExperimentPicture drawn = draw_experiment(body, {.color_by = ColorBy::kStrain, .width = 1280, .height = 800});
+    make_folder(picture.parent_path());
+    write_png(drawn.image, picture);
+    return fmt::format("; {} shows its bricks before, coloured by strain from {:.3g} to {:.3g} %", picture.string(),
+                       drawn.colors.low, drawn.colors.high);
+  } catch (const Error&) {
+    return "";  // the first error is the one to tell
+  }
+}
+
+}  // namespace
+
+Recording with_picture_of_diverged(const World& world, const std::filesystem::path& picture,
+                                   const std::function<Recording()>& work) {
+  try {
+    return work();
+  } catch (const Diverged& error) {
+    throw Error(error.kind(), error.what() + draw(world.actors[error.actor()].body, picture));
+  }
+}
+
+}  // namespace sprung

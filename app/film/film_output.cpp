@@ -1,0 +1,250 @@
+#include "app/film/film_output.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+
+#include "core/error.h"
+#include "core/io/file_lock.h"
+#include "core/io/files.h"
+#include "core/text.h"
+#include "render/film.h"
+#include "render/image/exr.h"
+#include "render/image/png.h"
+
+namespace sprung {
+namespace {
+
+int number_in(std::string_view text, std::string_view words) {
+  int number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error == std::errc() && end == text.data() + text.size()) return number;
+  throw Error(ErrorKind::kUsage, fmt::format("--frames: '{}' is not like 1:48, 12:, :12 or 7", words));
+}
+
+}  // namespace
+
+FrameRange whole_film(std::size_t frames) { return {.first = 1, .last = int(frames)}; }
+
+FrameRange parse_frame_range(std::string_view words, std::size_t frames) {
+  FrameRange range = whole_film(frames);
+  if (words.empty()) return range;
+  const auto colon = words.find(':');
+  const std::string_view before = words.substr(0, colon);
+  const std::string_view after = colon == std::string_view::npos ? before : words.substr(colon + 1);
+  if (!before.empty()) range.first = number_in(before, words);
+  if (!after.empty()) range.last = number_in(after, words);
+  if (range.first >= 1 && range.first <= range.last && range.last <= int(frames)) return range;
+  throw Error(ErrorKind::kUsage, fmt::format("--frames: {} is not within the {} frames that there are", words, frames));
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kExamples = "give a folder, a pattern like frame_{:04}.png, or a film (.mp4, .webm, .gif)";
+constexpr std::array<std::string_view, 3> kFilms{".mp4", ".webm", ".gif"};
+
+[[noreturn]] void refuse(std::string_view words, std::string_view reason) {
+  throw Error(ErrorKind::kUsage, fmt::format("--output {}: {}; {}", words, reason, kExamples));
+}
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return text;
+}
+
+Output parse_pattern(std::string_view words) {
+  NumberedName name = parse_numbered_name(words, kExamples);
+  const std::string whole = lower(name.after);
+  const bool is_exr = whole.ends_with(".exr");
+  if (!is_exr && !whole.ends_with(".png")) refuse(words, "pictures are PNG files, their passes EXR files");
+  return {.kind = is_exr ? Output::Kind::kPasses : Output::Kind::kPictures,
+          .folder = name.folder,
+          .before = name.before,
+          .after = name.after,
+          .digits = name.digits};
+}
+
+bool is_number(std::string_view text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+fs::path or_here(const fs::path& folder) { return folder.empty() ? fs::path(".") : folder; }
+
+/// The place in the file system, whatever the words for it.
+fs::path place_of(const fs::path& path) {
+  std::error_code ignored;
+  fs::path place = fs::weakly_canonical(fs::absolute(path, ignored), ignored).lexically_normal();
+  return place.has_filename() ? place : place.parent_path();
+}
+
+bool is_below(const fs::path& path, const fs::path& above) {
+  return std::mismatch(above.begin(), above.end(), path.begin(), path.end()).first == above.end();
+}
+
+/// Whether one would replace the other or stand in its way.
+bool collide(const Output& a, const Output& b) {
+  const bool a_is_film = a.kind == Output::Kind::kFilm;
+  const bool b_is_film = b.kind == Output::Kind::kFilm;
+  if (a_is_film && b_is_film) return place_of(a.film) == place_of(b.film);
+  if (a_is_film) return is_below(place_of(or_here(b.folder)), place_of(a.film));
+  if (b_is_film) return collide(b, a);
+  return place_of(or_here(a.folder)) == place_of(or_here(b.folder)) && a.before == b.before && a.after == b.after;
+}
+
+}  // namespace
+
+fs::path Output::picture(int number) const { return NumberedName{folder, before, after, digits}.file(number); }
+
+void check_folder_name(std::string_view words, std::span<const std::string_view> endings, std::string_view examples) {
+  const fs::path path(words);
+  const std::string ending = lower(path.extension().string());
+  if (ending.empty() || words.ends_with('/') || fs::is_directory(path)) return;
+  throw Error(ErrorKind::kUsage,
+              fmt::format("--output {0}: '{1}' files cannot be written{2} (a folder of that name: {0}/); {3}", words,
+                          ending, did_you_mean(ending, endings), examples));
+}
+
+Output parse_output(std::string_view words) {
+  if (words.empty()) refuse("''", "the name is empty");
+  const bool is_folder = words.ends_with('/');
+  if (!is_folder && words.find_first_of("{}") != std::string_view::npos) return parse_pattern(words);
+  const fs::path path(words);
+  if (!is_folder && is_film(path)) return {.kind = Output::Kind::kFilm, .folder = path.parent_path(), .film = path};
+  if (lower(path.extension().string()) == ".png" && !fs::is_directory(path)) {
+    refuse(words, "a single picture cannot hold a film");
+  }
+  check_folder_name(words, kFilms, kExamples);
+  return {.kind = Output::Kind::kPictures, .folder = path, .before = "frame_", .after = ".png", .digits = 4};
+}
+
+std::vector<fs::path> existing_pictures(const Output& output) {
+  std::vector<fs::path> found;
+  if (output.kind == Output::Kind::kFilm || !fs::is_directory(or_here(output.folder))) return found;
+  for (const fs::directory_entry& entry : fs::directory_iterator(or_here(output.folder))) {
+    const std::string name = entry.path().filename().string();
+    if (name.size() <= output.before.size() + output.after.size()) continue;
+    if (!name.starts_with(output.before) || !name.ends_with(output.after)) continue;
+    const auto digits = name.size() - output.before.size() - output.after.size();
+    if (is_number(std::string_view(name).substr(output.before.size(), digits))) found.push_back(entry.path());
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+std::vector<Output> parse_outputs(const std::vector<std::string>& words) {
+  std::vector<Output> outputs;
+  for (const std::string& word : words) {
+    outputs.push_back(parse_output(word));
+    for (std::size_t other = 0; other + 1 < outputs.size(); ++other) {
+      if (!collide(outputs[other], outputs.back())) continue;
+      throw Error(
+          ErrorKind::kUsage,
+          fmt::format("--output {} and --output {} are in each other's way; give one of them", words[other], word));
+    }
+  }
+  return outputs;
+}
+
+void check_output(const Output& output, bool overwrite) {
+  if (output.kind == Output::Kind::kFilm) {
+    require_ffmpeg();
+    if (fs::is_directory(output.film)) refuse(output.film.string(), "it is a folder");
+    if (is_film_being_written(output.film)) refuse_second_run(output.film);
+    if (!overwrite && fs::exists(output.film)) {
+      throw Error(ErrorKind::kUsage, fmt::format("'{}' exists; say --overwrite to replace it", output.film.string()));
+    }
+    check_writable(output.film);
+    return;
+  }
+  const std::vector<fs::path> pictures = existing_pictures(output);
+  if (!overwrite && !pictures.empty()) {
+    const auto more = long(pictures.size()) - 1;
+    throw Error(ErrorKind::kUsage,
+                more == 0 ? fmt::format("'{}' exists; say --overwrite to replace it", pictures.front().string())
+                          : fmt::format("'{}' and {} exist; say --overwrite to replace them", pictures.front().string(),
+                                        count_of(more, "more picture")));
+  }
+  check_writable(output.picture(1));
+}
+
+namespace {
+
+constexpr std::size_t kMostWaiting = 4;
+
+}  // namespace
+
+PictureWriter::PictureWriter(std::vector<Output> outputs, int width, int height, double fps, int first, int step)
+    : outputs_(std::move(outputs)), next_(first), step_(step) {
+  for (const Output& output : outputs_) {
+    make_folder(output.folder);
+    if (output.kind != Output::Kind::kFilm) continue;
+    films_.push_back(std::make_unique<FilmWriter>(output.film, width, height, fps));
+  }
+  thread_ = std::thread([this] { run(); });
+}
+
+PictureWriter::~PictureWriter() {
+  {
+    const std::lock_guard lock(mutex_);
+    waiting_.clear();
+    is_closed_ = true;
+  }
+  changed_.notify_all();
+  if (thread_.joinable()) thread_.join();
+}
+
+void PictureWriter::write(Drawing drawing) {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [this] { return waiting_.size() < kMostWaiting || failure_; });
+  if (failure_) std::rethrow_exception(failure_);
+  waiting_.push_back(std::move(drawing));
+  changed_.notify_all();
+}
+
+void PictureWriter::close() {
+  {
+    const std::lock_guard lock(mutex_);
+    is_closed_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+  if (failure_) std::rethrow_exception(failure_);
+  for (const auto& film : films_) film->close();
+}
+
+void PictureWriter::run() {
+  while (true) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return !waiting_.empty() || is_closed_; });
+    if (waiting_.empty()) return;
+    const Drawing drawing = std::move(waiting_.front());
+    waiting_.pop_front();
+    lock.unlock();
+    changed_.notify_all();
+    try {
+      write_everywhere(drawing);
+    } catch (...) {
+      lock.lock();
+      failure_ = std::current_exception();
+      changed_.notify_all();
+      return;
+    }
+  }
+}
+
+void PictureWriter::write_everywhere(const Drawing& drawing) {
+  for (const Output& output : outputs_) {
+    if (output.kind == Output::Kind::kPictures) write_png(drawing.image, output.picture(next_));
+    if (output.kind == Output::Kind::kPasses) write_exr(drawing.passes.value(), output.picture(next_));
+  }
+  for (const auto& film : films_) film->write(drawing.image);
+  next_ += step_;
+}
+
+}  // namespace sprung

@@ -1,0 +1,243 @@
+#include "app/film/film_pipeline.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "app/film/labels.h"
+#include "core/error.h"
+#include "core/io/decode_image.h"
+#include "core/mesh/io/file_checks.h"
+#include "core/types.h"
+
+namespace sprung {
+namespace {
+
+constexpr int kExposures = 8;                       // of a picture with motion blur ...
+constexpr int kLensExposures = 24;                  // ... and of one with a lens
+constexpr double kGoldenAngle = 2.399963229728653;  // rad, between neighbours on a spiral
+
+Reach common_reach(const std::vector<FilmRun>& runs) {
+  std::vector<Reach> all;
+  all.reserve(runs.size());
+  for (const FilmRun& run : runs) all.push_back(reach_of(run.production, run.recording));
+  return joined(all);
+}
+
+std::size_t longest_of(const std::vector<FilmRun>& runs) {
+  const auto shorter = [](const FilmRun& a, const FilmRun& b) {
+    return a.recording.frames.size() < b.recording.frames.size();
+  };
+  return std::max_element(runs.begin(), runs.end(), shorter) - runs.begin();
+}
+
+/// Runs beside each other and pictures of a sheet have their part of the resolution each.
+Film with_panel_size(Film scene, std::size_t runs, const Labels& labels) {
+  if (!scene.render.sheet && runs == 1) return scene;
+  auto [columns, rows] = scene.render.sheet.value_or(std::array{1, 1});
+  columns *= int(runs);
+  auto& [width, height] = scene.render.resolution;
+  width = std::max(1, (width - labels.reserved(width, height)) / columns);
+  height = std::max(1, height / rows);
+  return scene;
+}
+
+RenderOptions options_of(const SceneRender& render) {
+  return {.width = render.resolution[0],
+          .height = render.resolution[1],
+          .samples = render.samples.value_or(samples_of(render.quality)),
+          .quality = render.quality,
+          .transparent = render.transparent};
+}
+
+Stage in(const std::optional<Environment>& surroundings, Stage stage) {
+  stage.environment = surroundings;
+  return stage;
+}
+
+}  // namespace
+
+FilmPipeline::Colors FilmPipeline::common_colors(const std::vector<FilmRun>& runs) {
+  Colors colors{runs.front().scene, std::nullopt};
+  SceneRender& render = colors.scene.render;
+  if (render.color_by == Field::kSkin && !render.springs) return colors;
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (const FilmRun& run : runs) {
+    Film its = run.scene;
+    its.render = render;
+    const ColorRange range = FilmStage(its, run.production, run.recording).color_range().value();
+    low = std::min(low, range.low);
+    high = std::max(high, range.high);
+  }
+  render.color_low = low;
+  render.color_high = high;
+  colors.legend = FilmStage(colors.scene, runs.front().production, runs.front().recording).legend();
+  return colors;
+}
+
+std::size_t FilmPipeline::Panel::frame(std::size_t of_film) const {
+  return std::min(of_film, run.recording.frames.size() - 1);
+}
+
+FilmPipeline::FilmPipeline(const std::vector<FilmRun>& runs, const std::optional<Environment>& surroundings)
+    : FilmPipeline(runs, surroundings, common_colors(runs)) {}
+
+FilmPipeline::FilmPipeline(const std::vector<FilmRun>& runs, const std::optional<Environment>& surroundings,
+                           const Colors& colors)
+    : surroundings_(surroundings),
+      scene_(colors.scene),
+      reach_(common_reach(runs)),
+      labels_(scene_.render, colors.legend, runs.size() > 1),
+      scene_of_panel_(with_panel_size(scene_, runs.size(), labels_)),
+      longest_(longest_of(runs)) {
+  const auto [width, height] = scene_.render.resolution;
+  const bool is_whole = runs.size() == 1 && !scene_.render.sheet;
+  cameras_ = cameras_of(scene_of_panel_, reach_, is_whole ? 1.0 * labels_.reserved(width, height) / width : 0);
+  for (const FilmRun& run : runs) {
+    Film its = run.scene;
+    its.render = scene_.render;
+    panels_.emplace_back(std::move(its), run);
+  }
+}
+
+Renderer& FilmPipeline::renderer(Panel& panel) {
+  if (!panel.renderer) {
+    panel.renderer = std::make_unique<Renderer>(in(surroundings_, panel.stage.stage(reach_.bounds)),
+                                                options_of(scene_of_panel_.render));
+  }
+  return *panel.renderer;
+}
+
+FilmPipeline::Moments FilmPipeline::moments(std::size_t frame) const {
+  const double open = scene_.render.motion_blur / 360;
+  const int count = exposures();
+  Moments moments;
+  for (const Panel& panel : panels_) {
+    std::vector<std::vector<SkinShape>>& of_run = moments.emplace_back();
+    for (int i = 0; i < count; ++i) of_run.push_back(panel.stage.shapes(panel.frame(frame), open * i / count));
+  }
+  return moments;
+}
+
+Image FilmPipeline::draw(std::size_t frame, const Moments& moments) {
+  const Camera& camera = cameras_[frame];
+  std::vector<Image> pictures;
+  for (std::size_t i = 0; i < panels_.size(); ++i) {
+    Exposure exposure;
+    for (std::size_t j = 0; j < moments[i].size(); ++j) {
+      exposure.add(renderer(panels_[i]).draw(moments[i][j], this->camera(frame, int(j))));
+    }
+    pictures.push_back(exposure.mean());
+    if (panels_.size() > 1) labels_.write_name(pictures.back(), panels_[i].run.name);
+    if (scene_.render.plots) {
+      labels_.write_plot(pictures.back(), plot_of(panels_[i].run.recording, panels_[i].frame(frame)));
+    }
+  }
+  Image image = panels_.size() == 1 ? std::move(pictures.front()) : sheet_of(pictures, isize(pictures), margin());
+  labels_.write_frame(image, camera, frame, frames(), panels_[longest_].run.recording.progress[frame]);
+  if (!scene_.render.sheet) labels_.write_legend(image);
+  return image;
+}
+
+int FilmPipeline::exposures() const {
+  if (scene_.camera.aperture > 0) return kLensExposures;
+  return scene_.render.motion_blur > 0 ? kExposures : 1;
+}
+
+Camera FilmPipeline::camera(std::size_t frame, int exposure) const {
+  Camera camera = cameras_[frame];
+  if (scene_.camera.aperture <= 0) return camera;
+  const Vec3 ahead = (camera.target - camera.eye).normalized();
+  const Vec3 right = ahead.cross(camera.up).normalized();
+  const double radius = 0.5 * scene_.camera.aperture * std::sqrt((exposure + 0.5) / kLensExposures);
+  const double angle = kGoldenAngle * exposure;
+  camera.eye += radius * (std::cos(angle) * right + std::sin(angle) * right.cross(ahead));
+  return camera;
+}
+
+Passes FilmPipeline::passes(std::size_t frame, const Moments& moments) {
+  return renderer(panels_.front()).draw_passes(moments.front().front(), cameras_[frame]);
+}
+
+Image FilmPipeline::sheet(const std::vector<Image>& pictures) const {
+  Image image = sheet_of(pictures, (*scene_.render.sheet)[0], margin());
+  labels_.write_legend(image);
+  return image;
+}
+
+int FilmPipeline::margin() const {
+  const int columns = scene_.render.sheet ? (*scene_.render.sheet)[0] : isize(panels_);
+  return scene_.render.resolution[0] - columns * scene_of_panel_.render.resolution[0];
+}
+
+void Exposure::add(const Image& image) {
+  if (count_++ == 0) {
+    first_ = image;
+    light_.assign(image.pixels.size(), 0);
+    alpha_.assign(image.alpha.size(), 0);
+  }
+  for (std::size_t i = 0; i < light_.size(); ++i) {
+    const auto byte = float(image.pixels[i]);
+    const float share = image.alpha.empty() ? 1 : float(image.alpha[i / 3]) / 255;
+    light_[i] += share * byte * byte;
+  }
+  for (std::size_t i = 0; i < alpha_.size(); ++i) alpha_[i] += float(image.alpha[i]);
+}
+
+Image Exposure::mean() const {
+  if (count_ == 1) return first_;
+  Image image = first_;
+  const auto count = float(count_);
+  for (std::size_t i = 0; i < alpha_.size(); ++i)
+    image.alpha[i] = static_cast<std::uint8_t>(std::lround(alpha_[i] / count));
+  for (std::size_t i = 0; i < light_.size(); ++i) {
+    const float share = alpha_.empty() ? count : std::max(alpha_[i / 3] / 255, 1e-3F);
+    image.pixels[i] = static_cast<std::uint8_t>(std::clamp(std::lround(std::sqrt(light_[i] / share)), 0L, 255L));
+  }
+  return image;
+}
+
+Image sheet_of(const std::vector<Image>& pictures, int columns, int margin) {
+  const Image& first = pictures.front();
+  const int rows = (isize(pictures) + columns - 1) / columns;
+  Image sheet(columns * first.width + margin, rows * first.height);
+  if (!first.alpha.empty()) sheet.alpha.assign(sheet.pixels.size() / 3, 0);
+  for (std::size_t number = 0; number < pictures.size(); ++number) {
+    const int left = int(number) % columns * first.width;
+    const int top = int(number) / columns * first.height;
+    for (int y = 0; y < first.height; ++y) {
+      const std::size_t to = (top + y) * sheet.width + left;
+      const std::size_t from = y * first.width;
+      const std::size_t width = first.width;
+      std::copy_n(pictures[number].pixels.data() + 3 * from, 3 * width, sheet.pixels.data() + 3 * to);
+      if (!first.alpha.empty()) {
+        std::copy_n(pictures[number].alpha.data() + from, width, sheet.alpha.data() + to);
+      }
+    }
+  }
+  for (int y = 0; y < sheet.height; ++y) {  // what is left over is as the row begins, where no shadow falls
+    const auto row = 3 * std::size_t(y * sheet.width);
+    const auto used = 3 * std::size_t(columns * first.width);
+    const auto end = 3 * std::size_t(sheet.width);
+    for (std::size_t i = used; i < end; ++i) sheet.pixels[row + i] = sheet.pixels[row + i % 3];
+  }
+  return sheet;
+}
+
+std::optional<Environment> read_surroundings(const SceneRender& render) {
+  if (render.environment.empty()) return std::nullopt;
+  const std::string name = render.environment.string();
+  const std::string bytes = read_bytes(render.environment);
+  const Panorama panorama = decode_panorama(std::as_bytes(std::span(bytes)), name);
+  try {
+    return Environment(panorama);
+  } catch (const Error& error) {
+    throw Error(error.kind(), name + ": " + error.what());
+  }
+}
+
+}  // namespace sprung

@@ -1,0 +1,358 @@
+#include "app/film/overlays.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+#include <utility>
+
+#include "app/film/drawn_shapes.h"
+#include "core/bricks/brick_topology.h"
+#include "render/camera.h"
+
+namespace sprung {
+namespace {
+
+constexpr int kSides = 3;
+constexpr int kRodVertices = 2 * kSides;
+constexpr int kRodTriangles = 2 * kSides;
+
+constexpr std::array<std::array<int, 3>, 8> kOctahedron{
+    {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}}};
+
+/// An octahedron with each face cut in four, pushed out onto the unit ball.
+struct RoundShape {
+  std::vector<Vec3> places;
+  std::vector<std::array<int, 3>> triangles;
+
+  RoundShape() {
+    for (int k = 0; k < 6; ++k) places.emplace_back((k % 2 == 0 ? 1 : -1) * Vec3::Unit(k / 2));
+    for (const auto& [a, b, c] : kOctahedron) {
+      const int ab = between(a, b);
+      const int bc = between(b, c);
+      const int ca = between(c, a);
+      for (const std::array<int, 3>& part : {std::array{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}}) {
+        triangles.push_back(part);
+      }
+    }
+  }
+
+ private:
+  std::map<std::pair<int, int>, int> middles_;
+
+  int between(int a, int b) {
+    const auto [found, is_new] = middles_.try_emplace(std::minmax(a, b), isize(places));
+    if (is_new) places.push_back((places[a] + places[b]).normalized());
+    return found->second;
+  }
+};
+
+const RoundShape& round_shape() {
+  static const RoundShape shape;
+  return shape;
+}
+
+void reserve(Skin& skin, Eigen::Index vertices, Eigen::Index triangles) {
+  skin.positions = Points::Zero(vertices, 3);
+  skin.normals = Points::Zero(vertices, 3);
+  skin.triangles.resize(triangles, 3);
+}
+
+}  // namespace
+
+Rods::Rods(std::size_t count, double radius) : radius_(radius) {
+  const Eigen::Index rods = count;
+  reserve(skin_, kRodVertices * rods, kRodTriangles * rods);
+  for (Eigen::Index rod = 0; rod < rods; ++rod) {
+    const auto first = int(kRodVertices * rod);
+    for (int side = 0; side < kSides; ++side) {
+      const int next = (side + 1) % kSides;
+      const Eigen::Index triangle = kRodTriangles * rod + 2 * side;
+      skin_.triangles.row(triangle) << first + side, first + next, first + kSides + next;
+      skin_.triangles.row(triangle + 1) << first + side, first + kSides + next, first + kSides + side;
+    }
+  }
+}
+
+SkinShape Rods::shape(const Points& from, const Points& to, const Eigen::VectorXd& shares) const {
+  SkinShape shape;
+  shape.positions.resize(kRodVertices * from.rows(), 3);
+  shape.normals.resize(kRodVertices * from.rows(), 3);
+  if (shares.size() > 0) shape.shares.resize(kRodVertices * from.rows());
+  for (Eigen::Index rod = 0; rod < from.rows(); ++rod) {
+    const Vec3 way = to.row(rod) - from.row(rod);
+    const Vec3 across = way.unitOrthogonal();
+    const Vec3 third = way.stableNormalized().cross(across);
+    for (int vertex = 0; vertex < kRodVertices; ++vertex) {
+      const double angle = 2 * std::numbers::pi * (vertex % kSides) / kSides;
+      const Vec3 normal = std::cos(angle) * across + std::sin(angle) * third;
+      const Eigen::Index row = kRodVertices * rod + vertex;
+      const Vec3 end = vertex < kSides ? from.row(rod) : to.row(rod);
+      shape.positions.row(row) = (end + radius_ * normal).cast<float>().transpose();
+      shape.normals.row(row) = normal.cast<float>().transpose();
+      if (shares.size() > 0) shape.shares[row] = float(shares[rod]);
+    }
+  }
+  return shape;
+}
+
+Balls::Balls(std::size_t count, double radius) : radius_(radius) {
+  const Eigen::Index balls = count;
+  const RoundShape& round = round_shape();
+  const Eigen::Index vertices = round.places.size();
+  reserve(skin_, vertices * balls, Eigen::Index(round.triangles.size()) * balls);
+  Eigen::Index triangle = 0;
+  for (Eigen::Index ball = 0; ball < balls; ++ball) {
+    const auto first = int(vertices * ball);
+    for (const auto& corners : round.triangles) {
+      skin_.triangles.row(triangle++) << first + corners[0], first + corners[1], first + corners[2];
+    }
+  }
+}
+
+SkinShape Balls::shape(const Points& middles, const Vec3& idle) const {
+  const std::vector<Vec3>& places = round_shape().places;
+  const Eigen::Index vertices = places.size();
+  const Eigen::Index count = skin_.positions.rows() / vertices;
+  SkinShape shape;
+  shape.positions.resize(skin_.positions.rows(), 3);
+  shape.normals.resize(skin_.positions.rows(), 3);
+  for (Eigen::Index ball = 0; ball < count; ++ball) {
+    const bool is_shown = ball < middles.rows();
+    const Vec3 middle = is_shown ? Vec3(middles.row(ball).transpose()) : idle;
+    for (Eigen::Index vertex = 0; vertex < vertices; ++vertex) {
+      const Vec3& normal = places[vertex];
+      const Eigen::Index row = vertices * ball + vertex;
+      shape.positions.row(row) = (middle + (is_shown ? radius_ : 0) * normal).cast<float>().transpose();
+      shape.normals.row(row) = normal.cast<float>().transpose();
+    }
+  }
+  return shape;
+}
+
+Eigen::VectorXd SpringSet::stretches(const Points& positions) const {
+  Eigen::VectorXd values(rest.size());
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    const auto& [a, b] = nodes[i];
+    values[i] = (positions.row(b) - positions.row(a)).norm() / rest[i] - 1;
+  }
+  return values;
+}
+
+SpringSet springs_of(const Body& body, const std::vector<bool>& shown) {
+  SpringSet springs;
+  const auto add = [&](const std::array<int, 8>& brick, const auto& pairs) {
+    for (const auto& [from, to] : pairs) {
+      const int a = brick[from];
+      const int b = brick[to];
+      springs.nodes.push_back({std::min(a, b), std::max(a, b)});
+    }
+  };
+  for (std::size_t brick = 0; brick < body.grid.nodes.size(); ++brick) {
+    if (!shown[brick]) continue;
+    add(body.grid.nodes[brick], kEdges);
+    if (body.law.face != 0) add(body.grid.nodes[brick], kFaceDiagonals);
+    if (body.law.inner != 0) add(body.grid.nodes[brick], kInnerDiagonals);
+  }
+  std::sort(springs.nodes.begin(), springs.nodes.end());
+  springs.nodes.erase(std::unique(springs.nodes.begin(), springs.nodes.end()), springs.nodes.end());
+  springs.rest.resize(springs.nodes.size());
+  for (Eigen::Index i = 0; i < springs.rest.size(); ++i) {
+    const auto& [a, b] = springs.nodes[i];
+    springs.rest[i] = (body.rest_positions.row(b) - body.rest_positions.row(a)).norm();
+  }
+  return springs;
+}
+
+namespace {
+
+constexpr double kNear = 0.08;  // of a brick: what is no further apart touches
+constexpr double kCell = 0.5;   // of a brick
+
+Bounds bounds_of(const Points& points) {
+  Bounds bounds;
+  bounds.include(points);
+  return bounds;
+}
+
+bool is_within(const Bounds& bounds, const Vec3& place, double margin) {
+  return ((place - bounds.low).array() > -margin).all() && ((bounds.high - place).array() > -margin).all();
+}
+
+bool are_near(const Bounds& a, const Bounds& b, double margin) {
+  return ((a.low - b.high).array() < margin).all() && ((b.low - a.high).array() < margin).all();
+}
+
+/// Places, one at most in each cell.
+class Thinned {
+ public:
+  void set_cell(double cell) { cell_ = cell; }
+  void add(const Vec3& place) {
+    const auto at = [&](int k) { return std::lround(std::floor(place[k] / cell_)); };
+    if (cells_.insert({at(0), at(1), at(2)}).second) places_.push_back(place);
+  }
+  [[nodiscard]] Points points() const {
+    Points points(places_.size(), 3);
+    for (std::size_t i = 0; i < places_.size(); ++i) points.row(i) = places_[i].transpose();
+    return points;
+  }
+
+ private:
+  double cell_ = 1;  // m
+  std::set<std::array<long, 3>> cells_;
+  std::vector<Vec3> places_;
+};
+
+}  // namespace
+
+Contacts::Contacts(const Production& production)
+    : production_(production), ground_(ground_height(production.world.obstacles)) {
+  for (const StageObstacle& obstacle : production.obstacles) {
+    if (obstacle.skin.triangles.rows() == 0) continue;
+    solids_.push_back({&obstacle, NearestTriangle(obstacle.skin.positions, obstacle.skin.triangles)});
+  }
+}
+
+Points Contacts::at(const std::vector<Points>& nodes, double time) const {
+  std::vector<Points> skins;
+  std::vector<Bounds> bounds;
+  for (std::size_t actor = 0; actor < nodes.size(); ++actor) {
+    skins.push_back(skin_positions(production_, actor, nodes[actor]));
+    bounds.push_back(bounds_of(skins.back()));
+  }
+  Thinned found;
+  for (std::size_t actor = 0; actor < nodes.size(); ++actor) {
+    const double brick = production_.world.actors[actor].body.grid.brick_size;
+    const double near = kNear * brick;
+    found.set_cell(kCell * brick);
+    for (const auto& vertex : skins[actor].rowwise()) {
+      if (ground_ && vertex.y() - *ground_ < near) found.add(vertex.transpose());
+    }
+    for (const Solid& solid : solids_) {
+      const Pose pose = pose_at(*solid.obstacle, time);
+      const Bounds room = bounds_of(solid.obstacle->skin.positions);
+      for (const auto& vertex : skins[actor].rowwise()) {
+        const Vec3 place = pose.rotation.transpose() * (vertex.transpose() - pose.translation);
+        if (is_within(room, place, near) && solid.surface.at(place).distance < near) found.add(vertex.transpose());
+      }
+    }
+    for (std::size_t other = 0; other < nodes.size(); ++other) {
+      if (other == actor || !are_near(bounds[actor], bounds[other], near)) continue;
+      const NearestTriangle surface(skins[other], production_.skins[other].skin.triangles);
+      for (const auto& vertex : skins[actor].rowwise()) {
+        const Vec3 place = vertex.transpose();
+        if (is_within(bounds[other], place, near) && surface.at(place).distance < near) found.add(place);
+      }
+    }
+  }
+  return found.points();
+}
+
+namespace {
+
+constexpr double kRim = 0.055;      // of a face, at each side
+constexpr float kRimShade = 0.55F;  // of a face's colour
+constexpr double kGap = 0.16;       // of a brick, at each side, between exploded ones
+constexpr int kCells = 3;           // of a face along each side: rim, face, rim
+constexpr int kFaceVertices = 4 * kCells * kCells;
+
+template <class Values>
+auto mixed(const Values& corners, double u, double v) {
+  return (1 - u) * (1 - v) * corners[0] + u * (1 - v) * corners[1] + u * v * corners[2] + (1 - u) * v * corners[3];
+}
+
+/// Where the vertex of a cell is in a face; `corner` counter-clockwise.
+std::pair<double, double> place_in_face(int cell, int corner, double rim) {
+  const std::array<double, kCells + 1> borders{0, rim, 1 - rim, 1};
+  const std::size_t u = cell % kCells + (corner == 1 || corner == 2 ? 1 : 0);
+  const std::size_t v = cell / kCells + (corner >= 2 ? 1 : 0);
+  return {borders[u], borders[v]};
+}
+
+}  // namespace
+
+std::vector<bool> bricks_left(const BrickGrid& grid, const std::optional<HalfSpace>& cut) {
+  std::vector<bool> left(grid.cells.size(), true);
+  if (!cut) return left;
+  Eigen::Array3d low = Eigen::Array3d::Constant(1e300);
+  Eigen::Array3d high = -low;
+  for (const Eigen::Vector3i& cell : grid.cells) {
+    low = low.min(cell.cast<double>().array());
+    high = high.max(cell.cast<double>().array() + 1);
+  }
+  const Vec3 point = low + cut->point.array() * (high - low);
+  for (std::size_t brick = 0; brick < left.size(); ++brick) {
+    const Vec3 middle = grid.cells[brick].cast<double>().array() + 0.5;
+    left[brick] = (middle - point).dot(cut->normal) <= 0;
+  }
+  return left;
+}
+
+BrickCubes::BrickCubes(const BrickGrid& grid, const std::vector<bool>& shown, bool exploded,
+                       const Eigen::Vector3f& color)
+    : grid_(grid),
+      exploded_(exploded),
+      rim_(kRim),
+      faces_(exploded ? brick_faces(grid, shown) : outer_faces(grid, shown)) {
+  lay_out(color);
+}
+
+void BrickCubes::lay_out(const Eigen::Vector3f& color) {
+  const Eigen::Index count = faces_.size();
+  skin_.colors.resize(kFaceVertices * count, 4);
+  skin_.triangles.resize(2 * kCells * kCells * count, 3);
+  for (Eigen::Index face = 0; face < count; ++face) {
+    for (int cell = 0; cell < kCells * kCells; ++cell) {
+      const auto first = int(kFaceVertices * face) + 4 * cell;
+      const auto triangle = 2 * (kCells * kCells * face + cell);
+      skin_.triangles.row(triangle) << first, first + 1, first + 2;
+      skin_.triangles.row(triangle + 1) << first, first + 2, first + 3;
+      const bool is_rim = cell != kCells * kCells / 2;
+      for (int corner = 0; corner < 4; ++corner) {
+        skin_.colors.row(first + corner) << (is_rim ? kRimShade : 1.0F) * color.transpose(), 1.0F;
+      }
+    }
+  }
+  const SkinShape rest = shape(grid_.rest_positions(), Eigen::VectorXd());
+  skin_.positions = rest.positions.cast<double>();
+  skin_.normals = rest.normals.cast<double>();
+}
+
+std::array<Vec3, 4> BrickCubes::corners(const BrickFace& face, const Points& nodes) const {
+  std::array<Vec3, 4> places;
+  for (std::size_t c = 0; c < 4; ++c) places[c] = nodes.row(face.nodes[c]);
+  if (!exploded_) return places;
+  Vec3 middle = Vec3::Zero();
+  for (const int node : grid_.nodes[face.brick]) middle += nodes.row(node).transpose() / 8;
+  for (Vec3& place : places) place += 2 * kGap * (middle - place);
+  return places;
+}
+
+SkinShape BrickCubes::shape(const Points& nodes, const Eigen::VectorXd& shares) const {
+  const Eigen::Index count = faces_.size();
+  SkinShape shape;
+  shape.positions.resize(kFaceVertices * count, 3);
+  shape.normals.resize(kFaceVertices * count, 3);
+  if (shares.size() > 0) shape.shares.resize(kFaceVertices * count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const BrickFace& face = faces_[i];
+    const std::array<Vec3, 4> places = corners(face, nodes);
+    const Vec3 normal = (places[2] - places[0]).cross(places[3] - places[1]);
+    for (int vertex = 0; vertex < kFaceVertices; ++vertex) {
+      const auto [u, v] = place_in_face(vertex / 4, vertex % 4, rim_);
+      const Eigen::Index row = kFaceVertices * i + vertex;
+      shape.positions.row(row) = mixed(places, u, v).cast<float>().transpose();
+      shape.normals.row(row) = normal.cast<float>().transpose();
+      if (shares.size() == 0) continue;
+      std::array<double, 4> of_corners{};
+      for (std::size_t c = 0; c < 4; ++c) of_corners[c] = shares[face.nodes[c]];
+      const bool is_rim = vertex / 4 != kCells * kCells / 2;
+      shape.shares[row] = float(std::clamp(mixed(of_corners, u, v), 0.0, 1.0) + (is_rim ? 2 : 0));
+    }
+  }
+  return shape;
+}
+
+}  // namespace sprung

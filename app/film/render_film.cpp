@@ -1,0 +1,177 @@
+#include "app/film/render_film.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <future>
+#include <iterator>
+#include <thread>
+
+#include "app/console/console.h"
+#include "app/console/interrupt.h"
+#include "app/film/drawing_processes.h"
+#include "app/film/film_output.h"
+#include "core/error.h"
+#include "core/text.h"
+#include "core/units.h"
+
+namespace sprung {
+namespace {
+
+/// What the ground could not hold: how deep any vertex was below it, in any frame.
+std::string ground_report(const Production& production, double lowest) {
+  const std::optional<double> ground = ground_height(production.world.obstacles);
+  if (!ground) return "";
+  const double depth = std::max(0.0, *ground - lowest);
+  return fmt::format(", lowest vertex {} below the ground ({:.2f} % of the size)", readable(depth, Dimension::kLength),
+                     100 * depth / production.size);
+}
+
+/// Frames to draw, in order: all of the range, or as many as a sheet has places for.
+std::vector<std::size_t> chosen_frames(const FrameRange& range, const SceneRender& render) {
+  const std::size_t first = range.first - 1;
+  const std::size_t count = range.count();
+  std::vector<std::size_t> frames;
+  const std::size_t wanted = render.sheet ? std::size_t((*render.sheet)[0]) * std::size_t((*render.sheet)[1]) : count;
+  const std::size_t chosen = std::min(wanted, count);
+  for (std::size_t i = 0; i < chosen; ++i) {
+    frames.push_back(first + (chosen > 1 ? (i * (count - 1) + (chosen - 1) / 2) / (chosen - 1) : 0));
+  }
+  return frames;
+}
+
+bool has(const std::vector<Output>& outputs, Output::Kind kind) {
+  return std::any_of(outputs.begin(), outputs.end(), [kind](const Output& output) { return output.kind == kind; });
+}
+
+void check_outputs(const SceneRender& render, std::size_t runs, const std::vector<Output>& outputs) {
+  const auto refuse = [](const char* reason) { throw Error(ErrorKind::kUsage, reason); };
+  if (has(outputs, Output::Kind::kFilm)) {
+    if (render.sheet) refuse("render.sheet: one picture is no film; give a folder");
+    if (render.transparent) refuse("render.transparent: films have no alpha; give a folder for pictures");
+  }
+  if (has(outputs, Output::Kind::kPasses)) {
+    if (render.sheet) refuse("render.sheet: passes (.exr) are of single pictures");
+    if (runs > 1) refuse("--side-by-side: passes (.exr) are of one run");
+  }
+  if (render.sheet && runs > 1) refuse("--side-by-side: a sheet shows one run");
+}
+
+constexpr std::size_t kLeastFrames = 24;    // that a process is worth beginning for
+constexpr std::size_t kMostProcesses = 16;  // that are begun unasked: each takes memory for its own pictures
+
+/// What is drawn, and for what.
+struct Task {
+  const FrameRange& range;
+  const std::vector<std::size_t> frames;
+  const std::vector<Output>& outputs;
+  const SceneRender& render;
+  double fps;
+
+  [[nodiscard]] std::vector<Output> films(bool wanted) const {
+    std::vector<Output> some;
+    std::copy_if(outputs.begin(), outputs.end(), std::back_inserter(some),
+                 [wanted](const Output& output) { return (output.kind == Output::Kind::kFilm) == wanted; });
+    return some;
+  }
+  [[nodiscard]] Drawing draw(FilmPipeline& crew, std::size_t frame, const FilmPipeline::Moments& moments) const {
+    Drawing drawing;
+    if (has(outputs, Output::Kind::kPictures) || has(outputs, Output::Kind::kFilm))
+      drawing.image = crew.draw(frame, moments);
+    if (has(outputs, Output::Kind::kPasses)) drawing.passes = crew.passes(frame, moments);
+    return drawing;
+  }
+};
+
+void draw_here(const Task& task, FilmPipeline& crew, const Console& console, Progress& progress) {
+  console.detail(fmt::format("drawn by {}", crew.driver()));
+  const auto [width, height] = task.render.resolution;
+  PictureWriter writer(task.outputs, width, height, task.fps, task.range.first);
+  // The skins of the next frame are made ready while this one is drawn and the ones before are encoded.
+  const auto make_ready = [&](std::size_t i) {
+    return std::async(std::launch::async, [&, frame = task.frames[i]] { return crew.moments(frame); });
+  };
+  auto next = make_ready(0);
+  std::vector<Image> sheet;
+  for (std::size_t i = 0; i < task.frames.size(); ++i) {
+    stop_if_interrupted();
+    const FilmPipeline::Moments moments = next.get();
+    if (i + 1 < task.frames.size()) next = make_ready(i + 1);
+    Drawing drawing = task.draw(crew, task.frames[i], moments);
+    if (task.render.sheet) {
+      sheet.push_back(std::move(drawing.image));
+    } else {
+      writer.write(std::move(drawing));
+    }
+    progress.update(double(i + 1));
+  }
+  if (task.render.sheet) writer.write({.image = crew.sheet(sheet)});
+  writer.close();
+}
+
+/// Every `step`th frame from `first` on: pictures are written here, films are the asker's.
+void draw_some(const Task& task, FilmPipeline& crew, std::size_t first, std::size_t step,
+               const DrawingProcesses::Send& send) {
+  const auto [width, height] = task.render.resolution;
+  PictureWriter writer(task.films(false), width, height, task.fps, task.range.first + int(first), int(step));
+  for (std::size_t i = first; i < task.frames.size(); i += step) {
+    stop_if_interrupted();
+    Drawing drawing = task.draw(crew, task.frames[i], crew.moments(task.frames[i]));
+    send(has(task.outputs, Output::Kind::kFilm) ? drawing.image : Image());
+    writer.write(std::move(drawing));
+  }
+  writer.close();
+}
+
+void draw_by_processes(const Task& task, FilmPipeline& crew, std::size_t count, const Console& console,
+                       Progress& progress) {
+  console.detail(fmt::format("drawn by {} processes", count));
+  const std::size_t threads = std::max(1U, std::thread::hardware_concurrency()) / count;
+  // Of each process's rasteriser; 0: none but the one that draws. Whoever set it knows better.
+  setenv("LP_NUM_THREADS", std::to_string(threads > 1 ? threads : 0).c_str(), 0);
+  DrawingProcesses processes(count, [&](std::size_t process, const DrawingProcesses::Send& send) {
+    draw_some(task, crew, process, count, send);
+  });
+  const auto [width, height] = task.render.resolution;
+  PictureWriter writer(task.films(true), width, height, task.fps);
+  for (std::size_t i = 0; i < task.frames.size(); ++i) {
+    stop_if_interrupted();
+    Image image = processes.receive(i % count);
+    if (has(task.outputs, Output::Kind::kFilm)) writer.write({.image = std::move(image)});
+    progress.update(double(i + 1));
+  }
+  processes.finish();
+  writer.close();
+}
+
+/// How many processes draw.
+std::size_t processes_for(const Task& task, int jobs) {
+  const std::size_t frames = task.frames.size();
+  if (task.render.sheet) return 1;
+  if (jobs > 0) return std::min<std::size_t>(frames, jobs);
+  const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
+  return std::clamp(frames / kLeastFrames, std::size_t{1}, std::min(cores, kMostProcesses));
+}
+
+}  // namespace
+
+void render_film(const std::vector<FilmRun>& runs, const std::optional<Environment>& surroundings,
+                 const FrameRange& range, const std::vector<Output>& outputs, const Console& console, int jobs) {
+  const Film& scene = runs.front().scene;
+  check_outputs(scene.render, runs.size(), outputs);
+  const Task task{range, chosen_frames(range, scene.render), outputs, scene.render, scene.fps};
+  Progress progress(console, "render", double(task.frames.size()), 1, "frames/s");
+  FilmPipeline crew(runs, surroundings);
+  const std::size_t processes = processes_for(task, jobs);
+  if (processes > 1 && end_worker_threads()) {
+    draw_by_processes(task, crew, processes, console, progress);
+  } else {
+    draw_here(task, crew, console, progress);
+  }
+  const auto [width, height] = scene.render.resolution;
+  progress.finish(fmt::format("{} of {} x {} pixels{}", count_of(task.frames.size(), "picture"), width, height,
+                              ground_report(runs.front().production, crew.lowest())));
+}
+
+}  // namespace sprung

@@ -1,0 +1,26 @@
+#include "app/scene/film.h"
+
+namespace sprung {
+
+Look look_of(const SceneBody& body, const MaterialLibrary& library) {
+  if (body.look) return *body.look;
+  const LibraryMaterial* known = library.find_if_known(body.material.name);
+  return known == nullptr ? Look::kPlastic : known->look;
+}
+
+Film with_defaults(Film film) {
+  for (SceneBody& body : film.bodies) {
+    if (!body.size && !body.scale && !body.mesh.empty()) body.size = kDefaultSize;
+    if (!body.bricks && !body.brick_size) body.bricks = kDefaultBricks;
+    if (built_in_materials()->find_if_known(body.material.name) == nullptr) body.look = look_of(body, *film.library);
+  }
+  return film;
+}
+
+SceneBody default_body() {
+  SceneBody body;
+  body.material = built_in_materials()->find(kDefaultMaterial).material();
+  return body;
+}
+
+}  // namespace sprung

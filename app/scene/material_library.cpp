@@ -1,0 +1,71 @@
+#include "app/scene/material_library.h"
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include "app/scene/built_in_text.h"
+#include "app/scene/material_keys.h"
+#include "app/scene/table_reader.h"
+
+namespace sprung {
+
+Material LibraryMaterial::material() const {
+  return {
+      .name = name, .young = young, .poisson = poisson, .density = density, .damping = damping, .source = young_source};
+}
+
+void MaterialLibrary::add(std::string_view text, const std::filesystem::path& file) {
+  SceneMistakes mistakes(file.string());
+  const toml::table table = parse_toml(text, mistakes);
+  MaterialFile read;
+  TableReader(mistakes, file.parent_path(), SceneFiles::kPresent, *this).read(table, "", read);
+  const std::size_t before = materials_.size();
+  for (std::size_t i = 0; i < read.materials.size(); ++i) {
+    LibraryMaterial& material = read.materials[i];
+    const auto known = std::find_if(materials_.begin(), materials_.end(),
+                                    [&](const LibraryMaterial& other) { return other.name == material.name; });
+    if (known == materials_.end()) {
+      materials_.push_back(std::move(material));
+      continue;
+    }
+    const bool is_here = known - materials_.begin() >= std::ptrdiff_t(before);
+    const toml::table& place = *(*table["material"].as_array())[i].as_table();
+    mistakes.add(place.source(), fmt::format("material.name: '{}' is there already, {}; choose another name",
+                                             material.name, is_here ? "in this file" : "built in or in another file"));
+  }
+  mistakes.throw_if_any();
+}
+
+void MaterialLibrary::add_file(const std::filesystem::path& file) {
+  check_readable(file);
+  std::ifstream stream(file);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  add(text.str(), file);
+}
+
+const LibraryMaterial* MaterialLibrary::find_if_known(std::string_view name) const {
+  const auto found = std::find_if(materials_.begin(), materials_.end(),
+                                  [&](const LibraryMaterial& material) { return material.name == name; });
+  return found == materials_.end() ? nullptr : &*found;
+}
+
+const LibraryMaterial& MaterialLibrary::find(std::string_view name) const {
+  if (const LibraryMaterial* known = find_if_known(name)) return *known;
+  std::vector<std::string_view> names;
+  for (const LibraryMaterial& material : materials_) names.push_back(material.name);
+  throw Error(ErrorKind::kBadInput,
+              fmt::format("there is no material '{}'{}; see sprung materials", name, did_you_mean(name, names)));
+}
+
+std::shared_ptr<const MaterialLibrary> built_in_materials() {
+  static const std::shared_ptr<const MaterialLibrary> library = [] {
+    auto made = std::make_shared<MaterialLibrary>();
+    made->add(built_in_materials_text(), "assets/materials.toml");
+    return made;
+  }();
+  return library;
+}
+
+}  // namespace sprung

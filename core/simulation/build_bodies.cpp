@@ -1,0 +1,422 @@
+#include "core/simulation/build_bodies.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <random>
+
+#include "core/bricks/pieces.h"
+#include "core/bricks/voxelize.h"
+#include "core/error.h"
+#include "core/pose.h"
+#include "core/simulation/selector.h"
+#include "core/simulation/soft_body.h"
+#include "core/text.h"
+#include "core/units.h"
+
+namespace sprung {
+namespace {
+
+/// For bodies whose scene names no colour; the solids of a file differ.
+constexpr std::array<Color, 8> kPalette{{{0xd8, 0x32, 0x2a},
+                                         {0xf2, 0xa0, 0x3d},
+                                         {0x3b, 0x8e, 0xa5},
+                                         {0x6a, 0x9f, 0x4e},
+                                         {0x8a, 0x5a, 0xa8},
+                                         {0xe8, 0xc5, 0x47},
+                                         {0xc7, 0x6b, 0x8f},
+                                         {0x4f, 0x6d, 0xb8}}};
+
+/// Which solid each vertex of a mesh belongs to; the first, where none has it.
+std::vector<int> solids_of_vertices(const LoadedBody& loaded) {
+  std::vector<int> owners(loaded.mesh.positions.rows(), -1);
+  for (std::size_t solid = 0; solid < loaded.solids.size(); ++solid) {
+    for (const int triangle : loaded.solids[solid].source) {
+      if (triangle < 0) continue;
+      for (const int vertex : loaded.mesh.triangles.row(triangle)) {
+        int& owner = owners[vertex];
+        if (owner < 0) owner = int(solid);
+      }
+    }
+  }
+  std::replace(owners.begin(), owners.end(), -1, 0);
+  return owners;
+}
+
+/// Sums of the normals of a solid's triangles at the vertices of its mesh, n x 3.
+Points outward_of(const SurfaceMesh& mesh, const Solid& solid) {
+  Points sums = Points::Zero(mesh.positions.rows(), 3);
+  for (std::size_t t = 0; t < solid.source.size(); ++t) {
+    if (solid.source[t] < 0) continue;
+    const auto corners = mesh.triangles.row(solid.source[t]);
+    const Eigen::RowVector3d a = mesh.positions.row(corners[0]);
+    const Eigen::RowVector3d b = mesh.positions.row(corners[1]);
+    const Eigen::RowVector3d normal = (b - a).cross(mesh.positions.row(corners[2]) - a) * (solid.flipped[t] ? -1 : 1);
+    for (const int vertex : corners) sums.row(vertex) += normal;
+  }
+  return sums;
+}
+
+CarriedVertices carry(const LoadedBody& loaded, std::size_t solid, const std::vector<int>& owners,
+                      const BrickGrid& grid) {
+  CarriedVertices carried;
+  for (std::size_t vertex = 0; vertex < owners.size(); ++vertex) {
+    if (owners[vertex] == int(solid)) carried.vertices.push_back(int(vertex));
+  }
+  const Points outward = outward_of(loaded.mesh, loaded.solids[solid]);
+  carried.embedding =
+      embed(grid, loaded.mesh.positions(carried.vertices, Eigen::all), outward(carried.vertices, Eigen::all));
+  return carried;
+}
+
+/// Every node that a pin holds at the start, once, with the axes of all its pins.
+std::vector<KinematicNode> held_nodes(const std::vector<PinnedNodes>& pinned, const std::vector<Pin>& pins) {
+  std::map<int, KinematicNode> held;
+  for (const PinnedNodes& group : pinned) {
+    if (pins[group.pin].from > 0) continue;
+    for (const int node : group.nodes) {
+      const auto [place, is_new] = held.try_emplace(node, KinematicNode{.node = node, .axes = {false, false, false}});
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (pins[group.pin].axes.held[axis]) place->second.axes[axis] = true;
+      }
+    }
+  }
+  std::vector<KinematicNode> list;
+  list.reserve(held.size());
+  for (const auto& [node, entry] : held) list.push_back(entry);
+  return list;
+}
+
+/// m/s, at the start; what is held is at rest.
+Points velocities_of(const SceneBody& scene_body, const Actor& actor, const Vec3& middle) {
+  Points velocities(actor.body.node_count(), 3);
+  const Vec3 spin = scene_body.spin * std::numbers::pi / 180;
+  for (int node = 0; node < velocities.rows(); ++node) {
+    const Vec3 arm = actor.body.positions.row(node).transpose() - middle;
+    velocities.row(node) = (scene_body.velocity + spin.cross(arm)).transpose();
+  }
+  for (const KinematicNode& held : actor.pinned) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (held.axes[axis]) velocities(held.node, axis) = 0;
+    }
+  }
+  return velocities;
+}
+
+}  // namespace
+
+BodyBuilder::BodyBuilder(const Scene& scene, std::size_t index, const LoadedBody& loaded, Production& production)
+    : body_(scene.bodies[index]),
+      index_(index),
+      loaded_(loaded),
+      production_(production),
+      touches_itself_(scene.contact.self),
+      selector_(loaded),
+      report_(loaded, body_.material.density),
+      solid_of_vertex_(solids_of_vertices(loaded)) {}
+
+void BodyBuilder::fill_solids() {
+  for (std::size_t solid = 0; solid < loaded_.solids.size(); ++solid) filled_.push_back(fill(solid));
+}
+
+void BodyBuilder::add_solids() {
+  const std::vector<Pose> poses = poses_of(body_, loaded_);
+  for (const Filled& filled : filled_) {
+    for (std::size_t copy = 0; copy < poses.size(); ++copy) put(filled, poses[copy], int(copy));
+  }
+  const SurfaceMesh& mesh = loaded_.mesh;
+  production_.meshes.push_back({.positions = mesh.positions,
+                                .normals = mesh.normals.cast<double>(),
+                                .uvs = mesh.uvs,
+                                .colors = mesh.colors,
+                                .triangles = mesh.triangles,
+                                .parts = mesh.parts,
+                                .materials = mesh.materials});
+}
+
+BodyBuilder::Filled BodyBuilder::fill(std::size_t solid) {
+  const Solid& outline = loaded_.solids[solid];
+  SoftBody made = make_soft_body(loaded_.mesh, outline, make_grid(outline), body_.model, body_.material);
+  Filled filled;
+  filled.actor = std::move(made.actor);
+  filled.drawn.skin = std::move(made.skin);
+  filled.drawn.embedding = std::move(made.embedding);
+  Body& body = filled.actor.body;
+  filled.regions = apply_regions(body_.regions, selector_, body, solid);
+  report_.add(filled.drawn.embedding);
+  filled.carried = carry(loaded_, solid, solid_of_vertex_, body.grid);
+  filled.actor.friction = body_.friction;
+  filled.actor.collides_with_itself = filled.actor.collides_with_itself && touches_itself_;
+  filled.pins = find_pins(body, solid);
+  held_solids_ += filled.pins.empty() ? 0 : 1;
+  filled.actor.pinned = held_nodes(filled.pins, body_.pins);
+  filled.forces = place_forces(body_.forces, selector_, filled.actor, solid);
+  filled.muscles = place_muscles(body_.muscles, selector_, filled.actor, solid, loaded_.bricks_from_rest);
+  return filled;
+}
+
+void BodyBuilder::put(Filled filled, const Pose& pose, int copy) {
+  place(filled.actor.body, pose.rotation, pose.translation);
+  filled.actor.body.velocities = velocities_of(body_, filled.actor, pose.translation);
+  for (PinnedNodes& pinned : filled.pins) pinned.centre = pose.rotation * pinned.centre + pose.translation;
+  filled.drawn.color = body_.color.value_or(kPalette[production_.skins.size() % kPalette.size()]);
+  production_.world.actors.push_back(std::move(filled.actor));
+  production_.origins.push_back({.body = index_,
+                                 .copy = copy,
+                                 .bricks_from_rest = loaded_.bricks_from_rest,
+                                 .regions = std::move(filled.regions),
+                                 .pins = std::move(filled.pins),
+                                 .forces = std::move(filled.forces),
+                                 .muscles = std::move(filled.muscles)});
+  production_.skins.push_back(std::move(filled.drawn));
+  production_.carried.push_back(std::move(filled.carried));
+}
+
+BrickGrid BodyBuilder::make_grid(const Solid& solid) {
+  if (loaded_.grid) return *loaded_.grid;
+  BrickGrid grid = voxelize(solid, loaded_.brick_size);
+  const PieceReport pieces = split_pieces(solid, grid);
+  report_.add(pieces, absorb_slivers(grid));
+  report_.add_volume(grid, solid);
+  return grid;
+}
+
+std::vector<PinnedNodes> BodyBuilder::find_pins(const Body& body, std::size_t solid) const {
+  std::vector<PinnedNodes> pinned;
+  for (std::size_t pin = 0; pin < body_.pins.size(); ++pin) {
+    std::vector<int> nodes = selector_.nodes(body_.pins[pin], body.rest_positions, solid);
+    if (nodes.empty()) continue;
+    pinned.push_back({.pin = pin, .nodes = std::move(nodes), .centre = selector_.centre(body_.pins[pin])});
+  }
+  return pinned;
+}
+
+void BodyBuilder::tell(const Observer& observer) const {
+  report_.tell(observer);
+  if (body_.pins.empty()) return;
+  if (held_solids_ == 0) {
+    throw Error(ErrorKind::kBadInput,
+                fmt::format("{}: the pins hold no node; make what they choose at least a brick ({}) thick",
+                            loaded_.name, readable(loaded_.brick_size, Dimension::kLength)));
+  }
+  const int free_solids = isize(loaded_.solids) - held_solids_;
+  if (free_solids == 0) return;
+  observer.warn(fmt::format("{}: {} of {} solids are not held by the pins and will fall", loaded_.name, free_solids,
+                            loaded_.solids.size()));
+}
+
+namespace {
+
+/// Per node, m^3.
+Eigen::VectorXd volumes_of(const std::vector<int>& bricks, const BrickGrid& grid) {
+  Eigen::VectorXd volumes = Eigen::VectorXd::Zero(grid.node_count());
+  for (const int brick : bricks) {
+    const std::size_t row = brick;
+    for (const int node : grid.nodes[row]) volumes[node] += grid.fill[row] * grid.brick_volume() / 8;
+  }
+  return volumes;
+}
+
+/// Of the triangles that touch, in the frame of the grid.
+Points middles_of_triangles(const Actor& actor) {
+  const BrickGrid& grid = actor.body.grid;
+  const Points places = deform_points(grid, actor.contacts, grid.rest_positions());
+  Points middles(actor.contact_triangles.rows(), 3);
+  for (int row = 0; row < middles.rows(); ++row) {
+    middles.row(row) = places(actor.contact_triangles.row(row), Eigen::all).colwise().mean();
+  }
+  return middles;
+}
+
+}  // namespace
+
+std::vector<ForcedPart> place_forces(const std::vector<BodyForce>& forces, const Selector& selector, const Actor& actor,
+                                     std::size_t solid) {
+  std::vector<ForcedPart> parts;
+  for (std::size_t force = 0; force < forces.size(); ++force) {
+    ForcedPart part{.force = force, .volumes = {}, .triangles = {}};
+    if (forces[force].pressure) {
+      part.triangles = selector.triangles(forces[force], middles_of_triangles(actor), solid);
+      if (part.triangles.empty()) continue;
+    } else {
+      part.volumes = volumes_of(selector.bricks(forces[force], actor.body.grid, solid), actor.body.grid);
+      if (part.volumes.isZero(0)) continue;
+    }
+    parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
+std::vector<MusclePart> place_muscles(const std::vector<BodyMuscle>& muscles, const Selector& selector,
+                                      const Actor& actor, std::size_t solid, const Mat3& bricks_from_rest) {
+  std::vector<MusclePart> parts;
+  for (std::size_t muscle = 0; muscle < muscles.size(); ++muscle) {
+    std::vector<int> bricks = selector.bricks(muscles[muscle], actor.body.grid, solid);
+    if (bricks.empty()) continue;
+    parts.push_back({.muscle = muscle,
+                     .full = {.bricks = std::move(bricks),
+                              .direction = bricks_from_rest * muscles[muscle].direction.normalized(),
+                              .contraction = muscles[muscle].contraction}});
+  }
+  return parts;
+}
+
+void check_loads(const Scene& scene, std::size_t body, const std::vector<Origin>& origins) {
+  std::vector<bool> pushed(scene.bodies[body].forces.size());
+  std::vector<bool> pulled(scene.bodies[body].muscles.size());
+  for (const Origin& origin : origins) {
+    if (origin.body != body) continue;
+    for (const ForcedPart& part : origin.forces) pushed[part.force] = true;
+    for (const MusclePart& part : origin.muscles) pulled[part.muscle] = true;
+  }
+  const auto check = [&](const std::vector<bool>& reached, std::string_view what) {
+    const auto missed = std::find(reached.begin(), reached.end(), false);
+    if (missed == reached.end()) return;
+    throw Error(ErrorKind::kBadInput,
+                fmt::format("body {}: its {} {} reaches no brick and no triangle; make the part it chooses at least "
+                            "a brick large",
+                            body + 1, what, missed - reached.begin() + 1));
+  };
+  check(pushed, "force");
+  check(pulled, "muscle");
+}
+
+namespace {
+
+/// Numbers at random that are the same everywhere, which the standard's distributions are not.
+class Chance {
+ public:
+  explicit Chance(int seed) : engine_(static_cast<std::uint64_t>(seed)) {}
+
+  /// In [low, high).
+  double between(double low, double high) { return low + (high - low) * std::ldexp(engine_() >> 11U, -53); }
+  Vec3 in_cube(double reach) {
+    const double x = between(-reach, reach);
+    const double y = between(-reach, reach);
+    return {x, y, between(-reach, reach)};
+  }
+  Vec3 direction() {
+    const double height = between(-1, 1);
+    const double angle = between(0, 2 * std::numbers::pi);
+    const double radius = std::sqrt(1 - height * height);
+    return {radius * std::cos(angle), radius * std::sin(angle), height};
+  }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+/// The middle of the bottom of the turned body's bounding box goes to `position`.
+Pose pose_at(const Vec3& position, const Mat3& rotation, const LoadedBody& loaded) {
+  const Points flipped = loaded.mesh.positions * rotation.transpose();
+  const Vec3 low = flipped.colwise().minCoeff();
+  const Vec3 high = flipped.colwise().maxCoeff();
+  const Vec3 middle = (low + high) / 2;
+  return {.rotation = rotation, .translation = position - Vec3(middle.x(), low.y(), middle.z())};
+}
+
+}  // namespace
+
+std::vector<Pose> poses_of(const SceneBody& body, const LoadedBody& loaded) {
+  const Mat3 rotation = rotation_matrix(body.rotation) * loaded.bricks_from_rest.transpose();
+  if (!body.copies) return {pose_at(body.position, rotation, loaded)};
+  const Copies& copies = *body.copies;
+  Chance chance(copies.seed);
+  std::vector<Pose> poses;
+  for (int k = 0; k < copies.count[2]; ++k) {
+    for (int j = 0; j < copies.count[1]; ++j) {
+      for (int i = 0; i < copies.count[0]; ++i) {
+        const Vec3 place = body.position + Vec3(i, j, k).cwiseProduct(copies.spacing) + chance.in_cube(copies.scatter);
+        const double turn = chance.between(0, copies.turn) * std::numbers::pi / 180;
+        const Vec3 axis = chance.direction();
+        poses.push_back(pose_at(place, Eigen::AngleAxisd(turn, axis) * rotation, loaded));
+      }
+    }
+  }
+  return poses;
+}
+
+namespace {
+
+/// The bricks' volume may differ from the mesh's by this share before it is worth a warning.
+constexpr double kVolumeError = 0.02;
+constexpr double kResolvedShell = 2;  // bricks: a thicker shell is held by them as it is
+
+double volume_error(const BrickGrid& grid, const Solid& solid) { return std::abs(grid.volume() / solid.volume - 1); }
+
+/// Half of the brick size, or a quarter, ... : the first that holds the solid's volume; none down to a 64th.
+std::optional<double> brick_size_for(const Solid& solid, double brick_size) {
+  for (int halving = 0; halving < 6; ++halving) {
+    brick_size /= 2;
+    if (volume_error(voxelize(solid, brick_size), solid) <= kVolumeError) return brick_size;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+void FillReport::add(const PieceReport& pieces, int slivers) {
+  pieces_.divided += pieces.divided;
+  pieces_.dropped += pieces.dropped;
+  pieces_.dropped_volume += pieces.dropped_volume;
+  pieces_.floating += pieces.floating;
+  slivers_ += slivers;
+}
+
+void FillReport::add(const Embedding& skin) {
+  outside_ += skin.outside;
+  furthest_outside_ = std::max(furthest_outside_, skin.furthest);
+}
+
+void FillReport::add_volume(const BrickGrid& grid, const Solid& solid) {
+  // Of a shell as thick as that the bricks know better: where it meets itself, area times thickness counts twice.
+  if (solid.thickness > kResolvedShell * body_.brick_size) return;
+  if (volume_error(grid, solid) <= kVolumeError) return;
+  ++wrong_volumes_;
+  if (wrong_volumes_ > 1) return;
+  const std::optional<double> better = brick_size_for(solid, body_.brick_size);
+  volume_warning_ =
+      fmt::format("bricks of {} are too coarse: they hold {:.4g} kg where the mesh holds {:.4g} kg; {}",
+                  readable(body_.brick_size, Dimension::kLength), grid.volume() * density_, solid.volume * density_,
+                  better ? fmt::format("for the mass bricks of {} would do", readable(*better, Dimension::kLength))
+                         : "use much smaller ones");
+}
+
+void FillReport::tell(const Observer& observer) const {
+  if (outside_ > 0) {
+    observer.note(fmt::format("{}: {} outside every brick, {:.2g} bricks away at most, on the nearest one", body_.name,
+                              count_of(outside_, "skin vertex rides", "skin vertices ride"), furthest_outside_));
+  }
+  if (slivers_ > 0) {
+    observer.detail(
+        fmt::format("{}: {} given to fuller neighbours", body_.name, count_of(slivers_, "nearly empty brick")));
+  }
+  tell_pieces(observer);
+  if (wrong_volumes_ == 0) return;
+  const int more = wrong_volumes_ - 1;
+  observer.warn(fmt::format("{}: {}{}", body_.name, volume_warning_,
+                            more > 0 ? fmt::format("; so are those of {} more", count_of(more, "solid")) : ""));
+}
+
+void FillReport::tell_pieces(const Observer& observer) const {
+  if (pieces_.divided > 0) {
+    observer.detail(fmt::format("{}: {} more than one piece of solid, and a brick for each", body_.name,
+                                count_of(pieces_.divided, "cell holds", "cells hold")));
+  }
+  if (pieces_.dropped > 0) {
+    observer.warn(fmt::format("{}: dropped {} of floating specks, {:.2g} kg together", body_.name,
+                              count_of(pieces_.dropped, "brick"), pieces_.dropped_volume * density_));
+  }
+  if (pieces_.floating > 0) {
+    observer.warn(fmt::format("{}: {} by parts too thin for bricks of {}; smaller bricks would hold them", body_.name,
+                              count_of(pieces_.floating, "piece hangs", "pieces hang"),
+                              readable(body_.brick_size, Dimension::kLength)));
+  }
+}
+
+}  // namespace sprung

@@ -1,0 +1,309 @@
+#include "core/simulation/drivers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sprung {
+namespace {
+
+constexpr double kMostContraction = 0.9;  // however strong
+constexpr double kLongestPiece = 0.005;   // s; a change over a frame comes in steps that nobody sees
+
+/// At t = 0 a movement is where a thing is put; a curve has its first value there.
+Movement from_values(std::vector<Keyframe> keyframes, Interpolation interpolation) {
+  if (keyframes.front().time > 0) {
+    Keyframe start = keyframes.front();
+    start.time = 0;
+    keyframes.insert(keyframes.begin(), start);
+  }
+  return {std::move(keyframes), interpolation};
+}
+
+/// Of the bricks that each force of a body acts on, in all its solids, m^3.
+std::vector<double> forced_volumes(const Scene& scene, const Production& production, std::size_t body) {
+  std::vector<double> volumes(scene.bodies[body].forces.size());
+  for (const Origin& origin : production.origins) {
+    if (origin.body != body) continue;
+    for (const ForcedPart& part : origin.forces) volumes[part.force] += part.volumes.sum();
+  }
+  for (double& volume : volumes) volume /= copy_count(scene.bodies[body]);
+  return volumes;
+}
+
+/// N, per node.
+Points forces_of(const BodyForce& force, const ForcedPart& part, double volume) {
+  const Vec3 per_volume = force.per_volume ? *force.per_volume : Vec3(force.total.value() / volume);
+  return part.volumes * per_volume.transpose();
+}
+
+}  // namespace
+
+LoadDriver::Curve::Curve(const StrengthCurve& course) {
+  std::vector<Keyframe> keyframes;
+  keyframes.reserve(course.keyframes.size() + 1);
+  for (const Strength& one : course.keyframes)
+    keyframes.push_back({.time = one.time, .translate = {one.strength, 0, 0}});
+  if (keyframes.empty()) keyframes.push_back({.time = 0, .translate = {1, 0, 0}});
+  movement_ = from_values(std::move(keyframes), course.interpolation);
+}
+
+LoadDriver::Curve::Curve(const std::vector<GravityKeyframe>& gravity) {
+  std::vector<Keyframe> keyframes;
+  keyframes.reserve(gravity.size());
+  for (const GravityKeyframe& one : gravity) keyframes.push_back({.time = one.time, .translate = one.gravity});
+  movement_ = from_values(std::move(keyframes), Interpolation::kLinear);
+}
+
+bool LoadDriver::Curve::changes_at(double time) const { return !movement_.rate(time).shift.isZero(0); }
+
+void LoadDriver::Curve::add_moments(std::vector<double>& moments) const {
+  for (const Keyframe& keyframe : movement_.keyframes()) moments.push_back(keyframe.time);
+}
+
+LoadDriver::LoadDriver(const Scene& scene, Production& production) : scene_(scene), production_(production) {
+  if (!scene.gravity_keyframes.empty()) gravity_.emplace_back(scene.gravity_keyframes);
+  if (scene.wind) wind_.emplace_back(static_cast<const StrengthCurve&>(*scene.wind));
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    BodyCurves& curves = bodies_.emplace_back();
+    for (const BodyForce& force : scene.bodies[i].forces)
+      curves.forces.emplace_back(static_cast<const StrengthCurve&>(force));
+    for (const BodyMuscle& muscle : scene.bodies[i].muscles) {
+      curves.muscles.emplace_back(static_cast<const StrengthCurve&>(muscle));
+    }
+    curves.volumes = forced_volumes(scene, production, i);
+  }
+  for (const BodyCurves& curves : bodies_) {
+    for (const Curve& curve : curves.forces) curve.add_moments(moments_);
+    for (const Curve& curve : curves.muscles) curve.add_moments(moments_);
+  }
+  for (const Curve& curve : gravity_) curve.add_moments(moments_);
+  for (const Curve& curve : wind_) curve.add_moments(moments_);
+}
+
+double LoadDriver::longest_piece(double time) const {
+  const auto changes = [&](const std::vector<Curve>& curves) {
+    return std::any_of(curves.begin(), curves.end(), [&](const Curve& curve) { return curve.changes_at(time); });
+  };
+  const bool any =
+      changes(gravity_) || changes(wind_) || std::any_of(bodies_.begin(), bodies_.end(), [&](const BodyCurves& curves) {
+        return changes(curves.forces) || changes(curves.muscles);
+      });
+  return any ? kLongestPiece : std::numeric_limits<double>::infinity();
+}
+
+void LoadDriver::aim(double begin, double end) {
+  const double time = (begin + end) / 2;
+  World& world = production_.world;
+  if (!gravity_.empty()) world.gravity = gravity_[0].at(time);
+  if (!wind_.empty()) {
+    world.wind = {.velocity = wind_[0].strength(time) * scene_.wind->velocity,
+                  .density = scene_.wind->density,
+                  .drag = scene_.wind->drag};
+  }
+  for (std::size_t actor = 0; actor < world.actors.size(); ++actor) world.actors[actor].loads = loads_at(actor, time);
+}
+
+Loads LoadDriver::loads_at(std::size_t actor, double time) const {
+  const Origin& origin = production_.origins[actor];
+  const SceneBody& body = scene_.bodies[origin.body];
+  const BodyCurves& curves = bodies_[origin.body];
+  Loads loads;
+  for (const ForcedPart& part : origin.forces) {
+    const BodyForce& force = body.forces[part.force];
+    const double strength = curves.forces[part.force].strength(time);
+    if (strength == 0) continue;
+    if (force.pressure) {
+      loads.pressures.push_back({.triangles = part.triangles, .pressure = strength * *force.pressure});
+      continue;
+    }
+    if (loads.forces.rows() == 0) loads.forces = Points::Zero(part.volumes.size(), 3);
+    loads.forces += strength * forces_of(force, part, curves.volumes[part.force]);
+  }
+  for (const MusclePart& part : origin.muscles) {
+    const double strength = curves.muscles[part.muscle].strength(time);
+    if (strength == 0) continue;
+    Muscle& muscle = loads.muscles.emplace_back(part.full);
+    muscle.contraction = std::min(strength * muscle.contraction, kMostContraction);
+  }
+  return loads;
+}
+
+Points steady_forces(const Scene& scene, const Production& production, std::size_t actor) {
+  const Origin& origin = production.origins[actor];
+  const std::vector<double> volumes = forced_volumes(scene, production, origin.body);
+  Points forces = Points::Zero(production.world.actors[actor].body.node_count(), 3);
+  for (const ForcedPart& part : origin.forces) {
+    forces += forces_of(scene.bodies[origin.body].forces[part.force], part, volumes[part.force]);
+  }
+  return forces;
+}
+
+namespace {
+
+constexpr double kMoment = 1e-9;  // s, shorter than any piece of a frame
+
+bool holds(const Pin& pin, double time) {
+  return pin.from <= time + kMoment && (!pin.until || time + kMoment < *pin.until);
+}
+
+/// What brings things from where they are at one time to where they are at another.
+Placement between(const Movement& movement, double begin, double end) {
+  if (movement.is_still()) return {};
+  const Placement first = movement.placement(begin);
+  const Placement second = movement.placement(end);
+  return {.shift = second.shift - first.shift,
+          .rotation = second.rotation * first.rotation.transpose(),
+          .scale = second.scale / first.scale};
+}
+
+void add_moments(const Pin& pin, const Movement& movement, std::vector<double>& moments) {
+  moments.push_back(pin.from);
+  if (pin.until) moments.push_back(*pin.until);
+  for (const Keyframe& keyframe : movement.keyframes()) moments.push_back(keyframe.time);
+}
+
+}  // namespace
+
+SceneDriver::SceneDriver(const Scene& scene, Production& production)
+    : scene_(scene),
+      production_(production),
+      loads_(scene, production),
+      grips_(production.world.actors.size()),
+      moments_(loads_.moments()) {
+  loads_.aim(0, 0);
+  for (std::size_t actor = 0; actor < grips_.size(); ++actor) {
+    const Origin& origin = production.origins[actor];
+    for (const PinnedNodes& pinned : origin.pins) {
+      const Pin& pin = scene.bodies[origin.body].pins[pinned.pin];
+      grips_[actor].push_back({.pin = &pin, .pinned = &pinned, .movement = movement_of(pin, scene)});
+      add_moments(pin, grips_[actor].back().movement, moments_);
+    }
+  }
+  for (const StageObstacle& obstacle : production.obstacles) {
+    for (const Keyframe& keyframe : obstacle.movement.keyframes()) moments_.push_back(keyframe.time);
+  }
+  std::sort(moments_.begin(), moments_.end());
+}
+
+std::vector<double> SceneDriver::pieces(double begin, double end) const {
+  std::vector<double> ends;
+  double last = begin;
+  const auto add = [&](double moment) {
+    const double parts = std::max(1.0, std::ceil((moment - last) / loads_.longest_piece((last + moment) / 2)));
+    for (double part = 1; part < parts; ++part) ends.push_back(last + part / parts * (moment - last));
+    ends.push_back(moment);
+    last = moment;
+  };
+  for (const double moment : moments_) {
+    if (moment > last + kMoment && moment < end - kMoment) add(moment);
+  }
+  add(end);
+  return ends;
+}
+
+void SceneDriver::aim(double begin, double end) {
+  loads_.aim(begin, end);
+  for (std::size_t i = 0; i < production_.obstacles.size(); ++i) {
+    production_.world.obstacles[i] = obstacle_between(production_.obstacles[i], scene_.obstacles[i], begin, end);
+  }
+  for (std::size_t i = 0; i < grips_.size(); ++i) {
+    if (grips_[i].empty()) continue;
+    Actor& actor = production_.world.actors[i];
+    std::map<int, KinematicNode> held;
+    for (FrictionPotential& grip : grips_[i]) {
+      if (holds(*grip.pin, begin)) {
+        carry(grip, actor, begin, end, held);
+      } else {
+        grip.caught.reset();
+      }
+    }
+    actor.pinned.clear();
+    for (const auto& [node, entry] : held) actor.pinned.push_back(entry);
+  }
+}
+
+void SceneDriver::serialize(IntegratorState& state) {
+  for (std::vector<FrictionPotential>& grips : grips_) {
+    for (FrictionPotential& grip : grips) {
+      bool is_caught = grip.caught.has_value();
+      Catch caught = grip.caught.value_or(Catch{});
+      caught.positions.conservativeResize(grip.pinned->nodes.size(), 3);
+      if (!is_caught) caught.positions.setZero();
+      state.serialize_as_double(is_caught);
+      state.serialize(caught.time);
+      state.serialize(caught.centre);
+      state.serialize(caught.positions);
+      grip.caught = is_caught ? std::optional(caught) : std::nullopt;
+    }
+  }
+}
+
+void SceneDriver::carry(FrictionPotential& grip, Actor& actor, double begin, double end,
+                        std::map<int, KinematicNode>& held) const {
+  const std::vector<int>& nodes = grip.pinned->nodes;
+  Body& body = actor.body;
+  if (!grip.caught) {
+    grip.caught = Catch{.time = begin, .centre = grip.pinned->centre, .positions = body.positions(nodes, Eigen::all)};
+    if (begin > kMoment) grip.caught->centre = grip.caught->positions.colwise().mean();
+  }
+  const Placement placement = between(grip.movement, grip.caught->time, end);
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    const Vec3 start = grip.caught->positions.row(k);
+    const Vec3 goal = start + placement.way(start - grip.caught->centre);
+    const auto [place, is_new] =
+        held.try_emplace(nodes[k], KinematicNode{.node = nodes[k], .axes = {false, false, false}});
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!grip.pin->axes.held[axis]) continue;
+      place->second.axes[axis] = true;
+      place->second.velocity[axis] = (goal[axis] - body.positions(nodes[k], axis)) / (end - begin);
+      body.velocities(nodes[k], axis) = place->second.velocity[axis];
+    }
+  }
+}
+
+namespace {
+
+Vec3 way(const Movement& movement, double time, const Vec3& arm, bool small) {
+  return small ? movement.small_placement(time).velocity(arm) : movement.placement(time).way(arm);
+}
+
+}  // namespace
+
+Movement movement_of(const Pin& pin, const Scene& scene) {
+  if (!pin.keyframes.empty()) return {pin.keyframes, pin.interpolation};
+  const double end = time_of(scene, frame_count(scene) - 1);
+  if (!(end > 0)) return {};
+  return {
+      {{.time = end, .translate = pin.translate.value_or(Vec3::Zero()), .rotate = pin.rotate.value_or(Vec3::Zero())}},
+      Interpolation::kLinear};
+}
+
+Points pin_movements(const Scene& scene, const Production& production, std::size_t actor, double time, bool small) {
+  const Origin& origin = production.origins[actor];
+  const Points& start = production.world.actors[actor].body.rest_positions;
+  Points moved = Points::Zero(start.rows(), 3);
+  for (const PinnedNodes& pinned : origin.pins) {
+    const Pin& pin = scene.bodies[origin.body].pins[pinned.pin];
+    const Movement movement = movement_of(pin, scene);
+    for (const int node : pinned.nodes) {
+      const Vec3 moves = way(movement, time, start.row(node).transpose() - pinned.centre, small);
+      for (int axis = 0; axis < 3; ++axis) {
+        if (pin.axes.held[axis]) moved(node, axis) = moves[axis];
+      }
+    }
+  }
+  return moved;
+}
+
+Supports supports_of(const Actor& actor) {
+  Supports supports(actor.body.node_count());
+  for (const KinematicNode& held : actor.pinned) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (held.axes[axis]) supports.fix(held.node, axis);
+    }
+  }
+  return supports;
+}
+
+}  // namespace sprung

@@ -1,0 +1,171 @@
+#include "core/simulation/equilibria.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/contact/inversion_guard.h"
+#include "core/dynamics/statics/modes.h"
+#include "core/dynamics/statics/statics.h"
+#include "core/error.h"
+#include "core/simulation/drivers.h"
+#include "core/simulation/observer.h"
+
+namespace sprung {
+namespace {
+
+constexpr double kModeSwing = 0.1;  // of the body's size
+
+/// Brings the actors to rest under a share of the load.
+class Loading {
+ public:
+  Loading(Production& production, const Scene& scene)
+      : production_(production), scene_(scene), is_linear_(scene.solver.scheme == Solver::kLinear) {
+    for (const Actor& actor : production.world.actors) {
+      if (!actor.pinned.empty()) continue;
+      throw Error(ErrorKind::kBadInput,
+                  "a body without pins cannot come to rest; give it a [[body.pin]], or use "
+                  "solver.scheme euler or verlet");
+    }
+    for (std::size_t i = 0; i < production.world.actors.size(); ++i) systems_.push_back(make_default_solver());
+  }
+
+  /// The shape under a share of the weight, with the pins where they are at a time (s). Reactions by actor, m x 3, N.
+  std::vector<Points> apply(double share, double time) {
+    std::vector<Points> reactions_of_all;
+    for (std::size_t actor = 0; actor < production_.world.actors.size(); ++actor) {
+      Body& body = production_.world.actors[actor].body;
+      const Supports supports = supports_of(production_.world.actors[actor]);
+      const Points forces = steady_forces(scene_, production_, actor);
+      const Points loads = share * (body.masses * production_.world.gravity.transpose() + forces);
+      const Points movements = pin_movements(scene_, production_, actor, time, is_linear_);
+      reactions_of_all.push_back(is_linear_ ? answer(body, supports, loads, movements, *systems_[actor])
+                                            : settle(body, supports, loads, movements, *systems_[actor]));
+    }
+    return reactions_of_all;
+  }
+
+  [[nodiscard]] bool is_linear() const { return is_linear_; }
+  [[nodiscard]] int iterations() const { return iterations_; }
+
+  /// What the linear solvers had to do, where they had to give up.
+  void note_trouble(const Observer& observer) const {
+    for (std::size_t i = 0; i < systems_.size(); ++i) {
+      const SolveReport report = systems_[i]->report();
+      observer.detail(fmt::format("body {}: {} linear solves, {} multigrid iterations, at most {} in one", i + 1,
+                                  report.solves, report.iterations, report.most));
+      if (report.fallbacks == 0) continue;
+      observer.note(
+          fmt::format("body {}: multigrid did not converge in {} of {} linear solves; the slower direct solver "
+                      "took over",
+                      i + 1, report.fallbacks, report.solves));
+    }
+  }
+
+ private:
+  static Points answer(Body& body, const Supports& supports, const Points& loads, const Points& movements,
+                       LinearSolver& system) {
+    body.positions = body.rest_positions;
+    const LinearResponse response = linear_response(body, supports, loads, movements, system);
+    body.positions += response.displacements;
+    return response.reactions;
+  }
+
+  Points settle(Body& body, const Supports& supports, const Points& loads, const Points& movements,
+                LinearSolver& system) {
+    const Points start = body.positions;
+    for (Eigen::Index i = 0; i < start.size(); ++i) {
+      if (!supports.fixed[i]) continue;
+      body.positions.data()[i] = body.rest_positions.data()[i] + movements.data()[i];
+    }
+    iterations_ += solve_static(body, supports, loads, start, system).iterations;
+    return reactions(body, supports, loads);
+  }
+
+  Production& production_;
+  const Scene& scene_;
+  bool is_linear_;
+  std::vector<std::unique_ptr<LinearSolver>> systems_;  // by actor
+  int iterations_ = 0;
+};
+
+/// An option can make a scene one of states of rest after its file was checked.
+void check_rests(const Scene& scene) {
+  if (const std::vector<MotionOnly> parts = motion_only(scene); !parts.empty()) {
+    throw Error(ErrorKind::kBadInput,
+                fmt::format("only a motion (scheme euler or verlet) can have {}", parts.front().what));
+  }
+  if (scene.obstacles.empty()) return;
+  throw Error(ErrorKind::kBadInput,
+              "only a motion (scheme euler or verlet) meets the ground; use --scenario hang, or a "
+              "scene without [[obstacle]]");
+}
+
+}  // namespace
+
+Recording record_equilibria(Production& production, const Scene& scene, const Observer& observer, RunCache* cache) {
+  check_rests(scene);
+  const int frames = frame_count(scene);
+  Loading loading(production, scene);
+  Recorder recorder(scene, production, "load", cache);
+  const int first = recorder.take_up(production.world, [](IntegratorState&) {});
+  Progress progress(observer, loading.is_linear() ? "linear" : "static", frames);
+  for (int frame = first; frame < frames; ++frame) {
+    observer.check_interrupt();
+    const double share = frames == 1 ? 1.0 : double(frame) / (frames - 1);
+    // Nothing is solved for the first of several: no load, no displacement.
+    const std::vector<Points> reactions =
+        share == 0 ? std::vector<Points>{} : loading.apply(share, time_of(scene, frame));
+    recorder.add(share, reactions, time_of(scene, frame), loading.is_linear());
+    progress.update(frame + 1);
+  }
+  loading.note_trouble(observer);
+  progress.finish(loading.is_linear() ? fmt::format("{} frames", frames)
+                                      : fmt::format("{} frames, {} Newton steps", frames, loading.iterations()));
+  if (!loading.is_linear()) warn_of_crushed_bodies(production.world, observer);
+  return recorder.finish();
+}
+
+Recording record_modes(Production& production, const Scene& scene, const Observer& observer, RunCache* cache) {
+  check_rests(scene);
+  if (production.world.actors.size() != 1) {
+    throw Error(ErrorKind::kBadInput,
+                fmt::format("modes are those of one body, the scene has {}", production.world.actors.size()));
+  }
+  Progress progress(observer, "modes");
+  Actor& actor = production.world.actors[0];
+  const Modes modes = natural_modes(actor.body, supports_of(actor), scene.solver.modes);
+  const int frames = frame_count(scene);
+  const int count = scene.solver.modes;
+  Recorder recorder(scene, production, "mode", cache);
+  const int first = recorder.take_up(production.world, [](IntegratorState&) {});
+  for (int frame = first; frame < frames; ++frame) {
+    const double place = double(frame) * count / frames;
+    const int mode = std::min(int(place), count - 1);
+    const Eigen::VectorXd shape = modes.shapes.col(mode) / modes.shapes.col(mode).cwiseAbs().maxCoeff();
+    const double swing = kModeSwing * production.size * std::sin(2 * std::numbers::pi * (place - mode));
+    actor.body.positions = actor.body.rest_positions;
+    Eigen::Map<Eigen::VectorXd>(actor.body.positions.data(), shape.size()) += swing * shape;
+    recorder.add(mode + 1, {}, 0, true);
+  }
+  recorder.recording().frequencies = modes.frequencies;
+  progress.finish(fmt::format("{} modes, the slowest at {:.6g} Hz", count, modes.frequencies[0]));
+  return recorder.finish();
+}
+
+void warn_of_crushed_bodies(const World& world, const Observer& observer) {
+  for (std::size_t i = 0; i < world.actors.size(); ++i) {
+    const Body& body = world.actors[i].body;
+    const int inverted = inverted_bricks(body);
+    if (inverted == 0 && !is_crushed(body)) continue;
+    observer.warn(fmt::format(
+        "body {}: of {} bricks {} are inside out and {} pressed to less than {} of their volume at the end, where the "
+        "guard against turning inside out carries them, not their springs: the material is too soft for its weight, "
+        "its fall or what moves it; a stiffer or lighter material (young, density) or a smaller body carries itself",
+        i + 1, body.grid.brick_count(), inverted, guarded_bricks(body) - inverted, body.law.guard_ratio));
+  }
+}
+
+}  // namespace sprung

@@ -1,0 +1,72 @@
+#pragma once
+#include <chrono>
+#include <string>
+#include <string_view>
+
+namespace sprung {
+
+class Progress;
+
+/// Hears what long work has to say, and may stop it. This one hears nothing.
+class Observer {
+ public:
+  virtual ~Observer() = default;
+
+  /// Something that a person should know, is told, or may want to know.
+  virtual void warn(std::string_view) const {}
+  virtual void note(std::string_view) const {}
+  virtual void detail(std::string_view) const {}
+
+  /// Called often; throws where the work is to stop.
+  virtual void check_interrupt() const {}
+
+  /// A stage has begun or gone on, is over, or ended without a result.
+  virtual void show(const Progress&) const {}
+  virtual void finish(const Progress&, std::string_view) const {}
+  virtual void clear(const Progress&) const {}
+};
+
+/// A stage of long work with what is done of it, for an observer.
+class Progress {
+ public:
+  /// `total` units of work, 0: not known; a rate is told as `scale` times units a second, for example 1e-6 and
+  /// "M brick-steps/s". The observer has to outlive it.
+  Progress(const Observer& observer, std::string name, double total = 0, double scale = 1, std::string rate_unit = "")
+      : observer_(observer), name_(std::move(name)), total_(total), scale_(scale), rate_unit_(std::move(rate_unit)) {
+    observer_.show(*this);
+  }
+  ~Progress() { observer_.clear(*this); }
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// `done` units so far.
+  void update(double done) {
+    done_ = done;
+    observer_.show(*this);
+  }
+  /// Ends the stage with what came out of it.
+  void finish(std::string_view result) { observer_.finish(*this, result); }
+
+  [[nodiscard]] const std::string& name() const { return name_; }
+  [[nodiscard]] double total() const { return total_; }
+  [[nodiscard]] double done() const { return done_; }
+  [[nodiscard]] double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+  /// At the rate so far; 0 where nothing is known.
+  [[nodiscard]] double seconds_to_go() const { return done_ > 0 ? seconds() * (total_ - done_) / done_ : 0; }
+  /// Times `scale` a second; 0 where nothing is known or no unit is named.
+  [[nodiscard]] double rate() const { return rate_unit_.empty() || done_ <= 0 ? 0 : scale_ * done_ / seconds(); }
+  [[nodiscard]] const std::string& rate_unit() const { return rate_unit_; }
+
+ private:
+  const Observer& observer_;
+  std::string name_;
+  double total_;
+  double scale_;
+  std::string rate_unit_;
+  double done_ = 0;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace sprung

@@ -1,0 +1,149 @@
+#include "core/simulation/recorder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+
+#include "core/error.h"
+#include "core/simulation/drivers.h"
+#include "core/simulation/run_cache.h"
+
+namespace sprung {
+namespace {
+
+bool is_pin_of(const PinnedNodes& pinned, const SceneBody& body, const std::string& name) {
+  return body.pins[pinned.pin].name == name;
+}
+
+}  // namespace
+
+Recorder::Recorder(const Scene& scene, const Production& production, std::string progress_name, RunCache* cache)
+    : scene_(scene), production_(production), cache_(cache) {
+  recording_.progress_name = std::move(progress_name);
+  for (const Probe& probe : scene.probes) {
+    recording_.probes.push_back({.name = probe.name, .is_pin = !probe.point, .samples = {}});
+    seats_.push_back(probe.point ? seat_of(probe) : PointSeat{});
+  }
+}
+
+Recorder::PointSeat Recorder::seat_of(const Probe& probe) const {
+  for (std::size_t actor = 0; actor < production_.origins.size(); ++actor) {
+    const Origin& origin = production_.origins[actor];
+    if (origin.body != std::size_t(probe.body - 1)) continue;
+    const Body& body = production_.world.actors[actor].body;
+    PointSeat seat{.actor = actor, .embedding = embed(body.grid, (origin.bricks_from_rest * *probe.point).transpose())};
+    if (seat.embedding.outside > 0) continue;
+    seat.start = deform_points(body.grid, seat.embedding, body.rest_positions).row(0);
+    return seat;
+  }
+  throw Error(ErrorKind::kBadInput,
+              fmt::format("probe '{}': its point ({:.6g}, {:.6g}, {:.6g}) m is in no brick of body {}; points are "
+                          "measured from the middle of the body's bounding box",
+                          probe.name, probe.point->x(), probe.point->y(), probe.point->z(), probe.body));
+}
+
+int Recorder::take_up(World& world, const std::function<void(IntegratorState&)>& serialize) {
+  if (cache_ == nullptr) return 0;
+  IntegratorState empty;
+  serialize(empty);
+  const int count = cache_->begin(scene_, production_, recording_.progress_name, empty.row().size());
+  for (int i = 0; i < count; ++i) {
+    const CachedFrame frame = cache_->frame(i);
+    recording_.progress.push_back(frame.progress);
+    recording_.seconds.push_back(frame.seconds);
+    for (std::size_t probe = 0; probe < recording_.probes.size(); ++probe) {
+      recording_.probes[probe].samples.push_back(sample_of(frame, probe));
+    }
+  }
+  if (count == 0) return 0;
+  IntegratorState state = cache_->restore(world);
+  serialize(state);
+  frame_began_ = std::chrono::steady_clock::now();
+  return count;
+}
+
+void Recorder::add(double progress, const std::vector<Points>& reactions, double time, bool small,
+                   const IntegratorState& state) {
+  if (cache_ == nullptr) {
+    std::vector<Floats3>& frame = recording_.frames.emplace_back();
+    for (const Actor& actor : production_.world.actors) frame.emplace_back(actor.body.positions.cast<float>());
+  }
+  recording_.progress.push_back(progress);
+  const auto now = std::chrono::steady_clock::now();
+  recording_.seconds.push_back(std::chrono::duration<double>(now - frame_began_).count());
+  frame_began_ = now;
+  for (std::size_t i = 0; i < scene_.probes.size(); ++i) {
+    const Probe& probe = scene_.probes[i];
+    recording_.probes[i].samples.push_back(probe.point ? point_sample(seats_[i])
+                                                       : pin_sample(probe, reactions, time, small));
+  }
+  if (cache_ == nullptr) return;
+  const CachedFrame frame{.progress = progress,
+                          .probes = numbers_of(recording_.probes),
+                          .state_hash = state_hash(production_.world),
+                          .seconds = recording_.seconds.back()};
+  cache_->add(frame, state);
+}
+
+ProbeSample Recorder::point_sample(const PointSeat& seat) const {
+  const Body& body = production_.world.actors[seat.actor].body;
+  ProbeSample sample;
+  sample.position = deform_points(body.grid, seat.embedding, body.positions).row(0);
+  sample.displacement = sample.position - seat.start;
+  return sample;
+}
+
+ProbeSample Recorder::pin_sample(const Probe& probe, const std::vector<Points>& reactions, double time,
+                                 bool small) const {
+  const std::size_t row = probe.body - 1;
+  const SceneBody& scene_body = scene_.bodies[row];
+  ProbeSample sample;
+  int count = 0;
+  for (std::size_t actor = 0; actor < production_.origins.size(); ++actor) {
+    if (production_.origins[actor].body != row) continue;
+    const Body& body = production_.world.actors[actor].body;
+    for (const PinnedNodes& pinned : production_.origins[actor].pins) {
+      if (!is_pin_of(pinned, scene_body, probe.pin)) continue;
+      const Pin& pin = scene_body.pins[pinned.pin];
+      const Vec3 shift = movement_of(pin, scene_).placement(time).shift;
+      const Vec3 centre = small ? pinned.centre : Vec3(pinned.centre + shift);
+      for (const int node : pinned.nodes) {
+        ++count;
+        sample.position += body.positions.row(node).transpose();
+        sample.displacement += (body.positions.row(node) - body.rest_positions.row(node)).transpose();
+        if (reactions.empty()) continue;
+        Vec3 force = reactions[actor].row(node);
+        for (int axis = 0; axis < 3; ++axis) force[axis] *= pin.axes.held[axis] ? 1 : 0;
+        const Vec3 arm = (small ? body.rest_positions : body.positions).row(node).transpose() - centre;
+        sample.force += force;
+        sample.torque += arm.cross(force);
+      }
+    }
+  }
+  sample.position /= std::max(count, 1);
+  sample.displacement /= std::max(count, 1);
+  return sample;
+}
+
+Recording Recorder::finish() {
+  recording_.state_hash = state_hash(production_.world);
+  return std::move(recording_);
+}
+
+std::uint64_t state_hash(const World& world) {
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  const auto add = [&](const Points& points) {
+    for (const double value : std::span(points.data(), points.size())) {
+      const auto bits = std::bit_cast<std::uint64_t>(value);
+      for (unsigned byte = 0; byte < 8; ++byte) hash = (hash ^ ((bits >> (8 * byte)) & 0xffU)) * 0x100000001b3U;
+    }
+  };
+  for (const Actor& actor : world.actors) {
+    add(actor.body.positions);
+    add(actor.body.velocities);
+  }
+  return hash;
+}
+
+}  // namespace sprung

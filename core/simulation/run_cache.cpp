@@ -1,0 +1,272 @@
+#include "core/simulation/run_cache.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "core/error.h"
+#include "core/io/files.h"
+
+namespace sprung {
+namespace {
+
+CachedColor bytes_of(const Color& color) { return {color.red, color.green, color.blue}; }
+
+std::string difference_of_actors(const CachedActor& cached, const CachedActor& now) {
+  if (cached.grid.cells.size() != now.grid.cells.size()) {
+    return fmt::format("{} bricks in the cache, {} here", cached.grid.cells.size(), now.grid.cells.size());
+  }
+  if (cached.grid.cells != now.grid.cells || cached.grid.nodes != now.grid.nodes || cached.masses != now.masses ||
+      cached.stiffness_scale != now.stiffness_scale || cached.rest_positions != now.rest_positions) {
+    return "as many bricks, but others";
+  }
+  if (cached.skin.positions.rows() != now.skin.positions.rows() || cached.skin.positions != now.skin.positions ||
+      cached.skin.triangles != now.skin.triangles) {
+    return "another skin";
+  }
+  return "";
+}
+
+/// What of a simulation goes into a cache.
+CacheHeader cache_header(const Scene& scene, const Production& production, const SceneRecord& record,
+                         std::string progress_name) {
+  CacheHeader header;
+  header.version = SPRUNG_VERSION;
+  header.build = build_of_this_program();
+  header.scene = record.text;
+  header.progress_name = std::move(progress_name);
+  header.size = production.size;
+  header.meshes = production.meshes;
+  for (const Probe& probe : scene.probes) header.probes.push_back(probe.name);
+  for (std::size_t i = 0; i < production.skins.size(); ++i) {
+    const Body& body = production.world.actors[i].body;
+    const DrawnSkin& drawn = production.skins[i];
+    CachedActor& actor = header.actors.emplace_back();
+    actor.body = int(production.origins[i].body);
+    actor.color = bytes_of(drawn.color);
+    actor.grid = body.grid;
+    actor.stiffness_scale = body.stiffness_scale;
+    actor.regions = production.origins[i].regions;
+    actor.masses = body.masses;
+    actor.rest_positions = body.rest_positions;
+    actor.pinned = pinned_nodes(production.origins[i]);
+    actor.skin = drawn.skin;
+    actor.embedding = drawn.embedding;
+    actor.copy = production.origins[i].copy;
+    actor.carried = production.carried[i].vertices;
+    actor.carried_embedding = production.carried[i].embedding;
+  }
+  for (const StageObstacle& obstacle : production.obstacles) {
+    header.obstacles.push_back({.color = bytes_of(obstacle.color), .start = obstacle.start, .skin = obstacle.skin});
+  }
+  return header;
+}
+
+/// Why frames of one run cannot go on as another: the first thing that differs, with both values; empty where nothing
+/// does.
+std::string difference(const CacheHeader& cached, const CacheHeader& now, const SceneRecord& record) {
+  if (cached.version != now.version) {
+    return fmt::format("it was made by sprung {}, this is sprung {}", cached.version, now.version);
+  }
+  if (cached.build != now.build) {
+    return fmt::format("it was made by another build of sprung {} ({}; this one is {}), whose last digits may differ",
+                       now.version, cached.build, now.build);
+  }
+  if (cached.position_error != now.position_error) {
+    return fmt::format("its positions are kept {}, here it is {}", position_accuracy(cached), position_accuracy(now));
+  }
+  if (record.difference) {
+    if (std::string text = record.difference(cached.scene); !text.empty()) return text;
+  }
+  if (cached.actors.size() != now.actors.size()) {
+    return fmt::format("{} solids in the cache, {} here: the meshes have changed", cached.actors.size(),
+                       now.actors.size());
+  }
+  for (std::size_t i = 0; i < now.actors.size(); ++i) {
+    const std::string text = difference_of_actors(cached.actors[i], now.actors[i]);
+    if (text.empty()) continue;
+    return fmt::format("the mesh of body {} has changed: {}", now.actors[i].body + 1, text);
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string position_accuracy(const CacheHeader& header) {
+  if (header.position_error == 0) return "to the last bit";
+  return fmt::format("to within {:.6g} m", header.position_error);
+}
+
+namespace {
+
+Color color_of(const CachedColor& bytes) { return {.red = bytes[0], .green = bytes[1], .blue = bytes[2]}; }
+
+Body cached_body(const CachedActor& cached, const SceneBody& scene_body) {
+  Body body = make_body(cached.grid, scene_body.model, scene_body.material);
+  body.masses = cached.masses;
+  body.rest_positions = cached.rest_positions;
+  body.positions = cached.rest_positions;
+  if (body.stiffness_scale == cached.stiffness_scale) return body;
+  body.stiffness_scale = cached.stiffness_scale;
+  build_tiles(body);
+  return body;
+}
+
+}  // namespace
+
+Production cached_production(const CacheHeader& header, const Scene& scene) {
+  Production production;
+  production.size = header.size;
+  production.meshes = header.meshes;
+  production.world.gravity = scene.gravity;
+  for (const CachedActor& cached : header.actors) {
+    const std::size_t row = cached.body;
+    if (row >= scene.bodies.size()) throw Error(ErrorKind::kBadInput, "the cache is damaged: a body that no scene has");
+    production.world.actors.push_back({.body = cached_body(cached, scene.bodies[row]), .contacts = {}, .pinned = {}});
+    production.skins.push_back({.skin = cached.skin, .embedding = cached.embedding, .color = color_of(cached.color)});
+    production.carried.push_back({.vertices = cached.carried, .embedding = cached.carried_embedding});
+    Origin& origin = production.origins.emplace_back();
+    origin.body = row;
+    origin.copy = cached.copy;
+    origin.regions = cached.regions;
+    if (!cached.pinned.empty()) origin.pins.push_back({.pin = 0, .nodes = cached.pinned});
+  }
+  for (std::size_t i = 0; i < header.obstacles.size(); ++i) {
+    const SceneObstacle& obstacle = scene.obstacles.at(i);
+    StageObstacle& staged = production.obstacles.emplace_back();
+    // Nothing meets them any more: it only matters which of them is level ground.
+    staged.shape = obstacle.plane ? Shape(SolidHalfSpace{}) : Shape(SolidBall{});
+    staged.start = header.obstacles[i].start;
+    staged.movement = {obstacle.keyframes, obstacle.interpolation};
+    staged.skin = header.obstacles[i].skin;
+    staged.color = color_of(header.obstacles[i].color);
+    production.world.obstacles.push_back(obstacle_between(staged, obstacle, 0, 0));
+  }
+  return production;
+}
+
+std::vector<Floats3> cached_nodes(const CacheReader& cache, std::size_t frame) {
+  std::vector<Floats3> nodes;
+  for (const Points& positions : cache.positions(frame)) nodes.emplace_back(positions.cast<float>());
+  return nodes;
+}
+
+Recording cached_recording(const CacheReader& cache) {
+  Recording recording;
+  recording.progress_name = cache.header().progress_name;
+  for (const std::string& name : cache.header().probes) recording.probes.push_back({.name = name, .samples = {}});
+  for (std::size_t frame = 0; frame < cache.frame_count(); ++frame) {
+    recording.frames.push_back(cached_nodes(cache, frame));
+    const CachedFrame cached = cache.frame(frame);
+    recording.progress.push_back(cached.progress);
+    for (std::size_t probe = 0; probe < recording.probes.size(); ++probe) {
+      recording.probes[probe].samples.push_back(sample_of(cached, probe));
+    }
+  }
+  return recording;
+}
+
+namespace {
+
+std::vector<const Points*> addresses(const std::vector<Points>& all) {
+  std::vector<const Points*> list;
+  list.reserve(all.size());
+  for (const Points& points : all) list.push_back(&points);
+  return list;
+}
+
+}  // namespace
+
+RunCache::RunCache(std::filesystem::path file, SceneRecord record, bool resume, double position_error)
+    : file_(std::move(file)), record_(std::move(record)), position_error_(position_error) {
+  if (!std::filesystem::exists(file_)) return;
+  if (is_being_written(file_)) refuse_second_run(file_);
+  if (resume) old_ = std::make_unique<CacheReader>(file_);
+}
+
+RunCache::~RunCache() = default;
+
+int RunCache::begin(const Scene& scene, const Production& production, const std::string& progress_name,
+                    std::size_t memory_size) {
+  production_ = &production;
+  CacheHeader header = cache_header(scene, production, record_, progress_name);
+  header.position_error = position_error_;
+  header.velocity_error = position_error_ * scene.fps;
+  if (old_) {
+    if (const std::string text = difference(old_->header(), header, record_); !text.empty()) {
+      throw Error(ErrorKind::kBadInput,
+                  fmt::format("'{}' cannot go on: {}; --overwrite begins anew", file_.string(), text));
+    }
+    const int most = sprung::frame_count(scene);
+    if (int(old_->frame_count()) > most) {
+      throw Error(ErrorKind::kBadInput, fmt::format("'{}' has {} frames already, more than the {} of this duration",
+                                                    file_.string(), old_->frame_count(), most));
+    }
+  }
+  writer_ = std::make_unique<CacheWriter>(file_, header, memory_size);
+  if (old_) copy_old_frames();
+  return frame_count_;
+}
+
+/// Into the new file, which takes the name of the old one only then: killed at any moment, one of them is whole.
+void RunCache::copy_old_frames() {
+  const auto count = old_->frame_count();
+  for (std::size_t frame = 0; frame < count; ++frame) {
+    const bool is_last = frame + 1 == count;
+    const std::vector<Points> positions = is_last ? old_->exact_positions(frame) : old_->positions(frame);
+    const std::vector<Points> velocities = is_last ? old_->exact_velocities(frame) : old_->velocities(frame);
+    writer_->append(old_->frame(frame), addresses(positions), addresses(velocities), old_->memory(frame));
+  }
+  frame_count_ = int(count);
+  if (count > 0) writer_->publish();
+}
+
+CachedFrame RunCache::frame(int frame) const { return old_->frame(frame); }
+
+IntegratorState RunCache::restore(World& world) const {
+  const std::size_t last = frame_count_ - 1;
+  const std::vector<Points> positions = old_->exact_positions(last);
+  const std::vector<Points> velocities = old_->exact_velocities(last);
+  for (std::size_t i = 0; i < world.actors.size(); ++i) {
+    world.actors[i].body.positions = positions[i];
+    world.actors[i].body.velocities = velocities[i];
+  }
+  return IntegratorState(old_->memory(last));
+}
+
+void RunCache::add(const CachedFrame& frame, const IntegratorState& state) {
+  std::vector<const Points*> positions;
+  std::vector<const Points*> velocities;
+  for (const Actor& actor : production_->world.actors) {
+    positions.push_back(&actor.body.positions);
+    velocities.push_back(&actor.body.velocities);
+  }
+  writer_->append(frame, positions, velocities, state.row());
+  if (frame_count_++ == 0) writer_->publish();
+}
+
+void RunCache::close() { writer_->close(); }
+
+std::vector<double> numbers_of(const std::vector<ProbeTrack>& probes) {
+  std::vector<double> numbers;
+  for (const ProbeTrack& track : probes) {
+    const ProbeSample& last = track.samples.back();
+    for (const Vec3* vector : {&last.position, &last.displacement, &last.force, &last.torque}) {
+      numbers.insert(numbers.end(), vector->begin(), vector->end());
+    }
+  }
+  return numbers;
+}
+
+ProbeSample sample_of(const CachedFrame& frame, std::size_t probe) {
+  const double* numbers = frame.probes.data() + kNumbersOfProbe * probe;
+  ProbeSample sample;
+  for (Vec3* vector : {&sample.position, &sample.displacement, &sample.force, &sample.torque}) {
+    *vector = Eigen::Map<const Vec3>(numbers);
+    numbers += 3;
+  }
+  return sample;
+}
+
+}  // namespace sprung

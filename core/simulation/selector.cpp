@@ -1,0 +1,279 @@
+#include "core/simulation/selector.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numeric>
+
+#include "core/error.h"
+#include "core/mesh/io/read_mesh.h"
+#include "core/mesh/query/winding_tree.h"
+#include "core/text.h"
+
+namespace sprung {
+namespace {
+
+constexpr double kRounding = 1e-9;    // of the longest side
+constexpr double kAlmostHalf = 0.49;  // of a brick; not quite half: a tie would be rounding's choice
+constexpr double kSamePaint = 2.5;    // levels of 255 that files round a colour by
+constexpr double kInside = 0.5;       // winding number
+
+Vec3 middle_of(const Points& points) {
+  const Vec3 low = points.colwise().minCoeff();
+  const Vec3 high = points.colwise().maxCoeff();
+  return (low + high) / 2;
+}
+
+std::vector<int> rows_where(const Points& points, const std::function<bool(const Vec3&)>& test) {
+  std::vector<int> rows;
+  for (int row = 0; row < points.rows(); ++row) {
+    if (test(points.row(row))) rows.push_back(row);
+  }
+  return rows;
+}
+
+std::vector<int> row_nearest_to(const Vec3& place, const Points& points) {
+  Eigen::Index row = 0;
+  if (points.rows() == 0) return {};
+  (points.rowwise() - place.transpose()).rowwise().squaredNorm().minCoeff(&row);
+  return {int(row)};
+}
+
+}  // namespace
+
+std::vector<int> Selector::nodes(const Selection& selection, const Points& places, std::size_t solid) const {
+  if (selection.nearest) {
+    const Vec3 place = place_of(*selection.nearest);
+    return solid_nearest_to(place) == solid ? row_nearest_to(place, places) : std::vector<int>{};
+  }
+  return rows_where(places, test_of(selection, kAlmostHalf * body_.brick_size, body_.brick_size));
+}
+
+Points brick_middles(const BrickGrid& grid) {
+  Points middles(grid.brick_count(), 3);
+  for (int brick = 0; brick < grid.brick_count(); ++brick) {
+    const Vec3 cell = grid.cells[brick].cast<double>().array() + 0.5;
+    middles.row(brick) = (grid.origin + grid.brick_size * cell).transpose();
+  }
+  return middles;
+}
+
+std::vector<int> Selector::bricks(const Selection& selection, const BrickGrid& grid, std::size_t solid) const {
+  const Points middles = brick_middles(grid);
+  if (is_whole(selection)) {
+    std::vector<int> all(grid.cells.size());
+    std::iota(all.begin(), all.end(), 0);
+    return all;
+  }
+  if (selection.nearest) {
+    const Vec3 place = place_of(*selection.nearest);
+    return solid_nearest_to(place) == solid ? row_nearest_to(place, middles) : std::vector<int>{};
+  }
+  const double margin = kRounding * body_.extent.maxCoeff();
+  return rows_where(middles, test_of(selection, margin, std::numeric_limits<double>::infinity()));
+}
+
+std::vector<int> Selector::triangles(const Selection& selection, const Points& middles, std::size_t solid) const {
+  if (is_whole(selection)) {
+    std::vector<int> all(middles.rows());
+    std::iota(all.begin(), all.end(), 0);
+    return all;
+  }
+  if (selection.nearest) {
+    const Vec3 place = place_of(*selection.nearest);
+    return solid_nearest_to(place) == solid ? row_nearest_to(place, middles) : std::vector<int>{};
+  }
+  return rows_where(middles, test_of(selection, kRounding * body_.extent.maxCoeff(), body_.brick_size));
+}
+
+Vec3 Selector::place_of(const Vec3& fractions) const {
+  return body_.bricks_from_rest * ((fractions.array() - 0.5) * body_.extent.array()).matrix();
+}
+
+Vec3 Selector::centre(const Selection& selection) const {
+  if (selection.box) return place_of((selection.box->min.cwiseMax(0) + selection.box->max.cwiseMin(1)) / 2);
+  if (selection.sphere) return place_of(selection.sphere->centre);
+  if (selection.nearest) return place_of(*selection.nearest);
+  if (!selection.mesh.empty()) return middle_of(read_enclosure(selection.mesh).positions);
+  const Points& vertices = body_.mesh.positions;
+  const std::vector<int> chosen = rows_where(vertices, test_of(selection, 0, 0));
+  return chosen.empty() ? middle_of(vertices) : middle_of(vertices(chosen, Eigen::all));
+}
+
+Selector::Test Selector::test_of(const Selection& selection, double margin, double depth) const {
+  if (selection.box) return test_of(*selection.box, margin);
+  if (selection.sphere) {
+    const double reach = selection.sphere->radius * body_.extent.maxCoeff() + margin;
+    return [reach, centre = place_of(selection.sphere->centre)](const Vec3& place) {
+      return (place - centre).norm() <= reach;
+    };
+  }
+  if (selection.half_space) {
+    const Vec3 normal = body_.bricks_from_rest * selection.half_space->normal.normalized();
+    return [margin, normal, point = place_of(selection.half_space->point)](const Vec3& place) {
+      return normal.dot(place - point) >= -margin;
+    };
+  }
+  if (!selection.part.empty()) return nearest_to_part(selection.part, depth);
+  if (selection.painted) return nearest_to_paint(*selection.painted, depth);
+  return enclosed_by(selection.mesh);
+}
+
+/// The lattice reaches a little beyond the body, so what is outside its bounding box counts as on it.
+Selector::Test Selector::test_of(const Box& box, double margin) const {
+  const Eigen::Array3d extent = body_.extent.array().max(kRounding * body_.extent.maxCoeff());  // a sheet has none
+  const Eigen::Array3d low = box.min.array() - margin / extent;
+  const Eigen::Array3d high = box.max.array() + margin / extent;
+  return [low, high, extent, rest_from_bricks = Mat3(body_.bricks_from_rest.transpose())](const Vec3& place) {
+    const Eigen::Array3d fractions = ((rest_from_bricks * place).array() / extent + 0.5).max(0).min(1);
+    return (fractions >= low).all() && (fractions <= high).all();
+  };
+}
+
+const NearestTriangle& Selector::surface() const {
+  if (!surface_) surface_.emplace(body_.mesh.positions, body_.mesh.triangles);
+  return *surface_;
+}
+
+/// What is as near to another part counts too: both have their common border.
+Selector::Test Selector::nearest_to_part(const std::string& part, double depth) const {
+  const auto nearest = std::make_shared<NearestTriangle>(body_.mesh.positions, triangles_of(part));
+  const double rounding = kRounding * body_.extent.maxCoeff();
+  return [this, nearest, rounding, deepest = depth + rounding](const Vec3& place) {
+    const double distance = nearest->at(place).distance;
+    return distance <= deepest && distance <= surface().at(place).distance + rounding;
+  };
+}
+
+Selector::Test Selector::nearest_to_paint(const Color& paint, double depth) const {
+  const double deepest = depth + kRounding * body_.extent.maxCoeff();
+  return [this, deepest, chosen = vertices_of(paint)](const Vec3& place) {
+    const SurfacePlace found = surface().at(place);
+    return found.distance <= deepest && chosen[nearest_vertex(found)];
+  };
+}
+
+Triangles Selector::triangles_of(const std::string& part) const {
+  std::vector<int> rows;
+  std::vector<std::string_view> names;
+  for (const Part& known : body_.mesh.parts) {
+    names.push_back(known.name);
+    if (known.name != part) continue;
+    for (int i = 0; i < known.triangle_count; ++i) rows.push_back(known.first_triangle + i);
+  }
+  if (!rows.empty()) return body_.mesh.triangles(rows, Eigen::all);
+  throw Error(ErrorKind::kBadInput, fmt::format("{}: has no part '{}'{}", body_.name, part, did_you_mean(part, names)));
+}
+
+std::vector<bool> Selector::vertices_of(const Color& paint) const {
+  const auto& colors = body_.mesh.colors;
+  const Eigen::RowVector3f wanted(paint.red, paint.green, paint.blue);
+  std::vector<bool> chosen(body_.mesh.positions.rows());
+  for (int row = 0; row < colors.rows(); ++row) {
+    const Eigen::RowVector3f levels = 255 * colors.row(row).head<3>();
+    chosen[row] = (levels - wanted).cwiseAbs().maxCoeff() <= kSamePaint;
+  }
+  if (std::find(chosen.begin(), chosen.end(), true) != chosen.end()) return chosen;
+  throw Error(ErrorKind::kBadInput,
+              fmt::format("{}: no vertex has the colour #{:02x}{:02x}{:02x}{}", body_.name, paint.red, paint.green,
+                          paint.blue, colors.rows() == 0 ? "; the mesh has no vertex colours at all" : ""));
+}
+
+int Selector::nearest_vertex(const SurfacePlace& place) const {
+  const Eigen::RowVector3i corners = body_.mesh.triangles.row(place.triangle);
+  const auto distance = [&](int vertex) {
+    return (body_.mesh.positions.row(vertex).transpose() - place.point).squaredNorm();
+  };
+  return *std::min_element(corners.begin(), corners.end(), [&](int a, int b) { return distance(a) < distance(b); });
+}
+
+SurfaceMesh Selector::read_enclosure(const std::filesystem::path& mesh) const {
+  SurfaceMesh enclosure = read_mesh(mesh);
+  const Eigen::Affine3d here_from_file = body_.bricks_from_rest * body_.file_from_rest.inverse();
+  for (auto point : enclosure.positions.rowwise()) point = (here_from_file * Vec3(point)).transpose();
+  return enclosure;
+}
+
+Selector::Test Selector::enclosed_by(const std::filesystem::path& mesh) const {
+  const auto solids = std::make_shared<Solids>(find_solids(read_enclosure(mesh), mesh.string()));
+  const auto trees = std::make_shared<std::vector<WindingTree>>();
+  for (const Solid& solid : solids->solids) trees->emplace_back(solid.points, solid.triangles);
+  return [solids, trees](const Vec3& place) {
+    return std::any_of(trees->begin(), trees->end(), [&](const WindingTree& tree) { return tree.at(place) > kInside; });
+  };
+}
+
+std::size_t Selector::solid_nearest_to(const Vec3& place) const {
+  std::size_t nearest = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t solid = 0; solid < body_.solids.size(); ++solid) {
+    const double distance =
+        (body_.solids[solid].points.rowwise() - place.transpose()).rowwise().squaredNorm().minCoeff();
+    if (distance >= least) continue;
+    least = distance;
+    nearest = solid;
+  }
+  return nearest;
+}
+
+namespace {
+
+/// What of a material may differ within a body.
+struct Stuff {
+  double young = 0;    // Pa
+  double density = 0;  // kg/m^3
+};
+
+/// A brick's law depends on its Poisson's ratio in many constants, on its stiffness in one factor.
+void check_ratio(const Material& material, const Material& body) {
+  if (material.poisson == body.poisson) return;
+  throw Error(ErrorKind::kBadInput,
+              fmt::format("a region has the Poisson's ratio {}, its body {}: the materials of one body may differ in "
+                          "stiffness and density only; give both the same ratio",
+                          material.poisson, body.poisson));
+}
+
+/// The material of a region at a place.
+Stuff stuff_at(const Region& region, const Selector& selector, const Vec3& place) {
+  const Material& first = region.material;
+  if (!region.gradient) return {.young = first.young, .density = first.density};
+  const Material& second = region.gradient->material;
+  const Vec3 from = selector.place_of(region.gradient->from);
+  const Vec3 way = selector.place_of(region.gradient->to) - from;
+  const double share = std::clamp(way.dot(place - from) / way.squaredNorm(), 0.0, 1.0);
+  return {.young = std::lerp(first.young, second.young, share),
+          .density = std::lerp(first.density, second.density, share)};
+}
+
+}  // namespace
+
+std::vector<int> apply_regions(const std::vector<Region>& regions, const Selector& selector, Body& body,
+                               std::size_t solid) {
+  std::vector<int> regions_of_bricks(body.grid.cells.size(), 0);
+  if (regions.empty()) return regions_of_bricks;
+  const Points middles = brick_middles(body.grid);
+  std::vector<Stuff> filled(body.grid.cells.size());
+  for (std::size_t row = 0; row < regions.size(); ++row) {
+    const Region& region = regions[row];
+    check_ratio(region.material, body.material);
+    if (region.gradient) check_ratio(region.gradient->material, body.material);
+    for (const int brick : selector.bricks(region, body.grid, solid)) {
+      filled[brick] = stuff_at(region, selector, middles.row(brick));
+      regions_of_bricks[brick] = int(row) + 1;
+    }
+  }
+  const double corner_mass = body.material.density * body.grid.brick_volume() / 8;
+  for (std::size_t brick = 0; brick < filled.size(); ++brick) {
+    if (regions_of_bricks[brick] == 0) continue;
+    const double more_mass = (filled[brick].density / body.material.density - 1) * corner_mass;
+    for (const int node : body.grid.nodes[brick]) body.masses[node] += more_mass * body.stiffness_scale[brick];
+    body.stiffness_scale[brick] *= filled[brick].young / body.material.young;
+  }
+  build_tiles(body);
+  return regions_of_bricks;
+}
+
+}  // namespace sprung

@@ -1,0 +1,66 @@
+#pragma once
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "core/body/body.h"
+#include "core/mesh/query/closest_triangle.h"
+#include "core/simulation/body_source.h"
+
+namespace sprung {
+
+/// Finds the parts of a body that a scene speaks of. All points are in metres, turned as the body's bricks are.
+class Selector {
+ public:
+  /// The body has to outlive it.
+  explicit Selector(const LoadedBody& body) : body_(body) {}
+
+  /// Of nodes (n x 3) of one of the body's solids, those in the part or within half a brick of it: where bricks do not
+  /// follow its border, the steps of what is chosen then lie as often before it as behind it. Of what is chosen by the
+  /// surface (a named part, paint) the nodes within a brick of the surface. Rows, rising.
+  /// Throws Error(kBadInput) where the mesh has no such part or paint, or a file cannot be read.
+  [[nodiscard]] std::vector<int> nodes(const Selection& selection, const Points& places, std::size_t solid) const;
+
+  /// The bricks of one of the body's solids whose middles are in the part. Rows, rising. Throws as nodes() does.
+  [[nodiscard]] std::vector<int> bricks(const Selection& selection, const BrickGrid& grid, std::size_t solid) const;
+
+  /// The triangles of the skin of one of the body's solids whose middles (n x 3) are in the part. Rows, rising. Throws
+  /// as nodes() does.
+  [[nodiscard]] std::vector<int> triangles(const Selection& selection, const Points& middles, std::size_t solid) const;
+
+  /// The middle of the part: of the ball or the box as far as that is in the body, else of the part's bounding box.
+  [[nodiscard]] Vec3 centre(const Selection& selection) const;
+
+  /// Where a place is that is given in fractions of the bounding box.
+  [[nodiscard]] Vec3 place_of(const Vec3& fractions) const;
+
+ private:
+  using Test = std::function<bool(const Vec3& place)>;
+
+  /// `margin`: how far outside (m) still counts; `depth`: how deep below the surface (m), where the surface chooses.
+  [[nodiscard]] Test test_of(const Selection& selection, double margin, double depth) const;
+  [[nodiscard]] Test test_of(const Box& box, double margin) const;
+  [[nodiscard]] Test nearest_to_part(const std::string& part, double depth) const;
+  [[nodiscard]] Test nearest_to_paint(const Color& paint, double depth) const;
+  [[nodiscard]] Test enclosed_by(const std::filesystem::path& mesh) const;
+  [[nodiscard]] const NearestTriangle& surface() const;
+  [[nodiscard]] Triangles triangles_of(const std::string& part) const;
+  [[nodiscard]] std::vector<bool> vertices_of(const Color& paint) const;
+  [[nodiscard]] int nearest_vertex(const SurfacePlace& place) const;
+  [[nodiscard]] std::size_t solid_nearest_to(const Vec3& place) const;
+  [[nodiscard]] SurfaceMesh read_enclosure(const std::filesystem::path& mesh) const;
+
+  const LoadedBody& body_;
+  mutable std::optional<NearestTriangle> surface_;  // made when it is first needed
+};
+
+/// n x 3, m, in the frame of the grid.
+[[nodiscard]] Points brick_middles(const BrickGrid& grid);
+
+/// Gives the bricks of the regions of a body their stiffness and mass; where regions overlap the last one counts. The
+/// body is still where its grid is. Returns for each brick which region it is in, counted from 1; 0: in none.
+/// Throws Error(kBadInput) where a material has another Poisson's ratio than the body, and as Selector does.
+std::vector<int> apply_regions(const std::vector<Region>& regions, const Selector& selector, Body& body,
+                               std::size_t solid);
+
+}  // namespace sprung

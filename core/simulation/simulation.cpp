@@ -1,0 +1,302 @@
+#include "core/simulation/simulation.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <exception>
+
+#include "core/contact/broad_phase.h"
+#include "core/contact/glue.h"
+#include "core/contact/inversion_guard.h"
+#include "core/contact/penetration.h"
+#include "core/error.h"
+#include "core/simulation/build_bodies.h"
+#include "core/simulation/observer.h"
+#include "core/text.h"
+#include "core/units.h"
+
+namespace sprung {
+namespace {
+
+constexpr double kDrawnPlane = 4;  // sizes of the largest body: half the side of what is drawn of a plane
+
+/// All bodies at the same time. What stops one is kept, so that the first body in the scene that fails is told of.
+std::vector<std::exception_ptr> fill_bodies(std::deque<BodyBuilder>& builders) {
+  std::vector<std::exception_ptr> failures(builders.size());
+  tbb::parallel_for(std::size_t{0}, builders.size(), [&](std::size_t i) {
+    try {
+      builders[i].fill_solids();
+    } catch (...) {
+      failures[i] = std::current_exception();
+    }
+  });
+  return failures;
+}
+
+}  // namespace
+
+Production build_world(const Scene& scene, const std::vector<LoadedBody>& bodies, const Observer& observer) {
+  Production production;
+  production.world.gravity = scene.gravity;
+  production.world.bodies_collide = scene.contact.bodies;
+  std::deque<BodyBuilder> builders;
+  for (std::size_t i = 0; i < bodies.size(); ++i) builders.emplace_back(scene, i, bodies[i], production);
+  const std::vector<std::exception_ptr> failures = fill_bodies(builders);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (failures[i]) std::rethrow_exception(failures[i]);
+    builders[i].add_solids();
+    builders[i].tell(observer);
+    check_loads(scene, i, production.origins);
+    production.size = std::max(production.size, bodies[i].extent.maxCoeff());
+  }
+  production.obstacles = make_obstacles(scene, kDrawnPlane * production.size, observer);
+  for (std::size_t i = 0; i < scene.obstacles.size(); ++i) {
+    production.world.obstacles.push_back(obstacle_between(production.obstacles[i], scene.obstacles[i], 0, 0));
+  }
+  if (!is_motion(scene)) return production;
+  for (std::size_t i = 0; i < scene.glue.size(); ++i) glue_bodies(scene, i, production);
+  const double speed = impact_speed(production.world);
+  for (Actor& actor : production.world.actors) stiffen_volume_guard(actor.body, scene.gravity.norm(), speed);
+  check_start(scene, production);
+  return production;
+}
+
+std::vector<int> pinned_nodes(const Origin& origin) {
+  std::vector<int> nodes;
+  for (const PinnedNodes& pinned : origin.pins) nodes.insert(nodes.end(), pinned.nodes.begin(), pinned.nodes.end());
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
+Points skin_positions(const Production& production, std::size_t actor, const Points& nodes) {
+  return deform_points(production.world.actors[actor].body.grid, production.skins[actor].embedding, nodes);
+}
+
+namespace {
+
+std::vector<LoadedBody> load_bodies(const Scene& scene, const Observer& observer) {
+  Progress progress(observer, "read");
+  std::vector<LoadedBody> bodies;
+  long triangles = 0;
+  long solids = 0;
+  for (const SceneBody& body : scene.bodies) {
+    const LoadedBody& loaded = bodies.emplace_back(load_body(body, observer));
+    triangles += loaded.mesh.triangles.rows();
+    solids += long(loaded.solids.size());
+  }
+  progress.finish(fmt::format("{}, {}", count_of(triangles, "triangle"), count_of(solids, "solid")));
+  return bodies;
+}
+
+/// "1.2 cm", or "1.1 cm to 1.2 cm" where the bodies differ.
+std::string brick_sizes(const std::vector<LoadedBody>& bodies) {
+  const auto by_size = [](const LoadedBody& a, const LoadedBody& b) { return a.brick_size < b.brick_size; };
+  const auto [smallest, largest] = std::minmax_element(bodies.begin(), bodies.end(), by_size);
+  const std::string low = readable(smallest->brick_size, Dimension::kLength);
+  const std::string high = readable(largest->brick_size, Dimension::kLength);
+  return low == high ? low : fmt::format("{} to {}", low, high);
+}
+
+/// Which parts of the solids of one body are thinner than its bricks; one warning for all.
+class ThinParts {
+ public:
+  explicit ThinParts(const LoadedBody& body) : body_(body) {}
+
+  std::vector<ThinPart> find(const BrickGrid& grid, std::size_t solid) {
+    if (solid >= body_.walls.size() || body_.solids[solid].thickness > 0) return {};  // of shells load_body() warns
+    std::vector<ThinPart> parts = find_thin_parts(grid, body_.walls[solid]);
+    count_ += long(parts.size());
+    for (const ThinPart& part : parts) {
+      bricks_ += long(part.bricks.size());
+      if (thinnest_.thickness == 0 || part.thickness < thinnest_.thickness) thinnest_ = part;
+    }
+    return parts;
+  }
+
+  void warn(const Observer& observer) const {
+    if (count_ == 0) return;
+    const Vec3 place = body_.file_from_rest * (body_.bricks_from_rest.transpose() * thinnest_.place);
+    observer.warn(fmt::format(
+        "{}: {} thinner than a brick ({}), in {}: stiffer and blunter than they should be; the thinnest, near ({:.4g}, "
+        "{:.4g}, {:.4g}) of the file, is about {} thick: bricks of that size would hold it",
+        body_.name, count_of(count_, "part is", "parts are"), readable(body_.brick_size, Dimension::kLength),
+        count_of(bricks_, "brick"), place.x(), place.y(), place.z(),
+        readable(thinnest_.thickness, Dimension::kLength)));
+  }
+
+ private:
+  const LoadedBody& body_;
+  long count_ = 0;
+  long bricks_ = 0;
+  ThinPart thinnest_;
+};
+
+void find_thin_parts(const Scene& scene, Preparation& prepared, const Observer& observer) {
+  const World& world = prepared.production.world;
+  std::size_t actor = 0;
+  for (std::size_t body = 0; body < prepared.bodies.size(); ++body) {
+    ThinParts parts(prepared.bodies[body]);
+    const std::size_t copies = copy_count(scene.bodies[body]);
+    for (std::size_t solid = 0; solid < prepared.bodies[body].solids.size(); ++solid, actor += copies) {
+      const std::vector<ThinPart> found = parts.find(world.actors[actor].body.grid, solid);
+      prepared.thin_parts.insert(prepared.thin_parts.end(), copies, found);
+    }
+    parts.warn(observer);
+  }
+}
+
+/// See assets/docs/physics.md.
+void warn_of_locking(const Scene& scene, const std::vector<LoadedBody>& bodies, const Observer& observer) {
+  constexpr double kMost = 0.49;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const double poisson = scene.bodies[i].material.poisson;
+    if (poisson <= kMost || scene.bodies[i].model == Model::kFem) continue;
+    observer.warn(fmt::format(
+        "{}: Poisson's ratio {:.6g}: bricks lock above {}, they bend too little; {} is nearly as hard to compress",
+        bodies[i].name, poisson, kMost, kMost));
+  }
+}
+
+/// Sizes and stiffnesses that are rather numbers whose unit was forgotten.
+void warn_of_units(const Scene& scene, const std::vector<LoadedBody>& bodies, const Observer& observer) {
+  constexpr double kLarge = 5;   // m
+  constexpr double kSoft = 100;  // Pa
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const double size = bodies[i].extent.maxCoeff();
+    if (size > kLarge) {
+      observer.warn(fmt::format("{}: {} long; a length without a unit is in metres, '{:.3g}cm' in centimetres",
+                                bodies[i].name, readable(size, Dimension::kLength), size));
+    }
+    const double young = scene.bodies[i].material.young;
+    if (young < kSoft) {
+      observer.warn(
+          fmt::format("{}: Young's modulus {}, softer than any gel; without a unit it is in pascals, "
+                      "'{:.3g}kPa' in kilopascals",
+                      bodies[i].name, readable(young, Dimension::kPressure), young));
+    }
+  }
+}
+
+}  // namespace
+
+Preparation prepare(const Scene& scene, const Observer& observer) {
+  Preparation prepared;
+  prepared.bodies = load_bodies(scene, observer);
+  Progress progress(observer, "bricks");
+  prepared.production = build_world(scene, prepared.bodies, observer);
+  find_thin_parts(scene, prepared, observer);
+  warn_of_locking(scene, prepared.bodies, observer);
+  warn_of_units(scene, prepared.bodies, observer);
+  int bricks = 0;
+  int nodes = 0;
+  double mass = 0;
+  for (const Actor& actor : prepared.production.world.actors) {
+    bricks += actor.body.grid.brick_count();
+    nodes += actor.body.node_count();
+    mass += actor.body.masses.sum();
+  }
+  progress.finish(fmt::format("{} of {}, {} nodes, {:.4g} kg", count_of(bricks, "brick"), brick_sizes(prepared.bodies),
+                              nodes, mass));
+  return prepared;
+}
+
+Production make_production(const Scene& scene, const Observer& observer) {
+  return std::move(prepare(scene, observer).production);
+}
+
+namespace {
+
+constexpr double kNear = 0.5;  // of the smaller bricks
+
+std::vector<std::size_t> actors_of(const Production& production, int body) {
+  std::vector<std::size_t> actors;
+  for (std::size_t i = 0; i < production.origins.size(); ++i) {
+    if (production.origins[i].body + 1 == std::size_t(body)) actors.push_back(i);
+  }
+  return actors;
+}
+
+}  // namespace
+
+void glue_bodies(const Scene& scene, std::size_t row, Production& production) {
+  const SceneGlue& glue = scene.glue[row];
+  World& world = production.world;
+  double distance = 0;
+  const std::size_t before = world.glue.size();
+  for (const std::size_t a : actors_of(production, glue.bodies[0])) {
+    for (const std::size_t b : actors_of(production, glue.bodies[1])) {
+      if (glue.bodies[0] == glue.bodies[1] && b <= a) continue;
+      const double brick = std::min(world.actors[a].body.grid.brick_size, world.actors[b].body.grid.brick_size);
+      distance = glue.distance.value_or(kNear * brick);
+      const std::vector<GluedPoint> points = glue_between(world, a, b, distance);
+      world.glue.insert(world.glue.end(), points.begin(), points.end());
+    }
+  }
+  if (world.glue.size() > before) return;
+  throw Error(ErrorKind::kBadInput,
+              fmt::format("glue {}: bodies {} and {} are nowhere within {} of each other; move them together or give "
+                          "the glue a larger distance",
+                          row + 1, glue.bodies[0], glue.bodies[1], readable(distance, Dimension::kLength)));
+}
+
+namespace {
+
+std::string allowance(const Actor& actor) {
+  return fmt::format("may overlap it by one brick ({}) at most",
+                     readable(actor.body.grid.brick_size, Dimension::kLength));
+}
+
+void check_obstacle(const Scene& scene, const Production& production, std::size_t actor, std::size_t row) {
+  const Obstacle& obstacle = production.world.obstacles[row];
+  const Actor& body = production.world.actors[actor];
+  const double depth = penetration_depth(obstacle, body);
+  if (depth <= body.body.grid.brick_size) return;
+  const std::size_t index = production.origins[actor].body;
+  const std::string deep = readable(depth, Dimension::kLength);
+  const std::optional<double> ground = ground_height(obstacle);
+  if (!ground) {
+    throw Error(ErrorKind::kBadInput, fmt::format("body {} starts {} inside obstacle {}; a body {}: move one of them",
+                                                  index + 1, deep, row + 1, allowance(body)));
+  }
+  const double y = scene.bodies[index].position.y();
+  throw Error(
+      ErrorKind::kBadInput,
+      fmt::format("body {} starts {} below the ground (y = {:.6g} m); a body {}: raise its position from y = "
+                  "{:.6g} m to {:.6g} m or lower the ground",
+                  index + 1, deep, *ground, allowance(body), y, std::abs(y + depth) < 1e-9 * depth ? 0 : y + depth));
+}
+
+void check_pair(const Production& production, std::size_t a, std::size_t b) {
+  const Actor& one = production.world.actors[a];
+  const Actor& other = production.world.actors[b];
+  const double depth = penetration_depth(other, one);
+  const double allowed = std::min(one.body.grid.brick_size, other.body.grid.brick_size);
+  if (depth <= allowed) return;
+  throw Error(ErrorKind::kBadInput,
+              fmt::format("body {} starts {} inside body {}; bodies may overlap by one brick ({}) at most: move them "
+                          "apart, or let bodies not touch each other ([contact] bodies = false)",
+                          production.origins[a].body + 1, readable(depth, Dimension::kLength),
+                          production.origins[b].body + 1, readable(allowed, Dimension::kLength)));
+}
+
+}  // namespace
+
+void check_start(const Scene& scene, const Production& production) {
+  const World& world = production.world;
+  std::vector<AlignedBox> boxes;
+  for (std::size_t i = 0; i < world.actors.size(); ++i) {
+    boxes.push_back(box_around(world.actors[i].body.positions));
+    for (std::size_t row = 0; row < world.obstacles.size(); ++row) check_obstacle(scene, production, i, row);
+  }
+  if (!world.bodies_collide) return;
+  for (const auto& [a, b] : overlapping_boxes(boxes)) {
+    check_pair(production, a, b);
+    check_pair(production, b, a);
+  }
+}
+
+}  // namespace sprung

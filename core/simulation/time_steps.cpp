@@ -1,0 +1,97 @@
+#include "core/simulation/time_steps.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/dynamics/implicit/implicit_motion.h"
+#include "core/error.h"
+#include "core/units.h"
+
+namespace sprung {
+namespace {
+
+constexpr double kManySteps = 20000;   // a frame, from which on a warning is due
+constexpr double kImplicitCost = 300;  // explicit steps that take as long as an implicit one
+constexpr double kCoupledCost = 600;   // of bodies that may touch each other, or are glued
+constexpr double kStepsAVibration = 20;
+constexpr long kFewestSteps = 2;  // implicit ones, a frame
+constexpr long kMostSteps = 16;
+constexpr double kWorthwhile = 2;  // times quicker, for the damping of what implicit steps do not resolve
+
+/// s; the slowest vibration that any of the bodies has (estimated as in rayleigh_from_damping()).
+double shortest_period(const World& world) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const Actor& actor : world.actors) {
+    const Points& rest = actor.body.rest_positions;
+    const double length = (rest.colwise().maxCoeff() - rest.colwise().minCoeff()).maxCoeff();
+    const Material& material = actor.body.material;
+    shortest = std::min(shortest, 2 * length / std::sqrt(material.shear_modulus() / material.density));
+  }
+  return shortest;
+}
+
+long implicit_steps(const World& world, double frame) {
+  const double wanted = std::ceil(frame * kStepsAVibration / shortest_period(world));
+  return std::clamp(long(std::min(wanted, 1e6)), kFewestSteps, kMostSteps);
+}
+
+}  // namespace
+
+std::string_view remedy_for(const StepPlan& plan) {
+  if (plan.is_implicit()) return "fewer bricks or a shorter --duration make it quicker";
+  return "fewer bricks, a softer material, a shorter --duration or, for stiff bodies, --integrator auto make it "
+         "quicker";
+}
+
+std::string warning_of(const StepPlan& plan) {
+  if (double(plan.steps.count) < kManySteps) return "";
+  return fmt::format("a frame takes {} steps of {}, for bricks are stiff and small or something is fast; {}",
+                     plan.steps.count, readable(plan.steps.dt, Dimension::kTime), remedy_for(plan));
+}
+
+StepPlan plan_steps(const World& world, const Scene& scene) {
+  const double frame = 1 / scene.fps;
+  Steps short_ones{.count = 0, .dt = 0};
+  double bricks = 0;
+  double brick_steps = 0;
+  for (const GroupSteps& group : choose_steps(world, frame)) {
+    for (const std::size_t i : group.actors) {
+      const int count = world.actors[i].body.grid.brick_count();
+      bricks += count;
+      brick_steps += count * double(group.steps.count);
+    }
+    if (group.steps.count > short_ones.count) short_ones = group.steps;
+  }
+  const long long_ones = implicit_steps(world, frame);
+  StepPlan plan;
+  plan.scheme = scene.solver.scheme;
+  const std::string why_not = check_implicit_support(world);
+  if (plan.is_implicit() && !why_not.empty()) {
+    throw Error(ErrorKind::kBadInput, fmt::format("{}, which needs explicit steps: solver.scheme euler or verlet, or "
+                                                  "auto, which then takes them",
+                                                  why_not));
+  }
+  if (plan.scheme == Solver::kAuto) {
+    const bool is_coupled = !world.glue.empty() || (world.bodies_collide && world.actors.size() > 1);
+    const double dear = (is_coupled ? kCoupledCost : kImplicitCost) * double(long_ones);
+    const bool is_implicit = why_not.empty() && brick_steps > kWorthwhile * dear * bricks;
+    plan.scheme = is_implicit ? Solver::kBdf2 : Solver::kEuler;
+    plan.reason = fmt::format(
+        "{}: {} explicit steps a frame against {} implicit ones, which take as long as about "
+        "{:.0f} explicit ones{}",
+        is_implicit ? "bdf2" : "euler", std::lround(brick_steps / bricks), long_ones, dear,
+        why_not.empty() ? "" : fmt::format("; {}, which needs explicit ones", why_not));
+  }
+  plan.steps = short_ones;
+  plan.brick_steps = brick_steps;
+  if (plan.is_implicit()) {
+    plan.steps = {.count = long_ones, .dt = frame / double(long_ones)};
+    plan.brick_steps = bricks * double(long_ones);
+  }
+  return plan;
+}
+
+}  // namespace sprung
