@@ -22,7 +22,7 @@ class Error : public std::runtime_error {
 class Diverged : public Error {
  public:
   Diverged(std::size_t actor, const std::string& message) : Error(ErrorKind::kDiverged, message), actor_(actor) {}
-  /// In World::actors.
+  /// In World::bodies.
   [[nodiscard]] std::size_t actor() const { return actor_; }
 
  private:

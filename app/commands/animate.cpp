@@ -40,11 +40,11 @@ void animate(const SceneOptions& options, const Console& console) {
     for (const Output& output : outputs) check_output(output, options.overwrite);
     note_padding(outputs, scene.render, console);
     const std::optional<Environment> surroundings = read_surroundings(scene.render);  // before any work is lost
-    Production production = make_production(scene, console);
-    warn_of_memory(production, scene, console);
-    const Recording recording = with_picture_of_diverged(production.world, picture_of_diverged(outputs.front()),
-                                                         [&] { return simulate(production, scene, console); });
-    render_film({{scene, production, recording}}, surroundings, whole_film(recording.progress.size()), outputs, console,
+    Simulation simulation = prepare_simulation(scene, console);
+    warn_of_memory(simulation, scene, console);
+    const Recording recording = with_picture_of_diverged(simulation.world, picture_of_diverged(outputs.front()),
+                                                         [&] { return simulate(simulation, scene, console); });
+    render_film({{scene, simulation, recording}}, surroundings, whole_film(recording.progress.size()), outputs, console,
                 options.jobs);
     for (const std::string& output : options.outputs) fmt::print("{}\n", output);
   });

@@ -73,8 +73,8 @@ void export_cache(const SceneOptions& options, const Console& console) {
   const Film scene = cached_film(cache.header());
   const FrameRange range = parse_frame_range(options.frames, cache.frame_count());
   const std::vector<ExportTarget> targets = targets_of(options, scene, range);
-  const Production production = cached_production(cache.header(), scene);
-  write_all(options, {production, cache, scene}, range, targets, console);
+  const Simulation simulation = cached_simulation(cache.header(), scene);
+  write_all(options, {simulation, cache, scene}, range, targets, console);
 }
 
 /// A cache for as long as it takes to write what is asked for, beside that.
@@ -95,11 +95,11 @@ class PassingCache {
 };
 
 /// The frames of a scene, into a cache.
-void simulate_into(const std::filesystem::path& file, Production& production, const Film& scene,
+void simulate_into(const std::filesystem::path& file, Simulation& simulation, const Film& scene,
                    const Console& console) {
   make_folder(file.parent_path());
   RunCache cache(file, record_of(scene), false);
-  static_cast<void>(simulate(production, scene, console, &cache));
+  static_cast<void>(simulate(simulation, scene, console, &cache));
   cache.close();
 }
 
@@ -111,11 +111,11 @@ void export_run(const SceneOptions& options, const Console& console) {
   with_scene(options, [&](const Film& scene) {
     const FrameRange range = parse_frame_range(options.frames, frame_count(scene));
     const std::vector<ExportTarget> targets = targets_of(options, scene, range);
-    Production production = make_production(scene, console);
-    warn_of_memory(production, scene, console);
+    Simulation simulation = prepare_simulation(scene, console);
+    warn_of_memory(simulation, scene, console);
     const PassingCache passing(files_of(targets.front(), scene, range).front());
-    simulate_into(passing.file(), production, scene, console);
-    write_all(options, {production, CacheReader(passing.file()), scene}, range, targets, console);
+    simulate_into(passing.file(), simulation, scene, console);
+    write_all(options, {simulation, CacheReader(passing.file()), scene}, range, targets, console);
   });
 }
 

@@ -8,8 +8,8 @@
 #include "app/inspect/inspection.h"
 #include "app/scene/cached_film.h"
 #include "core/error.h"
-#include "core/io/cache.h"
 #include "core/io/files.h"
+#include "core/simulation/cache.h"
 #include "core/simulation/run_cache.h"
 #include "core/text.h"
 #include "render/image/png.h"
@@ -80,7 +80,7 @@ CacheFacts facts_of(const CacheReader& cache, const std::filesystem::path& file)
                    .frames = cache.frame_count(),
                    .planned = frame_count(cached_film(header)),
                    .progress_name = header.progress_name,
-                   .solids = long(header.actors.size()),
+                   .solids = long(header.simulation.world.bodies.size()),
                    .bytes = std::filesystem::file_size(file),
                    .accuracy = position_accuracy(header),
                    .position_error = header.position_error,
@@ -90,10 +90,10 @@ CacheFacts facts_of(const CacheReader& cache, const std::filesystem::path& file)
     facts.progress = last.progress;
     facts.state_hash = last.state_hash;
   }
-  for (const CachedActor& actor : header.actors) {
-    facts.bricks += actor.grid.brick_count();
-    facts.nodes += actor.grid.node_count();
-    facts.skin_vertices += actor.skin.positions.rows();
+  for (const SoftBody& body : header.simulation.world.bodies) {
+    facts.bricks += body.grid.brick_count();
+    facts.nodes += body.grid.node_count();
+    facts.skin_vertices += body.skin.positions.rows();
   }
   return facts;
 }

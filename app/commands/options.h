@@ -60,4 +60,3 @@ void add_commands(CLI::App& app, RawOptions& words);
 void show_all(CLI::App& command);
 
 }  // namespace sprung
-

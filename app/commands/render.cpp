@@ -94,15 +94,15 @@ std::vector<CachedFilm> open_all(const SceneOptions& options) {
 /// With all frames of all caches in memory.
 void render_films(const std::vector<CachedFilm>& films, const std::optional<Environment>& surroundings,
                   const FrameRange& range, const std::vector<Output>& outputs, const Console& console, int jobs) {
-  std::vector<Production> productions;
+  std::vector<Simulation> simulations;
   std::vector<Recording> recordings;
-  productions.reserve(films.size());
+  simulations.reserve(films.size());
   recordings.reserve(films.size());
   std::vector<FilmRun> runs;
   for (const CachedFilm& film : films) {
-    const Production& production = productions.emplace_back(cached_production(film.cache.header(), film.scene));
+    const Simulation& simulation = simulations.emplace_back(cached_simulation(film.cache.header(), film.scene));
     const Recording& recording = recordings.emplace_back(cached_recording(film.cache));
-    runs.push_back({film.scene, production, recording, film.name});
+    runs.push_back({film.scene, simulation, recording, film.name});
   }
   render_film(runs, surroundings, range, outputs, console, jobs);
 }

@@ -126,12 +126,12 @@ void run_simulation(const SceneOptions& options, const Console& console) {
       make_folder(places.cache->parent_path());
       cache.emplace(*places.cache, record_of(scene), options.resume, options.position_error);
     }
-    Production production = make_production(scene, console);
-    warn_of_memory(production, scene, console);
+    Simulation simulation = prepare_simulation(scene, console);
+    warn_of_memory(simulation, scene, console);
     RunCache* kept = cache ? &*cache : nullptr;
     const Recording recording = with_advice(kept, options, console, [&] {
-      return with_picture_of_diverged(production.world, picture_of_diverged(places),
-                                      [&] { return simulate(production, scene, console, kept); });
+      return with_picture_of_diverged(simulation.world, picture_of_diverged(places),
+                                      [&] { return simulate(simulation, scene, console, kept); });
     });
     if (cache) cache->close();
     if (places.folder) {

@@ -52,7 +52,7 @@ template <class Visit>
 void each_frame(const CachedFilmView& view, const FrameRange& range, int stride, const Visit& visit) {
   for (int frame = range.first; frame <= range.last; frame += stride) {
     stop_if_interrupted();
-    visit(frame, posed_meshes(view.production, view.film, view.cache.positions(frame - 1)));
+    visit(frame, posed_meshes(view.simulation, view.film, view.cache.positions(frame - 1)));
   }
 }
 
@@ -97,7 +97,7 @@ void export_animation(const ExportTarget& target, const CachedFilmView& view, co
 void export_page(const ExportTarget& target, const CachedFilmView& view, const FrameRange& range) {
   ViewerFilm viewer;
   each_frame(view, range, 1, [&](int, const std::vector<PosedMesh>& meshes) { viewer.add_frame(meshes); });
-  const Reach reach = reach_of(view.production, cached_recording(view.cache));
+  const Reach reach = reach_of(view.simulation, cached_recording(view.cache));
   const Camera camera = cameras_of(view.film, reach, 0).at(range.first - 1);
   const auto [width, height] = view.film.render.resolution;
   write_whole_file(target.file, viewer.page(view.film.fps, camera, double(width) / height));
@@ -121,19 +121,11 @@ void export_points(const ExportTarget& target, const CachedFilmView& view, const
 }
 
 void export_xdmf(const ExportTarget& target, const CachedFilmView& view, const FrameRange& range) {
-  XdmfWriter writer(target.file, view.production.world);
-  for (std::size_t actor = 0; actor < view.production.skins.size(); ++actor) {
-    writer.add_actor(view.production.origins[actor].regions, view.production.skins[actor].skin.triangles);
-  }
+  XdmfWriter writer(target.file, view.simulation.world);
   for (int frame = range.first; frame <= range.last; ++frame) {
     stop_if_interrupted();
     const std::size_t row = frame - 1;
-    const std::vector<Points> nodes = view.cache.positions(row);
-    std::vector<Points> skins;
-    for (std::size_t actor = 0; actor < nodes.size(); ++actor) {
-      skins.push_back(skin_positions(view.production, actor, nodes[actor]));
-    }
-    writer.add_frame(view.cache.frame(row).progress, nodes, view.cache.velocities(row), skins);
+    writer.add_frame(view.cache.frame(row).progress, view.cache.positions(row), view.cache.velocities(row));
   }
   writer.close();
 }
@@ -213,8 +205,8 @@ std::string name_of(const Film& scene, const BodyCopy& which) {
   return name;
 }
 
-PosedMesh empty_mesh(const Production& production, const Film& scene, const BodyCopy& which, const Color& color) {
-  const Skin& rest = production.meshes[which.first];
+PosedMesh empty_mesh(const Simulation& simulation, const Film& scene, const BodyCopy& which, const Color& color) {
+  const Skin& rest = simulation.meshes[which.first];
   PosedMesh mesh;
   mesh.name = name_of(scene, which);
   mesh.rest = &rest;
@@ -226,20 +218,18 @@ PosedMesh empty_mesh(const Production& production, const Film& scene, const Body
 
 }  // namespace
 
-std::vector<PosedMesh> posed_meshes(const Production& production, const Film& scene, const std::vector<Points>& nodes) {
+std::vector<PosedMesh> posed_meshes(const Simulation& simulation, const Film& scene, const std::vector<Points>& nodes) {
   std::map<BodyCopy, PosedMesh> meshes;
-  for (std::size_t actor = 0; actor < nodes.size(); ++actor) {
-    const BodyCopy which{production.origins[actor].body, production.origins[actor].copy};
-    if (!meshes.contains(which)) meshes[which] = empty_mesh(production, scene, which, production.skins[actor].color);
+  for (std::size_t row = 0; row < nodes.size(); ++row) {
+    const SoftBody& body = simulation.world.bodies[row];
+    const BodyCopy which{body.origin.body, body.origin.copy};
+    if (!meshes.contains(which)) meshes[which] = empty_mesh(simulation, scene, which, body.color);
     PosedMesh& mesh = meshes[which];
-    const CarriedVertices& carried = production.carried[actor];
-    const BrickGrid& grid = production.world.actors[actor].body.grid;
-    const Points& positions = nodes[actor];
-    mesh.positions(carried.vertices, Eigen::all) = deform_points(grid, carried.embedding, positions);
+    mesh.positions(body.file_vertices, Eigen::all) = deform_points(body.grid, body.file_embedding, nodes[row]);
     if (mesh.normals.rows() == 0) continue;
-    const Points rest = mesh.rest->normals(carried.vertices, Eigen::all);
-    mesh.normals(carried.vertices, Eigen::all) =
-        deform_normals(grid, carried.embedding, rest, positions).rowwise().normalized();
+    const Points rest = mesh.rest->normals(body.file_vertices, Eigen::all);
+    mesh.normals(body.file_vertices, Eigen::all) =
+        deform_normals(body.grid, body.file_embedding, rest, nodes[row]).rowwise().normalized();
   }
   std::vector<PosedMesh> list;
   list.reserve(meshes.size());

@@ -8,9 +8,9 @@
 #include "app/console/console.h"
 #include "app/film/film_output.h"
 #include "app/scene/film.h"
-#include "core/io/cache.h"
 #include "core/io/files.h"
 #include "core/io/mesh_export.h"
+#include "core/simulation/cache.h"
 #include "core/simulation/simulation.h"
 
 namespace sprung {
@@ -29,7 +29,7 @@ struct ExportTarget {
 
 /// A film as it is in a cache.
 struct CachedFilmView {
-  const Production& production;
+  const Simulation& simulation;
   const CacheReader& cache;
   const Film& film;
 };
@@ -43,8 +43,8 @@ void export_files(const ExportTarget& target, const CachedFilmView& view, const 
                   const Console& console);
 
 /// The meshes of all bodies and their copies for these positions of the nodes (by actor, m): vertices, order and
-/// triangles are those of the files. They point into the production.
-[[nodiscard]] std::vector<PosedMesh> posed_meshes(const Production& production, const Film& scene,
+/// triangles are those of the files. They point into the simulation.
+[[nodiscard]] std::vector<PosedMesh> posed_meshes(const Simulation& simulation, const Film& scene,
                                                   const std::vector<Points>& nodes);
 
 }  // namespace sprung

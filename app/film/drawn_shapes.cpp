@@ -5,16 +5,14 @@
 namespace sprung {
 Eigen::Vector3f srgb(const Color& color) { return Eigen::Vector3f(color.red, color.green, color.blue) / 255.0F; }
 
-SkinShape shape_of(const Production& production, std::size_t actor, const Points& nodes, SkinInterpolation riding) {
-  const DrawnSkin& drawn = production.skins[actor];
-  const BrickGrid& grid = production.world.actors[actor].body.grid;
-  if (riding == SkinInterpolation::kSmooth) {
-    const SmoothEmbedding ride(grid, nodes);
-    return {.positions = ride.points(drawn.embedding).cast<float>(),
-            .normals = ride.normals(drawn.embedding, drawn.skin.normals).cast<float>()};
+SkinShape shape_of(const SoftBody& body, const Points& nodes, SkinInterpolation interpolation) {
+  if (interpolation == SkinInterpolation::kSmooth) {
+    const SmoothEmbedding smooth(body.grid, nodes);
+    return {.positions = smooth.points(body.skin_embedding).cast<float>(),
+            .normals = smooth.normals(body.skin_embedding, body.skin.normals).cast<float>()};
   }
-  return {.positions = skin_positions(production, actor, nodes).cast<float>(),
-          .normals = deform_normals(grid, drawn.embedding, drawn.skin.normals, nodes).cast<float>()};
+  return {.positions = body.skin_positions(nodes).cast<float>(),
+          .normals = deform_normals(body.grid, body.skin_embedding, body.skin.normals, nodes).cast<float>()};
 }
 
 SkinShape shape_of(const StageObstacle& obstacle, double time) {

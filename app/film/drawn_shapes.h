@@ -7,9 +7,9 @@ namespace sprung {
 /// As the renderer takes it.
 [[nodiscard]] Eigen::Vector3f srgb(const Color& color);
 
-/// The skin of one actor for these positions of its nodes, m.
-[[nodiscard]] SkinShape shape_of(const Production& production, std::size_t actor, const Points& nodes,
-                                 SkinInterpolation riding = SkinInterpolation::kBricks);
+/// The skin of a body for these positions of its nodes, m.
+[[nodiscard]] SkinShape shape_of(const SoftBody& body, const Points& nodes,
+                                 SkinInterpolation interpolation = SkinInterpolation::kBricks);
 
 /// An obstacle at that time of the film (s).
 [[nodiscard]] SkinShape shape_of(const StageObstacle& obstacle, double time);

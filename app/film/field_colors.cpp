@@ -31,9 +31,9 @@ Eigen::VectorXd speeds(const Recording& recording, std::size_t frame, std::size_
 
 }  // namespace
 
-Eigen::VectorXd field_values(Field field, const Production& production, const Recording& recording, std::size_t frame,
+Eigen::VectorXd field_values(Field field, const Simulation& simulation, const Recording& recording, std::size_t frame,
                              std::size_t actor, double fps) {
-  const Body& body = production.world.actors[actor].body;
+  const Body& body = simulation.world.bodies[actor];
   const Points positions = recording.frames[frame][actor].cast<double>();
   switch (field) {
     case Field::kSkin:
@@ -121,10 +121,10 @@ std::pair<double, double> extremes(std::vector<double>& values) {
 
 }  // namespace
 
-FieldColors::FieldColors(const Film& scene, const Production& production, const Recording& recording)
+FieldColors::FieldColors(const Film& scene, const Simulation& simulation, const Recording& recording)
     : field_(scene.render.color_by),
       map_(scene.render.color_map.value_or(words_of(field_).map)),
-      production_(production),
+      simulation_(simulation),
       recording_(recording),
       fps_(scene.fps) {
   if (!is_mapped()) return;
@@ -138,14 +138,14 @@ FieldColors::FieldColors(const Film& scene, const Production& production, const 
 void FieldColors::find_range() {
   const std::size_t frames = is_moving(field_) ? recording_.frames.size() : 1;
   std::size_t count = 0;
-  for (const Actor& actor : production_.world.actors) count += std::size_t(actor.body.node_count());
+  for (const SoftBody& actor : simulation_.world.bodies) count += std::size_t(actor.node_count());
   const std::size_t stride = 1 + frames * count / kMostValues;
   std::vector<double> values;
   values.reserve(frames * count / stride + frames);
   std::size_t next = 0;
   for (std::size_t frame = 0; frame < frames; ++frame) {
-    for (std::size_t actor = 0; actor < production_.world.actors.size(); ++actor) {
-      const Eigen::VectorXd of_actor = field_values(field_, production_, recording_, frame, actor, fps_);
+    for (std::size_t actor = 0; actor < simulation_.world.bodies.size(); ++actor) {
+      const Eigen::VectorXd of_actor = field_values(field_, simulation_, recording_, frame, actor, fps_);
       const std::size_t size = of_actor.size();
       for (; next < size; next += stride) values.push_back(of_actor[next]);
       next -= size;
@@ -174,7 +174,7 @@ void FieldColors::find_range() {
 }
 
 Eigen::VectorXd FieldColors::shares(std::size_t frame, std::size_t actor) const {
-  const Eigen::VectorXd values = field_values(field_, production_, recording_, frame, actor, fps_);
+  const Eigen::VectorXd values = field_values(field_, simulation_, recording_, frame, actor, fps_);
   return (values.array() - low_) / (high_ - low_);
 }
 

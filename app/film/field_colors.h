@@ -11,7 +11,7 @@ namespace sprung {
 /// A field at the nodes of one actor in one frame, SI: displacement from the start (m), speed by differences between
 /// frames (m/s), largest principal stretch, von Mises strain, von Mises stress (Pa), volume over volume at rest, fill,
 /// or Young's modulus (Pa) for kRegion. Not for kSkin.
-[[nodiscard]] Eigen::VectorXd field_values(Field field, const Production& production, const Recording& recording,
+[[nodiscard]] Eigen::VectorXd field_values(Field field, const Simulation& simulation, const Recording& recording,
                                            std::size_t frame, std::size_t actor, double fps);
 
 /// Whether it differs from frame to frame.
@@ -21,7 +21,7 @@ namespace sprung {
 class FieldColors {
  public:
   /// Looks at all frames for the range, unless the scene has it. `recording` outlives it.
-  FieldColors(const Film& scene, const Production& production, const Recording& recording);
+  FieldColors(const Film& scene, const Simulation& simulation, const Recording& recording);
 
   [[nodiscard]] bool is_mapped() const { return field_ != Field::kSkin; }
   [[nodiscard]] ColorMap map() const { return map_; }
@@ -37,7 +37,7 @@ class FieldColors {
 
   Field field_;
   ColorMap map_;
-  const Production& production_;
+  const Simulation& simulation_;
   const Recording& recording_;
   double fps_;
   double low_ = 0;  // SI

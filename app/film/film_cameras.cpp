@@ -35,12 +35,12 @@ Points corners_of(const Bounds& bounds) {
 }
 
 /// What of the obstacles is near the bodies: of large ones no more than that.
-void add_obstacles(const Production& production, const Recording& recording, Reach& reach) {
+void add_obstacles(const Simulation& simulation, const Recording& recording, Reach& reach) {
   const double near = kNear * (reach.bounds.high - reach.bounds.low).maxCoeff();
   const Vec3 low = reach.bounds.low.array() - near;
   const Vec3 high = reach.bounds.high.array() + near;
   Bounds seen = reach.bounds;
-  for (const StageObstacle& obstacle : production.obstacles) {
+  for (const StageObstacle& obstacle : simulation.obstacles) {
     if (obstacle.skin.positions.rows() == 0) continue;
     for (const double time : recording.progress) {
       const Points skin = skin_positions(obstacle, time);
@@ -112,7 +112,7 @@ void zoom_in(Camera& camera, double zoom) { camera.eye = camera.target + (camera
 
 }  // namespace
 
-Reach reach_of(const Production& production, const Recording& recording) {
+Reach reach_of(const Simulation& simulation, const Recording& recording) {
   const Eigen::Matrix<double, 26, 3> ways = directions();
   Reach reach;
   for (const std::vector<Floats3>& frame : recording.frames) {
@@ -121,7 +121,7 @@ Reach reach_of(const Production& production, const Recording& recording) {
     Eigen::Index nodes = 0;
     Eigen::Index next = 0;
     for (std::size_t actor = 0; actor < frame.size(); ++actor) {
-      const Points skin = skin_positions(production, actor, frame[actor].cast<double>());
+      const Points skin = simulation.world.bodies[actor].skin_positions(frame[actor].cast<double>());
       reach.bounds.include(skin);
       sum += frame[actor].cast<double>().colwise().sum().transpose();
       nodes += frame[actor].rows();
@@ -134,8 +134,8 @@ Reach reach_of(const Production& production, const Recording& recording) {
     reach.middles.emplace_back(sum / double(std::max<Eigen::Index>(nodes, 1)));
   }
   reach.lowest = reach.bounds.low.y();
-  add_obstacles(production, recording, reach);
-  reach.ground = ground_height(production.world.obstacles);
+  add_obstacles(simulation, recording, reach);
+  reach.ground = ground_height(simulation.world.obstacles);
   return reach;
 }
 

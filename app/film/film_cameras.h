@@ -16,7 +16,7 @@ struct Reach {
   double lowest = 0;  // m, of the bodies
 };
 
-[[nodiscard]] Reach reach_of(const Production& production, const Recording& recording);
+[[nodiscard]] Reach reach_of(const Simulation& simulation, const Recording& recording);
 
 /// Of several runs at once; those that end early stay where they are. At least one.
 [[nodiscard]] Reach joined(const std::vector<Reach>& runs);

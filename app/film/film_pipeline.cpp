@@ -23,7 +23,7 @@ constexpr double kGoldenAngle = 2.399963229728653;  // rad, between neighbours o
 Reach common_reach(const std::vector<FilmRun>& runs) {
   std::vector<Reach> all;
   all.reserve(runs.size());
-  for (const FilmRun& run : runs) all.push_back(reach_of(run.production, run.recording));
+  for (const FilmRun& run : runs) all.push_back(reach_of(run.simulation, run.recording));
   return joined(all);
 }
 
@@ -69,13 +69,13 @@ FilmPipeline::Colors FilmPipeline::common_colors(const std::vector<FilmRun>& run
   for (const FilmRun& run : runs) {
     Film its = run.scene;
     its.render = render;
-    const ColorRange range = FilmStage(its, run.production, run.recording).color_range().value();
+    const ColorRange range = FilmStage(its, run.simulation, run.recording).color_range().value();
     low = std::min(low, range.low);
     high = std::max(high, range.high);
   }
   render.color_low = low;
   render.color_high = high;
-  colors.legend = FilmStage(colors.scene, runs.front().production, runs.front().recording).legend();
+  colors.legend = FilmStage(colors.scene, runs.front().simulation, runs.front().recording).legend();
   return colors;
 }
 

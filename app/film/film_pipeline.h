@@ -16,7 +16,7 @@ namespace sprung {
 /// A run that a film shows. The three outlive the film.
 struct FilmRun {
   const Film& scene;
-  const Production& production;
+  const Simulation& simulation;
   const Recording& recording;
   std::string name{};  // written over its pictures where there are others beside them
 };
@@ -59,7 +59,7 @@ class FilmPipeline {
 
     const Film scene;
     const FilmRun run;
-    const FilmStage stage{scene, run.production, run.recording};
+    const FilmStage stage{scene, run.simulation, run.recording};
     std::unique_ptr<Renderer> renderer;  // from the first picture on
   };
   Renderer& renderer(Panel& panel);

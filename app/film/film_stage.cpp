@@ -37,11 +37,11 @@ Points rows_of(const Points& nodes, const std::vector<int>& rows) { return nodes
 
 }  // namespace
 
-FilmStage::FilmStage(const Film& scene, const Production& production, const Recording& recording)
-    : scene_(scene), production_(production), recording_(recording), colors_(scene, production, recording) {
+FilmStage::FilmStage(const Film& scene, const Simulation& simulation, const Recording& recording)
+    : scene_(scene), simulation_(simulation), recording_(recording), colors_(scene, simulation, recording) {
   const SceneRender& render = scene.render;
   if (render.springs) stretch_ = render.color_high ? *render.color_high : furthest_stretch();
-  for (std::size_t actor = 0; actor < production.world.actors.size(); ++actor) {
+  for (std::size_t actor = 0; actor < simulation.world.bodies.size(); ++actor) {
     if (render.bricks != BrickView::kNone) add_bricks(actor);
     if (render.springs) add_springs(actor);
     if (render.bricks == BrickView::kNone && !render.springs) add_skin(actor);
@@ -49,8 +49,8 @@ FilmStage::FilmStage(const Film& scene, const Production& production, const Reco
     if (render.pins) add_pins(actor);
     if (render.ghost) add_ghost(actor);
   }
-  int id = id_of(production.world.actors.size());
-  for (const StageObstacle& obstacle : production.obstacles) {
+  int id = id_of(simulation.world.bodies.size());
+  for (const StageObstacle& obstacle : simulation.obstacles) {
     if (obstacle.skin.positions.rows() > 0) add_obstacle(obstacle, id++);
   }
   for (std::size_t probe = 0; probe < recording.probes.size(); ++probe) {
@@ -69,7 +69,7 @@ Stage FilmStage::stage(const Bounds& bounds) const {
     stage.ids.push_back(player.id);
   }
   stage.color_map = scene_.render.springs ? spring_colors(scene_.render) : colors_.map();
-  const std::optional<double> ground = ground_height(production_.world.obstacles);
+  const std::optional<double> ground = ground_height(simulation_.world.obstacles);
   stage.has_ground = ground && !scene_.render.transparent;
   if (ground) stage.ground.height = *ground;
   stage.bounds = bounds;
@@ -119,28 +119,29 @@ Eigen::VectorXd FilmStage::shares(const Moment& moment, std::size_t actor) const
   return colors_.is_mapped() && !scene_.render.springs ? colors_.shares(moment.frame, actor) : Eigen::VectorXd();
 }
 
-void FilmStage::add_skin(std::size_t actor) {
-  const DrawnSkin& drawn = production_.skins[actor];
-  const BrickGrid& grid = production_.world.actors[actor].body.grid;
-  const SceneBody& body = scene_.bodies[production_.origins[actor].body];
-  items_.push_back({std::shared_ptr<const Skin>(&drawn.skin, [](const Skin*) {}), srgb(drawn.color),
-                    colors_.is_mapped() ? Look::kChart : look_of(body, *scene_.library), false, id_of(actor),
-                    [this, actor, &drawn, &grid, riding = body.skin](const Moment& now) {
-                      SkinShape shape = shape_of(production_, actor, now.nodes[actor], riding);
-                      const Eigen::VectorXd of_nodes = shares(now, actor);
-                      if (of_nodes.size() > 0) {
-                        shape.shares =
-                            interpolate(grid, drawn.embedding, of_nodes).cwiseMax(0.0).cwiseMin(1.0).cast<float>();
-                      }
-                      return shape;
-                    }});
+void FilmStage::add_skin(std::size_t row) {
+  const SoftBody& body = simulation_.world.bodies[row];
+  const SceneBody& scene_body = scene_.bodies[body.origin.body];
+  items_.push_back(
+      {std::shared_ptr<const Skin>(&body.skin, [](const Skin*) {}), srgb(body.color),
+       colors_.is_mapped() ? Look::kChart : look_of(scene_body, *scene_.library), false, id_of(row),
+       [this, row, &body, interpolation = scene_body.skin](const Moment& now) {
+         SkinShape shape = shape_of(body, now.nodes[row], interpolation);
+         const Eigen::VectorXd of_nodes = shares(now, row);
+         if (of_nodes.size() > 0) {
+           shape.shares =
+               interpolate(body.grid, body.skin_embedding, of_nodes).cwiseMax(0.0).cwiseMin(1.0).cast<float>();
+         }
+         return shape;
+       }});
 }
 
 void FilmStage::add_bricks(std::size_t actor) {
-  const Body& body = production_.world.actors[actor].body;
+  const Body& body = simulation_.world.bodies[actor];
   const bool exploded = scene_.render.bricks == BrickView::kExploded;
-  const Eigen::Vector3f color = colors_.is_mapped() && !scene_.render.springs ? Eigen::Vector3f::Ones().eval()
-                                                                              : srgb(production_.skins[actor].color);
+  const Eigen::Vector3f color = colors_.is_mapped() && !scene_.render.springs
+                                    ? Eigen::Vector3f::Ones().eval()
+                                    : srgb(simulation_.world.bodies[actor].color);
   const auto cubes =
       std::make_shared<const BrickCubes>(body.grid, bricks_left(body.grid, scene_.render.cut), exploded, color);
   const auto skin = std::make_shared<const Skin>(at_rest(cubes->skin(), cubes->shape(body.rest_positions, {})));
@@ -150,7 +151,7 @@ void FilmStage::add_bricks(std::size_t actor) {
 }
 
 void FilmStage::add_springs(std::size_t actor) {
-  const Body& body = production_.world.actors[actor].body;
+  const Body& body = simulation_.world.bodies[actor];
   const auto springs = std::make_shared<const SpringSet>(springs_of(body, bricks_left(body.grid, scene_.render.cut)));
   const auto rods = std::make_shared<const Rods>(springs->nodes.size(), kSpringRadius * body.grid.brick_size);
   const auto shape = [springs, rods, ends = 2 * stretch_](const Points& nodes) {
@@ -170,8 +171,8 @@ void FilmStage::add_springs(std::size_t actor) {
 /// Over all frames, so that the colours mean the same in each.
 double FilmStage::furthest_stretch() const {
   double furthest = 1e-6;
-  for (std::size_t actor = 0; actor < production_.world.actors.size(); ++actor) {
-    const Body& body = production_.world.actors[actor].body;
+  for (std::size_t actor = 0; actor < simulation_.world.bodies.size(); ++actor) {
+    const Body& body = simulation_.world.bodies[actor];
     const SpringSet springs = springs_of(body, std::vector<bool>(body.grid.cells.size(), true));
     for (const std::vector<Floats3>& frame : recording_.frames) {
       Eigen::VectorXd stretches = springs.stretches(frame[actor].cast<double>()).cwiseAbs();
@@ -185,7 +186,7 @@ double FilmStage::furthest_stretch() const {
 
 void FilmStage::add_balls(std::size_t actor, std::vector<int> nodes, double radius, const Eigen::Vector3f& color) {
   const auto balls = std::make_shared<const Balls>(nodes.size(), radius);
-  const Points& rest = production_.world.actors[actor].body.rest_positions;
+  const Points& rest = simulation_.world.bodies[actor].rest_positions;
   const auto skin = std::make_shared<const Skin>(at_rest(balls->skin(), balls->shape(rows_of(rest, nodes))));
   items_.push_back(
       {skin, color, Look::kPlastic, false, id_of(actor), [actor, balls, nodes = std::move(nodes)](const Moment& now) {
@@ -194,7 +195,7 @@ void FilmStage::add_balls(std::size_t actor, std::vector<int> nodes, double radi
 }
 
 void FilmStage::add_nodes(std::size_t actor) {
-  const BrickGrid& grid = production_.world.actors[actor].body.grid;
+  const BrickGrid& grid = simulation_.world.bodies[actor].grid;
   const std::vector<bool> shown = bricks_left(grid, scene_.render.cut);
   std::vector<int> nodes;
   for (std::size_t brick = 0; brick < shown.size(); ++brick) {
@@ -206,17 +207,16 @@ void FilmStage::add_nodes(std::size_t actor) {
 }
 
 void FilmStage::add_pins(std::size_t actor) {
-  const std::vector<int> nodes = pinned_nodes(production_.origins[actor]);
+  const std::vector<int> nodes = simulation_.world.bodies[actor].origin.pinned_nodes();
   if (nodes.empty()) return;
-  add_balls(actor, nodes, kPinRadius * production_.world.actors[actor].body.grid.brick_size, kPinColor);
+  add_balls(actor, nodes, kPinRadius * simulation_.world.bodies[actor].grid.brick_size, kPinColor);
 }
 
-void FilmStage::add_ghost(std::size_t actor) {
-  const DrawnSkin& drawn = production_.skins[actor];
-  SkinShape shape = shape_of(production_, actor, production_.world.actors[actor].body.rest_positions);
-  items_.push_back({std::shared_ptr<const Skin>(&drawn.skin, [](const Skin*) {}), srgb(drawn.color), Look::kRubber,
-                    true, id_of(actor),
-                    [shape = std::move(shape)](const Moment&) -> SkinShape { return SkinShape(shape); }});
+void FilmStage::add_ghost(std::size_t row) {
+  const SoftBody& body = simulation_.world.bodies[row];
+  SkinShape shape = shape_of(body, body.rest_positions);
+  items_.push_back({std::shared_ptr<const Skin>(&body.skin, [](const Skin*) {}), srgb(body.color), Look::kRubber, true,
+                    id_of(row), [shape = std::move(shape)](const Moment&) -> SkinShape { return SkinShape(shape); }});
 }
 
 void FilmStage::add_obstacle(const StageObstacle& obstacle, int id) {
@@ -226,8 +226,8 @@ void FilmStage::add_obstacle(const StageObstacle& obstacle, int id) {
 }
 
 void FilmStage::add_contacts() {
-  const auto contacts = std::make_shared<const Contacts>(production_);
-  const double brick = production_.world.actors.front().body.grid.brick_size;
+  const auto contacts = std::make_shared<const Contacts>(simulation_);
+  const double brick = simulation_.world.bodies.front().grid.brick_size;
   const auto balls = std::make_shared<const Balls>(kMostContacts, kContactRadius * brick);
   const auto shape = [contacts, balls](const Moment& now) {
     return balls->shape(contacts->at(now.nodes, now.time), now.nodes.front().row(0).transpose());
@@ -239,7 +239,7 @@ void FilmStage::add_contacts() {
 /// As far as the probe has come.
 void FilmStage::add_trace(const ProbeTrack& track, const Eigen::Vector3f& color) {
   if (track.samples.size() < 2) return;
-  const auto rods = std::make_shared<const Rods>(track.samples.size() - 1, kTraceRadius * production_.size);
+  const auto rods = std::make_shared<const Rods>(track.samples.size() - 1, kTraceRadius * simulation_.size);
   const auto shape = [rods, &track](std::size_t frame) {
     const Eigen::Index count = track.samples.size() - 1;
     Points from(count, 3);

@@ -20,7 +20,7 @@ struct ColorRange {
 class FilmStage {
  public:
   /// All three outlive it.
-  FilmStage(const Film& scene, const Production& production, const Recording& recording);
+  FilmStage(const Film& scene, const Simulation& simulation, const Recording& recording);
 
   /// `bounds` of the whole motion, m.
   [[nodiscard]] Stage stage(const Bounds& bounds) const;
@@ -62,7 +62,7 @@ class FilmStage {
   [[nodiscard]] double furthest_stretch() const;
 
   const Film& scene_;
-  const Production& production_;
+  const Simulation& simulation_;
   const Recording& recording_;
   FieldColors colors_;
   double stretch_ = 0;  // of springs, to both sides: the ends of their colours

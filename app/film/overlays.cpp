@@ -207,9 +207,9 @@ class Thinned {
 
 }  // namespace
 
-Contacts::Contacts(const Production& production)
-    : production_(production), ground_(ground_height(production.world.obstacles)) {
-  for (const StageObstacle& obstacle : production.obstacles) {
+Contacts::Contacts(const Simulation& simulation)
+    : simulation_(simulation), ground_(ground_height(simulation.world.obstacles)) {
+  for (const StageObstacle& obstacle : simulation.obstacles) {
     if (obstacle.skin.triangles.rows() == 0) continue;
     solids_.push_back({&obstacle, NearestTriangle(obstacle.skin.positions, obstacle.skin.triangles)});
   }
@@ -219,12 +219,12 @@ Points Contacts::at(const std::vector<Points>& nodes, double time) const {
   std::vector<Points> skins;
   std::vector<Bounds> bounds;
   for (std::size_t actor = 0; actor < nodes.size(); ++actor) {
-    skins.push_back(skin_positions(production_, actor, nodes[actor]));
+    skins.push_back(simulation_.world.bodies[actor].skin_positions(nodes[actor]));
     bounds.push_back(bounds_of(skins.back()));
   }
   Thinned found;
   for (std::size_t actor = 0; actor < nodes.size(); ++actor) {
-    const double brick = production_.world.actors[actor].body.grid.brick_size;
+    const double brick = simulation_.world.bodies[actor].grid.brick_size;
     const double near = kNear * brick;
     found.set_cell(kCell * brick);
     for (const auto& vertex : skins[actor].rowwise()) {
@@ -240,7 +240,7 @@ Points Contacts::at(const std::vector<Points>& nodes, double time) const {
     }
     for (std::size_t other = 0; other < nodes.size(); ++other) {
       if (other == actor || !are_near(bounds[actor], bounds[other], near)) continue;
-      const NearestTriangle surface(skins[other], production_.skins[other].skin.triangles);
+      const NearestTriangle surface(skins[other], simulation_.world.bodies[other].skin.triangles);
       for (const auto& vertex : skins[actor].rowwise()) {
         const Vec3 place = vertex.transpose();
         if (is_within(bounds[other], place, near) && surface.at(place).distance < near) found.add(place);

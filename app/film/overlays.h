@@ -54,8 +54,8 @@ struct SpringSet {
 /// Finds where bodies touch the ground, obstacles and each other, by their skins alone: from a cache as well.
 class Contacts {
  public:
-  /// Outlived by the production.
-  explicit Contacts(const Production& production);
+  /// Outlived by the simulation.
+  explicit Contacts(const Simulation& simulation);
 
   /// Places (n x 3, m) where a skin's vertex is nearer to another skin or to the ground than a small part of a brick,
   /// one at most in each cell of half a brick. `nodes` by actor; `time` (s) says where the obstacles are.
@@ -67,7 +67,7 @@ class Contacts {
     NearestTriangle surface;  // in the obstacle's frame
   };
 
-  const Production& production_;
+  const Simulation& simulation_;
   std::optional<double> ground_;
   std::vector<Solid> solids_;
 };

@@ -20,12 +20,12 @@ namespace sprung {
 namespace {
 
 /// What the ground could not hold: how deep any vertex was below it, in any frame.
-std::string ground_report(const Production& production, double lowest) {
-  const std::optional<double> ground = ground_height(production.world.obstacles);
+std::string ground_report(const Simulation& simulation, double lowest) {
+  const std::optional<double> ground = ground_height(simulation.world.obstacles);
   if (!ground) return "";
   const double depth = std::max(0.0, *ground - lowest);
   return fmt::format(", lowest vertex {} below the ground ({:.2f} % of the size)", readable(depth, Dimension::kLength),
-                     100 * depth / production.size);
+                     100 * depth / simulation.size);
 }
 
 /// Frames to draw, in order: all of the range, or as many as a sheet has places for.
@@ -171,7 +171,7 @@ void render_film(const std::vector<FilmRun>& runs, const std::optional<Environme
   }
   const auto [width, height] = scene.render.resolution;
   progress.finish(fmt::format("{} of {} x {} pixels{}", count_of(task.frames.size(), "picture"), width, height,
-                              ground_report(runs.front().production, crew.lowest())));
+                              ground_report(runs.front().simulation, crew.lowest())));
 }
 
 }  // namespace sprung

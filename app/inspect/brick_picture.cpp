@@ -70,9 +70,9 @@ Image draw(const std::vector<Skin>& skins, const std::vector<Eigen::Vector3f>& c
 }  // namespace
 
 Image draw_bricks(const Preparation& prepared) {
-  const Production& production = prepared.production;
+  const Simulation& simulation = prepared.simulation;
   Bounds bounds;
-  for (const Actor& actor : production.world.actors) bounds.include(actor.body.positions);
+  for (const SoftBody& actor : simulation.world.bodies) bounds.include(actor.positions);
   const double line = kLine * (bounds.high - bounds.low).norm();
   std::vector<Skin> skins;
   std::vector<Skin> bricks;
@@ -81,13 +81,12 @@ Image draw_bricks(const Preparation& prepared) {
   for (const LoadedBody& body : prepared.bodies) {
     for (const Solid& solid : body.solids) solids.push_back(&solid);
   }
-  for (std::size_t i = 0; i < production.world.actors.size(); ++i) {
-    const Body& body = production.world.actors[i].body;
-    const DrawnSkin& drawn = production.skins[i];
-    Skin& skin = skins.emplace_back(drawn.skin);
-    skin.positions = deform_points(body.grid, drawn.embedding, body.positions);
-    skin.normals = deform_normals(body.grid, drawn.embedding, drawn.skin.normals, body.positions);
-    colors.push_back(srgb(drawn.color));
+  for (std::size_t i = 0; i < simulation.world.bodies.size(); ++i) {
+    const SoftBody& body = simulation.world.bodies[i];
+    Skin& skin = skins.emplace_back(body.skin);
+    skin.positions = body.skin_positions(body.positions);
+    skin.normals = deform_normals(body.grid, body.skin_embedding, body.skin.normals, body.positions);
+    colors.push_back(srgb(body.color));
     bricks.push_back(
         colored_bricks(body, body.positions, brick_colors(body.grid, *solids[i], prepared.thin_parts[i]), line));
   }

@@ -40,7 +40,7 @@ double seconds_of_implicit_frame(World world, const StepPlan& plan) {
 double seconds_of_explicit_frame(World world, const StepPlan& plan) {
   const Scheme scheme = plan.scheme == Solver::kVerlet ? Scheme::kVerlet : Scheme::kSymplecticEuler;
   double bricks = 0;
-  for (const Actor& actor : world.actors) bricks += actor.body.grid.brick_count();
+  for (const SoftBody& actor : world.bodies) bricks += actor.grid.brick_count();
   const double dt = stable_step(world);
   const auto seconds_of = [&](long steps) {
     const auto start = std::chrono::steady_clock::now();
@@ -65,16 +65,16 @@ double seconds_a_frame(const World& world, const StepPlan& plan) {
   return plan.is_implicit() ? seconds_of_implicit_frame(world, plan) : seconds_of_explicit_frame(world, plan);
 }
 
-double seconds_a_picture(const Production& production, const Film& scene) {
+double seconds_a_picture(const Simulation& simulation, const Film& scene) {
   Stage stage;
   std::vector<SkinShape> shapes;
-  for (const DrawnSkin& drawn : production.skins) {
+  for (const SoftBody& drawn : simulation.world.bodies) {
     stage.skins.push_back(&drawn.skin);
     stage.default_colors.emplace_back(Eigen::Vector3f::Constant(0.7F));
     stage.bounds.include(drawn.skin.positions);
     shapes.push_back({drawn.skin.positions.cast<float>(), drawn.skin.normals.cast<float>()});
   }
-  stage.has_ground = ground_height(production.world.obstacles).has_value();
+  stage.has_ground = ground_height(simulation.world.obstacles).has_value();
   stage.ground.height = stage.bounds.low.y();
   const auto [width, height] = scene.render.resolution;
   Renderer renderer(stage, {.width = width,
@@ -90,14 +90,14 @@ double seconds_a_picture(const Production& production, const Film& scene) {
 
 }  // namespace
 
-double memory_forecast(const Production& production, const Film& scene) {
-  const double bytes_a_brick = is_implicit(scene, production.world) ? kBytesABrickImplicit : kBytesABrick;
+double memory_forecast(const Simulation& simulation, const Film& scene) {
+  const double bytes_a_brick = is_implicit(scene, simulation.world) ? kBytesABrickImplicit : kBytesABrick;
   double bytes = kBytesOfProgram;
   double nodes = 0;
-  for (std::size_t i = 0; i < production.world.actors.size(); ++i) {
-    bytes += bytes_a_brick * production.world.actors[i].body.grid.brick_count();
-    bytes += kBytesASkinVertex * double(production.skins[i].skin.positions.rows());
-    nodes += production.world.actors[i].body.node_count();
+  for (std::size_t i = 0; i < simulation.world.bodies.size(); ++i) {
+    bytes += bytes_a_brick * simulation.world.bodies[i].grid.brick_count();
+    bytes += kBytesASkinVertex * double(simulation.world.bodies[i].skin.positions.rows());
+    nodes += simulation.world.bodies[i].node_count();
   }
   const auto [width, height] = scene.render.resolution;
   return bytes + 3 * sizeof(float) * nodes * frame_count(scene) + kBytesAPixel * double(width) * height;
@@ -112,20 +112,20 @@ std::string warning_of_memory(double bytes) {
       bytes / 1e9, present / 1e9);
 }
 
-Forecast make_forecast(const Production& production, const Film& scene) {
+Forecast make_forecast(const Simulation& simulation, const Film& scene) {
   Forecast forecast;
-  forecast.memory = memory_forecast(production, scene);
+  forecast.memory = memory_forecast(simulation, scene);
   forecast.frames = frame_count(scene);
   if (is_motion(scene)) {
-    forecast.plan = plan_steps(production.world, scene);
-    forecast.seconds_simulating = seconds_a_frame(production.world, *forecast.plan);
+    forecast.plan = plan_steps(simulation.world, scene);
+    forecast.seconds_simulating = seconds_a_frame(simulation.world, *forecast.plan);
   }
-  forecast.seconds_drawing = seconds_a_picture(production, scene);
+  forecast.seconds_drawing = seconds_a_picture(simulation, scene);
   return forecast;
 }
 
-void warn_of_memory(const Production& production, const Film& film, const Console& console) {
-  const std::string warning = warning_of_memory(memory_forecast(production, film));
+void warn_of_memory(const Simulation& simulation, const Film& film, const Console& console) {
+  const std::string warning = warning_of_memory(memory_forecast(simulation, film));
   if (!warning.empty()) console.warn(warning);
 }
 

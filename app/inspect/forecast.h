@@ -18,15 +18,15 @@ struct Forecast {
 };
 
 /// Moves a copy of the world for a moment and draws one picture to find out. Throws Error where that fails.
-[[nodiscard]] Forecast make_forecast(const Production& production, const Film& scene);
+[[nodiscard]] Forecast make_forecast(const Simulation& simulation, const Film& scene);
 
 /// Bytes, from the sizes of what is kept: no measurement.
-[[nodiscard]] double memory_forecast(const Production& production, const Film& scene);
+[[nodiscard]] double memory_forecast(const Simulation& simulation, const Film& scene);
 
 /// A sentence where this machine does not have so much memory; else empty.
 [[nodiscard]] std::string warning_of_memory(double bytes);
 
 /// Tells that sentence before a film is made.
-void warn_of_memory(const Production& production, const Film& film, const Console& console);
+void warn_of_memory(const Simulation& simulation, const Film& film, const Console& console);
 
 }  // namespace sprung

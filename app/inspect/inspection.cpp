@@ -95,15 +95,15 @@ Inspection inspect(const Preparation& prepared, const Film& scene) {
     facts.mesh = mesh_facts(body, facts.unit);
     facts.bricks.size = body.brick_size;
     for (std::size_t solid = 0; solid < body.solids.size(); ++solid, ++actor) {
-      add_bricks(prepared.production.world.actors[actor].body, prepared.thin_parts[actor], facts.bricks);
+      add_bricks(prepared.simulation.world.bodies[actor], prepared.thin_parts[actor], facts.bricks);
     }
     double volume = 0;
     for (const Solid& solid : body.solids) volume += solid.volume;
     facts.bricks.volume_error = facts.bricks.volume / volume - 1;
     inspection.bodies.push_back(std::move(facts));
   }
-  inspection.stable_step = stable_step(prepared.production.world);
-  inspection.forecast = make_forecast(prepared.production, scene);
+  inspection.stable_step = stable_step(prepared.simulation.world);
+  inspection.forecast = make_forecast(prepared.simulation, scene);
   return inspection;
 }
 

@@ -46,7 +46,7 @@ py::array nodes_of(const py::object& self) {
 py::array triangles_of(const py::object& self) {
   const auto& handle = self.cast<const BodyHandle&>();
   return in_turn(*handle.world, [&] {
-    const Triangles& triangles = handle.world->skin(handle.row).triangles;
+    const Triangles& triangles = handle.world->body(handle.row).skin.triangles;
     return view(triangles.data(), {triangles.rows(), 3}, self);
   });
 }

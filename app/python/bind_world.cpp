@@ -1,12 +1,14 @@
+#include <fmt/format.h>
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
 #include <filesystem>
+#include <numeric>
 #include <variant>
 
 #include "app/python/bindings.h"
-#include "core/mesh/io/read_mesh.h"
+#include "core/error.h"
 
 namespace py = pybind11;
 
@@ -15,28 +17,40 @@ namespace {
 
 using FileOrMesh = std::variant<std::filesystem::path, SurfaceMesh>;
 
-std::vector<std::size_t> fill_and_add(LiveWorld& world, FileOrMesh source, const FillOptions& options) {
-  if (auto* mesh = std::get_if<SurfaceMesh>(&source)) return world.add(std::move(*mesh), "the mesh", options);
-  const auto& file = std::get<std::filesystem::path>(source);
-  return world.add(read_mesh(file), file.string(), options);
-}
-
-std::vector<BodyHandle> add_bodies(const std::shared_ptr<LiveWorld>& world, FileOrMesh mesh, const Material& material,
-                                   double size, int bricks, const Vec3& position, const std::string& model) {
-  const FillOptions options{
-      .material = material, .model = model_from_name(model), .size = size, .bricks = bricks, .position = position};
+std::vector<BodyHandle> handles_of(const std::shared_ptr<LiveWorld>& world, const std::vector<std::size_t>& rows) {
   std::vector<BodyHandle> handles;
-  for (const std::size_t row :
-       while_others_run(*world, [&] { return fill_and_add(*world, std::move(mesh), options); })) {
-    handles.push_back({world, row});
-  }
+  for (const std::size_t row : rows) handles.push_back({world, row});
   return handles;
 }
 
-/// Lets Ctrl-C, and whatever else a script waits for, through.
-void let_signals_in() {
-  const py::gil_scoped_acquire python;
-  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+std::vector<BodyHandle> add_to_world(const std::shared_ptr<LiveWorld>& world, FileOrMesh mesh, const Material& material,
+                                     double size, int bricks, const Vec3& position, const std::string& model,
+                                     const py::kwargs& keys) {
+  SceneBody body = body_from(keys);
+  if (auto* surface = std::get_if<SurfaceMesh>(&mesh)) {
+    body.surface = std::make_shared<const SurfaceMesh>(std::move(*surface));
+  } else {
+    body.mesh = std::get<std::filesystem::path>(mesh);
+  }
+  body.material = material;
+  body.size = size;
+  if (bricks <= 0) throw Error(ErrorKind::kBadInput, fmt::format("bricks ({}) must be above 0", bricks));
+  body.bricks = bricks;
+  body.position = position;
+  body.model = model_from_name(model);
+  return handles_of(world, while_others_run(*world, [&] { return world->add(body); }));
+}
+
+std::shared_ptr<LiveWorld> world_from_scene(const py::object& scene) {
+  Film film = film_from(scene);
+  const py::gil_scoped_release others_run;
+  return std::make_shared<LiveWorld>(std::move(film));
+}
+
+std::vector<BodyHandle> bodies_of(const std::shared_ptr<LiveWorld>& world) {
+  std::vector<std::size_t> rows(in_turn(*world, [&] { return world->body_count(); }));
+  std::iota(rows.begin(), rows.end(), std::size_t{0});
+  return handles_of(world, rows);
 }
 
 void advance_world(LiveWorld& world, double duration) {
@@ -63,10 +77,15 @@ void bind_world(py::module_& module) {
       module, "World", "Bodies that move and touch. Threads take turns; where an Error is raised all is as it was.")
       .def(py::init<const Vec3&, std::optional<double>>(), py::arg("gravity") = std::array<double, 3>{0, -9.81, 0},
            py::arg("ground") = 0.0, "gravity: (3,) m/s2; ground: height of level ground, m, or None.")
-      .def("add", &add_bodies, py::arg("mesh"), py::arg("material"), py::arg("size") = 0.2, py::arg("bricks") = 24,
+      .def("add", &add_to_world, py::arg("mesh"), py::arg("material"), py::arg("size") = 0.2, py::arg("bricks") = 24,
            py::arg("position") = std::array<double, 3>{0, 0, 0}, py::arg("model") = "calibrated",
            "A body for every solid of a mesh or a file of one. size: longest side, m; bricks: along that; "
-           "position: (3,) m, of the middle of the bottom of the bounding box; model: as for sprung animate --model.")
+           "position: (3,) m, of the middle of the bottom of the bounding box; model: as for sprung animate --model; "
+           "keys: others of [[body]] in scenes, pin=[{...}], force=[{...}], velocity=[...] ...")
+      .def_static("from_scene", &world_from_scene, py::arg("scene"),
+                  "All that a scene has: bodies, pins, forces, obstacles, glue. scene: a TOML file, or a dict of the "
+                  "same keys; paths in a dict are relative to the working folder.")
+      .def_property_readonly("bodies", &bodies_of, "All bodies, in the order in which they were added.")
       .def("advance", &advance_world, py::arg("duration"), "Moves on by duration, s, in steps that are stable.")
       .def("step", &step_world, py::arg("dt"), py::arg("count") = 1, "count explicit steps of dt, s, as they are.")
       .def(

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/python/live_world.h"
+#include "app/scene/film.h"
 
 namespace sprung {
 
@@ -45,6 +46,16 @@ pybind11::array view(const Number* first, const std::vector<pybind11::ssize_t>& 
   return array;
 }
 
+/// The film of a scene file, or of a dict of its keys. Throws Error(kBadInput).
+[[nodiscard]] Film film_from(const pybind11::object& scene);
+
+/// A body of the scene of what a dict has of its keys. Throws Error(kBadInput).
+[[nodiscard]] SceneBody body_from(const pybind11::dict& keys);
+
+/// Lets Ctrl-C, and whatever else a script waits for, through. Without Python's lock.
+void let_signals_in();
+
+void bind_scene(pybind11::module_& module);
 void bind_materials(pybind11::module_& module);
 void bind_mesh(pybind11::module_& module);
 void bind_body(pybind11::module_& module);

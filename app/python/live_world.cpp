@@ -6,17 +6,17 @@
 #include <string_view>
 #include <type_traits>
 
-#include "core/contact/inversion_guard.h"
-#include "core/dynamics/statics/statics.h"
+#include "core/dynamics/explicit/integrator.h"
 #include "core/error.h"
-#include "core/simulation/drivers.h"
+#include "core/simulation/equilibria.h"
+#include "core/simulation/observer.h"
 #include "render/renderer.h"
 
 namespace sprung {
 namespace {
 
-// Else a vector of actors that grows would copy them, and leave views behind in memory that is gone.
-static_assert(std::is_nothrow_move_constructible_v<Actor>);
+// Else a vector of bodies that grows would copy them, and leave views behind in memory that is gone.
+static_assert(std::is_nothrow_move_constructible_v<SoftBody>);
 
 constexpr double kBrickStepsBetween = 2e6;
 
@@ -32,23 +32,40 @@ void check_finite(const Vec3& vector, std::string_view name) {
 
 LiveWorld::LiveWorld(const Vec3& gravity, std::optional<double> ground) {
   check_finite(gravity, "gravity (m/s2)");
-  world_.gravity = gravity;
-  if (!ground) return;
-  check(std::isfinite(*ground), "ground (m)", *ground, "a finite height, or None");
-  world_.obstacles.push_back(level_ground(*ground));
+  scene_.gravity = gravity;
+  if (ground) {
+    check(std::isfinite(*ground), "ground (m)", *ground, "a finite height, or None");
+    scene_.obstacles.emplace_back().plane = Plane{.y = *ground};
+  }
+  simulation_ = build_world(scene_, {}, Observer());
 }
 
-std::vector<std::size_t> LiveWorld::add(SurfaceMesh mesh, const std::string& name, const FillOptions& options) {
-  check(std::isfinite(options.size), "size (m)", options.size, "finite");
-  check_finite(options.position, "position (m)");
-  std::vector<std::size_t> rows;
-  for (SoftBody& body : fill_mesh(std::move(mesh), name, options)) {
-    rows.push_back(world_.actors.size());
-    drawn_.push_back({std::move(body.skin), std::move(body.embedding), body.actor.body.law.guard});
-    world_.actors.push_back(std::move(body.actor));
+LiveWorld::LiveWorld(Scene scene) : scene_(std::move(scene)) { simulation_ = prepare_simulation(scene_, Observer()); }
+
+std::vector<std::size_t> LiveWorld::add(const SceneBody& body) {
+  check_finite(body.position, "position (m)");
+  const LoadedBody loaded = load_body(body, Observer());
+  const std::size_t first = body_count();
+  scene_.bodies.push_back(body);
+  motion_.reset();
+  try {
+    add_bodies(scene_, scene_.bodies.size() - 1, {loaded}, simulation_, Observer());
+  } catch (...) {
+    scene_.bodies.pop_back();
+    simulation_.world.bodies.erase(simulation_.world.bodies.begin() + long(first), simulation_.world.bodies.end());
+    throw;
   }
-  is_braced_ = false;
+  std::vector<std::size_t> rows;
+  for (std::size_t row = first; row < body_count(); ++row) rows.push_back(row);
   return rows;
+}
+
+SceneMotion& LiveWorld::motion() {
+  if (!motion_) {
+    stiffen_volume_guards(simulation_);
+    motion_.emplace(simulation_, scene_);
+  }
+  return *motion_;
 }
 
 template <class Work>
@@ -60,15 +77,15 @@ void LiveWorld::keep_memory(const Work& work) {
   std::vector<State> kept;  // where others look, as it was
   const auto put_back = [&] {
     for (std::size_t i = 0; i < kept.size(); ++i) {
-      world_.actors[i].body.positions = std::move(kept[i].positions);
-      world_.actors[i].body.velocities = std::move(kept[i].velocities);
+      simulation_.world.bodies[i].positions = std::move(kept[i].positions);
+      simulation_.world.bodies[i].velocities = std::move(kept[i].velocities);
     }
   };
   try {
-    for (Actor& actor : world_.actors) {
-      State copy{actor.body.positions, actor.body.velocities};
-      std::swap(copy.positions, actor.body.positions);
-      std::swap(copy.velocities, actor.body.velocities);
+    for (SoftBody& body : simulation_.world.bodies) {
+      State copy{body.positions, body.velocities};
+      std::swap(copy.positions, body.positions);
+      std::swap(copy.velocities, body.velocities);
       kept.push_back(std::move(copy));
     }
     work();
@@ -77,47 +94,43 @@ void LiveWorld::keep_memory(const Work& work) {
     throw;
   }
   for (std::size_t i = 0; i < kept.size(); ++i) {
-    kept[i].positions = world_.actors[i].body.positions;  // into the same memory
-    kept[i].velocities = world_.actors[i].body.velocities;
+    kept[i].positions = simulation_.world.bodies[i].positions;  // into the same memory
+    kept[i].velocities = simulation_.world.bodies[i].velocities;
   }
   put_back();
 }
 
-void LiveWorld::stiffen_volume_guards() {
-  if (is_braced_) return;
-  is_braced_ = true;
-  const double speed = impact_speed(world_);
-  for (std::size_t row = 0; row < drawn_.size(); ++row) {
-    Body& body = world_.actors[row].body;
-    body.law.guard = drawn_[row].guard;
-    stiffen_volume_guard(body, world_.gravity.norm(), speed);
-  }
-}
-
 void LiveWorld::advance(double duration, const Between& between) {
   check(duration >= 0 && std::isfinite(duration), "duration (s)", duration, "0 or above");
+  if (!is_motion(scene_)) {
+    throw Error(ErrorKind::kBadInput, "the scene is no motion (solver.scheme): simulate() finds its states of rest");
+  }
   if (duration == 0) return;
-  stiffen_volume_guards();
-  AdaptiveIntegrator motion(world_, Scheme::kSymplecticEuler);
-  keep_memory([&] {
-    motion.advance_frame(
-        time_, duration, [&](double) { between(); }, [](const std::string&) {});
-  });
+  try {
+    keep_memory([&] {
+      motion().advance(
+          time_, time_ + duration, duration, [&](double) { between(); }, [](const std::string&) {});
+    });
+  } catch (...) {
+    motion_.reset();
+    throw;
+  }
   time_ += duration;
 }
 
 void LiveWorld::step(double dt, long count, const Between& between) {
   check(dt > 0 && std::isfinite(dt), "dt (s)", dt, "above 0");
   check(count >= 0, "count", double(count), "0 or above");
-  stiffen_volume_guards();
+  World& world = simulation_.world;
+  stiffen_volume_guards(simulation_);
   double bricks = 0;
-  for (const Actor& actor : world_.actors) bricks += actor.body.grid.brick_count();
+  for (const SoftBody& body : world.bodies) bricks += body.grid.brick_count();
   const long at_once = std::max(1L, long(kBrickStepsBetween / std::max(1.0, bricks)));
   const double stable = stable_step();
   const auto steps = [&] {
     for (long done = 0; done < count; done += at_once) {
       const double time = time_ + dt * double(done);
-      sprung::advance(world_, Scheme::kSymplecticEuler, dt, std::min(at_once, count - done), time);
+      sprung::advance(world, Scheme::kSymplecticEuler, dt, std::min(at_once, count - done), time);
       between();
     }
   };
@@ -132,30 +145,22 @@ void LiveWorld::step(double dt, long count, const Between& between) {
 }
 
 void LiveWorld::settle(std::size_t row, bool linear) {
-  Actor& actor = world_.actors[row];
-  if (actor.pinned.empty()) {
+  SoftBody& body = simulation_.world.bodies[row];
+  if (body.pinned.empty()) {
     throw Error(ErrorKind::kBadInput, "a body without pinned nodes cannot come to rest: pin() some of them first");
   }
   keep_memory([&] {
-    Body& body = actor.body;
-    const Supports supports = supports_of(actor);
-    const Points loads = body.masses * world_.gravity.transpose();
-    const std::unique_ptr<LinearSolver> system = make_default_solver();
-    if (linear) {
-      const Points still = Points::Zero(body.node_count(), 3);
-      body.positions = body.rest_positions;
-      body.positions += linear_response(body, supports, loads, still, *system).displacements;
-    } else {
-      const Points start = body.positions;
-      solve_static(body, supports, loads, start, *system);
-    }
+    int newton_steps = 0;
+    const Points loads = body.masses * simulation_.world.gravity.transpose();
+    const Points movements = body.positions - body.rest_positions;
+    static_cast<void>(sprung::settle(body, loads, movements, linear, *make_default_solver(), newton_steps));
     body.velocities.setZero();
   });
 }
 
 void LiveWorld::pin(std::size_t row, const std::vector<long>& nodes) {
-  Actor& actor = world_.actors[row];
-  const int count = actor.body.node_count();
+  SoftBody& body = simulation_.world.bodies[row];
+  const int count = body.node_count();
   std::vector<bool> is_held(count);
   for (const long node : nodes) {
     if (node < 0 || node >= count) {
@@ -164,39 +169,39 @@ void LiveWorld::pin(std::size_t row, const std::vector<long>& nodes) {
     }
     is_held[node] = true;
   }
-  actor.pinned.clear();
+  body.pinned.clear();
   for (int node = 0; node < count; ++node) {
     if (!is_held[node]) continue;
-    actor.pinned.push_back({.node = node});
-    actor.body.velocities.row(node).setZero();
+    body.pinned.push_back({.node = node});
+    body.velocities.row(node).setZero();
   }
 }
 
 Points LiveWorld::skin_positions(std::size_t row) const {
-  const Body& body = world_.actors[row].body;
-  return deform_points(body.grid, drawn_[row].embedding, body.positions);
+  const SoftBody& body = simulation_.world.bodies[row];
+  return body.skin_positions(body.positions);
 }
 
 Image LiveWorld::draw(int width, int height, double azimuth, double elevation) const {
-  if (drawn_.empty()) throw Error(ErrorKind::kBadInput, "there is nothing to draw: add() a mesh first");
+  const std::vector<SoftBody>& bodies = simulation_.world.bodies;
+  if (bodies.empty()) throw Error(ErrorKind::kBadInput, "there is nothing to draw: add() a mesh first");
   check(std::isfinite(azimuth), "azimuth (degrees)", azimuth, "finite");
   check(elevation >= -85 && elevation <= 85, "elevation (degrees)", elevation, "from -85 to 85");
   Stage stage;
   std::vector<SkinShape> shapes;
-  for (std::size_t row = 0; row < drawn_.size(); ++row) {
-    const Drawn& drawn = drawn_[row];
-    const Body& body = world_.actors[row].body;
+  for (std::size_t row = 0; row < bodies.size(); ++row) {
+    const SoftBody& body = bodies[row];
     const Points positions = skin_positions(row);
     if (!positions.allFinite()) {
       throw Error(ErrorKind::kBadInput, fmt::format("body {} has a position that is not finite: nothing to draw", row));
     }
-    const Points normals = deform_normals(body.grid, drawn.embedding, drawn.skin.normals, body.positions);
+    const Points normals = deform_normals(body.grid, body.skin_embedding, body.skin.normals, body.positions);
     shapes.push_back({positions.cast<float>(), normals.cast<float>()});
-    stage.skins.push_back(&drawn.skin);
+    stage.skins.push_back(&body.skin);
     stage.default_colors.emplace_back(0.85F, 0.2F, 0.16F);
     stage.bounds.include(positions);
   }
-  const std::optional<double> ground = ground_height(world_.obstacles);
+  const std::optional<double> ground = ground_height(simulation_.world.obstacles);
   stage.has_ground = ground.has_value();
   if (ground) stage.ground.height = *ground;
   Renderer renderer(stage, {.width = width, .height = height});

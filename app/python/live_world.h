@@ -1,19 +1,17 @@
 #pragma once
-#include <deque>
 #include <functional>
-#include <memory>
 #include <mutex>
 #include <optional>
-#include <string>
 #include <vector>
 
-#include "core/dynamics/explicit/adaptive_integrator.h"
-#include "core/simulation/soft_body.h"
+#include "core/simulation/motion.h"
+#include "core/simulation/scene.h"
+#include "core/simulation/simulation.h"
 #include "render/image/image.h"
 
 namespace sprung {
 
-/// A world that a script builds, moves and looks at while others hold views of its state: the memory of a body's state,
+/// A scene that a script builds, moves and looks at while others hold views of its state: the memory of a body's state,
 /// bricks and skin stays where it is as long as the world is there. Where something throws, the world is as it was.
 class LiveWorld {
  public:
@@ -22,19 +20,22 @@ class LiveWorld {
 
   /// gravity in m/s^2; ground: the height of level ground, m, or none. Throws Error(kBadInput).
   LiveWorld(const Vec3& gravity, std::optional<double> ground);
+  /// All that the scene has. Throws Error(kBadInput).
+  explicit LiveWorld(Scene scene);
 
   /// A script has several threads: one at a time does anything here, and holds this meanwhile.
   [[nodiscard]] std::unique_lock<std::mutex> take_turn() { return std::unique_lock(turn_); }
 
-  /// Adds every solid of a mesh, `name` of it for messages; returns their rows. Throws Error(kBadInput).
-  std::vector<std::size_t> add(SurfaceMesh mesh, const std::string& name, const FillOptions& options);
+  /// Adds every solid of a body; returns their rows. Throws Error(kBadInput).
+  std::vector<std::size_t> add(const SceneBody& body);
 
-  /// `duration` s by steps that are stable, halved where that is not enough. Throws Error(kBadInput, kDiverged).
+  /// `duration` s by the scheme of the scene, as its pins, loads and obstacles say. Throws Error(kBadInput, kDiverged).
   void advance(double duration, const Between& between);
-  /// `count` explicit steps of `dt` (s) as they are. Throws Error(kBadInput, kDiverged).
+  /// `count` explicit steps of `dt` (s) as they are; pins and loads stay what they were. Throws Error(kBadInput,
+  /// kDiverged).
   void step(double dt, long count, const Between& between);
-  /// Moves a body into equilibrium with gravity and its pinned nodes; `linear`: for small displacements.
-  /// Throws Error(kBadInput) where nothing holds it, Error(kDiverged).
+  /// Moves a body into equilibrium with gravity and its pinned nodes, where those are; `linear`: for small
+  /// displacements. Throws Error(kBadInput) where nothing holds it, Error(kDiverged).
   void settle(std::size_t body, bool linear);
   /// Holds these nodes where they are, and no others. Throws Error(kBadInput).
   void pin(std::size_t body, const std::vector<long>& nodes);
@@ -42,29 +43,25 @@ class LiveWorld {
   /// A picture of all bodies from azimuth and elevation (degrees). Throws Error(kUsage, kBadInput, kFailed).
   [[nodiscard]] Image draw(int width, int height, double azimuth, double elevation) const;
   /// Vertices of a body's skin, v x 3, m.
-  [[nodiscard]] Points skin_positions(std::size_t body) const;
+  [[nodiscard]] Points skin_positions(std::size_t row) const;
 
   /// Longest explicit step that is stable now, s; infinite where there is no body.
-  [[nodiscard]] double stable_step() const { return sprung::stable_step(world_); }
+  [[nodiscard]] double stable_step() const { return sprung::stable_step(simulation_.world); }
   [[nodiscard]] double time() const { return time_; }
-  [[nodiscard]] Body& body(std::size_t row) { return world_.actors[row].body; }
-  [[nodiscard]] const Skin& skin(std::size_t row) const { return drawn_[row].skin; }
+  [[nodiscard]] std::size_t body_count() const { return simulation_.world.bodies.size(); }
+  [[nodiscard]] SoftBody& body(std::size_t row) { return simulation_.world.bodies[row]; }
 
  private:
-  struct Drawn {
-    Skin skin;
-    Embedding embedding;
-    double guard;  // of the body's volume, before it was braced
-  };
   /// Does `work`, with the memory of all bodies' states where it was before.
   template <class Work>
   void keep_memory(const Work& work);
-  void stiffen_volume_guards();
+  /// What moves the bodies that are there now.
+  SceneMotion& motion();
 
-  World world_;
-  std::deque<Drawn> drawn_;  // by actor
-  double time_ = 0;          // s
-  bool is_braced_ = false;
+  Scene scene_;
+  Simulation simulation_;
+  std::optional<SceneMotion> motion_;
+  double time_ = 0;  // s
   std::mutex turn_;
 };
 

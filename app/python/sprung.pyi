@@ -4,7 +4,7 @@ The texts are those of the module, so help(sprung.Body) has them too; tests/pyth
 """
 
 from os import PathLike
-from typing import Sequence
+from typing import Any, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -118,9 +118,18 @@ class World:
         bricks: int = 24,
         position: ArrayLike = [0.0, 0.0, 0.0],
         model: str = "calibrated",
+        **keys: Any,
     ) -> list[Body]:
         """A body for every solid of a mesh or a file of one. size: longest side, m; bricks: along that; position: (3,)
-        m, of the middle of the bottom of the bounding box; model: as for sprung animate --model."""
+        m, of the middle of the bottom of the bounding box; model: as for sprung animate --model; keys: others of
+        [[body]] in scenes, pin=[{...}], force=[{...}], velocity=[...] ..."""
+    @staticmethod
+    def from_scene(scene: str | PathLike[str] | dict[str, Any]) -> World:
+        """All that a scene has: bodies, pins, forces, obstacles, glue. scene: a TOML file, or a dict of the same keys;
+        paths in a dict are relative to the working folder."""
+    @property
+    def bodies(self) -> list[Body]:
+        """All bodies, in the order in which they were added."""
     def advance(self, duration: float) -> None:
         """Moves on by duration, s, in steps that are stable."""
     def step(self, dt: float, count: int = 1) -> None:
@@ -134,3 +143,38 @@ class World:
         self, width: int = 640, height: int = 360, azimuth: float = 30.0, elevation: float = 14.0
     ) -> NDArray[np.uint8]:
         """(height, width, 3) sRGB bytes; azimuth: degrees about y; elevation: degrees above the horizon."""
+
+class Run:
+    """A scene taken through all its frames."""
+
+    @property
+    def frame_count(self) -> int:
+        """How many frames there are."""
+    @property
+    def progress(self) -> NDArray[np.float64]:
+        """(frames,) time, s, or share of the load, or number of the mode, 1."""
+    @property
+    def frequencies(self) -> NDArray[np.float64]:
+        """(modes,) Hz."""
+    @property
+    def state_hash(self) -> int:
+        """Of every bit of the last state, as sprung simulate prints it."""
+    def positions(self, frame: int) -> list[NDArray[np.float64]]:
+        """By body: (m, 3) m, of the nodes in a frame, from 0; -1 is the last."""
+    def skin_positions(self, frame: int) -> list[NDArray[np.float64]]:
+        """By body: (v, 3) m."""
+    @property
+    def triangles(self) -> list[NDArray[np.int32]]:
+        """By body: (t, 3) rows of skin_positions()."""
+    @property
+    def probes(self) -> dict[str, dict[str, NDArray[np.float64]]]:
+        """By name: position, displacement, m; force, N; torque, N m; each (frames, 3)."""
+
+def simulate(
+    scene: str | PathLike[str] | dict[str, Any], cache: str | PathLike[str] | None = None, resume: bool = False
+) -> Run:
+    """Takes a scene through all its frames, as sprung simulate does. scene: a TOML file, or a dict of the same keys;
+    cache: an HDF5 file to keep the frames in; resume: goes on with what is there."""
+
+def read_run(cache: str | PathLike[str]) -> Run:
+    """The run in a cache, as sprung simulate wrote it."""

@@ -50,10 +50,10 @@ ReportPicture picture_of(const std::string& name, const Film& scene_as_it_is) {
   Console silent;
   silent.quiet = true;
   const Film scene = scene_to_draw(scene_as_it_is);
-  Production production = make_production(scene, silent);
-  static_cast<void>(simulate(production, scene, silent));
-  const Body& body = production.world.actors.front().body;
-  const double magnification = magnification_of(body, production.size);
+  Simulation simulation = prepare_simulation(scene, silent);
+  static_cast<void>(simulate(simulation, scene, silent));
+  const Body& body = simulation.world.bodies.front();
+  const double magnification = magnification_of(body, simulation.size);
   ExperimentPicture drawn = draw_experiment(body, {.magnification = magnification});
   const std::string caption =
       fmt::format("{}, ν = {}{}", count_of(body.grid.brick_count(), "brick"), scene.bodies.front().material.poisson,

@@ -87,11 +87,11 @@ struct Outcome {
 };
 
 /// Smallest volume ratio of any brick in any frame; leaves the bodies in the last one.
-double most_crushed(Production& production, const Recording& recording) {
+double most_crushed(Simulation& simulation, const Recording& recording) {
   double smallest = std::numeric_limits<double>::infinity();
   for (const std::vector<Floats3>& frame : recording.frames) {
     for (std::size_t actor = 0; actor < frame.size(); ++actor) {
-      Body& body = production.world.actors[actor].body;
+      Body& body = simulation.world.bodies[actor];
       body.positions = frame[actor].cast<double>();
       smallest = std::min(smallest, smallest_volume_ratio(body));
     }
@@ -152,10 +152,10 @@ class Runs {
     Outcome outcome;
     try {
       const Film scene = with_variant(scene_, variant);
-      Production production = make_production(scene, silent_);
-      outcome.recording = simulate(production, scene, silent_);
-      compare_nodes(production, variant, outcome);
-      note_volume(production, variant, *outcome.recording);
+      Simulation simulation = prepare_simulation(scene, silent_);
+      outcome.recording = simulate(simulation, scene, silent_);
+      compare_nodes(simulation, variant, outcome);
+      note_volume(simulation, variant, *outcome.recording);
     } catch (const Error& error) {
       outcome.recording.reset();
       outcome.trouble = error.what();
@@ -165,21 +165,21 @@ class Runs {
     return outcome;
   }
 
-  void compare_nodes(const Production& production, const Variant& variant, Outcome& outcome) const {
+  void compare_nodes(const Simulation& simulation, const Variant& variant, Outcome& outcome) const {
     for (const KnownSolution& known : known_) {
       if (known.poisson != variant.poisson) continue;
-      const Mat3& turn = production.origins.front().bricks_from_rest;
-      NodeErrors& errors = outcome.node_errors.emplace(node_errors(production.world.actors.front().body, turn, known));
+      const Mat3& turn = simulation.world.bodies.front().origin.bricks_from_rest;
+      NodeErrors& errors = outcome.node_errors.emplace(node_errors(simulation.world.bodies.front(), turn, known));
       errors.model = model_name(variant.model);
       errors.poisson = variant.poisson;
       errors.grid = grid_text(grid_counts(scene_, variant));
     }
   }
 
-  void note_volume(Production& production, const Variant& variant, const Recording& recording) {
+  void note_volume(Simulation& simulation, const Variant& variant, const Recording& recording) {
     if (variant.model == Model::kFem) return;
-    const double bound = production.world.actors.front().body.law.guard_ratio;
-    const Crushed now{.variant = variant, .volume = most_crushed(production, recording), .bound = bound};
+    const double bound = simulation.world.bodies.front().law.guard_ratio;
+    const Crushed now{.variant = variant, .volume = most_crushed(simulation, recording), .bound = bound};
     const auto [place, is_new] = most_crushed_.try_emplace(variant.model, now);
     if (now.volume < place->second.volume) place->second = now;
   }

@@ -117,7 +117,7 @@ std::vector<std::pair<std::size_t, std::size_t>> broad_phase(const World& world,
   std::vector<AlignedBox> boxes;
   std::vector<std::pair<std::size_t, std::size_t>> near;
   for (std::size_t i = 0; i < group.size(); ++i) {
-    const Body& body = group[i]->body;
+    const Body& body = *group[i];
     boxes.push_back(
         widened(box_around(body.positions), margin + body.grid.brick_size));  // skins may lie outside bricks
     if (group[i]->collides_with_itself) near.emplace_back(i, i);
@@ -130,13 +130,13 @@ std::vector<std::pair<std::size_t, std::size_t>> broad_phase(const World& world,
 
 double max_step_size(const World& world, const Group& group, double dt) {
   std::vector<const ContactSurface*> skins;
-  for (Actor* actor : group) skins.push_back(&contact_surface_of(*actor));
+  for (SoftBody* actor : group) skins.push_back(&contact_surface_of(*actor));
   double fastest = 0;
-  for (const Actor* actor : group) fastest = std::max(fastest, actor->body.velocities.rowwise().norm().maxCoeff());
+  for (const SoftBody* actor : group) fastest = std::max(fastest, actor->velocities.rowwise().norm().maxCoeff());
   double stride = dt;
   for (const auto& [a, b] : broad_phase(world, group, 2 * (fastest + world.gravity.norm() * dt) * dt)) {
     ContactCandidates pairs(skins, a, b);
-    const double brick = std::min(group[a]->body.grid.brick_size, group[b]->body.grid.brick_size);
+    const double brick = std::min(group[a]->grid.brick_size, group[b]->grid.brick_size);
     const double gravity = a == b ? 0 : world.gravity.norm();  // all of a body falls alike
     // Two that come from either side are twice as fast.
     pairs.seek(group, brick + 2 * pairs.fastest(group) * dt + gravity * dt * dt / 2);
@@ -166,15 +166,15 @@ AlignedBox reach_of(const Body& body, const Vec3& gravity, double time) {
 }  // namespace
 
 std::vector<std::vector<std::size_t>> contact_groups(const World& world, double time) {
-  const auto count = world.actors.size();
+  const auto count = world.bodies.size();
   DisjointSets sets(count);
   if (world.bodies_collide && count > 1) {
     std::vector<AlignedBox> boxes;
-    for (const Actor& actor : world.actors) boxes.push_back(reach_of(actor.body, world.gravity, time));
+    for (const SoftBody& actor : world.bodies) boxes.push_back(reach_of(actor, world.gravity, time));
     for (const auto& [a, b] : overlapping_boxes(boxes)) sets.merge(a, b);
   }
   for (const GluedPoint& point : world.glue) {
-    sets.merge(int(point.actors[0]), int(point.actors[1]));
+    sets.merge(int(point.bodies[0]), int(point.bodies[1]));
   }
   std::map<int, std::vector<std::size_t>> members;  // by the lowest
   for (std::size_t i = 0; i < count; ++i) members[sets.find(int(i))].push_back(i);

@@ -23,7 +23,7 @@ using AlignedBox = Eigen::AlignedBox3d;
 [[nodiscard]] std::vector<std::pair<int, int>> overlapping_boxes(
     const std::vector<AlignedBox>& boxes, const std::function<bool(int, int)>& is_kept = [](int, int) { return true; });
 
-/// Pairs of a group's actors whose skins may be within `margin` (m) of each other, where bodies touch; those of one
+/// Pairs of a group's bodies whose skins may be within `margin` (m) of each other, where bodies touch; those of one
 /// that touches itself twice the same. In a fixed order.
 [[nodiscard]] std::vector<std::pair<std::size_t, std::size_t>> broad_phase(const World& world, const Group& group,
                                                                            double margin);
@@ -32,7 +32,7 @@ using AlignedBox = Eigen::AlignedBox3d;
 /// further in a step may come out on the other side.
 [[nodiscard]] double max_step_size(const World& world, const Group& group, double dt);
 
-/// Rows of world.actors that may come to touch each other within `time` (s), group by group, each ascending: as far as
+/// Rows of world.bodies that may come to touch each other within `time` (s), group by group, each ascending: as far as
 /// their momentum, the speeds of their nodes about it, and gravity lead them.
 [[nodiscard]] std::vector<std::vector<std::size_t>> contact_groups(const World& world, double time);
 

@@ -61,7 +61,7 @@ bool ContactCandidates::may_touch(const Place& a, const Place& b) const {
 }
 
 void ContactCandidates::add_places(const Group& group, std::size_t side, const AlignedBox& near) {
-  const Body& body = group[sides_[side].actor]->body;
+  const Body& body = *group[sides_[side].actor];
   const ContactSurface& skin = skin_of(sides_[side]);
   const AlignedBox near_bricks = widened(near, body.grid.brick_size);  // skins may lie a little outside them
   for (std::size_t row = 0; row < skin.bricks.size(); ++row) {
@@ -81,7 +81,7 @@ void ContactCandidates::seek(const Group& group, double margin) {
   ++finds_;
   places_.clear();
   for (std::size_t side = 0; side < sides_.size(); ++side) {
-    const Body& facing = group[sides_[sides_.size() - 1 - side].actor]->body;
+    const Body& facing = *group[sides_[sides_.size() - 1 - side].actor];
     add_places(group, side, widened(box_around(facing.positions), margin + facing.grid.brick_size));
   }
   std::vector<AlignedBox> boxes;
@@ -112,7 +112,7 @@ void ContactCandidates::keep_near_places() {
 void ContactCandidates::find(const Group& group, Place& place) {
   const ContactSurface& skin = skin_of(place);
   Side& side = sides_[place.side];
-  const Body& body = group[side.actor]->body;
+  const Body& body = *group[side.actor];
   place.box.setEmpty();
   const auto add = [&](int point) {
     long& found = side.finds[point];
@@ -136,7 +136,7 @@ RigidMotion ContactCandidates::rigid_motion(const Group& group) const {
 
 double ContactCandidates::fastest_of(const Group& group, std::size_t side, std::size_t row,
                                      const RigidMotion& rigid) const {
-  const Body& body = group[sides_[side].actor]->body;
+  const Body& body = *group[sides_[side].actor];
   const ContactSurface& skin = skin_of(sides_[side]);
   double most = 0;
   for (int i = skin.first_point[row]; i < skin.first_point[row + 1]; ++i) {
@@ -166,7 +166,7 @@ double ContactCandidates::fastest_near(const Group& group) const {
 
 double ContactCandidates::closing_speed(const Group& group, double dt) const {
   const auto velocity_of = [&](const Place& place) {
-    const Body& body = group[sides_[place.side].actor]->body;
+    const Body& body = *group[sides_[place.side].actor];
     const int brick = skin_of(place).bricks[place.row];
     return carried(body, brick, CornerWeights::Constant(0.125), body.velocities);
   };
@@ -192,7 +192,7 @@ int ContactCandidates::tracked_row(const Group& group, std::size_t side, int poi
     const std::size_t actor = sides_[side].actor;
     const ContactSurface& skin = *skins_[actor];
     const int brick = skin.points[point].brick;
-    tracked_.push_back({actor, point, carried_normal(group[actor]->body, brick, skin.normals.row(point))});
+    tracked_.push_back({actor, point, carried_normal(*group[actor], brick, skin.normals.row(point))});
   }
   return row;
 }
@@ -204,7 +204,7 @@ void ContactCandidates::pair_up(const Group& group, const ContactRange& reach, c
   const Vec3 place = sides_[side].positions.row(point);
   const int brick = skin_of(sides_[side]).points[point].brick;
   const auto hangs_together = [&](int corner) {
-    return are_connected(group[sides_[side].actor]->body, brick, across.points[corner].brick);
+    return are_connected(*group[sides_[side].actor], brick, across.points[corner].brick);
   };
   for (int t = across.first_triangle[facing.row]; t < across.first_triangle[facing.row + 1]; ++t) {
     const std::array<int, 3>& triangle = across.triangles[t];
@@ -261,7 +261,7 @@ void ContactCandidates::look(const Group& group, const ContactRange& reach) {
 void ContactCandidates::follow(const Group& group) {
   for (TrackedPoint& tracked : tracked_) {
     const ContactPoint& point = skins_[tracked.actor]->points[tracked.point];
-    const Body& body = group[tracked.actor]->body;
+    const Body& body = *group[tracked.actor];
     tracked.place = carried(body, point, body.positions);
     tracked.velocity = carried(body, point, body.velocities);
   }

@@ -35,7 +35,7 @@ struct ContactRange {
 /// where their normals may point: that is sought from further away, and less often.
 class ContactCandidates {
  public:
-  /// Of two actors of the group, or of one with itself.
+  /// Of two bodies of the group, or of one with itself.
   ContactCandidates(const std::vector<const ContactSurface*>& skins, std::size_t actor, std::size_t other);
 
   /// Seeks the bricks whose skins are within `margin` (m) of each other. Deterministic.

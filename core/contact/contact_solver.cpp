@@ -45,9 +45,9 @@ ContactSolver::ContactSolver(Group group, std::vector<Eigen::VectorXd> inverse_m
       obstacle_contact_(skins_),
       skin_contacts_(skins_),
       squeeze_watches_(group_.size()) {
-  for (Actor* actor : group_) {
+  for (SoftBody* actor : group_) {
     skins_.push_back(&contact_surface_of(*actor));
-    places_.emplace_back(actor->body.node_count(), -1);
+    places_.emplace_back(actor->node_count(), -1);
   }
 }
 
@@ -88,7 +88,7 @@ std::size_t ContactSolver::place_of(std::size_t actor, int node) {
   int& place = places_[actor][node];
   if (place < 0) {
     place = isize(nodes_);
-    const Vec3 velocity = group_[actor]->body.velocities.row(node);
+    const Vec3 velocity = group_[actor]->velocities.row(node);
     nodes_.push_back({.actor = actor,
                       .node = node,
                       .inverse_mass = inverse_masses_[actor][node],
@@ -134,12 +134,12 @@ void ContactSolver::find_contacts(const World& world, double elapsed, double dt)
 void ContactSolver::find_inversions(double dt) {
   std::vector<const std::vector<InversionRate>*> found(group_.size());
   tbb::parallel_for(std::size_t{0}, group_.size(),
-                    [&](std::size_t actor) { found[actor] = &squeeze_watches_[actor].find(group_[actor]->body, dt); });
+                    [&](std::size_t actor) { found[actor] = &squeeze_watches_[actor].find(*group_[actor], dt); });
   for (std::size_t actor = 0; actor < group_.size(); ++actor) add_inversions(actor, *found[actor]);
 }
 
 void ContactSolver::add_inversions(std::size_t actor, const std::vector<InversionRate>& squeezes) {
-  const Body& body = group_[actor]->body;
+  const Body& body = *group_[actor];
   for (const InversionRate& squeeze : squeezes) {
     const auto& nodes = body.grid.nodes[squeeze.brick];
     const double size = body.grid.brick_size;  // so that both kinds of limit measure speeds
@@ -250,7 +250,7 @@ void ContactSolver::apply(const World& world, double elapsed, double dt) {
     if (is_last) break;
     momentum = next;
   }
-  for (const Pushed& node : nodes_) group_[node.actor]->body.velocities.row(node.node) = node.velocity.transpose();
+  for (const Pushed& node : nodes_) group_[node.actor]->velocities.row(node.node) = node.velocity.transpose();
 }
 
 }  // namespace sprung

@@ -9,7 +9,7 @@
 
 namespace sprung {
 
-/// Keeps the actors of a group out of obstacles, each other and themselves, what is glued together, and their bricks
+/// Keeps the bodies of a group out of obstacles, each other and themselves, what is glued together, and their bricks
 /// from being pressed flat or inside out, by impulses on the nodes. The impulse that stops a point carries Coulomb
 /// friction, which holds the point entirely below the friction angle; between bodies it pushes both alike. The impulse
 /// that stops a brick's collapse goes along the gradient of its volume, which neither moves nor turns the body: linear

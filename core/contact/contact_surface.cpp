@@ -66,12 +66,12 @@ std::vector<std::vector<int>> neighbours_among(const std::vector<int>& bricks, c
 
 }  // namespace
 
-ContactSurface::ContactSurface(const Actor& actor) {
+ContactSurface::ContactSurface(const SoftBody& actor) {
   add_triangles(actor, add_points(actor.contacts));
   for (std::size_t row = 0; row < bricks.size(); ++row) {
     cones.push_back(cone_of(normals.middleRows(first_point[row], first_point[row + 1] - first_point[row])));
   }
-  neighbours = neighbours_among(bricks, actor.body);
+  neighbours = neighbours_among(bricks, actor);
 }
 
 std::vector<int> ContactSurface::add_points(const Embedding& embedding) {
@@ -94,7 +94,7 @@ std::vector<int> ContactSurface::add_points(const Embedding& embedding) {
   return place_of;
 }
 
-void ContactSurface::add_triangles(const Actor& actor, const std::vector<int>& place_of) {
+void ContactSurface::add_triangles(const SoftBody& actor, const std::vector<int>& place_of) {
   for (int row = 0; row < actor.contact_triangles.rows(); ++row) {
     std::array<int, 3> corners{};
     for (int i = 0; i < 3; ++i) {
@@ -111,7 +111,7 @@ void ContactSurface::add_triangles(const Actor& actor, const std::vector<int>& p
     brick_of_triangle.push_back(owner(corners));
     std::array<Vec3, 3> x;
     for (std::size_t i = 0; i < 3; ++i) {
-      x[i] = carried(actor.body, points[corners[i]], actor.body.rest_positions);
+      x[i] = carried(actor, points[corners[i]], actor.rest_positions);
     }
     const Vec3 area = (x[1] - x[0]).cross(x[2] - x[0]);
     for (const int corner : corners) normals.row(corner) += area.transpose();
@@ -120,9 +120,9 @@ void ContactSurface::add_triangles(const Actor& actor, const std::vector<int>& p
   normals.rowwise().normalize();
 }
 
-const ContactSurface& contact_surface_of(Actor& actor) {
-  if (!actor.contact_skin) actor.contact_skin = std::make_shared<const ContactSurface>(actor);
-  return *actor.contact_skin;
+const ContactSurface& contact_surface_of(SoftBody& actor) {
+  if (!actor.contact_surface) actor.contact_surface = std::make_shared<const ContactSurface>(actor);
+  return *actor.contact_surface;
 }
 
 }  // namespace sprung

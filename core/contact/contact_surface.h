@@ -21,7 +21,7 @@ struct NormalCone {
 
 /// What touches on a body's behalf, arranged by brick.
 struct ContactSurface {
-  explicit ContactSurface(const Actor& actor);
+  explicit ContactSurface(const SoftBody& actor);
 
   std::vector<int> bricks;                    // b; that hold points, ascending
   std::vector<ContactPoint> points;           // n; grouped by brick
@@ -37,11 +37,11 @@ struct ContactSurface {
  private:
   /// Returns where in points each of the embedding's is.
   [[nodiscard]] std::vector<int> add_points(const Embedding& embedding);
-  void add_triangles(const Actor& actor, const std::vector<int>& place_of);
+  void add_triangles(const SoftBody& actor, const std::vector<int>& place_of);
 };
 
 /// Made when it is first asked for: contacts, their triangles and the rest shape do not change after that.
-[[nodiscard]] const ContactSurface& contact_surface_of(Actor& actor);
+[[nodiscard]] const ContactSurface& contact_surface_of(SoftBody& actor);
 
 /// What a point has of what its brick's corners have (m x 3, per node of the body).
 [[nodiscard]] inline Vec3 carried(const Body& body, int brick, const CornerWeights& weights, const Points& values) {

@@ -16,7 +16,7 @@ constexpr double kMostSteps = 24;      // what is pressed together can be fast w
 
 double smallest_brick(const Group& group) {
   double size = std::numeric_limits<double>::infinity();
-  for (const Actor* actor : group) size = std::min(size, actor->body.grid.brick_size);
+  for (const SoftBody* actor : group) size = std::min(size, actor->grid.brick_size);
   return size;
 }
 
@@ -24,16 +24,16 @@ RigidMotion rigid_motion_of(const Group& group) {
   Vec3 middle = Vec3::Zero();
   Vec3 momentum = Vec3::Zero();
   double mass = 0;
-  for (const Actor* actor : group) {
-    middle += actor->body.positions.transpose() * actor->body.masses;
-    momentum += actor->body.velocities.transpose() * actor->body.masses;
-    mass += actor->body.masses.sum();
+  for (const SoftBody* actor : group) {
+    middle += actor->positions.transpose() * actor->masses;
+    momentum += actor->velocities.transpose() * actor->masses;
+    mass += actor->masses.sum();
   }
   middle /= mass;
   Mat3 inertia = Mat3::Zero();
   Vec3 angular_momentum = Vec3::Zero();
-  for (const Actor* actor : group) {
-    const Body& body = actor->body;
+  for (const SoftBody* actor : group) {
+    const Body& body = *actor;
     for (int node = 0; node < body.node_count(); ++node) {
       const Vec3 arm = body.positions.row(node).transpose() - middle;
       inertia += body.masses[node] * (arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose());
@@ -55,7 +55,7 @@ void ContactList::append(const ContactList& other) {
 }
 
 void add_shares(const Group& group, std::size_t actor, int brick, const CornerWeights& weights, ContactList& touches) {
-  const auto& nodes = group[actor]->body.grid.nodes[brick];
+  const auto& nodes = group[actor]->grid.nodes[brick];
   for (int i = 0; i < 8; ++i) {
     if (weights[i] == 0) continue;
     touches.shares.push_back({int(actor), nodes[i], weights[i]});

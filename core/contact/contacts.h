@@ -8,7 +8,7 @@
 namespace sprung {
 
 /// Actors that may touch each other in the time to come and so move by the same steps.
-using Group = std::vector<Actor*>;
+using Group = std::vector<SoftBody*>;
 
 /// Side of the smallest bricks, m.
 [[nodiscard]] double smallest_brick(const Group& group);
@@ -20,7 +20,7 @@ struct RigidMotion {
   [[nodiscard]] Vec3 at(const Vec3& place) const { return shift + spin.cross(place); }
 };
 
-/// With the momentum and angular momentum of all actors.
+/// With the momentum and angular momentum of all bodies.
 [[nodiscard]] RigidMotion rigid_motion_of(const Group& group);
 
 /// How much of a node's velocity counts in a touch.
@@ -59,7 +59,7 @@ struct ContactList {
 /// Appends the shares of a point that rides in a brick, without those that are zero.
 void add_shares(const Group& group, std::size_t actor, int brick, const CornerWeights& weights, ContactList& touches);
 
-/// What touches what near which corner of which brick; `other` counts obstacles, then actors.
+/// What touches what near which corner of which brick; `other` counts obstacles, then bodies.
 [[nodiscard]] inline std::uint64_t touch_key(std::size_t other, std::size_t actor, int brick, int corner) {
   return std::uint64_t{other} << 50 | std::uint64_t{actor} << 36 | std::uint64_t(brick) << 3 | std::uint64_t(corner);
 }

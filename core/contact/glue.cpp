@@ -28,7 +28,7 @@ Pose pose_of(const Body& body) {
 }
 
 /// Of the points within the distance of a surface the nearest at each corner of a brick, by its row.
-std::vector<int> nearest_points(const Actor& actor, const Points& places, const MeshDistance& surface,
+std::vector<int> nearest_points(const SoftBody& actor, const Points& places, const MeshDistance& surface,
                                 double distance) {
   struct Candidate {
     int row;
@@ -53,36 +53,35 @@ std::vector<int> nearest_points(const Actor& actor, const Points& places, const 
 }  // namespace
 
 std::vector<GluedPoint> glue_between(const World& world, std::size_t a, std::size_t b, double distance) {
-  if (world.actors[b].body.grid.brick_size < world.actors[a].body.grid.brick_size) std::swap(a, b);
-  const Actor& one = world.actors[a];
-  const Actor& other = world.actors[b];
+  if (world.bodies[b].grid.brick_size < world.bodies[a].grid.brick_size) std::swap(a, b);
+  const SoftBody& one = world.bodies[a];
+  const SoftBody& other = world.bodies[b];
   if (other.contact_triangles.rows() == 0) return {};
-  const MeshDistance surface(deform_points(other.body.grid, other.contacts, other.body.positions),
-                             other.contact_triangles);
-  const Points places = deform_points(one.body.grid, one.contacts, one.body.positions);
+  const MeshDistance surface(deform_points(other.grid, other.contacts, other.positions), other.contact_triangles);
+  const Points places = deform_points(one.grid, one.contacts, one.positions);
   const std::vector<int> rows = nearest_points(one, places, surface, distance);
-  const Pose pose = pose_of(other.body);
+  const Pose pose = pose_of(other);
   const Points there = (places(rows, Eigen::all).rowwise() - pose.translation.transpose()) * pose.rotation;
-  const Embedding embedding = embed(other.body.grid, there);
+  const Embedding embedding = embed(other.grid, there);
   std::vector<GluedPoint> glue;
   glue.reserve(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     glue.push_back(
-        {.actors = {a, b},
+        {.bodies = {a, b},
          .bricks = {one.contacts.brick[rows[i]], embedding.brick[i]},
          .weights = {trilinear_weights(one.contacts.local.row(rows[i])), trilinear_weights(embedding.local.row(i))}});
   }
   return glue;
 }
 
-std::vector<GluedPoint> glue_within(const World& world, std::span<const std::size_t> actors) {
+std::vector<GluedPoint> glue_within(const World& world, std::span<const std::size_t> bodies) {
   std::vector<GluedPoint> within;
   for (GluedPoint point : world.glue) {
-    const auto first = std::find(actors.begin(), actors.end(), point.actors[0]);
-    if (first == actors.end()) continue;  // what is glued together is in one group
-    const auto second = std::find(actors.begin(), actors.end(), point.actors[1]);
-    point.actors[0] = std::size_t(first - actors.begin());
-    point.actors[1] = std::size_t(second - actors.begin());
+    const auto first = std::find(bodies.begin(), bodies.end(), point.bodies[0]);
+    if (first == bodies.end()) continue;  // what is glued together is in one group
+    const auto second = std::find(bodies.begin(), bodies.end(), point.bodies[1]);
+    point.bodies[0] = std::size_t(first - bodies.begin());
+    point.bodies[1] = std::size_t(second - bodies.begin());
     within.push_back(point);
   }
   return within;
@@ -95,9 +94,9 @@ void add_glue(const std::vector<GluedPoint>& glue, const Group& group, double dt
     Vec3 apart = Vec3::Zero();
     for (std::size_t side = 0; side < 2; ++side) {
       const double sign = side == 0 ? 1 : -1;
-      const Body& body = group[point.actors[side]]->body;
+      const Body& body = *group[point.bodies[side]];
       apart += sign * carried(body, point.bricks[side], point.weights[side], body.positions);
-      add_shares(group, point.actors[side], point.bricks[side], sign * point.weights[side], touches);
+      add_shares(group, point.bodies[side], point.bricks[side], sign * point.weights[side], touches);
     }
     touches.list.push_back({.key = touch_key(kGlue, 0, 0, 0) + i,
                             .first = first,

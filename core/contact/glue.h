@@ -11,8 +11,8 @@ namespace sprung {
 /// one with the smaller bricks; both as their bodies start, not yet bent. Deterministic.
 [[nodiscard]] std::vector<GluedPoint> glue_between(const World& world, std::size_t a, std::size_t b, double distance);
 
-/// What is glued among these actors, by their rows in the list.
-[[nodiscard]] std::vector<GluedPoint> glue_within(const World& world, std::span<const std::size_t> actors);
+/// What is glued among these bodies, by their rows in the list.
+[[nodiscard]] std::vector<GluedPoint> glue_within(const World& world, std::span<const std::size_t> bodies);
 
 /// Appends what each glued point of a group needs to stay together in the step to come, ordered by key.
 void add_glue(const std::vector<GluedPoint>& glue, const Group& group, double dt, ContactList& touches);

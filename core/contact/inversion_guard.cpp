@@ -52,15 +52,15 @@ double smallest_volume(const BrickColumns& x) {
 }  // namespace
 
 double impact_speed(const World& world) {
-  const bool is_alone = world.obstacles.empty() && (world.actors.size() < 2 || !world.bodies_collide);
+  const bool is_alone = world.obstacles.empty() && (world.bodies.size() < 2 || !world.bodies_collide);
   if (is_alone) return 0;
   double lowest = std::numeric_limits<double>::infinity();
-  for (const Actor& actor : world.actors) lowest = std::min(lowest, actor.body.positions.col(1).minCoeff());
+  for (const SoftBody& actor : world.bodies) lowest = std::min(lowest, actor.positions.col(1).minCoeff());
   double highest = lowest;
   double fastest = 0;
-  for (const Actor& actor : world.actors) {
-    highest = std::max(highest, actor.body.positions.col(1).minCoeff());
-    fastest = std::max(fastest, largest_speed(actor.body));
+  for (const SoftBody& actor : world.bodies) {
+    highest = std::max(highest, actor.positions.col(1).minCoeff());
+    fastest = std::max(fastest, largest_speed(actor));
   }
   for (const Obstacle& obstacle : world.obstacles) lowest = std::min(lowest, obstacle.pose.translation.y());
   return std::sqrt(fastest * fastest + 2 * world.gravity.norm() * (highest - lowest));

@@ -78,7 +78,7 @@ void ObstacleContact::look(const World& world, const std::vector<Pose>& poses, d
   for (std::size_t o = 0; o < poses.size(); ++o) {
     const Obstacle& obstacle = world.obstacles[o];
     for (std::size_t actor = 0; actor < group.size(); ++actor) {
-      const Body& body = group[actor]->body;
+      const Body& body = *group[actor];
       const Vec3 middle = body.positions.colwise().mean();
       const double around =
           std::sqrt((body.positions.rowwise() - middle.transpose()).rowwise().squaredNorm().maxCoeff());
@@ -116,7 +116,7 @@ bool ObstacleContact::has_to_be_held(const BrickMotion& motion, const Hold& hold
 
 void ObstacleContact::touch_brick(const World& world, const std::vector<Pose>& poses, double dt, const Group& group,
                                   const Near& near, ContactList& touches) {
-  const Body& body = group[near.actor]->body;
+  const Body& body = *group[near.actor];
   const auto& nodes = body.grid.nodes[near.brick];
   const Hold hold{world.obstacles[near.obstacle], poses[near.obstacle], world.gravity.norm(), dt};
   const BrickMotion motion{columns_of(nodes, body.positions), columns_of(nodes, body.velocities), body.grid.brick_size};

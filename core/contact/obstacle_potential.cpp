@@ -18,8 +18,8 @@ double young_at(const Body& body, int brick) {
 
 }  // namespace
 
-std::vector<double> contact_stiffness(const Actor& actor, const ContactSurface& skin) {
-  const Body& body = actor.body;
+std::vector<double> contact_stiffness(const SoftBody& actor, const ContactSurface& skin) {
+  const Body& body = actor;
   std::vector<double> hardness(skin.points.size());
   for (std::size_t i = 0; i < skin.bricks.size(); ++i) {
     const double count = skin.first_point[i + 1] - skin.first_point[i];
@@ -40,7 +40,7 @@ double glue_stiffness(const Body& body, int brick, const Body& other, int other_
   return pair_stiffness(whole, body, brick, other, other_brick);
 }
 
-ObstaclePotential::ObstaclePotential(Actor& actor, const Obstacle& obstacle, double slip_speed)
+ObstaclePotential::ObstaclePotential(SoftBody& actor, const Obstacle& obstacle, double slip_speed)
     : actor_(actor),
       obstacle_(obstacle),
       skin_(contact_surface_of(actor)),
@@ -54,7 +54,7 @@ ObstaclePotential::ObstaclePotential(Actor& actor, const Obstacle& obstacle, dou
 /// Distances are asked for again only where the brick may have come near since.
 bool ObstaclePotential::is_far(std::size_t brick, const Points& positions) {
   AlignedBox box;
-  for (const int node : actor_.body.grid.nodes[skin_.bricks[brick]]) {
+  for (const int node : actor_.grid.nodes[skin_.bricks[brick]]) {
     box.extend(Vec3(positions.row(node)));
   }
   // Points lie in the hull of the corners, or a little outside where the surface has no brick of its own.
@@ -75,7 +75,7 @@ void ObstaclePotential::for_touching_points(const Points& positions, const Visit
     const std::size_t last = skin_.first_point[i + 1];
     for (auto p = std::size_t(skin_.first_point[i]); p < last; ++p) {
       if (far && points_[p].pressing == 0) continue;
-      const Vec3 place = carried(actor_.body, skin_.points[p], positions);
+      const Vec3 place = carried(actor_, skin_.points[p], positions);
       const Gap gap = signed_distance(obstacle_.shape, pose_, place);
       if (gap.distance < 0 || points_[p].pressing > 0) visit(points_[p], skin_.points[p], place, gap);
     }
@@ -88,7 +88,7 @@ void ObstaclePotential::begin(const Points& positions, double elapsed, double dt
   pose_ = pose_after(obstacle_, elapsed + dt);
   const Mat3 turn = pose_.rotation * before.rotation.transpose();
   for (std::size_t p = 0; p < points_.size(); ++p) {
-    const Vec3 place = carried(actor_.body, skin_.points[p], positions);
+    const Vec3 place = carried(actor_, skin_.points[p], positions);
     points_[p].start = pose_.translation + turn * (place - before.translation);
   }
   update_friction(positions);
@@ -123,7 +123,7 @@ double ObstaclePotential::add_forces(const Points& positions, Points& forces) {
     energy += 0.5 * point.stiffness * depth * depth;
     energy += held.energy();
     const Vec3 force = point.stiffness * depth * gap.normal + held.force();
-    const auto& nodes = actor_.body.grid.nodes[at.brick];
+    const auto& nodes = actor_.grid.nodes[at.brick];
     for (std::size_t c = 0; c < 8; ++c) forces.row(nodes[c]) += at.weights[c] * force.transpose();
   });
   return energy;

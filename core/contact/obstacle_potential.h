@@ -10,7 +10,7 @@ namespace sprung {
 
 /// What pushes back a contact point of a body that is inside something, in steps that have contact as an energy, N/m
 /// by point: twenty times the stiffness E h of its brick, shared among the points of the brick.
-[[nodiscard]] std::vector<double> contact_stiffness(const Actor& actor, const ContactSurface& skin);
+[[nodiscard]] std::vector<double> contact_stiffness(const SoftBody& actor, const ContactSurface& skin);
 
 /// The same of two bodies that touch: by the softer of the bricks.
 [[nodiscard]] double pair_stiffness(double hardness, const Body& body, int brick, const Body& other, int other_brick);
@@ -60,7 +60,7 @@ class FrictionPotential {
 class ObstaclePotential {
  public:
   /// `slip_speed` in m/s. Both have to outlive it.
-  ObstaclePotential(Actor& actor, const Obstacle& obstacle, double slip_speed);
+  ObstaclePotential(SoftBody& actor, const Obstacle& obstacle, double slip_speed);
 
   /// Before a step of dt that begins when the obstacle has moved by itself for `elapsed` (s): friction is measured from
   /// where its material carries the points meanwhile.
@@ -92,7 +92,7 @@ class ObstaclePotential {
   template <class Visit>
   void for_touching_points(const Points& positions, const Visit& visit);
 
-  const Actor& actor_;
+  const SoftBody& actor_;
   const Obstacle& obstacle_;
   const ContactSurface& skin_;
   double slip_speed_;

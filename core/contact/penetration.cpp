@@ -11,15 +11,15 @@ namespace sprung {
 namespace {
 
 /// Where the contact points that can move are, m.
-Points free_points(const Actor& actor) {
-  std::vector<bool> is_held(actor.body.node_count());
+Points free_points(const SoftBody& actor) {
+  std::vector<bool> is_held(actor.node_count());
   for (const KinematicNode& held : actor.pinned) is_held[held.node] = true;
-  const Points points = deform_points(actor.body.grid, actor.contacts, actor.body.positions);
+  const Points points = deform_points(actor.grid, actor.contacts, actor.positions);
   std::vector<int> rows;
   rows.reserve(points.rows());
   for (int point = 0; point < points.rows(); ++point) {
     const std::size_t brick = actor.contacts.brick[point];
-    const auto& nodes = actor.body.grid.nodes[brick];
+    const auto& nodes = actor.grid.nodes[brick];
     const bool is_free = std::any_of(nodes.begin(), nodes.end(), [&](int node) { return !is_held[node]; });
     if (is_free) rows.push_back(point);
   }
@@ -39,8 +39,8 @@ Points brick_middles(const Body& body) {
 class Surface {
  public:
   /// `actor` has contact triangles.
-  explicit Surface(const Actor& actor)
-      : points_(deform_points(actor.body.grid, actor.contacts, actor.body.positions)),
+  explicit Surface(const SoftBody& actor)
+      : points_(deform_points(actor.grid, actor.contacts, actor.positions)),
         box_(box_around(points_)),
         distance_(points_, actor.contact_triangles) {}
 
@@ -69,34 +69,34 @@ double penetration_depth(const Obstacle& obstacle, const Points& points) {
 
 }  // namespace
 
-double penetration_depth(const Obstacle& obstacle, const Actor& actor) {
+double penetration_depth(const Obstacle& obstacle, const SoftBody& actor) {
   return penetration_depth(obstacle, free_points(actor));
 }
 
-double penetration_depth(const Actor& other, const Actor& actor) {
+double penetration_depth(const SoftBody& other, const SoftBody& actor) {
   if (other.contact_triangles.rows() == 0) return 0;
   const Points points = free_points(actor);
   if (points.rows() == 0) return 0;
   const Surface surface(other);
-  return std::max(surface.depth_of(points), surface.depth_of(brick_middles(actor.body)));
+  return std::max(surface.depth_of(points), surface.depth_of(brick_middles(actor)));
 }
 
 double deepest_penetration(const World& world) {
   std::vector<Points> points;
   std::vector<AlignedBox> boxes;
   double depth = 0;
-  for (const Actor& actor : world.actors) {
+  for (const SoftBody& actor : world.bodies) {
     points.push_back(free_points(actor));
-    boxes.push_back(box_around(actor.body.positions));
+    boxes.push_back(box_around(actor.positions));
     for (const Obstacle& obstacle : world.obstacles)
       depth = std::max(depth, penetration_depth(obstacle, points.back()));
   }
   if (!world.bodies_collide) return depth;
-  std::vector<std::optional<Surface>> surfaces(world.actors.size());
+  std::vector<std::optional<Surface>> surfaces(world.bodies.size());
   const auto look = [&](int row, int other) {
     const std::size_t target = other;
-    if (world.actors[target].contact_triangles.rows() == 0) return;
-    if (!surfaces[target]) surfaces[target].emplace(world.actors[target]);
+    if (world.bodies[target].contact_triangles.rows() == 0) return;
+    if (!surfaces[target]) surfaces[target].emplace(world.bodies[target]);
     depth = std::max(depth, surfaces[target]->depth_of(points[row]));
   };
   for (const auto& [a, b] : overlapping_boxes(boxes)) {

@@ -5,11 +5,11 @@ namespace sprung {
 
 /// How deep (m) the contact points of a body are in something at most; 0 where none is. Points that are held where they
 /// are, since all corners of their brick are, are in nobody's way and do not count.
-[[nodiscard]] double penetration_depth(const Obstacle& obstacle, const Actor& actor);
+[[nodiscard]] double penetration_depth(const Obstacle& obstacle, const SoftBody& actor);
 
 /// In another body, whose contact triangles enclose it; 0 where it has none. The middles of bricks count too: the skins
 /// of two bodies at the same place do not lie in each other, they are the same.
-[[nodiscard]] double penetration_depth(const Actor& other, const Actor& actor);
+[[nodiscard]] double penetration_depth(const SoftBody& other, const SoftBody& actor);
 
 /// In any obstacle, and in any other body if bodies touch each other: the most of all. How deep a body is in itself is
 /// not seen.

@@ -43,7 +43,7 @@ void SkinContact::add(const Group& group, const Held& held, ContactList& touches
 double SkinContact::room_of(const Group& group, const CandidatePair& pair) const {
   const auto of = [&](int row) {
     const TrackedPoint& point = pairs_.tracked(row);
-    const Body& body = group[point.actor]->body;
+    const Body& body = *group[point.actor];
     const int brick = skins_[point.actor]->points[point.point].brick;
     const Mat3 axes = mean_axes_of(columns_of(body.grid.nodes[brick], body.positions));
     return axes.determinant() / body.grid.brick_volume();
@@ -80,7 +80,7 @@ void SkinContact::keep_hardest() {
 
 void SkinContact::look(const Group& group, double gravity, double dt) {
   if (steps_to_update_ == 0) {
-    const double brick = std::min(group[actors_[0]]->body.grid.brick_size, group[actors_[1]]->body.grid.brick_size);
+    const double brick = std::min(group[actors_[0]]->grid.brick_size, group[actors_[1]]->grid.brick_size);
     if (steps_to_seek_ <= 0) {
       pairs_.seek(group, kFarMargin * brick);
       steps_to_seek_ = steps_until_update((kFarMargin - kMargin) * brick, pairs_.fastest(group), gravity, dt);
@@ -118,8 +118,8 @@ constexpr double kBodyMargin = 2;  // bricks: bodies nearer than that are watche
 double fastest(const Group& group) {
   const RigidMotion rigid = rigid_motion_of(group);
   double most = 0;
-  for (const Actor* actor : group) {
-    const Body& body = actor->body;
+  for (const SoftBody* actor : group) {
+    const Body& body = *actor;
     for (int node = 0; node < body.node_count(); ++node) {
       const Vec3 velocity = body.velocities.row(node);
       most = std::max(most, (velocity - rigid.at(body.positions.row(node))).squaredNorm());

@@ -16,7 +16,7 @@ namespace sprung {
 /// than 0.7 bricks is not found.
 class SkinContact {
  public:
-  /// Of two actors of the group, or of one with itself.
+  /// Of two bodies of the group, or of one with itself.
   SkinContact(const std::vector<const ContactSurface*>& skins, std::size_t actor, std::size_t other)
       : skins_(skins), actors_{actor, other}, pairs_(skins, actor, other) {}
 
@@ -68,7 +68,7 @@ class SkinContacts {
   void seek(const World& world, const Group& group, double dt);
 
   const std::vector<const ContactSurface*>& skins_;
-  std::map<std::pair<std::size_t, std::size_t>, SkinContact> contacts_;  // actors of the group; twice the same: itself
+  std::map<std::pair<std::size_t, std::size_t>, SkinContact> contacts_;  // bodies of the group; twice the same: itself
   std::vector<ContactList> found_;                                       // by pair
   int steps_to_seek_ = 0;
 };

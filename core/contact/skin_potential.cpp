@@ -17,9 +17,9 @@ constexpr double kDeepest = 1;  // bricks: what is deeper came from the other si
 SkinPotential::SkinPotential(const World& world, const Group& group, const std::vector<GluedPoint>& glue,
                              const Step& step, const std::vector<Eigen::VectorXd*>& pushed_in)
     : group_(group), glue_(glue), slip_(step.slip) {
-  for (Actor* actor : group) {
+  for (SoftBody* actor : group) {
     skins_.push_back(&contact_surface_of(*actor));
-    starts_.push_back(actor->body.positions);
+    starts_.push_back(actor->positions);
   }
   watch(world, pushed_in);
   refresh();
@@ -37,9 +37,9 @@ void SkinPotential::lift(double gravity, double dt) {
 void SkinPotential::watch(const World& world, const std::vector<Eigen::VectorXd*>& pushed_in) {
   std::vector<std::vector<double>> hardness(group_.size());
   double largest_brick = 0;
-  for (const Actor* actor : group_) largest_brick = std::max(largest_brick, actor->body.grid.brick_size);
+  for (const SoftBody* actor : group_) largest_brick = std::max(largest_brick, actor->grid.brick_size);
   for (const auto& [a, b] : broad_phase(world, group_, kMargin * largest_brick)) {
-    const double brick = std::min(group_[a]->body.grid.brick_size, group_[b]->body.grid.brick_size);
+    const double brick = std::min(group_[a]->grid.brick_size, group_[b]->grid.brick_size);
     ContactCandidates& pairs = pairs_.emplace_back(skins_, a, b);
     pairs.seek(group_, kMargin * brick);
     pairs.look(group_, {.margin = kMargin * brick, .deepest = kDeepest * brick});
@@ -82,12 +82,12 @@ void SkinPotential::add_glue() {
   for (const GluedPoint& point : glue_) {
     Coupling place;
     for (std::size_t side = 0; side < 2; ++side) {
-      place.corners.push_back({.body = point.actors[side],
+      place.corners.push_back({.body = point.bodies[side],
                                .brick = point.bricks[side],
                                .weights = (side == 0 ? 1 : -1) * point.weights[side]});
     }
     const double stiffness =
-        glue_stiffness(group_[point.actors[0]]->body, point.bricks[0], group_[point.actors[1]]->body, point.bricks[1]);
+        glue_stiffness(*group_[point.bodies[0]], point.bricks[0], *group_[point.bodies[1]], point.bricks[1]);
     holds_.push_back({.watch = 0,
                       .is_glue = true,
                       .place = std::move(place),
@@ -108,8 +108,8 @@ void SkinPotential::add_contact(std::size_t watch, const PointTriangleContact& s
   for (std::size_t i = 0; i < ride.count; ++i) {
     place.corners.push_back({.body = other, .brick = ride.bricks[i], .weights = ride.weights[i]});
   }
-  const double stiffness = pair_stiffness(watches_[watch].hardness, group_[point.actor]->body, at.brick,
-                                          group_[other]->body, ride.bricks[0]);
+  const double stiffness =
+      pair_stiffness(watches_[watch].hardness, *group_[point.actor], at.brick, *group_[other], ride.bricks[0]);
   const Vec3 start = sum(place, true);
   holds_.push_back({.watch = watch,
                     .is_glue = false,
@@ -122,7 +122,7 @@ void SkinPotential::add_contact(std::size_t watch, const PointTriangleContact& s
 Vec3 SkinPotential::sum(const Coupling& place, bool at_start) const {
   Vec3 sum = Vec3::Zero();
   for (const CoupledCorners& corners : place.corners) {
-    const Body& body = group_[corners.body]->body;
+    const Body& body = *group_[corners.body];
     sum += carried(body, corners.brick, corners.weights, at_start ? starts_[corners.body] : body.positions);
   }
   return sum;
@@ -188,7 +188,7 @@ double SkinPotential::add_forces(const std::vector<Points*>& forces) const {
       force = hold.stiffness * deep * hold.normal + held.force();
     }
     for (const CoupledCorners& corners : hold.place.corners) {
-      const auto& nodes = group_[corners.body]->body.grid.nodes[corners.brick];
+      const auto& nodes = group_[corners.body]->grid.nodes[corners.brick];
       for (std::size_t c = 0; c < 8; ++c) {
         forces[corners.body]->row(nodes[c]) += corners.weights[c] * force.transpose();
       }

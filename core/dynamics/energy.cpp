@@ -13,15 +13,15 @@ namespace {
 constexpr double kMostGain = 0.3;  // of what moves and strains a body, that a frame's rounding of time may add
 
 /// Whether something moves it that may give energy.
-bool is_driven(const Actor& actor) {
+bool is_driven(const SoftBody& actor) {
   if (!actor.loads.empty()) return true;
   return std::any_of(actor.pinned.begin(), actor.pinned.end(),
                      [](const KinematicNode& held) { return !held.velocity.isZero(); });
 }
 
-Energy sum_of(const std::vector<Energy>& all, std::span<const std::size_t> actors) {
+Energy sum_of(const std::vector<Energy>& all, std::span<const std::size_t> bodies) {
   Energy sum;
-  for (const std::size_t i : actors) {
+  for (const std::size_t i : bodies) {
     sum.kinetic += all[i].kinetic;
     sum.elastic += all[i].elastic;
     sum.potential += all[i].potential;
@@ -29,11 +29,11 @@ Energy sum_of(const std::vector<Energy>& all, std::span<const std::size_t> actor
   return sum;
 }
 
-bool has_gained(const Energy& before, const Energy& after, const World& world, std::span<const std::size_t> actors) {
+bool has_gained(const Energy& before, const Energy& after, const World& world, std::span<const std::size_t> bodies) {
   const double moving = std::max(before.kinetic + before.elastic, after.kinetic + after.elastic);
   double slack = 0;
-  for (const std::size_t i : actors) {
-    const Body& body = world.actors[i].body;
+  for (const std::size_t i : bodies) {
+    const Body& body = world.bodies[i];
     slack += body.masses.sum() * world.gravity.norm() * body.grid.brick_size;  // lift
     slack += 1e-12 * body.material.young * body.grid.volume();                 // rounding
   }
@@ -51,27 +51,27 @@ Energy energy_of(const Body& body, const Vec3& gravity) {
 
 std::vector<Energy> energies_of(const World& world) {
   std::vector<Energy> all;
-  for (const Actor& actor : world.actors) all.push_back(energy_of(actor.body, world.gravity));
+  for (const SoftBody& actor : world.bodies) all.push_back(energy_of(actor, world.gravity));
   return all;
 }
 
-std::vector<Energy> energies_of(const World& world, std::span<const std::size_t> actors) {
-  std::vector<Energy> some(world.actors.size());
-  for (const std::size_t i : actors) some[i] = energy_of(world.actors[i].body, world.gravity);
+std::vector<Energy> energies_of(const World& world, std::span<const std::size_t> bodies) {
+  std::vector<Energy> some(world.bodies.size());
+  for (const std::size_t i : bodies) some[i] = energy_of(world.bodies[i], world.gravity);
   return some;
 }
 
-std::string energy_gain(const World& world, std::span<const std::size_t> actors, const std::vector<Energy>& before,
+std::string energy_gain(const World& world, std::span<const std::size_t> bodies, const std::vector<Energy>& before,
                         const std::vector<Energy>& after) {
   if (std::any_of(world.obstacles.begin(), world.obstacles.end(),
                   [](const Obstacle& one) { return one.is_moving(); }) ||
       world.wind.blows() ||
-      std::any_of(actors.begin(), actors.end(), [&](std::size_t i) { return is_driven(world.actors[i]); })) {
+      std::any_of(bodies.begin(), bodies.end(), [&](std::size_t i) { return is_driven(world.bodies[i]); })) {
     return "";
   }
-  const Energy start = sum_of(before, actors);
-  const Energy end = sum_of(after, actors);
-  if (!has_gained(start, end, world, actors)) return "";
+  const Energy start = sum_of(before, bodies);
+  const Energy end = sum_of(after, bodies);
+  if (!has_gained(start, end, world, bodies)) return "";
   return fmt::format("energy from nowhere, {:.3g} J more than {:.3g} J", end.sum() - start.sum(),
                      start.kinetic + start.elastic);
 }

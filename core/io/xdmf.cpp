@@ -7,7 +7,7 @@
 
 #include "core/body/brick_measures.h"
 #include "core/error.h"
-#include "core/io/cache_format.h"
+#include "core/io/hdf5_file.h"
 #include "core/io/mesh_export.h"
 #include "core/skin/skin.h"
 
@@ -46,7 +46,13 @@ XdmfWriter::XdmfWriter(fs::path file, const World& world)
     : file_(std::move(file)),
       numbers_(with_ending(file_, ".h5")),
       world_(world),
-      hdf5_(with_ending(numbers_, ".partial")) {}
+      hdf5_(with_ending(numbers_, ".partial")) {
+  for (std::size_t row = 0; row < world_.bodies.size(); ++row) {
+    const SoftBody& body = world_.bodies[row];
+    write_bricks(fmt::format("/bricks_{}", row + 1), body);
+    write_matrix(hdf5_, fmt::format("/skin_{}/triangles", row + 1), body.skin.triangles);
+  }
+}
 
 XdmfWriter::~XdmfWriter() {
   std::error_code ignored;
@@ -59,7 +65,7 @@ std::string XdmfWriter::item_text(const Item& item) const {
                      item.name);
 }
 
-void XdmfWriter::write_bricks(const std::string& folder, const Body& body) {
+void XdmfWriter::write_bricks(const std::string& folder, const SoftBody& body) {
   Hexahedra hexahedra(body.grid.brick_count(), 8);
   Eigen::VectorXf fill(body.grid.brick_count());
   for (Eigen::Index brick = 0; brick < hexahedra.rows(); ++brick) {
@@ -72,23 +78,15 @@ void XdmfWriter::write_bricks(const std::string& folder, const Body& body) {
   write_matrix(hdf5_, folder + "/hexahedra", hexahedra);
   write_matrix(hdf5_, folder + "/fill", fill);
   write_matrix(hdf5_, folder + "/young", Eigen::VectorXf(brick_youngs(body).cast<float>()));
+  hdf5_.write(folder + "/region", std::span<const int>(body.origin.regions), {body.origin.regions.size()});
 }
 
-void XdmfWriter::add_actor(const std::vector<int>& regions, const Triangles& skin) {
-  const Body& body = world_.actors.at(triangle_counts_.size()).body;
-  triangle_counts_.push_back(skin.rows());
-  const std::string bricks = fmt::format("/bricks_{}", triangle_counts_.size());
-  write_bricks(bricks, body);
-  hdf5_.write(bricks + "/region", std::span<const int>(regions), {regions.size()});
-  write_matrix(hdf5_, fmt::format("/skin_{}/triangles", triangle_counts_.size()), skin);
-}
-
-std::string XdmfWriter::brick_grid(std::size_t actor, const std::string& folder, const Points& nodes,
+std::string XdmfWriter::brick_grid(std::size_t row, const std::string& folder, const Points& nodes,
                                    const Points& velocities) {
-  const Body& body = world_.actors[actor].body;
+  const Body& body = world_.bodies[row];
   const std::size_t bricks = body.grid.brick_count();
   const std::size_t count = nodes.rows();
-  const std::string fixed = fmt::format("/bricks_{}", actor + 1);
+  const std::string fixed = fmt::format("/bricks_{}", row + 1);
   const std::string place = folder + fixed;
   const auto measured = [&](BrickMeasure measure) {
     return Eigen::VectorXf(measure_bricks(body, measure, nodes).cast<float>());
@@ -100,8 +98,7 @@ std::string XdmfWriter::brick_grid(std::size_t actor, const std::string& folder,
   std::string text = fmt::format(
       "<Grid Name=\"bricks {}\" GridType=\"Uniform\">\n<Topology TopologyType=\"Hexahedron\" NumberOfElements=\"{}\">"
       "{}</Topology>\n<Geometry GeometryType=\"XYZ\">{}</Geometry>\n",
-      actor + 1, bricks, item_text({fixed + "/hexahedra", {bricks, 8}, true}),
-      item_text({place + "/nodes", {count, 3}}));
+      row + 1, bricks, item_text({fixed + "/hexahedra", {bricks, 8}, true}), item_text({place + "/nodes", {count, 3}}));
   for (const CellField& field :
        {CellField{"region", fixed, true}, {"young", fixed}, {"fill", fixed}, {"stretch", place}, {"stress", place}}) {
     text += fmt::format("<Attribute Name=\"{}\" AttributeType=\"Scalar\" Center=\"Cell\">{}</Attribute>\n", field.name,
@@ -112,25 +109,26 @@ std::string XdmfWriter::brick_grid(std::size_t actor, const std::string& folder,
                      item_text({place + "/velocity", {count, 3}}));
 }
 
-std::string XdmfWriter::skin_grid(std::size_t actor, const std::string& folder, const Points& skin) {
-  const std::size_t triangles = triangle_counts_.at(actor);
-  const std::string name = fmt::format("/skin_{}", actor + 1);
+std::string XdmfWriter::skin_grid(std::size_t row, const std::string& folder, const Points& nodes) {
+  const SoftBody& body = world_.bodies[row];
+  const Points skin = body.skin_positions(nodes);
+  const std::size_t triangles = body.skin.triangles.rows();
+  const std::string name = fmt::format("/skin_{}", row + 1);
   write_matrix(hdf5_, folder + name + "/positions", Floats3(skin.cast<float>()));
   return fmt::format(
       "<Grid Name=\"skin {}\" GridType=\"Uniform\">\n<Topology TopologyType=\"Triangle\" NumberOfElements=\"{}\">{}"
       "</Topology>\n<Geometry GeometryType=\"XYZ\">{}</Geometry>\n</Grid>\n",
-      actor + 1, triangles, item_text({name + "/triangles", {triangles, 3}, true}),
+      row + 1, triangles, item_text({name + "/triangles", {triangles, 3}, true}),
       item_text({folder + name + "/positions", {std::size_t(skin.rows()), 3}}));
 }
 
-void XdmfWriter::add_frame(double time, const std::vector<Points>& nodes, const std::vector<Points>& velocities,
-                           const std::vector<Points>& skins) {
+void XdmfWriter::add_frame(double time, const std::vector<Points>& nodes, const std::vector<Points>& velocities) {
   const std::string folder = fmt::format("/frame_{}", ++frame_count_);
   frames_ += fmt::format(
       "<Grid Name=\"frame {}\" GridType=\"Collection\" CollectionType=\"Spatial\">\n<Time Value=\"{:.9g}\"/>\n",
       frame_count_, time);
-  for (std::size_t actor = 0; actor < nodes.size(); ++actor) {
-    frames_ += brick_grid(actor, folder, nodes[actor], velocities[actor]) + skin_grid(actor, folder, skins[actor]);
+  for (std::size_t row = 0; row < nodes.size(); ++row) {
+    frames_ += brick_grid(row, folder, nodes[row], velocities[row]) + skin_grid(row, folder, nodes[row]);
   }
   frames_ += "</Grid>\n";
 }

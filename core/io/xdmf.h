@@ -8,7 +8,7 @@
 
 namespace sprung {
 
-/// A film for ParaView: `run.xdmf` says what is where in `run.xdmf.h5`. In every frame, for every actor, its bricks as
+/// A film for ParaView: `run.xdmf` says what is where in `run.xdmf.h5`. In every frame, for every body, its bricks as
 /// hexahedra with their region, Young's modulus, fill, stretch and stress (brick_measures.h) and the velocity of their
 /// nodes, and its skin as triangles. Floats, but for the regions.
 class XdmfWriter {
@@ -19,26 +19,22 @@ class XdmfWriter {
   XdmfWriter(const XdmfWriter&) = delete;
   XdmfWriter& operator=(const XdmfWriter&) = delete;
 
-  /// What the next actor has in all frames, its regions a number a brick; for all of them before the first frame.
-  void add_actor(const std::vector<int>& regions, const Triangles& skin);
-  /// By actor: nodes (m) and their velocities (m/s), skin vertices (m).
-  void add_frame(double time, const std::vector<Points>& nodes, const std::vector<Points>& velocities,
-                 const std::vector<Points>& skins);
+  /// By body: nodes (m) and their velocities (m/s).
+  void add_frame(double time, const std::vector<Points>& nodes, const std::vector<Points>& velocities);
   /// Gives the files their names.
   void close();
 
  private:
   struct Item;
   [[nodiscard]] std::string item_text(const Item& item) const;
-  void write_bricks(const std::string& folder, const Body& body);
-  [[nodiscard]] std::string brick_grid(std::size_t actor, const std::string& folder, const Points& nodes,
+  void write_bricks(const std::string& folder, const SoftBody& body);
+  [[nodiscard]] std::string brick_grid(std::size_t row, const std::string& folder, const Points& nodes,
                                        const Points& velocities);
-  [[nodiscard]] std::string skin_grid(std::size_t actor, const std::string& folder, const Points& skin);
+  [[nodiscard]] std::string skin_grid(std::size_t row, const std::string& folder, const Points& nodes);
 
   std::filesystem::path file_;
   std::filesystem::path numbers_;  // beside it
   const World& world_;
-  std::vector<Eigen::Index> triangle_counts_;
   Hdf5Writer hdf5_;
   std::string frames_;
   std::size_t frame_count_ = 0;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <limits>
@@ -17,10 +18,22 @@
 #include "core/pose.h"
 #include "core/simulation/selector.h"
 #include "core/simulation/shapes.h"
-#include "core/simulation/soft_body.h"
+#include "core/simulation/simulation.h"
 #include "core/units.h"
 
 namespace sprung {
+MeshBox recentre(SurfaceMesh& mesh) {
+  Vec3 low = mesh.positions.row(mesh.triangles(0, 0));
+  Vec3 high = low;
+  for (const int vertex : mesh.triangles.reshaped()) {
+    low = low.cwiseMin(mesh.positions.row(vertex).transpose());
+    high = high.cwiseMax(mesh.positions.row(vertex).transpose());
+  }
+  const Vec3 middle = low + (high - low) / 2;
+  mesh.positions.rowwise() -= middle.transpose();
+  return {.middle = middle, .extent = high - low};
+}
+
 namespace {
 
 /// Sizes between a mesh and its origin from which on single precision rounds its shape by more than a thousandth.
@@ -76,8 +89,8 @@ double wanted_brick_size(const SceneBody& body, const Vec3& extent) {
 }
 
 void load_mesh(const SceneBody& body, LoadedBody& loaded) {
-  loaded.name = body.mesh.filename().string();
-  loaded.mesh = read_mesh(body.mesh);
+  loaded.name = body.surface ? "the mesh" : body.mesh.filename().string();
+  loaded.mesh = body.surface ? *body.surface : read_mesh(body.mesh);
   if (!body.texture.empty()) put_on_texture(body, loaded.mesh);
   const auto [middle, extent] = recentre(loaded.mesh);
   const double length = extent.maxCoeff();
@@ -223,11 +236,31 @@ void choose_bricks(LoadedBody& loaded, const Observer& observer) {
 
 }  // namespace
 
+namespace {
+
+/// What a scene's text cannot say wrong, but a program can.
+void check_body(const SceneBody& body, const std::string& name) {
+  check_material(body.material);
+  const auto refuse = [&](std::string_view what, double value, std::string_view range) {
+    throw Error(ErrorKind::kBadInput, fmt::format("{}: {} is {:g} m; it must be {}", name, what, value, range));
+  };
+  const double size = body.size.value_or(1);
+  if (!std::isfinite(size)) refuse("size", size, "finite");
+  if (size <= 0) refuse("size", size, "above 0");
+  if (body.brick_size.value_or(1) <= 0) refuse("brick_size", *body.brick_size, "above 0");
+  if (body.bricks && body.bricks->along < 0) {
+    throw Error(ErrorKind::kBadInput, fmt::format("{}: bricks ({}) must be above 0", name, body.bricks->along));
+  }
+}
+
+}  // namespace
+
 LoadedBody load_body(const SceneBody& body, const Observer& observer) {
+  check_body(body, body.surface ? "the mesh" : body.mesh.filename().string());
   LoadedBody loaded;
   if (body.box) {
     load_box(body, loaded);
-  } else if (body.mesh.empty()) {
+  } else if (body.mesh.empty() && !body.surface) {
     load_shape(body, loaded);
   } else {
     load_mesh(body, loaded);

@@ -9,13 +9,17 @@
 #include <numbers>
 #include <optional>
 #include <random>
+#include <span>
 
 #include "core/bricks/pieces.h"
 #include "core/bricks/voxelize.h"
 #include "core/error.h"
+#include "core/mesh/repair/coarsen.h"
+#include "core/mesh/repair/submesh.h"
 #include "core/pose.h"
 #include "core/simulation/selector.h"
-#include "core/simulation/soft_body.h"
+#include "core/simulation/simulation.h"
+#include "core/skin/skin.h"
 #include "core/text.h"
 #include "core/units.h"
 
@@ -62,16 +66,14 @@ Points outward_of(const SurfaceMesh& mesh, const Solid& solid) {
   return sums;
 }
 
-CarriedVertices carry(const LoadedBody& loaded, std::size_t solid, const std::vector<int>& owners,
-                      const BrickGrid& grid) {
-  CarriedVertices carried;
+/// The vertices of the file that a solid carries.
+void carry_file_vertices(const LoadedBody& loaded, std::size_t solid, const std::vector<int>& owners, SoftBody& body) {
   for (std::size_t vertex = 0; vertex < owners.size(); ++vertex) {
-    if (owners[vertex] == int(solid)) carried.vertices.push_back(int(vertex));
+    if (owners[vertex] == int(solid)) body.file_vertices.push_back(int(vertex));
   }
   const Points outward = outward_of(loaded.mesh, loaded.solids[solid]);
-  carried.embedding =
-      embed(grid, loaded.mesh.positions(carried.vertices, Eigen::all), outward(carried.vertices, Eigen::all));
-  return carried;
+  body.file_embedding =
+      embed(body.grid, loaded.mesh.positions(body.file_vertices, Eigen::all), outward(body.file_vertices, Eigen::all));
 }
 
 /// Every node that a pin holds at the start, once, with the axes of all its pins.
@@ -93,11 +95,11 @@ std::vector<KinematicNode> held_nodes(const std::vector<PinnedNodes>& pinned, co
 }
 
 /// m/s, at the start; what is held is at rest.
-Points velocities_of(const SceneBody& scene_body, const Actor& actor, const Vec3& middle) {
-  Points velocities(actor.body.node_count(), 3);
+Points velocities_of(const SceneBody& scene_body, const SoftBody& actor, const Vec3& middle) {
+  Points velocities(actor.node_count(), 3);
   const Vec3 spin = scene_body.spin * std::numbers::pi / 180;
   for (int node = 0; node < velocities.rows(); ++node) {
-    const Vec3 arm = actor.body.positions.row(node).transpose() - middle;
+    const Vec3 arm = actor.positions.row(node).transpose() - middle;
     velocities.row(node) = (scene_body.velocity + spin.cross(arm)).transpose();
   }
   for (const KinematicNode& held : actor.pinned) {
@@ -110,12 +112,60 @@ Points velocities_of(const SceneBody& scene_body, const Actor& actor, const Vec3
 
 }  // namespace
 
-BodyBuilder::BodyBuilder(const Scene& scene, std::size_t index, const LoadedBody& loaded, Production& production)
+namespace {
+
+constexpr double kLongestSkinEdge =
+    0.75;  // in bricks: follows the bend of a brick, and touches the ground often enough
+constexpr double kShortestContactEdge = 0.4;  // in bricks, but where the mesh has longer ones only
+
+/// Sums of the triangles' areas, with their normals, at each point.
+Points outward_at(const Points& points, const Triangles& triangles) {
+  Points sums = Points::Zero(points.rows(), 3);
+  for (const auto& corners : triangles.rowwise()) {
+    const Vec3 a = points.row(corners[0]);
+    const Vec3 b = points.row(corners[1]);
+    const Vec3 area = (b - a).cross(Vec3(points.row(corners[2])) - a);
+    for (const int corner : corners) sums.row(corner) += area.transpose();
+  }
+  return sums;
+}
+
+/// Lets the skin touch: each position that triangles use, once; finer than the bricks can follow it need not be.
+void add_contacts(const Skin& skin, SoftBody& body) {
+  const std::vector<int> point_of = weld_points(skin.positions);
+  const auto position_of = [&](int vertex) { return point_of[vertex]; };
+  std::vector<int> rows;
+  for (const int vertex : std::span(skin.triangles.data(), skin.triangles.size())) {
+    rows.push_back(position_of(vertex));
+  }
+  std::sort(rows.begin(), rows.end());
+  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+  const Triangles triangles = skin.triangles.unaryExpr(
+      [&](int vertex) { return int(std::lower_bound(rows.begin(), rows.end(), position_of(vertex)) - rows.begin()); });
+  const double shortest = kShortestContactEdge * body.grid.brick_size;
+  const CoarseSurface surface = coarsen(skin.positions(rows, Eigen::all), triangles, shortest);
+  body.contacts = embed(body.grid, surface.points, outward_at(surface.points, surface.triangles));
+  body.contact_triangles = surface.triangles;
+}
+
+}  // namespace
+
+SoftBody make_soft_body(const SurfaceMesh& mesh, const Solid& solid, BrickGrid grid, Model model,
+                        const Material& material) {
+  SoftBody body(make_body(std::move(grid), model, material));
+  body.skin = make_skin(submesh(mesh, solid), {.max_edge = kLongestSkinEdge * body.grid.brick_size});
+  body.skin_embedding = embed(body.grid, body.skin.positions, body.skin.normals);
+  add_contacts(body.skin, body);
+  body.collides_with_itself = solid.closed && !solid.overlaps && solid.thickness == 0;
+  return body;
+}
+
+BodyBuilder::BodyBuilder(const Scene& scene, std::size_t index, const LoadedBody& loaded, Simulation& simulation)
     : body_(scene.bodies[index]),
       index_(index),
       loaded_(loaded),
-      production_(production),
-      touches_itself_(scene.contact.self),
+      simulation_(simulation),
+      collides_with_itself_(scene.contact.self),
       selector_(loaded),
       report_(loaded, body_.material.density),
       solid_of_vertex_(solids_of_vertices(loaded)) {}
@@ -126,11 +176,11 @@ void BodyBuilder::fill_solids() {
 
 void BodyBuilder::add_solids() {
   const std::vector<Pose> poses = poses_of(body_, loaded_);
-  for (const Filled& filled : filled_) {
-    for (std::size_t copy = 0; copy < poses.size(); ++copy) put(filled, poses[copy], int(copy));
+  for (const SoftBody& body : filled_) {
+    for (std::size_t copy = 0; copy < poses.size(); ++copy) put(body, poses[copy], int(copy));
   }
   const SurfaceMesh& mesh = loaded_.mesh;
-  production_.meshes.push_back({.positions = mesh.positions,
+  simulation_.meshes.push_back({.positions = mesh.positions,
                                 .normals = mesh.normals.cast<double>(),
                                 .uvs = mesh.uvs,
                                 .colors = mesh.colors,
@@ -139,42 +189,32 @@ void BodyBuilder::add_solids() {
                                 .materials = mesh.materials});
 }
 
-BodyBuilder::Filled BodyBuilder::fill(std::size_t solid) {
+SoftBody BodyBuilder::fill(std::size_t solid) {
   const Solid& outline = loaded_.solids[solid];
-  SoftBody made = make_soft_body(loaded_.mesh, outline, make_grid(outline), body_.model, body_.material);
-  Filled filled;
-  filled.actor = std::move(made.actor);
-  filled.drawn.skin = std::move(made.skin);
-  filled.drawn.embedding = std::move(made.embedding);
-  Body& body = filled.actor.body;
-  filled.regions = apply_regions(body_.regions, selector_, body, solid);
-  report_.add(filled.drawn.embedding);
-  filled.carried = carry(loaded_, solid, solid_of_vertex_, body.grid);
-  filled.actor.friction = body_.friction;
-  filled.actor.collides_with_itself = filled.actor.collides_with_itself && touches_itself_;
-  filled.pins = find_pins(body, solid);
-  held_solids_ += filled.pins.empty() ? 0 : 1;
-  filled.actor.pinned = held_nodes(filled.pins, body_.pins);
-  filled.forces = place_forces(body_.forces, selector_, filled.actor, solid);
-  filled.muscles = place_muscles(body_.muscles, selector_, filled.actor, solid, loaded_.bricks_from_rest);
-  return filled;
+  SoftBody body = make_soft_body(loaded_.mesh, outline, make_grid(outline), body_.model, body_.material);
+  body.friction = body_.friction;
+  body.collides_with_itself = body.collides_with_itself && collides_with_itself_;
+  report_.add(body.skin_embedding);
+  carry_file_vertices(loaded_, solid, solid_of_vertex_, body);
+  Origin& origin = body.origin;
+  origin.body = index_;
+  origin.bricks_from_rest = loaded_.bricks_from_rest;
+  origin.regions = apply_regions(body_.regions, selector_, body, solid);
+  origin.pins = find_pins(body, solid);
+  origin.forces = place_forces(body_.forces, selector_, body, solid);
+  origin.muscles = place_muscles(body_.muscles, selector_, body, solid, loaded_.bricks_from_rest);
+  body.pinned = held_nodes(origin.pins, body_.pins);
+  held_solids_ += origin.pins.empty() ? 0 : 1;
+  return body;
 }
 
-void BodyBuilder::put(Filled filled, const Pose& pose, int copy) {
-  place(filled.actor.body, pose.rotation, pose.translation);
-  filled.actor.body.velocities = velocities_of(body_, filled.actor, pose.translation);
-  for (PinnedNodes& pinned : filled.pins) pinned.centre = pose.rotation * pinned.centre + pose.translation;
-  filled.drawn.color = body_.color.value_or(kPalette[production_.skins.size() % kPalette.size()]);
-  production_.world.actors.push_back(std::move(filled.actor));
-  production_.origins.push_back({.body = index_,
-                                 .copy = copy,
-                                 .bricks_from_rest = loaded_.bricks_from_rest,
-                                 .regions = std::move(filled.regions),
-                                 .pins = std::move(filled.pins),
-                                 .forces = std::move(filled.forces),
-                                 .muscles = std::move(filled.muscles)});
-  production_.skins.push_back(std::move(filled.drawn));
-  production_.carried.push_back(std::move(filled.carried));
+void BodyBuilder::put(SoftBody body, const Pose& pose, int copy) {
+  place(body, pose.rotation, pose.translation);
+  body.velocities = velocities_of(body_, body, pose.translation);
+  for (PinnedNodes& pinned : body.origin.pins) pinned.centre = pose.rotation * pinned.centre + pose.translation;
+  body.color = body_.color.value_or(kPalette[simulation_.world.bodies.size() % kPalette.size()]);
+  body.origin.copy = copy;
+  simulation_.world.bodies.push_back(std::move(body));
 }
 
 BrickGrid BodyBuilder::make_grid(const Solid& solid) {
@@ -223,8 +263,8 @@ Eigen::VectorXd volumes_of(const std::vector<int>& bricks, const BrickGrid& grid
 }
 
 /// Of the triangles that touch, in the frame of the grid.
-Points middles_of_triangles(const Actor& actor) {
-  const BrickGrid& grid = actor.body.grid;
+Points middles_of_triangles(const SoftBody& actor) {
+  const BrickGrid& grid = actor.grid;
   const Points places = deform_points(grid, actor.contacts, grid.rest_positions());
   Points middles(actor.contact_triangles.rows(), 3);
   for (int row = 0; row < middles.rows(); ++row) {
@@ -235,8 +275,8 @@ Points middles_of_triangles(const Actor& actor) {
 
 }  // namespace
 
-std::vector<ForcedPart> place_forces(const std::vector<BodyForce>& forces, const Selector& selector, const Actor& actor,
-                                     std::size_t solid) {
+std::vector<ForcedPart> place_forces(const std::vector<BodyForce>& forces, const Selector& selector,
+                                     const SoftBody& actor, std::size_t solid) {
   std::vector<ForcedPart> parts;
   for (std::size_t force = 0; force < forces.size(); ++force) {
     ForcedPart part{.force = force, .volumes = {}, .triangles = {}};
@@ -244,7 +284,7 @@ std::vector<ForcedPart> place_forces(const std::vector<BodyForce>& forces, const
       part.triangles = selector.triangles(forces[force], middles_of_triangles(actor), solid);
       if (part.triangles.empty()) continue;
     } else {
-      part.volumes = volumes_of(selector.bricks(forces[force], actor.body.grid, solid), actor.body.grid);
+      part.volumes = volumes_of(selector.bricks(forces[force], actor.grid, solid), actor.grid);
       if (part.volumes.isZero(0)) continue;
     }
     parts.push_back(std::move(part));
@@ -253,10 +293,10 @@ std::vector<ForcedPart> place_forces(const std::vector<BodyForce>& forces, const
 }
 
 std::vector<MusclePart> place_muscles(const std::vector<BodyMuscle>& muscles, const Selector& selector,
-                                      const Actor& actor, std::size_t solid, const Mat3& bricks_from_rest) {
+                                      const SoftBody& actor, std::size_t solid, const Mat3& bricks_from_rest) {
   std::vector<MusclePart> parts;
   for (std::size_t muscle = 0; muscle < muscles.size(); ++muscle) {
-    std::vector<int> bricks = selector.bricks(muscles[muscle], actor.body.grid, solid);
+    std::vector<int> bricks = selector.bricks(muscles[muscle], actor.grid, solid);
     if (bricks.empty()) continue;
     parts.push_back({.muscle = muscle,
                      .full = {.bricks = std::move(bricks),
@@ -266,13 +306,13 @@ std::vector<MusclePart> place_muscles(const std::vector<BodyMuscle>& muscles, co
   return parts;
 }
 
-void check_loads(const Scene& scene, std::size_t body, const std::vector<Origin>& origins) {
+void check_loads(const Scene& scene, std::size_t body, const World& world) {
   std::vector<bool> pushed(scene.bodies[body].forces.size());
   std::vector<bool> pulled(scene.bodies[body].muscles.size());
-  for (const Origin& origin : origins) {
-    if (origin.body != body) continue;
-    for (const ForcedPart& part : origin.forces) pushed[part.force] = true;
-    for (const MusclePart& part : origin.muscles) pulled[part.muscle] = true;
+  for (const SoftBody& one : world.bodies) {
+    if (one.origin.body != body) continue;
+    for (const ForcedPart& part : one.origin.forces) pushed[part.force] = true;
+    for (const MusclePart& part : one.origin.muscles) pulled[part.muscle] = true;
   }
   const auto check = [&](const std::vector<bool>& reached, std::string_view what) {
     const auto missed = std::find(reached.begin(), reached.end(), false);

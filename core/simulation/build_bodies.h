@@ -11,18 +11,23 @@
 
 namespace sprung {
 
+/// `grid` are the bricks of one solid of the mesh (m). The body is at rest where its grid is, and touches by its skin,
+/// as finely as its bricks can follow. Deterministic.
+[[nodiscard]] SoftBody make_soft_body(const SurfaceMesh& mesh, const Solid& solid, BrickGrid grid, Model model,
+                                      const Material& material);
+
 /// Where the forces of a body of the scene act on one of its solids, which is still where its grid is: those that act
 /// there at all. Throws Error(kBadInput) where a part speaks of what is not there.
 [[nodiscard]] std::vector<ForcedPart> place_forces(const std::vector<BodyForce>& forces, const Selector& selector,
-                                                   const Actor& actor, std::size_t solid);
+                                                   const SoftBody& actor, std::size_t solid);
 
 /// The same of its muscles. `bricks_from_rest`: how the body was turned so that its bricks are straight.
 [[nodiscard]] std::vector<MusclePart> place_muscles(const std::vector<BodyMuscle>& muscles, const Selector& selector,
-                                                    const Actor& actor, std::size_t solid,
+                                                    const SoftBody& actor, std::size_t solid,
                                                     const Mat3& bricks_from_rest);
 
-/// Throws Error(kBadInput) where a force or a muscle of a body of the scene acts on none of its actors.
-void check_loads(const Scene& scene, std::size_t body, const std::vector<Origin>& origins);
+/// Throws Error(kBadInput) where a force or a muscle of a body of the scene acts on none of its bodies.
+void check_loads(const Scene& scene, std::size_t body, const World& world);
 
 /// Where a body and its copies are (from a body at rest, turned as its bricks are, the middle of its bounding box at
 /// the origin), x first, then y, then z. What is random in it depends on its seed only.
@@ -54,18 +59,18 @@ class FillReport {
   std::string volume_warning_;  // of the first of them
 };
 
-/// Adds one body of a scene to a production: its solids filled with bricks, placed, with what is held of them; as many
+/// Adds one body of a scene to a simulation: its solids filled with bricks, placed, with what is held of them; as many
 /// times as it has copies, all of one solid one after the other.
 class BodyBuilder {
  public:
   /// Body `index` of the scene. All have to outlive it.
-  BodyBuilder(const Scene& scene, std::size_t index, const LoadedBody& loaded, Production& production);
+  BodyBuilder(const Scene& scene, std::size_t index, const LoadedBody& loaded, Simulation& simulation);
 
-  /// ContactList nothing but this builder: those of other bodies may be filled at the same time. Throws
+  /// Touches nothing but this builder: those of other bodies may be filled at the same time. Throws
   /// Error(kBadInput) where a region, a pin or a cut speaks of what is not there.
   void fill_solids();
 
-  /// What was filled, into the production.
+  /// What was filled, into the simulation.
   void add_solids();
 
   /// Says how well the bricks fill the body, and what is not held.
@@ -73,31 +78,22 @@ class BodyBuilder {
   void tell(const Observer& observer) const;
 
  private:
-  /// A solid filled with bricks, still where its grid is.
-  struct Filled {
-    Actor actor;
-    DrawnSkin drawn;
-    CarriedVertices carried;
-    std::vector<int> regions;       // Origin has it
-    std::vector<PinnedNodes> pins;  // their centres too
-    std::vector<ForcedPart> forces;
-    std::vector<MusclePart> muscles;
-  };
-  [[nodiscard]] Filled fill(std::size_t solid);
+  /// Still where its grid is.
+  [[nodiscard]] SoftBody fill(std::size_t solid);
   [[nodiscard]] BrickGrid make_grid(const Solid& solid);
   [[nodiscard]] std::vector<PinnedNodes> find_pins(const Body& body, std::size_t solid) const;
-  void put(Filled filled, const Pose& pose, int copy);
+  void put(SoftBody body, const Pose& pose, int copy);
 
   const SceneBody& body_;
   std::size_t index_;
   const LoadedBody& loaded_;
-  Production& production_;
-  bool touches_itself_;
+  Simulation& simulation_;
+  bool collides_with_itself_;
   Selector selector_;
   FillReport report_;
   int held_solids_ = 0;
   std::vector<int> solid_of_vertex_;  // of the mesh
-  std::vector<Filled> filled_;        // by solid
+  std::vector<SoftBody> filled_;      // by solid
 };
 
 }  // namespace sprung

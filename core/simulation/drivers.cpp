@@ -21,11 +21,11 @@ Movement from_values(std::vector<Keyframe> keyframes, Interpolation interpolatio
 }
 
 /// Of the bricks that each force of a body acts on, in all its solids, m^3.
-std::vector<double> forced_volumes(const Scene& scene, const Production& production, std::size_t body) {
+std::vector<double> forced_volumes(const Scene& scene, const Simulation& simulation, std::size_t body) {
   std::vector<double> volumes(scene.bodies[body].forces.size());
-  for (const Origin& origin : production.origins) {
-    if (origin.body != body) continue;
-    for (const ForcedPart& part : origin.forces) volumes[part.force] += part.volumes.sum();
+  for (const SoftBody& one : simulation.world.bodies) {
+    if (one.origin.body != body) continue;
+    for (const ForcedPart& part : one.origin.forces) volumes[part.force] += part.volumes.sum();
   }
   for (double& volume : volumes) volume /= copy_count(scene.bodies[body]);
   return volumes;
@@ -61,7 +61,7 @@ void LoadDriver::Curve::add_moments(std::vector<double>& moments) const {
   for (const Keyframe& keyframe : movement_.keyframes()) moments.push_back(keyframe.time);
 }
 
-LoadDriver::LoadDriver(const Scene& scene, Production& production) : scene_(scene), production_(production) {
+LoadDriver::LoadDriver(const Scene& scene, Simulation& simulation) : scene_(scene), simulation_(simulation) {
   if (!scene.gravity_keyframes.empty()) gravity_.emplace_back(scene.gravity_keyframes);
   if (scene.wind) wind_.emplace_back(static_cast<const StrengthCurve&>(*scene.wind));
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
@@ -71,7 +71,7 @@ LoadDriver::LoadDriver(const Scene& scene, Production& production) : scene_(scen
     for (const BodyMuscle& muscle : scene.bodies[i].muscles) {
       curves.muscles.emplace_back(static_cast<const StrengthCurve&>(muscle));
     }
-    curves.volumes = forced_volumes(scene, production, i);
+    curves.volumes = forced_volumes(scene, simulation, i);
   }
   for (const BodyCurves& curves : bodies_) {
     for (const Curve& curve : curves.forces) curve.add_moments(moments_);
@@ -94,18 +94,18 @@ double LoadDriver::longest_piece(double time) const {
 
 void LoadDriver::aim(double begin, double end) {
   const double time = (begin + end) / 2;
-  World& world = production_.world;
+  World& world = simulation_.world;
   if (!gravity_.empty()) world.gravity = gravity_[0].at(time);
   if (!wind_.empty()) {
     world.wind = {.velocity = wind_[0].strength(time) * scene_.wind->velocity,
                   .density = scene_.wind->density,
                   .drag = scene_.wind->drag};
   }
-  for (std::size_t actor = 0; actor < world.actors.size(); ++actor) world.actors[actor].loads = loads_at(actor, time);
+  for (std::size_t actor = 0; actor < world.bodies.size(); ++actor) world.bodies[actor].loads = loads_at(actor, time);
 }
 
 Loads LoadDriver::loads_at(std::size_t actor, double time) const {
-  const Origin& origin = production_.origins[actor];
+  const Origin& origin = simulation_.world.bodies[actor].origin;
   const SceneBody& body = scene_.bodies[origin.body];
   const BodyCurves& curves = bodies_[origin.body];
   Loads loads;
@@ -129,10 +129,10 @@ Loads LoadDriver::loads_at(std::size_t actor, double time) const {
   return loads;
 }
 
-Points steady_forces(const Scene& scene, const Production& production, std::size_t actor) {
-  const Origin& origin = production.origins[actor];
-  const std::vector<double> volumes = forced_volumes(scene, production, origin.body);
-  Points forces = Points::Zero(production.world.actors[actor].body.node_count(), 3);
+Points steady_forces(const Scene& scene, const Simulation& simulation, std::size_t actor) {
+  const Origin& origin = simulation.world.bodies[actor].origin;
+  const std::vector<double> volumes = forced_volumes(scene, simulation, origin.body);
+  Points forces = Points::Zero(simulation.world.bodies[actor].node_count(), 3);
   for (const ForcedPart& part : origin.forces) {
     forces += forces_of(scene.bodies[origin.body].forces[part.force], part, volumes[part.force]);
   }
@@ -165,22 +165,22 @@ void add_moments(const Pin& pin, const Movement& movement, std::vector<double>& 
 
 }  // namespace
 
-SceneDriver::SceneDriver(const Scene& scene, Production& production)
+SceneDriver::SceneDriver(const Scene& scene, Simulation& simulation)
     : scene_(scene),
-      production_(production),
-      loads_(scene, production),
-      grips_(production.world.actors.size()),
+      simulation_(simulation),
+      loads_(scene, simulation),
+      grips_(simulation.world.bodies.size()),
       moments_(loads_.moments()) {
   loads_.aim(0, 0);
   for (std::size_t actor = 0; actor < grips_.size(); ++actor) {
-    const Origin& origin = production.origins[actor];
+    const Origin& origin = simulation.world.bodies[actor].origin;
     for (const PinnedNodes& pinned : origin.pins) {
       const Pin& pin = scene.bodies[origin.body].pins[pinned.pin];
       grips_[actor].push_back({.pin = &pin, .pinned = &pinned, .movement = movement_of(pin, scene)});
       add_moments(pin, grips_[actor].back().movement, moments_);
     }
   }
-  for (const StageObstacle& obstacle : production.obstacles) {
+  for (const StageObstacle& obstacle : simulation.obstacles) {
     for (const Keyframe& keyframe : obstacle.movement.keyframes()) moments_.push_back(keyframe.time);
   }
   std::sort(moments_.begin(), moments_.end());
@@ -204,12 +204,12 @@ std::vector<double> SceneDriver::pieces(double begin, double end) const {
 
 void SceneDriver::aim(double begin, double end) {
   loads_.aim(begin, end);
-  for (std::size_t i = 0; i < production_.obstacles.size(); ++i) {
-    production_.world.obstacles[i] = obstacle_between(production_.obstacles[i], scene_.obstacles[i], begin, end);
+  for (std::size_t i = 0; i < simulation_.obstacles.size(); ++i) {
+    simulation_.world.obstacles[i] = obstacle_between(simulation_.obstacles[i], scene_.obstacles[i], begin, end);
   }
   for (std::size_t i = 0; i < grips_.size(); ++i) {
     if (grips_[i].empty()) continue;
-    Actor& actor = production_.world.actors[i];
+    SoftBody& actor = simulation_.world.bodies[i];
     std::map<int, KinematicNode> held;
     for (FrictionPotential& grip : grips_[i]) {
       if (holds(*grip.pin, begin)) {
@@ -239,10 +239,10 @@ void SceneDriver::serialize(IntegratorState& state) {
   }
 }
 
-void SceneDriver::carry(FrictionPotential& grip, Actor& actor, double begin, double end,
+void SceneDriver::carry(FrictionPotential& grip, SoftBody& actor, double begin, double end,
                         std::map<int, KinematicNode>& held) const {
   const std::vector<int>& nodes = grip.pinned->nodes;
-  Body& body = actor.body;
+  Body& body = actor;
   if (!grip.caught) {
     grip.caught = Catch{.time = begin, .centre = grip.pinned->centre, .positions = body.positions(nodes, Eigen::all)};
     if (begin > kMoment) grip.caught->centre = grip.caught->positions.colwise().mean();
@@ -279,9 +279,9 @@ Movement movement_of(const Pin& pin, const Scene& scene) {
       Interpolation::kLinear};
 }
 
-Points pin_movements(const Scene& scene, const Production& production, std::size_t actor, double time, bool small) {
-  const Origin& origin = production.origins[actor];
-  const Points& start = production.world.actors[actor].body.rest_positions;
+Points pin_movements(const Scene& scene, const Simulation& simulation, std::size_t actor, double time, bool small) {
+  const Origin& origin = simulation.world.bodies[actor].origin;
+  const Points& start = simulation.world.bodies[actor].rest_positions;
   Points moved = Points::Zero(start.rows(), 3);
   for (const PinnedNodes& pinned : origin.pins) {
     const Pin& pin = scene.bodies[origin.body].pins[pinned.pin];
@@ -296,8 +296,8 @@ Points pin_movements(const Scene& scene, const Production& production, std::size
   return moved;
 }
 
-Supports supports_of(const Actor& actor) {
-  Supports supports(actor.body.node_count());
+Supports supports_of(const SoftBody& actor) {
+  Supports supports(actor.node_count());
   for (const KinematicNode& held : actor.pinned) {
     for (int axis = 0; axis < 3; ++axis) {
       if (held.axes[axis]) supports.fix(held.node, axis);

@@ -14,7 +14,7 @@ namespace sprung {
 class LoadDriver {
  public:
   /// Both have to outlive it.
-  LoadDriver(const Scene& scene, Production& production);
+  LoadDriver(const Scene& scene, Simulation& simulation);
 
   /// When keyframes are, s.
   [[nodiscard]] const std::vector<double>& moments() const { return moments_; }
@@ -49,7 +49,7 @@ class LoadDriver {
   [[nodiscard]] Loads loads_at(std::size_t actor, double time) const;
 
   const Scene& scene_;
-  Production& production_;
+  Simulation& simulation_;
   std::vector<Curve> gravity_;  // one, or none: it stays
   std::vector<Curve> wind_;     // the same
   std::vector<BodyCurves> bodies_;
@@ -57,7 +57,7 @@ class LoadDriver {
 };
 
 /// Of the scene's steady forces on the nodes of an actor (m x 3, N); pressures are left out.
-[[nodiscard]] Points steady_forces(const Scene& scene, const Production& production, std::size_t actor);
+[[nodiscard]] Points steady_forces(const Scene& scene, const Simulation& simulation, std::size_t actor);
 
 /// Catches nodes, carries them and lets them go, as the pins of a scene say, while a world is in motion; moves its
 /// obstacles, and lets its loads act. A pin that catches later than at the start takes its nodes where they then are,
@@ -65,7 +65,7 @@ class LoadDriver {
 class SceneDriver {
  public:
   /// Both have to outlive it. What acts at the start acts from now on.
-  SceneDriver(const Scene& scene, Production& production);
+  SceneDriver(const Scene& scene, Simulation& simulation);
 
   /// Ends (s, rising, the last is `end`) of the pieces that the time from `begin` to `end` falls into: between them no
   /// pin catches, lets go or comes through a keyframe, nor anything else through one, and loads hardly change.
@@ -93,10 +93,11 @@ class SceneDriver {
     std::optional<Catch> caught{};
   };
 
-  void carry(FrictionPotential& grip, Actor& actor, double begin, double end, std::map<int, KinematicNode>& held) const;
+  void carry(FrictionPotential& grip, SoftBody& actor, double begin, double end,
+             std::map<int, KinematicNode>& held) const;
 
   const Scene& scene_;
-  Production& production_;
+  Simulation& simulation_;
   LoadDriver loads_;
   std::vector<std::vector<FrictionPotential>> grips_;  // by actor
   std::vector<double> moments_;                        // s, rising: where pieces end
@@ -107,10 +108,10 @@ class SceneDriver {
 
 /// How far pins that hold from the start have carried each node of an actor (m x 3, m) by a time (s) of the film; zero
 /// along free axes. With `small`, as if the movement were infinitely small: turned nodes move along tangents.
-[[nodiscard]] Points pin_movements(const Scene& scene, const Production& production, std::size_t actor, double time,
+[[nodiscard]] Points pin_movements(const Scene& scene, const Simulation& simulation, std::size_t actor, double time,
                                    bool small);
 
 /// What the pins of an actor hold.
-[[nodiscard]] Supports supports_of(const Actor& actor);
+[[nodiscard]] Supports supports_of(const SoftBody& actor);
 
 }  // namespace sprung

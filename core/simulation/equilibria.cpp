@@ -18,31 +18,29 @@ namespace {
 
 constexpr double kModeSwing = 0.1;  // of the body's size
 
-/// Brings the actors to rest under a share of the load.
+/// Brings the bodies to rest under a share of the load.
 class Loading {
  public:
-  Loading(Production& production, const Scene& scene)
-      : production_(production), scene_(scene), is_linear_(scene.solver.scheme == Solver::kLinear) {
-    for (const Actor& actor : production.world.actors) {
+  Loading(Simulation& simulation, const Scene& scene)
+      : simulation_(simulation), scene_(scene), is_linear_(scene.solver.scheme == Solver::kLinear) {
+    for (const SoftBody& actor : simulation.world.bodies) {
       if (!actor.pinned.empty()) continue;
       throw Error(ErrorKind::kBadInput,
                   "a body without pins cannot come to rest; give it a [[body.pin]], or use "
                   "solver.scheme euler or verlet");
     }
-    for (std::size_t i = 0; i < production.world.actors.size(); ++i) systems_.push_back(make_default_solver());
+    for (std::size_t i = 0; i < simulation.world.bodies.size(); ++i) systems_.push_back(make_default_solver());
   }
 
   /// The shape under a share of the weight, with the pins where they are at a time (s). Reactions by actor, m x 3, N.
   std::vector<Points> apply(double share, double time) {
     std::vector<Points> reactions_of_all;
-    for (std::size_t actor = 0; actor < production_.world.actors.size(); ++actor) {
-      Body& body = production_.world.actors[actor].body;
-      const Supports supports = supports_of(production_.world.actors[actor]);
-      const Points forces = steady_forces(scene_, production_, actor);
-      const Points loads = share * (body.masses * production_.world.gravity.transpose() + forces);
-      const Points movements = pin_movements(scene_, production_, actor, time, is_linear_);
-      reactions_of_all.push_back(is_linear_ ? answer(body, supports, loads, movements, *systems_[actor])
-                                            : settle(body, supports, loads, movements, *systems_[actor]));
+    for (std::size_t row = 0; row < simulation_.world.bodies.size(); ++row) {
+      SoftBody& body = simulation_.world.bodies[row];
+      const Points loads =
+          share * (body.masses * simulation_.world.gravity.transpose() + steady_forces(scene_, simulation_, row));
+      const Points movements = pin_movements(scene_, simulation_, row, time, is_linear_);
+      reactions_of_all.push_back(settle(body, loads, movements, is_linear_, *systems_[row], iterations_));
     }
     return reactions_of_all;
   }
@@ -65,26 +63,7 @@ class Loading {
   }
 
  private:
-  static Points answer(Body& body, const Supports& supports, const Points& loads, const Points& movements,
-                       LinearSolver& system) {
-    body.positions = body.rest_positions;
-    const LinearResponse response = linear_response(body, supports, loads, movements, system);
-    body.positions += response.displacements;
-    return response.reactions;
-  }
-
-  Points settle(Body& body, const Supports& supports, const Points& loads, const Points& movements,
-                LinearSolver& system) {
-    const Points start = body.positions;
-    for (Eigen::Index i = 0; i < start.size(); ++i) {
-      if (!supports.fixed[i]) continue;
-      body.positions.data()[i] = body.rest_positions.data()[i] + movements.data()[i];
-    }
-    iterations_ += solve_static(body, supports, loads, start, system).iterations;
-    return reactions(body, supports, loads);
-  }
-
-  Production& production_;
+  Simulation& simulation_;
   const Scene& scene_;
   bool is_linear_;
   std::vector<std::unique_ptr<LinearSolver>> systems_;  // by actor
@@ -105,12 +84,29 @@ void check_rests(const Scene& scene) {
 
 }  // namespace
 
-Recording record_equilibria(Production& production, const Scene& scene, const Observer& observer, RunCache* cache) {
+Points settle(SoftBody& body, const Points& loads, const Points& movements, bool linear, LinearSolver& solver,
+              int& newton_steps) {
+  const Supports supports = supports_of(body);
+  if (linear) {
+    body.positions = body.rest_positions;
+    const LinearResponse response = linear_response(body, supports, loads, movements, solver);
+    body.positions += response.displacements;
+    return response.reactions;
+  }
+  const Points start = body.positions;
+  for (Eigen::Index i = 0; i < start.size(); ++i) {
+    if (supports.fixed[i]) body.positions.data()[i] = body.rest_positions.data()[i] + movements.data()[i];
+  }
+  newton_steps += solve_static(body, supports, loads, start, solver).iterations;
+  return reactions(body, supports, loads);
+}
+
+Recording record_equilibria(Simulation& simulation, const Scene& scene, const Observer& observer, RunCache* cache) {
   check_rests(scene);
   const int frames = frame_count(scene);
-  Loading loading(production, scene);
-  Recorder recorder(scene, production, "load", cache);
-  const int first = recorder.take_up(production.world, [](IntegratorState&) {});
+  Loading loading(simulation, scene);
+  Recorder recorder(scene, simulation, "load", cache);
+  const int first = recorder.take_up(simulation.world, [](IntegratorState&) {});
   Progress progress(observer, loading.is_linear() ? "linear" : "static", frames);
   for (int frame = first; frame < frames; ++frame) {
     observer.check_interrupt();
@@ -124,30 +120,30 @@ Recording record_equilibria(Production& production, const Scene& scene, const Ob
   loading.note_trouble(observer);
   progress.finish(loading.is_linear() ? fmt::format("{} frames", frames)
                                       : fmt::format("{} frames, {} Newton steps", frames, loading.iterations()));
-  if (!loading.is_linear()) warn_of_crushed_bodies(production.world, observer);
+  if (!loading.is_linear()) warn_of_crushed_bodies(simulation.world, observer);
   return recorder.finish();
 }
 
-Recording record_modes(Production& production, const Scene& scene, const Observer& observer, RunCache* cache) {
+Recording record_modes(Simulation& simulation, const Scene& scene, const Observer& observer, RunCache* cache) {
   check_rests(scene);
-  if (production.world.actors.size() != 1) {
+  if (simulation.world.bodies.size() != 1) {
     throw Error(ErrorKind::kBadInput,
-                fmt::format("modes are those of one body, the scene has {}", production.world.actors.size()));
+                fmt::format("modes are those of one body, the scene has {}", simulation.world.bodies.size()));
   }
   Progress progress(observer, "modes");
-  Actor& actor = production.world.actors[0];
-  const Modes modes = natural_modes(actor.body, supports_of(actor), scene.solver.modes);
+  SoftBody& actor = simulation.world.bodies[0];
+  const Modes modes = natural_modes(actor, supports_of(actor), scene.solver.modes);
   const int frames = frame_count(scene);
   const int count = scene.solver.modes;
-  Recorder recorder(scene, production, "mode", cache);
-  const int first = recorder.take_up(production.world, [](IntegratorState&) {});
+  Recorder recorder(scene, simulation, "mode", cache);
+  const int first = recorder.take_up(simulation.world, [](IntegratorState&) {});
   for (int frame = first; frame < frames; ++frame) {
     const double place = double(frame) * count / frames;
     const int mode = std::min(int(place), count - 1);
     const Eigen::VectorXd shape = modes.shapes.col(mode) / modes.shapes.col(mode).cwiseAbs().maxCoeff();
-    const double swing = kModeSwing * production.size * std::sin(2 * std::numbers::pi * (place - mode));
-    actor.body.positions = actor.body.rest_positions;
-    Eigen::Map<Eigen::VectorXd>(actor.body.positions.data(), shape.size()) += swing * shape;
+    const double swing = kModeSwing * simulation.size * std::sin(2 * std::numbers::pi * (place - mode));
+    actor.positions = actor.rest_positions;
+    Eigen::Map<Eigen::VectorXd>(actor.positions.data(), shape.size()) += swing * shape;
     recorder.add(mode + 1, {}, 0, true);
   }
   recorder.recording().frequencies = modes.frequencies;
@@ -156,8 +152,8 @@ Recording record_modes(Production& production, const Scene& scene, const Observe
 }
 
 void warn_of_crushed_bodies(const World& world, const Observer& observer) {
-  for (std::size_t i = 0; i < world.actors.size(); ++i) {
-    const Body& body = world.actors[i].body;
+  for (std::size_t i = 0; i < world.bodies.size(); ++i) {
+    const Body& body = world.bodies[i];
     const int inverted = inverted_bricks(body);
     if (inverted == 0 && !is_crushed(body)) continue;
     observer.warn(fmt::format(

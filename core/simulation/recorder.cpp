@@ -18,8 +18,8 @@ bool is_pin_of(const PinnedNodes& pinned, const SceneBody& body, const std::stri
 
 }  // namespace
 
-Recorder::Recorder(const Scene& scene, const Production& production, std::string progress_name, RunCache* cache)
-    : scene_(scene), production_(production), cache_(cache) {
+Recorder::Recorder(const Scene& scene, const Simulation& simulation, std::string progress_name, RunCache* cache)
+    : scene_(scene), simulation_(simulation), cache_(cache) {
   recording_.progress_name = std::move(progress_name);
   for (const Probe& probe : scene.probes) {
     recording_.probes.push_back({.name = probe.name, .is_pin = !probe.point, .samples = {}});
@@ -28,10 +28,10 @@ Recorder::Recorder(const Scene& scene, const Production& production, std::string
 }
 
 Recorder::PointSeat Recorder::seat_of(const Probe& probe) const {
-  for (std::size_t actor = 0; actor < production_.origins.size(); ++actor) {
-    const Origin& origin = production_.origins[actor];
+  for (std::size_t actor = 0; actor < simulation_.world.bodies.size(); ++actor) {
+    const Origin& origin = simulation_.world.bodies[actor].origin;
     if (origin.body != std::size_t(probe.body - 1)) continue;
-    const Body& body = production_.world.actors[actor].body;
+    const Body& body = simulation_.world.bodies[actor];
     PointSeat seat{.actor = actor, .embedding = embed(body.grid, (origin.bricks_from_rest * *probe.point).transpose())};
     if (seat.embedding.outside > 0) continue;
     seat.start = deform_points(body.grid, seat.embedding, body.rest_positions).row(0);
@@ -47,7 +47,7 @@ int Recorder::take_up(World& world, const std::function<void(IntegratorState&)>&
   if (cache_ == nullptr) return 0;
   IntegratorState empty;
   serialize(empty);
-  const int count = cache_->begin(scene_, production_, recording_.progress_name, empty.row().size());
+  const int count = cache_->begin(scene_, simulation_, recording_.progress_name, empty.row().size());
   for (int i = 0; i < count; ++i) {
     const CachedFrame frame = cache_->frame(i);
     recording_.progress.push_back(frame.progress);
@@ -67,7 +67,7 @@ void Recorder::add(double progress, const std::vector<Points>& reactions, double
                    const IntegratorState& state) {
   if (cache_ == nullptr) {
     std::vector<Floats3>& frame = recording_.frames.emplace_back();
-    for (const Actor& actor : production_.world.actors) frame.emplace_back(actor.body.positions.cast<float>());
+    for (const SoftBody& actor : simulation_.world.bodies) frame.emplace_back(actor.positions.cast<float>());
   }
   recording_.progress.push_back(progress);
   const auto now = std::chrono::steady_clock::now();
@@ -81,13 +81,13 @@ void Recorder::add(double progress, const std::vector<Points>& reactions, double
   if (cache_ == nullptr) return;
   const CachedFrame frame{.progress = progress,
                           .probes = numbers_of(recording_.probes),
-                          .state_hash = state_hash(production_.world),
+                          .state_hash = state_hash(simulation_.world),
                           .seconds = recording_.seconds.back()};
   cache_->add(frame, state);
 }
 
 ProbeSample Recorder::point_sample(const PointSeat& seat) const {
-  const Body& body = production_.world.actors[seat.actor].body;
+  const Body& body = simulation_.world.bodies[seat.actor];
   ProbeSample sample;
   sample.position = deform_points(body.grid, seat.embedding, body.positions).row(0);
   sample.displacement = sample.position - seat.start;
@@ -100,10 +100,10 @@ ProbeSample Recorder::pin_sample(const Probe& probe, const std::vector<Points>& 
   const SceneBody& scene_body = scene_.bodies[row];
   ProbeSample sample;
   int count = 0;
-  for (std::size_t actor = 0; actor < production_.origins.size(); ++actor) {
-    if (production_.origins[actor].body != row) continue;
-    const Body& body = production_.world.actors[actor].body;
-    for (const PinnedNodes& pinned : production_.origins[actor].pins) {
+  for (std::size_t actor = 0; actor < simulation_.world.bodies.size(); ++actor) {
+    if (simulation_.world.bodies[actor].origin.body != row) continue;
+    const Body& body = simulation_.world.bodies[actor];
+    for (const PinnedNodes& pinned : simulation_.world.bodies[actor].origin.pins) {
       if (!is_pin_of(pinned, scene_body, probe.pin)) continue;
       const Pin& pin = scene_body.pins[pinned.pin];
       const Vec3 shift = movement_of(pin, scene_).placement(time).shift;
@@ -127,7 +127,7 @@ ProbeSample Recorder::pin_sample(const Probe& probe, const std::vector<Points>& 
 }
 
 Recording Recorder::finish() {
-  recording_.state_hash = state_hash(production_.world);
+  recording_.state_hash = state_hash(simulation_.world);
   return std::move(recording_);
 }
 
@@ -139,9 +139,9 @@ std::uint64_t state_hash(const World& world) {
       for (unsigned byte = 0; byte < 8; ++byte) hash = (hash ^ ((bits >> (8 * byte)) & 0xffU)) * 0x100000001b3U;
     }
   };
-  for (const Actor& actor : world.actors) {
-    add(actor.body.positions);
-    add(actor.body.velocities);
+  for (const SoftBody& actor : world.bodies) {
+    add(actor.positions);
+    add(actor.velocities);
   }
   return hash;
 }

@@ -42,18 +42,18 @@ struct Recording {
   std::uint64_t state_hash = 0;    // of the last frame's node positions and velocities, every bit of them
 };
 
-/// Takes down frames as a production goes through them.
+/// Takes down frames as a simulation goes through them.
 class Recorder {
  public:
   /// A cache, where there is one, gets the frames. Throws Error(kBadInput) where a probe's point is in no brick or its
   /// pin holds nothing.
-  Recorder(const Scene& scene, const Production& production, std::string progress_name, RunCache* cache);
+  Recorder(const Scene& scene, const Simulation& simulation, std::string progress_name, RunCache* cache);
 
-  /// Takes up the frames that the cache has: the world, that of the production, then stands as after the last of them,
+  /// Takes up the frames that the cache has: the world, that of the simulation, then stands as after the last of them,
   /// and `pass` has given the motion what it remembers. Returns how many they are. To be called before the first add().
   int take_up(World& world, const std::function<void(IntegratorState&)>& serialize);
 
-  /// The production as it stands. `reactions` of the pins' nodes by actor (m x 3, N); none: no forces. `time` in the
+  /// The simulation as it stands. `reactions` of the pins' nodes by actor (m x 3, N); none: no forces. `time` in the
   /// film (s), for the pins' movement; with `small`, torques are those of the shape at rest.
   void add(double progress, const std::vector<Points>& reactions, double time, bool small,
            const IntegratorState& state = {});
@@ -75,7 +75,7 @@ class Recorder {
                                        bool small) const;
 
   const Scene& scene_;
-  const Production& production_;
+  const Simulation& simulation_;
   RunCache* cache_;
   std::vector<PointSeat> seats_;  // by probe; unused for pins
   Recording recording_;

@@ -11,9 +11,7 @@
 namespace sprung {
 namespace {
 
-CachedColor bytes_of(const Color& color) { return {color.red, color.green, color.blue}; }
-
-std::string difference_of_actors(const CachedActor& cached, const CachedActor& now) {
+std::string difference_of_bodies(const SoftBody& cached, const SoftBody& now) {
   if (cached.grid.cells.size() != now.grid.cells.size()) {
     return fmt::format("{} bricks in the cache, {} here", cached.grid.cells.size(), now.grid.cells.size());
   }
@@ -29,37 +27,15 @@ std::string difference_of_actors(const CachedActor& cached, const CachedActor& n
 }
 
 /// What of a simulation goes into a cache.
-CacheHeader cache_header(const Scene& scene, const Production& production, const SceneRecord& record,
+CacheHeader cache_header(const Scene& scene, const Simulation& simulation, const SceneRecord& record,
                          std::string progress_name) {
   CacheHeader header;
   header.version = SPRUNG_VERSION;
   header.build = build_of_this_program();
   header.scene = record.text;
   header.progress_name = std::move(progress_name);
-  header.size = production.size;
-  header.meshes = production.meshes;
   for (const Probe& probe : scene.probes) header.probes.push_back(probe.name);
-  for (std::size_t i = 0; i < production.skins.size(); ++i) {
-    const Body& body = production.world.actors[i].body;
-    const DrawnSkin& drawn = production.skins[i];
-    CachedActor& actor = header.actors.emplace_back();
-    actor.body = int(production.origins[i].body);
-    actor.color = bytes_of(drawn.color);
-    actor.grid = body.grid;
-    actor.stiffness_scale = body.stiffness_scale;
-    actor.regions = production.origins[i].regions;
-    actor.masses = body.masses;
-    actor.rest_positions = body.rest_positions;
-    actor.pinned = pinned_nodes(production.origins[i]);
-    actor.skin = drawn.skin;
-    actor.embedding = drawn.embedding;
-    actor.copy = production.origins[i].copy;
-    actor.carried = production.carried[i].vertices;
-    actor.carried_embedding = production.carried[i].embedding;
-  }
-  for (const StageObstacle& obstacle : production.obstacles) {
-    header.obstacles.push_back({.color = bytes_of(obstacle.color), .start = obstacle.start, .skin = obstacle.skin});
-  }
+  header.simulation = simulation;
   return header;
 }
 
@@ -79,14 +55,16 @@ std::string difference(const CacheHeader& cached, const CacheHeader& now, const 
   if (record.difference) {
     if (std::string text = record.difference(cached.scene); !text.empty()) return text;
   }
-  if (cached.actors.size() != now.actors.size()) {
-    return fmt::format("{} solids in the cache, {} here: the meshes have changed", cached.actors.size(),
-                       now.actors.size());
+  const std::vector<SoftBody>& old_bodies = cached.simulation.world.bodies;
+  const std::vector<SoftBody>& new_bodies = now.simulation.world.bodies;
+  if (old_bodies.size() != new_bodies.size()) {
+    return fmt::format("{} solids in the cache, {} here: the meshes have changed", old_bodies.size(),
+                       new_bodies.size());
   }
-  for (std::size_t i = 0; i < now.actors.size(); ++i) {
-    const std::string text = difference_of_actors(cached.actors[i], now.actors[i]);
+  for (std::size_t i = 0; i < new_bodies.size(); ++i) {
+    const std::string text = difference_of_bodies(old_bodies[i], new_bodies[i]);
     if (text.empty()) continue;
-    return fmt::format("the mesh of body {} has changed: {}", now.actors[i].body + 1, text);
+    return fmt::format("the mesh of body {} has changed: {}", new_bodies[i].origin.body + 1, text);
   }
   return "";
 }
@@ -98,52 +76,33 @@ std::string position_accuracy(const CacheHeader& header) {
   return fmt::format("to within {:.6g} m", header.position_error);
 }
 
-namespace {
-
-Color color_of(const CachedColor& bytes) { return {.red = bytes[0], .green = bytes[1], .blue = bytes[2]}; }
-
-Body cached_body(const CachedActor& cached, const SceneBody& scene_body) {
-  Body body = make_body(cached.grid, scene_body.model, scene_body.material);
-  body.masses = cached.masses;
-  body.rest_positions = cached.rest_positions;
-  body.positions = cached.rest_positions;
-  if (body.stiffness_scale == cached.stiffness_scale) return body;
-  body.stiffness_scale = cached.stiffness_scale;
-  build_tiles(body);
-  return body;
-}
-
-}  // namespace
-
-Production cached_production(const CacheHeader& header, const Scene& scene) {
-  Production production;
-  production.size = header.size;
-  production.meshes = header.meshes;
-  production.world.gravity = scene.gravity;
-  for (const CachedActor& cached : header.actors) {
-    const std::size_t row = cached.body;
-    if (row >= scene.bodies.size()) throw Error(ErrorKind::kBadInput, "the cache is damaged: a body that no scene has");
-    production.world.actors.push_back({.body = cached_body(cached, scene.bodies[row]), .contacts = {}, .pinned = {}});
-    production.skins.push_back({.skin = cached.skin, .embedding = cached.embedding, .color = color_of(cached.color)});
-    production.carried.push_back({.vertices = cached.carried, .embedding = cached.carried_embedding});
-    Origin& origin = production.origins.emplace_back();
-    origin.body = row;
-    origin.copy = cached.copy;
-    origin.regions = cached.regions;
-    if (!cached.pinned.empty()) origin.pins.push_back({.pin = 0, .nodes = cached.pinned});
+Simulation cached_simulation(const CacheHeader& header, const Scene& scene) {
+  Simulation simulation = header.simulation;
+  simulation.world.gravity = scene.gravity;
+  for (SoftBody& body : simulation.world.bodies) {
+    if (body.origin.body >= scene.bodies.size()) {
+      throw Error(ErrorKind::kBadInput, "the cache is damaged: a body that no scene has");
+    }
+    const SceneBody& scene_body = scene.bodies[body.origin.body];
+    Body made = make_body(std::move(body.grid), scene_body.model, scene_body.material);
+    made.masses = std::move(body.masses);
+    made.rest_positions = std::move(body.rest_positions);
+    made.positions = std::move(body.positions);
+    if (made.stiffness_scale != body.stiffness_scale) {
+      made.stiffness_scale = std::move(body.stiffness_scale);
+      build_tiles(made);
+    }
+    static_cast<Body&>(body) = std::move(made);
   }
-  for (std::size_t i = 0; i < header.obstacles.size(); ++i) {
+  for (std::size_t i = 0; i < simulation.obstacles.size(); ++i) {
     const SceneObstacle& obstacle = scene.obstacles.at(i);
-    StageObstacle& staged = production.obstacles.emplace_back();
+    StageObstacle& staged = simulation.obstacles[i];
     // Nothing meets them any more: it only matters which of them is level ground.
     staged.shape = obstacle.plane ? Shape(SolidHalfSpace{}) : Shape(SolidBall{});
-    staged.start = header.obstacles[i].start;
     staged.movement = {obstacle.keyframes, obstacle.interpolation};
-    staged.skin = header.obstacles[i].skin;
-    staged.color = color_of(header.obstacles[i].color);
-    production.world.obstacles.push_back(obstacle_between(staged, obstacle, 0, 0));
+    simulation.world.obstacles.push_back(obstacle_between(staged, obstacle, 0, 0));
   }
-  return production;
+  return simulation;
 }
 
 std::vector<Floats3> cached_nodes(const CacheReader& cache, std::size_t frame) {
@@ -187,10 +146,10 @@ RunCache::RunCache(std::filesystem::path file, SceneRecord record, bool resume, 
 
 RunCache::~RunCache() = default;
 
-int RunCache::begin(const Scene& scene, const Production& production, const std::string& progress_name,
+int RunCache::begin(const Scene& scene, const Simulation& simulation, const std::string& progress_name,
                     std::size_t memory_size) {
-  production_ = &production;
-  CacheHeader header = cache_header(scene, production, record_, progress_name);
+  simulation_ = &simulation;
+  CacheHeader header = cache_header(scene, simulation, record_, progress_name);
   header.position_error = position_error_;
   header.velocity_error = position_error_ * scene.fps;
   if (old_) {
@@ -228,9 +187,9 @@ IntegratorState RunCache::restore(World& world) const {
   const std::size_t last = frame_count_ - 1;
   const std::vector<Points> positions = old_->exact_positions(last);
   const std::vector<Points> velocities = old_->exact_velocities(last);
-  for (std::size_t i = 0; i < world.actors.size(); ++i) {
-    world.actors[i].body.positions = positions[i];
-    world.actors[i].body.velocities = velocities[i];
+  for (std::size_t i = 0; i < world.bodies.size(); ++i) {
+    world.bodies[i].positions = positions[i];
+    world.bodies[i].velocities = velocities[i];
   }
   return IntegratorState(old_->memory(last));
 }
@@ -238,9 +197,9 @@ IntegratorState RunCache::restore(World& world) const {
 void RunCache::add(const CachedFrame& frame, const IntegratorState& state) {
   std::vector<const Points*> positions;
   std::vector<const Points*> velocities;
-  for (const Actor& actor : production_->world.actors) {
-    positions.push_back(&actor.body.positions);
-    velocities.push_back(&actor.body.velocities);
+  for (const SoftBody& actor : simulation_->world.bodies) {
+    positions.push_back(&actor.positions);
+    velocities.push_back(&actor.velocities);
   }
   writer_->append(frame, positions, velocities, state.row());
   if (frame_count_++ == 0) writer_->publish();

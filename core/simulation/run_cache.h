@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/dynamics/integrator_state.h"
-#include "core/io/cache.h"
+#include "core/simulation/cache.h"
 #include "core/simulation/recorder.h"
 #include "core/simulation/simulation.h"
 
@@ -23,9 +23,9 @@ struct SceneRecord {
 /// "to the last bit", "to within 1e-05 m".
 [[nodiscard]] std::string position_accuracy(const CacheHeader& header);
 
-/// The production that a cache was made of, for what draws or measures it: nothing in it can be moved on, since
+/// The simulation that a cache was made of, for what draws or measures it: nothing in it can be moved on, since
 /// contacts, pins and damping are not in a cache.
-[[nodiscard]] Production cached_production(const CacheHeader& header, const Scene& scene);
+[[nodiscard]] Simulation cached_simulation(const CacheHeader& header, const Scene& scene);
 
 /// Its frames, and what the probes saw in them; which of those are of pins is not in a cache.
 [[nodiscard]] Recording cached_recording(const CacheReader& cache);
@@ -44,7 +44,7 @@ class RunCache {
 
   /// Makes ready for the frames of a run and returns how many are there. Both have to outlive this.
   /// Throws Error(kBadInput) naming the difference where those are of another run, Error(kFailed).
-  int begin(const Scene& scene, const Production& production, const std::string& progress_name,
+  int begin(const Scene& scene, const Simulation& simulation, const std::string& progress_name,
             std::size_t memory_size);
 
   /// A frame that is there.
@@ -69,7 +69,7 @@ class RunCache {
   double position_error_;
   std::unique_ptr<CacheReader> old_;  // what an earlier run left
   std::unique_ptr<CacheWriter> writer_;
-  const Production* production_ = nullptr;
+  const Simulation* simulation_ = nullptr;
   int frame_count_ = 0;
 };
 

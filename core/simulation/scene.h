@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "core/law/brick_law.h"
 #include "core/law/material.h"
 #include "core/mesh/repair/repair.h"
+#include "core/mesh/surface_mesh.h"
 #include "core/skin/appearance.h"
 #include "core/types.h"
 #include "core/world/keyframes.h"
@@ -153,8 +155,9 @@ struct BrickCount {
 
 /// A mesh file or a built-in shape, and how it enters the scene. Every solid in a file becomes a soft body of its own.
 struct SceneBody {
-  std::filesystem::path mesh;  // absolute; or
-  std::optional<Vec3> box;     // m, sides of a box that is exactly as many bricks as fit in it; or
+  std::shared_ptr<const SurfaceMesh> surface;  // a mesh in memory, in place of that in a file; or
+  std::filesystem::path mesh;                  // absolute; or
+  std::optional<Vec3> box;                     // m, sides of a box that is exactly as many bricks as fit in it; or
   std::optional<SphereShape> sphere;
   std::optional<CylinderShape> cylinder;
   std::optional<TorusShape> torus;

@@ -38,42 +38,42 @@ std::vector<std::exception_ptr> fill_bodies(std::deque<BodyBuilder>& builders) {
 
 }  // namespace
 
-Production build_world(const Scene& scene, const std::vector<LoadedBody>& bodies, const Observer& observer) {
-  Production production;
-  production.world.gravity = scene.gravity;
-  production.world.bodies_collide = scene.contact.bodies;
+void add_bodies(const Scene& scene, std::size_t first, const std::vector<LoadedBody>& bodies, Simulation& simulation,
+                const Observer& observer) {
   std::deque<BodyBuilder> builders;
-  for (std::size_t i = 0; i < bodies.size(); ++i) builders.emplace_back(scene, i, bodies[i], production);
+  for (std::size_t i = 0; i < bodies.size(); ++i) builders.emplace_back(scene, first + i, bodies[i], simulation);
   const std::vector<std::exception_ptr> failures = fill_bodies(builders);
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (failures[i]) std::rethrow_exception(failures[i]);
     builders[i].add_solids();
     builders[i].tell(observer);
-    check_loads(scene, i, production.origins);
-    production.size = std::max(production.size, bodies[i].extent.maxCoeff());
+    check_loads(scene, first + i, simulation.world);
+    simulation.size = std::max(simulation.size, bodies[i].extent.maxCoeff());
   }
-  production.obstacles = make_obstacles(scene, kDrawnPlane * production.size, observer);
+}
+
+void stiffen_volume_guards(Simulation& simulation) {
+  const double speed = impact_speed(simulation.world);
+  for (SoftBody& body : simulation.world.bodies) {
+    body.law.guard = brick_law(body.model, body.material, body.grid.brick_size).guard;
+    stiffen_volume_guard(body, simulation.world.gravity.norm(), speed);
+  }
+}
+
+Simulation build_world(const Scene& scene, const std::vector<LoadedBody>& bodies, const Observer& observer) {
+  Simulation simulation;
+  simulation.world.gravity = scene.gravity;
+  simulation.world.bodies_collide = scene.contact.bodies;
+  add_bodies(scene, 0, bodies, simulation, observer);
+  simulation.obstacles = make_obstacles(scene, kDrawnPlane * simulation.size, observer);
   for (std::size_t i = 0; i < scene.obstacles.size(); ++i) {
-    production.world.obstacles.push_back(obstacle_between(production.obstacles[i], scene.obstacles[i], 0, 0));
+    simulation.world.obstacles.push_back(obstacle_between(simulation.obstacles[i], scene.obstacles[i], 0, 0));
   }
-  if (!is_motion(scene)) return production;
-  for (std::size_t i = 0; i < scene.glue.size(); ++i) glue_bodies(scene, i, production);
-  const double speed = impact_speed(production.world);
-  for (Actor& actor : production.world.actors) stiffen_volume_guard(actor.body, scene.gravity.norm(), speed);
-  check_start(scene, production);
-  return production;
-}
-
-std::vector<int> pinned_nodes(const Origin& origin) {
-  std::vector<int> nodes;
-  for (const PinnedNodes& pinned : origin.pins) nodes.insert(nodes.end(), pinned.nodes.begin(), pinned.nodes.end());
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  return nodes;
-}
-
-Points skin_positions(const Production& production, std::size_t actor, const Points& nodes) {
-  return deform_points(production.world.actors[actor].body.grid, production.skins[actor].embedding, nodes);
+  if (!is_motion(scene)) return simulation;
+  for (std::size_t i = 0; i < scene.glue.size(); ++i) glue_bodies(scene, i, simulation);
+  stiffen_volume_guards(simulation);
+  check_start(scene, simulation);
+  return simulation;
 }
 
 namespace {
@@ -136,13 +136,13 @@ class ThinParts {
 };
 
 void find_thin_parts(const Scene& scene, Preparation& prepared, const Observer& observer) {
-  const World& world = prepared.production.world;
+  const World& world = prepared.simulation.world;
   std::size_t actor = 0;
   for (std::size_t body = 0; body < prepared.bodies.size(); ++body) {
     ThinParts parts(prepared.bodies[body]);
     const std::size_t copies = copy_count(scene.bodies[body]);
     for (std::size_t solid = 0; solid < prepared.bodies[body].solids.size(); ++solid, actor += copies) {
-      const std::vector<ThinPart> found = parts.find(world.actors[actor].body.grid, solid);
+      const std::vector<ThinPart> found = parts.find(world.bodies[actor].grid, solid);
       prepared.thin_parts.insert(prepared.thin_parts.end(), copies, found);
     }
     parts.warn(observer);
@@ -187,50 +187,50 @@ Preparation prepare(const Scene& scene, const Observer& observer) {
   Preparation prepared;
   prepared.bodies = load_bodies(scene, observer);
   Progress progress(observer, "bricks");
-  prepared.production = build_world(scene, prepared.bodies, observer);
+  prepared.simulation = build_world(scene, prepared.bodies, observer);
   find_thin_parts(scene, prepared, observer);
   warn_of_locking(scene, prepared.bodies, observer);
   warn_of_units(scene, prepared.bodies, observer);
   int bricks = 0;
   int nodes = 0;
   double mass = 0;
-  for (const Actor& actor : prepared.production.world.actors) {
-    bricks += actor.body.grid.brick_count();
-    nodes += actor.body.node_count();
-    mass += actor.body.masses.sum();
+  for (const SoftBody& actor : prepared.simulation.world.bodies) {
+    bricks += actor.grid.brick_count();
+    nodes += actor.node_count();
+    mass += actor.masses.sum();
   }
   progress.finish(fmt::format("{} of {}, {} nodes, {:.4g} kg", count_of(bricks, "brick"), brick_sizes(prepared.bodies),
                               nodes, mass));
   return prepared;
 }
 
-Production make_production(const Scene& scene, const Observer& observer) {
-  return std::move(prepare(scene, observer).production);
+Simulation prepare_simulation(const Scene& scene, const Observer& observer) {
+  return std::move(prepare(scene, observer).simulation);
 }
 
 namespace {
 
 constexpr double kNear = 0.5;  // of the smaller bricks
 
-std::vector<std::size_t> actors_of(const Production& production, int body) {
-  std::vector<std::size_t> actors;
-  for (std::size_t i = 0; i < production.origins.size(); ++i) {
-    if (production.origins[i].body + 1 == std::size_t(body)) actors.push_back(i);
+std::vector<std::size_t> actors_of(const Simulation& simulation, int body) {
+  std::vector<std::size_t> bodies;
+  for (std::size_t i = 0; i < simulation.world.bodies.size(); ++i) {
+    if (simulation.world.bodies[i].origin.body + 1 == std::size_t(body)) bodies.push_back(i);
   }
-  return actors;
+  return bodies;
 }
 
 }  // namespace
 
-void glue_bodies(const Scene& scene, std::size_t row, Production& production) {
+void glue_bodies(const Scene& scene, std::size_t row, Simulation& simulation) {
   const SceneGlue& glue = scene.glue[row];
-  World& world = production.world;
+  World& world = simulation.world;
   double distance = 0;
   const std::size_t before = world.glue.size();
-  for (const std::size_t a : actors_of(production, glue.bodies[0])) {
-    for (const std::size_t b : actors_of(production, glue.bodies[1])) {
+  for (const std::size_t a : actors_of(simulation, glue.bodies[0])) {
+    for (const std::size_t b : actors_of(simulation, glue.bodies[1])) {
       if (glue.bodies[0] == glue.bodies[1] && b <= a) continue;
-      const double brick = std::min(world.actors[a].body.grid.brick_size, world.actors[b].body.grid.brick_size);
+      const double brick = std::min(world.bodies[a].grid.brick_size, world.bodies[b].grid.brick_size);
       distance = glue.distance.value_or(kNear * brick);
       const std::vector<GluedPoint> points = glue_between(world, a, b, distance);
       world.glue.insert(world.glue.end(), points.begin(), points.end());
@@ -245,17 +245,16 @@ void glue_bodies(const Scene& scene, std::size_t row, Production& production) {
 
 namespace {
 
-std::string allowance(const Actor& actor) {
-  return fmt::format("may overlap it by one brick ({}) at most",
-                     readable(actor.body.grid.brick_size, Dimension::kLength));
+std::string allowance(const SoftBody& actor) {
+  return fmt::format("may overlap it by one brick ({}) at most", readable(actor.grid.brick_size, Dimension::kLength));
 }
 
-void check_obstacle(const Scene& scene, const Production& production, std::size_t actor, std::size_t row) {
-  const Obstacle& obstacle = production.world.obstacles[row];
-  const Actor& body = production.world.actors[actor];
+void check_obstacle(const Scene& scene, const Simulation& simulation, std::size_t actor, std::size_t row) {
+  const Obstacle& obstacle = simulation.world.obstacles[row];
+  const SoftBody& body = simulation.world.bodies[actor];
   const double depth = penetration_depth(obstacle, body);
-  if (depth <= body.body.grid.brick_size) return;
-  const std::size_t index = production.origins[actor].body;
+  if (depth <= body.grid.brick_size) return;
+  const std::size_t index = simulation.world.bodies[actor].origin.body;
   const std::string deep = readable(depth, Dimension::kLength);
   const std::optional<double> ground = ground_height(obstacle);
   if (!ground) {
@@ -270,32 +269,32 @@ void check_obstacle(const Scene& scene, const Production& production, std::size_
                   index + 1, deep, *ground, allowance(body), y, std::abs(y + depth) < 1e-9 * depth ? 0 : y + depth));
 }
 
-void check_pair(const Production& production, std::size_t a, std::size_t b) {
-  const Actor& one = production.world.actors[a];
-  const Actor& other = production.world.actors[b];
+void check_pair(const Simulation& simulation, std::size_t a, std::size_t b) {
+  const SoftBody& one = simulation.world.bodies[a];
+  const SoftBody& other = simulation.world.bodies[b];
   const double depth = penetration_depth(other, one);
-  const double allowed = std::min(one.body.grid.brick_size, other.body.grid.brick_size);
+  const double allowed = std::min(one.grid.brick_size, other.grid.brick_size);
   if (depth <= allowed) return;
   throw Error(ErrorKind::kBadInput,
               fmt::format("body {} starts {} inside body {}; bodies may overlap by one brick ({}) at most: move them "
                           "apart, or let bodies not touch each other ([contact] bodies = false)",
-                          production.origins[a].body + 1, readable(depth, Dimension::kLength),
-                          production.origins[b].body + 1, readable(allowed, Dimension::kLength)));
+                          simulation.world.bodies[a].origin.body + 1, readable(depth, Dimension::kLength),
+                          simulation.world.bodies[b].origin.body + 1, readable(allowed, Dimension::kLength)));
 }
 
 }  // namespace
 
-void check_start(const Scene& scene, const Production& production) {
-  const World& world = production.world;
+void check_start(const Scene& scene, const Simulation& simulation) {
+  const World& world = simulation.world;
   std::vector<AlignedBox> boxes;
-  for (std::size_t i = 0; i < world.actors.size(); ++i) {
-    boxes.push_back(box_around(world.actors[i].body.positions));
-    for (std::size_t row = 0; row < world.obstacles.size(); ++row) check_obstacle(scene, production, i, row);
+  for (std::size_t i = 0; i < world.bodies.size(); ++i) {
+    boxes.push_back(box_around(world.bodies[i].positions));
+    for (std::size_t row = 0; row < world.obstacles.size(); ++row) check_obstacle(scene, simulation, i, row);
   }
   if (!world.bodies_collide) return;
   for (const auto& [a, b] : overlapping_boxes(boxes)) {
-    check_pair(production, a, b);
-    check_pair(production, b, a);
+    check_pair(simulation, a, b);
+    check_pair(simulation, b, a);
   }
 }
 

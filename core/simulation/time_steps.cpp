@@ -24,10 +24,10 @@ constexpr double kWorthwhile = 2;  // times quicker, for the damping of what imp
 /// s; the slowest vibration that any of the bodies has (estimated as in rayleigh_from_damping()).
 double shortest_period(const World& world) {
   double shortest = std::numeric_limits<double>::infinity();
-  for (const Actor& actor : world.actors) {
-    const Points& rest = actor.body.rest_positions;
+  for (const SoftBody& actor : world.bodies) {
+    const Points& rest = actor.rest_positions;
     const double length = (rest.colwise().maxCoeff() - rest.colwise().minCoeff()).maxCoeff();
-    const Material& material = actor.body.material;
+    const Material& material = actor.material;
     shortest = std::min(shortest, 2 * length / std::sqrt(material.shear_modulus() / material.density));
   }
   return shortest;
@@ -58,8 +58,8 @@ StepPlan plan_steps(const World& world, const Scene& scene) {
   double bricks = 0;
   double brick_steps = 0;
   for (const GroupSteps& group : choose_steps(world, frame)) {
-    for (const std::size_t i : group.actors) {
-      const int count = world.actors[i].body.grid.brick_count();
+    for (const std::size_t i : group.bodies) {
+      const int count = world.bodies[i].grid.brick_count();
       bricks += count;
       brick_steps += count * double(group.steps.count);
     }
@@ -75,7 +75,7 @@ StepPlan plan_steps(const World& world, const Scene& scene) {
                                                   why_not));
   }
   if (plan.scheme == Solver::kAuto) {
-    const bool is_coupled = !world.glue.empty() || (world.bodies_collide && world.actors.size() > 1);
+    const bool is_coupled = !world.glue.empty() || (world.bodies_collide && world.bodies.size() > 1);
     const double dear = (is_coupled ? kCoupledCost : kImplicitCost) * double(long_ones);
     const bool is_implicit = why_not.empty() && brick_steps > kWorthwhile * dear * bricks;
     plan.scheme = is_implicit ? Solver::kBdf2 : Solver::kEuler;

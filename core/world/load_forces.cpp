@@ -59,7 +59,7 @@ const Points& LoadForces::forces_beside_muscles() {
 }
 
 void LoadForces::find_skin_forces() {
-  const Body& body = actor_.body;
+  const Body& body = actor_;
   skin_forces_ = Points::Zero(body.node_count(), 3);
   if (actor_.loads.pressures.empty() && !world_.wind.blows()) return;
   const Points places = deform_points(body.grid, actor_.contacts, body.positions);
@@ -87,7 +87,7 @@ void LoadForces::find_skin_forces() {
 }
 
 void LoadForces::add_muscle(const Muscle& muscle) {
-  const Body& body = actor_.body;
+  const Body& body = actor_;
   const double h = body.grid.brick_size;
   const auto [frame, stress] = tension_of(muscle, body.material);
   for (const int brick : muscle.bricks) {

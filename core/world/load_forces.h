@@ -8,7 +8,7 @@ namespace sprung {
 class LoadForces {
  public:
   /// Both have to outlive it.
-  LoadForces(const Actor& actor, const World& world) : actor_(actor), world_(world) {}
+  LoadForces(const SoftBody& actor, const World& world) : actor_(actor), world_(world) {}
 
   /// Whether there is anything at all.
   [[nodiscard]] bool any() const { return !actor_.loads.empty() || world_.wind.blows(); }
@@ -22,7 +22,7 @@ class LoadForces {
   void find_skin_forces();
   void add_muscle(const Muscle& muscle);
 
-  const Actor& actor_;
+  const SoftBody& actor_;
   const World& world_;
   Points skin_forces_;  // m x 3, N
   Points forces_;       // m x 3, N

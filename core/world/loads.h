@@ -9,7 +9,7 @@ namespace sprung {
 
 /// Presses on some triangles of a body's skin, along their inward normals as they turn and grow.
 struct SkinPressure {
-  std::vector<int> triangles;  // rows of Actor::contact_triangles
+  std::vector<int> triangles;  // rows of SoftBody::contact_triangles
   double pressure = 0;         // Pa; below 0 it pulls outward
 };
 
@@ -43,7 +43,7 @@ struct Wind {
 
 /// Two places in the bricks of two bodies that stay together.
 struct GluedPoint {
-  std::array<std::size_t, 2> actors;  // rows of World::actors
+  std::array<std::size_t, 2> bodies;  // rows of World::bodies
   std::array<int, 2> bricks;
   std::array<CornerWeights, 2> weights;  // of the bricks' corners
 };

@@ -24,11 +24,8 @@ std::string message_of(const World& world, const std::filesystem::path& picture)
 TEST(DrawDiverged, LeavesAPictureOfTheBricksAndNamesIt) {
   const TempFolder folder;
   World world;
-  world.actors.push_back(
-      {.body = make_body(make_box_grid({4, 2, 2}, 0.02), Model::kCalibrated, test::test_material(0.3)),
-       .contacts = {},
-       .pinned = {}});
-  world.actors[0].body.positions(3, 1) += 0.01;
+  world.bodies.emplace_back(make_body(make_box_grid({4, 2, 2}, 0.02), Model::kCalibrated, test::test_material(0.3)));
+  world.bodies[0].positions(3, 1) += 0.01;
   const std::filesystem::path picture = folder.path() / "out" / "diverged.png";
   const std::string message = message_of(world, picture);
   EXPECT_EQ(message.find("no end in sight; "), 0U) << message;
@@ -37,7 +34,7 @@ TEST(DrawDiverged, LeavesAPictureOfTheBricksAndNamesIt) {
   const Image plain = Image(image.width, image.height);
   EXPECT_NE(image.pixels, plain.pixels);
 
-  world.actors[0].body.positions(3, 1) = std::nan("");
+  world.bodies[0].positions(3, 1) = std::nan("");
   EXPECT_EQ(message_of(world, folder.path() / "none.png"), "no end in sight");
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "none.png"));
 }

@@ -27,13 +27,13 @@ TEST_P(EveryScene, BeginsSoundly) {
   Film scene = read_scene(GetParam());
   set_scene_key(scene, "duration", std::to_string(1.5 / scene.fps));
   const Observer silent;
-  Production production = make_production(scene, silent);
-  const Recording recording = simulate(production, scene, silent);
+  Simulation simulation = prepare_simulation(scene, silent);
+  const Recording recording = simulate(simulation, scene, silent);
   EXPECT_EQ(recording.frames.size(), 2U);
-  EXPECT_LT(recording.deepest_penetration, 0.01 * production.size);
-  for (const Actor& actor : production.world.actors) {
-    EXPECT_EQ(inverted_bricks(actor.body), 0);
-    EXPECT_NE(actor.body.positions, actor.body.rest_positions) << "nothing moves";
+  EXPECT_LT(recording.deepest_penetration, 0.01 * simulation.size);
+  for (const SoftBody& actor : simulation.world.bodies) {
+    EXPECT_EQ(inverted_bricks(actor), 0);
+    EXPECT_NE(actor.positions, actor.rest_positions) << "nothing moves";
   }
 }
 

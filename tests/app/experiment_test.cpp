@@ -34,19 +34,19 @@ pin = "root"
 Film scene_of(const std::string& text) { return parse_scene(text, "/scene.toml"); }
 
 /// What simulate() makes of a scene.
-Recording record(const Film& scene, Production& production) {
+Recording record(const Film& scene, Simulation& simulation) {
   const Observer silent;
-  production = make_production(scene, silent);
-  return simulate(production, scene, silent);
+  simulation = prepare_simulation(scene, silent);
+  return simulate(simulation, scene, silent);
 }
 Recording record(const std::string& text) {
-  Production production;
-  return record(scene_of(text), production);
+  Simulation simulation;
+  return record(scene_of(text), simulation);
 }
 
 TEST(Experiment, StaticSceneIsTheStaticSolution) {
-  Production production;
-  const Recording recording = record(scene_of(kBeam + "[solver]\nscheme = \"static\"\nload_steps = 1\n"), production);
+  Simulation simulation;
+  const Recording recording = record(scene_of(kBeam + "[solver]\nscheme = \"static\"\nload_steps = 1\n"), simulation);
   Material material;
   material.young = 1000;
   material.poisson = 0.3;
@@ -60,7 +60,7 @@ TEST(Experiment, StaticSceneIsTheStaticSolution) {
   const auto system = make_direct_solver();
   solve_static(body, supports, loads, body.positions, *system);
   const Points moved = body.positions - body.rest_positions;
-  const Body& made = production.world.actors.at(0).body;
+  const Body& made = simulation.world.bodies.at(0);
   EXPECT_GT(moved.cwiseAbs().maxCoeff(), 0.1);
   EXPECT_LT((made.positions - made.rest_positions - moved).cwiseAbs().maxCoeff(), 1e-9);
   EXPECT_EQ(recording.frames.size(), 2U);
@@ -107,15 +107,15 @@ TEST(Experiment, MovedPinsArriveInMotionAndAtRest) {
   std::string text = kBeam;
   text.insert(text.find("[[probe]]"), "  translate = [0.1, 0.2, 0]\n  rotate = [90, 0, 0]\n");
   for (const std::string scheme : {"euler", "verlet", "static"}) {
-    Production production;
+    Simulation simulation;
     const Recording recording =
-        record(scene_of("duration = 0.25\n" + text + "[solver]\nscheme = \"" + scheme + "\"\n"), production);
+        record(scene_of("duration = 0.25\n" + text + "[solver]\nscheme = \"" + scheme + "\"\n"), simulation);
     const Vec3 shift = recording.probes.at(1).samples.back().displacement;
     EXPECT_LT((shift - Vec3(0.1, 0.2, 0)).norm(), 1e-9) << scheme;
-    const Body& body = production.world.actors.at(0).body;
+    const Body& body = simulation.world.bodies.at(0);
     const Points goal =
-        body.rest_positions + pin_movements(scene_of("duration = 0.25\n" + text), production, 0, 0.25, false);
-    for (const KinematicNode& held : production.world.actors.at(0).pinned) {
+        body.rest_positions + pin_movements(scene_of("duration = 0.25\n" + text), simulation, 0, 0.25, false);
+    for (const KinematicNode& held : simulation.world.bodies.at(0).pinned) {
       EXPECT_LT((body.positions.row(held.node) - goal.row(held.node)).norm(), 1e-9) << scheme;
     }
   }
@@ -136,7 +136,7 @@ TEST(Experiment, FreeAxesOfAPinAreFree) {
 }
 
 TEST(Experiment, CutBoxHasTheBricksThatAreLeft) {
-  Production production;
+  Simulation simulation;
   static_cast<void>(record(scene_of(R"([[body]]
 box = [0.3, 0.2, 0.1]
 bricks = 6
@@ -148,8 +148,8 @@ bricks = 6
 scheme = "linear"
 load_steps = 1
 )"),
-                           production));
-  EXPECT_EQ(production.world.actors.at(0).body.grid.brick_count(), 6 * 4 * 2 - 4 * 2 * 2);
+                           simulation));
+  EXPECT_EQ(simulation.world.bodies.at(0).grid.brick_count(), 6 * 4 * 2 - 4 * 2 * 2);
 }
 
 TEST(Experiment, BricksMustFitIntoABox) {

@@ -29,9 +29,9 @@ box = { min = [0, 0, 0], max = [1, 1, 1] }
 std::vector<Vec3> path(const std::string& text) {
   const Film scene = parse_scene(text, "/scene.toml");
   const Observer silent;
-  Production production = make_production(scene, silent);
+  Simulation simulation = prepare_simulation(scene, silent);
   std::vector<Vec3> places;
-  const Recording recording = simulate(production, scene, silent);
+  const Recording recording = simulate(simulation, scene, silent);
   for (const ProbeSample& sample : recording.probes.at(0).samples) {
     places.push_back(sample.displacement);
   }

@@ -36,8 +36,8 @@ box = { min = [0, 0, 0], max = [1, 0.01, 1] }
 Recording record(const std::string& text) {
   const Film scene = parse_scene(text, "/scene.toml");
   const Observer silent;
-  Production production = make_production(scene, silent);
-  return simulate(production, scene, silent);
+  Simulation simulation = prepare_simulation(scene, silent);
+  return simulate(simulation, scene, silent);
 }
 
 std::vector<Vec3> path(const std::string& text) {
@@ -109,8 +109,8 @@ TEST(SceneLoads, WhatCannotBeIsRefused) {
     scene.solver.scheme = scheme;
     return error_message([&] {
       const Observer silent;
-      Production production = make_production(scene, silent);
-      static_cast<void>(simulate(production, scene, silent));
+      Simulation simulation = prepare_simulation(scene, silent);
+      static_cast<void>(simulate(simulation, scene, silent));
     });
   };
   EXPECT_NE(message_by(muscle, Solver::kStatic).find("can have a muscle"), std::string::npos);

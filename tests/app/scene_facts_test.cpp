@@ -27,21 +27,21 @@ class FilmFacts {
     }
     if (change) change(scene_);
     const Observer silent;
-    production_.emplace(make_production(scene_, silent));
-    recording_ = simulate(*production_, scene_, silent);
+    simulation_.emplace(prepare_simulation(scene_, silent));
+    recording_ = simulate(*simulation_, scene_, silent);
   }
 
   [[nodiscard]] int last() const { return isize(recording_.frames) - 1; }
   [[nodiscard]] int frame_at(double time) const { return int(std::lround(time * scene_.fps)); }
-  [[nodiscard]] std::size_t bodies() const { return production_->world.actors.size(); }
-  [[nodiscard]] const Body& body(std::size_t actor) const { return production_->world.actors[actor].body; }
+  [[nodiscard]] std::size_t bodies() const { return simulation_->world.bodies.size(); }
+  [[nodiscard]] const Body& body(std::size_t actor) const { return simulation_->world.bodies[actor]; }
   [[nodiscard]] const Recording& recording() const { return recording_; }
 
   [[nodiscard]] Points nodes(int frame, std::size_t actor = 0) const {
     return recording_.frames.at(frame).at(actor).cast<double>();
   }
   [[nodiscard]] Points skin(int frame, std::size_t actor = 0) const {
-    return skin_positions(*production_, actor, nodes(frame, actor));
+    return simulation_->world.bodies[actor].skin_positions(nodes(frame, actor));
   }
   /// Centre of mass.
   [[nodiscard]] Vec3 middle(int frame, std::size_t actor = 0) const {
@@ -85,14 +85,14 @@ class FilmFacts {
   /// touches.
   void expect_sound() const {
     int inverted = 0;
-    for (const Actor& actor : production_->world.actors) inverted += inverted_bricks(actor.body);
+    for (const SoftBody& actor : simulation_->world.bodies) inverted += inverted_bricks(actor);
     EXPECT_EQ(inverted, 0);
-    EXPECT_LT(recording_.deepest_penetration, 0.01 * production_->size);
+    EXPECT_LT(recording_.deepest_penetration, 0.01 * simulation_->size);
   }
 
  private:
   Film scene_;
-  std::optional<Production> production_;
+  std::optional<Simulation> simulation_;
   Recording recording_;
 };
 

@@ -69,9 +69,9 @@ f 5 8 7 6
 
 class SelectorTest : public testing::Test {
  protected:
-  [[nodiscard]] Production produce(const std::string& text) const {
+  [[nodiscard]] Simulation produce(const std::string& text) const {
     const Observer silent;
-    return make_production(parse_scene(text, folder_.path() / "scene.toml"), silent);
+    return prepare_simulation(parse_scene(text, folder_.path() / "scene.toml"), silent);
   }
 
   /// A body of that mesh, 2 m high, on 4 bricks a side.
@@ -83,17 +83,17 @@ class SelectorTest : public testing::Test {
 
   /// Where the nodes are that the only pin holds, of a body whose middle is at (0, half its height, 0).
   [[nodiscard]] std::vector<Vec3> held(const std::string& body, const std::string& selection) const {
-    const Production production = produce(body + "[[body.pin]]\n" + selection);
-    const Actor& actor = production.world.actors.at(0);
+    const Simulation simulation = produce(body + "[[body.pin]]\n" + selection);
+    const SoftBody& actor = simulation.world.bodies.at(0);
     std::vector<Vec3> places;
-    for (const KinematicNode& node : actor.pinned) places.emplace_back(actor.body.rest_positions.row(node.node));
+    for (const KinematicNode& node : actor.pinned) places.emplace_back(actor.rest_positions.row(node.node));
     return places;
   }
 
   /// How many bricks are five times as stiff as the others.
   [[nodiscard]] long stiff_bricks(const std::string& body, const std::string& selection) const {
-    const Production production = produce(body + "[[body.region]]\n" + selection + kStiff);
-    const std::vector<double>& scale = production.world.actors.at(0).body.stiffness_scale;
+    const Simulation simulation = produce(body + "[[body.region]]\n" + selection + kStiff);
+    const std::vector<double>& scale = simulation.world.bodies.at(0).stiffness_scale;
     return std::count_if(scale.begin(), scale.end(), [](double value) { return std::abs(value - 5) < 1e-9; });
   }
 
@@ -151,14 +151,14 @@ f 5 8 7 6
 }
 
 TEST_F(SelectorTest, GradientsAreLinearBetweenTwoMaterials) {
-  const Production production = produce(kBox + R"([[body.region]]
+  const Simulation simulation = produce(kBox + R"([[body.region]]
 material = { young = 1000, poisson = 0.3, density = 100 }
 [body.region.gradient]
 from = [0, 0.25, 0]
 to = [0, 1, 0]
 material = { young = 4000, poisson = 0.3, density = 400 }
 )");
-  const Body& body = production.world.actors.at(0).body;
+  const Body& body = simulation.world.bodies.at(0);
   for (std::size_t brick = 0; brick < body.grid.cells.size(); ++brick) {
     const double height = 0.25 * (body.grid.cells[brick].y() + 0.5);
     const double share = std::max(0.0, (height - 0.25) / 0.75);
@@ -168,8 +168,8 @@ material = { young = 4000, poisson = 0.3, density = 400 }
 }
 
 TEST_F(SelectorTest, CutsTakeWhateverPartOfABox) {
-  const Production production = produce(kBox + "[[body.cut]]\nsphere = { center = [0, 0, 0], radius = 0.42 }\n");
-  EXPECT_EQ(production.world.actors.at(0).body.grid.brick_count(), 60);
+  const Simulation simulation = produce(kBox + "[[body.cut]]\nsphere = { center = [0, 0, 0], radius = 0.42 }\n");
+  EXPECT_EQ(simulation.world.bodies.at(0).grid.brick_count(), 60);
 }
 
 TEST_F(SelectorTest, WhatIsNotThereIsRefused) {

@@ -15,9 +15,9 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-Production produce(const std::string& body) {
+Simulation produce(const std::string& body) {
   const Observer silent;
-  return make_production(parse_scene("[[body]]\n" + body, "/scene.toml"), silent);
+  return prepare_simulation(parse_scene("[[body]]\n" + body, "/scene.toml"), silent);
 }
 
 void expect_volume(const SurfaceMesh& mesh, double volume) {
@@ -42,13 +42,13 @@ TEST(Shapes, AreClosedOutwardAndAsLargeAsTheyShould) {
 }
 
 TEST(Shapes, BecomeBodies) {
-  const Production ball = produce("sphere = { radius = \"10 cm\" }\nbricks = 12\nmaterial = \"gelatin\"\n");
-  const Body& body = ball.world.actors.at(0).body;
+  const Simulation ball = produce("sphere = { radius = \"10 cm\" }\nbricks = 12\nmaterial = \"gelatin\"\n");
+  const Body& body = ball.world.bodies.at(0);
   const double mass = built_in_materials()->find("gelatin").density * 4.0 / 3 * kPi * 1e-3;
   EXPECT_NEAR(body.masses.sum() / mass, 1, 0.01);
-  const Production ring = produce("torus = { radius = 0.4, tube = 0.1 }\nbricks = 20\n");
-  EXPECT_NEAR(ring.world.actors.at(0).body.grid.brick_size, 0.05, 1e-12);
-  EXPECT_EQ(produce("cylinder = { radius = 0.1, height = 1 }\nbricks = \"auto\"\n").world.actors.size(), 1U);
+  const Simulation ring = produce("torus = { radius = 0.4, tube = 0.1 }\nbricks = 20\n");
+  EXPECT_NEAR(ring.world.bodies.at(0).grid.brick_size, 0.05, 1e-12);
+  EXPECT_EQ(produce("cylinder = { radius = 0.1, height = 1 }\nbricks = \"auto\"\n").world.bodies.size(), 1U);
 }
 
 TEST(Shapes, WrongOnesAreRefused) {
@@ -66,18 +66,18 @@ TEST(Shapes, WrongOnesAreRefused) {
 }
 
 TEST(Start, SpinTurnsABodyAboutItsMiddle) {
-  const Production production = produce(
+  const Simulation simulation = produce(
       "box = [0.1, 0.1, 0.1]\nbricks = 2\nposition = [3, 0, 0]\nvelocity = [0, 1, 0]\nspin = [0, 0, \"1 rad/s\"]\n");
-  const Body& body = production.world.actors.at(0).body;
+  const Body& body = simulation.world.bodies.at(0);
   for (int node = 0; node < body.node_count(); ++node) {
     const Vec3 arm = body.positions.row(node).transpose() - Vec3(3, 0.05, 0);
     EXPECT_LT((body.velocities.row(node).transpose() - Vec3(-arm.y(), 1 + arm.x(), 0)).norm(), 1e-12);
   }
 }
 
-std::vector<Vec3> middles(const Production& production) {
+std::vector<Vec3> middles(const Simulation& simulation) {
   std::vector<Vec3> places;
-  for (const Actor& actor : production.world.actors) places.emplace_back(actor.body.positions.colwise().mean());
+  for (const SoftBody& actor : simulation.world.bodies) places.emplace_back(actor.positions.colwise().mean());
   return places;
 }
 

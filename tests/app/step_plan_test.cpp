@@ -11,8 +11,8 @@ namespace {
 World block(double young) {
   World world;
   Body body = make_body(make_box_grid({8, 4, 4}, 0.01), Model::kCalibrated, test::test_material(0.3, young));
-  Embedding contacts = embed(body.grid, body.grid.rest_positions());
-  world.actors.push_back({.body = std::move(body), .contacts = std::move(contacts), .pinned = {}});
+  SoftBody& added = world.bodies.emplace_back(std::move(body));
+  added.contacts = embed(added.grid, added.grid.rest_positions());
   world.obstacles = {level_ground(0)};
   return world;
 }
@@ -40,8 +40,8 @@ TEST(StepPlanning, BodiesThatTouchAreForecastDearer) {
   const Film scene = scene_by(Solver::kAuto);
   const auto two_blocks = [](double young) {
     World world = block(young);
-    world.actors.push_back(world.actors[0]);
-    place(world.actors[1].body, Mat3::Identity(), {0, 0.1, 0});
+    world.bodies.push_back(world.bodies[0]);
+    place(world.bodies[1], Mat3::Identity(), {0, 0.1, 0});
     return world;
   };
   EXPECT_EQ(plan_steps(two_blocks(2e9), scene).scheme, Solver::kBdf2);

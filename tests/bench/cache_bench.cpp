@@ -6,7 +6,7 @@
 #include <ctime>
 
 #include "core/error.h"
-#include "core/io/cache.h"
+#include "core/simulation/cache.h"
 
 namespace {
 
@@ -50,7 +50,7 @@ void write(const std::filesystem::path& file, const CacheHeader& header, const F
 double size_of(const std::filesystem::path& file) { return double(std::filesystem::file_size(file)); }
 
 void print_row(const std::filesystem::path& file, CacheHeader header, const Frames& all, double share, double fps) {
-  header.position_error = share * header.size;
+  header.position_error = share * header.simulation.size;
   header.velocity_error = header.position_error * fps;
   const double begin = processor_seconds();
   write(file, header, all);
@@ -76,7 +76,7 @@ void print_table(const std::filesystem::path& file) {
   const Frames all = frames_of(cache);
   const double fps = all.frames.size() > 1 ? 1 / (all.frames[1].progress - all.frames[0].progress) : 24;
   long nodes = 0;
-  for (const CachedActor& actor : cache.header().actors) nodes += actor.grid.node_count();
+  for (const SoftBody& actor : cache.header().simulation.world.bodies) nodes += actor.grid.node_count();
   fmt::print("{} nodes, {} frames\n", nodes, all.frames.size());
   fmt::print(
       "| error allowed | kB without frames | kB a frame | times smaller than in memory | MB/s written | MB/s read |\n");

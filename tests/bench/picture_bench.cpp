@@ -42,17 +42,17 @@ class Stopwatch {
 };
 
 /// A recording of one frame.
-Recording as_they_start(const Production& production) {
+Recording as_they_start(const Simulation& simulation) {
   Recording recording;
   recording.progress = {0};
   std::vector<Floats3>& nodes = recording.frames.emplace_back();
-  for (const Actor& actor : production.world.actors) nodes.emplace_back(actor.body.positions.cast<float>());
+  for (const SoftBody& actor : simulation.world.bodies) nodes.emplace_back(actor.positions.cast<float>());
   return recording;
 }
 
 struct Subject {
   Film scene;
-  Production production;
+  Simulation simulation;
   Recording recording;
   FilmStage film;
   std::vector<SkinShape> shapes;
@@ -61,9 +61,9 @@ struct Subject {
 
   explicit Subject(const std::filesystem::path& file)
       : scene(read_scene(file)),
-        production(make_production(scene, Observer())),
-        recording(as_they_start(production)),
-        film(scene, production, recording),
+        simulation(prepare_simulation(scene, Observer())),
+        recording(as_they_start(simulation)),
+        film(scene, simulation, recording),
         shapes(film.shapes(0)) {
     Bounds bounds;
     for (const SkinShape& shape : shapes) bounds.include(shape.positions.cast<double>().eval());

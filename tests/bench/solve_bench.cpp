@@ -50,18 +50,16 @@ struct BenchShape {
 constexpr std::array kShapes{BenchShape{"cantilever", cantilever, 0}, BenchShape{"bear", bear, 1}};
 
 struct Held {
-  Actor actor;
+  SoftBody actor;
   Supports supports;
   Points loads;
 
   Held(const BenchShape& shape, int n)
-      : actor{.body = shape.make(n), .contacts = {}, .pinned = {}},
-        supports(actor.body.node_count()),
-        loads(actor.body.masses * Vec3(0, -1, 0).transpose()) {
-    const std::vector<Eigen::Vector3i>& lattice = actor.body.grid.lattice;
+      : actor(shape.make(n)), supports(actor.node_count()), loads(actor.masses * Vec3(0, -1, 0).transpose()) {
+    const std::vector<Eigen::Vector3i>& lattice = actor.grid.lattice;
     int low = lattice.front()[shape.held_axis];
     for (const Eigen::Vector3i& place : lattice) low = std::min(low, place[shape.held_axis]);
-    for (int node = 0; node < actor.body.node_count(); ++node) {
+    for (int node = 0; node < actor.node_count(); ++node) {
       if (lattice[node][shape.held_axis] != low) continue;
       supports.fix(node);
       actor.pinned.push_back({.node = node});
@@ -70,8 +68,8 @@ struct Held {
 };
 
 double static_solve(Held held, LinearSolver& system) {
-  const Points start = held.actor.body.positions;
-  return seconds([&] { solve_static(held.actor.body, held.supports, held.loads, start, system, {.tolerance = 1e-6}); });
+  const Points start = held.actor.positions;
+  return seconds([&] { solve_static(held.actor, held.supports, held.loads, start, system, {.tolerance = 1e-6}); });
 }
 
 /// Linearize and solve once.
@@ -79,7 +77,7 @@ double linear_solve(const Held& held, LinearSolver& system, double tolerance) {
   const StepTerms none;
   const Eigen::Map<const Eigen::VectorXd> forces(held.loads.data(), held.loads.size());
   return seconds([&] {
-    if (!system.linearize(held.actor.body, held.supports, false, none) || system.solve(forces, tolerance).size() == 0) {
+    if (!system.linearize(held.actor, held.supports, false, none) || system.solve(forces, tolerance).size() == 0) {
       std::abort();
     }
   });
@@ -89,7 +87,7 @@ double diagonal_solve(const Held& held) {
   const FreeDofs dofs(held.supports);
   const Eigen::Map<const Eigen::VectorXd> forces(held.loads.data(), held.loads.size());
   return seconds([&] {
-    const Eigen::SparseMatrix<double> matrix = stiffness_matrix(held.actor.body, dofs, false, {});
+    const Eigen::SparseMatrix<double> matrix = stiffness_matrix(held.actor, dofs, false, {});
     Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower> solver(matrix);
     solver.setTolerance(1e-6);
     if (solver.solve(dofs.gather(forces)).size() == 0) std::abort();
@@ -99,7 +97,7 @@ double diagonal_solve(const Held& held) {
 /// Of the second of two steps, and how many Newton iterations it took.
 std::pair<double, long> implicit_step(Held held) {
   World world;
-  world.actors.push_back(std::move(held.actor));
+  world.bodies.push_back(std::move(held.actor));
   world.gravity = {0, -1, 0};
   ImplicitMotion motion(world, {});
   motion.advance(0.01, 1, 0);
@@ -109,7 +107,7 @@ std::pair<double, long> implicit_step(Held held) {
 }
 
 void print_row(const char* name, const Held& body, int direct_up_to) {
-  const int bricks = body.actor.body.grid.brick_count();
+  const int bricks = body.actor.grid.brick_count();
   const double linear = linear_solve(body, *make_multigrid_solver(), 1e-6);
   const double still = static_solve(body, *make_multigrid_solver());
   const auto [step, iterations] = implicit_step(body);

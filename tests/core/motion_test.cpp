@@ -23,7 +23,7 @@ using test::world_of;
 TEST(StableStep, IsTheFrequencyLimitOfOneBrick) {
   // Plain springs alone: a brick whose fastest mode is known from its own eigenvalues.
   World world = world_of(box_body({4, 4, 4}, 0.01, Model::kCalibrated, 0.3));
-  Body& body = world.actors[0].body;
+  Body& body = world.bodies[0];
   body.law.guard = 0;
   const double omega = std::sqrt(largest_brick_stiffness(body) / (1000 * 1e-6 / 8));
   EXPECT_NEAR(stable_step(world, 1), 2 / omega, 1e-12 / omega);
@@ -35,11 +35,11 @@ TEST(StableStep, StaysStableAndGrowsBeyondIt) {
   for (const double safety : {0.99, 1.6}) {
     std::mt19937 random(2);
     World world = world_of(box_body({3, 3, 3}, 0.01, Model::kCalibrated, 0.3));
-    world.actors[0].body.law.guard = 0;
-    shake(world.actors[0].body, 1e-6, random);
-    const double before = elastic_energy(world.actors[0].body);
+    world.bodies[0].law.guard = 0;
+    shake(world.bodies[0], 1e-6, random);
+    const double before = elastic_energy(world.bodies[0]);
     advance(world, Scheme::kSymplecticEuler, stable_step(world, safety), 60, 0);
-    const double after = elastic_energy(world.actors[0].body) + kinetic_energy(world.actors[0].body);
+    const double after = elastic_energy(world.bodies[0]) + kinetic_energy(world.bodies[0]);
     EXPECT_EQ(after < 10 * before, safety < 1) << after / before;
   }
 }
@@ -50,14 +50,14 @@ TEST(Motion, FreeFallIsTheClosedForm) {
   const double g = 9.81;
   for (const Scheme scheme : {Scheme::kSymplecticEuler, Scheme::kVerlet}) {
     World world = world_of(box_body({2, 2, 2}, 0.1, Model::kCalibrated, 0.3), {0, -g, 0});
-    const Points start = world.actors[0].body.positions;
+    const Points start = world.bodies[0].positions;
     advance(world, scheme, dt, steps, 0);
     const auto n = double(steps);
     // Symplectic Euler's sum of an arithmetic series; Verlet is exact for a constant force.
     const double drop = scheme == Scheme::kVerlet ? g * n * n * dt * dt / 2 : g * dt * dt * n * (n + 1) / 2;
-    const Points fall = start - world.actors[0].body.positions;
+    const Points fall = start - world.bodies[0].positions;
     EXPECT_LT((fall.col(1).array() - drop).abs().maxCoeff(), 1e-12 * n);
-    EXPECT_NEAR(world.actors[0].body.velocities(0, 1), -g * n * dt, 1e-12 * n);
+    EXPECT_NEAR(world.bodies[0].velocities(0, 1), -g * n * dt, 1e-12 * n);
   }
 }
 
@@ -65,7 +65,7 @@ TEST(Motion, FreeBodyKeepsItsMomentum) {
   for (const Model model : kCorrectedModels) {
     std::mt19937 random(9);
     World world = world_of(box_body({4, 2, 3}, 0.02, model, 0.4));
-    Body& body = world.actors[0].body;
+    Body& body = world.bodies[0];
     shake(body, 0.2, random);
     body.damping.beta = 1e-4;
     body.velocities.rowwise() = Eigen::RowVector3d(0.3, 0.1, -0.2);
@@ -83,7 +83,7 @@ TEST(Motion, FreeBodyKeepsItsMomentum) {
 TEST(Motion, EnergyIsKeptToTheSchemesOrder) {
   const auto wavering = [](Scheme scheme, double share) {
     World world = world_of(box_body({3, 2, 2}, 0.02, Model::kCalibrated, 0.3));
-    Body& body = world.actors[0].body;
+    Body& body = world.bodies[0];
     for (int i = 0; i < body.node_count(); ++i) body.positions(i, 0) *= 1.05;
     const double start = elastic_energy(body);
     const double dt = share * stable_step(world, 1);
@@ -109,7 +109,7 @@ TEST(Motion, ElasticBarBouncesAsInClosedForm) {
   const double speed = 0.02;
   World world = world_of(box_body({1, n, 1}, h, Model::kCalibrated, 0));
   world.obstacles = {level_ground(0, 0, 0)};
-  Body& body = world.actors[0].body;
+  Body& body = world.bodies[0];
   body.velocities.col(1).setConstant(-speed);
   const double contact_time = 2 * length / std::sqrt(body.material.young / body.material.density);
   const double dt = stable_step(world);
@@ -136,7 +136,7 @@ TEST(Motion, FrictionSticksBelowItsAngleAndSlidesAboveIt) {
     block.damping.beta = 1e-3;
     World world = world_of(std::move(block), {g * std::sin(tilt), -g * std::cos(tilt), 0});
     world.obstacles = {level_ground(0, friction, 0)};
-    const Body& body = world.actors[0].body;
+    const Body& body = world.bodies[0];
     const auto centre = [&] { return (body.positions.transpose() * body.masses).x() / body.masses.sum(); };
     const double dt = stable_step(world);
     const long settle = long(0.2 / dt);
@@ -160,11 +160,11 @@ TEST(Motion, DroppedCubeOnItsCornerKeepsNoBrickInverted) {
   for (const double speed : {1.0, 6.0}) {
     World world = world_of(cube, {0, -9.81, 0});
     world.obstacles = {level_ground(0)};
-    world.actors[0].body.velocities.col(1).setConstant(-speed);
+    world.bodies[0].velocities.col(1).setConstant(-speed);
     const double dt = stable_step(world);
     advance(world, Scheme::kSymplecticEuler, dt, long(0.4 / dt), 0);
-    EXPECT_EQ(inverted_bricks(world.actors[0].body), 0) << speed;
-    EXPECT_GT(world.actors[0].body.positions.col(1).minCoeff(), -0.002) << speed;
+    EXPECT_EQ(inverted_bricks(world.bodies[0]), 0) << speed;
+    EXPECT_GT(world.bodies[0].positions.col(1).minCoeff(), -0.002) << speed;
   }
 }
 
@@ -172,7 +172,7 @@ TEST(Motion, DroppedCubeOnItsCornerKeepsNoBrickInverted) {
 TEST(Motion, SymmetricCubeBouncesWithoutTumbling) {
   World world = world_of(box_body({2, 2, 2}, 0.05, Model::kCalibrated, 0.3), {0, -9.81, 0});
   world.obstacles = {level_ground(0, 0, 0)};
-  Body& body = world.actors[0].body;
+  Body& body = world.bodies[0];
   place(body, Mat3::Identity(), Vec3(0, 0.05, 0));
   const double dt = stable_step(world);
   for (int look = 0; look < 20; ++look) {
@@ -190,7 +190,7 @@ TEST(Motion, SlightOverlapWithTheGroundIsLiftedGently) {
   const double h = 0.02;
   World world = world_of(box_body({4, 4, 4}, h, Model::kCalibrated, 0.3), {0, -9.81, 0});
   world.obstacles = {level_ground(0)};
-  Body& body = world.actors[0].body;
+  Body& body = world.bodies[0];
   body.damping.beta = 1e-3;
   place(body, Mat3::Identity(), Vec3(0, -0.9 * h, 0));
   const double dt = stable_step(world);
@@ -207,7 +207,7 @@ TEST(Motion, SlightOverlapWithTheGroundIsLiftedGently) {
 /// and cured by halving it.
 TEST(AdaptiveIntegrator, HalvesTheStepWhereEnergyComesFromNowhere) {
   World world = world_of(box_body({3, 2, 2}, 0.02, Model::kCalibrated, 0.3));
-  Body& body = world.actors[0].body;
+  Body& body = world.bodies[0];
   std::mt19937 random(4);
   shake(body, 0.01, random);
   body.masses[0] /= 40;
@@ -224,7 +224,7 @@ TEST(AdaptiveIntegrator, HalvesTheStepWhereEnergyComesFromNowhere) {
 
 TEST(AdaptiveIntegrator, EnergyBeyondNumbersIsNoMotion) {
   World world = world_of(box_body({2, 1, 1}, 0.02, Model::kCalibrated, 0.3));
-  world.actors[0].body.velocities.setConstant(1e160);  // finite, its square is not
+  world.bodies[0].velocities.setConstant(1e160);  // finite, its square is not
   AdaptiveIntegrator motion(world, Scheme::kSymplecticEuler);
   EXPECT_THROW(static_cast<void>(motion.advance_frame(
                    0, 1e-3, [](double) {}, [](const std::string&) {})),
@@ -234,7 +234,7 @@ TEST(AdaptiveIntegrator, EnergyBeyondNumbersIsNoMotion) {
 TEST(AdaptiveIntegrator, RefusesMoreStepsThanCanBeDone) {
   World world = world_of(box_body({2, 1, 1}, 0.02, Model::kCalibrated, 0.3));
   world.obstacles.push_back(level_ground(-1));
-  world.actors[0].body.velocities.setConstant(1e100);
+  world.bodies[0].velocities.setConstant(1e100);
   try {
     static_cast<void>(choose_steps(world, 1));
     FAIL() << "steps that cannot be counted";
@@ -245,7 +245,7 @@ TEST(AdaptiveIntegrator, RefusesMoreStepsThanCanBeDone) {
 
 TEST(AdaptiveIntegrator, GivesUpWithTimeBodyAndRemedy) {
   World world = world_of(box_body({2, 1, 1}, 0.02, Model::kCalibrated, 0.3));
-  world.actors[0].body.velocities(3, 1) = std::nan("");
+  world.bodies[0].velocities(3, 1) = std::nan("");
   AdaptiveIntegrator motion(world, Scheme::kVerlet);
   int said = 0;
   try {
@@ -264,20 +264,20 @@ TEST(AdaptiveIntegrator, GivesUpWithTimeBodyAndRemedy) {
 
 TEST(Motion, PinnedNodesStay) {
   World world = world_of(box_body({4, 1, 1}, 0.02, Model::kCalibrated, 0.3), {0, -9.81, 0});
-  Actor& actor = world.actors[0];
-  for (int i = 0; i < actor.body.node_count(); ++i) {
-    if (actor.body.rest_positions(i, 0) < 1e-9) actor.pinned.push_back({.node = i});
+  SoftBody& actor = world.bodies[0];
+  for (int i = 0; i < actor.node_count(); ++i) {
+    if (actor.rest_positions(i, 0) < 1e-9) actor.pinned.push_back({.node = i});
   }
   ASSERT_EQ(actor.pinned.size(), 4U);
-  const Points rest = actor.body.positions;
+  const Points rest = actor.positions;
   advance(world, Scheme::kVerlet, stable_step(world), 500, 0);
-  for (const KinematicNode& held : actor.pinned) EXPECT_EQ(actor.body.positions.row(held.node), rest.row(held.node));
-  EXPECT_LT(actor.body.positions.col(1).minCoeff(), -1e-5);
+  for (const KinematicNode& held : actor.pinned) EXPECT_EQ(actor.positions.row(held.node), rest.row(held.node));
+  EXPECT_LT(actor.positions.col(1).minCoeff(), -1e-5);
 }
 
 TEST(Motion, NonFiniteStateIsNamed) {
   World world = world_of(box_body({2, 1, 1}, 0.02, Model::kCalibrated, 0.3));
-  world.actors[0].body.positions(3, 1) = std::nan("");
+  world.bodies[0].positions(3, 1) = std::nan("");
   try {
     advance(world, Scheme::kVerlet, 1e-5, 1, 0.25);
     FAIL() << "a position that is not finite went by unseen";

@@ -7,7 +7,7 @@
 namespace sprung::test {
 
 /// A horseshoe of bricks of that size (m), open to the top, whose arms begin to swing together.
-inline Actor closing_horseshoe(double h) {
+inline SoftBody closing_horseshoe(double h) {
   BrickGrid grid;
   grid.brick_size = h;
   for (int y = 0; y < 12; ++y) {
@@ -17,13 +17,13 @@ inline Actor closing_horseshoe(double h) {
   }
   grid.fill.assign(grid.cells.size(), 1.0);
   number_nodes(grid);
-  Actor actor{.body = make_body(grid, Model::kCalibrated, test_material(0.3, 2e4)), .contacts = {}, .pinned = {}};
-  const SurfaceMesh surface = surface_of(actor.body.grid);
-  actor.contacts = embed(actor.body.grid, surface.positions);
+  SoftBody actor(make_body(grid, Model::kCalibrated, test_material(0.3, 2e4)));
+  const SurfaceMesh surface = surface_of(actor.grid);
+  actor.contacts = embed(actor.grid, surface.positions);
   actor.contact_triangles = surface.triangles;
-  for (int node = 0; node < actor.body.node_count(); ++node) {
-    const Vec3 x = actor.body.positions.row(node);
-    if (x.y() > 2 * h) actor.body.velocities(node, 0) = (x.x() < 3 * h ? 1.0 : -1.0) * 8 * (x.y() - 2 * h);
+  for (int node = 0; node < actor.node_count(); ++node) {
+    const Vec3 x = actor.positions.row(node);
+    if (x.y() > 2 * h) actor.velocities(node, 0) = (x.x() < 3 * h ? 1.0 : -1.0) * 8 * (x.y() - 2 * h);
   }
   return actor;
 }

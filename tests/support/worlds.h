@@ -7,8 +7,8 @@ namespace sprung::test {
 /// One body, every node of which touches obstacles.
 inline World world_of(Body body, const Vec3& gravity = Vec3::Zero()) {
   World world;
-  Embedding contacts = embed(body.grid, body.grid.rest_positions());
-  world.actors.push_back({.body = std::move(body), .contacts = std::move(contacts), .pinned = {}});
+  SoftBody& added = world.bodies.emplace_back(std::move(body));
+  added.contacts = embed(added.grid, added.grid.rest_positions());
   world.gravity = gravity;
   return world;
 }

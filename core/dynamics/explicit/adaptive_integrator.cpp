@@ -28,14 +28,14 @@ struct State {
 
 std::vector<State> state_of(const World& world) {
   std::vector<State> states;
-  for (const Actor& actor : world.actors) states.push_back({actor.body.positions, actor.body.velocities});
+  for (const SoftBody& actor : world.bodies) states.push_back({actor.positions, actor.velocities});
   return states;
 }
 
 void restore(const std::vector<State>& states, World& world) {
   for (std::size_t i = 0; i < states.size(); ++i) {
-    world.actors[i].body.positions = states[i].positions;
-    world.actors[i].body.velocities = states[i].velocities;
+    world.bodies[i].positions = states[i].positions;
+    world.bodies[i].velocities = states[i].velocities;
   }
 }
 
@@ -70,27 +70,27 @@ std::size_t worst_brick(const Body& body) {
 
 std::optional<Trouble> find_trouble(const World& world, const std::vector<Energy>& before,
                                     std::span<const GroupSteps> groups) {
-  for (std::size_t i = 0; i < world.actors.size(); ++i) {
-    const Body& body = world.actors[i].body;
+  for (std::size_t i = 0; i < world.bodies.size(); ++i) {
+    const Body& body = world.bodies[i];
     if (body.positions.allFinite() && body.velocities.allFinite()) continue;
     return Trouble{i, worst_brick(body), "a number that is not finite"};
   }
   const std::vector<Energy> after = energies_of(world);
   for (const GroupSteps& group : groups) {
-    std::string gain = energy_gain(world, group.actors, before, after);
+    std::string gain = energy_gain(world, group.bodies, before, after);
     if (gain.empty()) continue;
     const std::size_t worst =
-        *std::max_element(group.actors.begin(), group.actors.end(), [&](std::size_t a, std::size_t b) {
+        *std::max_element(group.bodies.begin(), group.bodies.end(), [&](std::size_t a, std::size_t b) {
           return after[a].sum() - before[a].sum() < after[b].sum() - before[b].sum();
         });
-    return Trouble{worst, worst_brick(world.actors[worst].body), std::move(gain)};
+    return Trouble{worst, worst_brick(world.bodies[worst]), std::move(gain)};
   }
   return std::nullopt;
 }
 
 /// "body 1, brick 12 at (0.1, 0.02, 0) m at rest".
 std::string place_of(const World& world, const Trouble& trouble) {
-  const Body& body = world.actors[trouble.actor].body;
+  const Body& body = world.bodies[trouble.actor];
   Vec3 middle = Vec3::Zero();
   for (const int node : body.grid.nodes[trouble.brick]) middle += body.rest_positions.row(node).transpose() / 8;
   return fmt::format("body {}, brick {} at ({:.4g}, {:.4g}, {:.4g}) m at rest", trouble.actor + 1, trouble.brick + 1,
@@ -100,7 +100,7 @@ std::string place_of(const World& world, const Trouble& trouble) {
 /// s, that an actor took.
 double step_of(std::span<const GroupSteps> groups, std::size_t actor) {
   const auto group = std::find_if(groups.begin(), groups.end(), [&](const GroupSteps& one) {
-    return std::find(one.actors.begin(), one.actors.end(), actor) != one.actors.end();
+    return std::find(one.bodies.begin(), one.bodies.end(), actor) != one.bodies.end();
   });
   return group->steps.dt;
 }
@@ -111,27 +111,27 @@ std::vector<GroupSteps> choose_steps(const World& world, double time) {
   std::vector<GroupSteps> groups;
   double carried = 0;  // m/s, by obstacles
   for (const Obstacle& obstacle : world.obstacles) carried = std::max(carried, obstacle.velocity.norm());
-  for (std::vector<std::size_t>& actors : contact_groups(world, time)) {
+  for (std::vector<std::size_t>& bodies : contact_groups(world, time)) {
     double step = std::numeric_limits<double>::infinity();
     double brick = step;
     double speed = 0;
-    for (const std::size_t i : actors) {
-      const Body& body = world.actors[i].body;
+    for (const std::size_t i : bodies) {
+      const Body& body = world.bodies[i];
       step = std::min(step, stable_step(body));
       brick = std::min(brick, body.grid.brick_size);
       speed = std::max(speed, largest_speed(body));
     }
     const double most = speed + carried + world.gravity.norm() * time;
-    const bool can_meet = !world.obstacles.empty() || actors.size() > 1;
+    const bool can_meet = !world.obstacles.empty() || bodies.size() > 1;
     if (can_meet && most > 0) step = std::min(step, kFurthestMove * brick / most);
     if (!(time / step <= kMostSteps)) {
-      throw Diverged(actors.front(),
+      throw Diverged(bodies.front(),
                      fmt::format("body {} moves at {:.3g} m/s, which takes more steps than can be done: "
                                  "the motion diverged; use slower bodies, larger bricks or less gravity",
-                                 actors.front() + 1, speed));
+                                 bodies.front() + 1, speed));
     }
     const long count = std::max(1L, long(std::ceil(time / step)));
-    groups.push_back({.actors = std::move(actors), .steps = {.count = count, .dt = time / double(count)}});
+    groups.push_back({.bodies = std::move(bodies), .steps = {.count = count, .dt = time / double(count)}});
   }
   return groups;
 }
@@ -140,8 +140,8 @@ bool AdaptiveIntegrator::run(std::span<const GroupSteps> groups, double time, co
   double brick_steps = 0;
   long chunks = std::numeric_limits<long>::max();
   for (const GroupSteps& group : groups) {
-    for (const std::size_t i : group.actors) {
-      brick_steps += double(group.steps.count) * world_.actors[i].body.grid.brick_count();
+    for (const std::size_t i : group.bodies) {
+      brick_steps += double(group.steps.count) * world_.bodies[i].grid.brick_count();
     }
     chunks = std::min(chunks, group.steps.count);
   }

@@ -30,7 +30,7 @@ void ImplicitDamping::pass(double dt) {
 }
 
 void ImplicitDamping::multiply(const Eigen::VectorXd& u, Eigen::VectorXd& product) {
-  springs_.multiply_along(actor_.body, actor_.body.positions, due_ * beta_, u, product);
+  springs_.multiply_along(actor_, actor_.positions, due_ * beta_, u, product);
   for (const KinematicNode& held : actor_.pinned) {
     for (int axis = 0; axis < 3; ++axis) {
       if (held.axes[axis]) product[3 * held.node + axis] = 0;
@@ -40,10 +40,10 @@ void ImplicitDamping::multiply(const Eigen::VectorXd& u, Eigen::VectorXd& produc
 
 void ImplicitDamping::settle() {
   if (due_ == 0) return;
-  auto v = flat(actor_.body.velocities);
+  auto v = flat(actor_.velocities);
   Eigen::VectorXd masses(v.size());
-  for (Eigen::Index node = 0; node < actor_.body.masses.size(); ++node) {
-    masses.segment<3>(3 * node).setConstant(actor_.body.masses[node]);
+  for (Eigen::Index node = 0; node < actor_.masses.size(); ++node) {
+    masses.segment<3>(3 * node).setConstant(actor_.masses[node]);
   }
   Eigen::VectorXd residual;
   Eigen::VectorXd product;

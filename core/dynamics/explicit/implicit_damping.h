@@ -24,7 +24,7 @@ struct DampingShares {
 class ImplicitDamping {
  public:
   /// `beta` in s; 0 costs nothing. The actor has to outlive it.
-  ImplicitDamping(Actor& actor, double beta) : actor_(actor), beta_(beta) {}
+  ImplicitDamping(SoftBody& actor, double beta) : actor_(actor), beta_(beta) {}
 
   /// Lets a step (s) pass; every few the velocities follow.
   void pass(double dt);
@@ -36,7 +36,7 @@ class ImplicitDamping {
   /// T beta K u, zero at what is held.
   void multiply(const Eigen::VectorXd& u, Eigen::VectorXd& product);
 
-  Actor& actor_;
+  SoftBody& actor_;
   double beta_;
   double due_ = 0;  // s
   int passed_ = 0;

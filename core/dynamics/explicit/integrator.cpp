@@ -64,7 +64,7 @@ double stable_step(const Body& body, double safety) {
 
 double stable_step(const World& world, double safety) {
   double step = std::numeric_limits<double>::infinity();
-  for (const Actor& actor : world.actors) step = std::min(step, stable_step(actor.body, safety));
+  for (const SoftBody& actor : world.bodies) step = std::min(step, stable_step(actor, safety));
   return step;
 }
 
@@ -73,17 +73,17 @@ namespace {
 /// One actor on its way through a number of steps.
 class Mover {
  public:
-  Mover(Actor& actor, const World& world)
+  Mover(SoftBody& actor, const World& world)
       : actor_(actor),
         world_(world),
-        inverse_masses_(actor.body.masses.cwiseInverse()),
-        damping_(damping_shares(actor.body, largest_frequency_squared(actor.body))),
+        inverse_masses_(actor.masses.cwiseInverse()),
+        damping_(damping_shares(actor, largest_frequency_squared(actor))),
         implicit_damping_(actor, damping_.implicit_beta),
         loads_(actor, world) {}
 
   /// velocities += dt (forces / m + gravity - alpha v); held nodes keep their velocity.
   void kick(double dt) {
-    Body& body = actor_.body;
+    Body& body = actor_;
     if (loads_.any()) {
       settle();
       body.velocities += dt * (inverse_masses_.asDiagonal() * loads_.forces());
@@ -119,12 +119,12 @@ class Mover {
 
   /// Does what was put off.
   void settle() {
-    if (pending_drift_ != 0) actor_.body.positions += pending_drift_ * actor_.body.velocities;
+    if (pending_drift_ != 0) actor_.positions += pending_drift_ * actor_.velocities;
     pending_drift_ = 0;
   }
 
  private:
-  Actor& actor_;
+  SoftBody& actor_;
   const World& world_;
   Eigen::VectorXd inverse_masses_;
   DampingShares damping_;
@@ -136,8 +136,8 @@ class Mover {
 };
 
 /// 1/kg, per node; nothing pushes what is held.
-Eigen::VectorXd pushed_inverse_masses(const Actor& actor) {
-  Eigen::VectorXd inverse_masses = actor.body.masses.cwiseInverse();
+Eigen::VectorXd pushed_inverse_masses(const SoftBody& actor) {
+  Eigen::VectorXd inverse_masses = actor.masses.cwiseInverse();
   for (const KinematicNode& held : actor.pinned) inverse_masses[held.node] = 0;
   return inverse_masses;
 }
@@ -146,14 +146,14 @@ Eigen::VectorXd pushed_inverse_masses(const Actor& actor) {
 class GroupMover {
  public:
   GroupMover(World& world, const GroupSteps& group) : world_(world), elapsed_(group.elapsed) {
-    Group actors;
+    Group bodies;
     std::vector<Eigen::VectorXd> inverse_masses;
-    for (const std::size_t i : group.actors) {
-      actors.push_back(&world.actors[i]);
-      inverse_masses.push_back(pushed_inverse_masses(world.actors[i]));
-      movers_.push_back(std::make_unique<Mover>(world.actors[i], world));
+    for (const std::size_t i : group.bodies) {
+      bodies.push_back(&world.bodies[i]);
+      inverse_masses.push_back(pushed_inverse_masses(world.bodies[i]));
+      movers_.push_back(std::make_unique<Mover>(world.bodies[i], world));
     }
-    impulses_.emplace(std::move(actors), std::move(inverse_masses), glue_within(world, group.actors));
+    impulses_.emplace(std::move(bodies), std::move(inverse_masses), glue_within(world, group.bodies));
   }
 
   void kick(double dt) {
@@ -191,8 +191,8 @@ class GroupMover {
 };
 
 void check_finite(const World& world, double time) {
-  for (std::size_t i = 0; i < world.actors.size(); ++i) {
-    if (world.actors[i].body.positions.allFinite()) continue;
+  for (std::size_t i = 0; i < world.bodies.size(); ++i) {
+    if (world.bodies[i].positions.allFinite()) continue;
     throw Error(ErrorKind::kDiverged,
                 fmt::format("body {} has a position that is not finite at t = {:.6g} s: the motion diverged; use more "
                             "bricks, a stiffer material or a shorter fall",
@@ -240,8 +240,8 @@ void advance(World& world, Scheme scheme, std::span<const GroupSteps> groups, do
 void advance(World& world, Scheme scheme, double dt, long steps, double time) {
   std::vector<GroupSteps> groups;
   const double duration = dt * double(steps);
-  for (std::vector<std::size_t>& actors : contact_groups(world, duration)) {
-    groups.push_back({.actors = std::move(actors), .steps = {.count = steps, .dt = dt}});
+  for (std::vector<std::size_t>& bodies : contact_groups(world, duration)) {
+    groups.push_back({.bodies = std::move(bodies), .steps = {.count = steps, .dt = dt}});
   }
   advance(world, scheme, groups, time);
   move_obstacles(world.obstacles, duration);

@@ -25,12 +25,12 @@ struct Steps {
 
 /// Actors that may touch each other, and the steps they take together.
 struct GroupSteps {
-  std::vector<std::size_t> actors;  // rows of World::actors
+  std::vector<std::size_t> bodies;  // rows of World::bodies
   Steps steps;
   double elapsed = 0;  // s, since obstacles were where the world has them
 };
 
-/// Moves each group of actors by its own steps, all at once: only those of one group touch each other. Obstacles stay
+/// Moves each group of bodies by its own steps, all at once: only those of one group touch each other. Obstacles stay
 /// as the world has them: it is for the caller to move them on. Deterministic for any number of threads.
 /// Throws Error(kDiverged) naming time `time` and the body where a position is no longer finite.
 void advance(World& world, Scheme scheme, std::span<const GroupSteps> groups, double time);

@@ -12,12 +12,12 @@ namespace sprung {
 
 void MusclePotential::begin() {
   tensions_.clear();
-  for (const Muscle& muscle : actor_.loads.muscles) tensions_.push_back(tension_of(muscle, actor_.body.material));
+  for (const Muscle& muscle : actor_.loads.muscles) tensions_.push_back(tension_of(muscle, actor_.material));
 }
 
 template <class Visit>
 void MusclePotential::for_draws(const Visit& visit) const {
-  const Body& body = actor_.body;
+  const Body& body = actor_;
   const double h = body.grid.brick_size;
   for (std::size_t m = 0; m < tensions_.size(); ++m) {
     const MuscleTension& tension = tensions_[m];
@@ -48,7 +48,7 @@ double MusclePotential::add_forces(Points& forces) const {
     const double length = draw.along.norm();
     energy += draw.energy * length;
     const Vec3 pull = draw.energy / length * draw.along;
-    const auto& nodes = actor_.body.grid.nodes[draw.brick];
+    const auto& nodes = actor_.grid.nodes[draw.brick];
     for (std::size_t c = 0; c < 8; ++c) forces.row(nodes[c]) -= draw.weights[c] * pull.transpose();
   });
   return energy;
@@ -78,9 +78,9 @@ double longest_side(const Points& points) {
 
 }  // namespace
 
-ImplicitBody::ImplicitBody(Actor& actor, const World& world, const ImplicitOptions& options)
+ImplicitBody::ImplicitBody(SoftBody& actor, const World& world, const ImplicitOptions& options)
     : actor_(actor),
-      body_(actor.body),
+      body_(actor),
       world_(world),
       options_(options),
       supports_(body_.node_count()),

@@ -16,7 +16,7 @@ namespace sprung {
 class MusclePotential {
  public:
   /// The actor has to outlive it.
-  explicit MusclePotential(const Actor& actor) : actor_(actor) {}
+  explicit MusclePotential(const SoftBody& actor) : actor_(actor) {}
 
   /// Before a step: the muscles contract as they do now.
   void begin();
@@ -37,7 +37,7 @@ class MusclePotential {
   template <class Visit>
   void for_draws(const Visit& visit) const;
 
-  const Actor& actor_;
+  const SoftBody& actor_;
   std::vector<MuscleTension> tensions_;  // by muscle
 };
 
@@ -46,7 +46,7 @@ class MusclePotential {
 class ImplicitBody {
  public:
   /// All have to outlive it.
-  ImplicitBody(Actor& actor, const World& world, const ImplicitOptions& options);
+  ImplicitBody(SoftBody& actor, const World& world, const ImplicitOptions& options);
 
   /// Before a step of dt; obstacles have moved by themselves for `elapsed` (s) when it begins. What is held is then at
   /// the end of its way, the rest where it was; velocities are zero: damping comes from the potential.
@@ -79,7 +79,7 @@ class ImplicitBody {
   /// What the next step depends on beside positions and velocities.
   void serialize(IntegratorState& state);
 
-  [[nodiscard]] Actor& actor() const { return actor_; }
+  [[nodiscard]] SoftBody& actor() const { return actor_; }
   [[nodiscard]] const Supports& supports() const { return supports_; }
   [[nodiscard]] double slip_speed() const { return slip_speed_; }
   [[nodiscard]] SolveReport solves() const { return alone_->report(); }
@@ -100,7 +100,7 @@ class ImplicitBody {
   void hold(double dt);
   void take_terms(bool definite);
 
-  Actor& actor_;
+  SoftBody& actor_;
   Body& body_;
   const World& world_;
   const ImplicitOptions& options_;

@@ -17,10 +17,10 @@ constexpr double kShortestStride = 1.0 / 256;  // of a step
 
 }  // namespace
 
-/// Actors that move together, for a step.
+/// Bodies that move together, for a step.
 struct ImplicitMotion::Together {
   std::vector<std::size_t> rows;
-  Group actors;
+  Group members;
   std::vector<ImplicitBody*> bodies;
   std::vector<GluedPoint> glue;
 };
@@ -33,7 +33,7 @@ ImplicitMotion::ImplicitMotion(World& world, const ImplicitOptions& options)
         ErrorKind::kBadInput,
         fmt::format("{}, which implicit steps know nothing of: use an explicit scheme, euler or verlet", why_not));
   }
-  for (Actor& actor : world.actors) bodies_.push_back(std::make_unique<ImplicitBody>(actor, world, options_));
+  for (SoftBody& actor : world.bodies) bodies_.push_back(std::make_unique<ImplicitBody>(actor, world, options_));
 }
 
 ImplicitMotion::~ImplicitMotion() = default;
@@ -41,9 +41,9 @@ ImplicitMotion::~ImplicitMotion() = default;
 void ImplicitMotion::advance(double dt, long steps, double time) {
   for (long step = 0; step < steps; ++step) {
     for (std::vector<std::size_t>& rows : contact_groups(world_, dt)) {
-      Together group{.rows = std::move(rows), .actors = {}, .bodies = {}, .glue = {}};
+      Together group{.rows = std::move(rows), .members = {}, .bodies = {}, .glue = {}};
       for (const std::size_t row : group.rows) {
-        group.actors.push_back(&world_.actors[row]);
+        group.members.push_back(&world_.bodies[row]);
         group.bodies.push_back(bodies_[row].get());
       }
       group.glue = glue_within(world_, group.rows);
@@ -57,7 +57,7 @@ void ImplicitMotion::advance(const Together& group, const Span& span) {
   double done = 0;  // of the step: one that is not found, or leads too far, is cut in halves
   double stride = 1;
   while (done < 1) {
-    const double most = max_step_size(world_, group.actors, stride * span.dt);
+    const double most = max_step_size(world_, group.members, stride * span.dt);
     while (stride * span.dt > most && stride > kShortestStride) stride /= 2;
     const std::string trouble = try_step(group, span.elapsed + done * span.dt, stride * span.dt);
     if (trouble.empty()) {
@@ -78,7 +78,7 @@ void ImplicitMotion::advance(const Together& group, const Span& span) {
 /// Empty, or what is wrong; the bodies are then as before.
 std::string ImplicitMotion::try_step(const Together& group, double elapsed, double dt) {
   const std::vector<Energy> before = energies_of(world_, group.rows);
-  ImplicitStep step(world_, group.bodies, group.actors, group.glue, options_, dt);
+  ImplicitStep step(world_, group.bodies, group.members, group.glue, options_, dt);
   if (!step.make(elapsed, *counts_)) return "the search for a minimum finds no end";
   std::string gain = energy_gain(world_, group.rows, before, energies_of(world_, group.rows));
   if (gain.empty()) return gain;

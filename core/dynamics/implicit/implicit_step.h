@@ -13,7 +13,7 @@ struct ImplicitCounts {
   SolveReport coupled;  // systems of several bodies
 };
 
-/// One implicit step of a group of actors, see ImplicitMotion: a minimum by Newton's method with a line search.
+/// One implicit step of a group of bodies, see ImplicitMotion: a minimum by Newton's method with a line search.
 class ImplicitStep {
  public:
   /// By actor of the group; `glue` by its rows. All have to outlive it.

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "core/io/cache.h"
+#include "core/simulation/cache.h"
 #include "tests/support/running_program.h"
 #include "tests/support/sanitized.h"
 

@@ -74,9 +74,9 @@ Recording run(const std::string& text, double duration, const std::filesystem::p
               double position_error = 0) {
   Film scene = parse_scene(text, "/scene.toml");
   scene.duration = duration;
-  Production production = make_production(scene, kSilent);
+  Simulation simulation = prepare_simulation(scene, kSilent);
   RunCache cache(file, record_of(scene), resume, position_error);
-  Recording recording = simulate(production, scene, kSilent, &cache);
+  Recording recording = simulate(simulation, scene, kSilent, &cache);
   cache.close();
   return recording;
 }
@@ -162,7 +162,9 @@ TEST(Resume, NamesWhatIsAnother) {
   EXPECT_NE(refusal_of([](CacheHeader& header) { header.version = "0.0.7"; }).find("made by sprung 0.0.7"),
             std::string::npos);
   EXPECT_NE(refusal_of([](CacheHeader& header) { header.build = "abc"; }).find("another build"), std::string::npos);
-  EXPECT_NE(refusal_of([](CacheHeader& header) { header.actors[0].masses[0] *= 2; }).find("the mesh of body 1"),
+  EXPECT_NE(refusal_of([](CacheHeader& header) {
+              header.simulation.world.bodies[0].masses[0] *= 2;
+            }).find("the mesh of body 1"),
             std::string::npos);
 }
 

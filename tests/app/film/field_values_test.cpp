@@ -15,23 +15,23 @@ constexpr double kFps = 4;
 
 /// A bar that is drawn along x, by kStretch, and has gone 10 cm further in the frame after.
 struct DrawnBar {
-  Production production;
+  Simulation simulation;
   Recording recording;
 
   DrawnBar() {
-    production =
-        make_production(parse_scene("[[body]]\nbox = [\"20 cm\", \"10 cm\", \"10 cm\"]\nbrick_size = \"5 cm\"\n"
-                                    "material = { young = \"20 kPa\", poisson = 0.25, density = 1000 }\n",
-                                    "/scene.toml"),
-                        Observer());
-    Points nodes = production.world.actors[0].body.rest_positions;
+    simulation =
+        prepare_simulation(parse_scene("[[body]]\nbox = [\"20 cm\", \"10 cm\", \"10 cm\"]\nbrick_size = \"5 cm\"\n"
+                                       "material = { young = \"20 kPa\", poisson = 0.25, density = 1000 }\n",
+                                       "/scene.toml"),
+                           Observer());
+    Points nodes = simulation.world.bodies[0].rest_positions;
     nodes.col(0) *= kStretch;
     recording.frames.push_back({nodes.cast<float>()});
     nodes.col(1).array() += 0.1;
     recording.frames.push_back({nodes.cast<float>()});
   }
   [[nodiscard]] Eigen::VectorXd values(Field field) const {
-    return field_values(field, production, recording, 0, 0, kFps);
+    return field_values(field, simulation, recording, 0, 0, kFps);
   }
 };
 

@@ -24,18 +24,18 @@ constexpr const char* kBar =
 
 struct FilmUnderTest {
   Film scene;
-  Production production;
+  Simulation simulation;
   Recording recording;
 
   /// `render`: further keys of [render], then tables.
   explicit FilmUnderTest(const std::string& render) : scene(parse_scene(kBar + render, "/scene.toml")) {
-    production = make_production(scene, Console::of_few_words());
+    simulation = prepare_simulation(scene, Console::of_few_words());
     for (int frame = 0; frame < 3; ++frame) add_frame(0.5 * frame);
   }
 
   /// Bent upwards like a parabola, by up to `amount` of 16 cm, and lengthened a little.
   void add_frame(double amount) {
-    Points nodes = production.world.actors[0].body.rest_positions;
+    Points nodes = simulation.world.bodies[0].rest_positions;
     const double begin = nodes.col(0).minCoeff();
     for (auto node : nodes.rowwise()) {
       const double x = node[0] - begin;
@@ -48,7 +48,7 @@ struct FilmUnderTest {
 
   [[nodiscard]] Image picture(int frame = 3) const {
     const TempFolder folder;
-    render_film({{scene, production, recording}}, read_surroundings(scene.render), {.first = frame, .last = frame},
+    render_film({{scene, simulation, recording}}, read_surroundings(scene.render), {.first = frame, .last = frame},
                 {parse_output((folder.path() / "p_{}.png").string())}, Console::of_few_words());
     return read_png(folder.path() / ("p_" + std::to_string(frame) + ".png"));
   }
@@ -87,7 +87,7 @@ TEST(FilmGolden, Sheet) {
   FilmUnderTest film("sheet = [2, 2]\ncolor_by = \"displacement\"\n");
   film.add_frame(1.5);
   const TempFolder folder;
-  render_film({{film.scene, film.production, film.recording}}, std::nullopt, {.first = 1, .last = 4},
+  render_film({{film.scene, film.simulation, film.recording}}, std::nullopt, {.first = 1, .last = 4},
               {parse_output((folder.path() / "s_{}.png").string())}, Console::of_few_words());
   expect_golden(read_png(folder.path() / "s_1.png"), "film_sheet");
 }
@@ -99,8 +99,8 @@ TEST(FilmGolden, SideBySide) {
   second.recording.frames.pop_back();  // stays where it ends
   second.recording.progress.pop_back();
   const TempFolder folder;
-  const std::vector<FilmRun> runs{{first.scene, first.production, first.recording, "bent"},
-                                  {second.scene, second.production, second.recording, "half"}};
+  const std::vector<FilmRun> runs{{first.scene, first.simulation, first.recording, "bent"},
+                                  {second.scene, second.simulation, second.recording, "half"}};
   render_film(runs, std::nullopt, {.first = 3, .last = 3}, {parse_output((folder.path() / "p_{}.png").string())},
               Console::of_few_words());
   expect_golden(read_png(folder.path() / "p_3.png"), "film_side_by_side");
@@ -153,7 +153,7 @@ TEST(FilmPictures, AreLitByThePanoramaThatTheSceneNames) {
 TEST(FilmPictures, WritesPassesBesideItsPictures) {
   const FilmUnderTest film("");
   const TempFolder folder;
-  render_film({{film.scene, film.production, film.recording}}, std::nullopt, {.first = 2, .last = 2},
+  render_film({{film.scene, film.simulation, film.recording}}, std::nullopt, {.first = 2, .last = 2},
               parse_outputs({folder.path().string() + "/", (folder.path() / "p_{}.exr").string()}),
               Console::of_few_words());
   ASSERT_TRUE(std::filesystem::exists(folder.path() / "frame_0002.png"));
@@ -177,12 +177,12 @@ TEST(FilmGolden, Looks) {
   const Film scene = parse_scene(kBar + more, "/scene.toml");
   FilmUnderTest film("");
   film.scene = scene;
-  film.production = make_production(scene, Console::of_few_words());
+  film.simulation = prepare_simulation(scene, Console::of_few_words());
   film.recording = {};
   film.recording.progress = {0};
   film.recording.frames.emplace_back();
-  for (const Actor& actor : film.production.world.actors) {
-    film.recording.frames[0].emplace_back(actor.body.rest_positions.cast<float>());
+  for (const SoftBody& actor : film.simulation.world.bodies) {
+    film.recording.frames[0].emplace_back(actor.rest_positions.cast<float>());
   }
   expect_golden(film.picture(1), "film_looks");
 }
@@ -208,7 +208,7 @@ TEST(FilmTransparent, HasAlphaAndNoFloor) {
   const FilmUnderTest film("transparent = true\n");
   const TempFolder folder;
   const Output output = parse_output((folder.path() / "p_{}.png").string());
-  render_film({{film.scene, film.production, film.recording}}, std::nullopt, {.first = 1, .last = 1}, {output},
+  render_film({{film.scene, film.simulation, film.recording}}, std::nullopt, {.first = 1, .last = 1}, {output},
               Console::of_few_words());
   const Image image = read_png(output.picture(1));
   ASSERT_EQ(image.alpha.size(), 320U * 180U);
@@ -217,7 +217,7 @@ TEST(FilmTransparent, HasAlphaAndNoFloor) {
   const auto is_partly = [](std::uint8_t alpha) { return alpha > 0 && alpha < 255; };
   EXPECT_GT(std::count_if(image.alpha.begin(), image.alpha.end(), is_partly), 50);  // smooth edges
   EXPECT_EQ(error_message([&] {
-              render_film({{film.scene, film.production, film.recording}}, std::nullopt, {.first = 1, .last = 1},
+              render_film({{film.scene, film.simulation, film.recording}}, std::nullopt, {.first = 1, .last = 1},
                           {parse_output((folder.path() / "f.mp4").string())}, Console::of_few_words());
             }),
             "render.transparent: films have no alpha; give a folder for pictures");

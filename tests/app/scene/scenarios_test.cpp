@@ -33,8 +33,8 @@ Recording record(Scenario scenario) {
   scene.probes[2].point = Vec3(0.1, 0.1, 0);
   stage_scenario(scene, scenario, 0.2);
   const Observer silent;
-  Production production = make_production(scene, silent);
-  return simulate(production, scene, silent);
+  Simulation simulation = prepare_simulation(scene, silent);
+  return simulate(simulation, scene, silent);
 }
 
 /// Where the probe is at a time, from its start, m.

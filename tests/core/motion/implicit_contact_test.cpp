@@ -29,7 +29,7 @@ TEST(ImplicitContact, DroppedCubeBouncesAndComesToRestOnTheGround) {
     place(cube, tilted, Vec3(0, 0.12, 0));
     World world = world_of(std::move(cube), {0, -kGravity, 0});
     world.obstacles = {level_ground(0, 0.5, 0)};
-    const Body& body = world.actors[0].body;
+    const Body& body = world.bodies[0];
     ImplicitMotion motion(world, {.scheme = scheme});
     double deepest = 0;
     double fastest_up = 0;
@@ -58,7 +58,7 @@ TEST(ImplicitContact, FrictionSticksBelowItsAngleAndSlidesAboveIt) {
     block.damping.beta = 1e-3;
     World world = world_of(std::move(block), {kGravity * std::sin(tilt), -kGravity * std::cos(tilt), 0});
     world.obstacles = {level_ground(0, friction, 0)};
-    const Body& body = world.actors[0].body;
+    const Body& body = world.bodies[0];
     const auto centre = [&] { return (body.positions.transpose() * body.masses).x() / body.masses.sum(); };
     ImplicitMotion motion(world, {});
     motion.advance(0.005, 40, 0);
@@ -90,10 +90,10 @@ TEST(ImplicitContact, PlatesPressAsInExplicitSteps) {
   test::advance_by_stable_steps(explicit_world, Scheme::kSymplecticEuler, 0.4);
   ImplicitMotion(implicit_world, {}).advance(0.01, 40, 0);
   EXPECT_NEAR(implicit_world.obstacles[1].pose.translation.y(), 0.074, 1e-12);
-  const Body& body = implicit_world.actors[0].body;
+  const Body& body = implicit_world.bodies[0];
   const double pressed = (body.positions - body.rest_positions).norm();
   EXPECT_NEAR(body.positions.col(1).maxCoeff(), 0.064, 1e-3);
-  EXPECT_LT((explicit_world.actors[0].body.positions - body.positions).norm(), 0.05 * pressed);
+  EXPECT_LT((explicit_world.bodies[0].positions - body.positions).norm(), 0.05 * pressed);
 }
 
 /// A belt takes a block along: by friction up to its own speed, no faster than mu g.
@@ -104,7 +104,7 @@ TEST(ImplicitContact, AMovingBeltTakesABlockAlong) {
   Obstacle belt = level_ground(0, 0.3);
   belt.velocity.x() = 0.3;
   world.obstacles = {belt};
-  const Body& body = world.actors[0].body;
+  const Body& body = world.bodies[0];
   const auto speed = [&] { return linear_momentum(body).x() / body.masses.sum(); };
   ImplicitMotion motion(world, {});
   motion.advance(0.005, 10, 0);

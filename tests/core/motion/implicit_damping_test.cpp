@@ -44,16 +44,16 @@ TEST(ImplicitDamping, VibrationDiesAwayAsInImplicitMotion) {
     World undamped = damped_bar(0);
     EXPECT_GT(stable_step(world), 0.6 * stable_step(undamped));
     World implicit = damped_bar(ratio);
-    twist(world.actors[0].body);
-    twist(implicit.actors[0].body);
-    const double before = kinetic_energy(world.actors[0].body);
+    twist(world.bodies[0]);
+    twist(implicit.bodies[0]);
+    const double before = kinetic_energy(world.bodies[0]);
     const double time = 2 * kLength / std::sqrt(1e5 / 2.6 / 1000);  // about a period
     const double dt = stable_step(world);
     const long steps = std::lround(std::ceil(time / dt));
     advance(world, Scheme::kVerlet, time / double(steps), steps, 0);
     ImplicitMotion(implicit, {.scheme = ImplicitScheme::kBdf2}).advance(time / 200, 200, 0);
     const auto left = [&](const World& one) {
-      return (kinetic_energy(one.actors[0].body) + elastic_energy(one.actors[0].body)) / before;
+      return (kinetic_energy(one.bodies[0]) + elastic_energy(one.bodies[0])) / before;
     };
     EXPECT_LT(left(implicit), 0.8);
     EXPECT_NEAR(left(world), left(implicit), 0.1 * left(implicit));
@@ -63,7 +63,7 @@ TEST(ImplicitDamping, VibrationDiesAwayAsInImplicitMotion) {
 /// A rigid motion is none of its business, and no momentum goes however early the iterations stop.
 TEST(ImplicitDamping, FreeBodyKeepsItsMomenta) {
   World world = damped_bar(0.3);
-  Body& body = world.actors[0].body;
+  Body& body = world.bodies[0];
   for (int node = 0; node < body.node_count(); ++node) {
     const Vec3 arm = body.positions.row(node).transpose() - Vec3(0.1, 0.02, 0.02);
     body.velocities.row(node) = (Vec3(1, 2, 3) + Vec3(0.3, 2, -1).cross(arm)).transpose();
@@ -79,19 +79,19 @@ TEST(ImplicitDamping, FreeBodyKeepsItsMomenta) {
 /// What is held keeps its velocity; the rest comes to follow it.
 TEST(ImplicitDamping, HeldNodesLead) {
   World world = damped_bar(5);
-  Actor& actor = world.actors[0];
-  for (int node = 0; node < actor.body.node_count(); ++node) {
-    if (actor.body.positions(node, 0) > 1e-9) continue;
+  SoftBody& actor = world.bodies[0];
+  for (int node = 0; node < actor.node_count(); ++node) {
+    if (actor.positions(node, 0) > 1e-9) continue;
     actor.pinned.push_back({.node = node, .velocity = {0.01, 0, 0}});
-    actor.body.velocities(node, 0) = 0.01;
+    actor.velocities(node, 0) = 0.01;
   }
-  ImplicitDamping damping(actor, actor.body.damping.beta);
-  const double before = actor.body.velocities.col(0).sum();
+  ImplicitDamping damping(actor, actor.damping.beta);
+  const double before = actor.velocities.col(0).sum();
   damping.pass(1e-3);
   damping.settle();
-  EXPECT_GT(actor.body.velocities.col(0).sum(), before);
-  for (const KinematicNode& held : actor.pinned) EXPECT_EQ(actor.body.velocities(held.node, 0), 0.01);
-  EXPECT_LE(actor.body.velocities.maxCoeff(), 0.0100001);
+  EXPECT_GT(actor.velocities.col(0).sum(), before);
+  for (const KinematicNode& held : actor.pinned) EXPECT_EQ(actor.velocities(held.node, 0), 0.01);
+  EXPECT_LE(actor.velocities.maxCoeff(), 0.0100001);
 }
 
 }  // namespace

@@ -23,9 +23,9 @@ using test::world_of;
 
 constexpr double kGravity = 9.81;
 
-void pin_left_end(Actor& actor) {
-  for (int node = 0; node < actor.body.node_count(); ++node) {
-    if (actor.body.grid.lattice[node].x() == 0) actor.pinned.push_back({.node = node});
+void pin_left_end(SoftBody& actor) {
+  for (int node = 0; node < actor.node_count(); ++node) {
+    if (actor.grid.lattice[node].x() == 0) actor.pinned.push_back({.node = node});
   }
 }
 
@@ -37,16 +37,16 @@ TEST(Implicit, FreeFallIsTheClosedForm) {
   const auto n = double(steps);
   for (const ImplicitScheme scheme : {ImplicitScheme::kEuler, ImplicitScheme::kBdf2}) {
     World world = world_of(calibrated_box({2, 2, 2}, 0.1, 0.3), {0, -kGravity, 0});
-    const Points start = world.actors[0].body.positions;
+    const Points start = world.bodies[0].positions;
     ImplicitMotion(world, {.scheme = scheme}).advance(dt, steps, 0);
-    const Points fall = start - world.actors[0].body.positions;
+    const Points fall = start - world.bodies[0].positions;
     // Backward Euler: the sum of an arithmetic series. BDF2 starts with one such step; what that is off by grows to
     // three halves of itself.
     const double exact = kGravity * n * n * dt * dt / 2;
     const double drop =
         scheme == ImplicitScheme::kEuler ? kGravity * dt * dt * n * (n + 1) / 2 : exact + 0.75 * kGravity * dt * dt;
     EXPECT_LT((fall.col(1).array() - drop).abs().maxCoeff(), 1e-6) << int(scheme);
-    EXPECT_NEAR(world.actors[0].body.velocities(0, 1), -kGravity * n * dt, 1e-6);
+    EXPECT_NEAR(world.bodies[0].velocities(0, 1), -kGravity * n * dt, 1e-6);
   }
 }
 
@@ -93,7 +93,7 @@ template <class Move>
 Points positions_after(const Move& move, long steps) {
   World world = world_of(released());
   move(world, kTime / double(steps), steps);
-  return world.actors[0].body.positions;
+  return world.bodies[0].positions;
 }
 
 template <class Move>
@@ -114,9 +114,8 @@ TEST(Implicit, EverySchemeHasItsOrder) {
       ImplicitMotion(world, {.scheme = scheme, .tolerance = 1e-11}).advance(dt, steps, 0);
     };
   };
-  EXPECT_NEAR(
-      measured_order([](World& world, double dt, long steps) { runge_kutta(world.actors[0].body, dt, steps); }, 32), 4,
-      0.3);
+  EXPECT_NEAR(measured_order([](World& world, double dt, long steps) { runge_kutta(world.bodies[0], dt, steps); }, 32),
+              4, 0.3);
   EXPECT_NEAR(measured_order(explicit_by(Scheme::kSymplecticEuler), 128), 1, 0.2);
   EXPECT_NEAR(measured_order(implicit_by(ImplicitScheme::kEuler), 128), 1, 0.2);
   EXPECT_NEAR(measured_order(implicit_by(ImplicitScheme::kBdf2), 128), 2, 0.3);
@@ -126,7 +125,7 @@ TEST(Implicit, EnergyNeverGrows) {
   for (const ImplicitScheme scheme : {ImplicitScheme::kEuler, ImplicitScheme::kBdf2}) {
     std::mt19937 random(3);
     World world = world_of(calibrated_box({3, 2, 2}, 0.02, 0.4));
-    Body& body = world.actors[0].body;
+    Body& body = world.bodies[0];
     body.damping = {};
     shake(body, 0.2, random);
     const double start = energy(body);
@@ -144,9 +143,9 @@ TEST(Implicit, EnergyNeverGrows) {
 
 TEST(Implicit, LongStepsEndInTheStaticEquilibrium) {
   World world = world_of(calibrated_box({12, 3, 3}, 0.02, 0.3, 5e4), {0, -kGravity, 0});
-  Actor& actor = world.actors[0];
+  SoftBody& actor = world.bodies[0];
   pin_left_end(actor);
-  Body still = actor.body;
+  Body still = actor;
   Supports supports(still.node_count());
   for (const KinematicNode& held : actor.pinned) supports.fix(held.node);
   const Points loads = still.masses * world.gravity.transpose();
@@ -154,53 +153,53 @@ TEST(Implicit, LongStepsEndInTheStaticEquilibrium) {
   const Points start = still.positions;
   solve_static(still, supports, loads, start, *system);
   ImplicitMotion(world, {.scheme = ImplicitScheme::kEuler, .tolerance = 1e-9}).advance(1, 12, 0);
-  EXPECT_LT((actor.body.positions - still.positions).norm(), 1e-6 * (start - still.positions).norm());
-  EXPECT_LT(actor.body.velocities.norm(), 1e-6);
+  EXPECT_LT((actor.positions - still.positions).norm(), 1e-6 * (start - still.positions).norm());
+  EXPECT_LT(actor.velocities.norm(), 1e-6);
 }
 
 TEST(Implicit, HandlesMoveAsTold) {
   World world = world_of(calibrated_box({4, 2, 2}, 0.02, 0.3));
-  Actor& actor = world.actors[0];
+  SoftBody& actor = world.bodies[0];
   pin_left_end(actor);
   for (KinematicNode& held : actor.pinned) {
     held.velocity = {0.1, 0.2, 0};
     held.axes = {true, true, false};
   }
-  const Points start = actor.body.positions;
+  const Points start = actor.positions;
   ImplicitMotion(world, {}).advance(0.01, 10, 0);
   for (const KinematicNode& held : actor.pinned) {
-    EXPECT_NEAR(actor.body.positions(held.node, 0), start(held.node, 0) + 0.01, 1e-12);
-    EXPECT_NEAR(actor.body.positions(held.node, 1), start(held.node, 1) + 0.02, 1e-12);
+    EXPECT_NEAR(actor.positions(held.node, 0), start(held.node, 0) + 0.01, 1e-12);
+    EXPECT_NEAR(actor.positions(held.node, 1), start(held.node, 1) + 0.02, 1e-12);
   }
-  EXPECT_GT((actor.body.positions - start).col(1).mean(), 0.005);
+  EXPECT_GT((actor.positions - start).col(1).mean(), 0.005);
 }
 
 /// Explicit and implicit steps of the same fall agree.
 TEST(Implicit, AgreesWithExplicitStepsOnABendingBeam) {
   const auto make = [] {
     World world = world_of(calibrated_box({12, 2, 2}, 0.02, 0.3, 5e4), {0, -kGravity, 0});
-    pin_left_end(world.actors[0]);
-    world.actors[0].body.damping.beta = 5e-4;
+    pin_left_end(world.bodies[0]);
+    world.bodies[0].damping.beta = 5e-4;
     return world;
   };
   World explicit_world = make();
   World implicit_world = make();
   test::advance_by_stable_steps(explicit_world, Scheme::kVerlet, 0.25);
   ImplicitMotion(implicit_world, {}).advance(0.0025, 100, 0);
-  const Points start = implicit_world.actors[0].body.rest_positions;
-  const double way = (explicit_world.actors[0].body.positions - start).norm();
-  EXPECT_LT((explicit_world.actors[0].body.positions - implicit_world.actors[0].body.positions).norm(), 0.02 * way);
+  const Points start = implicit_world.bodies[0].rest_positions;
+  const double way = (explicit_world.bodies[0].positions - start).norm();
+  EXPECT_LT((explicit_world.bodies[0].positions - implicit_world.bodies[0].positions).norm(), 0.02 * way);
 }
 
 TEST(Implicit, ForcesBendABeamAsTheStaticsDo) {
   World world = world_of(calibrated_box({8, 2, 2}, 0.02, 0.3, 5e4), {0, 0, 0});
-  Actor& actor = world.actors[0];
+  SoftBody& actor = world.bodies[0];
   pin_left_end(actor);
-  actor.loads.forces = Points::Zero(actor.body.node_count(), 3);
-  for (int node = 0; node < actor.body.node_count(); ++node) {
-    if (actor.body.grid.lattice[node].x() == 8) actor.loads.forces(node, 1) = -2e-3;
+  actor.loads.forces = Points::Zero(actor.node_count(), 3);
+  for (int node = 0; node < actor.node_count(); ++node) {
+    if (actor.grid.lattice[node].x() == 8) actor.loads.forces(node, 1) = -2e-3;
   }
-  Body still = actor.body;
+  Body still = actor;
   Supports supports(still.node_count());
   for (const KinematicNode& held : actor.pinned) supports.fix(held.node);
   const auto system = make_direct_solver();
@@ -208,7 +207,7 @@ TEST(Implicit, ForcesBendABeamAsTheStaticsDo) {
   ImplicitMotion(world, {.scheme = ImplicitScheme::kEuler, .tolerance = 1e-9}).advance(1, 12, 0);
   const double way = (still.positions - still.rest_positions).norm();
   EXPECT_GT(way, 0.01);
-  EXPECT_LT((actor.body.positions - still.positions).norm(), 1e-3 * way);
+  EXPECT_LT((actor.positions - still.positions).norm(), 1e-3 * way);
 }
 
 /// Each brick of a beam pulls along a direction of its own frame, on one side only: the beam curls up by more than its
@@ -216,12 +215,12 @@ TEST(Implicit, ForcesBendABeamAsTheStaticsDo) {
 TEST(Implicit, MusclesCurlABeamAsInExplicitSteps) {
   const auto make = [] {
     World world = world_of(calibrated_box({10, 2, 2}, 0.02, 0.3, 5e4));
-    Actor& actor = world.actors[0];
+    SoftBody& actor = world.bodies[0];
     pin_left_end(actor);
-    actor.body.damping = {.alpha = 6, .beta = 2e-3};
+    actor.damping = {.alpha = 6, .beta = 2e-3};
     Muscle muscle{.bricks = {}, .direction = Vec3::UnitX(), .contraction = 0.25};
-    for (int brick = 0; brick < actor.body.grid.brick_count(); ++brick) {
-      if (actor.body.grid.cells[brick].y() == 1) muscle.bricks.push_back(brick);
+    for (int brick = 0; brick < actor.grid.brick_count(); ++brick) {
+      if (actor.grid.cells[brick].y() == 1) muscle.bricks.push_back(brick);
     }
     actor.loads.muscles = {muscle};
     return world;
@@ -230,10 +229,10 @@ TEST(Implicit, MusclesCurlABeamAsInExplicitSteps) {
   test::advance_by_stable_steps(explicit_world, Scheme::kSymplecticEuler, 3);
   World implicit_world = make();
   ImplicitMotion(implicit_world, {.scheme = ImplicitScheme::kEuler}).advance(0.05, 60, 0);
-  const Body& body = implicit_world.actors[0].body;
+  const Body& body = implicit_world.bodies[0];
   EXPECT_GT((body.positions - body.rest_positions).col(1).maxCoeff(), 0.06);
   const double way = (body.positions - body.rest_positions).norm();
-  EXPECT_LT((body.positions - explicit_world.actors[0].body.positions).norm(), 0.01 * way);
+  EXPECT_LT((body.positions - explicit_world.bodies[0].positions).norm(), 0.01 * way);
 }
 
 TEST(Implicit, SameBitsForAnyNumberOfThreads) {
@@ -242,7 +241,7 @@ TEST(Implicit, SameBitsForAnyNumberOfThreads) {
     World world = world_of(calibrated_box({10, 6, 6}, 0.02, 0.4), {0, -kGravity, 0});
     world.obstacles = {level_ground(-0.01, 0.5, 0)};
     ImplicitMotion(world, {}).advance(0.01, 8, 0);
-    return world.actors[0].body.positions;
+    return world.bodies[0].positions;
   };
   EXPECT_EQ(run(1), run(4));
 }
@@ -252,7 +251,7 @@ TEST(Implicit, WhatCannotBeIsRefused) {
   world.obstacles = {level_ground(-1, 0, 0.5)};
   EXPECT_THROW(ImplicitMotion(world, {}), Error);
   world.obstacles.clear();
-  world.actors[0].body.positions(3, 1) = std::nan("");
+  world.bodies[0].positions(3, 1) = std::nan("");
   try {
     ImplicitMotion(world, {}).advance(0.01, 1, 0.25);
     FAIL() << "a position that is not finite went by unseen";

@@ -20,13 +20,11 @@ namespace {
 using test::test_material;
 using test::touching_box;
 
-Vec3 centre_of(const Actor& actor) {
-  return actor.body.positions.transpose() * actor.body.masses / actor.body.masses.sum();
-}
+Vec3 centre_of(const SoftBody& actor) { return actor.positions.transpose() * actor.masses / actor.masses.sum(); }
 
 double energy(const World& world) {
   double sum = 0;
-  for (const Actor& actor : world.actors) sum += energy_of(actor.body, world.gravity).sum();
+  for (const SoftBody& actor : world.bodies) sum += energy_of(actor, world.gravity).sum();
   return sum;
 }
 
@@ -42,9 +40,9 @@ void run_by_explicit_steps(World& world, int frames) {
 World two_stacked() {
   World world;
   world.obstacles = {level_ground(0)};
-  world.actors.push_back(touching_box({3, 2, 3}, 0.02, test_material(0.3, 2e4), {0, 0.001, 0}));
-  world.actors.push_back(touching_box({3, 3, 3}, 0.015, test_material(0.3, 1e5), {0.005, 0.043, 0.004}));
-  for (Actor& actor : world.actors) actor.body.damping = {.alpha = 8, .beta = 2e-3};
+  world.bodies.push_back(touching_box({3, 2, 3}, 0.02, test_material(0.3, 2e4), {0, 0.001, 0}));
+  world.bodies.push_back(touching_box({3, 3, 3}, 0.015, test_material(0.3, 1e5), {0.005, 0.043, 0.004}));
+  for (SoftBody& actor : world.bodies) actor.damping = {.alpha = 8, .beta = 2e-3};
   return world;
 }
 
@@ -56,8 +54,8 @@ TEST(ImplicitTouch, StackRestsAtTheHeightsOfExplicitSteps) {
     World world = two_stacked();
     ImplicitMotion(world, {.scheme = scheme}).advance(0.02, 50, 0);
     for (std::size_t i = 0; i < 2; ++i) {
-      EXPECT_NEAR(centre_of(world.actors[i]).y(), centre_of(explicit_world.actors[i]).y(), 1e-4) << i;
-      EXPECT_LT(world.actors[i].body.velocities.rowwise().norm().maxCoeff(), 2e-3) << i;
+      EXPECT_NEAR(centre_of(world.bodies[i]).y(), centre_of(explicit_world.bodies[i]).y(), 1e-4) << i;
+      EXPECT_LT(world.bodies[i].velocities.rowwise().norm().maxCoeff(), 2e-3) << i;
     }
   }
 }
@@ -66,23 +64,21 @@ TEST(ImplicitTouch, StackRestsAtTheHeightsOfExplicitSteps) {
 World two_colliding() {
   World world;
   world.gravity.setZero();
-  world.actors.push_back(touching_box({3, 3, 3}, 0.02, test_material(0.3), Vec3::Zero()));
-  world.actors.push_back(touching_box({3, 3, 3}, 0.02, test_material(0.3, 3e4), Vec3::Zero()));
-  place(world.actors[1].body, Eigen::AngleAxisd(0.7, Vec3(1, 2, 0.5).normalized()).toRotationMatrix(),
+  world.bodies.push_back(touching_box({3, 3, 3}, 0.02, test_material(0.3), Vec3::Zero()));
+  world.bodies.push_back(touching_box({3, 3, 3}, 0.02, test_material(0.3, 3e4), Vec3::Zero()));
+  place(world.bodies[1], Eigen::AngleAxisd(0.7, Vec3(1, 2, 0.5).normalized()).toRotationMatrix(),
         Vec3(0.1, 0.01, 0.02));
-  world.actors[0].body.velocities.col(0).setConstant(1);
-  world.actors[1].body.velocities.col(0).setConstant(-0.5);
+  world.bodies[0].velocities.col(0).setConstant(1);
+  world.bodies[1].velocities.col(0).setConstant(-0.5);
   return world;
 }
 
 TEST(ImplicitTouch, CollisionKeepsMomentumAndMakesNoEnergy) {
   for (const ImplicitScheme scheme : {ImplicitScheme::kEuler, ImplicitScheme::kBdf2}) {
     World world = two_colliding();
-    const double mass = world.actors[0].body.masses.sum();
+    const double mass = world.bodies[0].masses.sum();
     const double start = energy(world);
-    const auto momentum = [&] {
-      return Vec3(linear_momentum(world.actors[0].body) + linear_momentum(world.actors[1].body));
-    };
+    const auto momentum = [&] { return Vec3(linear_momentum(world.bodies[0]) + linear_momentum(world.bodies[1])); };
     const Vec3 before = momentum();
     ImplicitMotion motion(world, {.scheme = scheme, .tolerance = 1e-6});
     for (int step = 0; step < 24; ++step) {
@@ -90,8 +86,8 @@ TEST(ImplicitTouch, CollisionKeepsMomentumAndMakesNoEnergy) {
       EXPECT_LT(energy(world), start * (1 + 1e-6)) << step;
     }
     EXPECT_LT((momentum() - before).norm(), 1e-4 * mass);
-    EXPECT_LT(linear_momentum(world.actors[0].body).x() / mass, 0.5);  // it has been stopped
-    EXPECT_GT(centre_of(world.actors[1]).x() - centre_of(world.actors[0]).x(), 0.05);
+    EXPECT_LT(linear_momentum(world.bodies[0]).x() / mass, 0.5);  // it has been stopped
+    EXPECT_GT(centre_of(world.bodies[1]).x() - centre_of(world.bodies[0]).x(), 0.05);
   }
 }
 
@@ -100,12 +96,12 @@ TEST(ImplicitTouch, FastPlatesMeetInLongSteps) {
   World world;
   world.gravity.setZero();
   for (const double side : {-1.0, 1.0}) {
-    world.actors.push_back(touching_box({1, 4, 4}, 0.01, test_material(0.3, 1e6), {side * 0.05, 0, 0}));
-    world.actors.back().body.velocities.col(0).setConstant(-3 * side);
+    world.bodies.push_back(touching_box({1, 4, 4}, 0.01, test_material(0.3, 1e6), {side * 0.05, 0, 0}));
+    world.bodies.back().velocities.col(0).setConstant(-3 * side);
   }
   ImplicitMotion(world, {.scheme = ImplicitScheme::kEuler}).advance(0.02, 3, 0);
-  EXPECT_GT(centre_of(world.actors[1]).x() - centre_of(world.actors[0]).x(), 0.009);
-  EXPECT_LT(linear_momentum(world.actors[0].body).x(), 0.5 * 3 * world.actors[0].body.masses.sum());
+  EXPECT_GT(centre_of(world.bodies[1]).x() - centre_of(world.bodies[0]).x(), 0.009);
+  EXPECT_LT(linear_momentum(world.bodies[0]).x(), 0.5 * 3 * world.bodies[0].masses.sum());
 }
 
 /// The arms of a horseshoe stop at each other.
@@ -114,13 +110,13 @@ TEST(ImplicitTouch, BodyDoesNotGoThroughItself) {
   const auto least_gap = [&](bool collides_with_itself) {
     World world;
     world.gravity.setZero();
-    world.actors.push_back(test::closing_horseshoe(h));
-    world.actors[0].collides_with_itself = collides_with_itself;
+    world.bodies.push_back(test::closing_horseshoe(h));
+    world.bodies[0].collides_with_itself = collides_with_itself;
     ImplicitMotion motion(world, {});
     double least = std::numeric_limits<double>::infinity();
     for (int step = 0; step < 20; ++step) {
       motion.advance(0.005, 1, 0);
-      least = std::min(least, test::gap_of_horseshoe(world.actors[0].body));
+      least = std::min(least, test::gap_of_horseshoe(world.bodies[0]));
     }
     return least;
   };
@@ -132,7 +128,7 @@ double furthest_apart(const World& world) {
   double furthest = 0;
   for (const GluedPoint& point : world.glue) {
     const auto place = [&](std::size_t side) {
-      const Body& body = world.actors[point.actors[side]].body;
+      const Body& body = world.bodies[point.bodies[side]];
       return carried(body, point.bricks[side], point.weights[side], body.positions);
     };
     furthest = std::max(furthest, (place(0) - place(1)).norm());
@@ -144,25 +140,25 @@ double furthest_apart(const World& world) {
 TEST(ImplicitTouch, GlueHoldsWhatHangs) {
   const auto make = [] {
     World world;
-    world.actors.push_back(touching_box({3, 3, 3}, 0.01, test_material(0.3, 2e4), Vec3::Zero()));
-    world.actors.push_back(touching_box({2, 2, 2}, 0.014, test_material(0.3, 8e4), {0.001, -0.02801, 0.001}));
+    world.bodies.push_back(touching_box({3, 3, 3}, 0.01, test_material(0.3, 2e4), Vec3::Zero()));
+    world.bodies.push_back(touching_box({2, 2, 2}, 0.014, test_material(0.3, 8e4), {0.001, -0.02801, 0.001}));
     world.glue = glue_between(world, 0, 1, 0.001);
-    Actor& upper = world.actors[0];
-    for (int node = 0; node < upper.body.node_count(); ++node) {
-      if (upper.body.grid.lattice[node].y() == 3) upper.pinned.push_back({.node = node});
+    SoftBody& upper = world.bodies[0];
+    for (int node = 0; node < upper.node_count(); ++node) {
+      if (upper.grid.lattice[node].y() == 3) upper.pinned.push_back({.node = node});
     }
-    for (Actor& actor : world.actors) actor.body.damping = {.alpha = 8, .beta = 2e-3};
+    for (SoftBody& actor : world.bodies) actor.damping = {.alpha = 8, .beta = 2e-3};
     return world;
   };
   World explicit_world = make();
   run_by_explicit_steps(explicit_world, 50);
   World world = make();
   ASSERT_FALSE(world.glue.empty());
-  const double start = centre_of(world.actors[1]).y();
+  const double start = centre_of(world.bodies[1]).y();
   ImplicitMotion(world, {}).advance(0.02, 50, 0);
-  const double sag = start - centre_of(explicit_world.actors[1]).y();
+  const double sag = start - centre_of(explicit_world.bodies[1]).y();
   EXPECT_GT(sag, 1e-4);
-  EXPECT_NEAR(start - centre_of(world.actors[1]).y(), sag, 0.05 * sag);
+  EXPECT_NEAR(start - centre_of(world.bodies[1]).y(), sag, 0.05 * sag);
   EXPECT_LT(furthest_apart(world), 1e-4);
 }
 
@@ -171,7 +167,7 @@ TEST(ImplicitTouch, SameBitsForAnyNumberOfThreads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     World world = two_stacked();
     ImplicitMotion(world, {}).advance(0.01, 12, 0);
-    return std::pair(world.actors[0].body.positions, world.actors[1].body.positions);
+    return std::pair(world.bodies[0].positions, world.bodies[1].positions);
   };
   const auto one = run(1);
   EXPECT_EQ(one, run(2));
@@ -182,20 +178,20 @@ TEST(ImplicitTouch, SameBitsForAnyNumberOfThreads) {
 TEST(ImplicitTouch, WhatBeginsInsideIsLifted) {
   World world;
   world.obstacles = {level_ground(0)};
-  world.actors.push_back(touching_box({2, 2, 2}, 0.01, test_material(0.3, 1e6), Vec3::Zero()));
-  world.actors.push_back(touching_box({2, 2, 2}, 0.01, test_material(0.3, 1e6), {0.017, 0, 0.001}));
+  world.bodies.push_back(touching_box({2, 2, 2}, 0.01, test_material(0.3, 1e6), Vec3::Zero()));
+  world.bodies.push_back(touching_box({2, 2, 2}, 0.01, test_material(0.3, 1e6), {0.017, 0, 0.001}));
   ImplicitMotion(world, {}).advance(0.01, 60, 0);
-  const Points& left = world.actors[0].body.positions;
-  const Points& right = world.actors[1].body.positions;
+  const Points& left = world.bodies[0].positions;
+  const Points& right = world.bodies[1].positions;
   EXPECT_GT(right.col(0).minCoeff() - left.col(0).maxCoeff(), -0.0005);
-  for (const Actor& actor : world.actors) EXPECT_LT(largest_speed(actor.body), 0.05);
+  for (const SoftBody& actor : world.bodies) EXPECT_LT(largest_speed(actor), 0.05);
 }
 
 /// A stiff block that begins in the ground would shoot out of it.
 TEST(ImplicitTouch, EnergyFromNowhereIsNotLetPass) {
   World world;
   world.gravity.setZero();
-  world.actors.push_back(touching_box({2, 2, 2}, 0.01, test_material(0.3, 1e6), {0, -0.005, 0}));
+  world.bodies.push_back(touching_box({2, 2, 2}, 0.01, test_material(0.3, 1e6), {0, -0.005, 0}));
   world.obstacles = {level_ground(0)};
   try {
     ImplicitMotion(world, {}).advance(0.01, 20, 0.5);

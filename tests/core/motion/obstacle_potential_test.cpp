@@ -21,8 +21,8 @@ struct Touching {
     obstacle.spin = {0, 0.4, 0.3};
     obstacle.friction = 0.6;
     std::mt19937 random(5);
-    test::shake(world.actors[0].body, 1e-3, random);
-    now = world.actors[0].body.positions;
+    test::shake(world.bodies[0], 1e-3, random);
+    now = world.bodies[0].positions;
     now.rowwise() += Eigen::RowVector3d(2e-4, -3e-3, 1e-4);
   }
   World world = test::world_of(test::box_body({3, 3, 3}, 0.02, Model::kCalibrated, 0.3));
@@ -35,12 +35,12 @@ class ObstaclePotentialOf : public testing::TestWithParam<Shape> {};
 /// Forces are minus the gradient of the energy, along a way of all nodes.
 TEST_P(ObstaclePotentialOf, FollowsFromItsEnergy) {
   Touching touching(GetParam());
-  Actor& actor = touching.world.actors[0];
+  SoftBody& actor = touching.world.bodies[0];
   std::mt19937 random(7);
   std::uniform_real_distribution<double> part(-1, 1);
   for (const double slip_speed : {1.0, 1e-3}) {  // sticks, slides
     ObstaclePotential potential(actor, touching.obstacle, slip_speed);
-    potential.begin(actor.body.positions, 0.01, 0.02);
+    potential.begin(actor.positions, 0.01, 0.02);
     potential.update_friction(touching.now);
     const Points way = Points::NullaryExpr(touching.now.rows(), 3, [&] { return part(random); }).matrix().normalized();
     const double step = 1e-7;

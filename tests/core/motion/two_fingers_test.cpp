@@ -69,19 +69,19 @@ class TwoFingers : public ::testing::Test {
   static World world_of_pulled() {
     World world;
     Body body = make(true);
-    Actor actor{.body = std::move(body), .contacts = {}, .pinned = {}};
-    for (const int node : foot_nodes(actor.body)) actor.pinned.push_back({.node = node});
-    for (const int node : end_nodes(actor.body, true)) {
+    SoftBody actor(std::move(body));
+    for (const int node : foot_nodes(actor)) actor.pinned.push_back({.node = node});
+    for (const int node : end_nodes(actor, true)) {
       actor.pinned.push_back({.node = node, .velocity = Vec3(-1, 0, 0)});
     }
-    actor.body.damping.alpha = 5;
-    world.actors.push_back(std::move(actor));
+    actor.damping.alpha = 5;
+    world.bodies.push_back(std::move(actor));
     world.gravity.setZero();
     return world;
   }
 
   static void expect_only_one_moved(const World& world) {
-    const Body& body = world.actors[0].body;
+    const Body& body = world.bodies[0];
     const Points moved = body.positions - body.rest_positions;
     EXPECT_LT(mean_x(moved, end_nodes(body, true)), -0.4);
     EXPECT_LT(std::abs(share(body, moved)), 0.1);

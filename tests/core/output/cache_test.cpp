@@ -1,4 +1,4 @@
-#include "core/io/cache.h"
+#include "core/simulation/cache.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -21,43 +21,40 @@ constexpr std::size_t kMemory = 5;
 
 /// A box with a triangle for a skin that has everything a skin can have.
 CacheHeader box_header(int side) {
-  const Body body = make_body(make_box_grid({side, side, side}, 0.1), Model::kCalibrated, test::test_material(0.3));
   CacheHeader header{.version = "1",
                      .build = "b",
                      .scene = "fps = 24\n",
                      .progress_name = "time_s",
-                     .size = 0.5,
                      .probes = {"tip"},
-                     .meshes = {},
-                     .actors = {},
-                     .obstacles = {}};
-  CachedActor actor;
-  actor.color = {1, 2, 3};
-  actor.grid = body.grid;
-  actor.stiffness_scale = body.stiffness_scale;
-  actor.regions.assign(body.grid.cells.size(), 2);
-  actor.masses = body.masses;
-  actor.rest_positions = body.rest_positions;
-  actor.skin.positions = Points::Random(3, 3);
-  actor.skin.normals = Points::Random(3, 3);
-  actor.skin.uvs = Floats2::Random(3, 2);
-  actor.skin.colors = Floats4::Random(3, 4);
-  actor.skin.triangles = Triangles{{0, 1, 2}};
-  actor.skin.parts = {{.name = "ear left", .first_triangle = 0, .triangle_count = 1, .material = 0}};
-  actor.skin.materials = {
+                     .simulation = {}};
+  Simulation& simulation = header.simulation;
+  simulation.size = 0.5;
+  SoftBody& body = simulation.world.bodies.emplace_back(
+      make_body(make_box_grid({side, side, side}, 0.1), Model::kCalibrated, test::test_material(0.3)));
+  body.color = {1, 2, 3};
+  body.origin.regions.assign(body.grid.cells.size(), 2);
+  body.skin.positions = Points::Random(3, 3);
+  body.skin.normals = Points::Random(3, 3);
+  body.skin.uvs = Floats2::Random(3, 2);
+  body.skin.colors = Floats4::Random(3, 4);
+  body.skin.triangles = Triangles{{0, 1, 2}};
+  body.skin.parts = {{.name = "ear left", .first_triangle = 0, .triangle_count = 1, .material = 0}};
+  body.skin.materials = {
       {.name = "fur", .texture = {std::byte{7}, std::byte{0}, std::byte{9}}, .texture_name = "f.png"}};
-  actor.embedding = embed(body.grid, actor.skin.positions);
-  header.meshes.push_back(actor.skin);
-  actor.carried = {2, 0, 1};
-  actor.carried_embedding = actor.embedding;
-  header.actors.push_back(actor);
-  header.obstacles.push_back({.color = {4, 5, 6}, .start = {.translation = {1, 2, 3}}, .skin = actor.skin});
+  body.skin_embedding = embed(body.grid, body.skin.positions);
+  body.file_vertices = {2, 0, 1};
+  body.file_embedding = body.skin_embedding;
+  simulation.meshes.push_back(body.skin);
+  StageObstacle& obstacle = simulation.obstacles.emplace_back();
+  obstacle.color = {4, 5, 6};
+  obstacle.start.translation = {1, 2, 3};
+  obstacle.skin = body.skin;
   return header;
 }
 
 /// Made up, so that every number of a frame tells which it is.
 Points state_of(const CacheHeader& header, std::size_t frame, double kind) {
-  const Points& rest = header.actors[0].rest_positions;
+  const Points& rest = header.simulation.world.bodies[0].rest_positions;
   return rest.array() * std::sqrt(2.0) + kind + double(frame) / 3;
 }
 
@@ -105,24 +102,24 @@ TEST(Cache, GivesBackEveryBit) {
   const CacheHeader& read = reader.header();
   EXPECT_EQ(read.scene, header.scene);
   EXPECT_EQ(read.probes, header.probes);
-  EXPECT_EQ(read.size, header.size);
-  const CachedActor& actor = read.actors.at(0);
-  const CachedActor& made = header.actors[0];
-  EXPECT_EQ(actor.grid.nodes, made.grid.nodes);
-  EXPECT_EQ(actor.grid.cells, made.grid.cells);
-  EXPECT_EQ(actor.grid.lattice, made.grid.lattice);
-  EXPECT_EQ(actor.grid.fill, made.grid.fill);
-  EXPECT_EQ(actor.regions, made.regions);
-  EXPECT_EQ(actor.masses, made.masses);
-  EXPECT_EQ(actor.embedding.local, made.embedding.local);
-  EXPECT_EQ(actor.carried, made.carried);
-  EXPECT_EQ(read.meshes.at(0).triangles, made.skin.triangles);
-  EXPECT_EQ(actor.skin.uvs, made.skin.uvs);
-  EXPECT_EQ(actor.skin.colors, made.skin.colors);
-  EXPECT_EQ(actor.skin.parts.at(0).name, "ear left");
-  EXPECT_EQ(actor.skin.materials.at(0).texture, made.skin.materials[0].texture);
-  EXPECT_EQ(read.obstacles.at(0).start.translation, Vec3(1, 2, 3));
-  EXPECT_EQ(read.obstacles.at(0).color, (CachedColor{4, 5, 6}));
+  EXPECT_EQ(read.simulation.size, header.simulation.size);
+  const SoftBody& body = read.simulation.world.bodies.at(0);
+  const SoftBody& made = header.simulation.world.bodies[0];
+  EXPECT_EQ(body.grid.nodes, made.grid.nodes);
+  EXPECT_EQ(body.grid.cells, made.grid.cells);
+  EXPECT_EQ(body.grid.lattice, made.grid.lattice);
+  EXPECT_EQ(body.grid.fill, made.grid.fill);
+  EXPECT_EQ(body.origin.regions, made.origin.regions);
+  EXPECT_EQ(body.masses, made.masses);
+  EXPECT_EQ(body.skin_embedding.local, made.skin_embedding.local);
+  EXPECT_EQ(body.file_vertices, made.file_vertices);
+  EXPECT_EQ(read.simulation.meshes.at(0).triangles, made.skin.triangles);
+  EXPECT_EQ(body.skin.uvs, made.skin.uvs);
+  EXPECT_EQ(body.skin.colors, made.skin.colors);
+  EXPECT_EQ(body.skin.parts.at(0).name, "ear left");
+  EXPECT_EQ(body.skin.materials.at(0).texture, made.skin.materials[0].texture);
+  EXPECT_EQ(read.simulation.obstacles.at(0).start.translation, Vec3(1, 2, 3));
+  EXPECT_EQ(read.simulation.obstacles.at(0).color.green, 5);
 }
 
 TEST(Cache, WithAnErrorAllowedKeepsToItAndTheLastFrameToTheLastBit) {

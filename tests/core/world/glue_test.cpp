@@ -19,8 +19,8 @@ using test::touching_box;
 World two_cubes() {
   World world;
   world.gravity.setZero();
-  world.actors.push_back(touching_box({4, 4, 4}, 0.01, test_material(0.3, 2e4), Vec3::Zero()));
-  world.actors.push_back(touching_box({3, 3, 3}, 0.04 / 3, test_material(0.3, 8e4), {0.0401, 0, 0}));
+  world.bodies.push_back(touching_box({4, 4, 4}, 0.01, test_material(0.3, 2e4), Vec3::Zero()));
+  world.bodies.push_back(touching_box({3, 3, 3}, 0.04 / 3, test_material(0.3, 8e4), {0.0401, 0, 0}));
   return world;
 }
 
@@ -29,7 +29,7 @@ double furthest_apart(const World& world) {
   for (const GluedPoint& point : world.glue) {
     Vec3 apart = Vec3::Zero();
     for (std::size_t side = 0; side < 2; ++side) {
-      const Body& body = world.actors[point.actors[side]].body;
+      const Body& body = world.bodies[point.bodies[side]];
       apart += (side == 0 ? 1 : -1) * carried(body, point.bricks[side], point.weights[side], body.positions);
     }
     furthest = std::max(furthest, apart.norm());
@@ -51,11 +51,9 @@ TEST(Glue, HoldsWhereSkinsLieTogether) {
 TEST(Glue, KeepsTogetherWhatIsDrawnApart) {
   World world = two_cubes();
   world.glue = glue_between(world, 0, 1, 0.001);
-  for (Actor& actor : world.actors) actor.body.damping = {.alpha = 0, .beta = 1e-4};
-  world.actors[1].body.velocities.col(0).setConstant(0.5);
-  const auto momentum = [&] {
-    return Vec3(linear_momentum(world.actors[0].body) + linear_momentum(world.actors[1].body));
-  };
+  for (SoftBody& actor : world.bodies) actor.damping = {.alpha = 0, .beta = 1e-4};
+  world.bodies[1].velocities.col(0).setConstant(0.5);
+  const auto momentum = [&] { return Vec3(linear_momentum(world.bodies[0]) + linear_momentum(world.bodies[1])); };
   const Vec3 before = momentum();
   AdaptiveIntegrator motion(world, Scheme::kSymplecticEuler);
   for (int frame = 0; frame < 20; ++frame) {
@@ -64,7 +62,7 @@ TEST(Glue, KeepsTogetherWhatIsDrawnApart) {
     EXPECT_LT(furthest_apart(world), 2e-5) << frame;
   }
   EXPECT_LT((momentum() - before).norm(), 1e-9 * before.norm());
-  const Vec3 first = linear_momentum(world.actors[0].body) / world.actors[0].body.masses.sum();
+  const Vec3 first = linear_momentum(world.bodies[0]) / world.bodies[0].masses.sum();
   EXPECT_GT(first.x(), 0.1);
 }
 

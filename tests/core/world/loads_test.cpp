@@ -17,14 +17,14 @@ namespace {
 using test::test_material;
 using test::touching_box;
 
-World weightless(Actor actor) {
+World weightless(SoftBody actor) {
   World world;
   world.gravity.setZero();
-  world.actors.push_back(std::move(actor));
+  world.bodies.push_back(std::move(actor));
   return world;
 }
 
-std::vector<int> all_triangles(const Actor& actor) {
+std::vector<int> all_triangles(const SoftBody& actor) {
   std::vector<int> rows(actor.contact_triangles.rows());
   for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = int(i);
   return rows;
@@ -33,8 +33,8 @@ std::vector<int> all_triangles(const Actor& actor) {
 /// A force on a free body accelerates it by F / m, whatever it does inside.
 TEST(Loads, ForceAcceleratesAFreeBody) {
   World world = weightless(touching_box({4, 2, 2}, 0.01, test_material(0.3, 2e4), Vec3::Zero()));
-  Body& body = world.actors[0].body;
-  Points& forces = world.actors[0].loads.forces;
+  Body& body = world.bodies[0];
+  Points& forces = world.bodies[0].loads.forces;
   forces = Points::Zero(body.node_count(), 3);
   forces.row(3) = Eigen::RowVector3d(0.002, -0.001, 0.0005);
   const double dt = stable_step(world);
@@ -46,28 +46,28 @@ TEST(Loads, ForceAcceleratesAFreeBody) {
 /// Pressure on a closed skin pushes nothing along, and does the work p dV where the body swells.
 TEST(Loads, PressureOnAClosedSkinDoesTheWorkOfItsVolume) {
   World world = weightless(touching_box({3, 2, 2}, 0.01, test_material(0.3, 2e4), Vec3::Zero()));
-  Actor& actor = world.actors[0];
+  SoftBody& actor = world.bodies[0];
   actor.loads.pressures.push_back({.triangles = all_triangles(actor), .pressure = 700});
   const Points forces = LoadForces(actor, world).forces();
   EXPECT_LT(forces.colwise().sum().norm(), 1e-12);
   const double strain = 1e-3;
-  const Points displacements = strain * actor.body.positions;  // swells alike in all directions
+  const Points displacements = strain * actor.positions;  // swells alike in all directions
   const double work = forces.cwiseProduct(displacements).sum();
-  EXPECT_NEAR(work, -700 * 3 * strain * actor.body.grid.volume(), 1e-12);
+  EXPECT_NEAR(work, -700 * 3 * strain * actor.grid.volume(), 1e-12);
 }
 
 /// Pressed from all sides a body loses the share p / K of its volume, K = E / (3 (1 - 2 nu)).
 TEST(Loads, PressureShrinksABodyByItsBulkModulus) {
   World world = weightless(touching_box({4, 4, 4}, 0.01, test_material(0.3, 2e4), Vec3::Zero()));
-  Actor& actor = world.actors[0];
+  SoftBody& actor = world.bodies[0];
   const double pressure = 100;
   actor.loads.pressures.push_back({.triangles = all_triangles(actor), .pressure = pressure});
-  actor.body.damping = {.alpha = 30, .beta = 0};
+  actor.damping = {.alpha = 30, .beta = 0};
   advance(world, Scheme::kSymplecticEuler, stable_step(world), 6000, 0);
   const double bulk = 2e4 / (3 * (1 - 0.6));
   double volume = 0;
-  for (const auto& nodes : actor.body.grid.nodes) {
-    volume += mean_axes_of(columns_of(nodes, actor.body.positions)).determinant();
+  for (const auto& nodes : actor.grid.nodes) {
+    volume += mean_axes_of(columns_of(nodes, actor.positions)).determinant();
   }
   EXPECT_NEAR(1 - volume / std::pow(0.04, 3), pressure / bulk, 0.03 * pressure / bulk);
 }
@@ -76,10 +76,10 @@ TEST(Loads, PressureShrinksABodyByItsBulkModulus) {
 TEST(Loads, WindPressesOnWhatFacesIt) {
   World world = weightless(touching_box({1, 6, 5}, 0.01, test_material(0.3, 2e4), Vec3::Zero()));
   world.wind = {.velocity = {8, 0, 0}, .density = 1.2, .drag = 1.1};
-  Actor& actor = world.actors[0];
+  SoftBody& actor = world.bodies[0];
   const Vec3 at_rest = LoadForces(actor, world).forces().colwise().sum();
   EXPECT_LT((at_rest - Vec3(0.5 * 1.2 * 1.1 * 64 * 0.06 * 0.05, 0, 0)).norm(), 1e-12);
-  actor.body.velocities.col(0).setConstant(8);
+  actor.velocities.col(0).setConstant(8);
   EXPECT_LT(LoadForces(actor, world).forces().norm(), 1e-12);
 }
 
@@ -88,8 +88,8 @@ TEST(Loads, WindPressesOnWhatFacesIt) {
 TEST(Loads, FreeMuscleContractsAndKeepsItsVolume) {
   for (const auto& [direction, accuracy] : {std::pair(Vec3(1, 0, 0), 0.01), std::pair(Vec3(0.6, 0.8, 0), 0.035)}) {
     World world = weightless(touching_box({5, 2, 2}, 0.01, test_material(0.4, 2e4), Vec3::Zero()));
-    Actor& actor = world.actors[0];
-    Body& body = actor.body;
+    SoftBody& actor = world.bodies[0];
+    Body& body = actor;
     Muscle muscle{.bricks = {}, .direction = direction, .contraction = 0.2};
     for (int brick = 0; brick < body.grid.brick_count(); ++brick) muscle.bricks.push_back(brick);
     actor.loads.muscles = {muscle};

@@ -83,11 +83,11 @@ TEST(Obstacle, BlockOnASlopeStaysOrSlides) {
     World world;
     world.obstacles = {level_ground(0, friction)};
     world.obstacles[0].pose.rotation = slope;
-    Actor block = touching_box({6, 3, 6}, 0.02, test_material(0.3, 3e5), Vec3::Zero());
-    place(block.body, slope, Vec3::Zero());
-    block.body.damping.beta = 1e-3;
-    world.actors.push_back(std::move(block));
-    const Body& body = world.actors[0].body;
+    SoftBody block = touching_box({6, 3, 6}, 0.02, test_material(0.3, 3e5), Vec3::Zero());
+    place(block, slope, Vec3::Zero());
+    block.damping.beta = 1e-3;
+    world.bodies.push_back(std::move(block));
+    const Body& body = world.bodies[0];
     run(world, 0.2, 20);
     const double start = centre_of(body).dot(down);
     const double speed = linear_momentum(body).dot(down) / body.masses.sum();
@@ -110,8 +110,8 @@ TEST(Obstacle, SquashedCubeComesBack) {
   World world;
   world.gravity.setZero();
   world.obstacles = {level_ground(0), {}};
-  world.actors.push_back(touching_box({4, 4, 4}, 0.02, test_material(0.3), Vec3::Zero()));
-  Body& body = world.actors[0].body;
+  world.bodies.push_back(touching_box({4, 4, 4}, 0.02, test_material(0.3), Vec3::Zero()));
+  Body& body = world.bodies[0];
   body.damping.beta = 2e-3;
   Obstacle& plate = world.obstacles[1];
   plate.shape = SolidBox{{0.1, 0.01, 0.1}};
@@ -139,8 +139,8 @@ TEST(Obstacle, TurningCylinderCarriesABodyAround) {
   table.shape = SolidCylinder{0.3, 0.05};
   table.pose.translation.y() = -0.05;
   table.friction = 0.8;
-  world.actors.push_back(touching_box({3, 2, 3}, 0.02, test_material(0.3, 5e4), Vec3(0.1, 0, -0.03)));
-  Body& body = world.actors[0].body;
+  world.bodies.push_back(touching_box({3, 2, 3}, 0.02, test_material(0.3, 5e4), Vec3(0.1, 0, -0.03)));
+  Body& body = world.bodies[0];
   body.damping.beta = 2e-3;
   run(world, 0.2, 50);
   const Vec3 start = centre_of(body);
@@ -158,7 +158,7 @@ TEST(Obstacle, WhatBeginsToFallIsFoundInTime) {
   soft.density = 800;
   World world;
   world.obstacles = {level_ground(0)};
-  world.actors.push_back(touching_box({4, 4, 5}, h, soft, Vec3(0, 0.4 * h, 0)));
+  world.bodies.push_back(touching_box({4, 4, 5}, h, soft, Vec3(0, 0.4 * h, 0)));
   run(world, 0.075, 1 / 0.075);
   EXPECT_LT(deepest_penetration(world), 0.01 * h);
 }
@@ -168,13 +168,13 @@ TEST(Obstacle, PointsThatShareACornerAreBothHeld) {
   const double h = 0.8;
   World world;
   world.obstacles = {level_ground(0)};
-  world.actors.push_back(touching_box({1, 2, 1}, h, test_material(0, 1.3e5), Vec3::Zero()));
-  Actor& actor = world.actors[0];
-  actor.body.damping.beta = 5e-3;
-  actor.body.velocities.col(1).setConstant(-4);
+  world.bodies.push_back(touching_box({1, 2, 1}, h, test_material(0, 1.3e5), Vec3::Zero()));
+  SoftBody& actor = world.bodies[0];
+  actor.damping.beta = 5e-3;
+  actor.velocities.col(1).setConstant(-4);
   Points feet(4, 3);
   feet << 0.05, 0, 0.45, 0.45, 0, 0.05, 0.95, 0, 0.55, 0.55, 0, 0.95;
-  actor.contacts = embed(actor.body.grid, h * feet);
+  actor.contacts = embed(actor.grid, h * feet);
   actor.contact_triangles.resize(0, 3);
   for (int tenth = 1; tenth <= 4; ++tenth) {
     run(world, 0.1, 10);
@@ -188,10 +188,10 @@ TEST(Obstacle, FastBodyDoesNotTunnel) {
   world.gravity.setZero();
   world.obstacles = {{}};
   world.obstacles[0].shape = SolidBox{{1, 0.001, 1}};
-  world.actors.push_back(touching_box({3, 3, 3}, 0.02, test_material(0.3, 1e5), Vec3(0, 0.1, 0)));
-  world.actors[0].body.velocities.col(1).setConstant(-20);
+  world.bodies.push_back(touching_box({3, 3, 3}, 0.02, test_material(0.3, 1e5), Vec3(0, 0.1, 0)));
+  world.bodies[0].velocities.col(1).setConstant(-20);
   run(world, 0.05, 100);
-  EXPECT_GT(world.actors[0].body.positions.col(1).minCoeff(), -0.001);
+  EXPECT_GT(world.bodies[0].positions.col(1).minCoeff(), -0.001);
 }
 
 }  // namespace

@@ -25,15 +25,15 @@ TEST(Motion, CollapsingBodyKeepsNoBrickInverted) {
     World world = world_of(make_body(make_box_grid({4, 4, 4}, 0.05), Model::kCalibrated, test_material(poisson, 100)),
                            {0, -9.81, 0});
     world.obstacles = {level_ground(0)};
-    world.actors[0].body.damping.beta = 0.01;
-    stiffen_volume_guard(world.actors[0].body, 9.81, impact_speed(world));
+    world.bodies[0].damping.beta = 0.01;
+    stiffen_volume_guard(world.bodies[0], 9.81, impact_speed(world));
     AdaptiveIntegrator motion(world, Scheme::kSymplecticEuler);
     for (int frame = 0; frame < 30; ++frame) {
       static_cast<void>(motion.advance_frame(
           frame * 0.04, 0.04, [](double) {}, [](const std::string&) {}));
     }
-    EXPECT_EQ(inverted_bricks(world.actors[0].body), 0) << poisson;
-    EXPECT_LT(smallest_volume_ratio(world.actors[0].body), 0.3) << poisson;
+    EXPECT_EQ(inverted_bricks(world.bodies[0]), 0) << poisson;
+    EXPECT_LT(smallest_volume_ratio(world.bodies[0]), 0.3) << poisson;
   }
 }
 
@@ -46,19 +46,19 @@ TEST(InversionRate, CrushedBricksGiveNoEnergy) {
   heavy.density = 8000;
   World world;
   world.gravity.setZero();
-  world.actors.push_back(touching_box({3, 12, 12}, 0.01, soft, Vec3::Zero()));
-  world.actors.push_back(touching_box({5, 5, 5}, 0.01, heavy, {-0.06, 0.04, 0.03}));
-  Actor& wall = world.actors[0];
-  for (int node = 0; node < wall.body.node_count(); ++node) {
-    if (wall.body.positions(node, 1) < 0.005) wall.pinned.push_back({.node = node});
+  world.bodies.push_back(touching_box({3, 12, 12}, 0.01, soft, Vec3::Zero()));
+  world.bodies.push_back(touching_box({5, 5, 5}, 0.01, heavy, {-0.06, 0.04, 0.03}));
+  SoftBody& wall = world.bodies[0];
+  for (int node = 0; node < wall.node_count(); ++node) {
+    if (wall.positions(node, 1) < 0.005) wall.pinned.push_back({.node = node});
   }
-  world.actors[1].body.velocities.col(0).setConstant(10);
-  for (Actor& actor : world.actors) {
-    actor.body.damping = {};
-    stiffen_volume_guard(actor.body, 0, impact_speed(world));
+  world.bodies[1].velocities.col(0).setConstant(10);
+  for (SoftBody& actor : world.bodies) {
+    actor.damping = {};
+    stiffen_volume_guard(actor, 0, impact_speed(world));
   }
   const auto energy = [&] {
-    return energy_of(wall.body, world.gravity).sum() + energy_of(world.actors[1].body, world.gravity).sum();
+    return energy_of(wall, world.gravity).sum() + energy_of(world.bodies[1], world.gravity).sum();
   };
   AdaptiveIntegrator motion(world, Scheme::kSymplecticEuler);
   double before = energy();
@@ -74,7 +74,7 @@ TEST(InversionRate, CrushedBricksGiveNoEnergy) {
 /// mean axes no volume is left.
 TEST(InversionRate, BrickTurnedOverBetweenItsCornersIsFound) {
   World world = world_of(box_body({1, 1, 1}, 0.02, Model::kCalibrated, 0.3));
-  Body& body = world.actors[0].body;
+  Body& body = world.bodies[0];
   const auto& nodes = body.grid.nodes[0];
   for (int corner = 0; corner < 8; ++corner) {
     const double turn = (corner & 4) != 0 ? 2.6 : 0;  // rad, of the high face about z
@@ -89,7 +89,7 @@ TEST(InversionRate, BrickTurnedOverBetweenItsCornersIsFound) {
                           [](const InversionRate& one) { return one.corner == InversionRate::kMeanAxes; }));
 
   const Vec3 momentum = linear_momentum(body);
-  ContactSolver impulses({&world.actors[0]}, {body.masses.cwiseInverse()});
+  ContactSolver impulses({&world.bodies[0]}, {body.masses.cwiseInverse()});
   impulses.apply(world, 0, 1e-5);
   EXPECT_LT((linear_momentum(body) - momentum).norm(), 1e-12);
   EXPECT_LT(angular_momentum(body).norm(), 1e-12);

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "core/io/cache.h"
-#include "core/io/cache_format.h"
+#include "core/simulation/cache.h"
+#include "core/simulation/cache_format.h"
 
 namespace sprung {
 namespace {
@@ -49,30 +49,37 @@ void write_grid(Hdf5Writer& hdf5, const std::string& folder, const BrickGrid& gr
   write_matrix(hdf5, folder + "/lattice", rows_of(grid.lattice));
 }
 
-void write_actor(Hdf5Writer& hdf5, const std::string& folder, const CachedActor& actor, bool is_exact) {
-  write_number(hdf5, folder + "/body", actor.body);
-  write_list(hdf5, folder + "/color", actor.color);
-  write_grid(hdf5, folder, actor.grid);
-  write_list(hdf5, folder + "/stiffness_scale", actor.stiffness_scale);
-  write_list(hdf5, folder + "/regions", actor.regions);
-  hdf5.write(folder + "/masses", flat_values(actor.masses), {std::size_t(actor.masses.size())});
-  write_matrix(hdf5, folder + "/rest_positions", actor.rest_positions);
-  write_list(hdf5, folder + "/pinned", actor.pinned);
-  write_skin(hdf5, folder + "/skin", actor.skin);
-  write_list(hdf5, folder + "/skin/brick", actor.embedding.brick);
-  write_matrix(hdf5, folder + "/skin/place_in_brick", actor.embedding.local);
-  write_number(hdf5, folder + "/copy", actor.copy);
-  write_list(hdf5, folder + "/mesh/vertices", actor.carried);
-  write_list(hdf5, folder + "/mesh/brick", actor.carried_embedding.brick);
-  write_matrix(hdf5, folder + "/mesh/place_in_brick", actor.carried_embedding.local);
-  const ArrayShape state{std::size_t(actor.rest_positions.rows()), 3};
+void write_color(Hdf5Writer& hdf5, const std::string& name, const Color& color) {
+  write_list(hdf5, name, std::array<std::uint8_t, 3>{color.red, color.green, color.blue});
+}
+
+void write_embedding(Hdf5Writer& hdf5, const std::string& folder, const Embedding& embedding) {
+  write_list(hdf5, folder + "/brick", embedding.brick);
+  write_matrix(hdf5, folder + "/place_in_brick", embedding.local);
+}
+
+void write_body(Hdf5Writer& hdf5, const std::string& folder, const SoftBody& body, bool is_exact) {
+  write_number(hdf5, folder + "/body", int(body.origin.body));
+  write_number(hdf5, folder + "/copy", body.origin.copy);
+  write_list(hdf5, folder + "/regions", body.origin.regions);
+  write_list(hdf5, folder + "/pinned", body.origin.pinned_nodes());
+  write_color(hdf5, folder + "/color", body.color);
+  write_grid(hdf5, folder, body.grid);
+  write_list(hdf5, folder + "/stiffness_scale", body.stiffness_scale);
+  hdf5.write(folder + "/masses", flat_values(body.masses), {std::size_t(body.masses.size())});
+  write_matrix(hdf5, folder + "/rest_positions", body.rest_positions);
+  write_skin(hdf5, folder + "/skin", body.skin);
+  write_embedding(hdf5, folder + "/skin", body.skin_embedding);
+  write_list(hdf5, folder + "/mesh/vertices", body.file_vertices);
+  write_embedding(hdf5, folder + "/mesh", body.file_embedding);
+  const ArrayShape state{std::size_t(body.rest_positions.rows()), 3};
   hdf5.make_series<double>(folder + "/positions", state);
   hdf5.make_series<double>(folder + "/velocities", state);
   hdf5.make_slots(folder + kExactName, 2, is_exact ? 0 : 6 * state[0]);
 }
 
-void write_obstacle(Hdf5Writer& hdf5, const std::string& folder, const CachedObstacle& obstacle) {
-  write_list(hdf5, folder + "/color", obstacle.color);
+void write_obstacle(Hdf5Writer& hdf5, const std::string& folder, const StageObstacle& obstacle) {
+  write_color(hdf5, folder + "/color", obstacle.color);
   hdf5.write(folder + "/translation", std::span<const double>(obstacle.start.translation.data(), 3), {3});
   write_matrix(hdf5, folder + "/rotation", Points(obstacle.start.rotation));
   write_skin(hdf5, folder + "/skin", obstacle.skin);
@@ -87,23 +94,25 @@ void append_rounded(Hdf5Writer& hdf5, const std::string& name, const Points& val
 }
 
 void write_header(Hdf5Writer& hdf5, const CacheHeader& header) {
+  const Simulation& simulation = header.simulation;
+  const std::vector<SoftBody>& bodies = simulation.world.bodies;
   write_number(hdf5, kLayoutName, kCacheLayout);
   hdf5.write_text("/version", header.version);
   hdf5.write_text("/build", header.build);
   hdf5.write_text("/scene", header.scene);
   hdf5.write_text("/progress_name", header.progress_name);
-  write_number(hdf5, "/size", header.size);
+  write_number(hdf5, "/size", simulation.size);
   write_number(hdf5, "/position_error", header.position_error);
   write_number(hdf5, "/velocity_error", header.velocity_error);
   hdf5.write_texts("/probes", header.probes);
-  write_number(hdf5, "/mesh_count", isize(header.meshes));
-  write_number(hdf5, "/actor_count", isize(header.actors));
-  write_number(hdf5, "/obstacle_count", isize(header.obstacles));
-  for (std::size_t i = 0; i < header.meshes.size(); ++i) write_skin(hdf5, mesh_folder(i), header.meshes[i]);
-  for (std::size_t i = 0; i < header.actors.size(); ++i)
-    write_actor(hdf5, actor_folder(i), header.actors[i], header.position_error == 0);
-  for (std::size_t i = 0; i < header.obstacles.size(); ++i) {
-    write_obstacle(hdf5, obstacle_folder(i), header.obstacles[i]);
+  write_number(hdf5, "/mesh_count", isize(simulation.meshes));
+  write_number(hdf5, "/actor_count", isize(bodies));
+  write_number(hdf5, "/obstacle_count", isize(simulation.obstacles));
+  for (std::size_t i = 0; i < simulation.meshes.size(); ++i) write_skin(hdf5, mesh_folder(i), simulation.meshes[i]);
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    write_body(hdf5, actor_folder(i), bodies[i], header.position_error == 0);
+  for (std::size_t i = 0; i < simulation.obstacles.size(); ++i) {
+    write_obstacle(hdf5, obstacle_folder(i), simulation.obstacles[i]);
   }
 }
 

@@ -1,9 +1,7 @@
 #pragma once
 #include <cstddef>
-#include <span>
 #include <string>
 
-#include "core/error.h"
 #include "core/io/hdf5_file.h"
 #include "core/skin/skin.h"
 
@@ -27,33 +25,6 @@ inline constexpr const char* kExactName = "/exact_state";
 [[nodiscard]] inline std::string mesh_folder(std::size_t body) { return "/meshes/" + std::to_string(body + 1); }
 [[nodiscard]] inline std::string obstacle_folder(std::size_t obstacle) {
   return "/obstacles/" + std::to_string(obstacle + 1);
-}
-
-/// A matrix stored row by row, as numbers in a row.
-template <class Matrix>
-[[nodiscard]] std::span<const typename Matrix::Scalar> flat_values(const Matrix& matrix) {
-  return {matrix.data(), std::size_t(matrix.size())};
-}
-
-template <class Matrix>
-void write_matrix(Hdf5Writer& hdf5, const std::string& name, const Matrix& matrix) {
-  hdf5.write(name, flat_values(matrix), {std::size_t(matrix.rows()), std::size_t(matrix.cols())});
-}
-
-/// Throws Error(kBadInput) where the file has another number of columns.
-template <class Matrix>
-[[nodiscard]] Matrix matrix_from(const Array<typename Matrix::Scalar>& array, const std::string& name) {
-  const std::size_t columns = array.shape.size() == 2 ? array.shape[1] : 1;
-  constexpr int kColumns = Matrix::ColsAtCompileTime;
-  if (array.shape.empty() || columns != kColumns) {
-    throw Error(ErrorKind::kBadInput, name + ": the cache is damaged: not the shape it should have");
-  }
-  return Eigen::Map<const Matrix>(array.values.data(), array.shape[0], kColumns);
-}
-
-template <class Matrix>
-[[nodiscard]] Matrix read_matrix(const Hdf5Reader& hdf5, const std::string& name) {
-  return matrix_from<Matrix>(hdf5.read<typename Matrix::Scalar>(name), name);
 }
 
 /// A skin in a folder of a cache: "folder/positions", "folder/triangles" and so on.

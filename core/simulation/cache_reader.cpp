@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "core/io/cache.h"
-#include "core/io/cache_format.h"
 #include "core/mesh/io/file_checks.h"
+#include "core/simulation/cache.h"
+#include "core/simulation/cache_format.h"
 
 namespace sprung {
 namespace {
@@ -32,33 +32,37 @@ BrickGrid read_grid(const Hdf5Reader& hdf5, const std::string& folder) {
   return grid;
 }
 
-CachedColor read_color(const Hdf5Reader& hdf5, const std::string& name) {
+Color read_color(const Hdf5Reader& hdf5, const std::string& name) {
   const std::vector<std::uint8_t> values = hdf5.read<std::uint8_t>(name).values;
   return {values.at(0), values.at(1), values.at(2)};
 }
 
-CachedActor read_actor(const Hdf5Reader& hdf5, const std::string& folder) {
-  CachedActor actor;
-  actor.body = hdf5.read<int>(folder + "/body").values.at(0);
-  actor.color = read_color(hdf5, folder + "/color");
-  actor.grid = read_grid(hdf5, folder);
-  actor.stiffness_scale = hdf5.read<double>(folder + "/stiffness_scale").values;
-  actor.regions = hdf5.read<int>(folder + "/regions").values;
-  actor.masses = read_matrix<Numbers>(hdf5, folder + "/masses");
-  actor.rest_positions = read_matrix<Points>(hdf5, folder + "/rest_positions");
-  if (hdf5.has(folder + "/pinned")) actor.pinned = hdf5.read<int>(folder + "/pinned").values;
-  actor.skin = read_skin(hdf5, folder + "/skin");
-  actor.embedding.brick = hdf5.read<int>(folder + "/skin/brick").values;
-  actor.embedding.local = read_matrix<Points>(hdf5, folder + "/skin/place_in_brick");
-  actor.copy = hdf5.read<int>(folder + "/copy").values.at(0);
-  actor.carried = hdf5.read<int>(folder + "/mesh/vertices").values;
-  actor.carried_embedding.brick = hdf5.read<int>(folder + "/mesh/brick").values;
-  actor.carried_embedding.local = read_matrix<Points>(hdf5, folder + "/mesh/place_in_brick");
-  return actor;
+SoftBody read_body(const Hdf5Reader& hdf5, const std::string& folder) {
+  SoftBody body;
+  body.origin.body = hdf5.read<int>(folder + "/body").values.at(0);
+  body.origin.copy = hdf5.read<int>(folder + "/copy").values.at(0);
+  body.origin.regions = hdf5.read<int>(folder + "/regions").values;
+  if (hdf5.has(folder + "/pinned")) {
+    std::vector<int> pinned = hdf5.read<int>(folder + "/pinned").values;
+    if (!pinned.empty()) body.origin.pins.push_back({.pin = 0, .nodes = std::move(pinned)});
+  }
+  body.color = read_color(hdf5, folder + "/color");
+  body.grid = read_grid(hdf5, folder);
+  body.stiffness_scale = hdf5.read<double>(folder + "/stiffness_scale").values;
+  body.masses = read_matrix<Numbers>(hdf5, folder + "/masses");
+  body.rest_positions = read_matrix<Points>(hdf5, folder + "/rest_positions");
+  body.positions = body.rest_positions;
+  body.skin = read_skin(hdf5, folder + "/skin");
+  body.skin_embedding.brick = hdf5.read<int>(folder + "/skin/brick").values;
+  body.skin_embedding.local = read_matrix<Points>(hdf5, folder + "/skin/place_in_brick");
+  body.file_vertices = hdf5.read<int>(folder + "/mesh/vertices").values;
+  body.file_embedding.brick = hdf5.read<int>(folder + "/mesh/brick").values;
+  body.file_embedding.local = read_matrix<Points>(hdf5, folder + "/mesh/place_in_brick");
+  return body;
 }
 
-CachedObstacle read_obstacle(const Hdf5Reader& hdf5, const std::string& folder) {
-  CachedObstacle obstacle;
+StageObstacle read_obstacle(const Hdf5Reader& hdf5, const std::string& folder) {
+  StageObstacle obstacle;
   obstacle.color = read_color(hdf5, folder + "/color");
   obstacle.start.translation = read_matrix<Numbers>(hdf5, folder + "/translation");
   obstacle.start.rotation = read_matrix<Points>(hdf5, folder + "/rotation");
@@ -82,20 +86,21 @@ Hdf5Reader open_cache(const std::filesystem::path& file) {
 
 CacheHeader read_header(const Hdf5Reader& hdf5) {
   CacheHeader header;
+  Simulation& simulation = header.simulation;
   header.version = hdf5.read_text("/version");
   header.build = hdf5.read_text("/build");
   header.scene = hdf5.read_text("/scene");
   header.progress_name = hdf5.read_text("/progress_name");
-  header.size = hdf5.read<double>("/size").values.at(0);
+  simulation.size = hdf5.read<double>("/size").values.at(0);
   header.position_error = hdf5.read<double>("/position_error").values.at(0);
   header.velocity_error = hdf5.read<double>("/velocity_error").values.at(0);
   header.probes = hdf5.read_texts("/probes");
   const std::size_t meshes = hdf5.read<int>("/mesh_count").values.at(0);
-  const std::size_t actors = hdf5.read<int>("/actor_count").values.at(0);
+  const std::size_t bodies = hdf5.read<int>("/actor_count").values.at(0);
   const std::size_t obstacles = hdf5.read<int>("/obstacle_count").values.at(0);
-  for (std::size_t i = 0; i < meshes; ++i) header.meshes.push_back(read_skin(hdf5, mesh_folder(i)));
-  for (std::size_t i = 0; i < actors; ++i) header.actors.push_back(read_actor(hdf5, actor_folder(i)));
-  for (std::size_t i = 0; i < obstacles; ++i) header.obstacles.push_back(read_obstacle(hdf5, obstacle_folder(i)));
+  for (std::size_t i = 0; i < meshes; ++i) simulation.meshes.push_back(read_skin(hdf5, mesh_folder(i)));
+  for (std::size_t i = 0; i < bodies; ++i) simulation.world.bodies.push_back(read_body(hdf5, actor_folder(i)));
+  for (std::size_t i = 0; i < obstacles; ++i) simulation.obstacles.push_back(read_obstacle(hdf5, obstacle_folder(i)));
   return header;
 }
 
@@ -129,7 +134,7 @@ std::vector<double> CacheReader::memory(std::size_t frame) const {
 
 std::vector<Points> CacheReader::states(const char* name, std::size_t frame) const {
   std::vector<Points> all;
-  for (std::size_t i = 0; i < header_.actors.size(); ++i) {
+  for (std::size_t i = 0; i < header_.simulation.world.bodies.size(); ++i) {
     const std::string path = actor_folder(i) + name;
     all.push_back(matrix_from<Points>(hdf5_.read_row<double>(path, frame), path));
   }
@@ -138,9 +143,9 @@ std::vector<Points> CacheReader::states(const char* name, std::size_t frame) con
 
 std::vector<Points> CacheReader::exact_states(std::size_t which, std::size_t frame) const {
   std::vector<Points> all;
-  for (std::size_t i = 0; i < header_.actors.size(); ++i) {
+  for (std::size_t i = 0; i < header_.simulation.world.bodies.size(); ++i) {
     const std::vector<double> row = hdf5_.read_row<double>(actor_folder(i) + kExactName, frame % 2).values;
-    const Eigen::Index nodes = header_.actors[i].rest_positions.rows();
+    const Eigen::Index nodes = header_.simulation.world.bodies[i].rest_positions.rows();
     all.emplace_back(Eigen::Map<const Points>(row.data() + Eigen::Index(which) * 3 * nodes, nodes, 3));
   }
   return all;

@@ -1,4 +1,4 @@
-#include "core/io/cache_format.h"
+#include "core/simulation/cache_format.h"
 
 #include <fmt/format.h>
 

@@ -1,45 +1,14 @@
 #pragma once
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include "core/bricks/embedding.h"
 #include "core/io/file_lock.h"
 #include "core/io/hdf5_file.h"
-#include "core/pose.h"
-#include "core/skin/skin.h"
-#include "core/world/world.h"
+#include "core/simulation/simulation.h"
 
 namespace sprung {
-
-/// sRGB, as in scenes.
-using CachedColor = std::array<std::uint8_t, 3>;
-
-/// One soft body as it does not change: row of World::actors.
-struct CachedActor {
-  int body = 0;  // row of the scene's bodies
-  int copy = 0;  // of the body, which one
-  CachedColor color{};
-  BrickGrid grid;                       // without patches, which only embed() reads
-  std::vector<double> stiffness_scale;  // per brick: fill times the stiffness of its region over the body's
-  std::vector<int> regions;             // per brick: of the scene's body, counted from 1; 0: of none
-  Eigen::VectorXd masses;               // per node, kg
-  Points rest_positions;                // m x 3, m
-  std::vector<int> pinned;              // nodes that pins hold at any time
-  Skin skin;
-  Embedding embedding;
-  std::vector<int> carried;  // rows of the body's mesh that ride on this actor ...
-  Embedding carried_embedding;
-};
-
-/// Something solid as it is drawn; how it moves is in the scene.
-struct CachedObstacle {
-  CachedColor color{};
-  Pose start;
-  Skin skin;  // in the frame of its shape; empty: level ground
-};
 
 /// What a run is made from.
 struct CacheHeader {
@@ -47,13 +16,12 @@ struct CacheHeader {
   std::string build;          // which of all that have this version
   std::string scene;          // TOML, as resolved
   std::string progress_name;  // "time_s", "load", "mode"
-  double size = 0;            // m, longest side of the largest body
   double position_error = 0;  // m: a node's coordinate may be that far off in a frame; 0: every bit is kept
   double velocity_error = 0;  // m/s, likewise
   std::vector<std::string> probes;
-  std::vector<Skin> meshes;  // of the scene's bodies, as their files have them; normals: 0 rows where those have none
-  std::vector<CachedActor> actors;
-  std::vector<CachedObstacle> obstacles;
+  /// What moves, as it is at rest and without what moving it takes: laws, contacts, pins (but for which nodes they
+  /// hold), loads and patches of bricks. Obstacles: as they are drawn.
+  Simulation simulation;
 };
 
 /// What a frame has beside the state of its nodes.
@@ -77,7 +45,7 @@ class CacheWriter {
   CacheWriter(const CacheWriter&) = delete;
   CacheWriter& operator=(const CacheWriter&) = delete;
 
-  /// Positions and velocities by actor (m x 3, m and m/s). Throws Error(kFailed) where it cannot be written, or the
+  /// Positions and velocities by body (m x 3, m and m/s). Throws Error(kFailed) where it cannot be written, or the
   /// file is gone or no longer this one; what was appended before stays.
   void append(const CachedFrame& frame, const std::vector<const Points*>& positions,
               const std::vector<const Points*>& velocities, const std::vector<double>& memory);
@@ -106,9 +74,9 @@ class CacheReader {
   [[nodiscard]] std::size_t frame_count() const { return frame_count_; }
 
   [[nodiscard]] CachedFrame frame(std::size_t frame) const;
-  /// By actor, m x 3, m.
+  /// By body, m x 3, m.
   [[nodiscard]] std::vector<Points> positions(std::size_t frame) const;
-  /// By actor, m x 3, m/s.
+  /// By body, m x 3, m/s.
   [[nodiscard]] std::vector<Points> velocities(std::size_t frame) const;
   /// The same to the last bit, of the last or the last but one frame.
   [[nodiscard]] std::vector<Points> exact_positions(std::size_t frame) const;
