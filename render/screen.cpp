@@ -65,11 +65,12 @@ constexpr int kFirstSurfaceUnit = kFirstMapUnit + LightMaps::kUnits;
 constexpr float kSkin = 0.5F;
 constexpr float kNoSkin = 1;
 
-constexpr double kLevel = 1e-4;        // sine of a line of sight that counts as level
-constexpr double kRounding = 1 << 20;  // one over the steps in which the line of sight is rounded
+constexpr double kLevel = 1e-4;          // sine of a line of sight that counts as level
+constexpr double kSightSteps = 1 << 20;  // one over the steps in which the line of sight is rounded
 
-constexpr TextureFormat kColor{GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, false, false, GL_CLAMP_TO_EDGE};
-constexpr TextureFormat kDepth{GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, false, false, GL_CLAMP_TO_EDGE};
+constexpr TextureFormat kColorFormat{GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, false, false, GL_CLAMP_TO_EDGE};
+constexpr TextureFormat kDepthFormat{GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, false, false,
+                                     GL_CLAMP_TO_EDGE};
 
 bool has_floor_in_sight(const View& view) {
   const bool looks_down = view.near > 0 || view.sight_height.z() < -kLevel;  // parallel lines may run along the floor
@@ -84,14 +85,14 @@ Screen::Screen(const GlFunctions& gl, const RenderOptions& options, const std::o
       height_(options.height),
       side_(sample_side(options.samples)),
       is_transparent_(options.transparent),
-      surface_color_(make_texture(gl, side_ * width_, side_ * height_, kColor)),
-      surface_normal_(make_texture(gl, side_ * width_, side_ * height_, kColor)),
-      surface_depth_(make_texture(gl, side_ * width_, side_ * height_, kDepth)),
+      surface_color_(make_texture(gl, side_ * width_, side_ * height_, kColorFormat)),
+      surface_normal_(make_texture(gl, side_ * width_, side_ * height_, kColorFormat)),
+      surface_depth_(make_texture(gl, side_ * width_, side_ * height_, kDepthFormat)),
       surface_(make_two_color_target(gl, surface_color_, surface_normal_, surface_depth_)),
-      picture_(make_texture(gl, width_, height_, kColor)),
-      kinds_(make_texture(gl, width_, height_, kDepth)),
+      picture_(make_texture(gl, width_, height_, kColorFormat)),
+      kinds_(make_texture(gl, width_, height_, kDepthFormat)),
       developed_(make_texture_target(gl, &picture_, &kinds_)),
-      backdrop_(make_texture(gl, width_, height_, kColor)),
+      backdrop_(make_texture(gl, width_, height_, kColorFormat)),
       backdrop_target_(make_texture_target(gl, &backdrop_, nullptr)),
       environment_(environment ? std::optional(EnvironmentTexture(gl, *environment)) : std::nullopt),
       nearer_sampler_(make_comparing_sampler(gl, GL_GREATER)),
@@ -173,7 +174,7 @@ void Screen::draw_surfaces(const std::vector<SkinBuffers>& skins, const TextureS
 }
 
 Screen::Sight::Sight(const View& view) {
-  const auto rounded = [](double value) { return float(std::round(kRounding * value) / kRounding); };
+  const auto rounded = [](double value) { return float(std::round(kSightSteps * value) / kSightSteps); };
   height = view.sight_height.unaryExpr(rounded);
   slopes = view.sight_slopes.unaryExpr(rounded);
 }

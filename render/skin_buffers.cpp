@@ -145,13 +145,13 @@ constexpr double kCoarsestCell = 0.11;
 /// Of the triangles: where fewer are left the skin is made of thin things, and is drawn as it is.
 constexpr double kFewest = 0.01;
 
-double radius(const Skin& skin) {
+double skin_radius(const Skin& skin) {
   const Vec3 sides = skin.positions.colwise().maxCoeff() - skin.positions.colwise().minCoeff();
   return 0.5 * sides.norm();
 }
 
 CoarseTriangles triangles_for_maps(const Skin& skin, double cell) {
-  CoarseTriangles coarse = coarse_triangles(skin, std::max(cell * radius(skin), 1e-12));
+  CoarseTriangles coarse = coarse_triangles(skin, std::max(cell * skin_radius(skin), 1e-12));
   const std::size_t all = skin.triangles.rows();
   if (double(coarse.triangles.rows()) >= kFewest * double(all)) return coarse;
   coarse.triangles = skin.triangles;

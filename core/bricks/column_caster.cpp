@@ -10,7 +10,7 @@ namespace {
 // The rays of a cell stand one in each of 16 rows, at 16 different places along the rows (a rank-1 lattice): a wall
 // along an axis is then met at 16 levels and not at 4, as with a 4 x 4 grid.
 constexpr std::int64_t kRays = 16;
-constexpr std::int64_t kPitch = kSnap / kRays;
+constexpr std::int64_t kRayPitch = kSnap / kRays;
 constexpr std::int64_t kShuffle = 5;
 
 /// Weight of a direction that does not cross the surface in a cell at all: decides only where none does.
@@ -57,7 +57,7 @@ class Caster {
  private:
   /// Where the ray of row `row` stands in the cell `cell_u` of that row.
   static SnappedPlace place_of(std::int64_t cell_u, std::int64_t row) {
-    return {cell_u * kSnap + (row * kShuffle % kRays) * kPitch + kPitch / 2, row * kPitch + kPitch / 2};
+    return {cell_u * kSnap + (row * kShuffle % kRays) * kRayPitch + kRayPitch / 2, row * kRayPitch + kRayPitch / 2};
   }
 
   [[nodiscard]] std::int64_t ray_number(std::int64_t cell_u, std::int64_t row) const {
@@ -70,9 +70,9 @@ class Caster {
     const auto [low_u, low_v] = triangle.low();
     const auto [high_u, high_v] = triangle.high();
     // Rows half a pitch or more outside the triangle's extent cannot meet it, nor can the cells beside it.
-    const std::int64_t last_row = std::min<std::int64_t>(high_v / kPitch, surface_.counts[axis_v_] * kRays - 1);
+    const std::int64_t last_row = std::min<std::int64_t>(high_v / kRayPitch, surface_.counts[axis_v_] * kRays - 1);
     const std::int64_t last_cell = std::min<std::int64_t>(high_u / kSnap, surface_.counts[axis_u_] - 1);
-    for (std::int64_t row = low_v / kPitch; row <= last_row; ++row) {
+    for (std::int64_t row = low_v / kRayPitch; row <= last_row; ++row) {
       for (std::int64_t cell = low_u / kSnap; cell <= last_cell; ++cell) {
         const std::optional<double> depth = triangle.depth_at(place_of(cell, row));
         if (depth) crossings_.push_back({ray_number(cell, row), *depth, triangle.turn()});

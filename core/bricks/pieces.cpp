@@ -64,7 +64,6 @@ std::vector<PieceItem> PieceList::items(int brick) const {
 
 namespace {
 
-constexpr double kPitch = 1.0 / kSamplesAlong;
 constexpr double kFaceReach = 1.5;   // pitches: how near to a face what hangs together through it is looked for ...
 constexpr double kReach = 2.2;       // ... and how far it may lie apart
 constexpr double kUnknownGap = 0.5;  // cells, between pieces of which one has no samples
@@ -149,7 +148,7 @@ class Linker {
     const std::vector<PieceItem> high = items_near(other, axis, face);
     for (const PieceItem& a : low) {
       for (const PieceItem& b : high) {
-        const bool is_far = (a.place - b.place).squaredNorm() > kReach * kReach * kPitch * kPitch;
+        const bool is_far = (a.place - b.place).squaredNorm() > kReach * kReach * kSamplePitch * kSamplePitch;
         if (is_far || are_joined(a.piece, b.piece)) continue;
         if (list_.samples().sees(a.place, b.place)) join(a.piece, b.piece, axis);
       }
@@ -159,8 +158,8 @@ class Linker {
   /// Near the face of a cell that lies across `axis` at `face`.
   [[nodiscard]] std::vector<PieceItem> items_near(int brick, int axis, double face) const {
     std::vector<PieceItem> items = list_.items(brick);
-    std::erase_if(items,
-                  [&](const PieceItem& item) { return std::abs(item.place[axis] - face) >= kFaceReach * kPitch; });
+    std::erase_if(
+        items, [&](const PieceItem& item) { return std::abs(item.place[axis] - face) >= kFaceReach * kSamplePitch; });
     return items;
   }
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::int64_t kSnapPitch = kSnap / kSamplesAlong;
 
-struct Intersection {
+struct LineCrossing {
   std::int64_t line;
   double depth;  // cells
   int turn;      // +1 entering, -1 leaving
@@ -59,7 +59,7 @@ class LineCaster {
   }
 
   void sort_crossings() {
-    std::stable_sort(crossings_.begin(), crossings_.end(), [](const Intersection& a, const Intersection& b) {
+    std::stable_sort(crossings_.begin(), crossings_.end(), [](const LineCrossing& a, const LineCrossing& b) {
       return a.line != b.line ? a.line < b.line : a.depth < b.depth;
     });
   }
@@ -85,7 +85,7 @@ class LineCaster {
   const CellSurface& surface_;
   int axis_;
   std::int64_t along_u_;
-  std::vector<Intersection> crossings_;
+  std::vector<LineCrossing> crossings_;
 };
 
 }  // namespace
@@ -157,7 +157,6 @@ int SolidFinder::under(const Vec3& place, const Vec3& inward) const {
 namespace {
 
 constexpr int kSamples = 512;
-constexpr double kPitch = 1.0 / kSamplesAlong;
 constexpr double kShortest = 1e-3;  // cells: a shorter stretch inside is none
 constexpr double kSpotReach = 2.2;  // pitches: how far a spot looks for what it hangs together with
 constexpr float kLeastPiece = 4;    // samples
@@ -264,7 +263,7 @@ int SolidSamples::brick_at(const Eigen::Vector3i& cell) const {
 Vec3 SolidSamples::place_of(const CutCell& cell, int sample) const {
   if (sample >= kSamples) return cell.spots[sample - kSamples].place;
   const Vec3 local(along(sample, 0) + 0.5, along(sample, 1) + 0.5, along(sample, 2) + 0.5);
-  return grid_.cells[cell.brick].cast<double>() + local * kPitch;
+  return grid_.cells[cell.brick].cast<double>() + local * kSamplePitch;
 }
 
 /// The cells where a run begins or ends, but for those that it only touches.
@@ -331,10 +330,10 @@ SolidSamples::Stretch SolidSamples::add_spot(const InsideRun& run, int axis, int
   if (to - from < kShortest) return {-1, -1};
   Vec3 middle;
   middle[axis] = (from + to) / 2;
-  middle[(axis + 1) % 3] = (run.u + 0.5) * kPitch;
-  middle[(axis + 2) % 3] = (run.v + 0.5) * kPitch;
+  middle[(axis + 1) % 3] = (run.u + 0.5) * kSamplePitch;
+  middle[(axis + 2) % 3] = (run.v + 0.5) * kSamplePitch;
   const int spot = kSamples + isize(cell.spots);
-  cell.spots.push_back({middle, float((to - from) / kPitch / 3)});
+  cell.spots.push_back({middle, float((to - from) / kSamplePitch / 3)});
   return {spot, spot};
 }
 
@@ -379,7 +378,7 @@ void SolidSamples::join_spots(const CutCell& cell, DisjointSets& sets) const {
       if (is_inside(cell, other)) join(other);
     });
     for (std::size_t j = 0; j < i; ++j) {
-      if ((cell.spots[j].place - place).norm() < kSpotReach * kPitch) join(kSamples + int(j));
+      if ((cell.spots[j].place - place).norm() < kSpotReach * kSamplePitch) join(kSamples + int(j));
     }
   }
 }

@@ -13,6 +13,7 @@ namespace sprung {
 
 /// Samples of a cell along each axis: at (i + 1/2) / 8.
 inline constexpr int kSamplesAlong = 8;
+inline constexpr double kSamplePitch = 1.0 / kSamplesAlong;  // brick lengths
 
 /// A stretch inside the surface of a line through samples.
 struct InsideRun {

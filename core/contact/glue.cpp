@@ -11,7 +11,7 @@
 namespace sprung {
 namespace {
 
-constexpr double kRecoverySteps = 4;  // what has come apart by rounding is together again after about that many
+constexpr double kRejoinSteps = 4;  // what has come apart by rounding is together again after about that many
 constexpr std::size_t kGlue = (1U << 14U) - 1;  // in place of what touches, in a key: above all of that
 
 /// Where the grid of a body that is not bent yet lies in the world.
@@ -102,7 +102,7 @@ void add_glue(const std::vector<GluedPoint>& glue, const Group& group, double dt
                             .first = first,
                             .last = touches.shares.size(),
                             .normal = Vec3::Zero(),
-                            .goal = -apart / (kRecoverySteps * dt),
+                            .goal = -apart / (kRejoinSteps * dt),
                             .friction = 0,
                             .is_glue = true});
   }

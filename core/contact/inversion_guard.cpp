@@ -17,7 +17,7 @@ constexpr int kStepsBetweenLooks = 8;
 constexpr std::size_t kBricksPerTask = 512;
 constexpr double kSuspectVolume = 0.4;
 constexpr double kCrushedShare = 0.05;  // of the bricks
-constexpr double kRecoverySteps = 20;   // a brick found too flat or inside out comes back within about that many steps
+constexpr double kUnfoldSteps = 20;     // a brick found too flat or inside out comes back within about that many steps
 constexpr double kFastestRecovery =
     0.02;  // of the speed of sound, that its corners come apart at: that gives no energy worth the name
 
@@ -109,7 +109,7 @@ const std::vector<InversionRate>& InversionGuard::find(const Body& body, double 
       const Mat3 areas = areas_of(edges) / volume;
       const double deficit = kLeastVolume - edges.col(0).dot(areas.col(0));
       const double rate = edges_at(corner, v).cwiseProduct(areas).sum();
-      const double recovery = std::min(deficit / kRecoverySteps, fastest * areas.norm());
+      const double recovery = std::min(deficit / kUnfoldSteps, fastest * areas.norm());
       const double least_rate = (deficit > 0 ? recovery : deficit) / dt;
       if (!(rate < least_rate)) continue;  // nor where a number is not finite
       found_.push_back({.brick = brick, .corner = corner, .gradient = areas, .least_rate = least_rate});

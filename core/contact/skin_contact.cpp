@@ -11,11 +11,11 @@
 namespace sprung {
 namespace {
 
-constexpr double kMargin = 0.3;   // bricks: what is nearer than that is watched
-constexpr double kFarMargin = 1;  // bricks: what may soon be that near is looked at
-constexpr double kDeepest = 0.7;  // bricks: what is deeper came from the other side
-constexpr double kPressed = 0.4;  // of its volume, that a brick keeps: what it carries is pushed out of no skin ...
-constexpr double kFlat = 0.15;    // ... nor held by that of its own body
+constexpr double kSkinMargin = 0.3;   // bricks: what is nearer than that is watched
+constexpr double kFarMargin = 1;      // bricks: what may soon be that near is looked at
+constexpr double kSkinDeepest = 0.7;  // bricks: what is deeper came from the other side
+constexpr double kPressed = 0.4;      // of its volume, that a brick keeps: what it carries is pushed out of no skin ...
+constexpr double kSkinFlat = 0.15;    // ... nor held by that of its own body
 
 }  // namespace
 
@@ -63,7 +63,7 @@ bool SkinContact::has_to_be_held(const World& world, double dt, const Group& gro
   const double speed = stance.normal.dot(velocity);
   if (!(stance.gap + dt * speed <= 0)) return false;
   const double room = stance.gap >= 0 ? 1 : room_of(group, *stance.pair);
-  if (room < kFlat && actors_[0] == actors_[1]) return false;
+  if (room < kSkinFlat && actors_[0] == actors_[1]) return false;
   held.least_speed = room > kPressed ? least_speed(stance.gap, world.gravity.norm(), dt) : 0;
   held.pull = held.least_speed - speed;
   const ContactPoint& at = skins_[point.actor]->points[point.point];
@@ -83,10 +83,10 @@ void SkinContact::look(const Group& group, double gravity, double dt) {
     const double brick = std::min(group[actors_[0]]->grid.brick_size, group[actors_[1]]->grid.brick_size);
     if (steps_to_seek_ <= 0) {
       pairs_.seek(group, kFarMargin * brick);
-      steps_to_seek_ = steps_until_update((kFarMargin - kMargin) * brick, pairs_.fastest(group), gravity, dt);
+      steps_to_seek_ = steps_until_update((kFarMargin - kSkinMargin) * brick, pairs_.fastest(group), gravity, dt);
     }
-    depth_ = kDeepest * brick;
-    pairs_.look(group, {.margin = kMargin * brick, .deepest = depth_});
+    depth_ = kSkinDeepest * brick;
+    pairs_.look(group, {.margin = kSkinMargin * brick, .deepest = depth_});
     runs_ = runs_of(pairs_);
     steps_to_update_ = steps_to_seek_;
     if (pairs_.has_near_bricks()) {

@@ -9,8 +9,8 @@
 namespace sprung {
 namespace {
 
-constexpr double kMargin = 1;   // bricks: what is nearer than that may touch within the step
-constexpr double kDeepest = 1;  // bricks: what is deeper came from the other side
+constexpr double kStepMargin = 1;   // bricks: what is nearer than that may touch within the step
+constexpr double kStepDeepest = 1;  // bricks: what is deeper came from the other side
 
 }  // namespace
 
@@ -38,11 +38,11 @@ void SkinPotential::watch(const World& world, const std::vector<Eigen::VectorXd*
   std::vector<std::vector<double>> hardness(group_.size());
   double largest_brick = 0;
   for (const SoftBody* actor : group_) largest_brick = std::max(largest_brick, actor->grid.brick_size);
-  for (const auto& [a, b] : broad_phase(world, group_, kMargin * largest_brick)) {
+  for (const auto& [a, b] : broad_phase(world, group_, kStepMargin * largest_brick)) {
     const double brick = std::min(group_[a]->grid.brick_size, group_[b]->grid.brick_size);
     ContactCandidates& pairs = pairs_.emplace_back(skins_, a, b);
-    pairs.seek(group_, kMargin * brick);
-    pairs.look(group_, {.margin = kMargin * brick, .deepest = kDeepest * brick});
+    pairs.seek(group_, kStepMargin * brick);
+    pairs.look(group_, {.margin = kStepMargin * brick, .deepest = kStepDeepest * brick});
     for (const SkinRun& run : runs_of(pairs)) {
       const CandidatePair& pair = pairs.pairs()[run.first];
       const TrackedPoint& point = pairs.tracked(pair.point);
@@ -51,7 +51,7 @@ void SkinPotential::watch(const World& world, const std::vector<Eigen::VectorXd*
       watches_.push_back(
           {.pairs = &pairs,
            .run = run,
-           .depth = kDeepest * brick,
+           .depth = kStepDeepest * brick,
            .hardness = own[point.point],
            .friction = std::sqrt(group_[point.actor]->friction * group_[other_of(pairs, pair)]->friction),
            .pushed_in = (*pushed_in[point.actor])[point.point]});

@@ -9,7 +9,6 @@ namespace sprung {
 
 namespace {
 
-constexpr Ink kDark{38, 40, 44};
 constexpr double kLetters = 0.030;         // of the picture's height ...
 constexpr double kSmallestLetters = 11.0;  // pixels
 constexpr double kBarHeight = 0.46;        // of the picture's height
@@ -17,12 +16,6 @@ constexpr double kLeastRoom = 0.285;       // of the picture's height: for a leg
 constexpr double kBarWidth = 0.024;        // of the picture's height
 
 std::string tick_text(double tick) { return fmt::format("{:.6g}", tick); }
-
-void fill(Image& image, double left, double top, double right, double bottom, const Ink& ink, double share = 1) {
-  for (int y = int(std::lround(top)); y < std::lround(bottom); ++y) {
-    for (int x = int(std::lround(left)); x < std::lround(right); ++x) mix_pixel(image, x, y, ink, share);
-  }
-}
 
 Ink ink_of(const Eigen::Vector3f& color) {
   Ink ink{};
@@ -35,26 +28,26 @@ Ink ink_of(const Eigen::Vector3f& color) {
 /// A rectangle with a thin dark line around it.
 void fill_framed(Image& image, double left, double top, double right, double bottom, const Ink& ink) {
   const double line = std::max(1.0, image.height / 540.0);
-  fill(image, left - line, top - line, right + line, bottom + line, kDark, 0.75);
-  fill(image, left, top, right, bottom, ink);
+  fill_rectangle(image, left - line, top - line, right + line, bottom + line, kDarkInk, 0.75);
+  fill_rectangle(image, left, top, right, bottom, ink);
 }
 
 void draw_scale(Image& image, const Legend& legend, const Font& font, double left, double top) {
   const double size = letters_height(image.height);
   const double height = kBarHeight * image.height;
   const double width = kBarWidth * image.height;
-  fill_framed(image, left, top, left + width, top + height, kDark);
+  fill_framed(image, left, top, left + width, top + height, kDarkInk);
   const auto rows = int(std::lround(top + height) - std::lround(top));
   for (int row = 0; row < rows; ++row) {
     const double share = 1 - (row + 0.5) / rows;
     const double y = double(std::lround(top)) + row;
-    fill(image, left, y, left + width, y + 1, ink_of(map_color(legend.map, share)));
+    fill_rectangle(image, left, y, left + width, y + 1, ink_of(map_color(legend.map, share)));
   }
   for (const double tick : round_ticks(legend.low, legend.high, height / (1.4 * size))) {
     const double y = top + height * (1 - (tick - legend.low) / (legend.high - legend.low));
     const double line = std::max(1.0, image.height / 540.0);
-    fill(image, left + width, y - line / 2, left + width + 0.3 * size, y + line / 2, kDark, 0.75);
-    font.write(image, left + width + 0.5 * size, y + 0.31 * size, size, tick_text(tick), kDark);
+    fill_rectangle(image, left + width, y - line / 2, left + width + 0.3 * size, y + line / 2, kDarkInk, 0.75);
+    font.write(image, left + width + 0.5 * size, y + 0.31 * size, size, tick_text(tick), kDarkInk);
   }
 }
 
@@ -63,7 +56,7 @@ void draw_swatches(Image& image, const Legend& legend, const Font& font, double 
   double y = top;
   for (const Legend::Swatch& swatch : legend.swatches) {
     fill_framed(image, left, y, left + 1.1 * size, y + 0.9 * size, ink_of(swatch.color));
-    font.write(image, left + 1.6 * size, y + 0.78 * size, size, swatch.name, kDark);
+    font.write(image, left + 1.6 * size, y + 0.78 * size, size, swatch.name, kDarkInk);
     y += 1.5 * size;
   }
 }
@@ -114,7 +107,7 @@ void draw_legend(Image& image, const Legend& legend, const Font& font) {
   const double height =
       legend.swatches.empty() ? kBarHeight * image.height : 1.5 * size * double(legend.swatches.size());
   const double top = 0.5 * (image.height - height);
-  font.write(image, left, top - 0.9 * size, size, legend.title, kDark);
+  font.write(image, left, top - 0.9 * size, size, legend.title, kDarkInk);
   if (legend.swatches.empty()) {
     draw_scale(image, legend, font, left, top);
   } else {
@@ -125,17 +118,17 @@ void draw_legend(Image& image, const Legend& legend, const Font& font) {
 void draw_name(Image& image, const std::string& text, const Font& font) {
   const double size = 1.2 * letters_height(image.height);
   const double left = 0.5 * (image.width - font.width(text, size));
-  font.write(image, left, kLabelMargin * image.height + 0.8 * size, size, text, kDark);
+  font.write(image, left, kLabelMargin * image.height + 0.8 * size, size, text, kDarkInk);
 }
 
 void draw_caption(Image& image, const std::string& text, const Font& font) {
   const double size = 1.35 * letters_height(image.height);
-  font.write(image, kLabelMargin * image.height, kLabelMargin * image.height + 0.8 * size, size, text, kDark);
+  font.write(image, kLabelMargin * image.height, kLabelMargin * image.height + 0.8 * size, size, text, kDarkInk);
 }
 
 void draw_footer(Image& image, const std::string& text, const Font& font) {
   font.write(image, kLabelMargin * image.height, (1 - kLabelMargin) * image.height, letters_height(image.height), text,
-             kDark);
+             kDarkInk);
 }
 
 void draw_scale_bar(Image& image, double pixels, const std::string& length, const Font& font) {
@@ -143,10 +136,10 @@ void draw_scale_bar(Image& image, double pixels, const std::string& length, cons
   const double right = image.width - kLabelMargin * image.height;
   const double bottom = (1 - kLabelMargin) * image.height;
   const double thick = std::max(2.0, 0.18 * size);
-  fill(image, right - pixels - 1, bottom - thick - 1, right + 1, bottom + 1, {255, 255, 255}, 0.6);
-  fill(image, right - pixels, bottom - thick, right, bottom, kDark);
+  fill_rectangle(image, right - pixels - 1, bottom - thick - 1, right + 1, bottom + 1, {255, 255, 255}, 0.6);
+  fill_rectangle(image, right - pixels, bottom - thick, right, bottom, kDarkInk);
   font.write(image, right - 0.5 * (pixels + font.width(length, size)), bottom - thick - 0.45 * size, size, length,
-             kDark);
+             kDarkInk);
 }
 
 }  // namespace sprung

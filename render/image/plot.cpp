@@ -11,7 +11,6 @@ namespace sprung {
 
 namespace {
 
-constexpr Ink kDark{38, 40, 44};
 constexpr Ink kPaper{255, 255, 255};
 constexpr double kMostTicks = 4;
 constexpr double kWidth = 0.26;   // of the picture's width
@@ -28,12 +27,6 @@ struct Frame {
   }
   [[nodiscard]] double y(double value) const { return bottom - (bottom - top) * (value - low) / (high - low); }
 };
-
-void fill(Image& image, double left, double top, double right, double bottom, const Ink& ink, double share) {
-  for (int y = int(std::lround(top)); y < std::lround(bottom); ++y) {
-    for (int x = int(std::lround(left)); x < std::lround(right); ++x) mix_pixel(image, x, y, ink, share);
-  }
-}
 
 void dot(Image& image, double x, double y, double radius, const Ink& ink) {
   const int reach = int(std::ceil(radius)) + 1;
@@ -75,12 +68,12 @@ void draw_axis(Image& image, const Frame& frame, double size, const Font& font) 
   const double line = std::max(1.0, image.height / 720.0);
   for (const double tick : round_ticks(frame.low, frame.high, kMostTicks)) {
     const double y = frame.y(tick);
-    fill(image, frame.left, y - line / 2, frame.right, y + line / 2, kDark, 0.18);
+    fill_rectangle(image, frame.left, y - line / 2, frame.right, y + line / 2, kDarkInk, 0.18);
     const std::string text = text_of(tick);
-    font.write(image, frame.left - 0.5 * size - font.width(text, size), y + 0.31 * size, size, text, kDark);
+    font.write(image, frame.left - 0.5 * size - font.width(text, size), y + 0.31 * size, size, text, kDarkInk);
   }
-  fill(image, frame.left - line, frame.top, frame.left, frame.bottom, kDark, 0.75);
-  fill(image, frame.left - line, frame.bottom, frame.right, frame.bottom + line, kDark, 0.75);
+  fill_rectangle(image, frame.left - line, frame.top, frame.left, frame.bottom, kDarkInk, 0.75);
+  fill_rectangle(image, frame.left - line, frame.bottom, frame.right, frame.bottom + line, kDarkInk, 0.75);
 }
 
 Frame values_of(const Plot& plot) {
@@ -103,13 +96,13 @@ void draw_panel(Image& image, const Plot& plot, Frame& frame, double size, const
   double content = 1.2 * size + font.width(plot.title, size);
   for (const Plot::Curve& curve : plot.curves) content += size + font.width(curve.name, size);
   const double right = margin + std::max(kWidth * image.width, content);
-  fill(image, margin, top, right, bottom, kPaper, 0.55);
+  fill_rectangle(image, margin, top, right, bottom, kPaper, 0.55);
   double x = margin + 0.6 * size;
   const auto write = [&](const std::string& text, const Ink& ink) {
     font.write(image, x, top + 1.2 * size, size, text, ink);
     x += font.width(text, size) + size;
   };
-  write(plot.title, kDark);
+  write(plot.title, kDarkInk);
   for (const Plot::Curve& curve : plot.curves) write(curve.name, curve.ink);
   double widest = 0;
   for (const double tick : round_ticks(frame.low, frame.high, kMostTicks))

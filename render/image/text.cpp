@@ -123,4 +123,10 @@ void mix_pixel(Image& image, int x, int y, const Ink& ink, double share) {
   }
 }
 
+void fill_rectangle(Image& image, double left, double top, double right, double bottom, const Ink& ink, double share) {
+  for (int y = int(std::lround(top)); y < std::lround(bottom); ++y) {
+    for (int x = int(std::lround(left)); x < std::lround(right); ++x) mix_pixel(image, x, y, ink, share);
+  }
+}
+
 }  // namespace sprung

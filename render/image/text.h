@@ -39,4 +39,10 @@ class Font {
 /// Mixes a pixel with an ink by that share; whatever was transparent becomes as opaque as the ink.
 void mix_pixel(Image& image, int x, int y, const Ink& ink, double share);
 
+/// Mixes the pixels of a rectangle, whose sides are rounded to whole pixels, with an ink by that share.
+void fill_rectangle(Image& image, double left, double top, double right, double bottom, const Ink& ink,
+                    double share = 1);
+
+inline constexpr Ink kDarkInk{38, 40, 44};  // letters and lines on a picture
+
 }  // namespace sprung

@@ -67,8 +67,7 @@ void MusclePotential::add_stiffness(bool definite, std::vector<PointStiffness>& 
 
 namespace {
 
-constexpr double kSlip = 5e-3;             // body lengths a second that a held point may creep
-constexpr double kSettledFriction = 0.05;  // change of a normal force that is not worth another pass, relative
+constexpr double kSlip = 5e-3;  // body lengths a second that a held point may creep
 
 Eigen::Map<const Eigen::VectorXd> flat(const Points& points) { return {points.data(), points.size()}; }
 

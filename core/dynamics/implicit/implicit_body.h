@@ -12,6 +12,9 @@
 
 namespace sprung {
 
+/// A relative change of a normal force below which friction needs no further pass.
+inline constexpr double kSettledFriction = 0.05;
+
 /// The muscles of a body as an energy, for steps that look for a minimum; see MuscleTension.
 class MusclePotential {
  public:

@@ -11,8 +11,7 @@ namespace {
 
 constexpr double kSolveTolerance = 1e-4;  // of Newton's direction
 constexpr int kFrictionPasses = 3;
-constexpr double kSettledFriction = 0.05;  // change of a normal force that is not worth another pass, relative
-constexpr int kRefreshes = 12;             // of what touches what, in a descent: it must come to an end
+constexpr int kRefreshes = 12;  // of what touches what, in a descent: it must come to an end
 
 /// Of the least of them.
 double slip_of(const std::vector<ImplicitBody*>& bodies, double dt) {

@@ -16,7 +16,7 @@ namespace {
 using multigrid::kLanes;
 
 constexpr int kCoarsestNodes = 100;
-constexpr double kShift = 1e-9;  // see direct_system.cpp
+constexpr double kDiagonalShift = 1e-9;  // of the largest stiffness, as in linear_solver.cpp
 
 /// Coarse bricks are too stiff in bending the nearer the material is to incompressible; the smoother makes up for it.
 int smoothing_steps(const Body& body) {
@@ -119,7 +119,7 @@ void MultigridSolver::fill_finest() {
   const EdgeCoupling coupling = edge_coupling(body_->law);
   is_guarded_ = false;
   tbb::parallel_for(0, finest.block_count(), [&](int block) { fill_block(block, coupling); });
-  const double shift = definite_ ? kShift * largest_brick_stiffness(*body_) : 0;
+  const double shift = definite_ ? kDiagonalShift * largest_brick_stiffness(*body_) : 0;
   for (std::size_t node = 0; node < nodes; ++node) {
     finest.diagonal[node] = terms_->mass_factor * body_->masses[node] + shift;
   }

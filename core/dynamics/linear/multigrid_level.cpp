@@ -9,7 +9,7 @@ namespace sprung::multigrid {
 namespace {
 
 constexpr int kNodesPerTask = 512;
-constexpr int kBlocksPerTask = 8;
+constexpr int kNodeBlocksPerTask = 8;
 constexpr int kPowerSteps = 10;
 constexpr double kPowerMargin = 1.1;  // the power iteration comes from below
 
@@ -131,7 +131,7 @@ void Level::multiply_bricks(const Vector& x, Vector& product, Apply apply) const
   }
   Number* forces = room->data();
   product.resize(x.size());
-  tbb::parallel_for(tbb::blocked_range<int>(0, block_count(), kBlocksPerTask),
+  tbb::parallel_for(tbb::blocked_range<int>(0, block_count(), kNodeBlocksPerTask),
                     [&](const tbb::blocked_range<int>& range) {
                       for (int block = range.begin(); block < range.end(); ++block) {
                         apply(input(block), x.data(), forces + 24 * kLanes * std::size_t(block));

@@ -13,9 +13,9 @@ namespace {
 
 using Cholesky = Eigen::SimplicialLLT<Eigen::SparseMatrix<double>, Eigen::Lower>;
 
-constexpr double kLongestStep = 0.5;  // membrane lengths; a longer one leads nowhere
-constexpr double kFree = 1e4;         // a displacement of that many membrane lengths is no deformation
-constexpr double kShift = 1e-9;       // of the largest entry, where a matrix may be singular
+constexpr double kLongestMembraneStep = 0.5;  // membrane lengths; a longer one leads nowhere
+constexpr double kFreeMembrane = 1e4;         // a displacement of that many membrane lengths is no deformation
+constexpr double kShift = 1e-9;               // of the largest entry, where a matrix may be singular
 
 double extent(const Membrane& membrane) { return membrane.rest_positions.colwise().maxCoeff().maxCoeff(); }
 
@@ -55,7 +55,7 @@ Eigen::VectorXd downhill(const Membrane& membrane, const Eigen::VectorXd& residu
   for (const bool definite : {false, true}) {
     Eigen::VectorXd direction = displacement(membrane, residual, definite);
     if (direction.size() == 0 || !direction.allFinite()) continue;
-    const double longest = direction.lpNorm<Eigen::Infinity>() / (kLongestStep * extent(membrane));
+    const double longest = direction.lpNorm<Eigen::Infinity>() / (kLongestMembraneStep * extent(membrane));
     if (longest > 1 && !definite) continue;
     return direction / std::max(1.0, longest);
   }
@@ -112,7 +112,7 @@ Points2 solve_linear(const Membrane& membrane, const Points2& loads) {
   Eigen::VectorXd forces = flat(loads);
   release_supported(membrane, forces);
   const Eigen::VectorXd moved = displacement(membrane, forces, false);
-  if (moved.size() == 0 || !(moved.lpNorm<Eigen::Infinity>() < kFree * extent(membrane))) {
+  if (moved.size() == 0 || !(moved.lpNorm<Eigen::Infinity>() < kFreeMembrane * extent(membrane))) {
     throw Error(ErrorKind::kBadInput, "the supports leave the membrane free to move under its loads: hold more of it");
   }
   return Eigen::Map<const Points2>(moved.data(), membrane.node_count(), 2);
