@@ -18,7 +18,8 @@ int main(int count, char** words) {
 
   Simulation simulation = prepare_simulation(scene, Observer());
   SceneMotion motion(simulation, scene);
-  motion.advance(0, 0.2, 0.2, [](double) {}, [](const std::string&) {});
+  motion.advance(
+      0, 0.2, 0.2, [](double) {}, [](const std::string&) {});
 
   const SoftBody& body = simulation.world.bodies.front();  // of the largest of the mesh's solids
   const Points positions = body.skin_positions(body.positions);
