@@ -13,12 +13,12 @@
 #include "core/bricks/voxelize.h"
 #include "core/error.h"
 #include "core/io/decode_image.h"
-#include "core/mesh/io/file_checks.h"
+#include "core/files.h"
 #include "core/mesh/io/read_mesh.h"
-#include "core/pose.h"
 #include "core/simulation/selector.h"
 #include "core/simulation/shapes.h"
 #include "core/simulation/simulation.h"
+#include "core/types.h"
 #include "core/units.h"
 
 namespace sprung {

@@ -16,11 +16,11 @@
 #include "core/error.h"
 #include "core/mesh/repair/coarsen.h"
 #include "core/mesh/repair/submesh.h"
-#include "core/pose.h"
 #include "core/simulation/selector.h"
 #include "core/simulation/simulation.h"
 #include "core/skin/skin.h"
 #include "core/text.h"
+#include "core/types.h"
 #include "core/units.h"
 
 namespace sprung {

@@ -4,10 +4,10 @@
 
 #include "core/bricks/embedding.h"
 #include "core/bricks/pieces.h"
-#include "core/pose.h"
 #include "core/simulation/body_source.h"
 #include "core/simulation/selector.h"
 #include "core/simulation/simulation.h"
+#include "core/types.h"
 
 namespace sprung {
 

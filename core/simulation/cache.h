@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/io/file_lock.h"
+#include "core/files.h"
 #include "core/io/hdf5_file.h"
 #include "core/simulation/simulation.h"
 

@@ -5,8 +5,8 @@
 #include "core/error.h"
 #include "core/mesh/io/read_mesh.h"
 #include "core/mesh/repair/solids.h"
-#include "core/pose.h"
 #include "core/simulation/shapes.h"
+#include "core/types.h"
 
 namespace sprung {
 namespace {

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "core/error.h"
-#include "core/io/files.h"
+#include "core/files.h"
 
 namespace sprung {
 namespace {

@@ -10,7 +10,7 @@
 #include "core/law/material.h"
 #include "core/mesh/repair/repair.h"
 #include "core/mesh/surface_mesh.h"
-#include "core/skin/appearance.h"
+#include "core/appearance.h"
 #include "core/types.h"
 #include "core/world/keyframes.h"
 

@@ -288,7 +288,7 @@ void check_start(const Scene& scene, const Simulation& simulation) {
   const World& world = simulation.world;
   std::vector<AlignedBox> boxes;
   for (std::size_t i = 0; i < world.bodies.size(); ++i) {
-    boxes.push_back(box_around(world.bodies[i].positions));
+    boxes.push_back(bounding_box(world.bodies[i].positions));
     for (std::size_t row = 0; row < world.obstacles.size(); ++row) check_obstacle(scene, simulation, i, row);
   }
   if (!world.bodies_collide) return;

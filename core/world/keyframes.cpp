@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "core/pose.h"
+#include "core/types.h"
 
 namespace sprung {
 namespace {

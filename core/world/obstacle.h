@@ -4,7 +4,6 @@
 #include <variant>
 #include <vector>
 
-#include "core/pose.h"
 #include "core/types.h"
 
 namespace sprung {

@@ -7,7 +7,7 @@
 
 #include "core/body/body.h"
 #include "core/bricks/embedding.h"
-#include "core/skin/appearance.h"
+#include "core/appearance.h"
 #include "core/skin/skin.h"
 #include "core/world/loads.h"
 #include "core/world/obstacle.h"

@@ -3,7 +3,7 @@
 #include <cstring>
 #include <numbers>
 
-#include "core/io/animated_glb.h"
+#include "core/io/animation.h"
 #include "tests/support/temp_folder.h"
 
 namespace sprung {
@@ -125,12 +125,12 @@ TEST(QuantizedGlb, HasHalfTheSize) {
   const TempFolder folder;
   const Skin ball = ball_of_points();
   const AnimatedMesh film = turning_ball(ball, 20);
-  const auto size_of = [&](GlbNumbers numbers) {
+  const auto size_of = [&](GlbPrecision numbers) {
     const double error = write_animated_glb({film}, {0, 1, 2, 3, 4}, folder.path() / "film.glb", numbers);
-    EXPECT_EQ(error > 0, numbers == GlbNumbers::kQuantized);
+    EXPECT_EQ(error > 0, numbers == GlbPrecision::kQuantized);
     return double(std::filesystem::file_size(folder.path() / "film.glb"));
   };
-  EXPECT_LT(size_of(GlbNumbers::kQuantized), 0.6 * size_of(GlbNumbers::kFloats));
+  EXPECT_LT(size_of(GlbPrecision::kQuantized), 0.6 * size_of(GlbPrecision::kFloat));
 }
 
 }  // namespace
