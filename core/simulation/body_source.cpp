@@ -12,8 +12,8 @@
 #include "core/bricks/thin_parts.h"
 #include "core/bricks/voxelize.h"
 #include "core/error.h"
-#include "core/io/decode_image.h"
 #include "core/files.h"
+#include "core/io/decode_image.h"
 #include "core/mesh/io/read_mesh.h"
 #include "core/simulation/selector.h"
 #include "core/simulation/shapes.h"
@@ -22,19 +22,19 @@
 #include "core/units.h"
 
 namespace sprung {
-MeshBox recentre(SurfaceMesh& mesh) {
-  Vec3 low = mesh.positions.row(mesh.triangles(0, 0));
-  Vec3 high = low;
-  for (const int vertex : mesh.triangles.reshaped()) {
-    low = low.cwiseMin(mesh.positions.row(vertex).transpose());
-    high = high.cwiseMax(mesh.positions.row(vertex).transpose());
-  }
-  const Vec3 middle = low + (high - low) / 2;
-  mesh.positions.rowwise() -= middle.transpose();
-  return {.middle = middle, .extent = high - low};
-}
-
 namespace {
+
+Vec3 centre_of(const AlignedBox& box) { return box.min() + box.sizes() / 2; }
+
+/// Moves a mesh so that the centre of its bounding box is at the origin, and returns the box before that. Vertices
+/// without triangles are ignored. Done in double precision and first of all, so that a mesh far from the origin loses
+/// no accuracy later.
+AlignedBox recentre(SurfaceMesh& mesh) {
+  AlignedBox box;
+  for (const int vertex : mesh.triangles.reshaped()) box.extend(Vec3(mesh.positions.row(vertex)));
+  mesh.positions.rowwise() -= centre_of(box).transpose();
+  return box;
+}
 
 /// Sizes between a mesh and its origin from which on single precision rounds its shape by more than a thousandth.
 constexpr double kFarAway = 1e4;
@@ -92,17 +92,19 @@ void load_mesh(const SceneBody& body, LoadedBody& loaded) {
   loaded.name = body.surface ? "the mesh" : body.mesh.filename().string();
   loaded.mesh = body.surface ? *body.surface : read_mesh(body.mesh);
   if (!body.texture.empty()) put_on_texture(body, loaded.mesh);
-  const auto [middle, extent] = recentre(loaded.mesh);
+  const AlignedBox box = recentre(loaded.mesh);
+  const Vec3 centre = centre_of(box);
+  const Vec3 extent = box.sizes();
   const double length = extent.maxCoeff();
   if (!(length > 0)) {
     throw Error(ErrorKind::kBadInput,
                 fmt::format("{}: all points of the mesh fall together{}", body.mesh.string(),
-                            middle.norm() > 0 ? ", perhaps because they lie too far from the origin" : ""));
+                            centre.norm() > 0 ? ", perhaps because they lie too far from the origin" : ""));
   }
   const double scale = body.scale.value_or(body.size.value_or(kDefaultSize) / length);
   loaded.mesh.positions *= scale;
   loaded.extent = extent * scale;
-  loaded.file_from_rest = Eigen::Translation3d(middle) * Eigen::Scaling(1 / scale);
+  loaded.file_from_rest = Eigen::Translation3d(centre) * Eigen::Scaling(1 / scale);
   loaded.brick_size = wanted_brick_size(body, loaded.extent);
 }
 

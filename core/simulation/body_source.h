@@ -26,16 +26,6 @@ struct LoadedBody {
   std::optional<BrickGrid> grid;                                // of a box; of a mesh the bricks are yet to be found
 };
 
-/// The bounding box of a mesh, in its units. Vertices that no triangle uses count nothing.
-struct MeshBox {
-  Vec3 middle;
-  Vec3 extent;
-};
-
-/// Moves a mesh so that the middle of its bounding box is at the origin, and says where that was. In double and before
-/// anything else, so that a mesh far from its origin loses nothing later.
-MeshBox recentre(SurfaceMesh& mesh);
-
 /// Makes the box, or reads the mesh, brings it to its size and finds its solids; says what it had to choose or to mend.
 /// Throws Error(kBadInput).
 [[nodiscard]] LoadedBody load_body(const SceneBody& body, const Observer& observer);

@@ -41,9 +41,6 @@ class CacheWriter {
   /// Writes what does not change beside the file. The memory is what the motion carries from frame to frame beside
   /// positions and velocities, `memory_size` numbers. Throws Error(kFailed).
   CacheWriter(std::filesystem::path file, const CacheHeader& header, std::size_t memory_size);
-  ~CacheWriter();
-  CacheWriter(const CacheWriter&) = delete;
-  CacheWriter& operator=(const CacheWriter&) = delete;
 
   /// Positions and velocities by body (m x 3, m and m/s). Throws Error(kFailed) where it cannot be written, or the
   /// file is gone or no longer this one; what was appended before stays.
@@ -56,9 +53,8 @@ class CacheWriter {
   void close();
 
  private:
-  std::filesystem::path file_;     // its name
-  std::filesystem::path written_;  // where it is: beside that, then there
-  FileLock lock_;                  // held as long as it grows
+  FileLock lock_;  // until the file is complete or removed
+  PartialFile file_;
   std::size_t frames_ = 0;
   double position_error_;
   double velocity_error_;

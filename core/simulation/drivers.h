@@ -80,27 +80,26 @@ class SceneDriver {
 
  private:
   /// Nodes as a pin caught them.
-  struct Catch {
+  struct Capture {
     double time = 0;             // s
     Vec3 centre = Vec3::Zero();  // m
     Points positions;            // m, in the order of the nodes
   };
   /// A pin and those of its nodes that belong to one actor.
-  struct FrictionPotential {
-    const Pin* pin;
+  struct PinMotion {
+    const Pin* source;
     const PinnedNodes* pinned;
     Movement movement;
-    std::optional<Catch> caught{};
+    std::optional<Capture> capture{};
   };
 
-  void carry(FrictionPotential& grip, SoftBody& actor, double begin, double end,
-             std::map<int, KinematicNode>& held) const;
+  void carry(PinMotion& pin, SoftBody& actor, double begin, double end, std::map<int, KinematicNode>& held) const;
 
   const Scene& scene_;
   Simulation& simulation_;
   LoadDriver loads_;
-  std::vector<std::vector<FrictionPotential>> grips_;  // by actor
-  std::vector<double> moments_;                        // s, rising: where pieces end
+  std::vector<std::vector<PinMotion>> pins_;  // by actor
+  std::vector<double> moments_;               // s, rising: where pieces end
 };
 
 /// The way of a pin: its keyframes, or even from the start of the film to its end.

@@ -1,5 +1,3 @@
-#include "core/mesh/io/assimp_reader.h"
-
 #include <assimp/material.h>
 #include <assimp/scene.h>
 #include <fmt/format.h>
@@ -14,8 +12,9 @@
 #include <new>
 #include <utility>
 
+#include "core/appearance.h"
 #include "core/error.h"
-#include "core/mesh/io/file_checks.h"
+#include "core/files.h"
 #include "core/mesh/io/polygon_soup.h"
 #include "core/mesh/io/readers.h"
 #include "core/text.h"
@@ -83,12 +82,8 @@ Eigen::Vector4f base_color(const aiMaterial& material, bool linear) {
   return color;
 }
 
-}  // namespace
-
-float srgb_from_linear(float linear) {
-  return linear <= 0.0031308F ? 12.92F * linear : 1.055F * std::pow(linear, 1.0F / 2.4F) - 0.055F;
-}
-
+/// The materials of a scene, with the bytes of embedded textures and the names of external ones. An embedded texture
+/// that cannot be read is left out with a note.
 std::vector<SurfaceMaterial> read_materials(const aiScene& scene, bool is_gltf, std::vector<std::string>& notes) {
   std::vector<SurfaceMaterial> materials;
   for (unsigned m = 0; m < scene.mNumMaterials; ++m) {
@@ -103,6 +98,7 @@ std::vector<SurfaceMaterial> read_materials(const aiScene& scene, bool is_gltf, 
   return materials;
 }
 
+/// Whether the material is one that assimp made up because the file has none.
 bool is_placeholder(const aiScene& scene, unsigned material, bool is_gltf) {
   if (material >= scene.mNumMaterials) return true;
   const aiMaterial& given = *scene.mMaterials[material];
@@ -113,8 +109,6 @@ bool is_placeholder(const aiScene& scene, unsigned material, bool is_gltf) {
     return is_gltf ? material + 1 == scene.mNumMaterials : base_color(given, false).head<3>().minCoeff() == 1;
   return name == AI_DEFAULT_MATERIAL_NAME;
 }
-
-namespace {
 
 using Transform = Eigen::Matrix4d;
 

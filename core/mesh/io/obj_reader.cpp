@@ -1,5 +1,3 @@
-#include "core/mesh/io/obj_reader.h"
-
 #include <fmt/format.h>
 
 #include <charconv>

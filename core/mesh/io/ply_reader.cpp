@@ -1,5 +1,3 @@
-#include "core/mesh/io/ply_reader.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +9,9 @@
 #include <map>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "core/error.h"
 #include "core/mesh/io/polygon_soup.h"
@@ -19,6 +20,69 @@
 
 namespace sprung {
 namespace {
+
+enum class PlyType { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, kFloat64 };
+
+/// Bytes of a number in a binary file.
+std::size_t size_of(PlyType type) {
+  constexpr std::size_t kSizes[] = {1, 1, 2, 2, 4, 4, 4, 8};
+  return kSizes[std::size_t(type)];
+}
+
+struct PlyProperty {
+  std::string name;
+  PlyType type = PlyType::kFloat32;  // of the number, or of those in the list
+  bool is_list = false;
+  PlyType count_type = PlyType::kUint8;  // of the length of a list
+};
+
+struct PlyElement {
+  std::string name;
+  long count = 0;
+  std::vector<PlyProperty> properties;
+
+  /// The place of the first property of one of these names; -1 where there is none.
+  [[nodiscard]] int find(std::initializer_list<std::string_view> names) const;
+};
+
+enum class PlyFormat { kText, kLittleEndian, kBigEndian };
+
+struct PlyHeader {
+  PlyFormat format = PlyFormat::kText;
+  std::vector<PlyElement> elements;  // in the order of their data
+  std::string texture;               // of a comment "TextureFile name"; empty: none
+  std::size_t size = 0;              // bytes, the line end after end_header included
+  long lines = 0;
+};
+
+/// The values of one vertex, face or the like, by property: a number or a list.
+struct PlyEntry {
+  std::vector<double> numbers;
+  std::vector<std::vector<double>> lists;
+};
+
+/// The data of a PLY file after its header, entry by entry.
+class PlyData {
+ public:
+  /// `bytes`: of the whole file, which must outlive this.
+  PlyData(std::string_view bytes, const PlyHeader& header, const std::string& name);
+
+  /// Reads the next entry of an element; `what` names it in messages. Throws Error(kBadInput) where the data end, or
+  /// hold no number or a list of no possible length.
+  void read(const PlyElement& element, const Named& what, PlyEntry& entry);
+
+  /// Throws Error(kBadInput), with the line in a text.
+  [[noreturn]] void refuse(const std::string& reason) const;
+
+ private:
+  double take(PlyType type, const Named& what);
+  double take_binary(PlyType type, const Named& what);
+
+  PlyFormat format_;
+  std::string name_;
+  std::string_view left_;  // of binary data
+  TextScanner scanner_;
+};
 
 std::optional<PlyType> type_of(std::string_view word) {
   static const std::map<std::string_view, PlyType> kTypes{
@@ -107,13 +171,6 @@ void check_counts(const PlyHeader& header, std::size_t body, const std::string& 
   }
 }
 
-}  // namespace
-
-std::size_t size_of(PlyType type) {
-  constexpr std::size_t kSizes[] = {1, 1, 2, 2, 4, 4, 4, 8};
-  return kSizes[std::size_t(type)];
-}
-
 int PlyElement::find(std::initializer_list<std::string_view> names) const {
   for (std::size_t i = 0; i < properties.size(); ++i) {
     if (std::find(names.begin(), names.end(), properties[i].name) != names.end()) return int(i);
@@ -121,6 +178,8 @@ int PlyElement::find(std::initializer_list<std::string_view> names) const {
   return -1;
 }
 
+/// The header of a PLY file, checked: no element can have more entries than the bytes after the header can hold.
+/// Throws Error(kBadInput) with the line.
 PlyHeader read_ply_header(std::string_view bytes, const std::string& name) {
   if (!bytes.starts_with("ply")) {
     throw Error(ErrorKind::kBadInput, name + ": is not a PLY file (it does not begin with 'ply')");
@@ -139,8 +198,6 @@ PlyHeader read_ply_header(std::string_view bytes, const std::string& name) {
   check_counts(header, bytes.size() - header.size, name);
   return header;
 }
-
-namespace {
 
 /// A number from its bytes in the order of this machine.
 template <class Number>
@@ -175,8 +232,6 @@ double decode(PlyType type, const char* bytes) {
 std::string_view text_part(std::string_view bytes, const PlyHeader& header) {
   return header.format == PlyFormat::kText ? bytes.substr(header.size) : std::string_view{};
 }
-
-}  // namespace
 
 PlyData::PlyData(std::string_view bytes, const PlyHeader& header, const std::string& name)
     : format_(header.format),
@@ -219,8 +274,6 @@ void PlyData::refuse(const std::string& reason) const {
   if (format_ == PlyFormat::kText) scanner_.refuse(reason);
   throw Error(ErrorKind::kBadInput, fmt::format("{}: {}", name_, reason));
 }
-
-namespace {
 
 /// Where a vertex has what, by the places of the properties; -1: not there.
 struct VertexPlaces {

@@ -9,7 +9,7 @@
 #include <fstream>
 
 #include "core/error.h"
-#include "core/mesh/io/file_checks.h"
+#include "core/files.h"
 #include "core/mesh/io/reader_process.h"
 #include "core/mesh/io/readers.h"
 #include "core/mesh/io/text_scanner.h"
@@ -63,7 +63,7 @@ ReadingLimits limits_for(const fs::path& file) {
 SurfaceMesh read_mesh_here(const fs::path& file) {
   const std::string name = file.string();
   const std::string format = lower_extension(file);
-  const std::string bytes = read_bytes(file);
+  const std::string bytes = read_file(file);
   const std::string_view text = without_byte_order_mark(bytes);
   if (format == ".obj") {
     return read_obj(text, name, [&](const std::string& companion) { return read_companion(companion, file); });

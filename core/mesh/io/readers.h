@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/mesh/surface_mesh.h"
 
@@ -16,6 +17,10 @@ using FindText = std::function<std::optional<std::string>(const std::string& nam
 /// group and material; materials from the libraries it names. `name` is that of the file, for messages. Throws
 /// Error(kBadInput) with the line and the number of the vertex or the face, counted from 1.
 [[nodiscard]] SurfaceMesh read_obj(std::string_view text, const std::string& name, const FindText& find_text);
+
+/// The materials of an MTL file (the material library of an OBJ): name, diffuse colour and texture name. Malformed
+/// lines are skipped.
+[[nodiscard]] std::vector<SurfaceMaterial> read_mtl(std::string_view text);
 
 /// The mesh in the text of an OFF file, with what COFF, NOFF and STOFF add to the vertices. `name` is that of the file,
 /// for messages. Throws Error(kBadInput) with the line, before anything is allocated that the text could not hold.
@@ -38,5 +43,13 @@ using FindText = std::function<std::optional<std::string>(const std::string& nam
 /// linear, are encoded to sRGB. Animations, skins and morph targets are left out with a note. What it reads is never
 /// freed, and damaged files may crash it: run it by read_in_child. Throws Error(kBadInput), or std::bad_alloc.
 [[nodiscard]] SurfaceMesh read_by_assimp(const std::filesystem::path& file);
+
+/// Rejects a GLB file shorter than its header says, and GLB and glTF files that require an extension which assimp would
+/// ignore and read a wrong shape. `bytes`: the whole file. Throws Error(kBadInput).
+void check_glb(std::string_view bytes, const std::string& name);
+void check_gltf(std::string_view bytes, const std::string& name);
+
+/// Rejects a 3MF archive that is truncated or contains no model. Throws Error(kBadInput).
+void check_3mf(std::string_view bytes, const std::string& name);
 
 }  // namespace sprung

@@ -4,8 +4,6 @@
 #include <map>
 #include <utility>
 
-#include "core/mesh/repair/fill_hole.h"
-
 namespace sprung {
 namespace {
 
@@ -80,10 +78,7 @@ Hole hole_of(const WeldedMesh& mesh, const BoundaryLoop& rim) {
 
 double area_of(const Points& points, const Triangles& triangles) {
   double area = 0;
-  for (const auto& t : triangles.rowwise()) {
-    const Vec3 a = points.row(t[0]);
-    area += 0.5 * (points.row(t[1]).transpose() - a).cross(points.row(t[2]).transpose() - a).norm();
-  }
+  for (int t = 0; t < triangles.rows(); ++t) area += triangle_area(points, triangles, t);
   return area;
 }
 

@@ -201,16 +201,19 @@ void collect_shells(const Points& points, const Triangles& triangles, EdgePairs&
 
 }  // namespace
 
+double triangle_area(const Points& points, const Triangles& triangles, int row) {
+  const Vec3 a = points.row(triangles(row, 0));
+  const Vec3 b = points.row(triangles(row, 1)).transpose() - a;
+  const Vec3 c = points.row(triangles(row, 2)).transpose() - a;
+  return 0.5 * b.cross(c).norm();
+}
+
 void measure(const Points& points, const Triangles& triangles, SurfaceComponent& shell) {
-  shell.low = shell.high = points.row(triangles(shell.triangles.front(), 0));
+  shell.bounds.setEmpty();
   for (const int t : shell.triangles) {
-    for (int k = 0; k < 3; ++k) {
-      const Vec3 p = points.row(triangles(t, k));
-      shell.low = shell.low.cwiseMin(p);
-      shell.high = shell.high.cwiseMax(p);
-    }
+    for (int k = 0; k < 3; ++k) shell.bounds.extend(Vec3(points.row(triangles(t, k))));
   }
-  const Vec3 centre = 0.5 * (shell.low + shell.high);
+  const Vec3 centre = shell.bounds.center();
   double sum = 0;
   for (const int t : shell.triangles) {
     const auto corner = [&](int k) -> Vec3 { return points.row(triangles(t, k)).transpose() - centre; };

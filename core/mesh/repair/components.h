@@ -61,8 +61,7 @@ class EdgePairs {
 struct SurfaceComponent {
   std::vector<int> triangles;  // rows of the triangles given, ascending
   double volume = 0;           // signed; negative where the shell was given inside out; of no meaning while it is open
-  Vec3 low = Vec3::Zero();
-  Vec3 high = Vec3::Zero();
+  AlignedBox bounds;
 };
 
 struct EdgeFaults {
@@ -92,6 +91,8 @@ struct SurfaceComponents {
 /// more than two triangles meet in an edge, those pair that have matter between them, so that bodies that touch there
 /// come apart.
 [[nodiscard]] SurfaceComponents find_shells(const Points& points, Triangles& triangles);
+
+[[nodiscard]] double triangle_area(const Points& points, const Triangles& triangles, int row);
 
 /// Sets volume and bounds from the shell's triangles.
 void measure(const Points& points, const Triangles& triangles, SurfaceComponent& shell);

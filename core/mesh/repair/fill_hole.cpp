@@ -1,5 +1,3 @@
-#include "core/mesh/repair/fill_hole.h"
-
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/fair.h>
 #include <CGAL/Polygon_mesh_processing/refine.h>
@@ -13,6 +11,8 @@
 #include <map>
 #include <optional>
 #include <vector>
+
+#include "core/mesh/repair/close_shells.h"
 
 namespace sprung {
 namespace {

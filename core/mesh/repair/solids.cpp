@@ -12,7 +12,6 @@
 #include "core/mesh/repair/assemble_solids.h"
 #include "core/mesh/repair/close_shells.h"
 #include "core/mesh/repair/components.h"
-#include "core/mesh/repair/nesting.h"
 #include "core/mesh/repair/weld.h"
 #include "core/text.h"
 
@@ -27,7 +26,7 @@ constexpr double kDebris = 0.01;
 constexpr const char* kAdvice = "ask for a shell with --thickness 3mm";
 
 bool has_volume(const WeldedMesh& mesh, const SurfaceComponent& shell) {
-  return std::abs(shell.volume) > kNoVolume * given_area(mesh, shell.triangles) * (shell.high - shell.low).norm();
+  return std::abs(shell.volume) > kNoVolume * given_area(mesh, shell.triangles) * shell.bounds.diagonal().norm();
 }
 
 /// Takes one mesh through all repairs to its solids.
