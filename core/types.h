@@ -24,7 +24,7 @@ using AlignedBox = Eigen::AlignedBox3d;
   return {Vec3(points.colwise().minCoeff()), Vec3(points.colwise().maxCoeff())};
 }
 
-/// A rigid transform from an object's own frame to the world: rotation first.
+/// A rigid transform from an object's own frame to the world; the rotation comes first.
 struct Pose {
   Mat3 rotation = Mat3::Identity();
   Vec3 translation = Vec3::Zero();  // m
