@@ -26,10 +26,10 @@ struct SolidPatch {
 /// face (see pieces.h), so a lattice point may occur several times as well, in consecutive rows, with a node
 /// each.
 struct BrickGrid {
-  Vec3 origin = Vec3::Zero();          // corner of cell (0, 0, 0), m, in the body's rest frame
-  double brick_size = 0;               // side h, m
-  std::vector<Eigen::Vector3i> cells;  // n; ordered by z, then y, then x
-  std::vector<double> fill;            // n; solid volume over brick volume; in (0, 1], above with absorbed slivers
+  Vec3 origin = Vec3::Zero();             // corner of cell (0, 0, 0), m, in the body's rest frame
+  double brick_size = 0;                  // side h, m
+  std::vector<Eigen::Vector3i> cells;     // n; ordered by z, then y, then x
+  std::vector<double> fill;               // n; solid volume over brick volume; in (0, 1], above with absorbed slivers
   std::vector<std::array<int, 8>> nodes;  // n; rows of lattice, by corner
   std::vector<Eigen::Vector3i> lattice;   // m; lattice coordinates of each node, ordered by z, then y, then x
   std::vector<SolidPatch> patches;        // of the cells that the surface cuts, ordered as cells; empty: not computed

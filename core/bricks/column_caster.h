@@ -24,8 +24,8 @@ inline constexpr int kMostCellsPerAxis = 1 << 16;
 /// Estimates of each cell's fill by rays along the axes; x fastest, then y, then z.
 struct CellSums {
   std::vector<float> weighted;  // sum over the axes of weight x fraction of the cell inside
-  std::vector<float> weight;    // sum over the axes: the more a direction's rays cross the surface in a cell, the better
-                                // they measure it; rays along a flat wall hardly count
+  std::vector<float> weight;  // sum over the axes: the more a direction's rays cross the surface in a cell, the better
+                              // they measure it; rays along a flat wall hardly count
 };
 
 /// Adds the estimates of rays along `axis` to `sums`: 16 rays per cell, with exact lengths inside. Inside is where the

@@ -67,9 +67,9 @@ struct PieceLinks {
 
 /// What split_pieces() found.
 struct PieceReport {
-  int divided = 0;   // cells that hold more than one piece
-  int attached = 0;  // pieces joined to a neighbour although their link is too thin for the samples
-  int dropped = 0;   // bricks of floating specks, removed
+  int divided = 0;            // cells that hold more than one piece
+  int attached = 0;           // pieces joined to a neighbour although their link is too thin for the samples
+  int dropped = 0;            // bricks of floating specks, removed
   double dropped_volume = 0;  // m^3; compensated by the other bricks' fill
   int floating = 0;           // larger pieces connected to no other
 };

@@ -79,7 +79,7 @@ void write_obstacle(Hdf5Writer& hdf5, const std::string& folder, const StageObst
   write_skin(hdf5, folder + "/skin", obstacle.skin);
 }
 
-/// To the nearest multiples of the largest power of two that keeps within the error; as they are where that is 0.
+/// Rounds to multiples of the largest power of two that respects the error; not at all where that is 0.
 void append_rounded(Hdf5Writer& hdf5, const std::string& name, const Points& values, double error) {
   if (error == 0) return hdf5.append(name, flat_values(values));
   const double step = std::exp2(std::floor(std::log2(2 * error)));

@@ -8,9 +8,9 @@ namespace sprung {
 namespace {
 
 constexpr double kMostContraction = 0.9;  // however strong
-constexpr double kLongestPiece = 0.005;   // s; a change over a frame comes in steps that nobody sees
+constexpr double kLongestPiece = 0.005;   // s; steps of a changing load that are too short to be visible
 
-/// At t = 0 a movement is where a thing is put; a curve has its first value there.
+/// At t = 0 a movement is the identity; a curve has its first value there.
 Movement from_values(std::vector<Keyframe> keyframes, Interpolation interpolation) {
   if (keyframes.front().time > 0) {
     Keyframe start = keyframes.front();
@@ -20,7 +20,7 @@ Movement from_values(std::vector<Keyframe> keyframes, Interpolation interpolatio
   return {std::move(keyframes), interpolation};
 }
 
-/// Of the bricks that each force of a body acts on, in all its solids, m^3.
+/// The volume of the bricks on which each force of a body acts, over all its solids, m^3.
 std::vector<double> forced_volumes(const Scene& scene, const Simulation& simulation, std::size_t body) {
   std::vector<double> volumes(scene.bodies[body].forces.size());
   for (const SoftBody& one : simulation.world.bodies) {
@@ -147,7 +147,7 @@ bool holds(const Pin& pin, double time) {
   return pin.from <= time + kMoment && (!pin.until || time + kMoment < *pin.until);
 }
 
-/// What brings things from where they are at one time to where they are at another.
+/// The placement at `end` relative to that at `begin`.
 Placement between(const Movement& movement, double begin, double end) {
   if (movement.is_still()) return {};
   const Placement first = movement.placement(begin);

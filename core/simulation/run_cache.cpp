@@ -26,7 +26,7 @@ std::string difference_of_bodies(const SoftBody& cached, const SoftBody& now) {
   return "";
 }
 
-/// What of a simulation goes into a cache.
+/// The part of a simulation that is stored in a cache.
 CacheHeader cache_header(const Scene& scene, const Simulation& simulation, const SceneRecord& record,
                          std::string progress_name) {
   CacheHeader header;
@@ -39,8 +39,8 @@ CacheHeader cache_header(const Scene& scene, const Simulation& simulation, const
   return header;
 }
 
-/// Why frames of one run cannot go on as another: the first thing that differs, with both values; empty where nothing
-/// does.
+/// Why one run cannot resume another: the first difference, with both values; empty where there is
+/// none.
 std::string difference(const CacheHeader& cached, const CacheHeader& now, const SceneRecord& record) {
   if (cached.version != now.version) {
     return fmt::format("it was made by sprung {}, this is sprung {}", cached.version, now.version);
@@ -97,7 +97,7 @@ Simulation cached_simulation(const CacheHeader& header, const Scene& scene) {
   for (std::size_t i = 0; i < simulation.obstacles.size(); ++i) {
     const SceneObstacle& obstacle = scene.obstacles.at(i);
     StageObstacle& staged = simulation.obstacles[i];
-    // Nothing meets them any more: it only matters which of them is level ground.
+    // There is no more contact with them: it only matters which of them is level ground.
     staged.shape = obstacle.plane ? Shape(SolidHalfSpace{}) : Shape(SolidBall{});
     staged.movement = {obstacle.keyframes, obstacle.interpolation};
     simulation.world.obstacles.push_back(obstacle_between(staged, obstacle, 0, 0));
@@ -168,7 +168,7 @@ int RunCache::begin(const Scene& scene, const Simulation& simulation, const std:
   return frame_count_;
 }
 
-/// Into the new file, which takes the name of the old one only then: killed at any moment, one of them is whole.
+/// Copied before the new file takes the name of the old one: whenever the program is killed, one of them is complete.
 void RunCache::copy_old_frames() {
   const auto count = old_->frame_count();
   for (std::size_t frame = 0; frame < count; ++frame) {

@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
+#include "core/appearance.h"
 #include "core/body/body.h"
 #include "core/bricks/embedding.h"
-#include "core/appearance.h"
 #include "core/skin/skin.h"
 #include "core/world/loads.h"
 #include "core/world/obstacle.h"
@@ -67,11 +67,10 @@ struct SoftBody : Body {
   std::vector<KinematicNode> pinned;                        // each node once; no contact can push it
   Loads loads{};
 
-  Skin skin{};                 // what is drawn, at rest, in the frame of the bricks
-  Embedding skin_embedding{};  // of its vertices
-  Color color{};               // where the skin has no colours
-  std::vector<int>
-      file_vertices{};  // of the mesh in its file (Simulation::meshes), those embedded in this body
+  Skin skin{};                       // what is drawn, at rest, in the frame of the bricks
+  Embedding skin_embedding{};        // of its vertices
+  Color color{};                     // where the skin has no colours
+  std::vector<int> file_vertices{};  // of the mesh in its file (Simulation::meshes), those embedded in this body
   Embedding file_embedding{};
   Origin origin{};
 
