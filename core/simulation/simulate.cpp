@@ -103,7 +103,7 @@ class MotionRun {
   void finish(int first, int frames) {
     note_implicit();
     const int inverted = inverted_bricks(world_);
-    const bool has_more = !motion_.plan().is_implicit() && world_.bodies.size() > 1;  // bodies, each with its own steps
+    const bool has_more = !motion_.plan().is_implicit() && world_.bodies.size() > 1;  // each with its own steps
     const Steps& steps = motion_.plan().steps;
     progress_->finish(fmt::format(
         "{}{}, {}{} steps of {} a frame, {} inverted bricks at the end, {}", count_of(frames, "frame"),

@@ -106,7 +106,7 @@ CornerLists list_corners(const Triangles& triangles, const std::vector<int>& poi
   return lists;
 }
 
-/// Makes the split vertices around one point after another.
+/// Splits the vertices at one point after another.
 class CreaseSplitter {
  public:
   CreaseSplitter(const SurfaceMesh& mesh, const Points& faces, double crease_angle)
@@ -149,7 +149,7 @@ class CreaseSplitter {
     return i;
   }
 
-  /// Two triangles at the point that share an edge there and meet smoothly belong together.
+  /// Joins triangles that share an edge at the point and meet smoothly.
   void join_smooth_neighbours(const int* corners, std::vector<int>& group) {
     for (std::size_t a = 0; a < group.size(); ++a) {
       for (std::size_t b = a + 1; b < group.size(); ++b) {

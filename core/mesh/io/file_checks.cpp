@@ -14,7 +14,7 @@ namespace {
   throw Error(ErrorKind::kBadInput, fmt::format("{}: {}", name, reason));
 }
 
-/// The little-endian number of `size` bytes at `offset`; 0 where the bytes end before.
+/// The little-endian number of `size` bytes at `offset`; 0 beyond the end.
 std::uint64_t little_endian(std::string_view bytes, std::size_t offset, std::size_t size) {
   if (offset + size > bytes.size()) return 0;
   std::uint64_t value = 0;

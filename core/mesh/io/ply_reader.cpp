@@ -41,7 +41,7 @@ struct PlyElement {
   long count = 0;
   std::vector<PlyProperty> properties;
 
-  /// The place of the first property of one of these names; -1 where there is none.
+  /// The index of the first property with one of these names; -1: none.
   [[nodiscard]] int find(std::initializer_list<std::string_view> names) const;
 };
 
@@ -51,7 +51,7 @@ struct PlyHeader {
   PlyFormat format = PlyFormat::kText;
   std::vector<PlyElement> elements;  // in the order of their data
   std::string texture;               // of a comment "TextureFile name"; empty: none
-  std::size_t size = 0;              // bytes, the line end after end_header included
+  std::size_t size = 0;              // bytes, including the line end after end_header
   long lines = 0;
 };
 
@@ -67,11 +67,11 @@ class PlyData {
   /// `bytes`: of the whole file, which must outlive this.
   PlyData(std::string_view bytes, const PlyHeader& header, const std::string& name);
 
-  /// Reads the next entry of an element; `what` names it in messages. Throws Error(kBadInput) where the data end, or
-  /// hold no number or a list of no possible length.
+  /// Reads the next entry of an element; `what` names it in messages. Throws Error(kBadInput) for truncated data, a
+  /// malformed number or an invalid list length.
   void read(const PlyElement& element, const Named& what, PlyEntry& entry);
 
-  /// Throws Error(kBadInput), with the line in a text.
+  /// Throws Error(kBadInput), with the line for text files.
   [[noreturn]] void refuse(const std::string& reason) const;
 
  private:
@@ -96,7 +96,7 @@ std::optional<PlyType> type_of(std::string_view word) {
   return found == kTypes.end() ? std::nullopt : std::optional(found->second);
 }
 
-/// Where the header ends: after the line that holds nothing but 'end_header', line end included.
+/// The end of the header: after the line that consists of 'end_header', including its line end.
 std::size_t find_end(std::string_view bytes, const std::string& name) {
   constexpr std::string_view kEnd = "end_header";
   const std::string_view head = bytes.substr(0, std::size_t{1} << 20);
@@ -151,7 +151,7 @@ void read_property(TextScanner& scanner, PlyHeader& header) {
   header.elements.back().properties.push_back(std::move(property));
 }
 
-/// The fewest bytes that an entry of the element takes.
+/// The minimum size of an entry of the element, bytes.
 std::size_t least_bytes(const PlyElement& element, PlyFormat format) {
   if (format == PlyFormat::kText) return 2 * element.properties.size();
   std::size_t bytes = 0;
@@ -178,8 +178,8 @@ int PlyElement::find(std::initializer_list<std::string_view> names) const {
   return -1;
 }
 
-/// The header of a PLY file, checked: no element can have more entries than the bytes after the header can hold.
-/// Throws Error(kBadInput) with the line.
+/// Reads and checks the header of a PLY file: no element may have more entries than the bytes after the header can
+/// hold. Throws Error(kBadInput) with the line.
 PlyHeader read_ply_header(std::string_view bytes, const std::string& name) {
   if (!bytes.starts_with("ply")) {
     throw Error(ErrorKind::kBadInput, name + ": is not a PLY file (it does not begin with 'ply')");
@@ -199,7 +199,7 @@ PlyHeader read_ply_header(std::string_view bytes, const std::string& name) {
   return header;
 }
 
-/// A number from its bytes in the order of this machine.
+/// A number from its bytes in native order.
 template <class Number>
 double decode(const char* bytes) {
   Number number;
@@ -275,7 +275,7 @@ void PlyData::refuse(const std::string& reason) const {
   throw Error(ErrorKind::kBadInput, fmt::format("{}: {}", name_, reason));
 }
 
-/// Where a vertex has what, by the places of the properties; -1: not there.
+/// The attributes of a vertex by the indices of their properties; -1: missing.
 struct VertexPlaces {
   explicit VertexPlaces(const PlyElement& element)
       : position{element.find({"x"}), element.find({"y"}), element.find({"z"})},
@@ -298,7 +298,7 @@ bool has_all(const std::array<int, n>& places) {
   return std::all_of(places.begin(), places.end(), [](int place) { return place >= 0; });
 }
 
-/// Colours in whole numbers are bytes, or words of 16 bits.
+/// Integer colours have 8 or 16 bits.
 double full_scale(PlyType type) {
   if (type == PlyType::kFloat32 || type == PlyType::kFloat64) return 1;
   return type == PlyType::kUint16 ? 65535 : 255;
@@ -336,7 +336,7 @@ class PlyReader {
         read_all(element, [](const Named&) {});
       }
     }
-    // Where faces stand before the vertices, their corners do not know yet what these have.
+    // Where faces precede the vertices, the vertex attributes are not known yet.
     for (Corner& corner : soup_.corners) {
       if (has_vertex_uvs_ && corner.uv < 0) corner.uv = corner.position;
       if (has_normals_) corner.normal = corner.position;
@@ -429,7 +429,7 @@ class PlyReader {
     });
   }
 
-  /// Each vertex of a strip makes a triangle with the two before it, turned over every other time; -1 begins anew.
+  /// Each vertex of a strip forms a triangle with the two before it, alternately flipped; -1 restarts the strip.
   void read_strips(const PlyElement& element) {
     if (element.count == 0) return;
     const std::size_t place = list_place(element);

@@ -34,7 +34,7 @@ void check_size(const fs::path& file) {
   }
 }
 
-/// Bytes that a reader takes in: the file and, of a glTF, the buffers beside it.
+/// The bytes that a reader loads: the file and, for a glTF, the buffers beside it.
 std::uintmax_t bytes_to_read(const fs::path& file) {
   std::uintmax_t bytes = fs::file_size(file);
   if (lower_extension(file) != ".gltf") return bytes;
@@ -45,7 +45,7 @@ std::uintmax_t bytes_to_read(const fs::path& file) {
   return bytes;
 }
 
-/// Ten times and more of what sound files were seen to take: 15 bytes a byte of XML, and 10 MB a second.
+/// At least ten times what sound files take: 15 bytes per byte of XML, at 10 MB/s.
 ReadingLimits limits_for(const fs::path& file) {
   constexpr std::uint64_t kBytesPerByte = 64;
   const std::uintmax_t bytes = std::min(bytes_to_read(file), kLargestFile);
@@ -93,7 +93,7 @@ namespace fs = std::filesystem;
 constexpr std::uintmax_t kLargestText = std::uintmax_t{1} << 26;     // bytes
 constexpr std::uintmax_t kLargestTexture = std::uintmax_t{1} << 30;  // bytes, encoded
 
-/// %20 and the like, which stand in the URIs of glTF and Collada.
+/// Decodes %20 etc. in the URIs of glTF and Collada.
 std::string decode_percent(const std::string& text) {
   std::string decoded;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -109,7 +109,7 @@ std::string decode_percent(const std::string& text) {
   return decoded;
 }
 
-/// The file a path in a mesh means, which may come from another system: backslashes, absolute, encoded.
+/// The file for a path in a mesh, which may come from another system: backslashes, absolute, encoded.
 std::optional<fs::path> find_companion(std::string path, const fs::path& folder) {
   std::replace(path.begin(), path.end(), '\\', '/');
   if (path.starts_with("file://")) path.erase(0, 7);

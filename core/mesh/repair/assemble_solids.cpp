@@ -31,12 +31,12 @@ double enclosure(const Points& points, const Triangles& triangles, const std::ve
 
 namespace {
 
-/// Which shells lie in which.
+/// Tests whether shells contain one another.
 class Containment {
  public:
   Containment(const Points& points, const Triangles& triangles) : points_(points), triangles_(triangles) {}
 
-  /// True where most of three of the inner shell's corners, far apart in its list, lie inside the outer shell.
+  /// Whether at least two of three corners of the inner shell, far apart in its list, lie inside the outer shell.
   bool contains(const SurfaceComponent& outer, const SurfaceComponent& inner) {
     if (!outer.bounds.contains(inner.bounds)) return false;
     const WindingTree& tree = trees_.try_emplace(&outer, points_, triangles_, outer.triangles).first->second;
@@ -61,7 +61,7 @@ class Containment {
   std::map<const SurfaceComponent*, WindingTree> trees_;
 };
 
-/// For each triangle the nest that it is of, or -1.
+/// The nest of each triangle, or -1.
 std::vector<int> nest_of_triangles(const std::vector<NestedComponents>& nests, Eigen::Index triangles) {
   std::vector<int> number(triangles, -1);
   const auto mark = [&](const SurfaceComponent& shell, std::size_t nest) {
@@ -81,14 +81,14 @@ std::vector<NestedComponents> nest_shells(const Points& points, const Triangles&
   std::vector<const SurfaceComponent*> order;
   order.reserve(shells.size());
   for (const SurfaceComponent& shell : shells) order.push_back(&shell);
-  // So that whatever may hold a shell comes before it.
+  // Shells come after any that may contain them.
   std::stable_sort(order.begin(), order.end(), [](const SurfaceComponent* a, const SurfaceComponent* b) {
     return std::abs(a->volume) > std::abs(b->volume);
   });
   Containment containment(points, triangles);
   std::vector<NestedComponents> nests;
   for (const SurfaceComponent* shell : order) {
-    // The smallest nest that holds it comes last.
+    // The smallest nest that contains it comes last.
     const auto home = std::find_if(nests.rbegin(), nests.rend(), [&](const NestedComponents& nest) {
       return (nest.outer->volume < 0) != (shell->volume < 0) && containment.is_in_matter(nest, *shell);
     });
@@ -136,7 +136,7 @@ namespace {
 
 using Crossings = std::vector<std::array<int, 2>>;  // pairs of rows of the triangles
 
-/// Those of all triangles but the ones of pieces that were dropped.
+/// Intersections of all triangles except those of dropped pieces.
 Crossings crossings_of(const WeldedMesh& mesh, const std::vector<SurfaceComponent>& shells) {
   std::vector<bool> is_kept(mesh.triangles.rows(), false);
   for (const SurfaceComponent& shell : shells) {
@@ -156,7 +156,7 @@ std::vector<NestGroup> group_nests(const WeldedMesh& mesh, const std::vector<Nes
   return groups;
 }
 
-/// Whether a triangle of the group crosses another.
+/// Whether a triangle of the group intersects another.
 bool overlaps(const NestGroup& group, const std::vector<bool>& crosses) {
   const auto any = [&](const SurfaceComponent* shell) {
     return std::any_of(shell->triangles.begin(), shell->triangles.end(), [&](int t) { return crosses[t]; });
@@ -183,7 +183,7 @@ void note_union(const std::vector<NestGroup>& groups, std::vector<Repair>& repai
                          count_of(united, "body", "bodies"), count_of(groups.size(), "solid")));
 }
 
-/// Caps may cross what is near their hole; only what the mesh has itself is worth a word.
+/// Caps may intersect nearby triangles; only intersections of the mesh's own triangles are reported.
 void note_crossings(const WeldedMesh& mesh, Crossings crossings, Solids& made) {
   std::erase_if(crossings, [&](const auto& pair) { return mesh.source[pair[0]] < 0 || mesh.source[pair[1]] < 0; });
   if (crossings.empty()) return;
@@ -215,7 +215,7 @@ Solids assemble_solids(const WeldedMesh& mesh, const std::vector<SurfaceComponen
 
 namespace {
 
-/// A triangle, and whether it is to be turned over.
+/// A triangle, and whether it is to be flipped.
 using Row = std::pair<int, bool>;
 
 void take_triangles(const WeldedMesh& mesh, const std::vector<Row>& rows, Solid& solid) {
