@@ -217,12 +217,12 @@ NumberedName parse_numbered_name(std::string_view text, std::string_view example
   const auto open = name.find('{');
   const auto close = name.find('}');
   if (open == std::string::npos || close == std::string::npos || close < open) {
-    refuse("the placeholder for the number must stand in the file name");
+    refuse("the placeholder for the number must be in the file name");
   }
   NumberedName numbered{.folder = path.parent_path(), .before = name.substr(0, open), .after = name.substr(close + 1)};
   numbered.digits = digits_of(std::string_view(name).substr(open + 1, close - open - 1));
   if (numbered.digits < 0) refuse("the placeholder for the number must look like {:04}");
-  if (has_number(numbered.after)) refuse("a name has one number");
+  if (has_number(numbered.after)) refuse("a file name has exactly one placeholder");
   return numbered;
 }
 

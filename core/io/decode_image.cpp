@@ -38,7 +38,7 @@ Decoded<Value> decode(Value* (*load)(const stbi_uc*, int, int*, int*, int*, int)
       stbi_image_free);
   if (data != nullptr) return data;
   throw Error(ErrorKind::kBadInput,
-              name + ": not a picture that can be read (" + stbi_failure_reason() + "); PNG and JPEG are sure to work");
+              name + ": not a picture that can be read (" + stbi_failure_reason() + "); use PNG or JPEG");
 }
 
 }  // namespace

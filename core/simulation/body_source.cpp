@@ -58,7 +58,7 @@ void report_reading(const SceneBody& body, const LoadedBody& loaded, const Obser
   const double length = (loaded.file_from_rest.linear() * loaded.extent).maxCoeff();
   warn_if_far_away(body, loaded.mesh, loaded.file_from_rest.translation().norm() / length, observer);
   if (body.scale || body.size || body.mesh.empty()) return;
-  observer.note(fmt::format("size: {} is {:.4g} file units long, drawn {} m long; say --size to choose", loaded.name,
+  observer.note(fmt::format("size: {} is {:.4g} file units long, drawn {} m long; set --size to change it", loaded.name,
                             length, kDefaultSize));
 }
 
@@ -98,7 +98,7 @@ void load_mesh(const SceneBody& body, LoadedBody& loaded) {
   const double length = extent.maxCoeff();
   if (!(length > 0)) {
     throw Error(ErrorKind::kBadInput,
-                fmt::format("{}: all points of the mesh fall together{}", body.mesh.string(),
+                fmt::format("{}: all points of the mesh coincide{}", body.mesh.string(),
                             centre.norm() > 0 ? ", perhaps because they lie too far from the origin" : ""));
   }
   const double scale = body.scale.value_or(body.size.value_or(kDefaultSize) / length);
@@ -210,7 +210,7 @@ std::string reason_of(const BrickChoice& choice) {
     case BrickChoice::Reason::kThickness:
       return fmt::format("two across {}, which 95 % of the surface is thicker than", thickness);
     case BrickChoice::Reason::kShape:
-      return "enough for the shape; no part that counts is thinner than two of them";
+      return "enough for the shape; no relevant part is thinner than two of them";
     case BrickChoice::Reason::kBudget:
       break;
   }

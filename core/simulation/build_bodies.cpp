@@ -241,7 +241,7 @@ void BodyBuilder::tell(const Observer& observer) const {
   if (body_.pins.empty()) return;
   if (held_solids_ == 0) {
     throw Error(ErrorKind::kBadInput,
-                fmt::format("{}: the pins hold no node; make what they choose at least a brick ({}) thick",
+                fmt::format("{}: the pins hold no node; make the parts they select at least a brick ({}) thick",
                             loaded_.name, readable(loaded_.brick_size, Dimension::kLength)));
   }
   const int free_solids = isize(loaded_.solids) - held_solids_;
@@ -318,7 +318,7 @@ void check_loads(const Scene& scene, std::size_t body, const World& world) {
     const auto missed = std::find(reached.begin(), reached.end(), false);
     if (missed == reached.end()) return;
     throw Error(ErrorKind::kBadInput,
-                fmt::format("body {}: its {} {} reaches no brick and no triangle; make the part it chooses at least "
+                fmt::format("body {}: its {} {} reaches no brick and no triangle; make the part it selects at least "
                             "a brick large",
                             body + 1, what, missed - reached.begin() + 1));
   };
@@ -421,20 +421,20 @@ void FillReport::add_volume(const BrickGrid& grid, const Solid& solid) {
   if (wrong_volumes_ > 1) return;
   const std::optional<double> better = brick_size_for(solid, body_.brick_size);
   volume_warning_ =
-      fmt::format("bricks of {} are too coarse: they hold {:.4g} kg where the mesh holds {:.4g} kg; {}",
+      fmt::format("bricks of {} are too coarse: they hold {:.4g} kg, the mesh {:.4g} kg; {}",
                   readable(body_.brick_size, Dimension::kLength), grid.volume() * density_, solid.volume * density_,
-                  better ? fmt::format("for the mass bricks of {} would do", readable(*better, Dimension::kLength))
+                  better ? fmt::format("bricks of {} would suffice for the mass", readable(*better, Dimension::kLength))
                          : "use much smaller ones");
 }
 
 void FillReport::tell(const Observer& observer) const {
   if (outside_ > 0) {
-    observer.note(fmt::format("{}: {} outside every brick, {:.2g} bricks away at most, on the nearest one", body_.name,
-                              count_of(outside_, "skin vertex rides", "skin vertices ride"), furthest_outside_));
+    observer.note(fmt::format("{}: {} outside all bricks, at most {:.2g} bricks from the nearest one", body_.name,
+                              count_of(outside_, "skin vertex lies", "skin vertices lie"), furthest_outside_));
   }
   if (slivers_ > 0) {
     observer.detail(
-        fmt::format("{}: {} given to fuller neighbours", body_.name, count_of(slivers_, "nearly empty brick")));
+        fmt::format("{}: {} merged into fuller neighbours", body_.name, count_of(slivers_, "nearly empty brick")));
   }
   tell_pieces(observer);
   if (wrong_volumes_ == 0) return;
@@ -445,16 +445,16 @@ void FillReport::tell(const Observer& observer) const {
 
 void FillReport::tell_pieces(const Observer& observer) const {
   if (pieces_.divided > 0) {
-    observer.detail(fmt::format("{}: {} more than one piece of solid, and a brick for each", body_.name,
-                                count_of(pieces_.divided, "cell holds", "cells hold")));
+    observer.detail(fmt::format("{}: {} several pieces of solid, each in a brick of its own", body_.name,
+                                count_of(pieces_.divided, "cell contains", "cells contain")));
   }
   if (pieces_.dropped > 0) {
     observer.warn(fmt::format("{}: dropped {} of floating specks, {:.2g} kg together", body_.name,
                               count_of(pieces_.dropped, "brick"), pieces_.dropped_volume * density_));
   }
   if (pieces_.floating > 0) {
-    observer.warn(fmt::format("{}: {} by parts too thin for bricks of {}; smaller bricks would hold them", body_.name,
-                              count_of(pieces_.floating, "piece hangs", "pieces hang"),
+    observer.warn(fmt::format("{}: {} connected by parts too thin for bricks of {}; use smaller bricks", body_.name,
+                              count_of(pieces_.floating, "piece is", "pieces are"),
                               readable(body_.brick_size, Dimension::kLength)));
   }
 }

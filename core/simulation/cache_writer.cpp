@@ -131,7 +131,7 @@ void CacheWriter::append(const CachedFrame& frame, const std::vector<const Point
                          const std::vector<const Points*>& velocities, const std::vector<double>& memory) {
   if (!lock_.is_of(file_.path())) {
     throw Error(ErrorKind::kFailed,
-                fmt::format("'{}' is gone or was replaced while it was being written", file_.path().string()));
+                fmt::format("'{}' was removed or replaced while it was being written", file_.path().string()));
   }
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const std::string folder = actor_folder(i);

@@ -81,7 +81,7 @@ Simulation cached_simulation(const CacheHeader& header, const Scene& scene) {
   simulation.world.gravity = scene.gravity;
   for (SoftBody& body : simulation.world.bodies) {
     if (body.origin.body >= scene.bodies.size()) {
-      throw Error(ErrorKind::kBadInput, "the cache is damaged: a body that no scene has");
+      throw Error(ErrorKind::kBadInput, "the cache is damaged: it has a body that is not in its scene");
     }
     const SceneBody& scene_body = scene.bodies[body.origin.body];
     Body made = make_body(std::move(body.grid), scene_body.model, scene_body.material);
@@ -155,7 +155,7 @@ int RunCache::begin(const Scene& scene, const Simulation& simulation, const std:
   if (old_) {
     if (const std::string text = difference(old_->header(), header, record_); !text.empty()) {
       throw Error(ErrorKind::kBadInput,
-                  fmt::format("'{}' cannot go on: {}; --overwrite begins anew", file_.string(), text));
+                  fmt::format("'{}' cannot be resumed: {}; --overwrite starts afresh", file_.string(), text));
     }
     const int most = sprung::frame_count(scene);
     if (int(old_->frame_count()) > most) {

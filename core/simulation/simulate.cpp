@@ -38,16 +38,15 @@ class OverlapWatch {
   }
   [[nodiscard]] double deepest() const { return deepest_; }
   [[nodiscard]] std::string summary() const {
-    return deepest_ > 0 ? fmt::format("points of contact at most {} deep in what they touch",
-                                      readable(deepest_, Dimension::kLength))
-                        : "no point of contact in what it touches";
+    return deepest_ > 0 ? fmt::format("contact points penetrate by at most {}", readable(deepest_, Dimension::kLength))
+                        : "no penetration";
   }
 
   void warn(double size, const Observer& observer) const {
     if (deepest_ <= kDeepShare * size) return;
     observer.warn(
-        fmt::format("in frame {} skins are {} deep in each other or in an obstacle, {:.1f} % of the largest "
-                    "body: smaller bricks (bricks) or slower meetings keep them apart",
+        fmt::format("in frame {} skins penetrate each other or an obstacle by {}, {:.1f} % of the size of the largest "
+                    "body; smaller bricks (bricks) or slower impacts keep them apart",
                     frame_ + 1, readable(deepest_, Dimension::kLength), 100 * deepest_ / size));
   }
 

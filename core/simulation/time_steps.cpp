@@ -48,7 +48,7 @@ std::string_view remedy_for(const StepPlan& plan) {
 
 std::string warning_of(const StepPlan& plan) {
   if (double(plan.steps.count) < kManySteps) return "";
-  return fmt::format("a frame takes {} steps of {}, for bricks are stiff and small or something is fast; {}",
+  return fmt::format("a frame takes {} steps of {}, because bricks are stiff and small or something moves fast; {}",
                      plan.steps.count, readable(plan.steps.dt, Dimension::kTime), remedy_for(plan));
 }
 

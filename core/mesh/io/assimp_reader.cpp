@@ -332,7 +332,7 @@ void note_motion(const aiScene& scene, std::vector<std::string>& notes) {
   if (bones > 0) ignored.push_back("a skin of " + count_of(bones, "bone"));
   if (shapes > 0) ignored.push_back(count_of(shapes, "morph target"));
   if (ignored.empty()) return;
-  notes.push_back(fmt::format("ignored {}: the mesh is taken as it stands at rest", fmt::join(ignored, " and ")));
+  notes.push_back(fmt::format("ignored {}: the mesh is read at rest", fmt::join(ignored, " and ")));
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstring>
-#include <fstream>
+#include <exception>
 
 #include "core/error.h"
 #include "core/files.h"
@@ -123,22 +123,21 @@ std::optional<fs::path> find_companion(std::string path, const fs::path& folder)
   return std::nullopt;
 }
 
-std::optional<std::string> read_all(const fs::path& file, std::uintmax_t largest) {
+std::optional<std::string> read_up_to(std::uintmax_t largest, const fs::path& file) {
   std::error_code error;
-  const std::uintmax_t size = fs::file_size(file, error);
-  std::ifstream stream(file, std::ios::binary);
-  if (error || !stream || size > largest) return std::nullopt;
-  std::string bytes(size, '\0');
-  stream.read(bytes.data(), static_cast<std::streamsize>(size));
-  if (!stream) return std::nullopt;
-  return bytes;
+  if (fs::file_size(file, error) > largest) return std::nullopt;  // also on errors
+  try {
+    return read_file(file);
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
 }
 
 }  // namespace
 
 std::optional<std::string> read_companion(const std::string& name, const fs::path& mesh_file) {
   const auto file = find_companion(name, mesh_file.parent_path());
-  return file ? read_all(*file, kLargestText) : std::nullopt;
+  return file ? read_up_to(kLargestText, *file) : std::nullopt;
 }
 
 void read_textures(SurfaceMesh& mesh, const fs::path& mesh_file) {
@@ -148,7 +147,7 @@ void read_textures(SurfaceMesh& mesh, const fs::path& mesh_file) {
     if (!file) {
       mesh.notes.push_back(fmt::format("texture '{}' of material '{}' is not there; drawn without it",
                                        material.texture_name, material.name));
-    } else if (const auto bytes = read_all(*file, kLargestTexture); bytes && !bytes->empty()) {
+    } else if (const auto bytes = read_up_to(kLargestTexture, *file); bytes && !bytes->empty()) {
       material.texture.resize(bytes->size());
       std::memcpy(material.texture.data(), bytes->data(), bytes->size());
     } else {

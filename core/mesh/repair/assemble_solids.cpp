@@ -190,7 +190,7 @@ void note_crossings(const WeldedMesh& mesh, Crossings crossings, Solids& made) {
   made.crossing = mesh.points(mesh.triangles.row(crossings.front()[0]), Eigen::all).colwise().mean();
   const long pairs = crossings.size();
   add_repair(made.repairs, "self_intersection", pairs,
-             fmt::format("the surface crosses itself: {}; what overlaps is filled once",
+             fmt::format("the surface intersects itself: {}; overlaps are filled once",
                          count_of(pairs, "pair of triangles", "pairs of triangles")));
 }
 

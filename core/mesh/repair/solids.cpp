@@ -186,7 +186,7 @@ class MeshRepairer {
     result_.solids.push_back(std::move(solid));
     std::erase_if(result_.repairs, [](const Repair& repair) { return repair.kind == "hole_filled"; });
     add("united", dropped_,
-        "took " + count_of(dropped_, "loose piece") + " that enclose something only together as one solid");
+        "took " + count_of(dropped_, "loose piece") + " that enclose a volume only together as one solid");
     return true;
   }
 
