@@ -19,12 +19,11 @@ struct SolidPatch {
   std::vector<Eigen::Vector3f> spots;  // points of solid too thin for samples, in [0, 1]^3 of the cell
 };
 
-/// The bricks of one body: the cells of a cubic lattice that hold solid, and the nodes at their corners.
-/// Corner c of a brick lies at cell + (c & 1, c >> 1 & 1, c >> 2 & 1): x runs fastest. A cell that contains
-/// several disconnected pieces of solid (two fingers) has a brick for each piece: the cell then occurs several
-/// times, in consecutive rows. Bricks share nodes only where solid continues from one to the next through a
-/// face (see pieces.h), so a lattice point may occur several times as well, in consecutive rows, with a node
-/// each.
+/// The bricks of one body: the cells of a cubic lattice that hold solid, and the nodes at their corners. Corner c of a
+/// brick lies at cell + (c & 1, c >> 1 & 1, c >> 2 & 1): x runs fastest. A cell that contains several disconnected
+/// pieces of solid (two fingers) has a brick for each piece: the cell then occurs several times, in consecutive rows.
+/// Bricks share nodes only where solid continues from one to the next through a face (see pieces.h), so a lattice point
+/// may occur several times as well, in consecutive rows, with a node each.
 struct BrickGrid {
   Vec3 origin = Vec3::Zero();             // corner of cell (0, 0, 0), m, in the body's rest frame
   double brick_size = 0;                  // side h, m

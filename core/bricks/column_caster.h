@@ -94,8 +94,7 @@ class SnappedTriangle {
   static std::int64_t side_of(const SnappedPlace& a, const SnappedPlace& b, const SnappedPlace& p) {
     return (b.u - a.u) * (p.v - a.v) - (b.v - a.v) * (p.u - a.u);
   }
-  /// Of the two triangles at an edge, which traverse it in opposite directions, exactly one owns the points on
-  /// it.
+  /// Of the two triangles at an edge, which traverse it in opposite directions, exactly one owns the points on it.
   static bool owns_edge(const SnappedPlace& a, const SnappedPlace& b) { return b.v < a.v || (b.v == a.v && b.u < a.u); }
 
   std::array<SnappedPlace, 3> corners_;

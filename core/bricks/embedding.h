@@ -26,8 +26,7 @@ struct Embedding {
 /// known, of the nearest solid on its inward side.
 [[nodiscard]] Embedding embed(const BrickGrid& grid, const Points& points, const Points& outward = Points(0, 3));
 
-/// The embedded points for these node positions; n x 3, m. They follow affine motions of the nodes
-/// exactly.
+/// The embedded points for these node positions; n x 3, m. They follow affine motions of the nodes exactly.
 [[nodiscard]] Points deform_points(const BrickGrid& grid, const Embedding& embedding, const Points& node_positions);
 
 /// Interpolates nodal values (m) at the embedded points; n. Points outside their brick are clamped to it.

@@ -73,8 +73,7 @@ class BodyBuilder {
   /// Adds the filled solids to the simulation.
   void add_solids();
 
-  /// Reports how well the bricks fill the body, and unpinned solids. Throws Error(kBadInput) where no pin holds a
-  /// node.
+  /// Reports how well the bricks fill the body, and unpinned solids. Throws Error(kBadInput) where no pin holds a node.
   void tell(const Observer& observer) const;
 
  private:

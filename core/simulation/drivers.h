@@ -59,9 +59,8 @@ class LoadDriver {
 /// The constant nodal forces of the scene on an actor (m x 3, N), without pressures.
 [[nodiscard]] Points steady_forces(const Scene& scene, const Simulation& simulation, std::size_t actor);
 
-/// Drives a moving world by its scene: pins catch, move and release nodes, obstacles move, loads act. A pin
-/// that catches its nodes later than at the start takes them where they are and rotates them about their
-/// centroid.
+/// Drives a moving world by its scene: pins catch, move and release nodes, obstacles move, loads act. A pin that
+/// catches its nodes later than at the start takes them where they are and rotates them about their centroid.
 class SceneDriver {
  public:
   /// Both must outlive it. Applies the loads of the start.

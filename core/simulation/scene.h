@@ -61,10 +61,9 @@ struct Axes {
   std::array<bool, 3> held{true, true, true};
 };
 
-/// Holds the nodes of a part along some axes of the world and moves them along these: through keyframes, or
-/// linearly in time from zero at the start to `translate` and `rotate` at the end of the film. Rotation and scaling
-/// about the centre of the part come before the translation. Outside its time interval the pin leaves the nodes
-/// free.
+/// Holds the nodes of a part along some axes of the world and moves them along these: through keyframes, or linearly in
+/// time from zero at the start to `translate` and `rotate` at the end of the film. Rotation and scaling about the
+/// centre of the part come before the translation. Outside its time interval the pin leaves the nodes free.
 struct Pin : Selection {
   std::string name;
   Axes axes;
@@ -82,8 +81,7 @@ struct Strength {
   double strength = 1;
 };
 
-/// The strength of a load over the film, by keyframes; constant before the first one, and always full without
-/// any.
+/// The strength of a load over the film, by keyframes; constant before the first one, and always full without any.
 struct StrengthCurve {
   std::vector<Strength> keyframes;
   Interpolation interpolation = Interpolation::kLinear;

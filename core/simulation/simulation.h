@@ -19,9 +19,8 @@ struct Simulation {
   double size = 0;                       // m, longest side of the largest body
 };
 
-/// Fills the bodies' solids with bricks, places them and finds the pinned nodes. Throws
-/// Error(kBadInput) where a pin holds no node or a body starts more than a brick deep in an obstacle or
-/// another body.
+/// Fills the bodies' solids with bricks, places them and finds the pinned nodes. Throws Error(kBadInput) where a pin
+/// holds no node or a body starts more than a brick deep in an obstacle or another body.
 [[nodiscard]] Simulation build_world(const Scene& scene, const std::vector<LoadedBody>& bodies,
                                      const Observer& observer);
 
@@ -51,9 +50,8 @@ struct Preparation {
 /// Throws Error(kBadInput) where they are nowhere near.
 void glue_bodies(const Scene& scene, std::size_t row, Simulation& simulation);
 
-/// A small initial penetration is resolved gently; a deeper one would eject the body. Pinned nodes
-/// are ignored. Throws Error(kBadInput) naming the bodies or obstacles, the depth, and what to
-/// move.
+/// A small initial penetration is resolved gently; a deeper one would eject the body. Pinned nodes are ignored. Throws
+/// Error(kBadInput) naming the bodies or obstacles, the depth, and what to move.
 void check_start(const Scene& scene, const Simulation& simulation);
 
 }  // namespace sprung

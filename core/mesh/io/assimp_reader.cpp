@@ -311,8 +311,7 @@ const aiScene& read_scene(Assimp::Importer& importer, const std::filesystem::pat
   return *scene;
 }
 
-/// For 3MF with textures assimp 5.2 has already freed the names and images (its issue 5328), and its colours are
-/// black.
+/// For 3MF with textures assimp 5.2 has already freed the names and images (its issue 5328), and its colours are black.
 void leave_out_materials(SurfaceMesh& mesh) {
   for (Part& part : mesh.parts) part.material = -1;
   mesh.notes.emplace_back(

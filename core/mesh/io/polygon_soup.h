@@ -47,10 +47,9 @@ void add_normal(PolygonSoup& soup, const Vec3& normal);
 /// The message for a file with points and lines but no faces.
 [[nodiscard]] std::string no_faces(long points, long lines);
 
-/// The soup as a mesh: polygons are triangulated and ordered by part, vertices split where UVs or
-/// normals differ. Unused positions are kept; parts without triangles are dropped. Preconditions: rows
-/// of corners are in range. Throws Error(kBadInput) where there is no polygon, or more than an int can
-/// count.
+/// The soup as a mesh: polygons are triangulated and ordered by part, vertices split where UVs or normals differ.
+/// Unused positions are kept; parts without triangles are dropped. Preconditions: rows of corners are in range. Throws
+/// Error(kBadInput) where there is no polygon, or more than an int can count.
 [[nodiscard]] SurfaceMesh mesh_from(PolygonSoup soup, std::string_view name);
 
 }  // namespace sprung

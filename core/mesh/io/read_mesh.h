@@ -7,14 +7,13 @@
 
 namespace sprung {
 
-/// Reads OBJ, PLY, STL and OFF files by our own readers, in double precision and with the location of every
-/// error, all other formats by assimp. Reading runs in a child process whose limits of memory and time grow with
-/// the size of the file (reader_process.h), so that no file can crash, hang or exhaust this process. Several
-/// meshes in a file become parts; polygons are triangulated; textures are looked up beside the file; skins and
-/// animations are left out with a note. Throws Error(kBadInput) naming the file, the reason and, where known, the
-/// location: missing, a directory, empty, larger than 4 GiB, not a mesh, no faces, truncated, a non-finite
-/// coordinate, an index out of range, counts that exceed the file, an unsupported feature, a crash or a timeout
-/// of the reader.
+/// Reads OBJ, PLY, STL and OFF files by our own readers, in double precision and with the location of every error, all
+/// other formats by assimp. Reading runs in a child process whose limits of memory and time grow with the size of the
+/// file (reader_process.h), so that no file can crash, hang or exhaust this process. Several meshes in a file become
+/// parts; polygons are triangulated; textures are looked up beside the file; skins and animations are left out with a
+/// note. Throws Error(kBadInput) naming the file, the reason and, where known, the location: missing, a directory,
+/// empty, larger than 4 GiB, not a mesh, no faces, truncated, a non-finite coordinate, an index out of range, counts
+/// that exceed the file, an unsupported feature, a crash or a timeout of the reader.
 [[nodiscard]] SurfaceMesh read_mesh(const std::filesystem::path& file);
 
 /// The same in this process, without limits and without textures: for tests of the readers. assimp may crash the

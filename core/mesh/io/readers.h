@@ -22,9 +22,8 @@ using FindText = std::function<std::optional<std::string>(const std::string& nam
 /// lines are skipped.
 [[nodiscard]] std::vector<SurfaceMaterial> read_mtl(std::string_view text);
 
-/// The mesh in the text of an OFF file, including the vertex attributes of COFF, NOFF and STOFF. `name` is that
-/// of the file, for messages. Throws Error(kBadInput) with the line, before allocating more than the text can
-/// hold.
+/// The mesh in the text of an OFF file, including the vertex attributes of COFF, NOFF and STOFF. `name` is that of the
+/// file, for messages. Throws Error(kBadInput) with the line, before allocating more than the text can hold.
 [[nodiscard]] SurfaceMesh read_off(std::string_view text, const std::string& name);
 
 /// The mesh in the bytes of a PLY file, text or binary: positions, normals, UVs of vertices or of the corners of faces,

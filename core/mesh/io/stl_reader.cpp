@@ -34,8 +34,7 @@ std::size_t binary_size(std::string_view bytes) {
   return bytes.size() < kHeader ? kHeader : kHeader + kFacet * std::size_t{word_at(bytes, 80, 4)};
 }
 
-/// Text files begin with "solid", but so do many binary ones: these have the declared size, or bytes that no text
-/// has.
+/// Text files begin with "solid", but so do many binary ones: these have the declared size, or bytes that no text has.
 bool is_text(std::string_view bytes) {
   const std::size_t first = bytes.find_first_not_of(" \t\r\n");
   if (first == std::string_view::npos || !bytes.substr(first).starts_with("solid")) return false;

@@ -31,9 +31,8 @@ struct Closing {
   std::vector<double> cap_areas;  // for each shell
 };
 
-/// Fills every loop of open sides with a cap, appends its triangles (source -1) and points to `mesh` and
-/// to its shell, and remeasures that shell. A loop that touches itself is filled in parts.
-/// Deterministic.
+/// Fills every loop of open sides with a cap, appends its triangles (source -1) and points to `mesh` and to its shell,
+/// and remeasures that shell. A loop that touches itself is filled in parts. Deterministic.
 Closing close_shells(WeldedMesh& mesh, SurfaceComponents& shells);
 
 }  // namespace sprung

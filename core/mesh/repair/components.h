@@ -56,8 +56,7 @@ class EdgePairs {
   std::vector<Side> open_;
 };
 
-/// A component of the surface, connected by edges and consistently oriented: the way most of its triangles were
-/// given.
+/// A component of the surface, connected by edges and consistently oriented: the way most of its triangles were given.
 struct SurfaceComponent {
   std::vector<int> triangles;  // rows of the triangles given, ascending
   double volume = 0;           // signed; negative for an inside-out shell; meaningless while it is open
@@ -87,9 +86,8 @@ struct SurfaceComponents {
   std::vector<bool> flipped;  // for each triangle, whether it was flipped to agree with its neighbours
 };
 
-/// Splits welded triangles into consistently oriented shells, flipping triangles in place. At edges of
-/// more than two triangles, those with solid between them are paired, so that bodies touching there come
-/// apart.
+/// Splits welded triangles into consistently oriented shells, flipping triangles in place. At edges of more than two
+/// triangles, those with solid between them are paired, so that bodies touching there come apart.
 [[nodiscard]] SurfaceComponents find_shells(const Points& points, Triangles& triangles);
 
 [[nodiscard]] double triangle_area(const Points& points, const Triangles& triangles, int row);

@@ -37,12 +37,12 @@ Skin ball_of_points() {
   return ball;
 }
 
-/// What players make of a film: rows of its buffer, the later ones added to the first.
-class StageItem {
+/// The animation as viewers decode it: rows of its buffer, later ones added to the first.
+class DecodedAnimation {
  public:
-  explicit StageItem(const AnimatedMesh& film) : vertices_(add_quantized(buffer_, film)), json_(buffer_.json()) {
+  explicit DecodedAnimation(const AnimatedMesh& film) : vertices_(add_quantized(buffer_, film)), json_(buffer_.json()) {
     count_ = film.first.positions.rows();
-    std::sscanf(vertices_.placement.c_str(), ",\"translation\":[%f,%f,%f],\"scale\":[%f,", &origin_[0], &origin_[1],
+    std::sscanf(vertices_.transform.c_str(), ",\"translation\":[%f,%f,%f],\"scale\":[%f,", &origin_[0], &origin_[1],
                 &origin_[2], &scale_);
   }
   [[nodiscard]] double error() const { return vertices_.error; }
@@ -104,7 +104,7 @@ TEST(QuantizedGlb, KeepsPositionsWithinItsErrorAndNormalsWithinADegreeOrTwo) {
   for (const double degrees : {20.0, 180.0}) {
     SCOPED_TRACE(degrees);
     const AnimatedMesh film = turning_ball(ball, degrees);
-    const StageItem player(film);
+    const DecodedAnimation player(film);
     double way = 0.3;
     double error = 0;
     int float_frames = 0;
