@@ -6,7 +6,7 @@
 
 namespace sprung {
 
-/// Sets of the numbers 0 .. count - 1 that merge; a set is named by its smallest member.
+/// Disjoint sets of the numbers 0 .. count - 1 (union-find); a set is named by its smallest member.
 class DisjointSets {
  public:
   explicit DisjointSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }

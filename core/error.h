@@ -5,7 +5,7 @@
 
 namespace sprung {
 
-/// What went wrong, as far as the caller has to tell; the value is the exit code of the program.
+/// The kind of an error, as far as callers distinguish it; the value is the program's exit code.
 enum class ErrorKind { kFailed = 1, kUsage = 2, kBadInput = 3, kDiverged = 4 };
 
 /// The one exception that sprung throws at its borders. The message names the place, the value and what to do.
@@ -18,7 +18,7 @@ class Error : public std::runtime_error {
   ErrorKind kind_;
 };
 
-/// The motion of an actor came to no good end. The world stands where it was right for the last time.
+/// The simulation of a body diverged. The world is left in its last valid state.
 class Diverged : public Error {
  public:
   Diverged(std::size_t actor, const std::string& message) : Error(ErrorKind::kDiverged, message), actor_(actor) {}

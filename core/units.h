@@ -5,7 +5,7 @@
 
 namespace sprung {
 
-/// What a quantity measures, and so the units it may be written in.
+/// The dimension of a quantity, which determines its units.
 enum class Dimension {
   kNone,
   kRatio,
@@ -23,13 +23,13 @@ enum class Dimension {
 };
 
 /// The quantity written as "3 cm", "3cm" or "0.03" in the base unit of its dimension: SI, degrees for angles. A bare
-/// number is in the base unit already. Throws Error(kBadInput) naming the text and the units that would do.
+/// number is in the base unit already. Throws Error(kBadInput) naming the text and the accepted units.
 [[nodiscard]] double parse_quantity(std::string_view text, Dimension dimension);
 
 /// A whole number. Throws Error(kBadInput).
 [[nodiscard]] int parse_whole(std::string_view text);
 
-/// The units it may be written in, the base unit first; none for plain numbers.
+/// The units of a dimension, the base unit first; none for plain numbers.
 [[nodiscard]] std::vector<std::string_view> units_of(Dimension dimension);
 
 /// "m", "Pa", "degrees" ...; empty for plain numbers.

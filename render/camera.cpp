@@ -29,17 +29,17 @@ Mat3 camera_axes(double azimuth, double elevation) {
 }
 
 /// The corners of the bounds and, a little further out, those of the floor below.
-Points points_to_see(const Bounds& bounds) {
+Points points_to_see(const AlignedBox& bounds) {
   Points points(12, 3);
   for (int c = 0; c < 8; ++c) {
-    for (int k = 0; k < 3; ++k) points(c, k) = ((c >> k) & 1) != 0 ? bounds.high[k] : bounds.low[k];
+    for (int k = 0; k < 3; ++k) points(c, k) = ((c >> k) & 1) != 0 ? bounds.max()[k] : bounds.min()[k];
   }
-  const Vec3 sides = bounds.high - bounds.low;
+  const Vec3 sides = bounds.sizes();
   const double x = kFloorMargin * std::max(sides.x(), sides.y());
   const double z = kFloorMargin * std::max(sides.z(), sides.y());
   for (int c = 0; c < 4; ++c) {
-    points.row(8 + c) << ((c & 1) != 0 ? bounds.high.x() + x : bounds.low.x() - x), bounds.low.y(),
-        ((c & 2) != 0 ? bounds.high.z() + z : bounds.low.z() - z);
+    points.row(8 + c) << ((c & 1) != 0 ? bounds.max().x() + x : bounds.min().x() - x), bounds.min().y(),
+        ((c & 2) != 0 ? bounds.max().z() + z : bounds.min().z() - z);
   }
   return points;
 }
@@ -51,12 +51,6 @@ struct Extent {
 };
 
 }  // namespace
-
-void Bounds::include(const Points& points) {
-  if (points.rows() == 0) return;
-  low = low.cwiseMin(points.colwise().minCoeff().transpose());
-  high = high.cwiseMax(points.colwise().maxCoeff().transpose());
-}
 
 Camera frame_points(const Points& points, double aspect, double azimuth, double elevation, bool orthographic) {
   assert(points.rows() > 0 && aspect > 0);
@@ -92,8 +86,8 @@ Camera frame_points(const Points& points, double aspect, double azimuth, double 
   return camera;
 }
 
-Camera frame_bounds(const Bounds& bounds, double aspect, double azimuth, double elevation) {
-  assert(!bounds.empty());
+Camera frame_bounds(const AlignedBox& bounds, double aspect, double azimuth, double elevation) {
+  assert(!bounds.isEmpty());
   return frame_points(points_to_see(bounds), aspect, azimuth, elevation);
 }
 

@@ -13,13 +13,6 @@ struct Camera {
   double shift = 0;                    // of the picture to the right, in half widths
 };
 
-struct Bounds {
-  Vec3 low = Vec3::Constant(1e300);
-  Vec3 high = Vec3::Constant(-1e300);
-  void include(const Points& points);
-  [[nodiscard]] bool empty() const { return low.x() > high.x(); }
-};
-
 /// A camera that sees all of the points (n x 3, m; n >= 1) with a margin at the given width / height, as near as it can
 /// be, from azimuth (degrees about y, 0 looks along -z) and elevation (degrees above the horizon).
 [[nodiscard]] Camera frame_points(const Points& points, double aspect, double azimuth = 30, double elevation = 14,
@@ -29,6 +22,6 @@ struct Bounds {
 [[nodiscard]] Camera carried_around(const Camera& camera, const Vec3& center, double degrees);
 
 /// A camera that sees all of `bounds` in the same way, and a rim of floor around it, where the shadow falls.
-[[nodiscard]] Camera frame_bounds(const Bounds& bounds, double aspect, double azimuth = 30, double elevation = 14);
+[[nodiscard]] Camera frame_bounds(const AlignedBox& bounds, double aspect, double azimuth = 30, double elevation = 14);
 
 }  // namespace sprung

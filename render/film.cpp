@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "core/io/file_lock.h"
+#include "core/files.h"
 #include "core/io/process.h"
 
 namespace sprung {
@@ -18,13 +18,6 @@ namespace sprung {
 namespace {
 
 using RawOptions = std::vector<std::string>;
-
-std::string lower_extension(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
 
 /// To BT.709 with even sides (4:2:0 needs them), the last row and column repeated where they are odd. Left alone,
 /// ffmpeg would convert by BT.601 and tag nothing, and players would guess.
@@ -110,34 +103,24 @@ void require_ffmpeg() {
 }
 
 struct FilmWriter::Process {
-  std::filesystem::path file;
-  std::filesystem::path partial;
-  FileLock lock;  // of the partial film; tells a folder that cannot be written before ffmpeg does in its own words
+  FileLock lock;  // of the partial film; reports a folder that cannot be written before ffmpeg does in its own words
+  PartialFile file;
   int width;
   int height;
   ChildProcess child;
-  bool is_in_place = false;
 
   Process(const std::filesystem::path& f, int w, int h, double fps)
-      : file(f),
-        partial(partial_name(f)),
-        lock(partial),
+      : lock(partial_name(f)),
+        file(f, partial_name(f)),
         width(w),
         height(h),
-        child(ffmpeg_command(partial, w, h, fps)) {}
-  ~Process() {
-    if (is_in_place) return;
-    std::error_code ignored;
-    std::filesystem::remove(partial, ignored);
-  }
-  Process(const Process&) = delete;
-  Process& operator=(const Process&) = delete;
+        child(ffmpeg_command(file.path(), w, h, fps)) {}
 
   /// The first of the last words is the cause, the others follow from it.
   [[noreturn]] void fail(int status) const {
-    const std::string words = child.last_words();
-    throw Error(ErrorKind::kFailed, fmt::format("{}: ffmpeg ended with status {}: {}", file.string(), status,
-                                                words.substr(0, words.find('\n'))));
+    const std::string words = child.error_output();
+    throw Error(ErrorKind::kFailed, fmt::format("{}: ffmpeg ended with status {}: {}", file.final_path().string(),
+                                                status, words.substr(0, words.find('\n'))));
   }
 };
 
@@ -154,8 +137,9 @@ FilmWriter::~FilmWriter() = default;
 void FilmWriter::write(const Image& image) {
   if (process_ == nullptr) throw Error(ErrorKind::kFailed, "a picture came after the film was closed");
   if (image.width != process_->width || image.height != process_->height) {
-    throw Error(ErrorKind::kFailed, fmt::format("{}: a picture of {}x{} in a film of {}x{}", process_->file.string(),
-                                                image.width, image.height, process_->width, process_->height));
+    throw Error(ErrorKind::kFailed,
+                fmt::format("{}: a picture of {}x{} in a film of {}x{}", process_->file.final_path().string(),
+                            image.width, image.height, process_->width, process_->height));
   }
   if (!process_->child.write(std::as_bytes(std::span(image.pixels)))) process_->fail(process_->child.finish());
 }
@@ -165,10 +149,7 @@ void FilmWriter::close() {
   const auto process = std::move(process_);
   const int status = process->child.finish();
   if (status != 0) process->fail(status);
-  std::error_code error;
-  std::filesystem::rename(process->partial, process->file, error);
-  if (error) throw Error(ErrorKind::kFailed, process->file.string() + ": cannot write the film: " + error.message());
-  process->is_in_place = true;
+  process->file.publish();
 }
 
 }  // namespace sprung

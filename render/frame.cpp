@@ -15,29 +15,30 @@ constexpr double kSmallestSize = 1e-9;  // m
 constexpr double kGrid = 0.25;          // of a body's radius: to what the maps' sides are rounded
 
 /// Low and high of all shapes along three directions (rows), in stage space.
-Bounds extent(const std::vector<SkinShape>& shapes, const StageSpace& space, const Mat3& directions) {
-  Bounds bounds;
+AlignedBox extent(const std::vector<SkinShape>& shapes, const StageSpace& space, const Mat3& directions) {
+  AlignedBox bounds;
   const Mat3 scaled = directions.transpose() * space.scale;
   for (const SkinShape& shape : shapes) {
-    bounds.include(((shape.positions.cast<double>().rowwise() - space.center.transpose()) * scaled).eval());
+    bounds.extend(
+        bounding_box(((shape.positions.cast<double>().rowwise() - space.center.transpose()) * scaled).eval()));
   }
-  if (bounds.empty()) bounds.low = bounds.high = Vec3::Zero();
+  if (bounds.isEmpty()) bounds = AlignedBox(Vec3::Zero().eval());
   return bounds;
 }
 
 /// Outwards by `border`, then to multiples of `grid`.
-Bounds widened(Bounds bounds, const Vec3& border, double grid) {
+AlignedBox widened(AlignedBox bounds, const Vec3& border, double grid) {
   for (int k = 0; k < 3; ++k) {
-    bounds.low[k] = grid * std::floor((bounds.low[k] - border[k]) / grid);
-    bounds.high[k] = grid * std::ceil((bounds.high[k] + border[k]) / grid);
+    bounds.min()[k] = grid * std::floor((bounds.min()[k] - border[k]) / grid);
+    bounds.max()[k] = grid * std::ceil((bounds.max()[k] + border[k]) / grid);
   }
   return bounds;
 }
 
-LightView view(const Bounds& bounds, const Mat3& directions) {
+LightView view(const AlignedBox& bounds, const Mat3& directions) {
   LightView light;
-  light.low = bounds.low;
-  light.sides = (bounds.high - bounds.low).cwiseMax(Vec3::Constant(1e-6));
+  light.low = bounds.min();
+  light.sides = bounds.sizes().cwiseMax(Vec3::Constant(1e-6));
   light.clip_from_stage.setIdentity();
   const Vec3 stretch = 2 * light.sides.cwiseInverse();
   light.clip_from_stage.topLeftCorner<3, 3>() = stretch.asDiagonal() * directions;
@@ -53,9 +54,8 @@ Mat3 rows(const Vec3& right, const Vec3& up, const Vec3& away) {
 
 }  // namespace
 
-StageSpace::StageSpace(const Bounds& bounds)
-    : center(0.5 * (bounds.low + bounds.high)),
-      scale(1 / std::max(0.5 * (bounds.high - bounds.low).norm(), kSmallestSize)) {
+StageSpace::StageSpace(const AlignedBox& bounds)
+    : center(bounds.center()), scale(1 / std::max(0.5 * bounds.diagonal().norm(), kSmallestSize)) {
   center = center.cast<float>().cast<double>();  // the shaders subtract it in single precision
 }
 
@@ -78,27 +78,23 @@ LightFrame fit_light(const std::vector<SkinShape>& shapes, const StageSpace& spa
   const Mat3 key = rows(right, light.cross(right), -light);
   frame.key = view(widened(extent(shapes, space, key), Vec3::Constant(0.1 * body_radius), grid), key);
 
-  const Bounds box = extent(shapes, space, Mat3::Identity());
+  const AlignedBox box = extent(shapes, space, Mat3::Identity());
   frame.bodies = box;
   const Vec3 around(0.6 * body_radius, 0.05 * body_radius, 0.6 * body_radius);
-  Bounds down = widened(box, around, grid);
-  frame.zenith = view({{down.low.x(), down.low.z(), -down.high.y()}, {down.high.x(), down.high.z(), -down.low.y()}},
-                      rows(x, z, -y));
-  const double floor = std::min(ground_height, box.low.y()) - 0.01 * body_radius;
-  frame.nadir =
-      view({{down.low.x(), down.low.z(), floor}, {down.high.x(), down.high.z(), down.high.y()}}, rows(x, z, y));
+  const AlignedBox down = widened(box, around, grid);
+  const Vec3 low = down.min();
+  const Vec3 high = down.max();
+  frame.zenith = view({Vec3(low.x(), low.z(), -high.y()), Vec3(high.x(), high.z(), -low.y())}, rows(x, z, -y));
+  const double floor = std::min(ground_height, box.min().y()) - 0.01 * body_radius;
+  frame.nadir = view({Vec3(low.x(), low.z(), floor), Vec3(high.x(), high.z(), high.y())}, rows(x, z, y));
 
   // Where rays from the light through the bodies meet the ground: p - light * (height above ground) / light_y.
-  Bounds cast = extent(shapes, space, rows(x - y * (light.x() / light.y()), y, z - y * (light.z() / light.y())));
+  AlignedBox cast = extent(shapes, space, rows(x - y * (light.x() / light.y()), y, z - y * (light.z() / light.y())));
   const Vec3 shift = light * (ground_height / light.y());
-  cast.low += Vec3(shift.x(), 0, shift.z());
-  cast.high += Vec3(shift.x(), 0, shift.z());
-  Bounds floor_box;
-  floor_box.low = box.low.cwiseMin(cast.low);
-  floor_box.high = box.high.cwiseMax(cast.high);
-  floor_box = widened(floor_box, Vec3::Constant(1.6 * body_radius), grid);
-  frame.ground.low = {floor_box.low.x(), floor_box.low.z()};
-  frame.ground.sides = {floor_box.high.x() - floor_box.low.x(), floor_box.high.z() - floor_box.low.z()};
+  cast.translate(Vec3(shift.x(), 0, shift.z()));
+  const AlignedBox floor_box = widened(box.merged(cast), Vec3::Constant(1.6 * body_radius), grid);
+  frame.ground.low = {floor_box.min().x(), floor_box.min().z()};
+  frame.ground.sides = {floor_box.max().x() - floor_box.min().x(), floor_box.max().z() - floor_box.min().z()};
   return frame;
 }
 
@@ -189,12 +185,10 @@ View make_view(const DrawFrame& frame, const Camera& camera, double aspect) {
 PixelRectangle seen_rectangle(const View& view, int width, int height) {
   Eigen::Array2d low(1, 1);
   Eigen::Array2d high(-1, -1);
-  const Bounds& bounds = view.frame.light.bodies;
+  const AlignedBox& bounds = view.frame.light.bodies;
   for (int corner = 0; corner < 8; ++corner) {
-    const Vec3 place((corner & 1) != 0 ? bounds.high.x() : bounds.low.x(),
-                     (corner & 2) != 0 ? bounds.high.y() : bounds.low.y(),
-                     (corner & 4) != 0 ? bounds.high.z() : bounds.low.z());
-    const Eigen::Vector4d clip = view.clip_from_stage * place.homogeneous();
+    const Vec3 point = bounds.corner(static_cast<AlignedBox::CornerType>(corner));
+    const Eigen::Vector4d clip = view.clip_from_stage * point.homogeneous();
     if (view.near > 0 && clip.w() < view.near) return {0, 0, width, height};
     low = low.min(clip.head<2>().array() / clip.w());
     high = high.max(clip.head<2>().array() / clip.w());

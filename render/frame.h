@@ -13,7 +13,7 @@ struct StageSpace {
   Vec3 center = Vec3::Zero();  // m
   double scale = 1;            // 1/m
 
-  explicit StageSpace(const Bounds& bounds);
+  explicit StageSpace(const AlignedBox& bounds);
   [[nodiscard]] Vec3 from_world(const Vec3& point) const { return (point - center) * scale; }
 };
 
@@ -36,7 +36,7 @@ struct LightView {
 /// Where the bodies of one frame are, as the light maps need it. Sizes are rounded up to a grid, so that they and the
 /// texels stay put from frame to frame while a body moves a little.
 struct LightFrame {
-  Bounds bodies;           // stage space
+  AlignedBox bodies;       // stage space
   LightView key;           // along the key light
   LightView zenith;        // downwards
   LightView nadir;         // upwards, from the ground

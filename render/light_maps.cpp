@@ -92,7 +92,7 @@ constexpr float kShaded = 0.5F;    // depth of the ground where there may be sha
 
 /// How far it is from the highest body to the ground along the key light; an upper bound.
 double longest_way(const DrawFrame& frame) {
-  return std::max(frame.light.bodies.high.y() - frame.ground_height, 1e-3 * frame.body_radius) / to_key_light().y();
+  return std::max(frame.light.bodies.max().y() - frame.ground_height, 1e-3 * frame.body_radius) / to_key_light().y();
 }
 
 std::string shadow_settings(Quality quality) {
@@ -226,7 +226,7 @@ void GroundMaps::draw_shadow(const GlProgram& program, const DrawFrame& frame) c
   program.set("mask_texels", float(key_mask_.size) / sides.x());
   program.set("mask_texel_size", (Eigen::Vector2f(1, sides.x() / sides.y()) / key_mask_.size).eval());
   program.set("longest_way", float(longest_way(frame)));
-  const double lowest = std::max(frame.light.bodies.low.y() - frame.ground_height, 0.0) / to_key_light().y();
+  const double lowest = std::max(frame.light.bodies.min().y() - frame.ground_height, 0.0) / to_key_light().y();
   program.set("lowest_way", float(lowest));
   bind_texture(gl_, 0, key_mask_.color);
   program.set("key_mask", 0);

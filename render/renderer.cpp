@@ -19,9 +19,8 @@ constexpr double kGhost = 0.28;  // how much of a ghost is seen
 
 /// Radius of the ball around a skin's bounding box, m.
 double radius(const Skin& skin) {
-  Bounds bounds;
-  bounds.include(skin.positions);
-  return bounds.empty() ? 0 : 0.5 * (bounds.high - bounds.low).norm();
+  const AlignedBox bounds = bounding_box(skin.positions);
+  return bounds.isEmpty() ? 0 : 0.5 * bounds.diagonal().norm();
 }
 
 /// That share of another picture.
@@ -43,7 +42,7 @@ void check_options(const Stage& stage, const RenderOptions& options) {
   if (options.samples != 1 && options.samples != 4 && options.samples != 16) {
     throw Error(ErrorKind::kUsage, "samples " + std::to_string(options.samples) + ": must be 1, 4 or 16");
   }
-  if (stage.bounds.empty() || stage.skins.size() != stage.default_colors.size()) {
+  if (stage.bounds.isEmpty() || stage.skins.size() != stage.default_colors.size()) {
     throw Error(ErrorKind::kFailed, "a stage needs bounds and one default colour a skin");
   }
 }

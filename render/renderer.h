@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/skin/appearance.h"
+#include "core/appearance.h"
 #include "core/skin/skin.h"
 #include "render/camera.h"
 #include "render/environment.h"
@@ -43,7 +43,7 @@ struct Stage {
   ColorMap color_map = ColorMap::kViridis;
   bool has_ground = true;
   GroundPlane ground;
-  Bounds bounds;                             // of the whole motion: sizes shadow map, ground fade and light
+  AlignedBox bounds;                         // of the whole motion: sizes shadow map, ground fade and light
   std::optional<Environment> environment{};  // in place of the studio's sky and walls; the key light stays
 };
 

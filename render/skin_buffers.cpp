@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "core/appearance.h"
 #include "core/io/decode_image.h"
 #include "render/shaders.h"
 
@@ -129,8 +130,6 @@ Sides visible_sides(const Skin& skin) {
 namespace {
 
 enum Attribute : GLuint { kPosition, kNormal, kUv, kColor, kShare };  // as in surface.vert
-
-float linear_from_srgb(float c) { return c <= 0.04045F ? c / 12.92F : std::pow((c + 0.055F) / 1.055F, 2.4F); }
 
 /// The square root of linear light: what the shaders multiply and keep.
 template <class Colors>

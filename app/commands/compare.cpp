@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "core/io/files.h"
+#include "core/files.h"
 #include "render/image/compare.h"
 #include "render/image/png.h"
 

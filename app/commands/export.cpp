@@ -9,7 +9,7 @@
 #include "app/inspect/forecast.h"
 #include "app/scene/cached_film.h"
 #include "core/error.h"
-#include "core/io/files.h"
+#include "core/files.h"
 #include "core/io/mesh_export.h"
 #include "core/simulation/run_cache.h"
 #include "core/simulation/simulate.h"
@@ -21,8 +21,8 @@ namespace {
 void print_formats() {
   fmt::print("One file a frame, by a name with a number like skin_{{:04}}.obj:\n");
   for (const MeshFormat& format : mesh_formats()) {
-    const std::string kept = names_of(format.keeps);
-    fmt::print("  {:<7} {}; keeps {}\n", format.ending, format.what, kept.empty() ? "nothing else" : kept);
+    const std::string kept = describe(format.keeps);
+    fmt::print("  {:<7} {}; keeps {}\n", format.extension, format.what, kept.empty() ? "nothing else" : kept);
   }
   fmt::print(
       "All frames in one file:\n"
@@ -31,7 +31,7 @@ void print_formats() {
       "  .pc2    Point Cache 2, .mdd LightWave: vertices of each frame, for Blender's Mesh Cache modifier\n"
       "  .xdmf   bricks with their fields, and skins, for ParaView; the numbers are in .xdmf.h5\n"
       "Left out:\n");
-  for (const LeftOut& format : left_out_formats()) fmt::print("  {}: {}\n", format.format, format.reason);
+  for (const UnsupportedFormat& format : unsupported_formats()) fmt::print("  {}: {}\n", format.format, format.reason);
 }
 
 /// Before any work is lost.

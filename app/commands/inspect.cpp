@@ -8,7 +8,7 @@
 #include "app/inspect/inspection.h"
 #include "app/scene/cached_film.h"
 #include "core/error.h"
-#include "core/io/files.h"
+#include "core/files.h"
 #include "core/simulation/cache.h"
 #include "core/simulation/run_cache.h"
 #include "core/text.h"

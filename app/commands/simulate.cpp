@@ -17,7 +17,7 @@
 #include "app/scene/cached_film.h"
 #include "app/scene/scene_file.h"
 #include "core/error.h"
-#include "core/io/files.h"
+#include "core/files.h"
 #include "core/simulation/run_cache.h"
 #include "core/simulation/simulate.h"
 #include "core/simulation/simulation.h"
@@ -136,9 +136,9 @@ void run_simulation(const SceneOptions& options, const Console& console) {
     if (cache) cache->close();
     if (places.folder) {
       make_folder(*places.folder);
-      write_whole_file(*places.folder / "probes.csv", probes_csv(recording));
-      write_whole_file(*places.folder / "probes.json", probes_json(recording));
-      write_whole_file(*places.folder / "manifest.json", manifest_json(scene, recording));
+      write_file(*places.folder / "probes.csv", probes_csv(recording));
+      write_file(*places.folder / "probes.json", probes_json(recording));
+      write_file(*places.folder / "manifest.json", manifest_json(scene, recording));
     }
     print_summary(recording);
   });

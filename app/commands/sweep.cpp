@@ -7,7 +7,7 @@
 #include "app/scene/make_scene.h"
 #include "app/scene/scene_file.h"
 #include "core/error.h"
-#include "core/io/files.h"
+#include "core/files.h"
 #include "core/simulation/run_cache.h"
 #include "core/text.h"
 
@@ -71,14 +71,14 @@ void write_runs(const SceneOptions& options, const Console& console) {
   for (std::size_t run = 0; run < choices.size(); ++run) {
     const fs::path place = folder / name_of_run(run);
     make_folder(place);
-    write_whole_file(place / "scene.toml", scenes[run]);
+    write_file(place / "scene.toml", scenes[run]);
     commands += fmt::format("sprung simulate {} -o {} -o {} --resume\n", quoted(place / "scene.toml"),
                             quoted(place / "run.h5"), quoted(place / ""));
     runs += (run == 0 ? "" : ",\n") + json_of(choices[run], name_of_run(run));
   }
-  write_whole_file(folder / "runs.json", fmt::format("[\n{}\n]\n", runs));
-  write_whole_file(folder / "commands", commands);
-  write_whole_file(folder / "run",
+  write_file(folder / "runs.json", fmt::format("[\n{}\n]\n", runs));
+  write_file(folder / "commands", commands);
+  write_file(folder / "run",
                    fmt::format("# All runs one after the other, then their table.\nsh {}\n"
                                "sprung sweep {} --table | tee {}\n",
                                quoted(folder / "commands"), quoted(folder), quoted(folder / "table.csv")));

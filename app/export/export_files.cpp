@@ -12,10 +12,10 @@
 #include "app/film/drawn_shapes.h"
 #include "app/film/film_cameras.h"
 #include "core/error.h"
-#include "core/io/animated_glb.h"
-#include "core/io/files.h"
+#include "core/io/animation.h"
+#include "core/files.h"
 #include "core/io/mesh_export.h"
-#include "core/io/point_cache.h"
+#include "core/io/animation.h"
 #include "core/io/xdmf.h"
 #include "core/simulation/run_cache.h"
 #include "core/text.h"
@@ -62,7 +62,7 @@ void export_numbered(const ExportTarget& target, const CachedFilmView& view, con
                      const Console& console) {
   each_frame(view, range, 1, [&](int frame, const std::vector<PosedMesh>& meshes) {
     const fs::path file = target.numbered ? target.numbered->file(frame) : target.file;
-    const std::string lost = frame == range.first ? lost_in(*find_mesh_format(file), meshes) : "";
+    const std::string lost = frame == range.first ? lost_content(*find_mesh_format(file), meshes) : "";
     if (!lost.empty()) console.warn(fmt::format("{} files do not keep: {}", file.extension().string(), lost));
     export_meshes(meshes, file);
   });
@@ -88,7 +88,7 @@ void export_animation(const ExportTarget& target, const CachedFilmView& view, co
     }
   });
   const double error =
-      write_animated_glb(animated, times, target.file, target.quantize ? GlbNumbers::kQuantized : GlbNumbers::kFloats);
+      write_animated_glb(animated, times, target.file, target.quantize ? GlbPrecision::kQuantized : GlbPrecision::kFloat);
   if (target.quantize) {
     console.note(fmt::format("{}: coordinates are off by at most {:.2g} mm", target.file.string(), 1e3 * error));
   }
@@ -100,7 +100,7 @@ void export_page(const ExportTarget& target, const CachedFilmView& view, const F
   const Reach reach = reach_of(view.simulation, cached_recording(view.cache));
   const Camera camera = cameras_of(view.film, reach, 0).at(range.first - 1);
   const auto [width, height] = view.film.render.resolution;
-  write_whole_file(target.file, viewer.page(view.film.fps, camera, double(width) / height));
+  write_file(target.file, viewer.page(view.film.fps, camera, double(width) / height));
 }
 
 void export_points(const ExportTarget& target, const CachedFilmView& view, const FrameRange& range) {
@@ -147,7 +147,7 @@ ExportTarget parse_export_target(std::string_view words) {
   if (ending == ".xdmf") return {.kind = Kind::kXdmf, .numbered = {}, .file = file};
   if (find_mesh_format(file) != nullptr) return {.kind = Kind::kMeshes, .numbered = {}, .file = file};
   std::vector<std::string_view> known{".html", ".pc2", ".mdd", ".xdmf"};
-  for (const MeshFormat& format : mesh_formats()) known.push_back(format.ending);
+  for (const MeshFormat& format : mesh_formats()) known.push_back(format.extension);
   refuse(words, fmt::format("'{}' files cannot be written{}", ending, did_you_mean(ending, known)));
 }
 

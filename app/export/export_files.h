@@ -8,7 +8,7 @@
 #include "app/console/console.h"
 #include "app/film/film_output.h"
 #include "app/scene/film.h"
-#include "core/io/files.h"
+#include "core/files.h"
 #include "core/io/mesh_export.h"
 #include "core/simulation/cache.h"
 #include "core/simulation/simulation.h"

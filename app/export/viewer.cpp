@@ -9,7 +9,7 @@
 
 #include "app/export/viewer_page.h"
 #include "app/report/png_base64.h"
-#include "core/io/animated_glb.h"
+#include "core/io/animation.h"
 
 namespace sprung {
 namespace {
@@ -34,14 +34,14 @@ std::string list_of(const Vec3& vector) { return fmt::format("[{}, {}, {}]", vec
 
 void ViewerFilm::add_frame(const std::vector<PosedMesh>& meshes) {
   if (frames_.empty()) {
-    model_ = still_glb(meshes);
+    model_ = static_glb(meshes);
     frames_.resize(meshes.size());
   }
   for (std::size_t i = 0; i < meshes.size(); ++i) frames_[i].emplace_back(meshes[i].positions.cast<float>());
 }
 
 std::string ViewerFilm::page(double fps, const Camera& camera, double aspect) const {
-  Eigen::AlignedBox3d box;
+  AlignedBox box;
   for (const std::vector<Floats3>& frames : frames_) {
     for (const Floats3& frame : frames) {
       box.extend(Vec3(frame.colwise().minCoeff().cast<double>()));

@@ -6,7 +6,7 @@
 
 #include "app/report/experiment_picture.h"
 #include "core/error.h"
-#include "core/io/files.h"
+#include "core/files.h"
 #include "render/image/png.h"
 
 namespace sprung {

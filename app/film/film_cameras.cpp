@@ -24,11 +24,11 @@ Eigen::Matrix<double, 26, 3> directions() {
   return rows.cast<double>();
 }
 
-Points corners_of(const Bounds& bounds) {
+Points corners_of(const AlignedBox& bounds) {
   Points corners(8, 3);
   for (int corner = 0; corner < 8; ++corner) {
     for (int axis = 0; axis < 3; ++axis) {
-      corners(corner, axis) = on_high_side(corner, axis) ? bounds.high[axis] : bounds.low[axis];
+      corners(corner, axis) = on_high_side(corner, axis) ? bounds.max()[axis] : bounds.min()[axis];
     }
   }
   return corners;
@@ -36,10 +36,10 @@ Points corners_of(const Bounds& bounds) {
 
 /// What of the obstacles is near the bodies: of large ones no more than that.
 void add_obstacles(const Simulation& simulation, const Recording& recording, Reach& reach) {
-  const double near = kNear * (reach.bounds.high - reach.bounds.low).maxCoeff();
-  const Vec3 low = reach.bounds.low.array() - near;
-  const Vec3 high = reach.bounds.high.array() + near;
-  Bounds seen = reach.bounds;
+  const double near = kNear * reach.bounds.sizes().maxCoeff();
+  const Vec3 low = reach.bounds.min().array() - near;
+  const Vec3 high = reach.bounds.max().array() + near;
+  AlignedBox seen = reach.bounds;
   for (const StageObstacle& obstacle : simulation.obstacles) {
     if (obstacle.skin.positions.rows() == 0) continue;
     for (const double time : recording.progress) {
@@ -47,13 +47,11 @@ void add_obstacles(const Simulation& simulation, const Recording& recording, Rea
       const Vec3 from = skin.colwise().minCoeff().transpose().cwiseMax(low);
       const Vec3 to = skin.colwise().maxCoeff().transpose().cwiseMin(high);
       if ((from.array() > to.array()).any()) continue;
-      Points corners(2, 3);
-      corners << from.transpose(), to.transpose();
-      seen.include(corners);
+      seen.extend(AlignedBox(from, to));
       if (obstacle.movement.is_still()) break;
     }
   }
-  if (seen.low == reach.bounds.low && seen.high == reach.bounds.high) return;
+  if (seen.min() == reach.bounds.min() && seen.max() == reach.bounds.max()) return;
   reach.bounds = seen;
   reach.around = corners_of(seen);
 }
@@ -122,7 +120,7 @@ Reach reach_of(const Simulation& simulation, const Recording& recording) {
     Eigen::Index next = 0;
     for (std::size_t actor = 0; actor < frame.size(); ++actor) {
       const Points skin = simulation.world.bodies[actor].skin_positions(frame[actor].cast<double>());
-      reach.bounds.include(skin);
+      reach.bounds.extend(bounding_box(skin));
       sum += frame[actor].cast<double>().colwise().sum().transpose();
       nodes += frame[actor].rows();
       for (int way = 0; way < 26; ++way) {
@@ -133,7 +131,7 @@ Reach reach_of(const Simulation& simulation, const Recording& recording) {
     }
     reach.middles.emplace_back(sum / double(std::max<Eigen::Index>(nodes, 1)));
   }
-  reach.lowest = reach.bounds.low.y();
+  reach.lowest = reach.bounds.min().y();
   add_obstacles(simulation, recording, reach);
   reach.ground = ground_height(simulation.world.obstacles);
   return reach;
@@ -145,8 +143,7 @@ Reach joined(const std::vector<Reach>& runs) {
   std::size_t frames = 0;
   for (const Reach& run : runs) {
     frames = std::max(frames, run.bodies.size());
-    all.bounds.low = all.bounds.low.cwiseMin(run.bounds.low);
-    all.bounds.high = all.bounds.high.cwiseMax(run.bounds.high);
+    all.bounds.extend(run.bounds);
     all.lowest = std::min(all.lowest, run.lowest);
     if (!all.ground) all.ground = run.ground;
     if (&run != &runs.front()) all.around = stacked({all.around, run.around});
@@ -168,7 +165,7 @@ Reach joined(const std::vector<Reach>& runs) {
 std::vector<Camera> cameras_of(const Film& scene, const Reach& reach, double reserved) {
   const SceneCamera& chosen = scene.camera;
   const std::size_t frames = reach.bodies.size();
-  const Vec3 center = 0.5 * (reach.bounds.low + reach.bounds.high);
+  const Vec3 center = reach.bounds.center();
   const Points seen = points_to_see(scene, reach, center);
   const double aspect = (1 - reserved) * scene.render.resolution[0] / scene.render.resolution[1];
   std::vector<Points> stops;

@@ -8,7 +8,7 @@ namespace sprung {
 /// What the cameras of a film have to see: the bounds of the whole motion, and for each frame the points that reach
 /// furthest in 26 directions, with the ground below them, where shadows fall.
 struct Reach {
-  Bounds bounds;
+  AlignedBox bounds;
   std::vector<Points> bodies;  // by frame
   std::vector<Vec3> middles;   // by frame: mean of the nodes
   Points around{0, 3};         // of obstacles near the bodies

@@ -8,8 +8,7 @@
 #include <charconv>
 
 #include "core/error.h"
-#include "core/io/file_lock.h"
-#include "core/io/files.h"
+#include "core/files.h"
 #include "core/text.h"
 #include "render/film.h"
 #include "render/image/exr.h"

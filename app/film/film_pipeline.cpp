@@ -9,8 +9,8 @@
 
 #include "app/film/labels.h"
 #include "core/error.h"
+#include "core/files.h"
 #include "core/io/decode_image.h"
-#include "core/mesh/io/file_checks.h"
 #include "core/types.h"
 
 namespace sprung {
@@ -231,7 +231,7 @@ Image sheet_of(const std::vector<Image>& pictures, int columns, int margin) {
 std::optional<Environment> read_surroundings(const SceneRender& render) {
   if (render.environment.empty()) return std::nullopt;
   const std::string name = render.environment.string();
-  const std::string bytes = read_bytes(render.environment);
+  const std::string bytes = read_file(render.environment);
   const Panorama panorama = decode_panorama(std::as_bytes(std::span(bytes)), name);
   try {
     return Environment(panorama);

@@ -59,7 +59,7 @@ FilmStage::FilmStage(const Film& scene, const Simulation& simulation, const Reco
   if (render.contacts) add_contacts();
 }
 
-Stage FilmStage::stage(const Bounds& bounds) const {
+Stage FilmStage::stage(const AlignedBox& bounds) const {
   Stage stage;
   for (const StageItem& player : items_) {
     stage.skins.push_back(player.skin.get());

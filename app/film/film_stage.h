@@ -23,7 +23,7 @@ class FilmStage {
   FilmStage(const Film& scene, const Simulation& simulation, const Recording& recording);
 
   /// `bounds` of the whole motion, m.
-  [[nodiscard]] Stage stage(const Bounds& bounds) const;
+  [[nodiscard]] Stage stage(const AlignedBox& bounds) const;
   /// One shape for each of the stage's skins. `part` of the way to the next frame, 0 to 1.
   [[nodiscard]] std::vector<SkinShape> shapes(std::size_t frame, double part = 0) const;
   /// Of colours that stand for something.

@@ -171,18 +171,12 @@ namespace {
 constexpr double kNear = 0.08;  // of a brick: what is no further apart touches
 constexpr double kCell = 0.5;   // of a brick
 
-Bounds bounds_of(const Points& points) {
-  Bounds bounds;
-  bounds.include(points);
-  return bounds;
+bool is_within(const AlignedBox& bounds, const Vec3& place, double margin) {
+  return ((place - bounds.min()).array() > -margin).all() && ((bounds.max() - place).array() > -margin).all();
 }
 
-bool is_within(const Bounds& bounds, const Vec3& place, double margin) {
-  return ((place - bounds.low).array() > -margin).all() && ((bounds.high - place).array() > -margin).all();
-}
-
-bool are_near(const Bounds& a, const Bounds& b, double margin) {
-  return ((a.low - b.high).array() < margin).all() && ((b.low - a.high).array() < margin).all();
+bool are_near(const AlignedBox& a, const AlignedBox& b, double margin) {
+  return ((a.min() - b.max()).array() < margin).all() && ((b.min() - a.max()).array() < margin).all();
 }
 
 /// Places, one at most in each cell.
@@ -217,10 +211,10 @@ Contacts::Contacts(const Simulation& simulation)
 
 Points Contacts::at(const std::vector<Points>& nodes, double time) const {
   std::vector<Points> skins;
-  std::vector<Bounds> bounds;
+  std::vector<AlignedBox> bounds;
   for (std::size_t actor = 0; actor < nodes.size(); ++actor) {
     skins.push_back(simulation_.world.bodies[actor].skin_positions(nodes[actor]));
-    bounds.push_back(bounds_of(skins.back()));
+    bounds.push_back(bounding_box(skins.back()));
   }
   Thinned found;
   for (std::size_t actor = 0; actor < nodes.size(); ++actor) {
@@ -232,7 +226,7 @@ Points Contacts::at(const std::vector<Points>& nodes, double time) const {
     }
     for (const Solid& solid : solids_) {
       const Pose pose = pose_at(*solid.obstacle, time);
-      const Bounds room = bounds_of(solid.obstacle->skin.positions);
+      const AlignedBox room = bounding_box(solid.obstacle->skin.positions);
       for (const auto& vertex : skins[actor].rowwise()) {
         const Vec3 place = pose.rotation.transpose() * (vertex.transpose() - pose.translation);
         if (is_within(room, place, near) && solid.surface.at(place).distance < near) found.add(vertex.transpose());

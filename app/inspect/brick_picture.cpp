@@ -52,7 +52,7 @@ std::vector<Eigen::Vector3f> brick_colors(const BrickGrid& grid, const Solid& so
   return colors;
 }
 
-Image draw(const std::vector<Skin>& skins, const std::vector<Eigen::Vector3f>& colors, const Bounds& bounds,
+Image draw(const std::vector<Skin>& skins, const std::vector<Eigen::Vector3f>& colors, const AlignedBox& bounds,
            const Camera& camera) {
   Stage stage;
   std::vector<SkinShape> shapes;
@@ -62,7 +62,7 @@ Image draw(const std::vector<Skin>& skins, const std::vector<Eigen::Vector3f>& c
   }
   stage.default_colors = colors;
   stage.bounds = bounds;
-  stage.ground.height = bounds.low.y();
+  stage.ground.height = bounds.min().y();
   Renderer renderer(stage, {.width = kSide, .height = kSide, .samples = 4});
   return renderer.draw(shapes, camera);
 }
@@ -71,9 +71,9 @@ Image draw(const std::vector<Skin>& skins, const std::vector<Eigen::Vector3f>& c
 
 Image draw_bricks(const Preparation& prepared) {
   const Simulation& simulation = prepared.simulation;
-  Bounds bounds;
-  for (const SoftBody& actor : simulation.world.bodies) bounds.include(actor.positions);
-  const double line = kLine * (bounds.high - bounds.low).norm();
+  AlignedBox bounds;
+  for (const SoftBody& actor : simulation.world.bodies) bounds.extend(bounding_box(actor.positions));
+  const double line = kLine * bounds.diagonal().norm();
   std::vector<Skin> skins;
   std::vector<Skin> bricks;
   std::vector<Eigen::Vector3f> colors;

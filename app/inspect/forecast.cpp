@@ -71,11 +71,11 @@ double seconds_a_picture(const Simulation& simulation, const Film& scene) {
   for (const SoftBody& drawn : simulation.world.bodies) {
     stage.skins.push_back(&drawn.skin);
     stage.default_colors.emplace_back(Eigen::Vector3f::Constant(0.7F));
-    stage.bounds.include(drawn.skin.positions);
+    stage.bounds.extend(bounding_box(drawn.skin.positions));
     shapes.push_back({drawn.skin.positions.cast<float>(), drawn.skin.normals.cast<float>()});
   }
   stage.has_ground = ground_height(simulation.world.obstacles).has_value();
-  stage.ground.height = stage.bounds.low.y();
+  stage.ground.height = stage.bounds.min().y();
   const auto [width, height] = scene.render.resolution;
   Renderer renderer(stage, {.width = width,
                             .height = height,

@@ -11,7 +11,7 @@
 #include "app/scene/cached_film.h"
 #include "app/scene/scene_file.h"
 #include "core/error.h"
-#include "core/io/files.h"
+#include "core/files.h"
 #include "core/simulation/simulate.h"
 
 namespace py = pybind11;

@@ -199,7 +199,7 @@ Image LiveWorld::draw(int width, int height, double azimuth, double elevation) c
     shapes.push_back({positions.cast<float>(), normals.cast<float>()});
     stage.skins.push_back(&body.skin);
     stage.default_colors.emplace_back(0.85F, 0.2F, 0.16F);
-    stage.bounds.include(positions);
+    stage.bounds.extend(bounding_box(positions));
   }
   const std::optional<double> ground = ground_height(simulation_.world.obstacles);
   stage.has_ground = ground.has_value();

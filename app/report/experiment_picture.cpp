@@ -65,9 +65,9 @@ void make_white(Image& image, const Image& backdrop) {
 
 Image draw_on_white(const Skin& skin, const ExperimentPictureOptions& options) {
   Stage stage;
-  stage.bounds.include(skin.positions);
+  stage.bounds = bounding_box(skin.positions);
   stage.has_ground = options.has_ground;
-  stage.ground.height = stage.bounds.low.y();
+  stage.ground.height = stage.bounds.min().y();
   const double aspect = double(options.width) / options.height;
   const Camera camera = frame_points(skin.positions, aspect, options.azimuth, options.elevation);
   const Image backdrop = draw(stage, {}, camera, options);
@@ -85,11 +85,7 @@ std::vector<Eigen::Vector3f> colors_of(const Eigen::VectorXd& values) {
   return colors;
 }
 
-double line_width(const Points& shown) {
-  Bounds bounds;
-  bounds.include(shown);
-  return kLine * (bounds.high - bounds.low).norm();
-}
+double line_width(const Points& shown) { return kLine * bounding_box(shown).diagonal().norm(); }
 
 }  // namespace
 

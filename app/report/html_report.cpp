@@ -7,7 +7,7 @@
 #include "app/report/check_tables.h"
 #include "app/report/png_base64.h"
 #include "app/report/report_style.h"
-#include "core/io/files.h"
+#include "core/files.h"
 #include "render/image/color_map.h"
 
 namespace sprung {
@@ -148,7 +148,7 @@ std::string html_report(const Report& report) {
 }
 
 void write_html_report(const Report& report, const std::filesystem::path& file) {
-  write_whole_file(file, html_report(report));
+  write_file(file, html_report(report));
 }
 
 }  // namespace sprung

@@ -11,7 +11,7 @@
 
 #include "app/report/locking.h"
 #include "app/report/uniaxial.h"
-#include "core/io/files.h"
+#include "core/files.h"
 
 namespace sprung {
 
@@ -290,7 +290,7 @@ Figure stress_stretch_figure() {
 }
 
 void write_svg(const Figure& figure, const std::filesystem::path& file) {
-  write_whole_file(file, svg_text(figure, SvgUse::kFile));
+  write_file(file, svg_text(figure, SvgUse::kFile));
 }
 
 }  // namespace sprung

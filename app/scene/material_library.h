@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/law/material.h"
-#include "core/skin/appearance.h"
+#include "core/appearance.h"
 
 namespace sprung {
 

@@ -61,7 +61,7 @@ ReportPicture picture_of(const std::string& name, const Film& scene_as_it_is) {
   return {.experiment = name, .caption = caption, .image = std::move(drawn.image), .colors = std::move(drawn.colors)};
 }
 
-void add_picture(const FinishedCase& one, Report& report) {
+void add_image(const FinishedCase& one, Report& report) {
   if (one.scene != nullptr) {
     report.pictures.push_back(picture_of(one.name, *one.scene));
   } else if (one.built_in->draw != nullptr) {
@@ -127,7 +127,7 @@ void make_report(const std::filesystem::path& folder, const std::vector<Finished
     report.checks.insert(report.checks.end(), one.result.checks.begin(), one.result.checks.end());
     report.experiments.push_back(described(one));
     report.tables.push_back({.experiment = one.name, .table = one.result.table});
-    add_picture(one, report);
+    add_image(one, report);
     progress.update(double(report.experiments.size()));
   }
   add_plots(cases, folder, report);

@@ -12,7 +12,7 @@
 namespace sprung {
 namespace {
 
-/// Lattice points as single numbers that keep their order: by z, then y, then x.
+/// Lattice points as single numbers of the same order: by z, then y, then x.
 class LatticeOrder {
  public:
   explicit LatticeOrder(const std::vector<Eigen::Vector3i>& cells) {
@@ -44,7 +44,7 @@ class LatticeOrder {
   Eigen::Vector3i high_;
 };
 
-/// The sorted keys together with themselves moved by `step`, each once.
+/// The union of the sorted keys and the same shifted by `step`.
 std::vector<std::int64_t> with_moved(const std::vector<std::int64_t>& keys, std::int64_t step) {
   std::vector<std::int64_t> moved(keys);
   for (std::int64_t& key : moved) key += step;
@@ -80,7 +80,7 @@ void number_nodes(BrickGrid& grid) {
   grid.lattice.reserve(node_keys.size());
   for (const std::int64_t key : node_keys) grid.lattice.push_back(order.point(key));
 
-  // Both lists ascend, so one pass over the nodes finds a given corner of every cell.
+  // Both lists are ascending, so one pass over the nodes finds a given corner of every cell.
   for (std::size_t corner = 0; corner < 8; ++corner) {
     std::int64_t step = 0;
     for (int axis = 0; axis < 3; ++axis) step += (corner >> axis & 1) != 0 ? order.step(axis) : 0;
@@ -94,7 +94,7 @@ void number_nodes(BrickGrid& grid) {
 
 void number_nodes(BrickGrid& grid, DisjointSets& corners) {
   const LatticeOrder order(grid.cells);
-  std::vector<std::pair<std::int64_t, int>> found;  // place and name of each node
+  std::vector<std::pair<std::int64_t, int>> found;  // position and set of each node
   for (int corner = 0; corner < isize(corners); ++corner) {
     if (corners.find(corner) != corner) continue;
     const Eigen::Vector3i offset(corner & 1, corner >> 1 & 1, corner >> 2 & 1);

@@ -10,29 +10,28 @@
 
 namespace sprung {
 
-/// The solid of one brick within one cell, where the surface cuts the cell. The brick is usually at that cell; solid
-/// that was given to a neighbour (slivers.h) rides in a brick beside it.
+/// The solid of one brick within one cell that the surface cuts. The brick is usually at that cell; an absorbed sliver
+/// (absorb_slivers) belongs to a neighbouring brick.
 struct SolidPatch {
   Eigen::Vector3i cell = Eigen::Vector3i::Zero();
   int brick = 0;
-  std::bitset<512> samples;            // bit x + 8 y + 64 z: the middle of that eighth of the cell along each axis
-  std::vector<Eigen::Vector3f> spots;  // of solid too thin for those, in [0, 1] along each axis of the cell
+  std::bitset<512> samples;            // bit x + 8 y + 64 z: the point at (x, y, z) + 1/2 eighths of the cell
+  std::vector<Eigen::Vector3f> spots;  // points of solid too thin for samples, in [0, 1]^3 of the cell
 };
 
-/// The bricks of one body: the cells of a cubic lattice that hold solid, and the nodes at their corners.
-/// Corner c of a brick lies at cell + (c & 1, c >> 1 & 1, c >> 2 & 1): x runs fastest.
-/// Where a cell holds several pieces of solid that do not hang together in it (two fingers) there is a brick for each
-/// piece: the cell then comes several times, one row after the other. Bricks share nodes only where solid runs from one
-/// to the next through a face (see pieces.h), so a lattice point may come several times as well, one row after the
-/// other; every node is at one lattice point.
+/// The bricks of one body: the cells of a cubic lattice that hold solid, and the nodes at their corners. Corner c of a
+/// brick lies at cell + (c & 1, c >> 1 & 1, c >> 2 & 1): x runs fastest. A cell that contains several disconnected
+/// pieces of solid (two fingers) has a brick for each piece: the cell then occurs several times, in consecutive rows.
+/// Bricks share nodes only where solid continues from one to the next through a face (see pieces.h), so a lattice point
+/// may occur several times as well, in consecutive rows, with a node each.
 struct BrickGrid {
-  Vec3 origin = Vec3::Zero();          // corner of cell (0, 0, 0), m, in the body's rest frame
-  double brick_size = 0;               // side h, m
-  std::vector<Eigen::Vector3i> cells;  // n; ordered by z, then y, then x
-  std::vector<double> fill;            // n; solid in the brick over its volume, in (0, 1], a little more at slivers.h
+  Vec3 origin = Vec3::Zero();             // corner of cell (0, 0, 0), m, in the body's rest frame
+  double brick_size = 0;                  // side h, m
+  std::vector<Eigen::Vector3i> cells;     // n; ordered by z, then y, then x
+  std::vector<double> fill;               // n; solid volume over brick volume; in (0, 1], above with absorbed slivers
   std::vector<std::array<int, 8>> nodes;  // n; rows of lattice, by corner
   std::vector<Eigen::Vector3i> lattice;   // m; lattice coordinates of each node, ordered by z, then y, then x
-  std::vector<SolidPatch> patches;        // of the cells that the surface cuts, ordered as cells; empty: not looked for
+  std::vector<SolidPatch> patches;        // of the cells that the surface cuts, ordered as cells; empty: not computed
 
   [[nodiscard]] int brick_count() const { return isize(cells); }
   [[nodiscard]] int node_count() const { return isize(lattice); }
@@ -46,19 +45,19 @@ struct BrickGrid {
 /// Every cell of a box of counts x, y, z, completely filled, its low corner at the origin.
 [[nodiscard]] BrickGrid make_box_grid(const Eigen::Vector3i& counts, double brick_size);
 
-/// Fills in the nodes of a grid whose cells are set, in their order and each once: neighbours share the corners that
-/// coincide. Cost: linear in the cells.
+/// Numbers the nodes of a grid whose cells are set, ordered and distinct: neighbours share coincident corners. Cost:
+/// linear in the cells.
 void number_nodes(BrickGrid& grid);
 
-/// The same for cells that may come several times: `corners` says which of the bricks' corners (8 brick + corner) are
-/// one node; only corners at the same lattice point may be.
+/// The same for cells that may repeat: `corners` joins the brick corners (8 brick + corner) that share a node; these
+/// must be at the same lattice point.
 void number_nodes(BrickGrid& grid, DisjointSets& corners);
 
-/// Takes the bricks out for which `gone` (n) is set, with the nodes that none of the others has; what of their solid
-/// has a patch belongs to `heir` (n; rows before) from then on.
+/// Removes the bricks for which `gone` (n) is set, with the nodes that only they use; their patches pass to the bricks
+/// `heir` (n; rows before the removal).
 void remove_bricks(BrickGrid& grid, const std::vector<bool>& gone, const std::vector<int>& heir);
 
-/// How many pieces the bricks hang together in, by their nodes.
+/// The number of connected components of the bricks, by shared nodes.
 [[nodiscard]] int count_connected(const BrickGrid& grid);
 
 /// Finds the bricks at a cell of the lattice.
@@ -71,7 +70,7 @@ class CellIndex {
     for (std::size_t i = 0; i < cells.size(); ++i) row_of_cell_.emplace(key(cells[i]), i);
   }
 
-  /// The first one where the cell comes several times; the others follow it. -1: there is none.
+  /// The first brick of a cell with several, which are consecutive; -1: none.
   [[nodiscard]] int at(const Eigen::Vector3i& cell) const {
     const auto found = row_of_cell_.find(key(cell));
     return found == row_of_cell_.end() ? -1 : found->second;
@@ -87,18 +86,18 @@ class CellIndex {
   std::unordered_map<std::uint64_t, int> row_of_cell_;
 };
 
-/// The bricks that share a face with a brick, by side: 2 axis, + 1 on the high side; -1: none there. Of several the
-/// first. `index` is the grid's.
+/// The neighbours of a brick by side (2 axis, + 1 on the high side); -1: none. Of several the first. `index`: of this
+/// grid.
 [[nodiscard]] std::array<int, 6> face_neighbours(const BrickGrid& grid, const CellIndex& index, std::size_t brick);
 
-/// Which corners of bricks meet at each node, in the order of the bricks: those of node i are corners[first[i]] ..
-/// corners[first[i + 1] - 1], a corner counted as 8 brick + corner.
+/// The brick corners (8 brick + corner) at each node, in the order of the bricks: those of node i are corners[first[i]]
+/// .. corners[first[i + 1] - 1].
 struct CornerLists {
   std::vector<int> first;
   std::vector<int> corners;
 };
 
-/// `bricks` by their nodes, corner by corner.
+/// `bricks`: their nodes by corner.
 [[nodiscard]] CornerLists list_corners(const std::vector<std::array<int, 8>>& bricks, int node_count);
 
 /// One of the six sides of a brick.
@@ -108,10 +107,10 @@ struct BrickFace {
   int brick;
 };
 
-/// All sides of the bricks that are `shown` (one entry a brick), brick by brick.
+/// All sides of the bricks that are `shown` (one entry per brick), brick by brick.
 [[nodiscard]] std::vector<BrickFace> brick_faces(const BrickGrid& grid, const std::vector<bool>& shown);
 
-/// Those that no two of the shown bricks share.
+/// Those not shared by two shown bricks.
 [[nodiscard]] std::vector<BrickFace> outer_faces(const BrickGrid& grid, const std::vector<bool>& shown);
 [[nodiscard]] std::vector<BrickFace> outer_faces(const BrickGrid& grid);
 

@@ -7,25 +7,25 @@
 namespace sprung {
 namespace {
 
-// The rays of a cell stand one in each of 16 rows, at 16 different places along the rows (a rank-1 lattice): a wall
-// along an axis is then met at 16 levels and not at 4, as with a 4 x 4 grid.
+// The rays of a cell form a rank-1 lattice, one in each of 16 rows at 16 different positions: an axis-aligned wall is
+// then resolved at 16 levels instead of the 4 of a 4 x 4 grid.
 constexpr std::int64_t kRays = 16;
 constexpr std::int64_t kRayPitch = kSnap / kRays;
 constexpr std::int64_t kShuffle = 5;
 
-/// Weight of a direction that does not cross the surface in a cell at all: decides only where none does.
+/// The weight of a direction whose rays do not cross the surface in a cell: decisive only where none do.
 constexpr float kLeastWeight = 1e-6F;
 
 struct Intersection {
   std::int64_t ray;  // rays of one column of cells are consecutive
-  double depth;      // cells from the box's low side
+  double depth;      // cells from the low side of the box
   int turn;          // +1 entering, -1 leaving
 };
 
 /// A column of cells along the rays.
 struct Column {
   std::vector<float> lengths;    // inside, summed over the rays
-  std::vector<float> crossings;  // of the surface, within each cell
+  std::vector<float> crossings;  // with the surface, within each cell
 };
 
 class Caster {
@@ -55,7 +55,7 @@ class Caster {
   }
 
  private:
-  /// Where the ray of row `row` stands in the cell `cell_u` of that row.
+  /// The position of the ray of row `row` in cell `cell_u` of that row.
   static SnappedPlace place_of(std::int64_t cell_u, std::int64_t row) {
     return {cell_u * kSnap + (row * kShuffle % kRays) * kRayPitch + kRayPitch / 2, row * kRayPitch + kRayPitch / 2};
   }
@@ -69,7 +69,7 @@ class Caster {
     if (triangle.is_empty()) return;
     const auto [low_u, low_v] = triangle.low();
     const auto [high_u, high_v] = triangle.high();
-    // Rows half a pitch or more outside the triangle's extent cannot meet it, nor can the cells beside it.
+    // Rows half a pitch or more outside the triangle's extent cannot meet it, and neither can cells outside it.
     const std::int64_t last_row = std::min<std::int64_t>(high_v / kRayPitch, surface_.counts[axis_v_] * kRays - 1);
     const std::int64_t last_cell = std::min<std::int64_t>(high_u / kSnap, surface_.counts[axis_u_] - 1);
     for (std::int64_t row = low_v / kRayPitch; row <= last_row; ++row) {
@@ -80,7 +80,7 @@ class Caster {
     }
   }
 
-  /// By counting, since rays are dense; then the few crossings of each ray by depth.
+  /// Counting sort by ray, then the few crossings of each ray by depth.
   void sort_by_ray() {
     const std::int64_t cells = std::int64_t{surface_.counts[axis_u_]} * surface_.counts[axis_v_];
     std::vector<std::size_t> next(std::size_t(cells * kRays) + 1, 0);
@@ -105,7 +105,7 @@ class Caster {
       const double depth = crossings[i].depth;
       if (winding != 0) add_length(crossings[i - 1].depth, depth, column.lengths);
       winding += crossings[i].turn;
-      // A crossing just between two cells measures neither.
+      // A crossing exactly between two cells counts for neither.
       if (const double cell = std::floor(depth); cell != depth) column.crossings[std::size_t(cell)] += 1.0F;
     }
     return i;

@@ -11,38 +11,38 @@
 
 namespace sprung {
 
-/// A closed surface in units of cells: the box of `counts` cells that holds it begins at 0.
+/// A closed surface in units of cells, inside the box of `counts` cells that starts at 0.
 struct CellSurface {
   Points points;  // p x 3, in [0, counts]
   const Triangles& triangles;
   Eigen::Vector3i counts;
 };
 
-/// The most cells along one axis that the exact arithmetic of the caster can tell apart.
+/// The most cells along one axis for which the caster's integer arithmetic is exact.
 inline constexpr int kMostCellsPerAxis = 1 << 16;
 
-/// What rays along the axes say of each cell of the box; x fastest, then y, then z.
+/// Estimates of each cell's fill by rays along the axes; x fastest, then y, then z.
 struct CellSums {
-  std::vector<float> weighted;  // sum over the axes of weight x share of the cell inside
-  std::vector<float> weight;    // sum over the axes: the more a ray direction crosses the surface in a cell, the better
-                                // it measures it; directions along a flat wall hardly count
+  std::vector<float> weighted;  // sum over the axes of weight x fraction of the cell inside
+  std::vector<float> weight;  // sum over the axes: the more a direction's rays cross the surface in a cell, the better
+                              // they measure it; rays along a flat wall hardly count
 };
 
-/// Adds to `sums` what rays along `axis` say: 16 rays a cell, the length inside exact along each. Inside is where the
-/// surface winds around a point at all. Rays and edges are compared in whole numbers, with one rule for ties, so every
-/// ray enters as often as it leaves, and a ray along a face or through an edge does no harm.
+/// Adds the estimates of rays along `axis` to `sums`: 16 rays per cell, with exact lengths inside. Inside is where the
+/// winding number is not 0. Rays and edges are compared in integers with one rule for ties, so that every ray enters as
+/// often as it leaves, even along a face or through an edge.
 void cast_columns(const CellSurface& surface, int axis, CellSums& sums);
 
-inline constexpr std::int64_t kSnap = 4096;  // whole numbers a cell, across the lines
+inline constexpr std::int64_t kSnap = 4096;  // integer steps per cell, across the lines
 
-/// A place across lines along an axis: u along the next axis, v along the one after it, in whole numbers.
+/// The position of a line along an axis: u along the next axis, v along the one after it, in steps of 1 / kSnap cells.
 struct SnappedPlace {
   std::int64_t u;
   std::int64_t v;
 };
 
-/// A triangle as lines along an axis see it. Lines and edges are compared in whole numbers, with one rule for ties, so
-/// that every line crosses a closed surface as often inwards as outwards.
+/// A triangle projected along an axis. Lines and edges are compared in integers with one rule for ties, so that every
+/// line crosses a closed surface as often inwards as outwards.
 class SnappedTriangle {
  public:
   SnappedTriangle(const CellSurface& surface, int row, int axis) {
@@ -60,7 +60,7 @@ class SnappedTriangle {
     std::swap(depths_[1], depths_[2]);
   }
 
-  /// Seen from the side: no line crosses it.
+  /// Parallel to the lines: none crosses it.
   [[nodiscard]] bool is_empty() const { return area_ == 0; }
   /// +1 where lines enter, -1 where they leave: an outward triangle seen counter-clockwise along the axis faces
   /// forward.
@@ -74,7 +74,7 @@ class SnappedTriangle {
             std::max({corners_[0].v, corners_[1].v, corners_[2].v})};
   }
 
-  /// Where the line at `place` crosses it, in cells; nothing where it passes by.
+  /// Where the line at `place` crosses it, in cells; nothing where it misses.
   [[nodiscard]] std::optional<double> depth_at(const SnappedPlace& place) const {
     double weighted = 0;
     double sum = 0;
@@ -94,8 +94,7 @@ class SnappedTriangle {
   static std::int64_t side_of(const SnappedPlace& a, const SnappedPlace& b, const SnappedPlace& p) {
     return (b.u - a.u) * (p.v - a.v) - (b.v - a.v) * (p.u - a.u);
   }
-  /// Of the two triangles that share an edge, which run along it in opposite directions, just one owns the points on
-  /// it.
+  /// Of the two triangles at an edge, which traverse it in opposite directions, exactly one owns the points on it.
   static bool owns_edge(const SnappedPlace& a, const SnappedPlace& b) { return b.v < a.v || (b.v == a.v && b.u < a.u); }
 
   std::array<SnappedPlace, 3> corners_;

@@ -15,12 +15,12 @@ using Cell = Eigen::Vector3i;
 
 constexpr double kRounding = 1e-9;  // bricks
 
-/// Finds the brick that holds a point, or the nearest one.
+/// Finds the brick that contains a point, or the nearest one.
 class BrickFinder {
  public:
   explicit BrickFinder(const BrickGrid& grid) : grid_(grid), index_(grid) {}
 
-  /// `place` in lattice units. -1: no brick holds it.
+  /// `place` in lattice units. -1: no brick contains it.
   [[nodiscard]] int holding(const Vec3& place) const {
     const Cell cell = place.array().floor().cast<int>();
     if (const int brick = index_.at(cell); brick >= 0) return brick;
@@ -73,7 +73,7 @@ class BrickFinder {
   CellIndex index_;
 };
 
-/// Of a point from the brick that it rides in, in bricks; 0 inside.
+/// The distance of a point from its brick, in bricks; 0 inside.
 double distance_from_brick(const Vec3& local) {
   return (local - local.cwiseMax(Vec3::Zero()).cwiseMin(Vec3::Ones())).norm();
 }

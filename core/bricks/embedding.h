@@ -6,47 +6,46 @@
 
 namespace sprung {
 
-/// Where points ride: each in one brick, by trilinear weights of its eight corners. Outside its brick the weights are
-/// continued; `outside` counts such points.
+/// Points embedded in bricks: each in one brick, by trilinear weights of its eight corners. Points outside their brick
+/// are extrapolated; `outside` counts them.
 struct Embedding {
   std::vector<int> brick;  // n
-  Points local;            // n x 3; place in the brick, 0..1 along each axis where the point is inside
+  Points local;            // n x 3; coordinates in the brick, in [0, 1] where the point is inside
   int outside = 0;
-  double furthest = 0;  // distance of those from their bricks at most, in bricks
+  double furthest = 0;  // largest distance of these from their bricks, in bricks
 };
 
-/// The shares of a brick's eight corners in the point at `local` (0..1 along each axis); their sum is 1.
+/// The trilinear weights of a brick's eight corners at `local` (in [0, 1]^3 inside); their sum is 1.
 [[nodiscard]] CornerWeights trilinear_weights(const Vec3& local);
 
-/// Their derivatives by the place in the brick: 8 x 3.
+/// Their derivatives with respect to `local`: 8 x 3.
 [[nodiscard]] Eigen::Matrix<double, 8, 3> trilinear_gradients(const Vec3& local);
 
-/// `points` in the grid's frame, m; `outward` (n x 3, any length; or 0 rows) is where the solid under each ends. Where
-/// a cell holds several pieces of solid (BrickGrid::patches) a point rides in the brick of the nearest solid, of that
-/// which lies inward of it where `outward` is known.
+/// Embeds `points` (grid's frame, m) with outward normals `outward` (n x 3, any length; or 0 rows: unknown). Where a
+/// cell has several bricks, a point belongs to that of the nearest solid (BrickGrid::patches); where its normal is
+/// known, of the nearest solid on its inward side.
 [[nodiscard]] Embedding embed(const BrickGrid& grid, const Points& points, const Points& outward = Points(0, 3));
 
-/// Where the embedded points are for these node positions; n x 3, m. A rigid or affine motion of the nodes moves them
-/// in exactly the same way.
+/// The embedded points for these node positions; n x 3, m. They follow affine motions of the nodes exactly.
 [[nodiscard]] Points deform_points(const BrickGrid& grid, const Embedding& embedding, const Points& node_positions);
 
-/// What the nodes carry (m), mixed at the embedded points; n. Points outside their brick count as on its side.
+/// Interpolates nodal values (m) at the embedded points; n. Points outside their brick are clamped to it.
 [[nodiscard]] Eigen::VectorXd interpolate(const BrickGrid& grid, const Embedding& embedding,
                                           const Eigen::VectorXd& of_nodes);
 
-/// Rest normals carried by the inverse transpose of the deformation gradient at each point; n x 3, not normalised.
+/// Rest normals transformed by the inverse transpose of the deformation gradient at each point; n x 3, not normalised.
 [[nodiscard]] Points deform_normals(const BrickGrid& grid, const Embedding& embedding, const Points& normals,
                                     const Points& node_positions);
 
-/// Embedded points and normals as they ride on a field that is smooth across the faces of the bricks, where trilinear
-/// interpolation has creases. Each node knows where it is and the mean gradient of its bricks there; these linear maps
+/// Deforms embedded points and normals by a field that is smooth across the faces of the bricks, where trilinear
+/// interpolation has creases. Each node has a position and the mean deformation gradient of its bricks; the maps
 /// L_k(p) = x_k + F_k (p - X_k) are blended within each brick,
 ///   f(p) = sum_k w_k(p) L_k(p),   w_k = products of s or 1 - s along the axes,   s(t) = 3 t^2 - 2 t^3,
-/// so that f and its gradient agree on faces that bricks share. It goes through the nodes, and a rigid or affine motion
-/// of them moves the points in exactly the same way.
+/// so that f and its gradient are continuous across faces. It interpolates the nodes, and the points follow affine
+/// motions of the nodes exactly.
 class SmoothEmbedding {
  public:
-  /// For these positions of the nodes (m x 3, m); both outlive it.
+  /// `nodes`: their positions (m x 3, m). Both must outlive it.
   SmoothEmbedding(const BrickGrid& grid, const Points& nodes);
 
   /// n x 3, m.
@@ -63,7 +62,7 @@ class SmoothEmbedding {
 
   const BrickGrid& grid_;
   const Points& nodes_;
-  std::vector<Mat3> gradients_;  // of the nodes, by metres of the grid
+  std::vector<Mat3> gradients_;  // of the nodes
 };
 
 }  // namespace sprung

@@ -12,7 +12,7 @@
 namespace sprung {
 namespace {
 
-constexpr double kHalf = 0.5;  // a cell that no line crosses the surface in is whole from this fill on, else empty
+constexpr double kHalf = 0.5;  // a cell in which no line crosses the surface is full from this fill on, else empty
 
 }  // namespace
 
@@ -64,9 +64,9 @@ std::vector<PieceItem> PieceList::items(int brick) const {
 
 namespace {
 
-constexpr double kFaceReach = 1.5;   // pitches: how near to a face what hangs together through it is looked for ...
-constexpr double kReach = 2.2;       // ... and how far it may lie apart
-constexpr double kUnknownGap = 0.5;  // cells, between pieces of which one has no samples
+constexpr double kFaceReach = 1.5;   // pitches: how near to a face links through it are sought ...
+constexpr double kReach = 2.2;       // ... and how far apart linked items may be
+constexpr double kUnknownGap = 0.5;  // cells, between two pieces of which one has no samples
 
 /// Pieces of two sets that are neighbours: through a face across `axis`, or (-1) in the same cell.
 struct PieceContact {
@@ -134,7 +134,7 @@ class Linker {
     join_by_sight(brick, other, axis);
   }
 
-  /// Of pieces that no line joins.
+  /// Of pieces joined by no line.
   void join_by_sight(int brick, int other, int axis) {
     bool are_all_joined = true;
     for (int low = list_.first(brick); low < list_.first(brick + 1); ++low) {
@@ -155,7 +155,7 @@ class Linker {
     }
   }
 
-  /// Near the face of a cell that lies across `axis` at `face`.
+  /// Near the face of a cell across `axis` at `face`.
   [[nodiscard]] std::vector<PieceItem> items_near(int brick, int axis, double face) const {
     std::vector<PieceItem> items = list_.items(brick);
     std::erase_if(
@@ -222,7 +222,7 @@ class Linker {
     return std::isfinite(gap) ? gap : kUnknownGap;
   }
 
-  /// Two pieces of a cell become one brick.
+  /// Merges two pieces of a cell into one brick.
   void unite(int a, int b) {
     sets_.merge(a, b);
     std::vector<int>& same = links_.same_brick;
@@ -298,7 +298,7 @@ PieceLinks link_pieces(const PieceList& list) { return Linker(list).run(); }
 
 namespace {
 
-/// Where the solid of a piece is, for those who look for its brick.
+/// Records the solid of each piece, by which points are assigned to bricks.
 SolidPatch patch_of(const PieceList& list, int piece, int row) {
   const int brick = list.brick_of(piece);
   const CutCell& cell = *list.cut(brick);
@@ -316,7 +316,7 @@ SolidPatch patch_of(const PieceList& list, int piece, int row) {
   return patch;
 }
 
-/// Specks that no sample is in.
+/// Specks without samples.
 bool is_unseen(const PieceList& list, int brick) {
   const CutCell* cell = list.cut(brick);
   return cell == nullptr ? !list.is_whole(brick) : cell->weights.empty();
@@ -350,7 +350,7 @@ BrickGrid rebuilt(const PieceList& list, PieceLinks& links, std::vector<bool>& u
   return grid;
 }
 
-/// The solid of unseen bricks goes to the fullest one beside each: nothing tells what else they hang together with.
+/// Adds the solid of unseen bricks to their fullest neighbour, since their connectivity is unknown.
 void give_away(const std::vector<bool>& unseen, BrickGrid& grid) {
   const CellIndex index(grid);
   std::vector<bool> gone(grid.cells.size(), false);
@@ -370,7 +370,7 @@ void give_away(const std::vector<bool>& unseen, BrickGrid& grid) {
   remove_bricks(grid, gone, heir);
 }
 
-/// What hangs together with nothing, by its size.
+/// Disconnected components, by size.
 void drop_specks(BrickGrid& grid, PieceReport& report) {
   DisjointSets sets(grid.lattice.size());
   for (const auto& nodes : grid.nodes) {
@@ -407,7 +407,7 @@ Eigen::Vector3i counts_of(const BrickGrid& grid) {
 }  // namespace
 
 PieceReport split_pieces(const Solid& solid, BrickGrid& grid) {
-  // What follows lines through the solid needs a surface that they enter as often as they leave it.
+  // Samples along lines need a surface that the lines enter as often as they leave it.
   if (grid.cells.empty() || !solid.closed || solid.thickness > 0) return {};
   const Eigen::Vector3i counts = counts_of(grid);
   Points points = (solid.points.rowwise() - grid.origin.transpose()) / grid.brick_size;

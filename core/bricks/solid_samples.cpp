@@ -22,7 +22,7 @@ struct LineCrossing {
   int turn;      // +1 entering, -1 leaving
 };
 
-/// The lines between two places (both at least 0): first and last.
+/// The first and last line between two positions (both at least 0).
 std::pair<std::int64_t, std::int64_t> lines_between(std::int64_t low, std::int64_t high) {
   return {(low + kSnapPitch / 2 - 1) / kSnapPitch, (high + kSnapPitch / 2) / kSnapPitch - 1};
 }
@@ -94,9 +94,9 @@ std::vector<InsideRun> inside_runs(const CellSurface& surface, int axis) { retur
 
 namespace {
 
-constexpr double kNudge = 1e-3;  // bricks inward, so that a point on a face is in the cell of its solid
-constexpr double kOutward = 16;  // how much more than a way inward a way outward costs
-constexpr double kNear = 0.25;   // bricks: solid this near in the point's own cell is taken without a look around
+constexpr double kNudge = 1e-3;  // bricks, an inward shift, so that a point on a face is in the cell of its solid
+constexpr double kOutward = 16;  // cost of an outward distance relative to an inward one
+constexpr double kNear = 0.25;   // bricks: solid this near in the point's own cell is taken without further search
 
 std::vector<Eigen::Vector3i> cells_of(const std::vector<SolidPatch>& patches) {
   std::vector<Eigen::Vector3i> cells;
@@ -157,8 +157,8 @@ int SolidFinder::under(const Vec3& place, const Vec3& inward) const {
 namespace {
 
 constexpr int kSamples = 512;
-constexpr double kShortest = 1e-3;  // cells: a shorter stretch inside is none
-constexpr double kSpotReach = 2.2;  // pitches: how far a spot looks for what it hangs together with
+constexpr double kShortest = 1e-3;  // cells: shorter intervals inside are ignored
+constexpr double kSpotReach = 2.2;  // pitches: the range in which a spot is linked
 constexpr float kLeastPiece = 4;    // samples
 constexpr std::size_t kMostPieces = 100;
 
@@ -191,7 +191,7 @@ Eigen::Vector3i cell_on(const InsideRun& run, int axis, int c) {
   return cell;
 }
 
-/// Inside samples that hang together along the lines.
+/// Inside samples connected along the lines.
 void join_along_lines(const CutCell& cell, DisjointSets& sets) {
   for (int sample = 0; sample < kSamples; ++sample) {
     if (!is_inside(cell, sample)) continue;
@@ -210,7 +210,7 @@ float weight_of(const CutCell& cell, int item) {
 
 bool is_solid(const CutCell& cell, int item) { return item >= kSamples || is_inside(cell, item); }
 
-/// Numbers the sets in the order of their first members; too small ones beside a larger one are 0.
+/// Numbers the sets in the order of their first members; small ones beside a larger one are 0.
 void number_pieces(DisjointSets& sets, CutCell& cell) {
   const int count = isize(sets);
   std::vector<float> weights(sets.size(), 0);
@@ -266,7 +266,7 @@ Vec3 SolidSamples::place_of(const CutCell& cell, int sample) const {
   return grid_.cells[cell.brick].cast<double>() + local * kSamplePitch;
 }
 
-/// The cells where a run begins or ends, but for those that it only touches.
+/// The cells where a run begins or ends, except those that it only touches.
 void SolidSamples::mark_cut(const std::vector<InsideRun>& runs, int axis) {
   for (const InsideRun& run : runs) {
     for (const double end : {run.from, run.to}) {
@@ -307,7 +307,7 @@ void SolidSamples::add_run(const InsideRun& run, int axis) {
   }
 }
 
-/// The part of a run in the c-th cell along it.
+/// The part of a run in its c-th cell.
 SolidSamples::Stretch SolidSamples::add_stretch(const InsideRun& run, int axis, int c, CutCell& cell) {
   const auto first = int(std::ceil(run.from * kSamplesAlong - 0.5));
   const auto last = int(std::floor(run.to * kSamplesAlong - 0.5));
@@ -345,7 +345,7 @@ void SolidSamples::find_pieces(CutCell& cell) const {
   number_pieces(sets, cell);
 }
 
-/// Where the lines leave several sets: neighbours across an edge or a corner of the samples' own lattice.
+/// If several sets remain: joins diagonal neighbours in the lattice of samples.
 void SolidSamples::join_diagonally(const CutCell& cell, DisjointSets& sets) const {
   int first = -1;
   bool is_one = true;

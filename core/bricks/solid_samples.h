@@ -15,25 +15,25 @@ namespace sprung {
 inline constexpr int kSamplesAlong = 8;
 inline constexpr double kSamplePitch = 1.0 / kSamplesAlong;  // brick lengths
 
-/// A stretch inside the surface of a line through samples.
+/// An interval inside the surface on a line of samples.
 struct InsideRun {
-  int u;        // sample numbers along the two axes that follow the line's own one: its place
+  int u;        // the line's position: sample indices along the two axes after its own
   int v;        //
   double from;  // cells
   double to;
 };
 
-/// What is inside the surface of the lines through all samples of the box along `axis`, by place and from low to high.
-/// Inside is where the surface winds around a point at all. Ties are broken as in cast_columns(). A line that does not
-/// leave the surface as often as it enters says nothing.
+/// The intervals inside the surface on all lines of samples along `axis`, by position and from low to high. Inside is
+/// where the winding number is not 0. Ties are broken as in cast_columns(). A line that does not leave the surface as
+/// often as it enters is ignored.
 [[nodiscard]] std::vector<InsideRun> inside_runs(const CellSurface& surface, int axis);
 
-/// Finds the brick whose solid is under a place of the surface, by the grid's patches.
+/// Finds the brick whose solid lies under a point of the surface, by the grid's patches.
 class SolidFinder {
  public:
   explicit SolidFinder(const BrickGrid& grid);
 
-  /// `place` and `inward` (unit, or zero where unknown) in lattice units. -1: nothing is known near the place.
+  /// `place` and `inward` (unit, or zero where unknown) in lattice units. -1: no patch near the place.
   [[nodiscard]] int under(const Vec3& place, const Vec3& inward) const;
 
  private:
@@ -48,24 +48,24 @@ class SolidFinder {
   CellIndex patches_;
 };
 
-/// A stretch of a line through samples that lies inside, in a cell, but too short to hold a sample.
+/// An interval inside the surface, in one cell, too short to contain a sample.
 struct Spot {
   Vec3 place;    // its middle, in cells
-  float weight;  // samples' worth of solid
+  float weight;  // amount of solid, in samples
 };
 
 /// The samples of a cell that the surface cuts. Sample x + 8 y + 64 z is at (x, y, z) + 1/2 eighths of the cell; spot i
-/// counts as sample 512 + i.
+/// is sample 512 + i.
 struct CutCell {
   int brick;
-  std::array<std::uint8_t, 512> lines{};  // bit axis: inside, by the line along it; 3 + axis: up to the next sample too
+  std::array<std::uint8_t, 512> lines{};  // bit axis: inside by that axis's line; 3 + axis: up to the next sample
   std::array<std::uint8_t, 512> below{};  // bit axis: inside down to the sample before
   std::vector<Spot> spots;
-  std::vector<std::uint8_t> piece;  // of each sample and spot, counted from 1; 0: outside, or too little
+  std::vector<std::uint8_t> piece;  // of each sample and spot, counted from 1; 0: outside, or too small
   std::vector<float> weights;       // of the pieces, in samples
 };
 
-/// Samples of two neighbouring cells on one line with nothing between them, of which one is a spot.
+/// Two samples on one line in neighbouring cells, at least one a spot, with no surface between them.
 struct SpotLink {
   int low_cell;  // rows of cut_cells; -1: that cell is not cut
   int low_sample;
@@ -76,7 +76,7 @@ struct SpotLink {
   int axis;
 };
 
-/// What straight lines tell of the solid in the cells of a grid, each of which comes once.
+/// Samples of the solid along lines through a grid of distinct cells.
 class SolidSamples {
  public:
   SolidSamples(const CellSurface& surface, const BrickGrid& grid);
@@ -94,7 +94,7 @@ class SolidSamples {
 
  private:
   void mark_cut(const std::vector<InsideRun>& runs, int axis);
-  /// The first and the last of a run's samples in a cell; its only spot; -1: too short for one.
+  /// The first and the last sample of a run in a cell, or its spot; -1: too short for a spot.
   struct Stretch {
     int first;
     int last;

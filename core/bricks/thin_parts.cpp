@@ -31,7 +31,7 @@ Lists samples_by_brick(const BrickGrid& grid, const std::vector<WallSample>& sam
   return lists;
 }
 
-/// Of the samples of the bricks around each of a brick's nodes; infinite where there are none.
+/// Over the samples of the bricks around each of a brick's nodes; infinite without samples.
 std::vector<double> median_thickness(const BrickGrid& grid, const std::vector<WallSample>& samples,
                                      const Lists& in_brick) {
   Lists at_node(grid.lattice.size());
@@ -58,8 +58,8 @@ std::vector<double> median_thickness(const BrickGrid& grid, const std::vector<Wa
   return medians;
 }
 
-/// The thinnest place is taken where the surface around a brick is thinnest in the middle: a few samples at a sharp
-/// edge say nothing.
+/// The thinnest place is where the median thickness around a brick is smallest, since a few samples at a sharp edge
+/// mean nothing.
 ThinPart measured(std::vector<int> bricks, const std::vector<double>& medians, const std::vector<WallSample>& samples,
                   const Lists& in_brick) {
   ThinPart part{.bricks = std::move(bricks), .thickness = std::numeric_limits<double>::infinity()};
@@ -104,10 +104,10 @@ std::vector<ThinPart> find_thin_parts(const BrickGrid& grid, const std::vector<W
 
 namespace {
 
-constexpr double kCounts = 0.05;        // of the surface: thinner parts do not count
-constexpr double kBricksAcross = 2;     // the thinnest part that counts
+constexpr double kCounts = 0.05;        // of the surface: thinner parts are irrelevant
+constexpr double kBricksAcross = 2;     // the thinnest relevant part
 constexpr double kFewestAlong = 12;     // the longest side
-constexpr double kSurfaceBricks = 0.6;  // a square of one brick's side adds so many bricks beside the volume's
+constexpr double kSurfaceBricks = 0.6;  // bricks per brick-sized square of the surface, besides those of the volume
 
 }  // namespace
 

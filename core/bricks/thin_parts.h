@@ -6,7 +6,7 @@
 
 namespace sprung {
 
-/// Bricks that hang together and hold solid that is thinner than a brick.
+/// Connected bricks whose solid is thinner than a brick.
 struct ThinPart {
   std::vector<int> bricks;    // rows of the grid
   double thickness = 0;       // m, where it is thinnest: the median around a brick
@@ -14,8 +14,8 @@ struct ThinPart {
 };
 
 /// The parts of a body that are thinner than its bricks, thinnest first. A brick counts where most of the surface in it
-/// and its neighbours is nearer to its far wall than the side of a brick, so the edge of a thick part does not; groups
-/// of less than four bricks are left out in bodies that have more. `samples` in the grid's frame.
+/// and its neighbours is less than a brick from the opposite wall, which excludes the edges of thick parts; groups of
+/// fewer than four bricks are left out of larger bodies. `samples` in the grid's frame.
 [[nodiscard]] std::vector<ThinPart> find_thin_parts(const BrickGrid& grid, const std::vector<WallSample>& samples);
 
 inline constexpr double kBrickBudget = 50000;  // bricks of one body
@@ -23,17 +23,17 @@ inline constexpr double kBrickBudget = 50000;  // bricks of one body
 /// A brick size and why.
 struct BrickChoice {
   double size = 0;
-  double thickness = 0;  // of the thinnest part that counts: 95 % of the surface bounds more than that
+  double thickness = 0;  // of the thinnest relevant part: 95 % of the surface is on thicker ones
   double across = 0;     // bricks across it
   enum class Reason {
-    kThickness,  // two bricks are across the thinnest part that counts
+    kThickness,  // two bricks across the thinnest relevant part
     kShape,      // that would be less than 12 bricks along the longest side
     kBudget      // that would be more bricks than the budget
   } reason = Reason::kThickness;
 };
 
-/// Chooses the side of the bricks of one body from the thickness of its thinnest part that counts and a budget. `walls`
-/// by solid; `longest` is the longest side of the body. Units of the solids.
+/// Chooses the brick size of one body from the thickness of its thinnest relevant part and a budget. `walls`: by solid;
+/// `longest`: the longest side of the body. Units of the solids.
 [[nodiscard]] BrickChoice choose_brick_size(const std::vector<Solid>& solids,
                                             const std::vector<std::vector<WallSample>>& walls, double longest,
                                             double budget = kBrickBudget);

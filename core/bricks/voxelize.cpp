@@ -21,7 +21,7 @@ namespace {
 
 constexpr int kBlock = 4;      // cells along a block's side
 constexpr int kSamples = 4;    // along a cell's side
-constexpr double kSure = 0.2;  // this far from 1/2 the winding number decides for a whole block
+constexpr double kSure = 0.2;  // at this distance from 1/2 the winding number decides for a whole block
 
 class Filler {
  public:
@@ -118,7 +118,7 @@ double squared_distance_to_side(const Vec3& a, const Vec3& b, const Vec3& place)
   return (a + share * along - place).squaredNorm();
 }
 
-/// A triangle, ready to be asked how far places are.
+/// A triangle prepared for distance queries.
 class Triangle {
  public:
   explicit Triangle(const Corners& corners) : corners_(corners) {
@@ -150,7 +150,7 @@ class Triangle {
   Vec3 normal_;
 };
 
-/// The samples of a cell that lie within `reach` of the triangle, with those known already.
+/// Adds the samples of a cell within `reach` of the triangle to the known ones.
 std::uint64_t near_samples(const Triangle& triangle, const Vec3& low, double reach, std::uint64_t known) {
   if (known == kAll) return known;
   const double half_diagonal = std::sqrt(3.0) / 2;
@@ -200,14 +200,14 @@ void fill_shell(const CellSurface& surface, double thickness, CellSums& sums) {
 
 namespace {
 
-/// A length this near a whole number of bricks, relative to the length, is that number: file formats round to float.
+/// Lengths this near a whole number of bricks, relatively, are that number, since file formats round to float.
 constexpr double kWhole = 1e-6;
-/// Fills nearer than this to 0 or 1 are 0 or 1.
+/// Fills nearer than this to 0 or 1 are rounded.
 constexpr double kSliver = 1e-6;
-/// The sampled volume may differ from the mesh's by this share through sampling alone; more means an overlap.
+/// The largest relative error of the sampled volume by sampling alone; more means an overlap.
 constexpr double kSamplingError = 0.005;
 
-/// The nearest whole number where `cells` is one up to rounding in a box of `count` cells.
+/// Rounds `cells` where it is a whole number up to rounding errors in a box of `count` cells.
 double without_rounding(double cells, double count) {
   const double whole = std::round(cells);
   return std::abs(cells - whole) <= kWhole * count ? whole : cells;
@@ -231,7 +231,7 @@ Eigen::Vector3i count_cells(const Vec3& extent, double brick_size) {
   return counts;
 }
 
-/// The solid's points in units of cells; faces that lie on a lattice plane up to rounding are put on it.
+/// The solid's points in units of cells; faces on a lattice plane up to rounding errors are snapped to it.
 Points in_cells(const Points& points, const Vec3& low, const Vec3& high, const Eigen::Vector3i& counts,
                 double brick_size) {
   Points cells(points.rows(), 3);
@@ -261,8 +261,8 @@ void collect_cells(const CellSums& sums, const Eigen::Vector3i& counts, BrickGri
   }
 }
 
-/// Scales the fill of the partly filled bricks by one factor, none beyond 1, so that the volume becomes `volume`.
-/// Leaves everything as it is where the difference is more than sampling explains.
+/// Scales the fill of partly filled bricks by one factor, but none beyond 1, to make the volume `volume`. Changes
+/// nothing where the difference is more than sampling error.
 void match_volume(double volume, BrickGrid& grid) {
   const double target = volume / grid.brick_volume();
   for (int pass = 0; pass < 8; ++pass) {
@@ -279,12 +279,12 @@ void match_volume(double volume, BrickGrid& grid) {
   }
 }
 
-/// A shell thinner than a brick is found as if it were one thick, and reaches further than it does at its rims.
+/// A shell thinner than a brick is sampled as if it were one brick thick, and so extends too far at its rims.
 void scale_fill(double factor, BrickGrid& grid) {
   for (double& fill : grid.fill) fill = std::min(1.0, fill * factor);
 }
 
-/// Rays along one axis may miss a wall between them that is thinner than their pitch; those of the other axes do not.
+/// Rays along one axis may miss a wall thinner than their pitch; those along the other axes do not.
 void fill_columns(const CellSurface& surface, CellSums& sums) {
   for (int axis = 0; axis < 3; ++axis) cast_columns(surface, axis, sums);
 }
@@ -320,7 +320,7 @@ BrickGrid voxelize(const Solid& solid, double brick_size) {
 
 double enclosed_volume(const Solid& solid) {
   constexpr double kCells = 128;
-  constexpr double kCellsByWinding = 48;  // that is slow, and exact to 1e-3 so
+  constexpr double kCellsByWinding = 48;  // slower, but accurate to 1e-3
   if (solid.thickness > 0 || (solid.closed && !solid.overlaps)) return solid.volume;
   const Vec3 extent = solid.points.colwise().maxCoeff() - solid.points.colwise().minCoeff();
   return voxelize(solid, extent.maxCoeff() / (solid.closed ? kCells : kCellsByWinding)).volume();

@@ -80,11 +80,6 @@ class Cells {
 
 }  // namespace
 
-AlignedBox box_around(const Points& points) {
-  if (points.rows() == 0) return {};
-  return {Vec3(points.colwise().minCoeff()), Vec3(points.colwise().maxCoeff())};
-}
-
 AlignedBox widened(const AlignedBox& box, double by) {
   return {box.min() - Vec3::Constant(by), box.max() + Vec3::Constant(by)};
 }
@@ -119,7 +114,7 @@ std::vector<std::pair<std::size_t, std::size_t>> broad_phase(const World& world,
   for (std::size_t i = 0; i < group.size(); ++i) {
     const Body& body = *group[i];
     boxes.push_back(
-        widened(box_around(body.positions), margin + body.grid.brick_size));  // skins may lie outside bricks
+        widened(bounding_box(body.positions), margin + body.grid.brick_size));  // skins may lie outside bricks
     if (group[i]->collides_with_itself) near.emplace_back(i, i);
   }
   if (world.bodies_collide) {

@@ -10,11 +10,6 @@
 
 namespace sprung {
 
-using AlignedBox = Eigen::AlignedBox3d;
-
-/// Of points; empty where there are none.
-[[nodiscard]] AlignedBox box_around(const Points& points);
-
 /// Larger by so much on every side.
 [[nodiscard]] AlignedBox widened(const AlignedBox& box, double by);
 

@@ -82,7 +82,7 @@ void ContactCandidates::seek(const Group& group, double margin) {
   places_.clear();
   for (std::size_t side = 0; side < sides_.size(); ++side) {
     const Body& facing = *group[sides_[sides_.size() - 1 - side].actor];
-    add_places(group, side, widened(box_around(facing.positions), margin + facing.grid.brick_size));
+    add_places(group, side, widened(bounding_box(facing.positions), margin + facing.grid.brick_size));
   }
   std::vector<AlignedBox> boxes;
   boxes.reserve(places_.size());

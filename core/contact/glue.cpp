@@ -5,7 +5,7 @@
 #include <map>
 
 #include "core/contact/contact_surface.h"
-#include "core/pose.h"
+#include "core/types.h"
 #include "core/world/obstacle.h"
 
 namespace sprung {

@@ -41,7 +41,7 @@ class Surface {
   /// `actor` has contact triangles.
   explicit Surface(const SoftBody& actor)
       : points_(deform_points(actor.grid, actor.contacts, actor.positions)),
-        box_(box_around(points_)),
+        box_(bounding_box(points_)),
         distance_(points_, actor.contact_triangles) {}
 
   [[nodiscard]] double depth_of(const Points& points) const {
@@ -87,7 +87,7 @@ double deepest_penetration(const World& world) {
   double depth = 0;
   for (const SoftBody& actor : world.bodies) {
     points.push_back(free_points(actor));
-    boxes.push_back(box_around(actor.positions));
+    boxes.push_back(bounding_box(actor.positions));
     for (const Obstacle& obstacle : world.obstacles)
       depth = std::max(depth, penetration_depth(obstacle, points.back()));
   }

@@ -9,7 +9,9 @@
 #include <cstring>
 #include <numeric>
 
+#include "core/appearance.h"
 #include "core/error.h"
+#include "core/files.h"
 #include "core/io/mesh_export.h"
 
 namespace sprung {
@@ -17,14 +19,10 @@ namespace {
 
 aiVector3D vector_of(const Eigen::RowVector3d& row) { return {float(row[0]), float(row[1]), float(row[2])}; }
 
-float linear_from_srgb(float srgb) {
-  return srgb <= 0.04045F ? srgb / 12.92F : std::pow((srgb + 0.055F) / 1.055F, 2.4F);
-}
-
-/// What a part uses of the vertices of its mesh, in their order. All of them where it is the only part.
+/// The vertices that a part uses, in the order of the mesh; all of them for the only part.
 struct Vertices {
   std::vector<int> rows;
-  std::vector<unsigned> number;  // of each vertex of the mesh among those
+  std::vector<unsigned> index;  // by vertex of the mesh, into rows
 };
 
 Vertices vertices_of(const PosedMesh& mesh, const PosedPart& part, bool is_only_one) {
@@ -34,9 +32,9 @@ Vertices vertices_of(const PosedMesh& mesh, const PosedPart& part, bool is_only_
     for (const int corner : triangle) is_used[corner] = true;
   }
   Vertices vertices;
-  vertices.number.resize(is_used.size());
+  vertices.index.resize(is_used.size());
   for (std::size_t i = 0; i < is_used.size(); ++i) {
-    vertices.number[i] = unsigned(vertices.rows.size());
+    vertices.index[i] = unsigned(vertices.rows.size());
     if (is_used[i]) vertices.rows.push_back(int(i));
   }
   return vertices;
@@ -63,7 +61,7 @@ void fill_vertices(const PosedMesh& posed, const std::vector<int>& rows, bool is
   }
 }
 
-void fill_faces(const PosedMesh& posed, const PosedPart& part, const std::vector<unsigned>& number, aiMesh& mesh) {
+void fill_faces(const PosedMesh& posed, const PosedPart& part, const std::vector<unsigned>& index, aiMesh& mesh) {
   mesh.mPrimitiveTypes = aiPrimitiveType_TRIANGLE;
   mesh.mNumFaces = unsigned(part.triangle_count);
   mesh.mFaces = new aiFace[mesh.mNumFaces];
@@ -72,12 +70,12 @@ void fill_faces(const PosedMesh& posed, const PosedPart& part, const std::vector
     mesh.mFaces[t].mIndices = new unsigned[3];
     for (int k = 0; k < 3; ++k) {
       const int corner = posed.rest->triangles(part.first_triangle + int(t), k);
-      mesh.mFaces[t].mIndices[k] = number[corner];
+      mesh.mFaces[t].mIndices[k] = index[corner];
     }
   }
 }
 
-/// Builds assimp's scene, which owns everything in it.
+/// Builds an assimp scene, which owns everything in it.
 class SceneBuilder {
  public:
   SceneBuilder(const MeshFormat& format, const std::filesystem::path& file)
@@ -90,34 +88,34 @@ class SceneBuilder {
     auto scene = std::make_unique<aiScene>();
     scene->mRootNode = new aiNode("sprung");
     if (is_flat_) {
-      hang_all(meshes, *scene->mRootNode);
+      attach_all(meshes, *scene->mRootNode);
     } else {
       scene->mRootNode->mNumChildren = unsigned(meshes.size());
       scene->mRootNode->mChildren = new aiNode*[meshes.size()];
       for (std::size_t i = 0; i < meshes.size(); ++i) scene->mRootNode->mChildren[i] = node_of(meshes[i], *scene);
     }
-    hand_over(meshes_, scene->mNumMeshes, scene->mMeshes);
-    hand_over(materials_, scene->mNumMaterials, scene->mMaterials);
-    hand_over(textures_, scene->mNumTextures, scene->mTextures);
+    transfer(meshes_, scene->mNumMeshes, scene->mMeshes);
+    transfer(materials_, scene->mNumMaterials, scene->mMaterials);
+    transfer(textures_, scene->mNumTextures, scene->mTextures);
     return scene;
   }
 
  private:
-  template <class Thing>
-  static void hand_over(const std::vector<Thing*>& things, unsigned& count, Thing**& list) {
-    if (things.empty()) return;
-    count = unsigned(things.size());
-    list = new Thing*[things.size()];
-    std::copy(things.begin(), things.end(), list);
+  template <class Item>
+  static void transfer(const std::vector<Item*>& items, unsigned& count, Item**& list) {
+    if (items.empty()) return;
+    count = unsigned(items.size());
+    list = new Item*[items.size()];
+    std::copy(items.begin(), items.end(), list);
   }
 
-  /// A mesh of several parts has a node for each, which keeps its name where meshes cannot.
+  /// A mesh of several parts gets a node for each: in some formats only nodes have names.
   aiNode* node_of(const PosedMesh& posed, aiScene& scene) {
     auto* node = new aiNode(posed.name);
     node->mParent = scene.mRootNode;
     const std::vector<PosedPart> parts = parts_of(posed);
     if (parts.size() == 1) {
-      hang({mesh_of(posed, parts.front(), true)}, *node);
+      attach({mesh_of(posed, parts.front(), true)}, *node);
       return node;
     }
     node->mNumChildren = unsigned(parts.size());
@@ -125,12 +123,12 @@ class SceneBuilder {
     for (std::size_t i = 0; i < parts.size(); ++i) {
       node->mChildren[i] = new aiNode(parts[i].name);
       node->mChildren[i]->mParent = node;
-      hang({mesh_of(posed, parts[i], false)}, *node->mChildren[i]);
+      attach({mesh_of(posed, parts[i], false)}, *node->mChildren[i]);
     }
     return node;
   }
 
-  void hang_all(const std::vector<PosedMesh>& meshes, aiNode& node) {
+  void attach_all(const std::vector<PosedMesh>& meshes, aiNode& node) {
     std::vector<unsigned> all;
     for (const PosedMesh& posed : meshes) {
       const std::vector<PosedPart> parts = parts_of(posed);
@@ -139,23 +137,23 @@ class SceneBuilder {
         meshes_.back()->mName = parts.size() == 1 ? posed.name : posed.name + " " + part.name;
       }
     }
-    hang(all, node);
+    attach(all, node);
   }
 
-  static void hang(const std::vector<unsigned>& meshes, aiNode& node) {
+  static void attach(const std::vector<unsigned>& meshes, aiNode& node) {
     node.mNumMeshes = unsigned(meshes.size());
     node.mMeshes = new unsigned[meshes.size()];
     std::copy(meshes.begin(), meshes.end(), node.mMeshes);
   }
 
-  /// Its number.
+  /// Returns the index of the new mesh.
   unsigned mesh_of(const PosedMesh& posed, const PosedPart& part, bool is_only_one) {
     const Vertices vertices = vertices_of(posed, part, is_only_one);
     auto* mesh = new aiMesh;
     mesh->mName = part.name;
     mesh->mMaterialIndex = material_of(part);
     fill_vertices(posed, vertices.rows, is_gltf_, *mesh);
-    fill_faces(posed, part, vertices.number, *mesh);
+    fill_faces(posed, part, vertices.index, *mesh);
     meshes_.push_back(mesh);
     return unsigned(meshes_.size() - 1);
   }
@@ -182,7 +180,7 @@ class SceneBuilder {
   }
 
   void add_texture(const PosedPart& part, aiMaterial& material) {
-    if (!has_textures_ || part.source == nullptr || ending_of_texture(*part.source).empty()) return;
+    if (!has_textures_ || part.source == nullptr || texture_extension(*part.source).empty()) return;
     const aiString path(is_gltf_ ? embed_texture(*part.source) : write_texture(part, file_));
     material.AddProperty(&path, AI_MATKEY_TEXTURE(aiTextureType_DIFFUSE, 0));
     material.AddProperty(&path, AI_MATKEY_TEXTURE(aiTextureType_BASE_COLOR, 0));
@@ -193,28 +191,20 @@ class SceneBuilder {
     texture->mWidth = unsigned(source.texture.size());
     texture->pcData = new aiTexel[source.texture.size() / sizeof(aiTexel) + 1];
     std::memcpy(texture->pcData, source.texture.data(), source.texture.size());
-    std::strcpy(texture->achFormatHint, ending_of_texture(source) == ".png" ? "png" : "jpg");
+    std::strcpy(texture->achFormatHint, texture_extension(source) == ".png" ? "png" : "jpg");
     textures_.push_back(texture);
     return fmt::format("*{}", textures_.size() - 1);
   }
 
   const std::filesystem::path& file_;
   bool has_textures_;
-  bool is_gltf_;  // colours there are linear, and textures inside
+  bool is_gltf_;  // with linear colours and embedded textures
   bool is_flat_;
   std::vector<aiMesh*> meshes_;
   std::vector<aiMaterial*> materials_;
   std::vector<aiTexture*> textures_;
   std::vector<std::string> names_;  // of the materials
 };
-
-/// Files in memory: the one that was asked for, then those that go beside it.
-void write_blobs(const aiExportDataBlob* first, const std::filesystem::path& file) {
-  for (const aiExportDataBlob* blob = first; blob != nullptr; blob = blob->next) {
-    const std::filesystem::path place = blob == first ? file : file.parent_path() / blob->name.C_Str();
-    write_bytes(place, {static_cast<const char*>(blob->data), blob->size});
-  }
-}
 
 }  // namespace
 
@@ -229,7 +219,11 @@ void write_by_assimp(const std::vector<PosedMesh>& meshes, const MeshFormat& for
   if (blob == nullptr) {
     throw Error(ErrorKind::kFailed, fmt::format("cannot write '{}': {}", file.string(), exporter.GetErrorString()));
   }
-  write_blobs(blob, file);
+  // The main file comes first, then those beside it.
+  write_file(file, {static_cast<const char*>(blob->data), blob->size});
+  for (blob = blob->next; blob != nullptr; blob = blob->next) {
+    write_file(file.parent_path() / blob->name.C_Str(), {static_cast<const char*>(blob->data), blob->size});
+  }
 }
 
 }  // namespace sprung

@@ -10,7 +10,7 @@
 #define STBI_NO_STDIO
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"  // g++ 12 takes the fields of file input for used
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"  // g++ 12, in code for file input
 #endif
 #include <stb/stb_image.h>
 
@@ -26,7 +26,7 @@ namespace {
 template <class Value>
 using Decoded = std::unique_ptr<Value, void (*)(void*)>;
 
-/// By one of stb_image's functions that read from memory.
+/// `load`: one of stb_image's functions that read from memory.
 template <class Value>
 Decoded<Value> decode(Value* (*load)(const stbi_uc*, int, int*, int*, int*, int), std::span<const std::byte> encoded,
                       int channels, int& width, int& height, const std::string& name) {
@@ -38,7 +38,7 @@ Decoded<Value> decode(Value* (*load)(const stbi_uc*, int, int*, int*, int*, int)
       stbi_image_free);
   if (data != nullptr) return data;
   throw Error(ErrorKind::kBadInput,
-              name + ": not a picture that can be read (" + stbi_failure_reason() + "); PNG and JPEG are sure to work");
+              name + ": not a picture that can be read (" + stbi_failure_reason() + "); use PNG or JPEG");
 }
 
 }  // namespace

@@ -8,25 +8,25 @@
 
 namespace sprung {
 
-/// A decoded picture: rows from the top, RGBA, 8 bits, sRGB.
+/// RGBA, 8-bit sRGB, rows from the top.
 struct Pixels {
   int width = 0;
   int height = 0;
   std::vector<std::uint8_t> rgba;  // 4 * width * height
 };
 
-/// Light from all around: rows from straight up to straight down, each once around the vertical, with -z in its middle
-/// and +x a quarter to its right.
+/// An equirectangular environment map: rows from the zenith to the nadir, -z in the middle of a row and +x a quarter of
+/// a row to its right.
 struct Panorama {
   int width = 0;
   int height = 0;
-  std::vector<Eigen::Vector3f> light;  // linear; width * height
+  std::vector<Eigen::Vector3f> light;  // linear RGB; width * height
 };
 
-/// Decodes PNG, JPEG, TGA, BMP, GIF or PSD. Throws Error(kBadInput) naming `name` and what is wrong with it.
+/// Decodes PNG, JPEG, TGA, BMP, GIF or PSD. Throws Error(kBadInput) with `name` and the reason.
 [[nodiscard]] Pixels decode_pixels(std::span<const std::byte> encoded, const std::string& name);
 
-/// The same, or Radiance .hdr; what has 8 bits is taken for the power 1 / 2.2 of light. Throws as decode_pixels() does.
+/// The same formats and Radiance .hdr; 8-bit images are decoded with gamma 2.2. Throws as decode_pixels() does.
 [[nodiscard]] Panorama decode_panorama(std::span<const std::byte> encoded, const std::string& name);
 
 }  // namespace sprung

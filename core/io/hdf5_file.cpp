@@ -1,15 +1,147 @@
 #include "core/io/hdf5_file.h"
 
+#include <hdf5.h>
+
 #include <algorithm>
-#include <array>
+#include <cassert>
+#include <functional>
 #include <map>
 #include <numeric>
+#include <type_traits>
+#include <utility>
 
 #include "core/error.h"
-#include "core/io/hdf5_handle.h"
 #include "core/types.h"
 
 namespace sprung {
+namespace {
+
+constexpr std::size_t kChunkBytes = 1 << 18;
+constexpr unsigned kCompressionLevel = 1;  // higher levels gain little on positions
+
+/// Owns an identifier of HDF5.
+class Hdf5Handle {
+ public:
+  using Close = herr_t (*)(hid_t);
+  Hdf5Handle() = default;
+  Hdf5Handle(hid_t id, Close close) : id_(id), close_(close) {}
+  ~Hdf5Handle() { reset(); }
+  Hdf5Handle(Hdf5Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
+  Hdf5Handle& operator=(Hdf5Handle&& other) noexcept {
+    if (this == &other) return *this;
+    reset();
+    id_ = std::exchange(other.id_, -1);
+    close_ = other.close_;
+    return *this;
+  }
+  Hdf5Handle(const Hdf5Handle&) = delete;
+  Hdf5Handle& operator=(const Hdf5Handle&) = delete;
+
+  [[nodiscard]] hid_t get() const { return id_; }
+  /// Never closes it.
+  void abandon() { id_ = -1; }
+  /// Closes; negative on failure.
+  herr_t reset() { return id_ < 0 ? 0 : close_(std::exchange(id_, -1)); }
+
+ private:
+  hid_t id_ = -1;
+  Close close_ = nullptr;
+};
+
+constexpr std::string_view kSystemMessage = "error message = '";
+
+/// Keeps the error message of the system if there is one, else the innermost description.
+herr_t find_reason(unsigned depth, const H5E_error2_t* error, void* data) {
+  std::string& reason = *static_cast<std::string*>(data);
+  const std::string description = error->desc == nullptr ? "" : error->desc;
+  const auto begin = description.find(kSystemMessage);
+  if (begin != std::string::npos) {
+    const auto first = begin + kSystemMessage.size();
+    reason = description.substr(first, description.find('\'', first) - first);
+    return 1;
+  }
+  if (depth == 0) reason = description;
+  return 0;
+}
+
+/// "No space left on device" from the error stack of HDF5; else its own description.
+std::string hdf5_reason() {
+  std::string reason;
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, find_reason, &reason);
+  return reason.empty() ? "HDF5 gives no reason" : reason;
+}
+
+/// The type of a value in memory.
+template <class Value>
+hid_t hdf5_type() {
+  if constexpr (std::is_same_v<Value, double>) return H5T_NATIVE_DOUBLE;
+  if constexpr (std::is_same_v<Value, float>) return H5T_NATIVE_FLOAT;
+  if constexpr (std::is_same_v<Value, int>) return H5T_NATIVE_INT;
+  if constexpr (std::is_same_v<Value, std::uint8_t>) return H5T_NATIVE_UINT8;
+  if constexpr (std::is_same_v<Value, std::uint64_t>) return H5T_NATIVE_UINT64;
+}
+
+/// Access without HDF5's own file locks, which network file systems refuse, and without messages on stderr.
+Hdf5Handle hdf5_access() {
+  H5dont_atexit();  // else it would close what was abandoned
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_libver_bounds(access.get(), H5F_LIBVER_LATEST, H5F_LIBVER_LATEST);
+  H5Pset_file_locking(access.get(), 0, 1);
+  return access;
+}
+
+std::vector<hsize_t> sizes(const ArrayShape& shape) { return {shape.begin(), shape.end()}; }
+
+std::size_t product(std::span<const std::size_t> counts) {
+  return std::accumulate(counts.begin(), counts.end(), std::size_t{1}, std::multiplies<>());
+}
+
+Hdf5Handle space_of(const ArrayShape& shape) {
+  const std::vector<hsize_t> counts = sizes(shape);
+  return {H5Screate_simple(isize(counts), counts.data(), nullptr), H5Sclose};
+}
+
+/// Creates missing groups on the way to a name.
+Hdf5Handle link_properties() {
+  Hdf5Handle properties(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
+  H5Pset_create_intermediate_group(properties.get(), 1);
+  return properties;
+}
+
+/// Chunked and compressed. Chunks have one row along the axes before `axis` and are cut along that one.
+Hdf5Handle dataset_properties(const ArrayShape& shape, std::size_t axis, std::size_t value_bytes) {
+  ArrayShape chunk = shape;
+  std::fill_n(chunk.begin(), axis, 1);
+  std::replace(chunk.begin(), chunk.end(), std::size_t{0}, std::size_t{1});
+  if (axis < chunk.size()) {
+    const std::size_t row = value_bytes * product(std::span(chunk).subspan(axis + 1));
+    chunk[axis] = std::clamp<std::size_t>(kChunkBytes / std::max<std::size_t>(row, 1), 1, chunk[axis]);
+  }
+  const std::vector<hsize_t> counts = sizes(chunk);
+  Hdf5Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  H5Pset_chunk(properties.get(), isize(counts), counts.data());
+  H5Pset_shuffle(properties.get());
+  H5Pset_deflate(properties.get(), kCompressionLevel);
+  return properties;
+}
+
+/// Selects one row of a dataset along its first axis.
+std::vector<hsize_t> select_row(hid_t space, std::size_t row) {
+  std::vector<hsize_t> count(H5Sget_simple_extent_ndims(space));
+  H5Sget_simple_extent_dims(space, count.data(), nullptr);
+  std::vector<hsize_t> start(count.size(), 0);
+  start[0] = row;
+  count[0] = 1;
+  H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr);
+  return count;
+}
+
+Hdf5Handle memory_space(const std::vector<hsize_t>& count) {
+  return {H5Screate_simple(isize(count), count.data(), nullptr), H5Sclose};
+}
+
+}  // namespace
 
 struct Hdf5Reader::Open {
   std::filesystem::path path;
@@ -30,7 +162,7 @@ struct Hdf5Reader::Open {
 Hdf5Reader::Hdf5Reader(std::filesystem::path file) : open_(std::make_unique<Open>()) {
   open_->path = std::move(file);
   const Hdf5Handle access = hdf5_access();
-  // As a reader beside a writer, whether there still is one or not: a writer that was killed leaves its mark.
+  // As a reader beside a writer even if there is none: a writer that was killed leaves its mark in the file.
   const hid_t id = H5Fopen(open_->path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access.get());
   open_->file = {open_->check(id, ""), H5Fclose};
 }
@@ -58,7 +190,7 @@ template <class Value>
 Array<Value> Hdf5Reader::read(const std::string& name) const {
   Array<Value> array{.shape = shape_of(name), .values = {}};
   const Hdf5Handle set = open_->set(name);
-  array.values.resize(std::accumulate(array.shape.begin(), array.shape.end(), std::size_t{1}, std::multiplies<>()));
+  array.values.resize(product(array.shape));
   if (array.values.empty()) return array;
   open_->check(H5Dread(set.get(), hdf5_type<Value>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, array.values.data()), name);
   return array;
@@ -68,16 +200,11 @@ template <class Value>
 Array<Value> Hdf5Reader::read_row(const std::string& name, std::size_t row) const {
   const ArrayShape whole = shape_of(name);
   Array<Value> array{.shape = ArrayShape(whole.begin() + 1, whole.end()), .values = {}};
-  array.values.resize(std::accumulate(array.shape.begin(), array.shape.end(), std::size_t{1}, std::multiplies<>()));
+  array.values.resize(product(array.shape));
   if (array.values.empty()) return array;
   const Hdf5Handle set = open_->set(name);
   const Hdf5Handle space(open_->check(H5Dget_space(set.get()), name), H5Sclose);
-  std::vector<hsize_t> start(whole.size(), 0);
-  std::vector<hsize_t> count(whole.begin(), whole.end());
-  start[0] = row;
-  count[0] = 1;
-  H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr);
-  const Hdf5Handle memory(H5Screate_simple(isize(count), count.data(), nullptr), H5Sclose);
+  const Hdf5Handle memory = memory_space(select_row(space.get(), row));
   open_->check(H5Dread(set.get(), hdf5_type<Value>(), memory.get(), space.get(), H5P_DEFAULT, array.values.data()),
                name);
   return array;
@@ -114,55 +241,13 @@ template Array<std::uint64_t> Hdf5Reader::read(const std::string&) const;
 template Array<double> Hdf5Reader::read_row(const std::string&, std::size_t) const;
 template Array<std::uint64_t> Hdf5Reader::read_row(const std::string&, std::size_t) const;
 
-namespace {
-
-constexpr std::size_t kChunkBytes = 1 << 18;
-constexpr unsigned kEffort = 1;  // of compression, 1 to 9: more gains little on the digits of positions
-
-std::vector<hsize_t> sizes(const ArrayShape& shape) { return {shape.begin(), shape.end()}; }
-
-std::size_t product(std::span<const std::size_t> counts) {
-  return std::accumulate(counts.begin(), counts.end(), std::size_t{1}, std::multiplies<>());
-}
-
-Hdf5Handle space_of(const ArrayShape& shape) {
-  const std::vector<hsize_t> counts = sizes(shape);
-  return {H5Screate_simple(isize(counts), counts.data(), nullptr), H5Sclose};
-}
-
-/// Makes the folders in a name.
-Hdf5Handle links() {
-  Hdf5Handle properties(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
-  H5Pset_create_intermediate_group(properties.get(), 1);
-  return properties;
-}
-
-/// `axis`: the one that is cut so that a chunk has a good size; those before it have one row a chunk.
-Hdf5Handle compressed(const ArrayShape& shape, std::size_t axis, std::size_t value_bytes) {
-  ArrayShape chunk = shape;
-  std::fill_n(chunk.begin(), axis, 1);
-  std::replace(chunk.begin(), chunk.end(), std::size_t{0}, std::size_t{1});
-  if (axis < chunk.size()) {
-    const std::size_t row = value_bytes * product(std::span(chunk).subspan(axis + 1));
-    chunk[axis] = std::clamp<std::size_t>(kChunkBytes / std::max<std::size_t>(row, 1), 1, chunk[axis]);
-  }
-  const std::vector<hsize_t> counts = sizes(chunk);
-  Hdf5Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-  H5Pset_chunk(properties.get(), isize(counts), counts.data());
-  H5Pset_shuffle(properties.get());
-  H5Pset_deflate(properties.get(), kEffort);
-  return properties;
-}
-
-}  // namespace
-
 struct Hdf5Writer::Open {
   std::filesystem::path path;
   Hdf5Handle file;
   std::map<std::string, Hdf5Handle> series;  // and slots
 
-  /// A file that could not be written is left as a killed program leaves it: closing it would write down a size that it
-  /// never reached, and nobody could open it again.
+  /// After an error the file is left as a killed program leaves it: closing it would record a size that it never
+  /// reached, and nobody could open it again.
   template <class Result>
   Result check(Result result) {
     if (result < 0) {
@@ -175,7 +260,7 @@ struct Hdf5Writer::Open {
   }
 
   Hdf5Handle make(const std::string& name, hid_t type, const Hdf5Handle& space, hid_t properties) {
-    const Hdf5Handle folders = links();  // outlives the call: HDF5 forgets what went wrong with the next one
+    const Hdf5Handle folders = link_properties();  // outlives the call: closing it would clear the error stack
     return {check(H5Dcreate2(file.get(), name.c_str(), type, space.get(), folders.get(), properties, H5P_DEFAULT)),
             H5Dclose};
   }
@@ -197,7 +282,7 @@ template <class Value>
 void Hdf5Writer::write(const std::string& name, std::span<const Value> values, const ArrayShape& shape) {
   const bool is_empty = product(shape) == 0;
   const Hdf5Handle properties =
-      is_empty ? Hdf5Handle(H5Pcreate(H5P_DATASET_CREATE), H5Pclose) : compressed(shape, 0, sizeof(Value));
+      is_empty ? Hdf5Handle(H5Pcreate(H5P_DATASET_CREATE), H5Pclose) : dataset_properties(shape, 0, sizeof(Value));
   const Hdf5Handle set = open_->make(name, hdf5_type<Value>(), space_of(shape), properties.get());
   if (is_empty) return;
   open_->check(H5Dwrite(set.get(), hdf5_type<Value>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
@@ -227,7 +312,7 @@ template <class Value>
 void Hdf5Writer::make_series(const std::string& name, const ArrayShape& row) {
   ArrayShape shape{1};
   shape.insert(shape.end(), row.begin(), row.end());
-  const Hdf5Handle properties = compressed(shape, 1, sizeof(Value));
+  const Hdf5Handle properties = dataset_properties(shape, 1, sizeof(Value));
   std::vector<hsize_t> now = sizes(shape);
   std::vector<hsize_t> most = now;
   now[0] = 0;
@@ -250,15 +335,11 @@ void Hdf5Writer::append(const std::string& name, std::span<const Value> row) {
   const Hdf5Handle before(open_->check(H5Dget_space(set)), H5Sclose);
   std::vector<hsize_t> shape(H5Sget_simple_extent_ndims(before.get()));
   H5Sget_simple_extent_dims(before.get(), shape.data(), nullptr);
-  std::vector<hsize_t> start(shape.size(), 0);
-  std::vector<hsize_t> count = shape;
-  start[0] = shape[0]++;
-  count[0] = 1;
+  const hsize_t last = shape[0]++;
   open_->check(H5Dset_extent(set, shape.data()));
   if (row.empty()) return;
   const Hdf5Handle space(open_->check(H5Dget_space(set)), H5Sclose);
-  H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr);
-  const Hdf5Handle memory(H5Screate_simple(isize(count), count.data(), nullptr), H5Sclose);
+  const Hdf5Handle memory = memory_space(select_row(space.get(), last));
   open_->check(H5Dwrite(set, hdf5_type<Value>(), memory.get(), space.get(), H5P_DEFAULT, row.data()));
   open_->check(H5Dflush(set));
 }
@@ -267,10 +348,9 @@ void Hdf5Writer::fill_slot(const std::string& name, std::size_t row, std::span<c
   if (values.empty()) return;
   const hid_t set = open_->at(name);
   const Hdf5Handle space(open_->check(H5Dget_space(set)), H5Sclose);
-  const std::array<hsize_t, 2> start{row, 0};
-  const std::array<hsize_t, 2> count{1, values.size()};
-  H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr);
-  const Hdf5Handle memory(H5Screate_simple(2, count.data(), nullptr), H5Sclose);
+  const std::vector<hsize_t> count = select_row(space.get(), row);
+  assert(values.size() == count[1]);
+  const Hdf5Handle memory = memory_space(count);
   open_->check(H5Dwrite(set, hdf5_type<double>(), memory.get(), space.get(), H5P_DEFAULT, values.data()));
   open_->check(H5Dflush(set));
 }

@@ -11,26 +11,26 @@
 
 namespace sprung {
 
-/// Counts along each axis, the slowest first.
+/// Counts along each axis, slowest first.
 using ArrayShape = std::vector<std::size_t>;
 
-/// Numbers as a file holds them, the last axis running fastest.
+/// Row-major.
 template <class Value>
 struct Array {
   ArrayShape shape;
   std::vector<Value> values;
 };
 
-/// A new HDF5 file of arrays (compressed without loss), texts, and series: arrays that grow row by row. From
-/// start_series() on the file is in HDF5's single-writer mode: whoever opens it, at whatever moment the writer was
-/// killed, finds every row that was appended. Folders in names ("/bodies/1/cells") come by themselves.
-/// Value: double, float, int, std::uint8_t or std::uint64_t. Everything throws Error(kFailed) with the file and the
+/// Writes an HDF5 file of arrays (losslessly compressed), strings, and series: arrays that grow row by row. From
+/// start_series() on the file is in HDF5's single-writer mode: a reader finds every appended row, whenever the writer
+/// is killed. Groups in names ("/bodies/1/cells") are created as needed.
+/// Value: double, float, int, std::uint8_t or std::uint64_t. All functions throw Error(kFailed) with the file and the
 /// system's reason.
 class Hdf5Writer {
  public:
-  /// Replaces the file.
+  /// Replaces an existing file.
   explicit Hdf5Writer(std::filesystem::path file);
-  /// Closes; what fails then is lost without a word.
+  /// Closes; errors are ignored.
   ~Hdf5Writer();
   Hdf5Writer(Hdf5Writer&&) noexcept;
   Hdf5Writer& operator=(Hdf5Writer&&) noexcept;
@@ -40,21 +40,22 @@ class Hdf5Writer {
   void write_text(const std::string& name, const std::string& text);
   void write_texts(const std::string& name, const std::vector<std::string>& texts);
 
-  /// A series without rows; a row has that shape.
+  /// An empty series of rows of that shape.
   template <class Value>
   void make_series(const std::string& name, const ArrayShape& row);
-  /// Numbers that are written again and again, in rows that stay where they are in the file.
+  /// A matrix whose rows are overwritten in place.
   void make_slots(const std::string& name, std::size_t rows, std::size_t columns);
 
-  /// Nothing new can be made from here on.
+  /// No datasets can be created from here on.
   void start_series();
-  /// One more row of a series, on its way to the disk when this returns.
+  /// Appends a row to a series and flushes it.
   template <class Value>
   void append(const std::string& name, std::span<const Value> row);
+  /// `values`: as many as there are columns.
   void fill_slot(const std::string& name, std::size_t row, std::span<const double> values);
 
   void close();
-  /// After the file was renamed: for messages.
+  /// Call after the file was renamed; for messages.
   void rename(std::filesystem::path file);
 
  private:
@@ -62,7 +63,7 @@ class Hdf5Writer {
   std::unique_ptr<Open> open_;
 };
 
-/// Throws Error(kBadInput) where the file is none of HDF5 or lacks what is asked for.
+/// All functions throw Error(kBadInput) where the file is not HDF5 or lacks the dataset.
 class Hdf5Reader {
  public:
   explicit Hdf5Reader(std::filesystem::path file);
@@ -74,7 +75,7 @@ class Hdf5Reader {
   [[nodiscard]] ArrayShape shape_of(const std::string& name) const;
   template <class Value>
   [[nodiscard]] Array<Value> read(const std::string& name) const;
-  /// One row along the first axis; the shape is that of the row.
+  /// One row along the first axis, in the shape of a row.
   template <class Value>
   [[nodiscard]] Array<Value> read_row(const std::string& name, std::size_t row) const;
   [[nodiscard]] std::string read_text(const std::string& name) const;
@@ -85,7 +86,7 @@ class Hdf5Reader {
   std::unique_ptr<Open> open_;
 };
 
-/// A matrix stored row by row, as numbers in a row.
+/// The values of a row-major matrix.
 template <class Matrix>
 [[nodiscard]] std::span<const typename Matrix::Scalar> flat_values(const Matrix& matrix) {
   return {matrix.data(), std::size_t(matrix.size())};
@@ -96,7 +97,7 @@ void write_matrix(Hdf5Writer& hdf5, const std::string& name, const Matrix& matri
   hdf5.write(name, flat_values(matrix), {std::size_t(matrix.rows()), std::size_t(matrix.cols())});
 }
 
-/// Throws Error(kBadInput) where the file has another number of columns.
+/// Throws Error(kBadInput) where the number of columns differs.
 template <class Matrix>
 [[nodiscard]] Matrix matrix_from(const Array<typename Matrix::Scalar>& array, const std::string& name) {
   const std::size_t columns = array.shape.size() == 2 ? array.shape[1] : 1;

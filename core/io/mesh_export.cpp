@@ -6,13 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <iterator>
 #include <set>
 
 #include "core/error.h"
+#include "core/files.h"
 
 namespace sprung {
 
@@ -28,7 +26,7 @@ std::vector<PosedPart> parts_of(const PosedMesh& mesh) {
                     .triangle_count = part.triangle_count,
                     .material = mesh.name + " skin"};
     posed.color << mesh.color, 1;
-    if (mesh.rest->colors.rows() > 0) posed.color.setOnes();  // which programs multiply by those
+    if (mesh.rest->colors.rows() > 0) posed.color.setOnes();  // which programs multiply by vertex colours
     if (part.material >= 0) {
       posed.source = &mesh.rest->materials[part.material];
       posed.color = posed.source->color;
@@ -40,7 +38,7 @@ std::vector<PosedPart> parts_of(const PosedMesh& mesh) {
   return all;
 }
 
-std::string ending_of_texture(const SurfaceMaterial& material) {
+std::string texture_extension(const SurfaceMaterial& material) {
   const std::vector<std::byte>& bytes = material.texture;
   if (bytes.size() < 4) return "";
   if (bytes[0] == std::byte{0x89} && bytes[1] == std::byte{'P'}) return ".png";
@@ -69,7 +67,7 @@ Points shading_normals(const PosedMesh& mesh) {
 
 namespace {
 
-constexpr std::size_t kMostOf3ds = 65535;
+constexpr std::size_t kMost3dsVertices = 65535;
 
 constexpr MeshContent kEverything{true, true, true, true, true, true};
 
@@ -86,13 +84,13 @@ constexpr std::array<MeshFormat, 9> kFormats{{
      "3D Studio, at most 65535 vertices a part",
      "3ds",
      {.uvs = true, .materials = true},
-     kMostOf3ds,
+     kMost3dsVertices,
      true,
      true},
     {".x3d", "X3D", "x3d", {.normals = true, .uvs = true, .colors = true, .materials = true}},
 }};
 
-constexpr std::array<LeftOut, 6> kLeftOut{{
+constexpr std::array<UnsupportedFormat, 6> kUnsupported{{
     {"fbx (binary)", "assimp's binary files cannot be read back, not by itself either"},
     {"3mf", "geometry only, and assimp's own importer stops at some of its files"},
     {"gltf 1 (gltf, glb)", "no colours and materials; .gltf and .glb are glTF 2 here"},
@@ -101,8 +99,7 @@ constexpr std::array<LeftOut, 6> kLeftOut{{
     {"assbin, assxml, assjson", "dumps of assimp's memory that nothing else reads"},
 }};
 
-/// y up becomes z up.
-std::vector<PosedMesh> turned_up(std::vector<PosedMesh> meshes) {
+std::vector<PosedMesh> z_up_from_y_up(std::vector<PosedMesh> meshes) {
   for (PosedMesh& mesh : meshes) {
     for (Points* points : {&mesh.positions, &mesh.normals}) {
       points->col(1).swap(points->col(2));
@@ -112,7 +109,6 @@ std::vector<PosedMesh> turned_up(std::vector<PosedMesh> meshes) {
   return meshes;
 }
 
-/// By name, in one order.
 std::array<std::pair<std::string_view, bool>, 6> list_of(const MeshContent& content) {
   return {{{"normals", content.normals},
            {"UVs", content.uvs},
@@ -133,15 +129,9 @@ MeshContent content_of(const PosedMesh& mesh) {
           .part_names = rest.parts.size() > 1};
 }
 
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  return text;
-}
-
 }  // namespace
 
-std::string names_of(const MeshContent& content) {
+std::string describe(const MeshContent& content) {
   std::string names;
   for (const auto& [name, is_there] : list_of(content)) {
     if (is_there) names += (names.empty() ? "" : ", ") + std::string(name);
@@ -149,7 +139,7 @@ std::string names_of(const MeshContent& content) {
   return names;
 }
 
-std::string lost_in(const MeshFormat& format, const std::vector<PosedMesh>& meshes) {
+std::string lost_content(const MeshFormat& format, const std::vector<PosedMesh>& meshes) {
   MeshContent lost;
   for (const PosedMesh& mesh : meshes) {
     const MeshContent content = content_of(mesh);
@@ -160,17 +150,17 @@ std::string lost_in(const MeshFormat& format, const std::vector<PosedMesh>& mesh
     lost.textures |= content.textures && !format.keeps.textures;
     lost.part_names |= content.part_names && !format.keeps.part_names;
   }
-  return names_of(lost);
+  return describe(lost);
 }
 
 std::span<const MeshFormat> mesh_formats() { return kFormats; }
 
-std::span<const LeftOut> left_out_formats() { return kLeftOut; }
+std::span<const UnsupportedFormat> unsupported_formats() { return kUnsupported; }
 
 const MeshFormat* find_mesh_format(const std::filesystem::path& file) {
-  const std::string ending = lower(file.extension().string());
-  const auto* found =
-      std::find_if(kFormats.begin(), kFormats.end(), [&](const MeshFormat& format) { return format.ending == ending; });
+  const std::string extension = lower_extension(file);
+  const auto* found = std::find_if(kFormats.begin(), kFormats.end(),
+                                   [&](const MeshFormat& format) { return format.extension == extension; });
   return found == kFormats.end() ? nullptr : found;
 }
 
@@ -181,46 +171,29 @@ void export_meshes(const std::vector<PosedMesh>& meshes, const std::filesystem::
     const std::size_t count = mesh.positions.rows();
     if (format->most_vertices == 0 || count <= format->most_vertices) continue;
     throw Error(ErrorKind::kBadInput, fmt::format("{} has {} vertices, more than the {} that {} files can hold",
-                                                  mesh.name, count, format->most_vertices, format->ending));
+                                                  mesh.name, count, format->most_vertices, format->extension));
   }
   if (format->writer.empty()) return write_obj(meshes, file);
-  write_by_assimp(format->is_z_up ? turned_up(meshes) : meshes, *format, file);
-}
-
-void write_bytes(const std::filesystem::path& file, std::string_view bytes) { write_pieces(file, {bytes}); }
-
-void write_pieces(const std::filesystem::path& file, std::initializer_list<std::string_view> pieces) {
-  std::filesystem::path partial = file;
-  partial += ".partial";
-  errno = 0;
-  std::ofstream out(partial, std::ios::binary);
-  for (const std::string_view piece : pieces) out.write(piece.data(), static_cast<std::streamsize>(piece.size()));
-  out.close();
-  std::error_code error;
-  if (out) std::filesystem::rename(partial, file, error);
-  if (out && !error) return;
-  const std::string reason = error ? error.message() : std::strerror(errno);
-  std::filesystem::remove(partial, error);
-  throw Error(ErrorKind::kFailed, fmt::format("cannot write '{}': {}", file.string(), reason));
+  write_by_assimp(format->is_z_up ? z_up_from_y_up(meshes) : meshes, *format, file);
 }
 
 std::string write_texture(const PosedPart& part, const std::filesystem::path& file) {
   if (part.source == nullptr) return "";
-  const std::string ending = ending_of_texture(*part.source);
-  if (ending.empty()) return "";
-  std::string name = part.material + ending;
+  const std::string extension = texture_extension(*part.source);
+  if (extension.empty()) return "";
+  std::string name = part.material + extension;
   std::replace_if(
       name.begin(), name.end(), [](unsigned char letter) { return std::isalnum(letter) == 0 && letter != '.'; }, '_');
   const std::filesystem::path place = file.parent_path() / name;
   const auto size = part.source->texture.size();
   if (std::filesystem::exists(place) && std::filesystem::file_size(place) == size) return name;
-  write_bytes(place, {reinterpret_cast<const char*>(part.source->texture.data()), size});
+  write_file(place, {reinterpret_cast<const char*>(part.source->texture.data()), size});
   return name;
 }
 
 namespace {
 
-/// Names in OBJ files end at the first blank.
+/// Names in OBJ files end at the first space.
 std::string one_word(std::string name) {
   std::replace_if(
       name.begin(), name.end(), [](unsigned char letter) { return std::isspace(letter) != 0; }, '_');
@@ -243,24 +216,24 @@ void add_vertices(const PosedMesh& mesh, std::string& text) {
   for (const auto& n : mesh.normals.rowwise()) fmt::format_to(out, "vn {:.7g} {:.7g} {:.7g}\n", n[0], n[1], n[2]);
 }
 
-/// The numbers of a body's first vertex, UV and normal, which a file counts through all its bodies.
-struct Firsts {
+/// Indices of a mesh's first vertex, UV and normal, which OBJ counts through the whole file.
+struct FirstIndices {
   int vertex = 1;
   int uv = 1;
   int normal = 1;
 };
 
-void add_triangles(const PosedMesh& mesh, const PosedPart& part, const Firsts& firsts, std::string& text) {
+void add_triangles(const PosedMesh& mesh, const PosedPart& part, const FirstIndices& first, std::string& text) {
   const bool has_uvs = mesh.rest->uvs.rows() > 0;
   const bool has_normals = mesh.normals.rows() > 0;
   auto out = std::back_inserter(text);
   for (int t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t) {
     text += 'f';
     for (const int corner : mesh.rest->triangles.row(t)) {
-      fmt::format_to(out, " {}", firsts.vertex + corner);
+      fmt::format_to(out, " {}", first.vertex + corner);
       if (has_uvs || has_normals) text += '/';
-      if (has_uvs) fmt::format_to(out, "{}", firsts.uv + corner);
-      if (has_normals) fmt::format_to(out, "/{}", firsts.normal + corner);
+      if (has_uvs) fmt::format_to(out, "{}", first.uv + corner);
+      if (has_normals) fmt::format_to(out, "/{}", first.normal + corner);
     }
     text += '\n';
   }
@@ -268,7 +241,7 @@ void add_triangles(const PosedMesh& mesh, const PosedPart& part, const Firsts& f
 
 std::string material_text(const PosedPart& part, const std::filesystem::path& file) {
   const std::string texture = write_texture(part, file);
-  // A texture is multiplied by the colour here, and replaces it in most programs that read OBJ files.
+  // Here a texture is multiplied by the colour; most programs that read OBJ files let it replace the colour.
   return fmt::format("newmtl {}\nKd {:.6g} {:.6g} {:.6g}\nd {:.6g}\n{}\n", one_word(part.material), part.color[0],
                      part.color[1], part.color[2], part.color[3],
                      texture.empty() ? "" : fmt::format("map_Kd {}\n", texture));
@@ -281,21 +254,21 @@ void write_obj(const std::vector<PosedMesh>& meshes, const std::filesystem::path
   std::string text = fmt::format("mtllib {}\n", materials.filename().string());
   std::string material_texts;
   std::set<std::string> known;
-  Firsts firsts;
+  FirstIndices first;
   for (const PosedMesh& mesh : meshes) {
     text += fmt::format("o {}\n", one_word(mesh.name));
     add_vertices(mesh, text);
     for (const PosedPart& part : parts_of(mesh)) {
       if (known.insert(part.material).second) material_texts += material_text(part, file);
       text += fmt::format("g {}\nusemtl {}\n", one_word(part.name), one_word(part.material));
-      add_triangles(mesh, part, firsts, text);
+      add_triangles(mesh, part, first, text);
     }
-    firsts.vertex += int(mesh.positions.rows());
-    firsts.uv += int(mesh.rest->uvs.rows());
-    firsts.normal += int(mesh.normals.rows());
+    first.vertex += int(mesh.positions.rows());
+    first.uv += int(mesh.rest->uvs.rows());
+    first.normal += int(mesh.normals.rows());
   }
-  write_bytes(materials, material_texts);
-  write_bytes(file, text);
+  write_file(materials, material_texts);
+  write_file(file, text);
 }
 
 }  // namespace sprung

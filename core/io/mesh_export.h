@@ -1,6 +1,5 @@
 #pragma once
 #include <filesystem>
-#include <initializer_list>
 #include <span>
 #include <string>
 #include <string_view>
@@ -10,33 +9,33 @@
 
 namespace sprung {
 
-/// A mesh as it stands in one frame, in the world. What does not change is that of the mesh at rest.
+/// A mesh in one frame, in the world.
 struct PosedMesh {
   std::string name;
-  const Skin* rest = nullptr;
-  Eigen::Vector3f color{0.8F, 0.8F, 0.8F};  // sRGB, of what has no colours of its own
+  const Skin* rest = nullptr;               // gives triangles, parts, materials, UVs and colours
+  Eigen::Vector3f color{0.8F, 0.8F, 0.8F};  // sRGB, where the mesh has no colours
   Points positions;                         // n x 3, m
-  Points normals;                           // n x 3, unit; 0 rows: the mesh has none
+  Points normals;                           // n x 3, unit; 0 rows: none
 };
 
-/// A part of a mesh that looks alike, with what is known of it; a mesh without parts is one.
+/// Triangles of one material. A mesh without parts is a single one.
 struct PosedPart {
   std::string name;
   int first_triangle = 0;
   int triangle_count = 0;
-  std::string material;                        // a name of its own among those of all meshes
+  std::string material;                        // unique among all meshes
   Eigen::Vector4f color{0.8F, 0.8F, 0.8F, 1};  // sRGB and opacity
-  const SurfaceMaterial* source = nullptr;     // with a texture perhaps; null: none
+  const SurfaceMaterial* source = nullptr;     // null: none
 };
 [[nodiscard]] std::vector<PosedPart> parts_of(const PosedMesh& mesh);
 
-/// ".png" or ".jpg" by the first bytes of an encoded picture; "" where it is neither.
-[[nodiscard]] std::string ending_of_texture(const SurfaceMaterial& material);
+/// ".png" or ".jpg" by the first bytes of the texture; "" where it is neither.
+[[nodiscard]] std::string texture_extension(const SurfaceMaterial& material);
 
-/// The mesh's own normals; where it has none, sums of the triangles' normals at each vertex, by area, as unit vectors.
+/// The mesh's own normals; where it has none, area-weighted vertex normals.
 [[nodiscard]] Points shading_normals(const PosedMesh& mesh);
 
-/// What a mesh may have beside positions and triangles.
+/// What a mesh may have besides positions and triangles.
 struct MeshContent {
   bool normals = false;
   bool uvs = false;
@@ -46,53 +45,48 @@ struct MeshContent {
   bool part_names = false;
 };
 
-/// "normals, UVs"; empty where there is nothing.
-[[nodiscard]] std::string names_of(const MeshContent& content);
+/// "normals, UVs"; empty for nothing.
+[[nodiscard]] std::string describe(const MeshContent& content);
 
-/// A file format for one frame's meshes. All keep positions, triangles and their order.
+/// A file format for the meshes of one frame. All preserve positions, triangles and their order.
 struct MeshFormat {
-  std::string_view ending;        // ".obj"
-  std::string_view what;          // for a person
-  std::string_view writer;        // assimp's name of it; empty: this project's own
-  MeshContent keeps;              // what others find in its files
-  std::size_t most_vertices = 0;  // of a part; 0: no limit
-  bool is_z_up = false;           // whoever reads it turns it
-  bool is_flat = false;           // its writer takes nodes in any order, so that there may be one only
+  std::string_view extension;     // ".obj"
+  std::string_view what;          // for messages
+  std::string_view writer;        // assimp's name of its writer; empty: ours
+  MeshContent keeps;              // what readers find in its files
+  std::size_t most_vertices = 0;  // per part; 0: no limit
+  bool is_z_up = false;           // by convention of its readers
+  bool is_flat = false;           // its writer reorders nodes, so all meshes go into one
 };
 
-/// Those that were found to come back from their files as they went in.
+/// The formats that round-trip, as the tests verify.
 [[nodiscard]] std::span<const MeshFormat> mesh_formats();
 
-/// Formats that assimp writes and this does not, with the reason.
-struct LeftOut {
+/// A format that assimp could write but that is not offered, and why.
+struct UnsupportedFormat {
   std::string_view format;
   std::string_view reason;
 };
-[[nodiscard]] std::span<const LeftOut> left_out_formats();
+[[nodiscard]] std::span<const UnsupportedFormat> unsupported_formats();
 
-/// What these meshes have and the format cannot keep: "textures, part names"; empty where nothing is lost.
-[[nodiscard]] std::string lost_in(const MeshFormat& format, const std::vector<PosedMesh>& meshes);
+/// What these meshes have and the format cannot hold: "textures, part names"; empty where nothing is lost.
+[[nodiscard]] std::string lost_content(const MeshFormat& format, const std::vector<PosedMesh>& meshes);
 
-/// By the ending of a file, whatever its case; null where there is none.
+/// By the extension of a file, ignoring case; null for an unknown one.
 [[nodiscard]] const MeshFormat* find_mesh_format(const std::filesystem::path& file);
 
-/// Writes beside the name and renames; textures and materials that the format wants in files of their own go beside it.
-/// Throws Error(kFailed), Error(kBadInput) where the meshes are too large for the format.
+/// Writes by way of a PartialFile; textures and materials that the format keeps in separate files go beside it.
+/// Throws Error(kFailed), Error(kBadInput) where the meshes exceed the limits of the format.
 void export_meshes(const std::vector<PosedMesh>& meshes, const std::filesystem::path& file);
 
-/// OBJ with its materials in a file of the same name ending in .mtl. assimp's writer would merge equal positions.
+/// OBJ with a material library (.mtl) of the same name. assimp's writer would merge equal positions.
 void write_obj(const std::vector<PosedMesh>& meshes, const std::filesystem::path& file);
 
-/// Everything else.
+/// All other formats.
 void write_by_assimp(const std::vector<PosedMesh>& meshes, const MeshFormat& format, const std::filesystem::path& file);
 
-/// Writes beside the name and renames. Throws Error(kFailed).
-void write_bytes(const std::filesystem::path& file, std::string_view bytes);
-/// The same for bytes that lie in several places.
-void write_pieces(const std::filesystem::path& file, std::initializer_list<std::string_view> pieces);
-
-/// Writes the texture of a part beside a file and returns its name there; "" where it has none that is known. Frames of
-/// one film share it.
+/// Writes the texture of a part beside a file and returns its name; "" where the part has none of a known format.
+/// Frames of one animation share it.
 [[nodiscard]] std::string write_texture(const PosedPart& part, const std::filesystem::path& file);
 
 }  // namespace sprung

@@ -20,13 +20,13 @@ namespace sprung {
 
 namespace {
 
-constexpr int kPipeSize = 1 << 20;  // bytes; a picture in few writes
-constexpr off_t kLastWords = 2000;  // bytes
+constexpr int kPipeSize = 1 << 20;    // bytes; an image in few writes
+constexpr off_t kErrorOutput = 2000;  // bytes
 
-/// While it lives, writing into a broken pipe gives EPIPE and no signal in this thread.
-class QuietPipe {
+/// Suppresses SIGPIPE in this thread: writing to a broken pipe fails with EPIPE.
+class SigpipeBlocker {
  public:
-  QuietPipe() {
+  SigpipeBlocker() {
     sigemptyset(&pipe_);
     sigaddset(&pipe_, SIGPIPE);
     sigset_t pending;
@@ -34,7 +34,7 @@ class QuietPipe {
     was_pending_ = sigismember(&pending, SIGPIPE) == 1;
     pthread_sigmask(SIG_BLOCK, &pipe_, &before_);
   }
-  ~QuietPipe() {
+  ~SigpipeBlocker() {
     const timespec now{};
     if (!was_pending_) {
       while (sigtimedwait(&pipe_, nullptr, &now) == -1 && errno == EINTR) {
@@ -42,8 +42,8 @@ class QuietPipe {
     }
     pthread_sigmask(SIG_SETMASK, &before_, nullptr);
   }
-  QuietPipe(const QuietPipe&) = delete;
-  QuietPipe& operator=(const QuietPipe&) = delete;
+  SigpipeBlocker(const SigpipeBlocker&) = delete;
+  SigpipeBlocker& operator=(const SigpipeBlocker&) = delete;
 
  private:
   sigset_t pipe_{};
@@ -51,7 +51,7 @@ class QuietPipe {
   bool was_pending_ = false;
 };
 
-/// A file without a name for what the child says: unlike a pipe it never fills up.
+/// An unlinked file for the standard error of the child: unlike a pipe it never fills up.
 int open_messages() {
   std::string name = (std::filesystem::temp_directory_path() / "sprung_XXXXXX").string();
   const int file = mkostemp(name.data(), O_CLOEXEC);
@@ -59,7 +59,7 @@ int open_messages() {
   return file;
 }
 
-/// 0 or the error number.
+/// Returns 0 or an error number.
 int spawn(const std::vector<std::string>& arguments, int input, int messages, pid_t& pid) {
   std::vector<char*> argv;
   argv.reserve(arguments.size() + 1);
@@ -108,7 +108,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments) {
     fail(error);
   }
   input_ = pipe[1];
-  fcntl(input_, F_SETPIPE_SZ, kPipeSize);  // a wish
+  fcntl(input_, F_SETPIPE_SZ, kPipeSize);  // may fail
 }
 
 ChildProcess::~ChildProcess() {
@@ -120,7 +120,7 @@ ChildProcess::~ChildProcess() {
 }
 
 bool ChildProcess::write(std::span<const std::byte> data) {
-  const QuietPipe quiet;
+  const SigpipeBlocker blocker;
   while (!data.empty()) {
     const ssize_t count = ::write(input_, data.data(), data.size());
     if (count >= 0) {
@@ -141,14 +141,14 @@ int ChildProcess::finish() {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-std::string ChildProcess::last_words() const {
+std::string ChildProcess::error_output() const {
   const off_t size = lseek(messages_, 0, SEEK_END);
-  std::string words(std::clamp<off_t>(size, 0, kLastWords), '\0');
-  const ssize_t count = pread(messages_, words.data(), words.size(), std::max<off_t>(size - kLastWords, 0));
-  words.resize(std::max<ssize_t>(count, 0));
-  const std::size_t first = words.find_first_not_of(" \r\n\t");
-  if (first == std::string::npos) return "it said nothing";
-  return words.substr(first, words.find_last_not_of(" \r\n\t") - first + 1);
+  std::string text(std::clamp<off_t>(size, 0, kErrorOutput), '\0');
+  const ssize_t count = pread(messages_, text.data(), text.size(), std::max<off_t>(size - kErrorOutput, 0));
+  text.resize(std::max<ssize_t>(count, 0));
+  const std::size_t first = text.find_first_not_of(" \r\n\t");
+  if (first == std::string::npos) return "no error output";
+  return text.substr(first, text.find_last_not_of(" \r\n\t") - first + 1);
 }
 
 }  // namespace sprung

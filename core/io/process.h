@@ -11,26 +11,26 @@
 
 namespace sprung {
 
-/// The full path of a program by its name, as a shell would find it.
+/// The path of a program as a shell would find it; nothing where it is not on PATH.
 [[nodiscard]] std::optional<std::filesystem::path> find_program(std::string_view name);
 
-/// A running program whose standard input we write. It has its own process group, so Ctrl-C in a terminal does not
-/// reach it. What it says on standard error is kept.
+/// A running program that reads from us on its standard input. It has its own process group, so Ctrl-C in a terminal
+/// does not reach it. Its standard error is kept.
 class ChildProcess {
  public:
   /// `arguments` begin with the program. Throws Error(kFailed) where it cannot be started.
   explicit ChildProcess(const std::vector<std::string>& arguments);
-  /// Kills the program if it still runs.
+  /// Kills the program if it is still running.
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  /// False where the program no longer reads. Never raises SIGPIPE.
+  /// False once the program no longer reads. Never raises SIGPIPE.
   [[nodiscard]] bool write(std::span<const std::byte> data);
-  /// Closes the pipe and waits; the exit status, 128 + signal where a signal ended it.
+  /// Closes the pipe and waits; the exit status, or 128 + the signal that ended it.
   int finish();
-  /// The end of what it said on standard error so far, without surrounding blanks.
-  [[nodiscard]] std::string last_words() const;
+  /// The end of its standard error so far, trimmed.
+  [[nodiscard]] std::string error_output() const;
 
  private:
   int input_ = -1;

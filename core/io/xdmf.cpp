@@ -6,9 +6,6 @@
 #include <array>
 
 #include "core/body/brick_measures.h"
-#include "core/error.h"
-#include "core/io/hdf5_file.h"
-#include "core/io/mesh_export.h"
 #include "core/skin/skin.h"
 
 namespace sprung {
@@ -16,37 +13,29 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Our corners, in which x runs fastest, in the order in which VTK goes around a hexahedron.
-constexpr std::array<int, 8> kCornersOfVtk{0, 1, 3, 2, 4, 5, 7, 6};
+/// The order of VTK's hexahedron in our corners, of which x runs fastest.
+constexpr std::array<int, 8> kVtkCorners{0, 1, 3, 2, 4, 5, 7, 6};
 
 using Hexahedra = Eigen::Matrix<int, Eigen::Dynamic, 8, Eigen::RowMajor>;
 
-/// A number for each brick.
+/// One scalar per brick.
 struct CellField {
   std::string name;
   const std::string& folder;
-  bool is_whole_numbers = false;
+  bool is_integer = false;
 };
-
-fs::path with_ending(fs::path file, const char* ending) {
-  file += ending;
-  return file;
-}
 
 }  // namespace
 
-/// An array in the file of numbers.
+/// A dataset of the HDF5 file.
 struct XdmfWriter::Item {
   std::string name;
   ArrayShape shape;
-  bool is_whole_numbers = false;
+  bool is_integer = false;
 };
 
 XdmfWriter::XdmfWriter(fs::path file, const World& world)
-    : file_(std::move(file)),
-      numbers_(with_ending(file_, ".h5")),
-      world_(world),
-      hdf5_(with_ending(numbers_, ".partial")) {
+    : file_(std::move(file)), arrays_(fs::path(file_) += ".h5"), world_(world), hdf5_(arrays_.path()) {
   for (std::size_t row = 0; row < world_.bodies.size(); ++row) {
     const SoftBody& body = world_.bodies[row];
     write_bricks(fmt::format("/bricks_{}", row + 1), body);
@@ -54,15 +43,10 @@ XdmfWriter::XdmfWriter(fs::path file, const World& world)
   }
 }
 
-XdmfWriter::~XdmfWriter() {
-  std::error_code ignored;
-  fs::remove(with_ending(numbers_, ".partial"), ignored);
-}
-
 std::string XdmfWriter::item_text(const Item& item) const {
   return fmt::format("<DataItem Format=\"HDF\" Dimensions=\"{}\" NumberType=\"{}\" Precision=\"4\">{}:{}</DataItem>",
-                     fmt::join(item.shape, " "), item.is_whole_numbers ? "Int" : "Float", numbers_.filename().string(),
-                     item.name);
+                     fmt::join(item.shape, " "), item.is_integer ? "Int" : "Float",
+                     arrays_.final_path().filename().string(), item.name);
 }
 
 void XdmfWriter::write_bricks(const std::string& folder, const SoftBody& body) {
@@ -71,7 +55,7 @@ void XdmfWriter::write_bricks(const std::string& folder, const SoftBody& body) {
   for (Eigen::Index brick = 0; brick < hexahedra.rows(); ++brick) {
     const std::size_t row = brick;
     for (std::size_t k = 0; k < 8; ++k) {
-      hexahedra(brick, k) = body.grid.nodes[row][kCornersOfVtk[k]];
+      hexahedra(brick, k) = body.grid.nodes[row][kVtkCorners[k]];
     }
     fill[brick] = float(body.grid.fill[row]);
   }
@@ -87,26 +71,27 @@ std::string XdmfWriter::brick_grid(std::size_t row, const std::string& folder, c
   const std::size_t bricks = body.grid.brick_count();
   const std::size_t count = nodes.rows();
   const std::string fixed = fmt::format("/bricks_{}", row + 1);
-  const std::string place = folder + fixed;
+  const std::string moving = folder + fixed;
   const auto measured = [&](BrickMeasure measure) {
     return Eigen::VectorXf(measure_bricks(body, measure, nodes).cast<float>());
   };
-  write_matrix(hdf5_, place + "/nodes", Floats3(nodes.cast<float>()));
-  write_matrix(hdf5_, place + "/velocity", Floats3(velocities.cast<float>()));
-  write_matrix(hdf5_, place + "/stretch", measured(BrickMeasure::kStretch));
-  write_matrix(hdf5_, place + "/stress", measured(BrickMeasure::kStress));
+  write_matrix(hdf5_, moving + "/nodes", Floats3(nodes.cast<float>()));
+  write_matrix(hdf5_, moving + "/velocity", Floats3(velocities.cast<float>()));
+  write_matrix(hdf5_, moving + "/stretch", measured(BrickMeasure::kStretch));
+  write_matrix(hdf5_, moving + "/stress", measured(BrickMeasure::kStress));
   std::string text = fmt::format(
       "<Grid Name=\"bricks {}\" GridType=\"Uniform\">\n<Topology TopologyType=\"Hexahedron\" NumberOfElements=\"{}\">"
       "{}</Topology>\n<Geometry GeometryType=\"XYZ\">{}</Geometry>\n",
-      row + 1, bricks, item_text({fixed + "/hexahedra", {bricks, 8}, true}), item_text({place + "/nodes", {count, 3}}));
+      row + 1, bricks, item_text({fixed + "/hexahedra", {bricks, 8}, true}),
+      item_text({moving + "/nodes", {count, 3}}));
   for (const CellField& field :
-       {CellField{"region", fixed, true}, {"young", fixed}, {"fill", fixed}, {"stretch", place}, {"stress", place}}) {
+       {CellField{"region", fixed, true}, {"young", fixed}, {"fill", fixed}, {"stretch", moving}, {"stress", moving}}) {
     text += fmt::format("<Attribute Name=\"{}\" AttributeType=\"Scalar\" Center=\"Cell\">{}</Attribute>\n", field.name,
-                        item_text({field.folder + "/" + field.name, {bricks, 1}, field.is_whole_numbers}));
+                        item_text({field.folder + "/" + field.name, {bricks, 1}, field.is_integer}));
   }
   return text +
          fmt::format("<Attribute Name=\"velocity\" AttributeType=\"Vector\" Center=\"Node\">{}</Attribute>\n</Grid>\n",
-                     item_text({place + "/velocity", {count, 3}}));
+                     item_text({moving + "/velocity", {count, 3}}));
 }
 
 std::string XdmfWriter::skin_grid(std::size_t row, const std::string& folder, const Points& nodes) {
@@ -135,15 +120,10 @@ void XdmfWriter::add_frame(double time, const std::vector<Points>& nodes, const 
 
 void XdmfWriter::close() {
   hdf5_.close();
-  std::error_code error;
-  fs::rename(with_ending(numbers_, ".partial"), numbers_, error);
-  if (error) {
-    throw Error(ErrorKind::kFailed, fmt::format("cannot write '{}': {}", numbers_.string(), error.message()));
-  }
-  write_bytes(file_,
-              fmt::format("<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n<Domain>\n<Grid Name=\"film\" "
-                          "GridType=\"Collection\" CollectionType=\"Temporal\">\n{}</Grid>\n</Domain>\n</Xdmf>\n",
-                          frames_));
+  arrays_.publish();
+  write_file(file_, fmt::format("<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n<Domain>\n<Grid Name=\"film\" "
+                                "GridType=\"Collection\" CollectionType=\"Temporal\">\n{}</Grid>\n</Domain>\n</Xdmf>\n",
+                                frames_));
 }
 
 }  // namespace sprung

@@ -3,25 +3,23 @@
 #include <string>
 #include <vector>
 
+#include "core/files.h"
 #include "core/io/hdf5_file.h"
 #include "core/world/world.h"
 
 namespace sprung {
 
-/// A film for ParaView: `run.xdmf` says what is where in `run.xdmf.h5`. In every frame, for every body, its bricks as
-/// hexahedra with their region, Young's modulus, fill, stretch and stress (brick_measures.h) and the velocity of their
-/// nodes, and its skin as triangles. Floats, but for the regions.
+/// Writes an animation for ParaView: `run.xdmf` describes the arrays in `run.xdmf.h5`. Per frame and body: the bricks
+/// as hexahedra with region, Young's modulus, fill, stretch and stress (brick_measures.h) and nodal velocities, and the
+/// skin as triangles. Floats, except for the regions.
 class XdmfWriter {
  public:
-  /// The world must outlive it. Throws Error(kFailed), like all else here.
+  /// The world must outlive it. All functions throw Error(kFailed).
   XdmfWriter(std::filesystem::path file, const World& world);
-  ~XdmfWriter();
-  XdmfWriter(const XdmfWriter&) = delete;
-  XdmfWriter& operator=(const XdmfWriter&) = delete;
 
-  /// By body: nodes (m) and their velocities (m/s).
+  /// Nodes (m) and their velocities (m/s), by body.
   void add_frame(double time, const std::vector<Points>& nodes, const std::vector<Points>& velocities);
-  /// Gives the files their names.
+  /// Gives the files their final names.
   void close();
 
  private:
@@ -33,7 +31,7 @@ class XdmfWriter {
   [[nodiscard]] std::string skin_grid(std::size_t row, const std::string& folder, const Points& nodes);
 
   std::filesystem::path file_;
-  std::filesystem::path numbers_;  // beside it
+  PartialFile arrays_;
   const World& world_;
   Hdf5Writer hdf5_;
   std::string frames_;

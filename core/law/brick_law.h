@@ -75,7 +75,7 @@ struct BrickLaw {
 /// That error is the singularity of the re-entrant edge: it falls with h^1.1 (twice 0.54, the exponent of the
 /// displacements there), and no constant of the brick moves it. The bricks at the edge at 0.8 of their stiffness bring
 /// both finer pitches within 1 %, but no longer answer uniform strain, and a staircase in a curved surface is no edge.
-/// tests/core/brick_limits_test.cpp measures the statics of this.
+/// tests/core/law/brick_limits_test.cpp measures the statics of this.
 [[nodiscard]] BrickLaw brick_law(Model model, const Material& material, double h);
 
 }  // namespace sprung

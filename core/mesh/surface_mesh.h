@@ -7,15 +7,15 @@
 
 namespace sprung {
 
-/// How the triangles of a part look. Colours are sRGB-encoded, as artists write them, in [0, 1].
+/// The appearance of a part's triangles. Colours are sRGB in [0, 1].
 struct SurfaceMaterial {
   std::string name;
   Eigen::Vector4f color{0.8F, 0.8F, 0.8F, 1.0F};
-  std::vector<std::byte> texture;  // an encoded picture (PNG, JPEG, ...) that multiplies color; empty: none
+  std::vector<std::byte> texture;  // an encoded image (PNG, JPEG, ...) that modulates color; empty: none
   std::string texture_name;        // for messages
 };
 
-/// A named piece of the file: consecutive triangles that share one material.
+/// Consecutive triangles with a common name and material.
 struct Part {
   std::string name;
   int first_triangle = 0;
@@ -23,7 +23,7 @@ struct Part {
   int material = -1;  // index into materials; -1: none given
 };
 
-/// A triangle mesh as a file holds it, all node transforms applied: vertices are split where normals or UVs differ.
+/// A triangle mesh as read from a file, node transforms applied: vertices are split where normals or UVs differ.
 struct SurfaceMesh {
   Points positions;                                                  // n x 3, file units
   Triangles triangles;                                               // t x 3
@@ -32,7 +32,7 @@ struct SurfaceMesh {
   Eigen::Matrix<float, Eigen::Dynamic, 4, Eigen::RowMajor> colors;   // n x 4, sRGB in [0, 1]; 0 rows: none
   std::vector<Part> parts;                                           // cover all triangles, in order
   std::vector<SurfaceMaterial> materials;
-  bool single_precision = false;   // positions were rounded to floats, by the file or on the way from it
+  bool single_precision = false;   // positions were rounded to floats, in the file or by its reader
   std::vector<std::string> notes;  // what the reader left out, one sentence each: a texture not found, loose lines, ...
 };
 

@@ -12,34 +12,34 @@
 #include "core/bricks/thin_parts.h"
 #include "core/bricks/voxelize.h"
 #include "core/error.h"
+#include "core/files.h"
 #include "core/io/decode_image.h"
-#include "core/mesh/io/file_checks.h"
 #include "core/mesh/io/read_mesh.h"
-#include "core/pose.h"
 #include "core/simulation/selector.h"
 #include "core/simulation/shapes.h"
 #include "core/simulation/simulation.h"
+#include "core/types.h"
 #include "core/units.h"
 
 namespace sprung {
-MeshBox recentre(SurfaceMesh& mesh) {
-  Vec3 low = mesh.positions.row(mesh.triangles(0, 0));
-  Vec3 high = low;
-  for (const int vertex : mesh.triangles.reshaped()) {
-    low = low.cwiseMin(mesh.positions.row(vertex).transpose());
-    high = high.cwiseMax(mesh.positions.row(vertex).transpose());
-  }
-  const Vec3 middle = low + (high - low) / 2;
-  mesh.positions.rowwise() -= middle.transpose();
-  return {.middle = middle, .extent = high - low};
-}
-
 namespace {
 
-/// Sizes between a mesh and its origin from which on single precision rounds its shape by more than a thousandth.
+Vec3 centre_of(const AlignedBox& box) { return box.min() + box.sizes() / 2; }
+
+/// Moves a mesh so that the centre of its bounding box is at the origin, and returns the box before that. Vertices
+/// without triangles are ignored. Done in double precision and first of all, so that a mesh far from the origin loses
+/// no accuracy later.
+AlignedBox recentre(SurfaceMesh& mesh) {
+  AlignedBox box;
+  for (const int vertex : mesh.triangles.reshaped()) box.extend(Vec3(mesh.positions.row(vertex)));
+  mesh.positions.rowwise() -= centre_of(box).transpose();
+  return box;
+}
+
+/// The distance of a mesh from its origin, in its sizes, beyond which single precision distorts it by more than 0.1 %.
 constexpr double kFarAway = 1e4;
 
-/// Points of a body's surface where its thickness is measured.
+/// Surface points at which the thickness of a body is sampled.
 constexpr double kFewestWallSamples = 20000;
 constexpr double kMostWallSamples = 200000;
 constexpr double kWallSamplesABrick = 4;  // that the surface cuts
@@ -52,17 +52,17 @@ void warn_if_far_away(const SceneBody& body, const SurfaceMesh& mesh, double siz
                   body.mesh.filename().string(), sizes, sizes * std::numeric_limits<float>::epsilon() / 2));
 }
 
-/// Of a mesh that is a body: one that is refused gets a single line.
+/// Only for accepted meshes: one that is rejected gets a single line.
 void report_reading(const SceneBody& body, const LoadedBody& loaded, const Observer& observer) {
   for (const std::string& note : loaded.mesh.notes) observer.warn(fmt::format("{}: {}", loaded.name, note));
   const double length = (loaded.file_from_rest.linear() * loaded.extent).maxCoeff();
   warn_if_far_away(body, loaded.mesh, loaded.file_from_rest.translation().norm() / length, observer);
   if (body.scale || body.size || body.mesh.empty()) return;
-  observer.note(fmt::format("size: {} is {:.4g} file units long, drawn {} m long; say --size to choose", loaded.name,
+  observer.note(fmt::format("size: {} is {:.4g} file units long, drawn {} m long; set --size to change it", loaded.name,
                             length, kDefaultSize));
 }
 
-/// In place of every material of the file.
+/// Replaces all materials of the file.
 void put_on_texture(const SceneBody& body, SurfaceMesh& mesh) {
   if (mesh.uvs.rows() == 0) {
     throw Error(ErrorKind::kBadInput,
@@ -77,12 +77,12 @@ void put_on_texture(const SceneBody& body, SurfaceMesh& mesh) {
   material.texture.resize(bytes.size());
   std::memcpy(material.texture.data(), bytes.data(), bytes.size());
   material.texture_name = body.texture.filename().string();
-  static_cast<void>(decode_pixels(material.texture, body.texture.string()));  // before any work is lost
+  static_cast<void>(decode_pixels(material.texture, body.texture.string()));  // fail early
   mesh.materials = {std::move(material)};
   for (Part& part : mesh.parts) part.material = 0;
 }
 
-/// m; where it is to be chosen the default, for now.
+/// m; the default where it is yet to be chosen.
 double wanted_brick_size(const SceneBody& body, const Vec3& extent) {
   const BrickCount count = body.bricks.value_or(kDefaultBricks);
   return body.brick_size.value_or(extent.maxCoeff() / (count.is_auto() ? kDefaultBricks : count.along));
@@ -92,21 +92,23 @@ void load_mesh(const SceneBody& body, LoadedBody& loaded) {
   loaded.name = body.surface ? "the mesh" : body.mesh.filename().string();
   loaded.mesh = body.surface ? *body.surface : read_mesh(body.mesh);
   if (!body.texture.empty()) put_on_texture(body, loaded.mesh);
-  const auto [middle, extent] = recentre(loaded.mesh);
+  const AlignedBox box = recentre(loaded.mesh);
+  const Vec3 centre = centre_of(box);
+  const Vec3 extent = box.sizes();
   const double length = extent.maxCoeff();
   if (!(length > 0)) {
     throw Error(ErrorKind::kBadInput,
-                fmt::format("{}: all points of the mesh fall together{}", body.mesh.string(),
-                            middle.norm() > 0 ? ", perhaps because they lie too far from the origin" : ""));
+                fmt::format("{}: all points of the mesh coincide{}", body.mesh.string(),
+                            centre.norm() > 0 ? ", perhaps because they lie too far from the origin" : ""));
   }
   const double scale = body.scale.value_or(body.size.value_or(kDefaultSize) / length);
   loaded.mesh.positions *= scale;
   loaded.extent = extent * scale;
-  loaded.file_from_rest = Eigen::Translation3d(middle) * Eigen::Scaling(1 / scale);
+  loaded.file_from_rest = Eigen::Translation3d(centre) * Eigen::Scaling(1 / scale);
   loaded.brick_size = wanted_brick_size(body, loaded.extent);
 }
 
-/// What the cuts take of the bricks of a box.
+/// Removes the bricks of a box that the cuts select.
 void take_out(const std::vector<Cut>& cuts, LoadedBody& loaded) {
   BrickGrid& grid = *loaded.grid;
   std::vector<bool> is_gone(grid.cells.size());
@@ -146,7 +148,7 @@ void load_shape(const SceneBody& body, LoadedBody& loaded) {
   loaded.brick_size = wanted_brick_size(body, loaded.extent);
 }
 
-/// Such bricks would not show the body at all.
+/// Such bricks would not represent the body at all.
 void refuse_giant_bricks(const LoadedBody& loaded) {
   constexpr double kRounding = 1e-9;
   const double longest = loaded.extent.maxCoeff();
@@ -166,7 +168,7 @@ void refuse_giant_shell(const SceneBody& body, const LoadedBody& loaded) {
                   readable(*body.thickness, Dimension::kLength), readable(longest, Dimension::kLength)));
 }
 
-/// What had to be mended. The bricks do not need a surface that keeps clear of itself, but what overlaps becomes one.
+/// Reports repairs. Bricks do not need a surface without self-intersections, but overlapping parts merge.
 void report_repairs(const Solids& found, const Observer& observer, const LoadedBody& loaded) {
   const Vec3 place = loaded.file_from_rest * (loaded.bricks_from_rest.transpose() * found.crossing);
   for (const Repair& repair : found.repairs) {
@@ -183,7 +185,7 @@ void report_repairs(const Solids& found, const Observer& observer, const LoadedB
   }
 }
 
-/// Bricks larger than a shell is thick hold its mass, but bend like one of their own size.
+/// Bricks larger than the thickness of a shell have its mass, but bend like a shell of their own size.
 void report_thickness(const SceneBody& body, const Observer& observer, const LoadedBody& loaded) {
   constexpr double kRounding = 1e-9;
   if (!body.thickness || loaded.brick_size <= *body.thickness * (1 + kRounding)) return;
@@ -193,7 +195,7 @@ void report_thickness(const SceneBody& body, const Observer& observer, const Loa
       loaded.name, readable(loaded.brick_size, Dimension::kLength), readable(*body.thickness, Dimension::kLength)));
 }
 
-/// Bricks found already do not turn with the body.
+/// Existing bricks do not rotate with the body.
 void turn(const Mat3& rotation, LoadedBody& loaded) {
   if (rotation.isIdentity(0)) return;
   loaded.bricks_from_rest = rotation;
@@ -208,7 +210,7 @@ std::string reason_of(const BrickChoice& choice) {
     case BrickChoice::Reason::kThickness:
       return fmt::format("two across {}, which 95 % of the surface is thicker than", thickness);
     case BrickChoice::Reason::kShape:
-      return "enough for the shape; no part that counts is thinner than two of them";
+      return "enough for the shape; no relevant part is thinner than two of them";
     case BrickChoice::Reason::kBudget:
       break;
   }
@@ -218,7 +220,7 @@ std::string reason_of(const BrickChoice& choice) {
       kBrickBudget, thickness, choice.across);
 }
 
-/// Several for each brick that the surface cuts, as long as the bricks are not very small.
+/// Several per brick at the surface, unless the bricks are very small.
 std::vector<std::vector<WallSample>> sample_walls(const LoadedBody& loaded) {
   double bricks = 0;
   for (const Solid& solid : loaded.solids) bricks += surface_area(solid) / (loaded.brick_size * loaded.brick_size);
@@ -238,7 +240,7 @@ void choose_bricks(LoadedBody& loaded, const Observer& observer) {
 
 namespace {
 
-/// What a scene's text cannot say wrong, but a program can.
+/// Errors that a scene file cannot contain, but a caller of the library can.
 void check_body(const SceneBody& body, const std::string& name) {
   check_material(body.material);
   const auto refuse = [&](std::string_view what, double value, std::string_view range) {

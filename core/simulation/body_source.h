@@ -11,33 +11,23 @@
 
 namespace sprung {
 
-/// A body of the scene at rest: metres, the middle of its bounding box at the origin, turned so that its bricks are
-/// straight.
+/// A body of the scene at rest: in metres, the centre of its bounding box at the origin, rotated so that its bricks are
+/// axis-aligned.
 struct LoadedBody {
   std::string name;  // of the file, for messages
   SurfaceMesh mesh;
   std::vector<Solid> solids;
   std::vector<Repair> repairs;
-  Mat3 bricks_from_rest = Mat3::Identity();                     // how it was turned for that
+  Mat3 bricks_from_rest = Mat3::Identity();                     // of that rotation
   Vec3 extent = Vec3::Zero();                                   // m, sides of the bounding box before that
   double brick_size = 0;                                        // m
-  std::vector<std::vector<WallSample>> walls;                   // of a mesh, by solid: how thick it is
-  Eigen::Affine3d file_from_rest{Eigen::Affine3d::Identity()};  // before it was turned; in the units of the file
-  std::optional<BrickGrid> grid;                                // of a box; of a mesh the bricks are yet to be found
+  std::vector<std::vector<WallSample>> walls;                   // of a mesh, by solid
+  Eigen::Affine3d file_from_rest{Eigen::Affine3d::Identity()};  // before the rotation; in the units of the file
+  std::optional<BrickGrid> grid;                                // of a box; none for a mesh, which is yet to be filled
 };
 
-/// The bounding box of a mesh, in its units. Vertices that no triangle uses count nothing.
-struct MeshBox {
-  Vec3 middle;
-  Vec3 extent;
-};
-
-/// Moves a mesh so that the middle of its bounding box is at the origin, and says where that was. In double and before
-/// anything else, so that a mesh far from its origin loses nothing later.
-MeshBox recentre(SurfaceMesh& mesh);
-
-/// Makes the box, or reads the mesh, brings it to its size and finds its solids; says what it had to choose or to mend.
-/// Throws Error(kBadInput).
+/// Makes the box, or reads and scales the mesh and finds its solids; reports what was chosen or repaired. Throws
+/// Error(kBadInput).
 [[nodiscard]] LoadedBody load_body(const SceneBody& body, const Observer& observer);
 
 }  // namespace sprung

@@ -16,17 +16,17 @@
 #include "core/error.h"
 #include "core/mesh/repair/coarsen.h"
 #include "core/mesh/repair/submesh.h"
-#include "core/pose.h"
 #include "core/simulation/selector.h"
 #include "core/simulation/simulation.h"
 #include "core/skin/skin.h"
 #include "core/text.h"
+#include "core/types.h"
 #include "core/units.h"
 
 namespace sprung {
 namespace {
 
-/// For bodies whose scene names no colour; the solids of a file differ.
+/// For bodies without a colour in the scene; a different one for each solid of a file.
 constexpr std::array<Color, 8> kPalette{{{0xd8, 0x32, 0x2a},
                                          {0xf2, 0xa0, 0x3d},
                                          {0x3b, 0x8e, 0xa5},
@@ -36,7 +36,7 @@ constexpr std::array<Color, 8> kPalette{{{0xd8, 0x32, 0x2a},
                                          {0xc7, 0x6b, 0x8f},
                                          {0x4f, 0x6d, 0xb8}}};
 
-/// Which solid each vertex of a mesh belongs to; the first, where none has it.
+/// The solid of each vertex of a mesh; the first, where it belongs to none.
 std::vector<int> solids_of_vertices(const LoadedBody& loaded) {
   std::vector<int> owners(loaded.mesh.positions.rows(), -1);
   for (std::size_t solid = 0; solid < loaded.solids.size(); ++solid) {
@@ -66,7 +66,7 @@ Points outward_of(const SurfaceMesh& mesh, const Solid& solid) {
   return sums;
 }
 
-/// The vertices of the file that a solid carries.
+/// The vertices of the file's mesh that are embedded in a solid.
 void carry_file_vertices(const LoadedBody& loaded, std::size_t solid, const std::vector<int>& owners, SoftBody& body) {
   for (std::size_t vertex = 0; vertex < owners.size(); ++vertex) {
     if (owners[vertex] == int(solid)) body.file_vertices.push_back(int(vertex));
@@ -76,7 +76,7 @@ void carry_file_vertices(const LoadedBody& loaded, std::size_t solid, const std:
       embed(body.grid, loaded.mesh.positions(body.file_vertices, Eigen::all), outward(body.file_vertices, Eigen::all));
 }
 
-/// Every node that a pin holds at the start, once, with the axes of all its pins.
+/// Every node pinned at the start, once, with the axes of all its pins.
 std::vector<KinematicNode> held_nodes(const std::vector<PinnedNodes>& pinned, const std::vector<Pin>& pins) {
   std::map<int, KinematicNode> held;
   for (const PinnedNodes& group : pinned) {
@@ -94,7 +94,7 @@ std::vector<KinematicNode> held_nodes(const std::vector<PinnedNodes>& pinned, co
   return list;
 }
 
-/// m/s, at the start; what is held is at rest.
+/// m/s, at the start; pinned nodes are at rest.
 Points velocities_of(const SceneBody& scene_body, const SoftBody& actor, const Vec3& middle) {
   Points velocities(actor.node_count(), 3);
   const Vec3 spin = scene_body.spin * std::numbers::pi / 180;
@@ -115,8 +115,8 @@ Points velocities_of(const SceneBody& scene_body, const SoftBody& actor, const V
 namespace {
 
 constexpr double kLongestSkinEdge =
-    0.75;  // in bricks: follows the bend of a brick, and touches the ground often enough
-constexpr double kShortestContactEdge = 0.4;  // in bricks, but where the mesh has longer ones only
+    0.75;  // in bricks: follows a bending brick, with enough contact points on the ground
+constexpr double kShortestContactEdge = 0.4;  // in bricks, except where the mesh has longer edges only
 
 /// Sums of the triangles' areas, with their normals, at each point.
 Points outward_at(const Points& points, const Triangles& triangles) {
@@ -130,7 +130,7 @@ Points outward_at(const Points& points, const Triangles& triangles) {
   return sums;
 }
 
-/// Lets the skin touch: each position that triangles use, once; finer than the bricks can follow it need not be.
+/// Makes the contact points: each position that triangles use, once, no finer than the bricks can follow.
 void add_contacts(const Skin& skin, SoftBody& body) {
   const std::vector<int> point_of = weld_points(skin.positions);
   const auto position_of = [&](int vertex) { return point_of[vertex]; };
@@ -241,7 +241,7 @@ void BodyBuilder::tell(const Observer& observer) const {
   if (body_.pins.empty()) return;
   if (held_solids_ == 0) {
     throw Error(ErrorKind::kBadInput,
-                fmt::format("{}: the pins hold no node; make what they choose at least a brick ({}) thick",
+                fmt::format("{}: the pins hold no node; make the parts they select at least a brick ({}) thick",
                             loaded_.name, readable(loaded_.brick_size, Dimension::kLength)));
   }
   const int free_solids = isize(loaded_.solids) - held_solids_;
@@ -262,7 +262,7 @@ Eigen::VectorXd volumes_of(const std::vector<int>& bricks, const BrickGrid& grid
   return volumes;
 }
 
-/// Of the triangles that touch, in the frame of the grid.
+/// Of the contact triangles, in the frame of the grid.
 Points middles_of_triangles(const SoftBody& actor) {
   const BrickGrid& grid = actor.grid;
   const Points places = deform_points(grid, actor.contacts, grid.rest_positions());
@@ -318,7 +318,7 @@ void check_loads(const Scene& scene, std::size_t body, const World& world) {
     const auto missed = std::find(reached.begin(), reached.end(), false);
     if (missed == reached.end()) return;
     throw Error(ErrorKind::kBadInput,
-                fmt::format("body {}: its {} {} reaches no brick and no triangle; make the part it chooses at least "
+                fmt::format("body {}: its {} {} reaches no brick and no triangle; make the part it selects at least "
                             "a brick large",
                             body + 1, what, missed - reached.begin() + 1));
   };
@@ -328,7 +328,7 @@ void check_loads(const Scene& scene, std::size_t body, const World& world) {
 
 namespace {
 
-/// Numbers at random that are the same everywhere, which the standard's distributions are not.
+/// Random numbers that are equal on all platforms, unlike those of the standard's distributions.
 class Chance {
  public:
   explicit Chance(int seed) : engine_(static_cast<std::uint64_t>(seed)) {}
@@ -351,7 +351,7 @@ class Chance {
   std::mt19937_64 engine_;
 };
 
-/// The middle of the bottom of the turned body's bounding box goes to `position`.
+/// Moves the bottom centre of the rotated body's bounding box to `position`.
 Pose pose_at(const Vec3& position, const Mat3& rotation, const LoadedBody& loaded) {
   const Points flipped = loaded.mesh.positions * rotation.transpose();
   const Vec3 low = flipped.colwise().minCoeff();
@@ -383,13 +383,13 @@ std::vector<Pose> poses_of(const SceneBody& body, const LoadedBody& loaded) {
 
 namespace {
 
-/// The bricks' volume may differ from the mesh's by this share before it is worth a warning.
+/// The relative error of the bricks' volume from which on there is a warning.
 constexpr double kVolumeError = 0.02;
-constexpr double kResolvedShell = 2;  // bricks: a thicker shell is held by them as it is
+constexpr double kResolvedShell = 2;  // bricks: thicker shells are resolved
 
 double volume_error(const BrickGrid& grid, const Solid& solid) { return std::abs(grid.volume() / solid.volume - 1); }
 
-/// Half of the brick size, or a quarter, ... : the first that holds the solid's volume; none down to a 64th.
+/// The first of half of the brick size, a quarter, ... that represents the solid's volume; none down to a 64th.
 std::optional<double> brick_size_for(const Solid& solid, double brick_size) {
   for (int halving = 0; halving < 6; ++halving) {
     brick_size /= 2;
@@ -414,27 +414,27 @@ void FillReport::add(const Embedding& skin) {
 }
 
 void FillReport::add_volume(const BrickGrid& grid, const Solid& solid) {
-  // Of a shell as thick as that the bricks know better: where it meets itself, area times thickness counts twice.
+  // For thick shells the bricks are more accurate: area times thickness counts overlaps twice.
   if (solid.thickness > kResolvedShell * body_.brick_size) return;
   if (volume_error(grid, solid) <= kVolumeError) return;
   ++wrong_volumes_;
   if (wrong_volumes_ > 1) return;
   const std::optional<double> better = brick_size_for(solid, body_.brick_size);
   volume_warning_ =
-      fmt::format("bricks of {} are too coarse: they hold {:.4g} kg where the mesh holds {:.4g} kg; {}",
+      fmt::format("bricks of {} are too coarse: they hold {:.4g} kg, the mesh {:.4g} kg; {}",
                   readable(body_.brick_size, Dimension::kLength), grid.volume() * density_, solid.volume * density_,
-                  better ? fmt::format("for the mass bricks of {} would do", readable(*better, Dimension::kLength))
+                  better ? fmt::format("bricks of {} would suffice for the mass", readable(*better, Dimension::kLength))
                          : "use much smaller ones");
 }
 
 void FillReport::tell(const Observer& observer) const {
   if (outside_ > 0) {
-    observer.note(fmt::format("{}: {} outside every brick, {:.2g} bricks away at most, on the nearest one", body_.name,
-                              count_of(outside_, "skin vertex rides", "skin vertices ride"), furthest_outside_));
+    observer.note(fmt::format("{}: {} outside all bricks, at most {:.2g} bricks from the nearest one", body_.name,
+                              count_of(outside_, "skin vertex lies", "skin vertices lie"), furthest_outside_));
   }
   if (slivers_ > 0) {
     observer.detail(
-        fmt::format("{}: {} given to fuller neighbours", body_.name, count_of(slivers_, "nearly empty brick")));
+        fmt::format("{}: {} merged into fuller neighbours", body_.name, count_of(slivers_, "nearly empty brick")));
   }
   tell_pieces(observer);
   if (wrong_volumes_ == 0) return;
@@ -445,16 +445,16 @@ void FillReport::tell(const Observer& observer) const {
 
 void FillReport::tell_pieces(const Observer& observer) const {
   if (pieces_.divided > 0) {
-    observer.detail(fmt::format("{}: {} more than one piece of solid, and a brick for each", body_.name,
-                                count_of(pieces_.divided, "cell holds", "cells hold")));
+    observer.detail(fmt::format("{}: {} several pieces of solid, each in a brick of its own", body_.name,
+                                count_of(pieces_.divided, "cell contains", "cells contain")));
   }
   if (pieces_.dropped > 0) {
     observer.warn(fmt::format("{}: dropped {} of floating specks, {:.2g} kg together", body_.name,
                               count_of(pieces_.dropped, "brick"), pieces_.dropped_volume * density_));
   }
   if (pieces_.floating > 0) {
-    observer.warn(fmt::format("{}: {} by parts too thin for bricks of {}; smaller bricks would hold them", body_.name,
-                              count_of(pieces_.floating, "piece hangs", "pieces hang"),
+    observer.warn(fmt::format("{}: {} connected by parts too thin for bricks of {}; use smaller bricks", body_.name,
+                              count_of(pieces_.floating, "piece is", "pieces are"),
                               readable(body_.brick_size, Dimension::kLength)));
   }
 }

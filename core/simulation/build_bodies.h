@@ -4,24 +4,24 @@
 
 #include "core/bricks/embedding.h"
 #include "core/bricks/pieces.h"
-#include "core/pose.h"
 #include "core/simulation/body_source.h"
 #include "core/simulation/selector.h"
 #include "core/simulation/simulation.h"
+#include "core/types.h"
 
 namespace sprung {
 
-/// `grid` are the bricks of one solid of the mesh (m). The body is at rest where its grid is, and touches by its skin,
-/// as finely as its bricks can follow. Deterministic.
+/// `grid`: the bricks of one solid of the mesh (m). The body is at rest in the place of its grid; its contact points
+/// are those of its skin, as fine as its bricks can follow. Deterministic.
 [[nodiscard]] SoftBody make_soft_body(const SurfaceMesh& mesh, const Solid& solid, BrickGrid grid, Model model,
                                       const Material& material);
 
-/// Where the forces of a body of the scene act on one of its solids, which is still where its grid is: those that act
-/// there at all. Throws Error(kBadInput) where a part speaks of what is not there.
+/// Where the forces of a scene body act on one of its solids, which is still in the place of its grid; forces that do
+/// not act on it are left out. Throws Error(kBadInput) where a part does not exist.
 [[nodiscard]] std::vector<ForcedPart> place_forces(const std::vector<BodyForce>& forces, const Selector& selector,
                                                    const SoftBody& actor, std::size_t solid);
 
-/// The same of its muscles. `bricks_from_rest`: how the body was turned so that its bricks are straight.
+/// The same for its muscles. `bricks_from_rest`: see LoadedBody.
 [[nodiscard]] std::vector<MusclePart> place_muscles(const std::vector<BodyMuscle>& muscles, const Selector& selector,
                                                     const SoftBody& actor, std::size_t solid,
                                                     const Mat3& bricks_from_rest);
@@ -29,19 +29,19 @@ namespace sprung {
 /// Throws Error(kBadInput) where a force or a muscle of a body of the scene acts on none of its bodies.
 void check_loads(const Scene& scene, std::size_t body, const World& world);
 
-/// Where a body and its copies are (from a body at rest, turned as its bricks are, the middle of its bounding box at
-/// the origin), x first, then y, then z. What is random in it depends on its seed only.
+/// The poses of a body and its copies (from a LoadedBody at rest), x first, then y, then z. Random placements depend on
+/// their seed only.
 [[nodiscard]] std::vector<Pose> poses_of(const SceneBody& body, const LoadedBody& loaded);
 
-/// Gathers what came of filling the solids of one body with bricks, to tell it at once.
+/// Collects the results of filling the solids of one body with bricks, for a single report.
 class FillReport {
  public:
-  /// The body and its density (kg/m^3). It has to outlive this.
+  /// The body, which must outlive this, and its density (kg/m^3).
   FillReport(const LoadedBody& body, double density) : body_(body), density_(density) {}
 
   void add(const PieceReport& pieces, int slivers);
   void add(const Embedding& skin);
-  /// How well bricks hold a solid's volume. Largest solids first.
+  /// How well the bricks represent a solid's volume. Largest solids first.
   void add_volume(const BrickGrid& grid, const Solid& solid);
 
   void tell(const Observer& observer) const;
@@ -59,26 +59,25 @@ class FillReport {
   std::string volume_warning_;  // of the first of them
 };
 
-/// Adds one body of a scene to a simulation: its solids filled with bricks, placed, with what is held of them; as many
-/// times as it has copies, all of one solid one after the other.
+/// Adds one body of a scene to a simulation: its solids filled with bricks, placed and pinned, once per copy; all
+/// copies of a solid are consecutive.
 class BodyBuilder {
  public:
-  /// Body `index` of the scene. All have to outlive it.
+  /// Body `index` of the scene. All must outlive it.
   BodyBuilder(const Scene& scene, std::size_t index, const LoadedBody& loaded, Simulation& simulation);
 
-  /// Touches nothing but this builder: those of other bodies may be filled at the same time. Throws
-  /// Error(kBadInput) where a region, a pin or a cut speaks of what is not there.
+  /// Changes nothing but this builder, so that several may run concurrently. Throws Error(kBadInput) where a region, a
+  /// pin or a cut refers to a part that does not exist.
   void fill_solids();
 
-  /// What was filled, into the simulation.
+  /// Adds the filled solids to the simulation.
   void add_solids();
 
-  /// Says how well the bricks fill the body, and what is not held.
-  /// Throws Error(kBadInput) where no pin holds a node.
+  /// Reports how well the bricks fill the body, and unpinned solids. Throws Error(kBadInput) where no pin holds a node.
   void tell(const Observer& observer) const;
 
  private:
-  /// Still where its grid is.
+  /// Still in the place of its grid.
   [[nodiscard]] SoftBody fill(std::size_t solid);
   [[nodiscard]] BrickGrid make_grid(const Solid& solid);
   [[nodiscard]] std::vector<PinnedNodes> find_pins(const Body& body, std::size_t solid) const;

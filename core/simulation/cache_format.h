@@ -7,17 +7,17 @@
 
 namespace sprung {
 
-/// Where things are in a cache. Whoever changes it counts kCacheLayout up.
+/// The layout of a cache. Increment kCacheLayout with every change.
 inline constexpr int kCacheLayout = 4;
 inline constexpr const char* kLayoutName = "/layout";
-inline constexpr const char* kProgressName = "/frames/progress";  // written last: a frame is there when its time is
+inline constexpr const char* kProgressName = "/frames/progress";  // written last: completes a frame
 inline constexpr const char* kProbesName = "/frames/probes";
 inline constexpr const char* kHashName = "/frames/state_hash";
 inline constexpr const char* kSecondsName = "/frames/seconds";
 inline constexpr const char* kMemoryName = "/frames/memory";  // of frame f in row f % 2
 
-/// In the folder of an actor: positions, then velocities of all nodes to the last bit, of frame f in row f % 2; without
-/// columns where the frames themselves are kept so.
+/// In the folder of an actor: the exact positions, then velocities of all nodes, of frame f in row f % 2; no columns
+/// where the frames themselves are exact.
 inline constexpr const char* kExactName = "/exact_state";
 
 /// Counted from 1.
@@ -27,7 +27,7 @@ inline constexpr const char* kExactName = "/exact_state";
   return "/obstacles/" + std::to_string(obstacle + 1);
 }
 
-/// A skin in a folder of a cache: "folder/positions", "folder/triangles" and so on.
+/// A skin in a folder of a cache: "folder/positions", "folder/triangles" etc.
 void write_skin(Hdf5Writer& hdf5, const std::string& folder, const Skin& skin);
 [[nodiscard]] Skin read_skin(const Hdf5Reader& hdf5, const std::string& folder);
 

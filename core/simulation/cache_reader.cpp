@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "core/mesh/io/file_checks.h"
+#include "core/files.h"
 #include "core/simulation/cache.h"
 #include "core/simulation/cache_format.h"
 

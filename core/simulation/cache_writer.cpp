@@ -14,12 +14,6 @@ namespace fs = std::filesystem;
 
 using Cells = Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
-fs::path beside(const fs::path& file) {
-  fs::path name = file;
-  name += ".partial";
-  return name;
-}
-
 Cells rows_of(const std::vector<Eigen::Vector3i>& list) {
   Cells rows(list.size(), 3);
   for (std::size_t i = 0; i < list.size(); ++i) rows.row(i) = list[i];
@@ -85,7 +79,7 @@ void write_obstacle(Hdf5Writer& hdf5, const std::string& folder, const StageObst
   write_skin(hdf5, folder + "/skin", obstacle.skin);
 }
 
-/// To the nearest multiples of the largest power of two that keeps within the error; as they are where that is 0.
+/// Rounds to multiples of the largest power of two that respects the error; not at all where that is 0.
 void append_rounded(Hdf5Writer& hdf5, const std::string& name, const Points& values, double error) {
   if (error == 0) return hdf5.append(name, flat_values(values));
   const double step = std::exp2(std::floor(std::log2(2 * error)));
@@ -119,12 +113,11 @@ void write_header(Hdf5Writer& hdf5, const CacheHeader& header) {
 }  // namespace
 
 CacheWriter::CacheWriter(fs::path file, const CacheHeader& header, std::size_t memory_size)
-    : file_(std::move(file)),
-      written_(beside(file_)),
-      lock_(written_),
+    : lock_(PartialFile::temporary_name(file)),
+      file_(std::move(file)),
       position_error_(header.position_error),
       velocity_error_(header.velocity_error),
-      hdf5_(written_) {
+      hdf5_(file_.path()) {
   write_header(hdf5_, header);
   hdf5_.make_series<double>(kProgressName, {});
   hdf5_.make_series<double>(kProbesName, {header.probes.size(), kNumbersOfProbe});
@@ -134,16 +127,11 @@ CacheWriter::CacheWriter(fs::path file, const CacheHeader& header, std::size_t m
   hdf5_.start_series();
 }
 
-CacheWriter::~CacheWriter() {
-  std::error_code ignored;
-  if (written_ != file_) fs::remove(written_, ignored);
-}
-
 void CacheWriter::append(const CachedFrame& frame, const std::vector<const Points*>& positions,
                          const std::vector<const Points*>& velocities, const std::vector<double>& memory) {
-  if (!lock_.is_of(written_)) {
+  if (!lock_.is_of(file_.path())) {
     throw Error(ErrorKind::kFailed,
-                fmt::format("'{}' is gone or was replaced while it was being written", written_.string()));
+                fmt::format("'{}' was removed or replaced while it was being written", file_.path().string()));
   }
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const std::string folder = actor_folder(i);
@@ -163,13 +151,8 @@ void CacheWriter::append(const CachedFrame& frame, const std::vector<const Point
 }
 
 void CacheWriter::publish() {
-  std::error_code error;
-  fs::rename(written_, file_, error);
-  if (error) {
-    throw Error(ErrorKind::kFailed, fmt::format("cannot write '{}': {}", file_.string(), error.message()));
-  }
-  written_ = file_;
-  hdf5_.rename(file_);
+  file_.publish();
+  hdf5_.rename(file_.path());
 }
 
 void CacheWriter::close() { hdf5_.close(); }

@@ -8,9 +8,9 @@ namespace sprung {
 namespace {
 
 constexpr double kMostContraction = 0.9;  // however strong
-constexpr double kLongestPiece = 0.005;   // s; a change over a frame comes in steps that nobody sees
+constexpr double kLongestPiece = 0.005;   // s; steps of a changing load that are too short to be visible
 
-/// At t = 0 a movement is where a thing is put; a curve has its first value there.
+/// At t = 0 a movement is the identity; a curve has its first value there.
 Movement from_values(std::vector<Keyframe> keyframes, Interpolation interpolation) {
   if (keyframes.front().time > 0) {
     Keyframe start = keyframes.front();
@@ -20,7 +20,7 @@ Movement from_values(std::vector<Keyframe> keyframes, Interpolation interpolatio
   return {std::move(keyframes), interpolation};
 }
 
-/// Of the bricks that each force of a body acts on, in all its solids, m^3.
+/// The volume of the bricks on which each force of a body acts, over all its solids, m^3.
 std::vector<double> forced_volumes(const Scene& scene, const Simulation& simulation, std::size_t body) {
   std::vector<double> volumes(scene.bodies[body].forces.size());
   for (const SoftBody& one : simulation.world.bodies) {
@@ -147,7 +147,7 @@ bool holds(const Pin& pin, double time) {
   return pin.from <= time + kMoment && (!pin.until || time + kMoment < *pin.until);
 }
 
-/// What brings things from where they are at one time to where they are at another.
+/// The placement at `end` relative to that at `begin`.
 Placement between(const Movement& movement, double begin, double end) {
   if (movement.is_still()) return {};
   const Placement first = movement.placement(begin);
@@ -169,15 +169,15 @@ SceneDriver::SceneDriver(const Scene& scene, Simulation& simulation)
     : scene_(scene),
       simulation_(simulation),
       loads_(scene, simulation),
-      grips_(simulation.world.bodies.size()),
+      pins_(simulation.world.bodies.size()),
       moments_(loads_.moments()) {
   loads_.aim(0, 0);
-  for (std::size_t actor = 0; actor < grips_.size(); ++actor) {
+  for (std::size_t actor = 0; actor < pins_.size(); ++actor) {
     const Origin& origin = simulation.world.bodies[actor].origin;
     for (const PinnedNodes& pinned : origin.pins) {
       const Pin& pin = scene.bodies[origin.body].pins[pinned.pin];
-      grips_[actor].push_back({.pin = &pin, .pinned = &pinned, .movement = movement_of(pin, scene)});
-      add_moments(pin, grips_[actor].back().movement, moments_);
+      pins_[actor].push_back({.source = &pin, .pinned = &pinned, .movement = movement_of(pin, scene)});
+      add_moments(pin, pins_[actor].back().movement, moments_);
     }
   }
   for (const StageObstacle& obstacle : simulation.obstacles) {
@@ -207,15 +207,15 @@ void SceneDriver::aim(double begin, double end) {
   for (std::size_t i = 0; i < simulation_.obstacles.size(); ++i) {
     simulation_.world.obstacles[i] = obstacle_between(simulation_.obstacles[i], scene_.obstacles[i], begin, end);
   }
-  for (std::size_t i = 0; i < grips_.size(); ++i) {
-    if (grips_[i].empty()) continue;
+  for (std::size_t i = 0; i < pins_.size(); ++i) {
+    if (pins_[i].empty()) continue;
     SoftBody& actor = simulation_.world.bodies[i];
     std::map<int, KinematicNode> held;
-    for (FrictionPotential& grip : grips_[i]) {
-      if (holds(*grip.pin, begin)) {
-        carry(grip, actor, begin, end, held);
+    for (PinMotion& pin : pins_[i]) {
+      if (holds(*pin.source, begin)) {
+        carry(pin, actor, begin, end, held);
       } else {
-        grip.caught.reset();
+        pin.capture.reset();
       }
     }
     actor.pinned.clear();
@@ -224,37 +224,37 @@ void SceneDriver::aim(double begin, double end) {
 }
 
 void SceneDriver::serialize(IntegratorState& state) {
-  for (std::vector<FrictionPotential>& grips : grips_) {
-    for (FrictionPotential& grip : grips) {
-      bool is_caught = grip.caught.has_value();
-      Catch caught = grip.caught.value_or(Catch{});
-      caught.positions.conservativeResize(grip.pinned->nodes.size(), 3);
+  for (std::vector<PinMotion>& pins : pins_) {
+    for (PinMotion& pin : pins) {
+      bool is_caught = pin.capture.has_value();
+      Capture caught = pin.capture.value_or(Capture{});
+      caught.positions.conservativeResize(pin.pinned->nodes.size(), 3);
       if (!is_caught) caught.positions.setZero();
       state.serialize_as_double(is_caught);
       state.serialize(caught.time);
       state.serialize(caught.centre);
       state.serialize(caught.positions);
-      grip.caught = is_caught ? std::optional(caught) : std::nullopt;
+      pin.capture = is_caught ? std::optional(caught) : std::nullopt;
     }
   }
 }
 
-void SceneDriver::carry(FrictionPotential& grip, SoftBody& actor, double begin, double end,
+void SceneDriver::carry(PinMotion& pin, SoftBody& actor, double begin, double end,
                         std::map<int, KinematicNode>& held) const {
-  const std::vector<int>& nodes = grip.pinned->nodes;
+  const std::vector<int>& nodes = pin.pinned->nodes;
   Body& body = actor;
-  if (!grip.caught) {
-    grip.caught = Catch{.time = begin, .centre = grip.pinned->centre, .positions = body.positions(nodes, Eigen::all)};
-    if (begin > kMoment) grip.caught->centre = grip.caught->positions.colwise().mean();
+  if (!pin.capture) {
+    pin.capture = Capture{.time = begin, .centre = pin.pinned->centre, .positions = body.positions(nodes, Eigen::all)};
+    if (begin > kMoment) pin.capture->centre = pin.capture->positions.colwise().mean();
   }
-  const Placement placement = between(grip.movement, grip.caught->time, end);
+  const Placement placement = between(pin.movement, pin.capture->time, end);
   for (std::size_t k = 0; k < nodes.size(); ++k) {
-    const Vec3 start = grip.caught->positions.row(k);
-    const Vec3 goal = start + placement.way(start - grip.caught->centre);
+    const Vec3 start = pin.capture->positions.row(k);
+    const Vec3 goal = start + placement.way(start - pin.capture->centre);
     const auto [place, is_new] =
         held.try_emplace(nodes[k], KinematicNode{.node = nodes[k], .axes = {false, false, false}});
     for (int axis = 0; axis < 3; ++axis) {
-      if (!grip.pin->axes.held[axis]) continue;
+      if (!pin.source->axes.held[axis]) continue;
       place->second.axes[axis] = true;
       place->second.velocity[axis] = (goal[axis] - body.positions(nodes[k], axis)) / (end - begin);
       body.velocities(nodes[k], axis) = place->second.velocity[axis];

@@ -10,19 +10,19 @@
 
 namespace sprung {
 
-/// Forces, muscles, wind and gravity of a scene over time.
+/// The forces, muscles, wind and gravity of a scene over time.
 class LoadDriver {
  public:
-  /// Both have to outlive it.
+  /// Both must outlive it.
   LoadDriver(const Scene& scene, Simulation& simulation);
 
-  /// When keyframes are, s.
+  /// The times of keyframes, s.
   [[nodiscard]] const std::vector<double>& moments() const { return moments_; }
 
-  /// Longest time (s) for which what acts may be taken as even around `time`; infinite while nothing changes.
+  /// The longest interval (s) around `time` on which loads may be taken as constant; infinite while nothing changes.
   [[nodiscard]] double longest_piece(double time) const;
 
-  /// Lets the world have what acts from `begin` to `end` (s): what it is in the middle.
+  /// Sets the world's loads from `begin` to `end` (s) to those at the midpoint.
   void aim(double begin, double end);
 
  private:
@@ -43,75 +43,73 @@ class LoadDriver {
   struct BodyCurves {
     std::vector<Curve> forces;
     std::vector<Curve> muscles;
-    std::vector<double> volumes;  // m^3, all that each force acts on
+    std::vector<double> volumes;  // m^3, on which each force acts
   };
 
   [[nodiscard]] Loads loads_at(std::size_t actor, double time) const;
 
   const Scene& scene_;
   Simulation& simulation_;
-  std::vector<Curve> gravity_;  // one, or none: it stays
+  std::vector<Curve> gravity_;  // one, or none: constant
   std::vector<Curve> wind_;     // the same
   std::vector<BodyCurves> bodies_;
   std::vector<double> moments_;
 };
 
-/// Of the scene's steady forces on the nodes of an actor (m x 3, N); pressures are left out.
+/// The constant nodal forces of the scene on an actor (m x 3, N), without pressures.
 [[nodiscard]] Points steady_forces(const Scene& scene, const Simulation& simulation, std::size_t actor);
 
-/// Catches nodes, carries them and lets them go, as the pins of a scene say, while a world is in motion; moves its
-/// obstacles, and lets its loads act. A pin that catches later than at the start takes its nodes where they then are,
-/// and turns them about their middle.
+/// Drives a moving world by its scene: pins catch, move and release nodes, obstacles move, loads act. A pin that
+/// catches its nodes later than at the start takes them where they are and rotates them about their centroid.
 class SceneDriver {
  public:
-  /// Both have to outlive it. What acts at the start acts from now on.
+  /// Both must outlive it. Applies the loads of the start.
   SceneDriver(const Scene& scene, Simulation& simulation);
 
-  /// Ends (s, rising, the last is `end`) of the pieces that the time from `begin` to `end` falls into: between them no
-  /// pin catches, lets go or comes through a keyframe, nor anything else through one, and loads hardly change.
+  /// Divides the time from `begin` to `end` into pieces in which no pin catches or releases its nodes, no keyframe is
+  /// passed and loads hardly change. Returns their ends (s, ascending, the last one is `end`).
   [[nodiscard]] std::vector<double> pieces(double begin, double end) const;
 
-  /// Sets what acts and what is held from `begin` to `end` (s), and the even velocities that bring it, and obstacles,
-  /// exactly to where they belong.
+  /// Sets the loads and pinned nodes from `begin` to `end` (s), and the constant velocities that take pinned nodes and
+  /// obstacles exactly to their places at `end`.
   void aim(double begin, double end);
 
-  /// How nodes were caught by the pins that hold now.
+  /// The state of the pins that hold nodes now.
   void serialize(IntegratorState& state);
 
  private:
-  /// Nodes as a pin caught them.
-  struct Catch {
+  /// The nodes as a pin caught them.
+  struct Capture {
     double time = 0;             // s
     Vec3 centre = Vec3::Zero();  // m
     Points positions;            // m, in the order of the nodes
   };
-  /// A pin and those of its nodes that belong to one actor.
-  struct FrictionPotential {
-    const Pin* pin;
+  /// A pin and its nodes of one actor.
+  struct PinMotion {
+    const Pin* source;
     const PinnedNodes* pinned;
     Movement movement;
-    std::optional<Catch> caught{};
+    std::optional<Capture> capture{};
   };
 
-  void carry(FrictionPotential& grip, SoftBody& actor, double begin, double end,
-             std::map<int, KinematicNode>& held) const;
+  void carry(PinMotion& pin, SoftBody& actor, double begin, double end, std::map<int, KinematicNode>& held) const;
 
   const Scene& scene_;
   Simulation& simulation_;
   LoadDriver loads_;
-  std::vector<std::vector<FrictionPotential>> grips_;  // by actor
-  std::vector<double> moments_;                        // s, rising: where pieces end
+  std::vector<std::vector<PinMotion>> pins_;  // by actor
+  std::vector<double> moments_;               // s, ascending: where pieces end
 };
 
-/// The way of a pin: its keyframes, or even from the start of the film to its end.
+/// The movement of a pin: by its keyframes, or linear from the start of the film to its end.
 [[nodiscard]] Movement movement_of(const Pin& pin, const Scene& scene);
 
-/// How far pins that hold from the start have carried each node of an actor (m x 3, m) by a time (s) of the film; zero
-/// along free axes. With `small`, as if the movement were infinitely small: turned nodes move along tangents.
+/// The displacement of each node of an actor (m x 3, m) by pins that hold from the start, at a time (s) of the film;
+/// zero along free axes. With `small`, to first order: rotated nodes move along tangents.
 [[nodiscard]] Points pin_movements(const Scene& scene, const Simulation& simulation, std::size_t actor, double time,
                                    bool small);
 
-/// What the pins of an actor hold.
+/// The supports by the pins of an actor.
 [[nodiscard]] Supports supports_of(const SoftBody& actor);
 
 }  // namespace sprung

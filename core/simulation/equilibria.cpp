@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kModeSwing = 0.1;  // of the body's size
 
-/// Brings the bodies to rest under a share of the load.
+/// Finds the equilibria of the bodies under a fraction of the load.
 class Loading {
  public:
   Loading(Simulation& simulation, const Scene& scene)
@@ -32,7 +32,7 @@ class Loading {
     for (std::size_t i = 0; i < simulation.world.bodies.size(); ++i) systems_.push_back(make_default_solver());
   }
 
-  /// The shape under a share of the weight, with the pins where they are at a time (s). Reactions by actor, m x 3, N.
+  /// The shapes under a fraction of the weight, with the pins as at a time (s). Reactions by actor, m x 3, N.
   std::vector<Points> apply(double share, double time) {
     std::vector<Points> reactions_of_all;
     for (std::size_t row = 0; row < simulation_.world.bodies.size(); ++row) {
@@ -48,7 +48,7 @@ class Loading {
   [[nodiscard]] bool is_linear() const { return is_linear_; }
   [[nodiscard]] int iterations() const { return iterations_; }
 
-  /// What the linear solvers had to do, where they had to give up.
+  /// Reports the fallbacks of the linear solvers, if any.
   void note_trouble(const Observer& observer) const {
     for (std::size_t i = 0; i < systems_.size(); ++i) {
       const SolveReport report = systems_[i]->report();
@@ -70,7 +70,7 @@ class Loading {
   int iterations_ = 0;
 };
 
-/// An option can make a scene one of states of rest after its file was checked.
+/// An option may change the solver after the scene file was checked.
 void check_rests(const Scene& scene) {
   if (const std::vector<MotionOnly> parts = motion_only(scene); !parts.empty()) {
     throw Error(ErrorKind::kBadInput,
@@ -111,7 +111,7 @@ Recording record_equilibria(Simulation& simulation, const Scene& scene, const Ob
   for (int frame = first; frame < frames; ++frame) {
     observer.check_interrupt();
     const double share = frames == 1 ? 1.0 : double(frame) / (frames - 1);
-    // Nothing is solved for the first of several: no load, no displacement.
+    // The first of several frames is at rest: no load, no displacement.
     const std::vector<Points> reactions =
         share == 0 ? std::vector<Points>{} : loading.apply(share, time_of(scene, frame));
     recorder.add(share, reactions, time_of(scene, frame), loading.is_linear());
@@ -157,9 +157,9 @@ void warn_of_crushed_bodies(const World& world, const Observer& observer) {
     const int inverted = inverted_bricks(body);
     if (inverted == 0 && !is_crushed(body)) continue;
     observer.warn(fmt::format(
-        "body {}: of {} bricks {} are inside out and {} pressed to less than {} of their volume at the end, where the "
-        "guard against turning inside out carries them, not their springs: the material is too soft for its weight, "
-        "its fall or what moves it; a stiffer or lighter material (young, density) or a smaller body carries itself",
+        "body {}: of {} bricks {} are inverted and {} compressed to less than {} of their volume at the end, where the "
+        "volume guard supports them, not their springs: the material is too soft for its weight, its impact or its "
+        "pins; use a stiffer or lighter material (young, density) or a smaller body",
         i + 1, body.grid.brick_count(), inverted, guarded_bricks(body) - inverted, body.law.guard_ratio));
   }
 }

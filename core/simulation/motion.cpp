@@ -9,7 +9,7 @@
 namespace sprung {
 namespace {
 
-constexpr double kRounding = 1e-6;  // of a step, that a piece of a frame may be longer than whole steps
+constexpr double kRounding = 1e-6;  // fraction of a step by which a piece of a frame may exceed whole steps
 
 }  // namespace
 

@@ -11,28 +11,28 @@
 
 namespace sprung {
 
-/// Moves a simulation through time as its scene says: pins, loads and obstacles along their keyframes, bodies by the
-/// scene's scheme. Deterministic for any number of threads.
+/// Advances a simulation in time: pins, loads and obstacles along their keyframes, bodies by the scene's scheme.
+/// Deterministic for any number of threads.
 class SceneMotion {
  public:
   using Between = AdaptiveIntegrator::Between;
   using Tell = AdaptiveIntegrator::Tell;
 
-  /// Both have to outlive it. Throws Error(kBadInput) where the scheme cannot do what is there.
+  /// Both must outlive it. Throws Error(kBadInput) where the scheme does not support the scene.
   SceneMotion(Simulation& simulation, const Scene& scene);
 
-  /// From `begin` to `end` (s), which are `duration` apart: frames that shall be equal to the last bit say the same.
+  /// From `begin` to `end` (s). `duration` is their difference, given so that equal frames have it bit-identical.
   /// Throws Diverged.
   void advance(double begin, double end, double duration, const Between& between, const Tell& tell);
 
-  /// What the next time step depends on beside positions and velocities.
+  /// The state of the integrator besides positions and velocities.
   void serialize(IntegratorState& state);
 
-  /// The steps are those of the last frame, of the body that took most.
+  /// With the steps of the last frame, of the body that took most.
   [[nodiscard]] const StepPlan& plan() const { return plan_; }
-  /// Of implicit steps; none: steps are explicit.
+  /// None for explicit steps.
   [[nodiscard]] std::optional<ImplicitMotion::Report> implicit_report() const;
-  /// Forces of the pins by body (m x 3, N), as the bodies stand: what accelerates a held node's own mass is left out.
+  /// Reactions of the pins by body (m x 3, N) in the current state, without the inertia of the pinned nodes.
   [[nodiscard]] std::vector<Points> pin_reactions() const;
 
  private:

@@ -7,30 +7,30 @@ namespace sprung {
 
 class Progress;
 
-/// Hears what long work has to say, and may stop it. This one hears nothing.
+/// Receives the messages of long operations, and may interrupt them. This one ignores them.
 class Observer {
  public:
   virtual ~Observer() = default;
 
-  /// Something that a person should know, is told, or may want to know.
+  /// Messages of decreasing importance.
   virtual void warn(std::string_view) const {}
   virtual void note(std::string_view) const {}
   virtual void detail(std::string_view) const {}
 
-  /// Called often; throws where the work is to stop.
+  /// Called often; throws to interrupt the operation.
   virtual void check_interrupt() const {}
 
-  /// A stage has begun or gone on, is over, or ended without a result.
+  /// A stage has begun or advanced, has finished, or has ended without a result.
   virtual void show(const Progress&) const {}
   virtual void finish(const Progress&, std::string_view) const {}
   virtual void clear(const Progress&) const {}
 };
 
-/// A stage of long work with what is done of it, for an observer.
+/// The progress of one stage of a long operation.
 class Progress {
  public:
-  /// `total` units of work, 0: not known; a rate is told as `scale` times units a second, for example 1e-6 and
-  /// "M brick-steps/s". The observer has to outlive it.
+  /// `total` units of work, 0: unknown; the rate is shown as `scale` times units per second, for example 1e-6 and "M
+  /// brick-steps/s". The observer must outlive it.
   Progress(const Observer& observer, std::string name, double total = 0, double scale = 1, std::string rate_unit = "")
       : observer_(observer), name_(std::move(name)), total_(total), scale_(scale), rate_unit_(std::move(rate_unit)) {
     observer_.show(*this);
@@ -44,7 +44,7 @@ class Progress {
     done_ = done;
     observer_.show(*this);
   }
-  /// Ends the stage with what came out of it.
+  /// Ends the stage with its result.
   void finish(std::string_view result) { observer_.finish(*this, result); }
 
   [[nodiscard]] const std::string& name() const { return name_; }
@@ -53,9 +53,9 @@ class Progress {
   [[nodiscard]] double seconds() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }
-  /// At the rate so far; 0 where nothing is known.
+  /// At the rate so far; 0 where unknown.
   [[nodiscard]] double seconds_to_go() const { return done_ > 0 ? seconds() * (total_ - done_) / done_ : 0; }
-  /// Times `scale` a second; 0 where nothing is known or no unit is named.
+  /// Times `scale`, per second; 0 where unknown or without a unit.
   [[nodiscard]] double rate() const { return rate_unit_.empty() || done_ <= 0 ? 0 : scale_ * done_ / seconds(); }
   [[nodiscard]] const std::string& rate_unit() const { return rate_unit_; }
 

@@ -5,22 +5,22 @@
 #include "core/error.h"
 #include "core/mesh/io/read_mesh.h"
 #include "core/mesh/repair/solids.h"
-#include "core/pose.h"
 #include "core/simulation/shapes.h"
+#include "core/types.h"
 
 namespace sprung {
 namespace {
 
 constexpr Color kColor{0x9a, 0xa4, 0xae};
-constexpr double kThin = 0.01;  // of half its side: how thick a plane is drawn
+constexpr double kThin = 0.01;  // thickness of a drawn plane, over half its side
 
-/// What a kind of obstacle is made of: the solid and what is seen of it.
+/// An obstacle's solid and its drawn surface.
 struct Made {
   Shape shape;
   SurfaceMesh mesh;
 };
 
-/// Seen as a thin slab.
+/// Drawn as a thin slab.
 Made make_plane(double room) {
   const double thickness = kThin * room;
   Made made{SolidHalfSpace{}, box_mesh({2 * room, thickness, 2 * room})};
@@ -42,7 +42,7 @@ Made make_mesh(const SceneObstacle& obstacle, const Observer& observer) {
   const auto placed = [&](const Points& points) {
     return Points((points.rowwise() - ((low + high) / 2).transpose()) * scale);
   };
-  // The surfaces of all solids together.
+  // The surfaces of all solids, concatenated.
   Points points(0, 3);
   Triangles triangles(0, 3);
   for (const Solid& solid : found.solids) {
@@ -76,7 +76,7 @@ Pose start_of(const SceneObstacle& obstacle) {
   if (!obstacle.plane) return pose;
   const Vec3 normal = obstacle.plane->normal.normalized();
   pose.translation += pose.rotation.col(1) * obstacle.plane->y;
-  // Exactly upright where it is meant to be: level ground is known by that.
+  // Exactly upright where it is meant to be, since level ground is recognised by that.
   if (normal != Vec3::UnitY()) {
     pose.rotation = pose.rotation * Eigen::Quaterniond::FromTwoVectors(Vec3::UnitY(), normal);
   }

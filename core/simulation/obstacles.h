@@ -9,23 +9,23 @@
 
 namespace sprung {
 
-/// An obstacle of the scene as it is drawn and moved.
+/// An obstacle of the scene with its skin and movement.
 struct StageObstacle {
   Shape shape;
   Pose start;         // before any keyframe
   Movement movement;  // about start.translation
-  Skin skin;          // in the shape's frame; empty: level ground, or a plane with nothing to show
+  Skin skin;          // in the shape's frame; empty for level ground and planes that are not drawn
   Color color;
 };
 
-/// Makes the obstacles of a scene. `room` (m): half the side of what is drawn of a plane that is no level ground.
-/// Throws Error(kBadInput) where a mesh does not enclose anything.
+/// Makes the obstacles of a scene. `room` (m): half the side of the drawn square of a plane other than level ground.
+/// Throws Error(kBadInput) where a mesh does not enclose a volume.
 [[nodiscard]] std::vector<StageObstacle> make_obstacles(const Scene& scene, double room, const Observer& observer);
 
-/// Where it is at a time of the film (s).
+/// Its pose at a time of the film (s).
 [[nodiscard]] Pose pose_at(const StageObstacle& obstacle, double time);
 
-/// As a world has it: at `begin` (s) on its even way to where it is at `end`; at rest where both are the same.
+/// The obstacle of a world at `begin` (s), moving uniformly to its pose at `end`; at rest where both are equal.
 [[nodiscard]] Obstacle obstacle_between(const StageObstacle& staged, const SceneObstacle& obstacle, double begin,
                                         double end);
 

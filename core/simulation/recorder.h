@@ -11,8 +11,8 @@
 
 namespace sprung {
 
-/// What a probe saw in one frame: a point's place, or the mean place of a pin's nodes with the force that the pin
-/// exerts on them and its torque about the middle of the pin's box.
+/// A probe's values in one frame: the position of a point, or the mean position of a pin's nodes, the force that the
+/// pin exerts on them and its torque about the centre of the pin's box.
 struct ProbeSample {
   Vec3 position = Vec3::Zero();      // m
   Vec3 displacement = Vec3::Zero();  // m, from the start
@@ -20,7 +20,7 @@ struct ProbeSample {
   Vec3 torque = Vec3::Zero();        // N m; zero for points
 };
 
-/// One probe through all frames.
+/// One probe in all frames.
 struct ProbeTrack {
   std::string name;
   bool is_pin = false;
@@ -29,32 +29,32 @@ struct ProbeTrack {
 
 class RunCache;
 
-/// Everything that a scene gave.
+/// The results of a run.
 struct Recording {
-  std::vector<std::vector<Floats3>> frames;  // [frame][actor], nodes x 3, m; the picture needs no more than floats;
-                                             // none where they are in a cache
-  std::vector<double> progress;              // of every frame: time (s), or share of the load, or number of the mode
-  std::vector<double> seconds;               // likewise: that it took, wall clock
+  std::vector<std::vector<Floats3>> frames;  // [frame][actor], nodes x 3, m; floats suffice for drawing;
+                                             // none where a cache has them
+  std::vector<double> progress;              // of every frame: time (s), or fraction of the load, or number of the mode
+  std::vector<double> seconds;               // likewise: wall-clock time that it took
   std::string progress_name;                 // "time_s", "load", "mode"
   std::vector<ProbeTrack> probes;
   Eigen::VectorXd frequencies;     // Hz, of modes
-  double deepest_penetration = 0;  // m, of skins in what they touch, at the end of any frame moved through
-  std::uint64_t state_hash = 0;    // of the last frame's node positions and velocities, every bit of them
+  double deepest_penetration = 0;  // m, of skins in bodies and obstacles, at the end of any frame of a motion
+  std::uint64_t state_hash = 0;    // of the last frame's node positions and velocities
 };
 
-/// Takes down frames as a simulation goes through them.
+/// Records the frames of a simulation.
 class Recorder {
  public:
-  /// A cache, where there is one, gets the frames. Throws Error(kBadInput) where a probe's point is in no brick or its
-  /// pin holds nothing.
+  /// Frames go to the cache if there is one. Throws Error(kBadInput) where a probe's point is in no brick or its pin
+  /// holds no nodes.
   Recorder(const Scene& scene, const Simulation& simulation, std::string progress_name, RunCache* cache);
 
-  /// Takes up the frames that the cache has: the world, that of the simulation, then stands as after the last of them,
-  /// and `pass` has given the motion what it remembers. Returns how many they are. To be called before the first add().
+  /// Resumes from the frames in the cache: sets the world, that of the simulation, to its state after the last of them
+  /// and restores the integrator by `serialize`. Returns their number. Call before the first add().
   int take_up(World& world, const std::function<void(IntegratorState&)>& serialize);
 
-  /// The simulation as it stands. `reactions` of the pins' nodes by actor (m x 3, N); none: no forces. `time` in the
-  /// film (s), for the pins' movement; with `small`, torques are those of the shape at rest.
+  /// Records the current state. `reactions`: of the pins' nodes by actor (m x 3, N); none: no forces. `time`: of the
+  /// film (s), for the pins' movements; with `small`, torques refer to the rest shape.
   void add(double progress, const std::vector<Points>& reactions, double time, bool small,
            const IntegratorState& state = {});
 
@@ -82,7 +82,7 @@ class Recorder {
   std::chrono::steady_clock::time_point frame_began_ = std::chrono::steady_clock::now();
 };
 
-/// Every bit of the positions and velocities of all nodes (FNV-1a, 64 bits).
+/// A hash of the positions and velocities of all nodes (FNV-1a, 64 bits).
 [[nodiscard]] std::uint64_t state_hash(const World& world);
 
 }  // namespace sprung

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "core/error.h"
-#include "core/io/files.h"
+#include "core/files.h"
 
 namespace sprung {
 namespace {
@@ -26,7 +26,7 @@ std::string difference_of_bodies(const SoftBody& cached, const SoftBody& now) {
   return "";
 }
 
-/// What of a simulation goes into a cache.
+/// The part of a simulation that is stored in a cache.
 CacheHeader cache_header(const Scene& scene, const Simulation& simulation, const SceneRecord& record,
                          std::string progress_name) {
   CacheHeader header;
@@ -39,8 +39,7 @@ CacheHeader cache_header(const Scene& scene, const Simulation& simulation, const
   return header;
 }
 
-/// Why frames of one run cannot go on as another: the first thing that differs, with both values; empty where nothing
-/// does.
+/// Why one run cannot resume another: the first difference, with both values; empty where there is none.
 std::string difference(const CacheHeader& cached, const CacheHeader& now, const SceneRecord& record) {
   if (cached.version != now.version) {
     return fmt::format("it was made by sprung {}, this is sprung {}", cached.version, now.version);
@@ -81,7 +80,7 @@ Simulation cached_simulation(const CacheHeader& header, const Scene& scene) {
   simulation.world.gravity = scene.gravity;
   for (SoftBody& body : simulation.world.bodies) {
     if (body.origin.body >= scene.bodies.size()) {
-      throw Error(ErrorKind::kBadInput, "the cache is damaged: a body that no scene has");
+      throw Error(ErrorKind::kBadInput, "the cache is damaged: it has a body that is not in its scene");
     }
     const SceneBody& scene_body = scene.bodies[body.origin.body];
     Body made = make_body(std::move(body.grid), scene_body.model, scene_body.material);
@@ -97,7 +96,7 @@ Simulation cached_simulation(const CacheHeader& header, const Scene& scene) {
   for (std::size_t i = 0; i < simulation.obstacles.size(); ++i) {
     const SceneObstacle& obstacle = scene.obstacles.at(i);
     StageObstacle& staged = simulation.obstacles[i];
-    // Nothing meets them any more: it only matters which of them is level ground.
+    // There is no more contact with them: it only matters which of them is level ground.
     staged.shape = obstacle.plane ? Shape(SolidHalfSpace{}) : Shape(SolidBall{});
     staged.movement = {obstacle.keyframes, obstacle.interpolation};
     simulation.world.obstacles.push_back(obstacle_between(staged, obstacle, 0, 0));
@@ -155,7 +154,7 @@ int RunCache::begin(const Scene& scene, const Simulation& simulation, const std:
   if (old_) {
     if (const std::string text = difference(old_->header(), header, record_); !text.empty()) {
       throw Error(ErrorKind::kBadInput,
-                  fmt::format("'{}' cannot go on: {}; --overwrite begins anew", file_.string(), text));
+                  fmt::format("'{}' cannot be resumed: {}; --overwrite starts afresh", file_.string(), text));
     }
     const int most = sprung::frame_count(scene);
     if (int(old_->frame_count()) > most) {
@@ -168,7 +167,7 @@ int RunCache::begin(const Scene& scene, const Simulation& simulation, const std:
   return frame_count_;
 }
 
-/// Into the new file, which takes the name of the old one only then: killed at any moment, one of them is whole.
+/// Copied before the new file takes the name of the old one: whenever the program is killed, one of them is complete.
 void RunCache::copy_old_frames() {
   const auto count = old_->frame_count();
   for (std::size_t frame = 0; frame < count; ++frame) {

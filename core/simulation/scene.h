@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "core/appearance.h"
 #include "core/law/brick_law.h"
 #include "core/law/material.h"
 #include "core/mesh/repair/repair.h"
 #include "core/mesh/surface_mesh.h"
-#include "core/skin/appearance.h"
 #include "core/types.h"
 #include "core/world/keyframes.h"
 
@@ -27,44 +27,43 @@ struct Ball {
   double radius = 0;                  // in longest sides of it
 };
 
-/// What lies on that side of a plane to which the normal points.
+/// The side of a plane to which the normal points.
 struct HalfSpace {
   Vec3 point = Vec3::Constant(0.5);  // in fractions of a body's bounding box
   Vec3 normal = Vec3::UnitY();       // of any length
 };
 
-/// A part of a body, as it is at rest and before it is turned: exactly one of these.
+/// A part of a body at rest, before its rotation: exactly one of these.
 struct Selection {
   std::optional<Box> box;
   std::optional<Ball> sphere;
   std::optional<HalfSpace> half_space;
-  std::string part;              // what lies nearest to the triangles of that name in the mesh
-  std::optional<Color> painted;  // what lies nearest to vertices of this colour
+  std::string part;              // the points nearest to the mesh's triangles of that name
+  std::optional<Color> painted;  // the points nearest to vertices of this colour
   std::optional<Vec3> nearest;   // the one node or brick nearest to a point in fractions of the bounding box
-  std::filesystem::path mesh;    // absolute; what a mesh encloses, in the units and frame of the body's own
+  std::filesystem::path mesh;    // absolute; the inside of a mesh, in the units and frame of the body's mesh
 };
 
-/// Whether it names no part, but means all of a body.
+/// Whether it selects the whole body.
 [[nodiscard]] bool is_whole(const Selection& selection);
 
 inline constexpr double kDefaultSize = 0.2;  // m, longest side of a body whose scene names neither size nor scale
 inline constexpr int kDefaultBricks = 24;    // along the longest side
 
-/// How the skin rides on the bricks.
+/// How the skin follows the bricks.
 enum class SkinInterpolation {
   kBricks,  // trilinear in each brick: creases where bricks bend
   kSmooth   // smooth across bricks, see SmoothEmbedding
 };
 
-/// Directions of the world, x y z.
+/// Axes of the world.
 struct Axes {
   std::array<bool, 3> held{true, true, true};
 };
 
-/// The nodes of a part are held along some directions, and carried along those: through keyframes, or by a movement
-/// that grows evenly from nothing at the start to `translate` and `rotate` at the end of the film. They turn and grow
-/// about the middle of the part, then comes the shift. The directions are those of the world. Before and after its time
-/// the pin leaves the nodes free.
+/// Holds the nodes of a part along some axes of the world and moves them along these: through keyframes, or linearly in
+/// time from zero at the start to `translate` and `rotate` at the end of the film. Rotation and scaling about the
+/// centre of the part come before the translation. Outside its time interval the pin leaves the nodes free.
 struct Pin : Selection {
   std::string name;
   Axes axes;
@@ -72,52 +71,51 @@ struct Pin : Selection {
   std::optional<Vec3> rotate;     // degrees about x, then y, then z
   std::vector<Keyframe> keyframes;
   Interpolation interpolation = Interpolation::kLinear;
-  double from = 0;              // s, when it takes the nodes, where they then are
-  std::optional<double> until;  // s, when it lets go; never
+  double from = 0;              // s; the nodes are caught where they are then
+  std::optional<double> until;  // s; none: never released
 };
 
-/// How strong something is at a time, times what it is at full strength.
+/// The strength of a load at a time, relative to full strength.
 struct Strength {
   double time = 0;  // s
   double strength = 1;
 };
 
-/// How strong something is over the film: as its keyframes say, before the first as at the first; without any, always
-/// at full strength.
+/// The strength of a load over the film, by keyframes; constant before the first one, and always full without any.
 struct StrengthCurve {
   std::vector<Strength> keyframes;
   Interpolation interpolation = Interpolation::kLinear;
 };
 
-/// A force on a part of a body, or on all of it: one of the three.
+/// A force on a body or a part of it: one of the three.
 struct BodyForce : Selection, StrengthCurve {
-  std::optional<Vec3> total;       // N, shared out by volume
+  std::optional<Vec3> total;       // N, distributed by volume
   std::optional<Vec3> per_volume;  // N/m^3
   std::optional<double> pressure;  // Pa, on the skin, inward
 };
 
-/// A part of a body, or all of it, that contracts along a direction and keeps its volume.
+/// A body or a part of it that contracts along a direction at constant volume.
 struct BodyMuscle : Selection, StrengthCurve {
-  Vec3 direction = Vec3::UnitX();  // of any length, in the body before it is turned
-  double contraction = 0;          // share of the length
+  Vec3 direction = Vec3::UnitX();  // of any length, in the body before its rotation
+  double contraction = 0;          // fraction of the length
 };
 
-/// Young's modulus and density change evenly along a line, from those of the region at one end to these at the other,
-/// and stay the same before and behind it.
+/// Young's modulus and density vary linearly along a line, from those of the region at one end to these at the other,
+/// and are constant beyond both ends.
 struct Gradient {
   Vec3 from = Vec3::Zero();  // in fractions of the bounding box
   Vec3 to = Vec3::Ones();
   Material material;
 };
 
-/// A part of a body made of another material: the bricks whose middles are in the part; with a gradient and no part the
+/// A part of a body made of another material: the bricks with centres in the part; with a gradient and no part the
 /// whole body.
 struct Region : Selection {
   Material material;
   std::optional<Gradient> gradient;
 };
 
-/// A part taken out of a box: the bricks whose middles are in it.
+/// A part cut out of a box: the bricks with centres in it.
 struct Cut : Selection {};
 
 struct SphereShape {
@@ -132,20 +130,20 @@ struct CylinderShape {
 
 /// Lies flat.
 struct TorusShape {
-  double radius = 0;  // m, of the circle in the middle of the tube
+  double radius = 0;  // m, of the tube's centre line
   double tube = 0;    // m, radius of the tube
 };
 
-/// A body many times, in rows along the axes of the world; the first is where the body is put.
+/// Copies of a body, in rows along the axes of the world; the first is at the body's position.
 struct Copies {
   std::array<int, 3> count{1, 1, 1};
   Vec3 spacing = Vec3::Zero();  // m
-  double scatter = 0;           // m; each is moved at random by up to this along each axis ...
-  double turn = 0;              // degrees; ... and turned by up to this about an axis at random
+  double scatter = 0;           // m; each is displaced at random by up to this along each axis ...
+  double turn = 0;              // degrees; ... and rotated by up to this about a random axis
   int seed = 1;
 };
 
-/// Bricks along the longest side; or (0) as fine as the thinnest part that counts asks for, see choose_brick_size().
+/// Bricks along the longest side; 0: chosen by the thinnest relevant part, see choose_brick_size().
 struct BrickCount {
   int along = kDefaultBricks;
   BrickCount(int count = kDefaultBricks) : along(count) {}  // NOLINT(google-explicit-constructor): it is a number
@@ -157,28 +155,28 @@ struct BrickCount {
 struct SceneBody {
   std::shared_ptr<const SurfaceMesh> surface;  // a mesh in memory, in place of that in a file; or
   std::filesystem::path mesh;                  // absolute; or
-  std::optional<Vec3> box;                     // m, sides of a box that is exactly as many bricks as fit in it; or
+  std::optional<Vec3> box;                     // m, sides of a box, each a whole number of bricks; or
   std::optional<SphereShape> sphere;
   std::optional<CylinderShape> cylinder;
   std::optional<TorusShape> torus;
-  std::filesystem::path texture;  // absolute; a picture on the whole skin, in place of what the file names
+  std::filesystem::path texture;  // absolute; an image for the whole skin, in place of the file's
   std::vector<Cut> cuts;          // of a box
   std::optional<double> size;     // m, longest side of the bounding box; or
   std::optional<double> scale;    // m per unit of the file
   RepairMode repair = RepairMode::kAuto;
   std::optional<double> thickness;     // m; makes the mesh a shell
-  Vec3 position = Vec3::Zero();        // m; where the middle of the bottom of the bounding box goes, after the rotation
-  Vec3 rotation = Vec3::Zero();        // degrees about x, then y, then z, around the middle of the bounding box
+  Vec3 position = Vec3::Zero();        // m, of the bottom centre of the bounding box after the rotation
+  Vec3 rotation = Vec3::Zero();        // degrees about x, then y, then z, around the centre of the bounding box
   std::optional<BrickCount> bricks;    // or
   std::optional<double> brick_size;    // m
-  Vec3 brick_rotation = Vec3::Zero();  // degrees, about x, then y, then z: how the bricks are turned in the body
+  Vec3 brick_rotation = Vec3::Zero();  // degrees about x, then y, then z: of the bricks in the body
   Material material;
   Model model = Model::kCalibrated;
-  std::optional<Color> color;  // of what the file leaves without colour
-  std::optional<Look> look;    // as the material has it
+  std::optional<Color> color;  // where the file has no colours
+  std::optional<Look> look;    // none: of the material
   SkinInterpolation skin = SkinInterpolation::kBricks;
   Vec3 velocity = Vec3::Zero();  // m/s
-  Vec3 spin = Vec3::Zero();      // degrees/s about the axes of the world through the middle of the bounding box
+  Vec3 spin = Vec3::Zero();      // degrees/s about the axes of the world through the centre of the bounding box
   double friction = 0.5;         // on other bodies: the geometric mean of both
   std::optional<Copies> copies;
   std::vector<Pin> pins;
@@ -187,33 +185,33 @@ struct SceneBody {
   std::vector<BodyMuscle> muscles;
 };
 
-/// How many times the body is there.
+/// The number of copies of the body, itself included.
 [[nodiscard]] int copy_count(const SceneBody& body);
 
-/// How the frames come about.
+/// How the frames are computed.
 enum class Solver {
   kEuler,          // motion in time, symplectic Euler
   kVerlet,         // motion in time, velocity Verlet
-  kImplicitEuler,  // motion in time by long steps, backward Euler
+  kImplicitEuler,  // motion in time, backward Euler with long steps
   kBdf2,           // the same, second order
-  kAuto,           // kEuler or kBdf2, whichever is forecast to be quicker
-  kStatic,         // equilibrium, the load (gravity and the pins' movements) growing from frame to frame
+  kAuto,           // kEuler or kBdf2, whichever is expected to be faster
+  kStatic,         // equilibrium, with the load (gravity and pin movements) growing from frame to frame
   kLinear,         // the same for small displacements
   kModes           // the slowest natural vibrations, one after the other
 };
 
 struct SceneSolver {
   Solver scheme = Solver::kEuler;
-  std::optional<int> load_steps;  // of kStatic and kLinear, one a frame; as many as the film has time for
+  std::optional<int> load_steps;  // of kStatic and kLinear, one per frame; none: as many as the film has time for
   int modes = 6;
-  double time_limit = 24 * 3600;  // s of computing that a motion may take by its forecast
+  double time_limit = 24 * 3600;  // s of computing time that a motion may be forecast to take
 };
 
-/// What is measured in every frame: where a point of a body goes, or what a pin does.
+/// A quantity recorded in every frame: the position of a point of a body, or the reaction of a pin.
 struct Probe {
   std::string name;
   int body = 1;               // counted from 1
-  std::optional<Vec3> point;  // m, from the middle of the bounding box of the body at rest, before it is turned; or
+  std::optional<Vec3> point;  // m, from the centre of the bounding box of the unrotated body at rest; or
   std::string pin;            // the name of one of the body's pins
 };
 
@@ -225,10 +223,10 @@ struct Plane {
 /// Along y, with round ends.
 struct CapsuleShape {
   double radius = 0;  // m
-  double height = 0;  // m, between the middles of the ends
+  double height = 0;  // m, between the centres of the ends
 };
 
-/// Something solid that is not soft: one of the shapes, in its place, and how it moves from there.
+/// A rigid obstacle: one of the shapes, its placement and its keyframes.
 struct SceneObstacle {
   std::optional<Plane> plane;  // the half-space behind it; or
   std::optional<Vec3> box;     // m, sides; or
@@ -238,8 +236,8 @@ struct SceneObstacle {
   std::filesystem::path mesh;    // absolute, closed
   std::optional<double> size;    // m, longest side of the mesh; or
   std::optional<double> scale;   // m per unit of the file
-  Vec3 position = Vec3::Zero();  // m, of the middle
-  Vec3 rotation = Vec3::Zero();  // degrees about x, then y, then z, around the middle
+  Vec3 position = Vec3::Zero();  // m, of the centre
+  Vec3 rotation = Vec3::Zero();  // degrees about x, then y, then z, around the centre
   std::vector<Keyframe> keyframes;
   Interpolation interpolation = Interpolation::kLinear;
   double friction = 0.5;
@@ -252,26 +250,26 @@ struct GravityKeyframe {
   Vec3 gravity{0, -9.81, 0};
 };
 
-/// Air that moves past all bodies.
+/// Uniform wind on all bodies.
 struct SceneWind : StrengthCurve {
   Vec3 velocity = Vec3::Zero();  // m/s
   double density = 1.2;          // kg/m^3
   double drag = 1;
 };
 
-/// Two bodies of the scene, or the copies of one, stay together where their skins are near each other at the start.
+/// Two bodies of the scene, or the copies of one, are glued where their skins are near each other at the start.
 struct SceneGlue {
   std::array<int, 2> bodies{1, 2};  // counted from 1
-  std::optional<double> distance;   // m; half the smaller bricks
+  std::optional<double> distance;   // m; none: half the smaller brick size
 };
 
-/// What touches what, beside obstacles.
+/// Which contacts are handled besides those with obstacles.
 struct SceneContact {
-  bool bodies = true;  // each other
-  bool self = true;    // a body itself
+  bool bodies = true;  // between bodies
+  bool self = true;    // of a body with itself
 };
 
-/// What moves, what it meets and what acts on it, for how long. SI units.
+/// The bodies, obstacles, loads and duration of a simulation. SI units.
 struct Scene {
   double duration = 3;  // s
   double fps = 24;
@@ -286,24 +284,24 @@ struct Scene {
   std::vector<Probe> probes;
 };
 
-/// Whether the scene is moved through time; else its frames are states of rest or shapes.
+/// Whether the frames are a motion in time; else they are equilibria or vibration modes.
 [[nodiscard]] bool is_motion(const Scene& scene);
 
-/// Pictures of the film: frame i (from 0) shows t = i / fps. At least 1; with load steps one more than those.
+/// The number of frames of the film: frame i (from 0) is at t = i / fps. At least 1; one more than the load steps.
 [[nodiscard]] int frame_count(const Scene& scene);
 
-/// When a frame (from 0) is, s: in a motion frame / fps; where frames are states of rest they share the duration
-/// evenly, the last of them at its end.
+/// The time of a frame (from 0), s: frame / fps in a motion; otherwise frames are spaced evenly over the duration, the
+/// last one at its end.
 [[nodiscard]] double time_of(const Scene& scene, int frame);
 
-/// A part of a scene that only a motion can have.
+/// A part of a scene that only a motion supports.
 struct MotionOnly {
-  std::string_view key;   // of the scene, where it stands ...
-  std::size_t row = 0;    // ... and in which of its tables
+  std::string_view key;   // of the scene file ...
+  std::size_t row = 0;    // ... and the row of its table
   std::string_view what;  // "a wind"
 };
 
-/// What of a scene states of rest cannot have; modes know no forces at all.
+/// The parts of a scene that equilibria do not support; modes support no forces at all.
 [[nodiscard]] std::vector<MotionOnly> motion_only(const Scene& scene);
 
 }  // namespace sprung

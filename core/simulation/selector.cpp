@@ -17,8 +17,8 @@ namespace sprung {
 namespace {
 
 constexpr double kRounding = 1e-9;    // of the longest side
-constexpr double kAlmostHalf = 0.49;  // of a brick; not quite half: a tie would be rounding's choice
-constexpr double kSamePaint = 2.5;    // levels of 255 that files round a colour by
+constexpr double kAlmostHalf = 0.49;  // of a brick; not quite half, where rounding errors would decide
+constexpr double kSamePaint = 2.5;    // of 255: rounding of colours in files
 constexpr double kInside = 0.5;       // winding number
 
 Vec3 middle_of(const Points& points) {
@@ -122,7 +122,7 @@ Selector::Test Selector::test_of(const Selection& selection, double margin, doub
   return enclosed_by(selection.mesh);
 }
 
-/// The lattice reaches a little beyond the body, so what is outside its bounding box counts as on it.
+/// The lattice extends a little beyond the body, so points outside its bounding box are clamped to it.
 Selector::Test Selector::test_of(const Box& box, double margin) const {
   const Eigen::Array3d extent = body_.extent.array().max(kRounding * body_.extent.maxCoeff());  // a sheet has none
   const Eigen::Array3d low = box.min.array() - margin / extent;
@@ -138,7 +138,7 @@ const NearestTriangle& Selector::surface() const {
   return *surface_;
 }
 
-/// What is as near to another part counts too: both have their common border.
+/// Points at equal distance to another part count for both, which share their common border.
 Selector::Test Selector::nearest_to_part(const std::string& part, double depth) const {
   const auto nearest = std::make_shared<NearestTriangle>(body_.mesh.positions, triangles_of(part));
   const double rounding = kRounding * body_.extent.maxCoeff();
@@ -221,13 +221,13 @@ std::size_t Selector::solid_nearest_to(const Vec3& place) const {
 
 namespace {
 
-/// What of a material may differ within a body.
+/// The properties of a material that may vary within a body.
 struct Stuff {
   double young = 0;    // Pa
   double density = 0;  // kg/m^3
 };
 
-/// A brick's law depends on its Poisson's ratio in many constants, on its stiffness in one factor.
+/// Poisson's ratio enters many constants of a brick's law, its stiffness is a single factor.
 void check_ratio(const Material& material, const Material& body) {
   if (material.poisson == body.poisson) return;
   throw Error(ErrorKind::kBadInput,
@@ -236,7 +236,7 @@ void check_ratio(const Material& material, const Material& body) {
                           material.poisson, body.poisson));
 }
 
-/// The material of a region at a place.
+/// The material of a region at a point.
 Stuff stuff_at(const Region& region, const Selector& selector, const Vec3& place) {
   const Material& first = region.material;
   if (!region.gradient) return {.young = first.young, .density = first.density};

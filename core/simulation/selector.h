@@ -9,35 +9,35 @@
 
 namespace sprung {
 
-/// Finds the parts of a body that a scene speaks of. All points are in metres, turned as the body's bricks are.
+/// Finds the parts of a body that a scene selects. All points are in metres, in the frame of the body's bricks.
 class Selector {
  public:
-  /// The body has to outlive it.
+  /// The body must outlive it.
   explicit Selector(const LoadedBody& body) : body_(body) {}
 
-  /// Of nodes (n x 3) of one of the body's solids, those in the part or within half a brick of it: where bricks do not
-  /// follow its border, the steps of what is chosen then lie as often before it as behind it. Of what is chosen by the
-  /// surface (a named part, paint) the nodes within a brick of the surface. Rows, rising.
-  /// Throws Error(kBadInput) where the mesh has no such part or paint, or a file cannot be read.
+  /// The nodes (`places`, n x 3) of one of the body's solids in the part or within half a brick of it, so that the
+  /// staircase of the selected nodes is centred on the border of the part. Parts chosen by the surface (by name or
+  /// paint) select the nodes within a brick of the surface. Rows, ascending. Throws Error(kBadInput) where the mesh has
+  /// no such part or paint, or a file cannot be read.
   [[nodiscard]] std::vector<int> nodes(const Selection& selection, const Points& places, std::size_t solid) const;
 
-  /// The bricks of one of the body's solids whose middles are in the part. Rows, rising. Throws as nodes() does.
+  /// The bricks of one of the body's solids with centres in the part. Rows, ascending. Throws like nodes().
   [[nodiscard]] std::vector<int> bricks(const Selection& selection, const BrickGrid& grid, std::size_t solid) const;
 
-  /// The triangles of the skin of one of the body's solids whose middles (n x 3) are in the part. Rows, rising. Throws
-  /// as nodes() does.
+  /// The skin triangles of one of the body's solids with centroids (`middles`, n x 3) in the part. Rows, ascending.
+  /// Throws like nodes().
   [[nodiscard]] std::vector<int> triangles(const Selection& selection, const Points& middles, std::size_t solid) const;
 
-  /// The middle of the part: of the ball or the box as far as that is in the body, else of the part's bounding box.
+  /// The centre of the part: of the ball, of the box clipped to the body, else of the part's bounding box.
   [[nodiscard]] Vec3 centre(const Selection& selection) const;
 
-  /// Where a place is that is given in fractions of the bounding box.
+  /// A point given in fractions of the bounding box.
   [[nodiscard]] Vec3 place_of(const Vec3& fractions) const;
 
  private:
   using Test = std::function<bool(const Vec3& place)>;
 
-  /// `margin`: how far outside (m) still counts; `depth`: how deep below the surface (m), where the surface chooses.
+  /// `margin`: how far outside (m) still counts; `depth`: how deep below the surface (m), for parts chosen by it.
   [[nodiscard]] Test test_of(const Selection& selection, double margin, double depth) const;
   [[nodiscard]] Test test_of(const Box& box, double margin) const;
   [[nodiscard]] Test nearest_to_part(const std::string& part, double depth) const;

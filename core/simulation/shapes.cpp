@@ -14,7 +14,7 @@
 namespace sprung {
 namespace {
 
-constexpr double kWhole = 1e-6;  // bricks that a side may lack to a whole number
+constexpr double kWhole = 1e-6;  // tolerance of a whole number of bricks
 constexpr double kMostBricks = 1e8;
 
 Eigen::Vector3i brick_counts(const Vec3& sides, double brick_size) {
@@ -61,13 +61,13 @@ namespace {
 
 constexpr int kAround = 96;  // corners of a circle
 
-/// A point of the line whose turning about the y axis makes a surface.
+/// A point of the profile of a surface of revolution about the y axis.
 struct ProfilePoint {
   Eigen::Vector2d place;   // m; distance from the axis, height
   Eigen::Vector2d normal;  // outward, unit
 };
 
-/// Of a full circle in `count` parts; exact at its quarters.
+/// Point `i` of a full circle in `count` parts; exact at its quarters.
 Eigen::Vector2d on_circle(int step, int count) {
   const auto cosine = [&](int k) {
     k = ((k % count) + count) % count;

@@ -5,21 +5,21 @@
 
 namespace sprung {
 
-/// Full bricks for a box (sides in m) with its middle at the origin.
-/// Throws Error(kBadInput) where a side is no whole number of bricks.
+/// The bricks of a box (sides in m) centred at the origin. Throws Error(kBadInput) where a side is not a whole number
+/// of bricks.
 [[nodiscard]] BrickGrid box_grid(const Vec3& sides, double brick_size);
 
 /// The outer faces of bricks, two triangles each, m.
 [[nodiscard]] SurfaceMesh surface_of(const BrickGrid& grid);
 
-/// Smooth closed meshes with normals, m, their middles at the origin. Their corners lie on the shape, so that they hold
+/// Smooth closed meshes with normals, m, centred at the origin. Their vertices lie on the shape, so that they enclose
 /// about 0.1 % less than it.
 [[nodiscard]] SurfaceMesh mesh_of(const SphereShape& sphere);
 [[nodiscard]] SurfaceMesh mesh_of(const CylinderShape& cylinder);
 [[nodiscard]] SurfaceMesh mesh_of(const TorusShape& torus);
 [[nodiscard]] SurfaceMesh mesh_of(const CapsuleShape& capsule);
 
-/// A box with its middle at the origin, m; two triangles a side.
+/// A box centred at the origin, m; two triangles per side.
 [[nodiscard]] SurfaceMesh box_mesh(const Vec3& sides);
 
 }  // namespace sprung

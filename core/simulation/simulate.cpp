@@ -17,9 +17,9 @@
 namespace sprung {
 namespace {
 
-constexpr double kLongRun = 3600;  // s to go, from which on a warning is due
+constexpr double kLongRun = 3600;  // s remaining, from which on there is a warning
 constexpr double kSecondsToEstimate = 3;
-constexpr double kDeepShare = 0.01;  // of the largest body's size, that skins may be in each other without a warning
+constexpr double kDeepShare = 0.01;  // of the largest body's size: penetration without a warning
 
 int inverted_bricks(const World& world) {
   int count = 0;
@@ -27,7 +27,7 @@ int inverted_bricks(const World& world) {
   return count;
 }
 
-/// How deep the contact points of skins were in each other and in obstacles at the ends of frames.
+/// The penetration of contact points into skins and obstacles at the ends of frames.
 class OverlapWatch {
  public:
   void look(const World& world, int frame) {
@@ -38,16 +38,15 @@ class OverlapWatch {
   }
   [[nodiscard]] double deepest() const { return deepest_; }
   [[nodiscard]] std::string summary() const {
-    return deepest_ > 0 ? fmt::format("points of contact at most {} deep in what they touch",
-                                      readable(deepest_, Dimension::kLength))
-                        : "no point of contact in what it touches";
+    return deepest_ > 0 ? fmt::format("contact points penetrate by at most {}", readable(deepest_, Dimension::kLength))
+                        : "no penetration";
   }
 
   void warn(double size, const Observer& observer) const {
     if (deepest_ <= kDeepShare * size) return;
     observer.warn(
-        fmt::format("in frame {} skins are {} deep in each other or in an obstacle, {:.1f} % of the largest "
-                    "body: smaller bricks (bricks) or slower meetings keep them apart",
+        fmt::format("in frame {} skins penetrate each other or an obstacle by {}, {:.1f} % of the size of the largest "
+                    "body; smaller bricks (bricks) or slower impacts keep them apart",
                     frame_ + 1, readable(deepest_, Dimension::kLength), 100 * deepest_ / size));
   }
 
@@ -64,10 +63,10 @@ void forecast(const StepPlan& plan, double brick_steps, const Observer& observer
   if (const std::string warning = warning_of(plan); !warning.empty()) observer.warn(warning);
 }
 
-/// A motion frame by frame, with what is told of it.
+/// Runs a motion frame by frame and reports on it.
 class MotionRun {
  public:
-  /// With `whole_frames` an interrupt has to wait for the end of a frame.
+  /// With `whole_frames` interrupts wait for the end of a frame.
   MotionRun(Simulation& simulation, const Scene& scene, const Observer& observer, bool whole_frames)
       : world_(simulation.world),
         scene_(scene),
@@ -79,13 +78,13 @@ class MotionRun {
     forecast(motion_.plan(), total_, observer);
   }
 
-  /// The first frame to come: those before are there already.
+  /// The first frame to compute: earlier ones exist.
   void begin_at(int frame) {
     before_ = frame == 0 ? 0 : motion_.plan().brick_steps * (frame - 1);
     progress_.emplace(observer_, "simulate", total_ - before_, 1e-6, "M brick-steps/s");
   }
 
-  /// From the frame before to this one.
+  /// From the previous frame to this one.
   void run_frame(int frame) {
     const double begin = time_of(scene_, frame - 1);
     const double duration = 1 / scene_.fps;
@@ -99,11 +98,11 @@ class MotionRun {
     overlaps_.look(world_, frame);
   }
 
-  /// Of the frames of this run, which begins with `first`.
+  /// Of the frames of this run, from `first` on.
   void finish(int first, int frames) {
     note_implicit();
     const int inverted = inverted_bricks(world_);
-    const bool has_more = !motion_.plan().is_implicit() && world_.bodies.size() > 1;  // bodies, each with its own steps
+    const bool has_more = !motion_.plan().is_implicit() && world_.bodies.size() > 1;  // each with its own steps
     const Steps& steps = motion_.plan().steps;
     progress_->finish(fmt::format(
         "{}{}, {}{} steps of {} a frame, {} inverted bricks at the end, {}", count_of(frames, "frame"),
@@ -114,7 +113,7 @@ class MotionRun {
   }
 
   [[nodiscard]] SceneMotion& motion() { return motion_; }
-  /// How deep skins were in what they touch, m.
+  /// Reports the penetration of skins, m.
   [[nodiscard]] double deepest() const { return overlaps_.deepest(); }
 
  private:
@@ -136,7 +135,7 @@ class MotionRun {
     }
   }
 
-  /// Once, when enough is done to tell.
+  /// Once, when enough is done for an estimate.
   void judge_long_run() {
     if (is_judged_ || progress_->seconds() < kSecondsToEstimate) return;
     is_judged_ = true;
@@ -159,7 +158,7 @@ class MotionRun {
   SceneMotion motion_;
   OverlapWatch overlaps_;
   double total_;
-  double before_ = 0;  // of that, done by an earlier run
+  double before_ = 0;  // of these, done by an earlier run
   std::optional<Progress> progress_;
   bool is_judged_ = false;
 };

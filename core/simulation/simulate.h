@@ -4,11 +4,10 @@
 
 namespace sprung {
 
-/// Takes a simulation through its scene in the way that scene.solver says, and says how far it is and what came out.
-/// With a cache every frame goes there as soon as it is done, an interrupt waits for that, and frames that the cache
-/// has from an earlier run are taken up; the recording then has no frames of its own. Deterministic for any number of
-/// threads, and however often it was taken up.
-/// Throws Error(kDiverged), Error(kBadInput) where the pins leave a body free that should come to rest, Interrupted.
+/// Runs a simulation by scene.solver and reports its progress and results. With a cache every frame is written as soon
+/// as it is computed, interrupts wait for that, and the frames of an earlier run are resumed from; the recording then
+/// has no frames of its own. Deterministic for any number of threads and of interruptions. Throws Error(kDiverged),
+/// Error(kBadInput) where the pins leave a body free whose equilibrium is sought, Interrupted.
 [[nodiscard]] Recording simulate(Simulation& simulation, const Scene& scene, const Observer& observer,
                                  RunCache* cache = nullptr);
 

@@ -21,9 +21,9 @@
 namespace sprung {
 namespace {
 
-constexpr double kDrawnPlane = 4;  // sizes of the largest body: half the side of what is drawn of a plane
+constexpr double kDrawnPlane = 4;  // sizes of the largest body: half the side of a drawn plane
 
-/// All bodies at the same time. What stops one is kept, so that the first body in the scene that fails is told of.
+/// Fills all bodies concurrently. Exceptions are kept, so that the first failing body of the scene is reported.
 std::vector<std::exception_ptr> fill_bodies(std::deque<BodyBuilder>& builders) {
   std::vector<std::exception_ptr> failures(builders.size());
   tbb::parallel_for(std::size_t{0}, builders.size(), [&](std::size_t i) {
@@ -101,13 +101,13 @@ std::string brick_sizes(const std::vector<LoadedBody>& bodies) {
   return low == high ? low : fmt::format("{} to {}", low, high);
 }
 
-/// Which parts of the solids of one body are thinner than its bricks; one warning for all.
+/// Warns once of all parts of one body's solids that are thinner than its bricks.
 class ThinParts {
  public:
   explicit ThinParts(const LoadedBody& body) : body_(body) {}
 
   std::vector<ThinPart> find(const BrickGrid& grid, std::size_t solid) {
-    if (solid >= body_.walls.size() || body_.solids[solid].thickness > 0) return {};  // of shells load_body() warns
+    if (solid >= body_.walls.size() || body_.solids[solid].thickness > 0) return {};  // load_body() warns of shells
     std::vector<ThinPart> parts = find_thin_parts(grid, body_.walls[solid]);
     count_ += long(parts.size());
     for (const ThinPart& part : parts) {
@@ -161,7 +161,7 @@ void warn_of_locking(const Scene& scene, const std::vector<LoadedBody>& bodies, 
   }
 }
 
-/// Sizes and stiffnesses that are rather numbers whose unit was forgotten.
+/// Sizes and stiffnesses that suggest a forgotten unit.
 void warn_of_units(const Scene& scene, const std::vector<LoadedBody>& bodies, const Observer& observer) {
   constexpr double kLarge = 5;   // m
   constexpr double kSoft = 100;  // Pa
@@ -288,7 +288,7 @@ void check_start(const Scene& scene, const Simulation& simulation) {
   const World& world = simulation.world;
   std::vector<AlignedBox> boxes;
   for (std::size_t i = 0; i < world.bodies.size(); ++i) {
-    boxes.push_back(box_around(world.bodies[i].positions));
+    boxes.push_back(bounding_box(world.bodies[i].positions));
     for (std::size_t row = 0; row < world.obstacles.size(); ++row) check_obstacle(scene, simulation, i, row);
   }
   if (!world.bodies_collide) return;

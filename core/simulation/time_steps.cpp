@@ -13,15 +13,15 @@
 namespace sprung {
 namespace {
 
-constexpr double kManySteps = 20000;   // a frame, from which on a warning is due
-constexpr double kImplicitCost = 300;  // explicit steps that take as long as an implicit one
-constexpr double kCoupledCost = 600;   // of bodies that may touch each other, or are glued
+constexpr double kManySteps = 20000;   // per frame, from which on there is a warning
+constexpr double kImplicitCost = 300;  // cost of an implicit step, in explicit steps
+constexpr double kCoupledCost = 600;   // for bodies that may collide or are glued
 constexpr double kStepsAVibration = 20;
-constexpr long kFewestSteps = 2;  // implicit ones, a frame
+constexpr long kFewestSteps = 2;  // implicit steps per frame
 constexpr long kMostSteps = 16;
-constexpr double kWorthwhile = 2;  // times quicker, for the damping of what implicit steps do not resolve
+constexpr double kWorthwhile = 2;  // times faster, to accept the numerical damping of implicit steps
 
-/// s; the slowest vibration that any of the bodies has (estimated as in rayleigh_from_damping()).
+/// s; the slowest vibration of all bodies (estimated as in rayleigh_from_damping()).
 double shortest_period(const World& world) {
   double shortest = std::numeric_limits<double>::infinity();
   for (const SoftBody& actor : world.bodies) {
@@ -48,7 +48,7 @@ std::string_view remedy_for(const StepPlan& plan) {
 
 std::string warning_of(const StepPlan& plan) {
   if (double(plan.steps.count) < kManySteps) return "";
-  return fmt::format("a frame takes {} steps of {}, for bricks are stiff and small or something is fast; {}",
+  return fmt::format("a frame takes {} steps of {}, because bricks are stiff and small or something moves fast; {}",
                      plan.steps.count, readable(plan.steps.dt, Dimension::kTime), remedy_for(plan));
 }
 

@@ -11,6 +11,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "core/disjoint_sets.h"
+
 namespace sprung {
 namespace {
 
@@ -106,7 +108,7 @@ CornerLists list_corners(const Triangles& triangles, const std::vector<int>& poi
   return lists;
 }
 
-/// Makes the split vertices around one point after another.
+/// Splits the vertices at one point after another.
 class CreaseSplitter {
  public:
   CreaseSplitter(const SurfaceMesh& mesh, const Points& faces, double crease_angle)
@@ -115,23 +117,22 @@ class CreaseSplitter {
   }
 
   void split_point(const int* begin, const int* end) {
-    std::vector<int> group(end - begin);
-    std::iota(group.begin(), group.end(), 0);
-    join_smooth_neighbours(begin, group);
+    DisjointSets groups(end - begin);
+    join_smooth_neighbours(begin, groups);
     std::map<int, Vec3> normal_of_group;
-    for (std::size_t i = 0; i < group.size(); ++i) {
+    for (std::size_t i = 0; i < groups.size(); ++i) {
       const Vec3 face = unit_or(faces_.row(begin[i] / 3), Vec3::Zero());
-      normal_of_group.try_emplace(root(group, int(i)), Vec3::Zero()).first->second +=
+      normal_of_group.try_emplace(groups.find(int(i)), Vec3::Zero()).first->second +=
           corner_angle(mesh_, begin[i] / 3, begin[i] % 3) * face;
     }
     std::map<std::pair<int, int>, int> made;  // (mesh vertex, group) to split vertex
-    for (std::size_t i = 0; i < group.size(); ++i) {
+    for (std::size_t i = 0; i < groups.size(); ++i) {
       const int vertex = mesh_.triangles.data()[begin[i]];
-      const int of = root(group, int(i));
-      const auto [entry, is_new] = made.try_emplace({vertex, of}, isize(split_.source));
+      const int group = groups.find(int(i));
+      const auto [entry, is_new] = made.try_emplace({vertex, group}, isize(split_.source));
       if (is_new) {
         split_.source.push_back(vertex);
-        normals_.push_back(unit_or(normal_of_group.at(of), Vec3::UnitY()));
+        normals_.push_back(unit_or(normal_of_group.at(group), Vec3::UnitY()));
       }
       split_.triangles.data()[begin[i]] = entry->second;
     }
@@ -144,19 +145,12 @@ class CreaseSplitter {
   }
 
  private:
-  static int root(std::vector<int>& group, int i) {
-    while (group[i] != i) i = group[i];
-    return i;
-  }
-
-  /// Two triangles at the point that share an edge there and meet smoothly belong together.
-  void join_smooth_neighbours(const int* corners, std::vector<int>& group) {
-    for (std::size_t a = 0; a < group.size(); ++a) {
-      for (std::size_t b = a + 1; b < group.size(); ++b) {
-        if (!share_edge(corners[a], corners[b]) || !is_smooth(corners[a] / 3, corners[b] / 3)) continue;
-        const int low = root(group, int(a));
-        const int high = root(group, int(b));
-        group[std::max(low, high)] = std::min(low, high);
+  /// Joins triangles that share an edge at the point and meet smoothly.
+  void join_smooth_neighbours(const int* corners, DisjointSets& groups) {
+    for (std::size_t a = 0; a < groups.size(); ++a) {
+      for (std::size_t b = a + 1; b < groups.size(); ++b) {
+        if (share_edge(corners[a], corners[b]) && is_smooth(corners[a] / 3, corners[b] / 3))
+          groups.merge(int(a), int(b));
       }
     }
   }

@@ -10,8 +10,8 @@ using Floats3 = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
 using Floats2 = Eigen::Matrix<float, Eigen::Dynamic, 2, Eigen::RowMajor>;
 using Floats4 = Eigen::Matrix<float, Eigen::Dynamic, 4, Eigen::RowMajor>;
 
-/// The triangles that are drawn and that touch other things, at rest. Finer than the mesh: creases are split so that
-/// every vertex has one normal, and long edges are halved until they can follow the bend of a brick.
+/// The surface of a body at rest, for drawing and contact. Finer than the mesh: vertices at creases are split so that
+/// each has one normal, and long edges are halved until they can follow a bending brick.
 struct Skin {
   Points positions;         // n x 3, m, body's rest frame
   Points normals;           // n x 3, unit, outward
@@ -38,16 +38,16 @@ struct SplitVertices {
   Triangles triangles;      // t x 3, indices of split vertices
 };
 
-/// Normals for drawing. The mesh's own are kept where it has them (turned where they point inwards); else corners at
-/// one point share the angle-weighted mean normal of their triangles as long as these meet at less than
-/// `crease_angle` degrees, so that sharp edges stay sharp.
+/// Normals for drawing. The mesh's own are kept (flipped where they point inwards); without any, corners at one point
+/// share the angle-weighted mean normal of their triangles where these meet at less than `crease_angle` degrees, so
+/// that sharp edges stay sharp.
 [[nodiscard]] SplitVertices split_at_creases(const SurfaceMesh& mesh, double crease_angle);
 
-/// Row numbers that call equal positions equal: point_of[i] == point_of[j] where rows i and j are the same point.
+/// One index per row: point_of[i] == point_of[j] exactly where rows i and j are equal.
 [[nodiscard]] std::vector<int> weld_points(const Points& positions);
 
-/// Halves every edge longer than max_edge (m), again and again, with both its triangles, so that no gap opens: edges
-/// that are equal by position are split alike. New vertices are appended; the first ones stay as they were.
+/// Repeatedly halves every edge longer than max_edge (m) together with its triangles. Edges of equal positions are
+/// split alike, so that no gap opens. New vertices are appended; the others stay unchanged.
 void refine(Skin& skin, double max_edge);
 
 }  // namespace sprung

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <numbers>
 
-#include "core/pose.h"
+#include "core/types.h"
 
 namespace sprung {
 namespace {
 
 constexpr double kRadians = std::numbers::pi / 180;
 
-/// Slope between two intervals: the weighted harmonic mean of theirs, or none where the path turns.
+/// The slope between two intervals: the weighted harmonic mean of theirs, or zero at reversals.
 double inner_slope(double before, double after, double time_before, double time_after) {
   if (before * after <= 0) return 0;
   const double weight_before = time_before + 2 * time_after;
@@ -56,7 +56,7 @@ Movement::Point Movement::at(double time) const {
   const double share = (time - keyframes_[last].time) / span;
   const Values change = values_[next] - values_[last];
   if (interpolation_ == Interpolation::kLinear) return {values_[last] + share * change, change / span};
-  // Hermite's cubic through both ends with their slopes.
+  // The cubic Hermite interpolant.
   const Values bend = span * (slopes_[last] + slopes_[next]) - 2 * change;
   const Values start = span * slopes_[last];
   const Values sag = change - start - bend;

@@ -5,33 +5,33 @@
 
 namespace sprung {
 
-/// How a thing gets from one keyframe to the next.
+/// The interpolation between keyframes.
 enum class Interpolation {
   kLinear,
-  kSmooth,  // at rest at the first and the last keyframe and where it turns back, and never beyond its keyframes
+  kSmooth,  // zero slope at the first and last keyframe and at reversals; never overshoots
   kHeld     // jumps at each keyframe
 };
 
-/// Where a thing is at a time, seen from where it is put.
+/// A placement at a time, relative to the initial one.
 struct Keyframe {
   double time = 0;                // s
   Vec3 translate = Vec3::Zero();  // m
-  Vec3 rotate = Vec3::Zero();     // degrees about x, then y, then z; more than a turn is as many turns
+  Vec3 rotate = Vec3::Zero();     // degrees about x, then y, then z; may exceed a full turn
   double scale = 1;
 };
 
-/// Takes places x to centre + shift + scale rotation (x - centre).
+/// Maps x to centre + shift + scale rotation (x - centre).
 struct Placement {
   Vec3 shift = Vec3::Zero();  // m
   Mat3 rotation = Mat3::Identity();
   double scale = 1;
 
-  /// How far it takes a place that is `arm` away from the centre, m. Exactly zero for the placement of the start.
+  /// The displacement of the point at `arm` from the centre, m. Exactly zero for the default placement.
   [[nodiscard]] Vec3 way(const Vec3& arm) const { return scale * (rotation * arm) - arm + shift; }
 };
 
-/// How a placement changes. A place that it has taken to centre + shift + arm has the velocity
-/// shift + growth arm + spin x arm.
+/// The rate of change of a placement. The point now at centre + shift + arm has the velocity shift + growth arm + spin
+/// x arm.
 struct PlacementRate {
   Vec3 shift = Vec3::Zero();  // m/s
   Vec3 spin = Vec3::Zero();   // rad/s, axes of the world
@@ -40,22 +40,22 @@ struct PlacementRate {
   [[nodiscard]] Vec3 velocity(const Vec3& arm) const { return shift + growth * arm + spin.cross(arm); }
 };
 
-/// A path through keyframes. At t = 0 a thing is where it is put unless a keyframe says otherwise; after the last
-/// keyframe it stays. Angles, shift and scale are interpolated each by itself; smoothly by cubics with the slopes of
-/// Fritsch and Butland (SIAM J. Sci. Stat. Comput. 5, 1984), which do not overshoot.
+/// A motion through keyframes. It starts with the identity at t = 0 unless a keyframe says otherwise, and stops at the
+/// last keyframe. Angles, shift and scale are interpolated separately; smoothly by cubics with the slopes of Fritsch
+/// and Butland (SIAM J. Sci. Stat. Comput. 5, 1984), which do not overshoot.
 class Movement {
  public:
   Movement() = default;  // stays
 
-  /// Precondition: times that grow from keyframe to keyframe, scales above 0.
+  /// Preconditions: strictly ascending times, scales above 0.
   Movement(std::vector<Keyframe> keyframes, Interpolation interpolation);
 
   [[nodiscard]] Placement placement(double time) const;
 
-  /// At a keyframe, where a linear path has a corner, that of the way on. Zero for kHeld.
+  /// At a keyframe of a linear motion, the rate just after it. Zero for kHeld.
   [[nodiscard]] PlacementRate rate(double time) const;
 
-  /// Shift (m) and angles (rad) as they are, without a rotation made of them: what small displacements need.
+  /// Shift (m), angles (rad) and growth to first order, for small displacements.
   [[nodiscard]] PlacementRate small_placement(double time) const;
 
   [[nodiscard]] bool is_still() const;
@@ -64,7 +64,7 @@ class Movement {
  private:
   using Values = Eigen::Matrix<double, 7, 1>;  // shift (m), angles (rad), scale
 
-  /// Values, and what they change by in a second.
+  /// Values and their rates per second.
   struct Point {
     Values values;
     Values rates;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kStepsBetweenLooks = 4;
 
-/// Forces at points of the skin, handed to the nodes that they ride on.
+/// Distributes forces at points of the skin to the nodes in which they are embedded.
 void add_carried(const Body& body, const Embedding& points, const Points& at_points, Points& at_nodes) {
   for (Eigen::Index row = 0; row < at_points.rows(); ++row) {
     const Eigen::RowVector3d force = at_points.row(row);
@@ -25,7 +25,7 @@ void add_carried(const Body& body, const Embedding& points, const Points& at_poi
   }
 }
 
-/// The corners of a triangle, and half the cross product of its sides.
+/// The corners and the area vector of a triangle.
 struct Facet {
   std::array<int, 3> corners;
   Eigen::RowVector3d area;  // m^2, outward

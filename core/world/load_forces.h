@@ -3,19 +3,19 @@
 
 namespace sprung {
 
-/// The forces of an actor's loads and of the wind on its nodes. What presses on the skin is computed anew every few
-/// steps only: it changes as slowly as the skin turns.
+/// The nodal forces of a body's loads and of the wind. Those on the skin are updated every few steps only, since they
+/// change as slowly as the skin turns.
 class LoadForces {
  public:
-  /// Both have to outlive it.
+  /// Both must outlive it.
   LoadForces(const SoftBody& actor, const World& world) : actor_(actor), world_(world) {}
 
-  /// Whether there is anything at all.
+  /// Whether there are any loads or wind.
   [[nodiscard]] bool any() const { return !actor_.loads.empty() || world_.wind.blows(); }
 
-  /// For the positions and velocities that the body has; m x 3, N. Call once a step.
+  /// For the body's current positions and velocities; m x 3, N. Call once per step.
   [[nodiscard]] const Points& forces();
-  /// The same without muscles, for steps that have those as an energy.
+  /// The same without muscles, for steps that treat those as an energy.
   [[nodiscard]] const Points& forces_beside_muscles();
 
  private:

@@ -4,7 +4,7 @@
 
 namespace sprung {
 
-/// Stresses of a brick that is held in its shape while it would rather have that of the muscle, by the law of Hooke.
+/// By Hooke's law: the stresses of a brick held in its shape while its rest shape is that of the muscle.
 MuscleTension tension_of(const Muscle& muscle, const Material& material) {
   const double widening = 1 / std::sqrt(1 - muscle.contraction) - 1;
   const double twice_shear = 2 * material.shear_modulus();

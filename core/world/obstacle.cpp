@@ -12,9 +12,9 @@
 namespace sprung {
 namespace {
 
-constexpr double kOnSide = 1e-9;  // barycentric coordinates below lie on a side
+constexpr double kOnSide = 1e-9;  // barycentric coordinates below this are on a side
 
-/// Weights of a triangle's corners at a place of its plane.
+/// Barycentric coordinates of a point in the plane of a triangle.
 Vec3 barycentric(const std::array<Vec3, 3>& x, const Vec3& place) {
   const Vec3 normal = (x[1] - x[0]).cross(x[2] - x[0]);
   const double area = normal.squaredNorm();
@@ -61,7 +61,7 @@ class MeshDistance::Tree {
     const Vec3 off = place - found.point;
     const double distance = found.distance;
     const double sign = off.dot(outward) < 0 ? -1 : 1;
-    // On the surface itself the direction to it says nothing.
+    // On the surface itself the direction to it is undefined.
     const bool is_off = distance > 1e-12 * (1 + found.point.norm());
     return {sign * distance, is_off ? Vec3(sign * off / distance) : outward.normalized()};
   }
@@ -91,7 +91,7 @@ class MeshDistance::Tree {
   Points positions_;
   Triangles triangles_;
   NearestTriangle surface_;
-  Points vertex_normals_;                             // by angle, any length
+  Points vertex_normals_;                             // angle-weighted, any length
   std::map<std::pair<int, int>, Vec3> edge_normals_;  // any length
   Points normals_;                                    // unit; 0 where there is no area
 };
@@ -105,13 +105,13 @@ MeshDistance::Nearest MeshDistance::nearest(const Vec3& place) const { return tr
 
 namespace {
 
-/// Of a point off an axis or a middle; any direction will do at it.
+/// Of a point at `off` from an axis or centre; on it any direction is right.
 Gap gap_to_round(const Vec3& off, double radius) {
   const double length = off.norm();
   return {length - radius, length > 0 ? Vec3(off / length) : Vec3(Vec3::UnitX())};
 }
 
-/// Of what has flat sides; `beyond` is how far the place lies beyond each, along the directions in `outward`.
+/// Of a solid with flat sides; `beyond`: the distances of the point beyond each along the directions `outward`.
 template <int N>
 Gap gap_to_sides(const Eigen::Matrix<double, N, 1>& beyond, const Eigen::Matrix<double, 3, N>& outward) {
   Eigen::Index nearest = 0;

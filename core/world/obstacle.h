@@ -4,16 +4,15 @@
 #include <variant>
 #include <vector>
 
-#include "core/pose.h"
 #include "core/types.h"
 
 namespace sprung {
 
-/// Signed distances to a closed, outward oriented mesh, by a tree of its triangles' boxes. Cost of a query: logarithmic
-/// in the triangles. May be asked by several threads at once.
+/// Signed distances to a closed, outward-oriented mesh, by a bounding box tree. Queries cost O(log n) and are
+/// thread-safe.
 class MeshDistance {
  public:
-  /// `positions` m x 3, `triangles` n x 3, at least one triangle with an area.
+  /// `positions` m x 3, `triangles` n x 3, at least one of non-zero area.
   MeshDistance(const Points& positions, const Triangles& triangles);
   ~MeshDistance();
   MeshDistance(const MeshDistance&) = delete;
@@ -23,9 +22,9 @@ class MeshDistance {
     double distance;  // negative inside
     Vec3 normal;      // unit, outward: the gradient of the distance
   };
-  /// Which side of the surface a point is on is told by the normal of the nearest place, at edges and vertices by the
-  /// mean of the normals around it, weighted by their angles (J. Baerentzen and H. Aanaes, "Signed distance computation
-  /// using the angle weighted pseudonormal", IEEE TVCG 11(3), 2005).
+  /// The sign follows from the normal at the closest point of the surface, at edges and vertices from the
+  /// angle-weighted mean of the adjacent normals (J. Baerentzen and H. Aanaes, "Signed distance computation using the
+  /// angle weighted pseudonormal", IEEE TVCG 11(3), 2005).
   [[nodiscard]] Nearest nearest(const Vec3& place) const;
 
  private:
@@ -35,7 +34,7 @@ class MeshDistance {
 
 /// Solid where y < 0.
 struct SolidHalfSpace {};
-/// Around the origin; half of its sides, m.
+/// Centred at the origin; half side lengths, m.
 struct SolidBox {
   Vec3 half{0.5, 0.5, 0.5};
 };
@@ -43,12 +42,12 @@ struct SolidBox {
 struct SolidBall {
   double radius = 0.5;
 };
-/// Around the y axis, from -half_length to half_length without its round ends, m.
+/// About the y axis, from -half_length to half_length without its round ends, m.
 struct SolidCapsule {
   double radius = 0.25;
   double half_length = 0.25;
 };
-/// Around the y axis, from -half_length to half_length, m.
+/// About the y axis, from -half_length to half_length, m.
 struct SolidCylinder {
   double radius = 0.25;
   double half_length = 0.5;
@@ -58,10 +57,10 @@ struct MeshSolid {
   std::shared_ptr<const MeshDistance> distance;
 };
 
-/// In a frame of their own.
+/// In the obstacle's own frame.
 using Shape = std::variant<SolidHalfSpace, SolidBox, SolidBall, SolidCapsule, SolidCylinder, MeshSolid>;
 
-/// Something solid that no body moves. It moves evenly by itself: `pose` is where it is at the start of an advance.
+/// A rigid obstacle with prescribed, uniform motion. `pose`: at the start of a step.
 struct Obstacle {
   Shape shape = SolidHalfSpace{};
   Pose pose;
@@ -83,16 +82,16 @@ struct Obstacle {
 [[nodiscard]] const Obstacle* highest_ground(const std::vector<Obstacle>& obstacles);
 [[nodiscard]] std::optional<double> ground_height(const std::vector<Obstacle>& obstacles);
 
-/// After it has moved by itself for that time (s).
+/// The pose after `time` (s) of its own motion.
 [[nodiscard]] Pose pose_after(const Obstacle& obstacle, double time);
 
-/// Lets them all move by themselves for that time (s).
+/// Moves all obstacles by `time` (s).
 void move_obstacles(std::vector<Obstacle>& obstacles, double time);
 
-/// Of the obstacle's own material at a place of the world while it is at `pose`, m/s.
+/// The velocity of the obstacle's material at a point of the world, m/s.
 [[nodiscard]] Vec3 velocity_at(const Obstacle& obstacle, const Pose& pose, const Vec3& place);
 
-/// How far a place is from what is solid, m: negative inside; the gradient is the normal, outward. Never more than the
+/// The distance of a point from a solid, m, negative inside, and its gradient, the outward normal. Never more than the
 /// true distance.
 struct Gap {
   double distance;

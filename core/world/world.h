@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
+#include "core/appearance.h"
 #include "core/body/body.h"
 #include "core/bricks/embedding.h"
-#include "core/skin/appearance.h"
 #include "core/skin/skin.h"
 #include "core/world/loads.h"
 #include "core/world/obstacle.h"
@@ -16,7 +16,7 @@ namespace sprung {
 
 struct ContactSurface;
 
-/// A node that is held along some axes of the world: there it moves with the velocity given, whatever pulls at it.
+/// A node whose velocity is prescribed along some axes of the world.
 struct KinematicNode {
   int node = 0;
   std::array<bool, 3> axes{true, true, true};
@@ -27,7 +27,7 @@ struct KinematicNode {
 struct PinnedNodes {
   std::size_t pin = 0;  // row in SceneBody::pins
   std::vector<int> nodes;
-  Vec3 centre = Vec3::Zero();  // m, in the world: what the pin turns about
+  Vec3 centre = Vec3::Zero();  // m, in the world: the pin's centre of rotation
 };
 
 /// Where a force of the scene acts on a body.
@@ -37,16 +37,16 @@ struct ForcedPart {
   std::vector<int> triangles;  // of a pressure: rows of SoftBody::contact_triangles
 };
 
-/// Which bricks of a body a muscle of the scene is made of.
+/// The bricks of a body that form a muscle of the scene.
 struct MusclePart {
   std::size_t muscle = 0;  // row in SceneBody::muscles
   Muscle full;             // at full strength
 };
 
-/// Which body of the scene a soft body is made from, and how.
+/// The body of the scene from which a soft body was made.
 struct Origin {
   std::size_t body = 0;  // row in Scene::bodies
-  int copy = 0;          // of the body, which one
+  int copy = 0;          // index of the copy
   Mat3 bricks_from_rest = Mat3::Identity();
   std::vector<int> regions;       // per brick: row in SceneBody::regions, counted from 1; 0: of the body's own material
   std::vector<PinnedNodes> pins;  // those that hold any of its nodes
@@ -57,28 +57,27 @@ struct Origin {
   [[nodiscard]] std::vector<int> pinned_nodes() const;
 };
 
-/// A solid filled with bricks, as it moves (Body), touches, is held, is drawn, and is exported.
+/// A solid filled with bricks: its mechanics (Body), contacts, pins, loads, drawing and export.
 struct SoftBody : Body {
   Embedding contacts;                                       // points of the skin, each position once
-  Triangles contact_triangles{};                            // rows of contacts; none: it touches obstacles only
-  std::shared_ptr<const ContactSurface> contact_surface{};  // of the contacts as they are first used; see there
+  Triangles contact_triangles{};                            // rows of contacts; none: contact with obstacles only
+  std::shared_ptr<const ContactSurface> contact_surface{};  // of the contacts when first used; see there
   double friction = 0.5;                                    // on another body: the geometric mean of both
-  bool collides_with_itself = true;                         // not for what overlaps itself at rest
+  bool collides_with_itself = true;                         // not where it overlaps itself at rest
   std::vector<KinematicNode> pinned;                        // each node once; no contact can push it
   Loads loads{};
 
-  Skin skin{};                 // what is drawn, at rest, in the frame of the bricks
-  Embedding skin_embedding{};  // of its vertices
-  Color color{};               // of what the skin leaves without colour
-  std::vector<int>
-      file_vertices{};  // of the mesh as its file has it (Simulation::meshes), those that this body carries
+  Skin skin{};                       // what is drawn, at rest, in the frame of the bricks
+  Embedding skin_embedding{};        // of its vertices
+  Color color{};                     // where the skin has no colours
+  std::vector<int> file_vertices{};  // of the mesh in its file (Simulation::meshes), those embedded in this body
   Embedding file_embedding{};
   Origin origin{};
 
   SoftBody() = default;
   explicit SoftBody(Body body) : Body(std::move(body)) {}
 
-  /// Vertices of the skin where the nodes are there (m x 3, m), m.
+  /// The skin's vertices for these node positions (m x 3, m), m.
   [[nodiscard]] Points skin_positions(const Points& nodes) const;
 };
 
@@ -86,7 +85,7 @@ struct World {
   std::vector<SoftBody> bodies;
   Vec3 gravity{0, -9.81, 0};  // m/s^2
   std::vector<Obstacle> obstacles;
-  bool bodies_collide = true;  // each other
+  bool bodies_collide = true;  // with each other
   Wind wind{};
   std::vector<GluedPoint> glue{};
 };

@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "core/error.h"
+#include "core/files.h"
 #include "core/types.h"
 
 namespace sprung {
@@ -98,20 +99,12 @@ void write_exr(const Passes& passes, const std::filesystem::path& file) {
   image.height = passes.height;
   image.num_channels = header.num_channels;
 
-  std::filesystem::path partial = file;
-  partial += ".partial";
+  PartialFile partial(file);
   const char* message = nullptr;
-  std::string reason;
-  if (SaveEXRImageToFile(&image, &header, partial.c_str(), &message) == TINYEXR_SUCCESS) {
-    std::error_code error;
-    std::filesystem::rename(partial, file, error);
-    if (!error) return;
-    reason = error.message();
-  } else {
-    reason = taken(message);
+  if (SaveEXRImageToFile(&image, &header, partial.path().c_str(), &message) != TINYEXR_SUCCESS) {
+    throw Error(ErrorKind::kFailed, "cannot write '" + file.string() + "': " + taken(message));
   }
-  std::remove(partial.c_str());
-  throw Error(ErrorKind::kFailed, file.string() + ": cannot write the passes: " + reason);
+  partial.publish();
 }
 
 Passes read_exr(const std::filesystem::path& file) {

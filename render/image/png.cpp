@@ -3,20 +3,14 @@
 #include <libdeflate.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <fstream>
 #include <iterator>
 #include <memory>
 #include <new>
 #include <string_view>
-#include <system_error>
 #include <vector>
 
-#include "core/error.h"
+#include "core/files.h"
 #include "core/io/decode_image.h"
-#include "core/mesh/io/file_checks.h"
 
 namespace sprung {
 
@@ -27,21 +21,6 @@ constexpr std::uint8_t kSubFilter = 1;  // difference to the left neighbour; try
 constexpr std::size_t kRgb = 3;
 
 using Bytes = std::vector<std::uint8_t>;
-
-[[noreturn]] void fail(const std::filesystem::path& file, const std::string& reason) {
-  throw Error(ErrorKind::kFailed, file.string() + ": cannot write the picture: " + reason);
-}
-
-void write_bytes(const std::filesystem::path& file, const unsigned char* data, std::size_t size) {
-  std::FILE* out = std::fopen(file.c_str(), "wb");
-  if (out == nullptr) fail(file, std::strerror(errno));
-  const bool written = std::fwrite(data, 1, size, out) == size;
-  const int write_error = errno;
-  if (std::fclose(out) == 0 && written) return;
-  const int reason = written ? errno : write_error;
-  std::remove(file.c_str());
-  fail(file, std::strerror(reason));
-}
 
 /// Colours and, where there is one, alpha, pixel by pixel.
 Bytes interleaved(const Image& image) {
@@ -111,19 +90,12 @@ Bytes encode(const Image& image) {
 
 void write_png(const Image& image, const std::filesystem::path& file) {
   const Bytes encoded = encode(image);
-  std::filesystem::path partial = file;
-  partial += ".partial";
-  write_bytes(partial, encoded.data(), encoded.size());
-  std::error_code error;
-  std::filesystem::rename(partial, file, error);
-  if (!error) return;
-  std::remove(partial.c_str());
-  fail(file, error.message());
+  write_file(file, {reinterpret_cast<const char*>(encoded.data()), encoded.size()});
 }
 
 Image read_png(const std::filesystem::path& file) {
   check_readable(file);
-  const std::string bytes = read_bytes(file);
+  const std::string bytes = read_file(file);
   const Pixels pixels = decode_pixels(std::as_bytes(std::span(bytes)), file.string());
   Image image(pixels.width, pixels.height);
   for (std::size_t p = 0; p < image.pixels.size() / 3; ++p) {

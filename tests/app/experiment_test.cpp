@@ -269,7 +269,7 @@ keyframes = [{ t = 0 }, { t = 0.1, translate = [-0.078, 0, 0] }]
 )"));
   const ProgramRun pushed = run("simulate pushed.toml -o pushed.h5 --scheme static");
   EXPECT_EQ(pushed.exit_code, 0) << pushed.err;
-  EXPECT_NE(pushed.err.find("pressed to less than"), std::string::npos) << pushed.err;
+  EXPECT_NE(pushed.err.find("compressed to less than"), std::string::npos) << pushed.err;
 }
 
 TEST_F(ExperimentProgram, RefusesWhatItsSolversCannotDo) {

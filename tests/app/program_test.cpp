@@ -94,7 +94,7 @@ TEST_F(Program, SaysWhereASurfaceCrossesItself) {
   static_cast<void>(folder_.write("crossing.obj", text));
   const ProgramRun made = run("simulate crossing.obj -o out --bricks 12 --duration 0.05");
   EXPECT_EQ(made.exit_code, 0) << made.err;
-  EXPECT_NE(made.err.find("the surface crosses itself: "), std::string::npos) << made.err;
+  EXPECT_NE(made.err.find("the surface intersects itself: "), std::string::npos) << made.err;
   const ProgramRun plain = run("simulate cube.obj -o plain --bricks 12 --duration 0.05");
   EXPECT_EQ(plain.exit_code, 0) << plain.err;
   EXPECT_EQ(plain.err.find("crosses"), std::string::npos) << plain.err;

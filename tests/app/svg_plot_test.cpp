@@ -100,7 +100,7 @@ TEST(Plots, AreWrittenWholeOrNotAtAll) {
   EXPECT_EQ(text_of(folder.path() / "plot.svg"), svg_text(figure, SvgUse::kFile));
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "plot.svg.partial"));
   const std::string message = error_message([&] { write_svg(figure, folder.path() / "none" / "plot.svg"); });
-  EXPECT_NE(message.find("plot.svg: cannot write"), std::string::npos) << message;
+  EXPECT_NE(message.find("cannot write '"), std::string::npos) << message;
 }
 
 }  // namespace

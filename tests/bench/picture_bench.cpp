@@ -65,8 +65,8 @@ struct Subject {
         recording(as_they_start(simulation)),
         film(scene, simulation, recording),
         shapes(film.shapes(0)) {
-    Bounds bounds;
-    for (const SkinShape& shape : shapes) bounds.include(shape.positions.cast<double>().eval());
+    AlignedBox bounds;
+    for (const SkinShape& shape : shapes) bounds.extend(bounding_box(shape.positions.cast<double>().eval()));
     stage = film.stage(bounds);
     camera = frame_bounds(bounds, 16.0 / 9);
   }

@@ -5,7 +5,6 @@
 #include <string_view>
 
 #include "core/error.h"
-#include "core/mesh/io/file_checks.h"
 #include "core/mesh/io/reader_process.h"
 #include "core/mesh/io/readers.h"
 

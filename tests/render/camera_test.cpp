@@ -20,11 +20,11 @@ Vec3 project(const Camera& camera, double aspect, const Vec3& point) {
 }
 
 /// The largest picture coordinate of the eight corners.
-double reach(const Camera& camera, double aspect, const Bounds& bounds) {
+double reach(const Camera& camera, double aspect, const AlignedBox& bounds) {
   double most = 0;
   for (unsigned corner = 0; corner < 8; ++corner) {
     Vec3 point;
-    for (int k = 0; k < 3; ++k) point[k] = ((corner >> k) & 1U) != 0 ? bounds.high[k] : bounds.low[k];
+    for (int k = 0; k < 3; ++k) point[k] = ((corner >> k) & 1U) != 0 ? bounds.max()[k] : bounds.min()[k];
     const Vec3 seen = project(camera, aspect, point);
     EXPECT_GT(seen.z(), 0);
     most = std::max({most, std::abs(seen.x()), std::abs(seen.y())});
@@ -35,7 +35,7 @@ double reach(const Camera& camera, double aspect, const Bounds& bounds) {
 TEST(FrameBounds, SeesEveryCornerWithAMarginAndNotFromAfar) {
   for (const Vec3& size :
        {Vec3(1, 1, 1), Vec3(5, 0.2, 0.3), Vec3(0.1, 3, 0.1), Vec3(0.2, 0.1, 8), Vec3(1e-3, 2e-3, 0)}) {
-    const Bounds bounds{Vec3(3, 0, -7), Vec3(3, 0, -7) + size};
+    const AlignedBox bounds{Vec3(3, 0, -7), Vec3(3, 0, -7) + size};
     for (const double aspect : {0.5, 1.0, 16.0 / 9, 3.0}) {
       for (double azimuth = -180; azimuth < 180; azimuth += 45) {
         for (const double elevation : {-60.0, 0.0, 14.0, 45.0, 90.0}) {
@@ -70,7 +70,7 @@ TEST(CarriedAround, KeepsDistanceAndHeight) {
 }
 
 TEST(FrameBounds, LooksFromWhereItIsTold) {
-  const Bounds bounds{Vec3(-1, 0, -1), Vec3(1, 2, 1)};
+  const AlignedBox bounds{Vec3(-1, 0, -1), Vec3(1, 2, 1)};
   const Camera front = frame_bounds(bounds, 1, 0, 0);
   EXPECT_TRUE((front.target - front.eye).normalized().isApprox(-Vec3::UnitZ(), 1e-12));
   const Camera side = frame_bounds(bounds, 1, 90, 30);
@@ -80,28 +80,25 @@ TEST(FrameBounds, LooksFromWhereItIsTold) {
 }
 
 TEST(FrameBounds, FollowsTheScaleExactly) {
-  const Bounds one{Vec3(-1, 0, -2), Vec3(1, 2, 1)};
-  const Bounds small{1e-6 * one.low, 1e-6 * one.high};
+  const AlignedBox one{Vec3(-1, 0, -2), Vec3(1, 2, 1)};
+  const AlignedBox small{1e-6 * one.min(), 1e-6 * one.max()};
   EXPECT_TRUE(frame_bounds(small, 1.5).eye.isApprox(1e-6 * frame_bounds(one, 1.5).eye, 1e-12));
 }
 
 TEST(FrameBounds, ASinglePointIsStillLookedAt) {
-  const Bounds point{Vec3(1, 2, 3), Vec3(1, 2, 3)};
+  const AlignedBox point{Vec3(1, 2, 3), Vec3(1, 2, 3)};
   const Camera camera = frame_bounds(point, 1);
   EXPECT_TRUE(camera.eye.allFinite());
   EXPECT_GT((camera.eye - camera.target).norm(), 0);
 }
 
-TEST(Bounds, GrowWithPoints) {
-  Bounds bounds;
-  EXPECT_TRUE(bounds.empty());
-  bounds.include(Points(0, 3));
-  EXPECT_TRUE(bounds.empty());
+TEST(BoundingBox, CoversThePoints) {
+  EXPECT_TRUE(bounding_box(Points(0, 3)).isEmpty());
   Points points(2, 3);
   points << 1, 2, 3, -1, 5, 0;
-  bounds.include(points);
-  EXPECT_EQ(bounds.low, Vec3(-1, 2, 0));
-  EXPECT_EQ(bounds.high, Vec3(1, 5, 3));
+  const AlignedBox bounds = bounding_box(points);
+  EXPECT_EQ(bounds.min(), Vec3(-1, 2, 0));
+  EXPECT_EQ(bounds.max(), Vec3(1, 5, 3));
 }
 
 }  // namespace

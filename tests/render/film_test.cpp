@@ -171,7 +171,7 @@ TEST(ChildProcess, ADeadReaderIsNoSignal) {
 TEST(ChildProcess, KeepsTheLastWords) {
   ChildProcess child({"sh", "-c", "cat >/dev/null; echo 'it broke' >&2; exit 7"});
   EXPECT_EQ(child.finish(), 7);
-  EXPECT_EQ(child.last_words(), "it broke");
+  EXPECT_EQ(child.error_output(), "it broke");
 }
 
 TEST(ChildProcess, AProgramThatIsMissingIsAnError) { EXPECT_THROW(ChildProcess({"sprung-no-such-program"}), Error); }

@@ -127,7 +127,7 @@ Stage StillLife::stage() const {
   Stage stage;
   for (const Skin& skin : skins) {
     stage.skins.push_back(&skin);
-    stage.bounds.include(skin.positions);
+    stage.bounds.extend(bounding_box(skin.positions));
   }
   stage.default_colors = colors;
   stage.has_ground = has_ground;

@@ -1,5 +1,3 @@
-#include "core/mesh/io/assimp_reader.h"
-
 #include <assimp/material.h>
 #include <assimp/scene.h>
 #include <fmt/format.h>
@@ -14,8 +12,9 @@
 #include <new>
 #include <utility>
 
+#include "core/appearance.h"
 #include "core/error.h"
-#include "core/mesh/io/file_checks.h"
+#include "core/files.h"
 #include "core/mesh/io/polygon_soup.h"
 #include "core/mesh/io/readers.h"
 #include "core/text.h"
@@ -83,12 +82,8 @@ Eigen::Vector4f base_color(const aiMaterial& material, bool linear) {
   return color;
 }
 
-}  // namespace
-
-float srgb_from_linear(float linear) {
-  return linear <= 0.0031308F ? 12.92F * linear : 1.055F * std::pow(linear, 1.0F / 2.4F) - 0.055F;
-}
-
+/// The materials of a scene, with the bytes of embedded textures and the names of external ones. An embedded texture
+/// that cannot be read is left out with a note.
 std::vector<SurfaceMaterial> read_materials(const aiScene& scene, bool is_gltf, std::vector<std::string>& notes) {
   std::vector<SurfaceMaterial> materials;
   for (unsigned m = 0; m < scene.mNumMaterials; ++m) {
@@ -103,22 +98,21 @@ std::vector<SurfaceMaterial> read_materials(const aiScene& scene, bool is_gltf, 
   return materials;
 }
 
+/// Whether the material is one that assimp made up because the file has none.
 bool is_placeholder(const aiScene& scene, unsigned material, bool is_gltf) {
   if (material >= scene.mNumMaterials) return true;
   const aiMaterial& given = *scene.mMaterials[material];
   if (!texture_path(given).empty()) return false;
   const std::string name = given.GetName().C_Str();
-  // The glTF reader appends its default without a name; in glTF others may lack one, too.
+  // The glTF reader appends its default material without a name; others may lack a name, too.
   if (name.empty())
     return is_gltf ? material + 1 == scene.mNumMaterials : base_color(given, false).head<3>().minCoeff() == 1;
   return name == AI_DEFAULT_MATERIAL_NAME;
 }
 
-namespace {
-
 using Transform = Eigen::Matrix4d;
 
-/// A mesh where a node puts it.
+/// A mesh as placed by a node.
 struct Instance {
   const aiMesh* mesh;
   Transform world_from_mesh;
@@ -147,7 +141,7 @@ void collect_instances(const aiScene& scene, const aiNode& node, const Transform
   }
 }
 
-/// Fills one SurfaceMesh with the instances one after the other.
+/// Concatenates the instances in one SurfaceMesh.
 class MeshBuilder {
  public:
   MeshBuilder(const std::vector<Instance>& instances, bool linear_colors, const std::string& name)
@@ -165,7 +159,7 @@ class MeshBuilder {
     if (vertices > std::size_t{std::numeric_limits<int>::max()}) refuse("more than 2^31 vertices; simplify the mesh");
     const int n = int(vertices);
     mesh_.positions.setZero(n, 3);
-    // Where only some meshes bring an attribute, the others get a neutral value: no normal, no offset, white.
+    // Where only some meshes have an attribute, the others get a neutral value: no normal, no offset, white.
     if (normals) mesh_.normals.setZero(n, 3);
     if (uvs) mesh_.uvs.setZero(n, 2);
     if (colors) mesh_.colors.setOnes(n, 4);
@@ -210,7 +204,7 @@ class MeshBuilder {
   }
 
   void add_normals(const Instance& instance) {
-    // The cofactors are the inverse transpose times the determinant: they exist for a flattening transform, too.
+    // The cofactors are the inverse transpose times the determinant, and also exist for singular transforms.
     const Mat3 linear = instance.world_from_mesh.topLeftCorner<3, 3>();
     Mat3 cofactors;
     for (int i = 0; i < 3; ++i) cofactors.row(i) = linear.row((i + 1) % 3).cross(linear.row((i + 2) % 3));
@@ -285,7 +279,7 @@ std::string one_line(std::string text) {
   return text;
 }
 
-/// assimp drops faces of a glTF whose corners are not there, and tells its log alone.
+/// assimp drops glTF faces with missing corners, and only logs it.
 class DroppedFaces : public Assimp::LogStream {
  public:
   void write(const char* message) override {
@@ -302,7 +296,7 @@ const aiScene& read_scene(Assimp::Importer& importer, const std::filesystem::pat
                             "fbx, dae, 3ds or x3d",
                             file.string(), extension));
   }
-  auto* dropped = new DroppedFaces;  // the logger's own from now on
+  auto* dropped = new DroppedFaces;  // owned by the logger
   Assimp::DefaultLogger::create(nullptr, Assimp::Logger::NORMAL, 0)->attachStream(dropped, Assimp::Logger::Warn);
   const aiScene* scene = importer.ReadFile(file.string(), 0);
   const std::string reason = importer.GetErrorString();
@@ -317,15 +311,14 @@ const aiScene& read_scene(Assimp::Importer& importer, const std::filesystem::pat
   return *scene;
 }
 
-/// Of 3MF with textures assimp 5.2 has freed the names and the pictures by now (its issue 5328), and its colours are
-/// black.
+/// For 3MF with textures assimp 5.2 has already freed the names and images (its issue 5328), and its colours are black.
 void leave_out_materials(SurfaceMesh& mesh) {
   for (Part& part : mesh.parts) part.material = -1;
   mesh.notes.emplace_back(
       "the textures of 3MF files are not supported; drawn without them; save it as GLB to keep them");
 }
 
-/// The mesh is taken as it stands in the file, whatever moves it there.
+/// The mesh is read in its rest state.
 void note_motion(const aiScene& scene, std::vector<std::string>& notes) {
   unsigned bones = 0;
   unsigned shapes = 0;
@@ -338,13 +331,13 @@ void note_motion(const aiScene& scene, std::vector<std::string>& notes) {
   if (bones > 0) ignored.push_back("a skin of " + count_of(bones, "bone"));
   if (shapes > 0) ignored.push_back(count_of(shapes, "morph target"));
   if (ignored.empty()) return;
-  notes.push_back(fmt::format("ignored {}: the mesh is taken as it stands at rest", fmt::join(ignored, " and ")));
+  notes.push_back(fmt::format("ignored {}: the mesh is read at rest", fmt::join(ignored, " and ")));
 }
 
 }  // namespace
 
 SurfaceMesh read_by_assimp(const std::filesystem::path& file) {
-  // Never destroyed: it would free the textures of 3MF twice and so end the process (its issue 5328).
+  // Never destroyed: it would free the textures of 3MF twice and crash (its issue 5328).
   auto* importer = new Assimp::Importer;
   const aiScene& scene = read_scene(*importer, file);
   const std::string extension = lower_extension(file);

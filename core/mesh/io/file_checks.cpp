@@ -1,15 +1,11 @@
-#include "core/mesh/io/file_checks.h"
-
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
 #include <cstdint>
-#include <fstream>
-#include <vector>
+#include <string>
+#include <string_view>
 
 #include "core/error.h"
-#include "core/text.h"
+#include "core/mesh/io/readers.h"
 
 namespace sprung {
 namespace {
@@ -18,7 +14,7 @@ namespace {
   throw Error(ErrorKind::kBadInput, fmt::format("{}: {}", name, reason));
 }
 
-/// The little-endian number of `size` bytes at `offset`; 0 where the bytes end before.
+/// The little-endian number of `size` bytes at `offset`; 0 beyond the end.
 std::uint64_t little_endian(std::string_view bytes, std::size_t offset, std::size_t size) {
   if (offset + size > bytes.size()) return 0;
   std::uint64_t value = 0;
@@ -26,50 +22,7 @@ std::uint64_t little_endian(std::string_view bytes, std::size_t offset, std::siz
   return value;
 }
 
-/// "; did you mean 'bear.ply'?", where the folder has a file of a similar name.
-std::string nearest_file(const std::filesystem::path& file) {
-  std::error_code error;
-  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
-  if (!std::filesystem::is_directory(folder, error)) {
-    return fmt::format("; there is no folder '{}'", folder.string());
-  }
-  std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
-    names.push_back(entry.path().filename().string());
-  }
-  std::sort(names.begin(), names.end());  // a folder has no order of its own
-  const std::vector<std::string_view> known(names.begin(), names.end());
-  const std::string_view nearest = nearest_word(file.filename().string(), known);
-  return nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest);
-}
-
 }  // namespace
-
-std::string lower_extension(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
-
-void check_readable(const std::filesystem::path& file) {
-  const std::string name = file.string();
-  std::error_code error;
-  const auto status = std::filesystem::status(file, error);
-  if (!std::filesystem::status_known(status)) refuse(name, error.message());
-  if (!std::filesystem::exists(status)) refuse(name, "no such file" + nearest_file(file));
-  if (std::filesystem::is_directory(status)) refuse(name, "is a directory, not a file");
-  if (!std::filesystem::is_regular_file(status)) refuse(name, "is a pipe or a device, not a regular file");
-  if (!std::ifstream(file)) refuse(name, "cannot be opened for reading; check its permissions");
-}
-
-std::string read_bytes(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::string bytes(std::filesystem::file_size(file), '\0');
-  stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  if (stream.gcount() != std::ssize(bytes)) refuse(file.string(), "cannot be read to its end");
-  return bytes;
-}
 
 void check_glb(std::string_view bytes, const std::string& name) {
   if (!bytes.starts_with("glTF")) refuse(name, "is not a GLB file (it does not begin with 'glTF')");

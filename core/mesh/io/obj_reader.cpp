@@ -1,5 +1,3 @@
-#include "core/mesh/io/obj_reader.h"
-
 #include <fmt/format.h>
 
 #include <charconv>
@@ -16,10 +14,10 @@
 namespace sprung {
 namespace {
 
-/// The words that belong to an option of a texture map and are not its file: "-s 1 1 1", "-clamp on".
+/// The number of words of a texture map option that precede the file name: "-s 1 1 1", "-clamp on".
 bool is_option_value(std::string_view word) { return number_of(word).has_value() || word == "on" || word == "off"; }
 
-/// The file of a map_Kd line, which may hold blanks, after its options.
+/// The file of a map_Kd line after its options; it may contain blanks.
 std::string texture_name(TextScanner& scanner) {
   std::string_view word = scanner.word();
   while (word.starts_with('-')) {
@@ -142,8 +140,8 @@ class ObjReader {
     add_normal(soup_, normal);
   }
 
-  /// Rows count from 1, or back from the last one so far; whether they are there, check_rows sees at the end, so that
-  /// the first face at fault is the one that is named.
+  /// Rows count from 1, or backwards from the last one so far. check_rows checks them at the end, so that the first
+  /// invalid face is the one reported.
   void take_face() {
     if (!fault_.empty()) return;
     const long first = soup_.corners.size();
@@ -182,7 +180,7 @@ class ObjReader {
                                 faces_ + 1, word.size()));
   }
 
-  /// Takes a number off the front of a word, as a row from 0.
+  /// Parses a number at the front of a word as a row from 0.
   int take_row(std::string_view& word, long so_far, std::string_view thing) {
     int index = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), index);
@@ -197,7 +195,7 @@ class ObjReader {
     return int(std::max(row, 0L));
   }
 
-  /// The part of this group and material, made where there is none yet.
+  /// The part of this group and material, created where there is none yet.
   int part() {
     if (part_ >= 0) return part_;
     const auto [found, is_new] = parts_.try_emplace({group_, material_}, isize(soup_.parts));
@@ -251,8 +249,8 @@ class ObjReader {
   std::map<std::pair<std::string, std::string>, int> parts_;
   std::string group_;
   std::string material_;
-  std::string fault_;  // of the first face whose row can be nowhere
-  int part_ = -1;      // of the group and the material now; -1: to be found
+  std::string fault_;  // of the first face with an impossible row
+  int part_ = -1;      // of the current group and material; -1: to be found
   long faces_ = 0;
   long loose_ = 0;
   long free_form_ = 0;

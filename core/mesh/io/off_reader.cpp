@@ -10,7 +10,7 @@
 namespace sprung {
 namespace {
 
-/// What the first word of the file says that vertices have, in the order of their numbers.
+/// The vertex attributes that the first word of the file declares, in the order of their numbers.
 struct VertexLayout {
   bool normals = false;
   bool colors = false;
@@ -51,8 +51,8 @@ Counts read_counts(TextScanner& scanner) {
   if (!vertices || !faces || !(*vertices >= 0) || !(*faces >= 0)) {
     scanner.refuse("the header holds no counts of vertices and faces");
   }
-  static_cast<void>(scanner.rest());  // the number of edges, which nobody fills in
-  // A vertex or a face takes at least 6 or 4 bytes: one-digit numbers and what stands between them.
+  static_cast<void>(scanner.rest());  // the number of edges, which is unreliable
+  // A vertex takes at least 6 bytes, a face 4: one-digit numbers and separators.
   const auto size = double(scanner.after().size());
   const auto check = [&](double count, std::string_view things, double least_bytes) {
     if (count * least_bytes <= size + least_bytes) return;
@@ -64,7 +64,7 @@ Counts read_counts(TextScanner& scanner) {
   return {long(*vertices), long(*faces)};
 }
 
-/// The numbers that are left of a line, up to 16, and whether one of them has a decimal point.
+/// The remaining numbers of a line, up to 16, and whether one of them has a decimal point.
 struct Numbers {
   std::vector<double> values;
   bool fractions = false;
@@ -82,7 +82,7 @@ Numbers rest_of_line(TextScanner& scanner) {
   return numbers;
 }
 
-/// Colours are bytes or, where a number has a decimal point, in [0, 1]; white where there are not three numbers.
+/// Colours are bytes or, where a number has a decimal point, in [0, 1]; white for fewer than three numbers.
 Eigen::Vector4f color_of(std::span<const double> values, bool fractions) {
   Eigen::Vector4f color = Eigen::Vector4f::Ones();
   if (values.size() < 3) return color;
@@ -93,7 +93,7 @@ Eigen::Vector4f color_of(std::span<const double> values, bool fractions) {
                                         : Eigen::Vector4f::Ones();
 }
 
-/// After the coordinates of a vertex stand its normal, its colour and its UV, as far as the layout has them.
+/// The coordinates of a vertex are followed by its normal, colour and UV, as far as the layout has them.
 void read_vertex(TextScanner& scanner, const VertexLayout& layout, const std::string& name, PolygonSoup& soup) {
   const Named what{"vertex", std::ssize(soup.positions) + 1};
   Vec3 position;
@@ -114,7 +114,7 @@ void read_vertex(TextScanner& scanner, const VertexLayout& layout, const std::st
   if (layout.colors) soup.colors.push_back(color_of(left, numbers.fractions));
 }
 
-/// What follows the corners is the face's colour.
+/// The corners are followed by the face's colour.
 void read_face(TextScanner& scanner, const VertexLayout& layout, long face, PolygonSoup& soup) {
   const Named what{"face", face};
   const long corners = scanner.integer_ahead(what);

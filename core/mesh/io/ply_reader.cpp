@@ -1,5 +1,3 @@
-#include "core/mesh/io/ply_reader.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +9,9 @@
 #include <map>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "core/error.h"
 #include "core/mesh/io/polygon_soup.h"
@@ -19,6 +20,69 @@
 
 namespace sprung {
 namespace {
+
+enum class PlyType { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, kFloat64 };
+
+/// Bytes of a number in a binary file.
+std::size_t size_of(PlyType type) {
+  constexpr std::size_t kSizes[] = {1, 1, 2, 2, 4, 4, 4, 8};
+  return kSizes[std::size_t(type)];
+}
+
+struct PlyProperty {
+  std::string name;
+  PlyType type = PlyType::kFloat32;  // of the number, or of those in the list
+  bool is_list = false;
+  PlyType count_type = PlyType::kUint8;  // of the length of a list
+};
+
+struct PlyElement {
+  std::string name;
+  long count = 0;
+  std::vector<PlyProperty> properties;
+
+  /// The index of the first property with one of these names; -1: none.
+  [[nodiscard]] int find(std::initializer_list<std::string_view> names) const;
+};
+
+enum class PlyFormat { kText, kLittleEndian, kBigEndian };
+
+struct PlyHeader {
+  PlyFormat format = PlyFormat::kText;
+  std::vector<PlyElement> elements;  // in the order of their data
+  std::string texture;               // of a comment "TextureFile name"; empty: none
+  std::size_t size = 0;              // bytes, including the line end after end_header
+  long lines = 0;
+};
+
+/// The values of one vertex, face or the like, by property: a number or a list.
+struct PlyEntry {
+  std::vector<double> numbers;
+  std::vector<std::vector<double>> lists;
+};
+
+/// The data of a PLY file after its header, entry by entry.
+class PlyData {
+ public:
+  /// `bytes`: of the whole file, which must outlive this.
+  PlyData(std::string_view bytes, const PlyHeader& header, const std::string& name);
+
+  /// Reads the next entry of an element; `what` names it in messages. Throws Error(kBadInput) for truncated data, a
+  /// malformed number or an invalid list length.
+  void read(const PlyElement& element, const Named& what, PlyEntry& entry);
+
+  /// Throws Error(kBadInput), with the line for text files.
+  [[noreturn]] void refuse(const std::string& reason) const;
+
+ private:
+  double take(PlyType type, const Named& what);
+  double take_binary(PlyType type, const Named& what);
+
+  PlyFormat format_;
+  std::string name_;
+  std::string_view left_;  // of binary data
+  TextScanner scanner_;
+};
 
 std::optional<PlyType> type_of(std::string_view word) {
   static const std::map<std::string_view, PlyType> kTypes{
@@ -32,7 +96,7 @@ std::optional<PlyType> type_of(std::string_view word) {
   return found == kTypes.end() ? std::nullopt : std::optional(found->second);
 }
 
-/// Where the header ends: after the line that holds nothing but 'end_header', line end included.
+/// The end of the header: after the line that consists of 'end_header', including its line end.
 std::size_t find_end(std::string_view bytes, const std::string& name) {
   constexpr std::string_view kEnd = "end_header";
   const std::string_view head = bytes.substr(0, std::size_t{1} << 20);
@@ -87,7 +151,7 @@ void read_property(TextScanner& scanner, PlyHeader& header) {
   header.elements.back().properties.push_back(std::move(property));
 }
 
-/// The fewest bytes that an entry of the element takes.
+/// The minimum size of an entry of the element, bytes.
 std::size_t least_bytes(const PlyElement& element, PlyFormat format) {
   if (format == PlyFormat::kText) return 2 * element.properties.size();
   std::size_t bytes = 0;
@@ -107,13 +171,6 @@ void check_counts(const PlyHeader& header, std::size_t body, const std::string& 
   }
 }
 
-}  // namespace
-
-std::size_t size_of(PlyType type) {
-  constexpr std::size_t kSizes[] = {1, 1, 2, 2, 4, 4, 4, 8};
-  return kSizes[std::size_t(type)];
-}
-
 int PlyElement::find(std::initializer_list<std::string_view> names) const {
   for (std::size_t i = 0; i < properties.size(); ++i) {
     if (std::find(names.begin(), names.end(), properties[i].name) != names.end()) return int(i);
@@ -121,6 +178,8 @@ int PlyElement::find(std::initializer_list<std::string_view> names) const {
   return -1;
 }
 
+/// Reads and checks the header of a PLY file: no element may have more entries than the bytes after the header can
+/// hold. Throws Error(kBadInput) with the line.
 PlyHeader read_ply_header(std::string_view bytes, const std::string& name) {
   if (!bytes.starts_with("ply")) {
     throw Error(ErrorKind::kBadInput, name + ": is not a PLY file (it does not begin with 'ply')");
@@ -140,9 +199,7 @@ PlyHeader read_ply_header(std::string_view bytes, const std::string& name) {
   return header;
 }
 
-namespace {
-
-/// A number from its bytes in the order of this machine.
+/// A number from its bytes in native order.
 template <class Number>
 double decode(const char* bytes) {
   Number number;
@@ -175,8 +232,6 @@ double decode(PlyType type, const char* bytes) {
 std::string_view text_part(std::string_view bytes, const PlyHeader& header) {
   return header.format == PlyFormat::kText ? bytes.substr(header.size) : std::string_view{};
 }
-
-}  // namespace
 
 PlyData::PlyData(std::string_view bytes, const PlyHeader& header, const std::string& name)
     : format_(header.format),
@@ -220,9 +275,7 @@ void PlyData::refuse(const std::string& reason) const {
   throw Error(ErrorKind::kBadInput, fmt::format("{}: {}", name_, reason));
 }
 
-namespace {
-
-/// Where a vertex has what, by the places of the properties; -1: not there.
+/// The attributes of a vertex by the indices of their properties; -1: missing.
 struct VertexPlaces {
   explicit VertexPlaces(const PlyElement& element)
       : position{element.find({"x"}), element.find({"y"}), element.find({"z"})},
@@ -245,7 +298,7 @@ bool has_all(const std::array<int, n>& places) {
   return std::all_of(places.begin(), places.end(), [](int place) { return place >= 0; });
 }
 
-/// Colours in whole numbers are bytes, or words of 16 bits.
+/// Integer colours have 8 or 16 bits.
 double full_scale(PlyType type) {
   if (type == PlyType::kFloat32 || type == PlyType::kFloat64) return 1;
   return type == PlyType::kUint16 ? 65535 : 255;
@@ -283,7 +336,7 @@ class PlyReader {
         read_all(element, [](const Named&) {});
       }
     }
-    // Where faces stand before the vertices, their corners do not know yet what these have.
+    // Where faces precede the vertices, the vertex attributes are not known yet.
     for (Corner& corner : soup_.corners) {
       if (has_vertex_uvs_ && corner.uv < 0) corner.uv = corner.position;
       if (has_normals_) corner.normal = corner.position;
@@ -376,7 +429,7 @@ class PlyReader {
     });
   }
 
-  /// Each vertex of a strip makes a triangle with the two before it, turned over every other time; -1 begins anew.
+  /// Each vertex of a strip forms a triangle with the two before it, alternately flipped; -1 restarts the strip.
   void read_strips(const PlyElement& element) {
     if (element.count == 0) return;
     const std::size_t place = list_place(element);

@@ -47,7 +47,7 @@ bool is_convex(const std::vector<Plane2>& flat) {
   return true;
 }
 
-/// What is left of a polygon while ears are cut off; numbers are places in the polygon.
+/// The rest of a polygon during ear clipping, by indices into the polygon.
 class EarClipper {
  public:
   explicit EarClipper(const std::vector<Plane2>& flat) : flat_(flat) {
@@ -55,8 +55,8 @@ class EarClipper {
   }
   [[nodiscard]] std::size_t size() const { return left_.size(); }
 
-  /// Where no corner is an ear (a polygon that crosses itself), the roundest corner goes, so that all are used up. One
-  /// of thousands of corners that crosses itself all over would take hours: it ends as a fan.
+  /// Where no corner is an ear (in a self-intersecting polygon), the most convex one is cut, so that clipping ends.
+  /// Large self-intersecting polygons would take hours: after a limit the rest becomes a fan.
   std::array<std::size_t, 3> cut() {
     std::size_t best = left_.size() - 1;
     double best_area = -1e300;
@@ -128,12 +128,12 @@ namespace {
   throw Error(ErrorKind::kBadInput, fmt::format("{}: {}", name, reason));
 }
 
-/// The vertices of a mesh: for each position as many as it has different pairs of UV and normal.
+/// The vertices of a mesh: one for each distinct combination of position, UV and normal.
 class Vertices {
  public:
   explicit Vertices(std::size_t positions) : first_(positions, -1) {}
 
-  /// A number for the corner's vertex, equal for equal corners.
+  /// The index of the corner's vertex, equal for equal corners.
   int find_or_add(const Corner& corner) {
     int& first = first_[corner.position];
     for (int i = first; i >= 0; i = next_[i]) {
@@ -145,14 +145,14 @@ class Vertices {
     return first = isize(corners_) - 1;
   }
 
-  /// Positions that no corner uses become vertices, too.
+  /// Unused positions become vertices, too.
   void add_unused() {
     for (std::size_t p = 0; p < first_.size(); ++p) {
       if (first_[p] < 0) static_cast<void>(find_or_add({int(p)}));
     }
   }
 
-  /// Numbers the vertices anew in the order of their positions in the file; the rows by the old numbers.
+  /// Renumbers the vertices in the order of their positions in the file; returns the new rows by the old ones.
   std::vector<int> rows() const {
     std::vector<int> rows(corners_.size());
     int row = 0;
@@ -190,7 +190,7 @@ void fill_vertices(const PolygonSoup& soup, const Vertices& vertices, const std:
   }
 }
 
-/// The triangles of each part, corners by rows of the mesh.
+/// The triangles of each part, with corners as rows of the mesh.
 std::vector<std::vector<std::array<int, 3>>> cut(const PolygonSoup& soup, const Points& positions,
                                                  const std::vector<int>& corner_rows) {
   std::vector<std::vector<std::array<int, 3>>> triangles(soup.parts.size());

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cstring>
-#include <fstream>
+#include <exception>
 
 #include "core/error.h"
-#include "core/mesh/io/file_checks.h"
+#include "core/files.h"
 #include "core/mesh/io/reader_process.h"
 #include "core/mesh/io/readers.h"
 #include "core/mesh/io/text_scanner.h"
@@ -34,7 +34,7 @@ void check_size(const fs::path& file) {
   }
 }
 
-/// Bytes that a reader takes in: the file and, of a glTF, the buffers beside it.
+/// The bytes that a reader loads: the file and, for a glTF, the buffers beside it.
 std::uintmax_t bytes_to_read(const fs::path& file) {
   std::uintmax_t bytes = fs::file_size(file);
   if (lower_extension(file) != ".gltf") return bytes;
@@ -45,7 +45,7 @@ std::uintmax_t bytes_to_read(const fs::path& file) {
   return bytes;
 }
 
-/// Ten times and more of what sound files were seen to take: 15 bytes a byte of XML, and 10 MB a second.
+/// At least ten times what sound files take: 15 bytes per byte of XML, at 10 MB/s.
 ReadingLimits limits_for(const fs::path& file) {
   constexpr std::uint64_t kBytesPerByte = 64;
   const std::uintmax_t bytes = std::min(bytes_to_read(file), kLargestFile);
@@ -63,7 +63,7 @@ ReadingLimits limits_for(const fs::path& file) {
 SurfaceMesh read_mesh_here(const fs::path& file) {
   const std::string name = file.string();
   const std::string format = lower_extension(file);
-  const std::string bytes = read_bytes(file);
+  const std::string bytes = read_file(file);
   const std::string_view text = without_byte_order_mark(bytes);
   if (format == ".obj") {
     return read_obj(text, name, [&](const std::string& companion) { return read_companion(companion, file); });
@@ -93,7 +93,7 @@ namespace fs = std::filesystem;
 constexpr std::uintmax_t kLargestText = std::uintmax_t{1} << 26;     // bytes
 constexpr std::uintmax_t kLargestTexture = std::uintmax_t{1} << 30;  // bytes, encoded
 
-/// %20 and the like, which stand in the URIs of glTF and Collada.
+/// Decodes %20 etc. in the URIs of glTF and Collada.
 std::string decode_percent(const std::string& text) {
   std::string decoded;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -109,7 +109,7 @@ std::string decode_percent(const std::string& text) {
   return decoded;
 }
 
-/// The file a path in a mesh means, which may come from another system: backslashes, absolute, encoded.
+/// The file for a path in a mesh, which may come from another system: backslashes, absolute, encoded.
 std::optional<fs::path> find_companion(std::string path, const fs::path& folder) {
   std::replace(path.begin(), path.end(), '\\', '/');
   if (path.starts_with("file://")) path.erase(0, 7);
@@ -123,22 +123,21 @@ std::optional<fs::path> find_companion(std::string path, const fs::path& folder)
   return std::nullopt;
 }
 
-std::optional<std::string> read_all(const fs::path& file, std::uintmax_t largest) {
+std::optional<std::string> read_up_to(std::uintmax_t largest, const fs::path& file) {
   std::error_code error;
-  const std::uintmax_t size = fs::file_size(file, error);
-  std::ifstream stream(file, std::ios::binary);
-  if (error || !stream || size > largest) return std::nullopt;
-  std::string bytes(size, '\0');
-  stream.read(bytes.data(), static_cast<std::streamsize>(size));
-  if (!stream) return std::nullopt;
-  return bytes;
+  if (fs::file_size(file, error) > largest) return std::nullopt;  // also on errors
+  try {
+    return read_file(file);
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
 }
 
 }  // namespace
 
 std::optional<std::string> read_companion(const std::string& name, const fs::path& mesh_file) {
   const auto file = find_companion(name, mesh_file.parent_path());
-  return file ? read_all(*file, kLargestText) : std::nullopt;
+  return file ? read_up_to(kLargestText, *file) : std::nullopt;
 }
 
 void read_textures(SurfaceMesh& mesh, const fs::path& mesh_file) {
@@ -148,7 +147,7 @@ void read_textures(SurfaceMesh& mesh, const fs::path& mesh_file) {
     if (!file) {
       mesh.notes.push_back(fmt::format("texture '{}' of material '{}' is not there; drawn without it",
                                        material.texture_name, material.name));
-    } else if (const auto bytes = read_all(*file, kLargestTexture); bytes && !bytes->empty()) {
+    } else if (const auto bytes = read_up_to(kLargestTexture, *file); bytes && !bytes->empty()) {
       material.texture.resize(bytes->size());
       std::memcpy(material.texture.data(), bytes->data(), bytes->size());
     } else {

@@ -7,26 +7,26 @@
 
 namespace sprung {
 
-/// Reads any mesh format that assimp knows, but OBJ, PLY, STL and OFF by readers of our own: in double precision, with
-/// the place of every fault, and right where assimp is not. It does so in a child process with limits of memory and
-/// time that grow with the size of the file (core/mesh/read/reading_child.h): no file can crash, hang or fill up this
-/// one. Several meshes in a file become parts; polygons are cut into triangles; textures are looked for beside the
-/// file; skins and animations are left out with a note. Throws Error(kBadInput) naming file, reason and, where known,
-/// the place in it: missing, a directory, empty, larger than 4 GiB, not a mesh, no faces, cut short, a coordinate that
-/// is not finite, an index out of range, counts that the file cannot hold, a feature that is not supported, a crash or
-/// too long a time of the reader.
+/// Reads OBJ, PLY, STL and OFF files by our own readers, in double precision and with the location of every error, all
+/// other formats by assimp. Reading runs in a child process whose limits of memory and time grow with the size of the
+/// file (reader_process.h), so that no file can crash, hang or exhaust this process. Several meshes in a file become
+/// parts; polygons are triangulated; textures are looked up beside the file; skins and animations are left out with a
+/// note. Throws Error(kBadInput) naming the file, the reason and, where known, the location: missing, a directory,
+/// empty, larger than 4 GiB, not a mesh, no faces, truncated, a non-finite coordinate, an index out of range, counts
+/// that exceed the file, an unsupported feature, a crash or a timeout of the reader.
 [[nodiscard]] SurfaceMesh read_mesh(const std::filesystem::path& file);
 
-/// The same in this process, without limits and without textures: for tests of the readers. assimp may take the process
-/// down. Precondition: check_readable.
+/// The same in this process, without limits and without textures: for tests of the readers. assimp may crash the
+/// process. Precondition: the file passes check_readable().
 [[nodiscard]] SurfaceMesh read_mesh_here(const std::filesystem::path& file);
 
-/// The text of a small file that a mesh names, as a material library; nothing where it is not there, or too large.
+/// The text of a small file that a mesh refers to, such as a material library; nothing where it is missing or too
+/// large.
 [[nodiscard]] std::optional<std::string> read_companion(const std::string& name,
                                                         const std::filesystem::path& mesh_file);
 
-/// Reads the pictures that the materials name and do not hold. They are looked for where the mesh says, then by name
-/// beside it. One that cannot be found or read is left out with a note.
+/// Loads the textures that the materials refer to, looked up under the path in the mesh, then by name beside it. One
+/// that cannot be found or read is left out with a note.
 void read_textures(SurfaceMesh& mesh, const std::filesystem::path& mesh_file);
 
 }  // namespace sprung

@@ -135,7 +135,7 @@ class Reader {
   std::span<const std::byte> left_;
 };
 
-/// Visits the fields in one order, for both ways.
+/// Visits the fields in the same order for reading and writing.
 template <class Visitor, class Mesh>
 void visit(Mesh& mesh, const Visitor& field) {
   field(mesh.positions);
@@ -223,7 +223,7 @@ void set_limit(decltype(RLIMIT_AS) resource, rlim_t soft, rlim_t hard) {
   setrlimit(resource, &limit);
 }
 
-/// Bytes of address space in use, so that the limit counts from there; 0 where the system does not tell.
+/// Bytes of address space in use, to which the limit is added; 0 where unknown.
 std::uint64_t address_space() {
   std::uint64_t pages = 0;
   std::ifstream("/proc/self/statm") >> pages;
@@ -235,7 +235,7 @@ void limit_this_process(const ReadingLimits& limits) {
   set_limit(RLIMIT_CPU, cpu_time, cpu_time + 1);
   set_limit(RLIMIT_CORE, 0, 0);
   set_limit(RLIMIT_FSIZE, 0, 0);
-  if (kIsSanitized) return;  // its shadow takes terabytes of addresses, and its reports are worth reading
+  if (kIsSanitized) return;  // its shadow takes terabytes of addresses
   if (const std::uint64_t used = address_space(); used > 0) {
     set_limit(RLIMIT_AS, used + limits.memory, used + limits.memory);
   }
@@ -267,7 +267,7 @@ void send(int pipe, Answer answer, std::span<const std::byte> bytes) {
   write_all(pipe, bytes);
 }
 
-/// Never returns, and runs no destructor of what was there before the fork.
+/// Never returns, and runs no destructors of objects from before the fork.
 [[noreturn]] void run_child(int pipe, pid_t parent, const ReadingLimits& limits,
                             const std::function<SurfaceMesh()>& read) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -285,7 +285,7 @@ void send(int pipe, Answer answer, std::span<const std::byte> bytes) {
   _exit(0);
 }
 
-/// The running child and our end of its pipe; both gone when this is.
+/// Owns the running child and our end of its pipe.
 class Child {
  public:
   Child(pid_t pid, int pipe) : pid_(pid), pipe_(pipe) {}
@@ -298,7 +298,7 @@ class Child {
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
-  /// What it sends until it closes the pipe; nothing where that takes until the deadline.
+  /// What it sends until it closes the pipe; nothing where the deadline passes.
   [[nodiscard]] std::optional<std::vector<std::byte>> receive(Clock::time_point deadline) const {
     std::vector<std::byte> bytes;
     std::vector<std::byte> chunk(std::size_t{1} << 20);
@@ -310,7 +310,7 @@ class Child {
     return std::nullopt;
   }
 
-  /// The status of waitpid; 0 where someone else has taken it.
+  /// The status of waitpid; 0 where the child was reaped elsewhere.
   int wait() {
     int status = 0;
     pid_t ended = 0;

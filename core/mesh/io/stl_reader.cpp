@@ -14,7 +14,7 @@
 namespace sprung {
 namespace {
 
-constexpr std::size_t kHeader = 84;  // bytes of a binary file before its facets, the number of these included
+constexpr std::size_t kHeader = 84;  // bytes of a binary file before its facets, including their number
 constexpr std::size_t kFacet = 50;
 
 std::uint32_t word_at(std::string_view bytes, std::size_t at, int size) {
@@ -34,8 +34,7 @@ std::size_t binary_size(std::string_view bytes) {
   return bytes.size() < kHeader ? kHeader : kHeader + kFacet * std::size_t{word_at(bytes, 80, 4)};
 }
 
-/// A text begins with "solid", but so do many binary files: these have the size that they declare, or bytes that no
-/// text has.
+/// Text files begin with "solid", but so do many binary ones: these have the declared size, or bytes that no text has.
 bool is_text(std::string_view bytes) {
   const std::size_t first = bytes.find_first_not_of(" \t\r\n");
   if (first == std::string_view::npos || !bytes.substr(first).starts_with("solid")) return false;
@@ -43,7 +42,7 @@ bool is_text(std::string_view bytes) {
   return bytes.substr(0, 1000).find('\0') == std::string_view::npos;
 }
 
-/// 5 bits a channel: red lowest in files of Magics, which name a colour in the header, else blue lowest.
+/// 5 bits per channel: red lowest in files of Magics, which name a colour in the header, else blue lowest.
 Eigen::Vector4f facet_color(std::uint32_t word, bool is_magics) {
   const auto channel = [&](int shift) { return float(word >> shift & 31U) / 31.0F; };
   return is_magics ? Eigen::Vector4f(channel(0), channel(5), channel(10), 1)
@@ -72,7 +71,7 @@ PolygonSoup read_binary(std::string_view bytes, const std::string& name) {
       add_position(soup, {float_at(bytes, corner), float_at(bytes, corner + 4), float_at(bytes, corner + 8)}, name);
     }
     const std::uint32_t word = word_at(bytes, at + 48, 2);
-    // Its highest bit says that the colour is this facet's own; of Magics, that it is not.
+    // The highest bit marks the facet's own colour; in files of Magics, its absence.
     const bool is_own = (word >> 15 != 0) != is_magics;
     has_colors = has_colors || is_own;
     soup.colors.insert(soup.colors.end(), 3, is_own ? facet_color(word, is_magics) : Eigen::Vector4f::Ones().eval());
@@ -144,7 +143,7 @@ class TextReader {
   const std::string& name_;
   PolygonSoup soup_;
   long facet_ = 0;
-  int corners_ = -1;  // of the facet begun; -1: none is
+  int corners_ = -1;  // of the current facet; -1: none
   bool in_solid_ = false;
 };
 
@@ -152,7 +151,7 @@ class TextReader {
 
 SurfaceMesh read_stl(std::string_view bytes, const std::string& name) {
   if (is_text(bytes)) return mesh_from(TextReader(bytes, name).read(), name);
-  // A binary file that was cut short has zero bytes all the same: in its attributes.
+  // Even truncated binary files contain zero bytes: in their attributes.
   if (bytes.size() < std::max(kHeader, binary_size(bytes)) && bytes.find('\0') == std::string_view::npos) {
     throw Error(ErrorKind::kBadInput, name + ": is not an STL file (it neither begins with 'solid' nor is it binary)");
   }

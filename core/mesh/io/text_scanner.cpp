@@ -21,7 +21,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(kSpace) - begin + 1);
 }
 
-/// A word of a damaged file as it may stand in a message: short, and without what a terminal would obey.
+/// A word of a damaged file for a message: shortened, without control characters.
 std::string quoted(std::string_view word) {
   constexpr std::size_t kMost = 40;
   std::string quote(word.substr(0, kMost));

@@ -5,14 +5,14 @@
 
 namespace sprung {
 
-/// The number that a whole word is, rounded to the nearest double whatever the locale; "nan" and "inf" are numbers,
-/// and one too large is infinite. Nothing where the word is anything else.
+/// Parses a whole word as a number, rounded to the nearest double in any locale; "nan" and "inf" are accepted, and
+/// overflow is infinite. Nothing for any other word.
 [[nodiscard]] std::optional<double> number_of(std::string_view word);
 
-/// A text without the mark of UTF-8 that some programs put before it.
+/// A text without a leading UTF-8 byte order mark.
 [[nodiscard]] std::string_view without_byte_order_mark(std::string_view text);
 
-/// What a message is about: "vertex 12", or the thing alone where it has no number.
+/// The subject of a message: "vertex 12", or the thing alone where it has no number.
 struct Named {
   std::string_view thing;
   long number = 0;
@@ -20,7 +20,7 @@ struct Named {
   [[nodiscard]] std::string text() const;
 };
 
-/// The lines of a text and the words in them. Blank lines are passed over, and so is the rest of a line after '#'.
+/// The lines of a text and the words in them. Blank lines and comments from '#' to the end of the line are skipped.
 class TextScanner {
  public:
   /// `name` is that of the file, for messages. The text must outlive the scanner. Lines end with LF or CR LF, or with
@@ -29,20 +29,20 @@ class TextScanner {
   TextScanner(const TextScanner&) = delete;
   TextScanner& operator=(const TextScanner&) = delete;
 
-  /// Goes to the next line that holds a word; false at the end of the text. A backslash at the end of a line joins it
-  /// with the next.
+  /// Advances to the next line that contains a word; false at the end of the text. A backslash at the end of a line
+  /// joins it with the next.
   bool next_line();
   /// The next word of the line; empty at its end.
   std::string_view word();
   /// The next word of the line or, at its end, of the lines after; empty at the end of the text.
   std::string_view word_ahead();
-  /// What is left of the line, a '#' and what follows included, without blanks around it.
+  /// The rest of the line including comments, trimmed.
   std::string_view rest();
-  /// The next word of the line as a number. Throws Error(kBadInput) where it is none;
+  /// The next word of the line as a number. Throws Error(kBadInput) for anything else.
   double number(const Named& what);
-  /// The same of the lines after, too.
+  /// The same, continuing on the lines after.
   double number_ahead(const Named& what);
-  /// The same for a whole number of at most 2^53.
+  /// The same for an integer of at most 2^53.
   long integer_ahead(const Named& what);
 
   /// The number of the line, from 1.

@@ -49,7 +49,7 @@ class NearestTriangle::Tree {
     }
     tree_.insert(facets_.cbegin(), facets_.cend());
     tree_.build();
-    // Before any thread asks.
+    // Before concurrent queries.
     tree_.accelerate_distance_queries();
   }
 

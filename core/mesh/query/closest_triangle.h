@@ -5,18 +5,18 @@
 
 namespace sprung {
 
-/// Where on a surface.
+/// A point of a surface.
 struct SurfacePlace {
   int triangle = 0;           // its row
   Vec3 point = Vec3::Zero();  // in units of the surface
-  double distance = 0;        // to what was asked
+  double distance = 0;        // to the query point
 };
 
-/// Finds the place of a surface that is nearest to a point. Triangles without area are left out.
-/// Build: n log n; a point costs log n. Deterministic; safe to ask from several threads.
+/// Finds the point of a surface closest to a query point. Triangles without area are ignored. Build: O(n log n); query:
+/// O(log n). Deterministic; queries are thread-safe.
 class NearestTriangle {
  public:
-  /// Precondition: a triangle with area at least.
+  /// Precondition: at least one triangle of non-zero area.
   NearestTriangle(const Points& points, const Triangles& triangles);
   ~NearestTriangle();
   NearestTriangle(NearestTriangle&&) noexcept;

@@ -26,7 +26,7 @@ class TriangleBox : public CGAL::Box_intersection_d::Box_d<double, 3, CGAL::Box_
   int row_;
 };
 
-/// Looks at pairs of triangles.
+/// Tests pairs of triangles.
 class PairTest {
  public:
   PairTest(const Points& points, const Triangles& triangles) : triangles_(triangles) {
@@ -40,7 +40,7 @@ class PairTest {
     return corner(t, 0).bbox() + corner(t, 1).bbox() + corner(t, 2).bbox();
   }
 
-  /// Whether two triangles meet elsewhere than in what they share.
+  /// Whether two triangles intersect outside their shared corners and edges.
   [[nodiscard]] bool cross(int a, int b) const {
     int shared = 0;
     Pair at_a{};
@@ -76,7 +76,7 @@ class PairTest {
   std::vector<Point> points_;
 };
 
-/// Pairs whose boxes meet.
+/// Pairs with overlapping boxes.
 std::vector<Pair> near_pairs(const PairTest& test, int triangles) {
   std::vector<TriangleBox> boxes;
   for (int t = 0; t < triangles; ++t) {

@@ -10,16 +10,16 @@ namespace {
 
 constexpr double kMostCells = 64;  // along the longest side
 constexpr double kFewestCells = 4;
-constexpr double kInside = 1e-7;  // cells: how far under the surface a ray begins, clear of the triangles around it
+constexpr double kInside = 1e-7;  // cells: depth at which a ray starts, to clear the triangles around it
 
-/// Twice the area, as a vector that looks outward.
+/// Twice the area vector, outward.
 Vec3 area_vector(const Solid& solid, int t) {
   const Vec3 a = solid.points.row(solid.triangles(t, 0));
   return (solid.points.row(solid.triangles(t, 1)).transpose() - a)
       .cross(solid.points.row(solid.triangles(t, 2)).transpose() - a);
 }
 
-/// Sums of the triangles' areas up to each.
+/// Cumulative areas of the triangles.
 std::vector<double> running_areas(const Solid& solid) {
   std::vector<double> sums;
   sums.reserve(solid.triangles.rows());

@@ -7,8 +7,8 @@
 
 namespace sprung {
 
-/// Triangles sorted into the cells of a lattice, to find those that a straight line meets. Points are in cells: the box
-/// of `counts` cells begins at 0. Keeps references to what it is made of.
+/// Triangles binned into the cells of a lattice, for casting rays. Points are in units of cells; the lattice of
+/// `counts` cells starts at 0. Keeps references to its arguments.
 class TriangleGrid {
  public:
   TriangleGrid(const Points& points, const Triangles& triangles, const Eigen::Vector3i& counts);
@@ -16,7 +16,7 @@ class TriangleGrid {
   /// Whether any triangle lies between the two points, which are at most a few cells apart.
   [[nodiscard]] bool is_blocked(const Vec3& from, const Vec3& to) const;
 
-  /// How far a ray runs until it meets a triangle, in lengths of `direction`; infinite where it meets none.
+  /// The distance to the first triangle along a ray, in units of |direction|; infinite where there is none.
   [[nodiscard]] double cast_ray(const Vec3& from, const Vec3& direction) const;
 
  private:

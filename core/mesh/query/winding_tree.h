@@ -5,12 +5,12 @@
 
 namespace sprung {
 
-/// The generalised winding number of any triangles, closed or not: 1 inside and 0 outside of what is closed and
-/// outward, a fraction that tells how far a point is enclosed where the surface is torn.
+/// The generalised winding number of triangles, closed or not: 1 inside and 0 outside closed, outward-oriented
+/// surfaces, a fraction in between where the surface has gaps.
 ///
-/// Far triangles count as one dipole, near ones exactly (Barill, Dickson, Schmidt, Levin and Jacobson, "Fast Winding
-/// Numbers for Soups and Clouds", 2018): error below 0.03.
-/// Build: n log n. A point costs some microseconds. Safe to ask from several threads; deterministic.
+/// Distant triangles are approximated by one dipole, near ones are exact (Barill, Dickson, Schmidt, Levin and Jacobson,
+/// "Fast Winding Numbers for Soups and Clouds", 2018): error below 0.03. Build: O(n log n); a query takes some
+/// microseconds. Queries are thread-safe. Deterministic.
 class WindingTree {
  public:
   /// Of the triangles whose rows are given.
@@ -18,12 +18,12 @@ class WindingTree {
   /// Of all triangles.
   WindingTree(const Points& points, const Triangles& triangles);
 
-  /// On a triangle itself, that triangle counts nothing.
+  /// A triangle contributes nothing at points on it.
   [[nodiscard]] double at(const Vec3& place) const;
 
  private:
   struct Node {
-    Vec3 centre = Vec3::Zero();  // mean of the triangles by area
+    Vec3 centre = Vec3::Zero();  // area-weighted mean of the triangles
     Vec3 normal = Vec3::Zero();  // sum of the triangles' area vectors
     double reach = 0;            // of the farthest corner from the centre
     int first = 0;               // of rows_
@@ -40,8 +40,8 @@ class WindingTree {
   std::vector<Node> nodes_;
 };
 
-/// The solid angle of a triangle seen from a place, positive seen from behind (Van Oosterom and Strackee 1983); 0 from
-/// within its plane.
+/// The solid angle of a triangle seen from `place`, positive from behind (Van Oosterom and Strackee 1983); 0 within its
+/// plane.
 [[nodiscard]] double solid_angle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& place);
 
 }  // namespace sprung

@@ -6,18 +6,137 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <utility>
 
+#include "core/disjoint_sets.h"
 #include "core/mesh/query/self_intersections.h"
-#include "core/mesh/repair/nesting.h"
+#include "core/mesh/query/winding_tree.h"
 #include "core/text.h"
 
 namespace sprung {
+
+double enclosure(const Points& points, const Triangles& triangles, const std::vector<int>& rows) {
+  constexpr std::size_t kSamples = 1000;
+  const WindingTree tree(points, triangles, rows);
+  std::vector<double> windings;
+  for (std::size_t i = 0; i < rows.size(); i += 1 + rows.size() / kSamples) {
+    const Vec3 middle = points(triangles.row(rows[i]), Eigen::all).colwise().mean();
+    windings.push_back(tree.at(middle));
+  }
+  const auto median = windings.begin() + std::ptrdiff_t(windings.size() / 2);
+  std::nth_element(windings.begin(), median, windings.end());
+  return std::abs(*median);
+}
+
+namespace {
+
+/// Tests whether shells contain one another.
+class Containment {
+ public:
+  Containment(const Points& points, const Triangles& triangles) : points_(points), triangles_(triangles) {}
+
+  /// Whether at least two of three corners of the inner shell, far apart in its list, lie inside the outer shell.
+  bool contains(const SurfaceComponent& outer, const SurfaceComponent& inner) {
+    if (!outer.bounds.contains(inner.bounds)) return false;
+    const WindingTree& tree = trees_.try_emplace(&outer, points_, triangles_, outer.triangles).first->second;
+    int inside = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const int t = inner.triangles[i * (inner.triangles.size() - 1) / 2];
+      if (std::abs(tree.at(points_.row(triangles_(t, 0)))) > 0.5) ++inside;
+    }
+    return inside >= 2;
+  }
+
+  /// In the outer shell and in none of its cavities.
+  bool is_in_matter(const NestedComponents& nest, const SurfaceComponent& inner) {
+    return contains(*nest.outer, inner) &&
+           std::none_of(nest.cavities.begin(), nest.cavities.end(),
+                        [&](const SurfaceComponent* cavity) { return contains(*cavity, inner); });
+  }
+
+ private:
+  const Points& points_;
+  const Triangles& triangles_;
+  std::map<const SurfaceComponent*, WindingTree> trees_;
+};
+
+/// The nest of each triangle, or -1.
+std::vector<int> nest_of_triangles(const std::vector<NestedComponents>& nests, Eigen::Index triangles) {
+  std::vector<int> number(triangles, -1);
+  const auto mark = [&](const SurfaceComponent& shell, std::size_t nest) {
+    for (const int t : shell.triangles) number[t] = int(nest);
+  };
+  for (std::size_t i = 0; i < nests.size(); ++i) {
+    mark(*nests[i].outer, i);
+    for (const SurfaceComponent* cavity : nests[i].cavities) mark(*cavity, i);
+  }
+  return number;
+}
+
+}  // namespace
+
+std::vector<NestedComponents> nest_shells(const Points& points, const Triangles& triangles,
+                                          const std::vector<SurfaceComponent>& shells) {
+  std::vector<const SurfaceComponent*> order;
+  order.reserve(shells.size());
+  for (const SurfaceComponent& shell : shells) order.push_back(&shell);
+  // Shells come after any that may contain them.
+  std::stable_sort(order.begin(), order.end(), [](const SurfaceComponent* a, const SurfaceComponent* b) {
+    return std::abs(a->volume) > std::abs(b->volume);
+  });
+  Containment containment(points, triangles);
+  std::vector<NestedComponents> nests;
+  for (const SurfaceComponent* shell : order) {
+    // The smallest nest that contains it comes last.
+    const auto home = std::find_if(nests.rbegin(), nests.rend(), [&](const NestedComponents& nest) {
+      return (nest.outer->volume < 0) != (shell->volume < 0) && containment.is_in_matter(nest, *shell);
+    });
+    if (home != nests.rend()) {
+      home->cavities.push_back(shell);
+    } else {
+      nests.push_back({shell, {}});
+    }
+  }
+  return nests;
+}
+
+std::vector<NestGroup> unite_nests(const Points& points, const Triangles& triangles,
+                                   std::vector<NestedComponents> nests,
+                                   const std::vector<std::array<int, 2>>& crossings) {
+  DisjointSets sets(nests.size());
+  const std::vector<int> number = nest_of_triangles(nests, triangles.rows());
+  std::vector<bool> crosses(nests.size(), false);
+  for (const auto& [a, b] : crossings) {
+    const int nest_a = number[a];
+    const int nest_b = number[b];
+    if (nest_a < 0 || nest_b < 0 || nest_a == nest_b) continue;
+    sets.merge(nest_a, nest_b);
+    crosses[nest_a] = crosses[nest_b] = true;
+  }
+  Containment containment(points, triangles);
+  for (std::size_t inner = 0; inner < nests.size(); ++inner) {
+    for (std::size_t outer = 0; outer < inner; ++outer) {
+      if (!containment.is_in_matter(nests[outer], *nests[inner].outer)) continue;
+      sets.merge(int(outer), int(inner));
+      nests[inner].is_buried = !crosses[inner];
+    }
+  }
+  std::map<int, NestGroup> groups;
+  for (std::size_t i = 0; i < nests.size(); ++i) {
+    groups[sets.find(int(i))].push_back(std::move(nests[i]));
+  }
+  std::vector<NestGroup> list;
+  list.reserve(groups.size());
+  for (auto& [root, group] : groups) list.push_back(std::move(group));
+  return list;
+}
+
 namespace {
 
 using Crossings = std::vector<std::array<int, 2>>;  // pairs of rows of the triangles
 
-/// Those of all triangles but the ones of pieces that were dropped.
+/// Intersections of all triangles except those of dropped pieces.
 Crossings crossings_of(const WeldedMesh& mesh, const std::vector<SurfaceComponent>& shells) {
   std::vector<bool> is_kept(mesh.triangles.rows(), false);
   for (const SurfaceComponent& shell : shells) {
@@ -37,7 +156,7 @@ std::vector<NestGroup> group_nests(const WeldedMesh& mesh, const std::vector<Nes
   return groups;
 }
 
-/// Whether a triangle of the group crosses another.
+/// Whether a triangle of the group intersects another.
 bool overlaps(const NestGroup& group, const std::vector<bool>& crosses) {
   const auto any = [&](const SurfaceComponent* shell) {
     return std::any_of(shell->triangles.begin(), shell->triangles.end(), [&](int t) { return crosses[t]; });
@@ -64,14 +183,14 @@ void note_union(const std::vector<NestGroup>& groups, std::vector<Repair>& repai
                          count_of(united, "body", "bodies"), count_of(groups.size(), "solid")));
 }
 
-/// Caps may cross what is near their hole; only what the mesh has itself is worth a word.
+/// Caps may intersect nearby triangles; only intersections of the mesh's own triangles are reported.
 void note_crossings(const WeldedMesh& mesh, Crossings crossings, Solids& made) {
   std::erase_if(crossings, [&](const auto& pair) { return mesh.source[pair[0]] < 0 || mesh.source[pair[1]] < 0; });
   if (crossings.empty()) return;
   made.crossing = mesh.points(mesh.triangles.row(crossings.front()[0]), Eigen::all).colwise().mean();
   const long pairs = crossings.size();
   add_repair(made.repairs, "self_intersection", pairs,
-             fmt::format("the surface crosses itself: {}; what overlaps is filled once",
+             fmt::format("the surface intersects itself: {}; overlaps are filled once",
                          count_of(pairs, "pair of triangles", "pairs of triangles")));
 }
 
@@ -96,15 +215,8 @@ Solids assemble_solids(const WeldedMesh& mesh, const std::vector<SurfaceComponen
 
 namespace {
 
-/// A triangle, and whether it is to be turned over.
+/// A triangle, and whether it is to be flipped.
 using Row = std::pair<int, bool>;
-
-double triangle_area(const WeldedMesh& mesh, int t) {
-  const Vec3 a = mesh.points.row(mesh.triangles(t, 0));
-  const Vec3 b = mesh.points.row(mesh.triangles(t, 1)).transpose() - a;
-  const Vec3 c = mesh.points.row(mesh.triangles(t, 2)).transpose() - a;
-  return 0.5 * b.cross(c).norm();
-}
 
 void take_triangles(const WeldedMesh& mesh, const std::vector<Row>& rows, Solid& solid) {
   solid.triangles.resize(isize(rows), 3);
@@ -151,7 +263,7 @@ Solid cut_solid(const WeldedMesh& mesh, const NestGroup& group) {
 double given_area(const WeldedMesh& mesh, const std::vector<int>& rows) {
   double area = 0;
   for (const int t : rows) {
-    if (mesh.source[t] >= 0) area += triangle_area(mesh, t);
+    if (mesh.source[t] >= 0) area += triangle_area(mesh.points, mesh.triangles, t);
   }
   return area;
 }

@@ -4,18 +4,16 @@
 #include <map>
 #include <utility>
 
-#include "core/mesh/repair/fill_hole.h"
-
 namespace sprung {
 namespace {
 
-/// A cap runs against the sides of the surface: from `from` to `to` here is from `to` to `from` there.
+/// Caps have the opposite direction along an edge: `from` to `to` in the cap is `to` to `from` in the surface.
 struct BoundaryLoop {
   std::vector<int> corners;
   std::vector<int> triangles;  // at the side from corner i to i + 1
 };
 
-/// Cuts a walk along open sides into loops that meet no point twice.
+/// Cuts walks along open sides into loops that visit no point twice.
 class BoundaryWalker {
  public:
   explicit BoundaryWalker(const std::vector<OpenSide>& open) {
@@ -51,7 +49,7 @@ class BoundaryWalker {
     }
   }
 
-  /// Takes the loop off the end of the path that begins at `first`. Two sides on one edge need no cap.
+  /// Cuts the loop that starts at `first` off the end of the path. Two sides on one edge need no cap.
   void cut_off(std::size_t first, std::vector<int>& path, std::vector<int>& triangles,
                std::map<int, std::size_t>& place) {
     const std::ptrdiff_t begin = first;
@@ -80,14 +78,11 @@ Hole hole_of(const WeldedMesh& mesh, const BoundaryLoop& rim) {
 
 double area_of(const Points& points, const Triangles& triangles) {
   double area = 0;
-  for (const auto& t : triangles.rowwise()) {
-    const Vec3 a = points.row(t[0]);
-    area += 0.5 * (points.row(t[1]).transpose() - a).cross(points.row(t[2]).transpose() - a).norm();
-  }
+  for (int t = 0; t < triangles.rows(); ++t) area += triangle_area(points, triangles, t);
   return area;
 }
 
-/// Triangles and points that are added to a mesh, all at once at the end.
+/// Triangles and points to be added to a mesh, all at once.
 struct Added {
   std::vector<Points> points;
   std::vector<Triangles> triangles;
@@ -95,7 +90,7 @@ struct Added {
   int triangle_count = 0;
 };
 
-/// The cap's triangles by rows of the mesh's points.
+/// The cap's triangles, as rows of the mesh's points.
 Triangles placed(const Cap& cap, const BoundaryLoop& rim, int first_new) {
   Triangles triangles = cap.triangles;
   const auto corners = isize(rim.corners);

@@ -6,16 +6,33 @@
 
 namespace sprung {
 
-/// How open shells were closed.
+/// A closed loop of boundary edges.
+struct Hole {
+  Points rim;     // n x 3, n >= 3; in the orientation of the cap's triangles
+  Points beyond;  // n x 3: the third corner of the surface's triangle at the edge from corner i to i + 1
+};
+
+/// The triangles that fill a hole. Vertex i < n is that of the rim; vertex n + i is row i of `points`.
+struct Cap {
+  Points points;  // interior vertices; none in flat caps
+  Triangles triangles;
+  bool flat = false;  // the rim is planar to within 3 % of its extent
+};
+
+/// Fills a planar hole by a Delaunay triangulation, any other by the triangulation of least bending, which (from 8
+/// edges on) is refined to the density of the rim and faired to continue the surrounding surface (Liepa 2003). Never
+/// fails: where CGAL finds no triangulation, a fan is used. Deterministic.
+[[nodiscard]] Cap fill_hole(const Hole& given);
+
+/// What close_shells() did.
 struct Closing {
-  int flat = 0;                   // caps in a plane
+  int flat = 0;                   // planar caps
   int smooth = 0;                 // the others
   std::vector<double> cap_areas;  // for each shell
 };
 
-/// Closes every loop of open sides by a cap (fill_hole.h), whose triangles (source -1) and points are appended to
-/// `mesh` and to their shells; measures those shells anew. A loop that touches itself is closed in pieces.
-/// Deterministic.
+/// Fills every loop of open sides with a cap, appends its triangles (source -1) and points to `mesh` and to its shell,
+/// and remeasures that shell. A loop that touches itself is filled in parts. Deterministic.
 Closing close_shells(WeldedMesh& mesh, SurfaceComponents& shells);
 
 }  // namespace sprung

@@ -10,9 +10,9 @@ struct CoarseSurface {
 };
 
 /// Collapses edges shorter than `shortest` (in units of the points), shortest first, as long as the surface keeps its
-/// topology and no triangle turns over; new points are where volume and shape are kept best (P. Lindstrom and G. Turk,
-/// "Fast and memory efficient polygonal simplification", IEEE Visualization 1998). A surface on which more than two
-/// triangles meet in an edge, or which touches itself in a point, is returned as it is. Deterministic.
+/// topology and no triangle turns over; new points are placed to preserve volume and shape best (P. Lindstrom and G.
+/// Turk, "Fast and memory efficient polygonal simplification", IEEE Visualization 1998). A non-manifold surface is
+/// returned unchanged. Deterministic.
 [[nodiscard]] CoarseSurface coarsen(const Points& points, const Triangles& triangles, double shortest);
 
 }  // namespace sprung

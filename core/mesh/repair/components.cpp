@@ -58,7 +58,7 @@ void EdgePairs::pair_many(std::span<const Side> edge) {
   open_.insert(open_.end(), left.begin(), left.end());
 }
 
-/// Seen along the edge, matter begins at a side that runs backward and ends at the next one that runs forward.
+/// Seen along the edge, solid begins at a backward side and ends at the next forward one.
 void EdgePairs::pair_around(std::vector<Side>& sides) {
   for (std::size_t i = 0; i < sides.size() && sides.size() > 1;) {
     const std::size_t next = (i + 1) % sides.size();
@@ -73,7 +73,7 @@ void EdgePairs::pair_around(std::vector<Side>& sides) {
   }
 }
 
-/// By the angle of their triangles about the edge.
+/// Sorts sides by the angle of their triangles about the edge.
 void EdgePairs::sort_around(std::vector<Side>& edge) const {
   if (edge.empty()) return;
   const Vec3 low = points_.row(edge[0].low);
@@ -121,7 +121,7 @@ std::vector<std::vector<Neighbour>> find_neighbours(const std::vector<Side>& sid
 /// Six times the signed volume between a triangle and the origin.
 double six_volumes(const Vec3& a, const Vec3& b, const Vec3& c) { return a.dot(b.cross(c)); }
 
-/// Collects the triangles that hang together with `seed`, and which of them must turn over to agree with it.
+/// Collects the triangles connected to `seed`, and which of them must be flipped to agree with it.
 class ShellWalker {
  public:
   explicit ShellWalker(const std::vector<std::vector<Neighbour>>& neighbours)
@@ -129,7 +129,7 @@ class ShellWalker {
 
   [[nodiscard]] bool seen(int triangle) const { return state_[triangle] != State::kUnseen; }
   [[nodiscard]] bool turns(int triangle) const { return state_[triangle] == State::kTurned; }
-  /// Edges met from both sides whose two triangles cannot agree.
+  /// Edges reached from both sides whose two triangles cannot agree.
   [[nodiscard]] int one_sided() const { return conflicts_ / 2; }
 
   std::vector<int> walk(int seed) {
@@ -160,7 +160,7 @@ class ShellWalker {
   int conflicts_ = 0;
 };
 
-/// Turns the triangles of each connected piece to agree, the few as the many; gives each triangle its piece.
+/// Orients each connected component consistently, flipping the minority; returns each triangle's component.
 std::vector<int> orient(const std::vector<std::vector<Neighbour>>& neighbours, Triangles& triangles,
                         SurfaceComponents& result) {
   ShellWalker walker(neighbours);
@@ -201,16 +201,19 @@ void collect_shells(const Points& points, const Triangles& triangles, EdgePairs&
 
 }  // namespace
 
+double triangle_area(const Points& points, const Triangles& triangles, int row) {
+  const Vec3 a = points.row(triangles(row, 0));
+  const Vec3 b = points.row(triangles(row, 1)).transpose() - a;
+  const Vec3 c = points.row(triangles(row, 2)).transpose() - a;
+  return 0.5 * b.cross(c).norm();
+}
+
 void measure(const Points& points, const Triangles& triangles, SurfaceComponent& shell) {
-  shell.low = shell.high = points.row(triangles(shell.triangles.front(), 0));
+  shell.bounds.setEmpty();
   for (const int t : shell.triangles) {
-    for (int k = 0; k < 3; ++k) {
-      const Vec3 p = points.row(triangles(t, k));
-      shell.low = shell.low.cwiseMin(p);
-      shell.high = shell.high.cwiseMax(p);
-    }
+    for (int k = 0; k < 3; ++k) shell.bounds.extend(Vec3(points.row(triangles(t, k))));
   }
-  const Vec3 centre = 0.5 * (shell.low + shell.high);
+  const Vec3 centre = shell.bounds.center();
   double sum = 0;
   for (const int t : shell.triangles) {
     const auto corner = [&](int k) -> Vec3 { return points.row(triangles(t, k)).transpose() - centre; };

@@ -8,7 +8,7 @@
 
 namespace sprung {
 
-/// A side of a triangle; the two ends in ascending order, so that equal edges sort together.
+/// A side of a triangle; its ends in ascending order, so that the sides of one edge sort together.
 struct Side {
   int low;
   int high;
@@ -16,7 +16,7 @@ struct Side {
   bool forward;  // the triangle runs from low to high
 };
 
-/// The sides of all triangles, those on the same edge together, by triangle.
+/// The sides of all triangles, sorted by edge, then by triangle.
 [[nodiscard]] std::vector<Side> sorted_sides(const Triangles& triangles);
 
 /// Calls `visit` with the sides of each edge.
@@ -28,19 +28,19 @@ void for_each_edge(const std::vector<Side>& sides, const Visit& visit) {
   }
 }
 
-/// Finds the partners of sides of oriented triangles: two sides that run in opposite directions. Where more than two
-/// meet in an edge, those pair that have matter between them, first within each of the pieces given.
+/// Pairs the sides of oriented triangles that run in opposite directions. At edges of more than two triangles, those
+/// with solid between them are paired, first within each of the given pieces.
 class EdgePairs {
  public:
-  /// `pieces`: for each triangle a number of the piece that it hangs together with by edges of two triangles.
+  /// `pieces`: for each triangle, the number of its component connected by edges of two triangles.
   EdgePairs(const Points& points, const Triangles& triangles, const std::vector<int>& pieces);
 
   /// `edge`: all sides of one edge.
   void pair(std::span<const Side> edge);
 
-  /// Sides without partners, in the order of their edges.
+  /// Unpaired sides, in the order of their edges.
   [[nodiscard]] const std::vector<Side>& open() const { return open_; }
-  /// The same for triangles that hang together by partners.
+  /// Equal for triangles connected by paired sides.
   [[nodiscard]] int shell_of(int triangle) { return sets_.find(triangle); }
 
  private:
@@ -56,24 +56,22 @@ class EdgePairs {
   std::vector<Side> open_;
 };
 
-/// A piece of surface whose triangles hang together by their edges, all turned the same way round: the way that most
-/// of its triangles were given.
+/// A component of the surface, connected by edges and consistently oriented: the way most of its triangles were given.
 struct SurfaceComponent {
   std::vector<int> triangles;  // rows of the triangles given, ascending
-  double volume = 0;           // signed; negative where the shell was given inside out; of no meaning while it is open
-  Vec3 low = Vec3::Zero();
-  Vec3 high = Vec3::Zero();
+  double volume = 0;           // signed; negative for an inside-out shell; meaningless while it is open
+  AlignedBox bounds;
 };
 
 struct EdgeFaults {
   int open = 0;          // edges of one triangle
   int loops = 0;         // connected groups of open edges
   int non_manifold = 0;  // edges of more than two triangles
-  int one_sided = 0;     // edges where no orientation fits (as on a Moebius strip)
+  int one_sided = 0;     // edges without a consistent orientation (as on a Moebius strip)
 };
 
-/// The side of a triangle that has no partner: where the surface is open, one-sided, or more than two triangles meet
-/// that do not pair. The sides of one shell make closed loops.
+/// An unpaired side: at a boundary, on a one-sided surface, or at an edge of more than two triangles that do not pair.
+/// The open sides of one shell form closed loops.
 struct OpenSide {
   int from;
   int to;
@@ -85,13 +83,14 @@ struct SurfaceComponents {
   std::vector<SurfaceComponent> shells;
   EdgeFaults faults;
   std::vector<OpenSide> open;
-  std::vector<bool> flipped;  // for each triangle, whether it was turned over to agree with its neighbours
+  std::vector<bool> flipped;  // for each triangle, whether it was flipped to agree with its neighbours
 };
 
-/// Splits welded triangles into shells and turns them to agree; changes the order of corners of those it turns. Where
-/// more than two triangles meet in an edge, those pair that have matter between them, so that bodies that touch there
-/// come apart.
+/// Splits welded triangles into consistently oriented shells, flipping triangles in place. At edges of more than two
+/// triangles, those with solid between them are paired, so that bodies touching there come apart.
 [[nodiscard]] SurfaceComponents find_shells(const Points& points, Triangles& triangles);
+
+[[nodiscard]] double triangle_area(const Points& points, const Triangles& triangles, int row);
 
 /// Sets volume and bounds from the shell's triangles.
 void measure(const Points& points, const Triangles& triangles, SurfaceComponent& shell);

@@ -1,5 +1,3 @@
-#include "core/mesh/repair/fill_hole.h"
-
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/fair.h>
 #include <CGAL/Polygon_mesh_processing/refine.h>
@@ -13,6 +11,8 @@
 #include <map>
 #include <optional>
 #include <vector>
+
+#include "core/mesh/repair/close_shells.h"
 
 namespace sprung {
 namespace {
@@ -42,7 +42,7 @@ std::vector<Point> points_of(const Points& rows) {
   return points;
 }
 
-/// Whether every side of the rim and no other stays open.
+/// Whether exactly the sides of the rim are open.
 bool closes(const std::vector<Corners>& triangles, int corners) {
   std::map<std::array<int, 2>, int> sides;
   for (const Corners& t : triangles) {
@@ -107,7 +107,7 @@ class Patch {
     }
     const std::vector<Point> beyond = points_of(hole.beyond);
     for (int i = 0; i < corners; ++i) {
-      // Triangles at the rim that follow each other often share their third corner.
+      // Consecutive triangles at the rim often share their third corner.
       const std::size_t here = i;
       const bool is_shared = i > 0 && beyond[here] == beyond[here - 1];
       const Vertex apex = is_shared ? Vertex(static_cast<Mesh::size_type>(patch.mesh_.number_of_vertices() - 1))
@@ -183,8 +183,8 @@ Cap fill_rounded(const Hole& hole) {
   return {.points = Points(0, 3), .triangles = rows_of(triangles), .flat = flat};
 }
 
-/// The rim's place and size. In it coordinates are rounded to 1e-9, so that what a scale or a shift of the mesh does to
-/// their last digits cannot change which triangles are chosen.
+/// The frame of the rim's position and size. Coordinates in it are rounded to 1e-9, so that the rounding errors of a
+/// scaled or shifted mesh cannot change the triangulation.
 class Frame {
  public:
   explicit Frame(const Points& rim) : origin_(rim.colwise().mean()), size_(extent_of(rim)) {}

@@ -4,7 +4,7 @@
 
 namespace sprung {
 
-/// One thing that was mended in a surface, or found in it and left.
+/// A repair of a surface, or a defect that was found and left.
 ///
 /// Kinds, one word each, in the order in which they are looked for:
 ///   welded              vertices at the same place became one point                             (harmless)
@@ -29,20 +29,20 @@ struct Repair {
   bool harmless = false;  // usual in sound files: no warning, and no reason to refuse
 };
 
-/// Lists a repair where there was any.
+/// Appends a repair where count > 0.
 inline void add_repair(std::vector<Repair>& repairs, const char* kind, long count, const std::string& text,
                        bool harmless = false) {
   if (count > 0) repairs.push_back({kind, int(count), text, harmless});
 }
 
-/// What to do about a surface that does not bound solids as it is.
+/// How to treat a surface that does not bound solids as it is.
 enum class RepairMode {
-  kOff,    // take it as it is; refuse where inside is then undecided
-  kAuto,   // mend it and say what was mended
-  kStrict  // refuse whatever would have to be mended
+  kOff,    // take it as it is; refuse where its inside is ambiguous
+  kAuto,   // repair it and report the repairs
+  kStrict  // refuse whatever needs repair
 };
 
-/// The texts of what is not harmless.
+/// The texts of all repairs that are not harmless.
 [[nodiscard]] inline std::vector<std::string> notes_of(const std::vector<Repair>& repairs) {
   std::vector<std::string> notes;
   for (const Repair& repair : repairs) {

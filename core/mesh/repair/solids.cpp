@@ -12,25 +12,24 @@
 #include "core/mesh/repair/assemble_solids.h"
 #include "core/mesh/repair/close_shells.h"
 #include "core/mesh/repair/components.h"
-#include "core/mesh/repair/nesting.h"
 #include "core/mesh/repair/weld.h"
 #include "core/text.h"
 
 namespace sprung {
 namespace {
 
-/// Below this share of surface times diagonal, a shell's volume is nothing but rounding.
+/// Below this fraction of surface times diagonal, a shell's volume is only rounding error.
 constexpr double kNoVolume = 1e-12;
-/// Open pieces that enclose less than this share of the largest one, and little of what is around them, are debris.
+/// Open pieces that enclose less than this fraction of the largest one, and have a low enclosure(), are debris.
 constexpr double kDebris = 0.01;
 
 constexpr const char* kAdvice = "ask for a shell with --thickness 3mm";
 
 bool has_volume(const WeldedMesh& mesh, const SurfaceComponent& shell) {
-  return std::abs(shell.volume) > kNoVolume * given_area(mesh, shell.triangles) * (shell.high - shell.low).norm();
+  return std::abs(shell.volume) > kNoVolume * given_area(mesh, shell.triangles) * shell.bounds.diagonal().norm();
 }
 
-/// Takes one mesh through all repairs to its solids.
+/// Repairs one mesh and finds its solids.
 class MeshRepairer {
  public:
   MeshRepairer(const SurfaceMesh& mesh, const std::string& name, const SolidOptions& options)
@@ -78,7 +77,7 @@ class MeshRepairer {
     }
   }
 
-  /// SurfaceComponents with their triangles turned to agree.
+  /// Consistently oriented components.
   void find_oriented_shells() {
     shells_ = find_shells(mesh_.points, mesh_.triangles);
     for (std::size_t t = 0; t < shells_.flipped.size(); ++t) {
@@ -131,7 +130,7 @@ class MeshRepairer {
     find_oriented_shells();
   }
 
-  /// For each shell whether it is the boundary of something, not counting the caps.
+  /// For each shell, whether it bounds a volume even without its caps.
   std::vector<bool> close_holes() {
     std::vector<bool> encloses(shells_.shells.size(), true);
     for (const OpenSide& side : shells_.open) encloses[side.shell] = false;
@@ -151,8 +150,8 @@ class MeshRepairer {
     return encloses;
   }
 
-  /// Drops shells without volume, and open ones that enclose next to nothing beside the others; returns the area of
-  /// those that enclose something by themselves.
+  /// Drops shells without volume, and open ones that enclose next to nothing compared to the others; returns the area
+  /// of those that enclose a volume by themselves.
   double drop_empty(const std::vector<bool>& encloses) {
     double largest = 0;
     double enclosing = 0;
@@ -171,7 +170,7 @@ class MeshRepairer {
     return enclosing;
   }
 
-  /// Where the pieces enclose something only together: one solid of all triangles of the mesh.
+  /// Where the pieces enclose a volume only together: one solid of all triangles of the mesh.
   bool take_as_soup() {
     std::vector<int> rows;
     for (int t = 0; t < mesh_.triangles.rows(); ++t) {
@@ -187,7 +186,7 @@ class MeshRepairer {
     result_.solids.push_back(std::move(solid));
     std::erase_if(result_.repairs, [](const Repair& repair) { return repair.kind == "hole_filled"; });
     add("united", dropped_,
-        "took " + count_of(dropped_, "loose piece") + " that enclose something only together as one solid");
+        "took " + count_of(dropped_, "loose piece") + " that enclose a volume only together as one solid");
     return true;
   }
 
@@ -217,7 +216,7 @@ class MeshRepairer {
                     kSpeckShare));
   }
 
-  /// Every piece as it is, for a shell of the thickness asked for.
+  /// Every piece as it is, as a shell of the given thickness.
   void find_sheets() {
     find_oriented_shells();
     std::vector<double> rims(shells_.shells.size());

@@ -10,8 +10,8 @@ namespace sprung {
 
 struct Solids {
   std::vector<Solid> solids;     // largest volume first
-  std::vector<Repair> repairs;   // what had to be changed, with counts
-  Vec3 crossing = Vec3::Zero();  // where the surface crosses itself first, if it does
+  std::vector<Repair> repairs;   // what was changed, with counts
+  Vec3 crossing = Vec3::Zero();  // the first place where the surface intersects itself, if any
 };
 
 struct SolidOptions {
@@ -19,20 +19,20 @@ struct SolidOptions {
   double thickness = 0;  // > 0: every piece of the surface becomes a shell of this thickness, in units of the mesh
 };
 
-/// Splits a mesh into its solids, and mends it where it must; every kind of repair is listed. A sound mesh is left
-/// alone, and its triangles keep their order.
+/// Splits a mesh into its solids and repairs it where necessary; every kind of repair is listed. A sound mesh stays
+/// unchanged, and its triangles keep their order.
 ///
-/// Points are welded by exact position, so a seam in the index lists is no hole. Triangles without area and repeated
-/// ones are dropped; orientation is made consistent, then outward. Where more than two triangles meet in an edge, the
-/// bodies that touch there come apart. Rims that almost coincide are stitched (stitch.h), holes are capped: flat where
-/// the rim is, else smoothly (fill_hole.h); what is drawn gets the caps too (submesh.h). A closed piece inside another,
-/// turned the other way, is its cavity; pieces turned the same way that overlap, touch or lie in one another are one
-/// solid. Pieces without volume and floating specks are dropped. Where most of the surface is loose pieces that enclose
-/// something only together, that is one solid whose inside winding numbers decide.
+/// Points are welded by exact position, so a seam in the index lists is no hole. Triangles without area and duplicates
+/// are dropped; orientation is made consistent, then outward. Bodies that touch at edges of more than two triangles are
+/// separated. Nearly coincident rims are stitched (weld.h) and holes capped, flat where the rim is planar, else
+/// smoothly (close_shells.h); the drawn mesh gets the caps, too (submesh.h). A closed shell inside another of opposite
+/// orientation is its cavity; shells of equal orientation that overlap, touch or nest form one solid. Pieces without
+/// volume and floating specks are dropped. Where most of the surface is disconnected pieces that enclose a volume only
+/// together, they form one solid, whose inside is decided by winding numbers.
 ///
 /// Throws Error(kBadInput), naming `name` and the reason, where nothing encloses a volume (flat, an open sheet,
-/// one-sided, triangles without an inside), or where `repair` does not allow what would be needed. No tolerance is
-/// absolute. Deterministic.
+/// one-sided, triangles without an inside), or where `repair` forbids a necessary repair. All tolerances are relative.
+/// Deterministic.
 [[nodiscard]] Solids find_solids(const SurfaceMesh& mesh, const std::string& name, const SolidOptions& options = {});
 
 }  // namespace sprung

@@ -29,7 +29,7 @@ std::vector<Part> parts_of(const std::vector<Part>& parts, const std::vector<int
   return chosen;
 }
 
-/// For each point of the solid a vertex of the mesh, or -1 where only caps have it.
+/// For each point of the solid a vertex of the mesh, or -1 where only caps use it.
 std::vector<int> vertices_of_points(const SurfaceMesh& mesh, const Solid& solid) {
   std::vector<int> vertices(solid.points.rows(), -1);
   for (int t = 0; t < solid.triangles.rows(); ++t) {
@@ -43,11 +43,11 @@ std::vector<int> vertices_of_points(const SurfaceMesh& mesh, const Solid& solid)
   return vertices;
 }
 
-/// The triangles that close holes, with points of their own.
+/// The triangles of caps, with points of their own.
 struct Caps {
   std::vector<int> points;     // of the solid
   Triangles triangles;         // rows of `points`
-  std::vector<int> lookalike;  // for each point the vertex of the mesh whose UV and colour it takes
+  std::vector<int> lookalike;  // for each point, the vertex of the mesh with its UV and colour
 };
 
 /// The vertex of the rim nearest to a point, for the inner points of a cap.
@@ -90,7 +90,7 @@ Caps find_caps(const SurfaceMesh& mesh, const Solid& solid) {
   return caps;
 }
 
-/// Each point's mean normal of the cap around it, weighted by area.
+/// The area-weighted mean normal of the cap at each point.
 Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> normals_of(const Points& points, const Triangles& triangles) {
   Points sums = Points::Zero(points.rows(), 3);
   for (const auto& t : triangles.rowwise()) {

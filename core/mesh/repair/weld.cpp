@@ -28,10 +28,10 @@ std::vector<int> first_at_position(const Points& positions) {
   return first;
 }
 
-/// A triangle by its corners, whichever it begins with.
+/// A triangle by its corners, up to rotation.
 struct Corners {
   std::array<int, 3> sorted;
-  bool even;  // the corners run in ascending order, but for a rotation
+  bool even;  // the corners are in ascending order, up to rotation
   std::size_t triangle;
 };
 
@@ -43,7 +43,7 @@ Corners corners_of(const std::array<int, 3>& given, std::size_t triangle) {
   return {sorted, even, triangle};
 }
 
-/// Marks the triangles to leave out of those that share their three corners.
+/// Marks the triangles to drop among those with the same three corners.
 std::vector<bool> find_repeated(const std::vector<std::array<int, 3>>& triangles) {
   std::vector<Corners> all;
   for (std::size_t t = 0; t < triangles.size(); ++t) all.push_back(corners_of(triangles[t], t));
@@ -51,7 +51,7 @@ std::vector<bool> find_repeated(const std::vector<std::array<int, 3>>& triangles
     return std::tie(a.sorted, a.triangle) < std::tie(b.sorted, b.triangle);
   });
   std::vector<bool> repeated(triangles.size(), false);
-  std::vector<std::size_t> facing;  // the last one left of triangles that cancel each other
+  std::vector<std::size_t> facing;  // the remaining one of triangles that cancel each other
   for (std::size_t begin = 0, end = 0; begin < all.size(); begin = end) {
     int balance = 0;
     for (; end < all.size() && all[end].sorted == all[begin].sorted; ++end) {
@@ -67,7 +67,7 @@ std::vector<bool> find_repeated(const std::vector<std::array<int, 3>>& triangles
   return repeated;
 }
 
-/// Numbers the points by first use and copies what is used.
+/// Numbers the points by first use and copies the used ones.
 void set_rows(const Points& positions, const std::vector<std::array<int, 3>>& triangles, WeldedMesh& welded) {
   std::vector<int> new_row(positions.rows(), -1);
   std::vector<int> used;
@@ -86,7 +86,7 @@ void set_rows(const Points& positions, const std::vector<std::array<int, 3>>& tr
   welded.points = positions(used, Eigen::all);
 }
 
-/// Vertices that triangles use.
+/// The vertices used by triangles.
 int count_used(const SurfaceMesh& mesh) {
   std::vector<bool> used(mesh.positions.rows(), false);
   for (const int vertex : mesh.triangles.reshaped()) used[vertex] = true;
@@ -135,7 +135,7 @@ namespace {
 constexpr double kOfShortestSide = 0.25;
 constexpr double kOfDiagonal = 1e-3;
 
-/// For each point the distance within which it may be joined: 0 away from open sides.
+/// For each point, the distance within which it may be merged: 0 away from open sides.
 std::vector<double> reaches(const std::vector<OpenSide>& open, const WeldedMesh& mesh) {
   std::vector<bool> is_open(mesh.points.rows(), false);
   for (const OpenSide& side : open) is_open[side.from] = true;
@@ -153,7 +153,7 @@ std::vector<double> reaches(const std::vector<OpenSide>& open, const WeldedMesh&
   return reach;
 }
 
-/// For each point the one that it becomes. Sweeps along x over the points on open sides.
+/// For each point, the one it merges into. Sweeps along x over the points on open sides.
 std::vector<int> find_partners(const Points& points, const std::vector<double>& reach) {
   std::vector<int> order;
   for (int p = 0; p < points.rows(); ++p) {
@@ -174,7 +174,7 @@ std::vector<int> find_partners(const Points& points, const std::vector<double>& 
       of_later = std::min(of_later, std::min(a, b));
     }
   }
-  // Partners come before what joins them, so those are settled already.
+  // Targets come before the points that merge into them, so they are final.
   for (int& to : partner) to = partner[to];
   return partner;
 }

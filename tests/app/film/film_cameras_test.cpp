@@ -20,7 +20,7 @@ Reach moving_cube(double offset = 0) {
     }
     reach.bodies.push_back(corners);
     reach.middles.push_back(middle);
-    reach.bounds.include(corners);
+    reach.bounds.extend(bounding_box(corners));
   }
   return reach;
 }
@@ -85,8 +85,8 @@ TEST(FilmCameras, SeveralRunsAreSeenAtOnce) {
   ASSERT_EQ(both.bodies.size(), 5U);
   EXPECT_EQ(both.bodies[4].rows(), 16);
   EXPECT_TRUE(both.bodies[4].topRows(8).isApprox(shorter.bodies[2]));  // stays where it ends
-  EXPECT_NEAR(both.bounds.low.x(), -2.1, 1e-12);
-  EXPECT_NEAR(both.bounds.high.x(), 1.1, 1e-12);
+  EXPECT_NEAR(both.bounds.min().x(), -2.1, 1e-12);
+  EXPECT_NEAR(both.bounds.max().x(), 1.1, 1e-12);
   EXPECT_NEAR(both.middles[4].x(), 0.5 * (-1.5 + 1), 1e-12);
 }
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/pose.h"
+#include "core/types.h"
 #include "tests/support/bodies.h"
 
 namespace sprung {

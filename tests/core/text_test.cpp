@@ -1,8 +1,8 @@
+#include "core/text.h"
+
 #include <gtest/gtest.h>
 
 #include <array>
-
-#include "core/text.h"
 
 namespace sprung {
 namespace {

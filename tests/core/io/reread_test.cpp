@@ -5,6 +5,7 @@
 
 #include <assimp/Importer.hpp>
 
+#include "core/appearance.h"
 #include "core/io/mesh_export.h"
 #include "tests/support/run_program.h"
 
@@ -141,14 +142,12 @@ bool is_near(const Points& a, const Points& b, double error) {
   return a.rows() == b.rows() && (a - b).cwiseAbs().maxCoeff() < error;
 }
 
-float linear(float srgb) { return srgb <= 0.04045F ? srgb / 12.92F : std::pow((srgb + 0.055F) / 1.055F, 2.4F); }
-
 bool has_color(const Reread& read, const Eigen::Vector3f& color) {
   return std::any_of(read.diffuse.begin(), read.diffuse.end(),
                      [&](const Eigen::Vector3f& found) { return (found - color).cwiseAbs().maxCoeff() < 0.01F; });
 }
 
-[[maybe_unused]] void PrintTo(const MeshFormat& format, std::ostream* out) { *out << format.ending; }
+[[maybe_unused]] void PrintTo(const MeshFormat& format, std::ostream* out) { *out << format.extension; }
 
 class Reading : public testing::TestWithParam<MeshFormat> {};
 
@@ -164,7 +163,7 @@ TEST_P(Reading, ByAssimpFindsBodiesInTheirOrder) {
                       .positions = skin.positions.array() + number,
                       .normals = skin.normals});
   }
-  const auto file = folder.path() / ("strips" + std::string(GetParam().ending));
+  const auto file = folder.path() / ("strips" + std::string(GetParam().extension));
   export_meshes(meshes, file);
   const Reread read = reread(file);
   Eigen::Index first = 0;
@@ -180,14 +179,14 @@ TEST_P(Reading, ByAssimpFindsWhatTheFormatKeepsAndNothingElse) {
   const TempFolder folder;
   const Skin skin = strip(6);
   PosedMesh mesh{.name = "strip", .rest = &skin, .positions = skin.positions * 0.37, .normals = skin.normals};
-  const auto file = folder.path() / ("strip" + std::string(GetParam().ending));
+  const auto file = folder.path() / ("strip" + std::string(GetParam().extension));
   export_meshes({mesh}, file);
   const Reread read = reread(file);
   const bool is_linear = GetParam().writer.starts_with("gl");
   const Eigen::Matrix<float, Eigen::Dynamic, 3> colors =
-      skin.colors.leftCols<3>().unaryExpr([&](float value) { return is_linear ? linear(value) : value; });
-  const Eigen::Vector3f red =
-      skin.materials[0].color.head<3>().unaryExpr([&](float value) { return is_linear ? linear(value) : value; });
+      skin.colors.leftCols<3>().unaryExpr([&](float value) { return is_linear ? linear_from_srgb(value) : value; });
+  const Eigen::Vector3f red = skin.materials[0].color.head<3>().unaryExpr(
+      [&](float value) { return is_linear ? linear_from_srgb(value) : value; });
   EXPECT_TRUE(is_near(read.positions, corners_of(mesh.positions, skin.triangles), 3e-6));
   const auto has_name = [&](const std::string& name) {
     return std::find(read.names.begin(), read.names.end(), name) != read.names.end();
@@ -198,11 +197,11 @@ TEST_P(Reading, ByAssimpFindsWhatTheFormatKeepsAndNothingElse) {
                           .materials = has_color(read, red),
                           .textures = read.textures.size() == 1 && read.textures[0] == skin.materials[1].texture,
                           .part_names = has_name("front") && has_name("back")};
-  EXPECT_EQ(names_of(found), names_of(GetParam().keeps));
+  EXPECT_EQ(describe(found), describe(GetParam().keeps));
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, Reading, testing::ValuesIn(mesh_formats().begin(), mesh_formats().end()),
-                         [](const auto& test) { return "ending_" + std::string(test.param.ending.substr(1)); });
+                         [](const auto& test) { return "ending_" + std::string(test.param.extension.substr(1)); });
 
 }  // namespace
 }  // namespace sprung

@@ -1,24 +1,99 @@
-#include "core/io/animated_glb.h"
+#include "core/io/animation.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <optional>
 
+#include "core/appearance.h"
 #include "core/error.h"
+#include "core/files.h"
 #include "core/io/mesh_export.h"
 
 namespace sprung {
 namespace {
+
+constexpr int kByte = 5120;
+constexpr int kShort = 5122;
+constexpr int kFloat = 5126;
+constexpr int kUnsigned = 5125;
 
 constexpr std::uint64_t kMostBytes = 0xFFFFFF00;
 constexpr std::uint32_t kMagic = 0x46546C67;   // "glTF"
 constexpr std::uint32_t kJson = 0x4E4F534A;    // "JSON"
 constexpr std::uint32_t kBinary = 0x004E4942;  // "BIN"
 
-float linear(float srgb) { return srgb <= 0.04045F ? srgb / 12.92F : std::pow((srgb + 0.055F) / 1.055F, 2.4F); }
+constexpr float kMostShort = 32766;  // one to spare for differences of rounded numbers
+constexpr float kMostByte = 127;
+constexpr float kLeastLength = 0.25F;  // of a scaled normal
+
+template <class Row>
+std::string list_of(const Row& row) {
+  std::vector<float> values(row.begin(), row.end());
+  return fmt::format("[{:.9g}]", fmt::join(values, ","));
+}
+
+/// With a fourth column of zeros: vertices are aligned to four bytes.
+template <class Value>
+Eigen::Matrix<Value, Eigen::Dynamic, 4, Eigen::RowMajor> padded(
+    const Eigen::Matrix<Value, Eigen::Dynamic, 3, Eigen::RowMajor>& rows) {
+  Eigen::Matrix<Value, Eigen::Dynamic, 4, Eigen::RowMajor> wide(rows.rows(), 4);
+  wide << rows, Eigen::Matrix<Value, Eigen::Dynamic, 1>::Zero(rows.rows());
+  return wide;
+}
+
+template <class Matrix>
+std::size_t size_of(const Matrix& rows) {
+  return std::size_t(rows.size()) * sizeof(float);
+}
+
+using Integers3 = Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>;
+
+/// Quantized positions: origin + step * integers.
+struct Lattice {
+  Eigen::RowVector3f origin;
+  float step = 1;
+
+  [[nodiscard]] Integers3 quantize(const Floats3& positions) const {
+    return ((positions.rowwise() - origin) / step).array().round().cast<int>();
+  }
+};
+
+/// Covers the first frame around its centre, and the displacement of every vertex from it.
+Lattice lattice_of(const std::vector<Floats3>& positions) {
+  const Floats3& first = positions.front();
+  const Eigen::RowVector3f low = first.colwise().minCoeff();
+  const Eigen::RowVector3f high = first.colwise().maxCoeff();
+  float reach = 0.5F * (high - low).maxCoeff();
+  for (const Floats3& later : positions) reach = std::max(reach, (later - first).cwiseAbs().maxCoeff());
+  return {.origin = 0.5F * (low + high), .step = reach > 0 ? reach / kMostShort : 1};
+}
+
+/// The greatest length, at most 1, at which `normal` minus `base` has no component outside [-1, 1].
+float fitting_length(const Eigen::RowVector3f& normal, const Eigen::RowVector3f& base) {
+  float length = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (normal[axis] == 0) continue;
+    length = std::min(length, (1 + std::copysign(1.0F, normal[axis]) * base[axis]) / std::abs(normal[axis]));
+  }
+  return length;
+}
+
+Bytes3 bytes_of(const Floats3& normals) { return (kMostByte * normals).array().round().cast<std::int8_t>(); }
+
+/// The targets that take the base to these normals; nothing where they do not fit.
+std::optional<Bytes3> normal_targets(const Floats3& normals, const Floats3& base) {
+  Floats3 targets(normals.rows(), 3);
+  for (Eigen::Index i = 0; i < normals.rows(); ++i) {
+    const float length = fitting_length(normals.row(i), base.row(i));
+    if (length < kLeastLength) return std::nullopt;
+    targets.row(i) = length * normals.row(i) - base.row(i);
+  }
+  return bytes_of(targets);
+}
 
 std::string quoted(const std::string& text) {
   std::string out = "\"";
@@ -40,21 +115,21 @@ void add_number(std::string& bytes, std::size_t value) {
 
 std::size_t padding_of(std::size_t size) { return (4 - size % 4) % 4; }
 
-/// A file in parts, so that none of it need be copied.
-struct GlbPieces {
+/// A file in pieces: the buffer is not copied.
+struct GlbFile {
   std::string head;
-  std::string_view numbers;
+  std::string_view buffer;
   std::string padding;
 };
 
-/// The lists of a glTF file as they grow.
-class GlbFilm {
+/// Builds a glTF file mesh by mesh.
+class GlbBuilder {
  public:
-  GlbFilm(std::size_t frames, GlbNumbers numbers) : frames_(frames), numbers_(numbers) {}
+  GlbBuilder(std::size_t frames, GlbPrecision precision) : frames_(frames), precision_(precision) {}
 
-  /// Returns by how much coordinates are off at most, m.
+  /// Returns the largest error of a coordinate, m.
   double add(const AnimatedMesh& mesh) {
-    const bool is_exact = numbers_ == GlbNumbers::kFloats;
+    const bool is_exact = precision_ == GlbPrecision::kFloat;
     const GlbVertices vertices = is_exact ? add_floats(buffer_, mesh) : add_quantized(buffer_, mesh);
     const std::string attributes = attributes_of(mesh, vertices);
     const std::string targets = targets_of(vertices);
@@ -69,12 +144,12 @@ class GlbFilm {
         frames_ > 1 ? fmt::format(",\"weights\":[{}]", fmt::join(std::vector<int>(frames_ - 1, 0), ",")) : "";
     const std::string name = quoted(mesh.first.name);
     meshes_.push_back(fmt::format("{{\"name\":{},\"primitives\":[{}]{}}}", name, fmt::join(primitives, ","), weights));
-    nodes_.push_back(fmt::format("{{\"name\":{},\"mesh\":{}{}}}", name, nodes_.size(), vertices.placement));
+    nodes_.push_back(fmt::format("{{\"name\":{},\"mesh\":{}{}}}", name, nodes_.size(), vertices.transform));
     return vertices.error;
   }
 
-  /// Nothing can be added after that.
-  [[nodiscard]] GlbPieces finish(const std::vector<double>& times) {
+  /// Call last.
+  [[nodiscard]] GlbFile finish(const std::vector<double>& times) {
     const std::string animation = frames_ > 1 ? animation_of(times) : "";
     std::vector<std::size_t> roots(nodes_.size());
     for (std::size_t i = 0; i < roots.size(); ++i) roots[i] = i;
@@ -82,24 +157,24 @@ class GlbFilm {
         "{{\"asset\":{{\"version\":\"2.0\",\"generator\":\"sprung\"}}{},\"scene\":0,\"scenes\":[{{\"nodes\":[{}]}}],"
         "\"nodes\":[{}],\"meshes\":[{}],\"materials\":[{}]{}{},{}}}",
         extensions(), fmt::join(roots, ","), fmt::join(nodes_, ","), fmt::join(meshes_, ","),
-        fmt::join(materials_, ","), pictures(), animation, buffer_.json());
+        fmt::join(materials_, ","), images(), animation, buffer_.json());
     json.append(padding_of(json.size()), ' ');
-    GlbPieces pieces{.head = {}, .numbers = buffer_.bytes(), .padding = {}};
-    pieces.padding.assign(padding_of(pieces.numbers.size()), '\0');
-    const std::size_t binary = pieces.numbers.size() + pieces.padding.size();
+    GlbFile out{.head = {}, .buffer = buffer_.bytes(), .padding = {}};
+    out.padding.assign(padding_of(out.buffer.size()), '\0');
+    const std::size_t binary = out.buffer.size() + out.padding.size();
     for (const std::size_t number :
          {std::size_t{kMagic}, std::size_t{2}, 28 + json.size() + binary, json.size(), std::size_t{kJson}}) {
-      add_number(pieces.head, number);
+      add_number(out.head, number);
     }
-    pieces.head += json;
-    add_number(pieces.head, binary);
-    add_number(pieces.head, kBinary);
-    return pieces;
+    out.head += json;
+    add_number(out.head, binary);
+    add_number(out.head, kBinary);
+    return out;
   }
 
  private:
   [[nodiscard]] std::string extensions() const {
-    if (numbers_ == GlbNumbers::kFloats) return "";
+    if (precision_ == GlbPrecision::kFloat) return "";
     return R"(,"extensionsUsed":["KHR_mesh_quantization"],"extensionsRequired":["KHR_mesh_quantization"])";
   }
 
@@ -110,7 +185,7 @@ class GlbFilm {
     if (rest.uvs.rows() > 0) text += fmt::format(",\"TEXCOORD_0\":{}", buffer_.add_uvs(rest.uvs));
     if (rest.colors.rows() > 0) {
       Floats4 colors = rest.colors.cwiseMax(0.0F).cwiseMin(1.0F);
-      colors.leftCols<3>() = colors.leftCols<3>().unaryExpr(&linear).eval();
+      colors.leftCols<3>() = colors.leftCols<3>().unaryExpr(&linear_from_srgb).eval();
       text += fmt::format(",\"COLOR_0\":{}", buffer_.add_colors(colors));
     }
     return text;
@@ -131,21 +206,21 @@ class GlbFilm {
     if (known != material_names_.end()) return known - material_names_.begin();
     material_names_.push_back(part.material);
     std::string texture;
-    if (part.source != nullptr && !ending_of_texture(*part.source).empty()) {
-      const int view = buffer_.add_picture(part.source->texture);
-      const bool is_png = ending_of_texture(*part.source) == ".png";
+    if (part.source != nullptr && !texture_extension(*part.source).empty()) {
+      const int view = buffer_.add_image(part.source->texture);
+      const bool is_png = texture_extension(*part.source) == ".png";
       texture = fmt::format(",\"baseColorTexture\":{{\"index\":{}}}", images_.size());
       images_.push_back(fmt::format("{{\"bufferView\":{},\"mimeType\":\"image/{}\"}}", view, is_png ? "png" : "jpeg"));
     }
     materials_.push_back(fmt::format(
         "{{\"name\":{},\"doubleSided\":true{},\"pbrMetallicRoughness\":{{\"baseColorFactor\":[{:.6g},{:.6g},{:.6g},"
         "{:.6g}],\"metallicFactor\":0,\"roughnessFactor\":0.6{}}}}}",
-        quoted(part.material), part.color[3] < 1 ? ",\"alphaMode\":\"BLEND\"" : "", linear(part.color[0]),
-        linear(part.color[1]), linear(part.color[2]), part.color[3], texture));
+        quoted(part.material), part.color[3] < 1 ? ",\"alphaMode\":\"BLEND\"" : "", linear_from_srgb(part.color[0]),
+        linear_from_srgb(part.color[1]), linear_from_srgb(part.color[2]), part.color[3], texture));
     return materials_.size() - 1;
   }
 
-  [[nodiscard]] std::string pictures() const {
+  [[nodiscard]] std::string images() const {
     if (images_.empty()) return "";
     std::vector<std::string> textures;
     for (std::size_t i = 0; i < images_.size(); ++i) textures.push_back(fmt::format("{{\"source\":{}}}", i));
@@ -171,7 +246,7 @@ class GlbFilm {
   }
 
   std::size_t frames_;
-  GlbNumbers numbers_;
+  GlbPrecision precision_;
   GlbBuffer buffer_;
   std::vector<std::string> nodes_;
   std::vector<std::string> meshes_;
@@ -180,63 +255,25 @@ class GlbFilm {
   std::vector<std::string> images_;
 };
 
-}  // namespace
-
-double write_animated_glb(const std::vector<AnimatedMesh>& meshes, const std::vector<double>& times,
-                          const std::filesystem::path& file, GlbNumbers numbers) {
-  const unsigned vertex_bytes = numbers == GlbNumbers::kFloats ? 24 : 20;  // at most
-  std::uint64_t bytes = 0;
-  for (const AnimatedMesh& mesh : meshes) {
-    bytes += vertex_bytes * static_cast<std::uint64_t>(mesh.first.positions.rows()) * times.size();
-  }
-  if (bytes > kMostBytes) {
-    throw Error(ErrorKind::kBadInput,
-                fmt::format("'{}' would have {:.1f} GB, more than the 4 GB of a .glb; export fewer frames (--frames)",
-                            file.string(), 1e-9 * double(bytes)));
-  }
-  GlbFilm film(times.size(), numbers);
-  double error = 0;
-  for (const AnimatedMesh& mesh : meshes) error = std::max(error, film.add(mesh));
-  const GlbPieces pieces = film.finish(times);
-  write_pieces(file, {pieces.head, pieces.numbers, pieces.padding});
-  return error;
+void add_bytes(std::string& bytes, const void* data, std::size_t size) {
+  bytes.append(static_cast<const char*>(data), size);
 }
 
-std::string still_glb(const std::vector<PosedMesh>& meshes) {
-  GlbFilm film(1, GlbNumbers::kFloats);
-  for (const PosedMesh& mesh : meshes) {
-    film.add(
-        {.first = mesh, .positions = {mesh.positions.cast<float>()}, .normals = {shading_normals(mesh).cast<float>()}});
-  }
-  const GlbPieces pieces = film.finish({0});
-  return pieces.head + std::string(pieces.numbers) + pieces.padding;
-}
-
-namespace {
-
-constexpr int kByte = 5120;
-constexpr int kShort = 5122;
-constexpr int kFloat = 5126;
-constexpr int kUnsigned = 5125;
-
-template <class Row>
-std::string list_of(const Row& row) {
-  std::vector<float> values(row.begin(), row.end());
-  return fmt::format("[{:.9g}]", fmt::join(values, ","));
-}
-
-/// Rows of four: vertices begin at multiples of four bytes.
 template <class Value>
-Eigen::Matrix<Value, Eigen::Dynamic, 4, Eigen::RowMajor> padded(
-    const Eigen::Matrix<Value, Eigen::Dynamic, 3, Eigen::RowMajor>& rows) {
-  Eigen::Matrix<Value, Eigen::Dynamic, 4, Eigen::RowMajor> wide(rows.rows(), 4);
-  wide << rows, Eigen::Matrix<Value, Eigen::Dynamic, 1>::Zero(rows.rows());
-  return wide;
+void add_little(std::string& bytes, Value value) {
+  static_assert(std::endian::native == std::endian::little);
+  add_bytes(bytes, &value, sizeof(value));
 }
 
-template <class Matrix>
-std::size_t size_of(const Matrix& rows) {
-  return std::size_t(rows.size()) * sizeof(float);
+template <class Value>
+void add_big(std::string& bytes, Value value) {
+  static_assert(sizeof(value) == 4);
+  const std::uint32_t flipped = __builtin_bswap32(std::bit_cast<std::uint32_t>(value));
+  add_bytes(bytes, &flipped, sizeof(flipped));
+}
+
+std::int32_t count_of_points(const std::vector<Floats3>& frames) {
+  return frames.empty() ? 0 : static_cast<std::int32_t>(frames.front().rows());
 }
 
 }  // namespace
@@ -310,67 +347,12 @@ int GlbBuffer::add_scalars(std::span<const float> values, bool with_bounds) {
   return add_accessor(view, "SCALAR", kFloat, values.size(), bounds);
 }
 
-int GlbBuffer::add_picture(std::span<const std::byte> bytes) {
-  return add_view(bytes.data(), bytes.size(), Use::kOther);
-}
+int GlbBuffer::add_image(std::span<const std::byte> bytes) { return add_view(bytes.data(), bytes.size(), Use::kOther); }
 
 std::string GlbBuffer::json() const {
   return fmt::format("\"accessors\":[{}],\"bufferViews\":[{}],\"buffers\":[{{\"byteLength\":{}}}]",
                      fmt::join(accessors_, ","), fmt::join(views_, ","), bytes_.size());
 }
-
-namespace {
-
-constexpr float kMostShort = 32766;  // one less than there is: differences of rounded numbers may gain one
-constexpr float kMostByte = 127;
-constexpr float kLeastLength = 0.25F;
-
-using Numbers3 = Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>;
-
-/// Whole numbers in place of positions: of those at origin + step * numbers.
-struct Lattice {
-  Eigen::RowVector3f origin;
-  float step = 1;
-
-  [[nodiscard]] Numbers3 numbers_at(const Floats3& positions) const {
-    return ((positions.rowwise() - origin) / step).array().round().cast<int>();
-  }
-};
-
-/// The coarsest that the first frame needs around its middle, or the way of any vertex from there.
-Lattice lattice_of(const std::vector<Floats3>& positions) {
-  const Floats3& first = positions.front();
-  const Eigen::RowVector3f low = first.colwise().minCoeff();
-  const Eigen::RowVector3f high = first.colwise().maxCoeff();
-  float reach = 0.5F * (high - low).maxCoeff();
-  for (const Floats3& later : positions) reach = std::max(reach, (later - first).cwiseAbs().maxCoeff());
-  return {.origin = 0.5F * (low + high), .step = reach > 0 ? reach / kMostShort : 1};
-}
-
-/// The greatest length, at most 1, at which `normal` minus `base` has no component outside [-1, 1].
-float fitting_length(const Eigen::RowVector3f& normal, const Eigen::RowVector3f& base) {
-  float length = 1;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (normal[axis] == 0) continue;
-    length = std::min(length, (1 + std::copysign(1.0F, normal[axis]) * base[axis]) / std::abs(normal[axis]));
-  }
-  return length;
-}
-
-Bytes3 bytes_of(const Floats3& normals) { return (kMostByte * normals).array().round().cast<std::int8_t>(); }
-
-/// What turns the base into these normals; nothing where it does not fit.
-std::optional<Bytes3> turns_to(const Floats3& normals, const Floats3& base) {
-  Floats3 turns(normals.rows(), 3);
-  for (Eigen::Index i = 0; i < normals.rows(); ++i) {
-    const float length = fitting_length(normals.row(i), base.row(i));
-    if (length < kLeastLength) return std::nullopt;
-    turns.row(i) = length * normals.row(i) - base.row(i);
-  }
-  return bytes_of(turns);
-}
-
-}  // namespace
 
 GlbVertices add_floats(GlbBuffer& buffer, const AnimatedMesh& mesh) {
   GlbVertices vertices;
@@ -385,25 +367,79 @@ GlbVertices add_floats(GlbBuffer& buffer, const AnimatedMesh& mesh) {
 
 GlbVertices add_quantized(GlbBuffer& buffer, const AnimatedMesh& mesh) {
   const Lattice lattice = lattice_of(mesh.positions);
-  const Numbers3 first = lattice.numbers_at(mesh.positions.front());
+  const Integers3 first = lattice.quantize(mesh.positions.front());
   const Bytes3 base_bytes = bytes_of(mesh.normals.front());
   const Floats3 base = base_bytes.cast<float>() / kMostByte;
   GlbVertices vertices;
   vertices.positions = {buffer.add_shorts(first.cast<std::int16_t>())};
   vertices.normals = {buffer.add_bytes(base_bytes)};
   for (std::size_t frame = 1; frame < mesh.positions.size(); ++frame) {
-    // In whole numbers, so that the later frame is rounded only once.
+    // The difference of rounded positions, so that every frame is rounded only once.
     vertices.positions.push_back(
-        buffer.add_shorts((lattice.numbers_at(mesh.positions[frame]) - first).cast<std::int16_t>()));
-    const std::optional<Bytes3> turns = turns_to(mesh.normals[frame], base);
-    vertices.normals.push_back(turns ? buffer.add_bytes(*turns)
-                                     : buffer.add_vectors(mesh.normals[frame] - base, false));
+        buffer.add_shorts((lattice.quantize(mesh.positions[frame]) - first).cast<std::int16_t>()));
+    const std::optional<Bytes3> targets = normal_targets(mesh.normals[frame], base);
+    vertices.normals.push_back(targets ? buffer.add_bytes(*targets)
+                                       : buffer.add_vectors(mesh.normals[frame] - base, false));
   }
   const Eigen::RowVector3f& origin = lattice.origin;
-  vertices.placement = fmt::format(",\"translation\":[{0:.9g},{1:.9g},{2:.9g}],\"scale\":[{3:.9g},{3:.9g},{3:.9g}]",
+  vertices.transform = fmt::format(",\"translation\":[{0:.9g},{1:.9g},{2:.9g}],\"scale\":[{3:.9g},{3:.9g},{3:.9g}]",
                                    origin.x(), origin.y(), origin.z(), lattice.step);
   vertices.error = 0.5 * double(lattice.step);
   return vertices;
+}
+
+double write_animated_glb(const std::vector<AnimatedMesh>& meshes, const std::vector<double>& times,
+                          const std::filesystem::path& file, GlbPrecision precision) {
+  const unsigned vertex_bytes = precision == GlbPrecision::kFloat ? 24 : 20;  // at most
+  std::uint64_t bytes = 0;
+  for (const AnimatedMesh& mesh : meshes) {
+    bytes += vertex_bytes * static_cast<std::uint64_t>(mesh.first.positions.rows()) * times.size();
+  }
+  if (bytes > kMostBytes) {
+    throw Error(ErrorKind::kBadInput,
+                fmt::format("'{}' would have {:.1f} GB, more than the 4 GB of a .glb; export fewer frames (--frames)",
+                            file.string(), 1e-9 * double(bytes)));
+  }
+  GlbBuilder builder(times.size(), precision);
+  double error = 0;
+  for (const AnimatedMesh& mesh : meshes) error = std::max(error, builder.add(mesh));
+  const GlbFile out = builder.finish(times);
+  write_file(file, {out.head, out.buffer, out.padding});
+  return error;
+}
+
+std::string static_glb(const std::vector<PosedMesh>& meshes) {
+  GlbBuilder builder(1, GlbPrecision::kFloat);
+  for (const PosedMesh& mesh : meshes) {
+    builder.add(
+        {.first = mesh, .positions = {mesh.positions.cast<float>()}, .normals = {shading_normals(mesh).cast<float>()}});
+  }
+  const GlbFile out = builder.finish({0});
+  return out.head + std::string(out.buffer) + out.padding;
+}
+
+void write_pc2(const std::vector<Floats3>& frames, const std::filesystem::path& file) {
+  std::string bytes("POINTCACHE2\0", 12);
+  add_little(bytes, std::int32_t{1});  // version
+  add_little(bytes, count_of_points(frames));
+  add_little(bytes, 0.0F);  // first frame
+  add_little(bytes, 1.0F);  // frames from one sample to the next
+  add_little(bytes, static_cast<std::int32_t>(frames.size()));
+  for (const Floats3& frame : frames) {
+    add_bytes(bytes, frame.data(), std::size_t(frame.size()) * sizeof(float));
+  }
+  write_file(file, bytes);
+}
+
+void write_mdd(const std::vector<Floats3>& frames, std::span<const double> times, const std::filesystem::path& file) {
+  std::string bytes;
+  add_big(bytes, static_cast<std::int32_t>(frames.size()));
+  add_big(bytes, count_of_points(frames));
+  for (const double time : times) add_big(bytes, float(time));
+  for (const Floats3& frame : frames) {
+    for (const float value : std::span(frame.data(), frame.size())) add_big(bytes, value);
+  }
+  write_file(file, bytes);
 }
 
 }  // namespace sprung

@@ -1,10 +1,11 @@
+#include "core/mesh/repair/solids.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <numbers>
 
 #include "core/error.h"
-#include "core/mesh/repair/solids.h"
 #include "tests/support/meshes.h"
 
 namespace sprung {

@@ -1,3 +1,5 @@
+#include "core/bricks/voxelize.h"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -5,7 +7,6 @@
 #include <chrono>
 #include <utility>
 
-#include "core/bricks/voxelize.h"
 #include "core/error.h"
 #include "core/mesh/io/read_mesh.h"
 #include "tests/support/meshes.h"

@@ -1,3 +1,5 @@
+#include "core/law/rectangle_law.h"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -6,7 +8,6 @@
 
 #include "core/dynamics/statics/membrane_statics.h"
 #include "core/error.h"
-#include "core/law/rectangle_law.h"
 #include "tests/support/bodies.h"
 
 namespace sprung {

@@ -1,10 +1,11 @@
+#include "core/contact/inversion_guard.h"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 
 #include "core/body/forces.h"
 #include "core/contact/contact_solver.h"
-#include "core/contact/inversion_guard.h"
 #include "core/dynamics/energy.h"
 #include "core/dynamics/explicit/adaptive_integrator.h"
 #include "tests/support/bodies.h"

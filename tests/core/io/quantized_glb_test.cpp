@@ -3,7 +3,7 @@
 #include <cstring>
 #include <numbers>
 
-#include "core/io/animated_glb.h"
+#include "core/io/animation.h"
 #include "tests/support/temp_folder.h"
 
 namespace sprung {
@@ -37,12 +37,12 @@ Skin ball_of_points() {
   return ball;
 }
 
-/// What players make of a film: rows of its buffer, the later ones added to the first.
-class StageItem {
+/// The animation as viewers decode it: rows of its buffer, later ones added to the first.
+class DecodedAnimation {
  public:
-  explicit StageItem(const AnimatedMesh& film) : vertices_(add_quantized(buffer_, film)), json_(buffer_.json()) {
+  explicit DecodedAnimation(const AnimatedMesh& film) : vertices_(add_quantized(buffer_, film)), json_(buffer_.json()) {
     count_ = film.first.positions.rows();
-    std::sscanf(vertices_.placement.c_str(), ",\"translation\":[%f,%f,%f],\"scale\":[%f,", &origin_[0], &origin_[1],
+    std::sscanf(vertices_.transform.c_str(), ",\"translation\":[%f,%f,%f],\"scale\":[%f,", &origin_[0], &origin_[1],
                 &origin_[2], &scale_);
   }
   [[nodiscard]] double error() const { return vertices_.error; }
@@ -104,7 +104,7 @@ TEST(QuantizedGlb, KeepsPositionsWithinItsErrorAndNormalsWithinADegreeOrTwo) {
   for (const double degrees : {20.0, 180.0}) {
     SCOPED_TRACE(degrees);
     const AnimatedMesh film = turning_ball(ball, degrees);
-    const StageItem player(film);
+    const DecodedAnimation player(film);
     double way = 0.3;
     double error = 0;
     int float_frames = 0;
@@ -125,12 +125,12 @@ TEST(QuantizedGlb, HasHalfTheSize) {
   const TempFolder folder;
   const Skin ball = ball_of_points();
   const AnimatedMesh film = turning_ball(ball, 20);
-  const auto size_of = [&](GlbNumbers numbers) {
+  const auto size_of = [&](GlbPrecision numbers) {
     const double error = write_animated_glb({film}, {0, 1, 2, 3, 4}, folder.path() / "film.glb", numbers);
-    EXPECT_EQ(error > 0, numbers == GlbNumbers::kQuantized);
+    EXPECT_EQ(error > 0, numbers == GlbPrecision::kQuantized);
     return double(std::filesystem::file_size(folder.path() / "film.glb"));
   };
-  EXPECT_LT(size_of(GlbNumbers::kQuantized), 0.6 * size_of(GlbNumbers::kFloats));
+  EXPECT_LT(size_of(GlbPrecision::kQuantized), 0.6 * size_of(GlbPrecision::kFloat));
 }
 
 }  // namespace

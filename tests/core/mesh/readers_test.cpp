@@ -1,7 +1,7 @@
+#include "core/mesh/io/readers.h"
+
 #include <gtest/gtest.h>
 
-#include "core/mesh/io/obj_reader.h"
-#include "core/mesh/io/readers.h"
 #include "core/mesh/io/text_scanner.h"
 #include "tests/support/error_message.h"
 

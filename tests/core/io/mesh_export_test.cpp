@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/io/animated_glb.h"
-#include "core/io/point_cache.h"
+#include "core/io/animation.h"
 #include "core/io/xdmf.h"
 #include "core/mesh/io/read_mesh.h"
 #include "tests/support/bodies.h"
@@ -59,7 +58,7 @@ Points corners_of(const Points& positions, const Triangles& triangles) {
   return corners;
 }
 
-[[maybe_unused]] void PrintTo(const MeshFormat& format, std::ostream* out) { *out << format.ending; }
+[[maybe_unused]] void PrintTo(const MeshFormat& format, std::ostream* out) { *out << format.extension; }
 
 class MeshExport : public testing::TestWithParam<MeshFormat> {};
 
@@ -67,24 +66,24 @@ TEST_P(MeshExport, ComesBackAsItWas) {
   const TempFolder folder;
   const Skin skin = sheet(7);
   const PosedMesh mesh = posed(skin);
-  const auto file = folder.path() / ("sheet" + std::string(GetParam().ending));
+  const auto file = folder.path() / ("sheet" + std::string(GetParam().extension));
   export_meshes({mesh}, file);
   const SurfaceMesh read = read_mesh(file);
   ASSERT_EQ(read.triangles.rows(), skin.triangles.rows());
   const Points expected = corners_of(mesh.positions, skin.triangles);
   const Points found = corners_of(read.positions, read.triangles);
   EXPECT_LT((expected - found).cwiseAbs().maxCoeff(), 1e-6 * expected.cwiseAbs().maxCoeff());
-  if (GetParam().ending == ".stl") return;
+  if (GetParam().extension == ".stl") return;
   // Every frame has as many vertices, whatever places coincide in it.
   PosedMesh flat = mesh;
   flat.positions.col(0).setZero();
   flat.positions.col(2).setZero();
-  const auto other = folder.path() / ("flat" + std::string(GetParam().ending));
+  const auto other = folder.path() / ("flat" + std::string(GetParam().extension));
   export_meshes({flat}, other);
   EXPECT_EQ(text_of(other).empty(), false);
   const auto count_in = [](const std::filesystem::path& path) { return read_mesh(path).positions.rows(); };
   EXPECT_EQ(count_in(file), count_in(other));
-  if (GetParam().ending == ".ply") return;
+  if (GetParam().extension == ".ply") return;
   ASSERT_EQ(read.parts.size(), 2U);
   EXPECT_EQ(read.parts[0].triangle_count, skin.parts[0].triangle_count);
   ASSERT_GE(read.parts[1].material, 0);
@@ -93,7 +92,7 @@ TEST_P(MeshExport, ComesBackAsItWas) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, MeshExport, testing::ValuesIn(mesh_formats().begin(), mesh_formats().end()),
-                         [](const auto& test) { return "ending_" + std::string(test.param.ending.substr(1)); });
+                         [](const auto& test) { return "ending_" + std::string(test.param.extension.substr(1)); });
 
 TEST(MeshExports, ObjKeepsVerticesUvsAndNames) {
   const TempFolder folder;

@@ -1,3 +1,5 @@
+#include "core/mesh/io/reader_process.h"
+
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -9,7 +11,6 @@
 #include <fstream>
 
 #include "core/error.h"
-#include "core/mesh/io/reader_process.h"
 #include "tests/support/error_message.h"
 #include "tests/support/meshes.h"
 #include "tests/support/sanitized.h"

@@ -1,3 +1,5 @@
+#include "core/mesh/io/read_mesh.h"
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -8,7 +10,6 @@
 #include <fstream>
 
 #include "core/error.h"
-#include "core/mesh/io/read_mesh.h"
 #include "core/mesh/repair/solids.h"
 #include "tests/support/meshes.h"
 

@@ -1,8 +1,8 @@
+#include "core/mesh/query/closest_triangle.h"
+
 #include <gtest/gtest.h>
 
 #include <random>
-
-#include "core/mesh/query/closest_triangle.h"
 
 namespace sprung {
 namespace {

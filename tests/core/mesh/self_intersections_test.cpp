@@ -1,7 +1,8 @@
+#include "core/mesh/query/self_intersections.h"
+
 #include <gtest/gtest.h>
 
 #include "core/mesh/io/read_mesh.h"
-#include "core/mesh/query/self_intersections.h"
 #include "core/mesh/repair/solids.h"
 #include "tests/support/meshes.h"
 

@@ -1,11 +1,11 @@
+#include "core/bricks/brick_grid.h"
+
 #include <gtest/gtest.h>
 
 #include <map>
 #include <random>
 #include <set>
 #include <tuple>
-
-#include "core/bricks/brick_grid.h"
 
 namespace sprung {
 namespace {
