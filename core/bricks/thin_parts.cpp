@@ -11,7 +11,7 @@ namespace sprung {
 namespace {
 
 constexpr int kFewestBricks = 4;  // in a part
-constexpr double kRounding = 1e-6;
+constexpr double kThicknessRounding = 1e-6;
 
 using Lists = std::vector<std::vector<int>>;
 
@@ -77,7 +77,7 @@ ThinPart measured(std::vector<int> bricks, const std::vector<double>& medians, c
 std::vector<ThinPart> find_thin_parts(const BrickGrid& grid, const std::vector<WallSample>& samples) {
   const Lists in_brick = samples_by_brick(grid, samples);
   const std::vector<double> medians = median_thickness(grid, samples, in_brick);
-  const auto is_thin = [&](std::size_t brick) { return medians[brick] < (1 - kRounding) * grid.brick_size; };
+  const auto is_thin = [&](std::size_t brick) { return medians[brick] < (1 - kThicknessRounding) * grid.brick_size; };
   DisjointSets sets(grid.lattice.size());
   for (std::size_t brick = 0; brick < grid.cells.size(); ++brick) {
     for (const int node : grid.nodes[brick]) {

@@ -19,9 +19,9 @@
 namespace sprung {
 namespace {
 
-constexpr int kBlock = 4;      // cells along a block's side
-constexpr int kSamples = 4;    // along a cell's side
-constexpr double kSure = 0.2;  // at this distance from 1/2 the winding number decides for a whole block
+constexpr int kBlock = 4;        // cells along a block's side
+constexpr int kFillSamples = 4;  // along a cell's side
+constexpr double kSure = 0.2;    // at this distance from 1/2 the winding number decides for a whole block
 
 class Filler {
  public:
@@ -81,11 +81,11 @@ class Filler {
 
   [[nodiscard]] double sampled(const Eigen::Vector3i& cell) const {
     double sum = 0;
-    for (int i = 0; i < kSamples * kSamples * kSamples; ++i) {
-      const Eigen::Array3i place(i % kSamples, i / kSamples % kSamples, i / (kSamples * kSamples));
-      sum += inside(cell.cast<double>().array() + (place.cast<double>() + 0.5) / kSamples);
+    for (int i = 0; i < kFillSamples * kFillSamples * kFillSamples; ++i) {
+      const Eigen::Array3i place(i % kFillSamples, i / kFillSamples % kFillSamples, i / (kFillSamples * kFillSamples));
+      sum += inside(cell.cast<double>().array() + (place.cast<double>() + 0.5) / kFillSamples);
     }
-    return sum / (kSamples * kSamples * kSamples);
+    return sum / (kFillSamples * kFillSamples * kFillSamples);
   }
 
   const CellSurface& surface_;
@@ -157,11 +157,12 @@ std::uint64_t near_samples(const Triangle& triangle, const Vec3& low, double rea
   const double middle = std::sqrt(triangle.squared_distance(low.array() + 0.5));
   if (middle > reach + half_diagonal) return known;
   if (middle < reach - half_diagonal) return kAll;
-  for (int i = 0; i < kSamples * kSamples * kSamples; ++i) {
+  for (int i = 0; i < kFillSamples * kFillSamples * kFillSamples; ++i) {
     const std::uint64_t bit = std::uint64_t{1} << i;
     if ((known & bit) != 0) continue;
-    const Eigen::Array3i place(i % kSamples, i / kSamples % kSamples, i / (kSamples * kSamples));
-    if (triangle.squared_distance(low.array() + (place.cast<double>() + 0.5) / kSamples) <= reach * reach) known |= bit;
+    const Eigen::Array3i place(i % kFillSamples, i / kFillSamples % kFillSamples, i / (kFillSamples * kFillSamples));
+    if (triangle.squared_distance(low.array() + (place.cast<double>() + 0.5) / kFillSamples) <= reach * reach)
+      known |= bit;
   }
   return known;
 }
@@ -191,7 +192,7 @@ void fill_shell(const CellSurface& surface, double thickness, CellSums& sums) {
       }
     }
   }
-  const double share = thickness / sampled / (kSamples * kSamples * kSamples);
+  const double share = thickness / sampled / (kFillSamples * kFillSamples * kFillSamples);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     sums.weight[i] = 1;
     sums.weighted[i] = float(share * std::popcount(samples[i]));

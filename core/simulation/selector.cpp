@@ -16,10 +16,10 @@
 namespace sprung {
 namespace {
 
-constexpr double kRounding = 1e-9;    // of the longest side
-constexpr double kAlmostHalf = 0.49;  // of a brick; not quite half, where rounding errors would decide
-constexpr double kSamePaint = 2.5;    // of 255: rounding of colours in files
-constexpr double kInside = 0.5;       // winding number
+constexpr double kSelectionRounding = 1e-9;  // of the longest side
+constexpr double kAlmostHalf = 0.49;         // of a brick; not quite half, where rounding errors would decide
+constexpr double kSamePaint = 2.5;           // of 255: rounding of colours in files
+constexpr double kInside = 0.5;              // winding number
 
 Vec3 middle_of(const Points& points) {
   const Vec3 low = points.colwise().minCoeff();
@@ -72,7 +72,7 @@ std::vector<int> Selector::bricks(const Selection& selection, const BrickGrid& g
     const Vec3 place = place_of(*selection.nearest);
     return solid_nearest_to(place) == solid ? row_nearest_to(place, middles) : std::vector<int>{};
   }
-  const double margin = kRounding * body_.extent.maxCoeff();
+  const double margin = kSelectionRounding * body_.extent.maxCoeff();
   return rows_where(middles, test_of(selection, margin, std::numeric_limits<double>::infinity()));
 }
 
@@ -86,7 +86,7 @@ std::vector<int> Selector::triangles(const Selection& selection, const Points& m
     const Vec3 place = place_of(*selection.nearest);
     return solid_nearest_to(place) == solid ? row_nearest_to(place, middles) : std::vector<int>{};
   }
-  return rows_where(middles, test_of(selection, kRounding * body_.extent.maxCoeff(), body_.brick_size));
+  return rows_where(middles, test_of(selection, kSelectionRounding * body_.extent.maxCoeff(), body_.brick_size));
 }
 
 Vec3 Selector::place_of(const Vec3& fractions) const {
@@ -124,7 +124,8 @@ Selector::Test Selector::test_of(const Selection& selection, double margin, doub
 
 /// The lattice extends a little beyond the body, so points outside its bounding box are clamped to it.
 Selector::Test Selector::test_of(const Box& box, double margin) const {
-  const Eigen::Array3d extent = body_.extent.array().max(kRounding * body_.extent.maxCoeff());  // a sheet has none
+  const Eigen::Array3d extent =
+      body_.extent.array().max(kSelectionRounding * body_.extent.maxCoeff());  // a sheet has none
   const Eigen::Array3d low = box.min.array() - margin / extent;
   const Eigen::Array3d high = box.max.array() + margin / extent;
   return [low, high, extent, rest_from_bricks = Mat3(body_.bricks_from_rest.transpose())](const Vec3& place) {
@@ -141,7 +142,7 @@ const NearestTriangle& Selector::surface() const {
 /// Points at equal distance to another part count for both, which share their common border.
 Selector::Test Selector::nearest_to_part(const std::string& part, double depth) const {
   const auto nearest = std::make_shared<NearestTriangle>(body_.mesh.positions, triangles_of(part));
-  const double rounding = kRounding * body_.extent.maxCoeff();
+  const double rounding = kSelectionRounding * body_.extent.maxCoeff();
   return [this, nearest, rounding, deepest = depth + rounding](const Vec3& place) {
     const double distance = nearest->at(place).distance;
     return distance <= deepest && distance <= surface().at(place).distance + rounding;
@@ -149,7 +150,7 @@ Selector::Test Selector::nearest_to_part(const std::string& part, double depth) 
 }
 
 Selector::Test Selector::nearest_to_paint(const Color& paint, double depth) const {
-  const double deepest = depth + kRounding * body_.extent.maxCoeff();
+  const double deepest = depth + kSelectionRounding * body_.extent.maxCoeff();
   return [this, deepest, chosen = vertices_of(paint)](const Vec3& place) {
     const SurfacePlace found = surface().at(place);
     return found.distance <= deepest && chosen[nearest_vertex(found)];
