@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kExact = 1e-9;
 constexpr double kSide = 0.1;          // of a brick of the patch, m
+constexpr double kYoung = 1000;        // of the patch, Pa
 constexpr double kStrain = 0.01;       // of the patch
 constexpr unsigned kSeed = 20090;      // of the patch's grids
 constexpr double kStretchStep = 1e-4;  // for the slope at rest
@@ -30,10 +31,6 @@ Mat3 strain_of(int which) {
   return strain;
 }
 
-Material patch_material(double poisson) {
-  return {.name = "patch", .young = 1000, .poisson = poisson, .density = 1, .damping = 0, .source = ""};
-}
-
 /// A box of bricks in equilibrium, its outer nodes displaced by a uniform strain.
 struct Patch {
   Body body;
@@ -42,8 +39,9 @@ struct Patch {
 };
 
 Patch strained_patch(const Eigen::Vector3i& counts, Model model, double poisson, const Mat3& strain) {
-  Patch patch{
-      .body = make_body(make_box_grid(counts, kSide), model, patch_material(poisson)), .response = {}, .uniform = {}};
+  Patch patch{.body = make_body(make_box_grid(counts, kSide), model, light_material(kYoung, poisson)),
+              .response = {},
+              .uniform = {}};
   Body& body = patch.body;
   patch.uniform = body.rest_positions * strain;
   Supports supports(body.node_count());
@@ -61,7 +59,7 @@ Patch strained_patch(const Eigen::Vector3i& counts, Model model, double poisson,
 /// The worst of the six strains: errors of the inner displacements and of the mean stress, and the energy.
 void measure_patch(const Eigen::Vector3i& counts, Model model, double poisson, Check& inner, Check& stress,
                    Check& energy) {
-  const Material material = patch_material(poisson);
+  const Material material = light_material(kYoung, poisson);
   inner.measured = stress.measured = 0;
   for (int which = 0; which < 6; ++which) {
     const Mat3 strain = strain_of(which);
@@ -175,8 +173,7 @@ CaseResult run_equations(const Choice& choice) {
 }
 
 CaseResult run_uniaxial(const Choice& choice) {
-  const Material material{
-      .name = "unit", .young = 1, .poisson = choice.poisson.value_or(0.3), .density = 1, .damping = 0, .source = ""};
+  const Material material = light_material(1, choice.poisson.value_or(0.3));
   constexpr std::array<Model, 3> kModels{Model::kCalibrated, Model::kTensile, Model::kM1};
   std::vector<UniaxialLaw> laws;  // those that can be evaluated
   CaseResult result;

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "app/validate/cases.h"
+#include "app/validate/responses.h"
 #include "core/body/membrane.h"
 #include "core/dynamics/statics/membrane_statics.h"
 #include "core/error.h"
@@ -70,9 +71,8 @@ struct Variant {
 
 /// Throws Error(kBadInput) where the model does not support the shape of the rectangles.
 MembraneRun make_run(const Variant& variant, const Vec2& size = {kLength, kHeight}) {
-  const Material material{
-      .name = "membrane", .young = kYoung, .poisson = variant.poisson, .density = 1, .damping = 0, .source = ""};
-  Membrane membrane = make_membrane(variant.counts[0], variant.counts[1], size, variant.model, material);
+  Membrane membrane =
+      make_membrane(variant.counts[0], variant.counts[1], size, variant.model, light_material(kYoung, variant.poisson));
   const Points2 no_loads = Points2::Zero(membrane.node_count(), 2);
   return {variant.counts, size, std::move(membrane), no_loads};
 }
@@ -81,25 +81,16 @@ MembraneRun make_run(const Variant& variant, const Vec2& size = {kLength, kHeigh
 /// same in 2D, where there are only edges and diagonals.
 std::vector<RectangleModel> rectangle_models(const std::optional<Model>& model) {
   if (!model) return {RectangleModel::kCalibrated, RectangleModel::kCorrected, RectangleModel::kPlain};
-  switch (*model) {
-    case Model::kCalibrated:
-      return {RectangleModel::kCalibrated};
-    case Model::kTensile:
-    case Model::kM1:
-      return {RectangleModel::kCorrected};
-    case Model::kM2Plain:
-    case Model::kM1Plain:
-      return {RectangleModel::kPlain};
-    case Model::kFem:
-      break;
-  }
-  return {};
+  if (*model == Model::kFem) return {};
+  if (*model == Model::kCalibrated) return {RectangleModel::kCalibrated};
+  const bool is_corrected = *model == Model::kTensile || *model == Model::kM1;
+  return {is_corrected ? RectangleModel::kCorrected : RectangleModel::kPlain};
 }
 
 /// The chosen grid of a membrane four times as long as high, else the given ones.
 std::vector<Counts> chosen_counts(const Choice& choice, std::vector<Counts> varied) {
   if (!choice.bricks) return varied;
-  return {{*choice.bricks, std::max(1, int(std::lround(*choice.bricks * kHeight / kLength)))}};
+  return {{*choice.bricks, std::max(1, int(std::lround(*choice.bricks / (kLength / kHeight))))}};
 }
 
 Check check_of(std::string_view experiment, const Variant& variant) {
@@ -219,7 +210,9 @@ Points2 solve_patch(MembraneRun& run, const Points2& uniform) {
 
 /// The worst of the three strains: the error of the inner displacements, and the energy.
 void measure_patch(const Variant& variant, Check& inner, Check& energy) {
-  const Vec2 size(0.1 * variant.counts[0], 0.09 * variant.counts[1]);  // rectangles that are not square
+  constexpr double kSide = 0.1;      // of a rectangle along x, m
+  constexpr double kFlatness = 0.9;  // its side along y over that
+  const Vec2 size(kSide * variant.counts[0], kFlatness * kSide * variant.counts[1]);
   inner.measured = 0;
   for (int which = 0; which < 3; ++which) {
     MembraneRun run = make_run(variant, size);

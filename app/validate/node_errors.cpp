@@ -5,9 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
+#include <cstdio>
 #include <fstream>
-#include <sstream>
 
 #include "core/bricks/embedding.h"
 #include "core/error.h"
@@ -22,17 +21,10 @@ using Row = std::array<double, 7>;
 
 Row parse_row(const std::string& line, const std::string& place) {
   Row row{};
-  std::istringstream words(line);
-  std::string word;
-  std::size_t count = 0;
-  bool is_number = true;
-  while (is_number && std::getline(words, word, ',')) {
-    char* end = nullptr;
-    const double value = std::strtod(word.c_str(), &end);
-    is_number = count < row.size() && !word.empty() && *end == '\0';
-    if (is_number) row[count++] = value;
-  }
-  if (is_number && count == row.size()) return row;
+  int end = 0;
+  const int count = std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf,%lf,%lf,%lf%n", &row[0], &row[1], &row[2], &row[3],
+                                &row[4], &row[5], &row[6], &end);
+  if (count == 7 && end == isize(line)) return row;
   throw Error(ErrorKind::kBadInput, fmt::format("{}: '{}' is not seven numbers, {}", place, line, kHead));
 }
 

@@ -123,8 +123,7 @@ SvgPlot stretch_plot(double poisson, std::span<const Model> models, const Value&
   constexpr int kSteps = 75;
   SvgPlot plot;
   plot.x = {.label = "stretch (length / rest length)", .ticks = {0.5, 1, 1.5, 2}};
-  const Material material{.name = "unit", .young = 1, .poisson = poisson, .density = 1, .damping = 0, .source = ""};
-  for (const UniaxialLaw& law : uniaxial_laws(models, material)) {
+  for (const UniaxialLaw& law : uniaxial_laws(models, light_material(1, poisson))) {
     Curve curve{.name = law.name, .dashed = !law.model};
     if (law.name.starts_with("St.")) curve.color = ink::kVermilion;
     for (const ModelStyle& style : kStyles) {
@@ -183,7 +182,7 @@ Figure node_error_figure(const std::vector<NodeErrors>& errors) {
       .caption = "Every node, as in the paper's Figure 5.",
       .width = 980};
   for (const ModelStyle& style : std::span(kStyles).first(3)) {
-    SvgPlot plot{.title = std::string(style.name), .reference = ReferenceLine{0, ""}};
+    SvgPlot plot{.title = std::string(style.name), .reference = 0};
     plot.x = {.label = "x / L", .ticks = {0, 0.5, 1}};
     for (const NodeErrors& one : errors) {
       if (one.model == style.model && is_same_ratio(one.poisson, kShownRatio)) add_node_errors(one, plot);
@@ -228,7 +227,7 @@ Figure stress_stretch_figure() {
       stretch_plot(kShownRatio, kModels, [](double, const UniaxialResponse& response) { return response.stress; });
   plot.x.ticks = {0.5, 0.75, 1, 1.25, 1.5, 1.75, 2};
   plot.y = {.label = "nominal stress / E"};
-  plot.reference = ReferenceLine{0, ""};
+  plot.reference = 0;
   return {.name = "stress_stretch",
           .title = "A brick of springs at large strain",
           .subtitle = "uniaxial stretch with free sides, ν = 0.3; all laws share E and ν at rest",

@@ -68,6 +68,10 @@ double first_guess(const Material& material, double stretch) { return std::pow(s
 
 }  // namespace
 
+Material light_material(double young, double poisson) {
+  return {.name = "light", .young = young, .poisson = poisson, .density = 1, .damping = 0, .source = ""};
+}
+
 UniaxialResponse brick_uniaxial(Model model, const Material& material, double stretch) {
   const BrickLaw law = brick_law(model, material, 1);
   const double t = solve_sideways(first_guess(material, stretch),
@@ -99,9 +103,8 @@ std::vector<UniaxialLaw> uniaxial_laws(std::span<const Model> models, const Mate
 }
 
 double cantilever_deflection(Model model, double poisson, int across) {
-  const Material material{
-      .name = "beam", .young = kYoung, .poisson = poisson, .density = 1, .damping = 0, .source = ""};
-  const Body body = make_body(make_box_grid({4 * across, across, across}, kThickness / across), model, material);
+  const Body body = make_body(make_box_grid({4 * across, across, across}, kThickness / across), model,
+                              light_material(kYoung, poisson));
   Supports supports(body.node_count());
   Points weight = Points::Zero(body.node_count(), 3);
   weight.col(1) = -body.masses;  // 1 kg/m^3 at 1 m/s^2

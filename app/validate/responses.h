@@ -9,6 +9,9 @@
 
 namespace sprung {
 
+/// An elastic material of density 1 kg/m3 without damping; E in Pa.
+[[nodiscard]] Material light_material(double young, double poisson);
+
 /// The state of a solid stretched along one axis, sides free.
 struct UniaxialResponse {
   double sideways = 1;  // stretch of the two other axes (length over rest length)

@@ -39,7 +39,7 @@ AxisRange range_over(const SvgPlot& plot, const Axis& axis, int coordinate) {
       if (point.allFinite()) values.push_back(point[coordinate]);
     }
   }
-  if (plot.reference && coordinate == 1) values.push_back(plot.reference->y);
+  if (plot.reference && coordinate == 1) values.push_back(*plot.reference);
   if (axis.scale == Scale::kLog) std::erase_if(values, [](double value) { return value <= 0; });
   if (values.empty()) values = {1};
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
@@ -103,9 +103,8 @@ std::string axes(const Field& f, const SvgPlot& plot) {
   out += words(plot.left + 14, middle, kLabelSize, "middle", "#333", plot.y.label,
                fmt::format("transform=\"rotate(-90 {:.1f} {:.1f})\"", plot.left + 14, middle));
   if (!plot.reference) return out;
-  const double y = f.py(plot.reference->y);
-  out += path(fmt::format("M{:.1f} {:.1f}H{:.1f}", f.left, y, f.right), "#777", 1.2, "stroke-dasharray=\"5 4\"");
-  return out + words(f.left + 8, y - 5, 12, "start", "#666", plot.reference->name);
+  const std::string line = fmt::format("M{:.1f} {:.1f}H{:.1f}", f.left, f.py(*plot.reference), f.right);
+  return out + path(line, "#777", 1.2, "stroke-dasharray=\"5 4\"");
 }
 
 std::string drawn(const Field& f, const Curve& curve) {

@@ -42,20 +42,14 @@ struct Curve {
   bool shows_values = false;  // writes y below every point, with two digits
 };
 
-/// A dashed horizontal line with a name above its left end.
-struct ReferenceLine {
-  double y = 0;
-  std::string name{};
-};
-
 struct SvgPlot {
   std::string title{};
   Axis x{};
   Axis y{};
-  std::vector<Curve> curves{};  // the first is drawn on top
-  std::optional<ReferenceLine> reference{};
-  bool has_legend = true;  // names of curves beside their ends
-  double left = 14;        // px, place in the figure, axes and labels included
+  std::vector<Curve> curves{};        // the first is drawn on top
+  std::optional<double> reference{};  // y of a dashed horizontal line
+  bool has_legend = true;             // names of curves beside their ends
+  double left = 14;                   // px, place in the figure, axes and labels included
   double top = 64;
   double width = 0;  // 0: to the figure's edge; height likewise
   double height = 0;

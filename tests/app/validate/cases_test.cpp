@@ -1,4 +1,4 @@
-#include "app/validate/built_in_cases.h"
+#include "app/validate/cases.h"
 
 #include <gtest/gtest.h>
 

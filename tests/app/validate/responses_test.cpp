@@ -1,9 +1,9 @@
+#include "app/validate/responses.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "app/report/locking.h"
-#include "app/report/uniaxial.h"
 #include "tests/support/bodies.h"
 
 namespace sprung {
