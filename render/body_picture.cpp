@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/body/brick_measures.h"
+#include "core/body/brick_kernel.h"
 #include "render/image/color_map.h"
 #include "render/renderer.h"
 
@@ -80,6 +80,25 @@ CornerColor color_map(const Eigen::VectorXd& values) {
   };
 }
 
+/// Norm of Green's strain of each brick's mean axes, averaged at the nodes.
+Eigen::VectorXd node_strains(const Body& body) {
+  Eigen::VectorXd sums = Eigen::VectorXd::Zero(body.node_count());
+  Eigen::VectorXd counts = Eigen::VectorXd::Zero(body.node_count());
+  for (std::size_t brick = 0; brick < body.grid.cells.size(); ++brick) {
+    const auto axes = detail::mean_axes(brick_corners(body, brick));
+    Mat3 gradient;
+    for (int i = 0; i < 3; ++i) {
+      for (int c = 0; c < 3; ++c) gradient(c, i) = axes[i][c] / body.grid.brick_size;
+    }
+    const double strain = (0.5 * (gradient.transpose() * gradient - Mat3::Identity())).norm();
+    for (const int node : body.grid.nodes[brick]) {
+      sums[node] += strain;
+      counts[node] += 1;
+    }
+  }
+  return sums.cwiseQuotient(counts);
+}
+
 double diagonal(const Points& points) { return (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm(); }
 
 Image draw_on_white(const Skin& skin, const BodyPictureOptions& options, double azimuth, double elevation) {
@@ -112,10 +131,7 @@ BodyPicture draw_body(const Body& body, const BodyPictureOptions& options) {
   const bool is_strain = options.color_by == ColorBy::kStrain;
   const Points moved = body.positions - body.rest_positions;
   const Points shown = body.rest_positions + options.magnification * moved;
-  Eigen::VectorXd values = 1000 * moved.rowwise().norm();
-  if (is_strain) {
-    values = 100 * node_means(body.grid, measure_bricks(body, BrickMeasure::kStrain, body.positions));
-  }
+  const Eigen::VectorXd values = is_strain ? Eigen::VectorXd(100 * node_strains(body)) : 1000 * moved.rowwise().norm();
   const Skin skin = brick_skin(body, shown, color_map(values), kLine * diagonal(shown));
   return {draw_on_white(skin, options, 30, 18), is_strain ? "strain (%)" : "displacement (mm)", 0, values.maxCoeff()};
 }

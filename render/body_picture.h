@@ -19,7 +19,7 @@ using CornerColor = std::function<Eigen::Vector3f(const BrickFace& face, int cor
 
 enum class ColorBy {
   kDisplacement,  // distance of each node from its rest position, mm
-  kStrain         // BrickMeasure::kStrain averaged at nodes, %
+  kStrain         // norm of Green's strain, averaged at nodes, %
 };
 
 struct BodyPictureOptions {
