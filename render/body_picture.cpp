@@ -62,9 +62,12 @@ Skin face_skin(const std::vector<BrickFace>& faces, const Points& positions, con
         const double u = borders[i + (c == 1 || c == 2 ? 1 : 0)];
         const double v = borders[j + (c >= 2 ? 1 : 0)];
         const Eigen::RowVector4d weights((1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v);
-        skin.positions.row(vertex) = weights * corners;
-        skin.normals.row(vertex) = (weights * directions).normalized();
-        skin.colors.row(vertex).head<3>() = ((is_rim ? kRimShade : 1) * weights * colors).cast<float>();
+        const auto mix = [&](const Eigen::Matrix<double, 4, 3>& at) -> Eigen::RowVector3d {
+          return weights[0] * at.row(0) + weights[1] * at.row(1) + weights[2] * at.row(2) + weights[3] * at.row(3);
+        };
+        skin.positions.row(vertex) = mix(corners);
+        skin.normals.row(vertex) = mix(directions).normalized();
+        skin.colors.row(vertex).head<3>() = ((is_rim ? kRimShade : 1) * mix(colors)).cast<float>();
       }
       skin.triangles.row(vertex / 2 - 2) << vertex - 4, vertex - 3, vertex - 2;
       skin.triangles.row(vertex / 2 - 1) << vertex - 4, vertex - 2, vertex - 1;
