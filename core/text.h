@@ -1,6 +1,7 @@
 #pragma once
 #include <fmt/format.h>
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,5 +20,8 @@ namespace sprung {
 
 /// "; did you mean 'rubber'?" where a known word is close, else "; known are: a, b, c".
 [[nodiscard]] std::string did_you_mean(std::string_view word, std::span<const std::string_view> known);
+
+/// Base64 (RFC 4648, padded).
+[[nodiscard]] std::string base64(std::span<const std::byte> bytes);
 
 }  // namespace sprung

@@ -4,83 +4,36 @@
 
 #include <algorithm>
 
-#include "app/console/console.h"
-#include "app/console/interrupt.h"
-#include "app/validate/built_in_cases.h"
-#include "app/validate/check_text.h"
-#include "app/validate/experiment_files.h"
-#include "app/validate/make_report.h"
-#include "app/validate/run_experiment.h"
+#include "app/validate/cases.h"
+#include "app/validate/report.h"
 
 namespace sprung {
-namespace {
-
-/// What to run.
-struct Chosen {
-  std::vector<NamedScene> scenes;
-  std::vector<BuiltInCase> built_in;
-};
-
-Chosen select(const ValidateOptions& options) {
-  Chosen chosen;
-  std::vector<std::string> scenes;
-  for (const std::string& word : options.cases) {
-    const auto is_word = [&](const BuiltInCase& known) { return known.name == word; };
-    const auto found = std::find_if(built_in_cases().begin(), built_in_cases().end(), is_word);
-    if (found == built_in_cases().end()) {
-      scenes.push_back(word);
-    } else {
-      chosen.built_in.push_back(*found);
-    }
-  }
-  const bool is_all = options.cases.empty();
-  if (is_all) chosen.built_in.assign(built_in_cases().begin(), built_in_cases().end());
-  if (is_all || !scenes.empty()) chosen.scenes = read_experiments(scenes);
-  return chosen;
-}
-
-void print_list() {
-  const Chosen all = select({});
-  for (const NamedScene& scene : all.scenes) fmt::print("{:<24}{}\n", scene.name, scene.scene.experiment.title);
-  for (const BuiltInCase& known : all.built_in) fmt::print("{:<24}{}\n", known.name, known.title);
-}
-
-void print(const CaseResult& result) {
-  for (const Check& check : result.checks) fmt::print("{}\n", check_line(check));
-  fmt::print("{}", table_text(result.table));
-  std::fflush(stdout);
-}
-
-}  // namespace
 
 bool validate(const ValidateOptions& options, const Console& console) {
+  const std::vector<Case> cases = find_cases(options.list ? std::vector<std::string>{} : options.cases);
   if (options.list) {
-    print_list();
+    for (const Case& one : cases) fmt::print("{:<24}{}\n", one.name, one.title);
     return true;
   }
-  const Chosen chosen = select(options);
   std::vector<FinishedCase> finished;
   std::vector<Check> checks;
-  const auto add = [&](FinishedCase one) {
-    if (one.result.checks.empty()) console.note(fmt::format("{} has no answer to that choice", one.name));
-    if (!options.json) print(one.result);
-    checks.insert(checks.end(), one.result.checks.begin(), one.result.checks.end());
-    finished.push_back(std::move(one));
-  };
   Progress progress(console, "validate");
-  for (const NamedScene& scene : chosen.scenes) {
-    add({.name = scene.name,
-         .result = run_experiment(scene.name, scene.scene, options.choice, console),
-         .scene = &scene.scene});
-  }
-  for (const BuiltInCase& known : chosen.built_in) {
-    stop_if_interrupted();
-    add({.name = std::string(known.name), .result = known.run(options.choice), .built_in = &known});
+  for (const Case& one : cases) {
+    console.check_interrupt();
+    CaseResult result = one.run(options.choice, console);
+    if (result.checks.empty()) console.note(fmt::format("{} does not cover that choice", one.name));
+    if (!options.json) {
+      for (const Check& check : result.checks) fmt::print("{}\n", check_line(check));
+      fmt::print("{}", table_text(result.table));
+      std::fflush(stdout);
+    }
+    checks.insert(checks.end(), result.checks.begin(), result.checks.end());
+    finished.push_back({one, std::move(result)});
   }
   if (options.json) fmt::print("{}", checks_json(checks));
   const auto gates = std::count_if(checks.begin(), checks.end(), [](const Check& check) { return check.is_gate(); });
   const auto failed = std::count_if(checks.begin(), checks.end(), [](const Check& check) { return !check.passed(); });
-  progress.finish(fmt::format("{} checks, {} of them gates, {} failed", checks.size(), gates, failed));
+  progress.finish(fmt::format("{} checks, {} of them with a tolerance, {} failed", checks.size(), gates, failed));
   if (!options.report.empty()) make_report(options.report, finished, progress.seconds(), console);
   return failed == 0;
 }

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "app/console/console.h"
-#include "app/validate/case_result.h"
+#include "app/validate/check.h"
 
 namespace sprung {
 
@@ -16,7 +16,7 @@ struct ValidateOptions {
   bool json = false;
 };
 
-/// Runs experiments; their checks go to stdout. False where any gate fails.
+/// Runs experiments and prints their checks to stdout. False where any check fails.
 /// Throws Error(kUsage) for an unknown name, Error(kBadInput), Error(kFailed), Interrupted.
 [[nodiscard]] bool validate(const ValidateOptions& options, const Console& console);
 

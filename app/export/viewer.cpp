@@ -8,8 +8,8 @@
 #include <span>
 
 #include "app/export/viewer_page.h"
-#include "app/report/png_base64.h"
 #include "core/io/animation.h"
+#include "core/text.h"
 
 namespace sprung {
 namespace {

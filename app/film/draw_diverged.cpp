@@ -4,9 +4,9 @@
 
 #include <string>
 
-#include "app/report/experiment_picture.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "render/body_picture.h"
 #include "render/image/png.h"
 
 namespace sprung {
@@ -16,11 +16,11 @@ namespace {
 std::string draw(const Body& body, const std::filesystem::path& picture) {
   if (!body.positions.allFinite()) return "";
   try {
-    const ExperimentPicture drawn = draw_experiment(body, {.color_by = ColorBy::kStrain, .width = 1280, .height = 800});
+    const BodyPicture drawn = draw_body(body, {.color_by = ColorBy::kStrain, .width = 1280, .height = 800});
     make_folder(picture.parent_path());
     write_png(drawn.image, picture);
     return fmt::format("; {} shows its bricks before, coloured by strain from {:.3g} to {:.3g} %", picture.string(),
-                       drawn.colors.low, drawn.colors.high);
+                       drawn.low, drawn.high);
   } catch (const Error&) {
     return "";  // the first error is the one to tell
   }

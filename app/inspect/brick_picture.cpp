@@ -4,7 +4,7 @@
 
 #include "app/film/drawn_shapes.h"
 #include "app/film/film_pipeline.h"
-#include "app/report/brick_skin.h"
+#include "render/body_picture.h"
 #include "render/renderer.h"
 
 namespace sprung {
@@ -87,8 +87,9 @@ Image draw_bricks(const Preparation& prepared) {
     skin.positions = body.skin_positions(body.positions);
     skin.normals = deform_normals(body.grid, body.skin_embedding, body.skin.normals, body.positions);
     colors.push_back(srgb(body.color));
-    bricks.push_back(
-        colored_bricks(body, body.positions, brick_colors(body.grid, *solids[i], prepared.thin_parts[i]), line));
+    const std::vector<Eigen::Vector3f> by_brick = brick_colors(body.grid, *solids[i], prepared.thin_parts[i]);
+    const auto color = [&](const BrickFace& face, int) { return by_brick[face.brick]; };
+    bricks.push_back(brick_skin(body, body.positions, color, line));
   }
   const Camera camera = frame_bounds(bounds, 1, 30, 20);
   return sheet_of({draw(skins, colors, bounds, camera), draw(bricks, colors, bounds, camera)}, 2, 0);

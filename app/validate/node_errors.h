@@ -7,25 +7,24 @@
 
 namespace sprung {
 
-/// Displacements known at points of a body, from an independent solution.
+/// Displacements at points of a body, from an independent solution.
 struct KnownSolution {
   double poisson = 0;
-  Points places;         // n x 3, m, at rest, from the middle of the body's bounding box
+  Points places;         // n x 3, m, at rest, from the centre of the body's bounding box
   Points displacements;  // n x 3, m
 };
 
-/// The solutions in a table "poisson,x,y,z,ux,uy,uz" (CSV, SI units; lines that begin with # are remarks), one for each
-/// Poisson's ratio. Throws Error(kBadInput) naming file and line.
+/// The solutions in a table "poisson,x,y,z,ux,uy,uz" (CSV, SI units, # starts a comment line), one for each Poisson's
+/// ratio. Throws Error(kBadInput) naming file and line.
 [[nodiscard]] std::vector<KnownSolution> read_known_solutions(const std::filesystem::path& file);
 
-/// The error at one node.
 struct NodeError {
-  double along = 0;  // place along x at rest, 0 to 1 over the known points
+  double along = 0;  // x at rest, 0 to 1 over the known points
   Vec3 known;        // displacement, m
   Vec3 error;        // of the body's displacement, m
 };
 
-/// How far a body is from a known solution, node by node.
+/// The difference between a body and a known solution at its nodes.
 struct NodeErrors {
   std::string model{};
   double poisson = 0;
@@ -40,8 +39,8 @@ struct NodeErrors {
   [[nodiscard]] double rms_error() const;
 };
 
-/// The errors of the body as it stands, at those known points where it has a node; `bricks_from_rest` turns the points
-/// into its bricks. Throws Error(kBadInput) where it has no node at any of them.
+/// The errors of body.positions at the known points that coincide with a node; `bricks_from_rest` rotates the points
+/// into the frame of the grid. Throws Error(kBadInput) where no node coincides with any of them.
 [[nodiscard]] NodeErrors node_errors(const Body& body, const Mat3& bricks_from_rest, const KnownSolution& known);
 
 }  // namespace sprung

@@ -70,8 +70,9 @@ void append_chunk(Bytes& bytes, std::string_view name, const Bytes& data) {
   append_number(bytes, libdeflate_crc32(0, bytes.data() + begin, bytes.size() - begin));
 }
 
-/// As ISO/IEC 15948 has it.
-Bytes encode(const Image& image) {
+}  // namespace
+
+std::vector<std::uint8_t> encode_png(const Image& image) {
   Bytes header;
   append_number(header, image.width);
   append_number(header, image.height);
@@ -86,10 +87,8 @@ Bytes encode(const Image& image) {
   return bytes;
 }
 
-}  // namespace
-
 void write_png(const Image& image, const std::filesystem::path& file) {
-  const Bytes encoded = encode(image);
+  const Bytes encoded = encode_png(image);
   write_file(file, {reinterpret_cast<const char*>(encoded.data()), encoded.size()});
 }
 

@@ -1,9 +1,14 @@
 #pragma once
+#include <cstdint>
 #include <filesystem>
+#include <vector>
 
 #include "render/image/image.h"
 
 namespace sprung {
+
+/// The bytes of a PNG file (ISO/IEC 15948).
+[[nodiscard]] std::vector<std::uint8_t> encode_png(const Image& image);
 
 /// Writes a PNG beside its name and renames it, so that no half picture stays. Throws Error(kFailed) naming the file
 /// and the system's reason.

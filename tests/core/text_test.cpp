@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <span>
+#include <string>
+#include <vector>
 
 namespace sprung {
 namespace {
@@ -25,6 +28,16 @@ TEST(Nearest, GuessesNothingFarOff) {
 TEST(Nearest, HintNamesTheWordOrAllOfThem) {
   EXPECT_EQ(did_you_mean("gelatine", kWords), "; did you mean 'gelatin'?");
   EXPECT_EQ(did_you_mean("granite", kWords), "; known are: cork, gelatin, rubber, steel");
+}
+
+TEST(Base64, FollowsTheStandardsExamples) {
+  const auto encoded = [](const std::string& text) { return base64(std::as_bytes(std::span(text))); };
+  EXPECT_EQ(encoded(""), "");
+  EXPECT_EQ(encoded("f"), "Zg==");
+  EXPECT_EQ(encoded("fo"), "Zm8=");
+  EXPECT_EQ(encoded("foo"), "Zm9v");
+  EXPECT_EQ(encoded("foobar"), "Zm9vYmFy");
+  EXPECT_EQ(base64(std::vector<std::byte>(3, std::byte{0xFF})), "////");
 }
 
 }  // namespace

@@ -38,7 +38,6 @@ const std::vector<std::string> kFolders{
     "render",
     "app/console",
     "app/scene",
-    "app/report",
     "app/validate",
     "app/film",
     "app/export",
