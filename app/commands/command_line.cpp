@@ -18,8 +18,7 @@
 #include "app/help/manual.h"
 #include "app/scene/make_scene.h"
 #include "app/scene/scene_file.h"
-#include "app/scene/scene_keys.h"
-#include "app/scene/scene_schema.h"
+#include "app/scene/scene_reference.h"
 #include "app/scene/scene_values.h"
 #include "core/error.h"
 #include "core/text.h"
@@ -96,12 +95,12 @@ Setting setting(const std::string& text) {
 }
 
 /// One value of a key of the scene, from the words after an option.
-template <class Value, class Owner>
+template <class Value>
 void read_choice(const CLI::App& command, const char* option, const char* key, const std::string& text,
                  std::optional<Value>& value) {
   if (command.count(option) == 0) return;
   try {
-    parse_value(text, *find_key<Owner>(key), value);
+    parse_value(text, key_at(key), value);
   } catch (const Error& error) {
     throw Error(ErrorKind::kUsage, fmt::format("{}: {}", option, error.what()));
   }
@@ -177,7 +176,7 @@ void read_scene_command(const CLI::App& command, RawOptions& words, CommandLine&
 
 void read_film(const CLI::App& command, RawOptions& words, CommandLine& line) {
   read_scene_command(command, words, line);
-  read_choice<double, Film>(command, "--fps", "fps", words.fps, line.scene.fps);
+  read_choice<double>(command, "--fps", "fps", words.fps, line.scene.fps);
 }
 
 void read_materials(const CLI::App& command, RawOptions& words, CommandLine& line) {
@@ -191,9 +190,9 @@ void read_validate(const CLI::App& command, RawOptions& words, CommandLine& line
   refuse_repeated(command);
   line.validate = std::move(words.validate);
   auto& choice = line.validate.choice;
-  read_choice<Model, SceneBody>(command, "--model", "model", words.model, choice.model);
-  read_choice<double, Material>(command, "--poisson", "poisson", words.poisson, choice.poisson);
-  read_choice<int, SceneBody>(command, "--bricks", "bricks", words.bricks, choice.bricks);
+  read_choice<Model>(command, "--model", "body.model", words.model, choice.model);
+  read_choice<double>(command, "--poisson", "body.material.poisson", words.poisson, choice.poisson);
+  read_choice<int>(command, "--bricks", "body.bricks", words.bricks, choice.bricks);
   line.scene.quiet = words.scene.quiet;
   line.scene.verbose = words.scene.verbose;
 }

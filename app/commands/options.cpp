@@ -6,7 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <array>
 
-#include "app/scene/scene_keys.h"
+#include "app/scene/scene_reference.h"
 
 namespace sprung {
 namespace {
@@ -287,33 +287,10 @@ constexpr std::array<KeyOption, 22> kKeyOptions{{
     {"--color-by", "render.color_by", "FIELD", {.is_of_pictures = true, .is_common = true}},
 }};
 
-template <class Owner>
-std::string key_help(std::string_view path);
-
-template <class Value>
-std::string help_below(const Value*, std::string_view) {
-  return "";
-}
-std::string help_below(const Material*, std::string_view rest) { return key_help<Material>(rest); }
-std::string help_below(const SceneSolver*, std::string_view rest) { return key_help<SceneSolver>(rest); }
-std::string help_below(const SceneRender*, std::string_view rest) { return key_help<SceneRender>(rest); }
-std::string help_below(const std::vector<SceneBody>*, std::string_view rest) { return key_help<SceneBody>(rest); }
-
-template <class Owner>
-std::string key_help(std::string_view path) {
-  const auto dot = path.find('.');
-  const Key<Owner>* key = find_key<Owner>(path.substr(0, dot));
-  if (dot == std::string_view::npos) return std::string(key->help);
-  const auto below = [&](auto field) {
-    return help_below(static_cast<std::remove_cvref_t<decltype(Owner{}.*field)>*>(nullptr), path.substr(dot + 1));
-  };
-  return std::visit(below, key->member);
-}
-
 }  // namespace
 
 std::span<const KeyOption> key_options() { return kKeyOptions; }
 
-std::string help_of(const KeyOption& option) { return key_help<Film>(option.key); }
+std::string help_of(const KeyOption& option) { return std::string(key_at(option.key).help); }
 
 }  // namespace sprung

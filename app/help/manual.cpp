@@ -9,9 +9,9 @@
 
 #include "app/commands/options.h"
 #include "app/scene/material_library.h"
-#include "app/scene/named_values.h"
 #include "app/scene/scenarios.h"
-#include "app/scene/scene_tables.h"
+#include "app/scene/scene_reference.h"
+#include "app/scene/scene_values.h"
 #include "app/validate/built_in_cases.h"
 #include "app/validate/experiment_files.h"
 #include "core/error.h"
