@@ -1,10 +1,9 @@
-#include "app/commands/validate.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "app/console/console.h"
+#include "app/commands/commands.h"
+#include "app/commands/options.h"
 #include "app/console/interrupt.h"
 #include "app/validate/built_in_cases.h"
 #include "app/validate/check_text.h"
@@ -14,6 +13,16 @@
 
 namespace sprung {
 namespace {
+
+struct ValidateOptions {
+  std::vector<std::string> cases{};  // names of built-in experiments or scene files; none: all that are built in
+  std::string model{};
+  std::string poisson{};
+  std::string bricks{};
+  std::string report{};  // folder; empty: none
+  bool list = false;
+  bool json = false;
+};
 
 /// What to run.
 struct Chosen {
@@ -51,9 +60,8 @@ void print(const CaseResult& result) {
   std::fflush(stdout);
 }
 
-}  // namespace
-
-bool validate(const ValidateOptions& options, const Console& console) {
+/// False where any gate fails.
+bool validate(const ValidateOptions& options, const Choice& choice, const Console& console) {
   if (options.list) {
     print_list();
     return true;
@@ -70,12 +78,12 @@ bool validate(const ValidateOptions& options, const Console& console) {
   Progress progress(console, "validate");
   for (const NamedScene& scene : chosen.scenes) {
     add({.name = scene.name,
-         .result = run_experiment(scene.name, scene.scene, options.choice, console),
+         .result = run_experiment(scene.name, scene.scene, choice, console),
          .scene = &scene.scene});
   }
   for (const BuiltInCase& known : chosen.built_in) {
     stop_if_interrupted();
-    add({.name = std::string(known.name), .result = known.run(options.choice), .built_in = &known});
+    add({.name = std::string(known.name), .result = known.run(choice), .built_in = &known});
   }
   if (options.json) fmt::print("{}", checks_json(checks));
   const auto gates = std::count_if(checks.begin(), checks.end(), [](const Check& check) { return check.is_gate(); });
@@ -83,6 +91,37 @@ bool validate(const ValidateOptions& options, const Console& console) {
   progress.finish(fmt::format("{} checks, {} of them gates, {} failed", checks.size(), gates, failed));
   if (!options.report.empty()) make_report(options.report, finished, progress.seconds(), console);
   return failed == 0;
+}
+
+}  // namespace
+
+void add_validate(CLI::App& app, Invocation& invocation) {
+  CLI::App* command = app.add_subcommand("validate", "experiments, measured against theory and reference");
+  const auto options = std::make_shared<ValidateOptions>();
+  command->add_option("FILES", options->cases, "scenes with [[expect]]; default: the built-in experiments");
+  command->add_option("--case", options->cases, "a built-in experiment; may be given several times")
+      ->allow_extra_args(false)
+      ->option_text("NAME");
+  command->add_flag("--list", options->list, "name the built-in experiments, and stop");
+  const CLI::Option* model =
+      command->add_option("--model", options->model, "this law of the bricks only")->option_text("NAME");
+  const CLI::Option* poisson =
+      command->add_option("--poisson", options->poisson, "this Poisson's ratio only")->option_text("NU");
+  const CLI::Option* bricks =
+      command->add_option("--bricks", options->bricks, "this grid only, by the bricks along the longest side")
+          ->option_text("N");
+  command->add_flag("--json", options->json, "checks as JSON");
+  command->add_option("--report", options->report, "folder for report.html")->option_text("DIR");
+  add_messages(*command, invocation.console, "say why a model could not be carried through");
+  command->footer(
+      "Examples:\n  sprung validate\n  sprung validate --case cantilever --model calibrated\n"
+      "  sprung validate mine.toml --report out/report");
+  command->callback([options, model, poisson, bricks, &invocation] {
+    const Choice choice{.model = key_value<Model>(*model, "body.model", options->model),
+                        .poisson = key_value<double>(*poisson, "body.material.poisson", options->poisson),
+                        .bricks = key_value<int>(*bricks, "body.bricks", options->bricks)};
+    if (!validate(*options, choice, invocation.console)) invocation.exit_code = int(ErrorKind::kFailed);
+  });
 }
 
 }  // namespace sprung

@@ -35,8 +35,6 @@ class Console : public Observer {
   void finish(const Progress& progress, std::string_view result) const override;
   void clear(const Progress& progress) const override;
   void check_interrupt() const override;
-  /// With log_json: {"kind": "progress", "members"...}; `members` as they stand in the object.
-  void event(std::string_view kind, std::string_view members) const;
 
  private:
   mutable std::chrono::steady_clock::time_point shown_at_{};

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "app/commands/sweep.h"
+#include "app/commands/commands.h"
 #include "tests/support/json_number.h"
 #include "tests/support/run_program.h"
 
