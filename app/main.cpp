@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kFailed = int(ErrorKind::kFailed);
 
-/// The exit code that fits how it ended.
+/// Runs the program and maps its outcome to an exit code.
 int exit_code(int argc, const char* const* argv) {
   Console console = Console::of_process();
   const std::span words(argv, argc);
@@ -28,7 +28,7 @@ int exit_code(int argc, const char* const* argv) {
     console.warn("interrupted");
     return kInterruptedExitCode;
   } catch (const Error& error) {
-    if (is_interrupted()) return kInterruptedExitCode;  // whatever failed, it was told to stop
+    if (is_interrupted()) return kInterruptedExitCode;  // the interrupt is the reason of whatever failed
     console.error(error.what());
     return int(error.kind());
   } catch (const std::bad_alloc&) {

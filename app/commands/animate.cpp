@@ -15,7 +15,7 @@
 namespace sprung {
 namespace {
 
-/// The film formats with compressed colour take even sides only.
+/// Film formats with subsampled colour need even sides.
 void note_padding(const std::vector<Output>& outputs, const SceneRender& render, const Console& console) {
   const auto [width, height] = render.resolution;
   for (const Output& output : outputs) {

@@ -19,36 +19,37 @@
 namespace sprung {
 namespace {
 
-/// For a newcomer who typed the name of the program and nothing else.
+/// Printed where the name of the program is typed alone.
 constexpr const char* kGreeting =
     "sprung turns a surface mesh into the animation of a soft body of real material.\n\n"
     "  sprung animate bunny.obj -o bunny.mp4    a film of your mesh\n"
-    "  sprung inspect bunny.obj                 what the mesh is, and what its film will take\n"
+    "  sprung inspect bunny.obj                 what the mesh is, and what its film will cost\n"
     "  sprung materials                         what it can be made of\n\n"
     "All commands: sprung --help\n";
 
-/// The words again, as a shell takes them.
+/// The command line, quoted for a shell.
 std::string command_of(int argc, const char* const* argv) {
   std::string command;
   for (const std::string word : std::span(argv, argc)) command += (command.empty() ? "" : " ") + shell_word(word);
   return command;
 }
 
-/// The first word that nothing was made for, or else the first of all.
+/// The first unknown option, or else the first word.
 std::string strange_word(const std::vector<std::string>& extras) {
   const auto is_option = [](const std::string& word) { return word.starts_with('-'); };
   const auto found = std::find_if(extras.begin(), extras.end(), is_option);
   return found == extras.end() ? extras.front() : found->substr(0, found->find('='));
 }
 
-/// "--log-json stands behind the command: sprung animate --log-json", where a command has it: the one that was given.
+/// "--log-json comes after the command: sprung animate --log-json", where the given command (or any, where none is
+/// given) has it.
 std::string known_behind(const CLI::App& app, const std::string& option) {
   const std::vector<CLI::App*> given = app.get_subcommands();
   std::vector<const CLI::App*> commands(given.begin(), given.end());
   if (commands.empty()) commands = app.get_subcommands({});
   for (const CLI::App* command : commands) {
     if (command->get_option_no_throw(option) == nullptr) continue;
-    return fmt::format("{0} stands behind the command: sprung {1} {0}", option, command->get_name());
+    return fmt::format("{0} comes after the command: sprung {1} {0}", option, command->get_name());
   }
   return "";
 }
@@ -64,8 +65,8 @@ std::string known_elsewhere(const CLI::App& command, const std::string& option) 
   return "";
 }
 
-/// Throws Error(kUsage) for the first word that is neither option nor argument, with the nearest word that there is, or
-/// the command that has such an option. `kind` of a word that is no option: "unexpected".
+/// Throws Error(kUsage) for the first word that is neither option nor argument, with the nearest known word or the
+/// command that has such an option. `kind`: what a word that is not an option is called, "unexpected".
 void refuse_extras(const CLI::App& app, std::string_view kind) {
   const std::vector<std::string> extras = app.remaining();
   if (extras.empty()) return;
@@ -86,8 +87,8 @@ void refuse_extras(const CLI::App& app, std::string_view kind) {
   throw Error(ErrorKind::kUsage, fmt::format("{} '{}'{}", is_option ? "unknown option" : kind, word, hint));
 }
 
-/// Lets options of one value be repeated as far as CLI11 is concerned, whose words about it are its own;
-/// refuse_repeated refuses them after parsing.
+/// Lets CLI11 accept repeated options of one value, to replace its message by that of refuse_repeated();
+/// that runs after parsing.
 void accept_repeated(CLI::App& command) {
   for (CLI::Option* option : command.get_options()) {
     if (option->get_items_expected_max() == 1) option->take_last();

@@ -42,7 +42,7 @@ void print_formats() {
   for (const LeftOut& format : left_out_formats()) fmt::print("  {}: {}\n", format.format, format.reason);
 }
 
-/// Before any work is lost.
+/// Checked before any work is done.
 std::vector<ExportTarget> targets_of(const ExportOptions& options, const Film& scene, const FrameRange& range) {
   std::vector<ExportTarget> targets;
   for (const std::string& words : options.outputs.names) {
@@ -73,7 +73,7 @@ void write_all(const ExportOptions& options, const CachedFilmView& view, const F
 
 void export_cache(const ExportOptions& options, const Console& console) {
   if (!options.scene.keys.settings().empty() || !options.scene.scenario.empty()) {
-    throw Error(ErrorKind::kUsage, "a cache is moved already: options of the scene change nothing in it");
+    throw Error(ErrorKind::kUsage, "a cache is simulated already; options of the scene have no effect on it");
   }
   const CacheReader cache(options.scene.input);
   const Film scene = cached_film(cache.header());
@@ -83,7 +83,7 @@ void export_cache(const ExportOptions& options, const Console& console) {
   write_all(options, {simulation, cache, scene}, range, targets, console);
 }
 
-/// A cache for as long as it takes to write what is asked for, beside that.
+/// A temporary cache beside the output.
 class PassingCache {
  public:
   explicit PassingCache(const std::filesystem::path& output) : file_(output) { file_ += ".passing.h5"; }
@@ -137,7 +137,7 @@ void add_export(CLI::App& app, Invocation& invocation) {
                           "may be given several times");
   command->add_option("--frames", options->frames, "these only, counted from 1; default: all")->option_text("A:B");
   command->add_flag("--quantize", options->quantize,
-                    "keep 16 bits a coordinate in film.glb: half the size; says how far off that is");
+                    "keep 16 bits per coordinate in film.glb: half the size; reports the error");
   command->add_flag("--list", options->list, "name the formats, and stop");
   command->add_flag("--overwrite", options->overwrite, "replace files that exist");
   options->scene.add_to(*command, false, "a cache (.h5), a mesh file, or a scene (.toml)");

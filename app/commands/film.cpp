@@ -36,7 +36,7 @@ int last_number(const Output& pictures) {
   return last;
 }
 
-/// "25:48, 70" of the pictures that are not there; empty where all are.
+/// The missing pictures, "25:48, 70"; empty where there are none.
 std::string gaps_in(const Output& pictures, const FrameRange& range) {
   std::string gaps;
   int missing = 0;  // in a row, up to the number before

@@ -25,7 +25,7 @@ std::vector<std::string> split(std::string_view text, std::string_view separator
   return parts;
 }
 
-/// Of the scene's key that an option stands for.
+/// The names that a key of the scene takes.
 std::vector<std::string> names_of_key(std::string_view path) {
   constexpr std::string_view kNames = "one of ";
   const std::string_view table = path.substr(0, path.find('.'));
@@ -61,7 +61,7 @@ std::vector<std::string> settable_keys() {
   return names;
 }
 
-/// Those that come with the program; none where they are not found.
+/// The experiments that come with the program; none where they are not found.
 std::vector<std::string> case_names() {
   std::vector<std::string> names;
   for (const BuiltInCase& known : built_in_cases()) names.emplace_back(known.name);

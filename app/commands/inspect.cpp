@@ -51,7 +51,7 @@ void inspect_scene(const InspectOptions& options, const Console& console) {
   });
 }
 
-/// What one looks for in a cache.
+/// What is printed about a cache.
 struct CacheFacts {
   std::string version;
   std::string build;
@@ -120,7 +120,7 @@ std::string json_of(const CacheFacts& facts) {
                                     {"bytes", facts.bytes},
                                     {"version", facts.version},
                                     {"build", facts.build}};
-  return json.dump() + "\n";
+  return json.dump(1) + "\n";
 }
 
 void inspect_cache(const InspectOptions& options) {
@@ -140,7 +140,7 @@ void inspect_cache(const InspectOptions& options) {
 
 void add_inspect(CLI::App& app, Invocation& invocation) {
   CLI::App* command =
-      app.add_subcommand("inspect", "mesh, scene or cache in, what it is and what its film will take out");
+      app.add_subcommand("inspect", "mesh, scene or cache in, its properties and the cost of its film out");
   const auto options = std::make_shared<InspectOptions>();
   command->add_flag("--json", options->json, "the facts as JSON");
   command->add_option("--picture", options->picture, "draw skin and bricks, thin parts marked")

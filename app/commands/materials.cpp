@@ -35,7 +35,7 @@ Moduli parse_moduli(const std::string& text) {
   const auto colon = text.find(':');
   if (colon == std::string::npos) {
     throw Error(ErrorKind::kUsage,
-                fmt::format("--young: '{}' is no range; write it as 1kPa:2MPa, :2MPa or 1kPa:", text));
+                fmt::format("--young: '{}' is not a range; write it as 1kPa:2MPa, :2MPa or 1kPa:", text));
   }
   Moduli moduli;
   try {
@@ -156,7 +156,7 @@ void add_materials(CLI::App& app, Invocation&) {
   command->add_option("--materials", options->files, "a file with materials of your own; may be given several times")
       ->allow_extra_args(false)
       ->option_text("FILE.toml");
-  command->add_flag("--sources", options->sources, "where every figure is from");
+  command->add_flag("--sources", options->sources, "the source of every value");
   command->add_flag("--json", options->json, "as JSON, SI units, with the sources");
   command->footer(
       "Examples:\n  sprung materials\n  sprung materials silicone --young :1MPa\n"

@@ -79,7 +79,7 @@ double height_of(const SceneBody& body) {
 void add_messages(CLI::App& command, Console& console, const std::string& verbose) {
   command.add_flag("--quiet", console.quiet, "warnings and errors only");
   command.add_flag("--verbose", console.verbose, verbose);
-  command.add_flag("--log-json", console.log_json, "messages and progress as JSON on stderr, an object a line");
+  command.add_flag("--log-json", console.log_json, "messages and progress as JSON on stderr, one object per line");
 }
 
 int count_in(std::string_view option, const std::string& text) {
@@ -113,7 +113,8 @@ void require_input(const CLI::App& command, const std::string& input, std::strin
 }
 
 CLI::Option* JobOptions::add_to(CLI::App& command) {
-  return command.add_option("--jobs", text, "so many processes draw; default: one a core, for 24 frames each")
+  return command
+      .add_option("--jobs", text, "number of processes that draw; default: one per core, for at least 24 frames each")
       ->option_text("N");
 }
 
@@ -162,7 +163,7 @@ std::vector<Setting> SettingOptions::settings() const {
 Film make_scene(const SceneRequest& request) {
   const bool is_scene = is_scene_file(request.input);
   if (is_scene && request.scenario) {
-    throw Error(ErrorKind::kUsage, "--scenario is for a bare mesh; a scene file says itself what happens");
+    throw Error(ErrorKind::kUsage, "--scenario is for a bare mesh; a scene file says what happens");
   }
   const auto library = library_of(request.settings);
   Film scene = is_scene ? read_scene(request.input, *library) : bare_mesh(request.input, library);

@@ -42,7 +42,7 @@ template <class Value>
   }
 }
 
-/// Throws Error(kUsage) unless `file` is free or may be replaced.
+/// Throws Error(kUsage) where `file` exists and may not be replaced.
 void refuse_existing(const std::filesystem::path& file, bool overwrite,
                      std::string_view remedy = "--overwrite to replace it");
 

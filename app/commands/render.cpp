@@ -30,19 +30,19 @@ struct RenderCacheOptions {
   SettingOptions keys;
 };
 
-/// Only how the run is seen can still be chosen.
+/// Only camera and pictures of a finished run can be changed.
 void apply_all(const std::vector<Setting>& settings, Film& scene) {
   for (const Setting& setting : settings) {
     if (!setting.key.starts_with("camera.") && !setting.key.starts_with("render.")) {
-      throw Error(
-          ErrorKind::kUsage,
-          fmt::format("{}: a cache is moved already; only keys of [camera] and [render] can be set", setting.option));
+      throw Error(ErrorKind::kUsage,
+                  fmt::format("{}: a cache is simulated already; only keys of [camera] and [render] can be set",
+                              setting.option));
     }
     apply(setting, scene);
   }
 }
 
-/// Pictures of other ranges may be there.
+/// Pictures of other ranges may exist.
 void check_range_output(const Output& output, const FrameRange& range, bool overwrite) {
   if (output.kind == Output::Kind::kFilm) return check_output(output, overwrite);
   for (int number = range.first; number <= range.last; ++number) refuse_existing(output.picture(number), overwrite);
@@ -53,11 +53,10 @@ const std::string& checked(const std::string& file) {
   if (is_cache_file(file)) return file;
   throw Error(
       ErrorKind::kUsage,
-      fmt::format("'{}' is no cache (.h5), as sprung simulate makes them; sprung animate draws a mesh or a scene",
-                  file));
+      fmt::format("'{}' is not a cache (.h5) of sprung simulate; sprung animate draws a mesh or a scene", file));
 }
 
-/// A cache and the scene by which it is drawn.
+/// A cache and its scene with the settings of the command line.
 struct CachedFilm {
   CachedFilm(const std::string& file, const std::vector<Setting>& settings)
       : cache(checked(file)), scene(cached_film(cache.header())) {
@@ -71,7 +70,7 @@ struct CachedFilm {
   std::string name;
 };
 
-/// The files' names; and the law of the bricks and the material where those differ.
+/// Names the runs by their files, and by brick law and material where those differ.
 void name_runs(std::vector<CachedFilm>& films) {
   const auto add = [&films](auto&& word) {
     std::vector<std::string> words;
@@ -95,7 +94,7 @@ std::vector<CachedFilm> open_all(const RenderCacheOptions& options) {
   return films;
 }
 
-/// With all frames of all caches in memory.
+/// Keeps all frames of all caches in memory.
 void render_films(const std::vector<CachedFilm>& films, const std::optional<Environment>& surroundings,
                   const FrameRange& range, const std::vector<Output>& outputs, const Console& console, int jobs) {
   std::vector<Simulation> simulations;
@@ -115,7 +114,7 @@ void render_cache(const CLI::App& command, const RenderCacheOptions& options, co
   if (options.side_by_side == options.others.empty()) {
     throw Error(ErrorKind::kUsage, options.side_by_side
                                        ? "--side-by-side needs more than one cache"
-                                       : fmt::format("more than one input; what is '{}'? Runs beside each other: "
+                                       : fmt::format("more than one input; what is '{}'? Runs side by side: "
                                                      "--side-by-side",
                                                      options.others.front()));
   }

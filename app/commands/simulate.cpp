@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <numeric>
@@ -37,7 +38,7 @@ struct SimulateOptions {
   SceneOptions scene;
 };
 
-/// How far off the positions in a cache may be, m; 0: not at all.
+/// Largest error of the positions in a cache, m; 0: none.
 double position_error_of(const SimulateOptions& options) {
   if (options.position_error.empty()) return 0;
   try {
@@ -55,7 +56,7 @@ struct Places {
   std::optional<fs::path> cache;
 };
 
-/// Where the files can be written, and would replace nothing that they may not.
+/// Throws Error unless the files can be written and replace only what they may.
 Places places_of(const SimulateOptions& options) {
   Places places;
   constexpr std::array<std::string_view, 1> kCaches{".h5"};
@@ -89,7 +90,7 @@ fs::path picture_of_diverged(const Places& places) {
   return fs::path(*places.cache).replace_extension("diverged.png");
 }
 
-/// The words that go on with what was begun.
+/// The command that goes on with what was begun.
 std::string resuming_command(const SimulateOptions& options, std::string command) {
   if (options.resume) return command;
   const std::string_view overwrite = " --overwrite";
@@ -97,7 +98,7 @@ std::string resuming_command(const SimulateOptions& options, std::string command
   return command + " --resume";
 }
 
-/// Does `work`; where it ends early, says how to go on.
+/// Does `work`; where it fails, says how to go on from the cache.
 Recording with_advice(const RunCache* cache, const std::string& advice, const Console& console,
                       const std::function<Recording()>& work) {
   try {
@@ -186,7 +187,7 @@ std::string probes_json(const Recording& recording) {
                   {recording.progress_name, recording.progress},
                   {"frequencies_Hz", std::vector<double>(recording.frequencies.begin(), recording.frequencies.end())},
                   {"probes", tracks}};
-  return json.dump(1) + "\n";
+  return json.dump() + "\n";
 }
 
 /// How a run came about: version and build of the program, the scene as resolved, a hash of each mesh file it names and
@@ -199,14 +200,17 @@ std::string manifest_json(const Film& scene, const Recording& recording) {
   for (const SceneObstacle& obstacle : scene.obstacles) files.insert(obstacle.mesh.string());
   files.erase("");
   for (const std::string& file : files) hashes[file] = file_hash(file);
+  Json seconds = Json::array();
+  for (const double of_frame : recording.seconds) seconds.push_back(std::round(1e4 * of_frame) / 1e4);
+  const double total = std::accumulate(recording.seconds.begin(), recording.seconds.end(), 0.0);
   const Json json{{"version", SPRUNG_VERSION},
                   {"build", build_of_this_program()},
                   {"scene", print_scene(with_defaults(scene))},
                   {"mesh_hashes", hashes},
                   {"frames", recording.progress.size()},
                   {"state_hash", fmt::format("{:016x}", recording.state_hash)},
-                  {"seconds", std::accumulate(recording.seconds.begin(), recording.seconds.end(), 0.0)},
-                  {"seconds_of_frames", recording.seconds}};
+                  {"seconds", std::round(1e3 * total) / 1e3},
+                  {"seconds_of_frames", seconds}};
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -251,8 +255,8 @@ void add_simulate(CLI::App& app, Invocation& invocation) {
   command->add_flag("--resume", options->resume, "go on where the cache ends; begin where there is none");
   command
       ->add_option("--position-error", options->position_error,
-                   "keep positions in the cache to within this, velocities to within this a frame: smaller; default: "
-                   "to the last bit")
+                   "make the cache smaller: positions accurate to this, velocities to this per frame; default: to the "
+                   "last bit")
       ->option_text("LENGTH");
   options->scene.add_to(*command, false);
   add_messages(*command, invocation.console);

@@ -26,7 +26,7 @@ struct SweepOptions {
   bool overwrite = false;
 };
 
-/// One combination of the values.
+/// One combination of values.
 using Choice = std::vector<Setting>;
 
 std::vector<Choice> choices_of(const std::vector<Setting>& settings) {
@@ -44,7 +44,7 @@ std::vector<Choice> choices_of(const std::vector<Setting>& settings) {
   return choices;
 }
 
-/// The same for every run of a sweep, so that they sort.
+/// Of the same length for every run, so that they sort.
 std::string name_of_run(std::size_t run) { return fmt::format("{:03}", run + 1); }
 
 std::string quoted(const fs::path& path) { return shell_quoted(path.string()); }
@@ -102,7 +102,8 @@ void print_row(const std::string& run, const CacheReader& cache) {
 void print_table(const SweepOptions& options, const Console& console) {
   const fs::path folder = options.input;
   if (!fs::exists(folder / "runs.json")) {
-    throw Error(ErrorKind::kBadInput, fmt::format("'{}' is no folder of a sweep: it has no runs.json", options.input));
+    throw Error(ErrorKind::kBadInput,
+                fmt::format("'{}' is not the folder of a sweep: it has no runs.json", options.input));
   }
   bool has_header = false;
   for (std::size_t run = 0; fs::exists(folder / name_of_run(run) / "scene.toml"); ++run) {
@@ -141,12 +142,13 @@ std::vector<std::string> values_in(std::string_view text) {
 }
 
 void add_sweep(CLI::App& app, Invocation& invocation) {
-  CLI::App* command = app.add_subcommand("sweep", "a scene and lists of values in, a folder and a command a run out");
+  CLI::App* command =
+      app.add_subcommand("sweep", "a scene and lists of values in, a folder and a command for each run out");
   const auto options = std::make_shared<SweepOptions>();
   command->add_option("INPUT", options->input, "a mesh file, a scene (.toml), or with --table the folder of a sweep");
   options->outputs.add_to(*command, "the folder for all runs", "FOLDER");
   options->keys.add_set(*command, "values of any key of a scene, by commas", "KEY=A,B,C");
-  command->add_flag("--table", options->table, "what the probes of all runs saw last, as CSV");
+  command->add_flag("--table", options->table, "the last measurements of the probes of all runs, as CSV");
   command->add_flag("--overwrite", options->overwrite, "replace the list of commands that exists");
   add_messages(*command, invocation.console);
   command->footer(

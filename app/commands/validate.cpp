@@ -70,7 +70,7 @@ bool validate(const ValidateOptions& options, const Choice& choice, const Consol
   std::vector<FinishedCase> finished;
   std::vector<Check> checks;
   const auto add = [&](FinishedCase one) {
-    if (one.result.checks.empty()) console.note(fmt::format("{} has no answer to that choice", one.name));
+    if (one.result.checks.empty()) console.note(fmt::format("{} has no case for that choice", one.name));
     if (!options.json) print(one.result);
     checks.insert(checks.end(), one.result.checks.begin(), one.result.checks.end());
     finished.push_back(std::move(one));
@@ -112,7 +112,7 @@ void add_validate(CLI::App& app, Invocation& invocation) {
           ->option_text("N");
   command->add_flag("--json", options->json, "checks as JSON");
   command->add_option("--report", options->report, "folder for report.html")->option_text("DIR");
-  add_messages(*command, invocation.console, "say why a model could not be carried through");
+  add_messages(*command, invocation.console, "say why a model could not be run");
   command->footer(
       "Examples:\n  sprung validate\n  sprung validate --case cantilever --model calibrated\n"
       "  sprung validate mine.toml --report out/report");

@@ -7,7 +7,7 @@ namespace sprung {
 /// In single quotes, for any shell.
 [[nodiscard]] std::string shell_quoted(std::string_view text);
 
-/// The same, but as it is where no shell takes any of its letters for its own.
+/// The same, but unquoted where no character of the text is special to a shell.
 [[nodiscard]] std::string shell_word(std::string_view text);
 
 }  // namespace sprung

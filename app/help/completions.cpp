@@ -65,7 +65,7 @@ complete -o default -F _sprung sprung
                      command_names(app), cases, fmt::join(help_topics(app), " "));
 }
 
-/// Without what _arguments takes for its own.
+/// Escapes what is special to _arguments.
 std::string zsh_text(const std::string& text) {
   std::string escaped;
   for (const char letter : text) {

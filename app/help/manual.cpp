@@ -8,7 +8,7 @@
 namespace sprung {
 namespace {
 
-/// Text as roff: hyphens that can be copied, nothing that is taken for a request.
+/// Text as roff: hyphens stay hyphens, no line is taken for a request.
 std::string roff(const std::string& text) {
   std::string escaped;
   bool starts_line = true;
@@ -55,7 +55,7 @@ std::string man_page(const CLI::App& app, const std::string& version) {
 
 namespace {
 
-/// Spaces before what a line goes on with.
+/// Indentation of the continuation of a line.
 std::size_t indent_of(std::string_view line) {
   const std::size_t start = std::min(line.find_first_not_of(' '), line.size());
   const bool has_description = start > 0 && line.size() > kHelpColumn && line[kHelpColumn - 1] == ' ';

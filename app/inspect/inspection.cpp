@@ -177,7 +177,7 @@ std::string forecast_lines(const Inspection& inspection) {
   return text + "\n";
 }
 
-/// Null where there is nothing to say.
+/// Null where the value is not known.
 Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
 Json or_null(double thickness) { return thickness > 0 ? Json(thickness) : Json(); }
 

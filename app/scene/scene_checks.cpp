@@ -76,7 +76,7 @@ void check_probes(const Film& scene, const Report& report) {
   }
 }
 
-/// A state of rest knows weights, pins, and forces that grow with them; nothing in it happens at a time.
+/// In a state of rest there are weights, pins and forces only, and no events in time.
 void check_rest(const Film& scene, const Report& report) {
   for (const MotionOnly& part : motion_only(scene)) {
     report({part.key, part.key == "body" ? int(part.row) : -1},
@@ -87,10 +87,10 @@ void check_rest(const Film& scene, const Report& report) {
     const auto is_timed = [](const Pin& pin) { return pin.from > 0 || pin.until; };
     if (std::none_of(pins.begin(), pins.end(), is_timed)) continue;
     report({"body", i},
-           fmt::format("body.pin: only in a motion {} can a pin take its nodes late or let them go", kMotions));
+           fmt::format("body.pin: only in a motion {} can a pin begin late or release its nodes", kMotions));
   }
   if (!scene.obstacles.empty())
-    report({"obstacle", 0}, fmt::format("only a motion {} meets an [[obstacle]]", kMotions));
+    report({"obstacle", 0}, fmt::format("only a motion {} can have an [[obstacle]]", kMotions));
 }
 
 }  // namespace

@@ -100,7 +100,7 @@ void selection_fields(auto& visit, auto& part) {
 
 /// How strong a load is over time, whatever the load is.
 void curve_fields(auto& visit, auto& load) {
-  visit({"keyframes", "how strong it is at which times"}, load.keyframes);
+  visit({"keyframes", "strength over time"}, load.keyframes);
   visit({"interpolation", "between keyframes: linear, smooth or held"}, load.interpolation);
 }
 
@@ -112,15 +112,15 @@ void fields(auto& visit, Is<Film> auto& film) {
   visit({"fps", "pictures a second", Dimension::kRate, {0, 10000, true}}, film.fps);
   visit({"gravity", "acceleration of everything", Dimension::kAcceleration}, film.gravity);
   visit({"gravity_keyframes", "gravity over time, in place of gravity"}, film.gravity_keyframes);
-  visit({"wind", "air that moves past all bodies"}, film.wind);
-  visit({"solver", "how the frames come about"}, film.solver);
-  visit({"contact", "what touches what, beside obstacles"}, film.contact);
-  visit({"camera", "where the film is seen from"}, film.camera);
+  visit({"wind", "wind on all bodies"}, film.wind);
+  visit({"solver", "integrator, or kind of solution"}, film.solver);
+  visit({"contact", "which collisions are resolved, besides those with obstacles"}, film.contact);
+  visit({"camera", "the camera"}, film.camera);
   visit({"render", "the pictures"}, film.render);
   visit(required({"body", "a mesh or a shape made of a soft material"}), film.bodies);
   visit({"obstacle", "the ground and other things that are not soft"}, film.obstacles);
-  visit({"glue", "bodies that stay together where they touch at the start"}, film.glue);
-  visit({"probe", "what is measured in every frame"}, film.probes);
+  visit({"glue", "bodies bonded where they touch at the start"}, film.glue);
+  visit({"probe", "measurements taken in every frame"}, film.probes);
   visit({"experiment", "what `sprung validate` varies"}, film.experiment);
   visit({"expect", "what `sprung validate` compares with"}, film.expectations);
 }
@@ -130,74 +130,73 @@ void fields(auto& visit, Is<SceneSolver> auto& solver) {
   visit({"scheme",
          "motion by euler (symplectic), verlet, implicit-euler, bdf2 or auto; static or linear equilibrium; or modes"},
         solver.scheme);
-  visit({"load_steps", "frames in which a static load grows", Dimension::kNone, {1, 100000}}, solver.load_steps);
-  visit({"modes", "how many of the slowest vibrations", Dimension::kNone, {1, 1000}}, solver.modes);
-  visit({"time_limit", "longest time that a motion may take to compute, by a forecast", Dimension::kTime, kPositive},
+  visit({"load_steps", "increments of a static load, one a frame", Dimension::kNone, {1, 100000}}, solver.load_steps);
+  visit({"modes", "number of the lowest vibration modes", Dimension::kNone, {1, 1000}}, solver.modes);
+  visit({"time_limit", "longest predicted computing time that is accepted", Dimension::kTime, kPositive},
         solver.time_limit);
 }
 
 void fields(auto& visit, Is<SceneContact> auto& contact) {
   visit.table("contact");
-  visit({"bodies", "whether bodies touch each other"}, contact.bodies);
-  visit({"self", "whether a body touches itself"}, contact.self);
+  visit({"bodies", "whether bodies collide with each other"}, contact.bodies);
+  visit({"self", "whether a body collides with itself"}, contact.self);
 }
 
 void fields(auto& visit, Is<SceneCamera> auto& camera) {
   visit.table("camera");
   visit({"azimuth", "direction of the camera about the vertical; 0 looks along -z", Dimension::kAngle}, camera.azimuth);
   visit({"elevation", "height of the camera above the horizon", Dimension::kAngle, {-85, 85}}, camera.elevation);
-  visit({"orbit", "how far it goes around over the film", Dimension::kAngle}, camera.orbit);
-  visit({"zoom", "size in the picture over that at which everything is seen", Dimension::kRatio, kZoom}, camera.zoom);
-  visit({"follow", "whether it looks at the middle of the bodies in every frame"}, camera.follow);
-  visit({"orthographic", "whether its lines of sight are parallel"}, camera.orthographic);
-  visit({"aperture", "diameter of the lens: what is nearer or further than the bodies' middle is blurred",
+  visit({"orbit", "angle by which the camera orbits over the film", Dimension::kAngle}, camera.orbit);
+  visit({"zoom", "magnification; at 1 everything fits in the picture", Dimension::kRatio, kZoom}, camera.zoom);
+  visit({"follow", "whether the camera tracks the centre of the bodies"}, camera.follow);
+  visit({"orthographic", "whether the projection is orthographic"}, camera.orthographic);
+  visit({"aperture", "lens diameter; what is nearer or farther than the centre of the bodies is blurred",
          Dimension::kLength, kNotNegative},
         camera.aperture);
-  visit({"keyframes", "where it is at which times; instead of azimuth, elevation, orbit and zoom"}, camera.keyframes);
+  visit({"keyframes", "camera over time; instead of azimuth, elevation, orbit and zoom"}, camera.keyframes);
 }
 
 void fields(auto& visit, Is<CameraKeyframe> auto& keyframe) {
   visit.table("camera keyframe");
-  visit(required({"t", "when", Dimension::kTime, kNotNegative}), keyframe.time);
+  visit(required({"t", "time", Dimension::kTime, kNotNegative}), keyframe.time);
   visit(required({"azimuth", "direction of the camera about the vertical", Dimension::kAngle}), keyframe.azimuth);
-  visit({"elevation", "its height above the horizon", Dimension::kAngle, {-85, 85}}, keyframe.elevation);
-  visit({"zoom", "size in the picture over that at which everything is seen", Dimension::kRatio, kZoom}, keyframe.zoom);
+  visit({"elevation", "height of the camera above the horizon", Dimension::kAngle, {-85, 85}}, keyframe.elevation);
+  visit({"zoom", "magnification; at 1 everything fits in the picture", Dimension::kRatio, kZoom}, keyframe.zoom);
 }
 
 void fields(auto& visit, Is<SceneRender> auto& render) {
   visit.table("render");
   visit({"resolution", "width and height of the pictures in pixels", Dimension::kNone, {16, 8192}}, render.resolution);
-  visit({"quality", "preview (quick), default or high (slow): of shadows and edges"}, render.quality);
-  visit({"samples", "samples a pixel; as the quality has it", Dimension::kNone, {1, 16}, false, kSampleCounts},
+  visit({"quality", "preview (fast), default or high (slow): shadows and antialiasing"}, render.quality);
+  visit({"samples", "samples per pixel; default: by the quality", Dimension::kNone, {1, 16}, false, kSampleCounts},
         render.samples);
-  visit({"transparent", "nothing behind the bodies: pictures with alpha, no floor"}, render.transparent);
-  visit({"environment", "panorama, .hdr or .png, twice as wide as high, whose light is that around the bodies"},
-        render.environment);
-  visit({"motion_blur", "how long the shutter is open, of 360 degrees a frame", Dimension::kAngle, {0, 360}},
+  visit({"transparent", "transparent background: pictures with alpha, no floor"}, render.transparent);
+  visit({"environment", "panorama (.hdr or .png, twice as wide as high) that lights the bodies"}, render.environment);
+  visit({"motion_blur", "shutter angle; 360 degrees: open for the whole frame", Dimension::kAngle, {0, 360}},
         render.motion_blur);
-  visit({"sheet", "columns and rows of frames, evenly over the film, in one picture", Dimension::kNone, {1, 100}},
-        render.sheet);
+  visit(
+      {"sheet", "columns and rows of frames, evenly spaced over the film, in one picture", Dimension::kNone, {1, 100}},
+      render.sheet);
   visit({"color_by",
          "what colours show: skin, displacement, speed, stretch, strain or stress (von Mises), volume, fill or region"},
         render.color_by);
   visit({"color_map", "viridis, cividis, coolwarm, ember or turbo; by what is shown"}, render.color_map);
-  visit({"color_low", "SI value of the first colour; the lowest of the film"}, render.color_low);
-  visit({"color_high", "SI value of the last colour; the highest of the film but for its utmost half per cent"},
+  visit({"color_low", "SI value of the first colour; default: the lowest of the film"}, render.color_low);
+  visit({"color_high", "SI value of the last colour; default: the highest of the film, without its top half per cent"},
         render.color_high);
-  visit({"legend", "whether the colours are explained"}, render.legend);
+  visit({"legend", "whether a legend of the colours is drawn"}, render.legend);
   visit({"caption", "a line at the top"}, render.caption);
-  visit({"frame_number", "whether frame and time are written"}, render.frame_number);
-  visit({"scale_bar", "whether a bar of a round length is drawn"}, render.scale_bar);
+  visit({"frame_number", "whether frame number and time are drawn"}, render.frame_number);
+  visit({"scale_bar", "whether a scale bar is drawn"}, render.scale_bar);
   visit({"bricks", "bricks in place of the skins: none, whole or exploded"}, render.bricks);
-  visit({"cut", "takes away the bricks on one side of a plane; with bricks, springs or nodes"}, render.cut);
+  visit({"cut", "removes the bricks on one side of a plane; with bricks, springs or nodes"}, render.cut);
   visit({"springs", "whether springs are drawn, coloured by their stretch, in place of the skins"}, render.springs);
   visit({"nodes", "whether nodes are drawn"}, render.nodes);
-  visit({"pins", "whether held nodes are drawn"}, render.pins);
-  visit({"ghost", "whether the shape at rest shows faintly"}, render.ghost);
-  visit({"contacts", "whether places are marked where bodies touch the ground, obstacles or each other"},
-        render.contacts);
-  visit({"traces", "whether the ways of the probes are drawn"}, render.traces);
-  visit({"plots", "whether a plot shows how far the probes are from where they were"}, render.plots);
+  visit({"pins", "whether pinned nodes are drawn"}, render.pins);
+  visit({"ghost", "whether the rest shape is drawn faintly"}, render.ghost);
+  visit({"contacts", "whether contacts with the ground, obstacles and other bodies are marked"}, render.contacts);
+  visit({"traces", "whether the paths of the probes are drawn"}, render.traces);
+  visit({"plots", "whether the displacement of the probes is plotted"}, render.plots);
 }
 
 void fields(auto& visit, Is<SceneBody> auto& body) {
@@ -219,34 +218,35 @@ void fields(auto& visit, Is<SceneBody> auto& body) {
   visit({"cut", "parts taken out of a box"}, body.cuts);
   visit({"size", "longest side of the body", Dimension::kLength, {.low = 1e-6, .high = 1e6}}, body.size);
   visit({"scale", "length of one unit of the mesh file; instead of size", Dimension::kLength, kPositive}, body.scale);
-  visit({"repair", "of the mesh: auto mends and says what, strict refuses what needs it, off takes it as it is"},
-        body.repair);
-  visit({"thickness", "makes the surface of the mesh the middle of a shell of this thickness", Dimension::kLength,
-         kPositive},
+  visit(
+      {"repair",
+       "of the mesh: auto repairs defects and reports them, strict refuses a mesh with defects, off uses it as it is"},
+      body.repair);
+  visit({"thickness", "makes the mesh the mid-surface of a shell of this thickness", Dimension::kLength, kPositive},
         body.thickness);
-  visit({"position", "where the middle of the bottom of its bounding box goes", Dimension::kLength}, body.position);
-  visit({"rotation", "about x, then y, then z, around its middle", Dimension::kAngle}, body.rotation);
+  visit({"position", "of the centre of the bottom of its bounding box", Dimension::kLength}, body.position);
+  visit({"rotation", "about x, then y, then z, around its centre", Dimension::kAngle}, body.rotation);
   visit(
       {"bricks", "number of bricks along the longest side; or auto: by the thinnest part", Dimension::kNone, {1, 1024}},
       body.bricks);
   visit({"brick_size", "side of a brick; instead of bricks", Dimension::kLength, kPositive}, body.brick_size);
-  visit({"brick_rotation", "how the bricks are turned in the body, about x, then y, then z", Dimension::kAngle},
+  visit({"brick_rotation", "orientation of the bricks in the body, about x, then y, then z", Dimension::kAngle},
         body.brick_rotation);
   visit({"material", "a name from `sprung materials`; in a scene also { young, poisson, density, damping }"},
         body.material);
   visit({"model", "law of the bricks: calibrated, tensile (Baudet et al. 2009), m1, m2-plain, m1-plain or fem"},
         body.model);
-  visit({"color", "of what the mesh file leaves without colour: \"#rrggbb\""}, body.color);
-  visit({"look", "how it takes light: plastic, gelatin, rubber or steel; as the material has it"}, body.look);
-  visit({"skin", "how it rides on the bricks: bricks (each by itself) or smooth (across them)"}, body.skin);
-  visit({"velocity", "at the start", Dimension::kSpeed}, body.velocity);
-  visit({"spin", "turning at the start, about the axes of the world through its middle", Dimension::kTurning},
+  visit({"color", "\"#rrggbb\" where the mesh file gives no colour"}, body.color);
+  visit({"look", "surface finish: plastic, gelatin, rubber or steel; default: by the material"}, body.look);
+  visit({"skin", "how the skin is interpolated: bricks (trilinear in each) or smooth (across them)"}, body.skin);
+  visit({"velocity", "initial velocity", Dimension::kSpeed}, body.velocity);
+  visit({"spin", "initial angular velocity, about the axes of the world through its centre", Dimension::kTurning},
         body.spin);
-  visit({"friction", "Coulomb's coefficient on other bodies: the geometric mean of both", Dimension::kRatio,
+  visit({"friction", "Coulomb friction coefficient; between bodies the geometric mean of the two", Dimension::kRatio,
          kNotNegative},
         body.friction);
   visit({"copies", "the same body many times, in rows"}, body.copies);
-  visit({"pin", "parts that are held or carried"}, body.pins);
+  visit({"pin", "parts that are held or moved"}, body.pins);
   visit({"region", "parts of another material"}, body.regions);
   visit({"force", "forces and pressures"}, body.forces);
   visit({"muscle", "parts that contract"}, body.muscles);
@@ -265,14 +265,14 @@ void fields(auto& visit, Is<CylinderShape> auto& cylinder) {
 
 void fields(auto& visit, Is<TorusShape> auto& torus) {
   visit.table("torus shape");
-  visit(required({"radius", "of the circle in the middle of the tube", Dimension::kLength, kPositive}), torus.radius);
+  visit(required({"radius", "from the centre to the middle of the tube", Dimension::kLength, kPositive}), torus.radius);
   visit(required({"tube", "radius of the tube", Dimension::kLength, kPositive}), torus.tube);
 }
 
 void fields(auto& visit, Is<CapsuleShape> auto& capsule) {
   visit.table("capsule shape");
   visit(required({"radius", "of the rod", Dimension::kLength, kPositive}), capsule.radius);
-  visit(required({"height", "between the middles of its ends", Dimension::kLength, kPositive}), capsule.height);
+  visit(required({"height", "between the centres of its ends", Dimension::kLength, kPositive}), capsule.height);
 }
 
 void fields(auto& visit, Is<Material> auto& material) {
@@ -288,10 +288,10 @@ void fields(auto& visit, Is<Copies> auto& copies) {
   visit.table("copies");
   visit(required({"count", "how many along x, y and z", Dimension::kNone, {1, 1000}}), copies.count);
   visit(required({"spacing", "from one to the next along each axis", Dimension::kLength}), copies.spacing);
-  visit({"scatter", "each is moved at random by up to this along each axis", Dimension::kLength, kNotNegative},
+  visit({"scatter", "random offset of each copy, up to this along each axis", Dimension::kLength, kNotNegative},
         copies.scatter);
-  visit({"turn", "each is turned by up to this about an axis at random", Dimension::kAngle, {0, 180}}, copies.turn);
-  visit({"seed", "of what is random", Dimension::kNone, {0, 2147483647}}, copies.seed);
+  visit({"turn", "random rotation of each copy, up to this", Dimension::kAngle, {0, 180}}, copies.turn);
+  visit({"seed", "of the random numbers", Dimension::kNone, {0, 2147483647}}, copies.seed);
 }
 
 void fields(auto& visit, Is<Box> auto& box) {
@@ -310,7 +310,7 @@ void fields(auto& visit, Is<HalfSpace> auto& half_space) {
   visit.table("half-space");
   visit(required({"point", "of the plane, in fractions of the body's bounding box", Dimension::kRatio}),
         half_space.point);
-  visit(required({"normal", "to the side that is meant"}), half_space.normal);
+  visit(required({"normal", "towards the selected side"}), half_space.normal);
 }
 
 void fields(auto& visit, Is<Cut> auto& cut) {
@@ -325,20 +325,21 @@ void fields(auto& visit, Is<Pin> auto& pin) {
   selection_fields(visit, pin);
   visit({"name", "for probes"}, pin.name);
   visit({"axes", "the directions that are held: \"xyz\", \"x\", \"yz\", and so on"}, pin.axes);
-  visit({"translate", "how far they are carried by the end of the film", Dimension::kLength}, pin.translate);
-  visit({"rotate", "how far they are turned about the middle of the part by then", Dimension::kAngle}, pin.rotate);
-  visit({"keyframes", "where they are at which times"}, pin.keyframes);
+  visit({"translate", "translation by the end of the film", Dimension::kLength}, pin.translate);
+  visit({"rotate", "rotation by the end of the film, about the centre of the part", Dimension::kAngle}, pin.rotate);
+  visit({"keyframes", "movement over time"}, pin.keyframes);
   visit({"interpolation", "between keyframes: linear, smooth or held"}, pin.interpolation);
-  visit({"from", "when they are taken, where they then are", Dimension::kTime, kNotNegative}, pin.from);
-  visit({"until", "when they are let go; never", Dimension::kTime, kPositive}, pin.until);
+  visit({"from", "when the pin takes hold of its nodes, wherever they are then", Dimension::kTime, kNotNegative},
+        pin.from);
+  visit({"until", "when the pin releases its nodes; default: never", Dimension::kTime, kPositive}, pin.until);
 }
 
 void fields(auto& visit, Is<Keyframe> auto& keyframe) {
   visit.table("keyframe");
-  visit(required({"t", "when", Dimension::kTime, kNotNegative}), keyframe.time);
-  visit({"translate", "how far from the start", Dimension::kLength}, keyframe.translate);
-  visit({"rotate", "how far turned about x, then y, then z", Dimension::kAngle}, keyframe.rotate);
-  visit({"scale", "size over size at the start", Dimension::kRatio, kPositive}, keyframe.scale);
+  visit(required({"t", "time", Dimension::kTime, kNotNegative}), keyframe.time);
+  visit({"translate", "translation from the start", Dimension::kLength}, keyframe.translate);
+  visit({"rotate", "rotation about x, then y, then z", Dimension::kAngle}, keyframe.rotate);
+  visit({"scale", "size relative to that at the start", Dimension::kRatio, kPositive}, keyframe.scale);
 }
 
 void fields(auto& visit, Is<Region> auto& region) {
@@ -362,18 +363,18 @@ void fields(auto& visit, Is<Gradient> auto& gradient) {
 void fields(auto& visit, Is<BodyForce> auto& force) {
   visit.table("force", {{KeyRule::kAtMostOne, kSelectionKeys}, {KeyRule::kOneOf, {"total", "per_volume", "pressure"}}});
   selection_fields(visit, force);
-  visit({"total", "on all of the part, shared out by volume", Dimension::kForce}, force.total);
-  visit({"per_volume", "on each volume of the part", Dimension::kForceDensity}, force.per_volume);
-  visit({"pressure", "on the skin of the part, inward", Dimension::kPressure}, force.pressure);
+  visit({"total", "force on the whole part, distributed by volume", Dimension::kForce}, force.total);
+  visit({"per_volume", "force per volume", Dimension::kForceDensity}, force.per_volume);
+  visit({"pressure", "pressure on the skin of the part, inward", Dimension::kPressure}, force.pressure);
   curve_fields(visit, force);
 }
 
 void fields(auto& visit, Is<BodyMuscle> auto& muscle) {
   visit.table("muscle", {{KeyRule::kAtMostOne, kSelectionKeys}});
   selection_fields(visit, muscle);
-  visit(required({"direction", "along which it contracts, in the body before it is turned"}), muscle.direction);
+  visit(required({"direction", "direction of the contraction, in the body before it is rotated"}), muscle.direction);
   visit(required({"contraction",
-                  "share of its length; across it widens as much as keeps the volume",
+                  "fraction of the length; the part widens so that its volume is kept",
                   Dimension::kRatio,
                   {-1, 0.9}}),
         muscle.contraction);
@@ -382,13 +383,13 @@ void fields(auto& visit, Is<BodyMuscle> auto& muscle) {
 
 void fields(auto& visit, Is<Strength> auto& strength) {
   visit.table("strength");
-  visit(required({"t", "when", Dimension::kTime, kNotNegative}), strength.time);
-  visit(required({"strength", "times what it is at full strength", Dimension::kRatio}), strength.strength);
+  visit(required({"t", "time", Dimension::kTime, kNotNegative}), strength.time);
+  visit(required({"strength", "factor on the full strength", Dimension::kRatio}), strength.strength);
 }
 
 void fields(auto& visit, Is<GravityKeyframe> auto& keyframe) {
   visit.table("gravity keyframe");
-  visit(required({"t", "when", Dimension::kTime, kNotNegative}), keyframe.time);
+  visit(required({"t", "time", Dimension::kTime, kNotNegative}), keyframe.time);
   visit(required({"gravity", "acceleration of everything", Dimension::kAcceleration}), keyframe.gravity);
 }
 
@@ -396,16 +397,18 @@ void fields(auto& visit, Is<SceneWind> auto& wind) {
   visit.table("wind");
   visit(required({"velocity", "of the air at strength 1", Dimension::kSpeed}), wind.velocity);
   visit({"density", "of the air", Dimension::kDensity, kPositive}, wind.density);
-  visit({"drag", "coefficient: pressure on what faces the air, over density v^2 / 2", Dimension::kRatio, kNotNegative},
+  visit({"drag", "drag coefficient: pressure on what faces the wind, over density v^2 / 2", Dimension::kRatio,
+         kNotNegative},
         wind.drag);
   curve_fields(visit, wind);
 }
 
 void fields(auto& visit, Is<SceneGlue> auto& glue) {
   visit.table("glue");
-  visit(required({"bodies", "which two, counted from 1; the same twice: its copies", Dimension::kNone, kCounted}),
+  visit(required(
+            {"bodies", "the two bodies, counted from 1; the same one twice: its copies", Dimension::kNone, kCounted}),
         glue.bodies);
-  visit({"distance", "how far apart skins may be to hold; half the smaller bricks", Dimension::kLength, kPositive},
+  visit({"distance", "largest gap that is bonded; default: half the smaller bricks", Dimension::kLength, kPositive},
         glue.distance);
 }
 
@@ -414,7 +417,8 @@ void fields(auto& visit, Is<SceneObstacle> auto& obstacle) {
                            {KeyRule::kAtMostOne, {"size", "scale"}},
                            {KeyRule::kNeeds, {"size", "mesh"}},
                            {KeyRule::kNeeds, {"scale", "mesh"}}});
-  visit({"plane", "all behind it is solid; or another shape: box, sphere, capsule, cylinder, mesh"}, obstacle.plane);
+  visit({"plane", "everything behind it is solid; or another shape: box, sphere, capsule, cylinder, mesh"},
+        obstacle.plane);
   visit({"box", "sides of a box", Dimension::kLength, kPositive}, obstacle.box);
   visit({"sphere", "a ball"}, obstacle.sphere);
   visit({"capsule", "a rod with round ends, along y"}, obstacle.capsule);
@@ -423,13 +427,12 @@ void fields(auto& visit, Is<SceneObstacle> auto& obstacle) {
   visit({"size", "longest side of the mesh", Dimension::kLength, kPositive}, obstacle.size);
   visit({"scale", "length of one unit of the mesh file; instead of size", Dimension::kLength, kPositive},
         obstacle.scale);
-  visit({"position", "of its middle", Dimension::kLength}, obstacle.position);
-  visit({"rotation", "about x, then y, then z, around its middle", Dimension::kAngle}, obstacle.rotation);
+  visit({"position", "of its centre", Dimension::kLength}, obstacle.position);
+  visit({"rotation", "about x, then y, then z, around its centre", Dimension::kAngle}, obstacle.rotation);
   visit({"keyframes", "how it moves from there"}, obstacle.keyframes);
   visit({"interpolation", "between keyframes: linear or smooth"}, obstacle.interpolation);
-  visit({"friction", "Coulomb's coefficient", Dimension::kRatio, kNotNegative}, obstacle.friction);
-  visit({"restitution", "speed after over speed before the impact of a point", Dimension::kRatio, {0, 1}},
-        obstacle.restitution);
+  visit({"friction", "Coulomb friction coefficient", Dimension::kRatio, kNotNegative}, obstacle.friction);
+  visit({"restitution", "coefficient of restitution", Dimension::kRatio, {0, 1}}, obstacle.restitution);
   visit({"color", "\"#rrggbb\""}, obstacle.color);
 }
 
@@ -441,16 +444,16 @@ void fields(auto& visit, Is<Plane> auto& plane) {
 
 void fields(auto& visit, Is<Probe> auto& probe) {
   visit.table("probe", {{KeyRule::kOneOf, {"point", "pin"}}});
-  visit(required({"name", "of its columns"}), probe.name);
-  visit({"body", "which one, counted from 1", Dimension::kNone, kCounted}, probe.body);
-  visit({"point", "place in the body, from the middle of its bounding box", Dimension::kLength}, probe.point);
+  visit(required({"name", "prefix of its columns"}), probe.name);
+  visit({"body", "number of the body, counted from 1", Dimension::kNone, kCounted}, probe.body);
+  visit({"point", "point of the body, from the centre of its bounding box", Dimension::kLength}, probe.point);
   visit({"pin", "name of a pin of the body; instead of point"}, probe.pin);
 }
 
 void fields(auto& visit, Is<Experiment> auto& experiment) {
   visit.table("experiment");
   visit({"title", "of the experiment"}, experiment.title);
-  visit({"about", "what the report says about it"}, experiment.about);
+  visit({"about", "text for the report"}, experiment.about);
   visit({"nodes", "table of displacements known at points: poisson,x,y,z,ux,uy,uz"}, experiment.nodes);
   visit({"models", "laws of the bricks"}, experiment.models);
   visit({"poisson", "Poisson's ratios", Dimension::kNone, kPoisson}, experiment.poisson);
@@ -462,47 +465,48 @@ void fields(auto& visit, Is<Expectation> auto& expectation) {
   visit(required({"quantity", "\"tip.displacement.y\", \"end.torque.x\", \"frequency.1\", and so on"}),
         expectation.quantity);
   visit(required({"value", "in SI units, in the last frame"}), expectation.value);
-  visit(required({"source", "where the value is from"}), expectation.source);
-  visit({"poisson", "Poisson's ratios that it holds for; all", Dimension::kNone, kPoisson}, expectation.poisson);
-  visit({"bricks", "grids that it holds for, by the bricks along the longest side; all", Dimension::kNone, {1, 1024}},
+  visit(required({"source", "source of the value"}), expectation.source);
+  visit({"poisson", "Poisson's ratios that it holds for; default: all", Dimension::kNone, kPoisson},
+        expectation.poisson);
+  visit({"bricks",
+         "grids that it holds for, by the bricks along the longest side; default: all",
+         Dimension::kNone,
+         {1, 1024}},
         expectation.bricks);
-  visit({"models", "laws of the bricks that it holds for; all"}, expectation.models);
-  visit({"gate", "how near it has to be met"}, expectation.gates);
+  visit({"models", "laws of the bricks that it holds for; default: all"}, expectation.models);
+  visit({"gate", "required accuracy"}, expectation.gates);
 }
 
 void fields(auto& visit, Is<Gate> auto& gate) {
   visit.table("gate", {{KeyRule::kOneOf, {"tolerance", "no_worse_than"}}});
-  visit({"models", "who has to meet it; calibrated"}, gate.models);
-  visit({"bricks", "on which grids, by the bricks along the longest side; all", Dimension::kNone, {1, 1024}},
+  visit({"models", "laws of the bricks that have to meet it; default: calibrated"}, gate.models);
+  visit({"bricks", "on which grids, by the bricks along the longest side; default: all", Dimension::kNone, {1, 1024}},
         gate.bricks);
   visit({"tolerance", "relative error allowed; absolute where 0 is expected", Dimension::kRatio, kNotNegative},
         gate.tolerance);
-  visit({"no_worse_than", "a model whose error on the same grid is the tolerance; instead of tolerance"},
+  visit({"no_worse_than", "law of the bricks whose error on the same grid is the tolerance; instead of tolerance"},
         gate.no_worse_than);
 }
 
 void fields(auto& visit, Is<LibraryMaterial> auto& material) {
   visit.table("library material");
-  visit(required({"name", "by which scenes and --material know it"}), material.name);
+  visit(required({"name", "as scenes and --material use it"}), material.name);
   visit({"class", "gelatin, silicone, rubber, foam, wood, tissue, plastic, metal or other"}, material.material_class);
   visit({"about", "what it is"}, material.about);
   visit(required({"young", "Young's modulus", Dimension::kPressure, kPositive}), material.young);
-  visit({"young_uncertainty", "how far off it may be, as a share", Dimension::kRatio, kNotNegative},
-        material.young_uncertainty);
-  visit({"young_source", "where it is from"}, material.young_source);
+  visit({"young_uncertainty", "relative uncertainty", Dimension::kRatio, kNotNegative}, material.young_uncertainty);
+  visit({"young_source", "source of the value"}, material.young_source);
   visit(required({"poisson", "Poisson's ratio", Dimension::kNone, kPoisson}), material.poisson);
-  visit({"poisson_uncertainty", "how far off it may be", Dimension::kNone, {0, 1}}, material.poisson_uncertainty);
-  visit({"poisson_source", "where it is from"}, material.poisson_source);
+  visit({"poisson_uncertainty", "uncertainty", Dimension::kNone, {0, 1}}, material.poisson_uncertainty);
+  visit({"poisson_source", "source of the value"}, material.poisson_source);
   visit(required({"density", "density", Dimension::kDensity, kPositive}), material.density);
-  visit({"density_uncertainty", "how far off it may be, as a share", Dimension::kRatio, kNotNegative},
-        material.density_uncertainty);
-  visit({"density_source", "where it is from"}, material.density_source);
+  visit({"density_uncertainty", "relative uncertainty", Dimension::kRatio, kNotNegative}, material.density_uncertainty);
+  visit({"density_source", "source of the value"}, material.density_source);
   visit({"damping", "ratio of critical damping at the slowest vibration", Dimension::kRatio, {0, 10}},
         material.damping);
-  visit({"damping_uncertainty", "how far off it may be, as a share", Dimension::kRatio, kNotNegative},
-        material.damping_uncertainty);
-  visit({"damping_source", "where it is from"}, material.damping_source);
-  visit({"look", "how it takes light: plastic, gelatin, rubber or steel"}, material.look);
+  visit({"damping_uncertainty", "relative uncertainty", Dimension::kRatio, kNotNegative}, material.damping_uncertainty);
+  visit({"damping_source", "source of the value"}, material.damping_source);
+  visit({"look", "surface finish: plastic, gelatin, rubber or steel"}, material.look);
 }
 
 void fields(auto& visit, Is<MaterialFile> auto& file) {

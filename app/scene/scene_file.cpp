@@ -97,7 +97,7 @@ const toml::array& array_in(const toml::node& node, std::size_t size, std::strin
   return *array;
 }
 
-/// The nearest node that is there.
+/// The node of that place, or the nearest one above it.
 toml::source_region find_place(const toml::table& table, const Place& place) {
   const toml::node* node = table.get(place.key);
   if (node == nullptr) return table.source();
@@ -110,7 +110,7 @@ std::string join_path(const std::string& path, std::string_view key) {
   return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key);
 }
 
-/// Reads tables into structs by their fields(). What is referred to has to outlive it.
+/// Reads tables into structs by their fields(). What it refers to has to outlive it.
 class TableReader {
  public:
   TableReader(Mistakes& mistakes, std::filesystem::path folder, SceneFiles files, const MaterialLibrary& library)
@@ -258,7 +258,7 @@ class TableReader {
   const MaterialLibrary& library_;
 };
 
-/// Before the bodies that are made of them. Of a file that cannot be read the key says what is wrong, as any other.
+/// Bodies may name the materials of this file. Where it cannot be read, the reader reports so at the key.
 void add_materials(const toml::table& table, const std::filesystem::path& folder, MaterialLibrary& library) {
   const toml::value<std::string>* name = table["materials"].as_string();
   if (name == nullptr) return;
@@ -311,7 +311,7 @@ void MaterialLibrary::add(std::string_view text, const std::filesystem::path& fi
     }
     const bool is_here = known >= materials_.data() + before;
     mistakes.add(find_place(table, {"material", i}),
-                 fmt::format("material.name: '{}' is there already, {}; choose another name", material.name,
+                 fmt::format("material.name: '{}' exists already, {}; choose another name", material.name,
                              is_here ? "in this file" : "built in or in another file"));
   }
   mistakes.throw_if_any();

@@ -28,7 +28,7 @@ struct ElementOf<std::vector<Value>> {
   static constexpr bool kIsList = true;
 };
 
-/// The table of a struct without its keys.
+/// The name and the rules of a table.
 struct TableHead {
   std::string name;
   std::vector<KeyRule> rules;
@@ -49,7 +49,7 @@ TableHead head_of() {
   return head;
 }
 
-/// What a value may be, for people and as a schema.
+/// The type of a value, in words and as a JSON Schema.
 struct Described {
   std::string type;
   Json schema;
@@ -67,7 +67,7 @@ std::string range_suffix(const KeyInfo& key) {
   return is_limited ? fmt::format(", {}", range_text(key)) : "";
 }
 
-/// A string with a number and a unit; of the range it knows the sign only.
+/// A regular expression for a number with a unit; of the range it checks the sign only.
 std::string quantity_pattern(const KeyInfo& key) {
   static const std::regex kSpecial(R"([.^$*+?()\[\]{}|\\])");
   std::vector<std::string> units;
@@ -111,7 +111,7 @@ Json reference() {
   return {{"$ref", "#/$defs/" + head_of<Owner>().name}};
 }
 
-/// What a value of the type of the first argument may be.
+/// The first argument only selects the type.
 Described describe(const double&, const KeyInfo& key) { return number(key); }
 Described describe(const int&, const KeyInfo& key) { return whole_number(key); }
 Described describe(const bool&, const KeyInfo&) { return {"true or false", {{"type", "boolean"}}}; }
@@ -170,7 +170,7 @@ std::string default_text(const std::vector<Value>&) {
   return "";
 }
 
-/// Collects the tables from the scene down, each once but with all its paths.
+/// Collects all tables below the scene, each once but with all its paths.
 class TableCollector {
  public:
   template <Table Owner>
@@ -340,7 +340,7 @@ std::string scene_schema() {
               {"title", "A scene of sprung"},
               {"$ref", "#/$defs/scene"}};
   for (const TableText& table : scene_tables()) schema["$defs"][table.name] = table_schema(table);
-  return schema.dump(2) + "\n";
+  return schema.dump(1) + "\n";
 }
 
 }  // namespace sprung

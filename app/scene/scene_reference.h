@@ -7,7 +7,7 @@
 
 namespace sprung {
 
-/// What a person and a checker have to know of a key.
+/// A key as documented.
 struct KeyText {
   std::string_view name;
   std::string_view help;

@@ -10,14 +10,14 @@
 
 namespace sprung {
 
-/// What the values of a type are called, and what a person calls such a value.
+/// The names of the values of a type, and what such a value is called in messages.
 template <class Value, std::size_t count>
 struct Names {
   std::string_view thing;
   std::array<std::pair<std::string_view, Value>, count> values;
 };
 
-/// Of the types whose values are written as names.
+/// For the types whose values are written as names.
 template <class Value>
 inline constexpr bool kNames = false;
 
@@ -110,11 +110,11 @@ template <HasNames Value>
 requires std::is_same_v<Value, Model>
 [[nodiscard]] std::vector<std::string_view> value_names() { return {model_names().begin(), model_names().end()}; }
 
-/// Throws Error(kBadInput) that there is no such thing of this name, with the nearest that there is.
+/// Throws Error(kBadInput) that there is no thing of this name, with the nearest name.
 [[noreturn]] void refuse_name(std::string_view thing, std::string_view name,
                               const std::vector<std::string_view>& names);
 
-/// One value from the words of a person: quantities with units, names, "#rrggbb", "1280x720".
+/// Parses one value as it is typed: quantities with units, names, "#rrggbb", "1280x720".
 /// Each throws Error(kBadInput) naming the text and what is expected.
 void parse_value(std::string_view text, const KeyInfo& key, double& value);
 void parse_value(std::string_view text, const KeyInfo& key, int& value);

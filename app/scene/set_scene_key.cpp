@@ -27,7 +27,7 @@ struct Given {
 template <Table Owner>
 void set_key(Owner& owner, std::string_view path, const Given& given);
 
-/// "[1, 2, 3]", with or without brackets, piece by piece.
+/// The items of "[1, 2, 3]", with or without brackets.
 std::vector<std::string_view> items_of(std::string_view text) {
   if (text.starts_with('[') && text.ends_with(']')) text = text.substr(1, text.size() - 2);
   std::vector<std::string_view> items;
@@ -155,7 +155,7 @@ struct KeySetter {
   }
 };
 
-/// Leaves out those keys that can be left out.
+/// Clears those of the named keys that are optional.
 struct KeyDropper : FieldVisitor {
   const std::vector<std::string_view>& names;
 
