@@ -10,12 +10,12 @@
 namespace sprung {
 
 /// Where in a table a mistake is: at the table itself; at a key; in one row of the array of a key.
-struct Place {
+struct KeyPlace {
   std::string_view key{};
   int row = -1;
 };
 
-using Report = std::function<void(Place place, std::string text)>;
+using Report = std::function<void(KeyPlace place, std::string text)>;
 
 /// Reports which rules between the keys of a table the given keys break. `path` of the table for messages: "body.pin".
 void check_rules(const std::vector<KeyRule>& rules, const std::vector<std::string_view>& given, const std::string& path,

@@ -98,7 +98,7 @@ const toml::array& array_in(const toml::node& node, std::size_t size, std::strin
 }
 
 /// The node of that place, or the nearest one above it.
-toml::source_region find_place(const toml::table& table, const Place& place) {
+toml::source_region find_place(const toml::table& table, const KeyPlace& place) {
   const toml::node* node = table.get(place.key);
   if (node == nullptr) return table.source();
   const toml::array* rows = node->as_array();
@@ -127,7 +127,7 @@ class TableReader {
       const std::string hint = did_you_mean(name.str(), reader.known);
       mistakes_.add(name.source(), fmt::format("unknown key '{}'{}", join_path(path, name.str()), hint));
     }
-    const Report report = [&](const Place& place, std::string text) {
+    const Report report = [&](const KeyPlace& place, std::string text) {
       mistakes_.add(find_place(table, place), std::move(text));
     };
     check_rules(reader.rules, given, path, report);
