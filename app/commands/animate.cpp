@@ -1,8 +1,8 @@
-#include "app/commands/animate.h"
 
 #include <fmt/format.h>
 
-#include "app/commands/command_line.h"
+#include "app/commands/commands.h"
+#include "app/commands/options.h"
 #include "app/film/draw_diverged.h"
 #include "app/film/film_output.h"
 #include "app/film/film_pipeline.h"
@@ -15,7 +15,7 @@
 namespace sprung {
 namespace {
 
-/// The film formats with compressed colour take even sides only.
+/// Film formats with subsampled colour need even sides.
 void note_padding(const std::vector<Output>& outputs, const SceneRender& render, const Console& console) {
   const auto [width, height] = render.resolution;
   for (const Output& output : outputs) {
@@ -32,11 +32,19 @@ std::filesystem::path picture_of_diverged(const Output& output) {
   return output.folder / "diverged.png";
 }
 
-}  // namespace
+struct AnimateOptions {
+  OutputOptions outputs;
+  JobOptions jobs;
+  SceneOptions scene;
+  bool overwrite = false;
+};
 
-void animate(const SceneOptions& options, const Console& console) {
-  with_scene(options, [&](const Film& scene) {
-    const std::vector<Output> outputs = parse_outputs(options.outputs);
+void animate(const CLI::App& command, const AnimateOptions& options, const Console& console) {
+  require_input(command, options.scene.input, "a mesh or a scene");
+  if (!options.scene.print_scene) options.outputs.require(command, "-o folder/, -o frame_{:04}.png or -o film.mp4");
+  const int jobs = options.jobs.count();
+  options.scene.with_scene([&](const Film& scene) {
+    const std::vector<Output> outputs = parse_outputs(options.outputs.names);
     for (const Output& output : outputs) check_output(output, options.overwrite);
     note_padding(outputs, scene.render, console);
     const std::optional<Environment> surroundings = read_surroundings(scene.render);  // before any work is lost
@@ -45,9 +53,28 @@ void animate(const SceneOptions& options, const Console& console) {
     const Recording recording = with_picture_of_diverged(simulation.world, picture_of_diverged(outputs.front()),
                                                          [&] { return simulate(simulation, scene, console); });
     render_film({{scene, simulation, recording}}, surroundings, whole_film(recording.progress.size()), outputs, console,
-                options.jobs);
-    for (const std::string& output : options.outputs) fmt::print("{}\n", output);
+                jobs);
+    for (const std::string& output : options.outputs.names) fmt::print("{}\n", output);
   });
+}
+
+}  // namespace
+
+void add_animate(CLI::App& app, Invocation& invocation) {
+  CLI::App* command = app.add_subcommand("animate", "mesh or scene in, pictures or film out");
+  const auto options = std::make_shared<AnimateOptions>();
+  options->outputs.add_to(*command,
+                          "folder/, folder/frame_{:04}.png, or film.mp4, .webm, .gif; may be given several times");
+  command->add_flag("--overwrite", options->overwrite, "replace pictures and films that exist");
+  options->jobs.add_to(*command)->group(kMoreOptions);
+  options->scene.add_to(*command, true);
+  add_messages(*command, invocation.console);
+  command->footer(scene_footer(*command,
+                               "Examples:\n  sprung animate bunny.obj -o bunny.mp4\n"
+                               "  sprung animate bunny.obj -o frames/ --material rubber --size 12cm --scenario hang\n"
+                               "  sprung animate scene.toml -o out/f_{:04}.png --color-by stress --set "
+                               "render.ghost=true\n"));
+  command->callback([options, command, &invocation] { animate(*command, *options, invocation.console); });
 }
 
 }  // namespace sprung

@@ -1,19 +1,32 @@
-#include "app/commands/compare.h"
+#include "render/image/compare.h"
 
 #include <fmt/format.h>
 
+#include "app/commands/commands.h"
+#include "app/commands/options.h"
 #include "core/error.h"
 #include "core/files.h"
-#include "render/image/compare.h"
 #include "render/image/png.h"
 
 namespace sprung {
+namespace {
+
+struct CompareOptions {
+  std::filesystem::path first;
+  std::filesystem::path second;
+  std::filesystem::path difference;  // empty: none is written
+  double mean = 0.4;                 // levels of 255 that the pictures may differ by on average ...
+  double worst_block = 6;            // ... and in the worst 8 x 8 block
+  bool overwrite = false;
+};
+
+/// Whether the pictures are alike.
 
 bool compare(const CompareOptions& options) {
-  if (!options.difference.empty() && !options.overwrite && std::filesystem::exists(options.difference)) {
-    throw Error(ErrorKind::kUsage,
-                fmt::format("'{}' exists; say --overwrite to replace it", options.difference.string()));
+  if (options.second.empty()) {
+    throw Error(ErrorKind::kUsage, "compare needs two pictures: sprung compare A.png B.png");
   }
+  if (!options.difference.empty()) refuse_existing(options.difference, options.overwrite);
   const Image first = read_png(options.first);
   const Image second = read_png(options.second);
   if (!same_size(first, second)) {
@@ -30,6 +43,28 @@ bool compare(const CompareOptions& options) {
     write_png(difference_picture(first, second), options.difference);
   }
   return is_near;
+}
+
+}  // namespace
+
+void add_compare(CLI::App& app, Invocation& invocation) {
+  CLI::App* command = app.add_subcommand("compare", "two pictures: how much they differ; exit code 1 if too much");
+  const auto options = std::make_shared<CompareOptions>();
+  command->add_option("A", options->first, "a PNG")->option_text("A.png");
+  command->add_option("B", options->second, "another")->option_text("B.png");
+  command->add_option("--mean", options->mean, "levels of 255 that they may differ by on average; default: 0.4")
+      ->option_text("X")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--worst-block", options->worst_block, "the same in the worst 8 x 8 pixels; default: 6")
+      ->option_text("X")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--difference", options->difference, "picture of the differences, 16 times as large")
+      ->option_text("FILE.png");
+  command->add_flag("--overwrite", options->overwrite, "replace a picture that exists");
+  command->footer("Example:\n  sprung compare golden.png new.png --difference difference.png");
+  command->callback([options, &invocation] {
+    if (!compare(*options)) invocation.exit_code = int(ErrorKind::kFailed);
+  });
 }
 
 }  // namespace sprung

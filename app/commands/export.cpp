@@ -1,10 +1,9 @@
-#include "app/commands/export.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "app/commands/command_line.h"
+#include "app/commands/commands.h"
+#include "app/commands/options.h"
 #include "app/export/export_files.h"
 #include "app/inspect/forecast.h"
 #include "app/scene/cached_film.h"
@@ -17,6 +16,15 @@
 
 namespace sprung {
 namespace {
+
+struct ExportOptions {
+  OutputOptions outputs;
+  std::string frames;  // "1:48"
+  bool quantize = false;
+  bool list = false;
+  bool overwrite = false;
+  SceneOptions scene;
+};
 
 void print_formats() {
   fmt::print("One file a frame, by a name with a number like skin_{{:04}}.obj:\n");
@@ -34,16 +42,14 @@ void print_formats() {
   for (const UnsupportedFormat& format : unsupported_formats()) fmt::print("  {}: {}\n", format.format, format.reason);
 }
 
-/// Before any work is lost.
-std::vector<ExportTarget> targets_of(const SceneOptions& options, const Film& scene, const FrameRange& range) {
+/// Checked before any work is done.
+std::vector<ExportTarget> targets_of(const ExportOptions& options, const Film& scene, const FrameRange& range) {
   std::vector<ExportTarget> targets;
-  for (const std::string& words : options.outputs) {
+  for (const std::string& words : options.outputs.names) {
     targets.push_back(parse_export_target(words));
     targets.back().quantize = options.quantize;
     for (const std::filesystem::path& file : files_of(targets.back(), scene, range)) {
-      if (!options.overwrite && std::filesystem::exists(file)) {
-        throw Error(ErrorKind::kUsage, fmt::format("'{}' exists; say --overwrite to replace it", file.string()));
-      }
+      refuse_existing(file, options.overwrite);
     }
     check_writable(files_of(targets.back(), scene, range).front());
   }
@@ -56,20 +62,20 @@ std::vector<ExportTarget> targets_of(const SceneOptions& options, const Film& sc
   return targets;
 }
 
-void write_all(const SceneOptions& options, const CachedFilmView& view, const FrameRange& range,
+void write_all(const ExportOptions& options, const CachedFilmView& view, const FrameRange& range,
                const std::vector<ExportTarget>& targets, const Console& console) {
   for (std::size_t i = 0; i < targets.size(); ++i) {
     make_folder(files_of(targets[i], view.film, range).front().parent_path());
     export_files(targets[i], view, range, console);
-    fmt::print("{}\n", options.outputs[i]);
+    fmt::print("{}\n", options.outputs.names[i]);
   }
 }
 
-void export_cache(const SceneOptions& options, const Console& console) {
-  if (!options.settings.empty() || options.scenario) {
-    throw Error(ErrorKind::kUsage, "a cache is moved already: options of the scene change nothing in it");
+void export_cache(const ExportOptions& options, const Console& console) {
+  if (!options.scene.keys.settings().empty() || !options.scene.scenario.empty()) {
+    throw Error(ErrorKind::kUsage, "a cache is simulated already; options of the scene have no effect on it");
   }
-  const CacheReader cache(options.input);
+  const CacheReader cache(options.scene.input);
   const Film scene = cached_film(cache.header());
   const FrameRange range = parse_frame_range(options.frames, cache.frame_count());
   const std::vector<ExportTarget> targets = targets_of(options, scene, range);
@@ -77,7 +83,7 @@ void export_cache(const SceneOptions& options, const Console& console) {
   write_all(options, {simulation, cache, scene}, range, targets, console);
 }
 
-/// A cache for as long as it takes to write what is asked for, beside that.
+/// A temporary cache beside the output.
 class PassingCache {
  public:
   explicit PassingCache(const std::filesystem::path& output) : file_(output) { file_ += ".passing.h5"; }
@@ -103,12 +109,14 @@ void simulate_into(const std::filesystem::path& file, Simulation& simulation, co
   cache.close();
 }
 
-}  // namespace
-
-void export_run(const SceneOptions& options, const Console& console) {
+void export_run(const CLI::App& command, const ExportOptions& options, const Console& console) {
   if (options.list) return print_formats();
-  if (is_cache_file(options.input)) return export_cache(options, console);
-  with_scene(options, [&](const Film& scene) {
+  require_input(command, options.scene.input, "a mesh or a scene");
+  if (!options.scene.print_scene) {
+    options.outputs.require(command, "-o skin_{:04}.obj, -o film.glb, ...; see sprung export --list");
+  }
+  if (is_cache_file(options.scene.input)) return export_cache(options, console);
+  options.scene.with_scene([&](const Film& scene) {
     const FrameRange range = parse_frame_range(options.frames, frame_count(scene));
     const std::vector<ExportTarget> targets = targets_of(options, scene, range);
     Simulation simulation = prepare_simulation(scene, console);
@@ -117,6 +125,27 @@ void export_run(const SceneOptions& options, const Console& console) {
     simulate_into(passing.file(), simulation, scene, console);
     write_all(options, {simulation, CacheReader(passing.file()), scene}, range, targets, console);
   });
+}
+
+}  // namespace
+
+void add_export(CLI::App& app, Invocation& invocation) {
+  CLI::App* command = app.add_subcommand("export", "a cache, mesh or scene in, deformed meshes out");
+  const auto options = std::make_shared<ExportOptions>();
+  options->outputs.add_to(*command,
+                          "skin_{:04}.obj or another format, film.glb, film.html, points.pc2, points.mdd, run.xdmf; "
+                          "may be given several times");
+  command->add_option("--frames", options->frames, "these only, counted from 1; default: all")->option_text("A:B");
+  command->add_flag("--quantize", options->quantize,
+                    "keep 16 bits per coordinate in film.glb: half the size; reports the error");
+  command->add_flag("--list", options->list, "name the formats, and stop");
+  command->add_flag("--overwrite", options->overwrite, "replace files that exist");
+  options->scene.add_to(*command, false, "a cache (.h5), a mesh file, or a scene (.toml)");
+  add_messages(*command, invocation.console);
+  command->footer(scene_footer(*command,
+                               "Examples:\n  sprung export run.h5 -o film.glb\n"
+                               "  sprung export run.h5 -o skin_{:04}.obj -o points.pc2\n"));
+  command->callback([options, command, &invocation] { export_run(*command, *options, invocation.console); });
 }
 
 }  // namespace sprung

@@ -1,10 +1,9 @@
-#include "app/commands/film.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "app/console/console.h"
+#include "app/commands/commands.h"
+#include "app/commands/options.h"
 #include "app/console/interrupt.h"
 #include "app/film/film_output.h"
 #include "core/error.h"
@@ -18,6 +17,14 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMostFrames = 1000000000;  // that --frames may name
 
+struct FilmOptions {
+  std::string input;  // the pictures
+  OutputOptions outputs;
+  std::string frames;  // "1:48"
+  std::string fps;
+  bool overwrite = false;
+};
+
 int last_number(const Output& pictures) {
   int last = 0;
   for (const fs::path& file : existing_pictures(pictures)) {
@@ -29,7 +36,7 @@ int last_number(const Output& pictures) {
   return last;
 }
 
-/// "25:48, 70" of the pictures that are not there; empty where all are.
+/// The missing pictures, "25:48, 70"; empty where there are none.
 std::string gaps_in(const Output& pictures, const FrameRange& range) {
   std::string gaps;
   int missing = 0;  // in a row, up to the number before
@@ -45,8 +52,8 @@ std::string gaps_in(const Output& pictures, const FrameRange& range) {
   return gaps;
 }
 
-std::vector<Output> films_of(const SceneOptions& options) {
-  std::vector<Output> films = parse_outputs(options.outputs);
+std::vector<Output> films_of(const FilmOptions& options) {
+  std::vector<Output> films = parse_outputs(options.outputs.names);
   for (const Output& film : films) {
     if (film.kind != Output::Kind::kFilm) {
       throw Error(ErrorKind::kUsage, "film makes films of pictures: -o film.mp4, .webm or .gif");
@@ -56,9 +63,7 @@ std::vector<Output> films_of(const SceneOptions& options) {
   return films;
 }
 
-}  // namespace
-
-void make_film(const SceneOptions& options, const Console& console) {
+void make_film(const FilmOptions& options, double fps, const Console& console) {
   const std::vector<Output> films = films_of(options);
   const Output pictures = parse_output(options.input);
   const int last = pictures.kind == Output::Kind::kPictures ? last_number(pictures) : 0;
@@ -71,7 +76,7 @@ void make_film(const SceneOptions& options, const Console& console) {
   }
   Progress progress(console, "film", range.count(), 1, "frames/s");
   const Image first = read_png(pictures.picture(range.first));
-  PictureWriter writer(films, first.width, first.height, options.fps.value_or(Film{}.fps));
+  PictureWriter writer(films, first.width, first.height, fps);
   for (int number = range.first; number <= range.last; ++number) {
     stop_if_interrupted();
     Image image = read_png(pictures.picture(number));
@@ -85,7 +90,28 @@ void make_film(const SceneOptions& options, const Console& console) {
   }
   writer.close();
   progress.finish(count_of(range.count(), "picture"));
-  for (const std::string& output : options.outputs) fmt::print("{}\n", output);
+  for (const std::string& output : options.outputs.names) fmt::print("{}\n", output);
+}
+
+}  // namespace
+
+void add_film(CLI::App& app, Invocation& invocation) {
+  CLI::App* command = app.add_subcommand("film", "numbered pictures in, a film out");
+  const auto options = std::make_shared<FilmOptions>();
+  command->add_option("INPUT", options->input, "folder/, or folder/frame_{:04}.png");
+  options->outputs.add_to(*command, "film.mp4, .webm, .gif; may be given several times");
+  command->add_option("--frames", options->frames, "these only; default: from 1 to the last that is there")
+      ->option_text("A:B");
+  const CLI::Option* fps =
+      command->add_option("--fps", options->fps, "pictures a second; default: 24")->option_text("N");
+  command->add_flag("--overwrite", options->overwrite, "replace films that exist");
+  add_messages(*command, invocation.console);
+  command->footer("Example:\n  sprung film frames/ -o film.mp4 --fps 24");
+  command->callback([options, command, fps, &invocation] {
+    require_input(*command, options->input, "a folder of pictures");
+    options->outputs.require(*command, "-o film.mp4");
+    make_film(*options, key_value<double>(*fps, "fps", options->fps).value_or(Film{}.fps), invocation.console);
+  });
 }
 
 }  // namespace sprung

@@ -1,9 +1,9 @@
-#include "app/commands/inspect.h"
-
 #include <fmt/format.h>
 
-#include "app/commands/command_line.h"
-#include "app/console/json_text.h"
+#include <nlohmann/json.hpp>
+
+#include "app/commands/commands.h"
+#include "app/commands/options.h"
 #include "app/inspect/brick_picture.h"
 #include "app/inspect/inspection.h"
 #include "app/scene/cached_film.h"
@@ -17,20 +17,19 @@
 namespace sprung {
 namespace {
 
-void check_picture(const SceneOptions& options) {
-  if (options.picture.empty()) return;
-  if (!options.overwrite && std::filesystem::exists(options.picture)) {
-    throw Error(ErrorKind::kUsage, fmt::format("'{}' exists; say --overwrite to replace it", options.picture.string()));
-  }
-  check_writable(options.picture);
-}
+struct InspectOptions {
+  bool json = false;
+  std::filesystem::path picture;  // empty: none
+  bool overwrite = false;
+  SceneOptions scene;
+};
 
-}  // namespace
-
-void run_inspect(const SceneOptions& options, const Console& console) {
-  if (is_cache_file(options.input)) return inspect_cache(options);
-  with_scene(options, [&](const Film& scene) {
-    check_picture(options);
+void inspect_scene(const InspectOptions& options, const Console& console) {
+  options.scene.with_scene([&](const Film& scene) {
+    if (!options.picture.empty()) {
+      refuse_existing(options.picture, options.overwrite);
+      check_writable(options.picture);
+    }
     std::vector<std::string> warnings;
     Console listening = console;
     listening.warnings = &warnings;
@@ -52,9 +51,7 @@ void run_inspect(const SceneOptions& options, const Console& console) {
   });
 }
 
-namespace {
-
-/// What one looks for in a cache.
+/// What is printed about a cache.
 struct CacheFacts {
   std::string version;
   std::string build;
@@ -110,28 +107,56 @@ std::string text_of(const CacheFacts& facts) {
 }
 
 std::string json_of(const CacheFacts& facts) {
-  return fmt::format(
-      "{{\"frames\": {}, \"planned_frames\": {}, \"{}\": {}, \"state_hash\": \"{:016x}\", \"solids\": {}, \"bricks\": "
-      "{}, \"nodes\": {}, \"skin_vertices\": {}, \"position_error\": {}, \"velocity_error\": {}, \"bytes\": {}, "
-      "\"version\": {}, \"build\": {}}}\n",
-      facts.frames, facts.planned, facts.progress_name, json_text(facts.progress), facts.state_hash, facts.solids,
-      facts.bricks, facts.nodes, facts.skin_vertices, json_text(facts.position_error), json_text(facts.velocity_error),
-      facts.bytes, json_text(std::string_view(facts.version)), json_text(std::string_view(facts.build)));
+  const nlohmann::ordered_json json{{"frames", facts.frames},
+                                    {"planned_frames", facts.planned},
+                                    {facts.progress_name, facts.progress},
+                                    {"state_hash", fmt::format("{:016x}", facts.state_hash)},
+                                    {"solids", facts.solids},
+                                    {"bricks", facts.bricks},
+                                    {"nodes", facts.nodes},
+                                    {"skin_vertices", facts.skin_vertices},
+                                    {"position_error", facts.position_error},
+                                    {"velocity_error", facts.velocity_error},
+                                    {"bytes", facts.bytes},
+                                    {"version", facts.version},
+                                    {"build", facts.build}};
+  return json.dump(1) + "\n";
+}
+
+void inspect_cache(const InspectOptions& options) {
+  if (!options.scene.keys.settings().empty() || !options.scene.scenario.empty() || !options.picture.empty()) {
+    throw Error(ErrorKind::kUsage, "inspect of a cache takes --json only");
+  }
+  const CacheReader cache(options.scene.input);
+  if (options.scene.print_scene) {
+    fmt::print("{}", cache.header().scene);
+    return;
+  }
+  const CacheFacts facts = facts_of(cache, options.scene.input);
+  fmt::print("{}", options.json ? json_of(facts) : text_of(facts));
 }
 
 }  // namespace
 
-void inspect_cache(const SceneOptions& options) {
-  if (!options.settings.empty() || options.scenario || !options.picture.empty()) {
-    throw Error(ErrorKind::kUsage, "inspect of a cache takes --json only");
-  }
-  const CacheReader cache(options.input);
-  if (options.print_scene) {
-    fmt::print("{}", cache.header().scene);
-    return;
-  }
-  const CacheFacts facts = facts_of(cache, options.input);
-  fmt::print("{}", options.json ? json_of(facts) : text_of(facts));
+void add_inspect(CLI::App& app, Invocation& invocation) {
+  CLI::App* command =
+      app.add_subcommand("inspect", "mesh, scene or cache in, its properties and the cost of its film out");
+  const auto options = std::make_shared<InspectOptions>();
+  command->add_flag("--json", options->json, "the facts as JSON");
+  command->add_option("--picture", options->picture, "draw skin and bricks, thin parts marked")
+      ->option_text("FILE.png");
+  command->add_flag("--overwrite", options->overwrite, "replace a picture that exists");
+  options->scene.add_to(*command, true, "a mesh file, a scene (.toml), or a cache (.h5)");
+  add_messages(*command, invocation.console);
+  command->footer(scene_footer(*command,
+                               "Examples:\n  sprung inspect bunny.obj\n"
+                               "  sprung inspect bunny.obj --bricks auto --picture bunny.png\n"
+                               "  sprung inspect run.h5 --json\n"));
+  command->callback([options, command, &invocation] {
+    require_input(*command, options->scene.input, "a mesh or a scene");
+    if (is_cache_file(options->scene.input)) return inspect_cache(*options);
+    inspect_scene(*options, invocation.console);
+  });
 }
 
 }  // namespace sprung

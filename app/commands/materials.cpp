@@ -1,17 +1,28 @@
-#include "app/commands/materials.h"
-
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
-#include "app/console/json_text.h"
+#include "app/commands/commands.h"
+#include "app/commands/options.h"
 #include "app/scene/scene_values.h"
 #include "core/error.h"
 
 namespace sprung {
 namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// As typed.
+struct MaterialsOptions {
+  std::vector<std::string> words;  // each has to be in a material's name or class
+  std::string material_class;
+  std::string young;               // "1kPa:2MPa"; either end may be left out
+  std::vector<std::string> files;  // of further materials
+  bool sources = false;
+  bool json = false;
+};
 
 /// Pa.
 struct Moduli {
@@ -24,7 +35,7 @@ Moduli parse_moduli(const std::string& text) {
   const auto colon = text.find(':');
   if (colon == std::string::npos) {
     throw Error(ErrorKind::kUsage,
-                fmt::format("--young: '{}' is no range; write it as 1kPa:2MPa, :2MPa or 1kPa:", text));
+                fmt::format("--young: '{}' is not a range; write it as 1kPa:2MPa, :2MPa or 1kPa:", text));
   }
   Moduli moduli;
   try {
@@ -101,39 +112,56 @@ std::string sources(const LibraryMaterial& material) {
                      material.damping_source);
 }
 
-std::string json(const LibraryMaterial& material) {
-  const auto figure = [](std::string_view name, double value, double uncertainty, const std::string& source) {
-    return fmt::format(R"("{}": {{"value": {}, "uncertainty": {}, "source": {}}})", name, json_text(value),
-                       json_text(uncertainty), json_text(std::string_view(source)));
+Json json_of(const LibraryMaterial& material) {
+  const auto figure = [](double value, double uncertainty, const std::string& source) {
+    return Json{{"value", value}, {"uncertainty", uncertainty}, {"source", source}};
   };
-  const std::vector<std::string> members{
-      fmt::format(R"("name": {})", json_text(std::string_view(material.name))),
-      fmt::format(R"("class": {})", json_text(name_of(material.material_class))),
-      fmt::format(R"("about": {})", json_text(std::string_view(material.about))),
-      figure("young", material.young, material.young * material.young_uncertainty, material.young_source),
-      figure("poisson", material.poisson, material.poisson_uncertainty, material.poisson_source),
-      figure("density", material.density, material.density * material.density_uncertainty, material.density_source),
-      figure("damping", material.damping, material.damping * material.damping_uncertainty, material.damping_source),
-      fmt::format(R"("look": {})", json_text(name_of(material.look)))};
-  return fmt::format("  {{{}}}", fmt::join(members, ", "));
+  return {
+      {"name", material.name},
+      {"class", name_of(material.material_class)},
+      {"about", material.about},
+      {"young", figure(material.young, material.young * material.young_uncertainty, material.young_source)},
+      {"poisson", figure(material.poisson, material.poisson_uncertainty, material.poisson_source)},
+      {"density", figure(material.density, material.density * material.density_uncertainty, material.density_source)},
+      {"damping", figure(material.damping, material.damping * material.damping_uncertainty, material.damping_source)},
+      {"look", name_of(material.look)}};
 }
 
-}  // namespace
-
-std::string list_materials(const MaterialsOptions& options) {
+void list_materials(const MaterialsOptions& options) {
   MaterialLibrary library = *built_in_materials();
   for (const std::string& file : options.files) library.add_file(file);
   const std::vector<LibraryMaterial> materials = asked_for(options, library);
   if (options.json) {
-    std::vector<std::string> objects;
-    objects.reserve(materials.size());
-    for (const LibraryMaterial& material : materials) objects.push_back(json(material));
-    return fmt::format("[\n{}\n]\n", fmt::join(objects, ",\n"));
+    Json list = Json::array();
+    for (const LibraryMaterial& material : materials) list.push_back(json_of(material));
+    fmt::print("{}\n", list.dump(1, ' ', false, Json::error_handler_t::replace));
+    return;
   }
-  std::string text = fmt::format("{:<20}{:<10}{:>10}{:<7}{:>9}{:>13}{:>9}  {}\n", "name", "class", "young", "",
-                                 "poisson", "density", "damping", "look");
-  for (const LibraryMaterial& material : materials) text += row(material) + (options.sources ? sources(material) : "");
-  return text;
+  fmt::print("{:<20}{:<10}{:>10}{:<7}{:>9}{:>13}{:>9}  {}\n", "name", "class", "young", "", "poisson", "density",
+             "damping", "look");
+  for (const LibraryMaterial& material : materials) {
+    fmt::print("{}{}", row(material), options.sources ? sources(material) : "");
+  }
+}
+
+}  // namespace
+
+void add_materials(CLI::App& app, Invocation&) {
+  CLI::App* command = app.add_subcommand("materials", "what bodies can be made of, with sources and uncertainties");
+  const auto options = std::make_shared<MaterialsOptions>();
+  command->add_option("WORDS", options->words, "these only: part of a name, or a class");
+  command->add_option("--class", options->material_class, "these only: gelatin, silicone, rubber, foam, wood, ...")
+      ->option_text("NAME");
+  command->add_option("--young", options->young, "these only: Young's modulus from A to B")->option_text("A:B");
+  command->add_option("--materials", options->files, "a file with materials of your own; may be given several times")
+      ->allow_extra_args(false)
+      ->option_text("FILE.toml");
+  command->add_flag("--sources", options->sources, "the source of every value");
+  command->add_flag("--json", options->json, "as JSON, SI units, with the sources");
+  command->footer(
+      "Examples:\n  sprung materials\n  sprung materials silicone --young :1MPa\n"
+      "  sprung materials steel --sources\n  sprung materials --materials mine.toml --json");
+  command->callback([options] { list_materials(*options); });
 }
 
 }  // namespace sprung

@@ -2,264 +2,15 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <tbb/global_control.h>
 
-#include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 
-#include "app/scene/scene_keys.h"
+#include "app/scene/scene_file.h"
+#include "core/mesh/io/read_mesh.h"
 
 namespace sprung {
-namespace {
-
-/// What every command that works for a while says of it.
-void add_messages(CLI::App& command, RawOptions& words, const std::string& verbose = "more about every stage") {
-  command.add_flag("--quiet", words.scene.quiet, "warnings and errors only");
-  command.add_flag("--verbose", words.scene.verbose, verbose);
-  command.add_flag("--log-json", words.log_json, "messages and progress as JSON on stderr, an object a line");
-}
-
-void add_outputs(CLI::App& command, RawOptions& words, const std::string& help,
-                 const std::string& placeholder = "OUT") {
-  command.add_option("-o,--output", words.scene.outputs, help)->allow_extra_args(false)->option_text(placeholder);
-}
-
-void add_sets(CLI::App& command, RawOptions& words, const std::string& help,
-              const std::string& placeholder = "KEY=VALUE") {
-  command.add_option("--set", words.set, help + "; may be given several times")
-      ->allow_extra_args(false)
-      ->option_text(placeholder);
-}
-
-void add_scene_option(CLI::App& command, RawOptions& words, std::size_t row) {
-  const KeyOption& option = key_options()[row];
-  CLI::Option* added = command.add_option(option.option, words.scene_values[row], help_of(option));
-  added->option_text(option.example);
-  if (!option.use.is_common) added->group(kMoreOptions);
-}
-
-void add_scene_options(CLI::App& command, RawOptions& words, bool has_pictures, const std::string& examples,
-                       const std::string& input = "a mesh file, or a scene (.toml)") {
-  command.add_option("INPUT", words.scene.input, input);
-  for (std::size_t i = 0; i < words.scene_values.size(); ++i) {
-    if (!key_options()[i].use.is_of_pictures || has_pictures) add_scene_option(command, words, i);
-  }
-  add_sets(command, words, "any key of a scene (sprung help scene)");
-  command
-      .add_option("--scenario", words.scenario,
-                  fmt::format("what a bare mesh does: {}", fmt::join(scenario_names(), ", ")))
-      ->option_text("NAME");
-  command.add_option("--threads", words.threads, "threads of the simulation; default: all cores")
-      ->option_text("N")
-      ->group(kMoreOptions);
-  command.add_flag("--print-scene", words.scene.print_scene, "write the scene as resolved to stdout, and stop");
-  add_messages(command, words);
-  command.footer(
-      examples +
-      "Lengths, times, pressures and densities take a unit (\"3 cm\", 20kPa, 1.2g/cm3); a bare number is SI.\n"
-      "Options override the scene file, which overrides the defaults.\n"
-      "All options: sprung help " +
-      command.get_name() + "    All keys of a scene: sprung help scene");
-  command.allow_extras();
-}
-
-CLI::Option* add_jobs(CLI::App& command, RawOptions& words) {
-  return command.add_option("--jobs", words.jobs, "so many processes draw; default: one a core, for 24 frames each")
-      ->option_text("N");
-}
-
-void add_animate(CLI::App& app, RawOptions& words) {
-  CLI::App* animate = app.add_subcommand("animate", "mesh or scene in, pictures or film out");
-  add_outputs(*animate, words, "folder/, folder/frame_{:04}.png, or film.mp4, .webm, .gif; may be given several times");
-  animate->add_flag("--overwrite", words.scene.overwrite, "replace pictures and films that exist");
-  add_jobs(*animate, words)->group(kMoreOptions);
-  add_scene_options(*animate, words, true,
-                    "Examples:\n  sprung animate bunny.obj -o bunny.mp4\n"
-                    "  sprung animate bunny.obj -o frames/ --material rubber --size 12cm --scenario hang\n"
-                    "  sprung animate scene.toml -o out/f_{:04}.png --color-by stress --set render.ghost=true\n");
-}
-
-void add_simulate(CLI::App& app, RawOptions& words) {
-  CLI::App* simulate = app.add_subcommand("simulate", "mesh or scene in, its motion out: a cache, measurements");
-  add_outputs(*simulate, words,
-              "RUN.h5, a cache of all frames, or folder/ for probes.csv, probes.json and manifest.json; or both");
-  simulate->add_flag("--overwrite", words.scene.overwrite, "replace files that exist");
-  simulate->add_flag("--resume", words.scene.resume, "go on where the cache ends; begin where there is none");
-  simulate
-      ->add_option(
-          "--position-error", words.position_error,
-          "keep positions in the cache to within this, velocities to within this a frame: smaller; default: to "
-          "the last bit")
-      ->option_text("LENGTH");
-  add_scene_options(
-      *simulate, words, false,
-      "Examples:\n  sprung simulate scene.toml -o run.h5\n  sprung simulate scene.toml -o run.h5 --resume\n"
-      "  sprung simulate beam.toml -o out/\n");
-}
-
-void add_render(CLI::App& app, RawOptions& words) {
-  CLI::App* render = app.add_subcommand("render", "a cache in, pictures or film out");
-  render->add_option("INPUT", words.scene.input, "a cache (.h5)");
-  render->add_option("MORE", words.scene.others, "more caches, with --side-by-side");
-  render->add_flag("--side-by-side", words.scene.side_by_side, "several runs in one film: one camera, one scale");
-  add_outputs(*render, words, "folder/, folder/frame_{:04}.png, or film.mp4, .webm, .gif; may be given several times");
-  render->add_option("--frames", words.scene.frames, "these only, counted from 1; default: all")->option_text("A:B");
-  add_jobs(*render, words);
-  render->add_flag("--overwrite", words.scene.overwrite, "replace pictures and films that exist");
-  for (std::size_t i = 0; i < words.scene_values.size(); ++i) {
-    if (key_options()[i].key.starts_with("render.")) add_scene_option(*render, words, i);
-  }
-  add_sets(*render, words, "any key of [camera] and [render]");
-  add_messages(*render, words);
-  render->footer(
-      "Examples:\n  sprung render run.h5 -o film.mp4\n  sprung render run.h5 -o frames/ --frames 1:48 --jobs 4\n"
-      "  sprung render run.h5 -o stress.mp4 --color-by stress --set camera.orbit=90\n"
-      "All options: sprung help render    All keys of a scene: sprung help scene");
-  render->allow_extras();
-}
-
-void add_export(CLI::App& app, RawOptions& words) {
-  CLI::App* command = app.add_subcommand("export", "a cache, mesh or scene in, deformed meshes out");
-  add_outputs(*command, words,
-              "skin_{:04}.obj or another format, film.glb, film.html, points.pc2, points.mdd, run.xdmf; may be given "
-              "several times");
-  command->add_option("--frames", words.scene.frames, "these only, counted from 1; default: all")->option_text("A:B");
-  command->add_flag("--quantize", words.scene.quantize,
-                    "keep 16 bits a coordinate in film.glb: half the size; says how far off that is");
-  command->add_flag("--list", words.scene.list, "name the formats, and stop");
-  command->add_flag("--overwrite", words.scene.overwrite, "replace files that exist");
-  add_scene_options(
-      *command, words, false,
-      "Examples:\n  sprung export run.h5 -o film.glb\n  sprung export run.h5 -o skin_{:04}.obj -o points.pc2\n",
-      "a cache (.h5), a mesh file, or a scene (.toml)");
-}
-
-void add_film(CLI::App& app, RawOptions& words) {
-  CLI::App* film = app.add_subcommand("film", "numbered pictures in, a film out");
-  film->add_option("INPUT", words.scene.input, "folder/, or folder/frame_{:04}.png");
-  add_outputs(*film, words, "film.mp4, .webm, .gif; may be given several times");
-  film->add_option("--frames", words.scene.frames, "these only; default: from 1 to the last that is there")
-      ->option_text("A:B");
-  film->add_option("--fps", words.fps, "pictures a second; default: 24")->option_text("N");
-  film->add_flag("--overwrite", words.scene.overwrite, "replace films that exist");
-  add_messages(*film, words);
-  film->footer("Example:\n  sprung film frames/ -o film.mp4 --fps 24");
-  film->allow_extras();
-}
-
-void add_sweep(CLI::App& app, RawOptions& words) {
-  CLI::App* sweep = app.add_subcommand("sweep", "a scene and lists of values in, a folder and a command a run out");
-  sweep->add_option("INPUT", words.scene.input, "a mesh file, a scene (.toml), or with --table the folder of a sweep");
-  add_outputs(*sweep, words, "the folder for all runs", "FOLDER");
-  add_sets(*sweep, words, "values of any key of a scene, by commas", "KEY=A,B,C");
-  sweep->add_flag("--table", words.scene.table, "what the probes of all runs saw last, as CSV");
-  sweep->add_flag("--overwrite", words.scene.overwrite, "replace the list of commands that exists");
-  add_messages(*sweep, words);
-  sweep->footer(
-      "Examples:\n  sprung sweep scene.toml --set body.material=gelatin,rubber -o runs\n  sh runs/commands\n"
-      "  sprung sweep runs --table");
-  sweep->allow_extras();
-}
-
-void add_inspect(CLI::App& app, RawOptions& words) {
-  CLI::App* inspect =
-      app.add_subcommand("inspect", "mesh, scene or cache in, what it is and what its film will take out");
-  inspect->add_flag("--json", words.scene.json, "the facts as JSON");
-  inspect->add_option("--picture", words.scene.picture, "draw skin and bricks, thin parts marked")
-      ->option_text("FILE.png");
-  inspect->add_flag("--overwrite", words.scene.overwrite, "replace a picture that exists");
-  add_scene_options(
-      *inspect, words, true,
-      "Examples:\n  sprung inspect bunny.obj\n  sprung inspect bunny.obj --bricks auto --picture bunny.png\n"
-      "  sprung inspect run.h5 --json\n",
-      "a mesh file, a scene (.toml), or a cache (.h5)");
-}
-
-void add_validate(CLI::App& app, RawOptions& words) {
-  CLI::App* validate = app.add_subcommand("validate", "experiments, measured against theory and reference");
-  validate->add_option("FILES", words.validate.cases, "scenes with [[expect]]; default: the built-in experiments");
-  validate->add_option("--case", words.validate.cases, "a built-in experiment; may be given several times")
-      ->allow_extra_args(false)
-      ->option_text("NAME");
-  validate->add_flag("--list", words.validate.list, "name the built-in experiments, and stop");
-  validate->add_option("--model", words.model, "this law of the bricks only")->option_text("NAME");
-  validate->add_option("--poisson", words.poisson, "this Poisson's ratio only")->option_text("NU");
-  validate->add_option("--bricks", words.bricks, "this grid only, by the bricks along the longest side")
-      ->option_text("N");
-  validate->add_flag("--json", words.validate.json, "checks as JSON");
-  validate->add_option("--report", words.validate.report, "folder for report.html")->option_text("DIR");
-  add_messages(*validate, words, "say why a model could not be carried through");
-  validate->footer(
-      "Examples:\n  sprung validate\n  sprung validate --case cantilever --model calibrated\n"
-      "  sprung validate mine.toml --report out/report");
-  validate->allow_extras();
-}
-
-void add_compare(CLI::App& app, RawOptions& words) {
-  CLI::App* compare = app.add_subcommand("compare", "two pictures: how much they differ; exit code 1 if too much");
-  compare->add_option("A", words.compare.first, "a PNG")->option_text("A.png");
-  compare->add_option("B", words.compare.second, "another")->option_text("B.png");
-  compare->add_option("--mean", words.compare.mean, "levels of 255 that they may differ by on average; default: 0.4")
-      ->option_text("X")
-      ->check(CLI::NonNegativeNumber);
-  compare->add_option("--worst-block", words.compare.worst_block, "the same in the worst 8 x 8 pixels; default: 6")
-      ->option_text("X")
-      ->check(CLI::NonNegativeNumber);
-  compare->add_option("--difference", words.compare.difference, "picture of the differences, 16 times as large")
-      ->option_text("FILE.png");
-  compare->add_flag("--overwrite", words.compare.overwrite, "replace a picture that exists");
-  compare->footer("Example:\n  sprung compare golden.png new.png --difference difference.png");
-  compare->allow_extras();
-}
-
-void add_materials(CLI::App& app, RawOptions& words) {
-  MaterialsOptions& asked = words.materials;
-  CLI::App* materials = app.add_subcommand("materials", "what bodies can be made of, with sources and uncertainties");
-  materials->add_option("WORDS", asked.words, "these only: part of a name, or a class");
-  materials->add_option("--class", asked.material_class, "these only: gelatin, silicone, rubber, foam, wood, ...")
-      ->option_text("NAME");
-  materials->add_option("--young", asked.young, "these only: Young's modulus from A to B")->option_text("A:B");
-  materials->add_option("--materials", asked.files, "a file with materials of your own; may be given several times")
-      ->allow_extra_args(false)
-      ->option_text("FILE.toml");
-  materials->add_flag("--sources", asked.sources, "where every figure is from");
-  materials->add_flag("--json", asked.json, "as JSON, SI units, with the sources");
-  materials->footer(
-      "Examples:\n  sprung materials\n  sprung materials silicone --young :1MPa\n  sprung materials steel --sources\n"
-      "  sprung materials --materials mine.toml --json");
-  materials->allow_extras();
-}
-
-void add_help(CLI::App& app, RawOptions& words) {
-  CLI::App* help = app.add_subcommand("help", "on a command, or on the keys of a scene: sprung help scene");
-  help->add_option("TOPIC", words.topic,
-                   "a command; scene, its keys; man, the manual as roff; bash, zsh or fish, completions for it");
-  help->add_flag("--json-schema", words.json_schema, "the keys of a scene as a JSON Schema");
-  help->footer("Examples:\n  sprung help animate\n  sprung help scene");
-  help->allow_extras();
-}
-
-}  // namespace
-
-void add_commands(CLI::App& app, RawOptions& words) {
-  add_animate(app, words);
-  add_simulate(app, words);
-  add_render(app, words);
-  add_export(app, words);
-  add_film(app, words);
-  add_sweep(app, words);
-  add_inspect(app, words);
-  add_validate(app, words);
-  add_compare(app, words);
-  add_materials(app, words);
-  add_help(app, words);
-}
-
-void show_all(CLI::App& command) {
-  for (CLI::Option* option : command.get_options()) {
-    if (option->get_group() == kMoreOptions) option->group("More options");
-  }
-}
-
 namespace {
 
 constexpr std::array<KeyOption, 22> kKeyOptions{{
@@ -287,33 +38,181 @@ constexpr std::array<KeyOption, 22> kKeyOptions{{
     {"--color-by", "render.color_by", "FIELD", {.is_of_pictures = true, .is_common = true}},
 }};
 
-template <class Owner>
-std::string key_help(std::string_view path);
-
-template <class Value>
-std::string help_below(const Value*, std::string_view) {
-  return "";
+/// "body.spin=[0,0,90]".
+Setting parse_set(const std::string& text) {
+  const auto sign = text.find('=');
+  if (sign == 0 || sign == std::string::npos) {
+    throw Error(ErrorKind::kUsage, fmt::format("--set: '{}' is not of the form KEY=VALUE", text));
+  }
+  return {"--set " + text.substr(0, sign), text.substr(0, sign), text.substr(sign + 1)};
 }
-std::string help_below(const Material*, std::string_view rest) { return key_help<Material>(rest); }
-std::string help_below(const SceneSolver*, std::string_view rest) { return key_help<SceneSolver>(rest); }
-std::string help_below(const SceneRender*, std::string_view rest) { return key_help<SceneRender>(rest); }
-std::string help_below(const std::vector<SceneBody>*, std::string_view rest) { return key_help<SceneBody>(rest); }
 
-template <class Owner>
-std::string key_help(std::string_view path) {
-  const auto dot = path.find('.');
-  const Key<Owner>* key = find_key<Owner>(path.substr(0, dot));
-  if (dot == std::string_view::npos) return std::string(key->help);
-  const auto below = [&](auto field) {
-    return help_below(static_cast<std::remove_cvref_t<decltype(Owner{}.*field)>*>(nullptr), path.substr(dot + 1));
-  };
-  return std::visit(below, key->member);
+bool is_of_materials(const Setting& setting) { return setting.key == "materials"; }
+
+/// The materials known by name, also in a scene file that names no file of materials itself.
+std::shared_ptr<const MaterialLibrary> library_of(const std::vector<Setting>& settings) {
+  if (std::none_of(settings.begin(), settings.end(), is_of_materials)) return built_in_materials();
+  auto library = std::make_shared<MaterialLibrary>(*built_in_materials());
+  for (const Setting& setting : settings) {
+    if (is_of_materials(setting)) library->add_file(setting.value);
+  }
+  return library;
+}
+
+Film bare_mesh(const std::filesystem::path& mesh, const std::shared_ptr<const MaterialLibrary>& library) {
+  Film scene;
+  scene.library = library;
+  scene.bodies.emplace_back(default_body()).mesh = std::filesystem::absolute(mesh).lexically_normal();
+  return scene;
+}
+
+/// m.
+double height_of(const SceneBody& body) {
+  const Points points = read_mesh(body.mesh).positions;
+  const Vec3 extent = points.colwise().maxCoeff() - points.colwise().minCoeff();
+  const double scale = body.scale.value_or(body.size.value_or(kDefaultSize) / extent.maxCoeff());
+  return scale * extent.y();
 }
 
 }  // namespace
 
+void add_messages(CLI::App& command, Console& console, const std::string& verbose) {
+  command.add_flag("--quiet", console.quiet, "warnings and errors only");
+  command.add_flag("--verbose", console.verbose, verbose);
+  command.add_flag("--log-json", console.log_json, "messages and progress as JSON on stderr, one object per line");
+}
+
+int count_in(std::string_view option, const std::string& text) {
+  int count = 0;
+  if (text.empty()) return count;
+  try {
+    parse_value(text, {.name = option, .help = "", .range = {1, 4096}}, count);
+  } catch (const Error& error) {
+    throw Error(ErrorKind::kUsage, fmt::format("{}: {}", option, error.what()));
+  }
+  return count;
+}
+
+void refuse_existing(const std::filesystem::path& file, bool overwrite, std::string_view remedy) {
+  if (overwrite || !std::filesystem::exists(file)) return;
+  throw Error(ErrorKind::kUsage, fmt::format("'{}' exists; say {}", file.string(), remedy));
+}
+
+void OutputOptions::add_to(CLI::App& command, const std::string& help, const char* placeholder) {
+  command.add_option("-o,--output", names, help)->allow_extra_args(false)->option_text(placeholder);
+}
+
+void OutputOptions::require(const CLI::App& command, std::string_view example) const {
+  if (!names.empty()) return;
+  throw Error(ErrorKind::kUsage, fmt::format("{} needs an output: {}", command.get_name(), example));
+}
+
+void require_input(const CLI::App& command, const std::string& input, std::string_view what) {
+  if (!input.empty()) return;
+  throw Error(ErrorKind::kUsage, fmt::format("{0} needs {1}; see sprung {0} --help", command.get_name(), what));
+}
+
+CLI::Option* JobOptions::add_to(CLI::App& command) {
+  return command
+      .add_option("--jobs", text, "number of processes that draw; default: one per core, for at least 24 frames each")
+      ->option_text("N");
+}
+
 std::span<const KeyOption> key_options() { return kKeyOptions; }
 
-std::string help_of(const KeyOption& option) { return key_help<Film>(option.key); }
+void apply(const Setting& setting, Film& scene) {
+  try {
+    set_scene_key(scene, setting.key, setting.value);
+  } catch (const Error& error) {
+    throw Error(ErrorKind::kUsage, fmt::format("{}: {}", setting.option, error.what()));
+  }
+}
+
+void SettingOptions::add_keys(CLI::App& command, const std::function<bool(const KeyOption&)>& is_meant) {
+  for (const KeyOption& key : kKeyOptions) {
+    if (!is_meant(key)) continue;
+    Word& word = words_.emplace_back(Word{.key = key, .text = {}});
+    CLI::Option* option = command.add_option(key.option, word.text, std::string(key_at(key.key).help));
+    option->option_text(key.example);
+    if (!key.use.is_common) option->group(kMoreOptions);
+    word.option = option;
+  }
+}
+
+void SettingOptions::add_set(CLI::App& command, const std::string& help, const char* placeholder) {
+  command.add_option("--set", sets_, help + "; may be given several times")
+      ->allow_extra_args(false)
+      ->option_text(placeholder);
+}
+
+std::vector<Setting> SettingOptions::settings() const {
+  std::vector<Setting> settings;
+  for (const Word& word : words_) {
+    if (word.option->count() > 0) settings.push_back({word.key.option, std::string(word.key.key), word.text});
+  }
+  const auto is_given = [&](std::string_view option) {
+    return std::any_of(settings.begin(), settings.end(), [&](const Setting& one) { return one.option == option; });
+  };
+  if (is_given("--bricks") && is_given("--brick-size")) {
+    throw Error(ErrorKind::kUsage, "give --bricks or --brick-size, not both");
+  }
+  for (const std::string& text : sets_) settings.push_back(parse_set(text));
+  return settings;
+}
+
+Film make_scene(const SceneRequest& request) {
+  const bool is_scene = is_scene_file(request.input);
+  if (is_scene && request.scenario) {
+    throw Error(ErrorKind::kUsage, "--scenario is for a bare mesh; a scene file says what happens");
+  }
+  const auto library = library_of(request.settings);
+  Film scene = is_scene ? read_scene(request.input, *library) : bare_mesh(request.input, library);
+  for (const Setting& setting : request.settings) {
+    if (!is_of_materials(setting)) apply(setting, scene);
+  }
+  if (is_scene) return scene;
+  const Scenario scenario = request.scenario.value_or(Scenario::kDrop);
+  stage_scenario(scene, scenario, needs_height(scenario) ? height_of(scene.bodies[0]) : 0);
+  return scene;
+}
+
+void SceneOptions::add_to(CLI::App& command, bool has_pictures, const std::string& input_help) {
+  command.add_option("INPUT", input, input_help);
+  keys.add_keys(command, [&](const KeyOption& key) { return has_pictures || !key.use.is_of_pictures; });
+  keys.add_set(command, "any key of a scene (sprung help scene)");
+  command
+      .add_option("--scenario", scenario, fmt::format("what a bare mesh does: {}", fmt::join(scenario_names(), ", ")))
+      ->option_text("NAME");
+  command.add_option("--threads", threads, "threads of the simulation; default: all cores")
+      ->option_text("N")
+      ->group(kMoreOptions);
+  command.add_flag("--print-scene", print_scene, "write the scene as resolved to stdout, and stop");
+}
+
+SceneRequest SceneOptions::request() const {
+  SceneRequest request{.input = input, .settings = keys.settings()};
+  if (!scenario.empty()) request.scenario = scenario_from_name(scenario);
+  return request;
+}
+
+void SceneOptions::with_scene(const std::function<void(const Film&)>& work) const {
+  const int thread_count = count_in("--threads", threads);
+  const Film scene = make_scene(request());
+  if (print_scene) {
+    fmt::print("{}", sprung::print_scene(with_defaults(scene)));
+    return;
+  }
+  std::optional<tbb::global_control> control;
+  if (thread_count > 0) control.emplace(tbb::global_control::max_allowed_parallelism, thread_count);
+  work(scene);
+}
+
+std::string scene_footer(const CLI::App& command, const std::string& examples) {
+  return examples +
+         "Lengths, times, pressures and densities take a unit (\"3 cm\", 20kPa, 1.2g/cm3); a bare number is SI.\n"
+         "Options override the scene file, which overrides the defaults.\n"
+         "All options: sprung help " +
+         command.get_name() + "    All keys of a scene: sprung help scene";
+}
 
 }  // namespace sprung

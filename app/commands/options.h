@@ -1,16 +1,71 @@
 #pragma once
+#include <CLI/CLI.hpp>
+#include <deque>
+#include <filesystem>
+#include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
-#include "app/commands/command_line.h"
-
-namespace CLI {
-class App;
-}
+#include "app/console/console.h"
+#include "app/scene/scenarios.h"
+#include "app/scene/scene_reference.h"
+#include "app/scene/scene_values.h"
+#include "core/error.h"
 
 namespace sprung {
+
+// Options that several commands have. CLI11 writes into these structs: they must not move once add_to() was called.
+
+/// CLI11's group of options that --help leaves out; `sprung help COMMAND` names them too.
+inline constexpr const char* kMoreOptions = "";
+
+/// --quiet, --verbose and --log-json, straight into the console.
+void add_messages(CLI::App& command, Console& console, const std::string& verbose = "more about every stage");
+
+/// A whole number from 1, given as text for the option of that name; 0 where there is no text. Throws Error(kUsage).
+[[nodiscard]] int count_in(std::string_view option, const std::string& text);
+
+/// A value of a key of the scene, given as text for an option; none where it is not given. Throws Error(kUsage).
+template <class Value>
+[[nodiscard]] std::optional<Value> key_value(const CLI::Option& option, std::string_view key, const std::string& text) {
+  if (option.count() == 0) return std::nullopt;
+  try {
+    Value value{};
+    parse_value(text, key_at(key), value);
+    return value;
+  } catch (const Error& error) {
+    throw Error(ErrorKind::kUsage, option.get_name() + ": " + error.what());
+  }
+}
+
+/// Throws Error(kUsage) where `file` exists and may not be replaced.
+void refuse_existing(const std::filesystem::path& file, bool overwrite,
+                     std::string_view remedy = "--overwrite to replace it");
+
+/// -o.
+struct OutputOptions {
+  std::vector<std::string> names;  // as typed
+
+  void add_to(CLI::App& command, const std::string& help, const char* placeholder = "OUT");
+  /// Throws Error(kUsage) with the example where none is given.
+  void require(const CLI::App& command, std::string_view example) const;
+};
+
+/// Throws Error(kUsage) where there is no input: "a mesh or a scene".
+void require_input(const CLI::App& command, const std::string& input, std::string_view what);
+
+/// --jobs.
+struct JobOptions {
+  std::string text;
+
+  CLI::Option* add_to(CLI::App& command);
+  /// Processes that draw; 0: as many as pay.
+  [[nodiscard]] int count() const { return count_in("--jobs", text); }
+};
 
 /// An option for a key of the scene; its help is that of the key.
 struct KeyOption {
@@ -26,37 +81,61 @@ struct KeyOption {
 /// Every such option, in the order of its help.
 [[nodiscard]] std::span<const KeyOption> key_options();
 
-/// What the key does.
-[[nodiscard]] std::string help_of(const KeyOption& option);
-
-/// Everything that CLI11 fills in.
-struct RawOptions {
-  SceneOptions scene;
-  ValidateOptions validate;
-  CompareOptions compare;
-  MaterialsOptions materials;
-  std::string model;
-  std::string poisson;
-  std::string bricks;
-  std::vector<std::string> scene_values = std::vector<std::string>(sprung::key_options().size());
-  std::vector<std::string> set;
-  std::string scenario;
-  std::string threads;
-  std::string jobs;
-  std::string position_error;
-  std::string fps;    // of film
-  std::string topic;  // of help
-  bool json_schema = false;
-  bool log_json = false;  // main looks for it by itself: mistakes in the words are said so too
+/// One option that stands for a key of the scene, as it was typed.
+struct Setting {
+  std::string option;  // "--young"
+  std::string key;     // "body.material.young"
+  std::string value;
 };
 
-/// CLI11's group of options that --help leaves out; show_all brings them back.
-inline constexpr const char* kMoreOptions = "";
+/// Sets the key of the scene. Throws Error(kUsage) naming the option.
+void apply(const Setting& setting, Film& scene);
 
-/// All commands with their options, which write into the words; these have to outlive the parsing.
-void add_commands(CLI::App& app, RawOptions& words);
+/// Options that stand for keys of the scene, and --set.
+struct SettingOptions {
+  /// Those key options for which `is_meant` holds.
+  void add_keys(CLI::App& command, const std::function<bool(const KeyOption&)>& is_meant);
+  void add_set(CLI::App& command, const std::string& help, const char* placeholder = "KEY=VALUE");
+  /// What was typed, --set last. Throws Error(kUsage).
+  [[nodiscard]] std::vector<Setting> settings() const;
 
-/// Lets the help of a command name all its options.
-void show_all(CLI::App& command);
+ private:
+  struct Word {
+    const KeyOption& key;
+    std::string text;
+    const CLI::Option* option = nullptr;
+  };
+  std::deque<Word> words_;
+  std::vector<std::string> sets_;
+};
+
+/// The scene that a mesh file or a scene file and options mean.
+struct SceneRequest {
+  std::string input;
+  std::vector<Setting> settings;
+  std::optional<Scenario> scenario{};  // of a bare mesh
+};
+
+/// Options before scene file before defaults. Throws Error(kUsage) naming the option whose value is wrong,
+/// Error(kBadInput) for what is wrong in the scene file and for an unknown material.
+[[nodiscard]] Film make_scene(const SceneRequest& request);
+
+/// The input and the options of a command that takes a mesh or a scene.
+struct SceneOptions {
+  std::string input;
+  SettingOptions keys;
+  std::string scenario;
+  std::string threads;
+  bool print_scene = false;
+
+  void add_to(CLI::App& command, bool has_pictures, const std::string& input_help = "a mesh file, or a scene (.toml)");
+  [[nodiscard]] SceneRequest request() const;
+  /// Does `work` with the scene on as many threads as the options say; or prints the scene where that is all that was
+  /// asked for.
+  void with_scene(const std::function<void(const Film&)>& work) const;
+};
+
+/// `examples`, and what holds for every command that takes a scene.
+[[nodiscard]] std::string scene_footer(const CLI::App& command, const std::string& examples);
 
 }  // namespace sprung

@@ -1,10 +1,10 @@
-#include "app/commands/render.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <functional>
 
+#include "app/commands/commands.h"
+#include "app/commands/options.h"
 #include "app/film/film_output.h"
 #include "app/film/film_pipeline.h"
 #include "app/film/render_film.h"
@@ -19,30 +19,33 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Only how the run is seen can still be chosen.
-void apply_settings(const SceneOptions& options, Film& scene) {
-  for (const Setting& setting : options.settings) {
+struct RenderCacheOptions {
+  std::string input;
+  std::vector<std::string> others;  // side by side with it
+  bool side_by_side = false;
+  OutputOptions outputs;
+  std::string frames;  // "1:48"
+  JobOptions jobs;
+  bool overwrite = false;
+  SettingOptions keys;
+};
+
+/// Only camera and pictures of a finished run can be changed.
+void apply_all(const std::vector<Setting>& settings, Film& scene) {
+  for (const Setting& setting : settings) {
     if (!setting.key.starts_with("camera.") && !setting.key.starts_with("render.")) {
-      throw Error(
-          ErrorKind::kUsage,
-          fmt::format("{}: a cache is moved already; only keys of [camera] and [render] can be set", setting.option));
+      throw Error(ErrorKind::kUsage,
+                  fmt::format("{}: a cache is simulated already; only keys of [camera] and [render] can be set",
+                              setting.option));
     }
-    try {
-      set_scene_key(scene, setting.key, setting.value);
-    } catch (const Error& error) {
-      throw Error(ErrorKind::kUsage, fmt::format("{}: {}", setting.option, error.what()));
-    }
+    apply(setting, scene);
   }
 }
 
-/// Pictures of other ranges may be there.
+/// Pictures of other ranges may exist.
 void check_range_output(const Output& output, const FrameRange& range, bool overwrite) {
   if (output.kind == Output::Kind::kFilm) return check_output(output, overwrite);
-  for (int number = range.first; number <= range.last && !overwrite; ++number) {
-    if (!fs::exists(output.picture(number))) continue;
-    throw Error(ErrorKind::kUsage,
-                fmt::format("'{}' exists; say --overwrite to replace it", output.picture(number).string()));
-  }
+  for (int number = range.first; number <= range.last; ++number) refuse_existing(output.picture(number), overwrite);
   check_output(output, true);
 }
 
@@ -50,16 +53,15 @@ const std::string& checked(const std::string& file) {
   if (is_cache_file(file)) return file;
   throw Error(
       ErrorKind::kUsage,
-      fmt::format("'{}' is no cache (.h5), as sprung simulate makes them; sprung animate draws a mesh or a scene",
-                  file));
+      fmt::format("'{}' is not a cache (.h5) of sprung simulate; sprung animate draws a mesh or a scene", file));
 }
 
-/// A cache and the scene by which it is drawn.
+/// A cache and its scene with the settings of the command line.
 struct CachedFilm {
-  CachedFilm(const std::string& file, const SceneOptions& options)
+  CachedFilm(const std::string& file, const std::vector<Setting>& settings)
       : cache(checked(file)), scene(cached_film(cache.header())) {
     if (cache.frame_count() == 0) throw Error(ErrorKind::kBadInput, fmt::format("'{}' has no frames yet", file));
-    apply_settings(options, scene);
+    apply_all(settings, scene);
     name = fs::path(file).stem().string();
   }
 
@@ -68,7 +70,7 @@ struct CachedFilm {
   std::string name;
 };
 
-/// The files' names; and the law of the bricks and the material where those differ.
+/// Names the runs by their files, and by brick law and material where those differ.
 void name_runs(std::vector<CachedFilm>& films) {
   const auto add = [&films](auto&& word) {
     std::vector<std::string> words;
@@ -83,15 +85,16 @@ void name_runs(std::vector<CachedFilm>& films) {
   add([](const SceneBody& body) { return body.material.name; });
 }
 
-std::vector<CachedFilm> open_all(const SceneOptions& options) {
+std::vector<CachedFilm> open_all(const RenderCacheOptions& options) {
+  const std::vector<Setting> settings = options.keys.settings();
   std::vector<CachedFilm> films;
-  films.emplace_back(options.input, options);
-  for (const std::string& other : options.others) films.emplace_back(other, options);
+  films.emplace_back(options.input, settings);
+  for (const std::string& other : options.others) films.emplace_back(other, settings);
   if (films.size() > 1) name_runs(films);
   return films;
 }
 
-/// With all frames of all caches in memory.
+/// Keeps all frames of all caches in memory.
 void render_films(const std::vector<CachedFilm>& films, const std::optional<Environment>& surroundings,
                   const FrameRange& range, const std::vector<Output>& outputs, const Console& console, int jobs) {
   std::vector<Simulation> simulations;
@@ -107,18 +110,49 @@ void render_films(const std::vector<CachedFilm>& films, const std::optional<Envi
   render_film(runs, surroundings, range, outputs, console, jobs);
 }
 
-}  // namespace
-
-void render_cache(const SceneOptions& options, const Console& console) {
+void render_cache(const CLI::App& command, const RenderCacheOptions& options, const Console& console) {
+  if (options.side_by_side == options.others.empty()) {
+    throw Error(ErrorKind::kUsage, options.side_by_side
+                                       ? "--side-by-side needs more than one cache"
+                                       : fmt::format("more than one input; what is '{}'? Runs side by side: "
+                                                     "--side-by-side",
+                                                     options.others.front()));
+  }
+  require_input(command, options.input, "a cache (.h5)");
+  options.outputs.require(command, "-o folder/, -o frame_{:04}.png or -o film.mp4");
+  const int jobs = options.jobs.count();
   const std::vector<CachedFilm> films = open_all(options);
   std::size_t frames = 0;
   for (const CachedFilm& film : films) frames = std::max(frames, film.cache.frame_count());
   const FrameRange range = parse_frame_range(options.frames, frames);
-  const std::vector<Output> outputs = parse_outputs(options.outputs);
+  const std::vector<Output> outputs = parse_outputs(options.outputs.names);
   for (const Output& output : outputs) check_range_output(output, range, options.overwrite);
   const std::optional<Environment> surroundings = read_surroundings(films.front().scene.render);
-  render_films(films, surroundings, range, outputs, console, options.jobs);
-  for (const std::string& output : options.outputs) fmt::print("{}\n", output);
+  render_films(films, surroundings, range, outputs, console, jobs);
+  for (const std::string& output : options.outputs.names) fmt::print("{}\n", output);
+}
+
+}  // namespace
+
+void add_render(CLI::App& app, Invocation& invocation) {
+  CLI::App* command = app.add_subcommand("render", "a cache in, pictures or film out");
+  const auto options = std::make_shared<RenderCacheOptions>();
+  command->add_option("INPUT", options->input, "a cache (.h5)");
+  command->add_option("MORE", options->others, "more caches, with --side-by-side");
+  command->add_flag("--side-by-side", options->side_by_side, "several runs in one film: one camera, one scale");
+  options->outputs.add_to(*command,
+                          "folder/, folder/frame_{:04}.png, or film.mp4, .webm, .gif; may be given several times");
+  command->add_option("--frames", options->frames, "these only, counted from 1; default: all")->option_text("A:B");
+  options->jobs.add_to(*command);
+  command->add_flag("--overwrite", options->overwrite, "replace pictures and films that exist");
+  options->keys.add_keys(*command, [](const KeyOption& key) { return key.key.starts_with("render."); });
+  options->keys.add_set(*command, "any key of [camera] and [render]");
+  add_messages(*command, invocation.console);
+  command->footer(
+      "Examples:\n  sprung render run.h5 -o film.mp4\n  sprung render run.h5 -o frames/ --frames 1:48 --jobs 4\n"
+      "  sprung render run.h5 -o stress.mp4 --color-by stress --set camera.orbit=90\n"
+      "All options: sprung help render    All keys of a scene: sprung help scene");
+  command->callback([options, command, &invocation] { render_cache(*command, *options, invocation.console); });
 }
 
 }  // namespace sprung

@@ -1,16 +1,18 @@
-#include "app/commands/simulate.h"
+#include "core/simulation/simulate.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <array>
+#include <cmath>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <numeric>
 #include <optional>
 #include <set>
 
-#include "app/commands/command_line.h"
-#include "app/console/json_text.h"
+#include "app/commands/commands.h"
+#include "app/commands/options.h"
 #include "app/film/draw_diverged.h"
 #include "app/film/film_output.h"
 #include "app/inspect/forecast.h"
@@ -19,7 +21,6 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/simulation/run_cache.h"
-#include "core/simulation/simulate.h"
 #include "core/simulation/simulation.h"
 #include "core/text.h"
 
@@ -27,6 +28,27 @@ namespace sprung {
 namespace {
 
 namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct SimulateOptions {
+  OutputOptions outputs;
+  bool overwrite = false;
+  bool resume = false;
+  std::string position_error;
+  SceneOptions scene;
+};
+
+/// Largest error of the positions in a cache, m; 0: none.
+double position_error_of(const SimulateOptions& options) {
+  if (options.position_error.empty()) return 0;
+  try {
+    const double error = parse_quantity(options.position_error, Dimension::kLength);
+    if (error > 0) return error;
+  } catch (const Error& error) {
+    throw Error(ErrorKind::kUsage, fmt::format("--position-error: {}", error.what()));
+  }
+  throw Error(ErrorKind::kUsage, fmt::format("--position-error is a length above 0, not {}", options.position_error));
+}
 
 /// Where the results go.
 struct Places {
@@ -34,16 +56,11 @@ struct Places {
   std::optional<fs::path> cache;
 };
 
-void refuse_existing(const fs::path& file, std::string_view remedy) {
-  if (!fs::exists(file)) return;
-  throw Error(ErrorKind::kUsage, fmt::format("'{}' exists; say {} to replace it", file.string(), remedy));
-}
-
-/// Where the files can be written, and would replace nothing that they may not.
-Places places_of(const SceneOptions& options) {
+/// Throws Error unless the files can be written and replace only what they may.
+Places places_of(const SimulateOptions& options) {
   Places places;
   constexpr std::array<std::string_view, 1> kCaches{".h5"};
-  for (const std::string& output : options.outputs) {
+  for (const std::string& output : options.outputs.names) {
     if (!is_cache_file(output)) check_folder_name(output, kCaches, "give a cache, RUN.h5, or a folder");
     std::optional<fs::path>& place = is_cache_file(output) ? places.cache : places.folder;
     if (place) throw Error(ErrorKind::kUsage, "simulate writes one cache and one folder: -o RUN.h5 -o folder/");
@@ -51,18 +68,17 @@ Places places_of(const SceneOptions& options) {
   }
   if (options.resume && options.overwrite) throw Error(ErrorKind::kUsage, "give --resume or --overwrite, not both");
   if (options.resume && !places.cache) throw Error(ErrorKind::kUsage, "--resume goes on with a cache: -o RUN.h5");
-  if (options.position_error > 0 && !places.cache) {
+  if (!options.position_error.empty() && !places.cache) {
     throw Error(ErrorKind::kUsage, "--position-error is about a cache: -o RUN.h5");
   }
+  const bool may_exist = options.overwrite || options.resume;
   if (places.cache) {
-    if (!options.overwrite && !options.resume) {
-      refuse_existing(*places.cache, "--resume to go on with it, or --overwrite");
-    }
+    refuse_existing(*places.cache, may_exist, "--resume to go on with it, or --overwrite to replace it");
     check_writable(*places.cache);
   }
   if (places.folder) {
     for (const char* name : {"probes.csv", "probes.json", "manifest.json"}) {
-      if (!options.overwrite && !options.resume) refuse_existing(*places.folder / name, "--overwrite");
+      refuse_existing(*places.folder / name, may_exist);
     }
     check_writable(*places.folder / "probes.json");
   }
@@ -74,24 +90,23 @@ fs::path picture_of_diverged(const Places& places) {
   return fs::path(*places.cache).replace_extension("diverged.png");
 }
 
-/// The words that go on with what was begun.
-std::string resuming_command(const SceneOptions& options) {
-  if (options.resume) return options.command;
-  std::string command = options.command;
+/// The command that goes on with what was begun.
+std::string resuming_command(const SimulateOptions& options, std::string command) {
+  if (options.resume) return command;
   const std::string_view overwrite = " --overwrite";
   if (const auto place = command.find(overwrite); place != std::string::npos) command.erase(place, overwrite.size());
   return command + " --resume";
 }
 
-/// Does `work`; where it ends early, says how to go on.
-Recording with_advice(const RunCache* cache, const SceneOptions& options, const Console& console,
+/// Does `work`; where it fails, says how to go on from the cache.
+Recording with_advice(const RunCache* cache, const std::string& advice, const Console& console,
                       const std::function<Recording()>& work) {
   try {
     return work();
   } catch (...) {
     if (cache != nullptr && cache->frame_count() > 0) {
       console.note(fmt::format("{} in {}; go on with: {}", count_of(cache->frame_count(), "frame is", "frames are"),
-                               cache->file().string(), resuming_command(options)));
+                               cache->file().string(), advice));
     }
     throw;
   }
@@ -116,36 +131,6 @@ void print_summary(const Recording& recording) {
   }
 }
 
-}  // namespace
-
-void run_simulation(const SceneOptions& options, const Console& console) {
-  with_scene(options, [&](const Film& scene) {
-    const Places places = places_of(options);
-    std::optional<RunCache> cache;
-    if (places.cache) {
-      make_folder(places.cache->parent_path());
-      cache.emplace(*places.cache, record_of(scene), options.resume, options.position_error);
-    }
-    Simulation simulation = prepare_simulation(scene, console);
-    warn_of_memory(simulation, scene, console);
-    RunCache* kept = cache ? &*cache : nullptr;
-    const Recording recording = with_advice(kept, options, console, [&] {
-      return with_picture_of_diverged(simulation.world, picture_of_diverged(places),
-                                      [&] { return simulate(simulation, scene, console, kept); });
-    });
-    if (cache) cache->close();
-    if (places.folder) {
-      make_folder(*places.folder);
-      write_file(*places.folder / "probes.csv", probes_csv(recording));
-      write_file(*places.folder / "probes.json", probes_json(recording));
-      write_file(*places.folder / "manifest.json", manifest_json(scene, recording));
-    }
-    print_summary(recording);
-  });
-}
-
-namespace {
-
 /// What a probe measures, in the order of its columns.
 struct Column {
   std::string_view name;
@@ -159,19 +144,7 @@ constexpr std::array<Column, 4> kColumns{{{"position", "m", &ProbeSample::positi
                                           {"force", "N", &ProbeSample::force, true},
                                           {"torque", "Nm", &ProbeSample::torque, true}}};
 
-std::string json_track(const ProbeTrack& track) {
-  std::vector<std::string> fields{fmt::format("\"name\": {}", json_text(track.name))};
-  for (const Column& column : kColumns) {
-    if (column.is_of_pin && !track.is_pin) continue;
-    std::vector<std::string> values;
-    for (const ProbeSample& sample : track.samples) values.push_back(json_text(sample.*column.value));
-    fields.push_back(fmt::format("\"{}_{}\": [{}]", column.name, column.unit, fmt::join(values, ", ")));
-  }
-  return fmt::format("    {{{}}}", fmt::join(fields, ", "));
-}
-
-}  // namespace
-
+/// One line a frame under a line of names: "time_s,tip.position.x_m,...,end.torque.z_Nm".
 std::string probes_csv(const Recording& recording) {
   std::string text = recording.progress_name;
   for (const ProbeTrack& track : recording.probes) {
@@ -196,44 +169,102 @@ std::string probes_csv(const Recording& recording) {
   return text;
 }
 
+/// The same by probe, with the frequencies of modes and the state hash.
 std::string probes_json(const Recording& recording) {
-  std::vector<std::string> tracks;
-  for (const ProbeTrack& track : recording.probes) tracks.push_back(json_track(track));
-  std::vector<std::string> progress;
-  for (const double value : recording.progress) progress.push_back(json_text(value));
-  std::vector<std::string> frequencies;
-  for (const double value : recording.frequencies) frequencies.push_back(json_text(value));
-  return fmt::format(
-      "{{\n  \"state_hash\": \"{:016x}\",\n  \"{}\": [{}],\n  \"frequencies_Hz\": [{}],\n  \"probes\": "
-      "[\n{}\n  ]\n}}\n",
-      recording.state_hash, recording.progress_name, fmt::join(progress, ", "), fmt::join(frequencies, ", "),
-      fmt::join(tracks, ",\n"));
+  Json tracks = Json::array();
+  for (const ProbeTrack& track : recording.probes) {
+    Json& json = tracks.emplace_back(Json{{"name", track.name}});
+    for (const Column& column : kColumns) {
+      if (column.is_of_pin && !track.is_pin) continue;
+      Json& values = json[fmt::format("{}_{}", column.name, column.unit)] = Json::array();
+      for (const ProbeSample& sample : track.samples) {
+        const Vec3& value = sample.*column.value;
+        values.push_back({value.x(), value.y(), value.z()});
+      }
+    }
+  }
+  const Json json{{"state_hash", fmt::format("{:016x}", recording.state_hash)},
+                  {recording.progress_name, recording.progress},
+                  {"frequencies_Hz", std::vector<double>(recording.frequencies.begin(), recording.frequencies.end())},
+                  {"probes", tracks}};
+  return json.dump() + "\n";
 }
 
-namespace {
-
-std::string mesh_hashes(const Film& scene) {
+/// How a run came about: version and build of the program, the scene as resolved, a hash of each mesh file it names and
+/// of the state in the last frame, and how long each frame took (s, wall clock; those of an earlier run that this one
+/// went on from included).
+std::string manifest_json(const Film& scene, const Recording& recording) {
+  Json hashes = Json::object();
   std::set<std::string> files;
   for (const SceneBody& body : scene.bodies) files.insert(body.mesh.string());
   for (const SceneObstacle& obstacle : scene.obstacles) files.insert(obstacle.mesh.string());
   files.erase("");
-  std::vector<std::string> lines;
-  lines.reserve(files.size());
-  for (const std::string& file : files) {
-    lines.push_back(fmt::format("{}: \"{}\"", json_text(std::string_view(file)), file_hash(file)));
-  }
-  return fmt::format("{{{}}}", fmt::join(lines, ", "));
+  for (const std::string& file : files) hashes[file] = file_hash(file);
+  Json seconds = Json::array();
+  for (const double of_frame : recording.seconds) seconds.push_back(std::round(1e4 * of_frame) / 1e4);
+  const double total = std::accumulate(recording.seconds.begin(), recording.seconds.end(), 0.0);
+  const Json json{{"version", SPRUNG_VERSION},
+                  {"build", build_of_this_program()},
+                  {"scene", print_scene(with_defaults(scene))},
+                  {"mesh_hashes", hashes},
+                  {"frames", recording.progress.size()},
+                  {"state_hash", fmt::format("{:016x}", recording.state_hash)},
+                  {"seconds", std::round(1e3 * total) / 1e3},
+                  {"seconds_of_frames", seconds}};
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void run_simulation(const CLI::App& command, const SimulateOptions& options, const Invocation& invocation) {
+  const Console& console = invocation.console;
+  require_input(command, options.scene.input, "a mesh or a scene");
+  if (!options.scene.print_scene) options.outputs.require(command, "-o RUN.h5 or -o folder/");
+  const double position_error = position_error_of(options);
+  options.scene.with_scene([&](const Film& scene) {
+    const Places places = places_of(options);
+    std::optional<RunCache> cache;
+    if (places.cache) {
+      make_folder(places.cache->parent_path());
+      cache.emplace(*places.cache, record_of(scene), options.resume, position_error);
+    }
+    Simulation simulation = prepare_simulation(scene, console);
+    warn_of_memory(simulation, scene, console);
+    RunCache* kept = cache ? &*cache : nullptr;
+    const Recording recording = with_advice(kept, resuming_command(options, invocation.command), console, [&] {
+      return with_picture_of_diverged(simulation.world, picture_of_diverged(places),
+                                      [&] { return simulate(simulation, scene, console, kept); });
+    });
+    if (cache) cache->close();
+    if (places.folder) {
+      make_folder(*places.folder);
+      write_file(*places.folder / "probes.csv", probes_csv(recording));
+      write_file(*places.folder / "probes.json", probes_json(recording));
+      write_file(*places.folder / "manifest.json", manifest_json(scene, recording));
+    }
+    print_summary(recording);
+  });
 }
 
 }  // namespace
 
-std::string manifest_json(const Film& scene, const Recording& recording) {
-  const double total = std::accumulate(recording.seconds.begin(), recording.seconds.end(), 0.0);
-  return fmt::format(
-      "{{\n  \"version\": \"{}\",\n  \"build\": \"{}\",\n  \"scene\": {},\n  \"mesh_hashes\": {},\n  \"frames\": {},\n"
-      "  \"state_hash\": \"{:016x}\",\n  \"seconds\": {:.3f},\n  \"seconds_of_frames\": [{:.4f}]\n}}\n",
-      SPRUNG_VERSION, build_of_this_program(), json_text(std::string_view(print_scene(with_defaults(scene)))),
-      mesh_hashes(scene), recording.progress.size(), recording.state_hash, total, fmt::join(recording.seconds, ", "));
+void add_simulate(CLI::App& app, Invocation& invocation) {
+  CLI::App* command = app.add_subcommand("simulate", "mesh or scene in, its motion out: a cache, measurements");
+  const auto options = std::make_shared<SimulateOptions>();
+  options->outputs.add_to(
+      *command, "RUN.h5, a cache of all frames, or folder/ for probes.csv, probes.json and manifest.json; or both");
+  command->add_flag("--overwrite", options->overwrite, "replace files that exist");
+  command->add_flag("--resume", options->resume, "go on where the cache ends; begin where there is none");
+  command
+      ->add_option("--position-error", options->position_error,
+                   "make the cache smaller: positions accurate to this, velocities to this per frame; default: to the "
+                   "last bit")
+      ->option_text("LENGTH");
+  options->scene.add_to(*command, false);
+  add_messages(*command, invocation.console);
+  command->footer(scene_footer(
+      *command,
+      "Examples:\n  sprung simulate scene.toml -o run.h5\n  sprung simulate scene.toml -o run.h5 --resume\n"
+      "  sprung simulate beam.toml -o out/\n"));
+  command->callback([options, command, &invocation] { run_simulation(*command, *options, invocation); });
 }
 
 }  // namespace sprung

@@ -1,10 +1,11 @@
-#include "app/commands/sweep.h"
-
 #include <fmt/format.h>
 
-#include "app/console/json_text.h"
+#include <nlohmann/json.hpp>
+
+#include "app/commands/commands.h"
+#include "app/commands/options.h"
+#include "app/console/shell_text.h"
 #include "app/scene/cached_film.h"
-#include "app/scene/make_scene.h"
 #include "app/scene/scene_file.h"
 #include "core/error.h"
 #include "core/files.h"
@@ -15,8 +16,17 @@ namespace sprung {
 namespace {
 
 namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
 
-/// One combination of the values.
+struct SweepOptions {
+  std::string input;  // a mesh, a scene or the folder of a sweep
+  OutputOptions outputs;
+  SettingOptions keys;
+  bool table = false;
+  bool overwrite = false;
+};
+
+/// One combination of values.
 using Choice = std::vector<Setting>;
 
 std::vector<Choice> choices_of(const std::vector<Setting>& settings) {
@@ -34,56 +44,40 @@ std::vector<Choice> choices_of(const std::vector<Setting>& settings) {
   return choices;
 }
 
-/// The same for every run of a sweep, so that they sort.
+/// Of the same length for every run, so that they sort.
 std::string name_of_run(std::size_t run) { return fmt::format("{:03}", run + 1); }
 
-std::string quoted(const fs::path& path) {
-  std::string text = "'";
-  for (const char letter : path.string()) text += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
-  return text + "'";
-}
+std::string quoted(const fs::path& path) { return shell_quoted(path.string()); }
 
-std::string json_of(const Choice& choice, const std::string& name) {
-  std::string fields;
-  for (const Setting& setting : choice) {
-    fields += fmt::format("{}{}: {}", fields.empty() ? "" : ", ", json_text(std::string_view(setting.key)),
-                          json_text(std::string_view(setting.value)));
-  }
-  return fmt::format("  {{\"folder\": \"{}\", \"set\": {{{}}}}}", name, fields);
-}
-
-void write_runs(const SceneOptions& options, const Console& console) {
-  if (options.outputs.size() != 1) throw Error(ErrorKind::kUsage, "sweep writes into one folder: -o FOLDER");
-  const fs::path folder = fs::absolute(options.outputs.front()).lexically_normal();
-  if (!options.overwrite && fs::exists(folder / "commands")) {
-    throw Error(ErrorKind::kUsage,
-                fmt::format("'{}' exists; say --overwrite to replace it", (folder / "commands").string()));
-  }
-  const std::vector<Choice> choices = choices_of(options.settings);
+void write_runs(const SweepOptions& options, const Console& console) {
+  if (options.outputs.names.size() != 1) throw Error(ErrorKind::kUsage, "sweep writes into one folder: -o FOLDER");
+  const fs::path folder = fs::absolute(options.outputs.names.front()).lexically_normal();
+  refuse_existing(folder / "commands", options.overwrite);
+  const std::vector<Choice> choices = choices_of(options.keys.settings());
   std::vector<std::string> scenes;
   for (const Choice& choice : choices) {
-    SceneOptions one = options;
-    one.settings = choice;
-    scenes.push_back(print_scene(with_defaults(make_scene(one))));
+    scenes.push_back(print_scene(with_defaults(make_scene({.input = options.input, .settings = choice}))));
   }
   std::string commands;
-  std::string runs;
+  Json runs = Json::array();
   for (std::size_t run = 0; run < choices.size(); ++run) {
     const fs::path place = folder / name_of_run(run);
     make_folder(place);
     write_file(place / "scene.toml", scenes[run]);
     commands += fmt::format("sprung simulate {} -o {} -o {} --resume\n", quoted(place / "scene.toml"),
                             quoted(place / "run.h5"), quoted(place / ""));
-    runs += (run == 0 ? "" : ",\n") + json_of(choices[run], name_of_run(run));
+    Json set = Json::object();
+    for (const Setting& setting : choices[run]) set[setting.key] = setting.value;
+    runs.push_back({{"folder", name_of_run(run)}, {"set", set}});
   }
-  write_file(folder / "runs.json", fmt::format("[\n{}\n]\n", runs));
+  write_file(folder / "runs.json", runs.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
   write_file(folder / "commands", commands);
   write_file(folder / "run",
                    fmt::format("# All runs one after the other, then their table.\nsh {}\n"
                                "sprung sweep {} --table | tee {}\n",
                                quoted(folder / "commands"), quoted(folder), quoted(folder / "table.csv")));
   console.note(count_of(choices.size(), "run"));
-  fmt::print("{}\n", (fs::path(options.outputs.front()) / "commands").string());
+  fmt::print("{}\n", (fs::path(options.outputs.names.front()) / "commands").string());
 }
 
 void print_header(const CacheHeader& header) {
@@ -105,10 +99,11 @@ void print_row(const std::string& run, const CacheReader& cache) {
   fmt::print("\n");
 }
 
-void print_table(const SceneOptions& options, const Console& console) {
+void print_table(const SweepOptions& options, const Console& console) {
   const fs::path folder = options.input;
   if (!fs::exists(folder / "runs.json")) {
-    throw Error(ErrorKind::kBadInput, fmt::format("'{}' is no folder of a sweep: it has no runs.json", options.input));
+    throw Error(ErrorKind::kBadInput,
+                fmt::format("'{}' is not the folder of a sweep: it has no runs.json", options.input));
   }
   bool has_header = false;
   for (std::size_t run = 0; fs::exists(folder / name_of_run(run) / "scene.toml"); ++run) {
@@ -146,9 +141,25 @@ std::vector<std::string> values_in(std::string_view text) {
   return values;
 }
 
-void sweep(const SceneOptions& options, const Console& console) {
-  if (options.table) return print_table(options, console);
-  write_runs(options, console);
+void add_sweep(CLI::App& app, Invocation& invocation) {
+  CLI::App* command =
+      app.add_subcommand("sweep", "a scene and lists of values in, a folder and a command for each run out");
+  const auto options = std::make_shared<SweepOptions>();
+  command->add_option("INPUT", options->input, "a mesh file, a scene (.toml), or with --table the folder of a sweep");
+  options->outputs.add_to(*command, "the folder for all runs", "FOLDER");
+  options->keys.add_set(*command, "values of any key of a scene, by commas", "KEY=A,B,C");
+  command->add_flag("--table", options->table, "the last measurements of the probes of all runs, as CSV");
+  command->add_flag("--overwrite", options->overwrite, "replace the list of commands that exists");
+  add_messages(*command, invocation.console);
+  command->footer(
+      "Examples:\n  sprung sweep scene.toml --set body.material=gelatin,rubber -o runs\n  sh runs/commands\n"
+      "  sprung sweep runs --table");
+  command->callback([options, command, &invocation] {
+    require_input(*command, options->input, "a mesh or a scene");
+    if (options->table) return print_table(*options, invocation.console);
+    options->outputs.require(*command, "-o folder/");
+    write_runs(*options, invocation.console);
+  });
 }
 
 }  // namespace sprung

@@ -7,13 +7,15 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 
 #include "app/console/interrupt.h"
-#include "app/console/json_text.h"
 #include "core/units.h"
 
 namespace sprung {
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 constexpr std::string_view kRed = "\033[1;31m";
 constexpr std::string_view kYellow = "\033[1;33m";
@@ -25,9 +27,13 @@ void print_line(const Console& console, std::string_view line) {
   fmt::print(stderr, "{}{}\n", console.is_terminal ? kClearLine : "", line);
 }
 
+void print_event(const Json& event) {
+  fmt::print(stderr, "{}\n", event.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
 void say(const Console& console, std::string_view label, std::string_view color, std::string_view message) {
   if (console.log_json) {
-    console.event(label, fmt::format(R"("message": {})", json_text(message)));
+    print_event({{"kind", label}, {"message", message}});
     return;
   }
   const std::string start =
@@ -67,14 +73,10 @@ void Console::warn(std::string_view message) const {
 void Console::note(std::string_view message) const {
   if (quiet) return;
   if (log_json) {
-    event("note", fmt::format(R"("message": {})", json_text(message)));
+    print_event({{"kind", "note"}, {"message", message}});
   } else {
     print_line(*this, message);
   }
-}
-
-void Console::event(std::string_view kind, std::string_view members) const {
-  fmt::print(stderr, "{{\"kind\": {}, {}}}\n", json_text(kind), members);
 }
 
 void Console::detail(std::string_view message) const {
@@ -116,10 +118,11 @@ void Console::show(const Progress& progress) const {
   if (progress.done() > 0 && now - shown_at_ < (log_json ? kReport : kRedraw)) return;
   shown_at_ = now;
   if (log_json) {
-    const std::string to_go = progress.done() > 0 ? fmt::format("{:.3f}", progress.seconds_to_go()) : "null";
-    event("progress",
-          fmt::format(R"("stage": {}, "share": {:.4g}, "seconds": {:.3f}, "seconds_to_go": {})",
-                      json_text(std::string_view(progress.name())), share_done(progress), progress.seconds(), to_go));
+    print_event({{"kind", "progress"},
+                 {"stage", progress.name()},
+                 {"share", share_done(progress)},
+                 {"seconds", progress.seconds()},
+                 {"seconds_to_go", progress.done() > 0 ? Json(progress.seconds_to_go()) : Json()}});
     return;
   }
   has_bar_ = true;
@@ -136,8 +139,7 @@ void Console::finish(const Progress& progress, std::string_view result) const {
   clear(progress);
   if (log_json) {
     if (quiet) return;
-    event("stage", fmt::format(R"("stage": {}, "seconds": {:.3f}, "result": {})",
-                               json_text(std::string_view(progress.name())), progress.seconds(), json_text(result)));
+    print_event({{"kind", "stage"}, {"stage", progress.name()}, {"seconds", progress.seconds()}, {"result", result}});
     return;
   }
   const std::string speed = rate_text(progress);

@@ -8,10 +8,10 @@
 
 namespace sprung {
 
-/// What the program says on stderr. Results go to stdout and do not pass here. On a terminal every message takes the
-/// place of a bar that stands there. A stage of work has a bar with its rate and the time to go there, redrawn at most
-/// ten times a second, and one plain line when it is over in any case. With log_json every line is an object, see
-/// README.md. Interrupts by signals stop the work.
+/// The messages of the program on stderr; results go to stdout, not through here. On a terminal a stage of work has a
+/// progress bar with its rate and the time to go, redrawn at most ten times a second; messages replace it. Every stage
+/// ends with one plain line. With log_json every line is an object, see README.md. Interrupts by signals stop the
+/// work.
 class Console : public Observer {
  public:
   bool is_terminal = false;                      // stderr is one that can redraw a line in place (TERM is not "dumb")
@@ -19,7 +19,7 @@ class Console : public Observer {
   bool quiet = false;                            // errors and warnings only
   bool verbose = false;                          // details too
   bool log_json = false;                         // a JSON object a line, in place of words
-  std::vector<std::string>* warnings = nullptr;  // where set, keeps what warn() said
+  std::vector<std::string>* warnings = nullptr;  // where set, collects what is passed to warn()
 
   /// Colours and terminal as they are for this process.
   [[nodiscard]] static Console of_process();
@@ -35,8 +35,6 @@ class Console : public Observer {
   void finish(const Progress& progress, std::string_view result) const override;
   void clear(const Progress& progress) const override;
   void check_interrupt() const override;
-  /// With log_json: {"kind": "progress", "members"...}; `members` as they stand in the object.
-  void event(std::string_view kind, std::string_view members) const;
 
  private:
   mutable std::chrono::steady_clock::time_point shown_at_{};

@@ -1,22 +1,14 @@
-#include "app/help/completions.h"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <vector>
 
+#include "app/console/shell_text.h"
 #include "app/help/manual.h"
 
 namespace sprung {
 namespace {
-
-/// In single quotes, for any of the shells.
-std::string quoted(const std::string& text) {
-  std::string result = "'";
-  for (const char letter : text) result += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
-  return result + "'";
-}
 
 std::vector<const CLI::Option*> named_options(const CLI::App& command) {
   std::vector<const CLI::Option*> options;
@@ -33,23 +25,23 @@ std::string command_names(const CLI::App& app) {
 }
 
 /// "animate) words='--bricks --size'; case $previous in --scenario) words='drop hang';; esac;;"
-std::string bash_case(const CLI::App& command) {
+std::string bash_case(const CLI::App& command, const Choices& choices_of) {
   std::string words;
   std::string values;
   for (const CLI::Option* option : named_options(command)) {
     const std::string name = "--" + option->get_lnames()[0];
     words += (words.empty() ? "" : " ") + name;
-    const std::vector<std::string> choices = named_choices(*option);
+    const std::vector<std::string> choices = choices_of(*option);
     if (!choices.empty()) values += fmt::format("        {}) values='{}' ;;\n", name, fmt::join(choices, " "));
   }
   const std::string choose = values.empty() ? "" : fmt::format("      case $previous in\n{}      esac\n", values);
   return fmt::format("    {})\n      words='{}'\n{}      ;;\n", command.get_name(), words, choose);
 }
 
-std::string bash(const CLI::App& app) {
+std::string bash(const CLI::App& app, const Choices& choices_of) {
   std::string cases;
   for (const CLI::App* command : app.get_subcommands({})) {
-    if (command->get_name() != "help") cases += bash_case(*command);
+    if (command->get_name() != "help") cases += bash_case(*command, choices_of);
   }
   return fmt::format(R"(# bash completion for sprung
 _sprung() {{
@@ -73,7 +65,7 @@ complete -o default -F _sprung sprung
                      command_names(app), cases, fmt::join(help_topics(app), " "));
 }
 
-/// Without what _arguments takes for its own.
+/// Escapes what is special to _arguments.
 std::string zsh_text(const std::string& text) {
   std::string escaped;
   for (const char letter : text) {
@@ -83,21 +75,22 @@ std::string zsh_text(const std::string& text) {
   return escaped;
 }
 
-std::string zsh_argument(const CLI::Option& option) {
+std::string zsh_argument(const CLI::Option& option, const Choices& choices_of) {
   const std::string head = fmt::format("*--{}[{}]", option.get_lnames()[0], zsh_text(option.get_description()));
-  if (option.get_items_expected_max() == 0) return quoted(head);
-  const std::vector<std::string> choices = named_choices(option);
+  if (option.get_items_expected_max() == 0) return shell_quoted(head);
+  const std::vector<std::string> choices = choices_of(option);
   const std::string values = choices.empty() ? "_files" : fmt::format("({})", fmt::join(choices, " "));
-  return quoted(fmt::format("{}:{}:{}", head, zsh_text(option.get_option_text()), values));
+  return shell_quoted(fmt::format("{}:{}:{}", head, zsh_text(option.get_option_text()), values));
 }
 
-std::string zsh(const CLI::App& app) {
+std::string zsh(const CLI::App& app, const Choices& choices_of) {
   std::string commands;
   std::string cases;
   for (const CLI::App* command : app.get_subcommands({})) {
-    commands += fmt::format("    {}\n", quoted(command->get_name() + ":" + zsh_text(command->get_description())));
+    commands += fmt::format("    {}\n", shell_quoted(command->get_name() + ":" + zsh_text(command->get_description())));
     cases += fmt::format("    {}) _arguments", command->get_name());
-    for (const CLI::Option* option : named_options(*command)) cases += " \\\n      " + zsh_argument(*option);
+    for (const CLI::Option* option : named_options(*command))
+      cases += " \\\n      " + zsh_argument(*option, choices_of);
     cases += command->get_name() == "help"
                  ? fmt::format(" \\\n      '*:topic:({})' ;;\n", fmt::join(help_topics(app), " "))
                  : " \\\n      '*:file:_files' ;;\n";
@@ -122,19 +115,19 @@ _sprung "$@"
                      commands, cases);
 }
 
-std::string fish(const CLI::App& app) {
+std::string fish(const CLI::App& app, const Choices& choices_of) {
   std::string text = "# fish completion for sprung\n";
   for (const CLI::App* command : app.get_subcommands({})) {
     text += fmt::format("complete -c sprung -n __fish_use_subcommand -f -a {} -d {}\n", command->get_name(),
-                        quoted(command->get_description()));
+                        shell_quoted(command->get_description()));
     if (command->get_name() == "help") {
       text += fmt::format("complete -c sprung -n '__fish_seen_subcommand_from help' -f -a '{}'\n",
                           fmt::join(help_topics(app), " "));
     }
     for (const CLI::Option* option : named_options(*command)) {
-      const std::vector<std::string> choices = named_choices(*option);
+      const std::vector<std::string> choices = choices_of(*option);
       text += fmt::format("complete -c sprung -n '__fish_seen_subcommand_from {}' -l {} -d {}", command->get_name(),
-                          option->get_lnames()[0], quoted(option->get_description()));
+                          option->get_lnames()[0], shell_quoted(option->get_description()));
       if (option->get_items_expected_max() > 0) text += choices.empty() ? " -r" : " -x";
       if (!choices.empty()) text += fmt::format(" -a '{}'", fmt::join(choices, " "));
       text += "\n";
@@ -151,16 +144,16 @@ std::vector<std::string> help_topics(const CLI::App& app) {
   return topics;
 }
 
-std::string completions(const CLI::App& app, CommandShell shell) {
+std::string completions(const CLI::App& app, CommandShell shell, const Choices& choices_of) {
   switch (shell) {
     case CommandShell::kZsh:
-      return zsh(app);
+      return zsh(app, choices_of);
     case CommandShell::kFish:
-      return fish(app);
+      return fish(app, choices_of);
     case CommandShell::kBash:
       break;
   }
-  return bash(app);
+  return bash(app, choices_of);
 }
 
 }  // namespace sprung

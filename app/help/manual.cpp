@@ -4,21 +4,11 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <filesystem>
-#include <iterator>
-
-#include "app/commands/options.h"
-#include "app/scene/material_library.h"
-#include "app/scene/named_values.h"
-#include "app/scene/scenarios.h"
-#include "app/scene/scene_tables.h"
-#include "app/validate/cases.h"
-#include "core/error.h"
 
 namespace sprung {
 namespace {
 
-/// Text as roff: hyphens that can be copied, nothing that is taken for a request.
+/// Text as roff: hyphens stay hyphens, no line is taken for a request.
 std::string roff(const std::string& text) {
   std::string escaped;
   bool starts_line = true;
@@ -65,83 +55,7 @@ std::string man_page(const CLI::App& app, const std::string& version) {
 
 namespace {
 
-std::vector<std::string> split(std::string_view text, std::string_view separator) {
-  std::vector<std::string> parts;
-  for (auto end = text.find(separator); end != std::string_view::npos; end = text.find(separator)) {
-    parts.emplace_back(text.substr(0, end));
-    text.remove_prefix(end + separator.size());
-  }
-  parts.emplace_back(text);
-  return parts;
-}
-
-/// Of the scene's key that an option stands for.
-std::vector<std::string> names_of_key(std::string_view path) {
-  constexpr std::string_view kNames = "one of ";
-  const std::string_view table = path.substr(0, path.find('.'));
-  const std::string_view key = path.substr(path.find('.') + 1);
-  for (const TableText& texts : scene_tables()) {
-    if (texts.name != table) continue;
-    const auto is_it = [&](const KeyText& text) { return text.name == key && text.type.starts_with(kNames); };
-    const auto found = std::find_if(texts.keys.begin(), texts.keys.end(), is_it);
-    if (found != texts.keys.end()) return split(std::string_view(found->type).substr(kNames.size()), ", ");
-  }
-  return {};
-}
-
-/// "[[body]]" -> "body."
-std::string prefix_of(std::string_view path) {
-  const auto first = path.find_first_not_of('[');
-  return std::string(path.substr(first, path.find(']') - first)) + ".";
-}
-
-/// "body.young=" for every key that can be set by itself.
-std::vector<std::string> settable_keys() {
-  std::vector<std::string> names;
-  for (const TableText& table : scene_tables()) {
-    std::vector<std::string> prefixes;
-    std::transform(table.paths.begin(), table.paths.end(), std::back_inserter(prefixes), prefix_of);
-    if (prefixes.empty()) prefixes.emplace_back();  // the scene's own
-    for (const std::string& prefix : prefixes) {
-      for (const KeyText& key : table.keys) {
-        if (key.type != "table" && key.type != "tables") names.push_back(fmt::format("{}{}=", prefix, key.name));
-      }
-    }
-  }
-  return names;
-}
-
-}  // namespace
-
-std::vector<std::string> named_choices(const CLI::Option& option) {
-  const std::string& text = option.get_option_text();
-  if (text.find('|') != std::string::npos) {
-    std::vector<std::string> choices = split(text, "|");
-    std::erase_if(choices, [](const std::string& choice) { return choice.find_first_of("ABCDEFGHIJKLMN") == 0; });
-    return choices;
-  }
-  const std::string name = option.get_name();
-  if (name == "--class") {
-    const std::vector<std::string_view> names = value_names<MaterialClass>();
-    return {names.begin(), names.end()};
-  }
-  if (name == "--set") return settable_keys();
-  if (name == "--case") return case_names();
-  if (name == "--scenario") return {scenario_names().begin(), scenario_names().end()};
-  if (name == "--material") {
-    std::vector<std::string> names;
-    for (const LibraryMaterial& material : built_in_materials()->materials()) names.push_back(material.name);
-    return names;
-  }
-  for (const KeyOption& known : key_options()) {
-    if (name == known.option) return names_of_key(known.key);
-  }
-  return {};
-}
-
-namespace {
-
-/// Spaces before what a line goes on with.
+/// Indentation of the continuation of a line.
 std::size_t indent_of(std::string_view line) {
   const std::size_t start = std::min(line.find_first_not_of(' '), line.size());
   const bool has_description = start > 0 && line.size() > kHelpColumn && line[kHelpColumn - 1] == ' ';

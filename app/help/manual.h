@@ -1,31 +1,30 @@
 #pragma once
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace sprung {
 
 /// The manual of the program with all its commands and options, as roff for man(1).
 [[nodiscard]] std::string man_page(const CLI::App& app, const std::string& version);
 
-}  // namespace sprung
+/// What `sprung help` has something on: the scene's keys, the manual, the completions, each command.
+[[nodiscard]] std::vector<std::string> help_topics(const CLI::App& app);
 
-namespace CLI {
-class Option;
-}
-
-namespace sprung {
+enum class CommandShell { kBash, kZsh, kFish };
 
 /// The names that an option takes; empty where it takes no names, or any.
-[[nodiscard]] std::vector<std::string> named_choices(const CLI::Option& option);
+using Choices = std::function<std::vector<std::string>(const CLI::Option&)>;
 
-}  // namespace sprung
-
-namespace sprung {
+/// What makes a shell complete the program's commands, options and those values that are names: a script for bash or
+/// fish, a function for zsh's fpath. Everything else is completed as a file.
+[[nodiscard]] std::string completions(const CLI::App& app, CommandShell shell, const Choices& choices_of);
 
 /// Where the descriptions of options and commands begin, and where lines of help end at the latest.
 inline constexpr std::size_t kHelpColumn = 34;

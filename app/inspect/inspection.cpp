@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "app/console/console.h"
-#include "app/console/json_text.h"
 #include "core/dynamics/explicit/integrator.h"
 #include "core/skin/skin.h"
 #include "core/text.h"
@@ -16,6 +16,8 @@
 
 namespace sprung {
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 /// Whether every edge between places has two triangles or more; triangles without three corners do not count.
 bool is_closed(const Triangles& triangles, const std::vector<int>& place_of) {
@@ -175,53 +177,61 @@ std::string forecast_lines(const Inspection& inspection) {
   return text + "\n";
 }
 
-std::string json_flag(bool value) { return value ? "true" : "false"; }
+/// Null where the value is not known.
+Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
+Json or_null(double thickness) { return thickness > 0 ? Json(thickness) : Json(); }
 
-/// "[a, b]" of anything that `text` makes JSON of.
-template <class List, class Text>
-std::string json_list(const List& list, const Text& text) {
-  std::string all;
-  for (const auto& item : list) all += (all.empty() ? "" : ", ") + text(item);
-  return "[" + all + "]";
+Json json_of(const MeshFacts& mesh) {
+  Json repairs = Json::array();
+  for (const Repair& repair : mesh.repairs) {
+    repairs.push_back({{"kind", repair.kind}, {"count", repair.count}, {"text", repair.text}});
+  }
+  return {{"vertices", mesh.vertices},
+          {"triangles", mesh.triangles},
+          {"parts", mesh.parts},
+          {"solids", mesh.solids},
+          {"closed", mesh.is_closed},
+          {"volume", mesh.volume},
+          {"thickness_1_percent", or_null(mesh.thin)},
+          {"thickness_median", or_null(mesh.median)},
+          {"repairs", repairs}};
 }
 
-std::string json_of(const MeshFacts& mesh) {
-  const std::string repairs = json_list(mesh.repairs, [](const Repair& repair) {
-    return fmt::format(R"({{"kind": {}, "count": {}, "text": {}}})", json_text(repair.kind), repair.count,
-                       json_text(repair.text));
-  });
-  const auto or_null = [](double thickness) { return thickness > 0 ? json_text(thickness) : "null"; };
-  return fmt::format(R"({{"vertices": {}, "triangles": {}, "parts": {}, "solids": {}, "closed": {}, "volume": {}, )"
-                     R"("thickness_1_percent": {}, "thickness_median": {}, "repairs": {}}})",
-                     mesh.vertices, mesh.triangles, mesh.parts, mesh.solids, json_flag(mesh.is_closed),
-                     json_text(mesh.volume), or_null(mesh.thin), or_null(mesh.median), repairs);
+Json json_of(const BrickFacts& bricks, double unit) {
+  Json parts = Json::array();
+  for (const ThinPart& part : bricks.thin_parts) {
+    parts.push_back({{"bricks", part.bricks.size()}, {"thickness", part.thickness}});
+  }
+  return {{"count", bricks.count},
+          {"nodes", bricks.nodes},
+          {"size", bricks.size},
+          {"solids", bricks.solids},
+          {"divided", bricks.divided},
+          {"min_fill", bricks.least_fill},
+          {"volume", bricks.volume / (unit * unit * unit)},
+          {"volume_m3", bricks.volume},
+          {"volume_error", bricks.volume_error},
+          {"mass", bricks.mass},
+          {"thin_parts", parts}};
 }
 
-std::string json_of(const BrickFacts& bricks, double unit) {
-  const std::string parts = json_list(bricks.thin_parts, [](const ThinPart& part) {
-    return fmt::format(R"({{"bricks": {}, "thickness": {}}})", part.bricks.size(), json_text(part.thickness));
-  });
-  return fmt::format(R"({{"count": {}, "nodes": {}, "size": {}, "solids": {}, "divided": {}, "min_fill": {}, )"
-                     R"("volume": {}, "volume_m3": {}, "volume_error": {}, "mass": {}, "thin_parts": {}}})",
-                     bricks.count, bricks.nodes, json_text(bricks.size), bricks.solids, bricks.divided,
-                     json_text(bricks.least_fill), json_text(bricks.volume / (unit * unit * unit)),
-                     json_text(bricks.volume), json_text(bricks.volume_error), json_text(bricks.mass), parts);
+Json json_of(const BodyFacts& body) {
+  return {{"name", body.name},
+          {"unit", body.unit},
+          {"extent", {body.extent.x(), body.extent.y(), body.extent.z()}},
+          {"mesh", json_of(body.mesh)},
+          {"bricks", json_of(body.bricks, body.unit)}};
 }
 
-std::string json_of(const BodyFacts& body) {
-  return fmt::format(R"({{"name": {}, "unit": {}, "extent": {}, "mesh": {}, "bricks": {}}})", json_text(body.name),
-                     json_text(body.unit), json_text(body.extent), json_of(body.mesh), json_of(body.bricks, body.unit));
-}
-
-std::string json_of(const Forecast& forecast) {
-  const auto or_null = [](const std::optional<double>& value) { return value ? json_text(*value) : "null"; };
+Json json_of(const Forecast& forecast) {
   std::optional<double> frame = forecast.seconds_simulating;
   if (frame) *frame += forecast.seconds_drawing;
-  return fmt::format(R"({{"memory_bytes": {}, "seconds_per_frame": {}, "seconds_moving": {}, "seconds_drawing": {}, )"
-                     R"("frames": {}, "steps_per_frame": {}}})",
-                     std::lround(forecast.memory), or_null(frame), or_null(forecast.seconds_simulating),
-                     json_text(forecast.seconds_drawing), forecast.frames,
-                     forecast.plan ? fmt::format("{}", forecast.plan->steps.count) : "null");
+  return {{"memory_bytes", std::lround(forecast.memory)},
+          {"seconds_per_frame", or_null(frame)},
+          {"seconds_moving", or_null(forecast.seconds_simulating)},
+          {"seconds_drawing", forecast.seconds_drawing},
+          {"frames", forecast.frames},
+          {"steps_per_frame", forecast.plan ? Json(forecast.plan->steps.count) : Json()}};
 }
 
 /// All bodies as one: sums, and the smallest of what does not add up.
@@ -268,12 +278,15 @@ std::string inspection_text(const Inspection& inspection) {
 
 std::string inspection_json(const Inspection& inspection) {
   const BodyFacts all = together(inspection.bodies);
-  return fmt::format(
-      "{{\"mesh\": {},\n \"bricks\": {},\n \"stable_step\": {},\n \"forecast\": {},\n \"warnings\": {},\n "
-      "\"bodies\": {}}}\n",
-      json_of(all.mesh), json_of(all.bricks, all.unit), json_text(inspection.stable_step), json_of(inspection.forecast),
-      json_list(inspection.warnings, [](const std::string& text) { return json_text(text); }),
-      json_list(inspection.bodies, [](const BodyFacts& body) { return json_of(body); }));
+  Json bodies = Json::array();
+  for (const BodyFacts& body : inspection.bodies) bodies.push_back(json_of(body));
+  const Json json{{"mesh", json_of(all.mesh)},
+                  {"bricks", json_of(all.bricks, all.unit)},
+                  {"stable_step", inspection.stable_step},
+                  {"forecast", json_of(inspection.forecast)},
+                  {"warnings", inspection.warnings},
+                  {"bodies", bodies}};
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace sprung

@@ -6,10 +6,10 @@
 #include <filesystem>
 #include <optional>
 
-#include "app/console/json_text.h"
 #include "app/python/bindings.h"
 #include "app/scene/cached_film.h"
 #include "app/scene/scene_file.h"
+#include "app/scene/scene_values.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/simulation/simulate.h"
@@ -40,9 +40,9 @@ std::string toml_of(const py::handle& value) {
   if (py::isinstance<py::bool_>(value)) return value.cast<bool>() ? "true" : "false";
   if (py::isinstance<py::int_>(value)) return fmt::format("{}", value.cast<long>());
   if (py::isinstance<py::float_>(value)) return py::repr(value).cast<std::string>();
-  if (py::isinstance<py::str>(value)) return json_text(std::string_view(value.cast<std::string>()));
+  if (py::isinstance<py::str>(value)) return toml_text(value.cast<std::string>());
   if (py::hasattr(value, "__fspath__")) {
-    return json_text(std::string_view(value.attr("__fspath__")().cast<std::string>()));
+    return toml_text(value.attr("__fspath__")().cast<std::string>());
   }
   if (py::hasattr(value, "tolist")) return toml_of(value.attr("tolist")());  // of NumPy
   if (py::isinstance<py::sequence>(value)) {

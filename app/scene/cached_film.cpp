@@ -12,8 +12,8 @@ namespace {
 
 Film parse_cached(const std::string& text) { return parse_scene(text, "/cache.toml", SceneFiles::kAnywhere); }
 
-/// What may be changed without any frame being another one.
-Film without_freedom(Film film, const Film& other) {
+/// The film with those settings of `other` that change no frame.
+Film with_drawing_of(Film film, const Film& other) {
   film.camera = other.camera;
   film.render = other.render;
   const bool has_even_pins = std::any_of(film.bodies.begin(), film.bodies.end(), [](const SceneBody& body) {
@@ -49,7 +49,7 @@ SceneRecord record_of(const Film& film) {
   const std::string text = print_scene(with_defaults(film));
   return {.text = text, .difference = [text](const std::string& cached_text) {
             const Film now = parse_cached(text);
-            return difference_of_texts(print_scene(without_freedom(parse_cached(cached_text), now)), print_scene(now));
+            return difference_of_texts(print_scene(with_drawing_of(parse_cached(cached_text), now)), print_scene(now));
           }};
 }
 

@@ -4,11 +4,11 @@
 
 namespace sprung {
 
-/// The film as a cache keeps it. The duration of what it is compared with may differ where no frame depends on it;
-/// camera and pictures may.
+/// The record of a film in a cache. It matches films that differ in camera and pictures only, or in a duration on which
+/// no frame depends.
 [[nodiscard]] SceneRecord record_of(const Film& film);
 
-/// The film in a cache, wherever the files are that it names.
+/// The film recorded in a cache. The files that it names need not exist.
 [[nodiscard]] Film cached_film(const CacheHeader& header);
 
 }  // namespace sprung

@@ -14,10 +14,10 @@ namespace sprung {
 
 inline constexpr std::string_view kDefaultMaterial = "gelatin";
 
-/// A body that says nothing: of the default material.
+/// A body of the default material.
 [[nodiscard]] SceneBody default_body();
 
-/// What to vary where a scene is used as an experiment; empty: as the scene has it.
+/// What an experiment varies; what is empty stays as in the scene.
 struct Experiment {
   std::string title;
   std::string about;            // sentences for the report
@@ -27,7 +27,7 @@ struct Experiment {
   std::vector<int> bricks;  // along the longest side
 };
 
-/// How near an expectation has to be met, by these models (none: calibrated) on these grids (none: all).
+/// The accuracy with which these models (none: calibrated) have to meet an expectation on these grids (none: all).
 struct Gate {
   std::vector<Model> models;
   std::vector<int> bricks;
@@ -47,7 +47,7 @@ struct Expectation {
   std::vector<Gate> gates;
 };
 
-/// A scene with how it is seen, and what it is held against: all that a scene file may say.
+/// Everything that a scene file may say: the scene, how it is drawn, and what its results are compared with.
 struct Film : Scene {
   std::filesystem::path materials;                                        // absolute; a file of further ones, or empty
   std::shared_ptr<const MaterialLibrary> library = built_in_materials();  // with those of that file
@@ -57,7 +57,7 @@ struct Film : Scene {
   std::vector<Expectation> expectations;
 };
 
-/// How a body takes light: as it says, or as its material does.
+/// The look of a body: its own, or that of its material.
 [[nodiscard]] Look look_of(const SceneBody& body, const MaterialLibrary& library);
 
 /// The film with the size and the bricks of its bodies filled in where it leaves them open, and with the looks of

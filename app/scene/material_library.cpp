@@ -1,40 +1,21 @@
 #include "app/scene/material_library.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <fstream>
 #include <sstream>
 
 #include "app/scene/built_in_text.h"
-#include "app/scene/material_keys.h"
-#include "app/scene/table_reader.h"
+#include "core/error.h"
+#include "core/mesh/io/file_checks.h"
+#include "core/text.h"
 
 namespace sprung {
 
 Material LibraryMaterial::material() const {
   return {
       .name = name, .young = young, .poisson = poisson, .density = density, .damping = damping, .source = young_source};
-}
-
-void MaterialLibrary::add(std::string_view text, const std::filesystem::path& file) {
-  SceneMistakes mistakes(file.string());
-  const toml::table table = parse_toml(text, mistakes);
-  MaterialFile read;
-  TableReader(mistakes, file.parent_path(), SceneFiles::kPresent, *this).read(table, "", read);
-  const std::size_t before = materials_.size();
-  for (std::size_t i = 0; i < read.materials.size(); ++i) {
-    LibraryMaterial& material = read.materials[i];
-    const auto known = std::find_if(materials_.begin(), materials_.end(),
-                                    [&](const LibraryMaterial& other) { return other.name == material.name; });
-    if (known == materials_.end()) {
-      materials_.push_back(std::move(material));
-      continue;
-    }
-    const bool is_here = known - materials_.begin() >= std::ptrdiff_t(before);
-    const toml::table& place = *(*table["material"].as_array())[i].as_table();
-    mistakes.add(place.source(), fmt::format("material.name: '{}' is there already, {}; choose another name",
-                                             material.name, is_here ? "in this file" : "built in or in another file"));
-  }
-  mistakes.throw_if_any();
 }
 
 void MaterialLibrary::add_file(const std::filesystem::path& file) {

@@ -14,37 +14,37 @@ namespace sprung {
 
 enum class MaterialClass { kGelatin, kSilicone, kRubber, kFoam, kWood, kTissue, kPlastic, kMetal, kOther };
 
-/// A material with what is known of its figures. SI units. An uncertainty is how far the value of another piece, maker
-/// or measurement may well lie from the one here; 0 where nothing is known.
+/// A material with the sources and uncertainties of its values. SI units. An uncertainty is how far the value of
+/// another piece, maker or measurement may lie from the one here; 0 where nothing is known.
 struct LibraryMaterial {
   std::string name;
   MaterialClass material_class = MaterialClass::kOther;
   std::string about;
   double young = 0;              // Pa
-  double young_uncertainty = 0;  // share of the value
-  std::string young_source;      // where the value is from
+  double young_uncertainty = 0;  // relative
+  std::string young_source;      // of the value
   double poisson = 0;
   double poisson_uncertainty = 0;  // of the ratio itself
   std::string poisson_source;
   double density = 0;              // kg/m^3
-  double density_uncertainty = 0;  // share
+  double density_uncertainty = 0;  // relative
   std::string density_source;
   double damping = 0.02;           // ratio of critical damping
-  double damping_uncertainty = 0;  // share
+  double damping_uncertainty = 0;  // relative
   std::string damping_source;
   Look look = Look::kPlastic;
 
-  /// What the bricks need of it.
+  /// The properties that the simulation needs.
   [[nodiscard]] Material material() const;
 };
 
-/// Materials by name: those that come with the program, and those of a person's own files.
+/// Materials by name: those built into the program, and those of the user's files.
 class MaterialLibrary {
  public:
   MaterialLibrary() = default;
 
   /// Adds the materials of a TOML text that stands in (or for) a file. Throws one Error(kBadInput) with a line
-  /// "file:line:column: key: what is wrong" for every mistake in it; a name that is there already is one.
+  /// "file:line:column: key: what is wrong" for every mistake in it; a name that exists already is one.
   void add(std::string_view text, const std::filesystem::path& file);
   /// The same of a file.
   void add_file(const std::filesystem::path& file);

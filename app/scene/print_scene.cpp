@@ -1,7 +1,7 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <iterator>
 
 #include "app/scene/scene_file.h"
 #include "app/scene/scene_values.h"
@@ -9,24 +9,14 @@
 namespace sprung {
 namespace {
 
-/// Types that need a [section] or [[sections]] of their own; they follow the plain keys of their table.
+/// Tables that are always there get a [section] of their own, rows of tables a [[section]] each; both follow the plain
+/// keys of the table they are in. Materials, keyframes and optional tables are written in braces.
 template <class Value>
-constexpr bool kIsSection =
-    std::is_same_v<Value, SceneCamera> || std::is_same_v<Value, SceneRender> || std::is_same_v<Value, SceneSolver> ||
-    std::is_same_v<Value, SceneContact> || std::is_same_v<Value, Experiment>;
-template <class Owner>
-constexpr bool kIsSection<std::vector<Owner>> = std::is_class_v<Owner>;
-template <>
-constexpr bool kIsSection<std::vector<Keyframe>> = false;
-template <>
-constexpr bool kIsSection<std::vector<Strength>> = false;
-template <>
-constexpr bool kIsSection<std::vector<GravityKeyframe>> = false;
-template <>
-constexpr bool kIsSection<std::vector<CameraKeyframe>> = false;
-
-template <class Owner>
-std::string inline_table(const Owner& owner);
+constexpr bool kIsSection = Table<Value> && !std::is_same_v<Value, Material>;
+template <Table Row>
+constexpr bool kIsSection<std::vector<Row>> = !requires(Row row) {
+  row.time;
+};
 
 bool is_built_in(const Material& material) {
   const auto same = [&](const LibraryMaterial& known) {
@@ -38,120 +28,99 @@ bool is_built_in(const Material& material) {
 }
 
 template <class Value>
+bool is_given(const Value& value) {
+  if constexpr (requires { value.empty(); }) return !value.empty();
+  if constexpr (requires { value.has_value(); }) return value.has_value();
+  return true;
+}
+
+template <Table Owner>
+std::string inline_table(const Owner& owner);
+
+template <class Value>
 std::string value_text(const Value& value) {
-  if constexpr (requires { toml_text(value); }) {
-    return toml_text(value);
-  } else {
+  if constexpr (std::is_same_v<Value, Material>) {
+    return is_built_in(value) ? toml_text(value.name) : inline_table(value);
+  } else if constexpr (Table<Value>) {
     return inline_table(value);
+  } else {
+    return toml_text(value);
   }
 }
-template <>
-std::string value_text(const Material& material) {
-  return is_built_in(material) ? toml_text(std::string_view(material.name)) : inline_table(material);
+template <class Value>
+std::string value_text(const std::optional<Value>& value) {
+  return value_text(*value);
 }
-template <class Keyframes>
-std::string inline_tables(const Keyframes& keyframes) {
-  std::string text;
-  for (const auto& keyframe : keyframes) text += (text.empty() ? "" : ", ") + inline_table(keyframe);
-  return fmt::format("[{}]", text);
-}
-template <>
-std::string value_text(const std::vector<Keyframe>& keyframes) {
-  return inline_tables(keyframes);
-}
-template <>
-std::string value_text(const std::vector<Strength>& keyframes) {
-  return inline_tables(keyframes);
-}
-template <>
-std::string value_text(const std::vector<GravityKeyframe>& keyframes) {
-  return inline_tables(keyframes);
-}
-template <>
-std::string value_text(const std::vector<CameraKeyframe>& keyframes) {
-  return inline_tables(keyframes);
+template <class Value>
+std::string value_text(const std::vector<Value>& values) {
+  std::vector<std::string> items;
+  for (const Value& value : values) items.push_back(value_text(value));
+  return fmt::format("[{}]", fmt::join(items, ", "));
 }
 
-/// " name = value", or nothing for an optional value that is not there.
-template <class Value>
-std::string assignment(std::string_view name, const Value& value) {
-  return fmt::format("{} = {}", name, value_text(value));
-}
-template <class Value>
-std::string assignment(std::string_view name, const std::optional<Value>& value) {
-  return value ? assignment(name, *value) : "";
-}
-template <class Value>
-requires requires(const Value& value) { value.empty(); }
-std::string assignment(std::string_view name, const Value& value) {
-  return value.empty() ? "" : fmt::format("{} = {}", name, value_text(value));
-}
-
-template <class Owner>
-std::vector<std::string> assignments(const Owner& owner) {
+/// "key = value" for every key of a table that needs no section.
+struct Assignments : FieldVisitor {
   std::vector<std::string> lines;
-  for (const Key<Owner>& key : keys<Owner>()) {
-    std::visit(
-        [&](auto field) {
-          using Value = std::remove_cvref_t<decltype(owner.*field)>;
-          if constexpr (!kIsSection<Value>) lines.push_back(assignment(key.name, owner.*field));
-        },
-        key.member);
+
+  template <class Value>
+  void operator()(const KeyInfo& key, const Value& value) {
+    if constexpr (!kIsSection<Value>) {
+      if (is_given(value)) lines.push_back(fmt::format("{} = {}", key.name, value_text(value)));
+    }
   }
-  std::erase(lines, "");
-  return lines;
+};
+
+template <Table Owner>
+std::vector<std::string> assignments(const Owner& owner) {
+  Assignments visitor;
+  fields(visitor, owner);
+  return visitor.lines;
 }
 
-template <class Owner>
+template <Table Owner>
 std::string inline_table(const Owner& owner) {
-  std::string text;
-  for (const std::string& line : assignments(owner)) text += (text.empty() ? "" : ", ") + line;
-  return fmt::format("{{ {} }}", text);
+  return fmt::format("{{ {} }}", fmt::join(assignments(owner), ", "));
 }
 
-/// Writes tables, parents before children.
-class Printer {
- public:
-  template <class Owner>
-  void print(const Owner& owner, const std::string& path) {
-    for (const std::string& line : assignments(owner)) text_ += line + "\n";
-    for (const Key<Owner>& key : keys<Owner>()) {
-      const std::string full = path.empty() ? std::string(key.name) : fmt::format("{}.{}", path, key.name);
-      std::visit(
-          [&](auto field) {
-            using Value = std::remove_cvref_t<decltype(owner.*field)>;
-            if constexpr (kIsSection<Value>) section(owner.*field, full);
-          },
-          key.member);
+/// Writes a table, then the sections below it.
+struct Printer : FieldVisitor {
+  std::string path;  // of the table, with a dot at the end
+  std::string& text;
+
+  Printer(std::string path_of_table, std::string& all_text) : path(std::move(path_of_table)), text(all_text) {}
+
+  template <Table Owner>
+  void print(const Owner& owner) {
+    for (const std::string& line : assignments(owner)) text += line + "\n";
+    fields(*this, owner);
+  }
+
+  template <class Value>
+  void operator()(const KeyInfo& key, const Value& value) {
+    if constexpr (kIsSection<Value>) section(path + std::string(key.name), value);
+  }
+
+  template <Table Owner>
+  void section(const std::string& name, const Owner& owner) {
+    if (assignments(owner).empty()) return;
+    text += fmt::format("\n[{}]\n", name);
+    Printer(name + ".", text).print(owner);
+  }
+  template <Table Owner>
+  void section(const std::string& name, const std::vector<Owner>& rows) {
+    for (const Owner& row : rows) {
+      text += fmt::format("\n[[{}]]\n", name);
+      Printer(name + ".", text).print(row);
     }
   }
-
-  [[nodiscard]] const std::string& text() const { return text_; }
-
- private:
-  template <class Value>
-  void section(const Value& value, const std::string& path) {
-    if (assignments(value).empty()) return;
-    text_ += fmt::format("\n[{}]\n", path);
-    print(value, path);
-  }
-  template <class Value>
-  void section(const std::vector<Value>& values, const std::string& path) {
-    for (const Value& value : values) {
-      text_ += fmt::format("\n[[{}]]\n", path);
-      print(value, path);
-    }
-  }
-
-  std::string text_;
 };
 
 }  // namespace
 
 std::string print_scene(const Film& scene) {
-  Printer printer;
-  printer.print(scene, "");
-  return printer.text();
+  std::string text;
+  Printer("", text).print(scene);
+  return text;
 }
 
 }  // namespace sprung

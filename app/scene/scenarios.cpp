@@ -46,7 +46,7 @@ Pin top_pin() {
   return pin;
 }
 
-/// There by 40 % of the film, until 60 %, and back at the end.
+/// Reached at 40 % of the film, held until 60 %, and undone by the end.
 std::vector<Keyframe> there_and_back(double duration, Keyframe there) {
   there.time = 0.4 * duration;
   Keyframe still = there;
@@ -54,7 +54,7 @@ std::vector<Keyframe> there_and_back(double duration, Keyframe there) {
   return {Keyframe{}, there, still, Keyframe{.time = duration}};
 }
 
-/// By its top, which moves to the side and stops there.
+/// Held by its top, which moves to the side and stops there.
 void stage_hang(SceneBody& body, double size, double duration) {
   Pin top = top_pin();
   top.keyframes = {Keyframe{}, {.time = kSwingTime * duration, .translate = Vec3(kSwing * size, 0, 0)}};
@@ -68,7 +68,7 @@ void stage_stretch(SceneBody& body, double height, double duration) {
   body.pins = {bottom_pin(), top};
 }
 
-/// A plate whose lower face is at `bottom` and that moves by `way` and back (m).
+/// A plate with its lower face at `bottom` that moves up by `way` and back (m).
 SceneObstacle plate(double size, double bottom, double way, double duration) {
   SceneObstacle obstacle;
   obstacle.box = size * Vec3(kPlateSide, kPlate, kPlateSide);
@@ -78,7 +78,7 @@ SceneObstacle plate(double size, double bottom, double way, double duration) {
   return obstacle;
 }
 
-/// Between two plates that come together.
+/// Pressed between two plates.
 void stage_squash(Film& scene, SceneBody& body, double size, double height) {
   const double low = kPlateHeight * size;
   body.position.y() = low + kPlate * size;
@@ -99,7 +99,7 @@ void stage_wobble(SceneBody& body, double height, double duration) {
   body.pins = {bottom_pin(), top};
 }
 
-/// A bow of the same shape whatever the size.
+/// On a trajectory that scales with the size.
 void stage_throw(SceneBody& body, double size, double gravity) {
   const double speed = std::sqrt(gravity * size);
   body.position = Vec3(-0.7 * size, kThrowHeight * size, 0);

@@ -6,7 +6,7 @@
 
 namespace sprung {
 
-/// What a mesh without a scene file does.
+/// What happens to a mesh without a scene file.
 enum class Scenario {
   kDrop,     // falls, a little tilted, from 0.4 of its size
   kHang,     // held by its top 8 %, released under gravity
@@ -23,10 +23,10 @@ enum class Scenario {
 /// Throws Error(kUsage) with the nearest name.
 [[nodiscard]] Scenario scenario_from_name(std::string_view name);
 
-/// Whether it matters to the scenario how high a body is.
+/// Whether the scenario depends on the height of the bodies.
 [[nodiscard]] bool needs_height(Scenario scenario);
 
-/// Sets what the scenario needs for bodies that are `height` (m) high; times are shares of the film's duration.
+/// Sets what the scenario needs for bodies that are `height` (m) high; times are fractions of the film's duration.
 /// Precondition: duration, gravity and the size of the bodies are set.
 void stage_scenario(Film& scene, Scenario scenario, double height);
 

@@ -1,33 +1,40 @@
 #pragma once
+#include <functional>
+#include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
-#include "app/scene/film.h"
-#include "app/scene/scene_keys.h"
-#include "app/scene/scene_mistakes.h"
-#include "app/scene/toml.h"
+#include "app/scene/scene_fields.h"
 
 namespace sprung {
 
-/// Which rules between the keys of a table are broken. `path` of the table for messages: "body", "body.pin".
-void check_rules(const toml::table& table, const std::string& path, std::span<const KeyRule> rules,
-                 SceneMistakes& mistakes);
+/// Where in a table a mistake is: at the table itself; at a key; in one row of the array of a key.
+struct KeyPlace {
+  std::string_view key{};
+  int row = -1;
+};
 
-/// What is wrong with the values of a table taken together, each by itself being right.
-void check_together(const toml::table& table, const std::string& path, const Film& scene, SceneMistakes& mistakes);
-void check_together(const toml::table& table, const std::string& path, const SceneBody& body, SceneMistakes& mistakes);
-void check_together(const toml::table& table, const std::string& path, const Box& box, SceneMistakes& mistakes);
-void check_together(const toml::table& table, const std::string& path, const HalfSpace& half, SceneMistakes& mistakes);
-void check_together(const toml::table& table, const std::string& path, const Gradient& change, SceneMistakes& mistakes);
-void check_together(const toml::table& table, const std::string& path, const TorusShape& ring, SceneMistakes& mistakes);
-void check_together(const toml::table& table, const std::string& path, const SceneObstacle& obstacle,
-                    SceneMistakes& mistakes);
-void check_together(const toml::table& table, const std::string& path, const Pin& pin, SceneMistakes& mistakes);
-void check_together(const toml::table& table, const std::string& path, const BodyForce& force, SceneMistakes& mistakes);
-void check_together(const toml::table& table, const std::string& path, const BodyMuscle& muscle,
-                    SceneMistakes& mistakes);
-void check_together(const toml::table& table, const std::string& path, const SceneWind& wind, SceneMistakes& mistakes);
+using Report = std::function<void(KeyPlace place, std::string text)>;
+
+/// Reports which rules between the keys of a table the given keys break. `path` of the table for messages: "body.pin".
+void check_rules(const std::vector<KeyRule>& rules, const std::vector<std::string_view>& given, const std::string& path,
+                 const Report& report);
+
+/// Reports what is wrong with the values of a table taken together, each by itself being right.
+void check_table(const Film& scene, const std::string& path, const Report& report);
+void check_table(const SceneBody& body, const std::string& path, const Report& report);
+void check_table(const Box& box, const std::string& path, const Report& report);
+void check_table(const HalfSpace& half, const std::string& path, const Report& report);
+void check_table(const Gradient& gradient, const std::string& path, const Report& report);
+void check_table(const TorusShape& torus, const std::string& path, const Report& report);
+void check_table(const SceneObstacle& obstacle, const std::string& path, const Report& report);
+void check_table(const Pin& pin, const std::string& path, const Report& report);
+void check_table(const BodyForce& force, const std::string& path, const Report& report);
+void check_table(const BodyMuscle& muscle, const std::string& path, const Report& report);
+void check_table(const SceneWind& wind, const std::string& path, const Report& report);
 
 template <class Owner>
-void check_together(const toml::table&, const std::string&, const Owner&, SceneMistakes&) {}
+void check_table(const Owner&, const std::string&, const Report&) {}
 
 }  // namespace sprung

@@ -11,61 +11,61 @@
 
 namespace sprung {
 
-/// Where the camera is at a time; in between it moves smoothly.
+/// The camera at a time; it moves smoothly between keyframes.
 struct CameraKeyframe {
   double time = 0;        // s
   double azimuth = 30;    // degrees
   double elevation = 14;  // degrees
-  double zoom = 1;        // size in the picture over that at which everything is seen
+  double zoom = 1;        // magnification; at 1 everything fits in the picture
 };
 
-/// Where the film is seen from; distance and target follow from what is to be seen.
+/// Distance and target of the camera follow from what is to be seen.
 struct SceneCamera {
-  double azimuth = 30;                    // degrees about y; 0 looks along -z
-  double elevation = 14;                  // degrees above the horizon
-  double orbit = 0;                       // degrees that the azimuth grows over the film
-  double zoom = 1;                        // size in the picture over that at which everything is seen
-  bool follow = false;                    // looks at the middle of the bodies in every frame
-  bool orthographic = false;              // parallel lines of sight
-  double aperture = 0;                    // m, diameter of the lens; what is off the middle of the view is blurred
+  double azimuth = 30;    // degrees about y; 0 looks along -z
+  double elevation = 14;  // degrees above the horizon
+  double orbit = 0;       // degrees by which the azimuth grows over the film
+  double zoom = 1;        // magnification; at 1 everything fits in the picture
+  bool follow = false;    // tracks the centre of the bodies
+  bool orthographic = false;
+  double aperture = 0;                    // m, diameter of the lens; what is out of focus is blurred
   std::vector<CameraKeyframe> keyframes;  // instead of azimuth, elevation, orbit and zoom
 };
 
-/// What the colours of the bodies show.
+/// The field that the colours of the bodies show.
 enum class Field { kSkin, kDisplacement, kSpeed, kStretch, kStrain, kStress, kVolume, kFill, kRegion };
 
 /// Bricks in place of the skins.
 enum class BrickView {
   kNone,
-  kWhole,    // where they touch each other
+  kWhole,    // without gaps
   kExploded  // with gaps between them
 };
 
 struct SceneRender {
   std::array<int, 2> resolution{1280, 720};
   Quality quality = Quality::kDefault;
-  std::optional<int> samples;               // of a pixel; as the quality has it
-  bool transparent = false;                 // nothing behind the bodies
-  std::filesystem::path environment;        // absolute; a panorama whose light is that around the bodies, or empty
-  double motion_blur = 0;                   // degrees that the shutter is open, of 360 a frame
+  std::optional<int> samples;               // per pixel; default: by the quality
+  bool transparent = false;                 // background with alpha, no floor
+  std::filesystem::path environment;        // absolute; a panorama that lights the bodies, or empty
+  double motion_blur = 0;                   // degrees, shutter angle; 360: a whole frame
   std::optional<std::array<int, 2>> sheet;  // columns and rows: that many frames in one picture
   Field color_by = Field::kSkin;
   std::optional<ColorMap> color_map;
-  std::optional<double> color_low;   // SI; what the first colour stands for; else by all frames
-  std::optional<double> color_high;  // SI; the last
-  bool legend = true;                // of colours that stand for something
+  std::optional<double> color_low;   // SI, of the first colour; default: by all frames
+  std::optional<double> color_high;  // SI, of the last colour
+  bool legend = true;
   std::string caption;
   bool frame_number = false;
   bool scale_bar = false;
   BrickView bricks = BrickView::kNone;
-  std::optional<HalfSpace> cut;  // takes the bricks away to which its normal points
+  std::optional<HalfSpace> cut;  // removes the bricks on the side its normal points to
   bool springs = false;
   bool nodes = false;
   bool pins = false;
-  bool ghost = false;     // of the shape at rest
-  bool contacts = false;  // where bodies touch
-  bool traces = false;    // of the probes
-  bool plots = false;     // of how far they are from where they were
+  bool ghost = false;  // of the rest shape
+  bool contacts = false;
+  bool traces = false;  // paths of the probes
+  bool plots = false;   // of the displacement of the probes
 };
 
 }  // namespace sprung

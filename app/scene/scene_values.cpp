@@ -21,7 +21,7 @@ std::uint8_t hex_byte(std::string_view text, std::size_t at) {
   const char* first = text.data() + at;
   const auto [end, error] = std::from_chars(first, first + 2, value, 16);
   if (error != std::errc{} || end != first + 2) {
-    throw Error(ErrorKind::kBadInput, fmt::format("'{}' is no colour; write it as \"#rrggbb\"", text));
+    throw Error(ErrorKind::kBadInput, fmt::format("'{}' is not a colour; write it as \"#rrggbb\"", text));
   }
   return static_cast<std::uint8_t>(value);
 }
@@ -74,7 +74,7 @@ void parse_value(std::string_view text, const KeyInfo& key, std::array<int, 2>& 
   const auto border = pair.find_first_of("xX,");
   if (border == std::string_view::npos) {
     throw Error(ErrorKind::kBadInput,
-                fmt::format("'{}' is no pair of whole numbers; write two, as in 1280x720 or [1280, 720]", text));
+                fmt::format("'{}' is not a pair of whole numbers; write two, as in 1280x720 or [1280, 720]", text));
   }
   parse_value(pair.substr(0, border), key, value[0]);
   parse_value(pair.substr(border + 1), key, value[1]);
@@ -82,7 +82,8 @@ void parse_value(std::string_view text, const KeyInfo& key, std::array<int, 2>& 
 
 void parse_value(std::string_view text, const KeyInfo&, std::filesystem::path& value) {
   if (text.empty()) throw Error(ErrorKind::kBadInput, "is empty; name a file");
-  if (text.find('\0') != std::string_view::npos) throw Error(ErrorKind::kBadInput, "no file's name has a zero in it");
+  if (text.find('\0') != std::string_view::npos)
+    throw Error(ErrorKind::kBadInput, "a file name cannot contain a null character");
   value = text;
 }
 
@@ -96,11 +97,11 @@ void parse_value(std::string_view text, const KeyInfo&, Axes& value) {
   for (const char letter : text) {
     const auto axis = kAxisNames.find(letter);
     if (axis == std::string_view::npos || value.held[axis]) {
-      throw Error(ErrorKind::kBadInput, fmt::format("'{}' are no directions; write some of \"xyz\"", text));
+      throw Error(ErrorKind::kBadInput, fmt::format("'{}' are not directions; write some of \"xyz\"", text));
     }
     value.held[axis] = true;
   }
-  if (text.empty()) throw Error(ErrorKind::kBadInput, "must name a direction at least: some of \"xyz\"");
+  if (text.empty()) throw Error(ErrorKind::kBadInput, "must name at least one direction: some of \"xyz\"");
 }
 
 void parse_value(std::string_view text, const KeyInfo&, bool& value) {
@@ -119,7 +120,7 @@ void parse_value(std::string_view text, const KeyInfo&, Model& value) { value = 
 
 void parse_value(std::string_view text, const KeyInfo&, Color& value) {
   if (text.size() != 7 || text[0] != '#') {
-    throw Error(ErrorKind::kBadInput, fmt::format("'{}' is no colour; write it as \"#rrggbb\"", text));
+    throw Error(ErrorKind::kBadInput, fmt::format("'{}' is not a colour; write it as \"#rrggbb\"", text));
   }
   value = {.red = hex_byte(text, 1), .green = hex_byte(text, 3), .blue = hex_byte(text, 5)};
 }

@@ -1,11 +1,101 @@
 #pragma once
+#include <algorithm>
+#include <array>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
-#include "app/scene/named_values.h"
-#include "app/scene/scene_keys.h"
+#include "app/scene/scene_fields.h"
 
 namespace sprung {
+
+/// The names of the values of a type, and what such a value is called in messages.
+template <class Value, std::size_t count>
+struct Names {
+  std::string_view thing;
+  std::array<std::pair<std::string_view, Value>, count> values;
+};
+
+/// For the types whose values are written as names.
+template <class Value>
+inline constexpr bool kNames = false;
+
+template <>
+inline constexpr Names<Solver, 8> kNames<Solver>{"scheme",
+                                                 {{{"auto", Solver::kAuto},
+                                                   {"euler", Solver::kEuler},
+                                                   {"verlet", Solver::kVerlet},
+                                                   {"implicit-euler", Solver::kImplicitEuler},
+                                                   {"bdf2", Solver::kBdf2},
+                                                   {"static", Solver::kStatic},
+                                                   {"linear", Solver::kLinear},
+                                                   {"modes", Solver::kModes}}}};
+template <>
+inline constexpr Names<RepairMode, 3> kNames<RepairMode>{
+    "way of repair", {{{"off", RepairMode::kOff}, {"auto", RepairMode::kAuto}, {"strict", RepairMode::kStrict}}}};
+template <>
+inline constexpr Names<Interpolation, 3> kNames<Interpolation>{
+    "interpolation",
+    {{{"linear", Interpolation::kLinear}, {"smooth", Interpolation::kSmooth}, {"held", Interpolation::kHeld}}}};
+template <>
+inline constexpr Names<Quality, 3> kNames<Quality>{
+    "quality", {{{"preview", Quality::kPreview}, {"default", Quality::kDefault}, {"high", Quality::kHigh}}}};
+template <>
+inline constexpr Names<Field, 9> kNames<Field>{"field",
+                                               {{{"skin", Field::kSkin},
+                                                 {"displacement", Field::kDisplacement},
+                                                 {"speed", Field::kSpeed},
+                                                 {"stretch", Field::kStretch},
+                                                 {"strain", Field::kStrain},
+                                                 {"stress", Field::kStress},
+                                                 {"volume", Field::kVolume},
+                                                 {"fill", Field::kFill},
+                                                 {"region", Field::kRegion}}}};
+template <>
+inline constexpr Names<ColorMap, 5> kNames<ColorMap>{"colour map",
+                                                     {{{"viridis", ColorMap::kViridis},
+                                                       {"cividis", ColorMap::kCividis},
+                                                       {"coolwarm", ColorMap::kCoolwarm},
+                                                       {"ember", ColorMap::kEmber},
+                                                       {"turbo", ColorMap::kTurbo}}}};
+template <>
+inline constexpr Names<BrickView, 3> kNames<BrickView>{
+    "view of bricks", {{{"none", BrickView::kNone}, {"whole", BrickView::kWhole}, {"exploded", BrickView::kExploded}}}};
+template <>
+inline constexpr Names<Look, 4> kNames<Look>{
+    "look",
+    {{{"plastic", Look::kPlastic}, {"gelatin", Look::kGelatin}, {"rubber", Look::kRubber}, {"steel", Look::kSteel}}}};
+template <>
+inline constexpr Names<SkinInterpolation, 2> kNames<SkinInterpolation>{
+    "interpolation of the skin", {{{"bricks", SkinInterpolation::kBricks}, {"smooth", SkinInterpolation::kSmooth}}}};
+template <>
+inline constexpr Names<MaterialClass, 9> kNames<MaterialClass>{"class of materials",
+                                                               {{{"gelatin", MaterialClass::kGelatin},
+                                                                 {"silicone", MaterialClass::kSilicone},
+                                                                 {"rubber", MaterialClass::kRubber},
+                                                                 {"foam", MaterialClass::kFoam},
+                                                                 {"wood", MaterialClass::kWood},
+                                                                 {"tissue", MaterialClass::kTissue},
+                                                                 {"plastic", MaterialClass::kPlastic},
+                                                                 {"metal", MaterialClass::kMetal},
+                                                                 {"other", MaterialClass::kOther}}}};
+
+template <class Value>
+concept InNames = !std::is_same_v<std::remove_cvref_t<decltype(kNames<Value>)>, bool>;
+
+template <InNames Value>
+[[nodiscard]] std::vector<std::string_view> value_names() {
+  std::vector<std::string_view> names;
+  for (const auto& [name, value] : kNames<Value>.values) names.push_back(name);
+  return names;
+}
+
+template <InNames Value>
+[[nodiscard]] std::string_view name_of(Value wanted) {
+  const auto& values = kNames<Value>.values;
+  return std::find_if(values.begin(), values.end(), [&](const auto& named) { return named.second == wanted; })->first;
+}
 
 /// Throws Error(kBadInput) naming the value and the range where the number is outside it.
 void check_range(double value, const KeyInfo& key);
@@ -20,11 +110,11 @@ template <HasNames Value>
 requires std::is_same_v<Value, Model>
 [[nodiscard]] std::vector<std::string_view> value_names() { return {model_names().begin(), model_names().end()}; }
 
-/// Throws Error(kBadInput) that there is no such thing of this name, with the nearest that there is.
+/// Throws Error(kBadInput) that there is no thing of this name, with the nearest name.
 [[noreturn]] void refuse_name(std::string_view thing, std::string_view name,
                               const std::vector<std::string_view>& names);
 
-/// One value from the words of a person: quantities with units, names, "#rrggbb", "1280x720".
+/// Parses one value as it is typed: quantities with units, names, "#rrggbb", "1280x720".
 /// Each throws Error(kBadInput) naming the text and what is expected.
 void parse_value(std::string_view text, const KeyInfo& key, double& value);
 void parse_value(std::string_view text, const KeyInfo& key, int& value);
@@ -52,6 +142,12 @@ requires requires(std::string_view text, const KeyInfo& key, Value& value) { par
 void parse_value(std::string_view text, const KeyInfo& key, std::optional<Value>& value) {
   parse_value(text, key, value.emplace());
 }
+
+/// A type that is written as one word.
+template <class Value>
+concept Word = requires(std::string_view text, const KeyInfo& key, Value& value) {
+  parse_value(text, key, value);
+};
 
 /// The value as TOML that reads back as the same value.
 [[nodiscard]] std::string toml_text(double value);

@@ -2,9 +2,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "app/scene/scene_file.h"
-#include "app/scene/scene_tables.h"
+#include "app/scene/scene_reference.h"
 #include "app/scene/scene_values.h"
 #include "core/error.h"
 #include "core/files.h"
@@ -23,34 +24,10 @@ struct Given {
   throw Error(ErrorKind::kBadInput, fmt::format("the key '{}' cannot be set by itself", path));
 }
 
-template <class Owner>
+template <Table Owner>
 void set_key(Owner& owner, std::string_view path, const Given& given);
 
-template <class Value>
-concept Word = requires(std::string_view text, const KeyInfo& key, Value& value) {
-  parse_value(text, key, value);
-};
-
-/// A plain value has to be the end of the path.
-template <class Value>
-void set_field(Value& value, const KeyInfo& key, std::string_view rest, const Given& given) {
-  if constexpr (requires { parse_value(given.text, key, value); }) {
-    if (!rest.empty()) refuse(rest);
-    parse_value(given.text, key, value);
-  } else {
-    set_key(value, rest, given);
-  }
-}
-
-/// A table that is there.
-template <class Owner>
-requires(!Word<Owner>) void set_field(std::optional<Owner>& owner, const KeyInfo& key, std::string_view rest,
-                                      const Given& given) {
-  if (!owner) refuse(key.name);
-  set_key(*owner, rest, given);
-}
-
-/// "[1, 2, 3]", with or without brackets, piece by piece.
+/// The items of "[1, 2, 3]", with or without brackets.
 std::vector<std::string_view> items_of(std::string_view text) {
   if (text.starts_with('[') && text.ends_with(']')) text = text.substr(1, text.size() - 2);
   std::vector<std::string_view> items;
@@ -62,43 +39,39 @@ std::vector<std::string_view> items_of(std::string_view text) {
   }
 }
 
+template <class Value>
+void set_value(Value& value, const KeyInfo& key, std::string_view rest, const Given& given);
+
+/// Three numbers.
 template <class Values>
-void set_items(Values& values, std::size_t count, const KeyInfo& key, std::string_view rest, const Given& given) {
-  if (!rest.empty()) refuse(rest);
+void set_items(Values& values, const KeyInfo& key, const Given& given) {
   const std::vector<std::string_view> items = items_of(given.text);
-  if (items.size() != count) {
-    throw Error(ErrorKind::kBadInput, fmt::format("must be {} numbers: [1, 2, 3]", count));
+  if (items.size() != 3) throw Error(ErrorKind::kBadInput, "must be 3 numbers: [1, 2, 3]");
+  for (std::size_t i = 0; i < 3; ++i) parse_value(items[i], key, values[i]);
+}
+
+template <class Value>
+void set_value(std::optional<Value>& value, const KeyInfo& key, std::string_view rest, const Given& given) {
+  if constexpr (Table<Value>) {
+    if (!value) refuse(key.name);
+    set_key(*value, rest, given);
+  } else {
+    set_value(value.emplace(), key, rest, given);
   }
-  auto value = values.begin();
-  for (const std::string_view item : items) parse_value(item, key, *value++);
 }
 
-void set_field(Vec3& value, const KeyInfo& key, std::string_view rest, const Given& given) {
-  set_items(value, 3, key, rest, given);
-}
-void set_field(std::array<int, 3>& value, const KeyInfo& key, std::string_view rest, const Given& given) {
-  set_items(value, 3, key, rest, given);
-}
-void set_field(std::optional<Vec3>& value, const KeyInfo& key, std::string_view rest, const Given& given) {
-  set_items(value.emplace(), 3, key, rest, given);
-}
-
-template <Word Value>
-void set_field(std::vector<Value>& values, const KeyInfo& key, std::string_view rest, const Given& given) {
-  if (!rest.empty()) refuse(rest);
-  values.clear();
-  for (const std::string_view item : items_of(given.text)) parse_value(item, key, values.emplace_back());
+template <class Value>
+void set_value(std::vector<Value>& values, const KeyInfo& key, std::string_view rest, const Given& given) {
+  if constexpr (Table<Value>) {
+    for (Value& value : values) set_key(value, rest, given);
+  } else {
+    if (!rest.empty()) refuse(rest);
+    values.clear();
+    for (const std::string_view item : items_of(given.text)) parse_value(item, key, values.emplace_back());
+  }
 }
 
-/// From where the program runs; a scene file's own paths are from where it lies.
-void set_field(std::filesystem::path& path, const KeyInfo& key, std::string_view rest, const Given& given) {
-  if (!rest.empty()) refuse(rest);
-  parse_value(given.text, key, path);
-  path = std::filesystem::absolute(path).lexically_normal();
-  check_readable(path);
-}
-
-void set_field(Material& material, const KeyInfo&, std::string_view rest, const Given& given) {
+void set_value(Material& material, const KeyInfo&, std::string_view rest, const Given& given) {
   if (rest.empty()) {
     material = given.library.find(given.text).material();
     return;
@@ -108,32 +81,23 @@ void set_field(Material& material, const KeyInfo&, std::string_view rest, const 
   material.source.clear();
 }
 
-template <class Owner>
-requires(!Word<Owner>) void set_field(std::vector<Owner>& owners, const KeyInfo&, std::string_view rest,
-                                      const Given& given) {
-  for (Owner& owner : owners) set_key(owner, rest, given);
-}
-
-/// Whether the value is one that can be left out.
+/// `rest`: the path below the key; empty unless the value is a table.
 template <class Value>
-concept Droppable = requires(Value& value) {
-  value.reset();
-}
-|| requires(Value& value) { value.clear(); };
-
-/// Of keys that exclude each other the one set last stays.
-template <class Owner>
-void drop_rivals(Owner& owner, std::string_view name) {
-  for (const KeyRule& rule : rules<Owner>()) {
-    const bool is_meant = std::find(rule.keys.begin(), rule.keys.end(), name) != rule.keys.end();
-    if (!is_meant || (rule.kind != KeyRule::Kind::kAtMostOne && rule.kind != KeyRule::Kind::kOneOf)) continue;
-    for (const std::string_view rival : rule.keys) {
-      if (rival == name) continue;
-      const auto drop = [&](auto field) {
-        using Value = std::remove_cvref_t<decltype(owner.*field)>;
-        if constexpr (Droppable<Value>) owner.*field = Value{};
-      };
-      std::visit(drop, find_key<Owner>(rival)->member);
+void set_value(Value& value, const KeyInfo& key, std::string_view rest, const Given& given) {
+  if constexpr (Table<Value>) {
+    set_key(value, rest, given);
+    return;
+  } else {
+    if (!rest.empty()) refuse(rest);
+    if constexpr (std::is_same_v<Value, Vec3> || std::is_same_v<Value, std::array<int, 3>>) {
+      set_items(value, key, given);
+    } else {
+      parse_value(given.text, key, value);
+    }
+    if constexpr (std::is_same_v<Value, std::filesystem::path>) {
+      // From where the program runs; a scene file's own paths are from where it lies.
+      value = std::filesystem::absolute(value).lexically_normal();
+      check_readable(value);
     }
   }
 }
@@ -165,15 +129,54 @@ std::string unknown_key(std::string_view name, std::string_view path, const std:
   return fmt::format("unknown key '{}'{}", name, hint.empty() ? did_you_mean(name, known) : hint);
 }
 
-template <class Owner>
+struct KeySetter {
+  std::string_view name;
+  std::string_view rest;
+  const Given& given;
+  bool is_known = false;
+  std::vector<std::string_view> known{};
+  std::vector<std::string_view> rivals{};  // keys that exclude this one
+
+  void table(std::string_view, const std::vector<KeyRule>& rules = {}) {
+    for (const KeyRule& rule : rules) {
+      const bool is_meant = std::find(rule.keys.begin(), rule.keys.end(), name) != rule.keys.end();
+      if (!is_meant || (rule.kind != KeyRule::kAtMostOne && rule.kind != KeyRule::kOneOf)) continue;
+      std::copy_if(rule.keys.begin(), rule.keys.end(), std::back_inserter(rivals),
+                   [&](std::string_view key) { return key != name; });
+    }
+  }
+
+  template <class Value>
+  void operator()(const KeyInfo& key, Value& value) {
+    known.push_back(key.name);
+    if (key.name != name) return;
+    is_known = true;
+    set_value(value, key, rest, given);
+  }
+};
+
+/// Clears those of the named keys that are optional.
+struct KeyDropper : FieldVisitor {
+  const std::vector<std::string_view>& names;
+
+  template <class Value>
+  void operator()(const KeyInfo& key, Value& value) {
+    if (std::find(names.begin(), names.end(), key.name) == names.end()) return;
+    if constexpr (
+        requires { value.reset(); } || requires { value.clear(); })
+      value = Value{};
+  }
+};
+
+template <Table Owner>
 void set_key(Owner& owner, std::string_view path, const Given& given) {
   const auto dot = path.find('.');
-  const std::string_view name = path.substr(0, dot);
   const std::string_view rest = dot == std::string_view::npos ? std::string_view{} : path.substr(dot + 1);
-  const Key<Owner>* key = find_key<Owner>(name);
-  if (key == nullptr) throw Error(ErrorKind::kBadInput, unknown_key(name, path, key_names<Owner>()));
-  std::visit([&](auto field) { set_field(owner.*field, *key, rest, given); }, key->member);
-  drop_rivals(owner, name);
+  KeySetter setter{.name = path.substr(0, dot), .rest = rest, .given = given};
+  fields(setter, owner);
+  if (!setter.is_known) throw Error(ErrorKind::kBadInput, unknown_key(setter.name, path, setter.known));
+  KeyDropper dropper{{}, setter.rivals};
+  fields(dropper, owner);
 }
 
 }  // namespace

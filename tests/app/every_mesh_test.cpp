@@ -95,7 +95,7 @@ const std::vector<Row>& rows() {
 /// The kinds of repair in it that are worth a warning.
 std::set<std::string> repairs_in(const std::string& json) {
   std::set<std::string> kinds;
-  const std::string key = "{\"kind\": \"";
+  const std::string key = "\"kind\": \"";
   for (std::size_t at = json.find(key); at < json.find("\"bodies\""); at = json.find(key, at)) {
     at += key.size();
     kinds.insert(json.substr(at, json.find('"', at) - at));

@@ -179,7 +179,7 @@ TEST_F(ExperimentProgram, SimulateWritesItsProbes) {
   EXPECT_EQ(csv.rfind("load,tip.position.x_m,tip.position.y_m,tip.position.z_m,tip.displacement.x_m,", 0), 0U) << csv;
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 5) << csv;
   EXPECT_NE(csv.find("root.torque.z_Nm"), std::string::npos);
-  EXPECT_NE(text_of(folder_.path() / "out/probes.json").find("\"state_hash\": \"" + made.out.substr(6, 16)),
+  EXPECT_NE(text_of(folder_.path() / "out/probes.json").find("\"state_hash\":\"" + made.out.substr(6, 16)),
             std::string::npos);
   EXPECT_EQ(run("simulate beam.toml -o out").exit_code, 2);
   EXPECT_EQ(run("simulate beam.toml -o out --overwrite --threads 1").out, made.out);

@@ -97,7 +97,7 @@ TEST_F(HelpText, AMistypedWordGetsTheNearest) {
   EXPECT_NE(error("animate cube.obj -o out --set body.sise=1").find("did you mean 'size'?"), std::string::npos);
   EXPECT_NE(error("animate cbue.obj -o out").find("did you mean 'cube.obj'?"), std::string::npos);
   EXPECT_EQ(error("--quiet animate cube.obj -o out"),
-            "sprung: error: --quiet stands behind the command: sprung animate --quiet\n");
+            "sprung: error: --quiet comes after the command: sprung animate --quiet\n");
   EXPECT_NE(error("simulate cube.obj -o run.h6").find("'.h6' files cannot be written; did you mean '.h5'?"),
             std::string::npos);
   EXPECT_NE(error("render cube.obj -o out").find("sprung animate draws a mesh"), std::string::npos);
@@ -109,13 +109,13 @@ TEST_F(HelpText, AMistypedWordGetsTheNearest) {
 TEST_F(HelpText, LogJsonIsAnObjectALine) {
   static_cast<void>(folder_.write("cube.obj", kCubeObj));
   const std::string log = error("simulate cube.obj -o out --bricks 6 --duration 0.2 --log-json");
-  static const std::regex kLine(R"re(\{"kind": "(note|warning|progress|stage)", ".*\}\n)re");
+  static const std::regex kLine(R"re(\{"kind":"(note|warning|progress|stage)",".*\}\n)re");
   EXPECT_EQ(std::regex_replace(log, kLine, ""), "");
-  EXPECT_NE(log.find(R"({"kind": "progress", "stage": "simulate", "share": 0, )"), std::string::npos) << log;
-  EXPECT_NE(log.find(R"({"kind": "stage", "stage": "simulate", "seconds": )"), std::string::npos) << log;
+  EXPECT_NE(log.find(R"({"kind":"progress","stage":"simulate","share":0.0,)"), std::string::npos) << log;
+  EXPECT_NE(log.find(R"({"kind":"stage","stage":"simulate","seconds":)"), std::string::npos) << log;
   EXPECT_NE(error("simulate cbe.obj -o other --log-json").find("cbe.obj: no such file; did you mean 'cube.obj'?\"}"),
             std::string::npos);
-  EXPECT_EQ(error("simulate --log-json --brik").find(R"({"kind": "error", )"), 0U);
+  EXPECT_EQ(error("simulate --log-json --brik").find(R"({"kind":"error",)"), 0U);
 }
 
 }  // namespace

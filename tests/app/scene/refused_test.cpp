@@ -4,7 +4,7 @@
 #include <fstream>
 
 #include "app/scene/scene_file.h"
-#include "app/scene/scene_schema.h"
+#include "app/scene/scene_reference.h"
 #include "tests/support/error_message.h"
 #include "tests/support/run_program.h"
 

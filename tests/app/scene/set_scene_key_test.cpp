@@ -46,7 +46,7 @@ TEST(SetSceneKey, PairsAreWrittenInThreeWays) {
     EXPECT_EQ(scene.render.sheet.value(), (std::array<int, 2>{3, 2})) << pair;
   }
   EXPECT_EQ(error_message([&] { set_scene_key(scene, "render.sheet", "[3]"); }),
-            "'[3]' is no pair of whole numbers; write two, as in 1280x720 or [1280, 720]");
+            "'[3]' is not a pair of whole numbers; write two, as in 1280x720 or [1280, 720]");
 }
 
 TEST(SetSceneKey, RefusesWhatIsNoKeyOfAValue) {

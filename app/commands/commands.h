@@ -1,0 +1,69 @@
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/console/console.h"
+
+namespace CLI {
+class App;
+}
+
+namespace sprung {
+
+/// One run of the program.
+struct Invocation {
+  Console& console;
+  std::string command;  // as typed, for a shell
+  int exit_code = 0;
+};
+
+/// Each adds its command with its options to the program. What was typed is kept by the command's callback, which does
+/// the work once all of it has been parsed. Throws Error(kUsage) naming the option whose value is wrong, Error,
+/// Interrupted.
+
+/// From a mesh or a scene to pictures and films; the outputs' names go to stdout.
+void add_animate(CLI::App& app, Invocation& invocation);
+
+/// From a mesh or a scene to a cache of its frames and to the measurements of its probes: probes.csv, probes.json and
+/// manifest.json in the output folder; the state hash and what the probes saw last go to stdout.
+void add_simulate(CLI::App& app, Invocation& invocation);
+
+/// A range of a cache's frames to pictures or a film, by one or several processes; the outputs' names go to stdout.
+void add_render(CLI::App& app, Invocation& invocation);
+
+/// Frames of a cache, or of a scene that is simulated for it, as meshes; the names as typed go to stdout.
+void add_export(CLI::App& app, Invocation& invocation);
+
+/// Numbered pictures, drawn by whatever program, to films; the films' names go to stdout. Throws Error(kBadInput)
+/// naming every gap in the numbers.
+void add_film(CLI::App& app, Invocation& invocation);
+
+/// `sprung sweep SCENE --set KEY=A,B,C ... -o FOLDER`: every combination of the values as a run of its own. Writes
+/// FOLDER/001/scene.toml ..., the scenes as resolved, FOLDER/runs.json, which says what differs, and FOLDER/commands,
+/// one line a run for a shell, GNU parallel or a scheduler; prints that file's name. Each run leaves its cache, probes
+/// and a manifest in its folder. FOLDER/run, for a shell, does them all and writes FOLDER/table.csv.
+/// `sprung sweep FOLDER --table`: how long the runs took and what their probes saw last, as CSV to stdout; runs that
+/// are not done are named on stderr.
+void add_sweep(CLI::App& app, Invocation& invocation);
+
+/// The values of "a,b,[0,0,1]": commas in brackets do not count.
+[[nodiscard]] std::vector<std::string> values_in(std::string_view text);
+
+/// What a mesh, a scene or a cache is and what its film will take, to stdout.
+void add_inspect(CLI::App& app, Invocation& invocation);
+
+/// Runs experiments; their checks go to stdout. Exit code 1 where any gate fails.
+void add_validate(CLI::App& app, Invocation& invocation);
+
+/// How two pictures differ, to stdout, and as a picture where one is wanted. Exit code 1 where they differ too much, as
+/// pictures of different size always do.
+void add_compare(CLI::App& app, Invocation& invocation);
+
+/// The materials that were asked for, to stdout: a table, a line each; with their sources; or JSON, SI units.
+void add_materials(CLI::App& app, Invocation& invocation);
+
+/// Help on a command, the keys of a scene, the manual and the completions, to stdout.
+void add_help(CLI::App& app, Invocation& invocation);
+
+}  // namespace sprung

@@ -1,0 +1,517 @@
+#pragma once
+#include <limits>
+#include <span>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "app/scene/film.h"
+#include "core/units.h"
+
+// What a scene file may say: one function for each table, which names its keys once for the reader, the writer, --set,
+// the reference and the schema. fields(visit, owner) calls visit.table(name, rules) and then visit(key, owner.member)
+// for every key; the value of a new owner is the default of the key.
+
+namespace sprung {
+
+/// What a file of materials says.
+struct MaterialFile {
+  std::vector<LibraryMaterial> materials;
+};
+
+/// The numbers that a key takes.
+struct Range {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  bool without_low = false;  // low itself is outside
+  bool without_high = false;
+};
+
+struct KeyInfo {
+  std::string_view name;
+  std::string_view help;
+  Dimension dimension = Dimension::kNone;
+  Range range{};
+  bool required = false;
+  std::span<const int> choices{};  // where not empty: the only numbers it takes
+};
+
+[[nodiscard]] inline KeyInfo required(KeyInfo key) {
+  key.required = true;
+  return key;
+}
+
+/// A rule between the keys of one table.
+struct KeyRule {
+  enum Kind {
+    kOneOf,      // exactly one of them
+    kAnyOf,      // one at least
+    kAtMostOne,  // two exclude each other
+    kNeeds       // the first only with the second
+  };
+  Kind kind;
+  std::vector<std::string_view> keys;
+};
+
+/// Base of visitors that have no use for the name and the rules of a table.
+struct FieldVisitor {
+  void table(std::string_view /*name*/, const std::vector<KeyRule>& /*rules*/ = {}) {}
+};
+
+/// A struct that is a table of a scene file: one that has fields() below.
+template <class Value>
+concept Table = requires(Value& value, FieldVisitor& visit) {
+  fields(visit, value);
+};
+
+/// Owner, which may be const.
+template <class Value, class Owner>
+concept Is = std::is_same_v<std::remove_const_t<Value>, Owner>;
+
+/// What a table has in it where a file leaves out all keys.
+template <Table Owner>
+[[nodiscard]] Owner default_table() {
+  if constexpr (Is<Owner, SceneBody>) return default_body();
+  return Owner{};
+}
+
+inline constexpr Range kPositive{.low = 0, .without_low = true};
+inline constexpr Range kNotNegative{.low = 0};
+inline constexpr Range kCounted{.low = 1};  // from 1
+inline constexpr Range kPoisson{-1, 0.5, true, true};
+inline constexpr Range kZoom{0.01, 100};
+inline constexpr int kSampleCounts[] = {1, 4, 16};
+
+inline const std::vector<std::string_view> kSelectionKeys{"box",     "sphere",  "half_space", "part",
+                                                          "painted", "nearest", "mesh"};
+
+/// How a part of a body is chosen, whatever is done with it.
+void selection_fields(auto& visit, auto& part) {
+  visit({"box", "the part in a box, in fractions of the body's bounding box"}, part.box);
+  visit({"sphere", "the part in a ball, in fractions of the body's bounding box"}, part.sphere);
+  visit({"half_space", "the part on one side of a plane"}, part.half_space);
+  visit({"part", "what lies nearest to the part of the mesh of this name"}, part.part);
+  visit({"painted", "what lies nearest to the vertices of this colour: \"#rrggbb\""}, part.painted);
+  visit({"nearest", "the one node or brick nearest to a point, in fractions of the body's bounding box",
+         Dimension::kRatio},
+        part.nearest);
+  visit({"mesh", "what a closed mesh encloses: its file, in units and frame of the body's own mesh"}, part.mesh);
+}
+
+/// How strong a load is over time, whatever the load is.
+void curve_fields(auto& visit, auto& load) {
+  visit({"keyframes", "strength over time"}, load.keyframes);
+  visit({"interpolation", "between keyframes: linear, smooth or held"}, load.interpolation);
+}
+
+void fields(auto& visit, Is<Film> auto& film) {
+  visit.table("scene");
+  visit({"materials", "file of further materials that bodies may name (TOML, as assets/materials.toml)"},
+        film.materials);
+  visit({"duration", "length of the film", Dimension::kTime, {0, 3600, true}}, film.duration);
+  visit({"fps", "pictures a second", Dimension::kRate, {0, 10000, true}}, film.fps);
+  visit({"gravity", "acceleration of everything", Dimension::kAcceleration}, film.gravity);
+  visit({"gravity_keyframes", "gravity over time, in place of gravity"}, film.gravity_keyframes);
+  visit({"wind", "wind on all bodies"}, film.wind);
+  visit({"solver", "integrator, or kind of solution"}, film.solver);
+  visit({"contact", "which collisions are resolved, besides those with obstacles"}, film.contact);
+  visit({"camera", "the camera"}, film.camera);
+  visit({"render", "the pictures"}, film.render);
+  visit(required({"body", "a mesh or a shape made of a soft material"}), film.bodies);
+  visit({"obstacle", "the ground and other things that are not soft"}, film.obstacles);
+  visit({"glue", "bodies bonded where they touch at the start"}, film.glue);
+  visit({"probe", "measurements taken in every frame"}, film.probes);
+  visit({"experiment", "what `sprung validate` varies"}, film.experiment);
+  visit({"expect", "what `sprung validate` compares with"}, film.expectations);
+}
+
+void fields(auto& visit, Is<SceneSolver> auto& solver) {
+  visit.table("solver");
+  visit({"scheme",
+         "motion by euler (symplectic), verlet, implicit-euler, bdf2 or auto; static or linear equilibrium; or modes"},
+        solver.scheme);
+  visit({"load_steps", "increments of a static load, one a frame", Dimension::kNone, {1, 100000}}, solver.load_steps);
+  visit({"modes", "number of the lowest vibration modes", Dimension::kNone, {1, 1000}}, solver.modes);
+  visit({"time_limit", "longest predicted computing time that is accepted", Dimension::kTime, kPositive},
+        solver.time_limit);
+}
+
+void fields(auto& visit, Is<SceneContact> auto& contact) {
+  visit.table("contact");
+  visit({"bodies", "whether bodies collide with each other"}, contact.bodies);
+  visit({"self", "whether a body collides with itself"}, contact.self);
+}
+
+void fields(auto& visit, Is<SceneCamera> auto& camera) {
+  visit.table("camera");
+  visit({"azimuth", "direction of the camera about the vertical; 0 looks along -z", Dimension::kAngle}, camera.azimuth);
+  visit({"elevation", "height of the camera above the horizon", Dimension::kAngle, {-85, 85}}, camera.elevation);
+  visit({"orbit", "angle by which the camera orbits over the film", Dimension::kAngle}, camera.orbit);
+  visit({"zoom", "magnification; at 1 everything fits in the picture", Dimension::kRatio, kZoom}, camera.zoom);
+  visit({"follow", "whether the camera tracks the centre of the bodies"}, camera.follow);
+  visit({"orthographic", "whether the projection is orthographic"}, camera.orthographic);
+  visit({"aperture", "lens diameter; what is nearer or farther than the centre of the bodies is blurred",
+         Dimension::kLength, kNotNegative},
+        camera.aperture);
+  visit({"keyframes", "camera over time; instead of azimuth, elevation, orbit and zoom"}, camera.keyframes);
+}
+
+void fields(auto& visit, Is<CameraKeyframe> auto& keyframe) {
+  visit.table("camera keyframe");
+  visit(required({"t", "time", Dimension::kTime, kNotNegative}), keyframe.time);
+  visit(required({"azimuth", "direction of the camera about the vertical", Dimension::kAngle}), keyframe.azimuth);
+  visit({"elevation", "height of the camera above the horizon", Dimension::kAngle, {-85, 85}}, keyframe.elevation);
+  visit({"zoom", "magnification; at 1 everything fits in the picture", Dimension::kRatio, kZoom}, keyframe.zoom);
+}
+
+void fields(auto& visit, Is<SceneRender> auto& render) {
+  visit.table("render");
+  visit({"resolution", "width and height of the pictures in pixels", Dimension::kNone, {16, 8192}}, render.resolution);
+  visit({"quality", "preview (fast), default or high (slow): shadows and antialiasing"}, render.quality);
+  visit({"samples", "samples per pixel; default: by the quality", Dimension::kNone, {1, 16}, false, kSampleCounts},
+        render.samples);
+  visit({"transparent", "transparent background: pictures with alpha, no floor"}, render.transparent);
+  visit({"environment", "panorama (.hdr or .png, twice as wide as high) that lights the bodies"}, render.environment);
+  visit({"motion_blur", "shutter angle; 360 degrees: open for the whole frame", Dimension::kAngle, {0, 360}},
+        render.motion_blur);
+  visit(
+      {"sheet", "columns and rows of frames, evenly spaced over the film, in one picture", Dimension::kNone, {1, 100}},
+      render.sheet);
+  visit({"color_by",
+         "what colours show: skin, displacement, speed, stretch, strain or stress (von Mises), volume, fill or region"},
+        render.color_by);
+  visit({"color_map", "viridis, cividis, coolwarm, ember or turbo; by what is shown"}, render.color_map);
+  visit({"color_low", "SI value of the first colour; default: the lowest of the film"}, render.color_low);
+  visit({"color_high", "SI value of the last colour; default: the highest of the film, without its top half per cent"},
+        render.color_high);
+  visit({"legend", "whether a legend of the colours is drawn"}, render.legend);
+  visit({"caption", "a line at the top"}, render.caption);
+  visit({"frame_number", "whether frame number and time are drawn"}, render.frame_number);
+  visit({"scale_bar", "whether a scale bar is drawn"}, render.scale_bar);
+  visit({"bricks", "bricks in place of the skins: none, whole or exploded"}, render.bricks);
+  visit({"cut", "removes the bricks on one side of a plane; with bricks, springs or nodes"}, render.cut);
+  visit({"springs", "whether springs are drawn, coloured by their stretch, in place of the skins"}, render.springs);
+  visit({"nodes", "whether nodes are drawn"}, render.nodes);
+  visit({"pins", "whether pinned nodes are drawn"}, render.pins);
+  visit({"ghost", "whether the rest shape is drawn faintly"}, render.ghost);
+  visit({"contacts", "whether contacts with the ground, obstacles and other bodies are marked"}, render.contacts);
+  visit({"traces", "whether the paths of the probes are drawn"}, render.traces);
+  visit({"plots", "whether the displacement of the probes is plotted"}, render.plots);
+}
+
+void fields(auto& visit, Is<SceneBody> auto& body) {
+  visit.table("body", {{KeyRule::kOneOf, {"mesh", "box", "sphere", "cylinder", "torus"}},
+                       {KeyRule::kAtMostOne, {"size", "scale"}},
+                       {KeyRule::kAtMostOne, {"bricks", "brick_size"}},
+                       {KeyRule::kNeeds, {"size", "mesh"}},
+                       {KeyRule::kNeeds, {"scale", "mesh"}},
+                       {KeyRule::kNeeds, {"texture", "mesh"}},
+                       {KeyRule::kNeeds, {"thickness", "mesh"}},
+                       {KeyRule::kNeeds, {"cut", "box"}}});
+  visit({"mesh", "file of the surface, relative to the scene file; or a shape: box, sphere, cylinder, torus"},
+        body.mesh);
+  visit({"box", "sides of a box of whole bricks", Dimension::kLength, kPositive}, body.box);
+  visit({"sphere", "a ball"}, body.sphere);
+  visit({"cylinder", "an upright cylinder"}, body.cylinder);
+  visit({"torus", "a ring that lies flat"}, body.torus);
+  visit({"texture", "picture on the skin, placed by the mesh's UVs, in place of what its file names"}, body.texture);
+  visit({"cut", "parts taken out of a box"}, body.cuts);
+  visit({"size", "longest side of the body", Dimension::kLength, {.low = 1e-6, .high = 1e6}}, body.size);
+  visit({"scale", "length of one unit of the mesh file; instead of size", Dimension::kLength, kPositive}, body.scale);
+  visit(
+      {"repair",
+       "of the mesh: auto repairs defects and reports them, strict refuses a mesh with defects, off uses it as it is"},
+      body.repair);
+  visit({"thickness", "makes the mesh the mid-surface of a shell of this thickness", Dimension::kLength, kPositive},
+        body.thickness);
+  visit({"position", "of the centre of the bottom of its bounding box", Dimension::kLength}, body.position);
+  visit({"rotation", "about x, then y, then z, around its centre", Dimension::kAngle}, body.rotation);
+  visit(
+      {"bricks", "number of bricks along the longest side; or auto: by the thinnest part", Dimension::kNone, {1, 1024}},
+      body.bricks);
+  visit({"brick_size", "side of a brick; instead of bricks", Dimension::kLength, kPositive}, body.brick_size);
+  visit({"brick_rotation", "orientation of the bricks in the body, about x, then y, then z", Dimension::kAngle},
+        body.brick_rotation);
+  visit({"material", "a name from `sprung materials`; in a scene also { young, poisson, density, damping }"},
+        body.material);
+  visit({"model", "law of the bricks: calibrated, tensile (Baudet et al. 2009), m1, m2-plain, m1-plain or fem"},
+        body.model);
+  visit({"color", "\"#rrggbb\" where the mesh file gives no colour"}, body.color);
+  visit({"look", "surface finish: plastic, gelatin, rubber or steel; default: by the material"}, body.look);
+  visit({"skin", "how the skin is interpolated: bricks (trilinear in each) or smooth (across them)"}, body.skin);
+  visit({"velocity", "initial velocity", Dimension::kSpeed}, body.velocity);
+  visit({"spin", "initial angular velocity, about the axes of the world through its centre", Dimension::kTurning},
+        body.spin);
+  visit({"friction", "Coulomb friction coefficient; between bodies the geometric mean of the two", Dimension::kRatio,
+         kNotNegative},
+        body.friction);
+  visit({"copies", "the same body many times, in rows"}, body.copies);
+  visit({"pin", "parts that are held or moved"}, body.pins);
+  visit({"region", "parts of another material"}, body.regions);
+  visit({"force", "forces and pressures"}, body.forces);
+  visit({"muscle", "parts that contract"}, body.muscles);
+}
+
+void fields(auto& visit, Is<SphereShape> auto& sphere) {
+  visit.table("sphere shape");
+  visit(required({"radius", "of the ball", Dimension::kLength, kPositive}), sphere.radius);
+}
+
+void fields(auto& visit, Is<CylinderShape> auto& cylinder) {
+  visit.table("cylinder shape");
+  visit(required({"radius", "of the circle", Dimension::kLength, kPositive}), cylinder.radius);
+  visit(required({"height", "along its axis", Dimension::kLength, kPositive}), cylinder.height);
+}
+
+void fields(auto& visit, Is<TorusShape> auto& torus) {
+  visit.table("torus shape");
+  visit(required({"radius", "from the centre to the middle of the tube", Dimension::kLength, kPositive}), torus.radius);
+  visit(required({"tube", "radius of the tube", Dimension::kLength, kPositive}), torus.tube);
+}
+
+void fields(auto& visit, Is<CapsuleShape> auto& capsule) {
+  visit.table("capsule shape");
+  visit(required({"radius", "of the rod", Dimension::kLength, kPositive}), capsule.radius);
+  visit(required({"height", "between the centres of its ends", Dimension::kLength, kPositive}), capsule.height);
+}
+
+void fields(auto& visit, Is<Material> auto& material) {
+  visit.table("material");
+  visit(required({"young", "Young's modulus", Dimension::kPressure, kPositive}), material.young);
+  visit(required({"poisson", "Poisson's ratio", Dimension::kNone, kPoisson}), material.poisson);
+  visit(required({"density", "density", Dimension::kDensity, kPositive}), material.density);
+  visit({"damping", "ratio of critical damping at the slowest vibration", Dimension::kRatio, {0, 10}},
+        material.damping);
+}
+
+void fields(auto& visit, Is<Copies> auto& copies) {
+  visit.table("copies");
+  visit(required({"count", "how many along x, y and z", Dimension::kNone, {1, 1000}}), copies.count);
+  visit(required({"spacing", "from one to the next along each axis", Dimension::kLength}), copies.spacing);
+  visit({"scatter", "random offset of each copy, up to this along each axis", Dimension::kLength, kNotNegative},
+        copies.scatter);
+  visit({"turn", "random rotation of each copy, up to this", Dimension::kAngle, {0, 180}}, copies.turn);
+  visit({"seed", "of the random numbers", Dimension::kNone, {0, 2147483647}}, copies.seed);
+}
+
+void fields(auto& visit, Is<Box> auto& box) {
+  visit.table("box");
+  visit(required({"min", "low corner", Dimension::kRatio}), box.min);
+  visit(required({"max", "high corner", Dimension::kRatio}), box.max);
+}
+
+void fields(auto& visit, Is<Ball> auto& ball) {
+  visit.table("ball");
+  visit(required({"center", "in fractions of the body's bounding box", Dimension::kRatio}), ball.centre);
+  visit(required({"radius", "in longest sides of the body's bounding box", Dimension::kRatio, kPositive}), ball.radius);
+}
+
+void fields(auto& visit, Is<HalfSpace> auto& half_space) {
+  visit.table("half-space");
+  visit(required({"point", "of the plane, in fractions of the body's bounding box", Dimension::kRatio}),
+        half_space.point);
+  visit(required({"normal", "towards the selected side"}), half_space.normal);
+}
+
+void fields(auto& visit, Is<Cut> auto& cut) {
+  visit.table("cut", {{KeyRule::kOneOf, kSelectionKeys}});
+  selection_fields(visit, cut);
+}
+
+void fields(auto& visit, Is<Pin> auto& pin) {
+  visit.table("pin", {{KeyRule::kOneOf, kSelectionKeys},
+                      {KeyRule::kAtMostOne, {"translate", "keyframes"}},
+                      {KeyRule::kAtMostOne, {"rotate", "keyframes"}}});
+  selection_fields(visit, pin);
+  visit({"name", "for probes"}, pin.name);
+  visit({"axes", "the directions that are held: \"xyz\", \"x\", \"yz\", and so on"}, pin.axes);
+  visit({"translate", "translation by the end of the film", Dimension::kLength}, pin.translate);
+  visit({"rotate", "rotation by the end of the film, about the centre of the part", Dimension::kAngle}, pin.rotate);
+  visit({"keyframes", "movement over time"}, pin.keyframes);
+  visit({"interpolation", "between keyframes: linear, smooth or held"}, pin.interpolation);
+  visit({"from", "when the pin takes hold of its nodes, wherever they are then", Dimension::kTime, kNotNegative},
+        pin.from);
+  visit({"until", "when the pin releases its nodes; default: never", Dimension::kTime, kPositive}, pin.until);
+}
+
+void fields(auto& visit, Is<Keyframe> auto& keyframe) {
+  visit.table("keyframe");
+  visit(required({"t", "time", Dimension::kTime, kNotNegative}), keyframe.time);
+  visit({"translate", "translation from the start", Dimension::kLength}, keyframe.translate);
+  visit({"rotate", "rotation about x, then y, then z", Dimension::kAngle}, keyframe.rotate);
+  visit({"scale", "size relative to that at the start", Dimension::kRatio, kPositive}, keyframe.scale);
+}
+
+void fields(auto& visit, Is<Region> auto& region) {
+  visit.table("region",
+              {{KeyRule::kAtMostOne, kSelectionKeys},
+               {KeyRule::kAnyOf, {"box", "sphere", "half_space", "part", "painted", "nearest", "mesh", "gradient"}}});
+  selection_fields(visit, region);
+  visit(required({"material", "what they are made of"}), region.material);
+  visit({"gradient", "a change to another material along a line"}, region.gradient);
+}
+
+void fields(auto& visit, Is<Gradient> auto& gradient) {
+  visit.table("gradient");
+  visit(required({"from", "where the region's material begins to change, in fractions of the body's bounding box",
+                  Dimension::kRatio}),
+        gradient.from);
+  visit(required({"to", "where it is this one", Dimension::kRatio}), gradient.to);
+  visit(required({"material", "what it changes to"}), gradient.material);
+}
+
+void fields(auto& visit, Is<BodyForce> auto& force) {
+  visit.table("force", {{KeyRule::kAtMostOne, kSelectionKeys}, {KeyRule::kOneOf, {"total", "per_volume", "pressure"}}});
+  selection_fields(visit, force);
+  visit({"total", "force on the whole part, distributed by volume", Dimension::kForce}, force.total);
+  visit({"per_volume", "force per volume", Dimension::kForceDensity}, force.per_volume);
+  visit({"pressure", "pressure on the skin of the part, inward", Dimension::kPressure}, force.pressure);
+  curve_fields(visit, force);
+}
+
+void fields(auto& visit, Is<BodyMuscle> auto& muscle) {
+  visit.table("muscle", {{KeyRule::kAtMostOne, kSelectionKeys}});
+  selection_fields(visit, muscle);
+  visit(required({"direction", "direction of the contraction, in the body before it is rotated"}), muscle.direction);
+  visit(required({"contraction",
+                  "fraction of the length; the part widens so that its volume is kept",
+                  Dimension::kRatio,
+                  {-1, 0.9}}),
+        muscle.contraction);
+  curve_fields(visit, muscle);
+}
+
+void fields(auto& visit, Is<Strength> auto& strength) {
+  visit.table("strength");
+  visit(required({"t", "time", Dimension::kTime, kNotNegative}), strength.time);
+  visit(required({"strength", "factor on the full strength", Dimension::kRatio}), strength.strength);
+}
+
+void fields(auto& visit, Is<GravityKeyframe> auto& keyframe) {
+  visit.table("gravity keyframe");
+  visit(required({"t", "time", Dimension::kTime, kNotNegative}), keyframe.time);
+  visit(required({"gravity", "acceleration of everything", Dimension::kAcceleration}), keyframe.gravity);
+}
+
+void fields(auto& visit, Is<SceneWind> auto& wind) {
+  visit.table("wind");
+  visit(required({"velocity", "of the air at strength 1", Dimension::kSpeed}), wind.velocity);
+  visit({"density", "of the air", Dimension::kDensity, kPositive}, wind.density);
+  visit({"drag", "drag coefficient: pressure on what faces the wind, over density v^2 / 2", Dimension::kRatio,
+         kNotNegative},
+        wind.drag);
+  curve_fields(visit, wind);
+}
+
+void fields(auto& visit, Is<SceneGlue> auto& glue) {
+  visit.table("glue");
+  visit(required(
+            {"bodies", "the two bodies, counted from 1; the same one twice: its copies", Dimension::kNone, kCounted}),
+        glue.bodies);
+  visit({"distance", "largest gap that is bonded; default: half the smaller bricks", Dimension::kLength, kPositive},
+        glue.distance);
+}
+
+void fields(auto& visit, Is<SceneObstacle> auto& obstacle) {
+  visit.table("obstacle", {{KeyRule::kOneOf, {"plane", "box", "sphere", "capsule", "cylinder", "mesh"}},
+                           {KeyRule::kAtMostOne, {"size", "scale"}},
+                           {KeyRule::kNeeds, {"size", "mesh"}},
+                           {KeyRule::kNeeds, {"scale", "mesh"}}});
+  visit({"plane", "everything behind it is solid; or another shape: box, sphere, capsule, cylinder, mesh"},
+        obstacle.plane);
+  visit({"box", "sides of a box", Dimension::kLength, kPositive}, obstacle.box);
+  visit({"sphere", "a ball"}, obstacle.sphere);
+  visit({"capsule", "a rod with round ends, along y"}, obstacle.capsule);
+  visit({"cylinder", "a rod with flat ends, along y"}, obstacle.cylinder);
+  visit({"mesh", "file of a closed surface, relative to the scene file"}, obstacle.mesh);
+  visit({"size", "longest side of the mesh", Dimension::kLength, kPositive}, obstacle.size);
+  visit({"scale", "length of one unit of the mesh file; instead of size", Dimension::kLength, kPositive},
+        obstacle.scale);
+  visit({"position", "of its centre", Dimension::kLength}, obstacle.position);
+  visit({"rotation", "about x, then y, then z, around its centre", Dimension::kAngle}, obstacle.rotation);
+  visit({"keyframes", "how it moves from there"}, obstacle.keyframes);
+  visit({"interpolation", "between keyframes: linear or smooth"}, obstacle.interpolation);
+  visit({"friction", "Coulomb friction coefficient", Dimension::kRatio, kNotNegative}, obstacle.friction);
+  visit({"restitution", "coefficient of restitution", Dimension::kRatio, {0, 1}}, obstacle.restitution);
+  visit({"color", "\"#rrggbb\""}, obstacle.color);
+}
+
+void fields(auto& visit, Is<Plane> auto& plane) {
+  visit.table("plane");
+  visit({"y", "height above the position", Dimension::kLength}, plane.y);
+  visit({"normal", "direction out of what is solid"}, plane.normal);
+}
+
+void fields(auto& visit, Is<Probe> auto& probe) {
+  visit.table("probe", {{KeyRule::kOneOf, {"point", "pin"}}});
+  visit(required({"name", "prefix of its columns"}), probe.name);
+  visit({"body", "number of the body, counted from 1", Dimension::kNone, kCounted}, probe.body);
+  visit({"point", "point of the body, from the centre of its bounding box", Dimension::kLength}, probe.point);
+  visit({"pin", "name of a pin of the body; instead of point"}, probe.pin);
+}
+
+void fields(auto& visit, Is<Experiment> auto& experiment) {
+  visit.table("experiment");
+  visit({"title", "of the experiment"}, experiment.title);
+  visit({"about", "text for the report"}, experiment.about);
+  visit({"nodes", "table of displacements known at points: poisson,x,y,z,ux,uy,uz"}, experiment.nodes);
+  visit({"models", "laws of the bricks"}, experiment.models);
+  visit({"poisson", "Poisson's ratios", Dimension::kNone, kPoisson}, experiment.poisson);
+  visit({"bricks", "numbers of bricks along the longest side", Dimension::kNone, {1, 1024}}, experiment.bricks);
+}
+
+void fields(auto& visit, Is<Expectation> auto& expectation) {
+  visit.table("expectation");
+  visit(required({"quantity", "\"tip.displacement.y\", \"end.torque.x\", \"frequency.1\", and so on"}),
+        expectation.quantity);
+  visit(required({"value", "in SI units, in the last frame"}), expectation.value);
+  visit(required({"source", "source of the value"}), expectation.source);
+  visit({"poisson", "Poisson's ratios that it holds for; default: all", Dimension::kNone, kPoisson},
+        expectation.poisson);
+  visit({"bricks",
+         "grids that it holds for, by the bricks along the longest side; default: all",
+         Dimension::kNone,
+         {1, 1024}},
+        expectation.bricks);
+  visit({"models", "laws of the bricks that it holds for; default: all"}, expectation.models);
+  visit({"gate", "required accuracy"}, expectation.gates);
+}
+
+void fields(auto& visit, Is<Gate> auto& gate) {
+  visit.table("gate", {{KeyRule::kOneOf, {"tolerance", "no_worse_than"}}});
+  visit({"models", "laws of the bricks that have to meet it; default: calibrated"}, gate.models);
+  visit({"bricks", "on which grids, by the bricks along the longest side; default: all", Dimension::kNone, {1, 1024}},
+        gate.bricks);
+  visit({"tolerance", "relative error allowed; absolute where 0 is expected", Dimension::kRatio, kNotNegative},
+        gate.tolerance);
+  visit({"no_worse_than", "law of the bricks whose error on the same grid is the tolerance; instead of tolerance"},
+        gate.no_worse_than);
+}
+
+void fields(auto& visit, Is<LibraryMaterial> auto& material) {
+  visit.table("library material");
+  visit(required({"name", "as scenes and --material use it"}), material.name);
+  visit({"class", "gelatin, silicone, rubber, foam, wood, tissue, plastic, metal or other"}, material.material_class);
+  visit({"about", "what it is"}, material.about);
+  visit(required({"young", "Young's modulus", Dimension::kPressure, kPositive}), material.young);
+  visit({"young_uncertainty", "relative uncertainty", Dimension::kRatio, kNotNegative}, material.young_uncertainty);
+  visit({"young_source", "source of the value"}, material.young_source);
+  visit(required({"poisson", "Poisson's ratio", Dimension::kNone, kPoisson}), material.poisson);
+  visit({"poisson_uncertainty", "uncertainty", Dimension::kNone, {0, 1}}, material.poisson_uncertainty);
+  visit({"poisson_source", "source of the value"}, material.poisson_source);
+  visit(required({"density", "density", Dimension::kDensity, kPositive}), material.density);
+  visit({"density_uncertainty", "relative uncertainty", Dimension::kRatio, kNotNegative}, material.density_uncertainty);
+  visit({"density_source", "source of the value"}, material.density_source);
+  visit({"damping", "ratio of critical damping at the slowest vibration", Dimension::kRatio, {0, 10}},
+        material.damping);
+  visit({"damping_uncertainty", "relative uncertainty", Dimension::kRatio, kNotNegative}, material.damping_uncertainty);
+  visit({"damping_source", "source of the value"}, material.damping_source);
+  visit({"look", "surface finish: plastic, gelatin, rubber or steel"}, material.look);
+}
+
+void fields(auto& visit, Is<MaterialFile> auto& file) {
+  visit.table("file of materials");
+  visit(required({"material", "a material"}), file.materials);
+}
+
+}  // namespace sprung
