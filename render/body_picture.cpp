@@ -102,13 +102,11 @@ Eigen::VectorXd node_strains(const Body& body) {
   return sums.cwiseQuotient(counts);
 }
 
-double diagonal(const Points& points) { return (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm(); }
-
 Image draw_on_white(const Skin& skin, const BodyPictureOptions& options, double azimuth, double elevation) {
   Stage stage;
   stage.skins = {&skin};
   stage.default_colors = {Eigen::Vector3f::Ones()};
-  stage.bounds.include(skin.positions);
+  stage.bounds = bounding_box(skin.positions);
   stage.has_ground = false;
   const double aspect = double(options.width) / options.height;
   Renderer renderer(stage, {.width = options.width, .height = options.height, .transparent = true});
@@ -135,7 +133,7 @@ BodyPicture draw_body(const Body& body, const BodyPictureOptions& options) {
   const Points moved = body.positions - body.rest_positions;
   const Points shown = body.rest_positions + options.magnification * moved;
   const Eigen::VectorXd values = is_strain ? Eigen::VectorXd(100 * node_strains(body)) : 1000 * moved.rowwise().norm();
-  const Skin skin = brick_skin(body, shown, color_map(values), kLine * diagonal(shown));
+  const Skin skin = brick_skin(body, shown, color_map(values), kLine * bounding_box(shown).diagonal().norm());
   return {draw_on_white(skin, options, 30, 18), is_strain ? "strain (%)" : "displacement (mm)", 0, values.maxCoeff()};
 }
 
@@ -151,7 +149,7 @@ BodyPicture draw_membrane(const Membrane& membrane, const BodyPictureOptions& op
   }
   const double side = membrane.law.sides[0];
   const int along = int(std::lround(membrane.rest_positions.maxCoeff() / side));
-  const Skin skin = face_skin(faces, shown, color_map(values), kLine * diagonal(shown) / side, along);
+  const Skin skin = face_skin(faces, shown, color_map(values), kLine * bounding_box(shown).diagonal().norm() / side, along);
   return {draw_on_white(skin, options, 0, 0), "displacement (mm)", 0, values.maxCoeff()};
 }
 

@@ -8,8 +8,7 @@
 #include "app/commands/commands.h"
 #include "app/commands/options.h"
 #include "app/help/manual.h"
-#include "app/validate/built_in_cases.h"
-#include "app/validate/experiment_files.h"
+#include "app/validate/cases.h"
 #include "core/text.h"
 
 namespace sprung {
@@ -57,18 +56,6 @@ std::vector<std::string> settable_keys() {
         if (key.type != "table" && key.type != "tables") names.push_back(fmt::format("{}{}=", prefix, key.name));
       }
     }
-  }
-  return names;
-}
-
-/// The experiments that come with the program; none where they are not found.
-std::vector<std::string> case_names() {
-  std::vector<std::string> names;
-  for (const BuiltInCase& known : built_in_cases()) names.emplace_back(known.name);
-  try {
-    for (const std::filesystem::path& file : experiment_files()) names.push_back(file.stem().string());
-  } catch (const Error&) {
-    return names;
   }
   return names;
 }

@@ -36,7 +36,7 @@ bool validate(const ValidateOptions& options, const Choice& choice, const Consol
   std::vector<Check> checks;
   Progress progress(console, "validate");
   for (const Case& one : cases) {
-    stop_if_interrupted();
+    console.check_interrupt();
     CaseResult result = one.run(choice, console);
     if (result.checks.empty()) console.note(fmt::format("{} does not cover that choice", one.name));
     if (!options.json) {

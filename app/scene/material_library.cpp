@@ -8,7 +8,7 @@
 
 #include "app/scene/built_in_text.h"
 #include "core/error.h"
-#include "core/mesh/io/file_checks.h"
+#include "core/files.h"
 #include "core/text.h"
 
 namespace sprung {

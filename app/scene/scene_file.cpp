@@ -22,7 +22,7 @@
 #include "app/scene/scene_checks.h"
 #include "app/scene/scene_values.h"
 #include "core/error.h"
-#include "core/mesh/io/file_checks.h"
+#include "core/files.h"
 #include "core/text.h"
 
 namespace sprung {

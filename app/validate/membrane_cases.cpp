@@ -14,15 +14,15 @@
 namespace sprung {
 namespace {
 
-constexpr double kYoung = 1000;   // Pa
+constexpr double kMembraneYoung = 1000;   // Pa
 constexpr double kLength = 0.4;   // m
 constexpr double kHeight = 0.1;   // m
 constexpr double kStress = 10;    // Pa, of stretch and shear
-constexpr double kStrain = 0.01;  // of the patch
-constexpr double kExact = 1e-9;
+constexpr double kMembraneStrain = 0.01;  // of the patch
+constexpr double kMembraneExact = 1e-9;
 constexpr double kBeamTolerance = 0.01;
 constexpr double kThird = 1.0 / 3;
-constexpr unsigned kSeed = 20091;  // of the patch's grids
+constexpr unsigned kMembraneSeed = 20091;  // of the patch's grids
 
 /// Columns and rows of a membrane.
 using Counts = std::array<int, 2>;
@@ -72,7 +72,7 @@ struct Variant {
 /// Throws Error(kBadInput) where the model does not support the shape of the rectangles.
 MembraneRun make_run(const Variant& variant, const Vec2& size = {kLength, kHeight}) {
   Membrane membrane =
-      make_membrane(variant.counts[0], variant.counts[1], size, variant.model, light_material(kYoung, variant.poisson));
+      make_membrane(variant.counts[0], variant.counts[1], size, variant.model, light_material(kMembraneYoung, variant.poisson));
   const Points2 no_loads = Points2::Zero(membrane.node_count(), 2);
   return {variant.counts, size, std::move(membrane), no_loads};
 }
@@ -163,20 +163,20 @@ CasePicture draw(void (*load)(MembraneRun&), double magnification) {
           fmt::format("16×4 rectangles, ν = 0.3, displacements magnified {:g} times", magnification)};
 }
 
-double shear_modulus(double poisson) { return kYoung / (2 * (1 + poisson)); }
+double shear_modulus(double poisson) { return kMembraneYoung / (2 * (1 + poisson)); }
 
 /// A stretch along x, one along y, or a shear.
-Eigen::Matrix2d strain_of(int which) {
+Eigen::Matrix2d plane_strain_of(int which) {
   Eigen::Matrix2d strain = Eigen::Matrix2d::Zero();
   const int i = which < 2 ? which : 0;
   const int j = which < 2 ? which : 1;
-  strain(i, j) = strain(j, i) = kStrain;
+  strain(i, j) = strain(j, i) = kMembraneStrain;
   return strain;
 }
 
 /// Energy of plane stress, J/m3.
 double energy_density(double poisson, const Eigen::Matrix2d& strain) {
-  const Eigen::Matrix2d stress = kYoung / (1 - poisson * poisson) *
+  const Eigen::Matrix2d stress = kMembraneYoung / (1 - poisson * poisson) *
                                  (poisson * strain.trace() * Eigen::Matrix2d::Identity() + (1 - poisson) * strain);
   return 0.5 * stress.cwiseProduct(strain).sum();
 }
@@ -210,13 +210,13 @@ Points2 solve_patch(MembraneRun& run, const Points2& uniform) {
 
 /// The worst of the three strains: the error of the inner displacements, and the energy.
 void measure_patch(const Variant& variant, Check& inner, Check& energy) {
-  constexpr double kSide = 0.1;      // of a rectangle along x, m
+  constexpr double kMembraneSide = 0.1;      // of a rectangle along x, m
   constexpr double kFlatness = 0.9;  // its side along y over that
-  const Vec2 size(kSide * variant.counts[0], kFlatness * kSide * variant.counts[1]);
+  const Vec2 size(kMembraneSide * variant.counts[0], kFlatness * kMembraneSide * variant.counts[1]);
   inner.measured = 0;
   for (int which = 0; which < 3; ++which) {
     MembraneRun run = make_run(variant, size);
-    const Eigen::Matrix2d strain = strain_of(which);
+    const Eigen::Matrix2d strain = plane_strain_of(which);
     const Points2 uniform = run.membrane.rest_positions * strain;
     const Points2 moved = solve_patch(run, uniform);
     inner.measured = std::max(inner.measured, (moved - uniform).cwiseAbs().maxCoeff() / uniform.cwiseAbs().maxCoeff());
@@ -235,9 +235,9 @@ CaseResult run_membrane_stretch(const Choice& choice) {
     stretch(run);
     check.quantity = "end.displacement.x";
     check.measured = run.displacements()(run.node(run.columns(), run.rows()), 0);
-    check.expected = kStress / kYoung * kLength;
+    check.expected = kStress / kMembraneYoung * kLength;
     check.source = "stress / E, plane stress";
-    if (variant.is_exact()) check.tolerance = kExact;
+    if (variant.is_exact()) check.tolerance = kMembraneExact;
   };
   return run_all("membrane_stretch", choice, kUniformRatios, kUniformCounts, measure);
 }
@@ -249,7 +249,7 @@ CaseResult run_membrane_shear(const Choice& choice) {
     check.measured = run.displacements()(run.node(0, run.rows()), 0);
     check.expected = kStress / shear_modulus(variant.poisson) * kHeight;
     check.source = "stress / G";
-    if (variant.is_exact()) check.tolerance = kExact;
+    if (variant.is_exact()) check.tolerance = kMembraneExact;
   };
   return run_all("membrane_shear", choice, kUniformRatios, kUniformCounts, measure);
 }
@@ -261,7 +261,7 @@ CaseResult run_membrane_cantilever(const Choice& choice) {
     check.quantity = "tip.displacement.y";
     check.measured = (moved(run.node(run.columns(), 0), 1) + moved(run.node(run.columns(), run.rows()), 1)) / 2;
     // For a width of 1 m and a weight of 1 N/m3: w L^4 / (8 E I) + 6/5 w L^2 / (2 G A).
-    check.expected = -(12 * std::pow(kLength, 4) / (8 * kYoung * kHeight * kHeight) +
+    check.expected = -(12 * std::pow(kLength, 4) / (8 * kMembraneYoung * kHeight * kHeight) +
                        1.2 * kLength * kLength / (2 * shear_modulus(variant.poisson)));
     check.source = "Timoshenko beam, its clamped section free to warp";
     if (variant.model == RectangleModel::kCalibrated && variant.poisson == 0) check.tolerance = kBeamTolerance;
@@ -270,7 +270,7 @@ CaseResult run_membrane_cantilever(const Choice& choice) {
 }
 
 CaseResult run_membrane_patch(const Choice& choice) {
-  std::mt19937 random(kSeed);
+  std::mt19937 random(kMembraneSeed);
   std::vector<double> ratios{-0.2, 0, 0.1, 0.25, 0.3, kThird, 0.4, 0.49};
   if (choice.poisson) ratios = {*choice.poisson};
   CaseResult result;
@@ -287,8 +287,8 @@ CaseResult run_membrane_patch(const Choice& choice) {
       energy.source = "plane stress, energy = stress : strain / 2 x area x 1 m";
       try {
         measure_patch(variant, inner, energy);
-        inner.tolerance = kExact;
-        if (variant.is_exact()) energy.tolerance = kExact;
+        inner.tolerance = kMembraneExact;
+        if (variant.is_exact()) energy.tolerance = kMembraneExact;
       } catch (const Error& error) {
         inner.measured = energy.measured = kNaN;
         inner.trouble = energy.trouble = error.what();

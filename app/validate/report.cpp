@@ -27,7 +27,7 @@ struct Cell {
   std::string_view look = "";
 };
 
-struct Row {
+struct PageRow {
   std::vector<Cell> cells{};  // a single one spans the table
   std::string_view look = "";
 };
@@ -37,14 +37,14 @@ std::string tag(std::string_view name, const Cell& cell, std::size_t span = 1) {
                      span == 1 ? "" : fmt::format(" colspan=\"{}\"", span), cell.html);
 }
 
-std::string html_table(std::string_view look, const std::vector<Cell>& head, const std::vector<Row>& rows) {
-  const auto line = [&](std::string_view name, const Row& row) {
+std::string html_table(std::string_view look, const std::vector<Cell>& head, const std::vector<PageRow>& rows) {
+  const auto line = [&](std::string_view name, const PageRow& row) {
     std::string cells;
     for (const Cell& cell : row.cells) cells += tag(name, cell, row.cells.size() == 1 ? head.size() : 1);
     return tag("tr", {cells, row.look}) + "\n";
   };
   std::string body;
-  for (const Row& row : rows) body += line("td", row);
+  for (const PageRow& row : rows) body += line("td", row);
   const std::string table = fmt::format("<thead>{}</thead>\n<tbody>\n{}</tbody>\n", line("th", {head}), body);
   return tag("div", {tag("table", {table, look}), "table"}) + "\n";
 }
@@ -58,7 +58,7 @@ std::string html_table(const TextTable& table) {
     }
     return row;
   };
-  std::vector<Row> rows;
+  std::vector<PageRow> rows;
   for (const std::vector<std::string>& words : table.rows) rows.push_back({cells(words, false)});
   return html_table("", cells(table.head, true), rows);
 }
@@ -66,7 +66,7 @@ std::string html_table(const TextTable& table) {
 /// Every check in a row, then the numbered sources.
 std::string full_table(const std::vector<Check>& checks) {
   std::vector<std::string> sources;
-  std::vector<Row> rows;
+  std::vector<PageRow> rows;
   for (const Check& check : checks) {
     auto source = std::find(sources.begin(), sources.end(), source_text(check));
     if (source == sources.end()) source = sources.insert(source, source_text(check));
@@ -144,13 +144,13 @@ struct Matrix {
   [[nodiscard]] std::string html() const {
     std::vector<Cell> head{{"error"}, {"model"}};
     for (const std::string& column : columns) head.push_back({escaped(column), "n"});
-    std::vector<Row> rows;
+    std::vector<PageRow> rows;
     Key last;
     for (const Key& key : keys) {
       const bool is_new = rows.empty() || !std::equal(key.begin(), key.begin() + 2, last.begin());
       const bool is_new_rest = is_new || key[2] != last[2];
       if (is_new) rows.push_back({{{fmt::format("<b>{}</b> against {}", escaped(key[0]), escaped(key[1]))}}, "of"});
-      Row& row = rows.emplace_back();
+      PageRow& row = rows.emplace_back();
       row.look = is_new_rest && !is_new ? "first" : "";
       row.cells = {{is_new_rest ? escaped(key[2]) : ""}, {escaped(key[3])}};
       for (const std::string& column : columns) row.cells.push_back(cell(key, column));

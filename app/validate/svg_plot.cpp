@@ -24,7 +24,7 @@ double text_width(std::string_view text, double size) {
 }
 
 /// Where a plot's data are drawn, px, and what its axes show.
-struct Field {
+struct PlotField {
   double left, top, right, bottom;
   AxisRange x, y;
 
@@ -46,7 +46,7 @@ AxisRange range_over(const SvgPlot& plot, const Axis& axis, int coordinate) {
   return axis_range(axis, *low, *high);
 }
 
-Field make_field(const SvgPlot& plot, const Figure& figure) {
+PlotField make_field(const SvgPlot& plot, const Figure& figure) {
   const AxisRange x = range_over(plot, plot.x, 0);
   const AxisRange y = range_over(plot, plot.y, 1);
   double ticks = 0;
@@ -75,7 +75,7 @@ std::string words(double x, double y, double size, std::string_view anchor, std:
                      x, y, size, anchor, color, more, escaped(text));
 }
 
-std::string axes(const Field& f, const SvgPlot& plot) {
+std::string axes(const PlotField& f, const SvgPlot& plot) {
   const auto grid = [&](const std::vector<double>& xs, const std::vector<double>& ys, std::string_view color) {
     std::string data;
     for (const double x : xs) data += fmt::format("M{:.1f} {:.1f}V{:.1f}", f.px(x), f.top, f.bottom);
@@ -107,7 +107,7 @@ std::string axes(const Field& f, const SvgPlot& plot) {
   return out + path(line, "#777", 1.2, "stroke-dasharray=\"5 4\"");
 }
 
-std::string drawn(const Field& f, const Curve& curve) {
+std::string drawn(const PlotField& f, const Curve& curve) {
   constexpr std::array<const char*, 7> kShapes{"",
                                                "h0",
                                                "m-4.6 0a4.6 4.6 0 1 0 9.2 0a4.6 4.6 0 1 0 -9.2 0z",
@@ -145,7 +145,7 @@ std::string drawn(const Field& f, const Curve& curve) {
   return curve.shows_values ? out + values : out;
 }
 
-std::string legend(const Field& f, const std::vector<Curve>& curves) {
+std::string legend(const PlotField& f, const std::vector<Curve>& curves) {
   struct Name {
     const Curve* curve;
     Eigen::Vector2d end;  // px, of the curve
@@ -266,7 +266,7 @@ std::string svg_text(const Figure& figure) {
   out += words(20, 28, 17, "start", "#111", figure.title, "font-weight=\"700\"");
   out += words(20, 48, 13, "start", "#555", figure.subtitle);
   for (const SvgPlot& plot : figure.plots) {
-    const Field field = make_field(plot, figure);
+    const PlotField field = make_field(plot, figure);
     out += axes(field, plot);
     for (auto curve = plot.curves.rbegin(); curve != plot.curves.rend(); ++curve) out += drawn(field, *curve);
     if (plot.has_legend) out += legend(field, plot.curves);
