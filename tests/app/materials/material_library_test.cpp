@@ -73,11 +73,11 @@ TEST(MaterialLibrary, MistakesInAFileHaveTheirPlaces) {
 
 TEST(MaterialLibrary, NamesThatCollideAreRefused) {
   EXPECT_EQ(mistakes(kMine + kMine),
-            "mine.toml:7:1: material.name: 'jelly' is there already, in this file; choose another name");
+            "mine.toml:7:1: material.name: 'jelly' exists already, in this file; choose another name");
   std::string steel = kMine;
   steel.replace(steel.find("jelly"), 5, "steel");
   EXPECT_EQ(mistakes(steel),
-            "mine.toml:1:1: material.name: 'steel' is there already, built in or in another file; choose another name");
+            "mine.toml:1:1: material.name: 'steel' exists already, built in or in another file; choose another name");
 }
 
 TEST(MaterialLibrary, ASceneNamesMaterialsOfItsOwnFile) {

@@ -173,7 +173,7 @@ TEST_F(SceneFile, RefusesWhatCannotBeMeasuredOrHeld) {
   EXPECT_NE(body_mistakes("box = [1, 1, 1]").find("give mesh or box, not both"), std::string::npos);
   EXPECT_NE(mistakes("[[body]]\nbox = [1, 0, 1]").find("above 0 m"), std::string::npos);
   const std::string pin = "[[body.pin]]\nbox = { min = [0, 0, 0], max = [1, 1, 1] }\n";
-  EXPECT_NE(body_mistakes(pin + "axes = \"xx\"").find("'xx' are no directions"), std::string::npos);
+  EXPECT_NE(body_mistakes(pin + "axes = \"xx\"").find("'xx' are not directions"), std::string::npos);
   const std::string region = "[[body.region]]\nbox = { min = [0, 0, 0], max = [1, 1, 1] }\n";
   EXPECT_NE(body_mistakes(region + "material = { young = 1, poisson = 0.1, density = 1 }").find("Poisson's ratio 0.1"),
             std::string::npos);
