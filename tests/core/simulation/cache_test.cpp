@@ -229,7 +229,7 @@ TEST(Cache, NoticesThatItsFileIsGone) {
   append(writer, header, 0);
   writer.publish();
   std::filesystem::remove(folder.path() / "run.h5");
-  EXPECT_NE(error_message([&] { append(writer, header, 1); }).find("is gone"), std::string::npos);
+  EXPECT_NE(error_message([&] { append(writer, header, 1); }).find("was removed"), std::string::npos);
 }
 
 TEST(Cache, RefusesWhatIsNone) {
