@@ -26,8 +26,8 @@ std::string lower_extension(const std::filesystem::path& file) {
   return extension;
 }
 
-/// To BT.709 with even sides (4:2:0 needs them), the last row and column repeated where they are odd. Left alone,
-/// ffmpeg would convert by BT.601 and tag nothing, and players would guess.
+/// Converts to BT.709 with even sides (4:2:0 needs them), repeating the last row or column of odd ones. By default
+/// ffmpeg would convert by BT.601 without a tag, and players would have to guess.
 std::string video_filter(int width, int height) {
   std::string filter;
   if (width % 2 != 0 || height % 2 != 0) {
@@ -84,7 +84,7 @@ RawOptions ffmpeg_command(const std::filesystem::path& file, int width, int heig
   return words;
 }
 
-/// a/film.mp4 -> a/film.partial.mp4: ffmpeg goes by the ending.
+/// a/film.mp4 -> a/film.partial.mp4: ffmpeg chooses the format by the ending.
 std::filesystem::path partial_name(const std::filesystem::path& file) {
   return file.parent_path() / (file.stem().string() + ".partial" + file.extension().string());
 }
@@ -112,7 +112,7 @@ void require_ffmpeg() {
 struct FilmWriter::Process {
   std::filesystem::path file;
   std::filesystem::path partial;
-  FileLock lock;  // of the partial film; tells a folder that cannot be written before ffmpeg does in its own words
+  FileLock lock;  // of the partial film; also reports a read-only folder better than ffmpeg would
   int width;
   int height;
   ChildProcess child;
@@ -133,7 +133,7 @@ struct FilmWriter::Process {
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
 
-  /// The first of the last words is the cause, the others follow from it.
+  /// ffmpeg's first message is the cause, the others follow from it.
   [[noreturn]] void fail(int status) const {
     const std::string words = child.last_words();
     throw Error(ErrorKind::kFailed, fmt::format("{}: ffmpeg ended with status {}: {}", file.string(), status,

@@ -17,7 +17,7 @@
 namespace sprung {
 namespace {
 
-/// Whether every edge between places has two triangles or more; triangles without three corners do not count.
+/// True where every edge has two or more triangles; degenerate triangles do not count.
 bool is_closed(const Triangles& triangles, const std::vector<int>& place_of) {
   std::vector<std::array<int, 2>> edges;
   for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
@@ -109,7 +109,7 @@ Inspection inspect(const Preparation& prepared, const Film& scene) {
 
 namespace {
 
-/// Cubes of the unit that a length reads best in: "1.2 cm3".
+/// In the unit with the shortest number: "1.2 cm3".
 std::string readable_volume(double volume) {
   if (volume >= 1) return fmt::format("{:.4g} m3", volume);
   if (volume >= 1e-6) return fmt::format("{:.4g} cm3", volume * 1e6);
@@ -177,7 +177,7 @@ std::string forecast_lines(const Inspection& inspection) {
 
 std::string json_flag(bool value) { return value ? "true" : "false"; }
 
-/// "[a, b]" of anything that `text` makes JSON of.
+/// "[a, b]"; `text` gives the JSON of an item.
 template <class List, class Text>
 std::string json_list(const List& list, const Text& text) {
   std::string all;
@@ -224,7 +224,7 @@ std::string json_of(const Forecast& forecast) {
                      forecast.plan ? fmt::format("{}", forecast.plan->steps.count) : "null");
 }
 
-/// All bodies as one: sums, and the smallest of what does not add up.
+/// All bodies as one: sums, and the smallest of values that do not add up.
 BodyFacts together(const std::vector<BodyFacts>& bodies) {
   BodyFacts all = bodies.front();
   double held = all.bricks.volume / (1 + all.bricks.volume_error);

@@ -22,8 +22,9 @@ namespace sprung {
 
 namespace {
 
-constexpr int kCompressionLevel = 1;    // of libdeflate: 3 saves 8 % for twice the time, 6 saves 13 % for five times
-constexpr std::uint8_t kSubFilter = 1;  // difference to the left neighbour; trying all filters gains little on renders
+constexpr int kCompressionLevel = 1;  // of libdeflate: 3 saves 8 % for twice the time, 6 saves 13 % for five times
+constexpr std::uint8_t kSubFilter =
+    1;  // difference from the left neighbour; trying all filters gains little on renders
 constexpr std::size_t kRgb = 3;
 
 using Bytes = std::vector<std::uint8_t>;
@@ -43,7 +44,7 @@ void write_bytes(const std::filesystem::path& file, const unsigned char* data, s
   fail(file, std::strerror(reason));
 }
 
-/// Colours and, where there is one, alpha, pixel by pixel.
+/// Interleaved colours and alpha, if any.
 Bytes interleaved(const Image& image) {
   if (image.alpha.empty()) return image.pixels;
   Bytes bytes(4 * image.alpha.size());
@@ -54,7 +55,7 @@ Bytes interleaved(const Image& image) {
   return bytes;
 }
 
-/// Each row after the number of its filter.
+/// Filtered rows, each preceded by the number of its filter.
 Bytes filtered_rows(const Image& image) {
   const Bytes bytes = interleaved(image);
   const std::size_t step = image.alpha.empty() ? kRgb : 4;
@@ -91,7 +92,7 @@ void append_chunk(Bytes& bytes, std::string_view name, const Bytes& data) {
   append_number(bytes, libdeflate_crc32(0, bytes.data() + begin, bytes.size() - begin));
 }
 
-/// As ISO/IEC 15948 has it.
+/// As in ISO/IEC 15948.
 Bytes encode(const Image& image) {
   Bytes header;
   append_number(header, image.width);

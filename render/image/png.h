@@ -5,7 +5,7 @@
 
 namespace sprung {
 
-/// Writes a PNG beside its name and renames it, so that no half picture stays. Throws Error(kFailed) naming the file
+/// Writes a PNG beside its name and renames it, so that no partial file stays. Throws Error(kFailed) naming the file
 /// and the system's reason.
 void write_png(const Image& image, const std::filesystem::path& file);
 
