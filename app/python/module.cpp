@@ -107,7 +107,7 @@ void bind_mesh(py::module_& module) {
 PYBIND11_MODULE(sprung, module) {
   module.doc() = "Soft bodies of real materials: meshes filled with bricks, moved, measured and drawn. SI units.";
   module.attr("__version__") = SPRUNG_VERSION;
-  bind_errors(module);
+  sprung::bind_errors(module);
   sprung::bind_materials(module);
   sprung::bind_mesh(module);
   sprung::bind_body(module);
