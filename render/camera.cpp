@@ -10,9 +10,9 @@ namespace sprung {
 
 namespace {
 
-constexpr double kMargin = 0.12;            // of the half picture, kept free at each side
+constexpr double kMargin = 0.12;            // of half the picture, kept free at each side
 constexpr double kFloorMargin = 0.06;       // of the sides: floor seen around the lowest points, where the shadow falls
-constexpr double kSmallestDistance = 1e-9;  // m; even a single point is looked at from somewhere
+constexpr double kSmallestDistance = 1e-9;  // m; keeps the camera away from a single point
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
@@ -28,7 +28,7 @@ Mat3 camera_axes(double azimuth, double elevation) {
   return axes;
 }
 
-/// The corners of the bounds and, a little further out, those of the floor below.
+/// The corners of the bounds and, slightly further out, those of the floor below.
 Points points_to_see(const AlignedBox& bounds) {
   Points points(12, 3);
   for (int c = 0; c < 8; ++c) {
@@ -44,7 +44,7 @@ Points points_to_see(const AlignedBox& bounds) {
   return points;
 }
 
-/// Along one picture axis: the points' extremes measured at the viewer's depth, along the lines of sight at the edges.
+/// Along one axis of the picture: the extreme points, projected to the viewer's depth along the edges of the view.
 struct Extent {
   double low = 1e300;
   double high = -1e300;
@@ -59,7 +59,7 @@ Camera frame_points(const Points& points, double aspect, double azimuth, double 
   const Mat3 axes = camera_axes(azimuth, elevation);
   const double slope_y = std::tan(radians(camera.vertical_field_of_view / 2)) * (1 - kMargin);
   const Eigen::Vector2d slope(slope_y * aspect, slope_y);
-  const double nearer = orthographic ? 0 : 1;  // how much larger things look that are nearer
+  const double nearer = orthographic ? 0 : 1;  // perspective enlarges what is near
   camera.orthographic = orthographic;
 
   // A point q is in view where |q_k - eye_k| <= slope_k (eye_z - q_z): per axis two lines that the eye has to satisfy.

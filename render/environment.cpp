@@ -11,8 +11,8 @@ namespace sprung {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr int kHeight = 64;   // of the finest reflections; 2.8 degrees a texel: less than the sharpest highlight
-constexpr int kSharpest = 4;  // one over the roughness of the first reflections
+constexpr int kHeight = 64;   // of the finest level; 2.8 degrees per texel, less than the sharpest highlight
+constexpr int kSharpest = 4;  // one over the roughness of the first level
 
 Eigen::Vector3f direction_of(const Panorama& panorama, int x, int y) {
   const double around = 2 * kPi * ((x + 0.5) / panorama.width - 0.5);
@@ -32,14 +32,14 @@ std::size_t texel(const Panorama& panorama, int x, int y) {
   return std::size_t(y) * std::size_t(panorama.width) + std::size_t(x);
 }
 
-/// The mean of what each texel of a panorama of that height covers, weighted by solid angle; nothing below the horizon.
+/// Downsampled to that height, weighted by solid angle; black below the horizon.
 Panorama upper_half(const Panorama& panorama, int height) {
   Panorama small{2 * height, height, {}};
   small.light.resize(2 * std::size_t(height) * std::size_t(height), Eigen::Vector3f::Zero());
   std::vector<double> weights(small.light.size());
   std::vector<Eigen::Vector3d> sums(small.light.size(), Eigen::Vector3d::Zero());
   const auto scaled = [](int i, int from, int to) { return int((i + 0.5) * to / from); };
-  // Each texel is taken in where its middle lies; those of a panorama smaller than the result several times.
+  // Each texel counts where its centre lies; texels of a panorama smaller than the result count several times.
   const int repeat = std::max(1, (height + panorama.height - 1) / panorama.height);
   for (int y = 0; y < repeat * panorama.height / 2; ++y) {
     const double weight = solid_angle({repeat * panorama.width, repeat * panorama.height, {}}, y);
@@ -68,7 +68,7 @@ std::array<float, 9> harmonics(const Eigen::Vector3f& d) {
           d.x() * d.x() - d.y() * d.y()};
 }
 
-/// Squares of the harmonics' norms, by what a cosine lobe leaves of each degree, over pi.
+/// Squared norms of the harmonics times the factor of a cosine lobe for each degree, over pi.
 constexpr std::array<double, 9> kFactors{1 / (4 * kPi),         3 / (4 * kPi) * 2 / 3, 3 / (4 * kPi) * 2 / 3,
                                          3 / (4 * kPi) * 2 / 3, 15 / (4 * kPi) / 4,    15 / (4 * kPi) / 4,
                                          5 / (16 * kPi) / 4,    15 / (4 * kPi) / 4,    15 / (16 * kPi) / 4};
@@ -88,7 +88,7 @@ std::array<Eigen::Vector3f, 9> irradiance_of(const Panorama& panorama) {
   return irradiance;
 }
 
-/// Of a highlight seen along its middle: the GGX distribution times the cosine, by the cosine to the light.
+/// Weight of a highlight seen along its axis: the GGX distribution times the cosine to the light.
 float highlight(float cosine, float roughness) {
   const float alpha = roughness * roughness;
   const float bend = 0.5F * (1 + cosine) * (alpha * alpha - 1) + 1;
@@ -103,7 +103,7 @@ Panorama reflection(const Panorama& source, int height, float roughness) {
   for (int y = 0; y < source.height; ++y) {
     for (int x = 0; x < source.width; ++x) {
       const Eigen::Vector3f direction = direction_of(source, x, y);
-      if (direction.y() <= 0) continue;  // the floor is none of its business
+      if (direction.y() <= 0) continue;  // below the horizon there is the floor
       directions.push_back(direction);
       lights.push_back(source.light[texel(source, x, y)]);
       angles.push_back(float(solid_angle(source, y)));
@@ -133,7 +133,8 @@ Eigen::Vector3f studio_sky() { return {0.275F, 0.29F, 0.305F}; }
 
 Environment::Environment(const Panorama& panorama) {
   if (panorama.width != 2 * panorama.height || panorama.height < 1) {
-    throw Error(ErrorKind::kBadInput, "the surroundings must be twice as wide as high: once around, from up to down");
+    throw Error(ErrorKind::kBadInput,
+                "the surroundings must be twice as wide as high: all around, from zenith to nadir");
   }
   Panorama sky = upper_half(panorama, kHeight);
   irradiance = irradiance_of(sky);

@@ -77,7 +77,7 @@ RawOptions ffmpeg_command(const std::filesystem::path& file, int width, int heig
   return words;
 }
 
-/// a/film.mp4 -> a/film.partial.mp4: ffmpeg goes by the ending.
+/// a/film.mp4 -> a/film.partial.mp4: ffmpeg chooses the format by the ending.
 std::filesystem::path partial_name(const std::filesystem::path& file) {
   return file.parent_path() / (file.stem().string() + ".partial" + file.extension().string());
 }
@@ -116,7 +116,7 @@ struct FilmWriter::Process {
         height(h),
         child(ffmpeg_command(file.path(), w, h, fps)) {}
 
-  /// The first of the last words is the cause, the others follow from it.
+  /// ffmpeg's first message is the cause, the others follow from it.
   [[noreturn]] void fail(int status) const {
     const std::string words = child.error_output();
     throw Error(ErrorKind::kFailed, fmt::format("{}: ffmpeg ended with status {}: {}", file.final_path().string(),

@@ -12,9 +12,9 @@ namespace {
 constexpr double kKeyAzimuth = -28;     // degrees about y, as a camera's
 constexpr double kKeyElevation = 52;    // degrees
 constexpr double kSmallestSize = 1e-9;  // m
-constexpr double kGrid = 0.25;          // of a body's radius: to what the maps' sides are rounded
+constexpr double kGrid = 0.25;          // of a body's radius; the maps' sides are multiples of it
 
-/// Low and high of all shapes along three directions (rows), in stage space.
+/// The extent of all shapes along three directions (rows), in stage space.
 AlignedBox extent(const std::vector<SkinShape>& shapes, const StageSpace& space, const Mat3& directions) {
   AlignedBox bounds;
   const Mat3 scaled = directions.transpose() * space.scale;
@@ -26,7 +26,7 @@ AlignedBox extent(const std::vector<SkinShape>& shapes, const StageSpace& space,
   return bounds;
 }
 
-/// Outwards by `border`, then to multiples of `grid`.
+/// Extended by `border`, then outwards to multiples of `grid`.
 AlignedBox widened(AlignedBox bounds, const Vec3& border, double grid) {
   for (int k = 0; k < 3; ++k) {
     bounds.min()[k] = grid * std::floor((bounds.min()[k] - border[k]) / grid);
@@ -121,7 +121,7 @@ Eigen::Vector4f lookup_rectangle(const LightView& view) {
 
 namespace {
 
-constexpr double kFar = 100;  // stage space, where 1 is the radius of everything; the end of what is drawn
+constexpr double kFar = 100;  // stage space; the far plane
 
 Eigen::Matrix4d view_from_stage(const Vec3& eye, const Vec3& target, const Vec3& up) {
   const Vec3 backwards = (eye - target).normalized();

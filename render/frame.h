@@ -7,8 +7,8 @@
 
 namespace sprung {
 
-/// The renderer's own coordinates: the middle of the stage's bounds is the origin, their half diagonal is 1. Every
-/// bias and every width in the shaders is a number in these, so a picture does not depend on the size in metres.
+/// Stage space, the renderer's coordinates: the centre of the stage's bounds is the origin, half their diagonal is 1.
+/// Every bias and width in the shaders is in these units, so pictures do not depend on the size in metres.
 struct StageSpace {
   Vec3 center = Vec3::Zero();  // m
   double scale = 1;            // 1/m
@@ -17,7 +17,7 @@ struct StageSpace {
   [[nodiscard]] Vec3 from_world(const Vec3& point) const { return (point - center) * scale; }
 };
 
-/// Unit vector towards the key light, in the world: from the left of a camera at 30 degrees, and from above.
+/// Unit vector towards the key light, world space: above and to the left of a camera at an azimuth of 30 degrees.
 [[nodiscard]] Vec3 to_key_light();
 
 /// An axis-aligned rectangle of the ground, in stage space.
@@ -26,21 +26,21 @@ struct GroundRectangle {
   Eigen::Vector2d sides;  // x, z
 };
 
-/// A parallel view of all bodies.
+/// A parallel projection of all bodies.
 struct LightView {
   Eigen::Matrix4d clip_from_stage;
   Vec3 low;    // along the view's axes: right, up, away
   Vec3 sides;  // > 0
 };
 
-/// Where the bodies of one frame are, as the light maps need it. Sizes are rounded up to a grid, so that they and the
-/// texels stay put from frame to frame while a body moves a little.
+/// The extents of the light maps in one frame. They are rounded up to a grid, so that texels stay in place from frame
+/// to frame while a body moves a little, and shadows do not flicker.
 struct LightFrame {
   AlignedBox bodies;       // stage space
   LightView key;           // along the key light
   LightView zenith;        // downwards
   LightView nadir;         // upwards, from the ground
-  GroundRectangle ground;  // holds the bodies, their shadow and a border
+  GroundRectangle ground;  // covers the bodies, their shadow and a border
 };
 
 /// `body_radius`: of the largest body, in stage space.
@@ -56,21 +56,21 @@ struct DrawFrame {
   bool has_ground;
   Eigen::Vector3f sky_on_ground;  // irradiance / pi of the open sky on level ground
 
-  /// Sets the uniforms that every program with a skin or a light map knows.
+  /// Sets the uniforms of every program that draws a skin or a light map.
   void set_common(const GlProgram& program) const;
 };
 
-/// x, z of the low corner and the sides, as the shaders take a rectangle of the ground.
+/// A rectangle of the ground as the shaders take it: x, z of the low corner, then the sides.
 [[nodiscard]] Eigen::Vector4f rectangle(const Eigen::Vector2d& low, const Eigen::Vector2d& sides);
 
-/// Low corner and one over the sides, in x and z, of a view that looks up or down.
+/// x, z of the low corner, then one over the sides, of a view that looks up or down.
 [[nodiscard]] Eigen::Vector4f lookup_rectangle(const LightView& view);
 
-/// One frame as a camera sees it, in stage space. Clip coordinates run downwards: pictures begin at the top.
+/// One frame as a camera sees it, in stage space. The y axis of clip space points down, since rows start at the top.
 struct View {
   DrawFrame frame;
   Vec3 eye;
-  double near = 0;  // in front of the eye; 0: parallel lines of sight
+  double near = 0;  // distance of the near plane; 0: parallel projection
   Eigen::Matrix4d clip_from_stage = Eigen::Matrix4d::Identity();
   /// (x d + y) / (z d + w) is the distance along the camera's axis at depth d, 0 to 1.
   Eigen::Vector4d distance_terms = Eigen::Vector4d::Zero();
@@ -90,10 +90,10 @@ struct PixelRectangle {
   int height = 0;
 };
 
-/// The part of a picture of that size that holds all bodies.
+/// The pixels that contain all bodies, in a picture of that size.
 [[nodiscard]] PixelRectangle seen_rectangle(const View& view, int width, int height);
 
-/// The depth of the floor at (x, y) of the picture, both 0 to 1: it is a plane there too, a x + b y + c.
+/// Coefficients (a, b, c) of the floor's depth a x + b y + c at (x, y) of the picture, both 0 to 1.
 [[nodiscard]] Vec3 floor_depth(const View& view);
 
 }  // namespace sprung

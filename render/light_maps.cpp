@@ -88,9 +88,9 @@ constexpr int kSkySize = 96;
 constexpr int kLightSize = 128;
 constexpr int kFarLightSize = 32;
 constexpr double kFarBlur = 0.75;  // of a body's radius: three standard deviations
-constexpr float kShaded = 0.5F;    // depth of the ground where there may be shadow
+constexpr float kShaded = 0.5F;    // depth of the ground that may be in shadow
 
-/// How far it is from the highest body to the ground along the key light; an upper bound.
+/// An upper bound of the distance from the highest body to the ground along the key light.
 double longest_way(const DrawFrame& frame) {
   return std::max(frame.light.bodies.max().y() - frame.ground_height, 1e-3 * frame.body_radius) / to_key_light().y();
 }
@@ -141,7 +141,7 @@ void GroundMaps::draw(const std::vector<SkinBuffers>& skins, const TextureSet& t
     clock.stop("key mask");
     draw_shadow(frame);
     clock.stop("ground shadow");
-  } else {  // a floor far below, which nothing shades
+  } else {  // a floor far below, without shadows
     brush_.clear(sky_);
     brush_.clear(shadow_);
     brush_.make_mipmaps(shadow_.color);
@@ -206,8 +206,8 @@ void GroundMaps::draw_key_mask(const DrawFrame& frame) const {
   brush_.make_mipmaps(key_mask_.color);
 }
 
-/// First, in the depth, where there may be shadow. There it is looked for: an early depth test keeps llvmpipe from
-/// running the costly shader elsewhere.
+/// The first pass marks in the depth buffer where there may be shadow; the early depth test then keeps llvmpipe from
+/// running the expensive shader elsewhere.
 void GroundMaps::draw_shadow(const DrawFrame& frame) const {
   gl_.Enable(GL_DEPTH_TEST);
   gl_.DepthFunc(GL_ALWAYS);

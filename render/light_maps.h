@@ -7,7 +7,7 @@
 
 namespace sprung {
 
-/// A square texture to draw into.
+/// A square render target.
 struct LightMap {
   int size = 0;  // texels along a side
   GlTexture color;
@@ -15,7 +15,7 @@ struct LightMap {
   GlFramebuffer target;
 };
 
-/// Formats of maps. llvmpipe reads bytes several times quicker than half floats.
+/// llvmpipe reads bytes several times faster than half floats.
 namespace map_format {
 inline constexpr TextureFormat kDepth{GL_DEPTH_COMPONENT16, GL_DEPTH_COMPONENT, GL_UNSIGNED_SHORT, false, false,
                                       GL_CLAMP_TO_EDGE};
@@ -33,14 +33,14 @@ class MapBrush {
 
   /// Without colours where `color` is null.
   [[nodiscard]] LightMap make_map(int size, const TextureFormat* color, bool depth) const;
-  /// The program in use over all of the map.
+  /// Runs the current program over the whole map.
   void fill(const LightMap& map) const;
   void clear(const LightMap& map) const;
   void make_mipmaps(const GlTexture& texture) const;
-  /// Gaussian along both axes, by way of `pass`, which is as large as `to`. `reach`: three standard deviations, in
-  /// texture coordinates.
+  /// Separable Gaussian by way of `pass`, which is as large as `to`. `reach`: three standard deviations, in texture
+  /// coordinates.
   void blur(const LightMap& from, const LightMap& pass, const LightMap& to, const Eigen::Vector2f& reach) const;
-  /// The depths of all bodies, seen in parallel lines.
+  /// Depth of all bodies in a parallel projection.
   void draw_depth(const LightMap& map, const LightView& view, const std::vector<SkinBuffers>& skins, Detail detail,
                   const DrawFrame& frame) const;
 
@@ -51,14 +51,14 @@ class MapBrush {
   GlProgram blur_program_;
 };
 
-/// The light on the ground by place, in the rectangle of it on which the bodies change it:
-/// - sky: how much of the sky the bodies hide, and the light they send down instead
-/// - shadow: how much of the key light they hide
-/// - light: what the ground sends back, coarsely; and blurred, for what is high above it
+/// Light on the rectangle of the ground where the bodies change it:
+/// - sky: the fraction of the sky that bodies occlude, and the light that they reflect down instead
+/// - shadow: the fraction of the key light that they occlude
+/// - light: what the ground reflects, at low resolution; and blurred, for surfaces high above it
 /// - tint: how much darker the floor looks
 class GroundMaps {
  public:
-  /// `key`: the map of depths along the key light.
+  /// `key`: the depth map of the key light.
   GroundMaps(const GlFunctions& gl, const MapBrush& brush, Quality quality, const LightMap& key);
   void draw(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const DrawFrame& frame,
             PassClock& clock) const;
@@ -97,12 +97,12 @@ class GroundMaps {
   GlProgram tint_program_;
 };
 
-/// Everything that is drawn from the side of the light, before the picture: the light on the ground, and
-/// - key: depth along the key light; soft shadows of the bodies on themselves and each other
-/// - zenith: blurred heights seen from above; how much of the sky is open
+/// Everything that is rendered before the picture itself: the light on the ground, and
+/// - key: depth along the key light, for soft shadows of the bodies on themselves and each other
+/// - zenith: blurred heights seen from above, for the fraction of the sky that is visible
 class LightMaps {
  public:
-  static constexpr int kUnits = 5;  // texture units that bind() takes
+  static constexpr int kUnits = 5;  // texture units that bind() uses
 
   LightMaps(const GlFunctions& gl, Quality quality);
   void draw(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const DrawFrame& frame,

@@ -15,9 +15,9 @@ using FloatPixels = std::vector<Eigen::Vector4f>;
 constexpr TextureFormat kNumbers{GL_RGBA32F, GL_RGBA, GL_FLOAT, false, false, GL_CLAMP_TO_EDGE};
 constexpr TextureFormat kDepth{GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, false, false, GL_CLAMP_TO_EDGE};
 
-/// What is seen through a pixel.
+/// What is visible in a pixel.
 struct Sight {
-  Vec3 place;  // m, in the world
+  Vec3 place;  // m, world space
   Vec3 normal;
   float id;
 };
@@ -68,7 +68,7 @@ void PassDrawer::draw_skins(const std::vector<SkinBuffers>& skins, const std::ve
   gl_.BindFramebuffer(GL_FRAMEBUFFER, target_.name());
   gl_.Viewport(0, 0, width_, height_);
   gl_.Enable(GL_DEPTH_TEST);
-  gl_.FrontFace(GL_CW);  // the top row comes first: a mirror image
+  gl_.FrontFace(GL_CW);  // the top row comes first, which flips the image
   gl_.ClearColor(0, 0, 0, -1);
   gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   program_.use();

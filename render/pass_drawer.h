@@ -7,11 +7,11 @@
 
 namespace sprung {
 
-/// Draws what a compositor needs beside a picture.
+/// Draws the Passes of a picture.
 class PassDrawer {
  public:
   PassDrawer(const GlFunctions& gl, int width, int height);
-  /// `ids`: one a skin. `camera` is that of the view.
+  /// `ids`: one per skin. `camera`: the one that `view` was made with.
   [[nodiscard]] Passes draw(const std::vector<SkinBuffers>& skins, const std::vector<int>& ids, const View& view,
                             const Camera& camera) const;
 

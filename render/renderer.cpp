@@ -15,7 +15,7 @@ namespace sprung {
 
 namespace {
 
-constexpr double kGhost = 0.28;  // how much of a ghost is seen
+constexpr double kGhost = 0.28;  // opacity
 
 /// Radius of the ball around a skin's bounding box, m.
 double radius(const Skin& skin) {
@@ -23,7 +23,7 @@ double radius(const Skin& skin) {
   return bounds.isEmpty() ? 0 : 0.5 * bounds.diagonal().norm();
 }
 
-/// That share of another picture.
+/// Blends a share of another picture in.
 void mix(Image& image, const Image& other, double share) {
   const auto mixed = [share](std::uint8_t a, std::uint8_t b) {
     return static_cast<std::uint8_t>(std::lround((1 - share) * a + share * b));
@@ -43,14 +43,14 @@ void check_options(const Stage& stage, const RenderOptions& options) {
     throw Error(ErrorKind::kUsage, "samples " + std::to_string(options.samples) + ": must be 1, 4 or 16");
   }
   if (stage.bounds.isEmpty() || stage.skins.size() != stage.default_colors.size()) {
-    throw Error(ErrorKind::kFailed, "a stage needs bounds and one default colour a skin");
+    throw Error(ErrorKind::kFailed, "a stage needs bounds and a default colour for every skin");
   }
 }
 
 }  // namespace
 
 struct Renderer::Device {
-  std::unique_ptr<GlContext> context;  // first: the others need it to the end
+  GlContext context;  // first, since all others need it until they are gone
   const GlFunctions& gl;
   bool has_ground;
   bool has_ghosts = false;
@@ -64,11 +64,10 @@ struct Renderer::Device {
   LightMaps maps;
   Screen screen;
   PassClock clock;
-  std::optional<PassDrawer> passes;  // once they are asked for
+  std::optional<PassDrawer> passes;  // made with the first ones
 
   Device(const Stage& stage, const RenderOptions& options)
-      : context(make_gl_context()),
-        gl(context->gl()),
+      : gl(context.gl()),
         has_ground(stage.has_ground),
         space(stage.bounds),
         ground_height((stage.ground.height - space.center.y()) * space.scale),
@@ -90,14 +89,14 @@ struct Renderer::Device {
     ids.resize(skins.size());
     std::iota(ids.begin(), ids.end(), 1);
   }
-  ~Device() { context->make_current(); }  // the objects are deleted next
+  ~Device() { context.make_current(); }  // the members' OpenGL objects are deleted next
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
 
-  /// Takes the shapes up.
+  /// Uploads the shapes.
   DrawFrame frame(const std::vector<SkinShape>& shapes) {
-    if (shapes.size() != skins.size()) throw Error(ErrorKind::kFailed, "one shape a skin is needed to draw");
-    context->make_current();
+    if (shapes.size() != skins.size()) throw Error(ErrorKind::kFailed, "drawing needs a shape for every skin");
+    context.make_current();
     for (std::size_t i = 0; i < shapes.size(); ++i) skins[i].update(shapes[i]);
     return {space,        fit_light(shapes, space, body_radius, ground_height), body_radius, ground_height, has_ground,
             sky_on_ground};
@@ -113,7 +112,7 @@ Renderer::~Renderer() = default;
 
 Image Renderer::draw(const std::vector<SkinShape>& shapes, const Camera& camera) {
   Device& device = *device_;
-  device.context->make_current();
+  device.context.make_current();
   device.clock.start();
   const DrawFrame frame = device.frame(shapes);
   device.clock.stop("upload");
@@ -139,8 +138,8 @@ Passes Renderer::draw_passes(const std::vector<SkinShape>& shapes, const Camera&
 const std::vector<PassTime>& Renderer::pass_times() const { return device_->clock.times(); }
 
 std::string Renderer::driver() const {
-  device_->context->make_current();
-  return device_->context->driver();
+  device_->context.make_current();
+  return device_->context.driver();
 }
 
 }  // namespace sprung

@@ -13,11 +13,12 @@
 
 namespace sprung {
 
-/// One skin as it stands in the frame to draw.
+/// One skin in one frame.
 struct SkinShape {
-  Floats3 positions;            // n x 3, m, world
-  Floats3 normals;              // n x 3, any length
-  Eigen::VectorXf shares = {};  // n; where on the stage's colour map, 0 to 1; 2 more for darker lines; 0 rows: as skin
+  Floats3 positions;  // n x 3, m, world
+  Floats3 normals;    // n x 3, any length
+  Eigen::VectorXf map_coordinates =
+      {};  // n, on the stage's colour map: 0 to 1, plus 2 for darker lines; no rows: the skin's own colours
 };
 
 struct GroundPlane {
@@ -27,24 +28,24 @@ struct GroundPlane {
 struct RenderOptions {
   int width = 1280;
   int height = 720;
-  int samples = 4;  // of a pixel: 1, 4 or 16
+  int samples = 4;  // per pixel: 1, 4 or 16
   bool measure_passes = false;
   Quality quality = Quality::kDefault;  // of shadows
-  bool transparent = false;             // pictures with alpha: bodies with nothing behind them
+  bool transparent = false;             // pictures with alpha: bodies without a background
 };
 
-/// What stays the same through a film: the skins at rest (indices, UVs, colours, textures), ground and light.
+/// What does not change during a film: the skins at rest (indices, UVs, colours, textures), ground and light.
 struct Stage {
-  std::vector<const Skin*> skins;               // outlive the renderer
-  std::vector<Eigen::Vector3f> default_colors;  // one a skin, sRGB: for parts without material, colours or texture
-  std::vector<Look> looks{};                    // one a skin; none: plastic
-  std::vector<bool> ghosts{};                   // one a skin; none: no ghosts. They show faintly and cast no shadow
-  std::vector<int> ids{};                       // one a skin, for passes; none: 1, 2, ...
+  std::vector<const Skin*> skins;               // must outlive the renderer
+  std::vector<Eigen::Vector3f> default_colors;  // sRGB, one per skin: for parts without material, colours or texture
+  std::vector<Look> looks{};                    // one per skin; none: plastic
+  std::vector<bool> ghosts{};                   // one per skin; none: no ghosts. They are faint and cast no shadow
+  std::vector<int> ids{};                       // one per skin, for passes; none: 1, 2, ...
   ColorMap color_map = ColorMap::kViridis;
   bool has_ground = true;
   GroundPlane ground;
-  AlignedBox bounds;                         // of the whole motion: sizes shadow map, ground fade and light
-  std::optional<Environment> environment{};  // in place of the studio's sky and walls; the key light stays
+  AlignedBox bounds;                             // of the whole motion: sizes shadow map, ground fade and light
+  std::optional<Environment> environment{};  // replaces the studio's sky and walls, not the key light
 };
 
 /// Draws a stage off-screen with OSMesa: no display, no GPU. Deterministic on one machine for any number of threads.

@@ -15,7 +15,7 @@ namespace {
 /// White in the picture, however strong the light.
 constexpr float kWhite = 8;
 
-/// Not brighter than that: what bytes stand for should not be spread thin.
+/// Clamps the panorama, so that bytes resolve the rest of it.
 float brightest(const Environment& environment) {
   float most = 1e-6F;
   for (const Panorama& level : environment.reflections) {
@@ -58,22 +58,22 @@ void EnvironmentTexture::bind(const GlProgram& program, int unit) const {
 
 namespace {
 
-constexpr int kFirstMapUnit = 1;  // unit 0 is the skin's own texture
+constexpr int kFirstMapUnit = 1;  // unit 0 is the skin's texture
 constexpr int kFirstSurfaceUnit = kFirstMapUnit + LightMaps::kUnits;
 
-// The kinds of pixels, as depths.
+// Kinds of pixels, encoded as depths.
 constexpr float kSkin = 0.5F;
 constexpr float kNoSkin = 1;
 
-constexpr double kLevel = 1e-4;          // sine of a line of sight that counts as level
-constexpr double kSightSteps = 1 << 20;  // one over the steps in which the line of sight is rounded
+constexpr double kLevel = 1e-4;        // sine of the elevation of a ray that counts as level
+constexpr double kSightSteps = 1 << 20;  // one over the step to which rays are rounded
 
 constexpr TextureFormat kColorFormat{GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, false, false, GL_CLAMP_TO_EDGE};
 constexpr TextureFormat kDepthFormat{GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, false, false,
                                      GL_CLAMP_TO_EDGE};
 
 bool has_floor_in_sight(const View& view) {
-  const bool looks_down = view.near > 0 || view.sight_height.z() < -kLevel;  // parallel lines may run along the floor
+  const bool looks_down = view.near > 0 || view.sight_height.z() < -kLevel;  // parallel rays may run along the floor
   return view.frame.has_ground && view.eye.y() > view.frame.ground_height && looks_down;
 }
 
@@ -145,22 +145,22 @@ Image Screen::read() const {
   return image;
 }
 
-/// The triangles are small: llvmpipe would run the shader of the light for several times the pixels that they have. So
-/// it runs in one triangle over the whole picture, once what is seen has been settled.
+/// The triangles are small, and llvmpipe would shade several times as many pixels as they cover. So the light is
+/// computed in a deferred pass, one triangle over the whole picture.
 void Screen::draw_surfaces(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const View& view,
                            bool with_ghosts) const {
   gl_.BindFramebuffer(GL_FRAMEBUFFER, surface_.name());
   gl_.Viewport(0, 0, side_ * width_, side_ * height_);
   gl_.Enable(GL_DEPTH_TEST);
   gl_.DepthFunc(GL_LESS);
-  gl_.FrontFace(GL_CW);  // the top row comes first: a mirror image
+  gl_.FrontFace(GL_CW);  // the top row comes first, which flips the image
   gl_.Clear(GL_DEPTH_BUFFER_BIT);
   for (const GlProgram* program : {&surface_programs_.plain, &surface_programs_.textured, &surface_programs_.mapped}) {
     program->use();
     view.frame.set_common(*program);
     program->set("clip_from_stage", view.clip_from_stage.cast<float>().eval());
   }
-  gl_.PolygonOffset(1, 1);  // of ghosts: a body in the same place is before them
+  gl_.PolygonOffset(1, 1);  // puts ghosts behind a body in the same place
   for (const SkinBuffers& skin : skins) {
     if (skin.is_ghost() && !with_ghosts) continue;
     if (skin.sides() != Sides::kBoth) gl_.Enable(GL_CULL_FACE);
@@ -184,7 +184,7 @@ void Screen::Sight::set(const GlProgram& program) const {
   program.set("sight_slopes", slopes);
 }
 
-/// It stays the same while the camera goes around the vertical, so it is kept.
+/// Cached, since it stays the same while the camera orbits about the vertical.
 void Screen::draw_backdrop(const View& view) {
   const Sight sight(view);
   gl_.Viewport(0, 0, width_, height_);
@@ -225,8 +225,8 @@ void Screen::draw_floor(const LightMaps& maps, const View& view) const {
   gl_.Disable(GL_BLEND);
 }
 
-/// An early depth test keeps llvmpipe from running a shader; an if does not. So a cheap one first writes down as its
-/// depth whether a pixel shows a skin.
+/// An early depth test keeps llvmpipe from running a shader, an `if` does not. So a cheap pass first writes as depth
+/// whether a pixel shows a skin.
 void Screen::develop(const LightMaps& maps, const View& view, PassClock& clock) const {
   gl_.Clear(GL_DEPTH_BUFFER_BIT);
   const PixelRectangle seen = seen_rectangle(view, width_, height_);
@@ -254,7 +254,7 @@ void Screen::develop(const LightMaps& maps, const View& view, PassClock& clock) 
   clock.stop("skins");
 }
 
-/// A program over the whole picture, with all that it can read of the skins.
+/// A full-screen program that reads what was stored of the skins.
 void Screen::cover(const GlProgram& program, const LightMaps& maps, const View& view) const {
   const Vec3 end = has_floor_in_sight(view) ? floor_depth(view) : Vec3(0, 0, 1);
   program.use();

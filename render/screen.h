@@ -9,11 +9,11 @@
 
 namespace sprung {
 
-/// An environment on the device, for shaders with ENVIRONMENT defined.
+/// An environment as textures and uniforms, for shaders with ENVIRONMENT defined.
 class EnvironmentTexture {
  public:
   EnvironmentTexture(const GlFunctions& gl, const Environment& environment);
-  /// Binds the texture to a unit, and sets the uniforms that go with it.
+  /// Binds the texture to a unit and sets its uniforms.
   void bind(const GlProgram& program, int unit) const;
 
  private:
@@ -23,14 +23,14 @@ class EnvironmentTexture {
   GlTexture reflections_;
 };
 
-/// Along each side of a pixel.
+/// Samples along each side of a pixel.
 [[nodiscard]] constexpr int sample_side(int samples) { return samples == 16 ? 4 : samples == 4 ? 2 : 1; }
 
-/// Draws what a camera sees, once the light maps are done: first what the skins are in every sample of every pixel,
-/// then the picture that is developed from it.
+/// Deferred shading of what a camera sees, given the light maps: first the skins' surface in every sample of every
+/// pixel, then their light.
 class Screen {
  public:
-  /// Without an environment it is lit by the studio.
+  /// Without an environment the studio lights it.
   Screen(const GlFunctions& gl, const RenderOptions& options, const std::optional<Environment>& environment);
   void draw(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const LightMaps& maps, const View& view,
             bool with_ghosts, PassClock& clock);
@@ -40,7 +40,7 @@ class Screen {
   [[nodiscard]] double aspect() const { return double(width_) / height_; }
 
  private:
-  /// What the backdrop depends on, see View; rounded, so that it is the same all the way around.
+  /// What the backdrop depends on, see View; rounded, so that it stays the same while the camera orbits.
   struct Sight {
     Eigen::Vector3f height;
     Eigen::Vector2f slopes;
@@ -67,7 +67,7 @@ class Screen {
   GlTexture surface_normal_;
   GlTexture surface_depth_;
   GlFramebuffer surface_;
-  GlTexture picture_;  // its top row first
+  GlTexture picture_;  // top row first
   GlTexture kinds_;    // of pixels, as depths
   GlFramebuffer developed_;
   GlTexture backdrop_;

@@ -14,7 +14,7 @@
 namespace sprung {
 namespace {
 
-/// For each of `count` things the first one that has the same key.
+/// For each of `count` items the first one with the same key.
 template <class Key>
 std::vector<int> first_with_same(const std::vector<Key>& keys) {
   std::vector<int> order(keys.size());
@@ -30,7 +30,7 @@ std::vector<int> first_with_same(const std::vector<Key>& keys) {
   return first;
 }
 
-/// For each vertex the first one at the same place, give or take rounding.
+/// For each vertex the first one at the same position up to rounding.
 std::vector<int> welded(const Skin& skin) {
   constexpr double kRounding = 1e-6;  // of the skin's size
   const Vec3 low = skin.positions.colwise().minCoeff();
@@ -45,8 +45,7 @@ std::vector<int> welded(const Skin& skin) {
   return first_with_same(keys);
 }
 
-/// Vertices at one place stay together, though a crease or a seam of the UVs divides them: no cracks. Their mean normal
-/// counts.
+/// Vertices at one position are merged across creases and UV seams, by their mean normal, so that no cracks open.
 std::vector<int> cluster(const Skin& skin, double cell) {
   const std::vector<int> weld = welded(skin);
   Points normals = Points::Zero(skin.positions.rows(), 3);
@@ -63,7 +62,7 @@ std::vector<int> cluster(const Skin& skin, double cell) {
   return first_with_same(keys);
 }
 
-/// A triangle's corners by what stands for them.
+/// A triangle's corners, replaced by their representatives.
 std::array<int, 3> corners(const Skin& skin, const std::vector<int>& stand_in, int triangle) {
   std::array<int, 3> corners{};
   for (int k = 0; k < 3; ++k) {
@@ -129,7 +128,7 @@ Sides visible_sides(const Skin& skin) {
 
 namespace {
 
-enum Attribute : GLuint { kPosition, kNormal, kUv, kColor, kShare };  // as in surface.vert
+enum Attribute : GLuint { kPosition, kNormal, kUv, kColor, kMapCoordinate };  // as in surface.vert
 
 /// The square root of linear light: what the shaders multiply and keep.
 template <class Colors>
@@ -137,11 +136,12 @@ Colors root_from_srgb(const Colors& colors) {
   return colors.unaryExpr([](float c) { return std::sqrt(linear_from_srgb(c)); });
 }
 
-/// The cells that merge vertices for the light maps, as a part of the skin's radius: finer than their bias and blur.
+/// Sides of the cells that merge vertices for the light maps, over the skin's radius: finer than the maps' bias and
+/// blur.
 constexpr double kCoarseCell = 0.05;
 constexpr double kCoarsestCell = 0.11;
 
-/// Of the triangles: where fewer are left the skin is made of thin things, and is drawn as it is.
+/// Fraction of the triangles: where fewer remain the skin consists of thin parts and is drawn in full.
 constexpr double kFewest = 0.01;
 
 double skin_radius(const Skin& skin) {
@@ -213,7 +213,7 @@ SkinBuffers::SkinBuffers(const GlFunctions& gl, const Skin& skin, const Eigen::V
       normals_(make_buffer(gl)),
       uvs_(make_buffer(gl)),
       colors_(make_buffer(gl)),
-      shares_(make_buffer(gl)),
+      map_coordinates_(make_buffer(gl)),
       indices_(make_buffer(gl)),
       sides_(visible_sides(skin)),
       look_(look),
@@ -245,7 +245,7 @@ SkinBuffers::SkinBuffers(const GlFunctions& gl, const Skin& skin, const Eigen::V
   if (skin.parts.empty()) add_paint(paint(0, all_[0].count, plain));
 }
 
-/// Neighbours that look the same are drawn together.
+/// Merges consecutive parts that look the same.
 void SkinBuffers::add_paint(const Paint& paint) {
   if (!paints_.empty()) {
     Paint& last = paints_.back();
@@ -294,12 +294,12 @@ void SkinBuffers::update(const SkinShape& shape) {
   assert(shape.positions.rows() == shape.normals.rows());
   upload(gl_, positions_, shape.positions, GL_STREAM_DRAW);
   upload(gl_, normals_, shape.normals, GL_STREAM_DRAW);
-  is_mapped_ = shape.shares.size() > 0;
+  is_mapped_ = shape.map_coordinates.size() > 0;
   if (!is_mapped_) return;
-  assert(shape.positions.rows() == shape.shares.rows());
+  assert(shape.positions.rows() == shape.map_coordinates.rows());
   gl_.BindVertexArray(array_.name());
-  upload(gl_, shares_, shape.shares, GL_STREAM_DRAW);
-  describe(gl_, kShare, 1);
+  upload(gl_, map_coordinates_, shape.map_coordinates, GL_STREAM_DRAW);
+  describe(gl_, kMapCoordinate, 1);
 }
 
 void SkinBuffers::draw(const Range& range) const {

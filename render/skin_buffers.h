@@ -9,28 +9,28 @@
 
 namespace sprung {
 
-/// A skin with fewer triangles over the same vertices, for what is drawn blurred: of the vertices in one cell of side
-/// `cell` (m) whose normals point into the same octant, one stands for all. The octants keep thin parts from
-/// collapsing. first[i] is the first coarse triangle of those that the skin's triangles from i on gave; one more row
-/// than the skin has triangles. Deterministic.
+/// A coarser skin over the same vertices, for blurred maps, by vertex clustering: one vertex represents all in a cell
+/// of side `cell` (m) whose normals point into the same octant. The octants keep thin parts from collapsing. first[i]
+/// is the first coarse triangle made from the skin's triangles i and later; one more row than the skin has triangles.
+/// Deterministic.
 struct CoarseTriangles {
   Triangles triangles;
   std::vector<int> first;
 };
 [[nodiscard]] CoarseTriangles coarse_triangles(const Skin& skin, double cell);
 
-/// Which side of a skin's triangles can be seen from outside.
+/// Which sides of a skin's triangles are visible.
 enum class Sides { kBoth, kFront, kBack };
 
-/// One side where the triangles enclose a solid, whatever their creases: every edge has as many triangles on its left
-/// as on its right (vertices apart by no more than rounding are one).
+/// One side where the triangles enclose a solid: every edge has as many triangles on its left as on its right. Vertices
+/// that differ by rounding only count as one.
 [[nodiscard]] Sides visible_sides(const Skin& skin);
 
-/// The textures of all skins, each picture once, decoded and mipmapped.
+/// The textures of all skins, decoded and mipmapped, without duplicates.
 class TextureSet {
  public:
   TextureSet(const GlFunctions& gl, ColorMap map);
-  /// The texture's place in the set; 0, a white one, for an empty picture. Throws Error(kBadInput) where the picture
+  /// Index of the texture in the set; 0, a white one, for an empty picture. Throws Error(kBadInput) where the picture
   /// cannot be decoded.
   [[nodiscard]] int add(const SurfaceMaterial& material);
   [[nodiscard]] const GlTexture& color_map() const { return color_map_; }
@@ -43,7 +43,7 @@ class TextureSet {
   std::vector<const std::vector<std::byte>*> sources_;
 };
 
-/// All triangles of a skin, or fewer for what is drawn blurred, or very few for what is drawn very blurred.
+/// All triangles of a skin, fewer for blurred maps, or very few for very blurred ones.
 enum class Detail { kFull, kCoarse, kCoarsest };
 inline constexpr std::size_t kDetails = 3;
 
@@ -55,16 +55,16 @@ struct SkinPrograms {
 };
 [[nodiscard]] SkinPrograms load_skin_programs(const GlFunctions& gl, std::string_view fragment);
 
-/// A skin on the device.
+/// A skin in buffers of OpenGL.
 class SkinBuffers {
  public:
   SkinBuffers(const GlFunctions& gl, const Skin& skin, const Eigen::Vector3f& default_color, Look look, bool is_ghost,
               TextureSet& textures);
 
   void update(const SkinShape& shape);
-  /// For a program that needs places only.
+  /// For a program that needs positions only.
   void draw(Detail detail) const;
-  /// Part by part, with base_color and base_texture (unit `unit`) of the programs set.
+  /// Part by part; sets base_color and base_texture (unit `unit`) of the programs.
   void draw(const SkinPrograms& programs, const TextureSet& textures, int unit, Detail detail) const;
   [[nodiscard]] Sides sides() const { return sides_; }
   [[nodiscard]] bool is_ghost() const { return is_ghost_; }
@@ -93,7 +93,7 @@ class SkinBuffers {
   GlBuffer normals_;
   GlBuffer uvs_;
   GlBuffer colors_;
-  GlBuffer shares_;
+  GlBuffer map_coordinates_;
   GlBuffer indices_;
   Ranges all_;
   Sides sides_;

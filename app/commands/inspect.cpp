@@ -4,7 +4,6 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/options.h"
-#include "app/inspect/brick_picture.h"
 #include "app/inspect/inspection.h"
 #include "app/scene/cached_film.h"
 #include "core/error.h"

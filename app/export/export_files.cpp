@@ -9,8 +9,8 @@
 #include "app/console/console.h"
 #include "app/console/interrupt.h"
 #include "app/export/viewer.h"
-#include "app/film/drawn_shapes.h"
 #include "app/film/film_cameras.h"
+#include "app/film/film_stage.h"
 #include "core/error.h"
 #include "core/io/animation.h"
 #include "core/files.h"
@@ -41,7 +41,7 @@ std::size_t mesh_count(const Film& scene) {
   return count;
 }
 
-/// points.pc2, or points_1.pc2 ... where there are several meshes.
+/// points.pc2, or points_1.pc2 ... for several meshes.
 fs::path file_of_mesh(const fs::path& file, std::size_t mesh, std::size_t count) {
   if (count == 1) return file;
   return file.parent_path() / fmt::format("{}_{}{}", file.stem().string(), mesh + 1, file.extension().string());
@@ -73,7 +73,7 @@ void export_animation(const ExportTarget& target, const CachedFilmView& view, co
   const int stride = (range.count() - 2) / int(kMostTargets) + 1;
   if (stride > 1) {
     console.warn(
-        fmt::format("{}: {} frames are more than players take well; every {}th is in the file, what is "
+        fmt::format("{}: {} frames are too many for most players; every {}th is in the file, what is "
                     "between them moves evenly",
                     target.file.string(), range.count(), stride));
   }

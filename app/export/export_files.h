@@ -15,35 +15,35 @@
 
 namespace sprung {
 
-/// Where exported frames go: a file each, or all into one (or one for each body).
+/// Where exported frames go: one file per frame, or one for all frames (or one per body).
 struct ExportTarget {
   enum class Kind { kMeshes, kAnimation, kPage, kPc2, kMdd, kXdmf };
   Kind kind = Kind::kMeshes;
-  std::optional<NumberedName> numbered;  // of kMeshes; or
+  std::optional<NumberedName> numbered;  // for kMeshes, else file
   std::filesystem::path file;
-  bool quantize = false;  // of kAnimation
+  bool quantize = false;  // for kAnimation
 };
 
 /// "skin_{:04}.obj", "film.glb", "film.html", "points.pc2", "run.xdmf". Throws Error(kUsage).
 [[nodiscard]] ExportTarget parse_export_target(std::string_view words);
 
-/// A film as it is in a cache.
+/// A film in a cache. All must outlive it.
 struct CachedFilmView {
   const Simulation& simulation;
   const CacheReader& cache;
   const Film& film;
 };
 
-/// The files that would be written.
+/// The files that export_files() would write.
 [[nodiscard]] std::vector<std::filesystem::path> files_of(const ExportTarget& target, const Film& scene,
                                                           const FrameRange& range);
 
-/// Writes them, each beside its name and renamed. Throws Error, Interrupted.
+/// Writes every file under a temporary name and renames it. Throws Error, Interrupted.
 void export_files(const ExportTarget& target, const CachedFilmView& view, const FrameRange& range,
                   const Console& console);
 
-/// The meshes of all bodies and their copies for these positions of the nodes (by actor, m): vertices, order and
-/// triangles are those of the files. They point into the simulation.
+/// The meshes of all bodies and their copies for these positions of the nodes (by body, m), with the vertices, order
+/// and triangles of the files. They point into the simulation.
 [[nodiscard]] std::vector<PosedMesh> posed_meshes(const Simulation& simulation, const Film& scene,
                                                   const std::vector<Points>& nodes);
 

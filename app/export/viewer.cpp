@@ -7,7 +7,6 @@
 #include <cmath>
 #include <span>
 
-#include "app/export/viewer_page.h"
 #include "core/io/animation.h"
 #include "core/text.h"
 
@@ -16,7 +15,7 @@ namespace {
 
 constexpr double kSteps = 65535;
 
-/// Every coordinate of every frame, as base64.
+/// All coordinates of all frames in steps from `low`, 16 bits each, as base64.
 std::string text_of(const std::vector<Floats3>& frames, const Vec3& low, double step) {
   std::vector<std::uint16_t> steps;
   for (const Floats3& frame : frames) {

@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/io/mesh_export.h"
@@ -7,15 +8,20 @@
 
 namespace sprung {
 
-/// A film for viewer_page.h as it grows: the model of its first frame, with textures and all, as glTF, and the
-/// positions of every frame. Those are kept in 65535 steps of the film's longest side, so that they are off by 1/131070
-/// of that at most.
+/// viewer.html with three.js and its licence in it: a page that shows a film in three dimensions in any browser with
+/// WebGL. The film, a JavaScript object, goes in place of kViewerFilm. Drag to turn, wheel to zoom, space or the bar to
+/// stop.
+inline constexpr std::string_view kViewerFilm = "/*FILM*/";
+[[nodiscard]] std::string_view viewer_page();
+
+/// Collects a film for viewer_page(): the model of its first frame, with textures, as glTF, and the positions of every
+/// frame, rounded to 1/65535 of the film's longest side.
 class ViewerFilm {
  public:
   /// The meshes of the next frame, the same ones in every frame.
   void add_frame(const std::vector<PosedMesh>& meshes);
 
-  /// The page, first seen by this camera, and as much of it in pictures of this width / height.
+  /// The page, which starts with this camera and shows as much as a picture of this width / height.
   [[nodiscard]] std::string page(double fps, const Camera& camera, double aspect) const;
 
  private:

@@ -12,7 +12,7 @@
 namespace sprung {
 namespace {
 
-/// A sentence that tells of the picture, or none.
+/// Returns what the message adds about the picture, or nothing.
 std::string draw(const Body& body, const std::filesystem::path& picture) {
   if (!body.positions.allFinite()) return "";
   try {
@@ -22,7 +22,7 @@ std::string draw(const Body& body, const std::filesystem::path& picture) {
     return fmt::format("; {} shows its bricks before, coloured by strain from {:.3g} to {:.3g} %", picture.string(),
                        drawn.low, drawn.high);
   } catch (const Error&) {
-    return "";  // the first error is the one to tell
+    return "";  // the first error matters more
   }
 }
 

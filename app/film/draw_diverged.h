@@ -7,8 +7,8 @@
 
 namespace sprung {
 
-/// Does `work`; where it throws Diverged, draws the bricks of that body as they last stood, coloured by their strain,
-/// and throws Error(kDiverged) with the picture's name added. Where no picture can be made the error passes as it is.
+/// Runs `work`. Where it throws Diverged, draws that body's bricks in their last state, coloured by strain, and throws
+/// Error(kDiverged) with the picture's name added, or the same message where no picture can be drawn.
 [[nodiscard]] Recording with_picture_of_diverged(const World& world, const std::filesystem::path& picture,
                                                  const std::function<Recording()>& work);
 

@@ -21,11 +21,11 @@
 namespace sprung {
 namespace {
 
-constexpr int kPipeSize = 1 << 20;  // bytes; as much as the system gives without being asked twice
+constexpr int kPipeSize = 1 << 20;  // bytes; the most that Linux grants by default
 
 enum class Kind : std::int32_t { kPicture, kDone, kError };
 
-/// Goes ahead of the pixels of a picture, or of an error's text.
+/// Precedes the pixels of a picture, or the text of an error.
 struct Header {
   Kind kind = Kind::kDone;
   ErrorKind error = ErrorKind::kFailed;
@@ -42,13 +42,13 @@ void write_all(int pipe, const void* data, std::size_t size) {
       stop_if_interrupted();
       continue;
     }
-    if (done <= 0) throw Interrupted{};  // whoever asked has gone
+    if (done <= 0) throw Interrupted{};  // the parent has gone
     bytes += done;
     size -= std::size_t(done);
   }
 }
 
-/// False where the other side wrote less.
+/// False at the end of the file.
 bool read_all(int pipe, void* data, std::size_t size) {
   auto* bytes = static_cast<char*>(data);
   while (size > 0) {
@@ -88,7 +88,7 @@ void work_and_send(int pipe, std::size_t number, const DrawingProcesses::Work& w
   }
 }
 
-/// Never returns: what the process inherited is not its own to clean up.
+/// Never returns: the child must not clean up what it inherited.
 [[noreturn]] void run_here(int pipe, std::size_t number, const DrawingProcesses::Work& work) {
   try {
     work_and_send(pipe, number, work);
@@ -120,19 +120,19 @@ DrawingProcesses::~DrawingProcesses() { stop(); }
 
 void DrawingProcesses::start(std::size_t number, const Work& work) {
   std::array<int, 2> ends{};
-  if (pipe2(ends.data(), O_CLOEXEC) != 0) throw Error(ErrorKind::kFailed, "no pipe to a process that draws");
+  if (pipe2(ends.data(), O_CLOEXEC) != 0) throw Error(ErrorKind::kFailed, "cannot create a pipe to a drawing process");
   fcntl(ends[1], F_SETPIPE_SZ, kPipeSize);
   std::fflush(nullptr);
   const pid_t process = fork();
   if (process == 0) {
     close(ends[0]);
-    // Else none of them would notice that this process no longer reads.
+    // Otherwise no child would notice that this process no longer reads.
     for (const Child& other : children_) close(other.pipe);
     run_here(ends[1], number, work);
   }
   close(ends[1]);
   children_.push_back({ends[0], process});
-  if (process < 0) throw Error(ErrorKind::kFailed, "cannot start a process that draws; --jobs 1 needs none");
+  if (process < 0) throw Error(ErrorKind::kFailed, "cannot start a drawing process; --jobs 1 needs none");
 }
 
 void DrawingProcesses::stop() {
@@ -150,7 +150,7 @@ Image DrawingProcesses::receive(std::size_t process) {
   Header header;
   if (!read_all(child.pipe, &header, sizeof header)) {
     stop_if_interrupted();
-    throw Error(ErrorKind::kFailed, fmt::format("a process that draws {}; --jobs 1 needs none and less memory",
+    throw Error(ErrorKind::kFailed, fmt::format("a drawing process {}; --jobs 1 needs none and less memory",
                                                 end_of(std::exchange(child.process, -1))));
   }
   if (header.kind == Kind::kError) {
@@ -164,14 +164,14 @@ Image DrawingProcesses::receive(std::size_t process) {
   image.pixels.resize(header.bytes);
   if (!read_all(child.pipe, image.pixels.data(), image.pixels.size())) {
     stop_if_interrupted();
-    throw Error(ErrorKind::kFailed, "a process that draws ended in the middle of a picture");
+    throw Error(ErrorKind::kFailed, "a drawing process ended in the middle of a picture");
   }
   return image;
 }
 
 void DrawingProcesses::finish() {
   for (std::size_t i = 0; i < children_.size(); ++i) {
-    static_cast<void>(receive(i));  // its last word
+    static_cast<void>(receive(i));  // success, or an error
     waitpid(std::exchange(children_[i].process, -1), nullptr, 0);
   }
 }

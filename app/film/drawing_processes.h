@@ -9,26 +9,26 @@
 
 namespace sprung {
 
-/// Work on pictures in processes of their own. The contexts of one process share llvmpipe's one rasteriser; processes
-/// do not.
+/// Draws pictures in parallel processes. Threads would not help: all contexts of a process share one rasteriser of
+/// llvmpipe.
 class DrawingProcesses {
  public:
   using Send = std::function<void(const Image& image)>;
-  /// What the process of this number does.
+  /// Work of process number `process`.
   using Work = std::function<void(std::size_t process, const Send& send)>;
 
-  /// Forks; each process works with one thread for tasks and says no more than what it sends. To be called where this
-  /// process has one thread (end_worker_threads) and no program is being written to. Throws Error(kFailed).
+  /// Forks; each child has one thread for tasks and prints nothing. Call it while this process has a single thread
+  /// (end_worker_threads) and no pipe to a program. Throws Error(kFailed).
   DrawingProcesses(std::size_t count, const Work& work);
-  /// Stops those that are not done.
+  /// Stops the children that are not done.
   ~DrawingProcesses();
   DrawingProcesses(const DrawingProcesses&) = delete;
   DrawingProcesses& operator=(const DrawingProcesses&) = delete;
 
-  /// Waits for what that one sends next: colours alone. Throws what its work threw, Error(kFailed) where it ended
-  /// without a word, Interrupted.
+  /// Waits for the next picture of that child, without alpha. Throws what its work threw, Error(kFailed) where it ended
+  /// without a message, Interrupted.
   [[nodiscard]] Image receive(std::size_t process);
-  /// Waits until all are done. Throws likewise.
+  /// Waits for all children. Throws likewise.
   void finish();
 
  private:
@@ -42,7 +42,7 @@ class DrawingProcesses {
   std::vector<Child> children_;
 };
 
-/// Ends the threads that wait for tasks; new ones begin with the next tasks. False where that cannot be.
+/// Ends idle worker threads; the next tasks start new ones. False where that is impossible.
 [[nodiscard]] bool end_worker_threads();
 
 }  // namespace sprung

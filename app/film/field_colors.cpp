@@ -18,7 +18,7 @@ Eigen::VectorXd measured(BrickMeasure measure, const Body& body, const Points& p
   return node_means(body.grid, measure_bricks(body, measure, positions));
 }
 
-/// Between the frames before and after; at the ends of the film one-sided.
+/// Central differences; one-sided at the ends of the film.
 Eigen::VectorXd speeds(const Recording& recording, std::size_t frame, std::size_t actor, double fps) {
   const std::size_t last = recording.frames.size() - 1;
   const std::size_t from = frame > 0 ? frame - 1 : 0;
@@ -62,11 +62,11 @@ bool is_moving(Field field) { return field != Field::kSkin && field != Field::kF
 
 namespace {
 
-constexpr double kUtmost = 0.005;             // of all values of the film, at each end: may lie outside the range
-constexpr std::size_t kMostValues = 4 << 20;  // that are looked at
+constexpr double kUtmost = 0.005;             // fraction of all values that may be outside the range at each end
+constexpr std::size_t kMostValues = 4 << 20;  // that are sampled
 
 struct Unit {
-  double from;  // SI, the smallest range that it is good for
+  double from;  // SI, smallest range shown in this unit
   double size;  // SI
   const char* name;
 };
@@ -108,7 +108,7 @@ FieldWords words_of(Field field) {
   return {"", ColorMap::kViridis, none};
 }
 
-/// The values below and above which that share of them lies.
+/// The quantiles of that share and of one minus it.
 std::pair<double, double> extremes(std::vector<double>& values) {
   const auto rank = std::ptrdiff_t(kUtmost * double(values.size()));
   const auto low = values.begin() + rank;
@@ -153,7 +153,7 @@ void FieldColors::find_range() {
   }
   std::tie(low_, high_) = extremes(values);
   switch (field_) {
-    case Field::kVolume: {  // as far to both sides of what it was at rest, the middle of the map
+    case Field::kVolume: {  // symmetric about the rest volume, the middle of the map
       const double reach = std::max(std::abs(high_ - 1), std::abs(1 - low_));
       low_ = 1 - reach;
       high_ = 1 + reach;
@@ -173,7 +173,7 @@ void FieldColors::find_range() {
   }
 }
 
-Eigen::VectorXd FieldColors::shares(std::size_t frame, std::size_t actor) const {
+Eigen::VectorXd FieldColors::map_coordinates(std::size_t frame, std::size_t actor) const {
   const Eigen::VectorXd values = field_values(field_, simulation_, recording_, frame, actor, fps_);
   return (values.array() - low_) / (high_ - low_);
 }

@@ -4,16 +4,16 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/film/drawn_shapes.h"
+#include "app/film/film_stage.h"
 #include "core/bricks/brick_topology.h"
 
 namespace sprung {
 namespace {
 
-constexpr double kNear = 0.25;  // of the motion's size: what of an obstacle is further off need not be seen
-constexpr int kStops = 16;      // of a camera on its way, from which everything has to be seen
+constexpr double kNear = 0.25;  // of the motion's size: parts of obstacles further away may be out of view
+constexpr int kStops = 16;      // along the camera's path, from which everything has to be in view
 
-/// Rows: the centre of each face, edge and corner of a cube.
+/// Rows: directions to the faces, edges and corners of a cube.
 Eigen::Matrix<double, 26, 3> directions() {
   Eigen::Matrix<int, 26, 3> rows;
   int row = 0;
@@ -34,7 +34,7 @@ Points corners_of(const AlignedBox& bounds) {
   return corners;
 }
 
-/// What of the obstacles is near the bodies: of large ones no more than that.
+/// The parts of obstacles that are near the bodies.
 void add_obstacles(const Simulation& simulation, const Recording& recording, Reach& reach) {
   const double near = kNear * reach.bounds.sizes().maxCoeff();
   const Vec3 low = reach.bounds.min().array() - near;
@@ -68,7 +68,7 @@ Points stacked(const std::vector<Points>& parts) {
   return all;
 }
 
-/// With the same points on the ground, where there is one.
+/// Adds the projections of the points onto the ground, if any.
 Points with_ground(const Points& points, const std::optional<double>& ground) {
   if (!ground) return points;
   Points below = points;
@@ -81,7 +81,7 @@ Points flipped(const Points& points, const Vec3& center, double degrees) {
   return ((points.rowwise() - center.transpose()) * turn.transpose()).rowwise() + center.transpose();
 }
 
-/// Everything that is to be seen, around one middle where the camera follows.
+/// All points that have to be in view, relative to the followed centroid where the camera follows.
 Points points_to_see(const Film& scene, const Reach& reach, const Vec3& center) {
   if (!scene.camera.follow) return with_ground(stacked({stacked(reach.bodies), reach.around}), reach.ground);
   std::vector<Points> parts;
@@ -91,7 +91,7 @@ Points points_to_see(const Film& scene, const Reach& reach, const Vec3& center) 
   return stacked(parts);
 }
 
-/// Between two keyframes, slow at both.
+/// Between two keyframes, at rest at both.
 CameraKeyframe placed(const std::vector<CameraKeyframe>& keyframes, double time) {
   const auto later = std::find_if(keyframes.begin(), keyframes.end(),
                                   [&](const CameraKeyframe& keyframe) { return keyframe.time >= time; });

@@ -21,7 +21,7 @@ int number_in(std::string_view text, std::string_view words) {
   int number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error == std::errc() && end == text.data() + text.size()) return number;
-  throw Error(ErrorKind::kUsage, fmt::format("--frames: '{}' is not like 1:48, 12:, :12 or 7", words));
+  throw Error(ErrorKind::kUsage, fmt::format("--frames: '{}' is not a range like 1:48, 12:, :12 or 7", words));
 }
 
 }  // namespace
@@ -75,7 +75,7 @@ bool is_number(std::string_view text) {
 
 fs::path or_here(const fs::path& folder) { return folder.empty() ? fs::path(".") : folder; }
 
-/// The place in the file system, whatever the words for it.
+/// The canonical path, whatever its spelling.
 fs::path place_of(const fs::path& path) {
   std::error_code ignored;
   fs::path place = fs::weakly_canonical(fs::absolute(path, ignored), ignored).lexically_normal();
@@ -86,7 +86,7 @@ bool is_below(const fs::path& path, const fs::path& above) {
   return std::mismatch(above.begin(), above.end(), path.begin(), path.end()).first == above.end();
 }
 
-/// Whether one would replace the other or stand in its way.
+/// True where one would replace the other or block its path.
 bool collide(const Output& a, const Output& b) {
   const bool a_is_film = a.kind == Output::Kind::kFilm;
   const bool b_is_film = b.kind == Output::Kind::kFilm;
@@ -142,9 +142,9 @@ std::vector<Output> parse_outputs(const std::vector<std::string>& words) {
     outputs.push_back(parse_output(word));
     for (std::size_t other = 0; other + 1 < outputs.size(); ++other) {
       if (!collide(outputs[other], outputs.back())) continue;
-      throw Error(
-          ErrorKind::kUsage,
-          fmt::format("--output {} and --output {} are in each other's way; give one of them", words[other], word));
+      throw Error(ErrorKind::kUsage,
+                  fmt::format("--output {} and --output {} would write to the same place; give only one of them",
+                              words[other], word));
     }
   }
   return outputs;

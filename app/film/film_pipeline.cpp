@@ -34,7 +34,7 @@ std::size_t longest_of(const std::vector<FilmRun>& runs) {
   return std::max_element(runs.begin(), runs.end(), shorter) - runs.begin();
 }
 
-/// Runs beside each other and pictures of a sheet have their part of the resolution each.
+/// Divides the resolution among runs side by side, or among the pictures of a sheet.
 Film with_panel_size(Film scene, std::size_t runs, const Labels& labels) {
   if (!scene.render.sheet && runs == 1) return scene;
   auto [columns, rows] = scene.render.sheet.value_or(std::array{1, 1});
@@ -219,7 +219,7 @@ Image sheet_of(const std::vector<Image>& pictures, int columns, int margin) {
       }
     }
   }
-  for (int y = 0; y < sheet.height; ++y) {  // what is left over is as the row begins, where no shadow falls
+  for (int y = 0; y < sheet.height; ++y) {  // the margin repeats the first pixel of the row, where no shadow falls
     const auto row = 3 * std::size_t(y * sheet.width);
     const auto used = 3 * std::size_t(columns * first.width);
     const auto end = 3 * std::size_t(sheet.width);

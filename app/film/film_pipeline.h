@@ -13,23 +13,23 @@
 
 namespace sprung {
 
-/// A run that a film shows. The three outlive the film.
+/// A run that a film shows. All must outlive the film.
 struct FilmRun {
   const Film& scene;
   const Simulation& simulation;
   const Recording& recording;
-  std::string name{};  // written over its pictures where there are others beside them
+  std::string name{};  // written over its pictures in a film of several runs
 };
 
-/// Everything that a picture of a film is made with: of one run, or of several side by side with one camera and one
-/// range of colours, as the scene of the first has it. A run that is shorter than the others stays where it ends.
-/// OpenGL is begun with the first picture: a crew can be handed to another process before.
+/// Draws the pictures of a film: of one run, or of several side by side, with the camera and the look of the first
+/// run's scene and one range of colours. A run that is shorter than the others stays in its last frame. OpenGL starts
+/// with the first picture, so a process may fork before that.
 class FilmPipeline {
  public:
-  /// The skins at the moments of a picture, by run and moment: one, or as many as blur takes.
+  /// Shapes of the skins by run and exposure: one exposure per picture, or several for motion blur and lenses.
   using Moments = std::vector<std::vector<std::vector<SkinShape>>>;
 
-  /// All runs are in the same surroundings, which outlive the crew; none: in the studio.
+  /// `surroundings` light all runs and must outlive it; none: the studio.
   FilmPipeline(const std::vector<FilmRun>& runs, const std::optional<Environment>& surroundings);
 
   [[nodiscard]] std::size_t frames() const { return cameras_.size(); }
@@ -38,13 +38,13 @@ class FilmPipeline {
 
   [[nodiscard]] Moments moments(std::size_t frame) const;
   [[nodiscard]] Image draw(std::size_t frame, const Moments& moments);
-  /// Of the first run, as the shutter opens.
+  /// Of the first run and the first exposure.
   [[nodiscard]] Passes passes(std::size_t frame, const Moments& moments);
-  /// Many pictures in one.
+  /// The pictures in rows and columns, with the legend.
   [[nodiscard]] Image sheet(const std::vector<Image>& pictures) const;
 
  private:
-  /// The scene of the first run with what the ends of the colours stand for in all runs.
+  /// The scene of the first run with the range of colours of all runs.
   struct Colors {
     Film scene;
     std::optional<Legend> legend;
@@ -52,35 +52,35 @@ class FilmPipeline {
   [[nodiscard]] static Colors common_colors(const std::vector<FilmRun>& runs);
   FilmPipeline(const std::vector<FilmRun>& runs, const std::optional<Environment>& surroundings, const Colors& colors);
 
-  /// The part of a picture that shows one run.
+  /// One run's part of the picture.
   struct Panel {
     Panel(Film its_scene, const FilmRun& its_run) : scene(std::move(its_scene)), run(its_run) {}
-    [[nodiscard]] std::size_t frame(std::size_t of_film) const;  // the same, or its last
+    [[nodiscard]] std::size_t frame(std::size_t of_film) const;  // clamped to the run's last
 
     const Film scene;
     const FilmRun run;
     const FilmStage stage{scene, run.simulation, run.recording};
-    std::unique_ptr<Renderer> renderer;  // from the first picture on
+    std::unique_ptr<Renderer> renderer;  // made with the first picture
   };
   Renderer& renderer(Panel& panel);
 
-  /// The camera of that exposure: somewhere on its lens.
+  /// The camera of an exposure: at a point of its lens.
   [[nodiscard]] Camera camera(std::size_t frame, int exposure) const;
   [[nodiscard]] int exposures() const;
-  /// Pixels at the right side that no panel covers.
+  /// Pixels at the right edge that no panel covers.
   [[nodiscard]] int margin() const;
 
   const std::optional<Environment>& surroundings_;
   Film scene_;  // of the film
   Reach reach_;
   Labels labels_;
-  Film scene_of_panel_;  // smaller pictures
+  Film scene_of_panel_;  // with the panel's resolution
   std::vector<Camera> cameras_;
   std::deque<Panel> panels_;
-  std::size_t longest_ = 0;  // the run with the most frames
+  std::size_t longest_ = 0;  // index of the run with the most frames
 };
 
-/// The mean of pictures of the same size, in light (its root is what sRGB keeps, nearly): what an open shutter sees.
+/// The mean light of pictures of the same size, as an open shutter sees it; sRGB is nearly its square root.
 class Exposure {
  public:
   void add(const Image& image);
@@ -93,12 +93,12 @@ class Exposure {
   int count_ = 0;
 };
 
-/// Pictures of the same size in rows of `columns`, from the top left. `margin` pixels are free at the
-/// right side, like the left ends of the rows.
+/// Pictures of the same size in rows of `columns`, from the top left. `margin` more pixels at the right edge continue
+/// the background.
 [[nodiscard]] Image sheet_of(const std::vector<Image>& pictures, int columns, int margin);
 
-/// What lights the bodies from all around, if the scene names a panorama. Throws Error(kBadInput) naming the file where
-/// it cannot be read or gives no light.
+/// The environment of the scene's panorama, if it has one. Throws Error(kBadInput) naming the file where it cannot be
+/// read or is black.
 [[nodiscard]] std::optional<Environment> read_surroundings(const SceneRender& render);
 
 }  // namespace sprung

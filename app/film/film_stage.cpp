@@ -4,9 +4,10 @@
 #include <cmath>
 #include <utility>
 
-#include "app/film/drawn_shapes.h"
 #include "app/film/labels.h"
 #include "app/film/overlays.h"
+#include "core/bricks/embedding.h"
+#include "render/brick_cubes.h"
 
 namespace sprung {
 namespace {
@@ -20,22 +21,38 @@ constexpr double kSpringRadius = 0.03;   // of a brick
 constexpr double kNodeRadius = 0.09;     // of a brick
 constexpr double kPinRadius = 0.17;      // of a brick
 constexpr double kTraceRadius = 0.0035;  // of the largest body
-constexpr double kUtmost = 0.01;         // of the springs: may be stretched beyond the ends of the colours
+constexpr double kUtmost = 0.01;         // fraction of the springs that may exceed the range of colours
 
-/// Pushed blue, drawn red, at rest dark, unless it is said otherwise.
+/// By default blue in compression, red in tension, dark at rest.
 ColorMap spring_colors(const SceneRender& render) { return render.color_map.value_or(ColorMap::kEmber); }
-
-Skin at_rest(Skin skin, const SkinShape& shape) {
-  skin.positions = shape.positions.cast<double>();
-  skin.normals = shape.normals.cast<double>();
-  return skin;
-}
 
 int id_of(std::size_t actor) { return int(actor) + 1; }
 
 Points rows_of(const Points& nodes, const std::vector<int>& rows) { return nodes(rows, Eigen::all); }
 
 }  // namespace
+
+Eigen::Vector3f srgb(const Color& color) { return Eigen::Vector3f(color.red, color.green, color.blue) / 255.0F; }
+
+SkinShape shape_of(const SoftBody& body, const Points& nodes, SkinInterpolation interpolation) {
+  if (interpolation == SkinInterpolation::kSmooth) {
+    const SmoothEmbedding smooth(body.grid, nodes);
+    return {.positions = smooth.points(body.skin_embedding).cast<float>(),
+            .normals = smooth.normals(body.skin_embedding, body.skin.normals).cast<float>()};
+  }
+  return {.positions = body.skin_positions(nodes).cast<float>(),
+          .normals = deform_normals(body.grid, body.skin_embedding, body.skin.normals, nodes).cast<float>()};
+}
+
+SkinShape shape_of(const StageObstacle& obstacle, double time) {
+  const Points normals = obstacle.skin.normals * pose_at(obstacle, time).rotation.transpose();
+  return {.positions = skin_positions(obstacle, time).cast<float>(), .normals = normals.cast<float>()};
+}
+
+Points skin_positions(const StageObstacle& obstacle, double time) {
+  const Pose pose = pose_at(obstacle, time);
+  return (obstacle.skin.positions * pose.rotation.transpose()).rowwise() + pose.translation.transpose();
+}
 
 FilmStage::FilmStage(const Film& scene, const Simulation& simulation, const Recording& recording)
     : scene_(scene), simulation_(simulation), recording_(recording), colors_(scene, simulation, recording) {
@@ -61,12 +78,12 @@ FilmStage::FilmStage(const Film& scene, const Simulation& simulation, const Reco
 
 Stage FilmStage::stage(const AlignedBox& bounds) const {
   Stage stage;
-  for (const StageItem& player : items_) {
-    stage.skins.push_back(player.skin.get());
-    stage.default_colors.push_back(player.color);
-    stage.looks.push_back(player.look);
-    stage.ghosts.push_back(player.is_ghost);
-    stage.ids.push_back(player.id);
+  for (const StageItem& item : items_) {
+    stage.skins.push_back(item.skin.get());
+    stage.default_colors.push_back(item.color);
+    stage.looks.push_back(item.look);
+    stage.ghosts.push_back(item.is_ghost);
+    stage.ids.push_back(item.id);
   }
   stage.color_map = scene_.render.springs ? spring_colors(scene_.render) : colors_.map();
   const std::optional<double> ground = ground_height(simulation_.world.obstacles);
@@ -93,7 +110,7 @@ FilmStage::Moment FilmStage::moment(std::size_t frame, double part) const {
 std::vector<SkinShape> FilmStage::shapes(std::size_t frame, double part) const {
   const Moment now = moment(frame, part);
   std::vector<SkinShape> shapes;
-  for (const StageItem& player : items_) shapes.push_back(player.shape(now));
+  for (const StageItem& item : items_) shapes.push_back(item.shape(now));
   return shapes;
 }
 
@@ -115,8 +132,9 @@ std::optional<Legend> FilmStage::legend() const {
   return std::nullopt;
 }
 
-Eigen::VectorXd FilmStage::shares(const Moment& moment, std::size_t actor) const {
-  return colors_.is_mapped() && !scene_.render.springs ? colors_.shares(moment.frame, actor) : Eigen::VectorXd();
+Eigen::VectorXd FilmStage::map_coordinates(const Moment& moment, std::size_t actor) const {
+  return colors_.is_mapped() && !scene_.render.springs ? colors_.map_coordinates(moment.frame, actor)
+                                                       : Eigen::VectorXd();
 }
 
 void FilmStage::add_skin(std::size_t row) {
@@ -127,9 +145,9 @@ void FilmStage::add_skin(std::size_t row) {
        colors_.is_mapped() ? Look::kChart : look_of(scene_body, *scene_.library), false, id_of(row),
        [this, row, &body, interpolation = scene_body.skin](const Moment& now) {
          SkinShape shape = shape_of(body, now.nodes[row], interpolation);
-         const Eigen::VectorXd of_nodes = shares(now, row);
+         const Eigen::VectorXd of_nodes = map_coordinates(now, row);
          if (of_nodes.size() > 0) {
-           shape.shares =
+           shape.map_coordinates =
                interpolate(body.grid, body.skin_embedding, of_nodes).cwiseMax(0.0).cwiseMin(1.0).cast<float>();
          }
          return shape;
@@ -142,12 +160,13 @@ void FilmStage::add_bricks(std::size_t actor) {
   const Eigen::Vector3f color = colors_.is_mapped() && !scene_.render.springs
                                     ? Eigen::Vector3f::Ones().eval()
                                     : srgb(simulation_.world.bodies[actor].color);
-  const auto cubes =
-      std::make_shared<const BrickCubes>(body.grid, bricks_left(body.grid, scene_.render.cut), exploded, color);
-  const auto skin = std::make_shared<const Skin>(at_rest(cubes->skin(), cubes->shape(body.rest_positions, {})));
-  items_.push_back(
-      {skin, color, colors_.is_mapped() ? Look::kChart : Look::kRubber, false, id_of(actor),
-       [this, actor, cubes](const Moment& now) { return cubes->shape(now.nodes[actor], shares(now, actor)); }});
+  const auto cubes = std::make_shared<const BrickCubes>(body.grid, bricks_left(body.grid, scene_.render.cut), exploded,
+                                                        std::vector(body.grid.cells.size(), color));
+  const auto skin = std::make_shared<const Skin>(with_shape(cubes->skin(), cubes->shape(body.rest_positions)));
+  items_.push_back({skin, color, colors_.is_mapped() ? Look::kChart : Look::kRubber, false, id_of(actor),
+                    [this, actor, cubes](const Moment& now) {
+                      return cubes->shape(now.nodes[actor], map_coordinates(now, actor));
+                    }});
 }
 
 void FilmStage::add_springs(std::size_t actor) {
@@ -163,12 +182,12 @@ void FilmStage::add_springs(std::size_t actor) {
     }
     return rods->shape(from, to, (springs->stretches(nodes).array() / ends + 0.5).max(0.0).min(1.0));
   };
-  const auto skin = std::make_shared<const Skin>(at_rest(rods->skin(), shape(body.rest_positions)));
+  const auto skin = std::make_shared<const Skin>(with_shape(rods->skin(), shape(body.rest_positions)));
   items_.push_back({skin, Eigen::Vector3f::Ones(), Look::kChart, false, id_of(actor),
                     [actor, shape](const Moment& now) { return shape(now.nodes[actor]); }});
 }
 
-/// Over all frames, so that the colours mean the same in each.
+/// Over all frames, so that colours mean the same in each.
 double FilmStage::furthest_stretch() const {
   double furthest = 1e-6;
   for (std::size_t actor = 0; actor < simulation_.world.bodies.size(); ++actor) {
@@ -187,7 +206,7 @@ double FilmStage::furthest_stretch() const {
 void FilmStage::add_balls(std::size_t actor, std::vector<int> nodes, double radius, const Eigen::Vector3f& color) {
   const auto balls = std::make_shared<const Balls>(nodes.size(), radius);
   const Points& rest = simulation_.world.bodies[actor].rest_positions;
-  const auto skin = std::make_shared<const Skin>(at_rest(balls->skin(), balls->shape(rows_of(rest, nodes))));
+  const auto skin = std::make_shared<const Skin>(with_shape(balls->skin(), balls->shape(rows_of(rest, nodes))));
   items_.push_back(
       {skin, color, Look::kPlastic, false, id_of(actor), [actor, balls, nodes = std::move(nodes)](const Moment& now) {
          return balls->shape(rows_of(now.nodes[actor], nodes));
@@ -232,11 +251,11 @@ void FilmStage::add_contacts() {
   const auto shape = [contacts, balls](const Moment& now) {
     return balls->shape(contacts->at(now.nodes, now.time), now.nodes.front().row(0).transpose());
   };
-  const auto skin = std::make_shared<const Skin>(at_rest(balls->skin(), shape(moment(0, 0))));
+  const auto skin = std::make_shared<const Skin>(with_shape(balls->skin(), shape(moment(0, 0))));
   items_.push_back({skin, kContactColor, Look::kPlastic, false, 0, shape});
 }
 
-/// As far as the probe has come.
+/// The path of the probe up to the current frame.
 void FilmStage::add_trace(const ProbeTrack& track, const Eigen::Vector3f& color) {
   if (track.samples.size() < 2) return;
   const auto rods = std::make_shared<const Rods>(track.samples.size() - 1, kTraceRadius * simulation_.size);
@@ -251,7 +270,7 @@ void FilmStage::add_trace(const ProbeTrack& track, const Eigen::Vector3f& color)
     }
     return rods->shape(from, to, {});
   };
-  const auto skin = std::make_shared<const Skin>(at_rest(rods->skin(), shape(track.samples.size() - 1)));
+  const auto skin = std::make_shared<const Skin>(with_shape(rods->skin(), shape(track.samples.size() - 1)));
   items_.push_back({skin, color, Look::kPlastic, false, 0, [shape](const Moment& now) { return shape(now.frame); }});
 }
 

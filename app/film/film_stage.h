@@ -9,46 +9,59 @@
 
 namespace sprung {
 
-/// What the ends of colours stand for, SI.
+/// As the renderer takes colours: sRGB, 0 to 1.
+[[nodiscard]] Eigen::Vector3f srgb(const Color& color);
+
+/// The skin of a body for these positions of its nodes, m.
+[[nodiscard]] SkinShape shape_of(const SoftBody& body, const Points& nodes,
+                                 SkinInterpolation interpolation = SkinInterpolation::kBricks);
+
+/// An obstacle at that time of the film (s).
+[[nodiscard]] SkinShape shape_of(const StageObstacle& obstacle, double time);
+
+/// Vertices of an obstacle's skin at that time (s), m.
+[[nodiscard]] Points skin_positions(const StageObstacle& obstacle, double time);
+
+/// The values of the first and the last colour, SI.
 struct ColorRange {
   double low;
   double high;
 };
 
-/// Everything that a film shows: skins or what stands for them, obstacles, and what is laid over them; in any frame, or
-/// between two.
+/// Everything that a film shows, in any frame or between two: skins, or bricks or springs in their place, obstacles,
+/// and overlays.
 class FilmStage {
  public:
-  /// All three outlive it.
+  /// All must outlive it.
   FilmStage(const Film& scene, const Simulation& simulation, const Recording& recording);
 
-  /// `bounds` of the whole motion, m.
+  /// `bounds`: of the whole motion, m.
   [[nodiscard]] Stage stage(const AlignedBox& bounds) const;
-  /// One shape for each of the stage's skins. `part` of the way to the next frame, 0 to 1.
+  /// One shape for each of the stage's skins, interpolated by `part` (0 to 1) towards the next frame.
   [[nodiscard]] std::vector<SkinShape> shapes(std::size_t frame, double part = 0) const;
-  /// Of colours that stand for something.
+  /// None where colours show no field.
   [[nodiscard]] std::optional<ColorRange> color_range() const;
   [[nodiscard]] std::optional<Legend> legend() const;
 
  private:
-  /// How the nodes of every actor stand.
+  /// The state of all bodies at one time.
   struct Moment {
     std::size_t frame;
     double time;                // s
-    std::vector<Points> nodes;  // by actor
+    std::vector<Points> nodes;  // by body
   };
-  /// A skin of the stage and what becomes of it.
+  /// A skin of the stage and its shape over time.
   struct StageItem {
     std::shared_ptr<const Skin> skin;
     Eigen::Vector3f color;  // sRGB
     Look look;
     bool is_ghost;
-    int id;  // in passes: bodies from 1, then obstacles; 0: neither
+    int id;  // Stage::ids: bodies from 1, then obstacles; 0: overlays
     std::function<SkinShape(const Moment&)> shape;
   };
 
   [[nodiscard]] Moment moment(std::size_t frame, double part) const;
-  [[nodiscard]] Eigen::VectorXd shares(const Moment& moment, std::size_t actor) const;
+  [[nodiscard]] Eigen::VectorXd map_coordinates(const Moment& moment, std::size_t actor) const;
   void add_skin(std::size_t actor);
   void add_bricks(std::size_t actor);
   void add_springs(std::size_t actor);
@@ -65,7 +78,7 @@ class FilmStage {
   const Simulation& simulation_;
   const Recording& recording_;
   FieldColors colors_;
-  double stretch_ = 0;  // of springs, to both sides: the ends of their colours
+  double stretch_ = 0;  // of springs at the ends of their colours, symmetric
   std::vector<StageItem> items_;
 };
 

@@ -51,7 +51,7 @@ namespace {
 constexpr std::array<Ink, 4> kInks{{{26, 92, 168}, {196, 84, 20}, {32, 128, 72}, {132, 60, 150}}};
 
 struct Unit {
-  double from;  // m, the smallest range that it is good for
+  double from;  // m, smallest range shown in this unit
   double size;  // m
   const char* name;
 };

@@ -10,16 +10,16 @@
 
 namespace sprung {
 
-/// What is written into the pictures of a film: legend, caption, number of the frame, bar of a round length.
+/// The labels of a film's pictures: legend, caption, frame number, scale bar, names, plots.
 class Labels {
  public:
-  /// With `names`, pictures get names.
+  /// `names`: write_name() will be called.
   Labels(const SceneRender& render, std::optional<Legend> legend, bool names);
 
-  /// Pixels that are kept free for the legend at the right of a picture of that size.
+  /// Pixels reserved for the legend at the right edge of a picture of that size.
   [[nodiscard]] int reserved(int width, int height) const;
   void write_name(Image& image, const std::string& name) const;
-  /// `frame` from 0 of that many, at `time` (s).
+  /// `frame` counts from 0; `time` in s.
   void write_frame(Image& image, const Camera& camera, std::size_t frame, std::size_t frames, double time) const;
   void write_legend(Image& image) const;
   void write_plot(Image& image, const Plot& plot) const;
@@ -27,13 +27,13 @@ class Labels {
  private:
   SceneRender render_;
   std::optional<Legend> legend_;
-  std::optional<Font> font_;  // where anything is written
+  std::optional<Font> font_;  // none where nothing is written
 };
 
-/// sRGB, of a probe's trace and curve, by its place among the probes.
+/// sRGB of a probe's trace and curve, by its index.
 [[nodiscard]] Eigen::Vector3f probe_color(std::size_t probe);
 
-/// How far each probe is from where it was in the first frame, in a unit in which the numbers are short.
+/// Distance of each probe from its position in the first frame, in a unit with short numbers.
 [[nodiscard]] Plot plot_of(const Recording& recording, std::size_t now);
 
 }  // namespace sprung

@@ -8,7 +8,6 @@
 #include <set>
 #include <utility>
 
-#include "app/film/drawn_shapes.h"
 #include "core/bricks/brick_topology.h"
 #include "render/camera.h"
 
@@ -22,7 +21,7 @@ constexpr int kRodTriangles = 2 * kSides;
 constexpr std::array<std::array<int, 3>, 8> kOctahedron{
     {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}}};
 
-/// An octahedron with each face cut in four, pushed out onto the unit ball.
+/// A unit sphere: an octahedron, subdivided once.
 struct RoundShape {
   std::vector<Vec3> places;
   std::vector<std::array<int, 3>> triangles;
@@ -76,11 +75,11 @@ Rods::Rods(std::size_t count, double radius) : radius_(radius) {
   }
 }
 
-SkinShape Rods::shape(const Points& from, const Points& to, const Eigen::VectorXd& shares) const {
+SkinShape Rods::shape(const Points& from, const Points& to, const Eigen::VectorXd& coordinates) const {
   SkinShape shape;
   shape.positions.resize(kRodVertices * from.rows(), 3);
   shape.normals.resize(kRodVertices * from.rows(), 3);
-  if (shares.size() > 0) shape.shares.resize(kRodVertices * from.rows());
+  if (coordinates.size() > 0) shape.map_coordinates.resize(kRodVertices * from.rows());
   for (Eigen::Index rod = 0; rod < from.rows(); ++rod) {
     const Vec3 way = to.row(rod) - from.row(rod);
     const Vec3 across = way.unitOrthogonal();
@@ -92,7 +91,7 @@ SkinShape Rods::shape(const Points& from, const Points& to, const Eigen::VectorX
       const Vec3 end = vertex < kSides ? from.row(rod) : to.row(rod);
       shape.positions.row(row) = (end + radius_ * normal).cast<float>().transpose();
       shape.normals.row(row) = normal.cast<float>().transpose();
-      if (shares.size() > 0) shape.shares[row] = float(shares[rod]);
+      if (coordinates.size() > 0) shape.map_coordinates[row] = float(coordinates[rod]);
     }
   }
   return shape;
@@ -112,7 +111,7 @@ Balls::Balls(std::size_t count, double radius) : radius_(radius) {
   }
 }
 
-SkinShape Balls::shape(const Points& middles, const Vec3& idle) const {
+SkinShape Balls::shape(const Points& centers, const Vec3& idle) const {
   const std::vector<Vec3>& places = round_shape().places;
   const Eigen::Index vertices = places.size();
   const Eigen::Index count = skin_.positions.rows() / vertices;
@@ -120,8 +119,8 @@ SkinShape Balls::shape(const Points& middles, const Vec3& idle) const {
   shape.positions.resize(skin_.positions.rows(), 3);
   shape.normals.resize(skin_.positions.rows(), 3);
   for (Eigen::Index ball = 0; ball < count; ++ball) {
-    const bool is_shown = ball < middles.rows();
-    const Vec3 middle = is_shown ? Vec3(middles.row(ball).transpose()) : idle;
+    const bool is_shown = ball < centers.rows();
+    const Vec3 middle = is_shown ? Vec3(centers.row(ball).transpose()) : idle;
     for (Eigen::Index vertex = 0; vertex < vertices; ++vertex) {
       const Vec3& normal = places[vertex];
       const Eigen::Index row = vertices * ball + vertex;
@@ -168,7 +167,7 @@ SpringSet springs_of(const Body& body, const std::vector<bool>& shown) {
 
 namespace {
 
-constexpr double kNear = 0.08;  // of a brick: what is no further apart touches
+constexpr double kNear = 0.08;  // of a brick: largest distance that counts as contact
 constexpr double kCell = 0.5;   // of a brick
 
 bool is_within(const AlignedBox& bounds, const Vec3& place, double margin) {
@@ -179,8 +178,8 @@ bool are_near(const AlignedBox& a, const AlignedBox& b, double margin) {
   return ((a.min() - b.max()).array() < margin).all() && ((b.min() - a.max()).array() < margin).all();
 }
 
-/// Places, one at most in each cell.
-class Thinned {
+/// Points, at most one per cell.
+class ThinnedPoints {
  public:
   void set_cell(double cell) { cell_ = cell; }
   void add(const Vec3& place) {
@@ -216,7 +215,7 @@ Points Contacts::at(const std::vector<Points>& nodes, double time) const {
     skins.push_back(simulation_.world.bodies[actor].skin_positions(nodes[actor]));
     bounds.push_back(bounding_box(skins.back()));
   }
-  Thinned found;
+  ThinnedPoints found;
   for (std::size_t actor = 0; actor < nodes.size(); ++actor) {
     const double brick = simulation_.world.bodies[actor].grid.brick_size;
     const double near = kNear * brick;
@@ -244,29 +243,6 @@ Points Contacts::at(const std::vector<Points>& nodes, double time) const {
   return found.points();
 }
 
-namespace {
-
-constexpr double kRim = 0.055;      // of a face, at each side
-constexpr float kRimShade = 0.55F;  // of a face's colour
-constexpr double kGap = 0.16;       // of a brick, at each side, between exploded ones
-constexpr int kCells = 3;           // of a face along each side: rim, face, rim
-constexpr int kFaceVertices = 4 * kCells * kCells;
-
-template <class Values>
-auto mixed(const Values& corners, double u, double v) {
-  return (1 - u) * (1 - v) * corners[0] + u * (1 - v) * corners[1] + u * v * corners[2] + (1 - u) * v * corners[3];
-}
-
-/// Where the vertex of a cell is in a face; `corner` counter-clockwise.
-std::pair<double, double> place_in_face(int cell, int corner, double rim) {
-  const std::array<double, kCells + 1> borders{0, rim, 1 - rim, 1};
-  const std::size_t u = cell % kCells + (corner == 1 || corner == 2 ? 1 : 0);
-  const std::size_t v = cell / kCells + (corner >= 2 ? 1 : 0);
-  return {borders[u], borders[v]};
-}
-
-}  // namespace
-
 std::vector<bool> bricks_left(const BrickGrid& grid, const std::optional<HalfSpace>& cut) {
   std::vector<bool> left(grid.cells.size(), true);
   if (!cut) return left;
@@ -282,71 +258,6 @@ std::vector<bool> bricks_left(const BrickGrid& grid, const std::optional<HalfSpa
     left[brick] = (middle - point).dot(cut->normal) <= 0;
   }
   return left;
-}
-
-BrickCubes::BrickCubes(const BrickGrid& grid, const std::vector<bool>& shown, bool exploded,
-                       const Eigen::Vector3f& color)
-    : grid_(grid),
-      exploded_(exploded),
-      rim_(kRim),
-      faces_(exploded ? brick_faces(grid, shown) : outer_faces(grid, shown)) {
-  lay_out(color);
-}
-
-void BrickCubes::lay_out(const Eigen::Vector3f& color) {
-  const Eigen::Index count = faces_.size();
-  skin_.colors.resize(kFaceVertices * count, 4);
-  skin_.triangles.resize(2 * kCells * kCells * count, 3);
-  for (Eigen::Index face = 0; face < count; ++face) {
-    for (int cell = 0; cell < kCells * kCells; ++cell) {
-      const auto first = int(kFaceVertices * face) + 4 * cell;
-      const auto triangle = 2 * (kCells * kCells * face + cell);
-      skin_.triangles.row(triangle) << first, first + 1, first + 2;
-      skin_.triangles.row(triangle + 1) << first, first + 2, first + 3;
-      const bool is_rim = cell != kCells * kCells / 2;
-      for (int corner = 0; corner < 4; ++corner) {
-        skin_.colors.row(first + corner) << (is_rim ? kRimShade : 1.0F) * color.transpose(), 1.0F;
-      }
-    }
-  }
-  const SkinShape rest = shape(grid_.rest_positions(), Eigen::VectorXd());
-  skin_.positions = rest.positions.cast<double>();
-  skin_.normals = rest.normals.cast<double>();
-}
-
-std::array<Vec3, 4> BrickCubes::corners(const BrickFace& face, const Points& nodes) const {
-  std::array<Vec3, 4> places;
-  for (std::size_t c = 0; c < 4; ++c) places[c] = nodes.row(face.nodes[c]);
-  if (!exploded_) return places;
-  Vec3 middle = Vec3::Zero();
-  for (const int node : grid_.nodes[face.brick]) middle += nodes.row(node).transpose() / 8;
-  for (Vec3& place : places) place += 2 * kGap * (middle - place);
-  return places;
-}
-
-SkinShape BrickCubes::shape(const Points& nodes, const Eigen::VectorXd& shares) const {
-  const Eigen::Index count = faces_.size();
-  SkinShape shape;
-  shape.positions.resize(kFaceVertices * count, 3);
-  shape.normals.resize(kFaceVertices * count, 3);
-  if (shares.size() > 0) shape.shares.resize(kFaceVertices * count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const BrickFace& face = faces_[i];
-    const std::array<Vec3, 4> places = corners(face, nodes);
-    const Vec3 normal = (places[2] - places[0]).cross(places[3] - places[1]);
-    for (int vertex = 0; vertex < kFaceVertices; ++vertex) {
-      const auto [u, v] = place_in_face(vertex / 4, vertex % 4, rim_);
-      const Eigen::Index row = kFaceVertices * i + vertex;
-      shape.positions.row(row) = mixed(places, u, v).cast<float>().transpose();
-      shape.normals.row(row) = normal.cast<float>().transpose();
-      if (shares.size() == 0) continue;
-      std::array<double, 4> of_corners{};
-      for (std::size_t c = 0; c < 4; ++c) of_corners[c] = shares[face.nodes[c]];
-      const bool is_rim = vertex / 4 != kCells * kCells / 2;
-      shape.shares[row] = float(std::clamp(mixed(of_corners, u, v), 0.0, 1.0) + (is_rim ? 2 : 0));
-    }
-  }
-  return shape;
 }
 
 }  // namespace sprung

@@ -12,53 +12,54 @@
 
 namespace sprung {
 
-/// Straight rods between points, three-sided and seen from outside; and balls. For springs, nodes and ways,
-/// which are thinner than what their light would show.
+/// Three-sided prisms between pairs of points, for springs and traces, which are too thin for their shading to show.
 class Rods {
  public:
-  /// `radius` in metres.
+  /// `radius` in m.
   Rods(std::size_t count, double radius);
   [[nodiscard]] const Skin& skin() const { return skin_; }
-  /// Rod i goes from from[i] to to[i]; `shares` one a rod on the colour map, or none.
-  [[nodiscard]] SkinShape shape(const Points& from, const Points& to, const Eigen::VectorXd& shares) const;
+  /// Rod i goes from from[i] to to[i]; `coordinates` on the colour map, one per rod, or none.
+  [[nodiscard]] SkinShape shape(const Points& from, const Points& to, const Eigen::VectorXd& coordinates) const;
 
  private:
   double radius_;
   Skin skin_;
 };
 
+/// Balls of one radius, for nodes, pins and contacts.
 class Balls {
  public:
   Balls(std::size_t count, double radius);
   [[nodiscard]] const Skin& skin() const { return skin_; }
-  /// Those that have no middle (at most as many x 3, m) shrink to a point, `idle`.
-  [[nodiscard]] SkinShape shape(const Points& middles, const Vec3& idle = Vec3::Zero()) const;
+  /// `centers` (at most `count` x 3, m); balls beyond them shrink to the point `idle`.
+  [[nodiscard]] SkinShape shape(const Points& centers, const Vec3& idle = Vec3::Zero()) const;
 
  private:
   double radius_;
   Skin skin_;
 };
 
-/// The springs of a body, each once: pairs of nodes and lengths at rest.
+/// The springs of a body without duplicates: pairs of nodes and rest lengths.
 struct SpringSet {
   std::vector<std::array<int, 2>> nodes;
   Eigen::VectorXd rest;  // m
 
-  /// Length over length at rest, less 1, for these positions of the nodes (m x 3, m).
+  /// Length over rest length, minus 1, for these positions of the nodes (m x 3, m).
   [[nodiscard]] Eigen::VectorXd stretches(const Points& positions) const;
 };
 
-/// Edges, and the diagonals that the body's law has, of the bricks that are `shown` (one a brick).
+/// Edges, and the diagonals that the body's law has, of the bricks that are `shown` (one flag per brick).
 [[nodiscard]] SpringSet springs_of(const Body& body, const std::vector<bool>& shown);
 
-/// Finds where bodies touch the ground, obstacles and each other, by their skins alone: from a cache as well.
+/// Finds contacts of bodies with the ground, obstacles and each other from their skins alone, so that it works for
+/// caches too.
 class Contacts {
  public:
-  /// Outlived by the simulation.
+  /// The simulation must outlive it.
   explicit Contacts(const Simulation& simulation);
 
-  /// Places (n x 3, m) where a skin's vertex is nearer to another skin or to the ground than a small part of a brick,
-  /// one at most in each cell of half a brick. `nodes` by actor; `time` (s) says where the obstacles are.
+  /// Vertices of skins (n x 3, m) within a small fraction of a brick of another skin, an obstacle or the ground, at
+  /// most one per cell of half a brick. `nodes` by body, m; `time` (s) places the obstacles.
   [[nodiscard]] Points at(const std::vector<Points>& nodes, double time) const;
 
  private:
@@ -72,28 +73,7 @@ class Contacts {
   std::vector<Solid> solids_;
 };
 
-/// Which bricks of a grid a cut leaves, seen at rest: their middles are not on the side to which its normal points.
+/// Flags of the bricks that a cut leaves: those whose centres at rest are not on the side that its normal points to.
 [[nodiscard]] std::vector<bool> bricks_left(const BrickGrid& grid, const std::optional<HalfSpace>& cut);
-
-/// The bricks of a body as cubes that bend with it: the outer faces of those that are shown, edges a little darker; or
-/// each cube by itself, smaller than it is, so that gaps open between them.
-class BrickCubes {
- public:
-  BrickCubes(const BrickGrid& grid, const std::vector<bool>& shown, bool exploded, const Eigen::Vector3f& color);
-
-  [[nodiscard]] const Skin& skin() const { return skin_; }
-  /// For these positions of the nodes (m x 3, m); `shares` of the nodes on the colour map, or none.
-  [[nodiscard]] SkinShape shape(const Points& nodes, const Eigen::VectorXd& shares) const;
-
- private:
-  void lay_out(const Eigen::Vector3f& color);
-  [[nodiscard]] std::array<Vec3, 4> corners(const BrickFace& face, const Points& nodes) const;
-
-  const BrickGrid& grid_;
-  bool exploded_;
-  double rim_;  // of a face
-  std::vector<BrickFace> faces_;
-  Skin skin_;
-};
 
 }  // namespace sprung

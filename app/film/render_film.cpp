@@ -19,7 +19,7 @@
 namespace sprung {
 namespace {
 
-/// What the ground could not hold: how deep any vertex was below it, in any frame.
+/// The deepest penetration of the ground by any vertex in any frame.
 std::string ground_report(const Simulation& simulation, double lowest) {
   const std::optional<double> ground = ground_height(simulation.world.obstacles);
   if (!ground) return "";
@@ -28,7 +28,7 @@ std::string ground_report(const Simulation& simulation, double lowest) {
                      100 * depth / simulation.size);
 }
 
-/// Frames to draw, in order: all of the range, or as many as a sheet has places for.
+/// Frames to draw, in order: the whole range, or as many as a sheet holds, evenly spaced.
 std::vector<std::size_t> chosen_frames(const FrameRange& range, const SceneRender& render) {
   const std::size_t first = range.first - 1;
   const std::size_t count = range.count();
@@ -48,7 +48,7 @@ bool has(const std::vector<Output>& outputs, Output::Kind kind) {
 void check_outputs(const SceneRender& render, std::size_t runs, const std::vector<Output>& outputs) {
   const auto refuse = [](const char* reason) { throw Error(ErrorKind::kUsage, reason); };
   if (has(outputs, Output::Kind::kFilm)) {
-    if (render.sheet) refuse("render.sheet: one picture is no film; give a folder");
+    if (render.sheet) refuse("render.sheet: a sheet is a single picture; give a folder instead of a film");
     if (render.transparent) refuse("render.transparent: films have no alpha; give a folder for pictures");
   }
   if (has(outputs, Output::Kind::kPasses)) {
@@ -58,10 +58,10 @@ void check_outputs(const SceneRender& render, std::size_t runs, const std::vecto
   if (render.sheet && runs > 1) refuse("--side-by-side: a sheet shows one run");
 }
 
-constexpr std::size_t kLeastFrames = 24;    // that a process is worth beginning for
-constexpr std::size_t kMostProcesses = 16;  // that are begun unasked: each takes memory for its own pictures
+constexpr std::size_t kLeastFrames = 24;    // that justify a process
+constexpr std::size_t kMostProcesses = 16;  // by default: each needs memory for its own pictures
 
-/// What is drawn, and for what.
+/// What to draw, and where it goes.
 struct Task {
   const FrameRange& range;
   const std::vector<std::size_t> frames;
@@ -75,30 +75,30 @@ struct Task {
                  [wanted](const Output& output) { return (output.kind == Output::Kind::kFilm) == wanted; });
     return some;
   }
-  [[nodiscard]] Drawing draw(FilmPipeline& crew, std::size_t frame, const FilmPipeline::Moments& moments) const {
+  [[nodiscard]] Drawing draw(FilmPipeline& pipeline, std::size_t frame, const FilmPipeline::Moments& moments) const {
     Drawing drawing;
     if (has(outputs, Output::Kind::kPictures) || has(outputs, Output::Kind::kFilm))
-      drawing.image = crew.draw(frame, moments);
-    if (has(outputs, Output::Kind::kPasses)) drawing.passes = crew.passes(frame, moments);
+      drawing.image = pipeline.draw(frame, moments);
+    if (has(outputs, Output::Kind::kPasses)) drawing.passes = pipeline.passes(frame, moments);
     return drawing;
   }
 };
 
-void draw_here(const Task& task, FilmPipeline& crew, const Console& console, Progress& progress) {
-  console.detail(fmt::format("drawn by {}", crew.driver()));
+void draw_here(const Task& task, FilmPipeline& pipeline, const Console& console, Progress& progress) {
+  console.detail(fmt::format("drawn by {}", pipeline.driver()));
   const auto [width, height] = task.render.resolution;
   PictureWriter writer(task.outputs, width, height, task.fps, task.range.first);
-  // The skins of the next frame are made ready while this one is drawn and the ones before are encoded.
-  const auto make_ready = [&](std::size_t i) {
-    return std::async(std::launch::async, [&, frame = task.frames[i]] { return crew.moments(frame); });
+  // The skins of the next frame are deformed while this one is drawn and earlier ones are encoded.
+  const auto deform_ahead = [&](std::size_t i) {
+    return std::async(std::launch::async, [&, frame = task.frames[i]] { return pipeline.moments(frame); });
   };
-  auto next = make_ready(0);
+  auto next = deform_ahead(0);
   std::vector<Image> sheet;
   for (std::size_t i = 0; i < task.frames.size(); ++i) {
     stop_if_interrupted();
     const FilmPipeline::Moments moments = next.get();
-    if (i + 1 < task.frames.size()) next = make_ready(i + 1);
-    Drawing drawing = task.draw(crew, task.frames[i], moments);
+    if (i + 1 < task.frames.size()) next = deform_ahead(i + 1);
+    Drawing drawing = task.draw(pipeline, task.frames[i], moments);
     if (task.render.sheet) {
       sheet.push_back(std::move(drawing.image));
     } else {
@@ -106,32 +106,32 @@ void draw_here(const Task& task, FilmPipeline& crew, const Console& console, Pro
     }
     progress.update(double(i + 1));
   }
-  if (task.render.sheet) writer.write({.image = crew.sheet(sheet)});
+  if (task.render.sheet) writer.write({.image = pipeline.sheet(sheet)});
   writer.close();
 }
 
-/// Every `step`th frame from `first` on: pictures are written here, films are the asker's.
-void draw_some(const Task& task, FilmPipeline& crew, std::size_t first, std::size_t step,
-               const DrawingProcesses::Send& send) {
+/// Every `step`th frame from `first` on: writes pictures here, sends those of films to the parent.
+void draw_share(const Task& task, FilmPipeline& pipeline, std::size_t first, std::size_t step,
+                const DrawingProcesses::Send& send) {
   const auto [width, height] = task.render.resolution;
   PictureWriter writer(task.films(false), width, height, task.fps, task.range.first + int(first), int(step));
   for (std::size_t i = first; i < task.frames.size(); i += step) {
     stop_if_interrupted();
-    Drawing drawing = task.draw(crew, task.frames[i], crew.moments(task.frames[i]));
+    Drawing drawing = task.draw(pipeline, task.frames[i], pipeline.moments(task.frames[i]));
     send(has(task.outputs, Output::Kind::kFilm) ? drawing.image : Image());
     writer.write(std::move(drawing));
   }
   writer.close();
 }
 
-void draw_by_processes(const Task& task, FilmPipeline& crew, std::size_t count, const Console& console,
+void draw_by_processes(const Task& task, FilmPipeline& pipeline, std::size_t count, const Console& console,
                        Progress& progress) {
   console.detail(fmt::format("drawn by {} processes", count));
   const std::size_t threads = std::max(1U, std::thread::hardware_concurrency()) / count;
-  // Of each process's rasteriser; 0: none but the one that draws. Whoever set it knows better.
+  // Rasteriser threads per process; 0: the drawing thread alone. Does not override the user's setting.
   setenv("LP_NUM_THREADS", std::to_string(threads > 1 ? threads : 0).c_str(), 0);
   DrawingProcesses processes(count, [&](std::size_t process, const DrawingProcesses::Send& send) {
-    draw_some(task, crew, process, count, send);
+    draw_share(task, pipeline, process, count, send);
   });
   const auto [width, height] = task.render.resolution;
   PictureWriter writer(task.films(true), width, height, task.fps);
@@ -145,7 +145,7 @@ void draw_by_processes(const Task& task, FilmPipeline& crew, std::size_t count, 
   writer.close();
 }
 
-/// How many processes draw.
+/// Number of drawing processes.
 std::size_t processes_for(const Task& task, int jobs) {
   const std::size_t frames = task.frames.size();
   if (task.render.sheet) return 1;
@@ -162,16 +162,16 @@ void render_film(const std::vector<FilmRun>& runs, const std::optional<Environme
   check_outputs(scene.render, runs.size(), outputs);
   const Task task{range, chosen_frames(range, scene.render), outputs, scene.render, scene.fps};
   Progress progress(console, "render", double(task.frames.size()), 1, "frames/s");
-  FilmPipeline crew(runs, surroundings);
+  FilmPipeline pipeline(runs, surroundings);
   const std::size_t processes = processes_for(task, jobs);
   if (processes > 1 && end_worker_threads()) {
-    draw_by_processes(task, crew, processes, console, progress);
+    draw_by_processes(task, pipeline, processes, console, progress);
   } else {
-    draw_here(task, crew, console, progress);
+    draw_here(task, pipeline, console, progress);
   }
   const auto [width, height] = scene.render.resolution;
   progress.finish(fmt::format("{} of {} x {} pixels{}", count_of(task.frames.size(), "picture"), width, height,
-                              ground_report(runs.front().simulation, crew.lowest())));
+                              ground_report(runs.front().simulation, pipeline.lowest())));
 }
 
 }  // namespace sprung

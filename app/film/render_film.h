@@ -8,9 +8,9 @@
 namespace sprung {
 
 /// Draws these frames of a run, or of several side by side, and writes them to the outputs. A picture depends on its
-/// frame and on the whole recording, which the camera has in view, but not on which others are drawn. `jobs`: by so
-/// many processes, and if there are none but this one, by this; 0: by one a core, where there are frames enough. Throws
-/// Error(kUsage) where an output cannot hold what the scene asks for, Error(kFailed), Interrupted.
+/// frame and on the whole recording, which the camera frames, but not on which others are drawn. `jobs`: number of
+/// processes; 1: this one alone; 0: one per core where there are enough frames. Throws Error(kUsage) where an output
+/// cannot hold what the scene asks for, Error(kFailed), Interrupted.
 void render_film(const std::vector<FilmRun>& runs, const std::optional<Environment>& surroundings,
                  const FrameRange& range, const std::vector<Output>& outputs, const Console& console, int jobs = 1);
 

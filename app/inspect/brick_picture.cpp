@@ -1,26 +1,24 @@
-#include "app/inspect/brick_picture.h"
-
 #include <algorithm>
 
-#include "app/film/drawn_shapes.h"
 #include "app/film/film_pipeline.h"
-#include "render/body_picture.h"
+#include "app/film/film_stage.h"
+#include "app/inspect/inspection.h"
+#include "render/brick_cubes.h"
 #include "render/renderer.h"
 
 namespace sprung {
 namespace {
 
-constexpr int kSide = 900;        // pixels of each half
-constexpr double kLine = 0.0011;  // half the width of the lines between bricks over the size of what is seen
+constexpr int kSide = 900;  // pixels of each half
 constexpr double kHalfFull = 0.5;
 
 const Eigen::Vector3f kSound(0.87F, 0.84F, 0.77F);
 const Eigen::Vector3f kPartlyFull(0.76F, 0.73F, 0.67F);
 const Eigen::Vector3f kThin(0.93F, 0.45F, 0.10F);
 const Eigen::Vector3f kDivided(0.16F, 0.44F, 0.78F);
-const Eigen::Vector3f kMended(0.60F, 0.20F, 0.55F);
+const Eigen::Vector3f kRepaired(0.60F, 0.20F, 0.55F);
 
-/// Points all over the triangles that close holes, n x 3.
+/// Points spread over the triangles that close holes, n x 3.
 Points cap_points(const Solid& solid) {
   constexpr int kAlong = 12;
   std::vector<Vec3> places;
@@ -48,7 +46,7 @@ std::vector<Eigen::Vector3f> brick_colors(const BrickGrid& grid, const Solid& so
   for (std::size_t i = 0; i + 1 < grid.cells.size(); ++i) {
     if (grid.cells[i] == grid.cells[i + 1]) colors[i] = colors[i + 1] = kDivided;
   }
-  for (const int brick : embed(grid, cap_points(solid)).brick) colors[brick] = kMended;
+  for (const int brick : embed(grid, cap_points(solid)).brick) colors[brick] = kRepaired;
   return colors;
 }
 
@@ -73,7 +71,6 @@ Image draw_bricks(const Preparation& prepared) {
   const Simulation& simulation = prepared.simulation;
   AlignedBox bounds;
   for (const SoftBody& actor : simulation.world.bodies) bounds.extend(bounding_box(actor.positions));
-  const double line = kLine * bounds.diagonal().norm();
   std::vector<Skin> skins;
   std::vector<Skin> bricks;
   std::vector<Eigen::Vector3f> colors;
@@ -87,9 +84,9 @@ Image draw_bricks(const Preparation& prepared) {
     skin.positions = body.skin_positions(body.positions);
     skin.normals = deform_normals(body.grid, body.skin_embedding, body.skin.normals, body.positions);
     colors.push_back(srgb(body.color));
-    const std::vector<Eigen::Vector3f> by_brick = brick_colors(body.grid, *solids[i], prepared.thin_parts[i]);
-    const auto color = [&](const BrickFace& face, int) { return by_brick[face.brick]; };
-    bricks.push_back(brick_skin(body, body.positions, color, line));
+    const std::vector<bool> all(body.grid.cells.size(), true);
+    const BrickCubes cubes(body.grid, all, false, brick_colors(body.grid, *solids[i], prepared.thin_parts[i]));
+    bricks.push_back(with_shape(cubes.skin(), cubes.shape(body.positions)));
   }
   const Camera camera = frame_bounds(bounds, 1, 30, 20);
   return sheet_of({draw(skins, colors, bounds, camera), draw(bricks, colors, bounds, camera)}, 2, 0);

@@ -13,11 +13,11 @@
 namespace sprung {
 namespace {
 
-constexpr double kBytesOfProgram = 130e6;      // libraries, and what the driver compiles
-constexpr double kBytesAPixel = 120;           // colour, depth, light and copies of them, a sample
+constexpr double kBytesOfProgram = 130e6;      // libraries and compiled shaders
+constexpr double kBytesAPixel = 120;           // per sample: colour, depth, light and copies
 constexpr double kBytesABrick = 900;           // grid, patches, state and tiles
-constexpr double kBytesABrickImplicit = 3200;  // the multigrid's matrices and vectors as well
-constexpr double kBytesASkinVertex = 400;      // at rest, embedding, contact and what the driver keeps
+constexpr double kBytesABrickImplicit = 3200;  // including the matrices and vectors of multigrid
+constexpr double kBytesASkinVertex = 400;      // rest shape, embedding, contact, buffers of the driver
 constexpr double kSecondsToMeasure = 0.3;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -36,7 +36,7 @@ double seconds_of_implicit_frame(World world, const StepPlan& plan) {
   return seconds_since(start) * double(plan.steps.count);
 }
 
-/// Of explicit steps, all bodies together: what every call takes, and what each of its steps takes beside.
+/// Of explicit time steps of all bodies: seconds per call, and per step.
 double seconds_of_explicit_frame(World world, const StepPlan& plan) {
   const Scheme scheme = plan.scheme == Solver::kVerlet ? Scheme::kVerlet : Scheme::kSymplecticEuler;
   double bricks = 0;
@@ -47,9 +47,9 @@ double seconds_of_explicit_frame(World world, const StepPlan& plan) {
     advance(world, scheme, dt, steps, 0);
     return seconds_since(start);
   };
-  static_cast<void>(seconds_of(1));  // the first one waits for threads and memory
+  static_cast<void>(seconds_of(1));  // the first call starts threads and allocates
   const double one = seconds_of(1);
-  const double whole = plan.brick_steps / bricks;  // steps of the frame
+  const double whole = plan.brick_steps / bricks;  // steps per frame
   double seconds = 0;
   double a_step = one;
   for (long steps = 2; seconds < kSecondsToMeasure && double(steps) <= std::max(whole, 2.0); steps *= 2) {
@@ -60,7 +60,7 @@ double seconds_of_explicit_frame(World world, const StepPlan& plan) {
   return one + a_step * std::max(whole - 1, 0.0);
 }
 
-/// All bodies together.
+/// Sum over all bodies.
 double seconds_a_frame(const World& world, const StepPlan& plan) {
   return plan.is_implicit() ? seconds_of_implicit_frame(world, plan) : seconds_of_explicit_frame(world, plan);
 }
@@ -82,7 +82,7 @@ double seconds_a_picture(const Simulation& simulation, const Film& scene) {
                             .samples = scene.render.samples.value_or(samples_of(scene.render.quality)),
                             .quality = scene.render.quality});
   const Camera camera = frame_bounds(stage.bounds, double(width) / height);
-  static_cast<void>(renderer.draw(shapes, camera));  // the first one waits for the driver's compiler
+  static_cast<void>(renderer.draw(shapes, camera));  // the first picture compiles shaders
   const auto start = std::chrono::steady_clock::now();
   static_cast<void>(renderer.draw(shapes, camera));
   return seconds_since(start);

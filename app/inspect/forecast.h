@@ -8,25 +8,25 @@
 
 namespace sprung {
 
-/// What making a film of a scene will take on this machine.
+/// The cost of a film of the scene on this machine.
 struct Forecast {
-  double memory = 0;                         // bytes at the most, of the whole program
-  std::optional<double> seconds_simulating;  // a frame; only a motion is forecast
-  double seconds_drawing = 0;                // a frame
+  double memory = 0;                         // peak of the whole program, bytes
+  std::optional<double> seconds_simulating;  // per frame; for motions only
+  double seconds_drawing = 0;                // per frame
   int frames = 0;
-  std::optional<StepPlan> plan;  // of a motion
+  std::optional<StepPlan> plan;  // for motions
 };
 
-/// Moves a copy of the world for a moment and draws one picture to find out. Throws Error where that fails.
+/// Measures it: advances a copy of the world briefly and draws one picture. Throws Error where that fails.
 [[nodiscard]] Forecast make_forecast(const Simulation& simulation, const Film& scene);
 
-/// Bytes, from the sizes of what is kept: no measurement.
+/// Bytes, estimated from the numbers of bricks, vertices and pixels.
 [[nodiscard]] double memory_forecast(const Simulation& simulation, const Film& scene);
 
-/// A sentence where this machine does not have so much memory; else empty.
+/// A warning where this machine has less memory than that, else empty.
 [[nodiscard]] std::string warning_of_memory(double bytes);
 
-/// Tells that sentence before a film is made.
+/// Prints that warning before a film is made.
 void warn_of_memory(const Simulation& simulation, const Film& film, const Console& console);
 
 }  // namespace sprung

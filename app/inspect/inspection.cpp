@@ -111,7 +111,7 @@ Inspection inspect(const Preparation& prepared, const Film& scene) {
 
 namespace {
 
-/// Cubes of the unit that a length reads best in: "1.2 cm3".
+/// In the unit with the shortest number: "1.2 cm3".
 std::string readable_volume(double volume) {
   if (volume >= 1) return fmt::format("{:.4g} m3", volume);
   if (volume >= 1e-6) return fmt::format("{:.4g} cm3", volume * 1e6);
@@ -234,7 +234,7 @@ Json json_of(const Forecast& forecast) {
           {"steps_per_frame", forecast.plan ? Json(forecast.plan->steps.count) : Json()}};
 }
 
-/// All bodies as one: sums, and the smallest of what does not add up.
+/// All bodies as one: sums, and the smallest of values that do not add up.
 BodyFacts together(const std::vector<BodyFacts>& bodies) {
   BodyFacts all = bodies.front();
   double held = all.bricks.volume / (1 + all.bricks.volume_error);

@@ -5,19 +5,20 @@
 #include "app/inspect/forecast.h"
 #include "core/mesh/repair/repair.h"
 #include "core/simulation/simulation.h"
+#include "render/image/image.h"
 
 namespace sprung {
 
-/// What a file holds, in its own units.
+/// A mesh, in units of its file.
 struct MeshFacts {
-  long vertices = 0;  // places that triangles use, each once
+  long vertices = 0;  // distinct positions that triangles use
   long triangles = 0;
   long parts = 0;  // named pieces
   long solids = 0;
-  bool is_closed = false;  // as it was read: every edge has two triangles or more
+  bool is_closed = false;  // as read: every edge has two or more triangles
   double volume = 0;       // of the solids
-  double thin = 0;         // what 1 % of the surface is thinner than, over the longest side
-  double median = 0;       // what half of it is thinner than, likewise
+  double thin = 0;         // thickness that 1 % of the surface is below, over the longest side
+  double median = 0;       // median thickness, likewise
   std::vector<Repair> repairs;
 };
 
@@ -25,8 +26,8 @@ struct MeshFacts {
 struct BrickFacts {
   long count = 0;
   long nodes = 0;
-  long solids = 0;   // pieces that hang together
-  long divided = 0;  // bricks that share their cell with another one
+  long solids = 0;   // connected components
+  long divided = 0;  // bricks that share their cell with another
   double size = 0;   // m
   double least_fill = 0;
   double volume = 0;        // m^3
@@ -53,10 +54,15 @@ struct Inspection {
 /// Everything but the warnings.
 [[nodiscard]] Inspection inspect(const Preparation& prepared, const Film& scene);
 
-/// For people: a few lines a body.
+/// For people: a few lines per body.
 [[nodiscard]] std::string inspection_text(const Inspection& inspection);
 
-/// One JSON object. `mesh` and `bricks` are sums over the bodies (sizes: the smallest), `bodies` has each.
+/// One JSON object. `mesh` and `bricks` are sums over the bodies (of sizes the smallest), `bodies` lists each.
 [[nodiscard]] std::string inspection_json(const Inspection& inspection);
+
+/// The bodies at the start, their skins on the left and their bricks on the right. Bricks of parts thinner than a brick
+/// are orange, those that share their cell with another component blue, those where a hole was closed purple, those
+/// that are less than half full slightly darker. Throws Error(kFailed) where no picture can be drawn.
+[[nodiscard]] Image draw_bricks(const Preparation& prepared);
 
 }  // namespace sprung

@@ -16,11 +16,11 @@ namespace py = pybind11;
 namespace sprung {
 namespace {
 
-/// Does the work with the body of a handle (as Python holds it) in its turn.
+/// Calls `work` with the body of a handle, locked.
 template <class Work>
 auto with_body(const py::object& self, const Work& work) {
   const auto& handle = self.cast<const BodyHandle&>();
-  return in_turn(*handle.world, [&] { return work(handle.world->body(handle.row)); });
+  return locked(*handle.world, [&] { return work(handle.world->body(handle.row)); });
 }
 
 template <class Member>
@@ -45,13 +45,13 @@ py::array nodes_of(const py::object& self) {
 
 py::array triangles_of(const py::object& self) {
   const auto& handle = self.cast<const BodyHandle&>();
-  return in_turn(*handle.world, [&] {
+  return locked(*handle.world, [&] {
     const Triangles& triangles = handle.world->body(handle.row).skin.triangles;
     return view(triangles.data(), {triangles.rows(), 3}, self);
   });
 }
 
-/// One number a brick. Where they are computed the array takes over their memory.
+/// One number per brick; the array owns computed ones.
 py::array field_of(const py::object& self, const std::string& name) {
   constexpr std::array<std::string_view, 6> kNames{"stretch", "strain", "stress", "volume", "fill", "young"};
   const auto found = std::find(kNames.begin(), kNames.end(), name);
@@ -65,7 +65,7 @@ py::array field_of(const py::object& self, const std::string& name) {
   });
 }
 
-/// Rows of nodes from what a script says: the rows themselves, or for each of `count` nodes whether it is meant.
+/// Rows of nodes: the rows themselves, or from one bool for each of `count` nodes.
 std::vector<long> rows_from(const py::object& nodes, py::ssize_t count) {
   const auto array = py::array::ensure(nodes);
   if (!array) throw py::error_already_set();
@@ -86,16 +86,16 @@ std::vector<long> rows_from(const py::object& nodes, py::ssize_t count) {
 }
 
 void pin(const BodyHandle& handle, const py::object& nodes) {
-  in_turn(*handle.world,
-          [&] { handle.world->pin(handle.row, rows_from(nodes, handle.world->body(handle.row).node_count())); });
+  locked(*handle.world,
+         [&] { handle.world->pin(handle.row, rows_from(nodes, handle.world->body(handle.row).node_count())); });
 }
 
 void settle(const BodyHandle& handle, bool linear) {
-  while_others_run(*handle.world, [&] { handle.world->settle(handle.row, linear); });
+  locked_without_gil(*handle.world, [&] { handle.world->settle(handle.row, linear); });
 }
 
 Points deformed_skin(const BodyHandle& handle) {
-  return while_others_run(*handle.world, [&] { return handle.world->skin_positions(handle.row); });
+  return locked_without_gil(*handle.world, [&] { return handle.world->skin_positions(handle.row); });
 }
 
 }  // namespace
@@ -103,9 +103,8 @@ Points deformed_skin(const BodyHandle& handle) {
 void bind_body(py::module_& module) {
   py::class_<BodyHandle>(module, "Body",
                          "One solid filled with bricks: m nodes, n bricks; its skin: v vertices, t triangles.")
-      .def_property_readonly("positions", points_of(&Body::positions, true), "(m, 3) m; no copy, may be written to.")
-      .def_property_readonly("velocities", points_of(&Body::velocities, true),
-                             "(m, 3) m/s; no copy, may be written to.")
+      .def_property_readonly("positions", points_of(&Body::positions, true), "(m, 3) m; no copy, writable.")
+      .def_property_readonly("velocities", points_of(&Body::velocities, true), "(m, 3) m/s; no copy, writable.")
       .def_property_readonly("rest_positions", points_of(&Body::rest_positions, false), "(m, 3) m; no copy, read only.")
       .def_property_readonly("masses", &masses_of, "(m,) kg; no copy, read only.")
       .def_property_readonly("nodes", &nodes_of, "(n, 8) rows of positions, x fastest; no copy, read only.")
@@ -117,11 +116,11 @@ void bind_body(py::module_& module) {
       .def_property_readonly(
           "material",
           [](const py::object& self) { return with_body(self, [](const Body& body) { return body.material; }); },
-          "What it is made of.")
+          "Its material.")
       .def("field", &field_of, py::arg("name"),
            "(n,) stretch, strain (von Mises), volume (over that at rest), fill, 1; stress (von Mises), young, Pa.")
       .def("skin_positions", &deformed_skin, "(v, 3) m.")
-      .def("pin", &pin, py::arg("nodes"), "Holds these nodes where they are, and no others: rows, or (m,) bools.")
+      .def("pin", &pin, py::arg("nodes"), "Fixes these nodes where they are, and no others: rows, or (m,) bools.")
       .def("settle", &settle, py::arg("linear") = false,
            "Equilibrium with gravity and the pinned nodes; linear: for small displacements. Obstacles are not met.");
 }

@@ -29,7 +29,7 @@ std::string table_of(const py::dict& table) {
   return "{ " + text + " }";
 }
 
-/// A value of Python as one of a scene file.
+/// A Python value as TOML.
 std::string toml_of(const py::handle& value) {
   if (py::isinstance<Material>(value)) {
     const auto& material = value.cast<const Material&>();
@@ -63,17 +63,17 @@ Film parse_dict(const py::dict& keys) {
   return parse_scene(text, std::filesystem::current_path() / "scene");
 }
 
-/// What became of a scene: from a run just made, or from a cache.
+/// The result of simulate() or read_run().
 struct SceneRun {
   Film film;
   Simulation simulation;
   Recording recording;
 };
 
-/// Ctrl-C ends the work.
+/// Lets Ctrl-C end a simulation.
 class PythonObserver : public Observer {
  public:
-  void check_interrupt() const override { let_signals_in(); }
+  void check_interrupt() const override { check_signals(); }
 };
 
 std::shared_ptr<SceneRun> read_run(const std::filesystem::path& file) {
@@ -88,7 +88,7 @@ std::shared_ptr<SceneRun> read_run(const std::filesystem::path& file) {
 std::shared_ptr<SceneRun> run_scene(const py::object& scene, const std::optional<std::filesystem::path>& cache,
                                     bool resume) {
   Film film = film_from(scene);
-  const py::gil_scoped_release others_run;
+  const py::gil_scoped_release release;
   const PythonObserver observer;
   std::optional<RunCache> file;
   if (cache) file.emplace(*cache, record_of(film), resume);
@@ -129,7 +129,7 @@ std::vector<Triangles> triangles_of(const SceneRun& run) {
   return triangles;
 }
 
-/// By probe, then by what it measured: (frames, 3).
+/// By probe, then by quantity: (frames, 3).
 py::dict probes_of(const SceneRun& run) {
   py::dict probes;
   for (const ProbeTrack& track : run.recording.probes) {
@@ -159,7 +159,7 @@ SceneBody body_from(const py::dict& keys) {
   for (const char* name : {"mesh", "material", "size", "bricks", "position", "model"}) {
     if (body.contains(name)) throw Error(ErrorKind::kBadInput, fmt::format("'{}' is given twice", name));
   }
-  body["box"] = std::array<double, 3>{1, 1, 1};  // in place of the mesh, which may have no file
+  body["box"] = std::array<double, 3>{1, 1, 1};  // stands for the mesh, which may have no file
   py::dict scene;
   scene["body"] = py::make_tuple(body);
   SceneBody parsed = parse_dict(scene).bodies.front();
@@ -167,13 +167,13 @@ SceneBody body_from(const py::dict& keys) {
   return parsed;
 }
 
-void let_signals_in() {
+void check_signals() {
   const py::gil_scoped_acquire python;
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
 }
 
 void bind_scene(py::module_& module) {
-  py::class_<SceneRun, std::shared_ptr<SceneRun>>(module, "Run", "A scene taken through all its frames.")
+  py::class_<SceneRun, std::shared_ptr<SceneRun>>(module, "Run", "The frames of a scene.")
       .def_property_readonly(
           "frame_count", [](const SceneRun& run) { return run.recording.frames.size(); }, "How many frames there are.")
       .def_property_readonly(
@@ -195,8 +195,8 @@ void bind_scene(py::module_& module) {
       .def_property_readonly("probes", &probes_of,
                              "By name: position, displacement, m; force, N; torque, N m; each (frames, 3).");
   module.def("simulate", &run_scene, py::arg("scene"), py::arg("cache") = py::none(), py::arg("resume") = false,
-             "Takes a scene through all its frames, as sprung simulate does. scene: a TOML file, or a dict of the same "
-             "keys; cache: an HDF5 file to keep the frames in; resume: goes on with what is there.");
+             "Computes all frames of a scene, as sprung simulate does. scene: a TOML file, or a dict of the same "
+             "keys; cache: an HDF5 file to keep the frames in; resume: continues the run in it.");
   module.def("read_run", &read_run, py::arg("cache"), py::call_guard<py::gil_scoped_release>(),
              "The run in a cache, as sprung simulate wrote it.");
 }

@@ -38,33 +38,33 @@ std::vector<BodyHandle> add_to_world(const std::shared_ptr<LiveWorld>& world, Fi
   body.bricks = bricks;
   body.position = position;
   body.model = model_from_name(model);
-  return handles_of(world, while_others_run(*world, [&] { return world->add(body); }));
+  return handles_of(world, locked_without_gil(*world, [&] { return world->add(body); }));
 }
 
 std::shared_ptr<LiveWorld> world_from_scene(const py::object& scene) {
   Film film = film_from(scene);
-  const py::gil_scoped_release others_run;
+  const py::gil_scoped_release release;
   return std::make_shared<LiveWorld>(std::move(film));
 }
 
 std::vector<BodyHandle> bodies_of(const std::shared_ptr<LiveWorld>& world) {
-  std::vector<std::size_t> rows(in_turn(*world, [&] { return world->body_count(); }));
+  std::vector<std::size_t> rows(locked(*world, [&] { return world->body_count(); }));
   std::iota(rows.begin(), rows.end(), std::size_t{0});
   return handles_of(world, rows);
 }
 
 void advance_world(LiveWorld& world, double duration) {
-  while_others_run(world, [&] { world.advance(duration, let_signals_in); });
+  locked_without_gil(world, [&] { world.advance(duration, check_signals); });
 }
 
 void step_world(LiveWorld& world, double dt, long count) {
-  while_others_run(world, [&] { world.step(dt, count, let_signals_in); });
+  locked_without_gil(world, [&] { world.step(dt, count, check_signals); });
 }
 
-/// The array takes over the memory.
+/// The array owns the image's memory.
 py::array_t<std::uint8_t> draw_world(LiveWorld& world, int width, int height, double azimuth, double elevation) {
   auto image =
-      std::make_unique<Image>(while_others_run(world, [&] { return world.draw(width, height, azimuth, elevation); }));
+      std::make_unique<Image>(locked_without_gil(world, [&] { return world.draw(width, height, azimuth, elevation); }));
   const std::uint8_t* first = image->pixels.data();
   const py::capsule owner(image.release(), [](void* memory) { delete static_cast<Image*>(memory); });
   return py::array_t<std::uint8_t>({py::ssize_t{height}, py::ssize_t{width}, py::ssize_t{3}}, first, owner);
@@ -74,7 +74,8 @@ py::array_t<std::uint8_t> draw_world(LiveWorld& world, int width, int height, do
 
 void bind_world(py::module_& module) {
   py::class_<LiveWorld, std::shared_ptr<LiveWorld>>(
-      module, "World", "Bodies that move and touch. Threads take turns; where an Error is raised all is as it was.")
+      module, "World",
+      "Bodies that move and touch each other. Threads take turns; where an Error is raised nothing changes.")
       .def(py::init<const Vec3&, std::optional<double>>(), py::arg("gravity") = std::array<double, 3>{0, -9.81, 0},
            py::arg("ground") = 0.0, "gravity: (3,) m/s2; ground: height of level ground, m, or None.")
       .def("add", &add_to_world, py::arg("mesh"), py::arg("material"), py::arg("size") = 0.2, py::arg("bricks") = 24,
@@ -83,16 +84,16 @@ void bind_world(py::module_& module) {
            "position: (3,) m, of the middle of the bottom of the bounding box; model: as for sprung animate --model; "
            "keys: others of [[body]] in scenes, pin=[{...}], force=[{...}], velocity=[...] ...")
       .def_static("from_scene", &world_from_scene, py::arg("scene"),
-                  "All that a scene has: bodies, pins, forces, obstacles, glue. scene: a TOML file, or a dict of the "
+                  "Everything in a scene: bodies, pins, forces, obstacles, glue. scene: a TOML file, or a dict of the "
                   "same keys; paths in a dict are relative to the working folder.")
       .def_property_readonly("bodies", &bodies_of, "All bodies, in the order in which they were added.")
-      .def("advance", &advance_world, py::arg("duration"), "Moves on by duration, s, in steps that are stable.")
-      .def("step", &step_world, py::arg("dt"), py::arg("count") = 1, "count explicit steps of dt, s, as they are.")
+      .def("advance", &advance_world, py::arg("duration"), "Advances by duration, s, in stable time steps.")
+      .def("step", &step_world, py::arg("dt"), py::arg("count") = 1, "Exactly count explicit time steps of dt, s.")
       .def(
-          "stable_step", [](LiveWorld& world) { return in_turn(world, [&] { return world.stable_step(); }); },
-          "Longest explicit step that is stable now, s.")
+          "stable_step", [](LiveWorld& world) { return locked(world, [&] { return world.stable_step(); }); },
+          "Longest stable explicit time step in the present state, s.")
       .def_property_readonly(
-          "time", [](LiveWorld& world) { return in_turn(world, [&] { return world.time(); }); }, "Since the start, s.")
+          "time", [](LiveWorld& world) { return locked(world, [&] { return world.time(); }); }, "Since the start, s.")
       .def("render", &draw_world, py::arg("width") = 640, py::arg("height") = 360, py::arg("azimuth") = 30.0,
            py::arg("elevation") = 14.0,
            "(height, width, 3) sRGB bytes; azimuth: degrees about y; elevation: degrees above the horizon.");

@@ -12,32 +12,32 @@
 
 namespace sprung {
 
-/// A body of a world that lives as long as anything of it is looked at.
+/// A body of a world, which lives as long as any view of it.
 struct BodyHandle {
   std::shared_ptr<LiveWorld> world;
   std::size_t row;
 };
 
-/// Does short work on a world when its turn comes. Nobody waits for a turn and keeps Python from running meanwhile:
-/// whoever has the turn may need Python to end it.
+/// Does short work on a world, holding its lock. It waits for the lock without Python's: the thread that holds the lock
+/// may need Python to finish.
 template <class Work>
-auto in_turn(LiveWorld& world, const Work& work) {
-  const std::unique_lock<std::mutex> turn = [&] {
-    const pybind11::gil_scoped_release others_run;
-    return world.take_turn();
+auto locked(LiveWorld& world, const Work& work) {
+  const std::unique_lock<std::mutex> lock = [&] {
+    const pybind11::gil_scoped_release release;
+    return world.lock();
   }();
   return work();
 }
 
-/// The same for long work that needs no Python.
+/// The same for long work without Python's lock.
 template <class Work>
-auto while_others_run(LiveWorld& world, const Work& work) {
-  const pybind11::gil_scoped_release others_run;
-  const std::unique_lock<std::mutex> turn = world.take_turn();
+auto locked_without_gil(LiveWorld& world, const Work& work) {
+  const pybind11::gil_scoped_release release;
+  const std::unique_lock<std::mutex> lock = world.lock();
   return work();
 }
 
-/// What is where it is, seen as an array; `owner` keeps it there.
+/// An array over existing memory, which `owner` keeps alive.
 template <class Number>
 pybind11::array view(const Number* first, const std::vector<pybind11::ssize_t>& shape, const pybind11::object& owner,
                      bool is_writable = false) {
@@ -49,15 +49,13 @@ pybind11::array view(const Number* first, const std::vector<pybind11::ssize_t>& 
 /// The film of a scene file, or of a dict of its keys. Throws Error(kBadInput).
 [[nodiscard]] Film film_from(const pybind11::object& scene);
 
-/// A body of the scene of what a dict has of its keys. Throws Error(kBadInput).
+/// A body from a dict of keys of [[body]]. Throws Error(kBadInput).
 [[nodiscard]] SceneBody body_from(const pybind11::dict& keys);
 
-/// Lets Ctrl-C, and whatever else a script waits for, through. Without Python's lock.
-void let_signals_in();
+/// Runs pending signal handlers of Python, such as Ctrl-C's; takes Python's lock. Throws where one raises.
+void check_signals();
 
 void bind_scene(pybind11::module_& module);
-void bind_materials(pybind11::module_& module);
-void bind_mesh(pybind11::module_& module);
 void bind_body(pybind11::module_& module);
 void bind_world(pybind11::module_& module);
 

@@ -15,7 +15,7 @@
 namespace sprung {
 namespace {
 
-// Else a vector of bodies that grows would copy them, and leave views behind in memory that is gone.
+// Otherwise a growing vector would copy the bodies, and views would dangle.
 static_assert(std::is_nothrow_move_constructible_v<SoftBody>);
 
 constexpr double kBrickStepsBetween = 2e6;
@@ -74,7 +74,7 @@ void LiveWorld::keep_memory(const Work& work) {
     Points positions;
     Points velocities;
   };
-  std::vector<State> kept;  // where others look, as it was
+  std::vector<State> kept;  // the old memory, which views refer to
   const auto put_back = [&] {
     for (std::size_t i = 0; i < kept.size(); ++i) {
       simulation_.world.bodies[i].positions = std::move(kept[i].positions);
@@ -94,7 +94,7 @@ void LiveWorld::keep_memory(const Work& work) {
     throw;
   }
   for (std::size_t i = 0; i < kept.size(); ++i) {
-    kept[i].positions = simulation_.world.bodies[i].positions;  // into the same memory
+    kept[i].positions = simulation_.world.bodies[i].positions;  // a copy into the same memory
     kept[i].velocities = simulation_.world.bodies[i].velocities;
   }
   put_back();

@@ -12,10 +12,10 @@ from numpy.typing import ArrayLike, NDArray
 __version__: str
 
 class Error(RuntimeError):
-    """What the library raises: a mesh, a material, a value or a name that is wrong."""
+    """Raised by the library: a mesh, a material, a value or a name is wrong."""
 
 class Diverged(Error):
-    """A motion or an equilibrium came to no good end; the message says where."""
+    """A motion or an equilibrium that does not converge; the message says where."""
 
 class Material:
     """What bricks are made of: isotropic, and linear for small strains."""
@@ -23,7 +23,7 @@ class Material:
     def __init__(
         self, young: float, poisson: float, density: float, damping: float = 0.02, name: str = "custom"
     ) -> None:
-        """young: Pa; poisson: above -1 and below 0.5; density: kg/m3; damping: share of critical, at the slowest
+        """young: Pa; poisson: above -1 and below 0.5; density: kg/m3; damping: fraction of critical, at the slowest
         vibration."""
     @property
     def name(self) -> str:
@@ -42,7 +42,7 @@ class Material:
         """Ratio of critical damping at the slowest vibration, 1."""
     @property
     def source(self) -> str:
-        """Where a built-in material's figures are from."""
+        """Source of a built-in material's figures."""
 
 def material(name: str) -> Material:
     """A built-in material; Error with the nearest name where there is none."""
@@ -64,7 +64,7 @@ class Mesh:
         """(t, 3) rows of positions; no copy, read only."""
     @property
     def notes(self) -> list[str]:
-        """What was left out of the file, a sentence each."""
+        """What was ignored in the file, one sentence each."""
 
 def read_mesh(file: str | PathLike[str]) -> Mesh:
     """The mesh in a file: OBJ, PLY, STL, OFF, or whatever assimp reads; Error says what is wrong and where."""
@@ -74,10 +74,10 @@ class Body:
 
     @property
     def positions(self) -> NDArray[np.float64]:
-        """(m, 3) m; no copy, may be written to."""
+        """(m, 3) m; no copy, writable."""
     @property
     def velocities(self) -> NDArray[np.float64]:
-        """(m, 3) m/s; no copy, may be written to."""
+        """(m, 3) m/s; no copy, writable."""
     @property
     def rest_positions(self) -> NDArray[np.float64]:
         """(m, 3) m; no copy, read only."""
@@ -95,18 +95,18 @@ class Body:
         """Side of a brick, m."""
     @property
     def material(self) -> Material:
-        """What it is made of."""
+        """Its material."""
     def field(self, name: str) -> NDArray[np.float64]:
         """(n,) stretch, strain (von Mises), volume (over that at rest), fill, 1; stress (von Mises), young, Pa."""
     def skin_positions(self) -> NDArray[np.float64]:
         """(v, 3) m."""
     def pin(self, nodes: Sequence[int] | NDArray[np.integer] | NDArray[np.bool_]) -> None:
-        """Holds these nodes where they are, and no others: rows, or (m,) bools."""
+        """Fixes these nodes where they are, and no others: rows, or (m,) bools."""
     def settle(self, linear: bool = False) -> None:
         """Equilibrium with gravity and the pinned nodes; linear: for small displacements. Obstacles are not met."""
 
 class World:
-    """Bodies that move and touch. Threads take turns; where an Error is raised all is as it was."""
+    """Bodies that move and touch each other. Threads take turns; where an Error is raised nothing changes."""
 
     def __init__(self, gravity: ArrayLike = [0.0, -9.81, 0.0], ground: float | None = 0.0) -> None:
         """gravity: (3,) m/s2; ground: height of level ground, m, or None."""
@@ -125,17 +125,17 @@ class World:
         [[body]] in scenes, pin=[{...}], force=[{...}], velocity=[...] ..."""
     @staticmethod
     def from_scene(scene: str | PathLike[str] | dict[str, Any]) -> World:
-        """All that a scene has: bodies, pins, forces, obstacles, glue. scene: a TOML file, or a dict of the same keys;
+        """Everything in a scene: bodies, pins, forces, obstacles, glue. scene: a TOML file, or a dict of the same keys;
         paths in a dict are relative to the working folder."""
     @property
     def bodies(self) -> list[Body]:
         """All bodies, in the order in which they were added."""
     def advance(self, duration: float) -> None:
-        """Moves on by duration, s, in steps that are stable."""
+        """Advances by duration, s, in stable time steps."""
     def step(self, dt: float, count: int = 1) -> None:
-        """count explicit steps of dt, s, as they are."""
+        """Exactly count explicit time steps of dt, s."""
     def stable_step(self) -> float:
-        """Longest explicit step that is stable now, s."""
+        """Longest stable explicit time step in the present state, s."""
     @property
     def time(self) -> float:
         """Since the start, s."""
@@ -145,7 +145,7 @@ class World:
         """(height, width, 3) sRGB bytes; azimuth: degrees about y; elevation: degrees above the horizon."""
 
 class Run:
-    """A scene taken through all its frames."""
+    """The frames of a scene."""
 
     @property
     def frame_count(self) -> int:
@@ -173,8 +173,8 @@ class Run:
 def simulate(
     scene: str | PathLike[str] | dict[str, Any], cache: str | PathLike[str] | None = None, resume: bool = False
 ) -> Run:
-    """Takes a scene through all its frames, as sprung simulate does. scene: a TOML file, or a dict of the same keys;
-    cache: an HDF5 file to keep the frames in; resume: goes on with what is there."""
+    """Computes all frames of a scene, as sprung simulate does. scene: a TOML file, or a dict of the same keys;
+    cache: an HDF5 file to keep the frames in; resume: continues the run in it."""
 
 def read_run(cache: str | PathLike[str]) -> Run:
     """The run in a cache, as sprung simulate wrote it."""

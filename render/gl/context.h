@@ -1,34 +1,31 @@
 #pragma once
+#include <array>
 #include <memory>
 #include <string>
 
 #include "render/gl/functions.h"
 
+struct osmesa_context;
+
 namespace sprung {
 
-/// An OpenGL 3.3 core context without a window. One thread at a time may have it current.
+/// An OpenGL 3.3 core context of OSMesa, without a window. It is current in one thread at a time.
 class GlContext {
  public:
-  GlContext() = default;
-  virtual ~GlContext() = default;
-  GlContext(const GlContext&) = delete;
-  GlContext& operator=(const GlContext&) = delete;
+  /// Makes it current in the calling thread. Throws Error(kFailed) where OSMesa is missing or too old.
+  GlContext();
 
-  /// Makes the context current in the calling thread.
-  virtual void make_current() = 0;
+  /// In the calling thread. Throws Error(kFailed).
+  void make_current();
 
   [[nodiscard]] const GlFunctions& gl() const { return gl_; }
   /// "Mesa 22.3.6, llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5"; the context must be current.
   [[nodiscard]] std::string driver() const;
 
- protected:
-  [[nodiscard]] GlFunctions& functions() { return gl_; }
-
  private:
+  std::unique_ptr<osmesa_context, void (*)(osmesa_context*)> context_;
+  std::array<unsigned char, 4> dummy_{};  // OSMesa insists on a buffer of its own; pictures go to framebuffer objects
   GlFunctions gl_;
 };
-
-/// A new context, current in the calling thread. Throws Error(kFailed) where there is none to be had.
-[[nodiscard]] std::unique_ptr<GlContext> make_gl_context();
 
 }  // namespace sprung

@@ -8,7 +8,7 @@
 
 namespace sprung {
 
-/// Owns the name of one OpenGL object. Needs the context current when it goes.
+/// Owns the name of one OpenGL object. The context must be current when it is destroyed.
 template <void (*Destroy)(const GlFunctions&, GLuint)>
 class GlObject {
  public:
@@ -52,38 +52,38 @@ using GlFramebuffer = GlObject<detail::delete_framebuffer>;
 [[nodiscard]] GlVertexArray make_vertex_array(const GlFunctions& gl);
 [[nodiscard]] GlFramebuffer make_framebuffer(const GlFunctions& gl);
 
-/// How a texture is stored and read. Levels beyond the first are made by GenerateMipmap.
+/// How a texture is stored and sampled. GenerateMipmap makes the levels beyond the first.
 struct TextureFormat {
   GLenum internal = GL_RGBA8;
-  GLenum pixels = GL_RGBA;  // layout of the data given, if any
+  GLenum pixels = GL_RGBA;  // layout of the initial data
   GLenum type = GL_UNSIGNED_BYTE;
   bool mipmaps = false;
   bool linear = true;
   GLenum wrap = GL_CLAMP_TO_EDGE;
 };
-/// Left bound to the active unit; storage for mipmaps is made at once.
+/// Leaves it bound to the active unit, with storage for mipmaps.
 [[nodiscard]] GlTexture make_texture(const GlFunctions& gl, int width, int height, const TextureFormat& format,
                                      const void* data = nullptr);
 
-/// RGB in floats, level by level, each half as large as the one before; kept in bytes. Repeats sideways; read between
-/// levels.
+/// From levels of RGB floats, each half as large as the one before; stored in bytes. Repeats horizontally; sampled
+/// trilinearly.
 [[nodiscard]] GlTexture make_level_texture(const GlFunctions& gl, int width, int height,
                                            std::span<const float* const> levels);
 
-/// Reads a depth texture as a sampler2DShadow: the share of the four texels around a place that pass the comparison.
+/// Samples a depth texture as a sampler2DShadow: the fraction of the four nearest texels that pass the comparison.
 [[nodiscard]] GlSampler make_comparing_sampler(const GlFunctions& gl, GLenum comparison);
 
-/// A framebuffer that draws into level 0 of the textures; 0 for none. Throws Error(kFailed) where it is not complete.
+/// A framebuffer with level 0 of these textures; null for none. Throws Error(kFailed) where it is incomplete.
 [[nodiscard]] GlFramebuffer make_texture_target(const GlFunctions& gl, const GlTexture* color, const GlTexture* depth);
-/// One that draws two colours at once.
+/// The same with two colour attachments.
 [[nodiscard]] GlFramebuffer make_two_color_target(const GlFunctions& gl, const GlTexture& first,
                                                   const GlTexture& second, const GlTexture& depth);
 
-/// A linked program. set() needs it in use; a name that the compiler has dropped is ignored.
+/// A linked program. set() needs it in use, and ignores uniforms that the compiler has removed.
 class GlProgram {
  public:
   GlProgram() = default;
-  /// Throws Error(kFailed) with the compiler's words; `name` is for them.
+  /// Throws Error(kFailed) with `name` and the compiler's message.
   GlProgram(const GlFunctions& gl, const std::string& name, const std::string& vertex, const std::string& fragment);
 
   void use() const { gl_->UseProgram(program_.name()); }
@@ -101,7 +101,7 @@ class GlProgram {
   GlObject<detail::delete_program> program_;
 };
 
-/// Binds a texture, and a sampler that overrides its own way of reading, to a unit.
+/// Binds a texture to a unit, and a sampler that overrides its settings.
 void bind_texture(const GlFunctions& gl, int unit, const GlTexture& texture, GLuint sampler = 0);
 
 }  // namespace sprung

@@ -7,14 +7,13 @@
 
 namespace sprung {
 
-/// Measures the passes of drawing. It waits for the end of each, so nothing overlaps while it is on; off, it costs
-/// nothing.
+/// Measures the passes of drawing. It waits for the end of each, so that none overlap while it is on.
 class PassClock {
  public:
   PassClock(const GlFunctions& gl, bool is_on) : gl_(gl), is_on_(is_on) {}
-  /// The next pass begins now.
+  /// Begins the first pass.
   void start();
-  /// A pass is over and the next begins. `pass` is a literal.
+  /// Ends a pass and begins the next. `pass` is a literal.
   void stop(std::string_view pass);
   [[nodiscard]] const std::vector<PassTime>& times() const { return times_; }
 

@@ -57,42 +57,42 @@ constexpr std::array<std::array<float, 3>, 9> kEmber{{{0.167F, 0.649F, 0.954F},
                                                       {0.823F, 0.430F, 0.261F},
                                                       {0.991F, 0.462F, 0.225F}}};
 
-Eigen::Vector3f between(Stops stops, double share) {
-  const double at = share * double(stops.size() - 1);
+Eigen::Vector3f interpolate(Stops stops, double coordinate) {
+  const double at = coordinate * double(stops.size() - 1);
   const auto from = std::min(std::size_t(at), stops.size() - 2);
   const auto part = float(at - double(from));
   return (1 - part) * Eigen::Map<const Eigen::Vector3f>(stops[from].data()) +
          part * Eigen::Map<const Eigen::Vector3f>(stops[from + 1].data());
 }
 
-constexpr double kTurboLow = 0.07;  // the parts of it that are used
+constexpr double kTurboLow = 0.07;  // the part of it that is used
 constexpr double kTurboHigh = 0.97;
 
-/// Rows: red, green, blue; columns: powers of the share.
-Eigen::Vector3f turbo(double share) {
+/// Rows: red, green, blue; columns: powers of the coordinate.
+Eigen::Vector3f turbo(double coordinate) {
   Eigen::Matrix<double, 3, 6> factors;
   factors << 0.13572138, 4.61539260, -42.66032258, 132.13108234, -152.94239396, 59.28637943,  //
       0.09140261, 2.19418839, 4.84296658, -14.18503333, 4.27729857, 2.82956604,               //
       0.10667330, 12.64194608, -60.58204836, 110.36276771, -89.90310912, 27.34824973;
   Eigen::Matrix<double, 6, 1> powers;
   powers[0] = 1;
-  for (int i = 1; i < 6; ++i) powers[i] = powers[i - 1] * share;
+  for (int i = 1; i < 6; ++i) powers[i] = powers[i - 1] * coordinate;
   return (factors * powers).cwiseMax(0.0).cwiseMin(1.0).cast<float>();
 }
 
 }  // namespace
 
-Eigen::Vector3f map_color(ColorMap map, double share) {
-  const double clamped = std::clamp(share, 0.0, 1.0);
+Eigen::Vector3f map_color(ColorMap map, double coordinate) {
+  const double clamped = std::clamp(coordinate, 0.0, 1.0);
   switch (map) {
     case ColorMap::kViridis:
-      return between(kViridis, clamped);
+      return interpolate(kViridis, clamped);
     case ColorMap::kCividis:
-      return between(kCividis, clamped);
+      return interpolate(kCividis, clamped);
     case ColorMap::kCoolwarm:
-      return between(kCoolwarm, clamped);
+      return interpolate(kCoolwarm, clamped);
     case ColorMap::kEmber:
-      return between(kEmber, clamped);
+      return interpolate(kEmber, clamped);
     case ColorMap::kTurbo:
       break;
   }

@@ -9,8 +9,8 @@ namespace sprung {
 namespace {
 
 constexpr int kBlock = 8;     // pixels
-constexpr int kAmplify = 16;  // of a difference in the picture of differences
-constexpr int kMiddle = 128;  // grey where there is none
+constexpr int kAmplify = 16;  // of differences in difference_picture()
+constexpr int kMiddle = 128;  // grey where there is no difference
 
 double block_difference(const Image& a, const Image& b, int left, int top) {
   const int right = std::min(left + kBlock, a.width);
@@ -31,7 +31,7 @@ double brightness(const Image& image, std::size_t pixel) {
   return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
 }
 
-/// Sums over rectangles of pixels, from sums over all that lie above and to the left of a corner.
+/// Sums over rectangles of pixels by a summed-area table.
 class Sums {
  public:
   template <class Value>

@@ -22,7 +22,7 @@ struct Channel {
   Passes::Plane* plane;
 };
 
-/// In the order of their names, as the format wants them.
+/// Sorted by name, as the format requires.
 std::array<Channel, 8> channels_of(Passes& passes) {
   return {{{"Depth.Z", &passes.depth},
            {"IndexOB.X", &passes.id},
@@ -34,7 +34,7 @@ std::array<Channel, 8> channels_of(Passes& passes) {
            {"Position.Z", &passes.position[2]}}};
 }
 
-/// The library's words, which are ours to free.
+/// The library's message, which the caller must free.
 std::string taken(const char* message) {
   std::string text = message == nullptr ? "unknown reason" : message;
   FreeEXRErrorMessage(message);
@@ -75,7 +75,7 @@ Passes passes_of(const EXRHeader& header, const EXRImage& image, const std::file
 }  // namespace
 
 void write_exr(const Passes& passes, const std::filesystem::path& file) {
-  // The library's structs point to what is written, and have no const.
+  // The library's structs have no const.
   auto channels = channels_of(const_cast<Passes&>(passes));  // NOLINT(cppcoreguidelines-pro-type-const-cast)
   std::array<EXRChannelInfo, channels.size()> infos{};
   std::array<int, channels.size()> types{};

@@ -6,7 +6,7 @@
 namespace sprung {
 
 /// Writes an OpenEXR file beside its name and renames it. Layers: Depth.Z, Normal.X, .Y and .Z, Position.X, .Y and .Z,
-/// IndexOB.X, which are the names of Blender's passes; 32-bit floats, packed without loss. Throws Error(kFailed).
+/// IndexOB.X, as Blender names its passes; 32-bit floats, compressed losslessly. Throws Error(kFailed).
 void write_exr(const Passes& passes, const std::filesystem::path& file);
 
 /// Reads such a file. Throws Error(kBadInput).

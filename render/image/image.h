@@ -12,39 +12,38 @@ struct Image {
   int width = 0;
   int height = 0;
   std::vector<std::uint8_t> pixels;  // 3 * width * height
-  std::vector<std::uint8_t> alpha;   // width * height, the colours not multiplied by it; empty: opaque
+  std::vector<std::uint8_t> alpha;   // width * height, not premultiplied; empty: opaque
 
   Image() = default;
   Image(int w, int h) : width(w), height(h), pixels(3U * std::size_t(w) * std::size_t(h)) {}
 };
 
-/// How fine light and edges are drawn: kPreview takes one sample a pixel and coarse shadows, kDefault four, kHigh
-/// sixteen and fine shadows.
+/// kPreview takes one sample per pixel and coarse shadows, kDefault four, kHigh sixteen and fine shadows.
 enum class Quality { kPreview, kDefault, kHigh };
 
-/// Samples of a pixel.
+/// Samples per pixel.
 [[nodiscard]] constexpr int samples_of(Quality quality) {
   return quality == Quality::kPreview ? 1 : quality == Quality::kDefault ? 4 : 16;
 }
 
-/// What one pass of drawing has taken, of all pictures so far.
+/// Time spent in one stage of drawing, over all pictures so far.
 struct PassTime {
   std::string_view pass;
   double wall = 0;       // s
   double processor = 0;  // s, of all threads
 };
 
-/// What a compositor needs beside a picture: what is seen through the middle of every pixel, rows from the top. Nothing
-/// is mixed at edges, and ghosts are left out.
+/// The passes that a compositor needs beside a picture, sampled at pixel centres, rows from the top. Edges are not
+/// antialiased, and ghosts are left out.
 struct Passes {
   using Plane = std::vector<float>;  // width * height
 
   int width = 0;
   int height = 0;
-  Plane depth;                    // m, along the camera's axis; kNothing where there is nothing
-  std::array<Plane, 3> normal;    // x, y, z: unit, in the world, towards the camera; 0 where there is nothing
-  std::array<Plane, 3> position;  // x, y, z: m, in the world; 0 where there is nothing
-  Plane id;                       // as the stage has them; 0 for the ground and where there is nothing
+  Plane depth;                    // m, along the camera's axis; kNothing for the background
+  std::array<Plane, 3> normal;    // x, y, z: unit, world space, towards the camera; 0 for the background
+  std::array<Plane, 3> position;  // x, y, z: m, world space; 0 for the background
+  Plane id;                       // Stage::ids; 0 for the ground and the background
 
   static constexpr float kNothing = 1e10F;
 

@@ -12,7 +12,7 @@ namespace {
 constexpr double kLetters = 0.030;         // of the picture's height ...
 constexpr double kSmallestLetters = 11.0;  // pixels
 constexpr double kBarHeight = 0.46;        // of the picture's height
-constexpr double kLeastRoom = 0.285;       // of the picture's height: for a legend
+constexpr double kLeastRoom = 0.285;       // of the picture's height, reserved for a legend
 constexpr double kBarWidth = 0.024;        // of the picture's height
 
 std::string tick_text(double tick) { return fmt::format("{:.6g}", tick); }
@@ -39,9 +39,9 @@ void draw_scale(Image& image, const Legend& legend, const Font& font, double lef
   fill_framed(image, left, top, left + width, top + height, kDarkInk);
   const auto rows = int(std::lround(top + height) - std::lround(top));
   for (int row = 0; row < rows; ++row) {
-    const double share = 1 - (row + 0.5) / rows;
+    const double coordinate = 1 - (row + 0.5) / rows;
     const double y = double(std::lround(top)) + row;
-    fill_rectangle(image, left, y, left + width, y + 1, ink_of(map_color(legend.map, share)));
+    fill_rectangle(image, left, y, left + width, y + 1, ink_of(map_color(legend.map, coordinate)));
   }
   for (const double tick : round_ticks(legend.low, legend.high, height / (1.4 * size))) {
     const double y = top + height * (1 - (tick - legend.low) / (legend.high - legend.low));

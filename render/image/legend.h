@@ -8,7 +8,7 @@
 
 namespace sprung {
 
-/// What the colours of a picture stand for: a scale, or single colours with names.
+/// What the colours of a picture mean: a colour bar, or single colours with names.
 struct Legend {
   struct Swatch {
     std::string name;
@@ -18,23 +18,23 @@ struct Legend {
   ColorMap map = ColorMap::kViridis;
   double low = 0;  // in the unit
   double high = 1;
-  std::vector<Swatch> swatches;  // not empty: these in place of the scale
+  std::vector<Swatch> swatches;  // if any, replace the colour bar
 };
 
-/// Height of the letters in a picture of that height, and the margin around labels as a share of it.
+/// Height (pixels) of the letters in a picture of that height, and the margin around labels over the picture's height.
 [[nodiscard]] double letters_height(int height);
 inline constexpr double kLabelMargin = 0.035;
 
-/// At the right side, in the middle of its height.
+/// At the right edge, centred vertically.
 void draw_legend(Image& image, const Legend& legend, const Font& font);
 
-/// Pixels that are to be kept free for it at the right side of a picture of that height.
+/// Pixels to reserve for it at the right edge of a picture of that height.
 [[nodiscard]] double legend_width(const Legend& legend, int height, const Font& font);
 
-/// A line in the middle of the top.
+/// A line of text at the top, centred.
 void draw_name(Image& image, const std::string& text, const Font& font);
 
-/// A line at the top left, one at the bottom left, and a bar of a length at the bottom right, `pixels` long.
+/// A line of text at the top left, one at the bottom left, and at the bottom right a scale bar `pixels` long.
 void draw_caption(Image& image, const std::string& text, const Font& font);
 void draw_footer(Image& image, const std::string& text, const Font& font);
 void draw_scale_bar(Image& image, double pixels, const std::string& length, const Font& font);
@@ -42,7 +42,7 @@ void draw_scale_bar(Image& image, double pixels, const std::string& length, cons
 /// 1, 2 or 5 times a power of ten, at most `most` (above 0).
 [[nodiscard]] double round_length(double most);
 
-/// Round numbers from low to high, about five of them, and no more than `most`.
+/// About five round numbers from low to high, `most` at most.
 [[nodiscard]] std::vector<double> round_ticks(double low, double high, double most = 10);
 
 }  // namespace sprung

@@ -16,7 +16,7 @@ constexpr double kMostTicks = 4;
 constexpr double kWidth = 0.26;   // of the picture's width
 constexpr double kHeight = 0.22;  // of the picture's height
 
-/// Where values are in a picture, in pixels.
+/// Maps values to pixels.
 struct Frame {
   double left, top, right, bottom;
   double low, high;
@@ -42,7 +42,7 @@ void dot(Image& image, double x, double y, double radius, const Ink& ink) {
 
 std::string text_of(double tick) { return fmt::format("{:.6g}", tick); }
 
-/// Column by column, thick enough to hold together where it is steep.
+/// Column by column, thick enough to stay connected where the curve is steep.
 void draw_curve(Image& image, const Frame& frame, const Plot::Curve& curve, std::size_t now, double thick) {
   const double end = frame.x(double(now));
   const auto height = [&](double x) {
@@ -88,7 +88,7 @@ Frame values_of(const Plot& plot) {
   return frame;
 }
 
-/// The panel with its first line, and room for the curves in the rest of it.
+/// Draws the panel with its title; returns the room for the curves.
 void draw_panel(Image& image, const Plot& plot, Frame& frame, double size, const Font& font) {
   const double margin = kLabelMargin * image.height;
   const double bottom = image.height - margin - 1.8 * size;

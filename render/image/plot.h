@@ -7,20 +7,20 @@
 
 namespace sprung {
 
-/// Values over time, as far as a film has come.
+/// Curves over time, up to the current frame.
 struct Plot {
   struct Curve {
     std::string name;
-    std::vector<double> values;  // one a frame, all of the film
+    std::vector<double> values;  // one per frame of the film
     Ink ink{};
   };
   std::string title;  // with the unit
   std::vector<Curve> curves;
-  std::size_t now = 0;  // the last frame that shows
+  std::size_t now = 0;  // current frame
 };
 
-/// At the left side, above the footer: a panel with an axis for the values, whose range is that of the whole film, the
-/// curves up to now and a dot at their ends.
+/// A panel at the left edge, above the footer: an axis with the range of the whole film, the curves up to the current
+/// frame and a dot at their ends.
 void draw_plot(Image& image, const Plot& plot, const Font& font);
 
 }  // namespace sprung

@@ -25,7 +25,7 @@ constexpr double kHaloReach = 0.06;  // of the letters' size
 constexpr double kHaloStrength = 0.16;
 constexpr int kUnknown = 0xfffd;
 
-/// The next letter of a text in UTF-8, which is taken off its front.
+/// Removes and returns the first code point of a text in UTF-8.
 int take_letter(std::string_view& text) {
   const auto first = static_cast<unsigned char>(text.front());
   text.remove_prefix(1);
@@ -111,7 +111,7 @@ void Font::blend(Image& image, double x, double y, double size, std::string_view
 void mix_pixel(Image& image, int x, int y, const Ink& ink, double share) {
   if (x < 0 || y < 0 || x >= image.width || y >= image.height || share <= 0) return;
   const auto at = std::size_t(y) * std::size_t(image.width) + std::size_t(x);
-  double before = 1;  // how opaque it is
+  double before = 1;  // opacity so far
   if (!image.alpha.empty()) {
     before = image.alpha[at] / 255.0;
     image.alpha[at] = static_cast<std::uint8_t>(std::lround(255 * (share + before * (1 - share))));

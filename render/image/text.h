@@ -12,7 +12,7 @@ namespace sprung {
 /// 8-bit sRGB.
 using Ink = std::array<std::uint8_t, 3>;
 
-/// Letters to write into pictures: DejaVu Sans, a free font that Debian packages.
+/// DejaVu Sans, a free font that Debian packages.
 class Font {
  public:
   /// Throws Error(kFailed) where the font is not installed.
@@ -21,11 +21,10 @@ class Font {
   Font(const Font&) = delete;
   Font& operator=(const Font&) = delete;
 
-  /// Pixels from the first letter's origin to the end of the last; `text` in UTF-8, `size` the height of its letters
-  /// from the lowest to the highest, in pixels.
+  /// Advance width of `text` (UTF-8) in pixels; `size`: from descender to ascender, pixels.
   [[nodiscard]] double width(std::string_view text, double size) const;
-  /// Writes from x on, above the line y (pixels from the top left). A pale halo keeps dark letters readable on
-  /// anything.
+  /// Writes with the origin at x and the baseline at y (pixels from the top left). A pale halo keeps dark letters
+  /// readable on any background.
   void write(Image& image, double x, double y, double size, std::string_view text, const Ink& ink) const;
 
  private:
@@ -36,7 +35,7 @@ class Font {
   std::unique_ptr<Outlines> outlines_;
 };
 
-/// Mixes a pixel with an ink by that share; whatever was transparent becomes as opaque as the ink.
+/// Blends a pixel with an ink of opacity `share`, alpha included.
 void mix_pixel(Image& image, int x, int y, const Ink& ink, double share);
 
 /// Mixes the pixels of a rectangle, whose sides are rounded to whole pixels, with an ink by that share.

@@ -1,4 +1,4 @@
-// The background, by the line of sight alone.
+// The background; depends on the view ray alone.
 in vec2 screen_place;
 out vec4 result;
 //!include sight.glsl

@@ -1,4 +1,4 @@
-// The floor where the bodies shade it: what the background is multiplied with.
+// The floor where bodies change its light: a factor of the background.
 in vec2 ground_place;
 uniform sampler2D ground_tint;
 out vec4 result;

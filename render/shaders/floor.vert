@@ -1,4 +1,4 @@
-// The rectangle of the ground on which the bodies change the light.
+// The rectangle of the ground where bodies change the light.
 uniform vec4 ground_rectangle;  // low corner x, z; sides
 uniform float ground_height;
 uniform mat4 clip_from_stage;

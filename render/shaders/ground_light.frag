@@ -1,4 +1,4 @@
-// Half of the light on the ground by place, coarsely, for what it sends back to the bodies.
+// Half of the light on the ground, at low resolution, for its reflection on the bodies.
 in vec2 screen_place;
 out vec4 result;
 //!include ground_light.glsl

@@ -1,8 +1,8 @@
 uniform sampler2D ground_sky;
 uniform sampler2D ground_shadow;
 
-// Light on the ground at a place of its rectangle: the key where `shadow` leaves it, what is left of the sky, light
-// from the undersides. What hides the sky is itself lit by the ground around it: no place is quite black.
+// Light on the ground at a place of its rectangle: the key light that `shadow` lets through, the visible sky, and light
+// from undersides. Whatever occludes the sky is itself lit by the ground around it, so no place is quite black.
 vec3 ground_light(vec4 sky, float shadow, vec2 ground_place) {
   vec2 border = smoothstep(0.0, 0.12, min(ground_place, 1.0 - ground_place));
   sky *= border.x * border.y;

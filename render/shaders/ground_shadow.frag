@@ -1,13 +1,13 @@
-// How much of the key light the bodies hide from the ground, by place.
-// The shadow of a plane is the mask of what the key light hits, averaged over the part of it that the lamp is seen
-// through; so it is sharp where the body touches and wide where it is high up.
+// The fraction of the key light that bodies occlude on the ground: the mask of what the light hits, averaged over the
+// disc through which the lamp is seen from the ground. So a shadow is sharp where a body touches and soft where it is
+// high up.
 in vec2 screen_place;
 uniform vec4 ground_rectangle;
 uniform float ground_height;
 uniform mat4 light_from_stage;
 uniform float mask_texels;      // per unit of length
 uniform vec2 mask_texel_size;   // in u and v
-uniform float longest_way;      // to the ground, that the mask holds
+uniform float longest_way;      // to the ground, that the mask encodes
 uniform float lowest_way;       // to the ground, from the lowest body
 uniform float body_radius;
 uniform sampler2D key_mask;
@@ -28,7 +28,7 @@ vec2 mask_place() {
 void main() {
   vec2 uv = mask_place();
   vec2 found = vec2(0.0);
-  const float kStep = 1.0 / 255.0;  // of the mask: where little is hit, rounding could make any way of it
+  const float kStep = 1.0 / 255.0;  // of the mask: with low coverage rounding would make the distance arbitrary
   vec2 direction = vec2(1.0, 0.0);
   for (int k = 0; k < kSearch; ++k) {
     vec2 offset = reach() * sqrt((float(k) + 0.5) / float(kSearch)) * direction;
@@ -48,7 +48,7 @@ void main() {
   result = vec4(hidden / float(kTaps));
 }
 #else
-// Nothing yet: the depth says where SHADOW has to be looked for.
+// Writes depth only, which marks where SHADOW has to run.
 void main() {
   gl_FragDepth = textureLod(key_mask, mask_place(), log2(6.0 * reach())).r > 0.0 ? SHADED : 1.0;
   result = vec4(0.0);

@@ -1,4 +1,5 @@
-// How much of the sky the bodies hide from each point of the ground (a), and the light they send down instead (rgb).
+// The fraction of the sky that bodies occlude from each point of the ground (a), and the light that they reflect down
+// instead (rgb).
 // A horizontal disc of radius b at height h fills F = b^2 / (b^2 + h^2) of the cosine-weighted hemisphere; rings of
 // growing radius, each with the coverage and the height found in it, add up to the body's underside.
 in vec2 screen_place;
@@ -42,7 +43,7 @@ void main() {
   }
   hidden = clamp(hidden, 0.0, 1.0);
 
-  // The mean colour overhead, which fades out beyond the body.
+  // The mean colour overhead; it fades out beyond the body.
   vec2 uv = (point - underside_rectangle.xy) * underside_rectangle.zw;
   float lod = log2(max(1.2 * body_radius * underside_rectangle.z * underside_texels, 1.0));
   vec4 overhead = textureLod(underside_color, uv, lod);

@@ -1,5 +1,5 @@
-// By how much the floor is darker in the picture than in the open, by place: multiplied with the background there. That
-// is exact where the background is as bright as below, and everywhere but for a level, since it is nearly so.
+// How much darker the floor looks than without bodies: a factor of the background. Exact where the background is as
+// bright as below, and within one level elsewhere, since it nearly is.
 in vec2 screen_place;
 out vec4 result;
 //!include ground_light.glsl

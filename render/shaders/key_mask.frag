@@ -1,5 +1,5 @@
-// The key light's map as a mask of what it hits before the ground: coverage, coverage * way left to the ground over the
-// longest way.
+// What the key light hits before the ground: coverage, and coverage times the remaining distance to the ground over the
+// longest one.
 uniform sampler2D key_depth;
 uniform vec4 height_from_light;  // height above the ground of (u, v, depth, 1)
 uniform float longest_way;

@@ -1,6 +1,6 @@
-// Whether a pixel shows a skin, as a depth.
+// Writes as depth whether a pixel shows a skin.
 in vec2 screen_place;
-uniform sampler2DShadow skin_coverage;  // the share of four samples around a place that are nearer than a depth
+uniform sampler2DShadow skin_coverage;  // the fraction of four samples around a place that are nearer than a depth
 uniform vec3 end_depth;
 
 void main() {

@@ -1,4 +1,4 @@
-// Where a skin is, which one it is, and its normal.
+// Position, id and normal of a skin.
 in vec3 place;
 in vec3 surface_normal;
 layout(location = 0) out vec4 place_and_id;

@@ -1,4 +1,4 @@
-// The power 1 / 2.4 of sRGB by three square roots, which is quicker: off by at most 0.012 of a level.
+// The power 1 / 2.4 of sRGB by three square roots, which is faster; the error is at most 0.012 of a level.
 vec3 srgb_from_linear(vec3 c) {
   vec3 half_power = sqrt(max(c, vec3(0.0)));
   vec3 quarter = sqrt(half_power);
@@ -11,7 +11,7 @@ vec3 tone_map(vec3 c) {
   const float kShoulder = 0.8 - 0.02;
   const float kDesaturation = 0.15;
   float low = min(c.r, min(c.g, c.b));
-  c -= low < 0.04 ? low - 12.5 * low * low : 0.02;  // half of the original's: its darks are too colourful for soft light
+  c -= low < 0.04 ? low - 12.5 * low * low : 0.02;  // half of the original's, whose darks are too saturated for soft light
   float peak = max(c.r, max(c.g, c.b));
   if (peak < kShoulder) return c;
   float room = 1.0 - kShoulder;
@@ -21,13 +21,13 @@ vec3 tone_map(vec3 c) {
   return mix(c, vec3(new_peak), g);
 }
 
-// Triangular noise of one level, the same in every run: hides the steps of wide, soft gradients. Its even numbers are
-// those of Jimenez, "Next Generation Post Processing in Call of Duty" (2014).
+// Triangular noise of one level, the same in every run, which dithers wide, soft gradients. Its uniform noise is that of
+// Jimenez, "Next Generation Post Processing in Call of Duty" (2014).
 float picture_noise() {
   float even = fract(52.9829189 * fract(dot(floor(gl_FragCoord.xy), vec2(0.06711056, 0.00583715))));
   float side = 2.0 * even - 1.0;
   return sign(side) * (1.0 - sqrt(1.0 - abs(side))) * (0.75 / 255.0);
 }
 
-// Linear light to what is stored.
+// Linear light to stored colour.
 vec3 picture_color(vec3 light) { return srgb_from_linear(tone_map(light)); }

@@ -1,14 +1,14 @@
-// What the skins are in every sample of a pixel: SIDE x SIDE of them.
+// Reads the skins' surface in the SIDE x SIDE samples of a pixel.
 in vec2 screen_place;
 uniform sampler2D surface_color;
 uniform sampler2D packed_normal;
 uniform sampler2D surface_depth;
-uniform vec3 end_depth;  // of a place (x, y, 1) on the screen: what lies deeper has sunk into the floor
+uniform vec3 end_depth;  // at (x, y, 1) of the screen; whatever is deeper has sunk into the floor
 const int kSamples = SIDE * SIDE;
 
 ivec2 sample_place(int k) { return SIDE * ivec2(gl_FragCoord.xy) + ivec2(k % SIDE, k / SIDE); }
 
-// Beyond the end there is nothing to see: 1.
+// 1 where nothing is visible.
 float sample_depth(int k) {
   float depth = texelFetch(surface_depth, sample_place(k), 0).r;
   return depth < dot(end_depth, vec3(screen_place, 1.0)) ? depth : 1.0;

@@ -1,9 +1,9 @@
-// The light that a place on a skin sends to the eye.
+// The radiance of a point on a skin towards the eye.
 uniform vec3 eye;
 uniform float body_radius;
 uniform float ground_height;
 uniform vec4 ground_rectangle;     // low corner x, z; sides
-uniform sampler2D ground_light_map;      // half of the light; no mipmaps, which take several times as long to read
+uniform sampler2D ground_light_map;      // half of the light; no mipmaps, which take several times as long to sample
 uniform sampler2D far_ground_light_map;  // blurred
 uniform mat4 light_from_stage;     // the key light's clip space
 uniform vec2 light_texel;          // texture coordinates per unit of length, across the light
@@ -20,8 +20,8 @@ const int kSearch = SHADOW_SEARCH;
 const int kTaps = SHADOW_TAPS;
 const mat2 kGoldenTurn = mat2(-0.7373688, 0.6754903, -0.6754903, -0.7373688);  // 137.5 degrees, for spirals
 
-// The share of the key light that reaches a point. The point is first moved outwards and into the light by a small
-// part of the body: soft matter lets light in that far, and it keeps the surface from shadowing itself.
+// The fraction of the key light that reaches a point. The point is first moved outwards and towards the light by a small
+// fraction of the body's size: soft matter is translucent that far, and the surface does not shadow itself.
 float key_light(vec3 point, vec3 n, float facing) {
   vec3 moved = point + body_radius * (0.012 * n + 0.028 * to_key);
   vec3 uvd = (light_from_stage * vec4(moved, 1.0)).xyz * 0.5 + 0.5;
@@ -37,7 +37,7 @@ float key_light(vec3 point, vec3 n, float facing) {
     way += above * (uvd.z - depth);
     direction = kGoldenTurn * direction;
   }
-  // A loop that runs no times is skipped, an if is not: only the edges of shadows pay for the filter.
+  // llvmpipe skips a loop without iterations but not an `if`: only the edges of shadows pay for the filter.
   bool is_edge = blockers > 0.0 && blockers < float(kSearch);
   int taps = is_edge ? kTaps : 0;
   float radius = clamp(kLightRadius * key_depth_range * way / max(blockers, 1.0), 0.02 * body_radius,
@@ -51,7 +51,7 @@ float key_light(vec3 point, vec3 n, float facing) {
   return is_edge ? lit / float(kTaps) : (search > 0 && blockers == 0.0 ? 1.0 : 0.0);
 }
 
-// How much of the sky is open above a point: the chance that the blurred map of heights does not exceed it (Chebyshev).
+// The visible fraction of the sky above a point: the probability that the blurred heights do not exceed it (Chebyshev).
 float open_sky(vec3 point, vec3 n) {
   vec3 moved = point + 0.16 * body_radius * n;
   vec2 moments = texture(zenith, (moved.xz - zenith_rectangle.xy) * zenith_rectangle.zw).rg;
@@ -70,8 +70,8 @@ vec3 ground_bounce(vec3 point, vec3 n) {
 }
 
 #ifdef ENVIRONMENT
-uniform vec3 irradiance[9];             // factors of what Environment says
-uniform sampler2D reflections;          // square root of the light over the brightest; a level a roughness
+uniform vec3 irradiance[9];             // Environment::irradiance
+uniform sampler2D reflections;          // square root of the light over the brightest; a level per roughness
 uniform float brightest_reflection;
 
 vec3 sky_light(vec3 n) {
@@ -81,7 +81,7 @@ vec3 sky_light(vec3 n) {
   return max(sum, vec3(0.0));
 }
 
-// What a reflection sees: floor below, the surroundings above; the border is as soft as the surface is rough.
+// What a reflection sees: floor below, the environment above; the border is as soft as the surface is rough.
 vec3 room(vec3 direction, vec3 floor_light, float roughness) {
   float soft = 0.04 + 0.5 * roughness;
   vec2 uv = vec2(0.5 + atan(direction.x, -direction.z) / 6.2831853, acos(clamp(direction.y, -1.0, 1.0)) / 3.1415927);
@@ -109,12 +109,12 @@ float ggx(float nh, float nv, float nl, float alpha) {
   return a2 / (d * d) * v;
 }
 
-// What a look (the number of a Look) is made of.
+// The finish of a Look, given by its number.
 struct Finish {
   float roughness;
-  float translucency;  // of light that enters and leaves elsewhere
+  float translucency;  // fraction of light that enters and leaves elsewhere
   float metal;
-  float glow;  // share of the colour that shows whatever the light
+  float glow;  // fraction of the colour that is independent of light
 };
 
 Finish finish_of(float look) {
@@ -122,7 +122,7 @@ Finish finish_of(float look) {
   return Finish(0.42 + dot(is, vec4(-0.24, 0.33, -0.20, 0.33)), is.x, is.z, 0.45 * is.w);
 }
 
-// Integral of the specular lobe over a uniform surrounding, as a factor and a summand of the reflectance (Karis's fit).
+// Integral of the specular lobe over uniform surroundings, as a scale and a bias of the reflectance (Karis's fit).
 vec2 surrounding_share(float nv, float roughness) {
   vec4 r = roughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
   float a = min(r.x * r.x, exp2(-9.28 * nv)) * r.x + r.y;
@@ -142,7 +142,7 @@ vec3 skin_light(vec3 place, vec3 n, vec3 base, float look) {
   float nv = max(dot(n, v), 1e-3);
   float lit = key_light(place, n, nl);
 
-  // Light that enters leaves a little further on, in the body's own colour: it creeps past the edge of the shadow.
+  // Subsurface scattering: light leaves a little further on, in the body's colour, and softens the edge of the shadow.
   vec3 wrap = 0.06 + (0.20 + 0.45 * finish.translucency) * base;
   vec3 soft = clamp((nl + wrap) / (1.0 + wrap), 0.0, 1.0);
   vec3 diffuse = mix(soft, soft * soft, min(2.0 * wrap, 1.0));
@@ -150,7 +150,7 @@ vec3 skin_light(vec3 place, vec3 n, vec3 base, float look) {
   float open = open_sky(place, n);
   vec3 bounce = ground_bounce(place, n);
   vec3 surrounding = (0.5 - 0.5 * n.y) * bounce + 1.1 * mix(0.4, 1.0, open) * sky_light(n) + 0.06 * base * open;
-  // Through thin parts, at the rim, the surroundings behind shine, the more coloured the longer the way.
+  // At the rim the surroundings shine through thin parts, more coloured with the length of the path.
   vec3 through = finish.translucency * (bounce + 0.5 * kKey) * base * (0.16 + 0.55 * (1.0 - nv) * (1.0 - nv));
 
   vec3 reflected = room(reflect(-v, n), bounce, finish.roughness) * mix(0.3, 1.0, open);

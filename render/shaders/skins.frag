@@ -1,6 +1,5 @@
-// The light that the skins send to the eye. The samples of a pixel that are about as far away and face about the same
-// way are shaded together, by their mean: inside a skin that is all of them, but at creases. alpha is the share of the
-// pixel that shows a skin.
+// The light of the skins. Samples of a pixel at about the same depth and with about the same normal are shaded once, by
+// their mean: usually all of them, except at edges and creases. alpha is the fraction of the pixel that shows a skin.
 uniform mat4 stage_from_clip;
 uniform vec4 distance_terms;
 out vec4 result;
@@ -38,7 +37,7 @@ bool fits(Surface s, float depth, vec3 normal) {
 
 void main() {
   float depths[kSamples];
-  int left = 0;  // samples to be shaded, bit by bit
+  int left = 0;  // bits of the samples not yet shaded
   for (int k = 0; k < kSamples; ++k) {
     depths[k] = sample_depth(k);
     left |= depths[k] < 1.0 ? 1 << k : 0;

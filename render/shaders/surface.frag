@@ -1,5 +1,5 @@
-// What a skin is, before any light: the square root of its colour (fine steps in the dark), the number of its look and
-// its normal. The depth says where.
+// The G-buffer of a skin: the square root of its colour (fine steps in the dark), the number of its look and its normal.
+// Its position follows from the depth.
 in vec3 surface_normal;
 in vec2 texture_place;
 in vec3 vertex_color;
@@ -8,7 +8,7 @@ layout(location = 1) out vec4 packed_normal;
 uniform float look;
 //!include albedo.glsl
 
-// Octahedral, in two times 16 bits: llvmpipe writes four bytes quicker than any other layout.
+// Octahedral, in two times 16 bits: llvmpipe writes four bytes faster than any other layout.
 vec4 pack_normal(vec3 n) {
   n /= max(abs(n.x) + abs(n.y) + abs(n.z), 1e-6);
   vec2 fold = (1.0 - abs(n.yx)) * vec2(n.x < 0.0 ? -1.0 : 1.0, n.y < 0.0 ? -1.0 : 1.0);

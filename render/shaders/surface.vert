@@ -1,11 +1,11 @@
-// A skin in stage space: the middle of the motion at the origin, its radius 1, whatever its size in metres.
+// A skin in stage space: the centre of the motion is the origin, its radius 1.
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 uv;
 layout(location = 3) in vec4 color;  // square root of linear
 #ifdef MAPPED
-layout(location = 4) in float share;
-out float map_share;
+layout(location = 4) in float coordinate;
+out float map_coordinate;
 #endif
 
 uniform vec3 stage_center;  // m
@@ -19,7 +19,7 @@ out vec3 vertex_color;
 
 void main() {
 #ifdef MAPPED
-  map_share = share;
+  map_coordinate = coordinate;
 #endif
   place = (position - stage_center) * stage_scale;
   surface_normal = normal * inversesqrt(max(dot(normal, normal), 1e-30));

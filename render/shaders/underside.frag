@@ -1,4 +1,4 @@
-// The colour that is seen from below; 0 where there is nothing.
+// The colour seen from below; 0 for the background.
 in vec2 texture_place;
 in vec3 vertex_color;
 out vec4 result;

@@ -56,7 +56,7 @@ TEST_F(Program, WrongUsageIsTwo) {
   expect_error("animate cube.obj -o out --fps 3 --fps 4", 2, "--fps is given 2 times");
   expect_error("animate cube.obj -o out --fps", 2, "--fps needs a value");
   expect_error("animate cube.obj -o film.mp5", 2, "did you mean '.mp4'?");
-  expect_error("animate cube.obj -o out -o ./out/frame_{:04}.png", 2, "in each other's way");
+  expect_error("animate cube.obj -o out -o ./out/frame_{:04}.png", 2, "would write to the same place");
   expect_error("simulate cube.obj -o out --samples 1", 2, "it is an option of sprung animate");
 }
 

@@ -18,15 +18,15 @@ std::set<std::string> options_in(const std::string& text) {
   return options;
 }
 
-TEST(Readme, ListsTheOptionsThatExist) {
-  const std::string readme = text_of(SPRUNG_SOURCE_DIR "/README.md");
-  const std::size_t begin = readme.find("### Options of `sprung animate`");
-  const std::size_t end = readme.find("Lengths, times", begin);
+TEST(Documentation, ListsTheOptionsThatExist) {
+  const std::string page = text_of(SPRUNG_SOURCE_DIR "/assets/docs/options.md");
+  const std::size_t begin = page.find("## Options of `sprung animate`");
+  const std::size_t end = page.find("Lengths, times", begin);
   ASSERT_NE(end, std::string::npos);
   const TempFolder folder;
   std::set<std::string> existing = options_in(run_program(folder, "help animate").out);
   existing.erase("--help");
-  EXPECT_EQ(options_in(readme.substr(begin, end - begin)), existing);
+  EXPECT_EQ(options_in(page.substr(begin, end - begin)), existing);
 }
 
 }  // namespace
