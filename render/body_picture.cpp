@@ -12,7 +12,7 @@ namespace sprung {
 namespace {
 
 constexpr double kLine = 0.0022;     // half the width of the lines between bricks over the diagonal of the body
-constexpr double kRimShade = 0.64;   // of a face's colour
+constexpr double kLineShade = 0.64;   // of a face's colour
 constexpr double kWidestRim = 0.08;  // of a face
 constexpr int kFinestSplit = 8;      // cells along a side of a face without its rim
 constexpr int kWantedSplit = 48;     // the same over all faces along the body
@@ -67,7 +67,7 @@ Skin face_skin(const std::vector<BrickFace>& faces, const Points& positions, con
         };
         skin.positions.row(vertex) = mix(corners);
         skin.normals.row(vertex) = mix(directions).normalized();
-        skin.colors.row(vertex).head<3>() = ((is_rim ? kRimShade : 1) * mix(colors)).cast<float>();
+        skin.colors.row(vertex).head<3>() = ((is_rim ? kLineShade : 1) * mix(colors)).cast<float>();
       }
       skin.triangles.row(vertex / 2 - 2) << vertex - 4, vertex - 3, vertex - 2;
       skin.triangles.row(vertex / 2 - 1) << vertex - 4, vertex - 2, vertex - 1;
