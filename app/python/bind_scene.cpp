@@ -108,7 +108,7 @@ std::size_t row_of(const SceneRun& run, long frame) {
   return frame < 0 ? frame + count : frame;
 }
 
-std::vector<Points> positions_of(const SceneRun& run, long frame) {
+std::vector<Points> run_positions_of(const SceneRun& run, long frame) {
   std::vector<Points> bodies;
   for (const Floats3& nodes : run.recording.frames[row_of(run, frame)]) bodies.emplace_back(nodes.cast<double>());
   return bodies;
@@ -116,14 +116,14 @@ std::vector<Points> positions_of(const SceneRun& run, long frame) {
 
 std::vector<Points> skins_of(const SceneRun& run, long frame) {
   std::vector<Points> skins;
-  const std::vector<Points> nodes = positions_of(run, frame);
+  const std::vector<Points> nodes = run_positions_of(run, frame);
   for (std::size_t row = 0; row < nodes.size(); ++row) {
     skins.push_back(run.simulation.world.bodies[row].skin_positions(nodes[row]));
   }
   return skins;
 }
 
-std::vector<Triangles> triangles_of(const SceneRun& run) {
+std::vector<Triangles> run_triangles_of(const SceneRun& run) {
   std::vector<Triangles> triangles;
   for (const SoftBody& body : run.simulation.world.bodies) triangles.push_back(body.skin.triangles);
   return triangles;
@@ -188,10 +188,10 @@ void bind_scene(py::module_& module) {
       .def_property_readonly(
           "state_hash", [](const SceneRun& run) { return run.recording.state_hash; },
           "Of every bit of the last state, as sprung simulate prints it.")
-      .def("positions", &positions_of, py::arg("frame"),
+      .def("positions", &run_positions_of, py::arg("frame"),
            "By body: (m, 3) m, of the nodes in a frame, from 0; -1 is the last.")
       .def("skin_positions", &skins_of, py::arg("frame"), "By body: (v, 3) m.")
-      .def_property_readonly("triangles", &triangles_of, "By body: (t, 3) rows of skin_positions().")
+      .def_property_readonly("triangles", &run_triangles_of, "By body: (t, 3) rows of skin_positions().")
       .def_property_readonly("probes", &probes_of,
                              "By name: position, displacement, m; force, N; torque, N m; each (frames, 3).");
   module.def("simulate", &run_scene, py::arg("scene"), py::arg("cache") = py::none(), py::arg("resume") = false,

@@ -79,12 +79,12 @@ SurfaceMesh make_mesh(const Points& positions, const Triangles& triangles) {
   return mesh;
 }
 
-py::array positions_of(const py::object& self) {
+py::array mesh_positions_of(const py::object& self) {
   const Points& positions = self.cast<const SurfaceMesh&>().positions;
   return view(positions.data(), {positions.rows(), 3}, self);
 }
 
-py::array triangles_of(const py::object& self) {
+py::array mesh_triangles_of(const py::object& self) {
   const Triangles& triangles = self.cast<const SurfaceMesh&>().triangles;
   return view(triangles.data(), {triangles.rows(), 3}, self);
 }
@@ -94,8 +94,8 @@ void bind_mesh(py::module_& module) {
       .def(py::init(&make_mesh), py::arg("positions"), py::arg("triangles"),
            "positions: (k, 3), in any unit; triangles: (t, 3) rows of positions, from 0, counter-clockwise from "
            "outside.")
-      .def_property_readonly("positions", &positions_of, "(k, 3) units of the file; no copy, read only.")
-      .def_property_readonly("triangles", &triangles_of, "(t, 3) rows of positions; no copy, read only.")
+      .def_property_readonly("positions", &mesh_positions_of, "(k, 3) units of the file; no copy, read only.")
+      .def_property_readonly("triangles", &mesh_triangles_of, "(t, 3) rows of positions; no copy, read only.")
       .def_readonly("notes", &SurfaceMesh::notes, "What was ignored in the file, one sentence each.");
   module.def("read_mesh", &read_mesh, py::arg("file"), py::call_guard<py::gil_scoped_release>(),
              "The mesh in a file: OBJ, PLY, STL, OFF, or whatever assimp reads; Error says what is wrong and where.");

@@ -20,8 +20,6 @@ namespace {
 
 using Light = Eigen::Vector3f;
 
-constexpr RenderOptions kSmall{320, 180, 4};
-
 /// `light_of` a unit vector.
 template <class LightOf>
 Panorama panorama(int height, const LightOf& light_of) {

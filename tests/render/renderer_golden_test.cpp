@@ -9,7 +9,6 @@
 namespace sprung {
 namespace {
 
-constexpr RenderOptions kSmall{320, 180, 4};
 const Eigen::Vector3f kBlue(0.23F, 0.49F, 0.65F);
 const Eigen::Vector3f kAmber(0.91F, 0.64F, 0.24F);
 

@@ -17,8 +17,6 @@
 namespace sprung {
 namespace {
 
-constexpr RenderOptions kSmall{320, 180, 4};
-
 Eigen::Vector3d pixel(const Image& image, int x, int y) {
   const auto at = 3 * std::size_t(y * image.width + x);
   return {double(image.pixels[at]), double(image.pixels[at + 1]), double(image.pixels[at + 2])};

@@ -1,12 +1,30 @@
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
+#include <ostream>
 #include <string>
 
+#include "core/io/mesh_export.h"
+#include "core/mesh/repair/solids.h"
 #include "core/mesh/surface_mesh.h"
 
+namespace sprung {
+
+/// How GoogleTest names a parameter.
+inline void PrintTo(const MeshFormat& format, std::ostream* out) { *out << format.extension; }
+
+}  // namespace sprung
+
 namespace sprung::test {
+
+/// How many repairs of a kind were made.
+inline int count_of_kind(const Solids& found, const std::string& kind) {
+  const auto repair = std::find_if(found.repairs.begin(), found.repairs.end(),
+                                   [&](const Repair& candidate) { return candidate.kind == kind; });
+  return repair == found.repairs.end() ? 0 : repair->count;
+}
 
 /// A file of the shared test meshes; they lie beside the project and may be absent.
 inline std::filesystem::path shared_mesh(const std::string& name) {

@@ -10,6 +10,8 @@ namespace sprung {
 inline const Eigen::Vector3f kRed(0.85F, 0.20F, 0.16F);
 inline const Eigen::Vector3f kCream(0.95F, 0.93F, 0.88F);
 
+inline constexpr RenderOptions kSmall{320, 180, 4};
+
 /// Skins for pictures in tests, in metres.
 [[nodiscard]] Skin make_sphere_skin(const Vec3& center, double radius);
 /// A ring around the y axis.

@@ -203,7 +203,7 @@ TEST(Resume, RoundedCachesSayHowFarOffTheyAre) {
   EXPECT_EQ(run_program(folder, simulate + "-o folder/ --position-error 1mm").exit_code, 2);
 }
 
-const std::string kFew = test::kSanitized ? "4" : "8";
+const std::string kFewBricks = test::kSanitized ? "4" : "8";
 
 /// As often as this the program is killed on its way, each time after some seconds; sanitizers make it slower.
 constexpr int kKills = test::kSanitized ? 6 : 20;
@@ -213,7 +213,7 @@ constexpr double kLongest = test::kSanitized ? 20 : 0.4;
 TEST(Resume, ProgramKilledAtRandomMomentsComesToTheSameEnd) {
   const TempFolder folder;
   static_cast<void>(folder.write("cube.obj", kCubeObj));
-  const std::string simulate = "simulate cube.obj --bricks " + kFew + " --fps 100 --duration 1 --resume -o ";
+  const std::string simulate = "simulate cube.obj --bricks " + kFewBricks + " --fps 100 --duration 1 --resume -o ";
   const unsigned seed = std::random_device()();
   SCOPED_TRACE(seed);
   std::mt19937 random(seed);
@@ -235,7 +235,7 @@ TEST(Resume, ProgramKilledAtRandomMomentsComesToTheSameEnd) {
 TEST(Resume, AnInterruptEndsTheFrameAndSaysHowToGoOn) {
   const TempFolder folder;
   static_cast<void>(folder.write("cube.obj", kCubeObj));
-  const std::string simulate = "simulate cube.obj --bricks " + kFew + " --fps 100 --duration 60 -o run.h5";
+  const std::string simulate = "simulate cube.obj --bricks " + kFewBricks + " --fps 100 --duration 60 -o run.h5";
   const ProgramRun ended =
       run_program(folder, simulate, "timeout --preserve-status -s INT " + std::string(test::kSanitized ? "20" : "1.5"));
   EXPECT_EQ(ended.exit_code, 130) << ended.err;

@@ -126,7 +126,7 @@ TEST(BrickForces, DampingTakesEnergyAndLeavesRigidMotionAlone) {
   EXPECT_LT(as_vector(shear).dot(damping_force(shear)), 0);
 }
 
-Body shaken_body(Model model) {
+Body shaken_box(Model model) {
   std::mt19937 random(5);
   BrickGrid grid = make_box_grid({5, 3, 4}, 0.02);
   for (std::size_t i = 0; i < grid.fill.size(); i += 3) grid.fill[i] = 0.37;
@@ -137,7 +137,7 @@ Body shaken_body(Model model) {
 
 TEST(SpringForces, SumToNothing) {
   for (const Model model : kCorrectedModels) {
-    const Body body = shaken_body(model);
+    const Body body = shaken_box(model);
     ForceWorkspace workspace;
     Points forces;
     spring_forces(body, workspace, forces);
@@ -153,7 +153,7 @@ TEST(SpringForces, SumToNothing) {
 }
 
 TEST(SpringForces, AreTheSameBitsForAnyNumberOfThreads) {
-  Body body = shaken_body(Model::kCalibrated);
+  Body body = shaken_box(Model::kCalibrated);
   body.damping.beta = 1e-3;
   for (int i = 0; i < body.node_count(); ++i) body.velocities.row(i).setConstant(std::sin(i));
   Points first;
@@ -168,7 +168,7 @@ TEST(SpringForces, AreTheSameBitsForAnyNumberOfThreads) {
 }
 
 TEST(Body, MassIsDensityTimesVolume) {
-  const Body body = shaken_body(Model::kCalibrated);
+  const Body body = shaken_box(Model::kCalibrated);
   EXPECT_NEAR(body.masses.sum(), 1000 * body.grid.volume(), 1e-12);
   EXPECT_GT(body.masses.minCoeff(), 0);
 }

@@ -21,7 +21,7 @@ using test::shake;
 using test::test_material;
 using test::world_of;
 
-constexpr double kGravity = 9.81;
+constexpr double kStandardGravity = 9.81;
 
 void pin_left_end(SoftBody& actor) {
   for (int node = 0; node < actor.node_count(); ++node) {
@@ -36,17 +36,17 @@ TEST(Implicit, FreeFallIsTheClosedForm) {
   const long steps = 20;
   const auto n = double(steps);
   for (const ImplicitScheme scheme : {ImplicitScheme::kEuler, ImplicitScheme::kBdf2}) {
-    World world = world_of(calibrated_box({2, 2, 2}, 0.1, 0.3), {0, -kGravity, 0});
+    World world = world_of(calibrated_box({2, 2, 2}, 0.1, 0.3), {0, -kStandardGravity, 0});
     const Points start = world.bodies[0].positions;
     ImplicitMotion(world, {.scheme = scheme}).advance(dt, steps, 0);
     const Points fall = start - world.bodies[0].positions;
     // Backward Euler: the sum of an arithmetic series. BDF2 starts with one such step; what that is off by grows to
     // three halves of itself.
-    const double exact = kGravity * n * n * dt * dt / 2;
+    const double exact = kStandardGravity * n * n * dt * dt / 2;
     const double drop =
-        scheme == ImplicitScheme::kEuler ? kGravity * dt * dt * n * (n + 1) / 2 : exact + 0.75 * kGravity * dt * dt;
+        scheme == ImplicitScheme::kEuler ? kStandardGravity * dt * dt * n * (n + 1) / 2 : exact + 0.75 * kStandardGravity * dt * dt;
     EXPECT_LT((fall.col(1).array() - drop).abs().maxCoeff(), 1e-6) << int(scheme);
-    EXPECT_NEAR(world.bodies[0].velocities(0, 1), -kGravity * n * dt, 1e-6);
+    EXPECT_NEAR(world.bodies[0].velocities(0, 1), -kStandardGravity * n * dt, 1e-6);
   }
 }
 
@@ -142,7 +142,7 @@ TEST(Implicit, EnergyNeverGrows) {
 }
 
 TEST(Implicit, LongStepsEndInTheStaticEquilibrium) {
-  World world = world_of(calibrated_box({12, 3, 3}, 0.02, 0.3, 5e4), {0, -kGravity, 0});
+  World world = world_of(calibrated_box({12, 3, 3}, 0.02, 0.3, 5e4), {0, -kStandardGravity, 0});
   SoftBody& actor = world.bodies[0];
   pin_left_end(actor);
   Body still = actor;
@@ -177,7 +177,7 @@ TEST(Implicit, HandlesMoveAsTold) {
 /// Explicit and implicit steps of the same fall agree.
 TEST(Implicit, AgreesWithExplicitStepsOnABendingBeam) {
   const auto make = [] {
-    World world = world_of(calibrated_box({12, 2, 2}, 0.02, 0.3, 5e4), {0, -kGravity, 0});
+    World world = world_of(calibrated_box({12, 2, 2}, 0.02, 0.3, 5e4), {0, -kStandardGravity, 0});
     pin_left_end(world.bodies[0]);
     world.bodies[0].damping.beta = 5e-4;
     return world;
@@ -238,7 +238,7 @@ TEST(Implicit, MusclesCurlABeamAsInExplicitSteps) {
 TEST(Implicit, SameBitsForAnyNumberOfThreads) {
   const auto run = [](std::size_t threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    World world = world_of(calibrated_box({10, 6, 6}, 0.02, 0.4), {0, -kGravity, 0});
+    World world = world_of(calibrated_box({10, 6, 6}, 0.02, 0.4), {0, -kStandardGravity, 0});
     world.obstacles = {level_ground(-0.01, 0.5, 0)};
     ImplicitMotion(world, {}).advance(0.01, 8, 0);
     return world.bodies[0].positions;

@@ -7,6 +7,7 @@
 #include "core/mesh/io/read_mesh.h"
 #include "tests/support/bodies.h"
 #include "tests/support/json_number.h"
+#include "tests/support/meshes.h"
 #include "tests/support/run_program.h"
 
 namespace sprung {
@@ -57,8 +58,6 @@ Points corners_of(const Points& positions, const Triangles& triangles) {
   for (Eigen::Index i = 0; i < triangles.size(); ++i) corners.row(i) = positions.row(triangles.data()[i]);
   return corners;
 }
-
-[[maybe_unused]] void PrintTo(const MeshFormat& format, std::ostream* out) { *out << format.extension; }
 
 class MeshExport : public testing::TestWithParam<MeshFormat> {};
 

@@ -7,6 +7,7 @@
 
 #include "core/appearance.h"
 #include "core/io/mesh_export.h"
+#include "tests/support/meshes.h"
 #include "tests/support/run_program.h"
 
 namespace sprung {
@@ -146,8 +147,6 @@ bool has_color(const Reread& read, const Eigen::Vector3f& color) {
   return std::any_of(read.diffuse.begin(), read.diffuse.end(),
                      [&](const Eigen::Vector3f& found) { return (found - color).cwiseAbs().maxCoeff() < 0.01F; });
 }
-
-[[maybe_unused]] void PrintTo(const MeshFormat& format, std::ostream* out) { *out << format.extension; }
 
 class Reading : public testing::TestWithParam<MeshFormat> {};
 

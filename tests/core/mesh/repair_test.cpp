@@ -24,13 +24,6 @@ using test::joined;
 const Vec3 kOne = Vec3::Ones();
 const double kTorusVolume = 2 * std::numbers::pi * std::numbers::pi * 2 * 0.5 * 0.5;
 
-/// 0 where there was no such repair.
-int count_of_kind(const Solids& found, const std::string& kind) {
-  const auto repair = std::find_if(found.repairs.begin(), found.repairs.end(),
-                                   [&](const Repair& candidate) { return candidate.kind == kind; });
-  return repair == found.repairs.end() ? 0 : repair->count;
-}
-
 std::string refusal(const SurfaceMesh& mesh, const SolidOptions& options = {}) {
   try {
     (void)find_solids(mesh, "thing.obj", options);
@@ -104,7 +97,7 @@ TEST(Repair, ClosesAFlatHoleFlat) {
   // The box's last two triangles are its side x = 1.
   const SurfaceMesh open = without_triangles(box_mesh(Vec3::Zero(), kOne), 10, 2);
   const Solids found = find_solids(open, "box");
-  EXPECT_EQ(count_of_kind(found, "hole_filled"), 1);
+  EXPECT_EQ(test::count_of_kind(found, "hole_filled"), 1);
   const Solid& solid = found.solids.at(0);
   EXPECT_DOUBLE_EQ(solid.volume, 1);
   EXPECT_EQ(solid.points.rows(), 8) << "a flat cap has no points of its own";
@@ -141,7 +134,7 @@ TEST(Repair, ClosesACurvedHoleSmoothly) {
   open.triangles = whole.triangles(kept, Eigen::all);
   const Solids found = find_solids(open, "torus");
   ASSERT_EQ(found.solids.size(), 1U);
-  EXPECT_EQ(count_of_kind(found, "hole_filled"), 1);
+  EXPECT_EQ(test::count_of_kind(found, "hole_filled"), 1);
   EXPECT_NEAR(found.solids[0].volume / find_solids(whole, "torus").solids.at(0).volume, 1, 0.004);
   double furthest = 0;  // from the torus
   for (const auto& p : found.solids[0].points.rowwise()) {
@@ -158,8 +151,8 @@ TEST(Repair, StitchesRimsThatAlmostMeet) {
   const Solids found = find_solids(cracked, "torus");
   ASSERT_EQ(found.solids.size(), 1U);
   EXPECT_TRUE(found.solids[0].closed);
-  EXPECT_GT(count_of_kind(found, "stitched"), 20000);
-  EXPECT_EQ(count_of_kind(found, "hole_filled"), 0);
+  EXPECT_GT(test::count_of_kind(found, "stitched"), 20000);
+  EXPECT_EQ(test::count_of_kind(found, "hole_filled"), 0);
   EXPECT_NEAR(found.solids[0].volume / kTorusVolume, 1, 5e-3);
 }
 
@@ -167,8 +160,8 @@ TEST(Repair, UnitesBodiesThatOverlap) {
   const SurfaceMesh mesh = joined(box_mesh(Vec3::Zero(), kOne), inside_out(box_mesh(0.5 * kOne, 1.5 * kOne)));
   const Solids found = find_solids(mesh, "boxes");
   ASSERT_EQ(found.solids.size(), 1U);
-  EXPECT_EQ(count_of_kind(found, "united"), 2);
-  EXPECT_EQ(count_of_kind(found, "inside_out"), 1);
+  EXPECT_EQ(test::count_of_kind(found, "united"), 2);
+  EXPECT_EQ(test::count_of_kind(found, "inside_out"), 1);
   EXPECT_NEAR(enclosed_volume(found.solids[0]), 2 - 0.125, 1e-3);
   EXPECT_NEAR(voxelize(found.solids[0], 0.1).volume(), 2 - 0.125, 2e-3);
 }

@@ -49,12 +49,6 @@ double longest_side(const SurfaceMesh& mesh) {
   return (mesh.positions.colwise().maxCoeff() - mesh.positions.colwise().minCoeff()).maxCoeff();
 }
 
-int count_of_kind(const Solids& found, const std::string& kind) {
-  const auto repair = std::find_if(found.repairs.begin(), found.repairs.end(),
-                                   [&](const Repair& candidate) { return candidate.kind == kind; });
-  return repair == found.repairs.end() ? 0 : repair->count;
-}
-
 class SharedMeshes : public ::testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
@@ -113,8 +107,8 @@ TEST(SharedScan, EarsAndHeadNeitherFillNorLeak) {
   const SurfaceMesh mesh = read_mesh(scan);
   const SurfaceMesh sound = read_mesh(whole);
   const Solids found = find_solids(mesh, "scan");
-  EXPECT_EQ(count_of_kind(found, "hole_filled"), 5);
-  EXPECT_EQ(count_of_kind(found, "unreferenced"), 1113);
+  EXPECT_EQ(test::count_of_kind(found, "hole_filled"), 5);
+  EXPECT_EQ(test::count_of_kind(found, "unreferenced"), 1113);
   // The same animal, remeshed without holes.
   const BrickGrid a = voxelize(found.solids.at(0), longest_side(mesh) / 48);
   const BrickGrid b = voxelize(find_solids(sound, "bunny").solids.at(0), longest_side(sound) / 48);
