@@ -12,7 +12,7 @@ namespace sprung {
 namespace {
 
 constexpr double kLine = 0.0022;     // half the width of the lines between bricks over the diagonal of the body
-constexpr double kLineShade = 0.64;   // of a face's colour
+constexpr double kLineShade = 0.64;  // of a face's colour
 constexpr double kWidestRim = 0.08;  // of a face
 constexpr int kFinestSplit = 8;      // cells along a side of a face without its rim
 constexpr int kWantedSplit = 48;     // the same over all faces along the body
@@ -149,7 +149,8 @@ BodyPicture draw_membrane(const Membrane& membrane, const BodyPictureOptions& op
   }
   const double side = membrane.law.sides[0];
   const int along = int(std::lround(membrane.rest_positions.maxCoeff() / side));
-  const Skin skin = face_skin(faces, shown, color_map(values), kLine * bounding_box(shown).diagonal().norm() / side, along);
+  const Skin skin =
+      face_skin(faces, shown, color_map(values), kLine * bounding_box(shown).diagonal().norm() / side, along);
   return {draw_on_white(skin, options, 0, 0), "displacement (mm)", 0, values.maxCoeff()};
 }
 

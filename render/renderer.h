@@ -44,7 +44,7 @@ struct Stage {
   ColorMap color_map = ColorMap::kViridis;
   bool has_ground = true;
   GroundPlane ground;
-  AlignedBox bounds;                             // of the whole motion: sizes shadow map, ground fade and light
+  AlignedBox bounds;                         // of the whole motion: sizes shadow map, ground fade and light
   std::optional<Environment> environment{};  // replaces the studio's sky and walls, not the key light
 };
 

@@ -65,7 +65,7 @@ constexpr int kFirstSurfaceUnit = kFirstMapUnit + LightMaps::kUnits;
 constexpr float kSkin = 0.5F;
 constexpr float kNoSkin = 1;
 
-constexpr double kLevel = 1e-4;        // sine of the elevation of a ray that counts as level
+constexpr double kLevel = 1e-4;          // sine of the elevation of a ray that counts as level
 constexpr double kSightSteps = 1 << 20;  // one over the step to which rays are rounded
 
 constexpr TextureFormat kColorFormat{GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, false, false, GL_CLAMP_TO_EDGE};

@@ -72,10 +72,9 @@ void write_runs(const SweepOptions& options, const Console& console) {
   }
   write_file(folder / "runs.json", runs.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
   write_file(folder / "commands", commands);
-  write_file(folder / "run",
-                   fmt::format("# All runs one after the other, then their table.\nsh {}\n"
-                               "sprung sweep {} --table | tee {}\n",
-                               quoted(folder / "commands"), quoted(folder), quoted(folder / "table.csv")));
+  write_file(folder / "run", fmt::format("# All runs one after the other, then their table.\nsh {}\n"
+                                         "sprung sweep {} --table | tee {}\n",
+                                         quoted(folder / "commands"), quoted(folder), quoted(folder / "table.csv")));
   console.note(count_of(choices.size(), "run"));
   fmt::print("{}\n", (fs::path(options.outputs.names.front()) / "commands").string());
 }

@@ -12,10 +12,9 @@
 #include "app/film/film_cameras.h"
 #include "app/film/film_stage.h"
 #include "core/error.h"
-#include "core/io/animation.h"
 #include "core/files.h"
-#include "core/io/mesh_export.h"
 #include "core/io/animation.h"
+#include "core/io/mesh_export.h"
 #include "core/io/xdmf.h"
 #include "core/simulation/run_cache.h"
 #include "core/text.h"
@@ -87,8 +86,8 @@ void export_animation(const ExportTarget& target, const CachedFilmView& view, co
       animated[i].normals.emplace_back(shading_normals(meshes[i]).cast<float>());
     }
   });
-  const double error =
-      write_animated_glb(animated, times, target.file, target.quantize ? GlbPrecision::kQuantized : GlbPrecision::kFloat);
+  const double error = write_animated_glb(animated, times, target.file,
+                                          target.quantize ? GlbPrecision::kQuantized : GlbPrecision::kFloat);
   if (target.quantize) {
     console.note(fmt::format("{}: coordinates are off by at most {:.2g} mm", target.file.string(), 1e3 * error));
   }

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/law/material.h"
 #include "core/appearance.h"
+#include "core/law/material.h"
 
 namespace sprung {
 

@@ -15,9 +15,9 @@ namespace sprung {
 namespace {
 
 constexpr double kMembraneYoung = 1000;   // Pa
-constexpr double kLength = 0.4;   // m
-constexpr double kHeight = 0.1;   // m
-constexpr double kStress = 10;    // Pa, of stretch and shear
+constexpr double kLength = 0.4;           // m
+constexpr double kHeight = 0.1;           // m
+constexpr double kStress = 10;            // Pa, of stretch and shear
 constexpr double kMembraneStrain = 0.01;  // of the patch
 constexpr double kMembraneExact = 1e-9;
 constexpr double kBeamTolerance = 0.01;
@@ -71,8 +71,8 @@ struct Variant {
 
 /// Throws Error(kBadInput) where the model does not support the shape of the rectangles.
 MembraneRun make_run(const Variant& variant, const Vec2& size = {kLength, kHeight}) {
-  Membrane membrane =
-      make_membrane(variant.counts[0], variant.counts[1], size, variant.model, light_material(kMembraneYoung, variant.poisson));
+  Membrane membrane = make_membrane(variant.counts[0], variant.counts[1], size, variant.model,
+                                    light_material(kMembraneYoung, variant.poisson));
   const Points2 no_loads = Points2::Zero(membrane.node_count(), 2);
   return {variant.counts, size, std::move(membrane), no_loads};
 }
@@ -210,8 +210,8 @@ Points2 solve_patch(MembraneRun& run, const Points2& uniform) {
 
 /// The worst of the three strains: the error of the inner displacements, and the energy.
 void measure_patch(const Variant& variant, Check& inner, Check& energy) {
-  constexpr double kMembraneSide = 0.1;      // of a rectangle along x, m
-  constexpr double kFlatness = 0.9;  // its side along y over that
+  constexpr double kMembraneSide = 0.1;  // of a rectangle along x, m
+  constexpr double kFlatness = 0.9;      // its side along y over that
   const Vec2 size(kMembraneSide * variant.counts[0], kFlatness * kMembraneSide * variant.counts[1]);
   inner.measured = 0;
   for (int which = 0; which < 3; ++which) {

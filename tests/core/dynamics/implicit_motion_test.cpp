@@ -43,8 +43,8 @@ TEST(Implicit, FreeFallIsTheClosedForm) {
     // Backward Euler: the sum of an arithmetic series. BDF2 starts with one such step; what that is off by grows to
     // three halves of itself.
     const double exact = kStandardGravity * n * n * dt * dt / 2;
-    const double drop =
-        scheme == ImplicitScheme::kEuler ? kStandardGravity * dt * dt * n * (n + 1) / 2 : exact + 0.75 * kStandardGravity * dt * dt;
+    const double drop = scheme == ImplicitScheme::kEuler ? kStandardGravity * dt * dt * n * (n + 1) / 2
+                                                         : exact + 0.75 * kStandardGravity * dt * dt;
     EXPECT_LT((fall.col(1).array() - drop).abs().maxCoeff(), 1e-6) << int(scheme);
     EXPECT_NEAR(world.bodies[0].velocities(0, 1), -kStandardGravity * n * dt, 1e-6);
   }
