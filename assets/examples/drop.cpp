@@ -26,7 +26,7 @@ int main(int count, char** words) {
   const Points normals = deform_normals(body.grid, body.skin_embedding, body.skin.normals, body.positions);
   const SkinShape shape{positions.cast<float>(), normals.cast<float>()};
   Stage stage{.skins = {&body.skin}, .default_colors = {{0.85F, 0.2F, 0.16F}}};
-  stage.bounds.include(positions);
+  stage.bounds = bounding_box(positions);
   Renderer renderer(stage, {.width = 640, .height = 360});
   write_png(renderer.draw({shape}, frame_bounds(stage.bounds, 16. / 9)), words[2]);
 }

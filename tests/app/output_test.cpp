@@ -69,7 +69,7 @@ TEST(Output, NamesWithAnUnknownEndingAreFoldersOnlyWhereThereIsOne) {
 
 TEST(Output, TwoThatMeanTheSamePlaceAreRefused) {
   const auto are_refused = [](const std::vector<std::string>& words) {
-    return error_message([&] { static_cast<void>(parse_outputs(words)); }).find("way") != std::string::npos;
+    return error_message([&] { static_cast<void>(parse_outputs(words)); }).find("same place") != std::string::npos;
   };
   EXPECT_TRUE(are_refused({"a", "./a/"}));
   EXPECT_TRUE(are_refused({"a", "b/../a/frame_{:02}.png"}));

@@ -93,7 +93,7 @@ TEST(Environment, RefusesWhatGivesNoLight) {
             "the surroundings are black above the horizon: no light");
   Panorama square{2, 2, std::vector<Light>(4, Light(1, 1, 1))};
   EXPECT_EQ(error_message([&] { Environment{square}; }),
-            "the surroundings must be twice as wide as high: once around, from up to down");
+            "the surroundings must be twice as wide as high: all around, from zenith to nadir");
 }
 
 TEST(DecodePanorama, ReadsRadianceAndPng) {
