@@ -3,7 +3,7 @@
 #include <new>
 #include <span>
 
-#include "app/commands/command_line.h"
+#include "app/commands/commands.h"
 #include "app/console/interrupt.h"
 #include "core/error.h"
 

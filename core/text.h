@@ -1,6 +1,5 @@
 #pragma once
 #include <fmt/format.h>
-
 #include <cstddef>
 #include <span>
 #include <string>
@@ -23,5 +22,11 @@ namespace sprung {
 
 /// Base64 (RFC 4648, padded).
 [[nodiscard]] std::string base64(std::span<const std::byte> bytes);
+
+/// In single quotes, for any shell.
+[[nodiscard]] std::string shell_quoted(std::string_view text);
+
+/// The same, but unquoted where no character of the text is special to a shell.
+[[nodiscard]] std::string shell_word(std::string_view text);
 
 }  // namespace sprung

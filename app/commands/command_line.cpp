@@ -1,5 +1,3 @@
-#include "app/commands/command_line.h"
-
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -11,7 +9,6 @@
 #include <vector>
 
 #include "app/commands/commands.h"
-#include "app/console/shell_text.h"
 #include "app/help/manual.h"
 #include "core/error.h"
 #include "core/text.h"

@@ -2,7 +2,6 @@
 #include <string>
 #include <string_view>
 #include <vector>
-
 #include "app/console/console.h"
 
 namespace CLI {
@@ -53,7 +52,7 @@ void add_sweep(CLI::App& app, Invocation& invocation);
 /// What a mesh, a scene or a cache is and what its film will take, to stdout.
 void add_inspect(CLI::App& app, Invocation& invocation);
 
-/// Runs experiments; their checks go to stdout. Exit code 1 where any gate fails.
+/// Runs experiments; their checks go to stdout. Exit code 1 where a check fails.
 void add_validate(CLI::App& app, Invocation& invocation);
 
 /// How two pictures differ, to stdout, and as a picture where one is wanted. Exit code 1 where they differ too much, as
@@ -65,5 +64,13 @@ void add_materials(CLI::App& app, Invocation& invocation);
 
 /// Help on a command, the keys of a scene, the manual and the completions, to stdout.
 void add_help(CLI::App& app, Invocation& invocation);
+
+}  // namespace sprung
+
+namespace sprung {
+
+/// Does what the words of the command line ask for and returns the exit code. Throws Error(kUsage), with the nearest
+/// word for a mistyped command or option; what the commands throw.
+[[nodiscard]] int run_command_line(int argc, const char* const* argv, Console& console);
 
 }  // namespace sprung

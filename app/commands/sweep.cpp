@@ -4,7 +4,6 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/options.h"
-#include "app/console/shell_text.h"
 #include "app/scene/cached_film.h"
 #include "app/scene/scene_file.h"
 #include "core/error.h"

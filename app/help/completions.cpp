@@ -4,8 +4,8 @@
 #include <CLI/CLI.hpp>
 #include <vector>
 
-#include "app/console/shell_text.h"
 #include "app/help/manual.h"
+#include "core/text.h"
 
 namespace sprung {
 namespace {

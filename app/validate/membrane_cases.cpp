@@ -8,7 +8,7 @@
 #include "app/validate/cases.h"
 #include "app/validate/responses.h"
 #include "core/body/membrane.h"
-#include "core/dynamics/statics/membrane_statics.h"
+#include "core/dynamics/statics/statics.h"
 #include "core/error.h"
 
 namespace sprung {

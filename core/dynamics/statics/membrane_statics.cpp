@@ -1,11 +1,10 @@
-#include "core/dynamics/statics/membrane_statics.h"
-
 #include <fmt/format.h>
 
 #include <Eigen/SparseCholesky>
 #include <cmath>
 #include <limits>
 
+#include "core/dynamics/statics/statics.h"
 #include "core/error.h"
 
 namespace sprung {

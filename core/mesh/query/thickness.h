@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "core/mesh/solid.h"
+#include "core/mesh/surface_mesh.h"
 
 namespace sprung {
 

@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "core/mesh/repair/repair.h"
-#include "core/mesh/solid.h"
 #include "core/mesh/surface_mesh.h"
 
 namespace sprung {

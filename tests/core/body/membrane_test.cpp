@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/dynamics/statics/membrane_statics.h"
+#include "core/dynamics/statics/statics.h"
 #include "core/error.h"
 #include "tests/support/bodies.h"
 

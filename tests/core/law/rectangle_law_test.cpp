@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "core/dynamics/statics/membrane_statics.h"
+#include "core/dynamics/statics/statics.h"
 #include "core/error.h"
 #include "tests/support/bodies.h"
 
