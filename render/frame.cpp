@@ -82,8 +82,8 @@ LightFrame fit_light(const std::vector<SkinShape>& shapes, const StageSpace& spa
   frame.bodies = box;
   const Vec3 around(0.6 * body_radius, 0.05 * body_radius, 0.6 * body_radius);
   const AlignedBox down = widened(box, around, grid);
-  const Vec3 low = down.min();
-  const Vec3 high = down.max();
+  const Vec3& low = down.min();
+  const Vec3& high = down.max();
   frame.zenith = view({Vec3(low.x(), low.z(), -high.y()), Vec3(high.x(), high.z(), -low.y())}, rows(x, z, -y));
   const double floor = std::min(ground_height, box.min().y()) - 0.01 * body_radius;
   frame.nadir = view({Vec3(low.x(), low.z(), floor), Vec3(high.x(), high.z(), high.y())}, rows(x, z, y));

@@ -89,7 +89,7 @@ struct Renderer::Device {
     ids.resize(skins.size());
     std::iota(ids.begin(), ids.end(), 1);
   }
-  ~Device() { context.make_current(); }  // the members' OpenGL objects are deleted next
+  ~Device() { static_cast<void>(context.try_make_current()); }  // the members' OpenGL objects are deleted next
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
 

@@ -62,10 +62,12 @@ GlContext::GlContext() : context_(create_context(), OSMesaDestroyContext) {
   if (gl_.GetString(GL_RENDERER) == nullptr) fail("OpenGL calls do not reach OSMesa");
 }
 
+bool GlContext::try_make_current() noexcept {
+  return OSMesaMakeCurrent(context_.get(), dummy_.data(), GL_UNSIGNED_BYTE, 1, 1) != GL_FALSE;
+}
+
 void GlContext::make_current() {
-  if (OSMesaMakeCurrent(context_.get(), dummy_.data(), GL_UNSIGNED_BYTE, 1, 1) == GL_FALSE) {
-    fail("OSMesa cannot make its context current");
-  }
+  if (!try_make_current()) fail("OSMesa cannot make its context current");
 }
 
 std::string GlContext::driver() const { return text(gl_, GL_RENDERER) + ", OpenGL " + text(gl_, GL_VERSION); }

@@ -17,6 +17,8 @@ class GlContext {
 
   /// In the calling thread. Throws Error(kFailed).
   void make_current();
+  /// The same; false in place of an error.
+  [[nodiscard]] bool try_make_current() noexcept;
 
   [[nodiscard]] const GlFunctions& gl() const { return gl_; }
   /// "Mesa 22.3.6, llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5"; the context must be current.
