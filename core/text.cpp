@@ -1,6 +1,8 @@
 #include "core/text.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cctype>
 #include <utility>

@@ -2,6 +2,7 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
 #include "app/console/console.h"
 
 namespace CLI {

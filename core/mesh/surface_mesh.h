@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <string>
 #include <vector>
+
 #include "core/types.h"
 
 namespace sprung {

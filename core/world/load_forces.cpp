@@ -1,9 +1,11 @@
-#include "core/world/loads.h"
-#include <cmath>
 #include "core/world/load_forces.h"
+
 #include <algorithm>
 #include <array>
+#include <cmath>
+
 #include "core/body/body.h"
+#include "core/world/loads.h"
 
 namespace sprung {
 

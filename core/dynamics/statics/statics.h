@@ -1,6 +1,6 @@
 #pragma once
-#include "core/dynamics/linear/linear_solver.h"
 #include "core/body/membrane.h"
+#include "core/dynamics/linear/linear_solver.h"
 
 namespace sprung {
 
