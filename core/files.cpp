@@ -110,7 +110,10 @@ void check_readable(const fs::path& file) {
 
 std::string read_file(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
-  std::string bytes(fs::file_size(file), '\0');
+  std::error_code error;
+  const std::uintmax_t size = fs::file_size(file, error);
+  if (error) refuse_reading(file, error.message());
+  std::string bytes(size, '\0');
   stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   if (stream.gcount() != std::ssize(bytes)) refuse_reading(file, "cannot be read to its end");
   return bytes;
@@ -226,14 +229,17 @@ NumberedName parse_numbered_name(std::string_view text, std::string_view example
   return numbered;
 }
 
+std::uint64_t hash_of(std::span<const std::byte> bytes, std::uint64_t hash) {
+  for (const std::byte byte : bytes) hash = (hash ^ std::to_integer<std::uint64_t>(byte)) * 0x100000001b3U;
+  return hash;
+}
+
 std::string file_hash(const fs::path& file) {
   std::ifstream bytes(file, std::ios::binary);
-  std::uint64_t hash = 0xcbf29ce484222325U;
+  std::uint64_t hash = hash_of({});
   std::vector<char> block(1 << 20);
   while (bytes.read(block.data(), static_cast<std::streamsize>(block.size())) || bytes.gcount() > 0) {
-    for (const char byte : std::span(block.data(), bytes.gcount())) {
-      hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3U;
-    }
+    hash = hash_of(std::as_bytes(std::span(block.data(), bytes.gcount())), hash);
   }
   return fmt::format("{:016x}", hash);
 }

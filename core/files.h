@@ -1,6 +1,9 @@
 #pragma once
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <initializer_list>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -93,7 +96,10 @@ struct NumberedName {
 /// Parses "folder/frame_{:04}.png", "{:04d}.obj", "{}.ply". Throws Error(kUsage) with a reason that ends in `examples`.
 [[nodiscard]] NumberedName parse_numbered_name(std::string_view text, std::string_view examples);
 
-/// FNV-1a (64 bits) of a file's bytes, in hexadecimal; that of no bytes where it cannot be read.
+/// FNV-1a (64 bits) of bytes that follow those of `hash`.
+[[nodiscard]] std::uint64_t hash_of(std::span<const std::byte> bytes, std::uint64_t hash = 0xcbf29ce484222325U);
+
+/// That of a file's bytes, in hexadecimal; that of no bytes where it cannot be read.
 [[nodiscard]] std::string file_hash(const std::filesystem::path& file);
 
 /// The hash of this program's own executable: tells builds apart.

@@ -54,6 +54,7 @@ void write_runs(const SweepOptions& options, const Console& console) {
   refuse_existing(folder / "commands", options.overwrite);
   const std::vector<Choice> choices = choices_of(options.keys.settings());
   std::vector<std::string> scenes;
+  scenes.reserve(choices.size());
   for (const Choice& choice : choices) {
     scenes.push_back(print_scene(with_defaults(make_scene({.input = options.input, .settings = choice}))));
   }

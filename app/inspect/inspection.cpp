@@ -10,6 +10,7 @@
 
 #include "app/console/console.h"
 #include "core/dynamics/explicit/integrator.h"
+#include "core/mesh/repair/weld.h"
 #include "core/skin/skin.h"
 #include "core/text.h"
 #include "core/units.h"

@@ -24,12 +24,12 @@ constexpr std::size_t kMostRows = 16;  // of a table that is not folded
 /// `look` is a list of classes of the style sheet.
 struct Cell {
   std::string html{};
-  std::string_view look = "";
+  std::string_view look{};
 };
 
 struct PageRow {
   std::vector<Cell> cells{};  // a single one spans the table
-  std::string_view look = "";
+  std::string_view look{};
 };
 
 std::string tag(std::string_view name, const Cell& cell, std::size_t span = 1) {
@@ -53,6 +53,7 @@ std::string html_table(const TextTable& table) {
   if (table.rows.empty()) return "";
   const auto cells = [](const std::vector<std::string>& words, bool is_head) {
     std::vector<Cell> row;
+    row.reserve(words.size());
     for (const std::string& word : words) {
       row.push_back({escaped(is_head ? word : with_minus(word)), row.empty() ? "" : "n"});
     }

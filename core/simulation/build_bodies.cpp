@@ -16,6 +16,7 @@
 #include "core/error.h"
 #include "core/mesh/repair/coarsen.h"
 #include "core/mesh/repair/submesh.h"
+#include "core/mesh/repair/weld.h"
 #include "core/simulation/selector.h"
 #include "core/simulation/simulation.h"
 #include "core/skin/skin.h"

@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
+#include <span>
 
 #include "core/error.h"
+#include "core/files.h"
 #include "core/simulation/drivers.h"
 #include "core/simulation/run_cache.h"
 
@@ -132,12 +133,9 @@ Recording Recorder::finish() {
 }
 
 std::uint64_t state_hash(const World& world) {
-  std::uint64_t hash = 0xcbf29ce484222325U;
+  std::uint64_t hash = hash_of({});
   const auto add = [&](const Points& points) {
-    for (const double value : std::span(points.data(), points.size())) {
-      const auto bits = std::bit_cast<std::uint64_t>(value);
-      for (unsigned byte = 0; byte < 8; ++byte) hash = (hash ^ ((bits >> (8 * byte)) & 0xffU)) * 0x100000001b3U;
-    }
+    hash = hash_of(std::as_bytes(std::span(points.data(), points.size())), hash);
   };
   for (const SoftBody& actor : world.bodies) {
     add(actor.positions);

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/disjoint_sets.h"
+#include "core/mesh/repair/weld.h"
 
 namespace sprung {
 namespace {
@@ -176,24 +177,6 @@ class CreaseSplitter {
 };
 
 }  // namespace
-
-std::vector<int> weld_points(const Points& positions) {
-  const auto before = [&](int a, int b) {
-    for (int k = 0; k < 3; ++k) {
-      if (positions(a, k) != positions(b, k)) return positions(a, k) < positions(b, k);
-    }
-    return a < b;
-  };
-  std::vector<int> order(positions.rows());
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), before);
-  std::vector<int> point_of(order.size());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const bool same = i > 0 && positions.row(order[i]) == positions.row(order[i - 1]);
-    point_of[order[i]] = same ? point_of[order[i - 1]] : order[i];
-  }
-  return point_of;
-}
 
 SplitVertices split_at_creases(const SurfaceMesh& mesh, double crease_angle) {
   const Points faces = face_vectors(mesh);

@@ -43,9 +43,6 @@ struct SplitVertices {
 /// that sharp edges stay sharp.
 [[nodiscard]] SplitVertices split_at_creases(const SurfaceMesh& mesh, double crease_angle);
 
-/// One index per row: point_of[i] == point_of[j] exactly where rows i and j are equal.
-[[nodiscard]] std::vector<int> weld_points(const Points& positions);
-
 /// Repeatedly halves every edge longer than max_edge (m) together with its triangles. Edges of equal positions are
 /// split alike, so that no gap opens. New vertices are appended; the others stay unchanged.
 void refine(Skin& skin, double max_edge);

@@ -11,10 +11,8 @@
 #include "core/disjoint_sets.h"
 
 namespace sprung {
-namespace {
 
-/// For each vertex the first vertex at the same position.
-std::vector<int> first_at_position(const Points& positions) {
+std::vector<int> weld_points(const Points& positions) {
   const auto key = [&](int v) { return std::tuple(positions(v, 0), positions(v, 1), positions(v, 2)); };
   std::vector<int> order(positions.rows());
   std::iota(order.begin(), order.end(), 0);
@@ -27,6 +25,8 @@ std::vector<int> first_at_position(const Points& positions) {
   }
   return first;
 }
+
+namespace {
 
 /// A triangle by its corners, up to rotation.
 struct Corners {
@@ -96,7 +96,7 @@ int count_used(const SurfaceMesh& mesh) {
 }  // namespace
 
 WeldedMesh weld(const SurfaceMesh& mesh) {
-  const std::vector<int> first = first_at_position(mesh.positions);
+  const std::vector<int> first = weld_points(mesh.positions);
   WeldedMesh welded;
   std::vector<std::array<int, 3>> triangles;
   std::vector<int> source;

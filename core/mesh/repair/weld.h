@@ -6,6 +6,9 @@
 
 namespace sprung {
 
+/// For each row the first row that equals it.
+[[nodiscard]] std::vector<int> weld_points(const Points& positions);
+
 /// The triangles of a mesh on distinct points.
 struct WeldedMesh {
   Points points;              // p x 3, in the order of their first use

@@ -197,7 +197,9 @@ TEST(ReadStl, TakesTextInDoublePrecisionAndAPartForEachSolid) {
 TEST(ReadStl, TakesTheColoursOfFacets) {
   std::string bytes("solid but binary");
   bytes.resize(80, ' ');
-  bytes += std::string("\1\0\0\0", 4) + std::string(48, '\0') + std::string("\x00\xFC", 2);  // red in the upper 5 bits
+  bytes.append("\1\0\0\0", 4);
+  bytes.append(48, '\0');
+  bytes.append("\x00\xFC", 2);  // red in the upper 5 bits
   EXPECT_EQ(kStl(bytes).colors.row(2), Eigen::RowVector4f(1, 0, 0, 1));
   bytes.replace(0, 16, "COLOR=...       ");
   EXPECT_EQ(kStl(bytes).colors.rows(), 0);  // of Magics the highest bit means none

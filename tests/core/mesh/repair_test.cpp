@@ -12,6 +12,7 @@
 #include "core/mesh/query/winding_tree.h"
 #include "core/mesh/repair/solids.h"
 #include "core/mesh/repair/submesh.h"
+#include "tests/support/error_message.h"
 #include "tests/support/meshes.h"
 
 namespace sprung {
@@ -25,13 +26,7 @@ const Vec3 kOne = Vec3::Ones();
 const double kTorusVolume = 2 * std::numbers::pi * std::numbers::pi * 2 * 0.5 * 0.5;
 
 std::string refusal(const SurfaceMesh& mesh, const SolidOptions& options = {}) {
-  try {
-    (void)find_solids(mesh, "thing.obj", options);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::kBadInput);
-    return error.what();
-  }
-  return "nothing was refused";
+  return error_message(ErrorKind::kBadInput, [&] { (void)find_solids(mesh, "thing.obj", options); });
 }
 
 SurfaceMesh without_triangles(SurfaceMesh mesh, int first, int count) {

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "tests/support/error_message.h"
 #include "tests/support/meshes.h"
 
 namespace sprung {
@@ -18,13 +19,7 @@ using test::joined;
 const Vec3 kOne = Vec3::Ones();
 
 std::string refusal(const SurfaceMesh& mesh, RepairMode repair = RepairMode::kOff) {
-  try {
-    (void)find_solids(mesh, "thing.obj", {.repair = repair});
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::kBadInput);
-    return error.what();
-  }
-  return "nothing was refused";
+  return error_message(ErrorKind::kBadInput, [&] { (void)find_solids(mesh, "thing.obj", {.repair = repair}); });
 }
 
 bool has_note(const Solids& found, const std::string& text) {

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "core/bricks/embedding.h"
+#include "core/mesh/repair/weld.h"
 #include "tests/support/bodies.h"
 
 namespace sprung {
