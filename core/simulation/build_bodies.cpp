@@ -28,14 +28,15 @@ namespace sprung {
 namespace {
 
 /// For bodies without a colour in the scene; a different one for each solid of a file.
-constexpr std::array<Color, 8> kPalette{{{0xd8, 0x32, 0x2a},
-                                         {0xf2, 0xa0, 0x3d},
-                                         {0x3b, 0x8e, 0xa5},
-                                         {0x6a, 0x9f, 0x4e},
-                                         {0x8a, 0x5a, 0xa8},
-                                         {0xe8, 0xc5, 0x47},
-                                         {0xc7, 0x6b, 0x8f},
-                                         {0x4f, 0x6d, 0xb8}}};
+/// Of bodies without colours: calm, and consecutive ones are far apart in hue.
+constexpr std::array<Color, 8> kPalette{{{0x5e, 0x9c, 0xa0},
+                                         {0xe0, 0xa4, 0x58},
+                                         {0x7c, 0x8f, 0xc4},
+                                         {0x8f, 0xb0, 0x6b},
+                                         {0xc9, 0x72, 0x7a},
+                                         {0x5b, 0x7f, 0xa6},
+                                         {0xe3, 0xc8, 0x78},
+                                         {0xb5, 0x8b, 0xb8}}};
 
 /// The solid of each vertex of a mesh; the first, where it belongs to none.
 std::vector<int> solids_of_vertices(const LoadedBody& loaded) {
