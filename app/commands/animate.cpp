@@ -43,7 +43,7 @@ void animate(const CLI::App& command, const AnimateOptions& options, const Conso
   require_input(command, options.scene.input, "a mesh or a scene");
   if (!options.scene.print_scene) options.outputs.require(command, "-o folder/, -o frame_{:04}.png or -o film.mp4");
   const int jobs = options.jobs.count();
-  options.scene.with_scene([&](const Film& scene) {
+  options.scene.with_scene(console, [&](const Film& scene) {
     const std::vector<Output> outputs = parse_outputs(options.outputs.names);
     for (const Output& output : outputs) check_output(output, options.overwrite);
     note_padding(outputs, scene.render, console);

@@ -116,7 +116,7 @@ void export_run(const CLI::App& command, const ExportOptions& options, const Con
     options.outputs.require(command, "-o skin_{:04}.obj, -o film.glb, ...; see sprung export --list");
   }
   if (is_cache_file(options.scene.input)) return export_cache(options, console);
-  options.scene.with_scene([&](const Film& scene) {
+  options.scene.with_scene(console, [&](const Film& scene) {
     const FrameRange range = parse_frame_range(options.frames, frame_count(scene));
     const std::vector<ExportTarget> targets = targets_of(options, scene, range);
     Simulation simulation = prepare_simulation(scene, console);

@@ -24,7 +24,7 @@ struct InspectOptions {
 };
 
 void inspect_scene(const InspectOptions& options, const Console& console) {
-  options.scene.with_scene([&](const Film& scene) {
+  options.scene.with_scene(console, [&](const Film& scene) {
     if (!options.picture.empty()) {
       refuse_existing(options.picture, options.overwrite);
       check_writable(options.picture);

@@ -8,7 +8,9 @@
 #include <array>
 
 #include "app/scene/scene_file.h"
+#include "core/files.h"
 #include "core/mesh/io/read_mesh.h"
+#include "core/text.h"
 
 namespace sprung {
 namespace {
@@ -30,7 +32,7 @@ constexpr std::array<KeyOption, 22> kKeyOptions{{
     {"--scheme", "solver.scheme", "NAME"},
     {"--integrator", "solver.scheme", "NAME"},
     {"--time-limit", "solver.time_limit", "24h"},
-    {"--fps", "fps", "N", {.is_common = true}},
+    {"--fps", "fps", "N"},
     {"--duration", "duration", "3s", {.is_common = true}},
     {"--resolution", "render.resolution", "WxH", {.is_of_pictures = true, .is_common = true}},
     {"--quality", "render.quality", "preview|default|high", {.is_of_pictures = true, .is_common = true}},
@@ -66,12 +68,62 @@ Film bare_mesh(const std::filesystem::path& mesh, const std::shared_ptr<const Ma
   return scene;
 }
 
-/// m.
-double height_of(const SceneBody& body) {
-  const Points points = read_mesh(body.mesh).positions;
-  const Vec3 extent = points.colwise().maxCoeff() - points.colwise().minCoeff();
-  const double scale = body.scale.value_or(body.size.value_or(kDefaultSize) / extent.maxCoeff());
-  return scale * extent.y();
+/// Sides of the mesh's bounding box, x, y, z, in file units.
+Vec3 extent_of(const std::filesystem::path& mesh) {
+  const Points points = read_mesh(mesh).positions;
+  return points.colwise().maxCoeff() - points.colwise().minCoeff();
+}
+
+/// STL and 3MF come from printing, where z is up as in Blender; readers turn files that name an axis.
+UpAxis usual_up(const std::filesystem::path& mesh) {
+  const std::string extension = lower_extension(mesh);
+  return extension == ".stl" || extension == ".3mf" || extension == ".blend" ? UpAxis::kZ : UpAxis::kY;
+}
+
+constexpr std::array<std::string_view, 3> kUps{"y", "z", "auto"};
+
+std::optional<UpAxis> up_from_name(std::string_view name) {
+  if (name.empty() || name == "auto") return std::nullopt;
+  if (name == "y") return UpAxis::kY;
+  if (name == "z") return UpAxis::kZ;
+  throw Error(ErrorKind::kUsage, fmt::format("--up: '{}' is not a vertical axis{}", name, did_you_mean(name, kUps)));
+}
+
+struct NamedDirection {
+  std::string_view name;
+  CameraDirection view;
+};
+constexpr std::array<NamedDirection, 6> kDirections{{{"front", {0, std::nullopt}},
+                                                     {"back", {180, std::nullopt}},
+                                                     {"left", {-90, std::nullopt}},
+                                                     {"right", {90, std::nullopt}},
+                                                     {"top", {0, 85}},
+                                                     {"three-quarter", {30, std::nullopt}}}};
+
+/// A name, or degrees about the vertical.
+CameraDirection view_from_text(const std::string& text) {
+  std::vector<std::string_view> names;
+  for (const NamedDirection& named : kDirections) {
+    if (named.name == text) return named.view;
+    names.push_back(named.name);
+  }
+  CameraDirection view;
+  try {
+    parse_value(text, {.name = "--view", .help = "", .dimension = Dimension::kAngle}, view.azimuth);
+  } catch (const Error&) {
+    throw Error(ErrorKind::kUsage,
+                fmt::format("--view: '{}' is neither a direction nor degrees{}", text, did_you_mean(text, names)));
+  }
+  return view;
+}
+
+/// Flat bodies are looked at from higher up, and bodies at rest fill a good part of the picture.
+void place_camera(SceneCamera& camera, double height, double width) {
+  constexpr double kFlatness = 0.6;  // height over width below which the camera rises
+  constexpr double kRise = 22;       // degrees, for a body without height
+  constexpr double kBodyHeight = 0.46;
+  camera.elevation += kRise * std::clamp(1 - height / (kFlatness * width), 0.0, 1.0);
+  camera.body_height = kBodyHeight;
 }
 
 }  // namespace
@@ -123,6 +175,7 @@ std::span<const KeyOption> key_options() { return kKeyOptions; }
 void apply(const Setting& setting, Film& scene) {
   try {
     set_scene_key(scene, setting.key, setting.value);
+    if (setting.key == "render.quality") scene.render.samples.reset();  // what is typed wins over the scene's
   } catch (const Error& error) {
     throw Error(ErrorKind::kUsage, fmt::format("{}: {}", setting.option, error.what()));
   }
@@ -165,14 +218,31 @@ Film make_scene(const SceneRequest& request) {
   if (is_scene && request.scenario) {
     throw Error(ErrorKind::kUsage, "--scenario is for a bare mesh; a scene file says what happens");
   }
+  if (is_scene && request.up) {
+    throw Error(ErrorKind::kUsage, "--up is for a bare mesh; in a scene file body.rotation = [-90, 0, 0] puts z up");
+  }
   const auto library = library_of(request.settings);
   Film scene = is_scene ? read_scene(request.input, *library) : bare_mesh(request.input, library);
+  const UpAxis up = request.up.value_or(usual_up(request.input));
+  Vec3 extent = Vec3::Ones();
+  if (!is_scene) {
+    extent = extent_of(scene.bodies[0].mesh);
+    if (up == UpAxis::kZ) std::swap(extent.y(), extent.z());
+    place_camera(scene.camera, extent.y(), std::max(extent.x(), extent.z()));
+    stand_upright(scene, up);
+  }
+  if (request.view) {
+    scene.camera.azimuth = request.view->azimuth;
+    if (request.view->elevation) scene.camera.elevation = *request.view->elevation;
+    scene.camera.keyframes.clear();
+  }
   for (const Setting& setting : request.settings) {
     if (!is_of_materials(setting)) apply(setting, scene);
   }
   if (is_scene) return scene;
-  const Scenario scenario = request.scenario.value_or(Scenario::kDrop);
-  stage_scenario(scene, scenario, needs_height(scenario) ? height_of(scene.bodies[0]) : 0);
+  const SceneBody& body = scene.bodies[0];
+  const double scale = body.scale.value_or(body.size.value_or(kDefaultSize) / extent.maxCoeff());
+  stage_scenario(scene, request.scenario.value_or(Scenario::kDrop), scale * extent.y(), up);
   return scene;
 }
 
@@ -183,6 +253,13 @@ void SceneOptions::add_to(CLI::App& command, bool has_pictures, const std::strin
   command
       .add_option("--scenario", scenario, fmt::format("what a bare mesh does: {}", fmt::join(scenario_names(), ", ")))
       ->option_text("NAME");
+  command.add_option("--up", up, "vertical axis of a bare mesh: y, z or auto (z for STL, 3MF, BLEND)")
+      ->option_text("AXIS")
+      ->group(kMoreOptions);
+  if (has_pictures) {
+    command.add_option("--view", view, "front, back, left, right, top, three-quarter, or degrees about the vertical")
+        ->option_text("NAME");
+  }
   command.add_option("--threads", threads, "threads of the simulation; default: all cores")
       ->option_text("N")
       ->group(kMoreOptions);
@@ -192,12 +269,17 @@ void SceneOptions::add_to(CLI::App& command, bool has_pictures, const std::strin
 SceneRequest SceneOptions::request() const {
   SceneRequest request{.input = input, .settings = keys.settings()};
   if (!scenario.empty()) request.scenario = scenario_from_name(scenario);
+  request.up = up_from_name(up);
+  if (!view.empty()) request.view = view_from_text(view);
   return request;
 }
 
-void SceneOptions::with_scene(const std::function<void(const Film&)>& work) const {
+void SceneOptions::with_scene(const Console& console, const std::function<void(const Film&)>& work) const {
   const int thread_count = count_in("--threads", threads);
   const Film scene = make_scene(request());
+  if (up.empty() && !is_scene_file(input) && usual_up(input) == UpAxis::kZ) {
+    console.note("up: z, as in most files of this format; --up y if the mesh lies on its side");
+  }
   if (print_scene) {
     fmt::print("{}", sprung::print_scene(with_defaults(scene)));
     return;

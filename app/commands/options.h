@@ -109,11 +109,19 @@ struct SettingOptions {
   std::vector<std::string> sets_;
 };
 
+/// From where the camera looks.
+struct CameraDirection {
+  double azimuth = 0;               // degrees
+  std::optional<double> elevation;  // degrees; none: as the scene has it
+};
+
 /// The scene that a mesh file or a scene file and options mean.
 struct SceneRequest {
   std::string input;
   std::vector<Setting> settings;
-  std::optional<Scenario> scenario{};  // of a bare mesh
+  std::optional<Scenario> scenario{};     // of a bare mesh
+  std::optional<UpAxis> up{};             // of a bare mesh; none: z for STL, 3MF and BLEND, else y
+  std::optional<CameraDirection> view{};  // from where the camera looks
 };
 
 /// Options before scene file before defaults. Throws Error(kUsage) naming the option whose value is wrong,
@@ -125,6 +133,8 @@ struct SceneOptions {
   std::string input;
   SettingOptions keys;
   std::string scenario;
+  std::string up;
+  std::string view;
   std::string threads;
   bool print_scene = false;
 
@@ -132,7 +142,7 @@ struct SceneOptions {
   [[nodiscard]] SceneRequest request() const;
   /// Does `work` with the scene on as many threads as the options say; or prints the scene where that is all that was
   /// asked for.
-  void with_scene(const std::function<void(const Film&)>& work) const;
+  void with_scene(const Console& console, const std::function<void(const Film&)>& work) const;
 };
 
 /// `examples`, and what holds for every command that takes a scene.

@@ -219,7 +219,7 @@ void run_simulation(const CLI::App& command, const SimulateOptions& options, con
   require_input(command, options.scene.input, "a mesh or a scene");
   if (!options.scene.print_scene) options.outputs.require(command, "-o RUN.h5 or -o folder/");
   const double position_error = position_error_of(options);
-  options.scene.with_scene([&](const Film& scene) {
+  options.scene.with_scene(console, [&](const Film& scene) {
     const Places places = places_of(options);
     std::optional<RunCache> cache;
     if (places.cache) {

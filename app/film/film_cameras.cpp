@@ -108,6 +108,27 @@ CameraKeyframe placed(const std::vector<CameraKeyframe>& keyframes, double time)
 
 void zoom_in(Camera& camera, double zoom) { camera.eye = camera.target + (camera.eye - camera.target) / zoom; }
 
+/// The fraction of the picture's height that the points take.
+double height_in_picture(const Camera& camera, const Points& points) {
+  const Vec3 ahead = camera.target - camera.eye;
+  const Vec3 forward = ahead.normalized();
+  const Vec3 up = (camera.up - camera.up.dot(forward) * forward).normalized();
+  const Points from_eye = points.rowwise() - camera.eye.transpose();
+  const Eigen::ArrayXd height = from_eye * up;
+  const Eigen::ArrayXd depth =
+      camera.orthographic ? Eigen::ArrayXd::Constant(points.rows(), ahead.norm()) : Eigen::ArrayXd(from_eye * forward);
+  const Eigen::ArrayXd place = height / depth;
+  const double half = std::tan(camera.vertical_field_of_view * std::numbers::pi / 360);
+  return (place.maxCoeff() - place.minCoeff()) / (2 * half);
+}
+
+/// Moves the camera away until the points take at most that fraction of the picture's height.
+void step_back(Camera& camera, const Points& points, double most) {
+  constexpr int kIterations = 12;  // perspective: the height does not fall quite as the distance grows
+  if (height_in_picture(camera, points) <= most) return;
+  for (int i = 0; i < kIterations; ++i) zoom_in(camera, most / height_in_picture(camera, points));
+}
+
 }  // namespace
 
 Reach reach_of(const Simulation& simulation, const Recording& recording) {
@@ -173,7 +194,15 @@ std::vector<Camera> cameras_of(const Film& scene, const Reach& reach, double res
   stops.reserve(count);
   for (int stop = 0; stop < count; ++stop)
     stops.push_back(flipped(seen, center, -chosen.orbit * stop / std::max(1, count - 1)));
-  const Camera first = frame_points(stacked(stops), aspect, chosen.azimuth, chosen.elevation, chosen.orthographic);
+  const Points at_end = chosen.follow
+                            ? Points(reach.bodies.back().rowwise() + (center - reach.middles.back()).transpose())
+                            : reach.bodies.back();
+  const auto framed = [&](const Points& points, double azimuth, double elevation) {
+    Camera camera = frame_points(points, aspect, azimuth, elevation, chosen.orthographic);
+    if (chosen.body_height) step_back(camera, at_end, *chosen.body_height);
+    return camera;
+  };
+  const Camera first = framed(stacked(stops), chosen.azimuth, chosen.elevation);
   std::vector<Camera> cameras;
   for (std::size_t frame = 0; frame < frames; ++frame) {
     const double way = frames > 1 ? double(frame) / double(frames - 1) : 0;
@@ -181,7 +210,7 @@ std::vector<Camera> cameras_of(const Film& scene, const Reach& reach, double res
     double zoom = chosen.zoom;
     if (!chosen.keyframes.empty()) {
       const CameraKeyframe at = placed(chosen.keyframes, time_of(scene, int(frame)));
-      camera = frame_points(seen, aspect, at.azimuth, at.elevation, chosen.orthographic);
+      camera = framed(seen, at.azimuth, at.elevation);
       zoom = at.zoom;
     }
     zoom_in(camera, zoom);

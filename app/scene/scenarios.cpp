@@ -13,13 +13,14 @@
 namespace sprung {
 namespace {
 
-constexpr std::array<std::string_view, 7> kScenarioNames{"drop",  "hang",   "squash", "stretch",
-                                                         "twist", "wobble", "throw"};
+constexpr std::array<std::string_view, 8> kScenarioNames{"drop",  "hang",   "squash", "stretch",
+                                                         "twist", "wobble", "throw",  "tumble"};
 
-constexpr double kDropHeight = 0.4;  // in sizes above the ground
-constexpr double kHangHeight = 0.5;  // in sizes above the ground: near enough to see, far enough to stretch
-constexpr double kSwing = 0.6;       // sizes to the side, in a time
-constexpr double kSwingTime = 0.12;  // of the film's: what hangs follows late and swings
+constexpr double kDropHeight = 0.15;   // in sizes above the ground: lands on its feet, if it has any
+constexpr double kTumbleHeight = 0.4;  // in sizes above the ground
+constexpr double kHangHeight = 0.5;    // in sizes above the ground: near enough to see, far enough to stretch
+constexpr double kSwing = 0.6;         // sizes to the side, in a time
+constexpr double kSwingTime = 0.36;    // s: what hangs follows late and swings
 constexpr double kHeldFraction = 0.08;
 constexpr double kStretch = 0.6;      // heights
 constexpr double kPlate = 0.08;       // sizes, thick
@@ -28,52 +29,61 @@ constexpr double kPlateHeight = 0.1;  // sizes above the ground
 constexpr double kSquash = 0.2;       // heights, each plate
 constexpr double kTwist = 180;        // degrees
 constexpr double kBend = 0.3;         // heights
+constexpr double kBendTime = 0.45;    // s
+constexpr double kLetGo = 0.6;        // s
+constexpr double kThere = 1.2;        // s: where something is done and undone, it is done by then,
+constexpr double kStay = 1.8;         // s: is held until then
+constexpr double kBack = 3.0;         // s: and is undone by then
 constexpr double kThrowHeight = 0.3;
 constexpr double kTumble = 0.6;  // rad in the time that gravity takes for a size
 
-Pin bottom_pin() {
+/// The row of the vertical axis in the file's frame.
+int row_of(UpAxis up) { return up == UpAxis::kY ? 1 : 2; }
+
+Pin bottom_pin(UpAxis up) {
   Pin pin;
   pin.name = "bottom";
-  pin.box = Box{.max = Vec3(1, kHeldFraction, 1)};
+  pin.box = Box{};
+  pin.box->max[row_of(up)] = kHeldFraction;
   return pin;
 }
 
-Pin top_pin() {
+Pin top_pin(UpAxis up) {
   Pin pin;
   pin.name = "top";
-  pin.box = Box{.min = Vec3(0, 1 - kHeldFraction, 0)};
+  pin.box = Box{};
+  pin.box->min[row_of(up)] = 1 - kHeldFraction;
   pin.interpolation = Interpolation::kSmooth;
   return pin;
 }
 
-/// Reached at 40 % of the film, held until 60 %, and undone by the end.
-std::vector<Keyframe> there_and_back(double duration, Keyframe there) {
-  there.time = 0.4 * duration;
+std::vector<Keyframe> there_and_back(Keyframe there) {
+  there.time = kThere;
   Keyframe still = there;
-  still.time = 0.6 * duration;
-  return {Keyframe{}, there, still, Keyframe{.time = duration}};
+  still.time = kStay;
+  return {Keyframe{}, there, still, Keyframe{.time = kBack}};
 }
 
 /// Held by its top, which moves to the side and stops there.
-void stage_hang(SceneBody& body, double size, double duration) {
-  Pin top = top_pin();
-  top.keyframes = {Keyframe{}, {.time = kSwingTime * duration, .translate = Vec3(kSwing * size, 0, 0)}};
+void stage_hang(SceneBody& body, double size, UpAxis up) {
+  Pin top = top_pin(up);
+  top.keyframes = {Keyframe{}, {.time = kSwingTime, .translate = Vec3(kSwing * size, 0, 0)}};
   body.position = Vec3(-kSwing / 2 * size, kHangHeight * size, 0);
   body.pins = {top};
 }
 
-void stage_stretch(SceneBody& body, double height, double duration) {
-  Pin top = top_pin();
-  top.keyframes = there_and_back(duration, {.translate = Vec3(0, kStretch * height, 0)});
-  body.pins = {bottom_pin(), top};
+void stage_stretch(SceneBody& body, double height, UpAxis up) {
+  Pin top = top_pin(up);
+  top.keyframes = there_and_back({.translate = Vec3(0, kStretch * height, 0)});
+  body.pins = {bottom_pin(up), top};
 }
 
 /// A plate with its lower face at `bottom` that moves up by `way` and back (m).
-SceneObstacle plate(double size, double bottom, double way, double duration) {
+SceneObstacle plate(double size, double bottom, double way) {
   SceneObstacle obstacle;
   obstacle.box = size * Vec3(kPlateSide, kPlate, kPlateSide);
   obstacle.position = Vec3(0, bottom + obstacle.box->y() / 2, 0);
-  obstacle.keyframes = there_and_back(duration, {.translate = Vec3(0, way, 0)});
+  obstacle.keyframes = there_and_back({.translate = Vec3(0, way, 0)});
   obstacle.interpolation = Interpolation::kSmooth;
   return obstacle;
 }
@@ -82,21 +92,21 @@ SceneObstacle plate(double size, double bottom, double way, double duration) {
 void stage_squash(Film& scene, SceneBody& body, double size, double height) {
   const double low = kPlateHeight * size;
   body.position.y() = low + kPlate * size;
-  scene.obstacles.push_back(plate(size, low, kSquash * height, scene.duration));
-  scene.obstacles.push_back(plate(size, body.position.y() + height, -kSquash * height, scene.duration));
+  scene.obstacles.push_back(plate(size, low, kSquash * height));
+  scene.obstacles.push_back(plate(size, body.position.y() + height, -kSquash * height));
 }
 
-void stage_twist(SceneBody& body, double duration) {
-  Pin top = top_pin();
-  top.keyframes = there_and_back(duration, {.rotate = Vec3(0, kTwist, 0)});
-  body.pins = {bottom_pin(), top};
+void stage_twist(SceneBody& body, UpAxis up) {
+  Pin top = top_pin(up);
+  top.keyframes = there_and_back({.rotate = Vec3(0, kTwist, 0)});
+  body.pins = {bottom_pin(up), top};
 }
 
-void stage_wobble(SceneBody& body, double height, double duration) {
-  Pin top = top_pin();
-  top.keyframes = {Keyframe{}, {.time = 0.15 * duration, .translate = Vec3(kBend * height, 0, 0)}};
-  top.until = 0.2 * duration;
-  body.pins = {bottom_pin(), top};
+void stage_wobble(SceneBody& body, double height, UpAxis up) {
+  Pin top = top_pin(up);
+  top.keyframes = {Keyframe{}, {.time = kBendTime, .translate = Vec3(kBend * height, 0, 0)}};
+  top.until = kLetGo;
+  body.pins = {bottom_pin(up), top};
 }
 
 /// On a trajectory that scales with the size.
@@ -117,11 +127,12 @@ Scenario scenario_from_name(std::string_view name) {
   throw Error(ErrorKind::kUsage, fmt::format("there is no scenario '{}'{}", name, did_you_mean(name, kScenarioNames)));
 }
 
-bool needs_height(Scenario scenario) {
-  return scenario == Scenario::kStretch || scenario == Scenario::kWobble || scenario == Scenario::kSquash;
+void stand_upright(Film& scene, UpAxis up) {
+  if (up == UpAxis::kY) return;
+  for (SceneBody& body : scene.bodies) body.rotation = Vec3(-90, 0, 0);
 }
 
-void stage_scenario(Film& scene, Scenario scenario, double height) {
+void stage_scenario(Film& scene, Scenario scenario, double height, UpAxis up) {
   SceneObstacle ground;
   ground.plane = Plane{};
   scene.obstacles = {ground};
@@ -130,22 +141,25 @@ void stage_scenario(Film& scene, Scenario scenario, double height) {
     switch (scenario) {
       case Scenario::kDrop:
         body.position.y() = kDropHeight * size;
-        body.rotation = Vec3(12, 0, 9);
+        break;
+      case Scenario::kTumble:
+        body.position.y() = kTumbleHeight * size;
+        body.rotation += Vec3(12, 0, 9);
         break;
       case Scenario::kHang:
-        stage_hang(body, size, scene.duration);
+        stage_hang(body, size, up);
         break;
       case Scenario::kSquash:
         stage_squash(scene, body, size, height);
         break;
       case Scenario::kStretch:
-        stage_stretch(body, height, scene.duration);
+        stage_stretch(body, height, up);
         break;
       case Scenario::kTwist:
-        stage_twist(body, scene.duration);
+        stage_twist(body, up);
         break;
       case Scenario::kWobble:
-        stage_wobble(body, height, scene.duration);
+        stage_wobble(body, height, up);
         break;
       case Scenario::kThrow:
         stage_throw(body, size, scene.gravity.norm());

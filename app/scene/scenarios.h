@@ -8,13 +8,14 @@ namespace sprung {
 
 /// What happens to a mesh without a scene file.
 enum class Scenario {
-  kDrop,     // falls, a little tilted, from 0.4 of its size
+  kDrop,     // falls upright from 0.15 of its size
   kHang,     // held by its top 8 %, released under gravity
   kSquash,   // two plates press it to 0.6 of its height, and let it go
   kStretch,  // its top is pulled up by 0.6 of its height, held, and brought back
   kTwist,    // its top is turned by half a turn, and back
   kWobble,   // its top is bent to the side by 0.3 of its height and let go
-  kThrow     // flies in a bow, tumbling, and lands
+  kThrow,    // flies in a bow, tumbling, and lands
+  kTumble    // falls, a little tilted, from 0.4 of its size
 };
 
 /// By name, in the order above.
@@ -23,11 +24,15 @@ enum class Scenario {
 /// Throws Error(kUsage) with the nearest name.
 [[nodiscard]] Scenario scenario_from_name(std::string_view name);
 
-/// Whether the scenario depends on the height of the bodies.
-[[nodiscard]] bool needs_height(Scenario scenario);
+/// The vertical axis of the file of a bare mesh.
+enum class UpAxis { kY, kZ };
 
-/// Sets what the scenario needs for bodies that are `height` (m) high; times are fractions of the film's duration.
-/// Precondition: duration, gravity and the size of the bodies are set.
-void stage_scenario(Film& scene, Scenario scenario, double height);
+/// How a bare mesh stands: in files whose vertical axis is z its bodies are turned upright.
+void stand_upright(Film& scene, UpAxis up);
+
+/// Sets what the scenario needs for bodies that are `height` (m) high; times do not depend on the film's
+/// duration, so that a shorter film is the beginning of a longer one. Precondition: gravity and the size of the bodies
+/// are set.
+void stage_scenario(Film& scene, Scenario scenario, double height, UpAxis up = UpAxis::kY);
 
 }  // namespace sprung

@@ -148,6 +148,11 @@ void fields(auto& visit, Is<SceneCamera> auto& camera) {
   visit({"elevation", "height of the camera above the horizon", Dimension::kAngle, {-85, 85}}, camera.elevation);
   visit({"orbit", "angle by which the camera orbits over the film", Dimension::kAngle}, camera.orbit);
   visit({"zoom", "magnification; at 1 everything fits in the picture", Dimension::kRatio, kZoom}, camera.zoom);
+  visit({"body_height",
+         "largest fraction of the picture's height that the bodies take in the last frame",
+         Dimension::kRatio,
+         {0.05, 1}},
+        camera.body_height);
   visit({"follow", "whether the camera tracks the centre of the bodies"}, camera.follow);
   visit({"orthographic", "whether the projection is orthographic"}, camera.orthographic);
   visit({"aperture", "lens diameter; what is nearer or farther than the centre of the bodies is blurred",

@@ -29,6 +29,7 @@ struct SceneCamera {
   bool orthographic = false;
   double aperture = 0;                    // m, diameter of the lens; what is out of focus is blurred
   std::vector<CameraKeyframe> keyframes;  // instead of azimuth, elevation, orbit and zoom
+  std::optional<double> body_height{};    // most of the picture's height that bodies take in the last frame, a fraction
 };
 
 /// The field that the colours of the bodies show.

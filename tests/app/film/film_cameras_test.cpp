@@ -77,6 +77,20 @@ TEST(FilmCameras, ParallelLinesSeeEverything) {
   EXPECT_LT(half * 16 / 9, 0.5 * 1.2 * 1.3);
 }
 
+TEST(FilmCameras, StepBackUntilTheBodiesAreAsLowAsAskedFor) {
+  const Reach reach = moving_cube();
+  for (const double asked : {0.1, 0.25}) {
+    const SceneCamera level{.azimuth = 0, .elevation = 0, .follow = true, .keyframes = {}, .body_height = asked};
+    const Camera camera = cameras_of(scene_with(level), reach, 0).back();
+    // The front face, 10 cm nearer than the middle, is 20 cm high.
+    const double depth = camera.eye.z() - 0.1;
+    const double half = std::tan(camera.vertical_field_of_view * std::numbers::pi / 360) * depth;
+    EXPECT_NEAR(0.2 / (2 * half), asked, 1e-6);
+  }
+  const SceneCamera wide{.keyframes = {}, .body_height = 1.0};
+  EXPECT_TRUE(cameras_of(scene_with(wide), reach, 0)[0].eye.isApprox(cameras_of(scene_with({}), reach, 0)[0].eye));
+}
+
 TEST(FilmCameras, SeveralRunsAreSeenAtOnce) {
   Reach shorter = moving_cube(-2);
   shorter.bodies.resize(3);
