@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 
+#include "app/scene/carrying_material.h"
 #include "app/scene/scene_file.h"
 #include "core/files.h"
 #include "core/mesh/io/read_mesh.h"
@@ -50,6 +51,9 @@ Setting parse_set(const std::string& text) {
 }
 
 bool is_of_materials(const Setting& setting) { return setting.key == "materials"; }
+
+/// --material auto.
+bool is_auto_material(const Setting& setting) { return setting.key == "body.material" && setting.value == "auto"; }
 
 /// The materials known by name, also in a scene file that names no file of materials itself.
 std::shared_ptr<const MaterialLibrary> library_of(const std::vector<Setting>& settings) {
@@ -213,7 +217,37 @@ std::vector<Setting> SettingOptions::settings() const {
   return settings;
 }
 
-Film make_scene(const SceneRequest& request) {
+namespace {
+
+/// Sets the softest material that carries the body of a bare mesh, its size where even the stiffest does not, and the
+/// time steps that are faster for it.
+void choose_material(Film& scene, const SceneRequest& request, Scenario scenario, UpAxis up, const Observer& observer) {
+  SceneBody& body = scene.bodies[0];
+  const auto is_given = [&](std::string_view key) {
+    return std::any_of(request.settings.begin(), request.settings.end(),
+                       [&](const Setting& setting) { return setting.key == key; });
+  };
+  const bool is_sized = body.size || body.scale;
+  const std::optional<CarryingMaterial> found =
+      softest_carrying(body, carrying_part(scenario, up), scene.gravity, !is_sized, *scene.library, observer);
+  if (!found) {
+    observer.warn(fmt::format("material: no elastomer of the library carries {}; it stays {}",
+                              body.mesh.filename().string(), body.material.name));
+    return;
+  }
+  body.material = found->material->material();
+  const bool is_smaller = !is_sized && found->size < 0.99 * kDefaultSize;
+  if (is_smaller) body.size = found->size;
+  if (!is_given("solver.scheme")) scene.solver.scheme = Solver::kAuto;
+  observer.note(fmt::format("material: {}, the softest that {} (sags {:.1f} %){}; --material gelatin for a dessert",
+                            body.material.name, scenario == Scenario::kHang ? "hangs in shape" : "stands",
+                            100 * found->sag,
+                            is_smaller ? fmt::format(" at {}", readable(found->size, Dimension::kLength)) : ""));
+}
+
+}  // namespace
+
+Film make_scene(const SceneRequest& request, const Observer& observer) {
   const bool is_scene = is_scene_file(request.input);
   if (is_scene && request.scenario) {
     throw Error(ErrorKind::kUsage, "--scenario is for a bare mesh; a scene file says what happens");
@@ -237,12 +271,17 @@ Film make_scene(const SceneRequest& request) {
     scene.camera.keyframes.clear();
   }
   for (const Setting& setting : request.settings) {
+    if (is_auto_material(setting) && !is_scene) continue;
     if (!is_of_materials(setting)) apply(setting, scene);
   }
   if (is_scene) return scene;
+  const Scenario scenario = request.scenario.value_or(Scenario::kDrop);
+  if (std::any_of(request.settings.begin(), request.settings.end(), is_auto_material)) {
+    choose_material(scene, request, scenario, up, observer);
+  }
   const SceneBody& body = scene.bodies[0];
   const double scale = body.scale.value_or(body.size.value_or(kDefaultSize) / extent.maxCoeff());
-  stage_scenario(scene, request.scenario.value_or(Scenario::kDrop), scale * extent.y(), up);
+  stage_scenario(scene, scenario, scale * extent.y(), up);
   return scene;
 }
 
@@ -276,7 +315,7 @@ SceneRequest SceneOptions::request() const {
 
 void SceneOptions::with_scene(const Console& console, const std::function<void(const Film&)>& work) const {
   const int thread_count = count_in("--threads", threads);
-  const Film scene = make_scene(request());
+  const Film scene = make_scene(request(), console);
   if (up.empty() && !is_scene_file(input) && usual_up(input) == UpAxis::kZ) {
     console.note("up: z, as in most files of this format; --up y if the mesh lies on its side");
   }

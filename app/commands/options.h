@@ -125,8 +125,9 @@ struct SceneRequest {
 };
 
 /// Options before scene file before defaults. Throws Error(kUsage) naming the option whose value is wrong,
-/// Error(kBadInput) for what is wrong in the scene file and for an unknown material.
-[[nodiscard]] Film make_scene(const SceneRequest& request);
+/// Error(kBadInput) for what is wrong in the scene file and for an unknown material. The observer hears which material
+/// was chosen for `--material auto` of a bare mesh.
+[[nodiscard]] Film make_scene(const SceneRequest& request, const Observer& observer = {});
 
 /// The input and the options of a command that takes a mesh or a scene.
 struct SceneOptions {

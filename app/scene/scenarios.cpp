@@ -16,7 +16,7 @@ namespace {
 constexpr std::array<std::string_view, 8> kScenarioNames{"drop",  "hang",   "squash", "stretch",
                                                          "twist", "wobble", "throw",  "tumble"};
 
-constexpr double kDropHeight = 0.15;   // in sizes above the ground: lands on its feet, if it has any
+constexpr double kDropHeight = 0.08;   // in sizes above the ground: lands on its feet, if it has any
 constexpr double kTumbleHeight = 0.4;  // in sizes above the ground
 constexpr double kHangHeight = 0.5;    // in sizes above the ground: near enough to see, far enough to stretch
 constexpr double kSwing = 0.6;         // sizes to the side, in a time
@@ -131,6 +131,8 @@ void stand_upright(Film& scene, UpAxis up) {
   if (up == UpAxis::kY) return;
   for (SceneBody& body : scene.bodies) body.rotation = Vec3(-90, 0, 0);
 }
+
+Pin carrying_part(Scenario scenario, UpAxis up) { return scenario == Scenario::kHang ? top_pin(up) : bottom_pin(up); }
 
 void stage_scenario(Film& scene, Scenario scenario, double height, UpAxis up) {
   SceneObstacle ground;

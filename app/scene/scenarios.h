@@ -8,7 +8,7 @@ namespace sprung {
 
 /// What happens to a mesh without a scene file.
 enum class Scenario {
-  kDrop,     // falls upright from 0.15 of its size
+  kDrop,     // falls upright from 0.08 of its size
   kHang,     // held by its top 8 %, released under gravity
   kSquash,   // two plates press it to 0.6 of its height, and let it go
   kStretch,  // its top is pulled up by 0.6 of its height, held, and brought back
@@ -29,6 +29,9 @@ enum class UpAxis { kY, kZ };
 
 /// How a bare mesh stands: in files whose vertical axis is z its bodies are turned upright.
 void stand_upright(Film& scene, UpAxis up);
+
+/// What carries the bodies of a scenario: their lowest part, or in kHang the highest.
+[[nodiscard]] Pin carrying_part(Scenario scenario, UpAxis up);
 
 /// Sets what the scenario needs for bodies that are `height` (m) high; times do not depend on the film's
 /// duration, so that a shorter film is the beginning of a longer one. Precondition: gravity and the size of the bodies

@@ -83,7 +83,7 @@ TEST(Scenarios, ThrowFliesInABowAndLands) {
 
 TEST(Scenarios, DropLandsUprightAndStays) {
   const Recording recording = record(Scenario::kDrop);
-  EXPECT_NEAR(at(recording, 1, 2.999).y(), -0.03, 0.01);                        // from 0.15 sizes to the ground
+  EXPECT_NEAR(at(recording, 1, 2.999).y(), -0.017, 0.006);                      // from 0.08 sizes to the ground
   EXPECT_LT((at(recording, 2, 2.999) - at(recording, 0, 2.999)).norm(), 2e-3);  // it has not turned
 }
 

@@ -1,0 +1,101 @@
+#include "app/scene/carrying_material.h"
+
+#include <gtest/gtest.h>
+
+#include "app/scene/scene_file.h"
+#include "core/simulation/simulate.h"
+#include "core/simulation/simulation.h"
+#include "tests/support/run_program.h"
+
+namespace sprung {
+namespace {
+
+SceneBody column(double width, double height) {
+  SceneBody body;
+  body.box = Vec3(width, height, width);
+  return body;
+}
+
+Pin foot() {
+  Pin pin;
+  pin.name = "foot";
+  pin.box = Box{.max = Vec3(1, 0.08, 1)};
+  return pin;
+}
+
+const Vec3 kGravity(0, -9.81, 0);
+
+/// What it chose carries the body, found again by a scene of finer bricks and by the ordinary way of a static scheme;
+/// the next softer elastomer of the library does not.
+TEST(CarryingMaterial, IsTheSoftestInWhichTheBodyKeepsItsShape) {
+  const auto chosen = softest_carrying(column(0.1, 0.32), foot(), kGravity, false, *built_in_materials(), Observer());
+  ASSERT_TRUE(chosen);
+  EXPECT_LE(chosen->sag, 0.04);
+  const auto sag_of = [](const LibraryMaterial& material, Solver scheme) {
+    Scene scene;
+    scene.solver.scheme = scheme;
+    scene.solver.load_steps = 1;
+    SceneBody& body = scene.bodies.emplace_back(column(0.1, 0.32));
+    body.bricks = 32;
+    body.material = material.material();
+    body.pins = {foot()};
+    Simulation simulation = prepare_simulation(scene, Observer());
+    static_cast<void>(simulate(simulation, scene, Observer()));
+    const SoftBody& still = simulation.world.bodies[0];
+    return (still.positions - still.rest_positions).rowwise().norm().maxCoeff() / 0.32;
+  };
+  EXPECT_NEAR(sag_of(*chosen->material, Solver::kStatic), chosen->sag, 0.1 * chosen->sag);
+  double next = 0;  // of those that are softer
+  const LibraryMaterial* softer = nullptr;
+  for (const LibraryMaterial& material : built_in_materials()->materials()) {
+    const bool is_gelatin = material.material_class == MaterialClass::kGelatin;
+    if (!is_gelatin && material.material_class != MaterialClass::kSilicone) continue;
+    const double stiffness = material.young / material.density;
+    if (stiffness >= chosen->material->young / chosen->material->density || stiffness <= next) continue;
+    next = stiffness;
+    softer = &material;
+  }
+  ASSERT_NE(softer, nullptr);
+  EXPECT_GT(sag_of(*softer, Solver::kLinear), 0.04);
+}
+
+/// A rod that no elastomer carries at 20 cm stands where it is smaller: sag grows with the size.
+TEST(CarryingMaterial, MakesSlenderBodiesSmaller) {
+  SceneBody rod = column(0.2 / 16, 0.2);
+  Pin side = foot();
+  side.box = Box{.max = Vec3(1, 1, 1)};
+  side.box->max.y() = 0.05;
+  const Vec3 sideways(9.81, 0, 0);
+  EXPECT_FALSE(softest_carrying(rod, side, 4 * sideways, false, *built_in_materials(), Observer()));
+  const auto smaller = softest_carrying(rod, side, 4 * sideways, true, *built_in_materials(), Observer());
+  ASSERT_TRUE(smaller);
+  EXPECT_LT(smaller->size, 0.11);
+}
+
+/// A column of twice the height that buckles under its weight: g rho A L^3 / (E I) > 7.84 (Greenhill 1881).
+TEST(CarryingMaterial, HoldsTwiceTheWeightThatBucklesAColumn) {
+  const double length = 0.2;
+  const double width = length / 16;
+  SceneBody rod = column(width, length);
+  const Vec3 leaning(0.02, -9.81, 0);
+  const auto chosen = softest_carrying(rod, foot(), leaning, false, *built_in_materials(), Observer());
+  ASSERT_TRUE(chosen);
+  const LibraryMaterial& material = *chosen->material;
+  const double load = 2 * 9.81 * material.density * 12 * std::pow(length, 3) / (material.young * width * width);
+  EXPECT_LT(load, 7.84 * 1.2);  // its foot is held, so the free length is a little shorter
+}
+
+TEST(CarryingMaterial, IsWrittenIntoTheScene) {
+  const TempFolder folder;
+  static_cast<void>(folder.write("cube.obj", kCubeObj));
+  const ProgramRun run = run_program(folder, "animate cube.obj --material auto --print-scene");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Film scene = parse_scene(run.out, folder.path() / "scene.toml");
+  EXPECT_NE(run.err.find("material: " + scene.bodies[0].material.name + ", the softest that stands"), std::string::npos)
+      << run.err;
+  EXPECT_EQ(scene.solver.scheme, Solver::kAuto);
+  EXPECT_EQ(print_scene(scene), run.out);
+}
+
+}  // namespace
+}  // namespace sprung
