@@ -33,7 +33,7 @@ constexpr std::array<KeyOption, 22> kKeyOptions{{
     {"--scheme", "solver.scheme", "NAME"},
     {"--integrator", "solver.scheme", "NAME"},
     {"--time-limit", "solver.time_limit", "24h"},
-    {"--fps", "fps", "N"},
+    {"--fps", "fps", "N", {.is_common = true}},
     {"--duration", "duration", "3s", {.is_common = true}},
     {"--resolution", "render.resolution", "WxH", {.is_of_pictures = true, .is_common = true}},
     {"--quality", "render.quality", "preview|default|high", {.is_of_pictures = true, .is_common = true}},
@@ -296,8 +296,7 @@ void SceneOptions::add_to(CLI::App& command, bool has_pictures, const std::strin
       ->option_text("AXIS")
       ->group(kMoreOptions);
   if (has_pictures) {
-    command.add_option("--view", view, "front, back, left, right, top, three-quarter, or degrees about the vertical")
-        ->option_text("NAME");
+    command.add_option("--view", view, "front, back, left, right, top, three-quarter, or degrees")->option_text("NAME");
   }
   command.add_option("--threads", threads, "threads of the simulation; default: all cores")
       ->option_text("N")

@@ -45,6 +45,8 @@ Scene standing_scene(const SceneBody& body, const Pin& held, const Vec3& gravity
   standing.brick_size.reset();
   standing.pins = {held};
   standing.pins.front().keyframes.clear();
+  standing.velocity.setZero();
+  standing.spin.setZero();
   return scene;
 }
 
