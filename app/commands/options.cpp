@@ -314,8 +314,9 @@ SceneRequest SceneOptions::request() const {
 
 void SceneOptions::with_scene(const Console& console, const std::function<void(const Film&)>& work) const {
   const int thread_count = count_in("--threads", threads);
-  const Film scene = make_scene(request(), console);
-  if (up.empty() && !is_scene_file(input) && usual_up(input) == UpAxis::kZ) {
+  const SceneRequest wanted = request();
+  const Film scene = make_scene(wanted, console);
+  if (!wanted.up && !is_scene_file(input) && usual_up(input) == UpAxis::kZ) {
     console.note("up: z, as in most files of this format; --up y if the mesh lies on its side");
   }
   if (print_scene) {

@@ -14,7 +14,7 @@ struct CarryingMaterial {
   double sag = 0;   // largest displacement of a node under its own weight over the size
 };
 
-/// A body sags by `sag` or carries nothing: it keeps its shape where, held by `held` (in the frame of its mesh), the
+/// A body keeps its shape where, held by `held` (in the frame of its mesh), the
 /// largest displacement in its nonlinear equilibrium under `gravity` (m/s^2) is at most 4 % of the size, and twice the
 /// weight displaces it by at most three times as much, so that it does not buckle. Shapes scale: by rho g L / E alone,
 /// at equal Poisson's ratio; so one coarse fill of 16 bricks serves all materials and sizes.

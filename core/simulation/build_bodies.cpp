@@ -27,8 +27,8 @@
 namespace sprung {
 namespace {
 
-/// For bodies without a colour in the scene; a different one for each solid of a file.
-/// Of bodies without colours: calm, and consecutive ones are far apart in hue.
+/// For bodies without a colour in the scene, a different one for each solid of a file: calm, and consecutive ones are
+/// far apart in hue.
 constexpr std::array<Color, 8> kPalette{{{0x5e, 0x9c, 0xa0},
                                          {0xe0, 0xa4, 0x58},
                                          {0x7c, 0x8f, 0xc4},

@@ -72,8 +72,8 @@ TEST(CarryingMaterial, MakesSlenderBodiesSmaller) {
   EXPECT_LT(smaller->size, 0.11);
 }
 
-/// A column of twice the height that buckles under its weight: g rho A L^3 / (E I) > 7.84 (Greenhill 1881).
-TEST(CarryingMaterial, HoldsTwiceTheWeightThatBucklesAColumn) {
+/// A clamped column buckles under its own weight where rho g A L^3 / (E I) > 7.84 (Greenhill 1881).
+TEST(CarryingMaterial, CarriesTwiceItsWeightWithoutBuckling) {
   const double length = 0.2;
   const double width = length / 16;
   SceneBody rod = column(width, length);

@@ -129,6 +129,20 @@ TEST(Scenarios, AreSeenFromWhereOneSays) {
             std::string::npos);
 }
 
+TEST(Scenarios, ATypedQualityWinsOverTheSamplesOfAScene) {
+  const TempFolder folder;
+  static_cast<void>(folder.write("cube.obj", kCubeObj));
+  static_cast<void>(folder.write("scene.toml", "[render]\nsamples = 1\n[[body]]\nmesh = \"cube.obj\"\n"));
+  const auto samples = [&](const std::string& options) {
+    const ProgramRun run = run_program(folder, "animate scene.toml --print-scene " + options);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return parse_scene(run.out, folder.path() / "printed.toml").render.samples;
+  };
+  EXPECT_EQ(samples(""), 1);
+  EXPECT_EQ(samples("--quality high"), std::nullopt);
+  EXPECT_EQ(samples("--quality high --samples 4"), 4);
+}
+
 TEST(Scenarios, KnowHowHighAMeshIs) {
   const TempFolder folder;
   static_cast<void>(
