@@ -221,15 +221,16 @@ namespace {
 
 /// Sets the softest material that carries the body of a bare mesh, its size where even the stiffest does not, and the
 /// time steps that are faster for it.
-void choose_material(Film& scene, const SceneRequest& request, Scenario scenario, UpAxis up, const Observer& observer) {
+void choose_material(Film& scene, const SceneRequest& request, Scenario scenario, const Observer& observer) {
   SceneBody& body = scene.bodies[0];
   const auto is_given = [&](std::string_view key) {
     return std::any_of(request.settings.begin(), request.settings.end(),
                        [&](const Setting& setting) { return setting.key == key; });
   };
   const bool is_sized = body.size || body.scale;
+  const Support support = scenario == Scenario::kHang ? Support::kHangs : Support::kStands;
   const std::optional<CarryingMaterial> found =
-      softest_carrying(body, carrying_part(scenario, up), scene.gravity, !is_sized, *scene.library, observer);
+      softest_carrying(body, support, scene.gravity, !is_sized, *scene.library, observer);
   if (!found) {
     observer.warn(fmt::format("material: no elastomer of the library carries {}; it stays {}",
                               body.mesh.filename().string(), body.material.name));
@@ -277,7 +278,7 @@ Film make_scene(const SceneRequest& request, const Observer& observer) {
   if (is_scene) return scene;
   const Scenario scenario = request.scenario.value_or(Scenario::kDrop);
   if (std::any_of(request.settings.begin(), request.settings.end(), is_auto_material)) {
-    choose_material(scene, request, scenario, up, observer);
+    choose_material(scene, request, scenario, observer);
   }
   const SceneBody& body = scene.bodies[0];
   const double scale = body.scale.value_or(body.size.value_or(kDefaultSize) / extent.maxCoeff());

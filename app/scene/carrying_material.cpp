@@ -1,6 +1,9 @@
 #include "app/scene/carrying_material.h"
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
+#include <memory>
 #include <vector>
 
 #include "core/dynamics/statics/statics.h"
@@ -15,10 +18,13 @@ constexpr int kBricks = 16;  // along the longest side
 constexpr double kSag = 0.04;
 constexpr double kOverload = 2;          // times the weight, which must not buckle it:
 constexpr double kOverloadResponse = 3;  // times the displacement, at most
+constexpr double kHopeless = 2;          // times the sag by the linear solution: not worth a nonlinear one
 constexpr int kHalvings = 4;             // of the size
+constexpr double kHeldFraction = 0.08;   // of the height
+constexpr double kFill = 0.25;           // a brick is taken to be at least that full
 
 // What does not come to rest quickly is near buckling.
-constexpr StaticOptions kQuick{.tolerance = 1e-5, .max_iterations = 30, .max_load_steps = 4};
+constexpr StaticOptions kQuick{.tolerance = 1e-4, .max_iterations = 20, .max_load_steps = 1};
 
 /// Elastomers, the softest first.
 std::vector<const LibraryMaterial*> elastomers(const MaterialLibrary& library) {
@@ -35,16 +41,35 @@ std::vector<const LibraryMaterial*> elastomers(const MaterialLibrary& library) {
   return found;
 }
 
-/// A scene of the body alone, held and coarse.
-Scene standing_scene(const SceneBody& body, const Pin& held, const Vec3& gravity) {
+struct Choice {
+  const LibraryMaterial* material;
+  double scale;   // of the size
+  double weight;  // of the body at full size and of the reference material that displaces it as much
+};
+
+/// In the order in which they are wanted.
+std::vector<Choice> choices_of(const std::vector<const LibraryMaterial*>& materials, const LibraryMaterial& reference,
+                               int halvings) {
+  std::vector<Choice> choices;
+  for (int halving = 0; halving <= halvings; ++halving) {
+    const double scale = std::pow(0.5, halving);
+    for (const LibraryMaterial* material : materials) {
+      choices.push_back(
+          {material, scale, scale * material->density / reference.density * reference.young / material->young});
+    }
+  }
+  return choices;
+}
+
+/// A scene of the body alone, coarse.
+Scene standing_scene(const SceneBody& body, const Vec3& gravity) {
   Scene scene;
   scene.gravity = gravity;
   scene.solver.scheme = Solver::kStatic;
   SceneBody& standing = scene.bodies.emplace_back(body);
   standing.bricks = kBricks;
   standing.brick_size.reset();
-  standing.pins = {held};
-  standing.pins.front().keyframes.clear();
+  standing.pins.clear();
   standing.velocity.setZero();
   standing.spin.setZero();
   return scene;
@@ -53,8 +78,9 @@ Scene standing_scene(const SceneBody& body, const Pin& held, const Vec3& gravity
 /// Finds the equilibria of the held solids of a body under multiples of its weight.
 class StandingBody {
  public:
-  explicit StandingBody(Simulation& simulation) : simulation_(simulation) {
-    for (const SoftBody& body : simulation.world.bodies) {
+  StandingBody(Simulation& simulation, Support support) : simulation_(simulation) {
+    for (SoftBody& body : simulation.world.bodies) {
+      hold(body, support);
       systems_.push_back(body.pinned.empty() ? nullptr : make_default_solver());
     }
   }
@@ -83,45 +109,67 @@ class StandingBody {
     return largest;
   }
 
+  /// Whether it keeps its shape: no node is displaced by more than `most` (m).
+  bool is_carried(double weight, double most) {
+    const std::optional<double> once = displacement(weight, false);
+    if (!once || *once > most) return false;
+    const std::optional<double> more = displacement(kOverload * weight, false);
+    return more && *more <= kOverloadResponse * *once;
+  }
+
  private:
+  /// Holds the part of a body that carries it, and lets no brick be much softer than the others: what is hardly filled
+  /// would sag by itself.
+  void hold(SoftBody& body, Support support) const {
+    const Eigen::VectorXd heights = body.rest_positions * -simulation_.world.gravity.normalized();
+    const double low = heights.minCoeff();
+    const double high = heights.maxCoeff();
+    const double part = kHeldFraction * (high - low);
+    for (int node = 0; node < body.node_count(); ++node) {
+      const bool is_held = support == Support::kStands ? heights[node] <= low + part : heights[node] >= high - part;
+      if (is_held) body.pinned.push_back({.node = node});
+    }
+    for (double& scale : body.stiffness_scale) scale = std::max(scale, kFill);
+    build_tiles(body);
+  }
+
   Simulation& simulation_;
   std::vector<std::unique_ptr<LinearSolver>> systems_;
 };
 
 }  // namespace
 
-std::optional<CarryingMaterial> softest_carrying(const SceneBody& body, const Pin& held, const Vec3& gravity,
+std::optional<CarryingMaterial> softest_carrying(const SceneBody& body, Support support, const Vec3& gravity,
                                                  bool may_shrink, const MaterialLibrary& library,
                                                  const Observer& observer) {
   const std::vector<const LibraryMaterial*> materials = elastomers(library);
   if (materials.empty()) return std::nullopt;
   Progress progress(observer, "material");
-  Scene scene = standing_scene(body, held, gravity);
+  Scene scene = standing_scene(body, gravity);
   const LibraryMaterial& reference = *materials[materials.size() / 2];
   scene.bodies[0].material = reference.material();
   const Observer silent;
   const std::vector<LoadedBody> loaded{load_body(scene.bodies[0], silent)};
   const double size = loaded[0].extent.maxCoeff();
   Simulation simulation = build_world(scene, loaded, silent);
-  StandingBody standing(simulation);
+  StandingBody standing(simulation, support);
   const std::optional<double> linear = standing.displacement(1, true);
   if (!linear || *linear <= 0) return std::nullopt;
 
-  constexpr double kHopeless = 2;  // times the sag by the linear solution: not worth a nonlinear one
-  for (int halving = 0; halving <= (may_shrink ? kHalvings : 0); ++halving) {
-    const double scale = std::pow(0.5, halving);
-    for (const LibraryMaterial* material : materials) {
-      observer.check_interrupt();
-      const double weight = scale * material->density / reference.density * reference.young / material->young;
-      if (weight * *linear > kHopeless * kSag * size) continue;
-      const std::optional<double> once = standing.displacement(weight, false);
-      if (!once || *once > kSag * size) continue;
-      const std::optional<double> twice = standing.displacement(kOverload * weight, false);
-      if (!twice || *twice > kOverloadResponse * *once) continue;
-      return CarryingMaterial{material, scale * size, *once / size};
-    }
-  }
-  return std::nullopt;
+  const std::vector<Choice> choices = choices_of(materials, reference, may_shrink ? kHalvings : 0);
+  std::vector<double> weights;
+  for (const Choice& choice : choices) weights.push_back(choice.weight);
+  std::sort(weights.begin(), weights.end(), std::greater<>());
+  const auto carried = std::partition_point(weights.begin(), weights.end(), [&](double weight) {
+    observer.check_interrupt();
+    return weight * *linear > kHopeless * kSag * size || !standing.is_carried(weight, kSag * size);
+  });
+  if (carried == weights.end()) return std::nullopt;
+  const auto chosen =
+      std::find_if(choices.begin(), choices.end(), [&](const Choice& choice) { return choice.weight <= *carried; });
+  const std::optional<double> sag = standing.displacement(chosen->weight, false);
+  if (!sag) return std::nullopt;
+  return CarryingMaterial{chosen->material, chosen->scale * size, *sag / size};
 }
 
 }  // namespace sprung

@@ -132,8 +132,6 @@ void stand_upright(Film& scene, UpAxis up) {
   for (SceneBody& body : scene.bodies) body.rotation = Vec3(-90, 0, 0);
 }
 
-Pin carrying_part(Scenario scenario, UpAxis up) { return scenario == Scenario::kHang ? top_pin(up) : bottom_pin(up); }
-
 void stage_scenario(Film& scene, Scenario scenario, double height, UpAxis up) {
   SceneObstacle ground;
   ground.plane = Plane{};

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <functional>
 #include <numeric>
 
 #include "core/bricks/brick_grid.h"
@@ -441,6 +442,66 @@ int strongest(const BrickGrid& grid, const Neighbours& neighbours) {
   return best;
 }
 
+constexpr double kSpeckFill = 0.002;
+
+/// Bricks that are connected without the others, by their nodes.
+DisjointSets connected(const BrickGrid& grid, const std::function<bool(std::size_t)>& is_meant) {
+  DisjointSets nodes(grid.lattice.size());
+  for (std::size_t i = 0; i < grid.nodes.size(); ++i) {
+    if (!is_meant(i)) continue;
+    for (const int node : grid.nodes[i]) nodes.merge(grid.nodes[i][0], node);
+  }
+  return nodes;
+}
+
+/// What absorb_slivers() leaves because no face neighbour is full, down to almost nothing: such bricks hang on the body
+/// by a hinge or a chain of their kind. They go to the fullest brick at which they hang, unless they link parts that
+/// are not connected otherwise.
+int absorb_specks(BrickGrid& grid) {
+  const auto is_speck = [&](std::size_t brick) { return grid.fill[brick] < kSpeckFill; };
+  DisjointSets groups = connected(grid, is_speck);
+  DisjointSets parts = connected(grid, [&](std::size_t brick) { return !is_speck(brick); });
+  constexpr int kNone = -1;
+  constexpr int kSeveral = -2;
+  std::vector<int> part_of_node(grid.lattice.size(), kNone);
+  std::vector<int> fullest_at_node(grid.lattice.size(), kNone);
+  const auto take_fuller = [&](int& best, int brick) {
+    if (brick != kNone && (best == kNone || grid.fill[brick] > grid.fill[best])) best = brick;
+  };
+  for (int brick = 0; brick < grid.brick_count(); ++brick) {
+    if (is_speck(brick)) continue;
+    for (const int node : grid.nodes[brick]) {
+      part_of_node[node] = parts.find(node);
+      take_fuller(fullest_at_node[node], brick);
+    }
+  }
+  std::vector<int> part(grid.lattice.size(), kNone);  // at which a group hangs, by the root of the group
+  std::vector<int> heir_of_group(grid.lattice.size(), kNone);
+  for (int brick = 0; brick < grid.brick_count(); ++brick) {
+    if (!is_speck(brick)) continue;
+    const int group = groups.find(grid.nodes[brick][0]);
+    for (const int node : grid.nodes[brick]) {
+      if (part_of_node[node] == kNone) continue;
+      part[group] = part[group] == kNone || part[group] == part_of_node[node] ? part_of_node[node] : kSeveral;
+      take_fuller(heir_of_group[group], fullest_at_node[node]);
+    }
+  }
+  std::vector<bool> gone(grid.cells.size(), false);
+  std::vector<int> heir(grid.cells.size(), kNone);
+  for (int brick = 0; brick < grid.brick_count(); ++brick) {
+    if (!is_speck(brick)) continue;
+    const int group = groups.find(grid.nodes[brick][0]);
+    if (part[group] < 0) continue;
+    gone[brick] = true;
+    heir[brick] = heir_of_group[group];
+  }
+  for (int brick = 0; brick < grid.brick_count(); ++brick) {
+    if (gone[brick]) grid.fill[heir[brick]] += grid.fill[brick];
+  }
+  remove_bricks(grid, gone, heir);
+  return int(std::count(gone.begin(), gone.end(), true));
+}
+
 }  // namespace
 
 int absorb_slivers(BrickGrid& grid, double least_fill) {
@@ -465,7 +526,7 @@ int absorb_slivers(BrickGrid& grid, double least_fill) {
   }
   grid.fill = std::move(fill);
   remove_bricks(grid, gone, receiver);
-  return int(std::count(gone.begin(), gone.end(), true));
+  return int(std::count(gone.begin(), gone.end(), true)) + absorb_specks(grid);
 }
 
 }  // namespace sprung
