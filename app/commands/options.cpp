@@ -7,10 +7,7 @@
 #include <algorithm>
 #include <array>
 
-#include "app/scene/carrying_material.h"
 #include "app/scene/scene_file.h"
-#include "core/files.h"
-#include "core/mesh/io/read_mesh.h"
 #include "core/text.h"
 
 namespace sprung {
@@ -50,40 +47,6 @@ Setting parse_set(const std::string& text) {
   return {"--set " + text.substr(0, sign), text.substr(0, sign), text.substr(sign + 1)};
 }
 
-bool is_of_materials(const Setting& setting) { return setting.key == "materials"; }
-
-/// --material auto.
-bool is_auto_material(const Setting& setting) { return setting.key == "body.material" && setting.value == "auto"; }
-
-/// The materials known by name, also in a scene file that names no file of materials itself.
-std::shared_ptr<const MaterialLibrary> library_of(const std::vector<Setting>& settings) {
-  if (std::none_of(settings.begin(), settings.end(), is_of_materials)) return built_in_materials();
-  auto library = std::make_shared<MaterialLibrary>(*built_in_materials());
-  for (const Setting& setting : settings) {
-    if (is_of_materials(setting)) library->add_file(setting.value);
-  }
-  return library;
-}
-
-Film bare_mesh(const std::filesystem::path& mesh, const std::shared_ptr<const MaterialLibrary>& library) {
-  Film scene;
-  scene.library = library;
-  scene.bodies.emplace_back(default_body()).mesh = std::filesystem::absolute(mesh).lexically_normal();
-  return scene;
-}
-
-/// Sides of the mesh's bounding box, x, y, z, in file units.
-Vec3 extent_of(const std::filesystem::path& mesh) {
-  const Points points = read_mesh(mesh).positions;
-  return points.colwise().maxCoeff() - points.colwise().minCoeff();
-}
-
-/// STL and 3MF come from printing, where z is up as in Blender; readers turn files that name an axis.
-UpAxis usual_up(const std::filesystem::path& mesh) {
-  const std::string extension = lower_extension(mesh);
-  return extension == ".stl" || extension == ".3mf" || extension == ".blend" ? UpAxis::kZ : UpAxis::kY;
-}
-
 constexpr std::array<std::string_view, 3> kUps{"y", "z", "auto"};
 
 std::optional<UpAxis> up_from_name(std::string_view name) {
@@ -119,15 +82,6 @@ CameraDirection view_from_text(const std::string& text) {
                 fmt::format("--view: '{}' is neither a direction nor degrees{}", text, did_you_mean(text, names)));
   }
   return view;
-}
-
-/// Flat bodies are looked at from higher up, and bodies at rest fill a good part of the picture.
-void place_camera(SceneCamera& camera, double height, double width) {
-  constexpr double kFlatness = 0.6;  // height over width below which the camera rises
-  constexpr double kRise = 22;       // degrees, for a body without height
-  constexpr double kBodyHeight = 0.46;
-  camera.elevation += kRise * std::clamp(1 - height / (kFlatness * width), 0.0, 1.0);
-  camera.body_height = kBodyHeight;
 }
 
 }  // namespace
@@ -176,15 +130,6 @@ CLI::Option* JobOptions::add_to(CLI::App& command) {
 
 std::span<const KeyOption> key_options() { return kKeyOptions; }
 
-void apply(const Setting& setting, Film& scene) {
-  try {
-    set_scene_key(scene, setting.key, setting.value);
-    if (setting.key == "render.quality") scene.render.samples.reset();  // what is typed wins over the scene's
-  } catch (const Error& error) {
-    throw Error(ErrorKind::kUsage, fmt::format("{}: {}", setting.option, error.what()));
-  }
-}
-
 void SettingOptions::add_keys(CLI::App& command, const std::function<bool(const KeyOption&)>& is_meant) {
   for (const KeyOption& key : kKeyOptions) {
     if (!is_meant(key)) continue;
@@ -215,75 +160,6 @@ std::vector<Setting> SettingOptions::settings() const {
   }
   for (const std::string& text : sets_) settings.push_back(parse_set(text));
   return settings;
-}
-
-namespace {
-
-/// Sets the softest material that carries the body of a bare mesh, its size where even the stiffest does not, and the
-/// time steps that are faster for it.
-void choose_material(Film& scene, const SceneRequest& request, Scenario scenario, const Observer& observer) {
-  SceneBody& body = scene.bodies[0];
-  const auto is_given = [&](std::string_view key) {
-    return std::any_of(request.settings.begin(), request.settings.end(),
-                       [&](const Setting& setting) { return setting.key == key; });
-  };
-  const bool is_sized = body.size || body.scale;
-  const Support support = scenario == Scenario::kHang ? Support::kHangs : Support::kStands;
-  const std::optional<CarryingMaterial> found =
-      softest_carrying(body, support, scene.gravity, !is_sized, *scene.library, observer);
-  if (!found) {
-    observer.warn(fmt::format("material: no elastomer of the library carries {}; it stays {}",
-                              body.mesh.filename().string(), body.material.name));
-    return;
-  }
-  body.material = found->material->material();
-  const bool is_smaller = !is_sized && found->size < 0.99 * kDefaultSize;
-  if (is_smaller) body.size = found->size;
-  if (!is_given("solver.scheme")) scene.solver.scheme = Solver::kAuto;
-  observer.note(fmt::format("material: {}, the softest that {} (sags {:.1f} %){}; --material gelatin for a dessert",
-                            body.material.name, scenario == Scenario::kHang ? "hangs in shape" : "stands",
-                            100 * found->sag,
-                            is_smaller ? fmt::format(" at {}", readable(found->size, Dimension::kLength)) : ""));
-}
-
-}  // namespace
-
-Film make_scene(const SceneRequest& request, const Observer& observer) {
-  const bool is_scene = is_scene_file(request.input);
-  if (is_scene && request.scenario) {
-    throw Error(ErrorKind::kUsage, "--scenario is for a bare mesh; a scene file says what happens");
-  }
-  if (is_scene && request.up) {
-    throw Error(ErrorKind::kUsage, "--up is for a bare mesh; in a scene file body.rotation = [-90, 0, 0] puts z up");
-  }
-  const auto library = library_of(request.settings);
-  Film scene = is_scene ? read_scene(request.input, *library) : bare_mesh(request.input, library);
-  const UpAxis up = request.up.value_or(usual_up(request.input));
-  Vec3 extent = Vec3::Ones();
-  if (!is_scene) {
-    extent = extent_of(scene.bodies[0].mesh);
-    if (up == UpAxis::kZ) std::swap(extent.y(), extent.z());
-    place_camera(scene.camera, extent.y(), std::max(extent.x(), extent.z()));
-    stand_upright(scene, up);
-  }
-  if (request.view) {
-    scene.camera.azimuth = request.view->azimuth;
-    if (request.view->elevation) scene.camera.elevation = *request.view->elevation;
-    scene.camera.keyframes.clear();
-  }
-  for (const Setting& setting : request.settings) {
-    if (is_auto_material(setting) && !is_scene) continue;
-    if (!is_of_materials(setting)) apply(setting, scene);
-  }
-  if (is_scene) return scene;
-  const Scenario scenario = request.scenario.value_or(Scenario::kDrop);
-  if (std::any_of(request.settings.begin(), request.settings.end(), is_auto_material)) {
-    choose_material(scene, request, scenario, observer);
-  }
-  const SceneBody& body = scene.bodies[0];
-  const double scale = body.scale.value_or(body.size.value_or(kDefaultSize) / extent.maxCoeff());
-  stage_scenario(scene, scenario, scale * extent.y(), up);
-  return scene;
 }
 
 void SceneOptions::add_to(CLI::App& command, bool has_pictures, const std::string& input_help) {

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "app/commands/make_scene.h"
 #include "app/console/console.h"
-#include "app/scene/scenarios.h"
 #include "app/scene/scene_reference.h"
 #include "app/scene/scene_values.h"
 #include "core/error.h"
@@ -81,16 +81,6 @@ struct KeyOption {
 /// Every such option, in the order of its help.
 [[nodiscard]] std::span<const KeyOption> key_options();
 
-/// One option that stands for a key of the scene, as it was typed.
-struct Setting {
-  std::string option;  // "--young"
-  std::string key;     // "body.material.young"
-  std::string value;
-};
-
-/// Sets the key of the scene. Throws Error(kUsage) naming the option.
-void apply(const Setting& setting, Film& scene);
-
 /// Options that stand for keys of the scene, and --set.
 struct SettingOptions {
   /// Those key options for which `is_meant` holds.
@@ -108,26 +98,6 @@ struct SettingOptions {
   std::deque<Word> words_;
   std::vector<std::string> sets_;
 };
-
-/// From where the camera looks.
-struct CameraDirection {
-  double azimuth = 0;               // degrees
-  std::optional<double> elevation;  // degrees; none: as the scene has it
-};
-
-/// The scene that a mesh file or a scene file and options mean.
-struct SceneRequest {
-  std::string input;
-  std::vector<Setting> settings;
-  std::optional<Scenario> scenario{};     // of a bare mesh
-  std::optional<UpAxis> up{};             // of a bare mesh; none: z for STL, 3MF and BLEND, else y
-  std::optional<CameraDirection> view{};  // from where the camera looks
-};
-
-/// Options before scene file before defaults. Throws Error(kUsage) naming the option whose value is wrong,
-/// Error(kBadInput) for what is wrong in the scene file and for an unknown material. The observer hears which material
-/// was chosen for `--material auto` of a bare mesh.
-[[nodiscard]] Film make_scene(const SceneRequest& request, const Observer& observer = {});
 
 /// The input and the options of a command that takes a mesh or a scene.
 struct SceneOptions {

@@ -26,13 +26,13 @@ struct SweepOptions {
 };
 
 /// One combination of values.
-using Choice = std::vector<Setting>;
+using SweptValues = std::vector<Setting>;
 
-std::vector<Choice> choices_of(const std::vector<Setting>& settings) {
-  std::vector<Choice> choices{{}};
+std::vector<SweptValues> choices_of(const std::vector<Setting>& settings) {
+  std::vector<SweptValues> choices{{}};
   for (const Setting& setting : settings) {
-    std::vector<Choice> longer;
-    for (const Choice& choice : choices) {
+    std::vector<SweptValues> longer;
+    for (const SweptValues& choice : choices) {
       for (const std::string& value : values_in(setting.value)) {
         longer.push_back(choice);
         longer.back().push_back({setting.option, setting.key, value});
@@ -52,10 +52,10 @@ void write_runs(const SweepOptions& options, const Console& console) {
   if (options.outputs.names.size() != 1) throw Error(ErrorKind::kUsage, "sweep writes into one folder: -o FOLDER");
   const fs::path folder = fs::absolute(options.outputs.names.front()).lexically_normal();
   refuse_existing(folder / "commands", options.overwrite);
-  const std::vector<Choice> choices = choices_of(options.keys.settings());
+  const std::vector<SweptValues> choices = choices_of(options.keys.settings());
   std::vector<std::string> scenes;
   scenes.reserve(choices.size());
-  for (const Choice& choice : choices) {
+  for (const SweptValues& choice : choices) {
     scenes.push_back(print_scene(with_defaults(make_scene({.input = options.input, .settings = choice}))));
   }
   std::string commands;

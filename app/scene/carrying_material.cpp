@@ -4,12 +4,14 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <numbers>
 #include <vector>
 
+#include "core/bricks/pieces.h"
+#include "core/bricks/voxelize.h"
 #include "core/dynamics/statics/statics.h"
 #include "core/error.h"
-#include "core/simulation/drivers.h"
-#include "core/simulation/simulation.h"
+#include "core/simulation/body_source.h"
 
 namespace sprung {
 namespace {
@@ -41,16 +43,16 @@ std::vector<const LibraryMaterial*> elastomers(const MaterialLibrary& library) {
   return found;
 }
 
-struct Choice {
+struct SizedMaterial {
   const LibraryMaterial* material;
   double scale;   // of the size
   double weight;  // of the body at full size and of the reference material that displaces it as much
 };
 
 /// In the order in which they are wanted.
-std::vector<Choice> choices_of(const std::vector<const LibraryMaterial*>& materials, const LibraryMaterial& reference,
-                               int halvings) {
-  std::vector<Choice> choices;
+std::vector<SizedMaterial> choices_of(const std::vector<const LibraryMaterial*>& materials,
+                                      const LibraryMaterial& reference, int halvings) {
+  std::vector<SizedMaterial> choices;
   for (int halving = 0; halving <= halvings; ++halving) {
     const double scale = std::pow(0.5, halving);
     for (const LibraryMaterial* material : materials) {
@@ -61,45 +63,61 @@ std::vector<Choice> choices_of(const std::vector<const LibraryMaterial*>& materi
   return choices;
 }
 
-/// A scene of the body alone, coarse.
-Scene standing_scene(const SceneBody& body, const Vec3& gravity) {
-  Scene scene;
-  scene.gravity = gravity;
-  scene.solver.scheme = Solver::kStatic;
-  SceneBody& standing = scene.bodies.emplace_back(body);
-  standing.bricks = kBricks;
-  standing.brick_size.reset();
-  standing.pins.clear();
-  standing.velocity.setZero();
-  standing.spin.setZero();
-  return scene;
+/// A body as it is turned, coarse and held, at rest.
+std::vector<Body> standing_bodies(const LoadedBody& loaded, Model model, const Material& material) {
+  std::vector<Body> bodies;
+  for (const Solid& solid : loaded.solids) {
+    BrickGrid grid = loaded.grid ? *loaded.grid : voxelize(solid, loaded.brick_size);
+    if (!loaded.grid) {
+      static_cast<void>(split_pieces(solid, grid));
+      static_cast<void>(absorb_slivers(grid));
+    }
+    Body& body = bodies.emplace_back(make_body(std::move(grid), model, material));
+    // What is hardly filled would sag by itself.
+    for (double& scale : body.stiffness_scale) scale = std::max(scale, kFill);
+    build_tiles(body);
+  }
+  return bodies;
 }
 
-/// Finds the equilibria of the held solids of a body under multiples of its weight.
+/// The part of a body that carries it. `down`: in its frame.
+Supports supports_of(const Body& body, Support support, const Vec3& down) {
+  const Eigen::VectorXd heights = body.rest_positions * -down.normalized();
+  const double low = heights.minCoeff();
+  const double high = heights.maxCoeff();
+  const double part = kHeldFraction * (high - low);
+  Supports supports(body.node_count());
+  for (int node = 0; node < body.node_count(); ++node) {
+    const bool is_held = support == Support::kStands ? heights[node] <= low + part : heights[node] >= high - part;
+    for (int axis = 0; is_held && axis < 3; ++axis) supports.fix(node, axis);
+  }
+  return supports;
+}
+
+/// Finds the equilibria of the held solids of a body under multiples of its weight. `gravity`: in its frame.
 class StandingBody {
  public:
-  StandingBody(Simulation& simulation, Support support) : simulation_(simulation) {
-    for (SoftBody& body : simulation.world.bodies) {
-      hold(body, support);
-      systems_.push_back(body.pinned.empty() ? nullptr : make_default_solver());
+  StandingBody(std::vector<Body> solids, Support support, const Vec3& gravity)
+      : solids_(std::move(solids)), gravity_(gravity) {
+    for (const Body& solid : solids_) {
+      supports_.push_back(supports_of(solid, support, gravity));
+      systems_.push_back(make_default_solver());
     }
   }
 
-  /// The largest displacement of a node, m; none where there is no equilibrium. Solids that nothing holds are left out.
+  /// The largest displacement of a node, m; none where there is no equilibrium.
   std::optional<double> displacement(double weight, bool is_linear) {
     double largest = 0;
-    for (std::size_t row = 0; row < systems_.size(); ++row) {
-      if (!systems_[row]) continue;
-      SoftBody& body = simulation_.world.bodies[row];
+    for (std::size_t row = 0; row < solids_.size(); ++row) {
+      Body& body = solids_[row];
       body.positions = body.rest_positions;
-      const Points loads = weight * body.masses * simulation_.world.gravity.transpose();
-      const Supports supports = supports_of(body);
+      const Points loads = weight * body.masses * gravity_.transpose();
       try {
         if (is_linear) {
           const Points still = Points::Zero(body.node_count(), 3);
-          body.positions += linear_response(body, supports, loads, still, *systems_[row]).displacements;
+          body.positions += linear_response(body, supports_[row], loads, still, *systems_[row]).displacements;
         } else {
-          solve_static(body, supports, loads, body.rest_positions, *systems_[row], kQuick);
+          solve_static(body, supports_[row], loads, body.rest_positions, *systems_[row], kQuick);
         }
       } catch (const Error&) {
         return std::nullopt;
@@ -118,24 +136,22 @@ class StandingBody {
   }
 
  private:
-  /// Holds the part of a body that carries it, and lets no brick be much softer than the others: what is hardly filled
-  /// would sag by itself.
-  void hold(SoftBody& body, Support support) const {
-    const Eigen::VectorXd heights = body.rest_positions * -simulation_.world.gravity.normalized();
-    const double low = heights.minCoeff();
-    const double high = heights.maxCoeff();
-    const double part = kHeldFraction * (high - low);
-    for (int node = 0; node < body.node_count(); ++node) {
-      const bool is_held = support == Support::kStands ? heights[node] <= low + part : heights[node] >= high - part;
-      if (is_held) body.pinned.push_back({.node = node});
-    }
-    for (double& scale : body.stiffness_scale) scale = std::max(scale, kFill);
-    build_tiles(body);
-  }
-
-  Simulation& simulation_;
+  std::vector<Body> solids_;
+  Vec3 gravity_;
+  std::vector<Supports> supports_;
   std::vector<std::unique_ptr<LinearSolver>> systems_;
 };
+
+/// Of the slowest vibration: a shear wave that crosses the body there and back (rayleigh_from_damping()), or what sags
+/// as far as `sag` (m) where that is slower. Damping grows with the square of the frequency.
+double settling_time(const LibraryMaterial& material, double size, double sag, double gravity) {
+  constexpr double kLeft = 0.01;
+  const double beta = rayleigh_from_damping(material.material(), size).beta;
+  const double shear_speed = std::sqrt(material.young / (2 * (1 + material.poisson) * material.density));
+  const double wave = std::numbers::pi * shear_speed / size;  // rad/s
+  const double rate = beta / 2 * std::min(wave * wave, gravity / sag);
+  return -std::log(kLeft) / rate;
+}
 
 }  // namespace
 
@@ -145,31 +161,34 @@ std::optional<CarryingMaterial> softest_carrying(const SceneBody& body, Support 
   const std::vector<const LibraryMaterial*> materials = elastomers(library);
   if (materials.empty()) return std::nullopt;
   Progress progress(observer, "material");
-  Scene scene = standing_scene(body, gravity);
   const LibraryMaterial& reference = *materials[materials.size() / 2];
-  scene.bodies[0].material = reference.material();
-  const Observer silent;
-  const std::vector<LoadedBody> loaded{load_body(scene.bodies[0], silent)};
-  const double size = loaded[0].extent.maxCoeff();
-  Simulation simulation = build_world(scene, loaded, silent);
-  StandingBody standing(simulation, support);
+  SceneBody coarse = body;
+  coarse.bricks = kBricks;
+  coarse.brick_size.reset();
+  const LoadedBody loaded = load_body(coarse, Observer());
+  const double size = loaded.extent.maxCoeff();
+  const Mat3 world_from_bricks = rotation_matrix(body.rotation) * loaded.bricks_from_rest.transpose();
+  StandingBody standing(standing_bodies(loaded, body.model, reference.material()), support,
+                        world_from_bricks.transpose() * gravity);
   const std::optional<double> linear = standing.displacement(1, true);
   if (!linear || *linear <= 0) return std::nullopt;
 
-  const std::vector<Choice> choices = choices_of(materials, reference, may_shrink ? kHalvings : 0);
-  std::vector<double> weights;
-  for (const Choice& choice : choices) weights.push_back(choice.weight);
+  const std::vector<SizedMaterial> choices = choices_of(materials, reference, may_shrink ? kHalvings : 0);
+  std::vector<double> weights(choices.size());
+  std::transform(choices.begin(), choices.end(), weights.begin(),
+                 [](const SizedMaterial& choice) { return choice.weight; });
   std::sort(weights.begin(), weights.end(), std::greater<>());
   const auto carried = std::partition_point(weights.begin(), weights.end(), [&](double weight) {
     observer.check_interrupt();
     return weight * *linear > kHopeless * kSag * size || !standing.is_carried(weight, kSag * size);
   });
   if (carried == weights.end()) return std::nullopt;
-  const auto chosen =
-      std::find_if(choices.begin(), choices.end(), [&](const Choice& choice) { return choice.weight <= *carried; });
+  const auto chosen = std::find_if(choices.begin(), choices.end(),
+                                   [&](const SizedMaterial& choice) { return choice.weight <= *carried; });
   const std::optional<double> sag = standing.displacement(chosen->weight, false);
   if (!sag) return std::nullopt;
-  return CarryingMaterial{chosen->material, chosen->scale * size, *sag / size};
+  return CarryingMaterial{chosen->material, chosen->scale * size, *sag / size,
+                          settling_time(*chosen->material, chosen->scale * size, chosen->scale * *sag, gravity.norm())};
 }
 
 }  // namespace sprung

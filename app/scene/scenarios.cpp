@@ -127,11 +127,6 @@ Scenario scenario_from_name(std::string_view name) {
   throw Error(ErrorKind::kUsage, fmt::format("there is no scenario '{}'{}", name, did_you_mean(name, kScenarioNames)));
 }
 
-void stand_upright(Film& scene, UpAxis up) {
-  if (up == UpAxis::kY) return;
-  for (SceneBody& body : scene.bodies) body.rotation = Vec3(-90, 0, 0);
-}
-
 void stage_scenario(Film& scene, Scenario scenario, double height, UpAxis up) {
   SceneObstacle ground;
   ground.plane = Plane{};

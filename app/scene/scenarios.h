@@ -27,9 +27,6 @@ enum class Scenario {
 /// The vertical axis of the file of a bare mesh.
 enum class UpAxis { kY, kZ };
 
-/// How a bare mesh stands: in files whose vertical axis is z its bodies are turned upright.
-void stand_upright(Film& scene, UpAxis up);
-
 /// Sets what the scenario needs for bodies that are `height` (m) high; times do not depend on the film's
 /// duration, so that a shorter film is the beginning of a longer one. Precondition: gravity and the size of the bodies
 /// are set.

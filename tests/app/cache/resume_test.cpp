@@ -213,7 +213,8 @@ constexpr double kLongest = test::kSanitized ? 20 : 0.4;
 TEST(Resume, ProgramKilledAtRandomMomentsComesToTheSameEnd) {
   const TempFolder folder;
   static_cast<void>(folder.write("cube.obj", kCubeObj));
-  const std::string simulate = "simulate cube.obj --bricks " + kFewBricks + " --fps 100 --duration 1 --resume -o ";
+  const std::string simulate =
+      "simulate cube.obj --material gelatin --bricks " + kFewBricks + " --fps 100 --duration 1 --resume -o ";
   const unsigned seed = std::random_device()();
   SCOPED_TRACE(seed);
   std::mt19937 random(seed);
@@ -235,7 +236,8 @@ TEST(Resume, ProgramKilledAtRandomMomentsComesToTheSameEnd) {
 TEST(Resume, AnInterruptEndsTheFrameAndSaysHowToGoOn) {
   const TempFolder folder;
   static_cast<void>(folder.write("cube.obj", kCubeObj));
-  const std::string simulate = "simulate cube.obj --bricks " + kFewBricks + " --fps 100 --duration 60 -o run.h5";
+  const std::string simulate =
+      "simulate cube.obj --material gelatin --bricks " + kFewBricks + " --fps 100 --duration 60 -o run.h5";
   const ProgramRun ended =
       run_program(folder, simulate, "timeout --preserve-status -s INT " + std::string(test::kSanitized ? "20" : "1.5"));
   EXPECT_EQ(ended.exit_code, 130) << ended.err;

@@ -106,16 +106,20 @@ TEST(CarryingMaterial, HangsInASofterOneThanItStandsIn) {
   EXPECT_LT(hanging->material->young, 0.5 * standing->material->young);
 }
 
+/// Of a bare mesh for which no material is named.
 TEST(CarryingMaterial, IsWrittenIntoTheScene) {
   const TempFolder folder;
   static_cast<void>(folder.write("cube.obj", kCubeObj));
-  const ProgramRun run = run_program(folder, "animate cube.obj --material auto --print-scene");
+  const ProgramRun run = run_program(folder, "animate cube.obj --print-scene");
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const Film scene = parse_scene(run.out, folder.path() / "scene.toml");
   EXPECT_NE(run.err.find("material: " + scene.bodies[0].material.name + ", the softest that stands"), std::string::npos)
       << run.err;
   EXPECT_EQ(scene.solver.scheme, Solver::kAuto);
   EXPECT_EQ(print_scene(scene), run.out);
+  EXPECT_EQ(run_program(folder, "animate cube.obj --material auto --print-scene").out, run.out);
+  const ProgramRun named = run_program(folder, "animate cube.obj --young 30kPa --print-scene");
+  EXPECT_EQ(named.err.find("the softest"), std::string::npos) << named.err;
 }
 
 }  // namespace

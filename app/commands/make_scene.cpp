@@ -1,0 +1,194 @@
+#include "app/commands/make_scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "app/scene/carrying_material.h"
+#include "app/scene/resting_pose.h"
+#include "app/scene/scene_file.h"
+#include "app/scene/scene_values.h"
+#include "core/error.h"
+#include "core/files.h"
+#include "core/mesh/io/read_mesh.h"
+#include "core/text.h"
+
+namespace sprung {
+namespace {
+
+constexpr double kShortestDrop = 2;  // s, between which its wobble ends the film
+constexpr double kLongestDrop = 4;
+
+bool is_of_materials(const Setting& setting) { return setting.key == "materials"; }
+
+/// --material auto.
+bool is_auto_material(const Setting& setting) { return setting.key == "body.material" && setting.value == "auto"; }
+
+/// --young.
+bool is_of_material(const Setting& setting) { return setting.key.starts_with("body.material."); }
+
+bool is_given(const SceneRequest& request, std::string_view key) {
+  return std::any_of(request.settings.begin(), request.settings.end(),
+                     [&](const Setting& setting) { return setting.key == key; });
+}
+
+/// The materials known by name, also in a scene file that names no file of materials itself.
+std::shared_ptr<const MaterialLibrary> library_of(const std::vector<Setting>& settings) {
+  if (std::none_of(settings.begin(), settings.end(), is_of_materials)) return built_in_materials();
+  auto library = std::make_shared<MaterialLibrary>(*built_in_materials());
+  for (const Setting& setting : settings) {
+    if (is_of_materials(setting)) library->add_file(setting.value);
+  }
+  return library;
+}
+
+/// Sets the softest material that carries the body of a bare mesh, its size where even the stiffest does not, and the
+/// time steps that are faster for it.
+void choose_material(Film& scene, const SceneRequest& request, Scenario scenario, const Observer& observer) {
+  SceneBody& body = scene.bodies[0];
+  const bool is_sized = body.size || body.scale;
+  const Support support = scenario == Scenario::kHang ? Support::kHangs : Support::kStands;
+  const std::optional<CarryingMaterial> found =
+      softest_carrying(body, support, scene.gravity, !is_sized, *scene.library, observer);
+  if (!found) {
+    observer.warn(fmt::format("material: no elastomer of the library carries {}; it stays {}",
+                              body.mesh.filename().string(), body.material.name));
+    return;
+  }
+  body.material = found->material->material();
+  const bool is_smaller = !is_sized && found->size < 0.99 * kDefaultSize;
+  if (is_smaller) body.size = found->size;
+  if (!is_given(request, "solver.scheme")) scene.solver.scheme = Solver::kAuto;
+  if (scenario == Scenario::kDrop && !is_given(request, "duration")) {
+    scene.duration = std::clamp(std::ceil(2 * found->settling_time) / 2, kShortestDrop, kLongestDrop);
+  }
+  observer.note(fmt::format("material: {}, the softest that {} (sags {:.1f} %){}; --material gelatin for a dessert",
+                            body.material.name, scenario == Scenario::kHang ? "hangs in shape" : "stands",
+                            100 * found->sag,
+                            is_smaller ? fmt::format(" at {}", readable(found->size, Dimension::kLength)) : ""));
+}
+
+/// How a bare mesh is put down: its rotation (degrees about x, then y, then z) and its sides then, in file units.
+struct Placement {
+  Vec3 rotation = Vec3::Zero();
+  Vec3 sides = Vec3::Ones();
+  bool is_turned = false;  // since it would tip over
+};
+
+/// Degrees about x, then y, then z, as rotation_matrix() takes them, to a hundredth.
+Vec3 rotation_angles(const Mat3& rotation) {
+  const double about_y = std::asin(std::clamp(-rotation(2, 0), -1.0, 1.0));
+  const double about_x = std::atan2(rotation(2, 1), rotation(2, 2));
+  const double about_z = std::atan2(rotation(1, 0), rotation(0, 0));
+  return (Vec3(about_x, about_y, about_z) * (180 * 100 / std::numbers::pi)).array().round() / 100 + 0.0;
+}
+
+/// Upright; a body that is dropped and would tip over is laid down.
+Placement put_down(const std::filesystem::path& file, UpAxis up, bool may_lie) {
+  Placement placement;
+  if (up == UpAxis::kZ) placement.rotation = Vec3(-90, 0, 0);
+  const SurfaceMesh mesh = read_mesh(file);
+  const Mat3 upright = rotation_matrix(placement.rotation);
+  Points points = mesh.positions * upright.transpose();
+  const Vec3 centre = upright * centre_of_mass(mesh);
+  if (may_lie && !stands(points, centre)) {
+    const Mat3 rolled = rolled_to_rest(points, centre);
+    placement.rotation = rotation_angles(rolled * upright);
+    points = points * rolled.transpose();
+    placement.is_turned = true;
+  }
+  placement.sides = points.colwise().maxCoeff() - points.colwise().minCoeff();
+  return placement;
+}
+
+/// Flat bodies are looked at from higher up, and bodies at rest fill a good part of the picture.
+void place_camera(SceneCamera& camera, const Vec3& sides) {
+  constexpr double kFlatness = 0.6;  // height over width below which the camera rises
+  constexpr double kRise = 22;       // degrees, for a body without height
+  constexpr double kBodyHeight = 0.46;
+  const double width = std::max(sides.x(), sides.z());
+  camera.elevation += kRise * std::clamp(1 - sides.y() / (kFlatness * width), 0.0, 1.0);
+  camera.body_height = kBodyHeight;
+}
+
+/// What the options say of a scene, but its materials, which make_scene() reads first.
+void apply_settings(const SceneRequest& request, bool has_auto_material, Film& scene) {
+  if (request.view) {
+    scene.camera.azimuth = request.view->azimuth;
+    if (request.view->elevation) scene.camera.elevation = *request.view->elevation;
+    scene.camera.keyframes.clear();
+  }
+  for (const Setting& setting : request.settings) {
+    const bool is_later = has_auto_material && (is_auto_material(setting) || is_of_material(setting));
+    if (!is_of_materials(setting) && !is_later) apply(setting, scene);
+  }
+}
+
+Film make_bare_scene(const SceneRequest& request, const std::shared_ptr<const MaterialLibrary>& library,
+                     const Observer& observer) {
+  Film scene;
+  scene.library = library;
+  SceneBody& body = scene.bodies.emplace_back(default_body());
+  body.mesh = std::filesystem::absolute(request.input).lexically_normal();
+  const Scenario scenario = request.scenario.value_or(Scenario::kDrop);
+  const UpAxis up = request.up.value_or(usual_up(request.input));
+  const bool may_lie = scenario == Scenario::kDrop && !is_given(request, "body.rotation");
+  const Placement placement = put_down(body.mesh, up, may_lie);
+  body.rotation = placement.rotation;
+  place_camera(scene.camera, placement.sides);
+  const bool names_material = std::any_of(request.settings.begin(), request.settings.end(), [](const Setting& setting) {
+    return setting.key == "body.material" || is_of_material(setting);
+  });
+  const bool has_auto_material =
+      !names_material || std::any_of(request.settings.begin(), request.settings.end(), is_auto_material);
+  apply_settings(request, has_auto_material, scene);
+  if (has_auto_material) {
+    choose_material(scene, request, scenario, observer);
+    for (const Setting& setting : request.settings) {
+      if (is_of_material(setting)) apply(setting, scene);
+    }
+  }
+  if (placement.is_turned) {
+    observer.note(fmt::format(
+        "pose: {} would tip over and is put down as it comes to rest; --set 'body.rotation=[{}, 0, 0]' for as it is",
+        body.mesh.filename().string(), up == UpAxis::kZ ? -90 : 0));
+  }
+  const double scale = body.scale.value_or(body.size.value_or(kDefaultSize) / placement.sides.maxCoeff());
+  stage_scenario(scene, scenario, scale * placement.sides.y(), up);
+  return scene;
+}
+
+}  // namespace
+
+void apply(const Setting& setting, Film& scene) {
+  try {
+    set_scene_key(scene, setting.key, setting.value);
+    if (setting.key == "render.quality") scene.render.samples.reset();  // what is typed wins over the scene's
+  } catch (const Error& error) {
+    throw Error(ErrorKind::kUsage, fmt::format("{}: {}", setting.option, error.what()));
+  }
+}
+
+/// STL and 3MF come from printing, where z is up as in Blender; readers turn files that name an axis.
+UpAxis usual_up(const std::filesystem::path& mesh) {
+  const std::string extension = lower_extension(mesh);
+  return extension == ".stl" || extension == ".3mf" || extension == ".blend" ? UpAxis::kZ : UpAxis::kY;
+}
+
+Film make_scene(const SceneRequest& request, const Observer& observer) {
+  const auto library = library_of(request.settings);
+  if (!is_scene_file(request.input)) return make_bare_scene(request, library, observer);
+  if (request.scenario) {
+    throw Error(ErrorKind::kUsage, "--scenario is for a bare mesh; a scene file says what happens");
+  }
+  if (request.up) {
+    throw Error(ErrorKind::kUsage, "--up is for a bare mesh; in a scene file body.rotation = [-90, 0, 0] puts z up");
+  }
+  Film scene = read_scene(request.input, *library);
+  apply_settings(request, false, scene);
+  return scene;
+}
+
+}  // namespace sprung

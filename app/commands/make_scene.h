@@ -1,0 +1,46 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/scene/scenarios.h"
+#include "core/simulation/observer.h"
+
+namespace sprung {
+
+/// One option that stands for a key of the scene, as it was typed.
+struct Setting {
+  std::string option;  // "--young"
+  std::string key;     // "body.material.young"
+  std::string value;
+};
+
+/// Sets the key of the scene. Throws Error(kUsage) naming the option.
+void apply(const Setting& setting, Film& scene);
+
+/// The vertical axis that files of this kind usually have: z for STL, 3MF and BLEND, else y.
+[[nodiscard]] UpAxis usual_up(const std::filesystem::path& mesh);
+
+/// From where the camera looks.
+struct CameraDirection {
+  double azimuth = 0;               // degrees
+  std::optional<double> elevation;  // degrees; none: as the scene has it
+};
+
+/// The scene that a mesh file or a scene file and options mean.
+struct SceneRequest {
+  std::string input;
+  std::vector<Setting> settings{};
+  std::optional<Scenario> scenario{};     // of a bare mesh
+  std::optional<UpAxis> up{};             // of a bare mesh; none: z for STL, 3MF and BLEND, else y
+  std::optional<CameraDirection> view{};  // from where the camera looks
+};
+
+/// Options before scene file before defaults. Throws Error(kUsage) naming the option whose value is wrong,
+/// Error(kBadInput) for what is wrong in the scene file or the mesh and for an unknown material. A bare mesh for which
+/// no material is named gets the softest elastomer in which it keeps its shape, and one that is dropped and would tip
+/// over is laid down; the observer hears of both.
+[[nodiscard]] Film make_scene(const SceneRequest& request, const Observer& observer = {});
+
+}  // namespace sprung
