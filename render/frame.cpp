@@ -13,6 +13,8 @@ constexpr double kKeyAzimuth = -28;     // degrees about y, as a camera's
 constexpr double kKeyElevation = 52;    // degrees
 constexpr double kSmallestSize = 1e-9;  // m
 constexpr double kGrid = 0.25;          // of a body's radius; the maps' sides are multiples of it
+constexpr double kPenumbra = 0.18;  // of a body's height: how far its soft shadow exceeds the sharp one, on the floor
+constexpr double kSkyShadow = 1.6;  // of a body's radius: how far around it the floor sees less of the sky
 
 /// The extent of all shapes along three directions (rows), in stage space.
 AlignedBox extent(const std::vector<SkinShape>& shapes, const StageSpace& space, const Mat3& directions) {
@@ -92,7 +94,8 @@ LightFrame fit_light(const std::vector<SkinShape>& shapes, const StageSpace& spa
   AlignedBox cast = extent(shapes, space, rows(x - y * (light.x() / light.y()), y, z - y * (light.z() / light.y())));
   const Vec3 shift = light * (ground_height / light.y());
   cast.translate(Vec3(shift.x(), 0, shift.z()));
-  const AlignedBox floor_box = widened(box.merged(cast), Vec3::Constant(1.6 * body_radius), grid);
+  const double border = std::max(kSkyShadow * body_radius, kPenumbra * (box.max().y() - ground_height));
+  const AlignedBox floor_box = widened(box.merged(cast), Vec3::Constant(border), grid);
   frame.ground.low = {floor_box.min().x(), floor_box.min().z()};
   frame.ground.sides = {floor_box.max().x() - floor_box.min().x(), floor_box.max().z() - floor_box.min().z()};
   return frame;

@@ -97,8 +97,8 @@ double longest_way(const DrawFrame& frame) {
 
 std::string shadow_settings(Quality quality) {
   const bool is_high = quality == Quality::kHigh;
-  return fmt::format("#define SHADED {:.3f}\n#define SEARCH {}\n#define TAPS {}\n", kShaded, is_high ? 12 : 6,
-                     is_high ? 32 : 12);
+  return fmt::format("#define SHADED {:.3f}\n#define RINGS {}\n#define DIRECTIONS {}\n", kShaded, is_high ? 9 : 6,
+                     is_high ? 9 : 5);
 }
 
 std::string light_settings(int shadow_size) {
@@ -226,8 +226,6 @@ void GroundMaps::draw_shadow(const GlProgram& program, const DrawFrame& frame) c
   program.set("mask_texels", float(key_mask_.size) / sides.x());
   program.set("mask_texel_size", (Eigen::Vector2f(1, sides.x() / sides.y()) / key_mask_.size).eval());
   program.set("longest_way", float(longest_way(frame)));
-  const double lowest = std::max(frame.light.bodies.min().y() - frame.ground_height, 0.0) / to_key_light().y();
-  program.set("lowest_way", float(lowest));
   bind_texture(gl_, 0, key_mask_.color);
   program.set("key_mask", 0);
   program.set("screen_depth", kShaded);

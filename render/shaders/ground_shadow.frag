@@ -1,23 +1,24 @@
-// The fraction of the key light that bodies occlude on the ground: the mask of what the light hits, averaged over the
-// disc through which the lamp is seen from the ground. So a shadow is sharp where a body touches and soft where it is
-// high up.
+// The fraction of the key light that bodies occlude on the ground: the coverage of what the light hits, over the disc
+// through which the lamp is seen at that distance. So a shadow is sharp where a body touches and soft where it is high up.
+// Rings of growing radius each have a coverage and a distance; those that lie in the disc at their own distance, and as
+// far as they fill it, say how far the disc is.
 in vec2 screen_place;
 uniform vec4 ground_rectangle;
 uniform float ground_height;
 uniform mat4 light_from_stage;
-uniform float mask_texels;      // per unit of length
-uniform vec2 mask_texel_size;   // in u and v
-uniform float longest_way;      // to the ground, that the mask encodes
-uniform float lowest_way;       // to the ground, from the lowest body
-uniform float body_radius;
+uniform float mask_texels;     // per unit of length
+uniform vec2 mask_texel_size;  // in u and v
+uniform float longest_way;     // to the ground, that the mask encodes
 uniform sampler2D key_mask;
 out vec4 result;
 
-const int kSearch = SEARCH;
-const int kTaps = TAPS;
+const int kRings = RINGS;
+const int kDirections = DIRECTIONS;
+const float kSmallest = 0.75;  // radius of a disc, in texels
 const mat2 kGoldenTurn = mat2(-0.7373688, 0.6754903, -0.6754903, -0.7373688);  // 137.5 degrees, for spirals
 
-float reach() { return kLightRadius * (1.2 * body_radius + lowest_way) * mask_texels; }
+// Radius of the largest disc, in texels.
+float reach() { return max(kLightRadius * longest_way * mask_texels, 2.0 * kSmallest); }
 
 vec2 mask_place() {
   vec2 point = ground_rectangle.xy + screen_place * ground_rectangle.zw;
@@ -25,27 +26,41 @@ vec2 mask_place() {
 }
 
 #ifdef SHADOW
+// The part of a disc that lies between two radii.
+float ring_of_disc(float inner, float outer, float disc) {
+  vec2 part = min(vec2(inner, outer) / disc, 1.0);
+  return part.y * part.y - part.x * part.x;
+}
+
 void main() {
   vec2 uv = mask_place();
-  vec2 found = vec2(0.0);
-  const float kStep = 1.0 / 255.0;  // of the mask: with low coverage rounding would make the distance arbitrary
+  float growth = pow(reach() / kSmallest, 1.0 / float(kRings));
+  float radii[kRings + 2];
+  float coverages[kRings + 1];
+  radii[0] = 0.0;
+  radii[1] = kSmallest;
+  vec2 far = vec2(0.0);  // sums of weights, and of discs
   vec2 direction = vec2(1.0, 0.0);
-  for (int k = 0; k < kSearch; ++k) {
-    vec2 offset = reach() * sqrt((float(k) + 0.5) / float(kSearch)) * direction;
-    vec2 hit = textureLod(key_mask, uv + offset * mask_texel_size, log2(max(0.8 * reach(), 1.0))).rg;
-    found += vec2(hit.r, max(hit.g - kStep, 0.0));
-    direction = kGoldenTurn * direction;
+  for (int ring = 0; ring <= kRings; ++ring) {
+    float inner = radii[ring];
+    float outer = radii[ring + 1];
+    float lod = log2(max(0.9 * (outer - inner), 1.0));
+    float covered = 0.0;
+    for (int k = 0; k < kDirections; ++k) {
+      float middle = mix(inner, outer, (float(k) + 0.5) / float(kDirections));
+      vec2 found = textureLod(key_mask, uv + middle * direction * mask_texel_size, lod).rg;
+      float disc = max(reach() * found.g / max(found.r, 1e-4), kSmallest);
+      far += found.r * ring_of_disc(inner, outer, disc) * vec2(1.0, disc);
+      covered += found.r;
+      direction = kGoldenTurn * direction;
+    }
+    coverages[ring] = covered / float(kDirections);
+    if (ring < kRings) radii[ring + 2] = growth * outer;
   }
-  int taps = found.r > 1e-4 ? kTaps : 0;
-  float radius = max(kLightRadius * longest_way * found.g / max(found.r, 1e-4) * mask_texels, 0.75);
-  float lod = log2(max(0.55 * radius, 1.0));
+  float disc = max(far.y / max(far.x, 1e-4), kSmallest);
   float hidden = 0.0;
-  for (int k = 0; k < taps; ++k) {
-    vec2 offset = radius * sqrt((float(k) + 0.5) / float(kTaps)) * direction;
-    hidden += textureLod(key_mask, uv + offset * mask_texel_size, lod).r;
-    direction = kGoldenTurn * direction;
-  }
-  result = vec4(hidden / float(kTaps));
+  for (int ring = 0; ring <= kRings; ++ring) hidden += coverages[ring] * ring_of_disc(radii[ring], radii[ring + 1], disc);
+  result = vec4(hidden);
 }
 #else
 // Writes depth only, which marks where SHADOW has to run.

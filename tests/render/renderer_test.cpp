@@ -138,6 +138,25 @@ TEST(Renderer, TheBodyCastsItsShadowOnTheGround) {
   EXPECT_NEAR(open, 1, 0.01);  // the floor far from the body is the background
 }
 
+// The end of the shadow is as far from what casts it as a stack is high, not as one of its bodies is.
+TEST(Renderer, TheShadowOfAStackFadesOut) {
+  StillLife scene;
+  for (int i = 0; i < 6; ++i) scene.add(make_box_skin({-0.2, 0.25 * i, -0.2}, {0.2, 0.25 * (i + 1), 0.2}), kCream);
+  const Image image = draw_scene(scene, kSmall, 30, 30);
+  double deepest = 255;
+  double steepest = 0;  // of a pixel and its neighbours, in levels
+  for (int y = 1; y < image.height; ++y) {
+    for (int x = 220; x < image.width; ++x) {
+      const double here = pixel(image, x, y).mean();
+      deepest = std::min(deepest, here);
+      steepest = std::max(steepest, std::abs(here - pixel(image, x - 1, y).mean()));
+      steepest = std::max(steepest, std::abs(here - pixel(image, x, y - 1).mean()));
+    }
+  }
+  EXPECT_LT(deepest, 190);
+  EXPECT_LT(steepest, 12);
+}
+
 TEST(Renderer, TheBackgroundIsNeutralAndSmooth) {
   const Image image = draw_scene(ball_on_ground(), kSmall);
   for (int y = 0; y < image.height; ++y) {
