@@ -107,6 +107,7 @@ void DrawFrame::set_common(const GlProgram& program) const {
   program.set("to_key", to_key_light().cast<float>().eval());
   program.set("sky_on_ground", sky_on_ground);
   program.set("body_radius", float(body_radius));
+  program.set("motion", float(motion));
   program.set("ground_height", float(ground_height));
   program.set("ground_rectangle", rectangle(light.ground.low, light.ground.sides));
   program.set("light_from_stage", light.key.clip_from_stage.cast<float>().eval());

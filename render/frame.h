@@ -55,6 +55,7 @@ struct DrawFrame {
   double ground_height;  // stage space
   bool has_ground;
   Eigen::Vector3f sky_on_ground;  // irradiance / pi of the open sky on level ground
+  double motion = 0;              // of any point, away from where the light maps have it; stage space
 
   /// Sets the uniforms of every program that draws a skin or a light map.
   void set_common(const GlProgram& program) const;

@@ -107,7 +107,7 @@ std::string light_settings(int shadow_size) {
 
 }  // namespace
 
-GroundMaps::GroundMaps(const GlFunctions& gl, const MapBrush& brush, Quality quality, const LightMap& key)
+GroundMaps::GroundMaps(const GlFunctions& gl, const MapBrush& brush, Quality quality, bool exposes, const LightMap& key)
     : gl_(gl),
       brush_(brush),
       key_(key),
@@ -119,7 +119,7 @@ GroundMaps::GroundMaps(const GlFunctions& gl, const MapBrush& brush, Quality qua
       light_(brush.make_map(kLightSize, &map_format::kFlatColor, false)),
       far_light_pass_(brush.make_map(kFarLightSize, &map_format::kFlatColor, false)),
       far_light_(brush.make_map(kFarLightSize, &map_format::kFlatColor, false)),
-      tint_(brush.make_map(key.size / 2, &map_format::kFlatColor, false)),
+      tint_(brush.make_map(key.size / 2, exposes ? &map_format::kFineColor : &map_format::kFlatColor, false)),
       underside_programs_(load_skin_programs(gl, "underside.frag")),
       underside_filter_program_(load_program(gl, "screen.vert", "underside_filter.frag")),
       sky_program_(load_program(gl, "screen.vert", "ground_sky.frag")),
@@ -128,7 +128,7 @@ GroundMaps::GroundMaps(const GlFunctions& gl, const MapBrush& brush, Quality qua
       shadow_program_(
           load_program(gl, "screen.vert", "ground_shadow.frag", shadow_settings(quality) + "#define SHADOW\n")),
       light_program_(load_program(gl, "screen.vert", "ground_light.frag", light_settings(shadow_.size))),
-      tint_program_(load_program(gl, "screen.vert", "ground_tint.frag")) {}
+      tint_program_(load_program(gl, "screen.vert", "ground_tint.frag", exposes ? "#define EXPOSURE\n" : "")) {}
 
 void GroundMaps::draw(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const DrawFrame& frame,
                       PassClock& clock) const {
@@ -253,16 +253,16 @@ int key_size(Quality quality) { return quality == Quality::kHigh ? 2048 : qualit
 
 }  // namespace
 
-LightMaps::LightMaps(const GlFunctions& gl, Quality quality)
+LightMaps::LightMaps(const GlFunctions& gl, const RenderOptions& options)
     : gl_(gl),
       brush_(gl),
       shadow_sampler_(make_comparing_sampler(gl, GL_LEQUAL)),
-      key_(brush_.make_map(key_size(quality), nullptr, true)),
+      key_(brush_.make_map(key_size(options.quality), nullptr, true)),
       zenith_depth_(brush_.make_map(kZenithDepthSize, nullptr, true)),
       zenith_(brush_.make_map(kZenithSize, &map_format::kMoments, false)),
       zenith_pass_(brush_.make_map(kZenithSize, &map_format::kMoments, false)),
       zenith_program_(load_program(gl, "screen.vert", "zenith_filter.frag")),
-      ground_(gl, brush_, quality, key_) {}
+      ground_(gl, brush_, options.quality, options.exposes, key_) {}
 
 void LightMaps::draw(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const DrawFrame& frame,
                      PassClock& clock) const {

@@ -22,6 +22,7 @@ inline constexpr TextureFormat kDepth{GL_DEPTH_COMPONENT16, GL_DEPTH_COMPONENT, 
 inline constexpr TextureFormat kColor{GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, true, true, GL_CLAMP_TO_EDGE};
 inline constexpr TextureFormat kFlatColor{GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, false, true, GL_CLAMP_TO_EDGE};
 inline constexpr TextureFormat kMask{GL_RG16, GL_RG, GL_UNSIGNED_SHORT, true, true, GL_CLAMP_TO_BORDER};
+inline constexpr TextureFormat kFineColor{GL_RGBA16, GL_RGBA, GL_UNSIGNED_SHORT, false, true, GL_CLAMP_TO_EDGE};
 inline constexpr TextureFormat kShadow{GL_R8, GL_RED, GL_UNSIGNED_BYTE, true, true, GL_CLAMP_TO_EDGE};
 inline constexpr TextureFormat kMoments{GL_RG32F, GL_RG, GL_FLOAT, false, true, GL_CLAMP_TO_EDGE};
 }  // namespace map_format
@@ -58,8 +59,8 @@ class MapBrush {
 /// - tint: how much darker the floor looks
 class GroundMaps {
  public:
-  /// `key`: the depth map of the key light.
-  GroundMaps(const GlFunctions& gl, const MapBrush& brush, Quality quality, const LightMap& key);
+  /// `key`: the depth map of the key light. `exposes`: the tint is of linear light.
+  GroundMaps(const GlFunctions& gl, const MapBrush& brush, Quality quality, bool exposes, const LightMap& key);
   void draw(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const DrawFrame& frame,
             PassClock& clock) const;
 
@@ -104,7 +105,7 @@ class LightMaps {
  public:
   static constexpr int kUnits = 5;  // texture units that bind() uses
 
-  LightMaps(const GlFunctions& gl, Quality quality);
+  LightMaps(const GlFunctions& gl, const RenderOptions& options);
   void draw(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const DrawFrame& frame,
             PassClock& clock) const;
   /// Binds the maps from unit `first_unit` on, and sets the uniforms with which a shader reads them.

@@ -32,6 +32,15 @@ void mix(Image& image, const Image& other, double share) {
   std::transform(image.alpha.begin(), image.alpha.end(), other.alpha.begin(), image.alpha.begin(), mixed);
 }
 
+std::vector<SkinShape> between(const std::vector<SkinShape>& first, const std::vector<SkinShape>& last, float part) {
+  std::vector<SkinShape> shapes = first;
+  for (std::size_t i = 0; i < shapes.size() && &first != &last; ++i) {
+    shapes[i].positions += part * (last[i].positions - first[i].positions);
+    shapes[i].normals += part * (last[i].normals - first[i].normals);
+  }
+  return shapes;
+}
+
 void check_options(const Stage& stage, const RenderOptions& options) {
   const int largest = 16384 / sample_side(options.samples);  // llvmpipe's limit
   if (options.width < 1 || options.height < 1 || options.width > largest || options.height > largest) {
@@ -74,7 +83,7 @@ struct Renderer::Device {
         sky_on_ground(stage.environment ? stage.environment->irradiance_on(Eigen::Vector3f::UnitY()) : studio_sky()),
         textures(gl, stage.color_map),
         ids(stage.ids),
-        maps(gl, options.quality),
+        maps(gl, options),
         screen(gl, options, stage.environment),
         clock(gl, options.measure_passes) {
     for (std::size_t i = 0; i < stage.skins.size(); ++i) {
@@ -93,13 +102,48 @@ struct Renderer::Device {
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
 
+  void update(const std::vector<SkinShape>& shapes) {
+    if (shapes.size() != skins.size()) throw Error(ErrorKind::kFailed, "drawing needs a shape for every skin");
+    for (std::size_t i = 0; i < shapes.size(); ++i) skins[i].update(shapes[i]);
+  }
+
   /// Uploads the shapes.
   DrawFrame frame(const std::vector<SkinShape>& shapes) {
-    if (shapes.size() != skins.size()) throw Error(ErrorKind::kFailed, "drawing needs a shape for every skin");
     context.make_current();
-    for (std::size_t i = 0; i < shapes.size(); ++i) skins[i].update(shapes[i]);
+    update(shapes);
     return {space,        fit_light(shapes, space, body_radius, ground_height), body_radius, ground_height, has_ground,
             sky_on_ground};
+  }
+
+  /// Its light is that of the middle.
+  DrawFrame frame(const Exposure& exposure) {
+    AlignedBox bodies = frame(exposure.first).light.bodies;
+    bodies.extend(frame(exposure.last).light.bodies);
+    DrawFrame middle = frame(between(exposure.first, exposure.last, 0.5F));
+    middle.light.bodies = bodies;
+    for (std::size_t i = 0; i < skins.size(); ++i) {
+      const Floats3 ways = exposure.last[i].positions - exposure.first[i].positions;
+      middle.motion = std::max(middle.motion, 0.5 * space.scale * double{ways.rowwise().norm().maxCoeff()});
+    }
+    return middle;
+  }
+
+  void draw(const View& view, bool with_ghosts) {
+    screen.clear_surfaces();
+    screen.draw_surfaces(skins, textures, view, with_ghosts);
+    clock.stop("surfaces");
+    screen.draw_light(maps, view, clock);
+  }
+
+  void draw(const Exposure& exposure, const View& view, bool with_ghosts) {
+    if (&exposure.first == &exposure.last) return draw(view, with_ghosts);
+    screen.clear_surfaces();
+    for (int turn = 0; turn < kTurns; ++turn) {
+      update(between(exposure.first, exposure.last, (float(turn) + 0.5F) / kTurns));
+      screen.draw_surfaces(skins, textures, view, with_ghosts, turn);
+    }
+    clock.stop("surfaces");
+    screen.draw_light(maps, view, clock);
   }
 };
 
@@ -118,12 +162,40 @@ Image Renderer::draw(const std::vector<SkinShape>& shapes, const Camera& camera)
   device.clock.stop("upload");
   device.maps.draw(device.skins, device.textures, frame, device.clock);
   const View view = make_view(frame, camera, device.screen.aspect());
-  device.screen.draw(device.skins, device.textures, device.maps, view, false, device.clock);
+  device.draw(view, false);
   Image image = device.screen.read();
   if (device.has_ghosts) {
-    device.screen.draw(device.skins, device.textures, device.maps, view, true, device.clock);
+    device.draw(view, true);
     mix(image, device.screen.read(), kGhost);
   }
+  device.clock.stop("read back");
+  return image;
+}
+
+Image Renderer::draw(const std::vector<Exposure>& exposures) {
+  Device& device = *device_;
+  device.context.make_current();
+  device.clock.start();
+  const Exposures& mean = device.screen.exposures().value();
+  mean.clear();
+  const double part = 1.0 / double(exposures.size());
+  std::optional<DrawFrame> frame;
+  const Exposure* before = nullptr;
+  for (const Exposure& exposure : exposures) {
+    if (before == nullptr || &before->first != &exposure.first || &before->last != &exposure.last) {
+      frame = device.frame(exposure);
+      device.maps.draw(device.skins, device.textures, *frame, device.clock);
+    }
+    before = &exposure;
+    const View view = make_view(*frame, exposure.camera, device.screen.aspect());
+    device.draw(exposure, view, false);
+    mean.add(device.screen.light(), device.has_ghosts ? (1 - kGhost) * part : part);
+    if (device.has_ghosts) {
+      device.draw(exposure, view, true);
+      mean.add(device.screen.light(), kGhost * part);
+    }
+  }
+  Image image = device.screen.read();
   device.clock.stop("read back");
   return image;
 }

@@ -32,6 +32,7 @@ struct RenderOptions {
   bool measure_passes = false;
   Quality quality = Quality::kDefault;  // of shadows
   bool transparent = false;             // pictures with alpha: bodies without a background
+  bool exposes = false;                 // pictures are of several exposures
 };
 
 /// What does not change during a film: the skins at rest (indices, UVs, colours, textures), ground and light.
@@ -48,6 +49,14 @@ struct Stage {
   std::optional<Environment> environment{};  // replaces the studio's sky and walls, not the key light
 };
 
+/// A part of the time that a shutter is open. Skins move from the first shapes to the last, and each sample of a pixel
+/// sees them at another time.
+struct Exposure {
+  const std::vector<SkinShape>& first;
+  const std::vector<SkinShape>& last;  // the same ones: at rest
+  Camera camera;
+};
+
 /// Draws a stage off-screen with OSMesa: no display, no GPU. Deterministic on one machine for any number of threads.
 class Renderer {
  public:
@@ -59,6 +68,9 @@ class Renderer {
 
   /// One shape for each skin of the stage, in order.
   [[nodiscard]] Image draw(const std::vector<SkinShape>& shapes, const Camera& camera);
+
+  /// The mean light of some exposures; needs RenderOptions::exposes.
+  [[nodiscard]] Image draw(const std::vector<Exposure>& exposures);
 
   /// What a compositor needs beside that picture.
   [[nodiscard]] Passes draw_passes(const std::vector<SkinShape>& shapes, const Camera& camera);

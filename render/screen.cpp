@@ -69,8 +69,15 @@ constexpr double kLevel = 1e-4;          // sine of the elevation of a ray that 
 constexpr double kSightSteps = 1 << 20;  // one over the step to which rays are rounded
 
 constexpr TextureFormat kColorFormat{GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, false, false, GL_CLAMP_TO_EDGE};
+constexpr TextureFormat kLightFormat{GL_RGBA32F, GL_RGBA, GL_FLOAT, false, false, GL_CLAMP_TO_EDGE};
 constexpr TextureFormat kDepthFormat{GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, false, false,
                                      GL_CLAMP_TO_EDGE};
+
+const TextureFormat& picture_format(const RenderOptions& options) {
+  return options.exposes ? kLightFormat : kColorFormat;
+}
+
+const char* exposure_define(const RenderOptions& options) { return options.exposes ? "#define EXPOSURE\n" : ""; }
 
 bool has_floor_in_sight(const View& view) {
   const bool looks_down = view.near > 0 || view.sight_height.z() < -kLevel;  // parallel rays may run along the floor
@@ -89,26 +96,28 @@ Screen::Screen(const GlFunctions& gl, const RenderOptions& options, const std::o
       surface_normal_(make_texture(gl, side_ * width_, side_ * height_, kColorFormat)),
       surface_depth_(make_texture(gl, side_ * width_, side_ * height_, kDepthFormat)),
       surface_(make_two_color_target(gl, surface_color_, surface_normal_, surface_depth_)),
-      picture_(make_texture(gl, width_, height_, kColorFormat)),
+      picture_(make_texture(gl, width_, height_, picture_format(options))),
       kinds_(make_texture(gl, width_, height_, kDepthFormat)),
       developed_(make_texture_target(gl, &picture_, &kinds_)),
-      backdrop_(make_texture(gl, width_, height_, kColorFormat)),
+      backdrop_(make_texture(gl, width_, height_, picture_format(options))),
       backdrop_target_(make_texture_target(gl, &backdrop_, nullptr)),
       environment_(environment ? std::optional(EnvironmentTexture(gl, *environment)) : std::nullopt),
       nearer_sampler_(make_comparing_sampler(gl, GL_GREATER)),
       no_buffers_(make_vertex_array(gl)),
-      surface_programs_(load_skin_programs(gl, "surface.frag")),
-      backdrop_program_(load_program(gl, "screen.vert", "backdrop.frag")),
+      surface_programs_(load_skin_programs(gl, "surface.frag", exposure_define(options))),
+      backdrop_program_(load_program(gl, "screen.vert", "backdrop.frag", exposure_define(options))),
       floor_program_(load_program(gl, "floor.vert", "floor.frag")),
-      kinds_program_(load("kinds.frag", options.quality)),
-      skins_program_(load("skins.frag", options.quality)) {}
+      kinds_program_(load("kinds.frag", options)),
+      skins_program_(load("skins.frag", options)) {
+  if (options.exposes) exposures_.emplace(gl, width_, height_, is_transparent_);
+}
 
-GlProgram Screen::load(const char* fragment, Quality quality) const {
-  const bool is_high = quality == Quality::kHigh;
-  const bool is_preview = quality == Quality::kPreview;
+GlProgram Screen::load(const char* fragment, const RenderOptions& options) const {
+  const bool is_high = options.quality == Quality::kHigh;
+  const bool is_preview = options.quality == Quality::kPreview;
   return load_program(gl_, "screen.vert", fragment,
                       fmt::format("#define SIDE {}\n#define SKIN {:.3f}\n#define NO_SKIN {:.3f}\n"
-                                  "#define SHADOW_SEARCH {}\n#define SHADOW_TAPS {}\n{}",
+                                  "#define SHADOW_SEARCH {}\n#define SHADOW_TAPS {}\n{}{}",
                                   side_, kSkin, kNoSkin,
                                   is_high      ? 12
                                   : is_preview ? 4
@@ -116,13 +125,10 @@ GlProgram Screen::load(const char* fragment, Quality quality) const {
                                   is_high      ? 32
                                   : is_preview ? 8
                                                : 16,
-                                  environment_ ? "#define ENVIRONMENT\n" : ""));
+                                  environment_ ? "#define ENVIRONMENT\n" : "", exposure_define(options)));
 }
 
-void Screen::draw(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const LightMaps& maps,
-                  const View& view, bool with_ghosts, PassClock& clock) {
-  draw_surfaces(skins, textures, view, with_ghosts);
-  clock.stop("surfaces");
+void Screen::draw_light(const LightMaps& maps, const View& view, PassClock& clock) {
   if (is_transparent_) {
     clear_picture();
   } else {
@@ -135,7 +141,11 @@ void Screen::draw(const std::vector<SkinBuffers>& skins, const TextureSet& textu
 }
 
 Image Screen::read() const {
-  gl_.BindFramebuffer(GL_FRAMEBUFFER, developed_.name());
+  if (exposures_) {
+    exposures_->develop();
+  } else {
+    gl_.BindFramebuffer(GL_FRAMEBUFFER, developed_.name());
+  }
   gl_.PixelStorei(GL_PACK_ALIGNMENT, 1);
   Image image(width_, height_);
   gl_.ReadPixels(0, 0, width_, height_, GL_RGB, GL_UNSIGNED_BYTE, image.pixels.data());
@@ -145,20 +155,25 @@ Image Screen::read() const {
   return image;
 }
 
+void Screen::clear_surfaces() const {
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, surface_.name());
+  gl_.Clear(GL_DEPTH_BUFFER_BIT);
+}
+
 /// The triangles are small, and llvmpipe would shade several times as many pixels as they cover. So the light is
 /// computed in a deferred pass, one triangle over the whole picture.
 void Screen::draw_surfaces(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const View& view,
-                           bool with_ghosts) const {
+                           bool with_ghosts, int turn) const {
   gl_.BindFramebuffer(GL_FRAMEBUFFER, surface_.name());
   gl_.Viewport(0, 0, side_ * width_, side_ * height_);
   gl_.Enable(GL_DEPTH_TEST);
   gl_.DepthFunc(GL_LESS);
   gl_.FrontFace(GL_CW);  // the top row comes first, which flips the image
-  gl_.Clear(GL_DEPTH_BUFFER_BIT);
   for (const GlProgram* program : {&surface_programs_.plain, &surface_programs_.textured, &surface_programs_.mapped}) {
     program->use();
     view.frame.set_common(*program);
     program->set("clip_from_stage", view.clip_from_stage.cast<float>().eval());
+    program->set("turn", turn);
   }
   gl_.PolygonOffset(1, 1);  // puts ghosts behind a body in the same place
   for (const SkinBuffers& skin : skins) {

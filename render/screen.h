@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "render/environment.h"
+#include "render/exposures.h"
 #include "render/frame.h"
 #include "render/gl/objects.h"
 #include "render/light_maps.h"
@@ -26,14 +27,25 @@ class EnvironmentTexture {
 /// Samples along each side of a pixel.
 [[nodiscard]] constexpr int sample_side(int samples) { return samples == 16 ? 4 : samples == 4 ? 2 : 1; }
 
+/// Turns in which the samples of an exposure are taken, one after the other, as bodies move.
+inline constexpr int kTurns = 8;
+inline constexpr int kAllTurns = -1;
+
 /// Deferred shading of what a camera sees, given the light maps: first the skins' surface in every sample of every
 /// pixel, then their light.
 class Screen {
  public:
   /// Without an environment the studio lights it.
   Screen(const GlFunctions& gl, const RenderOptions& options, const std::optional<Environment>& environment);
-  void draw(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const LightMaps& maps, const View& view,
-            bool with_ghosts, PassClock& clock);
+  void clear_surfaces() const;
+  /// In the samples of one turn, where options say that pictures have exposures, or in all.
+  void draw_surfaces(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const View& view,
+                     bool with_ghosts, int turn = kAllTurns) const;
+  /// The picture, or one exposure of it.
+  void draw_light(const LightMaps& maps, const View& view, PassClock& clock);
+  /// What several exposures add up to, which their parts say; none where options do not say that pictures have any.
+  [[nodiscard]] const std::optional<Exposures>& exposures() const { return exposures_; }
+  [[nodiscard]] const GlTexture& light() const { return picture_; }
   [[nodiscard]] Image read() const;
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] int height() const { return height_; }
@@ -49,9 +61,7 @@ class Screen {
     bool operator==(const Sight&) const = default;
   };
 
-  [[nodiscard]] GlProgram load(const char* fragment, Quality quality) const;
-  void draw_surfaces(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const View& view,
-                     bool with_ghosts) const;
+  [[nodiscard]] GlProgram load(const char* fragment, const RenderOptions& options) const;
   void clear_picture() const;
   void draw_backdrop(const View& view);
   void draw_floor(const LightMaps& maps, const View& view) const;
@@ -74,6 +84,7 @@ class Screen {
   GlFramebuffer backdrop_target_;
   std::optional<Sight> backdrop_sight_;
   std::optional<EnvironmentTexture> environment_;
+  std::optional<Exposures> exposures_;
   GlSampler nearer_sampler_;
   GlVertexArray no_buffers_;
   SkinPrograms surface_programs_;

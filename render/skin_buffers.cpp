@@ -200,9 +200,10 @@ int TextureSet::add(const SurfaceMaterial& material) {
   return isize(textures_) - 1;
 }
 
-SkinPrograms load_skin_programs(const GlFunctions& gl, std::string_view fragment) {
-  return {load_program(gl, "surface.vert", fragment), load_program(gl, "surface.vert", fragment, "#define TEXTURED\n"),
-          load_program(gl, "surface.vert", fragment, "#define MAPPED\n")};
+SkinPrograms load_skin_programs(const GlFunctions& gl, std::string_view fragment, const std::string& defines) {
+  return {load_program(gl, "surface.vert", fragment, defines),
+          load_program(gl, "surface.vert", fragment, defines + "#define TEXTURED\n"),
+          load_program(gl, "surface.vert", fragment, defines + "#define MAPPED\n")};
 }
 
 SkinBuffers::SkinBuffers(const GlFunctions& gl, const Skin& skin, const Eigen::Vector3f& default_color, Look look,

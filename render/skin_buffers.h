@@ -53,7 +53,8 @@ struct SkinPrograms {
   GlProgram textured;
   GlProgram mapped;
 };
-[[nodiscard]] SkinPrograms load_skin_programs(const GlFunctions& gl, std::string_view fragment);
+[[nodiscard]] SkinPrograms load_skin_programs(const GlFunctions& gl, std::string_view fragment,
+                                              const std::string& defines = "");
 
 /// A skin in buffers of OpenGL.
 class SkinBuffers {

@@ -45,12 +45,13 @@ Film with_panel_size(Film scene, std::size_t runs, const Labels& labels) {
   return scene;
 }
 
-RenderOptions options_of(const SceneRender& render) {
+RenderOptions options_of(const SceneRender& render, bool exposes) {
   return {.width = render.resolution[0],
           .height = render.resolution[1],
           .samples = render.samples.value_or(samples_of(render.quality)),
           .quality = render.quality,
-          .transparent = render.transparent};
+          .transparent = render.transparent,
+          .exposes = exposes};
 }
 
 Stage in(const std::optional<Environment>& surroundings, Stage stage) {
@@ -107,7 +108,7 @@ FilmPipeline::FilmPipeline(const std::vector<FilmRun>& runs, const std::optional
 Renderer& FilmPipeline::renderer(Panel& panel) {
   if (!panel.renderer) {
     panel.renderer = std::make_unique<Renderer>(in(surroundings_, panel.stage.stage(reach_.bounds)),
-                                                options_of(scene_of_panel_.render));
+                                                options_of(scene_of_panel_.render, exposures() > 1));
   }
   return *panel.renderer;
 }
@@ -115,10 +116,11 @@ Renderer& FilmPipeline::renderer(Panel& panel) {
 FilmPipeline::Moments FilmPipeline::moments(std::size_t frame) const {
   const double open = scene_.render.motion_blur / 360;
   const int count = exposures();
+  const int times = open > 0 ? count + 1 : 1;
   Moments moments;
   for (const Panel& panel : panels_) {
     std::vector<std::vector<SkinShape>>& of_run = moments.emplace_back();
-    for (int i = 0; i < count; ++i) of_run.push_back(panel.stage.shapes(panel.frame(frame), open * i / count));
+    for (int i = 0; i < times; ++i) of_run.push_back(panel.stage.shapes(panel.frame(frame), open * i / count));
   }
   return moments;
 }
@@ -127,11 +129,7 @@ Image FilmPipeline::draw(std::size_t frame, const Moments& moments) {
   const Camera& camera = cameras_[frame];
   std::vector<Image> pictures;
   for (std::size_t i = 0; i < panels_.size(); ++i) {
-    Exposure exposure;
-    for (std::size_t j = 0; j < moments[i].size(); ++j) {
-      exposure.add(renderer(panels_[i]).draw(moments[i][j], this->camera(frame, int(j))));
-    }
-    pictures.push_back(exposure.mean());
+    pictures.push_back(draw(frame, panels_[i], moments[i]));
     if (panels_.size() > 1) labels_.write_name(pictures.back(), panels_[i].run.name);
     if (scene_.render.plots) {
       labels_.write_plot(pictures.back(), plot_of(panels_[i].run.recording, panels_[i].frame(frame)));
@@ -141,6 +139,17 @@ Image FilmPipeline::draw(std::size_t frame, const Moments& moments) {
   labels_.write_frame(image, camera, frame, frames(), panels_[longest_].run.recording.progress[frame]);
   if (!scene_.render.sheet) labels_.write_legend(image);
   return image;
+}
+
+Image FilmPipeline::draw(std::size_t frame, Panel& panel, const std::vector<std::vector<SkinShape>>& shapes) {
+  const int count = exposures();
+  if (count == 1) return renderer(panel).draw(shapes.front(), cameras_[frame]);
+  std::vector<Exposure> exposures;
+  for (int i = 0; i < count; ++i) {
+    const bool moves = shapes.size() > 1;
+    exposures.push_back({shapes[moves ? i : 0], shapes[moves ? i + 1 : 0], camera(frame, i)});
+  }
+  return renderer(panel).draw(exposures);
 }
 
 int FilmPipeline::exposures() const {
@@ -172,33 +181,6 @@ Image FilmPipeline::sheet(const std::vector<Image>& pictures) const {
 int FilmPipeline::margin() const {
   const int columns = scene_.render.sheet ? (*scene_.render.sheet)[0] : isize(panels_);
   return scene_.render.resolution[0] - columns * scene_of_panel_.render.resolution[0];
-}
-
-void Exposure::add(const Image& image) {
-  if (count_++ == 0) {
-    first_ = image;
-    light_.assign(image.pixels.size(), 0);
-    alpha_.assign(image.alpha.size(), 0);
-  }
-  for (std::size_t i = 0; i < light_.size(); ++i) {
-    const auto byte = float(image.pixels[i]);
-    const float share = image.alpha.empty() ? 1 : float(image.alpha[i / 3]) / 255;
-    light_[i] += share * byte * byte;
-  }
-  for (std::size_t i = 0; i < alpha_.size(); ++i) alpha_[i] += float(image.alpha[i]);
-}
-
-Image Exposure::mean() const {
-  if (count_ == 1) return first_;
-  Image image = first_;
-  const auto count = float(count_);
-  for (std::size_t i = 0; i < alpha_.size(); ++i)
-    image.alpha[i] = static_cast<std::uint8_t>(std::lround(alpha_[i] / count));
-  for (std::size_t i = 0; i < light_.size(); ++i) {
-    const float share = alpha_.empty() ? count : std::max(alpha_[i / 3] / 255, 1e-3F);
-    image.pixels[i] = static_cast<std::uint8_t>(std::clamp(std::lround(std::sqrt(light_[i] / share)), 0L, 255L));
-  }
-  return image;
 }
 
 Image sheet_of(const std::vector<Image>& pictures, int columns, int margin) {

@@ -26,7 +26,7 @@ struct FilmRun {
 /// with the first picture, so a process may fork before that.
 class FilmPipeline {
  public:
-  /// Shapes of the skins by run and exposure: one exposure per picture, or several for motion blur and lenses.
+  /// Shapes of the skins by run and time: one time per picture, or those where the exposures of its motion blur meet.
   using Moments = std::vector<std::vector<std::vector<SkinShape>>>;
 
   /// `surroundings` light all runs and must outlive it; none: the studio.
@@ -38,7 +38,7 @@ class FilmPipeline {
 
   [[nodiscard]] Moments moments(std::size_t frame) const;
   [[nodiscard]] Image draw(std::size_t frame, const Moments& moments);
-  /// Of the first run and the first exposure.
+  /// Of the first run and the first time.
   [[nodiscard]] Passes passes(std::size_t frame, const Moments& moments);
   /// The pictures in rows and columns, with the legend.
   [[nodiscard]] Image sheet(const std::vector<Image>& pictures) const;
@@ -67,6 +67,7 @@ class FilmPipeline {
   /// The camera of an exposure: at a point of its lens.
   [[nodiscard]] Camera camera(std::size_t frame, int exposure) const;
   [[nodiscard]] int exposures() const;
+  [[nodiscard]] Image draw(std::size_t frame, Panel& panel, const std::vector<std::vector<SkinShape>>& shapes);
   /// Pixels at the right edge that no panel covers.
   [[nodiscard]] int margin() const;
 
@@ -78,19 +79,6 @@ class FilmPipeline {
   std::vector<Camera> cameras_;
   std::deque<Panel> panels_;
   std::size_t longest_ = 0;  // index of the run with the most frames
-};
-
-/// The mean light of pictures of the same size, as an open shutter sees it; sRGB is nearly its square root.
-class Exposure {
- public:
-  void add(const Image& image);
-  [[nodiscard]] Image mean() const;
-
- private:
-  Image first_;
-  std::vector<float> light_;
-  std::vector<float> alpha_;
-  int count_ = 0;
 };
 
 /// Pictures of the same size in rows of `columns`, from the top left. `margin` more pixels at the right edge continue

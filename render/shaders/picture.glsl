@@ -24,10 +24,17 @@ vec3 tone_map(vec3 c) {
 // Triangular noise of one level, the same in every run, which dithers wide, soft gradients. Its uniform noise is that of
 // Jimenez, "Next Generation Post Processing in Call of Duty" (2014).
 float picture_noise() {
+#ifdef EXPOSURE
+  return 0.0;
+#endif
   float even = fract(52.9829189 * fract(dot(floor(gl_FragCoord.xy), vec2(0.06711056, 0.00583715))));
   float side = 2.0 * even - 1.0;
   return sign(side) * (1.0 - sqrt(1.0 - abs(side))) * (0.75 / 255.0);
 }
 
-// Linear light to stored colour.
+// Linear light to stored colour; an exposure stores the light itself.
+#ifdef EXPOSURE
+vec3 picture_color(vec3 light) { return light; }
+#else
 vec3 picture_color(vec3 light) { return srgb_from_linear(tone_map(light)); }
+#endif

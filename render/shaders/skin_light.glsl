@@ -2,6 +2,7 @@
 uniform vec3 eye;
 uniform float body_radius;
 uniform float ground_height;
+uniform float motion;              // of any point, away from where the light maps have it
 uniform vec4 ground_rectangle;     // low corner x, z; sides
 uniform sampler2D ground_light_map;      // half of the light; no mipmaps, which take several times as long to sample
 uniform sampler2D far_ground_light_map;  // blurred
@@ -23,7 +24,7 @@ const mat2 kGoldenTurn = mat2(-0.7373688, 0.6754903, -0.6754903, -0.7373688);  /
 // The fraction of the key light that reaches a point. The point is first moved outwards and towards the light by a small
 // fraction of the body's size: soft matter is translucent that far, and the surface does not shadow itself.
 float key_light(vec3 point, vec3 n, float facing) {
-  vec3 moved = point + body_radius * (0.012 * n + 0.028 * to_key);
+  vec3 moved = point + body_radius * (0.012 * n + 0.028 * to_key) + motion * to_key;
   vec3 uvd = (light_from_stage * vec4(moved, 1.0)).xyz * 0.5 + 0.5;
   vec2 reach = 0.6 * kLightRadius * body_radius * light_texel;
   int search = facing > -0.35 ? kSearch : 0;

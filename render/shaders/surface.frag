@@ -16,7 +16,21 @@ vec4 pack_normal(vec3 n) {
   return vec4(floor(place) / 255.0, fract(place));
 }
 
+#ifdef EXPOSURE
+uniform int turn;  // -1: all
+
+// When a sample is taken, in eighths of an exposure: a Bayer matrix, so that neighbours are far apart in time.
+int turn_of_sample() {
+  ivec2 at = ivec2(gl_FragCoord.xy);
+  int either = at.x ^ at.y;
+  return 4 * (either & 1) + 2 * (at.y & 1) + (either >> 1 & 1);
+}
+#endif
+
 void main() {
+#ifdef EXPOSURE
+  if (turn >= 0 && turn != turn_of_sample()) discard;
+#endif
   surface_color = vec4(albedo_root(), look / 255.0);
   packed_normal = pack_normal(gl_FrontFacing ? surface_normal : -surface_normal);
 }

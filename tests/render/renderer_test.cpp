@@ -167,6 +167,62 @@ TEST(Renderer, TheBackgroundIsNeutralAndSmooth) {
   }
 }
 
+constexpr RenderOptions kExposed{.width = 320, .height = 180, .samples = 4, .exposes = true};
+
+std::vector<SkinShape> moved(std::vector<SkinShape> shapes, const Eigen::RowVector3f& way) {
+  for (SkinShape& shape : shapes) shape.positions.rowwise() += way;
+  return shapes;
+}
+
+TEST(Renderer, AnExposureAtRestIsThePicture) {
+  const StillLife scene = ball_on_ground();
+  const Stage stage = scene.stage();
+  const std::vector<SkinShape> shapes = scene.shapes();
+  const std::vector<SkinShape> same = shapes;
+  const Camera camera = frame_bounds(stage.bounds, 16.0 / 9, 30, 14);
+  const Image image = Renderer(stage, kExposed).draw({{shapes, shapes, camera}, {shapes, same, camera}});
+  EXPECT_GT(psnr(draw_scene(scene, kSmall), image), 40);  // but at edges, which are mixed in linear light, too
+}
+
+// A red ball that is there for half of the time mixes its light with that of the background, not their bytes.
+TEST(Renderer, ExposuresAddUpLight) {
+  const StillLife scene = ball_on_ground();
+  const Stage stage = scene.stage();
+  const std::vector<SkinShape> here = scene.shapes();
+  const std::vector<SkinShape> away = moved(here, {0, 0, 50});
+  const Camera camera = frame_bounds(stage.bounds, 16.0 / 9);
+  Renderer renderer(stage, kExposed);
+  const auto green = [&](const std::vector<Exposure>& exposures) {
+    return pixel(renderer.draw(exposures), 160, 80).y() / 255;
+  };
+  const double with = green({{here, here, camera}});
+  const double without = green({{away, away, camera}});
+  const double both = green({{here, here, camera}, {away, away, camera}});
+  EXPECT_LT(with, 0.3);
+  EXPECT_NEAR(std::pow(both, 2.2), 0.5 * (std::pow(with, 2.2) + std::pow(without, 2.2)), 0.02);
+}
+
+TEST(Renderer, MotionBlurShowsNoCopies) {
+  StillLife scene;
+  scene.add(make_sphere_skin({-0.9, 0.5, 0}, 0.15), kRed);
+  Stage stage = scene.stage();
+  stage.bounds = AlignedBox(Vec3(-1.1, 0, -0.1), Vec3(1.1, 1, 0.1));
+  const Camera camera = frame_bounds(stage.bounds, 16.0 / 9, 0);
+  std::vector<std::vector<SkinShape>> times;
+  for (int i = 0; i <= 8; ++i) times.push_back(moved(scene.shapes(), {0.225F * float(i), 0, 0}));
+  std::vector<Exposure> exposures;
+  for (std::size_t i = 0; i < 8; ++i) exposures.push_back({times[i], times[i + 1], camera});
+  const Image image = Renderer(stage, kExposed).draw(exposures);
+  double darkest = 255;
+  double steepest = 0;
+  for (int x = 100; x < 220; ++x) {
+    darkest = std::min(darkest, pixel(image, x, 90).y());
+    steepest = std::max(steepest, std::abs(pixel(image, x, 90).y() - pixel(image, x - 1, 90).y()));
+  }
+  EXPECT_LT(darkest, pixel(image, 160, 50).y() - 5);  // the ball was there
+  EXPECT_LT(steepest, 7);
+}
+
 TEST(Renderer, TextureRowsRunFromTheTop) {
   StillLife scene;
   Skin box = make_box_skin({-0.5, 0, -0.5}, {0.5, 1, 0.5});

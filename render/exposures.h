@@ -1,0 +1,32 @@
+#pragma once
+#include "render/gl/objects.h"
+
+namespace sprung {
+
+/// The mean light of several exposures and its picture.
+class Exposures {
+ public:
+  Exposures(const GlFunctions& gl, int width, int height, bool transparent);
+  /// Before the first exposure.
+  void clear() const;
+  /// `light`: linear; the parts of all exposures add up to 1.
+  void add(const GlTexture& light, double part) const;
+  /// Leaves the picture, 8-bit sRGB, in the framebuffer that is bound.
+  void develop() const;
+
+ private:
+  void cover(const GlProgram& program, const GlTexture& source, const GlFramebuffer& target) const;
+
+  const GlFunctions& gl_;
+  int width_;
+  int height_;
+  GlTexture mean_;
+  GlFramebuffer mean_target_;
+  GlTexture picture_;
+  GlFramebuffer picture_target_;
+  GlVertexArray no_buffers_;
+  GlProgram add_program_;
+  GlProgram develop_program_;
+};
+
+}  // namespace sprung
