@@ -92,14 +92,16 @@ vec3 room(vec3 direction, vec3 floor_light, float roughness) {
 #else
 vec3 sky_light(vec3 n) { return (0.5 + 0.5 * n.y) * sky_on_ground; }
 
-// What a reflection sees: floor below, dim walls, a bright panel overhead and a window at the side of the key light;
-// edges are as soft as the surface is rough.
+// What a reflection sees: floor below, the background around, a ceiling with a panel and a window at the side of the key
+// light; edges are as soft as the surface is rough. From above comes as much light as sky_light() has.
 vec3 room(vec3 direction, vec3 floor_light, float roughness) {
   float soft = 0.04 + 0.5 * roughness;
-  vec3 walls = mix(floor_light, vec3(0.30, 0.31, 0.33), smoothstep(-soft, soft, direction.y));
+  float ceiling = smoothstep(0.0, 0.45 + 0.5 * soft, direction.y);
+  vec3 walls = mix(cyclorama(direction.y), 0.50 * sky_on_ground, ceiling);
   float panel = smoothstep(0.66 - soft, 0.66 + soft, direction.y);
   float window = smoothstep(0.86 - 0.5 * soft, 0.86 + 0.5 * soft, dot(direction, kWindow));
-  return walls + vec3(0.52, 0.53, 0.56) * panel + vec3(0.80, 0.78, 0.74) * window;
+  vec3 above = walls + sky_on_ground * (0.60 * panel + 1.20 * window);
+  return mix(floor_light, above, smoothstep(-soft, soft, direction.y));
 }
 #endif
 

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <fstream>
 #include <numbers>
+#include <optional>
 
 #include "core/io/decode_image.h"
 #include "render/image/png.h"
@@ -59,6 +60,35 @@ TEST(Environment, AnEvenSkyLightsBySlope) {
     }
     for (const Panorama& level : sky.reflections) EXPECT_NEAR(level.light.front().x(), whole, 1e-3 * whole);
   }
+}
+
+/// What a steel ball reflects of the light from above, seen from there: weighted by the cosine of its direction, as
+/// level ground sees it.
+double reflected_sky(const std::optional<Environment>& environment) {
+  StillLife scene = ball_on_ground();
+  scene.colors = {{0.9F, 0.9F, 0.9F}};
+  Stage stage = scene.stage();
+  stage.looks = {Look::kSteel};
+  stage.environment = environment;
+  Renderer renderer(stage, {.width = 180, .height = 180, .samples = 4, .transparent = true});
+  const Image image = renderer.draw(scene.shapes(), frame_bounds(stage.bounds, 1, 0, 89));
+  const auto area = double(std::count(image.alpha.begin(), image.alpha.end(), 255));
+  double light = 0;
+  double weights = 0;
+  for (int i = 0; i < 180 * 180; ++i) {
+    const double x = i % 180 - 89.5;
+    const double y = i / 180 - 89.5;
+    const double height = 1 - 2 * std::numbers::pi * (x * x + y * y) / area;  // cosine of twice the normal's angle
+    if (height <= 0) continue;
+    light += height * std::pow(image.pixels[3 * std::size_t(i) + 1] / 255.0, 2.2);
+    weights += height;
+  }
+  return light / weights;
+}
+
+TEST(Environment, TheStudioReflectsAsMuchLightAsItsSkyGives) {
+  const Environment even(panorama(16, [](const Light&) { return studio_sky(); }));
+  EXPECT_NEAR(reflected_sky(std::nullopt) / reflected_sky(even), 1, 0.12);
 }
 
 TEST(Environment, KeepsDirectionsAndColours) {
