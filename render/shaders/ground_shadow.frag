@@ -1,7 +1,7 @@
 // The fraction of the key light that bodies occlude on the ground: the coverage of what the light hits, over the disc
 // through which the lamp is seen at that distance. So a shadow is sharp where a body touches and soft where it is high up.
 // Rings of growing radius each have a coverage and a distance; those that lie in the disc at their own distance, and as
-// far as they fill it, say how far the disc is.
+// far as they fill it, say how far the disc is. What is far outside of its own disc occludes nothing.
 in vec2 screen_place;
 uniform vec4 ground_rectangle;
 uniform float ground_height;
@@ -51,7 +51,7 @@ void main() {
       vec2 found = textureLod(key_mask, uv + middle * direction * mask_texel_size, lod).rg;
       float disc = max(reach() * found.g / max(found.r, 1e-4), kSmallest);
       far += found.r * ring_of_disc(inner, outer, disc) * vec2(1.0, disc);
-      covered += found.r;
+      covered += found.r * smoothstep(0.25 * inner, 0.75 * inner + 1e-3, disc);
       direction = kGoldenTurn * direction;
     }
     coverages[ring] = covered / float(kDirections);
