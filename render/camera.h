@@ -3,7 +3,7 @@
 
 namespace sprung {
 
-/// A pinhole camera. World: right-handed, y up, metres.
+/// A pinhole camera, or one with a lens that is focused on the target. World: right-handed, y up, metres.
 struct Camera {
   Vec3 eye{0, 0, 1};
   Vec3 target = Vec3::Zero();
@@ -11,6 +11,7 @@ struct Camera {
   double vertical_field_of_view = 30;  // degrees
   bool orthographic = false;           // parallel projection, as wide as the perspective one is at the target
   double shift = 0;                    // of the picture to the right, in half widths of the picture
+  double aperture = 0;                 // m, diameter of the lens; needs RenderOptions::exposes
 };
 
 /// The nearest camera that sees all of the points (n x 3, m; n >= 1) with a margin, in a picture of the given aspect

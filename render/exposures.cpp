@@ -11,7 +11,9 @@ constexpr TextureFormat kLight{GL_RGBA32F, GL_RGBA, GL_FLOAT, false, false, GL_C
 constexpr TextureFormat kPicture{GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, false, false, GL_CLAMP_TO_EDGE};
 
 GlProgram load(const GlFunctions& gl, const char* fragment, bool transparent) {
-  return load_program(gl, "screen.vert", fragment, transparent ? "#define TRANSPARENT 1\n" : "#define TRANSPARENT 0\n");
+  return load_program(gl, "screen.vert", fragment,
+                      std::string("#define RINGS 6\n#define DIRECTIONS 20\n") +
+                          (transparent ? "#define TRANSPARENT 1\n" : "#define TRANSPARENT 0\n"));
 }
 
 }  // namespace
@@ -26,6 +28,7 @@ Exposures::Exposures(const GlFunctions& gl, int width, int height, bool transpar
       picture_target_(make_texture_target(gl, &picture_, nullptr)),
       no_buffers_(make_vertex_array(gl)),
       add_program_(load(gl, "exposure_add.frag", transparent)),
+      lens_program_(load(gl, "lens.frag", transparent)),
       develop_program_(load(gl, "exposure_develop.frag", transparent)) {}
 
 void Exposures::clear() const {
@@ -41,6 +44,19 @@ void Exposures::add(const GlTexture& light, double part) const {
   gl_.Enable(GL_BLEND);
   gl_.BlendFunc(GL_ONE, GL_ONE);
   cover(add_program_, light, mean_target_);
+  gl_.Disable(GL_BLEND);
+}
+
+void Exposures::add(const GlTexture& light, const GlTexture& circles, double largest, double part) const {
+  lens_program_.use();
+  lens_program_.set("exposure", 0);
+  lens_program_.set("circles", 1);
+  lens_program_.set("largest", float(largest));
+  lens_program_.set("part", float(part));
+  bind_texture(gl_, 1, circles);
+  gl_.Enable(GL_BLEND);
+  gl_.BlendFunc(GL_ONE, GL_ONE);
+  cover(lens_program_, light, mean_target_);
   gl_.Disable(GL_BLEND);
 }
 

@@ -11,6 +11,8 @@ class Exposures {
   void clear() const;
   /// `light`: linear; the parts of all exposures add up to 1.
   void add(const GlTexture& light, double part) const;
+  /// The same through a lens; `circles`: of confusion, see circles.frag; `largest` that counts.
+  void add(const GlTexture& light, const GlTexture& circles, double largest, double part) const;
   /// Leaves the picture, 8-bit sRGB, in the framebuffer that is bound.
   void develop() const;
 
@@ -26,6 +28,7 @@ class Exposures {
   GlFramebuffer picture_target_;
   GlVertexArray no_buffers_;
   GlProgram add_program_;
+  GlProgram lens_program_;
   GlProgram develop_program_;
 };
 

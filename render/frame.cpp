@@ -172,6 +172,8 @@ View make_view(const DrawFrame& frame, const Camera& camera, double aspect) {
   View view{.frame = frame, .eye = eye};
   view.sight_height = Vec3(slopes.x() * turn(0, 1), slopes.y() * turn(1, 1), -turn(2, 1));
   view.sight_slopes = slopes;
+  view.focus = (eye - target).norm();
+  view.lens = 0.25 * camera.aperture * frame.space.scale / (view.focus * slope);
   const double far = away + kFar;
   if (camera.orthographic) {
     const double near = away - kFar;

@@ -79,6 +79,8 @@ struct View {
   /// ahead.
   Vec3 sight_height = Vec3::Zero();
   Eigen::Vector2d sight_slopes = Eigen::Vector2d::Zero();
+  double lens = 0;   // circle of confusion of a point at infinity: its radius over the height of the picture
+  double focus = 0;  // distance along the camera's axis
 };
 
 /// `aspect`: width / height.

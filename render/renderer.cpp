@@ -176,23 +176,17 @@ Image Renderer::draw(const std::vector<Exposure>& exposures) {
   Device& device = *device_;
   device.context.make_current();
   device.clock.start();
-  const Exposures& mean = device.screen.exposures().value();
-  mean.clear();
+  device.screen.clear_exposures();
   const double part = 1.0 / double(exposures.size());
-  std::optional<DrawFrame> frame;
-  const Exposure* before = nullptr;
   for (const Exposure& exposure : exposures) {
-    if (before == nullptr || &before->first != &exposure.first || &before->last != &exposure.last) {
-      frame = device.frame(exposure);
-      device.maps.draw(device.skins, device.textures, *frame, device.clock);
-    }
-    before = &exposure;
-    const View view = make_view(*frame, exposure.camera, device.screen.aspect());
+    const DrawFrame frame = device.frame(exposure);
+    device.maps.draw(device.skins, device.textures, frame, device.clock);
+    const View view = make_view(frame, exposure.camera, device.screen.aspect());
     device.draw(exposure, view, false);
-    mean.add(device.screen.light(), device.has_ghosts ? (1 - kGhost) * part : part);
+    device.screen.add_exposure(device.maps, view, device.has_ghosts ? (1 - kGhost) * part : part);
     if (device.has_ghosts) {
       device.draw(exposure, view, true);
-      mean.add(device.screen.light(), kGhost * part);
+      device.screen.add_exposure(device.maps, view, kGhost * part);
     }
   }
   Image image = device.screen.read();

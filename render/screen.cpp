@@ -65,11 +65,13 @@ constexpr int kFirstSurfaceUnit = kFirstMapUnit + LightMaps::kUnits;
 constexpr float kSkin = 0.5F;
 constexpr float kNoSkin = 1;
 
+constexpr double kLargestCircle = 0.06;  // of confusion, in heights of the picture
 constexpr double kLevel = 1e-4;          // sine of the elevation of a ray that counts as level
 constexpr double kSightSteps = 1 << 20;  // one over the step to which rays are rounded
 
 constexpr TextureFormat kColorFormat{GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, false, false, GL_CLAMP_TO_EDGE};
 constexpr TextureFormat kLightFormat{GL_RGBA32F, GL_RGBA, GL_FLOAT, false, false, GL_CLAMP_TO_EDGE};
+constexpr TextureFormat kCircleFormat{GL_R32F, GL_RED, GL_FLOAT, false, false, GL_CLAMP_TO_EDGE};
 constexpr TextureFormat kDepthFormat{GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, false, false,
                                      GL_CLAMP_TO_EDGE};
 
@@ -109,7 +111,11 @@ Screen::Screen(const GlFunctions& gl, const RenderOptions& options, const std::o
       floor_program_(load_program(gl, "floor.vert", "floor.frag")),
       kinds_program_(load("kinds.frag", options)),
       skins_program_(load("skins.frag", options)) {
-  if (options.exposes) exposures_.emplace(gl, width_, height_, is_transparent_);
+  if (!options.exposes) return;
+  exposures_.emplace(gl, width_, height_, is_transparent_);
+  circles_ = make_texture(gl, width_, height_, kCircleFormat);
+  circles_target_ = make_texture_target(gl, &circles_, nullptr);
+  circles_program_ = load("circles.frag", options);
 }
 
 GlProgram Screen::load(const char* fragment, const RenderOptions& options) const {
@@ -138,6 +144,29 @@ void Screen::draw_light(const LightMaps& maps, const View& view, PassClock& cloc
   }
   clock.stop("floor");
   develop(maps, view, clock);
+}
+
+namespace {
+
+/// The largest circle of confusion, in heights of the picture.
+double largest_circle(const View& view) {
+  double largest = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 point = view.frame.light.bodies.corner(static_cast<AlignedBox::CornerType>(corner));
+    const double away = view.near > 0 ? std::max((view.clip_from_stage * point.homogeneous()).w(), view.near) : 0;
+    if (away > 0) largest = std::max(largest, view.lens * std::abs(away - view.focus) / away);
+  }
+  return view.near > 0 ? std::min(largest, kLargestCircle) : kLargestCircle;
+}
+
+}  // namespace
+
+void Screen::add_exposure(const LightMaps& maps, const View& view, double part) const {
+  if (view.lens == 0) return exposures_.value().add(picture_, part);
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, circles_target_.name());
+  gl_.Disable(GL_DEPTH_TEST);
+  cover(circles_program_, maps, view);
+  exposures_.value().add(picture_, circles_, largest_circle(view), part);
 }
 
 Image Screen::read() const {
@@ -284,6 +313,7 @@ void Screen::cover(const GlProgram& program, const LightMaps& maps, const View& 
   program.set("skin_coverage", kFirstSurfaceUnit + 3);
   if (environment_) environment_->bind(program, kFirstSurfaceUnit + 4);
   program.set("screen_depth", kSkin);
+  program.set("lens", Vec3(view.lens, view.focus, view.near > 0 ? 0 : 1).cast<float>().eval());
   program.set("distance_terms", view.distance_terms.cast<float>().eval());
   program.set("eye", view.eye.cast<float>().eval());
   program.set("stage_from_clip", view.clip_from_stage.inverse().cast<float>().eval());

@@ -43,9 +43,9 @@ class Screen {
                      bool with_ghosts, int turn = kAllTurns) const;
   /// The picture, or one exposure of it.
   void draw_light(const LightMaps& maps, const View& view, PassClock& clock);
-  /// What several exposures add up to, which their parts say; none where options do not say that pictures have any.
-  [[nodiscard]] const std::optional<Exposures>& exposures() const { return exposures_; }
-  [[nodiscard]] const GlTexture& light() const { return picture_; }
+  /// For options that say that pictures have exposures, whose parts add up to 1.
+  void clear_exposures() const { exposures_.value().clear(); }
+  void add_exposure(const LightMaps& maps, const View& view, double part) const;
   [[nodiscard]] Image read() const;
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] int height() const { return height_; }
@@ -79,18 +79,21 @@ class Screen {
   GlFramebuffer surface_;
   GlTexture picture_;  // top row first
   GlTexture kinds_;    // of pixels, as depths
+  GlTexture circles_;  // of confusion, where pictures have exposures
   GlFramebuffer developed_;
   GlTexture backdrop_;
   GlFramebuffer backdrop_target_;
   std::optional<Sight> backdrop_sight_;
   std::optional<EnvironmentTexture> environment_;
   std::optional<Exposures> exposures_;
+  GlFramebuffer circles_target_;
   GlSampler nearer_sampler_;
   GlVertexArray no_buffers_;
   SkinPrograms surface_programs_;
   GlProgram backdrop_program_;
   GlProgram floor_program_;
   GlProgram kinds_program_;
+  GlProgram circles_program_;
   GlProgram skins_program_;
 };
 

@@ -16,9 +16,7 @@
 namespace sprung {
 namespace {
 
-constexpr int kExposures = 8;                       // of a picture with motion blur ...
-constexpr int kLensExposures = 24;                  // ... and of one with a lens
-constexpr double kGoldenAngle = 2.399963229728653;  // rad, between neighbours on a spiral
+constexpr int kExposures = 8;  // of a picture with motion blur
 
 Reach common_reach(const std::vector<FilmRun>& runs) {
   std::vector<Reach> all;
@@ -45,13 +43,14 @@ Film with_panel_size(Film scene, std::size_t runs, const Labels& labels) {
   return scene;
 }
 
-RenderOptions options_of(const SceneRender& render, bool exposes) {
+RenderOptions options_of(const Film& scene) {
+  const SceneRender& render = scene.render;
   return {.width = render.resolution[0],
           .height = render.resolution[1],
           .samples = render.samples.value_or(samples_of(render.quality)),
           .quality = render.quality,
           .transparent = render.transparent,
-          .exposes = exposes};
+          .exposes = render.motion_blur > 0 || scene.camera.aperture > 0};
 }
 
 Stage in(const std::optional<Environment>& surroundings, Stage stage) {
@@ -107,20 +106,19 @@ FilmPipeline::FilmPipeline(const std::vector<FilmRun>& runs, const std::optional
 
 Renderer& FilmPipeline::renderer(Panel& panel) {
   if (!panel.renderer) {
-    panel.renderer = std::make_unique<Renderer>(in(surroundings_, panel.stage.stage(reach_.bounds)),
-                                                options_of(scene_of_panel_.render, exposures() > 1));
+    panel.renderer =
+        std::make_unique<Renderer>(in(surroundings_, panel.stage.stage(reach_.bounds)), options_of(scene_of_panel_));
   }
   return *panel.renderer;
 }
 
 FilmPipeline::Moments FilmPipeline::moments(std::size_t frame) const {
   const double open = scene_.render.motion_blur / 360;
-  const int count = exposures();
-  const int times = open > 0 ? count + 1 : 1;
+  const int times = open > 0 ? kExposures + 1 : 1;
   Moments moments;
   for (const Panel& panel : panels_) {
     std::vector<std::vector<SkinShape>>& of_run = moments.emplace_back();
-    for (int i = 0; i < times; ++i) of_run.push_back(panel.stage.shapes(panel.frame(frame), open * i / count));
+    for (int i = 0; i < times; ++i) of_run.push_back(panel.stage.shapes(panel.frame(frame), open * i / kExposures));
   }
   return moments;
 }
@@ -142,30 +140,13 @@ Image FilmPipeline::draw(std::size_t frame, const Moments& moments) {
 }
 
 Image FilmPipeline::draw(std::size_t frame, Panel& panel, const std::vector<std::vector<SkinShape>>& shapes) {
-  const int count = exposures();
-  if (count == 1) return renderer(panel).draw(shapes.front(), cameras_[frame]);
-  std::vector<Exposure> exposures;
-  for (int i = 0; i < count; ++i) {
-    const bool moves = shapes.size() > 1;
-    exposures.push_back({shapes[moves ? i : 0], shapes[moves ? i + 1 : 0], camera(frame, i)});
-  }
-  return renderer(panel).draw(exposures);
-}
-
-int FilmPipeline::exposures() const {
-  if (scene_.camera.aperture > 0) return kLensExposures;
-  return scene_.render.motion_blur > 0 ? kExposures : 1;
-}
-
-Camera FilmPipeline::camera(std::size_t frame, int exposure) const {
   Camera camera = cameras_[frame];
-  if (scene_.camera.aperture <= 0) return camera;
-  const Vec3 ahead = (camera.target - camera.eye).normalized();
-  const Vec3 right = ahead.cross(camera.up).normalized();
-  const double radius = 0.5 * scene_.camera.aperture * std::sqrt((exposure + 0.5) / kLensExposures);
-  const double angle = kGoldenAngle * exposure;
-  camera.eye += radius * (std::cos(angle) * right + std::sin(angle) * right.cross(ahead));
-  return camera;
+  camera.aperture = scene_.camera.aperture;
+  if (shapes.size() == 1 && camera.aperture == 0) return renderer(panel).draw(shapes.front(), camera);
+  std::vector<Exposure> exposures;
+  for (std::size_t i = 0; i + 1 < shapes.size(); ++i) exposures.push_back({shapes[i], shapes[i + 1], camera});
+  if (exposures.empty()) exposures.push_back({shapes.front(), shapes.front(), camera});
+  return renderer(panel).draw(exposures);
 }
 
 Passes FilmPipeline::passes(std::size_t frame, const Moments& moments) {

@@ -64,9 +64,6 @@ class FilmPipeline {
   };
   Renderer& renderer(Panel& panel);
 
-  /// The camera of an exposure: at a point of its lens.
-  [[nodiscard]] Camera camera(std::size_t frame, int exposure) const;
-  [[nodiscard]] int exposures() const;
   [[nodiscard]] Image draw(std::size_t frame, Panel& panel, const std::vector<std::vector<SkinShape>>& shapes);
   /// Pixels at the right edge that no panel covers.
   [[nodiscard]] int margin() const;

@@ -21,13 +21,16 @@ vec3 tone_map(vec3 c) {
   return mix(c, vec3(new_peak), g);
 }
 
-// Triangular noise of one level, the same in every run, which dithers wide, soft gradients. Its uniform noise is that of
-// Jimenez, "Next Generation Post Processing in Call of Duty" (2014).
+// Uniform noise from 0 to 1, the same in every run: that of Jimenez, "Next Generation Post Processing in Call of Duty"
+// (2014).
+float even_noise() { return fract(52.9829189 * fract(dot(floor(gl_FragCoord.xy), vec2(0.06711056, 0.00583715)))); }
+
+// Triangular noise of one level, which dithers wide, soft gradients.
 float picture_noise() {
 #ifdef EXPOSURE
   return 0.0;
 #endif
-  float even = fract(52.9829189 * fract(dot(floor(gl_FragCoord.xy), vec2(0.06711056, 0.00583715))));
+  float even = even_noise();
   float side = 2.0 * even - 1.0;
   return sign(side) * (1.0 - sqrt(1.0 - abs(side))) * (0.75 / 255.0);
 }

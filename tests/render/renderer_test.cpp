@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <numbers>
 #include <string>
 
 #include "core/error.h"
@@ -221,6 +222,29 @@ TEST(Renderer, MotionBlurShowsNoCopies) {
   }
   EXPECT_LT(darkest, pixel(image, 160, 50).y() - 5);  // the ball was there
   EXPECT_LT(steepest, 7);
+}
+
+// Closed form: the circle of confusion of an edge, from similar triangles through the lens.
+TEST(Renderer, ALensBlursByTheDistanceFromItsFocus) {
+  StillLife scene;
+  scene.add(make_box_skin({-1, 0, -0.2}, {0, 2, 0}), kRed);
+  const Stage stage = scene.stage();
+  const std::vector<SkinShape> shapes = scene.shapes();
+  Renderer renderer(stage, kExposed);
+  constexpr double kAway = 4;
+  for (const double focus : {2.0, 4.0, 8.0}) {
+    const Camera camera{.eye = {0, 1, kAway}, .target = {0, 1, kAway - focus}, .aperture = 0.12};
+    const Image image = renderer.draw({{shapes, shapes, camera}});
+    const double left = pixel(image, 100, 90).y();
+    const double right = pixel(image, 220, 90).y();
+    int width = 0;
+    for (int x = 100; x < 220; ++x) {
+      const double part = (pixel(image, x, 90).y() - left) / (right - left);
+      if (part > 0.04 && part < 0.96) ++width;
+    }
+    const double height_of_picture = 2 * kAway * std::tan(15 * std::numbers::pi / 180);  // at the edge, m
+    EXPECT_NEAR(width, 180 * 0.12 * std::abs(kAway - focus) / focus / height_of_picture, 2.1) << focus;
+  }
 }
 
 TEST(Renderer, TextureRowsRunFromTheTop) {
