@@ -15,7 +15,8 @@ namespace sprung {
 
 namespace {
 
-constexpr double kGhost = 0.28;  // opacity
+constexpr double kGhost = 0.28;       // opacity
+constexpr double kMostMotion = 0.25;  // of a body's radius; overlays jump
 
 /// Radius of the ball around a skin's bounding box, m.
 double radius(const Skin& skin) {
@@ -121,10 +122,12 @@ struct Renderer::Device {
     bodies.extend(frame(exposure.last).light.bodies);
     DrawFrame middle = frame(between(exposure.first, exposure.last, 0.5F));
     middle.light.bodies = bodies;
+    double longest = 0;  // m
     for (std::size_t i = 0; i < skins.size(); ++i) {
       const Floats3 ways = exposure.last[i].positions - exposure.first[i].positions;
-      middle.motion = std::max(middle.motion, 0.5 * space.scale * double{ways.rowwise().norm().maxCoeff()});
+      if (ways.rows() > 0) longest = std::max<double>(longest, ways.rowwise().norm().maxCoeff());
     }
+    middle.motion = std::min(0.5 * space.scale * longest, kMostMotion * body_radius);
     return middle;
   }
 
