@@ -44,7 +44,7 @@ void main() {
   for (int ring = 0; ring <= kRings; ++ring) {
     float inner = radii[ring];
     float outer = radii[ring + 1];
-    float lod = log2(max(0.9 * (outer - inner), 1.0));
+    float lod = log2(max(1.5 * (outer - inner), 1.0));
     float covered = 0.0;
     for (int k = 0; k < kDirections; ++k) {
       float middle = mix(inner, outer, (float(k) + 0.5) / float(kDirections));
