@@ -2,13 +2,10 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
 #include <map>
 #include <numbers>
 #include <numeric>
-#include <unordered_map>
 #include <vector>
 
 #include "core/disjoint_sets.h"
@@ -26,7 +23,7 @@ Rows rows_of(const Rows& all, const std::vector<int>& rows) {
 }  // namespace
 
 Skin make_skin(const SurfaceMesh& mesh, const SkinOptions& options) {
-  const SplitVertices split = split_at_creases(mesh, options.crease_angle);
+  const SplitVertices split = split_at_creases(mesh, options.crease_angle, options.is_smooth);
   Skin skin;
   skin.positions = rows_of(mesh.positions, split.source);
   skin.normals = split.normals;
@@ -109,22 +106,70 @@ CornerLists list_corners(const Triangles& triangles, const std::vector<int>& poi
   return lists;
 }
 
+double cosine_of_degrees(double angle) { return std::cos(angle * std::numbers::pi / 180); }
+
+/// Triangles in one plane, joined by edges.
+struct FlatFace {
+  double area = 0;  // twice, m^2
+  int triangles = 0;
+};
+
+/// That of each triangle.
+std::vector<FlatFace> flat_faces(const Triangles& triangles, const Points& faces, const std::vector<int>& point_of) {
+  constexpr double kSameWay = 0.0017;  // sine of 0.1 degrees
+  DisjointSets planes(triangles.rows());
+  std::map<std::pair<int, int>, int> triangle_of_edge;
+  for (int t = 0; t < triangles.rows(); ++t) {
+    for (int c = 0; c < 3; ++c) {
+      const auto [low, high] = std::minmax({point_of[triangles(t, c)], point_of[triangles(t, (c + 1) % 3)]});
+      const auto [entry, is_new] = triangle_of_edge.try_emplace({low, high}, t);
+      if (is_new) continue;
+      const Vec3 a = faces.row(t);
+      const Vec3 b = faces.row(entry->second);
+      if (a.dot(b) > 0 && a.cross(b).norm() < kSameWay * a.norm() * b.norm()) planes.merge(t, entry->second);
+    }
+  }
+  std::vector<FlatFace> all(triangles.rows());
+  for (int t = 0; t < triangles.rows(); ++t) {
+    FlatFace& face = all[planes.find(t)];
+    face.area += faces.row(t).norm();
+    ++face.triangles;
+  }
+  for (int t = 0; t < triangles.rows(); ++t) all[t] = all[planes.find(t)];
+  return all;
+}
+
+/// True where a mesh was saved with flat shading: all its normals are those of its triangles.
+bool has_normals_of_triangles(const SurfaceMesh& mesh, const Points& faces) {
+  constexpr double kSame = 0.9995;  // 1.8 degrees: some files have few digits
+  for (int t = 0; t < mesh.triangles.rows(); ++t) {
+    const Vec3 face = faces.row(t);
+    for (int c = 0; c < 3; ++c) {
+      const Vec3 normal = mesh.normals.row(mesh.triangles(t, c)).cast<double>();
+      if (std::abs(normal.dot(face)) < kSame * normal.norm() * face.norm()) return false;
+    }
+  }
+  return true;
+}
+
 /// Splits the vertices at one point after another.
 class CreaseSplitter {
  public:
-  CreaseSplitter(const SurfaceMesh& mesh, const Points& faces, double crease_angle)
-      : mesh_(mesh), faces_(faces), smooth_cosine_(std::cos(crease_angle * std::numbers::pi / 180)) {
+  /// `flat`: by triangle; none: they count as the others do.
+  CreaseSplitter(const SurfaceMesh& mesh, const Points& faces, double crease_angle, std::vector<FlatFace> flat)
+      : mesh_(mesh), faces_(faces), smooth_cosine_(cosine_of_degrees(crease_angle)), flat_(std::move(flat)) {
     split_.triangles = mesh.triangles;
   }
 
   void split_point(const int* begin, const int* end) {
     DisjointSets groups(end - begin);
     join_smooth_neighbours(begin, groups);
+    const bool has_flat_face = std::any_of(begin, end, [&](int corner) { return flat_face(corner / 3).triangles > 1; });
     std::map<int, Vec3> normal_of_group;
     for (std::size_t i = 0; i < groups.size(); ++i) {
       const Vec3 face = unit_or(faces_.row(begin[i] / 3), Vec3::Zero());
       normal_of_group.try_emplace(groups.find(int(i)), Vec3::Zero()).first->second +=
-          corner_angle(mesh_, begin[i] / 3, begin[i] % 3) * face;
+          corner_angle(mesh_, begin[i] / 3, begin[i] % 3) * (has_flat_face ? flat_face(begin[i] / 3).area : 1) * face;
     }
     std::map<std::pair<int, int>, int> made;  // (mesh vertex, group) to split vertex
     for (std::size_t i = 0; i < groups.size(); ++i) {
@@ -165,135 +210,39 @@ class CreaseSplitter {
   }
 
   [[nodiscard]] bool is_smooth(int triangle_a, int triangle_b) const {
+    constexpr int kLeastTriangles = 3;  // two may be a quadrangle of a curved surface
+    const bool is_at_flat_face =
+        std::max(flat_face(triangle_a).triangles, flat_face(triangle_b).triangles) >= kLeastTriangles;
+    const double least = is_at_flat_face ? std::max(smooth_cosine_, cosine_of_degrees(35)) : smooth_cosine_;
     const double scale = faces_.row(triangle_a).norm() * faces_.row(triangle_b).norm();
-    return scale < kTiny || faces_.row(triangle_a).dot(faces_.row(triangle_b)) >= smooth_cosine_ * scale;
+    return scale < kTiny || faces_.row(triangle_a).dot(faces_.row(triangle_b)) >= least * scale;
   }
+
+  [[nodiscard]] FlatFace flat_face(int triangle) const { return flat_.empty() ? FlatFace() : flat_[triangle]; }
 
   const SurfaceMesh& mesh_;
   const Points& faces_;
   double smooth_cosine_;
+  std::vector<FlatFace> flat_;
   SplitVertices split_;
   std::vector<Vec3> normals_;
 };
 
 }  // namespace
 
-SplitVertices split_at_creases(const SurfaceMesh& mesh, double crease_angle) {
+SplitVertices split_at_creases(const SurfaceMesh& mesh, double crease_angle, bool is_smooth) {
   const Points faces = face_vectors(mesh);
-  if (mesh.normals.rows() == mesh.positions.rows() && mesh.normals.rows() > 0) return keep_normals(mesh, faces);
-  const CornerLists lists = list_corners(mesh.triangles, weld_points(mesh.positions));
-  CreaseSplitter splitter(mesh, faces, crease_angle);
+  const bool has_normals = mesh.normals.rows() == mesh.positions.rows() && mesh.normals.rows() > 0;
+  if (has_normals && !(is_smooth && has_normals_of_triangles(mesh, faces))) return keep_normals(mesh, faces);
+  const std::vector<int> point_of = weld_points(mesh.positions);
+  const CornerLists lists = list_corners(mesh.triangles, point_of);
+  CreaseSplitter splitter(mesh, faces, crease_angle,
+                          is_smooth ? flat_faces(mesh.triangles, faces, point_of) : std::vector<FlatFace>());
   for (std::size_t point = 0; point + 1 < lists.first.size(); ++point) {
     if (lists.first[point] == lists.first[point + 1]) continue;
     splitter.split_point(&lists.corners[lists.first[point]], lists.corners.data() + lists.first[point + 1]);
   }
   return splitter.finish();
-}
-
-namespace {
-
-/// One pass: every long edge of the skin is halved once.
-class Refiner {
- public:
-  Refiner(const Skin& skin, double max_edge) : skin_(skin), max_squared_(max_edge * max_edge) {}
-
-  /// False where no edge was too long.
-  bool run(Skin& refined) {
-    for (const Part& part : skin_.parts) {
-      const auto first = isize(triangles_);
-      for (int t = 0; t < part.triangle_count; ++t) split_triangle(part.first_triangle + t);
-      refined.parts.push_back(part);
-      refined.parts.back().first_triangle = first;
-      refined.parts.back().triangle_count = isize(triangles_) - first;
-    }
-    if (ends_.empty()) return false;
-    refined.materials = skin_.materials;
-    refined.positions = with_midpoints(skin_.positions);
-    refined.normals = with_midpoints(skin_.normals);
-    refined.normals.bottomRows(isize(ends_)).rowwise().normalize();
-    if (skin_.uvs.rows() > 0) refined.uvs = with_midpoints(skin_.uvs);
-    if (skin_.colors.rows() > 0) refined.colors = with_midpoints(skin_.colors);
-    refined.triangles.resize(isize(triangles_), 3);
-    for (std::size_t t = 0; t < triangles_.size(); ++t) {
-      for (int c = 0; c < 3; ++c) refined.triangles(t, c) = triangles_[t][c];
-    }
-    return true;
-  }
-
- private:
-  template <class Rows>
-  [[nodiscard]] Rows with_midpoints(const Rows& rows) const {
-    Rows all(rows.rows() + isize(ends_), rows.cols());
-    all.topRows(rows.rows()) = rows;
-    for (std::size_t i = 0; i < ends_.size(); ++i) {
-      all.row(rows.rows() + int(i)) = (rows.row(ends_[i][0]) + rows.row(ends_[i][1])) / 2;
-    }
-    return all;
-  }
-
-  /// The middle vertex of an edge, or -1 where the edge is short enough.
-  int middle(int a, int b) {
-    if ((skin_.positions.row(a) - skin_.positions.row(b)).squaredNorm() <= max_squared_) return -1;
-    if (a > b) std::swap(a, b);
-    const std::uint64_t key = static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint32_t>(b);
-    const int next = int(skin_.positions.rows()) + isize(ends_);
-    const auto [entry, is_new] = middles_.try_emplace(key, next);
-    if (is_new) ends_.push_back({a, b});
-    return entry->second;
-  }
-
-  void split_triangle(int triangle) {
-    std::array<int, 3> v{};
-    std::array<int, 3> m{};  // m[i]: middle of the edge from v[i] to v[i + 1]
-    for (std::size_t i = 0; i < 3; ++i) v[i] = skin_.triangles(triangle, i);
-    std::size_t halved = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      m[i] = middle(v[i], v[(i + 1) % 3]);
-      halved += m[i] >= 0 ? 1 : 0;
-    }
-    if (halved == 0) {
-      triangles_.push_back(v);
-      return;
-    }
-    if (halved == 3) {
-      for (std::size_t i = 0; i < 3; ++i) triangles_.push_back({v[i], m[i], m[(i + 2) % 3]});
-      triangles_.push_back(m);
-      return;
-    }
-    split_partly(v, m, halved);
-  }
-
-  void split_partly(std::array<int, 3> v, std::array<int, 3> m, std::size_t halved) {
-    // Turn the triangle until edge 0 is halved and, of two halved edges, the other one is edge 1.
-    while (m[0] < 0 || (halved == 2 && m[1] < 0)) {
-      v = {v[1], v[2], v[0]};
-      m = {m[1], m[2], m[0]};
-    }
-    if (halved == 1) {
-      triangles_.push_back({v[0], m[0], v[2]});
-      triangles_.push_back({m[0], v[1], v[2]});
-      return;
-    }
-    triangles_.push_back({m[0], v[1], m[1]});
-    triangles_.push_back({v[0], m[0], m[1]});
-    triangles_.push_back({v[0], m[1], v[2]});
-  }
-
-  const Skin& skin_;
-  double max_squared_;
-  std::unordered_map<std::uint64_t, int> middles_;
-  std::vector<std::array<int, 2>> ends_;
-  std::vector<std::array<int, 3>> triangles_;
-};
-
-}  // namespace
-
-void refine(Skin& skin, double max_edge) {
-  for (bool again = true; again;) {
-    Skin refined;
-    again = Refiner(skin, max_edge).run(refined);
-    if (again) skin = std::move(refined);
-  }
 }
 
 }  // namespace sprung

@@ -26,6 +26,7 @@ struct SkinOptions {
   double max_edge = 0;       // m; edges longer than this are halved; 0: never
   double crease_angle = 60;  // degrees between neighbouring triangles; sharper edges stay sharp. Used where the mesh
                              // brings no normals of its own
+  bool is_smooth = false;    // for drawing; see split_at_creases()
 };
 
 /// Makes the skin of a mesh (already in metres). Deterministic.
@@ -40,11 +41,20 @@ struct SplitVertices {
 
 /// Normals for drawing. The mesh's own are kept (flipped where they point inwards); without any, corners at one point
 /// share the angle-weighted mean normal of their triangles where these meet at less than `crease_angle` degrees, so
-/// that sharp edges stay sharp.
-[[nodiscard]] SplitVertices split_at_creases(const SurfaceMesh& mesh, double crease_angle);
+/// that sharp edges stay sharp. If it is to be `is_smooth`, normals of the mesh that only repeat those of its triangles
+/// are ignored, and flat faces of several triangles are kept flat: they weigh by their areas, and edges around them are
+/// sharp from 35 degrees on.
+[[nodiscard]] SplitVertices split_at_creases(const SurfaceMesh& mesh, double crease_angle, bool is_smooth = false);
 
 /// Repeatedly halves every edge longer than max_edge (m) together with its triangles. Edges of equal positions are
 /// split alike, so that no gap opens. New vertices are appended; the others stay unchanged.
 void refine(Skin& skin, double max_edge);
+
+/// As refine(), for drawing: halves edges and places the new vertices on curves at right angles to the normals of the
+/// edges' ends, until edges lie within `tolerance` (m) of their curves, so that a coarse mesh looks smooth. Sharp edges
+/// stay sharp and follow the crease; flat parts stay as they are. Edges of equal positions get equal curves. The curves
+/// are those of A. Vlachos et al., "Curved PN triangles" (2001), with derivatives that make arcs of circles exact. For
+/// skins that refine() has not changed: its new vertices lie on the chords. Deterministic.
+void refine_curves(Skin& skin, double tolerance);
 
 }  // namespace sprung

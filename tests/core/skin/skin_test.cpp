@@ -3,8 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 #include <map>
+#include <numbers>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include "core/bricks/embedding.h"
 #include "core/mesh/repair/weld.h"
@@ -101,6 +106,160 @@ TEST(Skin, RefiningHalvesLongEdgesWithoutGaps) {
   EXPECT_EQ(skin.parts.at(0).triangle_count, skin.triangles.rows());
   EXPECT_LT((skin.uvs.cast<double>() - skin.positions.leftCols(2)).norm(), 1e-5);
   EXPECT_LT((skin.normals.rowwise().norm().array() - 1).abs().maxCoeff(), 1e-12);
+}
+
+/// A square of 1 m seen from +z with 45 degree bevels, 1 cm wide, all around.
+SurfaceMesh bevelled_square(double angle) {
+  const double drop = 0.01 * std::tan(angle * std::numbers::pi / 180);
+  SurfaceMesh mesh;
+  mesh.positions.resize(9, 3);
+  mesh.positions << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, -0.01, -0.01, -drop, 1.01, -0.01, -drop, 1.01, 1.01, -drop,
+      -0.01, 1.01, -drop, 0.5, 0.5, 0;
+  mesh.triangles.resize(12, 3);
+  for (int i = 0; i < 4; ++i) {
+    const int next = (i + 1) % 4;
+    mesh.triangles.row(3 * i) << i, next, 8;
+    mesh.triangles.row(3 * i + 1) << i, 4 + i, next;
+    mesh.triangles.row(3 * i + 2) << next, 4 + i, 4 + next;
+  }
+  return mesh;
+}
+
+TEST(Skin, SmoothSkinsKeepFlatFacesFlat) {
+  for (const double angle : {20.0, 45.0}) {
+    SCOPED_TRACE(angle);
+    const Skin skin = make_skin(bevelled_square(angle), {.is_smooth = true});
+    for (int i = 0; i < 4; ++i) {
+      for (int c = 0; c < 3; ++c) EXPECT_GT(skin.normals(skin.triangles(3 * i, c), 2), 0.9999);
+    }
+    EXPECT_EQ(skin.positions.rows() > 9, angle > 35);
+  }
+}
+
+TEST(Skin, SmoothSkinsIgnoreNormalsOfTriangles) {
+  const Skin facets = make_skin(cube_mesh(), {});
+  SurfaceMesh mesh;
+  mesh.positions = facets.positions;
+  mesh.normals = facets.normals.cast<float>();
+  mesh.triangles = facets.triangles;
+  mesh.parts = facets.parts;
+  const Vec3 outward = Vec3::Ones().normalized();
+  const auto furthest_out = [&](bool is_smooth) {
+    const Skin skin = make_skin(mesh, {.crease_angle = 100, .is_smooth = is_smooth});
+    return (skin.normals * outward).maxCoeff();
+  };
+  EXPECT_NEAR(furthest_out(false), std::sqrt(1.0 / 3), 1e-6);
+  EXPECT_NEAR(furthest_out(true), 1, 1e-6);
+}
+
+SurfaceMesh mesh_of(const Points& positions, const Triangles& triangles) {
+  SurfaceMesh mesh;
+  mesh.positions = positions;
+  mesh.triangles = triangles;
+  mesh.parts.push_back({.name = "all", .first_triangle = 0, .triangle_count = int(triangles.rows())});
+  return mesh;
+}
+
+/// On the unit sphere.
+SurfaceMesh icosahedron() {
+  const double g = std::numbers::phi;
+  Points positions(12, 3);
+  positions << -1, g, 0, 1, g, 0, -1, -g, 0, 1, -g, 0, 0, -1, g, 0, 1, g, 0, -1, -g, 0, 1, -g, g, 0, -1, g, 0, 1, -g, 0,
+      -1, -g, 0, 1;
+  positions.rowwise().normalize();
+  Triangles triangles(20, 3);
+  triangles << 0, 11, 5, 0, 5, 1, 0, 1, 7, 0, 7, 10, 0, 10, 11, 1, 5, 9, 5, 11, 4, 11, 10, 2, 10, 7, 6, 7, 1, 8, 3, 9,
+      4, 3, 4, 2, 3, 2, 6, 3, 6, 8, 3, 8, 9, 4, 9, 5, 2, 4, 11, 6, 2, 10, 8, 6, 7, 9, 8, 1;
+  return mesh_of(positions, triangles);
+}
+
+/// Along z from 0 to 1, radius 1, flat ends. Three sides: a prism.
+SurfaceMesh cylinder(int sides) {
+  Points positions(2 * sides, 3);
+  Triangles triangles(4 * sides - 4, 3);
+  for (int i = 0; i < sides; ++i) {
+    const double angle = 2 * std::numbers::pi * i / sides;
+    const int next = (i + 1) % sides;
+    positions.row(i) << std::cos(angle), std::sin(angle), 0;
+    positions.row(sides + i) << std::cos(angle), std::sin(angle), 1;
+    triangles.row(2 * i) << i, next, sides + next;
+    triangles.row(2 * i + 1) << i, sides + next, sides + i;
+  }
+  for (int i = 2; i < sides; ++i) {
+    triangles.row(2 * sides + 2 * i - 4) << 0, i, i - 1;
+    triangles.row(2 * sides + 2 * i - 3) << sides, sides + i - 1, sides + i;
+  }
+  return mesh_of(positions, triangles);
+}
+
+/// A smooth skin of a coarse mesh.
+Skin curved(const SurfaceMesh& mesh, double tolerance) {
+  Skin skin = make_skin(mesh, {});
+  refine_curves(skin, tolerance);
+  return skin;
+}
+
+TEST(RefineCurves, MakesASphereOfAnIcosahedron) {
+  const Skin skin = curved(icosahedron(), 1e-3);
+  EXPECT_GT(skin.triangles.rows(), 20 * 64);
+  EXPECT_EQ(skin.parts.at(0).triangle_count, skin.triangles.rows());
+  EXPECT_TRUE(is_closed(skin));
+  EXPECT_LT((skin.positions.rowwise().norm().array() - 1).abs().maxCoeff(), 1e-12);  // arcs of circles are exact
+  EXPECT_LT((skin.normals - skin.positions).rowwise().norm().maxCoeff(), 1e-12);
+}
+
+TEST(RefineCurves, LeavesWhatIsFlat) {
+  const Skin skin = curved(cylinder(4), 1e-6);
+  EXPECT_EQ(skin.triangles.rows(), 12);
+  EXPECT_EQ(skin.positions.rows(), 24);
+}
+
+TEST(RefineCurves, LeavesShortEdges) {
+  const Skin skin = curved(icosahedron(), 0.04);
+  EXPECT_EQ(skin.triangles.rows(), 20);
+}
+
+TEST(RefineCurves, RoundsTheRimOfACylinderAndKeepsItsEndsFlat) {
+  const Skin skin = curved(cylinder(8), 2e-4);
+  EXPECT_TRUE(is_closed(skin));
+  for (int i = 0; i < skin.positions.rows(); ++i) {
+    const Vec3 point = skin.positions.row(i);
+    const Vec3 normal = skin.normals.row(i);
+    EXPECT_GE(point.z(), -1e-12);
+    EXPECT_LE(point.z(), 1 + 1e-12);
+    if (std::abs(normal.z()) < 0.5) {
+      EXPECT_NEAR(point.head<2>().norm(), 1, 4e-3);  // of the octagon: 0.076; diagonals of the sides are ellipses
+      EXPECT_NEAR(normal.head<2>().dot(point.head<2>().normalized()), 1, 1e-3);
+    } else {
+      EXPECT_NEAR(point.z(), normal.z() > 0 ? 1 : 0, 1e-12);
+      EXPECT_NEAR(std::abs(normal.z()), 1, 1e-12);
+    }
+  }
+}
+
+TEST(RefineCurves, OpensNoGapsInARoughMesh) {
+  const Skin fine = curved(icosahedron(), 0.01);
+  SurfaceMesh mesh = mesh_of(fine.positions, fine.triangles);
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> shift(-0.12, 0.12);  // enough for creases here and there
+  for (double& coordinate : mesh.positions.reshaped()) coordinate += shift(random);
+  const Skin skin = curved(mesh, 1e-3);
+  EXPECT_GT(skin.triangles.rows(), 4 * mesh.triangles.rows());
+  EXPECT_TRUE(is_closed(skin));
+  EXPECT_LT((skin.normals.rowwise().norm().array() - 1).abs().maxCoeff(), 1e-12);
+  const Skin again = curved(mesh, 1e-3);
+  EXPECT_EQ(again.positions, skin.positions);
+  EXPECT_EQ(again.triangles, skin.triangles);
+}
+
+TEST(RefineCurves, InterpolatesColoursAndUvs) {
+  SurfaceMesh mesh = icosahedron();
+  mesh.uvs = mesh.positions.leftCols<2>().cast<float>();
+  mesh.colors = Floats4::Constant(12, 4, 0.5F);
+  const Skin skin = curved(mesh, 0.01);
+  ASSERT_EQ(skin.uvs.rows(), skin.positions.rows());
+  EXPECT_NEAR(skin.uvs.cwiseAbs().maxCoeff(), mesh.uvs.cwiseAbs().maxCoeff(), 1e-6);
+  EXPECT_TRUE((skin.colors.array() == 0.5F).all());
 }
 
 class SkinInterpolation : public ::testing::Test {
