@@ -13,7 +13,7 @@
 namespace sprung {
 namespace {
 
-constexpr std::array<KeyOption, 22> kKeyOptions{{
+constexpr std::array<KeyOption, 23> kKeyOptions{{
     {"--material", "body.material", "NAME", {.is_common = true}},
     {"--materials", "materials", "FILE.toml"},
     {"--young", "body.material.young", "20kPa", {.is_common = true}},
@@ -35,6 +35,7 @@ constexpr std::array<KeyOption, 22> kKeyOptions{{
     {"--resolution", "render.resolution", "WxH", {.is_of_pictures = true, .is_common = true}},
     {"--quality", "render.quality", "preview|default|high", {.is_of_pictures = true, .is_common = true}},
     {"--samples", "render.samples", "N", {.is_of_pictures = true}},
+    {"--smooth", "render.smooth", "on|off", {.is_of_pictures = true}},
     {"--color-by", "render.color_by", "FIELD", {.is_of_pictures = true, .is_common = true}},
 }};
 

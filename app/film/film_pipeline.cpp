@@ -18,6 +18,15 @@ namespace {
 
 constexpr int kExposures = 8;  // of a picture with motion blur
 
+constexpr double kSmoothness = 0.1;  // pixels between a curved skin and its triangles
+
+/// Pixels per metre in the closest view of the film: one smoothness for all frames, so that nothing pops.
+double finest_scale(const std::vector<Camera>& cameras, int height) {
+  double finest = 0;
+  for (const Camera& camera : cameras) finest = std::max(finest, pixels_per_metre(camera, height));
+  return finest;
+}
+
 Reach common_reach(const std::vector<FilmRun>& runs) {
   std::vector<Reach> all;
   all.reserve(runs.size());
@@ -97,10 +106,11 @@ FilmPipeline::FilmPipeline(const std::vector<FilmRun>& runs, const std::optional
   const auto [width, height] = scene_.render.resolution;
   const bool is_whole = runs.size() == 1 && !scene_.render.sheet;
   cameras_ = cameras_of(scene_of_panel_, reach_, is_whole ? 1.0 * labels_.reserved(width, height) / width : 0);
+  const double tolerance = kSmoothness / finest_scale(cameras_, scene_of_panel_.render.resolution[1]);
   for (const FilmRun& run : runs) {
     Film its = run.scene;
     its.render = scene_.render;
-    panels_.emplace_back(std::move(its), run);
+    panels_.emplace_back(std::move(its), run, tolerance);
   }
 }
 

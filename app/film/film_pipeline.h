@@ -54,12 +54,13 @@ class FilmPipeline {
 
   /// One run's part of the picture.
   struct Panel {
-    Panel(Film its_scene, const FilmRun& its_run) : scene(std::move(its_scene)), run(its_run) {}
+    Panel(Film its_scene, const FilmRun& its_run, double tolerance)
+        : scene(std::move(its_scene)), run(its_run), stage(scene, run.simulation, run.recording, tolerance) {}
     [[nodiscard]] std::size_t frame(std::size_t of_film) const;  // clamped to the run's last
 
     const Film scene;
     const FilmRun run;
-    const FilmStage stage{scene, run.simulation, run.recording};
+    const FilmStage stage;
     std::unique_ptr<Renderer> renderer;  // made with the first picture
   };
   Renderer& renderer(Panel& panel);

@@ -7,6 +7,7 @@
 #include "app/film/labels.h"
 #include "app/film/overlays.h"
 #include "core/bricks/embedding.h"
+#include "core/simulation/build_bodies.h"
 #include "render/brick_cubes.h"
 
 namespace sprung {
@@ -28,20 +29,26 @@ ColorMap spring_colors(const SceneRender& render) { return render.color_map.valu
 
 int id_of(std::size_t actor) { return int(actor) + 1; }
 
+template <class T>
+std::shared_ptr<const T> not_owned(const T& object) {
+  return {&object, [](const T*) {}};
+}
+
 Points rows_of(const Points& nodes, const std::vector<int>& rows) { return nodes(rows, Eigen::all); }
 
 }  // namespace
 
 Eigen::Vector3f srgb(const Color& color) { return Eigen::Vector3f(color.red, color.green, color.blue) / 255.0F; }
 
-SkinShape shape_of(const SoftBody& body, const Points& nodes, SkinInterpolation interpolation) {
+SkinShape shape_of(const BrickGrid& grid, const Skin& skin, const Embedding& embedding, const Points& nodes,
+                   SkinInterpolation interpolation) {
   if (interpolation == SkinInterpolation::kSmooth) {
-    const SmoothEmbedding smooth(body.grid, nodes);
-    return {.positions = smooth.points(body.skin_embedding).cast<float>(),
-            .normals = smooth.normals(body.skin_embedding, body.skin.normals).cast<float>()};
+    const SmoothEmbedding smooth(grid, nodes);
+    return {.positions = smooth.points(embedding).cast<float>(),
+            .normals = smooth.normals(embedding, skin.normals).cast<float>()};
   }
-  return {.positions = body.skin_positions(nodes).cast<float>(),
-          .normals = deform_normals(body.grid, body.skin_embedding, body.skin.normals, nodes).cast<float>()};
+  return {.positions = deform_points(grid, embedding, nodes).cast<float>(),
+          .normals = deform_normals(grid, embedding, skin.normals, nodes).cast<float>()};
 }
 
 SkinShape shape_of(const StageObstacle& obstacle, double time) {
@@ -54,8 +61,12 @@ Points skin_positions(const StageObstacle& obstacle, double time) {
   return (obstacle.skin.positions * pose.rotation.transpose()).rowwise() + pose.translation.transpose();
 }
 
-FilmStage::FilmStage(const Film& scene, const Simulation& simulation, const Recording& recording)
-    : scene_(scene), simulation_(simulation), recording_(recording), colors_(scene, simulation, recording) {
+FilmStage::FilmStage(const Film& scene, const Simulation& simulation, const Recording& recording, double tolerance)
+    : scene_(scene),
+      simulation_(simulation),
+      recording_(recording),
+      colors_(scene, simulation, recording),
+      tolerance_(tolerance) {
   const SceneRender& render = scene.render;
   if (render.springs) stretch_ = render.color_high ? *render.color_high : furthest_stretch();
   for (std::size_t actor = 0; actor < simulation.world.bodies.size(); ++actor) {
@@ -137,18 +148,30 @@ Eigen::VectorXd FilmStage::map_coordinates(const Moment& moment, std::size_t act
                                                        : Eigen::VectorXd();
 }
 
+FilmStage::DrawnSkin FilmStage::drawn_skin(const SoftBody& body) {
+  if (!scene_.render.smooth || body.surface == nullptr || std::isinf(tolerance_)) {
+    return {not_owned(body.skin), not_owned(body.skin_embedding)};
+  }
+  const auto [entry, is_new] = smooth_.try_emplace(body.surface.get());
+  if (is_new) {
+    const auto smooth = std::make_shared<const EmbeddedSkin>(smooth_skin(body, tolerance_));
+    entry->second = {{smooth, &smooth->skin}, {smooth, &smooth->embedding}};
+  }
+  return entry->second;
+}
+
 void FilmStage::add_skin(std::size_t row) {
   const SoftBody& body = simulation_.world.bodies[row];
   const SceneBody& scene_body = scene_.bodies[body.origin.body];
+  const DrawnSkin drawn = drawn_skin(body);
   items_.push_back(
-      {std::shared_ptr<const Skin>(&body.skin, [](const Skin*) {}), srgb(body.color),
-       colors_.is_mapped() ? Look::kChart : look_of(scene_body, *scene_.library), false, id_of(row),
-       [this, row, &body, interpolation = scene_body.skin](const Moment& now) {
-         SkinShape shape = shape_of(body, now.nodes[row], interpolation);
+      {drawn.skin, srgb(body.color), colors_.is_mapped() ? Look::kChart : look_of(scene_body, *scene_.library), false,
+       id_of(row), [this, row, &body, drawn, interpolation = scene_body.skin](const Moment& now) {
+         SkinShape shape = shape_of(body.grid, *drawn.skin, *drawn.embedding, now.nodes[row], interpolation);
          const Eigen::VectorXd of_nodes = map_coordinates(now, row);
          if (of_nodes.size() > 0) {
            shape.map_coordinates =
-               interpolate(body.grid, body.skin_embedding, of_nodes).cwiseMax(0.0).cwiseMin(1.0).cast<float>();
+               interpolate(body.grid, *drawn.embedding, of_nodes).cwiseMax(0.0).cwiseMin(1.0).cast<float>();
          }
          return shape;
        }});
@@ -233,14 +256,14 @@ void FilmStage::add_pins(std::size_t actor) {
 
 void FilmStage::add_ghost(std::size_t row) {
   const SoftBody& body = simulation_.world.bodies[row];
-  SkinShape shape = shape_of(body, body.rest_positions);
-  items_.push_back({std::shared_ptr<const Skin>(&body.skin, [](const Skin*) {}), srgb(body.color), Look::kRubber, true,
-                    id_of(row), [shape = std::move(shape)](const Moment&) -> SkinShape { return SkinShape(shape); }});
+  const DrawnSkin drawn = drawn_skin(body);
+  SkinShape shape = shape_of(body.grid, *drawn.skin, *drawn.embedding, body.rest_positions);
+  items_.push_back({drawn.skin, srgb(body.color), Look::kRubber, true, id_of(row),
+                    [shape = std::move(shape)](const Moment&) -> SkinShape { return SkinShape(shape); }});
 }
 
 void FilmStage::add_obstacle(const StageObstacle& obstacle, int id) {
-  items_.push_back({std::shared_ptr<const Skin>(&obstacle.skin, [](const Skin*) {}), srgb(obstacle.color),
-                    Look::kPlastic, false, id,
+  items_.push_back({not_owned(obstacle.skin), srgb(obstacle.color), Look::kPlastic, false, id,
                     [&obstacle](const Moment& now) { return shape_of(obstacle, now.time); }});
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 #include <functional>
+#include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -12,9 +14,9 @@ namespace sprung {
 /// As the renderer takes colours: sRGB, 0 to 1.
 [[nodiscard]] Eigen::Vector3f srgb(const Color& color);
 
-/// The skin of a body for these positions of its nodes, m.
-[[nodiscard]] SkinShape shape_of(const SoftBody& body, const Points& nodes,
-                                 SkinInterpolation interpolation = SkinInterpolation::kBricks);
+/// A skin embedded in bricks for these positions of their nodes, m.
+[[nodiscard]] SkinShape shape_of(const BrickGrid& grid, const Skin& skin, const Embedding& embedding,
+                                 const Points& nodes, SkinInterpolation interpolation = SkinInterpolation::kBricks);
 
 /// An obstacle at that time of the film (s).
 [[nodiscard]] SkinShape shape_of(const StageObstacle& obstacle, double time);
@@ -32,8 +34,10 @@ struct ColorRange {
 /// and overlays.
 class FilmStage {
  public:
-  /// All must outlive it.
-  FilmStage(const Film& scene, const Simulation& simulation, const Recording& recording);
+  /// All must outlive it. Skins of coarse meshes are drawn smooth, to within `tolerance` (m), if the scene wants that;
+  /// infinity: never.
+  FilmStage(const Film& scene, const Simulation& simulation, const Recording& recording,
+            double tolerance = std::numeric_limits<double>::infinity());
 
   /// `bounds`: of the whole motion, m.
   [[nodiscard]] Stage stage(const AlignedBox& bounds) const;
@@ -60,6 +64,13 @@ class FilmStage {
     std::function<SkinShape(const Moment&)> shape;
   };
 
+  /// What is drawn of a body.
+  struct DrawnSkin {
+    std::shared_ptr<const Skin> skin;
+    std::shared_ptr<const Embedding> embedding;
+  };
+
+  [[nodiscard]] DrawnSkin drawn_skin(const SoftBody& body);
   [[nodiscard]] Moment moment(std::size_t frame, double part) const;
   [[nodiscard]] Eigen::VectorXd map_coordinates(const Moment& moment, std::size_t actor) const;
   void add_skin(std::size_t actor);
@@ -78,7 +89,9 @@ class FilmStage {
   const Simulation& simulation_;
   const Recording& recording_;
   FieldColors colors_;
-  double stretch_ = 0;  // of springs at the ends of their colours, symmetric
+  double tolerance_;
+  std::map<const SurfaceMesh*, DrawnSkin> smooth_;  // by the surface of a body, which copies share
+  double stretch_ = 0;                              // of springs at the ends of their colours, symmetric
   std::vector<StageItem> items_;
 };
 

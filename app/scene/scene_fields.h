@@ -175,6 +175,8 @@ void fields(auto& visit, Is<SceneRender> auto& render) {
   visit({"quality", "preview (fast), default or high (slow): shadows and antialiasing"}, render.quality);
   visit({"samples", "samples per pixel; default: by the quality", Dimension::kNone, {1, 16}, false, kSampleCounts},
         render.samples);
+  visit({"smooth", "whether coarse meshes are drawn smooth; what is computed and exported keeps their triangles"},
+        render.smooth);
   visit({"transparent", "transparent background: pictures with alpha, no floor"}, render.transparent);
   visit({"environment", "panorama (.hdr or .png, twice as wide as high) that lights the bodies"}, render.environment);
   visit({"motion_blur", "shutter angle; 360 degrees: open for the whole frame", Dimension::kAngle, {0, 360}},

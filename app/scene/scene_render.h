@@ -46,6 +46,7 @@ struct SceneRender {
   std::array<int, 2> resolution{1280, 720};
   Quality quality = Quality::kDefault;
   std::optional<int> samples;               // per pixel; default: by the quality
+  bool smooth = true;                       // coarse meshes are drawn with curved edges
   bool transparent = false;                 // background with alpha, no floor
   std::filesystem::path environment;        // absolute; a panorama that lights the bodies, or empty
   double motion_blur = 0;                   // degrees, shutter angle; 360: a whole frame

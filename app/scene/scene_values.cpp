@@ -105,10 +105,11 @@ void parse_value(std::string_view text, const KeyInfo&, Axes& value) {
 }
 
 void parse_value(std::string_view text, const KeyInfo&, bool& value) {
-  if (text != "true" && text != "false") {
+  const bool is_true = text == "true" || text == "on";
+  if (!is_true && text != "false" && text != "off") {
     throw Error(ErrorKind::kBadInput, fmt::format("must be true or false, not '{}'", text));
   }
-  value = text == "true";
+  value = is_true;
 }
 
 void parse_value(std::string_view text, const KeyInfo& key, BrickCount& value) {

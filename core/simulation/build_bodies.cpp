@@ -155,11 +155,21 @@ void add_contacts(const Skin& skin, SoftBody& body) {
 SoftBody make_soft_body(const SurfaceMesh& mesh, const Solid& solid, BrickGrid grid, Model model,
                         const Material& material) {
   SoftBody body(make_body(std::move(grid), model, material));
-  body.skin = make_skin(submesh(mesh, solid), {.max_edge = kLongestSkinEdge * body.grid.brick_size});
+  body.surface = std::make_shared<const SurfaceMesh>(submesh(mesh, solid));
+  body.skin = make_skin(*body.surface, {.max_edge = kLongestSkinEdge * body.grid.brick_size});
   body.skin_embedding = embed(body.grid, body.skin.positions, body.skin.normals);
   add_contacts(body.skin, body);
   body.collides_with_itself = solid.closed && !solid.overlaps && solid.thickness == 0;
   return body;
+}
+
+EmbeddedSkin smooth_skin(const SoftBody& body, double tolerance) {
+  if (body.surface == nullptr) return {body.skin, body.skin_embedding};
+  EmbeddedSkin smooth{.skin = make_skin(*body.surface, {.is_smooth = true}), .embedding = {}};
+  refine_curves(smooth.skin, tolerance);
+  refine(smooth.skin, kLongestSkinEdge * body.grid.brick_size);
+  smooth.embedding = embed(body.grid, smooth.skin.positions, smooth.skin.normals);
+  return smooth;
 }
 
 BodyBuilder::BodyBuilder(const Scene& scene, std::size_t index, const LoadedBody& loaded, Simulation& simulation)

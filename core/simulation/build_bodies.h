@@ -16,6 +16,16 @@ namespace sprung {
 [[nodiscard]] SoftBody make_soft_body(const SurfaceMesh& mesh, const Solid& solid, BrickGrid grid, Model model,
                                       const Material& material);
 
+/// A skin at rest, in the frame of the bricks, and where its vertices are in them.
+struct EmbeddedSkin {
+  Skin skin;
+  Embedding embedding;
+};
+
+/// The body's skin for drawing: where its mesh is coarse, edges become curves, to within `tolerance` (m).
+/// Deterministic.
+[[nodiscard]] EmbeddedSkin smooth_skin(const SoftBody& body, double tolerance);
+
 /// Where the forces of a scene body act on one of its solids, which is still in the place of its grid; forces that do
 /// not act on it are left out. Throws Error(kBadInput) where a part does not exist.
 [[nodiscard]] std::vector<ForcedPart> place_forces(const std::vector<BodyForce>& forces, const Selector& selector,

@@ -67,9 +67,10 @@ struct SoftBody : Body {
   std::vector<KinematicNode> pinned;                        // each node once; no contact can push it
   Loads loads{};
 
-  Skin skin{};                       // what is drawn, at rest, in the frame of the bricks
-  Embedding skin_embedding{};        // of its vertices
-  Color color{};                     // where the skin has no colours
+  Skin skin{};                                   // what is drawn, at rest, in the frame of the bricks
+  Embedding skin_embedding{};                    // of its vertices
+  std::shared_ptr<const SurfaceMesh> surface{};  // that the skin was made of, shared by copies; none: unknown
+  Color color{};                                 // where the skin has no colours
   std::vector<int> file_vertices{};  // of the mesh in its file (Simulation::meshes), those embedded in this body
   Embedding file_embedding{};
   Origin origin{};

@@ -49,6 +49,16 @@ TEST(SetSceneKey, PairsAreWrittenInThreeWays) {
             "'[3]' is not a pair of whole numbers; write two, as in 1280x720 or [1280, 720]");
 }
 
+TEST(SetSceneKey, SwitchesAreTrueOrOn) {
+  Film scene = two_bodies();
+  EXPECT_TRUE(scene.render.smooth);
+  set_scene_key(scene, "render.smooth", "off");
+  EXPECT_FALSE(scene.render.smooth);
+  set_scene_key(scene, "render.smooth", "on");
+  EXPECT_TRUE(scene.render.smooth);
+  EXPECT_EQ(error_message([&] { set_scene_key(scene, "render.smooth", "yes"); }), "must be true or false, not 'yes'");
+}
+
 TEST(SetSceneKey, RefusesWhatIsNoKeyOfAValue) {
   Film scene = two_bodies();
   EXPECT_NE(error_message([&] { set_scene_key(scene, "body.sise", "1"); }).find("did you mean 'size'"),
