@@ -17,7 +17,8 @@ namespace {
 constexpr double kSeamCosine = 0.94;     // normals on both sides of an edge that agree to 20 degrees are one
 constexpr double kSteepCosine = 0.5;     // edges steeper than 60 degrees on their normals stay straight
 constexpr double kShortestEdge = 30;     // tolerances: shorter edges are not halved
-constexpr int kMostTriangles = 1 << 20;  // from here on curves are not refined further
+constexpr int kMostPasses = 6;           // halvings of an edge: curves over a crumpled mesh need not converge ...
+constexpr int kMostTriangles = 1 << 19;  // ... and from here on they are not refined further
 
 /// From one end of an edge to the other: a cubic by its ends and the derivatives there, over [0, 1].
 struct EdgeCurve {
@@ -232,7 +233,8 @@ void refine(Skin& skin, double max_edge) {
 void refine_curves(Skin& skin, double tolerance) {
   const double max_edge = kShortestEdge * tolerance;
   Points interpolated = skin.normals;  // look smoother than normals of the curves, which dent at every edge
-  while (skin.triangles.rows() < kMostTriangles && has_edge_longer_than(skin, max_edge)) {
+  for (int pass = 0; pass < kMostPasses; ++pass) {
+    if (skin.triangles.rows() > kMostTriangles || !has_edge_longer_than(skin, max_edge)) break;
     const EdgeCurves curves(skin);
     Refiner refiner(skin, max_edge, &curves, tolerance);
     Skin refined;
