@@ -51,9 +51,11 @@ SkinShape shape_of(const BrickGrid& grid, const Skin& skin, const Embedding& emb
           .normals = deform_normals(grid, embedding, skin.normals, nodes).cast<float>()};
 }
 
-SkinShape shape_of(const StageObstacle& obstacle, double time) {
-  const Points normals = obstacle.skin.normals * pose_at(obstacle, time).rotation.transpose();
-  return {.positions = skin_positions(obstacle, time).cast<float>(), .normals = normals.cast<float>()};
+SkinShape shape_of(const StageObstacle& obstacle, const Skin& skin, double time) {
+  const Pose pose = pose_at(obstacle, time);
+  const Points positions = (skin.positions * pose.rotation.transpose()).rowwise() + pose.translation.transpose();
+  const Points normals = skin.normals * pose.rotation.transpose();
+  return {.positions = positions.cast<float>(), .normals = normals.cast<float>()};
 }
 
 Points skin_positions(const StageObstacle& obstacle, double time) {
@@ -148,8 +150,10 @@ Eigen::VectorXd FilmStage::map_coordinates(const Moment& moment, std::size_t act
                                                        : Eigen::VectorXd();
 }
 
+bool FilmStage::is_smooth() const { return scene_.render.smooth && std::isfinite(tolerance_); }
+
 FilmStage::DrawnSkin FilmStage::drawn_skin(const SoftBody& body) {
-  if (!scene_.render.smooth || body.surface == nullptr || std::isinf(tolerance_)) {
+  if (!is_smooth() || body.surface == nullptr) {
     return {not_owned(body.skin), not_owned(body.skin_embedding)};
   }
   const auto [entry, is_new] = smooth_.try_emplace(body.surface.get());
@@ -263,8 +267,14 @@ void FilmStage::add_ghost(std::size_t row) {
 }
 
 void FilmStage::add_obstacle(const StageObstacle& obstacle, int id) {
-  items_.push_back({not_owned(obstacle.skin), srgb(obstacle.color), Look::kPlastic, false, id,
-                    [&obstacle](const Moment& now) { return shape_of(obstacle, now.time); }});
+  auto skin = not_owned(obstacle.skin);
+  if (is_smooth()) {
+    Skin smooth = obstacle.skin;
+    refine_curves(smooth, tolerance_);
+    skin = std::make_shared<const Skin>(std::move(smooth));
+  }
+  items_.push_back({skin, srgb(obstacle.color), Look::kPlastic, false, id,
+                    [&obstacle, skin](const Moment& now) { return shape_of(obstacle, *skin, now.time); }});
 }
 
 void FilmStage::add_contacts() {

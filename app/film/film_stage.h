@@ -18,8 +18,8 @@ namespace sprung {
 [[nodiscard]] SkinShape shape_of(const BrickGrid& grid, const Skin& skin, const Embedding& embedding,
                                  const Points& nodes, SkinInterpolation interpolation = SkinInterpolation::kBricks);
 
-/// An obstacle at that time of the film (s).
-[[nodiscard]] SkinShape shape_of(const StageObstacle& obstacle, double time);
+/// A skin of an obstacle at that time of the film (s).
+[[nodiscard]] SkinShape shape_of(const StageObstacle& obstacle, const Skin& skin, double time);
 
 /// Vertices of an obstacle's skin at that time (s), m.
 [[nodiscard]] Points skin_positions(const StageObstacle& obstacle, double time);
@@ -70,6 +70,7 @@ class FilmStage {
     std::shared_ptr<const Embedding> embedding;
   };
 
+  [[nodiscard]] bool is_smooth() const;
   [[nodiscard]] DrawnSkin drawn_skin(const SoftBody& body);
   [[nodiscard]] Moment moment(std::size_t frame, double part) const;
   [[nodiscard]] Eigen::VectorXd map_coordinates(const Moment& moment, std::size_t actor) const;
