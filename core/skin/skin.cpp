@@ -164,12 +164,11 @@ class CreaseSplitter {
   void split_point(const int* begin, const int* end) {
     DisjointSets groups(end - begin);
     join_smooth_neighbours(begin, groups);
-    const bool has_flat_face = std::any_of(begin, end, [&](int corner) { return flat_face(corner / 3).triangles > 1; });
     std::map<int, Vec3> normal_of_group;
     for (std::size_t i = 0; i < groups.size(); ++i) {
       const Vec3 face = unit_or(faces_.row(begin[i] / 3), Vec3::Zero());
       normal_of_group.try_emplace(groups.find(int(i)), Vec3::Zero()).first->second +=
-          corner_angle(mesh_, begin[i] / 3, begin[i] % 3) * (has_flat_face ? flat_face(begin[i] / 3).area : 1) * face;
+          corner_angle(mesh_, begin[i] / 3, begin[i] % 3) * flat_face(begin[i] / 3).area * face;
     }
     std::map<std::pair<int, int>, int> made;  // (mesh vertex, group) to split vertex
     for (std::size_t i = 0; i < groups.size(); ++i) {
@@ -210,15 +209,15 @@ class CreaseSplitter {
   }
 
   [[nodiscard]] bool is_smooth(int triangle_a, int triangle_b) const {
-    constexpr int kLeastTriangles = 3;  // two may be a quadrangle of a curved surface
-    const bool is_at_flat_face =
-        std::max(flat_face(triangle_a).triangles, flat_face(triangle_b).triangles) >= kLeastTriangles;
+    const bool is_at_flat_face = std::max(flat_face(triangle_a).triangles, flat_face(triangle_b).triangles) > 1;
     const double least = is_at_flat_face ? std::max(smooth_cosine_, cosine_of_degrees(35)) : smooth_cosine_;
     const double scale = faces_.row(triangle_a).norm() * faces_.row(triangle_b).norm();
     return scale < kTiny || faces_.row(triangle_a).dot(faces_.row(triangle_b)) >= least * scale;
   }
 
-  [[nodiscard]] FlatFace flat_face(int triangle) const { return flat_.empty() ? FlatFace() : flat_[triangle]; }
+  [[nodiscard]] FlatFace flat_face(int triangle) const {
+    return flat_.empty() ? FlatFace{.area = 1, .triangles = 1} : flat_[triangle];
+  }
 
   const SurfaceMesh& mesh_;
   const Points& faces_;

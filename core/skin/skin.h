@@ -42,8 +42,8 @@ struct SplitVertices {
 /// Normals for drawing. The mesh's own are kept (flipped where they point inwards); without any, corners at one point
 /// share the angle-weighted mean normal of their triangles where these meet at less than `crease_angle` degrees, so
 /// that sharp edges stay sharp. If it is to be `is_smooth`, normals of the mesh that only repeat those of its triangles
-/// are ignored, and flat faces of several triangles are kept flat: they weigh by their areas, and edges around them are
-/// sharp from 35 degrees on.
+/// are ignored, triangles weigh also by the area of the flat face they are part of, and edges of flat faces of several
+/// triangles are sharp from 35 degrees on.
 [[nodiscard]] SplitVertices split_at_creases(const SurfaceMesh& mesh, double crease_angle, bool is_smooth = false);
 
 /// Repeatedly halves every edge longer than max_edge (m) together with its triangles. Edges of equal positions are
