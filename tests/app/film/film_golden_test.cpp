@@ -56,6 +56,10 @@ struct FilmUnderTest {
 
 Image picture(const std::string& render, int frame = 3) { return FilmUnderTest(render).picture(frame); }
 
+TEST(FilmPictures, ABoxIsTheSameSmoothOrNot) {
+  EXPECT_EQ(picture("smooth = true\n").pixels, picture("smooth = false\n").pixels);
+}
+
 TEST(FilmGolden, StressWithLegend) {
   expect_golden(picture("color_by = \"stress\"\nframe_number = true\n"), "film_stress");
 }
