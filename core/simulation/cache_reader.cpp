@@ -37,6 +37,20 @@ Color read_color(const Hdf5Reader& hdf5, const std::string& name) {
   return {values.at(0), values.at(1), values.at(2)};
 }
 
+/// See write_surface().
+SurfaceMesh read_surface(const Hdf5Reader& hdf5, const std::string& folder, const Skin& skin) {
+  Skin surface = read_skin(hdf5, folder);
+  SurfaceMesh mesh;
+  mesh.positions = std::move(surface.positions);
+  mesh.triangles = std::move(surface.triangles);
+  mesh.normals = surface.normals.cast<float>();
+  mesh.uvs = std::move(surface.uvs);
+  mesh.colors = std::move(surface.colors);
+  mesh.parts = std::move(surface.parts);
+  mesh.materials = skin.materials;
+  return mesh;
+}
+
 SoftBody read_body(const Hdf5Reader& hdf5, const std::string& folder) {
   SoftBody body;
   body.origin.body = hdf5.read<int>(folder + "/body").values.at(0);
@@ -55,6 +69,9 @@ SoftBody read_body(const Hdf5Reader& hdf5, const std::string& folder) {
   body.skin = read_skin(hdf5, folder + "/skin");
   body.skin_embedding.brick = hdf5.read<int>(folder + "/skin/brick").values;
   body.skin_embedding.local = read_matrix<Points>(hdf5, folder + "/skin/place_in_brick");
+  if (hdf5.has(folder + "/surface")) {
+    body.surface = std::make_shared<const SurfaceMesh>(read_surface(hdf5, folder + "/surface", body.skin));
+  }
   body.file_vertices = hdf5.read<int>(folder + "/mesh/vertices").values;
   body.file_embedding.brick = hdf5.read<int>(folder + "/mesh/brick").values;
   body.file_embedding.local = read_matrix<Points>(hdf5, folder + "/mesh/place_in_brick");

@@ -52,6 +52,18 @@ void write_embedding(Hdf5Writer& hdf5, const std::string& folder, const Embeddin
   write_matrix(hdf5, folder + "/place_in_brick", embedding.local);
 }
 
+/// A surface in the folder of a body, whose skin has its materials.
+void write_surface(Hdf5Writer& hdf5, const std::string& folder, const SurfaceMesh& mesh) {
+  write_skin(hdf5, folder,
+             {.positions = mesh.positions,
+              .normals = mesh.normals.cast<double>(),
+              .uvs = mesh.uvs,
+              .colors = mesh.colors,
+              .triangles = mesh.triangles,
+              .parts = mesh.parts,
+              .materials = {}});
+}
+
 void write_body(Hdf5Writer& hdf5, const std::string& folder, const SoftBody& body, bool is_exact) {
   write_number(hdf5, folder + "/body", int(body.origin.body));
   write_number(hdf5, folder + "/copy", body.origin.copy);
@@ -64,6 +76,7 @@ void write_body(Hdf5Writer& hdf5, const std::string& folder, const SoftBody& bod
   write_matrix(hdf5, folder + "/rest_positions", body.rest_positions);
   write_skin(hdf5, folder + "/skin", body.skin);
   write_embedding(hdf5, folder + "/skin", body.skin_embedding);
+  if (body.surface != nullptr) write_surface(hdf5, folder + "/surface", *body.surface);
   write_list(hdf5, folder + "/mesh/vertices", body.file_vertices);
   write_embedding(hdf5, folder + "/mesh", body.file_embedding);
   const ArrayShape state{std::size_t(body.rest_positions.rows()), 3};
