@@ -164,7 +164,10 @@ SoftBody make_soft_body(const SurfaceMesh& mesh, const Solid& solid, BrickGrid g
 }
 
 EmbeddedSkin smooth_skin(const SoftBody& body, double tolerance) {
-  if (body.surface == nullptr) return {body.skin, body.skin_embedding};
+  const std::vector<Eigen::Vector3i>& cells = body.grid.cells;
+  const bool has_several_in_cell = std::adjacent_find(cells.begin(), cells.end()) != cells.end();
+  const bool can_embed = !body.grid.patches.empty() || !has_several_in_cell;  // caches have no patches
+  if (body.surface == nullptr || !can_embed) return {body.skin, body.skin_embedding};
   EmbeddedSkin smooth{.skin = make_skin(*body.surface, {.is_smooth = true}), .embedding = {}};
   refine_curves(smooth.skin, tolerance);
   refine(smooth.skin, kLongestSkinEdge * body.grid.brick_size);
