@@ -16,7 +16,8 @@
 namespace sprung {
 namespace {
 
-constexpr int kBricks = 16;  // along the longest side
+constexpr int kBricks = 16;           // along the longest side,
+constexpr double kManyBricks = 1500;  // but not many more than these in all
 constexpr double kSag = 0.04;
 constexpr double kOverload = 2;          // times the weight, which must not buckle it:
 constexpr double kOverloadResponse = 3;  // times the displacement, at most
@@ -63,15 +64,28 @@ std::vector<SizedMaterial> choices_of(const std::vector<const LibraryMaterial*>&
   return choices;
 }
 
-/// A body as it is turned, coarse and held, at rest.
+/// The bricks of a body's solids; coarser ones where many fill it, since compact bodies need no fine ones.
+std::vector<BrickGrid> coarse_grids(const LoadedBody& loaded) {
+  if (loaded.grid) return {*loaded.grid};
+  const auto filled = [&](double brick_size) {
+    std::vector<BrickGrid> grids;
+    for (const Solid& solid : loaded.solids) grids.push_back(voxelize(solid, brick_size));
+    return grids;
+  };
+  std::vector<BrickGrid> grids = filled(loaded.brick_size);
+  double count = 0;
+  for (const BrickGrid& grid : grids) count += grid.brick_count();
+  if (count > kManyBricks) grids = filled(loaded.brick_size * std::cbrt(count / kManyBricks));
+  for (std::size_t row = 0; row < grids.size(); ++row) {
+    static_cast<void>(split_pieces(loaded.solids[row], grids[row]));
+    static_cast<void>(absorb_slivers(grids[row]));
+  }
+  return grids;
+}
+
 std::vector<Body> standing_bodies(const LoadedBody& loaded, Model model, const Material& material) {
   std::vector<Body> bodies;
-  for (const Solid& solid : loaded.solids) {
-    BrickGrid grid = loaded.grid ? *loaded.grid : voxelize(solid, loaded.brick_size);
-    if (!loaded.grid) {
-      static_cast<void>(split_pieces(solid, grid));
-      static_cast<void>(absorb_slivers(grid));
-    }
+  for (BrickGrid& grid : coarse_grids(loaded)) {
     Body& body = bodies.emplace_back(make_body(std::move(grid), model, material));
     // What is hardly filled would sag by itself.
     for (double& scale : body.stiffness_scale) scale = std::max(scale, kFill);

@@ -122,7 +122,7 @@ struct Finish {
 
 Finish finish_of(float look) {
   vec4 is = 1.0 - min(abs(look - vec4(1.0, 2.0, 3.0, 4.0)), 1.0);  // gelatin, rubber, steel, chart
-  return Finish(0.42 + dot(is, vec4(-0.24, 0.33, -0.20, 0.33)), is.x, is.z, 0.45 * is.w);
+  return Finish(0.42 + dot(is, vec4(-0.20, 0.16, -0.20, 0.33)), is.x, is.z, 0.45 * is.w);
 }
 
 // Integral of the specular lobe over uniform surroundings, as a scale and a bias of the reflectance (Karis's fit).
@@ -153,8 +153,9 @@ vec3 skin_light(vec3 place, vec3 n, vec3 base, float look) {
   float open = open_sky(place, n);
   vec3 bounce = ground_bounce(place, n);
   vec3 surrounding = (0.5 - 0.5 * n.y) * bounce + 1.1 * mix(0.4, 1.0, open) * sky_light(n) + 0.06 * base * open;
-  // At the rim the surroundings shine through thin parts, more coloured with the length of the path.
-  vec3 through = finish.translucency * (bounce + 0.5 * kKey) * base * (0.16 + 0.55 * (1.0 - nv) * (1.0 - nv));
+  // Light from inside, most where it was on its way through thin parts: at the rim, which it colours in place of a white
+  // reflection.
+  vec3 through = finish.translucency * (bounce + 0.5 * kKey) * base * (0.18 + 0.55 * (1.0 - nv) * (1.0 - nv));
 
   vec3 reflected = room(reflect(-v, n), bounce, finish.roughness) * mix(0.3, 1.0, open);
   float clear = max(nl, 0.0);
@@ -164,6 +165,6 @@ vec3 skin_light(vec3 place, vec3 n, vec3 base, float look) {
   vec2 share = surrounding_share(nv, finish.roughness);
 
   vec3 light = (1.0 - finish.metal) * (base * (kKey * diffuse * lit + surrounding) + through);
-  light += kKey * gloss * lit * fresnel + reflected * (reflectance * share.x + share.y);
+  light += kKey * gloss * lit * fresnel + reflected * (reflectance * share.x + (1.0 - 0.75 * finish.translucency) * share.y);
   return mix(light, base, finish.glow);
 }
