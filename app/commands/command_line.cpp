@@ -3,12 +3,14 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
+#include <memory>
 #include <span>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "app/commands/commands.h"
+#include "app/commands/options.h"
 #include "app/help/manual.h"
 #include "core/error.h"
 #include "core/text.h"
@@ -84,6 +86,17 @@ void refuse_extras(const CLI::App& app, std::string_view kind) {
   throw Error(ErrorKind::kUsage, fmt::format("{} '{}'{}", is_option ? "unknown option" : kind, word, hint));
 }
 
+/// The help of a command without its further options. To CLI11 an option of a group without a name would have no name
+/// itself, in errors too.
+class ShortHelp : public CLI::Formatter {
+ public:
+  ShortHelp() { column_width(kHelpColumn); }
+  std::string make_group(std::string group, bool is_positional,
+                         std::vector<const CLI::Option*> options) const override {
+    return group == kMoreOptions ? "" : CLI::Formatter::make_group(group, is_positional, options);
+  }
+};
+
 /// Lets CLI11 accept repeated options of one value, to replace its message by that of refuse_repeated();
 /// that runs after parsing.
 void accept_repeated(CLI::App& command) {
@@ -116,7 +129,7 @@ void check_words(const CLI::App& app) {
 int run_command_line(int argc, const char* const* argv, Console& console) {
   CLI::App app("Soft bodies of real materials, from a surface mesh to a film.", "sprung");
   app.set_version_flag("--version", "sprung " SPRUNG_VERSION);
-  app.get_formatter()->column_width(kHelpColumn);
+  app.formatter(std::make_shared<ShortHelp>());
   app.allow_extras();
   app.require_subcommand(0, 1);
   app.footer(

@@ -98,9 +98,9 @@ std::string help_on(const CLI::App& command, const std::string& name) {
 
 /// Lets the help of a command name all its options.
 void show_all(CLI::App& command) {
-  for (CLI::Option* option : command.get_options()) {
-    if (option->get_group() == kMoreOptions) option->group("More options");
-  }
+  const auto formatter = std::make_shared<CLI::Formatter>();
+  formatter->column_width(kHelpColumn);
+  command.formatter(formatter);
 }
 
 std::string help_text(CLI::App& app, const HelpOptions& options) {

@@ -20,8 +20,8 @@ namespace sprung {
 
 // Options that several commands have. CLI11 writes into these structs: they must not move once add_to() was called.
 
-/// CLI11's group of options that --help leaves out; `sprung help COMMAND` names them too.
-inline constexpr const char* kMoreOptions = "";
+/// The group of options that --help leaves out; `sprung help COMMAND` names them too.
+inline constexpr const char* kMoreOptions = "More options";
 
 /// --quiet, --verbose and --log-json, straight into the console.
 void add_messages(CLI::App& command, Console& console, const std::string& verbose = "more about every stage");

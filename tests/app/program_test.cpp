@@ -54,6 +54,8 @@ TEST_F(Program, WrongUsageIsTwo) {
   expect_error("animate cube.obj -o out --material gelatine", 2, "did you mean 'gelatin'?");
   expect_error("animate cube.obj -o out --texture none.png", 2, "no such file");
   expect_error("animate cube.obj -o out --fps 3 --fps 4", 2, "--fps is given 2 times");
+  expect_error("animate cube.obj -o out --poisson 0.3 --poisson 0.4", 2, "--poisson is given 2 times");
+  expect_error("animate cube.obj -o out --up", 2, "--up needs a value");
   expect_error("animate cube.obj -o out --fps", 2, "--fps needs a value");
   expect_error("animate cube.obj -o film.mp5", 2, "did you mean '.mp4'?");
   expect_error("animate cube.obj -o out -o ./out/frame_{:04}.png", 2, "would write to the same place");
