@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <utility>
 
 #include "assets/models/check_mesh.h"
 #include "assets/models/mesh_model.h"
@@ -32,11 +33,17 @@ void make_models(int count, char** arguments) {
     for (int i = 2; i < count; ++i) found = found || name == arguments[i];
     return found;
   };
-  for (const auto& make : {make_bear, make_octopus, make_torus, make_pudding, make_knot}) {
+  for (const auto& make : {make_bear, make_octopus, make_torus, make_pudding, make_knot, make_tentacle, make_gripper,
+                           make_wheel, make_cushion}) {
     const Model model = make();
     if (wanted(model.name)) write_checked(mesh_model(model), model.name, folder);
   }
-  if (wanted("beam")) write_checked(make_box({0.4, 0.1, 0.1}, 0.0125, color_from_hex(0x6FA8C9)), "beam", folder);
+  const std::pair<const char*, Toy (*)()> boxes[] = {{"beam", make_beam},   {"plank", make_plank},
+                                                     {"taffy", make_taffy}, {"stick", make_stick},
+                                                     {"flag", make_flag},   {"wall", make_wall}};
+  for (const auto& [name, make] : boxes) {
+    if (wanted(name)) write_checked(make(), name, folder);
+  }
 }
 
 }  // namespace

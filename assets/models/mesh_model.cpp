@@ -120,14 +120,13 @@ Toy mesh_model(const Model& model) {
   Toy toy;
   toy.positions.resize(count, 3);
   toy.normals.resize(count, 3);
-  toy.colors.resize(count, 3);
+  if (model.base) toy.colors.resize(count, 3);
   for (const auto v : surface.vertices()) {
     const auto row = Eigen::Index(v.idx());
     const Vec3 p = vec_from(surface.point(v));
-    const Color color = (255 * color_at(model, p)).array().round();
     toy.positions.row(row) = (kMetres * p).cast<float>();
     toy.normals.row(row) = gradient(model.shape, p, kGradientStep).normalized().cast<float>();
-    toy.colors.row(row) = color.cast<unsigned char>();
+    if (model.base) toy.colors.row(row) = (255 * color_at(model, p)).array().round().cast<unsigned char>();
   }
   toy.triangles.resize(surface.number_of_faces(), 3);
   for (const auto f : surface.faces()) {

@@ -1,4 +1,6 @@
 #pragma once
+#include <array>
+
 #include "assets/models/model.h"
 #include "assets/models/toy.h"
 
@@ -8,8 +10,18 @@ namespace sprung::models {
 /// onto it; normals from the shape's gradient. Deterministic.
 [[nodiscard]] Toy mesh_model(const Model& model);
 
-/// A plain box with its bottom centre at the origin, in squares of side `cell`, m, cut in two triangles each. No
-/// normals: its edges are sharp.
-[[nodiscard]] Toy make_box(const Vec3& size, double cell, const Color& color);
+/// A plain box with its bottom centre at the origin, cut in rectangles of two triangles each by planes across its three
+/// axes; cm, ascending, the outermost its faces. No normals: its edges are sharp.
+[[nodiscard]] Toy make_box(const std::array<std::vector<double>, 3>& planes,
+                           const std::function<Color(const Vec3&)>& paint);
+
+/// A bar to measure, a banded plank, a flag and a wall of blocks; bars with rounded edges: of taffy, in bands, and a
+/// stick of candy, whose edges are stripes.
+[[nodiscard]] Toy make_beam();
+[[nodiscard]] Toy make_plank();
+[[nodiscard]] Toy make_taffy();
+[[nodiscard]] Toy make_stick();
+[[nodiscard]] Toy make_flag();
+[[nodiscard]] Toy make_wall();
 
 }  // namespace sprung::models

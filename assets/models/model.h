@@ -29,9 +29,9 @@ struct Model {
   Shape shape;
   Vec3 center = Vec3::Zero();  // inside the shape or its box; the ball about it holds everything
   double radius = 0;
-  double edge = 0.5;        // longest edge of triangles, about
-  double tolerance = 0.02;  // largest distance of a triangle from the surface, about
-  std::function<Color(const Vec3&)> base;
+  double edge = 0.5;                       // longest edge of triangles, about
+  double tolerance = 0.02;                 // largest distance of a triangle from the surface, about
+  std::function<Color(const Vec3&)> base;  // none: the mesh has no colours
   std::vector<Layer> layers;
 };
 
@@ -40,5 +40,9 @@ struct Model {
 [[nodiscard]] Model make_torus();
 [[nodiscard]] Model make_pudding();
 [[nodiscard]] Model make_knot();
+[[nodiscard]] Model make_tentacle();
+[[nodiscard]] Model make_gripper();
+[[nodiscard]] Model make_wheel();
+[[nodiscard]] Model make_cushion();
 
 }  // namespace sprung::models

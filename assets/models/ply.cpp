@@ -18,7 +18,7 @@ std::string header(const Toy& toy) {
   text += "element vertex " + std::to_string(toy.positions.rows()) + "\n";
   text += "property float x\nproperty float y\nproperty float z\n";
   if (toy.normals.rows() > 0) text += "property float nx\nproperty float ny\nproperty float nz\n";
-  text += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+  if (toy.colors.rows() > 0) text += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
   text += "element face " + std::to_string(toy.triangles.rows()) + "\n";
   return text + "property list uchar int vertex_indices\nend_header\n";
 }
@@ -38,7 +38,7 @@ void write_ply(const Toy& toy, const std::filesystem::path& file) {
   for (Eigen::Index row = 0; row < toy.positions.rows(); ++row) {
     append(bytes, toy.positions.row(row));
     if (toy.normals.rows() > 0) append(bytes, toy.normals.row(row));
-    append(bytes, toy.colors.row(row));
+    if (toy.colors.rows() > 0) append(bytes, toy.colors.row(row));
   }
   // assimp takes a first byte of 0x0A for the end of a line and reads everything shifted (its issue 5341). The lowest
   // byte of the first coordinate may change by one: that is less than a nanometre.

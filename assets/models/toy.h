@@ -7,7 +7,7 @@ namespace sprung::models {
 struct Toy {
   Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> positions;       // n x 3
   Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> normals;         // n x 3, unit; 0 rows: none
-  Eigen::Matrix<unsigned char, Eigen::Dynamic, 3, Eigen::RowMajor> colors;  // n x 3, sRGB
+  Eigen::Matrix<unsigned char, Eigen::Dynamic, 3, Eigen::RowMajor> colors;  // n x 3, sRGB; 0 rows: none
   Triangles triangles;                                                      // t x 3, outward
 };
 
