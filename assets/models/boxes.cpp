@@ -184,7 +184,7 @@ Toy make_wall() {
                   [&](const Vec3& p) {
                     const int course = band_of(p.y(), 4);
                     const int block = band_of(p.z() + 10 + 2.5 * (course % 2), 5);
-                    return color_from_hex(kTones[std::size_t(block + 2 * course) % kTones.size()]);
+                    return color_from_hex(kTones[std::size_t(block + course % 2) % kTones.size()]);
                   });
 }
 
