@@ -209,6 +209,14 @@ fs::path NumberedName::file(int number) const {
   return folder / fmt::format("{}{:0{}}{}", before, number, digits, after);
 }
 
+std::string with_braces(std::string_view text) {
+  const auto open = text.find('%');
+  const auto end = std::min(text.find_first_not_of("0123456789", open + 1), text.size());
+  if (open == std::string_view::npos || end == text.size() || text[end] != 'd') return std::string(text);
+  const std::string_view digits = text.substr(open + 1, end - open - 1);
+  return fmt::format("{}{{{}{}}}{}", text.substr(0, open), digits.empty() ? "" : ":", digits, text.substr(end + 1));
+}
+
 bool has_number(std::string_view text) { return text.find_first_of("{}") != std::string_view::npos; }
 
 NumberedName parse_numbered_name(std::string_view text, std::string_view examples) {

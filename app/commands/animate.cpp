@@ -54,6 +54,9 @@ void animate(const CLI::App& command, const AnimateOptions& options, const Conso
                                                          [&] { return simulate(simulation, scene, console); });
     render_film({{scene, simulation, recording}}, surroundings, whole_film(recording.progress.size()), outputs, console,
                 jobs);
+    for (const Output& output : outputs) {
+      if (options.overwrite) clear_beyond(output, int(recording.progress.size()), console);
+    }
     for (const std::string& output : options.outputs.names) fmt::print("{}\n", output);
   });
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -20,6 +21,7 @@ namespace {
 
 constexpr double kShortestDrop = 2;  // s, between which its wobble ends the film
 constexpr double kLongestDrop = 4;
+constexpr double kWorthTelling = 0.2;  // rad, of a rotation
 
 bool is_of_materials(const Setting& setting) { return setting.key == "materials"; }
 
@@ -93,11 +95,11 @@ Placement put_down(const std::filesystem::path& file, UpAxis up, bool may_lie) {
   const Mat3 upright = rotation_matrix(placement.rotation);
   Points points = mesh.positions * upright.transpose();
   const Vec3 centre = upright * centre_of_mass(mesh);
-  if (may_lie && !stands(points, centre)) {
-    const Mat3 rolled = rolled_to_rest(points, centre);
+  const Mat3 rolled = may_lie ? rolled_to_rest(points, centre) : Mat3(Mat3::Identity());
+  if (!rolled.isIdentity(0)) {
     placement.rotation = rotation_angles(rolled * upright);
+    placement.is_turned = Eigen::AngleAxisd(rolled).angle() > kWorthTelling;
     points = points * rolled.transpose();
-    placement.is_turned = true;
   }
   placement.sides = points.colwise().maxCoeff() - points.colwise().minCoeff();
   return placement;
@@ -157,6 +159,8 @@ Film make_bare_scene(const SceneRequest& request, const std::shared_ptr<const Ma
   }
   const double scale = body.scale.value_or(body.size.value_or(kDefaultSize) / placement.sides.maxCoeff());
   stage_scenario(scene, scenario, scale * placement.sides.y(), up);
+  if (!is_motion(scene)) stage_at_rest(scene, up);
+  apply_settings(request, has_auto_material, scene);  // once more: what is typed wins over the scenario
   return scene;
 }
 

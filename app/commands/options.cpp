@@ -109,6 +109,13 @@ void refuse_existing(const std::filesystem::path& file, bool overwrite, std::str
   throw Error(ErrorKind::kUsage, fmt::format("'{}' exists; say {}", file.string(), remedy));
 }
 
+void clear_beyond(const Output& output, int last, const Console& console) {
+  const int removed = remove_beyond(output, last);
+  if (removed == 0) return;
+  console.note(fmt::format("{}: removed {} of an earlier, longer film", output.picture(1).parent_path().string(),
+                           count_of(removed, "picture")));
+}
+
 void OutputOptions::add_to(CLI::App& command, const std::string& help, const char* placeholder) {
   command.add_option("-o,--output", names, help)->allow_extra_args(false)->option_text(placeholder);
 }

@@ -12,6 +12,7 @@
 
 #include "app/commands/make_scene.h"
 #include "app/console/console.h"
+#include "app/film/film_output.h"
 #include "app/scene/scene_reference.h"
 #include "app/scene/scene_values.h"
 #include "core/error.h"
@@ -45,6 +46,9 @@ template <class Value>
 /// Throws Error(kUsage) where `file` exists and may not be replaced.
 void refuse_existing(const std::filesystem::path& file, bool overwrite,
                      std::string_view remedy = "--overwrite to replace it");
+
+/// Removes what an earlier, longer film left beyond the last picture of this one, and says so.
+void clear_beyond(const Output& output, int last, const Console& console);
 
 /// -o.
 struct OutputOptions {

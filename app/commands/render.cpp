@@ -129,6 +129,9 @@ void render_cache(const CLI::App& command, const RenderCacheOptions& options, co
   for (const Output& output : outputs) check_range_output(output, range, options.overwrite);
   const std::optional<Environment> surroundings = read_surroundings(films.front().scene.render);
   render_films(films, surroundings, range, outputs, console, jobs);
+  for (const Output& output : outputs) {
+    if (options.overwrite && options.frames.empty()) clear_beyond(output, range.last, console);
+  }
   for (const std::string& output : options.outputs.names) fmt::print("{}\n", output);
 }
 

@@ -131,11 +131,13 @@ void export_xdmf(const ExportTarget& target, const CachedFilmView& view, const F
 
 }  // namespace
 
-ExportTarget parse_export_target(std::string_view words) {
+ExportTarget parse_export_target(std::string_view typed) {
+  const std::string name = with_braces(typed);
+  const std::string_view words = name;
   if (has_number(words)) {
-    NumberedName name = parse_numbered_name(words, kExamples);
-    if (find_mesh_format(name.file(1)) == nullptr) refuse(words, "no format of single frames");
-    return {.kind = Kind::kMeshes, .numbered = std::move(name), .file = {}};
+    NumberedName numbered = parse_numbered_name(words, kExamples);
+    if (find_mesh_format(numbered.file(1)) == nullptr) refuse(words, "no format of single frames");
+    return {.kind = Kind::kMeshes, .numbered = std::move(numbered), .file = {}};
   }
   const fs::path file(words);
   const std::string ending = file.extension().string();

@@ -109,8 +109,11 @@ void check_folder_name(std::string_view words, std::span<const std::string_view>
                           ending, did_you_mean(ending, endings), examples));
 }
 
-Output parse_output(std::string_view words) {
+Output parse_output(std::string_view typed) {
+  const std::string name = with_braces(typed);
+  const std::string_view words = name;
   if (words.empty()) refuse("''", "the name is empty");
+  if (words == "-") refuse(words, "nothing is written to the standard output");
   const bool is_folder = words.ends_with('/');
   if (!is_folder && words.find_first_of("{}") != std::string_view::npos) return parse_pattern(words);
   const fs::path path(words);
@@ -134,6 +137,17 @@ std::vector<fs::path> existing_pictures(const Output& output) {
   }
   std::sort(found.begin(), found.end());
   return found;
+}
+
+int remove_beyond(const Output& output, int last) {
+  int removed = 0;
+  for (const fs::path& picture : existing_pictures(output)) {
+    const std::string name = picture.filename().string();
+    int number = 0;
+    std::from_chars(name.data() + output.before.size(), name.data() + name.size() - output.after.size(), number);
+    if (number > last && fs::remove(picture)) ++removed;
+  }
+  return removed;
 }
 
 std::vector<Output> parse_outputs(const std::vector<std::string>& words) {

@@ -62,6 +62,9 @@ void check_folder_name(std::string_view words, std::span<const std::string_view>
 /// The existing pictures of this output, sorted by name.
 [[nodiscard]] std::vector<std::filesystem::path> existing_pictures(const Output& output);
 
+/// Removes the numbered files of this output beyond `last`, which an earlier, longer film left. Returns how many.
+int remove_beyond(const Output& output, int last);
+
 /// Checks before any work is done that the output can be written; leaves no files. Throws Error(kUsage) where it exists
 /// and `overwrite` is not set, Error(kFailed) where its folder cannot be written or ffmpeg is missing.
 void check_output(const Output& output, bool overwrite);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <numbers>
 #include <vector>
@@ -21,6 +22,7 @@ constexpr double kManyBricks = 1500;  // but not many more than these in all
 constexpr double kSag = 0.04;
 constexpr double kOverload = 2;          // times the weight, which must not buckle it:
 constexpr double kOverloadResponse = 3;  // times the displacement, at most
+constexpr double kKeptMargin = 0.6;      // of the way from the centre of mass to the edge of the feet
 constexpr double kHopeless = 2;          // times the sag by the linear solution: not worth a nonlinear one
 constexpr int kHalvings = 4;             // of the size
 constexpr double kHeldFraction = 0.08;   // of the height
@@ -112,7 +114,7 @@ Supports supports_of(const Body& body, Support support, const Vec3& down) {
 class StandingBody {
  public:
   StandingBody(std::vector<Body> solids, Support support, const Vec3& gravity)
-      : solids_(std::move(solids)), gravity_(gravity) {
+      : solids_(std::move(solids)), support_(support), gravity_(gravity) {
     for (const Body& solid : solids_) {
       supports_.push_back(supports_of(solid, support, gravity));
       systems_.push_back(make_default_solver());
@@ -141,16 +143,43 @@ class StandingBody {
     return largest;
   }
 
-  /// Whether it keeps its shape: no node is displaced by more than `most` (m).
+  /// Whether it keeps its shape: no node is displaced by more than `most` (m), and one solid does not lean so far that
+  /// it would fall.
   bool is_carried(double weight, double most) {
     const std::optional<double> once = displacement(weight, false);
     if (!once || *once > most) return false;
+    if (support_ == Support::kStands && solids_.size() == 1) {
+      const Body& body = solids_[0];
+      if (margin(body, body.positions) < kKeptMargin * margin(body, body.rest_positions)) return false;
+    }
     const std::optional<double> more = displacement(kOverload * weight, false);
     return more && *more <= kOverloadResponse * *once;
   }
 
  private:
+  /// Along the ground, from the centre of mass to the nearest edge of the convex hull of what is held, m; below 0 where
+  /// it is outside.
+  [[nodiscard]] double margin(const Body& body, const Points& positions) const {
+    constexpr int kDirections = 32;
+    const Vec3 centre = positions.transpose() * body.masses / body.masses.sum();
+    const Vec3 u = gravity_.unitOrthogonal();
+    const Vec3 v = gravity_.normalized().cross(u);
+    double nearest = std::numeric_limits<double>::max();
+    for (int k = 0; k < kDirections; ++k) {
+      const double turn = 2 * std::numbers::pi * k / kDirections;
+      const Vec3 outwards = std::cos(turn) * u + std::sin(turn) * v;
+      double farthest = std::numeric_limits<double>::lowest();
+      for (int node = 0; node < body.node_count(); ++node) {
+        if (!supports_[0].fixed[3 * std::size_t(node)]) continue;
+        farthest = std::max(farthest, outwards.dot(positions.row(node).transpose() - centre));
+      }
+      nearest = std::min(nearest, farthest);
+    }
+    return nearest;
+  }
+
   std::vector<Body> solids_;
+  Support support_;
   Vec3 gravity_;
   std::vector<Supports> supports_;
   std::vector<std::unique_ptr<LinearSolver>> systems_;

@@ -22,11 +22,12 @@ enum class Support {
 };
 
 /// A body keeps its shape where, as it is turned and carried, the largest displacement in its nonlinear equilibrium
-/// under `gravity` (m/s^2) is at most 4 % of the size, and twice the weight displaces it by at most three times as
-/// much, so that it does not buckle. Shapes scale: by rho g L / E alone, at equal Poisson's ratio; so one coarse fill
-/// of 16 bricks or less serves all materials and sizes, among which the heaviest that is carried is found by bisection.
-/// `may_shrink`: whether the size (m) may be halved up to four times. None where nothing carries it. Throws
-/// Error(kBadInput) of the mesh.
+/// under `gravity` (m/s^2) is at most 4 % of the size, its centre of mass keeps 60 % of its way to the edge of its
+/// feet, so that it does not fall, and twice the weight displaces it by at most three times as much, so that it does
+/// not buckle. Shapes scale: by rho g L / E alone, at equal Poisson's ratio; so one coarse fill of 16 bricks or less
+/// serves all materials and sizes, among which the heaviest that is carried is found by bisection. `may_shrink`:
+/// whether the size (m) may be halved up to four times. None where nothing carries it. Throws Error(kBadInput) of the
+/// mesh.
 [[nodiscard]] std::optional<CarryingMaterial> softest_carrying(const SceneBody& body, Support support,
                                                                const Vec3& gravity, bool may_shrink,
                                                                const MaterialLibrary& library,

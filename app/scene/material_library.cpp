@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <fstream>
 #include <sstream>
 
@@ -27,8 +28,14 @@ void MaterialLibrary::add_file(const std::filesystem::path& file) {
 }
 
 const LibraryMaterial* MaterialLibrary::find_if_known(std::string_view name) const {
-  const auto found = std::find_if(materials_.begin(), materials_.end(),
-                                  [&](const LibraryMaterial& material) { return material.name == name; });
+  auto found = std::find_if(materials_.begin(), materials_.end(),
+                            [&](const LibraryMaterial& material) { return material.name == name; });
+  if (found == materials_.end()) {
+    found = std::find_if(materials_.begin(), materials_.end(), [&](const LibraryMaterial& material) {
+      return std::equal(name.begin(), name.end(), material.name.begin(), material.name.end(),
+                        [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); });
+    });
+  }
   return found == materials_.end() ? nullptr : &*found;
 }
 

@@ -50,7 +50,7 @@ class MaterialLibrary {
   void add_file(const std::filesystem::path& file);
 
   [[nodiscard]] std::span<const LibraryMaterial> materials() const { return materials_; }
-  /// Null where there is none of that name.
+  /// Of that name, else of that name in other letters ("ABS"); null where there is none.
   [[nodiscard]] const LibraryMaterial* find_if_known(std::string_view name) const;
   /// Throws Error(kBadInput) with the nearest name where there is none.
   [[nodiscard]] const LibraryMaterial& find(std::string_view name) const;

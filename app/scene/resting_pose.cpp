@@ -8,10 +8,10 @@
 namespace sprung {
 namespace {
 
-constexpr double kTilt = 10;          // degrees
+constexpr double kTilt = 15;          // degrees
 constexpr double kFinestTilt = 0.02;  // degrees
 constexpr int kDirections = 16;       // in which a body is tilted
-constexpr double kNeutral = 0.002;    // of the height of the centre of mass: a sphere is not said to fall
+constexpr double kNeutral = 0.02;     // of the height of the centre of mass: a sphere is not said to fall
 constexpr Eigen::Index kMostPoints = 20000;
 
 /// A body and the ground, in the frame of the body.
@@ -53,10 +53,6 @@ class BodyOnGround {
 
 const Vec3 kDown = -Vec3::UnitY();
 
-bool stands(const BodyOnGround& body) {
-  return body.lowest_tilted(kDown, kTilt).height >= (1 - kNeutral) * body.height(kDown);
-}
-
 }  // namespace
 
 Vec3 centre_of_mass(const SurfaceMesh& mesh) {
@@ -82,11 +78,8 @@ Vec3 centre_of_mass(const SurfaceMesh& mesh) {
   return area > 0 ? Vec3(low + area_moment / area) : Vec3(low + sides / 2);
 }
 
-bool stands(const Points& points, const Vec3& centre_of_mass) { return stands(BodyOnGround(points, centre_of_mass)); }
-
 Mat3 rolled_to_rest(const Points& points, const Vec3& centre_of_mass) {
   const BodyOnGround body(points, centre_of_mass);
-  if (stands(body)) return Mat3::Identity();
   Vec3 down = kDown;
   double height = body.height(down);
   const double rounding = 1e-9 * height;
@@ -99,6 +92,7 @@ Mat3 rolled_to_rest(const Points& points, const Vec3& centre_of_mass) {
       tilt /= 2;
     }
   }
+  if (height >= (1 - kNeutral) * body.height(kDown)) return Mat3::Identity();
   return Eigen::Quaterniond::FromTwoVectors(down, kDown).toRotationMatrix();
 }
 

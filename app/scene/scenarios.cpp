@@ -163,4 +163,13 @@ void stage_scenario(Film& scene, Scenario scenario, double height, UpAxis up) {
   }
 }
 
+void stage_at_rest(Film& scene, UpAxis up) {
+  std::erase_if(scene.obstacles, [](const SceneObstacle& obstacle) { return obstacle.plane.has_value(); });
+  for (SceneBody& body : scene.bodies) {
+    body.velocity.setZero();
+    body.spin.setZero();
+    if (body.pins.empty()) body.pins = {bottom_pin(up)};
+  }
+}
+
 }  // namespace sprung

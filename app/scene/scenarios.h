@@ -32,4 +32,8 @@ enum class UpAxis { kY, kZ };
 /// are set.
 void stage_scenario(Film& scene, Scenario scenario, double height, UpAxis up = UpAxis::kY);
 
+/// What a scenario is for a body that does not move but is in equilibrium: without the ground, and held at its lowest
+/// part where nothing else holds it.
+void stage_at_rest(Film& scene, UpAxis up);
+
 }  // namespace sprung

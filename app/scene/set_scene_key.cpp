@@ -63,6 +63,8 @@ void set_value(std::optional<Value>& value, const KeyInfo& key, std::string_view
 template <class Value>
 void set_value(std::vector<Value>& values, const KeyInfo& key, std::string_view rest, const Given& given) {
   if constexpr (Table<Value>) {
+    if (rest.empty() && given.text != "[]") refuse(key.name);
+    if (rest.empty()) values.clear();
     for (Value& value : values) set_key(value, rest, given);
   } else {
     if (!rest.empty()) refuse(rest);

@@ -13,7 +13,8 @@ namespace sprung {
 
 struct BrickTiles;
 
-/// Rayleigh damping: force -alpha m v on every node and a tension beta times the rate of stretch law on every spring.
+/// Rayleigh damping: a force -alpha m v on every node, and beta times the stiffness times the rate of stretch as a
+/// tension along every spring.
 struct Rayleigh {
   double alpha = 0;  // 1/s, on the masses; slows rigid motion too
   double beta = 0;   // s, along the springs; does not see rigid motion

@@ -179,8 +179,7 @@ void ContactSolver::warm_start() {
   };
   take_over(touches_before_, touches_);
   take_over(squeezed_before_, squeezed_);
-  // Of these impulses that share is best which leaves least energy in what the limits residual: no more than none
-  // leaves.
+  // The best share of these impulses is that whose residual has least energy; it has no more than without impulses.
   double wanted = 0;
   each_limit([&](const auto& limit) {
     wanted += dot(limit.residual(nodes_, &Pushed::free_velocity), limit.impulse.last);

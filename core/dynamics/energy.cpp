@@ -72,7 +72,7 @@ std::string energy_gain(const World& world, std::span<const std::size_t> bodies,
   const Energy start = sum_of(before, bodies);
   const Energy end = sum_of(after, bodies);
   if (!has_gained(start, end, world, bodies)) return "";
-  return fmt::format("energy from nowhere, {:.3g} J more than {:.3g} J", end.sum() - start.sum(),
+  return fmt::format("spurious energy gain, {:.3g} J more than {:.3g} J", end.sum() - start.sum(),
                      start.kinetic + start.elastic);
 }
 

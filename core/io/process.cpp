@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <spawn.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -51,13 +52,8 @@ class SigpipeBlocker {
   bool was_pending_ = false;
 };
 
-/// An unlinked file for the standard error of the child: unlike a pipe it never fills up.
-int open_messages() {
-  std::string name = (std::filesystem::temp_directory_path() / "sprung_XXXXXX").string();
-  const int file = mkostemp(name.data(), O_CLOEXEC);
-  if (file >= 0) unlink(name.c_str());
-  return file;
-}
+/// A file in memory for the standard error of the child: unlike a pipe it never fills up, and it needs no folder.
+int open_messages() { return memfd_create("sprung_messages", MFD_CLOEXEC); }
 
 /// Returns 0 or an error number.
 int spawn(const std::vector<std::string>& arguments, int input, int messages, pid_t& pid) {

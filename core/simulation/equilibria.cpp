@@ -78,8 +78,8 @@ void check_rests(const Scene& scene) {
   }
   if (scene.obstacles.empty()) return;
   throw Error(ErrorKind::kBadInput,
-              "only a motion (scheme euler or verlet) meets the ground; use --scenario hang, or a "
-              "scene without [[obstacle]]");
+              "only a motion (scheme euler or verlet) meets obstacles; leave out [[obstacle]], and pin what carries "
+              "the body");
 }
 
 }  // namespace

@@ -161,10 +161,13 @@ void warn_of_locking(const Scene& scene, const std::vector<LoadedBody>& bodies, 
   }
 }
 
-/// Sizes and stiffnesses that suggest a forgotten unit.
+/// Sizes and materials that suggest a forgotten unit: ten times beyond all that the library has.
 void warn_of_units(const Scene& scene, const std::vector<LoadedBody>& bodies, const Observer& observer) {
-  constexpr double kLarge = 5;   // m
-  constexpr double kSoft = 100;  // Pa
+  constexpr double kLarge = 5;      // m
+  constexpr double kSoft = 100;     // Pa
+  constexpr double kStiff = 2e12;   // Pa
+  constexpr double kLight = 2.5;    // kg/m^3
+  constexpr double kHeavy = 80000;  // kg/m^3
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const double size = bodies[i].extent.maxCoeff();
     if (size > kLarge) {
@@ -175,8 +178,23 @@ void warn_of_units(const Scene& scene, const std::vector<LoadedBody>& bodies, co
     if (young < kSoft) {
       observer.warn(
           fmt::format("{}: Young's modulus {}, softer than any gel; without a unit it is in pascals, "
-                      "'{:.3g}kPa' in kilopascals",
-                      bodies[i].name, readable(young, Dimension::kPressure), young));
+                      "'{:.3g}kPa' in kilopascals, '{:.3g}GPa' in gigapascals",
+                      bodies[i].name, readable(young, Dimension::kPressure), young, young));
+    }
+    if (young > kStiff) {
+      observer.warn(fmt::format("{}: Young's modulus {}, stiffer than diamond; without a unit it is in pascals",
+                                bodies[i].name, readable(young, Dimension::kPressure)));
+    }
+    const double density = scene.bodies[i].material.density;
+    if (density < kLight) {
+      observer.warn(
+          fmt::format("{}: density {:.3g} kg/m3, lighter than any foam; without a unit it is in kg/m3, "
+                      "'{:.3g}g/cm3' in grams per cubic centimetre",
+                      bodies[i].name, density, density));
+    }
+    if (density > kHeavy) {
+      observer.warn(fmt::format("{}: density {:.3g} kg/m3, heavier than any metal; without a unit it is in kg/m3",
+                                bodies[i].name, density));
     }
   }
 }

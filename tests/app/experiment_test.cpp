@@ -281,8 +281,26 @@ TEST_F(ExperimentProgram, RefusesWhatItsSolversCannotDo) {
   static_cast<void>(folder_.write("ground.toml", kBeam + "[[obstacle]]\nplane = { y = 0 }\n"));
   const ProgramRun ground = run("simulate ground.toml -o out --scheme static");
   EXPECT_EQ(ground.exit_code, 3);
-  EXPECT_NE(ground.err.find("only a motion (scheme euler or verlet) meets the ground"), std::string::npos)
-      << ground.err;
+  EXPECT_NE(ground.err.find("only a motion (scheme euler or verlet) meets obstacles"), std::string::npos) << ground.err;
+}
+
+/// Held at its lowest part or, in the scenario hang, its highest; no ground.
+TEST_F(ExperimentProgram, ABareMeshRestsInAStaticScheme) {
+  static_cast<void>(folder_.write("cube.obj", kCubeObj));
+  for (const std::string scenario : {"drop", "hang", "tumble"}) {
+    const ProgramRun done = run("simulate cube.obj -o " + scenario +
+                                ".h5 --bricks 4 --duration 0.1 --scheme static --scenario " + scenario);
+    EXPECT_EQ(done.exit_code, 0) << scenario << done.err;
+  }
+}
+
+TEST_F(ExperimentProgram, WhatIsTypedWinsOverTheScenario) {
+  static_cast<void>(folder_.write("cube.obj", kCubeObj));
+  const ProgramRun floating =
+      run("simulate cube.obj -o f.h5 --print-scene --set 'obstacle=[]' --set 'body.position=[0,3,0]'");
+  EXPECT_EQ(floating.exit_code, 0) << floating.err;
+  EXPECT_EQ(floating.out.find("[[obstacle]]"), std::string::npos) << floating.out;
+  EXPECT_NE(floating.out.find("position = [0, 3, 0]"), std::string::npos) << floating.out;
 }
 
 TEST_F(ExperimentProgram, OneRatioForAllMaterialsOfABody) {

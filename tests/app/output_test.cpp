@@ -20,6 +20,8 @@ TEST(Output, PatternsSayWhereTheNumberGoes) {
   EXPECT_EQ(parse_output("a/f_{:04}.png").picture(7), std::filesystem::path("a/f_0007.png"));
   EXPECT_EQ(parse_output("f_{:03d}x.PNG").picture(7), std::filesystem::path("f_007x.PNG"));
   EXPECT_EQ(parse_output("{}.png").picture(7), std::filesystem::path("7.png"));
+  EXPECT_EQ(parse_output("a/f_%04d.png").picture(7), std::filesystem::path("a/f_0007.png"));
+  EXPECT_EQ(parse_output("f_%d.png").picture(7), std::filesystem::path("f_7.png"));
   EXPECT_EQ(parse_output("a/p_{:04}.exr").picture(7), std::filesystem::path("a/p_0007.exr"));
   EXPECT_EQ(parse_output("a/p_{:04}.exr").kind, Output::Kind::kPasses);
 }
@@ -32,8 +34,8 @@ TEST(Output, FilmsAreKnownByTheirEnding) {
 }
 
 TEST(Output, RefusesWhatItCannotMake) {
-  for (const std::string_view words :
-       {"film.avi", "one.png", "f_{:04}.jpg", "f_{:x}.png", "f_{}{}.png", "f_{.png", "{:04}/a.png", ""}) {
+  for (const std::string_view words : {"film.avi", "one.png", "f_{:04}.jpg", "f_{:x}.png", "f_{}{}.png", "f_{.png",
+                                       "{:04}/a.png", "f_%04x.png", "-", ""}) {
     EXPECT_NE(error_message([&] { static_cast<void>(parse_output(words)); }).find("--output"), std::string::npos)
         << words;
   }

@@ -190,9 +190,13 @@ TEST_F(Program, KeepsWhatExistsUnlessTold) {
   ASSERT_EQ(run(kTiny + " -o out").exit_code, 0);
   expect_error(kTiny + " -o out", 2, "--overwrite");
   const std::string shorter = "animate cube.obj --bricks 6 --duration 0.5 --fps 4 --resolution 160x120 -o out";
-  ASSERT_EQ(run(shorter + " --overwrite").exit_code, 0);
+  static_cast<void>(folder_.write("out/frame_notes.png", ""));
+  const ProgramRun replaced = run(shorter + " --overwrite");
+  ASSERT_EQ(replaced.exit_code, 0);
   EXPECT_TRUE(exists("out/frame_0002.png"));
-  EXPECT_TRUE(exists("out/frame_0003.png"));  // never its own to remove
+  EXPECT_FALSE(exists("out/frame_0003.png"));  // of the longer film
+  EXPECT_TRUE(exists("out/frame_notes.png"));
+  EXPECT_NE(replaced.err.find("of an earlier, longer film"), std::string::npos) << replaced.err;
 }
 
 TEST_F(Program, PrintedSceneMakesTheSameFilm) {

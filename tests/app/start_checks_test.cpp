@@ -42,6 +42,10 @@ TEST(StartChecks, NoticeForgottenUnits) {
   EXPECT_NE(inspect("--bricks 2 --size 12").err.find("12 m long; a length without a unit is in metres, '12cm'"),
             std::string::npos);
   EXPECT_NE(inspect("--bricks 2 --young 20").err.find("Young's modulus 20 Pa"), std::string::npos);
+  EXPECT_NE(inspect("--bricks 2 --young 2").err.find("'2GPa' in gigapascals"), std::string::npos);
+  EXPECT_NE(inspect("--bricks 2 --young 3e12").err.find("stiffer than diamond"), std::string::npos);
+  EXPECT_NE(inspect("--bricks 2 --density 1.1").err.find("'1.1g/cm3' in grams"), std::string::npos);
+  EXPECT_NE(inspect("--bricks 2 --density 1e5").err.find("heavier than any metal"), std::string::npos);
   const std::string none = inspect("--bricks 2 --size 1 --young 100").err;
   EXPECT_EQ(none.find("without a unit"), std::string::npos) << none;
 }

@@ -14,8 +14,9 @@ namespace sprung {
 /// quarter of the group's smallest brick in a step. Throws Diverged where that would be more steps than can be done.
 [[nodiscard]] std::vector<GroupSteps> choose_steps(const World& world, double time);
 
-/// Moves a world frame by frame and lets no trouble pass: a number that is not finite, or energy from nowhere, is found
-/// in the frame it appears in. The frame is then taken back and done again in steps half as long, up to a few times.
+/// Moves a world frame by frame and lets no trouble pass: a number that is not finite, or a spurious gain of energy, is
+/// found in the frame it appears in. The frame is then taken back and done again in steps half as long, up to a few
+/// times.
 class AdaptiveIntegrator {
  public:
   /// Called every now and then with the share of the frame that is done; may throw.

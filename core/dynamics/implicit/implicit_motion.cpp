@@ -79,7 +79,7 @@ void ImplicitMotion::advance(const Together& group, const Span& span) {
 std::string ImplicitMotion::try_step(const Together& group, double elapsed, double dt) {
   const std::vector<Energy> before = energies_of(world_, group.rows);
   ImplicitStep step(world_, group.bodies, group.members, group.glue, options_, dt);
-  if (!step.make(elapsed, *counts_)) return "the search for a minimum finds no end";
+  if (!step.make(elapsed, *counts_)) return "Newton's method did not converge";
   std::string gain = energy_gain(world_, group.rows, before, energies_of(world_, group.rows));
   if (gain.empty()) return gain;
   for (ImplicitBody* body : group.bodies) body->undo();

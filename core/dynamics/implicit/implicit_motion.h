@@ -39,7 +39,7 @@ struct ImplicitCounts;
 /// than half a brick. Deterministic for any number of threads. Body velocities are those of the scheme after each step.
 class ImplicitMotion {
  public:
-  /// Throws Error(kBadInput) for a world that check_implicit_support(). The world must outlive it.
+  /// Throws Error(kBadInput) where check_implicit_support() finds what it cannot do. The world must outlive it.
   ImplicitMotion(World& world, const ImplicitOptions& options);
   ~ImplicitMotion();
 

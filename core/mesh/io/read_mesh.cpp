@@ -58,12 +58,18 @@ ReadingLimits limits_for(const fs::path& file) {
   return limits;
 }
 
+void refuse_utf16(std::string_view bytes, const fs::path& file) {
+  if (!bytes.starts_with("\xFF\xFE") && !bytes.starts_with("\xFE\xFF")) return;
+  refuse(file, "text in UTF-16; save it as UTF-8 or ASCII");
+}
+
 }  // namespace
 
 SurfaceMesh read_mesh_here(const fs::path& file) {
   const std::string name = file.string();
   const std::string format = lower_extension(file);
   const std::string bytes = read_file(file);
+  refuse_utf16(bytes, file);
   const std::string_view text = without_byte_order_mark(bytes);
   if (format == ".obj") {
     return read_obj(text, name, [&](const std::string& companion) { return read_companion(companion, file); });

@@ -34,10 +34,15 @@ std::size_t binary_size(std::string_view bytes) {
   return bytes.size() < kHeader ? kHeader : kHeader + kFacet * std::size_t{word_at(bytes, 80, 4)};
 }
 
+bool is_keyword(std::string_view word, std::string_view keyword) {
+  return std::equal(word.begin(), word.end(), keyword.begin(), keyword.end(),
+                    [](unsigned char a, unsigned char b) { return std::tolower(a) == b; });
+}
+
 /// Text files begin with "solid", but so do many binary ones: these have the declared size, or bytes that no text has.
 bool is_text(std::string_view bytes) {
   const std::size_t first = bytes.find_first_not_of(" \t\r\n");
-  if (first == std::string_view::npos || !bytes.substr(first).starts_with("solid")) return false;
+  if (first == std::string_view::npos || !is_keyword(bytes.substr(first, 5), "solid")) return false;
   if (bytes.size() >= kHeader && bytes.size() == binary_size(bytes)) return false;
   return bytes.substr(0, 1000).find('\0') == std::string_view::npos;
 }
@@ -85,11 +90,6 @@ PolygonSoup read_binary(std::string_view bytes, const std::string& name) {
   return soup;
 }
 
-bool is_keyword(std::string_view word, std::string_view keyword) {
-  return std::equal(word.begin(), word.end(), keyword.begin(), keyword.end(),
-                    [](unsigned char a, unsigned char b) { return std::tolower(a) == b; });
-}
-
 /// The facets of a text, word by word.
 class TextReader {
  public:
@@ -107,9 +107,9 @@ class TextReader {
     if (is_keyword(word, "vertex")) {
       take_vertex();
     } else if (is_keyword(word, "facet")) {
-      static_cast<void>(scanner_.rest());
-      ++facet_;
-      corners_ = 0;
+      begin_facet();
+    } else if (is_keyword(word, "end")) {  // some write it apart
+      take("end" + std::string(scanner_.word()));
     } else if (is_keyword(word, "endfacet")) {
       end_facet();
     } else if (is_keyword(word, "solid")) {
@@ -118,9 +118,20 @@ class TextReader {
     } else if (is_keyword(word, "endsolid")) {
       in_solid_ = false;
       static_cast<void>(scanner_.rest());
+    } else if (is_keyword(word, "color")) {  // of no standard; nothing says whether bytes or shares
+      static_cast<void>(scanner_.rest());
     } else if (!is_keyword(word, "outer") && !is_keyword(word, "loop") && !is_keyword(word, "endloop")) {
       scanner_.refuse(fmt::format("facet {} is followed by a word that STL does not have", facet_));
     }
+  }
+
+  /// Normals follow from the vertices; what stands for one may be no numbers at all.
+  void begin_facet() {
+    if (is_keyword(scanner_.word(), "normal")) {
+      for (int axis = 0; axis < 3; ++axis) static_cast<void>(scanner_.word());
+    }
+    ++facet_;
+    corners_ = 0;
   }
 
   void take_vertex() {

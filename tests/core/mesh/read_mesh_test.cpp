@@ -130,6 +130,12 @@ TEST_F(ReadMesh, NotesATextureThatIsNotThere) {
   EXPECT_TRUE(mesh.materials.at(mesh.parts[0].material).texture.empty());
 }
 
+TEST_F(ReadMesh, NamesTextInUtf16) {
+  for (const char* name : {"a.obj", "a.stl", "a.ply", "a.off", "a.gltf"}) {
+    expect_refusal(write(name, std::string("\xFF\xFEv\0 \0", 6)), "text in UTF-16; save it as UTF-8");
+  }
+}
+
 TEST_F(ReadMesh, AppliesMirroringNodesToWindingAndNormals) {
   // One tetrahedron, outward, and a node that mirrors and stretches it.
   const fs::path file = write("mirror.dae", R"(<?xml version="1.0"?>

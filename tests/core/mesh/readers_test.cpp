@@ -194,6 +194,26 @@ TEST(ReadStl, TakesTextInDoublePrecisionAndAPartForEachSolid) {
   expect_refusal(kStl, "hello", "is not an STL file");
 }
 
+/// As programs write it that do not keep to the letter of the format.
+TEST(ReadStl, TakesCommonVariantsOfItsText) {
+  const std::string corners = "vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n";
+  for (const std::string& text : std::initializer_list<std::string>{
+           "solid a\n" + facet(corners) + "end solid a\n",
+           "solid a\nfacet normal 0 0 1\nouter loop\n" + corners + "end loop\nend facet\nend solid\n",
+           "SOLID A\nFACET NORMAL 0 0 1\nOUTER LOOP\nVERTEX 0 0 0\nVERTEX 1 0 0\nVERTEX 0 1 0\nENDLOOP\nENDFACET\n"
+           "ENDSOLID A\n",
+           "solid a\ncolor 0.5 0.5 0.5\n" + facet(corners) + "endsolid a\n",
+           "solid a\r\nfacet normal nan nan nan outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet\r\n"
+           "endsolid a\r\n",
+           "solid\nfacet normal -1.#IND 0 0\nouter loop\n" + corners + "endloop\nendfacet\nendsolid\n",
+           "  solid a\n" + facet(corners) + "endsolid a\nsolid a\n" + facet(corners) + "endsolid a\n",
+       }) {
+    const SurfaceMesh mesh = kStl(text);
+    EXPECT_GE(mesh.triangles.rows(), 1) << text;
+    EXPECT_TRUE(mesh.notes.empty()) << text << mesh.notes.at(0);
+  }
+}
+
 TEST(ReadStl, TakesTheColoursOfFacets) {
   std::string bytes("solid but binary");
   bytes.resize(80, ' ');
