@@ -21,6 +21,7 @@ namespace {
 
 constexpr double kShortestDrop = 2;  // s, between which its wobble ends the film
 constexpr double kLongestDrop = 4;
+constexpr double kLowestDrop = 0.03;   // sizes
 constexpr double kWorthTelling = 0.2;  // rad, of a rotation
 
 bool is_of_materials(const Setting& setting) { return setting.key == "materials"; }
@@ -62,6 +63,7 @@ void choose_material(Film& scene, const SceneRequest& request, Scenario scenario
   body.material = found->material->material();
   const bool is_smaller = !is_sized && found->size < 0.99 * kDefaultSize;
   if (is_smaller) body.size = found->size;
+  if (!is_given(request, "body.bricks") && !body.brick_size) body.bricks = found->bricks;
   if (!is_given(request, "solver.scheme")) scene.solver.scheme = Solver::kAuto;
   if (scenario == Scenario::kDrop && !is_given(request, "duration")) {
     scene.duration = std::clamp(std::ceil(2 * found->settling_time) / 2, kShortestDrop, kLongestDrop);
@@ -76,7 +78,8 @@ void choose_material(Film& scene, const SceneRequest& request, Scenario scenario
 struct Placement {
   Vec3 rotation = Vec3::Zero();
   Vec3 sides = Vec3::Ones();
-  bool is_turned = false;  // since it would tip over
+  double drop = kDropHeight;  // in sizes: no higher than what makes it tip over
+  bool is_turned = false;     // since it would tip over
 };
 
 /// Degrees about x, then y, then z, as rotation_matrix() takes them, to a hundredth.
@@ -102,6 +105,10 @@ Placement put_down(const std::filesystem::path& file, UpAxis up, bool may_lie) {
     points = points * rolled.transpose();
   }
   placement.sides = points.colwise().maxCoeff() - points.colwise().minCoeff();
+  if (may_lie) {
+    const double rise = tipping_rise(points, rolled * centre) / placement.sides.maxCoeff();
+    placement.drop = std::clamp(rise, kLowestDrop, kDropHeight);
+  }
   return placement;
 }
 
@@ -158,7 +165,7 @@ Film make_bare_scene(const SceneRequest& request, const std::shared_ptr<const Ma
         body.mesh.filename().string(), up == UpAxis::kZ ? -90 : 0));
   }
   const double scale = body.scale.value_or(body.size.value_or(kDefaultSize) / placement.sides.maxCoeff());
-  stage_scenario(scene, scenario, scale * placement.sides.y(), up);
+  stage_scenario(scene, scenario, scale * placement.sides.y(), up, placement.drop);
   if (!is_motion(scene)) stage_at_rest(scene, up);
   apply_settings(request, has_auto_material, scene);  // once more: what is typed wins over the scenario
   return scene;

@@ -18,14 +18,16 @@ namespace sprung {
 namespace {
 
 constexpr int kBricks = 16;           // along the longest side,
-constexpr double kManyBricks = 1500;  // but not many more than these in all
+constexpr double kManyBricks = 1500;  // but not many more than these in all, since compact bodies need no fine ones
+constexpr double kManyBricksInFilm = 2500;
 constexpr double kSag = 0.04;
 constexpr double kOverload = 2;          // times the weight, which must not buckle it:
 constexpr double kOverloadResponse = 3;  // times the displacement, at most
 constexpr double kKeptMargin = 0.6;      // of the way from the centre of mass to the edge of the feet
 constexpr double kHopeless = 2;          // times the sag by the linear solution: not worth a nonlinear one
 constexpr int kHalvings = 4;             // of the size
-constexpr double kHeldFraction = 0.08;   // of the height
+constexpr double kHeldFraction = 0.08;   // of the height, ...
+constexpr double kHeldBricks = 0.5;      // ... but at least so many bricks: these may be askew
 constexpr double kFill = 0.25;           // a brick is taken to be at least that full
 
 // What does not come to rest quickly is near buckling.
@@ -66,28 +68,33 @@ std::vector<SizedMaterial> choices_of(const std::vector<const LibraryMaterial*>&
   return choices;
 }
 
-/// The bricks of a body's solids; coarser ones where many fill it, since compact bodies need no fine ones.
-std::vector<BrickGrid> coarse_grids(const LoadedBody& loaded) {
-  if (loaded.grid) return {*loaded.grid};
-  const auto filled = [&](double brick_size) {
-    std::vector<BrickGrid> grids;
-    for (const Solid& solid : loaded.solids) grids.push_back(voxelize(solid, brick_size));
-    return grids;
-  };
-  std::vector<BrickGrid> grids = filled(loaded.brick_size);
+double count_of_bricks(const std::vector<BrickGrid>& grids) {
   double count = 0;
   for (const BrickGrid& grid : grids) count += grid.brick_count();
-  if (count > kManyBricks) grids = filled(loaded.brick_size * std::cbrt(count / kManyBricks));
-  for (std::size_t row = 0; row < grids.size(); ++row) {
-    static_cast<void>(split_pieces(loaded.solids[row], grids[row]));
-    static_cast<void>(absorb_slivers(grids[row]));
+  return count;
+}
+
+/// Along the longest side, so that a film is a matter of seconds; `count`: of bricks where kBricks are along it.
+int bricks_for_film(double count) {
+  const double most = kBricks * std::cbrt(kManyBricksInFilm / count);
+  return std::clamp(int(most), kBricks * 3 / 4, kDefaultBricks);
+}
+
+/// The solids of a body with bricks of that size.
+std::vector<BrickGrid> filled(const LoadedBody& loaded, double brick_size) {
+  if (loaded.grid) return {*loaded.grid};
+  std::vector<BrickGrid> grids;
+  for (const Solid& solid : loaded.solids) {
+    BrickGrid& grid = grids.emplace_back(voxelize(solid, brick_size));
+    static_cast<void>(split_pieces(solid, grid));
+    static_cast<void>(absorb_slivers(grid));
   }
   return grids;
 }
 
-std::vector<Body> standing_bodies(const LoadedBody& loaded, Model model, const Material& material) {
+std::vector<Body> standing_bodies(std::vector<BrickGrid> grids, Model model, const Material& material) {
   std::vector<Body> bodies;
-  for (BrickGrid& grid : coarse_grids(loaded)) {
+  for (BrickGrid& grid : grids) {
     Body& body = bodies.emplace_back(make_body(std::move(grid), model, material));
     // What is hardly filled would sag by itself.
     for (double& scale : body.stiffness_scale) scale = std::max(scale, kFill);
@@ -101,7 +108,7 @@ Supports supports_of(const Body& body, Support support, const Vec3& down) {
   const Eigen::VectorXd heights = body.rest_positions * -down.normalized();
   const double low = heights.minCoeff();
   const double high = heights.maxCoeff();
-  const double part = kHeldFraction * (high - low);
+  const double part = std::max(kHeldFraction * (high - low), kHeldBricks * body.grid.brick_size);
   Supports supports(body.node_count());
   for (int node = 0; node < body.node_count(); ++node) {
     const bool is_held = support == Support::kStands ? heights[node] <= low + part : heights[node] >= high - part;
@@ -211,7 +218,10 @@ std::optional<CarryingMaterial> softest_carrying(const SceneBody& body, Support 
   const LoadedBody loaded = load_body(coarse, Observer());
   const double size = loaded.extent.maxCoeff();
   const Mat3 world_from_bricks = rotation_matrix(body.rotation) * loaded.bricks_from_rest.transpose();
-  StandingBody standing(standing_bodies(loaded, body.model, reference.material()), support,
+  std::vector<BrickGrid> grids = filled(loaded, loaded.brick_size);
+  const double count = count_of_bricks(grids);
+  if (count > kManyBricks) grids = filled(loaded, loaded.brick_size * std::cbrt(count / kManyBricks));
+  StandingBody standing(standing_bodies(std::move(grids), body.model, reference.material()), support,
                         world_from_bricks.transpose() * gravity);
   const std::optional<double> linear = standing.displacement(1, true);
   if (!linear || *linear <= 0) return std::nullopt;
@@ -230,8 +240,13 @@ std::optional<CarryingMaterial> softest_carrying(const SceneBody& body, Support 
                                    [&](const SizedMaterial& choice) { return choice.weight <= *carried; });
   const std::optional<double> sag = standing.displacement(chosen->weight, false);
   if (!sag) return std::nullopt;
-  return CarryingMaterial{chosen->material, chosen->scale * size, *sag / size,
-                          settling_time(*chosen->material, chosen->scale * size, chosen->scale * *sag, gravity.norm())};
+  const double scale = chosen->scale;
+  return CarryingMaterial{
+      .material = chosen->material,
+      .size = scale * size,
+      .sag = *sag / size,
+      .bricks = bricks_for_film(count),
+      .settling_time = settling_time(*chosen->material, scale * size, scale * *sag, gravity.norm())};
 }
 
 }  // namespace sprung

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace sprung {
@@ -28,19 +29,23 @@ class BodyOnGround {
   /// Of the centre of mass above the ground that touches the body where `down` points.
   double height(const Vec3& down) const { return (spokes_ * down).maxCoeff(); }
 
+  /// `down` tilted by an angle (degrees) to one of kDirections.
+  static Vec3 tilted(const Vec3& down, double angle, int k) {
+    const Vec3 u = down.unitOrthogonal();
+    const double tilt = angle * std::numbers::pi / 180;
+    const double turn = 2 * std::numbers::pi * k / kDirections;
+    return std::cos(tilt) * down + std::sin(tilt) * (std::cos(turn) * u + std::sin(turn) * down.cross(u));
+  }
+
   struct Lowest {
     Vec3 down;
     double height;
   };
   /// Among the directions that are tilted by an angle (degrees).
   Lowest lowest_tilted(const Vec3& down, double angle) const {
-    const Vec3 u = down.unitOrthogonal();
-    const Vec3 v = down.cross(u);
-    const double tilt = angle * std::numbers::pi / 180;
     Lowest lowest{down, std::numeric_limits<double>::max()};
     for (int k = 0; k < kDirections; ++k) {
-      const double turn = 2 * std::numbers::pi * k / kDirections;
-      const Vec3 direction = std::cos(tilt) * down + std::sin(tilt) * (std::cos(turn) * u + std::sin(turn) * v);
+      const Vec3 direction = tilted(down, angle, k);
       const double found = height(direction);
       if (found < lowest.height) lowest = {direction.normalized(), found};
     }
@@ -94,6 +99,21 @@ Mat3 rolled_to_rest(const Points& points, const Vec3& centre_of_mass) {
   }
   if (height >= (1 - kNeutral) * body.height(kDown)) return Mat3::Identity();
   return Eigen::Quaterniond::FromTwoVectors(down, kDown).toRotationMatrix();
+}
+
+double tipping_rise(const Points& points, const Vec3& centre_of_mass) {
+  constexpr double kStep = 5;       // degrees
+  constexpr double kFarthest = 90;  // degrees
+  const BodyOnGround body(points, centre_of_mass);
+  double least = std::numeric_limits<double>::max();
+  for (int k = 0; k < kDirections; ++k) {
+    double highest = body.height(kDown);
+    for (double tilt = kStep; tilt <= kFarthest; tilt += kStep) {
+      highest = std::max(highest, body.height(BodyOnGround::tilted(kDown, tilt, k)));
+    }
+    least = std::min(least, highest);
+  }
+  return least - body.height(kDown);
 }
 
 }  // namespace sprung

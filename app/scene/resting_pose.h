@@ -13,4 +13,8 @@ namespace sprung {
 /// up to 20 000, of which more are thinned out.
 [[nodiscard]] Mat3 rolled_to_rest(const Points& points, const Vec3& centre_of_mass);
 
+/// How much its centre of mass has to rise before a rigid body on level ground tips over, in the units of the points; 0
+/// where it needs no rise.
+[[nodiscard]] double tipping_rise(const Points& points, const Vec3& centre_of_mass);
+
 }  // namespace sprung

@@ -16,7 +16,6 @@ namespace {
 constexpr std::array<std::string_view, 8> kScenarioNames{"drop",  "hang",   "squash", "stretch",
                                                          "twist", "wobble", "throw",  "tumble"};
 
-constexpr double kDropHeight = 0.08;   // in sizes above the ground: lands on its feet, if it has any
 constexpr double kTumbleHeight = 0.4;  // in sizes above the ground
 constexpr double kHangHeight = 0.5;    // in sizes above the ground: near enough to see, far enough to stretch
 constexpr double kSwing = 0.6;         // sizes to the side, in a time
@@ -127,7 +126,7 @@ Scenario scenario_from_name(std::string_view name) {
   throw Error(ErrorKind::kUsage, fmt::format("there is no scenario '{}'{}", name, did_you_mean(name, kScenarioNames)));
 }
 
-void stage_scenario(Film& scene, Scenario scenario, double height, UpAxis up) {
+void stage_scenario(Film& scene, Scenario scenario, double height, UpAxis up, double drop) {
   SceneObstacle ground;
   ground.plane = Plane{};
   scene.obstacles = {ground};
@@ -135,7 +134,7 @@ void stage_scenario(Film& scene, Scenario scenario, double height, UpAxis up) {
     const double size = body.size.value_or(kDefaultSize);
     switch (scenario) {
       case Scenario::kDrop:
-        body.position.y() = kDropHeight * size;
+        body.position.y() = drop * size;
         break;
       case Scenario::kTumble:
         body.position.y() = kTumbleHeight * size;

@@ -8,7 +8,7 @@ namespace sprung {
 
 /// What happens to a mesh without a scene file.
 enum class Scenario {
-  kDrop,     // falls upright from 0.08 of its size
+  kDrop,     // falls upright from 0.08 of its size, or less
   kHang,     // held by its top 8 %, released under gravity
   kSquash,   // two plates press it to 0.6 of its height, and let it go
   kStretch,  // its top is pulled up by 0.6 of its height, held, and brought back
@@ -24,13 +24,15 @@ enum class Scenario {
 /// Throws Error(kUsage) with the nearest name.
 [[nodiscard]] Scenario scenario_from_name(std::string_view name);
 
+inline constexpr double kDropHeight = 0.08;  // in sizes above the ground: lands on its feet, if it has any
+
 /// The vertical axis of the file of a bare mesh.
 enum class UpAxis { kY, kZ };
 
 /// Sets what the scenario needs for bodies that are `height` (m) high; times do not depend on the film's
 /// duration, so that a shorter film is the beginning of a longer one. Precondition: gravity and the size of the bodies
-/// are set.
-void stage_scenario(Film& scene, Scenario scenario, double height, UpAxis up = UpAxis::kY);
+/// are set. `drop`: the height in sizes that kDrop falls from.
+void stage_scenario(Film& scene, Scenario scenario, double height, UpAxis up = UpAxis::kY, double drop = kDropHeight);
 
 /// What a scenario is for a body that does not move but is in equilibrium: without the ground, and held at its lowest
 /// part where nothing else holds it.

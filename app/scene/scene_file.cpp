@@ -57,7 +57,8 @@ toml::table parse_toml(std::string_view text, Mistakes& mistakes) {
   try {
     return toml::parse(text);
   } catch (const toml::parse_error& error) {
-    mistakes.add(error.source(), std::string(error.description()));
+    const bool is_utf8 = error.description().find("utf-8") == std::string_view::npos;
+    mistakes.add(error.source(), is_utf8 ? std::string(error.description()) : "not a text in UTF-8; save it as such");
     mistakes.throw_if_any();
     throw;
   }

@@ -68,6 +68,8 @@ herr_t find_reason(unsigned depth, const H5E_error2_t* error, void* data) {
 std::string hdf5_reason() {
   std::string reason;
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, find_reason, &reason);
+  if (reason.find("signature not found") != std::string::npos) return "it is not an HDF5 file, as caches are";
+  if (reason.find("truncated file") != std::string::npos) return "it is cut short; copy it or simulate it again";
   return reason.empty() ? "HDF5 gives no reason" : reason;
 }
 

@@ -251,13 +251,43 @@ std::vector<PinnedNodes> BodyBuilder::find_pins(const Body& body, std::size_t so
   return pinned;
 }
 
+namespace {
+
+/// "pin 'left'" or "pin 2"; "the pin" where there is only one.
+std::string pin_name(const std::vector<Pin>& pins, std::size_t pin) {
+  if (!pins[pin].name.empty()) return fmt::format("pin '{}'", pins[pin].name);
+  return pins.size() == 1 ? "the pin" : fmt::format("pin {}", pin + 1);
+}
+
+std::string remedy_for_pin(const Pin& pin, const LoadedBody& loaded) {
+  const std::string brick = readable(loaded.brick_size, Dimension::kLength);
+  if (!pin.box) return fmt::format("make the part that it selects at least a brick ({}) thick", brick);
+  const Vec3& low = pin.box->min;
+  const Vec3& high = pin.box->max;
+  const auto length = [](double value) { return readable(value, Dimension::kLength); };
+  const Vec3& extent = loaded.extent;
+  return fmt::format(
+      "its box reaches from [{:g}, {:g}, {:g}] to [{:g}, {:g}, {:g}] of the body's, which is {} x {} x {} "
+      "and goes from [0, 0, 0] to [1, 1, 1]; make it reach the body, at least a brick ({}) thick",
+      low.x(), low.y(), low.z(), high.x(), high.y(), high.z(), length(extent.x()), length(extent.y()),
+      length(extent.z()), brick);
+}
+
+}  // namespace
+
 void BodyBuilder::tell(const Observer& observer) const {
   report_.tell(observer);
   if (body_.pins.empty()) return;
-  if (held_solids_ == 0) {
-    throw Error(ErrorKind::kBadInput,
-                fmt::format("{}: the pins hold no node; make the parts they select at least a brick ({}) thick",
-                            loaded_.name, readable(loaded_.brick_size, Dimension::kLength)));
+  for (std::size_t pin = 0; pin < body_.pins.size(); ++pin) {
+    const auto holds = [&](const SoftBody& solid) {
+      return std::any_of(solid.origin.pins.begin(), solid.origin.pins.end(),
+                         [&](const PinnedNodes& pinned) { return pinned.pin == pin; });
+    };
+    if (std::any_of(filled_.begin(), filled_.end(), holds)) continue;
+    const std::string reason = fmt::format("{}: {} holds no node; {}", loaded_.name, pin_name(body_.pins, pin),
+                                           remedy_for_pin(body_.pins[pin], loaded_));
+    if (held_solids_ == 0) throw Error(ErrorKind::kBadInput, reason);
+    observer.warn(reason);
   }
   const int free_solids = isize(loaded_.solids) - held_solids_;
   if (free_solids == 0) return;

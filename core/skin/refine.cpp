@@ -43,7 +43,8 @@ Vec3 slope(const Vec3& chord, const Vec3& left, const Vec3& right) {
   const Vec3 along =
       left.dot(right) > kSeamCosine ? Vec3(chord - chord.dot(mean) * mean) : Vec3(chord.dot(crease) * crease);
   const double cosine = along.norm() / std::max(chord.norm(), std::numeric_limits<double>::min());
-  return cosine < kSteepCosine ? chord : Vec3(along * (2 / (cosine * (1 + cosine))));
+  const bool is_shallow = cosine >= kSteepCosine;  // false where a file's normals are no numbers
+  return !is_shallow ? chord : Vec3(along * (2 / (cosine * (1 + cosine))));
 }
 
 /// Of vertices or points, in any order.
@@ -152,7 +153,7 @@ class Refiner {
   }
 
   [[nodiscard]] bool is_long(int a, int b) const {
-    if ((skin_.positions.row(a) - skin_.positions.row(b)).squaredNorm() <= max_squared_) return false;
+    if (!((skin_.positions.row(a) - skin_.positions.row(b)).squaredNorm() > max_squared_)) return false;
     return curves_ == nullptr || (*curves_)(a, b).height() > tolerance_;
   }
 

@@ -112,7 +112,7 @@ TEST_F(Program, WarnsOfBricksThatDoNotHoldTheMass) {
 }
 
 TEST_F(Program, RefusesWhatWouldTakeTooLong) {
-  const ProgramRun ended = run("animate cube.obj -o out --size 1e-6 --time-limit 1h");
+  const ProgramRun ended = run("animate cube.obj --material gelatin -o out --size 1e-6 --time-limit 1h");
   EXPECT_EQ(ended.exit_code, 3) << ended.err;
   EXPECT_NE(ended.err.find("longer than --time-limit (1 h 00 min)"), std::string::npos) << ended.err;
 }

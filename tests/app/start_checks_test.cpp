@@ -38,6 +38,19 @@ TEST(StartChecks, WarnOfRatiosAtWhichBricksLock) {
   EXPECT_EQ(inspect("--bricks 2 --poisson 0.49").err.find("lock"), std::string::npos);
 }
 
+TEST(StartChecks, NameAPinThatHoldsNothing) {
+  const std::string cube = "[[body]]\nmesh = \"cube.obj\"\nsize = 0.1\nbricks = 4\n";
+  const std::string nothing = "[[body.pin]]\nbox = { min = [1.5, 0, 0], max = [2, 1, 1] }\n";
+  const ProgramRun none = inspect("", cube + nothing);
+  EXPECT_EQ(none.exit_code, 3);
+  EXPECT_NE(none.err.find("the pin holds no node; its box reaches from [1.5, 0, 0] to [2, 1, 1]"), std::string::npos)
+      << none.err;
+  EXPECT_NE(none.err.find("10 cm x 10 cm x 10 cm"), std::string::npos) << none.err;
+  const ProgramRun one = inspect("", cube + "[[body.pin]]\nbox = { min = [0, 0, 0], max = [1, 0.1, 1] }\n" + nothing);
+  EXPECT_EQ(one.exit_code, 0) << one.err;
+  EXPECT_NE(one.err.find("warning: cube.obj: pin 2 holds no node"), std::string::npos) << one.err;
+}
+
 TEST(StartChecks, NoticeForgottenUnits) {
   EXPECT_NE(inspect("--bricks 2 --size 12").err.find("12 m long; a length without a unit is in metres, '12cm'"),
             std::string::npos);

@@ -119,7 +119,6 @@ void append(const Added& added, WeldedMesh& mesh) {
 
 Closing close_shells(WeldedMesh& mesh, SurfaceComponents& shells) {
   Closing closing;
-  closing.cap_areas.resize(shells.shells.size());
   std::map<int, std::vector<OpenSide>> open;
   for (const OpenSide& side : shells.open) open[side.shell].push_back(side);
   const auto old_points = int(mesh.points.rows());
@@ -131,7 +130,7 @@ Closing close_shells(WeldedMesh& mesh, SurfaceComponents& shells) {
       Points corners(mesh.points(rim.corners, Eigen::all));
       Points all(corners.rows() + cap.points.rows(), 3);
       all << corners, cap.points;
-      closing.cap_areas[shell] += area_of(all, cap.triangles);
+      closing.largest_cap = std::max(closing.largest_cap, area_of(all, cap.triangles));
       ++(cap.flat ? closing.flat : closing.smooth);
       std::vector<int>& rows = shells.shells[shell].triangles;
       for (int t = 0; t < cap.triangles.rows(); ++t) rows.push_back(old_triangles + added.triangle_count + t);

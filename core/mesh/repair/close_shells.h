@@ -26,9 +26,9 @@ struct Cap {
 
 /// What close_shells() did.
 struct Closing {
-  int flat = 0;                   // planar caps
-  int smooth = 0;                 // the others
-  std::vector<double> cap_areas;  // for each shell
+  int flat = 0;            // planar caps
+  int smooth = 0;          // the others
+  double largest_cap = 0;  // its area
 };
 
 /// Fills every loop of open sides with a cap, appends its triangles (source -1) and points to `mesh` and to its shell,

@@ -130,6 +130,17 @@ class MeshRepairer {
     find_oriented_shells();
   }
 
+  /// A hole is small beside its surface; what is as large is the rim of a cloth or a bowl.
+  void refuse_large_cap(double area) const {
+    constexpr double kMost = 0.2;  // of the closed surface
+    const double share = area / (area + given_area(mesh_, shells_.shells.front().triangles));
+    if (share <= kMost) return;
+    refuse(
+        fmt::format("the surface is an open sheet ({} in {}): a cap on its rim would be {:.0f} % of the solid's "
+                    "surface; {}, or close it",
+                    count_of(faults_.open, "open edge"), count_of(faults_.loops, "loop"), 100 * share, kAdvice));
+  }
+
   /// For each shell, whether it bounds a volume even without its caps.
   std::vector<bool> close_holes() {
     std::vector<bool> encloses(shells_.shells.size(), true);
@@ -140,6 +151,7 @@ class MeshRepairer {
     }
     const int holes = std::max(shells_.faults.loops, 1);
     const Closing closing = close_shells(mesh_, shells_);
+    if (shells_.shells.size() == 1 && faults_.one_sided == 0) refuse_large_cap(closing.largest_cap);
     const int caps = closing.flat + closing.smooth;
     add("hole_filled", caps == 0 ? 0 : holes,
         fmt::format("filled {}{} ({} flat, {} smooth)", count_of(holes, "hole"),

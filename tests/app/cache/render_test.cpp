@@ -95,6 +95,21 @@ TEST(Render, SetsCachesSideBySide) {
   EXPECT_EQ(run_program(folder, "render soft.h5 stiff.h5 --side-by-side -o 'p_{}.exr'").exit_code, 2);
 }
 
+TEST(Render, SaysWhatIsWrongWithAFileThatIsNoCache) {
+  const TempFolder folder;
+  static_cast<void>(folder.write("cube.obj", kCubeObj));
+  ASSERT_EQ(run_program(folder, "simulate cube.obj --material gelatin --bricks 4 --duration 0.1 -o run.h5").exit_code,
+            0);
+  static_cast<void>(folder.write("cut.h5", text_of(folder.path() / "run.h5").substr(0, 3000)));
+  static_cast<void>(folder.write("other.h5", "something else"));
+  const ProgramRun cut = run_program(folder, "render cut.h5 -o a/");
+  EXPECT_EQ(cut.exit_code, 3);
+  EXPECT_NE(cut.err.find("cannot read 'cut.h5': it is cut short"), std::string::npos) << cut.err;
+  const ProgramRun other = run_program(folder, "render other.h5 -o a/");
+  EXPECT_EQ(other.exit_code, 3);
+  EXPECT_NE(other.err.find("it is not an HDF5 file"), std::string::npos) << other.err;
+}
+
 TEST(FrameRanges, AreReadAndRefused) {
   const auto words = [](const char* text) {
     const FrameRange range = parse_frame_range(text, 72);

@@ -44,6 +44,12 @@ TEST(RestingPose, AHeavyTopTipsOver) {
   EXPECT_FALSE(stands(points, Vec3(0.45, 0, 0)));
 }
 
+TEST(RestingPose, ACubeTipsOverWhenItsMiddleStandsOverItsEdge) {
+  EXPECT_NEAR(tipping_rise(corners(Vec3(1, 1, 1)), Vec3::Zero()), std::sqrt(0.5) - 0.5, 1e-3);
+  EXPECT_NEAR(tipping_rise(corners(Vec3(0.2, 1, 1)), Vec3::Zero()), std::sqrt(0.26) - 0.5, 1e-3);
+  EXPECT_NEAR(tipping_rise(sphere(), Vec3::Zero()), 0, 1e-2);
+}
+
 TEST(RestingPose, APlateOnItsEdgeLiesFlat) {
   const Points plate = corners(Vec3(10, 6, 0.3));
   EXPECT_FALSE(stands(plate, Vec3::Zero()));

@@ -171,6 +171,15 @@ TEST(Repair, RefusesWhatEnclosesNothingByName) {
   EXPECT_NE(refusal(moebius_band()).find("one-sided"), std::string::npos) << refusal(moebius_band());
 }
 
+/// A tray is a shell, not a block with a hole.
+TEST(Repair, RefusesAHoleThatIsAsLargeAsItsSurface) {
+  const SurfaceMesh tray = without_triangles(box_mesh(Vec3::Zero(), Vec3(0.2, 1, 1)), 10, 2);
+  EXPECT_NE(refusal(tray).find("would be 36 % of the solid's surface; ask for a shell with --thickness"),
+            std::string::npos)
+      << refusal(tray);
+  EXPECT_EQ(find_solids(tray, "tray", {.thickness = 0.05}).solids.size(), 1U);
+}
+
 TEST(Repair, RefusesTrianglesWithoutAnInside) {
   std::mt19937 random(3);
   Points points(3000, 3);

@@ -218,6 +218,17 @@ TEST(RefineCurves, LeavesBlocksOfFewSides) {
   }
 }
 
+/// As some files have them.
+TEST(RefineCurves, LeavesEdgesWhoseNormalsAreNoNumbersStraight) {
+  Skin skin = make_skin(icosahedron(), {.is_smooth = true});
+  skin.normals.setConstant(std::numeric_limits<double>::quiet_NaN());
+  refine_curves(skin, 1e-3);
+  EXPECT_EQ(skin.triangles.rows(), 20);
+  skin.positions.setConstant(std::numeric_limits<double>::quiet_NaN());
+  refine(skin, 0.1);
+  EXPECT_EQ(skin.triangles.rows(), 20);
+}
+
 TEST(RefineCurves, LeavesShortEdges) {
   const Skin skin = curved(icosahedron(), 0.04);
   EXPECT_EQ(skin.triangles.rows(), 20);
