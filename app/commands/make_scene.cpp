@@ -26,12 +26,6 @@ constexpr double kWorthTelling = 0.2;  // rad, of a rotation
 
 bool is_of_materials(const Setting& setting) { return setting.key == "materials"; }
 
-/// --material auto.
-bool is_auto_material(const Setting& setting) { return setting.key == "body.material" && setting.value == "auto"; }
-
-/// --young.
-bool is_of_material(const Setting& setting) { return setting.key.starts_with("body.material."); }
-
 bool is_given(const SceneRequest& request, std::string_view key) {
   return std::any_of(request.settings.begin(), request.settings.end(),
                      [&](const Setting& setting) { return setting.key == key; });
@@ -56,6 +50,7 @@ void choose_material(Film& scene, const SceneRequest& request, Scenario scenario
   const std::optional<CarryingMaterial> found =
       softest_carrying(body, support, scene.gravity, !is_sized, *scene.library, observer);
   if (!found) {
+    body.material.name = kDefaultMaterial;
     observer.warn(fmt::format("material: no elastomer of the library carries {}; it stays {}",
                               body.mesh.filename().string(), body.material.name));
     return;
@@ -68,10 +63,11 @@ void choose_material(Film& scene, const SceneRequest& request, Scenario scenario
   if (scenario == Scenario::kDrop && !is_given(request, "duration")) {
     scene.duration = std::clamp(std::ceil(2 * found->settling_time) / 2, kShortestDrop, kLongestDrop);
   }
-  observer.note(fmt::format("material: {}, the softest that {} (sags {:.1f} %){}; --material gelatin for a dessert",
-                            body.material.name, scenario == Scenario::kHang ? "hangs in shape" : "stands",
-                            100 * found->sag,
-                            is_smaller ? fmt::format(" at {}", readable(found->size, Dimension::kLength)) : ""));
+  observer.note(fmt::format(
+      "material: {}, the softest that {} (sags {:.1f} %){}{}", body.material.name,
+      scenario == Scenario::kHang ? "hangs in shape" : "stands", 100 * found->sag,
+      is_smaller ? fmt::format(" at {}", readable(found->size, Dimension::kLength)) : "",
+      found->material->material_class == MaterialClass::kGelatin ? "" : "; --material gelatin for a dessert"));
 }
 
 /// How a bare mesh is put down: its rotation (degrees about x, then y, then z) and its sides then, in file units.
@@ -123,15 +119,14 @@ void place_camera(SceneCamera& camera, const Vec3& sides) {
 }
 
 /// What the options say of a scene, but its materials, which make_scene() reads first.
-void apply_settings(const SceneRequest& request, bool has_auto_material, Film& scene) {
+void apply_settings(const SceneRequest& request, Film& scene) {
   if (request.view) {
     scene.camera.azimuth = request.view->azimuth;
     if (request.view->elevation) scene.camera.elevation = *request.view->elevation;
     scene.camera.keyframes.clear();
   }
   for (const Setting& setting : request.settings) {
-    const bool is_later = has_auto_material && (is_auto_material(setting) || is_of_material(setting));
-    if (!is_of_materials(setting) && !is_later) apply(setting, scene);
+    if (!is_of_materials(setting)) apply(setting, scene);
   }
 }
 
@@ -147,18 +142,8 @@ Film make_bare_scene(const SceneRequest& request, const std::shared_ptr<const Ma
   const Placement placement = put_down(body.mesh, up, may_lie);
   body.rotation = placement.rotation;
   place_camera(scene.camera, placement.sides);
-  const bool names_material = std::any_of(request.settings.begin(), request.settings.end(), [](const Setting& setting) {
-    return setting.key == "body.material" || is_of_material(setting);
-  });
-  const bool has_auto_material =
-      !names_material || std::any_of(request.settings.begin(), request.settings.end(), is_auto_material);
-  apply_settings(request, has_auto_material, scene);
-  if (has_auto_material) {
-    choose_material(scene, request, scenario, observer);
-    for (const Setting& setting : request.settings) {
-      if (is_of_material(setting)) apply(setting, scene);
-    }
-  }
+  apply_settings(request, scene);
+  if (body.material.name == kAutoMaterial) choose_material(scene, request, scenario, observer);
   if (placement.is_turned) {
     observer.note(fmt::format(
         "pose: {} would tip over and is put down as it comes to rest; --set 'body.rotation=[{}, 0, 0]' for as it is",
@@ -167,7 +152,9 @@ Film make_bare_scene(const SceneRequest& request, const std::shared_ptr<const Ma
   const double scale = body.scale.value_or(body.size.value_or(kDefaultSize) / placement.sides.maxCoeff());
   stage_scenario(scene, scenario, scale * placement.sides.y(), up, placement.drop);
   if (!is_motion(scene)) stage_at_rest(scene, up);
-  apply_settings(request, has_auto_material, scene);  // once more: what is typed wins over the scenario
+  const Material chosen = body.material;
+  apply_settings(request, scene);  // once more: what is typed wins over the scenario
+  if (body.material.name == kAutoMaterial) body.material = chosen;
   return scene;
 }
 
@@ -198,7 +185,8 @@ Film make_scene(const SceneRequest& request, const Observer& observer) {
     throw Error(ErrorKind::kUsage, "--up is for a bare mesh; in a scene file body.rotation = [-90, 0, 0] puts z up");
   }
   Film scene = read_scene(request.input, *library);
-  apply_settings(request, false, scene);
+  apply_settings(request, scene);
+  choose_materials(scene, observer);
   return scene;
 }
 

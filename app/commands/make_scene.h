@@ -38,9 +38,9 @@ struct SceneRequest {
 };
 
 /// Options before scene file before defaults. Throws Error(kUsage) naming the option whose value is wrong,
-/// Error(kBadInput) for what is wrong in the scene file or the mesh and for an unknown material. A bare mesh for which
-/// no material is named gets the softest elastomer in which it keeps its shape, and one that is dropped and would tip
-/// over is laid down; the observer hears of both.
+/// Error(kBadInput) for what is wrong in the scene file or the mesh and for an unknown material. Bodies for
+/// which no material is named get the softest elastomer in which they keep their shape, and a bare mesh that is dropped
+/// and would tip over is laid down; the observer hears of both.
 [[nodiscard]] Film make_scene(const SceneRequest& request, const Observer& observer = {});
 
 }  // namespace sprung

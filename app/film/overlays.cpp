@@ -21,36 +21,36 @@ constexpr int kRodTriangles = 2 * kSides;
 constexpr std::array<std::array<int, 3>, 8> kOctahedron{
     {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}}};
 
-/// A unit sphere: an octahedron, subdivided once.
-struct RoundShape {
-  std::vector<Vec3> places;
-  std::vector<std::array<int, 3>> triangles;
-
-  RoundShape() {
-    for (int k = 0; k < 6; ++k) places.emplace_back((k % 2 == 0 ? 1 : -1) * Vec3::Unit(k / 2));
-    for (const auto& [a, b, c] : kOctahedron) {
+/// A unit sphere: an octahedron, each of its triangles divided into 4 again and again.
+RoundShape round_shape(int divisions) {
+  RoundShape shape;
+  for (int k = 0; k < 6; ++k) shape.places.emplace_back((k % 2 == 0 ? 1 : -1) * Vec3::Unit(k / 2));
+  shape.triangles.assign(kOctahedron.begin(), kOctahedron.end());
+  for (int division = 0; division < divisions; ++division) {
+    std::map<std::pair<int, int>, int> middles;
+    const auto between = [&](int a, int b) {
+      const auto [found, is_new] = middles.try_emplace(std::minmax(a, b), isize(shape.places));
+      if (is_new) shape.places.push_back((shape.places[a] + shape.places[b]).normalized());
+      return found->second;
+    };
+    std::vector<std::array<int, 3>> parts;
+    for (const auto& [a, b, c] : shape.triangles) {
       const int ab = between(a, b);
       const int bc = between(b, c);
       const int ca = between(c, a);
-      for (const std::array<int, 3>& part : {std::array{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}}) {
-        triangles.push_back(part);
-      }
+      parts.insert(parts.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
     }
+    shape.triangles = std::move(parts);
   }
-
- private:
-  std::map<std::pair<int, int>, int> middles_;
-
-  int between(int a, int b) {
-    const auto [found, is_new] = middles_.try_emplace(std::minmax(a, b), isize(places));
-    if (is_new) places.push_back((places[a] + places[b]).normalized());
-    return found->second;
-  }
-};
-
-const RoundShape& round_shape() {
-  static const RoundShape shape;
   return shape;
+}
+
+/// The roundest of so many balls that can be drawn in a moment.
+int divisions_of(std::size_t balls) {
+  constexpr std::size_t kManyTriangles = 200'000;
+  int divisions = 3;
+  while (divisions > 1 && balls * (kOctahedron.size() << (2 * divisions)) > kManyTriangles) --divisions;
+  return divisions;
 }
 
 void reserve(Skin& skin, Eigen::Index vertices, Eigen::Index triangles) {
@@ -97,22 +97,21 @@ SkinShape Rods::shape(const Points& from, const Points& to, const Eigen::VectorX
   return shape;
 }
 
-Balls::Balls(std::size_t count, double radius) : radius_(radius) {
+Balls::Balls(std::size_t count, double radius) : radius_(radius), round_(round_shape(divisions_of(count))) {
   const Eigen::Index balls = count;
-  const RoundShape& round = round_shape();
-  const Eigen::Index vertices = round.places.size();
-  reserve(skin_, vertices * balls, Eigen::Index(round.triangles.size()) * balls);
+  const Eigen::Index vertices = round_.places.size();
+  reserve(skin_, vertices * balls, Eigen::Index(round_.triangles.size()) * balls);
   Eigen::Index triangle = 0;
   for (Eigen::Index ball = 0; ball < balls; ++ball) {
     const auto first = int(vertices * ball);
-    for (const auto& corners : round.triangles) {
+    for (const auto& corners : round_.triangles) {
       skin_.triangles.row(triangle++) << first + corners[0], first + corners[1], first + corners[2];
     }
   }
 }
 
 SkinShape Balls::shape(const Points& centers, const Vec3& idle) const {
-  const std::vector<Vec3>& places = round_shape().places;
+  const std::vector<Vec3>& places = round_.places;
   const Eigen::Index vertices = places.size();
   const Eigen::Index count = skin_.positions.rows() / vertices;
   SkinShape shape;

@@ -26,6 +26,12 @@ class Rods {
   Skin skin_;
 };
 
+/// Points and triangles of a sphere of radius 1.
+struct RoundShape {
+  std::vector<Vec3> places;
+  std::vector<std::array<int, 3>> triangles;
+};
+
 /// Balls of one radius, for nodes, pins and contacts.
 class Balls {
  public:
@@ -36,6 +42,7 @@ class Balls {
 
  private:
   double radius_;
+  RoundShape round_;
   Skin skin_;
 };
 

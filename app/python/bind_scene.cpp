@@ -8,6 +8,7 @@
 
 #include "app/python/bindings.h"
 #include "app/scene/cached_film.h"
+#include "app/scene/carrying_material.h"
 #include "app/scene/scene_file.h"
 #include "app/scene/scene_values.h"
 #include "core/error.h"
@@ -149,8 +150,10 @@ py::dict probes_of(const SceneRun& run) {
 }  // namespace
 
 Film film_from(const py::object& scene) {
-  if (py::isinstance<py::dict>(scene)) return parse_dict(scene.cast<py::dict>());
-  return read_scene(scene.cast<std::filesystem::path>());
+  Film film = py::isinstance<py::dict>(scene) ? parse_dict(scene.cast<py::dict>())
+                                              : read_scene(scene.cast<std::filesystem::path>());
+  choose_materials(film, PythonObserver());
+  return film;
 }
 
 SceneBody body_from(const py::dict& keys) {

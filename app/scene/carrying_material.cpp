@@ -1,5 +1,7 @@
 #include "app/scene/carrying_material.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -13,6 +15,7 @@
 #include "core/dynamics/statics/statics.h"
 #include "core/error.h"
 #include "core/simulation/body_source.h"
+#include "core/simulation/selector.h"
 
 namespace sprung {
 namespace {
@@ -31,7 +34,7 @@ constexpr double kHeldBricks = 0.5;      // ... but at least so many bricks: the
 constexpr double kFill = 0.25;           // a brick is taken to be at least that full
 
 // What does not come to rest quickly is near buckling.
-constexpr StaticOptions kQuick{.tolerance = 1e-4, .max_iterations = 20, .max_load_steps = 1};
+const StaticOptions kQuick{.tolerance = 1e-4, .max_iterations = 20, .max_load_steps = 1};
 
 /// Elastomers, the softest first.
 std::vector<const LibraryMaterial*> elastomers(const MaterialLibrary& library) {
@@ -103,8 +106,8 @@ std::vector<Body> standing_bodies(std::vector<BrickGrid> grids, Model model, con
   return bodies;
 }
 
-/// The part of a body that carries it. `down`: in its frame.
-Supports supports_of(const Body& body, Support support, const Vec3& down) {
+/// The lowest part of a body, or the highest. `down`: in its frame.
+Supports supports_at_end(const Body& body, Support support, const Vec3& down) {
   const Eigen::VectorXd heights = body.rest_positions * -down.normalized();
   const double low = heights.minCoeff();
   const double high = heights.maxCoeff();
@@ -117,13 +120,27 @@ Supports supports_of(const Body& body, Support support, const Vec3& down) {
   return supports;
 }
 
+Supports supports_by_pins(const Body& body, std::size_t solid, const std::vector<Pin>& pins, const Selector& selector) {
+  Supports supports(body.node_count());
+  for (const Pin& pin : pins) {
+    for (const int node : selector.nodes(pin, body.rest_positions, solid)) {
+      for (int axis = 0; axis < 3; ++axis) {
+        if (pin.axes.held[axis]) supports.fix(node, axis);
+      }
+    }
+  }
+  return supports;
+}
+
 /// Finds the equilibria of the held solids of a body under multiples of its weight. `gravity`: in its frame.
 class StandingBody {
  public:
-  StandingBody(std::vector<Body> solids, Support support, const Vec3& gravity)
+  StandingBody(std::vector<Body> solids, Support support, const std::vector<Pin>& pins, const Selector& selector,
+               const Vec3& gravity)
       : solids_(std::move(solids)), support_(support), gravity_(gravity) {
-    for (const Body& solid : solids_) {
-      supports_.push_back(supports_of(solid, support, gravity));
+    for (std::size_t row = 0; row < solids_.size(); ++row) {
+      supports_.push_back(support == Support::kPins ? supports_by_pins(solids_[row], row, pins, selector)
+                                                    : supports_at_end(solids_[row], support, gravity));
       systems_.push_back(make_default_solver());
     }
   }
@@ -213,16 +230,19 @@ std::optional<CarryingMaterial> softest_carrying(const SceneBody& body, Support 
   Progress progress(observer, "material");
   const LibraryMaterial& reference = *materials[materials.size() / 2];
   SceneBody coarse = body;
-  coarse.bricks = kBricks;
-  coarse.brick_size.reset();
+  const bool has_bricks = body.bricks || body.brick_size;
+  if (!body.box || !has_bricks) {  // its sides may not be whole bricks of another size
+    coarse.bricks = kBricks;
+    coarse.brick_size.reset();
+  }
   const LoadedBody loaded = load_body(coarse, Observer());
   const double size = loaded.extent.maxCoeff();
   const Mat3 world_from_bricks = rotation_matrix(body.rotation) * loaded.bricks_from_rest.transpose();
   std::vector<BrickGrid> grids = filled(loaded, loaded.brick_size);
   const double count = count_of_bricks(grids);
   if (count > kManyBricks) grids = filled(loaded, loaded.brick_size * std::cbrt(count / kManyBricks));
-  StandingBody standing(standing_bodies(std::move(grids), body.model, reference.material()), support,
-                        world_from_bricks.transpose() * gravity);
+  StandingBody standing(standing_bodies(std::move(grids), body.model, reference.material()), support, body.pins,
+                        Selector(loaded), world_from_bricks.transpose() * gravity);
   const std::optional<double> linear = standing.displacement(1, true);
   if (!linear || *linear <= 0) return std::nullopt;
 
@@ -247,6 +267,22 @@ std::optional<CarryingMaterial> softest_carrying(const SceneBody& body, Support 
       .sag = *sag / size,
       .bricks = bricks_for_film(count),
       .settling_time = settling_time(*chosen->material, scale * size, scale * *sag, gravity.norm())};
+}
+
+void choose_materials(Film& film, const Observer& observer) {
+  for (std::size_t row = 0; row < film.bodies.size(); ++row) {
+    SceneBody& body = film.bodies[row];
+    if (body.material.name != kAutoMaterial) continue;
+    std::optional<CarryingMaterial> found;
+    if (body.regions.empty() && film.gravity.norm() > 0) {
+      const Support support = body.pins.empty() ? Support::kStands : Support::kPins;
+      found = softest_carrying(body, support, film.gravity, false, *film.library, observer);
+    }
+    body.material = found ? found->material->material() : built_in_materials()->find(kDefaultMaterial).material();
+    const std::string why = found ? fmt::format("the softest that keeps its shape (sags {:.1f} %)", 100 * found->sag)
+                                  : "since none is named";
+    observer.note(fmt::format("material of body {}: {}, {}", row + 1, body.material.name, why));
+  }
 }
 
 }  // namespace sprung

@@ -1,9 +1,8 @@
 #pragma once
 #include <optional>
 
-#include "app/scene/material_library.h"
+#include "app/scene/film.h"
 #include "core/simulation/observer.h"
-#include "core/simulation/scene.h"
 
 namespace sprung {
 
@@ -19,7 +18,8 @@ struct CarryingMaterial {
 /// What carries a body.
 enum class Support {
   kStands,  // its lowest 8 % are held
-  kHangs    // its highest
+  kHangs,   // its highest
+  kPins     // what its pins hold
 };
 
 /// A body keeps its shape where, as it is turned and carried, the largest displacement in its nonlinear equilibrium
@@ -33,5 +33,10 @@ enum class Support {
                                                                const Vec3& gravity, bool may_shrink,
                                                                const MaterialLibrary& library,
                                                                const Observer& observer);
+
+/// Gives the bodies of kAutoMaterial the softest material that carries them at their size, where they are pinned by
+/// their pins, else standing; those that none carries, that have regions of other materials, or that nothing pulls
+/// down, get kDefaultMaterial. The observer hears of it. Throws like softest_carrying().
+void choose_materials(Film& film, const Observer& observer);
 
 }  // namespace sprung

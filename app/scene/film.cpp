@@ -4,7 +4,8 @@ namespace sprung {
 
 Look look_of(const SceneBody& body, const MaterialLibrary& library) {
   if (body.look) return *body.look;
-  const LibraryMaterial* known = library.find_if_known(body.material.name);
+  const bool is_auto = body.material.name == kAutoMaterial;
+  const LibraryMaterial* known = library.find_if_known(is_auto ? kDefaultMaterial : body.material.name);
   return known == nullptr ? Look::kPlastic : known->look;
 }
 
@@ -12,6 +13,7 @@ Film with_defaults(Film film) {
   for (SceneBody& body : film.bodies) {
     if (!body.size && !body.scale && !body.mesh.empty()) body.size = kDefaultSize;
     if (!body.bricks && !body.brick_size) body.bricks = kDefaultBricks;
+    if (body.material.name == kAutoMaterial) body.material.name = kDefaultMaterial;
     if (built_in_materials()->find_if_known(body.material.name) == nullptr) body.look = look_of(body, *film.library);
   }
   return film;
@@ -19,7 +21,7 @@ Film with_defaults(Film film) {
 
 SceneBody default_body() {
   SceneBody body;
-  body.material = built_in_materials()->find(kDefaultMaterial).material();
+  body.material = built_in_materials()->named(kAutoMaterial);
   return body;
 }
 

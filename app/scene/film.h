@@ -12,9 +12,7 @@
 
 namespace sprung {
 
-inline constexpr std::string_view kDefaultMaterial = "gelatin";
-
-/// A body of the default material.
+/// A body of kAutoMaterial.
 [[nodiscard]] SceneBody default_body();
 
 /// What an experiment varies; what is empty stays as in the scene.
@@ -60,7 +58,7 @@ struct Film : Scene {
 /// The look of a body: its own, or that of its material.
 [[nodiscard]] Look look_of(const SceneBody& body, const MaterialLibrary& library);
 
-/// The film with the size and the bricks of its bodies filled in where it leaves them open, and with the looks of
-/// materials that are not built in.
+/// The film with the size, the bricks and the material of its bodies filled in where it leaves them open, and with the
+/// looks of materials that are not built in.
 [[nodiscard]] Film with_defaults(Film film);
 }  // namespace sprung

@@ -47,6 +47,13 @@ const LibraryMaterial& MaterialLibrary::find(std::string_view name) const {
               fmt::format("there is no material '{}'{}; see sprung materials", name, did_you_mean(name, names)));
 }
 
+Material MaterialLibrary::named(std::string_view name) const {
+  if (name != kAutoMaterial) return find(name).material();
+  Material material = built_in_materials()->find(kDefaultMaterial).material();
+  material.name = kAutoMaterial;
+  return material;
+}
+
 std::shared_ptr<const MaterialLibrary> built_in_materials() {
   static const std::shared_ptr<const MaterialLibrary> library = [] {
     auto made = std::make_shared<MaterialLibrary>();

@@ -38,6 +38,10 @@ struct LibraryMaterial {
   [[nodiscard]] Material material() const;
 };
 
+inline constexpr std::string_view kDefaultMaterial = "gelatin";
+/// Of a body that names no material, until choose_materials() finds the softest that carries it.
+inline constexpr std::string_view kAutoMaterial = "auto";
+
 /// Materials by name: those built into the program, and those of the user's files.
 class MaterialLibrary {
  public:
@@ -54,6 +58,8 @@ class MaterialLibrary {
   [[nodiscard]] const LibraryMaterial* find_if_known(std::string_view name) const;
   /// Throws Error(kBadInput) with the nearest name where there is none.
   [[nodiscard]] const LibraryMaterial& find(std::string_view name) const;
+  /// What a scene means by a name: its properties; for kAutoMaterial those of kDefaultMaterial. Throws like find().
+  [[nodiscard]] Material named(std::string_view name) const;
 
  private:
   std::vector<LibraryMaterial> materials_;  // as they were added

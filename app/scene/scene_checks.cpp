@@ -110,6 +110,10 @@ void check_table(const Film& scene, const std::string&, const Report& report) {
 /// A brick's law depends on its Poisson's ratio in many constants, on its stiffness in one factor.
 void check_table(const SceneBody& body, const std::string& path, const Report& report) {
   const auto check_material = [&](int row, const Material& material) {
+    if (material.name == kAutoMaterial) {
+      report({"region", row}, fmt::format("{}.region: only a body's material can be \"auto\"; name this one", path));
+      return;
+    }
     if (material.poisson == body.material.poisson) return;
     report({"region", row}, fmt::format("{}.region: its Poisson's ratio {} is not that of the body, {}; the materials "
                                         "of one body may differ in stiffness and density only",

@@ -132,7 +132,7 @@ void fields(auto& visit, Is<SceneSolver> auto& solver) {
         solver.scheme);
   visit({"load_steps", "increments of a static load, one a frame", Dimension::kNone, {1, 100000}}, solver.load_steps);
   visit({"modes", "number of the lowest vibration modes", Dimension::kNone, {1, 1000}}, solver.modes);
-  visit({"time_limit", "longest predicted computing time that is accepted", Dimension::kTime, kPositive},
+  visit({"time_limit", "longest computing time, predicted or spent, that is accepted", Dimension::kTime, kPositive},
         solver.time_limit);
 }
 
@@ -239,7 +239,9 @@ void fields(auto& visit, Is<SceneBody> auto& body) {
   visit({"brick_size", "side of a brick; instead of bricks", Dimension::kLength, kPositive}, body.brick_size);
   visit({"brick_rotation", "orientation of the bricks in the body, about x, then y, then z", Dimension::kAngle},
         body.brick_rotation);
-  visit({"material", "a name from `sprung materials`; in a scene also { young, poisson, density, damping }"},
+  visit({"material",
+         "a name from `sprung materials`; auto: the softest that carries the body; in a scene also { young, poisson, "
+         "density, damping }"},
         body.material);
   visit({"model", "law of the bricks: calibrated, tensile (Baudet et al. 2009), m1, m2-plain, m1-plain or fem"},
         body.model);

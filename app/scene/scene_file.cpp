@@ -214,7 +214,7 @@ class TableReader {
 
   void read_value(const toml::node& node, const std::string& path, const KeyInfo&, Material& value) {
     if (const auto* text = node.as_string()) {
-      value = library_.find(text->get()).material();
+      value = library_.named(text->get());
       return;
     }
     if (!node.is_table()) refuse_type(node, "the name of a material or a table");

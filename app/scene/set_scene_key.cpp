@@ -75,7 +75,7 @@ void set_value(std::vector<Value>& values, const KeyInfo& key, std::string_view 
 
 void set_value(Material& material, const KeyInfo&, std::string_view rest, const Given& given) {
   if (rest.empty()) {
-    material = given.library.find(given.text).material();
+    material = given.library.named(given.text);
     return;
   }
   set_key(material, rest, given);

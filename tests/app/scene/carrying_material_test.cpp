@@ -122,5 +122,25 @@ TEST(CarryingMaterial, IsWrittenIntoTheScene) {
   EXPECT_EQ(named.err.find("the softest"), std::string::npos) << named.err;
 }
 
+/// Bodies of a scene that name none: one stands, a like one hangs by a pin. Those with regions or a name keep it.
+TEST(CarryingMaterial, IsChosenForTheBodiesOfASceneThatNameNone) {
+  const TempFolder folder;
+  const std::string rod = "[[body]]\nbox = [0.0125, 0.2, 0.0125]\nbricks = 16\nrotation = [0, 0, 0.1]\n";
+  static_cast<void>(folder.write("scene.toml", rod + rod + "[[body.pin]]\nbox = { min = [0, 0.9, 0], max = [1, 1, 1] }\n" + rod +
+                                                   "material = \"balsa\"\n" + rod +
+                                                   "[[body.region]]\nbox = { min = [0, 0.5, 0], max = [1, 1, 1] }\nmaterial = "
+                                                   "{ young = 1e5, poisson = 0.45, density = 1000 }\n"));
+  const ProgramRun run = run_program(folder, "simulate scene.toml --print-scene");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Film scene = parse_scene(run.out, folder.path() / "scene.toml");
+  EXPECT_GT(scene.bodies[0].material.young, 2 * scene.bodies[1].material.young) << run.err;
+  EXPECT_EQ(scene.bodies[2].material.name, "balsa");
+  EXPECT_EQ(scene.bodies[3].material.name, kDefaultMaterial);
+  EXPECT_NE(run.err.find("material of body 1: " + scene.bodies[0].material.name + ", the softest that keeps"),
+            std::string::npos)
+      << run.err;
+  EXPECT_EQ(print_scene(scene), run.out);
+}
+
 }  // namespace
 }  // namespace sprung
