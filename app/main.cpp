@@ -14,21 +14,24 @@ constexpr int kFailed = int(ErrorKind::kFailed);
 
 /// Runs the program and maps its outcome to an exit code.
 int exit_code(int argc, const char* const* argv) {
-  Console console = Console::of_process();
+  static Console console = Console::of_process();  // for whatever ends the program
   const std::span words(argv, argc);
   console.log_json =
       std::count(words.begin(), words.end(), std::string_view("--log-json")) > 0;  // of mistakes in the others too
-  catch_interrupts();
+  catch_interrupts(console);
   hold_standard_files();
   try {
     const int code = run_command_line(argc, argv, console);
     flush_results();
-    return code;
+    return is_interrupted() ? interrupted_exit_code() : code;
   } catch (const Interrupted&) {
-    console.warn("interrupted");
-    return kInterruptedExitCode;
+    tell_interruption(console);
+    return interrupted_exit_code();
   } catch (const Error& error) {
-    if (is_interrupted()) return kInterruptedExitCode;  // the interrupt is the reason of whatever failed
+    if (is_interrupted()) {  // which is the reason of whatever failed
+      tell_interruption(console);
+      return interrupted_exit_code();
+    }
     console.error(error.what());
     return int(error.kind());
   } catch (const std::bad_alloc&) {

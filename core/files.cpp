@@ -13,6 +13,8 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <mutex>
+#include <set>
 #include <span>
 #include <system_error>
 #include <utility>
@@ -146,21 +148,53 @@ void check_writable(const fs::path& file) {
   if (reason != 0) fail_writing(file, std::strerror(reason));
 }
 
-PartialFile::PartialFile(fs::path file) : file_(std::move(file)), temporary_(temporary_name(file_)) {}
+namespace {
 
-PartialFile::PartialFile(fs::path file, fs::path temporary)
-    : file_(std::move(file)), temporary_(std::move(temporary)) {}
+/// The temporary names of all PartialFiles that are neither published nor gone.
+struct UnfinishedFiles {
+  std::mutex mutex;
+  std::multiset<fs::path> names;
+
+  static UnfinishedFiles& of_process() {
+    static UnfinishedFiles& all = *new UnfinishedFiles;  // never destroyed: threads may outlive main()
+    return all;
+  }
+};
+
+}  // namespace
+
+PartialFile::PartialFile(fs::path file) : PartialFile(file, temporary_name(file)) {}
+
+PartialFile::PartialFile(fs::path file, fs::path temporary) : file_(std::move(file)), temporary_(std::move(temporary)) {
+  UnfinishedFiles& all = UnfinishedFiles::of_process();
+  const std::lock_guard lock(all.mutex);
+  all.names.insert(temporary_);
+}
 
 PartialFile::~PartialFile() {
+  if (is_published_) return;
+  UnfinishedFiles& all = UnfinishedFiles::of_process();
+  const std::lock_guard lock(all.mutex);
+  all.names.erase(all.names.find(temporary_));
   std::error_code ignored;
-  if (!is_published_) fs::remove(temporary_, ignored);
+  fs::remove(temporary_, ignored);
 }
 
 void PartialFile::publish() {
+  UnfinishedFiles& all = UnfinishedFiles::of_process();
+  const std::lock_guard lock(all.mutex);
   std::error_code error;
   fs::rename(temporary_, file_, error);
   if (error) fail_writing(file_, error.message());
+  all.names.erase(all.names.find(temporary_));
   is_published_ = true;
+}
+
+void remove_unfinished_files() {
+  UnfinishedFiles& all = UnfinishedFiles::of_process();
+  all.mutex.lock();  // for good
+  std::error_code ignored;
+  for (const fs::path& name : all.names) fs::remove(name, ignored);
 }
 
 void write_file(const fs::path& file, std::string_view bytes) { write_file(file, {bytes}); }

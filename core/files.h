@@ -53,6 +53,10 @@ class PartialFile {
   bool is_published_ = false;
 };
 
+/// Removes the temporary files of all PartialFiles of the process, which is about to end without their destructors; none
+/// is published from then on.
+void remove_unfinished_files();
+
 /// Writes a file by way of a PartialFile. Throws Error(kFailed) naming it and the reason.
 void write_file(const std::filesystem::path& file, std::string_view bytes);
 /// The same for bytes in several places, one after the other.

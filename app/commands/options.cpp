@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 
+#include "app/console/interrupt.h"
 #include "app/scene/scene_file.h"
 #include "core/text.h"
 
@@ -210,6 +211,7 @@ void SceneOptions::with_scene(const Console& console, const std::function<void(c
   }
   std::optional<tbb::global_control> control;
   if (thread_count > 0) control.emplace(tbb::global_control::max_allowed_parallelism, thread_count);
+  limit_time(scene.solver.time_limit);
   work(scene);
 }
 

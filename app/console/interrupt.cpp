@@ -2,48 +2,86 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <semaphore.h>
 #include <unistd.h>
 
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
-#include <cstdint>
 #include <cstdio>
 #include <cstring>
-#include <ctime>
+#include <thread>
 
 #include "core/error.h"
+#include "core/files.h"
+#include "core/units.h"
 
 namespace sprung {
 namespace {
 
-/// ns; some senders signal both a process and its group and mean it once.
-constexpr std::int64_t kSameSignal = 300000000;
+constexpr auto kGrace = std::chrono::milliseconds(330);
+constexpr int kTimeIsUp = -1;
 
-/// Of the first signal, ns; 0: there was none. Several threads may have one each at the same time.
-std::atomic<std::int64_t> first_time{0};
-static_assert(decltype(first_time)::is_always_lock_free);  // as handlers of signals need it
+/// Why the work has to stop: the number of the first signal, or kTimeIsUp; 0: it need not.
+std::atomic<int> cause{0};
+static_assert(decltype(cause)::is_always_lock_free);  // as handlers of signals need it
 
-/// A second signal, meant as such, ends the program at once.
-extern "C" void on_interrupt(int /*signal*/) {
-  timespec time{};
-  clock_gettime(CLOCK_MONOTONIC, &time);
-  const std::int64_t now = std::int64_t{1000000000} * time.tv_sec + time.tv_nsec;
-  std::int64_t first = 0;
-  if (!first_time.compare_exchange_strong(first, now) && now - first > kSameSignal) _exit(kInterruptedExitCode);
+sem_t is_caused;        // posted with it
+double time_limit = 0;  // s; set before its watch starts
+
+void stop_because_of(int why) {
+  int none = 0;
+  if (cause.compare_exchange_strong(none, why)) sem_post(&is_caused);
+}
+
+extern "C" void on_interrupt(int signal) { stop_because_of(signal); }
+
+/// Waits for a reason to stop and gives the work the time to do so. Whoever holds stderr then may never let it go.
+void end_what_does_not_stop(const Console& console) {
+  while (sem_wait(&is_caused) != 0) {
+  }
+  std::this_thread::sleep_for(kGrace);
+  remove_unfinished_files();
+  if (ftrylockfile(stderr) == 0) {
+    tell_interruption(console);
+    std::fflush(stderr);
+  }
+  _exit(interrupted_exit_code());
 }
 
 }  // namespace
 
-void catch_interrupts() {
+void catch_interrupts(const Console& console) {
+  sem_init(&is_caused, 0, 0);
+  std::thread([&console] { end_what_does_not_stop(console); }).detach();
   for (const int signal : std::array{SIGINT, SIGTERM, SIGHUP}) {
     if (std::signal(signal, on_interrupt) == SIG_IGN) std::signal(signal, SIG_IGN);
   }
   std::signal(SIGPIPE, SIG_IGN);
 }
 
-bool is_interrupted() { return first_time != 0; }
+void limit_time(double seconds) {
+  time_limit = seconds;
+  std::thread([seconds] {
+    std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+    stop_because_of(kTimeIsUp);
+  }).detach();
+}
+
+bool is_interrupted() { return cause != 0; }
+
+int interrupted_exit_code() { return cause == kTimeIsUp ? int(ErrorKind::kFailed) : 128 + cause; }
+
+void tell_interruption(const Console& console) {
+  if (cause == kTimeIsUp) {
+    console.error(
+        fmt::format("stopped after {}, the limit set by --time-limit", readable(time_limit, Dimension::kTime)));
+  } else {
+    console.warn("interrupted");
+  }
+}
 
 void stop_if_interrupted() {
   if (is_interrupted()) throw Interrupted{};

@@ -1,22 +1,32 @@
 #pragma once
+#include <string>
+
+#include "app/console/console.h"
 
 namespace sprung {
 
-/// From here on the first Ctrl-C (SIGINT), SIGTERM or SIGHUP only sets a flag, and one that comes more than a moment
-/// later ends the program at once; signals that whoever started the program has it ignore stay ignored. A reader that
-/// went away is an error of the write instead of the end of the program.
-void catch_interrupts();
+/// From here on a Ctrl-C (SIGINT), SIGTERM or SIGHUP asks the work to stop. Work that does not within a third of a
+/// second, such as a library that is not to be interrupted, is ended with the program: unfinished files are removed,
+/// and the console, which must live as long as the program, tells why. Signals that whoever started the program has it
+/// ignore stay ignored. A reader that went away is an error of the write instead of the end of the program.
+void catch_interrupts(const Console& console);
 
-/// True after the first of these signals.
+/// Work that takes longer than this (s, from now) is stopped likewise. After catch_interrupts().
+void limit_time(double seconds);
+
+/// True once the work has to stop.
 [[nodiscard]] bool is_interrupted();
 
-/// Whichever signal it was: what there is can be gone on with.
-inline constexpr int kInterruptedExitCode = 130;
+/// As whoever started the program expects it: 128 and the number of the signal; 1 where its time was up.
+[[nodiscard]] int interrupted_exit_code();
 
-/// Thrown where the work stops because of such a signal.
+/// Says why the work stops.
+void tell_interruption(const Console& console);
+
+/// Thrown where the work stops.
 struct Interrupted {};
 
-/// Throws Interrupted after the first of these signals.
+/// Throws Interrupted once the work has to stop.
 void stop_if_interrupted();
 
 /// Puts something in the place of standard files that are closed, so that no file opened later gets their numbers and

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <tbb/global_control.h>
 #include <unistd.h>
@@ -93,7 +94,7 @@ void work_and_send(int pipe, std::size_t number, const DrawingProcesses::Work& w
   try {
     work_and_send(pipe, number, work);
   } catch (const Interrupted&) {
-    _exit(kInterruptedExitCode);
+    _exit(interrupted_exit_code());
   }
   std::fflush(nullptr);
   _exit(0);
@@ -125,6 +126,7 @@ void DrawingProcesses::start(std::size_t number, const Work& work) {
   std::fflush(nullptr);
   const pid_t process = fork();
   if (process == 0) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
     close(ends[0]);
     // Otherwise no child would notice that this process no longer reads.
     for (const Child& other : children_) close(other.pipe);

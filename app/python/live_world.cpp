@@ -153,7 +153,7 @@ void LiveWorld::settle(std::size_t row, bool linear) {
     int newton_steps = 0;
     const Points loads = body.masses * simulation_.world.gravity.transpose();
     const Points movements = body.positions - body.rest_positions;
-    static_cast<void>(sprung::settle(body, loads, movements, linear, *make_default_solver(), newton_steps));
+    static_cast<void>(sprung::settle(body, loads, movements, linear, *make_default_solver(), newton_steps, check_signals));
     body.velocities.setZero();
   });
 }

@@ -33,14 +33,14 @@ class Loading {
   }
 
   /// The shapes under a fraction of the weight, with the pins as at a time (s). Reactions by actor, m x 3, N.
-  std::vector<Points> apply(double share, double time) {
+  std::vector<Points> apply(double share, double time, const std::function<void()>& between) {
     std::vector<Points> reactions_of_all;
     for (std::size_t row = 0; row < simulation_.world.bodies.size(); ++row) {
       SoftBody& body = simulation_.world.bodies[row];
       const Points loads =
           share * (body.masses * simulation_.world.gravity.transpose() + steady_forces(scene_, simulation_, row));
       const Points movements = pin_movements(scene_, simulation_, row, time, is_linear_);
-      reactions_of_all.push_back(settle(body, loads, movements, is_linear_, *systems_[row], iterations_));
+      reactions_of_all.push_back(settle(body, loads, movements, is_linear_, *systems_[row], iterations_, between));
     }
     return reactions_of_all;
   }
@@ -85,7 +85,7 @@ void check_rests(const Scene& scene) {
 }  // namespace
 
 Points settle(SoftBody& body, const Points& loads, const Points& movements, bool linear, LinearSolver& solver,
-              int& newton_steps) {
+              int& newton_steps, const std::function<void()>& between) {
   const Supports supports = supports_of(body);
   if (linear) {
     body.positions = body.rest_positions;
@@ -97,7 +97,7 @@ Points settle(SoftBody& body, const Points& loads, const Points& movements, bool
   for (Eigen::Index i = 0; i < start.size(); ++i) {
     if (supports.fixed[i]) body.positions.data()[i] = body.rest_positions.data()[i] + movements.data()[i];
   }
-  newton_steps += solve_static(body, supports, loads, start, solver).iterations;
+  newton_steps += solve_static(body, supports, loads, start, solver, {.between = between}).iterations;
   return reactions(body, supports, loads);
 }
 
@@ -113,7 +113,8 @@ Recording record_equilibria(Simulation& simulation, const Scene& scene, const Ob
     const double share = frames == 1 ? 1.0 : double(frame) / (frames - 1);
     // The first of several frames is at rest: no load, no displacement.
     const std::vector<Points> reactions =
-        share == 0 ? std::vector<Points>{} : loading.apply(share, time_of(scene, frame));
+        share == 0 ? std::vector<Points>{}
+                   : loading.apply(share, time_of(scene, frame), [&] { observer.check_interrupt(); });
     recorder.add(share, reactions, time_of(scene, frame), loading.is_linear());
     progress.update(frame + 1);
   }

@@ -1,4 +1,6 @@
 #pragma once
+#include <functional>
+
 #include "core/dynamics/linear/linear_solver.h"
 #include "core/simulation/observer.h"
 #include "core/simulation/recorder.h"
@@ -8,9 +10,10 @@ namespace sprung {
 
 /// Finds the equilibrium of a body under loads (m x 3, N) with its pinned nodes displaced from rest by `movements` (m x
 /// 3, m; ignored for other nodes); with `linear`, for small displacements. Returns the reactions of the pinned nodes (m
-/// x 3, N). Throws Error(kDiverged), Error(kBadInput) where the pins leave it free.
+/// x 3, N). `between` is called before each of Newton's iterations and may throw. Throws Error(kDiverged),
+/// Error(kBadInput) where the pins leave it free.
 Points settle(SoftBody& body, const Points& loads, const Points& movements, bool linear, LinearSolver& solver,
-              int& newton_steps);
+              int& newton_steps, const std::function<void()>& between);
 
 /// Gravity and the pins' movements grow linearly from frame to frame; each frame is the bodies' equilibrium, for small
 /// displacements where the solver is linear. Throws Error(kDiverged), Error(kBadInput), Interrupted.

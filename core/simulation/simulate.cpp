@@ -66,12 +66,10 @@ void forecast(const StepPlan& plan, double brick_steps, const Observer& observer
 /// Runs a motion frame by frame and reports on it.
 class MotionRun {
  public:
-  /// With `whole_frames` interrupts wait for the end of a frame.
-  MotionRun(Simulation& simulation, const Scene& scene, const Observer& observer, bool whole_frames)
+  MotionRun(Simulation& simulation, const Scene& scene, const Observer& observer)
       : world_(simulation.world),
         scene_(scene),
         observer_(observer),
-        whole_frames_(whole_frames),
         size_(simulation.size),
         motion_(simulation, scene),
         total_(motion_.plan().brick_steps * (frame_count(scene) - 1)) {
@@ -89,7 +87,7 @@ class MotionRun {
     const double begin = time_of(scene_, frame - 1);
     const double duration = 1 / scene_.fps;
     const auto between = [&](double share) {
-      if (!whole_frames_) observer_.check_interrupt();
+      observer_.check_interrupt();
       progress_->update(total_ * (begin + share * duration) / time_of(scene_, frame_count(scene_) - 1) - before_);
       judge_long_run();
     };
@@ -153,7 +151,6 @@ class MotionRun {
   World& world_;
   const Scene& scene_;
   const Observer& observer_;
-  bool whole_frames_;
   double size_;  // m, of the largest body
   SceneMotion motion_;
   OverlapWatch overlaps_;
@@ -166,7 +163,7 @@ class MotionRun {
 Recording record_motion(Simulation& simulation, const Scene& scene, const Observer& observer, RunCache* cache) {
   const int frames = frame_count(scene);
   Recorder recorder(scene, simulation, "time_s", cache);
-  MotionRun run(simulation, scene, observer, cache != nullptr);
+  MotionRun run(simulation, scene, observer);
   const int first = recorder.take_up(simulation.world, [&](IntegratorState& state) { run.motion().serialize(state); });
   run.begin_at(first);
   for (int frame = first; frame < frames; ++frame) {

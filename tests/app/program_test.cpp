@@ -120,7 +120,7 @@ TEST_F(Program, RefusesWhatWouldTakeTooLong) {
 TEST_F(Program, ASignalLeavesNoHalfFilm) {
   const std::string film = "animate cube.obj --bricks 2 --duration 100 --fps 100 --resolution 640x480 -o film.mp4";
   const ProgramRun ended = run_program(folder_, film, "timeout --preserve-status -s TERM 2");
-  EXPECT_EQ(ended.exit_code, 130) << ended.err;
+  EXPECT_EQ(ended.exit_code, 143) << ended.err;
   EXPECT_NE(ended.err.find("interrupted"), std::string::npos) << ended.err;
   EXPECT_FALSE(exists("film.mp4"));
   EXPECT_FALSE(exists("film.partial.mp4"));

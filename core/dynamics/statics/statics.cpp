@@ -81,6 +81,7 @@ class Equilibrium {
   /// False where it does not converge; the body is then anywhere.
   bool find(StaticReport& report) {
     for (int iteration = 0; iteration < options_.max_iterations; ++iteration) {
+      if (options_.between) options_.between();
       const Eigen::VectorXd residual = unbalanced();
       report.residual = residual.lpNorm<Eigen::Infinity>() / largest_force_;
       if (!std::isfinite(report.residual)) return false;

@@ -1,4 +1,6 @@
 #pragma once
+#include <functional>
+
 #include "core/body/membrane.h"
 #include "core/dynamics/linear/linear_solver.h"
 
@@ -19,6 +21,7 @@ struct StaticOptions {
   double tolerance = 1e-9;   // largest force left on a free node over the largest force at work (loads, reactions)
   int max_iterations = 200;  // of Newton's method, in each load step
   int max_load_steps = 256;  // the load is cut in ever more steps where Newton's method does not get there
+  std::function<void()> between{};  // called before every iteration; may throw
 };
 
 struct StaticReport {

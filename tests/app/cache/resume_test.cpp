@@ -233,7 +233,7 @@ TEST(Resume, ProgramKilledAtRandomMomentsComesToTheSameEnd) {
   EXPECT_EQ(hashes_of(folder.path() / "killed.h5"), hashes_of(folder.path() / "straight.h5"));
 }
 
-TEST(Resume, AnInterruptEndsTheFrameAndSaysHowToGoOn) {
+TEST(Resume, AnInterruptSaysHowToGoOn) {
   const TempFolder folder;
   static_cast<void>(folder.write("cube.obj", kCubeObj));
   const std::string simulate =
