@@ -53,8 +53,8 @@ class PartialFile {
   bool is_published_ = false;
 };
 
-/// Removes the temporary files of all PartialFiles of the process, which is about to end without their destructors; none
-/// is published from then on.
+/// Removes the temporary files of all PartialFiles of the process, which is about to end without their
+/// destructors; none is published from then on.
 void remove_unfinished_files();
 
 /// Writes a file by way of a PartialFile. Throws Error(kFailed) naming it and the reason.

@@ -91,7 +91,7 @@ void pin(const BodyHandle& handle, const py::object& nodes) {
 }
 
 void settle(const BodyHandle& handle, bool linear) {
-  locked_without_gil(*handle.world, [&] { handle.world->settle(handle.row, linear); });
+  locked_without_gil(*handle.world, [&] { handle.world->settle(handle.row, linear, check_signals); });
 }
 
 Points deformed_skin(const BodyHandle& handle) {
@@ -122,7 +122,8 @@ void bind_body(py::module_& module) {
       .def("skin_positions", &deformed_skin, "(v, 3) m.")
       .def("pin", &pin, py::arg("nodes"), "Fixes these nodes where they are, and no others: rows, or (m,) bools.")
       .def("settle", &settle, py::arg("linear") = false,
-           "Equilibrium with gravity and the pinned nodes; linear: for small displacements. Obstacles are not met.");
+           "Equilibrium with gravity, the constant forces of the scene and the pinned nodes; linear: for small "
+           "displacements. Obstacles are not met; other loads are refused.");
 }
 
 }  // namespace sprung

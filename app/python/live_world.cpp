@@ -8,6 +8,7 @@
 
 #include "core/dynamics/explicit/integrator.h"
 #include "core/error.h"
+#include "core/simulation/drivers.h"
 #include "core/simulation/equilibria.h"
 #include "core/simulation/observer.h"
 #include "render/renderer.h"
@@ -144,16 +145,20 @@ void LiveWorld::step(double dt, long count, const Between& between) {
   time_ += dt * double(count);
 }
 
-void LiveWorld::settle(std::size_t row, bool linear) {
+void LiveWorld::settle(std::size_t row, bool linear, const Between& between) {
   SoftBody& body = simulation_.world.bodies[row];
   if (body.pinned.empty()) {
     throw Error(ErrorKind::kBadInput, "a body without pinned nodes cannot come to rest: pin() some of them first");
   }
+  if (const std::vector<MotionOnly> parts = motion_only(scene_); !parts.empty()) {
+    throw Error(ErrorKind::kBadInput,
+                fmt::format("settle() cannot take into account {}; use advance()", parts.front().what));
+  }
   keep_memory([&] {
     int newton_steps = 0;
-    const Points loads = body.masses * simulation_.world.gravity.transpose();
+    const Points loads = body.masses * simulation_.world.gravity.transpose() + steady_forces(scene_, simulation_, row);
     const Points movements = body.positions - body.rest_positions;
-    static_cast<void>(sprung::settle(body, loads, movements, linear, *make_default_solver(), newton_steps, check_signals));
+    static_cast<void>(sprung::settle(body, loads, movements, linear, *make_default_solver(), newton_steps, between));
     body.velocities.setZero();
   });
 }

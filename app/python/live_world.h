@@ -34,9 +34,10 @@ class LiveWorld {
   /// Exactly `count` explicit steps of `dt` (s); pins and loads do not follow their keyframes. Throws Error(kBadInput,
   /// kDiverged).
   void step(double dt, long count, const Between& between);
-  /// Moves a body into equilibrium under gravity, its pinned nodes fixed where they are; `linear`: for small
-  /// displacements. Throws Error(kBadInput) where no node is pinned, Error(kDiverged).
-  void settle(std::size_t body, bool linear);
+  /// Moves a body into equilibrium under gravity and the constant forces of the scene, its pinned nodes fixed where
+  /// they are; `linear`: for small displacements. Throws Error(kBadInput) where no node is pinned, or the scene has
+  /// other loads, Error(kDiverged).
+  void settle(std::size_t body, bool linear, const Between& between);
   /// Fixes these nodes where they are, and no others. Throws Error(kBadInput).
   void pin(std::size_t body, const std::vector<long>& nodes);
 

@@ -103,7 +103,8 @@ class Body:
     def pin(self, nodes: Sequence[int] | NDArray[np.integer] | NDArray[np.bool_]) -> None:
         """Fixes these nodes where they are, and no others: rows, or (m,) bools."""
     def settle(self, linear: bool = False) -> None:
-        """Equilibrium with gravity and the pinned nodes; linear: for small displacements. Obstacles are not met."""
+        """Equilibrium with gravity, the constant forces of the scene and the pinned nodes; linear: for small
+        displacements. Obstacles are not met; other loads are refused."""
 
 class World:
     """Bodies that move and touch each other. Threads take turns; where an Error is raised nothing changes."""

@@ -153,6 +153,39 @@ class Motion(unittest.TestCase):
         middle = (beam.positions - rest)[end & (np.abs(rest[:, 1:] - rest[:, 1:].mean(axis=0)) < 1e-6).all(axis=1), 1]
         self.assertAlmostEqual(middle[0] / -0.004004546, 1, delta=0.03)
 
+    def test_settling_takes_the_forces_of_the_scene(self):
+        ends = []
+        for force in ({"total": [0, 0, 0]}, {"total": [0, -0.02, 0]}):
+            world = sprung.World.from_scene(
+                {
+                    "gravity": [0, 0, 0],
+                    "body": [
+                        {
+                            "box": [0.4, 0.1, 0.1],
+                            "bricks": 8,
+                            "material": "gelatin",
+                            "pin": [{"box": {"min": [0, 0, 0], "max": [0.01, 1, 1]}}],
+                            "force": [force],
+                        }
+                    ],
+                }
+            )
+            (body,) = world.bodies
+            body.settle(linear=True)
+            ends.append((body.positions - body.rest_positions)[:, 1].min())
+        # W L^3 / (8 E I)
+        bending = -0.02 * 0.4**3 / (8 * 24e3 * 0.1**4 / 12)
+        self.assertAlmostEqual(ends[0], 0, delta=1e-12)
+        self.assertAlmostEqual(ends[1] / bending, 1, delta=0.06)
+        windy = sprung.World.from_scene(
+            {
+                "wind": {"velocity": [1, 0, 0]},
+                "body": [{"box": [0.1, 0.1, 0.1], "bricks": 2, "material": "gelatin", "pin": [{"nearest": [0, 0, 0]}]}],
+            }
+        )
+        with self.assertRaisesRegex(sprung.Error, "settle\\(\\) cannot take into account a wind"):
+            windy.bodies[0].settle()
+
     def test_the_same_steps_give_the_same_bits(self):
         ends = []
         for _ in range(2):

@@ -126,10 +126,11 @@ TEST(CarryingMaterial, IsWrittenIntoTheScene) {
 TEST(CarryingMaterial, IsChosenForTheBodiesOfASceneThatNameNone) {
   const TempFolder folder;
   const std::string rod = "[[body]]\nbox = [0.0125, 0.2, 0.0125]\nbricks = 16\nrotation = [0, 0, 0.1]\n";
-  static_cast<void>(folder.write("scene.toml", rod + rod + "[[body.pin]]\nbox = { min = [0, 0.9, 0], max = [1, 1, 1] }\n" + rod +
-                                                   "material = \"balsa\"\n" + rod +
-                                                   "[[body.region]]\nbox = { min = [0, 0.5, 0], max = [1, 1, 1] }\nmaterial = "
-                                                   "{ young = 1e5, poisson = 0.45, density = 1000 }\n"));
+  static_cast<void>(
+      folder.write("scene.toml", rod + rod + "[[body.pin]]\nbox = { min = [0, 0.9, 0], max = [1, 1, 1] }\n" + rod +
+                                     "material = \"balsa\"\n" + rod +
+                                     "[[body.region]]\nbox = { min = [0, 0.5, 0], max = [1, 1, 1] }\nmaterial = "
+                                     "{ young = 1e5, poisson = 0.45, density = 1000 }\n"));
   const ProgramRun run = run_program(folder, "simulate scene.toml --print-scene");
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const Film scene = parse_scene(run.out, folder.path() / "scene.toml");
