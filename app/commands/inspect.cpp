@@ -55,7 +55,8 @@ struct CacheFacts {
   std::string version;
   std::string build;
   std::size_t frames = 0;
-  int planned = 0;  // by the scene
+  int planned = 0;           // by the scene
+  bool may_be_less = false;  // where the film ends once nothing moves
   double progress = 0;
   std::string progress_name;
   std::uint64_t state_hash = 0;  // of the last frame
@@ -71,10 +72,12 @@ struct CacheFacts {
 
 CacheFacts facts_of(const CacheReader& cache, const std::filesystem::path& file) {
   const CacheHeader& header = cache.header();
+  const Film film = cached_film(header);
   CacheFacts facts{.version = header.version,
                    .build = header.build,
                    .frames = cache.frame_count(),
-                   .planned = frame_count(cached_film(header)),
+                   .planned = frame_count(film),
+                   .may_be_less = film.until_still.has_value(),
                    .progress_name = header.progress_name,
                    .solids = long(header.simulation.world.bodies.size()),
                    .bytes = std::filesystem::file_size(file),
@@ -98,11 +101,11 @@ std::string text_of(const CacheFacts& facts) {
   const std::string velocities =
       facts.velocity_error > 0 ? fmt::format(", velocities to within {:.6g} m/s", facts.velocity_error) : "";
   return fmt::format(
-      "frames {} of {}, the last at {} {:.6g}\nstate {:016x}\n{}, {}, {} nodes, {} skin vertices\npositions {}{}\n"
+      "frames {} of {}{}, the last at {} {:.6g}\nstate {:016x}\n{}, {}, {} nodes, {} skin vertices\npositions {}{}\n"
       "{:.4g} MB, written by sprung {} (build {})\n",
-      facts.frames, facts.planned, facts.progress_name, facts.progress, facts.state_hash,
-      count_of(facts.solids, "solid"), count_of(facts.bricks, "brick"), facts.nodes, facts.skin_vertices,
-      facts.accuracy, velocities, 1e-6 * double(facts.bytes), facts.version, facts.build);
+      facts.frames, facts.may_be_less ? "at most " : "", facts.planned, facts.progress_name, facts.progress,
+      facts.state_hash, count_of(facts.solids, "solid"), count_of(facts.bricks, "brick"), facts.nodes,
+      facts.skin_vertices, facts.accuracy, velocities, 1e-6 * double(facts.bytes), facts.version, facts.build);
 }
 
 std::string json_of(const CacheFacts& facts) {

@@ -19,7 +19,7 @@
 namespace sprung {
 namespace {
 
-constexpr double kShortestDrop = 2;  // s, between which its wobble ends the film
+constexpr double kShortestDrop = 2;  // s, between which it ends when it has come to rest
 constexpr double kLongestDrop = 4;
 constexpr double kLowestDrop = 0.03;   // sizes
 constexpr double kWorthTelling = 0.2;  // rad, of a rotation
@@ -60,9 +60,6 @@ void choose_material(Film& scene, const SceneRequest& request, Scenario scenario
   if (is_smaller) body.size = found->size;
   if (!is_given(request, "body.bricks") && !body.brick_size) body.bricks = found->bricks;
   if (!is_given(request, "solver.scheme")) scene.solver.scheme = Solver::kAuto;
-  if (scenario == Scenario::kDrop && !is_given(request, "duration")) {
-    scene.duration = std::clamp(std::ceil(2 * found->settling_time) / 2, kShortestDrop, kLongestDrop);
-  }
   observer.note(fmt::format(
       "material: {}, the softest that {} (sags {:.1f} %){}{}", body.material.name,
       scenario == Scenario::kHang ? "hangs in shape" : "stands", 100 * found->sag,
@@ -152,6 +149,10 @@ Film make_bare_scene(const SceneRequest& request, const std::shared_ptr<const Ma
   const double scale = body.scale.value_or(body.size.value_or(kDefaultSize) / placement.sides.maxCoeff());
   stage_scenario(scene, scenario, scale * placement.sides.y(), up, placement.drop);
   if (!is_motion(scene)) stage_at_rest(scene, up);
+  if (scenario == Scenario::kDrop && is_motion(scene) && !is_given(request, "duration")) {
+    scene.duration = kLongestDrop;
+    scene.until_still = kShortestDrop;
+  }
   const Material chosen = body.material;
   apply_settings(request, scene);  // once more: what is typed wins over the scenario
   if (body.material.name == kAutoMaterial) body.material = chosen;

@@ -113,8 +113,9 @@ void print_table(const SweepOptions& options, const Console& console) {
       continue;
     }
     const CacheReader cache(file);
-    const int planned = frame_count(cached_film(cache.header()));
-    if (int(cache.frame_count()) < planned) {
+    const Film film = cached_film(cache.header());
+    const int planned = frame_count(film);
+    if (int(cache.frame_count()) < planned && !film.until_still) {
       console.warn(fmt::format("run {} has {} of its {} frames", name, cache.frame_count(), planned));
     }
     if (!has_header) print_header(cache.header());

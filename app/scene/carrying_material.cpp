@@ -209,17 +209,6 @@ class StandingBody {
   std::vector<std::unique_ptr<LinearSolver>> systems_;
 };
 
-/// Of the slowest vibration: a shear wave that crosses the body there and back (rayleigh_from_damping()), or what sags
-/// as far as `sag` (m) where that is slower. Damping grows with the square of the frequency.
-double settling_time(const LibraryMaterial& material, double size, double sag, double gravity) {
-  constexpr double kLeft = 0.01;
-  const double beta = rayleigh_from_damping(material.material(), size).beta;
-  const double shear_speed = std::sqrt(material.young / (2 * (1 + material.poisson) * material.density));
-  const double wave = std::numbers::pi * shear_speed / size;  // rad/s
-  const double rate = beta / 2 * std::min(wave * wave, gravity / sag);
-  return -std::log(kLeft) / rate;
-}
-
 }  // namespace
 
 std::optional<CarryingMaterial> softest_carrying(const SceneBody& body, Support support, const Vec3& gravity,
@@ -262,11 +251,7 @@ std::optional<CarryingMaterial> softest_carrying(const SceneBody& body, Support 
   if (!sag) return std::nullopt;
   const double scale = chosen->scale;
   return CarryingMaterial{
-      .material = chosen->material,
-      .size = scale * size,
-      .sag = *sag / size,
-      .bricks = bricks_for_film(count),
-      .settling_time = settling_time(*chosen->material, scale * size, scale * *sag, gravity.norm())};
+      .material = chosen->material, .size = scale * size, .sag = *sag / size, .bricks = bricks_for_film(count)};
 }
 
 void choose_materials(Film& film, const Observer& observer) {

@@ -12,7 +12,6 @@ struct CarryingMaterial {
   double size = 0;  // m, longest side of the body: smaller than asked for where no material carries it at that size
   double sag = 0;   // largest displacement of a node under its own weight over the size
   int bricks = 0;   // along the longest side: kDefaultBricks, or fewer where these would be over 2500 in all
-  double settling_time = 0;  // s, in which its slowest vibration dies to 1 %, estimated from sag and damping
 };
 
 /// What carries a body.

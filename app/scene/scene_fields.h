@@ -109,6 +109,9 @@ void fields(auto& visit, Is<Film> auto& film) {
   visit({"materials", "file of further materials that bodies may name (TOML, as assets/materials.toml)"},
         film.materials);
   visit({"duration", "length of the film", Dimension::kTime, {0, 3600, true}}, film.duration);
+  visit({"until_still", "from this time on the film ends early, once nothing moves any more", Dimension::kTime,
+         kNotNegative},
+        film.until_still);
   visit({"fps", "pictures a second", Dimension::kRate, {0, 10000, true}}, film.fps);
   visit({"gravity", "acceleration of everything", Dimension::kAcceleration}, film.gravity);
   visit({"gravity_keyframes", "gravity over time, in place of gravity"}, film.gravity_keyframes);

@@ -271,7 +271,8 @@ struct SceneContact {
 
 /// The bodies, obstacles, loads and duration of a simulation. SI units.
 struct Scene {
-  double duration = 3;  // s
+  double duration = 3;                // s
+  std::optional<double> until_still;  // s: from then on a motion ends before that, once it has come to rest
   double fps = 24;
   Vec3 gravity{0, -9.81, 0};
   std::vector<GravityKeyframe> gravity_keyframes;  // in place of gravity

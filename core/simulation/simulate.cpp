@@ -19,6 +19,7 @@ namespace {
 
 constexpr double kLongRun = 3600;  // s remaining, from which on there is a warning
 constexpr double kSecondsToEstimate = 3;
+constexpr double kRest = 0.25;       // s without motion
 constexpr double kDeepShare = 0.01;  // of the largest body's size: penetration without a warning
 
 int inverted_bricks(const World& world) {
@@ -86,6 +87,7 @@ class MotionRun {
   void run_frame(int frame) {
     const double begin = time_of(scene_, frame - 1);
     const double duration = 1 / scene_.fps;
+    const std::vector<Points> before = positions();
     const auto between = [&](double share) {
       observer_.check_interrupt();
       progress_->update(total_ * (begin + share * duration) / time_of(scene_, frame_count(scene_) - 1) - before_);
@@ -94,9 +96,20 @@ class MotionRun {
     motion_.advance(begin, time_of(scene_, frame), duration, between,
                     [&](const std::string& message) { observer_.warn(message); });
     overlaps_.look(world_, frame);
+    still_for_ = is_still(before, duration) ? still_for_ + duration : 0;
   }
 
-  /// Of the frames of this run, from `first` on.
+  /// Whether the scene ends with this frame since nothing moves any more.
+  [[nodiscard]] bool has_come_to_rest(int frame) const {
+    return scene_.until_still && time_of(scene_, frame) >= *scene_.until_still && still_for_ >= kRest;
+  }
+
+  void serialize(IntegratorState& state) {
+    motion_.serialize(state);
+    if (scene_.until_still) state.serialize(still_for_);
+  }
+
+  /// Of `frames` frames, of which this run computed those from `first` on.
   void finish(int first, int frames) {
     note_implicit();
     const int inverted = inverted_bricks(world_);
@@ -115,6 +128,23 @@ class MotionRun {
   [[nodiscard]] double deepest() const { return overlaps_.deepest(); }
 
  private:
+  [[nodiscard]] std::vector<Points> positions() const {
+    std::vector<Points> all;
+    for (const SoftBody& body : world_.bodies) all.push_back(body.positions);
+    return all;
+  }
+
+  /// Whether all nodes moved so little in `duration` (s), since they were at `before`, that a vibration of a second's
+  /// period or less would be within 1 % of the size.
+  [[nodiscard]] bool is_still(const std::vector<Points>& before, double duration) const {
+    const double most = std::min(0.01, 0.06 * duration) * size_;
+    for (std::size_t row = 0; row < before.size(); ++row) {
+      const Points& now = world_.bodies[row].positions;
+      if ((now - before[row]).rowwise().norm().maxCoeff() > most) return false;
+    }
+    return true;
+  }
+
   void note_implicit() const {
     const std::optional<ImplicitMotion::Report> report = motion_.implicit_report();
     if (!report) return;
@@ -155,7 +185,8 @@ class MotionRun {
   SceneMotion motion_;
   OverlapWatch overlaps_;
   double total_;
-  double before_ = 0;  // of these, done by an earlier run
+  double still_for_ = 0;  // s, up to the last frame
+  double before_ = 0;     // of these, done by an earlier run
   std::optional<Progress> progress_;
   bool is_judged_ = false;
 };
@@ -164,17 +195,18 @@ Recording record_motion(Simulation& simulation, const Scene& scene, const Observ
   const int frames = frame_count(scene);
   Recorder recorder(scene, simulation, "time_s", cache);
   MotionRun run(simulation, scene, observer);
-  const int first = recorder.take_up(simulation.world, [&](IntegratorState& state) { run.motion().serialize(state); });
+  const int first = recorder.take_up(simulation.world, [&](IntegratorState& state) { run.serialize(state); });
   run.begin_at(first);
-  for (int frame = first; frame < frames; ++frame) {
+  int frame = first;
+  for (; frame < frames && !(frame > 0 && run.has_come_to_rest(frame - 1)); ++frame) {
     observer.check_interrupt();
     if (frame > 0) run.run_frame(frame);
     IntegratorState state;
-    run.motion().serialize(state);
+    run.serialize(state);
     recorder.add(frame / scene.fps, scene.probes.empty() ? std::vector<Points>{} : run.motion().pin_reactions(),
                  time_of(scene, frame), false, state);
   }
-  run.finish(first, frames);
+  run.finish(first, frame);
   recorder.recording().deepest_penetration = run.deepest();
   return recorder.finish();
 }

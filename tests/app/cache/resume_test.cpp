@@ -103,6 +103,29 @@ TEST(Resume, BodiesThatTouchGoOnBitByBit) { expect_same_bits(kTwoBoxes); }
 
 TEST(Resume, PinsThatCatchLateGoOnBitByBit) { expect_same_bits(kTwoBoxes + kLatePin); }
 
+/// A bar that falls gently onto the ground and lies there from 0.1 s on.
+const std::string kComesToRest = R"(
+until_still = 0.2
+fps = 100
+[[obstacle]]
+plane = {}
+[[body]]
+box = [0.1, 0.05, 0.05]
+position = [0, 0.001, 0]
+bricks = 4
+material = { young = "1 MPa", poisson = 0.45, density = 1000, damping = 0.1 }
+)";
+
+TEST(Resume, AFilmThatEndsAtRestEndsInTheSameFrame) {
+  expect_same_bits(kComesToRest);
+  const TempFolder folder;
+  const Recording once = run(kComesToRest, 2, folder.path() / "run.h5", false);
+  EXPECT_GT(once.progress.back(), 0.25);
+  EXPECT_LT(once.progress.back(), 0.6);
+  const Recording again = run(kComesToRest, 2, folder.path() / "run.h5", true);
+  EXPECT_EQ(again.progress, once.progress);
+}
+
 TEST(Resume, EverySchemeGoesOnBitByBit) {
   for (const std::string scheme : {"verlet", "implicit-euler", "bdf2"}) {
     SCOPED_TRACE(scheme);
