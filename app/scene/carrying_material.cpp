@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/bricks/pieces.h"
+#include "core/bricks/slivers.h"
 #include "core/bricks/voxelize.h"
 #include "core/dynamics/statics/statics.h"
 #include "core/error.h"

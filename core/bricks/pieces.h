@@ -83,11 +83,4 @@ struct PieceReport {
 /// unconnected triangles stays unchanged. Deterministic.
 PieceReport split_pieces(const Solid& solid, BrickGrid& grid);
 
-/// Adds the solid of nearly empty bricks (fill below `least_fill`) to the fullest of their face neighbours, if that is
-/// at least half full, and removes them: in contact, such a brick is far softer than the sliver of solid it represents,
-/// and would be crushed. The volume is preserved; the fill of a receiving brick may exceed 1. A sliver that connects
-/// its neighbours to the body stays, so that thin parts are neither lost nor cut off. Bricks below a fill of 0.002 go
-/// to the fullest brick that they touch, if they link nothing. Returns the number of removed bricks.
-int absorb_slivers(BrickGrid& grid, double least_fill = 0.1);
-
 }  // namespace sprung

@@ -12,6 +12,7 @@
 #include <span>
 
 #include "core/bricks/pieces.h"
+#include "core/bricks/slivers.h"
 #include "core/bricks/voxelize.h"
 #include "core/error.h"
 #include "core/mesh/repair/coarsen.h"
@@ -329,7 +330,7 @@ std::vector<ForcedPart> place_forces(const std::vector<BodyForce>& forces, const
       part.triangles = selector.triangles(forces[force], middles_of_triangles(actor), solid);
       if (part.triangles.empty()) continue;
     } else {
-      part.volumes = volumes_of(selector.bricks(forces[force], actor.grid, solid), actor.grid);
+      part.volumes = volumes_of(selector.touched_bricks(forces[force], actor.grid, solid), actor.grid);
       if (part.volumes.isZero(0)) continue;
     }
     parts.push_back(std::move(part));
@@ -341,7 +342,7 @@ std::vector<MusclePart> place_muscles(const std::vector<BodyMuscle>& muscles, co
                                       const SoftBody& actor, std::size_t solid, const Mat3& bricks_from_rest) {
   std::vector<MusclePart> parts;
   for (std::size_t muscle = 0; muscle < muscles.size(); ++muscle) {
-    std::vector<int> bricks = selector.bricks(muscles[muscle], actor.grid, solid);
+    std::vector<int> bricks = selector.touched_bricks(muscles[muscle], actor.grid, solid);
     if (bricks.empty()) continue;
     parts.push_back({.muscle = muscle,
                      .full = {.bricks = std::move(bricks),

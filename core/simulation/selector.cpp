@@ -76,6 +76,13 @@ std::vector<int> Selector::bricks(const Selection& selection, const BrickGrid& g
   return rows_where(middles, test_of(selection, margin, std::numeric_limits<double>::infinity()));
 }
 
+std::vector<int> Selector::touched_bricks(const Selection& selection, const BrickGrid& grid, std::size_t solid) const {
+  std::vector<int> rows = bricks(selection, grid, solid);
+  if (!rows.empty() || selection.nearest) return rows;
+  const double margin = grid.brick_size / 2 + kSelectionRounding * body_.extent.maxCoeff();
+  return rows_where(brick_middles(grid), test_of(selection, margin, grid.brick_size));
+}
+
 std::vector<int> Selector::triangles(const Selection& selection, const Points& middles, std::size_t solid) const {
   if (is_whole(selection)) {
     std::vector<int> all(middles.rows());

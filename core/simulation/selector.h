@@ -24,6 +24,10 @@ class Selector {
   /// The bricks of one of the body's solids with centres in the part. Rows, ascending. Throws like nodes().
   [[nodiscard]] std::vector<int> bricks(const Selection& selection, const BrickGrid& grid, std::size_t solid) const;
 
+  /// The same; where that is none, since the part is thin, those with centres within half a brick of it.
+  [[nodiscard]] std::vector<int> touched_bricks(const Selection& selection, const BrickGrid& grid,
+                                                std::size_t solid) const;
+
   /// The skin triangles of one of the body's solids with centroids (`middles`, n x 3) in the part. Rows, ascending.
   /// Throws like nodes().
   [[nodiscard]] std::vector<int> triangles(const Selection& selection, const Points& middles, std::size_t solid) const;

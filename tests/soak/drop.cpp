@@ -9,6 +9,7 @@
 #include <random>
 
 #include "core/bricks/pieces.h"
+#include "core/bricks/slivers.h"
 #include "core/bricks/voxelize.h"
 #include "core/contact/inversion_guard.h"
 #include "core/dynamics/energy.h"

@@ -45,6 +45,16 @@ namespace {
 constexpr int kFewBricks = 200;     // the direct solver is as quick up to there
 constexpr int kManyBricks = 40000;  // and needs gigabytes from there on
 
+}  // namespace
+
+std::unique_ptr<LinearSolver> make_robust_solver(const Body& body) {
+  if (body.grid.brick_count() <= kManyBricks) return make_direct_solver();
+  constexpr int kPatience = 2000;
+  return make_multigrid_solver(kPatience);
+}
+
+namespace {
+
 class DefaultSolver : public LinearSolver {
  public:
   bool linearize(const Body& body, const Supports& supports, bool definite, const StepTerms& terms) override {
@@ -53,13 +63,18 @@ class DefaultSolver : public LinearSolver {
     definite_ = definite;
     terms_ = &terms;
     is_direct_ = body.grid.brick_count() <= kFewBricks;
-    return now().linearize(body, supports, definite, terms);
+    if (now().linearize(body, supports, definite, terms)) return true;
+    if (is_direct_ || !definite || body.grid.brick_count() > kManyBricks) return false;
+    is_direct_ = true;
+    ++gone_direct_;
+    return direct_->linearize(body, supports, definite, terms);
   }
 
   [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& forces, double tolerance) override {
     const long indefinite = multigrid_->report().indefinite;
     Eigen::VectorXd answer = now().solve(forces, tolerance);
-    const bool is_lost = answer.size() == 0 && multigrid_->report().indefinite == indefinite;
+    // What is definite is seen not to be so by rounding only.
+    const bool is_lost = answer.size() == 0 && (definite_ || multigrid_->report().indefinite == indefinite);
     if (is_direct_ || !is_lost || body_->grid.brick_count() > kManyBricks) return answer;
     if (!direct_->linearize(*body_, *supports_, definite_, *terms_)) return {};
     ++gone_direct_;

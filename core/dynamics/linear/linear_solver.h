@@ -78,6 +78,9 @@ class IterativeSolver : public LinearSolver {
 /// `max_iterations` of a solve.
 [[nodiscard]] std::unique_ptr<IterativeSolver> make_multigrid_solver(int max_iterations = 150);
 
+/// The direct solver where the body is not too large for it, else multigrid.
+[[nodiscard]] std::unique_ptr<LinearSolver> make_robust_solver(const Body& body);
+
 /// The quicker of the two for the body's size; where multigrid gives up the direct solver answers, if the body is not
 /// too large for it.
 [[nodiscard]] std::unique_ptr<LinearSolver> make_default_solver();

@@ -293,6 +293,7 @@ namespace {
 
 /// What the coarsest level's diagonal is raised by, relative: single precision leaves no more certain.
 constexpr double kRaise = 1e-7;
+constexpr double kMostRaise = 1e-4;  // where the rounding of soft bodies needs more
 
 /// Of the residual: a coarse level that the first step brings so low takes no second one.
 constexpr float kEnough = 0.25F;
@@ -312,10 +313,14 @@ bool Cycle::prepare(int steps, double fastest_of_brick) {
     if (i > 0) levels_[i].coarsen(levels_[i - 1]);
     if (i + 1 < levels_.size()) levels_[i].prepare_smoother(i == 0 ? fastest_of_brick : 0);
   }
-  Eigen::MatrixXd dense = levels_.back().dense();
-  dense.diagonal() *= 1 + kRaise;
-  coarsest_.compute(dense);
-  return coarsest_.info() == Eigen::Success;
+  const Eigen::MatrixXd dense = levels_.back().dense();
+  for (double raise = kRaise; raise <= kMostRaise; raise *= 10) {
+    Eigen::MatrixXd raised = dense;
+    raised.diagonal() *= 1 + raise;
+    coarsest_.compute(raised);
+    if (coarsest_.info() == Eigen::Success) return true;
+  }
+  return false;
 }
 
 void Cycle::apply(const Floats& b, Floats& x) const {

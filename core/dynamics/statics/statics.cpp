@@ -8,6 +8,8 @@
 
 #include "core/body/brick_hessian.h"
 #include "core/body/forces.h"
+#include "core/dynamics/linear/stiffness.h"
+#include "core/dynamics/statics/free_motion.h"
 #include "core/error.h"
 
 namespace sprung {
@@ -54,7 +56,6 @@ LinearResponse linear_response(const Body& body, const Supports& supports, const
 namespace {
 
 constexpr double kLongestStep = 0.5;       // body lengths; a longer one leads nowhere
-constexpr double kFree = 100;              // a displacement of that many body lengths is no deformation
 constexpr double kNewtonTolerance = 1e-4;  // of a direction; Newton's method takes care of what is left
 constexpr double kLinearTolerance = 1e-11;
 
@@ -152,18 +153,69 @@ class Equilibrium {
   double largest_force_ = 0;
 };
 
+/// K at the positions the body has, in double precision and without anything added; zero at supports.
+class ExactProduct {
+ public:
+  ExactProduct(const Body& body, const Supports& supports)
+      : body_(body), supports_(supports), largest_(largest_brick_stiffness(body)) {}
+
+  [[nodiscard]] Eigen::VectorXd free_part(Eigen::VectorXd vector) const {
+    for (Eigen::Index i = 0; i < vector.size(); ++i) {
+      if (supports_.fixed[i]) vector[i] = 0;
+    }
+    return vector;
+  }
+
+  [[nodiscard]] Eigen::VectorXd times(const Eigen::VectorXd& displacement) const {
+    Eigen::VectorXd product;
+    multiply_stiffness(body_, displacement, workspace_, product);
+    return free_part(std::move(product));
+  }
+
+  /// Whether the forces are balanced, but for what rounded displacements leave; never with more than a millionth left.
+  [[nodiscard]] bool is_solution(const Eigen::VectorXd& displacement, const Eigen::VectorXd& forces) const {
+    if (displacement.size() == 0 || !displacement.allFinite()) return false;
+    const double rounding = 8 * std::numeric_limits<double>::epsilon() * largest_ * displacement.norm();
+    const double left = (forces - times(displacement)).norm();
+    return left <= std::min(1e-6 * forces.norm(), 1e-9 * forces.norm() + rounding);
+  }
+
+ private:
+  const Body& body_;
+  const Supports& supports_;
+  double largest_;
+  mutable ProductWorkspace workspace_;
+};
+
 }  // namespace
 
 Eigen::VectorXd solve_linear(const Body& body, const Supports& supports, const Points& loads, LinearSolver& system) {
-  // A motion without resistance (plain springs let a thin bar twist) does no harm where no load drives it: then the
-  // second, slightly held system answers.
+  const ExactProduct stiffness(body, supports);
+  const Eigen::VectorXd forces = stiffness.free_part(flat(loads));
   const StepTerms no_terms;
-  for (const bool definite : {false, true}) {
-    if (!system.linearize(body, supports, definite, no_terms)) continue;
-    Eigen::VectorXd displacement = system.solve(flat(loads), kLinearTolerance);
-    if (displacement.size() > 0 && displacement.cwiseAbs().maxCoeff() < kFree * extent(body)) return displacement;
+  if (system.linearize(body, supports, false, no_terms)) {
+    Eigen::VectorXd displacement = system.solve(forces, kLinearTolerance);
+    if (stiffness.is_solution(displacement, forces)) return displacement;
   }
-  throw Error(ErrorKind::kBadInput, "the supports leave the body free to move under its loads: hold more of it");
+  // Motions that meet (almost) no resistance, such as a thin bar of plain springs that may twist, do no harm where no
+  // load drives them. What is held slightly is a good preconditioner for what is not.
+  const std::unique_ptr<LinearSolver> held = make_robust_solver(body);
+  if (held->linearize(body, supports, true, no_terms)) {
+    SolveReport report;
+    Eigen::VectorXd displacement = conjugate_gradients(
+        forces, {.tolerance = kLinearTolerance, .fallback_tolerance = kLinearTolerance, .max_iterations = 200},
+        [&](const Eigen::VectorXd& x, Eigen::VectorXd& product) { product = stiffness.times(x); },
+        [&](const Eigen::VectorXd& residual, Eigen::VectorXd& answer) {
+          answer = held->solve(residual, kNewtonTolerance);
+          if (answer.size() == 0) answer.setZero(residual.size());
+        },
+        report);
+    if (stiffness.is_solution(displacement, forces)) return displacement;
+  }
+  throw_if_free(body, supports, "the loads have no equilibrium");
+  throw Error(ErrorKind::kFailed,
+              "the linear system could not be solved to the accuracy of its loads: the body is nearly free to move; "
+              "hold more of it, or use more bricks where it is thin");
 }
 
 StaticReport solve_static(Body& body, const Supports& supports, const Points& loads, const Points& start,
@@ -193,7 +245,8 @@ StaticReport solve_static(Body& body, const Supports& supports, const Points& lo
     }
     body.positions = before;
     stride = std::min(stride, share - done) / 2;
-    if (stride * options.max_load_steps < 1) {
+    if (stride * options.max_load_steps < 1 || report.iterations >= options.max_iterations_in_all) {
+      throw_if_free(body, supports, "no equilibrium found");
       throw Error(ErrorKind::kDiverged,
                   fmt::format("no equilibrium found beyond {:.3g} of the load (residual {:.2g}): the body may have "
                               "buckled or collapsed; use a stiffer material, a smaller load or more bricks",

@@ -20,7 +20,8 @@ struct LinearResponse {
 struct StaticOptions {
   double tolerance = 1e-9;   // largest force left on a free node over the largest force at work (loads, reactions)
   int max_iterations = 200;  // of Newton's method, in each load step
-  int max_load_steps = 256;  // the load is cut in ever more steps where Newton's method does not get there
+  int max_iterations_in_all = 1000;
+  int max_load_steps = 256;         // the load is cut in ever more steps where Newton's method does not get there
   std::function<void()> between{};  // called before every iteration; may throw
 };
 
@@ -31,7 +32,8 @@ struct StaticReport {
 };
 
 /// Small displacements (3 m, m) under `loads` (m x 3, N): one linear solve at the positions the body has.
-/// Throws Error(kBadInput) where the supports leave the body free to move.
+/// The forces are balanced to a billionth, or what rounding allows. Throws Error(kBadInput), naming the motion, where
+/// the supports leave the body free to move, Error(kFailed) where no such answer is found.
 [[nodiscard]] Eigen::VectorXd solve_linear(const Body& body, const Supports& supports, const Points& loads,
                                            LinearSolver& system);
 

@@ -5,6 +5,7 @@
 
 #include "core/body/body.h"
 #include "core/bricks/pieces.h"
+#include "core/bricks/slivers.h"
 #include "core/bricks/voxelize.h"
 #include "core/mesh/repair/solids.h"
 #include "tests/support/bodies.h"

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "core/bricks/embedding.h"
+#include "core/bricks/slivers.h"
 #include "core/bricks/voxelize.h"
 #include "core/disjoint_sets.h"
 #include "core/mesh/repair/solids.h"

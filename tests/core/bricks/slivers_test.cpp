@@ -1,6 +1,6 @@
-#include <gtest/gtest.h>
+#include "core/bricks/slivers.h"
 
-#include "core/bricks/pieces.h"
+#include <gtest/gtest.h>
 
 namespace sprung {
 namespace {
@@ -53,6 +53,37 @@ TEST(Slivers, ASpeckThatLinksTwoPartsStays) {
   EXPECT_EQ(absorb_slivers(grid), 0);
   BrickGrid alone = row({1e-4, 1e-4});
   EXPECT_EQ(absorb_slivers(alone), 0);
+}
+
+/// A brick that hangs by an edge is free to turn about it; one that hangs by two edges is not.
+TEST(Slivers, WhatHangsByAHingeGoesToTheBody) {
+  BrickGrid grid = make_box_grid({5, 5, 5}, 0.1);
+  grid.cells.emplace_back(5, 5, 4);  // the last in order
+  number_nodes(grid);
+  grid.fill.assign(grid.cells.size(), 1);
+  grid.fill.back() = 0.7;
+  const double volume = grid.volume();
+  EXPECT_EQ(absorb_slivers(grid), 1);
+  EXPECT_EQ(grid.brick_count(), 125);
+  EXPECT_NEAR(grid.volume(), volume, 1e-15);
+  // Beside a corner that is missing: held by three edges.
+  BrickGrid bridge = make_box_grid({6, 6, 6}, 0.1);
+  std::erase_if(bridge.cells, [](const Eigen::Vector3i& cell) {
+    return (cell.x() > 3 && cell.y() > 3) && cell != Eigen::Vector3i(4, 4, 2);
+  });
+  number_nodes(bridge);
+  bridge.fill.assign(bridge.cells.size(), 1);
+  EXPECT_EQ(absorb_slivers(bridge), 0);
+}
+
+/// As large as that, it is a part, and the supports have to hold it.
+TEST(Slivers, ALargePartThatHangsByAHingeStays) {
+  BrickGrid grid;
+  grid.brick_size = 0.1;
+  grid.cells = {{0, 0, 0}, {1, 0, 0}, {2, 1, 0}, {3, 1, 0}};
+  number_nodes(grid);
+  grid.fill = {1, 1, 1, 1};
+  EXPECT_EQ(absorb_slivers(grid), 0);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <numbers>
 
 #include "core/body/forces.h"
@@ -115,6 +116,37 @@ TEST(Statics, FreeBodiesAreRefused) {
   const Supports none(beam.body.node_count());
   const auto system = make_direct_solver();
   EXPECT_THROW((void)solve_linear(beam.body, none, beam.loads, *system), Error);
+}
+
+std::string reason_of(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+/// Held along one edge only; its weight turns it about that.
+TEST(Statics, AFreeMotionIsNamed) {
+  Cantilever beam(Model::kCalibrated, 0.3, 2);
+  Supports hinge(beam.body.node_count());
+  for (int node = 0; node < beam.body.node_count(); ++node) {
+    const Eigen::Vector3i& place = beam.body.grid.lattice[node];
+    if (place.x() == 0 && place.y() == 0) hinge.fix(node);
+  }
+  const std::string turn = "can turn about an axis along (0.00, 0.00, 1.00)";
+  const auto system = make_default_solver();
+  for (const std::string& reason : {reason_of([&] { (void)solve_linear(beam.body, hinge, beam.loads, *system); }),
+                                    reason_of([&] { (void)natural_modes(beam.body, hinge, 3); })}) {
+    EXPECT_NE(reason.find("the supports leave the body free to move; "), std::string::npos) << reason;
+    EXPECT_NE(reason.find(turn), std::string::npos) << reason;
+  }
+  // What does not drive the motion is carried all the same.
+  Points along = Points::Zero(beam.body.node_count(), 3);
+  along.col(2) = beam.body.masses;
+  const Eigen::VectorXd sideways = solve_linear(beam.body, hinge, along, *system);
+  EXPECT_GT(sideways.cwiseAbs().maxCoeff(), 0);
 }
 
 TEST(Modes, CantileverSwingsAtItsReferenceFrequencies) {

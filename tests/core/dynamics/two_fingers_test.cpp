@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/bricks/pieces.h"
+#include "core/bricks/slivers.h"
 #include "core/bricks/voxelize.h"
 #include "core/dynamics/explicit/integrator.h"
 #include "core/dynamics/implicit/implicit_motion.h"

@@ -1,0 +1,197 @@
+#include "core/bricks/slivers.h"
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <numeric>
+#include <vector>
+
+#include "core/disjoint_sets.h"
+
+namespace sprung {
+namespace {
+
+constexpr double kStrongFill = 0.5;
+
+using Neighbours = std::array<int, 6>;
+
+/// The fullest neighbour, or -1 where none is strong enough.
+int strongest(const BrickGrid& grid, const Neighbours& neighbours) {
+  int best = -1;
+  double best_fill = kStrongFill;
+  for (const int neighbour : neighbours) {
+    if (neighbour < 0 || grid.fill[neighbour] < best_fill) continue;
+    best = neighbour;
+    best_fill = grid.fill[neighbour];
+  }
+  return best;
+}
+
+constexpr double kSpeckFill = 0.002;
+constexpr double kHingedShare = 0.01;  // of the body, up to which a part that hangs by a hinge is given up
+
+/// Bricks that are connected without the others, by their nodes.
+DisjointSets connected(const BrickGrid& grid, const std::function<bool(std::size_t)>& is_meant) {
+  DisjointSets nodes(grid.lattice.size());
+  for (std::size_t i = 0; i < grid.nodes.size(); ++i) {
+    if (!is_meant(i)) continue;
+    for (const int node : grid.nodes[i]) nodes.merge(grid.nodes[i][0], node);
+  }
+  return nodes;
+}
+
+/// What absorb_slivers() leaves because no face neighbour is full, down to almost nothing: such bricks hang on the body
+/// by a hinge or a chain of their kind. They go to the fullest brick at which they hang, unless they link parts that
+/// are not connected otherwise.
+int absorb_specks(BrickGrid& grid) {
+  const auto is_speck = [&](std::size_t brick) { return grid.fill[brick] < kSpeckFill; };
+  DisjointSets groups = connected(grid, is_speck);
+  DisjointSets parts = connected(grid, [&](std::size_t brick) { return !is_speck(brick); });
+  constexpr int kNone = -1;
+  constexpr int kSeveral = -2;
+  std::vector<int> part_of_node(grid.lattice.size(), kNone);
+  std::vector<int> fullest_at_node(grid.lattice.size(), kNone);
+  const auto take_fuller = [&](int& best, int brick) {
+    if (brick != kNone && (best == kNone || grid.fill[brick] > grid.fill[best])) best = brick;
+  };
+  for (int brick = 0; brick < grid.brick_count(); ++brick) {
+    if (is_speck(brick)) continue;
+    for (const int node : grid.nodes[brick]) {
+      part_of_node[node] = parts.find(node);
+      take_fuller(fullest_at_node[node], brick);
+    }
+  }
+  std::vector<int> part(grid.lattice.size(), kNone);  // at which a group hangs, by the root of the group
+  std::vector<int> heir_of_group(grid.lattice.size(), kNone);
+  for (int brick = 0; brick < grid.brick_count(); ++brick) {
+    if (!is_speck(brick)) continue;
+    const int group = groups.find(grid.nodes[brick][0]);
+    for (const int node : grid.nodes[brick]) {
+      if (part_of_node[node] == kNone) continue;
+      part[group] = part[group] == kNone || part[group] == part_of_node[node] ? part_of_node[node] : kSeveral;
+      take_fuller(heir_of_group[group], fullest_at_node[node]);
+    }
+  }
+  std::vector<bool> gone(grid.cells.size(), false);
+  std::vector<int> heir(grid.cells.size(), kNone);
+  for (int brick = 0; brick < grid.brick_count(); ++brick) {
+    if (!is_speck(brick)) continue;
+    const int group = groups.find(grid.nodes[brick][0]);
+    if (part[group] < 0) continue;
+    gone[brick] = true;
+    heir[brick] = heir_of_group[group];
+  }
+  for (int brick = 0; brick < grid.brick_count(); ++brick) {
+    if (gone[brick]) grid.fill[heir[brick]] += grid.fill[brick];
+  }
+  remove_bricks(grid, gone, heir);
+  return int(std::count(gone.begin(), gone.end(), true));
+}
+
+bool are_on_a_line(const std::vector<Eigen::Vector3i>& places) {
+  Eigen::Vector3i along = Eigen::Vector3i::Zero();
+  for (const Eigen::Vector3i& place : places) {
+    const Eigen::Vector3i way = place - places.front();
+    if (along.isZero()) along = way;
+    if (!along.cross(way).isZero()) return false;
+  }
+  return true;
+}
+
+/// The bricks that are connected through faces, by their smallest member.
+DisjointSets connected_by_faces(const BrickGrid& grid) {
+  const CellIndex index(grid);
+  DisjointSets parts(grid.cells.size());
+  for (std::size_t brick = 0; brick < grid.cells.size(); ++brick) {
+    for (const int other : face_neighbours(grid, index, brick)) {
+      if (other >= 0) parts.merge(int(brick), other);
+    }
+  }
+  return parts;
+}
+
+/// Small parts that touch one other part only in nodes on a line are free to turn about it, which nothing resists, so
+/// that no equilibrium can be found. They go to the fullest brick at the hinge. Returns how many bricks.
+int absorb_hinged(BrickGrid& grid) {
+  const std::size_t count = grid.cells.size();
+  DisjointSets parts = connected_by_faces(grid);
+  std::vector<double> volumes(count, 0);
+  for (std::size_t brick = 0; brick < count; ++brick) volumes[parts.find(int(brick))] += grid.fill[brick];
+  const double total = std::accumulate(volumes.begin(), volumes.end(), 0.0);
+  const CornerLists lists = list_corners(grid.nodes, grid.node_count());
+
+  struct Hinge {
+    int beyond = -1;  // the part that it hangs at
+    bool is_one = true;
+    int heir = -1;
+    std::vector<Eigen::Vector3i> places;
+  };
+  std::map<int, Hinge> hinges;  // by part
+  for (int node = 0; node < grid.node_count(); ++node) {
+    for (int a = lists.first[node]; a < lists.first[node + 1]; ++a) {
+      const int part = parts.find(lists.corners[a] / 8);
+      if (volumes[part] > kHingedShare * total) continue;
+      for (int b = lists.first[node]; b < lists.first[node + 1]; ++b) {
+        const int other = lists.corners[b] / 8;
+        if (parts.find(other) == part) continue;
+        Hinge& hinge = hinges[part];
+        if (hinge.beyond < 0) hinge.beyond = parts.find(other);
+        hinge.is_one = hinge.is_one && hinge.beyond == parts.find(other);
+        if (hinge.heir < 0 || grid.fill[other] > grid.fill[hinge.heir]) hinge.heir = other;
+        hinge.places.push_back(grid.lattice[node]);
+      }
+    }
+  }
+  std::vector<bool> gone(count, false);
+  std::vector<int> heir(count, -1);
+  for (std::size_t brick = 0; brick < count; ++brick) {
+    const auto found = hinges.find(parts.find(int(brick)));
+    if (found == hinges.end() || !found->second.is_one || !are_on_a_line(found->second.places)) continue;
+    const bool is_smaller =
+        volumes[found->first] < volumes[found->second.beyond] ||
+        (volumes[found->first] == volumes[found->second.beyond] && found->first > found->second.beyond);
+    if (!is_smaller) continue;
+    gone[brick] = true;
+    heir[brick] = found->second.heir;
+  }
+  // Chains of such parts go one after the other.
+  for (std::size_t brick = 0; brick < count; ++brick) {
+    if (gone[brick] && gone[std::size_t(heir[brick])]) gone[brick] = false;
+  }
+  for (std::size_t brick = 0; brick < count; ++brick) {
+    if (gone[brick]) grid.fill[heir[brick]] += grid.fill[brick];
+  }
+  remove_bricks(grid, gone, heir);
+  return int(std::count(gone.begin(), gone.end(), true));
+}
+
+}  // namespace
+
+int absorb_slivers(BrickGrid& grid, double least_fill) {
+  const CellIndex index(grid);
+  const std::size_t count = grid.cells.size();
+  std::vector<Neighbours> neighbours(count);
+  std::vector<int> receiver(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    neighbours[i] = face_neighbours(grid, index, i);
+    receiver[i] = strongest(grid, neighbours[i]);
+  }
+  std::vector<bool> gone(count, false);
+  std::vector<double> fill = grid.fill;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (grid.fill[i] >= least_fill || receiver[i] < 0) continue;
+    const bool is_needed = std::any_of(neighbours[i].begin(), neighbours[i].end(), [&](int other) {
+      return other >= 0 && grid.fill[other] < kStrongFill && receiver[other] < 0;
+    });
+    if (is_needed) continue;
+    gone[i] = true;
+    fill[receiver[i]] += grid.fill[i];
+  }
+  grid.fill = std::move(fill);
+  remove_bricks(grid, gone, receiver);
+  int absorbed = int(std::count(gone.begin(), gone.end(), true)) + absorb_specks(grid);
+  while (const int hinged = absorb_hinged(grid)) absorbed += hinged;
+  return absorbed;
+}
+
+}  // namespace sprung
