@@ -16,6 +16,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/io/process.h"
 #include "core/units.h"
 
 namespace sprung {
@@ -43,6 +44,7 @@ void end_what_does_not_stop(const Console& console) {
   while (sem_wait(&is_caused) != 0) {
   }
   std::this_thread::sleep_for(kGrace);
+  kill_child_processes();  // which might still be writing them
   remove_unfinished_files();
   if (ftrylockfile(stderr) == 0) {
     tell_interruption(console);

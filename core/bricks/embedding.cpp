@@ -124,13 +124,14 @@ Embedding embed(const BrickGrid& grid, const Points& points, const Points& outwa
     const Vec3 place = (points.row(i).transpose() - grid.origin) / grid.brick_size;
     const Vec3 inward = outward.rows() == 0 ? Vec3::Zero() : Vec3(-outward.row(i).transpose().stableNormalized());
     int brick = solid.under(place, inward);
+    const bool is_beyond = brick < 0;
     if (brick < 0) brick = finder.holding(place);
     if (brick < 0) brick = finder.nearest(place);
     const Vec3 local = place - grid.cells[brick].cast<double>();
     embedding.brick[i] = brick;
     embedding.local.row(i) = local;
     const double distance = distance_from_brick(local);
-    if (distance < kRounding) continue;
+    if (!is_beyond || distance < kRounding) continue;
     ++embedding.outside;
     embedding.furthest = std::max(embedding.furthest, distance);
   }

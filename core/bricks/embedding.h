@@ -7,7 +7,8 @@
 namespace sprung {
 
 /// Points embedded in bricks: each in one brick, by trilinear weights of its eight corners. Points outside their brick
-/// are extrapolated; `outside` counts them.
+/// are extrapolated: those in the cell of a sliver that their brick has taken over (absorb_slivers), and those in no
+/// cell of the solid at all, which `outside` counts.
 struct Embedding {
   std::vector<int> brick;  // n
   Points local;            // n x 3; coordinates in the brick, in [0, 1] where the point is inside

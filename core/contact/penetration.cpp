@@ -5,6 +5,7 @@
 
 #include "core/body/body.h"
 #include "core/contact/broad_phase.h"
+#include "core/mesh/query/winding_tree.h"
 #include "core/world/obstacle.h"
 
 namespace sprung {
@@ -26,13 +27,17 @@ Points free_points(const SoftBody& actor) {
   return points(rows, Eigen::all);
 }
 
-/// The middles of the bricks, m.
+/// The middles of the full bricks, m; those of others may be outside the body.
 Points brick_middles(const Body& body) {
-  Points middles(body.grid.brick_count(), 3);
+  constexpr double kFull = 0.99;
+  std::vector<Vec3> middles;
   for (int brick = 0; brick < body.grid.brick_count(); ++brick) {
-    middles.row(brick) = columns_of(body.grid.nodes[brick], body.positions).rowwise().mean().transpose();
+    if (body.grid.fill[brick] < kFull) continue;
+    middles.emplace_back(columns_of(body.grid.nodes[brick], body.positions).rowwise().mean());
   }
-  return middles;
+  Points rows(middles.size(), 3);
+  for (std::size_t row = 0; row < middles.size(); ++row) rows.row(Eigen::Index(row)) = middles[row];
+  return rows;
 }
 
 /// The surface of a body as it is now.
@@ -41,20 +46,29 @@ class Surface {
   /// `actor` has contact triangles.
   explicit Surface(const SoftBody& actor)
       : points_(deform_points(actor.grid, actor.contacts, actor.positions)),
+        triangles_(actor.contact_triangles),
         box_(bounding_box(points_)),
-        distance_(points_, actor.contact_triangles) {}
+        distance_(points_, triangles_) {}
 
+  /// Of the deepest point. Where a part is thinner than its triangles, the nearest of them may say inside of what is
+  /// not: then the winding number decides.
   [[nodiscard]] double depth_of(const Points& points) const {
     double depth = 0;
+    std::optional<WindingTree> winding;
     for (const auto& row : points.rowwise()) {
       const Vec3 place = row;
-      if (box_.contains(place)) depth = std::max(depth, -distance_.nearest(place).distance);
+      if (!box_.contains(place)) continue;
+      const double deep = -distance_.nearest(place).distance;
+      if (deep <= depth) continue;
+      if (!winding) winding.emplace(points_, triangles_);
+      if (winding->at(place) > 0.5) depth = deep;
     }
     return depth;
   }
 
  private:
   Points points_;
+  Triangles triangles_;
   AlignedBox box_;
   MeshDistance distance_;
 };

@@ -4,18 +4,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/body/body.h"
 #include "core/contact/broad_phase.h"
+#include "core/mesh/query/winding_tree.h"
 
 namespace sprung {
 namespace {
 
-constexpr double kSkinMargin = 0.3;   // bricks: what is nearer than that is watched
-constexpr double kFarMargin = 1;      // bricks: what may soon be that near is looked at
-constexpr double kSkinDeepest = 0.7;  // bricks: what is deeper came from the other side
-constexpr double kPressed = 0.4;      // of its volume, that a brick keeps: what it carries is pushed out of no skin ...
-constexpr double kSkinFlat = 0.15;    // ... nor held by that of its own body
+constexpr double kSkinMargin = 0.3;         // bricks: what is nearer than that is watched
+constexpr double kFarMargin = 1;            // bricks: what may soon be that near is looked at
+constexpr double kSkinDeepest = 0.7;        // bricks: what is deeper came from the other side
+constexpr double kSuspicious = 0.1;         // bricks: what is deeper may be outside, beyond a part thinner than that
+constexpr double kSuspiciousBeside = 0.01;  // likewise where it stands beside the triangle
+constexpr double kBarelyBeside = 1e-3;      // of a triangle: what stands further beside it may be outside too
+constexpr double kNotInside = 0.05;  // winding number of a closed surface up to which a point is outside, not on it
+constexpr double kPressed = 0.4;     // of its volume, that a brick keeps: what it carries is pushed out of no skin ...
+constexpr double kSkinFlat = 0.15;   // ... nor held by that of its own body
 
 }  // namespace
 
@@ -71,6 +77,28 @@ bool SkinContact::has_to_be_held(const World& world, double dt, const Group& gro
   return true;
 }
 
+bool SkinContact::find_inside(const Group& group, const PointTriangleContact& stance) const {
+  const std::size_t other = other_of(pairs_, *stance.pair);
+  const TrackedPoint& point = pairs_.tracked(stance.pair->point);
+  // A point of the surface itself is looked at from just outside.
+  const double off = point.actor == other ? kSuspicious / 2 * group[other]->grid.brick_size : 0;
+  const Vec3 place = point.place + off * point.normal;
+  const ContactSurface& surface = *skins_[other];
+  std::vector<Vec3> places;
+  for (const ContactPoint& at : surface.points) places.push_back(carried(*group[other], at, group[other]->positions));
+  double angle = 0;
+  for (const auto& [a, b, c] : surface.triangles) angle += solid_angle(places[a], places[b], places[c], place);
+  return angle > kNotInside * 4 * std::numbers::pi;
+}
+
+bool SkinContact::is_inside(const Group& group, const PointTriangleContact& stance) {
+  const TrackedPoint& point = pairs_.tracked(stance.pair->point);
+  const std::tuple key(point.actor, point.point, other_of(pairs_, *stance.pair));
+  const auto before = insides_before_.find(key);
+  return insides_.try_emplace(key, before != insides_before_.end() ? before->second : find_inside(group, stance))
+      .first->second;
+}
+
 void SkinContact::keep_hardest() {
   std::stable_sort(held_.begin(), held_.end(),
                    [](const Held& a, const Held& b) { return std::pair(a.key, -a.pull) < std::pair(b.key, -b.pull); });
@@ -102,9 +130,16 @@ void SkinContact::find(const World& world, double dt, const Group& group, Contac
   look(group, world.gravity.norm(), dt);
   pairs_.follow(group);
   held_.clear();
+  std::swap(insides_, insides_before_);
+  insides_.clear();
+  const double brick = depth_ / kSkinDeepest;
   for (SkinRun& run : runs_) {
     Held nearest{.stance = closest_triangle(pairs_, run, depth_)};
-    if (nearest.stance.pair != nullptr && has_to_be_held(world, dt, group, nearest)) held_.push_back(nearest);
+    if (nearest.stance.pair == nullptr) continue;
+    const bool is_beside = nearest.stance.weights.minCoeff() < -kBarelyBeside;
+    const double suspicious = is_beside ? kSuspiciousBeside : kSuspicious;
+    if (nearest.stance.gap < -suspicious * brick && !is_inside(group, nearest.stance)) continue;
+    if (has_to_be_held(world, dt, group, nearest)) held_.push_back(nearest);
   }
   keep_hardest();
   for (const Held& held : held_) add(group, held, touches);

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <map>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -37,6 +38,11 @@ class SkinContact {
   void look(const Group& group, double gravity, double dt);
   /// Of what stands near the same corner of the same brick, that which is held hardest.
   void keep_hardest();
+  /// Whether the point of a stance that is deep is inside the surface of the other body, of its own where it is the
+  /// same. It stays so for as long as it is deep.
+  [[nodiscard]] bool is_inside(const Group& group, const PointTriangleContact& stance);
+  /// By the winding number of the whole surface.
+  [[nodiscard]] bool find_inside(const Group& group, const PointTriangleContact& stance) const;
   /// Least of both sides: volume of a brick over that at rest.
   [[nodiscard]] double room_of(const Group& group, const CandidatePair& pair) const;
   /// Whether moving by dt would leave it inside; then what it needs.
@@ -49,6 +55,9 @@ class SkinContact {
   double depth_ = 0;  // m, below which what is inside came from the other side
   std::vector<SkinRun> runs_;
   std::vector<Held> held_;  // of this step
+  /// By actor, point of its skin and other actor: whether it is inside; of what was deep in the last step, and in this.
+  std::map<std::tuple<std::size_t, int, std::size_t>, bool> insides_before_;
+  std::map<std::tuple<std::size_t, int, std::size_t>, bool> insides_;
   int steps_to_seek_ = 0;
   int steps_to_update_ = 0;
 };

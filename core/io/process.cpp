@@ -12,6 +12,8 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <mutex>
+#include <set>
 #include <sstream>
 #include <utility>
 
@@ -76,7 +78,25 @@ int spawn(const std::vector<std::string>& arguments, int input, int messages, pi
   return error;
 }
 
+/// Those that run.
+struct RunningChildren {
+  std::mutex mutex;
+  std::set<pid_t> pids;
+
+  static RunningChildren& of_process() {
+    static RunningChildren& all = *new RunningChildren;  // never destroyed: threads may outlive main()
+    return all;
+  }
+};
+
 }  // namespace
+
+void kill_child_processes() {
+  RunningChildren& all = RunningChildren::of_process();
+  all.mutex.lock();  // for good
+  for (const pid_t pid : all.pids) kill(pid, SIGKILL);
+  for (const pid_t pid : all.pids) waitpid(pid, nullptr, 0);
+}
 
 std::optional<std::filesystem::path> find_program(std::string_view name) {
   const char* path = std::getenv("PATH");
@@ -96,7 +116,10 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments) {
   std::array<int, 2> pipe{};
   if (pipe2(pipe.data(), O_CLOEXEC) != 0) fail(errno);
   messages_ = open_messages();
+  RunningChildren& all = RunningChildren::of_process();
+  const std::lock_guard lock(all.mutex);
   const int error = messages_ < 0 ? errno : spawn(arguments, pipe[0], messages_, pid_);
+  if (error == 0) all.pids.insert(pid_);
   close(pipe[0]);
   if (error != 0) {
     close(pipe[1]);
@@ -133,7 +156,9 @@ int ChildProcess::finish() {
   int status = 0;
   while (waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
   }
-  pid_ = -1;
+  RunningChildren& all = RunningChildren::of_process();
+  const std::lock_guard lock(all.mutex);
+  all.pids.erase(std::exchange(pid_, -1));
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 

@@ -38,4 +38,7 @@ class ChildProcess {
   pid_t pid_ = -1;
 };
 
+/// Kills all of them, from a process that is about to end without their destructors; none is started from then on.
+void kill_child_processes();
+
 }  // namespace sprung

@@ -120,6 +120,7 @@ namespace {
 constexpr double kLongestSkinEdge =
     0.75;  // in bricks: follows a bending brick, with enough contact points on the ground
 constexpr double kShortestContactEdge = 0.4;  // in bricks, except where the mesh has longer edges only
+constexpr double kShortestInThickness = 0.4;  // in thicknesses of a thin body: a plate keeps both of its sides
 
 /// Sums of the triangles' areas, with their normals, at each point.
 Points outward_at(const Points& points, const Triangles& triangles) {
@@ -131,6 +132,20 @@ Points outward_at(const Points& points, const Triangles& triangles) {
     for (const int corner : corners) sums.row(corner) += area.transpose();
   }
   return sums;
+}
+
+/// Of a plate its thickness, of other bodies some part of their width: twice the volume over the area.
+double thickness_of(const Points& points, const Triangles& triangles) {
+  double volume = 0;
+  double area = 0;
+  for (const auto& corners : triangles.rowwise()) {
+    const Vec3 a = points.row(corners[0]);
+    const Vec3 b = points.row(corners[1]);
+    const Vec3 c = points.row(corners[2]);
+    volume += a.dot(b.cross(c)) / 6;
+    area += (b - a).cross(c - a).norm() / 2;
+  }
+  return area > 0 ? 2 * std::abs(volume) / area : 0;
 }
 
 /// Makes the contact points: each position that triangles use, once, no finer than the bricks can follow.
@@ -145,8 +160,10 @@ void add_contacts(const Skin& skin, SoftBody& body) {
   rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
   const Triangles triangles = skin.triangles.unaryExpr(
       [&](int vertex) { return int(std::lower_bound(rows.begin(), rows.end(), position_of(vertex)) - rows.begin()); });
-  const double shortest = kShortestContactEdge * body.grid.brick_size;
-  const CoarseSurface surface = coarsen(skin.positions(rows, Eigen::all), triangles, shortest);
+  const Points points = skin.positions(rows, Eigen::all);
+  const double shortest =
+      std::min(kShortestContactEdge * body.grid.brick_size, kShortestInThickness * thickness_of(points, triangles));
+  const CoarseSurface surface = coarsen(points, triangles, shortest);
   body.contacts = embed(body.grid, surface.points, outward_at(surface.points, surface.triangles));
   body.contact_triangles = surface.triangles;
 }
@@ -431,6 +448,7 @@ namespace {
 
 /// The relative error of the bricks' volume from which on there is a warning.
 constexpr double kVolumeError = 0.02;
+constexpr double kFarOutside = 0.1;   // bricks
 constexpr double kResolvedShell = 2;  // bricks: thicker shells are resolved
 
 double volume_error(const BrickGrid& grid, const Solid& solid) { return std::abs(grid.volume() / solid.volume - 1); }
@@ -474,9 +492,12 @@ void FillReport::add_volume(const BrickGrid& grid, const Solid& solid) {
 }
 
 void FillReport::tell(const Observer& observer) const {
-  if (outside_ > 0) {
-    observer.note(fmt::format("{}: {} outside all bricks, at most {:.2g} bricks from the nearest one", body_.name,
-                              count_of(outside_, "skin vertex lies", "skin vertices lie"), furthest_outside_));
+  if (furthest_outside_ > kFarOutside) {
+    observer.note(
+        fmt::format("{}: {} in no brick, up to {:.2g} bricks from the nearest, and {} what that does; more "
+                    "bricks hold them better",
+                    body_.name, count_of(outside_, "skin vertex is", "skin vertices are"), furthest_outside_,
+                    outside_ == 1 ? "continues" : "continue"));
   }
   if (slivers_ > 0) {
     observer.detail(
