@@ -9,6 +9,7 @@
 
 #include "core/body/forces.h"
 #include "core/contact/broad_phase.h"
+#include "core/dynamics/divergence.h"
 #include "core/dynamics/energy.h"
 #include "core/error.h"
 
@@ -46,34 +47,12 @@ struct Trouble {
   std::string what;
 };
 
-bool is_finite(const Body& body, std::size_t brick) {
-  const auto& nodes = body.grid.nodes[brick];
-  return std::all_of(nodes.begin(), nodes.end(), [&](int node) {
-    return body.positions.row(node).allFinite() && body.velocities.row(node).allFinite();
-  });
-}
-
-/// The first brick with a number that is not finite; else the one whose corners move fastest.
-std::size_t worst_brick(const Body& body) {
-  std::size_t worst = 0;
-  double fastest = -1;
-  for (std::size_t brick = 0; brick < body.grid.nodes.size(); ++brick) {
-    if (!is_finite(body, brick)) return brick;
-    double speed = 0;
-    for (const int node : body.grid.nodes[brick]) speed = std::max(speed, body.velocities.row(node).squaredNorm());
-    if (speed <= fastest) continue;
-    fastest = speed;
-    worst = brick;
-  }
-  return worst;
-}
-
 std::optional<Trouble> find_trouble(const World& world, const std::vector<Energy>& before,
                                     std::span<const GroupSteps> groups) {
   for (std::size_t i = 0; i < world.bodies.size(); ++i) {
     const Body& body = world.bodies[i];
     if (body.positions.allFinite() && body.velocities.allFinite()) continue;
-    return Trouble{i, worst_brick(body), "a number that is not finite"};
+    return Trouble{i, worst_brick_of(body), "a number that is not finite"};
   }
   const std::vector<Energy> after = energies_of(world);
   for (const GroupSteps& group : groups) {
@@ -83,7 +62,7 @@ std::optional<Trouble> find_trouble(const World& world, const std::vector<Energy
         *std::max_element(group.bodies.begin(), group.bodies.end(), [&](std::size_t a, std::size_t b) {
           return after[a].sum() - before[a].sum() < after[b].sum() - before[b].sum();
         });
-    return Trouble{worst, worst_brick(world.bodies[worst]), std::move(gain)};
+    return Trouble{worst, worst_brick_of(world.bodies[worst]), std::move(gain)};
   }
   return std::nullopt;
 }
@@ -136,7 +115,8 @@ std::vector<GroupSteps> choose_steps(const World& world, double time) {
   return groups;
 }
 
-bool AdaptiveIntegrator::run(std::span<const GroupSteps> groups, double time, const Between& between) {
+std::optional<Diverged> AdaptiveIntegrator::run(std::span<const GroupSteps> groups, double time,
+                                                const Between& between) {
   double brick_steps = 0;
   long chunks = std::numeric_limits<long>::max();
   for (const GroupSteps& group : groups) {
@@ -156,13 +136,12 @@ bool AdaptiveIntegrator::run(std::span<const GroupSteps> groups, double time, co
     }
     try {
       advance(world_, scheme_, chunk, time);
-    } catch (const Error& error) {
-      if (error.kind() != ErrorKind::kDiverged) throw;
-      return false;
+    } catch (const Diverged& error) {
+      return error;
     }
     between(double(done + 1) / double(chunks));
   }
-  return true;
+  return std::nullopt;
 }
 
 std::vector<GroupSteps> AdaptiveIntegrator::advance_frame(double time, double duration, const Between& between,
@@ -176,9 +155,10 @@ std::vector<GroupSteps> AdaptiveIntegrator::advance_frame(double time, double du
     for (GroupSteps& group : groups) {
       group.steps = {group.steps.count * parts, group.steps.dt / double(parts)};
     }
-    const bool is_through = run(groups, time, between);
-    const std::optional<Trouble> trouble = find_trouble(world_, before, groups);
-    if (is_through && !trouble) {
+    const std::optional<Diverged> end = run(groups, time, between);
+    std::optional<Trouble> trouble = find_trouble(world_, before, groups);
+    if (end && !trouble) trouble = Trouble{end->actor(), worst_brick_of(world_.bodies[end->actor()]), end->what()};
+    if (!trouble) {
       move_obstacles(world_.obstacles, duration);
       return groups;
     }
@@ -187,10 +167,8 @@ std::vector<GroupSteps> AdaptiveIntegrator::advance_frame(double time, double du
     restore(start, world_);
     const double dt = step_of(groups, trouble->actor);
     if (halvings_ == kMostHalvings) {
-      throw Diverged(trouble->actor,
-                     what + fmt::format(", with steps of {:.3g} s too: the motion diverged; use more bricks, a stiffer "
-                                        "material, more damping or a shorter fall",
-                                        dt));
+      throw Diverged(trouble->actor, what + fmt::format(", with steps of {:.3g} s too: the motion diverged; {}", dt,
+                                                        remedy_for_divergence(world_, trouble->actor, trouble->brick)));
     }
     ++halvings_;
     tell(what + fmt::format("; the frame is done again in steps half as long, {:.3g} s", dt / 2));

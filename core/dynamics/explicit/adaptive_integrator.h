@@ -1,11 +1,13 @@
 #pragma once
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "core/dynamics/explicit/integrator.h"
 #include "core/dynamics/integrator_state.h"
+#include "core/error.h"
 
 namespace sprung {
 
@@ -35,8 +37,8 @@ class AdaptiveIntegrator {
   void serialize(IntegratorState& state) { state.serialize_as_double(halvings_); }
 
  private:
-  /// Whether it came through with finite positions.
-  bool run(std::span<const GroupSteps> groups, double time, const Between& between);
+  /// None where it came through with finite positions.
+  std::optional<Diverged> run(std::span<const GroupSteps> groups, double time, const Between& between);
 
   World& world_;
   Scheme scheme_;

@@ -193,10 +193,9 @@ class GroupMover {
 void check_finite(const World& world, double time) {
   for (std::size_t i = 0; i < world.bodies.size(); ++i) {
     if (world.bodies[i].positions.allFinite()) continue;
-    throw Error(ErrorKind::kDiverged,
-                fmt::format("body {} has a position that is not finite at t = {:.6g} s: the motion diverged; use more "
-                            "bricks, a stiffer material or a shorter fall",
-                            i + 1, time));
+    throw Diverged(i, fmt::format("body {} has a position that is not finite at t = {:.6g} s: the motion diverged; use "
+                                  "more bricks, a stiffer material or a shorter fall",
+                                  i + 1, time));
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include "core/contact/broad_phase.h"
 #include "core/contact/glue.h"
+#include "core/dynamics/divergence.h"
 #include "core/dynamics/energy.h"
 #include "core/dynamics/implicit/implicit_step.h"
 #include "core/error.h"
@@ -69,9 +70,10 @@ void ImplicitMotion::advance(const Together& group, const Span& span) {
     if (stride >= kShortestStride) continue;
     throw Diverged(
         group.rows.front(),
-        fmt::format("body {}: no step of {:.3g} s leads on from t = {:.6g} s: {}; use more bricks, a "
-                    "stiffer material or a shorter fall",
-                    group.rows.front() + 1, stride * span.dt, span.begin + span.elapsed + done * span.dt, trouble));
+        fmt::format(
+            "body {}: no step of {:.3g} s leads on from t = {:.6g} s: {}; {}", group.rows.front() + 1, stride * span.dt,
+            span.begin + span.elapsed + done * span.dt, trouble,
+            remedy_for_divergence(world_, group.rows.front(), worst_brick_of(world_.bodies[group.rows.front()]))));
   }
 }
 

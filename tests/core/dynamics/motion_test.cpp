@@ -256,7 +256,7 @@ TEST(AdaptiveIntegrator, GivesUpWithTimeBodyAndRemedy) {
   } catch (const Diverged& error) {
     EXPECT_EQ(error.kind(), ErrorKind::kDiverged);
     EXPECT_EQ(error.actor(), 0);
-    for (const char* part : {"body 1, brick", "0.25", "stiffer"}) {
+    for (const char* part : {"body 1, brick", "0.25", "use more bricks"}) {
       EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
     }
   }
