@@ -8,8 +8,14 @@
 #include "app/film/film_pipeline.h"
 #include "app/film/render_film.h"
 #include "app/inspect/forecast.h"
+#include "app/scene/cached_film.h"
+#include "core/error.h"
+#include "core/files.h"
+#include "core/simulation/run_cache.h"
 #include "core/simulation/simulate.h"
 #include "core/simulation/simulation.h"
+#include "core/text.h"
+#include "core/units.h"
 #include "render/film.h"
 
 namespace sprung {
@@ -36,8 +42,43 @@ struct AnimateOptions {
   OutputOptions outputs;
   JobOptions jobs;
   SceneOptions scene;
+  std::string keep_after = "30s";
   bool overwrite = false;
+
+  /// s
+  [[nodiscard]] double patience() const { return parse_quantity(keep_after, Dimension::kTime); }
 };
+
+/// Where a long motion is kept until its film is whole.
+std::filesystem::path motion_file(const Output& output) {
+  if (output.kind == Output::Kind::kFilm) return std::filesystem::path(output.film).replace_extension("motion.h5");
+  return output.folder / "motion.h5";
+}
+
+/// Whether the file holds a motion of that scene by this program, or a part of it.
+bool holds_motion(const std::filesystem::path& file, const Film& scene, const SceneRecord& record) {
+  if (!std::filesystem::exists(file)) return false;
+  try {
+    const CacheReader cache(file);
+    return cache.frame_count() > 0 && int(cache.frame_count()) <= frame_count(scene) &&
+           cache.header().build == build_of_this_program() && record.difference(cache.header().scene).empty();
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+/// Does `work`; where it fails, says what it leaves behind.
+void with_motion_kept(const RunCache& motion, const Console& console, const std::function<void()>& work) {
+  try {
+    work();
+  } catch (...) {
+    if (motion.has_file() && motion.frame_count() > 0) {
+      console.note(fmt::format("the motion so far, {}, is kept in {}; the same command goes on with it",
+                               count_of(motion.frame_count(), "frame"), motion.file().string()));
+    }
+    throw;
+  }
+}
 
 void animate(const CLI::App& command, const AnimateOptions& options, const Console& console) {
   require_input(command, options.scene.input, "a mesh or a scene");
@@ -50,13 +91,23 @@ void animate(const CLI::App& command, const AnimateOptions& options, const Conso
     const std::optional<Environment> surroundings = read_surroundings(scene.render);  // before any work is lost
     Simulation simulation = prepare_simulation(scene, console);
     warn_of_memory(simulation, scene, console);
-    const Recording recording = with_picture_of_diverged(simulation.world, picture_of_diverged(outputs.front()),
-                                                         [&] { return simulate(simulation, scene, console); });
-    render_film({{scene, simulation, recording}}, surroundings, whole_film(recording.progress.size()), outputs, console,
-                jobs);
-    for (const Output& output : outputs) {
-      if (options.overwrite) clear_beyond(output, int(recording.progress.size()), console);
-    }
+    const std::filesystem::path file = motion_file(outputs.front());
+    const SceneRecord record = record_of(scene);
+    const bool goes_on = holds_motion(file, scene, record);
+    if (goes_on) console.note(fmt::format("goes on with the motion in {}", file.string()));
+    RunCache motion(file, record, goes_on);
+    motion.wait_for(options.patience());
+    with_motion_kept(motion, console, [&] {
+      Recording recording = with_picture_of_diverged(simulation.world, picture_of_diverged(outputs.front()),
+                                                     [&] { return simulate(simulation, scene, console, &motion); });
+      recording.frames = motion.take_frames();
+      render_film({{scene, simulation, recording}}, surroundings, whole_film(recording.progress.size()), outputs,
+                  console, jobs);
+      for (const Output& output : outputs) {
+        if (options.overwrite) clear_beyond(output, int(recording.progress.size()), console);
+      }
+    });
+    if (motion.has_file()) std::filesystem::remove(motion.file());
     for (const std::string& output : options.outputs.names) fmt::print("{}\n", output);
   });
 }
@@ -70,6 +121,9 @@ void add_animate(CLI::App& app, Invocation& invocation) {
                           "folder/, folder/frame_{:04}.png, or film.mp4, .webm, .gif; may be given several times");
   command->add_flag("--overwrite", options->overwrite, "replace pictures and films that exist");
   options->jobs.add_to(*command)->group(kMoreOptions);
+  command->add_option("--keep-after", options->keep_after, "keep a motion that takes longer until the film is whole")
+      ->option_text("30s")
+      ->group(kMoreOptions);
   options->scene.add_to(*command, true);
   add_messages(*command, invocation.console);
   command->footer(scene_footer(*command,

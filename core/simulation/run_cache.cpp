@@ -148,11 +148,12 @@ RunCache::~RunCache() = default;
 int RunCache::begin(const Scene& scene, const Simulation& simulation, const std::string& progress_name,
                     std::size_t memory_size) {
   simulation_ = &simulation;
-  CacheHeader header = cache_header(scene, simulation, record_, progress_name);
-  header.position_error = position_error_;
-  header.velocity_error = position_error_ * scene.fps;
+  memory_size_ = memory_size;
+  header_ = cache_header(scene, simulation, record_, progress_name);
+  header_.position_error = position_error_;
+  header_.velocity_error = position_error_ * scene.fps;
   if (old_) {
-    if (const std::string text = difference(old_->header(), header, record_); !text.empty()) {
+    if (const std::string text = difference(old_->header(), header_, record_); !text.empty()) {
       throw Error(ErrorKind::kBadInput,
                   fmt::format("'{}' cannot be resumed: {}; --overwrite starts afresh", file_.string(), text));
     }
@@ -162,10 +163,16 @@ int RunCache::begin(const Scene& scene, const Simulation& simulation, const std:
                                                     file_.string(), old_->frame_count(), most));
     }
   }
-  writer_ = std::make_unique<CacheWriter>(file_, header, memory_size);
-  if (old_) copy_old_frames();
+  if (old_) {
+    open();
+    copy_old_frames();
+  } else if (!patience_) {
+    open();
+  }
   return frame_count_;
 }
+
+void RunCache::open() { writer_ = std::make_unique<CacheWriter>(file_, header_, memory_size_); }
 
 /// Copied before the new file takes the name of the old one: whenever the program is killed, one of them is complete.
 void RunCache::copy_old_frames() {
@@ -193,18 +200,47 @@ IntegratorState RunCache::restore(World& world) const {
   return IntegratorState(old_->memory(last));
 }
 
-void RunCache::add(const CachedFrame& frame, const IntegratorState& state) {
-  std::vector<const Points*> positions;
-  std::vector<const Points*> velocities;
-  for (const SoftBody& actor : simulation_->world.bodies) {
-    positions.push_back(&actor.positions);
-    velocities.push_back(&actor.velocities);
-  }
-  writer_->append(frame, positions, velocities, state.row());
-  if (frame_count_++ == 0) writer_->publish();
+void RunCache::append(const Waiting& frame) {
+  writer_->append(frame.frame, addresses(frame.positions), addresses(frame.velocities), frame.memory);
 }
 
-void RunCache::close() { writer_->close(); }
+void RunCache::add(const CachedFrame& frame, const IntegratorState& state) {
+  Waiting now{.frame = frame, .positions = {}, .velocities = {}, .memory = state.row()};
+  for (const SoftBody& actor : simulation_->world.bodies) {
+    now.positions.push_back(actor.positions);
+    now.velocities.push_back(actor.velocities);
+  }
+  ++frame_count_;
+  if (writer_ != nullptr) {
+    append(now);
+    if (frame_count_ == 1) writer_->publish();
+    return;
+  }
+  waiting_.push_back(std::move(now));
+  if (std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count() < *patience_) return;
+  open();
+  for (const Waiting& earlier : waiting_) append(earlier);
+  writer_->publish();
+  waiting_.clear();
+}
+
+std::vector<std::vector<Floats3>> RunCache::take_frames() {
+  std::vector<std::vector<Floats3>> frames;
+  for (const Waiting& waiting : waiting_) {
+    std::vector<Floats3>& nodes = frames.emplace_back();
+    for (const Points& positions : waiting.positions) nodes.emplace_back(positions.cast<float>());
+  }
+  waiting_.clear();
+  if (writer_ == nullptr) return frames;
+  close();
+  const CacheReader reader(file_);
+  for (std::size_t frame = 0; frame < reader.frame_count(); ++frame) frames.push_back(cached_nodes(reader, frame));
+  return frames;
+}
+
+void RunCache::close() {
+  if (writer_ != nullptr) writer_->close();
+}
 
 std::vector<double> numbers_of(const std::vector<ProbeTrack>& probes) {
   std::vector<double> numbers;

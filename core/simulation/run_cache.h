@@ -1,7 +1,9 @@
 #pragma once
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,6 +42,8 @@ class RunCache {
   /// `position_error` (m), velocities to within that per frame; 0: exactly. Throws Error(kBadInput) where the file is
   /// not a cache, Error(kFailed) where another run is writing it.
   RunCache(std::filesystem::path file, SceneRecord record, bool resume, double position_error = 0);
+  /// Frames stay in memory until the run has taken `patience` (s); one that ends before that leaves no file.
+  void wait_for(double patience) { patience_ = patience; }
   ~RunCache();
 
   /// Prepares for the frames of a run and returns the number of existing ones. Both must outlive this. Throws
@@ -55,13 +59,29 @@ class RunCache {
   /// Appends the current state as the next frame. Throws Error(kFailed); existing frames stay readable.
   void add(const CachedFrame& frame, const IntegratorState& state);
 
+  /// The nodes in all frames, by actor, from memory or from the file, which is closed.
+  [[nodiscard]] std::vector<std::vector<Floats3>> take_frames();
+
   /// Closes the file.
   void close();
+
+  /// Whether there is a file.
+  [[nodiscard]] bool has_file() const { return writer_ != nullptr; }
 
   [[nodiscard]] int frame_count() const { return frame_count_; }
   [[nodiscard]] const std::filesystem::path& file() const { return file_; }
 
  private:
+  /// A frame that is not in the file yet.
+  struct Waiting {
+    CachedFrame frame;
+    std::vector<Points> positions;  // by actor
+    std::vector<Points> velocities;
+    std::vector<double> memory;
+  };
+
+  void open();
+  void append(const Waiting& frame);
   void copy_old_frames();
 
   std::filesystem::path file_;
@@ -69,6 +89,11 @@ class RunCache {
   double position_error_;
   std::unique_ptr<CacheReader> old_;  // of an earlier run
   std::unique_ptr<CacheWriter> writer_;
+  std::optional<double> patience_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  CacheHeader header_;
+  std::size_t memory_size_ = 0;
+  std::vector<Waiting> waiting_;
   const Simulation* simulation_ = nullptr;
   int frame_count_ = 0;
 };
