@@ -19,11 +19,29 @@
 namespace sprung {
 namespace {
 
+/// Of the lowest vertex in any frame, m; none without a ground.
+std::optional<double> depth_below_ground(const Simulation& simulation, double lowest) {
+  const std::optional<double> ground = ground_height(simulation.world.obstacles);
+  if (!ground) return std::nullopt;
+  return std::max(0.0, *ground - lowest);
+}
+
+/// What is seen of that.
+void warn_of_depth(const Simulation& simulation, double lowest, const Console& console) {
+  constexpr double kSeen = 0.01;  // of the size
+  const double depth = depth_below_ground(simulation, lowest).value_or(0);
+  if (!(depth > kSeen * simulation.size)) return;
+  console.warn(
+      fmt::format("the drawn skin reaches {} below the ground, {:.1f} % of the size: smaller bricks (bricks) or "
+                  "slower impacts keep it up",
+                  readable(depth, Dimension::kLength), 100 * depth / simulation.size));
+}
+
 /// The deepest penetration of the ground by any vertex in any frame.
 std::string ground_report(const Simulation& simulation, double lowest) {
-  const std::optional<double> ground = ground_height(simulation.world.obstacles);
-  if (!ground) return "";
-  const double depth = std::max(0.0, *ground - lowest);
+  const std::optional<double> depth_below = depth_below_ground(simulation, lowest);
+  if (!depth_below) return "";
+  const double depth = *depth_below;
   return fmt::format(", lowest vertex {} below the ground ({:.2f} % of the size)", readable(depth, Dimension::kLength),
                      100 * depth / simulation.size);
 }
@@ -172,6 +190,7 @@ void render_film(const std::vector<FilmRun>& runs, const std::optional<Environme
   const auto [width, height] = scene.render.resolution;
   progress.finish(fmt::format("{} of {} x {} pixels{}", count_of(task.frames.size(), "picture"), width, height,
                               ground_report(runs.front().simulation, pipeline.lowest())));
+  warn_of_depth(runs.front().simulation, pipeline.lowest(), console);
 }
 
 }  // namespace sprung

@@ -4,7 +4,7 @@ The texts are those of the module, so help(sprung.Body) has them too; tests/pyth
 """
 
 from os import PathLike
-from typing import Any, Sequence
+from typing import Any, Callable, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -155,6 +155,12 @@ class Run:
     def progress(self) -> NDArray[np.float64]:
         """(frames,) time, s, or share of the load, or number of the mode, 1."""
     @property
+    def seconds(self) -> NDArray[np.float64]:
+        """(frames,) s, of computing; those of an earlier run that this one went on from included."""
+    @property
+    def scene(self) -> str:
+        """The scene as resolved, as TOML."""
+    @property
     def frequencies(self) -> NDArray[np.float64]:
         """(modes,) Hz."""
     @property
@@ -162,6 +168,8 @@ class Run:
         """Of every bit of the last state, as sprung simulate prints it."""
     def positions(self, frame: int) -> list[NDArray[np.float64]]:
         """By body: (m, 3) m, of the nodes in a frame, from 0; -1 is the last."""
+    def velocities(self, frame: int) -> list[NDArray[np.float64]]:
+        """By body: (m, 3) m/s, of the nodes in a frame."""
     def skin_positions(self, frame: int) -> list[NDArray[np.float64]]:
         """By body: (v, 3) m."""
     @property
@@ -172,10 +180,16 @@ class Run:
         """By name: position, displacement, m; force, N; torque, N m; each (frames, 3)."""
 
 def simulate(
-    scene: str | PathLike[str] | dict[str, Any], cache: str | PathLike[str] | None = None, resume: bool = False
+    scene: str | PathLike[str] | dict[str, Any],
+    cache: str | PathLike[str] | None = None,
+    resume: bool = False,
+    progress: Callable[[str, float, float], object] | None = None,
+    on_frame: Callable[[int, float, list[NDArray[np.float64]]], object] | None = None,
 ) -> Run:
     """Computes all frames of a scene, as sprung simulate does. scene: a TOML file, or a dict of the same keys;
-    cache: an HDF5 file to keep the frames in; resume: continues the run in it."""
+    cache: an HDF5 file to keep the frames in; resume: continues the run in it; progress(stage, share, seconds_to_go):
+    called between time steps, up to ten times a second; on_frame(frame, progress, positions): called after each frame,
+    with the nodes of each body, (m, 3) m. What these raise ends the run."""
 
 def read_run(cache: str | PathLike[str]) -> Run:
     """The run in a cache, as sprung simulate wrote it."""

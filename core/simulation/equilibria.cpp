@@ -116,6 +116,7 @@ Recording record_equilibria(Simulation& simulation, const Scene& scene, const Ob
         share == 0 ? std::vector<Points>{}
                    : loading.apply(share, time_of(scene, frame), [&] { observer.check_interrupt(); });
     recorder.add(share, reactions, time_of(scene, frame), loading.is_linear());
+    observer.finish_frame(frame, share, simulation.world);
     progress.update(frame + 1);
   }
   loading.note_trouble(observer);
@@ -146,6 +147,7 @@ Recording record_modes(Simulation& simulation, const Scene& scene, const Observe
     actor.positions = actor.rest_positions;
     Eigen::Map<Eigen::VectorXd>(actor.positions.data(), shape.size()) += swing * shape;
     recorder.add(mode + 1, {}, 0, true);
+    observer.finish_frame(frame, mode + 1, simulation.world);
   }
   recorder.recording().frequencies = modes.frequencies;
   progress.finish(fmt::format("{} modes, the slowest at {:.6g} Hz", count, modes.frequencies[0]));

@@ -6,6 +6,7 @@
 namespace sprung {
 
 class Progress;
+struct World;
 
 /// Receives the messages of long operations, and may interrupt them. This one ignores them.
 class Observer {
@@ -19,6 +20,10 @@ class Observer {
 
   /// Called often; throws to interrupt the operation.
   virtual void check_interrupt() const {}
+
+  /// Frame `frame` (from 0) is done, at `progress`: time (s), or share of the load, or number of the mode. Of a run
+  /// that is resumed, those of this run only.
+  virtual void finish_frame(int /*frame*/, double /*progress*/, const World&) const {}
 
   /// A stage has begun or advanced, has finished, or has ended without a result.
   virtual void show(const Progress&) const {}

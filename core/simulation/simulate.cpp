@@ -205,6 +205,7 @@ Recording record_motion(Simulation& simulation, const Scene& scene, const Observ
     run.serialize(state);
     recorder.add(frame / scene.fps, scene.probes.empty() ? std::vector<Points>{} : run.motion().pin_reactions(),
                  time_of(scene, frame), false, state);
+    observer.finish_frame(frame, frame / scene.fps, simulation.world);
   }
   run.finish(first, frame);
   recorder.recording().deepest_penetration = run.deepest();

@@ -372,6 +372,29 @@ class Scenes(unittest.TestCase):
         self.assertEqual((again.frame_count, again.state_hash), (run.frame_count, run.state_hash))
         np.testing.assert_array_equal(again.positions(5)[0], run.positions(5)[0])
 
+    def test_a_run_tells_of_its_frames_and_how_far_it_is(self):
+        told, frames = [], []
+        run = sprung.simulate(self.SCENE, progress=lambda *now: told.append(now),
+                              on_frame=lambda frame, time, positions: frames.append((frame, time, positions)))
+        self.assertTrue(told)
+        self.assertTrue(all(0 <= share <= 1 and to_go >= 0 for _, share, to_go in told))
+        self.assertEqual([frame for frame, _, _ in frames], list(range(run.frame_count)))
+        np.testing.assert_array_equal([time for _, time, _ in frames], run.progress)
+        np.testing.assert_array_equal(frames[-1][2][0], run.positions(-1)[0])
+        self.assertEqual(run.seconds.shape, (run.frame_count,))
+        self.assertIn("[[body]]", run.scene)
+        with tempfile.TemporaryDirectory() as folder:
+            cached = sprung.simulate(self.SCENE, cache=folder + "/run.h5")
+        for frame in (0, -1):  # to the last bit, in double precision
+            np.testing.assert_array_equal(cached.positions(frame)[0], run.positions(frame)[0])
+            np.testing.assert_array_equal(cached.velocities(frame)[0], run.velocities(frame)[0])
+
+        def stop(frame, time, positions):
+            raise ValueError("enough")
+
+        with self.assertRaisesRegex(ValueError, "enough"):
+            sprung.simulate(self.SCENE, on_frame=stop)
+
     def test_keys_of_a_body(self):
         world = sprung.World(ground=None)
         (body,) = world.add(BEAM, sprung.material("gelatin"), size=0.4, bricks=8, velocity=[1, 0, 0],
@@ -386,6 +409,10 @@ class Scenes(unittest.TestCase):
             ({"body": [{"box": [1, 1, 1], "bricks": 4, "young": 3}]}, "unknown key 'body.young'"),
             ({"duration": object()}, "a scene has no value like <object"),
             ({"body": [{"mesh": "nothing.ply"}]}, "nothing.ply"),
+            ({"body": [{"box": [1, 1, 1], "bricks": 4}, {"box": [1, 1, 1], "bricks": 4, "pin": [{"box": {"min": [0, 0, 0]}}]}]},
+             r"^body\[1\].pin\[0\].box: body.pin.box lacks the key 'max'"),
+            ({"fps": -1}, "(?m)^fps: -1 fps is out of range"),
+            ({"camera": {"elevation": [{}, object()]}}, r"^camera.elevation\[1\]: a scene has no value like <object"),
         ]:
             with self.assertRaisesRegex(sprung.Error, message):
                 sprung.simulate(scene)
