@@ -8,6 +8,8 @@
 
 #include "core/dynamics/explicit/adaptive_integrator.h"
 #include "core/dynamics/implicit/implicit_motion.h"
+#include "core/error.h"
+#include "core/simulation/simulate.h"
 #include "render/renderer.h"
 
 namespace sprung {
@@ -60,9 +62,92 @@ double seconds_of_explicit_frame(World world, const StepPlan& plan) {
   return one + a_step * std::max(whole - 1, 0.0);
 }
 
-/// Sum over all bodies.
-double seconds_a_frame(const World& world, const StepPlan& plan) {
-  return plan.is_implicit() ? seconds_of_implicit_frame(world, plan) : seconds_of_explicit_frame(world, plan);
+/// Measures the frames of a run, up to some time.
+class FrameClock : public Observer {
+ public:
+  explicit FrameClock(double most) : most_(most) {}
+
+  void check_interrupt() const override {
+    if (seconds_since(start_) > most_) throw Error(ErrorKind::kFailed, "enough is measured");
+  }
+  void finish_frame(int frame, double, const World&) const override {
+    if (frame == 0) start_ = std::chrono::steady_clock::now();  // what comes before is no part of a frame
+    ends_.push_back(seconds_since(start_));
+  }
+
+  /// s a frame of a film of so many, of which the rest is as the last third of what was measured; none where that is no
+  /// frame.
+  [[nodiscard]] std::optional<double> mean(int frames) const {
+    if (ends_.size() < 2) return std::nullopt;
+    const std::size_t done = ends_.size() - 1;
+    const std::size_t last = std::max<std::size_t>(1, done / 3);
+    const double late = (ends_[done] - ends_[done - last]) / double(last);
+    return (ends_[done] + late * std::max(0, frames - 1 - int(done))) / std::max(1, frames - 1);
+  }
+
+ private:
+  double most_;
+  mutable std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  mutable std::vector<double> ends_;  // s, of the frames
+};
+
+/// The scene with bricks twice as large.
+Film coarsened(Film scene) {
+  constexpr int kLeastBricks = 4;
+  for (SceneBody& body : scene.bodies) {
+    if (body.brick_size) *body.brick_size *= 2;
+    if (body.bricks && !body.bricks->is_auto()) body.bricks->along = std::max(kLeastBricks, body.bricks->along / 2);
+    if (!body.bricks && !body.brick_size) body.bricks = kDefaultBricks / 2;
+  }
+  scene.probes.clear();
+  return scene;
+}
+
+double count_of_bricks(const World& world) {
+  double count = 0;
+  for (const SoftBody& actor : world.bodies) count += actor.grid.brick_count();
+  return count;
+}
+
+double count_of_contact_points(const World& world) {
+  double count = 0;
+  for (const SoftBody& actor : world.bodies) count += double(actor.contacts.brick.size());
+  return count;
+}
+
+struct CoarseRun {
+  double seconds = 0;  // a frame on the mean
+  int frames = 0;      // fewer than the scene's where it came to rest before
+};
+
+/// What contact adds to a frame, by a run of the whole scene in coarse bricks: contact takes time in
+/// proportion to its points and steps. Of implicit steps, whose Newton iterations grow with it, what they take in all.
+/// None where the scene cannot be coarsened.
+std::optional<CoarseRun> coarse_run(const Simulation& simulation, const Film& scene, const StepPlan& plan) {
+  constexpr double kMost = 2;  // s
+  const FrameClock clock(kMost);
+  const Film coarse = coarsened(scene);
+  std::optional<Simulation> small;
+  std::optional<StepPlan> small_plan;
+  double free_frame = 0;
+  int frames = frame_count(scene);
+  try {
+    small = prepare_simulation(coarse, Observer());
+    small_plan = plan_steps(small->world, coarse);
+    if (small_plan->is_implicit() != plan.is_implicit()) return std::nullopt;
+    if (!plan.is_implicit()) free_frame = seconds_of_explicit_frame(small->world, *small_plan);
+    frames = int(simulate(*small, coarse, clock).progress.size());
+  } catch (const Error&) {
+    if (!small || !small_plan) return std::nullopt;
+  }
+  const std::optional<double> frame = clock.mean(frames);
+  if (!frame) return std::nullopt;
+  const double steps = double(plan.steps.count) / double(small_plan->steps.count);
+  if (plan.is_implicit()) {
+    return CoarseRun{*frame * steps * count_of_bricks(simulation.world) / count_of_bricks(small->world), frames};
+  }
+  const double points = count_of_contact_points(simulation.world) / count_of_contact_points(small->world);
+  return CoarseRun{std::max(0.0, *frame - free_frame) * steps * points, frames};
 }
 
 double seconds_a_picture(const Simulation& simulation, const Film& scene) {
@@ -118,7 +203,15 @@ Forecast make_forecast(const Simulation& simulation, const Film& scene) {
   forecast.frames = frame_count(scene);
   if (is_motion(scene)) {
     forecast.plan = plan_steps(simulation.world, scene);
-    forecast.seconds_simulating = seconds_a_frame(simulation.world, *forecast.plan);
+    const std::optional<CoarseRun> coarse = coarse_run(simulation, scene, *forecast.plan);
+    if (coarse) forecast.frames = coarse->frames;
+    if (!forecast.plan->is_implicit()) {
+      forecast.seconds_simulating =
+          seconds_of_explicit_frame(simulation.world, *forecast.plan) + (coarse ? coarse->seconds : 0);
+    } else {
+      forecast.seconds_simulating =
+          coarse ? coarse->seconds : seconds_of_implicit_frame(simulation.world, *forecast.plan);
+    }
   }
   forecast.seconds_drawing = seconds_a_picture(simulation, scene);
   return forecast;

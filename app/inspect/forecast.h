@@ -17,7 +17,8 @@ struct Forecast {
   std::optional<StepPlan> plan;  // for motions
 };
 
-/// Measures it: advances a copy of the world briefly and draws one picture. Throws Error where that fails.
+/// Measures it: advances a copy of the world briefly, lets the scene run in bricks twice as large for up to 2 s, for
+/// what contact takes, and draws one picture. Throws Error where that fails.
 [[nodiscard]] Forecast make_forecast(const Simulation& simulation, const Film& scene);
 
 /// Bytes, estimated from the numbers of bricks, vertices and pixels.

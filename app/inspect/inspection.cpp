@@ -89,16 +89,18 @@ void add_bricks(const Body& body, const std::vector<ThinPart>& thin_parts, Brick
 
 Inspection inspect(const Preparation& prepared, const Film& scene) {
   Inspection inspection;
-  std::size_t actor = 0;
-  for (const LoadedBody& body : prepared.bodies) {
+  const std::vector<SoftBody>& actors = prepared.simulation.world.bodies;
+  for (std::size_t row = 0; row < prepared.bodies.size(); ++row) {
+    const LoadedBody& body = prepared.bodies[row];
     BodyFacts facts;
     facts.name = body.name;
     facts.extent = body.extent;
     facts.unit = 1 / body.file_from_rest.linear().col(0).norm();
     facts.mesh = mesh_facts(body, facts.unit);
     facts.bricks.size = body.brick_size;
-    for (std::size_t solid = 0; solid < body.solids.size(); ++solid, ++actor) {
-      add_bricks(prepared.simulation.world.bodies[actor], prepared.thin_parts[actor], facts.bricks);
+    for (std::size_t actor = 0; actor < actors.size(); ++actor) {
+      if (actors[actor].origin.body != row || actors[actor].origin.copy != 0) continue;
+      add_bricks(actors[actor], prepared.thin_parts[actor], facts.bricks);
     }
     double volume = 0;
     for (const Solid& solid : body.solids) volume += solid.volume;

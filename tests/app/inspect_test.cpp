@@ -52,6 +52,17 @@ TEST_F(Inspect, TheSameAsJson) {
   EXPECT_NE(json.find("\"warnings\": []"), std::string::npos);
 }
 
+TEST_F(Inspect, BodiesWithCopiesAreSeenOneByOne) {
+  static_cast<void>(folder_.write("scene.toml",
+                                  "[[body]]\nmesh = \"cube.obj\"\nsize = 0.1\nbricks = 4\nmaterial = \"gelatin\"\n"
+                                  "copies = { count = [3, 1, 1], spacing = [0.2, 0, 0] }\n[[body]]\n"
+                                  "mesh = \"cube.obj\"\nsize = 0.05\nbricks = 4\nmaterial = \"gelatin\"\n"
+                                  "position = [0, 1, 0]\n"));
+  const ProgramRun made = run("scene.toml");
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  for (const char* part : {"1.015 kg", "0.1269 kg"}) EXPECT_NE(made.out.find(part), std::string::npos) << made.out;
+}
+
 TEST_F(Inspect, WarnsAsAnimateDoesAndBothOnce) {
   // A plate of a quarter of a brick.
   std::string text = kCubeObj;
