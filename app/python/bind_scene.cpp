@@ -57,9 +57,10 @@ class DictText {
     for (const auto& [key, value] : table) {
       const std::string name = py::str(key).cast<std::string>();
       text_ += (std::exchange(is_first, false) ? "" : ", ");
-      places_.emplace_back(text_.size(), path + "." + name);
+      const std::string below = fmt::format("{}.{}", path, name);
+      places_.emplace_back(text_.size(), below);
       text_ += name + " = ";
-      write(value, path + "." + name);
+      write(value, below);
     }
     text_ += " }";
   }

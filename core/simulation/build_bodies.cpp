@@ -171,12 +171,12 @@ void add_contacts(const Skin& skin, SoftBody& body) {
 }  // namespace
 
 SoftBody make_soft_body(const SurfaceMesh& mesh, const Solid& solid, BrickGrid grid, Model model,
-                        const Material& material) {
+                        const Material& material, bool can_touch) {
   SoftBody body(make_body(std::move(grid), model, material));
   body.surface = std::make_shared<const SurfaceMesh>(submesh(mesh, solid));
   body.skin = make_skin(*body.surface, {.max_edge = kLongestSkinEdge * body.grid.brick_size});
   body.skin_embedding = embed(body.grid, body.skin.positions, body.skin.normals);
-  add_contacts(body.skin, body);
+  if (can_touch) add_contacts(body.skin, body);
   body.collides_with_itself = solid.closed && !solid.overlaps && solid.thickness == 0;
   return body;
 }
@@ -198,6 +198,7 @@ BodyBuilder::BodyBuilder(const Scene& scene, std::size_t index, const LoadedBody
       index_(index),
       loaded_(loaded),
       simulation_(simulation),
+      can_touch_(is_motion(scene)),
       collides_with_itself_(scene.contact.self),
       selector_(loaded),
       report_(loaded, body_.material.density),
@@ -224,7 +225,7 @@ void BodyBuilder::add_solids() {
 
 SoftBody BodyBuilder::fill(std::size_t solid) {
   const Solid& outline = loaded_.solids[solid];
-  SoftBody body = make_soft_body(loaded_.mesh, outline, make_grid(outline), body_.model, body_.material);
+  SoftBody body = make_soft_body(loaded_.mesh, outline, make_grid(outline), body_.model, body_.material, can_touch_);
   body.friction = body_.friction;
   body.collides_with_itself = body.collides_with_itself && collides_with_itself_;
   report_.add(body.skin_embedding);

@@ -12,9 +12,9 @@
 namespace sprung {
 
 /// `grid`: the bricks of one solid of the mesh (m). The body is at rest in the place of its grid; its contact points
-/// are those of its skin, as fine as its bricks can follow. Deterministic.
+/// are those of its skin, as fine as its bricks can follow; none without `can_touch`. Deterministic.
 [[nodiscard]] SoftBody make_soft_body(const SurfaceMesh& mesh, const Solid& solid, BrickGrid grid, Model model,
-                                      const Material& material);
+                                      const Material& material, bool can_touch = true);
 
 /// A skin at rest, in the frame of the bricks, and where its vertices are in them.
 struct EmbeddedSkin {
@@ -97,6 +97,7 @@ class BodyBuilder {
   std::size_t index_;
   const LoadedBody& loaded_;
   Simulation& simulation_;
+  bool can_touch_;
   bool collides_with_itself_;
   Selector selector_;
   FillReport report_;
