@@ -84,6 +84,36 @@ void check_rests(const Scene& scene) {
 
 }  // namespace
 
+namespace {
+
+/// Forces and moments of loads and reactions (m x 3, N) at `places` (m x 3, m) have to cancel: found by sums alone, of
+/// whatever solver. A millionth of them may be left.
+void check_balance(const Points& places, const Points& loads, const Points& reactions) {
+  constexpr double kLeft = 1e-6;
+  const Vec3 middle = places.colwise().mean();
+  Vec3 force = Vec3::Zero();
+  Vec3 moment = Vec3::Zero();
+  double forces = 0;
+  double moments = 0;
+  for (Eigen::Index node = 0; node < places.rows(); ++node) {
+    const Vec3 arm = places.row(node).transpose() - middle;
+    for (const Points* kind : {&loads, &reactions}) {
+      const Vec3 here = kind->row(node);
+      force += here;
+      moment += arm.cross(here);
+      forces += here.norm();
+      moments += arm.norm() * here.norm();
+    }
+  }
+  if (force.norm() <= kLeft * forces && moment.norm() <= kLeft * moments) return;
+  throw Error(ErrorKind::kFailed,
+              fmt::format("the reactions do not balance the loads: {:.2g} of the forces and {:.2g} of the moments are "
+                          "left over; hold more of the body, or use fewer bricks where it is slender",
+                          force.norm() / forces, moment.norm() / moments));
+}
+
+}  // namespace
+
 Points settle(SoftBody& body, const Points& loads, const Points& movements, bool linear, LinearSolver& solver,
               int& newton_steps, const std::function<void()>& between) {
   const Supports supports = supports_of(body);
@@ -91,6 +121,7 @@ Points settle(SoftBody& body, const Points& loads, const Points& movements, bool
     body.positions = body.rest_positions;
     const LinearResponse response = linear_response(body, supports, loads, movements, solver);
     body.positions += response.displacements;
+    check_balance(body.rest_positions, loads, response.reactions);
     return response.reactions;
   }
   const Points start = body.positions;
@@ -98,7 +129,9 @@ Points settle(SoftBody& body, const Points& loads, const Points& movements, bool
     if (supports.fixed[i]) body.positions.data()[i] = body.rest_positions.data()[i] + movements.data()[i];
   }
   newton_steps += solve_static(body, supports, loads, start, solver, {.between = between}).iterations;
-  return reactions(body, supports, loads);
+  Points held = reactions(body, supports, loads);
+  check_balance(body.positions, loads, held);
+  return held;
 }
 
 Recording record_equilibria(Simulation& simulation, const Scene& scene, const Observer& observer, RunCache* cache) {

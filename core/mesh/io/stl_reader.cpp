@@ -109,7 +109,10 @@ class TextReader {
     } else if (is_keyword(word, "facet")) {
       begin_facet();
     } else if (is_keyword(word, "end")) {  // some write it apart
-      take("end" + std::string(scanner_.word()));
+      const std::string_view what = scanner_.word();
+      const bool is_known = is_keyword(what, "facet") || is_keyword(what, "solid") || is_keyword(what, "loop");
+      if (!is_known) scanner_.refuse(fmt::format("facet {} is followed by an 'end' of nothing", facet_));
+      take("end" + std::string(what));
     } else if (is_keyword(word, "endfacet")) {
       end_facet();
     } else if (is_keyword(word, "solid")) {

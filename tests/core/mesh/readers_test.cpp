@@ -192,6 +192,9 @@ TEST(ReadStl, TakesTextInDoublePrecisionAndAPartForEachSolid) {
   expect_refusal(kStl, "solid one\n" + facet("vertex 0 0 0\n"), "facet 1 has less than 3 vertices");
   expect_refusal(kStl, "solid one\nendsolid\n", "no faces");
   expect_refusal(kStl, "hello", "is not an STL file");
+  expect_refusal(kStl, "solid one\n" + facet(corners) + "end\n", "facet 1 is followed by an 'end' of nothing");
+  expect_refusal(kStl, "solid one\n" + facet(corners) + "end end end end",
+                 "facet 1 is followed by an 'end' of nothing");
 }
 
 /// As programs write it that do not keep to the letter of the format.
