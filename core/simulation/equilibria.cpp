@@ -183,6 +183,7 @@ Recording record_modes(Simulation& simulation, const Scene& scene, const Observe
     observer.finish_frame(frame, mode + 1, simulation.world);
   }
   recorder.recording().frequencies = modes.frequencies;
+  if (modes.rigid > 0) observer.note(fmt::format("{} rigid motions of the free body are set aside", modes.rigid));
   progress.finish(fmt::format("{} modes, the slowest at {:.6g} Hz", count, modes.frequencies[0]));
   return recorder.finish();
 }

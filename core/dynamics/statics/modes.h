@@ -6,12 +6,14 @@ namespace sprung {
 /// The slowest natural vibrations of a body about the positions it has.
 struct Modes {
   Eigen::VectorXd frequencies;  // k, Hz, slowest first
+  int rigid = 0;                // motions of a free body, set aside: 6
   Eigen::MatrixXd shapes;       // 3 m x k, scaled so that shape^T masses shape = 1 kg m^2
 };
 
 /// The `count` slowest vibrations of the supported, undamped body: K shape = (2 pi f)^2 M shape with lumped masses, by
-/// shift-invert Lanczos (ARPACK). The supports must hold the body entirely.
-/// Throws Error(kBadInput) where they do not, Error(kFailed) where the iteration does not converge.
+/// shift-invert Lanczos (ARPACK). The supports must hold the body entirely, or not at all: of a free body its six rigid
+/// motions are set aside. Throws Error(kBadInput) where they hold a part, Error(kFailed) where the iteration does not
+/// converge or a free body falls apart.
 [[nodiscard]] Modes natural_modes(const Body& body, const Supports& supports, int count);
 
 }  // namespace sprung

@@ -163,5 +163,21 @@ TEST(Modes, CantileverSwingsAtItsReferenceFrequencies) {
   for (int k = 0; k < 6; ++k) EXPECT_NEAR(modes.shapes.col(k).cwiseAbs2().dot(masses), 1, 1e-9);
 }
 
+/// A free beam of 20 : 1: its rigid motions are no vibrations. Expected: 22.373 / (2 pi) sqrt(E I / (rho A L^4)) of
+/// Euler and Bernoulli, about 1 % less by shear and the inertia of the sections, and of the masses in nodes.
+TEST(Modes, AFreeBeamSwingsAtTheFrequencyOfTheory) {
+  const Body beam = make_body(make_box_grid({40, 2, 2}, 0.01), Model::kCalibrated, test_material(0.3, 1e5));
+  const Modes modes = natural_modes(beam, Supports(beam.node_count()), 4);
+  EXPECT_EQ(modes.rigid, 6);
+  const double slender = 22.3733 / (2 * std::numbers::pi) * std::sqrt(1e5 / (12 * 1000.0)) * 0.02 / (0.4 * 0.4);
+  EXPECT_NEAR(modes.frequencies[0] / slender, 0.985, 0.01);
+  EXPECT_NEAR(modes.frequencies[1] / modes.frequencies[0], 1, 1e-6);
+  EXPECT_NEAR(modes.frequencies[2] / modes.frequencies[0], 61.673 / 22.373, 0.08);
+  for (int mode = 0; mode < 4; ++mode) {
+    const Eigen::Map<const Points> shape(modes.shapes.col(mode).data(), beam.node_count(), 3);
+    EXPECT_LT((shape.transpose() * beam.masses).norm(), 1e-6) << "it moves as a whole";
+  }
+}
+
 }  // namespace
 }  // namespace sprung
