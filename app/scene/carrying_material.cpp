@@ -10,9 +10,7 @@
 #include <numbers>
 #include <vector>
 
-#include "core/bricks/pieces.h"
-#include "core/bricks/slivers.h"
-#include "core/bricks/voxelize.h"
+#include "core/bricks/fill_solid.h"
 #include "core/dynamics/statics/statics.h"
 #include "core/error.h"
 #include "core/simulation/body_source.h"
@@ -88,11 +86,7 @@ int bricks_for_film(double count) {
 std::vector<BrickGrid> filled(const LoadedBody& loaded, double brick_size) {
   if (loaded.grid) return {*loaded.grid};
   std::vector<BrickGrid> grids;
-  for (const Solid& solid : loaded.solids) {
-    BrickGrid& grid = grids.emplace_back(voxelize(solid, brick_size));
-    static_cast<void>(split_pieces(solid, grid));
-    static_cast<void>(absorb_slivers(grid));
-  }
+  for (const Solid& solid : loaded.solids) grids.push_back(fill_solid(solid, brick_size).grid);
   return grids;
 }
 

@@ -11,8 +11,7 @@
 #include <random>
 #include <span>
 
-#include "core/bricks/pieces.h"
-#include "core/bricks/slivers.h"
+#include "core/bricks/fill_solid.h"
 #include "core/bricks/voxelize.h"
 #include "core/error.h"
 #include "core/mesh/repair/coarsen.h"
@@ -253,11 +252,10 @@ void BodyBuilder::put(SoftBody body, const Pose& pose, int copy) {
 
 BrickGrid BodyBuilder::make_grid(const Solid& solid) {
   if (loaded_.grid) return *loaded_.grid;
-  BrickGrid grid = voxelize(solid, loaded_.brick_size);
-  const PieceReport pieces = split_pieces(solid, grid);
-  report_.add(pieces, absorb_slivers(grid));
-  report_.add_volume(grid, solid);
-  return grid;
+  FilledSolid filled = fill_solid(solid, loaded_.brick_size);
+  report_.add(filled.pieces, filled.slivers);
+  report_.add_volume(filled.grid, solid);
+  return std::move(filled.grid);
 }
 
 std::vector<PinnedNodes> BodyBuilder::find_pins(const Body& body, std::size_t solid) const {

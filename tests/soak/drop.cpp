@@ -8,9 +8,7 @@
 #include <numbers>
 #include <random>
 
-#include "core/bricks/pieces.h"
-#include "core/bricks/slivers.h"
-#include "core/bricks/voxelize.h"
+#include "core/bricks/fill_solid.h"
 #include "core/contact/inversion_guard.h"
 #include "core/dynamics/energy.h"
 #include "core/dynamics/explicit/adaptive_integrator.h"
@@ -75,10 +73,8 @@ SoftBody make_actor(Shape shape, double size, const Material& material, Dice& di
   const Vec3 extent = mesh.positions.colwise().maxCoeff() - mesh.positions.colwise().minCoeff();
   mesh.positions *= size / extent.maxCoeff();
   const Solid solid = find_solids(mesh, "drop").solids.front();
-  BrickGrid grid = voxelize(solid, size / dice.between(2, 7));
-  split_pieces(solid, grid);
-  absorb_slivers(grid);
-  return make_soft_body(mesh, solid, std::move(grid), Model::kCalibrated, material);
+  FilledSolid filled = fill_solid(solid, size / dice.between(2, 7));
+  return make_soft_body(mesh, solid, std::move(filled.grid), Model::kCalibrated, material);
 }
 
 double lowest_point(const SoftBody& actor) {

@@ -4,8 +4,7 @@
 #include <functional>
 
 #include "core/body/body.h"
-#include "core/bricks/pieces.h"
-#include "core/bricks/slivers.h"
+#include "core/bricks/fill_solid.h"
 #include "core/bricks/voxelize.h"
 #include "core/mesh/repair/solids.h"
 #include "tests/support/bodies.h"
@@ -77,11 +76,8 @@ TEST(Fill, OfBricksCutByASphereIsWithinOnePercentOnAverage) {
 TEST(Fill, MassIsDensityTimesTheMeshsVolume) {
   for (const double size : {0.1, 0.31, 0.6}) {
     const Solid solid = find_solids(test::torus_mesh(2, 0.7), "torus").solids.at(0);
-    BrickGrid grid = voxelize(solid, size);
-    static_cast<void>(split_pieces(solid, grid));
-    static_cast<void>(absorb_slivers(grid));
     const Material material = test::test_material(0.3);
-    const Body body = make_body(std::move(grid), Model::kCalibrated, material);
+    const Body body = make_body(fill_solid(solid, size).grid, Model::kCalibrated, material);
     EXPECT_NEAR(body.masses.sum() / (material.density * solid.volume), 1, 1e-3) << size;
   }
 }
