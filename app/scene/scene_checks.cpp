@@ -176,9 +176,10 @@ void check_table(const TorusShape& torus, const std::string& path, const Report&
   report({}, fmt::format("{}: the tube must be thinner than the radius, or there is no hole", path));
 }
 
+/// A flat box is a face.
 void check_table(const Box& box, const std::string& path, const Report& report) {
-  if ((box.min.array() < box.max.array()).all()) return;
-  report({}, fmt::format("{}: min must be below max along every axis", path));
+  if ((box.min.array() <= box.max.array()).all()) return;
+  report({}, fmt::format("{}: min must not be above max along any axis", path));
 }
 
 }  // namespace sprung

@@ -205,6 +205,20 @@ BodyBuilder::BodyBuilder(const Scene& scene, std::size_t index, const LoadedBody
 
 void BodyBuilder::fill_solids() {
   for (std::size_t solid = 0; solid < loaded_.solids.size(); ++solid) filled_.push_back(fill(solid));
+  check_regions();
+}
+
+void BodyBuilder::check_regions() const {
+  for (std::size_t row = 0; row < body_.regions.size(); ++row) {
+    const auto has_bricks = [&, solid = std::size_t{0}](const SoftBody& body) mutable {
+      return !selector_.bricks(body_.regions[row], body.grid, solid++).empty();
+    };
+    if (std::any_of(filled_.begin(), filled_.end(), has_bricks)) continue;
+    throw Error(ErrorKind::kBadInput,
+                fmt::format("body {}: its region {} holds the middle of no brick; make the part it selects at least a "
+                            "brick large",
+                            index_ + 1, row + 1));
+  }
 }
 
 void BodyBuilder::add_solids() {

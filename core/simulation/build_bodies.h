@@ -90,6 +90,8 @@ class BodyBuilder {
   /// Still in the place of its grid.
   [[nodiscard]] SoftBody fill(std::size_t solid);
   [[nodiscard]] BrickGrid make_grid(const Solid& solid);
+  /// Throws Error(kBadInput) where one reaches no brick.
+  void check_regions() const;
   [[nodiscard]] std::vector<PinnedNodes> find_pins(const Body& body, std::size_t solid) const;
   void put(SoftBody body, const Pose& pose, int copy);
 

@@ -55,6 +55,17 @@ TEST(SceneLoads, ForceActsFromItsKeyframeOn) {
   EXPECT_NEAR(places[10].x(), 0.5 * 2 * 0.3 * 0.3, 1e-4);
 }
 
+/// Flat boxes: the cube held by its foot and pulled by its top, which no brick has its middle in.
+TEST(SceneLoads, FacesAreHeldAndPulled) {
+  const Recording pulled =
+      record(kCube + kHeld +
+             "[[body.pin]]\nname = \"foot\"\nbox = { min = [0, 0, 0], max = [1, 0, 1] }\n[[body.force]]\n"
+             "total = [0, 1, 0]\nbox = { min = [0, 1, 0], max = [1, 1, 1] }\n[solver]\nscheme = \"linear\"\n");
+  EXPECT_NEAR(pulled.probes.at(1).samples.back().force.y(), -1, 1e-9);
+  // sigma L / (2 E), and a little less since the upper layer of bricks is pulled by its middle and held sideways below.
+  EXPECT_NEAR(pulled.probes.at(0).samples.back().displacement.y(), 100 * 0.05 / 1e5, 1e-5);
+}
+
 TEST(SceneLoads, TotalIsSharedOutByVolumeAndPerVolumeIsNot) {
   const std::string part = "box = { min = [0, 0, 0], max = [0.5, 1, 1] }\n";
   const std::vector<Vec3> total = path(kCube + "[[body.force]]\n" + part + "total = [0, 0, 3]\n");

@@ -191,6 +191,9 @@ TEST_F(SelectorTest, WhatIsNotThereIsRefused) {
                     "gradient = { from = [0, 0, 0], to = [1, 1, 1], material = \"rubber\" }")
                 .find("Poisson's ratio"),
             std::string::npos);
+  EXPECT_NE(mistake(kBox + "[[body.region]]\nbox = { min = [0, 0, 0], max = [0, 1, 1] }\n" + kStiff)
+                .find("its region 1 holds the middle of no brick"),
+            std::string::npos);
 }
 
 }  // namespace

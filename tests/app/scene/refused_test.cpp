@@ -57,7 +57,7 @@ mesh = "missing.obj"
 bricks = 0
 material = "gelatine"
   [[body.pin]]
-  box = { min = [0, 0, 0], max = [0, 1, 1] }
+  box = { min = [0, 0, 0], max = [-1, 1, 1] }
   interpolation = "smoth"
   until = -1
 [render]

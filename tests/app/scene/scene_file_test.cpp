@@ -250,8 +250,9 @@ TEST_F(SceneFile, WhatExcludesEachOtherOrIsMissing) {
   EXPECT_NE(mistakes("[[body]]\n").find(":1:1: body lacks the key 'mesh' or 'box'"), std::string::npos);
   EXPECT_NE(mistakes("fps = 24").find("the scene lacks the key 'body'"), std::string::npos);
   EXPECT_NE(body_mistakes("[render]\nsamples = 3").find("3 is not one of 1, 4"), std::string::npos);
-  EXPECT_NE(body_mistakes("pin = [{ box = { min = [0, 0, 0], max = [0, 1, 1] } }]").find("min must be below max"),
+  EXPECT_NE(body_mistakes("pin = [{ box = { min = [0, 0, 0], max = [-1, 1, 1] } }]").find("min must not be above"),
             std::string::npos);
+  EXPECT_EQ(body_mistakes("pin = [{ box = { min = [0, 0, 0], max = [0, 1, 1] } }]"), "");  // a face
   const std::string plane = "[[obstacle]]\nplane = { y = 0 }\n";
   EXPECT_EQ(body_mistakes(plane), "");
   EXPECT_NE(body_mistakes("[[obstacle]]\nplane = { y = 0 }\nbox = [1, 1, 1]\n").find("obstacle"), std::string::npos);
