@@ -126,14 +126,17 @@ void parse_value(std::string_view text, const KeyInfo&, Color& value) {
   value = {.red = hex_byte(text, 1), .green = hex_byte(text, 3), .blue = hex_byte(text, 5)};
 }
 
-std::string toml_text(double value) { return fmt::format("{}", value); }
+/// Without a sign before 0, which TOML would read as the whole number 0.
+std::string toml_text(double value) { return fmt::format("{}", value + 0.0); }
 std::string toml_text(bool value) { return value ? "true" : "false"; }
 
 std::string toml_text(int value) { return fmt::format("{}", value); }
 std::string toml_text(const BrickCount& value) {
   return value.is_auto() ? toml_text(std::string_view("auto")) : toml_text(value.along);
 }
-std::string toml_text(const Vec3& value) { return fmt::format("[{}, {}, {}]", value.x(), value.y(), value.z()); }
+std::string toml_text(const Vec3& value) {
+  return fmt::format("[{}, {}, {}]", toml_text(value.x()), toml_text(value.y()), toml_text(value.z()));
+}
 std::string toml_text(const std::array<int, 2>& value) { return fmt::format("[{}, {}]", value[0], value[1]); }
 std::string toml_text(const std::array<int, 3>& value) { return fmt::format("[{}]", fmt::join(value, ", ")); }
 

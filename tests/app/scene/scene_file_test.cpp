@@ -201,6 +201,9 @@ TEST_F(SceneFile, PrintedSceneParsesToTheSameScene) {
   EXPECT_DOUBLE_EQ(pin.until.value(), 1.25);
   EXPECT_EQ(again.solver.scheme, Solver::kVerlet);
   EXPECT_DOUBLE_EQ(again.obstacles.at(0).restitution, 0.1);
+  // TOML has no whole number -0.
+  const Film zero = parse("[[body]]\nbox = [1, 1, 1]\nbricks = 4\nposition = [-0.0, 0, 0]\n");
+  EXPECT_EQ(print_scene(parse(print_scene(zero))), print_scene(zero));
 }
 
 TEST_F(SceneFile, PrintedPathsWithQuotesParse) {
