@@ -45,14 +45,20 @@ struct AnimateOptions {
   std::string keep_after = "30s";
   bool overwrite = false;
 
-  /// s
-  [[nodiscard]] double patience() const { return parse_quantity(keep_after, Dimension::kTime); }
+  /// s. Throws Error(kUsage).
+  [[nodiscard]] double patience() const {
+    try {
+      return parse_quantity(keep_after, Dimension::kTime);
+    } catch (const Error& error) {
+      throw Error(ErrorKind::kUsage, fmt::format("--keep-after: {}", error.what()));
+    }
+  }
 };
 
 /// Where a long motion is kept until its film is whole.
 std::filesystem::path motion_file(const Output& output) {
-  if (output.kind == Output::Kind::kFilm) return std::filesystem::path(output.film).replace_extension("motion.h5");
-  return output.folder / "motion.h5";
+  if (output.kind == Output::Kind::kFilm) return std::filesystem::path(output.film).replace_extension("unfinished.h5");
+  return output.folder / "unfinished.h5";
 }
 
 /// Whether the file holds a motion of that scene by this program, or a part of it.
@@ -84,6 +90,7 @@ void animate(const CLI::App& command, const AnimateOptions& options, const Conso
   require_input(command, options.scene.input, "a mesh or a scene");
   if (!options.scene.print_scene) options.outputs.require(command, "-o folder/, -o frame_{:04}.png or -o film.mp4");
   const int jobs = options.jobs.count();
+  const double patience = options.patience();
   options.scene.with_scene(console, [&](const Film& scene) {
     const std::vector<Output> outputs = parse_outputs(options.outputs.names);
     for (const Output& output : outputs) check_output(output, options.overwrite);
@@ -96,7 +103,7 @@ void animate(const CLI::App& command, const AnimateOptions& options, const Conso
     const bool goes_on = holds_motion(file, scene, record);
     if (goes_on) console.note(fmt::format("goes on with the motion in {}", file.string()));
     RunCache motion(file, record, goes_on);
-    motion.wait_for(options.patience());
+    motion.wait_for(patience);
     with_motion_kept(motion, console, [&] {
       Recording recording = with_picture_of_diverged(simulation.world, picture_of_diverged(outputs.front()),
                                                      [&] { return simulate(simulation, scene, console, &motion); });

@@ -5,6 +5,7 @@
 #include <semaphore.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -67,7 +68,8 @@ void catch_interrupts(const Console& console) {
 void limit_time(double seconds) {
   time_limit = seconds;
   std::thread([seconds] {
-    std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+    constexpr double kForever = 1e9;  // s; more than that is no time_t in nanoseconds
+    std::this_thread::sleep_for(std::chrono::duration<double>(std::min(seconds, kForever)));
     stop_because_of(kTimeIsUp);
   }).detach();
 }

@@ -1,6 +1,4 @@
 #pragma once
-#include <string>
-
 #include "app/console/console.h"
 
 namespace sprung {

@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "core/disjoint_sets.h"
@@ -142,22 +143,24 @@ int absorb_hinged(BrickGrid& grid) {
       }
     }
   }
+  /// Of two that hang at nothing but each other the smaller one goes.
+  const auto goes = [&](int part, const Hinge& hinge) {
+    if (!hinge.is_one || !are_on_a_line(hinge.places)) return false;
+    const auto other = hinges.find(hinge.beyond);
+    if (other == hinges.end() || !other->second.is_one) return true;
+    return std::pair(volumes[part], -part) < std::pair(volumes[hinge.beyond], -hinge.beyond);
+  };
   std::vector<bool> gone(count, false);
   std::vector<int> heir(count, -1);
   for (std::size_t brick = 0; brick < count; ++brick) {
     const auto found = hinges.find(parts.find(int(brick)));
-    if (found == hinges.end() || !found->second.is_one || !are_on_a_line(found->second.places)) continue;
-    const bool is_smaller =
-        volumes[found->first] < volumes[found->second.beyond] ||
-        (volumes[found->first] == volumes[found->second.beyond] && found->first > found->second.beyond);
-    if (!is_smaller) continue;
+    if (found == hinges.end() || !goes(found->first, found->second)) continue;
     gone[brick] = true;
     heir[brick] = found->second.heir;
   }
-  // Chains of such parts go one after the other.
-  for (std::size_t brick = 0; brick < count; ++brick) {
-    if (gone[brick] && gone[std::size_t(heir[brick])]) gone[brick] = false;
-  }
+  // Chains of such parts go one after the other, from their end.
+  const std::vector<bool> hinged = gone;
+  for (std::size_t brick = 0; brick < count; ++brick) gone[brick] = hinged[brick] && !hinged[heir[brick]];
   for (std::size_t brick = 0; brick < count; ++brick) {
     if (gone[brick]) grid.fill[heir[brick]] += grid.fill[brick];
   }

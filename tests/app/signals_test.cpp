@@ -119,5 +119,13 @@ TEST(TimeLimit, EndsWhateverTakesLonger) {
   EXPECT_NE(ended.err.find("stopped after 500 ms, the limit set by --time-limit"), std::string::npos) << ended.err;
 }
 
+TEST(TimeLimit, MayBeForever) {
+  const TempFolder folder;
+  static_cast<void>(folder.write("cube.obj", kCubeObj));
+  const ProgramRun ended =
+      run_program(folder, "inspect cube.obj --material gelatin --bricks 4 --set solver.time_limit=1e300");
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+}
+
 }  // namespace
 }  // namespace sprung

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <random>
 
 #include "core/bricks/fill_solid.h"
 #include "core/contact/inversion_guard.h"
@@ -15,6 +14,7 @@
 #include "core/error.h"
 #include "core/mesh/io/read_mesh.h"
 #include "core/simulation/build_bodies.h"
+#include "tests/soak/dice.h"
 #include "tests/support/meshes.h"
 
 namespace sprung::test {
@@ -28,24 +28,6 @@ constexpr double kMostGain = 0.05;   // of the energy at the start
 
 enum class Shape { kBricks, kBox, kTorus, kBear };
 constexpr std::array kShapeNames{"bricks", "box", "torus", "bear"};
-
-/// std::uniform_real_distribution may differ between libraries; this does not.
-class Dice {
- public:
-  Dice(std::uint32_t seed, std::uint32_t index) : engine_(seed * 1000003U + index) {}
-  double between(double low, double high) { return low + (high - low) * (double(engine_()) / 4294967296.0); }
-  double log_between(double low, double high) { return std::exp(between(std::log(low), std::log(high))); }
-  int whole(int low, int high) { return low + int(engine_() % unsigned(high - low + 1)); }
-  Mat3 rotation() {
-    const auto angle = [&] { return between(0, 2 * std::numbers::pi); };
-    return (Eigen::AngleAxisd(angle(), Vec3::UnitX()) * Eigen::AngleAxisd(angle(), Vec3::UnitY()) *
-            Eigen::AngleAxisd(angle(), Vec3::UnitZ()))
-        .toRotationMatrix();
-  }
-
- private:
-  std::mt19937 engine_;
-};
 
 SurfaceMesh mesh_of_shape(Shape shape, Dice& dice) {
   switch (shape) {

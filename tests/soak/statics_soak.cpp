@@ -7,30 +7,18 @@
 #include <algorithm>
 #include <chrono>
 #include <map>
-#include <random>
 
 #include "core/error.h"
 #include "core/mesh/io/read_mesh.h"
 #include "core/simulation/simulate.h"
 #include "core/simulation/simulation.h"
+#include "tests/soak/dice.h"
 #include "tests/support/meshes.h"
 
 namespace sprung::test {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-class Dice {
- public:
-  Dice(std::uint32_t seed, std::uint32_t index) : engine_(seed * 1000003U + index) {}
-  double between(double low, double high) { return low + (high - low) * (double(engine_()) / 4294967296.0); }
-  double log_between(double low, double high) { return std::exp(between(std::log(low), std::log(high))); }
-  int whole(int low, int high) { return low + int(engine_() % unsigned(high - low + 1)); }
-  bool is_so(double probability) { return between(0, 1) < probability; }
-
- private:
-  std::mt19937 engine_;
-};
 
 /// The prism over the filled cells of a grid of lines, from z = 0 to `depth`; closed, outward.
 SurfaceMesh prism(const std::vector<double>& xs, const std::vector<double>& ys, const std::vector<std::string>& cells,

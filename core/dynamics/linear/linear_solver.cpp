@@ -66,7 +66,7 @@ class DefaultSolver : public LinearSolver {
     if (now().linearize(body, supports, definite, terms)) return true;
     if (is_direct_ || !definite || body.grid.brick_count() > kManyBricks) return false;
     is_direct_ = true;
-    ++gone_direct_;
+    ++never_tried_;
     return direct_->linearize(body, supports, definite, terms);
   }
 
@@ -84,7 +84,7 @@ class DefaultSolver : public LinearSolver {
   [[nodiscard]] SolveReport report() const override {
     SolveReport report = multigrid_->report();
     report.solves += direct_->report().solves - gone_direct_;
-    report.fallbacks = gone_direct_;
+    report.fallbacks = gone_direct_ + never_tried_;
     return report;
   }
 
@@ -98,7 +98,8 @@ class DefaultSolver : public LinearSolver {
   const StepTerms* terms_ = nullptr;
   bool definite_ = false;
   bool is_direct_ = true;
-  long gone_direct_ = 0;
+  long gone_direct_ = 0;  // solves that multigrid lost
+  long never_tried_ = 0;  // matrices that it could not take
 };
 
 }  // namespace

@@ -76,6 +76,16 @@ TEST(Slivers, WhatHangsByAHingeGoesToTheBody) {
   EXPECT_EQ(absorb_slivers(bridge), 0);
 }
 
+TEST(Slivers, AChainOfHingesGoesFromItsEnd) {
+  BrickGrid grid = make_box_grid({7, 7, 7}, 0.1);
+  for (const int step : {7, 8, 9}) grid.cells.emplace_back(step, step, 6);
+  number_nodes(grid);
+  grid.fill.assign(grid.cells.size(), 0.5);
+  EXPECT_EQ(absorb_slivers(grid), 3);
+  EXPECT_EQ(grid.brick_count(), 343);
+  EXPECT_NEAR(grid.volume(), 346 * 0.5 * 1e-3, 1e-12);
+}
+
 /// As large as that, it is a part, and the supports have to hold it.
 TEST(Slivers, ALargePartThatHangsByAHingeStays) {
   BrickGrid grid;
