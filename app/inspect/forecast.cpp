@@ -124,7 +124,7 @@ struct CoarseRun {
 /// proportion to its points and steps. Of implicit steps, whose Newton iterations grow with it, what they take in all.
 /// None where the scene cannot be coarsened.
 std::optional<CoarseRun> coarse_run(const Simulation& simulation, const Film& scene, const StepPlan& plan) {
-  constexpr double kMost = 2;  // s
+  constexpr double kMost = 4;  // s: of a heap that falls, the impact and some of what follows
   const FrameClock clock(kMost);
   const Film coarse = coarsened(scene);
   std::optional<Simulation> small;

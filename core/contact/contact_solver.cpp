@@ -14,6 +14,7 @@ namespace {
 constexpr int kMostSweeps = 30;
 constexpr int kMostSweepsOfSqueezes = 100;  // rare, and what they miss grows
 constexpr double kTolerance = 1e-4;         // bricks that a point may miss its limit by in a step
+constexpr double kLeastFree = 0.05;         // of a contact's weights: what nodes that are held carry, none moves
 
 double dot(double a, double b) { return a * b; }
 double dot(const Vec3& a, const Vec3& b) { return a.dot(b); }
@@ -107,6 +108,16 @@ void ContactSolver::forget_limits() {
   squeezed_.clear();
 }
 
+bool ContactSolver::can_be_moved(std::span<const Part> parts) const {
+  double all = 0;
+  double free = 0;
+  for (const Part& part : parts) {
+    all += std::abs(part.weight);
+    if (nodes_[part.place].inverse_mass > 0) free += std::abs(part.weight);
+  }
+  return free > kLeastFree * all;
+}
+
 void ContactSolver::find_contacts(const World& world, double elapsed, double dt) {
   found_.clear();
   if (!world.obstacles.empty()) {
@@ -122,8 +133,10 @@ void ContactSolver::find_contacts(const World& world, double elapsed, double dt)
     parts_.push_back({place_of(share.actor, share.node), share.weight});
   }
   for (const Contact& touch : found_.list) {
+    const std::span<const Part> parts = std::span(parts_).subspan(touch.first, touch.last - touch.first);
+    if (!can_be_moved(parts)) continue;
     touches_.push_back({.key = touch.key,
-                        .parts = std::span(parts_).subspan(touch.first, touch.last - touch.first),
+                        .parts = parts,
                         .normal = touch.normal,
                         .goal = touch.goal,
                         .friction = touch.friction,

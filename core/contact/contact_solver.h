@@ -90,6 +90,9 @@ class ContactSolver {
 
   std::size_t place_of(std::size_t actor, int node);
   void forget_limits();
+  /// Not where nodes that are held carry nearly all of its weights: an impulse that is to move the rest would have no
+  /// bound.
+  [[nodiscard]] bool can_be_moved(std::span<const Part> parts) const;
   void find_contacts(const World& world, double elapsed, double dt);
   void find_inversions(double dt);
   void add_inversions(std::size_t actor, const std::vector<InversionRate>& squeezes);

@@ -39,8 +39,10 @@ class OverlapWatch {
   }
   [[nodiscard]] double deepest() const { return deepest_; }
   [[nodiscard]] std::string summary() const {
-    return deepest_ > 0 ? fmt::format("contact points penetrate by at most {}", readable(deepest_, Dimension::kLength))
-                        : "no penetration";
+    constexpr double kRounding = 1e-9;  // m
+    return deepest_ > kRounding
+               ? fmt::format("contact points penetrate by at most {}", readable(deepest_, Dimension::kLength))
+               : "no penetration";
   }
 
   void warn(double size, const Observer& observer) const {

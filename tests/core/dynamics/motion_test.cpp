@@ -276,6 +276,23 @@ TEST(Motion, PinnedNodesStay) {
   EXPECT_LT(actor.positions.col(1).minCoeff(), -1e-5);
 }
 
+/// What lies below the ground by nearly nothing but held nodes stays there, and throws nobody up.
+TEST(Motion, GroundPushesNothingThatIsHeld) {
+  const double h = 0.02;
+  World world = world_of(box_body({2, 2, 2}, h, Model::kCalibrated, 0.3), {0, -9.81, 0});
+  world.obstacles = {level_ground(1e-4 * h)};
+  SoftBody& actor = world.bodies[0];
+  Points places = actor.rest_positions;
+  for (int i = 0; i < actor.node_count(); ++i) {
+    if (places(i, 1) > 1e-9) continue;
+    actor.pinned.push_back({.node = i});
+    places(i, 1) = 1e-9 * h;  // of which the free nodes above carry a thousand-millionth
+  }
+  actor.contacts = embed(actor.grid, places);
+  advance(world, Scheme::kVerlet, stable_step(world), 100, 0);
+  EXPECT_LT((actor.positions - actor.rest_positions).cwiseAbs().maxCoeff(), 0.1 * h);
+}
+
 TEST(Motion, NonFiniteStateIsNamed) {
   World world = world_of(box_body({2, 1, 1}, 0.02, Model::kCalibrated, 0.3));
   world.bodies[0].positions(3, 1) = std::nan("");
