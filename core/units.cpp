@@ -25,7 +25,7 @@ struct Unit {
 constexpr double kDegreesPerRadian = 180 / std::numbers::pi;
 
 /// The first unit of a dimension is its base unit; usual units grow from there in the order of the table.
-constexpr std::array<Unit, 70> kUnits{{
+constexpr std::array<Unit, 76> kUnits{{
     {Dimension::kRatio, "", 1},
     {Dimension::kRatio, "%", 0.01},
     {Dimension::kLength, "m", 1, true},
@@ -84,6 +84,12 @@ constexpr std::array<Unit, 70> kUnits{{
     {Dimension::kForce, "N", 1, true},
     {Dimension::kForce, "mN", 1e-3, true},
     {Dimension::kForce, "kN", 1e3, true},
+    {Dimension::kTorque, "N m", 1, true},
+    {Dimension::kTorque, "Nm", 1},
+    {Dimension::kTorque, "N mm", 1e-3},
+    {Dimension::kTorque, "Nmm", 1e-3},
+    {Dimension::kTorque, "mN m", 1e-3, true},
+    {Dimension::kTorque, "kN m", 1e3, true},
     {Dimension::kForceDensity, "N/m3", 1, true},
     {Dimension::kForceDensity, "N/m^3", 1},
     {Dimension::kForceDensity, "kN/m3", 1e3, true},

@@ -18,6 +18,7 @@ enum class Dimension {
   kAcceleration,
   kForce,
   kForceDensity,
+  kTorque,
   kAngle,
   kTurning
 };

@@ -8,6 +8,7 @@
 
 #include "core/dynamics/explicit/integrator.h"
 #include "core/error.h"
+#include "core/simulation/body_loads.h"
 #include "core/simulation/drivers.h"
 #include "core/simulation/equilibria.h"
 #include "core/simulation/observer.h"
@@ -156,7 +157,7 @@ void LiveWorld::settle(std::size_t row, bool linear, const Between& between) {
   }
   keep_memory([&] {
     int newton_steps = 0;
-    const Points loads = body.masses * simulation_.world.gravity.transpose() + steady_forces(scene_, simulation_, row);
+    const Loads loads = loads_and_weight(scene_, simulation_.world, row, forced_wholes(scene_, simulation_.world)[row]);
     const Points movements = body.positions - body.rest_positions;
     static_cast<void>(sprung::settle(body, loads, movements, linear, *make_default_solver(), newton_steps, between));
     body.velocities.setZero();

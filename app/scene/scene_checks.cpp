@@ -152,6 +152,8 @@ void check_table(const SceneObstacle& obstacle, const std::string& path, const R
 
 void check_table(const BodyForce& force, const std::string& path, const Report& report) {
   check_times(force.keyframes, "keyframes", path, report);
+  if (!force.on_surface || force.total) return;
+  report({"on_surface"}, fmt::format("{}: on_surface is for a force with 'total'", path));
 }
 
 void check_table(const BodyMuscle& muscle, const std::string& path, const Report& report) {

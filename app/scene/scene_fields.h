@@ -373,10 +373,16 @@ void fields(auto& visit, Is<Gradient> auto& gradient) {
 }
 
 void fields(auto& visit, Is<BodyForce> auto& force) {
-  visit.table("force", {{KeyRule::kAtMostOne, kSelectionKeys}, {KeyRule::kOneOf, {"total", "per_volume", "pressure"}}});
+  visit.table("force", {{KeyRule::kAtMostOne, kSelectionKeys},
+                        {KeyRule::kOneOf, {"total", "per_volume", "traction", "moment", "pressure"}}});
   selection_fields(visit, force);
-  visit({"total", "force on the whole part, distributed by volume", Dimension::kForce}, force.total);
+  visit({"total", "force on the whole part, distributed by volume; by area where its box is flat", Dimension::kForce},
+        force.total);
+  visit({"on_surface", "true: total is distributed by area of the part's skin"}, force.on_surface);
   visit({"per_volume", "force per volume", Dimension::kForceDensity}, force.per_volume);
+  visit({"traction", "force per area of the part's skin, whichever way it turns", Dimension::kPressure},
+        force.traction);
+  visit({"moment", "moment on the part's skin about its centroid", Dimension::kTorque}, force.moment);
   visit({"pressure", "pressure on the skin of the part, inward", Dimension::kPressure}, force.pressure);
   curve_fields(visit, force);
 }

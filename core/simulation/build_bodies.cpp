@@ -17,6 +17,7 @@
 #include "core/mesh/repair/coarsen.h"
 #include "core/mesh/repair/submesh.h"
 #include "core/mesh/repair/weld.h"
+#include "core/simulation/body_loads.h"
 #include "core/simulation/selector.h"
 #include "core/simulation/simulation.h"
 #include "core/skin/skin.h"
@@ -258,6 +259,7 @@ SoftBody BodyBuilder::fill(std::size_t solid) {
 void BodyBuilder::put(SoftBody body, const Pose& pose, int copy) {
   place(body, pose.rotation, pose.translation);
   body.velocities = velocities_of(body_, body, pose.translation);
+  for (ForcedPart& part : body.origin.forces) sprung::place(part, pose.rotation, pose.translation);
   for (PinnedNodes& pinned : body.origin.pins) pinned.centre = pose.rotation * pinned.centre + pose.translation;
   body.color = body_.color.value_or(kPalette[simulation_.world.bodies.size() % kPalette.size()]);
   body.origin.copy = copy;
@@ -324,82 +326,6 @@ void BodyBuilder::tell(const Observer& observer) const {
   if (free_solids == 0) return;
   observer.warn(fmt::format("{}: {} of {} solids are not held by the pins and will fall", loaded_.name, free_solids,
                             loaded_.solids.size()));
-}
-
-namespace {
-
-/// Per node, m^3.
-Eigen::VectorXd volumes_of(const std::vector<int>& bricks, const BrickGrid& grid) {
-  Eigen::VectorXd volumes = Eigen::VectorXd::Zero(grid.node_count());
-  for (const int brick : bricks) {
-    const std::size_t row = brick;
-    for (const int node : grid.nodes[row]) volumes[node] += grid.fill[row] * grid.brick_volume() / 8;
-  }
-  return volumes;
-}
-
-/// Of the contact triangles, in the frame of the grid.
-Points middles_of_triangles(const SoftBody& actor) {
-  const BrickGrid& grid = actor.grid;
-  const Points places = deform_points(grid, actor.contacts, grid.rest_positions());
-  Points middles(actor.contact_triangles.rows(), 3);
-  for (int row = 0; row < middles.rows(); ++row) {
-    middles.row(row) = places(actor.contact_triangles.row(row), Eigen::all).colwise().mean();
-  }
-  return middles;
-}
-
-}  // namespace
-
-std::vector<ForcedPart> place_forces(const std::vector<BodyForce>& forces, const Selector& selector,
-                                     const SoftBody& actor, std::size_t solid) {
-  std::vector<ForcedPart> parts;
-  for (std::size_t force = 0; force < forces.size(); ++force) {
-    ForcedPart part{.force = force, .volumes = {}, .triangles = {}};
-    if (forces[force].pressure) {
-      part.triangles = selector.triangles(forces[force], middles_of_triangles(actor), solid);
-      if (part.triangles.empty()) continue;
-    } else {
-      part.volumes = volumes_of(selector.touched_bricks(forces[force], actor.grid, solid), actor.grid);
-      if (part.volumes.isZero(0)) continue;
-    }
-    parts.push_back(std::move(part));
-  }
-  return parts;
-}
-
-std::vector<MusclePart> place_muscles(const std::vector<BodyMuscle>& muscles, const Selector& selector,
-                                      const SoftBody& actor, std::size_t solid, const Mat3& bricks_from_rest) {
-  std::vector<MusclePart> parts;
-  for (std::size_t muscle = 0; muscle < muscles.size(); ++muscle) {
-    std::vector<int> bricks = selector.touched_bricks(muscles[muscle], actor.grid, solid);
-    if (bricks.empty()) continue;
-    parts.push_back({.muscle = muscle,
-                     .full = {.bricks = std::move(bricks),
-                              .direction = bricks_from_rest * muscles[muscle].direction.normalized(),
-                              .contraction = muscles[muscle].contraction}});
-  }
-  return parts;
-}
-
-void check_loads(const Scene& scene, std::size_t body, const World& world) {
-  std::vector<bool> pushed(scene.bodies[body].forces.size());
-  std::vector<bool> pulled(scene.bodies[body].muscles.size());
-  for (const SoftBody& one : world.bodies) {
-    if (one.origin.body != body) continue;
-    for (const ForcedPart& part : one.origin.forces) pushed[part.force] = true;
-    for (const MusclePart& part : one.origin.muscles) pulled[part.muscle] = true;
-  }
-  const auto check = [&](const std::vector<bool>& reached, std::string_view what) {
-    const auto missed = std::find(reached.begin(), reached.end(), false);
-    if (missed == reached.end()) return;
-    throw Error(ErrorKind::kBadInput,
-                fmt::format("body {}: its {} {} reaches no brick and no triangle; make the part it selects at least "
-                            "a brick large",
-                            body + 1, what, missed - reached.begin() + 1));
-  };
-  check(pushed, "force");
-  check(pulled, "muscle");
 }
 
 namespace {

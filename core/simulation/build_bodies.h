@@ -26,19 +26,6 @@ struct EmbeddedSkin {
 /// Deterministic.
 [[nodiscard]] EmbeddedSkin smooth_skin(const SoftBody& body, double tolerance);
 
-/// Where the forces of a scene body act on one of its solids, which is still in the place of its grid; forces that do
-/// not act on it are left out. Throws Error(kBadInput) where a part does not exist.
-[[nodiscard]] std::vector<ForcedPart> place_forces(const std::vector<BodyForce>& forces, const Selector& selector,
-                                                   const SoftBody& actor, std::size_t solid);
-
-/// The same for its muscles. `bricks_from_rest`: see LoadedBody.
-[[nodiscard]] std::vector<MusclePart> place_muscles(const std::vector<BodyMuscle>& muscles, const Selector& selector,
-                                                    const SoftBody& actor, std::size_t solid,
-                                                    const Mat3& bricks_from_rest);
-
-/// Throws Error(kBadInput) where a force or a muscle of a body of the scene acts on none of its bodies.
-void check_loads(const Scene& scene, std::size_t body, const World& world);
-
 /// The poses of a body and its copies (from a LoadedBody at rest), x first, then y, then z. Random placements depend on
 /// their seed only.
 [[nodiscard]] std::vector<Pose> poses_of(const SceneBody& body, const LoadedBody& loaded);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/simulation/body_loads.h"
+
 namespace sprung {
 namespace {
 
@@ -18,23 +20,6 @@ Movement from_values(std::vector<Keyframe> keyframes, Interpolation interpolatio
     keyframes.insert(keyframes.begin(), start);
   }
   return {std::move(keyframes), interpolation};
-}
-
-/// The volume of the bricks on which each force of a body acts, over all its solids, m^3.
-std::vector<double> forced_volumes(const Scene& scene, const Simulation& simulation, std::size_t body) {
-  std::vector<double> volumes(scene.bodies[body].forces.size());
-  for (const SoftBody& one : simulation.world.bodies) {
-    if (one.origin.body != body) continue;
-    for (const ForcedPart& part : one.origin.forces) volumes[part.force] += part.volumes.sum();
-  }
-  for (double& volume : volumes) volume /= copy_count(scene.bodies[body]);
-  return volumes;
-}
-
-/// N, per node.
-Points forces_of(const BodyForce& force, const ForcedPart& part, double volume) {
-  const Vec3 per_volume = force.per_volume ? *force.per_volume : Vec3(force.total.value() / volume);
-  return part.volumes * per_volume.transpose();
 }
 
 }  // namespace
@@ -61,7 +46,8 @@ void LoadDriver::Curve::add_moments(std::vector<double>& moments) const {
   for (const Keyframe& keyframe : movement_.keyframes()) moments.push_back(keyframe.time);
 }
 
-LoadDriver::LoadDriver(const Scene& scene, Simulation& simulation) : scene_(scene), simulation_(simulation) {
+LoadDriver::LoadDriver(const Scene& scene, Simulation& simulation)
+    : scene_(scene), simulation_(simulation), wholes_(forced_wholes(scene, simulation.world)) {
   if (!scene.gravity_keyframes.empty()) gravity_.emplace_back(scene.gravity_keyframes);
   if (scene.wind) wind_.emplace_back(static_cast<const StrengthCurve&>(*scene.wind));
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
@@ -71,7 +57,6 @@ LoadDriver::LoadDriver(const Scene& scene, Simulation& simulation) : scene_(scen
     for (const BodyMuscle& muscle : scene.bodies[i].muscles) {
       curves.muscles.emplace_back(static_cast<const StrengthCurve&>(muscle));
     }
-    curves.volumes = forced_volumes(scene, simulation, i);
   }
   for (const BodyCurves& curves : bodies_) {
     for (const Curve& curve : curves.forces) curve.add_moments(moments_);
@@ -113,12 +98,7 @@ Loads LoadDriver::loads_at(std::size_t actor, double time) const {
     const BodyForce& force = body.forces[part.force];
     const double strength = curves.forces[part.force].strength(time);
     if (strength == 0) continue;
-    if (force.pressure) {
-      loads.pressures.push_back({.triangles = part.triangles, .pressure = strength * *force.pressure});
-      continue;
-    }
-    if (loads.forces.rows() == 0) loads.forces = Points::Zero(part.volumes.size(), 3);
-    loads.forces += strength * forces_of(force, part, curves.volumes[part.force]);
+    add_load(force, part, wholes_[actor][part.force], strength, loads);
   }
   for (const MusclePart& part : origin.muscles) {
     const double strength = curves.muscles[part.muscle].strength(time);
@@ -127,16 +107,6 @@ Loads LoadDriver::loads_at(std::size_t actor, double time) const {
     muscle.contraction = std::min(strength * muscle.contraction, kMostContraction);
   }
   return loads;
-}
-
-Points steady_forces(const Scene& scene, const Simulation& simulation, std::size_t actor) {
-  const Origin& origin = simulation.world.bodies[actor].origin;
-  const std::vector<double> volumes = forced_volumes(scene, simulation, origin.body);
-  Points forces = Points::Zero(simulation.world.bodies[actor].node_count(), 3);
-  for (const ForcedPart& part : origin.forces) {
-    forces += forces_of(scene.bodies[origin.body].forces[part.force], part, volumes[part.force]);
-  }
-  return forces;
 }
 
 namespace {

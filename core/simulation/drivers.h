@@ -5,6 +5,7 @@
 
 #include "core/dynamics/integrator_state.h"
 #include "core/dynamics/linear/linear_solver.h"
+#include "core/simulation/body_loads.h"
 #include "core/simulation/simulation.h"
 #include "core/world/keyframes.h"
 
@@ -43,7 +44,6 @@ class LoadDriver {
   struct BodyCurves {
     std::vector<Curve> forces;
     std::vector<Curve> muscles;
-    std::vector<double> volumes;  // m^3, on which each force acts
   };
 
   [[nodiscard]] Loads loads_at(std::size_t actor, double time) const;
@@ -53,11 +53,9 @@ class LoadDriver {
   std::vector<Curve> gravity_;  // one, or none: constant
   std::vector<Curve> wind_;     // the same
   std::vector<BodyCurves> bodies_;
+  std::vector<std::vector<ForcedWhole>> wholes_;  // by body of the world
   std::vector<double> moments_;
 };
-
-/// The constant nodal forces of the scene on an actor (m x 3, N), without pressures.
-[[nodiscard]] Points steady_forces(const Scene& scene, const Simulation& simulation, std::size_t actor);
 
 /// Drives a moving world by its scene: pins catch, move and release nodes, obstacles move, loads act. A pin that
 /// catches its nodes later than at the start takes them where they are and rotates them about their centroid.

@@ -10,8 +10,10 @@
 #include "core/dynamics/statics/modes.h"
 #include "core/dynamics/statics/statics.h"
 #include "core/error.h"
+#include "core/simulation/body_loads.h"
 #include "core/simulation/drivers.h"
 #include "core/simulation/observer.h"
+#include "core/world/load_forces.h"
 
 namespace sprung {
 namespace {
@@ -29,7 +31,12 @@ class Loading {
                   "a body without pins cannot come to rest; give it a [[body.pin]], or use "
                   "solver.scheme euler or verlet");
     }
-    for (std::size_t i = 0; i < simulation.world.bodies.size(); ++i) systems_.push_back(make_default_solver());
+    const World& world = simulation.world;
+    const auto wholes = forced_wholes(scene, world);
+    for (std::size_t i = 0; i < world.bodies.size(); ++i) {
+      systems_.push_back(make_default_solver());
+      full_.push_back(loads_and_weight(scene, world, i, wholes[i]));
+    }
   }
 
   /// The shapes under a fraction of the weight, with the pins as at a time (s). Reactions by actor, m x 3, N.
@@ -37,8 +44,9 @@ class Loading {
     std::vector<Points> reactions_of_all;
     for (std::size_t row = 0; row < simulation_.world.bodies.size(); ++row) {
       SoftBody& body = simulation_.world.bodies[row];
-      const Points loads =
-          share * (body.masses * simulation_.world.gravity.transpose() + steady_forces(scene_, simulation_, row));
+      Loads loads = full_[row];
+      loads.forces *= share;
+      for (SkinPressure& pressure : loads.pressures) pressure.pressure *= share;
       const Points movements = pin_movements(scene_, simulation_, row, time, is_linear_);
       reactions_of_all.push_back(settle(body, loads, movements, is_linear_, *systems_[row], iterations_, between));
     }
@@ -67,6 +75,7 @@ class Loading {
   const Scene& scene_;
   bool is_linear_;
   std::vector<std::unique_ptr<LinearSolver>> systems_;  // by actor
+  std::vector<Loads> full_;                             // the same
   int iterations_ = 0;
 };
 
@@ -114,24 +123,41 @@ void check_balance(const Points& places, const Points& loads, const Points& reac
 
 }  // namespace
 
-Points settle(SoftBody& body, const Points& loads, const Points& movements, bool linear, LinearSolver& solver,
+Points settle(SoftBody& body, const Loads& loads, const Points& movements, bool linear, LinearSolver& solver,
               int& newton_steps, const std::function<void()>& between) {
+  constexpr int kMostTurns = 60;
+  constexpr double kTurned = 1e-7;  // of the forces at work
   const Supports supports = supports_of(body);
   if (linear) {
     body.positions = body.rest_positions;
-    const LinearResponse response = linear_response(body, supports, loads, movements, solver);
+    const Points forces = loads.forces + pressure_forces(body, loads.pressures);
+    const LinearResponse response = linear_response(body, supports, forces, movements, solver);
     body.positions += response.displacements;
-    check_balance(body.rest_positions, loads, response.reactions);
+    check_balance(body.rest_positions, forces, response.reactions);
     return response.reactions;
   }
-  const Points start = body.positions;
+  Points start = body.positions;
+  Points pressures = pressure_forces(body, loads.pressures);
   for (Eigen::Index i = 0; i < start.size(); ++i) {
     if (supports.fixed[i]) body.positions.data()[i] = body.rest_positions.data()[i] + movements.data()[i];
   }
-  newton_steps += solve_static(body, supports, loads, start, solver, {.between = between}).iterations;
-  Points held = reactions(body, supports, loads);
-  check_balance(body.positions, loads, held);
-  return held;
+  for (int turn = 0; turn < kMostTurns; ++turn) {
+    const Points forces = loads.forces + pressures;
+    newton_steps += solve_static(body, supports, forces, start, solver, {.between = between}).iterations;
+    Points held = reactions(body, supports, forces);
+    const Points turned = pressure_forces(body, loads.pressures);
+    if ((turned - pressures).norm() <= kTurned * (forces.norm() + held.norm())) {
+      check_balance(body.positions, forces, held);
+      return held;
+    }
+    pressures = turned;
+    start = body.positions;
+  }
+  throw Error(
+      ErrorKind::kDiverged,
+      fmt::format("a pressure that turns with the skin finds no equilibrium in {} turns; use more load steps, or "
+                  "less pressure",
+                  kMostTurns));
 }
 
 Recording record_equilibria(Simulation& simulation, const Scene& scene, const Observer& observer, RunCache* cache) {

@@ -87,10 +87,14 @@ struct StrengthCurve {
   Interpolation interpolation = Interpolation::kLinear;
 };
 
-/// A force on a body or a part of it: one of the three.
+/// A force on a body or a part of it: one of total, per_volume, traction, moment and pressure. All but pressure keep
+/// their directions.
 struct BodyForce : Selection, StrengthCurve {
-  std::optional<Vec3> total;       // N, distributed by volume
+  std::optional<Vec3> total;       // N, distributed by volume, or ...
+  bool on_surface = false;         // ... by area of the skin; that of flat boxes always is
   std::optional<Vec3> per_volume;  // N/m^3
+  std::optional<Vec3> traction;    // Pa, on the skin
+  std::optional<Vec3> moment;      // N m, by tractions on the skin that grow with the distance from its centroid
   std::optional<double> pressure;  // Pa, on the skin, inward
 };
 

@@ -17,6 +17,8 @@ namespace sprung {
 namespace {
 
 constexpr double kSelectionRounding = 1e-9;  // of the longest side
+constexpr double kSurfaceRounding = 1e-6;    // of the longest side: that of a file's floats
+constexpr int kBorderCuts = 5;               // of a triangle, in four: to a few hundredths of a brick
 constexpr double kAlmostHalf = 0.49;         // of a brick; not quite half, where rounding errors would decide
 constexpr double kSamePaint = 2.5;           // of 255: rounding of colours in files
 constexpr double kInside = 0.5;              // winding number
@@ -83,17 +85,17 @@ std::vector<int> Selector::touched_bricks(const Selection& selection, const Bric
   return rows_where(brick_middles(grid), test_of(selection, margin, grid.brick_size));
 }
 
-std::vector<int> Selector::triangles(const Selection& selection, const Points& middles, std::size_t solid) const {
-  if (is_whole(selection)) {
-    std::vector<int> all(middles.rows());
-    std::iota(all.begin(), all.end(), 0);
-    return all;
-  }
+std::vector<SkinPiece> Selector::skin_pieces(const Selection& selection, const Points& points,
+                                             const Triangles& triangles, std::size_t solid) const {
+  if (is_whole(selection)) return pieces_where(points, triangles, 0, [](const Vec3&) { return true; });
   if (selection.nearest) {
     const Vec3 place = place_of(*selection.nearest);
-    return solid_nearest_to(place) == solid ? row_nearest_to(place, middles) : std::vector<int>{};
+    if (solid_nearest_to(place) != solid || triangles.rows() == 0) return {};
+    return {{.triangle = NearestTriangle(points, triangles).at(place).triangle}};
   }
-  return rows_where(middles, test_of(selection, kSelectionRounding * body_.extent.maxCoeff(), body_.brick_size));
+  const bool has_border = selection.box || selection.sphere || selection.half_space;
+  return pieces_where(points, triangles, has_border ? kBorderCuts : 0,
+                      test_of(selection, kSurfaceRounding * body_.extent.maxCoeff(), body_.brick_size));
 }
 
 Vec3 Selector::place_of(const Vec3& fractions) const {

@@ -6,6 +6,7 @@
 #include "core/body/body.h"
 #include "core/mesh/query/closest_triangle.h"
 #include "core/simulation/body_source.h"
+#include "core/simulation/skin_pieces.h"
 
 namespace sprung {
 
@@ -28,9 +29,10 @@ class Selector {
   [[nodiscard]] std::vector<int> touched_bricks(const Selection& selection, const BrickGrid& grid,
                                                 std::size_t solid) const;
 
-  /// The skin triangles of one of the body's solids with centroids (`middles`, n x 3) in the part. Rows, ascending.
-  /// Throws like nodes().
-  [[nodiscard]] std::vector<int> triangles(const Selection& selection, const Points& middles, std::size_t solid) const;
+  /// The part of a surface (`points` n x 3) of one of the body's solids: up to the border of a box, ball or half-space,
+  /// else whole triangles, by their centroids. Throws like nodes().
+  [[nodiscard]] std::vector<SkinPiece> skin_pieces(const Selection& selection, const Points& points,
+                                                   const Triangles& triangles, std::size_t solid) const;
 
   /// The centre of the part: of the ball, of the box clipped to the body, else of the part's bounding box.
   [[nodiscard]] Vec3 centre(const Selection& selection) const;

@@ -13,6 +13,7 @@
 #include "core/contact/inversion_guard.h"
 #include "core/contact/penetration.h"
 #include "core/error.h"
+#include "core/simulation/body_loads.h"
 #include "core/simulation/build_bodies.h"
 #include "core/simulation/observer.h"
 #include "core/text.h"

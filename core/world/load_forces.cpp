@@ -58,7 +58,37 @@ void press(const Facet& facet, const Eigen::RowVector3d& force, Points& at_point
   for (const int corner : facet.corners) at_points.row(corner) += force / 3;
 }
 
+/// `places`: of the points of the loaded skin, m.
+void add_pressures(const std::vector<SkinPressure>& pressures, const Triangles& triangles, const Points& places,
+                   Points& at_points) {
+  for (const SkinPressure& pressure : pressures) {
+    const SkinPart& part = *pressure.part;
+    for (std::size_t row = 0; row < part.triangles.size(); ++row) {
+      const Facet facet = facet_of(triangles, part.triangles[row], places);
+      for (int corner = 0; corner < 3; ++corner) {
+        at_points.row(facet.corners[corner]) -= part.weights(row, corner) * pressure.pressure * facet.area;
+      }
+    }
+  }
+}
+
 }  // namespace
+
+LoadedSkin loaded_skin(const SoftBody& actor) {
+  if (actor.contact_triangles.rows() > 0) return {actor.contacts, actor.contact_triangles};
+  return {actor.skin_embedding, actor.skin.triangles};
+}
+
+Points pressure_forces(const SoftBody& actor, const std::vector<SkinPressure>& pressures) {
+  Points forces = Points::Zero(actor.node_count(), 3);
+  if (pressures.empty()) return forces;
+  const LoadedSkin skin = loaded_skin(actor);
+  const Points places = deform_points(actor.grid, skin.points, actor.positions);
+  Points at_points = Points::Zero(places.rows(), 3);
+  add_pressures(pressures, skin.triangles, places, at_points);
+  add_carried(actor, skin.points, at_points, forces);
+  return forces;
+}
 
 const Points& LoadForces::forces() {
   static_cast<void>(forces_beside_muscles());
@@ -78,18 +108,14 @@ void LoadForces::find_skin_forces() {
   const Body& body = actor_;
   skin_forces_ = Points::Zero(body.node_count(), 3);
   if (actor_.loads.pressures.empty() && !world_.wind.blows()) return;
-  const Points places = deform_points(body.grid, actor_.contacts, body.positions);
+  const LoadedSkin skin = loaded_skin(actor_);
+  const Points places = deform_points(body.grid, skin.points, body.positions);
   Points at_points = Points::Zero(places.rows(), 3);
-  for (const SkinPressure& pressure : actor_.loads.pressures) {
-    for (const int row : pressure.triangles) {
-      const Facet facet = facet_of(actor_.contact_triangles, row, places);
-      press(facet, -pressure.pressure * facet.area, at_points);
-    }
-  }
+  add_pressures(actor_.loads.pressures, skin.triangles, places, at_points);
   if (world_.wind.blows()) {
-    const Points speeds = deform_points(body.grid, actor_.contacts, body.velocities);
-    for (int row = 0; row < actor_.contact_triangles.rows(); ++row) {
-      const Facet facet = facet_of(actor_.contact_triangles, row, places);
+    const Points speeds = deform_points(body.grid, skin.points, body.velocities);
+    for (int row = 0; row < skin.triangles.rows(); ++row) {
+      const Facet facet = facet_of(skin.triangles, row, places);
       const auto& at = facet.corners;
       const Eigen::RowVector3d seen =
           world_.wind.velocity.transpose() - (speeds.row(at[0]) + speeds.row(at[1]) + speeds.row(at[2])) / 3;
@@ -99,7 +125,7 @@ void LoadForces::find_skin_forces() {
       press(facet, -pressure * facet.area, at_points);
     }
   }
-  add_carried(body, actor_.contacts, at_points, skin_forces_);
+  add_carried(body, skin.points, at_points, skin_forces_);
 }
 
 void LoadForces::add_muscle(const Muscle& muscle) {

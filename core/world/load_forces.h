@@ -3,6 +3,17 @@
 
 namespace sprung {
 
+/// What pressures act on: the contact surface of a body that may touch others, else its drawn skin.
+struct LoadedSkin {
+  const Embedding& points;
+  const Triangles& triangles;
+};
+
+[[nodiscard]] LoadedSkin loaded_skin(const SoftBody& actor);
+
+/// The nodal forces of pressures on a body where it is; m x 3, N.
+[[nodiscard]] Points pressure_forces(const SoftBody& actor, const std::vector<SkinPressure>& pressures);
+
 /// The nodal forces of a body's loads and of the wind. Those on the skin are updated every few steps only, since they
 /// change as slowly as the skin turns.
 class LoadForces {

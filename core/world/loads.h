@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "core/law/material.h"
@@ -7,10 +8,17 @@
 
 namespace sprung {
 
-/// A pressure on triangles of a body's skin, along their current inward normals.
+/// A part of a body's skin.
+struct SkinPart {
+  std::vector<int> triangles;  // rows of the triangles of the body's loaded_skin(), ascending
+  Points weights;              // a row for each: integrals of its corners' linear shape functions over what of it
+                               // belongs to the part, over its area; 1/3 each where that is all of it
+};
+
+/// A pressure on a part of a body's skin, along its current inward normals.
 struct SkinPressure {
-  std::vector<int> triangles;  // rows of SoftBody::contact_triangles
-  double pressure = 0;         // Pa; negative: suction
+  std::shared_ptr<const SkinPart> part;
+  double pressure = 0;  // Pa; negative: suction
 };
 
 /// Bricks whose rest shape is shortened along one direction and widened across it at constant volume: without

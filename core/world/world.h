@@ -32,9 +32,11 @@ struct PinnedNodes {
 
 /// Where a force of the scene acts on a body.
 struct ForcedPart {
-  std::size_t force = 0;       // row in SceneBody::forces
-  Eigen::VectorXd volumes;     // per node, m^3: its share of the bricks of the part
-  std::vector<int> triangles;  // of a pressure: rows of SoftBody::contact_triangles
+  std::size_t force = 0;                   // row in SceneBody::forces
+  Eigen::VectorXd shares{};                // per node: of the volume of the part, m^3, or of the area of its skin, m^2
+  Points arms{};                           // m x 3, m^3: those of the area times their places; 0 rows: not of an area
+  Mat3 second = Mat3::Zero();              // m^4: place place^T over the area
+  std::shared_ptr<const SkinPart> skin{};  // of a pressure, in place of these
 };
 
 /// The bricks of a body that form a muscle of the scene.

@@ -24,10 +24,11 @@ World weightless(SoftBody actor) {
   return world;
 }
 
-std::vector<int> all_triangles(const SoftBody& actor) {
-  std::vector<int> rows(actor.contact_triangles.rows());
-  for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = int(i);
-  return rows;
+std::shared_ptr<const SkinPart> whole_skin(const SoftBody& actor) {
+  SkinPart part;
+  for (int row = 0; row < actor.contact_triangles.rows(); ++row) part.triangles.push_back(row);
+  part.weights = Points::Constant(actor.contact_triangles.rows(), 3, 1.0 / 3);
+  return std::make_shared<const SkinPart>(std::move(part));
 }
 
 /// A force on a free body accelerates it by F / m, whatever it does inside.
@@ -47,7 +48,7 @@ TEST(Loads, ForceAcceleratesAFreeBody) {
 TEST(Loads, PressureOnAClosedSkinDoesTheWorkOfItsVolume) {
   World world = weightless(touching_box({3, 2, 2}, 0.01, test_material(0.3, 2e4), Vec3::Zero()));
   SoftBody& actor = world.bodies[0];
-  actor.loads.pressures.push_back({.triangles = all_triangles(actor), .pressure = 700});
+  actor.loads.pressures.push_back({.part = whole_skin(actor), .pressure = 700});
   const Points forces = LoadForces(actor, world).forces();
   EXPECT_LT(forces.colwise().sum().norm(), 1e-12);
   const double strain = 1e-3;
@@ -61,7 +62,7 @@ TEST(Loads, PressureShrinksABodyByItsBulkModulus) {
   World world = weightless(touching_box({4, 4, 4}, 0.01, test_material(0.3, 2e4), Vec3::Zero()));
   SoftBody& actor = world.bodies[0];
   const double pressure = 100;
-  actor.loads.pressures.push_back({.triangles = all_triangles(actor), .pressure = pressure});
+  actor.loads.pressures.push_back({.part = whole_skin(actor), .pressure = pressure});
   actor.damping = {.alpha = 30, .beta = 0};
   advance(world, Scheme::kSymplecticEuler, stable_step(world), 6000, 0);
   const double bulk = 2e4 / (3 * (1 - 0.6));
