@@ -193,7 +193,7 @@ Recording record_modes(Simulation& simulation, const Scene& scene, const Observe
   }
   Progress progress(observer, "modes");
   SoftBody& actor = simulation.world.bodies[0];
-  const Modes modes = natural_modes(actor, supports_of(actor), scene.solver.modes);
+  const Modes modes = natural_modes(actor, supports_of(actor), scene.solver.modes, [&] { observer.check_interrupt(); });
   const int frames = frame_count(scene);
   const int count = scene.solver.modes;
   Recorder recorder(scene, simulation, "mode", cache);

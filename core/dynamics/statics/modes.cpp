@@ -1,24 +1,34 @@
 #include "core/dynamics/statics/modes.h"
 
+#include <Spectra/JDSymEigsBase.h>
 #include <fmt/format.h>
 
-#include <Eigen/SparseCholesky>
-#include <iostream>  // ArpackSupport needs it
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
 #include <numbers>
-#include <unsupported/Eigen/ArpackSupport>
+#include <optional>
+#include <random>
+#include <utility>
 
 #include "core/dynamics/linear/stiffness.h"
 #include "core/dynamics/statics/free_motion.h"
 #include "core/error.h"
 
 namespace sprung {
-
 namespace {
 
-using Matrix = Eigen::SparseMatrix<double>;
-using ModeSolver = Eigen::ArpackGeneralizedSelfAdjointEigenSolver<Matrix, Eigen::SimplicialLLT<Matrix>>;
+using Matrix = Eigen::MatrixXd;
+using Vector = Eigen::VectorXd;
 
+constexpr int kDense = 600;             // degrees of freedom, up to which all vibrations are found at once
 constexpr double kNoFrequency = 1e-11;  // squared, over the fastest: rounding
+constexpr double kResidual = 1e-4;      // of the lowest eigenvalue, which bounds the error of each
+constexpr int kMoreToStart = 8;         // vectors than vibrations
+constexpr int kRoundsToStart = 2;       // of inverse iteration, about
+constexpr int kMostRounds = 200;        // of corrections
+constexpr int kRoundsToRestart = 2;     // of corrections; each keeps as many vectors more
 constexpr int kRigidMotions = 6;
 constexpr double kSpectralShift = 1e-3;  // of what a wave needs along a free body, which makes its matrix definite
 constexpr double kRigid = 1e-5;          // of the shift: less than that is rounding
@@ -30,59 +40,147 @@ double wave_rate_squared(const Body& body) {
   return body.material.young / body.material.density / (length * length);
 }
 
-/// The smallest eigenvalues and their vectors. False where the matrix is not positive definite but for rounding.
-bool solve(const Matrix& matrix, int count, ModeSolver& solver) {
-  // The solver would say so on stdout itself.
-  if (Eigen::SimplicialLLT<Matrix>(matrix).info() != Eigen::Success) return false;
-  solver.compute(matrix, count, "SM");
-  if (solver.info() == Eigen::Success) {
-    return solver.eigenvalues().minCoeff() > kNoFrequency * matrix.diagonal().maxCoeff();
+/// M^-1/2 (K + shift M) M^-1/2 over the free degrees of freedom: with shape = M^-1/2 y the problem becomes an ordinary
+/// symmetric one.
+class ScaledStiffness {
+ public:
+  using Scalar = double;
+
+  ScaledStiffness(const Body& body, const Supports& supports, double shift, const std::function<void()>& between)
+      : body_(body), supports_(supports), dofs_(supports), between_(between) {
+    terms_.mass_factor = shift;
+    Vector masses(3 * body.node_count());
+    for (Eigen::Index i = 0; i < masses.size(); ++i) masses[i] = body.masses[i / 3];
+    scale_ = dofs_.gather(masses).cwiseSqrt().cwiseInverse();
   }
-  throw Error(ErrorKind::kFailed, fmt::format("the search for {} modes did not converge; hold more of the body or "
-                                              "ask for fewer",
-                                              count));
+
+  [[nodiscard]] Eigen::Index rows() const { return dofs_.count; }
+  [[nodiscard]] Eigen::Index cols() const { return dofs_.count; }
+
+  /// All entries, of a small body.
+  [[nodiscard]] Matrix dense() const {
+    const Matrix lower = stiffness_matrix(body_, dofs_, false, terms_);
+    return scale_.asDiagonal() * Matrix(lower.selfadjointView<Eigen::Lower>()) * scale_.asDiagonal();
+  }
+
+  /// False where the matrix is seen not to be positive definite.
+  bool prepare() { return system_->linearize(body_, supports_, false, terms_); }
+
+  [[nodiscard]] Matrix operator*(const Matrix& columns) const {
+    return each(
+        columns, [&](const Vector& all, Vector& product) { system_->multiply(all, product); }, scale_);
+  }
+
+  /// About the inverse.
+  [[nodiscard]] Matrix precondition(const Matrix& columns) const {
+    return each(
+        columns, [&](const Vector& all, Vector& answer) { system_->precondition(all, answer); }, scale_.cwiseInverse());
+  }
+
+  [[nodiscard]] Vector shape_of(const Vector& scaled) const { return dofs_.scatter(scale_.cwiseProduct(scaled)); }
+
+ private:
+  template <class Apply>
+  [[nodiscard]] Matrix each(const Matrix& columns, const Apply& apply, const Vector& scale) const {
+    Matrix results(columns.rows(), columns.cols());
+    Vector result(3 * body_.node_count());
+    for (Eigen::Index column = 0; column < columns.cols(); ++column) {
+      if (between_) between_();
+      apply(dofs_.scatter(scale.cwiseProduct(columns.col(column))), result);
+      results.col(column) = scale.cwiseProduct(dofs_.gather(result));
+    }
+    return results;
+  }
+
+  const Body& body_;
+  const Supports& supports_;
+  FreeDofs dofs_;
+  StepTerms terms_;
+  std::function<void()> between_;
+  Vector scale_;
+  std::unique_ptr<IterativeSolver> system_ = make_multigrid_solver();
+};
+
+Matrix orthonormal(const Matrix& columns) {
+  return Eigen::HouseholderQR<Matrix>(columns).householderQ() * Matrix::Identity(columns.rows(), columns.cols());
+}
+
+/// Davidson's method, with multigrid for the corrections.
+class Davidson : public Spectra::JDSymEigsBase<Davidson, ScaledStiffness> {
+ public:
+  Davidson(ScaledStiffness& matrix, int count, int start)
+      : JDSymEigsBase(matrix, count, start, start + kRoundsToRestart * count) {}
+
+  /// Of those that are not good enough yet, one at least.
+  [[nodiscard]] Matrix calculate_correction_vector() const {
+    const Matrix& residuals = m_ritz_pairs.residues();
+    std::vector<int> rows;
+    for (int k = 0; k < m_correction_size; ++k) {
+      if (!m_ritz_pairs.converged_eigenvalues()[k]) rows.push_back(k);
+    }
+    return m_matrix_operator.precondition(residuals(Eigen::all, rows));
+  }
+};
+
+struct Eigenpairs {
+  Vector values;   // smallest first
+  Matrix vectors;  // orthonormal
+};
+
+Eigenpairs all_pairs(const ScaledStiffness& matrix, int count) {
+  const Eigen::SelfAdjointEigenSolver<Matrix> solver(matrix.dense());
+  return {solver.eigenvalues().head(count), solver.eigenvectors().leftCols(count)};
+}
+
+/// None where the matrix is not positive definite but for rounding.
+std::optional<Eigenpairs> smallest_pairs(ScaledStiffness& matrix, int count) {
+  if (!matrix.prepare()) return std::nullopt;
+  const int start = count + kMoreToStart;
+  std::mt19937_64 random(1);
+  Matrix guess(matrix.rows(), start);
+  for (double& number : guess.reshaped()) number = std::ldexp(double(random() >> 11U), -53) - 0.5;
+  for (int round = 0; round < kRoundsToStart; ++round) guess = orthonormal(matrix.precondition(guess));
+  const Matrix small = guess.transpose() * (matrix * guess);
+  const double lowest = Eigen::SelfAdjointEigenSolver<Matrix>(small, Eigen::EigenvaluesOnly).eigenvalues()[0];
+  if (!(lowest > 0)) return std::nullopt;
+  Davidson search(matrix, count, start);
+  search.compute_with_guess(guess, Spectra::SortRule::SmallestAlge, kMostRounds, kResidual * lowest);
+  if (search.info() == Spectra::CompInfo::Successful) return Eigenpairs{search.eigenvalues(), search.eigenvectors()};
+  throw Error(ErrorKind::kFailed,
+              fmt::format("the search for {} modes did not converge; hold more of the body or ask for fewer", count));
 }
 
 }  // namespace
 
-Modes natural_modes(const Body& body, const Supports& supports, int count) {
+Modes natural_modes(const Body& body, const Supports& supports, int count, const std::function<void()>& between) {
   const FreeDofs dofs(supports);
   if (count < 1 || count >= dofs.count) {
     throw Error(ErrorKind::kBadInput,
                 fmt::format("cannot find {} modes of a body with {} free coordinates", count, dofs.count));
   }
-  Eigen::VectorXd masses(3 * body.node_count());
-  for (int i = 0; i < masses.size(); ++i) masses[i] = body.masses[i / 3];
-  const Eigen::VectorXd scale = dofs.gather(masses).cwiseSqrt().cwiseInverse();
-
-  // With shape = M^-1/2 y the problem becomes an ordinary symmetric one.
-  Matrix matrix = stiffness_matrix(body, dofs, false, {});
-  matrix = scale.asDiagonal() * matrix * scale.asDiagonal();
-  Modes modes;
-  const bool is_free = dofs.count == masses.size();
+  const bool is_free = dofs.count == 3 * body.node_count();
   const double shift = is_free ? kSpectralShift * wave_rate_squared(body) : 0;
-  if (is_free) {
-    modes.rigid = kRigidMotions;
-    for (int i = 0; i < dofs.count; ++i) matrix.coeffRef(i, i) += shift;
-  }
-  const int all = count + modes.rigid;
-  ModeSolver solver;
-  if (!solve(matrix.selfadjointView<Eigen::Lower>(), all, solver)) {
+  Modes modes;
+  modes.rigid = is_free ? kRigidMotions : 0;
+  const int all = std::min(count + modes.rigid, dofs.count);
+  ScaledStiffness matrix(body, supports, shift, between);
+  const std::optional<Eigenpairs> found =
+      dofs.count <= std::max(kDense, 4 * (all + kMoreToStart)) ? all_pairs(matrix, all) : smallest_pairs(matrix, all);
+  const double fastest = largest_brick_stiffness(body) / body.masses.maxCoeff();
+  if (!found || !(found->values[0] > kNoFrequency * fastest)) {
     throw_if_free(body, supports, "there are no vibrations to find");
     throw Error(ErrorKind::kFailed, "the body is nearly free to move: hold more of it");
   }
   modes.frequencies.resize(count);
-  modes.shapes.resize(masses.size(), count);
+  modes.shapes.resize(3 * body.node_count(), count);
   for (int k = 0; k < all; ++k) {
-    // ARPACK hands the smallest ones over from the largest to the smallest.
-    const int from = solver.eigenvalues()[0] > solver.eigenvalues()[all - 1] ? all - 1 - k : k;
-    const double square = solver.eigenvalues()[from] - shift;  // of the angular frequency
+    const double square = found->values[k] - shift;  // of the angular frequency
     if (is_free && (square < kRigid * shift) != (k < modes.rigid)) {
       throw Error(ErrorKind::kFailed, "the free body has not six rigid motions: its parts do not hang together");
     }
     if (k < modes.rigid) continue;
     modes.frequencies[k - modes.rigid] = std::sqrt(square) / (2 * std::numbers::pi);
-    modes.shapes.col(k - modes.rigid) = dofs.scatter(scale.cwiseProduct(solver.eigenvectors().col(from)));
+    modes.shapes.col(k - modes.rigid) = matrix.shape_of(found->vectors.col(k));
   }
   return modes;
 }

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/body/forces.h"
+#include "core/dynamics/linear/stiffness.h"
 #include "core/dynamics/statics/modes.h"
 #include "core/error.h"
 #include "tests/support/bodies.h"
@@ -176,6 +177,34 @@ TEST(Modes, AFreeBeamSwingsAtTheFrequencyOfTheory) {
   for (int mode = 0; mode < 4; ++mode) {
     const Eigen::Map<const Points> shape(modes.shapes.col(mode).data(), beam.node_count(), 3);
     EXPECT_LT((shape.transpose() * beam.masses).norm(), 1e-6) << "it moves as a whole";
+  }
+}
+
+/// By multigrid, checked with the matrix: a body of more coordinates than are solved densely, held and free. More modes
+/// begin with the same ones.
+TEST(Modes, OfALargerBodyAreEigenvectorsAndNoneIsMissed) {
+  const Body block = make_body(make_box_grid({8, 9, 10}, 0.01), Model::kCalibrated, test_material(0.4, 1e5));
+  Supports foot(block.node_count());
+  for (int node = 0; node < block.node_count(); ++node) {
+    if (block.grid.lattice[node].z() == 0) foot.fix(node);
+  }
+  for (const Supports& supports : {foot, Supports(block.node_count())}) {
+    const FreeDofs dofs(supports);
+    const Eigen::SparseMatrix<double> stiffness = stiffness_matrix(block, dofs, false, {});
+    Eigen::VectorXd masses(3 * block.node_count());
+    for (int i = 0; i < masses.size(); ++i) masses[i] = block.masses[i / 3];
+    const Modes few = natural_modes(block, supports, 5);
+    const Modes many = natural_modes(block, supports, 15);
+    EXPECT_LT((few.frequencies - many.frequencies.head(5)).cwiseAbs().maxCoeff(), 1e-6 * few.frequencies[0]);
+    for (int mode = 0; mode < 15; ++mode) {
+      const double square = std::pow(2 * std::numbers::pi * many.frequencies[mode], 2);
+      const Eigen::VectorXd shape = dofs.gather(many.shapes.col(mode));
+      const Eigen::VectorXd inertia = square * dofs.gather(masses).cwiseProduct(shape);
+      const Eigen::VectorXd left = stiffness.selfadjointView<Eigen::Lower>() * shape - inertia;
+      EXPECT_LT(left.norm(), 1e-3 * inertia.norm()) << mode;
+    }
+    EXPECT_LT((many.shapes.transpose() * masses.asDiagonal() * many.shapes - Eigen::MatrixXd::Identity(15, 15)).norm(),
+              1e-8);
   }
 }
 
