@@ -112,10 +112,6 @@ Recording with_advice(const RunCache* cache, const std::string& advice, const Co
   }
 }
 
-void print_vector(std::string_view probe, std::string_view what, const Vec3& value, std::string_view unit) {
-  fmt::print("{} {} [{:.6g}, {:.6g}, {:.6g}] {}\n", probe, what, value.x(), value.y(), value.z(), unit);
-}
-
 void print_summary(const Recording& recording) {
   fmt::print("state {:016x}\n", recording.state_hash);
   for (int i = 0; i < recording.frequencies.size(); ++i) {
@@ -123,44 +119,40 @@ void print_summary(const Recording& recording) {
   }
   for (const ProbeTrack& track : recording.probes) {
     const ProbeSample& last = track.samples.back();
-    print_vector(track.name, "position", last.position, "m");
-    print_vector(track.name, "displacement", last.displacement, "m");
-    if (!track.is_pin) continue;
-    print_vector(track.name, "force", last.force, "N");
-    print_vector(track.name, "torque", last.torque, "N m");
+    for (const ProbeQuantity& quantity : kProbeQuantities) {
+      if (!quantity.is_of(track.is_pin)) continue;
+      const Vec3& value = last.*quantity.value;
+      fmt::print("{} {} [{:.6g}, {:.6g}, {:.6g}] {}\n", track.name, quantity.name, value.x(), value.y(), value.z(),
+                 quantity.unit);
+    }
   }
 }
 
-/// What a probe measures, in the order of its columns.
-struct Column {
-  std::string_view name;
-  std::string_view unit;
-  Vec3 ProbeSample::*value;
-  bool is_of_pin;
-};
-
-constexpr std::array<Column, 4> kColumns{{{"position", "m", &ProbeSample::position, false},
-                                          {"displacement", "m", &ProbeSample::displacement, false},
-                                          {"force", "N", &ProbeSample::force, true},
-                                          {"torque", "Nm", &ProbeSample::torque, true}}};
+/// "position_m", "torque_Nm".
+std::string column_of(const ProbeQuantity& quantity, std::string_view component = "") {
+  std::string unit(quantity.unit);
+  unit.erase(std::remove(unit.begin(), unit.end(), ' '), unit.end());
+  return fmt::format("{}{}{}_{}", quantity.name, component.empty() ? "" : ".", component, unit);
+}
 
 /// One line a frame under a line of names: "time_s,tip.position.x_m,...,end.torque.z_Nm".
 std::string probes_csv(const Recording& recording) {
   std::string text = recording.progress_name;
   for (const ProbeTrack& track : recording.probes) {
-    for (const Column& column : kColumns) {
-      if (column.is_of_pin && !track.is_pin) continue;
-      for (const char axis : {'x', 'y', 'z'})
-        text += fmt::format(",{}.{}.{}_{}", track.name, column.name, axis, column.unit);
+    for (const ProbeQuantity& quantity : kProbeQuantities) {
+      if (!quantity.is_of(track.is_pin)) continue;
+      for (const std::string_view component : quantity.components) {
+        text += fmt::format(",{}.{}", track.name, column_of(quantity, component));
+      }
     }
   }
   text += "\n";
   for (std::size_t frame = 0; frame < recording.progress.size(); ++frame) {
     text += fmt::format("{}", recording.progress[frame]);
     for (const ProbeTrack& track : recording.probes) {
-      for (const Column& column : kColumns) {
-        if (column.is_of_pin && !track.is_pin) continue;
-        const Vec3& value = track.samples[frame].*column.value;
+      for (const ProbeQuantity& quantity : kProbeQuantities) {
+        if (!quantity.is_of(track.is_pin)) continue;
+        const Vec3& value = track.samples[frame].*quantity.value;
         text += fmt::format(",{},{},{}", value.x(), value.y(), value.z());
       }
     }
@@ -174,11 +166,11 @@ std::string probes_json(const Recording& recording) {
   Json tracks = Json::array();
   for (const ProbeTrack& track : recording.probes) {
     Json& json = tracks.emplace_back(Json{{"name", track.name}});
-    for (const Column& column : kColumns) {
-      if (column.is_of_pin && !track.is_pin) continue;
-      Json& values = json[fmt::format("{}_{}", column.name, column.unit)] = Json::array();
+    for (const ProbeQuantity& quantity : kProbeQuantities) {
+      if (!quantity.is_of(track.is_pin)) continue;
+      Json& values = json[column_of(quantity)] = Json::array();
       for (const ProbeSample& sample : track.samples) {
-        const Vec3& value = sample.*column.value;
+        const Vec3& value = sample.*quantity.value;
         values.push_back({value.x(), value.y(), value.z()});
       }
     }

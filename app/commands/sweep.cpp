@@ -82,8 +82,10 @@ void write_runs(const SweepOptions& options, const Console& console) {
 void print_header(const CacheHeader& header) {
   fmt::print("run,frames,seconds,{},state_hash", header.progress_name);
   for (const std::string& probe : header.probes) {
-    for (const char* quantity : {"position", "displacement", "force", "torque"}) {
-      for (const char axis : {'x', 'y', 'z'}) fmt::print(",{}.{}.{}", probe, quantity, axis);
+    for (const ProbeQuantity& quantity : kProbeQuantities) {
+      for (const std::string_view component : quantity.components) {
+        fmt::print(",{}.{}.{}", probe, quantity.name, component);
+      }
     }
   }
   fmt::print("\n");

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/body/brick_measures.h"
+#include "core/body/stress.h"
 
 namespace sprung {
 namespace {
@@ -47,7 +48,7 @@ Eigen::VectorXd field_values(Field field, const Simulation& simulation, const Re
     case Field::kStrain:
       return measured(BrickMeasure::kStrain, body, positions);
     case Field::kStress:
-      return measured(BrickMeasure::kStress, body, positions);
+      return von_mises(recover_stress(body, positions));
     case Field::kVolume:
       return measured(BrickMeasure::kVolume, body, positions);
     case Field::kFill:

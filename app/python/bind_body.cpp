@@ -8,6 +8,7 @@
 
 #include "app/python/bindings.h"
 #include "core/body/brick_measures.h"
+#include "core/body/stress.h"
 #include "core/error.h"
 #include "core/text.h"
 
@@ -65,6 +66,20 @@ py::array field_of(const py::object& self, const std::string& name) {
   });
 }
 
+StressTensors stress_of(const BodyHandle& handle) {
+  return locked_without_gil(*handle.world, [&] {
+    const Body& body = handle.world->body(handle.row);
+    return recover_stress(body, body.positions);
+  });
+}
+
+StressTensors skin_stress_of(const BodyHandle& handle) {
+  return locked_without_gil(*handle.world, [&] {
+    const SoftBody& body = handle.world->body(handle.row);
+    return stress_at(body.grid, body.skin_embedding, recover_stress(body, body.positions));
+  });
+}
+
 /// Rows of nodes: the rows themselves, or from one bool for each of `count` nodes.
 std::vector<long> rows_from(const py::object& nodes, py::ssize_t count) {
   const auto array = py::array::ensure(nodes);
@@ -119,6 +134,10 @@ void bind_body(py::module_& module) {
           "Its material.")
       .def("field", &field_of, py::arg("name"),
            "(n,) stretch, strain (von Mises), volume (over that at rest), fill, 1; stress (von Mises), young, Pa.")
+      .def("stress", &stress_of,
+           "(m, 6) Cauchy stress at the nodes: xx, yy, zz, xy, yz, zx, Pa. Continued from the bricks' middles to their "
+           "corners by their neighbours.")
+      .def("skin_stress", &skin_stress_of, "(v, 6) Pa, the same at the vertices of the skin.")
       .def("skin_positions", &deformed_skin, "(v, 3) m.")
       .def("pin", &pin, py::arg("nodes"), "Fixes these nodes where they are, and no others: rows, or (m,) bools.")
       .def("settle", &settle, py::arg("linear") = false,

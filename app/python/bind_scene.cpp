@@ -255,12 +255,10 @@ py::dict probes_of(const SceneRun& run) {
   py::dict probes;
   for (const ProbeTrack& track : run.recording.probes) {
     py::dict measured;
-    for (const auto& [name, member] :
-         {std::pair{"position", &ProbeSample::position}, std::pair{"displacement", &ProbeSample::displacement},
-          std::pair{"force", &ProbeSample::force}, std::pair{"torque", &ProbeSample::torque}}) {
+    for (const ProbeQuantity& quantity : kProbeQuantities) {
       Points rows(track.samples.size(), 3);
-      for (std::size_t i = 0; i < track.samples.size(); ++i) rows.row(i) = track.samples[i].*member;
-      measured[name] = rows;
+      for (std::size_t i = 0; i < track.samples.size(); ++i) rows.row(i) = track.samples[i].*quantity.value;
+      measured[py::str(std::string(quantity.name))] = rows;
     }
     probes[py::str(track.name)] = measured;
   }
@@ -318,8 +316,10 @@ void bind_scene(py::module_& module) {
       .def("velocities", &run_velocities_of, py::arg("frame"), "By body: (m, 3) m/s, of the nodes in a frame.")
       .def("skin_positions", &skins_of, py::arg("frame"), "By body: (v, 3) m.")
       .def_property_readonly("triangles", &run_triangles_of, "By body: (t, 3) rows of skin_positions().")
-      .def_property_readonly("probes", &probes_of,
-                             "By name: position, displacement, m; force, N; torque, N m; each (frames, 3).");
+      .def_property_readonly(
+          "probes", &probes_of,
+          "By name: position, displacement, m; force, N; torque, N m; stress (xx, yy, zz), shear_stress (xy, yz, zx), "
+          "Pa; each (frames, 3).");
   module.def(
       "simulate", &run_scene, py::arg("scene"), py::arg("cache") = py::none(), py::arg("resume") = false,
       py::arg("progress") = py::none(), py::arg("on_frame") = py::none(),

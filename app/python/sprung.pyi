@@ -98,6 +98,10 @@ class Body:
         """Its material."""
     def field(self, name: str) -> NDArray[np.float64]:
         """(n,) stretch, strain (von Mises), volume (over that at rest), fill, 1; stress (von Mises), young, Pa."""
+    def stress(self) -> NDArray[np.float64]:
+        """(m, 6) Cauchy stress at the nodes: xx, yy, zz, xy, yz, zx, Pa. Continued from the bricks' middles to their corners by their neighbours."""
+    def skin_stress(self) -> NDArray[np.float64]:
+        """(v, 6) Pa, the same at the vertices of the skin."""
     def skin_positions(self) -> NDArray[np.float64]:
         """(v, 3) m."""
     def pin(self, nodes: Sequence[int] | NDArray[np.integer] | NDArray[np.bool_]) -> None:
@@ -177,7 +181,7 @@ class Run:
         """By body: (t, 3) rows of skin_positions()."""
     @property
     def probes(self) -> dict[str, dict[str, NDArray[np.float64]]]:
-        """By name: position, displacement, m; force, N; torque, N m; each (frames, 3)."""
+        """By name: position, displacement, m; force, N; torque, N m; stress (xx, yy, zz), shear_stress (xy, yz, zx), Pa; each (frames, 3)."""
 
 def simulate(
     scene: str | PathLike[str] | dict[str, Any],

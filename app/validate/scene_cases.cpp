@@ -101,18 +101,9 @@ struct Measurement {
   std::string_view unit;
 };
 
-/// The quantity in the last frame: "PROBE.displacement.y" (position, force, torque), "frequency.1" or
-/// "nodes.max_error" (mean_error, rms_error).
+/// The quantity in the last frame: "PROBE.displacement.y" (position, force, torque, stress.xx, shear_stress.xy),
+/// "frequency.1" or "nodes.max_error" (mean_error, rms_error).
 Measurement measure(const Recording& recording, const std::optional<NodeErrors>& errors, const std::string& quantity) {
-  struct Field {
-    std::string_view name;
-    std::string_view unit;
-    Vec3 ProbeSample::*value;
-  };
-  constexpr std::array<Field, 4> kFields{{{"position", "m", &ProbeSample::position},
-                                          {"displacement", "m", &ProbeSample::displacement},
-                                          {"force", "N", &ProbeSample::force},
-                                          {"torque", "N m", &ProbeSample::torque}}};
   const auto dot = std::min(quantity.rfind('.'), quantity.size());
   const std::string start = quantity.substr(0, dot);
   const std::string end = quantity.substr(std::min(dot + 1, quantity.size()));
@@ -126,17 +117,18 @@ Measurement measure(const Recording& recording, const std::optional<NodeErrors>&
     if (mode >= 1 && mode <= recording.frequencies.size()) return {recording.frequencies[mode - 1], "Hz"};
   }
   for (const ProbeTrack& track : recording.probes) {
-    for (const Field& field : kFields) {
-      for (int axis = 0; axis < 3; ++axis) {
-        if (quantity != fmt::format("{}.{}.{}", track.name, field.name, "xyz"[axis])) continue;
-        return {(track.samples.back().*field.value)[axis], field.unit};
+    for (const ProbeQuantity& known : kProbeQuantities) {
+      for (int i = 0; i < 3; ++i) {
+        if (quantity != fmt::format("{}.{}.{}", track.name, known.name, known.components[i])) continue;
+        return {(track.samples.back().*known.value)[i], known.unit};
       }
     }
   }
   throw Error(
       ErrorKind::kBadInput,
       fmt::format("expect.quantity: the scene measures no '{}'; write PROBE.displacement.y (or position, force, "
-                  "torque), frequency.1 with solver.scheme modes, or nodes.max_error (or mean_error, rms_error) with "
+                  "torque), PROBE.stress.xx, PROBE.shear_stress.xy, frequency.1 with solver.scheme modes, or "
+                  "nodes.max_error (or mean_error, rms_error) with "
                   "experiment.nodes",
                   quantity));
 }

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "core/body/brick_measures.h"
+#include "core/body/stress.h"
 #include "core/skin/skin.h"
 
 namespace sprung {
@@ -17,6 +18,11 @@ namespace fs = std::filesystem;
 constexpr std::array<int, 8> kVtkCorners{0, 1, 3, 2, 4, 5, 7, 6};
 
 using Hexahedra = Eigen::Matrix<int, Eigen::Dynamic, 8, Eigen::RowMajor>;
+
+/// XDMF's Tensor6: xx, xy, xz, yy, yz, zz.
+Eigen::Matrix<float, Eigen::Dynamic, 6, Eigen::RowMajor> tensor6(const StressTensors& stresses) {
+  return stresses(Eigen::all, std::array<int, 6>{0, 3, 5, 1, 4, 2}).cast<float>();
+}
 
 /// One scalar per brick.
 struct CellField {
@@ -79,6 +85,7 @@ std::string XdmfWriter::brick_grid(std::size_t row, const std::string& folder, c
   write_matrix(hdf5_, moving + "/velocity", Floats3(velocities.cast<float>()));
   write_matrix(hdf5_, moving + "/stretch", measured(BrickMeasure::kStretch));
   write_matrix(hdf5_, moving + "/stress", measured(BrickMeasure::kStress));
+  write_matrix(hdf5_, moving + "/stress_tensor", tensor6(recover_stress(body, nodes)));
   std::string text = fmt::format(
       "<Grid Name=\"bricks {}\" GridType=\"Uniform\">\n<Topology TopologyType=\"Hexahedron\" NumberOfElements=\"{}\">"
       "{}</Topology>\n<Geometry GeometryType=\"XYZ\">{}</Geometry>\n",
@@ -90,8 +97,10 @@ std::string XdmfWriter::brick_grid(std::size_t row, const std::string& folder, c
                         item_text({field.folder + "/" + field.name, {bricks, 1}, field.is_integer}));
   }
   return text +
-         fmt::format("<Attribute Name=\"velocity\" AttributeType=\"Vector\" Center=\"Node\">{}</Attribute>\n</Grid>\n",
-                     item_text({moving + "/velocity", {count, 3}}));
+         fmt::format(
+             "<Attribute Name=\"velocity\" AttributeType=\"Vector\" Center=\"Node\">{}</Attribute>\n"
+             "<Attribute Name=\"stress_tensor\" AttributeType=\"Tensor6\" Center=\"Node\">{}</Attribute>\n</Grid>\n",
+             item_text({moving + "/velocity", {count, 3}}), item_text({moving + "/stress_tensor", {count, 6}}));
 }
 
 std::string XdmfWriter::skin_grid(std::size_t row, const std::string& folder, const Points& nodes) {

@@ -10,8 +10,8 @@
 namespace sprung {
 
 /// Writes an animation for ParaView: `run.xdmf` describes the arrays in `run.xdmf.h5`. Per frame and body: the bricks
-/// as hexahedra with region, Young's modulus, fill, stretch and stress (brick_measures.h) and nodal velocities, and the
-/// skin as triangles. Floats, except for the regions.
+/// as hexahedra with region, Young's modulus, fill, stretch and stress (brick_measures.h), nodal velocities and stress
+/// tensors (stress.h), and the skin as triangles. Floats, except for the regions.
 class XdmfWriter {
  public:
   /// The world must outlive it. All functions throw Error(kFailed).

@@ -6,6 +6,7 @@
 
 #include "core/files.h"
 #include "core/io/hdf5_file.h"
+#include "core/simulation/recorder.h"
 #include "core/simulation/simulation.h"
 
 namespace sprung {
@@ -27,11 +28,11 @@ struct CacheHeader {
 /// The data of a frame besides the state of its nodes.
 struct CachedFrame {
   double progress = 0;         // time (s), or fraction of the load, or number of the mode
-  std::vector<double> probes;  // 12 each: position, displacement (m), force (N), torque (N m)
+  std::vector<double> probes;  // 18 each, see kProbeQuantities
   std::uint64_t state_hash = 0;
   double seconds = 0;  // wall-clock time that it took
 };
-inline constexpr std::size_t kNumbersOfProbe = 12;
+inline constexpr std::size_t kNumbersOfProbe = 3 * kProbeQuantities.size();
 
 /// Writes a cache frame by frame; whenever the program is killed, all frames so far are readable. Where its header
 /// allows errors, positions and velocities are rounded to multiples of a power of two, which compress well; the last

@@ -126,9 +126,26 @@ CacheHeader read_header(const Hdf5Reader& hdf5) {
 CacheReader::CacheReader(const std::filesystem::path& file)
     : hdf5_(open_cache(file)), header_(read_header(hdf5_)), frame_count_(hdf5_.shape_of(kProgressName).at(0)) {}
 
+namespace {
+
+/// Caches of before stresses were probed have fewer numbers of each.
+std::vector<double> filled_up(const std::vector<double>& numbers, std::size_t probes) {
+  if (probes == 0 || numbers.size() == probes * kNumbersOfProbe) return numbers;
+  const std::size_t of_each = std::min(numbers.size() / probes, kNumbersOfProbe);
+  std::vector<double> filled(probes * kNumbersOfProbe, 0);
+  for (std::size_t probe = 0; probe < probes; ++probe) {
+    for (std::size_t i = 0; i < of_each; ++i) {
+      filled[probe * kNumbersOfProbe + i] = numbers[probe * (numbers.size() / probes) + i];
+    }
+  }
+  return filled;
+}
+
+}  // namespace
+
 CachedFrame CacheReader::frame(std::size_t frame) const {
   return {.progress = hdf5_.read_row<double>(kProgressName, frame).values.at(0),
-          .probes = hdf5_.read_row<double>(kProbesName, frame).values,
+          .probes = filled_up(hdf5_.read_row<double>(kProbesName, frame).values, header_.probes.size()),
           .state_hash = hdf5_.read_row<std::uint64_t>(kHashName, frame).values.at(0),
           .seconds = hdf5_.read_row<double>(kSecondsName, frame).values.at(0)};
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <span>
 
+#include "core/body/stress.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/simulation/drivers.h"
@@ -92,6 +93,11 @@ ProbeSample Recorder::point_sample(const PointSeat& seat) const {
   ProbeSample sample;
   sample.position = deform_points(body.grid, seat.embedding, body.positions).row(0);
   sample.displacement = sample.position - seat.start;
+  const auto& nodes = body.grid.nodes[seat.embedding.brick[0]];
+  const StressTensors at_corners = recover_stress(body, body.positions, {nodes.begin(), nodes.end()});
+  const Eigen::Matrix<double, 6, 1> stress = at_corners.transpose() * trilinear_weights(seat.embedding.local.row(0));
+  sample.stress = stress.head<3>();
+  sample.shear_stress = stress.tail<3>();
   return sample;
 }
 

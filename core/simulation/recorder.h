@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/dynamics/integrator_state.h"
@@ -11,14 +12,36 @@
 
 namespace sprung {
 
-/// A probe's values in one frame: the position of a point, or the mean position of a pin's nodes, the force that the
-/// pin exerts on them and its torque about the centre of the pin's box.
+/// A probe's values in one frame: the position of a point and the stress there (see recover_stress()), or the mean
+/// position of a pin's nodes, the force that the pin exerts on them and its torque about the centre of the pin's box.
 struct ProbeSample {
   Vec3 position = Vec3::Zero();      // m
   Vec3 displacement = Vec3::Zero();  // m, from the start
   Vec3 force = Vec3::Zero();         // N; zero for points
   Vec3 torque = Vec3::Zero();        // N m; zero for points
+  Vec3 stress = Vec3::Zero();        // xx, yy, zz, Pa; zero for pins
+  Vec3 shear_stress = Vec3::Zero();  // xy, yz, zx, Pa; zero for pins
 };
+
+/// A quantity that probes measure.
+struct ProbeQuantity {
+  enum Kind { kAny, kPin, kPoint };
+
+  std::string_view name;
+  std::string_view unit;
+  std::array<std::string_view, 3> components;
+  Vec3 ProbeSample::*value;
+  Kind kind = kAny;  // of probe, which measures it
+  [[nodiscard]] bool is_of(bool pin) const { return kind == kAny || (kind == kPin) == pin; }
+};
+
+inline constexpr std::array<ProbeQuantity, 6> kProbeQuantities{
+    {{"position", "m", {"x", "y", "z"}, &ProbeSample::position},
+     {"displacement", "m", {"x", "y", "z"}, &ProbeSample::displacement},
+     {"force", "N", {"x", "y", "z"}, &ProbeSample::force, ProbeQuantity::kPin},
+     {"torque", "N m", {"x", "y", "z"}, &ProbeSample::torque, ProbeQuantity::kPin},
+     {"stress", "Pa", {"xx", "yy", "zz"}, &ProbeSample::stress, ProbeQuantity::kPoint},
+     {"shear_stress", "Pa", {"xy", "yz", "zx"}, &ProbeSample::shear_stress, ProbeQuantity::kPoint}}};
 
 /// One probe in all frames.
 struct ProbeTrack {

@@ -246,8 +246,9 @@ std::vector<double> numbers_of(const std::vector<ProbeTrack>& probes) {
   std::vector<double> numbers;
   for (const ProbeTrack& track : probes) {
     const ProbeSample& last = track.samples.back();
-    for (const Vec3* vector : {&last.position, &last.displacement, &last.force, &last.torque}) {
-      numbers.insert(numbers.end(), vector->begin(), vector->end());
+    for (const ProbeQuantity& quantity : kProbeQuantities) {
+      const Vec3& value = last.*quantity.value;
+      numbers.insert(numbers.end(), value.begin(), value.end());
     }
   }
   return numbers;
@@ -256,8 +257,8 @@ std::vector<double> numbers_of(const std::vector<ProbeTrack>& probes) {
 ProbeSample sample_of(const CachedFrame& frame, std::size_t probe) {
   const double* numbers = frame.probes.data() + kNumbersOfProbe * probe;
   ProbeSample sample;
-  for (Vec3* vector : {&sample.position, &sample.displacement, &sample.force, &sample.torque}) {
-    *vector = Eigen::Map<const Vec3>(numbers);
+  for (const ProbeQuantity& quantity : kProbeQuantities) {
+    sample.*quantity.value = Eigen::Map<const Vec3>(numbers);
     numbers += 3;
   }
   return sample;

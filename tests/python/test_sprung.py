@@ -127,6 +127,9 @@ class Arrays(unittest.TestCase):
         self.assertTrue(np.shares_memory(body.field("fill"), body.field("fill")))
         world.advance(0.1)
         self.assertGreater(body.field("stress").max(), 1)
+        self.assertEqual(body.stress().shape, (len(body.positions), 6))
+        self.assertEqual(body.skin_stress().shape, (len(body.skin_positions()), 6))
+        self.assertGreater(np.abs(body.stress()).max(), 1)
         with self.assertRaisesRegex(sprung.Error, "did you mean 'stress'"):
             body.field("stres")
 

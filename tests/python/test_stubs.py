@@ -132,7 +132,7 @@ class Arrays(unittest.TestCase):
                 known = int(word) if word.strip().isdigit() else sizes.setdefault((owner, word.strip()), size)
                 self.assertEqual(size, known, f"{owner}.{name}: {word}")
             seen += 1
-        self.assertEqual(seen, 11)
+        self.assertEqual(seen, 13)
         self.assertEqual(len({sizes["Body", letter] for letter in "mnvt"}), 4)
 
     def test_copies_and_who_may_write(self):

@@ -195,6 +195,10 @@ TEST(Xdmf, NamesWhatIsInItsFileOfNumbers) {
                 .cwiseAbs()
                 .maxCoeff(),
             1e-7);
+  const std::vector<float> tensor = numbers.read<float>("/frame_2/bricks_1/stress_tensor").values;
+  EXPECT_NEAR(tensor.at(0) - tensor.at(3), stress, 1e-4 * stress);  // xx - yy, of the first node
+  EXPECT_NEAR(tensor.at(3) - tensor.at(5), 0, 1e-4 * stress);       // yy - zz
+  EXPECT_NEAR(tensor.at(1), 0, 1e-4 * stress);
   const std::string text = text_of(folder.path() / "run.xdmf");
   std::size_t place = 0;
   int items = 0;
@@ -203,7 +207,7 @@ TEST(Xdmf, NamesWhatIsInItsFileOfNumbers) {
     EXPECT_TRUE(numbers.has(text.substr(place, text.find('<', place) - place)));
     ++items;
   }
-  EXPECT_EQ(items, 2 * (2 + 5 + 1 + 2));
+  EXPECT_EQ(items, 2 * (2 + 5 + 2 + 2));
 }
 
 }  // namespace

@@ -1,0 +1,264 @@
+#include "core/body/stress.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "core/body/brick_measures.h"
+
+namespace sprung {
+namespace {
+
+constexpr double kSmallestVolume = 0.05;  // that a stress is divided by
+constexpr double kLayer = 0.1;            // variance of places, in squared bricks, that makes a slope
+constexpr double kSameStiffness = 1e-6;   // relative
+
+using Six = Eigen::Matrix<double, 6, 1>;
+
+/// What is fitted: the second Piola-Kirchhoff stress in the axes of the grid, which rotations leave alone, and the
+/// deformation gradient.
+struct State {
+  Eigen::Matrix<double, 15, 1> numbers;
+
+  [[nodiscard]] Six stress() const { return numbers.head<6>(); }
+  [[nodiscard]] Mat3 gradient() const { return numbers.tail<9>().reshaped(3, 3); }
+};
+using Slopes = Eigen::Matrix<double, 15, 3>;  // 1/m
+
+/// In the order of StressTensors.
+constexpr std::array<std::array<int, 2>, 6> kEntries{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}}};
+constexpr std::array<std::array<int, 3>, 3> kEntryOf{{{0, 3, 5}, {3, 1, 4}, {5, 4, 2}}};
+
+Six six_of(const Mat3& tensor) {
+  Six six;
+  for (std::size_t i = 0; i < 6; ++i) six[i] = tensor(kEntries[i][0], kEntries[i][1]);
+  return six;
+}
+
+template <class Row>
+Mat3 tensor_of(const Row& six) {
+  Mat3 tensor;
+  for (std::size_t i = 0; i < 6; ++i) {
+    tensor(kEntries[i][0], kEntries[i][1]) = six[i];
+    tensor(kEntries[i][1], kEntries[i][0]) = six[i];
+  }
+  return tensor;
+}
+
+State state_in_middle(const BrickColumns& x, double h, double young, double poisson) {
+  const Mat3 gradient = mean_axes_of(x) / h;
+  const Mat3 strain = 0.5 * (gradient.transpose() * gradient - Mat3::Identity());
+  const double lambda = young * poisson / ((1 + poisson) * (1 - 2 * poisson));
+  const double mu = young / (2 * (1 + poisson));
+  State state;
+  state.numbers << six_of(lambda * strain.trace() * Mat3::Identity() + 2 * mu * strain), gradient.reshaped();
+  return state;
+}
+
+/// By the bending and twist of the brick: along each axis as in a plate across it, whose faces are free.
+Slopes slopes_within(const BrickColumns& x, double h, double young, double poisson) {
+  const Mat3 gradient = mean_axes_of(x) / h;
+  const double plate = young / (1 - poisson * poisson);
+  const double shear = young / (1 + poisson);
+  Slopes slopes = Slopes::Zero();
+  for (int across = 0; across < 3; ++across) {
+    Mat3 turned = Mat3::Zero();  // of the gradient, along `across`
+    for (int axis = 0; axis < 3; ++axis) {
+      if (axis == across) continue;
+      for (int corner = 0; corner < 8; ++corner) {
+        const bool is_high = on_high_side(corner, axis) == on_high_side(corner, across);
+        turned.col(axis) += (is_high ? 0.5 : -0.5) / (h * h) * x.col(corner);
+      }
+    }
+    const Mat3 product = gradient.transpose() * turned;
+    const Mat3 strain = 0.5 * (product + product.transpose());
+    const int b = (across + 1) % 3;
+    const int c = (across + 2) % 3;
+    slopes(b, across) = plate * (strain(b, b) + poisson * strain(c, c));
+    slopes(c, across) = plate * (strain(c, c) + poisson * strain(b, b));
+    slopes(kEntryOf[b][c], across) = shear * strain(b, c);
+    slopes.col(across).tail<9>() = turned.reshaped();
+  }
+  return slopes;
+}
+
+/// Bricks that share a node with each, itself included.
+class Neighbours {
+ public:
+  explicit Neighbours(const BrickGrid& grid) : grid_(grid), of_node_(grid.node_count()) {
+    for (int brick = 0; brick < grid.brick_count(); ++brick) {
+      for (const int node : grid.nodes[brick]) of_node_[node].push_back(brick);
+    }
+  }
+
+  void find(int brick, std::vector<int>& found) const {
+    found.clear();
+    for (const int node : grid_.nodes[brick]) found.insert(found.end(), of_node_[node].begin(), of_node_[node].end());
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+  }
+  [[nodiscard]] const std::vector<int>& of_node(int node) const { return of_node_[node]; }
+
+ private:
+  const BrickGrid& grid_;
+  std::vector<std::vector<int>> of_node_;
+};
+
+/// A line through the states of a brick and its neighbours.
+struct Line {
+  Vec3 place = Vec3::Zero();  // m, in the frame of the grid
+  State state{Eigen::Matrix<double, 15, 1>::Zero()};
+  Slopes slopes = Slopes::Zero();
+};
+
+Vec3 middle_of(const BrickGrid& grid, int brick) {
+  return grid.origin + grid.brick_size * (grid.cells[brick].cast<double>().array() + 0.5).matrix();
+}
+
+class Recovery {
+ public:
+  Recovery(const Body& body, const Points& positions)
+      : body_(body), positions_(positions), youngs_(brick_youngs(body)), neighbours_(body.grid) {}
+
+  [[nodiscard]] StressTensors at(const std::vector<int>& nodes) const {
+    const BrickGrid& grid = body_.grid;
+    std::vector<int> bricks;
+    for (const int node : nodes) {
+      bricks.insert(bricks.end(), neighbours_.of_node(node).begin(), neighbours_.of_node(node).end());
+    }
+    std::sort(bricks.begin(), bricks.end());
+    bricks.erase(std::unique(bricks.begin(), bricks.end()), bricks.end());
+    std::vector<Line> lines(grid.cells.size());
+    each(bricks.size(), [&](std::size_t row) { lines[bricks[row]] = line_through(bricks[row]); });
+    StressTensors stresses(nodes.size(), 6);
+    each(nodes.size(), [&](std::size_t row) { stresses.row(Eigen::Index(row)) = mean_at(nodes[row], lines); });
+    return stresses;
+  }
+
+ private:
+  template <class Do>
+  static void each(std::size_t count, const Do& one) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 256), [&](const auto& range) {
+      for (std::size_t i = range.begin(); i < range.end(); ++i) one(i);
+    });
+  }
+
+  /// Cauchy stress, by the lines of the node's bricks.
+  [[nodiscard]] Eigen::RowVector<double, 6> mean_at(int node, const std::vector<Line>& lines) const {
+    const BrickGrid& grid = body_.grid;
+    const Vec3 place = grid.origin + grid.brick_size * grid.lattice[node].cast<double>();
+    State mean{Eigen::Matrix<double, 15, 1>::Zero()};
+    double weights = 0;
+    for (const int brick : neighbours_.of_node(node)) {
+      const Line& line = lines[brick];
+      mean.numbers += grid.fill[brick] * (line.state.numbers + line.slopes * (place - line.place));
+      weights += grid.fill[brick];
+    }
+    mean.numbers /= weights;
+    const Mat3 gradient = mean.gradient();
+    return six_of(gradient * tensor_of(mean.stress()) * gradient.transpose() /
+                  std::max(gradient.determinant(), kSmallestVolume))
+        .transpose();
+  }
+
+  [[nodiscard]] State state_of(int brick) const {
+    return state_in_middle(corners(brick), body_.grid.brick_size, youngs_[brick], body_.material.poisson);
+  }
+
+  [[nodiscard]] BrickColumns corners(std::size_t brick) const {
+    return columns_of(body_.grid.nodes[brick], positions_);
+  }
+
+  [[nodiscard]] Line line_through(int brick) const {
+    const BrickGrid& grid = body_.grid;
+    std::vector<int> near;
+    neighbours_.find(brick, near);
+    const auto is_other = [&](int other) {
+      return std::abs(youngs_[other] - youngs_[brick]) > kSameStiffness * youngs_[brick];
+    };
+    near.erase(std::remove_if(near.begin(), near.end(), is_other), near.end());
+    Line line;
+    double weights = 0;
+    for (const int other : near) {
+      const double weight = weight_of(other);
+      weights += weight;
+      line.place += weight * middle_of(grid, other);
+      line.state.numbers += weight * state_of(other).numbers;
+    }
+    line.place /= weights;
+    line.state.numbers /= weights;
+    Mat3 spread = Mat3::Zero();
+    Slopes together = Slopes::Zero();
+    Slopes within = Slopes::Zero();
+    for (const int other : near) {
+      const double weight = weight_of(other) / weights;
+      const Vec3 way = middle_of(grid, other) - line.place;
+      spread += weight * way * way.transpose();
+      together += weight * (state_of(other).numbers - line.state.numbers) * way.transpose();
+      within += weight * slopes_within(corners(other), grid.brick_size, youngs_[other], body_.material.poisson);
+    }
+    const Eigen::SelfAdjointEigenSolver<Mat3> axes(spread);
+    for (int axis = 0; axis < 3; ++axis) {
+      const Vec3 direction = axes.eigenvectors().col(axis);
+      const double variance = axes.eigenvalues()[axis];
+      const bool is_thin = variance < kLayer * grid.brick_size * grid.brick_size;
+      const Eigen::Matrix<double, 15, 1> slope =
+          is_thin ? within * direction : Eigen::Matrix<double, 15, 1>(together * direction / variance);
+      line.slopes += slope * direction.transpose();
+    }
+    return line;
+  }
+
+  /// What a cut brick says counts less.
+  [[nodiscard]] double weight_of(int brick) const { return body_.grid.fill[brick] * body_.grid.fill[brick]; }
+
+  const Body& body_;
+  const Points& positions_;
+  Eigen::VectorXd youngs_;  // Pa
+  Neighbours neighbours_;
+};
+
+}  // namespace
+
+StressTensors recover_stress(const Body& body, const Points& positions) {
+  std::vector<int> nodes(body.node_count());
+  std::iota(nodes.begin(), nodes.end(), 0);
+  return recover_stress(body, positions, nodes);
+}
+
+StressTensors recover_stress(const Body& body, const Points& positions, const std::vector<int>& nodes) {
+  return Recovery(body, positions).at(nodes);
+}
+
+StressTensors stress_at(const BrickGrid& grid, const Embedding& points, const StressTensors& of_nodes) {
+  StressTensors stresses(points.local.rows(), 6);
+  for (int entry = 0; entry < 6; ++entry) stresses.col(entry) = interpolate(grid, points, of_nodes.col(entry));
+  return stresses;
+}
+
+Eigen::VectorXd von_mises(const StressTensors& stresses) {
+  Eigen::VectorXd values(stresses.rows());
+  for (Eigen::Index row = 0; row < values.size(); ++row) {
+    const Mat3 tensor = tensor_of(stresses.row(row));
+    values[row] = std::sqrt(1.5) * (tensor - tensor.trace() / 3 * Mat3::Identity()).norm();
+  }
+  return values;
+}
+
+PrincipalStresses principal_stresses(const StressTensors& stresses) {
+  PrincipalStresses principal{.values = Points(stresses.rows(), 3)};
+  for (Eigen::Index row = 0; row < stresses.rows(); ++row) {
+    const Eigen::SelfAdjointEigenSolver<Mat3> solver(tensor_of(stresses.row(row)));
+    principal.values.row(row) = solver.eigenvalues().reverse().transpose();
+    principal.directions.emplace_back(solver.eigenvectors().rowwise().reverse());
+  }
+  return principal;
+}
+
+}  // namespace sprung

@@ -1,0 +1,35 @@
+#pragma once
+#include <vector>
+
+#include "core/body/body.h"
+#include "core/bricks/embedding.h"
+
+namespace sprung {
+
+/// n x 6: xx, yy, zz, xy, yz, zx of a symmetric tensor per row.
+using StressTensors = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;
+
+/// Cauchy stress (Pa, in the axes of the world) at a body's nodes where these are at `positions` (m x 3, m): St.
+/// Venant-Kirchhoff, like BrickMeasure::kStress, but recovered. The stress of a brick is that in its middle; a line
+/// fitted through its neighbours of the same material continues it to its corners, where the neighbours' are averaged.
+/// Where a part is one brick thick, and there is no neighbour, the bending and twist of the brick itself do. Linear
+/// stress fields are exact, in bricks that solid fills. At the border of two materials it is the mean of both sides.
+/// Deterministic.
+[[nodiscard]] StressTensors recover_stress(const Body& body, const Points& positions);
+/// At some nodes only, a row for each.
+[[nodiscard]] StressTensors recover_stress(const Body& body, const Points& positions, const std::vector<int>& nodes);
+
+/// The same at points embedded in the body, by trilinear interpolation.
+[[nodiscard]] StressTensors stress_at(const BrickGrid& grid, const Embedding& points, const StressTensors& of_nodes);
+
+/// sqrt(3/2 dev s : dev s); n, Pa.
+[[nodiscard]] Eigen::VectorXd von_mises(const StressTensors& stresses);
+
+struct PrincipalStresses {
+  Points values;                   // n x 3, Pa, the largest (most tensile) first
+  std::vector<Mat3> directions{};  // unit columns, of these
+};
+
+[[nodiscard]] PrincipalStresses principal_stresses(const StressTensors& stresses);
+
+}  // namespace sprung

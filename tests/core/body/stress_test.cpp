@@ -1,0 +1,82 @@
+#include "core/body/stress.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "tests/support/bodies.h"
+
+/// Stresses at nodes and points, by displacements whose stresses are known.
+namespace sprung {
+namespace {
+
+constexpr double kYoung = 2e5;
+constexpr double kPoisson = 0.3;
+
+Body block(const Eigen::Vector3i& counts) {
+  return make_body(make_box_grid(counts, 0.01), Model::kCalibrated, test::test_material(kPoisson, kYoung));
+}
+
+Points moved(const Body& body, const std::function<Vec3(const Vec3&)>& displacement) {
+  Points positions = body.rest_positions;
+  for (auto place : positions.rowwise()) place += displacement(place.transpose()).transpose();
+  return positions;
+}
+
+TEST(Stress, OfAUniformStrainIsHookesEverywhere) {
+  const Body body = block({3, 2, 4});
+  Mat3 strain;
+  strain << 1, 0.4, -0.2, 0.4, -0.5, 0.3, -0.2, 0.3, 0.7;
+  strain *= 1e-7;
+  const StressTensors stresses = recover_stress(body, moved(body, [&](const Vec3& at) { return Vec3(strain * at); }));
+  const double lambda = kYoung * kPoisson / ((1 + kPoisson) * (1 - 2 * kPoisson));
+  const double mu = kYoung / (2 * (1 + kPoisson));
+  const Mat3 hooke = lambda * strain.trace() * Mat3::Identity() + 2 * mu * strain;
+  Eigen::Matrix<double, 1, 6> expected;
+  expected << hooke(0, 0), hooke(1, 1), hooke(2, 2), hooke(0, 1), hooke(1, 2), hooke(2, 0);
+  EXPECT_LT((stresses.rowwise() - expected).cwiseAbs().maxCoeff(), 1e-5 * hooke.norm());
+  EXPECT_NEAR(von_mises(stresses)[0], std::sqrt(1.5) * (hooke - hooke.trace() / 3 * Mat3::Identity()).norm(),
+              1e-5 * hooke.norm());
+}
+
+/// sigma_xx = E kappa y, nothing else, in beams of any thickness, at their faces too; in space turned by any angle.
+TEST(Stress, OfPureBendingIsRightAtTheFaces) {
+  const double kappa = 1e-5;  // 1/m
+  for (const int layers : {1, 2, 5}) {
+    const Body body = block({8, layers, 3});
+    const Vec3 middle = body.rest_positions.colwise().mean();
+    const auto bend = [&](const Vec3& at) {
+      const Vec3 p = at - middle;
+      return Vec3(kappa * p.x() * p.y(), -kappa / 2 * (p.x() * p.x() + kPoisson * (p.y() * p.y() - p.z() * p.z())),
+                  -kPoisson * kappa * p.y() * p.z());
+    };
+    const Mat3 turn = rotation_matrix({20, 30, 40});
+    const StressTensors stresses = recover_stress(body, moved(body, bend) * turn.transpose());
+    const double most = kYoung * kappa * 0.005 * layers;
+    for (int node = 0; node < body.node_count(); ++node) {
+      const Mat3 along =
+          turn.col(0) * turn.col(0).transpose() * kYoung * kappa * (body.rest_positions(node, 1) - middle.y());
+      const Eigen::Matrix<double, 1, 6> row = stresses.row(node);
+      Mat3 found;
+      found << row[0], row[3], row[5], row[3], row[1], row[4], row[5], row[4], row[2];
+      EXPECT_LT((found - along).norm(), 1e-3 * most) << layers << " layers";
+    }
+  }
+}
+
+TEST(Stress, PrincipalOnesComeLargestFirstWithTheirDirections) {
+  StressTensors one(1, 6);
+  one << 1, 2, 3, 0.5, -0.4, 0.3;
+  const PrincipalStresses principal = principal_stresses(one);
+  EXPECT_GT(principal.values(0, 0), principal.values(0, 1));
+  EXPECT_GT(principal.values(0, 1), principal.values(0, 2));
+  EXPECT_NEAR(principal.values.sum(), 6, 1e-12);
+  const Mat3& axes = principal.directions[0];
+  const Mat3 back = axes * principal.values.row(0).transpose().asDiagonal() * axes.transpose();
+  EXPECT_NEAR(back(0, 1), 0.5, 1e-12);
+  EXPECT_NEAR(back(1, 2), -0.4, 1e-12);
+}
+
+}  // namespace
+}  // namespace sprung
