@@ -120,7 +120,7 @@ void export_points(const ExportTarget& target, const CachedFilmView& view, const
 }
 
 void export_xdmf(const ExportTarget& target, const CachedFilmView& view, const FrameRange& range) {
-  XdmfWriter writer(target.file, view.simulation.world);
+  XdmfWriter writer(target.file, view.simulation.world, strain_measure(view.film));
   for (int frame = range.first; frame <= range.last; ++frame) {
     stop_if_interrupted();
     const std::size_t row = frame - 1;

@@ -33,7 +33,7 @@ Eigen::VectorXd speeds(const Recording& recording, std::size_t frame, std::size_
 }  // namespace
 
 Eigen::VectorXd field_values(Field field, const Simulation& simulation, const Recording& recording, std::size_t frame,
-                             std::size_t actor, double fps) {
+                             std::size_t actor, double fps, StrainMeasure measure) {
   const Body& body = simulation.world.bodies[actor];
   const Points positions = recording.frames[frame][actor].cast<double>();
   switch (field) {
@@ -48,7 +48,7 @@ Eigen::VectorXd field_values(Field field, const Simulation& simulation, const Re
     case Field::kStrain:
       return measured(BrickMeasure::kStrain, body, positions);
     case Field::kStress:
-      return von_mises(recover_stress(body, positions));
+      return von_mises(recover_stress(body, positions, measure));
     case Field::kVolume:
       return measured(BrickMeasure::kVolume, body, positions);
     case Field::kFill:
@@ -127,7 +127,8 @@ FieldColors::FieldColors(const Film& scene, const Simulation& simulation, const 
       map_(scene.render.color_map.value_or(words_of(field_).map)),
       simulation_(simulation),
       recording_(recording),
-      fps_(scene.fps) {
+      fps_(scene.fps),
+      measure_(strain_measure(scene)) {
   if (!is_mapped()) return;
   const SceneRender& render = scene.render;
   if (!render.color_low || !render.color_high) find_range();
@@ -146,7 +147,7 @@ void FieldColors::find_range() {
   std::size_t next = 0;
   for (std::size_t frame = 0; frame < frames; ++frame) {
     for (std::size_t actor = 0; actor < simulation_.world.bodies.size(); ++actor) {
-      const Eigen::VectorXd of_actor = field_values(field_, simulation_, recording_, frame, actor, fps_);
+      const Eigen::VectorXd of_actor = field_values(field_, simulation_, recording_, frame, actor, fps_, measure_);
       const std::size_t size = of_actor.size();
       for (; next < size; next += stride) values.push_back(of_actor[next]);
       next -= size;
@@ -175,7 +176,7 @@ void FieldColors::find_range() {
 }
 
 Eigen::VectorXd FieldColors::map_coordinates(std::size_t frame, std::size_t actor) const {
-  const Eigen::VectorXd values = field_values(field_, simulation_, recording_, frame, actor, fps_);
+  const Eigen::VectorXd values = field_values(field_, simulation_, recording_, frame, actor, fps_, measure_);
   return (values.array() - low_) / (high_ - low_);
 }
 

@@ -10,9 +10,10 @@ namespace sprung {
 
 /// A field at the nodes of one body in one frame, SI: displacement from the first frame (m), speed by differences
 /// between frames (m/s), largest principal stretch, von Mises strain, von Mises stress (Pa), volume over rest volume,
-/// fill, or Young's modulus (Pa) for kRegion. Not for kSkin.
+/// fill, or Young's modulus (Pa) for kRegion. Not for kSkin. `measure`: of the strain that the stress follows from.
 [[nodiscard]] Eigen::VectorXd field_values(Field field, const Simulation& simulation, const Recording& recording,
-                                           std::size_t frame, std::size_t actor, double fps);
+                                           std::size_t frame, std::size_t actor, double fps,
+                                           StrainMeasure measure = StrainMeasure::kFinite);
 
 /// True where the field changes over time.
 [[nodiscard]] bool is_moving(Field field);
@@ -40,6 +41,7 @@ class FieldColors {
   const Simulation& simulation_;
   const Recording& recording_;
   double fps_;
+  StrainMeasure measure_;
   double low_ = 0;  // SI
   double high_ = 0;
 };

@@ -66,17 +66,19 @@ py::array field_of(const py::object& self, const std::string& name) {
   });
 }
 
-StressTensors stress_of(const BodyHandle& handle) {
+StrainMeasure measure_of(bool small) { return small ? StrainMeasure::kSmall : StrainMeasure::kFinite; }
+
+StressTensors stress_of(const BodyHandle& handle, bool small) {
   return locked_without_gil(*handle.world, [&] {
     const Body& body = handle.world->body(handle.row);
-    return recover_stress(body, body.positions);
+    return recover_stress(body, body.positions, measure_of(small));
   });
 }
 
-StressTensors skin_stress_of(const BodyHandle& handle) {
+StressTensors skin_stress_of(const BodyHandle& handle, bool small) {
   return locked_without_gil(*handle.world, [&] {
     const SoftBody& body = handle.world->body(handle.row);
-    return stress_at(body.grid, body.skin_embedding, recover_stress(body, body.positions));
+    return stress_at(body.grid, body.skin_embedding, recover_stress(body, body.positions, measure_of(small)));
   });
 }
 
@@ -134,10 +136,10 @@ void bind_body(py::module_& module) {
           "Its material.")
       .def("field", &field_of, py::arg("name"),
            "(n,) stretch, strain (von Mises), volume (over that at rest), fill, 1; stress (von Mises), young, Pa.")
-      .def("stress", &stress_of,
+      .def("stress", &stress_of, py::arg("small") = false,
            "(m, 6) Cauchy stress at the nodes: xx, yy, zz, xy, yz, zx, Pa. Continued from the bricks' middles to their "
-           "corners by their neighbours.")
-      .def("skin_stress", &skin_stress_of, "(v, 6) Pa, the same at the vertices of the skin.")
+           "corners by their neighbours; small: of displacements as those of settle(linear=True).")
+      .def("skin_stress", &skin_stress_of, py::arg("small") = false, "(v, 6) Pa, the same at the vertices of the skin.")
       .def("skin_positions", &deformed_skin, "(v, 3) m.")
       .def("pin", &pin, py::arg("nodes"), "Fixes these nodes where they are, and no others: rows, or (m,) bools.")
       .def("settle", &settle, py::arg("linear") = false,

@@ -98,9 +98,9 @@ class Body:
         """Its material."""
     def field(self, name: str) -> NDArray[np.float64]:
         """(n,) stretch, strain (von Mises), volume (over that at rest), fill, 1; stress (von Mises), young, Pa."""
-    def stress(self) -> NDArray[np.float64]:
-        """(m, 6) Cauchy stress at the nodes: xx, yy, zz, xy, yz, zx, Pa. Continued from the bricks' middles to their corners by their neighbours."""
-    def skin_stress(self) -> NDArray[np.float64]:
+    def stress(self, small: bool = False) -> NDArray[np.float64]:
+        """(m, 6) Cauchy stress at the nodes: xx, yy, zz, xy, yz, zx, Pa. Continued from the bricks' middles to their corners by their neighbours; small: of displacements as those of settle(linear=True)."""
+    def skin_stress(self, small: bool = False) -> NDArray[np.float64]:
         """(v, 6) Pa, the same at the vertices of the skin."""
     def skin_positions(self) -> NDArray[np.float64]:
         """(v, 3) m."""

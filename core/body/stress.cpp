@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <vector>
 
 #include "core/body/brick_measures.h"
@@ -51,19 +52,9 @@ Mat3 tensor_of(const Row& six) {
   return tensor;
 }
 
-State state_in_middle(const BrickColumns& x, double h, double young, double poisson) {
-  const Mat3 gradient = mean_axes_of(x) / h;
-  const Mat3 strain = 0.5 * (gradient.transpose() * gradient - Mat3::Identity());
-  const double lambda = young * poisson / ((1 + poisson) * (1 - 2 * poisson));
-  const double mu = young / (2 * (1 + poisson));
-  State state;
-  state.numbers << six_of(lambda * strain.trace() * Mat3::Identity() + 2 * mu * strain), gradient.reshaped();
-  return state;
-}
-
-/// By the bending and twist of the brick: along each axis as in a plate across it, whose faces are free.
-Slopes slopes_within(const BrickColumns& x, double h, double young, double poisson) {
-  const Mat3 gradient = mean_axes_of(x) / h;
+/// By the bending and twist of the brick: along each axis as in a plate across it, whose faces are free. `reference`:
+/// times the transpose of which a change of the gradient is one of the strain.
+Slopes slopes_within(const BrickColumns& x, const Mat3& reference, double h, double young, double poisson) {
   const double plate = young / (1 - poisson * poisson);
   const double shear = young / (1 + poisson);
   Slopes slopes = Slopes::Zero();
@@ -76,7 +67,7 @@ Slopes slopes_within(const BrickColumns& x, double h, double young, double poiss
         turned.col(axis) += (is_high ? 0.5 : -0.5) / (h * h) * x.col(corner);
       }
     }
-    const Mat3 product = gradient.transpose() * turned;
+    const Mat3 product = reference.transpose() * turned;
     const Mat3 strain = 0.5 * (product + product.transpose());
     const int b = (across + 1) % 3;
     const int c = (across + 2) % 3;
@@ -123,8 +114,11 @@ Vec3 middle_of(const BrickGrid& grid, int brick) {
 
 class Recovery {
  public:
-  Recovery(const Body& body, const Points& positions)
-      : body_(body), positions_(positions), youngs_(brick_youngs(body)), neighbours_(body.grid) {}
+  Recovery(const Body& body, const Points& positions, StrainMeasure measure)
+      : body_(body), positions_(positions), youngs_(brick_youngs(body)), neighbours_(body.grid) {
+    if (measure == StrainMeasure::kFinite) return;
+    at_rest_ = mean_axes_of(columns_of(body.grid.nodes[0], body.rest_positions)) / body.grid.brick_size;
+  }
 
   [[nodiscard]] StressTensors at(const std::vector<int>& nodes) const {
     const BrickGrid& grid = body_.grid;
@@ -167,8 +161,26 @@ class Recovery {
         .transpose();
   }
 
+  [[nodiscard]] Mat3 gradient_of(int brick) const { return mean_axes_of(corners(brick)) / body_.grid.brick_size; }
+
   [[nodiscard]] State state_of(int brick) const {
-    return state_in_middle(corners(brick), body_.grid.brick_size, youngs_[brick], body_.material.poisson);
+    const Mat3 gradient = gradient_of(brick);
+    const Mat3 reference = at_rest_.value_or(gradient);
+    const Mat3 product = reference.transpose() * gradient;
+    const Mat3 strain = (at_rest_ ? 1.0 : 0.5) * (0.5 * (product + product.transpose()) - Mat3::Identity());
+    const double poisson = body_.material.poisson;
+    const double lambda = youngs_[brick] * poisson / ((1 + poisson) * (1 - 2 * poisson));
+    const double mu = youngs_[brick] / (2 * (1 + poisson));
+    State state;
+    state.numbers << six_of(lambda * strain.trace() * Mat3::Identity() + 2 * mu * strain), reference.reshaped();
+    return state;
+  }
+
+  [[nodiscard]] Slopes slopes_of(int brick) const {
+    Slopes slopes = slopes_within(corners(brick), at_rest_.value_or(gradient_of(brick)), body_.grid.brick_size,
+                                  youngs_[brick], body_.material.poisson);
+    if (at_rest_) slopes.bottomRows<9>().setZero();
+    return slopes;
   }
 
   [[nodiscard]] BrickColumns corners(std::size_t brick) const {
@@ -201,7 +213,7 @@ class Recovery {
       const Vec3 way = middle_of(grid, other) - line.place;
       spread += weight * way * way.transpose();
       together += weight * (state_of(other).numbers - line.state.numbers) * way.transpose();
-      within += weight * slopes_within(corners(other), grid.brick_size, youngs_[other], body_.material.poisson);
+      within += weight * slopes_of(other);
     }
     const Eigen::SelfAdjointEigenSolver<Mat3> axes(spread);
     for (int axis = 0; axis < 3; ++axis) {
@@ -222,18 +234,20 @@ class Recovery {
   const Points& positions_;
   Eigen::VectorXd youngs_;  // Pa
   Neighbours neighbours_;
+  std::optional<Mat3> at_rest_;  // for small strains: how the body was turned
 };
 
 }  // namespace
 
-StressTensors recover_stress(const Body& body, const Points& positions) {
+StressTensors recover_stress(const Body& body, const Points& positions, StrainMeasure measure) {
   std::vector<int> nodes(body.node_count());
   std::iota(nodes.begin(), nodes.end(), 0);
-  return recover_stress(body, positions, nodes);
+  return recover_stress(body, positions, nodes, measure);
 }
 
-StressTensors recover_stress(const Body& body, const Points& positions, const std::vector<int>& nodes) {
-  return Recovery(body, positions).at(nodes);
+StressTensors recover_stress(const Body& body, const Points& positions, const std::vector<int>& nodes,
+                             StrainMeasure measure) {
+  return Recovery(body, positions, measure).at(nodes);
 }
 
 StressTensors stress_at(const BrickGrid& grid, const Embedding& points, const StressTensors& of_nodes) {

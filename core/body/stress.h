@@ -9,15 +9,22 @@ namespace sprung {
 /// n x 6: xx, yy, zz, xy, yz, zx of a symmetric tensor per row.
 using StressTensors = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;
 
-/// Cauchy stress (Pa, in the axes of the world) at a body's nodes where these are at `positions` (m x 3, m): St.
-/// Venant-Kirchhoff, like BrickMeasure::kStress, but recovered. The stress of a brick is that in its middle; a line
-/// fitted through its neighbours of the same material continues it to its corners, where the neighbours' are averaged.
-/// Where a part is one brick thick, and there is no neighbour, the bending and twist of the brick itself do. Linear
-/// stress fields are exact, in bricks that solid fills. At the border of two materials it is the mean of both sides.
-/// Deterministic.
-[[nodiscard]] StressTensors recover_stress(const Body& body, const Points& positions);
+/// Which strain a stress follows from.
+enum class StrainMeasure {
+  kFinite,  // Green's: by St. Venant-Kirchhoff's law, as BrickMeasure::kStress
+  kSmall    // to first order in the displacements, by Hooke's law: of linear statics
+};
+
+/// Cauchy stress (Pa, in the axes of the world) at a body's nodes where these are at `positions` (m x 3, m), recovered.
+/// The stress of a brick is that in its middle; a line fitted through its neighbours of the same material continues it
+/// to its corners, where the neighbours' are averaged. Where a part is one brick thick, and there is no neighbour, the
+/// bending and twist of the brick itself do. Linear stress fields are exact, in bricks that solid fills. At the border
+/// of two materials it is the mean of both sides. Deterministic.
+[[nodiscard]] StressTensors recover_stress(const Body& body, const Points& positions,
+                                           StrainMeasure measure = StrainMeasure::kFinite);
 /// At some nodes only, a row for each.
-[[nodiscard]] StressTensors recover_stress(const Body& body, const Points& positions, const std::vector<int>& nodes);
+[[nodiscard]] StressTensors recover_stress(const Body& body, const Points& positions, const std::vector<int>& nodes,
+                                           StrainMeasure measure = StrainMeasure::kFinite);
 
 /// The same at points embedded in the body, by trilinear interpolation.
 [[nodiscard]] StressTensors stress_at(const BrickGrid& grid, const Embedding& points, const StressTensors& of_nodes);

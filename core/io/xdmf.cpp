@@ -40,8 +40,12 @@ struct XdmfWriter::Item {
   bool is_integer = false;
 };
 
-XdmfWriter::XdmfWriter(fs::path file, const World& world)
-    : file_(std::move(file)), arrays_(fs::path(file_) += ".h5"), world_(world), hdf5_(arrays_.path()) {
+XdmfWriter::XdmfWriter(fs::path file, const World& world, StrainMeasure measure)
+    : file_(std::move(file)),
+      arrays_(fs::path(file_) += ".h5"),
+      world_(world),
+      measure_(measure),
+      hdf5_(arrays_.path()) {
   for (std::size_t row = 0; row < world_.bodies.size(); ++row) {
     const SoftBody& body = world_.bodies[row];
     write_bricks(fmt::format("/bricks_{}", row + 1), body);
@@ -85,7 +89,7 @@ std::string XdmfWriter::brick_grid(std::size_t row, const std::string& folder, c
   write_matrix(hdf5_, moving + "/velocity", Floats3(velocities.cast<float>()));
   write_matrix(hdf5_, moving + "/stretch", measured(BrickMeasure::kStretch));
   write_matrix(hdf5_, moving + "/stress", measured(BrickMeasure::kStress));
-  write_matrix(hdf5_, moving + "/stress_tensor", tensor6(recover_stress(body, nodes)));
+  write_matrix(hdf5_, moving + "/stress_tensor", tensor6(recover_stress(body, nodes, measure_)));
   std::string text = fmt::format(
       "<Grid Name=\"bricks {}\" GridType=\"Uniform\">\n<Topology TopologyType=\"Hexahedron\" NumberOfElements=\"{}\">"
       "{}</Topology>\n<Geometry GeometryType=\"XYZ\">{}</Geometry>\n",

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "core/body/stress.h"
 #include "core/files.h"
 #include "core/io/hdf5_file.h"
 #include "core/world/world.h"
@@ -15,7 +16,7 @@ namespace sprung {
 class XdmfWriter {
  public:
   /// The world must outlive it. All functions throw Error(kFailed).
-  XdmfWriter(std::filesystem::path file, const World& world);
+  XdmfWriter(std::filesystem::path file, const World& world, StrainMeasure measure = StrainMeasure::kFinite);
 
   /// Nodes (m) and their velocities (m/s), by body.
   void add_frame(double time, const std::vector<Points>& nodes, const std::vector<Points>& velocities);
@@ -33,6 +34,7 @@ class XdmfWriter {
   std::filesystem::path file_;
   PartialFile arrays_;
   const World& world_;
+  StrainMeasure measure_;
   Hdf5Writer hdf5_;
   std::string frames_;
   std::size_t frame_count_ = 0;

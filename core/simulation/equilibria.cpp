@@ -13,6 +13,7 @@
 #include "core/simulation/body_loads.h"
 #include "core/simulation/drivers.h"
 #include "core/simulation/observer.h"
+#include "core/text.h"
 #include "core/world/load_forces.h"
 
 namespace sprung {
@@ -209,7 +210,10 @@ Recording record_modes(Simulation& simulation, const Scene& scene, const Observe
     observer.finish_frame(frame, mode + 1, simulation.world);
   }
   recorder.recording().frequencies = modes.frequencies;
-  if (modes.rigid > 0) observer.note(fmt::format("{} rigid motions of the free body are set aside", modes.rigid));
+  if (modes.rigid > 0) {
+    observer.note(fmt::format("{} that nothing holds {} set aside", count_of(modes.rigid, "rigid motion"),
+                              modes.rigid == 1 ? "is" : "are"));
+  }
   progress.finish(fmt::format("{} modes, the slowest at {:.6g} Hz", count, modes.frequencies[0]));
   return recorder.finish();
 }

@@ -77,7 +77,7 @@ void Recorder::add(double progress, const std::vector<Points>& reactions, double
   frame_began_ = now;
   for (std::size_t i = 0; i < scene_.probes.size(); ++i) {
     const Probe& probe = scene_.probes[i];
-    recording_.probes[i].samples.push_back(probe.point ? point_sample(seats_[i])
+    recording_.probes[i].samples.push_back(probe.point ? point_sample(seats_[i], small)
                                                        : pin_sample(probe, reactions, time, small));
   }
   if (cache_ == nullptr) return;
@@ -88,13 +88,14 @@ void Recorder::add(double progress, const std::vector<Points>& reactions, double
   cache_->add(frame, state);
 }
 
-ProbeSample Recorder::point_sample(const PointSeat& seat) const {
+ProbeSample Recorder::point_sample(const PointSeat& seat, bool small) const {
   const Body& body = simulation_.world.bodies[seat.actor];
   ProbeSample sample;
   sample.position = deform_points(body.grid, seat.embedding, body.positions).row(0);
   sample.displacement = sample.position - seat.start;
   const auto& nodes = body.grid.nodes[seat.embedding.brick[0]];
-  const StressTensors at_corners = recover_stress(body, body.positions, {nodes.begin(), nodes.end()});
+  const StressTensors at_corners = recover_stress(body, body.positions, {nodes.begin(), nodes.end()},
+                                                  small ? StrainMeasure::kSmall : StrainMeasure::kFinite);
   const Eigen::Matrix<double, 6, 1> stress = at_corners.transpose() * trilinear_weights(seat.embedding.local.row(0));
   sample.stress = stress.head<3>();
   sample.shear_stress = stress.tail<3>();

@@ -77,7 +77,8 @@ class Recorder {
   int take_up(World& world, const std::function<void(IntegratorState&)>& serialize);
 
   /// Records the current state. `reactions`: of the pins' nodes by actor (m x 3, N); none: no forces. `time`: of the
-  /// film (s), for the pins' movements; with `small`, torques refer to the rest shape.
+  /// film (s), for the pins' movements; with `small`, displacements are small: torques
+  /// refer to the rest shape, stresses to small strains.
   void add(double progress, const std::vector<Points>& reactions, double time, bool small,
            const IntegratorState& state = {});
 
@@ -93,7 +94,7 @@ class Recorder {
   };
 
   [[nodiscard]] PointSeat seat_of(const Probe& probe) const;
-  [[nodiscard]] ProbeSample point_sample(const PointSeat& seat) const;
+  [[nodiscard]] ProbeSample point_sample(const PointSeat& seat, bool small) const;
   [[nodiscard]] ProbeSample pin_sample(const Probe& probe, const std::vector<Points>& reactions, double time,
                                        bool small) const;
 

@@ -19,6 +19,11 @@ bool is_motion(const Scene& scene) {
   return scheme != Solver::kStatic && scheme != Solver::kLinear && scheme != Solver::kModes;
 }
 
+StrainMeasure strain_measure(const Scene& scene) {
+  const Solver scheme = scene.solver.scheme;
+  return scheme == Solver::kLinear || scheme == Solver::kModes ? StrainMeasure::kSmall : StrainMeasure::kFinite;
+}
+
 int frame_count(const Scene& scene) {
   const bool has_loads = scene.solver.scheme == Solver::kStatic || scene.solver.scheme == Solver::kLinear;
   if (has_loads && scene.solver.load_steps) return *scene.solver.load_steps + 1;

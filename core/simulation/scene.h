@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/appearance.h"
+#include "core/body/stress.h"
 #include "core/law/brick_law.h"
 #include "core/law/material.h"
 #include "core/mesh/repair/repair.h"
@@ -291,6 +292,9 @@ struct Scene {
 
 /// Whether the frames are a motion in time; else they are equilibria or vibration modes.
 [[nodiscard]] bool is_motion(const Scene& scene);
+
+/// What strains are to be taken as in the results: displacements of linear statics and of modes are small.
+[[nodiscard]] StrainMeasure strain_measure(const Scene& scene);
 
 /// The number of frames of the film: frame i (from 0) is at t = i / fps. At least 1; one more than the load steps.
 [[nodiscard]] int frame_count(const Scene& scene);

@@ -13,7 +13,6 @@
 #include <utility>
 
 #include "core/dynamics/linear/stiffness.h"
-#include "core/dynamics/statics/free_motion.h"
 #include "core/error.h"
 
 namespace sprung {
@@ -132,8 +131,8 @@ Eigenpairs all_pairs(const ScaledStiffness& matrix, int count) {
   return {solver.eigenvalues().head(count), solver.eigenvectors().leftCols(count)};
 }
 
-/// None where the matrix is not positive definite but for rounding.
-std::optional<Eigenpairs> smallest_pairs(ScaledStiffness& matrix, int count) {
+/// None where the matrix is not positive definite, or has an eigenvalue that is `nothing` to it.
+std::optional<Eigenpairs> smallest_pairs(ScaledStiffness& matrix, int count, double nothing) {
   if (!matrix.prepare()) return std::nullopt;
   const int start = count + kMoreToStart;
   std::mt19937_64 random(1);
@@ -142,12 +141,24 @@ std::optional<Eigenpairs> smallest_pairs(ScaledStiffness& matrix, int count) {
   for (int round = 0; round < kRoundsToStart; ++round) guess = orthonormal(matrix.precondition(guess));
   const Matrix small = guess.transpose() * (matrix * guess);
   const double lowest = Eigen::SelfAdjointEigenSolver<Matrix>(small, Eigen::EigenvaluesOnly).eigenvalues()[0];
-  if (!(lowest > 0)) return std::nullopt;
+  if (!(lowest > nothing)) return std::nullopt;
   Davidson search(matrix, count, start);
   search.compute_with_guess(guess, Spectra::SortRule::SmallestAlge, kMostRounds, kResidual * lowest);
   if (search.info() == Spectra::CompInfo::Successful) return Eigenpairs{search.eigenvalues(), search.eigenvectors()};
   throw Error(ErrorKind::kFailed,
               fmt::format("the search for {} modes did not converge; hold more of the body or ask for fewer", count));
+}
+
+}  // namespace
+
+namespace {
+
+/// The same, in the way that the size asks for.
+std::optional<Eigenpairs> find_pairs(ScaledStiffness& matrix, int count, double nothing) {
+  const bool is_small = matrix.rows() <= std::max(kDense, 4 * (count + kMoreToStart));
+  std::optional<Eigenpairs> found = is_small ? all_pairs(matrix, count) : smallest_pairs(matrix, count, nothing);
+  if (found && !(found->values[0] > nothing)) found.reset();
+  return found;
 }
 
 }  // namespace
@@ -158,29 +169,31 @@ Modes natural_modes(const Body& body, const Supports& supports, int count, const
     throw Error(ErrorKind::kBadInput,
                 fmt::format("cannot find {} modes of a body with {} free coordinates", count, dofs.count));
   }
+  const double nothing = kNoFrequency * largest_brick_stiffness(body) / body.masses.maxCoeff();
   const bool is_free = dofs.count == 3 * body.node_count();
-  const double shift = is_free ? kSpectralShift * wave_rate_squared(body) : 0;
+  double shift = 0;
+  int all = count;
+  std::optional<ScaledStiffness> matrix(std::in_place, body, supports, shift, between);
+  std::optional<Eigenpairs> found;
+  if (!is_free) found = find_pairs(*matrix, all, nothing);
+  if (!found) {
+    shift = kSpectralShift * wave_rate_squared(body);
+    all = std::min(count + kRigidMotions, dofs.count);
+    matrix.emplace(body, supports, shift, between);
+    found = find_pairs(*matrix, all, 0);
+  }
+  if (!found) throw Error(ErrorKind::kFailed, "the body is nearly free to move: hold more of it");
   Modes modes;
-  modes.rigid = is_free ? kRigidMotions : 0;
-  const int all = std::min(count + modes.rigid, dofs.count);
-  ScaledStiffness matrix(body, supports, shift, between);
-  const std::optional<Eigenpairs> found =
-      dofs.count <= std::max(kDense, 4 * (all + kMoreToStart)) ? all_pairs(matrix, all) : smallest_pairs(matrix, all);
-  const double fastest = largest_brick_stiffness(body) / body.masses.maxCoeff();
-  if (!found || !(found->values[0] > kNoFrequency * fastest)) {
-    throw_if_free(body, supports, "there are no vibrations to find");
-    throw Error(ErrorKind::kFailed, "the body is nearly free to move: hold more of it");
+  while (modes.rigid < all && found->values[modes.rigid] - shift < kRigid * shift) ++modes.rigid;
+  if (modes.rigid + count > all) {
+    throw Error(ErrorKind::kFailed, "the body has more than six rigid motions: its parts do not hang together");
   }
   modes.frequencies.resize(count);
   modes.shapes.resize(3 * body.node_count(), count);
-  for (int k = 0; k < all; ++k) {
-    const double square = found->values[k] - shift;  // of the angular frequency
-    if (is_free && (square < kRigid * shift) != (k < modes.rigid)) {
-      throw Error(ErrorKind::kFailed, "the free body has not six rigid motions: its parts do not hang together");
-    }
-    if (k < modes.rigid) continue;
-    modes.frequencies[k - modes.rigid] = std::sqrt(square) / (2 * std::numbers::pi);
-    modes.shapes.col(k - modes.rigid) = matrix.shape_of(found->vectors.col(k));
+  for (int k = 0; k < count; ++k) {
+    const double square = found->values[modes.rigid + k] - shift;  // of the angular frequency
+    modes.frequencies[k] = std::sqrt(square) / (2 * std::numbers::pi);
+    modes.shapes.col(k) = matrix->shape_of(found->vectors.col(modes.rigid + k));
   }
   return modes;
 }

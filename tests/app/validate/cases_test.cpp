@@ -85,5 +85,13 @@ TEST(UniaxialCase, HoldsItsGatesAndKeepsToTheChoice) {
   EXPECT_EQ(run_uniaxial({.model = Model::kM1, .poisson = -0.1, .bricks = {}}).table.head.size(), 3U);
 }
 
+/// Others' numbers, each measured; a choice of a grid is none of theirs.
+TEST(Tables, HoldTheirGates) {
+  const CaseResult result = run_tables({}, Observer());
+  for (const Check& check : result.checks) EXPECT_EQ(check.trouble, "") << check.quantity;
+  EXPECT_GE(held_gates(result).size(), 26U);
+  EXPECT_TRUE(run_tables({.model = {}, .poisson = {}, .bricks = 4}, Observer()).checks.empty());
+}
+
 }  // namespace
 }  // namespace sprung

@@ -65,6 +65,23 @@ TEST(Stress, OfPureBendingIsRightAtTheFaces) {
   }
 }
 
+/// Displacements of linear statics are no motion: a small rotation, taken to first order, strains nothing.
+TEST(Stress, OfSmallStrainsIsLinearInTheDisplacements) {
+  Body body = block({4, 3, 2});
+  place(body, rotation_matrix({10, -20, 30}), {0.1, 0, 0});
+  Mat3 slope;
+  slope << 0.02, -0.3, 0.1, 0.3, -0.01, 0.2, -0.1, -0.2, 0.03;
+  const auto at = [&](double size) {
+    const Points positions = body.rest_positions + size * body.rest_positions * slope.transpose();
+    return recover_stress(body, positions, StrainMeasure::kSmall);
+  };
+  const StressTensors small = at(1e-3);
+  EXPECT_LT((at(1) / 1e3 - small).cwiseAbs().maxCoeff(), 1e-6 * small.cwiseAbs().maxCoeff());
+  const double shear = kYoung / (1 + kPoisson);
+  EXPECT_NEAR(small(0, 0) - small(0, 1), 1e-3 * shear * 0.03, 1e-6 * shear);
+  EXPECT_NEAR(small(0, 3), 0, 1e-9 * kYoung);
+}
+
 TEST(Stress, PrincipalOnesComeLargestFirstWithTheirDirections) {
   StressTensors one(1, 6);
   one << 1, 2, 3, 0.5, -0.4, 0.3;

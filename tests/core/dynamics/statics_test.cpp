@@ -138,11 +138,10 @@ TEST(Statics, AFreeMotionIsNamed) {
   }
   const std::string turn = "can turn about an axis along (0.00, 0.00, 1.00)";
   const auto system = make_default_solver();
-  for (const std::string& reason : {reason_of([&] { (void)solve_linear(beam.body, hinge, beam.loads, *system); }),
-                                    reason_of([&] { (void)natural_modes(beam.body, hinge, 3); })}) {
-    EXPECT_NE(reason.find("the supports leave the body free to move; "), std::string::npos) << reason;
-    EXPECT_NE(reason.find(turn), std::string::npos) << reason;
-  }
+  const std::string reason = reason_of([&] { (void)solve_linear(beam.body, hinge, beam.loads, *system); });
+  EXPECT_NE(reason.find("the supports leave the body free to move; "), std::string::npos) << reason;
+  EXPECT_NE(reason.find(turn), std::string::npos) << reason;
+  EXPECT_EQ(natural_modes(beam.body, hinge, 3).rigid, 1);
   // What does not drive the motion is carried all the same.
   Points along = Points::Zero(beam.body.node_count(), 3);
   along.col(2) = beam.body.masses;

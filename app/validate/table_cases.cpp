@@ -1,0 +1,421 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include "app/validate/cases.h"
+#include "app/validate/mapped_block.h"
+#include "core/simulation/simulate.h"
+#include "core/simulation/simulation.h"
+
+namespace sprung {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// A quantity that has been published.
+struct Target {
+  std::string quantity;
+  std::function<double(const Recording&)> measure;
+  double expected = 0;
+  std::string unit;
+  double tolerance = 0.02;
+};
+
+struct TableCase {
+  std::string name;
+  std::string source;
+  Scene scene;
+  std::vector<Target> targets;
+};
+
+/// One body in the units of its table, which the program takes for SI.
+class TableScene {
+ public:
+  TableScene(SurfaceMesh mesh, double brick, double young, double poisson, Solver scheme = Solver::kLinear) {
+    box_ = bounding_box(mesh.positions);
+    scene_.gravity.setZero();
+    scene_.duration = 1;
+    scene_.solver.scheme = scheme;
+    scene_.solver.load_steps = 1;
+    SceneBody& body = scene_.bodies.emplace_back();
+    body.surface = std::make_shared<const SurfaceMesh>(std::move(mesh));
+    body.scale = 1;
+    body.brick_size = brick;
+    body.material = {
+        .name = "table", .young = young, .poisson = poisson, .density = 1, .damping = 0.02, .source = "its table"};
+  }
+
+  TableScene& density(double density) {
+    body().material.density = density;
+    return *this;
+  }
+  TableScene& modes(int count) {
+    scene_.solver.modes = count;
+    return *this;
+  }
+  TableScene& steps(int count) {
+    scene_.solver.load_steps = count;
+    return *this;
+  }
+
+  /// Holds a side of the bounding box ("x-low") along some axes.
+  TableScene& hold(const std::string& side, const std::string& axes = "xyz") {
+    Pin pin;
+    pin.box = side_of(side);
+    return add(std::move(pin), axes);
+  }
+  /// Holds a part of the mesh.
+  TableScene& hold_part(const std::string& part, const std::string& axes = "xyz") {
+    Pin pin;
+    pin.part = part;
+    return add(std::move(pin), axes);
+  }
+  /// Holds the edge where two sides of the bounding box meet.
+  TableScene& hold_edge(const std::string& one, const std::string& other, const std::string& axes) {
+    const Box a = side_of(one);
+    const Box b = side_of(other);
+    Pin pin;
+    pin.box = Box{a.min.cwiseMax(b.min), a.max.cwiseMin(b.max)};
+    return add(std::move(pin), axes);
+  }
+
+  /// Loads a part of the mesh.
+  BodyForce& load(const std::string& part) {
+    BodyForce& force = body().forces.emplace_back();
+    force.part = part;
+    return force;
+  }
+  TableScene& pull(const std::string& part, const Vec3& total) {
+    BodyForce& force = load(part);
+    force.total = total;
+    force.on_surface = true;
+    return *this;
+  }
+  TableScene& press(const std::string& part, double pressure) {
+    load(part).pressure = pressure;
+    return *this;
+  }
+
+  /// A point in the frame of the table; moved into the body by a ten-thousandth of it.
+  TableScene& probe(const std::string& name, const Vec3& place) {
+    const Vec3 from_middle = (1 - 1e-4) * (place - box_.center());
+    scene_.probes.push_back({.name = name, .body = 1, .point = from_middle, .pin = {}});
+    return *this;
+  }
+
+  [[nodiscard]] Scene scene() const { return scene_; }
+
+ private:
+  SceneBody& body() { return scene_.bodies[0]; }
+
+  [[nodiscard]] static Box side_of(const std::string& side) {
+    Box box;
+    const int axis = side[0] - 'x';
+    const bool is_high = side.ends_with("high");
+    (is_high ? box.min : box.max)[axis] = is_high ? 1 : 0;
+    return box;
+  }
+
+  TableScene& add(Pin pin, const std::string& axes) {
+    for (std::size_t axis = 0; axis < 3; ++axis) pin.axes.held[axis] = axes.find("xyz"[axis]) != std::string::npos;
+    pin.name = fmt::format("pin {}", body().pins.size() + 1);
+    body().pins.push_back(std::move(pin));
+    return *this;
+  }
+
+  Scene scene_;
+  AlignedBox box_;
+};
+
+const ProbeSample& last_of(const Recording& recording, const std::string& probe) {
+  for (const ProbeTrack& track : recording.probes) {
+    if (track.name == probe) return track.samples.back();
+  }
+  return recording.probes.at(0).samples.back();
+}
+
+Target displacement(const std::string& probe, int axis, double expected, double tolerance = 0.02) {
+  return {.quantity = fmt::format("{}.displacement.{}", probe, "xyz"[axis]),
+          .measure = [=](const Recording& run) { return last_of(run, probe).displacement[axis]; },
+          .expected = expected,
+          .unit = "m",
+          .tolerance = tolerance};
+}
+
+Target stress(const std::string& probe, int axis, double expected, double tolerance = 0.05) {
+  const char letter = "xyz"[axis];
+  return {.quantity = fmt::format("{}.stress.{}{}", probe, letter, letter),
+          .measure = [=](const Recording& run) { return last_of(run, probe).stress[axis]; },
+          .expected = expected,
+          .unit = "Pa",
+          .tolerance = tolerance};
+}
+
+Target frequency(int mode, double expected, double tolerance = 0.02) {
+  return {.quantity = fmt::format("frequency.{}", mode),
+          .measure = [=](const Recording& run) { return run.frequencies[mode - 1]; },
+          .expected = expected,
+          .unit = "Hz",
+          .tolerance = tolerance};
+}
+
+const std::string kMacNeal = "MacNeal and Harder, Finite Elements in Analysis and Design 1 (1985)";
+const std::string kNafems = "NAFEMS, The Standard NAFEMS Benchmarks (1990)";
+
+SurfaceMesh box_mesh(const Vec3& sides, const std::array<int, 3>& divisions = {1, 1, 1}) {
+  return mapped_block(divisions, [=](const Vec3& p) { return Vec3(p.cwiseProduct(sides)); });
+}
+
+TableCase straight_beam() {
+  TableScene scene(box_mesh({6, 0.2, 0.1}), 0.1 / 3, 1e7, 0.3);
+  scene.hold("x-low").pull("x-high", {0, 1, 0}).probe("tip", {6, 0.1, 0.05});
+  return {"straight beam", kMacNeal, scene.scene(), {displacement("tip", 1, 0.1081)}};
+}
+
+TableCase curved_beam(int axis, double expected) {
+  const auto arc = [](const Vec3& p) {
+    const double radius = 4.12 + 0.2 * p.x();
+    const double angle = kPi / 2 * p.y();
+    return Vec3(radius * std::cos(angle), radius * std::sin(angle), 0.1 * p.z());
+  };
+  TableScene scene(mapped_block({1, 90, 1}, arc), 0.1 / 3, 1e7, 0.25);
+  // Its root lies in the plane y = 0; the load at the other end.
+  scene.hold("y-low").pull("y-high", Vec3::Unit(axis)).probe("tip", {0, 4.22, 0.05});
+  return {axis == 2 ? "curved beam, out of plane" : "curved beam, in plane",
+          kMacNeal,
+          scene.scene(),
+          {displacement("tip", axis, expected)}};
+}
+
+TableCase twisted_beam(int axis, double expected, int bricks, double tolerance) {
+  const auto twist = [](const Vec3& p) {
+    const double angle = kPi / 2 * p.x();
+    const double across = 1.1 * (p.y() - 0.5);
+    const double thick = 0.32 * (p.z() - 0.5);
+    return Vec3(12 * p.x(), across * std::cos(angle) - thick * std::sin(angle),
+                across * std::sin(angle) + thick * std::cos(angle));
+  };
+  TableScene scene(mapped_block({96, 8, 2}, twist), 1.1 / bricks, 29e6, 0.22);
+  // At the tip the section's width lies along z.
+  scene.hold("x-low").pull("x-high", Vec3::Unit(axis)).probe("tip", {12, 0, 0});
+  return {fmt::format("twisted beam, width of {} bricks, {} plane", bricks, axis == 2 ? "in" : "out of"),
+          kMacNeal,
+          scene.scene(),
+          {displacement("tip", axis, expected, tolerance)}};
+}
+
+TableCase cooks_membrane() {
+  const auto trapezoid = [](const Vec3& p) {
+    const double low = 44 * p.x();
+    const double high = 44 + 16 * p.x();
+    return Vec3(48 * p.x(), low + (high - low) * p.y(), p.z());
+  };
+  TableScene scene(mapped_block({1, 1, 1}, trapezoid), 1, 1, 1.0 / 3);
+  scene.hold("x-low").pull("x-high", {0, 1, 0}).probe("tip", {48, 52, 0.5});
+  return {"Cook's membrane",
+          "Cook, J. Struct. Div. ASCE 100 (1974); 23.96 by refined meshes",
+          scene.scene(),
+          {displacement("tip", 1, 23.96)}};
+}
+
+TableCase thick_tube(double poisson, double expected) {
+  const auto quarter = [](const Vec3& p) {
+    const double radius = 3 + 6 * p.x();
+    const double angle = kPi / 2 * p.y();
+    return Vec3(radius * std::cos(angle), radius * std::sin(angle), 0.5 * p.z());
+  };
+  TableScene scene(mapped_block({1, 90, 1}, quarter), 0.25, 1000, poisson);
+  scene.hold("x-low", "x").hold("y-low", "y").hold("z-low", "z").hold("z-high", "z").press("x-low", 1);
+  scene.probe("inner", {3, 0, 0.25});
+  return {fmt::format("thick tube, nu = {}", poisson), kMacNeal, scene.scene(), {displacement("inner", 0, expected)}};
+}
+
+/// A quarter of the plate between two ellipses of NAFEMS LE1 and LE10, from D (2, 0) at "y-low".
+SurfaceMesh quarter_of_ellipses(double thickness) {
+  const auto quarter = [=](const Vec3& p) {
+    const double angle = kPi / 2 * p.y();
+    const double a = 2 + 1.25 * p.x();
+    const double b = 1 + 1.75 * p.x();
+    return Vec3(a * std::cos(angle), b * std::sin(angle), thickness * p.z());
+  };
+  return mapped_block({1, 90, 1}, quarter);
+}
+
+TableCase le1() {
+  TableScene scene(quarter_of_ellipses(0.1), 0.05, 210e9, 0.3);
+  scene.hold("x-low", "x").hold("y-low", "y").hold("z-low", "z").press("x-high", -10e6).probe("D", {2, 0, 0.05});
+  return {"LE1, elliptic membrane", kNafems, scene.scene(), {stress("D", 1, 92.7e6)}};
+}
+
+TableCase le10() {
+  TableScene scene(quarter_of_ellipses(0.6), 0.075, 210e9, 0.3);
+  scene.hold("x-low", "x").hold("y-low", "y").hold_part("x-high").press("z-high", 1e6).probe("D", {2, 0, 0.6});
+  return {"LE10, thick plate", kNafems, scene.scene(), {stress("D", 1, -5.38e6)}};
+}
+
+/// A square plate with a hole, a quarter: ten diameters wide.
+TableCase kirsch() {
+  const auto quarter = [](const Vec3& p) {
+    const double angle = kPi / 2 * p.y();
+    const Vec3 hole(std::cos(angle), std::sin(angle), 0);
+    const Vec3 side = hole * (10 / std::max(hole.x(), hole.y()));
+    const Vec3 place = hole + p.x() * (side - hole);
+    return Vec3(place.x(), place.y(), 0.25 * p.z());
+  };
+  TableScene scene(mapped_block({1, 90, 1}, quarter), 0.125, 1e5, 0.3);
+  scene.hold("x-low", "x").hold("y-low", "y").hold("z-low", "z");
+  BodyForce& pull = scene.load("x-high");
+  pull.part.clear();
+  pull.box = Box{{1, 0, 0}, {1, 1, 1}};
+  pull.traction = Vec3(1, 0, 0);
+  scene.probe("top", {0, 1, 0.125});
+  return {"plate with a hole",
+          "Kirsch (1898); at this width Pilkey, Peterson's Stress Concentration Factors, chart 4.1",
+          scene.scene(),
+          {stress("top", 0, 3.035)}};
+}
+
+TableCase bent_by_45_degrees() {
+  const auto arc = [](const Vec3& p) {
+    const double radius = 99.5 + p.x();
+    const double angle = kPi / 4 * p.y();
+    return Vec3(radius * std::cos(angle), radius * std::sin(angle), p.z());
+  };
+  TableScene scene(mapped_block({1, 45, 1}, arc), 0.25, 1e7, 0, Solver::kStatic);
+  scene.steps(4).hold("y-low").pull("y-high", {0, 0, 600});
+  const double side = 100 * std::sqrt(0.5);
+  scene.probe("tip", {side, side, 0.5});
+  // Positions in the source: (15.9, 47.2, 53.4) where y is along the root and x inward, from (29.3, 70.7, 0).
+  return {"45 degree bend, large displacement",
+          "Bathe and Bolourchi, Int. J. Numer. Meth. Engng 14 (1979)",
+          scene.scene(),
+          {displacement("tip", 2, 53.4), displacement("tip", 1, 47.2 - 70.71)}};
+}
+
+TableCase end_shear() {
+  TableScene scene(box_mesh({10, 1, 0.1}), 0.05, 1.2e6, 0, Solver::kStatic);
+  scene.steps(4).hold("x-low").pull("x-high", {0, 0, 4}).probe("tip", {10, 0.5, 0.05});
+  return {"cantilever under end shear, large displacement",
+          "Sze, Liu and Lo, Finite Elements in Analysis and Design 40 (2004)",
+          scene.scene(),
+          {displacement("tip", 2, 6.698), displacement("tip", 0, -3.286)}};
+}
+
+TableCase fv32() {
+  const auto taper = [](const Vec3& p) {
+    const double width = 5 - 4 * p.x();
+    return Vec3(10 * p.x(), width * (p.y() - 0.5), 0.1 * p.z());
+  };
+  TableScene scene(mapped_block({1, 1, 1}, taper), 0.1, 200e9, 0.3, Solver::kModes);
+  scene.density(8000).modes(6).hold("x-low").hold("z-low", "z").probe("tip", {10, 0, 0.05});
+  const std::array<double, 6> expected{44.623, 130.03, 162.70, 246.05, 379.90, 391.44};
+  TableCase made{"FV32, tapered membrane", kNafems, scene.scene(), {}};
+  for (int mode = 1; mode <= 6; ++mode) made.targets.push_back(frequency(mode, expected[mode - 1]));
+  return made;
+}
+
+TableCase plate_on_edges(bool on_lines) {
+  TableScene scene(box_mesh({10, 10, 1}), 0.25, 200e9, 0.3, Solver::kModes);
+  scene.density(8000).modes(5).probe("middle", {5, 5, 0.5});
+  if (!on_lines) {
+    scene.hold("x-low", "yz").hold("x-high", "yz").hold("y-low", "xz").hold("y-high", "xz");
+    const double scale = std::sqrt(200e9 / (2 * 1.3 * 8000)) / (2 * kPi);  // of lambda = omega h sqrt(rho / G)
+    return {"solid plate, simply supported faces",
+            "Srinivas, Joga Rao and Rao, J. Sound Vib. 12 (1970)",
+            scene.scene(),
+            {frequency(1, 0.0932 * scale), frequency(2, 0.2226 * scale), frequency(3, 0.2226 * scale)}};
+  }
+  for (const char* side : {"x-low", "x-high", "y-low", "y-high"}) scene.hold_edge(side, "z-low", "z");
+  // Modes 1 to 3 of the source are rigid. A solid gives way along a line that holds it, the more the finer the bricks
+  // are; what does not bend is held by nothing, and is compared.
+  return {"FV52, solid plate supported along lines",
+          kNafems,
+          scene.scene(),
+          {frequency(1, 45.897, kNaN), frequency(2, 109.44, kNaN), frequency(4, 167.89, kNaN), frequency(5, 193.59)}};
+}
+
+/// Flanges of 1 m at a web of 2 m, 0.1 m thick; the torque by a force along each flange.
+TableCase le5() {
+  const std::array<Vec3, 4> line{Vec3(0, -1, -1), Vec3(0, 0, -1), Vec3(0, 0, 1), Vec3(0, 1, 1)};
+  const std::array<Vec3, 4> aside{Vec3(0, 0, 1), Vec3(0, -1, 1), Vec3(0, -1, 1), Vec3(0, 0, 1)};  // mitred
+  const auto section = [=](const Vec3& p) {
+    const double place = 4 * p.y();  // along the line
+    const std::size_t at = place <= 1 ? 0 : place <= 3 ? 1 : 2;
+    const double share = at == 0 ? place : at == 1 ? (place - 1) / 2 : place - 3;
+    const Vec3 middle = (1 - share) * line[at] + share * line[at + 1];
+    const Vec3 out = (1 - share) * aside[at] + share * aside[at + 1];
+    return Vec3(Vec3(10 * p.x(), 0, 0) + middle + 0.1 * (p.z() - 0.5) * out);
+  };
+  TableScene scene(mapped_block({1, 4, 1}, section), 0.05, 210e9, 0.3);
+  scene.hold("x-low").probe("A", {2.5, 1, 1});
+  for (const double side : {0.0, 1.0}) {
+    BodyForce& shear = scene.load("");
+    shear.box = Box{{1, 0, side == 0 ? 0 : 0.95}, {1, 1, side == 0 ? 0.05 : 1}};
+    shear.total = Vec3(0, side == 0 ? -0.6e6 : 0.6e6, 0);
+    shear.on_surface = true;
+  }
+  return {"LE5, Z-section cantilever", kNafems, scene.scene(), {stress("A", 0, -108e6)}};
+}
+
+std::vector<TableCase> table_cases() {
+  return {straight_beam(),
+          curved_beam(1, 0.08734),
+          curved_beam(2, 0.5022),
+          twisted_beam(2, 0.005424, 12, kNaN),
+          twisted_beam(1, 0.001754, 12, kNaN),
+          twisted_beam(2, 0.005424, 24, 0.04),
+          twisted_beam(1, 0.001754, 24, 0.04),
+          cooks_membrane(),
+          thick_tube(0.3, 4.5825e-3),
+          thick_tube(0.4999, 5.0623e-3),
+          le1(),
+          le10(),
+          kirsch(),
+          bent_by_45_degrees(),
+          end_shear(),
+          le5(),
+          fv32(),
+          plate_on_edges(false),
+          plate_on_edges(true)};
+}
+
+}  // namespace
+
+CaseResult run_tables(const Choice& choice, const Observer& observer) {
+  CaseResult result;
+  if (choice.bricks || choice.poisson) return result;  // each has its own
+  const Observer silent;
+  for (const TableCase& one : table_cases()) {
+    observer.check_interrupt();
+    Scene scene = one.scene;
+    scene.bodies[0].model = choice.model.value_or(Model::kCalibrated);
+    std::optional<Recording> run;
+    std::string trouble;
+    int bricks = 0;
+    try {
+      Simulation simulation = prepare_simulation(scene, silent);
+      bricks = simulation.world.bodies.at(0).grid.brick_count();
+      run = simulate(simulation, scene, silent);
+    } catch (const Error& error) {
+      trouble = error.what();
+    }
+    for (const Target& target : one.targets) {
+      result.checks.push_back({.experiment = "tables",
+                               .quantity = fmt::format("{}: {}", one.name, target.quantity),
+                               .model = std::string(model_name(scene.bodies[0].model)),
+                               .poisson = scene.bodies[0].material.poisson,
+                               .grid = fmt::format("{}", bricks),
+                               .measured = run ? target.measure(*run) : kNaN,
+                               .expected = target.expected,
+                               .unit = target.unit,
+                               .source = one.source,
+                               .tolerance = target.tolerance,
+                               .trouble = trouble});
+    }
+  }
+  return result;
+}
+
+}  // namespace sprung
