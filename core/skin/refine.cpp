@@ -19,6 +19,8 @@ constexpr double kSteepCosine = 0.5;     // edges steeper than 60 degrees on the
 constexpr double kShortestEdge = 30;     // tolerances: shorter edges are not halved
 constexpr int kMostPasses = 6;           // halvings of an edge: curves over a crumpled mesh need not converge ...
 constexpr int kMostTriangles = 1 << 19;  // ... and from here on they are not refined further
+constexpr double kSliverLength = 8;      // largest edges: longer triangles ...
+constexpr double kSliverWidth = 0.5;     // ... and narrower ones are cut across at once
 
 /// From one end of an edge to the other: a cubic by its ends and the derivatives there, over [0, 1].
 struct EdgeCurve {
@@ -97,12 +99,17 @@ class EdgeCurves {
   std::unordered_map<std::uint64_t, Sides> sides_;
 };
 
+/// The middle vertices of edges, by edge_key() of their ends.
+using Middles = std::unordered_map<std::uint64_t, int>;
+
 /// One pass: every long edge of the skin is halved once; where there are curves, those that are further than
-/// `tolerance` from their curve, in its middle.
+/// `tolerance` from their curve, in its middle. Slivers, whose two long sides would multiply by three with every
+/// halving, are cut across at once, at the same middles of middles as their neighbours will be.
 class Refiner {
  public:
-  Refiner(const Skin& skin, double max_edge, const EdgeCurves* curves = nullptr, double tolerance = 0)
-      : skin_(skin), max_squared_(max_edge * max_edge), curves_(curves), tolerance_(tolerance) {}
+  /// `middles`: kept from pass to pass.
+  Refiner(const Skin& skin, double max_edge, Middles& middles, const EdgeCurves* curves = nullptr, double tolerance = 0)
+      : skin_(skin), max_squared_(max_edge * max_edge), middles_(middles), curves_(curves), tolerance_(tolerance) {}
 
   /// False where no edge was too long.
   bool run(Skin& refined) {
@@ -134,7 +141,7 @@ class Refiner {
     Rows all(rows.rows() + isize(ends_), rows.cols());
     all.topRows(rows.rows()) = rows;
     for (std::size_t i = 0; i < ends_.size(); ++i) {
-      all.row(rows.rows() + int(i)) = (rows.row(ends_[i][0]) + rows.row(ends_[i][1])) / 2;
+      all.row(rows.rows() + int(i)) = (all.row(ends_[i][0]) + all.row(ends_[i][1])) / 2;
     }
     return all;
   }
@@ -153,7 +160,7 @@ class Refiner {
   }
 
   [[nodiscard]] bool is_long(int a, int b) const {
-    if (!((skin_.positions.row(a) - skin_.positions.row(b)).squaredNorm() > max_squared_)) return false;
+    if (!((place_of(a) - place_of(b)).squaredNorm() > max_squared_)) return false;
     return curves_ == nullptr || (*curves_)(a, b).height() > tolerance_;
   }
 
@@ -162,14 +169,67 @@ class Refiner {
     if (!is_long(a, b)) return -1;
     const int next = int(skin_.positions.rows()) + isize(ends_);
     const auto [entry, is_new] = middles_.try_emplace(edge_key(a, b), next);
-    if (is_new) ends_.push_back({std::min(a, b), std::max(a, b)});
+    if (is_new) {
+      new_places_.push_back((place_of(a) + place_of(b)) / 2);
+      ends_.push_back({std::min(a, b), std::max(a, b)});
+    }
     return entry->second;
+  }
+
+  [[nodiscard]] Eigen::RowVector3d place_of(int vertex) const {
+    const auto old = int(skin_.positions.rows());
+    return vertex < old ? Eigen::RowVector3d(skin_.positions.row(vertex)) : new_places_[vertex - old];
+  }
+
+  /// Whether the triangle is long and narrow; `v` is turned so that its longest edge is the first.
+  [[nodiscard]] bool is_sliver(std::array<int, 3>& v) const {
+    if (curves_ != nullptr) return false;
+    std::array<double, 3> squared{};
+    for (std::size_t i = 0; i < 3; ++i) squared[i] = (place_of(v[i]) - place_of(v[(i + 1) % 3])).squaredNorm();
+    const auto longest = std::max_element(squared.begin(), squared.end()) - squared.begin();
+    if (!(squared[longest] > kSliverLength * kSliverLength * max_squared_)) return false;
+    std::rotate(v.begin(), v.begin() + longest, v.end());
+    const Vec3 along = place_of(v[1]) - place_of(v[0]);
+    const Vec3 aside = place_of(v[2]) - place_of(v[0]);
+    return along.cross(aside).squaredNorm() <= kSliverWidth * kSliverWidth * max_squared_ * along.squaredNorm();
+  }
+
+  /// Appends what follows `a` on an edge up to `b`, which is halved until no part of it is long.
+  void add_chain(int a, int b, std::vector<int>& chain) {
+    const int between = middle(a, b);
+    if (between < 0) {
+      chain.push_back(b);
+      return;
+    }
+    add_chain(a, between, chain);
+    add_chain(between, b, chain);
+  }
+
+  /// Between its longest edge, the first, and the two others.
+  void cut_sliver(const std::array<int, 3>& v) {
+    std::vector<int> low{v[0]};
+    std::vector<int> high{v[0]};
+    add_chain(v[0], v[1], low);
+    add_chain(v[0], v[2], high);
+    add_chain(v[2], v[1], high);
+    const Eigen::RowVector3d along = place_of(v[1]) - place_of(v[0]);
+    const auto progress = [&](int vertex) { return along.dot(place_of(vertex)); };
+    std::size_t i = 0;
+    std::size_t j = 0;
+    while (i + 1 < low.size() || j + 1 < high.size()) {
+      const bool is_low = j + 1 == high.size() || (i + 1 < low.size() && progress(low[i + 1]) <= progress(high[j + 1]));
+      const std::array<int, 3> next{low[i], is_low ? low[i + 1] : high[j + 1], high[j]};
+      ++(is_low ? i : j);
+      const bool is_flat = next[0] == next[1] || next[1] == next[2] || next[2] == next[0];  // at its ends
+      if (!is_flat) triangles_.push_back(next);
+    }
   }
 
   void split_triangle(int triangle) {
     std::array<int, 3> v{};
     std::array<int, 3> m{};  // m[i]: middle of the edge from v[i] to v[i + 1]
     for (std::size_t i = 0; i < 3; ++i) v[i] = skin_.triangles(triangle, i);
+    if (std::array<int, 3> turned = v; is_sliver(turned)) return cut_sliver(turned);
     std::size_t halved = 0;
     for (std::size_t i = 0; i < 3; ++i) {
       m[i] = middle(v[i], v[(i + 1) % 3]);
@@ -205,10 +265,11 @@ class Refiner {
 
   const Skin& skin_;
   double max_squared_;
+  Middles& middles_;
   const EdgeCurves* curves_;
   double tolerance_;
-  std::unordered_map<std::uint64_t, int> middles_;
-  std::vector<std::array<int, 2>> ends_;
+  std::vector<std::array<int, 2>> ends_;        // of the edges whose middles are new vertices
+  std::vector<Eigen::RowVector3d> new_places_;  // of these
   std::vector<std::array<int, 3>> triangles_;
 };
 
@@ -224,9 +285,10 @@ bool has_edge_longer_than(const Skin& skin, double limit) {
 }  // namespace
 
 void refine(Skin& skin, double max_edge) {
+  Middles middles;
   for (bool again = true; again;) {
     Skin refined;
-    again = Refiner(skin, max_edge).run(refined);
+    again = Refiner(skin, max_edge, middles).run(refined);
     if (again) skin = std::move(refined);
   }
 }
@@ -237,7 +299,8 @@ void refine_curves(Skin& skin, double tolerance) {
   for (int pass = 0; pass < kMostPasses; ++pass) {
     if (skin.triangles.rows() > kMostTriangles || !has_edge_longer_than(skin, max_edge)) break;
     const EdgeCurves curves(skin);
-    Refiner refiner(skin, max_edge, &curves, tolerance);
+    Middles middles;
+    Refiner refiner(skin, max_edge, middles, &curves, tolerance);
     Skin refined;
     if (!refiner.run(refined)) break;
     interpolated = refiner.with_midpoints(interpolated).rowwise().normalized();

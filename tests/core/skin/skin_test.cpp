@@ -125,6 +125,42 @@ SurfaceMesh bevelled_square(double angle) {
   return mesh;
 }
 
+/// The lengths of edges of one triangle only, m.
+double border_of(const Skin& skin) {
+  std::map<std::pair<int, int>, int> uses;
+  for (const auto& corners : skin.triangles.rowwise()) {
+    for (int c = 0; c < 3; ++c) ++uses[std::minmax({corners[c], corners[(c + 1) % 3]})];
+  }
+  double length = 0;
+  for (const auto& [edge, count] : uses) {
+    if (count == 1) length += (skin.positions.row(edge.first) - skin.positions.row(edge.second)).norm();
+  }
+  return length;
+}
+
+/// Bevels are slivers, and their neighbours wide: both are cut at the same places, and the slivers into hardly more
+/// triangles than a strip has.
+TEST(Skin, RefiningCutsSliversAcross) {
+  SurfaceMesh mesh = bevelled_square(45);
+  mesh.parts = {{.name = "all", .first_triangle = 0, .triangle_count = 12}};
+  Skin skin = make_skin(mesh, {.max_edge = 1e9, .crease_angle = 10});
+  // On one vertex a place, as creases have vertices of their own.
+  Skin whole = make_skin(mesh, {.max_edge = 1e9, .crease_angle = 180});
+  const double area = area_of(whole);
+  const double border = border_of(whole);
+  refine(whole, 0.04);
+  EXPECT_NEAR(area_of(whole), area, 1e-12);
+  EXPECT_NEAR(border_of(whole), border, 1e-9);
+  refine(skin, 0.04);
+  int in_bevels = 0;
+  for (const auto& corners : skin.triangles.rowwise()) {
+    const Vec3 middle = skin.positions(corners, Eigen::all).colwise().mean();
+    in_bevels += middle.z() < -1e-9 ? 1 : 0;
+  }
+  EXPECT_GT(in_bevels, 4 * 2 * 1 / 0.04 * 0.99);
+  EXPECT_LT(in_bevels, 4 * 2 * 1 / 0.02 * 2);
+}
+
 TEST(Skin, SmoothSkinsKeepFlatFacesFlat) {
   for (const double angle : {20.0, 45.0}) {
     SCOPED_TRACE(angle);
