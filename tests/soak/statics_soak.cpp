@@ -1,6 +1,6 @@
-// Random parts, pins and loads in statics: every case must come to an equilibrium whose reactions carry its loads, or
-// end with a reason. Prints the cases that did neither, and those that took over 20 times as long as others of their
-// size.
+// Random parts, pins and loads in statics: every case must come to an equilibrium whose reactions carry its loads and
+// which, for small displacements, is that of a direct solver, or end with a reason. Prints the cases that did neither,
+// and those that took over 20 times as long as others of their size.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -8,8 +8,11 @@
 #include <chrono>
 #include <map>
 
+#include "core/dynamics/statics/statics.h"
 #include "core/error.h"
 #include "core/mesh/io/read_mesh.h"
+#include "core/simulation/body_loads.h"
+#include "core/simulation/drivers.h"
 #include "core/simulation/simulate.h"
 #include "core/simulation/simulation.h"
 #include "tests/soak/dice.h"
@@ -104,6 +107,9 @@ struct Case {
   Scene scene;
 };
 
+constexpr int kMostDirect = 20000;  // bricks, up to which a direct solver checks the answer
+constexpr double kWrong = 1e-5;     // a direct solver's own rounding in slender bodies is a tenth of that
+
 Case random_case(std::uint32_t seed, std::uint32_t index) {
   Dice dice(seed, index);
   const bool has_files = std::filesystem::exists(shared_mesh("bunny.obj"));
@@ -150,6 +156,18 @@ Case random_case(std::uint32_t seed, std::uint32_t index) {
   return made;
 }
 
+/// Of small displacements: how far they are from those of a direct solver in double precision, relative to the largest.
+double error_of_displacements(const Simulation& simulation, const Scene& scene) {
+  Body body = simulation.world.bodies[0];
+  const Points found = body.positions - body.rest_positions;
+  body.positions = body.rest_positions;
+  const Loads loads = loads_and_weight(scene, simulation.world, 0, forced_wholes(scene, simulation.world)[0]);
+  const auto system = make_direct_solver();
+  const LinearResponse direct = linear_response(body, supports_of(simulation.world.bodies[0]), loads.forces,
+                                                Points::Zero(body.node_count(), 3), *system);
+  return (found - direct.displacements).cwiseAbs().maxCoeff() / direct.displacements.cwiseAbs().maxCoeff();
+}
+
 struct Result {
   int bricks = 0;
   double seconds = 0;  // of the solution
@@ -169,6 +187,10 @@ Result run(const Scene& scene) {
     const auto start = Clock::now();
     const Recording recording = simulate(simulation, scene, Observer());
     result.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    if (scene.solver.scheme == Solver::kLinear && simulation.world.bodies.size() == 1 && result.bricks <= kMostDirect) {
+      const double wrong = error_of_displacements(simulation, scene);
+      if (!(wrong < kWrong)) result.fault = fmt::format("displacements are wrong by {:.2g} of the largest", wrong);
+    }
     const Vec3 load = *scene.bodies[0].forces[0].total + weight * scene.gravity;
     const Vec3 held = recording.probes[0].samples.back().force;
     const double error = (held + load).norm() / load.norm();
