@@ -16,7 +16,8 @@ namespace {
 using multigrid::kLanes;
 
 constexpr int kCoarsestNodes = 100;
-constexpr double kDiagonalShift = 1e-9;  // of the largest stiffness, as in linear_solver.cpp
+constexpr int kCoarsestNodesAtRest = 600;  // fewer levels, on each of which coarse bricks are too stiff for thin parts
+constexpr double kDiagonalShift = 1e-9;    // of the largest stiffness, as in linear_solver.cpp
 
 /// Coarse bricks are too stiff in bending the nearer the material is to incompressible; the smoother makes up for it.
 int smoothing_steps(const Body& body) {
@@ -55,8 +56,11 @@ class MultigridSolver : public IterativeSolver {
     body_ = &body;
     terms_ = &terms;
     definite_ = definite;
-    if (!cycle_ || layouts_.front().bricks != body.grid.nodes) {
-      layouts_ = multigrid::make_hierarchy(body.grid, kCoarsestNodes);
+    // Masses hold every part where it is, and then that takes longer than it saves.
+    const int coarsest_nodes = terms.mass_factor > 0 ? kCoarsestNodes : kCoarsestNodesAtRest;
+    if (!cycle_ || coarsest_nodes != coarsest_nodes_ || layouts_.front().bricks != body.grid.nodes) {
+      coarsest_nodes_ = coarsest_nodes;
+      layouts_ = multigrid::make_hierarchy(body.grid, coarsest_nodes);
       products_ = ProductWorkspace();
       cycle_ = std::make_unique<multigrid::Cycle>(layouts_);
     }
@@ -88,6 +92,7 @@ class MultigridSolver : public IterativeSolver {
   bool definite_ = false;
   std::atomic<bool> is_guarded_ = false;  // any brick pressed so flat that its guard is at work
   std::vector<bool> held_;
+  int coarsest_nodes_ = 0;
   std::vector<multigrid::Layout> layouts_;
   std::unique_ptr<multigrid::Cycle> cycle_;
   std::vector<char> is_held_node_;

@@ -2,6 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <Eigen/CholmodSupport>
 #include <Eigen/LU>
 #include <numeric>
 
@@ -245,24 +246,22 @@ void Level::smooth(int steps, Floats& x, Floats& residual, bool with_residual) c
 
 void Level::smooth(int steps, Floats& x, Floats& residual) const { smooth(steps, x, residual, true); }
 
-Eigen::MatrixXd Level::dense() const {
-  const Eigen::Index size = 3 * layout_->node_count;
-  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(size, size);
+Eigen::SparseMatrix<double> Level::sparse() const {
+  const Eigen::Index size = Eigen::Index(3) * layout_->node_count;
+  std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t brick = 0; brick < layout_->bricks.size(); ++brick) {
     for (std::size_t row = 0; row < 24; ++row) {
+      const int to = 3 * layout_->bricks[brick][row / 3] + int(row % 3);
       for (std::size_t column = 0; column < 24; ++column) {
-        matrix(3 * layout_->bricks[brick][row / 3] + int(row % 3),
-               3 * layout_->bricks[brick][column / 3] + int(column % 3)) += entry(brick, row, column);
+        const int from = 3 * layout_->bricks[brick][column / 3] + int(column % 3);
+        if (from > to || held[from] != 0 || held[to] != 0) continue;
+        entries.emplace_back(to, from, entry(brick, row, column));
       }
     }
   }
-  for (Eigen::Index i = 0; i < size; ++i) {
-    matrix(i, i) += diagonal[i / 3];
-    if (held[i] == 0) continue;
-    matrix.row(i).setZero();
-    matrix.col(i).setZero();
-    matrix(i, i) = 1;
-  }
+  for (Eigen::Index i = 0; i < size; ++i) entries.emplace_back(i, i, held[i] == 0 ? diagonal[i / 3] : 1);
+  Eigen::SparseMatrix<double> matrix(size, size);
+  matrix.setFromTriplets(entries.begin(), entries.end());
   return matrix;
 }
 
@@ -302,10 +301,35 @@ double dot(const Floats& a, const Floats& b) { return a.dot(b); }
 
 }  // namespace
 
-Cycle::Cycle(const std::vector<Layout>& layouts) : rooms_(layouts.size()) {
+namespace {
+
+/// Of the entries on the diagonal, by row: the largest of those that its entries join. Corners of coarse bricks that
+/// hardly any child reaches have less than the others' rounding.
+Eigen::VectorXd largest_around(const Eigen::SparseMatrix<double>& lower) {
+  const Eigen::VectorXd diagonal = lower.diagonal();
+  Eigen::VectorXd largest = diagonal;
+  for (Eigen::Index column = 0; column < lower.outerSize(); ++column) {
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(lower, column); entry; ++entry) {
+      largest[entry.row()] = std::max(largest[entry.row()], diagonal[column]);
+      largest[column] = std::max(largest[column], diagonal[entry.row()]);
+    }
+  }
+  return largest;
+}
+
+}  // namespace
+
+struct Cycle::Coarsest {
+  Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>, Eigen::Lower> cholesky;
+};
+
+Cycle::Cycle(const std::vector<Layout>& layouts) : coarsest_(std::make_unique<Coarsest>()), rooms_(layouts.size()) {
+  coarsest_->cholesky.cholmod().print = 0;
   levels_.reserve(layouts.size());
   for (const Layout& layout : layouts) levels_.emplace_back(layout);
 }
+
+Cycle::~Cycle() = default;
 
 bool Cycle::prepare(int steps, double fastest_of_brick) {
   steps_ = steps;
@@ -313,12 +337,13 @@ bool Cycle::prepare(int steps, double fastest_of_brick) {
     if (i > 0) levels_[i].coarsen(levels_[i - 1]);
     if (i + 1 < levels_.size()) levels_[i].prepare_smoother(i == 0 ? fastest_of_brick : 0);
   }
-  const Eigen::MatrixXd dense = levels_.back().dense();
+  Eigen::SparseMatrix<double> matrix = levels_.back().sparse();
+  const Eigen::VectorXd diagonal = matrix.diagonal();
+  const Eigen::VectorXd around = largest_around(matrix);
   for (double raise = kRaise; raise <= kMostRaise; raise *= 10) {
-    Eigen::MatrixXd raised = dense;
-    raised.diagonal() *= 1 + raise;
-    coarsest_.compute(raised);
-    if (coarsest_.info() == Eigen::Success) return true;
+    matrix.diagonal() = diagonal + raise * (raise == kRaise ? diagonal : around);
+    coarsest_->cholesky.compute(matrix);
+    if (coarsest_->cholesky.info() == Eigen::Success) return true;
   }
   return false;
 }
@@ -380,7 +405,7 @@ void Cycle::solve_coarse(std::size_t level, const Floats& b, Floats& x) const {
 }
 
 void Cycle::solve_coarsest(const Floats& residual, Floats& x) const {
-  const Eigen::VectorXd exact = coarsest_.solve(residual.cast<double>());
+  const Eigen::VectorXd exact = coarsest_->cholesky.solve(residual.cast<double>());
   x = exact.cast<float>();
   levels_.back().release_held(x);
 }

@@ -1,6 +1,7 @@
 #pragma once
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <memory>
 
 #include "core/dynamics/linear/multigrid_hierarchy.h"
 
@@ -51,8 +52,8 @@ class Level {
   /// The same for a residual that is not needed afterwards: one product less.
   void smooth_last(int steps, Floats& x, Floats& residual) const { smooth(steps, x, residual, false); }
 
-  /// The dense matrix, 3 m x 3 m, of a small level.
-  [[nodiscard]] Eigen::MatrixXd dense() const;
+  /// The lower triangle of the matrix, 3 m x 3 m.
+  [[nodiscard]] Eigen::SparseMatrix<double> sparse() const;
 
  private:
   void smooth(int steps, Floats& x, Floats& residual, bool with_residual) const;
@@ -87,6 +88,7 @@ void add_from_coarse(const Interpolation& hang, const Floats& coarse, Floats& fi
 class Cycle {
  public:
   explicit Cycle(const std::vector<Layout>& layouts);
+  ~Cycle();
 
   /// The finest level, to be filled in before prepare().
   [[nodiscard]] Level& finest() { return levels_.front(); }
@@ -114,7 +116,8 @@ class Cycle {
 
   std::vector<Level> levels_;
   int steps_ = 2;
-  Eigen::LLT<Eigen::MatrixXd> coarsest_;
+  struct Coarsest;
+  std::unique_ptr<Coarsest> coarsest_;  // its factorization
   mutable std::vector<Room> rooms_;
 };
 
