@@ -80,6 +80,13 @@ TEST(MaterialLibrary, NamesThatCollideAreRefused) {
             "mine.toml:1:1: material.name: 'steel' exists already, built in or in another file; choose another name");
 }
 
+TEST(MaterialLibrary, NamesAreFoundInOtherLetters) {
+  EXPECT_EQ(built_in_materials()->find("ABS").name, "abs");
+  EXPECT_EQ(built_in_materials()->find("Silicone-A20").name, "silicone-a20");
+  EXPECT_NE(error_message([] { static_cast<void>(built_in_materials()->find("ABSS")); }).find("did you mean 'abs'"),
+            std::string::npos);
+}
+
 TEST(MaterialLibrary, ASceneNamesMaterialsOfItsOwnFile) {
   const TempFolder folder;
   static_cast<void>(folder.write("cube.obj", kCubeObj));
