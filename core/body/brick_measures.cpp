@@ -22,15 +22,6 @@ Mat3 deviator(const Mat3& tensor) { return tensor - tensor.trace() / 3 * Mat3::I
 
 Mat3 green_strain(const Mat3& gradient) { return 0.5 * (gradient.transpose() * gradient - Mat3::Identity()); }
 
-double von_mises_stress(const Mat3& gradient, double young, double poisson) {
-  const Mat3 strain = green_strain(gradient);
-  const double lambda = young * poisson / ((1 + poisson) * (1 - 2 * poisson));
-  const double mu = young / (2 * (1 + poisson));
-  const Mat3 second = lambda * strain.trace() * Mat3::Identity() + 2 * mu * strain;
-  const Mat3 stress = gradient * second * gradient.transpose() / std::max(gradient.determinant(), kSmallestVolume);
-  return std::sqrt(1.5) * deviator(stress).norm();
-}
-
 double measure_brick(BrickMeasure measure, const Mat3& gradient, double young, double poisson) {
   switch (measure) {
     case BrickMeasure::kStretch:
@@ -38,7 +29,7 @@ double measure_brick(BrickMeasure measure, const Mat3& gradient, double young, d
     case BrickMeasure::kStrain:
       return std::sqrt(2.0 / 3) * deviator(green_strain(gradient)).norm();
     case BrickMeasure::kStress:
-      return von_mises_stress(gradient, young, poisson);
+      return von_mises(cauchy_stress(gradient, hooke_stress(green_strain(gradient), young, poisson)));
     case BrickMeasure::kVolume:
       break;
   }
@@ -46,6 +37,18 @@ double measure_brick(BrickMeasure measure, const Mat3& gradient, double young, d
 }
 
 }  // namespace
+
+Mat3 hooke_stress(const Mat3& strain, double young, double poisson) {
+  const double lambda = young * poisson / ((1 + poisson) * (1 - 2 * poisson));
+  const double mu = young / (2 * (1 + poisson));
+  return lambda * strain.trace() * Mat3::Identity() + 2 * mu * strain;
+}
+
+Mat3 cauchy_stress(const Mat3& gradient, const Mat3& second) {
+  return gradient * second * gradient.transpose() / std::max(gradient.determinant(), kSmallestVolume);
+}
+
+double von_mises(const Mat3& stress) { return std::sqrt(1.5) * deviator(stress).norm(); }
 
 Eigen::VectorXd brick_youngs(const Body& body) {
   Eigen::VectorXd youngs(body.grid.brick_count());

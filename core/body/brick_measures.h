@@ -11,6 +11,13 @@ enum class BrickMeasure {
   kVolume    // J: volume over volume at rest
 };
 
+/// lambda tr(strain) + 2 mu strain, Pa.
+[[nodiscard]] Mat3 hooke_stress(const Mat3& strain, double young, double poisson);
+/// F s F^T / J, J at least 0.05: from the second Piola-Kirchhoff stress s.
+[[nodiscard]] Mat3 cauchy_stress(const Mat3& gradient, const Mat3& second);
+/// sqrt(3/2 dev s : dev s).
+[[nodiscard]] double von_mises(const Mat3& stress);
+
 /// One number a brick for these positions of the body's nodes (m x 3, m). kStress counts the stiffness of the brick's
 /// region; J is taken as at least 0.05 in it. Deterministic for any number of threads.
 [[nodiscard]] Eigen::VectorXd measure_bricks(const Body& body, BrickMeasure measure, const Points& positions);

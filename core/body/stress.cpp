@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/body/brick_measures.h"
@@ -16,9 +17,8 @@
 namespace sprung {
 namespace {
 
-constexpr double kSmallestVolume = 0.05;  // that a stress is divided by
-constexpr double kLayer = 0.1;            // variance of places, in squared bricks, that makes a slope
-constexpr double kSameStiffness = 1e-6;   // relative
+constexpr double kLayer = 0.1;           // variance of places, in squared bricks, that makes a slope
+constexpr double kSameStiffness = 1e-6;  // relative
 
 using Six = Eigen::Matrix<double, 6, 1>;
 
@@ -79,28 +79,6 @@ Slopes slopes_within(const BrickColumns& x, const Mat3& reference, double h, dou
   return slopes;
 }
 
-/// Bricks that share a node with each, itself included.
-class Neighbours {
- public:
-  explicit Neighbours(const BrickGrid& grid) : grid_(grid), of_node_(grid.node_count()) {
-    for (int brick = 0; brick < grid.brick_count(); ++brick) {
-      for (const int node : grid.nodes[brick]) of_node_[node].push_back(brick);
-    }
-  }
-
-  void find(int brick, std::vector<int>& found) const {
-    found.clear();
-    for (const int node : grid_.nodes[brick]) found.insert(found.end(), of_node_[node].begin(), of_node_[node].end());
-    std::sort(found.begin(), found.end());
-    found.erase(std::unique(found.begin(), found.end()), found.end());
-  }
-  [[nodiscard]] const std::vector<int>& of_node(int node) const { return of_node_[node]; }
-
- private:
-  const BrickGrid& grid_;
-  std::vector<std::vector<int>> of_node_;
-};
-
 /// A line through the states of a brick and its neighbours.
 struct Line {
   Vec3 place = Vec3::Zero();  // m, in the frame of the grid
@@ -108,26 +86,20 @@ struct Line {
   Slopes slopes = Slopes::Zero();
 };
 
-Vec3 middle_of(const BrickGrid& grid, int brick) {
-  return grid.origin + grid.brick_size * (grid.cells[brick].cast<double>().array() + 0.5).matrix();
-}
-
 class Recovery {
  public:
   Recovery(const Body& body, const Points& positions, StrainMeasure measure)
-      : body_(body), positions_(positions), youngs_(brick_youngs(body)), neighbours_(body.grid) {
+      : body_(body),
+        positions_(positions),
+        youngs_(brick_youngs(body)),
+        corners_(list_corners(body.grid.nodes, body.node_count())) {
     if (measure == StrainMeasure::kFinite) return;
     at_rest_ = mean_axes_of(columns_of(body.grid.nodes[0], body.rest_positions)) / body.grid.brick_size;
   }
 
   [[nodiscard]] StressTensors at(const std::vector<int>& nodes) const {
     const BrickGrid& grid = body_.grid;
-    std::vector<int> bricks;
-    for (const int node : nodes) {
-      bricks.insert(bricks.end(), neighbours_.of_node(node).begin(), neighbours_.of_node(node).end());
-    }
-    std::sort(bricks.begin(), bricks.end());
-    bricks.erase(std::unique(bricks.begin(), bricks.end()), bricks.end());
+    const std::vector<int> bricks = bricks_at(nodes);
     std::vector<Line> lines(grid.cells.size());
     each(bricks.size(), [&](std::size_t row) { lines[bricks[row]] = line_through(bricks[row]); });
     StressTensors stresses(nodes.size(), 6);
@@ -143,22 +115,31 @@ class Recovery {
     });
   }
 
+  /// Ascending, each once.
+  [[nodiscard]] std::vector<int> bricks_at(std::span<const int> nodes) const {
+    std::vector<int> bricks;
+    for (const int node : nodes) {
+      for (int i = corners_.first[node]; i < corners_.first[node + 1]; ++i) bricks.push_back(corners_.corners[i] / 8);
+    }
+    std::sort(bricks.begin(), bricks.end());
+    bricks.erase(std::unique(bricks.begin(), bricks.end()), bricks.end());
+    return bricks;
+  }
+
   /// Cauchy stress, by the lines of the node's bricks.
   [[nodiscard]] Eigen::RowVector<double, 6> mean_at(int node, const std::vector<Line>& lines) const {
     const BrickGrid& grid = body_.grid;
     const Vec3 place = grid.origin + grid.brick_size * grid.lattice[node].cast<double>();
     State mean{Eigen::Matrix<double, 15, 1>::Zero()};
     double weights = 0;
-    for (const int brick : neighbours_.of_node(node)) {
+    for (const int brick : bricks_at(std::span(&node, 1))) {
       const Line& line = lines[brick];
       mean.numbers += grid.fill[brick] * (line.state.numbers + line.slopes * (place - line.place));
       weights += grid.fill[brick];
     }
     mean.numbers /= weights;
     const Mat3 gradient = mean.gradient();
-    return six_of(gradient * tensor_of(mean.stress()) * gradient.transpose() /
-                  std::max(gradient.determinant(), kSmallestVolume))
-        .transpose();
+    return six_of(cauchy_stress(gradient, tensor_of(mean.stress()))).transpose();
   }
 
   [[nodiscard]] Mat3 gradient_of(int brick) const { return mean_axes_of(corners(brick)) / body_.grid.brick_size; }
@@ -168,11 +149,8 @@ class Recovery {
     const Mat3 reference = at_rest_.value_or(gradient);
     const Mat3 product = reference.transpose() * gradient;
     const Mat3 strain = (at_rest_ ? 1.0 : 0.5) * (0.5 * (product + product.transpose()) - Mat3::Identity());
-    const double poisson = body_.material.poisson;
-    const double lambda = youngs_[brick] * poisson / ((1 + poisson) * (1 - 2 * poisson));
-    const double mu = youngs_[brick] / (2 * (1 + poisson));
     State state;
-    state.numbers << six_of(lambda * strain.trace() * Mat3::Identity() + 2 * mu * strain), reference.reshaped();
+    state.numbers << six_of(hooke_stress(strain, youngs_[brick], body_.material.poisson)), reference.reshaped();
     return state;
   }
 
@@ -189,8 +167,7 @@ class Recovery {
 
   [[nodiscard]] Line line_through(int brick) const {
     const BrickGrid& grid = body_.grid;
-    std::vector<int> near;
-    neighbours_.find(brick, near);
+    std::vector<int> near = bricks_at(grid.nodes[brick]);
     const auto is_other = [&](int other) {
       return std::abs(youngs_[other] - youngs_[brick]) > kSameStiffness * youngs_[brick];
     };
@@ -200,7 +177,7 @@ class Recovery {
     for (const int other : near) {
       const double weight = weight_of(other);
       weights += weight;
-      line.place += weight * middle_of(grid, other);
+      line.place += weight * brick_middle(grid, other);
       line.state.numbers += weight * state_of(other).numbers;
     }
     line.place /= weights;
@@ -210,7 +187,7 @@ class Recovery {
     Slopes within = Slopes::Zero();
     for (const int other : near) {
       const double weight = weight_of(other) / weights;
-      const Vec3 way = middle_of(grid, other) - line.place;
+      const Vec3 way = brick_middle(grid, other) - line.place;
       spread += weight * way * way.transpose();
       together += weight * (state_of(other).numbers - line.state.numbers) * way.transpose();
       within += weight * slopes_of(other);
@@ -233,7 +210,7 @@ class Recovery {
   const Body& body_;
   const Points& positions_;
   Eigen::VectorXd youngs_;  // Pa
-  Neighbours neighbours_;
+  CornerLists corners_;
   std::optional<Mat3> at_rest_;  // for small strains: how the body was turned
 };
 
@@ -259,8 +236,7 @@ StressTensors stress_at(const BrickGrid& grid, const Embedding& points, const St
 Eigen::VectorXd von_mises(const StressTensors& stresses) {
   Eigen::VectorXd values(stresses.rows());
   for (Eigen::Index row = 0; row < values.size(); ++row) {
-    const Mat3 tensor = tensor_of(stresses.row(row));
-    values[row] = std::sqrt(1.5) * (tensor - tensor.trace() / 3 * Mat3::Identity()).norm();
+    values[row] = von_mises(tensor_of(stresses.row(row)));
   }
   return values;
 }

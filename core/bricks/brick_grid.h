@@ -60,6 +60,11 @@ void remove_bricks(BrickGrid& grid, const std::vector<bool>& gone, const std::ve
 /// The number of connected components of the bricks, by shared nodes.
 [[nodiscard]] int count_connected(const BrickGrid& grid);
 
+/// m, in the frame of the grid.
+[[nodiscard]] inline Vec3 brick_middle(const BrickGrid& grid, int brick) {
+  return grid.origin + grid.brick_size * (grid.cells[brick].cast<double>().array() + 0.5).matrix();
+}
+
 /// Finds the bricks at a cell of the lattice.
 class CellIndex {
  public:

@@ -57,8 +57,7 @@ std::vector<int> Selector::nodes(const Selection& selection, const Points& place
 Points brick_middles(const BrickGrid& grid) {
   Points middles(grid.brick_count(), 3);
   for (int brick = 0; brick < grid.brick_count(); ++brick) {
-    const Vec3 cell = grid.cells[brick].cast<double>().array() + 0.5;
-    middles.row(brick) = (grid.origin + grid.brick_size * cell).transpose();
+    middles.row(brick) = brick_middle(grid, brick).transpose();
   }
   return middles;
 }

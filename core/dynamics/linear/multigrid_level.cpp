@@ -339,11 +339,16 @@ bool Cycle::prepare(int steps, double fastest_of_brick) {
   }
   Eigen::SparseMatrix<double> matrix = levels_.back().sparse();
   const Eigen::VectorXd diagonal = matrix.diagonal();
-  const Eigen::VectorXd around = largest_around(matrix);
-  for (double raise = kRaise; raise <= kMostRaise; raise *= 10) {
-    matrix.diagonal() = diagonal + raise * (raise == kRaise ? diagonal : around);
+  const auto succeeds_with = [&](const Eigen::VectorXd& more) {
+    matrix.diagonal() = diagonal + more;
     coarsest_->cholesky.compute(matrix);
-    if (coarsest_->cholesky.info() == Eigen::Success) return true;
+    return coarsest_->cholesky.info() == Eigen::Success;
+  };
+  if (succeeds_with(kRaise * diagonal)) return true;
+  matrix.diagonal() = diagonal;
+  const Eigen::VectorXd around = largest_around(matrix);
+  for (double raise = 10 * kRaise; raise <= kMostRaise; raise *= 10) {
+    if (succeeds_with(raise * around)) return true;
   }
   return false;
 }

@@ -149,10 +149,6 @@ std::optional<Eigenpairs> smallest_pairs(ScaledStiffness& matrix, int count, dou
               fmt::format("the search for {} modes did not converge; hold more of the body or ask for fewer", count));
 }
 
-}  // namespace
-
-namespace {
-
 /// The same, in the way that the size asks for.
 std::optional<Eigenpairs> find_pairs(ScaledStiffness& matrix, int count, double nothing) {
   const bool is_small = matrix.rows() <= std::max(kDense, 4 * (count + kMoreToStart));
