@@ -12,6 +12,7 @@
 #include "core/simulation/drivers.h"
 #include "core/simulation/equilibria.h"
 #include "core/simulation/observer.h"
+#include "core/simulation/skin_supports.h"
 #include "render/renderer.h"
 
 namespace sprung {
@@ -148,7 +149,7 @@ void LiveWorld::step(double dt, long count, const Between& between) {
 
 void LiveWorld::settle(std::size_t row, bool linear, const Between& between) {
   SoftBody& body = simulation_.world.bodies[row];
-  if (body.pinned.empty()) {
+  if (body.pinned.empty() && body.origin.pinned_skins.empty()) {
     throw Error(ErrorKind::kBadInput, "a body without pinned nodes cannot come to rest: pin() some of them first");
   }
   if (const std::vector<MotionOnly> parts = motion_only(scene_); !parts.empty()) {
@@ -159,7 +160,10 @@ void LiveWorld::settle(std::size_t row, bool linear, const Between& between) {
     int newton_steps = 0;
     const Loads loads = loads_and_weight(scene_, simulation_.world, row, forced_wholes(scene_, simulation_.world)[row]);
     const Points movements = body.positions - body.rest_positions;
-    static_cast<void>(sprung::settle(body, loads, movements, linear, *make_default_solver(), newton_steps, between));
+    Supports supports = supports_of(body);
+    add_skin_supports(scene_, body, 0, linear, supports);
+    static_cast<void>(
+        sprung::settle(body, supports, loads, movements, linear, *make_default_solver(), newton_steps, between));
     body.velocities.setZero();
   });
 }

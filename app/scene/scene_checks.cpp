@@ -93,6 +93,14 @@ void check_rest(const Film& scene, const Report& report) {
     report({"obstacle", 0}, fmt::format("only a motion {} can have an [[obstacle]]", kMotions));
 }
 
+void check_motion(const Film& scene, const Report& report) {
+  for (int i = 0; i < isize(scene.bodies); ++i) {
+    const std::vector<Pin>& pins = scene.bodies[i].pins;
+    if (std::none_of(pins.begin(), pins.end(), [](const Pin& pin) { return pin.on_surface; })) continue;
+    report({"body", i}, "body.pin: on_surface is for scheme static, linear and modes; in a motion pins hold nodes");
+  }
+}
+
 }  // namespace
 
 void check_rules(const std::vector<KeyRule>& rules, const std::vector<std::string_view>& given, const std::string& path,
@@ -104,7 +112,11 @@ void check_table(const Film& scene, const std::string&, const Report& report) {
   check_probes(scene, report);
   check_glue(scene, report);
   check_times(scene.gravity_keyframes, "gravity_keyframes", "scene", report);
-  if (!is_motion(scene)) check_rest(scene, report);
+  if (is_motion(scene)) {
+    check_motion(scene, report);
+  } else {
+    check_rest(scene, report);
+  }
 }
 
 /// A brick's law depends on its Poisson's ratio in many constants, on its stiffness in one factor.
@@ -119,6 +131,11 @@ void check_table(const SceneBody& body, const std::string& path, const Report& r
                                         "of one body may differ in stiffness and density only",
                                         path, material.poisson, body.material.poisson));
   };
+  const auto on_surface =
+      std::count_if(body.pins.begin(), body.pins.end(), [](const Pin& pin) { return pin.on_surface; });
+  if (on_surface > 0 && on_surface < isize(body.pins)) {
+    report({"pin"}, fmt::format("{}.pin: give all pins of a body on_surface, or none", path));
+  }
   for (int i = 0; i < isize(body.regions); ++i) {
     check_material(i, body.regions[i].material);
     if (body.regions[i].gradient) check_material(i, body.regions[i].gradient->material);
@@ -127,6 +144,12 @@ void check_table(const SceneBody& body, const std::string& path, const Report& r
 
 void check_table(const Pin& pin, const std::string& path, const Report& report) {
   if (pin.until && *pin.until <= pin.from) report({"until"}, fmt::format("{0}.until: must be after {0}.from", path));
+  if (pin.normal) {
+    check_direction(*pin.normal, {}, path + ".normal", report);
+    if (!pin.on_surface) report({"normal"}, fmt::format("{}: normal is for a pin with on_surface = true", path));
+    const std::array<bool, 3>& held = pin.axes.held;
+    if (!(held[0] && held[1] && held[2])) report({"axes"}, fmt::format("{}: give axes or normal, not both", path));
+  }
   if (pin.keyframes.empty()) return;
   check_times(pin.keyframes, "keyframes", path, report);
   const Keyframe& first = pin.keyframes.front();

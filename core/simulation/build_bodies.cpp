@@ -20,6 +20,7 @@
 #include "core/simulation/body_loads.h"
 #include "core/simulation/selector.h"
 #include "core/simulation/simulation.h"
+#include "core/simulation/skin_supports.h"
 #include "core/skin/skin.h"
 #include "core/text.h"
 #include "core/types.h"
@@ -249,10 +250,11 @@ SoftBody BodyBuilder::fill(std::size_t solid) {
   origin.bricks_from_rest = loaded_.bricks_from_rest;
   origin.regions = apply_regions(body_.regions, selector_, body, solid);
   origin.pins = find_pins(body, solid);
+  origin.pinned_skins = find_pinned_skins(body_.pins, selector_, body, solid);
   origin.forces = place_forces(body_.forces, selector_, body, solid);
   origin.muscles = place_muscles(body_.muscles, selector_, body, solid, loaded_.bricks_from_rest);
   body.pinned = held_nodes(origin.pins, body_.pins);
-  held_solids_ += origin.pins.empty() ? 0 : 1;
+  held_solids_ += origin.pins.empty() && origin.pinned_skins.empty() ? 0 : 1;
   return body;
 }
 
@@ -260,7 +262,9 @@ void BodyBuilder::put(SoftBody body, const Pose& pose, int copy) {
   place(body, pose.rotation, pose.translation);
   body.velocities = velocities_of(body_, body, pose.translation);
   for (ForcedPart& part : body.origin.forces) sprung::place(part, pose.rotation, pose.translation);
-  for (PinnedNodes& pinned : body.origin.pins) pinned.centre = pose.rotation * pinned.centre + pose.translation;
+  const auto move_centre = [&](auto& pinned) { pinned.centre = pose.rotation * pinned.centre + pose.translation; };
+  std::for_each(body.origin.pins.begin(), body.origin.pins.end(), move_centre);
+  std::for_each(body.origin.pinned_skins.begin(), body.origin.pinned_skins.end(), move_centre);
   body.color = body_.color.value_or(kPalette[simulation_.world.bodies.size() % kPalette.size()]);
   body.origin.copy = copy;
   simulation_.world.bodies.push_back(std::move(body));
@@ -277,6 +281,7 @@ BrickGrid BodyBuilder::make_grid(const Solid& solid) {
 std::vector<PinnedNodes> BodyBuilder::find_pins(const Body& body, std::size_t solid) const {
   std::vector<PinnedNodes> pinned;
   for (std::size_t pin = 0; pin < body_.pins.size(); ++pin) {
+    if (body_.pins[pin].on_surface) continue;
     std::vector<int> nodes = selector_.nodes(body_.pins[pin], body.rest_positions, solid);
     if (nodes.empty()) continue;
     pinned.push_back({.pin = pin, .nodes = std::move(nodes), .centre = selector_.centre(body_.pins[pin])});
@@ -313,8 +318,10 @@ void BodyBuilder::tell(const Observer& observer) const {
   if (body_.pins.empty()) return;
   for (std::size_t pin = 0; pin < body_.pins.size(); ++pin) {
     const auto holds = [&](const SoftBody& solid) {
-      return std::any_of(solid.origin.pins.begin(), solid.origin.pins.end(),
-                         [&](const PinnedNodes& pinned) { return pinned.pin == pin; });
+      const auto is_of_pin = [&](const auto& pinned) { return pinned.pin == pin; };
+      const Origin& origin = solid.origin;
+      return std::any_of(origin.pins.begin(), origin.pins.end(), is_of_pin) ||
+             std::any_of(origin.pinned_skins.begin(), origin.pinned_skins.end(), is_of_pin);
     };
     if (std::any_of(filled_.begin(), filled_.end(), holds)) continue;
     const std::string reason = fmt::format("{}: {} holds no node; {}", loaded_.name, pin_name(body_.pins, pin),

@@ -13,6 +13,7 @@
 #include "core/simulation/body_loads.h"
 #include "core/simulation/drivers.h"
 #include "core/simulation/observer.h"
+#include "core/simulation/skin_supports.h"
 #include "core/text.h"
 #include "core/world/load_forces.h"
 
@@ -27,7 +28,7 @@ class Loading {
   Loading(Simulation& simulation, const Scene& scene)
       : simulation_(simulation), scene_(scene), is_linear_(scene.solver.scheme == Solver::kLinear) {
     for (const SoftBody& actor : simulation.world.bodies) {
-      if (!actor.pinned.empty()) continue;
+      if (!actor.pinned.empty() || !actor.origin.pinned_skins.empty()) continue;
       throw Error(ErrorKind::kBadInput,
                   "a body without pins cannot come to rest; give it a [[body.pin]], or use "
                   "solver.scheme euler or verlet");
@@ -49,7 +50,10 @@ class Loading {
       loads.forces *= share;
       for (SkinPressure& pressure : loads.pressures) pressure.pressure *= share;
       const Points movements = pin_movements(scene_, simulation_, row, time, is_linear_);
-      reactions_of_all.push_back(settle(body, loads, movements, is_linear_, *systems_[row], iterations_, between));
+      Supports supports = supports_of(body);
+      add_skin_supports(scene_, body, time, is_linear_, supports);
+      reactions_of_all.push_back(
+          settle(body, supports, loads, movements, is_linear_, *systems_[row], iterations_, between));
     }
     return reactions_of_all;
   }
@@ -124,11 +128,10 @@ void check_balance(const Points& places, const Points& loads, const Points& reac
 
 }  // namespace
 
-Points settle(SoftBody& body, const Loads& loads, const Points& movements, bool linear, LinearSolver& solver,
-              int& newton_steps, const std::function<void()>& between) {
+Points settle(SoftBody& body, const Supports& supports, const Loads& loads, const Points& movements, bool linear,
+              LinearSolver& solver, int& newton_steps, const std::function<void()>& between) {
   constexpr int kMostTurns = 60;
   constexpr double kTurned = 1e-7;  // of the forces at work
-  const Supports supports = supports_of(body);
   if (linear) {
     body.positions = body.rest_positions;
     const Points forces = loads.forces + pressure_forces(body, loads.pressures);
@@ -194,7 +197,9 @@ Recording record_modes(Simulation& simulation, const Scene& scene, const Observe
   }
   Progress progress(observer, "modes");
   SoftBody& actor = simulation.world.bodies[0];
-  const Modes modes = natural_modes(actor, supports_of(actor), scene.solver.modes, [&] { observer.check_interrupt(); });
+  Supports supports = supports_of(actor);
+  add_skin_supports(scene, actor, 0, true, supports);
+  const Modes modes = natural_modes(actor, supports, scene.solver.modes, [&] { observer.check_interrupt(); });
   const int frames = frame_count(scene);
   const int count = scene.solver.modes;
   Recorder recorder(scene, simulation, "mode", cache);

@@ -10,6 +10,7 @@
 #include "core/files.h"
 #include "core/simulation/drivers.h"
 #include "core/simulation/run_cache.h"
+#include "core/simulation/skin_supports.h"
 
 namespace sprung {
 namespace {
@@ -107,11 +108,12 @@ ProbeSample Recorder::pin_sample(const Probe& probe, const std::vector<Points>& 
   const std::size_t row = probe.body - 1;
   const SceneBody& scene_body = scene_.bodies[row];
   ProbeSample sample;
-  int count = 0;
+  double count = 0;
   for (std::size_t actor = 0; actor < simulation_.world.bodies.size(); ++actor) {
     if (simulation_.world.bodies[actor].origin.body != row) continue;
-    const Body& body = simulation_.world.bodies[actor];
-    for (const PinnedNodes& pinned : simulation_.world.bodies[actor].origin.pins) {
+    const SoftBody& soft = simulation_.world.bodies[actor];
+    const Body& body = soft;
+    for (const PinnedNodes& pinned : soft.origin.pins) {
       if (!is_pin_of(pinned, scene_body, probe.pin)) continue;
       const Pin& pin = scene_body.pins[pinned.pin];
       const Vec3 shift = movement_of(pin, scene_).placement(time).shift;
@@ -128,9 +130,20 @@ ProbeSample Recorder::pin_sample(const Probe& probe, const std::vector<Points>& 
         sample.torque += arm.cross(force);
       }
     }
+    for (const PinnedSkin& skin : soft.origin.pinned_skins) {
+      if (scene_body.pins[skin.pin].name != probe.pin) continue;
+      const SkinReaction reaction = reaction_of(skin, scene_, soft, time, small);
+      count += reaction.area;
+      sample.position += reaction.position;
+      sample.displacement += reaction.displacement;
+      if (reactions.empty()) continue;
+      sample.force += reaction.force;
+      sample.torque += reaction.torque;
+    }
   }
-  sample.position /= std::max(count, 1);
-  sample.displacement /= std::max(count, 1);
+  if (count == 0) return sample;
+  sample.position /= count;
+  sample.displacement /= count;
   return sample;
 }
 

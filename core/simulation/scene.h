@@ -65,9 +65,14 @@ struct Axes {
 /// Holds the nodes of a part along some axes of the world and moves them along these: through keyframes, or linearly in
 /// time from zero at the start to `translate` and `rotate` at the end of the film. Rotation and scaling about the
 /// centre of the part come before the translation. Outside its time interval the pin leaves the nodes free.
+///
+/// On the surface a pin holds the skin of the part, wherever the bricks lie, by a stiff foundation (PinnedSkin); in
+/// equilibria and vibrations only.
 struct Pin : Selection {
   std::string name;
   Axes axes;
+  bool on_surface = false;
+  std::optional<Vec3> normal;     // of a plane along which the skin slides: held along the normal only
   std::optional<Vec3> translate;  // m
   std::optional<Vec3> rotate;     // degrees about x, then y, then z
   std::vector<Keyframe> keyframes;

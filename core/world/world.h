@@ -30,6 +30,14 @@ struct PinnedNodes {
   Vec3 centre = Vec3::Zero();  // m, in the world: the pin's centre of rotation
 };
 
+/// The part of a body's skin that a pin of the scene holds on the surface: one point for each triangle.
+struct PinnedSkin {
+  std::size_t pin = 0;  // row in SceneBody::pins
+  Embedding points{};
+  Eigen::VectorXd areas{};     // m^2, for which the points stand
+  Vec3 centre = Vec3::Zero();  // m, in the world: the pin's centre of rotation
+};
+
 /// Where a force of the scene acts on a body.
 struct ForcedPart {
   std::size_t force = 0;                   // row in SceneBody::forces
@@ -52,6 +60,7 @@ struct Origin {
   Mat3 bricks_from_rest = Mat3::Identity();
   std::vector<int> regions;       // per brick: row in SceneBody::regions, counted from 1; 0: of the body's own material
   std::vector<PinnedNodes> pins;  // those that hold any of its nodes
+  std::vector<PinnedSkin> pinned_skins;
   std::vector<ForcedPart> forces;
   std::vector<MusclePart> muscles;
 

@@ -9,9 +9,17 @@
 
 namespace sprung {
 
-/// Which of a body's 3 m degrees of freedom (3 node + axis) keep the value that its positions have.
+/// Pulls a point of a body towards a place by a spring.
+struct SpringSupport {
+  PointStiffness spring;
+  Vec3 place = Vec3::Zero();  // m, where it is at rest
+};
+
+/// Which of a body's 3 m degrees of freedom (3 node + axis) keep the value that its positions have, and which of its
+/// points springs hold.
 struct Supports {
-  std::vector<bool> fixed;  // 3 m
+  std::vector<bool> fixed;               // 3 m
+  std::vector<SpringSupport> springs{};  // a LinearSolver sees them as StepTerms::points: support_terms()
 
   explicit Supports(int node_count) : fixed(3 * std::size_t(node_count), false) {}
   void fix(int node, int axis) { fixed[3 * node + axis] = true; }
@@ -29,6 +37,13 @@ struct StepTerms {
   /// The body's own part of what couples it to others: in the preconditioner of an IterativeSolver only.
   std::vector<PointStiffness> coupled;
 };
+
+/// The springs of supports, for the solvers.
+[[nodiscard]] inline StepTerms support_terms(const Supports& supports) {
+  StepTerms terms;
+  for (const SpringSupport& support : supports.springs) terms.points.push_back(support.spring);
+  return terms;
+}
 
 /// How the solving went so far.
 struct SolveReport {

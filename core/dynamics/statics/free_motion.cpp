@@ -24,8 +24,8 @@ constexpr double kMovesAlong = 0.3;  // of the largest displacement
 
 /// The softest motion, 3 m, of length 1, by inverse iteration; empty where the solver fails.
 Eigen::VectorXd softest_motion(const Body& body, const Supports& supports, LinearSolver& system) {
-  const StepTerms no_terms;
-  if (!system.linearize(body, supports, true, no_terms)) return {};
+  const StepTerms terms = support_terms(supports);
+  if (!system.linearize(body, supports, true, terms)) return {};
   Eigen::VectorXd motion(3 * body.node_count());
   for (Eigen::Index i = 0; i < motion.size(); ++i) motion[i] = supports.fixed[i] ? 0 : std::sin(1.0 + 7 * double(i));
   for (int iteration = 0; iteration < kIterations; ++iteration) {
@@ -89,6 +89,7 @@ void throw_if_free(const Body& body, const Supports& supports, const std::string
   ProductWorkspace workspace;
   Eigen::VectorXd product;
   multiply_stiffness(body, motion, workspace, product);
+  for (const SpringSupport& support : supports.springs) add_point_product(body, support.spring, motion, product);
   const double stiffness = motion.dot(product);
   if (stiffness > kNoResistance * largest_brick_stiffness(body)) return;
   throw Error(ErrorKind::kBadInput, fmt::format("{}: the supports leave the body free to move; {}. Hold more of it, or "

@@ -46,7 +46,7 @@ class ScaledStiffness {
   using Scalar = double;
 
   ScaledStiffness(const Body& body, const Supports& supports, double shift, const std::function<void()>& between)
-      : body_(body), supports_(supports), dofs_(supports), between_(between) {
+      : body_(body), supports_(supports), dofs_(supports), terms_(support_terms(supports)), between_(between) {
     terms_.mass_factor = shift;
     Vector masses(3 * body.node_count());
     for (Eigen::Index i = 0; i < masses.size(); ++i) masses[i] = body.masses[i / 3];
@@ -166,7 +166,7 @@ Modes natural_modes(const Body& body, const Supports& supports, int count, const
                 fmt::format("cannot find {} modes of a body with {} free coordinates", count, dofs.count));
   }
   const double nothing = kNoFrequency * largest_brick_stiffness(body) / body.masses.maxCoeff();
-  const bool is_free = dofs.count == 3 * body.node_count();
+  const bool is_free = dofs.count == 3 * body.node_count() && supports.springs.empty();
   double shift = 0;
   int all = count;
   std::optional<ScaledStiffness> matrix(std::in_place, body, supports, shift, between);

@@ -15,7 +15,36 @@
 namespace sprung {
 namespace {
 
-/// K u: the forces (m x 3, N) that hold the displacements u.
+/// Where the point that a spring holds is with the nodes at `positions` (m x 3, m).
+Vec3 place_of(const Body& body, const SpringSupport& support, const Points& positions) {
+  const auto& nodes = body.grid.nodes[support.spring.brick];
+  Vec3 place = Vec3::Zero();
+  for (int c = 0; c < 8; ++c) place += support.spring.weights[c] * positions.row(nodes[c]).transpose();
+  return place;
+}
+
+/// Forces of supporting springs (m x 3, N) on the nodes, with these at `positions` (m x 3, m).
+Points spring_support_forces(const Body& body, const Supports& supports, const Points& positions) {
+  Points forces = Points::Zero(positions.rows(), 3);
+  for (const SpringSupport& support : supports.springs) {
+    const auto& nodes = body.grid.nodes[support.spring.brick];
+    const Vec3 force = support.spring.stiffness * (support.place - place_of(body, support, positions));
+    for (int c = 0; c < 8; ++c) forces.row(nodes[c]) += support.spring.weights[c] * force.transpose();
+  }
+  return forces;
+}
+
+/// J.
+double spring_support_energy(const Body& body, const Supports& supports) {
+  double energy = 0;
+  for (const SpringSupport& support : supports.springs) {
+    const Vec3 stretch = support.place - place_of(body, support, body.positions);
+    energy += stretch.dot(support.spring.stiffness * stretch) / 2;
+  }
+  return energy;
+}
+
+/// K u: the forces (m x 3, N) that hold the displacements u, without supporting springs.
 Points holding_forces(const Body& body, const Points& displacements) {
   Points forces = Points::Zero(body.node_count(), 3);
   for (std::size_t brick = 0; brick < body.grid.nodes.size(); ++brick) {
@@ -32,6 +61,15 @@ Points holding_forces(const Body& body, const Points& displacements) {
   return forces;
 }
 
+/// To what fixed degrees of freedom carry: their share of the springs included.
+void add_spring_reactions(const Body& body, const Supports& supports, const Points& positions, Points& reactions) {
+  if (supports.springs.empty()) return;
+  const Points forces = spring_support_forces(body, supports, positions);
+  for (Eigen::Index i = 0; i < forces.size(); ++i) {
+    if (!supports.fixed[i]) reactions.data()[i] += forces.data()[i];
+  }
+}
+
 }  // namespace
 
 LinearResponse linear_response(const Body& body, const Supports& supports, const Points& loads, const Points& movements,
@@ -42,7 +80,9 @@ LinearResponse linear_response(const Body& body, const Supports& supports, const
     if (supports.fixed[i]) response.displacements.data()[i] = movements.data()[i];
   }
   if (std::find(supports.fixed.begin(), supports.fixed.end(), false) != supports.fixed.end()) {
-    const Points driving = loads - holding_forces(body, response.displacements);
+    const Points moved = body.positions + response.displacements;
+    const Points driving =
+        loads + spring_support_forces(body, supports, moved) - holding_forces(body, response.displacements);
     const Eigen::VectorXd free = solve_linear(body, supports, driving, system);
     response.displacements += Eigen::Map<const Points>(free.data(), body.node_count(), 3);
   }
@@ -50,6 +90,7 @@ LinearResponse linear_response(const Body& body, const Supports& supports, const
   for (Eigen::Index i = 0; i < movements.size(); ++i) {
     if (!supports.fixed[i]) response.reactions.data()[i] = 0;
   }
+  add_spring_reactions(body, supports, body.positions + response.displacements, response.reactions);
   return response;
 }
 
@@ -75,6 +116,7 @@ class Equilibrium {
         supports_(supports),
         loads_(loads),
         system_(system),
+        terms_(support_terms(supports)),
         options_(options),
         rounding_(4 * std::numeric_limits<double>::epsilon() * extent(body)),
         rounding_force_(8 * largest_brick_stiffness(body) * rounding_) {}
@@ -97,16 +139,20 @@ class Equilibrium {
   /// Force on each free degree of freedom, 3 m; also notes the largest force at work.
   Eigen::VectorXd unbalanced() {
     spring_forces(body_, workspace_, forces_);
-    Eigen::VectorXd total = flat(forces_) + flat(loads_);
     largest_force_ = std::max({flat(forces_).lpNorm<Eigen::Infinity>(), flat(loads_).lpNorm<Eigen::Infinity>(),
                                std::numeric_limits<double>::min()});
+    if (!supports_.springs.empty()) forces_ += spring_support_forces(body_, supports_, body_.positions);
+    Eigen::VectorXd total = flat(forces_) + flat(loads_);
     for (int i = 0; i < total.size(); ++i) {
       if (supports_.fixed[i]) total[i] = 0;
     }
     return total;
   }
 
-  double potential() { return elastic_energy(body_, workspace_) - flat(loads_).dot(flat(body_.positions)); }
+  double potential() {
+    return elastic_energy(body_, workspace_) + spring_support_energy(body_, supports_) -
+           flat(loads_).dot(flat(body_.positions));
+  }
 
   /// One step downhill. False where no step lowers the energy any more.
   bool step(const Eigen::VectorXd& residual) {
@@ -130,7 +176,7 @@ class Equilibrium {
   /// Newton's direction, from the true curvature where that is positive, else from its positive part; empty: neither.
   Eigen::VectorXd downhill(const Eigen::VectorXd& residual) {
     for (const bool definite : {false, true}) {
-      if (!system_.linearize(body_, supports_, definite, no_terms_)) continue;
+      if (!system_.linearize(body_, supports_, definite, terms_)) continue;
       Eigen::VectorXd direction = system_.solve(residual, kNewtonTolerance);
       if (direction.size() == 0) continue;
       const double longest = direction.cwiseAbs().maxCoeff() / (kLongestStep * extent(body_));
@@ -144,7 +190,7 @@ class Equilibrium {
   const Supports& supports_;
   const Points& loads_;
   LinearSolver& system_;
-  const StepTerms no_terms_;
+  const StepTerms terms_;
   const StaticOptions& options_;
   double rounding_;        // of a position, m
   double rounding_force_;  // that it makes, N
@@ -153,7 +199,8 @@ class Equilibrium {
   double largest_force_ = 0;
 };
 
-/// K at the positions the body has, in double precision and without anything added; zero at supports.
+/// K and supporting springs at the positions the body has, in double precision and without anything added; zero at
+/// fixed supports.
 class ExactProduct {
  public:
   ExactProduct(const Body& body, const Supports& supports)
@@ -169,6 +216,9 @@ class ExactProduct {
   [[nodiscard]] Eigen::VectorXd times(const Eigen::VectorXd& displacement) const {
     Eigen::VectorXd product;
     multiply_stiffness(body_, displacement, workspace_, product);
+    for (const SpringSupport& support : supports_.springs) {
+      add_point_product(body_, support.spring, displacement, product);
+    }
     return free_part(std::move(product));
   }
 
@@ -192,15 +242,15 @@ class ExactProduct {
 Eigen::VectorXd solve_linear(const Body& body, const Supports& supports, const Points& loads, LinearSolver& system) {
   const ExactProduct stiffness(body, supports);
   const Eigen::VectorXd forces = stiffness.free_part(flat(loads));
-  const StepTerms no_terms;
-  if (system.linearize(body, supports, false, no_terms)) {
+  const StepTerms terms = support_terms(supports);
+  if (system.linearize(body, supports, false, terms)) {
     Eigen::VectorXd displacement = system.solve(forces, kLinearTolerance);
     if (stiffness.is_solution(displacement, forces)) return displacement;
   }
   // Motions that meet (almost) no resistance, such as a thin bar of plain springs that may twist, do no harm where no
   // load drives them. What is held slightly is a good preconditioner for what is not.
   const std::unique_ptr<LinearSolver> held = make_robust_solver(body);
-  if (held->linearize(body, supports, true, no_terms)) {
+  if (held->linearize(body, supports, true, terms)) {
     SolveReport report;
     Eigen::VectorXd displacement = conjugate_gradients(
         forces, {.tolerance = kLinearTolerance, .fallback_tolerance = kLinearTolerance, .max_iterations = 200},
@@ -227,6 +277,13 @@ StaticReport solve_static(Body& body, const Supports& supports, const Points& lo
       body.positions.data()[i] = start.data()[i] + share * (goal.data()[i] - start.data()[i]);
     }
   };
+  Supports moving = supports;
+  const auto move_springs = [&](double share) {
+    for (std::size_t i = 0; i < moving.springs.size(); ++i) {
+      const Vec3 first = place_of(body, supports.springs[i], start);
+      moving.springs[i].place = first + share * (supports.springs[i].place - first);
+    }
+  };
   StaticReport report;
   report.load_steps = 0;
   double done = 0;
@@ -236,8 +293,9 @@ StaticReport solve_static(Body& body, const Supports& supports, const Points& lo
     const double share = std::min(1.0, done + stride);
     const Points before = body.positions;
     move_supports(share);
+    move_springs(share);
     const Points load = share * loads;
-    if (Equilibrium(body, supports, load, system, options).find(report)) {
+    if (Equilibrium(body, moving, load, system, options).find(report)) {
       done = share;
       ++report.load_steps;
       stride *= 2;
@@ -264,6 +322,7 @@ Points reactions(const Body& body, const Supports& supports, const Points& loads
   for (int i = 0; i < held.size(); ++i) {
     if (!supports.fixed[i]) held.data()[i] = 0;
   }
+  add_spring_reactions(body, supports, body.positions, held);
   return held;
 }
 

@@ -1,0 +1,123 @@
+#include "core/simulation/skin_supports.h"
+
+#include "core/bricks/embedding.h"
+#include "core/simulation/drivers.h"
+#include "core/simulation/skin_pieces.h"
+
+namespace sprung {
+namespace {
+
+Vec3 normal_area(const Points& points, const Triangles& triangles, int row) {
+  const Vec3 a = points.row(triangles(row, 0));
+  const Vec3 b = points.row(triangles(row, 1));
+  const Vec3 c = points.row(triangles(row, 2));
+  return (b - a).cross(c - a) / 2;
+}
+
+/// One point for each triangle of which pieces are held: their centroid.
+PinnedSkin skin_of(const std::vector<SkinPiece>& pieces, const Points& points, const SoftBody& body) {
+  const Triangles& triangles = body.skin.triangles;
+  std::vector<Vec3> places;
+  std::vector<Vec3> normals;
+  std::vector<double> areas;
+  int last = -1;
+  for (const SkinPiece& piece : pieces) {
+    const Vec3 normal = normal_area(points, triangles, piece.triangle);
+    const double area = normal.norm() * piece.share();
+    if (!(area > 0)) continue;
+    if (piece.triangle != last) {
+      last = piece.triangle;
+      places.emplace_back(Vec3::Zero());
+      normals.push_back(normal);
+      areas.push_back(0);
+    }
+    const Vec3 at = piece.corners.rowwise().mean();
+    for (int corner = 0; corner < 3; ++corner) {
+      places.back() += area * at[corner] * points.row(triangles(piece.triangle, corner)).transpose();
+    }
+    areas.back() += area;
+  }
+  Points middles(isize(places), 3);
+  Points outward(isize(places), 3);
+  for (int row = 0; row < isize(places); ++row) {
+    middles.row(row) = places[row].transpose() / areas[row];
+    outward.row(row) = normals[row].transpose();
+  }
+  return {.points = embed(body.grid, middles, outward),
+          .areas = Eigen::Map<const Eigen::VectorXd>(areas.data(), isize(areas))};
+}
+
+/// Onto the directions that a pin holds.
+Mat3 held_directions(const Pin& pin) {
+  if (pin.normal) return pin.normal->normalized() * pin.normal->normalized().transpose();
+  return Vec3(pin.axes.held[0], pin.axes.held[1], pin.axes.held[2]).asDiagonal();
+}
+
+std::vector<SpringSupport> springs_of(const PinnedSkin& skin, const Scene& scene, const SoftBody& body, double time,
+                                      bool small) {
+  const Pin& pin = scene.bodies[body.origin.body].pins[skin.pin];
+  const Mat3 held = held_directions(pin);
+  const Movement movement = movement_of(pin, scene);
+  const Points rest = deform_points(body.grid, skin.points, body.rest_positions);
+  std::vector<SpringSupport> springs(skin.points.brick.size());
+  for (std::size_t row = 0; row < springs.size(); ++row) {
+    const int brick = skin.points.brick[row];
+    const double young = body.material.young * body.stiffness_scale[brick] / body.grid.fill[brick];
+    const Vec3 place = rest.row(Eigen::Index(row));
+    const Vec3 arm = place - skin.centre;
+    springs[row] = {
+        .spring = {.brick = brick,
+                   .weights = trilinear_weights(skin.points.local.row(Eigen::Index(row))),
+                   .stiffness = kFoundation * young / body.grid.brick_size * skin.areas[row] * held},
+        .place = place + (small ? movement.small_placement(time).velocity(arm) : movement.placement(time).way(arm))};
+  }
+  return springs;
+}
+
+}  // namespace
+
+std::vector<PinnedSkin> find_pinned_skins(const std::vector<Pin>& pins, const Selector& selector, const SoftBody& body,
+                                          std::size_t solid) {
+  std::vector<PinnedSkin> skins;
+  for (std::size_t pin = 0; pin < pins.size(); ++pin) {
+    if (!pins[pin].on_surface) continue;
+    const Points points = deform_points(body.grid, body.skin_embedding, body.grid.rest_positions());
+    const std::vector<SkinPiece> pieces = selector.skin_pieces(pins[pin], points, body.skin.triangles, solid);
+    PinnedSkin skin = skin_of(pieces, points, body);
+    if (skin.areas.size() == 0) continue;
+    skin.pin = pin;
+    skin.centre = selector.centre(pins[pin]);
+    skins.push_back(std::move(skin));
+  }
+  return skins;
+}
+
+void add_skin_supports(const Scene& scene, const SoftBody& body, double time, bool small, Supports& supports) {
+  for (const PinnedSkin& skin : body.origin.pinned_skins) {
+    const std::vector<SpringSupport> springs = springs_of(skin, scene, body, time, small);
+    supports.springs.insert(supports.springs.end(), springs.begin(), springs.end());
+  }
+}
+
+SkinReaction reaction_of(const PinnedSkin& skin, const Scene& scene, const SoftBody& body, double time, bool small) {
+  SkinReaction reaction;
+  const std::vector<SpringSupport> springs = springs_of(skin, scene, body, time, small);
+  const Points rest = deform_points(body.grid, skin.points, body.rest_positions);
+  const Points now = deform_points(body.grid, skin.points, body.positions);
+  const Movement movement = movement_of(scene.bodies[body.origin.body].pins[skin.pin], scene);
+  const Vec3 centre = small ? skin.centre : Vec3(skin.centre + movement.placement(time).shift);
+  for (std::size_t row = 0; row < springs.size(); ++row) {
+    const Vec3 place = now.row(Eigen::Index(row));
+    const Vec3 start = rest.row(Eigen::Index(row));
+    const Vec3 force = springs[row].spring.stiffness * (springs[row].place - place);
+    const double area = skin.areas[Eigen::Index(row)];
+    reaction.area += area;
+    reaction.position += area * place;
+    reaction.displacement += area * (place - start);
+    reaction.force += force;
+    reaction.torque += ((small ? start : place) - centre).cross(force);
+  }
+  return reaction;
+}
+
+}  // namespace sprung

@@ -1,0 +1,118 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <numbers>
+
+#include "app/scene/scene_file.h"
+#include "core/simulation/simulate.h"
+#include "core/simulation/simulation.h"
+#include "tests/support/error_message.h"
+
+/// Pins that hold the skin of a face, wherever the bricks lie.
+namespace sprung {
+namespace {
+
+constexpr double kBarYoung = 1e6;   // Pa
+constexpr double kBarLength = 0.2;  // m, of the beam
+constexpr double kBarSide = 0.05;   // m
+
+std::string beam(const std::string& grid, const std::string& scheme = "linear", double poisson = 0.3) {
+  return "duration = 1\nfps = 2\ngravity = [0, 0, 0]\n[solver]\nscheme = \"" + scheme + "\"\n" +
+         (scheme == "modes" ? "modes = 2\n" : "load_steps = 1\n") +
+         "[[probe]]\nname = \"foot\"\npin = \"foot\"\n"
+         "[[probe]]\nname = \"tip\"\npoint = [-0.0999, 0, 0]\n"
+         "[[body]]\nmesh = \"" SPRUNG_SOURCE_DIR "/assets/models/beam.ply\"\nsize = 0.2\n" +
+         grid + fmt::format("\nmaterial = {{ young = 1e6, poisson = {}, density = 1000 }}\n", poisson);
+}
+
+constexpr const char* kFoot =
+    "[[body.pin]]\nname = \"foot\"\non_surface = true\nbox = { min = [1, 0, 0], max = [1, 1, 1] }\n";
+constexpr const char* kPull = "[[body.force]]\nbox = { min = [0, 0, 0], max = [0, 1, 1] }\ntotal = [-1, 0, 0]\n";
+
+std::vector<ProbeSample> last_samples(const std::string& text) {
+  const Film scene = parse_scene(text, "/scene.toml");
+  const Observer silent;
+  Simulation simulation = prepare_simulation(scene, silent);
+  const Recording recording = simulate(simulation, scene, silent);
+  std::vector<ProbeSample> last;
+  for (const ProbeTrack& track : recording.probes) last.push_back(track.samples.back());
+  return last;
+}
+
+/// Held at the end where the last bricks are cut, more or less.
+TEST(SurfacePins, DoNotMoveWithTheGrid) {
+  const double stretch = kBarLength / (kBarYoung * kBarSide * kBarSide);
+  for (const double brick : {0.0112, 0.0123, 0.0145, 0.0171, 0.0198}) {
+    for (const char* scheme : {"linear", "static"}) {
+      const auto probes = last_samples(beam(fmt::format("brick_size = {}", brick), scheme, 0) + kFoot + kPull);
+      // Of 2.5 bricks across, the cut ones bend by themselves.
+      EXPECT_NEAR(probes[1].displacement.x(), -stretch, (brick < 0.018 ? 0.005 : 0.025) * stretch)
+          << brick << " " << scheme;
+      EXPECT_NEAR(probes[0].force.x(), 1, 1e-5) << brick << " " << scheme;
+      EXPECT_NEAR(probes[0].position.x(), 0.1, 1e-4) << brick;
+    }
+  }
+}
+
+/// A pulled bar between planes that are not those of its bricks keeps its uniform strain.
+TEST(SurfacePins, SlideAlongPlanesOfAnyDirection) {
+  const Mat3 turned = Eigen::AngleAxisd(std::numbers::pi / 6, Vec3::UnitZ()).toRotationMatrix();
+  const auto normal = [&](int axis) {
+    const Vec3 n = turned.col(axis);
+    return fmt::format("on_surface = true\nnormal = [{}, {}, {}]\n", n.x(), n.y(), n.z());
+  };
+  const Vec3 pull = -turned.col(0);
+  const std::string text =
+      beam("brick_size = 0.0083\nrotation = [0, 0, 30]\nbrick_rotation = [10, 20, 30]") +
+      "[[body.pin]]\nname = \"foot\"\n" + normal(0) + "box = { min = [1, 0, 0], max = [1, 1, 1] }\n[[body.pin]]\n" +
+      normal(1) + "box = { min = [0, 0, 0], max = [1, 0, 1] }\n[[body.pin]]\n" + normal(2) +
+      "box = { min = [0, 0, 0], max = [1, 1, 0] }\n[[body.force]]\nbox = { min = [0, 0, 0], max = [0, 1, 1] }\n" +
+      fmt::format("total = [{}, {}, {}]\n", pull.x(), pull.y(), pull.z());
+  const auto probes = last_samples(text);
+  const double strain = 1 / (kBarYoung * kBarSide * kBarSide);
+  const Vec3 tip = turned.transpose() * probes[1].displacement;
+  EXPECT_NEAR(tip.x(), -strain * kBarLength, 0.02 * strain * kBarLength);
+  EXPECT_NEAR(tip.y(), -0.3 * strain * kBarSide / 2, 0.1 * 0.3 * strain * kBarSide / 2);
+  EXPECT_NEAR((turned.transpose() * probes[0].force).x(), 1, 1e-5);
+  EXPECT_NEAR((turned.transpose() * probes[0].force).y(), 0, 1e-9);
+}
+
+/// P = E A u / L and, where the end turns, M = E I theta / L.
+TEST(SurfacePins, MovementsHaveTheirReactions) {
+  const std::string held = "[[body.pin]]\non_surface = true\nbox = { min = [0, 0, 0], max = [0, 1, 1] }\n";
+  const auto pulled =
+      last_samples(beam("brick_size = 0.0123", "static", 0) + kFoot + "translate = [0.001, 0, 0]\n" + held);
+  EXPECT_NEAR(pulled[0].force.x(), kBarYoung * kBarSide * kBarSide * 0.001 / kBarLength, 0.01 * 12.5);
+  const auto turned =
+      last_samples(beam("brick_size = 0.005", "linear", 0) + kFoot + "axes = \"x\"\nrotate = [0, 0, 1]\n" + held);
+  const double inertia = std::pow(kBarSide, 4) / 12;
+  const double moment = kBarYoung * inertia * std::numbers::pi / 180 / kBarLength;
+  EXPECT_NEAR(turned[0].torque.z(), moment, 0.01 * moment);
+  EXPECT_NEAR(turned[0].force.x(), 0, 1e-4);
+}
+
+/// f = 1.8751^2 / (2 pi L^2) sqrt(E I / (rho A)), less what shear takes: as with whole bricks and pinned nodes.
+TEST(SurfacePins, HoldVibrations) {
+  const auto first = [](const std::string& text) {
+    const Film scene = parse_scene(text, "/scene.toml");
+    Simulation simulation = prepare_simulation(scene, Observer{});
+    return simulate(simulation, scene, Observer{}).frequencies[0];
+  };
+  const std::string nodes = "[[body.pin]]\nname = \"foot\"\nhalf_space = { point = [1, 0, 0], normal = [1, 0, 0] }\n";
+  const double whole = first(beam("brick_size = 0.005", "modes") + nodes);
+  EXPECT_NEAR(first(beam("brick_size = 0.005", "modes") + kFoot), whole, 0.005 * whole);
+}
+
+TEST(SurfacePins, AreForBodiesAtRest) {
+  const auto message = [](const std::string& text) { return error_message([&] { last_samples(text); }); };
+  EXPECT_NE(message(beam("bricks = 10", "euler") + kFoot).find("on_surface is for scheme static"), std::string::npos);
+  EXPECT_NE(
+      message(beam("bricks = 10") + "[[body.pin]]\nnormal = [1, 0, 0]\nbox = { min = [1, 0, 0] }\n").find("normal"),
+      std::string::npos);
+  EXPECT_NE(message(beam("bricks = 10") + kFoot + "[[body.pin]]\nbox = { max = [0, 1, 1] }\n").find("all pins"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace sprung
