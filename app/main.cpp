@@ -1,4 +1,7 @@
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cstdio>
 #include <exception>
 #include <new>
 #include <span>
@@ -38,7 +41,8 @@ int exit_code(int argc, const char* const* argv) {
     console.error("out of memory; fewer bricks, fewer frames or a smaller mesh need less");
     return kFailed;
   } catch (const std::exception& error) {
-    console.error(error.what());
+    console.error(std::ferror(stdout) == 0 ? std::string(error.what())
+                                           : fmt::format("cannot write the results to stdout: {}", error.what()));
     return kFailed;
   }
 }

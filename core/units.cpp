@@ -25,7 +25,7 @@ struct Unit {
 constexpr double kDegreesPerRadian = 180 / std::numbers::pi;
 
 /// The first unit of a dimension is its base unit; usual units grow from there in the order of the table.
-constexpr std::array<Unit, 76> kUnits{{
+constexpr std::array<Unit, 83> kUnits{{
     {Dimension::kRatio, "", 1},
     {Dimension::kRatio, "%", 0.01},
     {Dimension::kLength, "m", 1, true},
@@ -84,6 +84,13 @@ constexpr std::array<Unit, 76> kUnits{{
     {Dimension::kForce, "N", 1, true},
     {Dimension::kForce, "mN", 1e-3, true},
     {Dimension::kForce, "kN", 1e3, true},
+    {Dimension::kForce, "kgf", 9.80665},
+    {Dimension::kForce, "lbf", 4.4482216152605},
+    {Dimension::kMass, "kg", 1, true},
+    {Dimension::kMass, "mg", 1e-6, true},
+    {Dimension::kMass, "g", 1e-3, true},
+    {Dimension::kMass, "t", 1e3},
+    {Dimension::kMass, "lb", 0.45359237},
     {Dimension::kTorque, "N m", 1, true},
     {Dimension::kTorque, "Nm", 1},
     {Dimension::kTorque, "N mm", 1e-3},

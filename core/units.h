@@ -17,6 +17,7 @@ enum class Dimension {
   kSpeed,
   kAcceleration,
   kForce,
+  kMass,
   kForceDensity,
   kTorque,
   kAngle,

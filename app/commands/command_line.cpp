@@ -136,7 +136,7 @@ int run_command_line(int argc, const char* const* argv, Console& console) {
       "Try: sprung animate bunny.obj -o bunny.mp4\nHelp on a command: sprung COMMAND --help\n"
       "Exit codes: 0 done, 1 failed, 2 wrong usage, 3 bad input, 4 diverged,\n130 interrupted, 143 terminated.");
   Invocation invocation{.console = console, .command = command_of(argc, argv)};
-  for (const auto add : {add_animate, add_simulate, add_render, add_export, add_film, add_sweep, add_inspect,
+  for (const auto add : {add_animate, add_simulate, add_render, add_export, add_film, add_sweep, add_load, add_inspect,
                          add_validate, add_compare, add_materials, add_help}) {
     add(app, invocation);
   }

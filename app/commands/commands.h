@@ -53,6 +53,10 @@ void add_sweep(CLI::App& app, Invocation& invocation);
 /// What a mesh, a scene or a cache is and what its film will take, to stdout.
 void add_inspect(CLI::App& app, Invocation& invocation);
 
+/// How far a mesh of a part bends under loads, and whether it holds, to stdout. Exit code 1 where it goes beyond a
+/// limit that was given.
+void add_load(CLI::App& app, Invocation& invocation);
+
 /// Runs experiments; their checks go to stdout. Exit code 1 where a check fails.
 void add_validate(CLI::App& app, Invocation& invocation);
 

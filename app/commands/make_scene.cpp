@@ -176,6 +176,18 @@ UpAxis usual_up(const std::filesystem::path& mesh) {
   return extension == ".stl" || extension == ".3mf" || extension == ".blend" ? UpAxis::kZ : UpAxis::kY;
 }
 
+Film make_part_scene(const SceneRequest& request) {
+  Film scene;
+  scene.library = library_of(request.settings);
+  SceneBody& body = scene.bodies.emplace_back(default_body());
+  body.mesh = std::filesystem::absolute(request.input).lexically_normal();
+  if (is_scene_file(body.mesh)) {
+    throw Error(ErrorKind::kUsage, fmt::format("'{}' is a scene; give the mesh of a part", request.input));
+  }
+  apply_settings(request, scene);
+  return scene;
+}
+
 Film make_scene(const SceneRequest& request, const Observer& observer) {
   const auto library = library_of(request.settings);
   if (!is_scene_file(request.input)) return make_bare_scene(request, library, observer);

@@ -22,6 +22,12 @@ void apply(const Setting& setting, Film& scene);
 /// The vertical axis that files of this kind usually have: z for STL, 3MF and BLEND, else y.
 [[nodiscard]] UpAxis usual_up(const std::filesystem::path& mesh);
 
+struct SceneRequest;
+
+/// One body of a mesh as it stands in its file, with what the settings say, and the materials they name. Throws as
+/// make_scene() does.
+[[nodiscard]] Film make_part_scene(const SceneRequest& request);
+
 /// From where the camera looks.
 struct CameraDirection {
   double azimuth = 0;               // degrees

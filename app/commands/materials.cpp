@@ -87,17 +87,42 @@ std::vector<LibraryMaterial> asked_for(const MaterialsOptions& options, const Ma
 /// "±20%"; nothing where it is not known.
 std::string percent(double share) { return share > 0 ? fmt::format("±{:.0f}%", 100 * share) : ""; }
 
+/// "276 MPa"; a dash where there is none or it is not known.
+std::string strength_text(double strength) { return strength > 0 ? readable(strength, Dimension::kPressure) : "-"; }
+
+/// "17%"; a dash where it is not known.
+std::string elongation_text(double strain) { return strain > 0 ? fmt::format("{:g}%", 100 * strain) : "-"; }
+
 std::string row(const LibraryMaterial& material) {
-  return fmt::format("{:<20}{:<10}{:>10}{:<7}{:>9}{:>13}{:>9}  {}\n", material.name, name_of(material.material_class),
-                     readable(material.young, Dimension::kPressure), percent(material.young_uncertainty),
-                     material.poisson, with_unit(material.density, Dimension::kDensity), material.damping,
-                     name_of(material.look));
+  return fmt::format("{:<20}{:<10}{:>10}{:<7}{:>9}{:>13}{:>9}{:>10}{:>10}{:>12}  {}\n", material.name,
+                     name_of(material.material_class), readable(material.young, Dimension::kPressure),
+                     percent(material.young_uncertainty), material.poisson,
+                     with_unit(material.density, Dimension::kDensity), material.damping,
+                     strength_text(material.yield_strength), strength_text(material.ultimate_strength),
+                     elongation_text(material.elongation), name_of(material.look));
 }
 
 std::string source_line(std::string_view what, const std::string& value, const std::string& uncertainty,
                         const std::string& source) {
-  return fmt::format("    {:<9}{}{}{}{}\n", what, value, uncertainty.empty() ? "" : " " + uncertainty,
+  return fmt::format("    {:<12}{}{}{}{}\n", what, value, uncertainty.empty() ? "" : " " + uncertainty,
                      source.empty() ? "" : ": ", source);
+}
+
+std::string strength_sources(const LibraryMaterial& material) {
+  std::string lines;
+  if (material.yield_strength > 0) {
+    lines += source_line("yield", strength_text(material.yield_strength), percent(material.yield_strength_uncertainty),
+                         material.yield_strength_source);
+  }
+  if (material.ultimate_strength > 0) {
+    lines += source_line("ultimate", strength_text(material.ultimate_strength),
+                         percent(material.ultimate_strength_uncertainty), material.ultimate_strength_source);
+  }
+  if (material.elongation > 0) {
+    lines += source_line("elongation", elongation_text(material.elongation), percent(material.elongation_uncertainty),
+                         material.elongation_source);
+  }
+  return lines;
 }
 
 std::string sources(const LibraryMaterial& material) {
@@ -109,12 +134,16 @@ std::string sources(const LibraryMaterial& material) {
          source_line("density", with_unit(material.density, Dimension::kDensity), percent(material.density_uncertainty),
                      material.density_source) +
          source_line("damping", fmt::format("{}", material.damping), percent(material.damping_uncertainty),
-                     material.damping_source);
+                     material.damping_source) +
+         strength_sources(material);
 }
 
 Json json_of(const LibraryMaterial& material) {
   const auto figure = [](double value, double uncertainty, const std::string& source) {
     return Json{{"value", value}, {"uncertainty", uncertainty}, {"source", source}};
+  };
+  const auto strength = [&](double value, double relative, const std::string& source) {
+    return value > 0 ? figure(value, value * relative, source) : Json();  // null: none, or not known
   };
   return {
       {"name", material.name},
@@ -124,6 +153,11 @@ Json json_of(const LibraryMaterial& material) {
       {"poisson", figure(material.poisson, material.poisson_uncertainty, material.poisson_source)},
       {"density", figure(material.density, material.density * material.density_uncertainty, material.density_source)},
       {"damping", figure(material.damping, material.damping * material.damping_uncertainty, material.damping_source)},
+      {"yield_strength",
+       strength(material.yield_strength, material.yield_strength_uncertainty, material.yield_strength_source)},
+      {"ultimate_strength",
+       strength(material.ultimate_strength, material.ultimate_strength_uncertainty, material.ultimate_strength_source)},
+      {"elongation", strength(material.elongation, material.elongation_uncertainty, material.elongation_source)},
       {"look", name_of(material.look)}};
 }
 
@@ -137,8 +171,8 @@ void list_materials(const MaterialsOptions& options) {
     fmt::print("{}\n", list.dump(1, ' ', false, Json::error_handler_t::replace));
     return;
   }
-  fmt::print("{:<20}{:<10}{:>10}{:<7}{:>9}{:>13}{:>9}  {}\n", "name", "class", "young", "", "poisson", "density",
-             "damping", "look");
+  fmt::print("{:<20}{:<10}{:>10}{:<7}{:>9}{:>13}{:>9}{:>10}{:>10}{:>12}  {}\n", "name", "class", "young", "", "poisson",
+             "density", "damping", "yield", "ultimate", "elongation", "look");
   for (const LibraryMaterial& material : materials) {
     fmt::print("{}{}", row(material), options.sources ? sources(material) : "");
   }

@@ -32,6 +32,15 @@ struct LibraryMaterial {
   double damping = 0.02;           // ratio of critical damping
   double damping_uncertainty = 0;  // relative
   std::string damping_source;
+  double yield_strength = 0;              // Pa; beyond it the material stays deformed; 0: none, or not known
+  double yield_strength_uncertainty = 0;  // relative
+  std::string yield_strength_source;
+  double ultimate_strength = 0;              // Pa; the greatest engineering stress in tension; 0: not known
+  double ultimate_strength_uncertainty = 0;  // relative
+  std::string ultimate_strength_source;
+  double elongation = 0;              // strain at break, in tension; 0: not known
+  double elongation_uncertainty = 0;  // relative
+  std::string elongation_source;
   Look look = Look::kPlastic;
 
   /// The properties that the simulation needs.

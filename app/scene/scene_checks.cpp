@@ -188,6 +188,14 @@ void check_table(const SceneWind& wind, const std::string& path, const Report& r
   check_times(wind.keyframes, "keyframes", path, report);
 }
 
+void check_table(const LibraryMaterial& material, const std::string& path, const Report& report) {
+  const double ultimate = material.ultimate_strength;
+  if (ultimate == 0 || material.yield_strength <= ultimate) return;
+  report({"yield_strength"}, fmt::format("{}.yield_strength: {} is above the ultimate strength, {}", path,
+                                         readable(material.yield_strength, Dimension::kPressure),
+                                         readable(ultimate, Dimension::kPressure)));
+}
+
 void check_table(const HalfSpace& half, const std::string& path, const Report& report) {
   check_direction(half.normal, {}, path + ".normal", report);
 }

@@ -82,16 +82,22 @@ inline constexpr Range kPoisson{-1, 0.5, true, true};
 inline constexpr Range kZoom{0.01, 100};
 inline constexpr int kSampleCounts[] = {1, 4, 16};
 
-inline const std::vector<std::string_view> kSelectionKeys{"box",     "sphere",  "half_space", "part",
-                                                          "painted", "nearest", "mesh"};
+inline const std::vector<std::string_view> kSelectionKeys{"box",     "sphere", "half_space", "part",
+                                                          "painted", "face",   "nearest",    "mesh"};
 
 /// How a part of a body is chosen, whatever is done with it.
 void selection_fields(auto& visit, auto& part) {
   visit({"box", "the part in a box, in fractions of the body's bounding box"}, part.box);
   visit({"sphere", "the part in a ball, in fractions of the body's bounding box"}, part.sphere);
   visit({"half_space", "the part on one side of a plane"}, part.half_space);
-  visit({"part", "what lies nearest to the part of the mesh of this name"}, part.part);
+  visit({"part", "what lies nearest to the part of the mesh of this name, else to those of a material of this name"},
+        part.part);
   visit({"painted", "what lies nearest to the vertices of this colour: \"#rrggbb\""}, part.painted);
+  visit({"face",
+         "what lies nearest to the face of the mesh at a point in fractions of the bounding box: all that is "
+         "flat there, else all up to sharp edges",
+         Dimension::kRatio},
+        part.face);
   visit({"nearest", "the one node or brick nearest to a point, in fractions of the body's bounding box",
          Dimension::kRatio},
         part.nearest);
@@ -359,9 +365,9 @@ void fields(auto& visit, Is<Keyframe> auto& keyframe) {
 }
 
 void fields(auto& visit, Is<Region> auto& region) {
-  visit.table("region",
-              {{KeyRule::kAtMostOne, kSelectionKeys},
-               {KeyRule::kAnyOf, {"box", "sphere", "half_space", "part", "painted", "nearest", "mesh", "gradient"}}});
+  visit.table("region", {{KeyRule::kAtMostOne, kSelectionKeys},
+                         {KeyRule::kAnyOf,
+                          {"box", "sphere", "half_space", "part", "painted", "face", "nearest", "mesh", "gradient"}}});
   selection_fields(visit, region);
   visit(required({"material", "what they are made of"}), region.material);
   visit({"gradient", "a change to another material along a line"}, region.gradient);
@@ -528,6 +534,20 @@ void fields(auto& visit, Is<LibraryMaterial> auto& material) {
         material.damping);
   visit({"damping_uncertainty", "relative uncertainty", Dimension::kRatio, kNotNegative}, material.damping_uncertainty);
   visit({"damping_source", "source of the value"}, material.damping_source);
+  visit({"yield_strength", "stress from which it stays deformed", Dimension::kPressure, kPositive},
+        material.yield_strength);
+  visit({"yield_strength_uncertainty", "relative uncertainty", Dimension::kRatio, kNotNegative},
+        material.yield_strength_uncertainty);
+  visit({"yield_strength_source", "source of the value"}, material.yield_strength_source);
+  visit({"ultimate_strength", "greatest stress in tension", Dimension::kPressure, kPositive},
+        material.ultimate_strength);
+  visit({"ultimate_strength_uncertainty", "relative uncertainty", Dimension::kRatio, kNotNegative},
+        material.ultimate_strength_uncertainty);
+  visit({"ultimate_strength_source", "source of the value"}, material.ultimate_strength_source);
+  visit({"elongation", "strain at break, in tension", Dimension::kRatio, kPositive}, material.elongation);
+  visit({"elongation_uncertainty", "relative uncertainty", Dimension::kRatio, kNotNegative},
+        material.elongation_uncertainty);
+  visit({"elongation_source", "source of the value"}, material.elongation_source);
   visit({"look", "surface finish: plastic, gelatin, rubber or steel"}, material.look);
 }
 

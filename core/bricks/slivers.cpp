@@ -41,9 +41,35 @@ DisjointSets connected(const BrickGrid& grid, const std::function<bool(std::size
   return nodes;
 }
 
+/// For each brick that goes, the fullest of those that stay at its own nodes (`fullest_at_node`: -1: none); where there
+/// is none, that of a brick that goes beside it.
+std::vector<int> heirs_of(const BrickGrid& grid, const std::vector<bool>& gone, std::vector<int> fullest_at_node) {
+  std::vector<int> heir(grid.cells.size(), -1);
+  for (bool is_done = false; !is_done;) {
+    is_done = true;
+    std::vector<int> found;
+    for (int brick = 0; brick < grid.brick_count(); ++brick) {
+      if (!gone[brick] || heir[brick] >= 0) continue;
+      for (const int node : grid.nodes[brick]) {
+        const int one = fullest_at_node[node];
+        if (one >= 0 && (heir[brick] < 0 || grid.fill[one] > grid.fill[heir[brick]])) heir[brick] = one;
+      }
+      if (heir[brick] >= 0) found.push_back(brick);
+    }
+    for (const int brick : found) {
+      for (const int node : grid.nodes[brick]) {
+        if (fullest_at_node[node] < 0) fullest_at_node[node] = heir[brick];
+      }
+      is_done = false;
+    }
+  }
+  return heir;
+}
+
 /// What absorb_slivers() leaves because no face neighbour is full, down to almost nothing: such bricks hang on the body
-/// by a hinge or a chain of their kind. They go to the fullest brick at which they hang, unless they link parts that
-/// are not connected otherwise.
+/// by a hinge or a chain of their kind. They go to the fullest brick that they touch, or that those touch that they
+/// touch, unless they link parts that are not connected otherwise. Not all of a chain to one: its points follow that
+/// brick, and would be extrapolated from afar.
 int absorb_specks(BrickGrid& grid) {
   const auto is_speck = [&](std::size_t brick) { return grid.fill[brick] < kSpeckFill; };
   DisjointSets groups = connected(grid, is_speck);
@@ -63,25 +89,19 @@ int absorb_specks(BrickGrid& grid) {
     }
   }
   std::vector<int> part(grid.lattice.size(), kNone);  // at which a group hangs, by the root of the group
-  std::vector<int> heir_of_group(grid.lattice.size(), kNone);
   for (int brick = 0; brick < grid.brick_count(); ++brick) {
     if (!is_speck(brick)) continue;
     const int group = groups.find(grid.nodes[brick][0]);
     for (const int node : grid.nodes[brick]) {
       if (part_of_node[node] == kNone) continue;
       part[group] = part[group] == kNone || part[group] == part_of_node[node] ? part_of_node[node] : kSeveral;
-      take_fuller(heir_of_group[group], fullest_at_node[node]);
     }
   }
   std::vector<bool> gone(grid.cells.size(), false);
-  std::vector<int> heir(grid.cells.size(), kNone);
   for (int brick = 0; brick < grid.brick_count(); ++brick) {
-    if (!is_speck(brick)) continue;
-    const int group = groups.find(grid.nodes[brick][0]);
-    if (part[group] < 0) continue;
-    gone[brick] = true;
-    heir[brick] = heir_of_group[group];
+    gone[brick] = is_speck(brick) && part[groups.find(grid.nodes[brick][0])] >= 0;
   }
+  const std::vector<int> heir = heirs_of(grid, gone, fullest_at_node);
   for (int brick = 0; brick < grid.brick_count(); ++brick) {
     if (gone[brick]) grid.fill[heir[brick]] += grid.fill[brick];
   }

@@ -7,7 +7,7 @@ namespace sprung {
 
 bool is_whole(const Selection& selection) {
   return !selection.box && !selection.sphere && !selection.half_space && selection.part.empty() && !selection.painted &&
-         !selection.nearest && selection.mesh.empty();
+         !selection.face && !selection.nearest && selection.mesh.empty();
 }
 
 int copy_count(const SceneBody& body) {

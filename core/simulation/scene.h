@@ -41,6 +41,8 @@ struct Selection {
   std::optional<HalfSpace> half_space;
   std::string part;              // the points nearest to the mesh's triangles of that name
   std::optional<Color> painted;  // the points nearest to vertices of this colour
+  std::optional<Vec3> face;      // the points nearest to one face of the mesh: that nearest to a point in fractions of
+                                 // the bounding box, as far as it is flat, else up to its sharp edges
   std::optional<Vec3> nearest;   // the one node or brick nearest to a point in fractions of the bounding box
   std::filesystem::path mesh;    // absolute; the inside of a mesh, in the units and frame of the body's mesh
 };

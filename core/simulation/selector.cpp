@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/mesh/io/read_mesh.h"
 #include "core/mesh/query/winding_tree.h"
+#include "core/mesh/repair/faces.h"
 #include "core/text.h"
 
 namespace sprung {
@@ -125,7 +126,8 @@ Selector::Test Selector::test_of(const Selection& selection, double margin, doub
       return normal.dot(place - point) >= -margin;
     };
   }
-  if (!selection.part.empty()) return nearest_to_part(selection.part, depth);
+  if (!selection.part.empty()) return nearest_to(triangles_of(selection.part), depth);
+  if (selection.face) return nearest_to(face_at(place_of(*selection.face)), depth);
   if (selection.painted) return nearest_to_paint(*selection.painted, depth);
   return enclosed_by(selection.mesh);
 }
@@ -148,8 +150,8 @@ const NearestTriangle& Selector::surface() const {
 }
 
 /// Points at equal distance to another part count for both, which share their common border.
-Selector::Test Selector::nearest_to_part(const std::string& part, double depth) const {
-  const auto nearest = std::make_shared<NearestTriangle>(body_.mesh.positions, triangles_of(part));
+Selector::Test Selector::nearest_to(const Triangles& triangles, double depth) const {
+  const auto nearest = std::make_shared<NearestTriangle>(body_.mesh.positions, triangles);
   const double rounding = kSelectionRounding * body_.extent.maxCoeff();
   return [this, nearest, rounding, deepest = depth + rounding](const Vec3& place) {
     const double distance = nearest->at(place).distance;
@@ -168,13 +170,24 @@ Selector::Test Selector::nearest_to_paint(const Color& paint, double depth) cons
 Triangles Selector::triangles_of(const std::string& part) const {
   std::vector<int> rows;
   std::vector<std::string_view> names;
+  const auto material_of = [&](const Part& known) -> std::string_view {
+    return known.material < 0 ? std::string_view() : body_.mesh.materials[known.material].name;
+  };
+  const bool is_part = std::any_of(body_.mesh.parts.begin(), body_.mesh.parts.end(),
+                                   [&](const Part& known) { return known.name == part; });
   for (const Part& known : body_.mesh.parts) {
     names.push_back(known.name);
-    if (known.name != part) continue;
+    if (!material_of(known).empty()) names.push_back(material_of(known));
+    if (is_part ? known.name != part : material_of(known) != part) continue;
     for (int i = 0; i < known.triangle_count; ++i) rows.push_back(known.first_triangle + i);
   }
   if (!rows.empty()) return body_.mesh.triangles(rows, Eigen::all);
   throw Error(ErrorKind::kBadInput, fmt::format("{}: has no part '{}'{}", body_.name, part, did_you_mean(part, names)));
+}
+
+Triangles Selector::face_at(const Vec3& place) const {
+  const std::vector<int> rows = find_face(body_.mesh.positions, body_.mesh.triangles, surface().at(place).triangle);
+  return body_.mesh.triangles(rows, Eigen::all);
 }
 
 std::vector<bool> Selector::vertices_of(const Color& paint) const {

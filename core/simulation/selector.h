@@ -46,11 +46,12 @@ class Selector {
   /// `margin`: how far outside (m) still counts; `depth`: how deep below the surface (m), for parts chosen by it.
   [[nodiscard]] Test test_of(const Selection& selection, double margin, double depth) const;
   [[nodiscard]] Test test_of(const Box& box, double margin) const;
-  [[nodiscard]] Test nearest_to_part(const std::string& part, double depth) const;
+  [[nodiscard]] Test nearest_to(const Triangles& triangles, double depth) const;
   [[nodiscard]] Test nearest_to_paint(const Color& paint, double depth) const;
   [[nodiscard]] Test enclosed_by(const std::filesystem::path& mesh) const;
   [[nodiscard]] const NearestTriangle& surface() const;
   [[nodiscard]] Triangles triangles_of(const std::string& part) const;
+  [[nodiscard]] Triangles face_at(const Vec3& place) const;
   [[nodiscard]] std::vector<bool> vertices_of(const Color& paint) const;
   [[nodiscard]] int nearest_vertex(const SurfacePlace& place) const;
   [[nodiscard]] std::size_t solid_nearest_to(const Vec3& place) const;

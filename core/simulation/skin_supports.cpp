@@ -69,7 +69,7 @@ std::vector<SpringSupport> springs_of(const PinnedSkin& skin, const Scene& scene
         .spring = {.brick = brick,
                    .weights = trilinear_weights(skin.points.local.row(Eigen::Index(row))),
                    .stiffness = kFoundation * young / body.grid.brick_size * skin.areas[row] * held},
-        .place = place + (small ? movement.small_placement(time).velocity(arm) : movement.placement(time).way(arm))};
+        .displacement = small ? movement.small_placement(time).velocity(arm) : movement.placement(time).way(arm)};
   }
   return springs;
 }
@@ -103,17 +103,18 @@ SkinReaction reaction_of(const PinnedSkin& skin, const Scene& scene, const SoftB
   SkinReaction reaction;
   const std::vector<SpringSupport> springs = springs_of(skin, scene, body, time, small);
   const Points rest = deform_points(body.grid, skin.points, body.rest_positions);
-  const Points now = deform_points(body.grid, skin.points, body.positions);
+  const Points displaced = deform_points(body.grid, skin.points, body.positions - body.rest_positions);
   const Movement movement = movement_of(scene.bodies[body.origin.body].pins[skin.pin], scene);
   const Vec3 centre = small ? skin.centre : Vec3(skin.centre + movement.placement(time).shift);
   for (std::size_t row = 0; row < springs.size(); ++row) {
-    const Vec3 place = now.row(Eigen::Index(row));
     const Vec3 start = rest.row(Eigen::Index(row));
-    const Vec3 force = springs[row].spring.stiffness * (springs[row].place - place);
+    const Vec3 moved = displaced.row(Eigen::Index(row));
+    const Vec3 force = springs[row].spring.stiffness * (springs[row].displacement - moved);
+    const Vec3 place = start + moved;
     const double area = skin.areas[Eigen::Index(row)];
     reaction.area += area;
     reaction.position += area * place;
-    reaction.displacement += area * (place - start);
+    reaction.displacement += area * moved;
     reaction.force += force;
     reaction.torque += ((small ? start : place) - centre).cross(force);
   }

@@ -41,6 +41,7 @@ const std::vector<std::string> kFolders{
     "app/validate",
     "app/film",
     "app/export",
+    "app/load",
     "app/inspect",
     "app/help",
     "app/commands",

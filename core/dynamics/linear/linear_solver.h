@@ -9,10 +9,10 @@
 
 namespace sprung {
 
-/// Pulls a point of a body towards a place by a spring.
+/// Pulls a point of a body towards where a displacement would bring it, by a spring.
 struct SpringSupport {
   PointStiffness spring;
-  Vec3 place = Vec3::Zero();  // m, where it is at rest
+  Vec3 displacement = Vec3::Zero();  // m, from rest
 };
 
 /// Which of a body's 3 m degrees of freedom (3 node + axis) keep the value that its positions have, and which of its

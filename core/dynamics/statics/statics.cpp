@@ -15,20 +15,21 @@
 namespace sprung {
 namespace {
 
-/// Where the point that a spring holds is with the nodes at `positions` (m x 3, m).
-Vec3 place_of(const Body& body, const SpringSupport& support, const Points& positions) {
+/// How far the point that a spring holds is displaced with its nodes (m x 3, m).
+Vec3 displacement_of(const Body& body, const SpringSupport& support, const Points& displacements) {
   const auto& nodes = body.grid.nodes[support.spring.brick];
-  Vec3 place = Vec3::Zero();
-  for (int c = 0; c < 8; ++c) place += support.spring.weights[c] * positions.row(nodes[c]).transpose();
-  return place;
+  Vec3 moved = Vec3::Zero();
+  for (int c = 0; c < 8; ++c) moved += support.spring.weights[c] * displacements.row(nodes[c]).transpose();
+  return moved;
 }
 
-/// Forces of supporting springs (m x 3, N) on the nodes, with these at `positions` (m x 3, m).
-Points spring_support_forces(const Body& body, const Supports& supports, const Points& positions) {
-  Points forces = Points::Zero(positions.rows(), 3);
+/// Forces of supporting springs (m x 3, N) on the nodes, displaced from rest (m x 3, m).
+Points spring_support_forces(const Body& body, const Supports& supports, const Points& displacements) {
+  Points forces = Points::Zero(displacements.rows(), 3);
   for (const SpringSupport& support : supports.springs) {
     const auto& nodes = body.grid.nodes[support.spring.brick];
-    const Vec3 force = support.spring.stiffness * (support.place - place_of(body, support, positions));
+    const Vec3 force =
+        support.spring.stiffness * (support.displacement - displacement_of(body, support, displacements));
     for (int c = 0; c < 8; ++c) forces.row(nodes[c]) += support.spring.weights[c] * force.transpose();
   }
   return forces;
@@ -36,9 +37,11 @@ Points spring_support_forces(const Body& body, const Supports& supports, const P
 
 /// J.
 double spring_support_energy(const Body& body, const Supports& supports) {
+  if (supports.springs.empty()) return 0;
+  const Points displacements = body.positions - body.rest_positions;
   double energy = 0;
   for (const SpringSupport& support : supports.springs) {
-    const Vec3 stretch = support.place - place_of(body, support, body.positions);
+    const Vec3 stretch = support.displacement - displacement_of(body, support, displacements);
     energy += stretch.dot(support.spring.stiffness * stretch) / 2;
   }
   return energy;
@@ -62,9 +65,9 @@ Points holding_forces(const Body& body, const Points& displacements) {
 }
 
 /// To what fixed degrees of freedom carry: their share of the springs included.
-void add_spring_reactions(const Body& body, const Supports& supports, const Points& positions, Points& reactions) {
+void add_spring_reactions(const Body& body, const Supports& supports, const Points& displacements, Points& reactions) {
   if (supports.springs.empty()) return;
-  const Points forces = spring_support_forces(body, supports, positions);
+  const Points forces = spring_support_forces(body, supports, displacements);
   for (Eigen::Index i = 0; i < forces.size(); ++i) {
     if (!supports.fixed[i]) reactions.data()[i] += forces.data()[i];
   }
@@ -80,7 +83,7 @@ LinearResponse linear_response(const Body& body, const Supports& supports, const
     if (supports.fixed[i]) response.displacements.data()[i] = movements.data()[i];
   }
   if (std::find(supports.fixed.begin(), supports.fixed.end(), false) != supports.fixed.end()) {
-    const Points moved = body.positions + response.displacements;
+    const Points moved = body.positions - body.rest_positions + response.displacements;
     const Points driving =
         loads + spring_support_forces(body, supports, moved) - holding_forces(body, response.displacements);
     const Eigen::VectorXd free = solve_linear(body, supports, driving, system);
@@ -90,7 +93,8 @@ LinearResponse linear_response(const Body& body, const Supports& supports, const
   for (Eigen::Index i = 0; i < movements.size(); ++i) {
     if (!supports.fixed[i]) response.reactions.data()[i] = 0;
   }
-  add_spring_reactions(body, supports, body.positions + response.displacements, response.reactions);
+  add_spring_reactions(body, supports, body.positions - body.rest_positions + response.displacements,
+                       response.reactions);
   return response;
 }
 
@@ -141,7 +145,9 @@ class Equilibrium {
     spring_forces(body_, workspace_, forces_);
     largest_force_ = std::max({flat(forces_).lpNorm<Eigen::Infinity>(), flat(loads_).lpNorm<Eigen::Infinity>(),
                                std::numeric_limits<double>::min()});
-    if (!supports_.springs.empty()) forces_ += spring_support_forces(body_, supports_, body_.positions);
+    if (!supports_.springs.empty()) {
+      forces_ += spring_support_forces(body_, supports_, body_.positions - body_.rest_positions);
+    }
     Eigen::VectorXd total = flat(forces_) + flat(loads_);
     for (int i = 0; i < total.size(); ++i) {
       if (supports_.fixed[i]) total[i] = 0;
@@ -280,8 +286,8 @@ StaticReport solve_static(Body& body, const Supports& supports, const Points& lo
   Supports moving = supports;
   const auto move_springs = [&](double share) {
     for (std::size_t i = 0; i < moving.springs.size(); ++i) {
-      const Vec3 first = place_of(body, supports.springs[i], start);
-      moving.springs[i].place = first + share * (supports.springs[i].place - first);
+      const Vec3 first = displacement_of(body, supports.springs[i], start - body.rest_positions);
+      moving.springs[i].displacement = first + share * (supports.springs[i].displacement - first);
     }
   };
   StaticReport report;
@@ -322,7 +328,7 @@ Points reactions(const Body& body, const Supports& supports, const Points& loads
   for (int i = 0; i < held.size(); ++i) {
     if (!supports.fixed[i]) held.data()[i] = 0;
   }
-  add_spring_reactions(body, supports, body.positions, held);
+  add_spring_reactions(body, supports, body.positions - body.rest_positions, held);
   return held;
 }
 

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include "core/bricks/embedding.h"
+#include "core/bricks/fill_solid.h"
+#include "tests/support/meshes.h"
+
 namespace sprung {
 namespace {
 
@@ -46,6 +50,25 @@ TEST(Slivers, SpecksGoToThePartAtWhichTheyHang) {
   ASSERT_EQ(grid.brick_count(), 2);
   EXPECT_DOUBLE_EQ(grid.fill[1], 0.3002);
   EXPECT_NEAR(grid.volume(), volume, 1e-18);
+}
+
+/// A box a little larger than whole bricks, whose edges are chains of specks: its surface follows bricks beside it.
+TEST(Slivers, ChainsOfSpecksDoNotAllGoToOneBrick) {
+  const Vec3 high(11.015, 30.15, 20.08);
+  const Solids solids = find_solids(test::box_mesh(Vec3::Zero(), high), "box");
+  const FilledSolid filled = fill_solid(solids.solids.at(0), 1);
+  EXPECT_GT(filled.slivers, 20);
+  Points points(3 * 121, 3);
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int i = 0; i <= 120; ++i) {
+      Vec3 place = high;
+      place[axis] *= i / 120.0;
+      points.row(121 * axis + i) = place.transpose();
+    }
+  }
+  const Embedding embedding = embed(filled.grid, points);
+  EXPECT_LT(embedding.local.maxCoeff(), 2.01);
+  EXPECT_GT(embedding.local.minCoeff(), -1.01);
 }
 
 TEST(Slivers, ASpeckThatLinksTwoPartsStays) {

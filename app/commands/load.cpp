@@ -1,0 +1,223 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "app/commands/commands.h"
+#include "app/commands/options.h"
+#include "app/load/load_answer_text.h"
+#include "app/load/part_answer.h"
+#include "app/scene/resting_pose.h"
+#include "core/error.h"
+#include "core/files.h"
+#include "core/text.h"
+#include "core/units.h"
+
+namespace sprung {
+namespace {
+
+constexpr const char* kUsualMaterial = "abs";
+constexpr double kLargeDisplacement = 0.1;  // of the longest side, where small ones are 1 % off in a cantilever
+constexpr double kFewBricks = 10000;
+
+/// As typed.
+struct LoadOptions {
+  std::string input;
+  std::vector<std::string> fixes;
+  std::vector<std::string> loads;
+  std::string unit;
+  std::string up;
+  std::string analysis = "auto";
+  std::string deflection_limit;
+  std::string safety;
+  SettingOptions keys;
+  bool json = false;
+  bool csv = false;
+};
+
+bool is_of_part(const KeyOption& key) {
+  constexpr std::array<std::string_view, 11> kKeys{"--material", "--materials", "--young",  "--poisson",
+                                                   "--density",  "--size",      "--bricks", "--brick-size",
+                                                   "--repair",   "--thickness", "--model"};
+  return std::find(kKeys.begin(), kKeys.end(), key.option) != kKeys.end();
+}
+
+struct FileUnit {
+  std::string name;
+  bool is_guess = false;
+};
+
+/// glTF is in metres by its specification; CAD and printing are in millimetres.
+FileUnit usual_unit(const std::filesystem::path& file) {
+  const std::string extension = lower_extension(file);
+  if (extension == ".gltf" || extension == ".glb") return {"m", false};
+  return {"mm", extension != ".3mf"};
+}
+
+/// The part with its material and size.
+LoadPart read_part(const LoadOptions& options, Film& scene, const Console& console) {
+  SceneRequest request{.input = options.input, .settings = options.keys.settings()};
+  const auto is_given = [&](std::string_view key) {
+    return std::any_of(request.settings.begin(), request.settings.end(),
+                       [&](const Setting& setting) { return setting.key == key; });
+  };
+  if (!is_given("body.material"))
+    request.settings.insert(request.settings.begin(), {"", "body.material", kUsualMaterial});
+  scene = make_part_scene(request);
+  LoadPart part{.body = scene.bodies[0]};
+  const FileUnit usual = usual_unit(options.input);
+  part.unit_name = options.unit.empty() ? usual.name : options.unit;
+  try {
+    part.unit = parse_quantity("1" + part.unit_name, Dimension::kLength);
+  } catch (const Error&) {
+    throw Error(ErrorKind::kUsage, fmt::format("--unit: '{}' is no unit of length; mm, cm, m, in, ...", options.unit));
+  }
+  if (part.body.size && !options.unit.empty()) throw Error(ErrorKind::kUsage, "give --unit or --size, not both");
+  if (!part.body.size) part.body.scale = part.unit;
+  const UpAxis up = options.up.empty() || options.up == "auto" ? usual_up(options.input)
+                    : options.up == "z"                        ? UpAxis::kZ
+                                                               : UpAxis::kY;
+  if (up == UpAxis::kZ) part.body.rotation = Vec3(-90, 0, 0);
+  part.world_from_file = rotation_matrix(part.body.rotation);
+  part.loaded = load_body(part.body, console);
+  if (part.body.size)
+    part.unit = part.loaded.extent.norm() / (part.loaded.file_from_rest.linear() * part.loaded.extent).norm();
+  if (!is_given("body.material"))
+    console.note(fmt::format("material: {}; --material NAME for another", kUsualMaterial));
+  if (usual.is_guess && options.unit.empty() && !part.body.size) {
+    console.note(fmt::format("unit: {} is taken to be in mm, {}; --unit cm, m, in for another", part.loaded.name,
+                             sides_text(part.loaded.extent)));
+  }
+  return part;
+}
+
+void check_size(const LoadPart& part, const Console& console) {
+  const double longest = part.loaded.extent.maxCoeff();
+  if (longest > 1e3 || longest < 1e-6) {
+    throw Error(ErrorKind::kUsage,
+                fmt::format("{} is {:.4g} m long if its unit is {}; --unit mm would make it {}", part.loaded.name,
+                            longest, part.unit_name, readable(longest / part.unit * 1e-3, Dimension::kLength)));
+  }
+  if (longest < 100 && longest > 1e-4) return;
+  console.warn(fmt::format("{} is {} long in {}: is that its unit? --unit mm, cm, m, in", part.loaded.name,
+                           readable(longest, Dimension::kLength), part.unit_name));
+}
+
+void check_case(const LoadOptions& options) {
+  if (options.fixes.empty()) {
+    throw Error(ErrorKind::kUsage,
+                "nothing holds the part: --fix WHERE, one of x-low, x-high, y-low, y-high, z-low, z-high, "
+                "face=X,Y,Z, or the name of a part of the mesh");
+  }
+  if (options.loads.empty()) {
+    throw Error(ErrorKind::kUsage, "nothing loads the part: --load WHERE:50N, --load y-high:2MPa, --load weight");
+  }
+}
+
+constexpr double kMostBricks = 200000;    // of the finest grid, by default: some seconds
+constexpr double kMostNonlinear = 60000;  // where each takes some ten solves
+
+PartBricks bricks_for(const LoadPart& part, bool linear) {
+  const double longest = part.loaded.extent.maxCoeff();
+  if (part.body.brick_size) return part_bricks_from(part.loaded, *part.body.brick_size);
+  if (part.body.bricks && !part.body.bricks->is_auto()) {
+    return part_bricks_from(part.loaded, longest / part.body.bricks->along);
+  }
+  return choose_part_bricks(part.loaded, linear ? kMostBricks : kMostNonlinear);
+}
+
+/// A positive value of an option; none where it is not given. Throws Error(kUsage).
+std::optional<double> limit_from(const char* option, const std::string& text, Dimension dimension) {
+  if (text.empty()) return std::nullopt;
+  try {
+    const double value = parse_quantity(text, dimension);
+    if (value > 0) return value;
+  } catch (const Error& error) {
+    throw Error(ErrorKind::kUsage, fmt::format("{}: {}", option, error.what()));
+  }
+  throw Error(ErrorKind::kUsage, fmt::format("{}: '{}' has to be above 0", option, text));
+}
+
+/// Whether small displacements are meant, or, by the coarsest grid, do.
+bool is_small(const LoadOptions& options, const LoadPart& part, const LoadCase& loads, const Console& console) {
+  if (options.analysis != "auto") return options.analysis == "linear";
+  PartBricks coarse = choose_part_bricks(part.loaded, kFewBricks);
+  coarse.sizes = {coarse.sizes.back()};
+  const PartAnswer answer = answer_of(solve_part(part, loads, coarse, true, Observer()), part, loads, coarse);
+  const double share = answer.displacement.value / answer.extent.maxCoeff();
+  if (share < kLargeDisplacement) return true;
+  console.note(
+      fmt::format("the part moves by some {}, {:.2g} % of its length: solved for large displacements; "
+                  "--analysis linear for small ones",
+                  readable(answer.displacement.value, Dimension::kLength), 100 * share));
+  return false;
+}
+
+void load_part(const CLI::App& command, const LoadOptions& options, Invocation& invocation) {
+  const Console& console = invocation.console;
+  require_input(command, options.input, "a mesh");
+  check_case(options);
+  const PartLimits limits{
+      .displacement = limit_from("--deflection-limit", options.deflection_limit, Dimension::kLength),
+      .safety = limit_from("--safety", options.safety, Dimension::kNone)};
+  Film scene;
+  const LoadPart part = read_part(options, scene, console);
+  check_size(part, console);
+  const LoadCase loads = parse_load_case(options.fixes, options.loads, part);
+  const bool is_linear = is_small(options, part, loads, console);
+  const PartBricks bricks = bricks_for(part, is_linear);
+  const std::vector<PartSolution> solutions = solve_part(part, loads, bricks, is_linear, console);
+  const PartAnswer answer = answer_of(solutions, part, loads, bricks);
+  const LibraryMaterial* known = scene.library->find_if_known(part.body.material.name);
+  const PartVerdict verdict = judge(answer, known, limits);
+  const PartReport report{part, loads, answer, known, verdict, limits};
+  fmt::print("{}", options.json ? json_of(report) : options.csv ? csv_of(report) : text_of(report));
+  if (!verdict.holds) invocation.exit_code = 1;
+}
+
+}  // namespace
+
+void add_load(CLI::App& app, Invocation& invocation) {
+  CLI::App* command = app.add_subcommand("load", "mesh of a part in, how far it bends and whether it holds out");
+  const auto options = std::make_shared<LoadOptions>();
+  command->add_option("INPUT", options->input, "a mesh file");
+  command->add_option("--fix", options->fixes, "hold WHERE; WHERE:xz along these axes only, WHERE:slide across it only")
+      ->allow_extra_args(false)
+      ->option_text("WHERE");
+  command
+      ->add_option("--load", options->loads,
+                   "WHERE:50N (towards the inside), WHERE:50N:-z, WHERE:2MPa (pressure), WHERE:3kg (hangs there), "
+                   "WHERE:1.5Nm:+x (torque about x), WHERE:1mm:-y (moved by), weight, acceleration:20m/s2:-y")
+      ->allow_extra_args(false)
+      ->option_text("LOAD");
+  options->keys.add_keys(*command, is_of_part);
+  command->add_option("--unit", options->unit, "unit of the file: mm, cm, m, in; default: m for glTF, else mm")
+      ->option_text("UNIT");
+  command->add_option("--up", options->up, "vertical axis, against which weights act: y, z or auto (z for STL, 3MF)")
+      ->check(CLI::IsMember({"y", "z", "auto"}))
+      ->option_text("AXIS");
+  command
+      ->add_option("--analysis", options->analysis,
+                   "linear (small displacements), nonlinear, or auto: linear unless it moves by 10 % of its length")
+      ->check(CLI::IsMember({"auto", "linear", "nonlinear"}))
+      ->option_text("auto");
+  command->add_option("--deflection-limit", options->deflection_limit, "exit with 1 where it moves further")
+      ->option_text("0.5mm");
+  command->add_option("--safety", options->safety, "exit with 1 where the strength is less than so many stresses")
+      ->option_text("2");
+  command->add_flag("--json", options->json, "the answers as JSON, SI units");
+  command->add_flag("--csv", options->csv, "the answers as CSV, SI units");
+  add_messages(*command, invocation.console);
+  command->footer(
+      "WHERE is a side of the bounding box in the axes of the file, x-low ... z-high; face=X,Y,Z, the face nearest to "
+      "a point; box=X,Y,Z,X,Y,Z or ball=X,Y,Z,R, the surface in there (numbers in the unit of the file); #rrggbb, what "
+      "is painted so; or the name of a part or a material of the mesh. --fix and --load may be given several times.\n"
+      "Examples:\n"
+      "  sprung load bracket.stl --material abs --fix x-low --load y-high:50N:-y\n"
+      "  sprung load plate.stl --material steel --fix x-low --load x-high:2kN:out --safety 2\n"
+      "  sprung load hook.3mf --material petg --fix z-high --load face=10,0,4:3kg --load weight --json\n");
+  command->callback([options, command, &invocation] { load_part(*command, *options, invocation); });
+}
+
+}  // namespace sprung

@@ -1,0 +1,236 @@
+#include "app/load/load_answer_text.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/text.h"
+#include "core/units.h"
+
+namespace sprung {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kMostNamed = 3;  // singular places in the text
+
+}  // namespace
+
+PartVerdict judge(const PartAnswer& answer, const LibraryMaterial* material, const PartLimits& limits) {
+  PartVerdict verdict;
+  if (limits.displacement && answer.displacement.value > *limits.displacement) verdict.holds = false;
+  std::optional<Peak> stress;
+  if (material != nullptr && material->yield_strength > 0) {
+    verdict.strength = "yield strength";
+    verdict.strength_value = material->yield_strength;
+    stress = answer.von_mises;
+  } else if (material != nullptr && material->ultimate_strength > 0) {
+    verdict.strength = "ultimate strength";
+    verdict.strength_value = material->ultimate_strength;
+    stress = answer.tension;
+  }
+  if (stress) verdict.safety = verdict.strength_value / stress->value;
+  if (limits.safety && !(verdict.safety.value_or(0) >= *limits.safety)) verdict.holds = false;
+  return verdict;
+}
+
+std::string sides_text(const Vec3& sides) {
+  const auto side = [&](int axis) { return readable(sides[axis], Dimension::kLength); };
+  return fmt::format("{} x {} x {}", side(0), side(1), side(2));
+}
+
+namespace {
+
+std::string place_text(const Vec3& exact, const LoadPart& part) {
+  const double rounding = 1e-6 * part.loaded.extent.maxCoeff() / part.unit;
+  const Vec3 place = (exact.array() / rounding).round() * rounding + 0.0;
+  return fmt::format("({:.4g}, {:.4g}, {:.4g}) {}", place.x(), place.y(), place.z(), part.unit_name);
+}
+
+std::string vector_text(const Vec3& vector, const char* unit) {
+  const double least = 1e-6 * vector.norm();  // below which it is rounding
+  const auto number = [&](double value) { return std::abs(value) < least ? 0.0 : value; };
+  return fmt::format("({:.4g}, {:.4g}, {:.4g}) {}", number(vector.x()), number(vector.y()), number(vector.z()), unit);
+}
+
+std::string estimate_text(const Estimate& estimate, Dimension dimension) {
+  const std::string value = readable(estimate.value, dimension);
+  if (!std::isfinite(estimate.error)) return value + " (error unknown: one grid)";
+  const double share = std::abs(estimate.error / estimate.value);
+  return share < 5e-4 ? value + " +- 0.1 %" : fmt::format("{} +- {:.1f} %", value, 100 * share);
+}
+
+/// Mass, g or kg.
+std::string mass_text(double mass) { return readable(mass, Dimension::kMass); }
+
+std::string bricks_text(const PartReport& report) {
+  const PartAnswer& answer = report.answer;
+  std::string text =
+      fmt::format("{} of {}", answer.brick_counts.front(), readable(answer.brick_sizes.front(), Dimension::kLength));
+  if (answer.bricks_across > 0) text += fmt::format(", {:.2g} across the thinnest walls", answer.bricks_across);
+  for (std::size_t grid = 1; grid < answer.brick_sizes.size(); ++grid) {
+    text += fmt::format("{} {}", grid == 1 ? "; for the error also of" : " and",
+                        readable(answer.brick_sizes[grid], Dimension::kLength));
+  }
+  return text + (answer.is_linear ? "; small displacements" : "; large displacements");
+}
+
+std::string stress_lines(const PartReport& report) {
+  const PartAnswer& answer = report.answer;
+  std::string text;
+  const auto add = [&](const char* name, const std::optional<Peak>& peak) {
+    if (!peak) return;
+    text += fmt::format("{:<12}{} at {}\n", name, estimate_text(*peak, Dimension::kPressure),
+                        place_text(peak->place, report.part));
+  };
+  add("stress", answer.von_mises);
+  if (!answer.von_mises)
+    text += "stress      grows with the bricks wherever it is large: round the corners, or use more\n";
+  add("  tension", answer.tension);
+  add("  pressed", answer.compression);
+  if (answer.singular.empty()) return text;
+  text += fmt::format(
+      "  left out  {} where it grows with the bricks (a sharp inner corner, the edge of a support or load):\n",
+      count_of(long(answer.singular.size()), "place"));
+  for (std::size_t i = 0; i < std::min(kMostNamed, answer.singular.size()); ++i) {
+    text += fmt::format("            {} at {}\n", readable(answer.singular[i].stress, Dimension::kPressure),
+                        place_text(answer.singular[i].place, report.part));
+  }
+  return text;
+}
+
+std::string verdict_lines(const PartReport& report) {
+  const PartVerdict& verdict = report.verdict;
+  std::string text;
+  if (verdict.safety) {
+    text += fmt::format("safety      {:.3g} against the {} of {}\n", *verdict.safety, verdict.strength,
+                        readable(verdict.strength_value, Dimension::kPressure));
+  } else if (report.material == nullptr || verdict.strength.empty()) {
+    text += "safety      unknown: no strength of this material is known\n";
+  }
+  if (report.limits.displacement) {
+    text +=
+        fmt::format("limit       {} of displacement: {}\n", readable(*report.limits.displacement, Dimension::kLength),
+                    report.answer.displacement.value > *report.limits.displacement ? "EXCEEDED" : "kept");
+  }
+  if (report.limits.safety) {
+    text += fmt::format("limit       safety {:g}: {}\n", *report.limits.safety,
+                        verdict.safety.value_or(0) >= *report.limits.safety ? "kept"
+                        : verdict.safety                                    ? "NOT REACHED"
+                                                                            : "UNKNOWN");
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string text_of(const PartReport& report) {
+  const auto& [part, loads, answer, material, verdict, limits] = report;
+  const Material& stuff = part.body.material;
+  std::string text = fmt::format("{:<12}{}, {:.4g} cm3, {} of {} (E {}, nu {:.4g})\n", "part",
+                                 sides_text(answer.extent), 1e6 * answer.volume, mass_text(answer.mass), stuff.name,
+                                 readable(stuff.young, Dimension::kPressure), stuff.poisson);
+  text += fmt::format("{:<12}{}\n", "bricks", bricks_text(report));
+  for (const PartLoad& load : loads.loads) {
+    text += fmt::format("{:<12}{}: {}{}\n", "load", load.face ? load.face->name : load.text, load.description(),
+                        load.face ? fmt::format(", on {:.4g} mm2", 1e6 * load.face->area) : "");
+  }
+  for (const PartAnswer::Reaction& reaction : answer.reactions) {
+    text += fmt::format("{:<12}{}: holds with {}, {} about {}\n", "fix", reaction.fix, vector_text(reaction.force, "N"),
+                        vector_text(reaction.moment, "N m"), place_text(reaction.centre, part));
+  }
+  text += fmt::format("{:<12}{} at {}: {}\n", "moves", estimate_text(answer.displacement, Dimension::kLength),
+                      place_text(answer.displacement.place, part), vector_text(1e3 * answer.displacement_vector, "mm"));
+  return text + stress_lines(report) + verdict_lines(report);
+}
+
+namespace {
+
+Json json_of(const Vec3& vector) { return {vector.x(), vector.y(), vector.z()}; }
+
+Json error_json(double error) { return std::isfinite(error) ? Json(error) : Json(nullptr); }
+
+Json json_of(const std::optional<Peak>& peak) {
+  if (!peak) return nullptr;
+  return {{"value", peak->value}, {"error", error_json(peak->error)}, {"place", json_of(peak->place)}};
+}
+
+}  // namespace
+
+std::string json_of(const PartReport& report) {
+  const auto& [part, loads, answer, material, verdict, limits] = report;
+  Json json{{"part", part.loaded.name},
+            {"unit_m", part.unit},
+            {"extent_m", json_of(answer.extent)},
+            {"volume_m3", answer.volume},
+            {"mass_kg", answer.mass},
+            {"material",
+             {{"name", part.body.material.name},
+              {"young_Pa", part.body.material.young},
+              {"poisson", part.body.material.poisson},
+              {"density_kg_m3", part.body.material.density}}},
+            {"analysis", answer.is_linear ? "linear" : "nonlinear"},
+            {"brick_sizes_m", answer.brick_sizes},
+            {"brick_counts", answer.brick_counts}};
+  for (const PartLoad& load : loads.loads) {
+    json["loads"].push_back({{"text", load.text},
+                             {"amount", load.amount},
+                             {"unit", base_unit(load.dimension)},
+                             {"direction", json_of(load.direction)},
+                             {"area_m2", load.face ? Json(load.face->area) : Json(nullptr)}});
+  }
+  for (const PartAnswer::Reaction& reaction : answer.reactions) {
+    json["reactions"].push_back({{"fix", reaction.fix},
+                                 {"force_N", json_of(reaction.force)},
+                                 {"moment_Nm", json_of(reaction.moment)},
+                                 {"about", json_of(reaction.centre)}});
+  }
+  json["displacement_m"] = json_of(std::optional(answer.displacement));
+  json["displacement_m"]["vector"] = json_of(answer.displacement_vector);
+  json["von_mises_Pa"] = json_of(answer.von_mises);
+  json["largest_principal_Pa"] = json_of(answer.tension);
+  json["least_principal_Pa"] = json_of(answer.compression);
+  json["singular"] = Json::array();
+  for (const SingularPlace& one : answer.singular) {
+    json["singular"].push_back(
+        {{"von_mises_Pa", one.stress}, {"place", json_of(one.place)}, {"exponent", one.exponent}});
+  }
+  json["strength"] =
+      verdict.strength.empty() ? Json(nullptr) : Json{{"kind", verdict.strength}, {"value_Pa", verdict.strength_value}};
+  json["safety"] = verdict.safety ? Json(*verdict.safety) : Json(nullptr);
+  json["holds"] = verdict.holds;
+  return json.dump(1) + "\n";
+}
+
+std::string csv_of(const PartReport& report) {
+  const PartAnswer& answer = report.answer;
+  std::string text = "quantity,value,error,x,y,z\n";
+  const auto number = [](const char* name, double value) { return fmt::format("{},{},,,,\n", name, value); };
+  const auto peak = [&](const char* name, const Peak& one) {
+    text += fmt::format("{},{},{},{},{},{}\n", name, one.value,
+                        std::isfinite(one.error) ? fmt::format("{}", one.error) : "", one.place.x(), one.place.y(),
+                        one.place.z());
+  };
+  text += number("volume_m3", answer.volume) + number("mass_kg", answer.mass);
+  peak("displacement_m", answer.displacement);
+  if (answer.von_mises) peak("von_mises_Pa", *answer.von_mises);
+  if (answer.tension) peak("largest_principal_Pa", *answer.tension);
+  if (answer.compression) peak("least_principal_Pa", *answer.compression);
+  for (const SingularPlace& one : answer.singular) {
+    text +=
+        fmt::format("singular_von_mises_Pa,{},,{},{},{}\n", one.stress, one.place.x(), one.place.y(), one.place.z());
+  }
+  for (const PartAnswer::Reaction& reaction : answer.reactions) {
+    const Vec3& force = reaction.force;
+    const Vec3& moment = reaction.moment;
+    text += fmt::format("\"reaction_force_N {}\",{},,{},{},{}\n", reaction.fix, force.norm(), force.x(), force.y(),
+                        force.z());
+    text += fmt::format("\"reaction_moment_Nm {}\",{},,{},{},{}\n", reaction.fix, moment.norm(), moment.x(), moment.y(),
+                        moment.z());
+  }
+  if (report.verdict.safety) text += number("safety", *report.verdict.safety);
+  return text;
+}
+
+}  // namespace sprung

@@ -1,0 +1,203 @@
+#include "app/load/part_answer.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "core/mesh/repair/faces.h"
+
+namespace sprung {
+namespace {
+
+constexpr double kSafetyOfTwoGrids = 3;  // Roache's
+constexpr double kAround = 1.5;          // bricks of the coarser grid, in which its value at a place is looked for
+constexpr double kLeftOut = 3;           // of its bricks, around a singular place
+constexpr int kMostSingular = 60;        // places; beyond that nothing is resolved
+
+/// 3 |f_1 - f_k| / (r^2 - 1).
+double convergence_index(double fine, double coarse, double ratio) {
+  return kSafetyOfTwoGrids * std::abs(fine - coarse) / (ratio * ratio - 1);
+}
+
+/// A scalar on the skins of all grids.
+struct SkinScalar {
+  const std::vector<PartSkin>& skins;
+  const std::vector<double>& sizes;     // m
+  std::vector<Eigen::VectorXd> values;  // by grid
+
+  /// The largest within some bricks of a place; 0 where nothing is.
+  [[nodiscard]] double around(std::size_t grid, const Vec3& place) const {
+    const double reach = std::pow(kAround * sizes[grid], 2);
+    double largest = 0;
+    for (Eigen::Index row = 0; row < values[grid].size(); ++row) {
+      if (values[grid][row] <= largest) continue;
+      if ((skins[grid].places.row(row).transpose() - place).squaredNorm() <= reach) largest = values[grid][row];
+    }
+    return largest;
+  }
+};
+
+/// Where the exact stress has no bound: along sharp inner edges, and at supports, which end somewhere.
+class SingularLines {
+ public:
+  SingularLines(const LoadPart& part, const PartSolution& solution);
+  /// Within `reach` (m) of one; `place` (m) in the frame of LoadedBody.
+  [[nodiscard]] bool is_near(const Vec3& place, double reach) const {
+    return ((points_.rowwise() - place.transpose()).rowwise().squaredNorm().array() <= reach * reach).any();
+  }
+
+ private:
+  Points points_;  // n x 3, m, at most a brick apart
+};
+
+struct FoundPeak {
+  std::optional<Peak> peak;
+  std::vector<SingularPlace> singular;
+};
+
+SingularLines::SingularLines(const LoadPart& part, const PartSolution& solution) {
+  std::vector<Vec3> points;
+  const double apart = solution.brick_size;
+  for (const Solid& solid : part.loaded.solids) {
+    for (const std::array<int, 2>& edge : sharp_inner_edges(solid.points, solid.triangles)) {
+      const Vec3 a = solid.points.row(edge[0]);
+      const Vec3 b = solid.points.row(edge[1]);
+      const int count = 1 + int((b - a).norm() / apart);
+      for (int i = 0; i <= count; ++i) points.emplace_back(a + double(i) / count * (b - a));
+    }
+  }
+  for (const SoftBody& body : solution.simulation.world.bodies) {
+    for (const PinnedSkin& skin : body.origin.pinned_skins) {
+      const Points held = part_from_world(solution, part, deform_points(body.grid, skin.points, body.rest_positions));
+      for (const auto& point : held.rowwise()) points.emplace_back(point.transpose());
+    }
+  }
+  points_.resize(Eigen::Index(points.size()), 3);
+  for (std::size_t i = 0; i < points.size(); ++i) points_.row(Eigen::Index(i)) = points[i].transpose();
+}
+
+/// The largest value that does not grow with the bricks; the scalar is positive where it matters.
+FoundPeak find_peak(const SkinScalar& scalar, const SingularLines& lines, const LoadPart& part) {
+  FoundPeak found;
+  const Eigen::VectorXd& fine = scalar.values.front();
+  const Points& places = scalar.skins.front().places;
+  const std::size_t coarsest = scalar.values.size() - 1;
+  const double ratio = scalar.sizes[coarsest] / scalar.sizes.front();
+  const double left_out = std::pow(kLeftOut * scalar.sizes[coarsest], 2);
+  std::vector<int> rows(std::size_t(fine.size()));
+  std::iota(rows.begin(), rows.end(), 0);
+  std::stable_sort(rows.begin(), rows.end(), [&](int a, int b) { return fine[a] > fine[b]; });
+  std::vector<Vec3> singular;
+  for (const int row : rows) {
+    const Vec3 place = places.row(row);
+    if (!(fine[row] > 0)) break;
+    if (std::any_of(singular.begin(), singular.end(),
+                    [&](const Vec3& one) { return (one - place).squaredNorm() < left_out; })) {
+      continue;
+    }
+    Peak peak{{.value = fine[row], .error = std::numeric_limits<double>::infinity()}, part.file_from_rest(place)};
+    if (coarsest == 0) {
+      found.peak = peak;
+      return found;
+    }
+    const double exponent = std::log(fine[row] / std::max(scalar.around(coarsest, place), 1e-300)) / std::log(ratio);
+    if (exponent < kSingular || !lines.is_near(place, kAround * scalar.sizes[coarsest])) {
+      peak.error = 0;
+      for (std::size_t grid = 1; grid <= coarsest; ++grid) {
+        peak.error = std::max(peak.error, convergence_index(fine[row], scalar.around(grid, place),
+                                                            scalar.sizes[grid] / scalar.sizes.front()));
+      }
+      found.peak = peak;
+      return found;
+    }
+    singular.push_back(place);
+    found.singular.push_back({.place = peak.place, .stress = fine[row], .exponent = exponent});
+    if (int(singular.size()) == kMostSingular) return found;
+  }
+  return found;
+}
+
+Peak largest_displacement(const std::vector<PartSkin>& skins, const std::vector<double>& sizes, const LoadPart& part,
+                          Vec3& vector) {
+  Eigen::Index row = 0;
+  const auto largest = [&](std::size_t grid) {
+    return std::sqrt(skins[grid].displacements.rowwise().squaredNorm().maxCoeff(&row));
+  };
+  Peak peak;
+  double error = skins.size() == 1 ? std::numeric_limits<double>::infinity() : 0;
+  std::vector<double> coarse;
+  for (std::size_t grid = 1; grid < skins.size(); ++grid) coarse.push_back(largest(grid));
+  peak.value = largest(0);
+  for (std::size_t grid = 1; grid < skins.size(); ++grid) {
+    error = std::max(error, convergence_index(peak.value, coarse[grid - 1], sizes[grid] / sizes[0]));
+  }
+  peak.error = error;
+  peak.place = part.file_from_rest(skins[0].places.row(row));
+  vector = skins[0].displacements.row(row);
+  return peak;
+}
+
+/// Of the finest grid.
+std::vector<PartAnswer::Reaction> reactions_of(const PartSolution& solution, const LoadPart& part,
+                                               const LoadCase& loads) {
+  std::vector<PartAnswer::Reaction> reactions;
+  const auto add = [&](const std::string& text, const PartFace& face) {
+    reactions.push_back({.fix = text, .area = face.area, .centre = part.file_from_rest(face.centre)});
+  };
+  for (const PartFix& fix : loads.fixes) add(fix.text, fix.face);
+  for (const PartLoad& load : loads.loads) {
+    if (load.movement) add(load.text, *load.face);
+  }
+  const Mat3 here = part.world_from_file.transpose();
+  for (const SoftBody& body : solution.simulation.world.bodies) {
+    for (const PinnedSkin& skin : body.origin.pinned_skins) {
+      const SkinReaction reaction =
+          reaction_of(skin, solution.scene, body, time_of(solution.scene, 1), solution.is_linear);
+      PartAnswer::Reaction& sum = reactions[skin.pin];
+      sum.force += here * reaction.force;
+      sum.moment += here * reaction.torque;
+    }
+  }
+  return reactions;
+}
+
+}  // namespace
+
+PartAnswer answer_of(const std::vector<PartSolution>& solutions, const LoadPart& part, const LoadCase& loads,
+                     const PartBricks& bricks) {
+  PartAnswer answer;
+  answer.extent = part.loaded.extent;
+  answer.is_linear = solutions.front().is_linear;
+  for (const Solid& solid : part.loaded.solids) answer.volume += solid.volume;
+  answer.mass = answer.volume * part.body.material.density;
+  std::vector<PartSkin> skins;
+  for (const PartSolution& solution : solutions) {
+    answer.brick_sizes.push_back(solution.brick_size);
+    answer.brick_counts.push_back(solution.brick_count());
+    skins.push_back(skin_of(solution, part));
+  }
+  answer.bricks_across = bricks.thickness / answer.brick_sizes.front();
+  answer.displacement = largest_displacement(skins, answer.brick_sizes, part, answer.displacement_vector);
+  SkinScalar von_mises_stress{.skins = skins, .sizes = answer.brick_sizes, .values = {}};
+  SkinScalar tension = von_mises_stress;
+  SkinScalar compression = von_mises_stress;
+  for (const PartSkin& skin : skins) {
+    von_mises_stress.values.push_back(von_mises(skin.stresses));
+    const Points principal = principal_stresses(skin.stresses).values;
+    tension.values.emplace_back(principal.col(0));
+    compression.values.emplace_back(-principal.col(2));
+  }
+  const SingularLines lines(part, solutions.front());
+  FoundPeak found = find_peak(von_mises_stress, lines, part);
+  answer.von_mises = found.peak;
+  answer.singular = std::move(found.singular);
+  answer.tension = find_peak(tension, lines, part).peak;
+  answer.compression = find_peak(compression, lines, part).peak;
+  if (answer.compression) answer.compression->value *= -1;
+  answer.reactions = reactions_of(solutions.front(), part, loads);
+  return answer;
+}
+
+}  // namespace sprung

@@ -1,0 +1,64 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/load/part_solution.h"
+
+namespace sprung {
+
+/// A quantity and how far the true one may lie from it, by the grid.
+struct Estimate {
+  double value = 0;
+  double error = 0;
+};
+
+/// Where a quantity is largest.
+struct Peak : Estimate {
+  Vec3 place = Vec3::Zero();  // in the file
+};
+
+/// A stress that grows with the number of bricks: at a re-entrant corner, or where a support or a load ends, the exact
+/// solution has no bound.
+struct SingularPlace {
+  Vec3 place = Vec3::Zero();  // in the file
+  double stress = 0;          // von Mises, Pa, with the finest bricks
+  double exponent = 0;        // a of stress ~ size^-a
+};
+
+/// What a part does under its loads. SI; vectors in the axes of the file, places in the file.
+struct PartAnswer {
+  Vec3 extent = Vec3::Zero();  // m
+  double volume = 0;           // m^3, of the mesh
+  double mass = 0;             // kg
+  std::vector<double> brick_sizes;
+  std::vector<long> brick_counts;
+  double bricks_across = 0;  // a thin wall; 0: unknown
+  bool is_linear = true;
+
+  Peak displacement;
+  Vec3 displacement_vector = Vec3::Zero();  // m, there
+  std::optional<Peak> von_mises;            // Pa; none where all large stresses are singular
+  std::optional<Peak> tension;              // Pa, the largest principal stress
+  std::optional<Peak> compression;          // Pa, the least principal stress, negative
+  std::vector<SingularPlace> singular;      // of von Mises, that are above the largest away from them
+
+  struct Reaction {
+    std::string fix;
+    double area = 0;                                   // m^2, of the face
+    Vec3 force = Vec3::Zero(), moment = Vec3::Zero();  // N, N m about the centre of the face
+    Vec3 centre = Vec3::Zero();                        // in the file
+  };
+  std::vector<Reaction> reactions;  // of fixes, then of loads that prescribe a displacement
+};
+
+/// Of solutions on ever coarser grids, the finest first. The error of a quantity is bounded by the grid convergence
+/// index, 3 |f_1 - f_k| / ((h_k / h_1)^2 - 1), the largest of all coarser grids k (Roache, J. Fluids Eng. 116 (1994)
+/// 405); a single grid leaves it unknown (infinite). Stresses are singular where they grow like size^-kSingular or
+/// faster from the coarsest grid to the finest; what lies within three of its bricks of such a place is left out.
+[[nodiscard]] PartAnswer answer_of(const std::vector<PartSolution>& solutions, const LoadPart& part,
+                                   const LoadCase& loads, const PartBricks& bricks);
+
+inline constexpr double kSingular = 0.2;
+
+}  // namespace sprung

@@ -1,0 +1,112 @@
+#include "app/load/part_solution.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "core/body/stress.h"
+#include "core/error.h"
+#include "core/simulation/simulate.h"
+#include "core/text.h"
+
+namespace sprung {
+
+long PartSolution::brick_count() const {
+  long count = 0;
+  for (const SoftBody& body : simulation.world.bodies) count += body.grid.brick_count();
+  return count;
+}
+
+Film scene_of(const LoadPart& part, const LoadCase& loads, double brick_size, bool linear) {
+  Film scene;
+  scene.duration = 1;
+  scene.fps = 1;
+  scene.gravity = loads.gravity;
+  scene.solver.scheme = linear ? Solver::kLinear : Solver::kStatic;
+  scene.solver.load_steps = 1;
+  SceneBody& body = scene.bodies.emplace_back(part.body);
+  body.bricks.reset();
+  body.brick_size = brick_size;
+  for (const PartFix& fix : loads.fixes) body.pins.push_back(fix.pin);
+  for (const PartLoad& load : loads.loads) {
+    if (load.force) body.forces.push_back(*load.force);
+    if (load.movement) body.pins.push_back(*load.movement);
+  }
+  return scene;
+}
+
+namespace {
+
+/// Lets the stages of each grid go unseen, and warnings be heard of the finest only.
+class QuietObserver : public Observer {
+ public:
+  QuietObserver(const Observer& observer, bool warns) : observer_(observer), warns_(warns) {}
+  void warn(std::string_view message) const override {
+    if (warns_) observer_.warn(message);
+  }
+  void detail(std::string_view message) const override { observer_.detail(message); }
+  void check_interrupt() const override { observer_.check_interrupt(); }
+
+ private:
+  const Observer& observer_;
+  bool warns_;
+};
+
+}  // namespace
+
+std::vector<PartSolution> solve_part(const LoadPart& part, const LoadCase& loads, const PartBricks& bricks, bool linear,
+                                     const Observer& observer) {
+  Progress progress(observer, "load", double(bricks.sizes.size()));
+  std::vector<PartSolution> solutions(bricks.sizes.size());
+  for (std::size_t done = 0; done < solutions.size(); ++done) {
+    const std::size_t grid = solutions.size() - 1 - done;  // the coarsest first: it finds soon what is wrong
+    const QuietObserver quiet(observer, grid == 0);
+    PartSolution& solution = solutions[grid];
+    solution.brick_size = bricks.sizes[grid];
+    solution.is_linear = linear;
+    solution.scene = scene_of(part, loads, solution.brick_size, linear);
+    solution.simulation = prepare_simulation(solution.scene, quiet);
+    solution.recording = simulate(solution.simulation, solution.scene, quiet);
+    progress.update(double(done + 1));
+  }
+  progress.finish(fmt::format("{} bricks, and {}", solutions.front().brick_count(),
+                              count_of(long(solutions.size()) - 1, "coarser grid")));
+  return solutions;
+}
+
+Points part_from_world(const PartSolution& solution, const LoadPart& part, const Points& points) {
+  AlignedBox box;
+  for (const SoftBody& body : solution.simulation.world.bodies) {
+    box.extend(bounding_box(body.skin_positions(body.rest_positions)));
+  }
+  return (points.rowwise() - box.center().transpose()) * part.world_from_file;
+}
+
+PartSkin skin_of(const PartSolution& solution, const LoadPart& part) {
+  const std::vector<SoftBody>& bodies = solution.simulation.world.bodies;
+  long count = 0;
+  for (const SoftBody& body : bodies) count += body.skin_embedding.local.rows();
+  const Mat3& turned = part.world_from_file;
+  PartSkin skin{.places = Points(count, 3), .displacements = Points(count, 3), .stresses = StressTensors(count, 6)};
+  long row = 0;
+  for (const SoftBody& body : bodies) {
+    const long rows = body.skin_embedding.local.rows();
+    const Points rest = body.skin_positions(body.rest_positions);
+    const Points now = body.skin_positions(body.positions);
+    skin.places.middleRows(row, rows) = part_from_world(solution, part, rest);
+    skin.displacements.middleRows(row, rows) = (now - rest) * turned;
+    const StressTensors of_nodes =
+        recover_stress(body, body.positions, solution.is_linear ? StrainMeasure::kSmall : StrainMeasure::kFinite);
+    skin.stresses.middleRows(row, rows) = stress_at(body.grid, body.skin_embedding, of_nodes);
+    row += rows;
+  }
+  for (auto stress : skin.stresses.rowwise()) {
+    Mat3 tensor;
+    tensor << stress[0], stress[3], stress[5], stress[3], stress[1], stress[4], stress[5], stress[4], stress[2];
+    const Mat3 here = turned.transpose() * tensor * turned;
+    stress << here(0, 0), here(1, 1), here(2, 2), here(0, 1), here(1, 2), here(2, 0);
+  }
+  return skin;
+}
+
+}  // namespace sprung

@@ -1,0 +1,45 @@
+#pragma once
+#include <functional>
+#include <vector>
+
+#include "app/load/load_case.h"
+#include "app/load/part_bricks.h"
+#include "app/scene/film.h"
+#include "core/simulation/recorder.h"
+#include "core/simulation/simulation.h"
+#include "core/simulation/skin_supports.h"
+
+namespace sprung {
+
+/// A loaded part at rest in one size of brick.
+struct PartSolution {
+  Film scene;
+  Simulation simulation{};
+  Recording recording{};
+  double brick_size = 0;  // m
+  bool is_linear = true;
+
+  [[nodiscard]] long brick_count() const;
+};
+
+/// The skins of all bodies of a solution, one after the other.
+struct PartSkin {
+  Points places;           // n x 3, m: at rest, in the frame of LoadedBody
+  Points displacements;    // n x 3, m, likewise
+  StressTensors stresses;  // n x 6, Pa, likewise
+};
+
+/// The scene of a part under a load case, with bricks of that size.
+[[nodiscard]] Film scene_of(const LoadPart& part, const LoadCase& loads, double brick_size, bool linear);
+
+/// Fills the part with bricks of each size, finest first, and finds its equilibria: by linear statics, or with large
+/// displacements. Throws Error(kBadInput) where it is not held, what simulate() does.
+[[nodiscard]] std::vector<PartSolution> solve_part(const LoadPart& part, const LoadCase& loads,
+                                                   const PartBricks& bricks, bool linear, const Observer& observer);
+
+/// Points of the world (n x 3, m) of a solution at rest, in the frame of LoadedBody.
+[[nodiscard]] Points part_from_world(const PartSolution& solution, const LoadPart& part, const Points& points);
+
+[[nodiscard]] PartSkin skin_of(const PartSolution& solution, const LoadPart& part);
+
+}  // namespace sprung

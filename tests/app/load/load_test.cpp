@@ -1,0 +1,202 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "app/validate/mapped_block.h"
+#include "core/mesh/repair/faces.h"
+#include "tests/support/run_program.h"
+
+/// `sprung load` against closed forms, on its default bricks.
+namespace sprung {
+namespace {
+
+std::string obj_of(const SurfaceMesh& mesh) {
+  std::string text;
+  for (const auto& part : mesh.parts) {
+    text += fmt::format("g {}\n", part.name);
+    if (&part == &mesh.parts.front()) {
+      for (const auto& point : mesh.positions.rowwise()) {
+        text += fmt::format("v {} {} {}\n", point[0], point[1], point[2]);
+      }
+    }
+    for (int row = part.first_triangle; row < part.first_triangle + part.triangle_count; ++row) {
+      const auto corners = mesh.triangles.row(row);
+      text += fmt::format("f {} {} {}\n", corners[0] + 1, corners[1] + 1, corners[2] + 1);
+    }
+  }
+  return text;
+}
+
+/// 100 x 10 x 8 mm.
+std::string bar_obj() {
+  return obj_of(mapped_block({1, 1, 1}, [](const Vec3& at) -> Vec3 { return at.cwiseProduct(Vec3(100, 10, 8)); }));
+}
+
+/// A plate of 100 x 100 x 5 mm with a round hole of 10 mm radius, one quarter: the hole is about the origin.
+std::string quarter_plate_obj() {
+  return obj_of(mapped_block({40, 32, 1}, [](const Vec3& at) -> Vec3 {
+    const double angle = at.y() * std::numbers::pi / 2;
+    const Vec3 on_hole(10 * std::cos(angle), 10 * std::sin(angle), 0);
+    const Vec3 on_edge = Vec3(std::cos(angle), std::sin(angle), 0) * 100 / std::max(std::cos(angle), std::sin(angle));
+    const double along = at.x() * at.x();
+    return (1 - along) * on_hole + along * on_edge + Vec3(0, 0, 5 * at.z());
+  }));
+}
+
+/// A quarter of a tube of radii 20 and 40 mm, 10 mm long, about z.
+std::string quarter_tube_obj() {
+  return obj_of(mapped_block({4, 48, 1}, [](const Vec3& at) -> Vec3 {
+    const double angle = at.y() * std::numbers::pi / 2;
+    const double radius = 20 + 20 * at.x();
+    return {radius * std::cos(angle), radius * std::sin(angle), 10 * at.z()};
+  }));
+}
+
+double number(const nlohmann::json& json, const std::string& path) {
+  return json.at(nlohmann::json::json_pointer(path)).get<double>();
+}
+
+class Load : public testing::Test {
+ protected:
+  [[nodiscard]] ProgramRun run(const std::string& words) const { return run_program(folder_, "load " + words); }
+  [[nodiscard]] nlohmann::json answer(const std::string& words) const {
+    const ProgramRun made = run(words + " --json");
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    return nlohmann::json::parse(made.out);
+  }
+
+  TempFolder folder_;
+  std::filesystem::path bar_ = folder_.write("bar.obj", bar_obj());
+};
+
+const std::string kSteel = " --young 200GPa --poisson 0.3 --density 7850";
+
+/// P L^3 / (3 E I) + 1.2 P L / (G A).
+TEST_F(Load, BeamBendsByItsFormula) {
+  const nlohmann::json made = answer("bar.obj --fix x-low --load x-high:100N:-y" + kSteel);
+  const double expected = 100 * 1e-3 / (3 * 200e9 * 8e-3 * 1e-6 / 12) + 1.2 * 100 * 0.1 / (200e9 / 2.6 * 80e-6);
+  const double moved = number(made, "/displacement_m/value");
+  EXPECT_NEAR(moved, expected, 0.01 * expected);
+  EXPECT_NEAR(moved, expected, number(made, "/displacement_m/error") + 0.003 * expected);
+  EXPECT_NEAR(number(made, "/mass_kg"), 7850 * 8e-6, 1e-6);
+  // The supported end is singular; beside it the stress is M y / I at some 3 bricks.
+  const double stress = number(made, "/von_mises_Pa/value");
+  const double root = 100 * 0.1 * 5e-3 / (8e-3 * 1e-6 / 12);
+  EXPECT_NEAR(stress, root, 0.1 * root);
+}
+
+TEST_F(Load, EveryKindOfLoadHasItsReaction) {
+  const auto reaction = [&](const std::string& load, const std::string& quantity, int axis) {
+    const nlohmann::json made = answer("bar.obj --brick-size 2mm --fix x-low --load " + load + kSteel);
+    return number(made, "/reactions/0/" + quantity + "/" + std::to_string(axis));
+  };
+  EXPECT_NEAR(reaction("x-high:2MPa", "force_N", 0), 160, 0.01);
+  EXPECT_NEAR(reaction("x-high:160N", "force_N", 0), 160, 1e-3);  // towards the inside
+  EXPECT_NEAR(reaction("x-high:1kg", "force_N", 1), 9.80665, 1e-4);
+  EXPECT_NEAR(reaction("x-high:1.5Nm:+x", "moment_Nm", 0), -1.5, 1e-4);
+  EXPECT_NEAR(reaction("weight", "force_N", 1), 7850 * 8e-6 * 9.80665, 1e-4);
+  EXPECT_NEAR(reaction("acceleration:10m/s2:+x", "force_N", 0), -7850 * 8e-6 * 10, 1e-4);
+  EXPECT_NEAR(reaction("box=90,10,0,100,10,8:50N:-y", "force_N", 1), 50, 1e-3);
+  EXPECT_NEAR(reaction("face=50,10,4:50N", "force_N", 1), 50, 1e-3);  // the whole upper side
+  // u E A / L, with the sides free to slide.
+  EXPECT_NEAR(reaction("x-high:0.01mm:+x", "force_N", 0), -1e-5 * 200e9 * 80e-6 / 0.1, 40);
+}
+
+/// Timoshenko: the middle of a bar between two slides under its own weight is where symmetry says.
+TEST_F(Load, SlidesHoldAcrossTheirPlaneOnly) {
+  const nlohmann::json made =
+      answer("bar.obj --fix x-low:slide --fix y-low:slide --fix z-low:slide --load x-high:800N:out" + kSteel);
+  const double strain = 800 / 80e-6 / 200e9;
+  EXPECT_NEAR(number(made, "/displacement_m/vector/0"), strain * 0.1, 0.002 * strain * 0.1);
+  EXPECT_NEAR(number(made, "/von_mises_Pa/value"), 1e7, 3e5);  // at the foundation, which is not quite even
+}
+
+/// Kirsch: three times the stress far away, at the hole; a plate ten times as wide as the hole has 3.03 (Howland,
+/// Phil. Trans. R. Soc. A 229 (1930) 49).
+TEST_F(Load, HoleInAPlateTriplesTheStress) {
+  static_cast<void>(folder_.write("plate.obj", quarter_plate_obj()));
+  const nlohmann::json made =
+      answer("plate.obj --fix x-low:slide --fix y-low:slide --fix z-low:slide --load x-high:5000N:out" + kSteel);
+  const double peak = number(made, "/largest_principal_Pa/value");
+  EXPECT_NEAR(peak, 30.3e6, 0.03 * 30.3e6);
+}
+
+/// Lame: u(a) = p a / E (K + nu), K = (b^2 + a^2) / (b^2 - a^2), in plane stress; hoop stress p K inside.
+TEST_F(Load, ThickTubeFollowsLame) {
+  static_cast<void>(folder_.write("tube.obj", quarter_tube_obj()));
+  const nlohmann::json made =
+      answer("tube.obj --fix x-low:slide --fix y-low:slide --fix z-low:slide --load face=14.14,14.14,5:10MPa" + kSteel);
+  const double k = (1600.0 + 400) / (1600 - 400);
+  const double moved = 10e6 * 0.02 / 200e9 * (k + 0.3);
+  EXPECT_NEAR(number(made, "/displacement_m/value"), moved, 0.03 * moved);
+  EXPECT_NEAR(number(made, "/largest_principal_Pa/value"), k * 10e6, 0.05 * k * 10e6);
+}
+
+TEST_F(Load, LimitsDecideTheExitCode) {
+  const std::string bar = "bar.obj --fix x-low --load x-high:100N:-y --material steel";
+  EXPECT_EQ(run(bar + " --deflection-limit 1mm --safety 1.1").exit_code, 0);
+  const ProgramRun bends = run(bar + " --deflection-limit 0.1mm");
+  EXPECT_EQ(bends.exit_code, 1);
+  EXPECT_NE(bends.out.find("EXCEEDED"), std::string::npos);
+  EXPECT_EQ(run(bar + " --safety 20").exit_code, 1);
+}
+
+TEST_F(Load, LargeDisplacementsAreSolvedForAsSuch) {
+  const ProgramRun made = run("bar.obj --fix x-low --load x-high:60N:-y --young 2GPa --poisson 0.3");
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_NE(made.err.find("solved for large displacements"), std::string::npos);
+  EXPECT_NE(made.out.find("large displacements"), std::string::npos);
+}
+
+TEST_F(Load, MistakesAreNamedWithTheirRemedy) {
+  const auto message = [&](const std::string& words) {
+    const ProgramRun made = run("bar.obj " + words);
+    EXPECT_NE(made.exit_code, 0) << words;
+    return made.err;
+  };
+  const std::string fix = "--fix x-low ";
+  for (const auto& [words, expected] : std::vector<std::pair<std::string, std::string>>{
+           {"--load x-high:1N", "nothing holds the part: --fix WHERE"},
+           {fix, "nothing loads the part"},
+           {"--fix x-lo --load x-high:1N", "did you mean 'x-low'"},
+           {fix + "--load x-high:5", "write WHERE:50N"},
+           {fix + "--load x-high:5furlong", "write WHERE:50N"},
+           {fix + "--load x-high:1Nm", "along which axis"},
+           {fix + "--load x-high:1N:up", "'up' is no direction"},
+           {fix + "--load x-high:1MPa:-y", "a pressure acts inward"},
+           {fix + "--load box=1,2,3:1N", "write box=X,Y,Z,X,Y,Z"},
+           {"--fix box=200,0,0,300,1,1 --load x-high:1N", "misses bar.obj"},
+           {fix + "--load x-high:1N --unit parsec", "no unit of length"},
+           {"--fix x-low:slide --load x-high:1N:-y", "free to move"},
+           {fix + "--load x-high:1N --safety -1", "has to be above 0"}}) {
+    const std::string said = message(words);
+    EXPECT_NE(said.find(expected), std::string::npos) << words << "\n" << said;
+  }
+  const ProgramRun large = run("bar.obj --fix x-low --load x-high:1N --unit km");
+  EXPECT_NE(large.err.find("1e+05 m long if its unit is km; --unit mm would make it 10 cm"), std::string::npos)
+      << large.err;
+}
+
+TEST(FindFace, IsFlatOrGoesRoundACurve) {
+  const SurfaceMesh tube = mapped_block({4, 48, 1}, [](const Vec3& at) -> Vec3 {
+    const double angle = at.y() * std::numbers::pi / 2;
+    return {(2 + at.x()) * std::cos(angle), (2 + at.x()) * std::sin(angle), at.z()};
+  });
+  const auto count_at = [&](const std::string& side) {
+    for (const Part& part : tube.parts) {
+      if (part.name != side) continue;
+      return std::pair(int(find_face(tube.positions, tube.triangles, part.first_triangle).size()), part.triangle_count);
+    }
+    return std::pair(0, -1);
+  };
+  for (const char* side : {"x-low", "x-high", "y-low", "y-high", "z-low", "z-high"}) {
+    const auto [found, all] = count_at(side);
+    EXPECT_EQ(found, all) << side;
+  }
+}
+
+}  // namespace
+}  // namespace sprung
