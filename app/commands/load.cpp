@@ -6,13 +6,17 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/options.h"
+#include "app/film/film_output.h"
 #include "app/load/load_answer_text.h"
+#include "app/load/load_picture.h"
 #include "app/load/part_answer.h"
+#include "app/load/part_modes.h"
 #include "app/scene/resting_pose.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/text.h"
 #include "core/units.h"
+#include "render/image/png.h"
 
 namespace sprung {
 namespace {
@@ -32,6 +36,11 @@ struct LoadOptions {
   std::string deflection_limit;
   std::string safety;
   SettingOptions keys;
+  std::filesystem::path folder;  // empty: none
+  std::string modes;
+  bool buckling = false;
+  bool turntable = false;
+  bool overwrite = false;
   bool json = false;
   bool csv = false;
 };
@@ -154,6 +163,57 @@ bool is_small(const LoadOptions& options, const LoadPart& part, const LoadCase& 
   return false;
 }
 
+constexpr int kTurntableFrames = 96;
+constexpr double kTurntableRate = 24;  // frames/s
+
+/// What goes into the folder.
+struct LoadFiles {
+  std::filesystem::path folder;
+  bool turntable;
+
+  [[nodiscard]] std::vector<std::filesystem::path> all() const {
+    std::vector<std::filesystem::path> files{folder / "load.png", folder / "load.json", folder / "load.csv"};
+    if (turntable) files.push_back(folder / "load.mp4");
+    return files;
+  }
+};
+
+LoadFiles files_of(const LoadOptions& options) {
+  LoadFiles files{options.folder, options.turntable};
+  if (files.folder.empty()) {
+    if (options.turntable) throw Error(ErrorKind::kUsage, "--turntable goes to a folder: -o folder/");
+    return files;
+  }
+  check_folder_name(options.folder.string(), {}, "give a folder");
+  for (const std::filesystem::path& file : files.all()) refuse_existing(file, options.overwrite);
+  check_writable(files.all().front());
+  return files;
+}
+
+void write_turntable(LoadPicture& picture, const std::filesystem::path& file, const Console& console) {
+  Progress progress(console, "turntable", kTurntableFrames);
+  std::optional<PictureWriter> writer;
+  for (int frame = 0; frame < kTurntableFrames; ++frame) {
+    console.check_interrupt();
+    Image image = picture.draw_turned(360.0 * frame / kTurntableFrames);
+    if (!writer) writer.emplace(std::vector{parse_output(file.string())}, image.width, image.height, kTurntableRate);
+    writer->write({.image = std::move(image)});
+    progress.update(frame + 1);
+  }
+  writer->close();
+  progress.finish(fmt::format("{} pictures", kTurntableFrames));
+}
+
+void write_files(const LoadFiles& files, const PartReport& report, const PartSolution& solution,
+                 const Console& console) {
+  make_folder(files.folder);
+  write_file(files.folder / "load.json", json_of(report));
+  write_file(files.folder / "load.csv", csv_of(report));
+  LoadPicture picture(report, solution);
+  write_png(picture.draw(), files.folder / "load.png");
+  if (files.turntable) write_turntable(picture, files.folder / "load.mp4", console);
+}
+
 void load_part(const CLI::App& command, const LoadOptions& options, Invocation& invocation) {
   const Console& console = invocation.console;
   require_input(command, options.input, "a mesh");
@@ -161,6 +221,8 @@ void load_part(const CLI::App& command, const LoadOptions& options, Invocation& 
   const PartLimits limits{
       .displacement = limit_from("--deflection-limit", options.deflection_limit, Dimension::kLength),
       .safety = limit_from("--safety", options.safety, Dimension::kNone)};
+  const int modes = count_in("--modes", options.modes);
+  const LoadFiles files = files_of(options);
   Film scene;
   const LoadPart part = read_part(options, scene, console);
   check_size(part, console);
@@ -168,11 +230,15 @@ void load_part(const CLI::App& command, const LoadOptions& options, Invocation& 
   const bool is_linear = is_small(options, part, loads, console);
   const PartBricks bricks = bricks_for(part, is_linear);
   const std::vector<PartSolution> solutions = solve_part(part, loads, bricks, is_linear, console);
-  const PartAnswer answer = answer_of(solutions, part, loads, bricks);
+  PartAnswer answer = answer_of(solutions, part, loads, bricks);
+  if (modes > 0) answer.frequencies = frequencies_of(solutions, modes, console);
+  answer.has_buckling = options.buckling;
+  if (options.buckling) answer.buckling_factor = buckling_factor_of(solutions, console);
   const LibraryMaterial* known = scene.library->find_if_known(part.body.material.name);
   const PartVerdict verdict = judge(answer, known, limits);
   const PartReport report{part, loads, answer, known, verdict, limits};
   fmt::print("{}", options.json ? json_of(report) : options.csv ? csv_of(report) : text_of(report));
+  if (!files.folder.empty()) write_files(files, report, solutions.front(), console);
   if (!verdict.holds) invocation.exit_code = 1;
 }
 
@@ -206,6 +272,13 @@ void add_load(CLI::App& app, Invocation& invocation) {
       ->option_text("0.5mm");
   command->add_option("--safety", options->safety, "exit with 1 where the strength is less than so many stresses")
       ->option_text("2");
+  command->add_option("--modes", options->modes, "also the slowest vibrations of the held part, so many")
+      ->option_text("3");
+  command->add_flag("--buckling", options->buckling, "also the factor of the loads under which it buckles");
+  command->add_option("-o,--output", options->folder, "a folder for load.png, load.json and load.csv")
+      ->option_text("folder/");
+  command->add_flag("--turntable", options->turntable, "also load.mp4, in which the picture turns once");
+  command->add_flag("--overwrite", options->overwrite, "replace files that exist");
   command->add_flag("--json", options->json, "the answers as JSON, SI units");
   command->add_flag("--csv", options->csv, "the answers as CSV, SI units");
   add_messages(*command, invocation.console);
@@ -215,7 +288,7 @@ void add_load(CLI::App& app, Invocation& invocation) {
       "is painted so; or the name of a part or a material of the mesh. --fix and --load may be given several times.\n"
       "Examples:\n"
       "  sprung load bracket.stl --material abs --fix x-low --load y-high:50N:-y\n"
-      "  sprung load plate.stl --material steel --fix x-low --load x-high:2kN:out --safety 2\n"
+      "  sprung load plate.stl --material steel --fix x-low --load x-high:2kN:out --safety 2 -o out/\n"
       "  sprung load hook.3mf --material petg --fix z-high --load face=10,0,4:3kg --load weight --json\n");
   command->callback([options, command, &invocation] { load_part(*command, *options, invocation); });
 }

@@ -54,8 +54,7 @@ std::string vector_text(const Vec3& vector, const char* unit) {
   return fmt::format("({:.4g}, {:.4g}, {:.4g}) {}", number(vector.x()), number(vector.y()), number(vector.z()), unit);
 }
 
-std::string estimate_text(const Estimate& estimate, Dimension dimension) {
-  const std::string value = readable(estimate.value, dimension);
+std::string estimate_text(const Estimate& estimate, const std::string& value) {
   if (!std::isfinite(estimate.error)) return value + " (error unknown: one grid)";
   const double share = std::abs(estimate.error / estimate.value);
   return share < 5e-4 ? value + " +- 0.1 %" : fmt::format("{} +- {:.1f} %", value, 100 * share);
@@ -81,7 +80,7 @@ std::string stress_lines(const PartReport& report) {
   std::string text;
   const auto add = [&](const char* name, const std::optional<Peak>& peak) {
     if (!peak) return;
-    text += fmt::format("{:<12}{} at {}\n", name, estimate_text(*peak, Dimension::kPressure),
+    text += fmt::format("{:<12}{} at {}\n", name, estimate_text(*peak, readable(peak->value, Dimension::kPressure)),
                         place_text(peak->place, report.part));
   };
   add("stress", answer.von_mises);
@@ -98,6 +97,20 @@ std::string stress_lines(const PartReport& report) {
                         place_text(answer.singular[i].place, report.part));
   }
   return text;
+}
+
+std::string mode_lines(const PartAnswer& answer) {
+  std::string text;
+  for (std::size_t mode = 0; mode < answer.frequencies.size(); ++mode) {
+    text +=
+        fmt::format("{:<12}{}: {}\n", mode == 0 ? "vibrates" : "", mode + 1,
+                    estimate_text(answer.frequencies[mode], fmt::format("{:.4g} Hz", answer.frequencies[mode].value)));
+  }
+  if (!answer.has_buckling) return text;
+  if (!answer.buckling_factor) return text + "buckles     never, under loads that act this way\n";
+  return text +
+         fmt::format("{:<12}under {} times the loads\n", "buckles",
+                     estimate_text(*answer.buckling_factor, fmt::format("{:.4g}", answer.buckling_factor->value)));
 }
 
 std::string verdict_lines(const PartReport& report) {
@@ -140,9 +153,10 @@ std::string text_of(const PartReport& report) {
     text += fmt::format("{:<12}{}: holds with {}, {} about {}\n", "fix", reaction.fix, vector_text(reaction.force, "N"),
                         vector_text(reaction.moment, "N m"), place_text(reaction.centre, part));
   }
-  text += fmt::format("{:<12}{} at {}: {}\n", "moves", estimate_text(answer.displacement, Dimension::kLength),
+  text += fmt::format("{:<12}{} at {}: {}\n", "moves",
+                      estimate_text(answer.displacement, readable(answer.displacement.value, Dimension::kLength)),
                       place_text(answer.displacement.place, part), vector_text(1e3 * answer.displacement_vector, "mm"));
-  return text + stress_lines(report) + verdict_lines(report);
+  return text + stress_lines(report) + mode_lines(answer) + verdict_lines(report);
 }
 
 namespace {
@@ -196,6 +210,14 @@ std::string json_of(const PartReport& report) {
     json["singular"].push_back(
         {{"von_mises_Pa", one.stress}, {"place", json_of(one.place)}, {"exponent", one.exponent}});
   }
+  for (const Estimate& frequency : answer.frequencies) {
+    json["frequencies_Hz"].push_back({{"value", frequency.value}, {"error", error_json(frequency.error)}});
+  }
+  if (answer.has_buckling) {
+    json["buckling_factor"] = answer.buckling_factor ? Json{{"value", answer.buckling_factor->value},
+                                                            {"error", error_json(answer.buckling_factor->error)}}
+                                                     : Json(nullptr);
+  }
   json["strength"] =
       verdict.strength.empty() ? Json(nullptr) : Json{{"kind", verdict.strength}, {"value_Pa", verdict.strength_value}};
   json["safety"] = verdict.safety ? Json(*verdict.safety) : Json(nullptr);
@@ -229,6 +251,13 @@ std::string csv_of(const PartReport& report) {
     text += fmt::format("\"reaction_moment_Nm {}\",{},,{},{},{}\n", reaction.fix, moment.norm(), moment.x(), moment.y(),
                         moment.z());
   }
+  const auto estimate = [&](const std::string& name, const Estimate& one) {
+    text += fmt::format("{},{},{},,,\n", name, one.value, std::isfinite(one.error) ? fmt::format("{}", one.error) : "");
+  };
+  for (std::size_t mode = 0; mode < answer.frequencies.size(); ++mode) {
+    estimate(fmt::format("frequency_Hz {}", mode + 1), answer.frequencies[mode]);
+  }
+  if (answer.buckling_factor) estimate("buckling_factor", *answer.buckling_factor);
   if (report.verdict.safety) text += number("safety", *report.verdict.safety);
   return text;
 }

@@ -16,10 +16,13 @@ constexpr double kAround = 1.5;          // bricks of the coarser grid, in which
 constexpr double kLeftOut = 3;           // of its bricks, around a singular place
 constexpr int kMostSingular = 60;        // places; beyond that nothing is resolved
 
-/// 3 |f_1 - f_k| / (r^2 - 1).
+}  // namespace
+
 double convergence_index(double fine, double coarse, double ratio) {
   return kSafetyOfTwoGrids * std::abs(fine - coarse) / (ratio * ratio - 1);
 }
+
+namespace {
 
 /// A scalar on the skins of all grids.
 struct SkinScalar {

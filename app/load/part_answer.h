@@ -49,8 +49,14 @@ struct PartAnswer {
     Vec3 force = Vec3::Zero(), moment = Vec3::Zero();  // N, N m about the centre of the face
     Vec3 centre = Vec3::Zero();                        // in the file
   };
-  std::vector<Reaction> reactions;  // of fixes, then of loads that prescribe a displacement
+  std::vector<Estimate> frequencies;        // Hz, slowest first, where asked for
+  bool has_buckling = false;                // whether that was asked for
+  std::optional<Estimate> buckling_factor;  // of all loads; none: they never make it buckle
+  std::vector<Reaction> reactions;          // of fixes, then of loads that prescribe a displacement
 };
+
+/// 3 |fine - coarse| / (ratio^2 - 1), `ratio` of the bricks.
+[[nodiscard]] double convergence_index(double fine, double coarse, double ratio);
 
 /// Of solutions on ever coarser grids, the finest first. The error of a quantity is bounded by the grid convergence
 /// index, 3 |f_1 - f_k| / ((h_k / h_1)^2 - 1), the largest of all coarser grids k (Roache, J. Fluids Eng. 116 (1994)

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <set>
 
 #include "app/validate/mapped_block.h"
 #include "core/mesh/repair/faces.h"
+#include "render/image/png.h"
 #include "tests/support/run_program.h"
 
 /// `sprung load` against closed forms, on its default bricks.
@@ -57,6 +59,16 @@ std::string quarter_tube_obj() {
 
 double number(const nlohmann::json& json, const std::string& path) {
   return json.at(nlohmann::json::json_pointer(path)).get<double>();
+}
+
+/// A round bar along x, 100 mm long, of 10 mm radius.
+std::string round_bar_obj() {
+  return obj_of(mapped_block({1, 16, 16}, [](const Vec3& at) -> Vec3 {
+    const Eigen::Vector2d square(2 * at.y() - 1, 2 * at.z() - 1);
+    const double largest = square.cwiseAbs().maxCoeff();
+    const Eigen::Vector2d disc = largest > 0 ? Eigen::Vector2d(10 * largest * square.normalized()) : square;
+    return {100 * at.x(), disc.x(), disc.y()};
+  }));
 }
 
 class Load : public testing::Test {
@@ -133,6 +145,47 @@ TEST_F(Load, ThickTubeFollowsLame) {
   const double moved = 10e6 * 0.02 / 200e9 * (k + 0.3);
   EXPECT_NEAR(number(made, "/displacement_m/value"), moved, 0.03 * moved);
   EXPECT_NEAR(number(made, "/largest_principal_Pa/value"), k * 10e6, 0.05 * k * 10e6);
+}
+
+/// theta = T L / (G J), tau = T r / J.
+TEST_F(Load, RoundBarTwistsByItsFormula) {
+  static_cast<void>(folder_.write("round.obj", round_bar_obj()));
+  const nlohmann::json made = answer("round.obj --fix x-low --load x-high:10Nm:+x" + kSteel);
+  const double polar = std::numbers::pi * std::pow(0.01, 4) / 2;
+  const double moved = 10 * 0.1 / (200e9 / 2.6 * polar) * 0.01;
+  EXPECT_NEAR(number(made, "/displacement_m/value"), moved, 0.03 * moved);
+  const double stress = std::sqrt(3.0) * 10 * 0.01 / polar;
+  EXPECT_NEAR(number(made, "/von_mises_Pa/value"), stress, 0.1 * stress);
+}
+
+/// P = pi^2 E I / (2 L)^2; f = 1.8751^2 / (2 pi L^2) sqrt(E I / (rho A)).
+TEST_F(Load, ColumnBucklesLikeEulers) {
+  const nlohmann::json made =
+      answer("bar.obj --brick-size 1mm --fix x-low --load x-high:100N --buckling --modes 2" + kSteel);
+  const double bending = 200e9 * 10e-3 * std::pow(8e-3, 3) / 12;
+  const double expected = std::pow(std::numbers::pi, 2) * bending / (4 * 0.01) / 100;
+  EXPECT_NEAR(number(made, "/buckling_factor/value"), expected, 0.03 * expected);
+  const double frequency = std::pow(1.8751, 2) / (2 * std::numbers::pi * 0.01) * std::sqrt(bending / (7850 * 80e-6));
+  EXPECT_NEAR(number(made, "/frequencies_Hz/0/value"), frequency, 0.03 * frequency);
+  const nlohmann::json pulled =
+      answer("bar.obj --brick-size 2mm --fix x-low --load x-high:100N:out --buckling" + kSteel);
+  EXPECT_TRUE(pulled.at("buckling_factor").is_null() || number(pulled, "/buckling_factor/value") > 100 * expected);
+}
+
+TEST_F(Load, WritesPicturesAndTables) {
+  const ProgramRun made =
+      run("bar.obj --fix x-low --load x-high:100N:-y --bricks 50 --material steel -o out/ --turntable");
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  const Image picture = read_png(folder_.path() / "out" / "load.png");
+  EXPECT_EQ(picture.width, 1600);
+  EXPECT_GT(std::set<std::uint8_t>(picture.pixels.begin(), picture.pixels.end()).size(), 100U);
+  for (const char* name : {"load.json", "load.csv", "load.mp4"}) {
+    EXPECT_GT(std::filesystem::file_size(folder_.path() / "out" / name), 500U) << name;
+  }
+  EXPECT_NE(text_of(folder_.path() / "out" / "load.csv").find("\ndisplacement_m,"), std::string::npos);
+  const ProgramRun again = run("bar.obj --fix x-low --load x-high:100N:-y --bricks 50 -o out/");
+  EXPECT_EQ(again.exit_code, 2);
+  EXPECT_NE(again.err.find("--overwrite"), std::string::npos) << again.err;
 }
 
 TEST_F(Load, LimitsDecideTheExitCode) {

@@ -1,0 +1,67 @@
+#pragma once
+#include <memory>
+
+#include "app/load/load_answer_text.h"
+#include "app/load/symbols.h"
+#include "render/image/image.h"
+#include "render/renderer.h"
+
+namespace sprung {
+
+/// Draws a loaded part: its magnified shape coloured by von Mises stress, a ghost of its rest shape, arrows where loads
+/// act, cones where it is held, and the place of the largest stress.
+class LoadPicture {
+ public:
+  /// `solution`: the finest. All must outlive it.
+  LoadPicture(const PartReport& report, const PartSolution& solution, int width = 1600, int height = 1000);
+
+  /// From the side of the largest stress, as large as it fits.
+  [[nodiscard]] Image draw();
+  /// Turned by some degrees about the vertical from there, as large as fits at any turn.
+  [[nodiscard]] Image draw_turned(double degrees);
+
+  /// By which displacements are drawn.
+  [[nodiscard]] double magnification() const { return magnification_; }
+
+ private:
+  /// A point of a drawn skin.
+  struct Spot {
+    Vec3 place;    // m
+    Vec3 outward;  // unit
+  };
+
+  void add_bodies();
+  void add_supports();
+  void add_loads();
+  void add_worst_place();
+  void add(Skin skin, const Eigen::Vector3f& color, bool is_ghost);
+  /// Spread over what a face is of the skins.
+  [[nodiscard]] std::vector<Spot> spots_on(const PartFace& face) const;
+  /// From far away, `viewer` (unit) being the direction to there.
+  [[nodiscard]] bool is_seen(const Spot& spot, const Vec3& viewer) const;
+  void choose_direction();
+  /// Sees everything, at any turn about the vertical, or at none.
+  [[nodiscard]] Camera framed(bool turns) const;
+  [[nodiscard]] Image draw(const Camera& camera);
+  void write_labels(Image& image, const Camera& camera) const;
+
+  const PartReport& report_;
+  const PartSolution& solution_;
+  int width_;
+  int height_;
+  double magnification_ = 1;
+  double highest_ = 0;           // Pa, of the last colour
+  double longest_ = 0;           // m, side of the part
+  std::vector<Points> drawn_;    // by body: skin vertices as drawn, m
+  std::vector<Points> at_rest_;  // by body: in the frame of LoadedBody, m
+  std::vector<Skin> skins_;      // of the stage
+  std::vector<SkinShape> shapes_;
+  Stage stage_;
+  double azimuth_ = 0;    // degrees
+  double elevation_ = 0;  // degrees
+  Vec3 middle_ = Vec3::Zero();
+  std::optional<Spot> worst_;
+  std::unique_ptr<Renderer> renderer_;
+};
+
+}  // namespace sprung
