@@ -30,6 +30,7 @@ struct LoadOptions {
   std::string input;
   std::vector<std::string> fixes;
   std::vector<std::string> loads;
+  std::vector<std::string> points;
   std::string unit;
   std::string up;
   std::string analysis = "auto";
@@ -124,7 +125,7 @@ void check_case(const LoadOptions& options) {
   }
 }
 
-constexpr double kMostBricks = 200000;    // of the finest grid, by default: some seconds
+constexpr double kMostBricks = 250000;    // of the finest grid, by default: some seconds
 constexpr double kMostNonlinear = 60000;  // where each takes some ten solves
 
 PartBricks bricks_for(const LoadPart& part, bool linear) {
@@ -221,6 +222,8 @@ void load_part(const CLI::App& command, const LoadOptions& options, Invocation& 
   const PartLimits limits{
       .displacement = limit_from("--deflection-limit", options.deflection_limit, Dimension::kLength),
       .safety = limit_from("--safety", options.safety, Dimension::kNone)};
+  std::vector<Vec3> points;
+  for (const std::string& text : options.points) points.push_back(point_from("--at", text));
   const int modes = count_in("--modes", options.modes);
   const LoadFiles files = files_of(options);
   Film scene;
@@ -231,6 +234,7 @@ void load_part(const CLI::App& command, const LoadOptions& options, Invocation& 
   const PartBricks bricks = bricks_for(part, is_linear);
   const std::vector<PartSolution> solutions = solve_part(part, loads, bricks, is_linear, console);
   PartAnswer answer = answer_of(solutions, part, loads, bricks);
+  answer.points = answers_at(points, solutions, part);
   if (modes > 0) answer.frequencies = frequencies_of(solutions, modes, console);
   answer.has_buckling = options.buckling;
   if (options.buckling) answer.buckling_factor = buckling_factor_of(solutions, console);
@@ -272,6 +276,9 @@ void add_load(CLI::App& app, Invocation& invocation) {
       ->option_text("0.5mm");
   command->add_option("--safety", options->safety, "exit with 1 where the strength is less than so many stresses")
       ->option_text("2");
+  command->add_option("--at", options->points, "also displacement and stress at this point of the file")
+      ->allow_extra_args(false)
+      ->option_text("X,Y,Z");
   command->add_option("--modes", options->modes, "also the slowest vibrations of the held part, so many")
       ->option_text("3");
   command->add_flag("--buckling", options->buckling, "also the factor of the loads under which it buckles");

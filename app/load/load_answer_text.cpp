@@ -99,6 +99,16 @@ std::string stress_lines(const PartReport& report) {
   return text;
 }
 
+std::string point_lines(const PartReport& report) {
+  std::string text;
+  for (const PointAnswer& point : report.answer.points) {
+    text += fmt::format("{:<12}{}: moves {}, stress {}\n", "at", place_text(point.place, report.part),
+                        vector_text(1e3 * point.displacement, "mm"),
+                        estimate_text(point.von_mises, readable(point.von_mises.value, Dimension::kPressure)));
+  }
+  return text;
+}
+
 std::string mode_lines(const PartAnswer& answer) {
   std::string text;
   for (std::size_t mode = 0; mode < answer.frequencies.size(); ++mode) {
@@ -156,7 +166,7 @@ std::string text_of(const PartReport& report) {
   text += fmt::format("{:<12}{} at {}: {}\n", "moves",
                       estimate_text(answer.displacement, readable(answer.displacement.value, Dimension::kLength)),
                       place_text(answer.displacement.place, part), vector_text(1e3 * answer.displacement_vector, "mm"));
-  return text + stress_lines(report) + mode_lines(answer) + verdict_lines(report);
+  return text + stress_lines(report) + point_lines(report) + mode_lines(answer) + verdict_lines(report);
 }
 
 namespace {
@@ -210,6 +220,13 @@ std::string json_of(const PartReport& report) {
     json["singular"].push_back(
         {{"von_mises_Pa", one.stress}, {"place", json_of(one.place)}, {"exponent", one.exponent}});
   }
+  for (const PointAnswer& point : answer.points) {
+    json["points"].push_back(
+        {{"place", json_of(point.place)},
+         {"displacement_m", json_of(point.displacement)},
+         {"von_mises_Pa", {{"value", point.von_mises.value}, {"error", error_json(point.von_mises.error)}}},
+         {"stress_xx_yy_zz_xy_yz_zx_Pa", std::vector<double>(point.stress.begin(), point.stress.end())}});
+  }
   for (const Estimate& frequency : answer.frequencies) {
     json["frequencies_Hz"].push_back({{"value", frequency.value}, {"error", error_json(frequency.error)}});
   }
@@ -250,6 +267,11 @@ std::string csv_of(const PartReport& report) {
                         force.z());
     text += fmt::format("\"reaction_moment_Nm {}\",{},,{},{},{}\n", reaction.fix, moment.norm(), moment.x(), moment.y(),
                         moment.z());
+  }
+  for (const PointAnswer& point : answer.points) {
+    peak("von_mises_Pa at", {{.value = point.von_mises.value, .error = point.von_mises.error}, point.place});
+    peak("displacement_m at",
+         {{.value = point.displacement.norm(), .error = std::numeric_limits<double>::infinity()}, point.place});
   }
   const auto estimate = [&](const std::string& name, const Estimate& one) {
     text += fmt::format("{},{},{},,,\n", name, one.value, std::isfinite(one.error) ? fmt::format("{}", one.error) : "");

@@ -126,6 +126,14 @@ void add_pieces(const Solid& solid, const std::vector<SkinPiece>& pieces, PartFa
 
 }  // namespace
 
+Vec3 point_from(std::string_view option, const std::string& text) {
+  const std::vector<double> numbers = numbers_in(text, 3);
+  if (numbers.empty()) {
+    throw Error(ErrorKind::kUsage, fmt::format("{} '{}': write X,Y,Z, numbers in the unit of the file", option, text));
+  }
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
 PartFace find_face(const LoadPart& part, const std::string& text) {
   PartFace face{.name = text, .selection = selection_from(part, text)};
   const std::string& name = face.selection.part;

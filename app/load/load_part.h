@@ -34,6 +34,9 @@ struct PartFace {
   Vec3 outward = Vec3::Zero();  // mean of its unit normals, so that a flat face has length 1; in the axes of the file
 };
 
+/// "X,Y,Z". Throws Error(kUsage) naming the option.
+[[nodiscard]] Vec3 point_from(std::string_view option, const std::string& text);
+
 /// The face that a text means: "x-low" ... "z-high" (sides of the bounding box), "face=X,Y,Z" (the face nearest to a
 /// point), "box=X,Y,Z,X,Y,Z", "ball=X,Y,Z,R" (what of the skin lies in them; units of the file), "#rrggbb" (painted),
 /// or the name of a part or a material of the mesh. Throws Error(kUsage) naming what it is, and what there is instead.

@@ -1,11 +1,14 @@
 #include "app/load/part_answer.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
+#include "core/error.h"
 #include "core/mesh/repair/faces.h"
 
 namespace sprung {
@@ -201,6 +204,53 @@ PartAnswer answer_of(const std::vector<PartSolution>& solutions, const LoadPart&
   if (answer.compression) answer.compression->value *= -1;
   answer.reactions = reactions_of(solutions.front(), part, loads);
   return answer;
+}
+
+namespace {
+
+/// At a point in the frame of LoadedBody, of one grid; none where it is in none of the bricks.
+std::optional<PointAnswer> answer_at(const Vec3& place, const PartSolution& solution, const LoadPart& part) {
+  for (const SoftBody& body : solution.simulation.world.bodies) {
+    const Embedding seat = embed(body.grid, place.transpose());
+    if (seat.outside > 0) continue;
+    const auto& nodes = body.grid.nodes[std::size_t(seat.brick[0])];
+    const StressTensors corners = recover_stress(body, body.positions, {nodes.begin(), nodes.end()},
+                                                 solution.is_linear ? StrainMeasure::kSmall : StrainMeasure::kFinite);
+    StressTensors stress(1, 6);
+    stress.row(0) = (corners.transpose() * trilinear_weights(seat.local.row(0))).transpose();
+    stress = turned_back(std::move(stress), part.world_from_file);
+    const Points moved = deform_points(body.grid, seat, body.positions - body.rest_positions) * part.world_from_file;
+    return PointAnswer{.displacement = moved.row(0).transpose(),
+                       .stress = stress.row(0).transpose(),
+                       .von_mises = {.value = von_mises(stress)[0]}};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<PointAnswer> answers_at(const std::vector<Vec3>& points, const std::vector<PartSolution>& solutions,
+                                    const LoadPart& part) {
+  std::vector<PointAnswer> answers;
+  for (const Vec3& point : points) {
+    const Vec3 place = part.rest_from_file(point);
+    std::optional<PointAnswer> answer = answer_at(place, solutions.front(), part);
+    if (!answer) {
+      throw Error(ErrorKind::kUsage, fmt::format("--at {:g},{:g},{:g}: the point is not in {}", point.x(), point.y(),
+                                                 point.z(), part.loaded.name));
+    }
+    answer->place = point;
+    answer->von_mises.error = solutions.size() == 1 ? std::numeric_limits<double>::infinity() : 0;
+    for (std::size_t grid = 1; grid < solutions.size(); ++grid) {
+      const std::optional<PointAnswer> coarse = answer_at(place, solutions[grid], part);
+      if (!coarse) continue;
+      answer->von_mises.error = std::max(answer->von_mises.error,
+                                         convergence_index(answer->von_mises.value, coarse->von_mises.value,
+                                                           solutions[grid].brick_size / solutions.front().brick_size));
+    }
+    answers.push_back(*answer);
+  }
+  return answers;
 }
 
 }  // namespace sprung

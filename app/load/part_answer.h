@@ -26,6 +26,14 @@ struct SingularPlace {
   double exponent = 0;        // a of stress ~ size^-a
 };
 
+/// At a point that was asked for. In the axes of the file.
+struct PointAnswer {
+  Vec3 place = Vec3::Zero();                                                 // in the file
+  Vec3 displacement = Vec3::Zero();                                          // m
+  Eigen::Matrix<double, 6, 1> stress = Eigen::Matrix<double, 6, 1>::Zero();  // xx, yy, zz, xy, yz, zx, Pa
+  Estimate von_mises;                                                        // Pa
+};
+
 /// What a part does under its loads. SI; vectors in the axes of the file, places in the file.
 struct PartAnswer {
   Vec3 extent = Vec3::Zero();  // m
@@ -42,6 +50,8 @@ struct PartAnswer {
   std::optional<Peak> tension;              // Pa, the largest principal stress
   std::optional<Peak> compression;          // Pa, the least principal stress, negative
   std::vector<SingularPlace> singular;      // of von Mises, that are above the largest away from them
+
+  std::vector<PointAnswer> points;  // as asked for
 
   struct Reaction {
     std::string fix;
@@ -64,6 +74,10 @@ struct PartAnswer {
 /// faster from the coarsest grid to the finest; what lies within three of its bricks of such a place is left out.
 [[nodiscard]] PartAnswer answer_of(const std::vector<PartSolution>& solutions, const LoadPart& part,
                                    const LoadCase& loads, const PartBricks& bricks);
+
+/// Displacement and stress at points of the file. Throws Error(kUsage) for one that is not in the part.
+[[nodiscard]] std::vector<PointAnswer> answers_at(const std::vector<Vec3>& points,
+                                                  const std::vector<PartSolution>& solutions, const LoadPart& part);
 
 inline constexpr double kSingular = 0.2;
 

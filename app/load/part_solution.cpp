@@ -82,6 +82,16 @@ Points part_from_world(const PartSolution& solution, const LoadPart& part, const
   return (points.rowwise() - box.center().transpose()) * part.world_from_file;
 }
 
+StressTensors turned_back(StressTensors stresses, const Mat3& world_from_file) {
+  for (auto stress : stresses.rowwise()) {
+    Mat3 tensor;
+    tensor << stress[0], stress[3], stress[5], stress[3], stress[1], stress[4], stress[5], stress[4], stress[2];
+    const Mat3 here = world_from_file.transpose() * tensor * world_from_file;
+    stress << here(0, 0), here(1, 1), here(2, 2), here(0, 1), here(1, 2), here(2, 0);
+  }
+  return stresses;
+}
+
 PartSkin skin_of(const PartSolution& solution, const LoadPart& part) {
   const std::vector<SoftBody>& bodies = solution.simulation.world.bodies;
   long count = 0;
@@ -100,12 +110,7 @@ PartSkin skin_of(const PartSolution& solution, const LoadPart& part) {
     skin.stresses.middleRows(row, rows) = stress_at(body.grid, body.skin_embedding, of_nodes);
     row += rows;
   }
-  for (auto stress : skin.stresses.rowwise()) {
-    Mat3 tensor;
-    tensor << stress[0], stress[3], stress[5], stress[3], stress[1], stress[4], stress[5], stress[4], stress[2];
-    const Mat3 here = turned.transpose() * tensor * turned;
-    stress << here(0, 0), here(1, 1), here(2, 2), here(0, 1), here(1, 2), here(2, 0);
-  }
+  skin.stresses = turned_back(std::move(skin.stresses), part.world_from_file);
   return skin;
 }
 

@@ -40,6 +40,9 @@ struct PartSkin {
 /// Points of the world (n x 3, m) of a solution at rest, in the frame of LoadedBody.
 [[nodiscard]] Points part_from_world(const PartSolution& solution, const LoadPart& part, const Points& points);
 
+/// Stresses in the axes of the world, in those of the file.
+[[nodiscard]] StressTensors turned_back(StressTensors stresses, const Mat3& world_from_file);
+
 [[nodiscard]] PartSkin skin_of(const PartSolution& solution, const LoadPart& part);
 
 }  // namespace sprung
