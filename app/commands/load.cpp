@@ -8,12 +8,14 @@
 #include "app/commands/options.h"
 #include "app/film/film_output.h"
 #include "app/load/load_answer_text.h"
+#include "app/load/load_page.h"
 #include "app/load/load_picture.h"
 #include "app/load/part_answer.h"
 #include "app/load/part_modes.h"
 #include "app/scene/resting_pose.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "core/io/xdmf.h"
 #include "core/text.h"
 #include "core/units.h"
 #include "render/image/png.h"
@@ -173,7 +175,8 @@ struct LoadFiles {
   bool turntable;
 
   [[nodiscard]] std::vector<std::filesystem::path> all() const {
-    std::vector<std::filesystem::path> files{folder / "load.png", folder / "load.json", folder / "load.csv"};
+    std::vector<std::filesystem::path> files{folder / "load.png",  folder / "load.json", folder / "load.csv",
+                                             folder / "load.html", folder / "load.xdmf", folder / "load.xdmf.h5"};
     if (turntable) files.push_back(folder / "load.mp4");
     return files;
   }
@@ -205,13 +208,34 @@ void write_turntable(LoadPicture& picture, const std::filesystem::path& file, co
   progress.finish(fmt::format("{} pictures", kTurntableFrames));
 }
 
-void write_files(const LoadFiles& files, const PartReport& report, const PartSolution& solution,
+/// The rest shape and the loaded one, for ParaView.
+void write_xdmf(const PartSolution& solution, const std::filesystem::path& file) {
+  const World& world = solution.simulation.world;
+  XdmfWriter writer(file, world, solution.is_linear ? StrainMeasure::kSmall : StrainMeasure::kFinite);
+  std::vector<Points> rest;
+  std::vector<Points> loaded;
+  std::vector<Points> velocities;
+  for (const SoftBody& body : world.bodies) {
+    rest.push_back(body.rest_positions);
+    loaded.push_back(body.positions);
+    velocities.push_back(Points::Zero(body.node_count(), 3));
+  }
+  writer.add_frame(0, rest, velocities);
+  writer.add_frame(1, loaded, velocities);
+  writer.close();
+}
+
+void write_files(const LoadFiles& files, const PartReport& report, const std::vector<PartSolution>& solutions,
                  const Console& console) {
+  const PartSolution& solution = solutions.front();
   make_folder(files.folder);
   write_file(files.folder / "load.json", json_of(report));
   write_file(files.folder / "load.csv", csv_of(report));
   LoadPicture picture(report, solution);
-  write_png(picture.draw(), files.folder / "load.png");
+  const Image image = picture.draw();
+  write_png(image, files.folder / "load.png");
+  write_file(files.folder / "load.html", load_page(report, solutions.back(), image, picture.magnification()));
+  write_xdmf(solution, files.folder / "load.xdmf");
   if (files.turntable) write_turntable(picture, files.folder / "load.mp4", console);
 }
 
@@ -242,7 +266,7 @@ void load_part(const CLI::App& command, const LoadOptions& options, Invocation& 
   const PartVerdict verdict = judge(answer, known, limits);
   const PartReport report{part, loads, answer, known, verdict, limits};
   fmt::print("{}", options.json ? json_of(report) : options.csv ? csv_of(report) : text_of(report));
-  if (!files.folder.empty()) write_files(files, report, solutions.front(), console);
+  if (!files.folder.empty()) write_files(files, report, solutions, console);
   if (!verdict.holds) invocation.exit_code = 1;
 }
 
@@ -282,7 +306,9 @@ void add_load(CLI::App& app, Invocation& invocation) {
   command->add_option("--modes", options->modes, "also the slowest vibrations of the held part, so many")
       ->option_text("3");
   command->add_flag("--buckling", options->buckling, "also the factor of the loads under which it buckles");
-  command->add_option("-o,--output", options->folder, "a folder for load.png, load.json and load.csv")
+  command
+      ->add_option("-o,--output", options->folder,
+                   "a folder for load.png, load.html, load.json, load.csv and load.xdmf (ParaView)")
       ->option_text("folder/");
   command->add_flag("--turntable", options->turntable, "also load.mp4, in which the picture turns once");
   command->add_flag("--overwrite", options->overwrite, "replace files that exist");

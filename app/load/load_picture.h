@@ -13,7 +13,7 @@ namespace sprung {
 class LoadPicture {
  public:
   /// `solution`: the finest. All must outlive it.
-  LoadPicture(const PartReport& report, const PartSolution& solution, int width = 1600, int height = 1000);
+  LoadPicture(const PartReport& report, const PartSolution& solution, int width = 1600, int height = 900);
 
   /// From the side of the largest stress, as large as it fits.
   [[nodiscard]] Image draw();

@@ -179,7 +179,7 @@ TEST_F(Load, WritesPicturesAndTables) {
   const Image picture = read_png(folder_.path() / "out" / "load.png");
   EXPECT_EQ(picture.width, 1600);
   EXPECT_GT(std::set<std::uint8_t>(picture.pixels.begin(), picture.pixels.end()).size(), 100U);
-  for (const char* name : {"load.json", "load.csv", "load.mp4"}) {
+  for (const char* name : {"load.json", "load.csv", "load.html", "load.xdmf", "load.xdmf.h5", "load.mp4"}) {
     EXPECT_GT(std::filesystem::file_size(folder_.path() / "out" / name), 500U) << name;
   }
   EXPECT_NE(text_of(folder_.path() / "out" / "load.csv").find("\ndisplacement_m,"), std::string::npos);

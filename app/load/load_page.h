@@ -1,0 +1,14 @@
+#pragma once
+#include <string>
+
+#include "app/load/load_answer_text.h"
+#include "render/image/image.h"
+
+namespace sprung {
+
+/// A page by itself, for any browser: the answers as a table, the picture, and the shape of a (coarse) solution,
+/// coloured by von Mises stress, which grows from rest to `magnification` times its displacements and can be turned.
+[[nodiscard]] std::string load_page(const PartReport& report, const PartSolution& coarse, const Image& picture,
+                                    double magnification);
+
+}  // namespace sprung
