@@ -10,9 +10,7 @@
 #include "app/load/load_answer_text.h"
 #include "app/load/load_page.h"
 #include "app/load/load_picture.h"
-#include "app/load/part_answer.h"
-#include "app/load/part_modes.h"
-#include "app/scene/resting_pose.h"
+#include "app/load/part_study.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/io/xdmf.h"
@@ -22,10 +20,6 @@
 
 namespace sprung {
 namespace {
-
-constexpr const char* kUsualMaterial = "abs";
-constexpr double kLargeDisplacement = 0.1;  // of the longest side, where small ones are 1 % off in a cantilever
-constexpr double kFewBricks = 10000;
 
 /// As typed.
 struct LoadOptions {
@@ -55,88 +49,31 @@ bool is_of_part(const KeyOption& key) {
   return std::find(kKeys.begin(), kKeys.end(), key.option) != kKeys.end();
 }
 
-struct FileUnit {
-  std::string name;
-  bool is_guess = false;
-};
-
-/// glTF is in metres by its specification; CAD and printing are in millimetres.
-FileUnit usual_unit(const std::filesystem::path& file) {
-  const std::string extension = lower_extension(file);
-  if (extension == ".gltf" || extension == ".glb") return {"m", false};
-  return {"mm", extension != ".3mf"};
-}
-
-/// The part with its material and size.
-LoadPart read_part(const LoadOptions& options, Film& scene, const Console& console) {
+/// The part as the options have it; usually of kUsualPartMaterial.
+Film scene_of(const LoadOptions& options, const Console& console) {
   SceneRequest request{.input = options.input, .settings = options.keys.settings()};
-  const auto is_given = [&](std::string_view key) {
-    return std::any_of(request.settings.begin(), request.settings.end(),
-                       [&](const Setting& setting) { return setting.key == key; });
-  };
-  if (!is_given("body.material"))
-    request.settings.insert(request.settings.begin(), {"", "body.material", kUsualMaterial});
-  scene = make_part_scene(request);
-  LoadPart part{.body = scene.bodies[0]};
-  const FileUnit usual = usual_unit(options.input);
-  part.unit_name = options.unit.empty() ? usual.name : options.unit;
-  try {
-    part.unit = parse_quantity("1" + part.unit_name, Dimension::kLength);
-  } catch (const Error&) {
-    throw Error(ErrorKind::kUsage, fmt::format("--unit: '{}' is no unit of length; mm, cm, m, in, ...", options.unit));
-  }
-  if (part.body.size && !options.unit.empty()) throw Error(ErrorKind::kUsage, "give --unit or --size, not both");
-  if (!part.body.size) part.body.scale = part.unit;
-  const UpAxis up = options.up.empty() || options.up == "auto" ? usual_up(options.input)
-                    : options.up == "z"                        ? UpAxis::kZ
-                                                               : UpAxis::kY;
-  if (up == UpAxis::kZ) part.body.rotation = Vec3(-90, 0, 0);
-  part.world_from_file = rotation_matrix(part.body.rotation);
-  part.loaded = load_body(part.body, console);
-  if (part.body.size)
-    part.unit = part.loaded.extent.norm() / (part.loaded.file_from_rest.linear() * part.loaded.extent).norm();
-  if (!is_given("body.material"))
-    console.note(fmt::format("material: {}; --material NAME for another", kUsualMaterial));
-  if (usual.is_guess && options.unit.empty() && !part.body.size) {
-    console.note(fmt::format("unit: {} is taken to be in mm, {}; --unit cm, m, in for another", part.loaded.name,
-                             sides_text(part.loaded.extent)));
-  }
-  return part;
+  const bool has_material = std::any_of(request.settings.begin(), request.settings.end(), [](const Setting& setting) {
+    return setting.key.starts_with("body.material");
+  });
+  const bool is_named = std::any_of(request.settings.begin(), request.settings.end(),
+                                    [](const Setting& setting) { return setting.key == "body.material"; });
+  if (!is_named) request.settings.insert(request.settings.begin(), {"", "body.material", kUsualPartMaterial});
+  if (!has_material) console.note(fmt::format("material: {}; --material NAME for another", kUsualPartMaterial));
+  return make_part_scene(request);
 }
 
-void check_size(const LoadPart& part, const Console& console) {
-  const double longest = part.loaded.extent.maxCoeff();
-  if (longest > 1e3 || longest < 1e-6) {
-    throw Error(ErrorKind::kUsage,
-                fmt::format("{} is {:.4g} m long if its unit is {}; --unit mm would make it {}", part.loaded.name,
-                            longest, part.unit_name, readable(longest / part.unit * 1e-3, Dimension::kLength)));
-  }
-  if (longest < 100 && longest > 1e-4) return;
-  console.warn(fmt::format("{} is {} long in {}: is that its unit? --unit mm, cm, m, in", part.loaded.name,
-                           readable(longest, Dimension::kLength), part.unit_name));
-}
-
-void check_case(const LoadOptions& options) {
-  if (options.fixes.empty()) {
-    throw Error(ErrorKind::kUsage,
-                "nothing holds the part: --fix WHERE, one of x-low, x-high, y-low, y-high, z-low, z-high, "
-                "face=X,Y,Z, or the name of a part of the mesh");
-  }
-  if (options.loads.empty()) {
-    throw Error(ErrorKind::kUsage, "nothing loads the part: --load WHERE:50N, --load y-high:2MPa, --load weight");
-  }
-}
-
-constexpr double kMostBricks = 250000;    // of the finest grid, by default: some seconds
-constexpr double kMostNonlinear = 60000;  // where each takes some ten solves
-
-PartBricks bricks_for(const LoadPart& part, bool linear) {
-  const double longest = part.loaded.extent.maxCoeff();
-  if (part.body.brick_size) return part_bricks_from(part.loaded, *part.body.brick_size);
-  if (part.body.bricks && !part.body.bricks->is_auto()) {
-    return part_bricks_from(part.loaded, longest / part.body.bricks->along);
-  }
-  return choose_part_bricks(part.loaded, linear ? kMostBricks : kMostNonlinear);
+PartQuestion question_of(const LoadOptions& options, const SceneBody& body) {
+  PartQuestion question{.body = body,
+                        .unit = options.unit,
+                        .is_z_up = options.up == "z" || (options.up != "y" && usual_up(options.input) == UpAxis::kZ),
+                        .fixes = options.fixes,
+                        .loads = options.loads,
+                        .modes = count_in("--modes", options.modes),
+                        .buckling = options.buckling};
+  for (const std::string& text : options.points) question.points.push_back(point_from("--at", text));
+  if (options.analysis == "linear") question.analysis = PartAnalysis::kLinear;
+  if (options.analysis == "nonlinear") question.analysis = PartAnalysis::kNonlinear;
+  return question;
 }
 
 /// A positive value of an option; none where it is not given. Throws Error(kUsage).
@@ -149,21 +86,6 @@ std::optional<double> limit_from(const char* option, const std::string& text, Di
     throw Error(ErrorKind::kUsage, fmt::format("{}: {}", option, error.what()));
   }
   throw Error(ErrorKind::kUsage, fmt::format("{}: '{}' has to be above 0", option, text));
-}
-
-/// Whether small displacements are meant, or, by the coarsest grid, do.
-bool is_small(const LoadOptions& options, const LoadPart& part, const LoadCase& loads, const Console& console) {
-  if (options.analysis != "auto") return options.analysis == "linear";
-  PartBricks coarse = choose_part_bricks(part.loaded, kFewBricks);
-  coarse.sizes = {coarse.sizes.back()};
-  const PartAnswer answer = answer_of(solve_part(part, loads, coarse, true, Observer()), part, loads, coarse);
-  const double share = answer.displacement.value / answer.extent.maxCoeff();
-  if (share < kLargeDisplacement) return true;
-  console.note(
-      fmt::format("the part moves by some {}, {:.2g} % of its length: solved for large displacements; "
-                  "--analysis linear for small ones",
-                  readable(answer.displacement.value, Dimension::kLength), 100 * share));
-  return false;
 }
 
 constexpr int kTurntableFrames = 96;
@@ -242,31 +164,17 @@ void write_files(const LoadFiles& files, const PartReport& report, const std::ve
 void load_part(const CLI::App& command, const LoadOptions& options, Invocation& invocation) {
   const Console& console = invocation.console;
   require_input(command, options.input, "a mesh");
-  check_case(options);
   const PartLimits limits{
       .displacement = limit_from("--deflection-limit", options.deflection_limit, Dimension::kLength),
       .safety = limit_from("--safety", options.safety, Dimension::kNone)};
-  std::vector<Vec3> points;
-  for (const std::string& text : options.points) points.push_back(point_from("--at", text));
-  const int modes = count_in("--modes", options.modes);
   const LoadFiles files = files_of(options);
-  Film scene;
-  const LoadPart part = read_part(options, scene, console);
-  check_size(part, console);
-  const LoadCase loads = parse_load_case(options.fixes, options.loads, part);
-  const bool is_linear = is_small(options, part, loads, console);
-  const PartBricks bricks = bricks_for(part, is_linear);
-  const std::vector<PartSolution> solutions = solve_part(part, loads, bricks, is_linear, console);
-  PartAnswer answer = answer_of(solutions, part, loads, bricks);
-  answer.points = answers_at(points, solutions, part);
-  if (modes > 0) answer.frequencies = frequencies_of(solutions, modes, console);
-  answer.has_buckling = options.buckling;
-  if (options.buckling) answer.buckling_factor = buckling_factor_of(solutions, console);
-  const LibraryMaterial* known = scene.library->find_if_known(part.body.material.name);
-  const PartVerdict verdict = judge(answer, known, limits);
-  const PartReport report{part, loads, answer, known, verdict, limits};
+  const Film scene = scene_of(options, console);
+  const PartStudy study = study_part(question_of(options, scene.bodies[0]), console);
+  const LibraryMaterial* known = scene.library->find_if_known(study.part.body.material.name);
+  const PartVerdict verdict = judge(study.answer, known, limits);
+  const PartReport report{study.part, study.loads, study.answer, known, verdict, limits};
   fmt::print("{}", options.json ? json_of(report) : options.csv ? csv_of(report) : text_of(report));
-  if (!files.folder.empty()) write_files(files, report, solutions, console);
+  if (!files.folder.empty()) write_files(files, report, study.solutions, console);
   if (!verdict.holds) invocation.exit_code = 1;
 }
 

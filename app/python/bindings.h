@@ -57,6 +57,7 @@ void check_signals();
 
 void bind_scene(pybind11::module_& module);
 void bind_body(pybind11::module_& module);
+void bind_load(pybind11::module_& module);
 void bind_world(pybind11::module_& module);
 
 }  // namespace sprung

@@ -112,5 +112,6 @@ PYBIND11_MODULE(sprung, module) {
   sprung::bind_mesh(module);
   sprung::bind_body(module);
   sprung::bind_world(module);
+  sprung::bind_load(module);
   sprung::bind_scene(module);
 }

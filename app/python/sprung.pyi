@@ -197,3 +197,21 @@ def simulate(
 
 def read_run(cache: str | PathLike[str]) -> Run:
     """The run in a cache, as sprung simulate wrote it."""
+
+def load(
+    mesh: str | PathLike[str] | Mesh,
+    fix: str | list[str],
+    load: str | list[str],
+    material: str | Material = "abs",
+    unit: str = "",
+    bricks: int | None = None,
+    at: ArrayLike = [],
+    analysis: str = "auto",
+    modes: int = 0,
+    buckling: bool = False,
+    up: str | None = None,
+) -> dict[str, Any]:
+    """How far a part bends and whether it holds: what sprung load --json prints. mesh: a file, or a Mesh; fix, load: one
+    or several, as for sprung load; unit: of the mesh, mm unless it is glTF; bricks: along its longest side; at: (k, 3)
+    units of the mesh, points to answer at; analysis: 'auto', 'linear', 'nonlinear'; modes: how many vibrations;
+    buckling: whether to find its load; up: 'y' or 'z'."""

@@ -258,6 +258,23 @@ class Motion(unittest.TestCase):
             mover.join()
         self.assertAlmostEqual(world.time, 0.05)
 
+class Parts(unittest.TestCase):
+    def test_a_bracket_under_load(self):
+        file = MODELS / "bracket.stl"
+        answer = sprung.load(file, fix="x-low", load="x-high:50N:-y", bricks=40, at=[(40, 6, 15)])
+        self.assertAlmostEqual(answer["displacement_m"]["value"], 6.7e-3, delta=0.2e-3)
+        self.assertAlmostEqual(answer["reactions"][0]["force_N"][1], 50, delta=0.01)
+        self.assertGreater(answer["safety"], 1.5)
+        self.assertGreater(answer["points"][0]["von_mises_Pa"]["value"], 5e6)
+        mesh = sprung.read_mesh(file)
+        stiff = sprung.Material(young=200e9, poisson=0.3, density=7850)
+        again = sprung.load(mesh, fix=["x-low"], load=["x-high:50N:-y", "weight"], material=stiff, bricks=40, up="z")
+        self.assertLess(again["displacement_m"]["value"], 0.1e-3)
+        self.assertIsNone(again["safety"])
+        with self.assertRaisesRegex(sprung.Error, "nothing holds the part"):
+            sprung.load(file, fix=[], load="x-high:50N")
+
+
 class Mistakes(unittest.TestCase):
     """Each is told with its value, and leaves the world as it was."""
 

@@ -1,0 +1,122 @@
+#include "app/load/part_study.h"
+
+#include <fmt/format.h>
+
+#include "app/load/load_answer_text.h"
+#include "app/load/part_modes.h"
+#include "app/scene/resting_pose.h"
+#include "core/error.h"
+#include "core/files.h"
+#include "core/units.h"
+
+namespace sprung {
+namespace {
+
+constexpr double kLargeDisplacement = 0.1;  // of the longest side, where small ones are 1 % off in a cantilever
+constexpr double kFewBricks = 10000;
+constexpr double kMostBricks = 250000;    // of the finest grid, by default: some seconds
+constexpr double kMostNonlinear = 60000;  // where each takes some ten solves
+
+struct FileUnit {
+  std::string name;
+  bool is_guess = false;
+};
+
+/// glTF is in metres by its specification; CAD and printing are in millimetres.
+FileUnit usual_unit(const std::filesystem::path& file) {
+  const std::string extension = lower_extension(file);
+  if (extension == ".gltf" || extension == ".glb") return {"m", false};
+  return {"mm", extension != ".3mf"};
+}
+
+LoadPart read_part(const PartQuestion& question, const Observer& observer) {
+  LoadPart part{.body = question.body};
+  const FileUnit usual = question.body.surface ? FileUnit{"mm", question.unit.empty()} : usual_unit(question.body.mesh);
+  part.unit_name = question.unit.empty() ? usual.name : question.unit;
+  try {
+    part.unit = parse_quantity("1" + part.unit_name, Dimension::kLength);
+  } catch (const Error&) {
+    throw Error(ErrorKind::kUsage, fmt::format("--unit: '{}' is no unit of length; mm, cm, m, in, ...", question.unit));
+  }
+  if (part.body.size && !question.unit.empty()) throw Error(ErrorKind::kUsage, "give --unit or --size, not both");
+  if (!part.body.size) part.body.scale = part.unit;
+  if (question.is_z_up) part.body.rotation = Vec3(-90, 0, 0);
+  part.world_from_file = rotation_matrix(part.body.rotation);
+  part.loaded = load_body(part.body, observer);
+  if (part.body.size) {
+    part.unit = part.loaded.extent.norm() / (part.loaded.file_from_rest.linear() * part.loaded.extent).norm();
+    part.unit_name = "of the file";
+  }
+  if (usual.is_guess && question.unit.empty() && !part.body.size) {
+    observer.note(fmt::format("unit: {} is taken to be in mm, {}; --unit cm, m, in for another", part.loaded.name,
+                              sides_text(part.loaded.extent)));
+  }
+  return part;
+}
+
+void check_size(const LoadPart& part, const Observer& observer) {
+  const double longest = part.loaded.extent.maxCoeff();
+  if (longest > 1e3 || longest < 1e-6) {
+    throw Error(ErrorKind::kUsage,
+                fmt::format("{} is {:.4g} m long if its unit is {}; --unit mm would make it {}", part.loaded.name,
+                            longest, part.unit_name, readable(longest / part.unit * 1e-3, Dimension::kLength)));
+  }
+  if (longest < 100 && longest > 1e-4) return;
+  observer.warn(fmt::format("{} is {} long in {}: is that its unit? --unit mm, cm, m, in", part.loaded.name,
+                            readable(longest, Dimension::kLength), part.unit_name));
+}
+
+void check_case(const PartQuestion& question) {
+  if (question.fixes.empty()) {
+    throw Error(ErrorKind::kUsage,
+                "nothing holds the part: --fix WHERE, one of x-low, x-high, y-low, y-high, z-low, z-high, "
+                "face=X,Y,Z, or the name of a part of the mesh");
+  }
+  if (question.loads.empty()) {
+    throw Error(ErrorKind::kUsage, "nothing loads the part: --load WHERE:50N, --load y-high:2MPa, --load weight");
+  }
+}
+
+PartBricks bricks_for(const LoadPart& part, bool linear) {
+  const double longest = part.loaded.extent.maxCoeff();
+  if (part.body.brick_size) return part_bricks_from(part.loaded, *part.body.brick_size);
+  if (part.body.bricks && !part.body.bricks->is_auto()) {
+    return part_bricks_from(part.loaded, longest / part.body.bricks->along);
+  }
+  return choose_part_bricks(part.loaded, linear ? kMostBricks : kMostNonlinear);
+}
+
+/// Whether small displacements are meant, or, by the coarsest grid, do.
+bool is_small(const PartQuestion& question, const LoadPart& part, const LoadCase& loads, const Observer& observer) {
+  if (question.analysis != PartAnalysis::kAuto) return question.analysis == PartAnalysis::kLinear;
+  PartBricks coarse = choose_part_bricks(part.loaded, kFewBricks);
+  coarse.sizes = {coarse.sizes.back()};
+  const PartAnswer answer = answer_of(solve_part(part, loads, coarse, true, Observer()), part, loads, coarse);
+  const double share = answer.displacement.value / answer.extent.maxCoeff();
+  if (share < kLargeDisplacement) return true;
+  observer.note(
+      fmt::format("the part moves by some {}, {:.2g} % of its length: solved for large displacements; "
+                  "--analysis linear for small ones",
+                  readable(answer.displacement.value, Dimension::kLength), 100 * share));
+  return false;
+}
+
+}  // namespace
+
+PartStudy study_part(const PartQuestion& question, const Observer& observer) {
+  check_case(question);
+  LoadPart part = read_part(question, observer);
+  check_size(part, observer);
+  LoadCase loads = parse_load_case(question.fixes, question.loads, part);
+  const bool is_linear = is_small(question, part, loads, observer);
+  const PartBricks bricks = bricks_for(part, is_linear);
+  std::vector<PartSolution> solutions = solve_part(part, loads, bricks, is_linear, observer);
+  PartAnswer answer = answer_of(solutions, part, loads, bricks);
+  answer.points = answers_at(question.points, solutions, part);
+  if (question.modes > 0) answer.frequencies = frequencies_of(solutions, question.modes, observer);
+  answer.has_buckling = question.buckling;
+  if (question.buckling) answer.buckling_factor = buckling_factor_of(solutions, observer);
+  return {std::move(part), std::move(loads), std::move(solutions), std::move(answer)};
+}
+
+}  // namespace sprung

@@ -1,0 +1,45 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/load/load_case.h"
+#include "app/load/part_answer.h"
+
+namespace sprung {
+
+/// How large the displacements are taken to be.
+enum class PartAnalysis {
+  kAuto,  // kLinear, unless the part moves by more than a tenth of its length
+  kLinear,
+  kNonlinear
+};
+
+inline constexpr const char* kUsualPartMaterial = "abs";
+
+/// What is asked of a part; texts as parse_load_case() takes them.
+struct PartQuestion {
+  SceneBody body{};      // its mesh and material; bricks where they are chosen
+  std::string unit{};    // of the file; empty: m for glTF, else mm
+  bool is_z_up = false;  // the vertical of the file, else y
+  std::vector<std::string> fixes{};
+  std::vector<std::string> loads{};
+  std::vector<Vec3> points{};  // of the file
+  PartAnalysis analysis = PartAnalysis::kAuto;
+  int modes = 0;  // vibrations to find
+  bool buckling = false;
+};
+
+/// A part, what is done to it, and what it does.
+struct PartStudy {
+  LoadPart part;
+  LoadCase loads;
+  std::vector<PartSolution> solutions;  // finest first
+  PartAnswer answer;
+};
+
+/// Reads, loads and solves a part. Throws Error(kUsage) where a text, a unit or a point is wrong or nothing holds or
+/// loads the part, Error(kBadInput) for a mesh that cannot be used or is not held, Error(kDiverged), Interrupted.
+[[nodiscard]] PartStudy study_part(const PartQuestion& question, const Observer& observer);
+
+}  // namespace sprung
