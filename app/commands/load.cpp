@@ -59,7 +59,11 @@ Film scene_of(const LoadOptions& options, const Console& console) {
                                     [](const Setting& setting) { return setting.key == "body.material"; });
   if (!is_named) request.settings.insert(request.settings.begin(), {"", "body.material", kUsualPartMaterial});
   if (!has_material) console.note(fmt::format("material: {}; --material NAME for another", kUsualPartMaterial));
-  return make_part_scene(request);
+  Film scene = make_part_scene(request);
+  if (scene.bodies[0].material.name == kAutoMaterial) {
+    throw Error(ErrorKind::kUsage, "--material auto is for animations; name the material of the part");
+  }
+  return scene;
 }
 
 PartQuestion question_of(const LoadOptions& options, const SceneBody& body) {
@@ -110,7 +114,10 @@ LoadFiles files_of(const LoadOptions& options) {
     if (options.turntable) throw Error(ErrorKind::kUsage, "--turntable goes to a folder: -o folder/");
     return files;
   }
-  check_folder_name(options.folder.string(), {}, "give a folder");
+  if (options.folder.has_extension() && !std::filesystem::is_directory(options.folder)) {
+    throw Error(ErrorKind::kUsage, fmt::format("-o {}: give a folder; load.png, load.html and the others go there",
+                                               options.folder.string()));
+  }
   for (const std::filesystem::path& file : files.all()) refuse_existing(file, options.overwrite);
   check_writable(files.all().front());
   return files;
@@ -230,7 +237,7 @@ void add_load(CLI::App& app, Invocation& invocation) {
       "Examples:\n"
       "  sprung load bracket.stl --material abs --fix x-low --load y-high:50N:-y\n"
       "  sprung load plate.stl --material steel --fix x-low --load x-high:2kN:out --safety 2 -o out/\n"
-      "  sprung load hook.3mf --material petg --fix z-high --load face=10,0,4:3kg --load weight --json\n");
+      "  sprung load hook.3mf --material petg --fix z-high --load ball=10,0,4,3:3kg --load weight --json\n");
   command->callback([options, command, &invocation] { load_part(*command, *options, invocation); });
 }
 

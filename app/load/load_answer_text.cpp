@@ -127,8 +127,11 @@ std::string verdict_lines(const PartReport& report) {
   const PartVerdict& verdict = report.verdict;
   std::string text;
   if (verdict.safety) {
-    text += fmt::format("safety      {:.3g} against the {} of {}\n", *verdict.safety, verdict.strength,
-                        readable(verdict.strength_value, Dimension::kPressure));
+    text += fmt::format("safety      {:.3g} against the {} of {}{}\n", *verdict.safety, verdict.strength,
+                        readable(verdict.strength_value, Dimension::kPressure),
+                        *verdict.safety >= 1                    ? ""
+                        : verdict.strength.starts_with("yield") ? ": IT YIELDS"
+                                                                : ": IT BREAKS");
   } else if (report.material == nullptr || verdict.strength.empty()) {
     text += "safety      unknown: no strength of this material is known\n";
   }
@@ -160,8 +163,9 @@ std::string text_of(const PartReport& report) {
                         load.face ? fmt::format(", on {:.4g} mm2", 1e6 * load.face->area) : "");
   }
   for (const PartAnswer::Reaction& reaction : answer.reactions) {
-    text += fmt::format("{:<12}{}: holds with {}, {} about {}\n", "fix", reaction.fix, vector_text(reaction.force, "N"),
-                        vector_text(reaction.moment, "N m"), place_text(reaction.centre, part));
+    text += fmt::format("{:<12}{}, {:.4g} mm2: holds with {}, {} about {}\n", "fix", reaction.fix, 1e6 * reaction.area,
+                        vector_text(reaction.force, "N"), vector_text(reaction.moment, "N m"),
+                        place_text(reaction.centre, part));
   }
   text += fmt::format("{:<12}{} at {}: {}\n", "moves",
                       estimate_text(answer.displacement, readable(answer.displacement.value, Dimension::kLength)),

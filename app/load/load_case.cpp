@@ -140,15 +140,20 @@ PartLoad on_face(const std::string& text, const std::vector<std::string>& fields
                               text, fields.back()));
     }
   }
+  if (!(load.amount != 0)) throw Error(ErrorKind::kUsage, fmt::format("--load '{}': a load of nothing", text));
   load.direction = direction ? *direction : usual_direction(*quantity, *load.face, part, text);
+  if (load.amount < 0 && quantity->dimension != Dimension::kPressure) {
+    load.amount *= -1;
+    load.direction *= -1;
+  }
   const Vec3 world = part.world_from_file * load.direction;
   if (quantity->dimension == Dimension::kLength) {
     load.movement = pin_of(*load.face);
     load.movement->name = text;
     load.movement->normal = world;
-    load.movement->translate = quantity->amount * world;
+    load.movement->translate = load.amount * world;
   } else {
-    load.force = force_of(*quantity, *load.face, world);
+    load.force = force_of({quantity->dimension, load.amount}, *load.face, world);
   }
   return load;
 }

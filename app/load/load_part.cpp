@@ -9,7 +9,9 @@
 
 #include "app/scene/scene_values.h"
 #include "core/error.h"
+#include "core/mesh/query/closest_triangle.h"
 #include "core/simulation/selector.h"
+#include "core/skin/skin.h"
 #include "core/text.h"
 #include "core/units.h"
 
@@ -17,6 +19,9 @@ namespace sprung {
 namespace {
 
 constexpr std::array<std::string_view, 6> kSides{"x-low", "x-high", "y-low", "y-high", "z-low", "z-high"};
+
+constexpr double kFinest = 0.01;   // of the longest side: triangles in which regions are looked for
+constexpr double kFarAway = 0.05;  // of it: a face further from a point is not meant
 
 /// "1,2,3". Empty where it is no list of so many numbers.
 std::vector<double> numbers_in(std::string_view text, std::size_t count) {
@@ -60,6 +65,26 @@ std::vector<std::string_view> names_in(const SurfaceMesh& mesh) {
   return {names.begin(), names.end()};
 }
 
+/// "from (0, 0, 0) to (80, 60, 30) mm".
+std::string reach_text(const LoadPart& part) {
+  const Vec3 low = part.file_from_rest(-part.loaded.extent / 2);
+  const Vec3 high = part.file_from_rest(part.loaded.extent / 2);
+  return fmt::format("from ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g}) {}", low.x(), low.y(), low.z(),
+                     high.x(), high.y(), high.z(), part.unit_name);
+}
+
+void check_nearness(const LoadPart& part, const std::string& text, const Vec3& point) {
+  const NearestTriangle surface(part.loaded.mesh.positions, part.loaded.mesh.triangles);
+  const SurfacePlace nearest = surface.at(part.rest_from_file(point));
+  if (nearest.distance <= kFarAway * part.loaded.extent.maxCoeff()) return;
+  const Vec3 there = part.file_from_rest(nearest.point);
+  throw Error(ErrorKind::kUsage,
+              fmt::format("'{}' is {:.4g} {} away from {}, which reaches {}; the nearest point of its surface is "
+                          "{:.4g},{:.4g},{:.4g}",
+                          text, nearest.distance / part.unit, part.unit_name, part.loaded.name, reach_text(part),
+                          there.x(), there.y(), there.z()));
+}
+
 Selection selection_from(const LoadPart& part, const std::string& text) {
   Selection selection;
   for (std::size_t side = 0; side < kSides.size(); ++side) {
@@ -71,7 +96,9 @@ Selection selection_from(const LoadPart& part, const std::string& text) {
     return selection;
   }
   if (text.starts_with("face=")) {
-    selection.face = fractions_of(part, region_numbers(text, "face=", 3, "X,Y,Z").data());
+    const std::vector<double> numbers = region_numbers(text, "face=", 3, "X,Y,Z");
+    check_nearness(part, text, Vec3(numbers[0], numbers[1], numbers[2]));
+    selection.face = fractions_of(part, numbers.data());
   } else if (text.starts_with("box=")) {
     const std::vector<double> numbers = region_numbers(text, "box=", 6, "X,Y,Z,X,Y,Z (two corners)");
     const Vec3 a = fractions_of(part, numbers.data());
@@ -96,11 +123,11 @@ Selection selection_from(const LoadPart& part, const std::string& text) {
 }
 
 /// Adds what a selection has of one solid's surface.
-void add_pieces(const Solid& solid, const std::vector<SkinPiece>& pieces, PartFace& face) {
+void add_pieces(const Skin& skin, const std::vector<SkinPiece>& pieces, PartFace& face) {
   for (const SkinPiece& piece : pieces) {
     Mat3 corners;
     for (int corner = 0; corner < 3; ++corner) {
-      corners.col(corner) = solid.points.row(solid.triangles(piece.triangle, corner)).transpose();
+      corners.col(corner) = skin.positions.row(skin.triangles(piece.triangle, corner)).transpose();
     }
     const Vec3 area = (corners.col(1) - corners.col(0)).cross(corners.col(2) - corners.col(0)) / 2 * piece.share();
     face.area += area.norm();
@@ -141,18 +168,21 @@ PartFace find_face(const LoadPart& part, const std::string& text) {
   if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end()) refuse(part, text);
   const Selector selector(part.loaded);
   for (std::size_t row = 0; row < part.loaded.solids.size(); ++row) {
-    const Solid& solid = part.loaded.solids[row];
-    add_pieces(solid, selector.skin_pieces(face.selection, solid.points, solid.triangles, row), face);
+    Skin skin;
+    skin.positions = part.loaded.solids[row].points;
+    skin.triangles = part.loaded.solids[row].triangles;
+    skin.normals = Points::Zero(skin.positions.rows(), 3);
+    skin.parts.push_back({.name = "", .triangle_count = int(skin.triangles.rows())});
+    if (face.selection.sphere || face.selection.box) refine(skin, kFinest * part.loaded.extent.maxCoeff());
+    add_pieces(skin, selector.skin_pieces(face.selection, skin.positions, skin.triangles, row), face);
   }
   if (!(face.area > 0)) {
-    const Vec3 low = part.file_from_rest(-part.loaded.extent / 2);
-    const Vec3 high = part.file_from_rest(part.loaded.extent / 2);
-    throw Error(
-        ErrorKind::kUsage,
-        fmt::format("'{}' misses {}, which reaches from ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g}) "
-                    "{}: nothing of its surface is there; a side that is no flat face has to be chosen by "
-                    "box=X,Y,Z,X,Y,Z or face=X,Y,Z",
-                    text, part.loaded.name, low.x(), low.y(), low.z(), high.x(), high.y(), high.z(), part.unit_name));
+    const bool is_side = std::find(kSides.begin(), kSides.end(), text) != kSides.end();
+    throw Error(ErrorKind::kUsage,
+                fmt::format("'{}': {} {}; it reaches {}. Choose another by face=X,Y,Z (the face nearest to a point), "
+                            "box=X,Y,Z,X,Y,Z or ball=X,Y,Z,R (the surface in there)",
+                            text, part.loaded.name,
+                            is_side ? "has no flat face there" : "has nothing of its surface there", reach_text(part)));
   }
   face.centre /= face.area;
   face.outward /= face.area;

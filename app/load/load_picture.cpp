@@ -47,12 +47,13 @@ LoadPicture::LoadPicture(const PartReport& report, const PartSolution& solution,
   add_supports();
   add_loads();
   add_worst_place();
-  for (const Skin& skin : skins_) stage_.skins.push_back(&skin);
   stage_.color_map = ColorMap::kTurbo;
   stage_.has_ground = false;
   for (const Skin& skin : skins_) stage_.bounds.extend(bounding_box(skin.positions));
   middle_ = stage_.bounds.center();
   choose_direction();
+  add_axes();
+  for (const Skin& skin : skins_) stage_.skins.push_back(&skin);
 }
 
 void LoadPicture::add(Skin skin, const Eigen::Vector3f& color, bool is_ghost) {
@@ -259,7 +260,8 @@ void LoadPicture::choose_direction() {
 
 Camera LoadPicture::framed(bool turns) const {
   std::vector<Vec3> seen;
-  for (const Skin& skin : skins_) {
+  for (std::size_t item = 0; item + 1 < skins_.size(); ++item) {  // the last are the axes
+    const Skin& skin = skins_[item];
     const auto step = std::max<Eigen::Index>(1, skin.positions.rows() / (turns ? 400 : 4000));
     for (Eigen::Index row = 0; row < skin.positions.rows(); row += step) {
       const Vec3 arm = Vec3(skin.positions.row(row)) - middle_;
@@ -294,24 +296,65 @@ void LoadPicture::write_labels(Image& image, const Camera& camera) const {
   for (std::size_t line = 0; line < lines.size(); ++line) {
     font.write(image, margin, margin + (1.25 * double(line) + 0.8) * size, size, lines[line], kInk);
   }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const Eigen::Vector2d at = projected(axis_tips_[axis], camera);
+    font.write(image, at.x() - 0.3 * size, at.y() + 0.3 * size, size, std::string(1, "xyz"[axis]), kInk);
+  }
   if (!worst_ || !is_seen(*worst_, (camera.eye - worst_->place).normalized())) return;
-  const Vec3 forward = (camera.target - camera.eye).normalized();
-  const Vec3 right = forward.cross(camera.up).normalized();
-  const Vec3 up = right.cross(forward);
-  const Vec3 arm = worst_->place - camera.eye;
-  const double slope = std::tan(camera.vertical_field_of_view * std::numbers::pi / 360);
-  const double depth = arm.dot(forward);
-  const double x = arm.dot(right) / (depth * slope * image.width / image.height) + camera.shift;
-  const double y = arm.dot(up) / (depth * slope);
+  const Eigen::Vector2d at = projected(worst_->place, camera);
   const std::string text = readable(answer.von_mises->value, Dimension::kPressure);
-  const double left = std::clamp((1 + x) / 2 * image.width + 0.6 * size, 0.0, image.width - font.width(text, size));
-  font.write(image, left, (1 - y) / 2 * image.height - 0.4 * size, size, text, kInk);
+  const double left = std::clamp(at.x() + 0.6 * size, 0.0, image.width - font.width(text, size));
+  font.write(image, left, at.y() - 0.4 * size, size, text, kInk);
+}
+
+namespace {
+
+/// Columns: right, up and forward; unit.
+Mat3 axes_of(const Camera& camera) {
+  Mat3 axes;
+  axes.col(2) = (camera.target - camera.eye).normalized();
+  axes.col(0) = axes.col(2).cross(camera.up).normalized();
+  axes.col(1) = axes.col(0).cross(axes.col(2));
+  return axes;
+}
+
+double slope_of(const Camera& camera) { return std::tan(camera.vertical_field_of_view * std::numbers::pi / 360); }
+
+}  // namespace
+
+void LoadPicture::add_axes() {
+  Symbols symbols;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) symbols.add_arrow(Vec3::Zero(), report_.part.world_from_file.col(axis));
+  axes_ = symbols.points();
+  add(symbols.skin(), kGhostColor, false);
+}
+
+void LoadPicture::place_axes(const Camera& camera) {
+  constexpr double kLeft = -0.85;  // of half the picture
+  constexpr double kDown = -0.74;
+  constexpr double kLength = 0.15;
+  const Mat3 axes = axes_of(camera);
+  const double depth = (camera.target - camera.eye).norm();
+  const double half = slope_of(camera) * depth;  // m, of the picture's height there
+  const Vec3 origin = camera.eye + axes * Vec3((kLeft - camera.shift) * half * width_ / height_, kDown * half, depth);
+  const double length = kLength * half;
+  shapes_.back().positions = ((length * axes_).rowwise() + origin.transpose()).cast<float>();
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    axis_tips_[axis] = origin + 1.25 * length * report_.part.world_from_file.col(Eigen::Index(axis));
+  }
+}
+
+Eigen::Vector2d LoadPicture::projected(const Vec3& place, const Camera& camera) const {
+  const Vec3 arm = axes_of(camera).transpose() * (place - camera.eye);
+  const double half = slope_of(camera) * arm.z();
+  return {(1 + arm.x() / (half * width_ / height_) + camera.shift) / 2 * width_, (1 - arm.y() / half) / 2 * height_};
 }
 
 Image LoadPicture::draw(const Camera& camera) {
   if (!renderer_) {
     renderer_ = std::make_unique<Renderer>(stage_, RenderOptions{.width = width_, .height = height_, .samples = 4});
   }
+  place_axes(camera);
   Image image = renderer_->draw(shapes_, camera);
   write_labels(image, camera);
   return image;

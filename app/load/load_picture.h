@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <memory>
 
 #include "app/load/load_answer_text.h"
@@ -43,6 +44,11 @@ class LoadPicture {
   /// Sees everything, at any turn about the vertical, or at none.
   [[nodiscard]] Camera framed(bool turns) const;
   [[nodiscard]] Image draw(const Camera& camera);
+  /// The axes of the file, at the lower left of the picture.
+  void add_axes();
+  void place_axes(const Camera& camera);
+  /// A point of the stage in the picture, pixels from the top left.
+  [[nodiscard]] Eigen::Vector2d projected(const Vec3& place, const Camera& camera) const;
   void write_labels(Image& image, const Camera& camera) const;
 
   const PartReport& report_;
@@ -57,8 +63,10 @@ class LoadPicture {
   std::vector<Skin> skins_;      // of the stage
   std::vector<SkinShape> shapes_;
   Stage stage_;
-  double azimuth_ = 0;    // degrees
-  double elevation_ = 0;  // degrees
+  Points axes_;                    // their vertices, m, of length 1
+  std::array<Vec3, 3> axis_tips_;  // as drawn
+  double azimuth_ = 0;             // degrees
+  double elevation_ = 0;           // degrees
   Vec3 middle_ = Vec3::Zero();
   std::optional<Spot> worst_;
   std::unique_ptr<Renderer> renderer_;

@@ -149,7 +149,9 @@ Peak largest_displacement(const std::vector<PartSkin>& skins, const std::vector<
 std::vector<PartAnswer::Reaction> reactions_of(const PartSolution& solution, const LoadPart& part,
                                                const LoadCase& loads) {
   std::vector<PartAnswer::Reaction> reactions;
+  std::vector<Vec3> centres;  // m
   const auto add = [&](const std::string& text, const PartFace& face) {
+    centres.push_back(face.centre);
     reactions.push_back({.fix = text, .area = face.area, .centre = part.file_from_rest(face.centre)});
   };
   for (const PartFix& fix : loads.fixes) add(fix.text, fix.face);
@@ -162,8 +164,10 @@ std::vector<PartAnswer::Reaction> reactions_of(const PartSolution& solution, con
       const SkinReaction reaction =
           reaction_of(skin, solution.scene, body, time_of(solution.scene, 1), solution.is_linear);
       PartAnswer::Reaction& sum = reactions[skin.pin];
-      sum.force += here * reaction.force;
-      sum.moment += here * reaction.torque;
+      const Vec3 force = here * reaction.force;
+      const Vec3 about = part_from_world(solution, part, skin.centre.transpose()).row(0);  // of the pin
+      sum.force += force;
+      sum.moment += here * reaction.torque + (about - centres[skin.pin]).cross(force);
     }
   }
   return reactions;

@@ -71,7 +71,7 @@ std::optional<Estimate> buckling_factor_of(const std::vector<PartSolution>& solu
   for (const PartSolution* grid : grids) {
     const SoftBody& body = only_body(*grid);
     if (!grid->is_linear) {
-      throw Error(ErrorKind::kBadInput, "--buckling starts from small displacements: add --analysis linear");
+      throw Error(ErrorKind::kBadInput, "--buckling starts from small displacements, not from --analysis nonlinear");
     }
     const StressTensors stresses = recover_stress(body, body.positions, StrainMeasure::kSmall);
     const BucklingModes modes =

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/simulation/simulate.h"
 #include "core/text.h"
+#include "core/units.h"
 
 namespace sprung {
 
@@ -52,6 +53,21 @@ class QuietObserver : public Observer {
   bool warns_;
 };
 
+/// Each solid has to be held by itself.
+void check_held(const PartSolution& solution, const LoadPart& part) {
+  const std::vector<SoftBody>& bodies = solution.simulation.world.bodies;
+  for (std::size_t row = 0; row < bodies.size(); ++row) {
+    if (!bodies[row].origin.pinned_skins.empty()) continue;
+    const Points skin = part_from_world(solution, part, bodies[row].skin_positions(bodies[row].rest_positions));
+    const Vec3 middle = part.file_from_rest(bounding_box(skin).center());
+    throw Error(
+        ErrorKind::kBadInput,
+        fmt::format("{}: nothing holds solid {} of {}, which lies about ({:.4g}, {:.4g}, {:.4g}) {}: solids of a "
+                    "file that touch or overlap in parts are not joined; --fix something of it, or unite them",
+                    part.loaded.name, row + 1, bodies.size(), middle.x(), middle.y(), middle.z(), part.unit_name));
+  }
+}
+
 }  // namespace
 
 std::vector<PartSolution> solve_part(const LoadPart& part, const LoadCase& loads, const PartBricks& bricks, bool linear,
@@ -66,7 +82,17 @@ std::vector<PartSolution> solve_part(const LoadPart& part, const LoadCase& loads
     solution.is_linear = linear;
     solution.scene = scene_of(part, loads, solution.brick_size, linear);
     solution.simulation = prepare_simulation(solution.scene, quiet);
-    solution.recording = simulate(solution.simulation, solution.scene, quiet);
+    check_held(solution, part);
+    try {
+      solution.recording = simulate(solution.simulation, solution.scene, quiet);
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::kFailed || done == 0) throw;
+      observer.warn(fmt::format("a grid of {} could not be solved; the answers are of a coarser one of {}",
+                                readable(solution.brick_size, Dimension::kLength),
+                                readable(bricks.sizes[grid + 1], Dimension::kLength)));
+      solutions.erase(solutions.begin(), solutions.begin() + std::ptrdiff_t(grid) + 1);
+      break;
+    }
     progress.update(double(done + 1));
   }
   progress.finish(fmt::format("{} bricks, and {}", solutions.front().brick_count(),

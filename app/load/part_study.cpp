@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "app/load/load_answer_text.h"
 #include "app/load/part_modes.h"
 #include "app/scene/resting_pose.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "core/mesh/query/thickness.h"
 #include "core/units.h"
 
 namespace sprung {
@@ -56,10 +59,13 @@ LoadPart read_part(const PartQuestion& question, const Observer& observer) {
 
 void check_size(const LoadPart& part, const Observer& observer) {
   const double longest = part.loaded.extent.maxCoeff();
+  const std::string other = part.unit_name != "mm" ? "mm" : longest > 1 ? "um" : "m";
   if (longest > 1e3 || longest < 1e-6) {
     throw Error(ErrorKind::kUsage,
-                fmt::format("{} is {:.4g} m long if its unit is {}; --unit mm would make it {}", part.loaded.name,
-                            longest, part.unit_name, readable(longest / part.unit * 1e-3, Dimension::kLength)));
+                fmt::format("{} is {:.4g} m long if its unit is {}; --unit {} would make it {}", part.loaded.name,
+                            longest, part.unit_name, other,
+                            readable(longest / part.unit * parse_quantity("1" + other, Dimension::kLength),
+                                     Dimension::kLength)));
   }
   if (longest < 100 && longest > 1e-4) return;
   observer.warn(fmt::format("{} is {} long in {}: is that its unit? --unit mm, cm, m, in", part.loaded.name,
@@ -88,6 +94,7 @@ PartBricks bricks_for(const LoadPart& part, bool linear) {
 
 /// Whether small displacements are meant, or, by the coarsest grid, do.
 bool is_small(const PartQuestion& question, const LoadPart& part, const LoadCase& loads, const Observer& observer) {
+  if (question.analysis == PartAnalysis::kAuto && question.buckling) return true;  // which starts from there
   if (question.analysis != PartAnalysis::kAuto) return question.analysis == PartAnalysis::kLinear;
   PartBricks coarse = choose_part_bricks(part.loaded, kFewBricks);
   coarse.sizes = {coarse.sizes.back()};
@@ -103,11 +110,48 @@ bool is_small(const PartQuestion& question, const LoadPart& part, const LoadCase
 
 }  // namespace
 
+namespace {
+
+double surface_of(const LoadPart& part) {
+  double area = 0;
+  for (const Solid& solid : part.loaded.solids) area += surface_area(solid);
+  return area;
+}
+
+/// Of what is hardly meant: most of the surface, and loads on what is held.
+void warn_of_faces(const LoadPart& part, const LoadCase& loads, const Observer& observer) {
+  constexpr double kMost = 0.5;  // of the surface
+  constexpr double kSame = 1e-3;
+  const double surface = surface_of(part);
+  const auto check = [&](const char* option, const std::string& text, const PartFace& face) {
+    if (face.area < kMost * surface) return;
+    observer.warn(
+        fmt::format("{} '{}' takes {:.0f} % of the part's surface; a smaller part of it: ball=X,Y,Z,R or "
+                    "box=X,Y,Z,X,Y,Z",
+                    option, text, 100 * face.area / surface));
+  };
+  for (const PartFix& fix : loads.fixes) {
+    check("--fix", fix.text, fix.face);
+    for (const PartLoad& load : loads.loads) {
+      if (!load.face || !fix.pin.axes.held[0] || fix.pin.normal) continue;
+      const double apart = (load.face->centre - fix.face.centre).norm();
+      if (apart > kSame * std::sqrt(surface) || std::abs(load.face->area - fix.face.area) > kSame * surface) continue;
+      observer.warn(fmt::format("--load '{}' acts on what --fix '{}' holds, and does nothing", load.text, fix.text));
+    }
+  }
+  for (const PartLoad& load : loads.loads) {
+    if (load.face && load.dimension != Dimension::kPressure) check("--load", load.text, *load.face);
+  }
+}
+
+}  // namespace
+
 PartStudy study_part(const PartQuestion& question, const Observer& observer) {
   check_case(question);
   LoadPart part = read_part(question, observer);
   check_size(part, observer);
   LoadCase loads = parse_load_case(question.fixes, question.loads, part);
+  warn_of_faces(part, loads, observer);
   const bool is_linear = is_small(question, part, loads, observer);
   const PartBricks bricks = bricks_for(part, is_linear);
   std::vector<PartSolution> solutions = solve_part(part, loads, bricks, is_linear, observer);

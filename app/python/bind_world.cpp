@@ -19,6 +19,7 @@ using FileOrMesh = std::variant<std::filesystem::path, SurfaceMesh>;
 
 std::vector<BodyHandle> handles_of(const std::shared_ptr<LiveWorld>& world, const std::vector<std::size_t>& rows) {
   std::vector<BodyHandle> handles;
+  handles.reserve(rows.size());
   for (const std::size_t row : rows) handles.push_back({world, row});
   return handles;
 }

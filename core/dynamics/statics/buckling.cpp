@@ -32,11 +32,18 @@ CornerMatrix geometric_stiffness(const Body& body, std::size_t brick, const Stre
   constexpr double kGauss = 0.21132486540518713;  // (1 - 1 / sqrt(3)) / 2
   Eigen::Matrix<double, 8, 6> at_corners;
   for (int corner = 0; corner < 8; ++corner) at_corners.row(corner) = stresses.row(body.grid.nodes[brick][corner]);
+  // Columns: the axes of the grid in the world, in which the body may be turned.
+  const Points& rest = body.rest_positions;
+  const auto& nodes = body.grid.nodes[brick];
+  Mat3 turned;
+  for (int axis = 0; axis < 3; ++axis) {
+    turned.col(axis) = (rest.row(nodes[std::size_t(1) << axis]) - rest.row(nodes[0])).transpose().normalized();
+  }
   CornerMatrix sum = CornerMatrix::Zero();
   for (int point = 0; point < 8; ++point) {
     const auto along = [&](int axis) { return (point >> axis & 1) != 0 ? 1 - kGauss : kGauss; };
     const Vec3 local(along(0), along(1), along(2));
-    const Mat3 stress = tensor_of(at_corners.transpose() * trilinear_weights(local));
+    const Mat3 stress = turned.transpose() * tensor_of(at_corners.transpose() * trilinear_weights(local)) * turned;
     const Eigen::Matrix<double, 8, 3> gradients = trilinear_gradients(local);
     sum += gradients * stress * gradients.transpose() / 8;
   }

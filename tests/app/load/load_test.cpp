@@ -172,6 +172,37 @@ TEST_F(Load, ColumnBucklesLikeEulers) {
   EXPECT_TRUE(pulled.at("buckling_factor").is_null() || number(pulled, "/buckling_factor/value") > 100 * expected);
 }
 
+/// Whichever way the bar and the vertical point.
+TEST_F(Load, ColumnsBuckleAlikeAlongAllAxes) {
+  for (const auto& [axis, up] : std::vector<std::pair<int, std::string>>{{1, "y"}, {2, "z"}, {2, "y"}, {1, "z"}}) {
+    Vec3 sides = Vec3::Constant(10);
+    sides[axis] = 100;
+    static_cast<void>(folder_.write(
+        "column.obj", obj_of(mapped_block({1, 1, 1}, [&](const Vec3& at) -> Vec3 { return at.cwiseProduct(sides); }))));
+    const char name = char('x' + axis);
+    const nlohmann::json made =
+        answer(fmt::format("column.obj --brick-size 1mm --up {} --fix {}-low --load {}-high:1000N --buckling", up, name,
+                           name) +
+               kSteel);
+    const double expected = std::pow(std::numbers::pi, 2) * 200e9 * std::pow(0.01, 4) / 12 / (4 * 0.01) / 1000;
+    EXPECT_NEAR(number(made, "/buckling_factor/value"), expected, 0.05 * expected) << axis << up;
+  }
+}
+
+/// About the centroid of the face, where that is not the middle of the side: M = F a.
+TEST_F(Load, MomentsOfSupportsAreAboutTheirCentroids) {
+  const nlohmann::json made =
+      answer(SPRUNG_SOURCE_DIR "/assets/models/bracket.stl --bricks 40 --fix y-high --load x-high:30N:-y");
+  EXPECT_NEAR(number(made, "/reactions/0/moment_Nm/2"), 30 * 0.077, 0.002);
+  EXPECT_NEAR(number(made, "/reactions/0/about/0"), 3, 1e-6);
+}
+
+TEST_F(Load, FindsSmallRegionsOnLargeTriangles) {
+  const nlohmann::json made = answer("bar.obj --bricks 50 --fix x-low --load ball=80,10,4,3:10N:-y" + kSteel);
+  EXPECT_NEAR(number(made, "/loads/0/area_m2"), std::numbers::pi * 9e-6, 0.03 * std::numbers::pi * 9e-6);
+  EXPECT_NEAR(number(made, "/reactions/0/force_N/1"), 10, 0.001);
+}
+
 TEST_F(Load, WritesPicturesAndTables) {
   const ProgramRun made =
       run("bar.obj --fix x-low --load x-high:100N:-y --bricks 50 --material steel -o out/ --turntable");
@@ -221,7 +252,11 @@ TEST_F(Load, MistakesAreNamedWithTheirRemedy) {
            {fix + "--load x-high:1N:up", "'up' is no direction"},
            {fix + "--load x-high:1MPa:-y", "a pressure acts inward"},
            {fix + "--load box=1,2,3:1N", "write box=X,Y,Z,X,Y,Z"},
-           {"--fix box=200,0,0,300,1,1 --load x-high:1N", "misses bar.obj"},
+           {"--fix box=200,0,0,300,1,1 --load x-high:1N", "has nothing of its surface there"},
+           {fix + "--load face=500,0,0:1N", "away from bar.obj"},
+           {fix + "--load x-high:0N", "a load of nothing"},
+           {fix + "--load x-high:1N --material auto", "name the material"},
+           {fix + "--load x-high:1N -o x.png", "give a folder"},
            {fix + "--load x-high:1N --unit parsec", "no unit of length"},
            {"--fix x-low:slide --load x-high:1N:-y", "free to move"},
            {fix + "--load x-high:1N --safety -1", "has to be above 0"}}) {
