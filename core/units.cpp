@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -157,6 +158,13 @@ double parse_quantity(std::string_view text, Dimension dimension) {
   if (error != std::errc{} || !std::isfinite(number)) refuse(text, "is no number", dimension);
   rest = trim(rest.substr(end - rest.data()));
   return rest.empty() ? number : number * unit_value(text, rest, dimension);
+}
+
+double metres_in(std::string_view unit) {
+  const std::vector<std::string_view> known = units_of(Dimension::kLength);
+  if (std::find(known.begin(), known.end(), unit) != known.end()) return unit_value(unit, unit, Dimension::kLength);
+  throw Error(ErrorKind::kUsage,
+              fmt::format("--unit: '{}' is no unit of length; known are {}", unit, fmt::join(known, ", ")));
 }
 
 int parse_whole(std::string_view text) {

@@ -28,6 +28,9 @@ enum class Dimension {
 /// number is in the base unit already. Throws Error(kBadInput) naming the text and the accepted units.
 [[nodiscard]] double parse_quantity(std::string_view text, Dimension dimension);
 
+/// m, of a unit of length alone: "mm". Throws Error(kUsage) naming the option --unit.
+[[nodiscard]] double metres_in(std::string_view unit);
+
 /// A whole number. Throws Error(kBadInput).
 [[nodiscard]] int parse_whole(std::string_view text);
 

@@ -191,13 +191,13 @@ void add_load(CLI::App& app, Invocation& invocation) {
   CLI::App* command = app.add_subcommand("load", "mesh of a part in, how far it bends and whether it holds out");
   const auto options = std::make_shared<LoadOptions>();
   command->add_option("INPUT", options->input, "a mesh file");
-  command->add_option("--fix", options->fixes, "hold WHERE; WHERE:xz along these axes only, WHERE:slide across it only")
+  command->add_option("--fix", options->fixes, "hold WHERE; WHERE:xz along these axes, WHERE:slide across it only")
       ->allow_extra_args(false)
       ->option_text("WHERE");
   command
       ->add_option("--load", options->loads,
-                   "WHERE:50N (towards the inside), WHERE:50N:-z, WHERE:2MPa (pressure), WHERE:3kg (hangs there), "
-                   "WHERE:1.5Nm:+x (torque about x), WHERE:1mm:-y (moved by), weight, acceleration:20m/s2:-y")
+                   "WHERE:50N (inward), WHERE:50N:-z, WHERE:2MPa, WHERE:3kg, WHERE:1.5Nm:+x (torque about x), "
+                   "WHERE:1mm:-y (moved by), weight, acceleration:20m/s2:-y")
       ->allow_extra_args(false)
       ->option_text("LOAD");
   options->keys.add_keys(*command, is_of_part);
@@ -205,12 +205,14 @@ void add_load(CLI::App& app, Invocation& invocation) {
       ->option_text("UNIT");
   command->add_option("--up", options->up, "vertical axis, against which weights act: y, z or auto (z for STL, 3MF)")
       ->check(CLI::IsMember({"y", "z", "auto"}))
-      ->option_text("AXIS");
+      ->option_text("AXIS")
+      ->group(kMoreOptions);
   command
       ->add_option("--analysis", options->analysis,
                    "linear (small displacements), nonlinear, or auto: linear unless it moves by 10 % of its length")
       ->check(CLI::IsMember({"auto", "linear", "nonlinear"}))
-      ->option_text("auto");
+      ->option_text("auto")
+      ->group(kMoreOptions);
   command->add_option("--deflection-limit", options->deflection_limit, "exit with 1 where it moves further")
       ->option_text("0.5mm");
   command->add_option("--safety", options->safety, "exit with 1 where the strength is less than so many stresses")
@@ -221,23 +223,21 @@ void add_load(CLI::App& app, Invocation& invocation) {
   command->add_option("--modes", options->modes, "also the slowest vibrations of the held part, so many")
       ->option_text("3");
   command->add_flag("--buckling", options->buckling, "also the factor of the loads under which it buckles");
-  command
-      ->add_option("-o,--output", options->folder,
-                   "a folder for load.png, load.html, load.json, load.csv and load.xdmf (ParaView)")
+  command->add_option("-o,--output", options->folder, "a folder for load.png, .html, .json, .csv and .xdmf (ParaView)")
       ->option_text("folder/");
   command->add_flag("--turntable", options->turntable, "also load.mp4, in which the picture turns once");
-  command->add_flag("--overwrite", options->overwrite, "replace files that exist");
-  command->add_flag("--json", options->json, "the answers as JSON, SI units");
-  command->add_flag("--csv", options->csv, "the answers as CSV, SI units");
+  command->add_flag("--overwrite", options->overwrite, "replace files that exist")->group(kMoreOptions);
+  command->add_flag("--json", options->json, "the answers as JSON: SI units, places as in the file");
+  command->add_flag("--csv", options->csv, "the answers as CSV, SI units")->group(kMoreOptions);
   add_messages(*command, invocation.console);
   command->footer(
-      "WHERE is a side of the bounding box in the axes of the file, x-low ... z-high; face=X,Y,Z, the face nearest to "
-      "a point; box=X,Y,Z,X,Y,Z or ball=X,Y,Z,R, the surface in there (numbers in the unit of the file); #rrggbb, what "
-      "is painted so; or the name of a part or a material of the mesh. --fix and --load may be given several times.\n"
+      "WHERE: x-low ... z-high, sides of the bounding box in the axes of the file; face=X,Y,Z, the face at a point; "
+      "box=X,Y,Z,X,Y,Z, ball=X,Y,Z,R, the surface in there (units of the file); #rrggbb, painted so; or a part or "
+      "material of the mesh by name. --fix and --load may be given several times.\n"
       "Examples:\n"
       "  sprung load bracket.stl --material abs --fix x-low --load y-high:50N:-y\n"
       "  sprung load plate.stl --material steel --fix x-low --load x-high:2kN:out --safety 2 -o out/\n"
-      "  sprung load hook.3mf --material petg --fix z-high --load ball=10,0,4,3:3kg --load weight --json\n");
+      "All options: sprung help load    The materials: sprung materials\n");
   command->callback([options, command, &invocation] { load_part(*command, *options, invocation); });
 }
 

@@ -10,6 +10,7 @@
 #include "app/console/interrupt.h"
 #include "app/scene/scene_file.h"
 #include "core/text.h"
+#include "core/units.h"
 
 namespace sprung {
 namespace {
@@ -56,6 +57,18 @@ std::optional<UpAxis> up_from_name(std::string_view name) {
   if (name == "y") return UpAxis::kY;
   if (name == "z") return UpAxis::kZ;
   throw Error(ErrorKind::kUsage, fmt::format("--up: '{}' is not a vertical axis{}", name, did_you_mean(name, kUps)));
+}
+
+/// A mesh in its own size.
+void add_unit(const std::string& unit, SceneRequest& request) {
+  if (is_scene_file(request.input)) {
+    throw Error(ErrorKind::kUsage, "--unit is for a bare mesh; in a scene file, body.scale = 0.001 is a file in mm");
+  }
+  for (const Setting& setting : request.settings) {
+    if (setting.key != "body.size") continue;
+    throw Error(ErrorKind::kUsage, fmt::format("give --unit or {}, not both", setting.option));
+  }
+  request.settings.push_back({"--unit", "body.scale", fmt::format("{}", metres_in(unit))});
 }
 
 struct NamedDirection {
@@ -178,6 +191,9 @@ void SceneOptions::add_to(CLI::App& command, bool has_pictures, const std::strin
   command
       .add_option("--scenario", scenario, fmt::format("what a bare mesh does: {}", fmt::join(scenario_names(), ", ")))
       ->option_text("NAME");
+  command.add_option("--unit", unit, "unit of the file of a bare mesh, in place of --size: mm, cm, m, in")
+      ->option_text("mm")
+      ->group(kMoreOptions);
   command.add_option("--up", up, "vertical axis of a bare mesh: y, z or auto (z for STL, 3MF, BLEND)")
       ->option_text("AXIS")
       ->group(kMoreOptions);
@@ -192,6 +208,7 @@ void SceneOptions::add_to(CLI::App& command, bool has_pictures, const std::strin
 
 SceneRequest SceneOptions::request() const {
   SceneRequest request{.input = input, .settings = keys.settings()};
+  if (!unit.empty()) add_unit(unit, request);
   if (!scenario.empty()) request.scenario = scenario_from_name(scenario);
   request.up = up_from_name(up);
   if (!view.empty()) request.view = view_from_text(view);

@@ -108,6 +108,7 @@ struct SceneOptions {
   std::string input;
   SettingOptions keys;
   std::string scenario;
+  std::string unit;
   std::string up;
   std::string view;
   std::string threads;

@@ -185,7 +185,7 @@ PartLoad load_from(const std::string& text, const LoadPart& part) {
 }  // namespace
 
 std::string PartLoad::description() const {
-  const std::string much = readable(amount, dimension);
+  std::string much = readable(amount, dimension);
   if (direction.isZero(0)) return much;
   constexpr std::array<const char*, 3> kNames{"x", "y", "z"};
   for (Eigen::Index axis = 0; axis < 3; ++axis) {

@@ -109,7 +109,8 @@ FoundPeak find_peak(const SkinScalar& scalar, const SingularLines& lines, const 
       return found;
     }
     const double exponent = std::log(fine[row] / std::max(scalar.around(coarsest, place), 1e-300)) / std::log(ratio);
-    if (exponent < kSingular || !lines.is_near(place, kAround * scalar.sizes[coarsest])) {
+    const double least = singular.empty() ? kSingular : kSingular / 2;  // the rest of a line that is known to be one
+    if (exponent < least || !lines.is_near(place, kAround * scalar.sizes[coarsest])) {
       peak.error = 0;
       for (std::size_t grid = 1; grid <= coarsest; ++grid) {
         peak.error = std::max(peak.error, convergence_index(fine[row], scalar.around(grid, place),

@@ -70,8 +70,9 @@ struct PartAnswer {
 
 /// Of solutions on ever coarser grids, the finest first. The error of a quantity is bounded by the grid convergence
 /// index, 3 |f_1 - f_k| / ((h_k / h_1)^2 - 1), the largest of all coarser grids k (Roache, J. Fluids Eng. 116 (1994)
-/// 405); a single grid leaves it unknown (infinite). Stresses are singular where they grow like size^-kSingular or
-/// faster from the coarsest grid to the finest; what lies within three of its bricks of such a place is left out.
+/// 405); a single grid leaves it unknown (infinite). Stresses are singular where, at a sharp inner edge or a support,
+/// they grow like size^-kSingular or faster from the coarsest grid to the finest (half of that beside others); what
+/// lies within three of its bricks of such a place is left out.
 [[nodiscard]] PartAnswer answer_of(const std::vector<PartSolution>& solutions, const LoadPart& part,
                                    const LoadCase& loads, const PartBricks& bricks);
 

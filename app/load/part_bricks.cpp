@@ -44,6 +44,7 @@ std::vector<FlatFace> flat_faces_of(const LoadedBody& loaded) {
     }
   }
   std::vector<FlatFace> faces;
+  faces.reserve(found.size());
   for (const auto& [key, face] : found) faces.push_back({.height = face.height, .weight = std::sqrt(face.weight)});
   return faces;
 }
@@ -118,7 +119,7 @@ PartBricks choose_part_bricks(const LoadedBody& loaded, double most) {
   const auto count = [&](double size) { return (volume / size + kSurfaceBricks * area) / (size * size); };
   double least = longest / kFewestAlong / 2;
   while (count(least) < most) least /= 1.01;
-  PartBricks bricks{.sizes = {}, .thickness = thickness_of(loaded)};
+  PartBricks bricks{.sizes = {}, .thickness = thickness_of(loaded), .is_chosen = true};
   double goal = least;
   if (bricks.thickness > 0) goal = std::max(least, std::min(bricks.thickness / kBricksAcross, longest / 40));
   const std::vector<FlatFace> faces = flat_faces_of(loaded);

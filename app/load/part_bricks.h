@@ -8,7 +8,8 @@ namespace sprung {
 /// The sizes of the bricks (m) of a part's grids, finest first, and why.
 struct PartBricks {
   std::vector<double> sizes;
-  double thickness = 0;  // m, that 95 % of the surface exceeds; 0: unknown
+  double thickness = 0;    // m, that 95 % of the surface exceeds; 0: unknown
+  bool is_chosen = false;  // and not asked for: the finest may be left out where it would take too long
 };
 
 /// Grids of some `most` bricks at most and of about 1.4 and 2 times their size, so that an error can be stated; each

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
+#include <cmath>
 #include <utility>
 
 #include "core/body/stress.h"
@@ -53,6 +55,9 @@ class QuietObserver : public Observer {
   bool warns_;
 };
 
+constexpr double kPatience = 45;     // s, that a grid may be forecast to take which nobody asked for
+constexpr double kGrowthOfTime = 4;  // power of the ratio of brick sizes: somewhat more than their number
+
 /// Each solid has to be held by itself.
 void check_held(const PartSolution& solution, const LoadPart& part) {
   const std::vector<SoftBody>& bodies = solution.simulation.world.bodies;
@@ -74,12 +79,23 @@ std::vector<PartSolution> solve_part(const LoadPart& part, const LoadCase& loads
                                      const Observer& observer) {
   Progress progress(observer, "load", double(bricks.sizes.size()));
   std::vector<PartSolution> solutions(bricks.sizes.size());
+  double seconds = 0;  // of the grid before
   for (std::size_t done = 0; done < solutions.size(); ++done) {
     const std::size_t grid = solutions.size() - 1 - done;  // the coarsest first: it finds soon what is wrong
     const QuietObserver quiet(observer, grid == 0);
     PartSolution& solution = solutions[grid];
     solution.brick_size = bricks.sizes[grid];
     solution.is_linear = linear;
+    const double forecast =
+        done == 0 ? 0 : seconds * std::pow(bricks.sizes[grid + 1] / bricks.sizes[grid], kGrowthOfTime);
+    if (bricks.is_chosen && done >= 2 && forecast > kPatience) {
+      observer.note(fmt::format("bricks of {} would take some {}; the answers are of {}: --brick-size for others",
+                                readable(solution.brick_size, Dimension::kLength), duration_text(forecast),
+                                readable(bricks.sizes[grid + 1], Dimension::kLength)));
+      solutions.erase(solutions.begin(), solutions.begin() + std::ptrdiff_t(grid) + 1);
+      break;
+    }
+    const auto began = std::chrono::steady_clock::now();
     solution.scene = scene_of(part, loads, solution.brick_size, linear);
     solution.simulation = prepare_simulation(solution.scene, quiet);
     check_held(solution, part);
@@ -93,6 +109,7 @@ std::vector<PartSolution> solve_part(const LoadPart& part, const LoadCase& loads
       solutions.erase(solutions.begin(), solutions.begin() + std::ptrdiff_t(grid) + 1);
       break;
     }
+    seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     progress.update(double(done + 1));
   }
   progress.finish(fmt::format("{} bricks, and {}", solutions.front().brick_count(),

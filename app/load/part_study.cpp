@@ -36,11 +36,7 @@ LoadPart read_part(const PartQuestion& question, const Observer& observer) {
   LoadPart part{.body = question.body};
   const FileUnit usual = question.body.surface ? FileUnit{"mm", question.unit.empty()} : usual_unit(question.body.mesh);
   part.unit_name = question.unit.empty() ? usual.name : question.unit;
-  try {
-    part.unit = parse_quantity("1" + part.unit_name, Dimension::kLength);
-  } catch (const Error&) {
-    throw Error(ErrorKind::kUsage, fmt::format("--unit: '{}' is no unit of length; mm, cm, m, in, ...", question.unit));
-  }
+  part.unit = metres_in(part.unit_name);
   if (part.body.size && !question.unit.empty()) throw Error(ErrorKind::kUsage, "give --unit or --size, not both");
   if (!part.body.size) part.body.scale = part.unit;
   if (question.is_z_up) part.body.rotation = Vec3(-90, 0, 0);
@@ -61,11 +57,9 @@ void check_size(const LoadPart& part, const Observer& observer) {
   const double longest = part.loaded.extent.maxCoeff();
   const std::string other = part.unit_name != "mm" ? "mm" : longest > 1 ? "um" : "m";
   if (longest > 1e3 || longest < 1e-6) {
-    throw Error(ErrorKind::kUsage,
-                fmt::format("{} is {:.4g} m long if its unit is {}; --unit {} would make it {}", part.loaded.name,
-                            longest, part.unit_name, other,
-                            readable(longest / part.unit * parse_quantity("1" + other, Dimension::kLength),
-                                     Dimension::kLength)));
+    throw Error(ErrorKind::kUsage, fmt::format("{} is {:.4g} m long if its unit is {}; --unit {} would make it {}",
+                                               part.loaded.name, longest, part.unit_name, other,
+                                               readable(longest / part.unit * metres_in(other), Dimension::kLength)));
   }
   if (longest < 100 && longest > 1e-4) return;
   observer.warn(fmt::format("{} is {} long in {}: is that its unit? --unit mm, cm, m, in", part.loaded.name,

@@ -58,8 +58,8 @@ void report_reading(const SceneBody& body, const LoadedBody& loaded, const Obser
   const double length = (loaded.file_from_rest.linear() * loaded.extent).maxCoeff();
   warn_if_far_away(body, loaded.mesh, loaded.file_from_rest.translation().norm() / length, observer);
   if (body.scale || body.size || body.mesh.empty()) return;
-  observer.note(fmt::format("size: {} is {:.4g} file units long, drawn {} m long; set --size to change it", loaded.name,
-                            length, kDefaultSize));
+  observer.note(fmt::format("size: {} is {:.4g} file units long, drawn {} m long; --size 12cm or --unit mm changes it",
+                            loaded.name, length, kDefaultSize));
 }
 
 /// Replaces all materials of the file.

@@ -30,6 +30,17 @@ TEST_F(Inspect, SaysWhatAMeshIs) {
   EXPECT_EQ(run("cube.obj --bricks 6 --picture cube.png").exit_code, 2);
 }
 
+TEST_F(Inspect, TakesTheUnitOfAFile) {
+  const ProgramRun made = run("cube.obj --bricks 6 --unit cm --density 1000 --json");
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_NE(made.out.find("0.01"), std::string::npos) << made.out;
+  EXPECT_EQ(made.err.find("--unit mm changes it"), std::string::npos) << made.err;
+  EXPECT_NE(run("cube.obj --bricks 6 --density 1000").err.find("--size 12cm or --unit mm changes it"),
+            std::string::npos);
+  EXPECT_NE(run("cube.obj --unit cm --size 1m").err.find("give --unit or --size, not both"), std::string::npos);
+  EXPECT_NE(run("cube.obj --unit 2").err.find("no unit of length"), std::string::npos);
+}
+
 TEST_F(Inspect, TheSameAsJson) {
   const ProgramRun made = run("cube.obj --bricks 6 --size 10cm --density 1000 --json");
   ASSERT_EQ(made.exit_code, 0) << made.err;

@@ -9,8 +9,8 @@
 namespace sprung {
 namespace {
 
-const std::vector<std::string> kCommands{"animate", "simulate", "render",  "export",    "film", "sweep",
-                                         "inspect", "validate", "compare", "materials", "help"};
+const std::vector<std::string> kCommands{"animate", "simulate", "render",   "export",  "film",      "sweep",
+                                         "load",    "inspect",  "validate", "compare", "materials", "help"};
 
 class HelpText : public testing::Test {
  protected:
