@@ -16,6 +16,7 @@ namespace sprung {
 namespace {
 
 constexpr double kLargeDisplacement = 0.1;  // of the longest side, where small ones are 1 % off in a cantilever
+constexpr double kTooLarge = 0.2;           // likewise, of which a linear answer warns
 constexpr double kFewBricks = 10000;
 constexpr double kMostBricks = 250000;    // of the finest grid, by default: some seconds
 constexpr double kMostNonlinear = 60000;  // where each takes some ten solves
@@ -150,6 +151,13 @@ PartStudy study_part(const PartQuestion& question, const Observer& observer) {
   const PartBricks bricks = bricks_for(part, is_linear);
   std::vector<PartSolution> solutions = solve_part(part, loads, bricks, is_linear, observer);
   PartAnswer answer = answer_of(solutions, part, loads, bricks);
+  if (is_linear && answer.displacement.value > kTooLarge * answer.extent.maxCoeff()) {
+    observer.warn(
+        fmt::format("the part moves by {}, {:.0f} % of its length, which small displacements are not for: "
+                    "--analysis nonlinear",
+                    readable(answer.displacement.value, Dimension::kLength),
+                    100 * answer.displacement.value / answer.extent.maxCoeff()));
+  }
   answer.points = answers_at(question.points, solutions, part);
   if (question.modes > 0) answer.frequencies = frequencies_of(solutions, question.modes, observer);
   answer.has_buckling = question.buckling;
