@@ -15,7 +15,7 @@
 namespace sprung {
 namespace {
 
-constexpr std::array<KeyOption, 23> kKeyOptions{{
+constexpr std::array<KeyOption, 24> kKeyOptions{{
     {"--material", "body.material", "NAME", {.is_common = true}},
     {"--materials", "materials", "FILE.toml"},
     {"--young", "body.material.young", "20kPa", {.is_common = true}},
@@ -23,6 +23,7 @@ constexpr std::array<KeyOption, 23> kKeyOptions{{
     {"--density", "body.material.density", "1.1g/cm3"},
     {"--damping", "body.material.damping", "0.03"},
     {"--size", "body.size", "12cm", {.is_common = true}},
+    {"--scale", "body.scale", "1mm"},
     {"--bricks", "body.bricks", "N|auto", {.is_common = true}},
     {"--brick-size", "body.brick_size", "5mm"},
     {"--repair", "body.repair", "off|auto|strict"},
@@ -65,7 +66,7 @@ void add_unit(const std::string& unit, SceneRequest& request) {
     throw Error(ErrorKind::kUsage, "--unit is for a bare mesh; in a scene file, body.scale = 0.001 is a file in mm");
   }
   for (const Setting& setting : request.settings) {
-    if (setting.key != "body.size") continue;
+    if (setting.key != "body.size" && setting.key != "body.scale") continue;
     throw Error(ErrorKind::kUsage, fmt::format("give --unit or {}, not both", setting.option));
   }
   request.settings.push_back({"--unit", "body.scale", fmt::format("{}", metres_in(unit))});
@@ -180,6 +181,7 @@ std::vector<Setting> SettingOptions::settings() const {
   if (is_given("--bricks") && is_given("--brick-size")) {
     throw Error(ErrorKind::kUsage, "give --bricks or --brick-size, not both");
   }
+  if (is_given("--size") && is_given("--scale")) throw Error(ErrorKind::kUsage, "give --size or --scale, not both");
   for (const std::string& text : sets_) settings.push_back(parse_set(text));
   return settings;
 }

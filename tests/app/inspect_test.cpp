@@ -33,11 +33,14 @@ TEST_F(Inspect, SaysWhatAMeshIs) {
 TEST_F(Inspect, TakesTheUnitOfAFile) {
   const ProgramRun made = run("cube.obj --bricks 6 --unit cm --density 1000 --json");
   ASSERT_EQ(made.exit_code, 0) << made.err;
-  EXPECT_NE(made.out.find("0.01"), std::string::npos) << made.out;
+  EXPECT_NE(made.out.find("\"unit\": 0.01,"), std::string::npos) << made.out;
   EXPECT_EQ(made.err.find("--unit mm changes it"), std::string::npos) << made.err;
   EXPECT_NE(run("cube.obj --bricks 6 --density 1000").err.find("--size 12cm or --unit mm changes it"),
             std::string::npos);
   EXPECT_NE(run("cube.obj --unit cm --size 1m").err.find("give --unit or --size, not both"), std::string::npos);
+  EXPECT_NE(run("cube.obj --scale 1cm --size 1m").err.find("give --size or --scale, not both"), std::string::npos);
+  const std::string scaled = run("cube.obj --bricks 6 --scale 1cm --density 1000 --json").out;
+  EXPECT_NE(scaled.find("\"unit\": 0.01,"), std::string::npos) << scaled;
   EXPECT_NE(run("cube.obj --unit 2").err.find("no unit of length"), std::string::npos);
 }
 
