@@ -6,12 +6,14 @@
 #include <tbb/global_control.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
 #include <random>
 
 #include "core/body/body.h"
 #include "tests/support/bodies.h"
 #include "tests/support/error_message.h"
+#include "tests/support/run_program.h"
 #include "tests/support/temp_folder.h"
 
 namespace sprung {
@@ -198,6 +200,35 @@ TEST(Cache, KilledAtAnyMomentItHasEveryFinishedFrame) {
     frames += reader.frame_count();
   }
   EXPECT_GT(frames, 20U);
+}
+
+/// As where a writer was killed in the middle of a block of the index: HDF5 would wait for it for ever.
+TEST(Cache, ATornIndexIsAnErrorAtOnce) {
+  const TempFolder folder;
+  const CacheHeader header = box_header(4);
+  const auto file = folder.path() / "run.h5";
+  {
+    CacheWriter writer(file, header, kMemory);
+    for (std::size_t frame = 0; frame < 40; ++frame) append(writer, header, frame);
+    writer.publish();
+  }
+  std::string bytes = text_of(file);
+  int torn = 0;
+  for (std::size_t at = bytes.find("EADB"); at != std::string::npos; at = bytes.find("EADB", at + 1), ++torn) {
+    bytes[at + 30] = char(~bytes[at + 30]);
+  }
+  ASSERT_GT(torn, 0);
+  static_cast<void>(folder.write("run.h5", bytes));
+  const auto began = std::chrono::steady_clock::now();
+  const std::string message = error_message([&] {
+    const CacheReader reader(file);
+    for (std::size_t frame = 0; frame < reader.frame_count(); ++frame) {
+      static_cast<void>(reader.positions(frame));
+      static_cast<void>(reader.velocities(frame));
+    }
+  });
+  EXPECT_NE(message.find("cannot read"), std::string::npos) << message;
+  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count(), 10);
 }
 
 TEST(Cache, AFullDiskLosesNothingThatIsFinished) {
