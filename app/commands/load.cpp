@@ -140,7 +140,7 @@ void write_turntable(LoadPicture& picture, const std::filesystem::path& file, co
 /// The rest shape and the loaded one, for ParaView.
 void write_xdmf(const PartSolution& solution, const std::filesystem::path& file) {
   const World& world = solution.simulation.world;
-  XdmfWriter writer(file, world, solution.is_linear ? StrainMeasure::kSmall : StrainMeasure::kFinite);
+  XdmfWriter writer(file, world, strain_measure(solution.scene));
   std::vector<Points> rest;
   std::vector<Points> loaded;
   std::vector<Points> velocities;
@@ -188,7 +188,7 @@ void load_part(const CLI::App& command, const LoadOptions& options, Invocation& 
 }  // namespace
 
 void add_load(CLI::App& app, Invocation& invocation) {
-  CLI::App* command = app.add_subcommand("load", "mesh of a part in, how far it bends and whether it holds out");
+  CLI::App* command = app.add_subcommand("load", "mesh of a part in, its bending and its safety under loads out");
   const auto options = std::make_shared<LoadOptions>();
   command->add_option("INPUT", options->input, "a mesh file");
   command->add_option("--fix", options->fixes, "hold WHERE; WHERE:xz along these axes, WHERE:slide across it only")

@@ -55,9 +55,7 @@ std::string viewer_of(const PartReport& report, const PartSolution& coarse, doub
   std::vector<Skin> skins;
   AlignedBox box;
   for (const SoftBody& body : bodies) {
-    const Eigen::VectorXd stress = von_mises(stress_at(
-        body.grid, body.skin_embedding,
-        recover_stress(body, body.positions, coarse.is_linear ? StrainMeasure::kSmall : StrainMeasure::kFinite)));
+    const Eigen::VectorXd stress = von_mises(skin_stress(coarse, body));
     Skin skin = body.skin;
     skin.uvs.resize(0, 2);
     skin.parts.clear();

@@ -51,6 +51,9 @@ LoadPicture::LoadPicture(const PartReport& report, const PartSolution& solution,
   stage_.has_ground = false;
   for (const Skin& skin : skins_) stage_.bounds.extend(bounding_box(skin.positions));
   middle_ = stage_.bounds.center();
+  std::vector<const Triangles*> triangles;
+  for (const SoftBody& body : solution.simulation.world.bodies) triangles.push_back(&body.skin.triangles);
+  sight_.emplace(drawn_, triangles);
   choose_direction();
   add_axes();
   for (const Skin& skin : skins_) stage_.skins.push_back(&skin);
@@ -75,9 +78,7 @@ void LoadPicture::add_bodies() {
     skin.normals = shape.normals.cast<double>();
     drawn_.push_back(skin.positions);
     at_rest_.push_back(part_from_world(solution_, report_.part, body.skin_positions(body.rest_positions)));
-    stresses.push_back(von_mises(stress_at(
-        body.grid, body.skin_embedding,
-        recover_stress(body, body.positions, solution_.is_linear ? StrainMeasure::kSmall : StrainMeasure::kFinite))));
+    stresses.push_back(von_mises(skin_stress(solution_, body)));
     all.insert(all.end(), stresses.back().begin(), stresses.back().end());
     add(std::move(skin), Eigen::Vector3f::Ones(), false);
     stage_.looks.back() = Look::kChart;
@@ -191,25 +192,6 @@ Legend legend_of(double highest) {
           .swatches = {}};
 }
 
-}  // namespace
-
-namespace {
-
-/// Whether a ray meets a triangle beyond its start (Moeller and Trumbore, J. Graphics Tools 2 (1997)).
-bool meets(const Vec3& start, const Vec3& way, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 one = b - a;
-  const Vec3 other = c - a;
-  const Vec3 across = way.cross(other);
-  const double volume = one.dot(across);
-  if (volume == 0) return false;
-  const Vec3 arm = start - a;
-  const double u = arm.dot(across) / volume;
-  if (u < 0 || u > 1) return false;
-  const Vec3 turned = arm.cross(one);
-  const double v = way.dot(turned) / volume;
-  return v >= 0 && u + v <= 1 && other.dot(turned) / volume > 0;
-}
-
 Vec3 towards_viewer(double azimuth, double elevation) {
   const double a = azimuth * std::numbers::pi / 180;
   const double e = elevation * std::numbers::pi / 180;
@@ -219,15 +201,7 @@ Vec3 towards_viewer(double azimuth, double elevation) {
 }  // namespace
 
 bool LoadPicture::is_seen(const Spot& spot, const Vec3& viewer) const {
-  if (spot.outward.dot(viewer) < 0.05) return false;
-  const Vec3 start = spot.place + 1e-4 * longest_ * spot.outward;
-  for (std::size_t row = 0; row < drawn_.size(); ++row) {
-    const Points& points = drawn_[row];
-    for (const auto& corners : solution_.simulation.world.bodies[row].skin.triangles.rowwise()) {
-      if (meets(start, viewer, points.row(corners[0]), points.row(corners[1]), points.row(corners[2]))) return false;
-    }
-  }
-  return true;
+  return sight_->is_open(spot.place, spot.outward, viewer);
 }
 
 /// From where most of the largest stress, the loads and the supports is seen; from below where that shows much more.

@@ -1,8 +1,10 @@
 #pragma once
 #include <array>
 #include <memory>
+#include <optional>
 
 #include "app/load/load_answer_text.h"
+#include "app/load/sight_lines.h"
 #include "app/load/symbols.h"
 #include "render/image/image.h"
 #include "render/renderer.h"
@@ -68,6 +70,7 @@ class LoadPicture {
   double azimuth_ = 0;             // degrees
   double elevation_ = 0;           // degrees
   Vec3 middle_ = Vec3::Zero();
+  std::optional<SightLines> sight_;  // to the bodies
   std::optional<Spot> worst_;
   std::unique_ptr<Renderer> renderer_;
 };

@@ -219,8 +219,8 @@ std::optional<PointAnswer> answer_at(const Vec3& place, const PartSolution& solu
     const Embedding seat = embed(body.grid, place.transpose());
     if (seat.outside > 0) continue;
     const auto& nodes = body.grid.nodes[std::size_t(seat.brick[0])];
-    const StressTensors corners = recover_stress(body, body.positions, {nodes.begin(), nodes.end()},
-                                                 solution.is_linear ? StrainMeasure::kSmall : StrainMeasure::kFinite);
+    const StressTensors corners =
+        recover_stress(body, body.positions, {nodes.begin(), nodes.end()}, strain_measure(solution.scene));
     StressTensors stress(1, 6);
     stress.row(0) = (corners.transpose() * trilinear_weights(seat.local.row(0))).transpose();
     stress = turned_back(std::move(stress), part.world_from_file);

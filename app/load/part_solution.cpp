@@ -40,21 +40,6 @@ Film scene_of(const LoadPart& part, const LoadCase& loads, double brick_size, bo
 
 namespace {
 
-/// Lets the stages of each grid go unseen, and warnings be heard of the finest only.
-class QuietObserver : public Observer {
- public:
-  QuietObserver(const Observer& observer, bool warns) : observer_(observer), warns_(warns) {}
-  void warn(std::string_view message) const override {
-    if (warns_) observer_.warn(message);
-  }
-  void detail(std::string_view message) const override { observer_.detail(message); }
-  void check_interrupt() const override { observer_.check_interrupt(); }
-
- private:
-  const Observer& observer_;
-  bool warns_;
-};
-
 constexpr double kPatience = 45;     // s, that a grid may be forecast to take which nobody asked for
 constexpr double kGrowthOfTime = 4;  // power of the ratio of brick sizes: somewhat more than their number
 
@@ -135,6 +120,11 @@ StressTensors turned_back(StressTensors stresses, const Mat3& world_from_file) {
   return stresses;
 }
 
+StressTensors skin_stress(const PartSolution& solution, const SoftBody& body) {
+  return stress_at(body.grid, body.skin_embedding,
+                   recover_stress(body, body.positions, strain_measure(solution.scene)));
+}
+
 PartSkin skin_of(const PartSolution& solution, const LoadPart& part) {
   const std::vector<SoftBody>& bodies = solution.simulation.world.bodies;
   long count = 0;
@@ -148,9 +138,7 @@ PartSkin skin_of(const PartSolution& solution, const LoadPart& part) {
     const Points now = body.skin_positions(body.positions);
     skin.places.middleRows(row, rows) = part_from_world(solution, part, rest);
     skin.displacements.middleRows(row, rows) = (now - rest) * turned;
-    const StressTensors of_nodes =
-        recover_stress(body, body.positions, solution.is_linear ? StrainMeasure::kSmall : StrainMeasure::kFinite);
-    skin.stresses.middleRows(row, rows) = stress_at(body.grid, body.skin_embedding, of_nodes);
+    skin.stresses.middleRows(row, rows) = skin_stress(solution, body);
     row += rows;
   }
   skin.stresses = turned_back(std::move(skin.stresses), part.world_from_file);

@@ -5,6 +5,7 @@
 #include "app/load/load_case.h"
 #include "app/load/part_bricks.h"
 #include "app/scene/film.h"
+#include "core/simulation/observer.h"
 #include "core/simulation/recorder.h"
 #include "core/simulation/simulation.h"
 #include "core/simulation/skin_supports.h"
@@ -32,6 +33,21 @@ struct PartSkin {
 /// The scene of a part under a load case, with bricks of that size.
 [[nodiscard]] Film scene_of(const LoadPart& part, const LoadCase& loads, double brick_size, bool linear);
 
+/// Lets the stages of each grid go unseen, and warnings be heard of the finest only.
+class QuietObserver : public Observer {
+ public:
+  QuietObserver(const Observer& observer, bool warns) : observer_(observer), warns_(warns) {}
+  void warn(std::string_view message) const override {
+    if (warns_) observer_.warn(message);
+  }
+  void detail(std::string_view message) const override { observer_.detail(message); }
+  void check_interrupt() const override { observer_.check_interrupt(); }
+
+ private:
+  const Observer& observer_;
+  bool warns_;
+};
+
 /// Fills the part with bricks of each size, finest first, and finds its equilibria: by linear statics, or with large
 /// displacements. Throws Error(kBadInput) where it is not held, what simulate() does.
 [[nodiscard]] std::vector<PartSolution> solve_part(const LoadPart& part, const LoadCase& loads,
@@ -42,6 +58,9 @@ struct PartSkin {
 
 /// Stresses in the axes of the world, in those of the file.
 [[nodiscard]] StressTensors turned_back(StressTensors stresses, const Mat3& world_from_file);
+
+/// At the vertices of a body's skin (n x 6, Pa), in the axes of the world.
+[[nodiscard]] StressTensors skin_stress(const PartSolution& solution, const SoftBody& body);
 
 [[nodiscard]] PartSkin skin_of(const PartSolution& solution, const LoadPart& part);
 

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
+#include <functional>
+#include <set>
 
 #include "app/load/load_answer_text.h"
 #include "app/load/part_modes.h"
@@ -20,6 +23,25 @@ constexpr double kTooLarge = 0.2;           // likewise, of which a linear answe
 constexpr double kFewBricks = 10000;
 constexpr double kMostBricks = 250000;    // of the finest grid, by default: some seconds
 constexpr double kMostNonlinear = 60000;  // where each takes some ten solves
+
+/// Passes each warning on once: the mesh is read anew for every grid.
+class OnceObserver : public Observer {
+ public:
+  explicit OnceObserver(const Observer& observer) : observer_(observer) {}
+  void warn(std::string_view message) const override {
+    if (said_.emplace(message).second) observer_.warn(message);
+  }
+  void note(std::string_view message) const override { observer_.note(message); }
+  void detail(std::string_view message) const override { observer_.detail(message); }
+  void check_interrupt() const override { observer_.check_interrupt(); }
+  void show(const Progress& progress) const override { observer_.show(progress); }
+  void finish(const Progress& progress, std::string_view result) const override { observer_.finish(progress, result); }
+  void clear(const Progress& progress) const override { observer_.clear(progress); }
+
+ private:
+  const Observer& observer_;
+  mutable std::set<std::string, std::less<>> said_;
+};
 
 struct FileUnit {
   std::string name;
@@ -93,7 +115,8 @@ bool is_small(const PartQuestion& question, const LoadPart& part, const LoadCase
   if (question.analysis != PartAnalysis::kAuto) return question.analysis == PartAnalysis::kLinear;
   PartBricks coarse = choose_part_bricks(part.loaded, kFewBricks);
   coarse.sizes = {coarse.sizes.back()};
-  const PartAnswer answer = answer_of(solve_part(part, loads, coarse, true, Observer()), part, loads, coarse);
+  const PartAnswer answer =
+      answer_of(solve_part(part, loads, coarse, true, QuietObserver(observer, false)), part, loads, coarse);
   const double share = answer.displacement.value / answer.extent.maxCoeff();
   if (share < kLargeDisplacement) return true;
   observer.note(
@@ -102,10 +125,6 @@ bool is_small(const PartQuestion& question, const LoadPart& part, const LoadCase
                   readable(answer.displacement.value, Dimension::kLength), 100 * share));
   return false;
 }
-
-}  // namespace
-
-namespace {
 
 double surface_of(const LoadPart& part) {
   double area = 0;
@@ -127,8 +146,9 @@ void warn_of_faces(const LoadPart& part, const LoadCase& loads, const Observer& 
   };
   for (const PartFix& fix : loads.fixes) {
     check("--fix", fix.text, fix.face);
+    const std::array<bool, 3>& held = fix.pin.axes.held;
     for (const PartLoad& load : loads.loads) {
-      if (!load.face || !fix.pin.axes.held[0] || fix.pin.normal) continue;
+      if (!load.face || fix.pin.normal || !(held[0] && held[1] && held[2])) continue;
       const double apart = (load.face->centre - fix.face.centre).norm();
       if (apart > kSame * std::sqrt(surface) || std::abs(load.face->area - fix.face.area) > kSame * surface) continue;
       observer.warn(fmt::format("--load '{}' acts on what --fix '{}' holds, and does nothing", load.text, fix.text));
@@ -141,7 +161,8 @@ void warn_of_faces(const LoadPart& part, const LoadCase& loads, const Observer& 
 
 }  // namespace
 
-PartStudy study_part(const PartQuestion& question, const Observer& observer) {
+PartStudy study_part(const PartQuestion& question, const Observer& listener) {
+  const OnceObserver observer(listener);
   check_case(question);
   LoadPart part = read_part(question, observer);
   check_size(part, observer);

@@ -1,0 +1,31 @@
+#pragma once
+#include <vector>
+
+#include "core/mesh/query/triangle_grid.h"
+#include "core/types.h"
+
+namespace sprung {
+
+/// Whether points of surfaces are seen from far away.
+class SightLines {
+ public:
+  /// One or more surfaces (m).
+  SightLines(const std::vector<Points>& points, const std::vector<const Triangles*>& triangles);
+  SightLines(const SightLines&) = delete;
+  SightLines& operator=(const SightLines&) = delete;
+
+  /// Whether nothing lies between a point of them and infinity; `outward` and `viewer` (unit): the surface's normal
+  /// there and the direction to where it is looked at from.
+  [[nodiscard]] bool is_open(const Vec3& place, const Vec3& outward, const Vec3& viewer) const;
+
+ private:
+  Vec3 low_ = Vec3::Zero();  // m, where the lattice starts
+  double cell_ = 1;          // m, its side
+  Points points_;            // in cells
+  Triangles triangles_;
+  TriangleGrid grid_;
+
+  static constexpr double kCellsAlong = 60;
+};
+
+}  // namespace sprung
