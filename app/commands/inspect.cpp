@@ -4,6 +4,8 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/options.h"
+#include "app/console/crossings_json.h"
+#include "app/inspect/crossings_report.h"
 #include "app/inspect/inspection.h"
 #include "app/scene/cached_film.h"
 #include "core/error.h"
@@ -18,6 +20,7 @@ namespace {
 
 struct InspectOptions {
   bool json = false;
+  bool crossings = false;
   std::filesystem::path picture;  // empty: none
   bool overwrite = false;
   SceneOptions scene;
@@ -125,11 +128,29 @@ std::string json_of(const CacheFacts& facts) {
   return json.dump(1) + "\n";
 }
 
-void inspect_cache(const InspectOptions& options) {
-  if (!options.scene.keys.settings().empty() || !options.scene.scenario.empty() || !options.picture.empty()) {
-    throw Error(ErrorKind::kUsage, "inspect of a cache takes --json only");
+void inspect_crossings(const InspectOptions& options, const CacheReader& cache, const Console& console) {
+  if (!options.picture.empty()) {
+    refuse_existing(options.picture, options.overwrite);
+    check_writable(options.picture);
+  }
+  const CrossingsReport report = find_crossings(cache, !options.picture.empty(), console);
+  fmt::print("{}", options.json ? json_of(report.frames).dump(1) + "\n" : text_of(report.frames));
+  if (options.picture.empty()) return;
+  if (report.picture.pixels.empty()) return console.note("no skins cross: no picture");
+  make_folder(options.picture.parent_path());
+  write_png(report.picture, options.picture);
+  console.note(
+      fmt::format("{}: the frame of the deepest place (black), on the right from near; red: triangles that cross",
+                  options.picture.string()));
+}
+
+void inspect_cache(const InspectOptions& options, const Console& console) {
+  const bool has_scene_options = !options.scene.keys.settings().empty() || !options.scene.scenario.empty();
+  if (has_scene_options || (!options.picture.empty() && !options.crossings)) {
+    throw Error(ErrorKind::kUsage, "inspect of a cache takes --json, and --crossings with --picture");
   }
   const CacheReader cache(options.scene.input);
+  if (options.crossings) return inspect_crossings(options, cache, console);
   if (options.scene.print_scene) {
     fmt::print("{}", cache.header().scene);
     return;
@@ -145,18 +166,20 @@ void add_inspect(CLI::App& app, Invocation& invocation) {
       app.add_subcommand("inspect", "mesh, scene or cache in, its properties and the cost of its film out");
   const auto options = std::make_shared<InspectOptions>();
   command->add_flag("--json", options->json, "the facts as JSON");
-  command->add_option("--picture", options->picture, "draw skin and bricks, thin parts marked")
+  command->add_flag("--crossings", options->crossings, "of a cache: where skins cross each other, frame by frame");
+  command->add_option("--picture", options->picture, "draw skin and bricks, or where skins cross the deepest")
       ->option_text("FILE.png");
   command->add_flag("--overwrite", options->overwrite, "replace a picture that exists");
   options->scene.add_to(*command, true, "a mesh file, a scene (.toml), or a cache (.h5)");
   add_messages(*command, invocation.console);
   command->footer(scene_footer(*command,
-                               "Examples:\n  sprung inspect bunny.obj\n"
-                               "  sprung inspect bunny.obj --bricks auto --picture bunny.png\n"
-                               "  sprung inspect run.h5 --json\n"));
+                               "Examples:\n  sprung inspect bunny.obj --bricks auto --picture bunny.png\n"
+                               "  sprung inspect run.h5 --crossings --picture deepest.png\n"));
   command->callback([options, command, &invocation] {
     require_input(*command, options->scene.input, "a mesh or a scene");
-    if (is_cache_file(options->scene.input)) return inspect_cache(*options);
+    if (is_cache_file(options->scene.input)) return inspect_cache(*options, invocation.console);
+    if (options->crossings)
+      throw Error(ErrorKind::kUsage, "--crossings is about a cache, RUN.h5; make one with simulate");
     inspect_scene(*options, invocation.console);
   });
 }

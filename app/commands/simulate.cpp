@@ -13,6 +13,7 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/options.h"
+#include "app/console/crossings_json.h"
 #include "app/film/draw_diverged.h"
 #include "app/film/film_output.h"
 #include "app/inspect/forecast.h"
@@ -32,6 +33,7 @@ using Json = nlohmann::ordered_json;
 
 struct SimulateOptions {
   OutputOptions outputs;
+  bool json = false;
   bool overwrite = false;
   bool resume = false;
   std::string position_error;
@@ -162,7 +164,7 @@ std::string probes_csv(const Recording& recording) {
 }
 
 /// The same by probe, with the frequencies of modes and the state hash.
-std::string probes_json(const Recording& recording) {
+Json probes_json(const Recording& recording) {
   Json tracks = Json::array();
   for (const ProbeTrack& track : recording.probes) {
     Json& json = tracks.emplace_back(Json{{"name", track.name}});
@@ -175,11 +177,10 @@ std::string probes_json(const Recording& recording) {
       }
     }
   }
-  const Json json{{"state_hash", fmt::format("{:016x}", recording.state_hash)},
-                  {recording.progress_name, recording.progress},
-                  {"frequencies_Hz", std::vector<double>(recording.frequencies.begin(), recording.frequencies.end())},
-                  {"probes", tracks}};
-  return json.dump() + "\n";
+  return {{"state_hash", fmt::format("{:016x}", recording.state_hash)},
+          {recording.progress_name, recording.progress},
+          {"frequencies_Hz", std::vector<double>(recording.frequencies.begin(), recording.frequencies.end())},
+          {"probes", tracks}};
 }
 
 /// How a run came about: version and build of the program, the scene as resolved, a hash of each mesh file it names and
@@ -201,6 +202,7 @@ std::string manifest_json(const Film& scene, const Recording& recording) {
                   {"mesh_hashes", hashes},
                   {"frames", recording.progress.size()},
                   {"state_hash", fmt::format("{:016x}", recording.state_hash)},
+                  {"crossings", json_of(recording.crossings)},
                   {"seconds", std::round(1e3 * total) / 1e3},
                   {"seconds_of_frames", seconds}};
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -229,10 +231,13 @@ void run_simulation(const CLI::App& command, const SimulateOptions& options, con
     if (places.folder) {
       make_folder(*places.folder);
       write_file(*places.folder / "probes.csv", probes_csv(recording));
-      write_file(*places.folder / "probes.json", probes_json(recording));
+      write_file(*places.folder / "probes.json", probes_json(recording).dump() + "\n");
       write_file(*places.folder / "manifest.json", manifest_json(scene, recording));
     }
-    print_summary(recording);
+    if (!options.json) return print_summary(recording);
+    Json json = probes_json(recording);
+    json["crossings"] = json_of(recording.crossings);
+    fmt::print("{}\n", json.dump(1));
   });
 }
 
@@ -243,6 +248,7 @@ void add_simulate(CLI::App& app, Invocation& invocation) {
   const auto options = std::make_shared<SimulateOptions>();
   options->outputs.add_to(
       *command, "RUN.h5, a cache of all frames, or folder/ for probes.csv, probes.json and manifest.json; or both");
+  command->add_flag("--json", options->json, "probes, and where skins cross, in every frame as JSON");
   command->add_flag("--overwrite", options->overwrite, "replace files that exist");
   command->add_flag("--resume", options->resume, "go on where the cache ends; begin where there is none");
   command

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "app/console/crossings_json.h"
 #include "app/console/interrupt.h"
 #include "core/units.h"
 
@@ -111,6 +112,13 @@ std::string bar_of(const Progress& progress) {
 }
 
 }  // namespace
+
+void Console::look_at(const Crossings& crossings) const {
+  if (quiet || !log_json) return;
+  Json event{{"kind", "frame"}};
+  event.update(json_of(crossings));
+  print_event(event);
+}
 
 void Console::show(const Progress& progress) const {
   if (quiet || (!is_terminal && !log_json)) return;

@@ -31,6 +31,8 @@ class Console : public Observer {
   void warn(std::string_view message) const override;
   void note(std::string_view message) const override;
   void detail(std::string_view message) const override;
+  /// With log_json only.
+  void look_at(const Crossings& crossings) const override;
   void show(const Progress& progress) const override;
   void finish(const Progress& progress, std::string_view result) const override;
   void clear(const Progress& progress) const override;

@@ -58,11 +58,6 @@ SkinShape shape_of(const StageObstacle& obstacle, const Skin& skin, double time)
   return {.positions = positions.cast<float>(), .normals = normals.cast<float>()};
 }
 
-Points skin_positions(const StageObstacle& obstacle, double time) {
-  const Pose pose = pose_at(obstacle, time);
-  return (obstacle.skin.positions * pose.rotation.transpose()).rowwise() + pose.translation.transpose();
-}
-
 FilmStage::FilmStage(const Film& scene, const Simulation& simulation, const Recording& recording, double tolerance)
     : scene_(scene),
       simulation_(simulation),

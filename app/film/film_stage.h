@@ -21,9 +21,6 @@ namespace sprung {
 /// A skin of an obstacle at that time of the film (s).
 [[nodiscard]] SkinShape shape_of(const StageObstacle& obstacle, const Skin& skin, double time);
 
-/// Vertices of an obstacle's skin at that time (s), m.
-[[nodiscard]] Points skin_positions(const StageObstacle& obstacle, double time);
-
 /// The values of the first and the last colour, SI.
 struct ColorRange {
   double low;

@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "core/body/body.h"
-#include "core/contact/broad_phase.h"
 #include "core/mesh/query/winding_tree.h"
 #include "core/world/obstacle.h"
 
@@ -73,18 +72,15 @@ class Surface {
   MeshDistance distance_;
 };
 
-double penetration_depth(const Obstacle& obstacle, const Points& points) {
+}  // namespace
+
+double penetration_depth(const Obstacle& obstacle, const SoftBody& actor) {
   double depth = 0;
+  const Points points = free_points(actor);
   for (const auto& row : points.rowwise()) {
     depth = std::max(depth, -signed_distance(obstacle.shape, obstacle.pose, row).distance);
   }
   return depth;
-}
-
-}  // namespace
-
-double penetration_depth(const Obstacle& obstacle, const SoftBody& actor) {
-  return penetration_depth(obstacle, free_points(actor));
 }
 
 double penetration_depth(const SoftBody& other, const SoftBody& actor) {
@@ -93,31 +89,6 @@ double penetration_depth(const SoftBody& other, const SoftBody& actor) {
   if (points.rows() == 0) return 0;
   const Surface surface(other);
   return std::max(surface.depth_of(points), surface.depth_of(brick_middles(actor)));
-}
-
-double deepest_penetration(const World& world) {
-  std::vector<Points> points;
-  std::vector<AlignedBox> boxes;
-  double depth = 0;
-  for (const SoftBody& actor : world.bodies) {
-    points.push_back(free_points(actor));
-    boxes.push_back(bounding_box(actor.positions));
-    for (const Obstacle& obstacle : world.obstacles)
-      depth = std::max(depth, penetration_depth(obstacle, points.back()));
-  }
-  if (!world.bodies_collide) return depth;
-  std::vector<std::optional<Surface>> surfaces(world.bodies.size());
-  const auto look = [&](int row, int other) {
-    const std::size_t target = other;
-    if (world.bodies[target].contact_triangles.rows() == 0) return;
-    if (!surfaces[target]) surfaces[target].emplace(world.bodies[target]);
-    depth = std::max(depth, surfaces[target]->depth_of(points[row]));
-  };
-  for (const auto& [a, b] : overlapping_boxes(boxes)) {
-    look(a, b);
-    look(b, a);
-  }
-  return depth;
 }
 
 }  // namespace sprung

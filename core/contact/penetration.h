@@ -11,8 +11,4 @@ namespace sprung {
 /// of two bodies at the same place do not lie in each other, they are the same.
 [[nodiscard]] double penetration_depth(const SoftBody& other, const SoftBody& actor);
 
-/// In any obstacle, and in any other body if bodies touch each other: the most of all. How deep a body is in itself is
-/// not seen.
-[[nodiscard]] double deepest_penetration(const World& world);
-
 }  // namespace sprung

@@ -6,6 +6,7 @@
 namespace sprung {
 
 class Progress;
+struct Crossings;
 struct World;
 
 /// Receives the messages of long operations, and may interrupt them. This one ignores them.
@@ -24,6 +25,9 @@ class Observer {
   /// Frame `frame` (from 0) is done, at `progress`: time (s), or share of the load, or number of the mode. Of a run
   /// that is resumed, those of this run only.
   virtual void finish_frame(int /*frame*/, double /*progress*/, const World&) const {}
+
+  /// How skins cross in a frame of a motion; called before it is finished.
+  virtual void look_at(const Crossings&) const {}
 
   /// A stage has begun or advanced, has finished, or has ended without a result.
   virtual void show(const Progress&) const {}

@@ -106,6 +106,11 @@ Pose pose_at(const StageObstacle& obstacle, double time) {
   return {placement.rotation * obstacle.start.rotation, obstacle.start.translation + placement.shift};
 }
 
+Points skin_positions(const StageObstacle& obstacle, double time) {
+  const Pose pose = pose_at(obstacle, time);
+  return (obstacle.skin.positions * pose.rotation.transpose()).rowwise() + pose.translation.transpose();
+}
+
 Obstacle obstacle_between(const StageObstacle& staged, const SceneObstacle& obstacle, double begin, double end) {
   Obstacle moving{.shape = staged.shape,
                   .pose = pose_at(staged, begin),

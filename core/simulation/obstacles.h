@@ -25,6 +25,9 @@ struct StageObstacle {
 /// Its pose at a time of the film (s).
 [[nodiscard]] Pose pose_at(const StageObstacle& obstacle, double time);
 
+/// Vertices of its skin at that time (s), m.
+[[nodiscard]] Points skin_positions(const StageObstacle& obstacle, double time);
+
 /// The obstacle of a world at `begin` (s), moving uniformly to its pose at `end`; at rest where both are equal.
 [[nodiscard]] Obstacle obstacle_between(const StageObstacle& staged, const SceneObstacle& obstacle, double begin,
                                         double end);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/dynamics/integrator_state.h"
+#include "core/simulation/crossings.h"
 #include "core/simulation/simulation.h"
 
 namespace sprung {
@@ -60,9 +61,9 @@ struct Recording {
   std::vector<double> seconds;               // likewise: wall-clock time that it took
   std::string progress_name;                 // "time_s", "load", "mode"
   std::vector<ProbeTrack> probes;
-  Eigen::VectorXd frequencies;     // Hz, of modes
-  double deepest_penetration = 0;  // m, of skins in bodies and obstacles, at the end of any frame of a motion
-  std::uint64_t state_hash = 0;    // of the last frame's node positions and velocities
+  Eigen::VectorXd frequencies;       // Hz, of modes
+  std::vector<Crossings> crossings;  // of the frames of a motion that this run computed, but the first
+  std::uint64_t state_hash = 0;      // of the last frame's node positions and velocities
 };
 
 /// Records the frames of a simulation.

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <optional>
 
-#include "core/contact/penetration.h"
 #include "core/error.h"
+#include "core/simulation/crossing_watch.h"
 #include "core/simulation/equilibria.h"
 #include "core/simulation/motion.h"
 #include "core/simulation/observer.h"
@@ -19,8 +19,8 @@ namespace {
 
 constexpr double kLongRun = 3600;  // s remaining, from which on there is a warning
 constexpr double kSecondsToEstimate = 3;
-constexpr double kRest = 0.25;       // s without motion
-constexpr double kDeepShare = 0.01;  // of the largest body's size: penetration without a warning
+constexpr double kRest = 0.25;   // s without motion
+constexpr double kSeen = 0.001;  // of the largest body's size: crossings that are deeper show in pictures
 
 int inverted_bricks(const World& world) {
   int count = 0;
@@ -28,35 +28,23 @@ int inverted_bricks(const World& world) {
   return count;
 }
 
-/// The penetration of contact points into skins and obstacles at the ends of frames.
-class OverlapWatch {
- public:
-  void look(const World& world, int frame) {
-    const double depth = deepest_penetration(world);
-    if (depth <= deepest_) return;
-    deepest_ = depth;
-    frame_ = frame;
-  }
-  [[nodiscard]] double deepest() const { return deepest_; }
-  [[nodiscard]] std::string summary() const {
-    constexpr double kRounding = 1e-9;  // m
-    return deepest_ > kRounding
-               ? fmt::format("contact points penetrate by at most {}", readable(deepest_, Dimension::kLength))
-               : "no penetration";
-  }
+/// "skins cross by at most 0.3 mm (0.2 % of the size)".
+std::string summary_of(const std::vector<Crossings>& frames) {
+  const Crossings* deepest = deepest_of(frames);
+  if (deepest == nullptr) return "no skins cross";
+  return fmt::format("skins cross by at most {} ({:.2g} % of the size)", readable(deepest->depth, Dimension::kLength),
+                     100 * deepest->share);
+}
 
-  void warn(double size, const Observer& observer) const {
-    if (deepest_ <= kDeepShare * size) return;
-    observer.warn(
-        fmt::format("in frame {} skins penetrate each other or an obstacle by {}, {:.1f} % of the size of the largest "
-                    "body; smaller bricks (bricks) or slower impacts keep them apart",
-                    frame_ + 1, readable(deepest_, Dimension::kLength), 100 * deepest_ / size));
-  }
-
- private:
-  double deepest_ = 0;  // m
-  int frame_ = 0;
-};
+void warn_of_crossings(const std::vector<Crossings>& frames, const Observer& observer) {
+  const Crossings* deepest = deepest_of(frames);
+  if (deepest == nullptr || deepest->share <= kSeen) return;
+  observer.warn(fmt::format(
+      "in frame {} skins cross in {} of triangles, {} deep ({:.2g} % of the size): {}, at [{:.4g}, {:.4g}, {:.4g}] m; "
+      "smaller bricks (bricks) or slower impacts keep them apart",
+      deepest->frame + 1, count_of(deepest->pairs, "pair"), readable(deepest->depth, Dimension::kLength),
+      100 * deepest->share, deepest->names, deepest->place.x(), deepest->place.y(), deepest->place.z()));
+}
 
 void forecast(const StepPlan& plan, double brick_steps, const Observer& observer) {
   if (!plan.reason.empty()) observer.note("integrator " + plan.reason);
@@ -75,6 +63,7 @@ class MotionRun {
         observer_(observer),
         size_(simulation.size),
         motion_(simulation, scene),
+        watch_(scene, simulation),
         total_(motion_.plan().brick_steps * (frame_count(scene) - 1)) {
     forecast(motion_.plan(), total_, observer);
   }
@@ -97,7 +86,10 @@ class MotionRun {
     };
     motion_.advance(begin, time_of(scene_, frame), duration, between,
                     [&](const std::string& message) { observer_.warn(message); });
-    overlaps_.look(world_, frame);
+    std::vector<const Points*> nodes;
+    for (const SoftBody& body : world_.bodies) nodes.push_back(&body.positions);
+    crossings_.push_back(watch_.look(nodes, frame, time_of(scene_, frame)));
+    observer_.look_at(crossings_.back());
     still_for_ = is_still(before, duration) ? still_for_ + duration : 0;
   }
 
@@ -120,14 +112,13 @@ class MotionRun {
     progress_->finish(fmt::format(
         "{}{}, {}{} steps of {} a frame, {} inverted bricks at the end, {}", count_of(frames, "frame"),
         first > 0 ? fmt::format(", {} of them in this run", frames - first) : "", has_more ? "at most " : "",
-        steps.count, readable(steps.dt, Dimension::kTime), inverted, overlaps_.summary()));
+        steps.count, readable(steps.dt, Dimension::kTime), inverted, summary_of(crossings_)));
     warn_of_crushed_bodies(world_, observer_);
-    overlaps_.warn(size_, observer_);
+    warn_of_crossings(crossings_, observer_);
   }
 
   [[nodiscard]] SceneMotion& motion() { return motion_; }
-  /// Reports the penetration of skins, m.
-  [[nodiscard]] double deepest() const { return overlaps_.deepest(); }
+  [[nodiscard]] const std::vector<Crossings>& crossings() const { return crossings_; }
 
  private:
   [[nodiscard]] std::vector<Points> positions() const {
@@ -185,7 +176,8 @@ class MotionRun {
   const Observer& observer_;
   double size_;  // m, of the largest body
   SceneMotion motion_;
-  OverlapWatch overlaps_;
+  CrossingWatch watch_;
+  std::vector<Crossings> crossings_;  // by frame of this run
   double total_;
   double still_for_ = 0;  // s, up to the last frame
   double before_ = 0;     // of these, done by an earlier run
@@ -210,7 +202,7 @@ Recording record_motion(Simulation& simulation, const Scene& scene, const Observ
     observer.finish_frame(frame, frame / scene.fps, simulation.world);
   }
   run.finish(first, frame);
-  recorder.recording().deepest_penetration = run.deepest();
+  recorder.recording().crossings = run.crossings();
   return recorder.finish();
 }
 

@@ -25,6 +25,7 @@ const std::vector<std::string> kFolders{
     "core/body",
     "core/skin",
     "core/world",
+    "core/contact/watch",
     "core/contact",
     "core/dynamics",
     "core/dynamics/linear",

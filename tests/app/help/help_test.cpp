@@ -109,7 +109,7 @@ TEST_F(HelpText, AMistypedWordGetsTheNearest) {
 TEST_F(HelpText, LogJsonIsAnObjectALine) {
   static_cast<void>(folder_.write("cube.obj", kCubeObj));
   const std::string log = error("simulate cube.obj -o out --bricks 6 --duration 0.2 --log-json");
-  static const std::regex kLine(R"re(\{"kind":"(note|warning|progress|stage)",".*\}\n)re");
+  static const std::regex kLine(R"re(\{"kind":"(note|warning|progress|stage|frame)",".*\}\n)re");
   EXPECT_EQ(std::regex_replace(log, kLine, ""), "");
   EXPECT_NE(log.find(R"({"kind":"progress","stage":"simulate","share":0.0,)"), std::string::npos) << log;
   EXPECT_NE(log.find(R"({"kind":"stage","stage":"simulate","seconds":)"), std::string::npos) << log;

@@ -1,0 +1,62 @@
+#pragma once
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "core/world/world.h"
+
+namespace sprung {
+
+/// The triangles of one cell of a drawn skin: points of a body's skin_embedding, by the skin's vertices.
+using CellTriangles = std::vector<std::array<int, 3>>;
+
+/// What the bricks that carry the cells of a skin say of these, without placing any vertex: boxes that enclose them,
+/// and where neighbouring cells may cross each other.
+///
+/// Cells are neighbours where their bricks share a node. As long as all bricks of two neighbours are deformed by less
+/// than kTame of their size, rotation apart, and turned against each other by no more, what they carry keeps its
+/// order, with two exceptions that are looked for at rest: surfaces that face each other within kFacing bricks, and
+/// such as lie back to back nearer than kThin.
+class CellBricks {
+ public:
+  static constexpr double kTame = 0.3;
+  static constexpr double kFacing = 1;
+  static constexpr double kThin = 0.05;
+
+  CellBricks(const SoftBody& body, const std::vector<CellTriangles>& cells);
+
+  /// The nodes (m x 3, m) are here now.
+  void follow(const Points& nodes);
+
+  /// By cell, m.
+  [[nodiscard]] const std::vector<AlignedBox>& boxes() const { return boxes_; }
+  [[nodiscard]] bool are_neighbours(int a, int b) const;
+  /// Neighbours, and cells with themselves, that have to be looked at; the lower row first.
+  [[nodiscard]] const std::vector<std::array<int, 2>>& suspects() const { return suspects_; }
+
+ private:
+  struct Carrier {
+    int brick;
+    AlignedBox part;  // of it, that encloses what it carries of the cell: coordinates in the brick
+  };
+  struct Neighbours {
+    std::array<int, 2> cells;
+    bool is_delicate;  // facing or thin at rest
+  };
+
+  void find_neighbours(const std::vector<CellTriangles>& cells);
+  void measure_bricks(const Points& nodes);
+
+  const SoftBody& body_;
+  std::vector<std::vector<Carrier>> carriers_;  // by cell
+  std::vector<Neighbours> pairs_;
+  std::vector<std::vector<int>> neighbours_;  // by cell, ascending
+  std::vector<char> is_used_;                 // by brick: carries any cell
+  std::vector<Mat3> rotations_;               // by brick
+  std::vector<double> strains_;    // by brick: the largest of its edges, over their length, beside the rotation
+  std::vector<double> of_cells_;   // the largest strain in each, with the turns of its bricks
+  std::vector<AlignedBox> boxes_;  // by cell
+  std::vector<std::array<int, 2>> suspects_;
+};
+
+}  // namespace sprung

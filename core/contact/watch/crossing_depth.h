@@ -1,0 +1,19 @@
+#pragma once
+#include "core/contact/watch/crossing_pairs.h"
+
+namespace sprung {
+
+/// How deep surfaces are in each other, and where the deepest point is.
+struct CrossingDepth {
+  double depth = 0;  // m
+  Vec3 place = Vec3::Zero();
+};
+
+/// Of two surfaces whose triangles cross in these pairs (one or more; see crossing_pairs()); both may be the same one,
+/// which is in itself. The largest distance from the other surface (of itself: from those triangles that face the
+/// place) of the vertices of either that are inside the other, in one piece with an edge that crosses it, and of the
+/// middles of edges between where they pass through it. What is inside follows from winding numbers, so that surfaces
+/// may be open or folded. In double precision. All vertices have to be placed.
+[[nodiscard]] CrossingDepth crossing_depth(const DrawnSurface& a, const DrawnSurface& b, const RowPairs& pairs);
+
+}  // namespace sprung

@@ -1,0 +1,104 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/contact/watch/crossing_depth.h"
+#include "core/contact/watch/crossing_pairs.h"
+#include "core/simulation/shapes.h"
+
+namespace sprung {
+namespace {
+
+Skin skin_of(const SurfaceMesh& mesh, double longest_edge = 0) { return make_skin(mesh, {.max_edge = longest_edge}); }
+
+Skin turned(Skin skin, const Vec3& degrees, const Vec3& shift) {
+  skin.positions = (skin.positions * rotation_matrix(degrees).transpose()).rowwise() + shift.transpose();
+  return skin;
+}
+
+Skin joined(const Skin& a, const Skin& b) {
+  Skin both = a;
+  both.positions.conservativeResize(a.positions.rows() + b.positions.rows(), 3);
+  both.positions.bottomRows(b.positions.rows()) = b.positions;
+  both.triangles.conservativeResize(a.triangles.rows() + b.triangles.rows(), 3);
+  both.triangles.bottomRows(b.triangles.rows()) = b.triangles.array() + int(a.positions.rows());
+  return both;
+}
+
+RowPairs pairs_of(const DrawnSurface& a, const DrawnSurface& b) {
+  return crossing_pairs(a, b, cells_that_may_cross(a, b));
+}
+
+CrossingDepth depth_between(const Skin& a, const Skin& b) {
+  const DrawnSurface one(a);
+  const DrawnSurface other(b);
+  const RowPairs pairs = pairs_of(one, other);
+  return pairs.empty() ? CrossingDepth{} : crossing_depth(one, other, pairs);
+}
+
+CrossingDepth depth_within(const Skin& skin) {
+  const DrawnSurface surface(skin);
+  const RowPairs pairs = pairs_of(surface, surface);
+  return pairs.empty() ? CrossingDepth{} : crossing_depth(surface, surface, pairs);
+}
+
+using Corners = std::array<Vec3, 3>;
+const Corners kFloor{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 0, 1)};
+
+TEST(Crossings, TrianglesCrossWhereTheyHaveAPointInCommon) {
+  EXPECT_TRUE(do_cross(kFloor, {Vec3(0.2, -1, 0.2), Vec3(0.2, 1, 0.2), Vec3(0.3, 1, 0.2)}));
+  EXPECT_FALSE(do_cross(kFloor, {Vec3(2, -1, 0.2), Vec3(2, 1, 0.2), Vec3(2.1, 1, 0.2)}));
+  EXPECT_TRUE(do_cross(kFloor, {Vec3(0.2, 0, 0.2), Vec3(0.2, 1, 0.2), Vec3(0.3, 1, 0.2)})) << "touches";
+  EXPECT_FALSE(do_cross(kFloor, {Vec3(0.2, 1e-17, 0.2), Vec3(0.2, 1, 0.2), Vec3(0.3, 1, 0.2)})) << "does not quite";
+  EXPECT_TRUE(do_cross(kFloor, {Vec3(0.1, 0, 0.1), Vec3(3, 0, 0.1), Vec3(3, 0, 3)})) << "in one plane";
+  EXPECT_FALSE(do_cross(kFloor, {Vec3(0.6, 0, 0.6), Vec3(3, 0, 0.6), Vec3(3, 0, 3)})) << "beside, in one plane";
+}
+
+TEST(Crossings, TrianglesWithoutAreaAreSegments) {
+  const Corners needle{Vec3(0.2, -1, 0.2), Vec3(0.2, 1, 0.2), Vec3(0.2, 0.5, 0.2)};
+  EXPECT_TRUE(do_cross(kFloor, needle));
+  EXPECT_TRUE(do_cross(needle, kFloor));
+  EXPECT_TRUE(do_cross(needle, {Vec3(0, 0, 0.2), Vec3(1, 0, 0.2), Vec3(0.5, 0, 0.2)}));
+  EXPECT_FALSE(do_cross(kFloor, {Vec3(2, -1, 0.2), Vec3(2, 1, 0.2), Vec3(2, 0, 0.2)}));
+}
+
+TEST(Crossings, BoxesInEachOtherAreAsDeepAsTheyOverlap) {
+  const Skin box = skin_of(box_mesh({0.1, 0.1, 0.1}), 0.02);
+  const Vec3 tilt(10, 20, 30);
+  const Vec3 up = rotation_matrix(tilt).col(1);
+  const Skin lower = turned(box, tilt, Vec3::Zero());
+  EXPECT_EQ(depth_between(lower, turned(box, tilt, 0.1001 * up)).depth, 0);
+  for (const double depth : {0.0001, 0.004}) {
+    const Skin upper = turned(skin_of(box_mesh({0.05, 0.1, 0.05}), 0.02), tilt, (0.1 - depth) * up);
+    EXPECT_NEAR(depth_between(lower, upper).depth, depth, 1e-9);
+    EXPECT_NEAR(depth_within(joined(lower, upper)).depth, depth, 1e-9) << "one skin";
+  }
+}
+
+/// The overlap of the spheres is a lens; the deepest points are on the line between their centres.
+TEST(Crossings, BallsInEachOtherAreAsDeepAsTheirLens) {
+  const Skin ball = skin_of(mesh_of(SphereShape{0.05}));
+  const Skin other = turned(ball, {0, 40, 0}, {0, 0.092, 0});
+  const CrossingDepth found = depth_between(ball, other);
+  EXPECT_NEAR(found.depth, 0.008, 0.0002);
+  EXPECT_LT(std::hypot(found.place.x(), found.place.z()), 0.005);
+  EXPECT_GT(found.place.y(), 0.04);
+  EXPECT_NEAR(depth_within(joined(ball, other)).depth, found.depth, 0.0005);
+}
+
+/// No vertex of either is in the other: the edges of the needle are deepest in the middle of the plate.
+TEST(Crossings, NeedleThroughAPlateIsHalfAsDeepAsThePlate) {
+  const Skin plate = skin_of(box_mesh({0.1, 0.004, 0.1}));
+  const Skin needle = turned(skin_of(box_mesh({0.003, 0.1, 0.003})), {0, 15, 0}, {0.003, 0, 0.001});
+  EXPECT_NEAR(depth_between(plate, needle).depth, 0.002, 1e-9);
+}
+
+TEST(Crossings, SkinThatTouchesNothingHasNone) {
+  const DrawnSurface torus(skin_of(mesh_of(TorusShape{0.03, 0.01})));
+  EXPECT_TRUE(pairs_of(torus, torus).empty());
+  const DrawnSurface other(turned(skin_of(mesh_of(TorusShape{0.03, 0.01})), {90, 0, 0}, {0.03, 0, 0}));
+  EXPECT_TRUE(pairs_of(torus, other).empty()) << "links of a chain";
+}
+
+}  // namespace
+}  // namespace sprung
