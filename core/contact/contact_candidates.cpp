@@ -10,25 +10,6 @@
 namespace sprung {
 namespace {
 
-constexpr double kFacing = 0.2;  // cosine between the normals of what touches, at most
-constexpr double kBent = 0.5;    // rad, that a brick's normals may turn, against each other and until it is looked at
-
-/// A normal of the skin at rest carried along by its brick, unit.
-Vec3 carried_normal(const Body& body, int brick, const Vec3& normal) {
-  const auto& nodes = body.grid.nodes[brick];
-  const Vec3 along = mean_axes_of(columns_of(nodes, body.rest_positions)).transpose() * normal;
-  return (areas_of(mean_axes_of(columns_of(nodes, body.positions))) * along).normalized();
-}
-
-bool are_connected(const Body& body, int a, int b) {
-  const std::size_t brick_a = a;
-  const std::size_t brick_b = b;
-  if ((body.grid.cells[brick_a] - body.grid.cells[brick_b]).cwiseAbs().maxCoeff() > 1) return false;
-  const auto& nodes = body.grid.nodes[brick_b];
-  return std::any_of(body.grid.nodes[brick_a].begin(), body.grid.nodes[brick_a].end(),
-                     [&](int node) { return std::find(nodes.begin(), nodes.end(), node) != nodes.end(); });
-}
-
 AlignedBox box_of(const Body& body, int brick) {
   AlignedBox box;
   for (const int node : body.grid.nodes[brick]) box.extend(Vec3(body.positions.row(node)));
@@ -204,7 +185,7 @@ void ContactCandidates::pair_up(const Group& group, const ContactRange& reach, c
   const Vec3 place = sides_[side].positions.row(point);
   const int brick = skin_of(sides_[side]).points[point].brick;
   const auto hangs_together = [&](int corner) {
-    return are_connected(*group[sides_[side].actor], brick, across.points[corner].brick);
+    return share_a_node(*group[sides_[side].actor], brick, across.points[corner].brick);
   };
   for (int t = across.first_triangle[facing.row]; t < across.first_triangle[facing.row + 1]; ++t) {
     const std::array<int, 3>& triangle = across.triangles[t];
@@ -256,6 +237,37 @@ void ContactCandidates::look(const Group& group, const ContactRange& reach) {
   };
   std::sort(pairs_.begin(), pairs_.end(),
             [&](const CandidatePair& a, const CandidatePair& b) { return order(a) < order(b); });
+}
+
+void ContactCandidates::take(const Group& group, const std::vector<std::vector<FacingPair>>& lists) {
+  may_look_away_ = true;
+  tracked_.clear();
+  pairs_.clear();
+  for (Side& side : sides_) std::fill(side.tracked.begin(), side.tracked.end(), -1);
+  std::vector<CandidatePair> pairs;
+  for (const std::vector<FacingPair>& list : lists) {
+    for (const FacingPair& facing : list) {
+      const std::size_t across = sides_.size() - 1 - facing.side;
+      const std::array<int, 3>& triangle = skin_of(sides_[across]).triangles[facing.triangle];
+      CandidatePair pair{tracked_row(group, facing.side, facing.point), {}};
+      for (std::size_t i = 0; i < 3; ++i) pair.corners[i] = tracked_row(group, across, triangle[i]);
+      pairs.push_back(pair);
+    }
+  }
+  // Grouped by point, otherwise in the order of the lists.
+  std::vector<std::size_t> ends(tracked_.size() + 1);
+  for (const CandidatePair& pair : pairs) ++ends[pair.point + 1];
+  for (std::size_t row = 1; row < ends.size(); ++row) ends[row] += ends[row - 1];
+  pairs_.resize(pairs.size());
+  for (const CandidatePair& pair : pairs) pairs_[ends[pair.point]++] = pair;
+}
+
+void ContactCandidates::turn(const Group& group) {
+  for (TrackedPoint& tracked : tracked_) {
+    const ContactSurface& skin = *skins_[tracked.actor];
+    tracked.normal =
+        carried_normal(*group[tracked.actor], skin.points[tracked.point].brick, skin.normals.row(tracked.point));
+  }
 }
 
 void ContactCandidates::follow(const Group& group) {

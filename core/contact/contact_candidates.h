@@ -4,8 +4,9 @@
 #include <vector>
 
 #include "core/contact/broad_phase.h"
-#include "core/contact/contact_surface.h"
 #include "core/contact/contacts.h"
+#include "core/contact/search/contact_front.h"
+#include "core/contact/search/contact_surface.h"
 
 namespace sprung {
 
@@ -22,12 +23,6 @@ struct TrackedPoint {
 struct CandidatePair {
   int point;
   std::array<int, 3> corners;
-};
-
-/// How far apart points and triangles are that may come to touch, m.
-struct ContactRange {
-  double margin;   // outside
-  double deepest;  // inside: what is deeper came from the other side
 };
 
 /// Points and triangles of two skins of a group, or of one skin, that are near and face each other; within one they
@@ -51,8 +46,17 @@ class ContactCandidates {
   /// Finds points and triangles among those bricks. Deterministic.
   void look(const Group& group, const ContactRange& reach);
 
+  /// Takes those of a front instead. Deterministic.
+  void take(const Group& group, const std::vector<std::vector<FacingPair>>& lists);
+
+  /// Takes down how the skin is turned at the watched points; take() has done so.
+  void turn(const Group& group);
+
   /// Takes down where the watched points are, and how fast.
   void follow(const Group& group);
+
+  /// Whether pairs need not face each other: where they were taken from a front.
+  [[nodiscard]] bool may_look_away() const { return may_look_away_; }
 
   /// Whether any bricks are near each other, and how near (m) those are whose points and triangles make no pairs: at
   /// least this.
@@ -60,7 +64,7 @@ class ContactCandidates {
   [[nodiscard]] double nearest_beyond() const { return nearest_beyond_; }
 
   [[nodiscard]] const TrackedPoint& tracked(int row) const { return tracked_[row]; }
-  /// Ordered by the point and, for each, by the actor of the triangle.
+  /// Grouped by the point and, for each, by the actor of the triangle.
   [[nodiscard]] const std::vector<CandidatePair>& pairs() const { return pairs_; }
 
  private:
@@ -101,6 +105,7 @@ class ContactCandidates {
   std::vector<Place> places_;                        // of bricks that are near others
   std::vector<std::pair<int, int>> near_;            // rows of places_
   double nearest_beyond_ = 0;
+  bool may_look_away_ = false;
   long finds_ = 0;
   std::vector<TrackedPoint> tracked_;
   std::vector<CandidatePair> pairs_;

@@ -38,13 +38,15 @@ Eigen::Matrix<double, 3, 8> corner_gradients(const InversionRate& squeeze) {
 
 }  // namespace
 
-ContactSolver::ContactSolver(Group group, std::vector<Eigen::VectorXd> inverse_masses, std::vector<GluedPoint> glue)
+ContactSolver::ContactSolver(Group group, std::vector<Eigen::VectorXd> inverse_masses, std::vector<GluedPoint> glue,
+                             std::shared_ptr<SkinContacts> skin_contacts)
     : group_(std::move(group)),
       inverse_masses_(std::move(inverse_masses)),
       glue_(std::move(glue)),
       smallest_brick_(smallest_brick(group_)),
       obstacle_contact_(skins_),
-      skin_contacts_(skins_),
+      skin_contacts_(skin_contacts ? std::move(skin_contacts)
+                                   : std::make_shared<SkinContacts>(group_, ContactSearch::kInTime)),
       squeeze_watches_(group_.size()) {
   for (SoftBody* actor : group_) {
     skins_.push_back(&contact_surface_of(*actor));
@@ -125,7 +127,7 @@ void ContactSolver::find_contacts(const World& world, double elapsed, double dt)
     for (const Obstacle& obstacle : world.obstacles) poses.push_back(pose_after(obstacle, elapsed));
     obstacle_contact_.find(world, poses, dt, group_, found_);
   }
-  skin_contacts_.find(world, dt, group_, found_);
+  skin_contacts_->find(world, dt, group_, found_);
   add_glue(glue_, group_, dt, found_);
   std::sort(found_.list.begin(), found_.list.end(), [](const Contact& a, const Contact& b) { return a.key < b.key; });
   parts_.clear();

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cmath>
+#include <memory>
 #include <vector>
 
 #include "core/contact/inversion_guard.h"
@@ -22,7 +23,9 @@ namespace sprung {
 class ContactSolver {
  public:
   /// `inverse_masses` by actor of the group and node, 1/kg; 0 for nodes that are held. `glue` by rows of the group.
-  ContactSolver(Group group, std::vector<Eigen::VectorXd> inverse_masses, std::vector<GluedPoint> glue = {});
+  /// `skin_contacts`: of the group; none: new ones.
+  ContactSolver(Group group, std::vector<Eigen::VectorXd> inverse_masses, std::vector<GluedPoint> glue = {},
+                std::shared_ptr<SkinContacts> skin_contacts = nullptr);
 
   /// Changes the bodies' velocities so that moving by dt keeps every limit. `elapsed`: since the obstacles were where
   /// the world has them, s.
@@ -120,7 +123,7 @@ class ContactSolver {
   double smallest_brick_;  // m
   std::vector<const ContactSurface*> skins_;
   ObstacleContact obstacle_contact_;
-  SkinContacts skin_contacts_;
+  std::shared_ptr<SkinContacts> skin_contacts_;
   std::vector<InversionGuard> squeeze_watches_;
   ContactList found_;
   std::vector<Part> parts_;

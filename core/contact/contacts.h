@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "core/contact/search/rigid_motion.h"
 #include "core/world/world.h"
 
 namespace sprung {
@@ -12,13 +13,6 @@ using Group = std::vector<SoftBody*>;
 
 /// Side of the smallest bricks, m.
 [[nodiscard]] double smallest_brick(const Group& group);
-
-/// Velocity of a rigid body at a place: shift + spin x place.
-struct RigidMotion {
-  Vec3 shift;  // m/s
-  Vec3 spin;   // rad/s
-  [[nodiscard]] Vec3 at(const Vec3& place) const { return shift + spin.cross(place); }
-};
 
 /// With the momentum and angular momentum of all bodies.
 [[nodiscard]] RigidMotion rigid_motion_of(const Group& group);

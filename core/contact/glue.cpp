@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "core/contact/contact_surface.h"
+#include "core/contact/search/contact_surface.h"
 #include "core/types.h"
 #include "core/world/obstacle.h"
 

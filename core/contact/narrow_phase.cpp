@@ -25,6 +25,7 @@ bool stand(const ContactCandidates& pairs, const CandidatePair& pair, double dep
   stance.weights.y() = off.cross(aside).dot(area) / (size * size);
   stance.weights.z() = ahead.cross(off).dot(area) / (size * size);
   stance.weights.x() = 1 - stance.weights.y() - stance.weights.z();
+  if (pairs.may_look_away() && point.normal.dot(stance.normal) > kFacing) return false;
   return stance.gap > -depth && stance.weights.minCoeff() > -kBeside;  // not where the triangle has no area
 }
 

@@ -2,8 +2,8 @@
 #include <vector>
 
 #include "core/body/body.h"
-#include "core/contact/contact_surface.h"
 #include "core/contact/contacts.h"
+#include "core/contact/search/contact_surface.h"
 
 namespace sprung {
 

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "core/contact/contact_surface.h"
 #include "core/contact/point_stiffness.h"
+#include "core/contact/search/contact_surface.h"
 #include "core/types.h"
 
 namespace sprung {

@@ -25,6 +25,17 @@ constexpr double kSkinFlat = 0.15;   // ... nor held by that of its own body
 
 }  // namespace
 
+SkinContact::SkinContact(const std::vector<const ContactSurface*>& skins, const Group& group, std::size_t actor,
+                         std::size_t other)
+    : skins_(skins),
+      actors_{actor, other},
+      pairs_(skins, actor, other),
+      brick_(std::min(group[actor]->grid.brick_size, group[other]->grid.brick_size)) {}
+
+void SkinContact::add_front(SurfaceTree& tree, SurfaceTree& other_tree) {
+  front_.emplace(tree, other_tree, ContactRange{.margin = kSkinMargin * brick_, .deepest = kSkinDeepest * brick_});
+}
+
 void SkinContact::add(const Group& group, const Held& held, ContactList& touches) const {
   const std::size_t first = touches.shares.size();
   const PointTriangleContact& stance = held.stance;
@@ -106,15 +117,19 @@ void SkinContact::keep_hardest() {
   held_.erase(end, held_.end());
 }
 
-void SkinContact::look(const Group& group, double gravity, double dt) {
+void SkinContact::look(const Group& group) {
+  if (!front_->advance()) return pairs_.turn(group);
+  pairs_.take(group, front_->lists());
+  runs_ = runs_of(pairs_);
+}
+
+void SkinContact::look_in_time(const Group& group, double gravity, double dt) {
   if (steps_to_update_ == 0) {
-    const double brick = std::min(group[actors_[0]]->grid.brick_size, group[actors_[1]]->grid.brick_size);
     if (steps_to_seek_ <= 0) {
-      pairs_.seek(group, kFarMargin * brick);
-      steps_to_seek_ = steps_until_update((kFarMargin - kSkinMargin) * brick, pairs_.fastest(group), gravity, dt);
+      pairs_.seek(group, kFarMargin * brick_);
+      steps_to_seek_ = steps_until_update((kFarMargin - kSkinMargin) * brick_, pairs_.fastest(group), gravity, dt);
     }
-    depth_ = kSkinDeepest * brick;
-    pairs_.look(group, {.margin = kSkinMargin * brick, .deepest = depth_});
+    pairs_.look(group, {.margin = kSkinMargin * brick_, .deepest = kSkinDeepest * brick_});
     runs_ = runs_of(pairs_);
     steps_to_update_ = steps_to_seek_;
     if (pairs_.has_near_bricks()) {
@@ -127,18 +142,18 @@ void SkinContact::look(const Group& group, double gravity, double dt) {
 }
 
 void SkinContact::find(const World& world, double dt, const Group& group, ContactList& touches) {
-  look(group, world.gravity.norm(), dt);
+  if (!front_) look_in_time(group, world.gravity.norm(), dt);
   pairs_.follow(group);
   held_.clear();
   std::swap(insides_, insides_before_);
   insides_.clear();
-  const double brick = depth_ / kSkinDeepest;
+  const double depth = kSkinDeepest * brick_;
   for (SkinRun& run : runs_) {
-    Held nearest{.stance = closest_triangle(pairs_, run, depth_)};
+    Held nearest{.stance = closest_triangle(pairs_, run, depth)};
     if (nearest.stance.pair == nullptr) continue;
     const bool is_beside = nearest.stance.weights.minCoeff() < -kBarelyBeside;
     const double suspicious = is_beside ? kSuspiciousBeside : kSuspicious;
-    if (nearest.stance.gap < -suspicious * brick && !is_inside(group, nearest.stance)) continue;
+    if (nearest.stance.gap < -suspicious * brick_ && !is_inside(group, nearest.stance)) continue;
     if (has_to_be_held(world, dt, group, nearest)) held_.push_back(nearest);
   }
   keep_hardest();
@@ -147,7 +162,10 @@ void SkinContact::find(const World& world, double dt, const Group& group, Contac
 
 namespace {
 
-constexpr double kBodyMargin = 2;  // bricks: bodies nearer than that are watched
+constexpr double kLookAhead = 0.1;  // bricks that bodies may move until contacts are looked for again
+constexpr int kMostStepsAhead = 8;  // until then
+constexpr double kFaster = 1.5;     // times, that speeds may grow until then
+constexpr double kBodyMargin = 2;   // bricks: bodies nearer than that are watched
 
 /// Of any node, m/s, seen from the rigid motion of all.
 double fastest(const Group& group) {
@@ -165,6 +183,27 @@ double fastest(const Group& group) {
 
 }  // namespace
 
+SkinContacts::SkinContacts(const Group& group, ContactSearch search) : group_(group) {
+  for (SoftBody* body : group) {
+    skins_.push_back(&contact_surface_of(*body));
+    if (search == ContactSearch::kFronts) trees_.push_back(std::make_unique<SurfaceTree>(*skins_.back(), *body));
+  }
+}
+
+bool SkinContacts::is_of(const Group& group) const {
+  if (group != group_) return false;
+  for (std::size_t actor = 0; actor < group.size(); ++actor) {
+    if (group[actor]->contact_surface.get() != skins_[actor]) return false;
+  }
+  return true;
+}
+
+void SkinContacts::begin_frame() {
+  contacts_.clear();
+  steps_to_seek_ = 0;
+  steps_to_look_ = 0;
+}
+
 void SkinContacts::seek(const World& world, const Group& group, double dt) {
   const double margin = kBodyMargin * smallest_brick(group);
   steps_to_seek_ = steps_until_update(margin, fastest(group), world.gravity.norm(), dt);
@@ -173,10 +212,23 @@ void SkinContacts::seek(const World& world, const Group& group, double dt) {
     if (auto known = contacts_.extract(pair)) {
       contacts.insert(std::move(known));
     } else {
-      contacts.try_emplace(pair, skins_, pair.first, pair.second);
+      SkinContact& contact = contacts.try_emplace(pair, skins_, group, pair.first, pair.second).first->second;
+      if (!trees_.empty()) contact.add_front(*trees_[pair.first], *trees_[pair.second]);
     }
   }
   contacts_ = std::move(contacts);
+  steps_to_look_ = 0;
+}
+
+void SkinContacts::look(const std::vector<SkinContact*>& contacts, double gravity, double dt) {
+  double fastest = 0;
+  for (const auto& tree : trees_) fastest = std::max(fastest, tree->fastest());
+  const double way = kLookAhead * smallest_brick(group_);
+  steps_to_look_ = std::clamp(int(way / (2 * fastest * dt)), 1, kMostStepsAhead);
+  const double time = steps_to_look_ * dt;
+  const auto follow = [&](std::size_t actor) { trees_[actor]->follow(kFaster * time, gravity * time * time); };
+  tbb::parallel_for(std::size_t{0}, trees_.size(), follow);
+  for (SkinContact* contact : contacts) contact->look(group_);
 }
 
 void SkinContacts::find(const World& world, double dt, const Group& group, ContactList& touches) {
@@ -185,6 +237,9 @@ void SkinContacts::find(const World& world, double dt, const Group& group, Conta
   std::vector<SkinContact*> contacts;
   contacts.reserve(contacts_.size());
   for (auto& [pair, contact] : contacts_) contacts.push_back(&contact);
+  if (contacts.empty()) return;
+  if (!trees_.empty() && steps_to_look_ <= 0) look(contacts, world.gravity.norm(), dt);
+  --steps_to_look_;
   found_.resize(contacts.size());
   tbb::parallel_for(std::size_t{0}, contacts.size(), [&](std::size_t i) {
     found_[i].clear();

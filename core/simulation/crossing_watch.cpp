@@ -166,6 +166,7 @@ CrossingDepth CrossingWatch::depth_of(const Task& task, const RowPairs& pairs, d
 
 Crossings CrossingWatch::look(const std::vector<const Points*>& nodes, int frame, double time) {
   std::vector<Found> found = find(nodes, time);
+  std::vector<char> crosses(surfaces_.size());
   for (std::size_t i = 0; i < tasks_.size(); ++i) {
     Found& of_task = found[i];
     const std::size_t all = of_task.pairs.size();
@@ -174,8 +175,11 @@ Crossings CrossingWatch::look(const std::vector<const Points*>& nodes, int frame
     }
     of_task.at_start = long(all - of_task.pairs.size());
     if (of_task.pairs.empty() || is_plane(tasks_[i].skins[1])) continue;
-    for (const int skin : tasks_[i].skins) surfaces_[skin].place_all();
+    for (const int skin : tasks_[i].skins) crosses[skin] = 1;
   }
+  tbb::parallel_for(std::size_t{0}, surfaces_.size(), [&](std::size_t skin) {
+    if (crosses[skin] != 0) surfaces_[skin].complete();
+  });
   tbb::parallel_for(std::size_t{0}, tasks_.size(), [&](std::size_t i) {
     if (!found[i].pairs.empty()) found[i].depth = depth_of(tasks_[i], found[i].pairs, time);
   });

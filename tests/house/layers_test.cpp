@@ -25,6 +25,7 @@ const std::vector<std::string> kFolders{
     "core/body",
     "core/skin",
     "core/world",
+    "core/contact/search",
     "core/contact/watch",
     "core/contact",
     "core/dynamics",

@@ -11,8 +11,6 @@
 #include <optional>
 #include <utility>
 
-#include "core/mesh/query/winding_tree.h"
-
 namespace sprung {
 namespace {
 
@@ -64,10 +62,7 @@ class InnerPart {
  public:
   /// `side`: whose of the pairs `surface` is.
   InnerPart(const DrawnSurface& surface, const DrawnSurface& other, const RowPairs& pairs, std::size_t side)
-      : surface_(surface),
-        other_(other),
-        winding_(other.points(), other.triangles()),
-        is_known_(surface.points().rows()) {
+      : surface_(surface), other_(other), is_known_(surface.points().rows()) {
     for (const auto& pair : pairs) {
       add_passages(pair[side], pair[1 - side]);
       if (is_self()) add_passages(pair[1 - side], pair[side]);
@@ -91,7 +86,7 @@ class InnerPart {
   [[nodiscard]] const std::map<Edge, std::vector<Passage>>& passages() const { return passages_; }
   [[nodiscard]] bool is_inside(const Vec3& place) const {
     // What lies on the surface itself has half a turn from there.
-    return other_.box().contains(place) && winding_.at(place) > (is_self() ? 1 : 0.5);
+    return other_.box().contains(place) && other_.winding().at(place) > (is_self() ? 1 : 0.5);
   }
 
  private:
@@ -118,7 +113,6 @@ class InnerPart {
 
   const DrawnSurface& surface_;
   const DrawnSurface& other_;
-  WindingTree winding_;
   std::vector<bool> is_known_;  // by vertex
   std::vector<int> vertices_;
   std::map<Edge, std::vector<Passage>> passages_;

@@ -13,7 +13,7 @@ struct CrossingDepth {
 /// which is in itself. The largest distance from the other surface (of itself: from those triangles that face the
 /// place) of the vertices of either that are inside the other, in one piece with an edge that crosses it, and of the
 /// middles of edges between where they pass through it. What is inside follows from winding numbers, so that surfaces
-/// may be open or folded. In double precision. All vertices have to be placed.
+/// may be open or folded. In double precision. Both have to be complete.
 [[nodiscard]] CrossingDepth crossing_depth(const DrawnSurface& a, const DrawnSurface& b, const RowPairs& pairs);
 
 }  // namespace sprung

@@ -135,6 +135,7 @@ void DrawnSurface::refit(const std::vector<AlignedBox>& boxes) {
 
 void DrawnSurface::follow(const Points& nodes) {
   body_nodes_ = &nodes;
+  winding_.reset();
   std::fill(is_placed_.begin(), is_placed_.end(), 0);
   bricks_->follow(nodes);
   refit(bricks_->boxes());
@@ -142,6 +143,7 @@ void DrawnSurface::follow(const Points& nodes) {
 
 void DrawnSurface::move_to(const Points& vertices) {
   points_ = vertices(sources_, Eigen::all);
+  winding_.reset();
   std::vector<AlignedBox> boxes(cells_.size());
   for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
     for (int row = cells_[cell].first; row < cells_[cell].last; ++row) {
@@ -167,10 +169,12 @@ void DrawnSurface::place(const std::vector<int>& cells) {
   }
 }
 
-void DrawnSurface::place_all() {
+void DrawnSurface::complete() {
+  if (winding_) return;
   std::vector<int> cells(cells_.size());
   std::iota(cells.begin(), cells.end(), 0);
   place(cells);
+  winding_ = std::make_unique<WindingTree>(points_, triangles_);
 }
 
 }  // namespace sprung

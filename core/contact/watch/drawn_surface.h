@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/contact/watch/cell_bricks.h"
+#include "core/mesh/query/winding_tree.h"
 #include "core/skin/skin.h"
 #include "core/types.h"
 #include "core/world/world.h"
@@ -39,9 +40,10 @@ class DrawnSurface {
   /// The vertices of the rigid skin (as many as it has, m) are here now.
   void move_to(const Points& vertices);
 
-  /// Places the vertices of these cells, or of all.
+  /// Places the vertices of these cells.
   void place(const std::vector<int>& cells);
-  void place_all();
+  /// Places all vertices and makes winding() ready.
+  void complete();
 
   [[nodiscard]] const Points& points() const { return points_; }           // p x 3, m
   [[nodiscard]] const Triangles& triangles() const { return triangles_; }  // of points, by cell
@@ -53,6 +55,8 @@ class DrawnSurface {
   [[nodiscard]] const std::vector<std::vector<int>>& neighbours() const { return neighbours_; }
   /// What is known of the bricks of its cells; null for rigid skins.
   [[nodiscard]] const CellBricks* bricks() const { return bricks_.get(); }
+  /// Since it was completed, it must not have moved.
+  [[nodiscard]] const WindingTree& winding() const { return *winding_; }
 
  private:
   /// `owners`: by the skin's vertex; the triangles of one owner make cells of their own.
@@ -72,6 +76,7 @@ class DrawnSurface {
   std::vector<int> leaves_;  // by cell: row in nodes_
   std::vector<std::vector<int>> neighbours_;
   std::unique_ptr<CellBricks> bricks_;
+  std::unique_ptr<WindingTree> winding_;
 };
 
 }  // namespace sprung

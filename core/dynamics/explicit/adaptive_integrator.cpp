@@ -115,6 +115,13 @@ std::vector<GroupSteps> choose_steps(const World& world, double time) {
   return groups;
 }
 
+void AdaptiveIntegrator::begin_contacts(std::span<const GroupSteps> groups) {
+  if (search_ == ContactSearch::kInTime) return;
+  std::vector<std::vector<std::size_t>> bodies;
+  for (const GroupSteps& group : groups) bodies.push_back(group.bodies);
+  contacts_.begin_frame(world_, bodies);
+}
+
 std::optional<Diverged> AdaptiveIntegrator::run(std::span<const GroupSteps> groups, double time,
                                                 const Between& between) {
   double brick_steps = 0;
@@ -135,7 +142,7 @@ std::optional<Diverged> AdaptiveIntegrator::run(std::span<const GroupSteps> grou
       chunk[i].elapsed = all.dt * double(first);
     }
     try {
-      advance(world_, scheme_, chunk, time);
+      advance(world_, scheme_, chunk, time, &contacts_);
     } catch (const Diverged& error) {
       return error;
     }
@@ -155,6 +162,7 @@ std::vector<GroupSteps> AdaptiveIntegrator::advance_frame(double time, double du
     for (GroupSteps& group : groups) {
       group.steps = {group.steps.count * parts, group.steps.dt / double(parts)};
     }
+    begin_contacts(groups);
     const std::optional<Diverged> end = run(groups, time, between);
     std::optional<Trouble> trouble = find_trouble(world_, before, groups);
     if (end && !trouble) trouble = Trouble{end->actor(), worst_brick_of(world_.bodies[end->actor()]), end->what()};

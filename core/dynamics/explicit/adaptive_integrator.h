@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/contact/contact_states.h"
 #include "core/dynamics/explicit/integrator.h"
 #include "core/dynamics/integrator_state.h"
 #include "core/error.h"
@@ -26,7 +27,8 @@ class AdaptiveIntegrator {
   /// Hears why a frame is taken back.
   using Tell = std::function<void(const std::string& message)>;
 
-  AdaptiveIntegrator(World& world, Scheme scheme) : world_(world), scheme_(scheme) {}
+  explicit AdaptiveIntegrator(World& world, Scheme scheme, ContactSearch search = ContactSearch::kInTime)
+      : world_(world), scheme_(scheme), search_(search) {}
 
   /// From `time` on by `duration` (s); obstacles move evenly. Returns the steps each group took. Deterministic for any
   /// number of threads. Throws Diverged naming time, body, the brick's place and what to change where no step is short
@@ -37,11 +39,14 @@ class AdaptiveIntegrator {
   void serialize(IntegratorState& state) { state.serialize_as_double(halvings_); }
 
  private:
+  void begin_contacts(std::span<const GroupSteps> groups);
   /// None where it came through with finite positions.
   std::optional<Diverged> run(std::span<const GroupSteps> groups, double time, const Between& between);
 
   World& world_;
   Scheme scheme_;
+  ContactSearch search_;
+  ContactStates contacts_;
   int halvings_ = 0;  // kept from frame to frame
 };
 

@@ -16,6 +16,7 @@
 #include "core/body/forces.h"
 #include "core/contact/broad_phase.h"
 #include "core/contact/contact_solver.h"
+#include "core/contact/contact_states.h"
 #include "core/contact/glue.h"
 #include "core/dynamics/explicit/implicit_damping.h"
 #include "core/error.h"
@@ -145,7 +146,8 @@ Eigen::VectorXd pushed_inverse_masses(const SoftBody& actor) {
 /// Actors that touch each other on their way through a number of steps.
 class GroupMover {
  public:
-  GroupMover(World& world, const GroupSteps& group) : world_(world), elapsed_(group.elapsed) {
+  GroupMover(World& world, const GroupSteps& group, const ContactStates* states)
+      : world_(world), elapsed_(group.elapsed) {
     Group bodies;
     std::vector<Eigen::VectorXd> inverse_masses;
     for (const std::size_t i : group.bodies) {
@@ -153,7 +155,8 @@ class GroupMover {
       inverse_masses.push_back(pushed_inverse_masses(world.bodies[i]));
       movers_.push_back(std::make_unique<Mover>(world.bodies[i], world));
     }
-    impulses_.emplace(std::move(bodies), std::move(inverse_masses), glue_within(world, group.bodies));
+    impulses_.emplace(std::move(bodies), std::move(inverse_masses), glue_within(world, group.bodies),
+                      states != nullptr ? states->of(group.bodies) : nullptr);
   }
 
   void kick(double dt) {
@@ -220,9 +223,10 @@ void verlet(GroupMover& mover, double dt, long steps) {
 
 }  // namespace
 
-void advance(World& world, Scheme scheme, std::span<const GroupSteps> groups, double time) {
+void advance(World& world, Scheme scheme, std::span<const GroupSteps> groups, double time,
+             const ContactStates* states) {
   const auto advance_group = [&](const GroupSteps& group) {
-    GroupMover mover(world, group);
+    GroupMover mover(world, group, states);
     if (scheme == Scheme::kVerlet) {
       verlet(mover, group.steps.dt, group.steps.count);
     } else {

@@ -6,6 +6,8 @@
 
 namespace sprung {
 
+class ContactStates;
+
 /// Largest step (s) that is stable for every actor: from the largest eigenvalue of a single brick with its own lumped
 /// mass, which bounds the assembled one, with the damping that explicit steps have and `safety` taken off. Bricks that
 /// are pressed flat one way and drawn out another are stiffer: it is for the state that the bodies are in.
@@ -33,7 +35,9 @@ struct GroupSteps {
 /// Moves each group of bodies by its own steps, all at once: only those of one group touch each other. Obstacles stay
 /// as the world has them: it is for the caller to move them on. Deterministic for any number of threads.
 /// Throws Error(kDiverged) naming time `time` and the body where a position is no longer finite.
-void advance(World& world, Scheme scheme, std::span<const GroupSteps> groups, double time);
+/// `states`: of the groups; none: the search for contacts begins anew.
+void advance(World& world, Scheme scheme, std::span<const GroupSteps> groups, double time,
+             const ContactStates* states = nullptr);
 
 /// The same with `steps` steps of `dt` seconds for all; moves the obstacles too.
 void advance(World& world, Scheme scheme, double dt, long steps, double time);

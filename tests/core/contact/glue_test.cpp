@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "core/body/forces.h"
-#include "core/contact/contact_surface.h"
+#include "core/contact/search/contact_surface.h"
 #include "core/dynamics/explicit/adaptive_integrator.h"
 #include "tests/support/touching.h"
 

@@ -4,8 +4,8 @@
 #include <Eigen/Geometry>
 
 #include "core/body/forces.h"
-#include "core/contact/contact_surface.h"
 #include "core/contact/glue.h"
+#include "core/contact/search/contact_surface.h"
 #include "core/dynamics/energy.h"
 #include "core/dynamics/explicit/adaptive_integrator.h"
 #include "core/dynamics/implicit/implicit_motion.h"

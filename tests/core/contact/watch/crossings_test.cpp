@@ -30,14 +30,17 @@ RowPairs pairs_of(const DrawnSurface& a, const DrawnSurface& b) {
 }
 
 CrossingDepth depth_between(const Skin& a, const Skin& b) {
-  const DrawnSurface one(a);
-  const DrawnSurface other(b);
+  DrawnSurface one(a);
+  DrawnSurface other(b);
+  one.complete();
+  other.complete();
   const RowPairs pairs = pairs_of(one, other);
   return pairs.empty() ? CrossingDepth{} : crossing_depth(one, other, pairs);
 }
 
 CrossingDepth depth_within(const Skin& skin) {
-  const DrawnSurface surface(skin);
+  DrawnSurface surface(skin);
+  surface.complete();
   const RowPairs pairs = pairs_of(surface, surface);
   return pairs.empty() ? CrossingDepth{} : crossing_depth(surface, surface, pairs);
 }

@@ -40,6 +40,17 @@ struct ContactSurface {
   void add_triangles(const SoftBody& actor, const std::vector<int>& place_of);
 };
 
+/// The cosine between the normals of what touches, at most, and how far (rad) a brick's normals may turn, against each
+/// other and until they are looked at again.
+inline constexpr double kFacing = 0.2;
+inline constexpr double kBent = 0.5;
+
+/// A normal of the skin at rest carried along by its brick, unit.
+[[nodiscard]] Vec3 carried_normal(const Body& body, int brick, const Vec3& normal);
+
+/// Whether two bricks share a node.
+[[nodiscard]] bool share_a_node(const Body& body, int a, int b);
+
 /// Made when it is first asked for: contacts, their triangles and the rest shape do not change after that.
 [[nodiscard]] const ContactSurface& contact_surface_of(SoftBody& actor);
 

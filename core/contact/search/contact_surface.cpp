@@ -1,10 +1,11 @@
-#include "core/contact/contact_surface.h"
+#include "core/contact/search/contact_surface.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 
+#include "core/body/body.h"
 #include "core/bricks/brick_grid.h"
 
 namespace sprung {
@@ -118,6 +119,21 @@ void ContactSurface::add_triangles(const SoftBody& actor, const std::vector<int>
   }
   first_triangle = starts_of(bricks, brick_of_triangle);
   normals.rowwise().normalize();
+}
+
+Vec3 carried_normal(const Body& body, int brick, const Vec3& normal) {
+  const auto& nodes = body.grid.nodes[brick];
+  const Vec3 along = mean_axes_of(columns_of(nodes, body.rest_positions)).transpose() * normal;
+  return (areas_of(mean_axes_of(columns_of(nodes, body.positions))) * along).normalized();
+}
+
+bool share_a_node(const Body& body, int a, int b) {
+  const std::size_t brick_a = a;
+  const std::size_t brick_b = b;
+  if ((body.grid.cells[brick_a] - body.grid.cells[brick_b]).cwiseAbs().maxCoeff() > 1) return false;
+  const auto& nodes = body.grid.nodes[brick_b];
+  return std::any_of(body.grid.nodes[brick_a].begin(), body.grid.nodes[brick_a].end(),
+                     [&](int node) { return std::find(nodes.begin(), nodes.end(), node) != nodes.end(); });
 }
 
 const ContactSurface& contact_surface_of(SoftBody& actor) {

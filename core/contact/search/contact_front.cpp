@@ -1,0 +1,176 @@
+#include "core/contact/search/contact_front.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sprung {
+namespace {
+
+constexpr std::size_t kGrown = 2;  // times, with so many more: a front that has grown so far is made anew
+constexpr std::size_t kGrownBy = 500;
+constexpr double kFar = 0.5;      // bricks: pairs of subtrees that are further apart stay whole
+constexpr double kMayFace = 0.9;  // cosine between normals, at most, that may turn to kFacing while a list is good
+constexpr double kTurned = 0.4;   // bricks that parts of bricks move by, at least, as these turn by a radian
+}  // namespace
+
+ContactFront::ContactFront(SurfaceTree& a, SurfaceTree& b, const ContactRange& range)
+    : a_(a), b_(b), range_(range), brick_(std::min(a.body().grid.brick_size, b.body().grid.brick_size)) {}
+
+double ContactFront::turn_until_facing(int a, int b) {
+  const NormalCone& one = a_.cone(a);
+  const NormalCone& other = b_.cone(b);
+  const double rest = std::acos(kFacing) - one.spread - other.spread;
+  if (rest <= kBent) return 0;
+  return rest - std::acos(std::clamp(one.axis.dot(other.axis), -1.0, 1.0));
+}
+
+double ContactFront::moved_closer(int a, int b) const {
+  if (is_self()) return reach_between(a_.own_motion(a).moved, a_.own_motion(b).moved);
+  return reach_between(a_.motion(a).moved, b_.motion(b).moved);
+}
+
+double ContactFront::moving_closer(int a, int b) const {
+  if (is_self()) return reach_between(a_.own_motion(a).moving, a_.own_motion(b).moving);
+  return reach_between(a_.motion(a).moving, b_.motion(b).moving);
+}
+
+bool ContactFront::advance() {
+  has_changed_ = false;
+  if (size_ > kGrown * size_when_new_ + kGrownBy) {
+    blocks_.clear();
+    block_of_.clear();
+    lists_.clear();
+    free_lists_.clear();
+    size_ = 0;
+    has_changed_ = true;
+  }
+  if (blocks_.empty()) {
+    if (!a_.nodes().empty() && !b_.nodes().empty()) look(0, 0, -1);
+    size_when_new_ = size_;
+    return has_changed_;
+  }
+  due_.clear();
+  for (Block& block : blocks_) {
+    if (block.heap.empty()) continue;
+    block.closer += moved_closer(block.a, block.b);
+    const double soon = block.closer + moving_closer(block.a, block.b);
+    while (!block.heap.empty() && block.heap.front().wake <= soon) {
+      due_.push_back(block.heap.front());
+      std::pop_heap(block.heap.begin(), block.heap.end());
+      block.heap.pop_back();
+      --size_;
+    }
+  }
+  for (const Pair& pair : due_) look(pair.a, pair.b, pair.list);
+  return has_changed_;
+}
+
+void ContactFront::keep(int a, int b, double budget, int list) {
+  const int cluster_a = a_.cluster_node(a);
+  const int cluster_b = b_.cluster_node(b);
+  const std::uint64_t key = std::uint64_t(cluster_a) << 32 | std::uint64_t(cluster_b);
+  const auto [known, is_new] = block_of_.try_emplace(key, blocks_.size());
+  if (is_new) blocks_.push_back({.a = cluster_a, .b = cluster_b});
+  Block& block = blocks_[known->second];
+  block.heap.push_back({block.closer + budget, a, b, list});
+  std::push_heap(block.heap.begin(), block.heap.end());
+  ++size_;
+}
+
+void ContactFront::look(int a, int b, int list) {
+  const SurfaceTree::Node& one = a_.nodes()[a];
+  const SurfaceTree::Node& other = b_.nodes()[b];
+  const auto drop_list = [&] {
+    if (list < 0) return;
+    has_changed_ = has_changed_ || !lists_[list].empty();
+    lists_[list].clear();
+    free_lists_.push_back(list);
+  };
+  if (is_self() && one.is_leaf() && other.is_leaf()) {
+    const std::vector<int>& neighbours = a_.skin().neighbours[a_.brick_of(one)];
+    if (std::binary_search(neighbours.begin(), neighbours.end(), b_.brick_of(other))) return;
+  }
+  if (is_self() && a == b) return split(a, b);
+  const double distance = a_.box(a).exteriorDistance(b_.box(b));
+  const bool are_leaves = one.is_leaf() && other.is_leaf();
+  // What may be needed in this very step counts as near.
+  const double needed = moving_closer(a, b);
+  if (distance > std::max((are_leaves ? range_.margin : kFar * brick_), needed)) {
+    drop_list();
+    return keep(a, b, distance, -1);
+  }
+  if (const double turn = turn_until_facing(a, b); turn > kBent) {
+    drop_list();
+    return keep(a, b, std::max(kTurned * turn * brick_, distance), -1);
+  }
+  if (!are_leaves) return split(a, b);
+  const double margin = std::max(range_.margin, needed);
+  keep(a, b, margin, fill_list(a, b, margin, list));
+}
+
+void ContactFront::split(int a, int b) {
+  const SurfaceTree::Node& one = a_.nodes()[a];
+  const SurfaceTree::Node& other = b_.nodes()[b];
+  if (is_self() && a == b) {
+    if (one.is_leaf()) return;
+    look(a + 1, a + 1, -1);
+    look(one.second_child, one.second_child, -1);
+    look(a + 1, one.second_child, -1);
+  } else if (other.is_leaf() || (!one.is_leaf() && one.last - one.first >= other.last - other.first)) {
+    look(a + 1, b, -1);
+    look(one.second_child, b, -1);
+  } else {
+    look(a, b + 1, -1);
+    look(a, other.second_child, -1);
+  }
+}
+
+int ContactFront::fill_list(int a, int b, double margin, int list) {
+  if (list < 0) {
+    if (free_lists_.empty()) {
+      free_lists_.push_back(isize(lists_));
+      lists_.emplace_back();
+    }
+    list = free_lists_.back();
+    free_lists_.pop_back();
+  }
+  std::vector<FacingPair> found;
+  list_side(0, a_.brick_of(a_.nodes()[a]), b_.brick_of(b_.nodes()[b]), margin, found);
+  if (is_self()) {
+    list_side(0, b_.brick_of(b_.nodes()[b]), a_.brick_of(a_.nodes()[a]), margin, found);
+  } else {
+    list_side(1, b_.brick_of(b_.nodes()[b]), a_.brick_of(a_.nodes()[a]), margin, found);
+  }
+  has_changed_ = has_changed_ || !found.empty() || !lists_[list].empty();
+  lists_[list] = std::move(found);
+  return list;
+}
+
+void ContactFront::list_side(std::size_t side, int points_of, int triangles_of, double margin,
+                             std::vector<FacingPair>& list) {
+  SurfaceTree& ours = tree(side);
+  SurfaceTree& across = is_self() ? ours : tree(1 - side);
+  const ContactSurface& skin = ours.skin();
+  const ContactSurface& other = across.skin();
+  for (int point = skin.first_point[points_of]; point < skin.first_point[points_of + 1]; ++point) {
+    const Vec3& place = ours.place_of(point);
+    const auto hangs_together = [&](int corner) {
+      return share_a_node(ours.body(), skin.points[point].brick, other.points[corner].brick);
+    };
+    for (int t = other.first_triangle[triangles_of]; t < other.first_triangle[triangles_of + 1]; ++t) {
+      const std::array<int, 3>& triangle = other.triangles[t];
+      const Vec3& a = across.place_of(triangle[0]);
+      const Vec3& b = across.place_of(triangle[1]);
+      const Vec3& c = across.place_of(triangle[2]);
+      if (((a.cwiseMin(b).cwiseMin(c) - place).array() > margin).any()) continue;
+      if (((place - a.cwiseMax(b).cwiseMax(c)).array() > margin).any()) continue;
+      const Vec3 area = (b - a).cross(c - a);
+      if (area.dot(place - a) < -(range_.deepest + margin) * area.norm()) continue;
+      if (ours.normal_of(point).dot(area) > kMayFace * area.norm()) continue;
+      if (is_self() && std::any_of(triangle.begin(), triangle.end(), hangs_together)) continue;
+      list.push_back({side, point, t});
+    }
+  }
+}
+
+}  // namespace sprung

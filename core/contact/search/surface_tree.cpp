@@ -1,0 +1,232 @@
+#include "core/contact/search/surface_tree.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+#include "core/body/body.h"
+#include "core/contact/search/rigid_motion.h"
+
+namespace sprung {
+namespace {
+
+constexpr int kBricksOfCluster = 32;
+constexpr double kNormalWeight = 4;  // bricks that opposite normals count for, halved, as bricks are grouped
+
+VectorBall enclosing(const VectorBall& a, const VectorBall& b) {
+  const double apart = (a.centre - b.centre).norm();
+  if (apart + b.radius <= a.radius) return a;
+  if (apart + a.radius <= b.radius) return b;
+  const double radius = (apart + a.radius + b.radius) / 2;
+  return {a.centre + (radius - a.radius) / apart * (b.centre - a.centre), radius};
+}
+
+NormalCone enclosing(const NormalCone& a, const NormalCone& b) {
+  const Vec3 sum = a.axis + b.axis;
+  if (!(sum.norm() > 1e-6)) return {a.axis, std::numbers::pi};
+  const Vec3 axis = sum.normalized();
+  const auto spread = [&](const NormalCone& cone) {
+    return cone.spread + std::acos(std::clamp(cone.axis.dot(axis), -1.0, 1.0));
+  };
+  return {axis, std::min(std::max(spread(a), spread(b)), std::numbers::pi)};
+}
+
+/// The rigid motion nearest to vectors at these places, in the mean of squares.
+RigidMotion rigid_fit(const Points& places, const Points& vectors) {
+  const Vec3 middle = places.colwise().mean();
+  const Vec3 mean = vectors.colwise().mean();
+  Mat3 second = Mat3::Zero();
+  Vec3 moment = Vec3::Zero();
+  for (int row = 0; row < places.rows(); ++row) {
+    const Vec3 arm = places.row(row).transpose() - middle;
+    second += arm * arm.transpose();
+    moment += arm.cross(Vec3(vectors.row(row)));
+  }
+  const Mat3 inertia = second.trace() * Mat3::Identity() - second;
+  const Vec3 spin = inertia.ldlt().solve(moment);
+  if (!spin.allFinite()) return {mean, Vec3::Zero()};
+  return {mean - spin.cross(middle), spin};
+}
+
+}  // namespace
+
+SurfaceTree::SurfaceTree(const ContactSurface& skin, const SoftBody& body)
+    : skin_(skin), body_(body), before_(body.positions) {
+  const int count = isize(skin.bricks);
+  order_.resize(count);
+  std::iota(order_.begin(), order_.end(), 0);
+  Features features(count, 6);
+  for (int row = 0; row < count; ++row) {
+    features.row(row) << body.grid.cells[skin.bricks[row]].cast<double>().transpose(),
+        kNormalWeight * skin.cones[row].axis.transpose();
+  }
+  if (count > 0) add_node(0, count, -1, features);
+  list_nodes_of_clusters();
+  motions_.resize(nodes_.size());
+  own_motions_.resize(nodes_.size());
+  boxes_.resize(nodes_.size());
+  cones_.resize(nodes_.size());
+  places_.resize(skin.points.size());
+  normals_.resize(skin.points.size());
+}
+
+void SurfaceTree::add_node(int first, int last, int cluster, const Features& features) {
+  const std::size_t node = nodes_.size();
+  if (cluster < 0 && last - first <= kBricksOfCluster) {
+    cluster = isize(cluster_nodes_);
+    cluster_nodes_.push_back(int(node));
+  }
+  nodes_.push_back({first, last, 0, cluster});
+  if (last - first == 1) return;
+  const Features these = features(std::vector<int>(order_.begin() + first, order_.begin() + last), Eigen::all);
+  Eigen::Index axis = 0;
+  (these.colwise().maxCoeff() - these.colwise().minCoeff()).maxCoeff(&axis);
+  const int half = first + (last - first) / 2;
+  std::nth_element(order_.begin() + first, order_.begin() + half, order_.begin() + last,
+                   [&](int a, int b) { return std::pair(features(a, axis), a) < std::pair(features(b, axis), b); });
+  add_node(first, half, cluster, features);
+  nodes_[node].second_child = isize(nodes_);
+  add_node(half, last, cluster, features);
+}
+
+void SurfaceTree::list_nodes_of_clusters() {
+  for (const int node : cluster_nodes_) {
+    std::vector<int>& nodes = nodes_of_cluster_.emplace_back();
+    double& spread = spread_of_cluster_.emplace_back(1);
+    const auto add = [&](int point) {
+      const ContactPoint& at = skin_.points[point];
+      nodes.insert(nodes.end(), body_.grid.nodes[at.brick].begin(), body_.grid.nodes[at.brick].end());
+      spread = std::max(spread, at.weights.cwiseAbs().sum());
+    };
+    for (int i = nodes_[node].first; i < nodes_[node].last; ++i) {
+      const int row = order_[i];
+      for (int point = skin_.first_point[row]; point < skin_.first_point[row + 1]; ++point) add(point);
+      for (int triangle = skin_.first_triangle[row]; triangle < skin_.first_triangle[row + 1]; ++triangle) {
+        for (const int corner : skin_.triangles[triangle]) add(corner);
+      }
+    }
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  }
+}
+
+double SurfaceTree::fastest() const {
+  const Vec3 mean = body_.velocities.colwise().mean();
+  return std::sqrt((body_.velocities.rowwise() - mean.transpose()).rowwise().squaredNorm().maxCoeff());
+}
+
+void SurfaceTree::measure(const Points& moved, const Points& moving, double more, std::vector<Motion>& motions) const {
+  using Row = Eigen::Array3d;
+  std::vector<Motion> of_clusters(cluster_nodes_.size());
+  for (std::size_t cluster = 0; cluster < of_clusters.size(); ++cluster) {
+    const auto ball_of = [&](const Points& vectors) -> VectorBall {
+      Row low = Row::Constant(std::numeric_limits<double>::infinity());
+      Row high = -low;
+      for (const int row : nodes_of_cluster_[cluster]) {
+        low = low.min(vectors.row(row).transpose().array());
+        high = high.max(vectors.row(row).transpose().array());
+      }
+      return {(low + high) / 2, spread_of_cluster_[cluster] * (high - low).matrix().norm() / 2};
+    };
+    of_clusters[cluster] = {ball_of(moved), ball_of(moving)};
+    of_clusters[cluster].moving.radius += more;
+  }
+  for (std::size_t i = nodes_.size(); i-- > 0;) {
+    const Node& node = nodes_[i];
+    if (node.cluster >= 0) {
+      motions[i] = of_clusters[node.cluster];
+    } else {
+      motions[i].moved = enclosing(motions[i + 1].moved, motions[node.second_child].moved);
+      motions[i].moving = enclosing(motions[i + 1].moving, motions[node.second_child].moving);
+    }
+  }
+}
+
+void SurfaceTree::follow(double time, double more) {
+  ++step_;
+  const Points moved = body_.positions - before_;
+  const Points moving = time * body_.velocities;
+  measure(moved, moving, more, motions_);
+  // The body's rigid motion is taken off as a rotation, which is exact; of what is to come, as a velocity.
+  const RigidMotion turned = rigid_fit(before_, moved);
+  const double angle = turned.spin.norm();
+  const Mat3 rotation =
+      angle > 0 ? Eigen::AngleAxisd(angle, turned.spin / angle).toRotationMatrix() : Mat3(Mat3::Identity());
+  const RigidMotion turning = rigid_fit(body_.positions, moving);
+  Points own_moved(moved.rows(), 3);
+  Points own_moving(moved.rows(), 3);
+  double furthest = 0;
+  const Vec3 middle = body_.positions.colwise().mean();
+  for (int row = 0; row < moved.rows(); ++row) {
+    const Vec3 before = before_.row(row);
+    const Vec3 now = body_.positions.row(row);
+    own_moved.row(row) = (now - rotation * before).transpose();
+    own_moving.row(row) = (Vec3(moving.row(row)) - turning.at(now)).transpose();
+    furthest = std::max(furthest, (now - middle).squaredNorm());
+  }
+  measure(own_moved, own_moving, turning.spin.squaredNorm() * std::sqrt(furthest) / 2, own_motions_);
+  before_ = body_.positions;
+}
+
+const Vec3& SurfaceTree::place_of(int point) {
+  Cached<Vec3>& place = places_[point];
+  if (place.step != step_) place = {carried(body_, skin_.points[point], body_.positions), step_};
+  return place.value;
+}
+
+const Vec3& SurfaceTree::normal_of(int point) {
+  Cached<Vec3>& normal = normals_[point];
+  if (normal.step != step_) {
+    normal = {carried_normal(body_, skin_.points[point].brick, skin_.normals.row(point)), step_};
+  }
+  return normal.value;
+}
+
+const AlignedBox& SurfaceTree::box(int row) {
+  Cached<AlignedBox>& box = boxes_[row];
+  if (box.step == step_) return box.value;
+  const Node& node = nodes_[row];
+  AlignedBox now;
+  if (node.is_leaf()) {
+    const int brick = brick_of(node);
+    for (int i = skin_.first_point[brick]; i < skin_.first_point[brick + 1]; ++i) now.extend(place_of(i));
+    for (int i = skin_.first_triangle[brick]; i < skin_.first_triangle[brick + 1]; ++i) {
+      for (const int corner : skin_.triangles[i]) now.extend(place_of(corner));
+    }
+  } else {
+    now = this->box(row + 1);
+    now.extend(this->box(node.second_child));
+  }
+  box = {now, step_};
+  return box.value;
+}
+
+const NormalCone& SurfaceTree::cone(int row) {
+  Cached<NormalCone>& cone = cones_[row];
+  if (cone.step == step_) return cone.value;
+  const Node& node = nodes_[row];
+  if (node.is_leaf()) {
+    const int brick = brick_of(node);
+    cone.value = {carried_normal(body_, skin_.bricks[brick], skin_.cones[brick].axis), 0};
+    double least = 1;
+    for (int i = skin_.first_point[brick]; i < skin_.first_point[brick + 1]; ++i) {
+      least = std::min(least, normal_of(i).dot(cone.value.axis));
+    }
+    for (int i = skin_.first_triangle[brick]; i < skin_.first_triangle[brick + 1]; ++i) {
+      const auto& [a, b, c] = skin_.triangles[i];
+      const Vec3 area = (place_of(b) - place_of(a)).cross(place_of(c) - place_of(a));
+      least = std::min(least, area.norm() > 0 ? area.normalized().dot(cone.value.axis) : -1);
+    }
+    cone.value.spread = std::acos(std::clamp(least, -1.0, 1.0));
+  } else {
+    const NormalCone first = this->cone(row + 1);
+    cone.value = enclosing(first, this->cone(node.second_child));
+  }
+  cone.step = step_;
+  return cone.value;
+}
+
+}  // namespace sprung

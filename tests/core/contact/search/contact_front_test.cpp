@@ -1,0 +1,215 @@
+#include "core/contact/search/contact_front.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <random>
+#include <set>
+#include <string>
+
+#include "core/world/world.h"
+#include "tests/support/horseshoe.h"
+#include "tests/support/touching.h"
+
+namespace sprung {
+namespace {
+
+using test::test_material;
+using test::touching_box;
+
+/// Smooth random waves of velocity through a body.
+class Waves {
+ public:
+  Waves(std::mt19937& random, double speed) {
+    std::normal_distribution<double> normal;
+    const auto vector = [&] { return Vec3(normal(random), normal(random), normal(random)); };
+    for (Wave& wave : waves_) wave = {40 * vector(), speed * vector(), 30 * normal(random), normal(random)};
+    spin_ = 3 * vector();
+    drift_ = speed * vector();
+  }
+
+  void set_velocities(SoftBody& body, double time) const {
+    const Vec3 middle = body.positions.colwise().mean();
+    for (int node = 0; node < body.node_count(); ++node) {
+      const Vec3 at = body.rest_positions.row(node);
+      Vec3 velocity = drift_ * std::cos(3 * time) + spin_.cross(Vec3(body.positions.row(node)) - middle);
+      for (const Wave& wave : waves_) {
+        velocity += std::sin(wave.along.dot(at) + wave.frequency * time + wave.phase) * wave.speed;
+      }
+      body.velocities.row(node) = velocity.transpose();
+    }
+  }
+
+ private:
+  struct Wave {
+    Vec3 along;
+    Vec3 speed;
+    double frequency;
+    double phase;
+  };
+  std::array<Wave, 3> waves_{};
+  Vec3 spin_ = Vec3::Zero();
+  Vec3 drift_ = Vec3::Zero();
+};
+
+double distance_to_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const auto to_segment = [&](const Vec3& s, const Vec3& e) {
+    const double share = std::clamp((p - s).dot(e - s) / (e - s).squaredNorm(), 0.0, 1.0);
+    return (p - s - share * (e - s)).norm();
+  };
+  const Vec3 normal = (b - a).cross(c - a).normalized();
+  const Vec3 foot = p - normal.dot(p - a) * normal;
+  const auto is_left = [&](const Vec3& s, const Vec3& e) { return (e - s).cross(foot - s).dot(normal) >= 0; };
+  if (is_left(a, b) && is_left(b, c) && is_left(c, a)) return std::abs(normal.dot(p - a));
+  return std::min({to_segment(a, b), to_segment(b, c), to_segment(c, a)});
+}
+
+/// Two surfaces, or one, on random ways, a front between them, and all pairs of points and triangles.
+class FrontRace {
+ public:
+  FrontRace(SoftBody& a, SoftBody& b, double dt)
+      : a_(a),
+        b_(b),
+        tree_a_(contact_surface_of(a), a),
+        tree_b_(contact_surface_of(b), b),
+        range_{.margin = 0.3 * a.grid.brick_size, .deepest = 0.7 * a.grid.brick_size},
+        front_(tree_a_, is_self() ? tree_a_ : tree_b_, range_),
+        dt_(dt) {}
+
+  /// Returns how many pairs come as near in this step as touching and are in no list; adds those that are to near.
+  long step(long& near) {
+    tree_a_.follow(dt_, 0);
+    if (!is_self()) tree_b_.follow(dt_, 0);
+    static_cast<void>(front_.advance());
+    std::set<std::array<int, 3>> listed;
+    for (const std::vector<FacingPair>& list : front_.lists()) {
+      for (const FacingPair& pair : list) listed.insert({int(pair.side), pair.point, pair.triangle});
+    }
+    long missed = count_missed(a_, b_, 0, listed, near);
+    if (!is_self()) missed += count_missed(b_, a_, 1, listed, near);
+    a_.positions += dt_ * a_.velocities;
+    if (!is_self()) b_.positions += dt_ * b_.velocities;
+    return missed;
+  }
+
+ private:
+  [[nodiscard]] bool is_self() const { return &a_ == &b_; }
+
+  long count_missed(SoftBody& points_of, SoftBody& triangles_of, int side, const std::set<std::array<int, 3>>& listed,
+                    long& near) {
+    const ContactSurface& skin = contact_surface_of(points_of);
+    const ContactSurface& other = contact_surface_of(triangles_of);
+    std::vector<Vec3> places;
+    std::vector<Vec3> speeds;
+    for (const ContactPoint& point : other.points) {
+      places.push_back(carried(triangles_of, point, triangles_of.positions));
+      speeds.push_back(carried(triangles_of, point, triangles_of.velocities));
+    }
+    long missed = 0;
+    for (int row = 0; row < isize(skin.bricks); ++row) {
+      for (int i = skin.first_point[row]; i < skin.first_point[row + 1]; ++i) {
+        const Vec3 place = carried(points_of, skin.points[i], points_of.positions);
+        const Vec3 speed = carried(points_of, skin.points[i], points_of.velocities);
+        const Vec3 normal = carried_normal(points_of, skin.bricks[row], skin.normals.row(i));
+        for (int other_row = 0; other_row < isize(other.bricks); ++other_row) {
+          if (is_self() && std::binary_search(skin.neighbours[row].begin(), skin.neighbours[row].end(), other_row)) {
+            continue;
+          }
+          for (int t = other.first_triangle[other_row]; t < other.first_triangle[other_row + 1]; ++t) {
+            const auto& [a, b, c] = other.triangles[t];
+            if ((place - places[a]).norm() > 3 * points_of.grid.brick_size) continue;
+            const double way =
+                dt_ * std::max({(speed - speeds[a]).norm(), (speed - speeds[b]).norm(), (speed - speeds[c]).norm()});
+            if (distance_to_triangle(place, places[a], places[b], places[c]) > way) continue;
+            const Vec3 across = (places[b] - places[a]).cross(places[c] - places[a]).normalized();
+            if (!(normal.dot(across) <= kFacing)) continue;
+            const auto hangs = [&](int corner) {
+              return share_a_node(points_of, skin.bricks[row], other.points[corner].brick);
+            };
+            if (is_self() && (hangs(a) || hangs(b) || hangs(c))) continue;
+            ++near;
+            if (!listed.contains({side, i, t})) ++missed;
+          }
+        }
+      }
+    }
+    return missed;
+  }
+
+  SoftBody& a_;
+  SoftBody& b_;
+  SurfaceTree tree_a_;
+  SurfaceTree tree_b_;
+  ContactRange range_;
+  ContactFront front_;
+  double dt_;
+};
+
+/// SPRUNG_FRONT_STEPS=100000 for long.
+long steps_of_a_race() {
+  const char* steps = std::getenv("SPRUNG_FRONT_STEPS");
+  return steps != nullptr ? std::stol(steps) : 2000;
+}
+
+TEST(ContactFront, NoPairOfTwoBodiesSleepsThatCanTouch) {
+  std::mt19937 random(7);
+  long near = 0;
+  long missed = 0;
+  const long steps = steps_of_a_race();
+  for (long done = 0; done < steps;) {
+    SoftBody a = touching_box({3, 3, 3}, 0.02, test_material(0.3), Vec3::Zero());
+    SoftBody b = touching_box({3, 2, 3}, 0.02, test_material(0.3), Vec3(0.01, 0.065, -0.012));
+    FrontRace race(a, b, 2e-4);
+    const Waves of_a(random, 0.3);
+    const Waves of_b(random, 0.3);
+    for (int step = 0; step < 250; ++step, ++done) {
+      of_a.set_velocities(a, step * 2e-4);
+      of_b.set_velocities(b, step * 2e-4);
+      missed += race.step(near);
+    }
+  }
+  EXPECT_GT(near, steps / 10);
+  RecordProperty("near", int(near));
+  EXPECT_EQ(missed, 0);
+}
+
+TEST(ContactFront, NoPairOfABodyWithItselfSleepsThatCanTouch) {
+  std::mt19937 random(8);
+  long near = 0;
+  long missed = 0;
+  const long steps = steps_of_a_race();
+  for (long done = 0; done < steps;) {
+    SoftBody body = test::closing_horseshoe(0.01);
+    const Waves waves(random, 0.2);
+    const Points closing = body.velocities;
+    FrontRace race(body, body, 2e-4);
+    for (int step = 0; step < 500; ++step, ++done) {
+      waves.set_velocities(body, step * 2e-4);
+      body.velocities += closing;
+      missed += race.step(near);
+    }
+  }
+  EXPECT_GT(near, steps / 10);
+  RecordProperty("near", int(near));
+  EXPECT_EQ(missed, 0);
+}
+
+/// What falls and turns together is looked at once.
+TEST(ContactFront, BodiesThatMoveTogetherCostNothing) {
+  SoftBody a = touching_box({3, 3, 3}, 0.02, test_material(0.3), Vec3::Zero());
+  SoftBody b = touching_box({3, 3, 3}, 0.02, test_material(0.3), Vec3(0, 0.065, 0));
+  SurfaceTree tree_a(contact_surface_of(a), a);
+  SurfaceTree tree_b(contact_surface_of(b), b);
+  ContactFront front(tree_a, tree_b, {.margin = 0.006, .deepest = 0.014});
+  for (SoftBody* body : {&a, &b}) body->velocities.rowwise() = Vec3(3, -20, 1).transpose();
+  for (int step = 0; step < 100; ++step) {
+    tree_a.follow(1e-3, 0);
+    tree_b.follow(1e-3, 0);
+    EXPECT_EQ(front.advance(), step == 0) << step;
+    for (SoftBody* body : {&a, &b}) body->positions += 1e-3 * body->velocities;
+  }
+}
+
+}  // namespace
+}  // namespace sprung
