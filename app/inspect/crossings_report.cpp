@@ -13,6 +13,7 @@
 #include "core/simulation/shapes.h"
 #include "core/text.h"
 #include "core/units.h"
+#include "render/brick_cubes.h"
 #include "render/renderer.h"
 
 namespace sprung {
@@ -35,24 +36,17 @@ struct Drawn {
   AlignedBox bounds;
 };
 
-Skin moved(const Skin& skin, const SkinShape& shape) {
-  Skin now = skin;
-  now.positions = shape.positions.cast<double>();
-  now.normals = shape.normals.cast<double>();
-  return now;
-}
-
 Drawn skins_of(const Simulation& simulation, const std::vector<Points>& nodes, double time) {
   Drawn drawn;
   for (std::size_t row = 0; row < nodes.size(); ++row) {
     const SoftBody& body = simulation.world.bodies[row];
-    drawn.skins.push_back(moved(body.skin, shape_of(body.grid, body.skin, body.skin_embedding, nodes[row])));
+    drawn.skins.push_back(with_shape(body.skin, shape_of(body.grid, body.skin, body.skin_embedding, nodes[row])));
     drawn.colors.push_back(srgb(body.color));
     drawn.bounds.extend(bounding_box(drawn.skins.back().positions));
   }
   for (const StageObstacle& obstacle : simulation.obstacles) {
     if (obstacle.skin.triangles.rows() == 0) continue;
-    drawn.skins.push_back(moved(obstacle.skin, shape_of(obstacle, obstacle.skin, time)));
+    drawn.skins.push_back(with_shape(obstacle.skin, shape_of(obstacle, obstacle.skin, time)));
     drawn.colors.push_back(kObstacle);
   }
   return drawn;
@@ -154,8 +148,9 @@ std::string text_of(const std::vector<Crossings>& frames) {
     return a.pairs_at_start < b.pairs_at_start;
   });
   std::string text;
-  if (crossing > 0)
+  if (crossing > 0) {
     text += fmt::format("{:>6}{:>10}{:>8}{:>12}{:>10}  {}\n", "frame", "time", "pairs", "depth", "of size", "between");
+  }
   for (const Crossings& at : frames) {
     if (at.pairs == 0) continue;
     text += fmt::format("{:>6}{:>10}{:>8}{:>12}{:>8.2g} %  {}\n", at.frame + 1, readable(at.time, Dimension::kTime),

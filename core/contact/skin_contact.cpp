@@ -224,7 +224,8 @@ void SkinContacts::look(const std::vector<SkinContact*>& contacts, double gravit
   double fastest = 0;
   for (const auto& tree : trees_) fastest = std::max(fastest, tree->fastest());
   const double way = kLookAhead * smallest_brick(group_);
-  steps_to_look_ = std::clamp(int(way / (2 * fastest * dt)), 1, kMostStepsAhead);
+  const bool is_slow = 2 * fastest * dt * kMostStepsAhead <= way;
+  steps_to_look_ = is_slow ? kMostStepsAhead : std::max(1, int(way / (2 * fastest * dt)));
   const double time = steps_to_look_ * dt;
   const auto follow = [&](std::size_t actor) { trees_[actor]->follow(kFaster * time, gravity * time * time); };
   tbb::parallel_for(std::size_t{0}, trees_.size(), follow);

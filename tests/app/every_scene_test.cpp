@@ -5,6 +5,7 @@
 #include "app/scene/scene_file.h"
 #include "core/simulation/simulate.h"
 #include "core/simulation/simulation.h"
+#include "tests/support/penetration.h"
 
 namespace sprung {
 namespace {
@@ -26,10 +27,11 @@ class EveryScene : public testing::TestWithParam<fs::path> {};
 TEST_P(EveryScene, BeginsSoundly) {
   Film scene = read_scene(GetParam());
   set_scene_key(scene, "duration", std::to_string(1.5 / scene.fps));
-  const Observer silent;
+  const test::PenetrationObserver silent;
   Simulation simulation = prepare_simulation(scene, silent);
   const Recording recording = simulate(simulation, scene, silent);
   EXPECT_EQ(recording.frames.size(), 2U);
+  EXPECT_LT(silent.deepest(), 0.01 * simulation.size);
   for (const Crossings& frame : recording.crossings) EXPECT_LT(frame.depth, 0.01 * simulation.size);
   for (const SoftBody& actor : simulation.world.bodies) {
     EXPECT_EQ(inverted_bricks(actor), 0);

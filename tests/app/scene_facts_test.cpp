@@ -8,6 +8,7 @@
 #include "app/scene/scene_file.h"
 #include "core/simulation/simulate.h"
 #include "core/simulation/simulation.h"
+#include "tests/support/penetration.h"
 #include "tests/support/sanitized.h"
 
 /// What happens in every scene of assets/scenes, as its first line says. With bricks so coarse that it takes seconds;
@@ -26,9 +27,8 @@ class FilmFacts {
       for (const auto& [key, value] : coarser) set_scene_key(scene_, key, value);
     }
     if (change) change(scene_);
-    const Observer silent;
-    simulation_.emplace(prepare_simulation(scene_, silent));
-    recording_ = simulate(*simulation_, scene_, silent);
+    simulation_.emplace(prepare_simulation(scene_, observer_));
+    recording_ = simulate(*simulation_, scene_, observer_);
   }
 
   [[nodiscard]] int last() const { return isize(recording_.frames) - 1; }
@@ -81,17 +81,20 @@ class FilmFacts {
     return sum / count;
   }
 
-  /// What holds for every scene: no brick is inside out, and skins cross by less than 5 % of the largest body (the
-  /// edges of obstacles go in between the points of coarse skins).
+  /// What holds for every scene: no brick is inside out, no contact point is deeper than 1 % of the largest body in
+  /// what it touches, and skins cross by less than 5 % (the edges of obstacles go in between the points of coarse
+  /// skins).
   void expect_sound() const {
     int inverted = 0;
     for (const SoftBody& actor : simulation_->world.bodies) inverted += inverted_bricks(actor);
     EXPECT_EQ(inverted, 0);
+    EXPECT_LT(observer_.deepest(), 0.01 * simulation_->size);
     for (const Crossings& frame : recording_.crossings) EXPECT_LT(frame.depth, 0.05 * simulation_->size);
   }
 
  private:
   Film scene_;
+  test::PenetrationObserver observer_;
   std::optional<Simulation> simulation_;
   Recording recording_;
 };

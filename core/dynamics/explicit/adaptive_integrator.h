@@ -27,7 +27,7 @@ class AdaptiveIntegrator {
   /// Hears why a frame is taken back.
   using Tell = std::function<void(const std::string& message)>;
 
-  explicit AdaptiveIntegrator(World& world, Scheme scheme, ContactSearch search = ContactSearch::kInTime)
+  AdaptiveIntegrator(World& world, Scheme scheme, ContactSearch search = ContactSearch::kInTime)
       : world_(world), scheme_(scheme), search_(search) {}
 
   /// From `time` on by `duration` (s); obstacles move evenly. Returns the steps each group took. Deterministic for any

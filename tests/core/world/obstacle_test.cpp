@@ -7,9 +7,9 @@
 #include <random>
 
 #include "core/body/forces.h"
-#include "core/contact/penetration.h"
 #include "core/dynamics/explicit/adaptive_integrator.h"
 #include "core/simulation/shapes.h"
+#include "tests/support/penetration.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/touching.h"
 
@@ -105,15 +105,6 @@ TEST(Obstacle, BlockOnASlopeStaysOrSlides) {
   }
 }
 
-/// Of the contact points in any obstacle, m.
-double deepest(const World& world) {
-  double depth = 0;
-  for (const SoftBody& body : world.bodies) {
-    for (const Obstacle& obstacle : world.obstacles) depth = std::max(depth, penetration_depth(obstacle, body));
-  }
-  return depth;
-}
-
 /// A plate comes down on a cube, presses it to two thirds, and goes up again: the cube is then as it was.
 TEST(Obstacle, SquashedCubeComesBack) {
   World world;
@@ -128,10 +119,10 @@ TEST(Obstacle, SquashedCubeComesBack) {
   plate.velocity.y() = -0.1;
   run(world, 0.27, 100);
   EXPECT_NEAR(body.positions.col(1).maxCoeff(), 0.0535, 0.0005);
-  EXPECT_LT(deepest(world), 0.0005);
+  EXPECT_LT(test::deepest_contact_point(world), 0.0005);
   plate.velocity.y() = 0.5;
   run(world, 0.01, 100);
-  EXPECT_LT(deepest(world), 0.0005);
+  EXPECT_LT(test::deepest_contact_point(world), 0.0005);
   run(world, 0.09, 100);
   plate.velocity.setZero();
   run(world, 1, 100);
@@ -169,7 +160,7 @@ TEST(Obstacle, WhatBeginsToFallIsFoundInTime) {
   world.obstacles = {level_ground(0)};
   world.bodies.push_back(touching_box({4, 4, 5}, h, soft, Vec3(0, 0.4 * h, 0)));
   run(world, 0.075, 1 / 0.075);
-  EXPECT_LT(deepest(world), 0.01 * h);
+  EXPECT_LT(test::deepest_contact_point(world), 0.01 * h);
 }
 
 /// Two points near one corner of a brick press alike: held by turns only, both would sink in.
@@ -187,7 +178,7 @@ TEST(Obstacle, PointsThatShareACornerAreBothHeld) {
   actor.contact_triangles.resize(0, 3);
   for (int tenth = 1; tenth <= 4; ++tenth) {
     run(world, 0.1, 10);
-    EXPECT_LT(deepest(world), 0.04 * h) << tenth;
+    EXPECT_LT(test::deepest_contact_point(world), 0.04 * h) << tenth;
   }
 }
 
