@@ -201,7 +201,7 @@ void add_load(CLI::App& app, Invocation& invocation) {
       ->allow_extra_args(false)
       ->option_text("LOAD");
   options->keys.add_keys(*command, is_of_part);
-  command->add_option("--unit", options->unit, "unit of the file: mm, cm, m, in; default: m for glTF, else mm")
+  command->add_option("--unit", options->unit, "unit of the file: mm, cm, m, in; default: the file's own, else mm")
       ->option_text("UNIT");
   command->add_option("--up", options->up, "vertical axis, against which weights act: y, z or auto (z for STL, 3MF)")
       ->check(CLI::IsMember({"y", "z", "auto"}))

@@ -104,7 +104,7 @@ void render_films(const std::vector<CachedFilm>& films, const std::optional<Envi
   std::vector<FilmRun> runs;
   for (const CachedFilm& film : films) {
     const Simulation& simulation = simulations.emplace_back(cached_simulation(film.cache.header(), film.scene));
-    const Recording& recording = recordings.emplace_back(cached_recording(film.cache));
+    const Recording& recording = recordings.emplace_back(cached_recording(film.cache, film.scene));
     runs.push_back({film.scene, simulation, recording, film.name});
   }
   render_film(runs, surroundings, range, outputs, console, jobs);

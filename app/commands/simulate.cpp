@@ -122,19 +122,20 @@ void print_summary(const Recording& recording) {
   for (const ProbeTrack& track : recording.probes) {
     const ProbeSample& last = track.samples.back();
     for (const ProbeQuantity& quantity : kProbeQuantities) {
-      if (!quantity.is_of(track.is_pin)) continue;
-      const Vec3& value = last.*quantity.value;
-      fmt::print("{} {} [{:.6g}, {:.6g}, {:.6g}] {}\n", track.name, quantity.name, value.x(), value.y(), value.z(),
-                 quantity.unit);
+      if (!quantity.is_of(track.kind)) continue;
+      const std::string numbers = fmt::format("{:.6g}", fmt::join(quantity.of(last), ", "));
+      const bool is_one = quantity.size() == 1;
+      fmt::print("{} {} {}{}\n", track.name, quantity.name, is_one ? numbers : "[" + numbers + "]",
+                 quantity.unit.empty() ? "" : fmt::format(" {}", quantity.unit));
     }
   }
 }
 
 /// "position_m", "torque_Nm".
-std::string column_of(const ProbeQuantity& quantity, std::string_view component = "") {
+std::string column_of(const ProbeQuantity& quantity, std::string_view label) {
   std::string unit(quantity.unit);
-  unit.erase(std::remove(unit.begin(), unit.end(), ' '), unit.end());
-  return fmt::format("{}{}{}_{}", quantity.name, component.empty() ? "" : ".", component, unit);
+  std::erase_if(unit, [](char letter) { return letter == ' ' || letter == '^'; });
+  return fmt::format("{}{}{}", label, unit.empty() ? "" : "_", unit);
 }
 
 /// One line a frame under a line of names: "time_s,tip.position.x_m,...,end.torque.z_Nm".
@@ -142,9 +143,9 @@ std::string probes_csv(const Recording& recording) {
   std::string text = recording.progress_name;
   for (const ProbeTrack& track : recording.probes) {
     for (const ProbeQuantity& quantity : kProbeQuantities) {
-      if (!quantity.is_of(track.is_pin)) continue;
-      for (const std::string_view component : quantity.components) {
-        text += fmt::format(",{}.{}", track.name, column_of(quantity, component));
+      if (!quantity.is_of(track.kind)) continue;
+      for (std::size_t number = 0; number < quantity.size(); ++number) {
+        text += fmt::format(",{}.{}", track.name, column_of(quantity, quantity.label(number)));
       }
     }
   }
@@ -153,9 +154,8 @@ std::string probes_csv(const Recording& recording) {
     text += fmt::format("{}", recording.progress[frame]);
     for (const ProbeTrack& track : recording.probes) {
       for (const ProbeQuantity& quantity : kProbeQuantities) {
-        if (!quantity.is_of(track.is_pin)) continue;
-        const Vec3& value = track.samples[frame].*quantity.value;
-        text += fmt::format(",{},{},{}", value.x(), value.y(), value.z());
+        if (!quantity.is_of(track.kind)) continue;
+        text += fmt::format(",{}", fmt::join(quantity.of(track.samples[frame]), ","));
       }
     }
     text += "\n";
@@ -169,11 +169,11 @@ Json probes_json(const Recording& recording) {
   for (const ProbeTrack& track : recording.probes) {
     Json& json = tracks.emplace_back(Json{{"name", track.name}});
     for (const ProbeQuantity& quantity : kProbeQuantities) {
-      if (!quantity.is_of(track.is_pin)) continue;
-      Json& values = json[column_of(quantity)] = Json::array();
+      if (!quantity.is_of(track.kind)) continue;
+      Json& values = json[column_of(quantity, quantity.name)] = Json::array();
       for (const ProbeSample& sample : track.samples) {
-        const Vec3& value = sample.*quantity.value;
-        values.push_back({value.x(), value.y(), value.z()});
+        const std::span<const double> numbers = quantity.of(sample);
+        values.push_back(numbers.size() == 1 ? Json(numbers[0]) : Json(std::vector(numbers.begin(), numbers.end())));
       }
     }
   }

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <nlohmann/json.hpp>
 
@@ -81,10 +82,11 @@ void write_runs(const SweepOptions& options, const Console& console) {
 
 void print_header(const CacheHeader& header) {
   fmt::print("run,frames,seconds,{},state_hash", header.progress_name);
-  for (const std::string& probe : header.probes) {
+  for (const Probe& probe : cached_film(header).probes) {
     for (const ProbeQuantity& quantity : kProbeQuantities) {
-      for (const std::string_view component : quantity.components) {
-        fmt::print(",{}.{}.{}", probe, quantity.name, component);
+      if (!quantity.is_of(probe.kind())) continue;
+      for (std::size_t number = 0; number < quantity.size(); ++number) {
+        fmt::print(",{}.{}", probe.name, quantity.label(number));
       }
     }
   }
@@ -96,7 +98,13 @@ void print_row(const std::string& run, const CacheReader& cache) {
   double seconds = 0;
   for (std::size_t frame = 0; frame < cache.frame_count(); ++frame) seconds += cache.frame(frame).seconds;
   fmt::print("{},{},{:.3f},{},{:016x}", run, cache.frame_count(), seconds, last.progress, last.state_hash);
-  for (const double number : last.probes) fmt::print(",{}", number);
+  const std::vector<Probe> probes = cached_film(cache.header()).probes;
+  for (std::size_t probe = 0; probe < probes.size(); ++probe) {
+    const ProbeSample sample = sample_of(last, probe);
+    for (const ProbeQuantity& quantity : kProbeQuantities) {
+      if (quantity.is_of(probes[probe].kind())) fmt::print(",{}", fmt::join(quantity.of(sample), ","));
+    }
+  }
   fmt::print("\n");
 }
 

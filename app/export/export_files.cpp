@@ -96,7 +96,7 @@ void export_animation(const ExportTarget& target, const CachedFilmView& view, co
 void export_page(const ExportTarget& target, const CachedFilmView& view, const FrameRange& range) {
   ViewerFilm viewer;
   each_frame(view, range, 1, [&](int, const std::vector<PosedMesh>& meshes) { viewer.add_frame(meshes); });
-  const Reach reach = reach_of(view.simulation, cached_recording(view.cache));
+  const Reach reach = reach_of(view.simulation, cached_recording(view.cache, view.film));
   const Camera camera = cameras_of(view.film, reach, 0).at(range.first - 1);
   const auto [width, height] = view.film.render.resolution;
   write_file(target.file, viewer.page(view.film.fps, camera, double(width) / height));

@@ -12,6 +12,7 @@
 #include "app/scene/resting_pose.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "core/mesh/io/read_mesh.h"
 #include "core/mesh/query/thickness.h"
 #include "core/units.h"
 
@@ -48,11 +49,10 @@ struct FileUnit {
   bool is_guess = false;
 };
 
-/// glTF is in metres by its specification; CAD and printing are in millimetres.
+/// Where the file does not say, millimetres, as is usual in design and printing.
 FileUnit usual_unit(const std::filesystem::path& file) {
-  const std::string extension = lower_extension(file);
-  if (extension == ".gltf" || extension == ".glb") return {"m", false};
-  return {"mm", extension != ".3mf"};
+  const std::string stated = stated_unit(file);
+  return stated.empty() ? FileUnit{"mm", true} : FileUnit{stated, false};
 }
 
 LoadPart read_part(const PartQuestion& question, const Observer& observer) {

@@ -195,7 +195,7 @@ std::shared_ptr<SceneRun> read_run(const std::filesystem::path& file) {
   auto run = std::make_shared<SceneRun>();
   run->film = cached_film(cache.header());
   run->simulation = cached_simulation(cache.header(), run->film);
-  run->recording = cached_recording(cache);
+  run->recording = cached_recording(cache, run->film);
   for (std::size_t frame = 0; frame < cache.frame_count(); ++frame) {
     run->positions.push_back(cache.positions(frame));
     run->velocities.push_back(cache.velocities(frame));
@@ -250,15 +250,24 @@ std::vector<Triangles> run_triangles_of(const SceneRun& run) {
   return triangles;
 }
 
-/// By probe, then by quantity: (frames, 3).
+/// By probe, then by quantity: (frames, 3), or (frames,) where it is one number.
 py::dict probes_of(const SceneRun& run) {
   py::dict probes;
   for (const ProbeTrack& track : run.recording.probes) {
     py::dict measured;
     for (const ProbeQuantity& quantity : kProbeQuantities) {
-      Points rows(track.samples.size(), 3);
-      for (std::size_t i = 0; i < track.samples.size(); ++i) rows.row(i) = track.samples[i].*quantity.value;
-      measured[py::str(std::string(quantity.name))] = rows;
+      if (!quantity.is_of(track.kind)) continue;
+      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rows(track.samples.size(),
+                                                                                  quantity.size());
+      for (std::size_t i = 0; i < track.samples.size(); ++i) {
+        std::copy_n(quantity.of(track.samples[i]).begin(), quantity.size(), rows.row(Eigen::Index(i)).begin());
+      }
+      const py::str name{std::string(quantity.name)};
+      if (quantity.size() == 1) {
+        measured[name] = Eigen::VectorXd(rows.col(0));
+      } else {
+        measured[name] = rows;
+      }
     }
     probes[py::str(track.name)] = measured;
   }

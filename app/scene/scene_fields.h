@@ -471,11 +471,15 @@ void fields(auto& visit, Is<Plane> auto& plane) {
 }
 
 void fields(auto& visit, Is<Probe> auto& probe) {
-  visit.table("probe", {{KeyRule::kOneOf, {"point", "pin"}}});
+  std::vector<std::string_view> places = kSelectionKeys;
+  places.insert(places.begin(), {"point", "pin"});
+  visit.table("probe", {{KeyRule::kAtMostOne, places}});
   visit(required({"name", "prefix of its columns"}), probe.name);
   visit({"body", "number of the body, counted from 1", Dimension::kNone, kCounted}, probe.body);
   visit({"point", "point of the body, from the centre of its bounding box", Dimension::kLength}, probe.point);
-  visit({"pin", "name of a pin of the body; instead of point"}, probe.pin);
+  visit({"pin", "name of a pin of the body; instead of point. Without either: the body, or the part that is selected"},
+        probe.pin);
+  selection_fields(visit, probe.selection);
 }
 
 void fields(auto& visit, Is<Experiment> auto& experiment) {

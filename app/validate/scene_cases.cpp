@@ -102,6 +102,7 @@ struct Measurement {
 };
 
 /// The quantity in the last frame: "PROBE.displacement.y" (position, force, torque, stress.xx, shear_stress.xy),
+/// "PROBE.volume" and so on,
 /// "frequency.1" or "nodes.max_error" (mean_error, rms_error).
 Measurement measure(const Recording& recording, const std::optional<NodeErrors>& errors, const std::string& quantity) {
   const auto dot = std::min(quantity.rfind('.'), quantity.size());
@@ -118,16 +119,18 @@ Measurement measure(const Recording& recording, const std::optional<NodeErrors>&
   }
   for (const ProbeTrack& track : recording.probes) {
     for (const ProbeQuantity& known : kProbeQuantities) {
-      for (int i = 0; i < 3; ++i) {
-        if (quantity != fmt::format("{}.{}.{}", track.name, known.name, known.components[i])) continue;
-        return {(track.samples.back().*known.value)[i], known.unit};
+      if (!known.is_of(track.kind)) continue;
+      for (std::size_t i = 0; i < known.size(); ++i) {
+        if (quantity != fmt::format("{}.{}", track.name, known.label(i))) continue;
+        return {known.of(track.samples.back())[i], known.unit};
       }
     }
   }
   throw Error(
       ErrorKind::kBadInput,
       fmt::format("expect.quantity: the scene measures no '{}'; write PROBE.displacement.y (or position, force, "
-                  "torque), PROBE.stress.xx, PROBE.shear_stress.xy, frequency.1 with solver.scheme modes, or "
+                  "torque), PROBE.stress.xx, PROBE.shear_stress.xy, PROBE.volume (or elastic_energy, max_stress and "
+                  "so on) of a part, frequency.1 with solver.scheme modes, or "
                   "nodes.max_error (or mean_error, rms_error) with "
                   "experiment.nodes",
                   quantity));

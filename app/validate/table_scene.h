@@ -81,7 +81,7 @@ class TableScene {
   /// A point in the frame of the table; moved into the body by a ten-thousandth of it.
   TableScene& probe(const std::string& name, const Vec3& place) {
     const Vec3 from_middle = (1 - 1e-4) * (place - box_.center());
-    scene_.probes.push_back({.name = name, .body = 1, .point = from_middle, .pin = {}});
+    scene_.probes.push_back({.name = name, .body = 1, .point = from_middle, .pin = {}, .selection = {}});
     return *this;
   }
 

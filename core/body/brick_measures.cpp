@@ -22,18 +22,36 @@ Mat3 deviator(const Mat3& tensor) { return tensor - tensor.trace() / 3 * Mat3::I
 
 Mat3 green_strain(const Mat3& gradient) { return 0.5 * (gradient.transpose() * gradient - Mat3::Identity()); }
 
+double von_mises_strain(const Mat3& strain) { return std::sqrt(2.0 / 3) * deviator(strain).norm(); }
+
 double measure_brick(BrickMeasure measure, const Mat3& gradient, double young, double poisson) {
   switch (measure) {
     case BrickMeasure::kStretch:
       return Eigen::JacobiSVD<Mat3>(gradient).singularValues()[0];
     case BrickMeasure::kStrain:
-      return std::sqrt(2.0 / 3) * deviator(green_strain(gradient)).norm();
+      return von_mises_strain(green_strain(gradient));
     case BrickMeasure::kStress:
       return von_mises(cauchy_stress(gradient, hooke_stress(green_strain(gradient), young, poisson)));
     case BrickMeasure::kVolume:
       break;
   }
   return gradient.determinant();
+}
+
+/// `gradient`: in the axes of the body at rest.
+double measure_small(BrickMeasure measure, const Mat3& gradient, double young, double poisson) {
+  const Mat3 strain = 0.5 * (gradient + gradient.transpose()) - Mat3::Identity();
+  switch (measure) {
+    case BrickMeasure::kStrain:
+      return von_mises_strain(strain);
+    case BrickMeasure::kStress:
+      return von_mises(hooke_stress(strain, young, poisson));
+    case BrickMeasure::kVolume:
+      return 1 + strain.trace();
+    case BrickMeasure::kStretch:
+      break;
+  }
+  return measure_brick(measure, gradient, young, poisson);
 }
 
 }  // namespace
@@ -59,13 +77,17 @@ Eigen::VectorXd brick_youngs(const Body& body) {
   return youngs;
 }
 
-Eigen::VectorXd measure_bricks(const Body& body, BrickMeasure measure, const Points& positions) {
+Eigen::VectorXd measure_bricks(const Body& body, BrickMeasure measure, const Points& positions, StrainMeasure strain) {
   const Eigen::VectorXd youngs = brick_youngs(body);
+  const bool is_small = strain == StrainMeasure::kSmall;
+  const Mat3 turn = is_small ? mean_gradient(body, 0, body.rest_positions) : Mat3(Mat3::Identity());
   Eigen::VectorXd values(body.grid.brick_count());
   tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, values.size(), 512), [&](const auto& range) {
     for (Eigen::Index brick = range.begin(); brick < range.end(); ++brick) {
       const Mat3 gradient = mean_gradient(body, brick, positions);
-      values[brick] = measure_brick(measure, gradient, youngs[brick], body.material.poisson);
+      values[brick] = is_small
+                          ? measure_small(measure, turn.transpose() * gradient, youngs[brick], body.material.poisson)
+                          : measure_brick(measure, gradient, youngs[brick], body.material.poisson);
     }
   });
   return values;

@@ -11,6 +11,12 @@ enum class BrickMeasure {
   kVolume    // J: volume over volume at rest
 };
 
+/// Which strain is measured.
+enum class StrainMeasure {
+  kFinite,  // Green's, see above
+  kSmall    // to first order in the displacements, and the stress by Hooke's law: of linear statics
+};
+
 /// lambda tr(strain) + 2 mu strain, Pa.
 [[nodiscard]] Mat3 hooke_stress(const Mat3& strain, double young, double poisson);
 /// F s F^T / J, J at least 0.05: from the second Piola-Kirchhoff stress s.
@@ -19,8 +25,10 @@ enum class BrickMeasure {
 [[nodiscard]] double von_mises(const Mat3& stress);
 
 /// One number a brick for these positions of the body's nodes (m x 3, m). kStress counts the stiffness of the brick's
-/// region; J is taken as at least 0.05 in it. Deterministic for any number of threads.
-[[nodiscard]] Eigen::VectorXd measure_bricks(const Body& body, BrickMeasure measure, const Points& positions);
+/// region; J is taken as at least 0.05 in it. Small strains change kStrain, kStress and kVolume (1 + tr E).
+/// Deterministic for any number of threads.
+[[nodiscard]] Eigen::VectorXd measure_bricks(const Body& body, BrickMeasure measure, const Points& positions,
+                                             StrainMeasure strain = StrainMeasure::kFinite);
 
 /// One number a node: the mean of its bricks, weighted by their fill.
 [[nodiscard]] Eigen::VectorXd node_means(const BrickGrid& grid, const Eigen::VectorXd& of_bricks);

@@ -126,8 +126,9 @@ BrickVector hexahedron_forces(const Body& body, std::size_t brick) {
   return -body.stiffness_scale[brick] * (body.small_strain_stiffness * lagged);
 }
 
-double hexahedron_energy(const Body& body, std::size_t brick) {
-  const BrickVector u = displacement(body, brick);
+/// `x`: where its corners are.
+double hexahedron_energy(const Body& body, std::size_t brick, const BrickVector& x) {
+  const BrickVector u = x - at_corners(body, brick, body.rest_positions);
   return 0.5 * body.stiffness_scale[brick] * u.dot(body.small_strain_stiffness * u);
 }
 
@@ -150,6 +151,13 @@ BrickVector elastic_forces(const Body& body, std::size_t brick) {
   return body.stiffness_scale[brick] * Eigen::Map<const BrickVector>(force.data());
 }
 
+double spring_energy(const Body& body, std::size_t brick, const BrickVector& x) {
+  CornerVectors<double> corners;
+  std::copy(x.begin(), x.end(), corners.begin());
+  CornerVectors<double> force{};
+  return body.stiffness_scale[brick] * brick_forces<double>(body.law, body.grid.brick_size, corners, nullptr, force);
+}
+
 /// A number of each brick, summed in their order.
 template <class Number>
 double sum_over_bricks(const Body& body, const Number& number) {
@@ -170,12 +178,23 @@ void spring_forces(const Body& body, ForceWorkspace& workspace, Points& forces) 
 
 double elastic_energy(const Body& body, ForceWorkspace& workspace) {
   if (!body.is_hexahedral()) return workspace.springs.energy(body);
-  return sum_over_bricks(body, [&](std::size_t brick) { return hexahedron_energy(body, brick); });
+  return sum_over_bricks(
+      body, [&](std::size_t brick) { return hexahedron_energy(body, brick, at_corners(body, brick, body.positions)); });
 }
 
 double elastic_energy(const Body& body) {
   ForceWorkspace workspace;
   return elastic_energy(body, workspace);
+}
+
+Eigen::VectorXd brick_energies(const Body& body, const std::vector<int>& bricks, const Points& positions) {
+  Eigen::VectorXd energies(Eigen::Index(bricks.size()));
+  tbb::parallel_for(std::size_t{0}, bricks.size(), [&](std::size_t row) {
+    const BrickVector x = at_corners(body, bricks[row], positions);
+    energies[Eigen::Index(row)] =
+        body.is_hexahedral() ? hexahedron_energy(body, bricks[row], x) : spring_energy(body, bricks[row], x);
+  });
+  return energies;
 }
 
 double corner_force_sum(const Body& body) {

@@ -65,6 +65,9 @@ void spring_forces(const Body& body, ForceWorkspace& workspace, Points& forces);
 [[nodiscard]] double elastic_energy(const Body& body, ForceWorkspace& workspace);
 [[nodiscard]] double elastic_energy(const Body& body);
 
+/// Of some bricks, where the body's nodes are at `positions` (m x 3, m), J; that of all adds up to elastic_energy().
+[[nodiscard]] Eigen::VectorXd brick_energies(const Body& body, const std::vector<int>& bricks, const Points& positions);
+
 /// Sum of the sizes of what every brick pulls at its corners, component by component, N.
 [[nodiscard]] double corner_force_sum(const Body& body);
 

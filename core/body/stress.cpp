@@ -12,8 +12,6 @@
 #include <span>
 #include <vector>
 
-#include "core/body/brick_measures.h"
-
 namespace sprung {
 namespace {
 

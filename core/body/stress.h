@@ -2,18 +2,13 @@
 #include <vector>
 
 #include "core/body/body.h"
+#include "core/body/brick_measures.h"
 #include "core/bricks/embedding.h"
 
 namespace sprung {
 
 /// n x 6: xx, yy, zz, xy, yz, zx of a symmetric tensor per row.
 using StressTensors = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;
-
-/// Which strain a stress follows from.
-enum class StrainMeasure {
-  kFinite,  // Green's: by St. Venant-Kirchhoff's law, as BrickMeasure::kStress
-  kSmall    // to first order in the displacements, by Hooke's law: of linear statics
-};
 
 /// Cauchy stress (Pa, in the axes of the world) at a body's nodes where these are at `positions` (m x 3, m), recovered.
 /// The stress of a brick is that in its middle; a line fitted through its neighbours of the same material continues it

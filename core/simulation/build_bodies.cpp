@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <random>
 #include <span>
@@ -195,7 +196,8 @@ EmbeddedSkin smooth_skin(const SoftBody& body, double tolerance) {
 }
 
 BodyBuilder::BodyBuilder(const Scene& scene, std::size_t index, const LoadedBody& loaded, Simulation& simulation)
-    : body_(scene.bodies[index]),
+    : scene_(scene),
+      body_(scene.bodies[index]),
       index_(index),
       loaded_(loaded),
       simulation_(simulation),
@@ -253,6 +255,7 @@ SoftBody BodyBuilder::fill(std::size_t solid) {
   origin.pinned_skins = find_pinned_skins(body_.pins, selector_, body, solid);
   origin.forces = place_forces(body_.forces, selector_, body, solid);
   origin.muscles = place_muscles(body_.muscles, selector_, body, solid, loaded_.bricks_from_rest);
+  origin.probed = find_probed(body, solid);
   body.pinned = held_nodes(origin.pins, body_.pins);
   held_solids_ += origin.pins.empty() && origin.pinned_skins.empty() ? 0 : 1;
   return body;
@@ -287,6 +290,29 @@ std::vector<PinnedNodes> BodyBuilder::find_pins(const Body& body, std::size_t so
     pinned.push_back({.pin = pin, .nodes = std::move(nodes), .centre = selector_.centre(body_.pins[pin])});
   }
   return pinned;
+}
+
+std::vector<ProbedPart> BodyBuilder::find_probed(const SoftBody& body, std::size_t solid) const {
+  std::vector<ProbedPart> parts;
+  for (std::size_t row = 0; row < scene_.probes.size(); ++row) {
+    const Probe& probe = scene_.probes[row];
+    if (std::size_t(probe.body - 1) != index_ || probe.kind() != ProbeKind::kPart) continue;
+    ProbedPart part{.probe = row, .bricks = {}, .skin_points = {}};
+    if (is_whole(probe.selection)) {
+      part.bricks.resize(body.grid.cells.size());
+      std::iota(part.bricks.begin(), part.bricks.end(), 0);
+    } else {
+      part.bricks = selector_.touched_bricks(probe.selection, body.grid, solid);
+    }
+    if (part.bricks.empty()) continue;
+    std::vector<bool> is_in_part(body.grid.cells.size(), false);
+    for (const int brick : part.bricks) is_in_part[brick] = true;
+    for (std::size_t point = 0; point < body.skin_embedding.brick.size(); ++point) {
+      if (is_in_part[body.skin_embedding.brick[point]]) part.skin_points.push_back(int(point));
+    }
+    parts.push_back(std::move(part));
+  }
+  return parts;
 }
 
 namespace {

@@ -82,6 +82,9 @@ class BodyBuilder {
   [[nodiscard]] std::vector<PinnedNodes> find_pins(const Body& body, std::size_t solid) const;
   void put(SoftBody body, const Pose& pose, int copy);
 
+  [[nodiscard]] std::vector<ProbedPart> find_probed(const SoftBody& body, std::size_t solid) const;
+
+  const Scene& scene_;
   const SceneBody& body_;
   std::size_t index_;
   const LoadedBody& loaded_;

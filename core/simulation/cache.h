@@ -28,11 +28,10 @@ struct CacheHeader {
 /// The data of a frame besides the state of its nodes.
 struct CachedFrame {
   double progress = 0;         // time (s), or fraction of the load, or number of the mode
-  std::vector<double> probes;  // 18 each, see kProbeQuantities
+  std::vector<double> probes;  // kNumbersOfProbe each, see kProbeQuantities
   std::uint64_t state_hash = 0;
   double seconds = 0;  // wall-clock time that it took
 };
-inline constexpr std::size_t kNumbersOfProbe = 3 * kProbeQuantities.size();
 
 /// Writes a cache frame by frame; whenever the program is killed, all frames so far are readable. Where its header
 /// allows errors, positions and velocities are rounded to multiples of a power of two, which compress well; the last

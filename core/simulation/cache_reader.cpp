@@ -128,7 +128,7 @@ CacheReader::CacheReader(const std::filesystem::path& file)
 
 namespace {
 
-/// Caches of before stresses were probed have fewer numbers of each.
+/// Caches of before some quantities were probed have fewer numbers of each.
 std::vector<double> filled_up(const std::vector<double>& numbers, std::size_t probes) {
   if (probes == 0 || numbers.size() == probes * kNumbersOfProbe) return numbers;
   const std::size_t of_each = std::min(numbers.size() / probes, kNumbersOfProbe);

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/simulation/drivers.h"
+#include "core/simulation/part_measures.h"
 #include "core/simulation/run_cache.h"
 #include "core/simulation/skin_supports.h"
 
@@ -25,8 +26,9 @@ Recorder::Recorder(const Scene& scene, const Simulation& simulation, std::string
     : scene_(scene), simulation_(simulation), cache_(cache) {
   recording_.progress_name = std::move(progress_name);
   for (const Probe& probe : scene.probes) {
-    recording_.probes.push_back({.name = probe.name, .is_pin = !probe.point, .samples = {}});
+    recording_.probes.push_back({.name = probe.name, .kind = probe.kind(), .samples = {}});
     seats_.push_back(probe.point ? seat_of(probe) : PointSeat{});
+    if (probe.kind() == ProbeKind::kPart) check_part(recording_.probes.size() - 1);
   }
 }
 
@@ -44,6 +46,18 @@ Recorder::PointSeat Recorder::seat_of(const Probe& probe) const {
               fmt::format("probe '{}': its point ({:.6g}, {:.6g}, {:.6g}) m is in no brick of body {}; points are "
                           "measured from the middle of the body's bounding box",
                           probe.name, probe.point->x(), probe.point->y(), probe.point->z(), probe.body));
+}
+
+void Recorder::check_part(std::size_t probe) const {
+  for (const SoftBody& body : simulation_.world.bodies) {
+    for (const ProbedPart& part : body.origin.probed) {
+      if (part.probe == probe) return;
+    }
+  }
+  throw Error(ErrorKind::kBadInput,
+              fmt::format("probe '{}': its part reaches no brick of body {}; boxes and balls go from 0 to 1 over the "
+                          "body's bounding box",
+                          scene_.probes[probe].name, scene_.probes[probe].body));
 }
 
 int Recorder::take_up(World& world, const std::function<void(IntegratorState&)>& serialize) {
@@ -78,8 +92,18 @@ void Recorder::add(double progress, const std::vector<Points>& reactions, double
   frame_began_ = now;
   for (std::size_t i = 0; i < scene_.probes.size(); ++i) {
     const Probe& probe = scene_.probes[i];
-    recording_.probes[i].samples.push_back(probe.point ? point_sample(seats_[i], small)
-                                                       : pin_sample(probe, reactions, time, small));
+    const auto sample = [&] {
+      switch (probe.kind()) {
+        case ProbeKind::kPoint:
+          return point_sample(seats_[i], small);
+        case ProbeKind::kPin:
+          return pin_sample(probe, reactions, time, small);
+        case ProbeKind::kPart:
+          break;
+      }
+      return part_sample(i, small);
+    };
+    recording_.probes[i].samples.push_back(sample());
   }
   if (cache_ == nullptr) return;
   const CachedFrame frame{.progress = progress,
@@ -145,6 +169,16 @@ ProbeSample Recorder::pin_sample(const Probe& probe, const std::vector<Points>& 
   sample.position /= count;
   sample.displacement /= count;
   return sample;
+}
+
+ProbeSample Recorder::part_sample(std::size_t probe, bool small) const {
+  PartMeasures measures;
+  for (const SoftBody& body : simulation_.world.bodies) {
+    for (const ProbedPart& part : body.origin.probed) {
+      if (part.probe == probe) measures.add(body, part, small ? StrainMeasure::kSmall : StrainMeasure::kFinite);
+    }
+  }
+  return measures.sample();
 }
 
 Recording Recorder::finish() {

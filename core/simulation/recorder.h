@@ -1,53 +1,21 @@
 #pragma once
-#include <array>
 #include <chrono>
 #include <cstdint>
 #include <functional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/dynamics/integrator_state.h"
 #include "core/simulation/crossings.h"
+#include "core/simulation/probe_sample.h"
 #include "core/simulation/simulation.h"
 
 namespace sprung {
 
-/// A probe's values in one frame: the position of a point and the stress there (see recover_stress()), or the mean
-/// position of a pin's nodes, the force that the pin exerts on them and its torque about the centre of the pin's box.
-struct ProbeSample {
-  Vec3 position = Vec3::Zero();      // m
-  Vec3 displacement = Vec3::Zero();  // m, from the start
-  Vec3 force = Vec3::Zero();         // N; zero for points
-  Vec3 torque = Vec3::Zero();        // N m; zero for points
-  Vec3 stress = Vec3::Zero();        // xx, yy, zz, Pa; zero for pins
-  Vec3 shear_stress = Vec3::Zero();  // xy, yz, zx, Pa; zero for pins
-};
-
-/// A quantity that probes measure.
-struct ProbeQuantity {
-  enum Kind { kAny, kPin, kPoint };
-
-  std::string_view name;
-  std::string_view unit;
-  std::array<std::string_view, 3> components;
-  Vec3 ProbeSample::*value;
-  Kind kind = kAny;  // of probe, which measures it
-  [[nodiscard]] bool is_of(bool pin) const { return kind == kAny || (kind == kPin) == pin; }
-};
-
-inline constexpr std::array<ProbeQuantity, 6> kProbeQuantities{
-    {{"position", "m", {"x", "y", "z"}, &ProbeSample::position},
-     {"displacement", "m", {"x", "y", "z"}, &ProbeSample::displacement},
-     {"force", "N", {"x", "y", "z"}, &ProbeSample::force, ProbeQuantity::kPin},
-     {"torque", "N m", {"x", "y", "z"}, &ProbeSample::torque, ProbeQuantity::kPin},
-     {"stress", "Pa", {"xx", "yy", "zz"}, &ProbeSample::stress, ProbeQuantity::kPoint},
-     {"shear_stress", "Pa", {"xy", "yz", "zx"}, &ProbeSample::shear_stress, ProbeQuantity::kPoint}}};
-
 /// One probe in all frames.
 struct ProbeTrack {
   std::string name;
-  bool is_pin = false;
+  ProbeKind kind = ProbeKind::kPoint;
   std::vector<ProbeSample> samples;  // frame by frame
 };
 
@@ -69,8 +37,8 @@ struct Recording {
 /// Records the frames of a simulation.
 class Recorder {
  public:
-  /// Frames go to the cache if there is one. Throws Error(kBadInput) where a probe's point is in no brick or its pin
-  /// holds no nodes.
+  /// Frames go to the cache if there is one. Throws Error(kBadInput) where a probe's point is in no brick or its part
+  /// has none.
   Recorder(const Scene& scene, const Simulation& simulation, std::string progress_name, RunCache* cache);
 
   /// Resumes from the frames in the cache: sets the world, that of the simulation, to its state after the last of them
@@ -98,6 +66,9 @@ class Recorder {
   [[nodiscard]] ProbeSample point_sample(const PointSeat& seat, bool small) const;
   [[nodiscard]] ProbeSample pin_sample(const Probe& probe, const std::vector<Points>& reactions, double time,
                                        bool small) const;
+
+  void check_part(std::size_t probe) const;
+  [[nodiscard]] ProbeSample part_sample(std::size_t probe, bool small) const;
 
   const Scene& scene_;
   const Simulation& simulation_;

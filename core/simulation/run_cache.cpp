@@ -110,10 +110,12 @@ std::vector<Floats3> cached_nodes(const CacheReader& cache, std::size_t frame) {
   return nodes;
 }
 
-Recording cached_recording(const CacheReader& cache) {
+Recording cached_recording(const CacheReader& cache, const Scene& scene) {
   Recording recording;
   recording.progress_name = cache.header().progress_name;
-  for (const std::string& name : cache.header().probes) recording.probes.push_back({.name = name, .samples = {}});
+  for (const Probe& probe : scene.probes) {
+    recording.probes.push_back({.name = probe.name, .kind = probe.kind(), .samples = {}});
+  }
   for (std::size_t frame = 0; frame < cache.frame_count(); ++frame) {
     recording.frames.push_back(cached_nodes(cache, frame));
     const CachedFrame cached = cache.frame(frame);
@@ -247,8 +249,8 @@ std::vector<double> numbers_of(const std::vector<ProbeTrack>& probes) {
   for (const ProbeTrack& track : probes) {
     const ProbeSample& last = track.samples.back();
     for (const ProbeQuantity& quantity : kProbeQuantities) {
-      const Vec3& value = last.*quantity.value;
-      numbers.insert(numbers.end(), value.begin(), value.end());
+      const std::span<const double> of_quantity = quantity.of(last);
+      numbers.insert(numbers.end(), of_quantity.begin(), of_quantity.end());
     }
   }
   return numbers;
@@ -258,8 +260,8 @@ ProbeSample sample_of(const CachedFrame& frame, std::size_t probe) {
   const double* numbers = frame.probes.data() + kNumbersOfProbe * probe;
   ProbeSample sample;
   for (const ProbeQuantity& quantity : kProbeQuantities) {
-    sample.*quantity.value = Eigen::Map<const Vec3>(numbers);
-    numbers += 3;
+    std::copy_n(numbers, quantity.size(), quantity.of(sample).begin());
+    numbers += quantity.size();
   }
   return sample;
 }

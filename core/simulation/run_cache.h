@@ -29,8 +29,8 @@ struct SceneRecord {
 /// not stored.
 [[nodiscard]] Simulation cached_simulation(const CacheHeader& header, const Scene& scene);
 
-/// Its frames and probe values; which probes are of pins is not stored.
-[[nodiscard]] Recording cached_recording(const CacheReader& cache);
+/// Its frames and probe values. `scene`: its own.
+[[nodiscard]] Recording cached_recording(const CacheReader& cache, const Scene& scene);
 
 /// One frame of it, by actor.
 [[nodiscard]] std::vector<Floats3> cached_nodes(const CacheReader& cache, std::size_t frame);

@@ -219,12 +219,21 @@ struct SceneSolver {
   double time_limit = 24 * 3600;  // s of computing time that a motion may be forecast to take
 };
 
-/// A quantity recorded in every frame: the position of a point of a body, or the reaction of a pin.
+/// Who measures: a point of a body, one of its pins, or a part of it.
+enum class ProbeKind { kPoint, kPin, kPart };
+
+/// Quantities recorded in every frame: of a point of a body, of a pin, or of a part of a body, else of all of it.
 struct Probe {
   std::string name;
   int body = 1;               // counted from 1
   std::optional<Vec3> point;  // m, from the centre of the bounding box of the unrotated body at rest; or
-  std::string pin;            // the name of one of the body's pins
+  std::string pin;            // the name of one of the body's pins; or
+  Selection selection;
+
+  [[nodiscard]] ProbeKind kind() const {
+    if (point) return ProbeKind::kPoint;
+    return pin.empty() ? ProbeKind::kPart : ProbeKind::kPin;
+  }
 };
 
 struct Plane {

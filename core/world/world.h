@@ -53,6 +53,13 @@ struct MusclePart {
   Muscle full;             // at full strength
 };
 
+/// The part of a body that a probe of the scene measures.
+struct ProbedPart {
+  std::size_t probe = 0;         // row in Scene::probes
+  std::vector<int> bricks;       // ascending
+  std::vector<int> skin_points;  // vertices of the skin that these bricks carry, ascending
+};
+
 /// The body of the scene from which a soft body was made.
 struct Origin {
   std::size_t body = 0;  // row in Scene::bodies
@@ -63,6 +70,7 @@ struct Origin {
   std::vector<PinnedSkin> pinned_skins;
   std::vector<ForcedPart> forces;
   std::vector<MusclePart> muscles;
+  std::vector<ProbedPart> probed;  // those that have any of its bricks
 
   /// All nodes that pins hold, ascending, each once.
   [[nodiscard]] std::vector<int> pinned_nodes() const;

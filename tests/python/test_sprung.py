@@ -357,7 +357,7 @@ class Scenes(unittest.TestCase):
         ],
         "glue": [{"bodies": [1, 2]}],
         "obstacle": [{"plane": {"y": 0}}, {"sphere": {"radius": 0.03}, "position": [0, 0.03, 0]}],
-        "probe": [{"name": "hand", "body": 1, "pin": "hold"}],
+        "probe": [{"name": "hand", "body": 1, "pin": "hold"}, {"name": "bar", "body": 1}],
     }
 
     def test_a_dict_of_all_of_them(self):
@@ -365,6 +365,9 @@ class Scenes(unittest.TestCase):
         self.assertEqual((run.frame_count, len(run.positions(0))), (2, 2))
         np.testing.assert_allclose(run.progress, [0, 0.1])
         self.assertGreater(np.abs(run.probes["hand"]["force"][1]).max(), 0.01)
+        self.assertNotIn("force", run.probes["bar"])
+        self.assertEqual(run.probes["bar"]["volume"].shape, (2,))
+        self.assertGreater(run.probes["bar"]["max_stress"][1], run.probes["bar"]["max_stress"][0])
         bar = run.positions(-1)[0] - run.positions(0)[0]
         self.assertAlmostEqual(bar[:, 0].max(), 0.01, delta=4e-3)  # the handle, half way; the bar swings a little
         self.assertEqual(run.skin_positions(1)[0].shape[1], 3)

@@ -148,7 +148,7 @@ Case random_case(std::uint32_t seed, std::uint32_t index) {
   const double strength = body.material.young * 1e-2 * dice.log_between(1e-8, 1e-4);
   force.total = strength * Vec3(dice.between(-1, 1), dice.between(-1, 1), dice.between(-1, 1));
   body.forces.push_back(force);
-  scene.probes.push_back({.name = "held", .point = {}, .pin = "pin"});
+  scene.probes.push_back({.name = "held", .point = {}, .pin = "pin", .selection = {}});
   made.description = fmt::format("{}, {} bricks{}, {}, E {:.3g} Pa, nu {:.2f}, pinned at {}{} to {:.2f}, {:.3g} N",
                                  part.name, bricks, body.brick_rotation.isZero() ? "" : " askew",
                                  scene.solver.scheme == Solver::kStatic ? "static" : "linear", body.material.young,

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstring>
 #include <exception>
@@ -20,6 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uintmax_t kLargestFile = std::uintmax_t{1} << 32;  // bytes
+constexpr std::size_t kLongestModelStart = 4096;                  // bytes, in which a 3MF says its unit
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& reason) {
   throw Error(ErrorKind::kBadInput, fmt::format("{}: {}", file.string(), reason));
@@ -81,6 +83,26 @@ SurfaceMesh read_mesh_here(const fs::path& file) {
   if (format == ".gltf") check_gltf(bytes, name);
   if (format == ".3mf") check_3mf(bytes, name);
   return read_by_assimp(file);
+}
+
+std::string stated_unit(const fs::path& file) {
+  const std::string format = lower_extension(file);
+  if (format == ".gltf" || format == ".glb") return "m";
+  if (format != ".3mf") return "";
+  const std::string model = start_of_3mf_model(read_file(file), kLongestModelStart);
+  const std::size_t tag = model.find("<model");
+  if (tag == std::string::npos) return "";
+  const std::string_view attributes = std::string_view(model).substr(tag, model.find('>', tag) - tag);
+  constexpr std::array<std::array<std::string_view, 2>, 6> kUnitsOf3mf{
+      {{"micron", "um"}, {"millimeter", "mm"}, {"centimeter", "cm"}, {"inch", "in"}, {"foot", "ft"}, {"meter", "m"}}};
+  for (const auto& [written, unit] : kUnitsOf3mf) {
+    for (const char quote : {'"', '\''}) {
+      if (attributes.find(fmt::format("unit={1}{0}{1}", written, quote)) != std::string_view::npos) {
+        return std::string(unit);
+      }
+    }
+  }
+  return "mm";
 }
 
 SurfaceMesh read_mesh(const fs::path& file) {

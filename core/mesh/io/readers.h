@@ -52,4 +52,7 @@ void check_gltf(std::string_view bytes, const std::string& name);
 /// Rejects a 3MF archive that is truncated or contains no model. Throws Error(kBadInput).
 void check_3mf(std::string_view bytes, const std::string& name);
 
+/// The first bytes, at most `count`, of the model in a 3MF archive; empty where there is none or it is damaged.
+[[nodiscard]] std::string start_of_3mf_model(std::string_view bytes, std::size_t count);
+
 }  // namespace sprung

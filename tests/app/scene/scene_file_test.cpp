@@ -167,7 +167,8 @@ TEST_F(SceneFile, ReadsWhatIsMeasuredAndExpected) {
 
 TEST_F(SceneFile, RefusesWhatCannotBeMeasuredOrHeld) {
   const std::string probe = "[[probe]]\nname = \"a\"\n";
-  EXPECT_NE(body_mistakes(probe).find("probe lacks the key 'point' or 'pin'"), std::string::npos);
+  EXPECT_NE(body_mistakes(probe + "point = [0, 0, 0]\nnearest = [0, 0, 0]").find("give point or nearest, not both"),
+            std::string::npos);
   EXPECT_NE(body_mistakes(probe + "pin = \"fot\"").find("the body has no pin 'fot'"), std::string::npos);
   EXPECT_NE(body_mistakes(probe + "body = 2\npoint = [0, 0, 0]").find("there is no body 2"), std::string::npos);
   EXPECT_NE(body_mistakes("box = [1, 1, 1]").find("give mesh or box, not both"), std::string::npos);

@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "core/mesh/repair/solids.h"
 #include "tests/support/meshes.h"
+#include "tests/support/temp_folder.h"
 
 namespace sprung {
 namespace {
@@ -229,6 +230,34 @@ TEST(ReadSharedMesh, KeepsColoursAndTextures) {
   EXPECT_NEAR(find_solids(die, "die").solids.at(0).volume, 8000, 1e-3);
   ASSERT_EQ(die.notes.size(), 1U);
   EXPECT_NE(die.notes[0].find("textures of 3MF"), std::string::npos);
+}
+
+/// A zip archive of one file that is not compressed.
+std::string archive_of(const std::string& name, const std::string& text) {
+  const auto number = [](std::size_t value, int bytes) {
+    std::string digits;
+    for (int i = 0; i < bytes; ++i) digits += char(value >> (8 * i) & 0xFF);
+    return digits;
+  };
+  const std::string sizes = number(0, 4) + number(text.size(), 4) + number(text.size(), 4) + number(name.size(), 2);
+  const std::string entry = "PK\3\4" + number(20, 2) + number(0, 8) + sizes + number(0, 2) + name + text;
+  const std::string directory = "PK\1\2" + number(20, 2) + number(20, 2) + number(0, 8) + sizes + number(0, 16) + name;
+  return entry + directory + "PK\5\6" + number(0, 18);
+}
+
+TEST(StatedUnit, IsWhatTheFileSays) {
+  const TempFolder folder;
+  const auto unit_of = [&](const std::string& tag) {
+    return stated_unit(folder.write("part.3mf", archive_of("3D/part.model", "<?xml version='1.0'?>\n" + tag)));
+  };
+  EXPECT_EQ(unit_of("<model xml:lang='en' unit=\"inch\">"), "in");
+  EXPECT_EQ(unit_of("<model unit='micron'>"), "um");
+  EXPECT_EQ(unit_of("<model><metadata name=\"unit\">foot</metadata>"), "mm");
+  EXPECT_EQ(stated_unit(folder.write("cut.3mf", "PK\3\4")), "");
+  EXPECT_EQ(stated_unit("part.glb"), "m");
+  EXPECT_EQ(stated_unit("part.stl"), "");
+  if (!fs::exists(test::shared_mesh("cube_gears.3mf"))) GTEST_SKIP() << "the shared meshes are not here";
+  EXPECT_EQ(stated_unit(test::shared_mesh("cube_gears.3mf")), "mm");  // a deflated one
 }
 
 TEST(ReadSharedMesh, RefusesTheMalformedOnes) {
