@@ -5,8 +5,8 @@
 
 #include "core/contact/broad_phase.h"
 #include "core/contact/contacts.h"
-#include "core/contact/search/contact_front.h"
 #include "core/contact/search/contact_surface.h"
+#include "core/contact/search/facing_lists.h"
 
 namespace sprung {
 

@@ -2,26 +2,29 @@
 
 namespace sprung {
 
-void ContactStates::begin_frame(World& world, const std::vector<std::vector<std::size_t>>& groups) {
-  std::map<std::vector<std::size_t>, std::shared_ptr<SkinContacts>> kept;
+void ContactStates::begin_frame(World& world, const std::vector<std::vector<std::size_t>>& groups,
+                                ContactSearch search) {
+  std::map<std::vector<std::size_t>, GroupContacts> kept;
   for (const std::vector<std::size_t>& rows : groups) {
     Group group;
     for (const std::size_t row : rows) group.push_back(&world.bodies[row]);
+    GroupContacts& contacts = kept[rows];
+    if (world.guards_crossings) contacts.guard = std::make_shared<CrossingGuard>(group, world);
+    if (search == ContactSearch::kInTime) continue;
     const auto known = by_group_.find(rows);
-    std::shared_ptr<SkinContacts>& contacts = kept[rows];
-    if (known != by_group_.end() && known->second->is_of(group)) {
-      contacts = known->second;
-      contacts->begin_frame();
+    if (known != by_group_.end() && known->second.skins && known->second.skins->is_of(group)) {
+      contacts.skins = known->second.skins;
+      contacts.skins->begin_frame();
     } else {
-      contacts = std::make_shared<SkinContacts>(group, ContactSearch::kFronts);
+      contacts.skins = std::make_shared<SkinContacts>(group, search);
     }
   }
   by_group_ = std::move(kept);
 }
 
-std::shared_ptr<SkinContacts> ContactStates::of(const std::vector<std::size_t>& group) const {
+GroupContacts ContactStates::of(const std::vector<std::size_t>& group) const {
   const auto known = by_group_.find(group);
-  return known == by_group_.end() ? nullptr : known->second;
+  return known == by_group_.end() ? GroupContacts{} : known->second;
 }
 
 }  // namespace sprung

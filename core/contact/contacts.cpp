@@ -14,12 +14,6 @@ constexpr double kMostSteps = 24;      // what is pressed together can be fast w
 
 }  // namespace
 
-double smallest_brick(const Group& group) {
-  double size = std::numeric_limits<double>::infinity();
-  for (const SoftBody* actor : group) size = std::min(size, actor->grid.brick_size);
-  return size;
-}
-
 RigidMotion rigid_motion_of(const Group& group) {
   Vec3 middle = Vec3::Zero();
   Vec3 momentum = Vec3::Zero();

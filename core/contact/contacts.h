@@ -3,16 +3,11 @@
 #include <span>
 #include <vector>
 
+#include "core/contact/search/group.h"
 #include "core/contact/search/rigid_motion.h"
 #include "core/world/world.h"
 
 namespace sprung {
-
-/// Actors that may touch each other in the time to come and so move by the same steps.
-using Group = std::vector<SoftBody*>;
-
-/// Side of the smallest bricks, m.
-[[nodiscard]] double smallest_brick(const Group& group);
 
 /// With the momentum and angular momentum of all bodies.
 [[nodiscard]] RigidMotion rigid_motion_of(const Group& group);

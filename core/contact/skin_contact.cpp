@@ -33,7 +33,8 @@ SkinContact::SkinContact(const std::vector<const ContactSurface*>& skins, const 
       brick_(std::min(group[actor]->grid.brick_size, group[other]->grid.brick_size)) {}
 
 void SkinContact::add_front(SurfaceTree& tree, SurfaceTree& other_tree) {
-  front_.emplace(tree, other_tree, ContactRange{.margin = kSkinMargin * brick_, .deepest = kSkinDeepest * brick_});
+  facing_.emplace(tree, other_tree, kSkinDeepest * brick_);
+  front_.emplace(tree, other_tree, kSkinMargin * brick_, *facing_);
 }
 
 void SkinContact::add(const Group& group, const Held& held, ContactList& touches) const {
@@ -119,7 +120,7 @@ void SkinContact::keep_hardest() {
 
 void SkinContact::look(const Group& group) {
   if (!front_->advance()) return pairs_.turn(group);
-  pairs_.take(group, front_->lists());
+  pairs_.take(group, facing_->lists());
   runs_ = runs_of(pairs_);
 }
 

@@ -60,6 +60,7 @@ class SkinContact {
   std::array<std::size_t, 2> actors_;
   ContactCandidates pairs_;
   double brick_;  // m, of the finer of the two
+  std::optional<FacingLists> facing_;
   std::optional<ContactFront> front_;
   std::vector<SkinRun> runs_;
   std::vector<Held> held_;  // of this step

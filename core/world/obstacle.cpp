@@ -55,6 +55,9 @@ class MeshDistance::Tree {
     }
   }
 
+  [[nodiscard]] const Points& positions() const { return positions_; }
+  [[nodiscard]] const Triangles& triangles() const { return triangles_; }
+
   [[nodiscard]] Nearest nearest(const Vec3& place) const {
     const SurfacePlace found = surface_.at(place);
     const Vec3 outward = normal_at(found.triangle, found.point);
@@ -102,6 +105,10 @@ MeshDistance::MeshDistance(const Points& positions, const Triangles& triangles)
 MeshDistance::~MeshDistance() = default;
 
 MeshDistance::Nearest MeshDistance::nearest(const Vec3& place) const { return tree_->nearest(place); }
+
+const Points& MeshDistance::positions() const { return tree_->positions(); }
+
+const Triangles& MeshDistance::triangles() const { return tree_->triangles(); }
 
 namespace {
 

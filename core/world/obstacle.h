@@ -27,6 +27,9 @@ class MeshDistance {
   /// angle weighted pseudonormal", IEEE TVCG 11(3), 2005).
   [[nodiscard]] Nearest nearest(const Vec3& place) const;
 
+  [[nodiscard]] const Points& positions() const;
+  [[nodiscard]] const Triangles& triangles() const;
+
  private:
   class Tree;
   std::unique_ptr<Tree> tree_;

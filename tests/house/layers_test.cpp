@@ -27,6 +27,7 @@ const std::vector<std::string> kFolders{
     "core/world",
     "core/contact/search",
     "core/contact/watch",
+    "core/contact/pairs",
     "core/contact",
     "core/dynamics",
     "core/dynamics/linear",

@@ -8,13 +8,17 @@ namespace {
 
 constexpr std::size_t kGrown = 2;  // times, with so many more: a front that has grown so far is made anew
 constexpr std::size_t kGrownBy = 500;
-constexpr double kFar = 0.5;      // bricks: pairs of subtrees that are further apart stay whole
-constexpr double kMayFace = 0.9;  // cosine between normals, at most, that may turn to kFacing while a list is good
-constexpr double kTurned = 0.4;   // bricks that parts of bricks move by, at least, as these turn by a radian
+constexpr double kFar = 0.5;     // bricks: pairs of subtrees that are further apart stay whole
+constexpr double kTurned = 0.4;  // bricks that parts of bricks move by, at least, as these turn by a radian
 }  // namespace
 
-ContactFront::ContactFront(SurfaceTree& a, SurfaceTree& b, const ContactRange& range)
-    : a_(a), b_(b), range_(range), brick_(std::min(a.body().grid.brick_size, b.body().grid.brick_size)) {}
+ContactFront::ContactFront(SurfaceTree& a, SurfaceTree& b, double margin, NearLists& lists, Facing facing)
+    : a_(a),
+      b_(b),
+      margin_(margin),
+      lists_(lists),
+      facing_(facing),
+      brick_(std::min(a.body().grid.brick_size, b.body().grid.brick_size)) {}
 
 double ContactFront::turn_until_facing(int a, int b) {
   const NormalCone& one = a_.cone(a);
@@ -38,8 +42,9 @@ bool ContactFront::advance() {
   has_changed_ = false;
   if (size_ > kGrown * size_when_new_ + kGrownBy) {
     blocks_.clear();
-    block_of_.clear();
+    known_blocks_.clear();
     lists_.clear();
+    list_count_ = 0;
     free_lists_.clear();
     size_ = 0;
     has_changed_ = true;
@@ -65,13 +70,17 @@ bool ContactFront::advance() {
   return has_changed_;
 }
 
-void ContactFront::keep(int a, int b, double budget, int list) {
+std::size_t ContactFront::block_of(int a, int b) {
   const int cluster_a = a_.cluster_node(a);
   const int cluster_b = b_.cluster_node(b);
   const std::uint64_t key = std::uint64_t(cluster_a) << 32 | std::uint64_t(cluster_b);
-  const auto [known, is_new] = block_of_.try_emplace(key, blocks_.size());
+  const auto [known, is_new] = known_blocks_.try_emplace(key, blocks_.size());
   if (is_new) blocks_.push_back({.a = cluster_a, .b = cluster_b});
-  Block& block = blocks_[known->second];
+  return known->second;
+}
+
+void ContactFront::keep(int a, int b, double budget, int list) {
+  Block& block = blocks_[block_of(a, b)];
   block.heap.push_back({block.closer + budget, a, b, list});
   std::push_heap(block.heap.begin(), block.heap.end());
   ++size_;
@@ -82,8 +91,8 @@ void ContactFront::look(int a, int b, int list) {
   const SurfaceTree::Node& other = b_.nodes()[b];
   const auto drop_list = [&] {
     if (list < 0) return;
-    has_changed_ = has_changed_ || !lists_[list].empty();
-    lists_[list].clear();
+    const bool changed = lists_.clear(list);
+    has_changed_ = has_changed_ || changed;
     free_lists_.push_back(list);
   };
   if (is_self() && one.is_leaf() && other.is_leaf()) {
@@ -95,16 +104,16 @@ void ContactFront::look(int a, int b, int list) {
   const bool are_leaves = one.is_leaf() && other.is_leaf();
   // What may be needed in this very step counts as near.
   const double needed = moving_closer(a, b);
-  if (distance > std::max((are_leaves ? range_.margin : kFar * brick_), needed)) {
+  if (distance > std::max((are_leaves ? margin_ : kFar * brick_), needed)) {
     drop_list();
     return keep(a, b, distance, -1);
   }
-  if (const double turn = turn_until_facing(a, b); turn > kBent) {
+  if (const double turn = turn_until_facing(a, b); facing_ == Facing::kNeeded && turn > kBent) {
     drop_list();
     return keep(a, b, std::max(kTurned * turn * brick_, distance), -1);
   }
   if (!are_leaves) return split(a, b);
-  const double margin = std::max(range_.margin, needed);
+  const double margin = std::max(margin_, needed);
   keep(a, b, margin, fill_list(a, b, margin, list));
 }
 
@@ -127,50 +136,17 @@ void ContactFront::split(int a, int b) {
 
 int ContactFront::fill_list(int a, int b, double margin, int list) {
   if (list < 0) {
-    if (free_lists_.empty()) {
-      free_lists_.push_back(isize(lists_));
-      lists_.emplace_back();
-    }
+    if (free_lists_.empty()) free_lists_.push_back(list_count_++);
     list = free_lists_.back();
     free_lists_.pop_back();
   }
-  std::vector<FacingPair> found;
-  list_side(0, a_.brick_of(a_.nodes()[a]), b_.brick_of(b_.nodes()[b]), margin, found);
-  if (is_self()) {
-    list_side(0, b_.brick_of(b_.nodes()[b]), a_.brick_of(a_.nodes()[a]), margin, found);
-  } else {
-    list_side(1, b_.brick_of(b_.nodes()[b]), a_.brick_of(a_.nodes()[a]), margin, found);
-  }
-  has_changed_ = has_changed_ || !found.empty() || !lists_[list].empty();
-  lists_[list] = std::move(found);
+  const bool changed = lists_.fill({.list = list,
+                                    .a = a_.brick_of(a_.nodes()[a]),
+                                    .b = b_.brick_of(b_.nodes()[b]),
+                                    .margin = margin,
+                                    .block = block_of(a, b)});
+  has_changed_ = has_changed_ || changed;
   return list;
-}
-
-void ContactFront::list_side(std::size_t side, int points_of, int triangles_of, double margin,
-                             std::vector<FacingPair>& list) {
-  SurfaceTree& ours = tree(side);
-  SurfaceTree& across = is_self() ? ours : tree(1 - side);
-  const ContactSurface& skin = ours.skin();
-  const ContactSurface& other = across.skin();
-  for (int point = skin.first_point[points_of]; point < skin.first_point[points_of + 1]; ++point) {
-    const Vec3& place = ours.place_of(point);
-    const auto hangs_together = [&](int corner) {
-      return share_a_node(ours.body(), skin.points[point].brick, other.points[corner].brick);
-    };
-    for (int t = other.first_triangle[triangles_of]; t < other.first_triangle[triangles_of + 1]; ++t) {
-      const std::array<int, 3>& triangle = other.triangles[t];
-      const Vec3& a = across.place_of(triangle[0]);
-      const Vec3& b = across.place_of(triangle[1]);
-      const Vec3& c = across.place_of(triangle[2]);
-      if (((a.cwiseMin(b).cwiseMin(c) - place).array() > margin).any()) continue;
-      if (((place - a.cwiseMax(b).cwiseMax(c)).array() > margin).any()) continue;
-      const Vec3 area = (b - a).cross(c - a);
-      if (area.dot(place - a) < -(range_.deepest + margin) * area.norm()) continue;
-      if (ours.normal_of(point).dot(area) > kMayFace * area.norm()) continue;
-      if (is_self() && std::any_of(triangle.begin(), triangle.end(), hangs_together)) continue;
-      list.push_back({side, point, t});
-    }
-  }
 }
 
 }  // namespace sprung

@@ -8,38 +8,59 @@
 
 namespace sprung {
 
-/// A contact point of one surface and a triangle of the other (of the same, where there is one) that may come to touch.
-struct FacingPair {
-  std::size_t side;  // of the point: 0 or 1; the triangle is of the other
-  int point;
-  int triangle;  // both: rows of their skins
+/// Two bricks that are near each other.
+struct NearBricks {
+  int list;           // number of the list that is kept of them
+  int a;              // rows of their skins
+  int b;              //
+  double margin;      // m: what lies within it is near
+  std::size_t block;  // see ContactFront::closer()
 };
 
-/// How far apart points and triangles are that may come to touch, m.
-struct ContactRange {
-  double margin;   // outside
-  double deepest;  // inside: what is deeper came from the other side
+/// What a front has listed of bricks that are near each other.
+class NearLists {
+ public:
+  NearLists() = default;
+  NearLists(const NearLists&) = delete;
+  NearLists& operator=(const NearLists&) = delete;
+  virtual ~NearLists() = default;
+
+  /// Fills a list anew; its number is at most one more than any before. Returns whether that is a change.
+  virtual bool fill(const NearBricks& bricks) = 0;
+  /// Empties one list. Returns whether that is a change.
+  virtual bool clear(int list) = 0;
+  /// Removes all lists.
+  virtual void clear() = 0;
 };
+
+/// Whether surfaces have to face each other where they are to be near: bricks of one surface that look the same way are
+/// near each other without coming closer.
+enum class Facing { kNeeded, kIgnored };
 
 /// Which parts of two surfaces, or of one with itself, are near each other, and which points face which triangles
 /// there. Pairs of subtrees make up a front through the product of the two trees: each has a distance that its parts
 /// must come closer by before it has to be looked at again, and is charged with how far any two points of the
 /// two can have come closer: bodies that fall or turn together cost nothing. Where a pair's distance is used up, it is
-/// measured anew, and splits if it is near; pairs of bricks that are near list their points and triangles.
+/// measured anew, and splits if it is near; pairs of bricks that are near are listed.
 ///
-/// Rigorous: a point and a triangle that can meet before the trees are followed again are in a list, except that within
-/// one surface bricks with a neighbour in common are left out, and that normals have to face each other, which is asked
-/// for again when they may have turned by kBent. What is in a list beyond that depends on the steps since it was made.
+/// Rigorous: bricks whose points, edges or triangles can meet before the trees are followed again are listed, except
+/// that within one surface bricks with a neighbour in common are left out, and that normals may have to face each
+/// other, which is asked for again when they may have turned by kBent.
 class ContactFront {
  public:
-  /// The trees, the same twice for one surface with itself, must outlive it.
-  ContactFront(SurfaceTree& a, SurfaceTree& b, const ContactRange& range);
+  /// The trees, the same twice for one surface with itself, and the lists must outlive it. Bricks within `margin` (m)
+  /// are near.
+  ContactFront(SurfaceTree& a, SurfaceTree& b, double margin, NearLists& lists, Facing facing = Facing::kNeeded);
 
   /// To be called after SurfaceTree::follow(). Returns whether any list has changed.
   bool advance();
 
-  /// The lists of the pairs of bricks that are near, ascending by side, point and triangle within each.
-  [[nodiscard]] const std::vector<std::vector<FacingPair>>& lists() const { return lists_; }
+  /// How far (m) anything of two bricks of this block can have come closer since it was made, and may until the trees
+  /// are followed again.
+  [[nodiscard]] double closer(std::size_t block) const { return blocks_[block].closer; }
+  [[nodiscard]] double moving_closer(std::size_t block) const {
+    return moving_closer(blocks_[block].a, blocks_[block].b);
+  }
 
  private:
   /// Two subtrees.
@@ -47,7 +68,7 @@ class ContactFront {
     double wake;  // m, by which its block may have come closer before it is looked at again
     int a;
     int b;
-    int list;  // row in lists_; -1: none
+    int list;  // its number; -1: none
     bool operator<(const Pair& other) const {
       return std::tuple(other.wake, other.a, other.b) < std::tuple(wake, a, b);  // the first to wake is the largest
     }
@@ -67,25 +88,26 @@ class ContactFront {
   /// time.
   [[nodiscard]] double moved_closer(int a, int b) const;
   [[nodiscard]] double moving_closer(int a, int b) const;
+  [[nodiscard]] std::size_t block_of(int a, int b);
   void keep(int a, int b, double budget, int list);
   /// Keeps what a pair of subtrees that is due is to be replaced by; `list`: the one that it had.
   void look(int a, int b, int list);
   void split(int a, int b);
   [[nodiscard]] int fill_list(int a, int b, double margin, int list);
-  void list_side(std::size_t side, int points_of, int triangles_of, double margin, std::vector<FacingPair>& list);
-  [[nodiscard]] SurfaceTree& tree(std::size_t side) { return side == 0 ? a_ : b_; }
 
   SurfaceTree& a_;
   SurfaceTree& b_;
-  ContactRange range_;
+  double margin_;  // m
+  NearLists& lists_;
+  Facing facing_;
   double brick_;  // m, of the finer of the two
   bool has_changed_ = false;
   std::size_t size_ = 0;  // pairs
   std::size_t size_when_new_ = 0;
   std::vector<Block> blocks_;
-  std::unordered_map<std::uint64_t, std::size_t> block_of_;  // by the clusters' nodes
+  std::unordered_map<std::uint64_t, std::size_t> known_blocks_;  // by the clusters' nodes
   std::vector<Pair> due_;
-  std::vector<std::vector<FacingPair>> lists_;
+  int list_count_ = 0;
   std::vector<int> free_lists_;
 };
 

@@ -69,6 +69,7 @@ std::vector<std::vector<int>> neighbours_among(const std::vector<int>& bricks, c
 
 ContactSurface::ContactSurface(const SoftBody& actor) {
   add_triangles(actor, add_points(actor.contacts));
+  add_edges();
   for (std::size_t row = 0; row < bricks.size(); ++row) {
     cones.push_back(cone_of(normals.middleRows(first_point[row], first_point[row + 1] - first_point[row])));
   }
@@ -119,6 +120,20 @@ void ContactSurface::add_triangles(const SoftBody& actor, const std::vector<int>
   }
   first_triangle = starts_of(bricks, brick_of_triangle);
   normals.rowwise().normalize();
+}
+
+void ContactSurface::add_edges() {
+  for (const std::array<int, 3>& corners : triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto [low, high] = std::minmax(corners[i], corners[(i + 1) % 3]);
+      edges.push_back({low, high});
+    }
+  }
+  std::sort(edges.begin(), edges.end());  // points are grouped by brick already
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  std::vector<int> brick_of_edge;
+  for (const auto& [low, high] : edges) brick_of_edge.push_back(points[low].brick);
+  first_edge = starts_of(bricks, brick_of_edge);
 }
 
 Vec3 carried_normal(const Body& body, int brick, const Vec3& normal) {

@@ -28,6 +28,8 @@ struct ContactSurface {
   std::vector<int> first_point;               // b + 1
   std::vector<std::array<int, 3>> triangles;  // of points; grouped by the brick of the first of them
   std::vector<int> first_triangle;            // b + 1
+  std::vector<std::array<int, 2>> edges;      // of the triangles, each once; grouped by the brick of the first point
+  std::vector<int> first_edge;                // b + 1
   Points normals;                             // n x 3, at rest, unit, outward; 0 where no triangle is
   std::vector<NormalCone> cones;              // b
   /// By row of a brick, ascending: the rows of those that hang together with it or have such a neighbour in common.
@@ -38,6 +40,7 @@ struct ContactSurface {
   /// Returns where in points each of the embedding's is.
   [[nodiscard]] std::vector<int> add_points(const Embedding& embedding);
   void add_triangles(const SoftBody& actor, const std::vector<int>& place_of);
+  void add_edges();
 };
 
 /// The cosine between the normals of what touches, at most, and how far (rad) a brick's normals may turn, against each

@@ -107,6 +107,7 @@ void SurfaceTree::list_nodes_of_clusters() {
       for (int triangle = skin_.first_triangle[row]; triangle < skin_.first_triangle[row + 1]; ++triangle) {
         for (const int corner : skin_.triangles[triangle]) add(corner);
       }
+      for (int edge = skin_.first_edge[row]; edge < skin_.first_edge[row + 1]; ++edge) add(skin_.edges[edge][1]);
     }
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
@@ -196,6 +197,7 @@ const AlignedBox& SurfaceTree::box(int row) {
     for (int i = skin_.first_triangle[brick]; i < skin_.first_triangle[brick + 1]; ++i) {
       for (const int corner : skin_.triangles[i]) now.extend(place_of(corner));
     }
+    for (int i = skin_.first_edge[brick]; i < skin_.first_edge[brick + 1]; ++i) now.extend(place_of(skin_.edges[i][1]));
   } else {
     now = this->box(row + 1);
     now.extend(this->box(node.second_child));

@@ -116,10 +116,9 @@ std::vector<GroupSteps> choose_steps(const World& world, double time) {
 }
 
 void AdaptiveIntegrator::begin_contacts(std::span<const GroupSteps> groups) {
-  if (search_ == ContactSearch::kInTime) return;
   std::vector<std::vector<std::size_t>> bodies;
   for (const GroupSteps& group : groups) bodies.push_back(group.bodies);
-  contacts_.begin_frame(world_, bodies);
+  contacts_.begin_frame(world_, bodies, search_);
 }
 
 std::optional<Diverged> AdaptiveIntegrator::run(std::span<const GroupSteps> groups, double time,

@@ -149,14 +149,14 @@ class GroupMover {
   GroupMover(World& world, const GroupSteps& group, const ContactStates* states)
       : world_(world), elapsed_(group.elapsed) {
     Group bodies;
-    std::vector<Eigen::VectorXd> inverse_masses;
     for (const std::size_t i : group.bodies) {
       bodies.push_back(&world.bodies[i]);
-      inverse_masses.push_back(pushed_inverse_masses(world.bodies[i]));
+      inverse_masses_.push_back(pushed_inverse_masses(world.bodies[i]));
       movers_.push_back(std::make_unique<Mover>(world.bodies[i], world));
     }
-    impulses_.emplace(std::move(bodies), std::move(inverse_masses), glue_within(world, group.bodies),
-                      states != nullptr ? states->of(group.bodies) : nullptr);
+    const GroupContacts contacts = states != nullptr ? states->of(group.bodies) : GroupContacts{};
+    impulses_.emplace(std::move(bodies), inverse_masses_, glue_within(world, group.bodies), contacts.skins);
+    guard_ = contacts.guard;
   }
 
   void kick(double dt) {
@@ -165,6 +165,7 @@ class GroupMover {
 
   void keep_limits(double dt) {
     impulses_->apply(world_, elapsed_, dt);
+    if (guard_) guard_->apply(world_, inverse_masses_, elapsed_, dt);
     elapsed_ += dt;
   }
 
@@ -190,7 +191,9 @@ class GroupMover {
   const World& world_;
   double elapsed_;
   std::vector<std::unique_ptr<Mover>> movers_;
+  std::vector<Eigen::VectorXd> inverse_masses_;
   std::optional<ContactSolver> impulses_;
+  std::shared_ptr<CrossingGuard> guard_;  // none: not guarded
 };
 
 void check_finite(const World& world, double time) {

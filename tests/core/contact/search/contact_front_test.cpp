@@ -1,5 +1,3 @@
-#include "core/contact/search/contact_front.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,6 +6,7 @@
 #include <set>
 #include <string>
 
+#include "core/contact/search/facing_lists.h"
 #include "core/world/world.h"
 #include "tests/support/horseshoe.h"
 #include "tests/support/touching.h"
@@ -73,8 +72,8 @@ class FrontRace {
         b_(b),
         tree_a_(contact_surface_of(a), a),
         tree_b_(contact_surface_of(b), b),
-        range_{.margin = 0.3 * a.grid.brick_size, .deepest = 0.7 * a.grid.brick_size},
-        front_(tree_a_, is_self() ? tree_a_ : tree_b_, range_),
+        lists_(tree_a_, is_self() ? tree_a_ : tree_b_, 0.7 * a.grid.brick_size),
+        front_(tree_a_, is_self() ? tree_a_ : tree_b_, 0.3 * a.grid.brick_size, lists_),
         dt_(dt) {}
 
   /// Returns how many pairs come as near in this step as touching and are in no list; adds those that are to near.
@@ -83,7 +82,7 @@ class FrontRace {
     if (!is_self()) tree_b_.follow(dt_, 0);
     static_cast<void>(front_.advance());
     std::set<std::array<int, 3>> listed;
-    for (const std::vector<FacingPair>& list : front_.lists()) {
+    for (const std::vector<FacingPair>& list : lists_.lists()) {
       for (const FacingPair& pair : list) listed.insert({int(pair.side), pair.point, pair.triangle});
     }
     long missed = count_missed(a_, b_, 0, listed, near);
@@ -141,7 +140,7 @@ class FrontRace {
   SoftBody& b_;
   SurfaceTree tree_a_;
   SurfaceTree tree_b_;
-  ContactRange range_;
+  FacingLists lists_;
   ContactFront front_;
   double dt_;
 };
@@ -201,7 +200,8 @@ TEST(ContactFront, BodiesThatMoveTogetherCostNothing) {
   SoftBody b = touching_box({3, 3, 3}, 0.02, test_material(0.3), Vec3(0, 0.065, 0));
   SurfaceTree tree_a(contact_surface_of(a), a);
   SurfaceTree tree_b(contact_surface_of(b), b);
-  ContactFront front(tree_a, tree_b, {.margin = 0.006, .deepest = 0.014});
+  FacingLists lists(tree_a, tree_b, 0.014);
+  ContactFront front(tree_a, tree_b, 0.006, lists);
   for (SoftBody* body : {&a, &b}) body->velocities.rowwise() = Vec3(3, -20, 1).transpose();
   for (int step = 0; step < 100; ++step) {
     tree_a.follow(1e-3, 0);

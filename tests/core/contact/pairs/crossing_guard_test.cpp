@@ -1,0 +1,203 @@
+#include "core/contact/pairs/crossing_guard.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include "core/body/forces.h"
+#include "core/contact/search/obstacle_surface.h"
+#include "core/dynamics/explicit/adaptive_integrator.h"
+#include "core/mesh/surface_mesh.h"
+#include "tests/support/horseshoe.h"
+#include "tests/support/touching.h"
+
+/// Whether surfaces cross is told by every edge of one and every triangle of the other.
+namespace sprung {
+namespace {
+
+using test::test_material;
+using test::touching_box;
+
+/// A contact surface where it is.
+struct PlacedSurface {
+  std::vector<Vec3> places;
+  const ContactSurface* skin;
+
+  explicit PlacedSurface(SoftBody& body) : skin(&contact_surface_of(body)) {
+    for (const ContactPoint& point : skin->points) places.push_back(carried(body, point, body.positions));
+  }
+};
+
+/// Six times the volume of a tetrahedron.
+double volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) { return (b - a).cross(c - a).dot(d - a); }
+
+bool crosses(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c) {
+  if ((volume(a, b, c, p) > 0) == (volume(a, b, c, q) > 0)) return false;
+  const bool side = volume(p, q, a, b) > 0;
+  return (volume(p, q, b, c) > 0) == side && (volume(p, q, c, a) > 0) == side;
+}
+
+/// Of edges of one through triangles of the other; within one surface only those without a common corner.
+int crossings_through(const PlacedSurface& edges_of, const PlacedSurface& triangles_of) {
+  int count = 0;
+  for (const std::array<int, 3>& from : edges_of.skin->triangles) {
+    for (int side = 0; side < 3; ++side) {
+      const int p = from[side];
+      const int q = from[(side + 1) % 3];
+      for (const auto& [a, b, c] : triangles_of.skin->triangles) {
+        if (edges_of.skin == triangles_of.skin && (p == a || p == b || p == c || q == a || q == b || q == c)) continue;
+        const Vec3& start = edges_of.places[p];
+        const Vec3& end = edges_of.places[q];
+        count += crosses(start, end, triangles_of.places[a], triangles_of.places[b], triangles_of.places[c]) ? 1 : 0;
+      }
+    }
+  }
+  return count;
+}
+
+int crossings(SoftBody& one, SoftBody& other) {
+  const PlacedSurface a(one);
+  const PlacedSurface b(other);
+  return crossings_through(a, b) + (&one == &other ? 0 : crossings_through(b, a));
+}
+
+/// Moves a world with the guard, and counts crossings of bodies with each other and with obstacles at every frame.
+int run_and_count(World& world, double duration, double fps = 100) {
+  world.guards_crossings = true;
+  AdaptiveIntegrator motion(world, Scheme::kSymplecticEuler);
+  std::vector<std::unique_ptr<SoftBody>> obstacles;
+  for (const Obstacle& obstacle : world.obstacles) {
+    if (auto surface = obstacle_surface(obstacle, 0.02)) {
+      obstacles.push_back(std::make_unique<SoftBody>(std::move(*surface)));
+    }
+  }
+  int count = 0;
+  for (long frame = 0; frame < std::lround(duration * fps); ++frame) {
+    static_cast<void>(motion.advance_frame(
+        double(frame) / fps, 1 / fps, [](double) {}, [](const std::string& what) { ADD_FAILURE() << what; }));
+    for (std::size_t a = 0; a < world.bodies.size(); ++a) {
+      for (std::size_t b = a + 1; b < world.bodies.size(); ++b) count += crossings(world.bodies[a], world.bodies[b]);
+      for (std::size_t i = 0; i < obstacles.size(); ++i) {
+        move_surface(world.obstacles[i], 0, 1e-3, *obstacles[i]);
+        count += crossings(world.bodies[a], *obstacles[i]);
+      }
+    }
+  }
+  return count;
+}
+
+/// A roof of 60 degrees along z, its ridge at the origin.
+Obstacle knife() {
+  Points points(6, 3);
+  const double slope = std::tan(60 * std::numbers::pi / 180);
+  points << 0, 0, -0.2, -0.1, -0.1 * slope, -0.2, 0.1, -0.1 * slope, -0.2, 0, 0, 0.2, -0.1, -0.1 * slope, 0.2, 0.1,
+      -0.1 * slope, 0.2;
+  Triangles triangles(8, 3);
+  triangles << 0, 2, 1, 3, 4, 5, 0, 1, 4, 0, 4, 3, 0, 3, 5, 0, 5, 2, 1, 2, 5, 1, 5, 4;
+  Obstacle obstacle;
+  obstacle.shape = MeshSolid{std::make_shared<const MeshDistance>(points, triangles)};
+  return obstacle;
+}
+
+/// Two bars fly at each other crosswise, turned so that an edge of one meets an edge of the other.
+World crossed_edges() {
+  World world;
+  world.gravity.setZero();
+  const Mat3 on_edge = Eigen::AngleAxisd(std::numbers::pi / 4, Vec3::UnitX()).toRotationMatrix();
+  const Mat3 across = Eigen::AngleAxisd(std::numbers::pi / 2, Vec3::UnitY()).toRotationMatrix();
+  for (int i = 0; i < 2; ++i) {
+    world.bodies.push_back(touching_box({8, 2, 2}, 0.02, test_material(0.3), Vec3::Zero()));
+    SoftBody& body = world.bodies.back();
+    place(body, Mat3::Identity(), Vec3(-0.08, -0.02, -0.02));
+    place(body, i == 0 ? on_edge : Mat3(across * on_edge), Vec3(0, i == 0 ? 0 : 0.08, 0));
+    body.velocities.col(1).setConstant(i == 0 ? 1 : -1);
+  }
+  return world;
+}
+
+TEST(CrossingGuard, HoldsEdgesOnEdges) {
+  World world = crossed_edges();
+  EXPECT_EQ(run_and_count(world, 0.1), 0);
+  World free = crossed_edges();
+  AdaptiveIntegrator motion(free, Scheme::kSymplecticEuler);
+  int count = 0;
+  for (int frame = 0; frame < 10; ++frame) {
+    static_cast<void>(motion.advance_frame(
+        0.01 * frame, 0.01, [](double) {}, [](const std::string&) {}));
+    count += crossings(free.bodies[0], free.bodies[1]);
+  }
+  EXPECT_GT(count, 0) << "the scene is no test: nothing crosses without the guard";
+}
+
+TEST(CrossingGuard, KeepsMomentum) {
+  World world = crossed_edges();
+  world.bodies[1].velocities.rowwise() += Eigen::RowVector3d(0.3, 0, 0.1);
+  const auto momentum = [&] {
+    Vec3 sum = Vec3::Zero();
+    for (const SoftBody& body : world.bodies) sum += linear_momentum(body);
+    return sum;
+  };
+  const auto turning = [&] {
+    Vec3 sum = Vec3::Zero();
+    for (const SoftBody& body : world.bodies) sum += angular_momentum(body);
+    return sum;
+  };
+  const Vec3 momentum_before = momentum();
+  const Vec3 turning_before = turning();
+  const double mass = world.bodies[0].masses.sum();
+  EXPECT_EQ(run_and_count(world, 0.1), 0);
+  EXPECT_LT((momentum() - momentum_before).norm(), 1e-9 * mass);
+  EXPECT_LT((turning() - turning_before).norm(), 0.1 * turning_before.norm());
+}
+
+TEST(CrossingGuard, NoKnifeCutsIn) {
+  for (const double angle : {0.0, 0.3, std::numbers::pi / 4}) {
+    World world;
+    world.obstacles.push_back(knife());
+    world.bodies.push_back(touching_box({4, 4, 4}, 0.02, test_material(0.3), Vec3::Zero()));
+    place(world.bodies[0], Mat3::Identity(), Vec3(-0.04, -0.04, -0.04));
+    place(world.bodies[0], Eigen::AngleAxisd(angle, Vec3::UnitZ()).toRotationMatrix(), Vec3(0.003, 0.08, 0));
+    world.bodies[0].velocities.col(1).setConstant(-1.5);
+    EXPECT_EQ(run_and_count(world, 0.2), 0) << angle;
+  }
+}
+
+/// The ends of a horseshoe come down on each other.
+TEST(CrossingGuard, ABodyDoesNotPassThroughItself) {
+  World world;
+  world.gravity.setZero();
+  world.bodies.push_back(test::closing_horseshoe(0.02));
+  for (int part = 0; part < 10; ++part) {
+    static_cast<void>(run_and_count(world, 0.02));
+    EXPECT_EQ(crossings(world.bodies[0], world.bodies[0]), 0);
+  }
+}
+
+/// A turning paddle sweeps a block along.
+TEST(CrossingGuard, MovingObstaclesPushWithoutEntering) {
+  World world;
+  world.gravity.setZero();
+  Obstacle paddle;
+  paddle.shape = SolidBox{Vec3(0.15, 0.05, 0.01)};
+  paddle.spin = Vec3(0, 3, 0);
+  world.obstacles.push_back(paddle);
+  world.bodies.push_back(touching_box({3, 3, 3}, 0.02, test_material(0.3), Vec3(0.08, -0.03, -0.09)));
+  EXPECT_EQ(run_and_count(world, 0.3), 0);
+  EXPECT_GT(linear_momentum(world.bodies[0]).norm() / world.bodies[0].masses.sum(), 0.1);
+}
+
+/// The same bits, whatever was done before, on every thread count.
+TEST(CrossingGuard, AFrameDependsOnItsStartOnly) {
+  World world = crossed_edges();
+  EXPECT_EQ(run_and_count(world, 0.05), 0);
+  World other = world;
+  EXPECT_EQ(run_and_count(other, 0.02), 0);
+  World again = crossed_edges();
+  EXPECT_EQ(run_and_count(again, 0.07), 0);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(other.bodies[i].positions, again.bodies[i].positions);
+}
+
+}  // namespace
+}  // namespace sprung

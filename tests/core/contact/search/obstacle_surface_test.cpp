@@ -1,0 +1,49 @@
+#include "core/contact/search/obstacle_surface.h"
+
+#include <gtest/gtest.h>
+
+#include "core/contact/search/contact_surface.h"
+
+namespace sprung {
+namespace {
+
+/// All points lie on the box, and every area outward: the volume is that of the box.
+TEST(ObstacleSurface, IsThatOfTheBoxWhereverItIs) {
+  Obstacle box;
+  box.shape = SolidBox{Vec3(0.3, 0.1, 0.05)};
+  box.pose.rotation = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+  box.pose.translation = Vec3(1, 2, 3);
+  box.velocity = Vec3(1, 0, 0);
+  box.spin = Vec3(0, 2, 0);
+  std::optional<SoftBody> surface = obstacle_surface(box, 0.02);
+  ASSERT_TRUE(surface);
+  move_surface(box, 0.1, 0.01, *surface);
+  const ContactSurface& skin = contact_surface_of(*surface);
+  const Pose pose = pose_after(box, 0.1);
+  const Pose next = pose_after(box, 0.11);
+  std::vector<Vec3> places;
+  double furthest = 0;
+  for (const ContactPoint& point : skin.points) {
+    places.push_back(carried(*surface, point, surface->positions));
+    furthest = std::max(furthest, std::abs(signed_distance(box.shape, pose, places.back()).distance));
+    const Vec3 moved = places.back() + 0.01 * carried(*surface, point, surface->velocities);
+    furthest = std::max(furthest, std::abs(signed_distance(box.shape, next, moved).distance));
+  }
+  EXPECT_LT(furthest, 1e-12);
+  double volume = 0;
+  for (const auto& [a, b, c] : skin.triangles) {
+    volume +=
+        (places[a] - pose.translation).dot((places[b] - pose.translation).cross(places[c] - pose.translation)) / 6;
+    EXPECT_LT((places[a] - places[b]).norm(), 0.09);
+  }
+  EXPECT_NEAR(volume, 8 * 0.3 * 0.1 * 0.05, 1e-12);
+}
+
+TEST(ObstacleSurface, OthersHaveNone) {
+  Obstacle ball;
+  ball.shape = SolidBall{0.1};
+  EXPECT_FALSE(obstacle_surface(ball, 0.02));
+}
+
+}  // namespace
+}  // namespace sprung
