@@ -3,16 +3,21 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/contact/search/obstacle_surface.h"
 
 namespace sprung {
 namespace {
 
-constexpr int kMostLooks = 20;      // after each of which what moves faster than was reckoned with is looked at again
-constexpr int kImpulseRounds = 12;  // of impulses between corners ...
-constexpr int kSlowRounds = 36;     // ... then, up to here, of nodes that are slowed down ...
-constexpr int kMostRounds = 60;     // ... and of nodes that move as one
+constexpr int kMostLooks = 20;         // in a step, after each of which something moved in a way that was not foreseen
+constexpr double kMostStepsAhead = 8;  // that are looked ahead ...
+constexpr double kWayAhead = 0.02;     // ... or fewer, in which nothing moves by more than so many bricks
+constexpr double kSlack = 0.005;       // bricks that nodes may be away from where their velocities would take them ...
+constexpr double kSlackOfMore = 0.05;  // ... when a step is looked at once more
+constexpr int kImpulseRounds = 12;     // of impulses between corners ...
+constexpr int kSlowRounds = 36;        // ... then, up to here, of nodes that are slowed down ...
+constexpr int kMostRounds = 60;        // ... and of nodes that move as one
 constexpr double kShareOfEach = 0.45;  // of what two features may come closer, that each may use
 
 /// m, that two features may come closer in a step; below 0: that they have to get apart.
@@ -62,11 +67,13 @@ const ContactPoint& CrossingGuard::point(const AwakePair& pair, int corner) cons
   return trees_[pair.bodies[pair.pair.side(corner)]]->skin().points[pair.pair.corners[corner]];
 }
 
-Eigen::Vector4d CrossingGuard::speeds(const AwakePair& pair) const {
+Eigen::Vector4d CrossingGuard::speeds(const AwakePair& pair, bool are_known) const {
   Eigen::Vector4d speeds;
   for (int corner = 0; corner < 4; ++corner) {
-    const SoftBody& of = body(pair.bodies[pair.pair.side(corner)]);
-    speeds[corner] = pair.normal.dot(carried(of, point(pair, corner), of.velocities));
+    const std::size_t row = pair.bodies[pair.pair.side(corner)];
+    const SoftBody& of = body(row);
+    speeds[corner] = pair.normal.dot(are_known ? trees_[row]->velocity_of(pair.pair.corners[corner])
+                                               : carried(of, point(pair, corner), of.velocities));
   }
   return speeds;
 }
@@ -78,14 +85,49 @@ void CrossingGuard::apply(const World& world, const std::vector<Eigen::VectorXd>
     move_surface(world.obstacles[obstacle_rows_[i]], elapsed, dt, *obstacles_[i]);
   }
   ++counts_.steps;
+  bool has_acted = false;
   for (int look = 0; look < kMostLooks; ++look) {
-    tbb::parallel_for(std::size_t{0}, trees_.size(), [&](std::size_t row) { trees_[row]->follow(dt, 0); });
+    if (!is_foreseen(dt)) look_ahead(dt, look == 0 ? kSlack : kSlackOfMore);
+    for (const auto& tree : trees_) tree->refresh();
     awake_.clear();
-    for (const auto& pairs : pairs_) pairs->wake(awake_);
-    if (!keep_apart(dt)) return;
-    if (look == 0) ++counts_.acted;
+    for (const auto& pairs : pairs_) pairs->measure(awake_);
+    const bool acts = keep_apart(dt);
+    has_acted = has_acted || acts;
+    if (!acts || is_foreseen(dt)) {
+      since_look_ += dt;
+      counts_.acted += has_acted ? 1 : 0;
+      return;
+    }
   }
   ++counts_.failed;
+}
+
+bool CrossingGuard::is_foreseen(double dt) const {
+  if (seen_.empty() || since_look_ + dt > horizon_ * (1 + 1e-9)) return false;
+  const double most = slack_ * brick_;
+  for (std::size_t row = 0; row < seen_.size(); ++row) {
+    const Body& now = body(row);
+    const Seen& seen = seen_[row];
+    const double allowed = most / trees_[row]->spread();
+    const auto off = now.positions + dt * now.velocities - seen.positions - (since_look_ + dt) * seen.velocities;
+    if (!(off.rowwise().squaredNorm().maxCoeff() <= allowed * allowed)) return false;
+  }
+  return true;
+}
+
+void CrossingGuard::look_ahead(double dt, double slack) {
+  double fastest = 0;
+  for (const auto& tree : trees_) fastest = std::max(fastest, tree->fastest());
+  const double steps = kWayAhead * brick_ / (2 * fastest * dt);
+  horizon_ = dt * (steps < kMostStepsAhead ? std::max(1.0, std::floor(steps)) : kMostStepsAhead);
+  slack_ = slack;
+  since_look_ = 0;
+  seen_.resize(trees_.size());
+  tbb::parallel_for(std::size_t{0}, trees_.size(), [&](std::size_t row) {
+    seen_[row] = {body(row).positions, body(row).velocities};
+    trees_[row]->follow(horizon_, slack_ * brick_);
+  });
+  for (const auto& pairs : pairs_) pairs->wake();
 }
 
 bool CrossingGuard::keep_apart(double dt) {
@@ -93,11 +135,12 @@ bool CrossingGuard::keep_apart(double dt) {
   for (int round = 0; round < kMostRounds; ++round) {
     bool is_kept = true;
     for (const AwakePair& pair : awake_) {
-      const Eigen::Vector4d speed = speeds(pair);
+      const Eigen::Vector4d speed = speeds(pair, !has_changed);
       const int count = pair.pair.count;
       const double closing = speed.tail(4 - count).maxCoeff() - speed.head(count).minCoeff();
       if (!(closing * dt > free_way(pair, brick_))) continue;
       is_kept = false;
+      has_changed = true;
       if (round < kImpulseRounds) {
         const bool is_at_places = -pair.weights.dot(speed) * dt > free_way(pair, brick_);
         push(pair, speed, is_at_places ? pair.weights : worst_corners(pair, speed), dt);
@@ -108,7 +151,6 @@ bool CrossingGuard::keep_apart(double dt) {
       }
     }
     if (is_kept) return has_changed;
-    has_changed = true;
   }
   ++counts_.failed;
   return false;

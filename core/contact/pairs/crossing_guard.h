@@ -47,8 +47,12 @@ class CrossingGuard {
   /// Calls visit(body, node, weight) for all nodes that carry a corner.
   template <class Visit>
   void each_node(const AwakePair& pair, int corner, const Visit& visit) const;
-  /// The speeds of a pair's corners along its normal, m/s.
-  [[nodiscard]] Eigen::Vector4d speeds(const AwakePair& pair) const;
+  /// Whether the next step of dt takes no node further than the trees were told when they were last followed.
+  [[nodiscard]] bool is_foreseen(double dt) const;
+  /// `slack`: bricks that they may be away from there.
+  void look_ahead(double dt, double slack);
+  /// The speeds of a pair's corners along its normal, m/s; known: as they were when the pair was measured.
+  [[nodiscard]] Eigen::Vector4d speeds(const AwakePair& pair, bool are_known) const;
   /// Whether any had to be changed.
   bool keep_apart(double dt);
   /// By an impulse between places of the two features, given by the corners' weights, so that these get away from each
@@ -65,6 +69,15 @@ class CrossingGuard {
   std::vector<std::unique_ptr<SurfaceTree>> trees_;               // of the bodies, then of the obstacles
   std::vector<std::unique_ptr<FeaturePairs>> pairs_;
   std::vector<AwakePair> awake_;
+  /// When last looked ahead: how far, and the nodes then.
+  struct Seen {
+    Points positions;
+    Points velocities;
+  };
+  std::vector<Seen> seen_;  // by tree
+  double horizon_ = 0;      // s
+  double slack_ = 0;        // bricks
+  double since_look_ = 0;   // s
   Counts counts_;
 };
 

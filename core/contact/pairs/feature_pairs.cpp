@@ -88,24 +88,28 @@ void FeaturePairs::list_edges(int edges_of, int others_of, double margin, NearLi
 AwakePair FeaturePairs::measure(const FeaturePair& pair) {
   std::array<Vec3, 4> x;
   for (int i = 0; i < 4; ++i) x[i] = tree(pair.side(i)).place_of(pair.corners[i]);
-  const bool is_point = pair.count == 1;
   const FeatureDistance found =
-      is_point ? point_to_triangle(x[0], x[1], x[2], x[3]) : edge_to_edge(x[0], x[1], x[2], x[3]);
+      pair.count == 1 ? point_to_triangle(x[0], x[1], x[2], x[3]) : edge_to_edge(x[0], x[1], x[2], x[3]);
   const double gap = found.apart.norm();
-  AwakePair measured{.pair = pair,
-                     .bodies = bodies_,
-                     .normal = found.apart / std::max(gap, 1e-300),
-                     .gap = gap,
-                     .weights = found.weights};
-  const auto normal_at = [&](int i) { return tree(pair.side(i)).normal_of(pair.corners[i]); };
-  const Vec3 outward = is_point ? Vec3((x[2] - x[1]).cross(x[3] - x[1]))
-                                : Vec3(normal_at(2) + normal_at(3) - normal_at(0) - normal_at(1));
-  if (outward.dot(measured.normal) < 0) measured.gap = -gap;
-  return measured;
+  return {.pair = pair,
+          .bodies = bodies_,
+          .normal = found.apart / std::max(gap, 1e-300),
+          .gap = gap,
+          .weights = found.weights};
 }
 
-void FeaturePairs::wake(std::vector<AwakePair>& awake) {
+bool FeaturePairs::has_crossed(const AwakePair& pair) {
+  const auto at = [&](int i) { return std::pair<SurfaceTree&, int>(tree(pair.pair.side(i)), pair.pair.corners[i]); };
+  const auto place = [&](int i) { return at(i).first.place_of(at(i).second); };
+  const auto normal = [&](int i) { return at(i).first.normal_of(at(i).second); };
+  const Vec3 outward = pair.pair.count == 1 ? Vec3((place(2) - place(1)).cross(place(3) - place(1)))
+                                            : Vec3(normal(2) + normal(3) - normal(0) - normal(1));
+  return outward.dot(pair.normal) < 0;
+}
+
+void FeaturePairs::wake() {
   static_cast<void>(front_.advance());
+  awake_.clear();
   for (NearList& list : lists_) {
     if (list.sleepers.empty()) continue;
     const double closer = front_.closer(list.block);
@@ -115,13 +119,18 @@ void FeaturePairs::wake(std::vector<AwakePair>& awake) {
     for (Sleeper& sleeper : list.sleepers) {
       if (sleeper.wake <= soon) {
         const AwakePair pair = measure(sleeper.pair);
-        const double free = kFreeShare * (pair.gap - kLeastGap * brick_);
-        sleeper.wake = closer + std::max(0.0, free);
-        if (sleeper.wake <= soon && pair.gap > 0) awake.push_back(pair);
+        const bool is_asleep = kFreeShare * (pair.gap - kLeastGap * brick_) > soon - closer;
+        const bool is_crossed = !is_asleep && has_crossed(pair);
+        sleeper.wake = is_asleep ? closer + kFreeShare * (pair.gap - kLeastGap * brick_) : closer;
+        if (!is_asleep && !is_crossed) awake_.push_back(sleeper.pair);
       }
       list.first_wake = std::min(list.first_wake, sleeper.wake);
     }
   }
+}
+
+void FeaturePairs::measure(std::vector<AwakePair>& awake) {
+  for (const FeaturePair& pair : awake_) awake.push_back(measure(pair));
 }
 
 }  // namespace sprung

@@ -25,9 +25,9 @@ struct AwakePair {
 };
 
 /// The points and triangles, and the edges, of two surfaces, or of one with itself, that may cross each other in the
-/// next step. Those that are further apart sleep for as long as the front says that they cannot have come closer by 0.8
-/// of what is between them. Left out: features of one surface whose bricks share a node, and those that have crossed: a
-/// point behind its triangle, an edge inside of another.
+/// steps to come. Those that are further apart sleep for as long as the front says that they cannot have come closer by
+/// 0.8 of what is between them. Left out: features of one surface whose bricks share a node, and those that have
+/// crossed: a point behind its triangle, an edge inside of another.
 class FeaturePairs : private NearLists {
  public:
   /// Of bodies `bodies`; their trees, the same twice for one with itself, must outlive it.
@@ -35,8 +35,10 @@ class FeaturePairs : private NearLists {
   FeaturePairs(const FeaturePairs&) = delete;
   FeaturePairs& operator=(const FeaturePairs&) = delete;
 
-  /// To be called after SurfaceTree::follow(). Appends those that may cross, in a fixed order.
-  void wake(std::vector<AwakePair>& awake);
+  /// To be called after SurfaceTree::follow(): finds those that may cross until it is called again.
+  void wake();
+  /// Appends these as they are now, in a fixed order. To be called after SurfaceTree::refresh().
+  void measure(std::vector<AwakePair>& awake);
 
  private:
   struct Sleeper {
@@ -57,19 +59,24 @@ class FeaturePairs : private NearLists {
   [[nodiscard]] SurfaceTree& tree(std::size_t side) { return trees_[side]; }
   void list_points(std::size_t side, int points_of, int triangles_of, double margin, NearList& list);
   void list_edges(int edges_of, int others_of, double margin, NearList& list);
-  /// Its normal is outward of the second feature where it has not been crossed; else its gap is below 0.
   [[nodiscard]] AwakePair measure(const FeaturePair& pair);
+  /// Whether the first feature is inside of the second.
+  [[nodiscard]] bool has_crossed(const AwakePair& pair);
   [[nodiscard]] bool hangs_together(std::size_t point, std::size_t other) const;
 
   std::array<std::reference_wrapper<SurfaceTree>, 2> trees_;
   std::array<std::size_t, 2> bodies_;
   double brick_;  // m, of the finer of the two
   std::vector<NearList> lists_;
+  std::vector<FeaturePair> awake_;
   ContactFront front_;
 };
 
 /// Of what is between two features, that they may come closer in a step, beside a floor in bricks.
 inline constexpr double kFreeShare = 0.8;
 inline constexpr double kLeastGap = 1e-5;
+
+/// Bricks that are left between surfaces that rest on each other where they are guarded, so that most pairs sleep.
+inline constexpr double kGuardedGap = 0.03;
 
 }  // namespace sprung

@@ -5,6 +5,9 @@
 
 namespace sprung {
 
+/// Whether it is a box or a mesh, with vertices and edges.
+[[nodiscard]] bool has_surface(const Shape& shape);
+
 /// The surface of a box or mesh obstacle as that of a body, whose few bricks move as one: what is sought among bodies
 /// is sought there in the same way. Triangles are no longer than a few bricks of `brick_size` (m). None for other
 /// shapes.

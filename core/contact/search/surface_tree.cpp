@@ -38,13 +38,10 @@ NormalCone enclosing(const NormalCone& a, const NormalCone& b) {
 RigidMotion rigid_fit(const Points& places, const Points& vectors) {
   const Vec3 middle = places.colwise().mean();
   const Vec3 mean = vectors.colwise().mean();
-  Mat3 second = Mat3::Zero();
-  Vec3 moment = Vec3::Zero();
-  for (int row = 0; row < places.rows(); ++row) {
-    const Vec3 arm = places.row(row).transpose() - middle;
-    second += arm * arm.transpose();
-    moment += arm.cross(Vec3(vectors.row(row)));
-  }
+  const Points arms = places.rowwise() - middle.transpose();
+  const Mat3 second = arms.transpose() * arms;
+  const Mat3 both = arms.transpose() * vectors;
+  const Vec3 moment(both(1, 2) - both(2, 1), both(2, 0) - both(0, 2), both(0, 1) - both(1, 0));  // sum of arm x vector
   const Mat3 inertia = second.trace() * Mat3::Identity() - second;
   const Vec3 spin = inertia.ldlt().solve(moment);
   if (!spin.allFinite()) return {mean, Vec3::Zero()};
@@ -71,6 +68,7 @@ SurfaceTree::SurfaceTree(const ContactSurface& skin, const SoftBody& body)
   cones_.resize(nodes_.size());
   places_.resize(skin.points.size());
   normals_.resize(skin.points.size());
+  velocities_.resize(skin.points.size());
 }
 
 void SurfaceTree::add_node(int first, int last, int cluster, const Features& features) {
@@ -112,6 +110,10 @@ void SurfaceTree::list_nodes_of_clusters() {
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   }
+}
+
+double SurfaceTree::spread() const {
+  return spread_of_cluster_.empty() ? 1 : *std::max_element(spread_of_cluster_.begin(), spread_of_cluster_.end());
 }
 
 double SurfaceTree::fastest() const {
@@ -184,6 +186,12 @@ const Vec3& SurfaceTree::normal_of(int point) {
     normal = {carried_normal(body_, skin_.points[point].brick, skin_.normals.row(point)), step_};
   }
   return normal.value;
+}
+
+const Vec3& SurfaceTree::velocity_of(int point) {
+  Cached<Vec3>& velocity = velocities_[point];
+  if (velocity.step != step_) velocity = {carried(body_, skin_.points[point], body_.velocities), step_};
+  return velocity.value;
 }
 
 const AlignedBox& SurfaceTree::box(int row) {

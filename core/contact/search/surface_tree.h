@@ -36,8 +36,12 @@ class SurfaceTree {
   /// To be called every few steps, when velocities are those of the step to come; until the next time anything moves by
   /// no more than `time` (s) at them, and `more` (m).
   void follow(double time, double more);
+  /// To be called where the body has moved on since: for places, normals and velocities that are asked for.
+  void refresh() { ++step_; }
   /// Of the body's nodes, m/s, beside their mean velocity.
   [[nodiscard]] double fastest() const;
+  /// How many times as far as the body's nodes any of its points may move.
+  [[nodiscard]] double spread() const;
 
   [[nodiscard]] const ContactSurface& skin() const { return skin_; }
   [[nodiscard]] const SoftBody& body() const { return body_; }
@@ -66,6 +70,7 @@ class SurfaceTree {
   /// Where a contact point is now, m, and the normal of the skin there, unit.
   [[nodiscard]] const Vec3& place_of(int point);
   [[nodiscard]] const Vec3& normal_of(int point);
+  [[nodiscard]] const Vec3& velocity_of(int point);
 
  private:
   /// By brick of the skin: its middle, and its normal times kNormalWeight, in bricks.
@@ -95,6 +100,7 @@ class SurfaceTree {
   std::vector<Cached<NormalCone>> cones_;
   std::vector<Cached<Vec3>> places_;  // by point
   std::vector<Cached<Vec3>> normals_;
+  std::vector<Cached<Vec3>> velocities_;
 };
 
 }  // namespace sprung
