@@ -8,9 +8,9 @@
 
 namespace sprung {
 
-/// Lets no contact surface of a group's bodies pass through another one, itself, or a box or mesh obstacle: points
-/// through triangles or edges through edges. The normal between the nearest places of two such features separates them,
-/// and stays between them while moving by dt as long as
+/// Lets no contact surface of a group's bodies pass through another one, itself, or an obstacle with edges (box,
+/// cylinder, mesh): points through triangles or edges through edges. The normal between the nearest places of two such
+/// features separates them, and stays between them while moving by dt as long as
 ///
 ///   dt (least speed of the first's corners along it - greatest of the second's) > -0.8 gap.
 ///

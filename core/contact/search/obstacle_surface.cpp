@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <tuple>
 
 #include "core/mesh/repair/weld.h"
@@ -13,6 +14,8 @@ namespace {
 
 constexpr double kLongestEdge = 4;   // bricks
 constexpr double kMostAcross = 128;  // bricks along the longest side of an obstacle
+
+constexpr int kSides = 64;  // of the prism that stands for a cylinder
 
 SurfaceMesh box_mesh(const Vec3& half) {
   constexpr std::array<std::array<int, 4>, 6> kFaces{
@@ -31,8 +34,30 @@ SurfaceMesh box_mesh(const Vec3& half) {
   return mesh;
 }
 
+/// A prism within the cylinder.
+SurfaceMesh prism_mesh(const SolidCylinder& cylinder) {
+  SurfaceMesh mesh;
+  mesh.positions.resize(2 * kSides + 2, 3);
+  mesh.triangles.resize(4 * kSides, 3);
+  for (int end = 0; end < 2; ++end) mesh.positions.row(2 * kSides + end) << 0, (2 * end - 1) * cylinder.half_length, 0;
+  for (int side = 0; side < kSides; ++side) {
+    const double angle = 2 * std::numbers::pi * side / kSides;
+    const int next = (side + 1) % kSides;
+    for (int end = 0; end < 2; ++end) {
+      mesh.positions.row(2 * side + end) << cylinder.radius * std::cos(angle), (2 * end - 1) * cylinder.half_length,
+          cylinder.radius * std::sin(angle);
+    }
+    mesh.triangles.row(4 * side) << 2 * side, 2 * side + 1, 2 * next + 1;
+    mesh.triangles.row(4 * side + 1) << 2 * side, 2 * next + 1, 2 * next;
+    mesh.triangles.row(4 * side + 2) << 2 * kSides, 2 * side, 2 * next;
+    mesh.triangles.row(4 * side + 3) << 2 * kSides + 1, 2 * next + 1, 2 * side + 1;
+  }
+  return mesh;
+}
+
 std::optional<SurfaceMesh> mesh_of(const Shape& shape) {
   if (const auto* box = std::get_if<SolidBox>(&shape)) return box_mesh(box->half);
+  if (const auto* cylinder = std::get_if<SolidCylinder>(&shape)) return prism_mesh(*cylinder);
   const auto* solid = std::get_if<MeshSolid>(&shape);
   if (solid == nullptr) return std::nullopt;
   SurfaceMesh mesh;
@@ -44,7 +69,8 @@ std::optional<SurfaceMesh> mesh_of(const Shape& shape) {
 }  // namespace
 
 bool has_surface(const Shape& shape) {
-  return std::holds_alternative<SolidBox>(shape) || std::holds_alternative<MeshSolid>(shape);
+  return std::holds_alternative<SolidBox>(shape) || std::holds_alternative<SolidCylinder>(shape) ||
+         std::holds_alternative<MeshSolid>(shape);
 }
 
 std::optional<SoftBody> obstacle_surface(const Obstacle& obstacle, double brick_size) {

@@ -5,12 +5,12 @@
 
 namespace sprung {
 
-/// Whether it is a box or a mesh, with vertices and edges.
+/// Whether it has edges: a box, a cylinder or a mesh.
 [[nodiscard]] bool has_surface(const Shape& shape);
 
-/// The surface of a box or mesh obstacle as that of a body, whose few bricks move as one: what is sought among bodies
-/// is sought there in the same way. Triangles are no longer than a few bricks of `brick_size` (m). None for other
-/// shapes.
+/// The surface of a box, cylinder (a prism) or mesh as that of a body, whose few bricks move as one: what is sought
+/// among bodies is sought there in the same way. Triangles are no longer than a few bricks of `brick_size` (m). None
+/// for other shapes.
 [[nodiscard]] std::optional<SoftBody> obstacle_surface(const Obstacle& obstacle, double brick_size);
 
 /// Puts it where the obstacle is, `elapsed` (s) after where the world has it, with the velocities that take it to where

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "core/contact/search/contact_surface.h"
 
 namespace sprung {
@@ -37,6 +39,23 @@ TEST(ObstacleSurface, IsThatOfTheBoxWhereverItIs) {
     EXPECT_LT((places[a] - places[b]).norm(), 0.09);
   }
   EXPECT_NEAR(volume, 8 * 0.3 * 0.1 * 0.05, 1e-12);
+}
+
+TEST(ObstacleSurface, OfACylinderIsAPrismWithinIt) {
+  Obstacle cylinder;
+  cylinder.shape = SolidCylinder{0.1, 0.05};
+  std::optional<SoftBody> surface = obstacle_surface(cylinder, 0.02);
+  ASSERT_TRUE(surface);
+  const ContactSurface& skin = contact_surface_of(*surface);
+  double volume = 0;
+  const auto place = [&](int point) { return carried(*surface, skin.points[point], surface->positions); };
+  for (const auto& [a, b, c] : skin.triangles) volume += place(a).dot(place(b).cross(place(c))) / 6;
+  EXPECT_NEAR(volume, std::numbers::pi * 0.1 * 0.1 * 0.1, 0.002 * std::numbers::pi * 0.1 * 0.1 * 0.1);
+  for (int point = 0; point < isize(skin.points); ++point) {
+    const double distance = signed_distance(cylinder.shape, {}, place(point)).distance;
+    EXPECT_LT(distance, 1e-9);
+    EXPECT_GT(distance, -2e-4);
+  }
 }
 
 TEST(ObstacleSurface, OthersHaveNone) {
