@@ -60,10 +60,9 @@ void PartMeasures::add(const SoftBody& body, const ProbedPart& part, StrainMeasu
   const Eigen::VectorXd ratios = measure_bricks(body, BrickMeasure::kVolume, body.positions, strain);
   const Eigen::VectorXd stresses = measure_bricks(body, BrickMeasure::kStress, body.positions, strain);
   const Eigen::VectorXd strains = measure_bricks(body, BrickMeasure::kStrain, body.positions, strain);
-  const double brick_volume = body.grid.brick_size * body.grid.brick_size * body.grid.brick_size;
   for (const int brick : part.bricks) {
     const auto& nodes = body.grid.nodes[brick];
-    const double volume = body.grid.fill[brick] * brick_volume;
+    const double volume = body.grid.fill[brick] * body.grid.brick_volume();
     const Vec3 place = columns_of(nodes, body.positions).rowwise().mean();
     const Vec3 start = columns_of(nodes, body.rest_positions).rowwise().mean();
     volume_ += volume;
