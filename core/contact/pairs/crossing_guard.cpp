@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/contact/search/obstacle_surface.h"
 
@@ -84,22 +85,14 @@ void CrossingGuard::apply(const World& world, const std::vector<Eigen::VectorXd>
   for (std::size_t i = 0; i < obstacles_.size(); ++i) {
     move_surface(world.obstacles[obstacle_rows_[i]], elapsed, dt, *obstacles_[i]);
   }
-  ++counts_.steps;
-  bool has_acted = false;
   for (int look = 0; look < kMostLooks; ++look) {
     if (!is_foreseen(dt)) look_ahead(dt, look == 0 ? kSlack : kSlackOfMore);
     for (const auto& tree : trees_) tree->refresh();
     awake_.clear();
     for (const auto& pairs : pairs_) pairs->measure(awake_);
-    const bool acts = keep_apart(dt);
-    has_acted = has_acted || acts;
-    if (!acts || is_foreseen(dt)) {
-      since_look_ += dt;
-      counts_.acted += has_acted ? 1 : 0;
-      return;
-    }
+    if (!keep_apart(dt) || is_foreseen(dt)) break;
   }
-  ++counts_.failed;
+  since_look_ += dt;
 }
 
 bool CrossingGuard::is_foreseen(double dt) const {
@@ -152,7 +145,6 @@ bool CrossingGuard::keep_apart(double dt) {
     }
     if (is_kept) return has_changed;
   }
-  ++counts_.failed;
   return false;
 }
 

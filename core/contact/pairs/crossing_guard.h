@@ -1,6 +1,5 @@
 #pragma once
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "core/contact/pairs/feature_pairs.h"
@@ -17,7 +16,8 @@ namespace sprung {
 /// Where that is not so, an impulse acts between the nearest places, or, where that is not enough, the corners that
 /// break it; the first keeps momentum and angular momentum, the other momentum. Where these do not come to an end,
 /// nodes are slowed down one by one, and at last the nodes of the two move as one. Sliding stays free. Explicit steps
-/// only; what has crossed at the start is left alone until it is apart. Deterministic.
+/// only; what has crossed at the start is left alone until it is apart. Where none of that helps, since what is held on
+/// two sides meets, it lets go. Deterministic.
 class CrossingGuard {
  public:
   /// The bodies have to outlive it.
@@ -26,14 +26,6 @@ class CrossingGuard {
   /// Changes velocities so that nothing is crossed when all move by dt. `inverse_masses` by body of the group and node,
   /// 1/kg, 0 for nodes that are held; `elapsed`: since the obstacles were where the world has them, s.
   void apply(const World& world, const std::vector<Eigen::VectorXd>& inverse_masses, double elapsed, double dt);
-
-  /// How often it acted since it was made, and how often it found no way: what is held on two sides that meet.
-  struct Counts {
-    long steps = 0;
-    long acted = 0;
-    long failed = 0;
-  };
-  [[nodiscard]] const Counts& counts() const { return counts_; }
 
  private:
   [[nodiscard]] SoftBody& body(std::size_t row) const;
@@ -53,7 +45,7 @@ class CrossingGuard {
   void look_ahead(double dt, double slack);
   /// The speeds of a pair's corners along its normal, m/s; known: as they were when the pair was measured.
   [[nodiscard]] Eigen::Vector4d speeds(const AwakePair& pair, bool are_known) const;
-  /// Whether any had to be changed.
+  /// Whether velocities were changed and what they lead to has to be looked at; not where it lets go.
   bool keep_apart(double dt);
   /// By an impulse between places of the two features, given by the corners' weights, so that these get away from each
   /// other as they must.
@@ -78,7 +70,6 @@ class CrossingGuard {
   double horizon_ = 0;      // s
   double slack_ = 0;        // bricks
   double since_look_ = 0;   // s
-  Counts counts_;
 };
 
 }  // namespace sprung

@@ -99,9 +99,8 @@ AwakePair FeaturePairs::measure(const FeaturePair& pair) {
 }
 
 bool FeaturePairs::has_crossed(const AwakePair& pair) {
-  const auto at = [&](int i) { return std::pair<SurfaceTree&, int>(tree(pair.pair.side(i)), pair.pair.corners[i]); };
-  const auto place = [&](int i) { return at(i).first.place_of(at(i).second); };
-  const auto normal = [&](int i) { return at(i).first.normal_of(at(i).second); };
+  const auto place = [&](int i) { return tree(pair.pair.side(i)).place_of(pair.pair.corners[i]); };
+  const auto normal = [&](int i) { return tree(pair.pair.side(i)).normal_of(pair.pair.corners[i]); };
   const Vec3 outward = pair.pair.count == 1 ? Vec3((place(2) - place(1)).cross(place(3) - place(1)))
                                             : Vec3(normal(2) + normal(3) - normal(0) - normal(1));
   return outward.dot(pair.normal) < 0;
