@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/bricks/brick_topology.h"
 #include "core/contact/glue.h"
 
 namespace sprung {
@@ -20,21 +19,6 @@ double dot(double a, double b) { return a * b; }
 double dot(const Vec3& a, const Vec3& b) { return a.dot(b); }
 double largest(double a) { return std::abs(a); }
 double largest(const Vec3& a) { return a.cwiseAbs().maxCoeff(); }
-
-/// Of the limited volume ratio by the brick's corners, 1/m.
-Eigen::Matrix<double, 3, 8> corner_gradients(const InversionRate& squeeze) {
-  Eigen::Matrix<double, 3, 8> gradients = Eigen::Matrix<double, 3, 8>::Zero();
-  for (int axis = 0; axis < 3; ++axis) {
-    for (int corner = 0; corner < 8; ++corner) {
-      const bool is_end =
-          squeeze.corner == InversionRate::kMeanAxes || (corner | 1 << axis) == (squeeze.corner | 1 << axis);
-      if (!is_end) continue;
-      const double share = squeeze.corner == InversionRate::kMeanAxes ? 0.25 : 1;
-      gradients.col(corner) += (on_high_side(corner, axis) ? share : -share) * squeeze.gradient.col(axis);
-    }
-  }
-  return gradients;
-}
 
 }  // namespace
 

@@ -1,5 +1,7 @@
 #include "core/contact/contact_states.h"
 
+#include "core/contact/glue.h"
+
 namespace sprung {
 
 void ContactStates::begin_frame(World& world, const std::vector<std::vector<std::size_t>>& groups,
@@ -9,7 +11,9 @@ void ContactStates::begin_frame(World& world, const std::vector<std::vector<std:
     Group group;
     for (const std::size_t row : rows) group.push_back(&world.bodies[row]);
     GroupContacts& contacts = kept[rows];
-    if (world.guards_crossings) contacts.guard = std::make_shared<CrossingGuard>(group, world);
+    if (world.guards_crossings) {
+      contacts.swept = std::make_shared<SweptContacts>(group, world, glue_within(world, rows));
+    }
     if (search == ContactSearch::kInTime) continue;
     const auto known = by_group_.find(rows);
     if (known != by_group_.end() && known->second.skins && known->second.skins->is_of(group)) {

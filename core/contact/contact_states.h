@@ -3,15 +3,15 @@
 #include <memory>
 #include <vector>
 
-#include "core/contact/pairs/crossing_guard.h"
 #include "core/contact/skin_contact.h"
+#include "core/contact/swept_contacts.h"
 
 namespace sprung {
 
 /// What is kept of a group's contacts from one chunk of steps to the next.
 struct GroupContacts {
   std::shared_ptr<SkinContacts> skins{};   // none: found anew in every chunk
-  std::shared_ptr<CrossingGuard> guard{};  // none: not guarded
+  std::shared_ptr<SweptContacts> swept{};  // none: ContactSolver
 };
 
 /// The contacts of each group of bodies, which live as long as the group does. What is found in a frame depends on that

@@ -9,8 +9,7 @@ namespace sprung {
 namespace {
 
 constexpr double kRecoverySteps = 20;
-constexpr double kLeastGravity = 0.1;  // m/s^2: without gravity too a point comes up
-constexpr double kMostSteps = 24;      // what is pressed together can be fast within a few steps
+constexpr double kMostSteps = 24;  // what is pressed together can be fast within a few steps
 
 }  // namespace
 

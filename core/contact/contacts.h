@@ -53,6 +53,9 @@ void add_shares(const Group& group, std::size_t actor, int brick, const CornerWe
   return std::uint64_t{other} << 50 | std::uint64_t{actor} << 36 | std::uint64_t(brick) << 3 | std::uint64_t(corner);
 }
 
+/// m/s^2: without gravity too what is found inside comes out.
+inline constexpr double kLeastGravity = 0.1;
+
 /// Along the normal, relative to what holds it, that a point must have at least, m/s: it may come as near in a step as
 /// touching. One found inside (gap < 0, m) comes out within about twenty steps, but no faster than a throw that would
 /// just reach the surface: what starts a little too deep is lifted, not shot out. `gravity` in m/s^2, its size.

@@ -11,7 +11,6 @@
 namespace sprung {
 namespace {
 
-constexpr double kRejoinSteps = 4;  // what has come apart by rounding is together again after about that many
 constexpr std::size_t kGlue = (1U << 14U) - 1;  // in place of what touches, in a key: above all of that
 
 /// Where the grid of a body that is not bent yet lies in the world.

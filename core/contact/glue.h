@@ -11,6 +11,9 @@ namespace sprung {
 /// one with the smaller bricks; both as their bodies start, not yet bent. Deterministic.
 [[nodiscard]] std::vector<GluedPoint> glue_between(const World& world, std::size_t a, std::size_t b, double distance);
 
+/// What is glued and has come apart by rounding is together again after about that many steps.
+inline constexpr double kRejoinSteps = 4;
+
 /// What is glued among these bodies, by their rows in the list.
 [[nodiscard]] std::vector<GluedPoint> glue_within(const World& world, std::span<const std::size_t> bodies);
 

@@ -118,4 +118,18 @@ const std::vector<InversionRate>& InversionGuard::find(const Body& body, double 
   return found_;
 }
 
+Eigen::Matrix<double, 3, 8> corner_gradients(const InversionRate& squeeze) {
+  Eigen::Matrix<double, 3, 8> gradients = Eigen::Matrix<double, 3, 8>::Zero();
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int corner = 0; corner < 8; ++corner) {
+      const bool is_end =
+          squeeze.corner == InversionRate::kMeanAxes || (corner | 1 << axis) == (squeeze.corner | 1 << axis);
+      if (!is_end) continue;
+      const double share = squeeze.corner == InversionRate::kMeanAxes ? 0.25 : 1;
+      gradients.col(corner) += (on_high_side(corner, axis) ? share : -share) * squeeze.gradient.col(axis);
+    }
+  }
+  return gradients;
+}
+
 }  // namespace sprung

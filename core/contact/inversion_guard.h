@@ -39,6 +39,9 @@ struct InversionRate {
   static constexpr int kMeanAxes = 8;
 };
 
+/// Of the limited volume ratio by the brick's corners, 1/m.
+[[nodiscard]] Eigen::Matrix<double, 3, 8> corner_gradients(const InversionRate& squeeze);
+
 /// Watches for bricks that are about to be turned inside out. All bricks are looked at every few steps only, those
 /// found flat or collapsing then in every step: in ordinary motion it costs little.
 class InversionGuard {

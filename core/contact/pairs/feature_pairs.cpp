@@ -7,7 +7,13 @@
 namespace sprung {
 namespace {
 
-constexpr double kNear = 0.35;  // bricks within which features are listed
+constexpr double kNear = 0.35;    // bricks within which features are listed
+constexpr double kBeside = 1e-6;  // of a feature's corners: the nearest place is on its edge where one has less weight
+constexpr double kStill = 0.25;   // of its gap, that a point may move while only one of the triangles about it is awake
+constexpr double kSame = 1e-3;    // bricks by which two triangles are about as near to a point
+
+/// Whether the nearest places of two edges are at an end of one: points hold these.
+bool is_at_end(const AwakePair& edges) { return edges.weights.cwiseAbs().minCoeff() <= kBeside; }
 
 /// Whether a box about some places comes within `margin` of one about others.
 template <std::size_t N, std::size_t M>
@@ -23,19 +29,30 @@ bool are_near(const std::array<Vec3, N>& a, const std::array<Vec3, M>& b, double
 
 }  // namespace
 
-FeaturePairs::FeaturePairs(SurfaceTree& a, SurfaceTree& b, std::array<std::size_t, 2> bodies)
+FeaturePairs::FeaturePairs(SurfaceTree& a, SurfaceTree& b, std::array<std::size_t, 2> bodies, double friction)
     : trees_{a, b},
       bodies_(bodies),
+      friction_(friction),
       brick_(std::min(a.body().grid.brick_size, b.body().grid.brick_size)),
+      nearest_{std::vector<Nearest>(a.skin().points.size()), std::vector<Nearest>(b.skin().points.size())},
       front_(a, b, kNear * brick_, *this, &a == &b ? Facing::kNeeded : Facing::kIgnored) {}
 
 bool FeaturePairs::fill(const NearBricks& bricks) {
   lists_.resize(std::max(lists_.size(), std::size_t(bricks.list) + 1));
   NearList& list = lists_[bricks.list];
+  std::vector<Sleeper> before = std::move(list.sleepers);
   list = {.block = bricks.block};
   list_points(0, bricks.a, bricks.b, bricks.margin, list);
   list_points(is_self() ? 0 : 1, bricks.b, bricks.a, bricks.margin, list);
   list_edges(bricks.a, bricks.b, bricks.margin, list);
+  for (const Sleeper& old : before) {
+    if (old.impulse.isZero(0)) continue;
+    const auto known = std::find_if(list.sleepers.begin(), list.sleepers.end(), [&](const Sleeper& sleeper) {
+      return sleeper.pair.corners == old.pair.corners && sleeper.pair.count == old.pair.count &&
+             sleeper.pair.first == old.pair.first;
+    });
+    if (known != list.sleepers.end()) known->impulse = old.impulse;
+  }
   return true;
 }
 
@@ -63,7 +80,7 @@ void FeaturePairs::list_points(std::size_t side, int points_of, int triangles_of
       const std::array<Vec3, 3> corners{across.place_of(a), across.place_of(b), across.place_of(c)};
       if (!are_near(place, corners, margin)) continue;
       if (hangs_together(point, a) || hangs_together(point, b) || hangs_together(point, c)) continue;
-      list.sleepers.push_back({{.count = 1, .corners = {point, a, b, c}, .first = side}, 0});
+      list.sleepers.push_back({.pair = {.count = 1, .corners = {point, a, b, c}, .first = side}});
     }
   }
 }
@@ -80,7 +97,7 @@ void FeaturePairs::list_edges(int edges_of, int others_of, double margin, NearLi
       const auto& [c, d] = other.edges[e];
       if (!are_near(ends, std::array<Vec3, 2>{across.place_of(c), across.place_of(d)}, margin)) continue;
       if (hangs_together(a, c) || hangs_together(a, d) || hangs_together(b, c) || hangs_together(b, d)) continue;
-      list.sleepers.push_back({{.count = 2, .corners = {a, b, c, d}, .first = 0}, 0});
+      list.sleepers.push_back({.pair = {.count = 2, .corners = {a, b, c, d}, .first = 0}});
     }
   }
 }
@@ -95,41 +112,104 @@ AwakePair FeaturePairs::measure(const FeaturePair& pair) {
           .bodies = bodies_,
           .normal = found.apart / std::max(gap, 1e-300),
           .gap = gap,
-          .weights = found.weights};
+          .weights = found.weights,
+          .friction = friction_};
 }
 
-bool FeaturePairs::has_crossed(const AwakePair& pair) {
+bool FeaturePairs::have_crossed(const AwakePair& edges) {
+  const auto normal = [&](int i) { return tree(edges.pair.side(i)).normal_of(edges.pair.corners[i]); };
+  return (normal(2) + normal(3) - normal(0) - normal(1)).dot(edges.normal) < 0;
+}
+
+bool FeaturePairs::tell_inside(AwakePair& pair) {
   const auto place = [&](int i) { return tree(pair.pair.side(i)).place_of(pair.pair.corners[i]); };
-  const auto normal = [&](int i) { return tree(pair.pair.side(i)).normal_of(pair.pair.corners[i]); };
-  const Vec3 outward = pair.pair.count == 1 ? Vec3((place(2) - place(1)).cross(place(3) - place(1)))
-                                            : Vec3(normal(2) + normal(3) - normal(0) - normal(1));
-  return outward.dot(pair.normal) < 0;
+  const Vec3 outward = (place(2) - place(1)).cross(place(3) - place(1));
+  if (outward.dot(pair.normal) >= 0) return true;
+  pair.normal = outward.normalized();
+  pair.gap = -pair.gap;
+  return pair.weights.tail<3>().maxCoeff() < -kBeside;
 }
 
 void FeaturePairs::wake() {
   static_cast<void>(front_.advance());
-  awake_.clear();
+  woken_.clear();
+  measured_.clear();
   for (NearList& list : lists_) {
     if (list.sleepers.empty()) continue;
     const double closer = front_.closer(list.block);
-    const double soon = closer + front_.moving_closer(list.block);
-    if (list.first_wake > soon) continue;
+    const double coming = front_.moving_closer(list.block);
+    if (list.first_wake > closer + coming) continue;
     list.first_wake = std::numeric_limits<double>::infinity();
     for (Sleeper& sleeper : list.sleepers) {
-      if (sleeper.wake <= soon) {
-        const AwakePair pair = measure(sleeper.pair);
-        const bool is_asleep = kFreeShare * (pair.gap - kLeastGap * brick_) > soon - closer;
-        const bool is_crossed = !is_asleep && has_crossed(pair);
-        sleeper.wake = is_asleep ? closer + kFreeShare * (pair.gap - kLeastGap * brick_) : closer;
-        if (!is_asleep && !is_crossed) awake_.push_back(sleeper.pair);
-      }
+      if (sleeper.wake <= closer + coming) look_at(sleeper, closer, coming);
       list.first_wake = std::min(list.first_wake, sleeper.wake);
     }
   }
+  choose_holders(measured_);
+  awake_.clear();
+  for (std::size_t row = 0; row < woken_.size(); ++row) {
+    const AwakePair& pair = measured_[row];
+    const bool is_held_elsewhere = pair.pair.count == 1 && !pair.may_hold;
+    if (is_held_elsewhere && (pair.gap < 0 || woken_[row].coming < kStill * pair.gap)) continue;
+    awake_.push_back(woken_[row].sleeper);
+  }
+}
+
+void FeaturePairs::look_at(Sleeper& sleeper, double closer, double coming) {
+  AwakePair pair = measure(sleeper.pair);
+  const bool is_point = pair.pair.count == 1;
+  const double reach = is_point ? kGuardedGap : is_at_end(pair) ? 0 : kGuardedEdges;
+  const double way = way_until_due(pair.gap, reach * brick_, brick_);
+  const bool is_told = is_point ? tell_inside(pair) : !have_crossed(pair);
+  const bool is_asleep = way > coming && sleeper.impulse.isZero(0) && !(is_told && pair.gap < 0);
+  sleeper.wake = is_asleep ? closer + way : closer;
+  if (is_asleep || !is_told) return;
+  pair.impulse = &sleeper.impulse;
+  woken_.push_back({&sleeper, coming});
+  measured_.push_back(pair);
 }
 
 void FeaturePairs::measure(std::vector<AwakePair>& awake) {
-  for (const FeaturePair& pair : awake_) awake.push_back(measure(pair));
+  measured_.clear();
+  for (Sleeper* sleeper : awake_) {
+    AwakePair pair = measure(sleeper->pair);
+    const AwakePair outside = pair;
+    // What has passed by the edge of its triangle since it was woken cannot be held by it, but still must not cross it.
+    const bool is_beside = pair.pair.count == 1 && !tell_inside(pair);
+    measured_.push_back(is_beside ? outside : pair);
+    measured_.back().may_hold = !is_beside;
+    measured_.back().impulse = &sleeper->impulse;
+  }
+  choose_holders(measured_);
+  for (const AwakePair& pair : measured_) {
+    if (pair.gap > 0 || pair.may_hold) awake.push_back(pair);
+  }
+}
+
+void FeaturePairs::choose_holders(std::vector<AwakePair>& pairs) {
+  ++step_;
+  const auto nearest_of = [&](const AwakePair& pair) -> Nearest& {
+    return nearest_[pair.pair.first][pair.pair.corners[0]];
+  };
+  for (std::size_t row = 0; row < pairs.size(); ++row) {
+    const AwakePair& pair = pairs[row];
+    if (pair.pair.count == 2 || !pair.may_hold) continue;
+    Nearest& nearest = nearest_of(pair);
+    // What bears the load already keeps it among triangles that are as near.
+    const bool is_loaded = !pair.impulse->isZero(0);
+    const double slack = kSame * brick_ * (int(nearest.is_loaded) - int(is_loaded));
+    if (nearest.step == step_ && !(std::abs(pair.gap) < nearest.distance - slack)) continue;
+    nearest = {step_, std::abs(pair.gap), row, is_loaded};
+  }
+  for (std::size_t row = 0; row < pairs.size(); ++row) {
+    AwakePair& pair = pairs[row];
+    if (pair.pair.count == 2) {
+      pair.may_hold = !is_at_end(pair);
+    } else if (pair.may_hold) {
+      const bool is_beside = pair.weights.tail<3>().maxCoeff() > -kBeside;
+      pair.may_hold = nearest_of(pair).row == row || (pair.gap > 0 && !is_beside);
+    }
+  }
 }
 
 }  // namespace sprung

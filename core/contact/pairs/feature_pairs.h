@@ -2,40 +2,23 @@
 #include <array>
 #include <vector>
 
+#include "core/contact/pairs/awake_pair.h"
 #include "core/contact/search/contact_front.h"
 
 namespace sprung {
 
-/// Two features of two surfaces that are near each other: a point and a triangle, or two edges.
-struct FeaturePair {
-  int count;                   // of the first feature's corners: 1, a point; 2, an edge
-  std::array<int, 4> corners;  // points of the skins: those of the first feature, then those of the second
-  std::size_t first;           // the side that the first feature is of, 0 or 1; the second is of the other
-
-  [[nodiscard]] std::size_t side(int corner) const { return corner < count ? first : 1 - first; }
-};
-
-/// One that may be crossed in the step to come.
-struct AwakePair {
-  FeaturePair pair;
-  std::array<std::size_t, 2> bodies;  // by side
-  Vec3 normal;                        // unit, from the second feature's nearest place to the first's
-  double gap;                         // m
-  Eigen::Vector4d weights;            // see FeatureDistance
-};
-
-/// The points and triangles, and the edges, of two surfaces, or of one with itself, that may cross each other in the
-/// steps to come. Those that are further apart sleep for as long as the front says that they cannot have come closer by
-/// 0.8 of what is between them. Left out: features of one surface whose bricks share a node, and those that have
-/// crossed: a point behind its triangle, an edge inside of another.
+/// The points and triangles, and the edges, of two surfaces, or of one with itself, that may meet in the steps to come.
+/// Those that are further apart sleep for as long as the front says that they cannot have come closer by more than
+/// way_until_due(), unless they bear a load. Left out: features of one surface whose bricks share a node, and edges
+/// that have crossed. A point that is behind its triangle is inside of the surface where that is the nearest one.
 class FeaturePairs : private NearLists {
  public:
   /// Of bodies `bodies`; their trees, the same twice for one with itself, must outlive it.
-  FeaturePairs(SurfaceTree& a, SurfaceTree& b, std::array<std::size_t, 2> bodies);
+  FeaturePairs(SurfaceTree& a, SurfaceTree& b, std::array<std::size_t, 2> bodies, double friction);
   FeaturePairs(const FeaturePairs&) = delete;
   FeaturePairs& operator=(const FeaturePairs&) = delete;
 
-  /// To be called after SurfaceTree::follow(): finds those that may cross until it is called again.
+  /// To be called after SurfaceTree::follow(): finds those that may meet until it is called again.
   void wake();
   /// Appends these as they are now, in a fixed order. To be called after SurfaceTree::refresh().
   void measure(std::vector<AwakePair>& awake);
@@ -43,12 +26,20 @@ class FeaturePairs : private NearLists {
  private:
   struct Sleeper {
     FeaturePair pair;
-    double wake;  // m, by which its block may have come closer before it has to be looked at
+    double wake = 0;              // m, by which its block may have come closer before it has to be looked at
+    Vec3 impulse = Vec3::Zero();  // N s
   };
   struct NearList {
     std::size_t block = 0;
     double first_wake = 0;  // of its sleepers
     std::vector<Sleeper> sleepers{};
+  };
+  /// By point of a skin: the pair that is nearest to it.
+  struct Nearest {
+    long step = -1;
+    double distance = 0;  // m
+    std::size_t row = 0;  // in the list of awake pairs
+    bool is_loaded = false;
   };
 
   bool fill(const NearBricks& bricks) override;
@@ -60,23 +51,31 @@ class FeaturePairs : private NearLists {
   void list_points(std::size_t side, int points_of, int triangles_of, double margin, NearList& list);
   void list_edges(int edges_of, int others_of, double margin, NearList& list);
   [[nodiscard]] AwakePair measure(const FeaturePair& pair);
-  /// Whether the first feature is inside of the second.
-  [[nodiscard]] bool has_crossed(const AwakePair& pair);
+  /// Whether two edges have crossed.
+  [[nodiscard]] bool have_crossed(const AwakePair& edges);
+  /// Turns it round where the point is behind the triangle; false where that tells nothing, beside the triangle.
+  [[nodiscard]] bool tell_inside(AwakePair& pair);
   [[nodiscard]] bool hangs_together(std::size_t point, std::size_t other) const;
+  /// One that is due: it goes on sleeping, or is woken, where it is not left alone.
+  void look_at(Sleeper& sleeper, double closer, double coming);
+  /// Lets the nearest triangle hold a point where it is at the edge of that, and where it is inside.
+  void choose_holders(std::vector<AwakePair>& pairs);
 
   std::array<std::reference_wrapper<SurfaceTree>, 2> trees_;
   std::array<std::size_t, 2> bodies_;
+  double friction_;
   double brick_;  // m, of the finer of the two
   std::vector<NearList> lists_;
-  std::vector<FeaturePair> awake_;
+  std::vector<Sleeper*> awake_;
+  struct Woken {
+    Sleeper* sleeper;
+    double coming;  // m, that the two may come closer until woken again
+  };
+  std::vector<Woken> woken_;
+  std::vector<AwakePair> measured_;
+  std::array<std::vector<Nearest>, 2> nearest_;  // by side of the point
+  long step_ = 0;
   ContactFront front_;
 };
-
-/// Of what is between two features, that they may come closer in a step, beside a floor in bricks.
-inline constexpr double kFreeShare = 0.8;
-inline constexpr double kLeastGap = 1e-5;
-
-/// Bricks that are left between surfaces that rest on each other where they are guarded, so that most pairs sleep.
-inline constexpr double kGuardedGap = 0.03;
 
 }  // namespace sprung

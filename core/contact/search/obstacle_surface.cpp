@@ -119,10 +119,14 @@ std::optional<SoftBody> obstacle_surface(const Obstacle& obstacle, double brick_
 void move_surface(const Obstacle& obstacle, double elapsed, double dt, SoftBody& surface) {
   const auto at = [&](double time) -> Points {
     const Pose pose = pose_after(obstacle, time);
-    return (surface.rest_positions * pose.rotation.transpose()).rowwise() + pose.translation.transpose();
+    return surface.rest_positions.lazyProduct(pose.rotation.transpose()).rowwise() + pose.translation.transpose();
   };
   surface.positions = at(elapsed);
-  surface.velocities = (at(elapsed + dt) - surface.positions) / dt;
+  if (obstacle.is_moving()) {
+    surface.velocities = (at(elapsed + dt) - surface.positions) / dt;
+  } else {
+    surface.velocities.setZero();
+  }
 }
 
 }  // namespace sprung

@@ -38,10 +38,13 @@ NormalCone enclosing(const NormalCone& a, const NormalCone& b) {
 RigidMotion rigid_fit(const Points& places, const Points& vectors) {
   const Vec3 middle = places.colwise().mean();
   const Vec3 mean = vectors.colwise().mean();
-  const Points arms = places.rowwise() - middle.transpose();
-  const Mat3 second = arms.transpose() * arms;
-  const Mat3 both = arms.transpose() * vectors;
-  const Vec3 moment(both(1, 2) - both(2, 1), both(2, 0) - both(0, 2), both(0, 1) - both(1, 0));  // sum of arm x vector
+  Mat3 second = Mat3::Zero();
+  Vec3 moment = Vec3::Zero();
+  for (Eigen::Index row = 0; row < places.rows(); ++row) {
+    const Vec3 arm = places.row(row).transpose() - middle;
+    second += arm * arm.transpose();
+    moment += arm.cross(Vec3(vectors.row(row)));
+  }
   const Mat3 inertia = second.trace() * Mat3::Identity() - second;
   const Vec3 spin = inertia.ldlt().solve(moment);
   if (!spin.allFinite()) return {mean, Vec3::Zero()};
@@ -149,12 +152,18 @@ void SurfaceTree::measure(const Points& moved, const Points& moving, double more
 }
 
 void SurfaceTree::follow(double time, double more) {
-  ++step_;
+  refresh();
   const Points moved = body_.positions - before_;
   const Points moving = time * body_.velocities;
   measure(moved, moving, more, motions_);
+  before_ = body_.positions;
+  if (body_.collides_with_itself) measure_own(moved, moving);
+}
+
+void SurfaceTree::measure_own(const Points& moved, const Points& moving) {
   // The body's rigid motion is taken off as a rotation, which is exact; of what is to come, as a velocity.
-  const RigidMotion turned = rigid_fit(before_, moved);
+  const Points before = body_.positions - moved;
+  const RigidMotion turned = rigid_fit(before, moved);
   const double angle = turned.spin.norm();
   const Mat3 rotation =
       angle > 0 ? Eigen::AngleAxisd(angle, turned.spin / angle).toRotationMatrix() : Mat3(Mat3::Identity());
@@ -164,14 +173,12 @@ void SurfaceTree::follow(double time, double more) {
   double furthest = 0;
   const Vec3 middle = body_.positions.colwise().mean();
   for (int row = 0; row < moved.rows(); ++row) {
-    const Vec3 before = before_.row(row);
     const Vec3 now = body_.positions.row(row);
-    own_moved.row(row) = (now - rotation * before).transpose();
+    own_moved.row(row) = (now - rotation * Vec3(before.row(row))).transpose();
     own_moving.row(row) = (Vec3(moving.row(row)) - turning.at(now)).transpose();
     furthest = std::max(furthest, (now - middle).squaredNorm());
   }
   measure(own_moved, own_moving, turning.spin.squaredNorm() * std::sqrt(furthest) / 2, own_motions_);
-  before_ = body_.positions;
 }
 
 const Vec3& SurfaceTree::place_of(int point) {
@@ -190,7 +197,9 @@ const Vec3& SurfaceTree::normal_of(int point) {
 
 const Vec3& SurfaceTree::velocity_of(int point) {
   Cached<Vec3>& velocity = velocities_[point];
-  if (velocity.step != step_) velocity = {carried(body_, skin_.points[point], body_.velocities), step_};
+  if (velocity.step != velocity_step_) {
+    velocity = {carried(body_, skin_.points[point], body_.velocities), velocity_step_};
+  }
   return velocity.value;
 }
 

@@ -37,7 +37,12 @@ class SurfaceTree {
   /// no more than `time` (s) at them, and `more` (m).
   void follow(double time, double more);
   /// To be called where the body has moved on since: for places, normals and velocities that are asked for.
-  void refresh() { ++step_; }
+  void refresh() {
+    ++step_;
+    refresh_velocities();
+  }
+  /// To be called where only velocities have changed since.
+  void refresh_velocities() { ++velocity_step_; }
   /// Of the body's nodes, m/s, beside their mean velocity.
   [[nodiscard]] double fastest() const;
   /// How many times as far as the body's nodes any of its points may move.
@@ -56,7 +61,8 @@ class SurfaceTree {
     VectorBall moving;
   };
   [[nodiscard]] const Motion& motion(int node) const { return motions_[node]; }
-  /// The same beside the rigid motion of the body, which brings no two of its points closer.
+  /// The same beside the rigid motion of the body, which brings no two of its points closer; of bodies that collide
+  /// with themselves.
   [[nodiscard]] const Motion& own_motion(int node) const { return own_motions_[node]; }
   /// The topmost node that always has the same motions: that of its cluster, or itself.
   [[nodiscard]] int cluster_node(int node) const {
@@ -79,6 +85,8 @@ class SurfaceTree {
   void list_nodes_of_clusters();
   /// Of every node, from how the body's nodes have moved and will.
   void measure(const Points& moved, const Points& moving, double more, std::vector<Motion>& motions) const;
+  /// Of every node beside the body's rigid motion.
+  void measure_own(const Points& moved, const Points& moving);
   template <class Value>
   struct Cached {
     Value value;
@@ -96,6 +104,7 @@ class SurfaceTree {
   std::vector<Motion> own_motions_;
   Points before_;  // where the body's nodes were when last followed
   long step_ = 0;
+  long velocity_step_ = 0;
   std::vector<Cached<AlignedBox>> boxes_;  // by node
   std::vector<Cached<NormalCone>> cones_;
   std::vector<Cached<Vec3>> places_;  // by point

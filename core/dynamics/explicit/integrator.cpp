@@ -156,7 +156,7 @@ class GroupMover {
     }
     const GroupContacts contacts = states != nullptr ? states->of(group.bodies) : GroupContacts{};
     impulses_.emplace(std::move(bodies), inverse_masses_, glue_within(world, group.bodies), contacts.skins);
-    guard_ = contacts.guard;
+    swept_ = contacts.swept;
   }
 
   void kick(double dt) {
@@ -164,8 +164,11 @@ class GroupMover {
   }
 
   void keep_limits(double dt) {
-    impulses_->apply(world_, elapsed_, dt);
-    if (guard_) guard_->apply(world_, inverse_masses_, elapsed_, dt);
+    if (swept_) {
+      swept_->apply(world_, inverse_masses_, elapsed_, dt);
+    } else {
+      impulses_->apply(world_, elapsed_, dt);
+    }
     elapsed_ += dt;
   }
 
@@ -193,7 +196,7 @@ class GroupMover {
   std::vector<std::unique_ptr<Mover>> movers_;
   std::vector<Eigen::VectorXd> inverse_masses_;
   std::optional<ContactSolver> impulses_;
-  std::shared_ptr<CrossingGuard> guard_;  // none: not guarded
+  std::shared_ptr<SweptContacts> swept_;  // none: by impulses_
 };
 
 void check_finite(const World& world, double time) {

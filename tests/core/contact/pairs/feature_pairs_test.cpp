@@ -28,7 +28,7 @@ class FeatureRace {
   FeatureRace(SoftBody& a, SoftBody& b, double dt)
       : bodies_{&a, &b},
         trees_{SurfaceTree(contact_surface_of(a), a), SurfaceTree(contact_surface_of(b), b)},
-        pairs_(trees_[0], trees_[is_self() ? 0 : 1], {0, 1}),
+        pairs_(trees_[0], trees_[is_self() ? 0 : 1], {0, 1}, 0.5),
         dt_(dt) {}
 
   /// Looks ahead for some steps in which velocities stay as they are. Returns how many pairs might be crossed in one of

@@ -1,0 +1,233 @@
+#include "core/contact/contact_sweep.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/contact/glue.h"
+#include "core/contact/search/contact_surface.h"
+
+namespace sprung {
+namespace {
+
+constexpr double kApproach = 0.5;         // of the way to where a contact holds, that its features may go in a step
+constexpr double kRecovery = 0.05;        // of how much too near they are, that they part in a step ...
+constexpr double kRecoveryHeight = 0.01;  // ... but no faster than from a fall by that part of it
+constexpr double kLeastFree = 0.05;       // of a contact's weights: what nodes that are held carry, none moves
+constexpr int kInversionSweeps = 4;
+
+/// m/s, along the normal, that is asked of two features whose contact holds them `reach` (m) apart, if they move at
+/// `speed` (m/s).
+double least_speed(const AwakePair& pair, double reach, double speed, double gravity, double dt) {
+  const double rest = pair.gap - reach;
+  if (pair.restitution > 0 && speed < 0) return rest + speed * dt > 0 ? speed : -pair.restitution * speed;
+  if (rest > 0) return -kApproach * rest / dt;
+  return std::min(-kRecovery * rest / dt, std::sqrt(-2 * kRecoveryHeight * std::max(gravity, kLeastGravity) * rest));
+}
+
+/// What a contact may push: friction gives as much sideways as its coefficient allows for what presses.
+Vec3 allowed(const Vec3& impulse, const Vec3& normal, double friction) {
+  const double pressing = impulse.dot(normal);
+  if (!(pressing > 0)) return Vec3::Zero();
+  const Vec3 sideways = impulse - pressing * normal;
+  const double length = sideways.norm();
+  const double most = friction * pressing;
+  return length > most ? Vec3(pressing * normal + most / length * sideways) : impulse;
+}
+
+}  // namespace
+
+ContactSweep::ContactSweep(Group group, std::vector<GluedPoint> glue)
+    : group_(std::move(group)),
+      glue_(std::move(glue)),
+      glue_impulses_(glue_.size(), Vec3::Zero()),
+      inversions_(group_.size()) {
+  for (const SoftBody* body : group_) parts_of_nodes_.emplace_back(body->node_count(), -1);
+}
+
+void ContactSweep::stop_inversions(const std::vector<Eigen::VectorXd>& inverse_masses, double dt) {
+  for (std::size_t row = 0; row < group_.size(); ++row) {
+    SoftBody& body = *group_[row];
+    const std::vector<InversionRate>& found = inversions_[row].find(body, dt);
+    for (int pass = 0; pass < kInversionSweeps && !found.empty(); ++pass) {
+      for (const InversionRate& one : found) {
+        const auto& nodes = body.grid.nodes[one.brick];
+        const Eigen::Matrix<double, 3, 8> gradients = corner_gradients(one);
+        double rate = 0;
+        double answer = 0;
+        for (int corner = 0; corner < 8; ++corner) {
+          rate += gradients.col(corner).dot(body.velocities.row(nodes[corner]));
+          answer += gradients.col(corner).squaredNorm() * inverse_masses[row][nodes[corner]];
+        }
+        if (!(rate < one.least_rate) || !(answer > 0)) continue;
+        const double size = (one.least_rate - rate) / answer;
+        for (int corner = 0; corner < 8; ++corner) {
+          const double share = size * inverse_masses[row][nodes[corner]];
+          body.velocities.row(nodes[corner]) += share * gradients.col(corner).transpose();
+        }
+      }
+    }
+  }
+}
+
+void ContactSweep::add_part(std::size_t body, int node, double weight, double inverse_mass, Row& row) {
+  double* velocity = &group_[body]->velocities(node, 0);
+  if (inverse_mass == 0) {
+    row.carried += weight * Eigen::Map<const Vec3>(velocity);
+    return;
+  }
+  int& part = parts_of_nodes_[body][node];
+  if (part < 0) {
+    part = isize(parts_);
+    parts_.push_back({.velocity = velocity, .weight = 0, .inverse_mass = inverse_mass});
+    seen_.emplace_back(body, node);
+  }
+  parts_[std::size_t(part)].weight += weight;
+}
+
+void ContactSweep::finish_row(Row row) {
+  for (const auto& [body, node] : seen_) parts_of_nodes_[body][node] = -1;
+  seen_.clear();
+  row.last = parts_.size();
+  row.inverse_mass = 0;
+  double free = 0;
+  for (std::size_t i = row.first; i < row.last; ++i) {
+    free += std::abs(parts_[i].weight);
+    row.inverse_mass += parts_[i].weight * parts_[i].weight * parts_[i].inverse_mass;
+  }
+  if (free > kLeastFree && row.inverse_mass > 0) {
+    rows_.push_back(row);
+  } else {
+    row.impulse->setZero();
+    parts_.resize(row.first);
+  }
+}
+
+void ContactSweep::add_contacts(NearFeatures& near, const std::vector<Eigen::VectorXd>& inverse_masses, double gravity,
+                                double dt) {
+  for (const AwakePair& pair : near.awake()) {
+    if (!pair.may_hold) {
+      pair.impulse->setZero();
+      continue;
+    }
+    const double reach = (pair.pair.count == 1 ? kGuardedGap : kGuardedEdges) * near.brick();
+    Vec3 relative = Vec3::Zero();
+    for (int corner = 0; corner < 4; ++corner) {
+      if (pair.weights[corner] != 0) relative += pair.weights[corner] * near.known_velocity(pair, corner);
+    }
+    const double speed = pair.normal.dot(relative);
+    const double least = least_speed(pair, reach, speed, gravity, dt);
+    if (!(speed < least) && pair.impulse->isZero(0)) continue;
+    Row row{.first = parts_.size(),
+            .last = 0,
+            .normal = pair.normal,
+            .carried = Vec3::Zero(),
+            .least_speed = least,
+            .friction = pair.friction,
+            .inverse_mass = 0,
+            .impulse = pair.impulse};
+    for (int corner = 0; corner < 4; ++corner) {
+      const double share = pair.weights[corner];
+      if (share == 0) continue;
+      const std::size_t of = pair.body_of(corner);
+      if (of >= near.group_size()) {
+        row.carried += share * near.known_velocity(pair, corner);
+        continue;
+      }
+      near.each_node(pair, corner, [&](std::size_t body, int node, double weight) {
+        add_part(body, node, share * weight, inverse_masses[body][node], row);
+      });
+    }
+    finish_row(row);
+  }
+}
+
+void ContactSweep::add_glue_rows(const std::vector<Eigen::VectorXd>& inverse_masses, double dt) {
+  for (std::size_t i = 0; i < glue_.size(); ++i) {
+    const GluedPoint& point = glue_[i];
+    Vec3 apart = Vec3::Zero();
+    Row row{.first = parts_.size(),
+            .last = 0,
+            .normal = Vec3::Zero(),
+            .carried = Vec3::Zero(),
+            .least_speed = 0,
+            .friction = 0,
+            .inverse_mass = 0,
+            .impulse = &glue_impulses_[i],
+            .is_glue = true};
+    for (std::size_t side = 0; side < 2; ++side) {
+      const double sign = side == 0 ? 1 : -1;
+      const std::size_t body = point.bodies[side];
+      const auto& nodes = group_[body]->grid.nodes[point.bricks[side]];
+      apart += sign * carried(*group_[body], point.bricks[side], point.weights[side], group_[body]->positions);
+      for (int corner = 0; corner < 8; ++corner) {
+        const double weight = point.weights[side][corner];
+        if (weight != 0) add_part(body, nodes[corner], sign * weight, inverse_masses[body][nodes[corner]], row);
+      }
+    }
+    row.carried += apart / (kRejoinSteps * dt);
+    finish_row(row);
+  }
+}
+
+Vec3 ContactSweep::velocity_of(const Row& row) const {
+  Vec3 velocity = row.carried;
+  for (std::size_t i = row.first; i < row.last; ++i) {
+    velocity += parts_[i].weight * Eigen::Map<const Vec3>(parts_[i].velocity);
+  }
+  return velocity;
+}
+
+void ContactSweep::push(const Row& row, const Vec3& impulse) {
+  for (std::size_t i = row.first; i < row.last; ++i) {
+    Eigen::Map<Vec3>(parts_[i].velocity) += parts_[i].weight * parts_[i].inverse_mass * impulse;
+  }
+}
+
+void ContactSweep::warm_start(double scale) {
+  double wanted = 0;
+  double answered = 0;
+  for (Row& row : rows_) {
+    if (row.impulse->isZero(0)) continue;
+    *row.impulse *= scale;
+    if (!row.is_glue) *row.impulse = allowed(*row.impulse, row.normal, row.friction);
+    const Vec3 velocity = velocity_of(row);
+    wanted += row.impulse->dot(row.least_speed * row.normal - velocity);
+    answered -= row.impulse->dot(velocity);
+  }
+  for (const Row& row : rows_) {
+    if (!row.impulse->isZero(0)) push(row, *row.impulse);
+  }
+  for (const Row& row : rows_) {
+    if (!row.impulse->isZero(0)) answered += row.impulse->dot(velocity_of(row));
+  }
+  const double share = answered > 0 ? std::clamp(wanted / answered, 0.0, 1.0) : 0;
+  if (share == 1) return;
+  for (const Row& row : rows_) {
+    if (row.impulse->isZero(0)) continue;
+    push(row, (share - 1) * *row.impulse);
+    *row.impulse *= share;
+  }
+}
+
+void ContactSweep::sweep() {
+  for (const Row& row : rows_) {
+    const Vec3 wanted = *row.impulse + (row.least_speed * row.normal - velocity_of(row)) / row.inverse_mass;
+    const Vec3 now = row.is_glue ? wanted : allowed(wanted, row.normal, row.friction);
+    push(row, now - *row.impulse);
+    *row.impulse = now;
+  }
+}
+
+void ContactSweep::apply(NearFeatures& near, const std::vector<Eigen::VectorXd>& inverse_masses, double gravity,
+                         double dt) {
+  stop_inversions(inverse_masses, dt);
+  parts_.clear();
+  rows_.clear();
+  add_contacts(near, inverse_masses, gravity, dt);
+  add_glue_rows(inverse_masses, dt);
+  warm_start(dt_before_ > 0 ? dt / dt_before_ : 0);
+  sweep();
+  dt_before_ = dt;
+}
+
+}  // namespace sprung

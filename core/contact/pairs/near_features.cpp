@@ -1,0 +1,126 @@
+#include "core/contact/pairs/near_features.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "core/contact/search/obstacle_surface.h"
+
+namespace sprung {
+namespace {
+
+constexpr double kMostStepsAhead = 8;   // that are looked ahead ...
+constexpr double kWayAhead = 0.02;      // ... or fewer, in which nothing moves by more than so many bricks ...
+constexpr double kLeastStepsAhead = 2;  // ... this one and the next, whose contacts are told by this look
+constexpr double kSlack = 0.003;        // bricks that nodes may be away from where their velocities would take them ...
+constexpr double kMoreSlack = 4;        // times as far, each time that a step is looked at once more
+
+}  // namespace
+
+NearFeatures::NearFeatures(const Group& group, const World& world) : group_(group), brick_(smallest_brick(group)) {
+  std::vector<std::size_t> smooth;
+  for (std::size_t row = 0; row < world.obstacles.size(); ++row) {
+    std::optional<SoftBody> surface = obstacle_surface(world.obstacles[row], brick_);
+    if (!surface) {
+      smooth.push_back(row);
+      continue;
+    }
+    obstacles_.push_back(std::make_unique<SoftBody>(std::move(*surface)));
+    obstacle_rows_.push_back(row);
+  }
+  for (std::size_t row = 0; row < group_.size() + obstacles_.size(); ++row) {
+    trees_.push_back(std::make_unique<SurfaceTree>(contact_surface_of(body(row)), body(row)));
+  }
+  const auto add = [&](std::size_t a, std::size_t b, double friction) {
+    pairs_.push_back(std::make_unique<FeaturePairs>(*trees_[a], *trees_[b], std::array{a, b}, friction));
+  };
+  for (std::size_t a = 0; a < group_.size(); ++a) {
+    for (const std::size_t row : smooth) against_.push_back({.obstacle = row, .pairs = ShapePairs(*trees_[a], a)});
+    if (group_[a]->collides_with_itself) add(a, a, group_[a]->friction);
+    for (std::size_t b = a + 1; b < group_.size() && world.bodies_collide; ++b) {
+      add(a, b, std::sqrt(group_[a]->friction * group_[b]->friction));
+    }
+    for (std::size_t b = group_.size(); b < trees_.size(); ++b) add(a, b, body(b).friction);
+  }
+}
+
+SoftBody& NearFeatures::body(std::size_t row) const {
+  return row < group_.size() ? *group_[row] : *obstacles_[row - group_.size()];
+}
+
+Vec3 NearFeatures::known_velocity(const AwakePair& pair, int corner) {
+  const std::size_t row = pair.body_of(corner);
+  return row == AwakePair::kNoBody ? pair.obstacle_velocity : trees_[row]->velocity_of(pair.pair.corners[corner]);
+}
+
+Vec3 NearFeatures::velocity(const AwakePair& pair, int corner) const {
+  const std::size_t row = pair.body_of(corner);
+  if (row == AwakePair::kNoBody) return pair.obstacle_velocity;
+  return carried(body(row), trees_[row]->skin().points[pair.pair.corners[corner]], body(row).velocities);
+}
+
+void NearFeatures::refresh_velocities() {
+  for (const auto& tree : trees_) tree->refresh_velocities();
+}
+
+void NearFeatures::begin_step(const World& world, double elapsed, double dt) {
+  looks_again_ = 0;
+  poses_.clear();
+  for (const Obstacle& obstacle : world.obstacles) poses_.push_back(pose_after(obstacle, elapsed));
+  for (std::size_t i = 0; i < obstacles_.size(); ++i) {
+    move_surface(world.obstacles[obstacle_rows_[i]], elapsed, dt, *obstacles_[i]);
+  }
+  if (seen_.empty()) look_ahead(world, dt, kSlack);
+  measure(world);
+}
+
+bool NearFeatures::look_again(const World& world, double dt) {
+  if (surprise(dt) <= slack_) return false;
+  look_ahead(world, dt, kSlack * std::pow(kMoreSlack, looks_again_++));
+  measure(world);
+  return true;
+}
+
+double NearFeatures::surprise(double dt) const {
+  if (seen_.empty() || since_look_ + dt > horizon_ * (1 + 1e-9)) return std::numeric_limits<double>::infinity();
+  double furthest = 0;
+  for (std::size_t row = 0; row < seen_.size(); ++row) {
+    const Body& now = body(row);
+    const Seen& seen = seen_[row];
+    const auto off = now.positions + dt * now.velocities - seen.positions - (since_look_ + dt) * seen.velocities;
+    furthest = std::max(furthest, trees_[row]->spread() * std::sqrt(off.rowwise().squaredNorm().maxCoeff()));
+  }
+  return furthest / brick_;
+}
+
+void NearFeatures::look_ahead(const World& world, double dt, double slack) {
+  double fastest = 0;
+  for (const auto& tree : trees_) fastest = std::max(fastest, tree->fastest());
+  const double steps = std::floor(kWayAhead * brick_ / (2 * fastest * dt));
+  horizon_ = dt * std::clamp(steps, kLeastStepsAhead, kMostStepsAhead);
+  slack_ = slack;
+  since_look_ = 0;
+  seen_.resize(trees_.size());
+  tbb::parallel_for(std::size_t{0}, trees_.size(), [&](std::size_t row) {
+    seen_[row] = {body(row).positions, body(row).velocities};
+    trees_[row]->follow(horizon_, slack_ * brick_);
+  });
+  for (const auto& pairs : pairs_) pairs->wake();
+  for (Against& against : against_) {
+    against.pairs.wake(world.obstacles[against.obstacle], poses_[against.obstacle], horizon_);
+  }
+}
+
+void NearFeatures::measure(const World& world) {
+  for (const auto& tree : trees_) tree->refresh();
+  awake_.clear();
+  for (Against& against : against_) {
+    against.pairs.measure(world.obstacles[against.obstacle], poses_[against.obstacle], awake_);
+  }
+  for (const auto& pairs : pairs_) pairs->measure(awake_);
+}
+
+}  // namespace sprung

@@ -1,0 +1,86 @@
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "core/contact/pairs/feature_pairs.h"
+#include "core/contact/pairs/shape_pairs.h"
+#include "core/contact/search/group.h"
+
+namespace sprung {
+
+/// All features of a group's bodies, and of the obstacles about them, that may meet in a step: points and triangles,
+/// edges, and points and obstacles without edges. Looks some steps ahead, and again where nodes leave the way that was
+/// foreseen. Deterministic: what it finds depends on what the bodies did since it was made.
+class NearFeatures {
+ public:
+  /// The bodies have to outlive it.
+  NearFeatures(const Group& group, const World& world);
+
+  /// Measures what may meet in a step of dt, as far as was foreseen in the last one. `elapsed`: since the obstacles
+  /// were where the world has them, s.
+  void begin_step(const World& world, double elapsed, double dt);
+  /// When velocities are those of the step: finds and measures all that may meet, where something moves in a way that
+  /// was not foreseen. Returns whether it did.
+  [[nodiscard]] bool look_again(const World& world, double dt);
+  void end_step(double dt) { since_look_ += dt; }
+
+  /// As they were when last measured.
+  [[nodiscard]] const std::vector<AwakePair>& awake() const { return awake_; }
+  /// m, the smallest brick.
+  [[nodiscard]] double brick() const { return brick_; }
+  /// Those of the group, then the surfaces of obstacles, which nothing pushes.
+  [[nodiscard]] SoftBody& body(std::size_t row) const;
+  [[nodiscard]] std::size_t group_size() const { return group_.size(); }
+
+  /// Of a pair's corner, m/s: as it was after begin_step() or refresh_velocities(), or now.
+  [[nodiscard]] Vec3 known_velocity(const AwakePair& pair, int corner);
+  [[nodiscard]] Vec3 velocity(const AwakePair& pair, int corner) const;
+  void refresh_velocities();
+  /// Calls visit(body, node, weight) for all nodes that carry a corner, none for an obstacle without edges.
+  template <class Visit>
+  void each_node(const AwakePair& pair, int corner, const Visit& visit) const {
+    const std::size_t row = pair.body_of(corner);
+    if (row == AwakePair::kNoBody) return;
+    const ContactPoint& at = trees_[row]->skin().points[pair.pair.corners[corner]];
+    const auto& nodes = body(row).grid.nodes[at.brick];
+    for (int i = 0; i < 8; ++i) {
+      if (at.weights[i] != 0) visit(row, nodes[i], at.weights[i]);
+    }
+  }
+
+ private:
+  /// A body and an obstacle without edges.
+  struct Against {
+    std::size_t obstacle;  // row in the world
+    ShapePairs pairs;
+  };
+
+  /// How far the next step of dt takes any node from where it was foreseen to go, bricks; infinite: further ahead than
+  /// was looked.
+  [[nodiscard]] double surprise(double dt) const;
+  /// `slack`: bricks that nodes may be away from where they are foreseen to go.
+  void look_ahead(const World& world, double dt, double slack);
+  void measure(const World& world);
+
+  Group group_;
+  std::vector<std::unique_ptr<SoftBody>> obstacles_;  // the surfaces of those with edges
+  std::vector<std::size_t> obstacle_rows_;            // in the world
+  double brick_;                                      // m
+  std::vector<std::unique_ptr<SurfaceTree>> trees_;   // of the bodies, then of the obstacles
+  std::vector<std::unique_ptr<FeaturePairs>> pairs_;
+  std::vector<Against> against_;
+  std::vector<Pose> poses_;  // of all obstacles, in this step
+  std::vector<AwakePair> awake_;
+  /// When last looked ahead: how far, and the nodes then.
+  struct Seen {
+    Points positions;
+    Points velocities;
+  };
+  std::vector<Seen> seen_;  // by tree
+  double horizon_ = 0;      // s
+  double slack_ = 0;        // bricks
+  double since_look_ = 0;   // s
+  int looks_again_ = 0;     // in this step
+};
+
+}  // namespace sprung

@@ -1,0 +1,30 @@
+#pragma once
+#include "core/contact/contact_sweep.h"
+#include "core/contact/pairs/crossing_guard.h"
+
+namespace sprung {
+
+/// The contacts of a group's bodies where World::guards_crossings: what may meet is found (NearFeatures), held by one
+/// sweep of impulses (ContactSweep), and kept from crossing by a guarantee (CrossingGuard).
+class SweptContacts {
+ public:
+  /// The bodies have to outlive it. `glue` by rows of the group.
+  SweptContacts(const Group& group, const World& world, std::vector<GluedPoint> glue)
+      : near_(group, world), sweep_(group, std::move(glue)), guard_(near_) {}
+
+  /// Changes the bodies' velocities so that moving by dt keeps every limit. `inverse_masses` by body of the group and
+  /// node, 1/kg, 0 for nodes that are held; `elapsed`: since the obstacles were where the world has them, s.
+  void apply(const World& world, const std::vector<Eigen::VectorXd>& inverse_masses, double elapsed, double dt) {
+    near_.begin_step(world, elapsed, dt);
+    sweep_.apply(near_, inverse_masses, world.gravity.norm(), dt);
+    guard_.apply(world, inverse_masses, dt);
+    near_.end_step(dt);
+  }
+
+ private:
+  NearFeatures near_;
+  ContactSweep sweep_;
+  CrossingGuard guard_;
+};
+
+}  // namespace sprung
