@@ -11,11 +11,15 @@ void ContactStates::begin_frame(World& world, const std::vector<std::vector<std:
     Group group;
     for (const std::size_t row : rows) group.push_back(&world.bodies[row]);
     GroupContacts& contacts = kept[rows];
+    const auto known = by_group_.find(rows);
     if (world.guards_crossings) {
-      contacts.swept = std::make_shared<SweptContacts>(group, world, glue_within(world, rows));
+      const bool is_known = known != by_group_.end() && known->second.swept && known->second.swept->is_of(group);
+      std::vector<GluedPoint> glue = glue_within(world, rows);
+      contacts.swept = is_known
+                           ? std::make_shared<SweptContacts>(std::move(*known->second.swept), world, std::move(glue))
+                           : std::make_shared<SweptContacts>(group, world, std::move(glue));
     }
     if (search == ContactSearch::kInTime) continue;
-    const auto known = by_group_.find(rows);
     if (known != by_group_.end() && known->second.skins && known->second.skins->is_of(group)) {
       contacts.skins = known->second.skins;
       contacts.skins->begin_frame();

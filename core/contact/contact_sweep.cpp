@@ -13,6 +13,7 @@ constexpr double kApproach = 0.5;         // of the way to where a contact holds
 constexpr double kRecovery = 0.05;        // of how much too near they are, that they part in a step ...
 constexpr double kRecoveryHeight = 0.01;  // ... but no faster than from a fall by that part of it
 constexpr double kLeastFree = 0.05;       // of a contact's weights: what nodes that are held carry, none moves
+constexpr double kSupported = 0.5;  // of where contacts hold, from where on a point has to be held though its node is
 constexpr int kInversionSweeps = 4;
 
 /// m/s, along the normal, that is asked of two features whose contact holds them `reach` (m) apart, if they move at
@@ -41,7 +42,10 @@ ContactSweep::ContactSweep(Group group, std::vector<GluedPoint> glue)
       glue_(std::move(glue)),
       glue_impulses_(glue_.size(), Vec3::Zero()),
       inversions_(group_.size()) {
-  for (const SoftBody* body : group_) parts_of_nodes_.emplace_back(body->node_count(), -1);
+  for (const SoftBody* body : group_) {
+    parts_of_nodes_.emplace_back(body->node_count(), -1);
+    holders_.emplace_back(body->node_count());
+  }
 }
 
 void ContactSweep::stop_inversions(const std::vector<Eigen::VectorXd>& inverse_masses, double dt) {
@@ -103,20 +107,23 @@ void ContactSweep::finish_row(Row row) {
 }
 
 void ContactSweep::add_contacts(NearFeatures& near, const std::vector<Eigen::VectorXd>& inverse_masses, double gravity,
-                                double dt) {
+                                double dt, bool are_loaded) {
   for (const AwakePair& pair : near.awake()) {
+    if (pair.is_loaded != are_loaded) continue;
     if (!pair.may_hold) {
-      pair.impulse->setZero();
+      if (pair.is_loaded) pair.impulse->setZero();
       continue;
     }
     const double reach = (pair.pair.count == 1 ? kGuardedGap : kGuardedEdges) * near.brick();
-    Vec3 relative = Vec3::Zero();
-    for (int corner = 0; corner < 4; ++corner) {
-      if (pair.weights[corner] != 0) relative += pair.weights[corner] * near.known_velocity(pair, corner);
+    double speed = 0;
+    for (int corner = 0; corner < 4 && (!are_loaded || pair.restitution > 0); ++corner) {
+      if (pair.weights[corner] != 0) {
+        speed += pair.weights[corner] * pair.normal.dot(near.known_velocity(pair, corner));
+      }
     }
-    const double speed = pair.normal.dot(relative);
     const double least = least_speed(pair, reach, speed, gravity, dt);
-    if (!(speed < least) && pair.impulse->isZero(0)) continue;
+    const bool is_held = is_held_at_node(near, pair, !are_loaded);
+    if (!are_loaded && (!(speed < least - gravity * dt) || (is_held && pair.gap > kSupported * reach))) continue;
     Row row{.first = parts_.size(),
             .last = 0,
             .normal = pair.normal,
@@ -138,7 +145,19 @@ void ContactSweep::add_contacts(NearFeatures& near, const std::vector<Eigen::Vec
       });
     }
     finish_row(row);
+    if (!are_loaded) static_cast<void>(is_held_at_node(near, pair, false));
   }
+}
+
+bool ContactSweep::is_held_at_node(NearFeatures& near, const AwakePair& pair, bool is_asked) {
+  if (pair.pair.count == 2) return false;
+  const std::size_t body = pair.body_of(0);
+  if (body >= near.group_size()) return false;
+  const std::size_t other = pair.body_of(1);
+  Holder& holder = holders_[body][near.nearest_node(pair)];
+  const bool is_held = holder.step == step_ && holder.other == other;
+  if (!is_asked) holder = {step_, other};
+  return is_held;
 }
 
 void ContactSweep::add_glue_rows(const std::vector<Eigen::VectorXd>& inverse_masses, double dt) {
@@ -220,12 +239,15 @@ void ContactSweep::sweep() {
 
 void ContactSweep::apply(NearFeatures& near, const std::vector<Eigen::VectorXd>& inverse_masses, double gravity,
                          double dt) {
+  ++step_;
   stop_inversions(inverse_masses, dt);
   parts_.clear();
   rows_.clear();
-  add_contacts(near, inverse_masses, gravity, dt);
+  add_contacts(near, inverse_masses, gravity, dt, true);
   add_glue_rows(inverse_masses, dt);
   warm_start(dt_before_ > 0 ? dt / dt_before_ : 0);
+  near.refresh_velocities();
+  add_contacts(near, inverse_masses, gravity, dt, false);
   sweep();
   dt_before_ = dt;
 }

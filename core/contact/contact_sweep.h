@@ -41,7 +41,12 @@ class ContactSweep {
   };
 
   void stop_inversions(const std::vector<Eigen::VectorXd>& inverse_masses, double dt);
-  void add_contacts(NearFeatures& near, const std::vector<Eigen::VectorXd>& inverse_masses, double gravity, double dt);
+  /// Those that bear a load since the step before, or those that have to begin to.
+  void add_contacts(NearFeatures& near, const std::vector<Eigen::VectorXd>& inverse_masses, double gravity, double dt,
+                    bool are_loaded);
+  /// Whether a contact with the same other body bears a load at the node nearest to this one's point; where that is not
+  /// asked, this one does from now on.
+  [[nodiscard]] bool is_held_at_node(NearFeatures& near, const AwakePair& pair, bool is_asked);
   void add_glue_rows(const std::vector<Eigen::VectorXd>& inverse_masses, double dt);
   /// Adds a node's part to the row that is being made.
   void add_part(std::size_t body, int node, double weight, double inverse_mass, Row& row);
@@ -61,6 +66,12 @@ class ContactSweep {
   std::vector<std::pair<std::size_t, int>> seen_;  // body and node of those parts
   std::vector<Part> parts_;
   std::vector<Row> rows_;
+  struct Holder {
+    long step = -1;
+    std::size_t other = 0;  // body
+  };
+  std::vector<std::vector<Holder>> holders_;  // by body and node: what it was held from last
+  long step_ = 0;
   double dt_before_ = 0;  // s
 };
 

@@ -10,7 +10,16 @@ class SweptContacts {
  public:
   /// The bodies have to outlive it. `glue` by rows of the group.
   SweptContacts(const Group& group, const World& world, std::vector<GluedPoint> glue)
-      : near_(group, world), sweep_(group, std::move(glue)), guard_(near_) {}
+      : group_(group), near_(group, world), sweep_(group, std::move(glue)), guard_(near_) {}
+  /// Of the same bodies, whose surfaces `before` has arranged already.
+  SweptContacts(SweptContacts&& before, const World& world, std::vector<GluedPoint> glue)
+      : group_(before.group_),
+        near_(group_, world, std::move(before.near_).take_trees()),
+        sweep_(group_, std::move(glue)),
+        guard_(near_) {}
+
+  /// Whether it was made for these bodies, as they are.
+  [[nodiscard]] bool is_of(const Group& group) const { return group == group_ && near_.is_of_surfaces(); }
 
   /// Changes the bodies' velocities so that moving by dt keeps every limit. `inverse_masses` by body of the group and
   /// node, 1/kg, 0 for nodes that are held; `elapsed`: since the obstacles were where the world has them, s.
@@ -22,6 +31,7 @@ class SweptContacts {
   }
 
  private:
+  Group group_;
   NearFeatures near_;
   ContactSweep sweep_;
   CrossingGuard guard_;

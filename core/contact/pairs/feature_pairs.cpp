@@ -9,8 +9,11 @@ namespace {
 
 constexpr double kNear = 0.35;    // bricks within which features are listed
 constexpr double kBeside = 1e-6;  // of a feature's corners: the nearest place is on its edge where one has less weight
-constexpr double kStill = 0.25;   // of its gap, that a point may move while only one of the triangles about it is awake
-constexpr double kSame = 1e-3;    // bricks by which two triangles are about as near to a point
+constexpr double kStill = 0.4;    // of its gap, that a point may move while only one of the triangles about it is awake
+constexpr double kBorne = 0.5;    // of where contacts hold, from where on a point has to be held itself ...
+constexpr double kDoze =
+    0.45;  // ... and of its gap that it may lose meanwhile, where one at the same node bears a load
+constexpr double kSame = 1e-3;  // bricks by which two triangles are about as near to a point
 
 /// Whether the nearest places of two edges are at an end of one: points hold these.
 bool is_at_end(const AwakePair& edges) { return edges.weights.cwiseAbs().minCoeff() <= kBeside; }
@@ -35,6 +38,8 @@ FeaturePairs::FeaturePairs(SurfaceTree& a, SurfaceTree& b, std::array<std::size_
       friction_(friction),
       brick_(std::min(a.body().grid.brick_size, b.body().grid.brick_size)),
       nearest_{std::vector<Nearest>(a.skin().points.size()), std::vector<Nearest>(b.skin().points.size())},
+      loaded_{std::vector<long>(std::size_t(a.body().node_count()), -1),
+              std::vector<long>(std::size_t(b.body().node_count()), -1)},
       front_(a, b, kNear * brick_, *this, &a == &b ? Facing::kNeeded : Facing::kIgnored) {}
 
 bool FeaturePairs::fill(const NearBricks& bricks) {
@@ -146,13 +151,29 @@ void FeaturePairs::wake() {
     }
   }
   choose_holders(measured_);
+  for (std::size_t row = 0; row < woken_.size(); ++row) {
+    if (measured_[row].is_loaded) loaded_at(measured_[row]) = step_;
+  }
   awake_.clear();
   for (std::size_t row = 0; row < woken_.size(); ++row) {
-    const AwakePair& pair = measured_[row];
-    const bool is_held_elsewhere = pair.pair.count == 1 && !pair.may_hold;
-    if (is_held_elsewhere && (pair.gap < 0 || woken_[row].coming < kStill * pair.gap)) continue;
-    awake_.push_back(woken_[row].sleeper);
+    if (!may_doze(measured_[row], woken_[row])) awake_.push_back(woken_[row].sleeper);
   }
+}
+
+long& FeaturePairs::loaded_at(const AwakePair& pair) {
+  const std::size_t side = pair.pair.first;
+  const ContactPoint& point = tree(side).skin().points[pair.pair.corners[0]];
+  return loaded_[side][tree(side).body().grid.nodes[point.brick][point.corner]];
+}
+
+bool FeaturePairs::may_doze(const AwakePair& pair, const Woken& woken) {
+  if (pair.pair.count == 2) return false;
+  if (!pair.may_hold) return pair.gap < 0 || woken.coming < kStill * pair.gap;
+  if (pair.is_loaded || pair.gap < kBorne * kGuardedGap * brick_) return false;
+  if (loaded_at(pair) != step_) return false;
+  if (!(woken.coming < kDoze * pair.gap)) return false;
+  woken.sleeper->wake += kDoze * pair.gap;
+  return true;
 }
 
 void FeaturePairs::look_at(Sleeper& sleeper, double closer, double coming) {
@@ -164,7 +185,7 @@ void FeaturePairs::look_at(Sleeper& sleeper, double closer, double coming) {
   const bool is_asleep = way > coming && sleeper.impulse.isZero(0) && !(is_told && pair.gap < 0);
   sleeper.wake = is_asleep ? closer + way : closer;
   if (is_asleep || !is_told) return;
-  pair.impulse = &sleeper.impulse;
+  pair.is_loaded = !sleeper.impulse.isZero(0);
   woken_.push_back({&sleeper, coming});
   measured_.push_back(pair);
 }
@@ -178,6 +199,7 @@ void FeaturePairs::measure(std::vector<AwakePair>& awake) {
     const bool is_beside = pair.pair.count == 1 && !tell_inside(pair);
     measured_.push_back(is_beside ? outside : pair);
     measured_.back().may_hold = !is_beside;
+    measured_.back().is_loaded = !sleeper->impulse.isZero(0);
     measured_.back().impulse = &sleeper->impulse;
   }
   choose_holders(measured_);
@@ -196,10 +218,9 @@ void FeaturePairs::choose_holders(std::vector<AwakePair>& pairs) {
     if (pair.pair.count == 2 || !pair.may_hold) continue;
     Nearest& nearest = nearest_of(pair);
     // What bears the load already keeps it among triangles that are as near.
-    const bool is_loaded = !pair.impulse->isZero(0);
-    const double slack = kSame * brick_ * (int(nearest.is_loaded) - int(is_loaded));
+    const double slack = kSame * brick_ * (int(nearest.is_loaded) - int(pair.is_loaded));
     if (nearest.step == step_ && !(std::abs(pair.gap) < nearest.distance - slack)) continue;
-    nearest = {step_, std::abs(pair.gap), row, is_loaded};
+    nearest = {step_, std::abs(pair.gap), row, pair.is_loaded};
   }
   for (std::size_t row = 0; row < pairs.size(); ++row) {
     AwakePair& pair = pairs[row];

@@ -58,6 +58,15 @@ class FeaturePairs : private NearLists {
   [[nodiscard]] bool hangs_together(std::size_t point, std::size_t other) const;
   /// One that is due: it goes on sleeping, or is woken, where it is not left alone.
   void look_at(Sleeper& sleeper, double closer, double coming);
+  struct Woken {
+    Sleeper* sleeper;
+    double coming;  // m, that the two may come closer until woken again
+  };
+  /// The step in which a pair bore a load at the node nearest to the point of this one.
+  [[nodiscard]] long& loaded_at(const AwakePair& pair);
+  /// Whether one that was woken need not be looked at until it is woken again, since another one holds its point, or
+  /// its node.
+  [[nodiscard]] bool may_doze(const AwakePair& pair, const Woken& woken);
   /// Lets the nearest triangle hold a point where it is at the edge of that, and where it is inside.
   void choose_holders(std::vector<AwakePair>& pairs);
 
@@ -67,13 +76,10 @@ class FeaturePairs : private NearLists {
   double brick_;  // m, of the finer of the two
   std::vector<NearList> lists_;
   std::vector<Sleeper*> awake_;
-  struct Woken {
-    Sleeper* sleeper;
-    double coming;  // m, that the two may come closer until woken again
-  };
   std::vector<Woken> woken_;
   std::vector<AwakePair> measured_;
   std::array<std::vector<Nearest>, 2> nearest_;  // by side of the point
+  std::array<std::vector<long>, 2> loaded_;      // by side and node
   long step_ = 0;
   ContactFront front_;
 };

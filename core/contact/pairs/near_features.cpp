@@ -15,12 +15,14 @@ namespace {
 constexpr double kMostStepsAhead = 8;   // that are looked ahead ...
 constexpr double kWayAhead = 0.02;      // ... or fewer, in which nothing moves by more than so many bricks ...
 constexpr double kLeastStepsAhead = 2;  // ... this one and the next, whose contacts are told by this look
-constexpr double kSlack = 0.003;        // bricks that nodes may be away from where their velocities would take them ...
+constexpr double kSlack = 0.004;        // bricks that nodes may be away from where their velocities would take them ...
 constexpr double kMoreSlack = 4;        // times as far, each time that a step is looked at once more
 
 }  // namespace
 
-NearFeatures::NearFeatures(const Group& group, const World& world) : group_(group), brick_(smallest_brick(group)) {
+NearFeatures::NearFeatures(const Group& group, const World& world, Trees trees)
+    : group_(group), brick_(smallest_brick(group)), trees_(std::move(trees)) {
+  for (const auto& tree : trees_) tree->begin();
   std::vector<std::size_t> smooth;
   for (std::size_t row = 0; row < world.obstacles.size(); ++row) {
     std::optional<SoftBody> surface = obstacle_surface(world.obstacles[row], brick_);
@@ -31,7 +33,7 @@ NearFeatures::NearFeatures(const Group& group, const World& world) : group_(grou
     obstacles_.push_back(std::make_unique<SoftBody>(std::move(*surface)));
     obstacle_rows_.push_back(row);
   }
-  for (std::size_t row = 0; row < group_.size() + obstacles_.size(); ++row) {
+  for (std::size_t row = trees_.size(); row < group_.size() + obstacles_.size(); ++row) {
     trees_.push_back(std::make_unique<SurfaceTree>(contact_surface_of(body(row)), body(row)));
   }
   const auto add = [&](std::size_t a, std::size_t b, double friction) {
@@ -47,6 +49,18 @@ NearFeatures::NearFeatures(const Group& group, const World& world) : group_(grou
   }
 }
 
+NearFeatures::Trees NearFeatures::take_trees() && {
+  trees_.resize(group_.size());
+  return std::move(trees_);
+}
+
+bool NearFeatures::is_of_surfaces() const {
+  for (std::size_t row = 0; row < group_.size(); ++row) {
+    if (group_[row]->contact_surface.get() != &trees_[row]->skin()) return false;
+  }
+  return true;
+}
+
 SoftBody& NearFeatures::body(std::size_t row) const {
   return row < group_.size() ? *group_[row] : *obstacles_[row - group_.size()];
 }
@@ -60,6 +74,12 @@ Vec3 NearFeatures::velocity(const AwakePair& pair, int corner) const {
   const std::size_t row = pair.body_of(corner);
   if (row == AwakePair::kNoBody) return pair.obstacle_velocity;
   return carried(body(row), trees_[row]->skin().points[pair.pair.corners[corner]], body(row).velocities);
+}
+
+int NearFeatures::nearest_node(const AwakePair& pair) const {
+  const std::size_t row = pair.body_of(0);
+  const ContactPoint& point = trees_[row]->skin().points[pair.pair.corners[0]];
+  return body(row).grid.nodes[point.brick][point.corner];
 }
 
 void NearFeatures::refresh_velocities() {

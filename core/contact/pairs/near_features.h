@@ -13,8 +13,13 @@ namespace sprung {
 /// foreseen. Deterministic: what it finds depends on what the bodies did since it was made.
 class NearFeatures {
  public:
-  /// The bodies have to outlive it.
-  NearFeatures(const Group& group, const World& world);
+  using Trees = std::vector<std::unique_ptr<SurfaceTree>>;
+  /// The bodies have to outlive it. `trees`: of the same bodies with the same surfaces, from one before; or none. What
+  /// it finds does not depend on them.
+  NearFeatures(const Group& group, const World& world, Trees trees = {});
+  [[nodiscard]] Trees take_trees() &&;
+  /// Whether the bodies have the surfaces that they had.
+  [[nodiscard]] bool is_of_surfaces() const;
 
   /// Measures what may meet in a step of dt, as far as was foreseen in the last one. `elapsed`: since the obstacles
   /// were where the world has them, s.
@@ -36,6 +41,8 @@ class NearFeatures {
   [[nodiscard]] Vec3 known_velocity(const AwakePair& pair, int corner);
   [[nodiscard]] Vec3 velocity(const AwakePair& pair, int corner) const;
   void refresh_velocities();
+  /// That carries most of a pair's first corner.
+  [[nodiscard]] int nearest_node(const AwakePair& pair) const;
   /// Calls visit(body, node, weight) for all nodes that carry a corner, none for an obstacle without edges.
   template <class Visit>
   void each_node(const AwakePair& pair, int corner, const Visit& visit) const {
@@ -66,7 +73,7 @@ class NearFeatures {
   std::vector<std::unique_ptr<SoftBody>> obstacles_;  // the surfaces of those with edges
   std::vector<std::size_t> obstacle_rows_;            // in the world
   double brick_;                                      // m
-  std::vector<std::unique_ptr<SurfaceTree>> trees_;   // of the bodies, then of the obstacles
+  Trees trees_;                                       // of the bodies, then of the obstacles
   std::vector<std::unique_ptr<FeaturePairs>> pairs_;
   std::vector<Against> against_;
   std::vector<Pose> poses_;  // of all obstacles, in this step

@@ -33,6 +33,11 @@ class SurfaceTree {
   /// Both must outlive it.
   SurfaceTree(const ContactSurface& skin, const SoftBody& body);
 
+  /// As if it were new.
+  void begin() {
+    before_ = body_.positions;
+    refresh();
+  }
   /// To be called every few steps, when velocities are those of the step to come; until the next time anything moves by
   /// no more than `time` (s) at them, and `more` (m).
   void follow(double time, double more);
