@@ -30,8 +30,8 @@ struct AwakePair {
   double friction = 0;                   // Coulomb's coefficient
   double restitution = 0;
   bool may_hold = true;     // not where another pair holds the same point better
-  bool is_loaded = false;   // whether that is not zero
   Vec3* impulse = nullptr;  // N s, on the first feature, of the last step; kept with the pair while it is near
+  bool is_loaded = false;   // when measured: whether that impulse was not zero
 
   [[nodiscard]] std::size_t body_of(int corner) const { return bodies[pair.side(corner)]; }
 };

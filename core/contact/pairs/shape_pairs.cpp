@@ -87,8 +87,8 @@ void ShapePairs::measure(const Obstacle& obstacle, const Pose& pose, std::vector
                      .obstacle_velocity = velocity_at(obstacle, pose, place),
                      .friction = obstacle.friction,
                      .restitution = obstacle.restitution,
-                     .is_loaded = !impulses_[point].isZero(0),
-                     .impulse = &impulses_[point]});
+                     .impulse = &impulses_[point],
+                     .is_loaded = !impulses_[point].isZero(0)});
   }
 }
 
