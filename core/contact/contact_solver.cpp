@@ -48,15 +48,8 @@ void ContactSolver::ContactConstraint::push(const Vec3& size, Nodes& all) const 
   for (const Part& part : parts) all[part.place].now += part.weight * size;
 }
 
-/// Friction gives as much sideways as its coefficient allows for what presses.
 Vec3 ContactSolver::ContactConstraint::allowed(const Vec3& size) const {
-  if (is_glue) return size;
-  const double pressing = size.dot(normal);
-  if (!(pressing > 0)) return Vec3::Zero();
-  const Vec3 sideways = size - pressing * normal;
-  const double length = sideways.norm();
-  const double most = friction * pressing;
-  return length > most ? Vec3(pressing * normal + most / length * sideways) : size;
+  return is_glue ? size : within_friction_cone(size, normal, friction);
 }
 
 double ContactSolver::InversionConstraint::residual(const Nodes& all, Vec3 Pushed::*velocity) const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/contact/contacts.h"
 #include "core/contact/glue.h"
 #include "core/contact/search/contact_surface.h"
 
@@ -23,16 +24,6 @@ double least_speed(const AwakePair& pair, double reach, double speed, double gra
   if (pair.restitution > 0 && speed < 0) return rest + speed * dt > 0 ? speed : -pair.restitution * speed;
   if (rest > 0) return -kApproach * rest / dt;
   return std::min(-kRecovery * rest / dt, std::sqrt(-2 * kRecoveryHeight * std::max(gravity, kLeastGravity) * rest));
-}
-
-/// What a contact may push: friction gives as much sideways as its coefficient allows for what presses.
-Vec3 allowed(const Vec3& impulse, const Vec3& normal, double friction) {
-  const double pressing = impulse.dot(normal);
-  if (!(pressing > 0)) return Vec3::Zero();
-  const Vec3 sideways = impulse - pressing * normal;
-  const double length = sideways.norm();
-  const double most = friction * pressing;
-  return length > most ? Vec3(pressing * normal + most / length * sideways) : impulse;
 }
 
 }  // namespace
@@ -208,7 +199,7 @@ void ContactSweep::warm_start(double scale) {
   for (Row& row : rows_) {
     if (row.impulse->isZero(0)) continue;
     *row.impulse *= scale;
-    if (!row.is_glue) *row.impulse = allowed(*row.impulse, row.normal, row.friction);
+    if (!row.is_glue) *row.impulse = within_friction_cone(*row.impulse, row.normal, row.friction);
     const Vec3 velocity = velocity_of(row);
     wanted += row.impulse->dot(row.least_speed * row.normal - velocity);
     answered -= row.impulse->dot(velocity);
@@ -231,7 +222,7 @@ void ContactSweep::warm_start(double scale) {
 void ContactSweep::sweep() {
   for (const Row& row : rows_) {
     const Vec3 wanted = *row.impulse + (row.least_speed * row.normal - velocity_of(row)) / row.inverse_mass;
-    const Vec3 now = row.is_glue ? wanted : allowed(wanted, row.normal, row.friction);
+    const Vec3 now = row.is_glue ? wanted : within_friction_cone(wanted, row.normal, row.friction);
     push(row, now - *row.impulse);
     *row.impulse = now;
   }

@@ -55,6 +55,15 @@ void add_shares(const Group& group, std::size_t actor, int brick, const CornerWe
   }
 }
 
+Vec3 within_friction_cone(const Vec3& impulse, const Vec3& normal, double friction) {
+  const double pressing = impulse.dot(normal);
+  if (!(pressing > 0)) return Vec3::Zero();
+  const Vec3 sideways = impulse - pressing * normal;
+  const double length = sideways.norm();
+  const double most = friction * pressing;
+  return length > most ? Vec3(pressing * normal + most / length * sideways) : impulse;
+}
+
 double least_speed(double gap, double gravity, double dt) {
   if (gap >= 0) return -gap / dt;
   return std::min(-gap / (kRecoverySteps * dt), std::sqrt(-2 * std::max(gravity, kLeastGravity) * gap));

@@ -53,6 +53,9 @@ void add_shares(const Group& group, std::size_t actor, int brick, const CornerWe
   return std::uint64_t{other} << 50 | std::uint64_t{actor} << 36 | std::uint64_t(brick) << 3 | std::uint64_t(corner);
 }
 
+/// What a contact may push: friction gives as much sideways as its coefficient allows for what presses.
+[[nodiscard]] Vec3 within_friction_cone(const Vec3& impulse, const Vec3& normal, double friction);
+
 /// m/s^2: without gravity too what is found inside comes out.
 inline constexpr double kLeastGravity = 0.1;
 

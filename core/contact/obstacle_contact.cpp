@@ -6,8 +6,6 @@
 
 #include "core/body/body.h"
 #include "core/body/forces.h"
-#include "core/contact/pairs/feature_pairs.h"
-#include "core/contact/search/obstacle_surface.h"
 
 namespace sprung {
 namespace {
@@ -101,10 +99,9 @@ bool ObstacleContact::has_to_be_held(const BrickMotion& motion, const Hold& hold
   const Vec3 carried = velocity_at(hold.obstacle, hold.pose, place);
   const Vec3 velocity = motion.v * point.weights - carried;
   const Vec3 there = hold.pose.rotation.transpose() * (place - hold.pose.translation);
-  if (near.asked.least(there) - hold.left > hold.dt * velocity.norm()) return false;
+  if (near.asked.least(there) > hold.dt * velocity.norm()) return false;
   Gap gap = gap_now(hold.obstacle.shape, motion.brick_size, there, near);
   gap.normal = hold.pose.rotation * gap.normal;
-  gap.distance -= hold.left;
   const double speed = gap.normal.dot(velocity);
   if (!(gap.distance + hold.dt * speed <= 0)) return false;  // nor where a number is not finite
   double least = least_speed(gap.distance, hold.gravity, hold.dt);
@@ -122,9 +119,7 @@ void ObstacleContact::touch_brick(const World& world, const std::vector<Pose>& p
   const Body& body = *group[near.actor];
   const auto& nodes = body.grid.nodes[near.brick];
   const Obstacle& obstacle = world.obstacles[near.obstacle];
-  const bool is_guarded = world.guards_crossings && has_surface(obstacle.shape);
-  const double left = is_guarded ? kGuardedGap * body.grid.brick_size : 0;
-  const Hold hold{obstacle, poses[near.obstacle], world.gravity.norm(), dt, left};
+  const Hold hold{obstacle, poses[near.obstacle], world.gravity.norm(), dt};
   const BrickMotion motion{columns_of(nodes, body.positions), columns_of(nodes, body.velocities), body.grid.brick_size};
   const auto add = [&](const Held& held, std::uint64_t rank) {
     const std::size_t first = touches.shares.size();

@@ -54,7 +54,6 @@ class ObstacleContact {
     const Pose& pose;
     double gravity;  // m/s^2
     double dt;       // s
-    double left;     // m, between them
   };
   /// A point that has to be held.
   struct Held {

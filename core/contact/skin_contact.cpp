@@ -8,7 +8,6 @@
 
 #include "core/body/body.h"
 #include "core/contact/broad_phase.h"
-#include "core/contact/pairs/feature_pairs.h"
 #include "core/mesh/query/winding_tree.h"
 
 namespace sprung {
@@ -80,11 +79,10 @@ bool SkinContact::has_to_be_held(const World& world, double dt, const Group& gro
     velocity -= stance.weights[i] * pairs_.tracked(stance.pair->corners[i]).velocity;
   }
   const double speed = stance.normal.dot(velocity);
-  const double gap = stance.gap - (world.guards_crossings ? kGuardedGap * brick_ : 0);
-  if (!(gap + dt * speed <= 0)) return false;
+  if (!(stance.gap + dt * speed <= 0)) return false;
   const double room = stance.gap >= 0 ? 1 : room_of(group, *stance.pair);
   if (room < kSkinFlat && actors_[0] == actors_[1]) return false;
-  held.least_speed = room > kPressed ? least_speed(gap, world.gravity.norm(), dt) : 0;
+  held.least_speed = room > kPressed ? least_speed(stance.gap, world.gravity.norm(), dt) : 0;
   held.pull = held.least_speed - speed;
   const ContactPoint& at = skins_[point.actor]->points[point.point];
   held.key = touch_key(world.obstacles.size() + other_of(pairs_, *stance.pair), point.actor, at.brick, at.corner);

@@ -25,8 +25,8 @@ class CrossingGuard {
   explicit CrossingGuard(NearFeatures& near) : near_(near) {}
 
   /// Changes velocities so that nothing is crossed when all move by dt, after NearFeatures::begin_step()
-  /// and whatever has changed them since.
-  /// `inverse_masses` by body of the group and node, 1/kg, 0 for nodes that are held.
+  /// and whatever has changed them since. `inverse_masses` by body of the group and node, 1/kg, 0 for nodes that are
+  /// held.
   void apply(const World& world, const std::vector<Eigen::VectorXd>& inverse_masses, double dt);
 
  private:

@@ -68,11 +68,6 @@ std::optional<SurfaceMesh> mesh_of(const Shape& shape) {
 
 }  // namespace
 
-bool has_surface(const Shape& shape) {
-  return std::holds_alternative<SolidBox>(shape) || std::holds_alternative<SolidCylinder>(shape) ||
-         std::holds_alternative<MeshSolid>(shape);
-}
-
 std::optional<SoftBody> obstacle_surface(const Obstacle& obstacle, double brick_size) {
   std::optional<SurfaceMesh> mesh = mesh_of(obstacle.shape);
   if (!mesh) return std::nullopt;

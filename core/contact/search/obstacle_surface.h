@@ -5,9 +5,6 @@
 
 namespace sprung {
 
-/// Whether it has edges: a box, a cylinder or a mesh.
-[[nodiscard]] bool has_surface(const Shape& shape);
-
 /// The surface of a box, cylinder (a prism) or mesh as that of a body, whose few bricks move as one: what is sought
 /// among bodies is sought there in the same way. Triangles are no longer than a few bricks of `brick_size` (m). None
 /// for other shapes.

@@ -155,8 +155,9 @@ class GroupMover {
       movers_.push_back(std::make_unique<Mover>(world.bodies[i], world));
     }
     const GroupContacts contacts = states != nullptr ? states->of(group.bodies) : GroupContacts{};
-    impulses_.emplace(std::move(bodies), inverse_masses_, glue_within(world, group.bodies), contacts.skins);
     swept_ = contacts.swept;
+    if (swept_) return;
+    impulses_.emplace(std::move(bodies), inverse_masses_, glue_within(world, group.bodies), contacts.skins);
   }
 
   void kick(double dt) {
@@ -195,8 +196,8 @@ class GroupMover {
   double elapsed_;
   std::vector<std::unique_ptr<Mover>> movers_;
   std::vector<Eigen::VectorXd> inverse_masses_;
-  std::optional<ContactSolver> impulses_;
-  std::shared_ptr<SweptContacts> swept_;  // none: by impulses_
+  std::shared_ptr<SweptContacts> swept_;   // none: by impulses_
+  std::optional<ContactSolver> impulses_;  // none: by swept_
 };
 
 void check_finite(const World& world, double time) {
