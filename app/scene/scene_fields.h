@@ -256,7 +256,9 @@ void fields(auto& visit, Is<SceneBody> auto& body) {
          "a name from `sprung materials`; auto: the softest that carries the body; in a scene also { young, poisson, "
          "density, damping }"},
         body.material);
-  visit({"model", "law of the bricks: calibrated, tensile (Baudet et al. 2009), m1, m2-plain, m1-plain or fem"},
+  visit({"model",
+         "law of the bricks: calibrated, tensile (Baudet et al. 2009), m1, m2-plain, m1-plain, fem, or neo-hooke (an "
+         "experiment, slower: right where the surface cuts bricks)"},
         body.model);
   visit({"color", "\"#rrggbb\" where the mesh file gives no colour"}, body.color);
   visit({"look", "surface finish: plastic, gelatin, rubber or steel; default: by the material"}, body.look);

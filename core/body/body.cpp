@@ -11,6 +11,7 @@
 #include "core/body/brick_kernel.h"
 #include "core/body/brick_tiles.h"
 #include "core/law/hexahedron.h"
+#include "core/law/neo_hooke/solid_brick.h"
 #include "core/types.h"
 
 namespace sprung {
@@ -45,10 +46,23 @@ Rayleigh rayleigh_from_damping(const Material& material, double length) {
   return {.alpha = 0, .beta = 2 * material.damping / (2 * std::numbers::pi * frequency)};
 }
 
+namespace {
+
+std::vector<SolidMoments> bounded_moments_of(const BrickGrid& grid, const Material& material) {
+  std::vector<SolidMoments> moments(grid.cells.size());
+  if (grid.moments.empty()) return moments;
+  tbb::parallel_for(std::size_t{0}, moments.size(),
+                    [&](std::size_t brick) { moments[brick] = bounded_moments(material, grid.moments[brick]); });
+  return moments;
+}
+
+}  // namespace
+
 Body make_body(BrickGrid grid, Model model, const Material& material) {
   Body body;
   body.law = brick_law(model, material, grid.brick_size);
   if (model == Model::kFem) body.small_strain_stiffness = hexahedron_stiffness(material, grid.brick_size);
+  if (model == Model::kNeoHooke) body.moments = bounded_moments_of(grid, material);
   body.grid = std::move(grid);
   body.model = model;
   body.material = material;
@@ -73,7 +87,7 @@ void place(Body& body, const Mat3& rotation, const Vec3& translation) {
   move(body.rest_positions);
   move(body.positions);
   body.velocities = body.velocities * rotation.transpose();
-  if (!body.is_hexahedral()) return;
+  if (body.small_strain_stiffness.size() == 0) return;
   for (int a = 0; a < 24; a += 3) {
     for (int b = 0; b < 24; b += 3) {
       const Mat3 block = body.small_strain_stiffness.block<3, 3>(a, b);

@@ -32,6 +32,7 @@ struct Body {
   BrickLaw law;                            // of a full brick
   Eigen::MatrixXd small_strain_stiffness;  // 24 x 24, N/m, of a full brick: model kFem only, else empty
   Rayleigh damping;
+  std::vector<SolidMoments> moments;        // per brick, as its law bears them: model kNeoHooke only, else empty
   std::vector<double> stiffness_scale;      // per brick: its fill, at least kStiffnessFloor
   Eigen::VectorXd masses;                   // per node, kg; sum = density * volume
   Points rest_positions;                    // m x 3, m: the grid's nodes moved to where the body starts
@@ -40,8 +41,6 @@ struct Body {
   std::shared_ptr<const BrickTiles> tiles;  // how the springs are computed, see build_tiles()
 
   [[nodiscard]] int node_count() const { return int(positions.rows()); }
-  /// Trilinear hexahedra in place of springs (Model::kFem).
-  [[nodiscard]] bool is_hexahedral() const { return small_strain_stiffness.size() > 0; }
 };
 
 /// A brick keeps at least this share of a full brick's stiffness and mass: slivers would cost step size for nothing.

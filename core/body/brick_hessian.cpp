@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "core/body/brick_model.h"
 #include "core/types.h"
 
 namespace sprung {
@@ -132,24 +133,13 @@ BrickMatrix without_negative_curvature(const BrickMatrix& hessian) {
   return solver.eigenvectors() * solver.eigenvalues().cwiseMax(0).asDiagonal() * solver.eigenvectors().transpose();
 }
 
-BrickMatrix body_brick_hessian(const Body& body, std::size_t brick) {
-  if (body.is_hexahedral()) return body.stiffness_scale[brick] * body.small_strain_stiffness;
-  return body.stiffness_scale[brick] * brick_hessian(body.law, body.grid.brick_size, brick_corners(body, brick));
-}
-
-BrickMatrix rest_brick_hessian(const Body& body) {
-  if (body.is_hexahedral()) return body.small_strain_stiffness;
-  CornerVectors<double> rest{};
-  for (int corner = 0; corner < 8; ++corner) {
-    for (int axis = 0; axis < 3; ++axis) {
-      rest[3 * corner + axis] = on_high_side(corner, axis) ? body.grid.brick_size : 0;
-    }
-  }
-  return brick_hessian(body.law, body.grid.brick_size, rest);
+BrickMatrix body_brick_hessian(const Body& body, std::size_t brick, bool definite) {
+  return brick_model(body.model).hessian(body, brick, at_corners(body, brick, body.positions), definite);
 }
 
 double largest_brick_stiffness(const Body& body) {
-  return Eigen::SelfAdjointEigenSolver<BrickMatrix>(rest_brick_hessian(body), Eigen::EigenvaluesOnly)
+  return Eigen::SelfAdjointEigenSolver<BrickMatrix>(brick_model(body.model).full_brick_hessian(body),
+                                                    Eigen::EigenvaluesOnly)
       .eigenvalues()
       .maxCoeff();
 }

@@ -3,23 +3,19 @@
 
 #include "core/body/body.h"
 #include "core/body/brick_kernel.h"
+#include "core/law/brick_vector.h"
 
 namespace sprung {
-
-using BrickMatrix = Eigen::Matrix<double, 24, 24>;
 
 /// Second derivative of the energy of one full brick of side h with corners at x: 24 x 24, N/m, symmetric, guard
 /// included. Away from rest it may have negative eigenvalues.
 [[nodiscard]] BrickMatrix brick_hessian(const BrickLaw& law, double h, const CornerVectors<double>& x);
 
-/// That of one brick of a body where it stands, its share of a full brick included.
-[[nodiscard]] BrickMatrix body_brick_hessian(const Body& body, std::size_t brick);
+/// That of one brick of a body where it stands, by its model. `definite`: as BrickModel::hessian() has it.
+[[nodiscard]] BrickMatrix body_brick_hessian(const Body& body, std::size_t brick, bool definite = false);
 
 /// The same matrix with its negative eigenvalues set to zero, so that Newton's direction stays downhill.
 [[nodiscard]] BrickMatrix without_negative_curvature(const BrickMatrix& hessian);
-
-/// That of a full brick of the body at rest.
-[[nodiscard]] BrickMatrix rest_brick_hessian(const Body& body);
 
 /// The largest eigenvalue (N/m) of a full brick's stiffness at rest, guard left out. Over the mass of a corner it is
 /// the square of the fastest frequency any body of such bricks can have.

@@ -6,16 +6,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/body/body.h"
+#include "core/body/brick_model.h"
 
 namespace sprung {
 namespace {
 
 constexpr double kSmallestVolume = 0.05;  // that a stress is divided by
 
-/// The deformation gradient of a brick's mean axes, from the grid's axes.
-Mat3 mean_gradient(const Body& body, std::size_t brick, const Points& positions) {
-  return mean_axes_of(columns_of(body.grid.nodes[brick], positions)) / body.grid.brick_size;
+Mat3 gradient_of(const Body& body, std::size_t brick, const Points& positions) {
+  return brick_model(body.model).gradient(body, brick, at_corners(body, brick, positions));
 }
 
 Mat3 deviator(const Mat3& tensor) { return tensor - tensor.trace() / 3 * Mat3::Identity(); }
@@ -24,14 +23,14 @@ Mat3 green_strain(const Mat3& gradient) { return 0.5 * (gradient.transpose() * g
 
 double von_mises_strain(const Mat3& strain) { return std::sqrt(2.0 / 3) * deviator(strain).norm(); }
 
-double measure_brick(BrickMeasure measure, const Mat3& gradient, double young, double poisson) {
+double measure_brick(const Body& body, BrickMeasure measure, const Mat3& gradient, double young) {
   switch (measure) {
     case BrickMeasure::kStretch:
       return Eigen::JacobiSVD<Mat3>(gradient).singularValues()[0];
     case BrickMeasure::kStrain:
       return von_mises_strain(green_strain(gradient));
     case BrickMeasure::kStress:
-      return von_mises(cauchy_stress(gradient, hooke_stress(green_strain(gradient), young, poisson)));
+      return von_mises(cauchy_stress(gradient, brick_model(body.model).second_stress(body, gradient, young)));
     case BrickMeasure::kVolume:
       break;
   }
@@ -39,19 +38,19 @@ double measure_brick(BrickMeasure measure, const Mat3& gradient, double young, d
 }
 
 /// `gradient`: in the axes of the body at rest.
-double measure_small(BrickMeasure measure, const Mat3& gradient, double young, double poisson) {
+double measure_small(const Body& body, BrickMeasure measure, const Mat3& gradient, double young) {
   const Mat3 strain = 0.5 * (gradient + gradient.transpose()) - Mat3::Identity();
   switch (measure) {
     case BrickMeasure::kStrain:
       return von_mises_strain(strain);
     case BrickMeasure::kStress:
-      return von_mises(hooke_stress(strain, young, poisson));
+      return von_mises(hooke_stress(strain, young, body.material.poisson));
     case BrickMeasure::kVolume:
       return 1 + strain.trace();
     case BrickMeasure::kStretch:
       break;
   }
-  return measure_brick(measure, gradient, young, poisson);
+  return measure_brick(body, measure, gradient, young);
 }
 
 }  // namespace
@@ -80,14 +79,13 @@ Eigen::VectorXd brick_youngs(const Body& body) {
 Eigen::VectorXd measure_bricks(const Body& body, BrickMeasure measure, const Points& positions, StrainMeasure strain) {
   const Eigen::VectorXd youngs = brick_youngs(body);
   const bool is_small = strain == StrainMeasure::kSmall;
-  const Mat3 turn = is_small ? mean_gradient(body, 0, body.rest_positions) : Mat3(Mat3::Identity());
+  const Mat3 turn = is_small ? gradient_of(body, 0, body.rest_positions) : Mat3(Mat3::Identity());
   Eigen::VectorXd values(body.grid.brick_count());
   tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, values.size(), 512), [&](const auto& range) {
     for (Eigen::Index brick = range.begin(); brick < range.end(); ++brick) {
-      const Mat3 gradient = mean_gradient(body, brick, positions);
-      values[brick] = is_small
-                          ? measure_small(measure, turn.transpose() * gradient, youngs[brick], body.material.poisson)
-                          : measure_brick(measure, gradient, youngs[brick], body.material.poisson);
+      const Mat3 gradient = gradient_of(body, brick, positions);
+      values[brick] = is_small ? measure_small(body, measure, turn.transpose() * gradient, youngs[brick])
+                               : measure_brick(body, measure, gradient, youngs[brick]);
     }
   });
   return values;

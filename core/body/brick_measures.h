@@ -3,11 +3,11 @@
 
 namespace sprung {
 
-/// What the deformation gradient F of a brick says, that of its mean axes. E = (F^T F - 1) / 2, J = det F.
+/// What the deformation gradient F of a brick says (BrickModel::gradient()). E = (F^T F - 1) / 2, J = det F.
 enum class BrickMeasure {
   kStretch,  // largest principal stretch: greatest length over length at rest
   kStrain,   // von Mises: sqrt(2/3 dev E : dev E)
-  kStress,   // von Mises: sqrt(3/2 dev s : dev s), Pa, of s = F (lambda tr(E) + 2 mu E) F^T / J, St. Venant-Kirchhoff
+  kStress,   // von Mises: sqrt(3/2 dev s : dev s), Pa, of s = F S F^T / J, S = BrickModel::second_stress()
   kVolume    // J: volume over volume at rest
 };
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/body/brick_kernel.h"
+#include "core/body/brick_model.h"
 #include "core/body/brick_tiles.h"
 #include "core/body/kernel/pack.h"
 
@@ -106,56 +106,16 @@ void SpringSystem::move(Body& body, const Step& step, const Eigen::VectorXd& inv
 
 namespace {
 
-using BrickVector = Eigen::Matrix<double, 24, 1>;
-
-BrickVector at_corners(const Body& body, std::size_t brick, const Points& values) {
-  BrickVector gathered;
-  for (std::size_t corner = 0; corner < 8; ++corner) {
-    gathered.segment<3>(3 * corner) = values.row(body.grid.nodes[brick][corner]);
-  }
-  return gathered;
-}
-
-BrickVector displacement(const Body& body, std::size_t brick) {
-  return at_corners(body, brick, body.positions) - at_corners(body, brick, body.rest_positions);
-}
-
-/// A body of trilinear hexahedra, whose force is linear in the displacement from rest.
-BrickVector hexahedron_forces(const Body& body, std::size_t brick) {
-  const BrickVector lagged = displacement(body, brick) + body.damping.beta * at_corners(body, brick, body.velocities);
-  return -body.stiffness_scale[brick] * (body.small_strain_stiffness * lagged);
-}
-
-/// `x`: where its corners are.
-double hexahedron_energy(const Body& body, std::size_t brick, const BrickVector& x) {
-  const BrickVector u = x - at_corners(body, brick, body.rest_positions);
-  return 0.5 * body.stiffness_scale[brick] * u.dot(body.small_strain_stiffness * u);
-}
-
-void sum_hexahedra(const Body& body, CornerSums& sums, Points& forces) {
+void sum_brick_forces(const Body& body, CornerSums& sums, Points& forces) {
+  const BrickModel& model = brick_model(body.model);
   double* corner_forces = sums.room(body.grid);
   tbb::parallel_for(std::size_t{0}, body.grid.nodes.size(), [&](std::size_t brick) {
     Eigen::Map<BrickVector> corner_force(corner_forces + 24 * brick);
-    corner_force = hexahedron_forces(body, brick);
+    corner_force = model.damped_forces(body, brick, at_corners(body, brick, body.positions),
+                                       at_corners(body, brick, body.velocities));
   });
   forces.resize(body.node_count(), 3);
   sums.sum(forces.data());
-}
-
-BrickVector elastic_forces(const Body& body, std::size_t brick) {
-  if (body.is_hexahedral()) {
-    return -body.stiffness_scale[brick] * (body.small_strain_stiffness * displacement(body, brick));
-  }
-  CornerVectors<double> force{};
-  brick_forces<double>(body.law, body.grid.brick_size, brick_corners(body, brick), nullptr, force);
-  return body.stiffness_scale[brick] * Eigen::Map<const BrickVector>(force.data());
-}
-
-double spring_energy(const Body& body, std::size_t brick, const BrickVector& x) {
-  CornerVectors<double> corners;
-  std::copy(x.begin(), x.end(), corners.begin());
-  CornerVectors<double> force{};
-  return body.stiffness_scale[brick] * brick_forces<double>(body.law, body.grid.brick_size, corners, nullptr, force);
 }
 
 /// A number of each brick, summed in their order.
@@ -169,17 +129,18 @@ double sum_over_bricks(const Body& body, const Number& number) {
 }  // namespace
 
 void spring_forces(const Body& body, ForceWorkspace& workspace, Points& forces) {
-  if (body.is_hexahedral()) {
-    sum_hexahedra(body, workspace.hexahedra, forces);
-  } else {
+  if (has_springs(body.model)) {
     workspace.springs.forces(body, forces);
+  } else {
+    sum_brick_forces(body, workspace.bricks, forces);
   }
 }
 
 double elastic_energy(const Body& body, ForceWorkspace& workspace) {
-  if (!body.is_hexahedral()) return workspace.springs.energy(body);
+  if (has_springs(body.model)) return workspace.springs.energy(body);
+  const BrickModel& model = brick_model(body.model);
   return sum_over_bricks(
-      body, [&](std::size_t brick) { return hexahedron_energy(body, brick, at_corners(body, brick, body.positions)); });
+      body, [&](std::size_t brick) { return model.energy(body, brick, at_corners(body, brick, body.positions)); });
 }
 
 double elastic_energy(const Body& body) {
@@ -188,17 +149,20 @@ double elastic_energy(const Body& body) {
 }
 
 Eigen::VectorXd brick_energies(const Body& body, const std::vector<int>& bricks, const Points& positions) {
+  const BrickModel& model = brick_model(body.model);
   Eigen::VectorXd energies(Eigen::Index(bricks.size()));
   tbb::parallel_for(std::size_t{0}, bricks.size(), [&](std::size_t row) {
-    const BrickVector x = at_corners(body, bricks[row], positions);
-    energies[Eigen::Index(row)] =
-        body.is_hexahedral() ? hexahedron_energy(body, bricks[row], x) : spring_energy(body, bricks[row], x);
+    const std::size_t brick = bricks[row];
+    energies[Eigen::Index(row)] = model.energy(body, brick, at_corners(body, brick, positions));
   });
   return energies;
 }
 
 double corner_force_sum(const Body& body) {
-  return sum_over_bricks(body, [&](std::size_t brick) { return elastic_forces(body, brick).lpNorm<1>(); });
+  const BrickModel& model = brick_model(body.model);
+  return sum_over_bricks(body, [&](std::size_t brick) {
+    return model.forces(body, brick, at_corners(body, brick, body.positions)).lpNorm<1>();
+  });
 }
 
 double kinetic_energy(const Body& body) { return 0.5 * body.masses.dot(body.velocities.rowwise().squaredNorm()); }

@@ -7,8 +7,8 @@
 namespace sprung {
 
 /// The springs of a body at work, with the room they need, kept from step to step. Tiles are computed in parallel and
-/// what they add to shared nodes is summed in a fixed order: the same bits for any number of threads. Not for the
-/// trilinear hexahedra of Model::kFem, which are no springs.
+/// what they add to shared nodes is summed in a fixed order: the same bits for any number of threads. Only for models
+/// that has_springs().
 class SpringSystem {
  public:
   explicit SpringSystem(const SpringKernel& kernel = best_spring_kernel()) : kernel_(kernel) {}
@@ -54,14 +54,14 @@ class SpringSystem {
 /// Room for the forces of one body, kept between steps.
 struct ForceWorkspace {
   SpringSystem springs;
-  CornerSums hexahedra;  // Model::kFem only
+  CornerSums bricks;  // models without springs
 };
 
-/// Forces of all springs on the nodes, m x 3, N: elastic, guard, and beta damping (at body.velocities), without gravity
+/// Forces of all bricks on the nodes, m x 3, N: elastic, guard, and beta damping (at body.velocities), without gravity
 /// and alpha damping. The same bits for any number of threads.
 void spring_forces(const Body& body, ForceWorkspace& workspace, Points& forces);
 
-/// Elastic energy stored in the springs, J, guard included.
+/// Elastic energy stored in the bricks, J, guard included.
 [[nodiscard]] double elastic_energy(const Body& body, ForceWorkspace& workspace);
 [[nodiscard]] double elastic_energy(const Body& body);
 

@@ -12,6 +12,8 @@
 #include <span>
 #include <vector>
 
+#include "core/body/brick_model.h"
+
 namespace sprung {
 namespace {
 
@@ -88,11 +90,12 @@ class Recovery {
  public:
   Recovery(const Body& body, const Points& positions, StrainMeasure measure)
       : body_(body),
+        model_(brick_model(body.model)),
         positions_(positions),
         youngs_(brick_youngs(body)),
         corners_(list_corners(body.grid.nodes, body.node_count())) {
     if (measure == StrainMeasure::kFinite) return;
-    at_rest_ = mean_axes_of(columns_of(body.grid.nodes[0], body.rest_positions)) / body.grid.brick_size;
+    at_rest_ = model_.gradient(body, 0, at_corners(body, 0, body.rest_positions));
   }
 
   [[nodiscard]] StressTensors at(const std::vector<int>& nodes) const {
@@ -140,15 +143,25 @@ class Recovery {
     return six_of(cauchy_stress(gradient, tensor_of(mean.stress()))).transpose();
   }
 
-  [[nodiscard]] Mat3 gradient_of(int brick) const { return mean_axes_of(corners(brick)) / body_.grid.brick_size; }
+  [[nodiscard]] Mat3 gradient_of(int brick) const {
+    return model_.gradient(body_, brick, at_corners(body_, brick, positions_));
+  }
+
+  /// m, in the frame of the grid, where gradient_of() is.
+  [[nodiscard]] Vec3 middle_of(int brick) const {
+    return brick_middle(body_.grid, brick) + body_.grid.brick_size * model_.middle(body_, brick);
+  }
 
   [[nodiscard]] State state_of(int brick) const {
     const Mat3 gradient = gradient_of(brick);
-    const Mat3 reference = at_rest_.value_or(gradient);
-    const Mat3 product = reference.transpose() * gradient;
-    const Mat3 strain = (at_rest_ ? 1.0 : 0.5) * (0.5 * (product + product.transpose()) - Mat3::Identity());
     State state;
-    state.numbers << six_of(hooke_stress(strain, youngs_[brick], body_.material.poisson)), reference.reshaped();
+    if (!at_rest_) {
+      state.numbers << six_of(model_.second_stress(body_, gradient, youngs_[brick])), gradient.reshaped();
+      return state;
+    }
+    const Mat3 product = at_rest_->transpose() * gradient;
+    const Mat3 strain = 0.5 * (product + product.transpose()) - Mat3::Identity();
+    state.numbers << six_of(hooke_stress(strain, youngs_[brick], body_.material.poisson)), at_rest_->reshaped();
     return state;
   }
 
@@ -175,7 +188,7 @@ class Recovery {
     for (const int other : near) {
       const double weight = weight_of(other);
       weights += weight;
-      line.place += weight * brick_middle(grid, other);
+      line.place += weight * middle_of(other);
       line.state.numbers += weight * state_of(other).numbers;
     }
     line.place /= weights;
@@ -185,7 +198,7 @@ class Recovery {
     Slopes within = Slopes::Zero();
     for (const int other : near) {
       const double weight = weight_of(other) / weights;
-      const Vec3 way = brick_middle(grid, other) - line.place;
+      const Vec3 way = middle_of(other) - line.place;
       spread += weight * way * way.transpose();
       together += weight * (state_of(other).numbers - line.state.numbers) * way.transpose();
       within += weight * slopes_of(other);
@@ -206,6 +219,7 @@ class Recovery {
   [[nodiscard]] double weight_of(int brick) const { return body_.grid.fill[brick] * body_.grid.fill[brick]; }
 
   const Body& body_;
+  const BrickModel& model_;
   const Points& positions_;
   Eigen::VectorXd youngs_;  // Pa
   CornerLists corners_;

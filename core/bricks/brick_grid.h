@@ -5,6 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "core/bricks/solid_moments.h"
 #include "core/disjoint_sets.h"
 #include "core/types.h"
 
@@ -17,6 +18,7 @@ struct SolidPatch {
   int brick = 0;
   std::bitset<512> samples;            // bit x + 8 y + 64 z: the point at (x, y, z) + 1/2 eighths of the cell
   std::vector<Eigen::Vector3f> spots;  // points of solid too thin for samples, in [0, 1]^3 of the cell
+  SolidIntegrals solid;                // from the middle of the cell
 };
 
 /// The bricks of one body: the cells of a cubic lattice that hold solid, and the nodes at their corners. Corner c of a
@@ -32,6 +34,7 @@ struct BrickGrid {
   std::vector<std::array<int, 8>> nodes;  // n; rows of lattice, by corner
   std::vector<Eigen::Vector3i> lattice;   // m; lattice coordinates of each node, ordered by z, then y, then x
   std::vector<SolidPatch> patches;        // of the cells that the surface cuts, ordered as cells; empty: not computed
+  std::vector<SolidMoments> moments;      // n; empty: not known, all as of a full brick
 
   [[nodiscard]] int brick_count() const { return isize(cells); }
   [[nodiscard]] int node_count() const { return isize(lattice); }

@@ -9,6 +9,7 @@ FilledSolid fill_solid(const Solid& solid, double brick_size) {
   FilledSolid filled{.grid = voxelize(solid, brick_size), .pieces = {}};
   filled.pieces = split_pieces(solid, filled.grid);
   filled.slivers = absorb_slivers(filled.grid);
+  filled.grid.moments = solid_moments(filled.grid);
   return filled;
 }
 

@@ -51,6 +51,13 @@ int PieceList::beside(int brick, const Eigen::Vector3i& offset) const {
   return samples_.brick_at(grid_.cells[brick] + offset);
 }
 
+SolidIntegrals PieceList::solid_of(int piece) const {
+  const auto [brick, fill] = pieces_[piece];
+  const CutCell* cell = cut(brick);
+  if (cell == nullptr || cell->solid.empty()) return integrals_of(fill, {});
+  return cell->solid[piece - first(brick)].best(fill);
+}
+
 std::vector<PieceItem> PieceList::items(int brick) const {
   std::vector<PieceItem> items;
   const CutCell* cell = cut(brick);
@@ -304,7 +311,7 @@ SolidPatch patch_of(const PieceList& list, int piece, int row) {
   const int brick = list.brick_of(piece);
   const CutCell& cell = *list.cut(brick);
   const Eigen::Vector3i& at = list.grid().cells[brick];
-  SolidPatch patch{.cell = at, .brick = row, .samples = {}, .spots = {}};
+  SolidPatch patch{.cell = at, .brick = row, .samples = {}, .spots = {}, .solid = list.solid_of(piece)};
   for (std::size_t sample = 0; sample < cell.piece.size(); ++sample) {
     if (list.at(brick, int(sample)) != piece) continue;
     if (sample < patch.samples.size()) {
@@ -396,7 +403,16 @@ void drop_specks(BrickGrid& grid, PieceReport& report) {
   report.dropped_volume = lost * grid.brick_volume();
   std::erase_if(grid.patches, [&](const SolidPatch& patch) { return gone[patch.brick]; });
   remove_bricks(grid, gone, std::vector<int>(gone.size(), 0));
-  for (double& fill : grid.fill) fill *= sum / (sum - lost);
+  const auto is_cut = [](double fill) { return fill < 1; };
+  double cut = 0;
+  for (const double fill : grid.fill) cut += is_cut(fill) ? fill : 0;
+  const bool can_take_it = cut > lost;  // full bricks stay full where those that the surface cuts can
+  for (double& fill : grid.fill) {
+    if (!can_take_it)
+      fill *= sum / (sum - lost);
+    else if (is_cut(fill))
+      fill *= 1 + lost / cut;
+  }
 }
 
 Eigen::Vector3i counts_of(const BrickGrid& grid) {

@@ -42,6 +42,8 @@ class PieceList {
   [[nodiscard]] int at(int brick, int sample) const;
   /// The neighbouring brick, or -1.
   [[nodiscard]] int beside(int brick, const Eigen::Vector3i& offset) const;
+  /// From the middle of the cell.
+  [[nodiscard]] SolidIntegrals solid_of(int piece) const;
   /// All items of a brick.
   [[nodiscard]] std::vector<PieceItem> items(int brick) const;
 

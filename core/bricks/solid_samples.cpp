@@ -248,9 +248,12 @@ SolidSamples::SolidSamples(const CellSurface& surface, const BrickGrid& grid)
   }
   for (int axis = 0; axis < 3; ++axis) {
     for (const InsideRun& run : runs[axis]) add_run(run, axis);
-    runs[axis] = {};
   }
   tbb::parallel_for(std::size_t{0}, cut_cells_.size(), [&](std::size_t i) { find_pieces(cut_cells_[i]); });
+  std::vector<int> spots_passed(cut_cells_.size(), 0);
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const InsideRun& run : runs[axis]) integrate(run, axis, spots_passed);
+  }
 }
 
 int SolidSamples::brick_at(const Eigen::Vector3i& cell) const {
@@ -307,21 +310,39 @@ void SolidSamples::add_run(const InsideRun& run, int axis) {
   }
 }
 
+namespace {
+
+/// The samples of a line of samples along `axis` that are in a run's c-th cell.
+struct RunSamples {
+  int first;  // of the run, along the line
+  int last;
+  int begin;  // of these, those in the cell
+  int end;
+  int across;  // of the cell's sample at the beginning of the line
+
+  RunSamples(const InsideRun& run, int axis, int c)
+      : first(int(std::ceil(run.from * kSamplesAlong - 0.5))),
+        last(int(std::floor(run.to * kSamplesAlong - 0.5))),
+        begin(std::max(first, c * kSamplesAlong)),
+        end(std::min(last, c * kSamplesAlong + kSamplesAlong - 1)),
+        across(run.u % kSamplesAlong * kStride[(axis + 1) % 3] + run.v % kSamplesAlong * kStride[(axis + 2) % 3]) {}
+
+  [[nodiscard]] bool is_spot() const { return begin > end; }
+};
+
+}  // namespace
+
 /// The part of a run in its c-th cell.
 SolidSamples::Stretch SolidSamples::add_stretch(const InsideRun& run, int axis, int c, CutCell& cell) {
-  const auto first = int(std::ceil(run.from * kSamplesAlong - 0.5));
-  const auto last = int(std::floor(run.to * kSamplesAlong - 0.5));
-  const int begin = std::max(first, c * kSamplesAlong);
-  const int end = std::min(last, c * kSamplesAlong + kSamplesAlong - 1);
-  if (begin > end) return add_spot(run, axis, c, cell);
-  const int across = run.u % kSamplesAlong * kStride[(axis + 1) % 3] + run.v % kSamplesAlong * kStride[(axis + 2) % 3];
-  const auto sample_at = [&](int s) { return across + (s - c * kSamplesAlong) * kStride[axis]; };
-  for (int s = begin; s <= end; ++s) {
+  const RunSamples samples(run, axis, c);
+  if (samples.is_spot()) return add_spot(run, axis, c, cell);
+  const auto sample_at = [&](int s) { return samples.across + (s - c * kSamplesAlong) * kStride[axis]; };
+  for (int s = samples.begin; s <= samples.end; ++s) {
     const std::size_t sample = sample_at(s);
-    cell.lines[sample] |= static_cast<std::uint8_t>(1U << axis | (s < last ? 8U << axis : 0U));
-    cell.below[sample] |= static_cast<std::uint8_t>(s > first ? 1U << axis : 0U);
+    cell.lines[sample] |= static_cast<std::uint8_t>(1U << axis | (s < samples.last ? 8U << axis : 0U));
+    cell.below[sample] |= static_cast<std::uint8_t>(s > samples.first ? 1U << axis : 0U);
   }
-  return {sample_at(begin), sample_at(end)};
+  return {sample_at(samples.begin), sample_at(samples.end)};
 }
 
 SolidSamples::Stretch SolidSamples::add_spot(const InsideRun& run, int axis, int c, CutCell& cell) {
@@ -335,6 +356,32 @@ SolidSamples::Stretch SolidSamples::add_spot(const InsideRun& run, int axis, int
   const int spot = kSamples + isize(cell.spots);
   cell.spots.push_back({middle, float((to - from) / kSamplePitch / 3)});
   return {spot, spot};
+}
+
+/// Adds what a run holds of the pieces of the cells that it passes. Runs come in the order in which they made their
+/// spots, of which `spots_passed` counts those of each cell.
+void SolidSamples::integrate(const InsideRun& run, int axis, std::vector<int>& spots_passed) {
+  const int last_cell = std::min(int(std::ceil(run.to)), counts_[axis]) - 1;
+  for (int c = int(run.from); c <= last_cell; ++c) {
+    const int brick = brick_at(cell_on(run, axis, c));
+    const int row = brick < 0 ? -1 : cut_cell_of_[brick];
+    if (row < 0) continue;
+    CutCell& cell = cut_cells_[row];
+    const double from = std::max(run.from, double(c));
+    const double to = std::min(run.to, c + 1.0);
+    const RunSamples samples(run, axis, c);
+    if (samples.is_spot() && to - from < kShortest) continue;
+    const int item = samples.is_spot() ? kSamples + spots_passed[row]++
+                                       : samples.across + (samples.begin - c * kSamplesAlong) * kStride[axis];
+    const int piece = cell.piece[item];
+    if (piece == 0) continue;
+    if (cell.solid.empty()) cell.solid.resize(cell.weights.size());
+    Vec3 line = Vec3::Zero();
+    line[(axis + 1) % 3] = (run.u % kSamplesAlong + 0.5) * kSamplePitch - 0.5;
+    line[(axis + 2) % 3] = (run.v % kSamplesAlong + 0.5) * kSamplePitch - 0.5;
+    const int ends = (run.from > c ? 1 : 0) + (run.to < c + 1 ? 1 : 0);
+    cell.solid[piece - 1].add(axis, line, from - c - 0.5, to - c - 0.5, ends);
+  }
 }
 
 void SolidSamples::find_pieces(CutCell& cell) const {

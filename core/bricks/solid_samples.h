@@ -61,8 +61,9 @@ struct CutCell {
   std::array<std::uint8_t, 512> lines{};  // bit axis: inside by that axis's line; 3 + axis: up to the next sample
   std::array<std::uint8_t, 512> below{};  // bit axis: inside down to the sample before
   std::vector<Spot> spots;
-  std::vector<std::uint8_t> piece;  // of each sample and spot, counted from 1; 0: outside, or too small
-  std::vector<float> weights;       // of the pieces, in samples
+  std::vector<std::uint8_t> piece;     // of each sample and spot, counted from 1; 0: outside, or too small
+  std::vector<float> weights;          // of the pieces, in samples
+  std::vector<LineIntegrals> solid{};  // of the pieces
 };
 
 /// Two samples on one line in neighbouring cells, at least one a spot, with no surface between them.
@@ -103,6 +104,7 @@ class SolidSamples {
   static Stretch add_stretch(const InsideRun& run, int axis, int c, CutCell& cell);
   static Stretch add_spot(const InsideRun& run, int axis, int c, CutCell& cell);
   void find_pieces(CutCell& cell) const;
+  void integrate(const InsideRun& run, int axis, std::vector<int>& spots_passed);
   void join_spots(const CutCell& cell, DisjointSets& sets) const;
   void join_diagonally(const CutCell& cell, DisjointSets& sets) const;
 

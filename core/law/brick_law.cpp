@@ -11,7 +11,8 @@
 namespace sprung {
 namespace {
 
-constexpr std::array<std::string_view, 6> kModelNames{"calibrated", "tensile", "m1", "m2-plain", "m1-plain", "fem"};
+constexpr std::array<std::string_view, 7> kModelNames{"calibrated", "tensile", "m1",       "m2-plain",
+                                                      "m1-plain",   "fem",     "neo-hooke"};
 
 constexpr double kGuardStiffness = 5;  // in units of E h^3
 
@@ -41,6 +42,16 @@ BrickLaw calibrated_law(const Material& material, double h) {
   law.bending_cross = h / 3 * plate * material.poisson - 2 * law.face;
   calibrate_stretch(law, material, h);
   return law;
+}
+
+/// Of the volume term of NeoHooke below that.
+void check_dilation(double poisson) {
+  if (poisson >= -0.5) return;
+  throw Error(
+      ErrorKind::kBadInput,
+      fmt::format("model neo-hooke cannot represent Poisson's ratio {}: below -0.5 it would swell by itself; use "
+                  "model calibrated",
+                  poisson));
 }
 
 void check_edge_spring(std::string_view model, double poisson, double least, bool allowed) {
@@ -85,6 +96,9 @@ BrickLaw law_of(Model model, const Material& material, double h) {
       if (model == Model::kM1) calibrate_stretch(law, material, h);
       return law;
     }
+    case Model::kNeoHooke:
+      check_dilation(material.poisson);
+      break;
     case Model::kFem:
       break;
   }
@@ -106,7 +120,11 @@ Model model_from_name(std::string_view name) {
 BrickLaw brick_law(Model model, const Material& material, double h) {
   check_material(material);
   BrickLaw law = law_of(model, material, h);
-  if (model != Model::kFem) law.guard = kGuardStiffness * material.young * h * h * h;
+  if (has_springs(model)) {
+    law.guard = kGuardStiffness * material.young * h * h * h;
+  } else {
+    law.guard_ratio = 0;
+  }
   return law;
 }
 

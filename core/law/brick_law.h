@@ -13,10 +13,13 @@ enum class Model {
   kM1,          // the paper's M1 with its corrections: exact in stretch and shear
   kM2Plain,     // M2 without corrections: right at nu = 1/4 only
   kM1Plain,     // M1 without corrections: right at nu = 1/4 only
-  kFem          // no springs: the trilinear hexahedron, small strains, to compare with (see hexahedron.h)
+  kFem,         // no springs: the trilinear hexahedron, small strains, to compare with (see hexahedron.h)
+  kNeoHooke     // no springs alone: neo-Hookean, by the moments of what a brick holds (see neo_hooke/solid_brick.h)
 };
 
 [[nodiscard]] std::string_view model_name(Model model);
+/// Whether bodies of the model are mass-spring systems, whose bricks are a BrickLaw each.
+[[nodiscard]] constexpr bool has_springs(Model model) { return model != Model::kFem && model != Model::kNeoHooke; }
 /// Throws Error(kUsage) with the nearest name.
 [[nodiscard]] Model model_from_name(std::string_view name);
 
@@ -51,9 +54,9 @@ struct BrickLaw {
 [[nodiscard]] std::span<const std::string_view> model_names();
 
 /// The law of a brick of side h (m). Throws Error(kBadInput) where the model cannot represent the material (M2 needs
-/// -1/4 < nu, M1 0 <= nu: an edge spring must not push). kFem has no springs and gets an empty law.
-/// Source of kTensile and kM1 (the paper): Baudet, Beuve, Jaillet, Shariat, Zara, "Integrating Tensile Parameters in
-/// Hexahedral Mass-Spring System for Simulation", WSCG 2009: inner = 3 E h / (8 (1+nu)), edge = E h (4 nu + 1) / (8
+/// -1/4 < nu, M1 0 <= nu: an edge spring must not push; kNeoHooke -1/2 <= nu). A model without springs gets an empty
+/// law. Source of kTensile and kM1 (the paper): Baudet, Beuve, Jaillet, Shariat, Zara, "Integrating Tensile Parameters
+/// in Hexahedral Mass-Spring System for Simulation", WSCG 2009: inner = 3 E h / (8 (1+nu)), edge = E h (4 nu + 1) / (8
 /// (1+nu)), and their correction forces as the potential axial = h (lambda J + 2 G I) - 4 edge I - (4/3) inner J - 2
 /// face (I + J). M1: face = G h / 2, edge = nu G h. kCalibrated: torsion gives face = G h / 6, shear then inner = 3/4
 /// (G h - 2 face), edge = 0, and two bending experiments give bending = (h/3) E/(1-nu^2) [[1, nu], [nu, 1]] - 2 face

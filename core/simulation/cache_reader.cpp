@@ -32,6 +32,17 @@ BrickGrid read_grid(const Hdf5Reader& hdf5, const std::string& folder) {
   return grid;
 }
 
+std::vector<SolidMoments> read_moments(const Hdf5Reader& hdf5, const std::string& folder) {
+  const auto centroids = read_matrix<Points>(hdf5, folder + "/centroids");
+  const auto covariances = read_matrix<Points>(hdf5, folder + "/covariances");
+  std::vector<SolidMoments> moments(centroids.rows());
+  for (std::size_t brick = 0; brick < moments.size(); ++brick) {
+    moments[brick].centroid = centroids.row(Eigen::Index(brick));
+    moments[brick].covariance = covariances.middleRows<3>(Eigen::Index(3 * brick));
+  }
+  return moments;
+}
+
 Color read_color(const Hdf5Reader& hdf5, const std::string& name) {
   const std::vector<std::uint8_t> values = hdf5.read<std::uint8_t>(name).values;
   return {values.at(0), values.at(1), values.at(2)};
@@ -62,6 +73,7 @@ SoftBody read_body(const Hdf5Reader& hdf5, const std::string& folder) {
   }
   body.color = read_color(hdf5, folder + "/color");
   body.grid = read_grid(hdf5, folder);
+  if (hdf5.has(folder + "/centroids")) body.grid.moments = read_moments(hdf5, folder);
   body.stiffness_scale = hdf5.read<double>(folder + "/stiffness_scale").values;
   body.masses = read_matrix<Numbers>(hdf5, folder + "/masses");
   body.rest_positions = read_matrix<Points>(hdf5, folder + "/rest_positions");

@@ -64,6 +64,18 @@ void write_surface(Hdf5Writer& hdf5, const std::string& folder, const SurfaceMes
               .materials = {}});
 }
 
+/// Only some models want them.
+void write_moments(Hdf5Writer& hdf5, const std::string& folder, const std::vector<SolidMoments>& moments) {
+  Points centroids(moments.size(), 3);
+  Points covariances(3 * moments.size(), 3);
+  for (std::size_t brick = 0; brick < moments.size(); ++brick) {
+    centroids.row(Eigen::Index(brick)) = moments[brick].centroid;
+    covariances.middleRows<3>(Eigen::Index(3 * brick)) = moments[brick].covariance;
+  }
+  write_matrix(hdf5, folder + "/centroids", centroids);
+  write_matrix(hdf5, folder + "/covariances", covariances);
+}
+
 void write_body(Hdf5Writer& hdf5, const std::string& folder, const SoftBody& body, bool is_exact) {
   write_number(hdf5, folder + "/body", int(body.origin.body));
   write_number(hdf5, folder + "/copy", body.origin.copy);
@@ -71,6 +83,7 @@ void write_body(Hdf5Writer& hdf5, const std::string& folder, const SoftBody& bod
   write_list(hdf5, folder + "/pinned", body.origin.pinned_nodes());
   write_color(hdf5, folder + "/color", body.color);
   write_grid(hdf5, folder, body.grid);
+  if (body.model == Model::kNeoHooke) write_moments(hdf5, folder, body.grid.moments);
   write_list(hdf5, folder + "/stiffness_scale", body.stiffness_scale);
   hdf5.write(folder + "/masses", flat_values(body.masses), {std::size_t(body.masses.size())});
   write_matrix(hdf5, folder + "/rest_positions", body.rest_positions);

@@ -156,7 +156,7 @@ void warn_of_locking(const Scene& scene, const std::vector<LoadedBody>& bodies, 
   constexpr double kMost = 0.49;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const double poisson = scene.bodies[i].material.poisson;
-    if (poisson <= kMost || scene.bodies[i].model == Model::kFem) continue;
+    if (poisson <= kMost || !has_springs(scene.bodies[i].model)) continue;
     observer.warn(fmt::format(
         "{}: Poisson's ratio {:.6g}: bricks lock above {}, they bend too little; {} is nearly as hard to compress",
         bodies[i].name, poisson, kMost, kMost));

@@ -21,6 +21,7 @@ const std::vector<std::string> kFolders{
     "core/mesh/io",
     "core/bricks",
     "core/law",
+    "core/law/neo_hooke",
     "core/body/kernel",
     "core/body",
     "core/skin",

@@ -30,7 +30,7 @@ void ImplicitDamping::pass(double dt) {
 }
 
 void ImplicitDamping::multiply(const Eigen::VectorXd& u, Eigen::VectorXd& product) {
-  springs_.multiply_along(actor_, actor_.positions, due_ * beta_, u, product);
+  multiply_damping(actor_, actor_.positions, due_ * beta_, u, workspace_, product);
   for (const KinematicNode& held : actor_.pinned) {
     for (int axis = 0; axis < 3; ++axis) {
       if (held.axes[axis]) product[3 * held.node + axis] = 0;

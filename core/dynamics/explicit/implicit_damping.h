@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "core/body/forces.h"
+#include "core/dynamics/linear/stiffness.h"
 #include "core/world/world.h"
 
 namespace sprung {
@@ -14,11 +14,11 @@ struct DampingShares {
   double implicit_beta = 0;  // s
 };
 
-/// Of a body as it stands, whose fastest frequency (largest_frequency_squared()) is known. What is no springs
-/// (Model::kFem) is all explicit.
+/// Of a body as it stands, whose fastest frequency (largest_frequency_squared()) is known. Small strains (Model::kFem)
+/// are all explicit.
 [[nodiscard]] DampingShares damping_shares(const Body& body, double frequency_squared);
 
-/// Slows the springs' rates by backward Euler: (M + T beta K) v' = M v, K their stiffness along themselves, T the steps
+/// Slows the rates of stretch by backward Euler: (M + T beta K) v' = M v, K what beta damping sees, T the steps
 /// since the last time. By conjugate gradients on the change of v, preconditioned by the masses: however early they
 /// stop, both momenta of a free body are kept. Deterministic for any number of threads.
 class ImplicitDamping {
@@ -40,7 +40,7 @@ class ImplicitDamping {
   double beta_;
   double due_ = 0;  // s
   int passed_ = 0;
-  SpringSystem springs_;
+  ProductWorkspace workspace_;
 };
 
 }  // namespace sprung

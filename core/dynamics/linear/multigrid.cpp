@@ -5,6 +5,7 @@
 #include <atomic>
 
 #include "core/body/brick_hessian.h"
+#include "core/body/brick_model.h"
 #include "core/body/forces.h"
 #include "core/dynamics/linear/linear_solver.h"
 #include "core/dynamics/linear/multigrid_level.h"
@@ -132,8 +133,8 @@ void MultigridSolver::fill_finest() {
 
 /// The fastest eigenvalue of a full brick at rest over its nodes' own blocks; 0 where bricks are too far from that.
 double MultigridSolver::fastest_of_brick() const {
-  if (definite_ || !points_of_brick_.empty() || is_guarded_) return 0;
-  const BrickMatrix brick = rest_brick_hessian(*body_);
+  if (definite_ || !points_of_brick_.empty() || is_guarded_ || !has_springs(body_->model)) return 0;
+  const BrickMatrix brick = brick_model(body_->model).full_brick_hessian(*body_);
   BrickMatrix blocks = BrickMatrix::Zero();
   for (int i = 0; i < 24; i += 3) blocks.block<3, 3>(i, i) = brick.block<3, 3>(i, i);
   return Eigen::GeneralizedSelfAdjointEigenSolver<BrickMatrix>(brick, blocks, Eigen::EigenvaluesOnly)
@@ -154,7 +155,7 @@ bool MultigridSolver::needs_pull(int block) const {
 }
 
 bool MultigridSolver::is_peculiar(std::size_t brick, double volume_ratio) const {
-  if (volume_ratio < body_->law.guard_ratio || definite_ || body_->is_hexahedral()) return true;
+  if (volume_ratio < body_->law.guard_ratio || definite_ || !has_springs(body_->model)) return true;
   if (!points_of_brick_.empty() && !points_of_brick_[brick].empty()) return true;
   return std::any_of(body_->grid.nodes[brick].begin(), body_->grid.nodes[brick].end(),
                      [&](int node) { return is_held_node_[node] != 0; });
@@ -180,7 +181,7 @@ void MultigridSolver::fill_block(int block, const EdgeCoupling& coupling) {
 
 /// The matrix of a brick that is more than its springs, held degrees of freedom taken out.
 BrickMatrix MultigridSolver::peculiar_matrix(std::size_t brick) const {
-  BrickMatrix matrix = (1 + terms_->damping) * body_brick_hessian(*body_, brick);
+  BrickMatrix matrix = (1 + terms_->damping) * body_brick_hessian(*body_, brick, definite_);
   if (definite_ && bends_downward(matrix)) matrix = without_negative_curvature(matrix);
   if (!points_of_brick_.empty()) {
     for (const PointStiffness* point : points_of_brick_[brick]) add_point_stiffness(*point, matrix);

@@ -2,8 +2,8 @@
 
 #include <tbb/parallel_for.h>
 
-#include "core/body/brick_damping.h"
 #include "core/body/brick_hessian.h"
+#include "core/body/brick_model.h"
 #include "core/dynamics/linear/multigrid_kernels.h"
 
 namespace sprung {
@@ -27,24 +27,8 @@ void add_point_product(const Body& body, const PointStiffness& point, const Eige
 
 namespace {
 
-/// A brick's stiffness along its springs where the damping is measured, column by column.
-BrickMatrix brick_stiffness_along(const Body& body, std::size_t brick, const StepTerms& terms) {
-  const double scale = body.stiffness_scale[brick];
-  if (body.is_hexahedral()) return scale * body.small_strain_stiffness;
-  CornerVectors<double> x{};
-  for (std::size_t i = 0; i < 24; ++i) {
-    x[i] = terms.damping_positions(body.grid.nodes[brick][i / 3], i % 3);
-  }
-  const auto directions = spring_directions(body.grid.brick_size, x);
-  BrickMatrix matrix;
-  for (int column = 0; column < 24; ++column) {
-    CornerVectors<double> unit{};
-    unit[column] = 1;
-    CornerVectors<double> product{};
-    damping_product(body.law, directions, unit, product);
-    matrix.col(column) = scale * Eigen::Map<const Eigen::Matrix<double, 24, 1>>(product.data());
-  }
-  return matrix;
+BrickMatrix brick_damping(const Body& body, std::size_t brick, const StepTerms& terms) {
+  return brick_model(body.model).damping(body, brick, at_corners(body, brick, terms.damping_positions));
 }
 
 }  // namespace
@@ -75,9 +59,9 @@ Eigen::SparseMatrix<double> stiffness_matrix(const Body& body, const FreeDofs& d
   const std::size_t bricks = body.grid.brick_count();
   std::vector<BrickMatrix> hessians(bricks);
   tbb::parallel_for(std::size_t{0}, bricks, [&](std::size_t brick) {
-    const BrickMatrix hessian = body_brick_hessian(body, brick);
+    const BrickMatrix hessian = body_brick_hessian(body, brick, definite);
     hessians[brick] = definite ? without_negative_curvature(hessian) : hessian;
-    if (terms.damping != 0) hessians[brick] += terms.damping * brick_stiffness_along(body, brick, terms);
+    if (terms.damping != 0) hessians[brick] += terms.damping * brick_damping(body, brick, terms);
   });
   for (const PointStiffness& point : terms.points) {
     add_point_stiffness(point, hessians[point.brick]);
@@ -108,15 +92,15 @@ namespace {
 
 constexpr int kBlocksPerTask = 32;
 
-void multiply_hexahedra(const Body& body, const Eigen::VectorXd& u, double* products) {
-  tbb::parallel_for(0, body.grid.brick_count(), [&](int brick) {
-    const std::size_t b = brick;
-    Eigen::Matrix<double, 24, 1> moves;
+/// `product`: of a brick, for what its corners move.
+template <class Product>
+void multiply_bricks(const Body& body, const Eigen::VectorXd& u, const Product& product, double* products) {
+  tbb::parallel_for(std::size_t{0}, body.grid.nodes.size(), [&](std::size_t brick) {
+    BrickVector moves;
     for (int c = 0; c < 8; ++c) {
-      moves.segment<3>(Eigen::Index{3} * c) = u.segment<3>(Eigen::Index{3} * body.grid.nodes[b][c]);
+      moves.segment<3>(Eigen::Index{3} * c) = u.segment<3>(Eigen::Index{3} * body.grid.nodes[brick][c]);
     }
-    Eigen::Map<Eigen::Matrix<double, 24, 1>> product(products + 24 * b);
-    product = body.stiffness_scale[b] * (body.small_strain_stiffness * moves);
+    Eigen::Map<BrickVector>(products + 24 * brick) = product(brick, moves);
   });
 }
 
@@ -135,10 +119,16 @@ void multiply_springs(const Body& body, const Eigen::VectorXd& u, double* produc
 void multiply_stiffness(const Body& body, const Eigen::VectorXd& u, ProductWorkspace& workspace,
                         Eigen::VectorXd& product) {
   double* products = workspace.sums.room(body.grid);
-  if (body.is_hexahedral()) {
-    multiply_hexahedra(body, u, products);
-  } else {
+  if (has_springs(body.model)) {
     multiply_springs(body, u, products);
+  } else {
+    const BrickModel& model = brick_model(body.model);
+    multiply_bricks(
+        body, u,
+        [&](std::size_t brick, const BrickVector& moves) {
+          return model.product(body, brick, at_corners(body, brick, body.positions), moves);
+        },
+        products);
   }
   product.resize(u.size());
   workspace.sums.sum(product.data());
@@ -146,12 +136,17 @@ void multiply_stiffness(const Body& body, const Eigen::VectorXd& u, ProductWorks
 
 void multiply_damping(const Body& body, const Points& positions, double factor, const Eigen::VectorXd& u,
                       ProductWorkspace& workspace, Eigen::VectorXd& product) {
-  if (body.is_hexahedral()) {
-    multiply_stiffness(body, u, workspace, product);
-    product *= factor;
-  } else {
-    workspace.springs.multiply_along(body, positions, factor, u, product);
-  }
+  if (has_springs(body.model)) return workspace.springs.multiply_along(body, positions, factor, u, product);
+  const BrickModel& model = brick_model(body.model);
+  multiply_bricks(
+      body, u,
+      [&](std::size_t brick, const BrickVector& moves) {
+        return model.damping_product(body, brick, at_corners(body, brick, positions), moves);
+      },
+      workspace.sums.room(body.grid));
+  product.resize(u.size());
+  workspace.sums.sum(product.data());
+  product *= factor;
 }
 
 }  // namespace sprung

@@ -124,6 +124,26 @@ TEST(Cache, GivesBackEveryBit) {
   EXPECT_EQ(read.simulation.obstacles.at(0).color.green, 5);
 }
 
+TEST(Cache, KeepsHowTheSolidLiesInItsBricksForModelsThatAskForIt) {
+  const TempFolder folder;
+  CacheHeader header = box_header(1);
+  SoftBody& made = header.simulation.world.bodies[0];
+  for (int brick = 0; brick < made.grid.brick_count(); ++brick) {
+    made.grid.moments.push_back({.centroid = Vec3(0.1, brick, 0.3), .covariance = Vec3(1, brick, 3).asDiagonal()});
+  }
+  for (const Model model : {Model::kCalibrated, Model::kNeoHooke}) {
+    made.model = model;
+    write_frames(folder.path() / model_name(model), header, 1);
+    const CacheReader reader(folder.path() / model_name(model));
+    const std::vector<SolidMoments>& read = reader.header().simulation.world.bodies.at(0).grid.moments;
+    ASSERT_EQ(read.size(), model == Model::kNeoHooke ? made.grid.moments.size() : 0);
+    for (std::size_t brick = 0; brick < read.size(); ++brick) {
+      EXPECT_EQ(read[brick].centroid, made.grid.moments[brick].centroid);
+      EXPECT_EQ(read[brick].covariance, made.grid.moments[brick].covariance);
+    }
+  }
+}
+
 TEST(Cache, WithAnErrorAllowedKeepsToItAndTheLastFrameToTheLastBit) {
   const TempFolder folder;
   CacheHeader header = box_header(12);
