@@ -174,7 +174,7 @@ CaseResult run_equations(const Choice& choice) {
 
 CaseResult run_uniaxial(const Choice& choice) {
   const Material material = light_material(1, choice.poisson.value_or(0.3));
-  constexpr std::array<Model, 3> kModels{Model::kCalibrated, Model::kTensile, Model::kM1};
+  constexpr std::array<Model, 4> kModels{Model::kCalibrated, Model::kTensile, Model::kM1, Model::kNeoHooke};
   std::vector<UniaxialLaw> laws;  // those that can be evaluated
   CaseResult result;
   for (const UniaxialLaw& law : uniaxial_laws(kModels, material)) {

@@ -94,7 +94,12 @@ std::span<const Case> built_in_cases() {
        "of bricks, in the units of its source. Stresses are those recovered at the point of the surface that the "
        "source "
        "names.",
-       run_tables, nullptr}};
+       run_tables, nullptr},
+      {"cut", "parts thinner than a brick, turned or round, and large strains: calibrated beside neo-hooke",
+       "What the surface cuts out of bricks. The calibrated brick has a share of a full brick's stiffness, and is too "
+       "stiff in bending by the square of what a part is thinner than it; neo-hooke knows how the solid lies in each "
+       "brick. Only its figures have a tolerance.",
+       run_cut, nullptr}};
   return cases;
 }
 

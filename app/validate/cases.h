@@ -54,6 +54,7 @@ struct Case {
 [[nodiscard]] CaseResult run_equations(const Choice& choice);
 [[nodiscard]] CaseResult run_uniaxial(const Choice& choice);
 [[nodiscard]] CaseResult run_tables(const Choice& choice, const Observer& observer);
+[[nodiscard]] CaseResult run_cut(const Choice& choice, const Observer& observer);
 
 [[nodiscard]] CasePicture draw_patch();
 [[nodiscard]] CasePicture draw_membrane_stretch();

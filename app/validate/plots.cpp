@@ -27,8 +27,9 @@ struct ModelStyle {
   double width;
 };
 
-constexpr std::array<ModelStyle, 6> kStyles{
+constexpr std::array<ModelStyle, 7> kStyles{
     {{"calibrated", "calibrated (default)", ink::kBlue, Marker::kCircle, false, 3.2},
+     {"neo-hooke", "neo-hooke (experiment)", ink::kSky, Marker::kCircle, false, 2},
      {"fem", "fem (hexahedron)", ink::kVermilion, Marker::kSquare, false, 2},
      {"tensile", "tensile (the paper)", ink::kGreen, Marker::kDiamond, false, 2},
      {"m1", "m1 (the paper)", ink::kPurple, Marker::kTriangle, false, 2},

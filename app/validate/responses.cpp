@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/body/brick_kernel.h"
+#include "core/body/brick_model.h"
 #include "core/dynamics/statics/statics.h"
 
 namespace sprung {
@@ -39,18 +39,18 @@ struct FaceForces {
   double sideways = 0;
 };
 
-FaceForces face_forces(const BrickLaw& law, double s, double t) {
-  CornerVectors<double> x{};
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    const auto axis = int(i % 3);
-    if (on_high_side(int(i / 3), axis)) x[i] = axis == 0 ? s : t;
+/// `brick`: a body of one.
+FaceForces face_forces(const Body& brick, double s, double t) {
+  const Vec3 stretches(s, t, t);
+  BrickVector x = BrickVector::Zero();
+  for (int i = 0; i < 24; ++i) {
+    if (on_high_side(i / 3, i % 3)) x[i] = stretches[i % 3];
   }
-  CornerVectors<double> force{};
-  brick_forces<double>(law, 1, x, nullptr, force);
+  const BrickVector force = brick_model(brick.model).forces(brick, 0, x);
   FaceForces faces;
-  for (std::size_t i = 0; i < x.size(); i += 3) {
-    if (on_high_side(int(i / 3), 0)) faces.along -= force[i];
-    if (on_high_side(int(i / 3), 1)) faces.sideways -= force[i + 1];
+  for (int corner = 0; corner < 8; ++corner) {
+    if (on_high_side(corner, 0)) faces.along -= force[3 * corner];
+    if (on_high_side(corner, 1)) faces.sideways -= force[3 * corner + 1];
   }
   return faces;
 }
@@ -73,10 +73,10 @@ Material light_material(double young, double poisson) {
 }
 
 UniaxialResponse brick_uniaxial(Model model, const Material& material, double stretch) {
-  const BrickLaw law = brick_law(model, material, 1);
+  const Body brick = make_body(make_box_grid({1, 1, 1}, 1), model, material);
   const double t = solve_sideways(first_guess(material, stretch),
-                                  [&](double side) { return face_forces(law, stretch, side).sideways; });
-  return {t, face_forces(law, stretch, t).along};
+                                  [&](double side) { return face_forces(brick, stretch, side).sideways; });
+  return {t, face_forces(brick, stretch, t).along};
 }
 
 UniaxialResponse st_venant_kirchhoff_uniaxial(const Material& material, double stretch) {

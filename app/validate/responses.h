@@ -18,9 +18,9 @@ struct UniaxialResponse {
   double stress = 0;    // nominal: force over the area at rest, Pa
 };
 
-/// One brick of a spring model (not kFem) at the stretch s along x. The sideways stretch t(s) at which the force on the
-/// sides vanishes is found by Newton's method. Springs are linear in their true stretch, so this is a hyperelastic law
-/// of its own. NaN where no t is found.
+/// One brick at the stretch s along x. The sideways stretch t(s) at which the force on the sides vanishes is found by
+/// Newton's method. Springs are linear in their true stretch, so they have a hyperelastic law of their own. NaN where
+/// no t is found.
 [[nodiscard]] UniaxialResponse brick_uniaxial(Model model, const Material& material, double stretch);
 
 /// St. Venant-Kirchhoff, W = lambda/2 tr(e)^2 + G e:e with Green's strain e: here stress = E s (s^2 - 1) / 2 and

@@ -219,7 +219,7 @@ class Runs {
         errors.poisson = variant.poisson;
         errors.grid = grid_text(variant);
       }
-      if (variant.model != Model::kFem) {
+      if (has_springs(variant.model)) {
         const Volume volume{variant, smallest_volume(simulation, *outcome.recording), body.law.guard_ratio};
         const auto [place, is_new] = volumes_.try_emplace(variant.model, volume);
         if (volume.smallest < place->second.smallest) place->second = volume;

@@ -6,6 +6,7 @@
 #include "app/validate/cases.h"
 #include "app/validate/mapped_block.h"
 #include "app/validate/table_scene.h"
+#include "core/error.h"
 #include "core/simulation/simulate.h"
 #include "core/simulation/simulation.h"
 

@@ -80,8 +80,8 @@ TEST(Equations, AreATableAndTheRatiosOfPlainSprings) {
 
 TEST(UniaxialCase, HoldsItsGatesAndKeepsToTheChoice) {
   const CaseResult result = run_uniaxial({});
-  EXPECT_EQ(held_gates(result).size(), 5U);
-  EXPECT_EQ(result.table.head.size(), 6U);
+  EXPECT_EQ(held_gates(result).size(), 6U);
+  EXPECT_EQ(result.table.head.size(), 7U);
   EXPECT_EQ(run_uniaxial({.model = Model::kM1, .poisson = -0.1, .bricks = {}}).table.head.size(), 3U);
 }
 
@@ -91,6 +91,13 @@ TEST(Tables, HoldTheirGates) {
   for (const Check& check : result.checks) EXPECT_EQ(check.trouble, "") << check.quantity;
   EXPECT_GE(held_gates(result).size(), 26U);
   EXPECT_TRUE(run_tables({.model = {}, .poisson = {}, .bricks = 4}, Observer()).checks.empty());
+}
+
+TEST(Cut, HoldsItsGates) {
+  const CaseResult result = run_cut({.model = Model::kNeoHooke, .poisson = {}, .bricks = {}}, Observer());
+  for (const Check& check : result.checks) EXPECT_EQ(check.trouble, "") << check.quantity;
+  EXPECT_GE(held_gates(result).size(), 50U);
+  EXPECT_TRUE(run_cut({.model = {}, .poisson = {}, .bricks = 4}, Observer()).checks.empty());
 }
 
 }  // namespace
