@@ -344,6 +344,85 @@ void add_clamped(std::vector<CutPart>& parts) {
   }
 }
 
+const std::string kCalculix = "finite elements (CalculiX C3D20R, tests/references/curved.py)";
+
+/// Half a brick thick, on no line of the bricks.
+void add_shells(std::vector<CutPart>& parts) {
+  constexpr double kPoisson = 0.3;
+  const auto ring = [](const Vec3& p) {
+    const double radius = 9.75 + 0.5 * p.x();
+    return Vec3(radius * std::cos(kPi * p.y()), radius * std::sin(kPi * p.y()), p.z());
+  };
+  for (const auto& [axis, expected] : {std::pair{0, 150.838}, {2, 462.453}}) {
+    TableScene scene(mapped_block({1, 180, 1}, ring), 1, 1000, kPoisson);
+    scene.hold_part("y-high").pull("y-low", Vec3::Unit(axis)).probe("tip", {10, 0, 0.5});
+    parts.push_back(
+        probed_part(scene, "1/2 across", kPoisson, axis,
+                    {fmt::format("half ring: tip.displacement.{}", "xyz"[axis]), expected, "m", kCalculix, kNaN}));
+  }
+  const auto segment = [](const Vec3& p) {
+    const double radius = 9.75 + 0.5 * p.x();
+    const double azimuth = kPi / 2 * p.y();
+    const double elevation = kPi / 3 * p.z();
+    return Vec3(radius * std::cos(elevation) * std::cos(azimuth), radius * std::cos(elevation) * std::sin(azimuth),
+                radius * std::sin(elevation));
+  };
+  TableScene scene(mapped_block({1, 60, 40}, segment), 1, 1000, kPoisson);
+  scene.hold_part("y-low").pull("y-high", {1, 0, 0}).probe("tip", {0, 10, 0});
+  parts.push_back(probed_part(scene, "1/2 across", kPoisson, 0,
+                              {"spherical shell: tip.displacement.x", 0.412165, "m", kCalculix, kNaN}));
+}
+
+/// Apparent modulus over E of a block 2 x 2 x 1 between plates that it is bonded to.
+double bonded_modulus(Model model, double poisson) {
+  constexpr int kHigh = 4;
+  constexpr double kPressed = 0.01;
+  const Body body =
+      make_body(make_box_grid({2 * kHigh, 2 * kHigh, kHigh}, 1.0 / kHigh), model, light_material(1, poisson));
+  Supports supports(body.node_count());
+  Points moved = Points::Zero(body.node_count(), 3);
+  std::vector<int> top;
+  for (int node = 0; node < body.node_count(); ++node) {
+    const int z = body.grid.lattice[node].z();
+    if (z == 0 || z == kHigh) supports.fix(node);
+    if (z != kHigh) continue;
+    moved(node, 2) = -kPressed;
+    top.push_back(node);
+  }
+  const auto system = make_direct_solver();
+  const Points forces = linear_response(body, supports, Points::Zero(body.node_count(), 3), moved, *system).reactions;
+  double sum = 0;
+  for (const int node : top) sum -= forces(node, 2);
+  return sum / 4 / kPressed;
+}
+
+void add_bonded(std::vector<CutPart>& parts) {
+  for (const auto& [poisson, expected] :
+       {std::pair{0.0, 1.0}, {0.3, 1.13593}, {0.45, 1.44209}, {0.49, 1.61539}, {0.499, 1.66594}}) {
+    parts.push_back({"8x8x4",
+                     poisson,
+                     {{"bonded block: modulus over E", expected, "", kCalculix, poisson <= 0.3 ? 0.02 : kNaN}},
+                     [nu = poisson](Model model) { return std::vector{bonded_modulus(model, nu)}; }});
+  }
+}
+
+/// An L of walls 6 mm thick, 80 x 60 x 30 mm, 50 N at the end of its arm; so many bricks along that.
+void add_brackets(std::vector<CutPart>& parts) {
+  const auto walls = [](const Vec3& p) {
+    const double deep = 6 * p.y();
+    const double along = 2 * p.x();
+    const double height = along <= 1 ? 60 + along * (deep - 60) : deep;
+    const double length = along <= 1 ? deep : deep + (along - 1) * (80 - deep);
+    return Vec3(length, height, 30 * p.z());
+  };
+  for (const int bricks : {12, 16, 20, 23, 24, 28, 32, 36, 48}) {
+    TableScene scene(mapped_block({2, 1, 1}, walls), 80.0 / bricks, 2100, 0.35);
+    scene.hold_part("x-low").pull("x-high", {0, -50, 0}).probe("tip", {80, 3, 15});
+    parts.push_back(probed_part(scene, fmt::format("{} along", bricks), 0.35, 1,
+                                {"bracket: tip.displacement.y (mm)", -20.489, "", kCalculix, kNaN}));
+  }
+}
+
 std::vector<CutPart> cut_parts() {
   std::vector<CutPart> parts;
   add_plates(parts);
@@ -351,6 +430,9 @@ std::vector<CutPart> cut_parts() {
   add_rods(parts);
   add_turned(parts);
   add_clamped(parts);
+  add_shells(parts);
+  add_bonded(parts);
+  add_brackets(parts);
   add_standing_cubes(parts);
   add_strains(parts);
   return parts;
