@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 #include "app/validate/cases.h"
+#include "app/validate/macneal.h"
 #include "app/validate/mapped_block.h"
 #include "app/validate/responses.h"
 #include "app/validate/table_scene.h"
@@ -20,6 +22,7 @@ namespace sprung {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
+const std::string kCalculix = "finite elements (CalculiX C3D20R, tests/references/curved.py)";
 
 /// A figure of a part, and what it should be.
 struct CutFigure {
@@ -109,8 +112,8 @@ void add_plates(std::vector<CutPart>& parts) {
 }
 
 /// A part that is a scene with one probe.
-CutPart probed_part(const TableScene& made, const std::string& bricks, double poisson, int axis, CutFigure figure) {
-  return {bricks, poisson, {std::move(figure)}, [scene = made.scene(), axis](Model model) {
+CutPart probed_part(const Scene& scene, const std::string& bricks, int axis, CutFigure figure) {
+  return {bricks, scene.bodies[0].material.poisson, {std::move(figure)}, [=](Model model) {
             return std::vector{probed(scene, model, axis)};
           }};
 }
@@ -122,7 +125,7 @@ void add_beams(std::vector<CutPart>& parts) {
     scene.hold("x-low").pull("x-high", {0, 0, 1}).probe("tip", {10, 0.5, 0.5});
     // L^3 / (3 E I) and shear, kappa = 10/12 at nu = 0.
     const double expected = (4 * 1000 + 10 * 2 * 1.2) / 1e6;
-    parts.push_back(probed_part(scene, fmt::format("{} across", across), 0, 2,
+    parts.push_back(probed_part(scene.scene(), fmt::format("{} across", across), 2,
                                 {"beam, end load: tip.displacement.z", expected, "m", "Timoshenko's beam", 0.02}));
   }
 }
@@ -153,14 +156,14 @@ void add_rods(std::vector<CutPart>& parts) {
     bent.hold("x-low").pull("x-high", {0, 0, 1}).probe("tip", {10, 0, 0});
     const double factor = 6 * (1 + kPoisson) / (7 + 6 * kPoisson);
     parts.push_back(probed_part(
-        bent, fmt::format("{} across", across), kPoisson, 2,
+        bent.scene(), fmt::format("{} across", across), 2,
         {"round rod, end load: tip.displacement.z", 1000 / (3 * kStiffness * polar / 2) + 10 / (factor * shear * area),
          "m", "Timoshenko's beam", 0.02}));
     TableScene twisted(rod_mesh(), 1.0 / across, kStiffness, kPoisson);
     twisted.hold("x-low").load("x-high").moment = Vec3(1, 0, 0);
     twisted.probe("rim", {10, 0.5, 0});
     parts.push_back(
-        probed_part(twisted, fmt::format("{} across", across), kPoisson, 2,
+        probed_part(twisted.scene(), fmt::format("{} across", across), 2,
                     {"round rod, torque: rim.displacement.z", 10 / (shear * polar) / 2, "m", "Saint-Venant", 0.02}));
   }
 }
@@ -233,6 +236,21 @@ void add_turned(std::vector<CutPart>& parts) {
                              free_vibration(turned_body(scene, degrees, model), free.sides.x(), free.expected);
                          return std::vector{found.bending, double(found.spurious)};
                        }});
+    }
+  }
+}
+
+/// The plate held at one end, its bricks turned; what free vibrations say of the law this says with a clamp.
+void add_clamped_plates(std::vector<CutPart>& parts) {
+  for (const double brick : {1.0, 0.5}) {
+    for (const double degrees : {0.0, 15.0, 30.0, 45.0}) {
+      TableScene plate(block_mesh({10, 4, 0.5}), brick, 1000, 0.3);
+      plate.hold_part("x-low").pull("x-high", {0, 0, 1}).probe("tip", {10, 2, 0.25});
+      Scene scene = plate.scene();
+      scene.bodies[0].brick_rotation = Vec3(0, 0.6 * degrees, degrees);
+      parts.push_back(probed_part(scene, brick == 1 ? "1/2 across" : "1 across", 2,
+                                  {fmt::format("clamped plate turned by {} degrees: tip.displacement.z", degrees),
+                                   7.77316, "m", kCalculix, kNaN}));
     }
   }
 }
@@ -335,16 +353,18 @@ void add_strains(std::vector<CutPart>& parts) {
 /// Whole bricks, two across: what is left is the clamp, which such bricks resolve the worse the less the solid gives
 /// way sideways.
 void add_clamped(std::vector<CutPart>& parts) {
+  const auto add = [&](double poisson, double expected, const std::string& source) {
+    parts.push_back(
+        {"8x2x2",
+         poisson,
+         {{"clamped beam under its weight: sag over theory", expected, "", source, poisson <= 0.3 ? 0.03 : kNaN}},
+         [=](Model model) { return std::vector{cantilever_deflection(model, poisson, 2)}; }});
+  };
   for (const DeflectionAt& known : reference_deflections()) {
-    parts.push_back({"8x2x2",
-                     known.poisson,
-                     {{"clamped beam under its weight: sag over theory", known.deflection, "",
-                       "finite elements (CalculiX C3D20R, converged)", known.poisson <= 0.3 ? 0.03 : kNaN}},
-                     [=](Model model) { return std::vector{cantilever_deflection(model, known.poisson, 2)}; }});
+    add(known.poisson, known.deflection, "finite elements (CalculiX C3D20R, converged)");
   }
+  add(0.499, 0.003876852 / 0.00384, kCalculix);  // over rho g L^4 / (8 E I)
 }
-
-const std::string kCalculix = "finite elements (CalculiX C3D20R, tests/references/curved.py)";
 
 /// Half a brick thick, on no line of the bricks.
 void add_shells(std::vector<CutPart>& parts) {
@@ -357,7 +377,7 @@ void add_shells(std::vector<CutPart>& parts) {
     TableScene scene(mapped_block({1, 180, 1}, ring), 1, 1000, kPoisson);
     scene.hold_part("y-high").pull("y-low", Vec3::Unit(axis)).probe("tip", {10, 0, 0.5});
     parts.push_back(
-        probed_part(scene, "1/2 across", kPoisson, axis,
+        probed_part(scene.scene(), "1/2 across", axis,
                     {fmt::format("half ring: tip.displacement.{}", "xyz"[axis]), expected, "m", kCalculix, kNaN}));
   }
   const auto segment = [](const Vec3& p) {
@@ -369,8 +389,21 @@ void add_shells(std::vector<CutPart>& parts) {
   };
   TableScene scene(mapped_block({1, 60, 40}, segment), 1, 1000, kPoisson);
   scene.hold_part("y-low").pull("y-high", {1, 0, 0}).probe("tip", {0, 10, 0});
-  parts.push_back(probed_part(scene, "1/2 across", kPoisson, 0,
+  parts.push_back(probed_part(scene.scene(), "1/2 across", 0,
                               {"spherical shell: tip.displacement.x", 0.412165, "m", kCalculix, kNaN}));
+}
+
+void add_macneal(std::vector<CutPart>& parts) {
+  const std::string source = "MacNeal and Harder (1985)";
+  for (const auto& [axis, twisted, curved] : {std::tuple{1, 0.001754, 0.08734}, {2, 0.005424, 0.5022}}) {
+    const std::string tip = fmt::format("tip.displacement.{}", "xyz"[axis]);
+    for (const int bricks : {6, 12}) {
+      parts.push_back(probed_part(twisted_beam_scene(axis, bricks), fmt::format("{} across", bricks), axis,
+                                  {"twisted beam: " + tip, twisted, "m", source, 0.01}));
+    }
+    parts.push_back(
+        probed_part(curved_beam_scene(axis), "3 across", axis, {"curved beam: " + tip, curved, "m", source, 0.02}));
+  }
 }
 
 /// Apparent modulus over E of a block 2 x 2 x 1 between plates that it is bonded to.
@@ -415,10 +448,10 @@ void add_brackets(std::vector<CutPart>& parts) {
     const double length = along <= 1 ? deep : deep + (along - 1) * (80 - deep);
     return Vec3(length, height, 30 * p.z());
   };
-  for (const int bricks : {12, 16, 20, 23, 24, 28, 32, 36, 48}) {
+  for (const int bricks : {12, 16, 20, 23, 24, 28, 32, 36, 48, 80}) {
     TableScene scene(mapped_block({2, 1, 1}, walls), 80.0 / bricks, 2100, 0.35);
     scene.hold_part("x-low").pull("x-high", {0, -50, 0}).probe("tip", {80, 3, 15});
-    parts.push_back(probed_part(scene, fmt::format("{} along", bricks), 0.35, 1,
+    parts.push_back(probed_part(scene.scene(), fmt::format("{} along", bricks), 1,
                                 {"bracket: tip.displacement.y (mm)", -20.489, "", kCalculix, kNaN}));
   }
 }
@@ -429,8 +462,10 @@ std::vector<CutPart> cut_parts() {
   add_beams(parts);
   add_rods(parts);
   add_turned(parts);
+  add_clamped_plates(parts);
   add_clamped(parts);
   add_shells(parts);
+  add_macneal(parts);
   add_bonded(parts);
   add_brackets(parts);
   add_standing_cubes(parts);

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "app/validate/cases.h"
+#include "app/validate/macneal.h"
 #include "app/validate/mapped_block.h"
 #include "app/validate/table_scene.h"
 #include "core/error.h"
@@ -77,34 +78,16 @@ TableCase straight_beam() {
 }
 
 TableCase curved_beam(int axis, double expected) {
-  const auto arc = [](const Vec3& p) {
-    const double radius = 4.12 + 0.2 * p.x();
-    const double angle = kPi / 2 * p.y();
-    return Vec3(radius * std::cos(angle), radius * std::sin(angle), 0.1 * p.z());
-  };
-  TableScene scene(mapped_block({1, 90, 1}, arc), 0.1 / 3, 1e7, 0.25);
-  // Its root lies in the plane y = 0; the load at the other end.
-  scene.hold("y-low").pull("y-high", Vec3::Unit(axis)).probe("tip", {0, 4.22, 0.05});
   return {axis == 2 ? "curved beam, out of plane" : "curved beam, in plane",
           kMacNeal,
-          scene.scene(),
+          curved_beam_scene(axis),
           {displacement("tip", axis, expected)}};
 }
 
 TableCase twisted_beam(int axis, double expected, int bricks, double tolerance) {
-  const auto twist = [](const Vec3& p) {
-    const double angle = kPi / 2 * p.x();
-    const double across = 1.1 * (p.y() - 0.5);
-    const double thick = 0.32 * (p.z() - 0.5);
-    return Vec3(12 * p.x(), across * std::cos(angle) - thick * std::sin(angle),
-                across * std::sin(angle) + thick * std::cos(angle));
-  };
-  TableScene scene(mapped_block({96, 8, 2}, twist), 1.1 / bricks, 29e6, 0.22);
-  // At the tip the section's width lies along z.
-  scene.hold("x-low").pull("x-high", Vec3::Unit(axis)).probe("tip", {12, 0, 0});
   return {fmt::format("twisted beam, width of {} bricks, {} plane", bricks, axis == 2 ? "in" : "out of"),
           kMacNeal,
-          scene.scene(),
+          twisted_beam_scene(axis, bricks),
           {displacement("tip", axis, expected, tolerance)}};
 }
 

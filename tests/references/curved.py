@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Finite-element references of curved and bonded bodies (CalculiX, C3D20R 20-node bricks, linear statics).
+"""Finite-element references of curved, bonded and clamped bodies (CalculiX, C3D20R 20-node bricks, linear statics).
 
     apt-get install -y calculix-ccx python3-numpy
     /usr/bin/python3 curved.py [--work /tmp/curved_ref] [--only CASE] [--sizes N]
@@ -239,7 +239,61 @@ def bracket(a):
         value=dict(mean_displacement_loaded_face=runs[-1]['mean']), measured='displacement along +y',
         convergence=dict(mean=change(runs, 'mean')), by_mesh_size=runs)
 
-CASES = dict(half_ring=half_ring, shell_segment=shell_segment, bonded_block=bonded_block, bracket=bracket)
+# ---------------------------------------------------------------- clamped beam
+def box_weights(M):
+    """Integral of each node's shape function over the volume, for rectangular bricks: -1/8 of an element at its corners,
+    1/6 at its mid nodes. Consistent loads of a unit body force, and the volume."""
+    w = np.zeros(len(M.x)); v = np.prod(M.x[M.elem[:, 6]] - M.x[M.elem[:, 0]], axis=1)
+    np.add.at(w, M.elem, v[:, None] * np.where(np.arange(20) < 8, -1 / 8, 1 / 6))
+    return w, w.sum()
+
+def clamped_beam(a):
+    """The quarter y, z in [0.05, 0.1]: symmetric about z = 0.05; about y = 0.05 the motion along y is even and the rest odd.
+    The four corners of the end face then move alike along y."""
+    E, volume, cases = 1000.0, 0.4 * 0.05 * 0.05, {}
+    for nu in (0.3, 0.49, 0.499):
+        runs = []
+        for n in (4, 8, 12)[:a.sizes]:
+            M = Mesh([graded(0, 0.4, 4 * n, True, False, 2.5)] + [graded(0.05, 0.1, n, False, True, 2.5)] * 2)
+            at = lambda d: np.unique(M.face(d, False))
+            w, got = box_weights(M)
+            assert abs(got / volume - 1) < 1e-9, (got, volume)
+            end, y, z = at(0), np.setdiff1d(at(1), at(0)), np.setdiff1d(at(2), at(0))
+            held = [(end, d, 0.0) for d in range(3)] + [(y, 0, 0.0), (y, 2, 0.0), (np.setdiff1d(z, y), 2, 0.0)]
+            corner = M.node((0.4, 0.1, 0.1))
+            U, R, s = solve(M, E, nu, held, w[:, None] * np.array((0, -1.0, 0)), np.array([corner]), a.work, 'beam')
+            back = np.nansum(R[end, 1]) + w[end].sum()     # ccx counts the load at a held node into RF
+            assert abs(back / volume - 1) < 1e-4, back
+            runs.append(dict(bricks='%d along x %d x %d in one quarter' % (4 * n, n, n), elements=len(M.elem), nodes=len(M.x),
+                             corners=r7(U[corner, 1]), solve_s=round(s, 1)))
+            print('clamped_beam', nu, runs[-1], flush=True)
+        cases['%g' % nu] = dict(nu=nu, value=runs[-1]['corners'], convergence=change(runs, 'corners'), by_mesh_size=runs)
+    return dict(
+        geometry='beam [0,0.4]x[0,0.1]x[0,0.1]; computed on one quarter by symmetry, elements shrinking towards the clamped face and the sides',
+        E=E, supports='end face x = 0: all displacements zero', load='body force 1 per volume along -y',
+        measured='displacement along y, mean of the four corners of the end face x = 0.4', by_nu=cases)
+
+# ---------------------------------------------------------------- clamped plate
+def clamped_plate(a):
+    """The quarter y in [2, 4], z in [0.25, 0.5]: symmetric about y = 2; about z = 0.25 the motion along z is even and the rest odd."""
+    E, nu, runs = 1000.0, 0.3, []
+    for n in (2, 4, 6)[:a.sizes]:
+        M = Mesh([graded(0, 10, 10 * n, True, False, 2), graded(2, 4, 4 * n, False, True, 1.5), graded(0.25, 0.5, n, False, True, 1.5)])
+        def planes(M):
+            y, z = (np.unique(M.face(d, False)) for d in (1, 2))
+            return [(y, 1, 0.0), (z, 0, 0.0), (np.setdiff1d(z, y), 1, 0.0)]
+        r = loaded(M, E, nu, (0, False), (0, True), 0.5, (0, 0, 0.25), (10, 2, 0.25), planes, a.work, 'plate')
+        runs.append(dict(bricks='%d along x, %d over half the width, %d over half the thickness' % (10 * n, 4 * n, n), **r))
+        print('clamped_plate', runs[-1], flush=True)
+    return dict(
+        geometry='plate [0,10]x[0,4]x[0,0.5]; computed on one quarter by symmetry, elements shrinking towards the clamped face and the sides',
+        E=E, nu=nu, supports='end face x = 0: all displacements zero',
+        load='total force 1 along +z, uniform traction over the end face x = 10',
+        value=dict(mean_displacement_loaded_face=runs[-1]['mean'], displacement_at_10_2_0p25=runs[-1]['point']),
+        measured='displacement along z', convergence=dict(mean=change(runs, 'mean'), point=change(runs, 'point')), by_mesh_size=runs)
+
+CASES = dict(half_ring=half_ring, shell_segment=shell_segment, bonded_block=bonded_block, bracket=bracket,
+             clamped_beam=clamped_beam, clamped_plate=clamped_plate)
 
 def main():
     ap = argparse.ArgumentParser()
