@@ -77,4 +77,8 @@ SurfaceMesh mapped_block(const std::array<int, 3>& divisions, const std::functio
   return mesher.finish(map);
 }
 
+SurfaceMesh block_mesh(const Vec3& sides) {
+  return mapped_block({1, 1, 1}, [=](const Vec3& p) { return Vec3(p.cwiseProduct(sides)); });
+}
+
 }  // namespace sprung

@@ -11,4 +11,7 @@ namespace sprung {
 [[nodiscard]] SurfaceMesh mapped_block(const std::array<int, 3>& divisions,
                                        const std::function<Vec3(const Vec3& place)>& map);
 
+/// A block of these sides with its low corner at the origin.
+[[nodiscard]] SurfaceMesh block_mesh(const Vec3& sides);
+
 }  // namespace sprung

@@ -67,12 +67,8 @@ Target frequency(int mode, double expected, double tolerance = 0.02) {
 const std::string kMacNeal = "MacNeal and Harder, Finite Elements in Analysis and Design 1 (1985)";
 const std::string kNafems = "NAFEMS, The Standard NAFEMS Benchmarks (1990)";
 
-SurfaceMesh box_mesh(const Vec3& sides, const std::array<int, 3>& divisions = {1, 1, 1}) {
-  return mapped_block(divisions, [=](const Vec3& p) { return Vec3(p.cwiseProduct(sides)); });
-}
-
 TableCase straight_beam() {
-  TableScene scene(box_mesh({6, 0.2, 0.1}), 0.1 / 3, 1e7, 0.3);
+  TableScene scene(block_mesh({6, 0.2, 0.1}), 0.1 / 3, 1e7, 0.3);
   scene.hold("x-low").pull("x-high", {0, 1, 0}).probe("tip", {6, 0.1, 0.05});
   return {"straight beam", kMacNeal, scene.scene(), {displacement("tip", 1, 0.1081)}};
 }
@@ -180,7 +176,7 @@ TableCase bent_by_45_degrees() {
 }
 
 TableCase end_shear() {
-  TableScene scene(box_mesh({10, 1, 0.1}), 0.05, 1.2e6, 0, Solver::kStatic);
+  TableScene scene(block_mesh({10, 1, 0.1}), 0.05, 1.2e6, 0, Solver::kStatic);
   scene.steps(4).hold("x-low").pull("x-high", {0, 0, 4}).probe("tip", {10, 0.5, 0.05});
   return {"cantilever under end shear, large displacement",
           "Sze, Liu and Lo, Finite Elements in Analysis and Design 40 (2004)",
@@ -202,7 +198,7 @@ TableCase fv32() {
 }
 
 TableCase plate_on_edges(bool on_lines) {
-  TableScene scene(box_mesh({10, 10, 1}), 0.25, 200e9, 0.3, Solver::kModes);
+  TableScene scene(block_mesh({10, 10, 1}), 0.25, 200e9, 0.3, Solver::kModes);
   scene.density(8000).modes(5).probe("middle", {5, 5, 0.5});
   if (!on_lines) {
     scene.hold("x-low", "yz").hold("x-high", "yz").hold("y-low", "xz").hold("y-high", "xz");

@@ -70,8 +70,7 @@ double von_mises(const Mat3& stress) { return std::sqrt(1.5) * deviator(stress).
 Eigen::VectorXd brick_youngs(const Body& body) {
   Eigen::VectorXd youngs(body.grid.brick_count());
   for (Eigen::Index brick = 0; brick < youngs.size(); ++brick) {
-    const std::size_t row = brick;
-    youngs[brick] = body.material.young * body.stiffness_scale[row] / std::max(body.grid.fill[row], kStiffnessFloor);
+    youngs[brick] = body.material.young * region_factor(body, brick);
   }
   return youngs;
 }

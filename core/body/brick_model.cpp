@@ -10,12 +10,12 @@
 
 namespace sprung {
 
+double region_factor(const Body& body, std::size_t brick) {
+  return body.stiffness_scale[brick] / std::max(body.grid.fill[brick], kStiffnessFloor);
+}
+
 BrickVector at_corners(const Body& body, std::size_t brick, const Points& values) {
-  BrickVector gathered;
-  for (std::size_t corner = 0; corner < 8; ++corner) {
-    gathered.segment<3>(3 * corner) = values.row(body.grid.nodes[brick][corner]);
-  }
-  return gathered;
+  return columns_of(body.grid.nodes[brick], values).reshaped();
 }
 
 BrickVector BrickModel::damped_forces(const Body& body, std::size_t brick, const BrickVector& x,
@@ -191,11 +191,6 @@ class SolidModel : public BrickModel {
  private:
   static SolidBrick brick_of(const Body& body, std::size_t brick) {
     return {body.material, body.grid.brick_size, body.grid.fill[brick], body.moments[brick]};
-  }
-
-  /// Its stiffness over that of the body's material.
-  static double region_factor(const Body& body, std::size_t brick) {
-    return body.stiffness_scale[brick] / std::max(body.grid.fill[brick], kStiffnessFloor);
   }
 };
 

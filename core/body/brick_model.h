@@ -44,6 +44,9 @@ class BrickModel {
 /// Lives as long as the program.
 [[nodiscard]] const BrickModel& brick_model(Model model);
 
+/// The stiffness of a brick's material over that of the body's: of regions.
+[[nodiscard]] double region_factor(const Body& body, std::size_t brick);
+
 /// What a brick's corners have, of the values of all nodes (m x 3).
 [[nodiscard]] BrickVector at_corners(const Body& body, std::size_t brick, const Points& values);
 

@@ -403,15 +403,12 @@ void drop_specks(BrickGrid& grid, PieceReport& report) {
   report.dropped_volume = lost * grid.brick_volume();
   std::erase_if(grid.patches, [&](const SolidPatch& patch) { return gone[patch.brick]; });
   remove_bricks(grid, gone, std::vector<int>(gone.size(), 0));
-  const auto is_cut = [](double fill) { return fill < 1; };
   double cut = 0;
-  for (const double fill : grid.fill) cut += is_cut(fill) ? fill : 0;
-  const bool can_take_it = cut > lost;  // full bricks stay full where those that the surface cuts can
+  for (const double fill : grid.fill) cut += fill < 1 ? fill : 0;
+  const bool is_by_cut_ones = cut > lost;  // full bricks stay full where those that the surface cuts can take it
+  const double factor = 1 + lost / (is_by_cut_ones ? cut : sum - lost);
   for (double& fill : grid.fill) {
-    if (!can_take_it)
-      fill *= sum / (sum - lost);
-    else if (is_cut(fill))
-      fill *= 1 + lost / cut;
+    if (fill < 1 || !is_by_cut_ones) fill *= factor;
   }
 }
 

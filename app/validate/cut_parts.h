@@ -1,0 +1,50 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "app/validate/check.h"
+#include "core/dynamics/linear/linear_solver.h"
+#include "core/simulation/scene.h"
+
+namespace sprung {
+
+inline const std::string kCalculix = "finite elements (CalculiX C3D20R, tests/references/curved.py)";
+
+/// A figure of a part, and what it should be.
+struct CutFigure {
+  std::string quantity;
+  double expected = 0;
+  std::string unit;
+  std::string source;
+  double tolerance = kNaN;  // of neo-hooke
+};
+
+/// A part, whose figures a model has all at once.
+struct CutPart {
+  std::string bricks;
+  double poisson = 0;
+  std::vector<CutFigure> figures;
+  std::function<std::vector<double>(Model)> measure;
+};
+
+/// A scene whose probe's displacement along an axis is the figure, m.
+[[nodiscard]] CutPart probed_part(const Scene& scene, const std::string& bricks, int axis, CutFigure figure);
+
+/// Held at every node of a side; the weights of all nodes as loads.
+struct Held {
+  Supports supports;
+  Points loads;
+};
+
+/// The low side of a box of bricks across an axis; `acceleration`: m/s^2.
+[[nodiscard]] Held held_at(const Body& body, int axis, const Vec3& acceleration);
+
+/// Plates, beams, rods, shells and walls, thin or slanted.
+[[nodiscard]] std::vector<CutPart> thin_parts();
+/// Free and clamped parts whose bricks are turned.
+[[nodiscard]] std::vector<CutPart> turned_parts();
+/// Whole bricks: clamped, bonded, crushed, stretched and sheared.
+[[nodiscard]] std::vector<CutPart> strained_parts();
+
+}  // namespace sprung
