@@ -10,6 +10,7 @@
 #include <numbers>
 #include <vector>
 
+#include "core/body/brick_model.h"
 #include "core/bricks/fill_solid.h"
 #include "core/dynamics/statics/statics.h"
 #include "core/error.h"
@@ -83,10 +84,10 @@ int bricks_for_film(double count) {
 }
 
 /// The solids of a body with bricks of that size.
-std::vector<BrickGrid> filled(const LoadedBody& loaded, double brick_size) {
+std::vector<BrickGrid> filled(const LoadedBody& loaded, double brick_size, Model model) {
   if (loaded.grid) return {*loaded.grid};
   std::vector<BrickGrid> grids;
-  for (const Solid& solid : loaded.solids) grids.push_back(fill_solid(solid, brick_size).grid);
+  for (const Solid& solid : loaded.solids) grids.push_back(fill_solid(solid, brick_size, bricks_for(model)).grid);
   return grids;
 }
 
@@ -222,9 +223,9 @@ std::optional<CarryingMaterial> softest_carrying(const SceneBody& body, Support 
   const LoadedBody loaded = load_body(coarse, Observer());
   const double size = loaded.extent.maxCoeff();
   const Mat3 world_from_bricks = rotation_matrix(body.rotation) * loaded.bricks_from_rest.transpose();
-  std::vector<BrickGrid> grids = filled(loaded, loaded.brick_size);
+  std::vector<BrickGrid> grids = filled(loaded, loaded.brick_size, body.model);
   const double count = count_of_bricks(grids);
-  if (count > kManyBricks) grids = filled(loaded, loaded.brick_size * std::cbrt(count / kManyBricks));
+  if (count > kManyBricks) grids = filled(loaded, loaded.brick_size * std::cbrt(count / kManyBricks), body.model);
   StandingBody standing(standing_bodies(std::move(grids), body.model, reference.material()), support, body.pins,
                         Selector(loaded), world_from_bricks.transpose() * gravity);
   const std::optional<double> linear = standing.displacement(1, true);

@@ -108,11 +108,11 @@ void add_rods(std::vector<CutPart>& parts) {
     twisted.probe("rim", {10, 0.5, 0});
     parts.push_back(
         probed_part(twisted.scene(), fmt::format("{} across", across), 2,
-                    {"round rod, torque: rim.displacement.z", 10 / (shear * polar) / 2, "m", "Saint-Venant", 0.02}));
+                    {"round rod, torque: rim.displacement.z", 10 / (shear * polar) / 2, "m", "Saint-Venant", 0.04}));
   }
 }
 
-/// Half a brick thick, on no line of the bricks.
+/// Half a brick thick, on no line of the bricks, held by the skin: the nodes near it would be a hinge.
 void add_shells(std::vector<CutPart>& parts) {
   constexpr double kPoisson = 0.3;
   const auto ring = [](const Vec3& p) {
@@ -121,7 +121,7 @@ void add_shells(std::vector<CutPart>& parts) {
   };
   for (const auto& [axis, expected] : {std::pair{0, 150.838}, {2, 462.453}}) {
     TableScene scene(mapped_block({1, 180, 1}, ring), 1, 1000, kPoisson);
-    scene.hold_part("y-high").pull("y-low", Vec3::Unit(axis)).probe("tip", {10, 0, 0.5});
+    scene.hold_surface("y-high").pull("y-low", Vec3::Unit(axis)).probe("tip", {10, 0, 0.5});
     parts.push_back(
         probed_part(scene.scene(), "1/2 across", axis,
                     {fmt::format("half ring: tip.displacement.{}", "xyz"[axis]), expected, "m", kCalculix, kNaN}));
@@ -132,7 +132,7 @@ void add_shells(std::vector<CutPart>& parts) {
     return Vec3((9.75 + 0.5 * p.x()) * on_octahedron.normalized());
   };
   TableScene scene(mapped_block({1, 64, 64}, quarter_sphere), 1, 1000, kPoisson);
-  scene.hold_part("z-low").hold_part("y-high");
+  scene.hold_surface("z-low").hold_surface("y-high");
   scene.pull("y-low", {0, 0, 0.5}).pull("z-high", {0, 0, 0.5}).probe("top", {0, 0, 10});
   parts.push_back(probed_part(scene.scene(), "1/2 across", 2,
                               {"quarter sphere: top.displacement.z", 0.0367599, "m", kCalculix, kNaN}));

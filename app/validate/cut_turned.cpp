@@ -21,11 +21,12 @@ Body turned_body(Scene scene, double degrees, Model model) {
 
 struct FreeVibration {
   double bending = kNaN;  // Hz, of the mode most like the first bending along x
-  int spurious = 0;       // modes below 0.9 of what it should be
+  int spurious = 0;       // modes far below what it should be
 };
 
 FreeVibration free_vibration(const Body& body, double length, double expected) {
   constexpr int kModes = 24;
+  constexpr double kFarBelow = 0.75;  // no mode of the body itself is so wrong
   const Modes modes = natural_modes(body, Supports(body.node_count()), kModes);
   // The shape of a free beam: cosh, cos, sinh and sin of 4.73004 x / L.
   constexpr double kWaves = 4.730040745;
@@ -45,7 +46,7 @@ FreeVibration free_vibration(const Body& body, double length, double expected) {
       best = likeness;
       found.bending = modes.frequencies[mode];
     }
-    found.spurious += modes.frequencies[mode] < 0.9 * expected ? 1 : 0;
+    found.spurious += modes.frequencies[mode] < kFarBelow * expected ? 1 : 0;
   }
   return found;
 }
@@ -73,7 +74,7 @@ void add_free(std::vector<CutPart>& parts) {
       parts.push_back({free.bricks,
                        0.3,
                        {{name + ": frequency of bending", free.expected, "Hz", "fine whole bricks", kNaN},
-                        {name + ": modes below it", 0, "", "bending is the slowest vibration", kNaN}},
+                        {name + ": modes far below it", 0, "", "bending is the slowest vibration", 0.5}},
                        [=](Model model) {
                          const FreeVibration found =
                              free_vibration(turned_body(scene, degrees, model), free.sides.x(), free.expected);
@@ -83,12 +84,12 @@ void add_free(std::vector<CutPart>& parts) {
   }
 }
 
-/// The plate held at one end, its bricks turned; what free vibrations say of the law this says with a clamp.
+/// The plate held by the skin of one end, its bricks turned.
 void add_clamped_plates(std::vector<CutPart>& parts) {
   for (const double brick : {1.0, 0.5}) {
     for (const double degrees : {0.0, 15.0, 30.0, 45.0}) {
       TableScene plate(block_mesh({10, 4, 0.5}), brick, 1000, 0.3);
-      plate.hold_part("x-low").pull("x-high", {0, 0, 1}).probe("tip", {10, 2, 0.25});
+      plate.hold_surface("x-low").pull("x-high", {0, 0, 1}).probe("tip", {10, 2, 0.25});
       Scene scene = plate.scene();
       scene.bodies[0].brick_rotation = Vec3(0, 0.6 * degrees, degrees);
       parts.push_back(probed_part(scene, brick == 1 ? "1/2 across" : "1 across", 2,

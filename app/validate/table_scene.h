@@ -52,6 +52,13 @@ class TableScene {
     pin.part = part;
     return add(std::move(pin), axes);
   }
+  /// Holds the skin of a part, wherever the bricks lie.
+  TableScene& hold_surface(const std::string& part) {
+    Pin pin;
+    pin.part = part;
+    pin.on_surface = true;
+    return add(std::move(pin), "xyz");
+  }
   /// Holds the edge where two sides of the bounding box meet.
   TableScene& hold_edge(const std::string& one, const std::string& other, const std::string& axes) {
     const Box a = side_of(one);

@@ -48,12 +48,16 @@ Rayleigh rayleigh_from_damping(const Material& material, double length) {
 
 namespace {
 
-std::vector<SolidMoments> bounded_moments_of(const BrickGrid& grid, const Material& material) {
-  std::vector<SolidMoments> moments(grid.cells.size());
-  if (grid.moments.empty()) return moments;
-  tbb::parallel_for(std::size_t{0}, moments.size(),
-                    [&](std::size_t brick) { moments[brick] = bounded_moments(material, grid.moments[brick]); });
-  return moments;
+std::vector<BodySolid> solids_of(const BrickGrid& grid, double poisson) {
+  const auto whole = std::make_shared<const CurvedSolid>(curved_solid(poisson, {}));
+  std::vector<BodySolid> solids(grid.cells.size(), {.moments = {}, .curved = whole});
+  if (grid.moments.empty()) return solids;
+  tbb::parallel_for(std::size_t{0}, solids.size(), [&](std::size_t brick) {
+    if (grid.moments[brick].is_whole()) return;
+    const SolidMoments moments = bounded_moments(grid.moments[brick]);
+    solids[brick] = {.moments = moments, .curved = std::make_shared<const CurvedSolid>(curved_solid(poisson, moments))};
+  });
+  return solids;
 }
 
 }  // namespace
@@ -62,7 +66,7 @@ Body make_body(BrickGrid grid, Model model, const Material& material) {
   Body body;
   body.law = brick_law(model, material, grid.brick_size);
   if (model == Model::kFem) body.small_strain_stiffness = hexahedron_stiffness(material, grid.brick_size);
-  if (model == Model::kNeoHooke) body.moments = bounded_moments_of(grid, material);
+  if (model == Model::kNeoHooke) body.solids = solids_of(grid, material.poisson);
   body.grid = std::move(grid);
   body.model = model;
   body.material = material;

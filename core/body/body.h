@@ -7,6 +7,7 @@
 #include "core/bricks/brick_topology.h"
 #include "core/law/brick_law.h"
 #include "core/law/material.h"
+#include "core/law/neo_hooke/curved_solid.h"
 #include "core/types.h"
 
 namespace sprung {
@@ -24,6 +25,12 @@ struct Rayleigh {
 /// back, f = sqrt(G/rho) / (2 length)) at material.damping of critical.
 [[nodiscard]] Rayleigh rayleigh_from_damping(const Material& material, double length);
 
+/// How a brick's solid lies in it, as its law bears it, and how it bends for that; whole bricks share the latter.
+struct BodySolid {
+  SolidMoments moments;
+  std::shared_ptr<const CurvedSolid> curved;
+};
+
 /// One soft body: bricks, their law, and the state of their nodes, in world coordinates.
 struct Body {
   BrickGrid grid;
@@ -32,7 +39,7 @@ struct Body {
   BrickLaw law;                            // of a full brick
   Eigen::MatrixXd small_strain_stiffness;  // 24 x 24, N/m, of a full brick: model kFem only, else empty
   Rayleigh damping;
-  std::vector<SolidMoments> moments;        // per brick, as its law bears them: model kNeoHooke only, else empty
+  std::vector<BodySolid> solids;            // per brick: model kNeoHooke only, else empty
   std::vector<double> stiffness_scale;      // per brick: its fill, at least kStiffnessFloor
   Eigen::VectorXd masses;                   // per node, kg; sum = density * volume
   Points rest_positions;                    // m x 3, m: the grid's nodes moved to where the body starts

@@ -10,6 +10,8 @@
 
 namespace sprung {
 
+BricksFor bricks_for(Model model) { return model == Model::kNeoHooke ? BricksFor::kMoments : BricksFor::kFill; }
+
 double region_factor(const Body& body, std::size_t brick) {
   return body.stiffness_scale[brick] / std::max(body.grid.fill[brick], kStiffnessFloor);
 }
@@ -179,7 +181,9 @@ class SolidModel : public BrickModel {
     return brick_of(body, brick).gradient(x);
   }
 
-  [[nodiscard]] Vec3 middle(const Body& body, std::size_t brick) const override { return body.moments[brick].centroid; }
+  [[nodiscard]] Vec3 middle(const Body& body, std::size_t brick) const override {
+    return body.solids[brick].moments.centroid;
+  }
 
   /// F^-1 P, where the solid is not turned inside out.
   [[nodiscard]] Mat3 second_stress(const Body& body, const Mat3& gradient, double young) const override {
@@ -190,7 +194,8 @@ class SolidModel : public BrickModel {
 
  private:
   static SolidBrick brick_of(const Body& body, std::size_t brick) {
-    return {body.material, body.grid.brick_size, body.grid.fill[brick], body.moments[brick]};
+    const auto& [moments, curved] = body.solids[brick];
+    return {body.material, body.grid.brick_size, body.grid.fill[brick], moments, *curved};
   }
 };
 

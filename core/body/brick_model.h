@@ -1,5 +1,6 @@
 #pragma once
 #include "core/body/body.h"
+#include "core/bricks/fill_solid.h"
 #include "core/law/brick_vector.h"
 
 namespace sprung {
@@ -43,6 +44,9 @@ class BrickModel {
 
 /// Lives as long as the program.
 [[nodiscard]] const BrickModel& brick_model(Model model);
+
+/// What solids of the model are filled with.
+[[nodiscard]] BricksFor bricks_for(Model model);
 
 /// The stiffness of a brick's material over that of the body's: of regions.
 [[nodiscard]] double region_factor(const Body& body, std::size_t brick);

@@ -10,7 +10,11 @@ struct FilledSolid {
   int slivers = 0;  // nearly empty bricks that are a part of others now
 };
 
-/// voxelize(), split_pieces() and absorb_slivers(). `brick_size`: in units of the solid. Throws like voxelize().
-[[nodiscard]] FilledSolid fill_solid(const Solid& solid, double brick_size);
+/// For laws that scale a whole brick's, or that know where the solid of a brick lies.
+enum class BricksFor { kFill, kMoments };
+
+/// voxelize(), split_pieces() and absorb_slivers(); for kMoments absorb_loose_bricks() too. `brick_size`: in units of
+/// the solid. Throws like voxelize().
+[[nodiscard]] FilledSolid fill_solid(const Solid& solid, double brick_size, BricksFor law = BricksFor::kFill);
 
 }  // namespace sprung

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -215,6 +216,97 @@ int absorb_slivers(BrickGrid& grid, double least_fill) {
   int absorbed = int(std::count(gone.begin(), gone.end(), true)) + absorb_specks(grid);
   while (const int hinged = absorb_hinged(grid)) absorbed += hinged;
   return absorbed;
+}
+
+namespace {
+
+/// One brick after the other is given up, the emptiest first.
+class LooseBricks {
+ public:
+  explicit LooseBricks(const BrickGrid& grid) : grid_(grid), fill_(grid.fill), heir_(grid.cells.size(), -1) {
+    const CellIndex index(grid);
+    const CornerLists lists = list_corners(grid.nodes, grid.node_count());
+    for (std::size_t brick = 0; brick < grid.cells.size(); ++brick) {
+      beside_.push_back(face_neighbours(grid, index, brick));
+      std::vector<int>& around = around_.emplace_back();
+      for (const int node : grid.nodes[brick]) {
+        for (int i = lists.first[node]; i < lists.first[node + 1]; ++i) around.push_back(lists.corners[i] / 8);
+      }
+      std::sort(around.begin(), around.end());
+      around.erase(std::unique(around.begin(), around.end()), around.end());
+    }
+  }
+
+  /// The heir of each brick that goes; -1: it stays.
+  std::vector<int> give_up(double least_share) {
+    std::vector<double> share;
+    for (std::size_t brick = 0; brick < grid_.cells.size(); ++brick) {
+      double fullest = 0;
+      for (const int other : around_[brick]) fullest = std::max(fullest, grid_.fill[other]);
+      share.push_back(grid_.fill[brick] / fullest);
+    }
+    std::vector<int> order(share.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return share[a] < share[b]; });
+    for (const int brick : order) {
+      if (share[brick] >= least_share) break;
+      // One that has taken over others stays: what they held is far away enough.
+      if (fill_[brick] > grid_.fill[brick] || !hang_together(brick)) continue;
+      const std::vector<int> sides = sides_of(brick);
+      const int heir = *std::max_element(sides.begin(), sides.end(), [&](int a, int b) { return fill_[a] < fill_[b]; });
+      heir_[brick] = heir;
+      fill_[heir] += fill_[brick];
+    }
+    return heir_;
+  }
+
+  /// What the bricks hold then.
+  [[nodiscard]] const std::vector<double>& fill() const { return fill_; }
+
+ private:
+  [[nodiscard]] bool is_there(int brick) const { return brick >= 0 && heir_[brick] < 0; }
+
+  [[nodiscard]] std::vector<int> sides_of(int brick) const {
+    std::vector<int> sides;
+    std::copy_if(beside_[brick].begin(), beside_[brick].end(), std::back_inserter(sides),
+                 [&](int other) { return is_there(other); });
+    return sides;
+  }
+
+  /// The face neighbours through faces of bricks around `brick`.
+  [[nodiscard]] bool hang_together(int brick) const {
+    const std::vector<int> sides = sides_of(brick);
+    if (sides.empty()) return false;
+    std::vector<int> found{sides.front()};
+    for (std::size_t next = 0; next < found.size(); ++next) {
+      for (const int other : beside_[found[next]]) {
+        if (!is_there(other) || other == brick) continue;
+        if (!std::binary_search(around_[brick].begin(), around_[brick].end(), other)) continue;
+        if (std::find(found.begin(), found.end(), other) == found.end()) found.push_back(other);
+      }
+    }
+    return std::all_of(sides.begin(), sides.end(),
+                       [&](int side) { return std::find(found.begin(), found.end(), side) != found.end(); });
+  }
+
+  const BrickGrid& grid_;
+  std::vector<double> fill_;
+  std::vector<int> heir_;
+  std::vector<Neighbours> beside_;
+  std::vector<std::vector<int>> around_;  // itself too; ascending
+};
+
+}  // namespace
+
+int absorb_loose_bricks(BrickGrid& grid, double least_share) {
+  LooseBricks bricks(grid);
+  const std::vector<int> heir = bricks.give_up(least_share);
+  std::vector<bool> gone;
+  gone.reserve(heir.size());
+  for (const int one : heir) gone.push_back(one >= 0);
+  grid.fill = bricks.fill();
+  remove_bricks(grid, gone, heir);
+  return int(std::count(gone.begin(), gone.end(), true));
 }
 
 }  // namespace sprung

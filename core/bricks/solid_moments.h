@@ -13,6 +13,8 @@ struct BrickGrid;
 struct SolidMoments {
   Vec3 centroid = Vec3::Zero();
   Mat3 covariance = Mat3::Identity() / 12;
+
+  [[nodiscard]] bool is_whole() const { return centroid.isZero(0) && covariance == Mat3::Identity() / 12; }
 };
 
 /// Integrals over a part of a solid, in cells: of 1, of the place and of its products with itself.

@@ -12,6 +12,7 @@
 #include <random>
 #include <span>
 
+#include "core/body/brick_model.h"
 #include "core/bricks/fill_solid.h"
 #include "core/bricks/voxelize.h"
 #include "core/error.h"
@@ -275,7 +276,7 @@ void BodyBuilder::put(SoftBody body, const Pose& pose, int copy) {
 
 BrickGrid BodyBuilder::make_grid(const Solid& solid) {
   if (loaded_.grid) return *loaded_.grid;
-  FilledSolid filled = fill_solid(solid, loaded_.brick_size);
+  FilledSolid filled = fill_solid(solid, loaded_.brick_size, bricks_for(body_.model));
   report_.add(filled.pieces, filled.slivers);
   report_.add_volume(filled.grid, solid);
   return std::move(filled.grid);

@@ -2,9 +2,142 @@
 
 #include <Eigen/Eigenvalues>
 
-namespace sprung {
+#include "core/bricks/brick_topology.h"
 
-SolidMoments bounded_moments(const Material& material, const SolidMoments& moments, double least_thickness) {
+namespace sprung {
+namespace {
+
+constexpr int kGradients = StrainDifferences::kGradients;
+constexpr double kWarping = 3;  // over a plate's E m m; less leaves bodies of slanted bricks softer still
+
+/// Gradients of the corners' trilinear weights at a place in brick lengths from the middle, 1/m.
+Eigen::Matrix<double, 8, 3> weights_at(const Vec3& place, double h) {
+  Eigen::Matrix<double, 8, 3> weights;
+  for (int corner = 0; corner < 8; ++corner) {
+    for (int axis = 0; axis < 3; ++axis) {
+      double weight = 1 / h;
+      for (int other = 0; other < 3; ++other) {
+        const double side = on_high_side(corner, other) ? 1 : -1;
+        weight *= other == axis ? side : 0.5 + side * place[other];
+      }
+      weights(corner, axis) = weight;
+    }
+  }
+  return weights;
+}
+
+}  // namespace
+
+SolidBrick::SolidBrick(const Material& material, double h, double fill, const SolidMoments& moments,
+                       const CurvedSolid& curved)
+    : law_(material),
+      volume_(fill * h * h * h),
+      weights_(weights_at(moments.centroid, h)),
+      differences_(h, moments.centroid),
+      tangent_(h * curved.tangent) {
+  const double bending = material.young * volume_ * h * h;
+  stiffness_.setZero();
+  stiffness_.topLeftCorner<kGradients, kGradients>() = bending * curved.stiffness;
+  for (int i = 0; i < 3; ++i) {
+    const double spread = moments.covariance((i + 1) % 3, (i + 1) % 3) * moments.covariance((i + 2) % 3, (i + 2) % 3);
+    stiffness_(kGradients + i, kGradients + i) = kWarping * bending * h * h * spread;
+  }
+}
+
+double SolidBrick::energy(const BrickVector& x) const {
+  const Values z = differences_.values(x);
+  return volume_ * law_.energy(secant(x) * bend(z)) + 0.5 * z.dot(stiffness_ * z);
+}
+
+BrickVector SolidBrick::forces(const BrickVector& x) const {
+  const Values z = differences_.values(x);
+  return -pull(x, law_.stress(secant(x) * bend(z)), stiffness_ * z);
+}
+
+BrickMatrix SolidBrick::hessian(const BrickVector& x, bool definite) const {
+  const Values z = differences_.values(x);
+  const StrainDifferences::Rates rates = differences_.rates(x);
+  const GradientRates of_gradient = gradient_rates(x, rates);
+  const Mat3 f = secant(x);
+  const Mat3 gradient = f * bend(z);
+  const Mat3 stress = law_.stress(gradient);
+  BrickMatrix matrix = rates.transpose() * stiffness_ * rates;
+  matrix += volume_ * of_gradient.transpose() * (definite ? law_.definite_hessian(gradient) : law_.hessian(gradient)) *
+            of_gradient;
+  differences_.add_curvature(stiffness_ * z + on_differences(f.transpose() * stress), definite, matrix);
+  if (definite) return matrix;
+  // F and S change together.
+  Eigen::Matrix<double, kGradients, 24> of_secant;
+  for (int row = 0; row < kGradients; ++row) {
+    const Mat3 on_secant = volume_ * stress * shear_matrix(tangent_.col(row));
+    of_secant.row(row) = (on_secant * weights_.transpose()).reshaped().transpose();
+  }
+  const BrickMatrix together = of_secant.transpose() * rates.topRows<kGradients>();
+  return matrix + together + together.transpose();
+}
+
+BrickMatrix SolidBrick::damping(const BrickVector& x) const {
+  const StrainDifferences::Rates rates = differences_.rates(x);
+  const GradientRates of_gradient = gradient_rates(x, rates);
+  return volume_ * of_gradient.transpose() * law_.viscosity(gradient(x)) * of_gradient +
+         rates.transpose() * stiffness_ * rates;
+}
+
+BrickVector SolidBrick::damping_product(const BrickVector& x, const BrickVector& v) const {
+  const Mat3 bent = bend(differences_.values(x));
+  const Values change = differences_.change(x, v);
+  const Mat3 rate = secant(v) * bent + secant(x) * (bend(change) - Mat3::Identity());
+  return pull(x, law_.viscous_stress(secant(x) * bent, rate), stiffness_ * change);
+}
+
+Mat3 SolidBrick::gradient(const BrickVector& x) const { return secant(x) * bend(differences_.values(x)); }
+
+Mat3 SolidBrick::bend(const Values& z) const {
+  return Mat3::Identity() + shear_matrix(tangent_ * z.head<kGradients>());
+}
+
+BrickVector SolidBrick::pull(const BrickVector& x, const Mat3& stress, const Values& besides) const {
+  BrickVector pull = differences_.pull(x, besides + on_differences(secant(x).transpose() * stress));
+  pull.reshaped(3, 8) += volume_ * stress * bend(differences_.values(x)) * weights_.transpose();
+  return pull;
+}
+
+SolidBrick::Values SolidBrick::on_differences(const Mat3& stress) const {
+  const Vec3 rows(stress(1, 2) + stress(2, 1), stress(2, 0) + stress(0, 2), stress(0, 1) + stress(1, 0));
+  Values values = Values::Zero();
+  values.head<kGradients>() = volume_ * tangent_.transpose() * rows;
+  return values;
+}
+
+SolidBrick::GradientRates SolidBrick::secant_rates() const {
+  GradientRates rates = GradientRates::Zero();
+  for (int corner = 0; corner < 8; ++corner) {
+    for (int axis = 0; axis < 3; ++axis) {
+      rates.block<3, 3>(3 * axis, 3 * corner).diagonal().setConstant(weights_(corner, axis));
+    }
+  }
+  return rates;
+}
+
+SolidBrick::GradientRates SolidBrick::gradient_rates(const BrickVector& x,
+                                                     const StrainDifferences::Rates& rates) const {
+  const Mat3 f = secant(x);
+  const Mat3 bent = bend(differences_.values(x));
+  const GradientRates of_secant = secant_rates();
+  GradientRates of_gradient = GradientRates::Zero();
+  for (int column = 0; column < 3; ++column) {
+    for (int axis = 0; axis < 3; ++axis) {
+      of_gradient.middleRows<3>(3 * column) += bent(axis, column) * of_secant.middleRows<3>(3 * axis);
+    }
+  }
+  for (int row = 0; row < kGradients; ++row) {
+    const Mat3 along = f * shear_matrix(tangent_.col(row));
+    of_gradient += along.reshaped() * rates.row(row);
+  }
+  return of_gradient;
+}
+
+SolidMoments bounded_moments(const SolidMoments& moments, double least_thickness) {
   const Eigen::SelfAdjointEigenSolver<Mat3> axes(moments.covariance);
   const double least = least_thickness * least_thickness / 12;
   SolidMoments bounded = moments;
@@ -12,7 +145,6 @@ SolidMoments bounded_moments(const Material& material, const SolidMoments& momen
     bounded.covariance =
         axes.eigenvectors() * axes.eigenvalues().cwiseMax(least).asDiagonal() * axes.eigenvectors().transpose();
   }
-  bounded.covariance = stable_moments(material, bounded.covariance);
   return bounded;
 }
 

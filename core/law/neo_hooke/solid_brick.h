@@ -4,85 +4,68 @@
 #include "core/bricks/solid_moments.h"
 #include "core/law/brick_vector.h"
 #include "core/law/material.h"
-#include "core/law/neo_hooke/bending.h"
-#include "core/law/neo_hooke/mean_response.h"
-#include "core/law/neo_hooke/twist.h"
-#include "core/law/neo_hooke/warping.h"
+#include "core/law/neo_hooke/curved_solid.h"
+#include "core/law/neo_hooke/strain_differences.h"
+#include "core/law/neo_hooke/strain_energy.h"
+#include "core/types.h"
 
 namespace sprung {
 
-/// A brick that knows how its solid lies in it: its volume answers the mean deformation, its second moments bending,
-/// twist and warping, term by term. Full or cut by the surface, it is right to first order and at any strain; momentum
-/// and angular momentum are conserved exactly. As an element, a uniform-strain hexahedron with physical hourglass
-/// stabilisation (Flanagan, Belytschko, Int. J. Numer. Meth. Engng 17, 1981; Puso, 49, 2000) whose stabilisation is
-/// written in the squared lengths of twelve edges and twelve face diagonals. Plain, one brick at a time.
+/// A brick that knows how its solid lies in it. Its energy, with z = (b, t, q) the differences of its springs' squared
+/// lengths (StrainDifferences) and S, K those of its solid (CurvedSolid):
+///   W = V psi(F (I + S z)) + 1/2 E V h^2 (b, t)^T K (b, t) + 1/2 sum over i: E m_jj m_kk / V q_i^2
+/// F is the gradient of the trilinear map of the corners at the centroid. Full or cut by the surface, it is right to
+/// first order and at any strain; momentum and angular momentum are conserved exactly. As an element, a uniform-strain
+/// hexahedron with physical hourglass stabilisation (Flanagan, Belytschko, Int. J. Numer. Meth. Engng 17, 1981; Puso,
+/// 49, 2000). Plain, one brick at a time.
 class SolidBrick {
  public:
-  /// `h`: the brick's side, m; `fill`: solid volume over h^3, above 0; `moments` as bounded_moments() returns them.
+  /// `h`: the brick's side, m; `fill`: solid volume over h^3, above 0; `moments` as bounded_moments() returns them;
+  /// `curved`: what follows from them.
+  SolidBrick(const Material& material, double h, double fill, const SolidMoments& moments, const CurvedSolid& curved);
   SolidBrick(const Material& material, double h, double fill, const SolidMoments& moments)
-      : SolidBrick(material, h, fill * h * h * h, moments.centroid, fill * std::pow(h, 5) * moments.covariance) {}
+      : SolidBrick(material, h, fill, moments, curved_solid(material.poisson, moments)) {}
 
   /// J, for corners at x (m), as in all that follows.
-  [[nodiscard]] double energy(const BrickVector& x) const {
-    return mean_.energy(x) + bending_.energy(x) + twist_.energy(x) + warping_.energy(x);
-  }
-
+  [[nodiscard]] double energy(const BrickVector& x) const;
   /// Minus the gradient of the energy, N.
-  [[nodiscard]] BrickVector forces(const BrickVector& x) const {
-    BrickVector forces = BrickVector::Zero();
-    each_term([&](const auto& term) { term.add_forces(x, forces); });
-    return forces;
-  }
-
-  /// The second derivative of the energy, N/m; `definite`: of each term without negative curvature.
-  [[nodiscard]] BrickMatrix hessian(const BrickVector& x, bool definite) const {
-    BrickMatrix matrix = BrickMatrix::Zero();
-    each_term([&](const auto& term) { term.add_hessian(x, definite, matrix); });
-    return matrix;
-  }
-
+  [[nodiscard]] BrickVector forces(const BrickVector& x) const;
+  /// The second derivative of the energy, N/m; `definite`: without negative curvature.
+  [[nodiscard]] BrickMatrix hessian(const BrickVector& x, bool definite) const;
   /// What stiffness-proportional damping sees, N/m: positive semidefinite, and zero for rigid motions wherever the
   /// brick is. At rest the Hessian.
-  [[nodiscard]] BrickMatrix damping(const BrickVector& x) const {
-    BrickMatrix matrix = BrickMatrix::Zero();
-    each_term([&](const auto& term) { term.add_damping(x, matrix); });
-    return matrix;
-  }
-
+  [[nodiscard]] BrickMatrix damping(const BrickVector& x) const;
   /// The same times v, N/m times what v is.
-  [[nodiscard]] BrickVector damping_product(const BrickVector& x, const BrickVector& v) const {
-    BrickVector product = BrickVector::Zero();
-    each_term([&](const auto& term) { term.add_damping_product(x, v, product); });
-    return product;
-  }
+  [[nodiscard]] BrickVector damping_product(const BrickVector& x, const BrickVector& v) const;
 
-  /// The deformation gradient at the centroid of the solid.
-  [[nodiscard]] Mat3 gradient(const BrickVector& x) const { return mean_.gradient(x); }
+  /// The deformation gradient at the centroid of the solid, F (I + S z).
+  [[nodiscard]] Mat3 gradient(const BrickVector& x) const;
 
  private:
-  SolidBrick(const Material& material, double h, double volume, const Vec3& centroid, const Mat3& second)
-      : mean_(material, h, volume, centroid),
-        bending_(bending_term(material, h, centroid, second)),
-        twist_(twist_term(material, h, second)),
-        warping_(warping_term(material, h, volume, second)) {}
+  using Values = StrainDifferences::Values;
+  using GradientRates = Eigen::Matrix<double, 9, 24>;  // of the nine entries of a gradient, by the corners
 
-  template <class Call>
-  void each_term(const Call& call) const {
-    call(mean_);
-    call(bending_);
-    call(twist_);
-    call(warping_);
-  }
+  [[nodiscard]] Mat3 secant(const BrickVector& x) const { return x.reshaped(3, 8) * weights_; }
+  /// I + S z.
+  [[nodiscard]] Mat3 bend(const Values& z) const;
+  /// The forces on the corners of a stress (first Piola-Kirchhoff, Pa) and of what the differences of the springs ask
+  /// for besides, where the corners are at x.
+  [[nodiscard]] BrickVector pull(const BrickVector& x, const Mat3& stress, const Values& besides) const;
+  /// What F^T P does on the differences, J m (or J m^2) by Pa m^3.
+  [[nodiscard]] Values on_differences(const Mat3& stress) const;
+  [[nodiscard]] GradientRates secant_rates() const;
+  /// Of gradient(); `secant`: F.
+  [[nodiscard]] GradientRates gradient_rates(const BrickVector& x, const StrainDifferences::Rates& rates) const;
 
-  MeanResponse mean_;
-  SquareTerm<6> bending_;
-  SquareTerm<3> twist_;
-  SquareTerm<3> warping_;
+  NeoHooke law_;
+  double volume_;
+  Eigen::Matrix<double, 8, 3> weights_;  // gradients of the corners' trilinear weights at the centroid, 1/m
+  StrainDifferences differences_;
+  Eigen::Matrix<double, StrainDifferences::kAll, StrainDifferences::kAll> stiffness_;  // of z
+  Eigen::Matrix<double, 3, 9> tangent_;                                                // of (b, t), m
 };
 
-/// Moments that the law can bear: in no direction is the solid thinner than `least_thickness` (brick lengths), and no
-/// bending sets energy free (stable_moments()).
-[[nodiscard]] SolidMoments bounded_moments(const Material& material, const SolidMoments& moments,
-                                           double least_thickness = 0.02);
+/// Moments that the law can bear: in no direction is the solid thinner than `least_thickness`, in brick lengths.
+[[nodiscard]] SolidMoments bounded_moments(const SolidMoments& moments, double least_thickness = 0.02);
 
 }  // namespace sprung

@@ -119,5 +119,29 @@ TEST(Slivers, ALargePartThatHangsByAHingeStays) {
   EXPECT_EQ(absorb_slivers(grid), 0);
 }
 
+/// A thin part has no full brick, but bricks that hold next to nothing beside others.
+TEST(LooseBricks, GoToTheFullestFaceNeighbourOfAThinPart) {
+  BrickGrid grid = row({0.3, 0.25, 0.02});
+  EXPECT_EQ(absorb_slivers(grid), 0);
+  const double volume = grid.volume();
+  EXPECT_EQ(absorb_loose_bricks(grid), 1);
+  ASSERT_EQ(grid.brick_count(), 2);
+  EXPECT_DOUBLE_EQ(grid.fill[1], 0.27);
+  EXPECT_NEAR(grid.volume(), volume, 1e-18);
+  BrickGrid even = row({0.05, 0.05, 0.04});
+  EXPECT_EQ(absorb_loose_bricks(even), 0);
+}
+
+TEST(LooseBricks, StayWhereTheirNeighboursHangTogetherByThem) {
+  BrickGrid link = row({0.4, 0.01, 0.3});
+  EXPECT_EQ(absorb_loose_bricks(link), 0);
+  // Round a corner: without both of the others the first and the last would share an edge, a hinge.
+  BrickGrid corner = make_box_grid({2, 2, 1}, 0.1);
+  corner.fill = {0.4, 0.02, 0.01, 0.4};
+  EXPECT_EQ(absorb_loose_bricks(corner), 1);
+  ASSERT_EQ(corner.brick_count(), 3);
+  EXPECT_DOUBLE_EQ(corner.fill[1], 0.02);
+}
+
 }  // namespace
 }  // namespace sprung

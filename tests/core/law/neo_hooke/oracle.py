@@ -10,6 +10,7 @@ centroid (3), the second moments (9), the corners (24), a direction u (24), and 
 forces (24), Hessian times u (24). It prints the largest relative differences, and fails where one is above its limit.
 """
 
+import functools
 import sys
 from collections import namedtuple
 
@@ -17,6 +18,7 @@ import numpy as np
 
 Solid = namedtuple("Solid", "volume centroid second")
 SIDES = np.array([[1 if c >> axis & 1 else -1 for axis in range(3)] for c in range(8)])
+WARPING = 3
 LOWEST = 0.2  # volume ratio, below which the logarithm goes on as a parabola
 
 
@@ -67,17 +69,71 @@ def modes(x, centroid, h):
     return F, b, q, t
 
 
+def strain_along(b, t, free):
+    """The engineering strains 00, 11, 22, 12, 20, 01 by the three axes (6 x 3), of b, t and what no corner has: free[i, i]
+    is the strain ii along i, free[i, j] the shear ij along i."""
+    along = np.zeros((6, 3), np.result_type(b, free))
+    for i in range(3):
+        along[i, i] = free[i, i]
+        along[3 + i, i] = t[i]
+        for j in range(3):
+            if i != j:
+                along[i, j] = b[i, j]
+                along[6 - i - j, i] = free[i, j]
+    return along
+
+
+@functools.lru_cache(maxsize=None)
+def gradient_stiffness(second, young, nu):
+    """18 x 18: the integral of one strain's stress on another strain, where both change linearly from none at the
+    centroid; of their changes by the axes (6 x 3, flat). `second`: row by row."""
+    lam, G = lame(young, nu)
+    hooke = np.diag([2 * G] * 3 + [G] * 3)
+    hooke[:3, :3] += lam
+    return np.einsum("st,kl->sktl", hooke, np.reshape(second, (3, 3))).reshape(18, 18)
+
+
+@functools.lru_cache(maxsize=None)
+def cheapest(second, young, nu):
+    """What is free (9) of what costs least, by what the corners have: of strain_along() with b and t alone (18)."""
+    zero = np.zeros((3, 3))
+    units = np.array([strain_along(zero, np.zeros(3), unit.reshape(3, 3)).ravel() for unit in np.eye(9)])
+    stiffness = gradient_stiffness(second, young, nu)
+    return -np.linalg.solve(units @ stiffness @ units.T, units @ stiffness)
+
+
+def least_energy(b, t, second, young, nu):
+    """The energy of the strain's changes where what is free takes what costs least, and these changes."""
+    key = tuple(second.ravel()), young, nu
+    given = strain_along(b, t, np.zeros((3, 3))).ravel()
+    along = strain_along(b, t, (cheapest(*key) @ given).reshape(3, 3))
+    return along.ravel() @ gradient_stiffness(*key) @ along.ravel() / 2, along
+
+
+def tangent(centroid, b, along, h):
+    """What makes the trilinear map's gradient at the centroid that of the bent solid, but for its change of thickness."""
+    bend = np.eye(3, dtype=along.dtype)
+    for i in range(3):
+        for j in range(3):
+            if i != j:
+                half = h * centroid[i] * (along[6 - i - j, i] - b[i, j]) / 2  # u_j by i twice
+                bend[i, j] += half
+                bend[j, i] += half
+    return bend
+
+
 def energy(x, solid, young, nu, h):
     """J, of corners x (8 x 3, m)."""
     F, b, q, t = modes(x, solid.centroid, h)
-    m, G = solid.second, lame(young, nu)[1]
-    W = solid.volume * density(F, young, nu)
+    m, V = solid.second, solid.volume
+    for k in range(3):
+        i, j = (k + 1) % 3, (k + 2) % 3
+        t[k] += h * (solid.centroid[i] * q[i] + solid.centroid[j] * q[j])
+    bending, along = least_energy(b, t, m, young, nu)
+    W = V * density(F @ tangent(solid.centroid, b, along, h), young, nu) + bending
     for g in range(3):
         i, k = (g + 1) % 3, (g + 2) % 3
-        W += 0.5 * m[g, g] * young / (1 - nu**2) * (b[i, g] ** 2 + b[k, g] ** 2 + 2 * nu * b[i, g] * b[k, g])
-        W += young * m[i, k] * b[g, i] * b[g, k]
-        W += 0.5 * G * m[g, g] * t[g] ** 2
-        W += 0.5 * young * m[i, i] * m[k, k] / solid.volume * q[g] ** 2
+        W += 0.5 * WARPING * young * m[i, i] * m[k, k] / V * q[g] ** 2
     return W
 
 

@@ -59,7 +59,7 @@ TEST(SolidBrick, IsWhatTheOracleSays) {
     const double h = std::pow(10, between(-3, 0, random));
     const double fill = between(0.01, 1.1, random);
     const Material material = test::test_material(between(-0.3, 0.499, random), std::pow(10, between(3, 9, random)));
-    const SolidMoments moments = bounded_moments(material, random_moments(random));
+    const SolidMoments moments = bounded_moments(random_moments(random));
     const BrickVector x = shaken(brick % 3 == 0 ? 0.05 : brick % 3 == 1 ? 0.3 : 1.0, h, random);
     const SolidBrick solid(material, h, fill, moments);
     const double volume = fill * h * h * h;
@@ -197,7 +197,7 @@ TEST(SolidBrick, DampsDeformationOnly) {
   Random random(5);
   const Material material = test::test_material(0.4);
   for (int trial = 0; trial < 20; ++trial) {
-    const SolidBrick brick(material, kSide, 0.5, bounded_moments(material, random_moments(random)));
+    const SolidBrick brick(material, kSide, 0.5, bounded_moments(random_moments(random)));
     const BrickVector x = shaken(0.5, kSide, random);
     const BrickMatrix damping = brick.damping(x);
     const BrickVector v = shaken(1, kSide, random);
@@ -217,7 +217,7 @@ TEST(SolidBrick, HasADefiniteHessianToo) {
   for (const double amount : {0.1, 0.5, 1.5}) {
     for (const double poisson : {-0.2, 0.0, 0.3, 0.49}) {
       const Material material = test::test_material(poisson);
-      const SolidBrick brick(material, kSide, 0.4, bounded_moments(material, random_moments(random)));
+      const SolidBrick brick(material, kSide, 0.4, bounded_moments(random_moments(random)));
       const BrickMatrix definite = brick.hessian(shaken(amount, kSide, random), true);
       EXPECT_GT(Eigen::SelfAdjointEigenSolver<BrickMatrix>(definite).eigenvalues()[0], -1e-12 * definite.norm());
     }
@@ -233,7 +233,7 @@ TEST(SolidBrick, IsStableHoweverThinARodItHolds) {
     const Material material = test::test_material(poisson);
     const SolidMoments rod{.covariance = Mat3::Constant(1.0 / 12)};
     const BrickMatrix hessian =
-        SolidBrick(material, kSide, 0.02, bounded_moments(material, rod)).hessian(rest_corners(kSide), false);
+        SolidBrick(material, kSide, 0.02, bounded_moments(rod)).hessian(rest_corners(kSide), false);
     const auto values = Eigen::SelfAdjointEigenSolver<BrickMatrix>(hessian).eigenvalues();
     EXPECT_GT(values[0], -1e-10 * values[23]) << poisson;
     EXPECT_GT(values[6], 0) << poisson;
