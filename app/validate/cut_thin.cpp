@@ -106,9 +106,9 @@ void add_rods(std::vector<CutPart>& parts) {
     TableScene twisted(rod_mesh(), 1.0 / across, kStiffness, kPoisson);
     twisted.hold("x-low").load("x-high").moment = Vec3(1, 0, 0);
     twisted.probe("rim", {10, 0.5, 0});
-    parts.push_back(
-        probed_part(twisted.scene(), fmt::format("{} across", across), 2,
-                    {"round rod, torque: rim.displacement.z", 10 / (shear * polar) / 2, "m", "Saint-Venant", 0.04}));
+    parts.push_back(probed_part(twisted.scene(), fmt::format("{} across", across), 2,
+                                {"round rod, torque: rim.displacement.z", 10 / (shear * polar) / 2, "m", "Saint-Venant",
+                                 across == 4 ? 0.04 : 0.02}));
   }
 }
 

@@ -6,9 +6,7 @@
 #include "core/types.h"
 
 namespace sprung {
-namespace {
 
-/// Stress by strain, both as xx yy zz xy yz zx with engineering shears, Pa.
 Eigen::Matrix<double, 6, 6> elasticity(const Material& material) {
   Eigen::Matrix<double, 6, 6> matrix = Eigen::Matrix<double, 6, 6>::Zero();
   matrix.topLeftCorner<3, 3>().setConstant(material.lame_lambda());
@@ -16,6 +14,8 @@ Eigen::Matrix<double, 6, 6> elasticity(const Material& material) {
   matrix.diagonal().tail<3>().setConstant(material.shear_modulus());
   return matrix;
 }
+
+namespace {
 
 /// Strain by corner displacements at a place in the unit cube, for a cube of side h.
 Eigen::Matrix<double, 6, 24> strain_by_corner(const Vec3& local, double h) {

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <array>
 
+#include "core/law/hexahedron.h"
 #include "core/law/neo_hooke/strain_differences.h"
 
 namespace sprung {
@@ -13,16 +14,6 @@ int component_of(int i, int j) { return i == j ? i : 6 - i - j; }
 
 /// The component `strain` along an axis.
 int number_of(int strain, int axis) { return 3 * strain + axis; }
-
-/// Hooke's law over Young's modulus, of engineering strains.
-Eigen::Matrix<double, 6, 6> hooke(double poisson) {
-  const double shear = 1 / (2 * (1 + poisson));
-  Eigen::Matrix<double, 6, 6> law = Eigen::Matrix<double, 6, 6>::Zero();
-  law.topLeftCorner<3, 3>().setConstant(poisson / ((1 + poisson) * (1 - 2 * poisson)));
-  law.diagonal() << Vec3::Constant(2 * shear), Vec3::Constant(shear);
-  law.topLeftCorner<3, 3>().diagonal().array() += poisson / ((1 + poisson) * (1 - 2 * poisson));
-  return law;
-}
 
 struct Ways {
   std::array<int, 9> corners{};  // by the row of StrainDifferences
@@ -54,7 +45,10 @@ Mat3 shear_matrix(const Vec3& rows) {
 
 CurvedSolid curved_solid(double poisson, const SolidMoments& moments) {
   static const Ways kWays = list_ways();
-  const Eigen::Matrix<double, 6, 6> law = hooke(poisson);
+  Material unit;
+  unit.young = 1;
+  unit.poisson = poisson;
+  const Eigen::Matrix<double, 6, 6> law = elasticity(unit);
   Eigen::Matrix<double, 18, 18> energy;
   for (int one = 0; one < 6; ++one) {
     for (int other = 0; other < 6; ++other) {

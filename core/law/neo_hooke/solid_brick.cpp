@@ -2,7 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "core/bricks/brick_topology.h"
+#include "core/bricks/embedding.h"
 
 namespace sprung {
 namespace {
@@ -10,29 +10,13 @@ namespace {
 constexpr int kGradients = StrainDifferences::kGradients;
 constexpr double kWarping = 3;  // over a plate's E m m; less leaves bodies of slanted bricks softer still
 
-/// Gradients of the corners' trilinear weights at a place in brick lengths from the middle, 1/m.
-Eigen::Matrix<double, 8, 3> weights_at(const Vec3& place, double h) {
-  Eigen::Matrix<double, 8, 3> weights;
-  for (int corner = 0; corner < 8; ++corner) {
-    for (int axis = 0; axis < 3; ++axis) {
-      double weight = 1 / h;
-      for (int other = 0; other < 3; ++other) {
-        const double side = on_high_side(corner, other) ? 1 : -1;
-        weight *= other == axis ? side : 0.5 + side * place[other];
-      }
-      weights(corner, axis) = weight;
-    }
-  }
-  return weights;
-}
-
 }  // namespace
 
 SolidBrick::SolidBrick(const Material& material, double h, double fill, const SolidMoments& moments,
                        const CurvedSolid& curved)
     : law_(material),
       volume_(fill * h * h * h),
-      weights_(weights_at(moments.centroid, h)),
+      weights_(trilinear_gradients(Vec3::Constant(0.5) + moments.centroid) / h),
       differences_(h, moments.centroid),
       tangent_(h * curved.tangent) {
   const double bending = material.young * volume_ * h * h;
@@ -44,27 +28,31 @@ SolidBrick::SolidBrick(const Material& material, double h, double fill, const So
   }
 }
 
-double SolidBrick::energy(const BrickVector& x) const {
+SolidBrick::Deformation SolidBrick::deformation(const BrickVector& x) const {
   const Values z = differences_.values(x);
-  return volume_ * law_.energy(secant(x) * bend(z)) + 0.5 * z.dot(stiffness_ * z);
+  return {.z = z, .secant = secant(x), .bent = Mat3::Identity() + shear(z)};
+}
+
+double SolidBrick::energy(const BrickVector& x) const {
+  const Deformation at = deformation(x);
+  return volume_ * law_.energy(at.gradient()) + 0.5 * at.z.dot(stiffness_ * at.z);
 }
 
 BrickVector SolidBrick::forces(const BrickVector& x) const {
-  const Values z = differences_.values(x);
-  return -pull(x, law_.stress(secant(x) * bend(z)), stiffness_ * z);
+  const Deformation at = deformation(x);
+  return -pull(x, at, law_.stress(at.gradient()), stiffness_ * at.z);
 }
 
 BrickMatrix SolidBrick::hessian(const BrickVector& x, bool definite) const {
-  const Values z = differences_.values(x);
+  const Deformation at = deformation(x);
   const StrainDifferences::Rates rates = differences_.rates(x);
-  const GradientRates of_gradient = gradient_rates(x, rates);
-  const Mat3 f = secant(x);
-  const Mat3 gradient = f * bend(z);
+  const GradientRates of_gradient = gradient_rates(at, rates);
+  const Mat3 gradient = at.gradient();
   const Mat3 stress = law_.stress(gradient);
   BrickMatrix matrix = rates.transpose() * stiffness_ * rates;
   matrix += volume_ * of_gradient.transpose() * (definite ? law_.definite_hessian(gradient) : law_.hessian(gradient)) *
             of_gradient;
-  differences_.add_curvature(stiffness_ * z + on_differences(f.transpose() * stress), definite, matrix);
+  differences_.add_curvature(stiffness_ * at.z + on_differences(at.secant.transpose() * stress), definite, matrix);
   if (definite) return matrix;
   // F and S change together.
   Eigen::Matrix<double, kGradients, 24> of_secant;
@@ -77,28 +65,26 @@ BrickMatrix SolidBrick::hessian(const BrickVector& x, bool definite) const {
 }
 
 BrickMatrix SolidBrick::damping(const BrickVector& x) const {
+  const Deformation at = deformation(x);
   const StrainDifferences::Rates rates = differences_.rates(x);
-  const GradientRates of_gradient = gradient_rates(x, rates);
-  return volume_ * of_gradient.transpose() * law_.viscosity(gradient(x)) * of_gradient +
+  const GradientRates of_gradient = gradient_rates(at, rates);
+  return volume_ * of_gradient.transpose() * law_.viscosity(at.gradient()) * of_gradient +
          rates.transpose() * stiffness_ * rates;
 }
 
 BrickVector SolidBrick::damping_product(const BrickVector& x, const BrickVector& v) const {
-  const Mat3 bent = bend(differences_.values(x));
+  const Deformation at = deformation(x);
   const Values change = differences_.change(x, v);
-  const Mat3 rate = secant(v) * bent + secant(x) * (bend(change) - Mat3::Identity());
-  return pull(x, law_.viscous_stress(secant(x) * bent, rate), stiffness_ * change);
+  const Mat3 rate = secant(v) * at.bent + at.secant * shear(change);
+  return pull(x, at, law_.viscous_stress(at.gradient(), rate), stiffness_ * change);
 }
 
-Mat3 SolidBrick::gradient(const BrickVector& x) const { return secant(x) * bend(differences_.values(x)); }
+Mat3 SolidBrick::gradient(const BrickVector& x) const { return deformation(x).gradient(); }
 
-Mat3 SolidBrick::bend(const Values& z) const {
-  return Mat3::Identity() + shear_matrix(tangent_ * z.head<kGradients>());
-}
-
-BrickVector SolidBrick::pull(const BrickVector& x, const Mat3& stress, const Values& besides) const {
-  BrickVector pull = differences_.pull(x, besides + on_differences(secant(x).transpose() * stress));
-  pull.reshaped(3, 8) += volume_ * stress * bend(differences_.values(x)) * weights_.transpose();
+BrickVector SolidBrick::pull(const BrickVector& x, const Deformation& at, const Mat3& stress,
+                             const Values& besides) const {
+  BrickVector pull = differences_.pull(x, besides + on_differences(at.secant.transpose() * stress));
+  pull.reshaped(3, 8) += volume_ * stress * at.bent * weights_.transpose();
   return pull;
 }
 
@@ -109,29 +95,17 @@ SolidBrick::Values SolidBrick::on_differences(const Mat3& stress) const {
   return values;
 }
 
-SolidBrick::GradientRates SolidBrick::secant_rates() const {
-  GradientRates rates = GradientRates::Zero();
+SolidBrick::GradientRates SolidBrick::gradient_rates(const Deformation& at,
+                                                     const StrainDifferences::Rates& rates) const {
+  const Eigen::Matrix<double, 8, 3> weights = weights_ * at.bent;
+  GradientRates of_gradient = GradientRates::Zero();
   for (int corner = 0; corner < 8; ++corner) {
     for (int axis = 0; axis < 3; ++axis) {
-      rates.block<3, 3>(3 * axis, 3 * corner).diagonal().setConstant(weights_(corner, axis));
-    }
-  }
-  return rates;
-}
-
-SolidBrick::GradientRates SolidBrick::gradient_rates(const BrickVector& x,
-                                                     const StrainDifferences::Rates& rates) const {
-  const Mat3 f = secant(x);
-  const Mat3 bent = bend(differences_.values(x));
-  const GradientRates of_secant = secant_rates();
-  GradientRates of_gradient = GradientRates::Zero();
-  for (int column = 0; column < 3; ++column) {
-    for (int axis = 0; axis < 3; ++axis) {
-      of_gradient.middleRows<3>(3 * column) += bent(axis, column) * of_secant.middleRows<3>(3 * axis);
+      of_gradient.block<3, 3>(3 * axis, 3 * corner).diagonal().setConstant(weights(corner, axis));
     }
   }
   for (int row = 0; row < kGradients; ++row) {
-    const Mat3 along = f * shear_matrix(tangent_.col(row));
+    const Mat3 along = at.secant * shear_matrix(tangent_.col(row));
     of_gradient += along.reshaped() * rates.row(row);
   }
   return of_gradient;

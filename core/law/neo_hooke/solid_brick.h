@@ -1,6 +1,4 @@
 #pragma once
-#include <cmath>
-
 #include "core/bricks/solid_moments.h"
 #include "core/law/brick_vector.h"
 #include "core/law/material.h"
@@ -13,7 +11,7 @@ namespace sprung {
 
 /// A brick that knows how its solid lies in it. Its energy, with z = (b, t, q) the differences of its springs' squared
 /// lengths (StrainDifferences) and S, K those of its solid (CurvedSolid):
-///   W = V psi(F (I + S z)) + 1/2 E V h^2 (b, t)^T K (b, t) + 1/2 sum over i: E m_jj m_kk / V q_i^2
+///   W = V psi(F (I + S z)) + 1/2 E V h^2 (b, t)^T K (b, t) + 3/2 sum over i: E m_jj m_kk / V q_i^2
 /// F is the gradient of the trilinear map of the corners at the centroid. Full or cut by the surface, it is right to
 /// first order and at any strain; momentum and angular momentum are conserved exactly. As an element, a uniform-strain
 /// hexahedron with physical hourglass stabilisation (Flanagan, Belytschko, Int. J. Numer. Meth. Engng 17, 1981; Puso,
@@ -45,17 +43,28 @@ class SolidBrick {
   using Values = StrainDifferences::Values;
   using GradientRates = Eigen::Matrix<double, 9, 24>;  // of the nine entries of a gradient, by the corners
 
+  /// Where the corners are.
+  struct Deformation {
+    Values z;
+    Mat3 secant;  // F
+    Mat3 bent;    // I + S z
+
+    [[nodiscard]] Mat3 gradient() const { return secant * bent; }
+  };
+  [[nodiscard]] Deformation deformation(const BrickVector& x) const;
   [[nodiscard]] Mat3 secant(const BrickVector& x) const { return x.reshaped(3, 8) * weights_; }
-  /// I + S z.
-  [[nodiscard]] Mat3 bend(const Values& z) const;
+  /// S z.
+  [[nodiscard]] Mat3 shear(const Values& z) const {
+    return shear_matrix(tangent_ * z.head<StrainDifferences::kGradients>());
+  }
   /// The forces on the corners of a stress (first Piola-Kirchhoff, Pa) and of what the differences of the springs ask
-  /// for besides, where the corners are at x.
-  [[nodiscard]] BrickVector pull(const BrickVector& x, const Mat3& stress, const Values& besides) const;
-  /// What F^T P does on the differences, J m (or J m^2) by Pa m^3.
+  /// for besides.
+  [[nodiscard]] BrickVector pull(const BrickVector& x, const Deformation& at, const Mat3& stress,
+                                 const Values& besides) const;
+  /// What the stress F^T P (Pa) asks of the differences.
   [[nodiscard]] Values on_differences(const Mat3& stress) const;
-  [[nodiscard]] GradientRates secant_rates() const;
-  /// Of gradient(); `secant`: F.
-  [[nodiscard]] GradientRates gradient_rates(const BrickVector& x, const StrainDifferences::Rates& rates) const;
+  /// Of gradient().
+  [[nodiscard]] GradientRates gradient_rates(const Deformation& at, const StrainDifferences::Rates& rates) const;
 
   NeoHooke law_;
   double volume_;

@@ -11,8 +11,7 @@ namespace sprung {
 /// s = -1, +1 the low and the high side and c in brick lengths:
 ///   b_ij = sum of |d|^2 / (2 h^3) of the edges along i, each times s_j (1/2 + s_k c_k):         strain ii along j, 1/m
 ///   q_i  = the same, each times s_j s_k, over h:                                   u_i = x y z, 1/m^2
-///   t_k  = (g of the high face - g of the low face) / h + h (c_i q_i + c_j q_j):          engineering strain ij along
-///   k, 1/m
+///   t_k  = (g of the high face - g of the low face) / h + h (c_i q_i + c_j q_j):   shear ij along k, 1/m
 ///     with g = (|one diagonal|^2 - |the other|^2) / (4 h^2)
 /// A force on them is a tension along edges and diagonals, which conserves momentum and angular momentum.
 class StrainDifferences {
