@@ -10,6 +10,7 @@
 
 #include "core/body/brick_kernel.h"
 #include "core/body/brick_tiles.h"
+#include "core/body/solid_tiles.h"
 #include "core/law/hexahedron.h"
 #include "core/law/neo_hooke/solid_brick.h"
 #include "core/types.h"
@@ -81,7 +82,8 @@ Body make_body(BrickGrid grid, Model model, const Material& material) {
 }
 
 void build_tiles(Body& body) {
-  body.tiles = std::make_shared<const BrickTiles>(make_brick_tiles(body.grid, body.stiffness_scale));
+  body.tiles = std::make_shared<const BrickTiles>(
+      body.model == Model::kNeoHooke ? make_solid_tiles(body) : make_spring_tiles(body.grid, body.stiffness_scale));
 }
 
 void place(Body& body, const Mat3& rotation, const Vec3& translation) {

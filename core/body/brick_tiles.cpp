@@ -1,7 +1,6 @@
 #include "core/body/brick_tiles.h"
 
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <array>
@@ -195,15 +194,11 @@ struct MadeTile {
   std::size_t shared_size = 0;
 };
 
-/// The four shares of a pack of bricks, list by list.
-using SharePack = std::array<double, std::size_t{4} * kPackPadding>;
-
 /// Lists the runs of one tile.
 class TileMaker {
  public:
-  TileMaker(const BrickGrid& grid, const std::vector<double>& shares, const FaceShares& faces,
-            const std::vector<int>& bricks)
-      : shares_(shares), faces_(faces), box_(bounds_of(grid, bricks)) {
+  TileMaker(const BrickGrid& grid, const PackNumbers& numbers, const FaceShares& faces, const std::vector<int>& bricks)
+      : numbers_(numbers), faces_(faces), box_(bounds_of(grid, bricks)) {
     const Cell size = box_.high - box_.low;
     tile_.pitch = size.x() + 1;
     tile_.planes = size.z() + 1;
@@ -242,6 +237,7 @@ class TileMaker {
       const int there = place + (on_high_side(corner, 0) ? 1 : 0) + (on_high_side(corner, 1) ? tile_.pitch : 0);
       nodes_[slot(cell.z() + (on_high_side(corner, 2) ? 1 : 0), there)] = grid.nodes[b][corner];
     }
+    if (faces_.high[0].empty()) return;
     last_faces_[0][slot(cell.z() + 1, place)] = faces_.high[2][b];
     last_faces_[1][slot(cell.z(), place + tile_.pitch)] = faces_.high[1][b];
     last_faces_[2][slot(cell.z(), place + 1)] = faces_.high[0][b];
@@ -320,27 +316,21 @@ class TileMaker {
   void list_bricks(int plane) {
     close_list();
     const auto brick_at = [&](int place) { return bricks_[slot(plane, place)]; };
-    each_run_of_packs(
-        [&](int place) { return brick_at(place) >= 0; },
-        [&](int begin, int count) {
-          add_run(begin, count, tile_.packs.size());
-          for (int place = begin; place < begin + count; place += kPackPadding) {
-            SharePack pack{};
-            auto share = pack.begin();
-            for (const std::vector<double>* list : {&shares_, &faces_.low[2], &faces_.low[1], &faces_.low[0]}) {
-              for (int i = place; i < place + kPackPadding; ++i, ++share) {
-                if (brick_at(i) >= 0) *share = (*list)[brick_at(i)];
-              }
-            }
-            tile_.packs.push_back(keep(pack));
-          }
-        });
+    each_run_of_packs([&](int place) { return brick_at(place) >= 0; },
+                      [&](int begin, int count) {
+                        add_run(begin, count, tile_.packs.size());
+                        for (int place = begin; place < begin + count; place += kPackPadding) {
+                          std::array<int, kPackPadding> pack{};
+                          for (int i = 0; i < kPackPadding; ++i) pack[i] = brick_at(place + i);
+                          tile_.packs.push_back(keep(numbers_(pack)));
+                        }
+                      });
   }
 
-  /// Where these shares are; one that came before is not kept again.
-  int keep(const SharePack& pack) {
-    const auto [known, is_new] = kept_.try_emplace(pack, isize(tile_.shares));
-    if (is_new) tile_.shares.insert(tile_.shares.end(), pack.begin(), pack.end());
+  /// Where these numbers are; those that came before are not kept again.
+  int keep(std::vector<double> pack) {
+    const auto [known, is_new] = kept_.try_emplace(std::move(pack), isize(tile_.shares));
+    if (is_new) tile_.shares.insert(tile_.shares.end(), known->first.begin(), known->first.end());
     return known->second;
   }
 
@@ -355,7 +345,7 @@ class TileMaker {
                       });
   }
 
-  const std::vector<double>& shares_;
+  const PackNumbers& numbers_;
   const FaceShares& faces_;
   Box box_;
   int places_ = 0;                                 // of a plane, with room for a pack behind the last node
@@ -363,7 +353,7 @@ class TileMaker {
   std::vector<int> nodes_;                         // likewise
   std::array<std::vector<double>, 3> last_faces_;  // xy, zx and yz: shares, likewise, or 0
   BrickTile tile_;
-  std::map<SharePack, int> kept_;
+  std::map<std::vector<double>, int> kept_;
   std::vector<SharedPart> parts_;
   std::size_t shared_size_ = 0;
 };
@@ -393,22 +383,32 @@ void join_parts(BrickTiles& tiles) {
 
 }  // namespace
 
-BrickTiles make_brick_tiles(const BrickGrid& grid, const std::vector<double>& stiffness_scale) {
+BrickTiles make_brick_tiles(const BrickGrid& grid, const PackNumbers& numbers, const FaceShares& faces) {
   BrickTiles result;
   if (grid.cells.empty()) return result;
   std::vector<std::vector<int>> tiles;
   for (const std::vector<int>& layer : layers_of(grid)) {
     for (std::vector<int>& tile : cut(grid, layer)) tiles.push_back(std::move(tile));
   }
-  std::vector<int> owners;
-  FaceShares faces;
-  tbb::parallel_invoke([&] { owners = owners_of(grid, tiles); }, [&] { faces = share_faces(grid, stiffness_scale); });
+  const std::vector<int> owners = owners_of(grid, tiles);
   std::vector<MadeTile> made(tiles.size());
   tbb::parallel_for(std::size_t{0}, tiles.size(),
-                    [&](std::size_t i) { made[i] = TileMaker(grid, stiffness_scale, faces, tiles[i]).make(owners); });
+                    [&](std::size_t i) { made[i] = TileMaker(grid, numbers, faces, tiles[i]).make(owners); });
   for (MadeTile& one : made) add(std::move(one), result);
   join_parts(result);
   return result;
+}
+
+BrickTiles make_spring_tiles(const BrickGrid& grid, const std::vector<double>& stiffness_scale) {
+  const FaceShares faces = share_faces(grid, stiffness_scale);
+  const auto numbers = [&](const std::array<int, kPackPadding>& bricks) {
+    std::vector<double> pack;
+    for (const std::vector<double>* list : {&stiffness_scale, &faces.low[2], &faces.low[1], &faces.low[0]}) {
+      for (const int brick : bricks) pack.push_back(brick < 0 ? 0 : (*list)[brick]);
+    }
+    return pack;
+  };
+  return make_brick_tiles(grid, numbers, faces);
 }
 
 }  // namespace sprung

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "core/body/kernel/tile_pass.h"
@@ -40,6 +41,9 @@ struct BrickTile {
   }
 };
 
+/// What the kernel is told of kPackPadding bricks side by side (-1 where there is none), see TileView::shares.
+using PackNumbers = std::function<std::vector<double>(const std::array<int, kPackPadding>& bricks)>;
+
 /// A body's bricks cut into tiles whose nodes stay in a core's cache while they are computed. The cut depends on the
 /// bricks alone, and so does the order of every sum: not on the number of threads.
 struct BrickTiles {
@@ -49,8 +53,11 @@ struct BrickTiles {
   std::size_t shared_size = 0;  // doubles
 };
 
-/// `stiffness_scale` per brick: of how many full bricks it has the stiffness, above 0. Bricks and nodes may lie at the
-/// same place several times. Cost: linear in the boxes around the tiles.
-[[nodiscard]] BrickTiles make_brick_tiles(const BrickGrid& grid, const std::vector<double>& stiffness_scale);
+/// `faces`: of springs only, else empty. Bricks and nodes may lie at the same place several times. Cost: linear in the
+/// boxes around the tiles.
+[[nodiscard]] BrickTiles make_brick_tiles(const BrickGrid& grid, const PackNumbers& numbers, const FaceShares& faces);
+
+/// Of springs. `stiffness_scale` per brick: of how many full bricks it has the stiffness, above 0.
+[[nodiscard]] BrickTiles make_spring_tiles(const BrickGrid& grid, const std::vector<double>& stiffness_scale);
 
 }  // namespace sprung

@@ -10,6 +10,7 @@
 #include "core/body/brick_model.h"
 #include "core/body/brick_tiles.h"
 #include "core/body/kernel/pack.h"
+#include "core/body/solid_tiles.h"
 
 namespace sprung {
 namespace {
@@ -20,6 +21,8 @@ PassInput input_of(const Body& body, Pass pass) {
   PassInput input;
   input.pass = pass;
   input.law = body.law;
+  input.is_solid = body.model == Model::kNeoHooke;
+  if (input.is_solid) input.solid = solid_law(body.material, body.grid.brick_size);
   input.brick_size = body.grid.brick_size;
   input.beta = body.damping.beta;
   // Only Pass::kMove, which has the body to itself, writes there.
@@ -62,8 +65,19 @@ void SpringSystem::run(const BrickTiles& tiles, const PassInput& input) {
 }
 
 void SpringSystem::forces(const Body& body, Points& forces) {
-  forces.resize(body.node_count(), 3);
   PassInput input = input_of(body, Pass::kForces);
+  run_forces(body, input, forces);
+}
+
+void SpringSystem::elastic_forces(const Body& body, const Points& positions, Points& forces) {
+  PassInput input = input_of(body, Pass::kForces);
+  input.beta = 0;
+  input.positions = const_cast<double*>(positions.data());
+  run_forces(body, input, forces);
+}
+
+void SpringSystem::run_forces(const Body& body, PassInput& input, Points& forces) {
+  forces.resize(body.node_count(), 3);
   input.forces = forces.data();
   run(*body.tiles, input);
   // Numbers that are not finite must not wait in the scratch: lanes behind a run are computed too, times zero.
@@ -129,7 +143,7 @@ double sum_over_bricks(const Body& body, const Number& number) {
 }  // namespace
 
 void spring_forces(const Body& body, ForceWorkspace& workspace, Points& forces) {
-  if (has_springs(body.model)) {
+  if (has_tiles(body.model)) {
     workspace.springs.forces(body, forces);
   } else {
     sum_brick_forces(body, workspace.bricks, forces);
@@ -137,7 +151,7 @@ void spring_forces(const Body& body, ForceWorkspace& workspace, Points& forces) 
 }
 
 double elastic_energy(const Body& body, ForceWorkspace& workspace) {
-  if (has_springs(body.model)) return workspace.springs.energy(body);
+  if (has_tiles(body.model)) return workspace.springs.energy(body);
   const BrickModel& model = brick_model(body.model);
   return sum_over_bricks(
       body, [&](std::size_t brick) { return model.energy(body, brick, at_corners(body, brick, body.positions)); });

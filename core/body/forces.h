@@ -6,9 +6,9 @@
 
 namespace sprung {
 
-/// The springs of a body at work, with the room they need, kept from step to step. Tiles are computed in parallel and
-/// what they add to shared nodes is summed in a fixed order: the same bits for any number of threads. Only for models
-/// that has_springs().
+/// The springs of a body at work, or its solid bricks, with the room they need, kept from step to step. Tiles are
+/// computed in parallel and what they add to shared nodes is summed in a fixed order: the same bits for any number of
+/// threads. Only for models that has_tiles().
 class SpringSystem {
  public:
   explicit SpringSystem(const SpringKernel& kernel = best_spring_kernel()) : kernel_(kernel) {}
@@ -16,9 +16,12 @@ class SpringSystem {
   /// Forces on the nodes, m x 3, N, as spring_forces().
   void forces(const Body& body, Points& forces);
 
+  /// The same without damping, with nodes at `positions` (m x 3, m).
+  void elastic_forces(const Body& body, const Points& positions, Points& forces);
+
   /// `factor` times the stiffness of the springs along themselves times u (3 m), without the guard and without what
-  /// tensions add by turning: the damping forces of rates u, with nodes at `positions` (m x 3, m), times -factor /
-  /// beta.
+  /// tensions add by turning, or times what BrickModel::damping() is: the damping forces of rates u, with nodes at
+  /// `positions` (m x 3, m), times -factor / beta.
   void multiply_along(const Body& body, const Points& positions, double factor, const Eigen::VectorXd& u,
                       Eigen::VectorXd& product);
 
@@ -39,6 +42,7 @@ class SpringSystem {
 
  private:
   void run(const BrickTiles& tiles, const PassInput& input);
+  void run_forces(const Body& body, PassInput& input, Points& forces);
 
   /// Scratch in whole cache lines: a pack that lies across two costs twice.
   struct alignas(64) CacheLine {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/body/brick_model.h"
 #include "core/bricks/fill_solid.h"
 #include "core/contact/inversion_guard.h"
 #include "core/dynamics/energy.h"
@@ -43,10 +44,10 @@ SurfaceMesh mesh_of_shape(Shape shape, Dice& dice) {
 }
 
 /// A body of that size (m), as the program makes it; of bricks alone it touches by their corners.
-SoftBody make_actor(Shape shape, double size, const Material& material, Dice& dice) {
+SoftBody make_actor(Shape shape, double size, Model model, const Material& material, Dice& dice) {
   if (shape == Shape::kBricks) {
     const Eigen::Vector3i counts(dice.whole(1, 5), dice.whole(1, 5), dice.whole(1, 5));
-    SoftBody actor(make_body(make_box_grid(counts, size / counts.maxCoeff()), Model::kCalibrated, material));
+    SoftBody actor(make_body(make_box_grid(counts, size / counts.maxCoeff()), model, material));
     actor.contacts = embed(actor.grid, actor.grid.rest_positions());
     return actor;
   }
@@ -55,8 +56,8 @@ SoftBody make_actor(Shape shape, double size, const Material& material, Dice& di
   const Vec3 extent = mesh.positions.colwise().maxCoeff() - mesh.positions.colwise().minCoeff();
   mesh.positions *= size / extent.maxCoeff();
   const Solid solid = find_solids(mesh, "drop").solids.front();
-  FilledSolid filled = fill_solid(solid, size / dice.between(2, 7));
-  return make_soft_body(mesh, solid, std::move(filled.grid), Model::kCalibrated, material);
+  FilledSolid filled = fill_solid(solid, size / dice.between(2, 7), bricks_for(model));
+  return make_soft_body(mesh, solid, std::move(filled.grid), model, material);
 }
 
 double lowest_point(const SoftBody& actor) {
@@ -65,7 +66,7 @@ double lowest_point(const SoftBody& actor) {
 
 }  // namespace
 
-Drop random_drop(std::uint32_t seed, std::uint32_t index, double least_poisson) {
+Drop random_drop(std::uint32_t seed, std::uint32_t index, Model model, double least_poisson) {
   Dice dice(seed, index);
   const Material material{.name = "random",
                           .young = dice.log_between(1e3, 1e9),
@@ -78,7 +79,7 @@ Drop random_drop(std::uint32_t seed, std::uint32_t index, double least_poisson) 
   Drop drop;
   drop.world.gravity = Vec3(0, -kGravity, 0);
   drop.world.obstacles = {level_ground(0, dice.between(0, 1))};
-  drop.world.bodies.push_back(make_actor(shape, size, material, dice));
+  drop.world.bodies.push_back(make_actor(shape, size, model, material, dice));
   SoftBody& actor = drop.world.bodies.front();
   place(actor, dice.rotation(), Vec3::Zero());
   const double gap = dice.between(0, 0.02) * size;

@@ -16,7 +16,7 @@ struct Drop {
 };
 
 /// Drop number `index` of a series; the same for the same numbers. Poisson's ratio is `least_poisson` to 0.49.
-[[nodiscard]] Drop random_drop(std::uint32_t seed, std::uint32_t index, double least_poisson);
+[[nodiscard]] Drop random_drop(std::uint32_t seed, std::uint32_t index, Model model, double least_poisson);
 
 /// What a drop did.
 struct DropResult {

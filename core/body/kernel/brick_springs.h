@@ -167,8 +167,9 @@ void pull_diagonals(const Kind& kind, double stiffness, const Ends<kShift>& diag
   }
 }
 
-/// Which of its springs and corrections a law has.
+/// Which of its springs and corrections a law has, or that its bricks are solid: without any of them.
 struct Layout {
+  bool solid = false;
   bool edges = false;
   bool faces = false;
   bool inner = false;

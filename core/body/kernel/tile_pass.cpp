@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/body/kernel/brick_springs.h"
+#include "core/body/kernel/solid_rows.h"
 #include "core/body/kernel/tile_runs.h"
 
 #define SPRUNG_QUOTE(name) #name
@@ -22,7 +23,7 @@ int before_neighbours(int place, int pitch) { return place - pitch - kPackPaddin
 
 /// Goes through a tile from low to high z with two planes of nodes at hand. Within a plane, edges are measured where
 /// the nodes are in, bricks follow where their edges are measured, and the nodes below are done with where all their
-/// bricks have been.
+/// bricks have been. Solid bricks have no edges of their own.
 template <Layout kLayout, Part kPart>
 class Walk {
  public:
@@ -128,6 +129,7 @@ class Walk {
       });
     });
     entry.nodes.go_to(nodes_to, [&](const RunPart& part) { copy_in(to, part); });
+    if constexpr (kLayout.solid) return;
     each_pack(entry.edges, edges_to, [&](int place) {
       const Place here = to.seen_from(place);
       measure_edges<kPart, 0>(edge_, {here, here});
@@ -160,6 +162,12 @@ class Walk {
   void fill(Layer& layer, int edges_to, int bricks_to) {
     const Place low = plane(layer.plane);
     const Place high = plane(layer.plane + 1);
+    if constexpr (kLayout.solid) {
+      layer.bricks.go_to(bricks_to, [&](const RunPart& part) {
+        solid_run<kPart>(input_.solid, input_.beta, {low, high, tile_.pitch}, part, tile_, energy_);
+      });
+      return;
+    }
     each_pack(layer.edges, edges_to, [&](int place) {
       measure_edges<kPart, 2>(edge_, {low.seen_from(place), high.seen_from(place)});
     });
@@ -203,9 +211,12 @@ class Walk {
   template <bool kHasLayer>
   void pull_edges_of(int index, const RunPart& part) const {
     const Place from = plane(index);
-    part.each_pack([&](int place) {
-      pull_edges<kHasLayer>(from.seen_from(place), next_row(index).seen_from(place), plane(index + 1).seen_from(place));
-    });
+    if constexpr (!kLayout.solid) {
+      part.each_pack([&](int place) {
+        pull_edges<kHasLayer>(from.seen_from(place), next_row(index).seen_from(place),
+                              plane(index + 1).seen_from(place));
+      });
+    }
     part.each_pack([&](int place) {
       const Place here = from.seen_from(place);
       here.set_three(kForceLow, here.three(kForceLow) + here.three(kForceHigh, -1));
@@ -234,8 +245,9 @@ void walk(const TileView& tile, const PassInput& input, double* scratch, double*
   }
 }
 
-/// One walk for each layout of springs; the law's zeros tell them apart.
+/// One walk for solid bricks and for each layout of springs; the law's zeros tell these apart.
 void run_tile(const TileView& tile, const PassInput& input, double* scratch, double* shared, Energy& energy) {
+  if (input.is_solid) return walk<Layout{.solid = true}>(tile, input, scratch, shared, energy);
   const BrickLaw& law = input.law;
   const bool bends = law.bending_self != 0 || law.bending_cross != 0;
   if (law.axes == 0 && !bends) {
@@ -245,7 +257,7 @@ void run_tile(const TileView& tile, const PassInput& input, double* scratch, dou
   if (law.axes == 0 && law.edge == 0) {
     return walk<Layout{.faces = true, .inner = true, .bends = true}>(tile, input, scratch, shared, energy);
   }
-  walk<Layout{true, true, true, true, true}>(tile, input, scratch, shared, energy);
+  walk<Layout{false, true, true, true, true, true}>(tile, input, scratch, shared, energy);
 }
 
 constexpr int kSharedAtOnce = 64;

@@ -37,9 +37,9 @@ inline constexpr int kPackPadding = 8;
 /// each instruction set.
 ///
 /// `shares` says of how many full bricks a run's bricks or faces are, 0 at the places that are none. Those of bricks
-/// lie pack by pack of kPackPadding places: their own shares, then those of their low xy, zx and yz faces, which a
-/// face's two bricks add up to; `packs` says where each begins, and those that are alike, as inside a body, lie there
-/// once. Those of faces are one list.
+/// lie pack by pack of kPackPadding places: of springs their own shares, then those of their low xy, zx and yz faces,
+/// which a face's two bricks add up to, of solid bricks see SolidNumber; `packs` says where each begins, and those that
+/// are alike, as inside a body, lie there once. Those of faces are one list.
 struct TileView {
   int pitch;
   int planes;  // of nodes
@@ -77,6 +77,32 @@ static_assert(kArraySize % 16 == 8 && kArraySize >= kFirstPlace + kMostPlaces + 
 /// Doubles of scratch for a tile.
 inline constexpr int kScratchSize = 2 * kPlaneSize;
 
+/// The law of solid bricks (SolidBrick): Young's modulus and Lame's constants in J, times h^3, and what a whole brick
+/// answers to differences of its springs over E h^3: the stiffness of a bend to itself and to the bend of the same
+/// plate across it, of a twist and of warping.
+struct SolidLaw {
+  double per_size = 0;  // 1 / h, 1/m
+  double young = 0;
+  double shear = 0;
+  double lambda = 0;
+  double bending = 0;
+  double across = 0;
+  double twist = 0;
+  double warping = 0;
+};
+
+/// The numbers of a pack of solid bricks where one of them is cut, kPackPadding each. Before them -1; a pack of whole
+/// bricks has but their shares.
+enum SolidNumber : int {
+  kSolidIsCut = 0,
+  kSolidShare = 1,      // of how many of the body's full bricks it is, by its material and fill
+  kSolidCentroid = 2,   // x y z, in brick lengths from the middle
+  kSolidStiffness = 5,  // of the nine gradients, over E h^3: the upper triangle row by row
+  kSolidWarping = 50,   // of q, likewise
+  kSolidTangent = 53,   // CurvedSolid's, row by row
+  kSolidNumbers = 80
+};
+
 enum class Pass {
   kForces,   // writes the springs' forces, N
   kDamping,  // writes what of them is damping, N
@@ -88,6 +114,8 @@ enum class Pass {
 struct PassInput {
   Pass pass = Pass::kForces;
   BrickLaw law;
+  bool is_solid = false;  // then bricks answer by `solid`, not by `law`
+  SolidLaw solid;
   double brick_size = 0;                   // m
   double beta = 0;                         // s
   double* positions = nullptr;             // m; written by kMove only

@@ -136,7 +136,7 @@ void multiply_stiffness(const Body& body, const Eigen::VectorXd& u, ProductWorks
 
 void multiply_damping(const Body& body, const Points& positions, double factor, const Eigen::VectorXd& u,
                       ProductWorkspace& workspace, Eigen::VectorXd& product) {
-  if (has_springs(body.model)) return workspace.springs.multiply_along(body, positions, factor, u, product);
+  if (has_tiles(body.model)) return workspace.springs.multiply_along(body, positions, factor, u, product);
   const BrickModel& model = brick_model(body.model);
   multiply_bricks(
       body, u,

@@ -22,10 +22,7 @@ SolidBrick::SolidBrick(const Material& material, double h, double fill, const So
   const double bending = material.young * volume_ * h * h;
   stiffness_.setZero();
   stiffness_.topLeftCorner<kGradients, kGradients>() = bending * curved.stiffness;
-  for (int i = 0; i < 3; ++i) {
-    const double spread = moments.covariance((i + 1) % 3, (i + 1) % 3) * moments.covariance((i + 2) % 3, (i + 2) % 3);
-    stiffness_(kGradients + i, kGradients + i) = kWarping * bending * h * h * spread;
-  }
+  stiffness_.diagonal().tail<3>() = bending * h * h * warping_stiffness(moments);
 }
 
 SolidBrick::Deformation SolidBrick::deformation(const BrickVector& x) const {
@@ -109,6 +106,11 @@ SolidBrick::GradientRates SolidBrick::gradient_rates(const Deformation& at,
     of_gradient += along.reshaped() * rates.row(row);
   }
   return of_gradient;
+}
+
+Vec3 warping_stiffness(const SolidMoments& moments) {
+  const Vec3 spread = moments.covariance.diagonal();
+  return kWarping * Vec3(spread[1] * spread[2], spread[2] * spread[0], spread[0] * spread[1]);
 }
 
 SolidMoments bounded_moments(const SolidMoments& moments, double least_thickness) {

@@ -74,6 +74,9 @@ class SolidBrick {
   Eigen::Matrix<double, 3, 9> tangent_;                                                // of (b, t), m
 };
 
+/// What warping costs, q_i^2 h^4 times this, over half E V.
+[[nodiscard]] Vec3 warping_stiffness(const SolidMoments& moments);
+
 /// Moments that the law can bear: in no direction is the solid thinner than `least_thickness`, in brick lengths.
 [[nodiscard]] SolidMoments bounded_moments(const SolidMoments& moments, double least_thickness = 0.02);
 

@@ -10,8 +10,6 @@
 namespace sprung {
 namespace {
 
-constexpr double kLowest = 0.2;  // volume ratio, below which the logarithm goes on as a parabola
-
 /// The part of psi that depends on the volume ratio J, and its derivatives.
 struct VolumeEnergy {
   double value;
@@ -19,8 +17,8 @@ struct VolumeEnergy {
   double curvature;
 
   VolumeEnergy(double shear, double lambda, double j) {
-    const double at = std::max(j, kLowest);
-    const double below = std::min(j - kLowest, 0.0) / kLowest;
+    const double at = std::max(j, kLowestVolume);
+    const double below = std::min(j - kLowestVolume, 0.0) / kLowestVolume;
     value = -shear * (std::log(at) + below - 0.5 * below * below);
     slope = -shear * (1 - below) / at;
     curvature = shear / (at * at);
@@ -75,6 +73,8 @@ struct PrincipalStretches {
 };
 
 }  // namespace
+
+double volume_energy(double shear, double lambda, double ratio) { return VolumeEnergy(shear, lambda, ratio).value; }
 
 NeoHooke::NeoHooke(const Material& material) : shear_(material.shear_modulus()), lambda_(material.lame_lambda()) {}
 

@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 
 #include "core/law/material.h"
+#include "core/law/neo_hooke/volume_energy.h"
 #include "core/types.h"
 
 namespace sprung {

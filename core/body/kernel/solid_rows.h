@@ -1,0 +1,417 @@
+#pragma once
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "core/body/kernel/brick_springs.h"
+#include "core/body/kernel/pack.h"
+#include "core/body/kernel/tile_pass.h"
+#include "core/body/kernel/tile_runs.h"
+#include "core/law/neo_hooke/volume_energy.h"
+
+namespace sprung::SPRUNG_INSTRUCTION_SET {
+
+/// The trilinear map of bricks, x(s) = 1/8 sum over n of g_n s^n with s = -1, +1 at the corners: what is constant,
+/// along x, y, xy, z, xz, yz and xyz, the bits of n. The squared lengths of edges and diagonals that the law knows
+/// (StrainDifferences) are products of two of these vectors, without a square root.
+using TrilinearMap = std::array<Pack3, 8>;
+
+[[nodiscard]] [[gnu::always_inline]] inline TrilinearMap trilinear_map(const BrickRows& rows, int values) {
+  TrilinearMap in_plane;
+#pragma GCC unroll 2
+  for (std::size_t z = 0; z < 2; ++z) {
+    const Place low = rows[2 * z];
+    const Place high = rows[2 * z + 1];
+    const Pack3 x0 = low.three(values);
+    const Pack3 x1 = low.three(values, 1);
+    const Pack3 x2 = high.three(values);
+    const Pack3 x3 = high.three(values, 1);
+    const Pack3 low_sum = x1 + x0;
+    const Pack3 low_way = x1 - x0;
+    const Pack3 high_sum = x3 + x2;
+    const Pack3 high_way = x3 - x2;
+    in_plane[4 * z] = high_sum + low_sum;
+    in_plane[4 * z + 1] = high_way + low_way;
+    in_plane[4 * z + 2] = high_sum - low_sum;
+    in_plane[4 * z + 3] = high_way - low_way;
+  }
+  TrilinearMap map;
+#pragma GCC unroll 4
+  for (std::size_t n = 0; n < 4; ++n) {
+    map[n] = in_plane[4 + n] + in_plane[n];
+    map[4 + n] = in_plane[4 + n] - in_plane[n];
+  }
+  return map;
+}
+
+/// Pulls at the corners: `pull[n]` goes to each with the sign of s^n there.
+[[gnu::always_inline]] inline void give_corners(const TrilinearMap& pull, const BrickRows& rows) {
+#pragma GCC unroll 2
+  for (std::size_t z = 0; z < 2; ++z) {
+    const auto in_plane = [&](std::size_t n) __attribute__((always_inline)) {
+      if (n == 0) return z == 0 ? -pull[4] : pull[4];
+      return z == 0 ? pull[n] - pull[4 + n] : pull[n] + pull[4 + n];
+    };
+    const Pack3 all = in_plane(0);
+    const Pack3 x = in_plane(1);
+    const Pack3 y = in_plane(2);
+    const Pack3 xy = in_plane(3);
+#pragma GCC unroll 2
+    for (std::size_t high_y = 0; high_y < 2; ++high_y) {
+      const Pack3 both = high_y == 0 ? all - y : all + y;
+      const Pack3 way = high_y == 0 ? x - xy : x + xy;
+      const Place row = rows[2 * z + high_y];
+      row.set_three(kForceLow, row.three(kForceLow) + (both - way));
+      row.set_three(kForceHigh, row.three(kForceHigh) + (both + way));
+    }
+  }
+}
+
+/// Products of two vectors of the map that the differences are sums of two of.
+inline constexpr std::array<std::pair<int, int>, 18> kProducts{{{1, 3},
+                                                                {1, 5},
+                                                                {2, 6},
+                                                                {2, 3},
+                                                                {4, 5},
+                                                                {4, 6},
+                                                                {2, 5},
+                                                                {3, 4},
+                                                                {1, 6},
+                                                                {5, 7},
+                                                                {3, 7},
+                                                                {6, 7},
+                                                                {1, 7},
+                                                                {3, 5},
+                                                                {2, 7},
+                                                                {3, 6},
+                                                                {4, 7},
+                                                                {5, 6}}};
+
+/// As StrainDifferences counts them: b_01, b_02, b_12, b_10, b_20, b_21, t_0, t_1, t_2, q_0, q_1, q_2.
+inline constexpr int kGradients = 9;
+inline constexpr int kDifferences = 12;
+inline constexpr std::array<std::pair<int, int>, kDifferences> kSumsOfProducts{
+    {{0, 9}, {1, 10}, {2, 10}, {3, 11}, {4, 11}, {5, 9}, {6, 7}, {7, 8}, {6, 8}, {12, 13}, {14, 15}, {16, 17}}};
+
+/// The differences, one or two, that each product is in.
+inline constexpr std::array<std::pair<int, int>, kProducts.size()> kAskedBy = [] {
+  std::array<std::pair<int, int>, kProducts.size()> asked{};
+  asked.fill({-1, -1});
+  for (int i = 0; i < kDifferences; ++i) {
+    for (const int product : {kSumsOfProducts[i].first, kSumsOfProducts[i].second}) {
+      (asked[product].first < 0 ? asked[product].first : asked[product].second) = i;
+    }
+  }
+  return asked;
+}();
+
+/// Differences without a unit: h b, h t and h^2 q; what pulls at them, J.
+using Differences = std::array<Pack, kDifferences>;
+
+/// Three columns.
+struct Gradient {
+  Pack3 x;
+  Pack3 y;
+  Pack3 z;
+};
+
+[[nodiscard]] [[gnu::always_inline]] inline Gradient operator+(const Gradient& a, const Gradient& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+
+/// S: 1 2, 2 0 and 0 1 of a symmetric matrix without a diagonal.
+using Shear = Pack3;
+
+/// F S.
+[[nodiscard]] [[gnu::always_inline]] inline Gradient sheared(const Gradient& f, const Shear& s) {
+  return {s.z * f.y + s.y * f.z, s.z * f.x + s.x * f.z, s.y * f.x + s.x * f.y};
+}
+
+/// F (I + S).
+template <bool kCut>
+[[nodiscard]] [[gnu::always_inline]] inline Gradient bent(const Gradient& f, const Shear& s) {
+  if constexpr (!kCut) return f;
+  return f + sheared(f, s);
+}
+
+/// What the kernel is told of eight bricks. Whole ones: how many of the body's full bricks each is, by its material and
+/// its fill. Where one of them is cut: less than nothing, then the same and what its solid is like, see SolidNumber.
+template <bool kCut>
+class SolidNumbers {
+ public:
+  [[gnu::always_inline]] explicit SolidNumbers(const double* own) : own_(own) {}
+
+  [[nodiscard]] [[gnu::always_inline]] Pack operator[](int number) const { return load(own_ + number * kPackPadding); }
+  [[nodiscard]] [[gnu::always_inline]] Pack share() const { return (*this)[kCut ? kSolidShare : 0]; }
+
+ private:
+  const double* own_;
+};
+
+/// A pack of solid bricks, see SolidBrick, whose names are used here.
+template <Part kPart, bool kCut>
+class PackOfSolids {
+ public:
+  [[gnu::always_inline]] PackOfSolids(const SolidLaw& law, const double* own) : law_(law), numbers_(own) {}
+
+  [[gnu::always_inline]] void pull(const BrickRows& rows, double beta) const {
+    const TrilinearMap map = trilinear_map(rows, kPosition);
+    const Differences z = differences(map);
+    const Gradient f = secant(map);
+    const Shear shear = shear_of(z);
+    const Gradient gradient = bent<kCut>(f, shear);
+    Differences asked = z;
+    Gradient stress{};
+    if constexpr (kPart != Part::kDamping) stress = elastic_stress(gradient);
+    if constexpr (is_damped(kPart)) {
+      const TrilinearMap moves = trilinear_map(rows, kVelocity);
+      const Differences change = changes(map, moves);
+      Gradient rate = bent<kCut>(secant(moves), shear);
+      if constexpr (kCut) rate = rate + sheared(f, shear_of(change));
+      const Gradient viscous = viscous_stress(gradient, rate, beta);
+      stress = kPart == Part::kDamping ? viscous : stress + viscous;
+#pragma GCC unroll 12
+      for (std::size_t i = 0; i < kDifferences; ++i) {
+        asked[i] = kPart == Part::kDamping ? Pack(beta * change[i]) : Pack(z[i] + beta * change[i]);
+      }
+    }
+    const Pack share = -numbers_.share();
+    stress = {share * stress.x, share * stress.y, share * stress.z};
+    Differences force = stiffness_times(share, asked);
+    if constexpr (kCut) add_shear_force(f, stress, force);
+    TrilinearMap pull = secant_pull(bent<kCut>(stress, shear));
+    add_pull(map, force, pull);
+    give_corners(pull, rows);
+  }
+
+  [[nodiscard]] [[gnu::always_inline]] Pack energy(const BrickRows& rows) const {
+    const TrilinearMap map = trilinear_map(rows, kPosition);
+    const Differences z = differences(map);
+    const Gradient f = bent<kCut>(secant(map), shear_of(z));
+    const Pack volume = dot(f.x, cross(f.y, f.z));
+    const Pack of_volume([&](int lane) { return volume_energy(law_.shear, law_.lambda, volume[lane]); });
+    const Differences force = stiffness_times(Pack(1.0), z);
+    Pack bending(0.0);
+#pragma GCC unroll 12
+    for (std::size_t i = 0; i < kDifferences; ++i) bending += z[i] * force[i];
+    const Pack strain = (0.5 * law_.shear) * (dot(f.x, f.x) + dot(f.y, f.y) + dot(f.z, f.z) - 3.0) + of_volume;
+    return numbers_.share() * (strain + 0.5 * bending);
+  }
+
+ private:
+  /// F, the gradient of the map at the centroid.
+  [[nodiscard]] [[gnu::always_inline]] Gradient secant(const TrilinearMap& g) const {
+    const Pack quarter(0.25 * law_.per_size);
+    if constexpr (!kCut) return {quarter * g[1], quarter * g[2], quarter * g[4]};
+    const auto [half, whole] = halves();
+    return {quarter * g[1] + half.y * g[3] + half.z * g[5] + whole.x * g[7],
+            quarter * g[2] + half.x * g[3] + half.z * g[6] + whole.y * g[7],
+            quarter * g[4] + half.x * g[5] + half.y * g[6] + whole.z * g[7]};
+  }
+
+  /// Its transpose: what a stress P asks of the map.
+  [[nodiscard]] [[gnu::always_inline]] TrilinearMap secant_pull(const Gradient& p) const {
+    const Pack quarter(0.25 * law_.per_size);
+    const Pack3 none{Pack(0.0), Pack(0.0), Pack(0.0)};
+    if constexpr (!kCut) return {none, quarter * p.x, quarter * p.y, none, quarter * p.z, none, none, none};
+    const auto [half, whole] = halves();
+    return {none,
+            quarter * p.x,
+            quarter * p.y,
+            half.y * p.x + half.x * p.y,
+            quarter * p.z,
+            half.z * p.x + half.x * p.z,
+            half.z * p.y + half.y * p.z,
+            whole.x * p.x + whole.y * p.y + whole.z * p.z};
+  }
+
+  /// c / (2 h); and products c_y c_z, c_z c_x, c_x c_y over h.
+  [[nodiscard]] [[gnu::always_inline]] std::pair<Pack3, Pack3> halves() const {
+    const Pack3 c = centroid();
+    const Pack3 whole = Pack(law_.per_size) * c;
+    return {Pack(0.5) * whole, {whole.y * c.z, whole.z * c.x, whole.x * c.y}};
+  }
+  [[nodiscard]] [[gnu::always_inline]] Pack3 centroid() const {
+    return {numbers_[kSolidCentroid], numbers_[kSolidCentroid + 1], numbers_[kSolidCentroid + 2]};
+  }
+
+  [[nodiscard]] [[gnu::always_inline]] Differences differences(const TrilinearMap& g) const {
+    return sums([&](int a, int b) __attribute__((always_inline)) { return dot(g[a], g[b]); });
+  }
+  [[nodiscard]] [[gnu::always_inline]] Differences changes(const TrilinearMap& g, const TrilinearMap& moves) const {
+    return sums([&](int a, int b) __attribute__((always_inline)) { return dot(g[a], moves[b]) + dot(moves[a], g[b]); });
+  }
+
+  [[nodiscard]] [[gnu::always_inline]] double per_product(int difference) const {
+    return (difference < kGradients ? 0.125 : 0.25) * law_.per_size * law_.per_size;
+  }
+
+  template <class Product>
+  [[nodiscard]] [[gnu::always_inline]] Differences sums(const Product& product) const {
+    std::array<Pack, kProducts.size()> products;
+#pragma GCC unroll 18
+    for (std::size_t i = 0; i < kProducts.size(); ++i) products[i] = product(kProducts[i].first, kProducts[i].second);
+    Differences z;
+#pragma GCC unroll 12
+    for (int i = 0; i < kDifferences; ++i) {
+      z[i] = per_product(i) * (products[kSumsOfProducts[i].first] + products[kSumsOfProducts[i].second]);
+    }
+    if constexpr (kCut) {
+      const Pack3 c = centroid();
+      z[0] += c.z * z[9];
+      z[1] += c.y * z[9];
+      z[2] += c.x * z[10];
+      z[3] += c.z * z[10];
+      z[4] += c.y * z[11];
+      z[5] += c.x * z[11];
+      z[6] += c.y * z[10] + c.z * z[11];
+      z[7] += c.z * z[11] + c.x * z[9];
+      z[8] += c.x * z[9] + c.y * z[10];
+    }
+    return z;
+  }
+
+  /// Its transpose, added to `pull`.
+  [[gnu::always_inline]] void add_pull(const TrilinearMap& g, Differences& force, TrilinearMap& pull) const {
+    if constexpr (kCut) {
+      const Pack3 c = centroid();
+      force[9] += c.z * force[0] + c.y * force[1] + c.x * (force[7] + force[8]);
+      force[10] += c.x * force[2] + c.z * force[3] + c.y * (force[6] + force[8]);
+      force[11] += c.y * force[4] + c.x * force[5] + c.z * (force[6] + force[7]);
+    }
+#pragma GCC unroll 12
+    for (int i = 0; i < kDifferences; ++i) force[i] *= per_product(i);
+#pragma GCC unroll 18
+    for (std::size_t i = 0; i < kProducts.size(); ++i) {
+      const auto [one, other] = kAskedBy[i];
+      const Pack tension = other < 0 ? force[one] : Pack(force[one] + force[other]);
+      const auto [a, b] = kProducts[i];
+      pull[a] = pull[a] + tension * g[b];
+      pull[b] = pull[b] + tension * g[a];
+    }
+  }
+
+  /// S z.
+  [[nodiscard]] [[gnu::always_inline]] Shear shear_of(const Differences& z) const {
+    if constexpr (!kCut) return {};
+    const auto row = [&](int first) __attribute__((always_inline)) {
+      Pack sum = numbers_[first] * z[0];
+#pragma GCC unroll 9
+      for (int i = 1; i < kGradients; ++i) sum += numbers_[first + i] * z[i];
+      return sum;
+    };
+    return {row(kSolidTangent), row(kSolidTangent + kGradients), row(kSolidTangent + 2 * kGradients)};
+  }
+
+  /// Its transpose, for a stress P.
+  [[gnu::always_inline]] void add_shear_force(const Gradient& f, const Gradient& p, Differences& force) const {
+    const std::array<Pack, 3> rows{dot(f.y, p.z) + dot(f.z, p.y), dot(f.z, p.x) + dot(f.x, p.z),
+                                   dot(f.x, p.y) + dot(f.y, p.x)};
+#pragma GCC unroll 3
+    for (int row = 0; row < 3; ++row) {
+#pragma GCC unroll 9
+      for (int i = 0; i < kGradients; ++i) force[i] += numbers_[kSolidTangent + kGradients * row + i] * rows[row];
+    }
+  }
+
+  [[nodiscard]] [[gnu::always_inline]] Differences stiffness_times(const Pack& share, const Differences& z) const {
+    Differences force;
+    const Pack scale = law_.young * share;
+    if constexpr (kCut) {
+#pragma GCC unroll 12
+      for (Pack& one : force) one = Pack(0.0);
+      int number = kSolidStiffness;
+#pragma GCC unroll 9
+      for (int row = 0; row < kGradients; ++row) {
+#pragma GCC unroll 9
+        for (int column = row; column < kGradients; ++column, ++number) {
+          const Pack entry = numbers_[number];
+          force[row] += entry * z[column];
+          if (column != row) force[column] += entry * z[row];
+        }
+      }
+#pragma GCC unroll 3
+      for (int i = kGradients; i < kDifferences; ++i) force[i] = numbers_[kSolidWarping + i - kGradients] * z[i];
+#pragma GCC unroll 12
+      for (Pack& one : force) one *= scale;
+    } else {
+      const Pack own = law_.bending * scale;
+      const Pack across = law_.across * scale;
+      const Pack twist = law_.twist * scale;
+      const Pack warping = law_.warping * scale;
+      const auto bend = [&](int a, int b) __attribute__((always_inline)) {
+        force[a] = own * z[a] + across * z[b];
+        force[b] = own * z[b] + across * z[a];
+      };
+      bend(0, 5);
+      bend(1, 2);
+      bend(3, 4);
+#pragma GCC unroll 3
+      for (int i = 0; i < 3; ++i) {
+        force[6 + i] = twist * z[6 + i];
+        force[9 + i] = warping * z[9 + i];
+      }
+    }
+    return force;
+  }
+
+  /// P, times h^3. See strain_energy.cpp.
+  [[nodiscard]] [[gnu::always_inline]] Gradient elastic_stress(const Gradient& f) const {
+    const Pack3 area_x = cross(f.y, f.z);
+    const Pack volume = dot(f.x, area_x);
+    const Pack lowest(kLowestVolume);
+    const Pack below = simd::min(volume - lowest, Pack(0.0)) * (1 / kLowestVolume);
+    Pack slope = law_.shear * (below - 1.0) / simd::max(volume, lowest);
+    const Pack u = volume - 1.0;
+    if (law_.lambda >= 0) {
+      slope += law_.lambda * u;
+    } else {
+      const Pack bound = 1.0 / (1.0 + u * u);
+      slope += law_.lambda * u * bound * bound;
+    }
+    const Pack shear(law_.shear);
+    return {shear * f.x + slope * area_x, shear * f.y + slope * cross(f.z, f.x), shear * f.z + slope * cross(f.x, f.y)};
+  }
+
+  /// The Kelvin-Voigt solid's.
+  [[nodiscard]] [[gnu::always_inline]] Gradient viscous_stress(const Gradient& f, const Gradient& rate,
+                                                               double beta) const {
+    const Pack xx = dot(f.x, rate.x);
+    const Pack yy = dot(f.y, rate.y);
+    const Pack zz = dot(f.z, rate.z);
+    const Pack shear(beta * law_.shear);
+    const Pack yz = shear * (dot(f.y, rate.z) + dot(f.z, rate.y));
+    const Pack zx = shear * (dot(f.z, rate.x) + dot(f.x, rate.z));
+    const Pack xy = shear * (dot(f.x, rate.y) + dot(f.y, rate.x));
+    const Pack all = (beta * law_.lambda) * (xx + yy + zz);
+    return {(all + 2.0 * shear * xx) * f.x + xy * f.y + zx * f.z, xy * f.x + (all + 2.0 * shear * yy) * f.y + yz * f.z,
+            zx * f.x + yz * f.y + (all + 2.0 * shear * zz) * f.z};
+  }
+
+  const SolidLaw& law_;
+  SolidNumbers<kCut> numbers_;
+};
+
+/// Bricks of a run.
+template <Part kPart>
+void solid_run(const SolidLaw& law, double beta, const BrickRows& rows, const RunPart& part, const TileView& tile,
+               Energy& energy) {
+  for (int i = part.begin; i < part.end; i += kLanes) {
+    const BrickRows here = rows.seen_from(part.run.place + i);
+    const double* own = tile.shares + tile.packs[part.run.first + i / kPackPadding] + i % kPackPadding;
+    const auto act = [&](const auto& bricks) __attribute__((always_inline)) {
+      if constexpr (kPart == Part::kEnergy) {
+        add_energy(energy, i, bricks.energy(here));
+      } else {
+        bricks.pull(here, beta);
+      }
+    };
+    if (*own < 0) {
+      act(PackOfSolids<kPart, true>(law, own));
+    } else {
+      act(PackOfSolids<kPart, false>(law, own));
+    }
+  }
+}
+
+}  // namespace sprung::SPRUNG_INSTRUCTION_SET

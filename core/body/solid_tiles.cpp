@@ -1,0 +1,78 @@
+#include "core/body/solid_tiles.h"
+
+#include <algorithm>
+
+#include "core/body/brick_model.h"
+#include "core/law/neo_hooke/solid_brick.h"
+
+namespace sprung {
+namespace {
+
+/// The numbers of a cut brick, one for each SolidNumber.
+class CutBrick {
+ public:
+  CutBrick(double share, const BodySolid& solid) {
+    numbers_[kSolidShare] = share;
+    const auto& [moments, curved] = solid;
+    Vec3::Map(&numbers_[kSolidCentroid]) = moments.centroid;
+    auto entry = numbers_.begin() + kSolidStiffness;
+    for (int row = 0; row < StrainDifferences::kGradients; ++row) {
+      for (int column = row; column < StrainDifferences::kGradients; ++column)
+        *entry++ = curved->stiffness(row, column);
+    }
+    Vec3::Map(&numbers_[kSolidWarping]) = warping_stiffness(moments);
+    auto tangent = numbers_.begin() + kSolidTangent;
+    for (const double rate : curved->tangent.reshaped<Eigen::RowMajor>()) *tangent++ = rate;
+  }
+
+  [[nodiscard]] double operator[](std::size_t number) const { return numbers_[number]; }
+
+ private:
+  std::array<double, kSolidNumbers> numbers_{};
+};
+
+double share_of(const Body& body, int brick) { return region_factor(body, brick) * body.grid.fill[brick]; }
+
+bool is_whole(const Body& body, int brick) { return brick < 0 || body.solids[brick].moments.is_whole(); }
+
+std::vector<double> numbers_of(const Body& body, const std::array<int, kPackPadding>& bricks) {
+  const bool all_whole = std::all_of(bricks.begin(), bricks.end(), [&](int brick) { return is_whole(body, brick); });
+  std::vector<double> pack((all_whole ? 1 : std::size_t{kSolidNumbers}) * kPackPadding, 0);
+  for (std::size_t lane = 0; lane < bricks.size(); ++lane) {
+    const int brick = bricks[lane];
+    if (all_whole) {
+      if (brick >= 0) pack[lane] = share_of(body, brick);
+      continue;
+    }
+    pack[kSolidIsCut * kPackPadding + lane] = -1;
+    if (brick < 0) continue;
+    const CutBrick numbers(share_of(body, brick), body.solids[brick]);
+    for (std::size_t number = kSolidShare; number < kSolidNumbers; ++number) {
+      pack[number * kPackPadding + lane] = numbers[number];
+    }
+  }
+  return pack;
+}
+
+}  // namespace
+
+SolidLaw solid_law(const Material& material, double h) {
+  const double volume = h * h * h;
+  const double poisson = material.poisson;
+  const double bending = 1 / (12 * (1 - poisson * poisson));
+  return {.per_size = 1 / h,
+          .young = material.young * volume,
+          .shear = material.shear_modulus() * volume,
+          .lambda = material.lame_lambda() * volume,
+          .bending = bending,
+          .across = poisson * bending,
+          .twist = material.shear_modulus() / material.young / 12,
+          .warping = warping_stiffness({})[0]};
+}
+
+BrickTiles make_solid_tiles(const Body& body) {
+  const auto numbers = [&](const std::array<int, kPackPadding>& bricks) { return numbers_of(body, bricks); };
+  return make_brick_tiles(body.grid, numbers, {});
+}
+
+}  // namespace sprung
