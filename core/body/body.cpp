@@ -11,6 +11,7 @@
 #include "core/body/brick_kernel.h"
 #include "core/body/brick_tiles.h"
 #include "core/body/solid_tiles.h"
+#include "core/bricks/embedding.h"
 #include "core/law/hexahedron.h"
 #include "core/law/neo_hooke/solid_brick.h"
 #include "core/types.h"
@@ -18,11 +19,22 @@
 namespace sprung {
 namespace {
 
+/// How a brick's mass falls to its corners: in eighths, or where its solid is known, to those that are nearer it. All
+/// the way to its centroid, corners far from it would be left with next to nothing.
+CornerWeights corner_shares(const Body& body, std::size_t brick) {
+  constexpr double kLean = 0.8;
+  if (body.solids.empty()) return trilinear_weights(Vec3::Constant(0.5));
+  return trilinear_weights(Vec3::Constant(0.5) + kLean * body.solids[brick].moments.centroid);
+}
+
 Eigen::VectorXd lump_masses(const Body& body) {
   const BrickGrid& grid = body.grid;
   Eigen::VectorXd masses = Eigen::VectorXd::Zero(grid.node_count());
   for (std::size_t brick = 0; brick < grid.nodes.size(); ++brick) {
-    for (const int node : grid.nodes[brick]) masses[node] += body.stiffness_scale[brick];
+    const CornerWeights shares = corner_shares(body, brick);
+    for (std::size_t corner = 0; corner < 8; ++corner) {
+      masses[grid.nodes[brick][corner]] += body.stiffness_scale[brick] * shares[corner];
+    }
   }
   masses *= body.material.density * grid.volume() / masses.sum();
   return masses;

@@ -53,8 +53,8 @@ struct Body {
 /// A brick keeps at least this share of a full brick's stiffness and mass: slivers would cost step size for nothing.
 inline constexpr double kStiffnessFloor = 0.01;
 
-/// A body at rest at its grid's place. Masses are lumped, fill rho h^3 / 8 a corner, and scaled so that their sum is
-/// density * grid.volume().
+/// A body at rest at its grid's place. Masses are lumped, fill rho h^3 / 8 a corner (of solid bricks more where their
+/// solid lies), and scaled so that their sum is density * grid.volume().
 [[nodiscard]] Body make_body(BrickGrid grid, Model model, const Material& material);
 
 /// Cuts the body's bricks into tiles anew: due after a change of its stiffness_scale. make_body() has done it already.

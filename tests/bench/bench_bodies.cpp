@@ -4,7 +4,9 @@
 #include <random>
 #include <vector>
 
+#include "core/body/brick_model.h"
 #include "core/body/brick_tiles.h"
+#include "core/bricks/fill_solid.h"
 #include "core/bricks/voxelize.h"
 #include "core/mesh/io/read_mesh.h"
 
@@ -33,18 +35,19 @@ BrickGrid ball_shell(double bricks) {
 }
 
 /// In as many bricks, scaled to the usual brick.
-BrickGrid model_grid(const std::string& model, double bricks) {
+BrickGrid model_grid(const std::string& model, double bricks, BricksFor law) {
   const Solid solid = bench_solid(model);
-  BrickGrid grid = voxelize(solid, std::cbrt(solid.volume / bricks));
+  const double brick_size = std::cbrt(solid.volume / bricks);
+  BrickGrid grid = law == BricksFor::kFill ? voxelize(solid, brick_size) : fill_solid(solid, brick_size, law).grid;
   grid.origin *= kBrickSize / grid.brick_size;
   grid.brick_size = kBrickSize;
   return grid;
 }
 
-BrickGrid grid_of(const std::string& shape, double bricks) {
+BrickGrid grid_of(const std::string& shape, double bricks, BricksFor law) {
   if (shape == "box") return make_box_grid(Eigen::Vector3i::Constant(int(std::round(std::cbrt(bricks)))), kBrickSize);
   if (shape == "shell") return ball_shell(bricks);
-  return model_grid(shape, bricks);
+  return model_grid(shape, bricks, law);
 }
 
 template <class T>
@@ -73,7 +76,7 @@ Solid bench_solid(const std::string& model) {
 
 Body bench_body(const std::string& shape, double bricks, Model model) {
   const Material material{.name = "bench", .young = 1e4, .poisson = 0.3, .density = 1000, .damping = 0, .source = ""};
-  Body body = make_body(grid_of(shape, bricks), model, material);
+  Body body = make_body(grid_of(shape, bricks, bricks_for(model)), model, material);
   std::mt19937 random(1);
   std::uniform_real_distribution<double> part(-0.01, 0.01);
   for (double& coordinate : body.positions.reshaped()) coordinate += part(random) * kBrickSize;

@@ -97,6 +97,12 @@ void register_explicit_benchmarks() {
       }
     }
   }
+  for (const bool damped : {false, true}) {
+    add("explicit", {"box", 64.0 * 64 * 64, Model::kNeoHooke, damped, 1}, explicit_step);
+    for (const char* shape : {"bear", "octopus", "shell"}) {
+      add("explicit", {shape, 100000, Model::kNeoHooke, damped, 1}, explicit_step);
+    }
+  }
 }
 
 }  // namespace sprung::test

@@ -407,6 +407,10 @@ void solid_run(const SolidLaw& law, double beta, const BrickRows& rows, const Ru
       }
     };
     if (*own < 0) {
+      // Of a large body they come from memory, too few pages at a time for the processor to see them coming.
+      const double* next = own + kSolidNumbers * kPackPadding;
+#pragma GCC unroll 4
+      for (int line = 0; line < kSolidNumbers; ++line) __builtin_prefetch(next + line * kPackPadding);
       act(PackOfSolids<kPart, true>(law, own));
     } else {
       act(PackOfSolids<kPart, false>(law, own));
