@@ -23,7 +23,7 @@ Body torus_of(Model model, double poisson) {
   const Solid solid = find_solids(test::torus_mesh(0.1, 0.04), "torus").solids.at(0);
   Material material = test::test_material(poisson);
   material.damping = 0.1;
-  Body body = make_body(fill_solid(solid, 0.03).grid, model, material);
+  Body body = make_body(fill_solid(solid, 0.03, bricks_for(model)).grid, model, material);
   body.stiffness_scale[3] *= 5;  // a region
   build_tiles(body);
   return body;
