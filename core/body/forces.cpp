@@ -84,12 +84,20 @@ void SpringSystem::run_forces(const Body& body, PassInput& input, Points& forces
   if (!forces.allFinite()) scratch_.clear();
 }
 
+void SpringSystem::multiply(const Body& body, const Eigen::VectorXd& u, Eigen::VectorXd& product) {
+  run_product(body, input_of(body, Pass::kProduct), u, product);
+}
+
 void SpringSystem::multiply_along(const Body& body, const Points& positions, double factor, const Eigen::VectorXd& u,
                                   Eigen::VectorXd& product) {
-  product.resize(u.size());
   PassInput input = input_of(body, Pass::kDamping);
   input.beta = -factor;
   input.positions = const_cast<double*>(positions.data());
+  run_product(body, input, u, product);
+}
+
+void SpringSystem::run_product(const Body& body, PassInput input, const Eigen::VectorXd& u, Eigen::VectorXd& product) {
+  product.resize(u.size());
   input.velocities = const_cast<double*>(u.data());
   input.forces = product.data();
   run(*body.tiles, input);

@@ -19,6 +19,9 @@ class SpringSystem {
   /// The same without damping, with nodes at `positions` (m x 3, m).
   void elastic_forces(const Body& body, const Points& positions, Points& forces);
 
+  /// The second derivative of the elastic energy times u (3 m). Of solid bricks only.
+  void multiply(const Body& body, const Eigen::VectorXd& u, Eigen::VectorXd& product);
+
   /// `factor` times the stiffness of the springs along themselves times u (3 m), without the guard and without what
   /// tensions add by turning, or times what BrickModel::damping() is: the damping forces of rates u, with nodes at
   /// `positions` (m x 3, m), times -factor / beta.
@@ -42,6 +45,7 @@ class SpringSystem {
 
  private:
   void run(const BrickTiles& tiles, const PassInput& input);
+  void run_product(const Body& body, PassInput input, const Eigen::VectorXd& u, Eigen::VectorXd& product);
   void run_forces(const Body& body, PassInput& input, Points& forces);
 
   /// Scratch in whole cache lines: a pack that lies across two costs twice.

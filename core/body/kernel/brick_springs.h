@@ -68,9 +68,11 @@ struct Kind {
 };
 
 /// What of the springs is asked for.
-enum class Part { kElastic, kElasticAndDamping, kDamping, kEnergy };
+enum class Part { kElastic, kElasticAndDamping, kDamping, kEnergy, kProduct };
 
 constexpr bool is_damped(Part part) { return part == Part::kElasticAndDamping || part == Part::kDamping; }
+
+constexpr bool reads_velocities(Part part) { return is_damped(part) || part == Part::kProduct; }
 
 /// What a spring without coupling makes of its ends: tension / length over its stiffness, (L - rest) / L + damping. And
 /// stretch / rest, for the energy.

@@ -119,6 +119,15 @@ struct Gradient {
   return {a.x + b.x, a.y + b.y, a.z + b.z};
 }
 
+[[nodiscard]] [[gnu::always_inline]] inline Gradient times(const Pack& factor, const Gradient& f) {
+  return {factor * f.x, factor * f.y, factor * f.z};
+}
+
+/// What two of three columns span: the derivative of their determinant, which is linear in each.
+[[nodiscard]] [[gnu::always_inline]] inline Gradient areas(const Gradient& a, const Gradient& b) {
+  return {cross(a.y, b.z), cross(a.z, b.x), cross(a.x, b.y)};
+}
+
 /// S: 1 2, 2 0 and 0 1 of a symmetric matrix without a diagonal.
 using Shear = Pack3;
 
@@ -176,11 +185,42 @@ class PackOfSolids {
       }
     }
     const Pack share = -numbers_.share();
-    stress = {share * stress.x, share * stress.y, share * stress.z};
+    stress = times(share, stress);
     Differences force = stiffness_times(share, asked);
     if constexpr (kCut) add_shear_force(f, stress, force);
     TrilinearMap pull = secant_pull(bent<kCut>(stress, shear));
     add_pull(map, force, pull);
+    give_corners(pull, rows);
+  }
+
+  /// How that changes while the corners move by what is in place of velocities: the second derivative times it.
+  [[gnu::always_inline]] void multiply(const BrickRows& rows) const {
+    const TrilinearMap map = trilinear_map(rows, kPosition);
+    const TrilinearMap moves = trilinear_map(rows, kVelocity);
+    const Differences z = differences(map);
+    const Differences change = changes(map, moves);
+    const Gradient f = secant(map);
+    const Gradient f_change = secant(moves);
+    const Shear shear = shear_of(z);
+    const Shear shear_change = shear_of(change);
+    const Gradient gradient = bent<kCut>(f, shear);
+    Gradient gradient_change = bent<kCut>(f_change, shear);
+    if constexpr (kCut) gradient_change = gradient_change + sheared(f, shear_change);
+    const Pack share = numbers_.share();
+    const Gradient stress = times(share, elastic_stress(gradient));
+    const Gradient stress_change = times(share, elastic_stress_change(gradient, gradient_change));
+    Differences force = stiffness_times(share, z);
+    Differences force_change = stiffness_times(share, change);
+    Gradient on_secant = bent<kCut>(stress_change, shear);
+    if constexpr (kCut) {
+      add_shear_force(f, stress, force);
+      add_shear_force(f, stress_change, force_change);
+      add_shear_force(f_change, stress, force_change);
+      on_secant = on_secant + sheared(stress, shear_change);
+    }
+    TrilinearMap pull = secant_pull(on_secant);
+    add_pull(map, force_change, pull);
+    add_pull(moves, force, pull);
     give_corners(pull, rows);
   }
 
@@ -355,22 +395,41 @@ class PackOfSolids {
     return force;
   }
 
-  /// P, times h^3. See strain_energy.cpp.
-  [[nodiscard]] [[gnu::always_inline]] Gradient elastic_stress(const Gradient& f) const {
-    const Pack3 area_x = cross(f.y, f.z);
-    const Pack volume = dot(f.x, area_x);
+  /// Derivatives of psi by the volume ratio, see strain_energy.cpp.
+  struct OfVolume {
+    Pack slope;
+    Pack curvature;
+  };
+  [[nodiscard]] [[gnu::always_inline]] OfVolume of_volume(const Pack& volume) const {
     const Pack lowest(kLowestVolume);
+    const Pack per_volume = 1.0 / simd::max(volume, lowest);
     const Pack below = simd::min(volume - lowest, Pack(0.0)) * (1 / kLowestVolume);
-    Pack slope = law_.shear * (below - 1.0) / simd::max(volume, lowest);
+    Pack slope = law_.shear * (below - 1.0) * per_volume;
+    Pack curvature = law_.shear * per_volume * per_volume;
     const Pack u = volume - 1.0;
     if (law_.lambda >= 0) {
       slope += law_.lambda * u;
+      curvature += law_.lambda;
     } else {
       const Pack bound = 1.0 / (1.0 + u * u);
       slope += law_.lambda * u * bound * bound;
+      curvature += law_.lambda * (1.0 - 3.0 * u * u) * bound * bound * bound;
     }
-    const Pack shear(law_.shear);
-    return {shear * f.x + slope * area_x, shear * f.y + slope * cross(f.z, f.x), shear * f.z + slope * cross(f.x, f.y)};
+    return {slope, curvature};
+  }
+
+  /// P, times h^3.
+  [[nodiscard]] [[gnu::always_inline]] Gradient elastic_stress(const Gradient& f) const {
+    const Gradient area = areas(f, f);
+    const Pack slope = of_volume(dot(f.x, area.x)).slope;
+    return times(law_.shear, f) + times(slope, area);
+  }
+  [[nodiscard]] [[gnu::always_inline]] Gradient elastic_stress_change(const Gradient& f, const Gradient& change) const {
+    const Gradient area = areas(f, f);
+    const OfVolume of = of_volume(dot(f.x, area.x));
+    const Pack volume_change = dot(area.x, change.x) + dot(area.y, change.y) + dot(area.z, change.z);
+    return times(law_.shear, change) + times(of.slope, areas(f, change) + areas(change, f)) +
+           times(of.curvature * volume_change, area);
   }
 
   /// The Kelvin-Voigt solid's.
@@ -402,6 +461,8 @@ void solid_run(const SolidLaw& law, double beta, const BrickRows& rows, const Ru
     const auto act = [&](const auto& bricks) __attribute__((always_inline)) {
       if constexpr (kPart == Part::kEnergy) {
         add_energy(energy, i, bricks.energy(here));
+      } else if constexpr (kPart == Part::kProduct) {
+        bricks.multiply(here);
       } else {
         bricks.pull(here, beta);
       }

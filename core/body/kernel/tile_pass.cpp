@@ -139,8 +139,8 @@ class Walk {
 
   void copy_in(const Place& to, const RunPart& part) const {
     const std::ptrdiff_t first = 3 * std::ptrdiff_t(part.run.node + part.begin);
-    take_apart<is_damped(kPart)>(input_.positions + first, input_.velocities + first, input_.drift, part.count(),
-                                 three(to, kPosition, part.place()), three(to, kVelocity, part.place()));
+    take_apart<reads_velocities(kPart)>(input_.positions + first, input_.velocities + first, input_.drift, part.count(),
+                                        three(to, kPosition, part.place()), three(to, kVelocity, part.place()));
   }
 
   static Three<double> three(const Place& from, int array, int place) {
@@ -236,6 +236,8 @@ template <Layout kLayout>
 void walk(const TileView& tile, const PassInput& input, double* scratch, double* shared, Energy& energy) {
   if (input.pass == Pass::kEnergy) {
     Walk<kLayout, Part::kEnergy>(tile, input, scratch, shared, energy).run();
+  } else if (input.pass == Pass::kProduct) {
+    if constexpr (kLayout.solid) Walk<kLayout, Part::kProduct>(tile, input, scratch, shared, energy).run();
   } else if (input.pass == Pass::kDamping) {
     Walk<kLayout, Part::kDamping>(tile, input, scratch, shared, energy).run();
   } else if (input.beta > 0) {

@@ -106,6 +106,7 @@ enum SolidNumber : int {
 enum class Pass {
   kForces,   // writes the springs' forces, N
   kDamping,  // writes what of them is damping, N
+  kProduct,  // writes the second derivative of the energy times what is in place of velocities, N; solid bricks only
   kEnergy,   // adds up their energy, J
   kMove      // positions += drift * velocities, then velocities += kick * (forces / mass + gravity - alpha velocities)
 };
@@ -120,7 +121,7 @@ struct PassInput {
   double beta = 0;                         // s
   double* positions = nullptr;             // m; written by kMove only
   double* velocities = nullptr;            // m/s; written by kMove only
-  double* forces = nullptr;                // N; kForces and kDamping
+  double* forces = nullptr;                // N; kForces, kDamping and kProduct
   const double* inverse_masses = nullptr;  // a node, 1/kg; kMove
   double drift = 0;                        // s; kMove
   double kick = 0;                         // s; kMove

@@ -102,6 +102,24 @@ TEST(SolidRows, AreDampedLikeTheirBricks) {
   }
 }
 
+TEST(SolidRows, MultiplyLikeTheirBricks) {
+  const BrickModel& model = brick_model(Model::kNeoHooke);
+  for (const double poisson : kRatios) {
+    const Body body = ragged_solid(poisson);
+    const Points expected = sum_over_bricks(body, [&](std::size_t brick, const BrickVector& x, const BrickVector& v) {
+      return model.product(body, brick, x, v);
+    });
+    const Eigen::VectorXd moves = body.velocities.reshaped<Eigen::RowMajor>();
+    for (const SpringKernel& kernel : all_spring_kernels()) {
+      if (kernel.tile == nullptr) continue;
+      Eigen::VectorXd product;
+      SpringSystem(kernel).multiply(body, moves, product);
+      EXPECT_LT((product - expected.reshaped<Eigen::RowMajor>()).cwiseAbs().maxCoeff(), 1e-13 * largest(expected))
+          << poisson << ' ' << kernel.name;
+    }
+  }
+}
+
 TEST(SolidRows, HaveTheEnergyOfTheirBricks) {
   const BrickModel& model = brick_model(Model::kNeoHooke);
   for (const double poisson : kRatios) {
