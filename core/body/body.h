@@ -45,7 +45,7 @@ struct Body {
   Points rest_positions;                    // m x 3, m: the grid's nodes moved to where the body starts
   Points positions;                         // m x 3, m
   Points velocities;                        // m x 3, m/s
-  std::shared_ptr<const BrickTiles> tiles;  // how the springs are computed, see build_tiles()
+  std::shared_ptr<const BrickTiles> tiles;  // how packs of bricks are computed, see build_tiles()
 
   [[nodiscard]] int node_count() const { return int(positions.rows()); }
 };
@@ -57,7 +57,8 @@ inline constexpr double kStiffnessFloor = 0.01;
 /// solid lies), and scaled so that their sum is density * grid.volume().
 [[nodiscard]] Body make_body(BrickGrid grid, Model model, const Material& material);
 
-/// Cuts the body's bricks into tiles anew: due after a change of its stiffness_scale. make_body() has done it already.
+/// Cuts the body's bricks into tiles anew: due after a change of its stiffness_scale or its solids. make_body() has
+/// done it already.
 void build_tiles(Body& body);
 
 /// Turns (then moves) the whole body, rest shape and state; rotation is applied about the origin.

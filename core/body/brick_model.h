@@ -5,9 +5,9 @@
 
 namespace sprung {
 
-/// How the bricks of a body answer, one at a time: all that a model has to say. Springs have tiles and packs of bricks
-/// besides (forces.h, stiffness.h), which give the same numbers up to rounding. Everything is asked of the brick in row
-/// `brick` of a body, with its corners at x (m).
+/// How the bricks of a body answer, one at a time: all that a model has to say. Models that has_tiles() are computed in
+/// packs of bricks besides (forces.h, stiffness.h), which give the same numbers up to rounding. Everything is asked of
+/// the brick in row `brick` of a body, with its corners at x (m).
 class BrickModel {
  public:
   virtual ~BrickModel() = default;
