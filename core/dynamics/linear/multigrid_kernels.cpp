@@ -2,7 +2,6 @@
 #include "core/dynamics/linear/multigrid_kernels.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "core/dynamics/linear/multigrid_galerkin.h"
 #include "core/dynamics/linear/multigrid_pack.h"
@@ -62,36 +61,17 @@ CornerVectors<P> gather(const BlockInput& input, const double* values, int first
   store(brick_volume(x) * Floats(1 / (h * h * h)), volume_ratios);
 }
 
-[[gnu::flatten]] void round_block(const float* matrix, std::int16_t* rounded, float* units) {
-  using Shorts = std::experimental::fixed_size_simd<std::int16_t, kLanes>;
-  Floats largest(1e-30);
-  for (std::size_t i = 0; i < kAnchoredSize; ++i) {
-    const auto entry = load<Floats>(matrix + i * kLanes);
-    largest = max(largest, max(entry, Floats(0.0) - entry));
-  }
-  const Floats unit = largest / Floats(std::numeric_limits<std::int16_t>::max());
-  store(unit, units);
-  const Floats whole(3U << 22U);  // added, it leaves no room for what is less than one
-  for (std::size_t i = 0; i < kAnchoredSize; ++i) {
-    const Floats nearest = (load<Floats>(matrix + i * kLanes) / unit + whole) - whole;
-    std::experimental::static_simd_cast<Shorts>(nearest.lanes)
-        .copy_to(rounded + i * kLanes, std::experimental::element_aligned);
-  }
-}
-
-/// A pack of entries, as it is kept. Those of the next block are asked for: what limits products is memory.
-template <class P, class Entry>
-P entries_at(const Entry* entries) {
+/// A pack of entries. Those of the next block are asked for: what limits products is memory.
+template <class P>
+P entries_at(const float* entries) {
   __builtin_prefetch(entries + kAnchoredSize * kLanes);
-  std::experimental::fixed_size_simd<Entry, kLanes> kept;
-  kept.copy_from(entries, std::experimental::element_aligned);
-  return P(std::experimental::static_simd_cast<typename P::Lanes>(kept));
+  return load<P>(entries);
 }
 
 /// C v by the anchored part, and what corner 0 feels for it. Three rows at a time: their sums do not wait for each
 /// other, and the columns are loaded once for all three.
-template <class P, class Entry>
-void multiply_anchored(const Entry* matrix, const std::array<P, 24>& v, std::array<P, 24>& y) {
+template <class P>
+void multiply_anchored(const float* matrix, const std::array<P, 24>& v, std::array<P, 24>& y) {
   const auto entry = [&](std::size_t a, std::size_t b) {
     return entries_at<P>(matrix + anchored_index(a, b) * kLanes);
   };
@@ -128,7 +108,7 @@ void add_pull(const float* pull, const std::array<P, 3>& origin, const std::arra
   }
 }
 
-template <class Number, class Entry>
+template <class Number>
 [[gnu::flatten]] void apply_block(const LevelBlock& block, const Number* x, Number* corner_forces) {
   using P = Pack<Number, kLanes>;
   std::array<P, 24> v;
@@ -145,13 +125,7 @@ template <class Number, class Entry>
   for (std::size_t k = 0; k < 3; ++k) origin[k] = v[k];
   for (std::size_t i = 0; i < 24; ++i) v[i] -= origin[i % 3];
   std::array<P, 24> y;
-  if constexpr (std::is_same_v<Entry, std::int16_t>) {
-    multiply_anchored(block.rounded, v, y);
-    const auto unit = load<P>(block.units);
-    for (P& part : y) part = unit * part;
-  } else {
-    multiply_anchored(block.matrix, v, y);
-  }
+  multiply_anchored(block.matrix, v, y);
   if (block.pull != nullptr) add_pull(block.pull, origin, v, y);
   for (std::size_t i = 0; i < 24; ++i) store(y[i], corner_forces + i * kLanes);
 }
@@ -192,10 +166,8 @@ template <class Number, class Entry>
 Kernels kernels() {
   return {.stiffness_product = stiffness_product_block,
           .stiffness_matrices = stiffness_matrices_block,
-          .round = round_block,
-          .apply = apply_block<float, float>,
-          .apply_rounded = apply_block<float, std::int16_t>,
-          .apply_double = apply_block<double, float>,
+          .apply = apply_block<float>,
+          .apply_double = apply_block<double>,
           .corner_blocks = corner_blocks_block,
           .coarsen = coarsen_block};
 }

@@ -1,6 +1,5 @@
 #pragma once
 #include <array>
-#include <cstdint>
 #include <span>
 
 #include "core/body/brick_block.h"
@@ -14,12 +13,10 @@ using BrickNodes = std::array<int, 8>;
 
 /// Sixteen bricks of one level, each a symmetric 24 x 24 matrix C kept as its anchored part (corners 1 .. 7), which
 /// resists no translation, and its pull C T (24 x 3, T the three translations), which is zero but where something
-/// outside the brick holds it. Rounded so, a free brick's matrix still leaves translations entirely free.
+/// outside the brick holds it. In single precision, a free brick's matrix still leaves translations entirely free.
 struct LevelBlock {
-  const float* matrix;          // kAnchoredSize x 16
-  const std::int16_t* rounded;  // the matrix over each brick's unit: half as much to read
-  const float* units;           // 16
-  const float* pull;            // kPullSize x 16, or null: all zero
+  const float* matrix;  // kAnchoredSize x 16
+  const float* pull;    // kPullSize x 16, or null: all zero
   const BrickNodes* nodes;
   int count;  // bricks, at most 16; lanes beyond have zero matrices
 };
@@ -45,12 +42,8 @@ struct Kernels {
   void (*stiffness_matrices)(const BlockInput& input, const EdgeCoupling& coupling, double material, int first,
                              float* matrix, float* volume_ratios);
 
-  /// The matrix in units of each brick's own (16): 1 / 32767 of the brick's largest entry.
-  void (*round)(const float* matrix, std::int16_t* rounded, float* units);
-
   /// The forces C x of each brick at its corners, 24 x 16.
   void (*apply)(const LevelBlock& block, const float* x, float* corner_forces);
-  void (*apply_rounded)(const LevelBlock& block, const float* x, float* corner_forces);
   void (*apply_double)(const LevelBlock& block, const double* x, double* corner_forces);
 
   /// The 3 x 3 blocks on the diagonal of C: xx, xy, xz, yy, yz, zz corner by corner, 48 x 16.

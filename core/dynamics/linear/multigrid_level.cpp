@@ -41,8 +41,6 @@ Eigen::Matrix3f inverse_of_free(Eigen::Matrix3d block, const char* held) {
 Level::Level(const Layout& layout) : layout_(&layout) {
   const std::size_t blocks = (layout.bricks.size() + kLanes - 1) / kLanes;
   matrices_.assign(kAnchoredSize * kLanes * blocks, 0);
-  rounded_.assign(matrices_.size(), 0);
-  units_.assign(kLanes * blocks, 0);
   pull_of_block_.assign(blocks, -1);
   diagonal.assign(layout.node_count, 0);
   held.assign(3 * std::size_t(layout.node_count), 0);
@@ -71,8 +69,6 @@ LevelBlock Level::input(int block) const {
   const std::size_t b = block;
   const int pull = pull_of_block_[b];
   return {.matrix = &matrices_[kAnchoredSize * kLanes * b],
-          .rounded = &rounded_[kAnchoredSize * kLanes * b],
-          .units = &units_[kLanes * b],
           .pull = pull < 0 ? nullptr : &pulls_[kPullSize * kLanes * std::size_t(pull)],
           .nodes = &layout_->bricks[kLanes * b],
           .count = std::min(kLanes, isize(layout_->bricks) - block * kLanes)};
@@ -153,10 +149,6 @@ void Level::multiply_bricks(const Vector& x, Vector& product, Apply apply) const
 
 void Level::multiply(const Floats& x, Floats& product) const { multiply_bricks(x, product, kernels().apply); }
 
-void Level::multiply_rounded(const Floats& x, Floats& product) const {
-  multiply_bricks(x, product, kernels().apply_rounded);
-}
-
 void Level::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& product) const {
   multiply_bricks(x, product, kernels().apply_double);
 }
@@ -183,7 +175,6 @@ void Level::prepare_smoother(double fastest_of_brick) {
   tbb::parallel_for(0, block_count(), [&](int block) {
     const std::size_t b = block;
     kernels().corner_blocks(input(block), &blocks[48 * kLanes * b]);
-    kernels().round(matrix(block), &rounded_[kAnchoredSize * kLanes * b], &units_[kLanes * b]);
   });
   inverse_blocks_.resize(layout_->node_count);
   for_nodes(layout_->node_count, [&](int node) {
@@ -239,7 +230,7 @@ void Level::smooth(int steps, Floats& x, Floats& residual, bool with_residual) c
       x.segment<3>(3 * node) += d;
     });
     if (step == steps && !with_residual) break;
-    multiply_rounded(direction_, product_);
+    multiply(direction_, product_);
     for_nodes(layout_->node_count, [&](int node) { residual.segment<3>(3 * node) -= product_.segment<3>(3 * node); });
   }
 }

@@ -34,15 +34,12 @@ class Level {
   std::vector<char> held;
   void release_held(Floats& x) const;
 
-  /// To be called when matrices and diagonal are set: the rounded matrices, the inverse of the nodes' own 3 x 3 blocks
-  /// and the fastest eigenvalue of the matrix scaled by them. `fastest_of_brick` is that of a single brick, which
-  /// bounds it; 0: it is found by power iteration.
+  /// To be called when matrices and diagonal are set: the inverse of the nodes' own 3 x 3 blocks and the fastest
+  /// eigenvalue of the matrix scaled by them. `fastest_of_brick` is that of a single brick, which bounds it; 0: it is
+  /// found by power iteration.
   void prepare_smoother(double fastest_of_brick);
 
   void multiply(const Floats& x, Floats& product) const;
-  /// By matrices rounded to 3e-5 of the largest entry of each. Not for what moves a body as a whole, or bends a slender
-  /// one: that meets but a millionth of a brick's stiffness.
-  void multiply_rounded(const Floats& x, Floats& product) const;
   void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& product) const;
 
   /// `steps` of Chebyshev's polynomial of the fourth kind (Lottes, "Optimal polynomial smoothers for multigrid
@@ -65,8 +62,6 @@ class Level {
 
   const Layout* layout_;
   std::vector<float> matrices_;
-  std::vector<std::int16_t> rounded_;  // see LevelBlock
-  std::vector<float> units_;
   std::vector<float> pulls_;
   std::vector<int> pull_of_block_;
   std::vector<Eigen::Matrix3f> inverse_blocks_;  // per node; zero where nothing holds the node
