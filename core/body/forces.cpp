@@ -66,17 +66,6 @@ void SpringSystem::run(const BrickTiles& tiles, const PassInput& input) {
 
 void SpringSystem::forces(const Body& body, Points& forces) {
   PassInput input = input_of(body, Pass::kForces);
-  run_forces(body, input, forces);
-}
-
-void SpringSystem::elastic_forces(const Body& body, const Points& positions, Points& forces) {
-  PassInput input = input_of(body, Pass::kForces);
-  input.beta = 0;
-  input.positions = const_cast<double*>(positions.data());
-  run_forces(body, input, forces);
-}
-
-void SpringSystem::run_forces(const Body& body, PassInput& input, Points& forces) {
   forces.resize(body.node_count(), 3);
   input.forces = forces.data();
   run(*body.tiles, input);

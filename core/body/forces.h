@@ -16,9 +16,6 @@ class SpringSystem {
   /// Forces on the nodes, m x 3, N, as spring_forces().
   void forces(const Body& body, Points& forces);
 
-  /// The same without damping, with nodes at `positions` (m x 3, m).
-  void elastic_forces(const Body& body, const Points& positions, Points& forces);
-
   /// The second derivative of the elastic energy times u (3 m). Of solid bricks only.
   void multiply(const Body& body, const Eigen::VectorXd& u, Eigen::VectorXd& product);
 
@@ -46,7 +43,6 @@ class SpringSystem {
  private:
   void run(const BrickTiles& tiles, const PassInput& input);
   void run_product(const Body& body, PassInput input, const Eigen::VectorXd& u, Eigen::VectorXd& product);
-  void run_forces(const Body& body, PassInput& input, Points& forces);
 
   /// Scratch in whole cache lines: a pack that lies across two costs twice.
   struct alignas(64) CacheLine {

@@ -4,13 +4,11 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <optional>
-#include <random>
 #include <vector>
 
 #include "core/body/body.h"
@@ -21,6 +19,7 @@
 #include "core/contact/contact_states.h"
 #include "core/contact/glue.h"
 #include "core/dynamics/explicit/implicit_damping.h"
+#include "core/dynamics/linear/eigenvalue_bound.h"
 #include "core/error.h"
 #include "core/world/load_forces.h"
 
@@ -45,53 +44,18 @@ double guard_growth(const Body& body) {
   return largest / kGuardAreas;
 }
 
-}  // namespace
-
-namespace {
-
-constexpr int kLanczosSteps = 16;
-constexpr double kLanczosMargin = 1.1;  // over what so many find, which is a few per cent less than there is
-
-/// Of the fastest vibration of the body where it stands, found by Lanczos' method from differences of its forces.
-/// Source: Saad, "Numerical Methods for Large Eigenvalue Problems", 2nd ed., SIAM 2011, section 6.3.
+/// Of the fastest vibration of the body where it stands.
 double fastest_vibration_squared(const Body& body) {
-  const Eigen::VectorXd root = body.masses.cwiseSqrt();
   SpringSystem bricks;
-  Points forces;
-  bricks.elastic_forces(body, body.positions, forces);
-  const Points here = forces;
-  const double reach = 1e-6 * body.grid.brick_size;  // m, of the node that moves furthest
-  const auto product = [&](const Points& q) {
-    const Points moves = root.cwiseInverse().asDiagonal() * q;
-    const double by = reach / std::max(moves.cwiseAbs().maxCoeff(), std::numeric_limits<double>::min());
-    bricks.elastic_forces(body, body.positions + by * moves, forces);
-    return Points(root.cwiseInverse().asDiagonal() * (here - forces) / by);
+  const Eigen::Index nodes = body.node_count();
+  const auto multiply = [&](const Eigen::VectorXd& u, Eigen::VectorXd& forces) { bricks.multiply(body, u, forces); };
+  const auto accelerate = [&](const Eigen::VectorXd& forces, Eigen::VectorXd& accelerations) {
+    accelerations.resize(forces.size());
+    for (Eigen::Index node = 0; node < nodes; ++node) {
+      accelerations.segment<3>(3 * node) = forces.segment<3>(3 * node) / body.masses[node];
+    }
   };
-  // Any vector that has some of the fastest in it; a random one has.
-  std::mt19937 random(1);
-  Points q(body.node_count(), 3);
-  for (double& entry : q.reshaped()) entry = double(random()) / double(std::mt19937::max()) - 0.5;
-  q.normalize();
-  Points before = Points::Zero(body.node_count(), 3);
-  std::vector<double> diagonal;
-  std::vector<double> beside;
-  const int steps = std::min(kLanczosSteps, 3 * body.node_count());
-  while (isize(diagonal) < steps) {
-    Points next = product(q);
-    const double own = next.cwiseProduct(q).sum();
-    next -= own * q;
-    if (!beside.empty()) next -= beside.back() * before;
-    diagonal.push_back(own);
-    const double rest = next.norm();
-    if (isize(diagonal) == steps || !(rest > 1e-9 * std::abs(own))) break;
-    beside.push_back(rest);
-    before = q;
-    q = next / rest;
-  }
-  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
-  solver.computeFromTridiagonal(Eigen::VectorXd::Map(diagonal.data(), isize(diagonal)),
-                                Eigen::VectorXd::Map(beside.data(), isize(beside)), Eigen::EigenvaluesOnly);
-  return kLanczosMargin * solver.eigenvalues().maxCoeff();
+  return bound_on_eigenvalues<Eigen::VectorXd>(3 * nodes, multiply, accelerate);
 }
 
 }  // namespace

@@ -17,11 +17,13 @@ namespace {
 using multigrid::kLanes;
 
 constexpr int kCoarsestNodes = 100;
-constexpr int kCoarsestNodesAtRest = 600;  // fewer levels, on each of which coarse bricks are too stiff for thin parts
-constexpr double kDiagonalShift = 1e-9;    // of the largest stiffness, as in linear_solver.cpp
+constexpr int kCoarsestNodesAtRest = 2000;  // fewer levels, on each of which coarse bricks are too stiff for thin parts
+constexpr double kDiagonalShift = 1e-9;     // of the largest stiffness, as in linear_solver.cpp
 
 /// Coarse bricks are too stiff in bending the nearer the material is to incompressible; the smoother makes up for it.
+/// Solid bricks, slivers beside whole ones, have eigenvalues over twice the range.
 int smoothing_steps(const Body& body) {
+  if (!has_springs(body.model)) return body.material.poisson > 0.47 ? 8 : 5;
   if (body.material.poisson > 0.47) return 5;
   return body.material.poisson > 0.4 ? 3 : 2;
 }

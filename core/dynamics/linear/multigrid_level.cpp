@@ -6,13 +6,13 @@
 #include <Eigen/LU>
 #include <numeric>
 
+#include "core/dynamics/linear/eigenvalue_bound.h"
+
 namespace sprung::multigrid {
 namespace {
 
 constexpr int kNodesPerTask = 512;
 constexpr int kNodeBlocksPerTask = 8;
-constexpr int kPowerSteps = 10;
-constexpr double kPowerMargin = 1.1;  // the power iteration comes from below
 
 template <class Body>
 void for_nodes(int count, const Body& body) {
@@ -195,25 +195,14 @@ void Level::prepare_smoother(double fastest_of_brick) {
 }
 
 void Level::find_fastest() {
-  Floats x(3 * layout_->node_count);
-  std::uint32_t state = 12345;
-  for (float& value : x) {
-    state = state * 1664525U + 1013904223U;
-    value = float(state >> 8U) / float(1U << 24U) - 0.5F;
-  }
-  double growth = 1;
-  for (int step = 0; step < kPowerSteps; ++step) {
-    multiply(x, product_);
+  const auto scale = [&](const Floats& x, Floats& scaled) {
+    scaled.resize(x.size());
     for_nodes(layout_->node_count,
-              [&](int node) { x.segment<3>(3 * node) = inverse_blocks_[node] * product_.segment<3>(3 * node); });
-    growth = x.cast<double>().norm();
-    if (!(growth > 0)) {
-      growth = 1;
-      break;
-    }
-    x *= float(1 / growth);
-  }
-  fastest_ = float(kPowerMargin * growth);
+              [&](int node) { scaled.segment<3>(3 * node) = inverse_blocks_[node] * x.segment<3>(3 * node); });
+  };
+  const auto multiplied = [&](const Floats& x, Floats& product) { multiply(x, product); };
+  const double bound = bound_on_eigenvalues<Floats>(Eigen::Index(3) * layout_->node_count, multiplied, scale);
+  fastest_ = bound > 0 ? float(bound) : 1;
 }
 
 void Level::smooth(int steps, Floats& x, Floats& residual, bool with_residual) const {

@@ -36,7 +36,7 @@ class Level {
 
   /// To be called when matrices and diagonal are set: the inverse of the nodes' own 3 x 3 blocks and the fastest
   /// eigenvalue of the matrix scaled by them. `fastest_of_brick` is that of a single brick, which bounds it; 0: it is
-  /// found by power iteration.
+  /// found by Lanczos' method.
   void prepare_smoother(double fastest_of_brick);
 
   void multiply(const Floats& x, Floats& product) const;
