@@ -75,4 +75,17 @@ BrickTiles make_solid_tiles(const Body& body) {
   return make_brick_tiles(body.grid, numbers, {});
 }
 
+void solid_matrices(const Body& body, int first, double* matrices, const SpringKernel& kernel) {
+  std::array<int, kPackPadding> bricks{};
+  std::array<double, 24 * kPackPadding> corners{};
+  for (int lane = 0; lane < kPackPadding; ++lane) {
+    const bool is_there = first + lane < body.grid.brick_count();
+    bricks[lane] = is_there ? first + lane : -1;
+    const BrickVector x = at_corners(body, is_there ? first + lane : first, body.positions);
+    for (int i = 0; i < 24; ++i) corners[i * kPackPadding + lane] = x[i];
+  }
+  kernel.solid_matrices(solid_law(body.material, body.grid.brick_size), numbers_of(body, bricks).data(), corners.data(),
+                        matrices);
+}
+
 }  // namespace sprung

@@ -10,4 +10,8 @@ namespace sprung {
 /// Of a body with model kNeoHooke. Cost: linear in the bricks.
 [[nodiscard]] BrickTiles make_solid_tiles(const Body& body);
 
+/// The second derivatives of the energy of bricks `first` to `first` + kPackPadding - 1 where they stand, see
+/// SolidMatrices; zero for rows beyond the last brick.
+void solid_matrices(const Body& body, int first, double* matrices, const SpringKernel& kernel = best_spring_kernel());
+
 }  // namespace sprung

@@ -1,7 +1,7 @@
 // Solves the stiffness of cantilevers and of bears on held feet under gravity and prints a table: multigrid beside
-// CHOLMOD and conjugate gradients with the diagonal, all in one run, so that ratios hold on a busy machine. Options:
-// the bricks along the longest sides, and "--direct-up-to N" bricks (default 20 000; beyond, the direct solver takes
-// minutes and gigabytes).
+// CHOLMOD and conjugate gradients with the diagonal, two models, all in one run, so that ratios hold on a busy machine.
+// Options: the bricks along the longest sides, and "--direct-up-to N" bricks (default 20 000; beyond, the direct solver
+// takes minutes and gigabytes).
 #include <fmt/format.h>
 
 #include <Eigen/IterativeLinearSolvers>
@@ -29,14 +29,14 @@ double seconds(const Work& work) {
 }
 
 /// The paper's cantilever, n x n/4 x n/4 bricks.
-Body cantilever(int n) {
-  return make_body(make_box_grid({n, n / 4, n / 4}, 0.4 / n), Model::kCalibrated,
+Body cantilever(int n, Model model) {
+  return make_body(make_box_grid({n, n / 4, n / 4}, 0.4 / n), model,
                    {.name = "bench", .young = 1000, .poisson = 0.3, .density = 1, .damping = 0.02, .source = ""});
 }
 
 /// At rest, of about as many bricks as that cantilever.
-Body bear(int n) {
-  Body body = test::bench_body("bear", n * (n / 4) * (n / 4), Model::kCalibrated);
+Body bear(int n, Model model) {
+  Body body = test::bench_body("bear", n * (n / 4) * (n / 4), model);
   body.positions = body.rest_positions;
   body.velocities.setZero();
   return body;
@@ -44,18 +44,20 @@ Body bear(int n) {
 
 struct BenchShape {
   const char* name;
-  Body (*make)(int n);
+  Body (*make)(int n, Model model);
   int held_axis;  // where the lattice is lowest along it
 };
 constexpr std::array kShapes{BenchShape{"cantilever", cantilever, 0}, BenchShape{"bear", bear, 1}};
+
+constexpr std::array kModels{Model::kCalibrated, Model::kNeoHooke};
 
 struct Held {
   SoftBody actor;
   Supports supports;
   Points loads;
 
-  Held(const BenchShape& shape, int n)
-      : actor(shape.make(n)), supports(actor.node_count()), loads(actor.masses * Vec3(0, -1, 0).transpose()) {
+  Held(const BenchShape& shape, int n, Model model)
+      : actor(shape.make(n, model)), supports(actor.node_count()), loads(actor.masses * Vec3(0, -1, 0).transpose()) {
     const std::vector<Eigen::Vector3i>& lattice = actor.grid.lattice;
     int low = lattice.front()[shape.held_axis];
     for (const Eigen::Vector3i& place : lattice) low = std::min(low, place[shape.held_axis]);
@@ -115,8 +117,9 @@ void print_row(const char* name, const Held& body, int direct_up_to) {
   const double direct = has_direct ? linear_solve(body, *make_direct_solver(), 0) : 0;
   const double still_direct = has_direct ? static_solve(body, *make_direct_solver()) : 0;
   const auto time = [](bool is_there, double value) { return is_there ? fmt::format("{:.3g}", value) : "-"; };
-  fmt::print("| {} | {} | {:.3g} | {} | {:.3g} | {:.3g} | {} | {:.3g} | {} |\n", name, bricks, linear,
-             time(has_direct, direct), diagonal_solve(body), still, time(has_direct, still_direct), step, iterations);
+  fmt::print("| {} | {} | {} | {:.3g} | {} | {:.3g} | {:.3g} | {} | {:.3g} | {} |\n", name,
+             model_name(body.actor.model), bricks, linear, time(has_direct, direct), diagonal_solve(body), still,
+             time(has_direct, still_direct), step, iterations);
   std::fflush(stdout);
 }
 
@@ -139,9 +142,12 @@ int main(int argc, char** argv) {
   }
   if (sizes.empty()) sizes = {32, 64, 128};
   fmt::print(
-      "| body | bricks | linear, s | CHOLMOD, s | diagonal CG, s | static to 1e-6, s | CHOLMOD, s | implicit step, s | "
-      "Newton iterations |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
+      "| body | model | bricks | linear, s | CHOLMOD, s | diagonal CG, s | static to 1e-6, s | CHOLMOD, s | implicit "
+      "step, s | "
+      "Newton iterations |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
   for (const BenchShape& shape : kShapes) {
-    for (const int n : sizes) print_row(shape.name, Held(shape, n), direct_up_to);
+    for (const int n : sizes) {
+      for (const Model model : kModels) print_row(shape.name, Held(shape, n, model), direct_up_to);
+    }
   }
 }

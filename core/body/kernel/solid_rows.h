@@ -195,33 +195,65 @@ class PackOfSolids {
 
   /// How that changes while the corners move by what is in place of velocities: the second derivative times it.
   [[gnu::always_inline]] void multiply(const BrickRows& rows) const {
-    const TrilinearMap map = trilinear_map(rows, kPosition);
-    const TrilinearMap moves = trilinear_map(rows, kVelocity);
+    give_corners(product(state(trilinear_map(rows, kPosition)), trilinear_map(rows, kVelocity)), rows);
+  }
+
+  /// What the second derivative depends on.
+  struct State {
+    TrilinearMap map;
+    Gradient f;
+    Shear shear;
+    Gradient gradient;
+    Gradient area;
+    Pack slope;      // of psi by the volume ratio
+    Pack curvature;  // likewise, second
+    Gradient stress;
+    Differences force;
+  };
+  [[nodiscard]] [[gnu::always_inline]] State state(const TrilinearMap& map) const {
+    State at{};
+    at.map = map;
     const Differences z = differences(map);
-    const Differences change = changes(map, moves);
-    const Gradient f = secant(map);
-    const Gradient f_change = secant(moves);
-    const Shear shear = shear_of(z);
-    const Shear shear_change = shear_of(change);
-    const Gradient gradient = bent<kCut>(f, shear);
-    Gradient gradient_change = bent<kCut>(f_change, shear);
-    if constexpr (kCut) gradient_change = gradient_change + sheared(f, shear_change);
     const Pack share = numbers_.share();
-    const Gradient stress = times(share, elastic_stress(gradient));
-    const Gradient stress_change = times(share, elastic_stress_change(gradient, gradient_change));
-    Differences force = stiffness_times(share, z);
+    at.f = secant(map);
+    at.shear = shear_of(z);
+    at.gradient = bent<kCut>(at.f, at.shear);
+    at.area = areas(at.gradient, at.gradient);
+    const OfVolume of = of_volume(dot(at.gradient.x, at.area.x));
+    at.slope = share * of.slope;
+    at.curvature = share * of.curvature;
+    at.stress = times(share * law_.shear, at.gradient) + times(at.slope, at.area);
+    at.force = stiffness_times(share, z);
+    if constexpr (kCut) add_shear_force(at.f, at.stress, at.force);
+    return at;
+  }
+
+  /// The second derivative times what the map's vectors move by.
+  [[nodiscard]] [[gnu::always_inline]] TrilinearMap product(const State& at, const TrilinearMap& moves) const {
+    const Differences change = changes(at.map, moves);
+    const Gradient f_change = secant(moves);
+    const Shear shear_change = shear_of(change);
+    Gradient gradient_change = bent<kCut>(f_change, at.shear);
+    if constexpr (kCut) gradient_change = gradient_change + sheared(at.f, shear_change);
+    const Pack share = numbers_.share();
+    const Pack volume_change =
+        dot(at.area.x, gradient_change.x) + dot(at.area.y, gradient_change.y) + dot(at.area.z, gradient_change.z);
+    const Gradient stress_change =
+        times(share * law_.shear, gradient_change) +
+        times(at.slope, areas(at.gradient, gradient_change) + areas(gradient_change, at.gradient)) +
+        times(at.curvature * volume_change, at.area);
     Differences force_change = stiffness_times(share, change);
-    Gradient on_secant = bent<kCut>(stress_change, shear);
+    Gradient on_secant = bent<kCut>(stress_change, at.shear);
     if constexpr (kCut) {
-      add_shear_force(f, stress, force);
-      add_shear_force(f, stress_change, force_change);
-      add_shear_force(f_change, stress, force_change);
-      on_secant = on_secant + sheared(stress, shear_change);
+      add_shear_force(at.f, stress_change, force_change);
+      add_shear_force(f_change, at.stress, force_change);
+      on_secant = on_secant + sheared(at.stress, shear_change);
     }
     TrilinearMap pull = secant_pull(on_secant);
-    add_pull(map, force_change, pull);
+    add_pull(at.map, force_change, pull);
+    Differences force = at.force;
     add_pull(moves, force, pull);
-    give_corners(pull, rows);
+    return pull;
   }
 
   [[nodiscard]] [[gnu::always_inline]] Pack energy(const BrickRows& rows) const {
@@ -423,13 +455,6 @@ class PackOfSolids {
     const Gradient area = areas(f, f);
     const Pack slope = of_volume(dot(f.x, area.x)).slope;
     return times(law_.shear, f) + times(slope, area);
-  }
-  [[nodiscard]] [[gnu::always_inline]] Gradient elastic_stress_change(const Gradient& f, const Gradient& change) const {
-    const Gradient area = areas(f, f);
-    const OfVolume of = of_volume(dot(f.x, area.x));
-    const Pack volume_change = dot(area.x, change.x) + dot(area.y, change.y) + dot(area.z, change.z);
-    return times(law_.shear, change) + times(of.slope, areas(f, change) + areas(change, f)) +
-           times(of.curvature * volume_change, area);
   }
 
   /// The Kelvin-Voigt solid's.

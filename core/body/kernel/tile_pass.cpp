@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/body/kernel/brick_springs.h"
+#include "core/body/kernel/solid_matrices.h"
 #include "core/body/kernel/solid_rows.h"
 #include "core/body/kernel/tile_runs.h"
 
@@ -285,7 +286,10 @@ void finish_shared(const SharedNodes& nodes, const SharedPart* parts, const doub
 }  // namespace
 
 SpringKernel spring_kernel() {
-  return {.name = SPRUNG_NAME_OF(SPRUNG_INSTRUCTION_SET), .tile = run_tile, .shared = finish_shared};
+  return {.name = SPRUNG_NAME_OF(SPRUNG_INSTRUCTION_SET),
+          .tile = run_tile,
+          .shared = finish_shared,
+          .solid_matrices = solid_matrices};
 }
 
 }  // namespace sprung::SPRUNG_INSTRUCTION_SET

@@ -141,11 +141,17 @@ using TilePass = void (*)(const TileView& tile, const PassInput& input, double* 
 using SharedPass = void (*)(const SharedNodes& nodes, const SharedPart* parts, const double* shared,
                             const PassInput& input);
 
+/// The second derivatives of the energy of kPackPadding solid bricks by what their corners 1 to 7 do, N/m: entry
+/// anchored_index(a, b) of each side by side. `own`: as a run's bricks have them, see TileView; `corners`: x y z of
+/// each corner, m, those of all bricks side by side.
+using SolidMatrices = void (*)(const SolidLaw& law, const double* own, const double* corners, double* matrices);
+
 /// The innermost loops, compiled for one instruction set; null where the processor cannot run them.
 struct SpringKernel {
   const char* name = "";
   TilePass tile = nullptr;
   SharedPass shared = nullptr;
+  SolidMatrices solid_matrices = nullptr;
 };
 
 /// The one for the widest vectors this processor has. All give the same bits.

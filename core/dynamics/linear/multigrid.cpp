@@ -7,6 +7,7 @@
 #include "core/body/brick_hessian.h"
 #include "core/body/brick_model.h"
 #include "core/body/forces.h"
+#include "core/body/solid_tiles.h"
 #include "core/dynamics/linear/linear_solver.h"
 #include "core/dynamics/linear/multigrid_level.h"
 #include "core/dynamics/linear/stiffness.h"
@@ -82,6 +83,7 @@ class MultigridSolver : public IterativeSolver {
  private:
   void fill_finest();
   void fill_block(int block, const EdgeCoupling& coupling);
+  void fill_solids(int first, float* matrix) const;
   [[nodiscard]] double fastest_of_brick() const;
   [[nodiscard]] bool is_peculiar(std::size_t brick, double volume_ratio) const;
   [[nodiscard]] bool needs_pull(int block) const;
@@ -157,7 +159,7 @@ bool MultigridSolver::needs_pull(int block) const {
 }
 
 bool MultigridSolver::is_peculiar(std::size_t brick, double volume_ratio) const {
-  if (volume_ratio < body_->law.guard_ratio || definite_ || !has_springs(body_->model)) return true;
+  if (volume_ratio < body_->law.guard_ratio || definite_ || !has_tiles(body_->model)) return true;
   if (!points_of_brick_.empty() && !points_of_brick_[brick].empty()) return true;
   return std::any_of(body_->grid.nodes[brick].begin(), body_->grid.nodes[brick].end(),
                      [&](int node) { return is_held_node_[node] != 0; });
@@ -168,8 +170,12 @@ void MultigridSolver::fill_block(int block, const EdgeCoupling& coupling) {
   float* matrix = finest.matrix(block);
   const int first = block * kLanes;
   std::array<float, kLanes> volume_ratios{};
-  multigrid::kernels().stiffness_matrices(block_input(*body_), coupling, 1 + terms_->damping, first, matrix,
-                                          volume_ratios.data());
+  if (has_springs(body_->model)) {
+    multigrid::kernels().stiffness_matrices(block_input(*body_), coupling, 1 + terms_->damping, first, matrix,
+                                            volume_ratios.data());
+  } else if (has_tiles(body_->model) && !definite_) {
+    fill_solids(first, matrix);
+  }
   float* pull = needs_pull(block) ? finest.add_pull(block) : nullptr;
   for (int brick = first; brick < std::min(first + kLanes, body_->grid.brick_count()); ++brick) {
     const int lane = brick - first;
@@ -178,6 +184,19 @@ void MultigridSolver::fill_block(int block, const EdgeCoupling& coupling) {
     if (volume_ratio < body_->law.guard_ratio) is_guarded_ = true;
     if (!is_peculiar(b, volume_ratio)) continue;
     put(peculiar_matrix(b), matrix + lane, pull == nullptr ? nullptr : pull + lane);
+  }
+}
+
+/// Of solid bricks, in packs.
+void MultigridSolver::fill_solids(int first, float* matrix) const {
+  std::array<double, kAnchoredSize * kPackPadding> pack{};
+  for (int lane = 0; lane < kLanes && first + lane < body_->grid.brick_count(); lane += kPackPadding) {
+    solid_matrices(*body_, first + lane, pack.data());
+    for (std::size_t entry = 0; entry < kAnchoredSize; ++entry) {
+      for (std::size_t i = 0; i < kPackPadding; ++i) {
+        matrix[entry * kLanes + lane + i] = float((1 + terms_->damping) * pack[entry * kPackPadding + i]);
+      }
+    }
   }
 }
 

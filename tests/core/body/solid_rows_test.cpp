@@ -1,9 +1,12 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include "core/body/brick_hessian.h"
 #include "core/body/brick_model.h"
+#include "core/body/brick_stiffness.h"
 #include "core/body/brick_tiles.h"
 #include "core/body/forces.h"
+#include "core/body/solid_tiles.h"
 #include "tests/support/bodies.h"
 
 namespace sprung {
@@ -116,6 +119,31 @@ TEST(SolidRows, MultiplyLikeTheirBricks) {
       SpringSystem(kernel).multiply(body, moves, product);
       EXPECT_LT((product - expected.reshaped<Eigen::RowMajor>()).cwiseAbs().maxCoeff(), 1e-13 * largest(expected))
           << poisson << ' ' << kernel.name;
+    }
+  }
+}
+
+TEST(SolidRows, HaveTheHessiansOfTheirBricks) {
+  for (const double poisson : kRatios) {
+    const Body body = ragged_solid(poisson);
+    for (const SpringKernel& kernel : all_spring_kernels()) {
+      if (kernel.tile == nullptr) continue;
+      for (int first = 0; first < body.grid.brick_count(); first += kPackPadding) {
+        std::array<double, kAnchoredSize * kPackPadding> matrices{};
+        solid_matrices(body, first, matrices.data(), kernel);
+        for (int lane = 0; lane < kPackPadding; ++lane) {
+          BrickMatrix expected = BrickMatrix::Zero();
+          if (first + lane < body.grid.brick_count()) expected = body_brick_hessian(body, first + lane);
+          double error = 0;
+          for (std::size_t a = 0; a < 21; ++a) {
+            for (std::size_t b = 0; b <= a; ++b) {
+              const double entry = matrices[anchored_index(a, b) * kPackPadding + lane];
+              error = std::max(error, std::abs(entry - expected(a + 3, b + 3)));
+            }
+          }
+          EXPECT_LE(error, 1e-13 * expected.cwiseAbs().maxCoeff()) << poisson << ' ' << kernel.name << first + lane;
+        }
+      }
     }
   }
 }
