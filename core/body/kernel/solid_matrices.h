@@ -1,6 +1,6 @@
 #pragma once
-#include "core/body/brick_stiffness.h"
 #include "core/body/kernel/solid_rows.h"
+#include "core/law/anchored_matrix.h"
 
 namespace sprung::SPRUNG_INSTRUCTION_SET {
 

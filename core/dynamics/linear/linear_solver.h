@@ -89,7 +89,7 @@ class IterativeSolver : public LinearSolver {
 
 /// Conjugate gradients preconditioned by geometric multigrid on the hierarchy of bricks: Galerkin's coarse bricks, each
 /// of up to eight children that hang together, Chebyshev-Jacobi smoothing, the cycle in single precision, the products
-/// outside it exact and in double. Time and memory (some 1.7 kB a brick) grow with the body. Gives up after
+/// outside it exact and in double. Time and memory (some 2 kB a brick) grow with the body. Gives up after
 /// `max_iterations` of a solve.
 [[nodiscard]] std::unique_ptr<IterativeSolver> make_multigrid_solver(int max_iterations = 150);
 

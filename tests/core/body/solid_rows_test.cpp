@@ -3,10 +3,10 @@
 
 #include "core/body/brick_hessian.h"
 #include "core/body/brick_model.h"
-#include "core/body/brick_stiffness.h"
 #include "core/body/brick_tiles.h"
 #include "core/body/forces.h"
 #include "core/body/solid_tiles.h"
+#include "core/law/anchored_matrix.h"
 #include "tests/support/bodies.h"
 
 namespace sprung {
