@@ -60,7 +60,7 @@ struct PrincipalStretches {
   Vec3 stretches;
 
   explicit PrincipalStretches(const Mat3& f) {
-    const Eigen::JacobiSVD<AtMost3> svd(f, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    const Eigen::JacobiSVD<AtMost3, Eigen::NoQRPreconditioner> svd(f, Eigen::ComputeFullU | Eigen::ComputeFullV);
     u = svd.matrixU();
     v = svd.matrixV();
     stretches = svd.singularValues();
