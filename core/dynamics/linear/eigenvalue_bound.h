@@ -20,6 +20,9 @@ double bound_on_eigenvalues(Eigen::Index size, const Multiply& multiply, const P
   constexpr int kSteps = 10;
   constexpr double kMargin = 1.1;
   using Number = typename Vector::Scalar;
+  const auto dot = [](const Vector& a, const Vector& b) {
+    return a.template cast<double>().dot(b.template cast<double>());
+  };
   std::mt19937 random(1);
   Vector residual(size);
   for (Number& entry : residual) entry = Number(double(random()) / double(std::mt19937::max()) - 0.5);
@@ -27,7 +30,7 @@ double bound_on_eigenvalues(Eigen::Index size, const Multiply& multiply, const P
   Vector product;
   precondition(residual, ahead);
   Vector direction = ahead;
-  double descent = residual.dot(ahead);
+  double descent = dot(residual, ahead);
   const double rounding = 100 * double(std::numeric_limits<Number>::epsilon());
   const double least = rounding * descent;
   std::vector<double> diagonal;
@@ -35,13 +38,13 @@ double bound_on_eigenvalues(Eigen::Index size, const Multiply& multiply, const P
   double carried = 0;
   while (isize(diagonal) < kSteps && descent > least) {
     multiply(direction, product);
-    const double inverse_step = direction.dot(product) / descent;
+    const double inverse_step = dot(direction, product) / descent;
     const double largest_rounding = diagonal.empty() ? 0 : rounding * std::abs(diagonal.front());
     if (!(std::abs(inverse_step) > largest_rounding)) break;  // only what A takes to zero is left
     diagonal.push_back(inverse_step + carried);
     residual -= Number(1 / inverse_step) * product;
     precondition(residual, ahead);
-    const double next = residual.dot(ahead);
+    const double next = dot(residual, ahead);
     const double growth = std::max(next / descent, 0.0);
     carried = growth * inverse_step;
     beside.push_back(std::sqrt(growth) * inverse_step);
