@@ -142,9 +142,8 @@ int main(int argc, char** argv) {
   }
   if (sizes.empty()) sizes = {32, 64, 128};
   fmt::print(
-      "| body | model | bricks | linear, s | CHOLMOD, s | diagonal CG, s | static to 1e-6, s | CHOLMOD, s | implicit "
-      "step, s | "
-      "Newton iterations |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
+      "| body | model | bricks | linear, s | CHOLMOD, s | diagonal CG, s | static to 1e-6, s | CHOLMOD, s "
+      "| implicit step, s | Newton iterations |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
   for (const BenchShape& shape : kShapes) {
     for (const int n : sizes) {
       for (const Model model : kModels) print_row(shape.name, Held(shape, n, model), direct_up_to);

@@ -4,33 +4,38 @@
 
 namespace sprung::SPRUNG_INSTRUCTION_SET {
 
-/// Corners to map: of each pair along an axis the sum and the difference.
-[[nodiscard]] [[gnu::always_inline]] inline TrilinearMap map_of_corners(TrilinearMap values) {
+/// What trilinear_map() and give_corners() do row by row, for matrices: visits the corners, or vectors of the map, pair
+/// by pair along each axis.
+template <class Join>
+[[gnu::always_inline]] inline void join_pairs(TrilinearMap& values, const Join& join) {
 #pragma GCC unroll 3
   for (std::size_t bit = 1; bit < 8; bit *= 2) {
 #pragma GCC unroll 8
     for (std::size_t low = 0; low < 8; ++low) {
-      if ((low & bit) != 0) continue;
-      const Pack3 sum = values[low | bit] + values[low];
-      values[low | bit] = values[low | bit] - values[low];
-      values[low] = sum;
+      if ((low & bit) == 0) join(values[low], values[low | bit]);
     }
   }
+}
+
+/// Of each pair the sum and the difference.
+[[nodiscard]] [[gnu::always_inline]] inline TrilinearMap map_of_corners(TrilinearMap values) {
+  join_pairs(
+      values, [](Pack3 & low, Pack3 & high) __attribute__((always_inline)) {
+        const Pack3 sum = high + low;
+        high = high - low;
+        low = sum;
+      });
   return values;
 }
 
 /// Its transpose.
 [[nodiscard]] [[gnu::always_inline]] inline TrilinearMap corners_of_map(TrilinearMap values) {
-#pragma GCC unroll 3
-  for (std::size_t bit = 1; bit < 8; bit *= 2) {
-#pragma GCC unroll 8
-    for (std::size_t low = 0; low < 8; ++low) {
-      if ((low & bit) != 0) continue;
-      const Pack3 sum = values[low | bit] + values[low];
-      values[low] = values[low] - values[low | bit];
-      values[low | bit] = sum;
-    }
-  }
+  join_pairs(
+      values, [](Pack3 & low, Pack3 & high) __attribute__((always_inline)) {
+        const Pack3 sum = high + low;
+        low = low - high;
+        high = sum;
+      });
   return values;
 }
 
