@@ -243,10 +243,24 @@ fs::path NumberedName::file(int number) const {
   return folder / fmt::format("{}{:0{}}{}", before, number, digits, after);
 }
 
+namespace {
+
+/// With the only run of # in the file name as the number.
+std::string with_hashes_as_braces(std::string_view text) {
+  const auto name = text.rfind('/') + 1;  // 0 where there is no folder
+  const auto open = text.find('#', name);
+  if (open == std::string_view::npos || has_number(text)) return std::string(text);
+  const auto end = std::min(text.find_first_not_of('#', open), text.size());
+  if (text.find('#', end) != std::string_view::npos) return std::string(text);
+  return fmt::format("{}{{:0{}}}{}", text.substr(0, open), end - open, text.substr(end));
+}
+
+}  // namespace
+
 std::string with_braces(std::string_view text) {
   const auto open = text.find('%');
   const auto end = std::min(text.find_first_not_of("0123456789", open + 1), text.size());
-  if (open == std::string_view::npos || end == text.size() || text[end] != 'd') return std::string(text);
+  if (open == std::string_view::npos || end == text.size() || text[end] != 'd') return with_hashes_as_braces(text);
   const std::string_view digits = text.substr(open + 1, end - open - 1);
   return fmt::format("{}{{{}{}}}{}", text.substr(0, open), digits.empty() ? "" : ":", digits, text.substr(end + 1));
 }

@@ -97,7 +97,7 @@ struct NumberedName {
 /// Whether the text contains a placeholder for a number.
 [[nodiscard]] bool has_number(std::string_view text);
 
-/// "f_{:04}.png" for "f_%04d.png", as other programs number their files; any other text as it is.
+/// "f_{:04}.png" for "f_%04d.png" and "f_####.png", as other programs number their files; any other text as it is.
 [[nodiscard]] std::string with_braces(std::string_view text);
 
 /// Parses "folder/frame_{:04}.png", "{:04d}.obj", "{}.ply". Throws Error(kUsage) with a reason that ends in `examples`.

@@ -42,6 +42,7 @@ struct AnimateOptions {
   OutputOptions outputs;
   JobOptions jobs;
   SceneOptions scene;
+  std::string start_number;
   std::string keep_after = "30s";
   bool overwrite = false;
 
@@ -91,6 +92,7 @@ void animate(const CLI::App& command, const AnimateOptions& options, const Conso
   if (!options.scene.print_scene) options.outputs.require(command, "-o folder/, -o frame_{:04}.png or -o film.mp4");
   const int jobs = options.jobs.count();
   const double patience = options.patience();
+  const int start_number = start_number_in(options.start_number);
   options.scene.with_scene(console, [&](const Film& scene) {
     const std::vector<Output> outputs = parse_outputs(options.outputs.names);
     for (const Output& output : outputs) check_output(output, options.overwrite);
@@ -108,10 +110,10 @@ void animate(const CLI::App& command, const AnimateOptions& options, const Conso
       Recording recording = with_picture_of_diverged(simulation.world, picture_of_diverged(outputs.front()),
                                                      [&] { return simulate(simulation, scene, console, &motion); });
       recording.frames = motion.take_frames();
-      render_film({{scene, simulation, recording}}, surroundings, whole_film(recording.progress.size()), outputs,
-                  console, jobs);
+      const FrameChoice choice{.range = whole_film(recording.progress.size()), .start_number = start_number};
+      render_film({{scene, simulation, recording}}, surroundings, choice, outputs, console, jobs);
       for (const Output& output : outputs) {
-        if (options.overwrite) clear_beyond(output, int(recording.progress.size()), console);
+        if (options.overwrite) clear_beyond(output, choice.number(choice.range.last), console);
       }
     });
     if (motion.has_file()) std::filesystem::remove(motion.file());
@@ -131,6 +133,7 @@ void add_animate(CLI::App& app, Invocation& invocation) {
   command->add_option("--keep-after", options->keep_after, "keep a motion that takes longer until the film is whole")
       ->option_text("30s")
       ->group(kMoreOptions);
+  add_start_number(*command, options->start_number)->group(kMoreOptions);
   options->scene.add_to(*command, true);
   add_messages(*command, invocation.console);
   command->footer(scene_footer(*command,

@@ -19,7 +19,7 @@ namespace {
 
 struct ExportOptions {
   OutputOptions outputs;
-  std::string frames;  // "1:48"
+  std::string frames;  // "1:48:2"
   bool quantize = false;
   bool list = false;
   bool overwrite = false;
@@ -135,7 +135,7 @@ void add_export(CLI::App& app, Invocation& invocation) {
   options->outputs.add_to(*command,
                           "skin_{:04}.obj or another format, film.glb, film.html, points.pc2, points.mdd, run.xdmf; "
                           "may be given several times");
-  command->add_option("--frames", options->frames, "these only, counted from 1; default: all")->option_text("A:B");
+  command->add_option("--frames", options->frames, "these only, counted from 1; default: all")->option_text("A:B:STEP");
   command->add_flag("--quantize", options->quantize,
                     "keep 16 bits per coordinate in film.glb: half the size; reports the error");
   command->add_flag("--list", options->list, "name the formats, and stop");

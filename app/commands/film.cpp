@@ -20,7 +20,7 @@ constexpr std::size_t kMostFrames = 1000000000;  // that --frames may name
 struct FilmOptions {
   std::string input;  // the pictures
   OutputOptions outputs;
-  std::string frames;  // "1:48"
+  std::string frames;  // "1:48:2"
   std::string fps;
   bool overwrite = false;
 };
@@ -39,15 +39,13 @@ int last_number(const Output& pictures) {
 /// The missing pictures, "25:48, 70"; empty where there are none.
 std::string gaps_in(const Output& pictures, const FrameRange& range) {
   std::string gaps;
-  int missing = 0;  // in a row, up to the number before
-  for (int number = range.first; number <= range.last + 1; ++number) {
-    if (number <= range.last && !fs::exists(pictures.picture(number))) {
-      ++missing;
-    } else if (missing > 0) {
-      gaps += gaps.empty() ? "" : ", ";
-      gaps += missing == 1 ? fmt::format("{}", number - 1) : fmt::format("{}:{}", number - missing, number - 1);
-      missing = 0;
-    }
+  const auto is_missing = [&](int number) { return number <= range.last && !fs::exists(pictures.picture(number)); };
+  for (int number = range.first; number <= range.last; number += range.step) {
+    if (!is_missing(number)) continue;
+    const int first = number;
+    while (is_missing(number + range.step)) number += range.step;
+    gaps += gaps.empty() ? "" : ", ";
+    gaps += number == first ? fmt::format("{}", first) : fmt::format("{}:{}", first, number);
   }
   return gaps;
 }
@@ -77,7 +75,8 @@ void make_film(const FilmOptions& options, double fps, const Console& console) {
   Progress progress(console, "film", range.count(), 1, "frames/s");
   const Image first = read_png(pictures.picture(range.first));
   PictureWriter writer(films, first.width, first.height, fps);
-  for (int number = range.first; number <= range.last; ++number) {
+  int done = 0;
+  for (const int number : range.frames()) {
     stop_if_interrupted();
     Image image = read_png(pictures.picture(number));
     if (image.width != first.width || image.height != first.height) {
@@ -86,7 +85,7 @@ void make_film(const FilmOptions& options, double fps, const Console& console) {
                               image.width, image.height, first.width, first.height));
     }
     writer.write({.image = std::move(image)});
-    progress.update(number - range.first + 1);
+    progress.update(++done);
   }
   writer.close();
   progress.finish(count_of(range.count(), "picture"));
@@ -101,7 +100,7 @@ void add_film(CLI::App& app, Invocation& invocation) {
   command->add_option("INPUT", options->input, "folder/, or folder/frame_{:04}.png");
   options->outputs.add_to(*command, "film.mp4, .webm, .gif; may be given several times");
   command->add_option("--frames", options->frames, "these only; default: from 1 to the last that is there")
-      ->option_text("A:B");
+      ->option_text("A:B:STEP");
   const CLI::Option* fps =
       command->add_option("--fps", options->fps, "pictures a second; default: 24")->option_text("N");
   command->add_flag("--overwrite", options->overwrite, "replace films that exist");

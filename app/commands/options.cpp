@@ -108,15 +108,22 @@ void add_messages(CLI::App& command, Console& console, const std::string& verbos
   command.add_flag("--log-json", console.log_json, "messages and progress as JSON on stderr, one object per line");
 }
 
-int count_in(std::string_view option, const std::string& text) {
-  int count = 0;
-  if (text.empty()) return count;
+namespace {
+
+int whole_number_in(std::string_view option, const std::string& text, double least, double most) {
+  int number = 0;
   try {
-    parse_value(text, {.name = option, .help = "", .range = {1, 4096}}, count);
+    parse_value(text, {.name = option, .help = "", .range = {least, most}}, number);
   } catch (const Error& error) {
     throw Error(ErrorKind::kUsage, fmt::format("{}: {}", option, error.what()));
   }
-  return count;
+  return number;
+}
+
+}  // namespace
+
+int count_in(std::string_view option, const std::string& text) {
+  return text.empty() ? 0 : whole_number_in(option, text, 1, 4096);
 }
 
 void refuse_existing(const std::filesystem::path& file, bool overwrite, std::string_view remedy) {
@@ -129,6 +136,15 @@ void clear_beyond(const Output& output, int last, const Console& console) {
   if (removed == 0) return;
   console.note(fmt::format("{}: removed {} of an earlier, longer film", output.picture(1).parent_path().string(),
                            count_of(removed, "picture")));
+}
+
+CLI::Option* add_start_number(CLI::App& command, std::string& text) {
+  return command.add_option("--start-number", text, "number of the picture of the film's first frame; default: 1")
+      ->option_text("N");
+}
+
+int start_number_in(const std::string& text) {
+  return text.empty() ? 1 : whole_number_in("--start-number", text, 0, 1e6);
 }
 
 void OutputOptions::add_to(CLI::App& command, const std::string& help, const char* placeholder) {

@@ -50,6 +50,11 @@ void refuse_existing(const std::filesystem::path& file, bool overwrite,
 /// Removes what an earlier, longer film left beyond the last picture of this one, and says so.
 void clear_beyond(const Output& output, int last, const Console& console);
 
+/// --start-number: of the pictures of the first frame.
+CLI::Option* add_start_number(CLI::App& command, std::string& text);
+/// From 0; 1 where there is no text. Throws Error(kUsage).
+[[nodiscard]] int start_number_in(const std::string& text);
+
 /// -o.
 struct OutputOptions {
   std::vector<std::string> names;  // as typed

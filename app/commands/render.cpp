@@ -24,9 +24,11 @@ struct RenderCacheOptions {
   std::vector<std::string> others;  // side by side with it
   bool side_by_side = false;
   OutputOptions outputs;
-  std::string frames;  // "1:48"
+  std::string frames;  // "1:48:2"
+  std::string start_number;
   JobOptions jobs;
   bool overwrite = false;
+  bool skip_existing = false;
   SettingOptions keys;
 };
 
@@ -43,9 +45,11 @@ void apply_all(const std::vector<Setting>& settings, Film& scene) {
 }
 
 /// Pictures of other ranges may exist.
-void check_range_output(const Output& output, const FrameRange& range, bool overwrite) {
+void check_range_output(const Output& output, const FrameChoice& choice, bool overwrite) {
   if (output.kind == Output::Kind::kFilm) return check_output(output, overwrite);
-  for (int number = range.first; number <= range.last; ++number) refuse_existing(output.picture(number), overwrite);
+  for (const int frame : choice.range.frames()) {
+    refuse_existing(output.picture(choice.number(frame)), overwrite || choice.skips_existing);
+  }
   check_output(output, true);
 }
 
@@ -96,7 +100,7 @@ std::vector<CachedFilm> open_all(const RenderCacheOptions& options) {
 
 /// Keeps all frames of all caches in memory.
 void render_films(const std::vector<CachedFilm>& films, const std::optional<Environment>& surroundings,
-                  const FrameRange& range, const std::vector<Output>& outputs, const Console& console, int jobs) {
+                  const FrameChoice& choice, const std::vector<Output>& outputs, const Console& console, int jobs) {
   std::vector<Simulation> simulations;
   std::vector<Recording> recordings;
   simulations.reserve(films.size());
@@ -107,7 +111,7 @@ void render_films(const std::vector<CachedFilm>& films, const std::optional<Envi
     const Recording& recording = recordings.emplace_back(cached_recording(film.cache, film.scene));
     runs.push_back({film.scene, simulation, recording, film.name});
   }
-  render_film(runs, surroundings, range, outputs, console, jobs);
+  render_film(runs, surroundings, choice, outputs, console, jobs);
 }
 
 void render_cache(const CLI::App& command, const RenderCacheOptions& options, const Console& console) {
@@ -124,13 +128,15 @@ void render_cache(const CLI::App& command, const RenderCacheOptions& options, co
   const std::vector<CachedFilm> films = open_all(options);
   std::size_t frames = 0;
   for (const CachedFilm& film : films) frames = std::max(frames, film.cache.frame_count());
-  const FrameRange range = parse_frame_range(options.frames, frames);
+  const FrameChoice choice{.range = parse_frame_range(options.frames, frames),
+                           .start_number = start_number_in(options.start_number),
+                           .skips_existing = options.skip_existing};
   const std::vector<Output> outputs = parse_outputs(options.outputs.names);
-  for (const Output& output : outputs) check_range_output(output, range, options.overwrite);
+  for (const Output& output : outputs) check_range_output(output, choice, options.overwrite);
   const std::optional<Environment> surroundings = read_surroundings(films.front().scene.render);
-  render_films(films, surroundings, range, outputs, console, jobs);
+  render_films(films, surroundings, choice, outputs, console, jobs);
   for (const Output& output : outputs) {
-    if (options.overwrite && options.frames.empty()) clear_beyond(output, range.last, console);
+    if (options.overwrite && options.frames.empty()) clear_beyond(output, choice.number(choice.range.last), console);
   }
   for (const std::string& output : options.outputs.names) fmt::print("{}\n", output);
 }
@@ -145,7 +151,9 @@ void add_render(CLI::App& app, Invocation& invocation) {
   command->add_flag("--side-by-side", options->side_by_side, "several runs in one film: one camera, one scale");
   options->outputs.add_to(*command,
                           "folder/, folder/frame_{:04}.png, or film.mp4, .webm, .gif; may be given several times");
-  command->add_option("--frames", options->frames, "these only, counted from 1; default: all")->option_text("A:B");
+  command->add_option("--frames", options->frames, "these only, counted from 1; default: all")->option_text("A:B:STEP");
+  add_start_number(*command, options->start_number);
+  command->add_flag("--skip-existing", options->skip_existing, "draw only pictures that are missing");
   options->jobs.add_to(*command);
   command->add_flag("--overwrite", options->overwrite, "replace pictures and films that exist");
   options->keys.add_keys(*command, [](const KeyOption& key) { return key.key.starts_with("render."); });

@@ -49,7 +49,7 @@ fs::path file_of_mesh(const fs::path& file, std::size_t mesh, std::size_t count)
 /// Calls visit(row, meshes) for every `stride`th frame of a range.
 template <class Visit>
 void each_frame(const CachedFilmView& view, const FrameRange& range, int stride, const Visit& visit) {
-  for (int frame = range.first; frame <= range.last; frame += stride) {
+  for (int frame = range.first; frame <= range.last; frame += stride * range.step) {
     stop_if_interrupted();
     visit(frame, posed_meshes(view.simulation, view.film, view.cache.positions(frame - 1)));
   }
@@ -99,7 +99,7 @@ void export_page(const ExportTarget& target, const CachedFilmView& view, const F
   const Reach reach = reach_of(view.simulation, cached_recording(view.cache, view.film));
   const Camera camera = cameras_of(view.film, reach, 0).at(range.first - 1);
   const auto [width, height] = view.film.render.resolution;
-  write_file(target.file, viewer.page(view.film.fps, camera, double(width) / height));
+  write_file(target.file, viewer.page(view.film.fps / range.step, camera, double(width) / height));
 }
 
 void export_points(const ExportTarget& target, const CachedFilmView& view, const FrameRange& range) {
@@ -121,7 +121,7 @@ void export_points(const ExportTarget& target, const CachedFilmView& view, const
 
 void export_xdmf(const ExportTarget& target, const CachedFilmView& view, const FrameRange& range) {
   XdmfWriter writer(target.file, view.simulation.world, strain_measure(view.film));
-  for (int frame = range.first; frame <= range.last; ++frame) {
+  for (const int frame : range.frames()) {
     stop_if_interrupted();
     const std::size_t row = frame - 1;
     writer.add_frame(view.cache.frame(row).progress, view.cache.positions(row), view.cache.velocities(row));
@@ -155,7 +155,7 @@ ExportTarget parse_export_target(std::string_view typed) {
 std::vector<fs::path> files_of(const ExportTarget& target, const Film& scene, const FrameRange& range) {
   std::vector<fs::path> files;
   if (target.kind == Kind::kMeshes && target.numbered) {
-    for (int frame = range.first; frame <= range.last; ++frame) files.push_back(target.numbered->file(frame));
+    for (const int frame : range.frames()) files.push_back(target.numbered->file(frame));
   } else if (target.kind == Kind::kPc2 || target.kind == Kind::kMdd) {
     for (std::size_t i = 0; i < mesh_count(scene); ++i)
       files.push_back(file_of_mesh(target.file, i, mesh_count(scene)));

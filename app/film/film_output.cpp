@@ -21,21 +21,32 @@ int number_in(std::string_view text, std::string_view words) {
   int number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error == std::errc() && end == text.data() + text.size()) return number;
-  throw Error(ErrorKind::kUsage, fmt::format("--frames: '{}' is not a range like 1:48, 12:, :12 or 7", words));
+  throw Error(ErrorKind::kUsage, fmt::format("--frames: '{}' is not a range like 1:48, 12:, :12, 1:48:2 or 7", words));
 }
 
 }  // namespace
 
-FrameRange whole_film(std::size_t frames) { return {.first = 1, .last = int(frames)}; }
+std::vector<int> FrameRange::frames() const {
+  std::vector<int> numbers;
+  for (int number = first; number <= last; number += step) numbers.push_back(number);
+  return numbers;
+}
+
+FrameRange whole_film(std::size_t frames) { return {.first = 1, .last = int(frames), .step = 1}; }
 
 FrameRange parse_frame_range(std::string_view words, std::size_t frames) {
   FrameRange range = whole_film(frames);
   if (words.empty()) return range;
   const auto colon = words.find(':');
   const std::string_view before = words.substr(0, colon);
-  const std::string_view after = colon == std::string_view::npos ? before : words.substr(colon + 1);
+  std::string_view after = colon == std::string_view::npos ? before : words.substr(colon + 1);
+  if (const auto second = after.find(':'); second != std::string_view::npos) {
+    range.step = number_in(after.substr(second + 1), words);
+    after = after.substr(0, second);
+  }
   if (!before.empty()) range.first = number_in(before, words);
   if (!after.empty()) range.last = number_in(after, words);
+  if (range.step < 1) throw Error(ErrorKind::kUsage, fmt::format("--frames: {} has a step below 1", words));
   if (range.first >= 1 && range.first <= range.last && range.last <= int(frames)) return range;
   throw Error(ErrorKind::kUsage, fmt::format("--frames: {} is not within the {} frames that there are", words, frames));
 }
@@ -192,8 +203,8 @@ constexpr std::size_t kMostWaiting = 4;
 
 }  // namespace
 
-PictureWriter::PictureWriter(std::vector<Output> outputs, int width, int height, double fps, int first, int step)
-    : outputs_(std::move(outputs)), next_(first), step_(step) {
+PictureWriter::PictureWriter(std::vector<Output> outputs, int width, int height, double fps)
+    : outputs_(std::move(outputs)) {
   for (const Output& output : outputs_) {
     make_folder(output.folder);
     if (output.kind != Output::Kind::kFilm) continue;
@@ -253,11 +264,10 @@ void PictureWriter::run() {
 
 void PictureWriter::write_everywhere(const Drawing& drawing) {
   for (const Output& output : outputs_) {
-    if (output.kind == Output::Kind::kPictures) write_png(drawing.image, output.picture(next_));
-    if (output.kind == Output::Kind::kPasses) write_exr(drawing.passes.value(), output.picture(next_));
+    if (output.kind == Output::Kind::kPictures) write_png(drawing.image, output.picture(drawing.number));
+    if (output.kind == Output::Kind::kPasses) write_exr(drawing.passes.value(), output.picture(drawing.number));
   }
   for (const auto& film : films_) film->write(drawing.image);
-  next_ += step_;
 }
 
 }  // namespace sprung

@@ -18,19 +18,21 @@
 
 namespace sprung {
 
-/// Frames of a film, numbered from 1 like the pictures, ends included.
+/// Every `step`th frame of a part of a film, numbered from 1, ends included.
 struct FrameRange {
   int first = 1;
   int last = 1;
+  int step = 1;
 
-  [[nodiscard]] int count() const { return last - first + 1; }
+  [[nodiscard]] int count() const { return (last - first) / step + 1; }
+  [[nodiscard]] std::vector<int> frames() const;
 };
 
 /// Frames 1 to `frames`.
 [[nodiscard]] FrameRange whole_film(std::size_t frames);
 
-/// "1:48", "12:", ":12", "7", or "" for all. Throws Error(kUsage) for anything else, and for frames that the film does
-/// not have.
+/// "1:48", "12:", ":12", "1:48:2", "7", or "" for all. Throws Error(kUsage) for anything else, and for frames that the
+/// film does not have.
 [[nodiscard]] FrameRange parse_frame_range(std::string_view words, std::size_t frames);
 
 /// Where pictures go: numbered PNG files in a folder, or a film; or their passes: numbered EXR files.
@@ -71,6 +73,7 @@ void check_output(const Output& output, bool overwrite);
 
 /// One frame, as drawn.
 struct Drawing {
+  int number = 1;                  // of its files
   Image image{};                   // for pictures and films
   std::optional<Passes> passes{};  // for Output::Kind::kPasses
 };
@@ -78,8 +81,8 @@ struct Drawing {
 /// Encodes pictures in a thread of its own while others are drawn. Every output gets all pictures in order.
 class PictureWriter {
  public:
-  /// Makes the folders. Pictures are numbered first, first + step, ... Throws Error(kFailed).
-  PictureWriter(std::vector<Output> outputs, int width, int height, double fps, int first = 1, int step = 1);
+  /// Makes the folders. Throws Error(kFailed).
+  PictureWriter(std::vector<Output> outputs, int width, int height, double fps);
   /// Stops; removes unfinished films.
   ~PictureWriter();
   PictureWriter(const PictureWriter&) = delete;
@@ -101,8 +104,6 @@ class PictureWriter {
   std::condition_variable changed_;
   std::exception_ptr failure_;
   bool is_closed_ = false;
-  int next_;  // number of the next picture
-  int step_;
   std::thread thread_;
 };
 

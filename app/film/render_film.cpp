@@ -46,15 +46,26 @@ std::string ground_report(const Simulation& simulation, double lowest) {
                      100 * depth / simulation.size);
 }
 
-/// Frames to draw, in order: the whole range, or as many as a sheet holds, evenly spaced.
-std::vector<std::size_t> chosen_frames(const FrameRange& range, const SceneRender& render) {
-  const std::size_t first = range.first - 1;
-  const std::size_t count = range.count();
-  std::vector<std::size_t> frames;
-  const std::size_t wanted = render.sheet ? std::size_t((*render.sheet)[0]) * std::size_t((*render.sheet)[1]) : count;
-  const std::size_t chosen = std::min(wanted, count);
+/// Whether all its files are there.
+bool exists(const std::vector<Output>& outputs, int number) {
+  return std::all_of(outputs.begin(), outputs.end(),
+                     [number](const Output& output) { return std::filesystem::exists(output.picture(number)); });
+}
+
+/// Frames to draw, numbered from 1, in order: all of the choice, or as many as a sheet holds, evenly spaced.
+std::vector<int> chosen_frames(const FrameChoice& choice, const SceneRender& render,
+                               const std::vector<Output>& outputs) {
+  std::vector<int> all = choice.range.frames();
+  if (choice.skips_existing) {
+    all.erase(std::remove_if(all.begin(), all.end(), [&](int frame) { return exists(outputs, choice.number(frame)); }),
+              all.end());
+  }
+  if (!render.sheet) return all;
+  const std::size_t count = all.size();
+  const std::size_t chosen = std::min(std::size_t((*render.sheet)[0]) * std::size_t((*render.sheet)[1]), count);
+  std::vector<int> frames;
   for (std::size_t i = 0; i < chosen; ++i) {
-    frames.push_back(first + (chosen > 1 ? (i * (count - 1) + (chosen - 1) / 2) / (chosen - 1) : 0));
+    frames.push_back(all[chosen > 1 ? (i * (count - 1) + (chosen - 1) / 2) / (chosen - 1) : 0]);
   }
   return frames;
 }
@@ -63,9 +74,12 @@ bool has(const std::vector<Output>& outputs, Output::Kind kind) {
   return std::any_of(outputs.begin(), outputs.end(), [kind](const Output& output) { return output.kind == kind; });
 }
 
-void check_outputs(const SceneRender& render, std::size_t runs, const std::vector<Output>& outputs) {
+void check_outputs(const SceneRender& render, std::size_t runs, bool skips_existing,
+                   const std::vector<Output>& outputs) {
   const auto refuse = [](const char* reason) { throw Error(ErrorKind::kUsage, reason); };
+  if (skips_existing && render.sheet) refuse("--skip-existing: a sheet is a single picture");
   if (has(outputs, Output::Kind::kFilm)) {
+    if (skips_existing) refuse("--skip-existing: a film is made of all its pictures; give a folder");
     if (render.sheet) refuse("render.sheet: a sheet is a single picture; give a folder instead of a film");
     if (render.transparent) refuse("render.transparent: films have no alpha; give a folder for pictures");
   }
@@ -81,8 +95,8 @@ constexpr std::size_t kMostProcesses = 16;  // by default: each needs memory for
 
 /// What to draw, and where it goes.
 struct Task {
-  const FrameRange& range;
-  const std::vector<std::size_t> frames;
+  const FrameChoice& choice;
+  const std::vector<int> frames;
   const std::vector<Output>& outputs;
   const SceneRender& render;
   double fps;
@@ -93,11 +107,11 @@ struct Task {
                  [wanted](const Output& output) { return (output.kind == Output::Kind::kFilm) == wanted; });
     return some;
   }
-  [[nodiscard]] Drawing draw(FilmPipeline& pipeline, std::size_t frame, const FilmPipeline::Moments& moments) const {
-    Drawing drawing;
+  [[nodiscard]] Drawing draw(FilmPipeline& pipeline, int frame, const FilmPipeline::Moments& moments) const {
+    Drawing drawing{.number = choice.number(frame)};
     if (has(outputs, Output::Kind::kPictures) || has(outputs, Output::Kind::kFilm))
-      drawing.image = pipeline.draw(frame, moments);
-    if (has(outputs, Output::Kind::kPasses)) drawing.passes = pipeline.passes(frame, moments);
+      drawing.image = pipeline.draw(frame - 1, moments);
+    if (has(outputs, Output::Kind::kPasses)) drawing.passes = pipeline.passes(frame - 1, moments);
     return drawing;
   }
 };
@@ -105,10 +119,10 @@ struct Task {
 void draw_here(const Task& task, FilmPipeline& pipeline, const Console& console, Progress& progress) {
   console.detail(fmt::format("drawn by {}", pipeline.driver()));
   const auto [width, height] = task.render.resolution;
-  PictureWriter writer(task.outputs, width, height, task.fps, task.range.first);
+  PictureWriter writer(task.outputs, width, height, task.fps);
   // The skins of the next frame are deformed while this one is drawn and earlier ones are encoded.
   const auto deform_ahead = [&](std::size_t i) {
-    return std::async(std::launch::async, [&, frame = task.frames[i]] { return pipeline.moments(frame); });
+    return std::async(std::launch::async, [&, frame = task.frames[i]] { return pipeline.moments(frame - 1); });
   };
   auto next = deform_ahead(0);
   std::vector<Image> sheet;
@@ -124,7 +138,8 @@ void draw_here(const Task& task, FilmPipeline& pipeline, const Console& console,
     }
     progress.update(double(i + 1));
   }
-  if (task.render.sheet) writer.write({.image = pipeline.sheet(sheet)});
+  if (task.render.sheet)
+    writer.write({.number = task.choice.number(task.frames.front()), .image = pipeline.sheet(sheet)});
   writer.close();
 }
 
@@ -132,10 +147,10 @@ void draw_here(const Task& task, FilmPipeline& pipeline, const Console& console,
 void draw_share(const Task& task, FilmPipeline& pipeline, std::size_t first, std::size_t step,
                 const DrawingProcesses::Send& send) {
   const auto [width, height] = task.render.resolution;
-  PictureWriter writer(task.films(false), width, height, task.fps, task.range.first + int(first), int(step));
+  PictureWriter writer(task.films(false), width, height, task.fps);
   for (std::size_t i = first; i < task.frames.size(); i += step) {
     stop_if_interrupted();
-    Drawing drawing = task.draw(pipeline, task.frames[i], pipeline.moments(task.frames[i]));
+    Drawing drawing = task.draw(pipeline, task.frames[i], pipeline.moments(task.frames[i] - 1));
     send(has(task.outputs, Output::Kind::kFilm) ? drawing.image : Image());
     writer.write(std::move(drawing));
   }
@@ -175,10 +190,12 @@ std::size_t processes_for(const Task& task, int jobs) {
 }  // namespace
 
 void render_film(const std::vector<FilmRun>& runs, const std::optional<Environment>& surroundings,
-                 const FrameRange& range, const std::vector<Output>& outputs, const Console& console, int jobs) {
+                 const FrameChoice& choice, const std::vector<Output>& outputs, const Console& console, int jobs) {
   const Film& scene = runs.front().scene;
-  check_outputs(scene.render, runs.size(), outputs);
-  const Task task{range, chosen_frames(range, scene.render), outputs, scene.render, scene.fps};
+  check_outputs(scene.render, runs.size(), choice.skips_existing, outputs);
+  const Task task{choice, chosen_frames(choice, scene.render, outputs), outputs, scene.render,
+                  scene.fps / choice.range.step};
+  if (task.frames.empty()) return console.note("--skip-existing: all pictures exist already");
   Progress progress(console, "render", double(task.frames.size()), 1, "frames/s");
   FilmPipeline pipeline(runs, surroundings);
   const std::size_t processes = processes_for(task, jobs);

@@ -21,6 +21,8 @@ TEST(Output, PatternsSayWhereTheNumberGoes) {
   EXPECT_EQ(parse_output("f_{:03d}x.PNG").picture(7), std::filesystem::path("f_007x.PNG"));
   EXPECT_EQ(parse_output("{}.png").picture(7), std::filesystem::path("7.png"));
   EXPECT_EQ(parse_output("a/f_%04d.png").picture(7), std::filesystem::path("a/f_0007.png"));
+  EXPECT_EQ(parse_output("a#/f_####.png").picture(7), std::filesystem::path("a#/f_0007.png"));
+  EXPECT_EQ(parse_output("c#_{:02}.png").picture(7), std::filesystem::path("c#_07.png"));
   EXPECT_EQ(parse_output("f_%d.png").picture(7), std::filesystem::path("f_7.png"));
   EXPECT_EQ(parse_output("a/p_{:04}.exr").picture(7), std::filesystem::path("a/p_0007.exr"));
   EXPECT_EQ(parse_output("a/p_{:04}.exr").kind, Output::Kind::kPasses);

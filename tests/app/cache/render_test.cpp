@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "app/film/film_output.h"
 #include "render/image/png.h"
 #include "tests/support/error_message.h"
@@ -67,6 +69,37 @@ TEST(Render, OfACacheIsWhatAnimateDraws) {
   EXPECT_EQ(text_of(folder.path() / "film.mp4"), text_of(folder.path() / "two.mp4"));
 }
 
+TEST(Render, DrawsEveryOtherFrameUnderNumbersOfItsUsersAndOnlyWhatIsMissing) {
+  const TempFolder folder;
+  static_cast<void>(folder.write("cube.obj", kCubeObj));
+  ASSERT_EQ(run_program(folder, "simulate cube.obj --bricks 2 --duration 0.5 --fps 12 -o run.h5").exit_code, 0);
+  const auto pictures = [&](const std::string& words) {
+    const ProgramRun run = run_program(folder, "render run.h5 --resolution 80x60 " + words);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path() / "out")) {
+      names.push_back(entry.path().filename().string());
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+  };
+  EXPECT_EQ(pictures("-o 'out/f_####.png' --frames 1:6:2 --start-number 1001"),
+            (std::vector<std::string>{"f_1001.png", "f_1003.png", "f_1005.png"}));
+  const std::filesystem::path first = folder.path() / "out" / "f_1001.png";
+  const auto written = std::filesystem::last_write_time(first);
+  EXPECT_EQ(pictures("-o 'out/f_####.png' --start-number 1001 --skip-existing --jobs 2").size(), 6U);
+  EXPECT_EQ(std::filesystem::last_write_time(first), written);
+  std::filesystem::remove(folder.path() / "out" / "f_1003.png");
+  const std::string missing = text_of(folder.path() / "out" / "f_1002.png");
+  EXPECT_EQ(pictures("-o 'out/f_####.png' --start-number 1001 --skip-existing").size(), 6U);
+  EXPECT_EQ(text_of(folder.path() / "out" / "f_1002.png"), missing);
+  const ProgramRun none = run_program(folder, "render run.h5 -o 'out/f_####.png' --start-number 1001 --skip-existing");
+  EXPECT_EQ(none.exit_code, 0);
+  EXPECT_NE(none.err.find("all pictures exist already"), std::string::npos) << none.err;
+  EXPECT_EQ(run_program(folder, "render run.h5 -o film.mp4 --skip-existing").exit_code, 2);
+  EXPECT_EQ(run_program(folder, "film 'out/f_####.png' -o film.mp4 --frames 1001:1006:2").exit_code, 0);
+}
+
 TEST(Render, ByProcessesStopsWithTheFirstThatCannotGoOn) {
   const TempFolder folder;
   static_cast<void>(folder.write("cube.obj", kCubeObj));
@@ -120,7 +153,10 @@ TEST(FrameRanges, AreReadAndRefused) {
   EXPECT_EQ(words("12:"), std::pair(12, 72));
   EXPECT_EQ(words(":12"), std::pair(1, 12));
   EXPECT_EQ(words("7"), std::pair(7, 7));
-  for (const char* text : {"0:3", "5:4", "70:73", "x", "1-3", "1:2:3"}) {
+  EXPECT_EQ(parse_frame_range("3:9:3", 72).frames(), (std::vector{3, 6, 9}));
+  EXPECT_EQ(parse_frame_range("::30", 72).frames(), (std::vector{1, 31, 61}));
+  EXPECT_EQ(parse_frame_range("1:6:4", 72).count(), 2);
+  for (const char* text : {"0:3", "5:4", "70:73", "x", "1-3", "1:2:0", "1:2:-1", "1:2:3:4"}) {
     EXPECT_NE(error_message([&] { words(text); }), "") << text;
   }
 }

@@ -48,8 +48,9 @@ struct FilmUnderTest {
 
   [[nodiscard]] Image picture(int frame = 3) const {
     const TempFolder folder;
-    render_film({{scene, simulation, recording}}, read_surroundings(scene.render), {.first = frame, .last = frame},
-                {parse_output((folder.path() / "p_{}.png").string())}, Console::of_few_words());
+    render_film({{scene, simulation, recording}}, read_surroundings(scene.render),
+                {.range = {.first = frame, .last = frame}}, {parse_output((folder.path() / "p_{}.png").string())},
+                Console::of_few_words());
     return read_png(folder.path() / ("p_" + std::to_string(frame) + ".png"));
   }
 };
@@ -91,7 +92,7 @@ TEST(FilmGolden, Sheet) {
   FilmUnderTest film("sheet = [2, 2]\ncolor_by = \"displacement\"\n");
   film.add_frame(1.5);
   const TempFolder folder;
-  render_film({{film.scene, film.simulation, film.recording}}, std::nullopt, {.first = 1, .last = 4},
+  render_film({{film.scene, film.simulation, film.recording}}, std::nullopt, {.range = {.first = 1, .last = 4}},
               {parse_output((folder.path() / "s_{}.png").string())}, Console::of_few_words());
   expect_golden(read_png(folder.path() / "s_1.png"), "film_sheet");
 }
@@ -105,8 +106,8 @@ TEST(FilmGolden, SideBySide) {
   const TempFolder folder;
   const std::vector<FilmRun> runs{{first.scene, first.simulation, first.recording, "bent"},
                                   {second.scene, second.simulation, second.recording, "half"}};
-  render_film(runs, std::nullopt, {.first = 3, .last = 3}, {parse_output((folder.path() / "p_{}.png").string())},
-              Console::of_few_words());
+  render_film(runs, std::nullopt, {.range = {.first = 3, .last = 3}},
+              {parse_output((folder.path() / "p_{}.png").string())}, Console::of_few_words());
   expect_golden(read_png(folder.path() / "p_3.png"), "film_side_by_side");
 }
 
@@ -157,7 +158,7 @@ TEST(FilmPictures, AreLitByThePanoramaThatTheSceneNames) {
 TEST(FilmPictures, WritesPassesBesideItsPictures) {
   const FilmUnderTest film("");
   const TempFolder folder;
-  render_film({{film.scene, film.simulation, film.recording}}, std::nullopt, {.first = 2, .last = 2},
+  render_film({{film.scene, film.simulation, film.recording}}, std::nullopt, {.range = {.first = 2, .last = 2}},
               parse_outputs({folder.path().string() + "/", (folder.path() / "p_{}.exr").string()}),
               Console::of_few_words());
   ASSERT_TRUE(std::filesystem::exists(folder.path() / "frame_0002.png"));
@@ -212,8 +213,8 @@ TEST(FilmTransparent, HasAlphaAndNoFloor) {
   const FilmUnderTest film("transparent = true\n");
   const TempFolder folder;
   const Output output = parse_output((folder.path() / "p_{}.png").string());
-  render_film({{film.scene, film.simulation, film.recording}}, std::nullopt, {.first = 1, .last = 1}, {output},
-              Console::of_few_words());
+  render_film({{film.scene, film.simulation, film.recording}}, std::nullopt, {.range = {.first = 1, .last = 1}},
+              {output}, Console::of_few_words());
   const Image image = read_png(output.picture(1));
   ASSERT_EQ(image.alpha.size(), 320U * 180U);
   EXPECT_EQ(image.alpha.front(), 0);
@@ -221,8 +222,9 @@ TEST(FilmTransparent, HasAlphaAndNoFloor) {
   const auto is_partly = [](std::uint8_t alpha) { return alpha > 0 && alpha < 255; };
   EXPECT_GT(std::count_if(image.alpha.begin(), image.alpha.end(), is_partly), 50);  // smooth edges
   EXPECT_EQ(error_message([&] {
-              render_film({{film.scene, film.simulation, film.recording}}, std::nullopt, {.first = 1, .last = 1},
-                          {parse_output((folder.path() / "f.mp4").string())}, Console::of_few_words());
+              render_film({{film.scene, film.simulation, film.recording}}, std::nullopt,
+                          {.range = {.first = 1, .last = 1}}, {parse_output((folder.path() / "f.mp4").string())},
+                          Console::of_few_words());
             }),
             "render.transparent: films have no alpha; give a folder for pictures");
 }
