@@ -25,24 +25,33 @@ namespace {
 void note_padding(const std::vector<Output>& outputs, const SceneRender& render, const Console& console) {
   const auto [width, height] = render.resolution;
   for (const Output& output : outputs) {
-    if (output.kind != Output::Kind::kFilm || !is_padded(output.film, width, height)) continue;
+    if (output.kind != Output::Kind::kFilm || !is_padded(output.file, width, height)) continue;
     console.note(
         fmt::format("size: {} gets {} x {} pixels, since its format takes even sides only; the last column or "
                     "row of {} x {} is repeated",
-                    output.film.string(), width + width % 2, height + height % 2, width, height));
+                    output.file.string(), width + width % 2, height + height % 2, width, height));
   }
 }
 
 std::filesystem::path picture_of_diverged(const Output& output) {
-  if (output.kind == Output::Kind::kFilm) return std::filesystem::path(output.film).replace_extension("diverged.png");
+  if (!output.is_numbered()) return std::filesystem::path(output.file).replace_extension("diverged.png");
   return output.folder / "diverged.png";
+}
+
+/// The film without what comes after a frame, where that does not change what comes before.
+Film up_to(Film film, int frame) {
+  const int frames = frame_count(film);
+  if (!is_motion(film) || frame >= frames) return film;
+  if (frames > 1) film.camera.orbit *= double(frame - 1) / double(frames - 1);
+  film.duration = frame / film.fps;
+  return film;
 }
 
 struct AnimateOptions {
   OutputOptions outputs;
   JobOptions jobs;
   SceneOptions scene;
-  std::string start_number;
+  FrameOptions frames;
   std::string keep_after = "30s";
   bool overwrite = false;
 
@@ -58,7 +67,7 @@ struct AnimateOptions {
 
 /// Where a long motion is kept until its film is whole.
 std::filesystem::path motion_file(const Output& output) {
-  if (output.kind == Output::Kind::kFilm) return std::filesystem::path(output.film).replace_extension("unfinished.h5");
+  if (!output.is_numbered()) return std::filesystem::path(output.file).replace_extension("unfinished.h5");
   return output.folder / "unfinished.h5";
 }
 
@@ -89,12 +98,15 @@ void with_motion_kept(const RunCache& motion, const Console& console, const std:
 
 void animate(const CLI::App& command, const AnimateOptions& options, const Console& console) {
   require_input(command, options.scene.input, "a mesh or a scene");
-  if (!options.scene.print_scene) options.outputs.require(command, "-o folder/, -o frame_{:04}.png or -o film.mp4");
+  if (!options.scene.print_scene)
+    options.outputs.require(command, "-o folder/, -o frame_{:04}.png, -o still.png or -o film.mp4");
   const int jobs = options.jobs.count();
   const double patience = options.patience();
-  const int start_number = start_number_in(options.start_number);
-  options.scene.with_scene(console, [&](const Film& scene) {
+  options.scene.with_scene(console, [&](const Film& whole) {
+    FrameChoice choice = options.frames.choice(std::size_t(frame_count(whole)), whole.fps);
+    const Film scene = up_to(whole, choice.range.last);
     const std::vector<Output> outputs = parse_outputs(options.outputs.names);
+    check_outputs(scene, 1, choice, outputs);
     for (const Output& output : outputs) check_output(output, options.overwrite);
     note_padding(outputs, scene.render, console);
     const std::optional<Environment> surroundings = read_surroundings(scene.render);  // before any work is lost
@@ -110,10 +122,11 @@ void animate(const CLI::App& command, const AnimateOptions& options, const Conso
       Recording recording = with_picture_of_diverged(simulation.world, picture_of_diverged(outputs.front()),
                                                      [&] { return simulate(simulation, scene, console, &motion); });
       recording.frames = motion.take_frames();
-      const FrameChoice choice{.range = whole_film(recording.progress.size()), .start_number = start_number};
+      choice.range = choice.range.within(int(recording.progress.size()));
       render_film({{scene, simulation, recording}}, surroundings, choice, outputs, console, jobs);
       for (const Output& output : outputs) {
-        if (options.overwrite) clear_beyond(output, choice.number(choice.range.last), console);
+        if (options.overwrite && options.frames.is_whole_film())
+          clear_beyond(output, choice.number(choice.range.last), console);
       }
     });
     if (motion.has_file()) std::filesystem::remove(motion.file());
@@ -126,14 +139,14 @@ void animate(const CLI::App& command, const AnimateOptions& options, const Conso
 void add_animate(CLI::App& app, Invocation& invocation) {
   CLI::App* command = app.add_subcommand("animate", "mesh or scene in, pictures or film out");
   const auto options = std::make_shared<AnimateOptions>();
-  options->outputs.add_to(*command,
-                          "folder/, folder/frame_{:04}.png, or film.mp4, .webm, .gif; may be given several times");
+  options->outputs.add_to(*command, kPicturesHelp);
   command->add_flag("--overwrite", options->overwrite, "replace pictures and films that exist");
   options->jobs.add_to(*command)->group(kMoreOptions);
   command->add_option("--keep-after", options->keep_after, "keep a motion that takes longer until the film is whole")
       ->option_text("30s")
       ->group(kMoreOptions);
-  add_start_number(*command, options->start_number)->group(kMoreOptions);
+  options->frames.add_to(*command);
+  command->get_option("--frames")->group(kMoreOptions);
   options->scene.add_to(*command, true);
   add_messages(*command, invocation.console);
   command->footer(scene_footer(*command,

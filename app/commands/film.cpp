@@ -64,7 +64,8 @@ std::vector<Output> films_of(const FilmOptions& options) {
 void make_film(const FilmOptions& options, double fps, const Console& console) {
   const std::vector<Output> films = films_of(options);
   const Output pictures = parse_output(options.input);
-  const int last = pictures.kind == Output::Kind::kPictures ? last_number(pictures) : 0;
+  const bool are_pictures = pictures.kind == Output::Kind::kPictures && pictures.is_numbered();
+  const int last = are_pictures ? last_number(pictures) : 0;
   if (last == 0) throw Error(ErrorKind::kBadInput, fmt::format("'{}': no numbered pictures are there", options.input));
   const std::size_t count = options.frames.empty() ? std::size_t(last) : kMostFrames;
   FrameRange range = parse_frame_range(options.frames, count);

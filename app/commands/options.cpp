@@ -138,13 +138,27 @@ void clear_beyond(const Output& output, int last, const Console& console) {
                            count_of(removed, "picture")));
 }
 
-CLI::Option* add_start_number(CLI::App& command, std::string& text) {
-  return command.add_option("--start-number", text, "number of the picture of the film's first frame; default: 1")
-      ->option_text("N");
+void FrameOptions::add_to(CLI::App& command) {
+  CLI::Option* range = command.add_option("--frames", frames, "these only, counted from 1; default: all");
+  CLI::Option* one = command.add_option("--frame", frame, "this one only, for -o still.png");
+  CLI::Option* moment = command.add_option("--time", time, "the frame at this time only, for -o still.png");
+  range->option_text("A:B:STEP")->excludes(one)->excludes(moment);
+  one->option_text("N")->excludes(moment)->group(kMoreOptions);
+  moment->option_text("0.5s");
+  command.add_option("--start-number", start_number, "number of the picture of the film's first frame; default: 1")
+      ->option_text("N")
+      ->group(kMoreOptions);
 }
 
-int start_number_in(const std::string& text) {
-  return text.empty() ? 1 : whole_number_in("--start-number", text, 0, 1e6);
+FrameChoice FrameOptions::choice(std::size_t frames_in_film, double fps) const {
+  const auto range = [&] {
+    if (!time.empty()) return parse_frame_time(time, frames_in_film, fps);
+    if (frame.empty()) return parse_frame_range(frames, frames_in_film);
+    const int number = whole_number_in("--frame", frame, 1, double(frames_in_film));
+    return FrameRange{.first = number, .last = number, .step = 1};
+  };
+  const int start = start_number.empty() ? 1 : whole_number_in("--start-number", start_number, 0, 1e6);
+  return {.range = range(), .start_number = start, .skips_existing = false};
 }
 
 void OutputOptions::add_to(CLI::App& command, const std::string& help, const char* placeholder) {

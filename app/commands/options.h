@@ -13,6 +13,7 @@
 #include "app/commands/make_scene.h"
 #include "app/console/console.h"
 #include "app/film/film_output.h"
+#include "app/film/frame_choice.h"
 #include "app/scene/scene_reference.h"
 #include "app/scene/scene_values.h"
 #include "core/error.h"
@@ -50,10 +51,20 @@ void refuse_existing(const std::filesystem::path& file, bool overwrite,
 /// Removes what an earlier, longer film left beyond the last picture of this one, and says so.
 void clear_beyond(const Output& output, int last, const Console& console);
 
-/// --start-number: of the pictures of the first frame.
-CLI::Option* add_start_number(CLI::App& command, std::string& text);
-/// From 0; 1 where there is no text. Throws Error(kUsage).
-[[nodiscard]] int start_number_in(const std::string& text);
+/// --frames, --frame, --time and --start-number.
+struct FrameOptions {
+  std::string frames;  // "1:48:2"
+  std::string frame;
+  std::string time;
+  std::string start_number;
+
+  void add_to(CLI::App& command);
+  /// Of a film of so many frames, so many of them a second. Throws Error(kUsage).
+  [[nodiscard]] FrameChoice choice(std::size_t frames_in_film, double fps) const;
+  [[nodiscard]] bool is_whole_film() const { return frames.empty() && frame.empty() && time.empty(); }
+};
+
+inline constexpr const char* kPicturesHelp = "folder/, f_{:04}.png, still.png, film.mp4, .webm, .gif; repeatable";
 
 /// -o.
 struct OutputOptions {

@@ -24,8 +24,7 @@ struct RenderCacheOptions {
   std::vector<std::string> others;  // side by side with it
   bool side_by_side = false;
   OutputOptions outputs;
-  std::string frames;  // "1:48:2"
-  std::string start_number;
+  FrameOptions frames;
   JobOptions jobs;
   bool overwrite = false;
   bool skip_existing = false;
@@ -46,7 +45,7 @@ void apply_all(const std::vector<Setting>& settings, Film& scene) {
 
 /// Pictures of other ranges may exist.
 void check_range_output(const Output& output, const FrameChoice& choice, bool overwrite) {
-  if (output.kind == Output::Kind::kFilm) return check_output(output, overwrite);
+  if (!output.is_numbered()) return check_output(output, overwrite || choice.skips_existing);
   for (const int frame : choice.range.frames()) {
     refuse_existing(output.picture(choice.number(frame)), overwrite || choice.skips_existing);
   }
@@ -123,20 +122,21 @@ void render_cache(const CLI::App& command, const RenderCacheOptions& options, co
                                                      options.others.front()));
   }
   require_input(command, options.input, "a cache (.h5)");
-  options.outputs.require(command, "-o folder/, -o frame_{:04}.png or -o film.mp4");
+  options.outputs.require(command, "-o folder/, -o frame_{:04}.png, -o still.png or -o film.mp4");
   const int jobs = options.jobs.count();
   const std::vector<CachedFilm> films = open_all(options);
   std::size_t frames = 0;
   for (const CachedFilm& film : films) frames = std::max(frames, film.cache.frame_count());
-  const FrameChoice choice{.range = parse_frame_range(options.frames, frames),
-                           .start_number = start_number_in(options.start_number),
-                           .skips_existing = options.skip_existing};
+  FrameChoice choice = options.frames.choice(frames, films.front().scene.fps);
+  choice.skips_existing = options.skip_existing;
   const std::vector<Output> outputs = parse_outputs(options.outputs.names);
+  check_outputs(films.front().scene, films.size(), choice, outputs);
   for (const Output& output : outputs) check_range_output(output, choice, options.overwrite);
   const std::optional<Environment> surroundings = read_surroundings(films.front().scene.render);
   render_films(films, surroundings, choice, outputs, console, jobs);
   for (const Output& output : outputs) {
-    if (options.overwrite && options.frames.empty()) clear_beyond(output, choice.number(choice.range.last), console);
+    if (options.overwrite && options.frames.is_whole_film())
+      clear_beyond(output, choice.number(choice.range.last), console);
   }
   for (const std::string& output : options.outputs.names) fmt::print("{}\n", output);
 }
@@ -149,10 +149,8 @@ void add_render(CLI::App& app, Invocation& invocation) {
   command->add_option("INPUT", options->input, "a cache (.h5)");
   command->add_option("MORE", options->others, "more caches, with --side-by-side");
   command->add_flag("--side-by-side", options->side_by_side, "several runs in one film: one camera, one scale");
-  options->outputs.add_to(*command,
-                          "folder/, folder/frame_{:04}.png, or film.mp4, .webm, .gif; may be given several times");
-  command->add_option("--frames", options->frames, "these only, counted from 1; default: all")->option_text("A:B:STEP");
-  add_start_number(*command, options->start_number);
+  options->outputs.add_to(*command, kPicturesHelp);
+  options->frames.add_to(*command);
   command->add_flag("--skip-existing", options->skip_existing, "draw only pictures that are missing");
   options->jobs.add_to(*command);
   command->add_flag("--overwrite", options->overwrite, "replace pictures and films that exist");

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/console/console.h"
-#include "app/film/film_output.h"
+#include "app/film/frame_choice.h"
 #include "app/scene/film.h"
 #include "core/files.h"
 #include "core/io/mesh_export.h"

@@ -17,46 +17,11 @@
 namespace sprung {
 namespace {
 
-int number_in(std::string_view text, std::string_view words) {
-  int number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error == std::errc() && end == text.data() + text.size()) return number;
-  throw Error(ErrorKind::kUsage, fmt::format("--frames: '{}' is not a range like 1:48, 12:, :12, 1:48:2 or 7", words));
-}
-
-}  // namespace
-
-std::vector<int> FrameRange::frames() const {
-  std::vector<int> numbers;
-  for (int number = first; number <= last; number += step) numbers.push_back(number);
-  return numbers;
-}
-
-FrameRange whole_film(std::size_t frames) { return {.first = 1, .last = int(frames), .step = 1}; }
-
-FrameRange parse_frame_range(std::string_view words, std::size_t frames) {
-  FrameRange range = whole_film(frames);
-  if (words.empty()) return range;
-  const auto colon = words.find(':');
-  const std::string_view before = words.substr(0, colon);
-  std::string_view after = colon == std::string_view::npos ? before : words.substr(colon + 1);
-  if (const auto second = after.find(':'); second != std::string_view::npos) {
-    range.step = number_in(after.substr(second + 1), words);
-    after = after.substr(0, second);
-  }
-  if (!before.empty()) range.first = number_in(before, words);
-  if (!after.empty()) range.last = number_in(after, words);
-  if (range.step < 1) throw Error(ErrorKind::kUsage, fmt::format("--frames: {} has a step below 1", words));
-  if (range.first >= 1 && range.first <= range.last && range.last <= int(frames)) return range;
-  throw Error(ErrorKind::kUsage, fmt::format("--frames: {} is not within the {} frames that there are", words, frames));
-}
-
-namespace {
-
 namespace fs = std::filesystem;
 
-constexpr std::string_view kExamples = "give a folder, a pattern like frame_{:04}.png, or a film (.mp4, .webm, .gif)";
-constexpr std::array<std::string_view, 3> kFilms{".mp4", ".webm", ".gif"};
+constexpr std::string_view kExamples =
+    "give a folder, a pattern like frame_{:04}.png, a picture (.png), or a film (.mp4, .webm, .gif)";
+constexpr std::array<std::string_view, 5> kEndings{".mp4", ".webm", ".gif", ".png", ".exr"};
 
 [[noreturn]] void refuse(std::string_view words, std::string_view reason) {
   throw Error(ErrorKind::kUsage, fmt::format("--output {}: {}; {}", words, reason, kExamples));
@@ -68,16 +33,19 @@ std::string lower(std::string text) {
   return text;
 }
 
+/// Of files with that ending; none where these hold no pictures.
+std::optional<Output::Kind> kind_of(const std::string& name) {
+  const std::string ending = lower(fs::path(name).extension().string());
+  if (ending == ".png") return Output::Kind::kPictures;
+  if (ending == ".exr") return Output::Kind::kPasses;
+  return std::nullopt;
+}
+
 Output parse_pattern(std::string_view words) {
   NumberedName name = parse_numbered_name(words, kExamples);
-  const std::string whole = lower(name.after);
-  const bool is_exr = whole.ends_with(".exr");
-  if (!is_exr && !whole.ends_with(".png")) refuse(words, "pictures are PNG files, their passes EXR files");
-  return {.kind = is_exr ? Output::Kind::kPasses : Output::Kind::kPictures,
-          .folder = name.folder,
-          .before = name.before,
-          .after = name.after,
-          .digits = name.digits};
+  const std::optional<Output::Kind> kind = kind_of("f" + name.after);
+  if (!kind) refuse(words, "pictures are PNG files, their passes EXR files");
+  return {.kind = *kind, .folder = name.folder, .before = name.before, .after = name.after, .digits = name.digits};
 }
 
 bool is_number(std::string_view text) {
@@ -99,17 +67,17 @@ bool is_below(const fs::path& path, const fs::path& above) {
 
 /// True where one would replace the other or block its path.
 bool collide(const Output& a, const Output& b) {
-  const bool a_is_film = a.kind == Output::Kind::kFilm;
-  const bool b_is_film = b.kind == Output::Kind::kFilm;
-  if (a_is_film && b_is_film) return place_of(a.film) == place_of(b.film);
-  if (a_is_film) return is_below(place_of(or_here(b.folder)), place_of(a.film));
-  if (b_is_film) return collide(b, a);
+  if (!a.is_numbered() && !b.is_numbered()) return place_of(a.file) == place_of(b.file);
+  if (!a.is_numbered()) return is_below(place_of(or_here(b.folder)), place_of(a.file));
+  if (!b.is_numbered()) return collide(b, a);
   return place_of(or_here(a.folder)) == place_of(or_here(b.folder)) && a.before == b.before && a.after == b.after;
 }
 
 }  // namespace
 
-fs::path Output::picture(int number) const { return NumberedName{folder, before, after, digits}.file(number); }
+fs::path Output::picture(int number) const {
+  return is_numbered() ? NumberedName{folder, before, after, digits}.file(number) : file;
+}
 
 void check_folder_name(std::string_view words, std::span<const std::string_view> endings, std::string_view examples) {
   const fs::path path(words);
@@ -128,17 +96,19 @@ Output parse_output(std::string_view typed) {
   const bool is_folder = words.ends_with('/');
   if (!is_folder && words.find_first_of("{}") != std::string_view::npos) return parse_pattern(words);
   const fs::path path(words);
-  if (!is_folder && is_film(path)) return {.kind = Output::Kind::kFilm, .folder = path.parent_path(), .film = path};
-  if (lower(path.extension().string()) == ".png" && !fs::is_directory(path)) {
-    refuse(words, "a single picture cannot hold a film");
+  if (!is_folder && is_film(path)) return {.kind = Output::Kind::kFilm, .folder = path.parent_path(), .file = path};
+  const std::optional<Output::Kind> kind = kind_of(path.filename().string());
+  if (!is_folder && kind && !fs::is_directory(path)) {
+    if (words.find('%') != std::string_view::npos) refuse(words, "the number after a % must look like %04d");
+    return {.kind = *kind, .folder = path.parent_path(), .file = path};
   }
-  check_folder_name(words, kFilms, kExamples);
+  check_folder_name(words, kEndings, kExamples);
   return {.kind = Output::Kind::kPictures, .folder = path, .before = "frame_", .after = ".png", .digits = 4};
 }
 
 std::vector<fs::path> existing_pictures(const Output& output) {
   std::vector<fs::path> found;
-  if (output.kind == Output::Kind::kFilm || !fs::is_directory(or_here(output.folder))) return found;
+  if (!output.is_numbered() || !fs::is_directory(or_here(output.folder))) return found;
   for (const fs::directory_entry& entry : fs::directory_iterator(or_here(output.folder))) {
     const std::string name = entry.path().filename().string();
     if (name.size() <= output.before.size() + output.after.size()) continue;
@@ -176,14 +146,16 @@ std::vector<Output> parse_outputs(const std::vector<std::string>& words) {
 }
 
 void check_output(const Output& output, bool overwrite) {
-  if (output.kind == Output::Kind::kFilm) {
-    require_ffmpeg();
-    if (fs::is_directory(output.film)) refuse(output.film.string(), "it is a folder");
-    if (is_film_being_written(output.film)) refuse_second_run(output.film);
-    if (!overwrite && fs::exists(output.film)) {
-      throw Error(ErrorKind::kUsage, fmt::format("'{}' exists; say --overwrite to replace it", output.film.string()));
+  if (!output.is_numbered()) {
+    if (fs::is_directory(output.file)) refuse(output.file.string(), "it is a folder");
+    if (output.kind == Output::Kind::kFilm) {
+      require_ffmpeg();
+      if (is_film_being_written(output.file)) refuse_second_run(output.file);
     }
-    check_writable(output.film);
+    if (!overwrite && fs::exists(output.file)) {
+      throw Error(ErrorKind::kUsage, fmt::format("'{}' exists; say --overwrite to replace it", output.file.string()));
+    }
+    check_writable(output.file);
     return;
   }
   const std::vector<fs::path> pictures = existing_pictures(output);
@@ -208,7 +180,7 @@ PictureWriter::PictureWriter(std::vector<Output> outputs, int width, int height,
   for (const Output& output : outputs_) {
     make_folder(output.folder);
     if (output.kind != Output::Kind::kFilm) continue;
-    films_.push_back(std::make_unique<FilmWriter>(output.film, width, height, fps));
+    films_.push_back(std::make_unique<FilmWriter>(output.file, width, height, fps));
   }
   thread_ = std::thread([this] { run(); });
 }

@@ -18,33 +18,17 @@
 
 namespace sprung {
 
-/// Every `step`th frame of a part of a film, numbered from 1, ends included.
-struct FrameRange {
-  int first = 1;
-  int last = 1;
-  int step = 1;
-
-  [[nodiscard]] int count() const { return (last - first) / step + 1; }
-  [[nodiscard]] std::vector<int> frames() const;
-};
-
-/// Frames 1 to `frames`.
-[[nodiscard]] FrameRange whole_film(std::size_t frames);
-
-/// "1:48", "12:", ":12", "1:48:2", "7", or "" for all. Throws Error(kUsage) for anything else, and for frames that the
-/// film does not have.
-[[nodiscard]] FrameRange parse_frame_range(std::string_view words, std::size_t frames);
-
-/// Where pictures go: numbered PNG files in a folder, or a film; or their passes: numbered EXR files.
+/// Where pictures go: numbered PNG files in a folder, or a single one, or a film; or their passes: EXR files.
 struct Output {
   enum class Kind { kPictures, kPasses, kFilm };
   Kind kind = Kind::kPictures;
-  std::filesystem::path folder{};  // of the pictures or the film
+  std::filesystem::path folder{};  // of the files
   std::string before{};            // a picture's name is before + number + after
   std::string after{};
   int digits = 0;                // padded with zeros to that many digits
-  std::filesystem::path film{};  // the file of a film
+  std::filesystem::path file{};  // of a film or of a single picture; empty: numbered files
 
+  [[nodiscard]] bool is_numbered() const { return file.empty(); }
   /// The file of the picture, or of its passes, with this number; the first is 1.
   [[nodiscard]] std::filesystem::path picture(int number) const;
 };
@@ -54,8 +38,8 @@ struct Output {
 void check_folder_name(std::string_view words, std::span<const std::string_view> endings, std::string_view examples);
 
 /// The value of --output: "dir/" or "dir" (frame_0001.png ... in it), "dir/f_{:04}.png" or "{:04d}" or
-/// "{}", the same with ".exr", "film.mp4", ".webm", ".gif". Throws Error(kUsage) for a name with any other ending,
-/// unless such a folder exists.
+/// "{}" or "f_%04d.png" or "f_####.png", "still.png", the same with ".exr", "film.mp4", ".webm", ".gif". Throws
+/// Error(kUsage) for a name with any other ending, unless such a folder exists.
 [[nodiscard]] Output parse_output(std::string_view words);
 
 /// All of them. Throws Error(kUsage) where two would write to the same place.

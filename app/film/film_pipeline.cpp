@@ -18,6 +18,8 @@ namespace {
 
 constexpr int kExposures = 8;  // of a picture with motion blur
 
+constexpr std::uint8_t kGutter = 255;  // sRGB, between pictures in one
+
 constexpr double kSmoothness = 0.1;  // pixels between a curved skin and its triangles
 
 /// Pixels per metre in the closest view of the film: one smoothness for all frames, so that nothing pops.
@@ -41,14 +43,18 @@ std::size_t longest_of(const std::vector<FilmRun>& runs) {
   return std::max_element(runs.begin(), runs.end(), shorter) - runs.begin();
 }
 
+/// Pixels between pictures in one, of that height.
+int gutter_in(int height) { return std::max(1, int(std::lround(height / 240.0))); }
+
 /// Divides the resolution among runs side by side, or among the pictures of a sheet.
 Film with_panel_size(Film scene, std::size_t runs, const Labels& labels) {
   if (!scene.render.sheet && runs == 1) return scene;
   auto [columns, rows] = scene.render.sheet.value_or(std::array{1, 1});
   columns *= int(runs);
   auto& [width, height] = scene.render.resolution;
-  width = std::max(1, (width - labels.reserved(width, height)) / columns);
-  height = std::max(1, height / rows);
+  const int gutter = gutter_in(height);
+  width = std::max(1, (width - labels.reserved(width, height) - (columns - 1) * gutter) / columns);
+  height = std::max(1, (height - (rows - 1) * gutter) / rows);
   return scene;
 }
 
@@ -143,7 +149,7 @@ Image FilmPipeline::draw(std::size_t frame, const Moments& moments) {
       labels_.write_plot(pictures.back(), plot_of(panels_[i].run.recording, panels_[i].frame(frame)));
     }
   }
-  Image image = panels_.size() == 1 ? std::move(pictures.front()) : sheet_of(pictures, isize(pictures), margin());
+  Image image = panels_.size() == 1 ? std::move(pictures.front()) : sheet_of_panels(pictures);
   labels_.write_frame(image, camera, frame, frames(), panels_[longest_].run.recording.progress[frame]);
   if (!scene_.render.sheet) labels_.write_legend(image);
   return image;
@@ -164,24 +170,28 @@ Passes FilmPipeline::passes(std::size_t frame, const Moments& moments) {
 }
 
 Image FilmPipeline::sheet(const std::vector<Image>& pictures) const {
-  Image image = sheet_of(pictures, (*scene_.render.sheet)[0], margin());
+  Image image = sheet_of_panels(pictures);
   labels_.write_legend(image);
   return image;
 }
 
-int FilmPipeline::margin() const {
+Image FilmPipeline::sheet_of_panels(const std::vector<Image>& pictures) const {
   const int columns = scene_.render.sheet ? (*scene_.render.sheet)[0] : isize(panels_);
-  return scene_.render.resolution[0] - columns * scene_of_panel_.render.resolution[0];
+  const int gutter = gutter_in(scene_.render.resolution[1]);
+  const int used = columns * scene_of_panel_.render.resolution[0] + (columns - 1) * gutter;
+  return sheet_of(pictures, columns, gutter, scene_.render.resolution[0] - used);
 }
 
-Image sheet_of(const std::vector<Image>& pictures, int columns, int margin) {
+Image sheet_of(const std::vector<Image>& pictures, int columns, int gutter, int margin) {
   const Image& first = pictures.front();
   const int rows = (isize(pictures) + columns - 1) / columns;
-  Image sheet(columns * first.width + margin, rows * first.height);
+  const int used = columns * first.width + (columns - 1) * gutter;
+  Image sheet(used + margin, rows * first.height + (rows - 1) * gutter);
+  std::fill(sheet.pixels.begin(), sheet.pixels.end(), kGutter);
   if (!first.alpha.empty()) sheet.alpha.assign(sheet.pixels.size() / 3, 0);
   for (std::size_t number = 0; number < pictures.size(); ++number) {
-    const int left = int(number) % columns * first.width;
-    const int top = int(number) / columns * first.height;
+    const int left = int(number) % columns * (first.width + gutter);
+    const int top = int(number) / columns * (first.height + gutter);
     for (int y = 0; y < first.height; ++y) {
       const std::size_t to = (top + y) * sheet.width + left;
       const std::size_t from = y * first.width;
@@ -194,9 +204,8 @@ Image sheet_of(const std::vector<Image>& pictures, int columns, int margin) {
   }
   for (int y = 0; y < sheet.height; ++y) {  // the margin repeats the first pixel of the row, where no shadow falls
     const auto row = 3 * std::size_t(y * sheet.width);
-    const auto used = 3 * std::size_t(columns * first.width);
     const auto end = 3 * std::size_t(sheet.width);
-    for (std::size_t i = used; i < end; ++i) sheet.pixels[row + i] = sheet.pixels[row + i % 3];
+    for (std::size_t i = 3 * std::size_t(used); i < end; ++i) sheet.pixels[row + i] = sheet.pixels[row + i % 3];
   }
   return sheet;
 }

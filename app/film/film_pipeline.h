@@ -66,8 +66,7 @@ class FilmPipeline {
   Renderer& renderer(Panel& panel);
 
   [[nodiscard]] Image draw(std::size_t frame, Panel& panel, const std::vector<std::vector<SkinShape>>& shapes);
-  /// Pixels at the right edge that no panel covers.
-  [[nodiscard]] int margin() const;
+  [[nodiscard]] Image sheet_of_panels(const std::vector<Image>& pictures) const;
 
   const std::optional<Environment>& surroundings_;
   Film scene_;  // of the film
@@ -79,9 +78,9 @@ class FilmPipeline {
   std::size_t longest_ = 0;  // index of the run with the most frames
 };
 
-/// Pictures of the same size in rows of `columns`, from the top left. `margin` more pixels at the right edge continue
-/// the background.
-[[nodiscard]] Image sheet_of(const std::vector<Image>& pictures, int columns, int margin);
+/// Pictures of the same size in rows of `columns`, from the top left, with `gutter` white pixels between them. `margin`
+/// more pixels at the right edge continue the background.
+[[nodiscard]] Image sheet_of(const std::vector<Image>& pictures, int columns, int gutter, int margin);
 
 /// The environment of the scene's panorama, if it has one. Throws Error(kBadInput) naming the file where it cannot be
 /// read or is black.

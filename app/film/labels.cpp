@@ -19,8 +19,10 @@ constexpr double kMostForLegend = 0.4;  // of the picture's width
 
 Labels::Labels(const SceneRender& render, std::optional<Legend> legend, bool names) : render_(render) {
   if (render.legend) legend_ = std::move(legend);
-  if (legend_ || names || render.plots || !render.caption.empty() || render.frame_number || render.scale_bar)
+  if (legend_ || names || render.plots || !render.caption.empty() || render.frame_number || render.scale_bar ||
+      render.sheet) {
     font_.emplace();
+  }
 }
 
 int Labels::reserved(int width, int height) const {
@@ -32,7 +34,8 @@ void Labels::write_name(Image& image, const std::string& name) const { draw_name
 
 void Labels::write_frame(Image& image, const Camera& camera, std::size_t frame, std::size_t frames, double time) const {
   if (!render_.caption.empty()) draw_caption(image, render_.caption, *font_);
-  if (render_.frame_number) draw_footer(image, fmt::format("{} / {}   {:.2f} s", frame + 1, frames, time), *font_);
+  const std::string number = render_.frame_number ? fmt::format("{} / {}   ", frame + 1, frames) : "";
+  if (render_.frame_number || render_.sheet) draw_footer(image, fmt::format("{}{:.2f} s", number, time), *font_);
   if (render_.scale_bar) {
     const double pixels = pixels_per_metre(camera, image.height);
     const double length = round_length(kLongestBar * image.width / pixels);

@@ -19,7 +19,7 @@ class Labels {
   /// Pixels reserved for the legend at the right edge of a picture of that size.
   [[nodiscard]] int reserved(int width, int height) const;
   void write_name(Image& image, const std::string& name) const;
-  /// `frame` counts from 0; `time` in s.
+  /// `frame` counts from 0; `time` in s. In a sheet the time is told in any case.
   void write_frame(Image& image, const Camera& camera, std::size_t frame, std::size_t frames, double time) const;
   void write_legend(Image& image) const;
   void write_plot(Image& image, const Plot& plot) const;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <future>
 #include <iterator>
@@ -72,22 +73,6 @@ std::vector<int> chosen_frames(const FrameChoice& choice, const SceneRender& ren
 
 bool has(const std::vector<Output>& outputs, Output::Kind kind) {
   return std::any_of(outputs.begin(), outputs.end(), [kind](const Output& output) { return output.kind == kind; });
-}
-
-void check_outputs(const SceneRender& render, std::size_t runs, bool skips_existing,
-                   const std::vector<Output>& outputs) {
-  const auto refuse = [](const char* reason) { throw Error(ErrorKind::kUsage, reason); };
-  if (skips_existing && render.sheet) refuse("--skip-existing: a sheet is a single picture");
-  if (has(outputs, Output::Kind::kFilm)) {
-    if (skips_existing) refuse("--skip-existing: a film is made of all its pictures; give a folder");
-    if (render.sheet) refuse("render.sheet: a sheet is a single picture; give a folder instead of a film");
-    if (render.transparent) refuse("render.transparent: films have no alpha; give a folder for pictures");
-  }
-  if (has(outputs, Output::Kind::kPasses)) {
-    if (render.sheet) refuse("render.sheet: passes (.exr) are of single pictures");
-    if (runs > 1) refuse("--side-by-side: passes (.exr) are of one run");
-  }
-  if (render.sheet && runs > 1) refuse("--side-by-side: a sheet shows one run");
 }
 
 constexpr std::size_t kLeastFrames = 24;    // that justify a process
@@ -187,16 +172,13 @@ std::size_t processes_for(const Task& task, int jobs) {
   return std::clamp(frames / kLeastFrames, std::size_t{1}, std::min(cores, kMostProcesses));
 }
 
-}  // namespace
-
-void render_film(const std::vector<FilmRun>& runs, const std::optional<Environment>& surroundings,
-                 const FrameChoice& choice, const std::vector<Output>& outputs, const Console& console, int jobs) {
+void draw_film(const std::vector<FilmRun>& runs, const std::optional<Environment>& surroundings,
+               const FrameChoice& choice, const std::vector<Output>& outputs, const Console& console, int jobs) {
   const Film& scene = runs.front().scene;
-  check_outputs(scene.render, runs.size(), choice.skips_existing, outputs);
   const Task task{choice, chosen_frames(choice, scene.render, outputs), outputs, scene.render,
                   scene.fps / choice.range.step};
   if (task.frames.empty()) return console.note("--skip-existing: all pictures exist already");
-  Progress progress(console, "render", double(task.frames.size()), 1, "frames/s");
+  Progress progress(console, scene.render.sheet ? "sheet" : "render", double(task.frames.size()), 1, "frames/s");
   FilmPipeline pipeline(runs, surroundings);
   const std::size_t processes = processes_for(task, jobs);
   if (processes > 1 && end_worker_threads()) {
@@ -205,9 +187,64 @@ void render_film(const std::vector<FilmRun>& runs, const std::optional<Environme
     draw_here(task, pipeline, console, progress);
   }
   const auto [width, height] = scene.render.resolution;
-  progress.finish(fmt::format("{} of {} x {} pixels{}", count_of(task.frames.size(), "picture"), width, height,
+  const std::string made =
+      count_of(task.frames.size(), scene.render.sheet ? "moment" : "picture") + (scene.render.sheet ? " in one" : "");
+  progress.finish(fmt::format("{} of {} x {} pixels{}", made, width, height,
                               ground_report(runs.front().simulation, pipeline.lowest())));
   warn_of_depth(runs.front().simulation, pipeline.lowest(), console);
+}
+
+constexpr int kSheetSide = 3;  // rows and columns of a sheet that nobody asked for otherwise
+
+/// The scene with its film in one picture of the film's shape.
+Film as_sheet(Film scene, int frames) {
+  const int side = std::clamp(int(std::ceil(std::sqrt(frames))), 1, kSheetSide);
+  scene.render.sheet = {side, side};
+  return scene;
+}
+
+/// Outputs that show the film in a single picture though the scene does not say how.
+std::vector<Output> sheets_among(const std::vector<Output>& outputs, const SceneRender& render,
+                                 const FrameChoice& choice, bool wanted) {
+  std::vector<Output> some;
+  for (const Output& output : outputs) {
+    const bool is_single = output.kind != Output::Kind::kFilm && !output.is_numbered();
+    if ((is_single && choice.range.count() > 1 && !render.sheet) == wanted) some.push_back(output);
+  }
+  return some;
+}
+
+}  // namespace
+
+void check_outputs(const Film& scene, std::size_t runs, const FrameChoice& choice, const std::vector<Output>& outputs) {
+  const auto refuse = [](const char* reason) { throw Error(ErrorKind::kUsage, reason); };
+  const SceneRender& render = scene.render;
+  const std::vector<Output> sheets = sheets_among(outputs, render, choice, true);
+  const bool has_sheet = render.sheet || !sheets.empty();
+  if (choice.skips_existing && has_sheet) refuse("--skip-existing: a sheet is a single picture");
+  if (has(outputs, Output::Kind::kFilm)) {
+    if (choice.skips_existing) refuse("--skip-existing: a film is made of all its pictures; give a folder");
+    if (render.sheet) refuse("render.sheet: a sheet is a single picture; give a folder instead of a film");
+    if (render.transparent) refuse("render.transparent: films have no alpha; give a folder for pictures");
+  }
+  if (has(render.sheet ? outputs : sheets, Output::Kind::kPasses)) {
+    refuse("passes (.exr) are of single pictures, not of a sheet; say which one: --frame 12");
+  }
+  if (has(outputs, Output::Kind::kPasses) && runs > 1) refuse("--side-by-side: passes (.exr) are of one run");
+  if (has_sheet && runs > 1) refuse("--side-by-side: a sheet shows one run; say which picture: --frame 12");
+}
+
+void render_film(const std::vector<FilmRun>& runs, const std::optional<Environment>& surroundings,
+                 const FrameChoice& choice, const std::vector<Output>& outputs, const Console& console, int jobs) {
+  const Film& scene = runs.front().scene;
+  check_outputs(scene, runs.size(), choice, outputs);
+  const std::vector<Output> others = sheets_among(outputs, scene.render, choice, false);
+  if (!others.empty()) draw_film(runs, surroundings, choice, others, console, jobs);
+  const std::vector<Output> sheets = sheets_among(outputs, scene.render, choice, true);
+  if (sheets.empty()) return;
+  const Film in_sheet = as_sheet(scene, choice.range.count());
+  const FilmRun& run = runs.front();
+  draw_film({{in_sheet, run.simulation, run.recording, run.name}}, surroundings, choice, sheets, console, jobs);
 }
 
 }  // namespace sprung

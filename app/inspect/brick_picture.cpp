@@ -89,7 +89,7 @@ Image draw_bricks(const Preparation& prepared) {
     bricks.push_back(with_shape(cubes.skin(), cubes.shape(body.positions)));
   }
   const Camera camera = frame_bounds(bounds, 1, 30, 20);
-  return sheet_of({draw(skins, colors, bounds, camera), draw(bricks, colors, bounds, camera)}, 2, 0);
+  return sheet_of({draw(skins, colors, bounds, camera), draw(bricks, colors, bounds, camera)}, 2, 0, 0);
 }
 
 }  // namespace sprung

@@ -108,7 +108,7 @@ Image draw_deepest(const Simulation& simulation, const std::vector<Points>& node
   const double ground = ground_height(simulation.world.obstacles).value_or(drawn.bounds.min().y());
   return sheet_of({draw(drawn, marks, false, ground, frame_bounds(drawn.bounds, 1, 30, 20)),
                    draw(drawn, marks, true, ground, frame_points(corners, 1, 30, 20))},
-                  2, 0);
+                  2, 0, 0);
 }
 
 }  // namespace

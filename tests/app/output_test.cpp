@@ -28,16 +28,28 @@ TEST(Output, PatternsSayWhereTheNumberGoes) {
   EXPECT_EQ(parse_output("a/p_{:04}.exr").kind, Output::Kind::kPasses);
 }
 
+TEST(Output, ANameWithoutNumberIsOfASinglePicture) {
+  const Output still = parse_output("a/still.PNG");
+  EXPECT_EQ(still.kind, Output::Kind::kPictures);
+  EXPECT_FALSE(still.is_numbered());
+  EXPECT_EQ(still.picture(12), std::filesystem::path("a/still.PNG"));
+  EXPECT_EQ(parse_output("still.exr").kind, Output::Kind::kPasses);
+  const TempFolder folder;
+  const Output there = parse_output(folder.write("there.png", "").string());
+  EXPECT_NE(error_message([&] { check_output(there, false); }).find("--overwrite"), std::string::npos);
+  EXPECT_NO_THROW(check_output(there, true));
+}
+
 TEST(Output, FilmsAreKnownByTheirEnding) {
   for (const std::string_view words : {"a/film.mp4", "film.webm", "film.GIF"}) {
     EXPECT_EQ(parse_output(words).kind, Output::Kind::kFilm) << words;
-    EXPECT_EQ(parse_output(words).film, std::filesystem::path(words));
+    EXPECT_EQ(parse_output(words).file, std::filesystem::path(words));
   }
 }
 
 TEST(Output, RefusesWhatItCannotMake) {
-  for (const std::string_view words : {"film.avi", "one.png", "f_{:04}.jpg", "f_{:x}.png", "f_{}{}.png", "f_{.png",
-                                       "{:04}/a.png", "f_%04x.png", "-", ""}) {
+  for (const std::string_view words :
+       {"film.avi", "f_{:04}.jpg", "f_{:x}.png", "f_{}{}.png", "f_{.png", "{:04}/a.png", "f_%04x.png", "-", ""}) {
     EXPECT_NE(error_message([&] { static_cast<void>(parse_output(words)); }).find("--output"), std::string::npos)
         << words;
   }

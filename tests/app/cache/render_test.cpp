@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "app/film/film_output.h"
+#include "app/film/frame_choice.h"
 #include "render/image/png.h"
 #include "tests/support/error_message.h"
 #include "tests/support/run_program.h"
@@ -98,6 +98,33 @@ TEST(Render, DrawsEveryOtherFrameUnderNumbersOfItsUsersAndOnlyWhatIsMissing) {
   EXPECT_NE(none.err.find("all pictures exist already"), std::string::npos) << none.err;
   EXPECT_EQ(run_program(folder, "render run.h5 -o film.mp4 --skip-existing").exit_code, 2);
   EXPECT_EQ(run_program(folder, "film 'out/f_####.png' -o film.mp4 --frames 1001:1006:2").exit_code, 0);
+}
+
+TEST(Render, DrawsOnePictureOrASheetOfMoments) {
+  const TempFolder folder;
+  static_cast<void>(folder.write("cube.obj", kCubeObj));
+  const std::string motion = "cube.obj --material gelatin --bricks 2 --duration 1 --fps 12 --size 5cm ";
+  const std::string small = " --resolution 160x90";
+  ASSERT_EQ(run_program(folder, "simulate " + motion + "-o run.h5").exit_code, 0);
+  ASSERT_EQ(run_program(folder, "render run.h5 -o film/" + small).exit_code, 0);
+  const ProgramRun still = run_program(folder, "render run.h5 -o still.png --time 0.25s" + small);
+  EXPECT_EQ(still.exit_code, 0) << still.err;
+  EXPECT_EQ(text_of(folder.path() / "still.png"), text_of(folder.path() / "film" / "frame_0004.png"));
+  // Simulated up to there only, and framed for what moved up to there.
+  const ProgramRun from_mesh = run_program(folder, "animate " + motion + "-o early.png -o p.exr --frame 4" + small);
+  EXPECT_EQ(from_mesh.exit_code, 0) << from_mesh.err;
+  EXPECT_NE(from_mesh.err.find("  4 frames"), std::string::npos) << from_mesh.err;
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "p.exr"));
+  const ProgramRun sheet = run_program(folder, "render run.h5 -o sheet.png -o film.gif" + small);
+  EXPECT_EQ(sheet.exit_code, 0) << sheet.err;
+  const Image image = read_png(folder.path() / "sheet.png");
+  EXPECT_EQ(image.width, 160);
+  EXPECT_EQ(image.height, 89);  // three rows of 29 pixels and two gutters
+  for (int y = 0; y < image.height; ++y) EXPECT_EQ(image.pixels[3 * std::size_t(y * 160 + 52)], 255) << y;
+  for (const char* words : {"-o p2.exr", "-o late.png --time 5s", "-o late.png --frame 13", "-o late.png --frame 0",
+                            "-o two.png --frame 3 --time 0.1s", "-o still.png --frame 3"}) {
+    EXPECT_EQ(run_program(folder, std::string("render run.h5 ") + words).exit_code, 2) << words;
+  }
 }
 
 TEST(Render, ByProcessesStopsWithTheFirstThatCannotGoOn) {
