@@ -130,7 +130,7 @@ void animate(const CLI::App& command, const AnimateOptions& options, const Conso
       }
     });
     if (motion.has_file()) std::filesystem::remove(motion.file());
-    for (const std::string& output : options.outputs.names) fmt::print("{}\n", output);
+    options.outputs.print();
   });
 }
 

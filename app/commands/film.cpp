@@ -54,11 +54,15 @@ std::vector<Output> films_of(const FilmOptions& options) {
   std::vector<Output> films = parse_outputs(options.outputs.names);
   for (const Output& film : films) {
     if (film.kind != Output::Kind::kFilm) {
-      throw Error(ErrorKind::kUsage, "film makes films of pictures: -o film.mp4, .webm or .gif");
+      throw Error(ErrorKind::kUsage, "film makes films of pictures: -o film.mp4, .webm, .mov or .gif");
     }
     check_output(film, options.overwrite);
   }
   return films;
+}
+
+bool all_hold_alpha(const std::vector<Output>& films) {
+  return std::all_of(films.begin(), films.end(), [](const Output& film) { return holds_alpha(film.file); });
 }
 
 void make_film(const FilmOptions& options, double fps, const Console& console) {
@@ -75,7 +79,10 @@ void make_film(const FilmOptions& options, double fps, const Console& console) {
   }
   Progress progress(console, "film", range.count(), 1, "frames/s");
   const Image first = read_png(pictures.picture(range.first));
-  PictureWriter writer(films, first.width, first.height, fps);
+  PictureWriter writer(films, {.width = first.width,
+                               .height = first.height,
+                               .fps = fps,
+                               .has_alpha = !first.alpha.empty() && all_hold_alpha(films)});
   int done = 0;
   for (const int number : range.frames()) {
     stop_if_interrupted();
@@ -90,7 +97,7 @@ void make_film(const FilmOptions& options, double fps, const Console& console) {
   }
   writer.close();
   progress.finish(count_of(range.count(), "picture"));
-  for (const std::string& output : options.outputs.names) fmt::print("{}\n", output);
+  options.outputs.print();
 }
 
 }  // namespace
@@ -99,7 +106,7 @@ void add_film(CLI::App& app, Invocation& invocation) {
   CLI::App* command = app.add_subcommand("film", "numbered pictures in, a film out");
   const auto options = std::make_shared<FilmOptions>();
   command->add_option("INPUT", options->input, "folder/, or folder/frame_{:04}.png");
-  options->outputs.add_to(*command, "film.mp4, .webm, .gif; may be given several times");
+  options->outputs.add_to(*command, "film.mp4, .webm, .mov, .gif; may be given several times");
   command->add_option("--frames", options->frames, "these only; default: from 1 to the last that is there")
       ->option_text("A:B:STEP");
   const CLI::Option* fps =

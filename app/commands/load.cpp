@@ -129,7 +129,10 @@ void write_turntable(LoadPicture& picture, const std::filesystem::path& file, co
   for (int frame = 0; frame < kTurntableFrames; ++frame) {
     console.check_interrupt();
     Image image = picture.draw_turned(360.0 * frame / kTurntableFrames);
-    if (!writer) writer.emplace(std::vector{parse_output(file.string())}, image.width, image.height, kTurntableRate);
+    if (!writer) {
+      writer.emplace(std::vector{parse_output(file.string())},
+                     FilmWriter::Format{.width = image.width, .height = image.height, .fps = kTurntableRate});
+    }
     writer->write({.image = std::move(image)});
     progress.update(frame + 1);
   }

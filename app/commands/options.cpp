@@ -165,6 +165,11 @@ void OutputOptions::add_to(CLI::App& command, const std::string& help, const cha
   command.add_option("-o,--output", names, help)->allow_extra_args(false)->option_text(placeholder);
 }
 
+void OutputOptions::print() const {
+  if (std::any_of(names.begin(), names.end(), [](const std::string& name) { return name.starts_with("-"); })) return;
+  for (const std::string& name : names) fmt::print("{}\n", name);
+}
+
 void OutputOptions::require(const CLI::App& command, std::string_view example) const {
   if (!names.empty()) return;
   throw Error(ErrorKind::kUsage, fmt::format("{} needs an output: {}", command.get_name(), example));

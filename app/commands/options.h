@@ -64,7 +64,7 @@ struct FrameOptions {
   [[nodiscard]] bool is_whole_film() const { return frames.empty() && frame.empty() && time.empty(); }
 };
 
-inline constexpr const char* kPicturesHelp = "folder/, f_{:04}.png, still.png, film.mp4, .webm, .gif; repeatable";
+inline constexpr const char* kPicturesHelp = "folder/, f_{:04}.png, still.png, film.mp4, .webm, .mov, .gif, or -";
 
 /// -o.
 struct OutputOptions {
@@ -73,6 +73,8 @@ struct OutputOptions {
   void add_to(CLI::App& command, const std::string& help, const char* placeholder = "OUT");
   /// Throws Error(kUsage) with the example where none is given.
   void require(const CLI::App& command, std::string_view example) const;
+  /// Names what was written, but not among pictures on the standard output.
+  void print() const;
 };
 
 /// Throws Error(kUsage) where there is no input: "a mesh or a scene".

@@ -138,7 +138,7 @@ void render_cache(const CLI::App& command, const RenderCacheOptions& options, co
     if (options.overwrite && options.frames.is_whole_film())
       clear_beyond(output, choice.number(choice.range.last), console);
   }
-  for (const std::string& output : options.outputs.names) fmt::print("{}\n", output);
+  options.outputs.print();
 }
 
 }  // namespace

@@ -33,6 +33,7 @@ struct Header {
   std::int32_t width = 0;
   std::int32_t height = 0;
   std::uint64_t bytes = 0;
+  std::uint64_t alpha = 0;  // bytes of it, after these
 };
 
 void write_all(int pipe, const void* data, std::size_t size) {
@@ -75,10 +76,14 @@ void work_and_send(int pipe, std::size_t number, const DrawingProcesses::Work& w
   try {
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
     work(number, [pipe](const Image& image) {
-      const Header header{
-          .kind = Kind::kPicture, .width = image.width, .height = image.height, .bytes = image.pixels.size()};
+      const Header header{.kind = Kind::kPicture,
+                          .width = image.width,
+                          .height = image.height,
+                          .bytes = image.pixels.size(),
+                          .alpha = image.alpha.size()};
       write_all(pipe, &header, sizeof header);
       write_all(pipe, image.pixels.data(), image.pixels.size());
+      write_all(pipe, image.alpha.data(), image.alpha.size());
     });
     const Header done;
     write_all(pipe, &done, sizeof done);
@@ -164,7 +169,9 @@ Image DrawingProcesses::receive(std::size_t process) {
   image.width = header.width;
   image.height = header.height;
   image.pixels.resize(header.bytes);
-  if (!read_all(child.pipe, image.pixels.data(), image.pixels.size())) {
+  image.alpha.resize(header.alpha);
+  if (!read_all(child.pipe, image.pixels.data(), image.pixels.size()) ||
+      !read_all(child.pipe, image.alpha.data(), image.alpha.size())) {
     stop_if_interrupted();
     throw Error(ErrorKind::kFailed, "a drawing process ended in the middle of a picture");
   }

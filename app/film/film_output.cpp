@@ -1,11 +1,15 @@
 #include "app/film/film_output.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cerrno>
 #include <charconv>
+#include <cstdio>
+#include <cstring>
 
 #include "core/error.h"
 #include "core/files.h"
@@ -20,8 +24,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kExamples =
-    "give a folder, a pattern like frame_{:04}.png, a picture (.png), or a film (.mp4, .webm, .gif)";
-constexpr std::array<std::string_view, 5> kEndings{".mp4", ".webm", ".gif", ".png", ".exr"};
+    "give a folder, a pattern like frame_{:04}.png, a picture (.png), or a film (.mp4, .webm, .mov, .gif)";
+constexpr std::array<std::string_view, 7> kEndings{".mp4", ".webm", ".mov", ".gif", ".y4m", ".png", ".exr"};
 
 [[noreturn]] void refuse(std::string_view words, std::string_view reason) {
   throw Error(ErrorKind::kUsage, fmt::format("--output {}: {}; {}", words, reason, kExamples));
@@ -38,6 +42,15 @@ std::optional<Output::Kind> kind_of(const std::string& name) {
   const std::string ending = lower(fs::path(name).extension().string());
   if (ending == ".png") return Output::Kind::kPictures;
   if (ending == ".exr") return Output::Kind::kPasses;
+  return std::nullopt;
+}
+
+/// Of the standard output; none where that is not meant.
+std::optional<Output::Stream> stream_of(std::string_view words) {
+  if (words == "-") return Output::Stream::kAny;
+  if (words == "-.png") return Output::Stream::kPng;
+  if (words == "-.y4m") return Output::Stream::kY4m;
+  if (words == "-.rgb") return Output::Stream::kRgb;
   return std::nullopt;
 }
 
@@ -67,6 +80,9 @@ bool is_below(const fs::path& path, const fs::path& above) {
 
 /// True where one would replace the other or block its path.
 bool collide(const Output& a, const Output& b) {
+  const bool a_is_stream = a.kind == Output::Kind::kStream;
+  const bool b_is_stream = b.kind == Output::Kind::kStream;
+  if (a_is_stream || b_is_stream) return a_is_stream && b_is_stream;
   if (!a.is_numbered() && !b.is_numbered()) return place_of(a.file) == place_of(b.file);
   if (!a.is_numbered()) return is_below(place_of(or_here(b.folder)), place_of(a.file));
   if (!b.is_numbered()) return collide(b, a);
@@ -92,7 +108,7 @@ Output parse_output(std::string_view typed) {
   const std::string name = with_braces(typed);
   const std::string_view words = name;
   if (words.empty()) refuse("''", "the name is empty");
-  if (words == "-") refuse(words, "nothing is written to the standard output");
+  if (const auto stream = stream_of(words)) return {.kind = Output::Kind::kStream, .stream = *stream};
   const bool is_folder = words.ends_with('/');
   if (!is_folder && words.find_first_of("{}") != std::string_view::npos) return parse_pattern(words);
   const fs::path path(words);
@@ -146,6 +162,10 @@ std::vector<Output> parse_outputs(const std::vector<std::string>& words) {
 }
 
 void check_output(const Output& output, bool overwrite) {
+  if (output.kind == Output::Kind::kStream) {
+    if (::isatty(STDOUT_FILENO) != 0) refuse("-", "the standard output is a terminal; pipe it into a program");
+    return;
+  }
   if (!output.is_numbered()) {
     if (fs::is_directory(output.file)) refuse(output.file.string(), "it is a folder");
     if (output.kind == Output::Kind::kFilm) {
@@ -173,14 +193,49 @@ namespace {
 
 constexpr std::size_t kMostWaiting = 4;
 
+/// A film, through ffmpeg.
+class EncodedSequence : public SequenceWriter {
+ public:
+  explicit EncodedSequence(FilmWriter film) : film_(std::move(film)) {}
+  void write(const Image& image) override { film_.write(image); }
+  void close() override { film_.close(); }
+
+ private:
+  FilmWriter film_;
+};
+
+/// To the standard output, picture by picture.
+class StreamedPictures : public SequenceWriter {
+ public:
+  explicit StreamedPictures(bool as_png) : as_png_(as_png) {}
+  void write(const Image& image) override {
+    const std::vector<std::uint8_t> bytes = as_png_ ? encode_png(image) : interleaved(image);
+    const bool is_written = std::fwrite(bytes.data(), 1, bytes.size(), stdout) == bytes.size();
+    if (!is_written || std::fflush(stdout) != 0) {
+      throw Error(ErrorKind::kFailed, fmt::format("cannot write to the standard output: {}", std::strerror(errno)));
+    }
+  }
+  void close() override {}
+
+ private:
+  bool as_png_;
+};
+
+std::unique_ptr<SequenceWriter> sequence_writer(const Output& output, const FilmWriter::Format& format) {
+  if (output.kind == Output::Kind::kFilm) return std::make_unique<EncodedSequence>(FilmWriter(output.file, format));
+  if (output.stream == Output::Stream::kY4m) {
+    return std::make_unique<EncodedSequence>(FilmWriter::to_standard_output(format));
+  }
+  return std::make_unique<StreamedPictures>(output.stream == Output::Stream::kPng);
+}
+
 }  // namespace
 
-PictureWriter::PictureWriter(std::vector<Output> outputs, int width, int height, double fps)
+PictureWriter::PictureWriter(std::vector<Output> outputs, const FilmWriter::Format& format)
     : outputs_(std::move(outputs)) {
   for (const Output& output : outputs_) {
     make_folder(output.folder);
-    if (output.kind != Output::Kind::kFilm) continue;
-    films_.push_back(std::make_unique<FilmWriter>(output.file, width, height, fps));
+    if (output.is_sequence()) sequences_.push_back(sequence_writer(output, format));
   }
   thread_ = std::thread([this] { run(); });
 }
@@ -211,7 +266,7 @@ void PictureWriter::close() {
   changed_.notify_all();
   thread_.join();
   if (failure_) std::rethrow_exception(failure_);
-  for (const auto& film : films_) film->close();
+  for (const auto& sequence : sequences_) sequence->close();
 }
 
 void PictureWriter::run() {
@@ -239,7 +294,7 @@ void PictureWriter::write_everywhere(const Drawing& drawing) {
     if (output.kind == Output::Kind::kPictures) write_png(drawing.image, output.picture(drawing.number));
     if (output.kind == Output::Kind::kPasses) write_exr(drawing.passes.value(), output.picture(drawing.number));
   }
-  for (const auto& film : films_) film->write(drawing.image);
+  for (const auto& sequence : sequences_) sequence->write(drawing.image);
 }
 
 }  // namespace sprung

@@ -18,17 +18,22 @@
 
 namespace sprung {
 
-/// Where pictures go: numbered PNG files in a folder, or a single one, or a film; or their passes: EXR files.
+/// Where pictures go: numbered PNG files in a folder, or a single one, or a film, or the standard output; or their
+/// passes: EXR files.
 struct Output {
-  enum class Kind { kPictures, kPasses, kFilm };
+  enum class Kind { kPictures, kPasses, kFilm, kStream };
+  enum class Stream { kAny, kPng, kY4m, kRgb };  // kAny: PNG of a single picture, else YUV4MPEG2
   Kind kind = Kind::kPictures;
   std::filesystem::path folder{};  // of the files
   std::string before{};            // a picture's name is before + number + after
   std::string after{};
   int digits = 0;                // padded with zeros to that many digits
   std::filesystem::path file{};  // of a film or of a single picture; empty: numbered files
+  Stream stream = Stream::kAny;  // of kStream
 
-  [[nodiscard]] bool is_numbered() const { return file.empty(); }
+  [[nodiscard]] bool is_numbered() const { return file.empty() && kind != Kind::kStream; }
+  /// Whether all its pictures go to one place, in order.
+  [[nodiscard]] bool is_sequence() const { return kind == Kind::kFilm || kind == Kind::kStream; }
   /// The file of the picture, or of its passes, with this number; the first is 1.
   [[nodiscard]] std::filesystem::path picture(int number) const;
 };
@@ -38,8 +43,9 @@ struct Output {
 void check_folder_name(std::string_view words, std::span<const std::string_view> endings, std::string_view examples);
 
 /// The value of --output: "dir/" or "dir" (frame_0001.png ... in it), "dir/f_{:04}.png" or "{:04d}" or
-/// "{}" or "f_%04d.png" or "f_####.png", "still.png", the same with ".exr", "film.mp4", ".webm", ".gif". Throws
-/// Error(kUsage) for a name with any other ending, unless such a folder exists.
+/// "{}" or "f_%04d.png" or "f_####.png", "still.png", the same with ".exr", "film.mp4", ".webm", ".mov", ".gif",
+/// ".y4m", "-" for the standard output, "-.png", "-.y4m", "-.rgb". Throws Error(kUsage) for a name with any other
+/// ending, unless such a folder exists.
 [[nodiscard]] Output parse_output(std::string_view words);
 
 /// All of them. Throws Error(kUsage) where two would write to the same place.
@@ -62,11 +68,19 @@ struct Drawing {
   std::optional<Passes> passes{};  // for Output::Kind::kPasses
 };
 
+/// How pictures that follow each other in one place are written there.
+class SequenceWriter {
+ public:
+  virtual ~SequenceWriter() = default;
+  virtual void write(const Image& image) = 0;
+  virtual void close() = 0;
+};
+
 /// Encodes pictures in a thread of its own while others are drawn. Every output gets all pictures in order.
 class PictureWriter {
  public:
   /// Makes the folders. Throws Error(kFailed).
-  PictureWriter(std::vector<Output> outputs, int width, int height, double fps);
+  PictureWriter(std::vector<Output> outputs, const FilmWriter::Format& format);
   /// Stops; removes unfinished films.
   ~PictureWriter();
   PictureWriter(const PictureWriter&) = delete;
@@ -82,7 +96,7 @@ class PictureWriter {
   void write_everywhere(const Drawing& drawing);
 
   std::vector<Output> outputs_;
-  std::vector<std::unique_ptr<FilmWriter>> films_;
+  std::vector<std::unique_ptr<SequenceWriter>> sequences_;
   std::deque<Drawing> waiting_;
   std::mutex mutex_;
   std::condition_variable changed_;

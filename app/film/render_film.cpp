@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 #include <future>
 #include <iterator>
 #include <thread>
@@ -86,16 +87,21 @@ struct Task {
   const SceneRender& render;
   double fps;
 
-  [[nodiscard]] std::vector<Output> films(bool wanted) const {
+  [[nodiscard]] FilmWriter::Format format() const {
+    return {.width = render.resolution[0], .height = render.resolution[1], .fps = fps, .has_alpha = render.transparent};
+  }
+  [[nodiscard]] bool has_sequence() const {
+    return std::any_of(outputs.begin(), outputs.end(), std::mem_fn(&Output::is_sequence));
+  }
+  [[nodiscard]] std::vector<Output> sequences(bool wanted) const {
     std::vector<Output> some;
     std::copy_if(outputs.begin(), outputs.end(), std::back_inserter(some),
-                 [wanted](const Output& output) { return (output.kind == Output::Kind::kFilm) == wanted; });
+                 [wanted](const Output& output) { return output.is_sequence() == wanted; });
     return some;
   }
   [[nodiscard]] Drawing draw(FilmPipeline& pipeline, int frame, const FilmPipeline::Moments& moments) const {
     Drawing drawing{.number = choice.number(frame)};
-    if (has(outputs, Output::Kind::kPictures) || has(outputs, Output::Kind::kFilm))
-      drawing.image = pipeline.draw(frame - 1, moments);
+    if (has(outputs, Output::Kind::kPictures) || has_sequence()) drawing.image = pipeline.draw(frame - 1, moments);
     if (has(outputs, Output::Kind::kPasses)) drawing.passes = pipeline.passes(frame - 1, moments);
     return drawing;
   }
@@ -103,8 +109,7 @@ struct Task {
 
 void draw_here(const Task& task, FilmPipeline& pipeline, const Console& console, Progress& progress) {
   console.detail(fmt::format("drawn by {}", pipeline.driver()));
-  const auto [width, height] = task.render.resolution;
-  PictureWriter writer(task.outputs, width, height, task.fps);
+  PictureWriter writer(task.outputs, task.format());
   // The skins of the next frame are deformed while this one is drawn and earlier ones are encoded.
   const auto deform_ahead = [&](std::size_t i) {
     return std::async(std::launch::async, [&, frame = task.frames[i]] { return pipeline.moments(frame - 1); });
@@ -131,12 +136,11 @@ void draw_here(const Task& task, FilmPipeline& pipeline, const Console& console,
 /// Every `step`th frame from `first` on: writes pictures here, sends those of films to the parent.
 void draw_share(const Task& task, FilmPipeline& pipeline, std::size_t first, std::size_t step,
                 const DrawingProcesses::Send& send) {
-  const auto [width, height] = task.render.resolution;
-  PictureWriter writer(task.films(false), width, height, task.fps);
+  PictureWriter writer(task.sequences(false), task.format());
   for (std::size_t i = first; i < task.frames.size(); i += step) {
     stop_if_interrupted();
     Drawing drawing = task.draw(pipeline, task.frames[i], pipeline.moments(task.frames[i] - 1));
-    send(has(task.outputs, Output::Kind::kFilm) ? drawing.image : Image());
+    send(task.has_sequence() ? drawing.image : Image());
     writer.write(std::move(drawing));
   }
   writer.close();
@@ -151,12 +155,11 @@ void draw_by_processes(const Task& task, FilmPipeline& pipeline, std::size_t cou
   DrawingProcesses processes(count, [&](std::size_t process, const DrawingProcesses::Send& send) {
     draw_share(task, pipeline, process, count, send);
   });
-  const auto [width, height] = task.render.resolution;
-  PictureWriter writer(task.films(true), width, height, task.fps);
+  PictureWriter writer(task.sequences(true), task.format());
   for (std::size_t i = 0; i < task.frames.size(); ++i) {
     stop_if_interrupted();
     Image image = processes.receive(i % count);
-    if (has(task.outputs, Output::Kind::kFilm)) writer.write({.image = std::move(image)});
+    if (task.has_sequence()) writer.write({.image = std::move(image)});
     progress.update(double(i + 1));
   }
   processes.finish();
@@ -208,24 +211,41 @@ std::vector<Output> sheets_among(const std::vector<Output>& outputs, const Scene
                                  const FrameChoice& choice, bool wanted) {
   std::vector<Output> some;
   for (const Output& output : outputs) {
-    const bool is_single = output.kind != Output::Kind::kFilm && !output.is_numbered();
+    const bool is_single = !output.is_sequence() && !output.is_numbered();
     if ((is_single && choice.range.count() > 1 && !render.sheet) == wanted) some.push_back(output);
   }
   return some;
 }
 
+/// What "-" means.
+std::vector<Output> with_streams_chosen(std::vector<Output> outputs, const SceneRender& render,
+                                        const FrameChoice& choice) {
+  const bool is_picture = render.sheet || choice.range.count() == 1;
+  for (Output& output : outputs) {
+    if (output.stream == Output::Stream::kAny) {
+      output.stream = is_picture ? Output::Stream::kPng : Output::Stream::kY4m;
+    }
+  }
+  return outputs;
+}
+
 }  // namespace
 
-void check_outputs(const Film& scene, std::size_t runs, const FrameChoice& choice, const std::vector<Output>& outputs) {
+void check_outputs(const Film& scene, std::size_t runs, const FrameChoice& choice, const std::vector<Output>& given) {
   const auto refuse = [](const char* reason) { throw Error(ErrorKind::kUsage, reason); };
   const SceneRender& render = scene.render;
+  const std::vector<Output> outputs = with_streams_chosen(given, render, choice);
   const std::vector<Output> sheets = sheets_among(outputs, render, choice, true);
   const bool has_sheet = render.sheet || !sheets.empty();
   if (choice.skips_existing && has_sheet) refuse("--skip-existing: a sheet is a single picture");
-  if (has(outputs, Output::Kind::kFilm)) {
+  for (const Output& output : outputs) {
+    if (!output.is_sequence()) continue;
+    const bool is_encoded = output.kind == Output::Kind::kFilm || output.stream == Output::Stream::kY4m;
     if (choice.skips_existing) refuse("--skip-existing: a film is made of all its pictures; give a folder");
-    if (render.sheet) refuse("render.sheet: a sheet is a single picture; give a folder instead of a film");
-    if (render.transparent) refuse("render.transparent: films have no alpha; give a folder for pictures");
+    if (render.sheet && is_encoded) refuse("render.sheet: a sheet is a single picture; give a .png instead of a film");
+    if (render.transparent && is_encoded && !holds_alpha(output.file)) {
+      refuse("render.transparent: of films only .mov and .webm have alpha; or give a folder for pictures");
+    }
   }
   if (has(render.sheet ? outputs : sheets, Output::Kind::kPasses)) {
     refuse("passes (.exr) are of single pictures, not of a sheet; say which one: --frame 12");
@@ -235,8 +255,9 @@ void check_outputs(const Film& scene, std::size_t runs, const FrameChoice& choic
 }
 
 void render_film(const std::vector<FilmRun>& runs, const std::optional<Environment>& surroundings,
-                 const FrameChoice& choice, const std::vector<Output>& outputs, const Console& console, int jobs) {
+                 const FrameChoice& choice, const std::vector<Output>& given, const Console& console, int jobs) {
   const Film& scene = runs.front().scene;
+  const std::vector<Output> outputs = with_streams_chosen(given, scene.render, choice);
   check_outputs(scene, runs.size(), choice, outputs);
   const std::vector<Output> others = sheets_among(outputs, scene.render, choice, false);
   if (!others.empty()) draw_film(runs, surroundings, choice, others, console, jobs);

@@ -58,7 +58,7 @@ class SigpipeBlocker {
 int open_messages() { return memfd_create("sprung_messages", MFD_CLOEXEC); }
 
 /// Returns 0 or an error number.
-int spawn(const std::vector<std::string>& arguments, int input, int messages, pid_t& pid) {
+int spawn(const std::vector<std::string>& arguments, int input, ChildProcess::Output output, int messages, pid_t& pid) {
   std::vector<char*> argv;
   argv.reserve(arguments.size() + 1);
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
@@ -66,7 +66,9 @@ int spawn(const std::vector<std::string>& arguments, int input, int messages, pi
   posix_spawn_file_actions_t files;
   posix_spawn_file_actions_init(&files);
   posix_spawn_file_actions_adddup2(&files, input, STDIN_FILENO);
-  posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  if (output == ChildProcess::Output::kNone) {
+    posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  }
   posix_spawn_file_actions_adddup2(&files, messages, STDERR_FILENO);
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
@@ -109,7 +111,7 @@ std::optional<std::filesystem::path> find_program(std::string_view name) {
   return std::nullopt;
 }
 
-ChildProcess::ChildProcess(const std::vector<std::string>& arguments) {
+ChildProcess::ChildProcess(const std::vector<std::string>& arguments, Output output) {
   const auto fail = [&](int error) {
     throw Error(ErrorKind::kFailed, "cannot start " + arguments.front() + ": " + std::strerror(error));
   };
@@ -118,7 +120,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments) {
   messages_ = open_messages();
   RunningChildren& all = RunningChildren::of_process();
   const std::lock_guard lock(all.mutex);
-  const int error = messages_ < 0 ? errno : spawn(arguments, pipe[0], messages_, pid_);
+  const int error = messages_ < 0 ? errno : spawn(arguments, pipe[0], output, messages_, pid_);
   if (error == 0) all.pids.insert(pid_);
   close(pipe[0]);
   if (error != 0) {

@@ -18,8 +18,10 @@ namespace sprung {
 /// does not reach it. Its standard error is kept.
 class ChildProcess {
  public:
+  enum class Output { kNone, kOurs };  // where its standard output goes
+
   /// `arguments` begin with the program. Throws Error(kFailed) where it cannot be started.
-  explicit ChildProcess(const std::vector<std::string>& arguments);
+  explicit ChildProcess(const std::vector<std::string>& arguments, Output output = Output::kNone);
   /// Kills the program if it is still running.
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;

@@ -18,6 +18,9 @@ struct Image {
   Image(int w, int h) : width(w), height(h), pixels(3U * std::size_t(w) * std::size_t(h)) {}
 };
 
+/// RGB, or RGBA where the picture has alpha, pixel by pixel.
+[[nodiscard]] std::vector<std::uint8_t> interleaved(const Image& image);
+
 /// kPreview takes one sample per pixel and coarse shadows, kDefault four, kHigh sixteen and fine shadows.
 enum class Quality { kPreview, kDefault, kHigh };
 

@@ -23,17 +23,6 @@ constexpr std::size_t kRgb = 3;
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// Colours and, where there is one, alpha, pixel by pixel.
-Bytes interleaved(const Image& image) {
-  if (image.alpha.empty()) return image.pixels;
-  Bytes bytes(4 * image.alpha.size());
-  for (std::size_t i = 0; i < image.alpha.size(); ++i) {
-    std::copy_n(image.pixels.data() + kRgb * i, kRgb, bytes.data() + 4 * i);
-    bytes[4 * i + 3] = image.alpha[i];
-  }
-  return bytes;
-}
-
 /// Filtered rows, each preceded by the number of its filter.
 Bytes filtered_rows(const Image& image) {
   const Bytes bytes = interleaved(image);

@@ -93,7 +93,7 @@ void overlapped(const Subject& subject, const std::filesystem::path& folder, int
   Renderer renderer(subject.stage, options);
   Image warm = renderer.draw(subject.shapes, subject.camera);
   Stopwatch watch;
-  PictureWriter writer(outputs, options.width, options.height, 24);
+  PictureWriter writer(outputs, {.width = options.width, .height = options.height, .fps = 24});
   for (int i = 0; i < pictures; ++i) {
     writer.write({.image = renderer.draw(subject.film.shapes(0), subject.camera)});
   }
@@ -119,7 +119,7 @@ void run(const std::filesystem::path& scene, int pictures) {
   watch = Stopwatch();
   for (int i = 0; i < pictures; ++i) write_png(image, folder / "picture.png");
   watch.print("PNG", pictures);
-  FilmWriter film(folder / "film.mp4", image.width, image.height, 24);
+  FilmWriter film(folder / "film.mp4", {.width = image.width, .height = image.height, .fps = 24});
   for (int i = 0; i < pictures; ++i) film.write(image);
   film.close();
   watch.print("film", pictures);

@@ -21,7 +21,10 @@ std::string output_of(const std::string& command) {
   std::string text;
   std::FILE* pipe = popen(command.c_str(), "r");
   std::array<char, 256> part{};
-  while (pipe != nullptr && std::fgets(part.data(), isize(part), pipe) != nullptr) text += part.data();
+  for (std::size_t count = 1; pipe != nullptr && count > 0;) {
+    count = std::fread(part.data(), 1, part.size(), pipe);
+    text.append(part.data(), count);
+  }
   if (pipe != nullptr) pclose(pipe);
   return text;
 }
@@ -58,7 +61,7 @@ class Film : public testing::Test {
   }
 
   void write(const std::string& name, int width, int height, int frames, std::array<int, 3> color = {200, 60, 40}) {
-    FilmWriter film(folder_ / name, width, height, 24);
+    FilmWriter film(folder_ / name, {.width = width, .height = height, .fps = 24});
     for (int i = 0; i < frames; ++i) film.write(plain(width, height, color));
     film.close();
   }
@@ -102,18 +105,75 @@ TEST_F(Film, WritesWebmAndGif) {
   EXPECT_NE(probe(folder_ / "a.GIF").find("codec_name=gif\n"), std::string::npos);
 }
 
+TEST_F(Film, WritesProResAndUncompressed) {
+  write("a.mov", 63, 47, 3);
+  const std::string facts = probe(folder_ / "a.mov");
+  for (const char* fact : {"codec_name=prores\n", "width=63\n", "height=47\n", "color_space=bt709\n"}) {
+    EXPECT_NE(facts.find(fact), std::string::npos) << fact << facts;
+  }
+  write("a.y4m", 63, 47, 3);
+  EXPECT_NE(probe(folder_ / "a.y4m").find("pix_fmt=yuv444p\n"), std::string::npos) << probe(folder_ / "a.y4m");
+  for (const char* name : {"a.mov", "a.y4m"}) {
+    const std::array<int, 3> seen = first_pixel(folder_ / name);
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(seen[k], (std::array{200, 60, 40})[k], 4) << name;
+  }
+}
+
+TEST_F(Film, KeepsAlphaWhereTheFormatDoes) {
+  Image picture = plain(63, 47, {200, 60, 40});
+  for (std::size_t i = 0; i < picture.pixels.size() / 3; ++i) picture.alpha.push_back(i % 63 < 32 ? 0 : 255);
+  for (const char* name : {"a.mov", "a.webm"}) {
+    FilmWriter film(folder_ / name, {.width = 63, .height = 47, .fps = 24, .has_alpha = true});
+    for (int i = 0; i < 2; ++i) film.write(picture);
+    film.write(plain(63, 47, {200, 60, 40}));  // opaque
+    film.close();
+    const std::string decoder = std::string(name) == "a.webm" ? "-c:v libvpx-vp9 " : "";
+    const std::string raw =
+        output_of("ffmpeg -v error " + decoder + "-i '" + (folder_ / name).string() + "' -f rawvideo -pix_fmt rgba -");
+    const std::size_t width = std::string(name) == "a.webm" ? 64 : 63;
+    const std::size_t height = std::string(name) == "a.webm" ? 48 : 47;
+    ASSERT_EQ(raw.size(), 3 * 4 * width * height) << name;
+    const auto alpha = [&](std::size_t frame, std::size_t x) {
+      return int(static_cast<unsigned char>(raw[4 * (frame * width * height + 20 * width + x) + 3]));
+    };
+    EXPECT_LT(alpha(0, 4), 5) << name;
+    EXPECT_GT(alpha(0, 60), 250) << name;
+    EXPECT_GT(alpha(2, 4), 250) << name;
+  }
+  EXPECT_NE(error_message([&] {
+              FilmWriter(folder_ / "a.mp4", {.width = 64, .height = 48, .fps = 24, .has_alpha = true});
+            }).find("have no alpha"),
+            std::string::npos);
+}
+
+TEST_F(Film, WritesTheRatesOfNtscExactly) {
+  const std::array<std::pair<double, const char*>, 6> rates{{{23.976, "24000/1001"},
+                                                             {23.98, "24000/1001"},
+                                                             {29.97, "30000/1001"},
+                                                             {59.94, "60000/1001"},
+                                                             {24, "24/1"},
+                                                             {12.5, "25/2"}}};
+  for (const auto& [fps, rate] : rates) {
+    FilmWriter film(folder_ / "rate.mov", {.width = 16, .height = 16, .fps = fps});
+    for (int i = 0; i < 3; ++i) film.write(plain(16, 16, {9, 9, 9}));
+    film.close();
+    const std::string facts = probe(folder_ / "rate.mov");
+    EXPECT_NE(facts.find(std::string("r_frame_rate=") + rate + "\n"), std::string::npos) << fps << facts;
+  }
+}
+
 TEST_F(Film, NamesFilmsByTheirEnding) {
   EXPECT_TRUE(is_film("a/b.mp4"));
   EXPECT_TRUE(is_film("B.WebM"));
   EXPECT_TRUE(is_film("c.gif"));
   EXPECT_FALSE(is_film("frame_{:04}.png"));
   EXPECT_FALSE(is_film("mp4"));
-  EXPECT_THROW(FilmWriter(folder_ / "a.avi", 8, 8, 24), Error);
+  EXPECT_THROW(FilmWriter(folder_ / "a.avi", {.width = 8, .height = 8, .fps = 24}), Error);
 }
 
 TEST_F(Film, MissingFolderIsSaidAtOnce) {
   try {
-    FilmWriter film(folder_ / "nowhere" / "a.mp4", 8, 8, 24);
+    FilmWriter film(folder_ / "nowhere" / "a.mp4", {.width = 8, .height = 8, .fps = 24});
     FAIL() << "nothing was thrown";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::kFailed);
@@ -123,9 +183,11 @@ TEST_F(Film, MissingFolderIsSaidAtOnce) {
 
 TEST_F(Film, IsWrittenByOneAtATime) {
   const std::filesystem::path film = folder_ / "film.mp4";
-  FilmWriter first(film, 32, 16, 24);
+  FilmWriter first(film, {.width = 32, .height = 16, .fps = 24});
   EXPECT_TRUE(is_film_being_written(film));
-  EXPECT_NE(error_message([&] { FilmWriter(film, 32, 16, 24); }).find("is being written by another run"),
+  EXPECT_NE(error_message([&] {
+              FilmWriter(film, {.width = 32, .height = 16, .fps = 24});
+            }).find("is being written by another run"),
             std::string::npos);
   first.write(Image(32, 16));
   first.close();
@@ -135,7 +197,7 @@ TEST_F(Film, IsWrittenByOneAtATime) {
 
 TEST_F(Film, AnUnfinishedFilmIsRemoved) {
   {
-    FilmWriter film(folder_ / "a.mp4", 64, 48, 24);
+    FilmWriter film(folder_ / "a.mp4", {.width = 64, .height = 48, .fps = 24});
     film.write(plain(64, 48, {1, 2, 3}));
   }
   EXPECT_EQ(files(), 0);
@@ -143,7 +205,7 @@ TEST_F(Film, AnUnfinishedFilmIsRemoved) {
 
 TEST_F(Film, SaysWhatFfmpegSaid) {
   try {
-    FilmWriter film(folder_ / "a.mp4", 64, 48, -1);  // no such frame rate: ffmpeg gives up
+    FilmWriter film(folder_ / "a.mp4", {.width = 64, .height = 48, .fps = -1});  // no such frame rate: ffmpeg gives up
     for (int i = 0; i < 200; ++i) film.write(plain(64, 48, {1, 2, 3}));
     film.close();
     FAIL() << "nothing was thrown";

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/film/frame_choice.h"
+#include "core/io/process.h"
 #include "render/image/png.h"
 #include "tests/support/error_message.h"
 #include "tests/support/run_program.h"
@@ -125,6 +126,32 @@ TEST(Render, DrawsOnePictureOrASheetOfMoments) {
                             "-o two.png --frame 3 --time 0.1s", "-o still.png --frame 3"}) {
     EXPECT_EQ(run_program(folder, std::string("render run.h5 ") + words).exit_code, 2) << words;
   }
+}
+
+TEST(Render, StreamsToTheStandardOutput) {
+  const TempFolder folder;
+  static_cast<void>(folder.write("cube.obj", kCubeObj));
+  ASSERT_EQ(run_program(folder, "simulate cube.obj --bricks 2 --duration 0.5 --fps 12 -o run.h5").exit_code, 0);
+  const auto stream = [&](const std::string& words) {
+    const ProgramRun run = run_program(folder, "render run.h5 --resolution 64x36 " + words);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return run.out;
+  };
+  ASSERT_EQ(run_program(folder, "render run.h5 --resolution 64x36 -o p_{}.png").exit_code, 0);
+  EXPECT_EQ(stream("-o - --frame 3"), text_of(folder.path() / "p_3.png"));
+  EXPECT_EQ(stream("-o -.png --frames 3:4"), text_of(folder.path() / "p_3.png") + text_of(folder.path() / "p_4.png"));
+  const std::string raw = stream("-o -.rgb --jobs 2");
+  ASSERT_EQ(raw.size(), 6U * 3 * 64 * 36);
+  const Image third = read_png(folder.path() / "p_3.png");
+  EXPECT_TRUE(std::equal(third.pixels.begin(), third.pixels.end(), raw.begin() + 2 * 3 * 64 * 36,
+                         [](std::uint8_t a, char b) { return a == static_cast<std::uint8_t>(b); }));
+  EXPECT_EQ(stream("-o -.rgb --frame 1 --set render.transparent=true").size(), 4U * 64 * 36);
+  if (find_program("ffmpeg")) {
+    const std::string y4m = stream("-o -");
+    EXPECT_TRUE(y4m.starts_with("YUV4MPEG2 W64 H36 F12:1")) << y4m.substr(0, 60);
+    EXPECT_EQ(y4m.size(), y4m.find('\n') + 1 + 6 * (6U + 3 * 64 * 36));  // "FRAME\n" before each
+  }
+  EXPECT_EQ(run_program(folder, "render run.h5 -o - -o -.png").exit_code, 2);
 }
 
 TEST(Render, ByProcessesStopsWithTheFirstThatCannotGoOn) {

@@ -226,7 +226,7 @@ TEST(FilmTransparent, HasAlphaAndNoFloor) {
                           {.range = {.first = 1, .last = 1}}, {parse_output((folder.path() / "f.mp4").string())},
                           Console::of_few_words());
             }),
-            "render.transparent: films have no alpha; give a folder for pictures");
+            "render.transparent: of films only .mov and .webm have alpha; or give a folder for pictures");
 }
 
 }  // namespace
