@@ -15,10 +15,13 @@ using FloatPixels = std::vector<Eigen::Vector4f>;
 constexpr TextureFormat kNumbers{GL_RGBA32F, GL_RGBA, GL_FLOAT, false, false, GL_CLAMP_TO_EDGE};
 constexpr TextureFormat kDepth{GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, false, false, GL_CLAMP_TO_EDGE};
 
-/// What is visible in a pixel.
+/// What is visible in a pixel; places in stage space.
 struct Sight {
-  Vec3 place;  // m, world space
+  Vec3 place;
+  Vec3 before;  // where it is one frame earlier ...
+  Vec3 after;   // ... and later
   Vec3 normal;
+  Eigen::Vector2f uv;
   float id;
 };
 
@@ -34,12 +37,32 @@ Line line_of_sight(const Eigen::Matrix4d& stage_from_clip, double x, double y) {
   return {near, far - near};
 }
 
-void set(Passes& passes, std::size_t pixel, const Sight& sight, double depth) {
-  passes.depth[pixel] = float(depth);
+/// Of a place in the picture, from its middle, to the right and up.
+Eigen::Vector2d pixels_of(const View& view, const Vec3& place, int width, int height) {
+  const Vec3 clip = (view.clip_from_stage * place.homogeneous()).hnormalized();
+  return {0.5 * width * clip.x(), -0.5 * height * clip.y()};
+}
+
+void set(Passes& passes, std::size_t pixel, const Sight& sight, const PassViews& views) {
+  const StageSpace& space = views.now.frame.space;
+  const Vec3 world = sight.place / space.scale + space.center;
+  const Vec3 ahead = (views.camera.target - views.camera.eye).normalized();
+  passes.depth[pixel] = float(ahead.dot(world - views.camera.eye));
   passes.id[pixel] = sight.id;
   for (std::size_t k = 0; k < 3; ++k) {
-    passes.position[k][pixel] = float(sight.place[k]);
+    passes.position[k][pixel] = float(world[k]);
     passes.normal[k][pixel] = float(sight.normal[k]);
+  }
+  const auto seen = [&](const View& view, const Vec3& place) {
+    return pixels_of(view, place, passes.width, passes.height);
+  };
+  const Eigen::Vector2d now = seen(views.now, sight.place);
+  const Eigen::Vector2d from = seen(views.before, sight.before) - now;
+  const Eigen::Vector2d to = now - seen(views.after, sight.after);
+  for (std::size_t k = 0; k < 2; ++k) {
+    passes.uv[k][pixel] = sight.uv[k];
+    passes.motion[k][pixel] = float(from[k]);
+    passes.motion[k + 2][pixel] = float(to[k]);
   }
 }
 
@@ -49,17 +72,21 @@ PassDrawer::PassDrawer(const GlFunctions& gl, int width, int height)
     : gl_(gl),
       width_(width),
       height_(height),
-      place_(make_texture(gl, width, height, kNumbers)),
-      normal_(make_texture(gl, width, height, kNumbers)),
       depth_(make_texture(gl, width, height, kDepth)),
-      target_(make_two_color_target(gl, place_, normal_, depth_)),
-      program_(load_program(gl, "surface.vert", "passes.frag")) {}
+      program_(load_program(gl, "passes.vert", "passes.frag")) {
+  std::array<const GlTexture*, kTextures> colors{};
+  for (std::size_t i = 0; i < kTextures; ++i) {
+    numbers_[i] = make_texture(gl, width, height, kNumbers);
+    colors[i] = &numbers_[i];
+  }
+  target_ = make_colors_target(gl, colors, depth_);
+}
 
-Passes PassDrawer::draw(const std::vector<SkinBuffers>& skins, const std::vector<int>& ids, const View& view,
-                        const Camera& camera) const {
-  draw_skins(skins, ids, view);
+Passes PassDrawer::draw(const std::vector<SkinBuffers>& skins, const std::vector<int>& ids,
+                        const PassViews& views) const {
+  draw_skins(skins, ids, views.now);
   Passes passes(width_, height_);
-  read(view, camera, passes);
+  read(views, passes);
   return passes;
 }
 
@@ -83,33 +110,34 @@ void PassDrawer::draw_skins(const std::vector<SkinBuffers>& skins, const std::ve
   gl_.Disable(GL_DEPTH_TEST);
 }
 
-void PassDrawer::read(const View& view, const Camera& camera, Passes& passes) const {
-  FloatPixels places(passes.depth.size());
-  FloatPixels normals(passes.depth.size());
-  gl_.ReadBuffer(GL_COLOR_ATTACHMENT0);
-  gl_.ReadPixels(0, 0, width_, height_, GL_RGBA, GL_FLOAT, places.data());
-  gl_.ReadBuffer(GL_COLOR_ATTACHMENT1);
-  gl_.ReadPixels(0, 0, width_, height_, GL_RGBA, GL_FLOAT, normals.data());
-  const Vec3 ahead = (camera.target - camera.eye).normalized();
+void PassDrawer::read(const PassViews& views, Passes& passes) const {
+  std::array<FloatPixels, kTextures> numbers;
+  for (std::size_t i = 0; i < kTextures; ++i) {
+    numbers[i].resize(passes.depth.size());
+    gl_.ReadBuffer(GL_COLOR_ATTACHMENT0 + GLenum(i));
+    gl_.ReadPixels(0, 0, width_, height_, GL_RGBA, GL_FLOAT, numbers[i].data());
+  }
+  const View& view = views.now;
   const Eigen::Matrix4d stage_from_clip = view.clip_from_stage.inverse();
   const double ground = view.frame.ground_height;
   for (int y = 0; y < height_; ++y) {
     for (int x = 0; x < width_; ++x) {
       const auto pixel = std::size_t(y) * std::size_t(width_) + std::size_t(x);
-      const bool is_skin = places[pixel].w() >= 0;
-      Vec3 place = places[pixel].head<3>().cast<double>();
-      Vec3 normal = normals[pixel].head<3>().cast<double>().normalized();
-      float id = places[pixel].w();
-      if (!is_skin || (view.frame.has_ground && place.y() < ground && view.eye.y() > ground)) {
+      const auto place = [&](std::size_t texture) -> Vec3 { return numbers[texture][pixel].head<3>().cast<double>(); };
+      Sight sight{.place = place(0),
+                  .before = place(2),
+                  .after = place(3),
+                  .normal = place(1).normalized(),
+                  .uv = {numbers[1][pixel].w(), numbers[2][pixel].w()},
+                  .id = numbers[0][pixel].w()};
+      if (sight.id < 0 || (view.frame.has_ground && sight.place.y() < ground && view.eye.y() > ground)) {
         const Line line = line_of_sight(stage_from_clip, (2 * x + 1.0) / width_ - 1, (2 * y + 1.0) / height_ - 1);
         const bool meets_ground = view.frame.has_ground && line.from.y() > ground && line.way.y() < 0;
         if (!meets_ground) continue;
-        place = line.from + line.way * ((ground - line.from.y()) / line.way.y());
-        normal = Vec3::UnitY();
-        id = 0;
+        const Vec3 met = line.from + line.way * ((ground - line.from.y()) / line.way.y());
+        sight = {.place = met, .before = met, .after = met, .normal = Vec3::UnitY(), .uv = {0, 0}, .id = 0};
       }
-      const Vec3 world = place / view.frame.space.scale + view.frame.space.center;
-      set(passes, pixel, {world, normal, id}, ahead.dot(world - camera.eye));
+      set(passes, pixel, sight, views);
     }
   }
 }

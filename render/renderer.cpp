@@ -197,11 +197,16 @@ Image Renderer::draw(const std::vector<Exposure>& exposures) {
   return image;
 }
 
-Passes Renderer::draw_passes(const std::vector<SkinShape>& shapes, const Camera& camera) {
+Passes Renderer::draw_passes(const Moment& now, const Moment& before, const Moment& after) {
   Device& device = *device_;
-  const View view = make_view(device.frame(shapes), camera, device.screen.aspect());
+  const DrawFrame frame = device.frame(now.shapes);
+  for (std::size_t i = 0; i < device.skins.size(); ++i) {
+    device.skins[i].update_motion(before.shapes[i].positions, after.shapes[i].positions);
+  }
+  const auto seen_by = [&](const Camera& camera) { return make_view(frame, camera, device.screen.aspect()); };
   if (!device.passes) device.passes.emplace(device.gl, device.screen.width(), device.screen.height());
-  return device.passes->draw(device.skins, device.ids, view, camera);
+  return device.passes->draw(device.skins, device.ids,
+                             {seen_by(now.camera), now.camera, seen_by(before.camera), seen_by(after.camera)});
 }
 
 const std::vector<PassTime>& Renderer::pass_times() const { return device_->clock.times(); }

@@ -57,6 +57,12 @@ struct Exposure {
   Camera camera;
 };
 
+/// Everything as it is at a time.
+struct Moment {
+  const std::vector<SkinShape>& shapes;
+  Camera camera;
+};
+
 /// Draws a stage off-screen with OSMesa: no display, no GPU. Deterministic on one machine for any number of threads.
 class Renderer {
  public:
@@ -72,8 +78,8 @@ class Renderer {
   /// The mean light of some exposures; needs RenderOptions::exposes.
   [[nodiscard]] Image draw(const std::vector<Exposure>& exposures);
 
-  /// What a compositor needs beside that picture.
-  [[nodiscard]] Passes draw_passes(const std::vector<SkinShape>& shapes, const Camera& camera);
+  /// What a compositor needs beside the picture of `now`; `before` and `after`: one frame earlier and later.
+  [[nodiscard]] Passes draw_passes(const Moment& now, const Moment& before, const Moment& after);
 
   /// What each pass took, of all pictures so far; empty unless it was to be measured.
   [[nodiscard]] const std::vector<PassTime>& pass_times() const;

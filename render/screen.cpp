@@ -97,7 +97,8 @@ Screen::Screen(const GlFunctions& gl, const RenderOptions& options, const std::o
       surface_color_(make_texture(gl, side_ * width_, side_ * height_, kColorFormat)),
       surface_normal_(make_texture(gl, side_ * width_, side_ * height_, kColorFormat)),
       surface_depth_(make_texture(gl, side_ * width_, side_ * height_, kDepthFormat)),
-      surface_(make_two_color_target(gl, surface_color_, surface_normal_, surface_depth_)),
+      surface_(
+          make_colors_target(gl, std::array<const GlTexture*, 2>{&surface_color_, &surface_normal_}, surface_depth_)),
       picture_(make_texture(gl, width_, height_, picture_format(options))),
       kinds_(make_texture(gl, width_, height_, kDepthFormat)),
       developed_(make_texture_target(gl, &picture_, &kinds_)),

@@ -128,7 +128,15 @@ Sides visible_sides(const Skin& skin) {
 
 namespace {
 
-enum Attribute : GLuint { kPosition, kNormal, kUv, kColor, kMapCoordinate };  // as in surface.vert
+enum Attribute : GLuint {
+  kPosition,
+  kNormal,
+  kUv,
+  kColor,
+  kMapCoordinate,
+  kBefore,
+  kAfter
+};  // as in surface.vert and passes.vert
 
 /// The square root of linear light: what the shaders multiply and keep.
 template <class Colors>
@@ -215,6 +223,8 @@ SkinBuffers::SkinBuffers(const GlFunctions& gl, const Skin& skin, const Eigen::V
       uvs_(make_buffer(gl)),
       colors_(make_buffer(gl)),
       map_coordinates_(make_buffer(gl)),
+      before_(make_buffer(gl)),
+      after_(make_buffer(gl)),
       indices_(make_buffer(gl)),
       sides_(visible_sides(skin)),
       look_(look),
@@ -301,6 +311,14 @@ void SkinBuffers::update(const SkinShape& shape) {
   gl_.BindVertexArray(array_.name());
   upload(gl_, map_coordinates_, shape.map_coordinates, GL_STREAM_DRAW);
   describe(gl_, kMapCoordinate, 1);
+}
+
+void SkinBuffers::update_motion(const Floats3& before, const Floats3& after) {
+  gl_.BindVertexArray(array_.name());
+  upload(gl_, before_, before, GL_STREAM_DRAW);
+  describe(gl_, kBefore, 3);
+  upload(gl_, after_, after, GL_STREAM_DRAW);
+  describe(gl_, kAfter, 3);
 }
 
 void SkinBuffers::draw(const Range& range) const {

@@ -63,6 +63,8 @@ class SkinBuffers {
               TextureSet& textures);
 
   void update(const SkinShape& shape);
+  /// Where the vertices are one frame earlier and later, for a program that asks.
+  void update_motion(const Floats3& before, const Floats3& after);
   /// For a program that needs positions only.
   void draw(Detail detail) const;
   /// Part by part; sets base_color and base_texture (unit `unit`) of the programs.
@@ -95,6 +97,8 @@ class SkinBuffers {
   GlBuffer uvs_;
   GlBuffer colors_;
   GlBuffer map_coordinates_;
+  GlBuffer before_;  // positions
+  GlBuffer after_;
   GlBuffer indices_;
   Ranges all_;
   Sides sides_;

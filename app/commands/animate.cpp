@@ -1,5 +1,6 @@
-
 #include <fmt/format.h>
+
+#include <algorithm>
 
 #include "app/commands/commands.h"
 #include "app/commands/options.h"
@@ -104,8 +105,11 @@ void animate(const CLI::App& command, const AnimateOptions& options, const Conso
   const double patience = options.patience();
   options.scene.with_scene(console, [&](const Film& whole) {
     FrameChoice choice = options.frames.choice(std::size_t(frame_count(whole)), whole.fps);
-    const Film scene = up_to(whole, choice.range.last);
     const std::vector<Output> outputs = parse_outputs(options.outputs.names);
+    const bool has_passes = std::any_of(outputs.begin(), outputs.end(), [](const Output& output) {
+      return output.kind == Output::Kind::kPasses;
+    });  // which tell the motion to the next frame
+    const Film scene = up_to(whole, choice.range.last + int(has_passes));
     check_outputs(scene, 1, choice, outputs);
     for (const Output& output : outputs) check_output(output, options.overwrite);
     note_padding(outputs, scene.render, console);

@@ -166,7 +166,13 @@ Image FilmPipeline::draw(std::size_t frame, Panel& panel, const std::vector<std:
 }
 
 Passes FilmPipeline::passes(std::size_t frame, const Moments& moments) {
-  return renderer(panels_.front()).draw_passes(moments.front().front(), cameras_[frame]);
+  Panel& panel = panels_.front();
+  const std::size_t before = frame == 0 ? 0 : frame - 1;
+  const std::size_t after = std::min(frame + 1, frames() - 1);
+  const std::vector<SkinShape> shapes_before = panel.stage.shapes(panel.frame(before), 0);
+  const std::vector<SkinShape> shapes_after = panel.stage.shapes(panel.frame(after), 0);
+  return renderer(panel).draw_passes({moments.front().front(), cameras_[frame]}, {shapes_before, cameras_[before]},
+                                     {shapes_after, cameras_[after]});
 }
 
 Image FilmPipeline::sheet(const std::vector<Image>& pictures) const {

@@ -93,15 +93,17 @@ GlFramebuffer make_texture_target(const GlFunctions& gl, const GlTexture* color,
   return target;
 }
 
-GlFramebuffer make_two_color_target(const GlFunctions& gl, const GlTexture& first, const GlTexture& second,
-                                    const GlTexture& depth) {
+GlFramebuffer make_colors_target(const GlFunctions& gl, std::span<const GlTexture* const> colors,
+                                 const GlTexture& depth) {
   GlFramebuffer target = make_framebuffer(gl);
   gl.BindFramebuffer(GL_FRAMEBUFFER, target.name());
-  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, first.name(), 0);
-  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, GL_TEXTURE_2D, second.name(), 0);
+  std::vector<GLenum> outputs;
+  for (const GlTexture* color : colors) {
+    outputs.push_back(GL_COLOR_ATTACHMENT0 + GLenum(outputs.size()));
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, outputs.back(), GL_TEXTURE_2D, color->name(), 0);
+  }
   gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth.name(), 0);
-  const std::array<GLenum, 2> outputs{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
-  gl.DrawBuffers(2, outputs.data());
+  gl.DrawBuffers(GLsizei(outputs.size()), outputs.data());
   check_framebuffer(gl, "a picture of this size");
   return target;
 }

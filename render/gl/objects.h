@@ -75,9 +75,9 @@ struct TextureFormat {
 
 /// A framebuffer with level 0 of these textures; null for none. Throws Error(kFailed) where it is incomplete.
 [[nodiscard]] GlFramebuffer make_texture_target(const GlFunctions& gl, const GlTexture* color, const GlTexture* depth);
-/// The same with two colour attachments.
-[[nodiscard]] GlFramebuffer make_two_color_target(const GlFunctions& gl, const GlTexture& first,
-                                                  const GlTexture& second, const GlTexture& depth);
+/// The same with several colour attachments, eight at most.
+[[nodiscard]] GlFramebuffer make_colors_target(const GlFunctions& gl, std::span<const GlTexture* const> colors,
+                                               const GlTexture& depth);
 
 /// A linked program. set() needs it in use, and ignores uniforms that the compiler has removed.
 class GlProgram {

@@ -23,7 +23,7 @@ struct Channel {
 };
 
 /// Sorted by name, as the format requires.
-std::array<Channel, 8> channels_of(Passes& passes) {
+std::array<Channel, 14> channels_of(Passes& passes) {
   return {{{"Depth.Z", &passes.depth},
            {"IndexOB.X", &passes.id},
            {"Normal.X", &passes.normal[0]},
@@ -31,7 +31,13 @@ std::array<Channel, 8> channels_of(Passes& passes) {
            {"Normal.Z", &passes.normal[2]},
            {"Position.X", &passes.position[0]},
            {"Position.Y", &passes.position[1]},
-           {"Position.Z", &passes.position[2]}}};
+           {"Position.Z", &passes.position[2]},
+           {"UV.U", &passes.uv[0]},
+           {"UV.V", &passes.uv[1]},
+           {"Vector.W", &passes.motion[3]},
+           {"Vector.X", &passes.motion[0]},
+           {"Vector.Y", &passes.motion[1]},
+           {"Vector.Z", &passes.motion[2]}}};
 }
 
 /// The library's message, which the caller must free.

@@ -47,6 +47,10 @@ struct Passes {
   std::array<Plane, 3> normal;    // x, y, z: unit, world space, towards the camera; 0 for the background
   std::array<Plane, 3> position;  // x, y, z: m, world space; 0 for the background
   Plane id;                       // Stage::ids; 0 for the ground and the background
+  std::array<Plane, 2> uv;        // u, v of the skin's texture; 0 where there is none
+  /// Pixels, to the right and up, by which what is seen here moved: from here to where it was one frame before (the
+  /// first two), and from where it will be one frame later to here, as Cycles has it. 0 for the background.
+  std::array<Plane, 4> motion;
 
   static constexpr float kNothing = 1e10F;
 
@@ -57,6 +61,8 @@ struct Passes {
     normal.fill(Plane(size, 0));
     position.fill(Plane(size, 0));
     id.assign(size, 0);
+    uv.fill(Plane(size, 0));
+    motion.fill(Plane(size, 0));
   }
 };
 

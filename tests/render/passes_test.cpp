@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "core/error.h"
 #include "render/image/exr.h"
 #include "tests/support/error_message.h"
@@ -30,7 +33,8 @@ Camera camera_at(const Vec3& eye) {
 Passes passes_of(const StillLife& scene, const Camera& camera) {
   const Stage stage = scene.stage();
   Renderer renderer(stage, {.width = 161, .height = 91});
-  return renderer.draw_passes(scene.shapes(), camera);
+  const std::vector<SkinShape> shapes = scene.shapes();
+  return renderer.draw_passes({shapes, camera}, {shapes, camera}, {shapes, camera});
 }
 
 struct Pixel {
@@ -76,6 +80,52 @@ TEST(Passes, HoldTogetherInEveryPixel) {
     if (id > 0) {
       const Vec3 middle = kMiddle + (id == 2 ? Vec3(0.3, 0, 0) : Vec3(0, 0, 0));
       EXPECT_NEAR((pixel.position() - middle).norm(), kRadius, 6e-4);
+      const Vec3 out = (pixel.position() - middle) / kRadius;
+      EXPECT_NEAR(-std::cos(std::numbers::pi * passes.uv[1][i]), out.y(), 0.02);
+      if (std::hypot(out.x(), out.z()) > 0.3) {
+        const double turn = passes.uv[0][i] - std::atan2(out.x(), out.z()) / (2 * std::numbers::pi);
+        EXPECT_NEAR(turn, std::round(turn), 0.01);
+      }
+    }
+  }
+  for (const int pixels : count) EXPECT_GT(pixels, 100);
+}
+
+/// From the middle of the picture, to the right and up, of a place that a camera with its target in the middle sees.
+Eigen::Vector2d seen_by(const Camera& camera, const Vec3& place) {
+  const Vec3 ahead = (camera.target - camera.eye).normalized();
+  const Vec3 right = ahead.cross(Vec3::UnitY()).normalized();
+  const Vec3 way = place - camera.eye;
+  const double scale = 0.5 * 91 / std::tan(camera.vertical_field_of_view * std::numbers::pi / 360) / ahead.dot(way);
+  return {scale * right.dot(way), scale * right.cross(ahead).dot(way)};
+}
+
+TEST(Passes, SayHowFarEverythingMovesInThePicture) {
+  const StillLife scene = two_balls();
+  const Stage stage = scene.stage();
+  Renderer renderer(stage, {.width = 161, .height = 91});
+  const std::vector<SkinShape> now = scene.shapes();
+  std::vector<SkinShape> before = now;
+  std::vector<SkinShape> after = now;
+  const Vec3 step(0.012, 0.004, -0.007);
+  before[0].positions.rowwise() -= step.cast<float>().transpose();
+  after[0].positions.rowwise() += 2 * step.cast<float>().transpose();
+  const Camera camera = camera_at(kMiddle + Vec3(0.3, 0.35, 0.6));
+  Camera later = camera;
+  later.eye += Vec3(0.02, 0, 0.01);
+  const Passes passes = renderer.draw_passes({now, camera}, {before, camera}, {after, later});
+  std::array<int, 3> count{};
+  for (std::size_t i = 0; i < passes.id.size(); ++i) {
+    const Vec3 place = Pixel{passes, i}.position();
+    const auto id = std::size_t(passes.id[i]);
+    ++count[id];
+    const Vec3 way = id == 1 ? step : Vec3(0, 0, 0);
+    const Eigen::Vector2d here = seen_by(camera, place);
+    const Eigen::Vector2d from = seen_by(camera, place - way) - here;
+    const Eigen::Vector2d to = here - seen_by(later, place + 2 * way);
+    for (std::size_t k = 0; k < 2; ++k) {
+      EXPECT_NEAR(passes.motion[k][i], from[k], 2e-3) << i;
+      EXPECT_NEAR(passes.motion[k + 2][i], to[k], 2e-3) << i;
     }
   }
   for (const int pixels : count) EXPECT_GT(pixels, 100);
@@ -109,6 +159,8 @@ TEST(Exr, ReadsBackWhatWasWritten) {
     const auto number = float(i);
     passes.depth[i] = 0.1F * number;
     passes.id[i] = number;
+    for (std::size_t k = 0; k < 4; ++k) passes.motion[k][i] = number + 7 * float(k);
+    for (std::size_t k = 0; k < 2; ++k) passes.uv[k][i] = 0.3F * number + float(k);
     for (std::size_t k = 0; k < 3; ++k) {
       passes.normal[k][i] = number - float(k);
       passes.position[k][i] = 1e-3F * number + float(k);
@@ -122,6 +174,8 @@ TEST(Exr, ReadsBackWhatWasWritten) {
   EXPECT_EQ(back.id, passes.id);
   EXPECT_EQ(back.normal, passes.normal);
   EXPECT_EQ(back.position, passes.position);
+  EXPECT_EQ(back.uv, passes.uv);
+  EXPECT_EQ(back.motion, passes.motion);
 }
 
 TEST(Exr, SaysWhatIsWrong) {
