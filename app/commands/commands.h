@@ -43,12 +43,9 @@ void add_film(CLI::App& app, Invocation& invocation);
 /// FOLDER/001/scene.toml ..., the scenes as resolved, FOLDER/runs.json, which says what differs, and FOLDER/commands,
 /// one line a run for a shell, GNU parallel or a scheduler; prints that file's name. Each run leaves its cache, probes
 /// and a manifest in its folder. FOLDER/run, for a shell, does them all and writes FOLDER/table.csv.
-/// `sprung sweep FOLDER --table`: how long the runs took and what their probes saw last, as CSV to stdout; runs that
-/// are not done are named on stderr.
+/// `sprung sweep FOLDER --table`: what was set, how long the runs took and what their probes saw last, as CSV to
+/// stdout, or one of these measurements as a plot; runs that are not done are named on stderr.
 void add_sweep(CLI::App& app, Invocation& invocation);
-
-/// The values of "a,b,[0,0,1]": commas in brackets do not count.
-[[nodiscard]] std::vector<std::string> values_in(std::string_view text);
 
 /// What a mesh, a scene or a cache is and what its film will take, to stdout.
 void add_inspect(CLI::App& app, Invocation& invocation);

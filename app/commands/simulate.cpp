@@ -18,6 +18,7 @@
 #include "app/film/film_output.h"
 #include "app/inspect/forecast.h"
 #include "app/scene/cached_film.h"
+#include "app/scene/probe_columns.h"
 #include "app/scene/scene_file.h"
 #include "core/error.h"
 #include "core/files.h"
@@ -131,32 +132,21 @@ void print_summary(const Recording& recording) {
   }
 }
 
-/// "position_m", "torque_Nm".
-std::string column_of(const ProbeQuantity& quantity, std::string_view label) {
-  std::string unit(quantity.unit);
-  std::erase_if(unit, [](char letter) { return letter == ' ' || letter == '^'; });
-  return fmt::format("{}{}{}", label, unit.empty() ? "" : "_", unit);
-}
-
 /// One line a frame under a line of names: "time_s,tip.position.x_m,...,end.torque.z_Nm".
 std::string probes_csv(const Recording& recording) {
   std::string text = recording.progress_name;
   for (const ProbeTrack& track : recording.probes) {
-    for (const ProbeQuantity& quantity : kProbeQuantities) {
-      if (!quantity.is_of(track.kind)) continue;
-      for (std::size_t number = 0; number < quantity.size(); ++number) {
-        text += fmt::format(",{}.{}", track.name, column_of(quantity, quantity.label(number)));
-      }
-    }
+    each_column(track.kind, [&](const ProbeQuantity& quantity, std::size_t number) {
+      text += fmt::format(",{}.{}", track.name, column_name(quantity.label(number), quantity.unit));
+    });
   }
   text += "\n";
   for (std::size_t frame = 0; frame < recording.progress.size(); ++frame) {
     text += fmt::format("{}", recording.progress[frame]);
     for (const ProbeTrack& track : recording.probes) {
-      for (const ProbeQuantity& quantity : kProbeQuantities) {
-        if (!quantity.is_of(track.kind)) continue;
-        text += fmt::format(",{}", fmt::join(quantity.of(track.samples[frame]), ","));
-      }
+      each_column(track.kind, [&](const ProbeQuantity& quantity, std::size_t number) {
+        text += fmt::format(",{}", quantity.of(track.samples[frame])[number]);
+      });
     }
     text += "\n";
   }
@@ -170,7 +160,7 @@ Json probes_json(const Recording& recording) {
     Json& json = tracks.emplace_back(Json{{"name", track.name}});
     for (const ProbeQuantity& quantity : kProbeQuantities) {
       if (!quantity.is_of(track.kind)) continue;
-      Json& values = json[column_of(quantity, quantity.name)] = Json::array();
+      Json& values = json[column_name(quantity.name, quantity.unit)] = Json::array();
       for (const ProbeSample& sample : track.samples) {
         const std::span<const double> numbers = quantity.of(sample);
         values.push_back(numbers.size() == 1 ? Json(numbers[0]) : Json(std::vector(numbers.begin(), numbers.end())));

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <nlohmann/json.hpp>
 
@@ -7,6 +6,9 @@
 #include "app/commands/options.h"
 #include "app/scene/cached_film.h"
 #include "app/scene/scene_file.h"
+#include "app/sweep/sweep_plot.h"
+#include "app/sweep/sweep_table.h"
+#include "app/sweep/swept_values.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/simulation/run_cache.h"
@@ -23,6 +25,8 @@ struct SweepOptions {
   OutputOptions outputs;
   SettingOptions keys;
   bool table = false;
+  std::string plot;  // "tip.displacement.y"
+  std::string against;
   bool overwrite = false;
 };
 
@@ -80,94 +84,51 @@ void write_runs(const SweepOptions& options, const Console& console) {
   fmt::print("{}\n", (fs::path(options.outputs.names.front()) / "commands").string());
 }
 
-void print_header(const CacheHeader& header) {
-  fmt::print("run,frames,seconds,{},state_hash", header.progress_name);
-  for (const Probe& probe : cached_film(header).probes) {
-    for (const ProbeQuantity& quantity : kProbeQuantities) {
-      if (!quantity.is_of(probe.kind())) continue;
-      for (std::size_t number = 0; number < quantity.size(); ++number) {
-        fmt::print(",{}.{}", probe.name, quantity.label(number));
-      }
+void write_plot(const SweepOptions& options, const Console& console) {
+  for (const std::string& file : options.outputs.names) {
+    const std::string ending = lower_extension(file);
+    if (ending != ".svg" && ending != ".html") {
+      throw Error(ErrorKind::kUsage, fmt::format("--output {}: a plot is written as .svg or .html", file));
     }
+    refuse_existing(file, options.overwrite);
   }
-  fmt::print("\n");
-}
-
-void print_row(const std::string& run, const CacheReader& cache) {
-  const CachedFrame last = cache.frame(cache.frame_count() - 1);
-  double seconds = 0;
-  for (std::size_t frame = 0; frame < cache.frame_count(); ++frame) seconds += cache.frame(frame).seconds;
-  fmt::print("{},{},{:.3f},{},{:016x}", run, cache.frame_count(), seconds, last.progress, last.state_hash);
-  const std::vector<Probe> probes = cached_film(cache.header()).probes;
-  for (std::size_t probe = 0; probe < probes.size(); ++probe) {
-    const ProbeSample sample = sample_of(last, probe);
-    for (const ProbeQuantity& quantity : kProbeQuantities) {
-      if (quantity.is_of(probes[probe].kind())) fmt::print(",{}", fmt::join(quantity.of(sample), ","));
-    }
+  const SweepTable table = read_sweep_table(options.input, console);
+  const Figure figure = sweep_figure(table, options.plot, options.against);
+  for (const std::string& file : options.outputs.names) {
+    make_folder(fs::path(file).parent_path());
+    write_file(file, lower_extension(file) == ".svg" ? svg_text(figure) : sweep_page(table, figure));
   }
-  fmt::print("\n");
-}
-
-void print_table(const SweepOptions& options, const Console& console) {
-  const fs::path folder = options.input;
-  if (!fs::exists(folder / "runs.json")) {
-    throw Error(ErrorKind::kBadInput,
-                fmt::format("'{}' is not the folder of a sweep: it has no runs.json", options.input));
-  }
-  bool has_header = false;
-  for (std::size_t run = 0; fs::exists(folder / name_of_run(run) / "scene.toml"); ++run) {
-    const std::string name = name_of_run(run);
-    const fs::path file = folder / name / "run.h5";
-    if (!fs::exists(file)) {
-      console.warn(fmt::format("run {} is not begun", name));
-      continue;
-    }
-    const CacheReader cache(file);
-    const Film film = cached_film(cache.header());
-    const int planned = frame_count(film);
-    if (int(cache.frame_count()) < planned && !film.until_still) {
-      console.warn(fmt::format("run {} has {} of its {} frames", name, cache.frame_count(), planned));
-    }
-    if (!has_header) print_header(cache.header());
-    has_header = true;
-    print_row(name, cache);
-  }
+  options.outputs.print();
 }
 
 }  // namespace
-
-std::vector<std::string> values_in(std::string_view text) {
-  std::vector<std::string> values(1);
-  int depth = 0;
-  for (const char letter : text) {
-    if (letter == '[' || letter == '{') ++depth;
-    if (letter == ']' || letter == '}') --depth;
-    if (letter == ',' && depth == 0) {
-      values.emplace_back();
-    } else {
-      values.back() += letter;
-    }
-  }
-  return values;
-}
 
 void add_sweep(CLI::App& app, Invocation& invocation) {
   CLI::App* command =
       app.add_subcommand("sweep", "a scene and lists of values in, a folder and a command for each run out");
   const auto options = std::make_shared<SweepOptions>();
   command->add_option("INPUT", options->input, "a mesh file, a scene (.toml), or with --table the folder of a sweep");
-  options->outputs.add_to(*command, "the folder for all runs", "FOLDER");
-  options->keys.add_set(*command, "values of any key of a scene, by commas", "KEY=A,B,C");
+  options->outputs.add_to(*command, "the folder for all runs; of a plot .svg or .html", "OUT");
+  options->keys.add_set(*command, "values of any key of a scene, by commas, or FIRST:LAST:STEP", "KEY=A,B,C");
   command->add_flag("--table", options->table, "the last measurements of the probes of all runs, as CSV");
-  command->add_flag("--overwrite", options->overwrite, "replace the list of commands that exists");
+  CLI::Option* plot =
+      command
+          ->add_option("--plot", options->plot, "one of these measurements over a swept key, as -o plot.svg or .html")
+          ->option_text("PROBE.QUANTITY");
+  command->add_option("--against", options->against, "that key; default: the first")->option_text("KEY")->needs(plot);
+  command->add_flag("--overwrite", options->overwrite, "replace the list of commands, or the plot, that exists");
   add_messages(*command, invocation.console);
   command->footer(
       "Examples:\n  sprung sweep scene.toml --set body.material=gelatin,rubber -o runs\n  sh runs/commands\n"
-      "  sprung sweep runs --table");
+      "  sprung sweep runs --table\n  sprung sweep runs --plot tip.displacement.y -o plot.svg");
   command->callback([options, command, &invocation] {
     require_input(*command, options->input, "a mesh or a scene");
-    if (options->table) return print_table(*options, invocation.console);
-    options->outputs.require(*command, "-o folder/");
+    if (options->table) {
+      fmt::print("{}", csv_text(read_sweep_table(options->input, invocation.console)));
+      return;
+    }
+    options->outputs.require(*command, options->plot.empty() ? "-o folder/" : "-o plot.svg");
+    if (!options->plot.empty()) return write_plot(*options, invocation.console);
     write_runs(*options, invocation.console);
   });
 }

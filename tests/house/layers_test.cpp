@@ -44,6 +44,7 @@ const std::vector<std::string> kFolders{
     "app/scene",
     "app/validate",
     "app/film",
+    "app/sweep",
     "app/export",
     "app/load",
     "app/inspect",

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "app/commands/commands.h"
+#include "app/sweep/swept_values.h"
+#include "core/error.h"
 #include "tests/support/json_number.h"
 #include "tests/support/run_program.h"
 
@@ -56,12 +57,14 @@ TEST(Sweep, RunsEveryCombinationAndGathersTheirProbes) {
   ASSERT_EQ(std::system(line.c_str()), 0);
   const ProgramRun table = run_program(folder, "sweep s --table");
   EXPECT_EQ(table.exit_code, 0) << table.err;
-  EXPECT_EQ(table.out.rfind("run,frames,seconds,time_s,state_hash,middle.position.x", 0), 0U) << table.out;
+  EXPECT_EQ(table.out.rfind("run,body.material,gravity_m/s2,frames,seconds,time_s,state_hash,middle.position.x_m,", 0),
+            0U)
+      << table.out;
   EXPECT_EQ(std::count(table.out.begin(), table.out.end(), '\n'), 5);
   double seconds = 0;
   double time = 0;
   const std::string second = table.out.substr(table.out.find("\n002,"));
-  ASSERT_EQ(std::sscanf(second.c_str(), "\n002,4,%lf,%lf,", &seconds, &time), 2) << table.out;
+  ASSERT_EQ(std::sscanf(second.c_str(), "\n002,gelatin,\"[0,0,0]\",4,%lf,%lf,", &seconds, &time), 2) << table.out;
   EXPECT_GT(seconds, 0);
   EXPECT_EQ(time, 0.3);
   EXPECT_EQ(table.out, text_of(folder.path() / "s/table.csv"));
@@ -80,6 +83,46 @@ TEST(Sweep, CommasInBracketsDoNotDivide) {
   EXPECT_EQ(values_in("a,b"), (std::vector<std::string>{"a", "b"}));
   EXPECT_EQ(values_in("[0,1,2],[3,4,5]"), (std::vector<std::string>{"[0,1,2]", "[3,4,5]"}));
   EXPECT_EQ(values_in("7"), std::vector<std::string>{"7"});
+}
+
+TEST(Sweep, RangesStandForTheirValues) {
+  EXPECT_EQ(values_in("10:40:10"), (std::vector<std::string>{"10", "20", "30", "40"}));
+  EXPECT_EQ(values_in("5kPa,0.1kPa:0.3kPa:0.1kPa"), (std::vector<std::string>{"5kPa", "0.1kPa", "0.2kPa", "0.3kPa"}));
+  EXPECT_EQ(values_in("3:1:-1"), (std::vector<std::string>{"3", "2", "1"}));
+  EXPECT_EQ(values_in("a:b:c"), std::vector<std::string>{"a:b:c"});
+  EXPECT_EQ(values_in("1kPa:2Pa:1kPa"),
+            std::vector<std::string>{"1kPa:2Pa:1kPa"});  // no value of any key: refused there
+  for (const char* endless : {"1:3:0", "1:3:-1", "0:1:1e-9"}) EXPECT_THROW(values_in(endless), Error) << endless;
+}
+
+TEST(Sweep, PlotsAMeasurementOverAKey) {
+  const TempFolder folder;
+  static_cast<void>(folder.write("scene.toml", kScene));
+  ASSERT_EQ(
+      run_program(folder, "sweep scene.toml --set body.material.young=10kPa:30kPa:10kPa --set body.bricks=2,3 -o s")
+          .exit_code,
+      0);
+  const std::string path = std::filesystem::path(SPRUNG_PROGRAM).parent_path().string();
+  const std::string line = "PATH=" + path + ":$PATH sh " + (folder.path() / "s/commands").string() + " >/dev/null 2>&1";
+  ASSERT_EQ(std::system(line.c_str()), 0);
+  const std::string table = run_program(folder, "sweep s --table").out;
+  EXPECT_EQ(table.rfind("run,body.material.young_Pa,body.bricks,frames,", 0), 0U) << table;
+  EXPECT_NE(table.find("\n003,20000,2,4,"), std::string::npos) << table;
+  const ProgramRun plot = run_program(folder, "sweep s --plot middle.position.y -o p/plot.svg -o p/plot.html");
+  EXPECT_EQ(plot.exit_code, 0) << plot.err;
+  for (const char* file : {"p/plot.svg", "p/plot.html"}) {
+    const std::string text = text_of(folder.path() / file);
+    for (const char* words :
+         {"middle.position.y (m)", "body.material.young (Pa)", "body.bricks = 2", "body.bricks = 3"}) {
+      EXPECT_NE(text.find(words), std::string::npos) << file << ": " << words;
+    }
+  }
+  EXPECT_EQ(run_program(folder, "sweep s --plot middle.position.y --against body.bricks -o q.svg").exit_code, 0);
+  EXPECT_NE(text_of(folder.path() / "q.svg").find("body.material.young = 30000 Pa"), std::string::npos);
+  const ProgramRun unknown = run_program(folder, "sweep s --plot midle.position.y -o r.svg");
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_NE(unknown.err.find("middle.position.y"), std::string::npos) << unknown.err;
+  EXPECT_EQ(run_program(folder, "sweep s --plot middle.position.y -o r.png").exit_code, 2);
 }
 
 }  // namespace
