@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <algorithm>
 #include <array>
 
 #include "render/shaders.h"
@@ -9,6 +10,8 @@
 namespace sprung {
 
 namespace {
+
+constexpr int kSamplesAside = 4;  // of a pixel, for what covers it
 
 using FloatPixels = std::vector<Eigen::Vector4f>;
 
@@ -66,6 +69,47 @@ void set(Passes& passes, std::size_t pixel, const Sight& sight, const PassViews&
   }
 }
 
+/// Whether a line of sight meets the ground, by pixel.
+std::vector<char> meets_ground(const View& view, int width, int height) {
+  std::vector<char> meets(std::size_t(width) * std::size_t(height), 0);
+  if (!view.frame.has_ground) return meets;
+  const Eigen::Matrix4d stage_from_clip = view.clip_from_stage.inverse();
+  for (std::size_t pixel = 0; pixel < meets.size(); ++pixel) {
+    const auto x = double(pixel % std::size_t(width));
+    const std::size_t row = pixel / std::size_t(width);
+    const auto y = double(row);
+    const Line line = line_of_sight(stage_from_clip, (2 * x + 1) / width - 1, (2 * y + 1) / height - 1);
+    meets[pixel] = line.from.y() > view.frame.ground_height && line.way.y() < 0;
+  }
+  return meets;
+}
+
+/// With the picture shifted by parts of a pixel.
+View shifted(View view, double right, double down, int width, int height) {
+  Eigen::Matrix4d shift = Eigen::Matrix4d::Identity();
+  shift(0, 3) = 2 * right / width;
+  shift(1, 3) = 2 * down / height;
+  view.clip_from_stage = shift * view.clip_from_stage;
+  return view;
+}
+
+/// How many samples of a pixel see what.
+struct Tally {
+  struct Entry {
+    int id = -1;
+    int samples = 0;
+  };
+  std::array<Entry, Passes::kRanks> entries{};
+
+  void add(int id) {
+    for (Entry& entry : entries) {
+      if (entry.samples > 0 && entry.id != id) continue;
+      entry = {id, entry.samples + 1};
+      return;
+    }
+  }
+};
+
 }  // namespace
 
 PassDrawer::PassDrawer(const GlFunctions& gl, int width, int height)
@@ -87,6 +131,7 @@ Passes PassDrawer::draw(const std::vector<SkinBuffers>& skins, const std::vector
   draw_skins(skins, ids, views.now);
   Passes passes(width_, height_);
   read(views, passes);
+  find_coverage(skins, ids, views.now, passes);
   return passes;
 }
 
@@ -138,6 +183,36 @@ void PassDrawer::read(const PassViews& views, Passes& passes) const {
         sight = {.place = met, .before = met, .after = met, .normal = Vec3::UnitY(), .uv = {0, 0}, .id = 0};
       }
       set(passes, pixel, sight, views);
+    }
+  }
+}
+
+void PassDrawer::find_coverage(const std::vector<SkinBuffers>& skins, const std::vector<int>& ids, const View& view,
+                               Passes& passes) const {
+  const std::vector<char> has_ground = meets_ground(view, width_, height_);
+  const bool is_above = view.frame.has_ground && view.eye.y() > view.frame.ground_height;
+  std::vector<Tally> tallies(passes.depth.size());
+  FloatPixels places(passes.depth.size());
+  for (int sample = 0; sample < kSamplesAside * kSamplesAside; ++sample) {
+    const double right = (sample % kSamplesAside + 0.5) / kSamplesAside - 0.5;
+    const int row = sample / kSamplesAside;
+    const double down = (row + 0.5) / kSamplesAside - 0.5;
+    draw_skins(skins, ids, shifted(view, right, down, width_, height_));
+    gl_.ReadBuffer(GL_COLOR_ATTACHMENT0);
+    gl_.ReadPixels(0, 0, width_, height_, GL_RGBA, GL_FLOAT, places.data());
+    for (std::size_t pixel = 0; pixel < places.size(); ++pixel) {
+      const bool is_skin = places[pixel].w() >= 0 && !(is_above && places[pixel].y() < view.frame.ground_height);
+      if (is_skin || has_ground[pixel] != 0) tallies[pixel].add(is_skin ? int(places[pixel].w()) : 0);
+    }
+  }
+  for (std::size_t pixel = 0; pixel < tallies.size(); ++pixel) {
+    auto& entries = tallies[pixel].entries;
+    std::sort(entries.begin(), entries.end(), [](const Tally::Entry& a, const Tally::Entry& b) {
+      return a.samples != b.samples ? a.samples > b.samples : a.id < b.id;
+    });
+    for (std::size_t rank = 0; rank < Passes::kRanks; ++rank) {
+      passes.matte[rank][pixel] = float(entries[rank].id);
+      passes.coverage[rank][pixel] = float(entries[rank].samples) / (kSamplesAside * kSamplesAside);
     }
   }
 }

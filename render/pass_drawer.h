@@ -29,6 +29,8 @@ class PassDrawer {
 
   void draw_skins(const std::vector<SkinBuffers>& skins, const std::vector<int>& ids, const View& view) const;
   void read(const PassViews& views, Passes& passes) const;
+  void find_coverage(const std::vector<SkinBuffers>& skins, const std::vector<int>& ids, const View& view,
+                     Passes& passes) const;
 
   const GlFunctions& gl_;
   int width_;

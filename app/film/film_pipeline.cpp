@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "app/film/labels.h"
+#include "app/film/matte_names.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/io/decode_image.h"
@@ -171,8 +172,10 @@ Passes FilmPipeline::passes(std::size_t frame, const Moments& moments) {
   const std::size_t after = std::min(frame + 1, frames() - 1);
   const std::vector<SkinShape> shapes_before = panel.stage.shapes(panel.frame(before), 0);
   const std::vector<SkinShape> shapes_after = panel.stage.shapes(panel.frame(after), 0);
-  return renderer(panel).draw_passes({moments.front().front(), cameras_[frame]}, {shapes_before, cameras_[before]},
-                                     {shapes_after, cameras_[after]});
+  Passes passes = renderer(panel).draw_passes({moments.front().front(), cameras_[frame]},
+                                              {shapes_before, cameras_[before]}, {shapes_after, cameras_[after]});
+  passes.names = matte_names(panel.scene, panel.run.simulation);
+  return passes;
 }
 
 Image FilmPipeline::sheet(const std::vector<Image>& pictures) const {

@@ -2,6 +2,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -52,6 +53,13 @@ struct Passes {
   /// first two), and from where it will be one frame later to here, as Cycles has it. 0 for the background.
   std::array<Plane, 4> motion;
 
+  /// Stage::ids of what covers most of the pixel, of what covers the next largest part, and so on, 0 being the ground;
+  /// and these parts, of 1. Behind them -1 and 0.
+  static constexpr std::size_t kRanks = 6;
+  std::array<Plane, kRanks> matte;
+  std::array<Plane, kRanks> coverage;
+  std::vector<std::string> names;  // by id, each once
+
   static constexpr float kNothing = 1e10F;
 
   Passes() = default;
@@ -63,6 +71,8 @@ struct Passes {
     id.assign(size, 0);
     uv.fill(Plane(size, 0));
     motion.fill(Plane(size, 0));
+    matte.fill(Plane(size, -1));
+    coverage.fill(Plane(size, 0));
   }
 };
 

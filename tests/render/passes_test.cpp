@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "render/image/cryptomatte.h"
 #include "render/image/exr.h"
 #include "tests/support/error_message.h"
 #include "tests/support/still_life.h"
@@ -131,6 +132,45 @@ TEST(Passes, SayHowFarEverythingMovesInThePicture) {
   for (const int pixels : count) EXPECT_GT(pixels, 100);
 }
 
+TEST(Passes, SayHowMuchOfEveryPixelIsWhose) {
+  const Camera camera = camera_at(kMiddle + Vec3(0.3, 0.35, 0.6));
+  const Passes passes = passes_of(two_balls(), camera);
+  double ball = 0;  // pixels
+  int mixed = 0;
+  for (std::size_t i = 0; i < passes.id.size(); ++i) {
+    float sum = 0;
+    for (std::size_t rank = 0; rank < Passes::kRanks; ++rank) {
+      sum += passes.coverage[rank][i];
+      EXPECT_EQ(passes.matte[rank][i] >= 0, passes.coverage[rank][i] > 0);
+      const std::size_t before = rank == 0 ? 0 : rank - 1;
+      EXPECT_LE(passes.coverage[rank][i], passes.coverage[before][i]);
+      if (passes.matte[rank][i] == 1) ball += passes.coverage[rank][i];
+    }
+    EXPECT_EQ(sum, 1);  // ground everywhere
+    if (passes.coverage[0][i] == 1) {
+      EXPECT_EQ(passes.matte[0][i], passes.id[i]);
+    }
+    mixed += passes.coverage[0][i] < 1 ? 1 : 0;
+  }
+  EXPECT_GT(mixed, 20);
+  // The outline of a ball in the middle of the picture is a circle.
+  const double away = (camera.eye - kMiddle).norm();
+  const double tangent = kRadius / std::sqrt(away * away - kRadius * kRadius);
+  const double radius = 0.5 * 91 * tangent / std::tan(camera.vertical_field_of_view * std::numbers::pi / 360);
+  EXPECT_NEAR(ball, std::numbers::pi * radius * radius, 0.01 * ball);
+}
+
+TEST(Cryptomatte, HashesAsItsSpecificationSays) {
+  EXPECT_EQ(murmur_hash(""), 0U);
+  EXPECT_EQ(murmur_hash("hello"), 0x248bfa47U);
+  EXPECT_EQ(murmur_hash("hello, world"), 0x149bbb7fU);
+  EXPECT_EQ(murmur_hash("The quick brown fox jumps over the lazy dog"), 0x2e4ff723U);
+  EXPECT_TRUE(std::isnormal(matte_number("")));  // whose hash is the float 0
+  const std::vector<std::string> names{"ground", "a \"ball\" \\ 2", "\u00f6l"};
+  const auto metadata = matte_metadata(names);
+  EXPECT_EQ(names_in_manifest(metadata.back().second), names) << metadata.back().second;
+}
+
 TEST(Passes, AreTheSameInMillimetresAndKilometres) {
   const Passes small = passes_of(two_balls().scaled(1e-3), [] {
     Camera camera = camera_at(kMiddle + Vec3(0.1, 0.2, 0.4));
@@ -160,12 +200,15 @@ TEST(Exr, ReadsBackWhatWasWritten) {
     passes.depth[i] = 0.1F * number;
     passes.id[i] = number;
     for (std::size_t k = 0; k < 4; ++k) passes.motion[k][i] = number + 7 * float(k);
+    passes.matte[1][i] = float(i % 3) - 1;
+    passes.coverage[1][i] = 0.25F * float(i % 3);
     for (std::size_t k = 0; k < 2; ++k) passes.uv[k][i] = 0.3F * number + float(k);
     for (std::size_t k = 0; k < 3; ++k) {
       passes.normal[k][i] = number - float(k);
       passes.position[k][i] = 1e-3F * number + float(k);
     }
   }
+  passes.names = {"ground", "ball"};
   write_exr(passes, folder.path() / "p.exr");
   const Passes back = read_exr(folder.path() / "p.exr");
   EXPECT_EQ(back.width, 5);
@@ -176,6 +219,9 @@ TEST(Exr, ReadsBackWhatWasWritten) {
   EXPECT_EQ(back.position, passes.position);
   EXPECT_EQ(back.uv, passes.uv);
   EXPECT_EQ(back.motion, passes.motion);
+  EXPECT_EQ(back.names, passes.names);
+  EXPECT_EQ(back.matte, passes.matte);
+  EXPECT_EQ(back.coverage, passes.coverage);
 }
 
 TEST(Exr, SaysWhatIsWrong) {
