@@ -49,10 +49,10 @@ RawOptions in_video_colors(const Container& container, const FilmWriter::Format&
   if (container.needs_even_sides && right + bottom > 0) {
     filter = fmt::format("pad=ceil(iw/2)*2:ceil(ih/2)*2,fillborders=right={}:bottom={}:mode=smear,", right, bottom);
   }
+  // Some encoders read the colours of the frames, others the options below.
   filter += fmt::format(
       "scale=out_color_matrix=bt709:out_range=tv:flags=bicubic+accurate_rnd+full_chroma_int,format={},"
-      "setparams=range=tv:color_primaries=bt709:color_trc=bt709:colorspace=bt709",  // some encoders read the frames'
-                                                                                    // tags
+      "setparams=range=tv:color_primaries=bt709:color_trc=bt709:colorspace=bt709",
       pixels);
   return {"-vf",   filter,       "-pix_fmt", std::string(pixels), "-colorspace", "bt709", "-color_primaries",
           "bt709", "-color_trc", "bt709",    "-color_range",      "tv"};

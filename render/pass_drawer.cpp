@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "render/shaders.h"
 
@@ -69,20 +70,34 @@ void set(Passes& passes, std::size_t pixel, const Sight& sight, const PassViews&
   }
 }
 
-/// Whether a line of sight meets the ground, by pixel.
-std::vector<char> meets_ground(const View& view, int width, int height) {
-  std::vector<char> meets(std::size_t(width) * std::size_t(height), 0);
-  if (!view.frame.has_ground) return meets;
-  const Eigen::Matrix4d stage_from_clip = view.clip_from_stage.inverse();
-  for (std::size_t pixel = 0; pixel < meets.size(); ++pixel) {
-    const auto x = double(pixel % std::size_t(width));
-    const std::size_t row = pixel / std::size_t(width);
-    const auto y = double(row);
-    const Line line = line_of_sight(stage_from_clip, (2 * x + 1) / width - 1, (2 * y + 1) / height - 1);
-    meets[pixel] = line.from.y() > view.frame.ground_height && line.way.y() < 0;
+/// Where the lines of sight through pixels' centres meet the ground, in stage space.
+class GroundSight {
+ public:
+  GroundSight(const View& view, int width, int height)
+      : frame_(view.frame),
+        stage_from_clip_(view.clip_from_stage.inverse()),
+        is_above_(view.frame.has_ground && view.eye.y() > view.frame.ground_height),
+        width_(width),
+        height_(height) {}
+
+  /// Whether the ground is before a skin that is seen at this height.
+  [[nodiscard]] bool hides(double y) const { return is_above_ && y < frame_.ground_height; }
+  [[nodiscard]] std::optional<Vec3> place(std::size_t pixel) const {
+    if (!frame_.has_ground) return std::nullopt;
+    const auto x = int(pixel % std::size_t(width_));
+    const auto y = int(pixel / std::size_t(width_));
+    const Line line = line_of_sight(stage_from_clip_, (2 * x + 1.0) / width_ - 1, (2 * y + 1.0) / height_ - 1);
+    if (!(line.from.y() > frame_.ground_height && line.way.y() < 0)) return std::nullopt;
+    return line.from + line.way * ((frame_.ground_height - line.from.y()) / line.way.y());
   }
-  return meets;
-}
+
+ private:
+  const DrawFrame& frame_;
+  Eigen::Matrix4d stage_from_clip_;
+  bool is_above_;
+  int width_;
+  int height_;
+};
 
 /// With the picture shifted by parts of a pixel.
 View shifted(View view, double right, double down, int width, int height) {
@@ -162,35 +177,31 @@ void PassDrawer::read(const PassViews& views, Passes& passes) const {
     gl_.ReadBuffer(GL_COLOR_ATTACHMENT0 + GLenum(i));
     gl_.ReadPixels(0, 0, width_, height_, GL_RGBA, GL_FLOAT, numbers[i].data());
   }
-  const View& view = views.now;
-  const Eigen::Matrix4d stage_from_clip = view.clip_from_stage.inverse();
-  const double ground = view.frame.ground_height;
-  for (int y = 0; y < height_; ++y) {
-    for (int x = 0; x < width_; ++x) {
-      const auto pixel = std::size_t(y) * std::size_t(width_) + std::size_t(x);
-      const auto place = [&](std::size_t texture) -> Vec3 { return numbers[texture][pixel].head<3>().cast<double>(); };
-      Sight sight{.place = place(0),
-                  .before = place(2),
-                  .after = place(3),
-                  .normal = place(1).normalized(),
-                  .uv = {numbers[1][pixel].w(), numbers[2][pixel].w()},
-                  .id = numbers[0][pixel].w()};
-      if (sight.id < 0 || (view.frame.has_ground && sight.place.y() < ground && view.eye.y() > ground)) {
-        const Line line = line_of_sight(stage_from_clip, (2 * x + 1.0) / width_ - 1, (2 * y + 1.0) / height_ - 1);
-        const bool meets_ground = view.frame.has_ground && line.from.y() > ground && line.way.y() < 0;
-        if (!meets_ground) continue;
-        const Vec3 met = line.from + line.way * ((ground - line.from.y()) / line.way.y());
-        sight = {.place = met, .before = met, .after = met, .normal = Vec3::UnitY(), .uv = {0, 0}, .id = 0};
-      }
-      set(passes, pixel, sight, views);
+  const GroundSight ground(views.now, width_, height_);
+  for (std::size_t pixel = 0; pixel < passes.depth.size(); ++pixel) {
+    const auto place = [&](std::size_t texture) -> Vec3 { return numbers[texture][pixel].head<3>().cast<double>(); };
+    Sight sight{.place = place(0),
+                .before = place(2),
+                .after = place(3),
+                .normal = place(1).normalized(),
+                .uv = {numbers[1][pixel].w(), numbers[2][pixel].w()},
+                .id = numbers[0][pixel].w()};
+    if (sight.id < 0 || ground.hides(sight.place.y())) {
+      const std::optional<Vec3> met = ground.place(pixel);
+      if (!met) continue;
+      sight = {.place = *met, .before = *met, .after = *met, .normal = Vec3::UnitY(), .uv = {0, 0}, .id = 0};
     }
+    set(passes, pixel, sight, views);
   }
 }
 
 void PassDrawer::find_coverage(const std::vector<SkinBuffers>& skins, const std::vector<int>& ids, const View& view,
                                Passes& passes) const {
-  const std::vector<char> has_ground = meets_ground(view, width_, height_);
-  const bool is_above = view.frame.has_ground && view.eye.y() > view.frame.ground_height;
+  const GroundSight ground(view, width_, height_);
+  std::vector<char> meets_ground;
+  for (std::size_t pixel = 0; pixel < passes.depth.size(); ++pixel) {
+    meets_ground.push_back(ground.place(pixel).has_value());
+  }
   std::vector<Tally> tallies(passes.depth.size());
   FloatPixels places(passes.depth.size());
   for (int sample = 0; sample < kSamplesAside * kSamplesAside; ++sample) {
@@ -201,8 +212,8 @@ void PassDrawer::find_coverage(const std::vector<SkinBuffers>& skins, const std:
     gl_.ReadBuffer(GL_COLOR_ATTACHMENT0);
     gl_.ReadPixels(0, 0, width_, height_, GL_RGBA, GL_FLOAT, places.data());
     for (std::size_t pixel = 0; pixel < places.size(); ++pixel) {
-      const bool is_skin = places[pixel].w() >= 0 && !(is_above && places[pixel].y() < view.frame.ground_height);
-      if (is_skin || has_ground[pixel] != 0) tallies[pixel].add(is_skin ? int(places[pixel].w()) : 0);
+      const bool is_skin = places[pixel].w() >= 0 && !ground.hides(places[pixel].y());
+      if (is_skin || meets_ground[pixel] != 0) tallies[pixel].add(is_skin ? int(places[pixel].w()) : 0);
     }
   }
   for (std::size_t pixel = 0; pixel < tallies.size(); ++pixel) {

@@ -34,10 +34,13 @@ void note_padding(const std::vector<Output>& outputs, const SceneRender& render,
   }
 }
 
-std::filesystem::path picture_of_diverged(const Output& output) {
-  if (!output.is_numbered()) return std::filesystem::path(output.file).replace_extension("diverged.png");
-  return output.folder / "diverged.png";
+/// "film.NAME" beside a film or a single picture, "NAME" in a folder, or here.
+std::filesystem::path beside(const Output& output, const char* name) {
+  if (output.file.empty()) return output.folder / name;
+  return std::filesystem::path(output.file).replace_extension(name);
 }
+
+std::filesystem::path picture_of_diverged(const Output& output) { return beside(output, "diverged.png"); }
 
 /// The film without what comes after a frame, where that does not change what comes before.
 Film up_to(Film film, int frame) {
@@ -67,10 +70,7 @@ struct AnimateOptions {
 };
 
 /// Where a long motion is kept until its film is whole.
-std::filesystem::path motion_file(const Output& output) {
-  if (!output.is_numbered()) return std::filesystem::path(output.file).replace_extension("unfinished.h5");
-  return output.folder / "unfinished.h5";
-}
+std::filesystem::path motion_file(const Output& output) { return beside(output, "unfinished.h5"); }
 
 /// Whether the file holds a motion of that scene by this program, or a part of it.
 bool holds_motion(const std::filesystem::path& file, const Film& scene, const SceneRecord& record) {

@@ -166,7 +166,8 @@ void OutputOptions::add_to(CLI::App& command, const std::string& help, const cha
 }
 
 void OutputOptions::print() const {
-  if (std::any_of(names.begin(), names.end(), [](const std::string& name) { return name.starts_with("-"); })) return;
+  const auto is_stream = [](const std::string& name) { return name == "-" || name.starts_with("-."); };
+  if (std::any_of(names.begin(), names.end(), is_stream)) return;
   for (const std::string& name : names) fmt::print("{}\n", name);
 }
 

@@ -31,15 +31,9 @@ constexpr std::array<std::string_view, 7> kEndings{".mp4", ".webm", ".mov", ".gi
   throw Error(ErrorKind::kUsage, fmt::format("--output {}: {}; {}", words, reason, kExamples));
 }
 
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  return text;
-}
-
 /// Of files with that ending; none where these hold no pictures.
 std::optional<Output::Kind> kind_of(const std::string& name) {
-  const std::string ending = lower(fs::path(name).extension().string());
+  const std::string ending = lower_extension(name);
   if (ending == ".png") return Output::Kind::kPictures;
   if (ending == ".exr") return Output::Kind::kPasses;
   return std::nullopt;
@@ -97,7 +91,7 @@ fs::path Output::picture(int number) const {
 
 void check_folder_name(std::string_view words, std::span<const std::string_view> endings, std::string_view examples) {
   const fs::path path(words);
-  const std::string ending = lower(path.extension().string());
+  const std::string ending = lower_extension(path);
   if (ending.empty() || words.ends_with('/') || fs::is_directory(path)) return;
   throw Error(ErrorKind::kUsage,
               fmt::format("--output {0}: '{1}' files cannot be written{2} (a folder of that name: {0}/); {3}", words,
@@ -192,6 +186,18 @@ void check_output(const Output& output, bool overwrite) {
 namespace {
 
 constexpr std::size_t kMostWaiting = 4;
+
+}  // namespace
+
+/// How pictures that follow each other in one place are written there.
+class SequenceWriter {
+ public:
+  virtual ~SequenceWriter() = default;
+  virtual void write(const Image& image) = 0;
+  virtual void close() = 0;
+};
+
+namespace {
 
 /// A film, through ffmpeg.
 class EncodedSequence : public SequenceWriter {

@@ -68,13 +68,7 @@ struct Drawing {
   std::optional<Passes> passes{};  // for Output::Kind::kPasses
 };
 
-/// How pictures that follow each other in one place are written there.
-class SequenceWriter {
- public:
-  virtual ~SequenceWriter() = default;
-  virtual void write(const Image& image) = 0;
-  virtual void close() = 0;
-};
+class SequenceWriter;
 
 /// Encodes pictures in a thread of its own while others are drawn. Every output gets all pictures in order.
 class PictureWriter {
