@@ -1,6 +1,5 @@
 #pragma once
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -27,7 +26,7 @@ struct AnimatedMesh {
 /// be thinned out.
 inline constexpr std::size_t kMostTargets = 250;
 
-enum class GlbPrecision { kFloat, kQuantized };  // kQuantized: half the bytes, see add_quantized()
+enum class GlbPrecision { kFloat, kQuantized };  // kQuantized: half the bytes, see add_quantized() in glb_buffer.h
 
 /// One glTF 2 file (.glb): each mesh in its first frame, one morph target (positions and normals) per later frame, and
 /// an animation of their weights, linear between frames. (assimp drops such animations.)
@@ -39,51 +38,12 @@ double write_animated_glb(const std::vector<AnimatedMesh>& meshes, const std::ve
 /// The bytes of a .glb with a single frame.
 [[nodiscard]] std::string static_glb(const std::vector<PosedMesh>& meshes);
 
-using Shorts3 = Eigen::Matrix<std::int16_t, Eigen::Dynamic, 3, Eigen::RowMajor>;
-using Bytes3 = Eigen::Matrix<std::int8_t, Eigen::Dynamic, 3, Eigen::RowMajor>;
-
-/// The binary buffer of a glTF file with the buffer views and accessors into it.
-class GlbBuffer {
- public:
-  enum class Use { kVertices = 34962, kIndices = 34963, kOther = 0 };
-
-  /// Each returns the index of a new accessor. `with_bounds`: with minimum and maximum.
-  int add_vectors(const Floats3& rows, bool with_bounds);
-  int add_shorts(const Shorts3& rows);  // with bounds
-  int add_bytes(const Bytes3& rows);    // normalized: multiples of 1/127
-  int add_uvs(const Floats2& rows);
-  int add_colors(const Floats4& rows);
-  int add_indices(std::span<const int> indices);
-  int add_scalars(std::span<const float> values, bool with_bounds);
-  /// Returns the index of a new buffer view that holds an encoded image.
-  int add_image(std::span<const std::byte> bytes);
-
-  [[nodiscard]] const std::string& bytes() const { return bytes_; }
-  /// "accessors": [...], "bufferViews": [...], "buffers": [...]
-  [[nodiscard]] std::string json() const;
-
- private:
-  int add_view(const void* data, std::size_t size, Use use, std::size_t stride = 0);
-  int add_accessor(int view, const char* type, int component, std::size_t count, const std::string& bounds);
-
-  std::string bytes_;
-  std::vector<std::string> views_;
-  std::vector<std::string> accessors_;
-};
-
-/// The vertices of an animation in a buffer: accessors of the first frame, then of the morph targets.
-struct GlbVertices {
-  std::vector<int> positions;
-  std::vector<int> normals;
-  std::string transform;  // ",\"scale\":[...]..." for the node that has the mesh; "": none
-  double error = 0;       // m, largest of a coordinate
-};
-
-[[nodiscard]] GlbVertices add_floats(GlbBuffer& buffer, const AnimatedMesh& mesh);
-
-/// By KHR_mesh_quantization. Positions are multiples of a step, 16 bits, off by at most half of it in every frame.
-/// A normal's target is s n - n_0, which takes n_0 to the direction of n for any s > 0: where that fits into [-1, 1]
-/// with s >= 1/4 at all vertices of a frame, normals have 8 bits and are off by at most 1.6 degrees, else floats.
-[[nodiscard]] GlbVertices add_quantized(GlbBuffer& buffer, const AnimatedMesh& mesh);
+/// One stage of USD in text (.usda, version 1.0): each mesh with time samples of its points and normals, its UVs, its
+/// colours, and for each of its parts a subset of its faces and, unless it has colours, a UsdPreviewSurface; Y up,
+/// metres, textures beside the file. Times (s, ascending) become time codes by `fps`: frame 1 is the one at 0 s. By the
+/// text format of OpenUSD (openusd.org/release/spec_usdpreviewsurface.html and its schemas UsdGeomMesh and
+/// UsdGeomSubset).
+void write_usda(const std::vector<AnimatedMesh>& meshes, std::span<const double> times, double fps,
+                const std::filesystem::path& file);
 
 }  // namespace sprung

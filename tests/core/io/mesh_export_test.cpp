@@ -149,7 +149,7 @@ TEST(AnimatedGlb, HasATargetForEveryLaterFrame) {
   EXPECT_EQ(bytes.size() % 4, 0U);
   EXPECT_NE(bytes.find("\"weights\":[0,0,0]"), std::string::npos);
   EXPECT_NE(bytes.find("\"path\":\"weights\""), std::string::npos);
-  EXPECT_NE(bytes.find("\"min\":[0],\"max\":[1.5]"), std::string::npos);
+  EXPECT_NE(bytes.find("\"min\":[0.0],\"max\":[1.5]"), std::string::npos);
   const SurfaceMesh first = read_mesh(folder.path() / "film.glb");
   EXPECT_EQ(first.positions.rows(), 2 * skin.positions.rows()) << "shared by the two parts";
   EXPECT_LT((corners_of(first.positions, first.triangles) - corners_of(film.first.positions, skin.triangles))

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "core/io/animation.h"
+#include "core/io/glb_buffer.h"
 #include "tests/support/temp_folder.h"
 
 namespace sprung {
@@ -40,10 +41,11 @@ Skin ball_of_points() {
 /// The animation as viewers decode it: rows of its buffer, later ones added to the first.
 class DecodedAnimation {
  public:
-  explicit DecodedAnimation(const AnimatedMesh& film) : vertices_(add_quantized(buffer_, film)), json_(buffer_.json()) {
+  explicit DecodedAnimation(const AnimatedMesh& film) : vertices_(add_quantized(buffer_, film)) {
+    buffer_.describe(document_);
     count_ = film.first.positions.rows();
-    std::sscanf(vertices_.transform.c_str(), ",\"translation\":[%f,%f,%f],\"scale\":[%f,", &origin_[0], &origin_[1],
-                &origin_[2], &scale_);
+    for (int axis = 0; axis < 3; ++axis) origin_[axis] = vertices_.transform["translation"][axis].get<float>();
+    scale_ = vertices_.transform["scale"][0].get<float>();
   }
   [[nodiscard]] double error() const { return vertices_.error; }
   [[nodiscard]] Floats3 positions(std::size_t frame) const {
@@ -53,42 +55,38 @@ class DecodedAnimation {
     return sum(vertices_.normals, frame).rowwise().normalized();
   }
   [[nodiscard]] bool has_float_normals(std::size_t frame) const {
-    return number("componentType", vertices_.normals[frame]) == 5126;
+    return accessor(vertices_.normals[frame])["componentType"] == 5126;
   }
 
  private:
   [[nodiscard]] Floats3 sum(const std::vector<int>& accessors, std::size_t frame) const {
     return frame == 0 ? rows(accessors[0]) : rows(accessors[0]) + rows(accessors[frame]);
   }
-  /// That of the accessor or its view: they are as many, in the same order.
-  [[nodiscard]] int number(const std::string& key, int row) const {
-    std::size_t at = 0;
-    for (int i = 0; i <= row; ++i) at = json_.find("\"" + key + "\":", at) + key.size() + 3;
-    return std::stoi(json_.substr(at));
-  }
+  [[nodiscard]] const GltfJson& accessor(int row) const { return document_["accessors"][row]; }
   template <class Value>
-  [[nodiscard]] Floats3 rows_of(int accessor, Eigen::Index columns, float unit) const {
+  [[nodiscard]] Floats3 rows_of(int row, Eigen::Index columns, float unit) const {
     using Rows = Eigen::Matrix<Value, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
     Rows rows(count_, columns);
     const auto size = std::size_t(rows.size()) * sizeof(Value);
-    EXPECT_EQ(number("byteLength", accessor), int(size));
-    std::memcpy(rows.data(), &buffer_.bytes()[number("byteOffset", accessor)], size);
+    const GltfJson& view = document_["bufferViews"][accessor(row)["bufferView"].get<int>()];
+    EXPECT_EQ(view["byteLength"], size);
+    std::memcpy(rows.data(), &buffer_.bytes()[view["byteOffset"].get<std::size_t>()], size);
     return unit * rows.leftCols(3).template cast<float>();
   }
-  [[nodiscard]] Floats3 rows(int accessor) const {
-    switch (number("componentType", accessor)) {
+  [[nodiscard]] Floats3 rows(int row) const {
+    switch (accessor(row)["componentType"].get<int>()) {
       case 5120:
-        return rows_of<std::int8_t>(accessor, 4, 1 / 127.0F);
+        return rows_of<std::int8_t>(row, 4, 1 / 127.0F);
       case 5122:
-        return rows_of<std::int16_t>(accessor, 4, 1);
+        return rows_of<std::int16_t>(row, 4, 1);
       default:
-        return rows_of<float>(accessor, 3, 1);
+        return rows_of<float>(row, 3, 1);
     }
   }
 
   GlbBuffer buffer_;
   GlbVertices vertices_;
-  std::string json_;
+  GltfJson document_;
   Eigen::Index count_ = 0;
   Eigen::RowVector3f origin_;
   float scale_ = 0;
