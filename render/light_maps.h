@@ -64,6 +64,8 @@ class GroundMaps {
   void draw(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const DrawFrame& frame,
             PassClock& clock) const;
 
+  [[nodiscard]] const GlTexture& sky() const { return sky_.color; }
+  [[nodiscard]] const GlTexture& shadow() const { return shadow_.color; }
   [[nodiscard]] const GlTexture& light() const { return light_.color; }
   [[nodiscard]] const GlTexture& tint() const { return tint_.color; }
   [[nodiscard]] const GlTexture& far_light() const { return far_light_.color; }
@@ -110,7 +112,7 @@ class LightMaps {
             PassClock& clock) const;
   /// Binds the maps from unit `first_unit` on, and sets the uniforms with which a shader reads them.
   void bind(const GlProgram& program, const DrawFrame& frame, int first_unit) const;
-  [[nodiscard]] const GlTexture& ground_tint() const { return ground_.tint(); }
+  [[nodiscard]] const GroundMaps& ground() const { return ground_; }
 
  private:
   void blur_zenith(const DrawFrame& frame) const;

@@ -25,7 +25,7 @@ struct Sight {
   Vec3 before;  // where it is one frame earlier ...
   Vec3 after;   // ... and later
   Vec3 normal;
-  Eigen::Vector2f uv;
+  Eigen::Vector2f uv;  // on skins
   float id;
 };
 
@@ -63,6 +63,7 @@ void set(Passes& passes, std::size_t pixel, const Sight& sight, const PassViews&
   const Eigen::Vector2d now = seen(views.now, sight.place);
   const Eigen::Vector2d from = seen(views.before, sight.before) - now;
   const Eigen::Vector2d to = now - seen(views.after, sight.after);
+  passes.uv[2][pixel] = sight.id > 0 ? 1 : 0;
   for (std::size_t k = 0; k < 2; ++k) {
     passes.uv[k][pixel] = sight.uv[k];
     passes.motion[k][pixel] = float(from[k]);

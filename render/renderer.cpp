@@ -74,9 +74,13 @@ struct Renderer::Device {
   LightMaps maps;
   Screen screen;
   PassClock clock;
-  std::optional<PassDrawer> passes;  // made with the first ones
+  std::optional<Environment> environment;
+  RenderOptions options;
+  std::optional<PassDrawer> passes;  // made with the first ones, as the next two
+  std::optional<Screen> light_screen;
+  std::optional<Screen> share_screen;
 
-  Device(const Stage& stage, const RenderOptions& options)
+  Device(const Stage& stage, const RenderOptions& wanted)
       : gl(context.gl()),
         has_ground(stage.has_ground),
         space(stage.bounds),
@@ -84,9 +88,11 @@ struct Renderer::Device {
         sky_on_ground(stage.environment ? stage.environment->irradiance_on(Eigen::Vector3f::UnitY()) : studio_sky()),
         textures(gl, stage.color_map),
         ids(stage.ids),
-        maps(gl, options),
-        screen(gl, options, stage.environment),
-        clock(gl, options.measure_passes) {
+        maps(gl, wanted),
+        screen(gl, wanted, stage.environment, wanted.exposes ? ScreenOutput::kLight : ScreenOutput::kPicture),
+        clock(gl, wanted.measure_passes),
+        environment(stage.environment),
+        options(wanted) {
     for (std::size_t i = 0; i < stage.skins.size(); ++i) {
       const bool is_ghost = !stage.ghosts.empty() && stage.ghosts[i];
       const Look look = stage.looks.empty() ? Look::kPlastic : stage.looks[i];
@@ -131,11 +137,46 @@ struct Renderer::Device {
     return middle;
   }
 
-  void draw(const View& view, bool with_ghosts) {
-    screen.clear_surfaces();
-    screen.draw_surfaces(skins, textures, view, with_ghosts);
+  void draw(const View& view, bool with_ghosts) { draw(screen, view, with_ghosts); }
+
+  void draw(Screen& target, const View& view, bool with_ghosts) {
+    target.clear_surfaces();
+    target.draw_surfaces(skins, textures, view, with_ghosts);
     clock.stop("surfaces");
-    screen.draw_light(maps, view, clock);
+    target.draw_light(maps, view, clock);
+  }
+
+  /// The light maps must be those of the view.
+  void draw_light_passes(const View& view, Passes& out) {
+    if (!share_screen) make_light_screens();
+    std::vector<Eigen::Vector4f> light;
+    if (light_screen) {
+      draw(*light_screen, view, false);
+      light = light_screen->read_numbers();
+      if (has_ghosts) {
+        draw(*light_screen, view, true);
+        const std::vector<Eigen::Vector4f> ghosts = light_screen->read_numbers();
+        for (std::size_t i = 0; i < light.size(); ++i) light[i] += float(kGhost) * (ghosts[i] - light[i]);
+      }
+    } else {
+      light = screen.read_numbers();
+    }
+    draw(*share_screen, view, false);
+    const std::vector<Eigen::Vector4f> shares = share_screen->read_numbers();
+    for (std::size_t i = 0; i < light.size(); ++i) {
+      for (std::size_t k = 0; k < 4; ++k) out.beauty[k][i] = light[i][Eigen::Index(k)];
+      out.shadow[i] = shares[i].x();
+      out.occlusion[i] = shares[i].y();
+    }
+  }
+
+  /// Pictures with exposures are of light already.
+  void make_light_screens() {
+    RenderOptions single = options;
+    single.exposes = false;
+    if (!options.exposes) light_screen.emplace(gl, single, environment, ScreenOutput::kLight);
+    single.transparent = false;
+    share_screen.emplace(gl, single, environment, ScreenOutput::kShares);
   }
 
   void draw(const Exposure& exposure, const View& view, bool with_ghosts) {
@@ -204,9 +245,12 @@ Passes Renderer::draw_passes(const Moment& now, const Moment& before, const Mome
     device.skins[i].update_motion(before.shapes[i].positions, after.shapes[i].positions);
   }
   const auto seen_by = [&](const Camera& camera) { return make_view(frame, camera, device.screen.aspect()); };
+  const PassViews views{seen_by(now.camera), now.camera, seen_by(before.camera), seen_by(after.camera)};
   if (!device.passes) device.passes.emplace(device.gl, device.screen.width(), device.screen.height());
-  return device.passes->draw(device.skins, device.ids,
-                             {seen_by(now.camera), now.camera, seen_by(before.camera), seen_by(after.camera)});
+  Passes passes = device.passes->draw(device.skins, device.ids, views);
+  device.maps.draw(device.skins, device.textures, frame, device.clock);
+  device.draw_light_passes(views.now, passes);
+  return passes;
 }
 
 const std::vector<PassTime>& Renderer::pass_times() const { return device_->clock.times(); }

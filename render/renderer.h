@@ -78,7 +78,8 @@ class Renderer {
   /// The mean light of some exposures; needs RenderOptions::exposes.
   [[nodiscard]] Image draw(const std::vector<Exposure>& exposures);
 
-  /// What a compositor needs beside the picture of `now`; `before` and `after`: one frame earlier and later.
+  /// What a compositor needs beside the picture of `now`; `before` and `after`: one frame earlier and later. With
+  /// RenderOptions::exposes the beauty is of the exposures drawn last, which should be those of `now`.
   [[nodiscard]] Passes draw_passes(const Moment& now, const Moment& before, const Moment& after);
 
   /// What each pass took, of all pictures so far; empty unless it was to be measured.

@@ -75,11 +75,20 @@ constexpr TextureFormat kCircleFormat{GL_R32F, GL_RED, GL_FLOAT, false, false, G
 constexpr TextureFormat kDepthFormat{GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, false, false,
                                      GL_CLAMP_TO_EDGE};
 
-const TextureFormat& picture_format(const RenderOptions& options) {
-  return options.exposes ? kLightFormat : kColorFormat;
+const TextureFormat& picture_format(ScreenOutput output) {
+  return output == ScreenOutput::kPicture ? kColorFormat : kLightFormat;
 }
 
-const char* exposure_define(const RenderOptions& options) { return options.exposes ? "#define EXPOSURE\n" : ""; }
+const char* output_define(ScreenOutput output) {
+  if (output == ScreenOutput::kPicture) return "";
+  return output == ScreenOutput::kLight ? "#define EXPOSURE\n" : "#define EXPOSURE\n#define SHARES\n";
+}
+
+/// The tint of the floor comes from the light maps if these have what the picture has.
+const char* floor_define(ScreenOutput output, bool exposes) {
+  if (output == ScreenOutput::kShares) return "#define SHARES\n";
+  return output == ScreenOutput::kLight && !exposes ? "#define LIGHT\n" : "";
+}
 
 bool has_floor_in_sight(const View& view) {
   const bool looks_down = view.near > 0 || view.sight_height.z() < -kLevel;  // parallel rays may run along the floor
@@ -88,28 +97,30 @@ bool has_floor_in_sight(const View& view) {
 
 }  // namespace
 
-Screen::Screen(const GlFunctions& gl, const RenderOptions& options, const std::optional<Environment>& environment)
+Screen::Screen(const GlFunctions& gl, const RenderOptions& options, const std::optional<Environment>& environment,
+               ScreenOutput output)
     : gl_(gl),
       width_(options.width),
       height_(options.height),
       side_(sample_side(options.samples)),
       is_transparent_(options.transparent),
+      output_(output),
       surface_color_(make_texture(gl, side_ * width_, side_ * height_, kColorFormat)),
       surface_normal_(make_texture(gl, side_ * width_, side_ * height_, kColorFormat)),
       surface_depth_(make_texture(gl, side_ * width_, side_ * height_, kDepthFormat)),
       surface_(
           make_colors_target(gl, std::array<const GlTexture*, 2>{&surface_color_, &surface_normal_}, surface_depth_)),
-      picture_(make_texture(gl, width_, height_, picture_format(options))),
+      picture_(make_texture(gl, width_, height_, picture_format(output))),
       kinds_(make_texture(gl, width_, height_, kDepthFormat)),
       developed_(make_texture_target(gl, &picture_, &kinds_)),
-      backdrop_(make_texture(gl, width_, height_, picture_format(options))),
+      backdrop_(make_texture(gl, width_, height_, picture_format(output))),
       backdrop_target_(make_texture_target(gl, &backdrop_, nullptr)),
       environment_(environment ? std::optional(EnvironmentTexture(gl, *environment)) : std::nullopt),
       nearer_sampler_(make_comparing_sampler(gl, GL_GREATER)),
       no_buffers_(make_vertex_array(gl)),
-      surface_programs_(load_skin_programs(gl, "surface.frag", exposure_define(options))),
-      backdrop_program_(load_program(gl, "screen.vert", "backdrop.frag", exposure_define(options))),
-      floor_program_(load_program(gl, "floor.vert", "floor.frag")),
+      surface_programs_(load_skin_programs(gl, "surface.frag", output_define(output))),
+      backdrop_program_(load_program(gl, "screen.vert", "backdrop.frag", output_define(output))),
+      floor_program_(load_program(gl, "floor.vert", "floor.frag", floor_define(output, options.exposes))),
       kinds_program_(load("kinds.frag", options)),
       skins_program_(load("skins.frag", options)) {
   if (!options.exposes) return;
@@ -132,17 +143,19 @@ GlProgram Screen::load(const char* fragment, const RenderOptions& options) const
                                   is_high      ? 32
                                   : is_preview ? 8
                                                : 16,
-                                  environment_ ? "#define ENVIRONMENT\n" : "", exposure_define(options)));
+                                  environment_ ? "#define ENVIRONMENT\n" : "", output_define(output_)));
 }
 
 void Screen::draw_light(const LightMaps& maps, const View& view, PassClock& clock) {
-  if (is_transparent_) {
-    clear_picture();
+  if (output_ == ScreenOutput::kShares) {
+    clear_picture({1, 1, 1, 1});
+  } else if (is_transparent_) {
+    clear_picture(Eigen::Vector4f::Zero());
   } else {
     draw_backdrop(view);
     clock.stop("backdrop");
-    draw_floor(maps, view);
   }
+  if (!is_transparent_) draw_floor(maps, view);
   clock.stop("floor");
   develop(maps, view, clock);
 }
@@ -183,6 +196,17 @@ Image Screen::read() const {
   image.alpha.resize(std::size_t(width_) * std::size_t(height_));
   gl_.ReadPixels(0, 0, width_, height_, GL_ALPHA, GL_UNSIGNED_BYTE, image.alpha.data());
   return image;
+}
+
+std::vector<Eigen::Vector4f> Screen::read_numbers() const {
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, exposures_ ? exposures_->mean() : developed_.name());
+  std::vector<Eigen::Vector4f> numbers(std::size_t(width_) * std::size_t(height_));
+  gl_.ReadPixels(0, 0, width_, height_, GL_RGBA, GL_FLOAT, numbers.data());
+  for (Eigen::Vector4f& pixel : numbers) {
+    if (!is_transparent_) pixel.w() = 1;
+    if (!exposures_) pixel.head<3>() *= pixel.w();
+  }
+  return numbers;
 }
 
 void Screen::clear_surfaces() const {
@@ -249,10 +273,11 @@ void Screen::draw_backdrop(const View& view) {
   gl_.BindFramebuffer(GL_FRAMEBUFFER, developed_.name());
 }
 
-void Screen::clear_picture() const {
+void Screen::clear_picture(const Eigen::Vector4f& color) const {
   gl_.BindFramebuffer(GL_FRAMEBUFFER, developed_.name());
   gl_.Viewport(0, 0, width_, height_);
-  gl_.ClearColor(0, 0, 0, 0);
+  gl_.Disable(GL_DEPTH_TEST);
+  gl_.ClearColor(color.x(), color.y(), color.z(), color.w());
   gl_.Clear(GL_COLOR_BUFFER_BIT);
 }
 
@@ -261,8 +286,13 @@ void Screen::draw_floor(const LightMaps& maps, const View& view) const {
   floor_program_.use();
   view.frame.set_common(floor_program_);
   floor_program_.set("clip_from_stage", view.clip_from_stage.cast<float>().eval());
-  bind_texture(gl_, 0, maps.ground_tint());
-  floor_program_.set("ground_tint", 0);
+  const auto bind = [&](const char* name, int unit, const GlTexture& map) {
+    bind_texture(gl_, unit, map);
+    floor_program_.set(name, unit);
+  };
+  bind("ground_tint", 0, maps.ground().tint());
+  bind("ground_sky", 1, maps.ground().sky());
+  bind("ground_shadow", 2, maps.ground().shadow());
   gl_.Enable(GL_BLEND);
   gl_.BlendFunc(GL_DST_COLOR, GL_ZERO);
   gl_.BindVertexArray(no_buffers_.name());

@@ -24,6 +24,10 @@ class EnvironmentTexture {
   GlTexture reflections_;
 };
 
+/// What the pixels of a screen hold: colours; linear light; or, in place of red and green, the fraction of the key
+/// light that reaches what is seen and the fraction of the sky that is open above it.
+enum class ScreenOutput { kPicture, kLight, kShares };
+
 /// Samples along each side of a pixel.
 [[nodiscard]] constexpr int sample_side(int samples) { return samples == 16 ? 4 : samples == 4 ? 2 : 1; }
 
@@ -35,8 +39,9 @@ inline constexpr int kAllTurns = -1;
 /// pixel, then their light.
 class Screen {
  public:
-  /// Without an environment the studio lights it.
-  Screen(const GlFunctions& gl, const RenderOptions& options, const std::optional<Environment>& environment);
+  /// Without an environment the studio lights it. Pictures that have exposures are of light.
+  Screen(const GlFunctions& gl, const RenderOptions& options, const std::optional<Environment>& environment,
+         ScreenOutput output);
   void clear_surfaces() const;
   /// In the samples of one turn, where options say that pictures have exposures, or in all.
   void draw_surfaces(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const View& view,
@@ -47,6 +52,9 @@ class Screen {
   void clear_exposures() const { exposures_.value().clear(); }
   void add_exposure(const LightMaps& maps, const View& view, double part) const;
   [[nodiscard]] Image read() const;
+  /// Red, green, blue and opacity of every pixel, for other outputs than kPicture; colours are multiplied by the
+  /// opacity.
+  [[nodiscard]] std::vector<Eigen::Vector4f> read_numbers() const;
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] int height() const { return height_; }
   [[nodiscard]] double aspect() const { return double(width_) / height_; }
@@ -62,7 +70,7 @@ class Screen {
   };
 
   [[nodiscard]] GlProgram load(const char* fragment, const RenderOptions& options) const;
-  void clear_picture() const;
+  void clear_picture(const Eigen::Vector4f& color) const;
   void draw_backdrop(const View& view);
   void draw_floor(const LightMaps& maps, const View& view) const;
   void develop(const LightMaps& maps, const View& view, PassClock& clock) const;
@@ -73,6 +81,7 @@ class Screen {
   int height_;
   int side_;  // of a pixel, in samples
   bool is_transparent_;
+  ScreenOutput output_;
   GlTexture surface_color_;
   GlTexture surface_normal_;
   GlTexture surface_depth_;

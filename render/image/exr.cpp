@@ -40,7 +40,13 @@ std::vector<Channel> matte_channels(std::array<Passes::Plane, Passes::kRanks>& n
 
 /// All of them, sorted by name, as the format requires. `numbers`: the mattes as Cryptomatte writes them.
 std::vector<Channel> channels_of(Passes& passes, std::array<Passes::Plane, Passes::kRanks>& numbers) {
-  std::vector<Channel> channels{{"Depth.Z", &passes.depth},
+  std::vector<Channel> channels{{"R", &passes.beauty[0]},
+                                {"G", &passes.beauty[1]},
+                                {"B", &passes.beauty[2]},
+                                {"A", &passes.beauty[3]},
+                                {"AO.X", &passes.occlusion},
+                                {"Shadow.X", &passes.shadow},
+                                {"Depth.Z", &passes.depth},
                                 {"IndexOB.X", &passes.id},
                                 {"Normal.X", &passes.normal[0]},
                                 {"Normal.Y", &passes.normal[1]},
@@ -48,6 +54,7 @@ std::vector<Channel> channels_of(Passes& passes, std::array<Passes::Plane, Passe
                                 {"Position.X", &passes.position[0]},
                                 {"Position.Y", &passes.position[1]},
                                 {"Position.Z", &passes.position[2]},
+                                {"UV.A", &passes.uv[2]},
                                 {"UV.U", &passes.uv[0]},
                                 {"UV.V", &passes.uv[1]},
                                 {"Vector.W", &passes.motion[3]},

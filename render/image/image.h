@@ -37,18 +37,21 @@ struct PassTime {
   double processor = 0;  // s, of all threads
 };
 
-/// The passes that a compositor needs beside a picture, sampled at pixel centres, rows from the top. Edges are not
-/// antialiased, and ghosts are left out.
+/// The passes that a compositor needs beside a picture, rows from the top. Beauty, shadow and occlusion are
+/// antialiased; the others are sampled at pixel centres and leave ghosts out.
 struct Passes {
   using Plane = std::vector<float>;  // width * height
 
   int width = 0;
   int height = 0;
+  std::array<Plane, 4> beauty;    // red, green, blue: linear light before the tone curve, times opacity; opacity
+  Plane shadow;                   // fraction of the key light that reaches what is seen; 1 for the background
+  Plane occlusion;                // fraction of the sky that is open above it; 1 for the background
   Plane depth;                    // m, along the camera's axis; kNothing for the background
   std::array<Plane, 3> normal;    // x, y, z: unit, world space, towards the camera; 0 for the background
   std::array<Plane, 3> position;  // x, y, z: m, world space; 0 for the background
   Plane id;                       // Stage::ids; 0 for the ground and the background
-  std::array<Plane, 2> uv;        // u, v of the skin's texture; 0 where there is none
+  std::array<Plane, 3> uv;        // u, v of the skin's texture, 0 where there is none; and 1 on skins
   /// Pixels, to the right and up, by which what is seen here moved: from here to where it was one frame before (the
   /// first two), and from where it will be one frame later to here, as Cycles has it. 0 for the background.
   std::array<Plane, 4> motion;
@@ -65,6 +68,9 @@ struct Passes {
   Passes() = default;
   Passes(int w, int h) : width(w), height(h) {
     const auto size = std::size_t(w) * std::size_t(h);
+    beauty.fill(Plane(size, 0));
+    shadow.assign(size, 1);
+    occlusion.assign(size, 1);
     depth.assign(size, kNothing);
     normal.fill(Plane(size, 0));
     position.fill(Plane(size, 0));

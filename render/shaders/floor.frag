@@ -1,6 +1,19 @@
-// The floor where bodies change its light: a factor of the background.
+// The floor where bodies change its light: a factor of the background, or of the shares of the light.
 in vec2 ground_place;
 uniform sampler2D ground_tint;
 out vec4 result;
+//!include ground_light.glsl
 
-void main() { result = texture(ground_tint, ground_place); }
+void main() {
+#if defined(SHARES) || defined(LIGHT)
+  vec4 sky = textureLod(ground_sky, ground_place, 0.0);
+  float shadow = textureLod(ground_shadow, ground_place, 0.0).r;
+#endif
+#if defined(SHARES)
+  result = vec4(1.0 - shadow, 1.0 - open_border(ground_place) * sky.a, 1.0, 1.0);
+#elif defined(LIGHT)
+  result = vec4(ground_light(sky, shadow, ground_place) / open_ground_light(), 1.0);
+#else
+  result = texture(ground_tint, ground_place);
+#endif
+}

@@ -20,7 +20,13 @@ struct Surface {  // sums over samples
 vec3 picture_light(Surface s) {
   vec4 place = stage_from_clip * vec4(vec3(screen_place, s.depth / s.share) * 2.0 - 1.0, 1.0);
   vec3 n = dot(s.normal, s.normal) > 1e-3 ? s.normal : eye - place.xyz / place.w;  // no normals, or opposite ones
-  return skin_light(place.xyz / place.w, normalize(n), s.color / s.share, round(s.look / s.share));
+  n = normalize(n);
+  vec3 point = place.xyz / place.w;
+#ifdef SHARES
+  return vec3(key_light(point, n, dot(n, to_key)), open_sky(point, n), 0.0);
+#else
+  return skin_light(point, n, s.color / s.share, round(s.look / s.share));
+#endif
 }
 
 // Along the camera's axis.

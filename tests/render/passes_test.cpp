@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "render/frame.h"
 #include "render/image/cryptomatte.h"
 #include "render/image/exr.h"
 #include "tests/support/error_message.h"
@@ -78,6 +79,7 @@ TEST(Passes, HoldTogetherInEveryPixel) {
     if (id == 0) {
       EXPECT_NEAR(pixel.position().y(), 0, 1e-6);
     }
+    EXPECT_EQ(passes.uv[2][i], id > 0 ? 1 : 0);
     if (id > 0) {
       const Vec3 middle = kMiddle + (id == 2 ? Vec3(0.3, 0, 0) : Vec3(0, 0, 0));
       EXPECT_NEAR((pixel.position() - middle).norm(), kRadius, 6e-4);
@@ -160,6 +162,96 @@ TEST(Passes, SayHowMuchOfEveryPixelIsWhose) {
   EXPECT_NEAR(ball, std::numbers::pi * radius * radius, 0.01 * ball);
 }
 
+/// Khronos PBR Neutral with the softer toe of picture.glsl, then sRGB, as levels of 255.
+Eigen::Vector3d developed(Eigen::Vector3d light) {
+  const double low = light.minCoeff();
+  light.array() -= low < 0.04 ? low - 12.5 * low * low : 0.02;
+  const double peak = light.maxCoeff();
+  const double shoulder = 0.78;
+  if (peak >= shoulder) {
+    const double room = 1 - shoulder;
+    const double rolled = 1 - room * room / (peak + room - shoulder);
+    light *= rolled / peak;
+    const double white = 1 - 1 / (0.15 * (peak - rolled) + 1);
+    light += white * (Eigen::Vector3d::Constant(rolled) - light);
+  }
+  return light.unaryExpr([](double c) {
+    return 255 * (c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(std::max(c, 0.0), 1 / 2.4) - 0.055);
+  });
+}
+
+TEST(Passes, HaveTheLightOfThePicture) {
+  const StillLife scene = two_balls();
+  const Camera camera = camera_at(kMiddle + Vec3(0.3, 0.35, 0.6));
+  const Stage stage = scene.stage();
+  const std::vector<SkinShape> shapes = scene.shapes();
+  Renderer renderer(stage, {.width = 161, .height = 91});
+  const Image before = renderer.draw(shapes, camera);
+  const Passes passes = renderer.draw_passes({shapes, camera}, {shapes, camera}, {shapes, camera});
+  EXPECT_EQ(renderer.draw(shapes, camera).pixels, before.pixels);
+  double far_off = 0;
+  for (std::size_t i = 0; i < passes.id.size(); ++i) {
+    EXPECT_EQ(passes.beauty[3][i], 1);
+    if (passes.coverage[0][i] < 1) continue;  // mixed after the tone curve in the picture, before it in the pass
+    const Eigen::Vector3d made = developed({passes.beauty[0][i], passes.beauty[1][i], passes.beauty[2][i]});
+    for (int k = 0; k < 3; ++k) far_off = std::max(far_off, std::abs(made[k] - before.pixels[3 * i + std::size_t(k)]));
+  }
+  EXPECT_LT(far_off, 4) << "levels";
+  EXPECT_GT(*std::max_element(passes.beauty[0].begin(), passes.beauty[0].end()), 0.5F);
+}
+
+TEST(Passes, OfBlurredPicturesHaveTheirLight) {
+  const StillLife scene = two_balls();
+  const Camera camera = camera_at(kMiddle + Vec3(0.3, 0.35, 0.6));
+  const Stage stage = scene.stage();
+  const std::vector<SkinShape> shapes = scene.shapes();
+  Renderer renderer(stage, {.width = 161, .height = 91, .exposes = true});
+  static_cast<void>(renderer.draw(std::vector<Exposure>(2, {shapes, shapes, camera})));
+  const Passes blurred = renderer.draw_passes({shapes, camera}, {shapes, camera}, {shapes, camera});
+  const Passes sharp = passes_of(scene, camera);
+  for (std::size_t i = 0; i < sharp.id.size(); ++i) {
+    if (sharp.id[i] > 0 && sharp.coverage[0][i] == 1) {
+      EXPECT_NEAR(blurred.beauty[0][i], sharp.beauty[0][i], 1e-4);
+    }
+    EXPECT_NEAR(blurred.beauty[1][i], sharp.beauty[1][i], 0.02);  // the floor's tint is stored coarsely
+    EXPECT_EQ(blurred.shadow[i], sharp.shadow[i]);
+  }
+}
+
+TEST(Passes, SayWhereTheKeyLightAndTheSkyReach) {
+  const Camera camera = camera_at(kMiddle + Vec3(0.3, 0.35, 0.6));
+  const Passes passes = passes_of(two_balls(), camera);
+  double darkest = 1;
+  double closest = 1;
+  for (std::size_t i = 0; i < passes.id.size(); ++i) {
+    ASSERT_GE(passes.shadow[i], 0);
+    ASSERT_LE(passes.shadow[i], 1);
+    const Pixel pixel{passes, i};
+    const double to_first = (pixel.position() - Vec3(kMiddle.x(), 0, kMiddle.z())).norm();
+    if (passes.coverage[0][i] < 1) continue;
+    if (passes.id[i] == 0) {
+      darkest = std::min<double>(darkest, passes.shadow[i]);
+      if (to_first < 0.5 * kRadius) closest = std::min<double>(closest, passes.occlusion[i]);
+      if (to_first > 20 * kRadius) {
+        EXPECT_GT(passes.shadow[i], 0.99);
+        EXPECT_GT(passes.occlusion[i], 0.99);
+      }
+    } else {
+      const double facing = pixel.normal().dot(to_key_light());
+      if (facing < -0.5) {
+        EXPECT_LT(passes.shadow[i], 0.05);
+      } else if (facing > 0.9) {
+        EXPECT_GT(passes.shadow[i], 0.95);
+      }
+      if (pixel.normal().y() > 0.9) {
+        EXPECT_GT(passes.occlusion[i], 0.8);
+      }
+    }
+  }
+  EXPECT_LT(darkest, 0.1) << "in the middle of a ball's shadow";
+  EXPECT_LT(closest, 0.9) << "below a ball that floats above the ground";
+}
+
 TEST(Cryptomatte, HashesAsItsSpecificationSays) {
   EXPECT_EQ(murmur_hash(""), 0U);
   EXPECT_EQ(murmur_hash("hello"), 0x248bfa47U);
@@ -190,6 +282,8 @@ TEST(Passes, HaveNothingWhereNothingIs) {
   EXPECT_EQ(passes.depth.front(), Passes::kNothing);
   EXPECT_EQ(passes.id.front(), 0);
   EXPECT_EQ(passes.normal[1].front(), 0);
+  EXPECT_EQ(passes.shadow.front(), 1);
+  EXPECT_EQ(passes.occlusion.front(), 1);
 }
 
 TEST(Exr, ReadsBackWhatWasWritten) {
@@ -200,9 +294,12 @@ TEST(Exr, ReadsBackWhatWasWritten) {
     passes.depth[i] = 0.1F * number;
     passes.id[i] = number;
     for (std::size_t k = 0; k < 4; ++k) passes.motion[k][i] = number + 7 * float(k);
+    for (std::size_t k = 0; k < 4; ++k) passes.beauty[k][i] = 0.2F * number + 3 * float(k);
+    passes.shadow[i] = 0.05F * number;
+    passes.occlusion[i] = 0.04F * number;
     passes.matte[1][i] = float(i % 3) - 1;
     passes.coverage[1][i] = 0.25F * float(i % 3);
-    for (std::size_t k = 0; k < 2; ++k) passes.uv[k][i] = 0.3F * number + float(k);
+    for (std::size_t k = 0; k < 3; ++k) passes.uv[k][i] = 0.3F * number + float(k);
     for (std::size_t k = 0; k < 3; ++k) {
       passes.normal[k][i] = number - float(k);
       passes.position[k][i] = 1e-3F * number + float(k);
@@ -213,6 +310,9 @@ TEST(Exr, ReadsBackWhatWasWritten) {
   const Passes back = read_exr(folder.path() / "p.exr");
   EXPECT_EQ(back.width, 5);
   EXPECT_EQ(back.height, 3);
+  EXPECT_EQ(back.beauty, passes.beauty);
+  EXPECT_EQ(back.shadow, passes.shadow);
+  EXPECT_EQ(back.occlusion, passes.occlusion);
   EXPECT_EQ(back.depth, passes.depth);
   EXPECT_EQ(back.id, passes.id);
   EXPECT_EQ(back.normal, passes.normal);
