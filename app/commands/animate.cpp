@@ -151,7 +151,7 @@ void add_animate(CLI::App& app, Invocation& invocation) {
       ->group(kMoreOptions);
   options->frames.add_to(*command);
   command->get_option("--frames")->group(kMoreOptions);
-  options->scene.add_to(*command, true);
+  options->scene.add_to(*command, invocation, true);
   add_messages(*command, invocation.console);
   command->footer(scene_footer(*command,
                                "Examples:\n  sprung animate bunny.obj -o bunny.mp4\n"

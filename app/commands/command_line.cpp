@@ -113,6 +113,57 @@ void refuse_repeated(const CLI::App& command) {
   }
 }
 
+/// Whether any command has the option; throws Error(kBadInput) otherwise.
+void check_default(const CLI::App& app, const OptionDefaults& defaults, const OptionDefault& one) {
+  const auto refuse = [&](std::string_view what) {
+    throw Error(ErrorKind::kBadInput, fmt::format("{}: {}", defaults.place(one), what));
+  };
+  std::vector<std::string> names;
+  std::vector<std::string> options;
+  for (const CLI::App* command : app.get_subcommands({})) {
+    names.push_back(command->get_name());
+    if (!one.command.empty() && command->get_name() != one.command) continue;
+    for (const CLI::Option* option : command->get_options()) {
+      for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
+    }
+  }
+  const std::vector<std::string_view> commands(names.begin(), names.end());
+  const std::vector<std::string_view> known(options.begin(), options.end());
+  if (!one.command.empty() && std::find(names.begin(), names.end(), one.command) == names.end()) {
+    refuse(fmt::format("unknown command '{}'{}", one.command, did_you_mean(one.command, commands)));
+  }
+  if (std::find(options.begin(), options.end(), one.option) == options.end()) {
+    refuse(fmt::format("unknown option '{}'{}", one.option.substr(2), did_you_mean(one.option, known)));
+  }
+  if (one.option == "--output" || one.option == "--help") {
+    refuse(fmt::format("'{}' is not for defaults: every run has its own", one.option.substr(2)));
+  }
+}
+
+/// Gives options that were not typed what the site or project wants. Those that stand for keys of the scene take it by
+/// themselves, below what a scene file says.
+void apply_defaults(CLI::App& app, const Invocation& invocation) {
+  const OptionDefaults& defaults = invocation.defaults;
+  for (const OptionDefault& one : defaults.list) check_default(app, defaults, one);
+  for (CLI::App* command : app.get_subcommands()) {
+    for (const OptionDefault& one : defaults.list) {
+      CLI::Option* option = command->get_option_no_throw(one.option);
+      const auto& by_themselves = invocation.scene_options;
+      const bool is_typed = option == nullptr || option->count() > 0;
+      if (is_typed || defaults.find(command->get_name(), one.option) != &one ||
+          std::find(by_themselves.begin(), by_themselves.end(), option) != by_themselves.end()) {
+        continue;
+      }
+      try {
+        for (const std::string& value : one.values) option->add_result(value);
+        option->run_callback();
+      } catch (const CLI::ParseError& error) {
+        throw Error(ErrorKind::kBadInput, fmt::format("{}: {}", defaults.place(one), error.what()));
+      }
+    }
+  }
+}
+
 /// Runs once everything is parsed, before the callback of the command.
 void check_words(const CLI::App& app) {
   refuse_extras(app, "unknown command");
@@ -135,16 +186,22 @@ int run_command_line(int argc, const char* const* argv, Console& console) {
   app.footer(
       "Try: sprung animate bunny.obj -o bunny.mp4\nHelp on a command: sprung COMMAND --help\n"
       "Exit codes: 0 done, 1 failed, 2 wrong usage, 3 bad input, 4 diverged,\n130 interrupted, 143 terminated.");
-  Invocation invocation{.console = console, .command = command_of(argc, argv)};
+  const bool asks_for_help = argc > 1 && std::string_view(argv[1]) == "help";
+  Invocation invocation{.console = console,
+                        .command = command_of(argc, argv),
+                        .defaults = asks_for_help ? OptionDefaults{} : option_defaults()};
   for (const auto add : {add_animate, add_simulate, add_render, add_export, add_film, add_sweep, add_load, add_inspect,
-                         add_validate, add_compare, add_materials, add_help}) {
+                         add_validate, add_compare, add_materials, add_config, add_help}) {
     add(app, invocation);
   }
   for (CLI::App* command : app.get_subcommands({})) {
     command->allow_extras();
     accept_repeated(*command);
   }
-  app.parse_complete_callback([&app] { check_words(app); });
+  app.parse_complete_callback([&app, &invocation] {
+    check_words(app);
+    apply_defaults(app, invocation);
+  });
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {

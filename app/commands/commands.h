@@ -4,10 +4,12 @@
 #include <vector>
 
 #include "app/console/console.h"
+#include "app/scene/option_defaults.h"
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace sprung {
 
@@ -15,6 +17,8 @@ namespace sprung {
 struct Invocation {
   Console& console;
   std::string command;  // as typed, for a shell
+  OptionDefaults defaults;
+  std::vector<const CLI::Option*> scene_options{};  // whose defaults rank below what a scene file says
   int exit_code = 0;
 };
 
@@ -63,6 +67,9 @@ void add_compare(CLI::App& app, Invocation& invocation);
 
 /// The materials that were asked for, to stdout: a table, a line each; with their sources; or JSON, SI units.
 void add_materials(CLI::App& app, Invocation& invocation);
+
+/// The defaults of options that hold here, and from where, to stdout.
+void add_config(CLI::App& app, Invocation& invocation);
 
 /// Help on a command, the keys of a scene, the manual and the completions, to stdout.
 void add_help(CLI::App& app, Invocation& invocation);

@@ -140,7 +140,7 @@ void add_export(CLI::App& app, Invocation& invocation) {
                     "keep 16 bits per coordinate in film.glb: half the size; reports the error");
   command->add_flag("--list", options->list, "name the formats, and stop");
   command->add_flag("--overwrite", options->overwrite, "replace files that exist");
-  options->scene.add_to(*command, false, "a cache (.h5), a mesh file, or a scene (.toml)");
+  options->scene.add_to(*command, invocation, false, "a cache (.h5), a mesh file, or a scene (.toml)");
   add_messages(*command, invocation.console);
   command->footer(scene_footer(*command,
                                "Examples:\n  sprung export run.h5 -o film.glb\n"

@@ -170,7 +170,7 @@ void add_inspect(CLI::App& app, Invocation& invocation) {
   command->add_option("--picture", options->picture, "draw skin and bricks, or where skins cross the deepest")
       ->option_text("FILE.png");
   command->add_flag("--overwrite", options->overwrite, "replace a picture that exists");
-  options->scene.add_to(*command, true, "a mesh file, a scene (.toml), or a cache (.h5)");
+  options->scene.add_to(*command, invocation, true, "a mesh file, a scene (.toml), or a cache (.h5)");
   add_messages(*command, invocation.console);
   command->footer(scene_footer(*command,
                                "Examples:\n  sprung inspect bunny.obj --bricks auto --picture bunny.png\n"

@@ -51,7 +51,8 @@ bool is_of_part(const KeyOption& key) {
 
 /// The part as the options have it; usually of kUsualPartMaterial.
 Film scene_of(const LoadOptions& options, const Console& console) {
-  SceneRequest request{.input = options.input, .settings = options.keys.settings()};
+  SceneRequest request{
+      .input = options.input, .settings = options.keys.settings(), .defaults = options.keys.defaults()};
   const bool has_material = std::any_of(request.settings.begin(), request.settings.end(), [](const Setting& setting) {
     return setting.key.starts_with("body.material");
   });
@@ -203,7 +204,7 @@ void add_load(CLI::App& app, Invocation& invocation) {
                    "WHERE:1mm:-y (moved by), weight, acceleration:20m/s2:-y")
       ->allow_extra_args(false)
       ->option_text("LOAD");
-  options->keys.add_keys(*command, is_of_part);
+  options->keys.add_keys(*command, invocation, is_of_part);
   command->add_option("--unit", options->unit, "unit of the file: mm, cm, m, in; default: the file's own, else mm")
       ->option_text("UNIT");
   command->add_option("--up", options->up, "vertical axis, against which weights act: y, z or auto (z for STL, 3MF)")

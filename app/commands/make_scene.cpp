@@ -32,7 +32,9 @@ bool is_given(const SceneRequest& request, std::string_view key) {
 }
 
 /// The materials known by name, also in a scene file that names no file of materials itself.
-std::shared_ptr<const MaterialLibrary> library_of(const std::vector<Setting>& settings) {
+std::shared_ptr<const MaterialLibrary> library_of(const SceneRequest& request) {
+  std::vector<Setting> settings = request.defaults;
+  settings.insert(settings.end(), request.settings.begin(), request.settings.end());
   if (std::none_of(settings.begin(), settings.end(), is_of_materials)) return built_in_materials();
   auto library = std::make_shared<MaterialLibrary>(*built_in_materials());
   for (const Setting& setting : settings) {
@@ -127,6 +129,25 @@ void apply_settings(const SceneRequest& request, Film& scene) {
   }
 }
 
+/// The request for a bare mesh, of which no file says anything: its defaults are typed first, as it were.
+SceneRequest without_defaults(SceneRequest request) {
+  request.settings.insert(request.settings.begin(), request.defaults.begin(), request.defaults.end());
+  request.defaults.clear();
+  return request;
+}
+
+/// Sets what the scene file leaves open.
+void apply_defaults(const SceneRequest& request, Film& scene) {
+  for (const Setting& setting : request.defaults) {
+    if (is_of_materials(setting)) continue;
+    try {
+      set_where_open(scene, request.input, setting.key, setting.value);
+    } catch (const Error& error) {
+      throw Error(ErrorKind::kBadInput, fmt::format("{}: {}", setting.option, error.what()));
+    }
+  }
+}
+
 Film make_bare_scene(const SceneRequest& request, const std::shared_ptr<const MaterialLibrary>& library,
                      const Observer& observer) {
   Film scene;
@@ -178,19 +199,19 @@ UpAxis usual_up(const std::filesystem::path& mesh) {
 
 Film make_part_scene(const SceneRequest& request) {
   Film scene;
-  scene.library = library_of(request.settings);
+  scene.library = library_of(request);
   SceneBody& body = scene.bodies.emplace_back(default_body());
   body.mesh = std::filesystem::absolute(request.input).lexically_normal();
   if (is_scene_file(body.mesh)) {
     throw Error(ErrorKind::kUsage, fmt::format("'{}' is a scene; give the mesh of a part", request.input));
   }
-  apply_settings(request, scene);
+  apply_settings(without_defaults(request), scene);
   return scene;
 }
 
 Film make_scene(const SceneRequest& request, const Observer& observer) {
-  const auto library = library_of(request.settings);
-  if (!is_scene_file(request.input)) return make_bare_scene(request, library, observer);
+  const auto library = library_of(request);
+  if (!is_scene_file(request.input)) return make_bare_scene(without_defaults(request), library, observer);
   if (request.scenario) {
     throw Error(ErrorKind::kUsage, "--scenario is for a bare mesh; a scene file says what happens");
   }
@@ -198,6 +219,7 @@ Film make_scene(const SceneRequest& request, const Observer& observer) {
     throw Error(ErrorKind::kUsage, "--up is for a bare mesh; in a scene file body.rotation = [-90, 0, 0] puts z up");
   }
   Film scene = read_scene(request.input, *library);
+  apply_defaults(request, scene);
   apply_settings(request, scene);
   choose_materials(scene, observer);
   return scene;

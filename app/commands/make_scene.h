@@ -38,15 +38,16 @@ struct CameraDirection {
 struct SceneRequest {
   std::string input;
   std::vector<Setting> settings{};
+  std::vector<Setting> defaults{};        // of what neither the settings nor a scene file say
   std::optional<Scenario> scenario{};     // of a bare mesh
   std::optional<UpAxis> up{};             // of a bare mesh; none: z for STL, 3MF and BLEND, else y
   std::optional<CameraDirection> view{};  // from where the camera looks
 };
 
-/// Options before scene file before defaults. Throws Error(kUsage) naming the option whose value is wrong,
-/// Error(kBadInput) for what is wrong in the scene file or the mesh and for an unknown material. Bodies for
-/// which no material is named get the softest elastomer in which they keep their shape, and a bare mesh that is dropped
-/// and would tip over is laid down; the observer hears of both.
+/// Options before scene file before the request's defaults before those of all scenes. Throws Error(kUsage) naming the
+/// option whose value is wrong, Error(kBadInput) for what is wrong in the scene file or the mesh and for an unknown
+/// material. Bodies for which no material is named get the softest elastomer in which they keep their shape, and a bare
+/// mesh that is dropped and would tip over is laid down; the observer hears of both.
 [[nodiscard]] Film make_scene(const SceneRequest& request, const Observer& observer = {});
 
 }  // namespace sprung

@@ -43,12 +43,13 @@ constexpr std::array<KeyOption, 24> kKeyOptions{{
 }};
 
 /// "body.spin=[0,0,90]".
-Setting parse_set(const std::string& text) {
+Setting parse_set(const std::string& text, const std::string& place = "") {
   const auto sign = text.find('=');
+  const std::string option = place + "--set";
   if (sign == 0 || sign == std::string::npos) {
-    throw Error(ErrorKind::kUsage, fmt::format("--set: '{}' is not of the form KEY=VALUE", text));
+    throw Error(ErrorKind::kUsage, fmt::format("{}: '{}' is not of the form KEY=VALUE", option, text));
   }
-  return {"--set " + text.substr(0, sign), text.substr(0, sign), text.substr(sign + 1)};
+  return {option + ' ' + text.substr(0, sign), text.substr(0, sign), text.substr(sign + 1)};
 }
 
 constexpr std::array<std::string_view, 3> kUps{"y", "z", "auto"};
@@ -189,7 +190,24 @@ CLI::Option* JobOptions::add_to(CLI::App& command) {
 
 std::span<const KeyOption> key_options() { return kKeyOptions; }
 
-void SettingOptions::add_keys(CLI::App& command, const std::function<bool(const KeyOption&)>& is_meant) {
+std::vector<Setting> default_settings(const OptionDefaults& defaults, std::string_view command,
+                                      const std::function<bool(const KeyOption&)>& is_meant) {
+  std::vector<Setting> settings;
+  for (const KeyOption& key : kKeyOptions) {
+    const OptionDefault* wanted = is_meant(key) ? defaults.find(command, key.option) : nullptr;
+    if (wanted == nullptr) continue;
+    settings.push_back(
+        {fmt::format("{}: {}", defaults.place(*wanted), key.option), std::string(key.key), wanted->values.front()});
+  }
+  const OptionDefault* sets = defaults.find(command, "--set");
+  for (std::size_t i = 0; sets != nullptr && i < sets->values.size(); ++i) {
+    settings.push_back(parse_set(sets->values[i], defaults.place(*sets) + ": "));
+  }
+  return settings;
+}
+
+void SettingOptions::add_keys(CLI::App& command, Invocation& invocation,
+                              const std::function<bool(const KeyOption&)>& is_meant) {
   for (const KeyOption& key : kKeyOptions) {
     if (!is_meant(key)) continue;
     Word& word = words_.emplace_back(Word{.key = key, .text = {}});
@@ -197,13 +215,17 @@ void SettingOptions::add_keys(CLI::App& command, const std::function<bool(const 
     option->option_text(key.example);
     if (!key.use.is_common) option->group(kMoreOptions);
     word.option = option;
+    invocation.scene_options.push_back(option);
   }
+  defaults_ = default_settings(invocation.defaults, command.get_name(), is_meant);
 }
 
-void SettingOptions::add_set(CLI::App& command, const std::string& help, const char* placeholder) {
-  command.add_option("--set", sets_, help + "; may be given several times")
-      ->allow_extra_args(false)
-      ->option_text(placeholder);
+void SettingOptions::add_set(CLI::App& command, Invocation& invocation, const std::string& help,
+                             const char* placeholder) {
+  CLI::Option* option = command.add_option("--set", sets_, help + "; may be given several times")
+                            ->allow_extra_args(false)
+                            ->option_text(placeholder);
+  invocation.scene_options.push_back(option);
 }
 
 std::vector<Setting> SettingOptions::settings() const {
@@ -222,10 +244,10 @@ std::vector<Setting> SettingOptions::settings() const {
   return settings;
 }
 
-void SceneOptions::add_to(CLI::App& command, bool has_pictures, const std::string& input_help) {
+void SceneOptions::add_to(CLI::App& command, Invocation& invocation, bool has_pictures, const std::string& input_help) {
   command.add_option("INPUT", input, input_help);
-  keys.add_keys(command, [&](const KeyOption& key) { return has_pictures || !key.use.is_of_pictures; });
-  keys.add_set(command, "any key of a scene (sprung help scene)");
+  keys.add_keys(command, invocation, [&](const KeyOption& key) { return has_pictures || !key.use.is_of_pictures; });
+  keys.add_set(command, invocation, "any key of a scene (sprung help scene)");
   command
       .add_option("--scenario", scenario, fmt::format("what a bare mesh does: {}", fmt::join(scenario_names(), ", ")))
       ->option_text("NAME");
@@ -245,7 +267,7 @@ void SceneOptions::add_to(CLI::App& command, bool has_pictures, const std::strin
 }
 
 SceneRequest SceneOptions::request() const {
-  SceneRequest request{.input = input, .settings = keys.settings()};
+  SceneRequest request{.input = input, .settings = keys.settings(), .defaults = keys.defaults()};
   if (!unit.empty()) add_unit(unit, request);
   if (!scenario.empty()) request.scenario = scenario_from_name(scenario);
   request.up = up_from_name(up);
@@ -273,7 +295,7 @@ void SceneOptions::with_scene(const Console& console, const std::function<void(c
 std::string scene_footer(const CLI::App& command, const std::string& examples) {
   return examples +
          "Lengths, times, pressures and densities take a unit (\"3 cm\", 20kPa, 1.2g/cm3); a bare number is SI.\n"
-         "Options override the scene file, which overrides the defaults.\n"
+         "Options override the scene file, which overrides the defaults (sprung help config).\n"
          "All options: sprung help " +
          command.get_name() + "    All keys of a scene: sprung help scene";
 }

@@ -103,13 +103,21 @@ struct KeyOption {
 /// Every such option, in the order of its help.
 [[nodiscard]] std::span<const KeyOption> key_options();
 
+/// The defaults of a command's options that stand for keys of the scene: of those for which `is_meant` holds, and of
+/// --set. Throws Error(kUsage).
+[[nodiscard]] std::vector<Setting> default_settings(const OptionDefaults& defaults, std::string_view command,
+                                                    const std::function<bool(const KeyOption&)>& is_meant);
+
 /// Options that stand for keys of the scene, and --set.
 struct SettingOptions {
   /// Those key options for which `is_meant` holds.
-  void add_keys(CLI::App& command, const std::function<bool(const KeyOption&)>& is_meant);
-  void add_set(CLI::App& command, const std::string& help, const char* placeholder = "KEY=VALUE");
+  void add_keys(CLI::App& command, Invocation& invocation, const std::function<bool(const KeyOption&)>& is_meant);
+  void add_set(CLI::App& command, Invocation& invocation, const std::string& help,
+               const char* placeholder = "KEY=VALUE");
   /// What was typed, --set last. Throws Error(kUsage).
   [[nodiscard]] std::vector<Setting> settings() const;
+  /// What a site or project wants where neither what is typed nor a scene file says otherwise.
+  [[nodiscard]] const std::vector<Setting>& defaults() const { return defaults_; }
 
  private:
   struct Word {
@@ -118,6 +126,7 @@ struct SettingOptions {
     const CLI::Option* option = nullptr;
   };
   std::deque<Word> words_;
+  std::vector<Setting> defaults_;
   std::vector<std::string> sets_;
 };
 
@@ -132,7 +141,8 @@ struct SceneOptions {
   std::string threads;
   bool print_scene = false;
 
-  void add_to(CLI::App& command, bool has_pictures, const std::string& input_help = "a mesh file, or a scene (.toml)");
+  void add_to(CLI::App& command, Invocation& invocation, bool has_pictures,
+              const std::string& input_help = "a mesh file, or a scene (.toml)");
   [[nodiscard]] SceneRequest request() const;
   /// Does `work` with the scene on as many threads as the options say; or prints the scene where that is all that was
   /// asked for.

@@ -154,8 +154,8 @@ void add_render(CLI::App& app, Invocation& invocation) {
   command->add_flag("--skip-existing", options->skip_existing, "draw only pictures that are missing");
   options->jobs.add_to(*command);
   command->add_flag("--overwrite", options->overwrite, "replace pictures and films that exist");
-  options->keys.add_keys(*command, [](const KeyOption& key) { return key.key.starts_with("render."); });
-  options->keys.add_set(*command, "any key of [camera] and [render]");
+  options->keys.add_keys(*command, invocation, [](const KeyOption& key) { return key.key.starts_with("render."); });
+  options->keys.add_set(*command, invocation, "any key of [camera] and [render]");
   add_messages(*command, invocation.console);
   command->footer(
       "Examples:\n  sprung render run.h5 -o film.mp4\n  sprung render run.h5 -o frames/ --frames 1:48 --jobs 4\n"

@@ -246,7 +246,7 @@ void add_simulate(CLI::App& app, Invocation& invocation) {
                    "make the cache smaller: positions accurate to this, velocities to this per frame; default: to the "
                    "last bit")
       ->option_text("LENGTH");
-  options->scene.add_to(*command, false);
+  options->scene.add_to(*command, invocation, false);
   add_messages(*command, invocation.console);
   command->footer(scene_footer(
       *command,

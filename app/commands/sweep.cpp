@@ -24,6 +24,7 @@ struct SweepOptions {
   std::string input;  // a mesh, a scene or the folder of a sweep
   OutputOptions outputs;
   SettingOptions keys;
+  std::vector<Setting> defaults;  // as for a simulation of each scene
   bool table = false;
   std::string plot;  // "tip.displacement.y"
   std::string against;
@@ -61,7 +62,8 @@ void write_runs(const SweepOptions& options, const Console& console) {
   std::vector<std::string> scenes;
   scenes.reserve(choices.size());
   for (const SweptValues& choice : choices) {
-    scenes.push_back(print_scene(with_defaults(make_scene({.input = options.input, .settings = choice}))));
+    scenes.push_back(print_scene(
+        with_defaults(make_scene({.input = options.input, .settings = choice, .defaults = options.defaults}))));
   }
   std::string commands;
   Json runs = Json::array();
@@ -69,8 +71,9 @@ void write_runs(const SweepOptions& options, const Console& console) {
     const fs::path place = folder / name_of_run(run);
     make_folder(place);
     write_file(place / "scene.toml", scenes[run]);
-    commands += fmt::format("sprung simulate {} -o {} -o {} --resume\n", quoted(place / "scene.toml"),
-                            quoted(place / "run.h5"), quoted(place / ""));
+    // The scenes hold the defaults of the site already.
+    commands += fmt::format("{}= sprung simulate {} -o {} -o {} --resume\n", kConfigVariable,
+                            quoted(place / "scene.toml"), quoted(place / "run.h5"), quoted(place / ""));
     Json set = Json::object();
     for (const Setting& setting : choices[run]) set[setting.key] = setting.value;
     runs.push_back({{"folder", name_of_run(run)}, {"set", set}});
@@ -107,9 +110,11 @@ void add_sweep(CLI::App& app, Invocation& invocation) {
   CLI::App* command =
       app.add_subcommand("sweep", "a scene and lists of values in, a folder and a command for each run out");
   const auto options = std::make_shared<SweepOptions>();
+  options->defaults = default_settings(invocation.defaults, "simulate", [](const KeyOption&) { return true; });
   command->add_option("INPUT", options->input, "a mesh file, a scene (.toml), or the folder of a sweep");
   options->outputs.add_to(*command, "the folder for all runs; of a plot .svg or .html", "OUT");
-  options->keys.add_set(*command, "values of any key of a scene, by commas, or FIRST:LAST:STEP", "KEY=A,B,C");
+  options->keys.add_set(*command, invocation, "values of any key of a scene, by commas, or FIRST:LAST:STEP",
+                        "KEY=A,B,C");
   command->add_flag("--table", options->table, "the last measurements of the probes of all runs, as CSV");
   CLI::Option* plot =
       command

@@ -54,6 +54,7 @@ std::string value_text(const std::optional<Value>& value) {
 template <class Value>
 std::string value_text(const std::vector<Value>& values) {
   std::vector<std::string> items;
+  items.reserve(values.size());
   for (const Value& value : values) items.push_back(value_text(value));
   return fmt::format("[{}]", fmt::join(items, ", "));
 }

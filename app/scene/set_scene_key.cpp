@@ -18,6 +18,7 @@ namespace {
 struct Given {
   std::string_view text;
   const MaterialLibrary& library;
+  const KeyIsSaid& is_said;
 };
 
 [[noreturn]] void refuse(std::string_view path) {
@@ -136,6 +137,7 @@ struct KeySetter {
   std::string_view rest;
   const Given& given;
   bool is_known = false;
+  bool is_open = true;
   std::vector<std::string_view> known{};
   std::vector<std::string_view> rivals{};  // keys that exclude this one
 
@@ -153,7 +155,9 @@ struct KeySetter {
     known.push_back(key.name);
     if (key.name != name) return;
     is_known = true;
-    set_value(value, key, rest, given);
+    is_open = !(rest.empty() && given.is_said) ||
+              !(given.is_said(name) || std::any_of(rivals.begin(), rivals.end(), given.is_said));
+    if (is_open) set_value(value, key, rest, given);
   }
 };
 
@@ -177,18 +181,19 @@ void set_key(Owner& owner, std::string_view path, const Given& given) {
   KeySetter setter{.name = path.substr(0, dot), .rest = rest, .given = given};
   fields(setter, owner);
   if (!setter.is_known) throw Error(ErrorKind::kBadInput, unknown_key(setter.name, path, setter.known));
+  if (!setter.is_open) return;
   KeyDropper dropper{{}, setter.rivals};
   fields(dropper, owner);
 }
 
 }  // namespace
 
-void set_scene_key(Film& scene, std::string_view path, std::string_view text) {
+void set_scene_key(Film& scene, std::string_view path, std::string_view text, const KeyIsSaid& is_said) {
   if (path == "materials") refuse(path);  // they would come too late for the bodies
   const bool is_quoted =
       text.size() > 1 && (text[0] == '"' || text[0] == '\'') && text.find(text[0], 1) == text.size() - 1;
   if (is_quoted) text = text.substr(1, text.size() - 2);  // as a scene file has it
-  set_key(scene, path, {.text = text, .library = *scene.library});
+  set_key(scene, path, {.text = text, .library = *scene.library, .is_said = is_said});
 }
 
 }  // namespace sprung

@@ -93,12 +93,12 @@ const std::vector<Row>& rows() {
 }
 
 /// The kinds of repair in it that are worth a warning.
-std::set<std::string> repairs_in(const std::string& json) {
+std::set<std::string> repairs_in(const std::string& report) {
   std::set<std::string> kinds;
   const std::string key = "\"kind\": \"";
-  for (std::size_t at = json.find(key); at < json.find("\"bodies\""); at = json.find(key, at)) {
+  for (std::size_t at = report.find(key); at < report.find("\"bodies\""); at = report.find(key, at)) {
     at += key.size();
-    kinds.insert(json.substr(at, json.find('"', at) - at));
+    kinds.insert(report.substr(at, report.find('"', at) - at));
   }
   for (const char* harmless : {"welded", "unreferenced", "cavity"}) kinds.erase(harmless);
   return kinds;
@@ -119,25 +119,25 @@ TEST_P(EveryMesh, BehavesAsTheTableSays) {
   const std::string bricks = test::kSanitized ? "16" : "48";
   const ProgramRun made = run_program(folder_, "inspect '" + file + "' --json --resolution 160x120 --bricks " + bricks);
   ASSERT_EQ(made.exit_code, 0) << made.err;
-  const std::string& json = made.out;
-  EXPECT_EQ(number_at(json, {"mesh", "vertices"}), row.vertices);
-  EXPECT_EQ(number_at(json, {"mesh", "triangles"}), row.triangles);
-  EXPECT_NE(json.find(row.is_closed ? "\"closed\": true" : "\"closed\": false"), std::string::npos) << json;
-  EXPECT_EQ(number_at(json, {"mesh", "solids"}), row.solids);
+  const std::string& report = made.out;
+  EXPECT_EQ(number_at(report, {"mesh", "vertices"}), row.vertices);
+  EXPECT_EQ(number_at(report, {"mesh", "triangles"}), row.triangles);
+  EXPECT_NE(report.find(row.is_closed ? "\"closed\": true" : "\"closed\": false"), std::string::npos) << report;
+  EXPECT_EQ(number_at(report, {"mesh", "solids"}), row.solids);
   if (!test::kSanitized) {
-    EXPECT_EQ(number_at(json, {"bricks", "solids"}), row.solids) << "parts came apart, or hang together";
+    EXPECT_EQ(number_at(report, {"bricks", "solids"}), row.solids) << "parts came apart, or hang together";
   }
   if (row.volume) {
-    EXPECT_NEAR(number_at(json, {"mesh", "volume"}) / *row.volume, 1, 1e-3);
-    EXPECT_NEAR(number_at(json, {"bricks", "volume"}) / *row.volume, 1, test::kSanitized ? 0.05 : 5e-3);
+    EXPECT_NEAR(number_at(report, {"mesh", "volume"}) / *row.volume, 1, 1e-3);
+    EXPECT_NEAR(number_at(report, {"bricks", "volume"}) / *row.volume, 1, test::kSanitized ? 0.05 : 5e-3);
   }
-  EXPECT_LT(std::abs(number_at(json, {"volume_error"})), test::kSanitized ? 0.02 : 1e-3)
+  EXPECT_LT(std::abs(number_at(report, {"volume_error"})), test::kSanitized ? 0.02 : 1e-3)
       << "the mass is density times the volume";
-  const std::set<std::string> named = repairs_in(json);
+  const std::set<std::string> named = repairs_in(report);
   for (const std::string& kind : row.repairs) EXPECT_TRUE(named.contains(kind)) << kind;
-  EXPECT_EQ(named.empty(), row.repairs.empty()) << json;
+  EXPECT_EQ(named.empty(), row.repairs.empty()) << report;
   const std::string warnings =
-      json.substr(json.find("\"warnings\""), json.find("\"bodies\"") - json.find("\"warnings\""));
+      report.substr(report.find("\"warnings\""), report.find("\"bodies\"") - report.find("\"warnings\""));
   EXPECT_NE(warnings.find(row.words), std::string::npos) << warnings;
 }
 

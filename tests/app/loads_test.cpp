@@ -10,7 +10,7 @@ namespace sprung {
 namespace {
 
 /// A cube of 10 cm and 1 kg.
-const std::string kCube = R"(
+const std::string kLoadedCube = R"(
 duration = 0.55
 fps = 20
 gravity = [0, 0, 0]
@@ -40,7 +40,7 @@ Recording record(const std::string& text) {
   return simulate(simulation, scene, silent);
 }
 
-std::vector<Vec3> path(const std::string& text) {
+std::vector<Vec3> path_of_load(const std::string& text) {
   std::vector<Vec3> places;
   const Recording recording = record(text);
   for (const ProbeSample& sample : recording.probes.at(0).samples) places.push_back(sample.displacement);
@@ -49,8 +49,8 @@ std::vector<Vec3> path(const std::string& text) {
 
 TEST(SceneLoads, ForceActsFromItsKeyframeOn) {
   const std::vector<Vec3> places =
-      path(kCube + "[[body.force]]\ntotal = [2, 0, 0]\ninterpolation = \"held\"\n" +
-           "keyframes = [{ t = 0, strength = 0 }, { t = 0.2, strength = 1 }]\n[solver]\nscheme = \"verlet\"\n");
+      path_of_load(kLoadedCube + "[[body.force]]\ntotal = [2, 0, 0]\ninterpolation = \"held\"\n" +
+                   "keyframes = [{ t = 0, strength = 0 }, { t = 0.2, strength = 1 }]\n[solver]\nscheme = \"verlet\"\n");
   EXPECT_LT(places[4].norm(), 1e-9);
   EXPECT_NEAR(places[10].x(), 0.5 * 2 * 0.3 * 0.3, 1e-4);
 }
@@ -58,7 +58,7 @@ TEST(SceneLoads, ForceActsFromItsKeyframeOn) {
 /// Flat boxes: the cube held by its foot and pulled by its top, which no brick has its middle in.
 TEST(SceneLoads, FacesAreHeldAndPulled) {
   const Recording pulled =
-      record(kCube + kHeld +
+      record(kLoadedCube + kHeld +
              "[[body.pin]]\nname = \"foot\"\nbox = { min = [0, 0, 0], max = [1, 0, 1] }\n[[body.force]]\n"
              "total = [0, 1, 0]\nbox = { min = [0, 1, 0], max = [1, 1, 1] }\n[solver]\nscheme = \"linear\"\n");
   EXPECT_NEAR(pulled.probes.at(1).samples.back().force.y(), -1, 1e-9);
@@ -68,15 +68,15 @@ TEST(SceneLoads, FacesAreHeldAndPulled) {
 
 TEST(SceneLoads, TotalIsSharedOutByVolumeAndPerVolumeIsNot) {
   const std::string part = "box = { min = [0, 0, 0], max = [0.5, 1, 1] }\n";
-  const std::vector<Vec3> total = path(kCube + "[[body.force]]\n" + part + "total = [0, 0, 3]\n");
-  const std::vector<Vec3> half = path(kCube + "[[body.force]]\n" + part + "per_volume = [0, 0, 6000]\n");
+  const std::vector<Vec3> total = path_of_load(kLoadedCube + "[[body.force]]\n" + part + "total = [0, 0, 3]\n");
+  const std::vector<Vec3> half = path_of_load(kLoadedCube + "[[body.force]]\n" + part + "per_volume = [0, 0, 6000]\n");
   EXPECT_GT(total[10].z(), 0.3);
   EXPECT_LT((total[10] - half[10]).norm(), 1e-9);
 }
 
 TEST(SceneLoads, GravityFollowsItsKeyframes) {
-  const std::vector<Vec3> places =
-      path("gravity_keyframes = [{ t = 0, gravity = [0, -10, 0] }, { t = 0.5, gravity = [0, 0, 0] }]\n" + kCube);
+  const std::vector<Vec3> places = path_of_load(
+      "gravity_keyframes = [{ t = 0, gravity = [0, -10, 0] }, { t = 0.5, gravity = [0, 0, 0] }]\n" + kLoadedCube);
   EXPECT_NEAR(places[10].y(), -10 * 0.25 / 2 + 20 * 0.125 / 6, 2e-3);
 }
 
@@ -84,10 +84,10 @@ TEST(SceneLoads, GravityFollowsItsKeyframes) {
 TEST(SceneLoads, WhatHoldsABodyAnswersTheForce) {
   for (const std::string solver :
        {"scheme = \"static\"\nload_steps = 2\n", "scheme = \"euler\"\n", "scheme = \"bdf2\"\n"}) {
-    const std::size_t body = kCube.find("[[body]]");
+    const std::size_t body = kLoadedCube.find("[[body]]");
     const Recording recording =
-        record("duration = 3\n" + kCube.substr(kCube.find("fps"), body - kCube.find("fps")) + kHeld +
-               kCube.substr(body) + kFoot + "[[body.force]]\nbox = { min = [0, 0.5, 0], max = [1, 1, 1] }\n" +
+        record("duration = 3\n" + kLoadedCube.substr(kLoadedCube.find("fps"), body - kLoadedCube.find("fps")) + kHeld +
+               kLoadedCube.substr(body) + kFoot + "[[body.force]]\nbox = { min = [0, 0.5, 0], max = [1, 1, 1] }\n" +
                "total = [0.4, 0.2, 0]\n[solver]\n" + solver);
     const Vec3 force = recording.probes.at(1).samples.back().force;
     EXPECT_LT((force + Vec3(0.4, 0.2, 0)).norm(), 0.01) << solver << force.transpose();
@@ -103,8 +103,8 @@ TEST(SceneLoads, ActInImplicitStepsToo) {
       "[[body.muscle]]\ndirection = [1, 1, 0]\ncontraction = 0.3\n"
       "keyframes = [{ t = 0, strength = 0 }, { t = 0.4, strength = 1 }]\n";
   for (const std::string& load : {wind, pressure, wind + muscle}) {
-    const std::vector<Vec3> short_steps = path(kCube + load);
-    const std::vector<Vec3> long_steps = path(kCube + load + "[solver]\nscheme = \"bdf2\"\n");
+    const std::vector<Vec3> short_steps = path_of_load(kLoadedCube + load);
+    const std::vector<Vec3> long_steps = path_of_load(kLoadedCube + load + "[solver]\nscheme = \"bdf2\"\n");
     EXPECT_GT(short_steps.back().norm(), 0.05) << load;
     EXPECT_LT((short_steps.back() - long_steps.back()).norm(), 0.02 * short_steps.back().norm()) << load;
   }
@@ -116,7 +116,7 @@ TEST(SceneLoads, WhatCannotBeIsRefused) {
   const std::string wind = "[wind]\nvelocity = [3, 0, 0]\n" + late;
   const std::string muscle = "[[body.muscle]]\ndirection = [0, 1, 0]\ncontraction = 0.3\n" + late;
   const auto message_by = [&](const std::string& load, Solver scheme) {
-    Film scene = parse_scene(kCube + kFoot + load, "/scene.toml");
+    Film scene = parse_scene(kLoadedCube + kFoot + load, "/scene.toml");
     scene.solver.scheme = scheme;
     return error_message([&] {
       const Observer silent;

@@ -3,6 +3,8 @@
 #include "app/scene/scene_file.h"
 #include "core/error.h"
 #include "tests/support/error_message.h"
+#include "tests/support/meshes.h"
+#include "tests/support/temp_folder.h"
 
 namespace sprung {
 namespace {
@@ -68,6 +70,45 @@ TEST(SetSceneKey, RefusesWhatIsNoKeyOfAValue) {
             "unknown key 'yung'; did you mean 'body.material.young'?");
   EXPECT_NE(error_message([&] { set_scene_key(scene, "zoom", "1"); }).find("did you mean 'camera.zoom'"),
             std::string::npos);
+}
+
+TEST(SetWhereOpen, LeavesWhatTheFileSaysAndWhatExcludesIt) {
+  const TempFolder folder;
+  static_cast<void>(folder.write("cube.obj", kCubeObj));
+  const std::filesystem::path file = folder.write("scene.toml", R"(
+fps = 30
+[render]
+caption = "its own"
+[[body]]
+mesh = "cube.obj"
+size = "30 cm"
+material = "silicone-a10"
+[[body]]
+mesh = "cube.obj"
+brick_size = "1 cm"
+material = { young = "20 kPa", poisson = 0.4, density = 1000 }
+)");
+  Film scene = read_scene(file);
+  const auto set = [&](std::string_view path, std::string_view text) { set_where_open(scene, file, path, text); };
+  set("fps", "25");
+  set("duration", "2 s");
+  set("render.caption", "ACME");
+  set("render.quality", "high");
+  set("camera.azimuth", "45");
+  set("body.bricks", "40");
+  set("body.size", "10 cm");
+  set("body.material.young", "5 kPa");
+  EXPECT_EQ(scene.fps, 30);
+  EXPECT_EQ(scene.duration, 2);
+  EXPECT_EQ(scene.render.caption, "its own");
+  EXPECT_EQ(scene.render.quality, Quality::kHigh);
+  EXPECT_EQ(scene.camera.azimuth, 45);
+  EXPECT_EQ(scene.bodies[0].size, 0.3);
+  EXPECT_EQ(scene.bodies[1].size, 0.1);
+  EXPECT_EQ(scene.bodies[0].bricks.value().along, 40);
+  EXPECT_EQ(scene.bodies[1].brick_size, 0.01) << "which excludes bricks";
+  EXPECT_EQ(scene.bodies[0].material.young, built_in_materials()->named("silicone-a10").young);
+  EXPECT_EQ(scene.bodies[1].material.young, 20e3);
 }
 
 }  // namespace

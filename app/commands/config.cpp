@@ -1,0 +1,56 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+
+#include "app/commands/commands.h"
+#include "app/commands/options.h"
+
+namespace sprung {
+namespace {
+
+/// "animate, simulate": the commands that take it from this line.
+std::string commands_of(const CLI::App& app, const OptionDefaults& defaults, const OptionDefault& one) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) {
+    if (command->get_option_no_throw(one.option) == nullptr) continue;
+    if (defaults.find(command->get_name(), one.option) == &one) names.push_back(command->get_name());
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+void print_defaults(const CLI::App& app, const OptionDefaults& defaults) {
+  if (defaults.file.empty()) {
+    fmt::print(
+        "no defaults of a site or project: neither does the environment variable {} name a file, nor is there a "
+        "{} in {} or above it\n",
+        kConfigVariable, kConfigName, std::filesystem::current_path().string());
+    return;
+  }
+  fmt::print("{}, {}:\n", defaults.file.string(),
+             defaults.is_of_environment ? fmt::format("named by {}", kConfigVariable)
+                                        : "the nearest one from the working folder upwards");
+  for (const OptionDefault& one : defaults.list) {
+    fmt::print("{:>5}  {} = {}    of {}\n", one.line, one.option.substr(2), fmt::join(one.values, ", "),
+               commands_of(app, defaults, one));
+  }
+}
+
+}  // namespace
+
+void add_config(CLI::App& app, Invocation& invocation) {
+  CLI::App* command = app.add_subcommand("config", "defaults of options that hold here, and from which file");
+  add_messages(*command, invocation.console);
+  command->footer(
+      fmt::format("A file of defaults is TOML: an option without its dashes, with its value as typed; in a\n"
+                  "table of a command's name, for that command alone:\n\n"
+                  "  quality = \"high\"\n  threads = 8\n  set = [\"render.caption=ACME\"]\n  [animate]\n  resolution = "
+                  "\"1920x1080\"\n\n"
+                  "It is the file that {} names, or the nearest {} in the working folder or above it;\n"
+                  "{}= keeps from looking. What is typed and what a scene file says win over it.",
+                  kConfigVariable, kConfigName, kConfigVariable));
+  command->callback([&app, &invocation] { print_defaults(app, invocation.defaults); });
+}
+
+}  // namespace sprung
