@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <deque>
 
 #include "app/commands/commands.h"
 #include "app/commands/options.h"
@@ -19,7 +20,8 @@ namespace {
 
 struct ExportOptions {
   OutputOptions outputs;
-  std::string frames;  // "1:48:2"
+  std::vector<std::string> takes;  // caches beside the input
+  std::string frames;              // "1:48:2"
   bool quantize = false;
   bool list = false;
   bool overwrite = false;
@@ -32,13 +34,9 @@ void print_formats() {
     const std::string kept = describe(format.keeps);
     fmt::print("  {:<7} {}; keeps {}\n", format.extension, format.what, kept.empty() ? "nothing else" : kept);
   }
-  fmt::print(
-      "All frames in one file:\n"
-      "  .glb    glTF 2 with an animation, for Blender, three.js and browsers\n"
-      "  .html   a page to look at in a browser, by itself\n"
-      "  .pc2    Point Cache 2, .mdd LightWave: vertices of each frame, for Blender's Mesh Cache modifier\n"
-      "  .xdmf   bricks with their fields, and skins, for ParaView; the numbers are in .xdmf.h5\n"
-      "Left out:\n");
+  fmt::print("All frames in one file:\n");
+  for (const AnimationFormat& format : animation_formats()) fmt::print("  {:<7} {}\n", format.extension, format.what);
+  fmt::print("Left out:\n");
   for (const UnsupportedFormat& format : unsupported_formats()) fmt::print("  {}: {}\n", format.format, format.reason);
 }
 
@@ -53,34 +51,60 @@ std::vector<ExportTarget> targets_of(const ExportOptions& options, const Film& s
     }
     check_writable(files_of(targets.back(), scene, range).front());
   }
-  const bool has_animation = std::any_of(targets.begin(), targets.end(), [](const ExportTarget& target) {
-    return target.kind == ExportTarget::Kind::kAnimation;
+  const bool can_quantize = std::any_of(targets.begin(), targets.end(), [](const ExportTarget& target) {
+    return target.animation != nullptr && target.animation->can_quantize;
   });
-  if (options.quantize && !has_animation) {
+  if (options.quantize && !can_quantize) {
     throw Error(ErrorKind::kUsage, "--quantize is about an animated .glb: -o film.glb");
+  }
+  for (std::size_t i = 0; i < targets.size() && !options.takes.empty(); ++i) {
+    if (targets[i].animation != nullptr && targets[i].animation->holds_takes) continue;
+    throw Error(ErrorKind::kUsage, fmt::format("{} holds one film; several caches become the takes of a page: -o "
+                                               "film.html",
+                                               options.outputs.names[i]));
   }
   return targets;
 }
 
-void write_all(const ExportOptions& options, const CachedFilmView& view, const FrameRange& range,
+void write_all(const ExportOptions& options, std::span<const CachedFilmView> takes, const FrameRange& range,
                const std::vector<ExportTarget>& targets, const Console& console) {
   for (std::size_t i = 0; i < targets.size(); ++i) {
-    make_folder(files_of(targets[i], view.film, range).front().parent_path());
-    export_files(targets[i], view, range, console);
+    make_folder(files_of(targets[i], takes.front().film, range).front().parent_path());
+    export_files(targets[i], takes, range, console);
     fmt::print("{}\n", options.outputs.names[i]);
   }
 }
 
-void export_cache(const ExportOptions& options, const Console& console) {
+/// A cache with all that a view of it needs.
+struct OpenCache {
+  explicit OpenCache(const std::filesystem::path& file)
+      : name(file.stem().string()),
+        cache(file),
+        film(cached_film(cache.header())),
+        simulation(cached_simulation(cache.header(), film)) {}
+  [[nodiscard]] CachedFilmView view() const { return {simulation, cache, film, name}; }
+
+  std::string name;
+  CacheReader cache;
+  Film film;
+  Simulation simulation;
+};
+
+void export_caches(const ExportOptions& options, const Console& console) {
   if (!options.scene.keys.settings().empty() || !options.scene.scenario.empty()) {
     throw Error(ErrorKind::kUsage, "a cache is simulated already; options of the scene have no effect on it");
   }
-  const CacheReader cache(options.scene.input);
-  const Film scene = cached_film(cache.header());
-  const FrameRange range = parse_frame_range(options.frames, cache.frame_count());
-  const std::vector<ExportTarget> targets = targets_of(options, scene, range);
-  const Simulation simulation = cached_simulation(cache.header(), scene);
-  write_all(options, {simulation, cache, scene}, range, targets, console);
+  std::deque<OpenCache> caches;
+  caches.emplace_back(options.scene.input);
+  for (const std::string& take : options.takes) caches.emplace_back(take);
+  std::vector<CachedFilmView> views;
+  std::size_t frames = 0;
+  for (const OpenCache& cache : caches) {
+    views.push_back(cache.view());
+    frames = std::max(frames, cache.cache.frame_count());
+  }
+  const FrameRange range = parse_frame_range(options.frames, frames);
+  write_all(options, views, range, targets_of(options, caches.front().film, range), console);
 }
 
 /// A temporary cache beside the output.
@@ -115,7 +139,11 @@ void export_run(const CLI::App& command, const ExportOptions& options, const Con
   if (!options.scene.print_scene) {
     options.outputs.require(command, "-o skin_{:04}.obj, -o film.glb, ...; see sprung export --list");
   }
-  if (is_cache_file(options.scene.input)) return export_cache(options, console);
+  if (is_cache_file(options.scene.input)) return export_caches(options, console);
+  if (!options.takes.empty()) {
+    throw Error(ErrorKind::kUsage,
+                fmt::format("{}: takes of one page are caches (.h5), all of them", options.takes[0]));
+  }
   options.scene.with_scene(console, [&](const Film& scene) {
     const FrameRange range = parse_frame_range(options.frames, frame_count(scene));
     const std::vector<ExportTarget> targets = targets_of(options, scene, range);
@@ -123,7 +151,9 @@ void export_run(const CLI::App& command, const ExportOptions& options, const Con
     warn_of_memory(simulation, scene, console);
     const PassingCache passing(files_of(targets.front(), scene, range).front());
     simulate_into(passing.file(), simulation, scene, console);
-    write_all(options, {simulation, CacheReader(passing.file()), scene}, range, targets, console);
+    const CacheReader cache(passing.file());
+    const CachedFilmView view{simulation, cache, scene, std::filesystem::path(options.scene.input).stem().string()};
+    write_all(options, {&view, 1}, range, targets, console);
   });
 }
 
@@ -132,19 +162,19 @@ void export_run(const CLI::App& command, const ExportOptions& options, const Con
 void add_export(CLI::App& app, Invocation& invocation) {
   CLI::App* command = app.add_subcommand("export", "a cache, mesh or scene in, deformed meshes out");
   const auto options = std::make_shared<ExportOptions>();
-  options->outputs.add_to(*command,
-                          "skin_{:04}.obj or another format, film.glb, film.html, points.pc2, points.mdd, run.xdmf; "
-                          "may be given several times");
+  options->outputs.add_to(*command, example_targets() + "; may be given several times");
   command->add_option("--frames", options->frames, "these only, counted from 1; default: all")->option_text("A:B:STEP");
   command->add_flag("--quantize", options->quantize,
                     "keep 16 bits per coordinate in film.glb: half the size; reports the error");
   command->add_flag("--list", options->list, "name the formats, and stop");
   command->add_flag("--overwrite", options->overwrite, "replace files that exist");
   options->scene.add_to(*command, invocation, false, "a cache (.h5), a mesh file, or a scene (.toml)");
+  command->add_option("TAKES", options->takes, "further caches: takes of one film.html");
   add_messages(*command, invocation.console);
   command->footer(scene_footer(*command,
                                "Examples:\n  sprung export run.h5 -o film.glb\n"
-                               "  sprung export run.h5 -o skin_{:04}.obj -o points.pc2\n"));
+                               "  sprung export run.h5 -o skin_{:04}.obj -o points.pc2\n"
+                               "  sprung export soft.h5 stiff.h5 -o film.html\n"));
   command->callback([options, command, &invocation] { export_run(*command, *options, invocation.console); });
 }
 

@@ -1,32 +1,72 @@
 #pragma once
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "core/io/mesh_export.h"
+#include "core/bricks/embedding.h"
+#include "core/skin/skin.h"
 #include "render/camera.h"
+#include "render/image/legend.h"
 
 namespace sprung {
 
-/// viewer.html with three.js and its licence in it: a page that shows a film in three dimensions in any browser with
-/// WebGL. The film, a JavaScript object, goes in place of kViewerFilm. Drag to turn, wheel to zoom, space or the bar to
-/// stop.
-inline constexpr std::string_view kViewerFilm = "/*FILM*/";
-[[nodiscard]] std::string_view viewer_page();
+/// A field at the nodes of a take.
+struct ViewerField {
+  Legend legend;                    // its title names the unit of `low` and `high`
+  std::vector<std::uint8_t> steps;  // nodes of the first frame, then of the next, ...; 0: low, 255: high. A single
+                                    // frame holds for all
 
-/// Collects a film for viewer_page(): the model of its first frame, with textures, as glTF, and the positions of every
-/// frame, rounded to 1/65535 of the film's longest side.
-class ViewerFilm {
- public:
-  /// The meshes of the next frame, the same ones in every frame.
-  void add_frame(const std::vector<PosedMesh>& meshes);
-
-  /// The page, which starts with this camera and shows as much as a picture of this width / height.
-  [[nodiscard]] std::string page(double fps, const Camera& camera, double aspect) const;
-
- private:
-  std::string model_;                         // glTF
-  std::vector<std::vector<Floats3>> frames_;  // [mesh][frame]
+  /// Further nodes: 0 is low, 1 high; what is beyond them is clamped.
+  void add(const Eigen::VectorXd& coordinates);
 };
+
+/// A mesh of a take: vertices that bricks carry, or those of an obstacle.
+struct ViewerMesh {
+  std::vector<int> brick;         // rows of the take's bricks; none for an obstacle
+  Floats3 local;                  // coordinates in the brick, see Embedding
+  std::vector<Floats3> obstacle;  // by frame, m; a single one: it stays where it is
+};
+
+/// A film as the page shows it.
+struct ViewerTake {
+  std::string name;
+  double fps = 24;
+  int first_frame = 1;  // number of the first frame in the film, and what is added from one to the next
+  int frame_step = 1;
+  std::string progress = "time_s";  // of a frame: time_s, load or mode
+  std::vector<double> at;           // by frame: time (s), fraction of the load or number of the mode
+  Camera camera;                    // at the start
+  double aspect = 16.0 / 9;         // width / height that the camera is made for
+  std::optional<double> ground;     // m, height
+  std::string model;                // the first frame as glTF, with a node for each mesh
+  std::vector<ViewerMesh> meshes;
+  std::vector<Floats3> nodes;              // by frame: of all bodies, one after the other, m
+  std::vector<std::array<int, 8>> bricks;  // nodes by corner
+  std::vector<std::array<int, 2>> springs;
+  Eigen::VectorXf rest_lengths;          // of the springs, m
+  std::optional<Legend> spring_stretch;  // legend, percent
+  std::vector<ViewerField> fields;
+  int shown_field = -1;  // of them, at the start; -1: the skin's own colours
+
+  /// Adds the bricks of a grid whose nodes come next, and returns the row of the first of them.
+  int add_bricks(const BrickGrid& grid, int first_node);
+};
+
+/// Those of a take's vertices that a grid carries, from row `first_brick` of the take's bricks on, in place of these
+/// rows of the mesh.
+void place_vertices(ViewerMesh& mesh, const std::vector<int>& rows, const Embedding& embedding, int first_brick);
+
+/// A page that shows films in three dimensions in any browser with WebGL, with three.js and its licence in it: plays,
+/// turns, colours by field, bricks, springs, wireframe, axes. It needs no other file. Positions are rounded to 1/65535
+/// of a take's longest side.
+[[nodiscard]] std::string viewer_page(std::span<const ViewerTake> takes);
+
+/// The page without films; they go, as a JavaScript array, in place of kViewerTakes.
+inline constexpr std::string_view kViewerTakes = "/*TAKES*/";
+[[nodiscard]] std::string_view viewer_template();
 
 }  // namespace sprung

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <span>
 #include <sstream>
 
 #include "app/export/viewer.h"
 #include "app/film/film_stage.h"
 #include "core/body/stress.h"
+#include "core/io/animation.h"
 #include "core/text.h"
 #include "render/image/color_map.h"
 #include "render/image/png.h"
@@ -19,6 +21,7 @@ namespace {
 
 constexpr int kFrames = 9;
 constexpr double kFrameRate = 6;  // frames/s
+constexpr double kAspect = 1.6;   // of the turning view
 
 std::string escaped(std::string_view text) {
   std::string safe;
@@ -50,40 +53,54 @@ std::string table_of(const std::string& text) {
 }
 
 std::string viewer_of(const PartReport& report, const PartSolution& coarse, double magnification) {
+  constexpr double kMega = 1e6;
   const double highest = report.answer.von_mises ? report.answer.von_mises->value : 1;
   const std::vector<SoftBody>& bodies = coarse.simulation.world.bodies;
-  std::vector<Skin> skins;
+  ViewerTake take;
+  take.name = report.part.loaded.name;
+  take.fps = kFrameRate;
+  take.progress = "load";
+  take.aspect = kAspect;
+  take.shown_field = 0;
+  ViewerField& field = take.fields.emplace_back();
+  field.legend.title = "von Mises stress, MPa";
+  field.legend.map = ColorMap::kTurbo;
+  field.legend.high = highest / kMega;
+  for (int frame = 0; frame < kFrames; ++frame) take.at.push_back(double(frame) / (kFrames - 1));
+  const StrainMeasure measure = strain_measure(coarse.scene);
+  std::vector<PosedMesh> meshes;
   AlignedBox box;
+  int nodes = 0;
   for (const SoftBody& body : bodies) {
-    const Eigen::VectorXd stress = von_mises(skin_stress(coarse, body));
-    Skin skin = body.skin;
-    skin.uvs.resize(0, 2);
-    skin.parts.clear();
-    skin.materials.clear();
-    skin.colors.resize(stress.size(), 4);
-    for (Eigen::Index row = 0; row < stress.size(); ++row) {
-      skin.colors.row(row) << map_color(ColorMap::kTurbo, stress[row] / highest).transpose(), 1;
-    }
-    skins.push_back(std::move(skin));
-    box.extend(bounding_box(body.skin_positions(body.rest_positions)));
+    const int first_brick = take.add_bricks(body.grid, nodes);
+    nodes += body.node_count();
+    field.add(von_mises(recover_stress(body, body.positions, measure)) / highest);
+    const Points places = body.skin_positions(body.rest_positions);
+    const Eigen::Index count = places.rows();
+    ViewerMesh& mesh = take.meshes.emplace_back();
+    mesh.brick.resize(count);
+    mesh.local.resize(count, 3);
+    std::vector<int> rows(count);
+    std::iota(rows.begin(), rows.end(), 0);
+    place_vertices(mesh, rows, body.skin_embedding, first_brick);
+    meshes.push_back({.name = fmt::format("body {}", take.meshes.size()),
+                      .rest = &body.skin,
+                      .positions = places,
+                      .normals = body.skin.normals});
+    box.extend(bounding_box(places));
   }
-  ViewerFilm film;
-  for (int frame = 0; frame < kFrames; ++frame) {
-    const double share = magnification * frame / (kFrames - 1);
-    std::vector<PosedMesh> meshes;
-    for (std::size_t row = 0; row < bodies.size(); ++row) {
-      const SoftBody& body = bodies[row];
-      const SkinShape shape = shape_of(body.grid, body.skin, body.skin_embedding,
-                                       body.rest_positions + share * (body.positions - body.rest_positions));
-      meshes.push_back({.name = fmt::format("body {}", row + 1),
-                        .rest = &skins[row],
-                        .positions = shape.positions.cast<double>(),
-                        .normals = shape.normals.cast<double>().rowwise().normalized()});
+  for (const double share : take.at) {
+    Floats3& all = take.nodes.emplace_back(nodes, 3);
+    int first = 0;
+    for (const SoftBody& body : bodies) {
+      const Points moved = body.rest_positions + magnification * share * (body.positions - body.rest_positions);
+      all.middleRows(first, body.node_count()) = moved.cast<float>();
+      first += body.node_count();
     }
-    film.add_frame(meshes);
   }
-  constexpr double kAspect = 1.6;
-  return film.page(kFrameRate, frame_bounds(box, kAspect), kAspect);
+  take.camera = frame_bounds(box, kAspect);
+  take.model = static_glb(meshes);
+  return viewer_page({&take, 1});
 }
 
 }  // namespace

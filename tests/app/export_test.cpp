@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "core/mesh/io/read_mesh.h"
@@ -64,15 +66,76 @@ TEST_F(Export, KeepsTheMeshOfTheFileAndWritesTheSameFromACacheAndAScene) {
   EXPECT_LT(std::filesystem::file_size(folder_.path() / "quantized.glb"),
             std::filesystem::file_size(folder_.path() / "film.glb"));
   const std::string page = text_of(folder_.path() / "film.html");
-  EXPECT_NE(page.find("const film = {\"frames\": 4, \"fps\": 10,"), std::string::npos);
-  const std::size_t positions = page.find("\"positions\": [\"") + 15;
-  EXPECT_EQ(page.find('"', positions) - positions, 4U * 8 * 3 * 2 / 3 * 4) << "four frames of eight vertices, base64";
+  EXPECT_NE(page.find("const films = [{\"name\":\"run\",\"frames\":4,\"fps\":10.0,"), std::string::npos);
   EXPECT_NE(page.find("Permission is hereby granted"), std::string::npos) << "the licence of three.js";
   for (const char* needs : {"<script src", "<link", "<!--"}) EXPECT_EQ(page.find(needs), std::string::npos) << needs;
   EXPECT_TRUE(exists("run.xdmf.h5"));
   for (const auto& file : std::filesystem::recursive_directory_iterator(folder_.path())) {
     EXPECT_EQ(file.path().string().find(".passing"), std::string::npos) << file.path();
   }
+}
+
+/// The films of a page, as its script has them.
+nlohmann::json films_of(const std::string& page) {
+  const std::string_view begins = "const films = ";
+  const std::size_t begin = page.find(begins) + begins.size();
+  return nlohmann::json::parse(page.substr(begin, page.find(";\n</script>", begin) - begin));
+}
+
+std::size_t bytes_in(const nlohmann::json& base64) {
+  const auto& text = base64.get_ref<const std::string&>();
+  return text.size() / 4 * 3 - std::size_t(std::count(text.end() - 2, text.end(), '='));
+}
+
+TEST_F(Export, MakesAPageOfSeveralTakesWithFieldsBricksAndObstacles) {
+  static_cast<void>(folder_.write("plate.toml", text_of(folder_.path() / "scene.toml") + R"(
+[[obstacle]]
+box = [0.3, 0.02, 0.3]
+position = [0, 0.5, 0]
+keyframes = [{ t = 0 }, { t = 0.4, translate = [0, -0.1, 0] }]
+[[obstacle]]
+sphere = { radius = 0.05 }
+position = [0.5, 0.05, 0]
+)"));
+  ASSERT_EQ(run("simulate plate.toml -o soft.h5").exit_code, 0);
+  ASSERT_EQ(run("simulate scene.toml -o 2.h5 --set body.material.young=90kPa --duration 0.6").exit_code, 0);
+  const ProgramRun both = run("export soft.h5 2.h5 -o takes.html --frames 2::2");
+  ASSERT_EQ(both.exit_code, 0) << both.err;
+  const std::string page = text_of(folder_.path() / "takes.html");
+  EXPECT_LT(page.find("const films"), 3U << 20) << "the scripts";
+  const nlohmann::json films = films_of(page);
+  ASSERT_EQ(films.size(), 2U);
+  EXPECT_EQ(films[0]["name"], "soft");
+  EXPECT_EQ(films[1]["name"], "2");
+  EXPECT_EQ(films[0]["frames"], 2) << "of 4: 2 and 4";
+  EXPECT_EQ(films[1]["frames"], 3);
+  EXPECT_EQ(films[0]["first_frame"], 2);
+  EXPECT_EQ(films[0]["fps"], 5);
+  EXPECT_EQ(films[0]["ground"], 0);
+  const nlohmann::json& film = films[0];
+  ASSERT_EQ(film["meshes"].size(), 3U) << "a cube and two obstacles";
+  EXPECT_EQ(bytes_in(film["meshes"][0]["brick"]), 8U * 4);
+  EXPECT_EQ(bytes_in(film["meshes"][0]["local"]), 8U * 3 * 4);
+  EXPECT_EQ(bytes_in(film["meshes"][1]["obstacle"]) % (2 * 3 * 2), 0U) << "moves";
+  EXPECT_LT(bytes_in(film["meshes"][1]["obstacle"]), bytes_in(film["meshes"][2]["obstacle"])) << "a ball, once";
+  const std::size_t nodes = 6 * 6 * 6;
+  EXPECT_EQ(bytes_in(film["nodes"]), 2 * nodes * 3 * 2);
+  EXPECT_EQ(bytes_in(film["bricks"]), 125U * 8 * 4);
+  EXPECT_EQ(bytes_in(film["edges"]), 3U * 5 * 6 * 6 * 8);
+  ASSERT_EQ(film["fields"].size(), 4U);
+  EXPECT_EQ(film["fields"][3]["title"].get<std::string>().substr(0, 7), "Stress,");
+  for (const auto& field : film["fields"]) {
+    EXPECT_EQ(bytes_in(field["steps"]), 2 * nodes);
+    EXPECT_LT(field["low"], field["high"]);
+  }
+  EXPECT_GT(bytes_in(film["springs"]["pairs"]), bytes_in(film["edges"]));
+  EXPECT_EQ(bytes_in(film["springs"]["rest"]) * 2, bytes_in(film["springs"]["pairs"]));
+}
+
+TEST_F(Export, RefusesTakesOfWhatHoldsOneFilm) {
+  ASSERT_EQ(run("simulate scene.toml -o a.h5").exit_code, 0);
+  EXPECT_NE(run("export a.h5 a.h5 -o film.glb").err.find("film.glb holds one film"), std::string::npos);
+  EXPECT_NE(run("export scene.toml a.h5 -o film.html").err.find("takes of one page are caches"), std::string::npos);
 }
 
 TEST_F(Export, ClearsWhatAKilledExportLeft) {

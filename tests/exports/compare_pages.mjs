@@ -6,7 +6,7 @@ import { Browser, difference, pixels, serve, silhouette, silhouette_of_file } fr
 
 const folder = process.argv[2];
 const [width, height] = [640, 480];
-const kRows = height - 50;  // above the bar of the page
+const kRows = height;
 const kBackground = [0xd9, 0xdd, 0xe2];
 const kFrames = [1, 7, 12];
 const kModels = ["film.glb", "quantized.glb"];
@@ -30,20 +30,38 @@ function expect_halves(rgba) {
   assert(red > 2000 && green > 2000);
 }
 
+/// How far the vertices of an OBJ lie from the nearest of these places, m; at least as far as 1e-4 m is told as that.
+function largest_gap(places, obj) {
+  const near = new Map();
+  const cell = (numbers, shift) => numbers.map((number, k) => Math.floor(number / 1e-4 + 0.5 * (shift >> k & 1))).join();
+  for (const place of places) {
+    for (let shift = 0; shift < 8; ++shift) near.set(`${shift}:${cell(place, shift)}`, place);
+  }
+  let largest = 0;
+  for (const line of readFileSync(obj, "utf8").split("\n").filter((line) => line.startsWith("v "))) {
+    const vertex = line.split(" ").slice(1, 4).map(Number);
+    const gaps = [0, 1, 2, 3, 4, 5, 6, 7].map((shift) => near.get(`${shift}:${cell(vertex, shift)}`)).filter(Boolean)
+      .map((place) => Math.max(...vertex.map((coordinate, k) => Math.abs(coordinate - place[k]))));
+    largest = Math.max(largest, Math.min(1e-4, ...gaps));
+  }
+  return largest;
+}
+
 const browser = new Browser(width, height);
 const server = await serve(folder);
 try {
   let film;
   for (const frame of kFrames) {
     await browser.open(`file://${folder}/film.html#${frame - 1}`);
-    await browser.until("posed_at >= 0 && meshes.length === 2");
+    await browser.until("posed_at >= 0 && take().meshes.length === 2");
+    await browser.value('find("#view").hidden = find("#player").hidden = true');
     await browser.value("new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve)))");
     const png = await browser.picture();
     writeFileSync(`${folder}/page_${frame}.png`, png);
     expect_same("film.html", frame, pixels(png));
     expect_halves(pixels(png));
-    film = await browser.value("({ eye: film.eye, target: film.target, field_of_view: film.field_of_view, " +
-      "aspect: film.aspect, fps: film.fps })");
+    film = await browser.value("(({ eye, target, field_of_view, aspect, fps }) => " +
+      "({ eye, target, field_of_view, aspect, fps }))(films[0])");
   }
   await browser.open(`file://${folder}/film.html`);
   await browser.until("posed_at > 2");
@@ -58,6 +76,15 @@ try {
       expect_same(`${name} in three.js of npm`, frame, pixels(png));
       expect_halves(pixels(png));
     }
+  }
+  await browser.open(`http://127.0.0.1:${server.address().port}/usd.html`);
+  await browser.until("window.readers !== undefined");
+  for (const reader of ["tinyusdz", "three"]) {
+    const meshes = await browser.value(`readers.${reader}("film.usda")`);
+    assert.deepEqual(meshes.map((mesh) => mesh.name).sort(), ["ring_1", "torus_2"]);
+    const gap = largest_gap(meshes.flatMap((mesh) => mesh.places), `${folder}/skin_0001.obj`);
+    console.log(`film.usda in ${reader}: vertices are off by at most ${gap.toExponential(1)} m`);
+    assert(gap < 1e-6);
   }
   assert.deepEqual(browser.events, []);
 } finally {

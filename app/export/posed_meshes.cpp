@@ -1,0 +1,76 @@
+#include "app/export/posed_meshes.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+#include <map>
+#include <set>
+
+#include "app/film/film_stage.h"
+#include "core/bricks/embedding.h"
+
+namespace sprung {
+namespace {
+
+/// A body of the scene, or one of its copies.
+using BodyCopy = std::pair<std::size_t, int>;
+
+BodyCopy copy_of(const SoftBody& body) { return {body.origin.body, body.origin.copy}; }
+
+std::string name_of(const Film& scene, const BodyCopy& which) {
+  const SceneBody& body = scene.bodies[which.first];
+  std::string name = body.mesh.empty() ? std::string("body") : body.mesh.stem().string();
+  if (scene.bodies.size() > 1) name += fmt::format("_{}", which.first + 1);
+  if (copy_count(body) > 1) name += fmt::format("_{}", which.second + 1);
+  return name;
+}
+
+PosedMesh empty_mesh(const Simulation& simulation, const Film& scene, const BodyCopy& which, const Color& color) {
+  const Skin& rest = simulation.meshes[which.first];
+  PosedMesh mesh;
+  mesh.name = name_of(scene, which);
+  mesh.rest = &rest;
+  mesh.color = srgb(color);
+  mesh.positions.setZero(rest.positions.rows(), 3);
+  mesh.normals.setZero(rest.normals.rows(), 3);
+  return mesh;
+}
+
+}  // namespace
+
+std::vector<PosedMesh> posed_meshes(const Simulation& simulation, const Film& scene, const std::vector<Points>& nodes) {
+  std::map<BodyCopy, PosedMesh> meshes;
+  for (std::size_t row = 0; row < nodes.size(); ++row) {
+    const SoftBody& body = simulation.world.bodies[row];
+    const BodyCopy which = copy_of(body);
+    if (!meshes.contains(which)) meshes[which] = empty_mesh(simulation, scene, which, body.color);
+    PosedMesh& mesh = meshes[which];
+    mesh.positions(body.file_vertices, Eigen::all) = deform_points(body.grid, body.file_embedding, nodes[row]);
+    if (mesh.normals.rows() == 0) continue;
+    const Points rest = mesh.rest->normals(body.file_vertices, Eigen::all);
+    mesh.normals(body.file_vertices, Eigen::all) =
+        deform_normals(body.grid, body.file_embedding, rest, nodes[row]).rowwise().normalized();
+  }
+  std::vector<PosedMesh> list;
+  list.reserve(meshes.size());
+  for (auto& [which, mesh] : meshes) list.push_back(std::move(mesh));
+  return list;
+}
+
+std::vector<std::size_t> meshes_of_bodies(const Simulation& simulation) {
+  std::set<BodyCopy> copies;
+  for (const SoftBody& body : simulation.world.bodies) copies.insert(copy_of(body));
+  std::vector<std::size_t> rows;
+  for (const SoftBody& body : simulation.world.bodies) {
+    rows.push_back(std::size_t(std::distance(copies.begin(), copies.find(copy_of(body)))));
+  }
+  return rows;
+}
+
+std::size_t mesh_count(const Film& scene) {
+  std::size_t count = 0;
+  for (const SceneBody& body : scene.bodies) count += std::size_t(copy_count(body));
+  return count;
+}
+
+}  // namespace sprung

@@ -1,0 +1,21 @@
+#pragma once
+#include <vector>
+
+#include "app/scene/film.h"
+#include "core/io/mesh_export.h"
+#include "core/simulation/simulation.h"
+
+namespace sprung {
+
+/// The meshes of all bodies and their copies for these positions of the nodes (by body, m), with the vertices, order
+/// and triangles of the files. They point into the simulation.
+[[nodiscard]] std::vector<PosedMesh> posed_meshes(const Simulation& simulation, const Film& scene,
+                                                  const std::vector<Points>& nodes);
+
+/// The row among them of the mesh that each body of the world carries, or a part of it.
+[[nodiscard]] std::vector<std::size_t> meshes_of_bodies(const Simulation& simulation);
+
+/// How many meshes a film has.
+[[nodiscard]] std::size_t mesh_count(const Film& scene);
+
+}  // namespace sprung
