@@ -30,16 +30,23 @@ int Labels::reserved(int width, int height) const {
   return int(std::min(kMostForLegend * width, legend_width(*legend_, height, *font_)));
 }
 
-void Labels::write_name(Image& image, const std::string& name) const { draw_name(image, name, *font_); }
+void Labels::write_name(Image& image, const std::string& name) const {
+  draw_name(image, name, *font_, !render_.caption.empty());
+}
 
 void Labels::write_frame(Image& image, const Camera& camera, std::size_t frame, std::size_t frames, double time) const {
   if (!render_.caption.empty()) draw_caption(image, render_.caption, *font_);
-  const std::string number = render_.frame_number ? fmt::format("{} / {}   ", frame + 1, frames) : "";
-  if (render_.frame_number || render_.sheet) draw_footer(image, fmt::format("{}{:.2f} s", number, time), *font_);
+  double reserved = 0;
   if (render_.scale_bar) {
-    const double pixels = pixels_per_metre(camera, image.height);
-    const double length = round_length(kLongestBar * image.width / pixels);
-    draw_scale_bar(image, length * pixels, readable(length, Dimension::kLength), *font_);
+    const double scale = pixels_per_metre(camera, image.height);
+    const double length = round_length(kLongestBar * image.width / scale);
+    const std::string words = readable(length, Dimension::kLength);
+    draw_scale_bar(image, length * scale, words, *font_);
+    reserved = scale_bar_width(length * scale, words, image.height, *font_) + letters_height(image.height);
+  }
+  const std::string number = render_.frame_number ? fmt::format("{} / {}   ", frame + 1, frames) : "";
+  if (render_.frame_number || render_.sheet) {
+    draw_footer(image, fmt::format("{}{:.2f} s", number, time), *font_, reserved);
   }
 }
 

@@ -1,9 +1,12 @@
 #include "render/image/legend.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <vector>
 
 namespace sprung {
 
@@ -115,20 +118,69 @@ void draw_legend(Image& image, const Legend& legend, const Font& font) {
   }
 }
 
-void draw_name(Image& image, const std::string& text, const Font& font) {
-  const double size = 1.2 * letters_height(image.height);
-  const double left = 0.5 * (image.width - font.width(text, size));
-  font.write(image, left, kLabelMargin * image.height + 0.8 * size, size, text, kDarkInk);
+namespace {
+
+constexpr double kSmallest = 2.0 / 3;  // of the wanted size of letters
+constexpr double kCaption = 1.35;      // size, in letters_height()
+constexpr double kName = 1.2;
+constexpr double kRounding = 0.01;  // pixels
+
+bool is_first_byte(char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U; }
+
+/// Its letters, of one or more bytes each.
+std::vector<std::string> letters_of(const std::string& text) {
+  std::vector<std::string> letters;
+  for (const char byte : text) {
+    if (letters.empty() || is_first_byte(byte)) letters.emplace_back();
+    letters.back() += byte;
+  }
+  return letters;
+}
+
+double room_in(const Image& image) { return image.width - 2 * kLabelMargin * image.height; }
+
+}  // namespace
+
+FittedText fitted(const std::string& text, double size, double room, const Font& font) {
+  const double width = font.width(text, size);
+  if (width <= room) return {text, size};
+  size *= std::max(kSmallest, room / width);
+  const std::vector<std::string> letters = letters_of(text);
+  for (std::size_t kept = letters.size(); kept > 0; --kept) {
+    std::string shortened = text;
+    if (kept < letters.size()) {
+      const auto end = letters.end() - std::ptrdiff_t(kept / 2);
+      shortened =
+          fmt::format("{}\u2026{}", fmt::join(letters.begin(), letters.begin() + std::ptrdiff_t(kept - kept / 2), ""),
+                      fmt::join(end, letters.end(), ""));
+    }
+    if (font.width(shortened, size) <= room + kRounding) return {shortened, size};
+  }
+  return {"", size};
+}
+
+void draw_name(Image& image, const std::string& text, const Font& font, bool has_caption) {
+  const double letters = letters_height(image.height);
+  const FittedText line = fitted(text, kName * letters, room_in(image), font);
+  const double left = 0.5 * (image.width - font.width(line.text, line.size));
+  const double above = has_caption ? 1.25 * kCaption * letters : 0;
+  font.write(image, left, kLabelMargin * image.height + above + 0.8 * kName * letters, line.size, line.text, kDarkInk);
 }
 
 void draw_caption(Image& image, const std::string& text, const Font& font) {
-  const double size = 1.35 * letters_height(image.height);
-  font.write(image, kLabelMargin * image.height, kLabelMargin * image.height + 0.8 * size, size, text, kDarkInk);
+  const double size = kCaption * letters_height(image.height);
+  const FittedText line = fitted(text, size, room_in(image), font);
+  const double margin = kLabelMargin * image.height;
+  font.write(image, margin, margin + 0.8 * size, line.size, line.text, kDarkInk);
 }
 
-void draw_footer(Image& image, const std::string& text, const Font& font) {
-  font.write(image, kLabelMargin * image.height, (1 - kLabelMargin) * image.height, letters_height(image.height), text,
-             kDarkInk);
+void draw_footer(Image& image, const std::string& text, const Font& font, double reserved) {
+  const FittedText line = fitted(text, letters_height(image.height), room_in(image) - reserved, font);
+  font.write(image, kLabelMargin * image.height, (1 - kLabelMargin) * image.height, line.size, line.text, kDarkInk);
+}
+
+double scale_bar_width(double pixels, const std::string& length, int height, const Font& font) {
+  return std::max(pixels, font.width(length, letters_height(height)));
 }
 
 void draw_scale_bar(Image& image, double pixels, const std::string& length, const Font& font) {
@@ -138,7 +190,8 @@ void draw_scale_bar(Image& image, double pixels, const std::string& length, cons
   const double thick = std::max(2.0, 0.18 * size);
   fill_rectangle(image, right - pixels - 1, bottom - thick - 1, right + 1, bottom + 1, {255, 255, 255}, 0.6);
   fill_rectangle(image, right - pixels, bottom - thick, right, bottom, kDarkInk);
-  font.write(image, right - 0.5 * (pixels + font.width(length, size)), bottom - thick - 0.45 * size, size, length,
+  const double width = font.width(length, size);
+  font.write(image, right - std::max(0.5 * (pixels + width), width), bottom - thick - 0.45 * size, size, length,
              kDarkInk);
 }
 

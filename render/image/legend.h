@@ -31,13 +31,23 @@ void draw_legend(Image& image, const Legend& legend, const Font& font);
 /// Pixels to reserve for it at the right edge of a picture of that height.
 [[nodiscard]] double legend_width(const Legend& legend, int height, const Font& font);
 
-/// A line of text at the top, centred.
-void draw_name(Image& image, const std::string& text, const Font& font);
+/// A line of text as it fits into so many pixels: in letters down to two thirds of the size, then with "\u2026" in
+/// place of its middle.
+struct FittedText {
+  std::string text;
+  double size;  // pixels
+};
+[[nodiscard]] FittedText fitted(const std::string& text, double size, double room, const Font& font);
 
-/// A line of text at the top left, one at the bottom left, and at the bottom right a scale bar `pixels` long.
+/// A line of text at the top, centred; below where a caption is, if there is one.
+void draw_name(Image& image, const std::string& text, const Font& font, bool has_caption);
+
+/// A line of text at the top left, one at the bottom left, and at the bottom right a scale bar `pixels` long; none runs
+/// out of the picture. `reserved`: pixels at the right edge that the footer leaves to the scale bar.
 void draw_caption(Image& image, const std::string& text, const Font& font);
-void draw_footer(Image& image, const std::string& text, const Font& font);
+void draw_footer(Image& image, const std::string& text, const Font& font, double reserved = 0);
 void draw_scale_bar(Image& image, double pixels, const std::string& length, const Font& font);
+[[nodiscard]] double scale_bar_width(double pixels, const std::string& length, int height, const Font& font);
 
 /// 1, 2 or 5 times a power of ten, at most `most` (above 0).
 [[nodiscard]] double round_length(double most);

@@ -74,6 +74,58 @@ TEST(RenderGolden, LegendAndLabels) {
   expect_golden(image, "render_legend");
 }
 
+TEST(Labels, FitIntoTheirRoom) {
+  const Font font;
+  const std::string name = "runs/007 \u00c5ngstr\u00f6m, soft, second attempt.h5";
+  const double width = font.width(name, 20);
+  EXPECT_EQ(fitted(name, 20, width + 1, font).text, name);
+  EXPECT_EQ(fitted(name, 20, width + 1, font).size, 20);
+  EXPECT_EQ(fitted(name, 20, 0.8 * width, font).text, name) << "in smaller letters";
+  for (const double share : {0.8, 0.6, 0.3, 0.1, 0.0}) {
+    const FittedText line = fitted(name, 20, share * width, font);
+    EXPECT_LE(font.width(line.text, line.size), share * width + 0.01);
+    EXPECT_GE(line.size, 13);
+  }
+  const std::string half = fitted(name, 20, 0.4 * width, font).text;
+  EXPECT_EQ(half.substr(0, 4), "runs");
+  EXPECT_EQ(half.substr(half.size() - 3), ".h5");
+  EXPECT_NE(half.find("\u2026"), std::string::npos);
+}
+
+/// Columns and rows with letters in them.
+AlignedBox letters_in(const Image& before, const Image& after) {
+  AlignedBox box;
+  for (int y = 0; y < after.height; ++y) {
+    for (int x = 0; x < after.width; ++x) {
+      const std::size_t at = 3 * (std::size_t(y) * std::size_t(after.width) + std::size_t(x));
+      if (std::abs(after.pixels[at] - before.pixels[at]) > 60) box.extend(Vec3(x, y, 0));
+    }
+  }
+  return box;
+}
+
+TEST(Labels, DoNotRunIntoEachOther) {
+  const Font font;
+  const Image empty = grey(160, 120);
+  Image image = empty;
+  draw_caption(image, "A caption that is longer than the picture is wide", font);
+  const AlignedBox caption = letters_in(empty, image);
+  Image named = image;
+  draw_name(named, "a run with a long name, runs/0001/run.h5", font, true);
+  const AlignedBox name = letters_in(image, named);
+  EXPECT_GT(name.min().y(), caption.max().y());
+  for (const AlignedBox& box : {caption, name}) {
+    EXPECT_GT(box.min().x(), 2);
+    EXPECT_LT(box.max().x(), 157);
+  }
+  Image footed = empty;
+  draw_scale_bar(footed, 50, "5 cm", font);
+  const AlignedBox bar = letters_in(empty, footed);
+  Image both = footed;
+  draw_footer(both, "1234 / 5678   123.45 s", font, scale_bar_width(50, "5 cm", 120, font) + 11);
+  EXPECT_LT(letters_in(footed, both).max().x(), bar.min().x());
+}
+
 TEST(Font, WritesIntoTheAlphaToo) {
   const Font font;
   Image image(40, 20);
