@@ -17,6 +17,7 @@ namespace fs = std::filesystem;
 
 std::string text_of(const toml::node& node) {
   if (const auto* text = node.as_string()) return text->get();
+  if (const auto* number = node.as_floating_point()) return fmt::format("{}", number->get());
   std::ostringstream words;
   node.visit([&](const auto& value) { words << value; });
   return words.str();
@@ -91,6 +92,8 @@ OptionDefaults read_option_defaults(const fs::path& file) {
     throw Error(ErrorKind::kBadInput, fmt::format("{}:{}:{}: {}", file.string(), error.source().begin.line,
                                                   error.source().begin.column, error.description()));
   }
+  std::sort(defaults.list.begin(), defaults.list.end(),
+            [](const OptionDefault& a, const OptionDefault& b) { return a.line < b.line; });
   return defaults;
 }
 

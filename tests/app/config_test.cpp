@@ -58,12 +58,12 @@ TEST_F(Config, GivesDefaultsToOtherOptions) {
 
 TEST_F(Config, PrintsWhatHoldsAndFromWhere) {
   EXPECT_TRUE(has(run("config", "SPRUNG_CONFIG=").out, "no defaults"));
-  static_cast<void>(folder_.write("sprung.toml", "fps = 25\n[film]\nfps = 24\n"));
+  static_cast<void>(folder_.write("sprung.toml", "fps = 25\nduration = 0.1\n[film]\nfps = 23.976\n"));
   const ProgramRun here = run("config");
   EXPECT_EQ(here.exit_code, 0) << here.err;
   EXPECT_TRUE(has(here.out, "sprung.toml, the nearest one")) << here.out;
   EXPECT_TRUE(has(here.out, "1  fps = 25    of animate, simulate")) << here.out;
-  EXPECT_TRUE(has(here.out, "3  fps = 24    of film\n")) << here.out;
+  EXPECT_TRUE(has(here.out, "4  fps = 23.976    of film\n")) << here.out;
 }
 
 TEST_F(Config, SaysWhatIsWrong) {
