@@ -186,7 +186,10 @@ int run_command_line(int argc, const char* const* argv, Console& console) {
   app.footer(
       "Try: sprung animate bunny.obj -o bunny.mp4\nHelp on a command: sprung COMMAND --help\n"
       "Exit codes: 0 done, 1 failed, 2 wrong usage, 3 bad input, 4 diverged,\n130 interrupted, 143 terminated.");
-  const bool asks_for_help = argc > 1 && std::string_view(argv[1]) == "help";
+  const std::span words(argv, argc);
+  const bool asks_for_help = argc == 1 || std::any_of(words.begin(), words.end(), [](std::string_view word) {
+                               return word == "help" || word == "--help" || word == "-h" || word == "--version";
+                             });  // which no mistake in a file of defaults keeps back
   Invocation invocation{.console = console,
                         .command = command_of(argc, argv),
                         .defaults = asks_for_help ? OptionDefaults{} : option_defaults()};

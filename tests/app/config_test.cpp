@@ -79,7 +79,9 @@ TEST_F(Config, SaysWhatIsWrong) {
   EXPECT_TRUE(has(complaint("duration = \"soon\""), "sprung.toml:1: --duration"));
   EXPECT_TRUE(has(complaint("[[body]]\nmesh = \"a.obj\""), "a scene needs another name"));
   EXPECT_TRUE(has(complaint("fps = "), "sprung.toml:1:"));
-  EXPECT_EQ(run("help").exit_code, 0) << "helps all the same";
+  for (const char* words : {"help", "", "--version", "simulate --help"}) {
+    EXPECT_EQ(run(words).exit_code, 0) << words << ": helps all the same";
+  }
   EXPECT_TRUE(has(run("config", "SPRUNG_CONFIG=nowhere.toml ").err, "'nowhere.toml' is not there"));
 }
 
