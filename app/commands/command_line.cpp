@@ -114,7 +114,8 @@ void refuse_repeated(const CLI::App& command) {
 }
 
 /// Whether any command has the option; throws Error(kBadInput) otherwise.
-void check_default(const CLI::App& app, const OptionDefaults& defaults, const OptionDefault& one) {
+void check_default(const CLI::App& app, const Invocation& invocation, const OptionDefault& one) {
+  const OptionDefaults& defaults = invocation.defaults;
   const auto refuse = [&](std::string_view what) {
     throw Error(ErrorKind::kBadInput, fmt::format("{}: {}", defaults.place(one), what));
   };
@@ -123,6 +124,10 @@ void check_default(const CLI::App& app, const OptionDefaults& defaults, const Op
   for (const CLI::App* command : app.get_subcommands({})) {
     names.push_back(command->get_name());
     if (!one.command.empty() && command->get_name() != one.command) continue;
+    if (!one.command.empty() && invocation.is_recorded(command, command->get_option_no_throw(one.option))) {
+      refuse(fmt::format("{} draws caches, which hold what '{}' was when they were made; give it to simulate",
+                         one.command, one.option.substr(2)));
+    }
     for (const CLI::Option* option : command->get_options()) {
       for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
     }
@@ -144,7 +149,7 @@ void check_default(const CLI::App& app, const OptionDefaults& defaults, const Op
 /// themselves, below what a scene file says.
 void apply_defaults(CLI::App& app, const Invocation& invocation) {
   const OptionDefaults& defaults = invocation.defaults;
-  for (const OptionDefault& one : defaults.list) check_default(app, defaults, one);
+  for (const OptionDefault& one : defaults.list) check_default(app, invocation, one);
   for (CLI::App* command : app.get_subcommands()) {
     for (const OptionDefault& one : defaults.list) {
       CLI::Option* option = command->get_option_no_throw(one.option);

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,7 +20,14 @@ struct Invocation {
   std::string command;  // as typed, for a shell
   OptionDefaults defaults;
   std::vector<const CLI::Option*> scene_options{};  // whose defaults rank below what a scene file says
+  const CLI::App* draws_records = nullptr;          // the command whose scenes are those of caches, without defaults
   int exit_code = 0;
+
+  /// Whether the command takes its defaults of that option from a cache, which records what held.
+  [[nodiscard]] bool is_recorded(const CLI::App* asked, const CLI::Option* option) const {
+    return asked == draws_records &&
+           std::find(scene_options.begin(), scene_options.end(), option) != scene_options.end();
+  }
 };
 
 /// Each adds its command with its options to the program. What was typed is kept by the command's callback, which does

@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 
 #include "app/commands/commands.h"
@@ -10,17 +11,27 @@
 namespace sprung {
 namespace {
 
+/// Keys of pictures too, which caches record.
+bool makes_scenes_with(const CLI::App& command, const OptionDefault& one) {
+  const bool is_of_scenes = std::any_of(key_options().begin(), key_options().end(),
+                                        [&](const KeyOption& key) { return key.option == one.option; });
+  return is_of_scenes && command.get_option_no_throw("--scenario") != nullptr;
+}
+
 /// "animate, simulate": the commands that take it from this line.
-std::string commands_of(const CLI::App& app, const OptionDefaults& defaults, const OptionDefault& one) {
+std::string commands_of(const CLI::App& app, const Invocation& invocation, const OptionDefault& one) {
+  const OptionDefaults& defaults = invocation.defaults;
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands({})) {
-    if (command->get_option_no_throw(one.option) == nullptr) continue;
+    const CLI::Option* option = command->get_option_no_throw(one.option);
+    if ((option == nullptr && !makes_scenes_with(*command, one)) || invocation.is_recorded(command, option)) continue;
     if (defaults.find(command->get_name(), one.option) == &one) names.push_back(command->get_name());
   }
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-void print_defaults(const CLI::App& app, const OptionDefaults& defaults) {
+void print_defaults(const CLI::App& app, const Invocation& invocation) {
+  const OptionDefaults& defaults = invocation.defaults;
   if (defaults.file.empty()) {
     fmt::print(
         "no defaults of a site or project: neither does the environment variable {} name a file, nor is there a "
@@ -33,7 +44,7 @@ void print_defaults(const CLI::App& app, const OptionDefaults& defaults) {
                                         : "the nearest one from the working folder upwards");
   for (const OptionDefault& one : defaults.list) {
     fmt::print("{:>5}  {} = {}    of {}\n", one.line, one.option.substr(2), fmt::join(one.values, ", "),
-               commands_of(app, defaults, one));
+               commands_of(app, invocation, one));
   }
 }
 
@@ -50,7 +61,7 @@ void add_config(CLI::App& app, Invocation& invocation) {
                   "It is the file that {} names, or the nearest {} in the working folder or above it;\n"
                   "{}= keeps from looking. What is typed and what a scene file says win over it.",
                   kConfigVariable, kConfigName, kConfigVariable));
-  command->callback([&app, &invocation] { print_defaults(app, invocation.defaults); });
+  command->callback([&app, &invocation] { print_defaults(app, invocation); });
 }
 
 }  // namespace sprung

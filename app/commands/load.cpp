@@ -24,6 +24,7 @@ namespace {
 /// As typed.
 struct LoadOptions {
   std::string input;
+  std::vector<Setting> defaults;
   std::vector<std::string> fixes;
   std::vector<std::string> loads;
   std::vector<std::string> points;
@@ -51,8 +52,7 @@ bool is_of_part(const KeyOption& key) {
 
 /// The part as the options have it; usually of kUsualPartMaterial.
 Film scene_of(const LoadOptions& options, const Console& console) {
-  SceneRequest request{
-      .input = options.input, .settings = options.keys.settings(), .defaults = options.keys.defaults()};
+  SceneRequest request{.input = options.input, .settings = options.keys.settings(), .defaults = options.defaults};
   const bool has_material = std::any_of(request.settings.begin(), request.settings.end(), [](const Setting& setting) {
     return setting.key.starts_with("body.material");
   });
@@ -205,6 +205,7 @@ void add_load(CLI::App& app, Invocation& invocation) {
       ->allow_extra_args(false)
       ->option_text("LOAD");
   options->keys.add_keys(*command, invocation, is_of_part);
+  options->defaults = default_settings(invocation.defaults, command->get_name(), is_of_part);
   command->add_option("--unit", options->unit, "unit of the file: mm, cm, m, in; default: the file's own, else mm")
       ->option_text("UNIT");
   command->add_option("--up", options->up, "vertical axis, against which weights act: y, z or auto (z for STL, 3MF)")

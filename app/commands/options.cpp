@@ -199,6 +199,11 @@ std::vector<Setting> default_settings(const OptionDefaults& defaults, std::strin
     settings.push_back(
         {fmt::format("{}: {}", defaults.place(*wanted), key.option), std::string(key.key), wanted->values.front()});
   }
+  return settings;
+}
+
+std::vector<Setting> default_settings(const OptionDefaults& defaults, std::string_view command) {
+  std::vector<Setting> settings = default_settings(defaults, command, [](const KeyOption&) { return true; });
   const OptionDefault* sets = defaults.find(command, "--set");
   for (std::size_t i = 0; sets != nullptr && i < sets->values.size(); ++i) {
     settings.push_back(parse_set(sets->values[i], defaults.place(*sets) + ": "));
@@ -217,7 +222,6 @@ void SettingOptions::add_keys(CLI::App& command, Invocation& invocation,
     word.option = option;
     invocation.scene_options.push_back(option);
   }
-  defaults_ = default_settings(invocation.defaults, command.get_name(), is_meant);
 }
 
 void SettingOptions::add_set(CLI::App& command, Invocation& invocation, const std::string& help,
@@ -248,6 +252,7 @@ void SceneOptions::add_to(CLI::App& command, Invocation& invocation, bool has_pi
   command.add_option("INPUT", input, input_help);
   keys.add_keys(command, invocation, [&](const KeyOption& key) { return has_pictures || !key.use.is_of_pictures; });
   keys.add_set(command, invocation, "any key of a scene (sprung help scene)");
+  defaults = default_settings(invocation.defaults, command.get_name());
   command
       .add_option("--scenario", scenario, fmt::format("what a bare mesh does: {}", fmt::join(scenario_names(), ", ")))
       ->option_text("NAME");
@@ -267,7 +272,7 @@ void SceneOptions::add_to(CLI::App& command, Invocation& invocation, bool has_pi
 }
 
 SceneRequest SceneOptions::request() const {
-  SceneRequest request{.input = input, .settings = keys.settings(), .defaults = keys.defaults()};
+  SceneRequest request{.input = input, .settings = keys.settings(), .defaults = defaults};
   if (!unit.empty()) add_unit(unit, request);
   if (!scenario.empty()) request.scenario = scenario_from_name(scenario);
   request.up = up_from_name(up);

@@ -103,8 +103,9 @@ struct KeyOption {
 /// Every such option, in the order of its help.
 [[nodiscard]] std::span<const KeyOption> key_options();
 
-/// The defaults of a command's options that stand for keys of the scene: of those for which `is_meant` holds, and of
-/// --set. Throws Error(kUsage).
+/// The defaults of options that stand for keys of the scene, for a command: of all, as it makes a scene that a cache
+/// may record for others, and of --set; or of those for which `is_meant` holds. Throws Error(kUsage).
+[[nodiscard]] std::vector<Setting> default_settings(const OptionDefaults& defaults, std::string_view command);
 [[nodiscard]] std::vector<Setting> default_settings(const OptionDefaults& defaults, std::string_view command,
                                                     const std::function<bool(const KeyOption&)>& is_meant);
 
@@ -116,8 +117,6 @@ struct SettingOptions {
                const char* placeholder = "KEY=VALUE");
   /// What was typed, --set last. Throws Error(kUsage).
   [[nodiscard]] std::vector<Setting> settings() const;
-  /// What a site or project wants where neither what is typed nor a scene file says otherwise.
-  [[nodiscard]] const std::vector<Setting>& defaults() const { return defaults_; }
 
  private:
   struct Word {
@@ -126,7 +125,6 @@ struct SettingOptions {
     const CLI::Option* option = nullptr;
   };
   std::deque<Word> words_;
-  std::vector<Setting> defaults_;
   std::vector<std::string> sets_;
 };
 
@@ -134,6 +132,7 @@ struct SettingOptions {
 struct SceneOptions {
   std::string input;
   SettingOptions keys;
+  std::vector<Setting> defaults;  // of a site or project: of keys of pictures too, which caches record
   std::string scenario;
   std::string unit;
   std::string up;

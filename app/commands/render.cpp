@@ -156,6 +156,7 @@ void add_render(CLI::App& app, Invocation& invocation) {
   command->add_flag("--overwrite", options->overwrite, "replace pictures and films that exist");
   options->keys.add_keys(*command, invocation, [](const KeyOption& key) { return key.key.starts_with("render."); });
   options->keys.add_set(*command, invocation, "any key of [camera] and [render]");
+  invocation.draws_records = command;
   add_messages(*command, invocation.console);
   command->footer(
       "Examples:\n  sprung render run.h5 -o film.mp4\n  sprung render run.h5 -o frames/ --frames 1:48 --jobs 4\n"

@@ -110,7 +110,7 @@ void add_sweep(CLI::App& app, Invocation& invocation) {
   CLI::App* command =
       app.add_subcommand("sweep", "a scene and lists of values in, a folder and a command for each run out");
   const auto options = std::make_shared<SweepOptions>();
-  options->defaults = default_settings(invocation.defaults, "simulate", [](const KeyOption&) { return true; });
+  options->defaults = default_settings(invocation.defaults, "simulate");
   command->add_option("INPUT", options->input, "a mesh file, a scene (.toml), or the folder of a sweep");
   options->outputs.add_to(*command, "the folder for all runs; of a plot .svg or .html", "OUT");
   options->keys.add_set(*command, invocation, "values of any key of a scene, by commas, or FIRST:LAST:STEP",

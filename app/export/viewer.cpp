@@ -154,6 +154,17 @@ int ViewerTake::add_bricks(const BrickGrid& grid, int first_node) {
   return first;
 }
 
+void ViewerTake::add_frame(const std::vector<Floats3>& bodies) {
+  Eigen::Index count = 0;
+  for (const Floats3& body : bodies) count += body.rows();
+  Floats3& all = nodes.emplace_back(count, 3);
+  Eigen::Index first = 0;
+  for (const Floats3& body : bodies) {
+    all.middleRows(first, body.rows()) = body;
+    first += body.rows();
+  }
+}
+
 void place_vertices(ViewerMesh& mesh, const std::vector<int>& rows, const Embedding& embedding, int first_brick) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     mesh.brick[rows[i]] = first_brick + embedding.brick[i];

@@ -54,6 +54,8 @@ struct ViewerTake {
 
   /// Adds the bricks of a grid whose nodes come next, and returns the row of the first of them.
   int add_bricks(const BrickGrid& grid, int first_node);
+  /// Adds a frame: the nodes of each body, m.
+  void add_frame(const std::vector<Floats3>& bodies);
 };
 
 /// Those of a take's vertices that a grid carries, from row `first_brick` of the take's bricks on, in place of these

@@ -57,12 +57,7 @@ class TakeMaker {
     }
     for (const int frame : frames_) {
       stop_if_interrupted();
-      Floats3& all = take_.nodes.emplace_back(nodes, 3);
-      int first = 0;
-      for (const Floats3& of_body : recording_.frames[row_of(frame)]) {
-        all.middleRows(first, of_body.rows()) = of_body;
-        first += int(of_body.rows());
-      }
+      take_.add_frame(recording_.frames[row_of(frame)]);
     }
     for (const StageObstacle& obstacle : view_.simulation.obstacles) {
       if (obstacle.skin.positions.rows() > 0) meshes.push_back(add_obstacle(obstacle, meshes.size()));

@@ -90,13 +90,12 @@ std::string viewer_of(const PartReport& report, const PartSolution& coarse, doub
     box.extend(bounding_box(places));
   }
   for (const double share : take.at) {
-    Floats3& all = take.nodes.emplace_back(nodes, 3);
-    int first = 0;
+    std::vector<Floats3> moved;
     for (const SoftBody& body : bodies) {
-      const Points moved = body.rest_positions + magnification * share * (body.positions - body.rest_positions);
-      all.middleRows(first, body.node_count()) = moved.cast<float>();
-      first += body.node_count();
+      const Points way = body.positions - body.rest_positions;
+      moved.emplace_back((body.rest_positions + magnification * share * way).cast<float>());
     }
+    take.add_frame(moved);
   }
   take.camera = frame_bounds(box, kAspect);
   take.model = static_glb(meshes);

@@ -17,7 +17,6 @@ constexpr std::uint64_t kMostBytes = 0xFFFFFF00;
 constexpr std::uint32_t kMagic = 0x46546C67;   // "glTF"
 constexpr std::uint32_t kJson = 0x4E4F534A;    // "JSON"
 constexpr std::uint32_t kBinary = 0x004E4942;  // "BIN"
-constexpr double kRoughness = 0.6;
 
 void add_number(std::string& bytes, std::size_t value) {
   const auto number = static_cast<std::uint32_t>(value);
@@ -131,7 +130,7 @@ class GlbBuilder {
     surface["baseColorFactor"] = {linear_from_srgb(part.color[0]), linear_from_srgb(part.color[1]),
                                   linear_from_srgb(part.color[2]), part.color[3]};
     surface["metallicFactor"] = 0;
-    surface["roughnessFactor"] = kRoughness;
+    surface["roughnessFactor"] = kExportedRoughness;
     if (part.source != nullptr && !texture_extension(*part.source).empty()) {
       const int view = buffer_.add_image(part.source->texture);
       const bool is_png = texture_extension(*part.source) == ".png";

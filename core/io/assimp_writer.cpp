@@ -171,9 +171,8 @@ class SceneBuilder {
     material->AddProperty(&color, 1, AI_MATKEY_COLOR_DIFFUSE);
     material->AddProperty(&color, 1, AI_MATKEY_BASE_COLOR);
     const float metallic = 0;
-    const float roughness = 0.6F;
     material->AddProperty(&metallic, 1, AI_MATKEY_METALLIC_FACTOR);
-    material->AddProperty(&roughness, 1, AI_MATKEY_ROUGHNESS_FACTOR);
+    material->AddProperty(&kExportedRoughness, 1, AI_MATKEY_ROUGHNESS_FACTOR);
     add_texture(part, *material);
     materials_.push_back(material);
     return unsigned(materials_.size() - 1);

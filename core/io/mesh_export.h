@@ -29,6 +29,9 @@ struct PosedPart {
 };
 [[nodiscard]] std::vector<PosedPart> parts_of(const PosedMesh& mesh);
 
+/// Of all materials, where a format has it.
+inline constexpr float kExportedRoughness = 0.6F;
+
 /// ".png" or ".jpg" by the first bytes of the texture; "" where it is neither.
 [[nodiscard]] std::string texture_extension(const SurfaceMaterial& material);
 

@@ -13,7 +13,6 @@
 namespace sprung {
 namespace {
 
-constexpr double kRoughness = 0.6;
 constexpr int kIndent = 4;  // spaces a level
 
 std::string name_in_usd(const std::string& name, std::set<std::string>& taken) {
@@ -219,7 +218,7 @@ class UsdStage {
     } else {
       text_.line("color3f inputs:diffuseColor = ({}, {}, {})", color[0], color[1], color[2]);
     }
-    text_.line("float inputs:roughness = {}", kRoughness);
+    text_.line("float inputs:roughness = {}", kExportedRoughness);
     text_.line("float inputs:metallic = 0");
     text_.line("float inputs:opacity = {}", opacity);
     text_.line("token outputs:surface");

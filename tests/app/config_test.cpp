@@ -40,7 +40,9 @@ duration = "0.25s"
   EXPECT_TRUE(has(printed.out, "quality = \"preview\"")) << "typed";
   EXPECT_TRUE(has(printed.out, "young = 9000")) << printed.out;
   EXPECT_TRUE(has(printed.out, "caption = \"ACME\""));
-  EXPECT_TRUE(has(run("simulate scene.toml --print-scene").out, "duration = 0.25\n")) << "of the command";
+  const ProgramRun simulated = run("simulate scene.toml --print-scene");
+  EXPECT_TRUE(has(simulated.out, "duration = 0.25\n")) << "of the command";
+  EXPECT_TRUE(has(simulated.out, "quality = \"high\"")) << "for whoever draws the cache";
   EXPECT_TRUE(has(run("simulate cube.obj --print-scene --material rubber").out, "fps = 25\n")) << "a bare mesh";
   EXPECT_FALSE(has(run("simulate scene.toml --print-scene", "SPRUNG_CONFIG=").out, "ACME")) << "kept from looking";
 }
@@ -58,11 +60,12 @@ TEST_F(Config, GivesDefaultsToOtherOptions) {
 
 TEST_F(Config, PrintsWhatHoldsAndFromWhere) {
   EXPECT_TRUE(has(run("config", "SPRUNG_CONFIG=").out, "no defaults"));
-  static_cast<void>(folder_.write("sprung.toml", "fps = 25\nduration = 0.1\n[film]\nfps = 23.976\n"));
+  static_cast<void>(folder_.write("sprung.toml", "fps = 25\nquality = \"high\"\n[film]\nfps = 23.976\n"));
   const ProgramRun here = run("config");
   EXPECT_EQ(here.exit_code, 0) << here.err;
   EXPECT_TRUE(has(here.out, "sprung.toml, the nearest one")) << here.out;
   EXPECT_TRUE(has(here.out, "1  fps = 25    of animate, simulate")) << here.out;
+  EXPECT_TRUE(has(here.out, "2  quality = high    of animate, simulate, export, inspect\n")) << here.out;
   EXPECT_TRUE(has(here.out, "4  fps = 23.976    of film\n")) << here.out;
 }
 
@@ -75,6 +78,7 @@ TEST_F(Config, SaysWhatIsWrong) {
   };
   EXPECT_TRUE(has(complaint("\nfpt = 25"), "sprung.toml:2: unknown option 'fpt'; did you mean '--fps'?"));
   EXPECT_TRUE(has(complaint("[simulat]\nfps = 25"), "unknown command 'simulat'; did you mean 'simulate'?"));
+  EXPECT_TRUE(has(complaint("[render]\nquality = \"high\""), "render draws caches, which hold what 'quality' was"));
   EXPECT_TRUE(has(complaint("output = \"a.h5\""), "'output' is not for defaults"));
   EXPECT_TRUE(has(complaint("duration = \"soon\""), "sprung.toml:1: --duration"));
   EXPECT_TRUE(has(complaint("[[body]]\nmesh = \"a.obj\""), "a scene needs another name"));
