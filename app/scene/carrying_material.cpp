@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <memory>
 #include <numbers>
@@ -49,26 +48,6 @@ std::vector<const LibraryMaterial*> elastomers(const MaterialLibrary& library) {
     return a->young / a->density < b->young / b->density;
   });
   return found;
-}
-
-struct SizedMaterial {
-  const LibraryMaterial* material;
-  double scale;   // of the size
-  double weight;  // of the body at full size and of the reference material that displaces it as much
-};
-
-/// In the order in which they are wanted.
-std::vector<SizedMaterial> choices_of(const std::vector<const LibraryMaterial*>& materials,
-                                      const LibraryMaterial& reference, int halvings) {
-  std::vector<SizedMaterial> choices;
-  for (int halving = 0; halving <= halvings; ++halving) {
-    const double scale = std::pow(0.5, halving);
-    for (const LibraryMaterial* material : materials) {
-      choices.push_back(
-          {material, scale, scale * material->density / reference.density * reference.young / material->young});
-    }
-  }
-  return choices;
 }
 
 double count_of_bricks(const std::vector<BrickGrid>& grids) {
@@ -163,17 +142,17 @@ class StandingBody {
     return largest;
   }
 
-  /// Whether it keeps its shape: no node is displaced by more than `most` (m), and one solid does not lean so far that
-  /// it would fall.
-  bool is_carried(double weight, double most) {
+  /// The largest displacement of a node, m, where the body keeps its shape: it is no more than `most`, and one solid
+  /// does not lean so far that it would fall.
+  std::optional<double> carried_displacement(double weight, double most) {
     const std::optional<double> once = displacement(weight, false);
-    if (!once || *once > most) return false;
+    if (!once || *once > most) return std::nullopt;
     if (support_ == Support::kStands && solids_.size() == 1) {
       const Body& body = solids_[0];
-      if (margin(body, body.positions) < kKeptMargin * margin(body, body.rest_positions)) return false;
+      if (margin(body, body.positions) < kKeptMargin * margin(body, body.rest_positions)) return std::nullopt;
     }
     const std::optional<double> more = displacement(kOverload * weight, false);
-    return more && *more <= kOverloadResponse * *once;
+    return more && *more <= kOverloadResponse * *once ? once : std::nullopt;
   }
 
  private:
@@ -231,23 +210,24 @@ std::optional<CarryingMaterial> softest_carrying(const SceneBody& body, Support 
   const std::optional<double> linear = standing.displacement(1, true);
   if (!linear || *linear <= 0) return std::nullopt;
 
-  const std::vector<SizedMaterial> choices = choices_of(materials, reference, may_shrink ? kHalvings : 0);
-  std::vector<double> weights(choices.size());
-  std::transform(choices.begin(), choices.end(), weights.begin(),
-                 [](const SizedMaterial& choice) { return choice.weight; });
-  std::sort(weights.begin(), weights.end(), std::greater<>());
-  const auto carried = std::partition_point(weights.begin(), weights.end(), [&](double weight) {
-    observer.check_interrupt();
-    return weight * *linear > kHopeless * kSag * size || !standing.is_carried(weight, kSag * size);
-  });
-  if (carried == weights.end()) return std::nullopt;
-  const auto chosen = std::find_if(choices.begin(), choices.end(),
-                                   [&](const SizedMaterial& choice) { return choice.weight <= *carried; });
-  const std::optional<double> sag = standing.displacement(chosen->weight, false);
-  if (!sag) return std::nullopt;
-  const double scale = chosen->scale;
-  return CarryingMaterial{
-      .material = chosen->material, .size = scale * size, .sag = *sag / size, .bricks = bricks_for_film(count)};
+  for (int halving = 0; halving <= (may_shrink ? kHalvings : 0); ++halving) {
+    const double scale = std::pow(0.5, halving);
+    double sag = 0;  // m, at full size and of the softest that was seen to carry
+    const auto fails = [&](const LibraryMaterial* material) {
+      observer.check_interrupt();
+      // Of the reference material and at full size, that displaces the body as much.
+      const double weight = scale * material->density / reference.density * reference.young / material->young;
+      if (weight * *linear > kHopeless * kSag * size) return true;
+      const std::optional<double> carried = standing.carried_displacement(weight, kSag * size);
+      if (carried) sag = *carried;
+      return !carried;
+    };
+    const auto softest = std::partition_point(materials.begin(), materials.end(), fails);
+    if (softest == materials.end()) continue;
+    return CarryingMaterial{
+        .material = *softest, .size = scale * size, .sag = sag / size, .bricks = bricks_for_film(count)};
+  }
+  return std::nullopt;
 }
 
 void choose_materials(Film& film, const Observer& observer) {

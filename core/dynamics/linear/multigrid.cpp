@@ -19,7 +19,9 @@ using multigrid::kLanes;
 
 constexpr int kCoarsestNodes = 100;
 constexpr int kCoarsestNodesAtRest = 2000;  // fewer levels, on each of which coarse bricks are too stiff for thin parts
-constexpr double kDiagonalShift = 1e-9;     // of the largest stiffness, as in linear_solver.cpp
+constexpr double kFactorFlops = 1e7;        // for the coarsest level, some 10 ms; or ...
+constexpr double kFactorFlopsPerBrick = 1e4;  // ... what the smoothing of a solve costs
+constexpr double kDiagonalShift = 1e-9;       // of the largest stiffness, as in linear_solver.cpp
 
 /// Coarse bricks are too stiff in bending the nearer the material is to incompressible; the smoother makes up for it.
 /// Solid bricks, slivers beside whole ones, have eigenvalues over twice the range.
@@ -27,6 +29,12 @@ int smoothing_steps(const Body& body) {
   if (!has_springs(body.model)) return body.material.poisson > 0.47 ? 8 : 5;
   if (body.material.poisson > 0.47) return 5;
   return body.material.poisson > 0.4 ? 3 : 2;
+}
+
+/// Thin parts are quick to factorize on many nodes, and need them; solid ones neither.
+multigrid::LastLevel last_level(const Body& body, int most_nodes) {
+  return {.most_nodes = most_nodes,
+          .most_flops = std::max(kFactorFlops, kFactorFlopsPerBrick * body.grid.brick_count())};
 }
 
 /// A whole brick matrix to its anchored part and its pull, in one lane of a block.
@@ -64,7 +72,7 @@ class MultigridSolver : public IterativeSolver {
     const int coarsest_nodes = terms.mass_factor > 0 ? kCoarsestNodes : kCoarsestNodesAtRest;
     if (!cycle_ || coarsest_nodes != coarsest_nodes_ || layouts_.front().bricks != body.grid.nodes) {
       coarsest_nodes_ = coarsest_nodes;
-      layouts_ = multigrid::make_hierarchy(body.grid, coarsest_nodes);
+      layouts_ = multigrid::make_hierarchy(body.grid, last_level(body, coarsest_nodes));
       products_ = ProductWorkspace();
       cycle_ = std::make_unique<multigrid::Cycle>(layouts_);
     }

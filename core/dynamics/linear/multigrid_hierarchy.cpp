@@ -1,5 +1,6 @@
 #include "core/dynamics/linear/multigrid_hierarchy.h"
 
+#include <Eigen/CholmodSupport>
 #include <algorithm>
 #include <numeric>
 #include <unordered_map>
@@ -160,15 +161,37 @@ void list_fine_nodes(Interpolation& hang, int coarse_nodes) {
   }
 }
 
+/// Floating-point operations of a Cholesky factorization of the level's stiffness matrix, as CHOLMOD orders it.
+double factorization_flops(const Layout& level) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const BrickNodes& nodes : level.bricks) {
+    for (const int row : nodes) {
+      for (const int column : nodes) {
+        if (row >= column) entries.emplace_back(row, column, 1.0);
+      }
+    }
+  }
+  Eigen::SparseMatrix<double> pattern(level.node_count, level.node_count);
+  pattern.setFromTriplets(entries.begin(), entries.end());
+  Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>, Eigen::Lower> cholesky;
+  cholesky.analyzePattern(pattern);
+  constexpr double kPerNode = 27;  // three degrees of freedom
+  return kPerNode * cholesky.cholmod().fl;
+}
+
+bool is_last(const Layout& level, const LastLevel& last) {
+  return level.node_count <= last.most_nodes && factorization_flops(level) <= last.most_flops;
+}
+
 }  // namespace
 
-std::vector<Layout> make_hierarchy(const BrickGrid& grid, int coarsest_nodes) {
+std::vector<Layout> make_hierarchy(const BrickGrid& grid, const LastLevel& last) {
   std::vector<Layout> levels(1);
   levels[0].cells = grid.cells;
   levels[0].bricks = grid.nodes;
   levels[0].node_count = grid.node_count();
   levels[0].corners = list_corners(grid.nodes, grid.node_count());
-  while (levels.back().node_count > coarsest_nodes) {
+  while (!is_last(levels.back(), last)) {
     Layout coarse;
     const std::vector<int> parents = join_bricks(levels.back(), coarse);
     if (coarse.cells.size() == levels.back().cells.size()) break;

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "core/bricks/brick_grid.h"
@@ -26,10 +27,16 @@ struct Layout {
   Interpolation to_coarse;         // empty on the coarsest
 };
 
-/// The grid's own bricks, then ever coarser ones of two by two by two, down to `coarsest_nodes` or to bricks that have
+/// Which level is coarse enough to be the last: one within both limits.
+struct LastLevel {
+  int most_nodes = 0;
+  double most_flops = std::numeric_limits<double>::max();  // of its Cholesky factorization
+};
+
+/// The grid's own bricks, then ever coarser ones of two by two by two, down to `last` or to bricks that have
 /// nothing left to join. A coarse brick joins only children that hang together by their nodes: where a gap runs
 /// through a cell it holds several bricks, and bricks share a coarse node only where their children share a node. So
 /// the parts of a body that a gap divides stay free of each other on every level.
-[[nodiscard]] std::vector<Layout> make_hierarchy(const BrickGrid& grid, int coarsest_nodes);
+[[nodiscard]] std::vector<Layout> make_hierarchy(const BrickGrid& grid, const LastLevel& last);
 
 }  // namespace sprung::multigrid

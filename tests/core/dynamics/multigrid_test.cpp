@@ -247,7 +247,7 @@ Eigen::MatrixXd whole(const multigrid::Level& level) {
 /// The coarse bricks' sum is P^T A P, P by the nodes' places.
 TEST(MultigridLevel, CoarseBricksAreGalerkins) {
   const BrickGrid grid = bracket(6);
-  const std::vector<multigrid::Layout> layouts = multigrid::make_hierarchy(grid, 20);
+  const std::vector<multigrid::Layout> layouts = multigrid::make_hierarchy(grid, {.most_nodes = 20});
   ASSERT_GE(layouts.size(), 2U);
   multigrid::Level fine(layouts[0]);
   multigrid::Level coarse(layouts[1]);
@@ -260,7 +260,7 @@ TEST(MultigridLevel, CoarseBricksAreGalerkins) {
 
 TEST(MultigridLevel, MultipliesLikeItsDenseMatrix) {
   const BrickGrid grid = bracket(6);
-  const std::vector<multigrid::Layout> layouts = multigrid::make_hierarchy(grid, 20);
+  const std::vector<multigrid::Layout> layouts = multigrid::make_hierarchy(grid, {.most_nodes = 20});
   multigrid::Level level(layouts[0]);
   fill_at_random(level, grid.brick_count());
   level.prepare_smoother(1);
@@ -285,7 +285,7 @@ TEST(MultigridHierarchy, PartsDividedByAGapStayFree) {
   }
   grid.fill.assign(grid.cells.size(), 1.0);
   number_nodes(grid);
-  const std::vector<multigrid::Layout> layouts = multigrid::make_hierarchy(grid, 1);
+  const std::vector<multigrid::Layout> layouts = multigrid::make_hierarchy(grid, {.most_nodes = 1});
   int tips = 0;  // coarse bricks at the top: one for each of the eight teeth
   for (const Eigen::Vector3i& cell : layouts[1].cells) tips += cell.y() == 3 ? 1 : 0;
   EXPECT_EQ(tips, 8);
@@ -293,6 +293,12 @@ TEST(MultigridHierarchy, PartsDividedByAGapStayFree) {
   for (const Eigen::Vector3i& cell : layouts[2].cells) tips += cell.y() == 1 ? 1 : 0;
   EXPECT_EQ(tips, 8);
   EXPECT_LE(layouts.back().bricks.size(), 2U);
+}
+
+TEST(MultigridHierarchy, CoarsensSolidPartsFurtherThanThinOnes) {
+  const multigrid::LastLevel last{.most_nodes = 2000, .most_flops = 1e7};
+  EXPECT_EQ(multigrid::make_hierarchy(make_box_grid({400, 1, 1}, 0.01), last).size(), 1U);   // 1604 nodes
+  EXPECT_GT(multigrid::make_hierarchy(make_box_grid({11, 11, 11}, 0.01), last).size(), 1U);  // 1728
 }
 
 TEST(MultigridKernels, AllInstructionSetsGiveTheSameBits) {
