@@ -16,8 +16,9 @@ namespace sprung {
 /// Looks at the skins that are exported and drawn, not at the points that contact works with, and shares no code with
 /// what keeps them apart. Every pair of bodies (where bodies touch each other), every body with itself and with every
 /// obstacle is tested, exactly. Limits: a skin wholly inside another crosses nothing; of two triangles of one skin
-/// that share a vertex nothing is known; curves that pictures add to coarse skins are not looked at. Neighbouring
-/// bricks that are hardly deformed are taken at their word that what they carry does not cross: see CellBricks.
+/// that share a vertex nothing is known, nor of two that were both in such as crossed at the start; curves that
+/// pictures add to coarse skins are not looked at. Neighbouring bricks that are hardly deformed are taken at their word
+/// that what they carry does not cross: see CellBricks.
 class CrossingWatch {
  public:
   /// Of a simulation at its start: what crosses now is told apart later. Both must outlive it.
@@ -35,7 +36,9 @@ class CrossingWatch {
   /// Two surfaces, or a surface and a plane, that are tested.
   struct Task {
     std::array<int, 2> skins;
-    std::unordered_set<VertexPair> at_start{};
+    std::unordered_set<VertexPair> at_start{};  // vertices of triangles that crossed then
+    std::vector<char> tangled_at_start{};       // of a skin with itself, in place of these: tangled_vertices()
+    [[nodiscard]] bool is_self() const { return skins[0] == skins[1]; }
   };
   /// What was found of a task.
   struct Found {

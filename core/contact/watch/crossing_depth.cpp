@@ -2,6 +2,7 @@
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/squared_distance_3.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -61,8 +62,10 @@ std::optional<double> way_to(const Facet& facet, const Vec3& from, const Vec3& t
 class InnerPart {
  public:
   /// `side`: whose of the pairs `surface` is.
-  InnerPart(const DrawnSurface& surface, const DrawnSurface& other, const RowPairs& pairs, std::size_t side)
-      : surface_(surface), other_(other), is_known_(surface.points().rows()) {
+  InnerPart(const DrawnSurface& surface, const DrawnSurface& other, const RowPairs& pairs, std::size_t side,
+            const std::vector<char>& left_alone)
+      : surface_(surface), other_(other), is_known_(left_alone) {
+    is_known_.resize(surface.points().rows());
     for (const auto& pair : pairs) {
       add_passages(pair[side], pair[1 - side]);
       if (is_self()) add_passages(pair[1 - side], pair[side]);
@@ -72,14 +75,11 @@ class InnerPart {
         return std::pair(a.share, a.triangle) < std::pair(b.share, b.triangle);
       });
     }
+    std::vector<int> next;
     for (const auto& [edge, through] : passages_) {
-      for (const int vertex : {edge.first, edge.second}) {
-        add(vertex);
-      }
+      for (const int vertex : {edge.first, edge.second}) add_unknown(vertex, next);
     }
-    for (std::size_t i = 0; i < vertices_.size(); ++i) {
-      for (const int next : surface.neighbours()[vertices_[i]]) add(next);
-    }
+    while (!next.empty()) next = neighbours_of(add_inside(next));
   }
 
   [[nodiscard]] const std::vector<int>& vertices() const { return vertices_; }
@@ -92,10 +92,32 @@ class InnerPart {
  private:
   [[nodiscard]] bool is_self() const { return &surface_ == &other_; }
 
-  void add(int vertex) {
-    if (is_known_[vertex]) return;
-    is_known_[vertex] = true;
-    if (is_inside(surface_.points().row(vertex))) vertices_.push_back(vertex);
+  void add_unknown(int vertex, std::vector<int>& vertices) {
+    if (is_known_[vertex] != 0) return;
+    is_known_[vertex] = 1;
+    vertices.push_back(vertex);
+  }
+
+  /// Returns those of the vertices that are inside.
+  std::vector<int> add_inside(const std::vector<int>& vertices) {
+    std::vector<char> are_inside(vertices.size());
+    tbb::parallel_for(std::size_t{0}, vertices.size(),
+                      [&](std::size_t i) { are_inside[i] = is_inside(surface_.points().row(vertices[i])) ? 1 : 0; });
+    std::vector<int> found;
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      if (are_inside[i] != 0) found.push_back(vertices[i]);
+    }
+    vertices_.insert(vertices_.end(), found.begin(), found.end());
+    return found;
+  }
+
+  /// That are not known yet.
+  std::vector<int> neighbours_of(const std::vector<int>& vertices) {
+    std::vector<int> found;
+    for (const int vertex : vertices) {
+      for (const int neighbour : surface_.neighbours()[vertex]) add_unknown(neighbour, found);
+    }
+    return found;
   }
 
   void add_passages(int own, int others) {
@@ -113,7 +135,7 @@ class InnerPart {
 
   const DrawnSurface& surface_;
   const DrawnSurface& other_;
-  std::vector<bool> is_known_;  // by vertex
+  std::vector<char> is_known_;  // by vertex
   std::vector<int> vertices_;
   std::map<Edge, std::vector<Passage>> passages_;
 };
@@ -167,8 +189,8 @@ class Distance {
 
 /// Of what is of `surface` in the other.
 void measure(const DrawnSurface& surface, const DrawnSurface& other, const RowPairs& pairs, std::size_t side,
-             CrossingDepth& deepest) {
-  const InnerPart inner(surface, other, pairs, side);
+             const std::vector<char>& left_alone, CrossingDepth& deepest) {
+  const InnerPart inner(surface, other, pairs, side, left_alone);
   const bool is_self = &surface == &other;
   const Points normals = is_self ? normals_of(surface) : Points();
   const Distance distance(other);
@@ -190,11 +212,26 @@ void measure(const DrawnSurface& surface, const DrawnSurface& other, const RowPa
 
 }  // namespace
 
-CrossingDepth crossing_depth(const DrawnSurface& a, const DrawnSurface& b, const RowPairs& pairs) {
+CrossingDepth crossing_depth(const DrawnSurface& a, const DrawnSurface& b, const RowPairs& pairs,
+                             const std::vector<char>& left_alone) {
   CrossingDepth deepest;
-  measure(a, b, pairs, 0, deepest);
-  if (&a != &b) measure(b, a, pairs, 1, deepest);
+  measure(a, b, pairs, 0, left_alone, deepest);
+  if (&a != &b) measure(b, a, pairs, 1, {}, deepest);
   return deepest;
+}
+
+std::vector<char> tangled_vertices(const DrawnSurface& surface, const RowPairs& pairs) {
+  constexpr double kTouching = 0.9;  // turns: half a one of its own, as much of what it touches, less the error
+  std::vector<char> are_tangled(surface.points().rows());
+  tbb::parallel_for(std::size_t{0}, are_tangled.size(), [&](std::size_t vertex) {
+    are_tangled[vertex] = surface.winding().at(surface.points().row(Eigen::Index(vertex))) > kTouching ? 1 : 0;
+  });
+  for (const auto& pair : pairs) {
+    for (const int row : pair) {
+      for (const int vertex : surface.triangles().row(row)) are_tangled[vertex] = 1;
+    }
+  }
+  return are_tangled;
 }
 
 }  // namespace sprung

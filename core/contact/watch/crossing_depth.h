@@ -13,7 +13,13 @@ struct CrossingDepth {
 /// which is in itself. The largest distance from the other surface (of itself: from those triangles that face the
 /// place) of the vertices of either that are inside the other, in one piece with an edge that crosses it, and of the
 /// middles of edges between where they pass through it. What is inside follows from winding numbers, so that surfaces
-/// may be open or folded. In double precision. Both have to be complete.
-[[nodiscard]] CrossingDepth crossing_depth(const DrawnSurface& a, const DrawnSurface& b, const RowPairs& pairs);
+/// may be open or folded. `left_alone`: by vertex of a surface in itself, those that are neither measured nor followed;
+/// empty: none. In double precision. Both have to be complete.
+[[nodiscard]] CrossingDepth crossing_depth(const DrawnSurface& a, const DrawnSurface& b, const RowPairs& pairs,
+                                           const std::vector<char>& left_alone = {});
+
+/// By vertex of a surface that crosses itself in these pairs: whether it is of one of them, inside the surface, or
+/// where that touches itself. The surface has to be complete.
+[[nodiscard]] std::vector<char> tangled_vertices(const DrawnSurface& surface, const RowPairs& pairs);
 
 }  // namespace sprung

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/contact/watch/crossing_depth.h"
@@ -94,6 +95,26 @@ TEST(Crossings, NeedleThroughAPlateIsHalfAsDeepAsThePlate) {
   const Skin plate = skin_of(box_mesh({0.1, 0.004, 0.1}));
   const Skin needle = turned(skin_of(box_mesh({0.003, 0.1, 0.003})), {0, 15, 0}, {0.003, 0, 0.001});
   EXPECT_NEAR(depth_between(plate, needle).depth, 0.002, 1e-9);
+}
+
+/// Of three boxes in one skin two overlap from the start, and the third comes into one of these.
+TEST(Crossings, WhatIsTangledAtTheStartCanBeLeftAlone) {
+  const Skin box = skin_of(box_mesh({0.1, 0.1, 0.1}), 0.02);
+  const Skin bar = skin_of(box_mesh({0.1, 0.05, 0.05}), 0.02);
+  const Skin two = joined(box, turned(bar, Vec3::Zero(), {0.07, 0, 0}));
+  DrawnSurface start(joined(two, turned(bar, Vec3::Zero(), {-0.2, 0, 0})));
+  DrawnSurface later(joined(two, turned(bar, Vec3::Zero(), {-0.09, 0, 0})));
+  start.complete();
+  later.complete();
+  const std::vector<char> tangled = tangled_vertices(start, pairs_of(start, start));
+  for (Eigen::Index point = 0; point < start.points().rows(); ++point) {
+    const double x = start.points()(point, 0);
+    EXPECT_TRUE(tangled[point] == 0 || (x > 0 && x < 0.07)) << x;
+    EXPECT_TRUE(tangled[point] != 0 || x < 0.019 || x > 0.021) << "the end of a bar that is in the box";
+  }
+  const RowPairs pairs = pairs_of(later, later);
+  EXPECT_GE(crossing_depth(later, later, pairs).depth, 0.03);
+  EXPECT_NEAR(crossing_depth(later, later, pairs, tangled).depth, 0.01, 1e-6);
 }
 
 TEST(Crossings, SkinThatTouchesNothingHasNone) {
