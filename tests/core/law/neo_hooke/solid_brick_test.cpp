@@ -1,5 +1,6 @@
 #include "core/law/neo_hooke/solid_brick.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -79,9 +80,8 @@ TEST(SolidBrick, IsWhatTheOracleSays) {
     out << '\n';
   }
   out.close();
-  const std::string command =
-      std::string(SPRUNG_ORACLE_PYTHON) + " " SPRUNG_SOURCE_DIR "/tests/core/law/neo_hooke/oracle.py";
-  EXPECT_EQ(std::system((command + " " + file.string()).c_str()), 0);
+  const std::string command = SPRUNG_ORACLE_PYTHON " " SPRUNG_SOURCE_DIR "/tests/core/law/neo_hooke/oracle.py";
+  EXPECT_EQ(std::system(fmt::format("{} {}", command, file.string()).c_str()), 0);
   EXPECT_EQ(std::system(command.c_str()), 0) << "the oracle contradicts itself";
 #endif
 }
