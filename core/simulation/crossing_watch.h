@@ -16,9 +16,9 @@ namespace sprung {
 /// Looks at the skins that are exported and drawn, not at the points that contact works with, and shares no code with
 /// what keeps them apart. Every pair of bodies (where bodies touch each other), every body with itself and with every
 /// obstacle is tested, exactly. Limits: a skin wholly inside another crosses nothing; of two triangles of one skin
-/// that share a vertex nothing is known, nor of two that were both in such as crossed at the start; curves that
-/// pictures add to coarse skins are not looked at. Neighbouring bricks that are hardly deformed are taken at their word
-/// that what they carry does not cross: see CellBricks.
+/// that share a vertex nothing is known, nor of two that both belong to what of it was tangled at the start; curves
+/// that pictures add to coarse skins are not looked at. Neighbouring bricks that are hardly deformed are taken at their
+/// word that what they carry does not cross: see CellBricks.
 class CrossingWatch {
  public:
   /// Of a simulation at its start: what crosses now is told apart later. Both must outlive it.

@@ -221,7 +221,7 @@ CrossingDepth crossing_depth(const DrawnSurface& a, const DrawnSurface& b, const
 }
 
 std::vector<char> tangled_vertices(const DrawnSurface& surface, const RowPairs& pairs) {
-  constexpr double kTouching = 0.9;  // turns: half a one of its own, as much of what it touches, less the error
+  constexpr double kTouching = 0.9;  // turns: half from its own surface, half from what it touches, less the error
   std::vector<char> are_tangled(surface.points().rows());
   tbb::parallel_for(std::size_t{0}, are_tangled.size(), [&](std::size_t vertex) {
     are_tangled[vertex] = surface.winding().at(surface.points().row(Eigen::Index(vertex))) > kTouching ? 1 : 0;
