@@ -51,7 +51,7 @@ CrossingWatch::CrossingWatch(const Scene& scene, const Simulation& simulation)
     Task& task = tasks_[i];
     if (task.is_self() && !found[i].pairs.empty()) {
       surfaces_[task.skins[0]].complete();
-      task.tangled_at_start = tangled_vertices(surfaces_[task.skins[0]], found[i].pairs);
+      task.tangles_at_start = tangles_of(surfaces_[task.skins[0]], found[i].pairs);
       continue;
     }
     for (const auto& pair : found[i].pairs) {
@@ -150,12 +150,13 @@ void CrossingWatch::for_each_vertex_pair(const Task& task, const std::array<int,
 }
 
 bool CrossingWatch::was_at_start(const Task& task, const std::array<int, 2>& pair) const {
-  if (!task.tangled_at_start.empty()) {
-    return std::all_of(pair.begin(), pair.end(), [&](int row) {
-      const auto corners = surfaces_[task.skins[0]].triangles().row(row);
-      return std::any_of(corners.begin(), corners.end(),
-                         [&](int vertex) { return task.tangled_at_start[vertex] != 0; });
-    });
+  if (!task.tangles_at_start.empty()) {
+    for (const int a : surfaces_[task.skins[0]].triangles().row(pair[0])) {
+      for (const int b : surfaces_[task.skins[0]].triangles().row(pair[1])) {
+        if (task.tangles_at_start[a] != 0 && task.tangles_at_start[a] == task.tangles_at_start[b]) return true;
+      }
+    }
+    return false;
   }
   bool is_known = false;
   for_each_vertex_pair(task, pair,
@@ -166,7 +167,7 @@ bool CrossingWatch::was_at_start(const Task& task, const std::array<int, 2>& pai
 CrossingDepth CrossingWatch::depth_of(const Task& task, const RowPairs& pairs, double time) const {
   const DrawnSurface& surface = surfaces_[task.skins[0]];
   if (!is_plane(task.skins[1])) {
-    return crossing_depth(surface, surfaces_[task.skins[1]], pairs, task.tangled_at_start);
+    return crossing_depth(surface, surfaces_[task.skins[1]], pairs, task.tangles_at_start);
   }
   const Plane plane = plane_of(task, time);
   CrossingDepth deepest;
@@ -185,7 +186,7 @@ Crossings CrossingWatch::look(const std::vector<const Points*>& nodes, int frame
   for (std::size_t i = 0; i < tasks_.size(); ++i) {
     Found& of_task = found[i];
     const std::size_t all = of_task.pairs.size();
-    if (!tasks_[i].at_start.empty() || !tasks_[i].tangled_at_start.empty()) {
+    if (!tasks_[i].at_start.empty() || !tasks_[i].tangles_at_start.empty()) {
       std::erase_if(of_task.pairs, [&](const auto& pair) { return was_at_start(tasks_[i], pair); });
     }
     of_task.at_start = long(all - of_task.pairs.size());

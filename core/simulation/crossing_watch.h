@@ -16,7 +16,7 @@ namespace sprung {
 /// Looks at the skins that are exported and drawn, not at the points that contact works with, and shares no code with
 /// what keeps them apart. Every pair of bodies (where bodies touch each other), every body with itself and with every
 /// obstacle is tested, exactly. Limits: a skin wholly inside another crosses nothing; of two triangles of one skin
-/// that share a vertex nothing is known, nor of two that both belong to what of it was tangled at the start; curves
+/// that share a vertex nothing is known, nor of two that belonged to the same tangle at the start; curves
 /// that pictures add to coarse skins are not looked at. Neighbouring bricks that are hardly deformed are taken at their
 /// word that what they carry does not cross: see CellBricks.
 class CrossingWatch {
@@ -37,7 +37,7 @@ class CrossingWatch {
   struct Task {
     std::array<int, 2> skins;
     std::unordered_set<VertexPair> at_start{};  // vertices of triangles that crossed then
-    std::vector<char> tangled_at_start{};       // of a skin with itself, in place of these: tangled_vertices()
+    std::vector<int> tangles_at_start{};        // of a skin with itself, in place of these: tangles_of()
     [[nodiscard]] bool is_self() const { return skins[0] == skins[1]; }
   };
   /// What was found of a task.

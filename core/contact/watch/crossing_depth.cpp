@@ -12,6 +12,8 @@
 #include <optional>
 #include <utility>
 
+#include "core/disjoint_sets.h"
+
 namespace sprung {
 namespace {
 
@@ -63,9 +65,9 @@ class InnerPart {
  public:
   /// `side`: whose of the pairs `surface` is.
   InnerPart(const DrawnSurface& surface, const DrawnSurface& other, const RowPairs& pairs, std::size_t side,
-            const std::vector<char>& left_alone)
-      : surface_(surface), other_(other), is_known_(left_alone) {
-    is_known_.resize(surface.points().rows());
+            const std::vector<int>& tangles)
+      : surface_(surface), other_(other), is_known_(surface.points().rows()) {
+    std::transform(tangles.begin(), tangles.end(), is_known_.begin(), [](int tangle) { return tangle != 0 ? 1 : 0; });
     for (const auto& pair : pairs) {
       add_passages(pair[side], pair[1 - side]);
       if (is_self()) add_passages(pair[1 - side], pair[side]);
@@ -189,8 +191,8 @@ class Distance {
 
 /// Of what is of `surface` in the other.
 void measure(const DrawnSurface& surface, const DrawnSurface& other, const RowPairs& pairs, std::size_t side,
-             const std::vector<char>& left_alone, CrossingDepth& deepest) {
-  const InnerPart inner(surface, other, pairs, side, left_alone);
+             const std::vector<int>& tangles, CrossingDepth& deepest) {
+  const InnerPart inner(surface, other, pairs, side, tangles);
   const bool is_self = &surface == &other;
   const Points normals = is_self ? normals_of(surface) : Points();
   const Distance distance(other);
@@ -213,25 +215,39 @@ void measure(const DrawnSurface& surface, const DrawnSurface& other, const RowPa
 }  // namespace
 
 CrossingDepth crossing_depth(const DrawnSurface& a, const DrawnSurface& b, const RowPairs& pairs,
-                             const std::vector<char>& left_alone) {
+                             const std::vector<int>& tangles) {
   CrossingDepth deepest;
-  measure(a, b, pairs, 0, left_alone, deepest);
+  measure(a, b, pairs, 0, tangles, deepest);
   if (&a != &b) measure(b, a, pairs, 1, {}, deepest);
   return deepest;
 }
 
-std::vector<char> tangled_vertices(const DrawnSurface& surface, const RowPairs& pairs) {
+std::vector<int> tangles_of(const DrawnSurface& surface, const RowPairs& pairs) {
   constexpr double kTouching = 0.9;  // turns: half from its own surface, half from what it touches, less the error
+  const Triangles& triangles = surface.triangles();
   std::vector<char> are_tangled(surface.points().rows());
   tbb::parallel_for(std::size_t{0}, are_tangled.size(), [&](std::size_t vertex) {
     are_tangled[vertex] = surface.winding().at(surface.points().row(Eigen::Index(vertex))) > kTouching ? 1 : 0;
   });
-  for (const auto& pair : pairs) {
-    for (const int row : pair) {
-      for (const int vertex : surface.triangles().row(row)) are_tangled[vertex] = 1;
+  DisjointSets sets(are_tangled.size());
+  for (const auto& [a, b] : pairs) {
+    for (const int row : {a, b}) {
+      for (const int vertex : triangles.row(row)) are_tangled[vertex] = 1;
+    }
+    sets.merge(triangles(a, 0), triangles(b, 0));
+  }
+  for (const auto& corners : triangles.rowwise()) {
+    for (int i = 0; i < 3; ++i) {
+      const int from = corners[i];
+      const int to = corners[(i + 1) % 3];
+      if (are_tangled[from] != 0 && are_tangled[to] != 0) sets.merge(from, to);
     }
   }
-  return are_tangled;
+  std::vector<int> tangles(are_tangled.size());
+  for (int vertex = 0; vertex < isize(tangles); ++vertex) {
+    if (are_tangled[vertex] != 0) tangles[vertex] = sets.find(vertex) + 1;
+  }
+  return tangles;
 }
 
 }  // namespace sprung

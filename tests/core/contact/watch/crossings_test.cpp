@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 #include "core/contact/watch/crossing_depth.h"
 #include "core/contact/watch/crossing_pairs.h"
@@ -105,15 +106,35 @@ TEST(Crossings, WhatIsTangledAtTheStartCanBeLeftAlone) {
   DrawnSurface later(joined(two, turned(bar, Vec3::Zero(), {-0.09, 0, 0})));
   start.complete();
   later.complete();
-  const std::vector<char> tangled = tangled_vertices(start, pairs_of(start, start));
+  const std::vector<int> tangles = tangles_of(start, pairs_of(start, start));
+  int tangle = 0;
   for (Eigen::Index point = 0; point < start.points().rows(); ++point) {
     const double x = start.points()(point, 0);
-    EXPECT_TRUE(tangled[point] == 0 || (x > 0 && x < 0.07)) << x;
-    EXPECT_TRUE(tangled[point] != 0 || x < 0.019 || x > 0.021) << "the end of a bar that is in the box";
+    EXPECT_TRUE(tangles[point] == 0 || (x > 0 && x < 0.07)) << x;
+    EXPECT_TRUE(tangles[point] != 0 || x < 0.019 || x > 0.021) << "the end of a bar that is in the box";
+    if (tangles[point] == 0) continue;
+    if (tangle == 0) tangle = tangles[point];
+    EXPECT_EQ(tangles[point], tangle) << "box and bar are one";
   }
   const RowPairs pairs = pairs_of(later, later);
   EXPECT_GE(crossing_depth(later, later, pairs).depth, 0.03);
-  EXPECT_NEAR(crossing_depth(later, later, pairs, tangled).depth, 0.01, 1e-6);
+  EXPECT_NEAR(crossing_depth(later, later, pairs, tangles).depth, 0.01, 1e-6);
+}
+
+TEST(Crossings, TanglesApartAreTold) {
+  const Skin bar = skin_of(box_mesh({0.1, 0.05, 0.05}), 0.02);
+  const Skin two = joined(bar, turned(skin_of(box_mesh({0.1, 0.1, 0.1}), 0.02), Vec3::Zero(), {0.07, 0, 0}));
+  DrawnSurface surface(joined(two, turned(two, Vec3::Zero(), {0, 0.3, 0})));
+  surface.complete();
+  const std::vector<int> tangles = tangles_of(surface, pairs_of(surface, surface));
+  std::set<int> low;
+  std::set<int> high;
+  for (Eigen::Index point = 0; point < surface.points().rows(); ++point) {
+    if (tangles[point] != 0) (surface.points()(point, 1) < 0.15 ? low : high).insert(tangles[point]);
+  }
+  EXPECT_EQ(low.size(), 1U);
+  EXPECT_EQ(high.size(), 1U);
+  EXPECT_NE(low, high);
 }
 
 TEST(Crossings, SkinThatTouchesNothingHasNone) {
