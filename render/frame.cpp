@@ -9,10 +9,7 @@
 namespace sprung {
 namespace {
 
-constexpr double kKeyAzimuth = -28;     // degrees about y, as a camera's
-constexpr double kKeyElevation = 52;    // degrees
-constexpr double kSmallestSize = 1e-9;  // m
-constexpr double kGrid = 0.25;          // of a body's radius; the maps' sides are multiples of it
+constexpr double kGrid = 0.25;      // of a body's radius; the maps' sides are multiples of it
 constexpr double kPenumbra = 0.18;  // of a body's height: how far its soft shadow exceeds the sharp one, on the floor
 constexpr double kSkyShadow = 1.6;  // of a body's radius: how far around it the floor sees less of the sky
 
@@ -55,17 +52,6 @@ Mat3 rows(const Vec3& right, const Vec3& up, const Vec3& away) {
 }
 
 }  // namespace
-
-StageSpace::StageSpace(const AlignedBox& bounds)
-    : center(bounds.center()), scale(1 / std::max(0.5 * bounds.diagonal().norm(), kSmallestSize)) {
-  center = center.cast<float>().cast<double>();  // the shaders subtract it in single precision
-}
-
-Vec3 to_key_light() {
-  const double a = kKeyAzimuth * std::numbers::pi / 180;
-  const double e = kKeyElevation * std::numbers::pi / 180;
-  return {std::sin(a) * std::cos(e), std::sin(e), std::cos(a) * std::cos(e)};
-}
 
 LightFrame fit_light(const std::vector<SkinShape>& shapes, const StageSpace& space, double body_radius,
                      double ground_height) {

@@ -2,11 +2,11 @@
 #include <optional>
 #include <vector>
 
-#include "render/environment.h"
 #include "render/exposures.h"
 #include "render/frame.h"
 #include "render/gl/objects.h"
 #include "render/light_maps.h"
+#include "render/stage/environment.h"
 
 namespace sprung {
 

@@ -5,7 +5,7 @@
 
 #include "core/skin/skin.h"
 #include "render/gl/objects.h"
-#include "render/renderer.h"
+#include "render/stage/stage.h"
 
 namespace sprung {
 

@@ -9,7 +9,7 @@
 
 #include "core/bricks/embedding.h"
 #include "core/skin/skin.h"
-#include "render/camera.h"
+#include "render/stage/camera.h"
 #include "render/image/legend.h"
 
 namespace sprung {

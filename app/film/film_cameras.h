@@ -1,7 +1,7 @@
 #pragma once
 #include "app/scene/film.h"
 #include "core/simulation/recorder.h"
-#include "render/camera.h"
+#include "render/stage/camera.h"
 
 namespace sprung {
 

@@ -8,7 +8,7 @@
 #include "app/film/film_stage.h"
 #include "app/film/labels.h"
 #include "app/scene/scene_render.h"
-#include "render/environment.h"
+#include "render/stage/environment.h"
 #include "render/image/image.h"
 
 namespace sprung {

@@ -4,7 +4,7 @@
 
 #include "app/scene/film.h"
 #include "core/simulation/recorder.h"
-#include "render/camera.h"
+#include "render/stage/camera.h"
 #include "render/image/legend.h"
 #include "render/image/plot.h"
 

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "core/bricks/brick_topology.h"
-#include "render/camera.h"
+#include "render/stage/camera.h"
 
 namespace sprung {
 namespace {

@@ -39,6 +39,7 @@ const std::vector<std::string> kFolders{
     "core/simulation",
     "render/image",
     "render/gl",
+    "render/stage",
     "render",
     "app/console",
     "app/scene",

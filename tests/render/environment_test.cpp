@@ -1,4 +1,4 @@
-#include "render/environment.h"
+#include "render/stage/environment.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "render/camera.h"
+#include "render/stage/camera.h"
 
 #include <algorithm>
 #include <array>

@@ -1,0 +1,64 @@
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "core/appearance.h"
+#include "core/skin/skin.h"
+#include "render/image/color_map.h"
+#include "render/image/image.h"
+#include "render/stage/camera.h"
+#include "render/stage/environment.h"
+
+namespace sprung {
+
+/// One skin in one frame.
+struct SkinShape {
+  Floats3 positions;  // n x 3, m, world
+  Floats3 normals;    // n x 3, any length
+  Eigen::VectorXf map_coordinates =
+      {};  // n, on the stage's colour map: 0 to 1, plus 2 for darker lines; no rows: the skin's own colours
+};
+
+struct GroundPlane {
+  double height = 0;  // y, m
+};
+
+struct RenderOptions {
+  int width = 1280;
+  int height = 720;
+  int samples = 4;  // per pixel: 1, 4 or 16
+  bool measure_passes = false;
+  Quality quality = Quality::kDefault;  // of shadows
+  bool transparent = false;             // pictures with alpha: bodies without a background
+  bool exposes = false;                 // pictures are of several exposures
+};
+
+/// What does not change during a film: the skins at rest (indices, UVs, colours, textures), ground and light.
+struct Stage {
+  std::vector<const Skin*> skins;               // must outlive the renderer
+  std::vector<Eigen::Vector3f> default_colors;  // sRGB, one per skin: for parts without material, colours or texture
+  std::vector<Look> looks{};                    // one per skin; none: plastic
+  std::vector<bool> ghosts{};                   // one per skin; none: no ghosts. They are faint and cast no shadow
+  std::vector<int> ids{};                       // one per skin, for passes; none: 1, 2, ...
+  ColorMap color_map = ColorMap::kViridis;
+  bool has_ground = true;
+  GroundPlane ground;
+  AlignedBox bounds;                         // of the whole motion: sizes shadow map, ground fade and light
+  std::optional<Environment> environment{};  // replaces the studio's sky and walls, not the key light
+};
+
+/// A part of the time that a shutter is open. Skins move from the first shapes to the last, and each sample of a pixel
+/// sees them at another time.
+struct Exposure {
+  const std::vector<SkinShape>& first;
+  const std::vector<SkinShape>& last;  // the same ones: at rest
+  Camera camera;
+};
+
+/// Everything as it is at a time.
+struct Moment {
+  const std::vector<SkinShape>& shapes;
+  Camera camera;
+};
+
+}  // namespace sprung
