@@ -60,6 +60,11 @@ void Exposures::add(const GlTexture& light, const GlTexture& circles, double lar
   gl_.Disable(GL_BLEND);
 }
 
+void Exposures::set_mean(const std::vector<Eigen::Vector4f>& light) {
+  mean_ = make_texture(gl_, width_, height_, kLight, light.data());
+  mean_target_ = make_texture_target(gl_, &mean_, nullptr);
+}
+
 void Exposures::develop() const {
   develop_program_.use();
   develop_program_.set("mean_light", 0);

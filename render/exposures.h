@@ -1,4 +1,6 @@
 #pragma once
+#include <vector>
+
 #include "render/gl/objects.h"
 
 namespace sprung {
@@ -13,6 +15,8 @@ class Exposures {
   void add(const GlTexture& light, double part) const;
   /// The same through a lens; `circles`: of confusion, see circles.frag; `largest` that counts.
   void add(const GlTexture& light, const GlTexture& circles, double largest, double part) const;
+  /// In place of clear() and add(): the mean light by pixel, as mean() has it.
+  void set_mean(const std::vector<Eigen::Vector4f>& light);
   /// Framebuffer of the mean light, red, green, blue and opacity, multiplied by it where transparent.
   [[nodiscard]] GLuint mean() const { return mean_target_.name(); }
   /// Leaves the picture, 8-bit sRGB, in the framebuffer that is bound.

@@ -4,18 +4,21 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include "core/error.h"
 #include "render/gl/context.h"
 #include "render/gl/pass_clock.h"
 #include "render/pass_drawer.h"
 #include "render/screen.h"
+#include "render/trace/path_tracer.h"
 
 namespace sprung {
 
 namespace {
 
 constexpr double kGhost = 0.28;       // opacity
+constexpr int kMostSamples = 4096;    // of traced pictures
 constexpr double kMostMotion = 0.25;  // of a body's radius; overlays jump
 
 /// Radius of the ball around a skin's bounding box, m.
@@ -43,21 +46,59 @@ std::vector<SkinShape> between(const std::vector<SkinShape>& first, const std::v
 }
 
 void check_options(const Stage& stage, const RenderOptions& options) {
-  const int largest = 16384 / sample_side(options.samples);  // llvmpipe's limit
+  const bool is_traced = options.quality == Quality::kFinal;
+  const int largest = 16384 / sample_side(is_traced ? 1 : options.samples);  // llvmpipe's limit
   if (options.width < 1 || options.height < 1 || options.width > largest || options.height > largest) {
     throw Error(ErrorKind::kUsage, "resolution " + std::to_string(options.width) + "x" +
                                        std::to_string(options.height) + ": each side must be 1 to " +
                                        std::to_string(largest) + " pixels");
   }
-  if (options.samples != 1 && options.samples != 4 && options.samples != 16) {
-    throw Error(ErrorKind::kUsage, "samples " + std::to_string(options.samples) + ": must be 1, 4 or 16");
+  const bool is_known =
+      is_traced ? options.samples >= 1 && options.samples <= kMostSamples : is_raster_samples(options.samples);
+  if (!is_known) {
+    throw Error(ErrorKind::kUsage, "samples " + std::to_string(options.samples) + ": must be " +
+                                       (is_traced ? "1 to " + std::to_string(kMostSamples) : "1, 4 or 16"));
   }
   if (stage.bounds.isEmpty() || stage.skins.size() != stage.default_colors.size()) {
     throw Error(ErrorKind::kFailed, "a stage needs bounds and a default colour for every skin");
   }
 }
 
+/// While the shutter is open.
+Motion motion_of(const std::vector<Exposure>& exposures) {
+  Motion motion;
+  for (const Exposure& exposure : exposures) motion.push_back(&exposure.first);
+  const std::vector<SkinShape>& last = exposures.back().last;
+  if (&last != motion.back()) motion.push_back(&last);
+  return motion;
+}
+
+/// Of what the shaders still draw of a traced picture: its passes.
+RenderOptions without_tracing(RenderOptions options) {
+  if (options.quality != Quality::kFinal) return options;
+  options.quality = Quality::kHigh;
+  options.samples = samples_of(Quality::kHigh);
+  options.exposes = false;
+  return options;
+}
+
 }  // namespace
+
+/// Draws by tracing the paths of light; OpenGL only makes the picture of the light.
+struct Renderer::Tracing {
+  PathTracer tracer;
+  Exposures picture;
+  std::vector<Eigen::Vector4f> light{};  // of the last picture
+
+  Tracing(const GlFunctions& gl, const Stage& stage, const RenderOptions& options)
+      : tracer(stage, options), picture(gl, options.width, options.height, options.transparent) {}
+
+  void draw(const Motion& motion, const Camera& camera) {
+    light = tracer.draw(motion, camera);
+    picture.set_mean(light);
+    picture.develop();
+  }
+};
 
 struct Renderer::Device {
   GlContext context;  // first, since all others need it until they are gone
@@ -79,6 +120,7 @@ struct Renderer::Device {
   std::optional<PassDrawer> passes;  // made with the first ones, as the next two
   std::optional<Screen> light_screen;
   std::optional<Screen> share_screen;
+  std::optional<Tracing> tracing;  // where pictures are traced
 
   Device(const Stage& stage, const RenderOptions& wanted)
       : gl(context.gl()),
@@ -88,11 +130,13 @@ struct Renderer::Device {
         sky_on_ground(stage.environment ? stage.environment->irradiance_on(Eigen::Vector3f::UnitY()) : studio_sky()),
         textures(gl, stage.color_map),
         ids(stage.ids),
-        maps(gl, wanted),
-        screen(gl, wanted, stage.environment, wanted.exposes ? ScreenOutput::kLight : ScreenOutput::kPicture),
+        maps(gl, without_tracing(wanted)),
+        screen(gl, without_tracing(wanted), stage.environment,
+               without_tracing(wanted).exposes ? ScreenOutput::kLight : ScreenOutput::kPicture),
         clock(gl, wanted.measure_passes),
         environment(stage.environment),
-        options(wanted) {
+        options(without_tracing(wanted)) {
+    if (wanted.quality == Quality::kFinal) tracing.emplace(gl, stage, wanted);
     for (std::size_t i = 0; i < stage.skins.size(); ++i) {
       const bool is_ghost = !stage.ghosts.empty() && stage.ghosts[i];
       const Look look = stage.looks.empty() ? Look::kPlastic : stage.looks[i];
@@ -146,11 +190,21 @@ struct Renderer::Device {
     target.draw_light(maps, view, clock);
   }
 
+  Image trace(const Motion& motion, const Camera& camera) {
+    tracing->draw(motion, camera);
+    clock.stop("paths of light");
+    Image image = read_picture(gl, options.width, options.height, options.transparent);
+    clock.stop("read back");
+    return image;
+  }
+
   /// The light maps must be those of the view.
   void draw_light_passes(const View& view, Passes& out) {
     if (!share_screen) make_light_screens();
     std::vector<Eigen::Vector4f> light;
-    if (light_screen) {
+    if (tracing) {
+      light = std::exchange(tracing->light, {});
+    } else if (light_screen) {
       draw(*light_screen, view, false);
       light = light_screen->read_numbers();
       if (has_ghosts) {
@@ -174,7 +228,7 @@ struct Renderer::Device {
   void make_light_screens() {
     RenderOptions single = options;
     single.exposes = false;
-    if (!options.exposes) light_screen.emplace(gl, single, environment, ScreenOutput::kLight);
+    if (!options.exposes && !tracing) light_screen.emplace(gl, single, environment, ScreenOutput::kLight);
     single.transparent = false;
     share_screen.emplace(gl, single, environment, ScreenOutput::kShares);
   }
@@ -191,6 +245,10 @@ struct Renderer::Device {
   }
 };
 
+bool is_raster_samples(int samples) { return samples == 1 || samples == 4 || samples == 16; }
+
+void require_path_tracer() { static_cast<void>(RayScene({}, {})); }
+
 Renderer::Renderer(const Stage& stage, const RenderOptions& options) {
   check_options(stage, options);
   device_ = std::make_unique<Device>(stage, options);
@@ -202,6 +260,7 @@ Image Renderer::draw(const std::vector<SkinShape>& shapes, const Camera& camera)
   Device& device = *device_;
   device.context.make_current();
   device.clock.start();
+  if (device.tracing) return device.trace({&shapes}, camera);
   const DrawFrame frame = device.frame(shapes);
   device.clock.stop("upload");
   device.maps.draw(device.skins, device.textures, frame, device.clock);
@@ -220,6 +279,7 @@ Image Renderer::draw(const std::vector<Exposure>& exposures) {
   Device& device = *device_;
   device.context.make_current();
   device.clock.start();
+  if (device.tracing) return device.trace(motion_of(exposures), exposures.front().camera);
   device.screen.clear_exposures();
   const double part = 1.0 / double(exposures.size());
   for (const Exposure& exposure : exposures) {
@@ -249,6 +309,7 @@ Passes Renderer::draw_passes(const Moment& now, const Moment& before, const Mome
   if (!device.passes) device.passes.emplace(device.gl, device.screen.width(), device.screen.height());
   Passes passes = device.passes->draw(device.skins, device.ids, views);
   device.maps.draw(device.skins, device.textures, frame, device.clock);
+  if (device.tracing && device.tracing->light.empty()) device.tracing->draw({&now.shapes}, now.camera);
   device.draw_light_passes(views.now, passes);
   return passes;
 }

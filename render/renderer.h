@@ -8,7 +8,14 @@
 
 namespace sprung {
 
-/// Draws a stage off-screen with OSMesa: no display, no GPU. Deterministic on one machine for any number of threads.
+/// Samples per pixel that other qualities than kFinal know: 1, 4 and 16.
+[[nodiscard]] bool is_raster_samples(int samples);
+
+/// Throws Error(kFailed) where this program was built without what Quality::kFinal needs.
+void require_path_tracer();
+
+/// Draws a stage off-screen with OSMesa, in final quality with Embree: no display, no GPU. Deterministic on one machine
+/// for any number of threads.
 class Renderer {
  public:
   /// Throws Error(kFailed) where no OpenGL 3.3 context can be made.
@@ -35,6 +42,7 @@ class Renderer {
 
  private:
   struct Device;
+  struct Tracing;
   std::unique_ptr<Device> device_;
 };
 

@@ -189,12 +189,16 @@ Image Screen::read() const {
   } else {
     gl_.BindFramebuffer(GL_FRAMEBUFFER, developed_.name());
   }
-  gl_.PixelStorei(GL_PACK_ALIGNMENT, 1);
-  Image image(width_, height_);
-  gl_.ReadPixels(0, 0, width_, height_, GL_RGB, GL_UNSIGNED_BYTE, image.pixels.data());
-  if (!is_transparent_) return image;
-  image.alpha.resize(std::size_t(width_) * std::size_t(height_));
-  gl_.ReadPixels(0, 0, width_, height_, GL_ALPHA, GL_UNSIGNED_BYTE, image.alpha.data());
+  return read_picture(gl_, width_, height_, is_transparent_);
+}
+
+Image read_picture(const GlFunctions& gl, int width, int height, bool is_transparent) {
+  gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
+  Image image(width, height);
+  gl.ReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, image.pixels.data());
+  if (!is_transparent) return image;
+  image.alpha.resize(std::size_t(width) * std::size_t(height));
+  gl.ReadPixels(0, 0, width, height, GL_ALPHA, GL_UNSIGNED_BYTE, image.alpha.data());
   return image;
 }
 

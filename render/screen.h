@@ -35,6 +35,9 @@ enum class ScreenOutput { kPicture, kLight, kShares };
 inline constexpr int kTurns = 8;
 inline constexpr int kAllTurns = -1;
 
+/// The picture in the framebuffer that is bound.
+[[nodiscard]] Image read_picture(const GlFunctions& gl, int width, int height, bool is_transparent);
+
 /// Deferred shading of what a camera sees, given the light maps: first the skins' surface in every sample of every
 /// pixel, then their light.
 class Screen {

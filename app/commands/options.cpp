@@ -36,7 +36,7 @@ constexpr std::array<KeyOption, 24> kKeyOptions{{
     {"--fps", "fps", "N", {.is_common = true}},
     {"--duration", "duration", "3s", {.is_common = true}},
     {"--resolution", "render.resolution", "WxH", {.is_of_pictures = true, .is_common = true}},
-    {"--quality", "render.quality", "preview|default|high", {.is_of_pictures = true, .is_common = true}},
+    {"--quality", "render.quality", "NAME", {.is_of_pictures = true, .is_common = true}},
     {"--samples", "render.samples", "N", {.is_of_pictures = true}},
     {"--smooth", "render.smooth", "on|off", {.is_of_pictures = true}},
     {"--color-by", "render.color_by", "FIELD", {.is_of_pictures = true, .is_common = true}},

@@ -9,8 +9,8 @@
 
 #include "core/bricks/embedding.h"
 #include "core/skin/skin.h"
-#include "render/stage/camera.h"
 #include "render/image/legend.h"
+#include "render/stage/camera.h"
 
 namespace sprung {
 

@@ -8,8 +8,8 @@
 #include "app/film/film_stage.h"
 #include "app/film/labels.h"
 #include "app/scene/scene_render.h"
-#include "render/stage/environment.h"
 #include "render/image/image.h"
+#include "render/stage/environment.h"
 
 namespace sprung {
 

@@ -4,9 +4,9 @@
 
 #include "app/scene/film.h"
 #include "core/simulation/recorder.h"
-#include "render/stage/camera.h"
 #include "render/image/legend.h"
 #include "render/image/plot.h"
+#include "render/stage/camera.h"
 
 namespace sprung {
 

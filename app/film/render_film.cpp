@@ -169,7 +169,7 @@ void draw_by_processes(const Task& task, FilmPipeline& pipeline, std::size_t cou
 /// Number of drawing processes.
 std::size_t processes_for(const Task& task, int jobs) {
   const std::size_t frames = task.frames.size();
-  if (task.render.sheet) return 1;
+  if (task.render.sheet || task.render.quality == Quality::kFinal) return 1;  // which takes all cores for each picture
   if (jobs > 0) return std::min<std::size_t>(frames, jobs);
   const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
   return std::clamp(frames / kLeastFrames, std::size_t{1}, std::min(cores, kMostProcesses));
@@ -232,8 +232,14 @@ std::vector<Output> with_streams_chosen(std::vector<Output> outputs, const Scene
 }  // namespace
 
 void check_outputs(const Film& scene, std::size_t runs, const FrameChoice& choice, const std::vector<Output>& given) {
-  const auto refuse = [](const char* reason) { throw Error(ErrorKind::kUsage, reason); };
+  const auto refuse = [](const std::string& reason) { throw Error(ErrorKind::kUsage, reason); };
   const SceneRender& render = scene.render;
+  if (render.quality == Quality::kFinal) {
+    require_path_tracer();
+  } else if (render.samples && !is_raster_samples(*render.samples)) {
+    refuse(fmt::format("render.samples = {}: 1, 4 or 16; other numbers are for render.quality = \"final\"",
+                       *render.samples));
+  }
   const std::vector<Output> outputs = with_streams_chosen(given, render, choice);
   const std::vector<Output> sheets = sheets_among(outputs, render, choice, true);
   const bool has_sheet = render.sheet || !sheets.empty();

@@ -80,7 +80,7 @@ inline constexpr Range kNotNegative{.low = 0};
 inline constexpr Range kCounted{.low = 1};  // from 1
 inline constexpr Range kPoisson{-1, 0.5, true, true};
 inline constexpr Range kZoom{0.01, 100};
-inline constexpr int kSampleCounts[] = {1, 4, 16};
+inline constexpr int kSampleCounts[] = {1, 4, 8, 16, 32, 64, 128, 256, 512, 1024};
 
 inline const std::vector<std::string_view> kSelectionKeys{"box",     "sphere", "half_space", "part",
                                                           "painted", "face",   "nearest",    "mesh"};
@@ -185,8 +185,13 @@ void fields(auto& visit, Is<CameraKeyframe> auto& keyframe) {
 void fields(auto& visit, Is<SceneRender> auto& render) {
   visit.table("render");
   visit({"resolution", "width and height of the pictures in pixels", Dimension::kNone, {16, 8192}}, render.resolution);
-  visit({"quality", "preview (fast), default or high (slow): shadows and antialiasing"}, render.quality);
-  visit({"samples", "samples per pixel; default: by the quality", Dimension::kNone, {1, 16}, false, kSampleCounts},
+  visit({"quality", "preview (fast), default, high or final (slow, experimental)"}, render.quality);
+  visit({"samples",
+         "per pixel: 1, 4 or 16, in final quality 1 to 1024; default: by the quality",
+         Dimension::kNone,
+         {1, 1024},
+         false,
+         kSampleCounts},
         render.samples);
   visit({"smooth", "whether coarse meshes are drawn smooth; what is computed and exported keeps their triangles"},
         render.smooth);

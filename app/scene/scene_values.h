@@ -39,8 +39,11 @@ inline constexpr Names<Interpolation, 3> kNames<Interpolation>{
     "interpolation",
     {{{"linear", Interpolation::kLinear}, {"smooth", Interpolation::kSmooth}, {"held", Interpolation::kHeld}}}};
 template <>
-inline constexpr Names<Quality, 3> kNames<Quality>{
-    "quality", {{{"preview", Quality::kPreview}, {"default", Quality::kDefault}, {"high", Quality::kHigh}}}};
+inline constexpr Names<Quality, 4> kNames<Quality>{"quality",
+                                                   {{{"preview", Quality::kPreview},
+                                                     {"default", Quality::kDefault},
+                                                     {"high", Quality::kHigh},
+                                                     {"final", Quality::kFinal}}}};
 template <>
 inline constexpr Names<Field, 9> kNames<Field>{"field",
                                                {{{"skin", Field::kSkin},

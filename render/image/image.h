@@ -22,8 +22,9 @@ struct Image {
 /// RGB, or RGBA where the picture has alpha, pixel by pixel.
 [[nodiscard]] std::vector<std::uint8_t> interleaved(const Image& image);
 
-/// kPreview takes one sample per pixel and coarse shadows, kDefault four, kHigh sixteen and fine shadows.
-enum class Quality { kPreview, kDefault, kHigh };
+/// kPreview takes one sample per pixel and coarse shadows, kDefault four, kHigh sixteen and fine shadows; kFinal traces
+/// the paths of light.
+enum class Quality { kPreview, kDefault, kHigh, kFinal };
 
 /// Samples per pixel.
 [[nodiscard]] constexpr int samples_of(Quality quality) {

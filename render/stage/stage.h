@@ -19,6 +19,9 @@ struct SkinShape {
       {};  // n, on the stage's colour map: 0 to 1, plus 2 for darker lines; no rows: the skin's own colours
 };
 
+/// Shapes by time, at equal steps while the shutter is open, and skin; a single one is of a moment.
+using Motion = std::vector<const std::vector<SkinShape>*>;
+
 struct GroundPlane {
   double height = 0;  // y, m
 };
@@ -26,9 +29,9 @@ struct GroundPlane {
 struct RenderOptions {
   int width = 1280;
   int height = 720;
-  int samples = 4;  // per pixel: 1, 4 or 16
+  int samples = 4;  // per pixel: 1, 4 or 16; for kFinal 1 to 4096
   bool measure_passes = false;
-  Quality quality = Quality::kDefault;  // of shadows
+  Quality quality = Quality::kDefault;  // of light
   bool transparent = false;             // pictures with alpha: bodies without a background
   bool exposes = false;                 // pictures are of several exposures
 };

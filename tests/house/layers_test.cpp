@@ -40,6 +40,7 @@ const std::vector<std::string> kFolders{
     "render/image",
     "render/gl",
     "render/stage",
+    "render/trace",
     "render",
     "app/console",
     "app/scene",

@@ -229,5 +229,22 @@ TEST(FilmTransparent, HasAlphaAndNoFloor) {
             "render.transparent: of films only .mov and .webm have alpha; or give a folder for pictures");
 }
 
+TEST(FilmFinal, IsDrawnAndOtherQualitiesRefuseItsSamples) {
+  const auto draw = [](const std::string& render, const TempFolder& folder) {
+    const FilmUnderTest film(render);
+    render_film({{film.scene, film.simulation, film.recording}}, std::nullopt, {.range = {.first = 1, .last = 1}},
+                {parse_output((folder.path() / "p_{}.png").string())}, Console::of_few_words());
+    return read_png(folder.path() / "p_1.png");
+  };
+  const TempFolder folder;
+  const Image traced = draw("quality = \"final\"\nsamples = 8\n", folder);
+  const TempFolder other;
+  const Image raster = draw("quality = \"high\"\n", other);
+  EXPECT_NE(traced.pixels, raster.pixels);
+  EXPECT_LT(compare_images(traced, raster).mean, 5);
+  EXPECT_EQ(error_message([&] { draw("samples = 8\n", folder); }),
+            "render.samples = 8: 1, 4 or 16; other numbers are for render.quality = \"final\"");
+}
+
 }  // namespace
 }  // namespace sprung

@@ -1,0 +1,66 @@
+#pragma once
+#include <Eigen/Core>
+#include <array>
+
+#include "core/appearance.h"
+
+namespace sprung {
+
+/// What a surface makes of light from one direction: factors of its radiance, with the cosine and one over the density
+/// of the direction where that was sampled.
+struct Reflected {
+  Eigen::Vector3f base = Eigen::Vector3f::Zero();  // by the base, as if it were white
+  Eigen::Vector3f specular = Eigen::Vector3f::Zero();
+};
+
+/// How surfaces of a look scatter light: a rough specular layer (GGX with Smith's shadowing, Schlick's Fresnel term)
+/// over a Lambert base, which gets what the layer leaves to it (C. Kelemen and L. Szirmay-Kalos, "A Microfacet Based
+/// Coupled Specular-Matte BRDF Model with Importance Sampling", 2001). A metal has no base; light that its facets
+/// reflect more than once is added by E. Turquin, "Practical multiple scattering compensation for microfacet models"
+/// (2019). Reciprocal up to that; a white surface absorbs nothing. Directions are unit vectors in a frame whose z axis
+/// is the normal, away from the surface.
+class Finish {
+ public:
+  /// Without a specular layer where the roughness is 1 or more.
+  struct Properties {
+    float roughness;  // the square root of GGX's alpha
+    bool is_metal = false;
+    float glow = 0;  // the fraction of the colour that the surface shows in any light
+  };
+  explicit Finish(const Properties& properties);
+  [[nodiscard]] static Finish of(Look look);
+  [[nodiscard]] static Finish matt() { return Finish({.roughness = 1}); }
+
+  [[nodiscard]] Reflected evaluate(const Eigen::Vector3f& to_eye, const Eigen::Vector3f& to_light,
+                                   const Eigen::Vector3f& color) const;
+  /// A direction to trace on; it may lie below the surface, where nothing is reflected to.
+  [[nodiscard]] Eigen::Vector3f sample(const Eigen::Vector3f& to_eye, const Eigen::Vector2f& random,
+                                       float choice) const;
+  /// Density of sample() over the solid angle.
+  [[nodiscard]] float density(const Eigen::Vector3f& to_eye, const Eigen::Vector3f& to_light) const;
+  [[nodiscard]] float glow() const { return glow_; }
+
+ private:
+  static constexpr int kAngles = 64;
+  /// The fraction of light that the specular layer reflects: scale times its reflectance at right angles plus bias.
+  struct Share {
+    float scale = 0;
+    float bias = 0;
+  };
+
+  [[nodiscard]] Share share(float cosine) const;
+  [[nodiscard]] float left_to_base(float cosine) const;
+  [[nodiscard]] Eigen::Vector3f half_vector(const Eigen::Vector3f& to_eye, const Eigen::Vector2f& random) const;
+  [[nodiscard]] float distribution(float cosine) const;
+
+  [[nodiscard]] bool is_matt() const { return specular_choice_ == 0; }
+
+  float alpha_;
+  bool is_metal_;
+  float specular_choice_;  // probability to sample the specular layer
+  float glow_;
+  std::array<Share, kAngles + 1> shares_{};  // by cosine
+  float mean_left_to_base_ = 1;
+};
+
+}  // namespace sprung

@@ -1,0 +1,195 @@
+#include "render/trace/light_paths.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/trace/directions.h"
+
+namespace sprung {
+namespace {
+
+using Eigen::Vector3f;
+
+constexpr int kMostBounces = 64;
+constexpr int kSureBounces = 3;        // before a path may end by chance
+constexpr float kLeastFacing = 1e-2F;  // cosine between a smooth normal and the way to the eye
+
+Reflected times(const Reflected& reflected, const Vector3f& light) {
+  return {reflected.base.cwiseProduct(light), reflected.specular.cwiseProduct(light)};
+}
+
+Reflected sum(const Reflected& a, const Reflected& b) { return {a.base + b.base, a.specular + b.specular}; }
+
+/// Of a density that found the light, beside another one that could have (balance heuristic).
+float balance(float density, float other) { return density / (density + other); }
+
+/// A smooth normal that the eye sees from above, however it grazes the surface.
+Vector3f facing(const Vector3f& normal, const Vector3f& to_eye) {
+  const float cosine = normal.dot(to_eye);
+  return cosine >= kLeastFacing ? normal : (normal + (kLeastFacing - cosine) * to_eye).normalized();
+}
+
+}  // namespace
+
+LightPaths::LightPaths(const Stage& stage)
+    : LightPaths(stage, StageLight(stage.environment),
+                 {Finish::of(Look::kPlastic), Finish::of(Look::kGelatin), Finish::of(Look::kRubber),
+                  Finish::of(Look::kSteel), Finish::of(Look::kChart)}) {}
+
+LightPaths::LightPaths(const Stage& stage, const StageLight& light, const Finishes& finishes)
+    : space_(stage.bounds),
+      light_(light),
+      skins_(stage, space_),
+      looks_(stage.looks),
+      finishes_(finishes),
+      has_ground_(stage.has_ground),
+      has_ghosts_(std::find(stage.ghosts.begin(), stage.ghosts.end(), true) != stage.ghosts.end()),
+      ground_height_(float((stage.ground.height - space_.center.y()) * space_.scale)) {
+  looks_.resize(stage.skins.size(), Look::kPlastic);
+}
+
+void LightPaths::update(const Motion& motion) {
+  skins_.update(motion);
+  region_ = BodyRegion(motion, space_, ground_height_);
+}
+
+/// None where the ray does not come from above.
+std::optional<float> LightPaths::way_to_floor(const Ray& ray) const {
+  if (!has_ground_ || ray.direction.y() >= 0 || ray.origin.y() <= ground_height_) return std::nullopt;
+  return (ground_height_ - ray.origin.y()) / ray.direction.y();
+}
+
+LightPaths::Meeting LightPaths::meet(Ray ray, bool sees_ghosts) const {
+  Meeting meeting;
+  if (const std::optional<float> way = way_to_floor(ray)) {
+    ray.far = *way;
+    meeting.seen = Seen::kFloor;
+  }
+  if (const std::optional<SurfacePoint> point = skins_.first_hit(ray, sees_ghosts)) return {Seen::kSkin, *point};
+  if (meeting.seen == Seen::kBackground) return meeting;
+  meeting.point.position = ray.origin + ray.far * ray.direction;
+  meeting.point.position.y() = ground_height_ + 1e-5F;
+  meeting.point.normal = meeting.point.face_normal = Vector3f::UnitY();
+  meeting.point.color = StageLight::floor_albedo();
+  return meeting;
+}
+
+const Finish& LightPaths::finish(const Meeting& meeting) const {
+  if (meeting.seen == Seen::kFloor) return floor_finish_;
+  return finishes_[std::size_t(looks_[std::size_t(meeting.point.skin)])];
+}
+
+LightPaths::Scattering LightPaths::scatter(const Ray& ray, const Meeting& meeting, Sampler& sampler) const {
+  const SurfacePoint& point = meeting.point;
+  const Finish& surface = finish(meeting);
+  const TangentFrame frame(facing(point.normal, -ray.direction));
+  const Vector3f to_eye = frame.to_local(-ray.direction);
+  Scattering result;
+  result.onward.origin = point.position;
+  result.onward.time = ray.time;
+
+  const Vector3f to_key = light_.towards_key(sampler.pair());
+  const Vector3f local_key = frame.to_local(to_key);
+  if (local_key.z() > 0) {
+    const float share = balance(light_.key_density(), surface.density(to_eye, local_key)) / light_.key_density();
+    result.unhidden = times(surface.evaluate(to_eye, local_key, point.color), share * light_.key_radiance());
+    Ray to_light = result.onward;
+    to_light.direction = to_key;
+    if (!skins_.is_blocked(to_light)) result.from_key = result.unhidden;
+  }
+
+  const Eigen::Vector2f random = sampler.pair();
+  const Vector3f next = surface.sample(to_eye, random, sampler.number());
+  result.density = surface.density(to_eye, next);
+  if (result.density <= 0) return result;
+  const Reflected reflected = surface.evaluate(to_eye, next, point.color);
+  result.factor = times(reflected, Vector3f::Constant(1 / result.density));
+  result.onward.direction = frame.to_world(next).normalized();
+  // Above the smooth surface but below the triangle: mirrored, so that no light is lost.
+  const float below = result.onward.direction.dot(point.face_normal);
+  if (below < 0) result.onward.direction -= 2 * below * point.face_normal;
+  return result;
+}
+
+/// From where there are no surfaces. `density`: with which the ray was sampled; 0: without the key light.
+Vector3f LightPaths::beyond(const Ray& ray, float density) const {
+  Vector3f light = light_.around(ray.direction);
+  if (density > 0 && light_.is_key(ray.direction)) {
+    light += balance(density, light_.key_density()) * light_.key_radiance();
+  }
+  return light;
+}
+
+Vector3f LightPaths::arriving(Ray ray, float density, Sampler& sampler) const {
+  Vector3f light = Vector3f::Zero();
+  Vector3f factor = Vector3f::Ones();
+  for (int bounce = 0; bounce < kMostBounces; ++bounce) {
+    const Meeting meeting = meet(ray);
+    if (meeting.seen == Seen::kBackground) return light + factor.cwiseProduct(beyond(ray, density));
+    const Vector3f& color = meeting.point.color;
+    if (meeting.seen == Seen::kFloor && region_.weight_on_floor(meeting.point.position) == 0) {
+      return light + factor.cwiseProduct(color).cwiseProduct(light_.on_open_floor());
+    }
+    const Scattering scattering = scatter(ray, meeting, sampler);
+    const float glow = finish(meeting).glow();
+    const auto whole = [&](const Reflected& parts) -> Vector3f {
+      return (1 - glow) * (color.cwiseProduct(parts.base) + parts.specular);
+    };
+    light += factor.cwiseProduct(whole(scattering.from_key) + glow * color);
+    factor = factor.cwiseProduct(whole(scattering.factor));
+    const float stay = std::min(factor.maxCoeff(), 1.0F);
+    if (bounce >= kSureBounces && stay < 1) {
+      if (!(sampler.number() < stay)) return light;
+      factor /= stay;
+    }
+    if (!(factor.maxCoeff() > 0)) return light;
+    ray = scattering.onward;
+    density = scattering.density;
+  }
+  return light;
+}
+
+/// Over that without bodies. What the same rays would have found there is subtracted, so that a floor without bodies is
+/// without noise.
+Vector3f LightPaths::floor_light(const Ray& ray, const Meeting& meeting, Sampler& sampler) const {
+  const float weight = region_.weight_on_floor(meeting.point.position);
+  if (weight == 0) return Vector3f::Ones();
+  const Scattering scattering = scatter(ray, meeting, sampler);
+  const Reflected found =
+      sum(scattering.from_key, times(scattering.factor, arriving(scattering.onward, scattering.density, sampler)));
+  const Reflected open =
+      sum(scattering.unhidden, times(scattering.factor, beyond(scattering.onward, scattering.density)));
+  return Vector3f::Ones() + weight * (found.base - open.base).cwiseQuotient(light_.on_open_floor());
+}
+
+int LightPaths::worthwhile(int samples, const Ray& from_eye) const {
+  constexpr int kFewer = 4;  // times, on the floor at some distance
+  if (region_.is_met_by(from_eye)) return samples;
+  const std::optional<float> way = way_to_floor(from_eye);
+  if (!way) return 1;
+  const Vector3f point = from_eye.origin + *way * from_eye.direction;
+  if (region_.weight_on_floor(point) == 0) return 1;
+  return region_.is_near_on_floor(point) ? samples : (samples + kFewer - 1) / kFewer;
+}
+
+PathSample LightPaths::sample(const Ray& from_eye, bool sees_ghosts, Sampler& sampler) const {
+  const Meeting meeting = meet(from_eye, sees_ghosts);
+  PathSample sample{.seen = meeting.seen};
+  sample.position = meeting.point.position;
+  if (meeting.seen != Seen::kSkin) {
+    sample.backdrop = light_.backdrop(from_eye.direction);
+    if (meeting.seen == Seen::kFloor) sample.floor_light = floor_light(from_eye, meeting, sampler);
+    return sample;
+  }
+  const Scattering scattering = scatter(from_eye, meeting, sampler);
+  const float glow = finish(meeting).glow();
+  const Reflected found =
+      sum(scattering.from_key, times(scattering.factor, arriving(scattering.onward, scattering.density, sampler)));
+  sample.light = times(found, Vector3f::Constant(1 - glow));
+  sample.light.base.array() += glow;
+  sample.normal = meeting.point.normal;
+  sample.color = meeting.point.color;
+  return sample;
+}
+
+}  // namespace sprung

@@ -1,0 +1,88 @@
+#pragma once
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "render/stage/stage.h"
+#include "render/stage/stage_space.h"
+#include "render/trace/body_region.h"
+#include "render/trace/finish.h"
+#include "render/trace/sampler.h"
+#include "render/trace/stage_light.h"
+#include "render/trace/traced_skins.h"
+
+namespace sprung {
+
+using Finishes = std::array<Finish, 5>;  // by look
+
+enum class Seen { kBackground, kFloor, kSkin };
+
+/// What one ray of the camera has found.
+struct PathSample {
+  Seen seen = Seen::kBackground;
+  Reflected light{};                                      // of a skin
+  Eigen::Vector3f floor_light = Eigen::Vector3f::Ones();  // over that without bodies
+  Eigen::Vector3f backdrop = Eigen::Vector3f::Zero();     // of the floor without bodies, or the background
+  Eigen::Vector3f position = Eigen::Vector3f::Zero();     // stage space
+  Eigen::Vector3f normal = Eigen::Vector3f::Zero();       // of a skin
+  Eigen::Vector3f color = Eigen::Vector3f::Zero();        // of a skin, linear
+};
+
+/// Follows light backwards from the eye over skins and floor. At each surface it looks for the key light, and goes on
+/// in a direction that the surface reflects to; what it finds there counts by multiple importance sampling
+/// (E. Veach, 1997).
+class LightPaths {
+ public:
+  /// Throws Error(kFailed) where this program was built without Embree.
+  explicit LightPaths(const Stage& stage);
+  /// In another light, with other finishes of the looks, in their order.
+  LightPaths(const Stage& stage, const StageLight& light, const Finishes& finishes);
+
+  /// The shapes must stay as they are until the next.
+  void update(const Motion& motion);
+  [[nodiscard]] const StageSpace& space() const { return space_; }
+  [[nodiscard]] bool has_ghosts() const { return has_ghosts_; }
+
+  /// How many of a pixel's samples are worth their while around this ray: one where it sees no body and nothing that
+  /// one does to the floor.
+  [[nodiscard]] int worthwhile(int samples, const Ray& from_eye) const;
+  /// May run on several threads.
+  [[nodiscard]] PathSample sample(const Ray& from_eye, bool sees_ghosts, Sampler& sampler) const;
+  /// The light that arrives along a ray.
+  [[nodiscard]] Eigen::Vector3f arriving(const Ray& ray, Sampler& sampler) const { return arriving(ray, 0, sampler); }
+
+ private:
+  struct Meeting {
+    Seen seen = Seen::kBackground;
+    SurfacePoint point{};
+  };
+  /// What a surface reflects to where a ray came from, and the ray that looks for more of it.
+  struct Scattering {
+    Reflected from_key;  // light of the key light
+    Reflected unhidden;  // of the key light, if nothing hid it
+    Ray onward;
+    Reflected factor;   // of the light that arrives along `onward`
+    float density = 0;  // of `onward`, over the solid angle
+  };
+
+  [[nodiscard]] std::optional<float> way_to_floor(const Ray& ray) const;
+  [[nodiscard]] Meeting meet(Ray ray, bool sees_ghosts = false) const;
+  [[nodiscard]] const Finish& finish(const Meeting& meeting) const;
+  [[nodiscard]] Scattering scatter(const Ray& ray, const Meeting& meeting, Sampler& sampler) const;
+  [[nodiscard]] Eigen::Vector3f beyond(const Ray& ray, float density) const;
+  [[nodiscard]] Eigen::Vector3f arriving(Ray ray, float density, Sampler& sampler) const;
+  [[nodiscard]] Eigen::Vector3f floor_light(const Ray& ray, const Meeting& meeting, Sampler& sampler) const;
+
+  StageSpace space_;
+  StageLight light_;
+  TracedSkins skins_;
+  std::vector<Look> looks_;  // by skin
+  Finishes finishes_;
+  Finish floor_finish_ = Finish::matt();
+  bool has_ground_;
+  bool has_ghosts_;
+  float ground_height_;  // stage space
+  BodyRegion region_;
+};
+
+}  // namespace sprung

@@ -1,0 +1,20 @@
+#include "core/error.h"
+#include "render/trace/ray_scene.h"
+
+// In place of ray_scene.cpp where Embree is missing.
+namespace sprung {
+
+struct RayScene::Embree {};
+
+RayScene::RayScene(const std::vector<const Skin*>& /*skins*/, const std::vector<bool>& /*is_ghost*/) {
+  throw Error(ErrorKind::kFailed,
+              "final quality: this program was built without Embree; install libembree-dev and build it again, or take "
+              "high quality");
+}
+
+RayScene::~RayScene() = default;
+void RayScene::update(const std::vector<std::vector<Floats3>>& /*positions*/) {}
+std::optional<RayHit> RayScene::first_hit(const Ray& /*ray*/, bool /*sees_ghosts*/) const { return std::nullopt; }
+bool RayScene::is_blocked(const Ray& /*ray*/) const { return false; }
+
+}  // namespace sprung

@@ -1,0 +1,125 @@
+#include "render/trace/ray_scene.h"
+
+#include <embree3/rtcore.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cstring>
+#include <string>
+
+#include "core/error.h"
+
+namespace sprung {
+namespace {
+
+struct Corner {
+  float x, y, z;
+};
+
+RTCRay embree_ray(const Ray& ray) {
+  RTCRay result{};
+  result.org_x = ray.origin.x();
+  result.org_y = ray.origin.y();
+  result.org_z = ray.origin.z();
+  result.dir_x = ray.direction.x();
+  result.dir_y = ray.direction.y();
+  result.dir_z = ray.direction.z();
+  result.tfar = ray.far;
+  result.time = ray.time;
+  result.mask = ~0U;
+  return result;
+}
+
+}  // namespace
+
+struct RayScene::Embree {
+  RTCDevice device;
+  RTCScene bodies;
+  RTCScene ghosts;
+  std::vector<RTCGeometry> geometries;        // by skin
+  std::vector<std::vector<Corner*>> corners;  // by skin and time
+
+  Embree() : device(rtcNewDevice(nullptr)), bodies(rtcNewScene(device)), ghosts(rtcNewScene(device)) {
+    for (const RTCScene scene : {bodies, ghosts}) rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+  }
+  ~Embree() {
+    for (const RTCGeometry geometry : geometries) rtcReleaseGeometry(geometry);
+    for (const RTCScene scene : {bodies, ghosts}) rtcReleaseScene(scene);
+    rtcReleaseDevice(device);
+  }
+  Embree(const Embree&) = delete;
+  Embree& operator=(const Embree&) = delete;
+
+  void add(const Skin& skin, bool is_ghost) {
+    const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    geometries.push_back(geometry);
+    void* const indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(int),
+                                                  std::size_t(skin.triangles.rows()));
+    std::memcpy(indices, skin.triangles.data(), std::size_t(skin.triangles.size()) * sizeof(int));
+    rtcAttachGeometryByID(is_ghost ? ghosts : bodies, geometry, unsigned(geometries.size() - 1));
+  }
+
+  void make_room(const std::vector<std::vector<Floats3>>& positions) {
+    corners.clear();
+    for (std::size_t i = 0; i < geometries.size(); ++i) {
+      rtcSetGeometryTimeStepCount(geometries[i], unsigned(positions.size()));
+      std::vector<Corner*>& of_skin = corners.emplace_back();
+      for (std::size_t time = 0; time < positions.size(); ++time) {
+        of_skin.push_back(static_cast<Corner*>(
+            rtcSetNewGeometryBuffer(geometries[i], RTC_BUFFER_TYPE_VERTEX, unsigned(time), RTC_FORMAT_FLOAT3,
+                                    sizeof(Corner), std::size_t(positions[time][i].rows()))));
+      }
+    }
+  }
+};
+
+RayScene::RayScene(const std::vector<const Skin*>& skins, const std::vector<bool>& is_ghost)
+    : embree_(std::make_unique<Embree>()) {
+  for (std::size_t i = 0; i < skins.size(); ++i) embree_->add(*skins[i], !is_ghost.empty() && is_ghost[i]);
+}
+
+RayScene::~RayScene() = default;
+
+void RayScene::update(const std::vector<std::vector<Floats3>>& positions) {
+  const bool fits = !embree_->corners.empty() && embree_->corners.front().size() == positions.size();
+  if (!fits) embree_->make_room(positions);
+  for (std::size_t i = 0; i < embree_->geometries.size(); ++i) {
+    for (std::size_t time = 0; time < positions.size(); ++time) {
+      const Floats3& from = positions[time][i];
+      static_assert(sizeof(Corner) == 3 * sizeof(float));
+      std::memcpy(embree_->corners[i][time], from.data(), std::size_t(from.size()) * sizeof(float));
+      rtcUpdateGeometryBuffer(embree_->geometries[i], RTC_BUFFER_TYPE_VERTEX, unsigned(time));
+    }
+    rtcCommitGeometry(embree_->geometries[i]);
+  }
+  // By one thread: the order of triangles in the tree, and so which of two at the same distance is found, is then
+  // always the same.
+  tbb::task_arena(1).execute([this] {
+    for (const RTCScene scene : {embree_->bodies, embree_->ghosts}) rtcJoinCommitScene(scene);
+  });
+  if (rtcGetDeviceError(embree_->device) != RTC_ERROR_NONE) {
+    throw Error(ErrorKind::kFailed, "Embree cannot build its tree over the skins: out of memory?");
+  }
+}
+
+std::optional<RayHit> RayScene::first_hit(const Ray& ray, bool sees_ghosts) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  RTCRayHit found{embree_ray(ray), {}};
+  found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(embree_->bodies, &context, &found);
+  if (sees_ghosts) rtcIntersect1(embree_->ghosts, &context, &found);
+  if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+  return RayHit{int(found.hit.geomID), int(found.hit.primID), found.hit.u,
+                found.hit.v,           found.ray.tfar,        {found.hit.Ng_x, found.hit.Ng_y, found.hit.Ng_z}};
+}
+
+bool RayScene::is_blocked(const Ray& ray) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  RTCRay shadow = embree_ray(ray);
+  rtcOccluded1(embree_->bodies, &context, &shadow);
+  return shadow.tfar < 0;
+}
+
+}  // namespace sprung

@@ -1,0 +1,51 @@
+#pragma once
+#include <Eigen/Core>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/skin/skin.h"
+
+namespace sprung {
+
+/// A ray in stage space.
+struct Ray {
+  Eigen::Vector3f origin;
+  Eigen::Vector3f direction;  // unit
+  float far = std::numeric_limits<float>::infinity();
+  float time = 0;  // 0 to 1 while the shutter is open
+};
+
+/// Where a ray meets a triangle.
+struct RayHit {
+  int skin;
+  int triangle;
+  float u, v;  // weights of the triangle's second and third corner
+  float distance;
+  Eigen::Vector3f normal;  // of the triangle, any length, by the order of its corners
+};
+
+/// The triangles of all skins as Embree finds them; moving skins are straight between the times that are given. The
+/// answers do not depend on the number of threads.
+class RayScene {
+ public:
+  /// Throws Error(kFailed) where this program was built without Embree. `is_ghost`: by skin; ghosts hide nothing.
+  RayScene(const std::vector<const Skin*>& skins, const std::vector<bool>& is_ghost);
+  ~RayScene();
+  RayScene(const RayScene&) = delete;
+  RayScene& operator=(const RayScene&) = delete;
+
+  /// Positions (n x 3, stage space) by time, which must be as many for all skins, and skin.
+  void update(const std::vector<std::vector<Floats3>>& positions);
+
+  /// These two may run on several threads.
+  [[nodiscard]] std::optional<RayHit> first_hit(const Ray& ray, bool sees_ghosts = false) const;
+  [[nodiscard]] bool is_blocked(const Ray& ray) const;
+
+ private:
+  struct Embree;
+  std::unique_ptr<Embree> embree_;
+};
+
+}  // namespace sprung

@@ -1,0 +1,49 @@
+#pragma once
+#include <Eigen/Core>
+#include <optional>
+
+#include "render/stage/environment.h"
+
+namespace sprung {
+
+/// The light around the bodies, the same as in shaders/light.glsl and skin_light.glsl: a key light, a studio or an
+/// environment above, a floor below. Radiances are of a unit in which a white matt surface under an irradiance of pi
+/// has 1.
+class StageLight {
+ public:
+  static constexpr float kKeyRadius = 0.11F;  // of the key light, seen from a distance of 1
+
+  explicit StageLight(const std::optional<Environment>& environment);
+  /// The same from everywhere and no key light: what a white surface disappears in.
+  [[nodiscard]] static StageLight even(const Eigen::Vector3f& radiance);
+
+  /// From that direction (unit), without the key light; from below as much as the open floor reflects.
+  [[nodiscard]] Eigen::Vector3f around(const Eigen::Vector3f& direction) const;
+  /// What the camera sees where there is no body: the floor and the background in one, without a horizon.
+  [[nodiscard]] Eigen::Vector3f backdrop(const Eigen::Vector3f& direction) const;
+  /// Irradiance over pi of level ground that nothing hides, as it follows from around() and the key light.
+  [[nodiscard]] const Eigen::Vector3f& on_open_floor() const { return on_open_floor_; }
+  /// Fraction of the light that the floor reflects.
+  [[nodiscard]] static Eigen::Vector3f floor_albedo();
+
+  /// Unit; evenly over the key light's disc.
+  [[nodiscard]] Eigen::Vector3f towards_key(const Eigen::Vector2f& random) const;
+  [[nodiscard]] bool is_key(const Eigen::Vector3f& direction) const { return direction.dot(to_key_) > key_cosine_; }
+  [[nodiscard]] const Eigen::Vector3f& key_radiance() const { return key_radiance_; }
+  /// One over the key light's solid angle: the density of towards_key().
+  [[nodiscard]] float key_density() const { return key_density_; }
+
+ private:
+  [[nodiscard]] Eigen::Vector3f studio(const Eigen::Vector3f& direction) const;
+
+  std::optional<Environment> environment_;
+  std::optional<Eigen::Vector3f> even_;
+  Eigen::Vector3f sky_on_ground_;
+  Eigen::Vector3f to_key_;
+  float key_cosine_;
+  float key_density_;
+  Eigen::Vector3f key_radiance_;
+  Eigen::Vector3f on_open_floor_;
+};
+
+}  // namespace sprung
