@@ -6,6 +6,7 @@
 #include "core/skin/skin.h"
 #include "render/gl/objects.h"
 #include "render/stage/stage.h"
+#include "render/stage/visible_sides.h"
 
 namespace sprung {
 
@@ -18,13 +19,6 @@ struct CoarseTriangles {
   std::vector<int> first;
 };
 [[nodiscard]] CoarseTriangles coarse_triangles(const Skin& skin, double cell);
-
-/// Which sides of a skin's triangles are visible.
-enum class Sides { kBoth, kFront, kBack };
-
-/// One side where the triangles enclose a solid: every edge has as many triangles on its left as on its right. Vertices
-/// that differ by rounding only count as one.
-[[nodiscard]] Sides visible_sides(const Skin& skin);
 
 /// The textures of all skins, decoded and mipmapped, without duplicates.
 class TextureSet {

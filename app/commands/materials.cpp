@@ -142,7 +142,7 @@ Json json_of(const LibraryMaterial& material) {
   const auto figure = [](double value, double uncertainty, const std::string& source) {
     return Json{{"value", value}, {"uncertainty", uncertainty}, {"source", source}};
   };
-  const auto strength = [&](double value, double relative, const std::string& source) {
+  const auto if_known = [&](double value, double relative, const std::string& source) {
     return value > 0 ? figure(value, value * relative, source) : Json();  // null: none, or not known
   };
   return {
@@ -154,11 +154,13 @@ Json json_of(const LibraryMaterial& material) {
       {"density", figure(material.density, material.density * material.density_uncertainty, material.density_source)},
       {"damping", figure(material.damping, material.damping * material.damping_uncertainty, material.damping_source)},
       {"yield_strength",
-       strength(material.yield_strength, material.yield_strength_uncertainty, material.yield_strength_source)},
+       if_known(material.yield_strength, material.yield_strength_uncertainty, material.yield_strength_source)},
       {"ultimate_strength",
-       strength(material.ultimate_strength, material.ultimate_strength_uncertainty, material.ultimate_strength_source)},
-      {"elongation", strength(material.elongation, material.elongation_uncertainty, material.elongation_source)},
-      {"look", name_of(material.look)}};
+       if_known(material.ultimate_strength, material.ultimate_strength_uncertainty, material.ultimate_strength_source)},
+      {"elongation", if_known(material.elongation, material.elongation_uncertainty, material.elongation_source)},
+      {"look", name_of(material.look)},
+      {"mean_free_path",
+       if_known(material.mean_free_path, material.mean_free_path_uncertainty, material.mean_free_path_source)}};
 }
 
 void list_materials(const MaterialsOptions& options) {

@@ -90,6 +90,7 @@ Stage FilmStage::stage(const AlignedBox& bounds) const {
     stage.skins.push_back(item.skin.get());
     stage.default_colors.push_back(item.color);
     stage.looks.push_back(item.look);
+    stage.mean_free_paths.push_back(item.mean_free_path);
     stage.ghosts.push_back(item.is_ghost);
     stage.ids.push_back(item.id);
   }
@@ -165,7 +166,8 @@ void FilmStage::add_skin(std::size_t row) {
   const DrawnSkin drawn = drawn_skin(body);
   items_.push_back(
       {drawn.skin, srgb(body.color), colors_.is_mapped() ? Look::kChart : look_of(scene_body, *scene_.library), false,
-       id_of(row), [this, row, &body, drawn, interpolation = scene_body.skin](const Moment& now) {
+       id_of(row),
+       [this, row, &body, drawn, interpolation = scene_body.skin](const Moment& now) {
          SkinShape shape = shape_of(body.grid, *drawn.skin, *drawn.embedding, now.nodes[row], interpolation);
          const Eigen::VectorXd of_nodes = map_coordinates(now, row);
          if (of_nodes.size() > 0) {
@@ -173,7 +175,8 @@ void FilmStage::add_skin(std::size_t row) {
                interpolate(body.grid, *drawn.embedding, of_nodes).cwiseMax(0.0).cwiseMin(1.0).cast<float>();
          }
          return shape;
-       }});
+       },
+       colors_.is_mapped() ? 0 : mean_free_path_of(scene_body, *scene_.library)});
 }
 
 void FilmStage::add_bricks(std::size_t actor) {

@@ -59,6 +59,7 @@ class FilmStage {
     bool is_ghost;
     int id;  // Stage::ids: bodies from 1, then obstacles; 0: overlays
     std::function<SkinShape(const Moment&)> shape;
+    double mean_free_path = 0;  // m
   };
 
   /// What is drawn of a body.

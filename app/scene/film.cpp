@@ -9,6 +9,15 @@ Look look_of(const SceneBody& body, const MaterialLibrary& library) {
   return known == nullptr ? Look::kPlastic : known->look;
 }
 
+double mean_free_path_of(const SceneBody& body, const MaterialLibrary& library) {
+  constexpr double kOfGelatin = 0.025;  // m
+  const bool is_auto = body.material.name == kAutoMaterial;
+  const LibraryMaterial* known = library.find_if_known(is_auto ? kDefaultMaterial : body.material.name);
+  if (!body.look) return known == nullptr ? 0 : known->mean_free_path;
+  if (known != nullptr && known->look == *body.look) return known->mean_free_path;
+  return *body.look == Look::kGelatin ? kOfGelatin : 0;
+}
+
 Film with_defaults(Film film) {
   for (SceneBody& body : film.bodies) {
     if (!body.size && !body.scale && !body.mesh.empty()) body.size = kDefaultSize;

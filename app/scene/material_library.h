@@ -42,6 +42,9 @@ struct LibraryMaterial {
   double elongation_uncertainty = 0;  // relative
   std::string elongation_source;
   Look look = Look::kPlastic;
+  double mean_free_path = 0;              // m; of light inside before it is scattered; 0: no light enters
+  double mean_free_path_uncertainty = 0;  // relative
+  std::string mean_free_path_source;
 
   /// The properties that the simulation needs.
   [[nodiscard]] Material material() const;

@@ -564,6 +564,12 @@ void fields(auto& visit, Is<LibraryMaterial> auto& material) {
         material.elongation_uncertainty);
   visit({"elongation_source", "source of the value"}, material.elongation_source);
   visit({"look", "surface finish: plastic, gelatin, rubber or steel"}, material.look);
+  visit({"mean_free_path", "of light inside before it is scattered, for final quality; 0: no light enters",
+         Dimension::kLength, kNotNegative},
+        material.mean_free_path);
+  visit({"mean_free_path_uncertainty", "relative uncertainty", Dimension::kRatio, kNotNegative},
+        material.mean_free_path_uncertainty);
+  visit({"mean_free_path_source", "source of the value"}, material.mean_free_path_source);
 }
 
 void fields(auto& visit, Is<MaterialFile> auto& file) {

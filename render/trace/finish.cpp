@@ -38,6 +38,7 @@ Finish Finish::of(Look look) {
 Finish::Finish(const Properties& properties)
     : alpha_(properties.roughness * properties.roughness),
       is_metal_(properties.is_metal),
+      has_base_(!properties.is_metal),
       specular_choice_(properties.roughness >= 1 ? 0
                        : is_metal_               ? 1.0F
                                                  : 0.3F),
@@ -69,6 +70,12 @@ Finish::Finish(const Properties& properties)
   }
 }
 
+Finish Finish::without_base() const {
+  Finish coat = *this;
+  coat.has_base_ = false;
+  return coat;
+}
+
 Finish::Share Finish::share(float cosine) const {
   const float place = std::clamp(cosine, 0.0F, 1.0F) * kAngles;
   const int low = std::min(int(place), kAngles - 1);
@@ -93,7 +100,7 @@ Reflected Finish::evaluate(const Vector3f& to_eye, const Vector3f& to_light, con
   const float nl = to_light.z();
   if (nl <= 0 || to_eye.z() <= 0) return reflected;
   const float nv = std::max(to_eye.z(), kLeast);
-  if (!is_metal_) {
+  if (has_base_) {
     const float left = is_matt() ? 1 : left_to_base(nv) * left_to_base(nl) / mean_left_to_base_;
     reflected.base = Vector3f::Constant(left * nl / kPi);
   }
@@ -135,7 +142,7 @@ Vector3f Finish::sample(const Vector3f& to_eye, const Eigen::Vector2f& random, f
 
 float Finish::density(const Vector3f& to_eye, const Vector3f& to_light) const {
   if (to_light.z() <= 0) return 0;
-  const float of_base = (1 - specular_choice_) * to_light.z() / kPi;
+  const float of_base = has_base_ ? (1 - specular_choice_) * to_light.z() / kPi : 0;
   if (is_matt()) return of_base;
   const float nv = std::max(to_eye.z(), kLeast);
   const float a2 = alpha_ * alpha_;

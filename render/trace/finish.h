@@ -31,6 +31,9 @@ class Finish {
   [[nodiscard]] static Finish of(Look look);
   [[nodiscard]] static Finish matt() { return Finish({.roughness = 1}); }
 
+  /// The specular layer alone, for a body that light enters: what it leaves comes out elsewhere.
+  [[nodiscard]] Finish without_base() const;
+
   [[nodiscard]] Reflected evaluate(const Eigen::Vector3f& to_eye, const Eigen::Vector3f& to_light,
                                    const Eigen::Vector3f& color) const;
   /// A direction to trace on; it may lie below the surface, where nothing is reflected to.
@@ -38,6 +41,16 @@ class Finish {
                                        float choice) const;
   /// Density of sample() over the solid angle.
   [[nodiscard]] float density(const Eigen::Vector3f& to_eye, const Eigen::Vector3f& to_light) const;
+  /// Whether light that meets a surface without a base enters; otherwise sample() says where it goes.
+  [[nodiscard]] bool is_let_in(float choice) const { return !has_base_ && choice >= specular_choice_; }
+  /// The normal of a facet that light enters through, and the fraction of light that enters over the probability of
+  /// is_let_in().
+  [[nodiscard]] Eigen::Vector3f facet(const Eigen::Vector3f& to_eye, const Eigen::Vector2f& random) const {
+    return half_vector(to_eye, random);
+  }
+  [[nodiscard]] float let_in(float cosine) const { return left_to_base(cosine) / (1 - specular_choice_); }
+  /// Of light that comes out in all directions alike: factor of its radiance in one that has that cosine to the normal.
+  [[nodiscard]] float let_out(float cosine) const { return left_to_base(cosine) / mean_left_to_base_; }
   [[nodiscard]] float glow() const { return glow_; }
 
  private:
@@ -57,6 +70,7 @@ class Finish {
 
   float alpha_;
   bool is_metal_;
+  bool has_base_;
   float specular_choice_;  // probability to sample the specular layer
   float glow_;
   std::array<Share, kAngles + 1> shares_{};  // by cosine

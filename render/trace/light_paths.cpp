@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
+#include "render/stage/visible_sides.h"
+#include "render/trace/body_walk.h"
 #include "render/trace/directions.h"
 
 namespace sprung {
@@ -11,6 +14,7 @@ namespace {
 using Eigen::Vector3f;
 
 constexpr int kMostBounces = 64;
+constexpr float kDarkest = 0.02F;      // colour of a translucent body
 constexpr int kSureBounces = 3;        // before a path may end by chance
 constexpr float kLeastFacing = 1e-2F;  // cosine between a smooth normal and the way to the eye
 
@@ -19,6 +23,10 @@ Reflected times(const Reflected& reflected, const Vector3f& light) {
 }
 
 Reflected sum(const Reflected& a, const Reflected& b) { return {a.base + b.base, a.specular + b.specular}; }
+
+/// What light out of a translucent body is divided by, so that smoothing it does not blur the paint. Not too dark:
+/// where colours meet within a pixel, light of the darker one is multiplied by more than that.
+Vector3f divisor(const Vector3f& color) { return color.cwiseMax(0.25F); }
 
 /// Of a density that found the light, beside another one that could have (balance heuristic).
 float balance(float density, float other) { return density / (density + other); }
@@ -42,10 +50,18 @@ LightPaths::LightPaths(const Stage& stage, const StageLight& light, const Finish
       skins_(stage, space_),
       looks_(stage.looks),
       finishes_(finishes),
+      coats_(finishes),
       has_ground_(stage.has_ground),
       has_ghosts_(std::find(stage.ghosts.begin(), stage.ghosts.end(), true) != stage.ghosts.end()),
       ground_height_(float((stage.ground.height - space_.center.y()) * space_.scale)) {
+  for (Finish& coat : coats_) coat = coat.without_base();
   looks_.resize(stage.skins.size(), Look::kPlastic);
+  scatterings_.resize(stage.skins.size(), 0);
+  for (std::size_t i = 0; i < stage.mean_free_paths.size(); ++i) {
+    if (stage.mean_free_paths[i] <= 0 || visible_sides(*stage.skins[i]) == Sides::kBoth) continue;
+    scatterings_[i] = float(1 / (stage.mean_free_paths[i] * space_.scale));
+    is_translucent_ = true;
+  }
 }
 
 void LightPaths::update(const Motion& motion) {
@@ -65,7 +81,9 @@ LightPaths::Meeting LightPaths::meet(Ray ray, bool sees_ghosts) const {
     ray.far = *way;
     meeting.seen = Seen::kFloor;
   }
-  if (const std::optional<SurfacePoint> point = skins_.first_hit(ray, sees_ghosts)) return {Seen::kSkin, *point};
+  if (const std::optional<SurfacePoint> point = skins_.first_hit(ray, sees_ghosts)) {
+    return {Seen::kSkin, *point};
+  }
   if (meeting.seen == Seen::kBackground) return meeting;
   meeting.point.position = ray.origin + ray.far * ray.direction;
   meeting.point.position.y() = ground_height_ + 1e-5F;
@@ -76,7 +94,35 @@ LightPaths::Meeting LightPaths::meet(Ray ray, bool sees_ghosts) const {
 
 const Finish& LightPaths::finish(const Meeting& meeting) const {
   if (meeting.seen == Seen::kFloor) return floor_finish_;
-  return finishes_[std::size_t(looks_[std::size_t(meeting.point.skin)])];
+  const auto look = std::size_t(looks_[std::size_t(meeting.point.skin)]);
+  return is_entered(meeting) ? coats_[look] : finishes_[look];
+}
+
+/// Whether light enters the body there.
+bool LightPaths::is_entered(const Meeting& meeting) const {
+  return meeting.seen == Seen::kSkin && !meeting.point.is_inside && scatterings_[std::size_t(meeting.point.skin)] > 0;
+}
+
+Vector3f LightPaths::base_color(const Meeting& meeting) const {
+  return is_entered(meeting) ? divisor(meeting.point.color) : meeting.point.color;
+}
+
+/// The share of light along a ray that nothing hides; what goes through translucent bodies goes straight.
+Vector3f LightPaths::reaching(Ray ray) const {
+  constexpr int kMostSkins = 32;
+  if (!skins_.is_blocked(ray)) return Vector3f::Ones();
+  Vector3f share = Vector3f::Ones();
+  for (int i = 0; is_translucent_ && i < kMostSkins; ++i) {
+    const std::optional<SurfacePoint> met = skins_.first_hit(ray);
+    if (!met) return share;
+    const float scattering = scatterings_[std::size_t(met->skin)];
+    if (scattering == 0) break;
+    const float cosine = std::clamp(-ray.direction.dot(met->normal), 1e-3F, 1.0F);
+    share *= 1 - fresnel(cosine, Medium::kIndex);
+    if (met->is_inside) share = share.cwiseProduct(Medium(met->color, scattering).transmitted(met->distance));
+    ray.origin = met->behind;
+  }
+  return Vector3f::Zero();
 }
 
 LightPaths::Scattering LightPaths::scatter(const Ray& ray, const Meeting& meeting, Sampler& sampler) const {
@@ -95,11 +141,16 @@ LightPaths::Scattering LightPaths::scatter(const Ray& ray, const Meeting& meetin
     result.unhidden = times(surface.evaluate(to_eye, local_key, point.color), share * light_.key_radiance());
     Ray to_light = result.onward;
     to_light.direction = to_key;
-    if (!skins_.is_blocked(to_light)) result.from_key = result.unhidden;
+    result.from_key = times(result.unhidden, reaching(to_light));
   }
 
   const Eigen::Vector2f random = sampler.pair();
-  const Vector3f next = surface.sample(to_eye, random, sampler.number());
+  const float choice = sampler.number();
+  if (surface.is_let_in(choice)) {
+    pass_through(ray, point, surface, random, sampler, result);
+    return result;
+  }
+  const Vector3f next = surface.sample(to_eye, random, choice);
   result.density = surface.density(to_eye, next);
   if (result.density <= 0) return result;
   const Reflected reflected = surface.evaluate(to_eye, next, point.color);
@@ -109,6 +160,43 @@ LightPaths::Scattering LightPaths::scatter(const Ray& ray, const Meeting& meetin
   const float below = result.onward.direction.dot(point.face_normal);
   if (below < 0) result.onward.direction -= 2 * below * point.face_normal;
   return result;
+}
+
+/// What goes into a translucent body and comes out elsewhere. It counts as light of the base, which has the colour.
+void LightPaths::pass_through(const Ray& ray, const SurfacePoint& entry, const Finish& coat,
+                              const Eigen::Vector2f& random, Sampler& sampler, Scattering& result) const {
+  const TangentFrame frame(facing(entry.normal, -ray.direction));
+  const Vector3f to_eye = frame.to_local(-ray.direction);
+  const std::optional<Vector3f> direction = refracted(-to_eye, coat.facet(to_eye, random), Medium::kIndex);
+  if (!direction) return;
+  Ray inside = ray;
+  inside.origin = entry.behind;
+  inside.direction = frame.to_world(*direction).normalized();
+  const Medium medium(entry.color, scatterings_[std::size_t(entry.skin)]);
+  const std::optional<Emergence> out = walk_through_body(skins_, medium, entry.skin, inside, sampler);
+  if (!out) return;
+  const Vector3f share = (coat.let_in(to_eye.z()) * out->share).cwiseQuotient(divisor(entry.color));
+  result.onward.origin = out->point.position;
+  if (!out->is_scattered) {
+    result.onward.direction = out->direction;
+    result.factor.base = share;
+    return;
+  }
+  const TangentFrame there(out->point.normal);
+  const Vector3f to_key = light_.towards_key(sampler.pair());
+  const float facing_key = to_key.dot(there.normal);
+  constexpr float kPi = std::numbers::pi_v<float>;
+  if (facing_key > 0) {
+    Ray to_light = result.onward;
+    to_light.direction = to_key;
+    const float seen = balance(light_.key_density(), facing_key / kPi) / light_.key_density() *
+                       coat.let_out(facing_key) * facing_key / kPi;
+    result.from_key.base += seen * share.cwiseProduct(reaching(to_light)).cwiseProduct(light_.key_radiance());
+  }
+  const Vector3f local = on_cosine_hemisphere(sampler.pair());
+  result.onward.direction = there.to_world(local).normalized();
+  result.factor.base = coat.let_out(local.z()) * share;
+  result.density = local.z() / kPi;
 }
 
 /// From where there are no surfaces. `density`: with which the ray was sampled; 0: without the key light.
@@ -126,7 +214,7 @@ Vector3f LightPaths::arriving(Ray ray, float density, Sampler& sampler) const {
   for (int bounce = 0; bounce < kMostBounces; ++bounce) {
     const Meeting meeting = meet(ray);
     if (meeting.seen == Seen::kBackground) return light + factor.cwiseProduct(beyond(ray, density));
-    const Vector3f& color = meeting.point.color;
+    const Vector3f color = base_color(meeting);
     if (meeting.seen == Seen::kFloor && region_.weight_on_floor(meeting.point.position) == 0) {
       return light + factor.cwiseProduct(color).cwiseProduct(light_.on_open_floor());
     }
@@ -188,7 +276,7 @@ PathSample LightPaths::sample(const Ray& from_eye, bool sees_ghosts, Sampler& sa
   sample.light = times(found, Vector3f::Constant(1 - glow));
   sample.light.base.array() += glow;
   sample.normal = meeting.point.normal;
-  sample.color = meeting.point.color;
+  sample.color = base_color(meeting);
   return sample;
 }
 

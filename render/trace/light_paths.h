@@ -69,6 +69,12 @@ class LightPaths {
   [[nodiscard]] Meeting meet(Ray ray, bool sees_ghosts = false) const;
   [[nodiscard]] const Finish& finish(const Meeting& meeting) const;
   [[nodiscard]] Scattering scatter(const Ray& ray, const Meeting& meeting, Sampler& sampler) const;
+  void pass_through(const Ray& ray, const SurfacePoint& entry, const Finish& coat, const Eigen::Vector2f& random,
+                    Sampler& sampler, Scattering& result) const;
+  [[nodiscard]] bool is_entered(const Meeting& meeting) const;
+  /// That Reflected::base is to be multiplied with.
+  [[nodiscard]] Eigen::Vector3f base_color(const Meeting& meeting) const;
+  [[nodiscard]] Eigen::Vector3f reaching(Ray ray) const;
   [[nodiscard]] Eigen::Vector3f beyond(const Ray& ray, float density) const;
   [[nodiscard]] Eigen::Vector3f arriving(Ray ray, float density, Sampler& sampler) const;
   [[nodiscard]] Eigen::Vector3f floor_light(const Ray& ray, const Meeting& meeting, Sampler& sampler) const;
@@ -76,8 +82,11 @@ class LightPaths {
   StageSpace space_;
   StageLight light_;
   TracedSkins skins_;
-  std::vector<Look> looks_;  // by skin
+  std::vector<Look> looks_;         // by skin
+  std::vector<float> scatterings_;  // by skin: one over the mean free path, in stage space; 0: no light enters
+  bool is_translucent_ = false;     // any of them
   Finishes finishes_;
+  Finishes coats_;  // the same of translucent bodies
   Finish floor_finish_ = Finish::matt();
   bool has_ground_;
   bool has_ghosts_;

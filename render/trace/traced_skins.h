@@ -14,6 +14,7 @@ struct SurfacePoint {
   int skin = 0;
   float distance = 0;                                  // from the ray's origin
   Eigen::Vector3f position = Eigen::Vector3f::Zero();  // a little off the surface, towards where the ray came from
+  Eigen::Vector3f behind = Eigen::Vector3f::Zero();    // a little behind it, for rays that go on
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();    // unit, smooth
   Eigen::Vector3f face_normal =
       Eigen::Vector3f::Zero();                      // unit, of the triangle; both point to where the ray came from

@@ -58,6 +58,52 @@ TEST(LightPaths, AWhiteBodyDisappearsInAnEvenLight) {
   }
 }
 
+/// White gelatin, which light enters and leaves, does not absorb it either.
+TEST(LightPaths, AWhiteTranslucentBodyDisappearsToo) {
+  const Ball ball(kWhitePaint);
+  for (const double mean_free_path : {0.1, 1.0, 10.0}) {
+    Stage stage = ball.scene.stage();
+    stage.looks = {Look::kGelatin};
+    stage.mean_free_paths = {mean_free_path};
+    LightPaths paths(stage, StageLight::even({1, 1, 1}), all_of(Finish::of(Look::kGelatin)));
+    paths.update({&ball.shapes});
+    for (const float height : {0.0F, 0.3F}) {
+      EXPECT_NEAR(mean_light(paths, {{0, height, 3}, {0, 0, -1}}, 1024).y(), 1, 0.02) << mean_free_path;
+    }
+  }
+}
+
+/// A ball of the same colour is lighter where light goes through more easily.
+TEST(LightPaths, TranslucentBodiesAreOfTheirColourWhereTheyAreThick) {
+  const Ball ball({0.9F, 0.4F, 0.3F});
+  const auto light = [&](double mean_free_path) {
+    Stage stage = ball.scene.stage();
+    stage.mean_free_paths = {mean_free_path};
+    LightPaths paths(stage, StageLight::even({1, 1, 1}), all_of(Finish::of(Look::kGelatin)));
+    paths.update({&ball.shapes});
+    return mean_light(paths, {{0, 0, 3}, {0, 0, -1}}, 1024);
+  };
+  const Vector3f opaque = light(0);
+  const Vector3f thick = light(0.01);
+  const Vector3f thin = light(2);
+  EXPECT_LT((thick - opaque).cwiseAbs().maxCoeff(), 0.06F);
+  EXPECT_GT(thin.y(), opaque.y() + 0.1F);
+}
+
+TEST(LightPaths, AnOpenSkinLetsNoLightIn) {
+  Ball ball(kWhitePaint);
+  ball.scene.skins[0].triangles.conservativeResize(ball.scene.skins[0].triangles.rows() - 20, 3);
+  Stage stage = ball.scene.stage();
+  const auto light = [&] {
+    LightPaths paths(stage, StageLight::even({1, 1, 1}), all_of(Finish::of(Look::kGelatin)));
+    paths.update({&ball.shapes});
+    return mean_light(paths, {{0, 0.2F, 3}, {0, 0, -1}}, 16);
+  };
+  const Vector3f opaque = light();
+  stage.mean_free_paths = {1.0};
+  EXPECT_EQ(light(), opaque);
+}
+
 /// Two balls that touch lose nothing either, though light goes to and fro between them.
 TEST(LightPaths, WhiteBodiesDisappearTogether) {
   StillLife scene;

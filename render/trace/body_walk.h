@@ -1,0 +1,24 @@
+#pragma once
+#include <optional>
+
+#include "render/trace/medium.h"
+#include "render/trace/sampler.h"
+#include "render/trace/traced_skins.h"
+
+namespace sprung {
+
+/// Where light comes out of a translucent body.
+struct Emergence {
+  SurfacePoint point;         // seen from outside
+  Eigen::Vector3f direction;  // in which it leaves if it was not scattered
+  bool is_scattered = false;  // then it leaves in all directions alike
+  Eigen::Vector3f share;      // of it that was not absorbed
+};
+
+/// Follows light that has entered the body of a skin: a random walk from one scattering to the next, up to the skin.
+/// Light that was never scattered is refracted there, or reflected back; scattered light all goes out. Whatever else is
+/// inside the body is matt. None where the light is absorbed.
+[[nodiscard]] std::optional<Emergence> walk_through_body(const TracedSkins& skins, const Medium& medium, int skin,
+                                                         Ray inside, Sampler& sampler);
+
+}  // namespace sprung
