@@ -11,8 +11,8 @@ namespace sprung {
 
 /// A ray in stage space.
 struct Ray {
-  Eigen::Vector3f origin;
-  Eigen::Vector3f direction;  // unit
+  Eigen::Vector3f origin = Eigen::Vector3f::Zero();
+  Eigen::Vector3f direction = Eigen::Vector3f::UnitY();  // unit
   float far = std::numeric_limits<float>::infinity();
   float time = 0;  // 0 to 1 while the shutter is open
 };
