@@ -17,7 +17,6 @@ namespace sprung {
 
 namespace {
 
-constexpr double kGhost = 0.28;       // opacity
 constexpr int kMostSamples = 4096;    // of traced pictures
 constexpr double kMostMotion = 0.25;  // of a body's radius; overlays jump
 
@@ -210,7 +209,7 @@ struct Renderer::Device {
       if (has_ghosts) {
         draw(*light_screen, view, true);
         const std::vector<Eigen::Vector4f> ghosts = light_screen->read_numbers();
-        for (std::size_t i = 0; i < light.size(); ++i) light[i] += float(kGhost) * (ghosts[i] - light[i]);
+        for (std::size_t i = 0; i < light.size(); ++i) light[i] += float(kGhostOpacity) * (ghosts[i] - light[i]);
       }
     } else {
       light = screen.read_numbers();
@@ -269,7 +268,7 @@ Image Renderer::draw(const std::vector<SkinShape>& shapes, const Camera& camera)
   Image image = device.screen.read();
   if (device.has_ghosts) {
     device.draw(view, true);
-    mix(image, device.screen.read(), kGhost);
+    mix(image, device.screen.read(), kGhostOpacity);
   }
   device.clock.stop("read back");
   return image;
@@ -287,10 +286,10 @@ Image Renderer::draw(const std::vector<Exposure>& exposures) {
     device.maps.draw(device.skins, device.textures, frame, device.clock);
     const View view = make_view(frame, exposure.camera, device.screen.aspect());
     device.draw(exposure, view, false);
-    device.screen.add_exposure(device.maps, view, device.has_ghosts ? (1 - kGhost) * part : part);
+    device.screen.add_exposure(device.maps, view, device.has_ghosts ? (1 - kGhostOpacity) * part : part);
     if (device.has_ghosts) {
       device.draw(exposure, view, true);
-      device.screen.add_exposure(device.maps, view, kGhost * part);
+      device.screen.add_exposure(device.maps, view, kGhostOpacity * part);
     }
   }
   Image image = device.screen.read();

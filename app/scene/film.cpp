@@ -2,20 +2,27 @@
 
 namespace sprung {
 
+namespace {
+
+/// Null for one that the library does not know.
+const LibraryMaterial* material_of(const SceneBody& body, const MaterialLibrary& library) {
+  return library.find_if_known(body.material.name == kAutoMaterial ? kDefaultMaterial : body.material.name);
+}
+
+}  // namespace
+
 Look look_of(const SceneBody& body, const MaterialLibrary& library) {
   if (body.look) return *body.look;
-  const bool is_auto = body.material.name == kAutoMaterial;
-  const LibraryMaterial* known = library.find_if_known(is_auto ? kDefaultMaterial : body.material.name);
+  const LibraryMaterial* known = material_of(body, library);
   return known == nullptr ? Look::kPlastic : known->look;
 }
 
 double mean_free_path_of(const SceneBody& body, const MaterialLibrary& library) {
   constexpr double kOfGelatin = 0.025;  // m
-  const bool is_auto = body.material.name == kAutoMaterial;
-  const LibraryMaterial* known = library.find_if_known(is_auto ? kDefaultMaterial : body.material.name);
-  if (!body.look) return known == nullptr ? 0 : known->mean_free_path;
-  if (known != nullptr && known->look == *body.look) return known->mean_free_path;
-  return *body.look == Look::kGelatin ? kOfGelatin : 0;
+  const LibraryMaterial* known = material_of(body, library);
+  const bool is_of_material = known != nullptr && look_of(body, library) == known->look;
+  if (is_of_material) return known->mean_free_path;
+  return body.look == Look::kGelatin ? kOfGelatin : 0;
 }
 
 Film with_defaults(Film film) {

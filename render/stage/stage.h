@@ -36,6 +36,8 @@ struct RenderOptions {
   bool exposes = false;                 // pictures are of several exposures
 };
 
+inline constexpr double kGhostOpacity = 0.28;
+
 /// What does not change during a film: the skins at rest (indices, UVs, colours, textures), ground and light.
 struct Stage {
   std::vector<const Skin*> skins;               // must outlive the renderer

@@ -237,14 +237,19 @@ Vector3f LightPaths::arriving(Ray ray, float density, Sampler& sampler) const {
   return light;
 }
 
+Reflected LightPaths::reflected(const Scattering& scattering, Sampler& sampler) const {
+  const Reflected& factor = scattering.factor;
+  if (factor.base.isZero(0) && factor.specular.isZero(0)) return scattering.from_key;
+  return sum(scattering.from_key, times(factor, arriving(scattering.onward, scattering.density, sampler)));
+}
+
 /// Over that without bodies. What the same rays would have found there is subtracted, so that a floor without bodies is
 /// without noise.
 Vector3f LightPaths::floor_light(const Ray& ray, const Meeting& meeting, Sampler& sampler) const {
   const float weight = region_.weight_on_floor(meeting.point.position);
   if (weight == 0) return Vector3f::Ones();
   const Scattering scattering = scatter(ray, meeting, sampler);
-  const Reflected found =
-      sum(scattering.from_key, times(scattering.factor, arriving(scattering.onward, scattering.density, sampler)));
+  const Reflected found = reflected(scattering, sampler);
   const Reflected open =
       sum(scattering.unhidden, times(scattering.factor, beyond(scattering.onward, scattering.density)));
   return Vector3f::Ones() + weight * (found.base - open.base).cwiseQuotient(light_.on_open_floor());
@@ -271,9 +276,7 @@ PathSample LightPaths::sample(const Ray& from_eye, bool sees_ghosts, Sampler& sa
   }
   const Scattering scattering = scatter(from_eye, meeting, sampler);
   const float glow = finish(meeting).glow();
-  const Reflected found =
-      sum(scattering.from_key, times(scattering.factor, arriving(scattering.onward, scattering.density, sampler)));
-  sample.light = times(found, Vector3f::Constant(1 - glow));
+  sample.light = times(reflected(scattering, sampler), Vector3f::Constant(1 - glow));
   sample.light.base.array() += glow;
   sample.normal = meeting.point.normal;
   sample.color = base_color(meeting);

@@ -77,6 +77,7 @@ class LightPaths {
   [[nodiscard]] Eigen::Vector3f reaching(Ray ray) const;
   [[nodiscard]] Eigen::Vector3f beyond(const Ray& ray, float density) const;
   [[nodiscard]] Eigen::Vector3f arriving(Ray ray, float density, Sampler& sampler) const;
+  [[nodiscard]] Reflected reflected(const Scattering& scattering, Sampler& sampler) const;
   [[nodiscard]] Eigen::Vector3f floor_light(const Ray& ray, const Meeting& meeting, Sampler& sampler) const;
 
   StageSpace space_;

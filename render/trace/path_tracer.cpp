@@ -12,8 +12,7 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr int kTile = 16;        // pixels
-constexpr float kGhost = 0.28F;  // opacity
+constexpr int kTile = 16;  // pixels
 
 /// Mean and variance of what some samples of a pixel saw.
 class LayerSum {
@@ -63,7 +62,7 @@ void PathTracer::trace_pixel(const CameraRays& rays, bool moves, int x, int y, T
     const Eigen::Vector2f lens = rays.has_lens() ? sampler.pair() : Eigen::Vector2f::Zero();
     Ray ray = through(inside, lens);
     if (moves) ray.time = sampler.number();
-    const bool sees_ghosts = paths_.has_ghosts() && sampler.number() < kGhost;
+    const bool sees_ghosts = paths_.has_ghosts() && sampler.number() < float(kGhostOpacity);
     const PathSample sample = paths_.sample(ray, sees_ghosts, sampler);
     traced.position[pixel] += part * sample.position;
     if (sample.seen == Seen::kSkin) {
