@@ -7,7 +7,6 @@ namespace sprung {
 namespace {
 
 // Distances from a body on the floor, in its radii.
-constexpr float kNear = 0.35F;
 constexpr float kWhole = 0.6F;  // so far everything is shown,
 constexpr float kReach = 1.6F;  // from here on nothing
 constexpr float kMargin = 0.05F;
@@ -57,8 +56,6 @@ float BodyRegion::weight_on_floor(const Eigen::Vector3f& point) const {
   const float share = std::clamp((kReach - distance_on_floor(point)) / (kReach - kWhole), 0.0F, 1.0F);
   return share * share * (3 - 2 * share);
 }
-
-bool BodyRegion::is_near_on_floor(const Eigen::Vector3f& point) const { return distance_on_floor(point) < kNear; }
 
 bool BodyRegion::is_met_by(const Ray& ray) const {
   float in = 0;

@@ -17,8 +17,6 @@ class BodyRegion {
 
   /// How much of what bodies do to the light at a point of the floor is shown: 1 near them, 0 far away.
   [[nodiscard]] float weight_on_floor(const Eigen::Vector3f& point) const;
-  /// False where what they do is little and smooth.
-  [[nodiscard]] bool is_near_on_floor(const Eigen::Vector3f& point) const;
   /// False where the ray certainly meets no body.
   [[nodiscard]] bool is_met_by(const Ray& ray) const;
 

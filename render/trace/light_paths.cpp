@@ -81,8 +81,8 @@ LightPaths::Meeting LightPaths::meet(Ray ray, bool sees_ghosts) const {
     ray.far = *way;
     meeting.seen = Seen::kFloor;
   }
-  if (const std::optional<SurfacePoint> point = skins_.first_hit(ray, sees_ghosts)) {
-    return {Seen::kSkin, *point};
+  if (region_.is_met_by(ray)) {
+    if (const std::optional<SurfacePoint> point = skins_.first_hit(ray, sees_ghosts)) return {Seen::kSkin, *point};
   }
   if (meeting.seen == Seen::kBackground) return meeting;
   meeting.point.position = ray.origin + ray.far * ray.direction;
@@ -110,7 +110,7 @@ Vector3f LightPaths::base_color(const Meeting& meeting) const {
 /// The share of light along a ray that nothing hides; what goes through translucent bodies goes straight.
 Vector3f LightPaths::reaching(Ray ray) const {
   constexpr int kMostSkins = 32;
-  if (!skins_.is_blocked(ray)) return Vector3f::Ones();
+  if (!region_.is_met_by(ray) || !skins_.is_blocked(ray)) return Vector3f::Ones();
   Vector3f share = Vector3f::Ones();
   for (int i = 0; is_translucent_ && i < kMostSkins; ++i) {
     const std::optional<SurfacePoint> met = skins_.first_hit(ray);
@@ -255,14 +255,15 @@ Vector3f LightPaths::floor_light(const Ray& ray, const Meeting& meeting, Sampler
   return Vector3f::Ones() + weight * (found.base - open.base).cwiseQuotient(light_.on_open_floor());
 }
 
-int LightPaths::worthwhile(int samples, const Ray& from_eye) const {
-  constexpr int kFewer = 4;  // times, on the floor at some distance
-  if (region_.is_met_by(from_eye)) return samples;
+bool LightPaths::sees_nothing(const Ray& from_eye) const {
+  if (region_.is_met_by(from_eye)) return false;
   const std::optional<float> way = way_to_floor(from_eye);
-  if (!way) return 1;
-  const Vector3f point = from_eye.origin + *way * from_eye.direction;
-  if (region_.weight_on_floor(point) == 0) return 1;
-  return region_.is_near_on_floor(point) ? samples : (samples + kFewer - 1) / kFewer;
+  return !way || region_.weight_on_floor(from_eye.origin + *way * from_eye.direction) == 0;
+}
+
+bool LightPaths::sees_skin(Ray from_eye) const {
+  if (const std::optional<float> way = way_to_floor(from_eye)) from_eye.far = *way;
+  return region_.is_met_by(from_eye) && skins_.is_blocked(from_eye);
 }
 
 PathSample LightPaths::sample(const Ray& from_eye, bool sees_ghosts, Sampler& sampler) const {

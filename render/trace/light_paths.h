@@ -43,9 +43,9 @@ class LightPaths {
   [[nodiscard]] const StageSpace& space() const { return space_; }
   [[nodiscard]] bool has_ghosts() const { return has_ghosts_; }
 
-  /// How many of a pixel's samples are worth their while around this ray: one where it sees no body and nothing that
-  /// one does to the floor.
-  [[nodiscard]] int worthwhile(int samples, const Ray& from_eye) const;
+  /// Whether the ray certainly meets no body and nothing that one does to the floor.
+  [[nodiscard]] bool sees_nothing(const Ray& from_eye) const;
+  [[nodiscard]] bool sees_skin(Ray from_eye) const;
   /// May run on several threads.
   [[nodiscard]] PathSample sample(const Ray& from_eye, bool sees_ghosts, Sampler& sampler) const;
   /// The light that arrives along a ray.

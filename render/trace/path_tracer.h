@@ -21,8 +21,6 @@ class PathTracer {
   [[nodiscard]] TracedLight trace(const Motion& motion, const Camera& camera);
 
  private:
-  void trace_pixel(const CameraRays& rays, bool moves, int x, int y, TracedLight& traced) const;
-
   LightPaths paths_;
   RenderOptions options_;
 };

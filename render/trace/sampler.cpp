@@ -1,6 +1,6 @@
 #include "render/trace/sampler.h"
 
-#include <array>
+#include <vector>
 
 namespace sprung {
 namespace {
@@ -13,19 +13,27 @@ std::uint32_t reversed_bits(std::uint32_t x) {
   return (x & 0x55555555U) << 1U | (x & 0xaaaaaaaaU) >> 1U;
 }
 
-constexpr std::uint32_t kSamples = 4096;  // after which the sequence begins again
+constexpr std::uint32_t kSamples = 4096;  // after which a sequence begins again
+constexpr std::uint32_t kSequences = 64;
+
+/// Wellons's hash of 32 bits.
+std::uint32_t hashed(std::uint32_t value) {
+  value ^= value >> 16U;
+  value *= 0x7feb352dU;
+  value ^= value >> 15U;
+  value *= 0x846ca68bU;
+  return value ^ value >> 16U;
+}
 
 /// The second dimension of the Sobol sequence, with the bits reversed; the first is the index itself.
-constexpr std::array<std::uint32_t, kSamples> kSecondDimension = [] {
-  std::array<std::uint32_t, kSamples> numbers{};
-  for (std::uint32_t i = 0; i < kSamples; ++i) {
-    std::uint32_t direction = 1;
-    for (std::uint32_t bits = i; bits != 0; bits >>= 1U, direction ^= direction << 1U) {
-      if ((bits & 1U) != 0) numbers[i] ^= direction;
-    }
+std::uint32_t second_dimension(std::uint32_t index) {
+  std::uint32_t number = 0;
+  std::uint32_t direction = 1;
+  for (; index != 0; index >>= 1U, direction ^= direction << 1U) {
+    if ((index & 1U) != 0) number ^= direction;
   }
-  return numbers;
-}();
+  return number;
+}
 
 /// Flips each bit by a hash of the bits below it: the permutation of Laine and Karras, an Owen scramble of a number
 /// whose bits are reversed.
@@ -37,24 +45,37 @@ std::uint32_t scrambled(std::uint32_t x, std::uint32_t seed) {
   return x ^ x * 0x53a22864U;
 }
 
-float fraction(std::uint32_t reversed) { return float(reversed_bits(reversed) >> 8U) * 0x1p-24F; }
+struct Point {
+  std::uint32_t x, y;  // over 2^32
+};
+
+/// Sobol sequences, each in another order and scrambled in another way.
+std::vector<Point> make_sequences() {
+  std::vector<Point> points;
+  points.reserve(kSequences * kSamples);
+  for (std::uint32_t sequence = 0; sequence < kSequences; ++sequence) {
+    const std::uint32_t seed = hashed(sequence + 1);
+    for (std::uint32_t i = 0; i < kSamples; ++i) {
+      const std::uint32_t index = reversed_bits(scrambled(reversed_bits(i), seed)) % kSamples;
+      points.push_back({reversed_bits(scrambled(index, hashed(seed + 1))),
+                        reversed_bits(scrambled(second_dimension(index), hashed(seed + 2)))});
+    }
+  }
+  return points;
+}
+
+float fraction(std::uint32_t bits) { return float(bits >> 8U) * 0x1p-24F; }
 
 }  // namespace
 
-/// Wellons's hash of 32 bits.
-std::uint32_t Sampler::hashed(std::uint32_t value) {
-  value ^= value >> 16U;
-  value *= 0x7feb352dU;
-  value ^= value >> 15U;
-  value *= 0x846ca68bU;
-  return value ^ value >> 16U;
-}
+Sampler::Sampler(std::uint32_t pixel, std::uint32_t sample) : seed_(hashed(pixel + 1)), sample_(sample % kSamples) {}
 
 Eigen::Vector2f Sampler::pair() {
-  const std::uint32_t seed = hashed(seed_ + 0x9e3779b9U * ++drawn_);
-  // Another order of the samples for every pair.
-  const std::uint32_t index = reversed_bits(scrambled(reversed_bits(sample_), seed)) % kSamples;
-  return {fraction(scrambled(index, hashed(seed + 1))), fraction(scrambled(kSecondDimension[index], hashed(seed + 2)))};
+  static const std::vector<Point> kPoints = make_sequences();
+  ++drawn_;
+  const Point& point = kPoints[(seed_ + drawn_) % kSequences * kSamples + sample_];
+  const std::uint32_t turn = hashed(seed_ + 0x9e3779b9U * drawn_);
+  return {fraction(point.x ^ turn), fraction(point.y ^ (turn * 0x2c1b3c6dU))};
 }
 
 }  // namespace sprung

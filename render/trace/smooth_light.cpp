@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace sprung {
 namespace {
@@ -17,25 +18,36 @@ constexpr float kOffPlane = 6;    // and per sine of the angle between the surfa
 constexpr float kDeviations = 3;  // of the light's noise that still count as alike
 constexpr float kSameLight = 1e-3F;
 
-/// What is alike in neighbours, by pixel.
+/// What is alike in neighbours, by pixel; nothing on the floor, which is flat.
 struct Guides {
   std::vector<Vector3f> normal;
   std::vector<Vector3f> position;
 };
 
+/// exp(-x) for x >= 0 within 0.04, and 0 from 8 on.
+float falloff(float x) {
+  const float root = std::max(1 - x / 8, 0.0F);
+  const float square = root * root;
+  return square * square * square * square;
+}
+
+template <std::size_t kCount>
 class Smoother {
  public:
-  Smoother(const TracedLight& traced, const Guides& guides)
-      : width_(traced.width), height_(traced.height), guides_(guides) {}
+  using Layers = std::array<LightLayer*, kCount>;
 
-  void smooth(LightLayer& layer) const {
-    spread_variance(layer);
-    LightLayer next = layer;
+  Smoother(const TracedLight& traced, const Layers& layers, Guides guides)
+      : width_(traced.width), height_(traced.height), layers_(layers), guides_(std::move(guides)) {}
+
+  void smooth() const {
+    for (LightLayer* const layer : layers_) spread_variance(*layer);
+    std::vector<LightLayer> next;
+    for (const LightLayer* const layer : layers_) next.push_back(*layer);
     for (int level = 0; level < kLevels; ++level) {
       tbb::parallel_for(0, height_, [&](int y) {
-        for (int x = 0; x < width_; ++x) smooth_pixel(layer, x, y, 1 << level, next);
+        for (int x = 0; x < width_; ++x) smooth_pixel(x, y, 1 << level, next);
       });
-      std::swap(layer, next);
+      for (std::size_t i = 0; i < kCount; ++i) std::swap(*layers_[i], next[i]);
     }
   }
 
@@ -73,36 +85,57 @@ class Smoother {
   }
 
   [[nodiscard]] float unlikeness(std::size_t here, std::size_t there) const {
+    if (guides_.normal.empty()) return 0;
     const Vector3f& normal = guides_.normal[here];
     const Vector3f way = guides_.position[there] - guides_.position[here];
     const float bend = 1 - std::min(normal.dot(guides_.normal[there]), 1.0F);
     return kBend * bend + kOffPlane * std::abs(normal.dot(way)) / (way.norm() + 1e-6F);
   }
 
-  void smooth_pixel(const LightLayer& layer, int x, int y, int step, LightLayer& next) const {
+  void smooth_pixel(int x, int y, int step, std::vector<LightLayer>& next) const {
+    struct Mean {
+      float noise;
+      float brightness;
+      Vector3f light = Vector3f::Zero();
+      float variance = 0;
+      float weight = 0;
+    };
     const std::size_t here = at(x, y);
-    if (layer.share[here] == 0) return;
-    const float brightness = layer.light[here].sum() / 3;
-    const float noise = kDeviations * std::sqrt(layer.variance[here]) + kSameLight;
-    Vector3f sum = Vector3f::Zero();
-    float variance = 0;
-    float weights = 0;
+    std::array<Mean, kCount> means;
+    bool is_certain = true;
+    for (std::size_t i = 0; i < kCount; ++i) {
+      const LightLayer& layer = *layers_[i];
+      means[i].brightness = layer.light[here].sum() / 3;
+      means[i].noise = kDeviations * std::sqrt(layer.variance[here]) + kSameLight;
+      is_certain = is_certain && layer.variance[here] == 0;
+      next[i].light[here] = layer.light[here];
+      next[i].variance[here] = layer.variance[here];
+    }
+    const std::vector<float>& share = layers_.front()->share;  // of all alike
+    if (is_certain || share[here] == 0) return;
     for_neighbors(x, y, step, [&](std::size_t there, float weight) {
-      if (layer.share[there] == 0) return;
-      const float other = layer.light[there].sum() / 3;
-      if (there != here) weight *= std::exp(-unlikeness(here, there) - std::abs(other - brightness) / noise);
-      weight *= layer.share[there];
-      sum += weight * layer.light[there];
-      variance += weight * weight * layer.variance[there];
-      weights += weight;
+      if (share[there] == 0) return;
+      const float apart = there == here ? 0 : unlikeness(here, there);
+      weight *= share[there];
+      for (std::size_t i = 0; i < kCount; ++i) {
+        const Vector3f& light = layers_[i]->light[there];
+        const float change = std::abs(light.sum() / 3 - means[i].brightness) / means[i].noise;
+        const float alike = weight * falloff(apart + change);
+        means[i].light += alike * light;
+        means[i].variance += alike * alike * layers_[i]->variance[there];
+        means[i].weight += alike;
+      }
     });
-    next.light[here] = sum / weights;
-    next.variance[here] = variance / (weights * weights);
+    for (std::size_t i = 0; i < kCount; ++i) {
+      next[i].light[here] = means[i].light / means[i].weight;
+      next[i].variance[here] = means[i].variance / (means[i].weight * means[i].weight);
+    }
   }
 
   int width_;
   int height_;
-  const Guides& guides_;
+  Layers layers_;
+  Guides guides_;
 };
 
 }  // namespace
@@ -112,11 +145,8 @@ void smooth(TracedLight& traced) {
   for (Vector3f& normal : skins.normal) {
     if (normal.squaredNorm() > 0) normal.normalize();
   }
-  const Smoother of_skins(traced, skins);
-  of_skins.smooth(traced.base);
-  of_skins.smooth(traced.specular);
-  const Guides floor{std::vector<Vector3f>(traced.pixels(), Vector3f::UnitY()), traced.position};
-  Smoother(traced, floor).smooth(traced.floor);
+  Smoother<2>(traced, {&traced.base, &traced.specular}, std::move(skins)).smooth();
+  Smoother<1>(traced, {&traced.floor}, {}).smooth();
 }
 
 std::vector<Eigen::Vector4f> composed(const TracedLight& traced, bool is_transparent) {

@@ -20,11 +20,6 @@ Floats3 unit(const Floats3& vectors) {
   return vectors.array().colwise() / vectors.rowwise().norm().array().max(1e-12F);
 }
 
-/// Rows of two times, mixed.
-Vector3f row_between(const Floats3& before, const Floats3& after, float share, int row) {
-  return (before.row(row) + share * (after.row(row) - before.row(row))).transpose();
-}
-
 }  // namespace
 
 TracedSkins::TracedSkins(const Stage& stage, const StageSpace& space)
@@ -36,17 +31,33 @@ TracedSkins::TracedSkins(const Stage& stage, const StageSpace& space)
 
 void TracedSkins::update(const Motion& motion) {
   motion_ = motion;
-  positions_.clear();
-  normals_.clear();
-  for (const std::vector<SkinShape>* const at_time : motion) {
-    std::vector<Floats3>& positions = positions_.emplace_back();
-    std::vector<Floats3>& normals = normals_.emplace_back();
-    for (const SkinShape& shape : *at_time) {
-      positions.push_back(in_stage_space(shape.positions, space_));
-      normals.push_back(unit(shape.normals));
+  std::vector<std::vector<Floats3>> positions;
+  corners_.assign(motion.size(), {});
+  for (std::size_t time = 0; time < motion.size(); ++time) {
+    std::vector<Floats3>& at_time = positions.emplace_back();
+    for (std::size_t i = 0; i < skins_.size(); ++i) {
+      const SkinShape& shape = (*motion[time])[i];
+      const Floats3& points = at_time.emplace_back(in_stage_space(shape.positions, space_));
+      const Floats3 normals = unit(shape.normals);
+      std::vector<Corners>& corners = corners_[time].emplace_back(std::size_t(skins_[i]->triangles.rows()));
+      for (std::size_t t = 0; t < corners.size(); ++t) {
+        for (int k = 0; k < 3; ++k) {
+          const int vertex = skins_[i]->triangles(Eigen::Index(t), k);
+          corners[t].positions.col(k) = points.row(vertex);
+          corners[t].normals.col(k) = normals.row(vertex);
+        }
+      }
     }
   }
-  rays_.update(positions_);
+  rays_.update(positions);
+}
+
+TracedSkins::Corners TracedSkins::corners(const RayHit& hit, std::size_t step, float share) const {
+  const Corners& before = corners_[step][std::size_t(hit.skin)][std::size_t(hit.triangle)];
+  if (share == 0) return before;
+  const Corners& after = corners_[step + 1][std::size_t(hit.skin)][std::size_t(hit.triangle)];
+  return {before.positions + share * (after.positions - before.positions),
+          before.normals + share * (after.normals - before.normals)};
 }
 
 std::optional<SurfacePoint> TracedSkins::first_hit(const Ray& ray, bool sees_ghosts) const {
@@ -55,19 +66,11 @@ std::optional<SurfacePoint> TracedSkins::first_hit(const Ray& ray, bool sees_gho
 }
 
 SurfacePoint TracedSkins::surface(const Ray& ray, const RayHit& hit) const {
-  const float time = ray.time * float(motion_.size() - 1);
-  const std::size_t step = std::min(std::size_t(time), motion_.size() - 1);
-  const std::size_t next = std::min(step + 1, motion_.size() - 1);
-  const float share = time - float(step);
+  const float place = ray.time * float(motion_.size() - 1);
+  const std::size_t step = std::min(std::size_t(place), motion_.size() - 1);
+  const auto [points, normals] = corners(hit, step, place - float(step));
   const SkinShape& shape = (*motion_[step])[hit.skin];
-  const Eigen::Vector3i corners = skins_[hit.skin]->triangles.row(hit.triangle);
   const Vector3f weights(1 - hit.u - hit.v, hit.u, hit.v);
-  Eigen::Matrix3f points;
-  Eigen::Matrix3f normals;
-  for (int k = 0; k < 3; ++k) {
-    points.col(k) = row_between(positions_[step][hit.skin], positions_[next][hit.skin], share, corners[k]);
-    normals.col(k) = row_between(normals_[step][hit.skin], normals_[next][hit.skin], share, corners[k]);
-  }
   SurfacePoint point;
   point.skin = hit.skin;
   point.distance = hit.distance;

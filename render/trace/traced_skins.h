@@ -34,6 +34,12 @@ class TracedSkins {
   [[nodiscard]] bool is_blocked(const Ray& ray) const { return rays_.is_blocked(ray); }
 
  private:
+  struct Corners {
+    Eigen::Matrix3f positions;  // columns, stage space
+    Eigen::Matrix3f normals;    // columns, unit
+  };
+  /// Of the time between that step and the next.
+  [[nodiscard]] Corners corners(const RayHit& hit, std::size_t step, float share) const;
   [[nodiscard]] SurfacePoint surface(const Ray& ray, const RayHit& hit) const;
 
   StageSpace space_;
@@ -42,8 +48,7 @@ class TracedSkins {
   std::vector<SkinPaint> paints_;
   RayScene rays_;
   Motion motion_;
-  std::vector<std::vector<Floats3>> positions_;  // by time and skin, stage space
-  std::vector<std::vector<Floats3>> normals_;    // unit
+  std::vector<std::vector<std::vector<Corners>>> corners_;  // by time, skin and triangle
 };
 
 }  // namespace sprung

@@ -1,6 +1,7 @@
 // Draws a scene's bodies as they start, some pictures of 1280 x 720, and prints what each stage of a picture takes:
-// skins, every pass of the renderer, PNG, and a film's encoder. Arguments: the scene (a .toml file) and the number of
-// pictures. Measured pass by pass, so that nothing overlaps; the last line is a picture with everything overlapping.
+// skins, every pass of the renderer, PNG, a film's encoder, and one picture in final quality. Arguments: the scene (a
+// .toml file) and the number of pictures. Measured pass by pass, so that nothing overlaps; only the line "overlapping"
+// is a picture with everything at once.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -101,6 +102,18 @@ void overlapped(const Subject& subject, const std::filesystem::path& folder, int
   watch.print("all of it, overlapping", pictures);
 }
 
+/// One picture, since it takes as long as twenty others.
+void final_quality(const Subject& subject) {
+  RenderOptions options = kPicture;
+  options.quality = Quality::kFinal;
+  options.samples = 16;
+  Renderer renderer(subject.stage, options);
+  const Image first = renderer.draw(subject.shapes, subject.camera);
+  Stopwatch watch;
+  const Image second = renderer.draw(subject.shapes, subject.camera);
+  watch.print("final quality, 16 samples", 1);
+}
+
 void run(const std::filesystem::path& scene, int pictures) {
   const Subject subject(scene);
   const std::filesystem::path folder = std::filesystem::temp_directory_path() / "sprung_picture_bench";
@@ -124,6 +137,7 @@ void run(const std::filesystem::path& scene, int pictures) {
   film.close();
   watch.print("film", pictures);
   overlapped(subject, folder, pictures);
+  final_quality(subject);
   std::filesystem::remove_all(folder);
 }
 

@@ -121,6 +121,7 @@ TEST(TracedPicture, AGhostIsFaintAndCastsNoShadow) {
 TEST(TracedPicture, IsTransparentWhereThereIsNoBody) {
   RenderOptions clear = kTraced;
   clear.transparent = true;
+  clear.samples = 64;
   RenderOptions raster = kRaster;
   raster.transparent = true;
   const Image traced = draw_scene(ball_on_ground(), clear);
