@@ -70,6 +70,10 @@ Finish::Finish(const Properties& properties)
   }
 }
 
+Finish Finish::no_sharper_than(float roughness) const {
+  return Finish({.roughness = std::max(std::sqrt(alpha_), roughness), .is_metal = is_metal_, .glow = glow_});
+}
+
 Finish Finish::without_base() const {
   Finish coat = *this;
   coat.has_base_ = false;

@@ -31,6 +31,8 @@ class Finish {
   [[nodiscard]] static Finish of(Look look);
   [[nodiscard]] static Finish matt() { return Finish({.roughness = 1}); }
 
+  /// The same with at least that roughness.
+  [[nodiscard]] Finish no_sharper_than(float roughness) const;
   /// The specular layer alone, for a body that light enters: what it leaves comes out elsewhere.
   [[nodiscard]] Finish without_base() const;
 
@@ -39,6 +41,8 @@ class Finish {
   /// A direction to trace on; it may lie below the surface, where nothing is reflected to.
   [[nodiscard]] Eigen::Vector3f sample(const Eigen::Vector3f& to_eye, const Eigen::Vector2f& random,
                                        float choice) const;
+  /// Whether that choice is the base's.
+  [[nodiscard]] bool picks_base(float choice) const { return choice >= specular_choice_; }
   /// Density of sample() over the solid angle.
   [[nodiscard]] float density(const Eigen::Vector3f& to_eye, const Eigen::Vector3f& to_light) const;
   /// Whether light that meets a surface without a base enters; otherwise sample() says where it goes.

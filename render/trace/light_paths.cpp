@@ -14,7 +14,11 @@ namespace {
 using Eigen::Vector3f;
 
 constexpr int kMostBounces = 64;
-constexpr float kDarkest = 0.02F;      // colour of a translucent body
+constexpr float kDarkest = 0.02F;  // colour of a translucent body
+/// Roughness from which on a surface is seen by way of a matt one. Sharper reflections of the key light there, which
+/// are caustics, would be found too seldom: A. Kaplanyan and C. Dachsbacher, "Path Space Regularization for Holistic
+/// and Robust Light Transport" (2013).
+constexpr float kBlurred = 0.6F;
 constexpr int kSureBounces = 3;        // before a path may end by chance
 constexpr float kLeastFacing = 1e-2F;  // cosine between a smooth normal and the way to the eye
 
@@ -37,7 +41,16 @@ Vector3f facing(const Vector3f& normal, const Vector3f& to_eye) {
   return cosine >= kLeastFacing ? normal : (normal + (kLeastFacing - cosine) * to_eye).normalized();
 }
 
+Finishes blurred(Finishes finishes) {
+  for (Finish& finish : finishes) finish = finish.no_sharper_than(kBlurred);
+  return finishes;
+}
+
 }  // namespace
+
+LightPaths::Surfaces::Surfaces(const Finishes& finishes) : opaque(finishes), coats(finishes) {
+  for (Finish& coat : coats) coat = coat.without_base();
+}
 
 LightPaths::LightPaths(const Stage& stage)
     : LightPaths(stage, StageLight(stage.environment),
@@ -49,12 +62,11 @@ LightPaths::LightPaths(const Stage& stage, const StageLight& light, const Finish
       light_(light),
       skins_(stage, space_),
       looks_(stage.looks),
-      finishes_(finishes),
-      coats_(finishes),
+      surfaces_(finishes),
+      blurred_(blurred(finishes)),
       has_ground_(stage.has_ground),
       has_ghosts_(std::find(stage.ghosts.begin(), stage.ghosts.end(), true) != stage.ghosts.end()),
       ground_height_(float((stage.ground.height - space_.center.y()) * space_.scale)) {
-  for (Finish& coat : coats_) coat = coat.without_base();
   looks_.resize(stage.skins.size(), Look::kPlastic);
   scatterings_.resize(stage.skins.size(), 0);
   for (std::size_t i = 0; i < stage.mean_free_paths.size(); ++i) {
@@ -92,10 +104,11 @@ LightPaths::Meeting LightPaths::meet(Ray ray, bool sees_ghosts) const {
   return meeting;
 }
 
-const Finish& LightPaths::finish(const Meeting& meeting) const {
+const Finish& LightPaths::finish(const Meeting& meeting, bool is_matt) const {
   if (meeting.seen == Seen::kFloor) return floor_finish_;
   const auto look = std::size_t(looks_[std::size_t(meeting.point.skin)]);
-  return is_entered(meeting) ? coats_[look] : finishes_[look];
+  const Surfaces& surfaces = is_matt ? blurred_ : surfaces_;
+  return is_entered(meeting) ? surfaces.coats[look] : surfaces.opaque[look];
 }
 
 /// Whether light enters the body there.
@@ -125,21 +138,23 @@ Vector3f LightPaths::reaching(Ray ray) const {
   return Vector3f::Zero();
 }
 
-LightPaths::Scattering LightPaths::scatter(const Ray& ray, const Meeting& meeting, Sampler& sampler) const {
+LightPaths::Scattering LightPaths::scatter(const Way& way, const Meeting& meeting, Sampler& sampler) const {
   const SurfacePoint& point = meeting.point;
-  const Finish& surface = finish(meeting);
-  const TangentFrame frame(facing(point.normal, -ray.direction));
-  const Vector3f to_eye = frame.to_local(-ray.direction);
+  const Finish& surface = finish(meeting, way.is_matt);
+  const TangentFrame frame(facing(point.normal, -way.ray.direction));
+  const Vector3f to_eye = frame.to_local(-way.ray.direction);
   Scattering result;
-  result.onward.origin = point.position;
-  result.onward.time = ray.time;
+  Ray& onward = result.onward.ray;
+  onward.origin = point.position;
+  onward.time = way.ray.time;
+  result.onward.is_matt = way.is_matt;
 
   const Vector3f to_key = light_.towards_key(sampler.pair());
   const Vector3f local_key = frame.to_local(to_key);
   if (local_key.z() > 0) {
     const float share = balance(light_.key_density(), surface.density(to_eye, local_key)) / light_.key_density();
     result.unhidden = times(surface.evaluate(to_eye, local_key, point.color), share * light_.key_radiance());
-    Ray to_light = result.onward;
+    Ray to_light = onward;
     to_light.direction = to_key;
     result.from_key = times(result.unhidden, reaching(to_light));
   }
@@ -147,18 +162,19 @@ LightPaths::Scattering LightPaths::scatter(const Ray& ray, const Meeting& meetin
   const Eigen::Vector2f random = sampler.pair();
   const float choice = sampler.number();
   if (surface.is_let_in(choice)) {
-    pass_through(ray, point, surface, random, sampler, result);
+    pass_through(way.ray, point, surface, random, sampler, result);
     return result;
   }
   const Vector3f next = surface.sample(to_eye, random, choice);
-  result.density = surface.density(to_eye, next);
-  if (result.density <= 0) return result;
+  result.onward.density = surface.density(to_eye, next);
+  if (result.onward.density <= 0) return result;
+  if (surface.picks_base(choice)) result.onward.is_matt = true;
   const Reflected reflected = surface.evaluate(to_eye, next, point.color);
-  result.factor = times(reflected, Vector3f::Constant(1 / result.density));
-  result.onward.direction = frame.to_world(next).normalized();
+  result.factor = times(reflected, Vector3f::Constant(1 / result.onward.density));
+  onward.direction = frame.to_world(next).normalized();
   // Above the smooth surface but below the triangle: mirrored, so that no light is lost.
-  const float below = result.onward.direction.dot(point.face_normal);
-  if (below < 0) result.onward.direction -= 2 * below * point.face_normal;
+  const float below = onward.direction.dot(point.face_normal);
+  if (below < 0) onward.direction -= 2 * below * point.face_normal;
   return result;
 }
 
@@ -176,9 +192,10 @@ void LightPaths::pass_through(const Ray& ray, const SurfacePoint& entry, const F
   const std::optional<Emergence> out = walk_through_body(skins_, medium, entry.skin, inside, sampler);
   if (!out) return;
   const Vector3f share = (coat.let_in(to_eye.z()) * out->share).cwiseQuotient(divisor(entry.color));
-  result.onward.origin = out->point.position;
+  Ray& onward = result.onward.ray;
+  onward.origin = out->point.position;
   if (!out->is_scattered) {
-    result.onward.direction = out->direction;
+    onward.direction = out->direction;
     result.factor.base = share;
     return;
   }
@@ -187,39 +204,40 @@ void LightPaths::pass_through(const Ray& ray, const SurfacePoint& entry, const F
   const float facing_key = to_key.dot(there.normal);
   constexpr float kPi = std::numbers::pi_v<float>;
   if (facing_key > 0) {
-    Ray to_light = result.onward;
+    Ray to_light = onward;
     to_light.direction = to_key;
     const float seen = balance(light_.key_density(), facing_key / kPi) / light_.key_density() *
                        coat.let_out(facing_key) * facing_key / kPi;
     result.from_key.base += seen * share.cwiseProduct(reaching(to_light)).cwiseProduct(light_.key_radiance());
   }
   const Vector3f local = on_cosine_hemisphere(sampler.pair());
-  result.onward.direction = there.to_world(local).normalized();
+  onward.direction = there.to_world(local).normalized();
   result.factor.base = coat.let_out(local.z()) * share;
-  result.density = local.z() / kPi;
+  result.onward.density = local.z() / kPi;
+  result.onward.is_matt = true;
 }
 
-/// From where there are no surfaces. `density`: with which the ray was sampled; 0: without the key light.
-Vector3f LightPaths::beyond(const Ray& ray, float density) const {
-  Vector3f light = light_.around(ray.direction);
-  if (density > 0 && light_.is_key(ray.direction)) {
-    light += balance(density, light_.key_density()) * light_.key_radiance();
+/// From where there are no surfaces.
+Vector3f LightPaths::beyond(const Way& way) const {
+  Vector3f light = light_.around(way.ray.direction);
+  if (way.density > 0 && light_.is_key(way.ray.direction)) {
+    light += balance(way.density, light_.key_density()) * light_.key_radiance();
   }
   return light;
 }
 
-Vector3f LightPaths::arriving(Ray ray, float density, Sampler& sampler) const {
+Vector3f LightPaths::arriving(Way way, Sampler& sampler) const {
   Vector3f light = Vector3f::Zero();
   Vector3f factor = Vector3f::Ones();
   for (int bounce = 0; bounce < kMostBounces; ++bounce) {
-    const Meeting meeting = meet(ray);
-    if (meeting.seen == Seen::kBackground) return light + factor.cwiseProduct(beyond(ray, density));
+    const Meeting meeting = meet(way.ray);
+    if (meeting.seen == Seen::kBackground) return light + factor.cwiseProduct(beyond(way));
     const Vector3f color = base_color(meeting);
     if (meeting.seen == Seen::kFloor && region_.weight_on_floor(meeting.point.position) == 0) {
       return light + factor.cwiseProduct(color).cwiseProduct(light_.on_open_floor());
     }
-    const Scattering scattering = scatter(ray, meeting, sampler);
-    const float glow = finish(meeting).glow();
+    const Scattering scattering = scatter(way, meeting, sampler);
+    const float glow = finish(meeting, way.is_matt).glow();
     const auto whole = [&](const Reflected& parts) -> Vector3f {
       return (1 - glow) * (color.cwiseProduct(parts.base) + parts.specular);
     };
@@ -231,8 +249,7 @@ Vector3f LightPaths::arriving(Ray ray, float density, Sampler& sampler) const {
       factor /= stay;
     }
     if (!(factor.maxCoeff() > 0)) return light;
-    ray = scattering.onward;
-    density = scattering.density;
+    way = scattering.onward;
   }
   return light;
 }
@@ -240,7 +257,7 @@ Vector3f LightPaths::arriving(Ray ray, float density, Sampler& sampler) const {
 Reflected LightPaths::reflected(const Scattering& scattering, Sampler& sampler) const {
   const Reflected& factor = scattering.factor;
   if (factor.base.isZero(0) && factor.specular.isZero(0)) return scattering.from_key;
-  return sum(scattering.from_key, times(factor, arriving(scattering.onward, scattering.density, sampler)));
+  return sum(scattering.from_key, times(factor, arriving(scattering.onward, sampler)));
 }
 
 /// Over that without bodies. What the same rays would have found there is subtracted, so that a floor without bodies is
@@ -248,10 +265,9 @@ Reflected LightPaths::reflected(const Scattering& scattering, Sampler& sampler) 
 Vector3f LightPaths::floor_light(const Ray& ray, const Meeting& meeting, Sampler& sampler) const {
   const float weight = region_.weight_on_floor(meeting.point.position);
   if (weight == 0) return Vector3f::Ones();
-  const Scattering scattering = scatter(ray, meeting, sampler);
+  const Scattering scattering = scatter({.ray = ray}, meeting, sampler);
   const Reflected found = reflected(scattering, sampler);
-  const Reflected open =
-      sum(scattering.unhidden, times(scattering.factor, beyond(scattering.onward, scattering.density)));
+  const Reflected open = sum(scattering.unhidden, times(scattering.factor, beyond(scattering.onward)));
   return Vector3f::Ones() + weight * (found.base - open.base).cwiseQuotient(light_.on_open_floor());
 }
 
@@ -275,8 +291,8 @@ PathSample LightPaths::sample(const Ray& from_eye, bool sees_ghosts, Sampler& sa
     if (meeting.seen == Seen::kFloor) sample.floor_light = floor_light(from_eye, meeting, sampler);
     return sample;
   }
-  const Scattering scattering = scatter(from_eye, meeting, sampler);
-  const float glow = finish(meeting).glow();
+  const Scattering scattering = scatter({.ray = from_eye}, meeting, sampler);
+  const float glow = finish(meeting, false).glow();
   sample.light = times(reflected(scattering, sampler), Vector3f::Constant(1 - glow));
   sample.light.base.array() += glow;
   sample.normal = meeting.point.normal;

@@ -49,34 +49,46 @@ class LightPaths {
   /// May run on several threads.
   [[nodiscard]] PathSample sample(const Ray& from_eye, bool sees_ghosts, Sampler& sampler) const;
   /// The light that arrives along a ray.
-  [[nodiscard]] Eigen::Vector3f arriving(const Ray& ray, Sampler& sampler) const { return arriving(ray, 0, sampler); }
+  [[nodiscard]] Eigen::Vector3f arriving(const Ray& ray, Sampler& sampler) const {
+    return arriving({.ray = ray}, sampler);
+  }
 
  private:
   struct Meeting {
     Seen seen = Seen::kBackground;
     SurfacePoint point{};
   };
-  /// What a surface reflects to where a ray came from, and the ray that looks for more of it.
+  struct Surfaces {
+    explicit Surfaces(const Finishes& finishes);
+    Finishes opaque;
+    Finishes coats;  // of translucent bodies
+  };
+  /// A way on which light may arrive.
+  struct Way {
+    Ray ray{};
+    float density = 0;     // with which the ray was sampled, over the solid angle; 0: it does not see the key light
+    bool is_matt = false;  // a matt surface, or scattering, is on the way from here to the eye
+  };
+  /// What a surface reflects to where a ray came from, and the way on which to look for more of it.
   struct Scattering {
     Reflected from_key;  // light of the key light
     Reflected unhidden;  // of the key light, if nothing hid it
-    Ray onward;
-    Reflected factor;   // of the light that arrives along `onward`
-    float density = 0;  // of `onward`, over the solid angle
+    Way onward;
+    Reflected factor;  // of the light that arrives on it
   };
 
   [[nodiscard]] std::optional<float> way_to_floor(const Ray& ray) const;
   [[nodiscard]] Meeting meet(Ray ray, bool sees_ghosts = false) const;
-  [[nodiscard]] const Finish& finish(const Meeting& meeting) const;
-  [[nodiscard]] Scattering scatter(const Ray& ray, const Meeting& meeting, Sampler& sampler) const;
+  [[nodiscard]] const Finish& finish(const Meeting& meeting, bool is_matt) const;
+  [[nodiscard]] Scattering scatter(const Way& way, const Meeting& meeting, Sampler& sampler) const;
   void pass_through(const Ray& ray, const SurfacePoint& entry, const Finish& coat, const Eigen::Vector2f& random,
                     Sampler& sampler, Scattering& result) const;
   [[nodiscard]] bool is_entered(const Meeting& meeting) const;
   /// That Reflected::base is to be multiplied with.
   [[nodiscard]] Eigen::Vector3f base_color(const Meeting& meeting) const;
   [[nodiscard]] Eigen::Vector3f reaching(Ray ray) const;
-  [[nodiscard]] Eigen::Vector3f beyond(const Ray& ray, float density) const;
-  [[nodiscard]] Eigen::Vector3f arriving(Ray ray, float density, Sampler& sampler) const;
+  [[nodiscard]] Eigen::Vector3f beyond(const Way& way) const;
+  [[nodiscard]] Eigen::Vector3f arriving(Way way, Sampler& sampler) const;
   [[nodiscard]] Reflected reflected(const Scattering& scattering, Sampler& sampler) const;
   [[nodiscard]] Eigen::Vector3f floor_light(const Ray& ray, const Meeting& meeting, Sampler& sampler) const;
 
@@ -86,8 +98,8 @@ class LightPaths {
   std::vector<Look> looks_;         // by skin
   std::vector<float> scatterings_;  // by skin: one over the mean free path, in stage space; 0: no light enters
   bool is_translucent_ = false;     // any of them
-  Finishes finishes_;
-  Finishes coats_;  // the same of translucent bodies
+  Surfaces surfaces_;
+  Surfaces blurred_;  // as they are seen by way of a matt surface
   Finish floor_finish_ = Finish::matt();
   bool has_ground_;
   bool has_ghosts_;

@@ -54,8 +54,8 @@ class PixelSum {
  public:
   void add(const PathSample& sample) {
     ++samples_;
-    position_ += sample.position;
     if (sample.seen == Seen::kSkin) {
+      position_ += sample.position;
       base_.add(sample.light.base);
       specular_.add(sample.light.specular);
       color_ += sample.color;
@@ -77,7 +77,7 @@ class PixelSum {
     floor_.store(traced.floor, pixel, samples_);
     traced.color[pixel] = part * color_;
     traced.normal[pixel] = part * normal_;
-    traced.position[pixel] = part * position_;
+    traced.position[pixel] = position_ / float(std::max(base_.count(), 1));
     traced.floor_color[pixel] = part * floor_color_;
     traced.background[pixel] = part * background_;
   }

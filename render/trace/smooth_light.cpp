@@ -12,16 +12,18 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr int kLevels = 5;
-constexpr float kBend = 40;       // how much less two pixels count per 1 - cosine between their normals
+constexpr std::array kSteps = {1, 2, 4, 8, 16, 1};  // pixels; the last one takes away the pattern of those before
+constexpr float kBend = 20;       // how much less two pixels count per 1 - cosine between their normals
 constexpr float kOffPlane = 6;    // and per sine of the angle between the surface and the way from one to the other
-constexpr float kDeviations = 3;  // of the light's noise that still count as alike
+constexpr float kPaint = 8;       // and per difference of colours
+constexpr float kDeviations = 4;  // of the light's noise that still count as alike
 constexpr float kSameLight = 1e-3F;
 
 /// What is alike in neighbours, by pixel; nothing on the floor, which is flat.
 struct Guides {
-  std::vector<Vector3f> normal;
+  std::vector<Vector3f> normal;  // unit
   std::vector<Vector3f> position;
+  std::vector<Vector3f> color;
 };
 
 /// exp(-x) for x >= 0 within 0.04, and 0 from 8 on.
@@ -43,9 +45,9 @@ class Smoother {
     for (LightLayer* const layer : layers_) spread_variance(*layer);
     std::vector<LightLayer> next;
     for (const LightLayer* const layer : layers_) next.push_back(*layer);
-    for (int level = 0; level < kLevels; ++level) {
+    for (const int step : kSteps) {
       tbb::parallel_for(0, height_, [&](int y) {
-        for (int x = 0; x < width_; ++x) smooth_pixel(x, y, 1 << level, next);
+        for (int x = 0; x < width_; ++x) smooth_pixel(x, y, step, next);
       });
       for (std::size_t i = 0; i < kCount; ++i) std::swap(*layers_[i], next[i]);
     }
@@ -89,7 +91,8 @@ class Smoother {
     const Vector3f& normal = guides_.normal[here];
     const Vector3f way = guides_.position[there] - guides_.position[here];
     const float bend = 1 - std::min(normal.dot(guides_.normal[there]), 1.0F);
-    return kBend * bend + kOffPlane * std::abs(normal.dot(way)) / (way.norm() + 1e-6F);
+    const float paint = (guides_.color[there] - guides_.color[here]).norm();
+    return kPaint * paint + kBend * bend + kOffPlane * std::abs(normal.dot(way)) / (way.norm() + 1e-6F);
   }
 
   void smooth_pixel(int x, int y, int step, std::vector<LightLayer>& next) const {
@@ -141,9 +144,11 @@ class Smoother {
 }  // namespace
 
 void smooth(TracedLight& traced) {
-  Guides skins{traced.normal, traced.position};
-  for (Vector3f& normal : skins.normal) {
-    if (normal.squaredNorm() > 0) normal.normalize();
+  Guides skins{traced.normal, traced.position, traced.color};
+  for (std::size_t i = 0; i < traced.pixels(); ++i) {
+    if (traced.base.share[i] == 0) continue;
+    skins.normal[i].normalize();
+    skins.color[i] /= traced.base.share[i];
   }
   Smoother<2>(traced, {&traced.base, &traced.specular}, std::move(skins)).smooth();
   Smoother<1>(traced, {&traced.floor}, {}).smooth();

@@ -24,7 +24,7 @@ struct TracedLight {
   LightLayer floor;                          // on the floor, over that without bodies
   std::vector<Eigen::Vector3f> color;        // of skins, linear
   std::vector<Eigen::Vector3f> normal;       // of skins, unit or shorter
-  std::vector<Eigen::Vector3f> position;     // of skins or the floor, stage space
+  std::vector<Eigen::Vector3f> position;     // of skins where they are seen, stage space
   std::vector<Eigen::Vector3f> floor_color;  // without bodies
   std::vector<Eigen::Vector3f> background;   // times its share
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -180,6 +181,26 @@ TEST(LightPaths, AFloorWithoutBodiesIsWithoutNoise) {
   const PathSample sample = paths.sample({{0, 0.5F, 0}, {0, -1, 0}}, false, sampler);
   EXPECT_EQ(sample.seen, Seen::kFloor);
   EXPECT_EQ(sample.floor_light, Vector3f::Ones());
+}
+
+/// Reflections of the key light in a body that the floor sees are few and bright; they are spread.
+TEST(LightPaths, NoSampleOfTheFloorGlares) {
+  StillLife scene;
+  scene.add(make_sphere_skin({0, 1, 0}, 1), kWhitePaint);
+  const std::vector<SkinShape> shapes = scene.shapes();
+  Stage stage = scene.stage();
+  stage.looks = {Look::kSteel};
+  LightPaths paths(stage);
+  paths.update({&shapes});
+  const Ray ray = towards({0.7F, -0.577F, 0}, {0.9F, 0, 0.5F});
+  float brightest = 0;
+  for (std::uint32_t i = 0; i < 4096; ++i) {
+    Sampler sampler(3, i);
+    const PathSample sample = paths.sample(ray, false, sampler);
+    ASSERT_EQ(sample.seen, Seen::kFloor);
+    brightest = std::max(brightest, sample.floor_light.maxCoeff());
+  }
+  EXPECT_LT(brightest, 5);
 }
 
 }  // namespace
