@@ -19,20 +19,20 @@ float power5(float x) { return x * x * x * x * x; }
 
 }  // namespace
 
-Finish Finish::of(Look look) {
+Finish::Properties Finish::properties(Look look) {
   switch (look) {
     case Look::kPlastic:
-      return Finish({.roughness = 0.42F});
+      return {.roughness = 0.42F};
     case Look::kGelatin:
-      return Finish({.roughness = 0.22F});
+      return {.roughness = 0.22F};
     case Look::kRubber:
-      return Finish({.roughness = 0.58F});
+      return {.roughness = 0.58F};
     case Look::kSteel:
-      return Finish({.roughness = 0.22F, .is_metal = true});
+      return {.roughness = 0.22F, .is_metal = true};
     case Look::kChart:
-      return Finish({.roughness = 0.75F, .glow = 0.45F});
+      return {.roughness = 0.75F, .glow = 0.45F};
   }
-  return matt();
+  return {.roughness = 1};
 }
 
 Finish::Finish(const Properties& properties)

@@ -28,7 +28,8 @@ class Finish {
     float glow = 0;  // the fraction of the colour that the surface shows in any light
   };
   explicit Finish(const Properties& properties);
-  [[nodiscard]] static Finish of(Look look);
+  [[nodiscard]] static Properties properties(Look look);
+  [[nodiscard]] static Finish of(Look look) { return Finish(properties(look)); }
   [[nodiscard]] static Finish matt() { return Finish({.roughness = 1}); }
 
   /// The same with at least that roughness.

@@ -14,7 +14,6 @@ namespace {
 using Eigen::Vector3f;
 
 constexpr int kMostBounces = 64;
-constexpr float kDarkest = 0.02F;  // colour of a translucent body
 /// Roughness from which on a surface is seen by way of a matt one. Sharper reflections of the key light there, which
 /// are caustics, would be found too seldom: A. Kaplanyan and C. Dachsbacher, "Path Space Regularization for Holistic
 /// and Robust Light Transport" (2013).

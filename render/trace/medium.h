@@ -10,7 +10,7 @@ namespace sprung {
 struct Medium {
   static constexpr float kIndex = 1.4F;  // of refraction: silicone has 1.41, gelatin 1.34 to 1.4
 
-  static constexpr float kDarkest = 0.02F;  // colour: a darker one would absorb everything at once
+  static constexpr float kDarkest = 0.004F;  // colour: a darker one would absorb everything at once
 
   float scattering;            // per unit of length: one over the mean free path
   Eigen::Vector3f absorption;  // per unit of length
