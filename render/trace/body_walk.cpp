@@ -44,15 +44,17 @@ bool leaves(Ray& ray, const SurfacePoint& point, Sampler& sampler) {
 
 }  // namespace
 
-std::optional<Emergence> walk_through_body(const TracedSkins& skins, const Medium& medium, int skin, Ray inside,
-                                           Sampler& sampler) {
+std::optional<Emergence> walk_through_body(const TracedSkins& skins, const Media& media, const SurfacePoint& entry,
+                                           const Ray& inside, Sampler& sampler) {
   Ray ray = inside;
+  Interior interior(media);
+  interior.enter(entry);
   Vector3f share = Vector3f::Ones();
   bool is_scattered = false;
   for (int step = 0; step < kMostSteps; ++step) {
-    ray.far = -std::log(1 - sampler.number()) / medium.scattering;
+    ray.far = -std::log(1 - sampler.number()) / interior.medium().scattering;
     const std::optional<SurfacePoint> met = skins.first_hit(ray);
-    share = share.cwiseProduct(medium.kept(met ? met->distance : ray.far));
+    share = share.cwiseProduct(interior.medium().kept(met ? met->distance : ray.far));
     if (step >= kSureSteps) {
       const float stay = std::min(share.maxCoeff(), 1.0F);
       if (!(sampler.number() < stay)) return std::nullopt;
@@ -62,12 +64,16 @@ std::optional<Emergence> walk_through_body(const TracedSkins& skins, const Mediu
       ray.origin += ray.far * ray.direction;
       ray.direction = on_sphere(sampler.pair());
       is_scattered = true;
-    } else if (met->skin != skin) {
+    } else if (!media.is_entered(met->skin)) {
       share = share.cwiseProduct(met->color);
       ray.origin = met->position;
       ray.direction = TangentFrame(met->normal).to_world(on_cosine_hemisphere(sampler.pair()));
       is_scattered = true;
-    } else if (!met->is_inside) {  // a fold of the skin
+    } else if (!met->is_inside) {
+      interior.enter(*met);
+      ray.origin = met->behind;
+    } else if (!interior.is_only(met->skin)) {
+      interior.leave(met->skin);
       ray.origin = met->behind;
     } else if (is_scattered || leaves(ray, *met, sampler)) {
       return Emergence{from_outside(*met), ray.direction, is_scattered, share};

@@ -1,7 +1,7 @@
 #pragma once
 #include <optional>
 
-#include "render/trace/medium.h"
+#include "render/trace/interior.h"
 #include "render/trace/sampler.h"
 #include "render/trace/traced_skins.h"
 
@@ -15,10 +15,12 @@ struct Emergence {
   Eigen::Vector3f share;      // of it that was not absorbed
 };
 
-/// Follows light that has entered the body of a skin: a random walk from one scattering to the next, up to the skin.
-/// Light that was never scattered is refracted there, or reflected back; scattered light all goes out. Whatever else is
-/// inside the body is matt. None where the light is absorbed.
-[[nodiscard]] std::optional<Emergence> walk_through_body(const TracedSkins& skins, const Medium& medium, int skin,
-                                                         Ray inside, Sampler& sampler);
+/// Follows light that has entered a body at that point of its skin, and whatever other bodies are inside or overlap
+/// with it: a random walk from one scattering to the next, up to the outside. Light that was never scattered is
+/// refracted there, or reflected back; scattered light all goes out. Bodies that light does not enter are matt. None
+/// where the light is absorbed. `inside`: starts behind the point.
+[[nodiscard]] std::optional<Emergence> walk_through_body(const TracedSkins& skins, const Media& media,
+                                                         const SurfacePoint& entry, const Ray& inside,
+                                                         Sampler& sampler);
 
 }  // namespace sprung

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "render/stage/visible_sides.h"
 #include "render/trace/body_walk.h"
 #include "render/trace/directions.h"
 
@@ -60,6 +59,7 @@ LightPaths::LightPaths(const Stage& stage, const StageLight& light, const Finish
     : space_(stage.bounds),
       light_(light),
       skins_(stage, space_),
+      media_(stage, space_),
       looks_(stage.looks),
       surfaces_(finishes),
       blurred_(blurred(finishes)),
@@ -67,12 +67,6 @@ LightPaths::LightPaths(const Stage& stage, const StageLight& light, const Finish
       has_ghosts_(std::find(stage.ghosts.begin(), stage.ghosts.end(), true) != stage.ghosts.end()),
       ground_height_(float((stage.ground.height - space_.center.y()) * space_.scale)) {
   looks_.resize(stage.skins.size(), Look::kPlastic);
-  scatterings_.resize(stage.skins.size(), 0);
-  for (std::size_t i = 0; i < stage.mean_free_paths.size(); ++i) {
-    if (stage.mean_free_paths[i] <= 0 || visible_sides(*stage.skins[i]) == Sides::kBoth) continue;
-    scatterings_[i] = float(1 / (stage.mean_free_paths[i] * space_.scale));
-    is_translucent_ = true;
-  }
 }
 
 void LightPaths::update(const Motion& motion) {
@@ -112,7 +106,7 @@ const Finish& LightPaths::finish(const Meeting& meeting, bool is_matt) const {
 
 /// Whether light enters the body there.
 bool LightPaths::is_entered(const Meeting& meeting) const {
-  return meeting.seen == Seen::kSkin && !meeting.point.is_inside && scatterings_[std::size_t(meeting.point.skin)] > 0;
+  return meeting.seen == Seen::kSkin && !meeting.point.is_inside && media_.is_entered(meeting.point.skin);
 }
 
 Vector3f LightPaths::base_color(const Meeting& meeting) const {
@@ -124,14 +118,23 @@ Vector3f LightPaths::reaching(Ray ray) const {
   constexpr int kMostSkins = 32;
   if (!region_.is_met_by(ray) || !skins_.is_blocked(ray)) return Vector3f::Ones();
   Vector3f share = Vector3f::Ones();
-  for (int i = 0; is_translucent_ && i < kMostSkins; ++i) {
+  Interior interior(media_);
+  for (int i = 0; media_.any() && i < kMostSkins; ++i) {
     const std::optional<SurfacePoint> met = skins_.first_hit(ray);
     if (!met) return share;
-    const float scattering = scatterings_[std::size_t(met->skin)];
-    if (scattering == 0) break;
-    const float cosine = std::clamp(-ray.direction.dot(met->normal), 1e-3F, 1.0F);
-    share *= 1 - fresnel(cosine, Medium::kIndex);
-    if (met->is_inside) share = share.cwiseProduct(Medium(met->color, scattering).transmitted(met->distance));
+    if (!media_.is_entered(met->skin)) break;
+    const bool was_outside = interior.is_empty();
+    if (was_outside && met->is_inside) interior.enter(*met);  // where the ray started
+    if (!interior.is_empty()) share = share.cwiseProduct(interior.medium().transmitted(met->distance));
+    if (met->is_inside) {
+      interior.leave(met->skin);
+    } else {
+      interior.enter(*met);
+    }
+    if (was_outside || interior.is_empty()) {
+      const float cosine = std::clamp(-ray.direction.dot(met->normal), 1e-3F, 1.0F);
+      share *= 1 - fresnel(cosine, Medium::kIndex);
+    }
     ray.origin = met->behind;
   }
   return Vector3f::Zero();
@@ -187,8 +190,7 @@ void LightPaths::pass_through(const Ray& ray, const SurfacePoint& entry, const F
   Ray inside = ray;
   inside.origin = entry.behind;
   inside.direction = frame.to_world(*direction).normalized();
-  const Medium medium(entry.color, scatterings_[std::size_t(entry.skin)]);
-  const std::optional<Emergence> out = walk_through_body(skins_, medium, entry.skin, inside, sampler);
+  const std::optional<Emergence> out = walk_through_body(skins_, media_, entry, inside, sampler);
   if (!out) return;
   const Vector3f share = (coat.let_in(to_eye.z()) * out->share).cwiseQuotient(divisor(entry.color));
   Ray& onward = result.onward.ray;

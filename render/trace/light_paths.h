@@ -7,6 +7,7 @@
 #include "render/stage/stage_space.h"
 #include "render/trace/body_region.h"
 #include "render/trace/finish.h"
+#include "render/trace/interior.h"
 #include "render/trace/sampler.h"
 #include "render/trace/stage_light.h"
 #include "render/trace/traced_skins.h"
@@ -95,9 +96,8 @@ class LightPaths {
   StageSpace space_;
   StageLight light_;
   TracedSkins skins_;
-  std::vector<Look> looks_;         // by skin
-  std::vector<float> scatterings_;  // by skin: one over the mean free path, in stage space; 0: no light enters
-  bool is_translucent_ = false;     // any of them
+  Media media_;
+  std::vector<Look> looks_;  // by skin
   Surfaces surfaces_;
   Surfaces blurred_;  // as they are seen by way of a matt surface
   Finish floor_finish_ = Finish::matt();

@@ -97,6 +97,50 @@ TEST(LightPaths, TranslucentBodiesAreOfTheirColourWhereTheyAreThick) {
   EXPECT_GT(thin.y(), opaque.y() + 0.1F);
 }
 
+/// A ball of radius 0.6 inside one of radius 1, both translucent.
+struct CherryInJelly {
+  StillLife scene;
+
+  explicit CherryInJelly(const Vector3f& cherry, bool is_first = false) {
+    scene.has_ground = false;
+    if (is_first) scene.add(make_sphere_skin(Vec3::Zero(), 0.6), cherry);
+    scene.add(make_sphere_skin(Vec3::Zero(), 1), kCream);
+    if (!is_first) scene.add(make_sphere_skin(Vec3::Zero(), 0.6), cherry);
+  }
+  /// Straight on the middle, under the studio's light.
+  [[nodiscard]] Vector3f light() const {
+    const std::vector<SkinShape> shapes = scene.shapes();
+    Stage stage = scene.stage();
+    stage.looks = {Look::kGelatin, Look::kGelatin};
+    stage.mean_free_paths = {0.5, 0.5};
+    LightPaths paths(stage);
+    paths.update({&shapes});
+    return mean_light(paths, {{0, 0, 3}, {0, 0, -1}}, 2048);
+  }
+};
+
+TEST(LightPaths, ABodyInsideAnotherOfItsKindIsNotSeen) {
+  StillLife alone;
+  alone.has_ground = false;
+  alone.add(make_sphere_skin(Vec3::Zero(), 1), kCream);
+  const std::vector<SkinShape> shapes = alone.shapes();
+  Stage stage = alone.stage();
+  stage.looks = {Look::kGelatin};
+  stage.mean_free_paths = {0.5};
+  LightPaths paths(stage);
+  paths.update({&shapes});
+  const Vector3f expected = mean_light(paths, {{0, 0, 3}, {0, 0, -1}}, 2048);
+  EXPECT_LT((CherryInJelly(kCream).light() - expected).cwiseAbs().maxCoeff(), 0.03F * expected.maxCoeff());
+}
+
+TEST(LightPaths, ASmallBodyInsideALargeOneIsSeenInAnyOrder) {
+  const Vector3f plain = CherryInJelly(kCream).light();
+  const Vector3f last = CherryInJelly(kRed).light();
+  const Vector3f first = CherryInJelly(kRed, true).light();
+  EXPECT_LT(last.z() / last.x(), 0.8F * plain.z() / plain.x());
+  EXPECT_LT((first - last).cwiseAbs().maxCoeff(), 0.03F * last.maxCoeff());
+}
+
 TEST(LightPaths, AnOpenSkinLetsNoLightIn) {
   Ball ball(kWhitePaint);
   ball.scene.skins[0].triangles.conservativeResize(ball.scene.skins[0].triangles.rows() - 20, 3);

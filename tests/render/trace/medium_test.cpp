@@ -40,17 +40,21 @@ TEST(Medium, BeersLawThroughACube) {
   StillLife scene;
   scene.add(make_box_skin({-1, -1, -1}, {1, 1, 1}), kCream);
   const std::vector<SkinShape> shapes = scene.shapes();
-  const StageSpace space(scene.stage().bounds);
-  TracedSkins skins(scene.stage(), space);
+  Stage stage = scene.stage();
+  stage.mean_free_paths = {2};
+  const StageSpace space(stage.bounds);
+  TracedSkins skins(stage, space);
   skins.update({&shapes});
+  const Media media(stage, space);
   const auto side = float(2 * space.scale);
-  const Medium medium({0.8F, 0.4F, 0.1F}, 1 / side);
+  const SurfacePoint entry{.color = {0.8F, 0.4F, 0.1F}};
+  const Medium medium = media.behind(entry);
   Vector3f straight = Vector3f::Zero();
   constexpr int kSamples = 4096;
   for (int i = 0; i < kSamples; ++i) {
     Sampler sampler(5, std::uint32_t(i));
     const Ray inside{{0.1F, -0.4999F * side, 0.05F}, Vector3f::UnitY()};
-    const std::optional<Emergence> out = walk_through_body(skins, medium, 0, inside, sampler);
+    const std::optional<Emergence> out = walk_through_body(skins, media, entry, inside, sampler);
     if (!out || out->is_scattered || out->point.position.y() < 0) continue;
     straight += out->share / kSamples;
     EXPECT_NEAR(out->point.position.x(), 0.1F, 1e-4);
