@@ -185,7 +185,7 @@ void fields(auto& visit, Is<CameraKeyframe> auto& keyframe) {
 void fields(auto& visit, Is<SceneRender> auto& render) {
   visit.table("render");
   visit({"resolution", "width and height of the pictures in pixels", Dimension::kNone, {16, 8192}}, render.resolution);
-  visit({"quality", "preview (fast), default, high or final (slow, experimental)"}, render.quality);
+  visit({"quality", "preview (fast), default, high or final (paths of light; slow)"}, render.quality);
   visit({"samples",
          "per pixel: 1, 4 or 16, in final quality 1 to 1024; default: by the quality",
          Dimension::kNone,

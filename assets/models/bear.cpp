@@ -63,7 +63,23 @@ Shape smile() {
               lip, 0.1);
 }
 
+Model unpainted() {
+  Model bear;
+  bear.shape = join(join(trunk(), head(), 1.6), join(arms(), legs(), 0.5), 1.0);
+  bear.shape = meet(bear.shape, above(0), 0.8);
+  bear.center = Vec3(0, 9.5, 1);
+  bear.radius = 16;
+  bear.edge = 0.8;
+  return bear;
+}
+
 }  // namespace
+
+Model make_gummy() {
+  Model gummy = unpainted();
+  gummy.name = "gummy";
+  return gummy;
+}
 
 Model make_bear() {
   const Color fur = color_from_hex(0xD9862B);
@@ -72,13 +88,8 @@ Model make_bear() {
   const Color rose = color_from_hex(0xE9705A);
   const Color white = color_from_hex(0xFFFFFF);
   const Shape belly = ellipsoid(Vec3(0, 5.3, 5.4), Vec3(3.5, 3.9, 3.0));
-  Model bear;
+  Model bear = unpainted();
   bear.name = "bear";
-  bear.shape = join(join(trunk(), head(), 1.6), join(arms(), legs(), 0.5), 1.0);
-  bear.shape = meet(bear.shape, above(0), 0.8);
-  bear.center = Vec3(0, 9.5, 1);
-  bear.radius = 16;
-  bear.edge = 0.8;
   bear.base = [fur](const Vec3&) -> const Color& { return fur; };
   bear.layers = {
       {carve(belly, grown(legs(), 0.3), 0), cream, 0.25},

@@ -33,8 +33,8 @@ void make_models(int count, char** arguments) {
     for (int i = 2; i < count; ++i) found = found || name == arguments[i];
     return found;
   };
-  for (const auto& make : {make_bear, make_octopus, make_torus, make_pudding, make_knot, make_tentacle, make_gripper,
-                           make_wheel, make_cushion}) {
+  for (const auto& make : {make_bear, make_gummy, make_octopus, make_torus, make_pudding, make_jelly, make_knot,
+                           make_tentacle, make_gripper, make_wheel, make_cushion}) {
     const Model model = make();
     if (wanted(model.name)) write_checked(mesh_model(model), model.name, folder);
   }

@@ -36,9 +36,11 @@ struct Model {
 };
 
 [[nodiscard]] Model make_bear();
+[[nodiscard]] Model make_gummy();  // the bear without paint
 [[nodiscard]] Model make_octopus();
 [[nodiscard]] Model make_torus();
 [[nodiscard]] Model make_pudding();
+[[nodiscard]] Model make_jelly();
 [[nodiscard]] Model make_knot();
 [[nodiscard]] Model make_tentacle();
 [[nodiscard]] Model make_gripper();

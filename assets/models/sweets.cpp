@@ -51,6 +51,11 @@ Shape pudding_side() {
   };
 }
 
+Shape pudding_body() {
+  const Shape slab = [](const Vec3& p) { return p.y() - kHeight; };
+  return meet(meet(pudding_side(), slab, 1.8), above(0), 0.9);
+}
+
 /// Sauce over the top that drips down in tongues.
 Shape sauce() {
   return [](const Vec3& p) {
@@ -81,13 +86,22 @@ Model make_torus() {
   return torus;
 }
 
+Model make_jelly() {
+  Model jelly;
+  jelly.name = "jelly";
+  jelly.shape = pudding_body();
+  jelly.center = Vec3(0, kHeight / 2, 0);
+  jelly.radius = 9;
+  jelly.edge = 0.5;
+  return jelly;
+}
+
 Model make_pudding() {
   const Color custard = color_from_hex(0xF6CF65);
   Model pudding;
   pudding.name = "pudding";
-  const Shape slab = [](const Vec3& p) { return p.y() - kHeight; };
   const Shape cherry = ball(Vec3(0, kHeight + 0.75, 0), 1.25);
-  pudding.shape = join(meet(meet(pudding_side(), slab, 1.8), above(0), 0.9), cherry, 0.25);
+  pudding.shape = join(pudding_body(), cherry, 0.25);
   pudding.center = Vec3(0, kHeight / 2, 0);
   pudding.radius = 9;
   pudding.edge = 0.42;
