@@ -13,10 +13,11 @@ namespace {
 using Eigen::Vector3f;
 
 constexpr std::array kSteps = {1, 2, 4, 8, 16, 1};  // pixels; the last one takes away the pattern of those before
-constexpr float kBend = 20;       // how much less two pixels count per 1 - cosine between their normals
-constexpr float kOffPlane = 6;    // and per sine of the angle between the surface and the way from one to the other
-constexpr float kPaint = 8;       // and per difference of colours
-constexpr float kDeviations = 4;  // of the light's noise that still count as alike
+constexpr float kBend = 20;           // how much less two pixels count per 1 - cosine between their normals
+constexpr float kOffPlane = 6;        // and per sine of the angle between the surface and the way from one to the other
+constexpr float kPaint = 8;           // and per difference of colours
+constexpr float kSkinDeviations = 4;  // of the light's noise that still count as alike
+constexpr float kFloorDeviations = 2;  // less, since nothing else tells where a body stands on it
 constexpr float kSameLight = 1e-3F;
 
 /// What is alike in neighbours, by pixel; nothing on the floor, which is flat.
@@ -38,8 +39,12 @@ class Smoother {
  public:
   using Layers = std::array<LightLayer*, kCount>;
 
-  Smoother(const TracedLight& traced, const Layers& layers, Guides guides)
-      : width_(traced.width), height_(traced.height), layers_(layers), guides_(std::move(guides)) {}
+  Smoother(const TracedLight& traced, const Layers& layers, float deviations, Guides guides)
+      : width_(traced.width),
+        height_(traced.height),
+        layers_(layers),
+        deviations_(deviations),
+        guides_(std::move(guides)) {}
 
   void smooth() const {
     for (LightLayer* const layer : layers_) spread_variance(*layer);
@@ -109,7 +114,7 @@ class Smoother {
     for (std::size_t i = 0; i < kCount; ++i) {
       const LightLayer& layer = *layers_[i];
       means[i].brightness = layer.light[here].sum() / 3;
-      means[i].noise = kDeviations * std::sqrt(layer.variance[here]) + kSameLight;
+      means[i].noise = deviations_ * std::sqrt(layer.variance[here]) + kSameLight;
       is_certain = is_certain && layer.variance[here] == 0;
       next[i].light[here] = layer.light[here];
       next[i].variance[here] = layer.variance[here];
@@ -138,6 +143,7 @@ class Smoother {
   int width_;
   int height_;
   Layers layers_;
+  float deviations_;
   Guides guides_;
 };
 
@@ -150,8 +156,8 @@ void smooth(TracedLight& traced) {
     skins.normal[i].normalize();
     skins.color[i] /= traced.base.share[i];
   }
-  Smoother<2>(traced, {&traced.base, &traced.specular}, std::move(skins)).smooth();
-  Smoother<1>(traced, {&traced.floor}, {}).smooth();
+  Smoother<2>(traced, {&traced.base, &traced.specular}, kSkinDeviations, std::move(skins)).smooth();
+  Smoother<1>(traced, {&traced.floor}, kFloorDeviations, {}).smooth();
 }
 
 std::vector<Eigen::Vector4f> composed(const TracedLight& traced, bool is_transparent) {
