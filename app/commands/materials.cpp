@@ -125,6 +125,9 @@ std::string strength_sources(const LibraryMaterial& material) {
   return lines;
 }
 
+/// "#rrggbb"
+std::string hex(const Color& color) { return fmt::format("#{:02x}{:02x}{:02x}", color.red, color.green, color.blue); }
+
 std::string sources(const LibraryMaterial& material) {
   const std::string ratio = material.poisson_uncertainty > 0 ? fmt::format("±{}", material.poisson_uncertainty) : "";
   return (material.about.empty() ? "" : fmt::format("    {}\n", material.about)) +
@@ -135,7 +138,8 @@ std::string sources(const LibraryMaterial& material) {
                      material.density_source) +
          source_line("damping", fmt::format("{}", material.damping), percent(material.damping_uncertainty),
                      material.damping_source) +
-         strength_sources(material);
+         strength_sources(material) +
+         (material.color ? source_line("color", hex(*material.color), "", material.color_source) : "");
 }
 
 Json json_of(const LibraryMaterial& material) {
@@ -160,7 +164,8 @@ Json json_of(const LibraryMaterial& material) {
       {"elongation", if_known(material.elongation, material.elongation_uncertainty, material.elongation_source)},
       {"look", name_of(material.look)},
       {"mean_free_path",
-       if_known(material.mean_free_path, material.mean_free_path_uncertainty, material.mean_free_path_source)}};
+       if_known(material.mean_free_path, material.mean_free_path_uncertainty, material.mean_free_path_source)},
+      {"color", material.color ? Json{{"value", hex(*material.color)}, {"source", material.color_source}} : Json()}};
 }
 
 void list_materials(const MaterialsOptions& options) {

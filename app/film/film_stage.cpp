@@ -164,8 +164,9 @@ void FilmStage::add_skin(std::size_t row) {
   const SoftBody& body = simulation_.world.bodies[row];
   const SceneBody& scene_body = scene_.bodies[body.origin.body];
   const DrawnSkin drawn = drawn_skin(body);
+  const Color color = color_of(scene_body, *scene_.library).value_or(body.color);
   items_.push_back(
-      {drawn.skin, srgb(body.color), colors_.is_mapped() ? Look::kChart : look_of(scene_body, *scene_.library), false,
+      {drawn.skin, srgb(color), colors_.is_mapped() ? Look::kChart : look_of(scene_body, *scene_.library), false,
        id_of(row),
        [this, row, &body, drawn, interpolation = scene_body.skin](const Moment& now) {
          SkinShape shape = shape_of(body.grid, *drawn.skin, *drawn.embedding, now.nodes[row], interpolation);

@@ -17,6 +17,12 @@ Look look_of(const SceneBody& body, const MaterialLibrary& library) {
   return known == nullptr ? Look::kPlastic : known->look;
 }
 
+std::optional<Color> color_of(const SceneBody& body, const MaterialLibrary& library) {
+  if (body.color) return body.color;
+  const LibraryMaterial* known = material_of(body, library);
+  return known == nullptr ? std::nullopt : known->color;
+}
+
 double mean_free_path_of(const SceneBody& body, const MaterialLibrary& library) {
   constexpr double kOfGelatin = 0.025;  // m
   const LibraryMaterial* known = material_of(body, library);
@@ -30,7 +36,9 @@ Film with_defaults(Film film) {
     if (!body.size && !body.scale && !body.mesh.empty()) body.size = kDefaultSize;
     if (!body.bricks && !body.brick_size) body.bricks = kDefaultBricks;
     if (body.material.name == kAutoMaterial) body.material.name = kDefaultMaterial;
-    if (built_in_materials()->find_if_known(body.material.name) == nullptr) body.look = look_of(body, *film.library);
+    if (built_in_materials()->find_if_known(body.material.name) != nullptr) continue;
+    body.look = look_of(body, *film.library);
+    body.color = color_of(body, *film.library);
   }
   return film;
 }

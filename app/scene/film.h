@@ -58,10 +58,13 @@ struct Film : Scene {
 /// The look of a body: its own, or that of its material.
 [[nodiscard]] Look look_of(const SceneBody& body, const MaterialLibrary& library);
 
+/// The colour of a body whose mesh file gives none: its own, or that of its material; none where neither has one.
+[[nodiscard]] std::optional<Color> color_of(const SceneBody& body, const MaterialLibrary& library);
+
 /// m, of light inside the body; 0: no light enters. That of its material, or of gelatin if the body is to look like it.
 [[nodiscard]] double mean_free_path_of(const SceneBody& body, const MaterialLibrary& library);
 
 /// The film with the size, the bricks and the material of its bodies filled in where it leaves them open, and with the
-/// looks of materials that are not built in.
+/// looks and colours of materials that are not built in.
 [[nodiscard]] Film with_defaults(Film film);
 }  // namespace sprung

@@ -45,6 +45,8 @@ struct LibraryMaterial {
   double mean_free_path = 0;              // m; of light inside before it is scattered; 0: no light enters
   double mean_free_path_uncertainty = 0;  // relative
   std::string mean_free_path_source;
+  std::optional<Color> color;  // of bodies that name none: what a metal reflects
+  std::string color_source;
 
   /// The properties that the simulation needs.
   [[nodiscard]] Material material() const;

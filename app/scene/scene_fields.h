@@ -570,6 +570,8 @@ void fields(auto& visit, Is<LibraryMaterial> auto& material) {
   visit({"mean_free_path_uncertainty", "relative uncertainty", Dimension::kRatio, kNotNegative},
         material.mean_free_path_uncertainty);
   visit({"mean_free_path_source", "source of the value"}, material.mean_free_path_source);
+  visit({"color", "\"#rrggbb\" of bodies that name none and whose mesh file gives none"}, material.color);
+  visit({"color_source", "source of the value"}, material.color_source);
 }
 
 void fields(auto& visit, Is<MaterialFile> auto& file) {

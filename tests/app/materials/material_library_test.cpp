@@ -226,6 +226,10 @@ TEST(MaterialsCommand, ListsFiltersAndTakesAFile) {
   EXPECT_EQ(number_at(run_program(folder, "materials steel --json").out, {"young", "value"}), 210e9);
   EXPECT_EQ(number_at(run_program(folder, "materials steel --json").out, {"yield_strength", "value"}), 235e6);
   EXPECT_NE(run_program(folder, "materials gelatin --json").out.find("\"ultimate_strength\": null"), std::string::npos);
+  EXPECT_NE(run_program(folder, "materials gelatin --json").out.find("\"color\": null"), std::string::npos);
+  EXPECT_NE(run_program(folder, "materials copper --json").out.find("\"value\": \"#fad1c2\""), std::string::npos);
+  EXPECT_NE(run_program(folder, "materials copper --sources").out.find("color       #fad1c2: reflectance"),
+            std::string::npos);
   EXPECT_NE(run_program(folder, "materials petg --sources").out.find("ultimate    48 MPa ±20%: "), std::string::npos);
   EXPECT_NE(run_program(folder, "materials petg").out.find(" 48 MPa    48 MPa         35%  plastic"),
             std::string::npos);
