@@ -17,7 +17,7 @@ constexpr float kBend = 20;           // how much less two pixels count per 1 - 
 constexpr float kOffPlane = 6;        // and per sine of the angle between the surface and the way from one to the other
 constexpr float kPaint = 8;           // and per difference of colours
 constexpr float kSkinDeviations = 4;  // of the light's noise that still count as alike
-constexpr float kFloorDeviations = 2;  // less, since nothing else tells where a body stands on it
+constexpr float kFloorDeviations = 3;  // less, since nothing else tells where a body stands on it
 constexpr float kSameLight = 1e-3F;
 
 /// What is alike in neighbours, by pixel; nothing on the floor, which is flat.
