@@ -7,6 +7,7 @@
 #include "app/commands/commands.h"
 #include "app/commands/options.h"
 #include "app/scene/scene_values.h"
+#include "core/color_text.h"
 #include "core/error.h"
 
 namespace sprung {
@@ -125,9 +126,6 @@ std::string strength_sources(const LibraryMaterial& material) {
   return lines;
 }
 
-/// "#rrggbb"
-std::string hex(const Color& color) { return fmt::format("#{:02x}{:02x}{:02x}", color.red, color.green, color.blue); }
-
 std::string sources(const LibraryMaterial& material) {
   const std::string ratio = material.poisson_uncertainty > 0 ? fmt::format("±{}", material.poisson_uncertainty) : "";
   return (material.about.empty() ? "" : fmt::format("    {}\n", material.about)) +
@@ -139,7 +137,7 @@ std::string sources(const LibraryMaterial& material) {
          source_line("damping", fmt::format("{}", material.damping), percent(material.damping_uncertainty),
                      material.damping_source) +
          strength_sources(material) +
-         (material.color ? source_line("color", hex(*material.color), "", material.color_source) : "");
+         (material.color ? source_line("color", hex_text(*material.color), "", material.color_source) : "");
 }
 
 Json json_of(const LibraryMaterial& material) {
@@ -165,7 +163,8 @@ Json json_of(const LibraryMaterial& material) {
       {"look", name_of(material.look)},
       {"mean_free_path",
        if_known(material.mean_free_path, material.mean_free_path_uncertainty, material.mean_free_path_source)},
-      {"color", material.color ? Json{{"value", hex(*material.color)}, {"source", material.color_source}} : Json()}};
+      {"color",
+       material.color ? Json{{"value", hex_text(*material.color)}, {"source", material.color_source}} : Json()}};
 }
 
 void list_materials(const MaterialsOptions& options) {

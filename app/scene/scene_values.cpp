@@ -8,6 +8,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/color_text.h"
 #include "core/error.h"
 #include "core/text.h"
 
@@ -165,8 +166,6 @@ std::string toml_text(const Axes& value) {
   return toml_text(std::string_view(names));
 }
 
-std::string toml_text(const Color& value) {
-  return fmt::format("\"#{:02x}{:02x}{:02x}\"", value.red, value.green, value.blue);
-}
+std::string toml_text(const Color& value) { return toml_text(hex_text(value)); }
 
 }  // namespace sprung

@@ -8,6 +8,7 @@
 #include <memory>
 #include <numeric>
 
+#include "core/color_text.h"
 #include "core/error.h"
 #include "core/mesh/io/read_mesh.h"
 #include "core/mesh/query/winding_tree.h"
@@ -199,9 +200,8 @@ std::vector<bool> Selector::vertices_of(const Color& paint) const {
     chosen[row] = (levels - wanted).cwiseAbs().maxCoeff() <= kSamePaint;
   }
   if (std::find(chosen.begin(), chosen.end(), true) != chosen.end()) return chosen;
-  throw Error(ErrorKind::kBadInput,
-              fmt::format("{}: no vertex has the colour #{:02x}{:02x}{:02x}{}", body_.name, paint.red, paint.green,
-                          paint.blue, colors.rows() == 0 ? "; the mesh has no vertex colours at all" : ""));
+  throw Error(ErrorKind::kBadInput, fmt::format("{}: no vertex has the colour {}{}", body_.name, hex_text(paint),
+                                                colors.rows() == 0 ? "; the mesh has no vertex colours at all" : ""));
 }
 
 int Selector::nearest_vertex(const SurfacePlace& place) const {

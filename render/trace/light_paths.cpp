@@ -116,7 +116,7 @@ Vector3f LightPaths::base_color(const Meeting& meeting) const {
 /// The share of light along a ray that nothing hides; what goes through translucent bodies goes straight.
 Vector3f LightPaths::reaching(Ray ray) const {
   constexpr int kMostSkins = 32;
-  if (!region_.is_met_by(ray) || !skins_.is_blocked(ray)) return Vector3f::Ones();
+  if (!is_blocked(ray)) return Vector3f::Ones();
   Vector3f share = Vector3f::Ones();
   Interior interior(media_);
   for (int i = 0; media_.any() && i < kMostSkins; ++i) {
@@ -280,7 +280,7 @@ bool LightPaths::sees_nothing(const Ray& from_eye) const {
 
 bool LightPaths::sees_skin(Ray from_eye) const {
   if (const std::optional<float> way = way_to_floor(from_eye)) from_eye.far = *way;
-  return region_.is_met_by(from_eye) && skins_.is_blocked(from_eye);
+  return is_blocked(from_eye);
 }
 
 PathSample LightPaths::sample(const Ray& from_eye, bool sees_ghosts, Sampler& sampler) const {

@@ -79,6 +79,7 @@ class LightPaths {
   };
 
   [[nodiscard]] std::optional<float> way_to_floor(const Ray& ray) const;
+  [[nodiscard]] bool is_blocked(const Ray& ray) const { return region_.is_met_by(ray) && skins_.is_blocked(ray); }
   [[nodiscard]] Meeting meet(Ray ray, bool sees_ghosts = false) const;
   [[nodiscard]] const Finish& finish(const Meeting& meeting, bool is_matt) const;
   [[nodiscard]] Scattering scatter(const Way& way, const Meeting& meeting, Sampler& sampler) const;
