@@ -99,27 +99,32 @@ float Finish::distribution(float cosine) const {
   return alpha_ * alpha_ / (kPi * bend * bend);
 }
 
-Reflected Finish::evaluate(const Vector3f& to_eye, const Vector3f& to_light, const Vector3f& color) const {
-  Reflected reflected;
+Response Finish::respond(const Vector3f& to_eye, const Vector3f& to_light, const Vector3f& color) const {
+  Response response;
   const float nl = to_light.z();
-  if (nl <= 0 || to_eye.z() <= 0) return reflected;
+  if (nl <= 0 || to_eye.z() <= 0) return response;
   const float nv = std::max(to_eye.z(), kLeast);
   if (has_base_) {
     const float left = is_matt() ? 1 : left_to_base(nv) * left_to_base(nl) / mean_left_to_base_;
-    reflected.base = Vector3f::Constant(left * nl / kPi);
+    response.reflected.base = Vector3f::Constant(left * nl / kPi);
+    response.density = (1 - specular_choice_) * nl / kPi;
   }
-  if (is_matt()) return reflected;
+  if (is_matt()) return response;
   const Vector3f half = (to_eye + to_light).normalized();
   const float a2 = alpha_ * alpha_;
-  const float visible = 0.5F / (nl * std::sqrt(nv * nv * (1 - a2) + a2) + nv * std::sqrt(nl * nl * (1 - a2) + a2));
+  const float eye_smith = std::sqrt(a2 + (1 - a2) * nv * nv);
+  const float light_smith = std::sqrt(a2 + (1 - a2) * nl * nl);
+  const float facets = distribution(half.z());
   const Vector3f reflectance = is_metal_ ? color : Vector3f::Constant(kReflectance).eval();
   const Vector3f fresnel =
       reflectance + (Vector3f::Ones() - reflectance) * power5(1 - std::max(to_eye.dot(half), 0.0F));
-  reflected.specular = distribution(half.z()) * visible * nl * fresnel;
-  if (!is_metal_) return reflected;
+  response.reflected.specular = 0.5F * facets * nl / (nl * eye_smith + nv * light_smith) * fresnel;
+  // The distribution of visible normals over four times the cosine to them.
+  response.density += specular_choice_ * facets / (2 * (nv + eye_smith));
+  if (!is_metal_) return response;
   const Share once = share(nv);
-  reflected.specular += (1 / (once.scale + once.bias) - 1) * color.cwiseProduct(reflected.specular);
-  return reflected;
+  response.reflected.specular += (1 / (once.scale + once.bias) - 1) * color.cwiseProduct(response.reflected.specular);
+  return response;
 }
 
 /// A normal of the facets that the eye sees: E. Heitz, "Sampling the GGX Distribution of Visible Normals" (2018).
@@ -142,17 +147,6 @@ Vector3f Finish::sample(const Vector3f& to_eye, const Eigen::Vector2f& random, f
   if (choice >= specular_choice_) return on_cosine_hemisphere(random);
   const Vector3f half = half_vector(to_eye, random);
   return 2 * to_eye.dot(half) * half - to_eye;
-}
-
-float Finish::density(const Vector3f& to_eye, const Vector3f& to_light) const {
-  if (to_light.z() <= 0) return 0;
-  const float of_base = has_base_ ? (1 - specular_choice_) * to_light.z() / kPi : 0;
-  if (is_matt()) return of_base;
-  const float nv = std::max(to_eye.z(), kLeast);
-  const float a2 = alpha_ * alpha_;
-  const Vector3f half = (to_eye + to_light).normalized();
-  // The distribution of visible normals over four times the cosine to them.
-  return of_base + specular_choice_ * distribution(half.z()) / (2 * (nv + std::sqrt(a2 + (1 - a2) * nv * nv)));
 }
 
 }  // namespace sprung

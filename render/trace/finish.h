@@ -13,6 +13,12 @@ struct Reflected {
   Eigen::Vector3f specular = Eigen::Vector3f::Zero();
 };
 
+/// What a surface does with light from one direction.
+struct Response {
+  Reflected reflected{};
+  float density = 0;  // of Finish::sample() over the solid angle
+};
+
 /// How surfaces of a look scatter light: a rough specular layer (GGX with Smith's shadowing, Schlick's Fresnel term)
 /// over a Lambert base, which gets what the layer leaves to it (C. Kelemen and L. Szirmay-Kalos, "A Microfacet Based
 /// Coupled Specular-Matte BRDF Model with Importance Sampling", 2001). A metal has no base; light that its facets
@@ -37,15 +43,14 @@ class Finish {
   /// The specular layer alone, for a body that light enters: what it leaves comes out elsewhere.
   [[nodiscard]] Finish without_base() const;
 
-  [[nodiscard]] Reflected evaluate(const Eigen::Vector3f& to_eye, const Eigen::Vector3f& to_light,
-                                   const Eigen::Vector3f& color) const;
+  /// `color`: of a metal.
+  [[nodiscard]] Response respond(const Eigen::Vector3f& to_eye, const Eigen::Vector3f& to_light,
+                                 const Eigen::Vector3f& color) const;
   /// A direction to trace on; it may lie below the surface, where nothing is reflected to.
   [[nodiscard]] Eigen::Vector3f sample(const Eigen::Vector3f& to_eye, const Eigen::Vector2f& random,
                                        float choice) const;
   /// Whether that choice is the base's.
   [[nodiscard]] bool picks_base(float choice) const { return choice >= specular_choice_; }
-  /// Density of sample() over the solid angle.
-  [[nodiscard]] float density(const Eigen::Vector3f& to_eye, const Eigen::Vector3f& to_light) const;
   /// Whether light that meets a surface without a base enters; otherwise sample() says where it goes.
   [[nodiscard]] bool is_let_in(float choice) const { return !has_base_ && choice >= specular_choice_; }
   /// The normal of a facet that light enters through, and the fraction of light that enters over the probability of

@@ -17,7 +17,7 @@ constexpr int kMostBounces = 64;
 /// are caustics, would be found too seldom: A. Kaplanyan and C. Dachsbacher, "Path Space Regularization for Holistic
 /// and Robust Light Transport" (2013).
 constexpr float kBlurred = 0.6F;
-constexpr int kSureBounces = 3;        // before a path may end by chance
+constexpr int kSureBounces = 1;        // before a path may end by chance
 constexpr float kLeastFacing = 1e-2F;  // cosine between a smooth normal and the way to the eye
 
 Reflected times(const Reflected& reflected, const Vector3f& light) {
@@ -154,8 +154,9 @@ LightPaths::Scattering LightPaths::scatter(const Way& way, const Meeting& meetin
   const Vector3f to_key = light_.towards_key(sampler.pair());
   const Vector3f local_key = frame.to_local(to_key);
   if (local_key.z() > 0) {
-    const float share = balance(light_.key_density(), surface.density(to_eye, local_key)) / light_.key_density();
-    result.unhidden = times(surface.evaluate(to_eye, local_key, point.color), share * light_.key_radiance());
+    const Response response = surface.respond(to_eye, local_key, point.color);
+    const float share = balance(light_.key_density(), response.density) / light_.key_density();
+    result.unhidden = times(response.reflected, share * light_.key_radiance());
     Ray to_light = onward;
     to_light.direction = to_key;
     result.from_key = times(result.unhidden, reaching(to_light));
@@ -168,11 +169,11 @@ LightPaths::Scattering LightPaths::scatter(const Way& way, const Meeting& meetin
     return result;
   }
   const Vector3f next = surface.sample(to_eye, random, choice);
-  result.onward.density = surface.density(to_eye, next);
-  if (result.onward.density <= 0) return result;
+  const Response response = surface.respond(to_eye, next, point.color);
+  if (response.density <= 0) return result;
+  result.onward.density = response.density;
   if (surface.picks_base(choice)) result.onward.is_matt = true;
-  const Reflected reflected = surface.evaluate(to_eye, next, point.color);
-  result.factor = times(reflected, Vector3f::Constant(1 / result.onward.density));
+  result.factor = times(response.reflected, Vector3f::Constant(1 / response.density));
   onward.direction = frame.to_world(next).normalized();
   // Above the smooth surface but below the triangle: mirrored, so that no light is lost.
   const float below = onward.direction.dot(point.face_normal);
@@ -227,11 +228,10 @@ Vector3f LightPaths::beyond(const Way& way) const {
   return light;
 }
 
-Vector3f LightPaths::arriving(Way way, Sampler& sampler) const {
+Vector3f LightPaths::arriving(Way way, Meeting meeting, Sampler& sampler) const {
   Vector3f light = Vector3f::Zero();
   Vector3f factor = Vector3f::Ones();
   for (int bounce = 0; bounce < kMostBounces; ++bounce) {
-    const Meeting meeting = meet(way.ray);
     if (meeting.seen == Seen::kBackground) return light + factor.cwiseProduct(beyond(way));
     const Vector3f color = base_color(meeting);
     if (meeting.seen == Seen::kFloor && region_.weight_on_floor(meeting.point.position) == 0) {
@@ -251,6 +251,7 @@ Vector3f LightPaths::arriving(Way way, Sampler& sampler) const {
     }
     if (!(factor.maxCoeff() > 0)) return light;
     way = scattering.onward;
+    meeting = meet(way.ray);
   }
   return light;
 }
@@ -258,7 +259,7 @@ Vector3f LightPaths::arriving(Way way, Sampler& sampler) const {
 Reflected LightPaths::reflected(const Scattering& scattering, Sampler& sampler) const {
   const Reflected& factor = scattering.factor;
   if (factor.base.isZero(0) && factor.specular.isZero(0)) return scattering.from_key;
-  return sum(scattering.from_key, times(factor, arriving(scattering.onward, sampler)));
+  return sum(scattering.from_key, times(factor, arriving(scattering.onward, meet(scattering.onward.ray), sampler)));
 }
 
 /// Over that without bodies. What the same rays would have found there is subtracted, so that a floor without bodies is
@@ -267,9 +268,13 @@ Vector3f LightPaths::floor_light(const Ray& ray, const Meeting& meeting, Sampler
   const float weight = region_.weight_on_floor(meeting.point.position);
   if (weight == 0) return Vector3f::Ones();
   const Scattering scattering = scatter({.ray = ray}, meeting, sampler);
-  const Reflected found = reflected(scattering, sampler);
-  const Reflected open = sum(scattering.unhidden, times(scattering.factor, beyond(scattering.onward)));
-  return Vector3f::Ones() + weight * (found.base - open.base).cwiseQuotient(light_.on_open_floor());
+  Vector3f change = scattering.from_key.base - scattering.unhidden.base;
+  const Way& onward = scattering.onward;
+  const Meeting next = meet(onward.ray);
+  if (next.seen != Seen::kBackground) {
+    change += scattering.factor.base.cwiseProduct(arriving(onward, next, sampler) - beyond(onward));
+  }
+  return Vector3f::Ones() + weight * change.cwiseQuotient(light_.on_open_floor());
 }
 
 bool LightPaths::sees_nothing(const Ray& from_eye) const {

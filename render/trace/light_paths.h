@@ -51,7 +51,7 @@ class LightPaths {
   [[nodiscard]] PathSample sample(const Ray& from_eye, bool sees_ghosts, Sampler& sampler) const;
   /// The light that arrives along a ray.
   [[nodiscard]] Eigen::Vector3f arriving(const Ray& ray, Sampler& sampler) const {
-    return arriving({.ray = ray}, sampler);
+    return arriving({.ray = ray}, meet(ray), sampler);
   }
 
  private:
@@ -90,7 +90,7 @@ class LightPaths {
   [[nodiscard]] Eigen::Vector3f base_color(const Meeting& meeting) const;
   [[nodiscard]] Eigen::Vector3f reaching(Ray ray) const;
   [[nodiscard]] Eigen::Vector3f beyond(const Way& way) const;
-  [[nodiscard]] Eigen::Vector3f arriving(Way way, Sampler& sampler) const;
+  [[nodiscard]] Eigen::Vector3f arriving(Way way, Meeting meeting, Sampler& sampler) const;
   [[nodiscard]] Reflected reflected(const Scattering& scattering, Sampler& sampler) const;
   [[nodiscard]] Eigen::Vector3f floor_light(const Ray& ray, const Meeting& meeting, Sampler& sampler) const;
 

@@ -15,7 +15,7 @@ using Eigen::Vector3f;
 
 constexpr int kBlock = 4;         // pixels: a square of them is sampled further as one
 constexpr int kTile = 4;          // blocks
-constexpr int kFirstShare = 4;    // so many times fewer samples say whether more are needed
+constexpr int kFirstShare = 6;    // so many times fewer samples say whether more are needed
 constexpr float kLittle = 0.12F;  // noise of a pixel of the floor, over its light without bodies
 
 /// Mean and variance of what some samples of a pixel saw.
@@ -161,7 +161,7 @@ class PixelSampler {
   /// Up to so many in all.
   void sample_pixel(int x, int y, int samples, PixelSum& sum) const {
     while (sum.samples() < samples) {
-      Sampler sampler{std::uint32_t(pixel(x, y)), std::uint32_t(sum.samples())};
+      Sampler sampler(x, y, sum.samples(), samples_);
       const Eigen::Vector2f inside = sampler.pair();
       const Eigen::Vector2f lens = rays_.has_lens() ? sampler.pair() : Eigen::Vector2f::Zero();
       Ray ray = through(x, y, inside, lens);

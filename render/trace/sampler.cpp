@@ -49,31 +49,44 @@ struct Point {
   std::uint32_t x, y;  // over 2^32
 };
 
-/// Sobol sequences, each in another order and scrambled in another way.
+/// Sobol sequences, each in another order and scrambled in another way: all their first points, all their second
+/// ones...
 std::vector<Point> make_sequences() {
-  std::vector<Point> points;
-  points.reserve(kSequences * kSamples);
+  std::vector<Point> points(kSequences * kSamples);
   for (std::uint32_t sequence = 0; sequence < kSequences; ++sequence) {
     const std::uint32_t seed = hashed(sequence + 1);
     for (std::uint32_t i = 0; i < kSamples; ++i) {
       const std::uint32_t index = reversed_bits(scrambled(reversed_bits(i), seed)) % kSamples;
-      points.push_back({reversed_bits(scrambled(index, hashed(seed + 1))),
-                        reversed_bits(scrambled(second_dimension(index), hashed(seed + 2)))});
+      points[i * kSequences + sequence] = {reversed_bits(scrambled(index, hashed(seed + 1))),
+                                           reversed_bits(scrambled(second_dimension(index), hashed(seed + 2)))};
     }
   }
   return points;
+}
+
+/// With a zero before each of the 16 bits.
+std::uint64_t spaced_bits(int value) {
+  auto x = std::uint32_t(value) & 0xffffU;
+  x = (x | x << 8U) & 0x00ff00ffU;
+  x = (x | x << 4U) & 0x0f0f0f0fU;
+  x = (x | x << 2U) & 0x33333333U;
+  return (x | x << 1U) & 0x55555555U;
 }
 
 float fraction(std::uint32_t bits) { return float(bits >> 8U) * 0x1p-24F; }
 
 }  // namespace
 
-Sampler::Sampler(std::uint32_t pixel, std::uint32_t sample) : seed_(hashed(pixel + 1)), sample_(sample % kSamples) {}
+Sampler::Sampler(std::uint64_t number)
+    : seed_(hashed(std::uint32_t(number / kSamples) + 1)), sample_(std::uint32_t(number % kSamples)) {}
+
+Sampler::Sampler(int x, int y, int sample, int samples)
+    : Sampler((spaced_bits(x) | spaced_bits(y) << 1U) * std::uint64_t(samples) + std::uint64_t(sample)) {}
 
 Eigen::Vector2f Sampler::pair() {
   static const std::vector<Point> kPoints = make_sequences();
   ++drawn_;
-  const Point& point = kPoints[(seed_ + drawn_) % kSequences * kSamples + sample_];
+  const Point& point = kPoints[sample_ * kSequences + (seed_ + drawn_) % kSequences];
   const std::uint32_t turn = hashed(seed_ + 0x9e3779b9U * drawn_);
   return {fraction(point.x ^ turn), fraction(point.y ^ (turn * 0x2c1b3c6dU))};
 }

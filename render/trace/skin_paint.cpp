@@ -53,8 +53,13 @@ const Pixels* TexturePictures::add(const SurfaceMaterial& material) {
 SkinPaint::SkinPaint(const Skin& skin, const Vector3f& default_color, ColorMap map, TexturePictures& pictures)
     : skin_(skin) {
   for (int i = 0; i < kMapSteps; ++i) map_.push_back(linear(map_color(map, double(i) / (kMapSteps - 1))));
-  for (const auto& row : skin.colors.rowwise()) {
-    roots_.emplace_back(linear(row.head<3>().transpose()).cwiseSqrt());
+  if (skin.colors.rows() > 0) {
+    for (const auto& corners : skin.triangles.rowwise()) {
+      Eigen::Matrix3f& roots = roots_.emplace_back();
+      for (int k = 0; k < 3; ++k) {
+        roots.col(k) = linear(skin.colors.row(corners[k]).head<3>().transpose()).cwiseSqrt();
+      }
+    }
   }
   const Vector3f plain = roots_.empty() ? linear(default_color) : Vector3f::Ones().eval();
   for (const Part& part : skin.parts) {
@@ -79,8 +84,8 @@ Vector3f SkinPaint::mapped(float coordinate) const {
 }
 
 Vector3f SkinPaint::color(int triangle, const Vector3f& weights, const Eigen::VectorXf& map_coordinates) const {
-  const Eigen::Vector3i corners = skin_.triangles.row(triangle);
   if (map_coordinates.size() > 0) {
+    const Eigen::Vector3i corners = skin_.triangles.row(triangle);
     return mapped(weights.dot(Vector3f(map_coordinates[corners[0]], map_coordinates[corners[1]],  //
                                        map_coordinates[corners[2]])));
   }
@@ -89,11 +94,11 @@ Vector3f SkinPaint::color(int triangle, const Vector3f& weights, const Eigen::Ve
   const Paint& paint = *std::prev(after);
   Vector3f color = paint.color;
   if (!roots_.empty()) {
-    const Vector3f root =
-        weights[0] * roots_[corners[0]] + weights[1] * roots_[corners[1]] + weights[2] * roots_[corners[2]];
+    const Vector3f root = roots_[triangle] * weights;
     color = color.cwiseProduct(root.cwiseAbs2());
   }
   if (paint.texture == nullptr) return color;
+  const Eigen::Vector3i corners = skin_.triangles.row(triangle);
   const Eigen::Vector2f uv = weights[0] * skin_.uvs.row(corners[0]) + weights[1] * skin_.uvs.row(corners[1]) +
                              weights[2] * skin_.uvs.row(corners[2]);
   return color.cwiseProduct(looked_up(*paint.texture, uv));

@@ -43,7 +43,8 @@ class SkinPaint {
 
   const Skin& skin_;
   std::vector<Eigen::Vector3f> map_;    // linear, evenly over the colour map
-  std::vector<Eigen::Vector3f> roots_;  // of the vertices' colours: square root of linear, which is interpolated
+  std::vector<Eigen::Matrix3f> roots_;  // of the corners' colours (columns), by triangle: square root of linear, which
+                                        // is interpolated; empty without such colours
   std::vector<Paint> paints_;           // by first triangle
 };
 

@@ -77,18 +77,20 @@ class Smoother {
   /// A variance of few samples is itself uncertain.
   void spread_variance(LightLayer& layer) const {
     std::vector<float> spread(layer.variance.size());
-    tbb::parallel_for(0, height_, [&](int y) {
-      for (int x = 0; x < width_; ++x) {
-        float sum = 0;
-        float weights = 0;
-        for_neighbors(x, y, 1, [&](std::size_t pixel, float weight) {
-          sum += weight * layer.share[pixel] * layer.variance[pixel];
-          weights += weight * layer.share[pixel];
-        });
-        spread[at(x, y)] = weights > 0 ? sum / weights : 0;
-      }
-    });
-    layer.variance = std::move(spread);
+    for (const int step : {1, 2}) {
+      tbb::parallel_for(0, height_, [&](int y) {
+        for (int x = 0; x < width_; ++x) {
+          float sum = 0;
+          float weights = 0;
+          for_neighbors(x, y, step, [&](std::size_t pixel, float weight) {
+            sum += weight * layer.share[pixel] * layer.variance[pixel];
+            weights += weight * layer.share[pixel];
+          });
+          spread[at(x, y)] = weights > 0 ? sum / weights : 0;
+        }
+      });
+      std::swap(layer.variance, spread);
+    }
   }
 
   [[nodiscard]] float unlikeness(std::size_t here, std::size_t there) const {
@@ -150,7 +152,7 @@ class Smoother {
 }  // namespace
 
 void smooth(TracedLight& traced) {
-  Guides skins{traced.normal, traced.position, traced.color};
+  Guides skins{std::move(traced.normal), std::move(traced.position), traced.color};
   for (std::size_t i = 0; i < traced.pixels(); ++i) {
     if (traced.base.share[i] == 0) continue;
     skins.normal[i].normalize();

@@ -55,6 +55,7 @@ StageLight::StageLight(const std::optional<Environment>& environment)
     : environment_(environment),
       sky_on_ground_(environment ? environment->irradiance_on(Vector3f::UnitY()) : studio_sky()),
       to_key_(to_key_light().cast<float>()),
+      key_frame_(to_key_),
       key_cosine_(1 / std::sqrt(1 + kKeyRadius * kKeyRadius)),
       key_density_(1 / (2 * std::numbers::pi_v<float> * (1 - key_cosine_))),
       key_radiance_(kKey / (1 - key_cosine_ * key_cosine_)),
@@ -99,7 +100,7 @@ Vector3f StageLight::towards_key(const Eigen::Vector2f& random) const {
   const float cosine = 1 - random.x() * (1 - key_cosine_);
   const float sine = std::sqrt(std::max(0.0F, 1 - cosine * cosine));
   const float turn = 2 * std::numbers::pi_v<float> * random.y();
-  return TangentFrame(to_key_).to_world({sine * std::cos(turn), sine * std::sin(turn), cosine});
+  return key_frame_.to_world({sine * std::cos(turn), sine * std::sin(turn), cosine});
 }
 
 }  // namespace sprung

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "render/stage/environment.h"
+#include "render/trace/directions.h"
 
 namespace sprung {
 
@@ -40,6 +41,7 @@ class StageLight {
   std::optional<Eigen::Vector3f> even_;
   Eigen::Vector3f sky_on_ground_;
   Eigen::Vector3f to_key_;
+  TangentFrame key_frame_;
   float key_cosine_;
   float key_density_;
   Eigen::Vector3f key_radiance_;

@@ -22,6 +22,10 @@ Floats3 unit(const Floats3& vectors) {
 
 }  // namespace
 
+TracedSkins::Corners TracedSkins::mix(const Corners& a, const Corners& b, float share) {
+  return {a.positions + share * (b.positions - a.positions), a.normals + share * (b.normals - a.normals)};
+}
+
 TracedSkins::TracedSkins(const Stage& stage, const StageSpace& space)
     : space_(space), skins_(stage.skins), rays_(stage.skins, stage.ghosts) {
   for (std::size_t i = 0; i < skins_.size(); ++i) {
@@ -52,14 +56,6 @@ void TracedSkins::update(const Motion& motion) {
   rays_.update(positions);
 }
 
-TracedSkins::Corners TracedSkins::corners(const RayHit& hit, std::size_t step, float share) const {
-  const Corners& before = corners_[step][std::size_t(hit.skin)][std::size_t(hit.triangle)];
-  if (share == 0) return before;
-  const Corners& after = corners_[step + 1][std::size_t(hit.skin)][std::size_t(hit.triangle)];
-  return {before.positions + share * (after.positions - before.positions),
-          before.normals + share * (after.normals - before.normals)};
-}
-
 std::optional<SurfacePoint> TracedSkins::first_hit(const Ray& ray, bool sees_ghosts) const {
   const std::optional<RayHit> hit = rays_.first_hit(ray, sees_ghosts);
   return hit ? std::optional(surface(ray, *hit)) : std::nullopt;
@@ -68,7 +64,13 @@ std::optional<SurfacePoint> TracedSkins::first_hit(const Ray& ray, bool sees_gho
 SurfacePoint TracedSkins::surface(const Ray& ray, const RayHit& hit) const {
   const float place = ray.time * float(motion_.size() - 1);
   const std::size_t step = std::min(std::size_t(place), motion_.size() - 1);
-  const auto [points, normals] = corners(hit, step, place - float(step));
+  const auto at = [&](std::size_t i) -> const Corners& {
+    return corners_[i][std::size_t(hit.skin)][std::size_t(hit.triangle)];
+  };
+  Corners between;
+  const bool is_between = place > float(step);
+  if (is_between) between = mix(at(step), at(step + 1), place - float(step));
+  const auto& [points, normals] = is_between ? between : at(step);
   const SkinShape& shape = (*motion_[step])[hit.skin];
   const Vector3f weights(1 - hit.u - hit.v, hit.u, hit.v);
   SurfacePoint point;

@@ -38,8 +38,7 @@ class TracedSkins {
     Eigen::Matrix3f positions;  // columns, stage space
     Eigen::Matrix3f normals;    // columns, unit
   };
-  /// Of the time between that step and the next.
-  [[nodiscard]] Corners corners(const RayHit& hit, std::size_t step, float share) const;
+  [[nodiscard]] static Corners mix(const Corners& a, const Corners& b, float share);
   [[nodiscard]] SurfacePoint surface(const Ray& ray, const RayHit& hit) const;
 
   StageSpace space_;

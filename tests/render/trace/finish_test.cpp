@@ -36,7 +36,7 @@ double integral(const Function& f) {
 
 double reflected(const Finish& finish, float cosine, const Vector3f& color) {
   return integral([&](const Vector3f& to_light) {
-    const Reflected share = finish.evaluate(direction(cosine, 0), to_light, color);
+    const Reflected share = finish.respond(direction(cosine, 0), to_light, color).reflected;
     return double{color.x()} * double{share.base.x()} + double{share.specular.x()};
   });
 }
@@ -68,8 +68,8 @@ TEST(Finish, IsReciprocal) {
     const Finish finish = Finish::of(look);
     const Vector3f a = direction(0.9F, 0.3F);
     const Vector3f b = direction(0.35F, 2);
-    const Reflected there = finish.evaluate(a, b, kWhite);
-    const Reflected back = finish.evaluate(b, a, kWhite);
+    const Reflected there = finish.respond(a, b, kWhite).reflected;
+    const Reflected back = finish.respond(b, a, kWhite).reflected;
     EXPECT_NEAR(there.base.x() / b.z(), back.base.x() / a.z(), 1e-5);
     EXPECT_NEAR(there.specular.x() / b.z(), back.specular.x() / a.z(), 1e-5);
   }
@@ -90,9 +90,9 @@ TEST(Finish, DensitiesAreThoseOfTheSamples) {
         mean_height += 0.1 * double{next.z()};
       }
     }
-    const double whole = integral([&](const Vector3f& next) { return double{finish.density(to_eye, next)}; });
-    const double height =
-        integral([&](const Vector3f& next) { return double{next.z()} * double{finish.density(to_eye, next)}; });
+    const auto density = [&](const Vector3f& next) { return double{finish.respond(to_eye, next, kWhite).density}; };
+    const double whole = integral(density);
+    const double height = integral([&](const Vector3f& next) { return double{next.z()} * density(next); });
     EXPECT_NEAR(above / (kSide * kSide), whole, 0.005) << cosine;
     EXPECT_NEAR(mean_height / (kSide * kSide), height, 0.005) << cosine;
   }

@@ -23,7 +23,7 @@ Finishes all_of(const Finish& finish) { return {finish, finish, finish, finish, 
 Vector3f mean_light(const LightPaths& paths, const Ray& ray, int samples) {
   Vector3f sum = Vector3f::Zero();
   for (int i = 0; i < samples; ++i) {
-    Sampler sampler(7, std::uint32_t(i));
+    Sampler sampler(7 * 4096 + std::uint64_t(i));
     sum += paths.arriving(ray, sampler);
   }
   return sum / float(samples);
@@ -227,7 +227,7 @@ TEST(LightPaths, AFloorWithoutBodiesIsWithoutNoise) {
   const std::vector<SkinShape> shapes = scene.shapes();
   LightPaths paths(scene.stage());
   paths.update({&shapes});
-  Sampler sampler(1, 0);
+  Sampler sampler(1);
   const PathSample sample = paths.sample({{0, 0.5F, 0}, {0, -1, 0}}, false, sampler);
   EXPECT_EQ(sample.seen, Seen::kFloor);
   EXPECT_EQ(sample.floor_light, Vector3f::Ones());
@@ -245,7 +245,7 @@ TEST(LightPaths, NoSampleOfTheFloorGlares) {
   const Ray ray = towards({0.7F, -0.577F, 0}, {0.9F, 0, 0.5F});
   float brightest = 0;
   for (std::uint32_t i = 0; i < 4096; ++i) {
-    Sampler sampler(3, i);
+    Sampler sampler(3 * 4096 + i);
     const PathSample sample = paths.sample(ray, false, sampler);
     ASSERT_EQ(sample.seen, Seen::kFloor);
     brightest = std::max(brightest, sample.floor_light.maxCoeff());

@@ -52,7 +52,7 @@ TEST(Medium, BeersLawThroughACube) {
   Vector3f straight = Vector3f::Zero();
   constexpr int kSamples = 4096;
   for (int i = 0; i < kSamples; ++i) {
-    Sampler sampler(5, std::uint32_t(i));
+    Sampler sampler(5 * 4096 + std::uint64_t(i));
     const Ray inside{{0.1F, -0.4999F * side, 0.05F}, Vector3f::UnitY()};
     const std::optional<Emergence> out = walk_through_body(skins, media, entry, inside, sampler);
     if (!out || out->is_scattered || out->point.position.y() < 0) continue;
