@@ -13,9 +13,11 @@
 namespace sprung {
 namespace {
 
-constexpr double kManySteps = 20000;   // per frame, from which on there is a warning
-constexpr double kImplicitCost = 300;  // cost of an implicit step, in explicit steps
-constexpr double kCoupledCost = 600;   // for bodies that may collide or are glued
+constexpr double kManySteps = 20000;  // per frame, from which on there is a warning
+// Cost of an implicit step, in explicit steps.
+constexpr double kFreeCost = 120;      // of bodies that meet nothing, or hang
+constexpr double kObstacleCost = 300;  // of those that may come to lie on obstacles
+constexpr double kCoupledCost = 600;   // of bodies that may collide or are glued
 constexpr double kStepsAVibration = 20;
 constexpr long kFewestSteps = 2;  // implicit steps per frame
 constexpr long kMostSteps = 16;
@@ -36,6 +38,13 @@ double shortest_period(const World& world) {
 long implicit_steps(const World& world, double frame) {
   const double wanted = std::ceil(frame * kStepsAVibration / shortest_period(world));
   return std::clamp(long(std::min(wanted, 1e6)), kFewestSteps, kMostSteps);
+}
+
+double implicit_cost(const World& world) {
+  if (!world.glue.empty() || (world.bodies_collide && world.bodies.size() > 1)) return kCoupledCost;
+  const auto is_held = [](const SoftBody& body) { return !body.pinned.empty(); };
+  const bool is_free = world.obstacles.empty() || std::all_of(world.bodies.begin(), world.bodies.end(), is_held);
+  return is_free ? kFreeCost : kObstacleCost;
 }
 
 }  // namespace
@@ -75,8 +84,7 @@ StepPlan plan_steps(const World& world, const Scene& scene) {
                                                   why_not));
   }
   if (plan.scheme == Solver::kAuto) {
-    const bool is_coupled = !world.glue.empty() || (world.bodies_collide && world.bodies.size() > 1);
-    const double dear = (is_coupled ? kCoupledCost : kImplicitCost) * double(long_ones);
+    const double dear = implicit_cost(world) * double(long_ones);
     const bool is_implicit = why_not.empty() && brick_steps > kWorthwhile * dear * bricks;
     plan.scheme = is_implicit ? Solver::kBdf2 : Solver::kEuler;
     plan.reason = fmt::format(

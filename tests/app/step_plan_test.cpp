@@ -50,6 +50,23 @@ TEST(StepPlanning, BodiesThatTouchAreForecastDearer) {
   EXPECT_EQ(plan_steps(two_blocks(young), scene).scheme, Solver::kEuler);
 }
 
+/// Contact makes implicit steps dearer.
+TEST(StepPlanning, BodiesThatMeetNothingOrHangAreForecastCheaper) {
+  const Film scene = scene_by(Solver::kAuto);
+  const auto alone = [](World world) {
+    world.obstacles.clear();
+    return world;
+  };
+  const auto hung = [](World world) {
+    world.bodies[0].pinned.push_back({.node = 0});
+    return world;
+  };
+  double young = 2e4;
+  while (plan_steps(alone(block(young)), scene).scheme == Solver::kEuler) young *= 1.2;
+  EXPECT_EQ(plan_steps(hung(block(young)), scene).scheme, Solver::kBdf2);
+  EXPECT_EQ(plan_steps(block(young), scene).scheme, Solver::kEuler);
+}
+
 TEST(StepPlanning, RestitutionNeedsExplicitSteps) {
   World world = block(2e9);
   world.obstacles[0].restitution = 0.5;
