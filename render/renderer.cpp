@@ -159,7 +159,6 @@ struct Renderer::Device {
 
   /// Uploads the shapes.
   DrawFrame frame(const std::vector<SkinShape>& shapes) {
-    context.make_current();
     update(shapes);
     return {space,        fit_light(shapes, space, body_radius, ground_height), body_radius, ground_height, has_ground,
             sky_on_ground};
@@ -251,13 +250,14 @@ void require_path_tracer() { static_cast<void>(RayScene({}, {})); }
 Renderer::Renderer(const Stage& stage, const RenderOptions& options) {
   check_options(stage, options);
   device_ = std::make_unique<Device>(stage, options);
+  device_->context.release();
 }
 
 Renderer::~Renderer() = default;
 
 Image Renderer::draw(const std::vector<SkinShape>& shapes, const Camera& camera) {
   Device& device = *device_;
-  device.context.make_current();
+  const CurrentContext current(device.context);
   device.clock.start();
   if (device.tracing) return device.trace({&shapes}, camera);
   const DrawFrame frame = device.frame(shapes);
@@ -276,7 +276,7 @@ Image Renderer::draw(const std::vector<SkinShape>& shapes, const Camera& camera)
 
 Image Renderer::draw(const std::vector<Exposure>& exposures) {
   Device& device = *device_;
-  device.context.make_current();
+  const CurrentContext current(device.context);
   device.clock.start();
   if (device.tracing) return device.trace(motion_of(exposures), exposures.front().camera);
   device.screen.clear_exposures();
@@ -299,6 +299,7 @@ Image Renderer::draw(const std::vector<Exposure>& exposures) {
 
 Passes Renderer::draw_passes(const Moment& now, const Moment& before, const Moment& after) {
   Device& device = *device_;
+  const CurrentContext current(device.context);
   const DrawFrame frame = device.frame(now.shapes);
   for (std::size_t i = 0; i < device.skins.size(); ++i) {
     device.skins[i].update_motion(before.shapes[i].positions, after.shapes[i].positions);
@@ -316,7 +317,7 @@ Passes Renderer::draw_passes(const Moment& now, const Moment& before, const Mome
 const std::vector<PassTime>& Renderer::pass_times() const { return device_->clock.times(); }
 
 std::string Renderer::driver() const {
-  device_->context.make_current();
+  const CurrentContext current(device_->context);
   return device_->context.driver();
 }
 

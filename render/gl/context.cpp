@@ -1,21 +1,14 @@
 #include "render/gl/context.h"
 
+#include <fmt/format.h>
+
 #include <cstdlib>
 
 #include "core/error.h"
 
-// osmesa.h would include the old gl.h, which hides the typedefs of glcorearb.h.
-#define __gl_h_ 1  // NOLINT(bugprone-reserved-identifier)
-#define GLAPIENTRY APIENTRY
-#include <GL/osmesa.h>
-
 namespace sprung {
 
 namespace {
-
-[[noreturn]] void fail(const std::string& what) {
-  throw Error(ErrorKind::kFailed, what + "; is the package libosmesa6 of Debian 12 or later installed?");
-}
 
 /// Removes settings of a user's desktop that make software rendering crash, lose OpenGL 3.3, or draw other bits.
 void clear_hostile_settings() {
@@ -26,22 +19,26 @@ void clear_hostile_settings() {
   }
 }
 
-OSMesaContext create_context() {
+std::unique_ptr<GlSource> make_source() {
+  const char* const named = std::getenv("SPRUNG_GL");
+  const std::string_view name = named == nullptr ? "" : named;
   clear_hostile_settings();
-  const std::array<int, 11> attributes{OSMESA_FORMAT,
-                                       OSMESA_RGBA,
-                                       OSMESA_PROFILE,
-                                       OSMESA_CORE_PROFILE,
-                                       OSMESA_CONTEXT_MAJOR_VERSION,
-                                       3,
-                                       OSMESA_CONTEXT_MINOR_VERSION,
-                                       3,
-                                       OSMESA_DEPTH_BITS,
-                                       0,
-                                       0};
-  OSMesaContext context = OSMesaCreateContextAttribs(attributes.data(), nullptr);
-  if (context == nullptr) fail("OSMesa cannot make an OpenGL 3.3 core context");
-  return context;
+  if (name == "osmesa") return make_osmesa_source();
+  if (name == "egl") return make_egl_source(GlDevice::kSoftware);
+  if (name == "gpu") return make_egl_source(GlDevice::kAny);
+  if (!name.empty()) {
+    throw Error(ErrorKind::kUsage,
+                fmt::format("environment variable SPRUNG_GL: '{}' is none of osmesa, egl, gpu", name));
+  }
+  try {
+    return make_osmesa_source();
+  } catch (const Error& osmesa) {
+    try {
+      return make_egl_source(GlDevice::kSoftware);
+    } catch (const Error& egl) {
+      throw Error(ErrorKind::kFailed, fmt::format("nothing to draw with: {}; {}", osmesa.what(), egl.what()));
+    }
+  }
 }
 
 std::string text(const GlFunctions& gl, GLenum name) {
@@ -55,19 +52,15 @@ void throw_missing_function(const char* name) {
   throw Error(ErrorKind::kFailed, std::string("OpenGL: ") + name + " is missing; OpenGL 3.3 is needed");
 }
 
-GlContext::GlContext() : context_(create_context(), OSMesaDestroyContext) {
+GlContext::GlContext() : source_(make_source()) {
   make_current();
-  gl_.load([](const char* name) { return OSMesaGetProcAddress(name); });
+  gl_.load([this](const char* name) { return source_->function(name); });
   // Where another libGL comes first at link time, every call silently does nothing.
-  if (gl_.GetString(GL_RENDERER) == nullptr) fail("OpenGL calls do not reach OSMesa");
-}
-
-bool GlContext::try_make_current() noexcept {
-  return OSMesaMakeCurrent(context_.get(), dummy_.data(), GL_UNSIGNED_BYTE, 1, 1) != GL_FALSE;
+  if (gl_.GetString(GL_RENDERER) == nullptr) throw Error(ErrorKind::kFailed, "OpenGL calls do not reach their driver");
 }
 
 void GlContext::make_current() {
-  if (!try_make_current()) fail("OSMesa cannot make its context current");
+  if (!try_make_current()) throw Error(ErrorKind::kFailed, "OpenGL's context cannot become current in this thread");
 }
 
 std::string GlContext::driver() const { return text(gl_, GL_RENDERER) + ", OpenGL " + text(gl_, GL_VERSION); }

@@ -1,33 +1,46 @@
 #pragma once
-#include <array>
 #include <memory>
 #include <string>
 
-#include "render/gl/functions.h"
-
-struct osmesa_context;
+#include "render/gl/gl_source.h"
 
 namespace sprung {
 
-/// An OpenGL 3.3 core context of OSMesa, without a window. It is current in one thread at a time.
+/// An OpenGL 3.3 core context without a window. It comes from OSMesa or, where that fails, from EGL's software; the
+/// environment variable SPRUNG_GL decides: "osmesa", "egl", or "gpu" for whatever driver EGL finds.
 class GlContext {
  public:
-  /// Makes it current in the calling thread. Throws Error(kFailed) where OSMesa is missing or too old.
+  /// Makes it current in the calling thread. Throws Error(kFailed) where there is none, Error(kUsage) for another value
+  /// of SPRUNG_GL.
   GlContext();
 
   /// In the calling thread. Throws Error(kFailed).
   void make_current();
   /// The same; false in place of an error.
-  [[nodiscard]] bool try_make_current() noexcept;
+  [[nodiscard]] bool try_make_current() noexcept { return source_->make_current(); }
+  /// So that another thread can have it.
+  void release() noexcept { source_->release(); }
 
   [[nodiscard]] const GlFunctions& gl() const { return gl_; }
   /// "Mesa 22.3.6, llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5"; the context must be current.
   [[nodiscard]] std::string driver() const;
 
  private:
-  std::unique_ptr<osmesa_context, void (*)(osmesa_context*)> context_;
-  std::array<unsigned char, 4> dummy_{};  // OSMesa insists on a buffer of its own; pictures go to framebuffer objects
+  std::unique_ptr<GlSource> source_;
   GlFunctions gl_;
+};
+
+/// Has a context in the calling thread while it lives.
+class CurrentContext {
+ public:
+  /// Throws Error(kFailed).
+  explicit CurrentContext(GlContext& context) : context_(context) { context.make_current(); }
+  ~CurrentContext() { context_.release(); }
+  CurrentContext(const CurrentContext&) = delete;
+  CurrentContext& operator=(const CurrentContext&) = delete;
+
+ private:
+  GlContext& context_;
 };
 
 }  // namespace sprung
