@@ -1,4 +1,4 @@
-#define EGL_NO_X11 1
+#define EGL_NO_X11 1  // egl.h would include the headers of X11
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 #include <fmt/format.h>
