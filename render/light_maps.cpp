@@ -242,6 +242,21 @@ void GroundMaps::draw_light(const GlProgram& program, const LightMap& map, const
   brush_.fill(map);
 }
 
+GroundLight GroundMaps::read_light(const DrawFrame& frame) const {
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, light_.target.name());
+  std::vector<std::uint8_t> bytes(4 * std::size_t(light_.size) * std::size_t(light_.size));
+  gl_.ReadPixels(0, 0, light_.size, light_.size, GL_RGBA, GL_UNSIGNED_BYTE, bytes.data());
+  GroundLight light{frame.ground_height,
+                    frame.light.ground.low.cast<float>(),
+                    frame.light.ground.sides.cast<float>(),
+                    light_.size,
+                    {}};
+  for (std::size_t i = 0; i < bytes.size(); i += 4) {
+    light.texels.emplace_back(2 * Eigen::Vector3f(bytes[i], bytes[i + 1], bytes[i + 2]) / 255);  // the map has half
+  }
+  return light;
+}
+
 namespace {
 
 constexpr int kZenithSize = 128;

@@ -4,6 +4,7 @@
 #include "render/frame.h"
 #include "render/gl/pass_clock.h"
 #include "render/skin_buffers.h"
+#include "render/trace/ground_light.h"
 
 namespace sprung {
 
@@ -69,6 +70,8 @@ class GroundMaps {
   [[nodiscard]] const GlTexture& light() const { return light_.color; }
   [[nodiscard]] const GlTexture& tint() const { return tint_.color; }
   [[nodiscard]] const GlTexture& far_light() const { return far_light_.color; }
+  /// Of a frame that was drawn.
+  [[nodiscard]] GroundLight read_light(const DrawFrame& frame) const;
 
  private:
   void draw_underside(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const DrawFrame& frame) const;

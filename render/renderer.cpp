@@ -11,6 +11,7 @@
 #include "render/gl/pass_clock.h"
 #include "render/pass_drawer.h"
 #include "render/screen.h"
+#include "render/trace/gathered_light.h"
 #include "render/trace/path_tracer.h"
 
 namespace sprung {
@@ -19,12 +20,6 @@ namespace {
 
 constexpr int kMostSamples = 4096;    // of traced pictures
 constexpr double kMostMotion = 0.25;  // of a body's radius; overlays jump
-
-/// Radius of the ball around a skin's bounding box, m.
-double radius(const Skin& skin) {
-  const AlignedBox bounds = bounding_box(skin.positions);
-  return bounds.isEmpty() ? 0 : 0.5 * bounds.diagonal().norm();
-}
 
 /// Blends a share of another picture in.
 void mix(Image& image, const Image& other, double share) {
@@ -72,9 +67,14 @@ Motion motion_of(const std::vector<Exposure>& exposures) {
   return motion;
 }
 
+int rays_of(Quality quality) { return quality == Quality::kHigh ? 64 : 32; }
+int probes_of(Quality quality) { return quality == Quality::kHigh ? 32000 : 16000; }
+
 /// Of what the shaders still draw of a traced picture: its passes.
 RenderOptions without_tracing(RenderOptions options) {
+  if (options.quality == Quality::kPreview || !RayScene::is_available()) options.gathers_light = false;
   if (options.quality != Quality::kFinal) return options;
+  options.gathers_light = false;
   options.quality = Quality::kHigh;
   options.samples = samples_of(Quality::kHigh);
   options.exposes = false;
@@ -120,6 +120,7 @@ struct Renderer::Device {
   std::optional<Screen> light_screen;
   std::optional<Screen> share_screen;
   std::optional<Tracing> tracing;  // where pictures are traced
+  std::optional<GatheredLight> gathered;
 
   Device(const Stage& stage, const RenderOptions& wanted)
       : gl(context.gl()),
@@ -136,12 +137,13 @@ struct Renderer::Device {
         environment(stage.environment),
         options(without_tracing(wanted)) {
     if (wanted.quality == Quality::kFinal) tracing.emplace(gl, stage, wanted);
+    if (options.gathers_light) gathered.emplace(stage, rays_of(options.quality), probes_of(options.quality));
     for (std::size_t i = 0; i < stage.skins.size(); ++i) {
       const bool is_ghost = !stage.ghosts.empty() && stage.ghosts[i];
       const Look look = stage.looks.empty() ? Look::kPlastic : stage.looks[i];
       skins.emplace_back(gl, *stage.skins[i], stage.default_colors[i], look, is_ghost, textures);
       has_ghosts = has_ghosts || is_ghost;
-      body_radius = std::max(body_radius, radius(*stage.skins[i]) * space.scale);
+      body_radius = std::max(body_radius, skin_radius(*stage.skins[i]) * space.scale);
     }
     if (body_radius == 0) body_radius = 1;
     if (!ids.empty()) return;
@@ -165,10 +167,10 @@ struct Renderer::Device {
   }
 
   /// Its light is that of the middle.
-  DrawFrame frame(const Exposure& exposure) {
+  DrawFrame frame(const Exposure& exposure, const std::vector<SkinShape>& shapes) {
     AlignedBox bodies = frame(exposure.first).light.bodies;
     bodies.extend(frame(exposure.last).light.bodies);
-    DrawFrame middle = frame(between(exposure.first, exposure.last, 0.5F));
+    DrawFrame middle = frame(shapes);
     middle.light.bodies = bodies;
     double longest = 0;  // m
     for (std::size_t i = 0; i < skins.size(); ++i) {
@@ -177,6 +179,17 @@ struct Renderer::Device {
     }
     middle.motion = std::min(0.5 * space.scale * longest, kMostMotion * body_radius);
     return middle;
+  }
+
+  /// Everything that follows from the shapes, which must have been uploaded with the frame.
+  View light(const std::vector<SkinShape>& shapes, const DrawFrame& frame, const Camera& camera) {
+    maps.draw(skins, textures, frame, clock);
+    View view = make_view(frame, camera, screen.aspect());
+    if (!gathered) return view;
+    gathered->update(shapes, view.eye.cast<float>(), maps.ground().read_light(frame));
+    for (std::size_t i = 0; i < skins.size(); ++i) skins[i].update_light(gathered->of_vertices(i));
+    clock.stop("light from around");
+    return view;
   }
 
   void draw(const View& view, bool with_ghosts) { draw(screen, view, with_ghosts); }
@@ -262,8 +275,7 @@ Image Renderer::draw(const std::vector<SkinShape>& shapes, const Camera& camera)
   if (device.tracing) return device.trace({&shapes}, camera);
   const DrawFrame frame = device.frame(shapes);
   device.clock.stop("upload");
-  device.maps.draw(device.skins, device.textures, frame, device.clock);
-  const View view = make_view(frame, camera, device.screen.aspect());
+  const View view = device.light(shapes, frame, camera);
   device.draw(view, false);
   Image image = device.screen.read();
   if (device.has_ghosts) {
@@ -282,9 +294,8 @@ Image Renderer::draw(const std::vector<Exposure>& exposures) {
   device.screen.clear_exposures();
   const double part = 1.0 / double(exposures.size());
   for (const Exposure& exposure : exposures) {
-    const DrawFrame frame = device.frame(exposure);
-    device.maps.draw(device.skins, device.textures, frame, device.clock);
-    const View view = make_view(frame, exposure.camera, device.screen.aspect());
+    const std::vector<SkinShape> middle = between(exposure.first, exposure.last, 0.5F);
+    const View view = device.light(middle, device.frame(exposure, middle), exposure.camera);
     device.draw(exposure, view, false);
     device.screen.add_exposure(device.maps, view, device.has_ghosts ? (1 - kGhostOpacity) * part : part);
     if (device.has_ghosts) {
@@ -308,7 +319,7 @@ Passes Renderer::draw_passes(const Moment& now, const Moment& before, const Mome
   const PassViews views{seen_by(now.camera), now.camera, seen_by(before.camera), seen_by(after.camera)};
   if (!device.passes) device.passes.emplace(device.gl, device.screen.width(), device.screen.height());
   Passes passes = device.passes->draw(device.skins, device.ids, views);
-  device.maps.draw(device.skins, device.textures, frame, device.clock);
+  static_cast<void>(device.light(now.shapes, frame, now.camera));
   if (device.tracing && device.tracing->light.empty()) device.tracing->draw({&now.shapes}, now.camera);
   device.draw_light_passes(views.now, passes);
   return passes;

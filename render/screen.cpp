@@ -70,6 +70,7 @@ constexpr double kLevel = 1e-4;          // sine of the elevation of a ray that 
 constexpr double kSightSteps = 1 << 20;  // one over the step to which rays are rounded
 
 constexpr TextureFormat kColorFormat{GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, false, false, GL_CLAMP_TO_EDGE};
+constexpr TextureFormat kGatheredFormat{GL_RGBA16, GL_RGBA, GL_UNSIGNED_SHORT, false, false, GL_CLAMP_TO_EDGE};
 constexpr TextureFormat kLightFormat{GL_RGBA32F, GL_RGBA, GL_FLOAT, false, false, GL_CLAMP_TO_EDGE};
 constexpr TextureFormat kCircleFormat{GL_R32F, GL_RED, GL_FLOAT, false, false, GL_CLAMP_TO_EDGE};
 constexpr TextureFormat kDepthFormat{GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, false, false,
@@ -82,6 +83,15 @@ const TextureFormat& picture_format(ScreenOutput output) {
 const char* output_define(ScreenOutput output) {
   if (output == ScreenOutput::kPicture) return "";
   return output == ScreenOutput::kLight ? "#define EXPOSURE\n" : "#define EXPOSURE\n#define SHARES\n";
+}
+
+std::string gathered_define(const RenderOptions& options) { return options.gathers_light ? "#define GATHERED\n" : ""; }
+
+/// `light`: null for none.
+GlFramebuffer make_surface_target(const GlFunctions& gl, std::vector<const GlTexture*> colors, const GlTexture* light,
+                                  const GlTexture& depth) {
+  if (light != nullptr) colors.push_back(light);
+  return make_colors_target(gl, colors, depth);
 }
 
 /// The tint of the floor comes from the light maps if these have what the picture has.
@@ -104,12 +114,14 @@ Screen::Screen(const GlFunctions& gl, const RenderOptions& options, const std::o
       height_(options.height),
       side_(sample_side(options.samples)),
       is_transparent_(options.transparent),
+      is_gathered_(options.gathers_light),
       output_(output),
       surface_color_(make_texture(gl, side_ * width_, side_ * height_, kColorFormat)),
       surface_normal_(make_texture(gl, side_ * width_, side_ * height_, kColorFormat)),
       surface_depth_(make_texture(gl, side_ * width_, side_ * height_, kDepthFormat)),
-      surface_(
-          make_colors_target(gl, std::array<const GlTexture*, 2>{&surface_color_, &surface_normal_}, surface_depth_)),
+      surface_light_(is_gathered_ ? make_texture(gl, side_ * width_, side_ * height_, kGatheredFormat) : GlTexture()),
+      surface_(make_surface_target(gl, {&surface_color_, &surface_normal_}, is_gathered_ ? &surface_light_ : nullptr,
+                                   surface_depth_)),
       picture_(make_texture(gl, width_, height_, picture_format(output))),
       kinds_(make_texture(gl, width_, height_, kDepthFormat)),
       developed_(make_texture_target(gl, &picture_, &kinds_)),
@@ -118,7 +130,7 @@ Screen::Screen(const GlFunctions& gl, const RenderOptions& options, const std::o
       environment_(environment ? std::optional(EnvironmentTexture(gl, *environment)) : std::nullopt),
       nearer_sampler_(make_comparing_sampler(gl, GL_GREATER)),
       no_buffers_(make_vertex_array(gl)),
-      surface_programs_(load_skin_programs(gl, "surface.frag", output_define(output))),
+      surface_programs_(load_skin_programs(gl, "surface.frag", output_define(output) + gathered_define(options))),
       backdrop_program_(load_program(gl, "screen.vert", "backdrop.frag", output_define(output))),
       floor_program_(load_program(gl, "floor.vert", "floor.frag", floor_define(output, options.exposes))),
       kinds_program_(load("kinds.frag", options)),
@@ -133,17 +145,18 @@ Screen::Screen(const GlFunctions& gl, const RenderOptions& options, const std::o
 GlProgram Screen::load(const char* fragment, const RenderOptions& options) const {
   const bool is_high = options.quality == Quality::kHigh;
   const bool is_preview = options.quality == Quality::kPreview;
-  return load_program(gl_, "screen.vert", fragment,
-                      fmt::format("#define SIDE {}\n#define SKIN {:.3f}\n#define NO_SKIN {:.3f}\n"
-                                  "#define SHADOW_SEARCH {}\n#define SHADOW_TAPS {}\n{}{}",
-                                  side_, kSkin, kNoSkin,
-                                  is_high      ? 12
-                                  : is_preview ? 4
-                                               : 6,
-                                  is_high      ? 32
-                                  : is_preview ? 8
-                                               : 16,
-                                  environment_ ? "#define ENVIRONMENT\n" : "", output_define(output_)));
+  return load_program(
+      gl_, "screen.vert", fragment,
+      fmt::format("#define SIDE {}\n#define SKIN {:.3f}\n#define NO_SKIN {:.3f}\n"
+                  "#define SHADOW_SEARCH {}\n#define SHADOW_TAPS {}\n{}{}{}",
+                  side_, kSkin, kNoSkin,
+                  is_high      ? 12
+                  : is_preview ? 4
+                               : 6,
+                  is_high      ? 32
+                  : is_preview ? 8
+                               : 16,
+                  environment_ ? "#define ENVIRONMENT\n" : "", output_define(output_), gathered_define(options)));
 }
 
 void Screen::draw_light(const LightMaps& maps, const View& view, PassClock& clock) {
@@ -347,6 +360,11 @@ void Screen::cover(const GlProgram& program, const LightMaps& maps, const View& 
   bind_texture(gl_, kFirstSurfaceUnit + 3, surface_depth_, nearer_sampler_.name());
   program.set("skin_coverage", kFirstSurfaceUnit + 3);
   if (environment_) environment_->bind(program, kFirstSurfaceUnit + 4);
+  if (is_gathered_) {
+    bind_texture(gl_, kFirstSurfaceUnit + 5, surface_light_);
+    program.set("surface_light", kFirstSurfaceUnit + 5);
+    program.set("brightest_light", kBrightestVertexLight);
+  }
   program.set("screen_depth", kSkin);
   program.set("lens", Vec3(view.lens, view.focus, view.near > 0 ? 0 : 1).cast<float>().eval());
   program.set("distance_terms", view.distance_terms.cast<float>().eval());

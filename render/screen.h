@@ -84,10 +84,12 @@ class Screen {
   int height_;
   int side_;  // of a pixel, in samples
   bool is_transparent_;
+  bool is_gathered_;
   ScreenOutput output_;
   GlTexture surface_color_;
   GlTexture surface_normal_;
   GlTexture surface_depth_;
+  GlTexture surface_light_;  // where it is gathered
   GlFramebuffer surface_;
   GlTexture picture_;  // top row first
   GlTexture kinds_;    // of pixels, as depths

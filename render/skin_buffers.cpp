@@ -14,53 +14,6 @@
 namespace sprung {
 namespace {
 
-/// Vertices at one position are merged across creases and UV seams, by their mean normal, so that no cracks open.
-std::vector<int> cluster(const Skin& skin, double cell) {
-  const std::vector<int> weld = welded(skin);
-  Points normals = Points::Zero(skin.positions.rows(), 3);
-  for (int i = 0; i < normals.rows(); ++i) normals.row(weld[i]) += skin.normals.row(i);
-  std::vector<std::array<int, 4>> keys;
-  for (const int vertex : weld) {
-    std::array<int, 4> key{};
-    for (int k = 0; k < 3; ++k) {
-      key[k] = int(std::floor(skin.positions(vertex, k) / cell));
-      if (normals(vertex, k) < 0) key[3] |= 1 << k;
-    }
-    keys.push_back(key);
-  }
-  return first_with_same(keys);
-}
-
-/// A triangle's corners, replaced by their representatives.
-std::array<int, 3> corners(const Skin& skin, const std::vector<int>& stand_in, int triangle) {
-  std::array<int, 3> corners{};
-  for (int k = 0; k < 3; ++k) {
-    corners[k] = stand_in[skin.triangles(triangle, k)];
-  }
-  return corners;
-}
-
-bool is_flat(const std::array<int, 3>& c) { return c[0] == c[1] || c[1] == c[2] || c[2] == c[0]; }
-
-}  // namespace
-
-CoarseTriangles coarse_triangles(const Skin& skin, double cell) {
-  const std::vector<int> stand_in = cluster(skin, cell);
-  CoarseTriangles coarse;
-  coarse.triangles.resize(skin.triangles.rows(), 3);
-  int count = 0;
-  for (int t = 0; t < skin.triangles.rows(); ++t) {
-    coarse.first.push_back(count);
-    const std::array<int, 3> c = corners(skin, stand_in, t);
-    if (!is_flat(c)) coarse.triangles.row(count++) << c[0], c[1], c[2];
-  }
-  coarse.first.push_back(count);
-  coarse.triangles.conservativeResize(count, 3);
-  return coarse;
-}
-
-namespace {
-
 enum Attribute : GLuint {
   kPosition,
   kNormal,
@@ -68,7 +21,8 @@ enum Attribute : GLuint {
   kColor,
   kMapCoordinate,
   kBefore,
-  kAfter
+  kAfter,
+  kLight
 };  // as in surface.vert and passes.vert
 
 /// The square root of linear light: what the shaders multiply and keep.
@@ -82,30 +36,13 @@ Colors root_from_srgb(const Colors& colors) {
 constexpr double kCoarseCell = 0.05;
 constexpr double kCoarsestCell = 0.11;
 
-/// Fraction of the triangles: where fewer remain the skin consists of thin parts and is drawn in full.
-constexpr double kFewest = 0.01;
-
-double skin_radius(const Skin& skin) {
-  const Vec3 sides = skin.positions.colwise().maxCoeff() - skin.positions.colwise().minCoeff();
-  return 0.5 * sides.norm();
-}
-
-CoarseTriangles triangles_for_maps(const Skin& skin, double cell) {
-  CoarseTriangles coarse = coarse_triangles(skin, std::max(cell * skin_radius(skin), 1e-12));
-  const std::size_t all = skin.triangles.rows();
-  if (double(coarse.triangles.rows()) >= kFewest * double(all)) return coarse;
-  coarse.triangles = skin.triangles;
-  coarse.first.resize(all + 1);
-  std::iota(coarse.first.begin(), coarse.first.end(), 0);
-  return coarse;
-}
-
 constexpr TextureFormat kPicture{GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, true, true, GL_REPEAT};
 
 template <class Matrix>
 void upload(const GlFunctions& gl, const GlBuffer& buffer, const Matrix& rows, GLenum usage) {
   gl.BindBuffer(GL_ARRAY_BUFFER, buffer.name());
-  gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(rows.size() * long(sizeof(float))), rows.data(), usage);
+  gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(rows.size() * long(sizeof(typename Matrix::Scalar))),
+                rows.data(), usage);
 }
 
 void describe(const GlFunctions& gl, Attribute attribute, int components) {
@@ -158,13 +95,15 @@ SkinBuffers::SkinBuffers(const GlFunctions& gl, const Skin& skin, const Eigen::V
       map_coordinates_(make_buffer(gl)),
       before_(make_buffer(gl)),
       after_(make_buffer(gl)),
+      light_(make_buffer(gl)),
       indices_(make_buffer(gl)),
       sides_(visible_sides(skin)),
       look_(look),
       is_ghost_(is_ghost),
       has_colors_(skin.colors.rows() > 0) {
-  const CoarseTriangles coarse = triangles_for_maps(skin, kCoarseCell);
-  const CoarseTriangles coarsest = triangles_for_maps(skin, kCoarsestCell);
+  const double radius = skin_radius(skin);
+  const CoarseTriangles coarse = coarse_or_all_triangles(skin, kCoarseCell * radius);
+  const CoarseTriangles coarsest = coarse_or_all_triangles(skin, kCoarsestCell * radius);
   upload_indices({&skin.triangles, &coarse.triangles, &coarsest.triangles});
   upload_attributes(skin);
   const auto fewer_of = [](const Range& all, const CoarseTriangles& fewer, int first, int count) {
@@ -252,6 +191,13 @@ void SkinBuffers::update_motion(const Floats3& before, const Floats3& after) {
   describe(gl_, kBefore, 3);
   upload(gl_, after_, after, GL_STREAM_DRAW);
   describe(gl_, kAfter, 3);
+}
+
+void SkinBuffers::update_light(const VertexLight& light) {
+  gl_.BindVertexArray(array_.name());
+  upload(gl_, light_, light, GL_STREAM_DRAW);
+  gl_.EnableVertexAttribArray(kLight);
+  gl_.VertexAttribPointer(kLight, 4, GL_UNSIGNED_SHORT, GL_TRUE, 0, nullptr);
 }
 
 void SkinBuffers::draw(const Range& range) const {

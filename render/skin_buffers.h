@@ -5,20 +5,12 @@
 
 #include "core/skin/skin.h"
 #include "render/gl/objects.h"
+#include "render/stage/coarse_triangles.h"
 #include "render/stage/stage.h"
 #include "render/stage/visible_sides.h"
+#include "render/trace/vertex_light.h"
 
 namespace sprung {
-
-/// A coarser skin over the same vertices, for blurred maps, by vertex clustering: one vertex represents all in a cell
-/// of side `cell` (m) whose normals point into the same octant. The octants keep thin parts from collapsing. first[i]
-/// is the first coarse triangle made from the skin's triangles i and later; one more row than the skin has triangles.
-/// Deterministic.
-struct CoarseTriangles {
-  Triangles triangles;
-  std::vector<int> first;
-};
-[[nodiscard]] CoarseTriangles coarse_triangles(const Skin& skin, double cell);
 
 /// The textures of all skins, decoded and mipmapped, without duplicates.
 class TextureSet {
@@ -59,6 +51,8 @@ class SkinBuffers {
   void update(const SkinShape& shape);
   /// Where the vertices are one frame earlier and later, for a program that asks.
   void update_motion(const Floats3& before, const Floats3& after);
+  /// `light`: n x 4, of vertices, as GatheredLight has it, for programs with GATHERED defined.
+  void update_light(const VertexLight& light);
   /// For a program that needs positions only.
   void draw(Detail detail) const;
   /// Part by part; sets base_color and base_texture (unit `unit`) of the programs.
@@ -93,6 +87,7 @@ class SkinBuffers {
   GlBuffer map_coordinates_;
   GlBuffer before_;  // positions
   GlBuffer after_;
+  GlBuffer light_;
   GlBuffer indices_;
   Ranges all_;
   Sides sides_;

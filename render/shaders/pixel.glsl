@@ -28,3 +28,16 @@ vec4 sample_paint(int k) {
   vec4 bytes = texelFetch(surface_color, sample_place(k), 0);
   return vec4(bytes.rgb * bytes.rgb, 255.0 * bytes.a);
 }
+
+#ifdef GATHERED
+uniform sampler2D surface_light;
+uniform float brightest_light;
+
+// Light from around, and the fraction of its hemisphere that no body hides.
+vec4 sample_light(int k) {
+  vec4 stored = texelFetch(surface_light, sample_place(k), 0);
+  return vec4(brightest_light * stored.rgb * stored.rgb, stored.a);
+}
+#else
+vec4 sample_light(int k) { return vec4(0.0); }
+#endif

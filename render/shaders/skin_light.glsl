@@ -137,7 +137,14 @@ float power5(float x) {
   return x2 * x2 * x;
 }
 
-vec3 skin_light(vec3 place, vec3 n, vec3 base, float look) {
+#ifdef GATHERED
+float openness(vec3 point, vec3 n, vec4 gathered) { return gathered.a; }
+#else
+float openness(vec3 point, vec3 n, vec4 gathered) { return open_sky(point, n); }
+#endif
+
+// `gathered`: light from around, where it was gathered by rays.
+vec3 skin_light(vec3 place, vec3 n, vec3 base, float look, vec4 gathered) {
   Finish finish = finish_of(look);
   vec3 v = normalize(eye - place);
   vec3 h = normalize(v + to_key);
@@ -150,9 +157,13 @@ vec3 skin_light(vec3 place, vec3 n, vec3 base, float look) {
   vec3 soft = clamp((nl + wrap) / (1.0 + wrap), 0.0, 1.0);
   vec3 diffuse = mix(soft, soft * soft, min(2.0 * wrap, 1.0));
 
-  float open = open_sky(place, n);
+  float open = openness(place, n, gathered);
   vec3 bounce = ground_bounce(place, n);
+#ifdef GATHERED
+  vec3 surrounding = gathered.rgb;
+#else
   vec3 surrounding = (0.5 - 0.5 * n.y) * bounce + 1.1 * mix(0.4, 1.0, open) * sky_light(n) + 0.06 * base * open;
+#endif
   // Light from inside, most where it was on its way through thin parts: at the rim, which it colours in place of a white
   // reflection.
   vec3 through = finish.translucency * (bounce + 0.5 * kKey) * base * (0.18 + 0.55 * (1.0 - nv) * (1.0 - nv));

@@ -5,6 +5,10 @@ in vec2 texture_place;
 in vec3 vertex_color;
 layout(location = 0) out vec4 surface_color;
 layout(location = 1) out vec4 packed_normal;
+#ifdef GATHERED
+in vec4 vertex_light;
+layout(location = 2) out vec4 surface_light;
+#endif
 uniform float look;
 //!include albedo.glsl
 
@@ -32,5 +36,8 @@ void main() {
   if (turn >= 0 && turn != turn_of_sample()) discard;
 #endif
   surface_color = vec4(albedo_root(), look / 255.0);
+#ifdef GATHERED
+  surface_light = vertex_light;
+#endif
   packed_normal = pack_normal(gl_FrontFacing ? surface_normal : -surface_normal);
 }

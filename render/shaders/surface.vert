@@ -3,6 +3,10 @@ layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 uv;
 layout(location = 3) in vec4 color;  // square root of linear
+#ifdef GATHERED
+layout(location = 7) in vec4 light;
+out vec4 vertex_light;
+#endif
 #ifdef MAPPED
 layout(location = 4) in float coordinate;
 out float map_coordinate;
@@ -25,5 +29,8 @@ void main() {
   surface_normal = normal * inversesqrt(max(dot(normal, normal), 1e-30));
   texture_place = vec2(uv.x, 1.0 - uv.y);  // v runs up, rows of pictures run down
   vertex_color = color.rgb;
+#ifdef GATHERED
+  vertex_light = light;
+#endif
   gl_Position = clip_from_stage * vec4(place, 1.0);
 }

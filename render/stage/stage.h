@@ -34,6 +34,9 @@ struct RenderOptions {
   Quality quality = Quality::kDefault;  // of light
   bool transparent = false;             // pictures with alpha: bodies without a background
   bool exposes = false;                 // pictures are of several exposures
+  /// Light from around is gathered by rays, for bodies that hide it from each other and themselves. Needs Embree;
+  /// preview and final quality do without.
+  bool gathers_light = false;
 };
 
 inline constexpr double kGhostOpacity = 0.28;

@@ -6,7 +6,9 @@ namespace sprung {
 
 struct RayScene::Embree {};
 
-RayScene::RayScene(const std::vector<const Skin*>& /*skins*/, const std::vector<bool>& /*is_ghost*/) {
+bool RayScene::is_available() { return false; }
+
+RayScene::RayScene(const std::vector<const Triangles*>& /*triangles*/, const std::vector<bool>& /*is_ghost*/) {
   throw Error(ErrorKind::kFailed,
               "final quality: this program was built without Embree; install libembree-dev and build it again, or take "
               "high quality");

@@ -50,12 +50,12 @@ struct RayScene::Embree {
   Embree(const Embree&) = delete;
   Embree& operator=(const Embree&) = delete;
 
-  void add(const Skin& skin, bool is_ghost) {
+  void add(const Triangles& triangles, bool is_ghost) {
     const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     geometries.push_back(geometry);
     void* const indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(int),
-                                                  std::size_t(skin.triangles.rows()));
-    std::memcpy(indices, skin.triangles.data(), std::size_t(skin.triangles.size()) * sizeof(int));
+                                                  std::size_t(triangles.rows()));
+    std::memcpy(indices, triangles.data(), std::size_t(triangles.size()) * sizeof(int));
     rtcAttachGeometryByID(is_ghost ? ghosts : bodies, geometry, unsigned(geometries.size() - 1));
   }
 
@@ -73,9 +73,11 @@ struct RayScene::Embree {
   }
 };
 
-RayScene::RayScene(const std::vector<const Skin*>& skins, const std::vector<bool>& is_ghost)
+bool RayScene::is_available() { return true; }
+
+RayScene::RayScene(const std::vector<const Triangles*>& triangles, const std::vector<bool>& is_ghost)
     : embree_(std::make_unique<Embree>()) {
-  for (std::size_t i = 0; i < skins.size(); ++i) embree_->add(*skins[i], !is_ghost.empty() && is_ghost[i]);
+  for (std::size_t i = 0; i < triangles.size(); ++i) embree_->add(*triangles[i], !is_ghost.empty() && is_ghost[i]);
 }
 
 RayScene::~RayScene() = default;

@@ -30,8 +30,9 @@ struct RayHit {
 /// answers do not depend on the number of threads.
 class RayScene {
  public:
-  /// Throws Error(kFailed) where this program was built without Embree. `is_ghost`: by skin; ghosts hide nothing.
-  RayScene(const std::vector<const Skin*>& skins, const std::vector<bool>& is_ghost);
+  [[nodiscard]] static bool is_available();
+  /// Both by skin; ghosts hide nothing. Throws Error(kFailed) where this program was built without Embree.
+  RayScene(const std::vector<const Triangles*>& triangles, const std::vector<bool>& is_ghost);
   ~RayScene();
   RayScene(const RayScene&) = delete;
   RayScene& operator=(const RayScene&) = delete;

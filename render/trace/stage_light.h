@@ -27,6 +27,13 @@ class StageLight {
   /// Fraction of the light that the floor reflects.
   [[nodiscard]] static Eigen::Vector3f floor_albedo();
 
+  /// Irradiance over pi of level ground from the whole sky.
+  [[nodiscard]] const Eigen::Vector3f& sky_on_ground() const { return sky_on_ground_; }
+
+  /// Irradiance over pi of a surface that faces the middle of the key light.
+  [[nodiscard]] Eigen::Vector3f on_facing_key() const { return (1 - key_cosine_ * key_cosine_) * key_radiance_; }
+  /// Unit, the middle of the key light.
+  [[nodiscard]] const Eigen::Vector3f& to_key() const { return to_key_; }
   /// Unit; evenly over the key light's disc.
   [[nodiscard]] Eigen::Vector3f towards_key(const Eigen::Vector2f& random) const;
   [[nodiscard]] bool is_key(const Eigen::Vector3f& direction) const { return direction.dot(to_key_) > key_cosine_; }

@@ -12,6 +12,15 @@ using Eigen::Vector3f;
 constexpr float kOff = 1e-5F;    // the surface: where rays start
 constexpr float kFlat = 1e-24F;  // square of twice the area of a triangle that has no normal
 
+std::vector<const Triangles*> triangles_of(const std::vector<const Skin*>& skins) {
+  std::vector<const Triangles*> triangles;
+  triangles.reserve(skins.size());
+  for (const Skin* skin : skins) triangles.push_back(&skin->triangles);
+  return triangles;
+}
+
+}  // namespace
+
 Floats3 in_stage_space(const Floats3& positions, const StageSpace& space) {
   return (float(space.scale) * (positions.rowwise() - space.center.cast<float>().transpose())).eval();
 }
@@ -20,14 +29,12 @@ Floats3 unit(const Floats3& vectors) {
   return vectors.array().colwise() / vectors.rowwise().norm().array().max(1e-12F);
 }
 
-}  // namespace
-
 TracedSkins::Corners TracedSkins::mix(const Corners& a, const Corners& b, float share) {
   return {a.positions + share * (b.positions - a.positions), a.normals + share * (b.normals - a.normals)};
 }
 
 TracedSkins::TracedSkins(const Stage& stage, const StageSpace& space)
-    : space_(space), skins_(stage.skins), rays_(stage.skins, stage.ghosts) {
+    : space_(space), skins_(stage.skins), rays_(triangles_of(stage.skins), stage.ghosts) {
   for (std::size_t i = 0; i < skins_.size(); ++i) {
     paints_.emplace_back(*skins_[i], stage.default_colors[i], stage.color_map, pictures_);
   }

@@ -1,8 +1,10 @@
+#include "render/stage/coarse_triangles.h"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 
-#include "render/skin_buffers.h"
+#include "render/stage/visible_sides.h"
 #include "tests/support/still_life.h"
 
 namespace sprung {

@@ -1,0 +1,259 @@
+#include "render/trace/gathered_light.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "render/stage/coarse_triangles.h"
+#include "render/trace/traced_skins.h"
+
+namespace sprung {
+namespace {
+
+using Eigen::Vector3f;
+using Eigen::Vector4f;
+
+constexpr double kLift = 0.004;       // of the largest body's radius
+constexpr double kChord = 0.1;        // lift over the sides of coarse triangles
+constexpr float kTurned = 0.1F;       // sine of an angle by which triangles may be turned away
+constexpr int kFinePerRay = 64;       // directions whose mean radiance a ray brings
+constexpr float kHitOpenness = 0.5F;  // of the places that rays hit, as a guess
+
+/// Evenly over the sphere: the points of a Fibonacci lattice.
+std::vector<Vector3f> even_directions(int count) {
+  std::vector<Vector3f> directions;
+  for (int i = 0; i < count; ++i) {
+    const float y = 1 - (2 * float(i) + 1) / float(count);
+    const float turn = 2 * std::numbers::pi_v<float> * float(std::fmod(i / std::numbers::phi, 1.0));
+    const float radius = std::sqrt(1 - y * y);
+    directions.emplace_back(radius * std::cos(turn), y, radius * std::sin(turn));
+  }
+  return directions;
+}
+
+/// The i-th of some rotations that are far from each other.
+Eigen::Matrix3f rotation(std::size_t i) {
+  const auto part = [i](double step) { return 2 * std::numbers::pi * std::fmod(double(i) * step, 1.0); };
+  return Eigen::AngleAxisd(part(0.7548776662), Vec3(1, 2, 3).normalized()).toRotationMatrix().cast<float>() *
+         Eigen::AngleAxisd(part(0.5698402910), Vec3(-2, 3, 1).normalized()).toRotationMatrix().cast<float>();
+}
+
+}  // namespace
+
+Vector3f GroundLight::at(float x, float z) const {
+  const Eigen::Array2f inside = float(size) * (Eigen::Array2f(x, z) - low.array()) / sides.array() - 0.5F;
+  const Eigen::Array2f at = inside.max(0.0F).min(float(size - 1) - 1e-3F);
+  const int column = int(at.x());
+  const int row = int(at.y());
+  const float across = at.x() - float(column);
+  const float down = at.y() - float(row);
+  const auto texel = [&](int i, int k) {
+    return texels[std::size_t(row + k) * std::size_t(size) + std::size_t(column + i)];
+  };
+  return (1 - down) * ((1 - across) * texel(0, 0) + across * texel(1, 0)) +
+         down * ((1 - across) * texel(0, 1) + across * texel(1, 1));
+}
+
+GatheredLight::GatheredLight(const Stage& stage, int rays, int most_probes)
+    : space_(stage.bounds), stage_light_(stage.environment), stage_skins_(stage.skins) {
+  const std::vector<double> spacings = probe_spacings(stage_skins_, most_probes);
+  for (std::size_t i = 0; i < stage_skins_.size(); ++i) {
+    const Skin& skin = *stage_skins_[i];
+    paints_.emplace_back(skin, stage.default_colors[i], stage.color_map, pictures_);
+    SkinLight& light = skins_.emplace_back();
+    light.probes = place_probes(skin, spacings[i]);
+    light.sides = visible_sides(skin);
+    light.of_vertices.setZero(skin.positions.rows(), 4);
+    set_triangles(light, skin, spacings[i]);
+    lift_ = std::max(lift_, float(space_.scale * std::max(kLift * skin_radius(skin), kChord * spacings[i])));
+  }
+  std::vector<const Triangles*> triangles;
+  for (const SkinLight& light : skins_) triangles.push_back(&light.triangles);
+  rays_.emplace(triangles, stage.ghosts);
+  // A sphere of directions, half of which are above any surface.
+  const std::vector<Vector3f> coarse = even_directions(2 * rays);
+  const std::vector<Vector3f> fine = even_directions(2 * rays * kFinePerRay);
+  for (std::size_t turn = 0; turn < kTurns; ++turn) {
+    std::vector<Direction>& set = directions_[turn];
+    const Eigen::Matrix3f turned = rotation(turn);
+    for (const Vector3f& direction : coarse) set.push_back({turned * direction, Vector3f::Zero()});
+    std::vector<int> counts(set.size());
+    for (const Vector3f& direction : fine) {
+      std::size_t nearest = 0;
+      for (std::size_t k = 1; k < set.size(); ++k) {
+        if (set[k].towards.dot(direction) > set[nearest].towards.dot(direction)) nearest = k;
+      }
+      if (std::signbit(set[nearest].towards.y()) != std::signbit(direction.y())) continue;
+      set[nearest].radiance += stage_light_.around(direction);
+      ++counts[nearest];
+    }
+    for (std::size_t k = 0; k < set.size(); ++k) {
+      set[k].radiance =
+          counts[k] > 0 ? (set[k].radiance / float(counts[k])).eval() : stage_light_.around(set[k].towards);
+    }
+  }
+}
+
+/// Rays need no finer triangles than there are probes.
+void GatheredLight::set_triangles(SkinLight& light, const Skin& skin, double cell) const {
+  CoarseTriangles coarse = coarse_or_all_triangles(skin, cell);
+  for (int t = 0; t < skin.triangles.rows(); ++t) {
+    const bool is_left = coarse.first[std::size_t(t)] < coarse.first[std::size_t(t) + 1];
+    if (is_left) light.sources.push_back(t);
+  }
+  for (const int source : light.sources) {
+    light.colors.push_back(paints_.back().color(source, Vector3f::Constant(1.0F / 3), {}));
+  }
+  light.triangles = std::move(coarse.triangles);
+}
+
+/// Forgets what has changed.
+void GatheredLight::set_shapes(const std::vector<SkinShape>& shapes, const Vector3f& eye) {
+  for (SkinLight& light : skins_) {
+    if (light.sides == Sides::kBoth && eye != eye_) light.is_known.assign(light.is_known.size(), false);
+  }
+  eye_ = eye;
+  const auto same = [](const SkinShape& a, const SkinShape& b) {
+    return a.positions == b.positions && a.normals == b.normals && a.map_coordinates == b.map_coordinates;
+  };
+  if (std::equal(shapes.begin(), shapes.end(), shapes_.begin(), shapes_.end(), same)) return;
+  shapes_ = shapes;
+  std::vector<Floats3> positions;
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    SkinLight& light = skins_[i];
+    light.positions = in_stage_space(shapes[i].positions, space_);
+    light.normals = unit(shapes[i].normals);
+    light.is_known.assign(light.probes.vertices.size(), false);
+    light.of_probes.assign(light.probes.vertices.size(), Vector4f::Zero());
+    positions.push_back(light.positions);
+  }
+  rays_->update({positions});
+}
+
+/// Probes of vertices of triangles that face the eye or, as bodies move while the shutter is open, nearly do.
+void GatheredLight::find_needed(SkinLight& light, const Skin& skin, const Vector3f& eye) const {
+  std::vector<bool> is_seen(std::size_t(skin.positions.rows()), light.sides == Sides::kBoth);
+  const float side = light.sides == Sides::kBack ? -1.0F : 1.0F;
+  for (Eigen::Index t = 0; t < skin.triangles.rows() && light.sides != Sides::kBoth; ++t) {
+    const Eigen::Vector3i corners = skin.triangles.row(t);
+    const Vector3f a = light.positions.row(corners[0]);
+    const Vector3f b = light.positions.row(corners[1]).transpose() - a;
+    const Vector3f c = light.positions.row(corners[2]).transpose() - a;
+    const Vector3f way = eye - a;
+    const Vector3f across = b.cross(c);
+    if (side * across.dot(way) <= -kTurned * across.norm() * way.norm()) continue;
+    for (const int corner : corners) is_seen[std::size_t(corner)] = true;
+  }
+  light.is_needed.assign(light.probes.vertices.size(), false);
+  for (std::size_t vertex = 0; vertex < is_seen.size(); ++vertex) {
+    if (!is_seen[vertex]) continue;
+    for (int k = light.probes.first[vertex]; k < light.probes.first[vertex + 1]; ++k) {
+      light.is_needed[std::size_t(light.probes.probes[std::size_t(k)])] = true;
+    }
+  }
+}
+
+void GatheredLight::update(const std::vector<SkinShape>& shapes, const Vector3f& eye, const GroundLight& ground) {
+  set_shapes(shapes, eye);
+  struct Task {
+    std::size_t skin;
+    std::size_t probe;
+  };
+  std::vector<Task> tasks;
+  for (std::size_t i = 0; i < skins_.size(); ++i) {
+    SkinLight& light = skins_[i];
+    find_needed(light, *stage_skins_[i], eye);
+    for (std::size_t k = 0; k < light.is_needed.size(); ++k) {
+      if (!light.is_needed[k] || light.is_known[k]) continue;
+      tasks.push_back({i, k});
+      light.is_known[k] = true;
+    }
+  }
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tasks.size(), 32), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      SkinLight& light = skins_[tasks[i].skin];
+      const int vertex = light.probes.vertices[tasks[i].probe];
+      const Vector3f position = light.positions.row(vertex);
+      Vector3f normal = light.normals.row(vertex);
+      const bool is_flipped =
+          light.sides == Sides::kBoth ? normal.dot(eye - position) < 0 : light.sides == Sides::kBack;
+      if (is_flipped) normal = -normal;
+      light.of_probes[tasks[i].probe] = gather(position, normal, tasks[i].probe % kTurns, ground);
+    }
+  });
+  tbb::parallel_for(std::size_t(0), skins_.size(), [&](std::size_t i) { interpolate(skins_[i]); });
+}
+
+Vector4f GatheredLight::gather(const Vector3f& position, const Vector3f& normal, std::size_t turn,
+                               const GroundLight& ground) const {
+  Ray ray;
+  ray.origin = position + lift_ * normal;
+  const float height = std::max(ray.origin.y() - float(ground.height), 0.0F);
+  Vector4f sum = Vector4f::Zero();
+  float weights = 0;
+  for (const Direction& direction : directions_[turn]) {
+    const float cosine = normal.dot(direction.towards);
+    if (cosine <= 0) continue;
+    weights += cosine;
+    ray.direction = direction.towards;
+    const bool is_down = direction.towards.y() < 0;
+    ray.far = is_down ? height / -direction.towards.y() : std::numeric_limits<float>::infinity();
+    const std::optional<RayHit> hit = rays_->first_hit(ray);
+    if (hit) {
+      sum.head<3>() += cosine * reflected(ray, *hit);
+      continue;
+    }
+    sum.w() += cosine;
+    if (is_down) {
+      const Vector3f floor = ray.origin + ray.far * ray.direction;
+      sum.head<3>() += cosine * StageLight::floor_albedo().cwiseProduct(ground.at(floor.x(), floor.z()));
+    } else {
+      sum.head<3>() += cosine * direction.radiance;
+    }
+  }
+  return weights > 0 ? (sum / weights).eval() : Vector4f::Zero().eval();
+}
+
+/// Radiance of what a ray has met.
+Vector3f GatheredLight::reflected(const Ray& ray, const RayHit& hit) const {
+  const Sides sides = skins_[std::size_t(hit.skin)].sides;
+  Vector3f normal = hit.normal.normalized();
+  if (sides == Sides::kBack) normal = -normal;
+  if (normal.dot(ray.direction) > 0) {
+    if (sides != Sides::kBoth) return Vector3f::Zero();  // the inside of a body
+    normal = -normal;
+  }
+  const SkinLight& skin = skins_[std::size_t(hit.skin)];
+  const Eigen::VectorXf& map_coordinates = shapes_[std::size_t(hit.skin)].map_coordinates;
+  const Vector3f color = map_coordinates.size() == 0
+                             ? skin.colors[std::size_t(hit.triangle)]
+                             : paints_[std::size_t(hit.skin)].color(skin.sources[std::size_t(hit.triangle)],
+                                                                    Vector3f::Constant(1.0F / 3), map_coordinates);
+  const float facing = normal.dot(stage_light_.to_key());
+  Vector3f light = kHitOpenness * (0.5F + 0.5F * normal.y()) * stage_light_.sky_on_ground();
+  light += kHitOpenness * (0.5F - 0.5F * normal.y()) * stage_light_.around(-Vector3f::UnitY());
+  Ray shadow;
+  shadow.origin = ray.origin + hit.distance * ray.direction + lift_ * normal;
+  shadow.direction = stage_light_.to_key();
+  if (facing > 0 && !rays_->is_blocked(shadow)) light += facing * stage_light_.on_facing_key();
+  return color.cwiseProduct(light);
+}
+
+void GatheredLight::interpolate(SkinLight& light) const {
+  for (Eigen::Index vertex = 0; vertex < light.of_vertices.rows(); ++vertex) {
+    const std::size_t from = std::size_t(light.probes.first[std::size_t(vertex)]);
+    const std::size_t to = std::size_t(light.probes.first[std::size_t(vertex) + 1]);
+    Vector4f sum = Vector4f::Zero();
+    for (std::size_t k = from; k < to; ++k) {
+      sum += light.probes.weights[k] * light.of_probes[std::size_t(light.probes.probes[k])];
+    }
+    sum.head<3>() = (sum.head<3>() / kBrightestVertexLight).cwiseSqrt();
+    light.of_vertices.row(vertex) = (65535 * sum.cwiseMin(1.0F)).array().round().cast<std::uint16_t>();
+  }
+}
+
+}  // namespace sprung

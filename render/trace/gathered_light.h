@@ -1,0 +1,75 @@
+#pragma once
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "render/stage/stage.h"
+#include "render/stage/stage_space.h"
+#include "render/stage/visible_sides.h"
+#include "render/trace/ground_light.h"
+#include "render/trace/light_probes.h"
+#include "render/trace/ray_scene.h"
+#include "render/trace/skin_paint.h"
+#include "render/trace/stage_light.h"
+#include "render/trace/vertex_light.h"
+
+namespace sprung {
+
+/// Gathers the light that reaches skins from around them, other than the key light: from the sky, the floor, and after
+/// one reflection from other skins and themselves. A fixed set of rays leaves each probe, so that nothing flickers; the
+/// answers depend on neither the number of threads nor on earlier ones.
+class GatheredLight {
+ public:
+  /// `rays`: about so many leave a probe. `most_probes`: of all skins. Throws Error(kFailed) where this program was
+  /// built without Embree.
+  GatheredLight(const Stage& stage, int rays, int most_probes);
+
+  /// Of all vertices of triangles that `eye` (stage space) may see; the others' light says nothing. What was gathered
+  /// is kept as long as the shapes stay the same.
+  void update(const std::vector<SkinShape>& shapes, const Eigen::Vector3f& eye, const GroundLight& ground);
+
+  [[nodiscard]] const VertexLight& of_vertices(std::size_t skin) const { return skins_[skin].of_vertices; }
+
+ private:
+  static constexpr std::size_t kTurns = 8;  // of the set of rays; neighbouring probes use different ones
+
+  struct Direction {
+    Eigen::Vector3f towards;   // unit
+    Eigen::Vector3f radiance;  // from there, where it meets nothing
+  };
+  struct SkinLight {
+    LightProbes probes;
+    Sides sides;
+    Triangles triangles;                     // coarse, for the rays
+    std::vector<int> sources;                // the skin's triangle, by coarse one
+    std::vector<Eigen::Vector3f> colors;     // linear, by coarse triangle, where no map colours the skin
+    Floats3 positions;                       // of vertices, stage space
+    Floats3 normals;                         // unit
+    std::vector<bool> is_needed;             // by probe
+    std::vector<bool> is_known;              // by probe
+    std::vector<Eigen::Vector4f> of_probes;  // light and openness
+    VertexLight of_vertices;
+  };
+
+  void set_triangles(SkinLight& light, const Skin& skin, double cell) const;
+  void set_shapes(const std::vector<SkinShape>& shapes, const Eigen::Vector3f& eye);
+  void find_needed(SkinLight& light, const Skin& skin, const Eigen::Vector3f& eye) const;
+  [[nodiscard]] Eigen::Vector4f gather(const Eigen::Vector3f& position, const Eigen::Vector3f& normal, std::size_t turn,
+                                       const GroundLight& ground) const;
+  [[nodiscard]] Eigen::Vector3f reflected(const Ray& ray, const RayHit& hit) const;
+  void interpolate(SkinLight& light) const;
+
+  StageSpace space_;
+  StageLight stage_light_;
+  std::vector<const Skin*> stage_skins_;
+  TexturePictures pictures_;
+  std::vector<SkinPaint> paints_;
+  float lift_ = 0;  // of the places where rays start, off the surface; stage space
+  std::array<std::vector<Direction>, kTurns> directions_;
+  std::vector<SkinLight> skins_;
+  std::optional<RayScene> rays_;
+  std::vector<SkinShape> shapes_;                  // the last ones
+  Eigen::Vector3f eye_ = Eigen::Vector3f::Zero();  // the last one
+};
+
+}  // namespace sprung

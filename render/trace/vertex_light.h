@@ -1,0 +1,13 @@
+#pragma once
+#include <Eigen/Core>
+#include <cstdint>
+
+namespace sprung {
+
+/// What surrounds vertices, as the shaders take it: square roots of the irradiance over pi, less the key light, over
+/// the brightest; and the fraction of the cosine-weighted hemisphere that no body hides. 65535 is 1.
+using VertexLight = Eigen::Matrix<std::uint16_t, Eigen::Dynamic, 4, Eigen::RowMajor>;
+
+inline constexpr float kBrightestVertexLight = 4;
+
+}  // namespace sprung

@@ -1,0 +1,161 @@
+#include "render/trace/gathered_light.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <cmath>
+
+#include "render/trace/directions.h"
+#include "tests/support/still_life.h"
+
+namespace sprung {
+namespace {
+
+using Eigen::Vector3f;
+using Eigen::Vector4f;
+
+const Vector3f kEye(0, 0, 20);  // stage space
+constexpr int kRaysOfProbe = 64;
+constexpr int kMostProbes = 20000;
+
+/// A square with two triangles for each of side x side parts, at a height, that looks up or down.
+Skin plate(double half, double height, int side, bool looks_up) {
+  Skin skin;
+  const int count = side + 1;
+  skin.positions.resize(count * count, 3);
+  skin.normals.resize(count * count, 3);
+  skin.triangles.resize(2 * side * side, 3);
+  for (int i = 0; i < count * count; ++i) {
+    skin.positions.row(i) << half * (2.0 * (i % count) / side - 1), height, half * (2.0 * (i / count) / side - 1);
+    skin.normals.row(i) << 0, looks_up ? 1 : -1, 0;
+  }
+  for (int i = 0; i < side * side; ++i) {
+    const int corner = i / side * count + i % side;
+    const int right = looks_up ? corner + 1 : corner + count;
+    const int down = looks_up ? corner + count : corner + 1;
+    skin.triangles.row(2 * i) << corner, down, right;
+    skin.triangles.row(2 * i + 1) << right, down, corner + count + 1;
+  }
+  return skin;
+}
+
+/// Level ground under the open sky.
+GroundLight open_ground(const Stage& stage) {
+  const StageLight light(stage.environment);
+  const StageSpace space(stage.bounds);
+  const Vector3f open = light.on_facing_key() * light.to_key().y() + light.sky_on_ground();
+  return {-space.center.y() * space.scale, {-1, -1}, {2, 2}, 2, std::vector(4, open)};
+}
+
+class Gathering {
+ public:
+  explicit Gathering(const StillLife& scene)
+      : stage_(scene.stage()), shapes_(scene.shapes()), light_(stage_, kRaysOfProbe, kMostProbes) {}
+
+  /// Light and openness at a vertex.
+  Vector4f at(std::size_t skin, int vertex, const Vector3f& eye = kEye) {
+    light_.update(shapes_, eye, open_ground(stage_));
+    Vector4f value = light_.of_vertices(skin).row(vertex).cast<float>().transpose() / 65535;
+    value.head<3>() = kBrightestVertexLight * value.head<3>().cwiseAbs2();
+    return value;
+  }
+  VertexLight all(const std::vector<SkinShape>& shapes) {
+    light_.update(shapes, kEye, open_ground(stage_));
+    return light_.of_vertices(0);
+  }
+  [[nodiscard]] const std::vector<SkinShape>& shapes() const { return shapes_; }
+
+ private:
+  Stage stage_;
+  std::vector<SkinShape> shapes_;
+  GatheredLight light_;
+};
+
+int nearest(const Skin& skin, const Vec3& point) {
+  Eigen::Index vertex = 0;
+  (skin.positions.rowwise() - point.transpose()).rowwise().squaredNorm().minCoeff(&vertex);
+  return int(vertex);
+}
+
+/// Irradiance over pi of a surface that nothing hides.
+Vector3f unhidden(const Vector3f& normal) {
+  const StageLight light{std::nullopt};
+  const TangentFrame frame(normal);
+  constexpr int kSide = 100;
+  Vector3f sum = Vector3f::Zero();
+  for (int i = 0; i < kSide * kSide; ++i) sum += light.around(frame.to_world(on_cosine_hemisphere(on_grid(i, kSide))));
+  return sum / (kSide * kSide);
+}
+
+TEST(GatheredLight, OfAConvexBodyIsAllLightAroundIt) {
+  StillLife scene;
+  scene.add(make_sphere_skin({0, 3, 0}, 0.5), kCream);
+  Gathering gathering(scene);
+  for (const Vec3& normal : {Vec3(0, 0, 1), Vec3(0.6, 0.8, 0), Vec3(0, 1, 0), Vec3(0, -0.8, 0.6)}) {
+    const int vertex = nearest(scene.skins[0], Vec3(0, 3, 0) + 0.5 * normal);
+    const Vector4f found = gathering.at(0, vertex, 20 * normal.cast<float>());
+    const Vector3f expected = unhidden(scene.skins[0].normals.row(vertex).cast<float>());
+    EXPECT_NEAR(found.w(), 1, 1e-4);
+    for (int k = 0; k < 3; ++k) EXPECT_NEAR(found[k], expected[k], 0.03 * expected[k]) << normal.transpose();
+  }
+}
+
+// Below a square of half side a at a height h, of which a quarter is seen under the form factor of two parallel
+// rectangles with a corner above a point: J. Howell, "A Catalog of Radiation Heat Transfer Configuration Factors", B-3.
+TEST(GatheredLight, UnderAPlateIsHiddenByItsFormFactor) {
+  StillLife scene;
+  scene.add(plate(0.5, 0.4, 40, false), kRed);
+  scene.add(plate(0.2, 0, 20, true), kCream);
+  const double x = 0.5 / 0.4;
+  const double quarter = x / std::sqrt(1 + x * x) * std::atan(x / std::sqrt(1 + x * x)) / M_PI;
+  const Vector4f found = Gathering(scene).at(1, nearest(scene.skins[1], {0, 0, 0}), {0, 5, 20});
+  EXPECT_NEAR(found.w(), 1 - 4 * quarter, 0.02);
+}
+
+TEST(GatheredLight, BleedsTheColourOfANeighbour) {
+  StillLife scene;
+  scene.add(make_sphere_skin({0, 0.5, 0}, 0.4), kCream);
+  scene.add(make_box_skin({0.5, 0, -1}, {0.6, 1.5, 1}), kRed);
+  Gathering gathering(scene);
+  const Vector4f near = gathering.at(0, nearest(scene.skins[0], {0.4, 0.5, 0}), {20, 2, 20});
+  const Vector4f far = gathering.at(0, nearest(scene.skins[0], {-0.4, 0.5, 0}), {-20, 2, 20});
+  EXPECT_GT(near.x() / near.z(), 1.3F * far.x() / far.z());
+  EXPECT_LT(near.w(), 0.6F);
+  EXPECT_GT(far.w(), 0.99F);
+}
+
+TEST(GatheredLight, InsideABodyIsDark) {
+  StillLife scene;
+  scene.add(make_sphere_skin({0, 1, 0}, 0.2), kCream);
+  scene.add(make_sphere_skin({0, 1, 0}, 0.6), kCream);
+  const Vector4f found = Gathering(scene).at(0, nearest(scene.skins[0], {0, 1, 0.2}));
+  EXPECT_EQ(found, Vector4f::Zero().eval());
+}
+
+TEST(GatheredLight, OfASheetIsOfTheSideThatIsSeen) {
+  StillLife scene;
+  scene.add(plate(0.5, 1, 20, true), kCream);
+  scene.add(plate(0.5, 1.1, 20, false), kRed);  // a lid
+  Gathering gathering(scene);
+  const int middle = nearest(scene.skins[0], {0, 1, 0});
+  EXPECT_LT(gathering.at(0, middle, {0, 1, 20}).w(), 0.2F);
+  EXPECT_GT(gathering.at(0, middle, {0, -20, 20}).w(), 0.99F);
+}
+
+TEST(GatheredLight, DependsNeitherOnThreadsNorOnEarlierPictures) {
+  StillLife scene;
+  scene.add(make_ring_skin({0, 0.2, 0}, 0.5, 0.2), kCream);
+  scene.add(make_sphere_skin({0, 0.5, 0}, 0.3), kRed);
+  std::vector<SkinShape> moved = Gathering(scene).shapes();
+  moved[1].positions.col(1).array() += 0.5F;
+  Gathering fresh(scene);
+  const VertexLight expected = fresh.all(fresh.shapes());
+  EXPECT_EQ(fresh.all(fresh.shapes()), expected);
+  EXPECT_NE(fresh.all(moved), expected);
+  EXPECT_EQ(fresh.all(fresh.shapes()), expected);
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  EXPECT_EQ(Gathering(scene).all(moved), fresh.all(moved));
+}
+
+}  // namespace
+}  // namespace sprung
