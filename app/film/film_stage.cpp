@@ -22,6 +22,8 @@ constexpr double kSpringRadius = 0.03;   // of a brick
 constexpr double kNodeRadius = 0.09;     // of a brick
 constexpr double kPinRadius = 0.17;      // of a brick
 constexpr double kTraceRadius = 0.0035;  // of the largest body
+constexpr double kObstacleEdge = 0.08;   // of the largest body: light around a skin is known at its vertices
+constexpr double kMostEdges = 60;        // across an obstacle
 constexpr double kUtmost = 0.01;         // fraction of the springs that may exceed the range of colours
 
 /// By default blue in compression, red in tension, dark at rest.
@@ -266,12 +268,10 @@ void FilmStage::add_ghost(std::size_t row) {
 }
 
 void FilmStage::add_obstacle(const StageObstacle& obstacle, int id) {
-  auto skin = not_owned(obstacle.skin);
-  if (is_smooth()) {
-    Skin smooth = obstacle.skin;
-    refine_curves(smooth, tolerance_);
-    skin = std::make_shared<const Skin>(std::move(smooth));
-  }
+  Skin fine = obstacle.skin;
+  if (is_smooth()) refine_curves(fine, tolerance_);
+  refine(fine, std::max(kObstacleEdge * simulation_.size, bounding_box(fine.positions).diagonal().norm() / kMostEdges));
+  const auto skin = std::make_shared<const Skin>(std::move(fine));
   items_.push_back({skin, srgb(obstacle.color), Look::kPlastic, false, id,
                     [&obstacle, skin](const Moment& now) { return shape_of(obstacle, *skin, now.time); }});
 }

@@ -81,7 +81,8 @@ SkinShape Rods::shape(const Points& from, const Points& to, const Eigen::VectorX
   shape.normals.resize(kRodVertices * from.rows(), 3);
   if (coordinates.size() > 0) shape.map_coordinates.resize(kRodVertices * from.rows());
   for (Eigen::Index rod = 0; rod < from.rows(); ++rod) {
-    const Vec3 way = to.row(rod) - from.row(rod);
+    Vec3 way = to.row(rod) - from.row(rod);
+    if (way.isZero(0)) way = Vec3::UnitX();  // of no length: nothing to see, but finite
     const Vec3 across = way.unitOrthogonal();
     const Vec3 third = way.stableNormalized().cross(across);
     for (int vertex = 0; vertex < kRodVertices; ++vertex) {

@@ -36,7 +36,7 @@ struct RenderOptions {
   bool exposes = false;                 // pictures are of several exposures
   /// Light from around is gathered by rays, for bodies that hide it from each other and themselves. Needs Embree;
   /// preview and final quality do without.
-  bool gathers_light = false;
+  bool gathers_light = true;
 };
 
 inline constexpr double kGhostOpacity = 0.28;

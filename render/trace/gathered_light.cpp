@@ -17,11 +17,14 @@ namespace {
 using Eigen::Vector3f;
 using Eigen::Vector4f;
 
-constexpr double kLift = 0.004;       // of the largest body's radius
-constexpr double kChord = 0.1;        // lift over the sides of coarse triangles
-constexpr float kTurned = 0.1F;       // sine of an angle by which triangles may be turned away
-constexpr int kFinePerRay = 64;       // directions whose mean radiance a ray brings
-constexpr float kHitOpenness = 0.5F;  // of the places that rays hit, as a guess
+constexpr double kLift = 0.004;        // of the largest body's radius
+constexpr double kGroove = 2;          // depth of grooves over the sides of coarse triangles
+constexpr float kLittle = 1e-3F;       // of a groove, by which rays go on behind it
+constexpr double kChord = 0.1;         // lift over the sides of coarse triangles
+constexpr float kTurned = 0.1F;        // sine of an angle by which triangles may be turned away
+constexpr std::size_t kFewProbes = 5;  // times fewer than the most: each then gets more rays
+constexpr int kMostRays = 8;           // times as many from a probe, where there are few probes
+constexpr float kHitOpenness = 0.5F;   // of the places that rays hit, as a guess
 
 /// Evenly over the sphere: the points of a Fibonacci lattice.
 std::vector<Vector3f> even_directions(int count) {
@@ -59,7 +62,7 @@ Vector3f GroundLight::at(float x, float z) const {
 }
 
 GatheredLight::GatheredLight(const Stage& stage, int rays, int most_probes)
-    : space_(stage.bounds), stage_light_(stage.environment), stage_skins_(stage.skins) {
+    : space_(stage.bounds), stage_light_(stage.environment), irradiance_(stage_light_), stage_skins_(stage.skins) {
   const std::vector<double> spacings = probe_spacings(stage_skins_, most_probes);
   for (std::size_t i = 0; i < stage_skins_.size(); ++i) {
     const Skin& skin = *stage_skins_[i];
@@ -69,31 +72,23 @@ GatheredLight::GatheredLight(const Stage& stage, int rays, int most_probes)
     light.sides = visible_sides(skin);
     light.of_vertices.setZero(skin.positions.rows(), 4);
     set_triangles(light, skin, spacings[i]);
-    lift_ = std::max(lift_, float(space_.scale * std::max(kLift * skin_radius(skin), kChord * spacings[i])));
+    light.groove = float(space_.scale * kGroove * spacings[i]);
+    light.lift = float(space_.scale * std::max(kLift * skin_radius(skin), kChord * spacings[i]));
   }
   std::vector<const Triangles*> triangles;
   for (const SkinLight& light : skins_) triangles.push_back(&light.triangles);
   rays_.emplace(triangles, stage.ghosts);
+  std::size_t probes = 1;
+  for (const SkinLight& light : skins_) probes += light.probes.vertices.size();
+  const int few =
+      std::clamp(int(std::size_t(rays) * std::size_t(most_probes) / (kFewProbes * probes)), rays, kMostRays * rays);
   // A sphere of directions, half of which are above any surface.
-  const std::vector<Vector3f> coarse = even_directions(2 * rays);
-  const std::vector<Vector3f> fine = even_directions(2 * rays * kFinePerRay);
+  const std::vector<Vector3f> directions = even_directions(2 * few);
   for (std::size_t turn = 0; turn < kTurns; ++turn) {
-    std::vector<Direction>& set = directions_[turn];
     const Eigen::Matrix3f turned = rotation(turn);
-    for (const Vector3f& direction : coarse) set.push_back({turned * direction, Vector3f::Zero()});
-    std::vector<int> counts(set.size());
-    for (const Vector3f& direction : fine) {
-      std::size_t nearest = 0;
-      for (std::size_t k = 1; k < set.size(); ++k) {
-        if (set[k].towards.dot(direction) > set[nearest].towards.dot(direction)) nearest = k;
-      }
-      if (std::signbit(set[nearest].towards.y()) != std::signbit(direction.y())) continue;
-      set[nearest].radiance += stage_light_.around(direction);
-      ++counts[nearest];
-    }
-    for (std::size_t k = 0; k < set.size(); ++k) {
-      set[k].radiance =
-          counts[k] > 0 ? (set[k].radiance / float(counts[k])).eval() : stage_light_.around(set[k].towards);
+    for (const Vector3f& direction : directions) {
+      const Vector3f towards = turned * direction;
+      directions_[turn].push_back({towards, stage_light_.around(towards)});
     }
   }
 }
@@ -182,52 +177,76 @@ void GatheredLight::update(const std::vector<SkinShape>& shapes, const Vector3f&
       const bool is_flipped =
           light.sides == Sides::kBoth ? normal.dot(eye - position) < 0 : light.sides == Sides::kBack;
       if (is_flipped) normal = -normal;
-      light.of_probes[tasks[i].probe] = gather(position, normal, tasks[i].probe % kTurns, ground);
+      light.of_probes[tasks[i].probe] =
+          gather({position + light.lift * normal, normal, tasks[i].skin, tasks[i].probe % kTurns}, ground);
     }
   });
   tbb::parallel_for(std::size_t(0), skins_.size(), [&](std::size_t i) { interpolate(skins_[i]); });
 }
 
-Vector4f GatheredLight::gather(const Vector3f& position, const Vector3f& normal, std::size_t turn,
-                               const GroundLight& ground) const {
+bool GatheredLight::is_inside(const Ray& ray, const RayHit& hit) const {
+  const Sides sides = skins_[std::size_t(hit.skin)].sides;
+  const float along = hit.normal.dot(ray.direction);
+  return sides != Sides::kBoth && (sides == Sides::kBack ? along < 0 : along > 0);
+}
+
+/// Leaves the skin where the ray begins: in a groove a probe may lie beneath the coarse triangles.
+std::optional<RayHit> GatheredLight::first_hit(Ray ray, std::size_t own) const {
+  std::optional<RayHit> hit = rays_->first_hit(ray);
+  const float reach = skins_[own].groove;
+  if (!hit || std::size_t(hit->skin) != own || hit->distance > reach || !is_inside(ray, *hit)) return hit;
+  const float passed = hit->distance + kLittle * reach;
+  ray.origin += passed * ray.direction;
+  ray.far -= passed;
+  if (ray.far <= 0) return std::nullopt;
+  hit = rays_->first_hit(ray);
+  if (hit) hit->distance += passed;
+  return hit;
+}
+
+/// The rays measure which fraction of the light around is hidden: without anything that hides it the answer is exact.
+Vector4f GatheredLight::gather(const Place& place, const GroundLight& ground) const {
   Ray ray;
-  ray.origin = position + lift_ * normal;
+  ray.origin = place.origin;
   const float height = std::max(ray.origin.y() - float(ground.height), 0.0F);
-  Vector4f sum = Vector4f::Zero();
+  Vector3f around = Vector3f::Zero();
+  Vector3f arriving = Vector3f::Zero();  // of that
+  Vector3f reflections = Vector3f::Zero();
+  float open = 0;
   float weights = 0;
-  for (const Direction& direction : directions_[turn]) {
-    const float cosine = normal.dot(direction.towards);
+  for (const Direction& direction : directions_[place.turn]) {
+    const float cosine = place.normal.dot(direction.towards);
     if (cosine <= 0) continue;
     weights += cosine;
+    around += cosine * direction.radiance;
     ray.direction = direction.towards;
     const bool is_down = direction.towards.y() < 0;
     ray.far = is_down ? height / -direction.towards.y() : std::numeric_limits<float>::infinity();
-    const std::optional<RayHit> hit = rays_->first_hit(ray);
+    const std::optional<RayHit> hit = first_hit(ray, place.skin);
     if (hit) {
-      sum.head<3>() += cosine * reflected(ray, *hit);
+      reflections += cosine * reflected(ray, *hit);
       continue;
     }
-    sum.w() += cosine;
+    open += cosine;
     if (is_down) {
       const Vector3f floor = ray.origin + ray.far * ray.direction;
-      sum.head<3>() += cosine * StageLight::floor_albedo().cwiseProduct(ground.at(floor.x(), floor.z()));
+      arriving += cosine * StageLight::floor_albedo().cwiseProduct(ground.at(floor.x(), floor.z()));
     } else {
-      sum.head<3>() += cosine * direction.radiance;
+      arriving += cosine * direction.radiance;
     }
   }
-  return weights > 0 ? (sum / weights).eval() : Vector4f::Zero().eval();
+  if (weights == 0) return Vector4f::Zero();
+  const Vector3f light =
+      irradiance_.on(place.normal).cwiseProduct(arriving).cwiseQuotient(around.cwiseMax(1e-6F)) + reflections / weights;
+  return {light.x(), light.y(), light.z(), open / weights};
 }
 
 /// Radiance of what a ray has met.
 Vector3f GatheredLight::reflected(const Ray& ray, const RayHit& hit) const {
-  const Sides sides = skins_[std::size_t(hit.skin)].sides;
-  Vector3f normal = hit.normal.normalized();
-  if (sides == Sides::kBack) normal = -normal;
-  if (normal.dot(ray.direction) > 0) {
-    if (sides != Sides::kBoth) return Vector3f::Zero();  // the inside of a body
-    normal = -normal;
-  }
   const SkinLight& skin = skins_[std::size_t(hit.skin)];
+  if (is_inside(ray, hit)) return Vector3f::Zero();
+  Vector3f normal = hit.normal.normalized();
+  if (normal.dot(ray.direction) > 0) normal = -normal;
   const Eigen::VectorXf& map_coordinates = shapes_[std::size_t(hit.skin)].map_coordinates;
   const Vector3f color = map_coordinates.size() == 0
                              ? skin.colors[std::size_t(hit.triangle)]
@@ -237,7 +256,7 @@ Vector3f GatheredLight::reflected(const Ray& ray, const RayHit& hit) const {
   Vector3f light = kHitOpenness * (0.5F + 0.5F * normal.y()) * stage_light_.sky_on_ground();
   light += kHitOpenness * (0.5F - 0.5F * normal.y()) * stage_light_.around(-Vector3f::UnitY());
   Ray shadow;
-  shadow.origin = ray.origin + hit.distance * ray.direction + lift_ * normal;
+  shadow.origin = ray.origin + hit.distance * ray.direction + skin.lift * normal;
   shadow.direction = stage_light_.to_key();
   if (facing > 0 && !rays_->is_blocked(shadow)) light += facing * stage_light_.on_facing_key();
   return color.cwiseProduct(light);

@@ -7,6 +7,7 @@
 #include "render/stage/stage_space.h"
 #include "render/stage/visible_sides.h"
 #include "render/trace/ground_light.h"
+#include "render/trace/irradiance_table.h"
 #include "render/trace/light_probes.h"
 #include "render/trace/ray_scene.h"
 #include "render/trace/skin_paint.h"
@@ -20,8 +21,8 @@ namespace sprung {
 /// answers depend on neither the number of threads nor on earlier ones.
 class GatheredLight {
  public:
-  /// `rays`: about so many leave a probe. `most_probes`: of all skins. Throws Error(kFailed) where this program was
-  /// built without Embree.
+  /// `rays`: about so many leave a probe, more where there are few probes. `most_probes`: of all skins. Throws
+  /// Error(kFailed) where this program was built without Embree.
   GatheredLight(const Stage& stage, int rays, int most_probes);
 
   /// Of all vertices of triangles that `eye` (stage space) may see; the others' light says nothing. What was gathered
@@ -37,9 +38,18 @@ class GatheredLight {
     Eigen::Vector3f towards;   // unit
     Eigen::Vector3f radiance;  // from there, where it meets nothing
   };
+  /// Of a probe.
+  struct Place {
+    Eigen::Vector3f origin;  // of its rays, stage space
+    Eigen::Vector3f normal;  // unit
+    std::size_t skin;
+    std::size_t turn;
+  };
   struct SkinLight {
     LightProbes probes;
     Sides sides;
+    float groove;                            // depth, stage space
+    float lift;                              // of the places where rays start or end, off the surface; stage space
     Triangles triangles;                     // coarse, for the rays
     std::vector<int> sources;                // the skin's triangle, by coarse one
     std::vector<Eigen::Vector3f> colors;     // linear, by coarse triangle, where no map colours the skin
@@ -54,17 +64,18 @@ class GatheredLight {
   void set_triangles(SkinLight& light, const Skin& skin, double cell) const;
   void set_shapes(const std::vector<SkinShape>& shapes, const Eigen::Vector3f& eye);
   void find_needed(SkinLight& light, const Skin& skin, const Eigen::Vector3f& eye) const;
-  [[nodiscard]] Eigen::Vector4f gather(const Eigen::Vector3f& position, const Eigen::Vector3f& normal, std::size_t turn,
-                                       const GroundLight& ground) const;
+  [[nodiscard]] bool is_inside(const Ray& ray, const RayHit& hit) const;
+  [[nodiscard]] std::optional<RayHit> first_hit(Ray ray, std::size_t own) const;
+  [[nodiscard]] Eigen::Vector4f gather(const Place& place, const GroundLight& ground) const;
   [[nodiscard]] Eigen::Vector3f reflected(const Ray& ray, const RayHit& hit) const;
   void interpolate(SkinLight& light) const;
 
   StageSpace space_;
   StageLight stage_light_;
+  IrradianceTable irradiance_;
   std::vector<const Skin*> stage_skins_;
   TexturePictures pictures_;
   std::vector<SkinPaint> paints_;
-  float lift_ = 0;  // of the places where rays start, off the surface; stage space
   std::array<std::vector<Direction>, kTurns> directions_;
   std::vector<SkinLight> skins_;
   std::optional<RayScene> rays_;

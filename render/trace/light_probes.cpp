@@ -51,8 +51,10 @@ double area(const Skin& skin) {
 
 }  // namespace
 
-LightProbes place_probes(const Skin& skin, double spacing) {
+LightProbes place_probes(const Skin& skin, double least_spacing) {
   const int count = int(skin.positions.rows());
+  // Vertices that are further apart are all probes, and take their light from as many neighbours as others do.
+  const double spacing = std::max(least_spacing, std::sqrt(area(skin) / std::max(count, 1)));
   std::vector<std::pair<Cell, int>> keys;
   keys.reserve(std::size_t(count));
   for (int i = 0; i < count; ++i) keys.emplace_back(cell_of(skin, i, spacing), side_of(skin, i));

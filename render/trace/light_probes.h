@@ -13,10 +13,11 @@ struct LightProbes {
   std::vector<float> weights;  // of a vertex: > 0, sum 1
 };
 
-/// One probe represents all vertices in a cell of side `spacing` (m, > 0) whose normals pass through the same side of a
-/// cube. Vertices take their light from the probes around them whose normals are within a right angle of theirs, so
-/// that the two sides of a thin part have nothing to do with each other. Deterministic.
-[[nodiscard]] LightProbes place_probes(const Skin& skin, double spacing);
+/// One probe represents all vertices in a cell of side `least_spacing` (m, > 0; more where vertices are sparse) whose
+/// normals pass through the same side of a cube. Vertices take their light from the probes around them whose normals
+/// are within a right angle of theirs, so that the two sides of a thin part have nothing to do with each other.
+/// Deterministic.
+[[nodiscard]] LightProbes place_probes(const Skin& skin, double least_spacing);
 
 /// A distance between probes at which each skin gets about as many as its size deserves and all together no more than
 /// about `most`; m, by skin.

@@ -96,7 +96,7 @@ TEST(GatheredLight, OfAConvexBodyIsAllLightAroundIt) {
     const Vector4f found = gathering.at(0, vertex, 20 * normal.cast<float>());
     const Vector3f expected = unhidden(scene.skins[0].normals.row(vertex).cast<float>());
     EXPECT_NEAR(found.w(), 1, 1e-4);
-    for (int k = 0; k < 3; ++k) EXPECT_NEAR(found[k], expected[k], 0.03 * expected[k]) << normal.transpose();
+    for (int k = 0; k < 3; ++k) EXPECT_NEAR(found[k], expected[k], 0.01 * expected[k]) << normal.transpose();
   }
 }
 
