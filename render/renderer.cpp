@@ -112,6 +112,7 @@ struct Renderer::Device {
   std::vector<SkinBuffers> skins;
   std::vector<int> ids;  // by skin
   LightMaps maps;
+  std::optional<GatheredLight> gathered;
   Screen screen;
   PassClock clock;
   std::optional<Environment> environment;
@@ -120,7 +121,6 @@ struct Renderer::Device {
   std::optional<Screen> light_screen;
   std::optional<Screen> share_screen;
   std::optional<Tracing> tracing;  // where pictures are traced
-  std::optional<GatheredLight> gathered;
 
   Device(const Stage& stage, const RenderOptions& wanted)
       : gl(context.gl()),
@@ -131,13 +131,13 @@ struct Renderer::Device {
         textures(gl, stage.color_map),
         ids(stage.ids),
         maps(gl, without_tracing(wanted)),
+        gathered(make_gathered(stage, without_tracing(wanted))),
         screen(gl, without_tracing(wanted), stage.environment,
-               without_tracing(wanted).exposes ? ScreenOutput::kLight : ScreenOutput::kPicture),
+               without_tracing(wanted).exposes ? ScreenOutput::kLight : ScreenOutput::kPicture, gathering()),
         clock(gl, wanted.measure_passes),
         environment(stage.environment),
         options(without_tracing(wanted)) {
     if (wanted.quality == Quality::kFinal) tracing.emplace(gl, stage, wanted);
-    if (options.gathers_light) gathered.emplace(stage, rays_of(options.quality), probes_of(options.quality));
     for (std::size_t i = 0; i < stage.skins.size(); ++i) {
       const bool is_ghost = !stage.ghosts.empty() && stage.ghosts[i];
       const Look look = stage.looks.empty() ? Look::kPlastic : stage.looks[i];
@@ -153,6 +153,15 @@ struct Renderer::Device {
   ~Device() { static_cast<void>(context.try_make_current()); }  // the members' OpenGL objects are deleted next
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
+
+  static std::optional<GatheredLight> make_gathered(const Stage& stage, const RenderOptions& options) {
+    if (!options.gathers_light) return std::nullopt;
+    return std::optional<GatheredLight>(std::in_place, stage, rays_of(options.quality), probes_of(options.quality));
+  }
+  [[nodiscard]] Gathering gathering() const {
+    if (!gathered) return Gathering::kNothing;
+    return gathered->is_translucent() ? Gathering::kThrough : Gathering::kAround;
+  }
 
   void update(const std::vector<SkinShape>& shapes) {
     if (shapes.size() != skins.size()) throw Error(ErrorKind::kFailed, "drawing needs a shape for every skin");
@@ -187,7 +196,10 @@ struct Renderer::Device {
     View view = make_view(frame, camera, screen.aspect());
     if (!gathered) return view;
     gathered->update(shapes, view.eye.cast<float>(), maps.ground().read_light(frame));
-    for (std::size_t i = 0; i < skins.size(); ++i) skins[i].update_light(gathered->of_vertices(i));
+    for (std::size_t i = 0; i < skins.size(); ++i) {
+      skins[i].update_light(gathered->of_vertices(i));
+      if (gathered->is_translucent()) skins[i].update_through(gathered->through_to_vertices(i));
+    }
     clock.stop("light from around");
     return view;
   }
@@ -239,9 +251,9 @@ struct Renderer::Device {
   void make_light_screens() {
     RenderOptions single = options;
     single.exposes = false;
-    if (!options.exposes && !tracing) light_screen.emplace(gl, single, environment, ScreenOutput::kLight);
+    if (!options.exposes && !tracing) light_screen.emplace(gl, single, environment, ScreenOutput::kLight, gathering());
     single.transparent = false;
-    share_screen.emplace(gl, single, environment, ScreenOutput::kShares);
+    share_screen.emplace(gl, single, environment, ScreenOutput::kShares, gathering());
   }
 
   void draw(const Exposure& exposure, const View& view, bool with_ghosts) {

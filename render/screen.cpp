@@ -85,13 +85,9 @@ const char* output_define(ScreenOutput output) {
   return output == ScreenOutput::kLight ? "#define EXPOSURE\n" : "#define EXPOSURE\n#define SHARES\n";
 }
 
-std::string gathered_define(const RenderOptions& options) { return options.gathers_light ? "#define GATHERED\n" : ""; }
-
-/// `light`: null for none.
-GlFramebuffer make_surface_target(const GlFunctions& gl, std::vector<const GlTexture*> colors, const GlTexture* light,
-                                  const GlTexture& depth) {
-  if (light != nullptr) colors.push_back(light);
-  return make_colors_target(gl, colors, depth);
+std::string gathered_define(Gathering gathering) {
+  return fmt::format("{}{}", gathering >= Gathering::kAround ? "#define GATHERED\n" : "",
+                     gathering >= Gathering::kThrough ? "#define TRANSLUCENT\n" : "");
 }
 
 /// The tint of the floor comes from the light maps if these have what the picture has.
@@ -108,20 +104,20 @@ bool has_floor_in_sight(const View& view) {
 }  // namespace
 
 Screen::Screen(const GlFunctions& gl, const RenderOptions& options, const std::optional<Environment>& environment,
-               ScreenOutput output)
+               ScreenOutput output, Gathering gathering)
     : gl_(gl),
       width_(options.width),
       height_(options.height),
       side_(sample_side(options.samples)),
       is_transparent_(options.transparent),
-      is_gathered_(options.gathers_light),
+      gathering_(gathering),
       output_(output),
       surface_color_(make_texture(gl, side_ * width_, side_ * height_, kColorFormat)),
       surface_normal_(make_texture(gl, side_ * width_, side_ * height_, kColorFormat)),
       surface_depth_(make_texture(gl, side_ * width_, side_ * height_, kDepthFormat)),
-      surface_light_(is_gathered_ ? make_texture(gl, side_ * width_, side_ * height_, kGatheredFormat) : GlTexture()),
-      surface_(make_surface_target(gl, {&surface_color_, &surface_normal_}, is_gathered_ ? &surface_light_ : nullptr,
-                                   surface_depth_)),
+      surface_light_(make_gathered(Gathering::kAround)),
+      surface_through_(make_gathered(Gathering::kThrough)),
+      surface_(make_surface()),
       picture_(make_texture(gl, width_, height_, picture_format(output))),
       kinds_(make_texture(gl, width_, height_, kDepthFormat)),
       developed_(make_texture_target(gl, &picture_, &kinds_)),
@@ -130,7 +126,7 @@ Screen::Screen(const GlFunctions& gl, const RenderOptions& options, const std::o
       environment_(environment ? std::optional(EnvironmentTexture(gl, *environment)) : std::nullopt),
       nearer_sampler_(make_comparing_sampler(gl, GL_GREATER)),
       no_buffers_(make_vertex_array(gl)),
-      surface_programs_(load_skin_programs(gl, "surface.frag", output_define(output) + gathered_define(options))),
+      surface_programs_(load_skin_programs(gl, "surface.frag", output_define(output) + gathered_define(gathering))),
       backdrop_program_(load_program(gl, "screen.vert", "backdrop.frag", output_define(output))),
       floor_program_(load_program(gl, "floor.vert", "floor.frag", floor_define(output, options.exposes))),
       kinds_program_(load("kinds.frag", options)),
@@ -140,6 +136,18 @@ Screen::Screen(const GlFunctions& gl, const RenderOptions& options, const std::o
   circles_ = make_texture(gl, width_, height_, kCircleFormat);
   circles_target_ = make_texture_target(gl, &circles_, nullptr);
   circles_program_ = load("circles.frag", options);
+}
+
+/// Nothing where less is gathered.
+GlTexture Screen::make_gathered(Gathering least) const {
+  return gathering_ < least ? GlTexture() : make_texture(gl_, side_ * width_, side_ * height_, kGatheredFormat);
+}
+
+GlFramebuffer Screen::make_surface() const {
+  std::vector<const GlTexture*> colors{&surface_color_, &surface_normal_};
+  if (gathering_ >= Gathering::kAround) colors.push_back(&surface_light_);
+  if (gathering_ >= Gathering::kThrough) colors.push_back(&surface_through_);
+  return make_colors_target(gl_, colors, surface_depth_);
 }
 
 GlProgram Screen::load(const char* fragment, const RenderOptions& options) const {
@@ -156,7 +164,7 @@ GlProgram Screen::load(const char* fragment, const RenderOptions& options) const
                   is_high      ? 32
                   : is_preview ? 8
                                : 16,
-                  environment_ ? "#define ENVIRONMENT\n" : "", output_define(output_), gathered_define(options)));
+                  environment_ ? "#define ENVIRONMENT\n" : "", output_define(output_), gathered_define(gathering_)));
 }
 
 void Screen::draw_light(const LightMaps& maps, const View& view, PassClock& clock) {
@@ -360,10 +368,14 @@ void Screen::cover(const GlProgram& program, const LightMaps& maps, const View& 
   bind_texture(gl_, kFirstSurfaceUnit + 3, surface_depth_, nearer_sampler_.name());
   program.set("skin_coverage", kFirstSurfaceUnit + 3);
   if (environment_) environment_->bind(program, kFirstSurfaceUnit + 4);
-  if (is_gathered_) {
+  if (gathering_ >= Gathering::kAround) {
     bind_texture(gl_, kFirstSurfaceUnit + 5, surface_light_);
     program.set("surface_light", kFirstSurfaceUnit + 5);
     program.set("brightest_light", kBrightestVertexLight);
+  }
+  if (gathering_ >= Gathering::kThrough) {
+    bind_texture(gl_, kFirstSurfaceUnit + 6, surface_through_);
+    program.set("surface_through", kFirstSurfaceUnit + 6);
   }
   program.set("screen_depth", kSkin);
   program.set("lens", Vec3(view.lens, view.focus, view.near > 0 ? 0 : 1).cast<float>().eval());

@@ -28,6 +28,10 @@ class EnvironmentTexture {
 /// light that reaches what is seen and the fraction of the sky that is open above it.
 enum class ScreenOutput { kPicture, kLight, kShares };
 
+/// What rays gather for the vertices of skins: nothing; the light around them; that, and what comes through translucent
+/// bodies.
+enum class Gathering { kNothing, kAround, kThrough };
+
 /// Samples along each side of a pixel.
 [[nodiscard]] constexpr int sample_side(int samples) { return samples == 16 ? 4 : samples == 4 ? 2 : 1; }
 
@@ -44,7 +48,7 @@ class Screen {
  public:
   /// Without an environment the studio lights it. Pictures that have exposures are of light.
   Screen(const GlFunctions& gl, const RenderOptions& options, const std::optional<Environment>& environment,
-         ScreenOutput output);
+         ScreenOutput output, Gathering gathering);
   void clear_surfaces() const;
   /// In the samples of one turn, where options say that pictures have exposures, or in all.
   void draw_surfaces(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const View& view,
@@ -72,6 +76,8 @@ class Screen {
     bool operator==(const Sight&) const = default;
   };
 
+  [[nodiscard]] GlTexture make_gathered(Gathering least) const;
+  [[nodiscard]] GlFramebuffer make_surface() const;
   [[nodiscard]] GlProgram load(const char* fragment, const RenderOptions& options) const;
   void clear_picture(const Eigen::Vector4f& color) const;
   void draw_backdrop(const View& view);
@@ -84,12 +90,13 @@ class Screen {
   int height_;
   int side_;  // of a pixel, in samples
   bool is_transparent_;
-  bool is_gathered_;
+  Gathering gathering_;
   ScreenOutput output_;
   GlTexture surface_color_;
   GlTexture surface_normal_;
   GlTexture surface_depth_;
-  GlTexture surface_light_;  // where it is gathered
+  GlTexture surface_light_;    // where it is gathered
+  GlTexture surface_through_;  // the same
   GlFramebuffer surface_;
   GlTexture picture_;  // top row first
   GlTexture kinds_;    // of pixels, as depths

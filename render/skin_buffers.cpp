@@ -22,7 +22,8 @@ enum Attribute : GLuint {
   kMapCoordinate,
   kBefore,
   kAfter,
-  kLight
+  kLight,
+  kThrough
 };  // as in surface.vert and passes.vert
 
 /// The square root of linear light: what the shaders multiply and keep.
@@ -96,6 +97,7 @@ SkinBuffers::SkinBuffers(const GlFunctions& gl, const Skin& skin, const Eigen::V
       before_(make_buffer(gl)),
       after_(make_buffer(gl)),
       light_(make_buffer(gl)),
+      through_(make_buffer(gl)),
       indices_(make_buffer(gl)),
       sides_(visible_sides(skin)),
       look_(look),
@@ -193,12 +195,16 @@ void SkinBuffers::update_motion(const Floats3& before, const Floats3& after) {
   describe(gl_, kAfter, 3);
 }
 
-void SkinBuffers::update_light(const VertexLight& light) {
+void SkinBuffers::upload_light(const GlBuffer& buffer, const VertexLight& light, int attribute) const {
   gl_.BindVertexArray(array_.name());
-  upload(gl_, light_, light, GL_STREAM_DRAW);
-  gl_.EnableVertexAttribArray(kLight);
-  gl_.VertexAttribPointer(kLight, 4, GL_UNSIGNED_SHORT, GL_TRUE, 0, nullptr);
+  upload(gl_, buffer, light, GL_STREAM_DRAW);
+  gl_.EnableVertexAttribArray(GLuint(attribute));
+  gl_.VertexAttribPointer(GLuint(attribute), 4, GL_UNSIGNED_SHORT, GL_TRUE, 0, nullptr);
 }
+
+void SkinBuffers::update_light(const VertexLight& light) { upload_light(light_, light, kLight); }
+
+void SkinBuffers::update_through(const ThroughLight& light) { upload_light(through_, light, kThrough); }
 
 void SkinBuffers::draw(const Range& range) const {
   const auto offset = static_cast<std::uintptr_t>(range.first) * 3 * sizeof(int);

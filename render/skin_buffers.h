@@ -53,6 +53,8 @@ class SkinBuffers {
   void update_motion(const Floats3& before, const Floats3& after);
   /// `light`: n x 4, of vertices, as GatheredLight has it, for programs with GATHERED defined.
   void update_light(const VertexLight& light);
+  /// For programs with TRANSLUCENT defined.
+  void update_through(const ThroughLight& light);
   /// For a program that needs positions only.
   void draw(Detail detail) const;
   /// Part by part; sets base_color and base_texture (unit `unit`) of the programs.
@@ -72,6 +74,7 @@ class SkinBuffers {
     int texture = 0;
   };
 
+  void upload_light(const GlBuffer& buffer, const VertexLight& light, int attribute) const;
   void upload_indices(const std::array<const Triangles*, kDetails>& triangles);
   void upload_attributes(const Skin& skin);
   void add_paint(const Paint& paint);
@@ -88,6 +91,7 @@ class SkinBuffers {
   GlBuffer before_;  // positions
   GlBuffer after_;
   GlBuffer light_;
+  GlBuffer through_;
   GlBuffer indices_;
   Ranges all_;
   Sides sides_;

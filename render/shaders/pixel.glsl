@@ -41,3 +41,15 @@ vec4 sample_light(int k) {
 #else
 vec4 sample_light(int k) { return vec4(0.0); }
 #endif
+
+#ifdef TRANSLUCENT
+uniform sampler2D surface_through;
+
+// Light that enters the body elsewhere, and the mean fraction of it that goes half of the way without being scattered.
+vec4 sample_through(int k) {
+  vec4 stored = texelFetch(surface_through, sample_place(k), 0);
+  return vec4(brightest_light * stored.rgb * stored.rgb, stored.a);
+}
+#else
+vec4 sample_through(int k) { return vec4(0.0); }
+#endif

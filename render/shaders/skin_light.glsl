@@ -17,6 +17,9 @@ uniform sampler2D zenith;
 
 const vec3 kWindow = vec3(-0.880, 0.300, 0.368);  // towards its middle
 
+const float kLayer = 0.5;  // coefficient of scattering over one mean free path; fitted to traced pictures
+const float kInner = 0.5;  // Fresnel's reflectance for even light inside, at an index of 1.4
+
 const int kSearch = SHADOW_SEARCH;
 const int kTaps = SHADOW_TAPS;
 const mat2 kGoldenTurn = mat2(-0.7373688, 0.6754903, -0.6754903, -0.7373688);  // 137.5 degrees, for spirals
@@ -143,8 +146,29 @@ float openness(vec3 point, vec3 n, vec4 gathered) { return gathered.a; }
 float openness(vec3 point, vec3 n, vec4 gathered) { return open_sky(point, n); }
 #endif
 
-// `gathered`: light from around, where it was gathered by rays.
-vec3 skin_light(vec3 place, vec3 n, vec3 base, float look, vec4 gathered) {
+#ifdef TRANSLUCENT
+// What a layer reflects and lets through that, infinitely thick, would reflect `base`: P. Kubelka, "New Contributions
+// to the Optics of Intensely Light-Scattering Materials" (1948), between surfaces that reflect a fraction kInner of the
+// light that meets them from inside. `thickness`: times the coefficient of scattering.
+void layer(vec3 base, float thickness, out vec3 reflected, out vec3 let_through) {
+  vec3 thick = clamp(base / (1.0 - kInner + kInner * base), 0.004, 0.998);
+  vec3 a = 0.5 * (1.0 / thick + thick);
+  vec3 b = 0.5 * (1.0 / thick - thick);
+  vec3 e = exp(-b * thickness);
+  vec3 tangent = (1.0 - e * e) / (1.0 + e * e);
+  vec3 below = a * tangent + b;
+  vec3 r = tangent / below;
+  vec3 t = 2.0 * b * e / (1.0 + e * e) / below;
+  vec3 once = 1.0 / (1.0 - kInner * r);
+  vec3 back = r + kInner * t * t * once;
+  vec3 out_of_it = (1.0 - kInner) / (1.0 - kInner * back);
+  reflected = out_of_it * back;
+  let_through = out_of_it * t * once;
+}
+#endif
+
+// `gathered`: light from around, where it was gathered by rays; `through`: what comes through the body.
+vec3 skin_light(vec3 place, vec3 n, vec3 base, float look, vec4 gathered, vec4 through) {
   Finish finish = finish_of(look);
   vec3 v = normalize(eye - place);
   vec3 h = normalize(v + to_key);
@@ -164,9 +188,23 @@ vec3 skin_light(vec3 place, vec3 n, vec3 base, float look, vec4 gathered) {
 #else
   vec3 surrounding = (0.5 - 0.5 * n.y) * bounce + 1.1 * mix(0.4, 1.0, open) * sky_light(n) + 0.06 * base * open;
 #endif
+  vec3 reflecting = base;
+#ifdef GATHERED
+  vec3 inner = vec3(0.0);
+#ifdef TRANSLUCENT
+  if (through.a > 0.0) {
+    vec3 let_through;
+    layer(base, -2.0 * kLayer * log(max(through.a, 1e-4)), reflecting, let_through);
+    // What is not scattered at all shows the room behind, refracted.
+    vec3 behind = room(refract(-v, n, 1.0 / 1.4), bounce, finish.roughness);
+    inner = let_through * mix(through.rgb, behind, through.a * through.a);
+  }
+#endif
+#else
   // Light from inside, most where it was on its way through thin parts: at the rim, which it colours in place of a white
   // reflection.
-  vec3 through = finish.translucency * (bounce + 0.5 * kKey) * base * (0.18 + 0.55 * (1.0 - nv) * (1.0 - nv));
+  vec3 inner = finish.translucency * (bounce + 0.5 * kKey) * base * (0.18 + 0.55 * (1.0 - nv) * (1.0 - nv));
+#endif
 
   vec3 reflected = room(reflect(-v, n), bounce, finish.roughness) * mix(0.3, 1.0, open);
   float clear = max(nl, 0.0);
@@ -174,8 +212,13 @@ vec3 skin_light(vec3 place, vec3 n, vec3 base, float look, vec4 gathered) {
   vec3 fresnel = reflectance + (1.0 - reflectance) * power5(1.0 - max(dot(v, h), 0.0));
   float gloss = ggx(max(dot(n, h), 0.0), nv, max(clear, 1e-3), finish.roughness * finish.roughness) * clear;
   vec2 share = surrounding_share(nv, finish.roughness);
+#ifdef GATHERED
+  float rim = 1.0;
+#else
+  float rim = 1.0 - 0.75 * finish.translucency;
+#endif
 
-  vec3 light = (1.0 - finish.metal) * (base * (kKey * diffuse * lit + surrounding) + through);
-  light += kKey * gloss * lit * fresnel + reflected * (reflectance * share.x + (1.0 - 0.75 * finish.translucency) * share.y);
+  vec3 light = (1.0 - finish.metal) * (reflecting * (kKey * diffuse * lit + surrounding) + inner);
+  light += kKey * gloss * lit * fresnel + reflected * (reflectance * share.x + rim * share.y);
   return mix(light, base, finish.glow);
 }

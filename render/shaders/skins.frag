@@ -15,6 +15,7 @@ struct Surface {  // sums over samples
   float depth;
   float look;
   vec4 light;  // as sample_light()
+  vec4 through;
   float share;
 };
 
@@ -26,7 +27,7 @@ vec3 picture_light(Surface s) {
 #ifdef SHARES
   return vec3(key_light(point, n, dot(n, to_key)), openness(point, n, s.light / s.share), 0.0);
 #else
-  return skin_light(point, n, s.color / s.share, round(s.look / s.share), s.light / s.share);
+  return skin_light(point, n, s.color / s.share, round(s.look / s.share), s.light / s.share, s.through / s.share);
 #endif
 }
 
@@ -52,21 +53,23 @@ void main() {
   vec3 normals[kSamples];
   vec4 paints[kSamples];  // colour and look
   vec4 lights[kSamples];
+  vec4 throughs[kSamples];
   for (int k = 0; k < kSamples; ++k) {
     normals[k] = sample_normal(k);
     paints[k] = sample_paint(k);
     lights[k] = sample_light(k);
+    throughs[k] = sample_through(k);
   }
   vec3 sum = vec3(0.0);
   float covered = 0.0;
   while (left != 0) {
-    Surface s = Surface(vec3(0.0), vec3(0.0), 0.0, 0.0, vec4(0.0), 0.0);
+    Surface s = Surface(vec3(0.0), vec3(0.0), 0.0, 0.0, vec4(0.0), vec4(0.0), 0.0);
     for (int k = 0; k < kSamples; ++k) {
       bool is_in = (left >> k & 1) != 0 && fits(s, depths[k], normals[k]);
       float w = is_in ? 1.0 : 0.0;
       left ^= is_in ? 1 << k : 0;
       s = Surface(s.color + w * paints[k].rgb, s.normal + w * normals[k], s.depth + w * depths[k], s.look + w * paints[k].a,
-                  s.light + w * lights[k], s.share + w);
+                  s.light + w * lights[k], s.through + w * throughs[k], s.share + w);
     }
     sum += s.share * picture_color(picture_light(s));
     covered += s.share;

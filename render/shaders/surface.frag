@@ -9,6 +9,10 @@ layout(location = 1) out vec4 packed_normal;
 in vec4 vertex_light;
 layout(location = 2) out vec4 surface_light;
 #endif
+#ifdef TRANSLUCENT
+in vec4 vertex_through;
+layout(location = 3) out vec4 surface_through;
+#endif
 uniform float look;
 //!include albedo.glsl
 
@@ -38,6 +42,9 @@ void main() {
   surface_color = vec4(albedo_root(), look / 255.0);
 #ifdef GATHERED
   surface_light = vertex_light;
+#endif
+#ifdef TRANSLUCENT
+  surface_through = vertex_through;
 #endif
   packed_normal = pack_normal(gl_FrontFacing ? surface_normal : -surface_normal);
 }

@@ -7,6 +7,10 @@ layout(location = 3) in vec4 color;  // square root of linear
 layout(location = 7) in vec4 light;
 out vec4 vertex_light;
 #endif
+#ifdef TRANSLUCENT
+layout(location = 8) in vec4 through;
+out vec4 vertex_through;
+#endif
 #ifdef MAPPED
 layout(location = 4) in float coordinate;
 out float map_coordinate;
@@ -31,6 +35,9 @@ void main() {
   vertex_color = color.rgb;
 #ifdef GATHERED
   vertex_light = light;
+#endif
+#ifdef TRANSLUCENT
+  vertex_through = through;
 #endif
   gl_Position = clip_from_stage * vec4(place, 1.0);
 }

@@ -46,7 +46,7 @@ struct Stage {
   std::vector<const Skin*> skins;               // must outlive the renderer
   std::vector<Eigen::Vector3f> default_colors;  // sRGB, one per skin: for parts without material, colours or texture
   std::vector<Look> looks{};                    // one per skin; none: plastic
-  /// m, one per skin: of light inside before it is scattered. None or 0: no light enters. Only traced pictures show it.
+  /// m, one per skin: of light inside before it is scattered. None or 0: no light enters.
   std::vector<double> mean_free_paths{};
   std::vector<bool> ghosts{};  // one per skin; none: no ghosts. They are faint and cast no shadow
   std::vector<int> ids{};      // one per skin, for passes; none: 1, 2, ...

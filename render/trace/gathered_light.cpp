@@ -17,14 +17,16 @@ namespace {
 using Eigen::Vector3f;
 using Eigen::Vector4f;
 
-constexpr double kLift = 0.004;        // of the largest body's radius
-constexpr double kGroove = 2;          // depth of grooves over the sides of coarse triangles
-constexpr float kLittle = 1e-3F;       // of a groove, by which rays go on behind it
-constexpr double kChord = 0.1;         // lift over the sides of coarse triangles
-constexpr float kTurned = 0.1F;        // sine of an angle by which triangles may be turned away
-constexpr std::size_t kFewProbes = 5;  // times fewer than the most: each then gets more rays
-constexpr int kMostRays = 8;           // times as many from a probe, where there are few probes
-constexpr float kHitOpenness = 0.5F;   // of the places that rays hit, as a guess
+constexpr double kLift = 0.004;          // of the largest body's radius
+constexpr double kGroove = 2;            // depth of grooves over the sides of coarse triangles
+constexpr float kLittle = 1e-3F;         // of a groove, by which rays go on behind it
+constexpr double kChord = 0.1;           // lift over the sides of coarse triangles
+constexpr float kTurned = 0.1F;          // sine of an angle by which triangles may be turned away
+constexpr std::size_t kFewProbes = 5;    // times fewer than the most: each then gets more rays
+constexpr int kMostRays = 8;             // times as many from a probe, where there are few probes
+constexpr float kSteep = 0.2F;           // cosine to the normal
+constexpr std::size_t kInwardRays = 16;  // from a probe of a translucent body
+constexpr float kHitOpenness = 0.5F;     // of the places that rays hit, as a guess
 
 /// Evenly over the sphere: the points of a Fibonacci lattice.
 std::vector<Vector3f> even_directions(int count) {
@@ -62,7 +64,11 @@ Vector3f GroundLight::at(float x, float z) const {
 }
 
 GatheredLight::GatheredLight(const Stage& stage, int rays, int most_probes)
-    : space_(stage.bounds), stage_light_(stage.environment), irradiance_(stage_light_), stage_skins_(stage.skins) {
+    : space_(stage.bounds),
+      stage_light_(stage.environment),
+      irradiance_(stage_light_),
+      media_(stage, space_),
+      stage_skins_(stage.skins) {
   const std::vector<double> spacings = probe_spacings(stage_skins_, most_probes);
   for (std::size_t i = 0; i < stage_skins_.size(); ++i) {
     const Skin& skin = *stage_skins_[i];
@@ -71,6 +77,7 @@ GatheredLight::GatheredLight(const Stage& stage, int rays, int most_probes)
     light.probes = place_probes(skin, spacings[i]);
     light.sides = visible_sides(skin);
     light.of_vertices.setZero(skin.positions.rows(), 4);
+    if (media_.any()) light.through.setZero(skin.positions.rows(), 4);
     set_triangles(light, skin, spacings[i]);
     light.groove = float(space_.scale * kGroove * spacings[i]);
     light.lift = float(space_.scale * std::max(kLift * skin_radius(skin), kChord * spacings[i]));
@@ -124,6 +131,7 @@ void GatheredLight::set_shapes(const std::vector<SkinShape>& shapes, const Vecto
     light.normals = unit(shapes[i].normals);
     light.is_known.assign(light.probes.vertices.size(), false);
     light.of_probes.assign(light.probes.vertices.size(), Vector4f::Zero());
+    light.through_to_probes = light.of_probes;
     positions.push_back(light.positions);
   }
   rays_->update({positions});
@@ -177,11 +185,18 @@ void GatheredLight::update(const std::vector<SkinShape>& shapes, const Vector3f&
       const bool is_flipped =
           light.sides == Sides::kBoth ? normal.dot(eye - position) < 0 : light.sides == Sides::kBack;
       if (is_flipped) normal = -normal;
-      light.of_probes[tasks[i].probe] =
-          gather({position + light.lift * normal, normal, tasks[i].skin, tasks[i].probe % kTurns}, ground);
+      Place place{position + light.lift * normal, normal, tasks[i].skin, tasks[i].probe % kTurns};
+      light.of_probes[tasks[i].probe] = gather(place, ground);
+      if (!media_.is_entered(int(tasks[i].skin))) continue;
+      place.origin = position - light.lift * normal;
+      light.through_to_probes[tasks[i].probe] = come_through(place, ground);
     }
   });
-  tbb::parallel_for(std::size_t(0), skins_.size(), [&](std::size_t i) { interpolate(skins_[i]); });
+  tbb::parallel_for(std::size_t(0), skins_.size(), [&](std::size_t i) {
+    SkinLight& light = skins_[i];
+    light.of_vertices = interpolated(light.probes, light.of_probes);
+    if (media_.is_entered(int(i))) light.through = interpolated(light.probes, light.through_to_probes);
+  });
 }
 
 bool GatheredLight::is_inside(const Ray& ray, const RayHit& hit) const {
@@ -190,11 +205,12 @@ bool GatheredLight::is_inside(const Ray& ray, const RayHit& hit) const {
   return sides != Sides::kBoth && (sides == Sides::kBack ? along < 0 : along > 0);
 }
 
-/// Leaves the skin where the ray begins: in a groove a probe may lie beneath the coarse triangles.
-std::optional<RayHit> GatheredLight::first_hit(Ray ray, std::size_t own) const {
+/// Ignores the skin where the ray begins on its wrong side: in a groove a probe may lie beneath the coarse triangles,
+/// on a ridge above them.
+std::optional<RayHit> GatheredLight::first_hit(Ray ray, std::size_t own, bool is_outside) const {
   std::optional<RayHit> hit = rays_->first_hit(ray);
   const float reach = skins_[own].groove;
-  if (!hit || std::size_t(hit->skin) != own || hit->distance > reach || !is_inside(ray, *hit)) return hit;
+  if (!hit || std::size_t(hit->skin) != own || hit->distance > reach || is_inside(ray, *hit) != is_outside) return hit;
   const float passed = hit->distance + kLittle * reach;
   ray.origin += passed * ray.direction;
   ray.far -= passed;
@@ -222,7 +238,7 @@ Vector4f GatheredLight::gather(const Place& place, const GroundLight& ground) co
     ray.direction = direction.towards;
     const bool is_down = direction.towards.y() < 0;
     ray.far = is_down ? height / -direction.towards.y() : std::numeric_limits<float>::infinity();
-    const std::optional<RayHit> hit = first_hit(ray, place.skin);
+    const std::optional<RayHit> hit = first_hit(ray, place.skin, true);
     if (hit) {
       reflections += cosine * reflected(ray, *hit);
       continue;
@@ -241,6 +257,49 @@ Vector4f GatheredLight::gather(const Place& place, const GroundLight& ground) co
   return {light.x(), light.y(), light.z(), open / weights};
 }
 
+/// Along rays inwards: what arrives where they leave the body.
+Vector4f GatheredLight::come_through(const Place& place, const GroundLight& ground) const {
+  const std::vector<Direction>& directions = directions_[place.turn];
+  const std::size_t step = std::max(directions.size() / (2 * kInwardRays), std::size_t(1));
+  const float attenuation = 0.5F * media_.scattering(int(place.skin));
+  Ray ray;
+  ray.origin = place.origin;
+  Vector3f sum = Vector3f::Zero();
+  float kept = 0;
+  float weights = 0;
+  for (std::size_t i = 0; i < directions.size(); i += step) {
+    const float cosine = -place.normal.dot(directions[i].towards);
+    if (cosine <= 0) continue;
+    ray.direction = directions[i].towards;
+    const std::optional<RayHit> hit = first_hit(ray, place.skin, false);
+    if (!hit || std::size_t(hit->skin) != place.skin || !is_inside(ray, *hit)) continue;
+    weights += cosine;
+    const float way = hit->distance + skins_[place.skin].lift / std::max(cosine, kSteep);  // from the surface on
+    const float share = cosine * std::exp(-attenuation * way);
+    Vector3f normal = hit->normal.normalized();
+    if (normal.dot(ray.direction) < 0) normal = -normal;
+    const Vector3f position = ray.origin + hit->distance * ray.direction + skins_[place.skin].lift * normal;
+    const Vector3f floor = StageLight::floor_albedo().cwiseProduct(ground.at(position.x(), position.z()));
+    const Vector3f around =
+        (0.5F + 0.5F * normal.y()) * stage_light_.sky_on_ground() + (0.5F - 0.5F * normal.y()) * floor;
+    sum += share * (around + from_key(position, normal));
+    kept += share;
+  }
+  if (kept <= 0) return Vector4f::Zero();
+  sum /= kept;
+  return {sum.x(), sum.y(), sum.z(), kept / weights};
+}
+
+/// Irradiance over pi.
+Vector3f GatheredLight::from_key(const Vector3f& position, const Vector3f& normal) const {
+  const float facing = normal.dot(stage_light_.to_key());
+  if (facing <= 0) return Vector3f::Zero();
+  Ray shadow;
+  shadow.origin = position;
+  shadow.direction = stage_light_.to_key();
+  return rays_->is_blocked(shadow) ? Vector3f::Zero().eval() : (facing * stage_light_.on_facing_key()).eval();
+}
+
 /// Radiance of what a ray has met.
 Vector3f GatheredLight::reflected(const Ray& ray, const RayHit& hit) const {
   const SkinLight& skin = skins_[std::size_t(hit.skin)];
@@ -252,27 +311,23 @@ Vector3f GatheredLight::reflected(const Ray& ray, const RayHit& hit) const {
                              ? skin.colors[std::size_t(hit.triangle)]
                              : paints_[std::size_t(hit.skin)].color(skin.sources[std::size_t(hit.triangle)],
                                                                     Vector3f::Constant(1.0F / 3), map_coordinates);
-  const float facing = normal.dot(stage_light_.to_key());
   Vector3f light = kHitOpenness * (0.5F + 0.5F * normal.y()) * stage_light_.sky_on_ground();
   light += kHitOpenness * (0.5F - 0.5F * normal.y()) * stage_light_.around(-Vector3f::UnitY());
-  Ray shadow;
-  shadow.origin = ray.origin + hit.distance * ray.direction + skin.lift * normal;
-  shadow.direction = stage_light_.to_key();
-  if (facing > 0 && !rays_->is_blocked(shadow)) light += facing * stage_light_.on_facing_key();
+  light += from_key(ray.origin + hit.distance * ray.direction + skin.lift * normal, normal);
   return color.cwiseProduct(light);
 }
 
-void GatheredLight::interpolate(SkinLight& light) const {
-  for (Eigen::Index vertex = 0; vertex < light.of_vertices.rows(); ++vertex) {
-    const std::size_t from = std::size_t(light.probes.first[std::size_t(vertex)]);
-    const std::size_t to = std::size_t(light.probes.first[std::size_t(vertex) + 1]);
+VertexLight GatheredLight::interpolated(const LightProbes& probes, const std::vector<Vector4f>& light) {
+  VertexLight result(Eigen::Index(probes.first.size()) - 1, 4);
+  for (Eigen::Index vertex = 0; vertex < result.rows(); ++vertex) {
+    const auto from = std::size_t(probes.first[std::size_t(vertex)]);
+    const auto to = std::size_t(probes.first[std::size_t(vertex) + 1]);
     Vector4f sum = Vector4f::Zero();
-    for (std::size_t k = from; k < to; ++k) {
-      sum += light.probes.weights[k] * light.of_probes[std::size_t(light.probes.probes[k])];
-    }
+    for (std::size_t k = from; k < to; ++k) sum += probes.weights[k] * light[std::size_t(probes.probes[k])];
     sum.head<3>() = (sum.head<3>() / kBrightestVertexLight).cwiseSqrt();
-    light.of_vertices.row(vertex) = (65535 * sum.cwiseMin(1.0F)).array().round().cast<std::uint16_t>();
+    result.row(vertex) = (65535 * sum.cwiseMin(1.0F)).array().round().cast<std::uint16_t>();
   }
+  return result;
 }
 
 }  // namespace sprung

@@ -7,6 +7,7 @@
 #include "render/stage/stage_space.h"
 #include "render/stage/visible_sides.h"
 #include "render/trace/ground_light.h"
+#include "render/trace/interior.h"
 #include "render/trace/irradiance_table.h"
 #include "render/trace/light_probes.h"
 #include "render/trace/ray_scene.h"
@@ -30,6 +31,10 @@ class GatheredLight {
   void update(const std::vector<SkinShape>& shapes, const Eigen::Vector3f& eye, const GroundLight& ground);
 
   [[nodiscard]] const VertexLight& of_vertices(std::size_t skin) const { return skins_[skin].of_vertices; }
+  /// None where is_translucent() is false.
+  [[nodiscard]] const ThroughLight& through_to_vertices(std::size_t skin) const { return skins_[skin].through; }
+  /// Whether light enters any body.
+  [[nodiscard]] bool is_translucent() const { return media_.any(); }
 
  private:
   static constexpr std::size_t kTurns = 8;  // of the set of rays; neighbouring probes use different ones
@@ -58,21 +63,26 @@ class GatheredLight {
     std::vector<bool> is_needed;             // by probe
     std::vector<bool> is_known;              // by probe
     std::vector<Eigen::Vector4f> of_probes;  // light and openness
+    std::vector<Eigen::Vector4f> through_to_probes;
     VertexLight of_vertices;
+    ThroughLight through;
   };
 
   void set_triangles(SkinLight& light, const Skin& skin, double cell) const;
   void set_shapes(const std::vector<SkinShape>& shapes, const Eigen::Vector3f& eye);
   void find_needed(SkinLight& light, const Skin& skin, const Eigen::Vector3f& eye) const;
   [[nodiscard]] bool is_inside(const Ray& ray, const RayHit& hit) const;
-  [[nodiscard]] std::optional<RayHit> first_hit(Ray ray, std::size_t own) const;
+  [[nodiscard]] std::optional<RayHit> first_hit(Ray ray, std::size_t own, bool is_outside) const;
   [[nodiscard]] Eigen::Vector4f gather(const Place& place, const GroundLight& ground) const;
+  [[nodiscard]] Eigen::Vector4f come_through(const Place& place, const GroundLight& ground) const;
+  [[nodiscard]] Eigen::Vector3f from_key(const Eigen::Vector3f& position, const Eigen::Vector3f& normal) const;
   [[nodiscard]] Eigen::Vector3f reflected(const Ray& ray, const RayHit& hit) const;
-  void interpolate(SkinLight& light) const;
+  [[nodiscard]] static VertexLight interpolated(const LightProbes& probes, const std::vector<Eigen::Vector4f>& light);
 
   StageSpace space_;
   StageLight stage_light_;
   IrradianceTable irradiance_;
+  Media media_;
   std::vector<const Skin*> stage_skins_;
   TexturePictures pictures_;
   std::vector<SkinPaint> paints_;

@@ -16,6 +16,8 @@ class Media {
   /// Whether light enters any body, or that of a skin.
   [[nodiscard]] bool any() const { return any_; }
   [[nodiscard]] bool is_entered(int skin) const { return scatterings_[std::size_t(skin)] > 0; }
+  /// Per unit of length in stage space; 0 where no light enters.
+  [[nodiscard]] float scattering(int skin) const { return scatterings_[std::size_t(skin)]; }
   /// Behind a point of a skin that light enters, of the colour there.
   [[nodiscard]] Medium behind(const SurfacePoint& point) const {
     return {point.color, scatterings_[std::size_t(point.skin)]};

@@ -8,6 +8,11 @@ namespace sprung {
 /// the brightest; and the fraction of the cosine-weighted hemisphere that no body hides. 65535 is 1.
 using VertexLight = Eigen::Matrix<std::uint16_t, Eigen::Dynamic, 4, Eigen::RowMajor>;
 
+/// What comes through a translucent body to its vertices: square roots of the irradiance over pi where inward rays
+/// leave the body, over the brightest, weighted by the fraction of light that goes half of the way without being
+/// scattered; and the mean of that fraction. 0 where no light enters.
+using ThroughLight = VertexLight;
+
 inline constexpr float kBrightestVertexLight = 4;
 
 }  // namespace sprung

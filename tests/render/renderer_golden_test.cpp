@@ -18,7 +18,7 @@ TEST(RenderGolden, BallInTheAir) {
   StillLife scene;
   scene.add(make_sphere_skin({0, 1.1, 0}, 0.5), kBlue);
   Skin low = make_box_skin({-0.4, 0, -0.4}, {0.4, 0.3, 0.4});
-  scene.add(low, kCream);
+  scene.add(refined(low, 0.1), kCream);
   expect_golden(draw_scene(scene, kSmall), "render_ball_in_the_air");
 }
 

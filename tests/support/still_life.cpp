@@ -102,7 +102,12 @@ Skin make_box_skin(const Vec3& low, const Vec3& high) {
     skin.triangles.row(2 * s) << 4 * s, 4 * s + 1, 4 * s + 3;
     skin.triangles.row(2 * s + 1) << 4 * s, 4 * s + 3, 4 * s + 2;
   }
-  refine(skin, 0.15 * (high - low).norm());
+  return skin;
+}
+
+Skin refined(Skin skin, double max_edge) {
+  skin.parts = {{"all", 0, int(skin.triangles.rows()), -1}};
+  refine(skin, max_edge);
   return skin;
 }
 

@@ -142,6 +142,43 @@ TEST(GatheredLight, OfASheetIsOfTheSideThatIsSeen) {
   EXPECT_GT(gathering.at(0, middle, {0, -20, 20}).w(), 0.99F);
 }
 
+// The mean over a cosine-weighted hemisphere of exp(-x / cosine) is twice the third exponential integral of x.
+TEST(GatheredLight, ComesThroughALayerAsFarAsItScatters) {
+  StillLife scene;
+  scene.add(refined(make_box_skin({-5, 2, -5}, {5, 2.1, 5}), 0.5), kCream);
+  Stage stage = scene.stage();
+  stage.mean_free_paths = {0.1};
+  GatheredLight gathered(stage, kRaysOfProbe, kMostProbes);
+  gathered.update(scene.shapes(), {0, 20, 5}, open_ground(stage));
+  ASSERT_TRUE(gathered.is_translucent());
+  double expected = 0;
+  constexpr int kSteps = 10000;
+  for (int i = 0; i < kSteps; ++i) {
+    const double cosine = (i + 0.5) / kSteps;
+    expected += 2 * cosine * std::exp(-0.5 / cosine) / kSteps;
+  }
+  const auto through = gathered.through_to_vertices(0).row(nearest(scene.skins[0], {0, 2.1, 0})).cast<float>() / 65535;
+  EXPECT_NEAR(through.w(), expected, 0.05 * expected);
+  // Below it there is only the floor.
+  const Vector3f below = unhidden(-Vector3f::UnitY());
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_NEAR(kBrightestVertexLight * through[k] * through[k], below[k], 0.05 * below[k]);
+  }
+}
+
+TEST(GatheredLight, DoesNotComeThroughOtherBodies) {
+  StillLife scene;
+  scene.add(make_sphere_skin({0, 1, 0}, 0.2), kCream);
+  EXPECT_FALSE(GatheredLight(scene.stage(), kRaysOfProbe, kMostProbes).is_translucent());
+  scene.add(make_sphere_skin({1, 1, 0}, 0.2), kCream);
+  Stage stage = scene.stage();
+  stage.mean_free_paths = {0, 0.1};
+  GatheredLight gathered(stage, kRaysOfProbe, kMostProbes);
+  gathered.update(scene.shapes(), kEye, open_ground(stage));
+  EXPECT_TRUE(gathered.through_to_vertices(0).isZero(0));
+  EXPECT_FALSE(gathered.through_to_vertices(1).isZero(0));
+}
+
 TEST(GatheredLight, DependsNeitherOnThreadsNorOnEarlierPictures) {
   StillLife scene;
   scene.add(make_ring_skin({0, 0.2, 0}, 0.5, 0.2), kCream);
