@@ -160,7 +160,7 @@ struct Renderer::Device {
   }
   [[nodiscard]] Gathering gathering() const {
     if (!gathered) return Gathering::kNothing;
-    return gathered->is_translucent() ? Gathering::kThrough : Gathering::kAround;
+    return gathered->has_through() ? Gathering::kThrough : Gathering::kAround;
   }
 
   void update(const std::vector<SkinShape>& shapes) {
@@ -198,7 +198,7 @@ struct Renderer::Device {
     gathered->update(shapes, view.eye.cast<float>(), maps.ground().read_light(frame));
     for (std::size_t i = 0; i < skins.size(); ++i) {
       skins[i].update_light(gathered->of_vertices(i));
-      if (gathered->is_translucent()) skins[i].update_through(gathered->through_to_vertices(i));
+      if (gathered->has_through()) skins[i].update_through(gathered->through_to_vertices(i));
     }
     clock.stop("light from around");
     return view;

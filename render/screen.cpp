@@ -87,7 +87,7 @@ const char* output_define(ScreenOutput output) {
 
 std::string gathered_define(Gathering gathering) {
   return fmt::format("{}{}", gathering >= Gathering::kAround ? "#define GATHERED\n" : "",
-                     gathering >= Gathering::kThrough ? "#define TRANSLUCENT\n" : "");
+                     gathering >= Gathering::kThrough ? "#define THROUGH\n" : "");
 }
 
 /// The tint of the floor comes from the light maps if these have what the picture has.

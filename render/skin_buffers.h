@@ -53,7 +53,7 @@ class SkinBuffers {
   void update_motion(const Floats3& before, const Floats3& after);
   /// `light`: n x 4, of vertices, as GatheredLight has it, for programs with GATHERED defined.
   void update_light(const VertexLight& light);
-  /// For programs with TRANSLUCENT defined.
+  /// For programs with THROUGH defined.
   void update_through(const ThroughLight& light);
   /// For a program that needs positions only.
   void draw(Detail detail) const;

@@ -42,10 +42,10 @@ vec4 sample_light(int k) {
 vec4 sample_light(int k) { return vec4(0.0); }
 #endif
 
-#ifdef TRANSLUCENT
+#ifdef THROUGH
 uniform sampler2D surface_through;
 
-// Light that enters the body elsewhere, and the mean fraction of it that goes half of the way without being scattered.
+// See ThroughLight.
 vec4 sample_through(int k) {
   vec4 stored = texelFetch(surface_through, sample_place(k), 0);
   return vec4(brightest_light * stored.rgb * stored.rgb, stored.a);

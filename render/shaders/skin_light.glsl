@@ -146,7 +146,7 @@ float openness(vec3 point, vec3 n, vec4 gathered) { return gathered.a; }
 float openness(vec3 point, vec3 n, vec4 gathered) { return open_sky(point, n); }
 #endif
 
-#ifdef TRANSLUCENT
+#ifdef THROUGH
 // What a layer reflects and lets through that, infinitely thick, would reflect `base`: P. Kubelka, "New Contributions
 // to the Optics of Intensely Light-Scattering Materials" (1948), between surfaces that reflect a fraction kInner of the
 // light that meets them from inside. `thickness`: times the coefficient of scattering.
@@ -167,7 +167,8 @@ void layer(vec3 base, float thickness, out vec3 reflected, out vec3 let_through)
 }
 #endif
 
-// `gathered`: light from around, where it was gathered by rays; `through`: what comes through the body.
+// `gathered`: light from around, where it was gathered by rays; `through`: what comes
+// through the body, or a metal mirrors.
 vec3 skin_light(vec3 place, vec3 n, vec3 base, float look, vec4 gathered, vec4 through) {
   Finish finish = finish_of(look);
   vec3 v = normalize(eye - place);
@@ -191,8 +192,8 @@ vec3 skin_light(vec3 place, vec3 n, vec3 base, float look, vec4 gathered, vec4 t
   vec3 reflecting = base;
 #ifdef GATHERED
   vec3 inner = vec3(0.0);
-#ifdef TRANSLUCENT
-  if (through.a > 0.0) {
+#ifdef THROUGH
+  if (through.a > 0.0 && finish.metal == 0.0) {
     vec3 let_through;
     layer(base, -2.0 * kLayer * log(max(through.a, 1e-4)), reflecting, let_through);
     // What is not scattered at all shows the room behind, refracted.
@@ -206,7 +207,12 @@ vec3 skin_light(vec3 place, vec3 n, vec3 base, float look, vec4 gathered, vec4 t
   vec3 inner = finish.translucency * (bounce + 0.5 * kKey) * base * (0.18 + 0.55 * (1.0 - nv) * (1.0 - nv));
 #endif
 
-  vec3 reflected = room(reflect(-v, n), bounce, finish.roughness) * mix(0.3, 1.0, open);
+  vec3 reflected = room(reflect(-v, n), bounce, finish.roughness);
+#ifdef THROUGH
+  reflected = mix(reflected * mix(0.3, 1.0, open), reflected * (1.0 - through.a) + through.rgb, finish.metal);
+#else
+  reflected *= mix(0.3, 1.0, open);
+#endif
   float clear = max(nl, 0.0);
   vec3 reflectance = mix(vec3(0.04), base, finish.metal);
   vec3 fresnel = reflectance + (1.0 - reflectance) * power5(1.0 - max(dot(v, h), 0.0));

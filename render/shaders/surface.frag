@@ -9,7 +9,7 @@ layout(location = 1) out vec4 packed_normal;
 in vec4 vertex_light;
 layout(location = 2) out vec4 surface_light;
 #endif
-#ifdef TRANSLUCENT
+#ifdef THROUGH
 in vec4 vertex_through;
 layout(location = 3) out vec4 surface_through;
 #endif
@@ -43,7 +43,7 @@ void main() {
 #ifdef GATHERED
   surface_light = vertex_light;
 #endif
-#ifdef TRANSLUCENT
+#ifdef THROUGH
   surface_through = vertex_through;
 #endif
   packed_normal = pack_normal(gl_FrontFacing ? surface_normal : -surface_normal);

@@ -7,7 +7,7 @@ layout(location = 3) in vec4 color;  // square root of linear
 layout(location = 7) in vec4 light;
 out vec4 vertex_light;
 #endif
-#ifdef TRANSLUCENT
+#ifdef THROUGH
 layout(location = 8) in vec4 through;
 out vec4 vertex_through;
 #endif
@@ -36,7 +36,7 @@ void main() {
 #ifdef GATHERED
   vertex_light = light;
 #endif
-#ifdef TRANSLUCENT
+#ifdef THROUGH
   vertex_through = through;
 #endif
   gl_Position = clip_from_stage * vec4(place, 1.0);

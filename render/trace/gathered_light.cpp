@@ -17,16 +17,19 @@ namespace {
 using Eigen::Vector3f;
 using Eigen::Vector4f;
 
-constexpr double kLift = 0.004;          // of the largest body's radius
-constexpr double kGroove = 2;            // depth of grooves over the sides of coarse triangles
-constexpr float kLittle = 1e-3F;         // of a groove, by which rays go on behind it
-constexpr double kChord = 0.1;           // lift over the sides of coarse triangles
-constexpr float kTurned = 0.1F;          // sine of an angle by which triangles may be turned away
-constexpr std::size_t kFewProbes = 5;    // times fewer than the most: each then gets more rays
-constexpr int kMostRays = 8;             // times as many from a probe, where there are few probes
+constexpr double kLift = 0.004;         // of the largest body's radius
+constexpr double kGroove = 2;           // depth of grooves over the sides of coarse triangles
+constexpr float kLittle = 1e-3F;        // of a groove, by which rays go on behind it
+constexpr double kChord = 0.1;          // lift over the sides of coarse triangles
+constexpr float kTurned = 0.1F;         // sine of an angle by which triangles may be turned away
+constexpr std::size_t kFewProbes = 5;   // times fewer than the most: each then gets more rays
+constexpr int kMostRays = 8;            // times as many from a probe, where there are few probes
+constexpr double kMirrorSpacing = 0.5;  // of the probes of metals, over that of others
+constexpr int kMirrorRays = 8;
+constexpr float kMirrorBlur = 0.06F;     // tangent of an angle: about that of steel's roughness
 constexpr float kSteep = 0.2F;           // cosine to the normal
 constexpr std::size_t kInwardRays = 16;  // from a probe of a translucent body
-constexpr float kHitOpenness = 0.5F;     // of the places that rays hit, as a guess
+constexpr float kHitOpenness = 0.7F;     // of the places that rays hit, as a guess
 
 /// Evenly over the sphere: the points of a Fibonacci lattice.
 std::vector<Vector3f> even_directions(int count) {
@@ -74,10 +77,12 @@ GatheredLight::GatheredLight(const Stage& stage, int rays, int most_probes)
     const Skin& skin = *stage_skins_[i];
     paints_.emplace_back(skin, stage.default_colors[i], stage.color_map, pictures_);
     SkinLight& light = skins_.emplace_back();
-    light.probes = place_probes(skin, spacings[i]);
+    light.is_metal = !stage.looks.empty() && stage.looks[i] == Look::kSteel;
+    has_metals_ = has_metals_ || light.is_metal;
+    light.probes = place_probes(skin, light.is_metal ? kMirrorSpacing * spacings[i] : spacings[i]);
     light.sides = visible_sides(skin);
     light.of_vertices.setZero(skin.positions.rows(), 4);
-    if (media_.any()) light.through.setZero(skin.positions.rows(), 4);
+    light.through.setZero(skin.positions.rows(), 4);
     set_triangles(light, skin, spacings[i]);
     light.groove = float(space_.scale * kGroove * spacings[i]);
     light.lift = float(space_.scale * std::max(kLift * skin_radius(skin), kChord * spacings[i]));
@@ -116,7 +121,8 @@ void GatheredLight::set_triangles(SkinLight& light, const Skin& skin, double cel
 /// Forgets what has changed.
 void GatheredLight::set_shapes(const std::vector<SkinShape>& shapes, const Vector3f& eye) {
   for (SkinLight& light : skins_) {
-    if (light.sides == Sides::kBoth && eye != eye_) light.is_known.assign(light.is_known.size(), false);
+    if ((light.sides == Sides::kBoth || light.is_metal) && eye != eye_)
+      light.is_known.assign(light.is_known.size(), false);
   }
   eye_ = eye;
   const auto same = [](const SkinShape& a, const SkinShape& b) {
@@ -187,6 +193,7 @@ void GatheredLight::update(const std::vector<SkinShape>& shapes, const Vector3f&
       if (is_flipped) normal = -normal;
       Place place{position + light.lift * normal, normal, tasks[i].skin, tasks[i].probe % kTurns};
       light.of_probes[tasks[i].probe] = gather(place, ground);
+      if (light.is_metal) light.through_to_probes[tasks[i].probe] = mirror(place, eye);
       if (!media_.is_entered(int(tasks[i].skin))) continue;
       place.origin = position - light.lift * normal;
       light.through_to_probes[tasks[i].probe] = come_through(place, ground);
@@ -195,7 +202,8 @@ void GatheredLight::update(const std::vector<SkinShape>& shapes, const Vector3f&
   tbb::parallel_for(std::size_t(0), skins_.size(), [&](std::size_t i) {
     SkinLight& light = skins_[i];
     light.of_vertices = interpolated(light.probes, light.of_probes);
-    if (media_.is_entered(int(i))) light.through = interpolated(light.probes, light.through_to_probes);
+    if (light.is_metal || media_.is_entered(int(i)))
+      light.through = interpolated(light.probes, light.through_to_probes);
   });
 }
 
@@ -288,6 +296,24 @@ Vector4f GatheredLight::come_through(const Place& place, const GroundLight& grou
   if (kept <= 0) return Vector4f::Zero();
   sum /= kept;
   return {sum.x(), sum.y(), sum.z(), kept / weights};
+}
+
+/// Of the directions of the place those around the mirrored one, as a rough mirror shows them.
+Vector4f GatheredLight::mirror(const Place& place, const Vector3f& eye) const {
+  const Vector3f from_eye = (place.origin - eye).normalized();
+  const Vector3f mirrored = from_eye - 2 * from_eye.dot(place.normal) * place.normal;
+  const std::vector<Direction>& directions = directions_[place.turn];
+  Ray ray;
+  ray.origin = place.origin;
+  Vector4f sum = Vector4f::Zero();
+  for (int i = 0; i < kMirrorRays; ++i) {
+    const Vector3f aside = directions[std::size_t(i) * directions.size() / kMirrorRays].towards;
+    ray.direction = (mirrored + kMirrorBlur * aside).normalized();
+    if (ray.direction.dot(place.normal) <= 0) continue;
+    const std::optional<RayHit> hit = first_hit(ray, place.skin, true);
+    if (hit) sum += reflected(ray, *hit).homogeneous();
+  }
+  return sum / kMirrorRays;
 }
 
 /// Irradiance over pi.

@@ -31,10 +31,10 @@ class GatheredLight {
   void update(const std::vector<SkinShape>& shapes, const Eigen::Vector3f& eye, const GroundLight& ground);
 
   [[nodiscard]] const VertexLight& of_vertices(std::size_t skin) const { return skins_[skin].of_vertices; }
-  /// None where is_translucent() is false.
+  /// None where has_through() is false.
   [[nodiscard]] const ThroughLight& through_to_vertices(std::size_t skin) const { return skins_[skin].through; }
-  /// Whether light enters any body.
-  [[nodiscard]] bool is_translucent() const { return media_.any(); }
+  /// Whether light enters any body, or a metal mirrors others.
+  [[nodiscard]] bool has_through() const { return media_.any() || has_metals_; }
 
  private:
   static constexpr std::size_t kTurns = 8;  // of the set of rays; neighbouring probes use different ones
@@ -53,6 +53,7 @@ class GatheredLight {
   struct SkinLight {
     LightProbes probes;
     Sides sides;
+    bool is_metal;
     float groove;                            // depth, stage space
     float lift;                              // of the places where rays start or end, off the surface; stage space
     Triangles triangles;                     // coarse, for the rays
@@ -75,6 +76,7 @@ class GatheredLight {
   [[nodiscard]] std::optional<RayHit> first_hit(Ray ray, std::size_t own, bool is_outside) const;
   [[nodiscard]] Eigen::Vector4f gather(const Place& place, const GroundLight& ground) const;
   [[nodiscard]] Eigen::Vector4f come_through(const Place& place, const GroundLight& ground) const;
+  [[nodiscard]] Eigen::Vector4f mirror(const Place& place, const Eigen::Vector3f& eye) const;
   [[nodiscard]] Eigen::Vector3f from_key(const Eigen::Vector3f& position, const Eigen::Vector3f& normal) const;
   [[nodiscard]] Eigen::Vector3f reflected(const Ray& ray, const RayHit& hit) const;
   [[nodiscard]] static VertexLight interpolated(const LightProbes& probes, const std::vector<Eigen::Vector4f>& light);
@@ -83,6 +85,7 @@ class GatheredLight {
   StageLight stage_light_;
   IrradianceTable irradiance_;
   Media media_;
+  bool has_metals_ = false;
   std::vector<const Skin*> stage_skins_;
   TexturePictures pictures_;
   std::vector<SkinPaint> paints_;

@@ -10,7 +10,8 @@ using VertexLight = Eigen::Matrix<std::uint16_t, Eigen::Dynamic, 4, Eigen::RowMa
 
 /// What comes through a translucent body to its vertices: square roots of the irradiance over pi where inward rays
 /// leave the body, over the brightest, weighted by the fraction of light that goes half of the way without being
-/// scattered; and the mean of that fraction. 0 where no light enters.
+/// scattered; and the mean of that fraction. Of metals: the light of other skins that they mirror, and the fraction of
+/// their mirror that shows any. 0 for other bodies.
 using ThroughLight = VertexLight;
 
 inline constexpr float kBrightestVertexLight = 4;

@@ -150,7 +150,7 @@ TEST(GatheredLight, ComesThroughALayerAsFarAsItScatters) {
   stage.mean_free_paths = {0.1};
   GatheredLight gathered(stage, kRaysOfProbe, kMostProbes);
   gathered.update(scene.shapes(), {0, 20, 5}, open_ground(stage));
-  ASSERT_TRUE(gathered.is_translucent());
+  ASSERT_TRUE(gathered.has_through());
   double expected = 0;
   constexpr int kSteps = 10000;
   for (int i = 0; i < kSteps; ++i) {
@@ -169,7 +169,7 @@ TEST(GatheredLight, ComesThroughALayerAsFarAsItScatters) {
 TEST(GatheredLight, DoesNotComeThroughOtherBodies) {
   StillLife scene;
   scene.add(make_sphere_skin({0, 1, 0}, 0.2), kCream);
-  EXPECT_FALSE(GatheredLight(scene.stage(), kRaysOfProbe, kMostProbes).is_translucent());
+  EXPECT_FALSE(GatheredLight(scene.stage(), kRaysOfProbe, kMostProbes).has_through());
   scene.add(make_sphere_skin({1, 1, 0}, 0.2), kCream);
   Stage stage = scene.stage();
   stage.mean_free_paths = {0, 0.1};
@@ -177,6 +177,26 @@ TEST(GatheredLight, DoesNotComeThroughOtherBodies) {
   gathered.update(scene.shapes(), kEye, open_ground(stage));
   EXPECT_TRUE(gathered.through_to_vertices(0).isZero(0));
   EXPECT_FALSE(gathered.through_to_vertices(1).isZero(0));
+}
+
+TEST(GatheredLight, OfAMetalHasItsMirroredNeighbours) {
+  StillLife scene;
+  scene.add(make_sphere_skin({0, 1, 0}, 0.4), kCream);
+  scene.add(make_box_skin({1, 0, -2}, {1.1, 3, 2}), kRed);  // a wall on the right
+  Stage stage = scene.stage();
+  stage.looks = {Look::kSteel, Look::kPlastic};
+  GatheredLight gathered(stage, kRaysOfProbe, kMostProbes);
+  gathered.update(scene.shapes(), kEye, open_ground(stage));
+  ASSERT_TRUE(gathered.has_through());
+  const auto mirrored = [&](const Vec3& normal) -> Vector4f {
+    return gathered.through_to_vertices(0).row(nearest(scene.skins[0], Vec3(0, 1, 0) + 0.4 * normal)).cast<float>() /
+           65535;
+  };
+  const Vector4f right = mirrored(Vec3(1, 0, 1).normalized());
+  EXPECT_GT(right.w(), 0.95F);
+  EXPECT_GT(right.x(), 1.5F * right.z());
+  EXPECT_LT(mirrored({0, 0, 1}).w(), 0.05F);
+  EXPECT_LT(mirrored(Vec3(-1, 0, 1).normalized()).w(), 0.05F);
 }
 
 TEST(GatheredLight, DependsNeitherOnThreadsNorOnEarlierPictures) {
