@@ -54,13 +54,13 @@ Mat3 rows(const Vec3& right, const Vec3& up, const Vec3& away) {
 }  // namespace
 
 LightFrame fit_light(const std::vector<SkinShape>& shapes, const StageSpace& space, double body_radius,
-                     double ground_height) {
+                     double ground_height, const Vec3& to_key) {
   LightFrame frame;
   const double grid = kGrid * body_radius;
   const Vec3 x = Vec3::UnitX();
   const Vec3 y = Vec3::UnitY();
   const Vec3 z = Vec3::UnitZ();
-  const Vec3 light = to_key_light();
+  const Vec3& light = to_key;
 
   const Vec3 right = y.cross(light).normalized();
   const Mat3 key = rows(right, light.cross(right), -light);
@@ -90,8 +90,11 @@ LightFrame fit_light(const std::vector<SkinShape>& shapes, const StageSpace& spa
 void DrawFrame::set_common(const GlProgram& program) const {
   program.set("stage_center", space.center.cast<float>().eval());
   program.set("stage_scale", float(space.scale));
-  program.set("to_key", to_key_light().cast<float>().eval());
-  program.set("sky_on_ground", sky_on_ground);
+  program.set("to_key", lighting.to_key().cast<float>().eval());
+  program.set("key_irradiance", lighting.key);
+  program.set("light_radius", lighting.key_radius);
+  program.set("sky_on_ground", lighting.sky);
+  program.set("far_off", lighting.far_off);
   program.set("body_radius", float(body_radius));
   program.set("motion", float(motion));
   program.set("ground_height", float(ground_height));

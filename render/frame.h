@@ -33,7 +33,7 @@ struct LightFrame {
 
 /// `body_radius`: of the largest body, in stage space.
 [[nodiscard]] LightFrame fit_light(const std::vector<SkinShape>& shapes, const StageSpace& space, double body_radius,
-                                   double ground_height);
+                                   double ground_height, const Vec3& to_key);
 
 /// What the shaders share within one frame.
 struct DrawFrame {
@@ -42,8 +42,8 @@ struct DrawFrame {
   double body_radius;    // of the largest body, stage space
   double ground_height;  // stage space
   bool has_ground;
-  Eigen::Vector3f sky_on_ground;  // irradiance / pi of the open sky on level ground
-  double motion = 0;              // of any point, away from where the light maps have it; stage space
+  Lighting lighting;
+  double motion = 0;  // of any point, away from where the light maps have it; stage space
 
   /// Sets the uniforms of every program that draws a skin or a light map.
   void set_common(const GlProgram& program) const;

@@ -92,7 +92,8 @@ constexpr float kShaded = 0.5F;    // depth of the ground that may be in shadow
 
 /// An upper bound of the distance from the highest body to the ground along the key light.
 double longest_way(const DrawFrame& frame) {
-  return std::max(frame.light.bodies.max().y() - frame.ground_height, 1e-3 * frame.body_radius) / to_key_light().y();
+  return std::max(frame.light.bodies.max().y() - frame.ground_height, 1e-3 * frame.body_radius) /
+         frame.lighting.to_key().y();
 }
 
 std::string shadow_settings(Quality quality) {

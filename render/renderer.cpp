@@ -106,7 +106,7 @@ struct Renderer::Device {
   bool has_ghosts = false;
   StageSpace space;
   double ground_height;
-  Eigen::Vector3f sky_on_ground;
+  Lighting lighting;
   double body_radius = 0;
   TextureSet textures;
   std::vector<SkinBuffers> skins;
@@ -127,7 +127,7 @@ struct Renderer::Device {
         has_ground(stage.has_ground),
         space(stage.bounds),
         ground_height((stage.ground.height - space.center.y()) * space.scale),
-        sky_on_ground(stage.environment ? stage.environment->irradiance_on(Eigen::Vector3f::UnitY()) : studio_sky()),
+        lighting(lighting_of(stage)),
         textures(gl, stage.color_map),
         ids(stage.ids),
         maps(gl, without_tracing(wanted)),
@@ -171,8 +171,12 @@ struct Renderer::Device {
   /// Uploads the shapes.
   DrawFrame frame(const std::vector<SkinShape>& shapes) {
     update(shapes);
-    return {space,        fit_light(shapes, space, body_radius, ground_height), body_radius, ground_height, has_ground,
-            sky_on_ground};
+    return {.space = space,
+            .light = fit_light(shapes, space, body_radius, ground_height, lighting.to_key()),
+            .body_radius = body_radius,
+            .ground_height = ground_height,
+            .has_ground = has_ground,
+            .lighting = lighting};
   }
 
   /// Its light is that of the middle.

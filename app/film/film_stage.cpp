@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "app/film/labels.h"
 #include "app/film/overlays.h"
+#include "core/appearance.h"
 #include "core/bricks/embedding.h"
 #include "core/simulation/build_bodies.h"
 #include "render/brick_cubes.h"
@@ -34,6 +36,19 @@ int id_of(std::size_t actor) { return int(actor) + 1; }
 template <class T>
 std::shared_ptr<const T> not_owned(const T& object) {
   return {&object, [](const T*) {}};
+}
+
+Lighting lighting_of(const SceneRender& render) {
+  Lighting lighting = lighting_of(render.light);
+  const SceneKeyLight& given = render.key_light;
+  lighting.azimuth = given.azimuth.value_or(lighting.azimuth);
+  lighting.elevation = given.elevation.value_or(lighting.elevation);
+  if (given.size) lighting.key_radius = float(std::tan(*given.size * std::numbers::pi / 360));
+  if (given.color) {
+    lighting.key = lighting.key.mean() * srgb(*given.color).unaryExpr([](float c) { return linear_from_srgb(c); });
+  }
+  lighting.key *= float(given.strength);
+  return lighting;
 }
 
 Points rows_of(const Points& nodes, const std::vector<int>& rows) { return nodes(rows, Eigen::all); }
@@ -101,6 +116,7 @@ Stage FilmStage::stage(const AlignedBox& bounds) const {
   stage.has_ground = ground && !scene_.render.transparent;
   if (ground) stage.ground.height = *ground;
   stage.bounds = bounds;
+  stage.lighting = lighting_of(scene_.render);
   return stage;
 }
 

@@ -196,6 +196,8 @@ void fields(auto& visit, Is<SceneRender> auto& render) {
   visit({"smooth", "whether coarse meshes are drawn smooth; what is computed and exported keeps their triangles"},
         render.smooth);
   visit({"transparent", "transparent background: pictures with alpha, no floor"}, render.transparent);
+  visit({"light", "studio, softbox, sunset, overcast or night"}, render.light);
+  visit({"key_light", "what differs from the key light of that preset"}, render.key_light);
   visit({"environment", "panorama (.hdr or .png, twice as wide as high) that lights the bodies"}, render.environment);
   visit({"motion_blur", "shutter angle; 360 degrees: open for the whole frame", Dimension::kAngle, {0, 360}},
         render.motion_blur);
@@ -222,6 +224,15 @@ void fields(auto& visit, Is<SceneRender> auto& render) {
   visit({"contacts", "whether contacts with the ground, obstacles and other bodies are marked"}, render.contacts);
   visit({"traces", "whether the paths of the probes are drawn"}, render.traces);
   visit({"plots", "whether the displacement of the probes is plotted"}, render.plots);
+}
+
+void fields(auto& visit, Is<SceneKeyLight> auto& light) {
+  visit.table("key light");
+  visit({"azimuth", "direction of the light about the vertical, as a camera's", Dimension::kAngle}, light.azimuth);
+  visit({"elevation", "height of the light above the horizon", Dimension::kAngle, {5, 90}}, light.elevation);
+  visit({"size", "angle across, as bodies see it: how soft shadows are", Dimension::kAngle, {0.5, 50}}, light.size);
+  visit({"color", "of the light; white is as bright as the preset's"}, light.color);
+  visit({"strength", "factor of its brightness", Dimension::kRatio, {0, 10}}, light.strength);
 }
 
 void fields(auto& visit, Is<SceneBody> auto& body) {

@@ -8,6 +8,7 @@
 #include "core/simulation/scene.h"
 #include "render/image/color_map.h"
 #include "render/image/image.h"
+#include "render/stage/lighting.h"
 
 namespace sprung {
 
@@ -42,13 +43,24 @@ enum class BrickView {
   kExploded  // with gaps between them
 };
 
+/// What differs from the key light of the preset.
+struct SceneKeyLight {
+  std::optional<double> azimuth{};    // degrees about y, as a camera's
+  std::optional<double> elevation{};  // degrees above the horizon
+  std::optional<double> size{};       // degrees across, as bodies see it
+  std::optional<Color> color{};       // as bright as the preset's where it is white
+  double strength = 1;
+};
+
 struct SceneRender {
   std::array<int, 2> resolution{1280, 720};
   Quality quality = Quality::kDefault;
-  std::optional<int> samples;               // per pixel; default: by the quality
-  bool smooth = true;                       // coarse meshes are drawn with curved edges
-  bool transparent = false;                 // background with alpha, no floor
-  std::filesystem::path environment;        // absolute; a panorama that lights the bodies, or empty
+  std::optional<int> samples;         // per pixel; default: by the quality
+  bool smooth = true;                 // coarse meshes are drawn with curved edges
+  bool transparent = false;           // background with alpha, no floor
+  std::filesystem::path environment;  // absolute; a panorama that lights the bodies, or empty
+  LightPreset light = LightPreset::kStudio;
+  SceneKeyLight key_light;
   double motion_blur = 0;                   // degrees, shutter angle; 360: a whole frame
   std::optional<std::array<int, 2>> sheet;  // columns and rows: that many frames in one picture
   Field color_by = Field::kSkin;

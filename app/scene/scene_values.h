@@ -56,6 +56,13 @@ inline constexpr Names<Field, 9> kNames<Field>{"field",
                                                  {"fill", Field::kFill},
                                                  {"region", Field::kRegion}}}};
 template <>
+inline constexpr Names<LightPreset, 5> kNames<LightPreset>{"light",
+                                                           {{{"studio", LightPreset::kStudio},
+                                                             {"softbox", LightPreset::kSoftbox},
+                                                             {"sunset", LightPreset::kSunset},
+                                                             {"overcast", LightPreset::kOvercast},
+                                                             {"night", LightPreset::kNight}}}};
+template <>
 inline constexpr Names<ColorMap, 5> kNames<ColorMap>{"colour map",
                                                      {{{"viridis", ColorMap::kViridis},
                                                        {"cividis", ColorMap::kCividis},

@@ -11,6 +11,6 @@ float open_border(vec2 ground_place) {
 // from undersides. Whatever occludes the sky is itself lit by the ground around it, so no place is quite black.
 vec3 ground_light(vec4 sky, float shadow, vec2 ground_place) {
   sky *= open_border(ground_place);
-  vec3 key = kKey * to_key.y * (1.0 - shadow);
+  vec3 key = key_irradiance * to_key.y * (1.0 - shadow);
   return key + sky_on_ground * (1.0 - 0.94 * sky.a) + sky.rgb * (0.16 - 0.10 * sky.a) * open_ground_light();
 }

@@ -18,7 +18,7 @@ const float kSmallest = 0.75;  // radius of a disc, in texels
 const mat2 kGoldenTurn = mat2(-0.7373688, 0.6754903, -0.6754903, -0.7373688);  // 137.5 degrees, for spirals
 
 // Radius of the largest disc, in texels.
-float reach() { return max(kLightRadius * longest_way * mask_texels, 2.0 * kSmallest); }
+float reach() { return max(light_radius * longest_way * mask_texels, 2.0 * kSmallest); }
 
 vec2 mask_place() {
   vec2 point = ground_rectangle.xy + screen_place * ground_rectangle.zw;

@@ -29,7 +29,7 @@ const mat2 kGoldenTurn = mat2(-0.7373688, 0.6754903, -0.6754903, -0.7373688);  /
 float key_light(vec3 point, vec3 n, float facing) {
   vec3 moved = point + body_radius * (0.012 * n + 0.028 * to_key) + motion * to_key;
   vec3 uvd = (light_from_stage * vec4(moved, 1.0)).xyz * 0.5 + 0.5;
-  vec2 reach = 0.6 * kLightRadius * body_radius * light_texel;
+  vec2 reach = 0.6 * light_radius * body_radius * light_texel;
   int search = facing > -0.35 ? kSearch : 0;
   float blockers = 0.0;
   float way = 0.0;
@@ -44,8 +44,8 @@ float key_light(vec3 point, vec3 n, float facing) {
   // llvmpipe skips a loop without iterations but not an `if`: only the edges of shadows pay for the filter.
   bool is_edge = blockers > 0.0 && blockers < float(kSearch);
   int taps = is_edge ? kTaps : 0;
-  float radius = clamp(kLightRadius * key_depth_range * way / max(blockers, 1.0), 0.02 * body_radius,
-                       0.6 * kLightRadius * body_radius);
+  float radius = clamp(light_radius * key_depth_range * way / max(blockers, 1.0), 0.02 * body_radius,
+                       0.6 * light_radius * body_radius);
   float lit = 0.0;
   for (int k = 0; k < taps; ++k) {
     vec2 offset = radius * sqrt((float(k) + 0.5) / float(kTaps)) * direction;
@@ -204,7 +204,7 @@ vec3 skin_light(vec3 place, vec3 n, vec3 base, float look, vec4 gathered, vec4 t
 #else
   // Light from inside, most where it was on its way through thin parts: at the rim, which it colours in place of a white
   // reflection.
-  vec3 inner = finish.translucency * (bounce + 0.5 * kKey) * base * (0.18 + 0.55 * (1.0 - nv) * (1.0 - nv));
+  vec3 inner = finish.translucency * (bounce + 0.5 * key_irradiance) * base * (0.18 + 0.55 * (1.0 - nv) * (1.0 - nv));
 #endif
 
   vec3 reflected = room(reflect(-v, n), bounce, finish.roughness);
@@ -224,7 +224,7 @@ vec3 skin_light(vec3 place, vec3 n, vec3 base, float look, vec4 gathered, vec4 t
   float rim = 1.0 - 0.75 * finish.translucency;
 #endif
 
-  vec3 light = (1.0 - finish.metal) * (reflecting * (kKey * diffuse * lit + surrounding) + inner);
-  light += kKey * gloss * lit * fresnel + reflected * (reflectance * share.x + rim * share.y);
+  vec3 light = (1.0 - finish.metal) * (reflecting * (key_irradiance * diffuse * lit + surrounding) + inner);
+  light += key_irradiance * gloss * lit * fresnel + reflected * (reflectance * share.x + rim * share.y);
   return mix(light, base, finish.glow);
 }

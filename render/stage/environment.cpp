@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "render/stage/lighting.h"
 
 namespace sprung {
 
@@ -129,8 +130,6 @@ Panorama reflection(const Panorama& source, int height, float roughness) {
 
 }  // namespace
 
-Eigen::Vector3f studio_sky() { return {0.275F, 0.29F, 0.305F}; }
-
 Environment::Environment(const Panorama& panorama) {
   if (panorama.width != 2 * panorama.height || panorama.height < 1) {
     throw Error(ErrorKind::kBadInput,
@@ -141,7 +140,7 @@ Environment::Environment(const Panorama& panorama) {
   const Eigen::Vector3f brightness(0.2126F, 0.7152F, 0.0722F);
   const float found = brightness.dot(irradiance_on(Eigen::Vector3f::UnitY()));
   if (!(found > 0)) throw Error(ErrorKind::kBadInput, "the surroundings are black above the horizon: no light");
-  const float factor = brightness.dot(studio_sky()) / found;
+  const float factor = brightness.dot(lighting_of(LightPreset::kStudio).sky) / found;
   for (Eigen::Vector3f& part : irradiance) part *= factor;
   for (Eigen::Vector3f& light : sky.light) light *= factor;
   for (std::size_t i = 0; i < reflections.size(); ++i) {

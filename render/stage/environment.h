@@ -24,7 +24,4 @@ struct Environment {
   [[nodiscard]] Eigen::Vector3f irradiance_on(const Eigen::Vector3f& direction) const;
 };
 
-/// Irradiance / pi of the studio's open sky on level ground.
-[[nodiscard]] Eigen::Vector3f studio_sky();
-
 }  // namespace sprung

@@ -8,6 +8,7 @@
 #include "render/image/image.h"
 #include "render/stage/camera.h"
 #include "render/stage/environment.h"
+#include "render/stage/lighting.h"
 
 namespace sprung {
 
@@ -53,8 +54,9 @@ struct Stage {
   ColorMap color_map = ColorMap::kViridis;
   bool has_ground = true;
   GroundPlane ground;
-  AlignedBox bounds;                         // of the whole motion: sizes shadow map, ground fade and light
-  std::optional<Environment> environment{};  // replaces the studio's sky and walls, not the key light
+  AlignedBox bounds;  // of the whole motion: sizes shadow map, ground fade and light
+  Lighting lighting = lighting_of(LightPreset::kStudio);
+  std::optional<Environment> environment{};  // replaces the sky and the studio's walls, not the key light
 };
 
 /// A part of the time that a shutter is open. Skins move from the first shapes to the last, and each sample of a pixel
@@ -70,5 +72,8 @@ struct Moment {
   const std::vector<SkinShape>& shapes;
   Camera camera;
 };
+
+/// That of the stage, with the sky of its environment if it has one.
+[[nodiscard]] Lighting lighting_of(const Stage& stage);
 
 }  // namespace sprung

@@ -13,7 +13,4 @@ struct StageSpace {
   [[nodiscard]] Vec3 from_world(const Vec3& point) const { return (point - center) * scale; }
 };
 
-/// Unit vector towards the key light, world space: above and to the left of a camera at an azimuth of 30 degrees.
-[[nodiscard]] Vec3 to_key_light();
-
 }  // namespace sprung

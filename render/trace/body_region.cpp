@@ -25,8 +25,8 @@ AlignedBox box_of(const Motion& motion, std::size_t skin, const StageSpace& spac
 
 }  // namespace
 
-BodyRegion::BodyRegion(const Motion& motion, const StageSpace& space, double height) {
-  const Vec3 light = to_key_light();
+BodyRegion::BodyRegion(const Motion& motion, const StageSpace& space, double height, const Vec3& to_key) {
+  const Vec3& light = to_key;
   for (std::size_t skin = 0; skin < motion.front()->size(); ++skin) {
     const AlignedBox box = box_of(motion, skin, space);
     if (box.isEmpty()) continue;

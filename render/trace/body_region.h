@@ -13,7 +13,7 @@ class BodyRegion {
  public:
   BodyRegion() = default;
   /// `height`: of the floor.
-  BodyRegion(const Motion& motion, const StageSpace& space, double height);
+  BodyRegion(const Motion& motion, const StageSpace& space, double height, const Vec3& to_key);
 
   /// How much of what bodies do to the light at a point of the floor is shown: 1 near them, 0 far away.
   [[nodiscard]] float weight_on_floor(const Eigen::Vector3f& point) const;

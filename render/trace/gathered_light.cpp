@@ -68,7 +68,7 @@ Vector3f GroundLight::at(float x, float z) const {
 
 GatheredLight::GatheredLight(const Stage& stage, int rays, int most_probes)
     : space_(stage.bounds),
-      stage_light_(stage.environment),
+      stage_light_(stage),
       irradiance_(stage_light_),
       media_(stage, space_),
       stage_skins_(stage.skins) {

@@ -51,7 +51,7 @@ LightPaths::Surfaces::Surfaces(const Finishes& finishes) : opaque(finishes), coa
 }
 
 LightPaths::LightPaths(const Stage& stage)
-    : LightPaths(stage, StageLight(stage.environment),
+    : LightPaths(stage, StageLight(stage),
                  {Finish::of(Look::kPlastic), Finish::of(Look::kGelatin), Finish::of(Look::kRubber),
                   Finish::of(Look::kSteel), Finish::of(Look::kChart)}) {}
 
@@ -71,7 +71,7 @@ LightPaths::LightPaths(const Stage& stage, const StageLight& light, const Finish
 
 void LightPaths::update(const Motion& motion) {
   skins_.update(motion);
-  region_ = BodyRegion(motion, space_, ground_height_);
+  region_ = BodyRegion(motion, space_, ground_height_, light_.to_key().cast<double>());
 }
 
 /// None where the ray does not come from above.

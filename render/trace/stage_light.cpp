@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "render/stage/stage_space.h"
 #include "render/trace/directions.h"
 
 namespace sprung {
@@ -13,7 +12,6 @@ namespace {
 
 using Eigen::Vector3f;
 
-const Vector3f kKey(0.93F, 0.89F, 0.825F);  // irradiance over pi, of a surface that faces it
 const Vector3f kWindow(-0.880F, 0.300F, 0.368F);
 
 float smoothstep(float low, float high, float x) {
@@ -24,11 +22,12 @@ float smoothstep(float low, float high, float x) {
 Vector3f mix(const Vector3f& a, const Vector3f& b, float share) { return a + share * (b - a); }
 
 /// cyclorama() of light.glsl.
-Vector3f cyclorama(float rise, const Vector3f& ground_light) {
+Vector3f cyclorama(float rise, const Lighting& lighting) {
+  const Vector3f ground_light = lighting.key * float(lighting.to_key().y()) + lighting.sky;
   const float up = smoothstep(-0.55F, 0.40F, rise);
   return StageLight::floor_albedo()
       .cwiseProduct(ground_light)
-      .cwiseProduct(mix({1.02F, 1.01F, 1.0F}, {0.62F, 0.612F, 0.605F}, up));
+      .cwiseProduct(mix({1.02F, 1.01F, 1.0F}, lighting.far_off, up));
 }
 
 /// Bilinear, wrapping around the vertical.
@@ -51,15 +50,17 @@ Vector3f looked_up(const Panorama& panorama, const Vector3f& direction) {
 
 Vector3f StageLight::floor_albedo() { return {0.74F, 0.722F, 0.700F}; }
 
-StageLight::StageLight(const std::optional<Environment>& environment)
+StageLight::StageLight(const Stage& stage) : StageLight(lighting_of(stage), stage.environment) {}
+
+StageLight::StageLight(const Lighting& lighting, const std::optional<Environment>& environment)
     : environment_(environment),
-      sky_on_ground_(environment ? environment->irradiance_on(Vector3f::UnitY()) : studio_sky()),
-      to_key_(to_key_light().cast<float>()),
+      lighting_(lighting),
+      to_key_(lighting.to_key().cast<float>()),
       key_frame_(to_key_),
-      key_cosine_(1 / std::sqrt(1 + kKeyRadius * kKeyRadius)),
+      key_cosine_(1 / std::sqrt(1 + lighting.key_radius * lighting.key_radius)),
       key_density_(1 / (2 * std::numbers::pi_v<float> * (1 - key_cosine_))),
-      key_radiance_(kKey / (1 - key_cosine_ * key_cosine_)),
-      on_open_floor_(kKey * to_key_.y()) {
+      key_radiance_(lighting.key / (1 - key_cosine_ * key_cosine_)),
+      on_open_floor_(lighting.key * to_key_.y()) {
   constexpr int kSide = 128;  // directions at equal shares of the cosine-weighted hemisphere
   Vector3f sum = Vector3f::Zero();
   const TangentFrame upright(Vector3f::UnitY());
@@ -68,7 +69,7 @@ StageLight::StageLight(const std::optional<Environment>& environment)
 }
 
 StageLight StageLight::even(const Vector3f& radiance) {
-  StageLight light{std::nullopt};
+  StageLight light(lighting_of(LightPreset::kStudio), std::nullopt);
   light.even_ = radiance;
   light.key_radiance_.setZero();
   light.on_open_floor_ = radiance;
@@ -77,7 +78,7 @@ StageLight StageLight::even(const Vector3f& radiance) {
 
 Vector3f StageLight::around(const Vector3f& direction) const {
   if (even_) return *even_;
-  if (direction.y() < 0) return floor_albedo().cwiseProduct(kKey * to_key_.y() + sky_on_ground_);
+  if (direction.y() < 0) return floor_albedo().cwiseProduct(lighting_.key * to_key_.y() + lighting_.sky);
   return environment_ ? looked_up(environment_->reflections.front(), direction) : studio(direction);
 }
 
@@ -87,13 +88,13 @@ Vector3f StageLight::studio(const Vector3f& direction) const {
   const float ceiling = smoothstep(0, 0.45F + 0.5F * kSoft, direction.y());
   const float panel = smoothstep(0.66F - kSoft, 0.66F + kSoft, direction.y());
   const float window = smoothstep(0.86F - 0.5F * kSoft, 0.86F + 0.5F * kSoft, direction.dot(kWindow));
-  const Vector3f walls = cyclorama(direction.y(), kKey * to_key_.y() + sky_on_ground_);
-  return mix(walls, 0.5F * sky_on_ground_, ceiling) + (0.60F * panel + 1.20F * window) * sky_on_ground_;
+  const Vector3f walls = cyclorama(direction.y(), lighting_);
+  return mix(walls, 0.5F * lighting_.sky, ceiling) + (0.60F * panel + 1.20F * window) * lighting_.sky;
 }
 
 Vector3f StageLight::backdrop(const Vector3f& direction) const {
   if (even_) return *even_;
-  return cyclorama(direction.y(), kKey * to_key_.y() + sky_on_ground_);
+  return cyclorama(direction.y(), lighting_);
 }
 
 Vector3f StageLight::towards_key(const Eigen::Vector2f& random) const {

@@ -2,7 +2,7 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "render/stage/environment.h"
+#include "render/stage/stage.h"
 #include "render/trace/directions.h"
 
 namespace sprung {
@@ -12,9 +12,8 @@ namespace sprung {
 /// has 1.
 class StageLight {
  public:
-  static constexpr float kKeyRadius = 0.11F;  // of the key light, seen from a distance of 1
-
-  explicit StageLight(const std::optional<Environment>& environment);
+  explicit StageLight(const Stage& stage);
+  StageLight(const Lighting& lighting, const std::optional<Environment>& environment);
   /// The same from everywhere and no key light: what a white surface disappears in.
   [[nodiscard]] static StageLight even(const Eigen::Vector3f& radiance);
 
@@ -28,7 +27,7 @@ class StageLight {
   [[nodiscard]] static Eigen::Vector3f floor_albedo();
 
   /// Irradiance over pi of level ground from the whole sky.
-  [[nodiscard]] const Eigen::Vector3f& sky_on_ground() const { return sky_on_ground_; }
+  [[nodiscard]] const Eigen::Vector3f& sky_on_ground() const { return lighting_.sky; }
 
   /// Irradiance over pi of a surface that faces the middle of the key light.
   [[nodiscard]] Eigen::Vector3f on_facing_key() const { return (1 - key_cosine_ * key_cosine_) * key_radiance_; }
@@ -46,7 +45,7 @@ class StageLight {
 
   std::optional<Environment> environment_;
   std::optional<Eigen::Vector3f> even_;
-  Eigen::Vector3f sky_on_ground_;
+  Lighting lighting_;
   Eigen::Vector3f to_key_;
   TangentFrame key_frame_;
   float key_cosine_;

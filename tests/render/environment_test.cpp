@@ -52,7 +52,7 @@ TEST(Environment, AnEvenSkyLightsBySlope) {
   for (const int height : {1, 3, 64, 200}) {
     const Environment sky(panorama(height, [](const Light&) { return Light(5, 5, 5); }));
     const float whole = sky.irradiance_on(Light::UnitY()).y();
-    EXPECT_NEAR(whole, brightness(studio_sky()), 1e-5) << height;
+    EXPECT_NEAR(whole, brightness(lighting_of(LightPreset::kStudio).sky), 1e-5) << height;
     for (const double slope : {0.0, 30.0, 90.0, 140.0, 180.0}) {
       const double angle = slope * std::numbers::pi / 180;
       const Light to = Eigen::Vector3d(std::sin(angle), std::cos(angle), 0).cast<float>();
@@ -87,7 +87,7 @@ double reflected_sky(const std::optional<Environment>& environment) {
 }
 
 TEST(Environment, TheStudioReflectsAsMuchLightAsItsSkyGives) {
-  const Environment even(panorama(16, [](const Light&) { return studio_sky(); }));
+  const Environment even(panorama(16, [](const Light&) { return lighting_of(LightPreset::kStudio).sky; }));
   EXPECT_NEAR(reflected_sky(std::nullopt) / reflected_sky(even), 1, 0.12);
 }
 

@@ -237,7 +237,7 @@ TEST(Passes, SayWhereTheKeyLightAndTheSkyReach) {
         EXPECT_GT(passes.occlusion[i], 0.99);
       }
     } else {
-      const double facing = pixel.normal().dot(to_key_light());
+      const double facing = pixel.normal().dot(lighting_of(LightPreset::kStudio).to_key());
       if (facing < -0.5) {
         EXPECT_LT(passes.shadow[i], 0.05);
       } else if (facing > 0.9) {

@@ -128,6 +128,42 @@ TEST(Renderer, TheLitSideIsLighterThanTheOther) {
   EXPECT_GT(dark.x(), 90);  // and is not black: the sky and the ground light it
 }
 
+/// Of a ball in that light, without a lens and in few pixels.
+Image lit_ball(const Lighting& lighting, Quality quality) {
+  const StillLife scene = ball_on_ground();
+  Stage stage = scene.stage();
+  stage.lighting = lighting;
+  Renderer renderer(stage, {.width = 160, .height = 90, .samples = samples_of(quality), .quality = quality});
+  return renderer.draw(scene.shapes(), frame_bounds(stage.bounds, 16.0 / 9));
+}
+
+// Shaders and paths of light have their light from the same values, but each their own code.
+TEST(Renderer, EveryPresetOfLightIsTheSameInAllQualities) {
+  for (const LightPreset preset : {LightPreset::kStudio, LightPreset::kSoftbox, LightPreset::kSunset,
+                                   LightPreset::kOvercast, LightPreset::kNight}) {
+    const Image drawn = lit_ball(lighting_of(preset), Quality::kDefault);
+    const Image traced = lit_ball(lighting_of(preset), Quality::kFinal);
+    for (const int y : {5, 85}) {  // background and floor
+      const Eigen::Vector3d difference = pixel(drawn, 5, y) - pixel(traced, 5, y);
+      EXPECT_LE(difference.cwiseAbs().maxCoeff(), 2) << int(preset) << " at " << y;
+    }
+    const Eigen::Vector3d on_ball = pixel(drawn, 72, 40) - pixel(traced, 72, 40);
+    EXPECT_LE(on_ball.cwiseAbs().maxCoeff(), 16) << int(preset);
+  }
+}
+
+TEST(Renderer, TheKeyLightMaySitAnywhere) {
+  Lighting lighting = lighting_of(LightPreset::kStudio);
+  const Image from_left = lit_ball(lighting, Quality::kDefault);
+  lighting.azimuth = 88;  // as far on the other side of the camera's azimuth of 30
+  const Image from_right = lit_ball(lighting, Quality::kDefault);
+  for (const int x : {60, 70, 90, 100}) {
+    EXPECT_NEAR(pixel(from_left, x, 45).x(), pixel(from_right, 159 - x, 45).x(), 18)
+        << x;  // the window stays where it is
+  }
+  EXPECT_GT(pixel(from_left, 65, 45).x(), pixel(from_left, 95, 45).x() + 20);
+}
+
 TEST(Renderer, TheBodyCastsItsShadowOnTheGround) {
   const Image with = draw_scene(ball_on_ground(), kSmall);
   StillLife scene = ball_on_ground();

@@ -86,6 +86,13 @@ TEST(FilmGolden, Orthographic) {
                 "film_orthographic");
 }
 
+// Lit from the right, from lower than the preset's sun.
+TEST(FilmGolden, Sunset) {
+  expect_golden(
+      picture("light = \"sunset\"\nkey_light = { azimuth = 75, elevation = 18, size = 8, color = \"#ffe0b0\" }\n"),
+      "film_sunset");
+}
+
 TEST(FilmGolden, MotionBlur) { expect_golden(picture("motion_blur = 180\n", 2), "film_motion_blur"); }
 
 TEST(FilmGolden, Sheet) {

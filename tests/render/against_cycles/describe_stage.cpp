@@ -162,12 +162,11 @@ void write_panorama(const StageLight& light, const fs::path& file) {
   write_raw(panorama, file);
 }
 
-json describe_light(const StageLight& light, const fs::path& folder) {
-  const double radius = StageLight::kKeyRadius;
-  const double square_of_sine = radius * radius / (1 + radius * radius);
+json describe_light(const Lighting& lighting, const StageLight& light, const fs::path& folder) {
+  const double radius = lighting.key_radius;
   write_panorama(light, folder / "panorama.raw");
-  return {{"to_key", listed(to_key_light())},
-          {"key", listed((light.key_radiance() * float(square_of_sine)).eval())},  // irradiance over pi, facing it
+  return {{"to_key", listed(lighting.to_key())},
+          {"key", listed(light.on_facing_key())},  // irradiance over pi, facing it
           {"key_angle", 2 * std::atan(radius)},
           {"panorama_height", kPanoramaHeight},
           {"on_open_floor", listed(light.on_open_floor())}};
@@ -217,10 +216,12 @@ void describe(const std::string& file, std::size_t frame, int width, int height,
   const StageSpace space(reach.bounds);
 
   fs::create_directories(folder);
-  const StageLight light(read_surroundings(scene.render));
+  Stage lit = stage;
+  lit.environment = read_surroundings(scene.render);
+  const StageLight light(lit);
   json description = {
       {"camera", describe_camera(cameras[frame - 1])},
-      {"light", describe_light(light, folder)},
+      {"light", describe_light(lighting_of(lit), light, folder)},
       {"bodies", describe_bodies(stage, film.shapes(frame - 1), matte_names(scene, simulation), folder)},
       {"center", listed(space.center)},
       {"size", 1 / space.scale}};

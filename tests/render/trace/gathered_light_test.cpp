@@ -41,7 +41,7 @@ Skin plate(double half, double height, int side, bool looks_up) {
 
 /// Level ground under the open sky.
 GroundLight open_ground(const Stage& stage) {
-  const StageLight light(stage.environment);
+  const StageLight light(stage);
   const StageSpace space(stage.bounds);
   const Vector3f open = light.on_facing_key() * light.to_key().y() + light.sky_on_ground();
   return {-space.center.y() * space.scale, {-1, -1}, {2, 2}, 2, std::vector(4, open)};
@@ -79,7 +79,7 @@ int nearest(const Skin& skin, const Vec3& point) {
 
 /// Irradiance over pi of a surface that nothing hides.
 Vector3f unhidden(const Vector3f& normal) {
-  const StageLight light{std::nullopt};
+  const StageLight light(lighting_of(LightPreset::kStudio), std::nullopt);
   const TangentFrame frame(normal);
   constexpr int kSide = 100;
   Vector3f sum = Vector3f::Zero();

@@ -174,10 +174,10 @@ TEST(LightPaths, WhiteBodiesDisappearTogether) {
 TEST(LightPaths, ALambertBallHasItsRadianceInClosedForm) {
   const Ball ball({0.5F, 0.5F, 0.5F});
   const Stage stage = ball.scene.stage();
-  const StageLight light{std::nullopt};
+  const StageLight light(lighting_of(LightPreset::kStudio), std::nullopt);
   LightPaths paths(stage, light, all_of(Finish::matt()));
   paths.update({&ball.shapes});
-  const Vector3f to_key = to_key_light().cast<float>();
+  const Vector3f to_key = lighting_of(LightPreset::kStudio).to_key().cast<float>();
   const float color = linear_from_srgb(0.5F);
   const Vector3f key = light.key_radiance() / light.key_density() / std::numbers::pi_v<float>;
   for (const Vector3f& normal : {Vector3f(0.6F, 0.8F, 0), to_key, Vector3f(0.8F, 0, 0.6F), Vector3f(0, -0.8F, 0.6F)}) {
@@ -196,7 +196,7 @@ TEST(LightPaths, ALambertBallHasItsRadianceInClosedForm) {
 
 TEST(LightPaths, AMirrorShowsWhatLiesThere) {
   const Ball ball(kWhitePaint);
-  const StageLight light{std::nullopt};
+  const StageLight light(lighting_of(LightPreset::kStudio), std::nullopt);
   LightPaths paths(ball.scene.stage(), light, all_of(Finish({.roughness = 0.02F, .is_metal = true})));
   paths.update({&ball.shapes});
   const Vector3f normal = Vector3f(-1, 0.6F, 0.5F).normalized();

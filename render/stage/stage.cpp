@@ -1,0 +1,11 @@
+#include "render/stage/stage.h"
+
+namespace sprung {
+
+Lighting lighting_of(const Stage& stage) {
+  Lighting lighting = stage.lighting;
+  if (stage.environment) lighting.sky = stage.environment->irradiance_on(Eigen::Vector3f::UnitY());
+  return lighting;
+}
+
+}  // namespace sprung
