@@ -98,7 +98,7 @@ FieldWords words_of(Field field) {
     case Field::kStrain:
       return {"Strain", ColorMap::kViridis, shares};
     case Field::kStress:
-      return {"Stress", ColorMap::kTurbo, pressures};
+      return {"Stress", ColorMap::kViridis, pressures};
     case Field::kVolume:
       return {"Volume", ColorMap::kCoolwarm, shares};
     case Field::kFill:

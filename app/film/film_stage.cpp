@@ -20,7 +20,8 @@ const Eigen::Vector3f kPinColor(0.90F, 0.24F, 0.12F);
 const Eigen::Vector3f kContactColor(0.96F, 0.72F, 0.10F);
 constexpr double kContactRadius = 0.16;  // of a brick
 constexpr std::size_t kMostContacts = 600;
-constexpr double kSpringRadius = 0.03;   // of a brick
+constexpr double kSpringRadius = 0.014;  // at rest, of a brick
+constexpr double kSpringGrowth = 2.5;    // of the radius, to the ends of the colours
 constexpr double kNodeRadius = 0.09;     // of a brick
 constexpr double kPinRadius = 0.17;      // of a brick
 constexpr double kTraceRadius = 0.0035;  // of the largest body
@@ -28,7 +29,7 @@ constexpr double kObstacleEdge = 0.08;   // of the largest body: light around a 
 constexpr double kMostEdges = 60;        // across an obstacle
 constexpr double kUtmost = 0.01;         // fraction of the springs that may exceed the range of colours
 
-/// By default blue in compression, red in tension, dark at rest.
+/// By default blue in compression, red in tension, pale at rest.
 ColorMap spring_colors(const SceneRender& render) { return render.color_map.value_or(ColorMap::kEmber); }
 
 int id_of(std::size_t actor) { return int(actor) + 1; }
@@ -224,7 +225,8 @@ void FilmStage::add_springs(std::size_t actor) {
       from.row(i) = nodes.row(springs->nodes[i][0]);
       to.row(i) = nodes.row(springs->nodes[i][1]);
     }
-    return rods->shape(from, to, (springs->stretches(nodes).array() / ends + 0.5).max(0.0).min(1.0));
+    const Eigen::VectorXd coordinates = (springs->stretches(nodes).array() / ends + 0.5).max(0.0).min(1.0);
+    return rods->shape(from, to, coordinates, 1 + 2 * kSpringGrowth * (coordinates.array() - 0.5).abs());
   };
   const auto skin = std::make_shared<const Skin>(with_shape(rods->skin(), shape(body.rest_positions)));
   items_.push_back({skin, Eigen::Vector3f::Ones(), Look::kChart, false, id_of(actor),

@@ -75,7 +75,8 @@ Rods::Rods(std::size_t count, double radius) : radius_(radius) {
   }
 }
 
-SkinShape Rods::shape(const Points& from, const Points& to, const Eigen::VectorXd& coordinates) const {
+SkinShape Rods::shape(const Points& from, const Points& to, const Eigen::VectorXd& coordinates,
+                      const Eigen::VectorXd& widths) const {
   SkinShape shape;
   shape.positions.resize(kRodVertices * from.rows(), 3);
   shape.normals.resize(kRodVertices * from.rows(), 3);
@@ -83,6 +84,7 @@ SkinShape Rods::shape(const Points& from, const Points& to, const Eigen::VectorX
   for (Eigen::Index rod = 0; rod < from.rows(); ++rod) {
     Vec3 way = to.row(rod) - from.row(rod);
     if (way.isZero(0)) way = Vec3::UnitX();  // of no length: nothing to see, but finite
+    const double radius = widths.size() > 0 ? widths[rod] * radius_ : radius_;
     const Vec3 across = way.unitOrthogonal();
     const Vec3 third = way.stableNormalized().cross(across);
     for (int vertex = 0; vertex < kRodVertices; ++vertex) {
@@ -90,7 +92,7 @@ SkinShape Rods::shape(const Points& from, const Points& to, const Eigen::VectorX
       const Vec3 normal = std::cos(angle) * across + std::sin(angle) * third;
       const Eigen::Index row = kRodVertices * rod + vertex;
       const Vec3 end = vertex < kSides ? from.row(rod) : to.row(rod);
-      shape.positions.row(row) = (end + radius_ * normal).cast<float>().transpose();
+      shape.positions.row(row) = (end + radius * normal).cast<float>().transpose();
       shape.normals.row(row) = normal.cast<float>().transpose();
       if (coordinates.size() > 0) shape.map_coordinates[row] = float(coordinates[rod]);
     }

@@ -18,8 +18,10 @@ class Rods {
   /// `radius` in m.
   Rods(std::size_t count, double radius);
   [[nodiscard]] const Skin& skin() const { return skin_; }
-  /// Rod i goes from from[i] to to[i]; `coordinates` on the colour map, one per rod, or none.
-  [[nodiscard]] SkinShape shape(const Points& from, const Points& to, const Eigen::VectorXd& coordinates) const;
+  /// Rod i goes from from[i] to to[i]; `coordinates` on the colour map and `widths`, factors of the radius: one per
+  /// rod, or none.
+  [[nodiscard]] SkinShape shape(const Points& from, const Points& to, const Eigen::VectorXd& coordinates,
+                                const Eigen::VectorXd& widths = {}) const;
 
  private:
   double radius_;

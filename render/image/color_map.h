@@ -4,7 +4,7 @@
 namespace sprung {
 
 /// Perceptually even colour maps. Viridis and cividis rise from dark to light and suit colour-blind viewers; coolwarm
-/// is blue below and red above a pale middle; ember likewise with a dark middle, which keeps thin objects visible on a
+/// is blue below and red above a pale middle; ember likewise with a grey middle, which keeps thin objects visible on a
 /// light floor; turbo is a rainbow without the false edges of older ones.
 enum class ColorMap { kViridis, kCividis, kCoolwarm, kEmber, kTurbo };
 

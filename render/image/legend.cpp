@@ -66,6 +66,12 @@ void draw_swatches(Image& image, const Legend& legend, const Font& font, double 
 
 }  // namespace
 
+void fill_panel(Image& image, double left, double top, double right, double bottom) {
+  constexpr Ink kPaper{255, 255, 255};
+  constexpr double kOpacity = 0.55;
+  fill_rectangle(image, left, top, right, bottom, kPaper, kOpacity);
+}
+
 double letters_height(int height) { return std::max(kSmallestLetters, kLetters * height); }
 
 double round_length(double most) {
@@ -89,7 +95,10 @@ std::vector<double> round_ticks(double low, double high, double most) {
   return few;
 }
 
-double legend_width(const Legend& legend, int height, const Font& font) {
+namespace {
+
+/// Of its title, bar and numbers, or names.
+double content_width(const Legend& legend, int height, const Font& font) {
   const double size = letters_height(height);
   double content = font.width(legend.title, size);
   const auto include = [&](double beside, const std::string& text) {
@@ -101,7 +110,13 @@ double legend_width(const Legend& legend, int height, const Font& font) {
     }
   }
   for (const Legend::Swatch& swatch : legend.swatches) include(1.6 * size, swatch.name);
-  return std::max(content + 2 * kLabelMargin * height, kLeastRoom * height);
+  return content;
+}
+
+}  // namespace
+
+double legend_width(const Legend& legend, int height, const Font& font) {
+  return std::max(content_width(legend, height, font) + 2 * kLabelMargin * height, kLeastRoom * height);
 }
 
 void draw_legend(Image& image, const Legend& legend, const Font& font) {
@@ -110,6 +125,10 @@ void draw_legend(Image& image, const Legend& legend, const Font& font) {
   const double height =
       legend.swatches.empty() ? kBarHeight * image.height : 1.5 * size * double(legend.swatches.size());
   const double top = 0.5 * (image.height - height);
+  const double around = 0.9 * size;
+  const double edge = image.width - 0.4 * kLabelMargin * image.height;
+  const double right = std::min(left + content_width(legend, image.height, font) + around, edge);
+  fill_panel(image, left - around, top - 2.4 * size, right, top + height + around);
   font.write(image, left, top - 0.9 * size, size, legend.title, kDarkInk);
   if (legend.swatches.empty()) {
     draw_scale(image, legend, font, left, top);

@@ -25,7 +25,10 @@ struct Legend {
 [[nodiscard]] double letters_height(int height);
 inline constexpr double kLabelMargin = 0.035;
 
-/// At the right edge, centred vertically.
+/// A pale panel behind labels; pixels.
+void fill_panel(Image& image, double left, double top, double right, double bottom);
+
+/// At the right edge, centred vertically, on a panel.
 void draw_legend(Image& image, const Legend& legend, const Font& font);
 
 /// Pixels to reserve for it at the right edge of a picture of that height.

@@ -11,7 +11,6 @@ namespace sprung {
 
 namespace {
 
-constexpr Ink kPaper{255, 255, 255};
 constexpr double kMostTicks = 4;
 constexpr double kWidth = 0.26;   // of the picture's width
 constexpr double kHeight = 0.22;  // of the picture's height
@@ -96,7 +95,7 @@ void draw_panel(Image& image, const Plot& plot, Frame& frame, double size, const
   double content = 1.2 * size + font.width(plot.title, size);
   for (const Plot::Curve& curve : plot.curves) content += size + font.width(curve.name, size);
   const double right = margin + std::max(kWidth * image.width, content);
-  fill_rectangle(image, margin, top, right, bottom, kPaper, 0.55);
+  fill_panel(image, margin, top, right, bottom);
   double x = margin + 0.6 * size;
   const auto write = [&](const std::string& text, const Ink& ink) {
     font.write(image, x, top + 1.2 * size, size, text, ink);

@@ -50,8 +50,7 @@ Font::Font() : outlines_(std::make_unique<Outlines>()) {
   std::ifstream in(SPRUNG_FONT, std::ios::binary);
   outlines_->bytes = {std::istreambuf_iterator<char>(in), {}};
   if (outlines_->bytes.empty() || stbtt_InitFont(&outlines_->info, outlines_->bytes.data(), 0) == 0) {
-    throw Error(ErrorKind::kFailed,
-                "cannot read the font " SPRUNG_FONT "; is the package fonts-dejavu-core installed?");
+    throw Error(ErrorKind::kFailed, "cannot read the font " SPRUNG_FONT "; is the package fonts-inter installed?");
   }
 }
 

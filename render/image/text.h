@@ -12,7 +12,7 @@ namespace sprung {
 /// 8-bit sRGB.
 using Ink = std::array<std::uint8_t, 3>;
 
-/// DejaVu Sans, a free font that Debian packages.
+/// Inter, a typeface for screens under the SIL Open Font License, which Debian packages.
 class Font {
  public:
   /// Throws Error(kFailed) where the font is not installed.

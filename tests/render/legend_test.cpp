@@ -45,12 +45,13 @@ TEST(ColorMaps, RiseInBrightnessWhereTheyShould) {
   }
   EXPECT_GT(map_color(ColorMap::kCoolwarm, 0).z(), map_color(ColorMap::kCoolwarm, 0).x());
   EXPECT_GT(map_color(ColorMap::kCoolwarm, 1).x(), map_color(ColorMap::kCoolwarm, 1).z());
-  for (int i = 0; i < 10; ++i) {  // ember falls to its middle and rises again, as bright on both sides
+  for (int i = 0; i < 10; ++i) {  // ember rises to its middle and falls again, as bright on both sides
     const auto brightness = [](double share) {
       return Eigen::Vector3f(0.2126F, 0.7152F, 0.0722F).dot(map_color(ColorMap::kEmber, share));
     };
-    EXPECT_GT(brightness(0.05 * i), brightness(0.05 * (i + 1))) << i;
-    EXPECT_GT(brightness(1 - 0.05 * i), brightness(1 - 0.05 * (i + 1))) << i;
+    EXPECT_LT(brightness(0.05 * i), brightness(0.05 * (i + 1))) << i;
+    EXPECT_LT(brightness(1 - 0.05 * i), brightness(1 - 0.05 * (i + 1))) << i;
+    EXPECT_NEAR(brightness(0.05 * i), brightness(1 - 0.05 * i), 0.05) << i;
   }
   EXPECT_GT(map_color(ColorMap::kEmber, 0).z(), map_color(ColorMap::kEmber, 1).z());
   EXPECT_EQ(map_color(ColorMap::kTurbo, 7), map_color(ColorMap::kTurbo, 1));
@@ -131,7 +132,7 @@ TEST(Font, WritesIntoTheAlphaToo) {
   Image image(40, 20);
   image.alpha.assign(800, 0);
   font.write(image, 5, 15, 16, "H", {0, 0, 0});
-  EXPECT_GT(*std::max_element(image.alpha.begin(), image.alpha.end()), 240);
+  EXPECT_GT(*std::max_element(image.alpha.begin(), image.alpha.end()), 230);
   EXPECT_EQ(image.alpha[0], 0);
 }
 
