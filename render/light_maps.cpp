@@ -96,10 +96,13 @@ double longest_way(const DrawFrame& frame) {
          frame.lighting.to_key().y();
 }
 
+/// Texels along the ground's shadow, which is soft.
+int shadow_size(Quality quality) { return quality == Quality::kHigh ? 640 : quality == Quality::kDefault ? 384 : 256; }
+
 std::string shadow_settings(Quality quality) {
   const bool is_high = quality == Quality::kHigh;
-  return fmt::format("#define SHADED {:.3f}\n#define RINGS {}\n#define DIRECTIONS {}\n", kShaded, is_high ? 9 : 6,
-                     is_high ? 9 : 5);
+  return fmt::format("#define SHADED {:.3f}\n#define RINGS {}\n#define DIRECTIONS {}\n", kShaded, is_high ? 8 : 6,
+                     is_high ? 7 : 5);
 }
 
 std::string light_settings(int shadow_size) {
@@ -116,11 +119,11 @@ GroundMaps::GroundMaps(const GlFunctions& gl, const MapBrush& brush, Quality qua
       underside_color_(brush.make_map(kUndersideColorSize, &map_format::kColor, true)),
       underside_(brush.make_map(kUndersideSize, &map_format::kMask, false)),
       sky_(brush.make_map(kSkySize, &map_format::kFlatColor, false)),
-      shadow_(brush.make_map(key.size / 2, &map_format::kShadow, true)),
+      shadow_(brush.make_map(shadow_size(quality), &map_format::kShadow, true)),
       light_(brush.make_map(kLightSize, &map_format::kFlatColor, false)),
       far_light_pass_(brush.make_map(kFarLightSize, &map_format::kFlatColor, false)),
       far_light_(brush.make_map(kFarLightSize, &map_format::kFlatColor, false)),
-      tint_(brush.make_map(key.size / 2, exposes ? &map_format::kFineColor : &map_format::kFlatColor, false)),
+      tint_(brush.make_map(shadow_.size, exposes ? &map_format::kFineColor : &map_format::kFlatColor, false)),
       underside_programs_(load_skin_programs(gl, "underside.frag")),
       underside_filter_program_(load_program(gl, "screen.vert", "underside_filter.frag")),
       sky_program_(load_program(gl, "screen.vert", "ground_sky.frag")),
