@@ -229,7 +229,7 @@ void fields(auto& visit, Is<SceneRender> auto& render) {
 void fields(auto& visit, Is<SceneKeyLight> auto& light) {
   visit.table("key light");
   visit({"azimuth", "direction of the light about the vertical, as a camera's", Dimension::kAngle}, light.azimuth);
-  visit({"elevation", "height of the light above the horizon", Dimension::kAngle, {5, 90}}, light.elevation);
+  visit({"elevation", "height of the light above the horizon", Dimension::kAngle, {5, 89}}, light.elevation);
   visit({"size", "angle across, as bodies see it: how soft shadows are", Dimension::kAngle, {0.5, 50}}, light.size);
   visit({"color", "of the light; white is as bright as the preset's"}, light.color);
   visit({"strength", "factor of its brightness", Dimension::kRatio, {0, 10}}, light.strength);

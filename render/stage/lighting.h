@@ -7,7 +7,7 @@ namespace sprung {
 /// matt surface under 1 has a radiance of 1.
 struct Lighting {
   double azimuth;           // degrees about y, as a camera's: where the key light is; 0: along z
-  double elevation;         // degrees above the horizon, > 0
+  double elevation;         // degrees above the horizon, > 0 and < 90
   Eigen::Vector3f key;      // irradiance of a surface that faces the key light
   float key_radius;         // of the key light, seen from a distance of 1
   Eigen::Vector3f sky;      // irradiance of level ground from the open sky

@@ -17,7 +17,7 @@ namespace {
 using Eigen::Vector3f;
 using Eigen::Vector4f;
 
-constexpr double kLift = 0.004;         // of the largest body's radius
+constexpr double kLift = 0.004;         // of the skin's radius
 constexpr double kGroove = 2;           // depth of grooves over the sides of coarse triangles
 constexpr float kLittle = 1e-3F;        // of a groove, by which rays go on behind it
 constexpr double kChord = 0.1;          // lift over the sides of coarse triangles
@@ -51,20 +51,6 @@ Eigen::Matrix3f rotation(std::size_t i) {
 }
 
 }  // namespace
-
-Vector3f GroundLight::at(float x, float z) const {
-  const Eigen::Array2f inside = float(size) * (Eigen::Array2f(x, z) - low.array()) / sides.array() - 0.5F;
-  const Eigen::Array2f at = inside.max(0.0F).min(float(size - 1) - 1e-3F);
-  const int column = int(at.x());
-  const int row = int(at.y());
-  const float across = at.x() - float(column);
-  const float down = at.y() - float(row);
-  const auto texel = [&](int i, int k) {
-    return texels[std::size_t(row + k) * std::size_t(size) + std::size_t(column + i)];
-  };
-  return (1 - down) * ((1 - across) * texel(0, 0) + across * texel(1, 0)) +
-         down * ((1 - across) * texel(0, 1) + across * texel(1, 1));
-}
 
 GatheredLight::GatheredLight(const Stage& stage, int rays, int most_probes)
     : space_(stage.bounds),
@@ -121,8 +107,8 @@ void GatheredLight::set_triangles(SkinLight& light, const Skin& skin, double cel
 /// Forgets what has changed.
 void GatheredLight::set_shapes(const std::vector<SkinShape>& shapes, const Vector3f& eye) {
   for (SkinLight& light : skins_) {
-    if ((light.sides == Sides::kBoth || light.is_metal) && eye != eye_)
-      light.is_known.assign(light.is_known.size(), false);
+    const bool depends_on_eye = light.sides == Sides::kBoth || light.is_metal;
+    if (depends_on_eye && eye != eye_) light.is_known.assign(light.is_known.size(), false);
   }
   eye_ = eye;
   const auto same = [](const SkinShape& a, const SkinShape& b) {
@@ -202,8 +188,8 @@ void GatheredLight::update(const std::vector<SkinShape>& shapes, const Vector3f&
   tbb::parallel_for(std::size_t(0), skins_.size(), [&](std::size_t i) {
     SkinLight& light = skins_[i];
     light.of_vertices = interpolated(light.probes, light.of_probes);
-    if (light.is_metal || media_.is_entered(int(i)))
-      light.through = interpolated(light.probes, light.through_to_probes);
+    const bool has_more = light.is_metal || media_.is_entered(int(i));
+    if (has_more) light.through = interpolated(light.probes, light.through_to_probes);
   });
 }
 
