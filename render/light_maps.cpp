@@ -274,6 +274,7 @@ int key_size(Quality quality) { return quality == Quality::kHigh ? 2048 : qualit
 
 LightMaps::LightMaps(const GlFunctions& gl, const RenderOptions& options)
     : gl_(gl),
+      has_zenith_(!options.gathers_light),
       brush_(gl),
       shadow_sampler_(make_comparing_sampler(gl, GL_LEQUAL)),
       key_(brush_.make_map(key_size(options.quality), nullptr, true)),
@@ -288,10 +289,10 @@ void LightMaps::draw(const std::vector<SkinBuffers>& skins, const TextureSet& te
   gl_.Enable(GL_DEPTH_TEST);
   brush_.draw_depth(key_, frame.light.key, skins, Detail::kCoarse, frame);
   clock.stop("key map");
-  brush_.draw_depth(zenith_depth_, frame.light.zenith, skins, Detail::kCoarsest, frame);
+  if (has_zenith_) brush_.draw_depth(zenith_depth_, frame.light.zenith, skins, Detail::kCoarsest, frame);
   gl_.Disable(GL_DEPTH_TEST);
   clock.stop("zenith map");
-  blur_zenith(frame);
+  if (has_zenith_) blur_zenith(frame);
   clock.stop("zenith blur");
   ground_.draw(skins, textures, frame, clock);
 }

@@ -105,7 +105,7 @@ class GroundMaps {
 
 /// Everything that is rendered before the picture itself: the light on the ground, and
 /// - key: depth along the key light, for soft shadows of the bodies on themselves and each other
-/// - zenith: blurred heights seen from above, for the fraction of the sky that is visible
+/// - zenith: blurred heights seen from above, for the fraction of the sky that is visible, where rays do not gather it
 class LightMaps {
  public:
   static constexpr int kUnits = 5;  // texture units that bind() uses
@@ -121,6 +121,7 @@ class LightMaps {
   void blur_zenith(const DrawFrame& frame) const;
 
   const GlFunctions& gl_;
+  bool has_zenith_;
   MapBrush brush_;
   GlSampler shadow_sampler_;
   LightMap key_;

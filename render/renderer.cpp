@@ -70,8 +70,8 @@ Motion motion_of(const std::vector<Exposure>& exposures) {
 int rays_of(Quality quality) { return quality == Quality::kHigh ? 64 : 32; }
 int probes_of(Quality quality) { return quality == Quality::kHigh ? 32000 : 16000; }
 
-/// Of what the shaders still draw of a traced picture: its passes.
-RenderOptions without_tracing(RenderOptions options) {
+/// Of what the shaders draw, which of a traced picture is its passes.
+RenderOptions options_of_shaders(RenderOptions options) {
   if (options.quality == Quality::kPreview || !RayScene::is_available()) options.gathers_light = false;
   if (options.quality != Quality::kFinal) return options;
   options.gathers_light = false;
@@ -130,13 +130,13 @@ struct Renderer::Device {
         lighting(lighting_of(stage)),
         textures(gl, stage.color_map),
         ids(stage.ids),
-        maps(gl, without_tracing(wanted)),
-        gathered(make_gathered(stage, without_tracing(wanted))),
-        screen(gl, without_tracing(wanted), stage.environment,
-               without_tracing(wanted).exposes ? ScreenOutput::kLight : ScreenOutput::kPicture, gathering()),
+        maps(gl, options_of_shaders(wanted)),
+        gathered(make_gathered(stage, options_of_shaders(wanted))),
+        screen(gl, options_of_shaders(wanted), stage.environment,
+               options_of_shaders(wanted).exposes ? ScreenOutput::kLight : ScreenOutput::kPicture, gathering()),
         clock(gl, wanted.measure_passes),
         environment(stage.environment),
-        options(without_tracing(wanted)) {
+        options(options_of_shaders(wanted)) {
     if (wanted.quality == Quality::kFinal) tracing.emplace(gl, stage, wanted);
     for (std::size_t i = 0; i < stage.skins.size(); ++i) {
       const bool is_ghost = !stage.ghosts.empty() && stage.ghosts[i];

@@ -113,6 +113,9 @@ class Refiner {
 
   /// False where no edge was too long.
   bool run(Skin& refined) {
+    if (skin_.parts.empty()) {
+      for (int t = 0; t < skin_.triangles.rows(); ++t) split_triangle(t);
+    }
     for (const Part& part : skin_.parts) {
       const auto first = isize(triangles_);
       for (int t = 0; t < part.triangle_count; ++t) split_triangle(part.first_triangle + t);

@@ -47,15 +47,8 @@ constexpr std::array<std::array<float, 3>, 17> kCoolwarm{{{0.230F, 0.299F, 0.754
                                                           {0.796F, 0.241F, 0.221F},
                                                           {0.706F, 0.016F, 0.150F}}};
 
-constexpr std::array<std::array<float, 3>, 9> kEmber{{{0.130F, 0.520F, 0.900F},
-                                                      {0.247F, 0.541F, 0.829F},
-                                                      {0.365F, 0.562F, 0.758F},
-                                                      {0.482F, 0.584F, 0.686F},
-                                                      {0.600F, 0.605F, 0.615F},
-                                                      {0.688F, 0.549F, 0.494F},
-                                                      {0.775F, 0.492F, 0.372F},
-                                                      {0.862F, 0.436F, 0.251F},
-                                                      {0.950F, 0.380F, 0.130F}}};
+constexpr std::array<std::array<float, 3>, 3> kEmber{
+    {{0.130F, 0.520F, 0.900F}, {0.600F, 0.605F, 0.615F}, {0.950F, 0.380F, 0.130F}}};
 
 Eigen::Vector3f interpolate(Stops stops, double coordinate) {
   const double at = coordinate * double(stops.size() - 1);

@@ -6,7 +6,7 @@ uniform vec3 to_key;          // unit, stage space
 uniform vec3 key_irradiance;  // of a surface that faces the key light
 uniform float light_radius;   // of the key light, seen from a distance of 1: softness of its shadow
 uniform vec3 far_off;         // the background high up, over the floor
-uniform vec3 sky_on_ground;  // without occlusion
+uniform vec3 sky_on_ground;   // without occlusion
 
 vec3 open_ground_light() { return key_irradiance * to_key.y + sky_on_ground; }
 

@@ -33,11 +33,13 @@ vec4 sample_paint(int k) {
 uniform sampler2D surface_light;
 uniform float brightest_light;
 
-// Light from around, and the fraction of its hemisphere that no body hides.
-vec4 sample_light(int k) {
-  vec4 stored = texelFetch(surface_light, sample_place(k), 0);
-  return vec4(brightest_light * stored.rgb * stored.rgb, stored.a);
+// See VertexLight.
+vec4 gathered_light(sampler2D stored, int k) {
+  vec4 root = texelFetch(stored, sample_place(k), 0);
+  return vec4(brightest_light * root.rgb * root.rgb, root.a);
 }
+
+vec4 sample_light(int k) { return gathered_light(surface_light, k); }
 #else
 vec4 sample_light(int k) { return vec4(0.0); }
 #endif
@@ -45,11 +47,7 @@ vec4 sample_light(int k) { return vec4(0.0); }
 #ifdef THROUGH
 uniform sampler2D surface_through;
 
-// See ThroughLight.
-vec4 sample_through(int k) {
-  vec4 stored = texelFetch(surface_through, sample_place(k), 0);
-  return vec4(brightest_light * stored.rgb * stored.rgb, stored.a);
-}
+vec4 sample_through(int k) { return gathered_light(surface_through, k); }
 #else
 vec4 sample_through(int k) { return vec4(0.0); }
 #endif

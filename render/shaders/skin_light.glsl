@@ -167,8 +167,8 @@ void layer(vec3 base, float thickness, out vec3 reflected, out vec3 let_through)
 }
 #endif
 
-// `gathered`: light from around, where it was gathered by rays; `through`: what comes
-// through the body, or a metal mirrors.
+// `gathered`: light from around, where it was gathered by rays; `through`: what comes through the body, or
+// what a metal mirrors.
 vec3 skin_light(vec3 place, vec3 n, vec3 base, float look, vec4 gathered, vec4 through) {
   Finish finish = finish_of(look);
   vec3 v = normalize(eye - place);

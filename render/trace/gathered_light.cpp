@@ -168,6 +168,7 @@ void GatheredLight::update(const std::vector<SkinShape>& shapes, const Vector3f&
       light.is_known[k] = true;
     }
   }
+  if (tasks.empty()) return;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tasks.size(), 32), [&](const auto& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
       SkinLight& light = skins_[tasks[i].skin];

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "render/trace/directions.h"
-
 namespace sprung {
 namespace {
 
@@ -25,13 +23,9 @@ Vector3f normal_at(int elevation, int turn) {
 }  // namespace
 
 IrradianceTable::IrradianceTable(const StageLight& light) {
+  values_.reserve(std::size_t(kElevations) * kAzimuths);
   for (int i = 0; i < kElevations * kAzimuths; ++i) {
-    const TangentFrame frame(normal_at(i / kAzimuths, i % kAzimuths));
-    Vector3f sum = Vector3f::Zero();
-    for (int k = 0; k < kTableSide * kTableSide; ++k) {
-      sum += light.around(frame.to_world(on_cosine_hemisphere(on_grid(k, kTableSide))));
-    }
-    values_.emplace_back(sum / (kTableSide * kTableSide));
+    values_.push_back(light.from_around(normal_at(i / kAzimuths, i % kAzimuths), kTableSide));
   }
 }
 

@@ -2,12 +2,12 @@
 
 #include <tbb/parallel_for.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 
+#include "core/mesh/repair/components.h"
 #include "render/stage/coarse_triangles.h"
 #include "render/stage/visible_sides.h"
 
@@ -40,12 +40,7 @@ struct Entry {
 
 double area(const Skin& skin) {
   double sum = 0;
-  for (const auto& corners : skin.triangles.rowwise()) {
-    const Vec3 origin = skin.positions.row(corners[0]);
-    const Vec3 a = skin.positions.row(corners[1]).transpose() - origin;
-    const Vec3 b = skin.positions.row(corners[2]).transpose() - origin;
-    sum += 0.5 * a.cross(b).norm();
-  }
+  for (int t = 0; t < skin.triangles.rows(); ++t) sum += triangle_area(skin.positions, skin.triangles, t);
   return sum;
 }
 

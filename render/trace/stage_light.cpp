@@ -61,11 +61,8 @@ StageLight::StageLight(const Lighting& lighting, const std::optional<Environment
       key_density_(1 / (2 * std::numbers::pi_v<float> * (1 - key_cosine_))),
       key_radiance_(lighting.key / (1 - key_cosine_ * key_cosine_)),
       on_open_floor_(lighting.key * to_key_.y()) {
-  constexpr int kSide = 128;  // directions at equal shares of the cosine-weighted hemisphere
-  Vector3f sum = Vector3f::Zero();
-  const TangentFrame upright(Vector3f::UnitY());
-  for (int i = 0; i < kSide * kSide; ++i) sum += around(upright.to_world(on_cosine_hemisphere(on_grid(i, kSide))));
-  on_open_floor_ += sum / (kSide * kSide);
+  constexpr int kFine = 128;
+  on_open_floor_ += from_around(Vector3f::UnitY(), kFine);
 }
 
 StageLight StageLight::even(const Vector3f& radiance) {
@@ -74,6 +71,13 @@ StageLight StageLight::even(const Vector3f& radiance) {
   light.key_radiance_.setZero();
   light.on_open_floor_ = radiance;
   return light;
+}
+
+Vector3f StageLight::from_around(const Vector3f& normal, int side) const {
+  const TangentFrame frame(normal);
+  Vector3f sum = Vector3f::Zero();
+  for (int i = 0; i < side * side; ++i) sum += around(frame.to_world(on_cosine_hemisphere(on_grid(i, side))));
+  return sum / (side * side);
 }
 
 Vector3f StageLight::around(const Vector3f& direction) const {

@@ -19,6 +19,8 @@ class StageLight {
 
   /// From that direction (unit), without the key light; from below as much as the open floor reflects.
   [[nodiscard]] Eigen::Vector3f around(const Eigen::Vector3f& direction) const;
+  /// Irradiance over pi of an unhidden surface from all of around(), by side x side directions.
+  [[nodiscard]] Eigen::Vector3f from_around(const Eigen::Vector3f& normal, int side) const;
   /// What the camera sees where there is no body: the floor and the background in one, without a horizon.
   [[nodiscard]] Eigen::Vector3f backdrop(const Eigen::Vector3f& direction) const;
   /// Irradiance over pi of level ground that nothing hides, as it follows from around() and the key light.

@@ -106,7 +106,6 @@ Skin make_box_skin(const Vec3& low, const Vec3& high) {
 }
 
 Skin refined(Skin skin, double max_edge) {
-  skin.parts = {{"all", 0, int(skin.triangles.rows()), -1}};
   refine(skin, max_edge);
   return skin;
 }

@@ -140,6 +140,18 @@ double border_of(const Skin& skin) {
 
 /// Bevels are slivers, and their neighbours wide: both are cut at the same places, and the slivers into hardly more
 /// triangles than a strip has.
+TEST(Skin, RefiningDoesWithoutParts) {
+  Skin with_parts = make_skin(cube_mesh(), {.max_edge = 0, .crease_angle = 40});
+  Skin without = with_parts;
+  without.parts.clear();
+  refine(with_parts, 0.3);
+  refine(without, 0.3);
+  EXPECT_GT(without.triangles.rows(), 12);
+  EXPECT_EQ(without.triangles, with_parts.triangles);
+  EXPECT_EQ(without.positions, with_parts.positions);
+  EXPECT_TRUE(without.parts.empty());
+}
+
 TEST(Skin, RefiningCutsSliversAcross) {
   SurfaceMesh mesh = bevelled_square(45);
   mesh.parts = {{.name = "all", .first_triangle = 0, .triangle_count = 12}};
