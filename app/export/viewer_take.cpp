@@ -72,16 +72,15 @@ class TakeMaker {
   }
   [[nodiscard]] Field wanted() const { return view_.film.render.color_by; }
 
-  [[nodiscard]] ColorRange range_of(Field field) const {
-    const FieldColors colors(coloured_by(field, std::nullopt), view_.simulation, recording_);
-    return {colors.low(), colors.high()};
+  [[nodiscard]] ColorRanges ranges_of(Field field) const {
+    return FieldColors(coloured_by(field), view_.simulation, recording_).ranges();
   }
 
-  void add_field(Field field, const ColorRange& range) {
-    const FieldColors colors(coloured_by(field, range), view_.simulation, recording_);
+  void add_field(Field field, const ColorRanges& ranges) {
+    const FieldColors colors(coloured_by(field), view_.simulation, recording_, ranges);
     if (field == wanted()) take_.shown_field = int(take_.fields.size());
     ViewerField& made = take_.fields.emplace_back();
-    made.legend = colors.legend();
+    made.legend = colors.legend(0);
     for (const int frame : frames_) {
       stop_if_interrupted();
       for (std::size_t body = 0; body < view_.simulation.world.bodies.size(); ++body) {
@@ -94,9 +93,10 @@ class TakeMaker {
   void add_springs() {
     Film film = view_.film;
     film.render.springs = true;
+    film.render.color_range = RangeOver::kFilm;
     film.render.color_low.reset();
     film.render.color_high.reset();
-    take_.spring_stretch = FilmStage(film, view_.simulation, recording_).legend();
+    take_.spring_stretch = FilmStage(film, view_.simulation, recording_).legend(0);
     std::vector<float> lengths;
     int first = 0;
     for (const SoftBody& body : view_.simulation.world.bodies) {
@@ -129,8 +129,8 @@ class TakeMaker {
     return mesh;
   }
 
-  /// By all frames unless the film, or `range`, states it.
-  [[nodiscard]] Film coloured_by(Field field, const std::optional<ColorRange>& range) const {
+  /// With one range for all frames.
+  [[nodiscard]] Film coloured_by(Field field) const {
     Film film = view_.film;
     SceneRender& render = film.render;
     if (render.color_by != field) {
@@ -139,8 +139,7 @@ class TakeMaker {
       render.color_high.reset();
     }
     render.color_by = field;
-    if (range) render.color_low = range->low;
-    if (range) render.color_high = range->high;
+    render.color_range = RangeOver::kFilm;
     return film;
   }
 
@@ -165,14 +164,12 @@ std::vector<ViewerTake> viewer_takes(std::span<const CachedFilmView> views, cons
     }
   }
   for (const Field field : fields) {
-    std::optional<ColorRange> common;
+    ColorRanges common;
     for (const TakeMaker& maker : makers) {
-      if (!maker.has(field)) continue;
-      const ColorRange its = maker.range_of(field);
-      common = common ? ColorRange{std::min(common->low, its.low), std::max(common->high, its.high)} : its;
+      if (maker.has(field)) common = merged(common, maker.ranges_of(field));
     }
     for (TakeMaker& maker : makers) {
-      if (maker.has(field)) maker.add_field(field, *common);
+      if (maker.has(field)) maker.add_field(field, common);
     }
   }
   std::vector<ViewerTake> takes;

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "core/body/brick_measures.h"
@@ -122,74 +122,100 @@ std::pair<double, double> extremes(std::vector<double>& values) {
 
 }  // namespace
 
+const ColorRange& range_in(const ColorRanges& ranges, std::size_t frame) {
+  return ranges[std::min(frame, ranges.size() - 1)];
+}
+
+ColorRanges merged(const ColorRanges& a, const ColorRanges& b) {
+  if (a.empty() || b.empty()) return a.empty() ? b : a;
+  ColorRanges both;
+  for (std::size_t frame = 0; frame < std::max(a.size(), b.size()); ++frame) {
+    const ColorRange& one = range_in(a, frame);
+    const ColorRange& other = range_in(b, frame);
+    both.push_back({std::min(one.low, other.low), std::max(one.high, other.high)});
+  }
+  return both;
+}
+
+bool has_range_per_frame(const SceneRender& render) { return render.color_range == RangeOver::kFrame && !render.sheet; }
+
 FieldColors::FieldColors(const Film& scene, const Simulation& simulation, const Recording& recording)
+    : FieldColors(scene, simulation, recording, ColorRanges()) {
+  if (!is_mapped()) return;
+  const SceneRender& render = scene.render;
+  const std::size_t frames = is_moving(field_) ? recording.frames.size() : 1;
+  const std::size_t each = has_range_per_frame(render) ? 1 : frames;
+  for (std::size_t first = 0; first < frames; first += each) {
+    const bool is_stated = render.color_low && render.color_high;
+    const ColorRange found = is_stated ? ColorRange{} : range_over(first, first + each);
+    ColorRange range{render.color_low.value_or(found.low), render.color_high.value_or(found.high)};
+    if (range.high <= range.low) range.high = range.low + std::max(1e-6, 1e-3 * std::abs(range.low));
+    ranges_.push_back(range);
+  }
+}
+
+FieldColors::FieldColors(const Film& scene, const Simulation& simulation, const Recording& recording,
+                         ColorRanges ranges)
     : field_(scene.render.color_by),
       map_(scene.render.color_map.value_or(words_of(field_).map)),
       simulation_(simulation),
       recording_(recording),
       fps_(scene.fps),
-      measure_(strain_measure(scene)) {
-  if (!is_mapped()) return;
-  const SceneRender& render = scene.render;
-  if (!render.color_low || !render.color_high) find_range();
-  low_ = render.color_low.value_or(low_);
-  high_ = render.color_high.value_or(high_);
-  if (high_ <= low_) high_ = low_ + std::max(1e-6, 1e-3 * std::abs(low_));
-}
+      measure_(strain_measure(scene)),
+      ranges_(std::move(ranges)) {}
 
-void FieldColors::find_range() {
-  const std::size_t frames = is_moving(field_) ? recording_.frames.size() : 1;
+/// Over the frames from the first up to the last, which is not among them.
+ColorRange FieldColors::range_over(std::size_t first, std::size_t last) const {
   std::size_t count = 0;
-  for (const SoftBody& actor : simulation_.world.bodies) count += std::size_t(actor.node_count());
+  for (const SoftBody& body : simulation_.world.bodies) count += std::size_t(body.node_count());
+  const std::size_t frames = last - first;
   const std::size_t stride = 1 + frames * count / kMostValues;
   std::vector<double> values;
   values.reserve(frames * count / stride + frames);
   std::size_t next = 0;
-  for (std::size_t frame = 0; frame < frames; ++frame) {
-    for (std::size_t actor = 0; actor < simulation_.world.bodies.size(); ++actor) {
-      const Eigen::VectorXd of_actor = field_values(field_, simulation_, recording_, frame, actor, fps_, measure_);
-      const std::size_t size = of_actor.size();
-      for (; next < size; next += stride) values.push_back(of_actor[next]);
+  for (std::size_t frame = first; frame < last; ++frame) {
+    for (std::size_t body = 0; body < simulation_.world.bodies.size(); ++body) {
+      const Eigen::VectorXd of_body = field_values(field_, simulation_, recording_, frame, body, fps_, measure_);
+      const std::size_t size = of_body.size();
+      for (; next < size; next += stride) values.push_back(of_body[next]);
       next -= size;
     }
   }
-  std::tie(low_, high_) = extremes(values);
+  const auto [low, high] = extremes(values);
   switch (field_) {
     case Field::kVolume: {  // symmetric about the rest volume, the middle of the map
-      const double reach = std::max(std::abs(high_ - 1), std::abs(1 - low_));
-      low_ = 1 - reach;
-      high_ = 1 + reach;
-      break;
+      const double reach = std::max(std::abs(high - 1), std::abs(1 - low));
+      return {1 - reach, 1 + reach};
     }
     case Field::kStretch:
-      low_ = std::min(low_, 1.0);
-      break;
+      return {std::min(low, 1.0), high};
     case Field::kFill:
-      low_ = 0;
-      high_ = 1;
-      break;
+      return {0, 1};
     case Field::kRegion:
-      break;
+      return {low, high};
     default:
-      low_ = 0;
+      return {0, high};
   }
 }
 
 Eigen::VectorXd FieldColors::map_coordinates(std::size_t frame, std::size_t actor) const {
   const Eigen::VectorXd values = field_values(field_, simulation_, recording_, frame, actor, fps_, measure_);
-  return (values.array() - low_) / (high_ - low_);
+  const ColorRange& range = range_in(ranges_, frame);
+  return (values.array() - range.low) / (range.high - range.low);
 }
 
-Legend FieldColors::legend() const {
+Legend FieldColors::legend(std::size_t frame) const {
   const FieldWords words = words_of(field_);
-  const double range = std::max(std::abs(low_), std::abs(high_));
+  double largest = 0;
+  for (const ColorRange& range : ranges_) largest = std::max({largest, std::abs(range.low), std::abs(range.high)});
   const Unit unit = *std::find_if(words.units.begin(), words.units.end(),
-                                  [&](const Unit& candidate) { return range >= candidate.from; });
+                                  [&](const Unit& candidate) { return largest >= candidate.from; });
   const bool has_name = unit.name[0] != '\0';
+  const ColorRange& range = range_in(ranges_, frame);
   return {.title = has_name ? fmt::format("{}, {}", words.name, unit.name) : words.name,
           .map = map_,
-          .low = low_ / unit.size,
-          .high = high_ / unit.size,
+          .low = range.low / unit.size,
+          .high = range.high / unit.size,
           .swatches = {}};
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-#include <optional>
+#include <vector>
 
 #include "app/scene/film.h"
 #include "app/scene/scene_render.h"
@@ -18,23 +18,38 @@ namespace sprung {
 /// True where the field changes over time.
 [[nodiscard]] bool is_moving(Field field);
 
-/// Maps a field to colours, with one range for the whole film.
+/// The values of the first and the last colour, SI.
+struct ColorRange {
+  double low;
+  double high;
+};
+
+/// One for the whole film, or one for each of its frames.
+using ColorRanges = std::vector<ColorRange>;
+
+[[nodiscard]] const ColorRange& range_in(const ColorRanges& ranges, std::size_t frame);
+/// Those that show what both show; the last one of a shorter film counts for the frames after it.
+[[nodiscard]] ColorRanges merged(const ColorRanges& a, const ColorRanges& b);
+/// Whether each frame has its own range.
+[[nodiscard]] bool has_range_per_frame(const SceneRender& render);
+
+/// Maps a field to colours.
 class FieldColors {
  public:
-  /// Finds the range over all frames, unless the scene states it. All must outlive it.
+  /// Finds the range over all frames or over each of them, unless the scene states it. All must outlive it.
   FieldColors(const Film& scene, const Simulation& simulation, const Recording& recording);
+  FieldColors(const Film& scene, const Simulation& simulation, const Recording& recording, ColorRanges ranges);
 
   [[nodiscard]] bool is_mapped() const { return field_ != Field::kSkin; }
   [[nodiscard]] ColorMap map() const { return map_; }
-  [[nodiscard]] double low() const { return low_; }    // SI, first colour
-  [[nodiscard]] double high() const { return high_; }  // last colour
+  [[nodiscard]] const ColorRanges& ranges() const { return ranges_; }
   /// Coordinates of a body's nodes on the colour map, 0 to 1 within the range.
   [[nodiscard]] Eigen::VectorXd map_coordinates(std::size_t frame, std::size_t actor) const;
-  /// In a unit with short numbers.
-  [[nodiscard]] Legend legend() const;
+  /// In a unit with short numbers, the same in all frames.
+  [[nodiscard]] Legend legend(std::size_t frame) const;
 
  private:
-  void find_range();
+  [[nodiscard]] ColorRange range_over(std::size_t first, std::size_t last) const;
 
   Field field_;
   ColorMap map_;
@@ -42,8 +57,7 @@ class FieldColors {
   const Recording& recording_;
   double fps_;
   StrainMeasure measure_;
-  double low_ = 0;  // SI
-  double high_ = 0;
+  ColorRanges ranges_;
 };
 
 }  // namespace sprung

@@ -21,8 +21,6 @@ constexpr int kExposures = 8;  // of a picture with motion blur
 
 constexpr std::uint8_t kGutter = 255;  // sRGB, between pictures in one
 
-constexpr double kSmoothness = 0.1;  // pixels between a curved skin and its triangles
-
 /// Pixels per metre in the closest view of the film: one smoothness for all frames, so that nothing pops.
 double finest_scale(const std::vector<Camera>& cameras, int height) {
   double finest = 0;
@@ -69,6 +67,11 @@ RenderOptions options_of(const Film& scene) {
           .exposes = render.motion_blur > 0 || scene.camera.aperture > 0};
 }
 
+std::optional<Legend> first_legend(const FilmRun& run, const ColorRanges& ranges) {
+  constexpr double kNeverSmooth = std::numeric_limits<double>::infinity();
+  return FilmStage(run.scene, run.simulation, run.recording, kNeverSmooth, ranges).legend(0);
+}
+
 Stage in(const std::optional<Environment>& surroundings, Stage stage) {
   stage.environment = surroundings;
   return stage;
@@ -76,23 +79,15 @@ Stage in(const std::optional<Environment>& surroundings, Stage stage) {
 
 }  // namespace
 
-FilmPipeline::Colors FilmPipeline::common_colors(const std::vector<FilmRun>& runs) {
-  Colors colors{runs.front().scene, std::nullopt};
-  SceneRender& render = colors.scene.render;
-  if (render.color_by == Field::kSkin && !render.springs) return colors;
-  double low = std::numeric_limits<double>::infinity();
-  double high = -low;
+/// Of what all runs show.
+ColorRanges FilmPipeline::common_ranges(const std::vector<FilmRun>& runs) {
+  ColorRanges ranges;
   for (const FilmRun& run : runs) {
     Film its = run.scene;
-    its.render = render;
-    const ColorRange range = FilmStage(its, run.simulation, run.recording).color_range().value();
-    low = std::min(low, range.low);
-    high = std::max(high, range.high);
+    its.render = runs.front().scene.render;
+    ranges = merged(ranges, FilmStage(its, run.simulation, run.recording).color_ranges());
   }
-  render.color_low = low;
-  render.color_high = high;
-  colors.legend = FilmStage(colors.scene, runs.front().simulation, runs.front().recording).legend();
-  return colors;
+  return ranges;
 }
 
 std::size_t FilmPipeline::Panel::frame(std::size_t of_film) const {
@@ -100,24 +95,24 @@ std::size_t FilmPipeline::Panel::frame(std::size_t of_film) const {
 }
 
 FilmPipeline::FilmPipeline(const std::vector<FilmRun>& runs, const std::optional<Environment>& surroundings)
-    : FilmPipeline(runs, surroundings, common_colors(runs)) {}
+    : FilmPipeline(runs, surroundings, common_ranges(runs)) {}
 
 FilmPipeline::FilmPipeline(const std::vector<FilmRun>& runs, const std::optional<Environment>& surroundings,
-                           const Colors& colors)
+                           const ColorRanges& ranges)
     : surroundings_(surroundings),
-      scene_(colors.scene),
+      scene_(runs.front().scene),
       reach_(common_reach(runs)),
-      labels_(scene_.render, colors.legend, runs.size() > 1),
+      labels_(scene_.render, first_legend(runs.front(), ranges), runs.size() > 1),
       scene_of_panel_(with_panel_size(scene_, runs.size(), labels_)),
       longest_(longest_of(runs)) {
   const auto [width, height] = scene_.render.resolution;
   const bool is_whole = runs.size() == 1 && !scene_.render.sheet;
   cameras_ = cameras_of(scene_of_panel_, reach_, is_whole ? 1.0 * labels_.reserved(width, height) / width : 0);
-  const double tolerance = kSmoothness / finest_scale(cameras_, scene_of_panel_.render.resolution[1]);
+  const double pixel = 1 / finest_scale(cameras_, scene_of_panel_.render.resolution[1]);
   for (const FilmRun& run : runs) {
     Film its = run.scene;
     its.render = scene_.render;
-    panels_.emplace_back(std::move(its), run, tolerance);
+    panels_.emplace_back(std::move(its), run, pixel, ranges);
   }
 }
 
@@ -152,7 +147,7 @@ Image FilmPipeline::draw(std::size_t frame, const Moments& moments) {
   }
   Image image = panels_.size() == 1 ? std::move(pictures.front()) : sheet_of_panels(pictures);
   labels_.write_frame(image, camera, frame, frames(), panels_[longest_].run.recording.progress[frame]);
-  if (!scene_.render.sheet) labels_.write_legend(image);
+  if (!scene_.render.sheet) labels_.write_legend(image, panels_.front().stage.legend(frame));
   return image;
 }
 
@@ -180,7 +175,7 @@ Passes FilmPipeline::passes(std::size_t frame, const Moments& moments) {
 
 Image FilmPipeline::sheet(const std::vector<Image>& pictures) const {
   Image image = sheet_of_panels(pictures);
-  labels_.write_legend(image);
+  labels_.write_legend(image, panels_.front().stage.legend(0));
   return image;
 }
 

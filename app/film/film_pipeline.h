@@ -22,8 +22,8 @@ struct FilmRun {
 };
 
 /// Draws the pictures of a film: of one run, or of several side by side, with the camera and the look of the first
-/// run's scene and one range of colours. A run that is shorter than the others stays in its last frame. OpenGL starts
-/// with the first picture, so a process may fork before that.
+/// run's scene and one range of colours in each frame. A run that is shorter than the others stays in its last frame.
+/// OpenGL starts with the first picture, so a process may fork before that.
 class FilmPipeline {
  public:
   /// Shapes of the skins by run and time: one time per picture, or those where the exposures of its motion blur meet.
@@ -44,18 +44,14 @@ class FilmPipeline {
   [[nodiscard]] Image sheet(const std::vector<Image>& pictures) const;
 
  private:
-  /// The scene of the first run with the range of colours of all runs.
-  struct Colors {
-    Film scene;
-    std::optional<Legend> legend;
-  };
-  [[nodiscard]] static Colors common_colors(const std::vector<FilmRun>& runs);
-  FilmPipeline(const std::vector<FilmRun>& runs, const std::optional<Environment>& surroundings, const Colors& colors);
+  [[nodiscard]] static ColorRanges common_ranges(const std::vector<FilmRun>& runs);
+  FilmPipeline(const std::vector<FilmRun>& runs, const std::optional<Environment>& surroundings,
+               const ColorRanges& ranges);
 
   /// One run's part of the picture.
   struct Panel {
-    Panel(Film its_scene, const FilmRun& its_run, double tolerance)
-        : scene(std::move(its_scene)), run(its_run), stage(scene, run.simulation, run.recording, tolerance) {}
+    Panel(Film its_scene, const FilmRun& its_run, double pixel, const ColorRanges& ranges)
+        : scene(std::move(its_scene)), run(its_run), stage(scene, run.simulation, run.recording, pixel, ranges) {}
     [[nodiscard]] std::size_t frame(std::size_t of_film) const;  // clamped to the run's last
 
     const Film scene;

@@ -16,12 +16,17 @@ namespace sprung {
 namespace {
 
 const Eigen::Vector3f kNodeColor(0.20F, 0.22F, 0.26F);
+const Eigen::Vector3f kEdgeColor(0.16F, 0.17F, 0.20F);
 const Eigen::Vector3f kPinColor(0.90F, 0.24F, 0.12F);
 const Eigen::Vector3f kContactColor(0.96F, 0.72F, 0.10F);
 constexpr double kContactRadius = 0.16;  // of a brick
 constexpr std::size_t kMostContacts = 600;
 constexpr double kSpringRadius = 0.014;  // at rest, of a brick
 constexpr double kSpringGrowth = 2.5;    // of the radius, to the ends of the colours
+constexpr double kLeastStretch = 1e-6;   // at the ends of the colours
+constexpr double kSmoothness = 0.1;      // pixels between a curved skin and its triangles
+constexpr double kEdgeRadius = 0.35;     // pixels
+constexpr double kShortEdge = 5;         // pixels; shorter ones are thinner, so that they do not blacken the skin
 constexpr double kNodeRadius = 0.09;     // of a brick
 constexpr double kPinRadius = 0.17;      // of a brick
 constexpr double kTraceRadius = 0.0035;  // of the largest body
@@ -76,18 +81,21 @@ SkinShape shape_of(const StageObstacle& obstacle, const Skin& skin, double time)
   return {.positions = positions.cast<float>(), .normals = normals.cast<float>()};
 }
 
-FilmStage::FilmStage(const Film& scene, const Simulation& simulation, const Recording& recording, double tolerance)
+FilmStage::FilmStage(const Film& scene, const Simulation& simulation, const Recording& recording, double pixel,
+                     ColorRanges ranges)
     : scene_(scene),
       simulation_(simulation),
       recording_(recording),
-      colors_(scene, simulation, recording),
-      tolerance_(tolerance) {
+      colors_(ranges.empty() || scene.render.springs ? FieldColors(scene, simulation, recording)
+                                                     : FieldColors(scene, simulation, recording, ranges)),
+      pixel_(pixel) {
   const SceneRender& render = scene.render;
-  if (render.springs) stretch_ = render.color_high ? *render.color_high : furthest_stretch();
+  if (render.springs) stretches_ = ranges.empty() ? stretch_ranges() : std::move(ranges);
   for (std::size_t actor = 0; actor < simulation.world.bodies.size(); ++actor) {
     if (render.bricks != BrickView::kNone) add_bricks(actor);
     if (render.springs) add_springs(actor);
     if (render.bricks == BrickView::kNone && !render.springs) add_skin(actor);
+    if (render.edges) add_edges(actor);
     if (render.nodes) add_nodes(actor);
     if (render.pins) add_pins(actor);
     if (render.ghost) add_ghost(actor);
@@ -142,21 +150,18 @@ std::vector<SkinShape> FilmStage::shapes(std::size_t frame, double part) const {
   return shapes;
 }
 
-std::optional<ColorRange> FilmStage::color_range() const {
-  if (scene_.render.springs) return ColorRange{-stretch_, stretch_};
-  if (colors_.is_mapped()) return ColorRange{colors_.low(), colors_.high()};
-  return std::nullopt;
-}
+ColorRanges FilmStage::color_ranges() const { return scene_.render.springs ? stretches_ : colors_.ranges(); }
 
-std::optional<Legend> FilmStage::legend() const {
+std::optional<Legend> FilmStage::legend(std::size_t frame) const {
   if (scene_.render.springs) {
+    const ColorRange& range = range_in(stretches_, frame);
     return Legend{.title = "Springs, %",
                   .map = spring_colors(scene_.render),
-                  .low = -100 * stretch_,
-                  .high = 100 * stretch_,
+                  .low = 100 * range.low,
+                  .high = 100 * range.high,
                   .swatches = {}};
   }
-  if (colors_.is_mapped()) return colors_.legend();
+  if (colors_.is_mapped()) return colors_.legend(frame);
   return std::nullopt;
 }
 
@@ -165,7 +170,8 @@ Eigen::VectorXd FilmStage::map_coordinates(const Moment& moment, std::size_t act
                                                        : Eigen::VectorXd();
 }
 
-bool FilmStage::is_smooth() const { return scene_.render.smooth && std::isfinite(tolerance_); }
+/// Edges are those of the triangles that the mesh has.
+bool FilmStage::is_smooth() const { return scene_.render.smooth && !scene_.render.edges && std::isfinite(pixel_); }
 
 FilmStage::DrawnSkin FilmStage::drawn_skin(const SoftBody& body) {
   if (!is_smooth() || body.surface == nullptr) {
@@ -173,7 +179,7 @@ FilmStage::DrawnSkin FilmStage::drawn_skin(const SoftBody& body) {
   }
   const auto [entry, is_new] = smooth_.try_emplace(body.surface.get());
   if (is_new) {
-    const auto smooth = std::make_shared<const EmbeddedSkin>(smooth_skin(body, tolerance_));
+    const auto smooth = std::make_shared<const EmbeddedSkin>(smooth_skin(body, kSmoothness * pixel_));
     entry->second = {{smooth, &smooth->skin}, {smooth, &smooth->embedding}};
   }
   return entry->second;
@@ -218,35 +224,55 @@ void FilmStage::add_springs(std::size_t actor) {
   const Body& body = simulation_.world.bodies[actor];
   const auto springs = std::make_shared<const SpringSet>(springs_of(body, bricks_left(body.grid, scene_.render.cut)));
   const auto rods = std::make_shared<const Rods>(springs->nodes.size(), kSpringRadius * body.grid.brick_size);
-  const auto shape = [springs, rods, ends = 2 * stretch_](const Points& nodes) {
-    Points from(springs->rest.size(), 3);
-    Points to(springs->rest.size(), 3);
-    for (Eigen::Index i = 0; i < springs->rest.size(); ++i) {
-      from.row(i) = nodes.row(springs->nodes[i][0]);
-      to.row(i) = nodes.row(springs->nodes[i][1]);
-    }
-    const Eigen::VectorXd coordinates = (springs->stretches(nodes).array() / ends + 0.5).max(0.0).min(1.0);
-    return rods->shape(from, to, coordinates, 1 + 2 * kSpringGrowth * (coordinates.array() - 0.5).abs());
+  const auto shape = [this, springs, rods](const Points& nodes, std::size_t frame) {
+    const auto [low, high] = range_in(stretches_, frame);
+    const Eigen::VectorXd coordinates = ((springs->stretches(nodes).array() - low) / (high - low)).max(0.0).min(1.0);
+    return rods->between(nodes, springs->nodes, coordinates, 1 + 2 * kSpringGrowth * (coordinates.array() - 0.5).abs());
   };
-  const auto skin = std::make_shared<const Skin>(with_shape(rods->skin(), shape(body.rest_positions)));
+  const auto skin = std::make_shared<const Skin>(with_shape(rods->skin(), shape(body.rest_positions, 0)));
   items_.push_back({skin, Eigen::Vector3f::Ones(), Look::kChart, false, id_of(actor),
-                    [actor, shape](const Moment& now) { return shape(now.nodes[actor]); }});
+                    [actor, shape](const Moment& now) { return shape(now.nodes[actor], now.frame); }});
 }
 
-/// Over all frames, so that colours mean the same in each.
-double FilmStage::furthest_stretch() const {
-  double furthest = 1e-6;
+/// Symmetric; over all frames, so that colours mean the same in each, or by frame.
+ColorRanges FilmStage::stretch_ranges() const {
+  if (const std::optional<double>& stated = scene_.render.color_high) return {{-*stated, *stated}};
+  ColorRanges ranges(recording_.frames.size(), {-kLeastStretch, kLeastStretch});
   for (std::size_t actor = 0; actor < simulation_.world.bodies.size(); ++actor) {
     const Body& body = simulation_.world.bodies[actor];
     const SpringSet springs = springs_of(body, std::vector<bool>(body.grid.cells.size(), true));
-    for (const std::vector<Floats3>& frame : recording_.frames) {
-      Eigen::VectorXd stretches = springs.stretches(frame[actor].cast<double>()).cwiseAbs();
+    for (std::size_t frame = 0; frame < ranges.size(); ++frame) {
+      Eigen::VectorXd stretches = springs.stretches(recording_.frames[frame][actor].cast<double>()).cwiseAbs();
       const auto rank = Eigen::Index(kUtmost * double(stretches.size()));
       std::nth_element(stretches.begin(), stretches.end() - 1 - rank, stretches.end());
-      furthest = std::max(furthest, stretches[stretches.size() - 1 - rank]);
+      const double furthest = std::max(ranges[frame].high, stretches[stretches.size() - 1 - rank]);
+      ranges[frame] = {-furthest, furthest};
     }
   }
-  return furthest;
+  if (has_range_per_frame(scene_.render)) return ranges;
+  const auto is_less = [](const ColorRange& a, const ColorRange& b) { return a.high < b.high; };
+  return {*std::max_element(ranges.begin(), ranges.end(), is_less)};
+}
+
+/// Of the triangles of a body's skin.
+void FilmStage::add_edges(std::size_t row) {
+  const SoftBody& body = simulation_.world.bodies[row];
+  const std::vector<std::array<int, 2>> edges = edges_of(body.skin.triangles);
+  const double pixel = std::isfinite(pixel_) ? pixel_ : 0;
+  const auto rods = std::make_shared<const Rods>(edges.size(), kEdgeRadius * pixel);
+  Eigen::VectorXd widths(edges.size());
+  for (Eigen::Index i = 0; i < widths.size(); ++i) {
+    const auto way = body.skin.positions.row(edges[i][0]) - body.skin.positions.row(edges[i][1]);
+    widths[i] = pixel > 0 ? std::min(1.0, way.norm() / (kShortEdge * pixel)) : 0;
+  }
+  const auto shape = [&body, rods, edges, widths,
+                      interpolation = scene_.bodies[body.origin.body].skin](const Points& nodes) {
+    const SkinShape skin = shape_of(body.grid, body.skin, body.skin_embedding, nodes, interpolation);
+    return rods->between(skin.positions.cast<double>(), edges, {}, widths);
+  };
+  const auto skin = std::make_shared<const Skin>(with_shape(rods->skin(), shape(body.rest_positions)));
+  items_.push_back({skin, kEdgeColor, Look::kChart, false, id_of(row),
+                    [row, shape](const Moment& now) { return shape(now.nodes[row]); }});
 }
 
 void FilmStage::add_balls(std::size_t actor, std::vector<int> nodes, double radius, const Eigen::Vector3f& color) {
@@ -287,7 +313,7 @@ void FilmStage::add_ghost(std::size_t row) {
 
 void FilmStage::add_obstacle(const StageObstacle& obstacle, int id) {
   Skin fine = obstacle.skin;
-  if (is_smooth()) refine_curves(fine, tolerance_);
+  if (is_smooth()) refine_curves(fine, kSmoothness * pixel_);
   refine(fine, std::max(kObstacleEdge * simulation_.size, bounding_box(fine.positions).diagonal().norm() / kMostEdges));
   const auto skin = std::make_shared<const Skin>(std::move(fine));
   items_.push_back({skin, srgb(obstacle.color), Look::kPlastic, false, id,

@@ -21,28 +21,23 @@ namespace sprung {
 /// A skin of an obstacle at that time of the film (s).
 [[nodiscard]] SkinShape shape_of(const StageObstacle& obstacle, const Skin& skin, double time);
 
-/// The values of the first and the last colour, SI.
-struct ColorRange {
-  double low;
-  double high;
-};
-
 /// Everything that a film shows, in any frame or between two: skins, or bricks or springs in their place, obstacles,
 /// and overlays.
 class FilmStage {
  public:
-  /// All must outlive it. Skins of coarse meshes are drawn smooth, to within `tolerance` (m), if the scene wants that;
-  /// infinity: never.
+  /// All must outlive it. `pixel`: what one shows of the nearest body, m; skins of coarse meshes are drawn smooth to
+  /// within a part of that, if the scene wants it; infinity: never. `ranges`: of the colours; none: those that the film
+  /// finds.
   FilmStage(const Film& scene, const Simulation& simulation, const Recording& recording,
-            double tolerance = std::numeric_limits<double>::infinity());
+            double pixel = std::numeric_limits<double>::infinity(), ColorRanges ranges = {});
 
   /// `bounds`: of the whole motion, m.
   [[nodiscard]] Stage stage(const AlignedBox& bounds) const;
   /// One shape for each of the stage's skins, interpolated by `part` (0 to 1) towards the next frame.
   [[nodiscard]] std::vector<SkinShape> shapes(std::size_t frame, double part = 0) const;
   /// None where colours show no field.
-  [[nodiscard]] std::optional<ColorRange> color_range() const;
-  [[nodiscard]] std::optional<Legend> legend() const;
+  [[nodiscard]] ColorRanges color_ranges() const;
+  [[nodiscard]] std::optional<Legend> legend(std::size_t frame) const;
 
  private:
   /// The state of all bodies at one time.
@@ -82,15 +77,16 @@ class FilmStage {
   void add_trace(const ProbeTrack& track, const Eigen::Vector3f& color);
   void add_contacts();
   void add_balls(std::size_t actor, std::vector<int> nodes, double radius, const Eigen::Vector3f& color);
-  [[nodiscard]] double furthest_stretch() const;
+  void add_edges(std::size_t actor);
+  [[nodiscard]] ColorRanges stretch_ranges() const;
 
   const Film& scene_;
   const Simulation& simulation_;
   const Recording& recording_;
   FieldColors colors_;
-  double tolerance_;
+  double pixel_;
   std::map<const SurfaceMesh*, DrawnSkin> smooth_;  // by the surface of a body, which copies share
-  double stretch_ = 0;                              // of springs at the ends of their colours, symmetric
+  ColorRanges stretches_;                           // of springs at the ends of their colours
   std::vector<StageItem> items_;
 };
 

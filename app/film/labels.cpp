@@ -52,8 +52,8 @@ void Labels::write_frame(Image& image, const Camera& camera, std::size_t frame, 
 
 void Labels::write_plot(Image& image, const Plot& plot) const { draw_plot(image, plot, *font_); }
 
-void Labels::write_legend(Image& image) const {
-  if (legend_) draw_legend(image, *legend_, *font_);
+void Labels::write_legend(Image& image, const std::optional<Legend>& legend) const {
+  if (legend_ && legend) draw_legend(image, *legend, *font_);
 }
 
 namespace {

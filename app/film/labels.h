@@ -21,7 +21,8 @@ class Labels {
   void write_name(Image& image, const std::string& name) const;
   /// `frame` counts from 0; `time` in s. In a sheet the time is told in any case.
   void write_frame(Image& image, const Camera& camera, std::size_t frame, std::size_t frames, double time) const;
-  void write_legend(Image& image) const;
+  /// As wide as the one it was made with.
+  void write_legend(Image& image, const std::optional<Legend>& legend) const;
   void write_plot(Image& image, const Plot& plot) const;
 
  private:

@@ -100,6 +100,30 @@ SkinShape Rods::shape(const Points& from, const Points& to, const Eigen::VectorX
   return shape;
 }
 
+SkinShape Rods::between(const Points& points, const std::vector<std::array<int, 2>>& pairs,
+                        const Eigen::VectorXd& coordinates, const Eigen::VectorXd& widths) const {
+  Points from(pairs.size(), 3);
+  Points to(pairs.size(), 3);
+  for (Eigen::Index i = 0; i < from.rows(); ++i) {
+    from.row(i) = points.row(pairs[i][0]);
+    to.row(i) = points.row(pairs[i][1]);
+  }
+  return shape(from, to, coordinates, widths);
+}
+
+std::vector<std::array<int, 2>> edges_of(const Triangles& triangles) {
+  std::vector<std::array<int, 2>> edges;
+  for (Eigen::Index i = 0; i < triangles.rows(); ++i) {
+    for (int k = 0; k < 3; ++k) {
+      const auto [low, high] = std::minmax({triangles(i, k), triangles(i, (k + 1) % 3)});
+      edges.push_back({low, high});
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return edges;
+}
+
 Balls::Balls(std::size_t count, double radius) : radius_(radius), round_(round_shape(divisions_of(count))) {
   const Eigen::Index balls = count;
   const Eigen::Index vertices = round_.places.size();

@@ -22,11 +22,17 @@ class Rods {
   /// rod, or none.
   [[nodiscard]] SkinShape shape(const Points& from, const Points& to, const Eigen::VectorXd& coordinates,
                                 const Eigen::VectorXd& widths = {}) const;
+  /// Rod i goes from one point of a pair to the other.
+  [[nodiscard]] SkinShape between(const Points& points, const std::vector<std::array<int, 2>>& pairs,
+                                  const Eigen::VectorXd& coordinates = {}, const Eigen::VectorXd& widths = {}) const;
 
  private:
   double radius_;
   Skin skin_;
 };
+
+/// Each once.
+[[nodiscard]] std::vector<std::array<int, 2>> edges_of(const Triangles& triangles);
 
 /// Points and triangles of a sphere of radius 1.
 struct RoundShape {

@@ -208,9 +208,12 @@ void fields(auto& visit, Is<SceneRender> auto& render) {
          "what colours show: skin, displacement, speed, stretch, strain or stress (von Mises), volume, fill or region"},
         render.color_by);
   visit({"color_map", "viridis, cividis, coolwarm, ember or turbo; by what is shown"}, render.color_map);
-  visit({"color_low", "SI value of the first colour; default: the lowest of the film"}, render.color_low);
-  visit({"color_high", "SI value of the last colour; default: the highest of the film, without its top half per cent"},
-        render.color_high);
+  visit({"color_range", "what the colours span: the values of the film, or of each frame; a sheet has the film's"},
+        render.color_range);
+  visit({"color_low", "SI value of the first colour; default: the lowest of that range"}, render.color_low);
+  visit(
+      {"color_high", "SI value of the last colour; default: the highest of that range, without its top half per cent"},
+      render.color_high);
   visit({"legend", "whether a legend of the colours is drawn"}, render.legend);
   visit({"caption", "a line at the top"}, render.caption);
   visit({"frame_number", "whether frame number and time are drawn"}, render.frame_number);
@@ -218,6 +221,7 @@ void fields(auto& visit, Is<SceneRender> auto& render) {
   visit({"bricks", "bricks in place of the skins: none, whole or exploded"}, render.bricks);
   visit({"cut", "removes the bricks on one side of a plane; with bricks, springs or nodes"}, render.cut);
   visit({"springs", "whether springs are drawn, coloured by their stretch, in place of the skins"}, render.springs);
+  visit({"edges", "whether the edges of the mesh are drawn; its triangles are not drawn smooth then"}, render.edges);
   visit({"nodes", "whether nodes are drawn"}, render.nodes);
   visit({"pins", "whether pinned nodes are drawn"}, render.pins);
   visit({"ghost", "whether the rest shape is drawn faintly"}, render.ghost);

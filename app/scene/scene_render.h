@@ -36,6 +36,9 @@ struct SceneCamera {
 /// The field that the colours of the bodies show.
 enum class Field { kSkin, kDisplacement, kSpeed, kStretch, kStrain, kStress, kVolume, kFill, kRegion };
 
+/// What a range of colours spans.
+enum class RangeOver { kFilm, kFrame };
+
 /// Bricks in place of the skins.
 enum class BrickView {
   kNone,
@@ -65,7 +68,8 @@ struct SceneRender {
   std::optional<std::array<int, 2>> sheet;  // columns and rows: that many frames in one picture
   Field color_by = Field::kSkin;
   std::optional<ColorMap> color_map;
-  std::optional<double> color_low;   // SI, of the first colour; default: by all frames
+  RangeOver color_range = RangeOver::kFilm;
+  std::optional<double> color_low;   // SI, of the first colour; default: by color_range
   std::optional<double> color_high;  // SI, of the last colour
   bool legend = true;
   std::string caption;
@@ -74,6 +78,7 @@ struct SceneRender {
   BrickView bricks = BrickView::kNone;
   std::optional<HalfSpace> cut;  // removes the bricks on the side its normal points to
   bool springs = false;
+  bool edges = false;  // of the skins' triangles
   bool nodes = false;
   bool pins = false;
   bool ghost = false;  // of the rest shape

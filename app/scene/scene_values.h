@@ -63,6 +63,9 @@ inline constexpr Names<LightPreset, 5> kNames<LightPreset>{"light",
                                                              {"overcast", LightPreset::kOvercast},
                                                              {"night", LightPreset::kNight}}}};
 template <>
+inline constexpr Names<RangeOver, 2> kNames<RangeOver>{"range of colours",
+                                                       {{{"film", RangeOver::kFilm}, {"frame", RangeOver::kFrame}}}};
+template <>
 inline constexpr Names<ColorMap, 5> kNames<ColorMap>{"colour map",
                                                      {{{"viridis", ColorMap::kViridis},
                                                        {"cividis", ColorMap::kCividis},

@@ -55,5 +55,39 @@ TEST(FieldValues, AreThoseOfADrawnBar) {
   EXPECT_NEAR(bar.values(Field::kDisplacement).minCoeff(), 0, 1e-6);
 }
 
+// The bar is drawn twice as far in its last frame.
+TEST(FieldColors, SpanTheFilmOrEachFrame) {
+  DrawnBar bar;
+  Points nodes = bar.simulation.world.bodies[0].rest_positions;
+  nodes.col(0) *= 1 + 2 * (kStretch - 1);
+  bar.recording.frames.push_back({nodes.cast<float>()});
+  Film film;
+  film.render.color_by = Field::kStretch;
+  const auto highest = [&](std::size_t frame) {
+    return FieldColors(film, bar.simulation, bar.recording).legend(frame).high;
+  };
+  EXPECT_NEAR(highest(0), 1.4, 1e-5);
+  film.render.color_range = RangeOver::kFrame;
+  EXPECT_NEAR(highest(0), kStretch, 1e-5);
+  EXPECT_NEAR(highest(2), 1.4, 1e-5);
+  const FieldColors colors(film, bar.simulation, bar.recording);
+  EXPECT_NEAR(colors.map_coordinates(0, 0).maxCoeff(), 1, 1e-4);
+  film.render.color_high = 2;
+  EXPECT_EQ(highest(0), 2);
+  film.render.color_high.reset();
+  film.render.sheet = {3, 1};
+  EXPECT_NEAR(highest(0), 1.4, 1e-5);
+}
+
+// A film of two frames beside one of three.
+TEST(FieldColors, OfSeveralFilmsShowWhatAllShow) {
+  const ColorRanges both = merged({{0, 2}, {1, 3}}, {{1, 4}, {0, 1}, {-1, 2}});
+  ASSERT_EQ(both.size(), 3);
+  EXPECT_EQ(both[0].high, 4);
+  EXPECT_EQ(both[1].low, 0);
+  EXPECT_EQ(both[2].low, -1);
+  EXPECT_EQ(both[2].high, 3);
+}
+
 }  // namespace
 }  // namespace sprung

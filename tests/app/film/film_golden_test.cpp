@@ -79,6 +79,11 @@ TEST(FilmGolden, SpringsNodesAndPins) {
   expect_golden(picture("springs = true\nnodes = true\npins = true\n"), "film_springs");
 }
 
+// The legend is of the second frame, which is half as bent as the last.
+TEST(FilmGolden, EdgesAndTheRangeOfOneFrame) {
+  expect_golden(picture("color_by = \"stretch\"\ncolor_range = \"frame\"\nedges = true\n", 2), "film_edges");
+}
+
 TEST(FilmGolden, GhostOfTheShapeAtRest) { expect_golden(picture("ghost = true\n"), "film_ghost"); }
 
 TEST(FilmGolden, Orthographic) {

@@ -32,7 +32,6 @@ using Eigen::Vector3f;
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-constexpr double kSmoothness = 0.1;  // pixels between a curved skin and its triangles, as in films
 constexpr int kPanoramaHeight = 512;
 
 const char* name_of(Look look) {
@@ -211,7 +210,7 @@ void describe(const std::string& file, std::size_t frame, int width, int height,
   const std::vector<Camera> cameras = cameras_of(scene, reach, 0);
   double finest = 0;
   for (const Camera& camera : cameras) finest = std::max(finest, pixels_per_metre(camera, height));
-  const FilmStage film(scene, simulation, recording, kSmoothness / finest);
+  const FilmStage film(scene, simulation, recording, 1 / finest);
   const Stage stage = film.stage(reach.bounds);
   const StageSpace space(reach.bounds);
 
