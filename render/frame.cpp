@@ -95,6 +95,7 @@ void DrawFrame::set_common(const GlProgram& program) const {
   program.set("light_radius", lighting.key_radius);
   program.set("sky_on_ground", lighting.sky);
   program.set("far_off", lighting.far_off);
+  program.set("ground_albedo", lighting.floor);
   program.set("body_radius", float(body_radius));
   program.set("motion", float(motion));
   program.set("ground_height", float(ground_height));
@@ -159,7 +160,8 @@ View make_view(const DrawFrame& frame, const Camera& camera, double aspect) {
   const double slope = std::tan(camera.vertical_field_of_view * std::numbers::pi / 360);
   const Eigen::Vector2d slopes(slope * aspect, -slope);
   View view{.frame = frame, .eye = eye};
-  view.sight_height = Vec3(slopes.x() * turn(0, 1), slopes.y() * turn(1, 1), -turn(2, 1));
+  view.sight << slopes.x() * turn.row(0).head<3>().transpose(), slopes.y() * turn.row(1).head<3>().transpose(),
+      -turn.row(2).head<3>().transpose();
   view.sight_slopes = slopes;
   view.focus = (eye - target).norm();
   view.lens = 0.25 * camera.aperture * frame.space.scale / (view.focus * slope);

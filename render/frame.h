@@ -63,9 +63,9 @@ struct View {
   Eigen::Matrix4d clip_from_stage = Eigen::Matrix4d::Identity();
   /// (x d + y) / (z d + w) is the distance along the camera's axis at depth d, 0 to 1.
   Eigen::Vector4d distance_terms = Eigen::Vector4d::Zero();
-  /// Of (x, y, 1) in clip space: how much the line of sight rises, and how much it leans sideways, for a step of 1
-  /// ahead.
-  Vec3 sight_height = Vec3::Zero();
+  /// Times (x, y, 1) in clip space: the direction of the line of sight, a step of 1 ahead; and how much that leans
+  /// sideways.
+  Mat3 sight = Mat3::Zero();
   Eigen::Vector2d sight_slopes = Eigen::Vector2d::Zero();
   double lens = 0;   // circle of confusion of a point at infinity: its radius over the height of the picture
   double focus = 0;  // distance along the camera's axis

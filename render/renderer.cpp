@@ -115,6 +115,7 @@ struct Renderer::Device {
   std::optional<GatheredLight> gathered;
   Screen screen;
   PassClock clock;
+  Floor floor;
   std::optional<Environment> environment;
   RenderOptions options;
   std::optional<PassDrawer> passes;  // made with the first ones, as the next two
@@ -132,9 +133,10 @@ struct Renderer::Device {
         ids(stage.ids),
         maps(gl, options_of_shaders(wanted)),
         gathered(make_gathered(stage, options_of_shaders(wanted))),
-        screen(gl, options_of_shaders(wanted), stage.environment,
+        screen(gl, options_of_shaders(wanted), stage.floor, stage.environment,
                options_of_shaders(wanted).exposes ? ScreenOutput::kLight : ScreenOutput::kPicture, gathering()),
         clock(gl, wanted.measure_passes),
+        floor(stage.floor),
         environment(stage.environment),
         options(options_of_shaders(wanted)) {
     if (wanted.quality == Quality::kFinal) tracing.emplace(gl, stage, wanted);
@@ -255,9 +257,10 @@ struct Renderer::Device {
   void make_light_screens() {
     RenderOptions single = options;
     single.exposes = false;
-    if (!options.exposes && !tracing) light_screen.emplace(gl, single, environment, ScreenOutput::kLight, gathering());
+    if (!options.exposes && !tracing)
+      light_screen.emplace(gl, single, floor, environment, ScreenOutput::kLight, gathering());
     single.transparent = false;
-    share_screen.emplace(gl, single, environment, ScreenOutput::kShares, gathering());
+    share_screen.emplace(gl, single, floor, environment, ScreenOutput::kShares, gathering());
   }
 
   void draw(const Exposure& exposure, const View& view, bool with_ghosts) {

@@ -67,7 +67,6 @@ constexpr float kNoSkin = 1;
 
 constexpr double kLargestCircle = 0.06;  // of confusion, in heights of the picture
 constexpr double kLevel = 1e-4;          // sine of the elevation of a ray that counts as level
-constexpr double kSightSteps = 1 << 20;  // one over the step to which rays are rounded
 
 constexpr TextureFormat kColorFormat{GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, false, false, GL_CLAMP_TO_EDGE};
 constexpr TextureFormat kGatheredFormat{GL_RGBA16, GL_RGBA, GL_UNSIGNED_SHORT, false, false, GL_CLAMP_TO_EDGE};
@@ -97,14 +96,14 @@ const char* floor_define(ScreenOutput output, bool exposes) {
 }
 
 bool has_floor_in_sight(const View& view) {
-  const bool looks_down = view.near > 0 || view.sight_height.z() < -kLevel;  // parallel rays may run along the floor
+  const bool looks_down = view.near > 0 || view.sight(1, 2) < -kLevel;  // parallel rays may run along the floor
   return view.frame.has_ground && view.eye.y() > view.frame.ground_height && looks_down;
 }
 
 }  // namespace
 
-Screen::Screen(const GlFunctions& gl, const RenderOptions& options, const std::optional<Environment>& environment,
-               ScreenOutput output, Gathering gathering)
+Screen::Screen(const GlFunctions& gl, const RenderOptions& options, const Floor& floor,
+               const std::optional<Environment>& environment, ScreenOutput output, Gathering gathering)
     : gl_(gl),
       width_(options.width),
       height_(options.height),
@@ -121,13 +120,11 @@ Screen::Screen(const GlFunctions& gl, const RenderOptions& options, const std::o
       picture_(make_texture(gl, width_, height_, picture_format(output))),
       kinds_(make_texture(gl, width_, height_, kDepthFormat)),
       developed_(make_texture_target(gl, &picture_, &kinds_)),
-      backdrop_(make_texture(gl, width_, height_, picture_format(output))),
-      backdrop_target_(make_texture_target(gl, &backdrop_, nullptr)),
+      backdrop_(gl, width_, height_, picture_format(output), floor, environment, output_define(output)),
       environment_(environment ? std::optional(EnvironmentTexture(gl, *environment)) : std::nullopt),
       nearer_sampler_(make_comparing_sampler(gl, GL_GREATER)),
       no_buffers_(make_vertex_array(gl)),
       surface_programs_(load_skin_programs(gl, "surface.frag", output_define(output) + gathered_define(gathering))),
-      backdrop_program_(load_program(gl, "screen.vert", "backdrop.frag", output_define(output))),
       floor_program_(load_program(gl, "floor.vert", "floor.frag", floor_define(output, options.exposes))),
       kinds_program_(load("kinds.frag", options)),
       skins_program_(load("skins.frag", options)) {
@@ -173,7 +170,7 @@ void Screen::draw_light(const LightMaps& maps, const View& view, PassClock& cloc
   } else if (is_transparent_) {
     clear_picture(Eigen::Vector4f::Zero());
   } else {
-    draw_backdrop(view);
+    show_backdrop(view);
     clock.stop("backdrop");
   }
   if (!is_transparent_) draw_floor(maps, view);
@@ -267,33 +264,12 @@ void Screen::draw_surfaces(const std::vector<SkinBuffers>& skins, const TextureS
   gl_.FrontFace(GL_CCW);
 }
 
-Screen::Sight::Sight(const View& view) {
-  const auto rounded = [](double value) { return float(std::round(kSightSteps * value) / kSightSteps); };
-  height = view.sight_height.unaryExpr(rounded);
-  slopes = view.sight_slopes.unaryExpr(rounded);
-}
-
-void Screen::Sight::set(const GlProgram& program) const {
-  program.set("sight_height", height);
-  program.set("sight_slopes", slopes);
-}
-
-/// Cached, since it stays the same while the camera orbits about the vertical.
-void Screen::draw_backdrop(const View& view) {
-  const Sight sight(view);
-  gl_.Viewport(0, 0, width_, height_);
+void Screen::show_backdrop(const View& view) {
   gl_.Disable(GL_DEPTH_TEST);
-  if (backdrop_sight_ != sight) {
-    gl_.BindFramebuffer(GL_FRAMEBUFFER, backdrop_target_.name());
-    backdrop_program_.use();
-    view.frame.set_common(backdrop_program_);
-    sight.set(backdrop_program_);
-    gl_.BindVertexArray(no_buffers_.name());
-    gl_.DrawArrays(GL_TRIANGLES, 0, 3);
-    backdrop_sight_ = sight;
-  }
-  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, backdrop_target_.name());
+  backdrop_.draw(view, has_floor_in_sight(view));
+  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, backdrop_.target().name());
   gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, developed_.name());
+  gl_.Viewport(0, 0, width_, height_);
   gl_.BlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
   gl_.BindFramebuffer(GL_FRAMEBUFFER, developed_.name());
 }

@@ -2,6 +2,7 @@
 #include <optional>
 #include <vector>
 
+#include "render/backdrop.h"
 #include "render/exposures.h"
 #include "render/frame.h"
 #include "render/gl/objects.h"
@@ -47,8 +48,8 @@ inline constexpr int kAllTurns = -1;
 class Screen {
  public:
   /// Without an environment the studio lights it. Pictures that have exposures are of light.
-  Screen(const GlFunctions& gl, const RenderOptions& options, const std::optional<Environment>& environment,
-         ScreenOutput output, Gathering gathering);
+  Screen(const GlFunctions& gl, const RenderOptions& options, const Floor& floor,
+         const std::optional<Environment>& environment, ScreenOutput output, Gathering gathering);
   void clear_surfaces() const;
   /// In the samples of one turn, where options say that pictures have exposures, or in all.
   void draw_surfaces(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const View& view,
@@ -67,20 +68,11 @@ class Screen {
   [[nodiscard]] double aspect() const { return double(width_) / height_; }
 
  private:
-  /// What the backdrop depends on, see View; rounded, so that it stays the same while the camera orbits.
-  struct Sight {
-    Eigen::Vector3f height;
-    Eigen::Vector2f slopes;
-    explicit Sight(const View& view);
-    void set(const GlProgram& program) const;
-    bool operator==(const Sight&) const = default;
-  };
-
   [[nodiscard]] GlTexture make_gathered(Gathering least) const;
   [[nodiscard]] GlFramebuffer make_surface() const;
   [[nodiscard]] GlProgram load(const char* fragment, const RenderOptions& options) const;
   void clear_picture(const Eigen::Vector4f& color) const;
-  void draw_backdrop(const View& view);
+  void show_backdrop(const View& view);
   void draw_floor(const LightMaps& maps, const View& view) const;
   void develop(const LightMaps& maps, const View& view, PassClock& clock) const;
   void cover(const GlProgram& program, const LightMaps& maps, const View& view) const;
@@ -102,16 +94,13 @@ class Screen {
   GlTexture kinds_;    // of pixels, as depths
   GlTexture circles_;  // of confusion, where pictures have exposures
   GlFramebuffer developed_;
-  GlTexture backdrop_;
-  GlFramebuffer backdrop_target_;
-  std::optional<Sight> backdrop_sight_;
+  Backdrop backdrop_;
   std::optional<EnvironmentTexture> environment_;
   std::optional<Exposures> exposures_;
   GlFramebuffer circles_target_;
   GlSampler nearer_sampler_;
   GlVertexArray no_buffers_;
   SkinPrograms surface_programs_;
-  GlProgram backdrop_program_;
   GlProgram floor_program_;
   GlProgram kinds_program_;
   GlProgram circles_program_;

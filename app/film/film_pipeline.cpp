@@ -72,11 +72,6 @@ std::optional<Legend> first_legend(const FilmRun& run, const ColorRanges& ranges
   return FilmStage(run.scene, run.simulation, run.recording, kNeverSmooth, ranges).legend(0);
 }
 
-Stage in(const std::optional<Environment>& surroundings, Stage stage) {
-  stage.environment = surroundings;
-  return stage;
-}
-
 }  // namespace
 
 /// Of what all runs show.
@@ -119,7 +114,7 @@ FilmPipeline::FilmPipeline(const std::vector<FilmRun>& runs, const std::optional
 Renderer& FilmPipeline::renderer(Panel& panel) {
   if (!panel.renderer) {
     panel.renderer =
-        std::make_unique<Renderer>(in(surroundings_, panel.stage.stage(reach_.bounds)), options_of(scene_of_panel_));
+        std::make_unique<Renderer>(panel.stage.stage(reach_.bounds, surroundings_), options_of(scene_of_panel_));
   }
   return *panel.renderer;
 }
@@ -220,7 +215,9 @@ std::optional<Environment> read_surroundings(const SceneRender& render) {
   const std::string bytes = read_file(render.environment);
   const Panorama panorama = decode_panorama(std::as_bytes(std::span(bytes)), name);
   try {
-    return Environment(panorama);
+    return Environment(panorama, {.turn = render.environment_turn.value_or(0),
+                                  .has_sun = render.environment_sun.value_or(true),
+                                  .is_seen = render.environment_background.value_or(false) && !render.transparent});
   } catch (const Error& error) {
     throw Error(error.kind(), name + ": " + error.what());
   }

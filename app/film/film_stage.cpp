@@ -32,6 +32,7 @@ constexpr double kPinRadius = 0.17;      // of a brick
 constexpr double kTraceRadius = 0.0035;  // of the largest body
 constexpr double kObstacleEdge = 0.08;   // of the largest body: light around a skin is known at its vertices
 constexpr double kMostEdges = 60;        // across an obstacle
+constexpr double kFloorSize = 0.5;       // of the largest body: the most that a square or a board of the floor has
 constexpr double kUtmost = 0.01;         // fraction of the springs that may exceed the range of colours
 
 /// By default blue in compression, red in tension, pale at rest.
@@ -44,8 +45,9 @@ std::shared_ptr<const T> not_owned(const T& object) {
   return {&object, [](const T*) {}};
 }
 
-Lighting lighting_of(const SceneRender& render) {
+Lighting lighting_of(const SceneRender& render, const std::optional<Environment>& environment) {
   Lighting lighting = lighting_of(render.light);
+  if (environment && environment->sun) lighting = lit_by(*environment->sun, lighting);
   const SceneKeyLight& given = render.key_light;
   lighting.azimuth = given.azimuth.value_or(lighting.azimuth);
   lighting.elevation = given.elevation.value_or(lighting.elevation);
@@ -55,6 +57,23 @@ Lighting lighting_of(const SceneRender& render) {
   }
   lighting.key *= float(given.strength);
   return lighting;
+}
+
+/// `size`: of the largest body, m.
+Floor floor_in(const SceneRender& render, double size) {
+  const double side = render.floor_size.value_or(round_length(kFloorSize * size));
+  switch (render.floor) {
+    case SceneFloor::kSweep:
+    case SceneFloor::kNone:
+      break;
+    case SceneFloor::kPlain:
+      return floor_of(FloorKind::kPlain, side);
+    case SceneFloor::kChecker:
+      return floor_of(FloorKind::kChecker, side);
+    case SceneFloor::kWood:
+      return floor_of(FloorKind::kWood, side);
+  }
+  return floor_of(FloorKind::kSweep, side);
 }
 
 Points rows_of(const Points& nodes, const std::vector<int>& rows) { return nodes(rows, Eigen::all); }
@@ -110,7 +129,7 @@ FilmStage::FilmStage(const Film& scene, const Simulation& simulation, const Reco
   if (render.contacts) add_contacts();
 }
 
-Stage FilmStage::stage(const AlignedBox& bounds) const {
+Stage FilmStage::stage(const AlignedBox& bounds, const std::optional<Environment>& environment) const {
   Stage stage;
   for (const StageItem& item : items_) {
     stage.skins.push_back(item.skin.get());
@@ -122,10 +141,12 @@ Stage FilmStage::stage(const AlignedBox& bounds) const {
   }
   stage.color_map = scene_.render.springs ? spring_colors(scene_.render) : colors_.map();
   const std::optional<double> ground = ground_height(simulation_.world.obstacles);
-  stage.has_ground = ground && !scene_.render.transparent;
+  stage.has_ground = ground && !scene_.render.transparent && scene_.render.floor != SceneFloor::kNone;
+  stage.floor = floor_in(scene_.render, simulation_.size);
   if (ground) stage.ground.height = *ground;
   stage.bounds = bounds;
-  stage.lighting = lighting_of(scene_.render);
+  stage.lighting = lighting_of(scene_.render, environment);
+  stage.environment = environment;
   return stage;
 }
 

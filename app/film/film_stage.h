@@ -31,8 +31,8 @@ class FilmStage {
   FilmStage(const Film& scene, const Simulation& simulation, const Recording& recording,
             double pixel = std::numeric_limits<double>::infinity(), ColorRanges ranges = {});
 
-  /// `bounds`: of the whole motion, m.
-  [[nodiscard]] Stage stage(const AlignedBox& bounds) const;
+  /// `bounds`: of the whole motion, m. Lit by the studio where there is no environment.
+  [[nodiscard]] Stage stage(const AlignedBox& bounds, const std::optional<Environment>& environment) const;
   /// One shape for each of the stage's skins, interpolated by `part` (0 to 1) towards the next frame.
   [[nodiscard]] std::vector<SkinShape> shapes(std::size_t frame, double part = 0) const;
   /// None where colours show no field.

@@ -183,7 +183,10 @@ void fields(auto& visit, Is<CameraKeyframe> auto& keyframe) {
 }
 
 void fields(auto& visit, Is<SceneRender> auto& render) {
-  visit.table("render");
+  visit.table("render", {{KeyRule::kNeeds, {"environment_turn", "environment"}},
+                         {KeyRule::kNeeds, {"environment_sun", "environment"}},
+                         {KeyRule::kNeeds, {"environment_background", "environment"}},
+                         {KeyRule::kNeeds, {"floor_size", "floor"}}});
   visit({"resolution", "width and height of the pictures in pixels", Dimension::kNone, {16, 8192}}, render.resolution);
   visit({"quality", "preview (fast), default, high or final (paths of light; slow)"}, render.quality);
   visit({"samples",
@@ -199,6 +202,15 @@ void fields(auto& visit, Is<SceneRender> auto& render) {
   visit({"light", "studio, softbox, sunset, overcast or night"}, render.light);
   visit({"key_light", "what differs from the key light of that preset"}, render.key_light);
   visit({"environment", "panorama (.hdr or .png, twice as wide as high) that lights the bodies"}, render.environment);
+  visit({"environment_turn", "angle by which the panorama turns about the vertical; default 0", Dimension::kAngle},
+        render.environment_turn);
+  visit({"environment_sun", "whether the key light is the panorama's sun, where it has one; default true"},
+        render.environment_sun);
+  visit({"environment_background", "whether the panorama is seen behind the bodies; default false"},
+        render.environment_background);
+  visit({"floor", "sweep (without a horizon), plain, checker, wood or none"}, render.floor);
+  visit({"floor_size", "side of a square or width of a board; default: by the bodies", Dimension::kLength, kPositive},
+        render.floor_size);
   visit({"motion_blur", "shutter angle; 360 degrees: open for the whole frame", Dimension::kAngle, {0, 360}},
         render.motion_blur);
   visit(

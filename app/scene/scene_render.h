@@ -46,6 +46,9 @@ enum class BrickView {
   kExploded  // with gaps between them
 };
 
+/// What the ground looks like.
+enum class SceneFloor { kSweep, kPlain, kChecker, kWood, kNone };
+
 /// What differs from the key light of the preset.
 struct SceneKeyLight {
   std::optional<double> azimuth{};    // degrees about y, as a camera's
@@ -58,10 +61,15 @@ struct SceneKeyLight {
 struct SceneRender {
   std::array<int, 2> resolution{1280, 720};
   Quality quality = Quality::kDefault;
-  std::optional<int> samples;         // per pixel; default: by the quality
-  bool smooth = true;                 // coarse meshes are drawn with curved edges
-  bool transparent = false;           // background with alpha, no floor
-  std::filesystem::path environment;  // absolute; a panorama that lights the bodies, or empty
+  std::optional<int> samples;                  // per pixel; default: by the quality
+  bool smooth = true;                          // coarse meshes are drawn with curved edges
+  bool transparent = false;                    // background with alpha, no floor
+  std::filesystem::path environment;           // absolute; a panorama that lights the bodies, or empty
+  std::optional<double> environment_turn;      // degrees about the vertical
+  std::optional<bool> environment_sun;         // its sun is the key light; default: yes
+  std::optional<bool> environment_background;  // default: no
+  SceneFloor floor = SceneFloor::kSweep;
+  std::optional<double> floor_size;  // m, of a square or a board; default: by the bodies
   LightPreset light = LightPreset::kStudio;
   SceneKeyLight key_light;
   double motion_blur = 0;                   // degrees, shutter angle; 360: a whole frame

@@ -41,14 +41,15 @@ GlTexture make_texture(const GlFunctions& gl, int width, int height, const Textu
   return texture;
 }
 
-GlTexture make_level_texture(const GlFunctions& gl, int width, int height, std::span<const float* const> levels) {
+GlTexture make_level_texture(const GlFunctions& gl, int width, int height, std::span<const float* const> levels,
+                             GLenum internal) {
   GLuint name = 0;
   gl.GenTextures(1, &name);
   GlTexture texture(gl, name);
   gl.BindTexture(GL_TEXTURE_2D, name);
   for (std::size_t i = 0; i < levels.size(); ++i) {
-    gl.TexImage2D(GL_TEXTURE_2D, static_cast<GLint>(i), GL_RGBA8, width >> i, height >> i, 0, GL_RGB, GL_FLOAT,
-                  levels[i]);
+    gl.TexImage2D(GL_TEXTURE_2D, static_cast<GLint>(i), static_cast<GLint>(internal), width >> i, height >> i, 0,
+                  GL_RGB, GL_FLOAT, levels[i]);
   }
   const auto set = [&gl](GLenum key, GLint value) { gl.TexParameteri(GL_TEXTURE_2D, key, value); };
   set(GL_TEXTURE_MAX_LEVEL, static_cast<GLint>(levels.size()) - 1);

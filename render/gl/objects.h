@@ -65,10 +65,10 @@ struct TextureFormat {
 [[nodiscard]] GlTexture make_texture(const GlFunctions& gl, int width, int height, const TextureFormat& format,
                                      const void* data = nullptr);
 
-/// From levels of RGB floats, each half as large as the one before; stored in bytes. Repeats horizontally; sampled
-/// trilinearly.
+/// From levels of RGB floats, each half as large as the one before; stored in bytes unless `internal` says otherwise.
+/// Repeats horizontally; sampled trilinearly.
 [[nodiscard]] GlTexture make_level_texture(const GlFunctions& gl, int width, int height,
-                                           std::span<const float* const> levels);
+                                           std::span<const float* const> levels, GLenum internal = GL_RGBA8);
 
 /// Samples a depth texture as a sampler2DShadow: the fraction of the four nearest texels that pass the comparison.
 [[nodiscard]] GlSampler make_comparing_sampler(const GlFunctions& gl, GLenum comparison);

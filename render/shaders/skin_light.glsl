@@ -70,7 +70,7 @@ vec3 ground_bounce(vec3 point, vec3 n) {
   vec2 uv = (point.xz + 0.6 * height * n.xz - ground_rectangle.xy) / ground_rectangle.zw;
   vec3 near = texture(ground_light_map, uv).rgb;
   vec3 far = texture(far_ground_light_map, uv).rgb;
-  return 2.0 * kGroundAlbedo * mix(near, far, smoothstep(0.0, 0.5 * body_radius, height));
+  return 2.0 * ground_albedo * mix(near, far, smoothstep(0.0, 0.5 * body_radius, height));
 }
 
 #ifdef ENVIRONMENT

@@ -6,32 +6,16 @@
 
 #include "core/error.h"
 #include "render/stage/lighting.h"
+#include "render/stage/panorama.h"
 
 namespace sprung {
 
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr int kHeight = 64;   // of the finest level; 2.8 degrees per texel, less than the sharpest highlight
+constexpr int kHeight = 64;  // of the finest level; 2.8 degrees per texel, less than the sharpest highlight
+constexpr int kWidestBackground = 4096;
 constexpr int kSharpest = 4;  // one over the roughness of the first level
-
-Eigen::Vector3f direction_of(const Panorama& panorama, int x, int y) {
-  const double around = 2 * kPi * ((x + 0.5) / panorama.width - 0.5);
-  const double down = kPi * (y + 0.5) / panorama.height;
-  return Eigen::Vector3d(std::sin(down) * std::sin(around), std::cos(down), -std::sin(down) * std::cos(around))
-      .cast<float>();
-}
-
-/// Of a texel in that row.
-double solid_angle(const Panorama& panorama, int y) {
-  const double top = std::cos(kPi * y / panorama.height);
-  const double bottom = std::cos(kPi * (y + 1) / panorama.height);
-  return (top - bottom) * 2 * kPi / panorama.width;
-}
-
-std::size_t texel(const Panorama& panorama, int x, int y) {
-  return std::size_t(y) * std::size_t(panorama.width) + std::size_t(x);
-}
 
 /// Downsampled to that height, weighted by solid angle; black below the horizon.
 Panorama upper_half(const Panorama& panorama, int height) {
@@ -130,19 +114,40 @@ Panorama reflection(const Panorama& source, int height, float roughness) {
 
 }  // namespace
 
-Environment::Environment(const Panorama& panorama) {
+namespace {
+
+/// The scale at which a surface that faces the sun is as bright as one that faces the studio's key light, or else level
+/// ground as bright as under the studio's sky.
+float scale_of(const Environment& environment) {
+  const Lighting studio = lighting_of(LightPreset::kStudio);
+  if (!environment.sun) {
+    return luminance(studio.sky) / luminance(environment.irradiance_on(Eigen::Vector3f::UnitY()));
+  }
+  const auto facing = float(0.5 + 0.5 * studio.to_key().y());  // the share of the sky that the surface sees
+  const Sun& sun = *environment.sun;
+  return luminance(studio.key + facing * studio.sky) /
+         luminance(sun.irradiance + environment.irradiance_on(sun.direction));
+}
+
+}  // namespace
+
+Environment::Environment(const Panorama& panorama, const EnvironmentUse& use) {
   if (panorama.width != 2 * panorama.height || panorama.height < 1) {
     throw Error(ErrorKind::kBadInput,
                 "the surroundings must be twice as wide as high: all around, from zenith to nadir");
   }
-  Panorama sky = upper_half(panorama, kHeight);
+  Panorama around = turned(panorama, use.turn);
+  if (use.is_seen) background = std::make_shared<const Panorama>(no_wider_than(around, kWidestBackground));
+  if (use.has_sun) sun = take_sun(around);
+  Panorama sky = upper_half(around, kHeight);
   irradiance = irradiance_of(sky);
-  const Eigen::Vector3f brightness(0.2126F, 0.7152F, 0.0722F);
-  const float found = brightness.dot(irradiance_on(Eigen::Vector3f::UnitY()));
-  if (!(found > 0)) throw Error(ErrorKind::kBadInput, "the surroundings are black above the horizon: no light");
-  const float factor = brightness.dot(lighting_of(LightPreset::kStudio).sky) / found;
-  for (Eigen::Vector3f& part : irradiance) part *= factor;
-  for (Eigen::Vector3f& light : sky.light) light *= factor;
+  if (!sun && !(luminance(irradiance_on(Eigen::Vector3f::UnitY())) > 0)) {
+    throw Error(ErrorKind::kBadInput, "the surroundings are black above the horizon: no light");
+  }
+  scale = scale_of(*this);
+  if (sun) sun->irradiance *= scale;
+  for (Eigen::Vector3f& part : irradiance) part *= scale;
+  for (Eigen::Vector3f& light : sky.light) light *= scale;
   for (std::size_t i = 0; i < reflections.size(); ++i) {
     const int height = kHeight >> i;
     reflections[i] = reflection(upper_half(sky, height), height, float(i + 1) / kSharpest);

@@ -1,11 +1,19 @@
 #pragma once
 #include <Eigen/Core>
 #include <array>
-#include <vector>
+#include <memory>
+#include <optional>
 
 #include "core/io/decode_image.h"
+#include "render/stage/sun.h"
 
 namespace sprung {
+
+struct EnvironmentUse {
+  double turn = 0;       // degrees about the vertical; azimuths grow by it
+  bool has_sun = false;  // the brightest spot may be a sun, which is for the key light: see lit_by()
+  bool is_seen = false;  // as the background
+};
 
 /// Image-based light of the upper half of a panorama. From below, surfaces get the light that the floor reflects.
 struct Environment {
@@ -17,9 +25,14 @@ struct Environment {
   /// specular lobes; each level is half as wide and high as the one before.
   std::array<Panorama, 3> reflections;
 
-  /// Scales the panorama so that level ground is as bright as under the studio's sky. Throws Error(kBadInput) where it
-  /// is not twice as wide as high, or black above the horizon. Deterministic.
-  explicit Environment(const Panorama& panorama);
+  std::optional<Sun> sun{};                      // not in the light above
+  std::shared_ptr<const Panorama> background{};  // all of the panorama, with the sun, as it was: unscaled
+  float scale = 1;                               // from the panorama's light to that of the stage
+
+  /// Scales the panorama so that level ground is as bright as under the studio's sky, or what faces its sun as bright
+  /// as what faces the studio's key light. Throws Error(kBadInput) where it is not twice as wide as high, or black
+  /// above the horizon. Deterministic.
+  explicit Environment(const Panorama& panorama, const EnvironmentUse& use = {});
   /// Of a surface whose unit normal is `direction`.
   [[nodiscard]] Eigen::Vector3f irradiance_on(const Eigen::Vector3f& direction) const;
 };

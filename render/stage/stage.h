@@ -8,6 +8,7 @@
 #include "render/image/image.h"
 #include "render/stage/camera.h"
 #include "render/stage/environment.h"
+#include "render/stage/floor.h"
 #include "render/stage/lighting.h"
 
 namespace sprung {
@@ -54,6 +55,7 @@ struct Stage {
   ColorMap color_map = ColorMap::kViridis;
   bool has_ground = true;
   GroundPlane ground;
+  Floor floor{};      // what the ground looks like
   AlignedBox bounds;  // of the whole motion: sizes shadow map, ground fade and light
   Lighting lighting = lighting_of(LightPreset::kStudio);
   std::optional<Environment> environment{};  // replaces the sky and the studio's walls, not the key light
@@ -73,7 +75,7 @@ struct Moment {
   Camera camera;
 };
 
-/// That of the stage, with the sky of its environment if it has one.
+/// That of the stage, with the sky of its environment and the colour of its floor.
 [[nodiscard]] Lighting lighting_of(const Stage& stage);
 
 }  // namespace sprung

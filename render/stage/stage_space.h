@@ -11,6 +11,7 @@ struct StageSpace {
 
   explicit StageSpace(const AlignedBox& bounds);
   [[nodiscard]] Vec3 from_world(const Vec3& point) const { return (point - center) * scale; }
+  [[nodiscard]] Vec3 to_world(const Vec3& point) const { return point / scale + center; }
 };
 
 }  // namespace sprung

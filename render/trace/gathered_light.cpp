@@ -241,7 +241,7 @@ Vector4f GatheredLight::gather(const Place& place, const GroundLight& ground) co
     open += cosine;
     if (is_down) {
       const Vector3f floor = ray.origin + ray.far * ray.direction;
-      arriving += cosine * StageLight::floor_albedo().cwiseProduct(ground.at(floor.x(), floor.z()));
+      arriving += cosine * stage_light_.floor_albedo().cwiseProduct(ground.at(floor.x(), floor.z()));
     } else {
       arriving += cosine * direction.radiance;
     }
@@ -274,7 +274,7 @@ Vector4f GatheredLight::come_through(const Place& place, const GroundLight& grou
     Vector3f normal = hit->normal.normalized();
     if (normal.dot(ray.direction) < 0) normal = -normal;
     const Vector3f position = ray.origin + hit->distance * ray.direction + skins_[place.skin].lift * normal;
-    const Vector3f floor = StageLight::floor_albedo().cwiseProduct(ground.at(position.x(), position.z()));
+    const Vector3f floor = stage_light_.floor_albedo().cwiseProduct(ground.at(position.x(), position.z()));
     const Vector3f around =
         (0.5F + 0.5F * normal.y()) * stage_light_.sky_on_ground() + (0.5F - 0.5F * normal.y()) * floor;
     sum += share * (around + from_key(position, normal));

@@ -63,6 +63,7 @@ LightPaths::LightPaths(const Stage& stage, const StageLight& light, const Finish
       looks_(stage.looks),
       surfaces_(finishes),
       blurred_(blurred(finishes)),
+      pattern_(stage.floor.pattern),
       has_ground_(stage.has_ground),
       has_ghosts_(std::find(stage.ghosts.begin(), stage.ghosts.end(), true) != stage.ghosts.end()),
       ground_height_(float((stage.ground.height - space_.center.y()) * space_.scale)) {
@@ -93,8 +94,14 @@ LightPaths::Meeting LightPaths::meet(Ray ray, bool sees_ghosts) const {
   meeting.point.position = ray.origin + ray.far * ray.direction;
   meeting.point.position.y() = ground_height_ + 1e-5F;
   meeting.point.normal = meeting.point.face_normal = Vector3f::UnitY();
-  meeting.point.color = StageLight::floor_albedo();
+  meeting.point.color = floor_albedo(meeting.point.position);
   return meeting;
+}
+
+Vector3f LightPaths::floor_albedo(const Vector3f& position) const {
+  if (!pattern_) return light_.floor_albedo();
+  const Vec3 place = space_.to_world(position.cast<double>());
+  return pattern_->albedo(place.x(), place.z());
 }
 
 const Finish& LightPaths::finish(const Meeting& meeting, bool is_matt) const {
@@ -293,8 +300,12 @@ PathSample LightPaths::sample(const Ray& from_eye, bool sees_ghosts, Sampler& sa
   PathSample sample{.seen = meeting.seen};
   sample.position = meeting.point.position;
   if (meeting.seen != Seen::kSkin) {
-    sample.backdrop = light_.backdrop(from_eye.direction);
-    if (meeting.seen == Seen::kFloor) sample.floor_light = floor_light(from_eye, meeting, sampler);
+    if (meeting.seen == Seen::kFloor) {
+      sample.backdrop = light_.floor(from_eye.direction, meeting.point.color);
+      sample.floor_light = floor_light(from_eye, meeting, sampler);
+    } else {
+      sample.backdrop = light_.background(from_eye.direction);
+    }
     return sample;
   }
   const Scattering scattering = scatter({.ray = from_eye}, meeting, sampler);

@@ -43,6 +43,8 @@ class LightPaths {
   void update(const Motion& motion);
   [[nodiscard]] const StageSpace& space() const { return space_; }
   [[nodiscard]] bool has_ghosts() const { return has_ghosts_; }
+  /// Whether the floor looks different from pixel to pixel.
+  [[nodiscard]] bool has_pattern() const { return pattern_ != nullptr; }
 
   /// Whether the ray certainly meets no body and nothing that one does to the floor.
   [[nodiscard]] bool sees_nothing(const Ray& from_eye) const;
@@ -81,6 +83,7 @@ class LightPaths {
   [[nodiscard]] std::optional<float> way_to_floor(const Ray& ray) const;
   [[nodiscard]] bool is_blocked(const Ray& ray) const { return region_.is_met_by(ray) && skins_.is_blocked(ray); }
   [[nodiscard]] Meeting meet(Ray ray, bool sees_ghosts = false) const;
+  [[nodiscard]] Eigen::Vector3f floor_albedo(const Eigen::Vector3f& position) const;
   [[nodiscard]] const Finish& finish(const Meeting& meeting, bool is_matt) const;
   [[nodiscard]] Scattering scatter(const Way& way, const Meeting& meeting, Sampler& sampler) const;
   void pass_through(const Ray& ray, const SurfacePoint& entry, const Finish& coat, const Eigen::Vector2f& random,
@@ -102,6 +105,7 @@ class LightPaths {
   Surfaces surfaces_;
   Surfaces blurred_;  // as they are seen by way of a matt surface
   Finish floor_finish_ = Finish::matt();
+  std::shared_ptr<const FloorPattern> pattern_;
   bool has_ground_;
   bool has_ghosts_;
   float ground_height_;  // stage space

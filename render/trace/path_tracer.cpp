@@ -114,7 +114,7 @@ class PixelSampler {
 
   void sample_block(int left, int top) const {
     BlockSums block;
-    const int first = (samples_ + kFirstShare - 1) / kFirstShare;
+    const int first = paths_.has_pattern() ? samples_ : (samples_ + kFirstShare - 1) / kFirstShare;
     const auto for_pixels = [&](const auto& visit) {
       for (int y = top; y < std::min(top + kBlock, traced_.height); ++y) {
         for (int x = left; x < std::min(left + kBlock, traced_.width); ++x) {
@@ -122,7 +122,9 @@ class PixelSampler {
         }
       }
     };
-    for_pixels([&](int x, int y, PixelSum& sum) { sample_pixel(x, y, is_empty(x, y) ? 1 : first, sum); });
+    for_pixels([&](int x, int y, PixelSum& sum) {
+      sample_pixel(x, y, is_empty(x, y) && !paths_.has_pattern() ? 1 : first, sum);
+    });
     if (needs_more(block) || is_beside_skin(left, top)) {
       for_pixels([&](int x, int y, PixelSum& sum) {
         if (sum.samples() == first) sample_pixel(x, y, samples_, sum);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "render/stage/panorama.h"
 #include "render/trace/directions.h"
 
 namespace sprung {
@@ -25,35 +26,16 @@ Vector3f mix(const Vector3f& a, const Vector3f& b, float share) { return a + sha
 Vector3f cyclorama(float rise, const Lighting& lighting) {
   const Vector3f ground_light = lighting.key * float(lighting.to_key().y()) + lighting.sky;
   const float up = smoothstep(-0.55F, 0.40F, rise);
-  return StageLight::floor_albedo()
-      .cwiseProduct(ground_light)
-      .cwiseProduct(mix({1.02F, 1.01F, 1.0F}, lighting.far_off, up));
-}
-
-/// Bilinear, wrapping around the vertical.
-Vector3f looked_up(const Panorama& panorama, const Vector3f& direction) {
-  constexpr float kPi = std::numbers::pi_v<float>;
-  const float x = (0.5F + std::atan2(direction.x(), -direction.z()) / (2 * kPi)) * float(panorama.width) - 0.5F;
-  const float y = std::acos(std::clamp(direction.y(), -1.0F, 1.0F)) / kPi * float(panorama.height) - 0.5F;
-  const int left = int(std::floor(x));
-  const int top = int(std::floor(y));
-  const auto texel = [&](int column, int row) {
-    const int wrapped = (column % panorama.width + panorama.width) % panorama.width;
-    return panorama.light[std::size_t(std::clamp(row, 0, panorama.height - 1)) * panorama.width + wrapped];
-  };
-  const float across = x - float(left);
-  return mix(mix(texel(left, top), texel(left + 1, top), across),
-             mix(texel(left, top + 1), texel(left + 1, top + 1), across), y - float(top));
+  return lighting.floor.cwiseProduct(ground_light).cwiseProduct(mix({1.02F, 1.01F, 1.0F}, lighting.far_off, up));
 }
 
 }  // namespace
 
-Vector3f StageLight::floor_albedo() { return {0.74F, 0.722F, 0.700F}; }
+StageLight::StageLight(const Stage& stage) : StageLight(lighting_of(stage), stage.environment, stage.floor) {}
 
-StageLight::StageLight(const Stage& stage) : StageLight(lighting_of(stage), stage.environment) {}
-
-StageLight::StageLight(const Lighting& lighting, const std::optional<Environment>& environment)
+StageLight::StageLight(const Lighting& lighting, const std::optional<Environment>& environment, Floor floor)
     : environment_(environment),
+      floor_(std::move(floor)),
       lighting_(lighting),
       to_key_(lighting.to_key().cast<float>()),
       key_frame_(to_key_),
@@ -96,9 +78,18 @@ Vector3f StageLight::studio(const Vector3f& direction) const {
   return mix(walls, 0.5F * lighting_.sky, ceiling) + (0.60F * panel + 1.20F * window) * lighting_.sky;
 }
 
-Vector3f StageLight::backdrop(const Vector3f& direction) const {
+Vector3f StageLight::background(const Vector3f& direction) const {
   if (even_) return *even_;
-  return cyclorama(direction.y(), lighting_);
+  if (!environment_ || !environment_->background) return cyclorama(direction.y(), lighting_);
+  return environment_->scale * looked_up(*environment_->background, direction);
+}
+
+Vector3f StageLight::floor(const Vector3f& direction, const Vector3f& albedo) const {
+  const bool is_even = !floor_.has_horizon && !(environment_ && environment_->background);
+  if (even_ || is_even) return background(direction);
+  const Eigen::Vector2f end = floor_.end();
+  const Vector3f near = albedo.cwiseProduct(lighting_.key * to_key_.y() + lighting_.sky);
+  return mix(near, background(direction), smoothstep(end.x(), end.y(), direction.y()));
 }
 
 Vector3f StageLight::towards_key(const Eigen::Vector2f& random) const {

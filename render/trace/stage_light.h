@@ -13,7 +13,7 @@ namespace sprung {
 class StageLight {
  public:
   explicit StageLight(const Stage& stage);
-  StageLight(const Lighting& lighting, const std::optional<Environment>& environment);
+  StageLight(const Lighting& lighting, const std::optional<Environment>& environment, Floor floor = {});
   /// The same from everywhere and no key light: what a white surface disappears in.
   [[nodiscard]] static StageLight even(const Eigen::Vector3f& radiance);
 
@@ -21,13 +21,14 @@ class StageLight {
   [[nodiscard]] Eigen::Vector3f around(const Eigen::Vector3f& direction) const;
   /// Irradiance over pi of an unhidden surface from all of around(), by side x side directions.
   [[nodiscard]] Eigen::Vector3f from_around(const Eigen::Vector3f& normal, int side) const;
-  /// What the camera sees where there is no body: the floor and the background in one, without a horizon.
-  [[nodiscard]] Eigen::Vector3f backdrop(const Eigen::Vector3f& direction) const;
+  /// What the camera sees where there is nothing.
+  [[nodiscard]] Eigen::Vector3f background(const Eigen::Vector3f& direction) const;
+  /// What it sees where there is the floor, of that albedo, and no body.
+  [[nodiscard]] Eigen::Vector3f floor(const Eigen::Vector3f& direction, const Eigen::Vector3f& albedo) const;
   /// Irradiance over pi of level ground that nothing hides, as it follows from around() and the key light.
   [[nodiscard]] const Eigen::Vector3f& on_open_floor() const { return on_open_floor_; }
-  /// Fraction of the light that the floor reflects.
-  [[nodiscard]] static Eigen::Vector3f floor_albedo();
-
+  /// The mean fraction of the light that the floor reflects.
+  [[nodiscard]] const Eigen::Vector3f& floor_albedo() const { return lighting_.floor; }
   /// Irradiance over pi of level ground from the whole sky.
   [[nodiscard]] const Eigen::Vector3f& sky_on_ground() const { return lighting_.sky; }
 
@@ -46,6 +47,7 @@ class StageLight {
   [[nodiscard]] Eigen::Vector3f studio(const Eigen::Vector3f& direction) const;
 
   std::optional<Environment> environment_;
+  Floor floor_;
   std::optional<Eigen::Vector3f> even_;
   Lighting lighting_;
   Eigen::Vector3f to_key_;

@@ -69,7 +69,7 @@ struct Subject {
         shapes(film.shapes(0)) {
     AlignedBox bounds;
     for (const SkinShape& shape : shapes) bounds.extend(bounding_box(shape.positions.cast<double>().eval()));
-    stage = film.stage(bounds);
+    stage = film.stage(bounds, std::nullopt);
     camera = frame_bounds(bounds, 16.0 / 9);
   }
   /// Moved by a hair in every second picture, so that nothing is kept from one to the next.

@@ -11,6 +11,7 @@
 
 #include "core/io/decode_image.h"
 #include "render/image/png.h"
+#include "render/stage/panorama.h"
 #include "tests/support/error_message.h"
 #include "tests/support/golden.h"
 #include "tests/support/still_life.h"
@@ -117,6 +118,64 @@ TEST(Environment, DoesNotDependOnThePanoramasBrightness) {
   }
 }
 
+/// An even sky with a disc of light: three quarters of the light on what faces it.
+struct SunnySky {
+  Light to_sun = Light(0.6F, 0.5F, -0.4F).normalized();
+  double radius = 2.5 * std::numbers::pi / 180;  // angle
+
+  [[nodiscard]] Panorama panorama() const {
+    const auto disc = float(std::numbers::pi * 3 / (std::numbers::pi * std::sin(radius) * std::sin(radius)));
+    return sprung::panorama(512, [&](const Light& to) {
+      return to.dot(to_sun) > float(std::cos(radius)) ? Light(1 + disc, 1 + 0.8F * disc, 1 + 0.5F * disc)
+                                                      : Light(1, 1, 1);
+    });
+  }
+};
+
+TEST(Environment, FindsTheSun) {
+  const SunnySky sky;
+  const Environment with(sky.panorama(), {.has_sun = true});
+  ASSERT_TRUE(with.sun);
+  EXPECT_GT(with.sun->direction.dot(sky.to_sun), std::cos(0.1 * std::numbers::pi / 180));
+  EXPECT_NEAR(with.sun->radius, std::sin(sky.radius), 0.02 * sky.radius);
+  // Irradiances over pi: 3 of the sun, and of an even sky 1.
+  const float level = with.irradiance_on(Light::UnitY()).x();
+  EXPECT_NEAR(with.sun->irradiance.x() / level, 3, 0.1);
+  EXPECT_NEAR(with.sun->irradiance.y() / level, 3 * 0.8, 0.1);
+  EXPECT_NEAR(with.irradiance_on(sky.to_sun).x() / level, 0.5 + 0.5 * sky.to_sun.y(), 0.01);
+  // What faces it is as bright as what faces the studio's key light.
+  const Lighting studio = lighting_of(LightPreset::kStudio);
+  EXPECT_NEAR(brightness(with.sun->irradiance + with.irradiance_on(sky.to_sun)),
+              brightness(studio.key + float(0.5 + 0.5 * studio.to_key().y()) * studio.sky), 0.01);
+  const Lighting lit = lit_by(*with.sun, studio);
+  EXPECT_LT((lit.to_key().cast<float>() - sky.to_sun).norm(), 0.002);
+
+  EXPECT_FALSE(Environment(sky.panorama()).sun);
+  EXPECT_FALSE(Environment(panorama(64, [](const Light&) { return Light(1, 1, 1); }), {.has_sun = true}).sun);
+  const auto window = [](const Light& to) {
+    return to.dot(Light(0, 0.6F, 0.8F)) > 0.8F ? Light(6, 6, 6) : Light(1, 1, 1);
+  };
+  EXPECT_FALSE(Environment(panorama(64, window), {.has_sun = true}).sun);
+}
+
+TEST(Environment, TurnsAsAzimuthsGrow) {
+  const SunnySky sky;
+  for (const double turn : {0.0, 90.0, -30.0, 400.0}) {
+    const Environment turned(sky.panorama(), {.turn = turn, .has_sun = true, .is_seen = true});
+    const Lighting lit = lit_by(*turned.sun, lighting_of(LightPreset::kStudio));
+    const double azimuth = std::atan2(sky.to_sun.x(), sky.to_sun.z()) * 180 / std::numbers::pi;
+    EXPECT_NEAR(std::remainder(lit.azimuth - azimuth - turn, 360), 0, 0.1) << turn;
+    EXPECT_GT(looked_up(*turned.background, lit.to_key().cast<float>()).x(), 100) << turn;
+  }
+}
+
+TEST(Environment, TheBackgroundIsAtMost4096TexelsWide) {
+  const Environment wide(panorama(2080, [](const Light& to) { return Light(2 + to.x(), 2, 2); }), {.is_seen = true});
+  EXPECT_EQ(wide.background->width, 2080);
+  EXPECT_EQ(wide.background->height, 1040);
+  EXPECT_NEAR(looked_up(*wide.background, Light(1, 0, 0)).x(), 3, 1e-3);
+}
+
 TEST(Environment, RefusesWhatGivesNoLight) {
   const auto below = [](const Light& to) { return (to.y() < 0 ? Light(1, 1, 1) : Light(0, 0, 0)); };
   EXPECT_EQ(error_message([&] { Environment{panorama(16, below)}; }),
@@ -148,17 +207,22 @@ TEST(DecodePanorama, ReadsRadianceAndPng) {
             std::string::npos);
 }
 
+constexpr RenderOptions kSmallest{160, 90, 4};
+
 struct Balls {
   StillLife scene;
   Balls() {
     scene.add(make_sphere_skin({-0.65, 0.5, 0}, 0.5), {0.9F, 0.88F, 0.85F});
     scene.add(make_sphere_skin({0.65, 0.5, 0}, 0.5), {0.8F, 0.8F, 0.82F});
   }
-  [[nodiscard]] Image picture(const std::optional<Environment>& environment) const {
+  [[nodiscard]] Image picture(const std::optional<Environment>& environment, const Floor& floor = {},
+                              const RenderOptions& options = kSmall) const {
     Stage stage = scene.stage();
     stage.looks = {Look::kPlastic, Look::kSteel};
     stage.environment = environment;
-    Renderer renderer(stage, kSmall);
+    stage.floor = floor;
+    if (environment && environment->sun) stage.lighting = lit_by(*environment->sun, stage.lighting);
+    Renderer renderer(stage, options);
     return renderer.draw(scene.shapes(), frame_bounds(stage.bounds, 16.0 / 9, 0));
   }
 };
@@ -179,6 +243,44 @@ TEST(Renderer, SurroundingsColourBodiesAndFloor) {
 
 TEST(RenderGolden, Surroundings) {
   expect_golden(Balls().picture(Environment(panorama(128, evening))), "render_surroundings");
+}
+
+/// Hills at the horizon, a sun at the left in front.
+Light landscape(const Light& to) {
+  if (to.dot(Light(-0.6F, 0.55F, 0.45F).normalized()) > 0.9995F) return {1200, 1050, 800};
+  if (to.y() > 0.08F + 0.05F * std::sin(9 * to.x())) return Light(0.45F, 0.65F, 1.0F) * (1.2F - to.y());
+  return to.y() > 0 ? Light(0.10F, 0.20F, 0.07F) : Light(0.26F, 0.22F, 0.12F);
+}
+
+Environment seen_landscape() { return Environment(panorama(256, landscape), {.has_sun = true, .is_seen = true}); }
+
+TEST(RenderGolden, PanoramaBehindACheckerFloor) {
+  expect_golden(Balls().picture(seen_landscape(), floor_of(FloorKind::kChecker, 0.5)), "render_panorama");
+}
+
+TEST(RenderGolden, WoodenFloor) {
+  expect_golden(Balls().picture(std::nullopt, floor_of(FloorKind::kWood, 0.4)), "render_wood");
+}
+
+// Shaders and paths of light have floor and background from the same values, but each their own code. At the left edge,
+// where bodies do not change the light; a mean over some pixels, since edges of squares have few paths.
+TEST(Renderer, FloorsAndBackgroundsAreTheSameInAllQualities) {
+  const Environment landscape = seen_landscape();
+  const std::array<std::pair<FloorKind, bool>, 4> cases{
+      {{FloorKind::kSweep, true}, {FloorKind::kPlain, false}, {FloorKind::kChecker, true}, {FloorKind::kWood, false}}};
+  for (const auto& [kind, has_panorama] : cases) {
+    const std::optional<Environment> environment = has_panorama ? std::optional(landscape) : std::nullopt;
+    const Floor floor = floor_of(kind, 0.4);
+    const Image drawn = Balls().picture(environment, floor, kSmallest);
+    const Image traced = Balls().picture(environment, floor, {160, 90, 16, false, Quality::kFinal});
+    for (const int top : {1, 20, 40}) {
+      Eigen::Vector3d difference = Eigen::Vector3d::Zero();
+      for (int y = top; y < top + 8; ++y) {
+        for (int x = 0; x < 8; ++x) difference += (pixel(drawn, x, y) - pixel(traced, x, y)) / 64;
+      }
+      EXPECT_LT(difference.cwiseAbs().maxCoeff(), 2) << int(kind) << " at " << top;
+    }
+  }
 }
 
 }  // namespace

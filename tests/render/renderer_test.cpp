@@ -18,11 +18,6 @@
 namespace sprung {
 namespace {
 
-Eigen::Vector3d pixel(const Image& image, int x, int y) {
-  const auto at = 3 * std::size_t(y * image.width + x);
-  return {double(image.pixels[at]), double(image.pixels[at + 1]), double(image.pixels[at + 2])};
-}
-
 double psnr(const Image& a, const Image& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.pixels.size(); ++i) sum += std::pow(double(a.pixels[i]) - double(b.pixels[i]), 2);

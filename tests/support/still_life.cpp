@@ -164,4 +164,9 @@ Image draw_scene(const StillLife& scene, const RenderOptions& options, double az
   return renderer.draw(scene.shapes(), frame_bounds(stage.bounds, aspect, azimuth, elevation));
 }
 
+Eigen::Vector3d pixel(const Image& image, int x, int y) {
+  const auto at = 3 * std::size_t(y * image.width + x);
+  return {double(image.pixels[at]), double(image.pixels[at + 1]), double(image.pixels[at + 2])};
+}
+
 }  // namespace sprung

@@ -42,4 +42,7 @@ struct StillLife {
 [[nodiscard]] Image draw_scene(const StillLife& scene, const RenderOptions& options, double azimuth = 30,
                                double elevation = 14);
 
+/// sRGB, 0 to 255.
+[[nodiscard]] Eigen::Vector3d pixel(const Image& image, int x, int y);
+
 }  // namespace sprung

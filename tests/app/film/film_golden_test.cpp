@@ -167,6 +167,27 @@ TEST(FilmPictures, AreLitByThePanoramaThatTheSceneNames) {
             (folder.path() / "black.png").string() + ": the surroundings are black above the horizon: no light");
 }
 
+// The left half of the panorama is red, the right one blue; the camera looks along -z, the middle of it.
+TEST(FilmPictures, ShowThePanoramaAsTheSceneTurnsIt) {
+  const TempFolder folder;
+  Image halves(64, 32);
+  for (std::size_t i = 0; i < halves.pixels.size() / 3; ++i) halves.pixels[3 * i + (i % 64 < 32 ? 0 : 2)] = 255;
+  write_png(halves, folder.path() / "halves.png");
+  FilmUnderTest film("floor = \"none\"\n[camera]\nazimuth = 0\n");
+  film.scene.render.environment = folder.path() / "halves.png";
+  film.scene.render.environment_background = true;
+  const auto redness = [](const Image& image, int x) {
+    return image.pixels[3 * std::size_t(x)] - image.pixels[3 * std::size_t(x) + 2];
+  };
+  const Image ahead = film.picture();
+  EXPECT_GT(redness(ahead, 10), 100);
+  EXPECT_LT(redness(ahead, 310), -100);
+  film.scene.render.environment_turn = 90;
+  const Image turned = film.picture();
+  EXPECT_LT(redness(turned, 10), -100);
+  EXPECT_LT(redness(turned, 310), -100);
+}
+
 TEST(FilmPictures, WritesPassesBesideItsPictures) {
   const FilmUnderTest film("");
   const TempFolder folder;

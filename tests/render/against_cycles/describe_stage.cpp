@@ -211,21 +211,19 @@ void describe(const std::string& file, std::size_t frame, int width, int height,
   double finest = 0;
   for (const Camera& camera : cameras) finest = std::max(finest, pixels_per_metre(camera, height));
   const FilmStage film(scene, simulation, recording, 1 / finest);
-  const Stage stage = film.stage(reach.bounds);
+  const Stage stage = film.stage(reach.bounds, read_surroundings(scene.render));
   const StageSpace space(reach.bounds);
 
   fs::create_directories(folder);
-  Stage lit = stage;
-  lit.environment = read_surroundings(scene.render);
-  const StageLight light(lit);
+  const StageLight light(stage);
   json description = {
       {"camera", describe_camera(cameras[frame - 1])},
-      {"light", describe_light(lighting_of(lit), light, folder)},
+      {"light", describe_light(lighting_of(stage), light, folder)},
       {"bodies", describe_bodies(stage, film.shapes(frame - 1), matte_names(scene, simulation), folder)},
       {"center", listed(space.center)},
       {"size", 1 / space.scale}};
   if (stage.has_ground) {
-    description["floor"] = {{"height", stage.ground.height}, {"albedo", listed(StageLight::floor_albedo())}};
+    description["floor"] = {{"height", stage.ground.height}, {"albedo", listed(light.floor_albedo())}};
   }
   std::ofstream(folder / "stage.json") << description.dump(1) << '\n';
 }
