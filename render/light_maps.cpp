@@ -276,7 +276,8 @@ LightMaps::LightMaps(const GlFunctions& gl, const RenderOptions& options)
     : gl_(gl),
       has_zenith_(!options.gathers_light),
       brush_(gl),
-      shadow_sampler_(make_comparing_sampler(gl, GL_LEQUAL)),
+      shadow_sampler_(make_comparing_sampler(gl, GL_LEQUAL, true)),
+      mean_sampler_(make_level_sampler(gl)),
       key_(brush_.make_map(key_size(options.quality), nullptr, true)),
       zenith_depth_(brush_.make_map(kZenithDepthSize, nullptr, true)),
       zenith_(brush_.make_map(kZenithSize, &map_format::kMoments, false)),
@@ -288,6 +289,7 @@ void LightMaps::draw(const std::vector<SkinBuffers>& skins, const TextureSet& te
                      PassClock& clock) const {
   gl_.Enable(GL_DEPTH_TEST);
   brush_.draw_depth(key_, frame.light.key, skins, Detail::kCoarse, frame);
+  brush_.make_mipmaps(key_.depth);
   clock.stop("key map");
   if (has_zenith_) brush_.draw_depth(zenith_depth_, frame.light.zenith, skins, Detail::kCoarsest, frame);
   gl_.Disable(GL_DEPTH_TEST);
@@ -316,7 +318,7 @@ void LightMaps::bind(const GlProgram& program, const DrawFrame& frame, int first
   program.set("zenith_heights", Eigen::Vector2f(-zenith.low.z() - zenith.sides.z(), float(1 / zenith.sides.z())));
   bind_texture(gl_, first_unit, key_.depth, shadow_sampler_.name());
   program.set("key_shadow_map", first_unit);
-  bind_texture(gl_, first_unit + 1, key_.depth);
+  bind_texture(gl_, first_unit + 1, key_.depth, mean_sampler_.name());
   program.set("key_depth", first_unit + 1);
   bind_texture(gl_, first_unit + 2, zenith_.color);
   program.set("zenith", first_unit + 2);

@@ -124,6 +124,7 @@ class LightMaps {
   bool has_zenith_;
   MapBrush brush_;
   GlSampler shadow_sampler_;
+  GlSampler mean_sampler_;
   LightMap key_;
   LightMap zenith_depth_;
   LightMap zenith_;

@@ -155,7 +155,7 @@ GlProgram Screen::load(const char* fragment, const RenderOptions& options) const
       fmt::format("#define SIDE {}\n#define SKIN {:.3f}\n#define NO_SKIN {:.3f}\n"
                   "#define SHADOW_SEARCH {}\n#define SHADOW_TAPS {}\n{}{}{}",
                   side_, kSkin, kNoSkin,
-                  is_high      ? 12
+                  is_high      ? 8
                   : is_preview ? 4
                                : 6,
                   is_high      ? 32

@@ -60,15 +60,33 @@ GlTexture make_level_texture(const GlFunctions& gl, int width, int height, std::
   return texture;
 }
 
-GlSampler make_comparing_sampler(const GlFunctions& gl, GLenum comparison) {
+namespace {
+
+void set(const GlFunctions& gl, const GlSampler& sampler, GLenum key, GLenum value) {
+  gl.SamplerParameteri(sampler.name(), key, static_cast<GLint>(value));
+}
+
+GlSampler make_sampler(const GlFunctions& gl, GLenum smaller) {
   GLuint name = 0;
   gl.GenSamplers(1, &name);
-  const auto set = [&](GLenum key, GLenum value) { gl.SamplerParameteri(name, key, static_cast<GLint>(value)); };
-  for (const GLenum filter : {GLenum{GL_TEXTURE_MIN_FILTER}, GLenum{GL_TEXTURE_MAG_FILTER}}) set(filter, GL_LINEAR);
-  for (const GLenum side : {GLenum{GL_TEXTURE_WRAP_S}, GLenum{GL_TEXTURE_WRAP_T}}) set(side, GL_CLAMP_TO_EDGE);
-  set(GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
-  set(GL_TEXTURE_COMPARE_FUNC, comparison);
-  return {gl, name};
+  GlSampler sampler(gl, name);
+  set(gl, sampler, GL_TEXTURE_MIN_FILTER, smaller);
+  set(gl, sampler, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  for (const GLenum side : {GLenum{GL_TEXTURE_WRAP_S}, GLenum{GL_TEXTURE_WRAP_T}}) {
+    set(gl, sampler, side, GL_CLAMP_TO_EDGE);
+  }
+  return sampler;
+}
+
+}  // namespace
+
+GlSampler make_level_sampler(const GlFunctions& gl) { return make_sampler(gl, GL_LINEAR_MIPMAP_NEAREST); }
+
+GlSampler make_comparing_sampler(const GlFunctions& gl, GLenum comparison, bool mipmaps) {
+  GlSampler sampler = make_sampler(gl, mipmaps ? GL_LINEAR_MIPMAP_NEAREST : GL_LINEAR);
+  set(gl, sampler, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+  set(gl, sampler, GL_TEXTURE_COMPARE_FUNC, comparison);
+  return sampler;
 }
 
 namespace {

@@ -70,8 +70,12 @@ struct TextureFormat {
 [[nodiscard]] GlTexture make_level_texture(const GlFunctions& gl, int width, int height,
                                            std::span<const float* const> levels, GLenum internal = GL_RGBA8);
 
-/// Samples a depth texture as a sampler2DShadow: the fraction of the four nearest texels that pass the comparison.
-[[nodiscard]] GlSampler make_comparing_sampler(const GlFunctions& gl, GLenum comparison);
+/// Samples a depth texture as a sampler2DShadow: the fraction of the four nearest texels that pass the comparison; of
+/// the nearest level, where there are `mipmaps`.
+[[nodiscard]] GlSampler make_comparing_sampler(const GlFunctions& gl, GLenum comparison, bool mipmaps = false);
+
+/// Samples the nearest level of a texture.
+[[nodiscard]] GlSampler make_level_sampler(const GlFunctions& gl);
 
 /// A framebuffer with level 0 of these textures; null for none. Throws Error(kFailed) where it is incomplete.
 [[nodiscard]] GlFramebuffer make_texture_target(const GlFunctions& gl, const GlTexture* color, const GlTexture* depth);

@@ -24,35 +24,51 @@ const int kSearch = SHADOW_SEARCH;
 const int kTaps = SHADOW_TAPS;
 const mat2 kGoldenTurn = mat2(-0.7373688, 0.6754903, -0.6754903, -0.7373688);  // 137.5 degrees, for spirals
 
+// Of so many taps on a spiral the distance of one from the middle, as texture coordinates of the key light's map.
+vec2 tap(float radius, int k, int taps) { return radius * sqrt((float(k) + 0.5) / float(taps)) * light_texel; }
+
+// Where texels are as far apart as they are: what taps see changes evenly, not in contours.
+float tap_level(float radius, int taps) {
+  vec2 texels = radius * light_texel * vec2(textureSize(key_depth, 0));
+  return log2(max(0.9 * max(texels.x, texels.y) / sqrt(float(taps)), 1.0));
+}
+
 // The fraction of the key light that reaches a point. The point is first moved outwards and towards the light by a small
 // fraction of the body's size: soft matter is translucent that far, and the surface does not shadow itself.
 float key_light(vec3 point, vec3 n, float facing) {
   vec3 moved = point + body_radius * (0.012 * n + 0.028 * to_key) + motion * to_key;
   vec3 uvd = (light_from_stage * vec4(moved, 1.0)).xyz * 0.5 + 0.5;
-  vec2 reach = 0.6 * light_radius * body_radius * light_texel;
+  float widest = 0.6 * light_radius * body_radius;
+  float reach = 1.3 * widest;  // few taps leave gaps: what the filter may see, the search has seen
+  float search_level = tap_level(reach, kSearch);
   int search = facing > -0.35 ? kSearch : 0;
-  float blockers = 0.0;
-  float way = 0.0;
+  float open = 0.0;
   vec2 direction = vec2(1.0, 0.0);
   for (int k = 0; k < search; ++k) {
-    float depth = texture(key_depth, uvd.xy + reach * sqrt((float(k) + 0.5) / float(kSearch)) * direction).r;
-    float above = step(depth, uvd.z);
-    blockers += above;
-    way += above * (uvd.z - depth);
+    open += textureLod(key_shadow_map, vec3(uvd.xy + tap(reach, k, kSearch) * direction, uvd.z), search_level);
     direction = kGoldenTurn * direction;
   }
   // llvmpipe skips a loop without iterations but not an `if`: only the edges of shadows pay for the filter.
-  bool is_edge = blockers > 0.0 && blockers < float(kSearch);
-  int taps = is_edge ? kTaps : 0;
-  float radius = clamp(light_radius * key_depth_range * way / max(blockers, 1.0), 0.02 * body_radius,
-                       0.6 * light_radius * body_radius);
-  float lit = 0.0;
-  for (int k = 0; k < taps; ++k) {
-    vec2 offset = radius * sqrt((float(k) + 0.5) / float(kTaps)) * direction;
-    lit += texture(key_shadow_map, vec3(uvd.xy + offset * light_texel, uvd.z));
+  bool is_edge = open > 0.001 && open < float(kSearch) - 0.001;
+  search = is_edge ? kSearch : 0;
+  float way = 0.0;
+  float blockers = 0.0;
+  for (int k = 0; k < search; ++k) {
+    float depth = textureLod(key_depth, uvd.xy + tap(reach, k, kSearch) * direction, search_level).r;
+    float above = smoothstep(0.0, 0.01, uvd.z - depth);
+    way += above * (uvd.z - depth);
+    blockers += above;
     direction = kGoldenTurn * direction;
   }
-  return is_edge ? lit / float(kTaps) : (search > 0 && blockers == 0.0 ? 1.0 : 0.0);
+  int taps = is_edge ? kTaps : 0;
+  float radius = clamp(light_radius * key_depth_range * way / max(blockers, 1e-3), 0.02 * body_radius, widest);
+  float level = tap_level(radius, kTaps);
+  float lit = 0.0;
+  for (int k = 0; k < taps; ++k) {
+    lit += textureLod(key_shadow_map, vec3(uvd.xy + tap(radius, k, kTaps) * direction, uvd.z), level);
+    direction = kGoldenTurn * direction;
+  }
+  return is_edge ? lit / float(kTaps) : step(0.5, open);
 }
 
 // The visible fraction of the sky above a point: the probability that the blurred heights do not exceed it (Chebyshev).
