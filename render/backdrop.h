@@ -17,6 +17,7 @@ class Backdrop {
   void draw(const View& view, bool shows_floor);
   /// What was drawn; as large as the picture.
   [[nodiscard]] const GlFramebuffer& target() const { return target_; }
+  [[nodiscard]] const GlTexture& picture() const { return picture_; }
 
  private:
   /// What the picture depends on; rounded, so that it stays the same while the camera orbits.

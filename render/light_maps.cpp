@@ -88,7 +88,8 @@ constexpr int kSkySize = 96;
 constexpr int kLightSize = 128;
 constexpr int kFarLightSize = 32;
 constexpr double kFarBlur = 0.75;  // of a body's radius: three standard deviations
-constexpr float kShaded = 0.5F;    // depth of the ground that may be in shadow
+constexpr float kBrightestGlow = 4;
+constexpr float kShaded = 0.5F;  // depth of the ground that may be in shadow
 
 /// An upper bound of the distance from the highest body to the ground along the key light.
 double longest_way(const DrawFrame& frame) {
@@ -105,13 +106,17 @@ std::string shadow_settings(Quality quality) {
                      is_high ? 7 : 5);
 }
 
+std::string tint_defines(const RenderOptions& options) {
+  return std::string(options.exposes ? "#define EXPOSURE\n" : "") + (options.gathers_light ? "#define GATHERED\n" : "");
+}
+
 std::string light_settings(int shadow_size) {
   return fmt::format("#define SHADOW_LOD {:.3f}\n", std::log2(double(shadow_size) / kLightSize));
 }
 
 }  // namespace
 
-GroundMaps::GroundMaps(const GlFunctions& gl, const MapBrush& brush, Quality quality, bool exposes, const LightMap& key)
+GroundMaps::GroundMaps(const GlFunctions& gl, const MapBrush& brush, const RenderOptions& options, const LightMap& key)
     : gl_(gl),
       brush_(brush),
       key_(key),
@@ -119,20 +124,20 @@ GroundMaps::GroundMaps(const GlFunctions& gl, const MapBrush& brush, Quality qua
       underside_color_(brush.make_map(kUndersideColorSize, &map_format::kColor, true)),
       underside_(brush.make_map(kUndersideSize, &map_format::kMask, false)),
       sky_(brush.make_map(kSkySize, &map_format::kFlatColor, false)),
-      shadow_(brush.make_map(shadow_size(quality), &map_format::kShadow, true)),
+      shadow_(brush.make_map(shadow_size(options.quality), &map_format::kShadow, true)),
       light_(brush.make_map(kLightSize, &map_format::kFlatColor, false)),
       far_light_pass_(brush.make_map(kFarLightSize, &map_format::kFlatColor, false)),
       far_light_(brush.make_map(kFarLightSize, &map_format::kFlatColor, false)),
-      tint_(brush.make_map(shadow_.size, exposes ? &map_format::kFineColor : &map_format::kFlatColor, false)),
+      tint_(brush.make_map(shadow_.size, &map_format::kFineColor, false)),
       underside_programs_(load_skin_programs(gl, "underside.frag")),
       underside_filter_program_(load_program(gl, "screen.vert", "underside_filter.frag")),
       sky_program_(load_program(gl, "screen.vert", "ground_sky.frag")),
       key_mask_program_(load_program(gl, "screen.vert", "key_mask.frag")),
-      shaded_program_(load_program(gl, "screen.vert", "ground_shadow.frag", shadow_settings(quality))),
+      shaded_program_(load_program(gl, "screen.vert", "ground_shadow.frag", shadow_settings(options.quality))),
       shadow_program_(
-          load_program(gl, "screen.vert", "ground_shadow.frag", shadow_settings(quality) + "#define SHADOW\n")),
+          load_program(gl, "screen.vert", "ground_shadow.frag", shadow_settings(options.quality) + "#define SHADOW\n")),
       light_program_(load_program(gl, "screen.vert", "ground_light.frag", light_settings(shadow_.size))),
-      tint_program_(load_program(gl, "screen.vert", "ground_tint.frag", exposes ? "#define EXPOSURE\n" : "")) {}
+      tint_program_(load_program(gl, "screen.vert", "ground_tint.frag", tint_defines(options))) {}
 
 void GroundMaps::draw(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const DrawFrame& frame,
                       PassClock& clock) const {
@@ -153,7 +158,6 @@ void GroundMaps::draw(const std::vector<SkinBuffers>& skins, const TextureSet& t
   draw_light(light_program_, light_, frame);
   const Eigen::Array2d reach = kFarBlur * frame.body_radius / frame.light.ground.sides.array();
   brush_.blur(light_, far_light_pass_, far_light_, reach.cast<float>());
-  if (frame.has_ground) draw_light(tint_program_, tint_, frame);
   clock.stop("ground light");
 }
 
@@ -246,6 +250,28 @@ void GroundMaps::draw_light(const GlProgram& program, const LightMap& map, const
   brush_.fill(map);
 }
 
+void GroundMaps::draw_tint(const DrawFrame& frame, const GroundGlow* glow) {
+  if (!frame.has_ground) return;
+  tint_program_.use();
+  if (glow != nullptr) {
+    std::vector<std::uint16_t> texels;
+    for (const Eigen::Vector4f& texel : glow->texels) {
+      Eigen::Array4f stored = texel;
+      stored.head<3>() = (stored.head<3>() / kBrightestGlow).sqrt();
+      for (const float part : stored.min(1.0F)) texels.push_back(static_cast<std::uint16_t>(std::lround(65535 * part)));
+    }
+    glow_ = make_texture(gl_, glow->size, glow->size, map_format::kFineColor, texels.data());
+    bind_glow(tint_program_, 2);
+  }
+  draw_light(tint_program_, tint_, frame);
+}
+
+void GroundMaps::bind_glow(const GlProgram& program, int unit) const {
+  bind_texture(gl_, unit, glow_);
+  program.set("ground_glow", unit);
+  program.set("brightest_glow", kBrightestGlow);
+}
+
 GroundLight GroundMaps::read_light(const DrawFrame& frame) const {
   gl_.BindFramebuffer(GL_FRAMEBUFFER, light_.target.name());
   std::vector<std::uint8_t> bytes(4 * std::size_t(light_.size) * std::size_t(light_.size));
@@ -283,7 +309,7 @@ LightMaps::LightMaps(const GlFunctions& gl, const RenderOptions& options)
       zenith_(brush_.make_map(kZenithSize, &map_format::kMoments, false)),
       zenith_pass_(brush_.make_map(kZenithSize, &map_format::kMoments, false)),
       zenith_program_(load_program(gl, "screen.vert", "zenith_filter.frag")),
-      ground_(gl, brush_, options.quality, options.exposes, key_) {}
+      ground_(gl, brush_, options, key_) {}
 
 void LightMaps::draw(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const DrawFrame& frame,
                      PassClock& clock) const {

@@ -57,14 +57,18 @@ class MapBrush {
 /// - sky: the fraction of the sky that bodies occlude, and the light that they reflect down instead
 /// - shadow: the fraction of the key light that they occlude
 /// - light: what the ground reflects, at low resolution; and blurred, for surfaces high above it
-/// - tint: how much darker the floor looks
+/// - tint: how much darker, or lighter, the floor looks
 class GroundMaps {
  public:
   /// `key`: the depth map of the key light. `exposes`: the tint is of linear light.
-  GroundMaps(const GlFunctions& gl, const MapBrush& brush, Quality quality, bool exposes, const LightMap& key);
+  GroundMaps(const GlFunctions& gl, const MapBrush& brush, const RenderOptions& options, const LightMap& key);
+  /// All but the tint.
   void draw(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const DrawFrame& frame,
             PassClock& clock) const;
+  /// With what bodies do to the ground, where rays gather it.
+  void draw_tint(const DrawFrame& frame, const GroundGlow* glow);
 
+  void bind_glow(const GlProgram& program, int unit) const;
   [[nodiscard]] const GlTexture& sky() const { return sky_.color; }
   [[nodiscard]] const GlTexture& shadow() const { return shadow_.color; }
   [[nodiscard]] const GlTexture& light() const { return light_.color; }
@@ -93,6 +97,7 @@ class GroundMaps {
   LightMap far_light_pass_;
   LightMap far_light_;
   LightMap tint_;
+  GlTexture glow_;  // light from bodies, where it is gathered
   SkinPrograms underside_programs_;
   GlProgram underside_filter_program_;
   GlProgram sky_program_;
@@ -116,6 +121,7 @@ class LightMaps {
   /// Binds the maps from unit `first_unit` on, and sets the uniforms with which a shader reads them.
   void bind(const GlProgram& program, const DrawFrame& frame, int first_unit) const;
   [[nodiscard]] const GroundMaps& ground() const { return ground_; }
+  [[nodiscard]] GroundMaps& ground() { return ground_; }
 
  private:
   void blur_zenith(const DrawFrame& frame) const;

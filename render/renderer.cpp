@@ -200,8 +200,13 @@ struct Renderer::Device {
   View light(const std::vector<SkinShape>& shapes, const DrawFrame& frame, const Camera& camera) {
     maps.draw(skins, textures, frame, clock);
     View view = make_view(frame, camera, screen.aspect());
-    if (!gathered) return view;
-    gathered->update(shapes, view.eye.cast<float>(), maps.ground().read_light(frame));
+    if (!gathered) {
+      maps.ground().draw_tint(frame, nullptr);
+      return view;
+    }
+    const GroundLight ground = maps.ground().read_light(frame);
+    gathered->update(shapes, view.eye.cast<float>(), ground);
+    maps.ground().draw_tint(frame, has_ground ? &gathered->onto_ground(ground) : nullptr);
     for (std::size_t i = 0; i < skins.size(); ++i) {
       skins[i].update_light(gathered->of_vertices(i));
       if (gathered->has_through()) skins[i].update_through(gathered->through_to_vertices(i));

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "render/shaders.h"
+#include "render/trace/layer.h"
 
 namespace sprung {
 namespace {
@@ -86,13 +87,15 @@ const char* output_define(ScreenOutput output) {
 
 std::string gathered_define(Gathering gathering) {
   return fmt::format("{}{}", gathering >= Gathering::kAround ? "#define GATHERED\n" : "",
-                     gathering >= Gathering::kThrough ? "#define THROUGH\n" : "");
+                     gathering >= Gathering::kThrough
+                         ? fmt::format("#define THROUGH\n#define LAYER {:.3f}\n#define INNER {:.3f}\n",
+                                       Layer::kScattering, Layer::kInner)
+                         : "");
 }
 
 /// The tint of the floor comes from the light maps if these have what the picture has.
-const char* floor_define(ScreenOutput output, bool exposes) {
-  if (output == ScreenOutput::kShares) return "#define SHARES\n";
-  return output == ScreenOutput::kLight && !exposes ? "#define LIGHT\n" : "";
+std::string floor_define(ScreenOutput output, bool exposes) {
+  return output_define(output) + std::string(output == ScreenOutput::kLight && !exposes ? "#define LIGHT\n" : "");
 }
 
 bool has_floor_in_sight(const View& view) {
@@ -125,7 +128,8 @@ Screen::Screen(const GlFunctions& gl, const RenderOptions& options, const Floor&
       nearer_sampler_(make_comparing_sampler(gl, GL_GREATER)),
       no_buffers_(make_vertex_array(gl)),
       surface_programs_(load_skin_programs(gl, "surface.frag", output_define(output) + gathered_define(gathering))),
-      floor_program_(load_program(gl, "floor.vert", "floor.frag", floor_define(output, options.exposes))),
+      floor_program_(load_program(gl, "floor.vert", "floor.frag",
+                                  floor_define(output, options.exposes) + gathered_define(gathering))),
       kinds_program_(load("kinds.frag", options)),
       skins_program_(load("skins.frag", options)) {
   if (!options.exposes) return;
@@ -294,11 +298,10 @@ void Screen::draw_floor(const LightMaps& maps, const View& view) const {
   bind("ground_tint", 0, maps.ground().tint());
   bind("ground_sky", 1, maps.ground().sky());
   bind("ground_shadow", 2, maps.ground().shadow());
-  gl_.Enable(GL_BLEND);
-  gl_.BlendFunc(GL_DST_COLOR, GL_ZERO);
+  if (gathering_ != Gathering::kNothing) maps.ground().bind_glow(floor_program_, 3);
+  bind("backdrop", 4, backdrop_.picture());
   gl_.BindVertexArray(no_buffers_.name());
   gl_.DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
-  gl_.Disable(GL_BLEND);
 }
 
 /// An early depth test keeps llvmpipe from running a shader, an `if` does not. So a cheap pass first writes as depth

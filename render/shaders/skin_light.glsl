@@ -17,9 +17,6 @@ uniform sampler2D zenith;
 
 const vec3 kWindow = vec3(-0.880, 0.300, 0.368);  // towards its middle
 
-const float kLayer = 0.5;  // coefficient of scattering over one mean free path; fitted to traced pictures
-const float kInner = 0.5;  // Fresnel's reflectance for even light inside, at an index of 1.4
-
 const int kSearch = SHADOW_SEARCH;
 const int kTaps = SHADOW_TAPS;
 const mat2 kGoldenTurn = mat2(-0.7373688, 0.6754903, -0.6754903, -0.7373688);  // 137.5 degrees, for spirals
@@ -163,9 +160,11 @@ float openness(vec3 point, vec3 n, vec4 gathered) { return open_sky(point, n); }
 #endif
 
 #ifdef THROUGH
-// What a layer reflects and lets through that, infinitely thick, would reflect `base`: P. Kubelka, "New Contributions
-// to the Optics of Intensely Light-Scattering Materials" (1948), between surfaces that reflect a fraction kInner of the
-// light that meets them from inside. `thickness`: times the coefficient of scattering.
+const float kLayer = LAYER;  // constants of Layer
+const float kInner = INNER;
+
+// See Layer. What a layer reflects and lets through that, infinitely thick, would reflect `base`; `thickness`: times the
+// coefficient of scattering.
 void layer(vec3 base, float thickness, out vec3 reflected, out vec3 let_through) {
   vec3 thick = clamp(base / (1.0 - kInner + kInner * base), 0.004, 0.998);
   vec3 a = 0.5 * (1.0 / thick + thick);

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "render/stage/coarse_triangles.h"
+#include "render/trace/layer.h"
 #include "render/trace/traced_skins.h"
 
 namespace sprung {
@@ -116,6 +117,7 @@ void GatheredLight::set_shapes(const std::vector<SkinShape>& shapes, const Vecto
   };
   if (std::equal(shapes.begin(), shapes.end(), shapes_.begin(), shapes_.end(), same)) return;
   shapes_ = shapes;
+  glow_.reset();
   std::vector<Floats3> positions;
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     SkinLight& light = skins_[i];
@@ -192,6 +194,69 @@ void GatheredLight::update(const std::vector<SkinShape>& shapes, const Vector3f&
     const bool has_more = light.is_metal || media_.is_entered(int(i));
     if (has_more) light.through = interpolated(light.probes, light.through_to_probes);
   });
+}
+
+namespace {
+
+constexpr int kGroundSize = 48;  // texels along each side
+constexpr int kPeriodX = 4;      // of the sets of rays that texels use
+constexpr int kPeriodZ = 2;
+
+/// A mean in which all sets of rays have the same weight: no texel shows its own.
+std::vector<Vector4f> smoothed(const std::vector<Vector4f>& texels, int size) {
+  constexpr std::array<float, 5> kAcross{1 / 8.0F, 2 / 8.0F, 2 / 8.0F, 2 / 8.0F, 1 / 8.0F};  // even over kPeriodX
+  constexpr std::array<float, 3> kAlong{1 / 4.0F, 2 / 4.0F, 1 / 4.0F};                       // and over kPeriodZ
+  const auto filtered = [size](const std::vector<Vector4f>& from, const auto& weights, int step_x, int step_z) {
+    std::vector<Vector4f> to(from.size(), Vector4f::Zero());
+    const int half = int(weights.size()) / 2;
+    for (int i = 0; i < size * size; ++i) {
+      for (int k = -half; k <= half; ++k) {
+        const int x = std::clamp(i % size + k * step_x, 0, size - 1);
+        const int z = std::clamp(i / size + k * step_z, 0, size - 1);
+        to[std::size_t(i)] += weights[std::size_t(k + half)] * from[std::size_t(z * size + x)];
+      }
+    }
+    return to;
+  };
+  return filtered(filtered(texels, kAcross, 1, 0), kAlong, 0, 1);
+}
+
+}  // namespace
+
+const GroundGlow& GatheredLight::onto_ground(const GroundLight& ground) {
+  const bool is_same = glow_ && glow_->low == ground.low && glow_->sides == ground.sides;
+  if (is_same) return *glow_;
+  std::vector<Vector4f> texels(std::size_t(kGroundSize) * kGroundSize);
+  tbb::parallel_for(tbb::blocked_range<int>(0, kGroundSize * kGroundSize, 32), [&](const auto& range) {
+    for (int i = range.begin(); i < range.end(); ++i) {
+      const Eigen::Array2i at(i % kGroundSize, i / kGroundSize);
+      const Eigen::Array2f place = ground.low.array() + ground.sides.array() * (at.cast<float>() + 0.5F) / kGroundSize;
+      const std::size_t turn = std::size_t(at.x() % kPeriodX + kPeriodX * (at.y() % kPeriodZ));
+      texels[std::size_t(i)] = from_bodies({place.x(), float(ground.height), place.y()}, turn);
+    }
+  });
+  glow_ = GroundGlow{ground.low, ground.sides, kGroundSize, smoothed(texels, kGroundSize)};
+  return *glow_;
+}
+
+/// Irradiance over pi of level ground there, and the fraction of the light from above that bodies hide.
+Vector4f GatheredLight::from_bodies(const Vector3f& origin, std::size_t turn) const {
+  Ray ray;
+  ray.origin = origin;
+  Vector3f reflections = Vector3f::Zero();
+  float weights = 0;
+  float hidden = 0;
+  for (const Direction& direction : directions_[turn]) {
+    const float cosine = direction.towards.y();
+    if (cosine <= 0) continue;
+    weights += cosine;
+    ray.direction = direction.towards;
+    const std::optional<RayHit> hit = rays_->first_hit(ray);
+    if (!hit) continue;
+    hidden += cosine;
+    reflections += cosine * reflected(ray, *hit);
+  }
+  return Vector4f(reflections.x(), reflections.y(), reflections.z(), hidden) / weights;
 }
 
 bool GatheredLight::is_inside(const Ray& ray, const RayHit& hit) const {
@@ -271,13 +336,9 @@ Vector4f GatheredLight::come_through(const Place& place, const GroundLight& grou
     weights += cosine;
     const float way = hit->distance + skins_[place.skin].lift / std::max(cosine, kSteep);  // from the surface on
     const float share = cosine * std::exp(-attenuation * way);
-    Vector3f normal = hit->normal.normalized();
-    if (normal.dot(ray.direction) < 0) normal = -normal;
-    const Vector3f position = ray.origin + hit->distance * ray.direction + skins_[place.skin].lift * normal;
-    const Vector3f floor = stage_light_.floor_albedo().cwiseProduct(ground.at(position.x(), position.z()));
-    const Vector3f around =
-        (0.5F + 0.5F * normal.y()) * stage_light_.sky_on_ground() + (0.5F - 0.5F * normal.y()) * floor;
-    sum += share * (around + from_key(position, normal));
+    const Vector3f exit = ray.origin + hit->distance * ray.direction;
+    const Vector3f floor = stage_light_.floor_albedo().cwiseProduct(ground.at(exit.x(), exit.z()));
+    sum += share * light_at_exit(ray, *hit, floor);
     kept += share;
   }
   if (kept <= 0) return Vector4f::Zero();
@@ -313,6 +374,15 @@ Vector3f GatheredLight::from_key(const Vector3f& position, const Vector3f& norma
   return rays_->is_blocked(shadow) ? Vector3f::Zero().eval() : (facing * stage_light_.on_facing_key()).eval();
 }
 
+/// Irradiance over pi of a body from outside, where a ray in it meets its skin.
+Vector3f GatheredLight::light_at_exit(const Ray& inside, const RayHit& exit, const Vector3f& from_floor) const {
+  Vector3f normal = exit.normal.normalized();
+  if (normal.dot(inside.direction) < 0) normal = -normal;
+  const float lift = skins_[std::size_t(exit.skin)].lift;
+  return (0.5F + 0.5F * normal.y()) * stage_light_.sky_on_ground() + (0.5F - 0.5F * normal.y()) * from_floor +
+         from_key(inside.origin + exit.distance * inside.direction + lift * normal, normal);
+}
+
 /// Radiance of what a ray has met.
 Vector3f GatheredLight::reflected(const Ray& ray, const RayHit& hit) const {
   const SkinLight& skin = skins_[std::size_t(hit.skin)];
@@ -324,10 +394,19 @@ Vector3f GatheredLight::reflected(const Ray& ray, const RayHit& hit) const {
                              ? skin.colors[std::size_t(hit.triangle)]
                              : paints_[std::size_t(hit.skin)].color(skin.sources[std::size_t(hit.triangle)],
                                                                     Vector3f::Constant(1.0F / 3), map_coordinates);
+  const Vector3f floor = stage_light_.around(-Vector3f::UnitY());
+  const Vector3f position = ray.origin + hit.distance * ray.direction;
   Vector3f light = kHitOpenness * (0.5F + 0.5F * normal.y()) * stage_light_.sky_on_ground();
-  light += kHitOpenness * (0.5F - 0.5F * normal.y()) * stage_light_.around(-Vector3f::UnitY());
-  light += from_key(ray.origin + hit.distance * ray.direction + skin.lift * normal, normal);
-  return color.cwiseProduct(light);
+  light += kHitOpenness * (0.5F - 0.5F * normal.y()) * floor;
+  light += from_key(position + skin.lift * normal, normal);
+  if (!media_.is_entered(hit.skin)) return color.cwiseProduct(light);
+  Ray inside;
+  inside.origin = position - skin.lift * normal;
+  inside.direction = ray.direction;
+  const std::optional<RayHit> exit = rays_->first_hit(inside);
+  if (!exit || exit->skin != hit.skin || !is_inside(inside, *exit)) return color.cwiseProduct(light);
+  const Layer layer(color, Layer::kScattering * media_.scattering(hit.skin) * (exit->distance + skin.lift));
+  return layer.reflected.cwiseProduct(light) + layer.let_through.cwiseProduct(light_at_exit(inside, *exit, floor));
 }
 
 VertexLight GatheredLight::interpolated(const LightProbes& probes, const std::vector<Vector4f>& light) {

@@ -33,6 +33,8 @@ class GatheredLight {
   [[nodiscard]] const VertexLight& of_vertices(std::size_t skin) const { return skins_[skin].of_vertices; }
   /// None where has_through() is false.
   [[nodiscard]] const ThroughLight& through_to_vertices(std::size_t skin) const { return skins_[skin].through; }
+  /// What bodies reflect onto that rectangle of the ground, in texels of its own; of the shapes of the last update.
+  [[nodiscard]] const GroundGlow& onto_ground(const GroundLight& ground);
   /// Whether light enters any body, or a metal mirrors others.
   [[nodiscard]] bool has_through() const { return media_.any() || has_metals_; }
 
@@ -75,9 +77,12 @@ class GatheredLight {
   [[nodiscard]] bool is_inside(const Ray& ray, const RayHit& hit) const;
   [[nodiscard]] std::optional<RayHit> first_hit(Ray ray, std::size_t own, bool is_outside) const;
   [[nodiscard]] Eigen::Vector4f gather(const Place& place, const GroundLight& ground) const;
+  [[nodiscard]] Eigen::Vector4f from_bodies(const Eigen::Vector3f& origin, std::size_t turn) const;
   [[nodiscard]] Eigen::Vector4f come_through(const Place& place, const GroundLight& ground) const;
   [[nodiscard]] Eigen::Vector4f mirror(const Place& place, const Eigen::Vector3f& eye) const;
   [[nodiscard]] Eigen::Vector3f from_key(const Eigen::Vector3f& position, const Eigen::Vector3f& normal) const;
+  [[nodiscard]] Eigen::Vector3f light_at_exit(const Ray& inside, const RayHit& exit,
+                                              const Eigen::Vector3f& from_floor) const;
   [[nodiscard]] Eigen::Vector3f reflected(const Ray& ray, const RayHit& hit) const;
   [[nodiscard]] static VertexLight interpolated(const LightProbes& probes, const std::vector<Eigen::Vector4f>& light);
 
@@ -94,6 +99,7 @@ class GatheredLight {
   std::optional<RayScene> rays_;
   std::vector<SkinShape> shapes_;                  // the last ones
   Eigen::Vector3f eye_ = Eigen::Vector3f::Zero();  // the last one
+  std::optional<GroundGlow> glow_;                 // of these shapes
 };
 
 }  // namespace sprung

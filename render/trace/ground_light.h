@@ -17,4 +17,13 @@ struct GroundLight {
   [[nodiscard]] Eigen::Vector3f at(float x, float z) const;
 };
 
+/// What bodies do to level ground: light that they reflect onto it, irradiance over pi, and the fraction of the light
+/// from above that they hide; by rows of z.
+struct GroundGlow {
+  Eigen::Vector2f low;  // corner x, z; stage space
+  Eigen::Vector2f sides;
+  int size;  // texels along each side
+  std::vector<Eigen::Vector4f> texels;
+};
+
 }  // namespace sprung

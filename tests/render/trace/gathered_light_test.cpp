@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "core/appearance.h"
 #include "render/trace/directions.h"
 #include "tests/support/still_life.h"
 
@@ -64,6 +65,12 @@ class Gathering {
     return light_.of_vertices(0);
   }
   [[nodiscard]] const std::vector<SkinShape>& shapes() const { return shapes_; }
+  /// In the middle of the ground.
+  Vector4f onto_ground() {
+    light_.update(shapes_, kEye, open_ground(stage_));
+    const GroundGlow& glow = light_.onto_ground(open_ground(stage_));
+    return glow.texels[std::size_t(glow.size / 2) * std::size_t(glow.size + 1)];
+  }
 
  private:
   Stage stage_;
@@ -110,6 +117,30 @@ TEST(GatheredLight, UnderAPlateIsHiddenByItsFormFactor) {
   const double quarter = x / std::sqrt(1 + x * x) * std::atan(x / std::sqrt(1 + x * x)) / M_PI;
   const Vector4f found = Gathering(scene).at(1, nearest(scene.skins[1], {0, 0, 0}), {0, 5, 20});
   EXPECT_NEAR(found.w(), 1 - 4 * quarter, 0.02);
+}
+
+// The same plate, which is in its own shadow and lit by the open floor alone.
+TEST(GatheredLight, OntoTheGroundComesFromWhatHidesTheSky) {
+  StillLife scene;
+  scene.add(plate(0.5, 0.4, 40, false), kRed);
+  const double x = 0.5 / 0.4;
+  const double quarter = x / std::sqrt(1 + x * x) * std::atan(x / std::sqrt(1 + x * x)) / M_PI;
+  const Vector4f found = Gathering(scene).onto_ground();
+  EXPECT_NEAR(found.w(), 4 * quarter, 0.02);
+  EXPECT_GT(found.x(), 3 * found.z());
+  const float red = linear_from_srgb(kRed.x());
+  const float open = open_ground(scene.stage()).texels[0].x() * lighting_of(LightPreset::kStudio).floor.x();
+  EXPECT_LT(found.x(), found.w() * red * open);
+  EXPECT_GT(found.x(), 0.5F * found.w() * red * open);
+}
+
+TEST(GatheredLight, OntoTheGroundComesNothingWithoutBodies) {
+  StillLife scene;
+  scene.add(make_sphere_skin({0, 300, 0}, 0.1), kRed);
+  const GroundLight below{-1e4, {-1, -1}, {2, 2}, 2, std::vector(4, Vector3f::Ones().eval())};
+  GatheredLight light(scene.stage(), kRaysOfProbe, kMostProbes);
+  light.update(scene.shapes(), kEye, below);
+  for (const Vector4f& texel : light.onto_ground(below).texels) EXPECT_TRUE(texel.isZero(0));
 }
 
 TEST(GatheredLight, BleedsTheColourOfANeighbour) {
