@@ -111,7 +111,7 @@ Placement put_down(const std::filesystem::path& file, UpAxis up, bool may_lie) {
 void place_camera(SceneCamera& camera, const Vec3& sides) {
   constexpr double kFlatness = 0.6;  // height over width below which the camera rises
   constexpr double kRise = 22;       // degrees, for a body without height
-  constexpr double kBodyHeight = 0.46;
+  constexpr double kBodyHeight = 0.44;
   const double width = std::max(sides.x(), sides.z());
   camera.elevation += kRise * std::clamp(1 - sides.y() / (kFlatness * width), 0.0, 1.0);
   camera.body_height = kBodyHeight;
