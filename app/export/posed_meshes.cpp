@@ -8,6 +8,7 @@
 
 #include "app/film/film_stage.h"
 #include "core/bricks/embedding.h"
+#include "core/unit_rows.h"
 
 namespace sprung {
 namespace {
@@ -49,7 +50,7 @@ std::vector<PosedMesh> posed_meshes(const Simulation& simulation, const Film& sc
     if (mesh.normals.rows() == 0) continue;
     const Points rest = mesh.rest->normals(body.file_vertices, Eigen::all);
     mesh.normals(body.file_vertices, Eigen::all) =
-        deform_normals(body.grid, body.file_embedding, rest, nodes[row]).rowwise().normalized();
+        unit_rows(deform_normals(body.grid, body.file_embedding, rest, nodes[row]));
   }
   std::vector<PosedMesh> list;
   list.reserve(meshes.size());

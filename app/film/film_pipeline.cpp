@@ -68,18 +68,21 @@ RenderOptions options_of(const Film& scene) {
 }
 
 std::optional<Legend> first_legend(const FilmRun& run, const ColorRanges& ranges) {
+  if (ranges.empty()) return std::nullopt;
   constexpr double kNeverSmooth = std::numeric_limits<double>::infinity();
   return FilmStage(run.scene, run.simulation, run.recording, kNeverSmooth, ranges).legend(0);
 }
 
 }  // namespace
 
-/// Of what all runs show.
+/// Of what all runs show; none where colours show no field.
 ColorRanges FilmPipeline::common_ranges(const std::vector<FilmRun>& runs) {
   ColorRanges ranges;
+  const SceneRender& render = runs.front().scene.render;
+  if (render.color_by == Field::kSkin && !render.springs) return ranges;
   for (const FilmRun& run : runs) {
     Film its = run.scene;
-    its.render = runs.front().scene.render;
+    its.render = render;
     ranges = merged(ranges, FilmStage(its, run.simulation, run.recording).color_ranges());
   }
   return ranges;

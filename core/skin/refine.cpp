@@ -10,6 +10,7 @@
 
 #include "core/mesh/repair/weld.h"
 #include "core/skin/skin.h"
+#include "core/unit_rows.h"
 
 namespace sprung {
 namespace {
@@ -128,7 +129,7 @@ class Refiner {
     refined.positions = with_midpoints(skin_.positions);
     refined.normals = with_midpoints(skin_.normals);
     if (curves_ != nullptr) bend(refined);
-    refined.normals.bottomRows(isize(ends_)).rowwise().normalize();
+    refined.normals.bottomRows(isize(ends_)) = unit_rows(refined.normals.bottomRows(isize(ends_)));
     if (skin_.uvs.rows() > 0) refined.uvs = with_midpoints(skin_.uvs);
     if (skin_.colors.rows() > 0) refined.colors = with_midpoints(skin_.colors);
     refined.triangles.resize(isize(triangles_), 3);
@@ -306,7 +307,7 @@ void refine_curves(Skin& skin, double tolerance) {
     Refiner refiner(skin, max_edge, middles, &curves, tolerance);
     Skin refined;
     if (!refiner.run(refined)) break;
-    interpolated = refiner.with_midpoints(interpolated).rowwise().normalized();
+    interpolated = unit_rows(refiner.with_midpoints(interpolated));
     skin = std::move(refined);
   }
   skin.normals = interpolated;

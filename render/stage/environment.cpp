@@ -15,6 +15,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr int kHeight = 64;  // of the finest level; 2.8 degrees per texel, less than the sharpest highlight
 constexpr int kWidestBackground = 4096;
+constexpr float kMostSeen = 60000;  // light of a background: textures hold it as half floats
 constexpr int kSharpest = 4;  // one over the roughness of the first level
 
 /// Downsampled to that height, weighted by solid angle; black below the horizon.
@@ -137,7 +138,11 @@ Environment::Environment(const Panorama& panorama, const EnvironmentUse& use) {
                 "the surroundings must be twice as wide as high: all around, from zenith to nadir");
   }
   Panorama around = turned(panorama, use.turn);
-  if (use.is_seen) background = std::make_shared<const Panorama>(no_wider_than(around, kWidestBackground));
+  if (use.is_seen) {
+    Panorama seen = no_wider_than(around, kWidestBackground);
+    for (Eigen::Vector3f& light : seen.light) light = light.cwiseMin(kMostSeen);
+    background = std::make_shared<const Panorama>(std::move(seen));
+  }
   if (use.has_sun) sun = take_sun(around);
   Panorama sky = upper_half(around, kHeight);
   irradiance = irradiance_of(sky);

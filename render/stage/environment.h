@@ -26,7 +26,7 @@ struct Environment {
   std::array<Panorama, 3> reflections;
 
   std::optional<Sun> sun{};                      // not in the light above
-  std::shared_ptr<const Panorama> background{};  // all of the panorama, with the sun, as it was: unscaled
+  std::shared_ptr<const Panorama> background{};  // the whole panorama, with the sun; unscaled
   float scale = 1;                               // from the panorama's light to that of the stage
 
   /// Scales the panorama so that level ground is as bright as under the studio's sky, or what faces its sun as bright

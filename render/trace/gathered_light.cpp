@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/unit_rows.h"
 #include "render/stage/coarse_triangles.h"
 #include "render/trace/layer.h"
 #include "render/trace/traced_skins.h"
@@ -122,7 +123,7 @@ void GatheredLight::set_shapes(const std::vector<SkinShape>& shapes, const Vecto
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     SkinLight& light = skins_[i];
     light.positions = in_stage_space(shapes[i].positions, space_);
-    light.normals = unit(shapes[i].normals);
+    light.normals = unit_rows(shapes[i].normals);
     light.is_known.assign(light.probes.vertices.size(), false);
     light.of_probes.assign(light.probes.vertices.size(), Vector4f::Zero());
     light.through_to_probes = light.of_probes;

@@ -104,7 +104,15 @@ void RayScene::update(const std::vector<std::vector<Floats3>>& positions) {
   }
 }
 
+namespace {
+
+/// Embree ends the program otherwise.
+bool is_finite(const Ray& ray) { return ray.origin.allFinite() && ray.direction.allFinite(); }
+
+}  // namespace
+
 std::optional<RayHit> RayScene::first_hit(const Ray& ray, bool sees_ghosts) const {
+  if (!is_finite(ray)) return std::nullopt;
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   RTCRayHit found{embree_ray(ray), {}};
@@ -117,6 +125,7 @@ std::optional<RayHit> RayScene::first_hit(const Ray& ray, bool sees_ghosts) cons
 }
 
 bool RayScene::is_blocked(const Ray& ray) const {
+  if (!is_finite(ray)) return false;
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   RTCRay shadow = embree_ray(ray);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/unit_rows.h"
+
 namespace sprung {
 namespace {
 
@@ -23,10 +25,6 @@ std::vector<const Triangles*> triangles_of(const std::vector<const Skin*>& skins
 
 Floats3 in_stage_space(const Floats3& positions, const StageSpace& space) {
   return (float(space.scale) * (positions.rowwise() - space.center.cast<float>().transpose())).eval();
-}
-
-Floats3 unit(const Floats3& vectors) {
-  return vectors.array().colwise() / vectors.rowwise().norm().array().max(1e-12F);
 }
 
 TracedSkins::Corners TracedSkins::mix(const Corners& a, const Corners& b, float share) {
@@ -49,7 +47,7 @@ void TracedSkins::update(const Motion& motion) {
     for (std::size_t i = 0; i < skins_.size(); ++i) {
       const SkinShape& shape = (*motion[time])[i];
       const Floats3& points = at_time.emplace_back(in_stage_space(shape.positions, space_));
-      const Floats3 normals = unit(shape.normals);
+      const Floats3 normals = unit_rows(shape.normals);
       std::vector<Corners>& corners = corners_[time].emplace_back(std::size_t(skins_[i]->triangles.rows()));
       for (std::size_t t = 0; t < corners.size(); ++t) {
         for (int k = 0; k < 3; ++k) {

@@ -25,9 +25,6 @@ struct SurfacePoint {
 /// n x 3, m -> stage space.
 [[nodiscard]] Floats3 in_stage_space(const Floats3& positions, const StageSpace& space);
 
-/// Rows of length 1; of 0 where they have none.
-[[nodiscard]] Floats3 unit(const Floats3& vectors);
-
 /// The skins of a stage as rays see them.
 class TracedSkins {
  public:

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/unit_rows.h"
+
 namespace sprung {
 namespace {
 
@@ -98,7 +100,7 @@ Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> normals_of(const Points
     const Eigen::RowVector3d normal = (points.row(t[1]) - a).cross(points.row(t[2]) - a);
     for (const int corner : t) sums.row(corner) += normal;
   }
-  return sums.rowwise().normalized().cast<float>();
+  return unit_rows(sums).cast<float>();
 }
 
 template <class Rows, class More>

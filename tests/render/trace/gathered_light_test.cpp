@@ -4,6 +4,7 @@
 #include <tbb/global_control.h>
 
 #include <cmath>
+#include <limits>
 
 #include "core/appearance.h"
 #include "render/trace/directions.h"
@@ -228,6 +229,17 @@ TEST(GatheredLight, OfAMetalHasItsMirroredNeighbours) {
   EXPECT_GT(right.x(), 1.5F * right.z());
   EXPECT_LT(mirrored({0, 0, 1}).w(), 0.05F);
   EXPECT_LT(mirrored(Vec3(-1, 0, 1).normalized()).w(), 0.05F);
+}
+
+// As a file or a flattened triangle may have them.
+TEST(GatheredLight, NormalsThatAreNoNumbersHaveNoLight) {
+  StillLife scene;
+  scene.add(make_sphere_skin({0, 1, 0}, 0.4), kCream);
+  scene.skins[0].normals.row(0).setConstant(std::numeric_limits<double>::quiet_NaN());
+  scene.skins[0].normals.row(1).setZero();
+  Gathering gathering(scene);
+  EXPECT_EQ(gathering.at(0, 0, {0, 20, 0}), Vector4f::Zero().eval());
+  EXPECT_GT(gathering.at(0, nearest(scene.skins[0], {0, 1, 0.4})).x(), 0.1F);
 }
 
 TEST(GatheredLight, DependsNeitherOnThreadsNorOnEarlierPictures) {

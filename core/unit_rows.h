@@ -1,0 +1,22 @@
+#pragma once
+#include <Eigen/Core>
+#include <cmath>
+
+namespace sprung {
+
+/// Each row over its length; zero where that is 0 or no number.
+template <class Rows>
+[[nodiscard]] typename Rows::PlainObject unit_rows(const Eigen::MatrixBase<Rows>& rows) {
+  typename Rows::PlainObject units = rows;
+  for (auto row : units.rowwise()) {
+    const auto length = row.norm();
+    if (length > 0 && std::isfinite(length)) {
+      row /= length;
+    } else {
+      row.setZero();
+    }
+  }
+  return units;
+}
+
+}  // namespace sprung
