@@ -16,7 +16,7 @@ constexpr double kPi = std::numbers::pi;
 constexpr int kHeight = 64;  // of the finest level; 2.8 degrees per texel, less than the sharpest highlight
 constexpr int kWidestBackground = 4096;
 constexpr float kMostSeen = 60000;  // light of a background: textures hold it as half floats
-constexpr int kSharpest = 4;  // one over the roughness of the first level
+constexpr int kSharpest = 4;        // one over the roughness of the first level
 
 /// Downsampled to that height, weighted by solid angle; black below the horizon.
 Panorama upper_half(const Panorama& panorama, int height) {

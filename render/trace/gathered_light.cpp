@@ -200,26 +200,20 @@ void GatheredLight::update(const std::vector<SkinShape>& shapes, const Vector3f&
 namespace {
 
 constexpr int kGroundSize = 48;  // texels along each side
-constexpr int kPeriodX = 4;      // of the sets of rays that texels use
-constexpr int kPeriodZ = 2;
+constexpr int kPeriod = 4;       // of the sets of rays that texels use, along both sides
 
-/// A mean in which all sets of rays have the same weight: no texel shows its own.
-std::vector<Vector4f> smoothed(const std::vector<Vector4f>& texels, int size) {
-  constexpr std::array<float, 5> kAcross{1 / 8.0F, 2 / 8.0F, 2 / 8.0F, 2 / 8.0F, 1 / 8.0F};  // even over kPeriodX
-  constexpr std::array<float, 3> kAlong{1 / 4.0F, 2 / 4.0F, 1 / 4.0F};                       // and over kPeriodZ
-  const auto filtered = [size](const std::vector<Vector4f>& from, const auto& weights, int step_x, int step_z) {
-    std::vector<Vector4f> to(from.size(), Vector4f::Zero());
-    const int half = int(weights.size()) / 2;
-    for (int i = 0; i < size * size; ++i) {
-      for (int k = -half; k <= half; ++k) {
-        const int x = std::clamp(i % size + k * step_x, 0, size - 1);
-        const int z = std::clamp(i / size + k * step_z, 0, size - 1);
-        to[std::size_t(i)] += weights[std::size_t(k + half)] * from[std::size_t(z * size + x)];
-      }
+/// Means along x or z in which all sets of rays have the same weight: no texel shows its own.
+std::vector<Vector4f> smoothed(const std::vector<Vector4f>& texels, bool along_x) {
+  constexpr std::array<float, kPeriod + 1> kWeights{1 / 8.0F, 2 / 8.0F, 2 / 8.0F, 2 / 8.0F, 1 / 8.0F};
+  std::vector<Vector4f> means(texels.size(), Vector4f::Zero());
+  for (int i = 0; i < kGroundSize * kGroundSize; ++i) {
+    for (int k = -kPeriod / 2; k <= kPeriod / 2; ++k) {
+      const int x = std::clamp(i % kGroundSize + (along_x ? k : 0), 0, kGroundSize - 1);
+      const int z = std::clamp(i / kGroundSize + (along_x ? 0 : k), 0, kGroundSize - 1);
+      means[std::size_t(i)] += kWeights[std::size_t(k + kPeriod / 2)] * texels[std::size_t(z * kGroundSize + x)];
     }
-    return to;
-  };
-  return filtered(filtered(texels, kAcross, 1, 0), kAlong, 0, 1);
+  }
+  return means;
 }
 
 }  // namespace
@@ -232,26 +226,28 @@ const GroundGlow& GatheredLight::onto_ground(const GroundLight& ground) {
     for (int i = range.begin(); i < range.end(); ++i) {
       const Eigen::Array2i at(i % kGroundSize, i / kGroundSize);
       const Eigen::Array2f place = ground.low.array() + ground.sides.array() * (at.cast<float>() + 0.5F) / kGroundSize;
-      const std::size_t turn = std::size_t(at.x() % kPeriodX + kPeriodX * (at.y() % kPeriodZ));
-      texels[std::size_t(i)] = from_bodies({place.x(), float(ground.height), place.y()}, turn);
+      const int set = at.x() % kPeriod + kPeriod * (at.y() % kPeriod);
+      texels[std::size_t(i)] = from_bodies({place.x(), float(ground.height), place.y()}, set);
     }
   });
-  glow_ = GroundGlow{ground.low, ground.sides, kGroundSize, smoothed(texels, kGroundSize)};
+  glow_ = GroundGlow{ground.low, ground.sides, kGroundSize, smoothed(smoothed(texels, true), false)};
   return *glow_;
 }
 
 /// Irradiance over pi of level ground there, and the fraction of the light from above that bodies hide.
-Vector4f GatheredLight::from_bodies(const Vector3f& origin, std::size_t turn) const {
+/// `set`: which of twice kTurns sets of rays; the second half of them are the first ones turned about the vertical.
+Vector4f GatheredLight::from_bodies(const Vector3f& origin, int set) const {
+  const float side = std::size_t(set) < kTurns ? 1 : -1;
   Ray ray;
   ray.origin = origin;
   Vector3f reflections = Vector3f::Zero();
   float weights = 0;
   float hidden = 0;
-  for (const Direction& direction : directions_[turn]) {
+  for (const Direction& direction : directions_[std::size_t(set) % kTurns]) {
     const float cosine = direction.towards.y();
     if (cosine <= 0) continue;
     weights += cosine;
-    ray.direction = direction.towards;
+    ray.direction = direction.towards.cwiseProduct(Vector3f(side, 1, side));
     const std::optional<RayHit> hit = rays_->first_hit(ray);
     if (!hit) continue;
     hidden += cosine;

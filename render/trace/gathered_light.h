@@ -77,7 +77,7 @@ class GatheredLight {
   [[nodiscard]] bool is_inside(const Ray& ray, const RayHit& hit) const;
   [[nodiscard]] std::optional<RayHit> first_hit(Ray ray, std::size_t own, bool is_outside) const;
   [[nodiscard]] Eigen::Vector4f gather(const Place& place, const GroundLight& ground) const;
-  [[nodiscard]] Eigen::Vector4f from_bodies(const Eigen::Vector3f& origin, std::size_t turn) const;
+  [[nodiscard]] Eigen::Vector4f from_bodies(const Eigen::Vector3f& origin, int set) const;
   [[nodiscard]] Eigen::Vector4f come_through(const Place& place, const GroundLight& ground) const;
   [[nodiscard]] Eigen::Vector4f mirror(const Place& place, const Eigen::Vector3f& eye) const;
   [[nodiscard]] Eigen::Vector3f from_key(const Eigen::Vector3f& position, const Eigen::Vector3f& normal) const;
