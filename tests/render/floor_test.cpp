@@ -16,7 +16,8 @@ TEST(Floor, OnlySomeKindsHaveAPattern) {
 
 // Squares of 30 cm: neighbours differ, diagonal ones do not.
 TEST(Floor, AStatedSizeIsThatOfASquare) {
-  const FloorPattern& pattern = *floor_of(FloorKind::kChecker, 0.3).pattern;
+  const std::shared_ptr<const FloorPattern> kept = floor_of(FloorKind::kChecker, 0.3).pattern;
+  const FloorPattern& pattern = *kept;
   const Albedo first = pattern.albedo(0.15, 0.15);
   EXPECT_GT((pattern.albedo(0.45, 0.15) - first).norm(), 0.2);
   EXPECT_GT((pattern.albedo(0.15, -0.15) - first).norm(), 0.2);
@@ -28,7 +29,8 @@ TEST(Floor, AStatedSizeIsThatOfASquare) {
 
 TEST(Floor, ItsMeanIsThatOfAllPlaces) {
   for (const FloorKind kind : {FloorKind::kChecker, FloorKind::kWood}) {
-    const FloorPattern& pattern = *floor_of(kind, 0.1).pattern;
+    const std::shared_ptr<const FloorPattern> kept = floor_of(kind, 0.1).pattern;
+    const FloorPattern& pattern = *kept;
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     constexpr int kSide = 400;
     for (int i = 0; i < kSide * kSide; ++i) {
@@ -42,7 +44,8 @@ TEST(Floor, ItsMeanIsThatOfAllPlaces) {
 
 // Also at the seam, where the joints of boards are the only jumps.
 TEST(Floor, BoardsRepeat) {
-  const FloorPattern& pattern = *floor_of(FloorKind::kWood, 0.1).pattern;
+  const std::shared_ptr<const FloorPattern> kept = floor_of(FloorKind::kWood, 0.1).pattern;
+  const FloorPattern& pattern = *kept;
   for (double x = 0.013; x < 1.2; x += 0.07) {
     EXPECT_LT((pattern.albedo(x, 0.23) - pattern.albedo(x - pattern.sides.x(), 0.23 + pattern.sides.y())).norm(), 1e-4);
   }
