@@ -60,7 +60,7 @@ class MapBrush {
 /// - tint: how much darker, or lighter, the floor looks
 class GroundMaps {
  public:
-  /// `key`: the depth map of the key light. `exposes`: the tint is of linear light.
+  /// `key`: the depth map of the key light.
   GroundMaps(const GlFunctions& gl, const MapBrush& brush, const RenderOptions& options, const LightMap& key);
   /// All but the tint.
   void draw(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const DrawFrame& frame,

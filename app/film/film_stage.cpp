@@ -59,23 +59,6 @@ Lighting lighting_of(const SceneRender& render, const std::optional<Environment>
   return lighting;
 }
 
-/// `size`: of the largest body, m.
-Floor floor_in(const SceneRender& render, double size) {
-  const double side = render.floor_size.value_or(round_length(kFloorSize * size));
-  switch (render.floor) {
-    case SceneFloor::kSweep:
-    case SceneFloor::kNone:
-      break;
-    case SceneFloor::kPlain:
-      return floor_of(FloorKind::kPlain, side);
-    case SceneFloor::kChecker:
-      return floor_of(FloorKind::kChecker, side);
-    case SceneFloor::kWood:
-      return floor_of(FloorKind::kWood, side);
-  }
-  return floor_of(FloorKind::kSweep, side);
-}
-
 Points rows_of(const Points& nodes, const std::vector<int>& rows) { return nodes(rows, Eigen::all); }
 
 }  // namespace
@@ -141,8 +124,9 @@ Stage FilmStage::stage(const AlignedBox& bounds, const std::optional<Environment
   }
   stage.color_map = scene_.render.springs ? spring_colors(scene_.render) : colors_.map();
   const std::optional<double> ground = ground_height(simulation_.world.obstacles);
-  stage.has_ground = ground && !scene_.render.transparent && scene_.render.floor != SceneFloor::kNone;
-  stage.floor = floor_in(scene_.render, simulation_.size);
+  stage.has_ground = ground && !scene_.render.transparent && scene_.render.floor != FloorKind::kNone;
+  stage.floor =
+      floor_of(scene_.render.floor, scene_.render.floor_size.value_or(round_length(kFloorSize * simulation_.size)));
   if (ground) stage.ground.height = *ground;
   stage.bounds = bounds;
   stage.lighting = lighting_of(scene_.render, environment);

@@ -8,6 +8,7 @@
 #include "core/simulation/scene.h"
 #include "render/image/color_map.h"
 #include "render/image/image.h"
+#include "render/stage/floor.h"
 #include "render/stage/lighting.h"
 
 namespace sprung {
@@ -46,9 +47,6 @@ enum class BrickView {
   kExploded  // with gaps between them
 };
 
-/// What the ground looks like.
-enum class SceneFloor { kSweep, kPlain, kChecker, kWood, kNone };
-
 /// What differs from the key light of the preset.
 struct SceneKeyLight {
   std::optional<double> azimuth{};    // degrees about y, as a camera's
@@ -68,7 +66,7 @@ struct SceneRender {
   std::optional<double> environment_turn;      // degrees about the vertical
   std::optional<bool> environment_sun;         // its sun is the key light; default: yes
   std::optional<bool> environment_background;  // default: no
-  SceneFloor floor = SceneFloor::kSweep;
+  FloorKind floor = FloorKind::kSweep;
   std::optional<double> floor_size;  // m, of a square or a board; default: by the bodies
   LightPreset light = LightPreset::kStudio;
   SceneKeyLight key_light;

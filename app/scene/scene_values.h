@@ -63,12 +63,12 @@ inline constexpr Names<LightPreset, 5> kNames<LightPreset>{"light",
                                                              {"overcast", LightPreset::kOvercast},
                                                              {"night", LightPreset::kNight}}}};
 template <>
-inline constexpr Names<SceneFloor, 5> kNames<SceneFloor>{"floor",
-                                                         {{{"sweep", SceneFloor::kSweep},
-                                                           {"plain", SceneFloor::kPlain},
-                                                           {"checker", SceneFloor::kChecker},
-                                                           {"wood", SceneFloor::kWood},
-                                                           {"none", SceneFloor::kNone}}}};
+inline constexpr Names<FloorKind, 5> kNames<FloorKind>{"floor",
+                                                       {{{"sweep", FloorKind::kSweep},
+                                                         {"plain", FloorKind::kPlain},
+                                                         {"checker", FloorKind::kChecker},
+                                                         {"wood", FloorKind::kWood},
+                                                         {"none", FloorKind::kNone}}}};
 template <>
 inline constexpr Names<RangeOver, 2> kNames<RangeOver>{"range of colours",
                                                        {{{"film", RangeOver::kFilm}, {"frame", RangeOver::kFrame}}}};

@@ -13,7 +13,7 @@ void main() {
   float shadow = textureLod(ground_shadow, ground_place, 0.0).r;
 #endif
 #if defined(SHARES)
-  result = vec4(1.0 - shadow, 1.0 - open_border(ground_place) * sky.a, 1.0, 1.0);
+  result = vec4(1.0 - shadow, 1.0 - hidden_sky(sky, ground_place), 1.0, 1.0);
 #elif defined(LIGHT)
   result = vec4(behind() * ground_light(sky, shadow, ground_place) / open_ground_light(), 1.0);
 #else

@@ -1,5 +1,5 @@
-// Half of how much lighter the floor looks than without bodies: a factor of the background. Exact where the background is as
-// bright as below, and within one level elsewhere, since it nearly is.
+// Half of how much lighter the floor looks than without bodies: a factor of the background. Exact where the background
+// is as bright as below, and within one level elsewhere, since it nearly is.
 in vec2 screen_place;
 out vec4 result;
 //!include ground_light.glsl

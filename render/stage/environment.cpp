@@ -113,10 +113,6 @@ Panorama reflection(const Panorama& source, int height, float roughness) {
   return smooth;
 }
 
-}  // namespace
-
-namespace {
-
 /// The scale at which a surface that faces the sun is as bright as one that faces the studio's key light, or else level
 /// ground as bright as under the studio's sky.
 float scale_of(const Environment& environment) {

@@ -119,7 +119,7 @@ Eigen::Vector2f Floor::end() const {
 }
 
 Floor floor_of(FloorKind kind, double size) {
-  Floor floor{.has_horizon = kind != FloorKind::kSweep};
+  Floor floor{.has_horizon = kind != FloorKind::kSweep && kind != FloorKind::kNone};
   if (kind == FloorKind::kChecker) floor.pattern = std::make_shared<const FloorPattern>(checker(size));
   if (kind == FloorKind::kWood) floor.pattern = std::make_shared<const FloorPattern>(boards(size));
   return floor;

@@ -11,7 +11,8 @@ enum class FloorKind {
   kSweep,    // blends into the background without a horizon
   kPlain,    // level, up to a horizon
   kChecker,  // squares of two greys
-  kWood      // boards along x
+  kWood,     // boards along x
+  kNone      // nothing is seen of the ground
 };
 
 /// A picture that repeats over the floor, from the origin of the world.
