@@ -76,7 +76,7 @@ void MapBrush::draw_depth(const LightMap& map, const LightView& view, const std:
   frame.set_common(depth_program_);
   depth_program_.set("clip_from_stage", view.clip_from_stage.cast<float>().eval());
   for (const SkinBuffers& skin : skins) {
-    if (!skin.is_ghost()) skin.draw(detail);
+    if (skin.casts_shadows()) skin.draw(detail);
   }
 }
 
@@ -172,7 +172,7 @@ void GroundMaps::draw_underside(const std::vector<SkinBuffers>& skins, const Tex
     program->set("clip_from_stage", frame.light.nadir.clip_from_stage.cast<float>().eval());
   }
   for (const SkinBuffers& skin : skins) {
-    if (!skin.is_ghost()) skin.draw(underside_programs_, textures, 0, Detail::kCoarsest);
+    if (skin.casts_shadows()) skin.draw(underside_programs_, textures, 0, Detail::kCoarsest);
   }
   gl_.Disable(GL_DEPTH_TEST);
   brush_.make_mipmaps(underside_color_.color);

@@ -10,6 +10,7 @@
 #include "render/gl/context.h"
 #include "render/gl/pass_clock.h"
 #include "render/pass_drawer.h"
+#include "render/picture_layers.h"
 #include "render/screen.h"
 #include "render/trace/gathered_light.h"
 #include "render/trace/path_tracer.h"
@@ -20,15 +21,6 @@ namespace {
 
 constexpr int kMostSamples = 4096;    // of traced pictures
 constexpr double kMostMotion = 0.25;  // of a body's radius; overlays jump
-
-/// Blends a share of another picture in.
-void mix(Image& image, const Image& other, double share) {
-  const auto mixed = [share](std::uint8_t a, std::uint8_t b) {
-    return static_cast<std::uint8_t>(std::lround((1 - share) * a + share * b));
-  };
-  std::transform(image.pixels.begin(), image.pixels.end(), other.pixels.begin(), image.pixels.begin(), mixed);
-  std::transform(image.alpha.begin(), image.alpha.end(), other.alpha.begin(), image.alpha.begin(), mixed);
-}
 
 std::vector<SkinShape> between(const std::vector<SkinShape>& first, const std::vector<SkinShape>& last, float part) {
   std::vector<SkinShape> shapes = first;
@@ -215,11 +207,11 @@ struct Renderer::Device {
     return view;
   }
 
-  void draw(const View& view, bool with_ghosts) { draw(screen, view, with_ghosts); }
+  void draw(const View& view, float least_opacity) { draw(screen, view, least_opacity); }
 
-  void draw(Screen& target, const View& view, bool with_ghosts) {
+  void draw(Screen& target, const View& view, float least_opacity) {
     target.clear_surfaces();
-    target.draw_surfaces(skins, textures, view, with_ghosts);
+    target.draw_surfaces(skins, textures, view, least_opacity);
     clock.stop("surfaces");
     target.draw_light(maps, view, clock);
   }
@@ -233,23 +225,22 @@ struct Renderer::Device {
   }
 
   /// The light maps must be those of the view.
-  void draw_light_passes(const View& view, Passes& out) {
+  void draw_light_passes(const View& view, const std::vector<PictureLayer>& layers, Passes& out) {
     if (!share_screen) make_light_screens();
     std::vector<Eigen::Vector4f> light;
     if (tracing) {
       light = std::exchange(tracing->light, {});
     } else if (light_screen) {
-      draw(*light_screen, view, false);
-      light = light_screen->read_numbers();
-      if (has_ghosts) {
-        draw(*light_screen, view, true);
-        const std::vector<Eigen::Vector4f> ghosts = light_screen->read_numbers();
-        for (std::size_t i = 0; i < light.size(); ++i) light[i] += float(kGhostOpacity) * (ghosts[i] - light[i]);
+      light.assign(out.shadow.size(), Eigen::Vector4f::Zero());
+      for (const PictureLayer& layer : layers) {
+        draw(*light_screen, view, layer.least_opacity);
+        const std::vector<Eigen::Vector4f> part = light_screen->read_numbers();
+        for (std::size_t i = 0; i < light.size(); ++i) light[i] += float(layer.weight) * part[i];
       }
     } else {
       light = screen.read_numbers();
     }
-    draw(*share_screen, view, false);
+    draw(*share_screen, view, 1);
     const std::vector<Eigen::Vector4f> shares = share_screen->read_numbers();
     for (std::size_t i = 0; i < light.size(); ++i) {
       for (std::size_t k = 0; k < 4; ++k) out.beauty[k][i] = light[i][Eigen::Index(k)];
@@ -268,12 +259,12 @@ struct Renderer::Device {
     share_screen.emplace(gl, single, floor, environment, ScreenOutput::kShares, gathering());
   }
 
-  void draw(const Exposure& exposure, const View& view, bool with_ghosts) {
-    if (&exposure.first == &exposure.last) return draw(view, with_ghosts);
+  void draw(const Exposure& exposure, const View& view, float least_opacity) {
+    if (&exposure.first == &exposure.last) return draw(view, least_opacity);
     screen.clear_surfaces();
     for (int turn = 0; turn < kTurns; ++turn) {
       update(between(exposure.first, exposure.last, (float(turn) + 0.5F) / kTurns));
-      screen.draw_surfaces(skins, textures, view, with_ghosts, turn);
+      screen.draw_surfaces(skins, textures, view, least_opacity, turn);
     }
     clock.stop("surfaces");
     screen.draw_light(maps, view, clock);
@@ -300,14 +291,14 @@ Image Renderer::draw(const std::vector<SkinShape>& shapes, const Camera& camera)
   const DrawFrame frame = device.frame(shapes);
   device.clock.stop("upload");
   const View view = device.light(shapes, frame, camera);
-  device.draw(view, false);
-  Image image = device.screen.read();
-  if (device.has_ghosts) {
-    device.draw(view, true);
-    mix(image, device.screen.read(), kGhostOpacity);
+  const std::vector<PictureLayer> layers = picture_layers(device.has_ghosts, shapes);
+  std::vector<Image> pictures;
+  for (const PictureLayer& layer : layers) {
+    device.draw(view, layer.least_opacity);
+    pictures.push_back(device.screen.read());
   }
   device.clock.stop("read back");
-  return image;
+  return mean_of(std::move(pictures), layers);
 }
 
 Image Renderer::draw(const std::vector<Exposure>& exposures) {
@@ -320,11 +311,9 @@ Image Renderer::draw(const std::vector<Exposure>& exposures) {
   for (const Exposure& exposure : exposures) {
     const std::vector<SkinShape> middle = between(exposure.first, exposure.last, 0.5F);
     const View view = device.light(middle, device.frame(exposure, middle), exposure.camera);
-    device.draw(exposure, view, false);
-    device.screen.add_exposure(device.maps, view, device.has_ghosts ? (1 - kGhostOpacity) * part : part);
-    if (device.has_ghosts) {
-      device.draw(exposure, view, true);
-      device.screen.add_exposure(device.maps, view, kGhostOpacity * part);
+    for (const PictureLayer& layer : picture_layers(device.has_ghosts, middle)) {
+      device.draw(exposure, view, layer.least_opacity);
+      device.screen.add_exposure(device.maps, view, layer.weight * part);
     }
   }
   Image image = device.screen.read();
@@ -345,7 +334,7 @@ Passes Renderer::draw_passes(const Moment& now, const Moment& before, const Mome
   Passes passes = device.passes->draw(device.skins, device.ids, views);
   static_cast<void>(device.light(now.shapes, frame, now.camera));
   if (device.tracing && device.tracing->light.empty()) device.tracing->draw({&now.shapes}, now.camera);
-  device.draw_light_passes(views.now, passes);
+  device.draw_light_passes(views.now, picture_layers(device.has_ghosts, now.shapes), passes);
   return passes;
 }
 

@@ -243,7 +243,7 @@ void Screen::clear_surfaces() const {
 /// The triangles are small, and llvmpipe would shade several times as many pixels as they cover. So the light is
 /// computed in a deferred pass, one triangle over the whole picture.
 void Screen::draw_surfaces(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const View& view,
-                           bool with_ghosts, int turn) const {
+                           float least_opacity, int turn) const {
   gl_.BindFramebuffer(GL_FRAMEBUFFER, surface_.name());
   gl_.Viewport(0, 0, side_ * width_, side_ * height_);
   gl_.Enable(GL_DEPTH_TEST);
@@ -254,10 +254,11 @@ void Screen::draw_surfaces(const std::vector<SkinBuffers>& skins, const TextureS
     view.frame.set_common(*program);
     program->set("clip_from_stage", view.clip_from_stage.cast<float>().eval());
     program->set("turn", turn);
+    program->set("least_opacity", least_opacity);
   }
   gl_.PolygonOffset(1, 1);  // puts ghosts behind a body in the same place
   for (const SkinBuffers& skin : skins) {
-    if (skin.is_ghost() && !with_ghosts) continue;
+    if (skin.is_ghost() && least_opacity > float(kGhostOpacity)) continue;
     if (skin.sides() != Sides::kBoth) gl_.Enable(GL_CULL_FACE);
     gl_.CullFace(skin.sides() == Sides::kFront ? GL_BACK : GL_FRONT);
     if (skin.is_ghost()) gl_.Enable(GL_POLYGON_OFFSET_FILL);

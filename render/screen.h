@@ -53,7 +53,7 @@ class Screen {
   void clear_surfaces() const;
   /// In the samples of one turn, where options say that pictures have exposures, or in all.
   void draw_surfaces(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const View& view,
-                     bool with_ghosts, int turn = kAllTurns) const;
+                     float least_opacity, int turn = kAllTurns) const;
   /// The picture, or one exposure of it.
   void draw_light(const LightMaps& maps, const View& view, PassClock& clock);
   /// For options that say that pictures have exposures, whose parts add up to 1.

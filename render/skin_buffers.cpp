@@ -23,7 +23,8 @@ enum Attribute : GLuint {
   kBefore,
   kAfter,
   kLight,
-  kThrough
+  kThrough,
+  kOpacity
 };  // as in surface.vert and passes.vert
 
 /// The square root of linear light: what the shaders multiply and keep.
@@ -94,6 +95,7 @@ SkinBuffers::SkinBuffers(const GlFunctions& gl, const Skin& skin, const Eigen::V
       uvs_(make_buffer(gl)),
       colors_(make_buffer(gl)),
       map_coordinates_(make_buffer(gl)),
+      opacities_(make_buffer(gl)),
       before_(make_buffer(gl)),
       after_(make_buffer(gl)),
       light_(make_buffer(gl)),
@@ -179,12 +181,19 @@ void SkinBuffers::update(const SkinShape& shape) {
   assert(shape.positions.rows() == shape.normals.rows());
   upload(gl_, positions_, shape.positions, GL_STREAM_DRAW);
   upload(gl_, normals_, shape.normals, GL_STREAM_DRAW);
-  is_mapped_ = shape.map_coordinates.size() > 0;
-  if (!is_mapped_) return;
-  assert(shape.positions.rows() == shape.map_coordinates.rows());
+  is_mapped_ = upload_number(map_coordinates_, shape.map_coordinates, kMapCoordinate);
+  is_faint_ = upload_number(opacities_, shape.opacities, kOpacity);
+  assert(!is_mapped_ || shape.positions.rows() == shape.map_coordinates.rows());
+  assert(!is_faint_ || shape.positions.rows() == shape.opacities.rows());
+}
+
+/// One a vertex, or none; returns whether there are any.
+bool SkinBuffers::upload_number(const GlBuffer& buffer, const Eigen::VectorXf& numbers, int attribute) const {
+  if (numbers.size() == 0) return false;
   gl_.BindVertexArray(array_.name());
-  upload(gl_, map_coordinates_, shape.map_coordinates, GL_STREAM_DRAW);
-  describe(gl_, kMapCoordinate, 1);
+  upload(gl_, buffer, numbers, GL_STREAM_DRAW);
+  describe(gl_, Attribute(attribute), 1);
+  return true;
 }
 
 void SkinBuffers::update_motion(const Floats3& before, const Floats3& after) {
@@ -228,6 +237,7 @@ void SkinBuffers::draw(const SkinPrograms& programs, const TextureSet& textures,
   gl_.BindVertexArray(array_.name());
   gl_.VertexAttrib4f(kUv, 0, 0, 0, 0);
   if (!has_colors_) gl_.VertexAttrib4f(kColor, 1, 1, 1, 1);
+  if (!is_faint_) gl_.VertexAttrib4f(kOpacity, 1, 1, 1, 1);
   if (is_mapped_) {
     use(programs.mapped, textures.color_map(), unit);
     draw(all_[std::size_t(detail)]);

@@ -61,6 +61,7 @@ class SkinBuffers {
   void draw(const SkinPrograms& programs, const TextureSet& textures, int unit, Detail detail) const;
   [[nodiscard]] Sides sides() const { return sides_; }
   [[nodiscard]] bool is_ghost() const { return is_ghost_; }
+  [[nodiscard]] bool casts_shadows() const { return !is_ghost_ && !is_faint_; }
 
  private:
   struct Range {  // of triangles in the index buffer
@@ -74,6 +75,7 @@ class SkinBuffers {
     int texture = 0;
   };
 
+  [[nodiscard]] bool upload_number(const GlBuffer& buffer, const Eigen::VectorXf& numbers, int attribute) const;
   void upload_light(const GlBuffer& buffer, const VertexLight& light, int attribute) const;
   void upload_indices(const std::array<const Triangles*, kDetails>& triangles);
   void upload_attributes(const Skin& skin);
@@ -88,6 +90,7 @@ class SkinBuffers {
   GlBuffer uvs_;
   GlBuffer colors_;
   GlBuffer map_coordinates_;
+  GlBuffer opacities_;
   GlBuffer before_;  // positions
   GlBuffer after_;
   GlBuffer light_;
@@ -99,6 +102,7 @@ class SkinBuffers {
   bool is_ghost_;
   bool has_colors_ = false;
   bool is_mapped_ = false;
+  bool is_faint_ = false;
   std::vector<Paint> paints_;
 };
 

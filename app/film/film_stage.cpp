@@ -23,6 +23,7 @@ constexpr double kContactRadius = 0.16;  // of a brick
 constexpr std::size_t kMostContacts = 600;
 constexpr double kSpringRadius = 0.014;  // at rest, of a brick
 constexpr double kSpringGrowth = 2.5;    // of the radius, to the ends of the colours
+constexpr double kOpaqueSpring = 0.25;   // of the stretch at the ends of the colours
 constexpr double kLeastStretch = 1e-6;   // at the ends of the colours
 constexpr double kSmoothness = 0.1;      // pixels between a curved skin and its triangles
 constexpr double kEdgeRadius = 0.35;     // pixels
@@ -37,6 +38,13 @@ constexpr double kUtmost = 0.01;         // fraction of the springs that may exc
 
 /// By default blue in compression, red in tension, pale at rest.
 ColorMap spring_colors(const SceneRender& render) { return render.color_map.value_or(ColorMap::kEmber); }
+
+/// Of a spring that is stretched or pressed by that share of what the ends of the colours stand for.
+double spring_opacity(double share) {
+  const double wanted = std::lerp(kOpacities.front(), 1.0, share / kOpaqueSpring);
+  const auto more = std::find_if(kOpacities.begin() + 1, kOpacities.end(), [&](double o) { return o > wanted; });
+  return *(more - 1);
+}
 
 int id_of(std::size_t actor) { return int(actor) + 1; }
 
@@ -232,7 +240,11 @@ void FilmStage::add_springs(std::size_t actor) {
   const auto shape = [this, springs, rods](const Points& nodes, std::size_t frame) {
     const auto [low, high] = range_in(stretches_, frame);
     const Eigen::VectorXd coordinates = ((springs->stretches(nodes).array() - low) / (high - low)).max(0.0).min(1.0);
-    return rods->between(nodes, springs->nodes, coordinates, 1 + 2 * kSpringGrowth * (coordinates.array() - 0.5).abs());
+    const Eigen::VectorXd shares = 2 * (coordinates.array() - 0.5).abs();
+    return rods->between(nodes, springs->nodes,
+                         {.coordinates = coordinates,
+                          .widths = 1 + kSpringGrowth * shares.array(),
+                          .opacities = shares.unaryExpr(&spring_opacity)});
   };
   const auto skin = std::make_shared<const Skin>(with_shape(rods->skin(), shape(body.rest_positions, 0)));
   items_.push_back({skin, Eigen::Vector3f::Ones(), Look::kChart, false, id_of(actor),
@@ -273,7 +285,7 @@ void FilmStage::add_edges(std::size_t row) {
   const auto shape = [&body, rods, edges, widths,
                       interpolation = scene_.bodies[body.origin.body].skin](const Points& nodes) {
     const SkinShape skin = shape_of(body.grid, body.skin, body.skin_embedding, nodes, interpolation);
-    return rods->between(skin.positions.cast<double>(), edges, {}, widths);
+    return rods->between(skin.positions.cast<double>(), edges, {.widths = widths});
   };
   const auto skin = std::make_shared<const Skin>(with_shape(rods->skin(), shape(body.rest_positions)));
   items_.push_back({skin, kEdgeColor, Look::kChart, false, id_of(row),
@@ -349,7 +361,7 @@ void FilmStage::add_trace(const ProbeTrack& track, const Eigen::Vector3f& color)
       from.row(i) = track.samples[std::min(row, frame)].position.transpose();
       to.row(i) = track.samples[std::min(row + 1, frame)].position.transpose();
     }
-    return rods->shape(from, to, {});
+    return rods->shape(from, to);
   };
   const auto skin = std::make_shared<const Skin>(with_shape(rods->skin(), shape(track.samples.size() - 1)));
   items_.push_back({skin, color, Look::kPlastic, false, 0, [shape](const Moment& now) { return shape(now.frame); }});

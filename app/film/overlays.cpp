@@ -59,6 +59,10 @@ void reserve(Skin& skin, Eigen::Index vertices, Eigen::Index triangles) {
   skin.triangles.resize(triangles, 3);
 }
 
+Eigen::VectorXf of_vertices(const Eigen::VectorXd& of_rods) {
+  return of_rods.transpose().replicate<kRodVertices, 1>().reshaped().cast<float>();
+}
+
 }  // namespace
 
 Rods::Rods(std::size_t count, double radius) : radius_(radius) {
@@ -75,16 +79,16 @@ Rods::Rods(std::size_t count, double radius) : radius_(radius) {
   }
 }
 
-SkinShape Rods::shape(const Points& from, const Points& to, const Eigen::VectorXd& coordinates,
-                      const Eigen::VectorXd& widths) const {
+SkinShape Rods::shape(const Points& from, const Points& to, const RodLooks& looks) const {
   SkinShape shape;
   shape.positions.resize(kRodVertices * from.rows(), 3);
   shape.normals.resize(kRodVertices * from.rows(), 3);
-  if (coordinates.size() > 0) shape.map_coordinates.resize(kRodVertices * from.rows());
+  shape.map_coordinates = of_vertices(looks.coordinates);
+  shape.opacities = of_vertices(looks.opacities);
   for (Eigen::Index rod = 0; rod < from.rows(); ++rod) {
     Vec3 way = to.row(rod) - from.row(rod);
     if (way.isZero(0)) way = Vec3::UnitX();  // of no length: nothing to see, but finite
-    const double radius = widths.size() > 0 ? widths[rod] * radius_ : radius_;
+    const double radius = looks.widths.size() > 0 ? looks.widths[rod] * radius_ : radius_;
     const Vec3 across = way.unitOrthogonal();
     const Vec3 third = way.stableNormalized().cross(across);
     for (int vertex = 0; vertex < kRodVertices; ++vertex) {
@@ -94,21 +98,20 @@ SkinShape Rods::shape(const Points& from, const Points& to, const Eigen::VectorX
       const Vec3 end = vertex < kSides ? from.row(rod) : to.row(rod);
       shape.positions.row(row) = (end + radius * normal).cast<float>().transpose();
       shape.normals.row(row) = normal.cast<float>().transpose();
-      if (coordinates.size() > 0) shape.map_coordinates[row] = float(coordinates[rod]);
     }
   }
   return shape;
 }
 
 SkinShape Rods::between(const Points& points, const std::vector<std::array<int, 2>>& pairs,
-                        const Eigen::VectorXd& coordinates, const Eigen::VectorXd& widths) const {
+                        const RodLooks& looks) const {
   Points from(pairs.size(), 3);
   Points to(pairs.size(), 3);
   for (Eigen::Index i = 0; i < from.rows(); ++i) {
     from.row(i) = points.row(pairs[i][0]);
     to.row(i) = points.row(pairs[i][1]);
   }
-  return shape(from, to, coordinates, widths);
+  return shape(from, to, looks);
 }
 
 std::vector<std::array<int, 2>> edges_of(const Triangles& triangles) {

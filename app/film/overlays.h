@@ -12,19 +12,24 @@
 
 namespace sprung {
 
+/// One number a rod each, or none.
+struct RodLooks {
+  Eigen::VectorXd coordinates{};  // on the colour map
+  Eigen::VectorXd widths{};       // factors of the radius
+  Eigen::VectorXd opacities{};    // SkinShape::opacities
+};
+
 /// Three-sided prisms between pairs of points, for springs and traces, which are too thin for their shading to show.
 class Rods {
  public:
   /// `radius` in m.
   Rods(std::size_t count, double radius);
   [[nodiscard]] const Skin& skin() const { return skin_; }
-  /// Rod i goes from from[i] to to[i]; `coordinates` on the colour map and `widths`, factors of the radius: one per
-  /// rod, or none.
-  [[nodiscard]] SkinShape shape(const Points& from, const Points& to, const Eigen::VectorXd& coordinates,
-                                const Eigen::VectorXd& widths = {}) const;
+  /// Rod i goes from from[i] to to[i].
+  [[nodiscard]] SkinShape shape(const Points& from, const Points& to, const RodLooks& looks = {}) const;
   /// Rod i goes from one point of a pair to the other.
   [[nodiscard]] SkinShape between(const Points& points, const std::vector<std::array<int, 2>>& pairs,
-                                  const Eigen::VectorXd& coordinates = {}, const Eigen::VectorXd& widths = {}) const;
+                                  const RodLooks& looks = {}) const;
 
  private:
   double radius_;

@@ -15,7 +15,8 @@
 namespace sprung {
 namespace {
 
-constexpr int kSharedPerTask = 64;  // rows
+constexpr int kSharedPerTask = 256;  // rows
+constexpr int kFewBricks = 4000;     // done sooner by one thread than another one wakes up
 
 PassInput input_of(const Body& body, Pass pass) {
   PassInput input;
@@ -47,11 +48,13 @@ void each(std::size_t count, std::size_t per_task, const Visit& visit) {
 
 }  // namespace
 
-void SpringSystem::run(const BrickTiles& tiles, const PassInput& input) {
+void SpringSystem::run(const Body& body, const PassInput& input) {
+  const BrickTiles& tiles = *body.tiles;
+  const std::size_t tiles_per_task = body.grid.brick_count() < kFewBricks ? tiles.tiles.size() : 1;
   shared_.resize(tiles.shared_size);
   energies_.assign(tiles.tiles.size(), {});
   scratch_.resize(tbb::this_task_arena::max_concurrency());
-  each(tiles.tiles.size(), 1, [&](std::size_t i) {
+  each(tiles.tiles.size(), tiles_per_task, [&](std::size_t i) {
     const BrickTile& tile = tiles.tiles[i];
     // Below 0: a thread that has met no task yet.
     const int thread = std::max(0, tbb::this_task_arena::current_thread_index());
@@ -68,7 +71,7 @@ void SpringSystem::forces(const Body& body, Points& forces) {
   PassInput input = input_of(body, Pass::kForces);
   forces.resize(body.node_count(), 3);
   input.forces = forces.data();
-  run(*body.tiles, input);
+  run(body, input);
   // Numbers that are not finite must not wait in the scratch: lanes behind a run are computed too, times zero.
   if (!forces.allFinite()) scratch_.clear();
 }
@@ -89,13 +92,13 @@ void SpringSystem::run_product(const Body& body, PassInput input, const Eigen::V
   product.resize(u.size());
   input.velocities = const_cast<double*>(u.data());
   input.forces = product.data();
-  run(*body.tiles, input);
+  run(body, input);
   if (!product.allFinite()) scratch_.clear();
 }
 
 double SpringSystem::energy(const Body& body) {
   PassInput input = input_of(body, Pass::kEnergy);
-  run(*body.tiles, input);
+  run(body, input);
   double sum = 0;
   for (const auto& lanes : energies_) {
     for (const double energy : lanes) sum += energy;
@@ -112,7 +115,7 @@ void SpringSystem::move(Body& body, const Step& step, const Eigen::VectorXd& inv
   input.kick = step.kick;
   input.keep = 1 - step.kick * step.damping.alpha;
   for (int k = 0; k < 3; ++k) input.gravity_kick[k] = step.kick * step.gravity[k];
-  run(*body.tiles, input);
+  run(body, input);
 }
 
 namespace {

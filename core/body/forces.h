@@ -41,7 +41,7 @@ class SpringSystem {
   void move(Body& body, const Step& step, const Eigen::VectorXd& inverse_masses);
 
  private:
-  void run(const BrickTiles& tiles, const PassInput& input);
+  void run(const Body& body, const PassInput& input);
   void run_product(const Body& body, PassInput input, const Eigen::VectorXd& u, Eigen::VectorXd& product);
 
   /// Scratch in whole cache lines: a pack that lies across two costs twice.

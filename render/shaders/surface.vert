@@ -3,6 +3,7 @@ layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 uv;
 layout(location = 3) in vec4 color;  // square root of linear
+layout(location = 9) in float opacity;
 #ifdef GATHERED
 layout(location = 7) in vec4 light;
 out vec4 vertex_light;
@@ -19,6 +20,7 @@ out float map_coordinate;
 uniform vec3 stage_center;  // m
 uniform float stage_scale;  // 1/m
 uniform mat4 clip_from_stage;
+uniform float least_opacity;  // of what is drawn
 
 out vec3 place;
 out vec3 surface_normal;
@@ -39,5 +41,5 @@ void main() {
 #ifdef THROUGH
   vertex_through = through;
 #endif
-  gl_Position = clip_from_stage * vec4(place, 1.0);
+  gl_Position = opacity < least_opacity ? vec4(0.0, 0.0, 2.0, 1.0) : clip_from_stage * vec4(place, 1.0);
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -19,6 +20,10 @@ struct SkinShape {
   Floats3 normals;    // n x 3, any length
   Eigen::VectorXf map_coordinates =
       {};  // n, on the stage's colour map: 0 to 1, plus 2 for darker lines; no rows: the skin's own colours
+  /// n, of kOpacities, the same at all corners of a triangle: the skin casts no shadow. No rows: opaque.
+  Eigen::VectorXf opacities = {};
+
+  [[nodiscard]] bool is_faint() const { return opacities.size() > 0; }
 };
 
 /// Shapes by time, at equal steps while the shutter is open, and skin; a single one is of a moment.
@@ -42,6 +47,9 @@ struct RenderOptions {
 };
 
 inline constexpr double kGhostOpacity = 0.28;
+
+/// That something in a picture can have.
+inline constexpr std::array kOpacities{0.18, kGhostOpacity, 0.6, 1.0};
 
 /// What does not change during a film: the skins at rest (indices, UVs, colours, textures), ground and light.
 struct Stage {

@@ -120,6 +120,7 @@ void GatheredLight::set_shapes(const std::vector<SkinShape>& shapes, const Vecto
   shapes_ = shapes;
   glow_.reset();
   std::vector<Floats3> positions;
+  std::vector<std::vector<float>> opacities(shapes.size());
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     SkinLight& light = skins_[i];
     light.positions = in_stage_space(shapes[i].positions, space_);
@@ -128,8 +129,9 @@ void GatheredLight::set_shapes(const std::vector<SkinShape>& shapes, const Vecto
     light.of_probes.assign(light.probes.vertices.size(), Vector4f::Zero());
     light.through_to_probes = light.of_probes;
     positions.push_back(light.positions);
+    if (shapes[i].is_faint()) opacities[i].assign(std::size_t(light.triangles.rows()), 1);
   }
-  rays_->update({positions});
+  rays_->update({positions}, std::move(opacities));
 }
 
 /// Probes of vertices of triangles that face the eye or, as bodies move while the shutter is open, nearly do.

@@ -72,6 +72,8 @@ LightPaths::LightPaths(const Stage& stage, const StageLight& light, const Finish
 
 void LightPaths::update(const Motion& motion) {
   skins_.update(motion);
+  const std::vector<SkinShape>& shapes = *motion.front();
+  has_faint_skins_ = std::any_of(shapes.begin(), shapes.end(), [](const SkinShape& s) { return s.is_faint(); });
   region_ = BodyRegion(motion, space_, ground_height_, light_.to_key().cast<double>());
 }
 
@@ -81,14 +83,14 @@ std::optional<float> LightPaths::way_to_floor(const Ray& ray) const {
   return (ground_height_ - ray.origin.y()) / ray.direction.y();
 }
 
-LightPaths::Meeting LightPaths::meet(Ray ray, bool sees_ghosts) const {
+LightPaths::Meeting LightPaths::meet(Ray ray, float opacity) const {
   Meeting meeting;
   if (const std::optional<float> way = way_to_floor(ray)) {
     ray.far = *way;
     meeting.seen = Seen::kFloor;
   }
   if (region_.is_met_by(ray)) {
-    if (const std::optional<SurfacePoint> point = skins_.first_hit(ray, sees_ghosts)) return {Seen::kSkin, *point};
+    if (const std::optional<SurfacePoint> point = skins_.first_hit(ray, opacity)) return {Seen::kSkin, *point};
   }
   if (meeting.seen == Seen::kBackground) return meeting;
   meeting.point.position = ray.origin + ray.far * ray.direction;
@@ -295,8 +297,8 @@ bool LightPaths::sees_skin(Ray from_eye) const {
   return is_blocked(from_eye);
 }
 
-PathSample LightPaths::sample(const Ray& from_eye, bool sees_ghosts, Sampler& sampler) const {
-  const Meeting meeting = meet(from_eye, sees_ghosts);
+PathSample LightPaths::sample(const Ray& from_eye, float opacity, Sampler& sampler) const {
+  const Meeting meeting = meet(from_eye, opacity);
   PathSample sample{.seen = meeting.seen};
   sample.position = meeting.point.position;
   if (meeting.seen != Seen::kSkin) {

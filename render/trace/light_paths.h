@@ -42,15 +42,16 @@ class LightPaths {
   /// The shapes must stay as they are until the next.
   void update(const Motion& motion);
   [[nodiscard]] const StageSpace& space() const { return space_; }
-  [[nodiscard]] bool has_ghosts() const { return has_ghosts_; }
+  /// Whether ghosts, or anything else that is not opaque, is to be seen.
+  [[nodiscard]] bool has_faint() const { return has_ghosts_ || has_faint_skins_; }
   /// Whether the floor looks different from pixel to pixel.
   [[nodiscard]] bool has_pattern() const { return pattern_ != nullptr; }
 
   /// Whether the ray certainly meets no body and nothing that one does to the floor.
   [[nodiscard]] bool sees_nothing(const Ray& from_eye) const;
   [[nodiscard]] bool sees_skin(Ray from_eye) const;
-  /// May run on several threads.
-  [[nodiscard]] PathSample sample(const Ray& from_eye, bool sees_ghosts, Sampler& sampler) const;
+  /// `opacity`: as for RayScene::first_hit(). May run on several threads.
+  [[nodiscard]] PathSample sample(const Ray& from_eye, float opacity, Sampler& sampler) const;
   /// The light that arrives along a ray.
   [[nodiscard]] Eigen::Vector3f arriving(const Ray& ray, Sampler& sampler) const {
     return arriving({.ray = ray}, meet(ray), sampler);
@@ -82,7 +83,7 @@ class LightPaths {
 
   [[nodiscard]] std::optional<float> way_to_floor(const Ray& ray) const;
   [[nodiscard]] bool is_blocked(const Ray& ray) const { return region_.is_met_by(ray) && skins_.is_blocked(ray); }
-  [[nodiscard]] Meeting meet(Ray ray, bool sees_ghosts = false) const;
+  [[nodiscard]] Meeting meet(Ray ray, float opacity = 1) const;
   [[nodiscard]] Eigen::Vector3f floor_albedo(const Eigen::Vector3f& position) const;
   [[nodiscard]] const Finish& finish(const Meeting& meeting, bool is_matt) const;
   [[nodiscard]] Scattering scatter(const Way& way, const Meeting& meeting, Sampler& sampler) const;
@@ -108,6 +109,7 @@ class LightPaths {
   std::shared_ptr<const FloorPattern> pattern_;
   bool has_ground_;
   bool has_ghosts_;
+  bool has_faint_skins_ = false;
   float ground_height_;  // stage space
   BodyRegion region_;
 };

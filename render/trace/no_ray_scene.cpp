@@ -15,8 +15,9 @@ RayScene::RayScene(const std::vector<const Triangles*>& /*triangles*/, const std
 }
 
 RayScene::~RayScene() = default;
-void RayScene::update(const std::vector<std::vector<Floats3>>& /*positions*/) {}
-std::optional<RayHit> RayScene::first_hit(const Ray& /*ray*/, bool /*sees_ghosts*/) const { return std::nullopt; }
+void RayScene::update(const std::vector<std::vector<Floats3>>& /*positions*/,
+                      std::vector<std::vector<float>> /*opacities*/) {}
+std::optional<RayHit> RayScene::first_hit(const Ray& /*ray*/, float /*opacity*/) const { return std::nullopt; }
 bool RayScene::is_blocked(const Ray& /*ray*/) const { return false; }
 
 }  // namespace sprung

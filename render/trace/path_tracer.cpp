@@ -168,8 +168,8 @@ class PixelSampler {
       const Eigen::Vector2f lens = rays_.has_lens() ? sampler.pair() : Eigen::Vector2f::Zero();
       Ray ray = through(x, y, inside, lens);
       if (moves_) ray.time = sampler.number();
-      const bool sees_ghosts = paths_.has_ghosts() && sampler.number() < float(kGhostOpacity);
-      sum.add(paths_.sample(ray, sees_ghosts, sampler));
+      const float opacity = paths_.has_faint() ? sampler.number() : 1;
+      sum.add(paths_.sample(ray, opacity, sampler));
     }
   }
 

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/error.h"
+#include "render/stage/stage.h"
 
 namespace sprung {
 namespace {
@@ -30,6 +31,20 @@ RTCRay embree_ray(const Ray& ray) {
   return result;
 }
 
+/// A search for what is more opaque than that.
+struct Search : RTCIntersectContext {
+  float opacity;
+
+  explicit Search(float least) : RTCIntersectContext(), opacity(least) { rtcInitIntersectContext(this); }
+};
+
+/// Lets rays through triangles that their search does not see.
+void pass_faint(const RTCFilterFunctionNArguments* found) {
+  const auto& opacities = *static_cast<const std::vector<float>*>(found->geometryUserPtr);
+  const float opacity = opacities[RTCHitN_primID(found->hit, 1, 0)];
+  if (opacity <= static_cast<const Search*>(found->context)->opacity) found->valid[0] = 0;
+}
+
 }  // namespace
 
 struct RayScene::Embree {
@@ -38,6 +53,7 @@ struct RayScene::Embree {
   RTCScene ghosts;
   std::vector<RTCGeometry> geometries;        // by skin
   std::vector<std::vector<Corner*>> corners;  // by skin and time
+  std::vector<std::vector<float>> opacities;  // by skin and triangle; none: opaque
 
   /// Without Embree's robust flag, with which tracing takes a tenth longer: of a million rays one or two slip between
   /// triangles.
@@ -82,9 +98,16 @@ RayScene::RayScene(const std::vector<const Triangles*>& triangles, const std::ve
 
 RayScene::~RayScene() = default;
 
-void RayScene::update(const std::vector<std::vector<Floats3>>& positions) {
+void RayScene::update(const std::vector<std::vector<Floats3>>& positions, std::vector<std::vector<float>> opacities) {
   const bool fits = !embree_->corners.empty() && embree_->corners.front().size() == positions.size();
   if (!fits) embree_->make_room(positions);
+  embree_->opacities = std::move(opacities);
+  for (std::size_t i = 0; i < embree_->opacities.size(); ++i) {
+    const bool is_faint = !embree_->opacities[i].empty();
+    rtcSetGeometryUserData(embree_->geometries[i], &embree_->opacities[i]);
+    rtcSetGeometryIntersectFilterFunction(embree_->geometries[i], is_faint ? pass_faint : nullptr);
+    rtcSetGeometryOccludedFilterFunction(embree_->geometries[i], is_faint ? pass_faint : nullptr);
+  }
   for (std::size_t i = 0; i < embree_->geometries.size(); ++i) {
     for (std::size_t time = 0; time < positions.size(); ++time) {
       const Floats3& from = positions[time][i];
@@ -111,14 +134,13 @@ bool is_finite(const Ray& ray) { return ray.origin.allFinite() && ray.direction.
 
 }  // namespace
 
-std::optional<RayHit> RayScene::first_hit(const Ray& ray, bool sees_ghosts) const {
+std::optional<RayHit> RayScene::first_hit(const Ray& ray, float opacity) const {
   if (!is_finite(ray)) return std::nullopt;
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
+  Search search(opacity);
   RTCRayHit found{embree_ray(ray), {}};
   found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(embree_->bodies, &context, &found);
-  if (sees_ghosts) rtcIntersect1(embree_->ghosts, &context, &found);
+  rtcIntersect1(embree_->bodies, &search, &found);
+  if (opacity < float(kGhostOpacity)) rtcIntersect1(embree_->ghosts, &search, &found);
   if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
   return RayHit{int(found.hit.geomID), int(found.hit.primID), found.hit.u,
                 found.hit.v,           found.ray.tfar,        {found.hit.Ng_x, found.hit.Ng_y, found.hit.Ng_z}};
@@ -126,10 +148,9 @@ std::optional<RayHit> RayScene::first_hit(const Ray& ray, bool sees_ghosts) cons
 
 bool RayScene::is_blocked(const Ray& ray) const {
   if (!is_finite(ray)) return false;
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
+  Search search(1);
   RTCRay shadow = embree_ray(ray);
-  rtcOccluded1(embree_->bodies, &context, &shadow);
+  rtcOccluded1(embree_->bodies, &search, &shadow);
   return shadow.tfar < 0;
 }
 

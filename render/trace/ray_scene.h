@@ -37,11 +37,13 @@ class RayScene {
   RayScene(const RayScene&) = delete;
   RayScene& operator=(const RayScene&) = delete;
 
-  /// Positions (n x 3, stage space) by time, which must be as many for all skins, and skin.
-  void update(const std::vector<std::vector<Floats3>>& positions);
+  /// Positions (n x 3, stage space) by time, which must be as many for all skins, and skin. `opacities`: by skin and
+  /// triangle, none for opaque skins; the others hide nothing from light.
+  void update(const std::vector<std::vector<Floats3>>& positions, std::vector<std::vector<float>> opacities = {});
 
   /// These two may run on several threads.
-  [[nodiscard]] std::optional<RayHit> first_hit(const Ray& ray, bool sees_ghosts = false) const;
+  /// Of opaque skins, and of what is more opaque than `opacity` (0 to 1) in others.
+  [[nodiscard]] std::optional<RayHit> first_hit(const Ray& ray, float opacity = 1) const;
   [[nodiscard]] bool is_blocked(const Ray& ray) const;
 
  private:

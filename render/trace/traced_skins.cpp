@@ -58,11 +58,19 @@ void TracedSkins::update(const Motion& motion) {
       }
     }
   }
-  rays_.update(positions);
+  std::vector<std::vector<float>> opacities(skins_.size());
+  for (std::size_t i = 0; i < skins_.size(); ++i) {
+    const SkinShape& shape = (*motion.front())[i];
+    const Triangles& triangles = skins_[i]->triangles;
+    for (Eigen::Index t = 0; shape.is_faint() && t < triangles.rows(); ++t) {
+      opacities[i].push_back(shape.opacities[triangles(t, 0)]);
+    }
+  }
+  rays_.update(positions, std::move(opacities));
 }
 
-std::optional<SurfacePoint> TracedSkins::first_hit(const Ray& ray, bool sees_ghosts) const {
-  const std::optional<RayHit> hit = rays_.first_hit(ray, sees_ghosts);
+std::optional<SurfacePoint> TracedSkins::first_hit(const Ray& ray, float opacity) const {
+  const std::optional<RayHit> hit = rays_.first_hit(ray, opacity);
   return hit ? std::optional(surface(ray, *hit)) : std::nullopt;
 }
 

@@ -33,7 +33,8 @@ class TracedSkins {
   /// The shapes must stay as they are until the next.
   void update(const Motion& motion);
 
-  [[nodiscard]] std::optional<SurfacePoint> first_hit(const Ray& ray, bool sees_ghosts = false) const;
+  /// As RayScene::first_hit().
+  [[nodiscard]] std::optional<SurfacePoint> first_hit(const Ray& ray, float opacity = 1) const;
   [[nodiscard]] bool is_blocked(const Ray& ray) const { return rays_.is_blocked(ray); }
 
  private:
