@@ -98,7 +98,7 @@ double longest_way(const DrawFrame& frame) {
 }
 
 /// Texels along the ground's shadow, which is soft.
-int shadow_size(Quality quality) { return quality == Quality::kHigh ? 640 : quality == Quality::kDefault ? 384 : 256; }
+int shadow_size(Quality quality) { return quality == Quality::kHigh ? 640 : quality == Quality::kDefault ? 384 : 192; }
 
 std::string shadow_settings(Quality quality) {
   const bool is_high = quality == Quality::kHigh;
@@ -294,7 +294,7 @@ constexpr int kZenithDepthSize = 2 * kZenithSize;
 constexpr double kZenithBlur = 0.45;  // of a body's radius: three standard deviations
 
 /// Texels along the key light's map.
-int key_size(Quality quality) { return quality == Quality::kHigh ? 2048 : quality == Quality::kDefault ? 768 : 512; }
+int key_size(Quality quality) { return quality == Quality::kHigh ? 2048 : quality == Quality::kDefault ? 768 : 384; }
 
 }  // namespace
 

@@ -25,7 +25,7 @@ inline constexpr TextureFormat kFlatColor{GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, f
 inline constexpr TextureFormat kMask{GL_RG16, GL_RG, GL_UNSIGNED_SHORT, true, true, GL_CLAMP_TO_BORDER};
 inline constexpr TextureFormat kFineColor{GL_RGBA16, GL_RGBA, GL_UNSIGNED_SHORT, false, true, GL_CLAMP_TO_EDGE};
 inline constexpr TextureFormat kShadow{GL_R8, GL_RED, GL_UNSIGNED_BYTE, true, true, GL_CLAMP_TO_EDGE};
-inline constexpr TextureFormat kMoments{GL_RG32F, GL_RG, GL_FLOAT, false, true, GL_CLAMP_TO_EDGE};
+inline constexpr TextureFormat kMoments{GL_RG16, GL_RG, GL_UNSIGNED_SHORT, false, true, GL_CLAMP_TO_EDGE};
 }  // namespace map_format
 
 /// Draws into light maps.

@@ -1,7 +1,7 @@
 // Draws a scene's bodies as they start, some pictures of 1280 x 720, and prints what each stage of a picture takes:
 // skins, every pass of the renderer, PNG, a film's encoder, and one picture in final quality. Arguments: the scene (a
-// .toml file) and the number of pictures. Measured pass by pass, so that nothing overlaps; only the line "overlapping"
-// is a picture with everything at once.
+// .toml file), whose quality is taken, and the number of pictures. Measured pass by pass, so that nothing overlaps;
+// only the line "overlapping" is a picture with everything at once.
 #include <fmt/format.h>
 
 #include <array>
@@ -22,7 +22,9 @@ namespace {
 
 using namespace sprung;
 
-constexpr RenderOptions kPicture{.width = 1280, .height = 720, .samples = 4, .measure_passes = true};
+RenderOptions options_of(Quality quality) {
+  return {.width = 1280, .height = 720, .samples = samples_of(quality), .measure_passes = true, .quality = quality};
+}
 
 class Stopwatch {
  public:
@@ -96,7 +98,7 @@ void print_passes(const std::vector<PassTime>& first, const std::vector<PassTime
 /// As a film is made: skins, drawing, PNG and film at once.
 void overlapped(const Subject& subject, const std::filesystem::path& folder, int pictures) {
   const std::vector<Output> outputs = parse_outputs({(folder / "p").string(), (folder / "q.mp4").string()});
-  RenderOptions options = kPicture;
+  RenderOptions options = options_of(subject.scene.render.quality);
   options.measure_passes = false;
   Renderer renderer(subject.stage, options);
   Image warm = renderer.draw(subject.shapes, subject.camera);
@@ -111,9 +113,7 @@ void overlapped(const Subject& subject, const std::filesystem::path& folder, int
 
 /// One picture, since it takes as long as twenty others.
 void final_quality(const Subject& subject) {
-  RenderOptions options = kPicture;
-  options.quality = Quality::kFinal;
-  options.samples = 16;
+  const RenderOptions options = options_of(Quality::kFinal);
   Renderer renderer(subject.stage, options);
   const Image first = renderer.draw(subject.shapes, subject.camera);
   Stopwatch watch;
@@ -130,7 +130,7 @@ void run(const std::filesystem::path& scene, int pictures) {
   for (int i = 0; i < pictures; ++i) (void)subject.film.shapes(0);
   watch.print("skins", pictures);
 
-  Renderer renderer(subject.stage, kPicture);
+  Renderer renderer(subject.stage, options_of(subject.scene.render.quality));
   Image image = renderer.draw(subject.shapes, subject.camera);  // compiles the shaders
   const std::vector<PassTime> first = renderer.pass_times();
   const std::array<std::vector<SkinShape>, 2> shapes{subject.shapes_of(0), subject.shapes_of(1)};
