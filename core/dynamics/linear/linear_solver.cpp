@@ -81,6 +81,8 @@ class DefaultSolver : public LinearSolver {
     return direct_->solve(forces, tolerance);
   }
 
+  [[nodiscard]] Eigen::VectorXd downhill() const override { return now().downhill(); }
+
   [[nodiscard]] SolveReport report() const override {
     SolveReport report = multigrid_->report();
     report.solves += direct_->report().solves - gone_direct_;

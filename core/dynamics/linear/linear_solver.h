@@ -71,6 +71,11 @@ class LinearSolver {
   /// definite, or no answer is found.
   [[nodiscard]] virtual Eigen::VectorXd solve(const Eigen::VectorXd& forces, double tolerance) = 0;
 
+  /// After a solve() that met a direction of negative curvature: what it had found before, and that direction as far
+  /// as a curvature of the opposite sign would lead; the energy falls along both (Steihaug, SIAM J. Numer. Anal. 20,
+  /// 1983). Otherwise, and from solvers that meet none, empty.
+  [[nodiscard]] virtual Eigen::VectorXd downhill() const { return {}; }
+
   [[nodiscard]] virtual SolveReport report() const = 0;
 };
 
@@ -109,10 +114,12 @@ struct StoppingCriterion {
 
 /// Solves A x = forces by flexible conjugate gradients (Polak-Ribiere: rounding makes a preconditioner not quite the
 /// same in each iteration), by multiply(x, product) and precondition(residual, answer). `forces` and what these give
-/// are zero where A is. Empty where A is not positive definite, or no answer is found.
+/// are zero where A is. Empty where A is not positive definite, or no answer is found. `downhill`: as
+/// LinearSolver::downhill() has it.
 template <class Multiply, class Precondition>
 Eigen::VectorXd conjugate_gradients(const Eigen::VectorXd& forces, const StoppingCriterion& end,
-                                    const Multiply& multiply, const Precondition& precondition, SolveReport& report) {
+                                    const Multiply& multiply, const Precondition& precondition, SolveReport& report,
+                                    Eigen::VectorXd* downhill = nullptr) {
   ++report.solves;
   Eigen::VectorXd residual = forces;
   Eigen::VectorXd x = Eigen::VectorXd::Zero(residual.size());
@@ -130,6 +137,7 @@ Eigen::VectorXd conjugate_gradients(const Eigen::VectorXd& forces, const Stoppin
     const double curvature = direction.dot(product);
     if (!(curvature > 0)) {
       ++report.indefinite;
+      if (downhill != nullptr && curvature < 0) *downhill = x - descent / curvature * direction;
       return {};
     }
     const double step = descent / curvature;

@@ -86,6 +86,7 @@ class MultigridSolver : public IterativeSolver {
   void multiply(const Eigen::VectorXd& u, Eigen::VectorXd& forces) override;
   void precondition(const Eigen::VectorXd& forces, Eigen::VectorXd& u) override;
 
+  [[nodiscard]] Eigen::VectorXd downhill() const override { return downhill_; }
   [[nodiscard]] SolveReport report() const override { return report_; }
 
  private:
@@ -114,6 +115,7 @@ class MultigridSolver : public IterativeSolver {
   Eigen::VectorXd damping_product_;
   multigrid::Floats single_residual_;
   multigrid::Floats single_answer_;
+  Eigen::VectorXd downhill_;
   SolveReport report_;
 };
 
@@ -269,10 +271,11 @@ void MultigridSolver::precondition(const Eigen::VectorXd& residual, Eigen::Vecto
 Eigen::VectorXd MultigridSolver::solve(const Eigen::VectorXd& forces, double tolerance) {
   Eigen::VectorXd free = forces;
   release_held(free);
+  downhill_.resize(0);
   return conjugate_gradients(
       free, {.tolerance = tolerance, .max_iterations = max_iterations_},
       [&](const auto& x, auto& product) { multiply(x, product); },
-      [&](const auto& residual, auto& answer) { precondition(residual, answer); }, report_);
+      [&](const auto& residual, auto& answer) { precondition(residual, answer); }, report_, &downhill_);
 }
 
 }  // namespace

@@ -103,6 +103,8 @@ namespace {
 constexpr double kLongestStep = 0.5;       // body lengths; a longer one leads nowhere
 constexpr double kNewtonTolerance = 1e-4;  // of a direction; Newton's method takes care of what is left
 constexpr double kLinearTolerance = 1e-11;
+constexpr double kFirstMove = 0.1;  // bricks, along a direction of negative curvature
+constexpr double kFarthest = 1024;  // times as far
 
 Eigen::Map<const Eigen::VectorXd> flat(const Points& points) { return {points.data(), points.size()}; }
 
@@ -160,10 +162,41 @@ class Equilibrium {
            flat(loads_).dot(flat(body_.positions));
   }
 
-  /// One step downhill. False where no step lowers the energy any more.
+  /// One step downhill: in Newton's direction where the curvature is positive; where it is not, along what curves
+  /// down, or in the direction that the positive part of the curvature gives. False where no step lowers the energy any
+  /// more.
   bool step(const Eigen::VectorXd& residual) {
-    const Eigen::VectorXd direction = downhill(residual);
-    if (direction.size() == 0) return false;
+    if (system_.linearize(body_, supports_, false, terms_)) {
+      const Eigen::VectorXd direction = system_.solve(residual, kNewtonTolerance);
+      if (is_short(direction)) return search_along(direction, residual) > 0;
+      if (descend(system_.downhill(), residual)) return true;
+    }
+    if (!system_.linearize(body_, supports_, true, terms_)) return false;
+    const Eigen::VectorXd direction = shortened(system_.solve(residual, kNewtonTolerance));
+    return direction.size() > 0 && search_along(direction, residual) > 0;
+  }
+
+  /// By a direction of negative curvature, which does not say how far it leads down.
+  bool descend(const Eigen::VectorXd& downhill, const Eigen::VectorXd& residual) {
+    if (!std::isfinite(length_of(downhill))) return false;
+    const double bricks = downhill.cwiseAbs().maxCoeff() / body_.grid.brick_size;
+    const Eigen::VectorXd direction = downhill / std::max(1.0, bricks / kFirstMove);
+    const Points before = body_.positions;
+    double share = search_along(direction, residual);
+    if (share == 0) return false;
+    for (double energy = potential(); share < kFarthest && is_short(2 * share * direction); share *= 2) {
+      move_along(before, 2 * share * direction);
+      const double further = potential();
+      if (further >= energy) break;
+      energy = further;
+    }
+    move_along(before, share * direction);
+    return true;
+  }
+
+  /// The first share of 1, 1/2, 1/4, ... of a direction that lowers the energy enough, gone to; 0: none, and the body
+  /// is where it was.
+  double search_along(const Eigen::VectorXd& direction, const Eigen::VectorXd& residual) {
     const double slope = direction.dot(residual);
     const Points before = body_.positions;
     const double energy = potential();
@@ -171,25 +204,29 @@ class Equilibrium {
     // Newton step is then right.
     const double noise = rounding_ * (flat(loads_).lpNorm<1>() + corner_force_sum(body_));
     for (double share = 1; share > 1e-8; share /= 2) {
-      body_.positions = before;
-      Eigen::Map<Eigen::VectorXd>(body_.positions.data(), body_.positions.size()) += share * direction;
-      if (potential() <= energy - 1e-4 * share * slope + noise) return true;
+      move_along(before, share * direction);
+      if (potential() <= energy - 1e-4 * share * slope + noise) return share;
     }
     body_.positions = before;
-    return false;
+    return 0;
   }
 
-  /// Newton's direction, from the true curvature where that is positive, else from its positive part; empty: neither.
-  Eigen::VectorXd downhill(const Eigen::VectorXd& residual) {
-    for (const bool definite : {false, true}) {
-      if (!system_.linearize(body_, supports_, definite, terms_)) continue;
-      Eigen::VectorXd direction = system_.solve(residual, kNewtonTolerance);
-      if (direction.size() == 0) continue;
-      const double longest = direction.cwiseAbs().maxCoeff() / (kLongestStep * extent(body_));
-      if (!direction.allFinite() || (longest > 1 && !definite)) continue;
-      return direction / std::max(1.0, longest);
-    }
-    return {};
+  void move_along(const Points& from, const Eigen::VectorXd& way) {
+    body_.positions = from;
+    Eigen::Map<Eigen::VectorXd>(body_.positions.data(), body_.positions.size()) += way;
+  }
+
+  /// Over the longest step that leads anywhere; infinity for none, or one that is not finite.
+  [[nodiscard]] double length_of(const Eigen::VectorXd& direction) const {
+    if (direction.size() == 0 || !direction.allFinite()) return std::numeric_limits<double>::infinity();
+    return direction.cwiseAbs().maxCoeff() / (kLongestStep * extent(body_));
+  }
+  [[nodiscard]] bool is_short(const Eigen::VectorXd& direction) const { return length_of(direction) <= 1; }
+
+  /// Empty where there is no such direction.
+  [[nodiscard]] Eigen::VectorXd shortened(const Eigen::VectorXd& direction) const {
+    const double length = length_of(direction);
+    return std::isfinite(length) ? (direction / std::max(1.0, length)).eval() : Eigen::VectorXd();
   }
 
   Body& body_;

@@ -118,6 +118,37 @@ TEST(Multigrid, SaysThatAMatrixIsNotPositiveDefinite) {
   EXPECT_GT(solve(*multigrid, problem, 1e-4, true).size(), 0);
 }
 
+/// By plain conjugate gradients; fills `downhill`.
+Eigen::VectorXd solve_dense(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& forces, Eigen::VectorXd& downhill) {
+  SolveReport report;
+  return conjugate_gradients(
+      forces, {.tolerance = 1e-12, .max_iterations = 100},
+      [&](const Eigen::VectorXd& x, Eigen::VectorXd& product) { product = matrix * x; },
+      [](const Eigen::VectorXd& residual, Eigen::VectorXd& answer) { answer = residual; }, report, &downhill);
+}
+
+// Of 1/2 x.A x - f.x, for random matrices with one negative eigenvalue.
+TEST(ConjugateGradients, LeadDownhillWhereAMatrixIsNotPositiveDefinite) {
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal;
+  for (int trial = 0; trial < 20; ++trial) {
+    const Eigen::MatrixXd any = Eigen::MatrixXd::NullaryExpr(12, 12, [&] { return normal(random); });
+    const Eigen::MatrixXd axes = any.householderQr().householderQ();
+    Eigen::VectorXd eigenvalues = Eigen::VectorXd::LinSpaced(12, 1, 12);
+    Eigen::VectorXd downhill;
+    const Eigen::VectorXd forces = any.col(0);
+    const Eigen::MatrixXd positive = axes * eigenvalues.asDiagonal() * axes.transpose();
+    EXPECT_LT((positive * solve_dense(positive, forces, downhill) - forces).norm(), 1e-9);
+    EXPECT_EQ(downhill.size(), 0);
+    eigenvalues[0] = -0.5;
+    const Eigen::MatrixXd matrix = axes * eigenvalues.asDiagonal() * axes.transpose();
+    EXPECT_EQ(solve_dense(matrix, forces, downhill).size(), 0) << trial;
+    ASSERT_EQ(downhill.size(), 12) << trial;
+    EXPECT_GT(downhill.dot(forces), 0) << trial;
+    EXPECT_LT(0.5 * downhill.dot(matrix * downhill) - forces.dot(downhill), 0) << trial;
+  }
+}
+
 TEST(Multigrid, IterationsDoNotGrowWithTheBody) {
   for (const double poisson : {0.0, 0.3, 0.49}) {
     std::vector<long> iterations;
