@@ -163,13 +163,13 @@ class Equilibrium {
   }
 
   /// One step downhill: in Newton's direction where the curvature is positive; where it is not, along what curves
-  /// down, or in the direction that the positive part of the curvature gives. False where no step lowers the energy any
-  /// more.
+  /// down, or in the direction that the positive part of the curvature gives: systems of springs have ridges from which
+  /// it leads down into crushed bricks. False where no step lowers the energy any more.
   bool step(const Eigen::VectorXd& residual) {
     if (system_.linearize(body_, supports_, false, terms_)) {
       const Eigen::VectorXd direction = system_.solve(residual, kNewtonTolerance);
       if (is_short(direction)) return search_along(direction, residual) > 0;
-      if (descend(system_.downhill(), residual)) return true;
+      if (!has_springs(body_.model) && descend(system_.downhill(), residual)) return true;
     }
     if (!system_.linearize(body_, supports_, true, terms_)) return false;
     const Eigen::VectorXd direction = shortened(system_.solve(residual, kNewtonTolerance));
