@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <numeric>
+#include <algorithm>
 
 #include "render/trace/ray_scene.h"
 #include "tests/support/still_life.h"
