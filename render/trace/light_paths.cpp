@@ -292,11 +292,6 @@ bool LightPaths::sees_nothing(const Ray& from_eye) const {
   return !way || region_.weight_on_floor(from_eye.origin + *way * from_eye.direction) == 0;
 }
 
-bool LightPaths::sees_skin(Ray from_eye) const {
-  if (const std::optional<float> way = way_to_floor(from_eye)) from_eye.far = *way;
-  return is_blocked(from_eye);
-}
-
 PathSample LightPaths::sample(const Ray& from_eye, float opacity, Sampler& sampler) const {
   const Meeting meeting = meet(from_eye, opacity);
   PathSample sample{.seen = meeting.seen};

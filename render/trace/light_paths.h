@@ -49,7 +49,8 @@ class LightPaths {
 
   /// Whether the ray certainly meets no body and nothing that one does to the floor.
   [[nodiscard]] bool sees_nothing(const Ray& from_eye) const;
-  [[nodiscard]] bool sees_skin(Ray from_eye) const;
+  /// However faint.
+  [[nodiscard]] bool sees_skin(const Ray& from_eye) const { return meet(from_eye, 0).seen == Seen::kSkin; }
   /// `opacity`: as for RayScene::first_hit(). May run on several threads.
   [[nodiscard]] PathSample sample(const Ray& from_eye, float opacity, Sampler& sampler) const;
   /// The light that arrives along a ray.

@@ -102,6 +102,7 @@ void RayScene::update(const std::vector<std::vector<Floats3>>& positions, std::v
   const bool fits = !embree_->corners.empty() && embree_->corners.front().size() == positions.size();
   if (!fits) embree_->make_room(positions);
   embree_->opacities = std::move(opacities);
+  embree_->opacities.resize(embree_->geometries.size());
   for (std::size_t i = 0; i < embree_->opacities.size(); ++i) {
     const bool is_faint = !embree_->opacities[i].empty();
     rtcSetGeometryUserData(embree_->geometries[i], &embree_->opacities[i]);
