@@ -21,12 +21,12 @@ class Error : public std::runtime_error {
 /// The simulation of a body diverged. The world is left in its last valid state.
 class Diverged : public Error {
  public:
-  Diverged(std::size_t actor, const std::string& message) : Error(ErrorKind::kDiverged, message), actor_(actor) {}
+  Diverged(std::size_t body, const std::string& message) : Error(ErrorKind::kDiverged, message), body_(body) {}
   /// In World::bodies.
-  [[nodiscard]] std::size_t actor() const { return actor_; }
+  [[nodiscard]] std::size_t body() const { return body_; }
 
  private:
-  std::size_t actor_;
+  std::size_t body_;
 };
 
 }  // namespace sprung

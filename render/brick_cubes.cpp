@@ -54,7 +54,7 @@ std::array<Vec3, 4> BrickCubes::corners(const BrickFace& face, const Points& nod
   if (!exploded_) return places;
   Vec3 middle = Vec3::Zero();
   for (const int node : grid_.nodes[face.brick]) middle += nodes.row(node).transpose() / 8;
-  for (Vec3& place : places) place += 2 * kGap * (middle - place);
+  for (Vec3& position : places) position += 2 * kGap * (middle - position);
   return places;
 }
 

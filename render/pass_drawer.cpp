@@ -21,7 +21,7 @@ constexpr TextureFormat kDepth{GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLO
 
 /// What is visible in a pixel; places in stage space.
 struct Sight {
-  Vec3 place;
+  Vec3 position;
   Vec3 before;  // where it is one frame earlier ...
   Vec3 after;   // ... and later
   Vec3 normal;
@@ -42,14 +42,14 @@ Line line_of_sight(const Eigen::Matrix4d& stage_from_clip, double x, double y) {
 }
 
 /// Of a place in the picture, from its middle, to the right and up.
-Eigen::Vector2d pixels_of(const View& view, const Vec3& place, int width, int height) {
-  const Vec3 clip = (view.clip_from_stage * place.homogeneous()).hnormalized();
+Eigen::Vector2d pixels_of(const View& view, const Vec3& position, int width, int height) {
+  const Vec3 clip = (view.clip_from_stage * position.homogeneous()).hnormalized();
   return {0.5 * width * clip.x(), -0.5 * height * clip.y()};
 }
 
 void set(Passes& passes, std::size_t pixel, const Sight& sight, const PassViews& views) {
   const StageSpace& space = views.now.frame.space;
-  const Vec3 world = sight.place / space.scale + space.center;
+  const Vec3 world = sight.position / space.scale + space.center;
   const Vec3 ahead = (views.camera.target - views.camera.eye).normalized();
   passes.depth[pixel] = float(ahead.dot(world - views.camera.eye));
   passes.id[pixel] = sight.id;
@@ -57,10 +57,10 @@ void set(Passes& passes, std::size_t pixel, const Sight& sight, const PassViews&
     passes.position[k][pixel] = float(world[k]);
     passes.normal[k][pixel] = float(sight.normal[k]);
   }
-  const auto seen = [&](const View& view, const Vec3& place) {
-    return pixels_of(view, place, passes.width, passes.height);
+  const auto seen = [&](const View& view, const Vec3& position) {
+    return pixels_of(view, position, passes.width, passes.height);
   };
-  const Eigen::Vector2d now = seen(views.now, sight.place);
+  const Eigen::Vector2d now = seen(views.now, sight.position);
   const Eigen::Vector2d from = seen(views.before, sight.before) - now;
   const Eigen::Vector2d to = now - seen(views.after, sight.after);
   passes.uv[2][pixel] = sight.id > 0 ? 1 : 0;
@@ -181,16 +181,16 @@ void PassDrawer::read(const PassViews& views, Passes& passes) const {
   const GroundSight ground(views.now, width_, height_);
   for (std::size_t pixel = 0; pixel < passes.depth.size(); ++pixel) {
     const auto place = [&](std::size_t texture) -> Vec3 { return numbers[texture][pixel].head<3>().cast<double>(); };
-    Sight sight{.place = place(0),
+    Sight sight{.position = place(0),
                 .before = place(2),
                 .after = place(3),
                 .normal = place(1).normalized(),
                 .uv = {numbers[1][pixel].w(), numbers[2][pixel].w()},
                 .id = numbers[0][pixel].w()};
-    if (sight.id < 0 || ground.hides(sight.place.y())) {
+    if (sight.id < 0 || ground.hides(sight.position.y())) {
       const std::optional<Vec3> met = ground.place(pixel);
       if (!met) continue;
-      sight = {.place = *met, .before = *met, .after = *met, .normal = Vec3::UnitY(), .uv = {0, 0}, .id = 0};
+      sight = {.position = *met, .before = *met, .after = *met, .normal = Vec3::UnitY(), .uv = {0, 0}, .id = 0};
     }
     set(passes, pixel, sight, views);
   }

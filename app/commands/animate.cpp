@@ -73,11 +73,11 @@ struct AnimateOptions {
 std::filesystem::path motion_file(const Output& output) { return beside(output, "unfinished.h5"); }
 
 /// Whether the file holds a motion of that scene by this program, or a part of it.
-bool holds_motion(const std::filesystem::path& file, const Film& scene, const SceneRecord& record) {
+bool holds_motion(const std::filesystem::path& file, const Film& film, const SceneRecord& record) {
   if (!std::filesystem::exists(file)) return false;
   try {
     const CacheReader cache(file);
-    return cache.frame_count() > 0 && int(cache.frame_count()) <= frame_count(scene) &&
+    return cache.frame_count() > 0 && int(cache.frame_count()) <= frame_count(film) &&
            cache.header().build == build_of_this_program() && record.difference(cache.header().scene).empty();
   } catch (const Error&) {
     return false;

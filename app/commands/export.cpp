@@ -41,15 +41,15 @@ void print_formats() {
 }
 
 /// Checked before any work is done.
-std::vector<ExportTarget> targets_of(const ExportOptions& options, const Film& scene, const FrameRange& range) {
+std::vector<ExportTarget> targets_of(const ExportOptions& options, const Film& film, const FrameRange& range) {
   std::vector<ExportTarget> targets;
   for (const std::string& words : options.outputs.names) {
     targets.push_back(parse_export_target(words));
     targets.back().quantize = options.quantize;
-    for (const std::filesystem::path& file : files_of(targets.back(), scene, range)) {
+    for (const std::filesystem::path& file : files_of(targets.back(), film, range)) {
       refuse_existing(file, options.overwrite);
     }
-    check_writable(files_of(targets.back(), scene, range).front());
+    check_writable(files_of(targets.back(), film, range).front());
   }
   const bool can_quantize = std::any_of(targets.begin(), targets.end(), [](const ExportTarget& target) {
     return target.animation != nullptr && target.animation->can_quantize;
@@ -125,11 +125,11 @@ class PassingCache {
 };
 
 /// The frames of a scene, into a cache.
-void simulate_into(const std::filesystem::path& file, Simulation& simulation, const Film& scene,
+void simulate_into(const std::filesystem::path& file, Simulation& simulation, const Film& film,
                    const Console& console) {
   make_folder(file.parent_path());
-  RunCache cache(file, record_of(scene), false);
-  static_cast<void>(simulate(simulation, scene, console, &cache));
+  RunCache cache(file, record_of(film), false);
+  static_cast<void>(simulate(simulation, film, console, &cache));
   cache.close();
 }
 
@@ -144,15 +144,15 @@ void export_run(const CLI::App& command, const ExportOptions& options, const Con
     throw Error(ErrorKind::kUsage,
                 fmt::format("{}: takes of one page are caches (.h5), all of them", options.takes[0]));
   }
-  options.scene.with_scene(console, [&](const Film& scene) {
-    const FrameRange range = parse_frame_range(options.frames, frame_count(scene));
-    const std::vector<ExportTarget> targets = targets_of(options, scene, range);
-    Simulation simulation = prepare_simulation(scene, console);
-    warn_of_memory(simulation, scene, console);
-    const PassingCache passing(files_of(targets.front(), scene, range).front());
-    simulate_into(passing.file(), simulation, scene, console);
+  options.scene.with_scene(console, [&](const Film& film) {
+    const FrameRange range = parse_frame_range(options.frames, frame_count(film));
+    const std::vector<ExportTarget> targets = targets_of(options, film, range);
+    Simulation simulation = prepare_simulation(film, console);
+    warn_of_memory(simulation, film, console);
+    const PassingCache passing(files_of(targets.front(), film, range).front());
+    simulate_into(passing.file(), simulation, film, console);
     const CacheReader cache(passing.file());
-    const CachedFilmView view{simulation, cache, scene, std::filesystem::path(options.scene.input).stem().string()};
+    const CachedFilmView view{simulation, cache, film, std::filesystem::path(options.scene.input).stem().string()};
     write_all(options, {&view, 1}, range, targets, console);
   });
 }

@@ -27,7 +27,7 @@ struct InspectOptions {
 };
 
 void inspect_scene(const InspectOptions& options, const Console& console) {
-  options.scene.with_scene(console, [&](const Film& scene) {
+  options.scene.with_scene(console, [&](const Film& film) {
     if (!options.picture.empty()) {
       refuse_existing(options.picture, options.overwrite);
       check_writable(options.picture);
@@ -35,8 +35,8 @@ void inspect_scene(const InspectOptions& options, const Console& console) {
     std::vector<std::string> warnings;
     Console listening = console;
     listening.warnings = &warnings;
-    const Preparation prepared = prepare(scene, listening);
-    Inspection inspection = inspect(prepared, scene);
+    const Preparation prepared = prepare(film, listening);
+    Inspection inspection = inspect(prepared, film);
     if (inspection.forecast.plan) {
       if (const std::string text = warning_of(*inspection.forecast.plan); !text.empty()) listening.warn(text);
     }

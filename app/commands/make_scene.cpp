@@ -45,12 +45,12 @@ std::shared_ptr<const MaterialLibrary> library_of(const SceneRequest& request) {
 
 /// Sets the softest material that carries the body of a bare mesh, its size where even the stiffest does not, and the
 /// time steps that are faster for it.
-void choose_material(Film& scene, const SceneRequest& request, Scenario scenario, const Observer& observer) {
-  SceneBody& body = scene.bodies[0];
+void choose_material(Film& film, const SceneRequest& request, Scenario scenario, const Observer& observer) {
+  SceneBody& body = film.bodies[0];
   const bool is_sized = body.size || body.scale;
   const Support support = scenario == Scenario::kHang ? Support::kHangs : Support::kStands;
   const std::optional<CarryingMaterial> found =
-      softest_carrying(body, support, scene.gravity, !is_sized, *scene.library, observer);
+      softest_carrying(body, support, film.gravity, !is_sized, *film.library, observer);
   if (!found) {
     body.material.name = kDefaultMaterial;
     observer.warn(fmt::format("material: no elastomer of the library carries {}; it stays {}",
@@ -61,7 +61,7 @@ void choose_material(Film& scene, const SceneRequest& request, Scenario scenario
   const bool is_smaller = !is_sized && found->size < 0.99 * kDefaultSize;
   if (is_smaller) body.size = found->size;
   if (!is_given(request, "body.bricks") && !body.brick_size) body.bricks = found->bricks;
-  if (!is_given(request, "solver.scheme")) scene.solver.scheme = Solver::kAuto;
+  if (!is_given(request, "solver.scheme")) film.solver.scheme = Solver::kAuto;
   observer.note(fmt::format(
       "material: {}, the softest that {} (sags {:.1f} %){}{}", body.material.name,
       scenario == Scenario::kHang ? "hangs in shape" : "stands", 100 * found->sag,
@@ -118,14 +118,14 @@ void place_camera(SceneCamera& camera, const Vec3& sides) {
 }
 
 /// What the options say of a scene, but its materials, which make_scene() reads first.
-void apply_settings(const SceneRequest& request, Film& scene) {
+void apply_settings(const SceneRequest& request, Film& film) {
   if (request.view) {
-    scene.camera.azimuth = request.view->azimuth;
-    if (request.view->elevation) scene.camera.elevation = *request.view->elevation;
-    scene.camera.keyframes.clear();
+    film.camera.azimuth = request.view->azimuth;
+    if (request.view->elevation) film.camera.elevation = *request.view->elevation;
+    film.camera.keyframes.clear();
   }
   for (const Setting& setting : request.settings) {
-    if (!is_of_materials(setting)) apply(setting, scene);
+    if (!is_of_materials(setting)) apply(setting, film);
   }
 }
 
@@ -137,11 +137,11 @@ SceneRequest without_defaults(SceneRequest request) {
 }
 
 /// Sets what the scene file leaves open.
-void apply_defaults(const SceneRequest& request, Film& scene) {
+void apply_defaults(const SceneRequest& request, Film& film) {
   for (const Setting& setting : request.defaults) {
     if (is_of_materials(setting)) continue;
     try {
-      set_where_open(scene, request.input, setting.key, setting.value);
+      set_where_open(film, request.input, setting.key, setting.value);
     } catch (const Error& error) {
       throw Error(ErrorKind::kBadInput, fmt::format("{}: {}", setting.option, error.what()));
     }
@@ -182,10 +182,10 @@ Film make_bare_scene(const SceneRequest& request, const std::shared_ptr<const Ma
 
 }  // namespace
 
-void apply(const Setting& setting, Film& scene) {
+void apply(const Setting& setting, Film& film) {
   try {
-    set_scene_key(scene, setting.key, setting.value);
-    if (setting.key == "render.quality") scene.render.samples.reset();  // what is typed wins over the scene's
+    set_scene_key(film, setting.key, setting.value);
+    if (setting.key == "render.quality") film.render.samples.reset();  // what is typed wins over the scene's
   } catch (const Error& error) {
     throw Error(ErrorKind::kUsage, fmt::format("{}: {}", setting.option, error.what()));
   }

@@ -17,7 +17,7 @@ struct Setting {
 };
 
 /// Sets the key of the scene. Throws Error(kUsage) naming the option.
-void apply(const Setting& setting, Film& scene);
+void apply(const Setting& setting, Film& film);
 
 /// The vertical axis that files of this kind usually have: z for STL, 3MF and BLEND, else y.
 [[nodiscard]] UpAxis usual_up(const std::filesystem::path& mesh);

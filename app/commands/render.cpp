@@ -32,14 +32,14 @@ struct RenderCacheOptions {
 };
 
 /// Only camera and pictures of a finished run can be changed.
-void apply_all(const std::vector<Setting>& settings, Film& scene) {
+void apply_all(const std::vector<Setting>& settings, Film& film) {
   for (const Setting& setting : settings) {
     if (!setting.key.starts_with("camera.") && !setting.key.starts_with("render.")) {
       throw Error(ErrorKind::kUsage,
                   fmt::format("{}: a cache is simulated already; only keys of [camera] and [render] can be set",
                               setting.option));
     }
-    apply(setting, scene);
+    apply(setting, film);
   }
 }
 

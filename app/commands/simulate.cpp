@@ -176,11 +176,11 @@ Json probes_json(const Recording& recording) {
 /// How a run came about: version and build of the program, the scene as resolved, a hash of each mesh file it names and
 /// of the state in the last frame, and how long each frame took (s, wall clock; those of an earlier run that this one
 /// went on from included).
-std::string manifest_json(const Film& scene, const Recording& recording) {
+std::string manifest_json(const Film& film, const Recording& recording) {
   Json hashes = Json::object();
   std::set<std::string> files;
-  for (const SceneBody& body : scene.bodies) files.insert(body.mesh.string());
-  for (const SceneObstacle& obstacle : scene.obstacles) files.insert(obstacle.mesh.string());
+  for (const SceneBody& body : film.bodies) files.insert(body.mesh.string());
+  for (const SceneObstacle& obstacle : film.obstacles) files.insert(obstacle.mesh.string());
   files.erase("");
   for (const std::string& file : files) hashes[file] = file_hash(file);
   Json seconds = Json::array();
@@ -188,7 +188,7 @@ std::string manifest_json(const Film& scene, const Recording& recording) {
   const double total = std::accumulate(recording.seconds.begin(), recording.seconds.end(), 0.0);
   const Json json{{"version", SPRUNG_VERSION},
                   {"build", build_of_this_program()},
-                  {"scene", print_scene(with_defaults(scene))},
+                  {"scene", print_scene(with_defaults(film))},
                   {"mesh_hashes", hashes},
                   {"frames", recording.progress.size()},
                   {"state_hash", fmt::format("{:016x}", recording.state_hash)},
@@ -203,26 +203,26 @@ void run_simulation(const CLI::App& command, const SimulateOptions& options, con
   require_input(command, options.scene.input, "a mesh or a scene");
   if (!options.scene.print_scene) options.outputs.require(command, "-o RUN.h5 or -o folder/");
   const double position_error = position_error_of(options);
-  options.scene.with_scene(console, [&](const Film& scene) {
+  options.scene.with_scene(console, [&](const Film& film) {
     const Places places = places_of(options);
     std::optional<RunCache> cache;
     if (places.cache) {
       make_folder(places.cache->parent_path());
-      cache.emplace(*places.cache, record_of(scene), options.resume, position_error);
+      cache.emplace(*places.cache, record_of(film), options.resume, position_error);
     }
-    Simulation simulation = prepare_simulation(scene, console);
-    warn_of_memory(simulation, scene, console);
+    Simulation simulation = prepare_simulation(film, console);
+    warn_of_memory(simulation, film, console);
     RunCache* kept = cache ? &*cache : nullptr;
     const Recording recording = with_advice(kept, resuming_command(options, invocation.command), console, [&] {
       return with_picture_of_diverged(simulation.world, picture_of_diverged(places),
-                                      [&] { return simulate(simulation, scene, console, kept); });
+                                      [&] { return simulate(simulation, film, console, kept); });
     });
     if (cache) cache->close();
     if (places.folder) {
       make_folder(*places.folder);
       write_file(*places.folder / "probes.csv", probes_csv(recording));
       write_file(*places.folder / "probes.json", probes_json(recording).dump() + "\n");
-      write_file(*places.folder / "manifest.json", manifest_json(scene, recording));
+      write_file(*places.folder / "manifest.json", manifest_json(film, recording));
     }
     if (!options.json) return print_summary(recording);
     Json json = probes_json(recording);

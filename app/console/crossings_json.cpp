@@ -9,7 +9,7 @@ nlohmann::ordered_json json_of(const Crossings& crossings) {
       {"depth_m", crossings.depth},        {"depth_percent", 100 * crossings.share}};
   if (crossings.pairs > 0) {
     json["between"] = crossings.names;
-    json["place_m"] = {crossings.place.x(), crossings.place.y(), crossings.place.z()};
+    json["place_m"] = {crossings.position.x(), crossings.position.y(), crossings.position.z()};
   }
   return json;
 }

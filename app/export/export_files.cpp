@@ -62,13 +62,12 @@ ExportTarget parse_export_target(std::string_view typed) {
   refuse(words, fmt::format("'{}' files cannot be written{}", ending, did_you_mean(ending, known)));
 }
 
-std::vector<fs::path> files_of(const ExportTarget& target, const Film& scene, const FrameRange& range) {
+std::vector<fs::path> files_of(const ExportTarget& target, const Film& film, const FrameRange& range) {
   std::vector<fs::path> files;
   if (target.numbered) {
     for (const int frame : range.frames()) files.push_back(target.numbered->file(frame));
   } else if (target.animation != nullptr && target.animation->is_per_mesh) {
-    for (std::size_t i = 0; i < mesh_count(scene); ++i)
-      files.push_back(file_of_mesh(target.file, i, mesh_count(scene)));
+    for (std::size_t i = 0; i < mesh_count(film); ++i) files.push_back(file_of_mesh(target.file, i, mesh_count(film)));
   } else {
     files.push_back(target.file);
   }

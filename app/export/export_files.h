@@ -26,7 +26,7 @@ struct ExportTarget {
 [[nodiscard]] std::string example_targets();
 
 /// The files that export_files() would write.
-[[nodiscard]] std::vector<std::filesystem::path> files_of(const ExportTarget& target, const Film& scene,
+[[nodiscard]] std::vector<std::filesystem::path> files_of(const ExportTarget& target, const Film& film,
                                                           const FrameRange& range);
 
 /// Writes every file under a temporary name and renames it. Several takes: for formats that hold them. Throws Error,

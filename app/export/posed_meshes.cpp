@@ -18,18 +18,18 @@ using BodyCopy = std::pair<std::size_t, int>;
 
 BodyCopy copy_of(const SoftBody& body) { return {body.origin.body, body.origin.copy}; }
 
-std::string name_of(const Film& scene, const BodyCopy& which) {
-  const SceneBody& body = scene.bodies[which.first];
+std::string name_of(const Film& film, const BodyCopy& which) {
+  const SceneBody& body = film.bodies[which.first];
   std::string name = body.mesh.empty() ? std::string("body") : body.mesh.stem().string();
-  if (scene.bodies.size() > 1) name += fmt::format("_{}", which.first + 1);
+  if (film.bodies.size() > 1) name += fmt::format("_{}", which.first + 1);
   if (copy_count(body) > 1) name += fmt::format("_{}", which.second + 1);
   return name;
 }
 
-PosedMesh empty_mesh(const Simulation& simulation, const Film& scene, const BodyCopy& which, const Color& color) {
+PosedMesh empty_mesh(const Simulation& simulation, const Film& film, const BodyCopy& which, const Color& color) {
   const Skin& rest = simulation.meshes[which.first];
   PosedMesh mesh;
-  mesh.name = name_of(scene, which);
+  mesh.name = name_of(film, which);
   mesh.rest = &rest;
   mesh.color = srgb(color);
   mesh.positions.setZero(rest.positions.rows(), 3);
@@ -39,12 +39,12 @@ PosedMesh empty_mesh(const Simulation& simulation, const Film& scene, const Body
 
 }  // namespace
 
-std::vector<PosedMesh> posed_meshes(const Simulation& simulation, const Film& scene, const std::vector<Points>& nodes) {
+std::vector<PosedMesh> posed_meshes(const Simulation& simulation, const Film& film, const std::vector<Points>& nodes) {
   std::map<BodyCopy, PosedMesh> meshes;
   for (std::size_t row = 0; row < nodes.size(); ++row) {
     const SoftBody& body = simulation.world.bodies[row];
     const BodyCopy which = copy_of(body);
-    if (!meshes.contains(which)) meshes[which] = empty_mesh(simulation, scene, which, body.color);
+    if (!meshes.contains(which)) meshes[which] = empty_mesh(simulation, film, which, body.color);
     PosedMesh& mesh = meshes[which];
     mesh.positions(body.file_vertices, Eigen::all) = deform_points(body.grid, body.file_embedding, nodes[row]);
     if (mesh.normals.rows() == 0) continue;
@@ -68,9 +68,9 @@ std::vector<std::size_t> meshes_of_bodies(const Simulation& simulation) {
   return rows;
 }
 
-std::size_t mesh_count(const Film& scene) {
+std::size_t mesh_count(const Film& film) {
   std::size_t count = 0;
-  for (const SceneBody& body : scene.bodies) count += std::size_t(copy_count(body));
+  for (const SceneBody& body : film.bodies) count += std::size_t(copy_count(body));
   return count;
 }
 

@@ -9,13 +9,13 @@ namespace sprung {
 
 /// The meshes of all bodies and their copies for these positions of the nodes (by body, m), with the vertices, order
 /// and triangles of the files. They point into the simulation.
-[[nodiscard]] std::vector<PosedMesh> posed_meshes(const Simulation& simulation, const Film& scene,
+[[nodiscard]] std::vector<PosedMesh> posed_meshes(const Simulation& simulation, const Film& film,
                                                   const std::vector<Points>& nodes);
 
 /// The row among them of the mesh that each body of the world carries, or a part of it.
 [[nodiscard]] std::vector<std::size_t> meshes_of_bodies(const Simulation& simulation);
 
 /// How many meshes a film has.
-[[nodiscard]] std::size_t mesh_count(const Film& scene);
+[[nodiscard]] std::size_t mesh_count(const Film& film);
 
 }  // namespace sprung

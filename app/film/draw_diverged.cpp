@@ -33,7 +33,7 @@ Recording with_picture_of_diverged(const World& world, const std::filesystem::pa
   try {
     return work();
   } catch (const Diverged& error) {
-    throw Error(error.kind(), error.what() + draw(world.bodies[error.actor()], picture));
+    throw Error(error.kind(), error.what() + draw(world.bodies[error.body()], picture));
   }
 }
 

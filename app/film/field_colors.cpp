@@ -20,29 +20,29 @@ Eigen::VectorXd measured(BrickMeasure measure, const Body& body, const Points& p
 }
 
 /// Central differences; one-sided at the ends of the film.
-Eigen::VectorXd speeds(const Recording& recording, std::size_t frame, std::size_t actor, double fps) {
+Eigen::VectorXd speeds(const Recording& recording, std::size_t frame, std::size_t body, double fps) {
   const std::size_t last = recording.frames.size() - 1;
   const std::size_t from = frame > 0 ? frame - 1 : 0;
   const std::size_t to = std::min(frame + 1, last);
   const auto& frames = recording.frames;
-  if (from == to) return Eigen::VectorXd::Zero(frames[frame][actor].rows());
-  const Floats3 way = frames[to][actor] - frames[from][actor];
+  if (from == to) return Eigen::VectorXd::Zero(frames[frame][body].rows());
+  const Floats3 way = frames[to][body] - frames[from][body];
   return way.rowwise().norm().cast<double>() * (fps / double(to - from));
 }
 
 }  // namespace
 
 Eigen::VectorXd field_values(Field field, const Simulation& simulation, const Recording& recording, std::size_t frame,
-                             std::size_t actor, double fps, StrainMeasure measure) {
-  const Body& body = simulation.world.bodies[actor];
-  const Points positions = recording.frames[frame][actor].cast<double>();
+                             std::size_t row, double fps, StrainMeasure measure) {
+  const Body& body = simulation.world.bodies[row];
+  const Points positions = recording.frames[frame][row].cast<double>();
   switch (field) {
     case Field::kSkin:
       break;
     case Field::kDisplacement:
       return (positions - body.rest_positions).rowwise().norm();
     case Field::kSpeed:
-      return speeds(recording, frame, actor, fps);
+      return speeds(recording, frame, row, fps);
     case Field::kStretch:
       return measured(BrickMeasure::kStretch, body, positions);
     case Field::kStrain:
@@ -139,10 +139,10 @@ ColorRanges merged(const ColorRanges& a, const ColorRanges& b) {
 
 bool has_range_per_frame(const SceneRender& render) { return render.color_range == RangeOver::kFrame && !render.sheet; }
 
-FieldColors::FieldColors(const Film& scene, const Simulation& simulation, const Recording& recording)
-    : FieldColors(scene, simulation, recording, ColorRanges()) {
+FieldColors::FieldColors(const Film& film, const Simulation& simulation, const Recording& recording)
+    : FieldColors(film, simulation, recording, ColorRanges()) {
   if (!is_mapped()) return;
-  const SceneRender& render = scene.render;
+  const SceneRender& render = film.render;
   const std::size_t frames = is_moving(field_) ? recording.frames.size() : 1;
   const std::size_t each = has_range_per_frame(render) ? 1 : frames;
   for (std::size_t first = 0; first < frames; first += each) {
@@ -154,14 +154,13 @@ FieldColors::FieldColors(const Film& scene, const Simulation& simulation, const 
   }
 }
 
-FieldColors::FieldColors(const Film& scene, const Simulation& simulation, const Recording& recording,
-                         ColorRanges ranges)
-    : field_(scene.render.color_by),
-      map_(scene.render.color_map.value_or(words_of(field_).map)),
+FieldColors::FieldColors(const Film& film, const Simulation& simulation, const Recording& recording, ColorRanges ranges)
+    : field_(film.render.color_by),
+      map_(film.render.color_map.value_or(words_of(field_).map)),
       simulation_(simulation),
       recording_(recording),
-      fps_(scene.fps),
-      measure_(strain_measure(scene)),
+      fps_(film.fps),
+      measure_(strain_measure(film)),
       ranges_(std::move(ranges)) {}
 
 /// Over the frames from the first up to the last, which is not among them.
@@ -198,8 +197,8 @@ ColorRange FieldColors::range_over(std::size_t first, std::size_t last) const {
   }
 }
 
-Eigen::VectorXd FieldColors::map_coordinates(std::size_t frame, std::size_t actor) const {
-  const Eigen::VectorXd values = field_values(field_, simulation_, recording_, frame, actor, fps_, measure_);
+Eigen::VectorXd FieldColors::map_coordinates(std::size_t frame, std::size_t body) const {
+  const Eigen::VectorXd values = field_values(field_, simulation_, recording_, frame, body, fps_, measure_);
   const ColorRange& range = range_in(ranges_, frame);
   return (values.array() - range.low) / (range.high - range.low);
 }

@@ -12,7 +12,7 @@ namespace sprung {
 /// between frames (m/s), largest principal stretch, von Mises strain, von Mises stress (Pa), volume over rest volume,
 /// fill, or Young's modulus (Pa) for kRegion. Not for kSkin. `measure`: of the strain that the stress follows from.
 [[nodiscard]] Eigen::VectorXd field_values(Field field, const Simulation& simulation, const Recording& recording,
-                                           std::size_t frame, std::size_t actor, double fps,
+                                           std::size_t frame, std::size_t body, double fps,
                                            StrainMeasure measure = StrainMeasure::kFinite);
 
 /// True where the field changes over time.
@@ -37,14 +37,14 @@ using ColorRanges = std::vector<ColorRange>;
 class FieldColors {
  public:
   /// Finds the range over all frames or over each of them, unless the scene states it. All must outlive it.
-  FieldColors(const Film& scene, const Simulation& simulation, const Recording& recording);
-  FieldColors(const Film& scene, const Simulation& simulation, const Recording& recording, ColorRanges ranges);
+  FieldColors(const Film& film, const Simulation& simulation, const Recording& recording);
+  FieldColors(const Film& film, const Simulation& simulation, const Recording& recording, ColorRanges ranges);
 
   [[nodiscard]] bool is_mapped() const { return field_ != Field::kSkin; }
   [[nodiscard]] ColorMap map() const { return map_; }
   [[nodiscard]] const ColorRanges& ranges() const { return ranges_; }
   /// Coordinates of a body's nodes on the colour map, 0 to 1 within the range.
-  [[nodiscard]] Eigen::VectorXd map_coordinates(std::size_t frame, std::size_t actor) const;
+  [[nodiscard]] Eigen::VectorXd map_coordinates(std::size_t frame, std::size_t body) const;
   /// In a unit with short numbers, the same in all frames.
   [[nodiscard]] Legend legend(std::size_t frame) const;
 

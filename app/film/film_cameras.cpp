@@ -82,8 +82,8 @@ Points flipped(const Points& points, const Vec3& center, double degrees) {
 }
 
 /// All points that have to be in view, relative to the followed centroid where the camera follows.
-Points points_to_see(const Film& scene, const Reach& reach, const Vec3& center) {
-  if (!scene.camera.follow) return with_ground(stacked({stacked(reach.bodies), reach.around}), reach.ground);
+Points points_to_see(const Film& film, const Reach& reach, const Vec3& center) {
+  if (!film.camera.follow) return with_ground(stacked({stacked(reach.bodies), reach.around}), reach.ground);
   std::vector<Points> parts;
   for (std::size_t frame = 0; frame < reach.bodies.size(); ++frame) {
     parts.push_back(reach.bodies[frame].rowwise() + (center - reach.middles[frame]).transpose());
@@ -139,11 +139,11 @@ Reach reach_of(const Simulation& simulation, const Recording& recording) {
     Vec3 sum = Vec3::Zero();
     Eigen::Index nodes = 0;
     Eigen::Index next = 0;
-    for (std::size_t actor = 0; actor < frame.size(); ++actor) {
-      const Points skin = simulation.world.bodies[actor].skin_positions(frame[actor].cast<double>());
+    for (std::size_t body = 0; body < frame.size(); ++body) {
+      const Points skin = simulation.world.bodies[body].skin_positions(frame[body].cast<double>());
       reach.bounds.extend(bounding_box(skin));
-      sum += frame[actor].cast<double>().colwise().sum().transpose();
-      nodes += frame[actor].rows();
+      sum += frame[body].cast<double>().colwise().sum().transpose();
+      nodes += frame[body].rows();
       for (int way = 0; way < 26; ++way) {
         Eigen::Index row = 0;
         (skin * ways.row(way).transpose()).maxCoeff(&row);
@@ -183,12 +183,12 @@ Reach joined(const std::vector<Reach>& runs) {
   return all;
 }
 
-std::vector<Camera> cameras_of(const Film& scene, const Reach& reach, double reserved) {
-  const SceneCamera& chosen = scene.camera;
+std::vector<Camera> cameras_of(const Film& film, const Reach& reach, double reserved) {
+  const SceneCamera& chosen = film.camera;
   const std::size_t frames = reach.bodies.size();
   const Vec3 center = reach.bounds.center();
-  const Points seen = points_to_see(scene, reach, center);
-  const double aspect = (1 - reserved) * scene.render.resolution[0] / scene.render.resolution[1];
+  const Points seen = points_to_see(film, reach, center);
+  const double aspect = (1 - reserved) * film.render.resolution[0] / film.render.resolution[1];
   std::vector<Points> stops;
   const int count = chosen.orbit == 0 ? 1 : kStops;
   stops.reserve(count);
@@ -209,7 +209,7 @@ std::vector<Camera> cameras_of(const Film& scene, const Reach& reach, double res
     Camera camera = carried_around(first, center, way * chosen.orbit);
     double zoom = chosen.zoom;
     if (!chosen.keyframes.empty()) {
-      const CameraKeyframe at = placed(chosen.keyframes, time_of(scene, int(frame)));
+      const CameraKeyframe at = placed(chosen.keyframes, time_of(film, int(frame)));
       camera = framed(seen, at.azimuth, at.elevation);
       zoom = at.zoom;
     }

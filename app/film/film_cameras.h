@@ -24,7 +24,7 @@ struct Reach {
 /// One camera per frame, from the direction that the scene states, which shows the whole motion (or, where it follows
 /// the bodies, that frame) as large as possible, without the fraction `reserved` of the picture's width at its right
 /// edge.
-[[nodiscard]] std::vector<Camera> cameras_of(const Film& scene, const Reach& reach, double reserved);
+[[nodiscard]] std::vector<Camera> cameras_of(const Film& film, const Reach& reach, double reserved);
 
 /// Pixels per metre at the camera's target, in a picture of that height.
 [[nodiscard]] double pixels_per_metre(const Camera& camera, int height);

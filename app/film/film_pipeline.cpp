@@ -57,20 +57,20 @@ Film with_panel_size(Film scene, std::size_t runs, const Labels& labels) {
   return scene;
 }
 
-RenderOptions options_of(const Film& scene) {
-  const SceneRender& render = scene.render;
+RenderOptions options_of(const Film& film) {
+  const SceneRender& render = film.render;
   return {.width = render.resolution[0],
           .height = render.resolution[1],
           .samples = render.samples.value_or(samples_of(render.quality)),
           .quality = render.quality,
           .transparent = render.transparent,
-          .exposes = render.motion_blur > 0 || scene.camera.aperture > 0};
+          .exposes = render.motion_blur > 0 || film.camera.aperture > 0};
 }
 
 std::optional<Legend> first_legend(const FilmRun& run, const ColorRanges& ranges) {
   if (ranges.empty()) return std::nullopt;
   constexpr double kNeverSmooth = std::numeric_limits<double>::infinity();
-  return FilmStage(run.scene, run.simulation, run.recording, kNeverSmooth, ranges).legend(0);
+  return FilmStage(run.film, run.simulation, run.recording, kNeverSmooth, ranges).legend(0);
 }
 
 }  // namespace
@@ -78,10 +78,10 @@ std::optional<Legend> first_legend(const FilmRun& run, const ColorRanges& ranges
 /// Of what all runs show; none where colours show no field.
 ColorRanges FilmPipeline::common_ranges(const std::vector<FilmRun>& runs) {
   ColorRanges ranges;
-  const SceneRender& render = runs.front().scene.render;
+  const SceneRender& render = runs.front().film.render;
   if (render.color_by == Field::kSkin && !render.springs) return ranges;
   for (const FilmRun& run : runs) {
-    Film its = run.scene;
+    Film its = run.film;
     its.render = render;
     ranges = merged(ranges, FilmStage(its, run.simulation, run.recording).color_ranges());
   }
@@ -98,7 +98,7 @@ FilmPipeline::FilmPipeline(const std::vector<FilmRun>& runs, const std::optional
 FilmPipeline::FilmPipeline(const std::vector<FilmRun>& runs, const std::optional<Environment>& surroundings,
                            const ColorRanges& ranges)
     : surroundings_(surroundings),
-      scene_(runs.front().scene),
+      scene_(runs.front().film),
       reach_(common_reach(runs)),
       labels_(scene_.render, first_legend(runs.front(), ranges), runs.size() > 1),
       scene_of_panel_(with_panel_size(scene_, runs.size(), labels_)),
@@ -108,7 +108,7 @@ FilmPipeline::FilmPipeline(const std::vector<FilmRun>& runs, const std::optional
   cameras_ = cameras_of(scene_of_panel_, reach_, is_whole ? 1.0 * labels_.reserved(width, height) / width : 0);
   const double pixel = 1 / finest_scale(cameras_, scene_of_panel_.render.resolution[1]);
   for (const FilmRun& run : runs) {
-    Film its = run.scene;
+    Film its = run.film;
     its.render = scene_.render;
     panels_.emplace_back(std::move(its), run, pixel, ranges);
   }

@@ -15,7 +15,7 @@ namespace sprung {
 
 /// A run that a film shows. All must outlive the film.
 struct FilmRun {
-  const Film& scene;
+  const Film& film;
   const Simulation& simulation;
   const Recording& recording;
   std::string name{};  // written over its pictures in a film of several runs

@@ -46,7 +46,7 @@ double spring_opacity(double share) {
   return *(more - 1);
 }
 
-int id_of(std::size_t actor) { return int(actor) + 1; }
+int id_of(std::size_t body) { return int(body) + 1; }
 
 template <class T>
 std::shared_ptr<const T> not_owned(const T& object) {
@@ -91,24 +91,24 @@ SkinShape shape_of(const StageObstacle& obstacle, const Skin& skin, double time)
   return {.positions = positions.cast<float>(), .normals = normals.cast<float>()};
 }
 
-FilmStage::FilmStage(const Film& scene, const Simulation& simulation, const Recording& recording, double pixel,
+FilmStage::FilmStage(const Film& film, const Simulation& simulation, const Recording& recording, double pixel,
                      ColorRanges ranges)
-    : scene_(scene),
+    : scene_(film),
       simulation_(simulation),
       recording_(recording),
-      colors_(ranges.empty() || scene.render.springs ? FieldColors(scene, simulation, recording)
-                                                     : FieldColors(scene, simulation, recording, ranges)),
+      colors_(ranges.empty() || film.render.springs ? FieldColors(film, simulation, recording)
+                                                    : FieldColors(film, simulation, recording, ranges)),
       pixel_(pixel) {
-  const SceneRender& render = scene.render;
+  const SceneRender& render = film.render;
   if (render.springs) stretches_ = ranges.empty() ? stretch_ranges() : std::move(ranges);
-  for (std::size_t actor = 0; actor < simulation.world.bodies.size(); ++actor) {
-    if (render.bricks != BrickView::kNone) add_bricks(actor);
-    if (render.springs) add_springs(actor);
-    if (render.bricks == BrickView::kNone && !render.springs) add_skin(actor);
-    if (render.edges) add_edges(actor);
-    if (render.nodes) add_nodes(actor);
-    if (render.pins) add_pins(actor);
-    if (render.ghost) add_ghost(actor);
+  for (std::size_t body = 0; body < simulation.world.bodies.size(); ++body) {
+    if (render.bricks != BrickView::kNone) add_bricks(body);
+    if (render.springs) add_springs(body);
+    if (render.bricks == BrickView::kNone && !render.springs) add_skin(body);
+    if (render.edges) add_edges(body);
+    if (render.nodes) add_nodes(body);
+    if (render.pins) add_pins(body);
+    if (render.ghost) add_ghost(body);
   }
   int id = id_of(simulation.world.bodies.size());
   for (const StageObstacle& obstacle : simulation.obstacles) {
@@ -145,12 +145,12 @@ Stage FilmStage::stage(const AlignedBox& bounds, const std::optional<Environment
 FilmStage::Moment FilmStage::moment(std::size_t frame, double part) const {
   const std::size_t next = std::min(frame + 1, recording_.frames.size() - 1);
   Moment moment{frame, std::lerp(recording_.progress[frame], recording_.progress[next], part), {}};
-  for (std::size_t actor = 0; actor < recording_.frames[frame].size(); ++actor) {
-    const Points from = recording_.frames[frame][actor].cast<double>();
+  for (std::size_t body = 0; body < recording_.frames[frame].size(); ++body) {
+    const Points from = recording_.frames[frame][body].cast<double>();
     if (part == 0) {
       moment.nodes.push_back(from);
     } else {
-      moment.nodes.emplace_back((1 - part) * from + part * recording_.frames[next][actor].cast<double>());
+      moment.nodes.emplace_back((1 - part) * from + part * recording_.frames[next][body].cast<double>());
     }
   }
   return moment;
@@ -178,8 +178,8 @@ std::optional<Legend> FilmStage::legend(std::size_t frame) const {
   return std::nullopt;
 }
 
-Eigen::VectorXd FilmStage::map_coordinates(const Moment& moment, std::size_t actor) const {
-  return colors_.is_mapped() && !scene_.render.springs ? colors_.map_coordinates(moment.frame, actor)
+Eigen::VectorXd FilmStage::map_coordinates(const Moment& moment, std::size_t body) const {
+  return colors_.is_mapped() && !scene_.render.springs ? colors_.map_coordinates(moment.frame, body)
                                                        : Eigen::VectorXd();
 }
 
@@ -218,23 +218,22 @@ void FilmStage::add_skin(std::size_t row) {
        colors_.is_mapped() ? 0 : mean_free_path_of(scene_body, *scene_.library)});
 }
 
-void FilmStage::add_bricks(std::size_t actor) {
-  const Body& body = simulation_.world.bodies[actor];
+void FilmStage::add_bricks(std::size_t row) {
+  const Body& body = simulation_.world.bodies[row];
   const bool exploded = scene_.render.bricks == BrickView::kExploded;
   const Eigen::Vector3f color = colors_.is_mapped() && !scene_.render.springs
                                     ? Eigen::Vector3f::Ones().eval()
-                                    : srgb(simulation_.world.bodies[actor].color);
+                                    : srgb(simulation_.world.bodies[row].color);
   const auto cubes = std::make_shared<const BrickCubes>(body.grid, bricks_left(body.grid, scene_.render.cut), exploded,
                                                         std::vector(body.grid.cells.size(), color));
   const auto skin = std::make_shared<const Skin>(with_shape(cubes->skin(), cubes->shape(body.rest_positions)));
-  items_.push_back({skin, color, colors_.is_mapped() ? Look::kChart : Look::kRubber, false, id_of(actor),
-                    [this, actor, cubes](const Moment& now) {
-                      return cubes->shape(now.nodes[actor], map_coordinates(now, actor));
-                    }});
+  items_.push_back(
+      {skin, color, colors_.is_mapped() ? Look::kChart : Look::kRubber, false, id_of(row),
+       [this, row, cubes](const Moment& now) { return cubes->shape(now.nodes[row], map_coordinates(now, row)); }});
 }
 
-void FilmStage::add_springs(std::size_t actor) {
-  const Body& body = simulation_.world.bodies[actor];
+void FilmStage::add_springs(std::size_t row) {
+  const Body& body = simulation_.world.bodies[row];
   const auto springs = std::make_shared<const SpringSet>(springs_of(body, bricks_left(body.grid, scene_.render.cut)));
   const auto rods = std::make_shared<const Rods>(springs->nodes.size(), kSpringRadius * body.grid.brick_size);
   const auto shape = [this, springs, rods](const Points& nodes, std::size_t frame) {
@@ -247,19 +246,19 @@ void FilmStage::add_springs(std::size_t actor) {
                           .opacities = shares.unaryExpr(&spring_opacity)});
   };
   const auto skin = std::make_shared<const Skin>(with_shape(rods->skin(), shape(body.rest_positions, 0)));
-  items_.push_back({skin, Eigen::Vector3f::Ones(), Look::kChart, false, id_of(actor),
-                    [actor, shape](const Moment& now) { return shape(now.nodes[actor], now.frame); }});
+  items_.push_back({skin, Eigen::Vector3f::Ones(), Look::kChart, false, id_of(row),
+                    [row, shape](const Moment& now) { return shape(now.nodes[row], now.frame); }});
 }
 
 /// Symmetric; over all frames, so that colours mean the same in each, or by frame.
 ColorRanges FilmStage::stretch_ranges() const {
   if (const std::optional<double>& stated = scene_.render.color_high) return {{-*stated, *stated}};
   ColorRanges ranges(recording_.frames.size(), {-kLeastStretch, kLeastStretch});
-  for (std::size_t actor = 0; actor < simulation_.world.bodies.size(); ++actor) {
-    const Body& body = simulation_.world.bodies[actor];
+  for (std::size_t row = 0; row < simulation_.world.bodies.size(); ++row) {
+    const Body& body = simulation_.world.bodies[row];
     const SpringSet springs = springs_of(body, std::vector<bool>(body.grid.cells.size(), true));
     for (std::size_t frame = 0; frame < ranges.size(); ++frame) {
-      Eigen::VectorXd stretches = springs.stretches(recording_.frames[frame][actor].cast<double>()).cwiseAbs();
+      Eigen::VectorXd stretches = springs.stretches(recording_.frames[frame][row].cast<double>()).cwiseAbs();
       const auto rank = Eigen::Index(kUtmost * double(stretches.size()));
       std::nth_element(stretches.begin(), stretches.end() - 1 - rank, stretches.end());
       const double furthest = std::max(ranges[frame].high, stretches[stretches.size() - 1 - rank]);
@@ -292,18 +291,18 @@ void FilmStage::add_edges(std::size_t row) {
                     [row, shape](const Moment& now) { return shape(now.nodes[row]); }});
 }
 
-void FilmStage::add_balls(std::size_t actor, std::vector<int> nodes, double radius, const Eigen::Vector3f& color) {
+void FilmStage::add_balls(std::size_t body, std::vector<int> nodes, double radius, const Eigen::Vector3f& color) {
   const auto balls = std::make_shared<const Balls>(nodes.size(), radius);
-  const Points& rest = simulation_.world.bodies[actor].rest_positions;
+  const Points& rest = simulation_.world.bodies[body].rest_positions;
   const auto skin = std::make_shared<const Skin>(with_shape(balls->skin(), balls->shape(rows_of(rest, nodes))));
   items_.push_back(
-      {skin, color, Look::kPlastic, false, id_of(actor), [actor, balls, nodes = std::move(nodes)](const Moment& now) {
-         return balls->shape(rows_of(now.nodes[actor], nodes));
+      {skin, color, Look::kPlastic, false, id_of(body), [body, balls, nodes = std::move(nodes)](const Moment& now) {
+         return balls->shape(rows_of(now.nodes[body], nodes));
        }});
 }
 
-void FilmStage::add_nodes(std::size_t actor) {
-  const BrickGrid& grid = simulation_.world.bodies[actor].grid;
+void FilmStage::add_nodes(std::size_t body) {
+  const BrickGrid& grid = simulation_.world.bodies[body].grid;
   const std::vector<bool> shown = bricks_left(grid, scene_.render.cut);
   std::vector<int> nodes;
   for (std::size_t brick = 0; brick < shown.size(); ++brick) {
@@ -311,13 +310,13 @@ void FilmStage::add_nodes(std::size_t actor) {
   }
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  add_balls(actor, nodes, kNodeRadius * grid.brick_size, kNodeColor);
+  add_balls(body, nodes, kNodeRadius * grid.brick_size, kNodeColor);
 }
 
-void FilmStage::add_pins(std::size_t actor) {
-  const std::vector<int> nodes = simulation_.world.bodies[actor].origin.pinned_nodes();
+void FilmStage::add_pins(std::size_t body) {
+  const std::vector<int> nodes = simulation_.world.bodies[body].origin.pinned_nodes();
   if (nodes.empty()) return;
-  add_balls(actor, nodes, kPinRadius * simulation_.world.bodies[actor].grid.brick_size, kPinColor);
+  add_balls(body, nodes, kPinRadius * simulation_.world.bodies[body].grid.brick_size, kPinColor);
 }
 
 void FilmStage::add_ghost(std::size_t row) {

@@ -28,7 +28,7 @@ class FilmStage {
   /// All must outlive it. `pixel`: what one shows of the nearest body, m; skins of coarse meshes are drawn smooth to
   /// within a part of that, if the scene wants it; infinity: never. `ranges`: of the colours; none: those that the film
   /// finds.
-  FilmStage(const Film& scene, const Simulation& simulation, const Recording& recording,
+  FilmStage(const Film& film, const Simulation& simulation, const Recording& recording,
             double pixel = std::numeric_limits<double>::infinity(), ColorRanges ranges = {});
 
   /// `bounds`: of the whole motion, m. Lit by the studio where there is no environment.
@@ -66,18 +66,18 @@ class FilmStage {
   [[nodiscard]] bool is_smooth() const;
   [[nodiscard]] DrawnSkin drawn_skin(const SoftBody& body);
   [[nodiscard]] Moment moment(std::size_t frame, double part) const;
-  [[nodiscard]] Eigen::VectorXd map_coordinates(const Moment& moment, std::size_t actor) const;
-  void add_skin(std::size_t actor);
-  void add_bricks(std::size_t actor);
-  void add_springs(std::size_t actor);
-  void add_nodes(std::size_t actor);
-  void add_pins(std::size_t actor);
-  void add_ghost(std::size_t actor);
+  [[nodiscard]] Eigen::VectorXd map_coordinates(const Moment& moment, std::size_t body) const;
+  void add_skin(std::size_t body);
+  void add_bricks(std::size_t body);
+  void add_springs(std::size_t body);
+  void add_nodes(std::size_t body);
+  void add_pins(std::size_t body);
+  void add_ghost(std::size_t body);
   void add_obstacle(const StageObstacle& obstacle, int id);
   void add_trace(const ProbeTrack& track, const Eigen::Vector3f& color);
   void add_contacts();
-  void add_balls(std::size_t actor, std::vector<int> nodes, double radius, const Eigen::Vector3f& color);
-  void add_edges(std::size_t actor);
+  void add_balls(std::size_t body, std::vector<int> nodes, double radius, const Eigen::Vector3f& color);
+  void add_edges(std::size_t body);
   [[nodiscard]] ColorRanges stretch_ranges() const;
 
   const Film& scene_;

@@ -25,16 +25,16 @@ std::string name_of(const SceneObstacle& obstacle) {
 
 }  // namespace
 
-std::vector<std::string> matte_names(const Film& scene, const Simulation& simulation) {
+std::vector<std::string> matte_names(const Film& film, const Simulation& simulation) {
   std::vector<std::string> names{"ground"};
   std::map<std::string, int> counts{{"ground", 1}};
   const auto add = [&](const std::string& name) {
     const int count = ++counts[name];
     names.push_back(count == 1 ? name : fmt::format("{}.{:03}", name, count));
   };
-  for (const SoftBody& body : simulation.world.bodies) add(name_of(scene.bodies[body.origin.body]));
+  for (const SoftBody& body : simulation.world.bodies) add(name_of(film.bodies[body.origin.body]));
   for (std::size_t row = 0; row < simulation.obstacles.size(); ++row) {
-    if (simulation.obstacles[row].skin.positions.rows() > 0) add(name_of(scene.obstacles[row]));
+    if (simulation.obstacles[row].skin.positions.rows() > 0) add(name_of(film.obstacles[row]));
   }
   return names;
 }

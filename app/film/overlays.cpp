@@ -24,13 +24,13 @@ constexpr std::array<std::array<int, 3>, 8> kOctahedron{
 /// A unit sphere: an octahedron, each of its triangles divided into 4 again and again.
 RoundShape round_shape(int divisions) {
   RoundShape shape;
-  for (int k = 0; k < 6; ++k) shape.places.emplace_back((k % 2 == 0 ? 1 : -1) * Vec3::Unit(k / 2));
+  for (int k = 0; k < 6; ++k) shape.positions.emplace_back((k % 2 == 0 ? 1 : -1) * Vec3::Unit(k / 2));
   shape.triangles.assign(kOctahedron.begin(), kOctahedron.end());
   for (int division = 0; division < divisions; ++division) {
     std::map<std::pair<int, int>, int> middles;
     const auto between = [&](int a, int b) {
-      const auto [found, is_new] = middles.try_emplace(std::minmax(a, b), isize(shape.places));
-      if (is_new) shape.places.push_back((shape.places[a] + shape.places[b]).normalized());
+      const auto [found, is_new] = middles.try_emplace(std::minmax(a, b), isize(shape.positions));
+      if (is_new) shape.positions.push_back((shape.positions[a] + shape.positions[b]).normalized());
       return found->second;
     };
     std::vector<std::array<int, 3>> parts;
@@ -129,7 +129,7 @@ std::vector<std::array<int, 2>> edges_of(const Triangles& triangles) {
 
 Balls::Balls(std::size_t count, double radius) : radius_(radius), round_(round_shape(divisions_of(count))) {
   const Eigen::Index balls = count;
-  const Eigen::Index vertices = round_.places.size();
+  const Eigen::Index vertices = round_.positions.size();
   reserve(skin_, vertices * balls, Eigen::Index(round_.triangles.size()) * balls);
   Eigen::Index triangle = 0;
   for (Eigen::Index ball = 0; ball < balls; ++ball) {
@@ -141,8 +141,8 @@ Balls::Balls(std::size_t count, double radius) : radius_(radius), round_(round_s
 }
 
 SkinShape Balls::shape(const Points& centers, const Vec3& idle) const {
-  const std::vector<Vec3>& places = round_.places;
-  const Eigen::Index vertices = places.size();
+  const std::vector<Vec3>& positions = round_.positions;
+  const Eigen::Index vertices = positions.size();
   const Eigen::Index count = skin_.positions.rows() / vertices;
   SkinShape shape;
   shape.positions.resize(skin_.positions.rows(), 3);
@@ -151,7 +151,7 @@ SkinShape Balls::shape(const Points& centers, const Vec3& idle) const {
     const bool is_shown = ball < centers.rows();
     const Vec3 middle = is_shown ? Vec3(centers.row(ball).transpose()) : idle;
     for (Eigen::Index vertex = 0; vertex < vertices; ++vertex) {
-      const Vec3& normal = places[vertex];
+      const Vec3& normal = positions[vertex];
       const Eigen::Index row = vertices * ball + vertex;
       shape.positions.row(row) = (middle + (is_shown ? radius_ : 0) * normal).cast<float>().transpose();
       shape.normals.row(row) = normal.cast<float>().transpose();
@@ -199,8 +199,8 @@ namespace {
 constexpr double kNear = 0.08;  // of a brick: largest distance that counts as contact
 constexpr double kCell = 0.5;   // of a brick
 
-bool is_within(const AlignedBox& bounds, const Vec3& place, double margin) {
-  return ((place - bounds.min()).array() > -margin).all() && ((bounds.max() - place).array() > -margin).all();
+bool is_within(const AlignedBox& bounds, const Vec3& position, double margin) {
+  return ((position - bounds.min()).array() > -margin).all() && ((bounds.max() - position).array() > -margin).all();
 }
 
 bool are_near(const AlignedBox& a, const AlignedBox& b, double margin) {
@@ -211,9 +211,9 @@ bool are_near(const AlignedBox& a, const AlignedBox& b, double margin) {
 class ThinnedPoints {
  public:
   void set_cell(double cell) { cell_ = cell; }
-  void add(const Vec3& place) {
-    const auto at = [&](int k) { return std::lround(std::floor(place[k] / cell_)); };
-    if (cells_.insert({at(0), at(1), at(2)}).second) places_.push_back(place);
+  void add(const Vec3& position) {
+    const auto at = [&](int k) { return std::lround(std::floor(position[k] / cell_)); };
+    if (cells_.insert({at(0), at(1), at(2)}).second) places_.push_back(position);
   }
   [[nodiscard]] Points points() const {
     Points points(places_.size(), 3);
@@ -240,32 +240,33 @@ Contacts::Contacts(const Simulation& simulation)
 Points Contacts::at(const std::vector<Points>& nodes, double time) const {
   std::vector<Points> skins;
   std::vector<AlignedBox> bounds;
-  for (std::size_t actor = 0; actor < nodes.size(); ++actor) {
-    skins.push_back(simulation_.world.bodies[actor].skin_positions(nodes[actor]));
+  for (std::size_t body = 0; body < nodes.size(); ++body) {
+    skins.push_back(simulation_.world.bodies[body].skin_positions(nodes[body]));
     bounds.push_back(bounding_box(skins.back()));
   }
   ThinnedPoints found;
-  for (std::size_t actor = 0; actor < nodes.size(); ++actor) {
-    const double brick = simulation_.world.bodies[actor].grid.brick_size;
+  for (std::size_t body = 0; body < nodes.size(); ++body) {
+    const double brick = simulation_.world.bodies[body].grid.brick_size;
     const double near = kNear * brick;
     found.set_cell(kCell * brick);
-    for (const auto& vertex : skins[actor].rowwise()) {
+    for (const auto& vertex : skins[body].rowwise()) {
       if (ground_ && vertex.y() - *ground_ < near) found.add(vertex.transpose());
     }
     for (const Solid& solid : solids_) {
       const Pose pose = pose_at(*solid.obstacle, time);
       const AlignedBox room = bounding_box(solid.obstacle->skin.positions);
-      for (const auto& vertex : skins[actor].rowwise()) {
-        const Vec3 place = pose.rotation.transpose() * (vertex.transpose() - pose.translation);
-        if (is_within(room, place, near) && solid.surface.at(place).distance < near) found.add(vertex.transpose());
+      for (const auto& vertex : skins[body].rowwise()) {
+        const Vec3 position = pose.rotation.transpose() * (vertex.transpose() - pose.translation);
+        if (is_within(room, position, near) && solid.surface.at(position).distance < near)
+          found.add(vertex.transpose());
       }
     }
     for (std::size_t other = 0; other < nodes.size(); ++other) {
-      if (other == actor || !are_near(bounds[actor], bounds[other], near)) continue;
+      if (other == body || !are_near(bounds[body], bounds[other], near)) continue;
       const NearestTriangle surface(skins[other], simulation_.world.bodies[other].skin.triangles);
-      for (const auto& vertex : skins[actor].rowwise()) {
-        const Vec3 place = vertex.transpose();
-        if (is_within(bounds[other], place, near) && surface.at(place).distance < near) found.add(place);
+      for (const auto& vertex : skins[body].rowwise()) {
+        const Vec3 position = vertex.transpose();
+        if (is_within(bounds[other], position, near) && surface.at(position).distance < near) found.add(position);
       }
     }
   }

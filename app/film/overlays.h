@@ -41,7 +41,7 @@ class Rods {
 
 /// Points and triangles of a sphere of radius 1.
 struct RoundShape {
-  std::vector<Vec3> places;
+  std::vector<Vec3> positions;
   std::vector<std::array<int, 3>> triangles;
 };
 

@@ -177,11 +177,11 @@ std::size_t processes_for(const Task& task, int jobs) {
 
 void draw_film(const std::vector<FilmRun>& runs, const std::optional<Environment>& surroundings,
                const FrameChoice& choice, const std::vector<Output>& outputs, const Console& console, int jobs) {
-  const Film& scene = runs.front().scene;
-  const Task task{choice, chosen_frames(choice, scene.render, outputs), outputs, scene.render,
-                  scene.fps / choice.range.step};
+  const Film& film = runs.front().film;
+  const Task task{choice, chosen_frames(choice, film.render, outputs), outputs, film.render,
+                  film.fps / choice.range.step};
   if (task.frames.empty()) return console.note("--skip-existing: all pictures exist already");
-  Progress progress(console, scene.render.sheet ? "sheet" : "render", double(task.frames.size()), 1, "frames/s");
+  Progress progress(console, film.render.sheet ? "sheet" : "render", double(task.frames.size()), 1, "frames/s");
   FilmPipeline pipeline(runs, surroundings);
   const std::size_t processes = processes_for(task, jobs);
   if (processes > 1 && end_worker_threads()) {
@@ -189,9 +189,9 @@ void draw_film(const std::vector<FilmRun>& runs, const std::optional<Environment
   } else {
     draw_here(task, pipeline, console, progress);
   }
-  const auto [width, height] = scene.render.resolution;
+  const auto [width, height] = film.render.resolution;
   const std::string made =
-      count_of(task.frames.size(), scene.render.sheet ? "moment" : "picture") + (scene.render.sheet ? " in one" : "");
+      count_of(task.frames.size(), film.render.sheet ? "moment" : "picture") + (film.render.sheet ? " in one" : "");
   progress.finish(fmt::format("{} of {} x {} pixels{}", made, width, height,
                               ground_report(runs.front().simulation, pipeline.lowest())));
   warn_of_depth(runs.front().simulation, pipeline.lowest(), console);
@@ -231,9 +231,9 @@ std::vector<Output> with_streams_chosen(std::vector<Output> outputs, const Scene
 
 }  // namespace
 
-void check_outputs(const Film& scene, std::size_t runs, const FrameChoice& choice, const std::vector<Output>& given) {
+void check_outputs(const Film& film, std::size_t runs, const FrameChoice& choice, const std::vector<Output>& given) {
   const auto refuse = [](const std::string& reason) { throw Error(ErrorKind::kUsage, reason); };
-  const SceneRender& render = scene.render;
+  const SceneRender& render = film.render;
   if (render.quality == Quality::kFinal) {
     require_path_tracer();
   } else if (render.samples && !is_raster_samples(*render.samples)) {
@@ -262,14 +262,14 @@ void check_outputs(const Film& scene, std::size_t runs, const FrameChoice& choic
 
 void render_film(const std::vector<FilmRun>& runs, const std::optional<Environment>& surroundings,
                  const FrameChoice& choice, const std::vector<Output>& given, const Console& console, int jobs) {
-  const Film& scene = runs.front().scene;
-  const std::vector<Output> outputs = with_streams_chosen(given, scene.render, choice);
-  check_outputs(scene, runs.size(), choice, outputs);
-  const std::vector<Output> others = sheets_among(outputs, scene.render, choice, false);
+  const Film& film = runs.front().film;
+  const std::vector<Output> outputs = with_streams_chosen(given, film.render, choice);
+  check_outputs(film, runs.size(), choice, outputs);
+  const std::vector<Output> others = sheets_among(outputs, film.render, choice, false);
   if (!others.empty()) draw_film(runs, surroundings, choice, others, console, jobs);
-  const std::vector<Output> sheets = sheets_among(outputs, scene.render, choice, true);
+  const std::vector<Output> sheets = sheets_among(outputs, film.render, choice, true);
   if (sheets.empty()) return;
-  const Film in_sheet = as_sheet(scene, choice.range.count());
+  const Film in_sheet = as_sheet(film, choice.range.count());
   const FilmRun& run = runs.front();
   draw_film({{in_sheet, run.simulation, run.recording, run.name}}, surroundings, choice, sheets, console, jobs);
 }

@@ -9,7 +9,7 @@
 namespace sprung {
 
 /// Throws Error(kUsage) where an output cannot hold what the scene asks for.
-void check_outputs(const Film& scene, std::size_t runs, const FrameChoice& choice, const std::vector<Output>& outputs);
+void check_outputs(const Film& film, std::size_t runs, const FrameChoice& choice, const std::vector<Output>& outputs);
 
 /// Draws these frames of a run, or of several side by side, and writes them to the outputs. A picture depends on its
 /// frame and on the whole recording, which the camera frames, but not on which others are drawn. A single picture of

@@ -21,18 +21,18 @@ const Eigen::Vector3f kRepaired(0.60F, 0.20F, 0.55F);
 /// Points spread over the triangles that close holes, n x 3.
 Points cap_points(const Solid& solid) {
   constexpr int kAlong = 12;
-  std::vector<Vec3> places;
+  std::vector<Vec3> positions;
   for (Eigen::Index t = 0; t < solid.triangles.rows(); ++t) {
     if (solid.source[t] >= 0) continue;
     const Vec3 a = solid.points.row(solid.triangles(t, 0));
     const Vec3 b = solid.points.row(solid.triangles(t, 1)).transpose() - a;
     const Vec3 c = solid.points.row(solid.triangles(t, 2)).transpose() - a;
     for (int i = 0; i <= kAlong; ++i) {
-      for (int j = 0; i + j <= kAlong; ++j) places.emplace_back(a + (i * b + j * c) / kAlong);
+      for (int j = 0; i + j <= kAlong; ++j) positions.emplace_back(a + (i * b + j * c) / kAlong);
     }
   }
-  Points points(places.size(), 3);
-  for (Eigen::Index i = 0; i < points.rows(); ++i) points.row(i) = places[i];
+  Points points(positions.size(), 3);
+  for (Eigen::Index i = 0; i < points.rows(); ++i) points.row(i) = positions[i];
   return points;
 }
 
@@ -70,7 +70,7 @@ Image draw(const std::vector<Skin>& skins, const std::vector<Eigen::Vector3f>& c
 Image draw_bricks(const Preparation& prepared) {
   const Simulation& simulation = prepared.simulation;
   AlignedBox bounds;
-  for (const SoftBody& actor : simulation.world.bodies) bounds.extend(bounding_box(actor.positions));
+  for (const SoftBody& body : simulation.world.bodies) bounds.extend(bounding_box(body.positions));
   std::vector<Skin> skins;
   std::vector<Skin> bricks;
   std::vector<Eigen::Vector3f> colors;

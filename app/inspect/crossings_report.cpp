@@ -97,10 +97,10 @@ Image draw_deepest(const Simulation& simulation, const std::vector<Points>& node
   const Drawn drawn = skins_of(simulation, nodes, deepest.time);
   const double half = std::max(kAround * deepest.depth, kAtLeast * simulation.size);
   Skin ball = make_skin(mesh_of(SphereShape{kBall * half}), {});
-  ball.positions.rowwise() += deepest.place.transpose();
+  ball.positions.rowwise() += deepest.position.transpose();
   const Drawn marks{
       .skins = {skin_of(triangles, kLifted * simulation.size), ball}, .colors = {kCrossing, kDeepest}, .bounds = {}};
-  const AlignedBox around(deepest.place - Vec3::Constant(half), deepest.place + Vec3::Constant(half));
+  const AlignedBox around(deepest.position - Vec3::Constant(half), deepest.position + Vec3::Constant(half));
   Points corners(8, 3);
   for (int corner = 0; corner < 8; ++corner) {
     corners.row(corner) = around.corner(AlignedBox::CornerType(corner)).transpose();
@@ -159,8 +159,8 @@ std::string text_of(const std::vector<Crossings>& frames) {
   text += fmt::format("skins cross in {} of {}", crossing, count_of(long(frames.size()), "frame"));
   if (const Crossings* deepest = deepest_of(frames)) {
     text += fmt::format(", deepest in frame {}: {} at [{:.5g}, {:.5g}, {:.5g}] m", deepest->frame + 1,
-                        readable(deepest->depth, Dimension::kLength), deepest->place.x(), deepest->place.y(),
-                        deepest->place.z());
+                        readable(deepest->depth, Dimension::kLength), deepest->position.x(), deepest->position.y(),
+                        deepest->position.z());
   }
   text += "\n";
   if (at_start != frames.end() && at_start->pairs_at_start > 0) {

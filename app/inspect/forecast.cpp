@@ -26,8 +26,8 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-bool is_implicit(const Film& scene, const World& world) {
-  return !is_motion(scene) || plan_steps(world, scene).is_implicit();
+bool is_implicit(const Film& film, const World& world) {
+  return !is_motion(film) || plan_steps(world, film).is_implicit();
 }
 
 double seconds_of_implicit_frame(World world, const StepPlan& plan) {
@@ -42,7 +42,7 @@ double seconds_of_implicit_frame(World world, const StepPlan& plan) {
 double seconds_of_explicit_frame(World world, const StepPlan& plan) {
   const Scheme scheme = plan.scheme == Solver::kVerlet ? Scheme::kVerlet : Scheme::kSymplecticEuler;
   double bricks = 0;
-  for (const SoftBody& actor : world.bodies) bricks += actor.grid.brick_count();
+  for (const SoftBody& body : world.bodies) bricks += body.grid.brick_count();
   const double dt = stable_step(world);
   const auto seconds_of = [&](long steps) {
     const auto start = std::chrono::steady_clock::now();
@@ -105,13 +105,13 @@ Film coarsened(Film scene) {
 
 double count_of_bricks(const World& world) {
   double count = 0;
-  for (const SoftBody& actor : world.bodies) count += actor.grid.brick_count();
+  for (const SoftBody& body : world.bodies) count += body.grid.brick_count();
   return count;
 }
 
 double count_of_contact_points(const World& world) {
   double count = 0;
-  for (const SoftBody& actor : world.bodies) count += double(actor.contacts.brick.size());
+  for (const SoftBody& body : world.bodies) count += double(body.contacts.brick.size());
   return count;
 }
 
@@ -123,14 +123,14 @@ struct CoarseRun {
 /// What contact adds to a frame, by a run of the whole scene in coarse bricks: contact takes time in
 /// proportion to its points and steps. Of implicit steps, whose Newton iterations grow with it, what they take in all.
 /// None where the scene cannot be coarsened.
-std::optional<CoarseRun> coarse_run(const Simulation& simulation, const Film& scene, const StepPlan& plan) {
+std::optional<CoarseRun> coarse_run(const Simulation& simulation, const Film& film, const StepPlan& plan) {
   constexpr double kMost = 4;  // s: of a heap that falls, the impact and some of what follows
   const FrameClock clock(kMost);
-  const Film coarse = coarsened(scene);
+  const Film coarse = coarsened(film);
   std::optional<Simulation> small;
   std::optional<StepPlan> small_plan;
   double free_frame = 0;
-  int frames = frame_count(scene);
+  int frames = frame_count(film);
   try {
     small = prepare_simulation(coarse, Observer());
     small_plan = plan_steps(small->world, coarse);
@@ -150,7 +150,7 @@ std::optional<CoarseRun> coarse_run(const Simulation& simulation, const Film& sc
   return CoarseRun{std::max(0.0, *frame - free_frame) * steps * points, frames};
 }
 
-double seconds_a_picture(const Simulation& simulation, const Film& scene) {
+double seconds_a_picture(const Simulation& simulation, const Film& film) {
   Stage stage;
   std::vector<SkinShape> shapes;
   for (const SoftBody& drawn : simulation.world.bodies) {
@@ -161,11 +161,11 @@ double seconds_a_picture(const Simulation& simulation, const Film& scene) {
   }
   stage.has_ground = ground_height(simulation.world.obstacles).has_value();
   stage.ground.height = stage.bounds.min().y();
-  const auto [width, height] = scene.render.resolution;
+  const auto [width, height] = film.render.resolution;
   Renderer renderer(stage, {.width = width,
                             .height = height,
-                            .samples = scene.render.samples.value_or(samples_of(scene.render.quality)),
-                            .quality = scene.render.quality});
+                            .samples = film.render.samples.value_or(samples_of(film.render.quality)),
+                            .quality = film.render.quality});
   const Camera camera = frame_bounds(stage.bounds, double(width) / height);
   static_cast<void>(renderer.draw(shapes, camera));  // the first picture compiles shaders
   const auto start = std::chrono::steady_clock::now();
@@ -175,8 +175,8 @@ double seconds_a_picture(const Simulation& simulation, const Film& scene) {
 
 }  // namespace
 
-double memory_forecast(const Simulation& simulation, const Film& scene) {
-  const double bytes_a_brick = is_implicit(scene, simulation.world) ? kBytesABrickImplicit : kBytesABrick;
+double memory_forecast(const Simulation& simulation, const Film& film) {
+  const double bytes_a_brick = is_implicit(film, simulation.world) ? kBytesABrickImplicit : kBytesABrick;
   double bytes = kBytesOfProgram;
   double nodes = 0;
   for (std::size_t i = 0; i < simulation.world.bodies.size(); ++i) {
@@ -184,8 +184,8 @@ double memory_forecast(const Simulation& simulation, const Film& scene) {
     bytes += kBytesASkinVertex * double(simulation.world.bodies[i].skin.positions.rows());
     nodes += simulation.world.bodies[i].node_count();
   }
-  const auto [width, height] = scene.render.resolution;
-  return bytes + 3 * sizeof(float) * nodes * frame_count(scene) + kBytesAPixel * double(width) * height;
+  const auto [width, height] = film.render.resolution;
+  return bytes + 3 * sizeof(float) * nodes * frame_count(film) + kBytesAPixel * double(width) * height;
 }
 
 std::string warning_of_memory(double bytes) {
@@ -197,13 +197,13 @@ std::string warning_of_memory(double bytes) {
       bytes / 1e9, present / 1e9);
 }
 
-Forecast make_forecast(const Simulation& simulation, const Film& scene) {
+Forecast make_forecast(const Simulation& simulation, const Film& film) {
   Forecast forecast;
-  forecast.memory = memory_forecast(simulation, scene);
-  forecast.frames = frame_count(scene);
-  if (is_motion(scene)) {
-    forecast.plan = plan_steps(simulation.world, scene);
-    const std::optional<CoarseRun> coarse = coarse_run(simulation, scene, *forecast.plan);
+  forecast.memory = memory_forecast(simulation, film);
+  forecast.frames = frame_count(film);
+  if (is_motion(film)) {
+    forecast.plan = plan_steps(simulation.world, film);
+    const std::optional<CoarseRun> coarse = coarse_run(simulation, film, *forecast.plan);
     if (coarse) forecast.frames = coarse->frames;
     if (!forecast.plan->is_implicit()) {
       forecast.seconds_simulating =
@@ -213,7 +213,7 @@ Forecast make_forecast(const Simulation& simulation, const Film& scene) {
           coarse ? coarse->seconds : seconds_of_implicit_frame(simulation.world, *forecast.plan);
     }
   }
-  forecast.seconds_drawing = seconds_a_picture(simulation, scene);
+  forecast.seconds_drawing = seconds_a_picture(simulation, film);
   return forecast;
 }
 

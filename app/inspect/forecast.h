@@ -19,10 +19,10 @@ struct Forecast {
 
 /// Measures it: advances a copy of the world briefly, lets the scene run in bricks twice as large for up to 2 s, for
 /// what contact takes, and draws one picture. Throws Error where that fails.
-[[nodiscard]] Forecast make_forecast(const Simulation& simulation, const Film& scene);
+[[nodiscard]] Forecast make_forecast(const Simulation& simulation, const Film& film);
 
 /// Bytes, estimated from the numbers of bricks, vertices and pixels.
-[[nodiscard]] double memory_forecast(const Simulation& simulation, const Film& scene);
+[[nodiscard]] double memory_forecast(const Simulation& simulation, const Film& film);
 
 /// A warning where this machine has less memory than that, else empty.
 [[nodiscard]] std::string warning_of_memory(double bytes);

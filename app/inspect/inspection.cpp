@@ -87,9 +87,9 @@ void add_bricks(const Body& body, const std::vector<ThinPart>& thin_parts, Brick
 
 }  // namespace
 
-Inspection inspect(const Preparation& prepared, const Film& scene) {
+Inspection inspect(const Preparation& prepared, const Film& film) {
   Inspection inspection;
-  const std::vector<SoftBody>& actors = prepared.simulation.world.bodies;
+  const std::vector<SoftBody>& bodies = prepared.simulation.world.bodies;
   for (std::size_t row = 0; row < prepared.bodies.size(); ++row) {
     const LoadedBody& body = prepared.bodies[row];
     BodyFacts facts;
@@ -98,9 +98,9 @@ Inspection inspect(const Preparation& prepared, const Film& scene) {
     facts.unit = 1 / body.file_from_rest.linear().col(0).norm();
     facts.mesh = mesh_facts(body, facts.unit);
     facts.bricks.size = body.brick_size;
-    for (std::size_t actor = 0; actor < actors.size(); ++actor) {
-      if (actors[actor].origin.body != row || actors[actor].origin.copy != 0) continue;
-      add_bricks(actors[actor], prepared.thin_parts[actor], facts.bricks);
+    for (std::size_t at = 0; at < bodies.size(); ++at) {
+      if (bodies[at].origin.body != row || bodies[at].origin.copy != 0) continue;
+      add_bricks(bodies[at], prepared.thin_parts[at], facts.bricks);
     }
     double volume = 0;
     for (const Solid& solid : body.solids) volume += solid.volume;
@@ -108,7 +108,7 @@ Inspection inspect(const Preparation& prepared, const Film& scene) {
     inspection.bodies.push_back(std::move(facts));
   }
   inspection.stable_step = stable_step(prepared.simulation.world);
-  inspection.forecast = make_forecast(prepared.simulation, scene);
+  inspection.forecast = make_forecast(prepared.simulation, film);
   return inspection;
 }
 
@@ -240,7 +240,7 @@ Json json_of(const Forecast& forecast) {
 /// All bodies as one: sums, and the smallest of values that do not add up.
 BodyFacts together(const std::vector<BodyFacts>& bodies) {
   BodyFacts all = bodies.front();
-  double held = all.bricks.volume / (1 + all.bricks.volume_error);
+  double exact_volume = all.bricks.volume / (1 + all.bricks.volume_error);
   for (std::size_t i = 1; i < bodies.size(); ++i) {
     const auto& [mesh, bricks] = std::tie(bodies[i].mesh, bodies[i].bricks);
     all.mesh.vertices += mesh.vertices;
@@ -261,9 +261,9 @@ BodyFacts together(const std::vector<BodyFacts>& bodies) {
     all.bricks.volume += bricks.volume;
     all.bricks.mass += bricks.mass;
     all.bricks.thin_parts.insert(all.bricks.thin_parts.end(), bricks.thin_parts.begin(), bricks.thin_parts.end());
-    held += bricks.volume / (1 + bricks.volume_error);
+    exact_volume += bricks.volume / (1 + bricks.volume_error);
   }
-  all.bricks.volume_error = all.bricks.volume / held - 1;
+  all.bricks.volume_error = all.bricks.volume / exact_volume - 1;
   return all;
 }
 

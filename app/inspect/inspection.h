@@ -52,7 +52,7 @@ struct Inspection {
 };
 
 /// Everything but the warnings.
-[[nodiscard]] Inspection inspect(const Preparation& prepared, const Film& scene);
+[[nodiscard]] Inspection inspect(const Preparation& prepared, const Film& film);
 
 /// For people: a few lines per body.
 [[nodiscard]] std::string inspection_text(const Inspection& inspection);

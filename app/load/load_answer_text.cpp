@@ -44,8 +44,8 @@ namespace {
 
 std::string place_text(const Vec3& exact, const LoadPart& part) {
   const double rounding = 1e-6 * part.loaded.extent.maxCoeff() / part.unit;
-  const Vec3 place = (exact.array() / rounding).round() * rounding + 0.0;
-  return fmt::format("({:.4g}, {:.4g}, {:.4g}) {}", place.x(), place.y(), place.z(), part.unit_name);
+  const Vec3 position = (exact.array() / rounding).round() * rounding + 0.0;
+  return fmt::format("({:.4g}, {:.4g}, {:.4g}) {}", position.x(), position.y(), position.z(), part.unit_name);
 }
 
 std::string vector_text(const Vec3& vector, const char* unit) {
@@ -81,7 +81,7 @@ std::string stress_lines(const PartReport& report) {
   const auto add = [&](const char* name, const std::optional<Peak>& peak) {
     if (!peak) return;
     text += fmt::format("{:<12}{} at {}\n", name, estimate_text(*peak, readable(peak->value, Dimension::kPressure)),
-                        place_text(peak->place, report.part));
+                        place_text(peak->position, report.part));
   };
   add("stress", answer.von_mises);
   if (!answer.von_mises)
@@ -94,7 +94,7 @@ std::string stress_lines(const PartReport& report) {
       count_of(long(answer.singular.size()), "place"));
   for (std::size_t i = 0; i < std::min(kMostNamed, answer.singular.size()); ++i) {
     text += fmt::format("            {} at {}\n", readable(answer.singular[i].stress, Dimension::kPressure),
-                        place_text(answer.singular[i].place, report.part));
+                        place_text(answer.singular[i].position, report.part));
   }
   return text;
 }
@@ -102,7 +102,7 @@ std::string stress_lines(const PartReport& report) {
 std::string point_lines(const PartReport& report) {
   std::string text;
   for (const PointAnswer& point : report.answer.points) {
-    text += fmt::format("{:<12}{}: moves {}, stress {}\n", "at", place_text(point.place, report.part),
+    text += fmt::format("{:<12}{}: moves {}, stress {}\n", "at", place_text(point.position, report.part),
                         vector_text(1e3 * point.displacement, "mm"),
                         estimate_text(point.von_mises, readable(point.von_mises.value, Dimension::kPressure)));
   }
@@ -167,9 +167,10 @@ std::string text_of(const PartReport& report) {
                         vector_text(reaction.force, "N"), vector_text(reaction.moment, "N m"),
                         place_text(reaction.centre, part));
   }
-  text += fmt::format("{:<12}{} at {}: {}\n", "moves",
-                      estimate_text(answer.displacement, readable(answer.displacement.value, Dimension::kLength)),
-                      place_text(answer.displacement.place, part), vector_text(1e3 * answer.displacement_vector, "mm"));
+  text +=
+      fmt::format("{:<12}{} at {}: {}\n", "moves",
+                  estimate_text(answer.displacement, readable(answer.displacement.value, Dimension::kLength)),
+                  place_text(answer.displacement.position, part), vector_text(1e3 * answer.displacement_vector, "mm"));
   return text + stress_lines(report) + point_lines(report) + mode_lines(answer) + verdict_lines(report);
 }
 
@@ -181,7 +182,7 @@ Json error_json(double error) { return std::isfinite(error) ? Json(error) : Json
 
 Json json_of(const std::optional<Peak>& peak) {
   if (!peak) return nullptr;
-  return {{"value", peak->value}, {"error", error_json(peak->error)}, {"place", json_of(peak->place)}};
+  return {{"value", peak->value}, {"error", error_json(peak->error)}, {"place", json_of(peak->position)}};
 }
 
 }  // namespace
@@ -222,11 +223,11 @@ std::string json_of(const PartReport& report) {
   json["singular"] = Json::array();
   for (const SingularPlace& one : answer.singular) {
     json["singular"].push_back(
-        {{"von_mises_Pa", one.stress}, {"place", json_of(one.place)}, {"exponent", one.exponent}});
+        {{"von_mises_Pa", one.stress}, {"place", json_of(one.position)}, {"exponent", one.exponent}});
   }
   for (const PointAnswer& point : answer.points) {
     json["points"].push_back(
-        {{"place", json_of(point.place)},
+        {{"place", json_of(point.position)},
          {"displacement_m", json_of(point.displacement)},
          {"von_mises_Pa", {{"value", point.von_mises.value}, {"error", error_json(point.von_mises.error)}}},
          {"stress_xx_yy_zz_xy_yz_zx_Pa", std::vector<double>(point.stress.begin(), point.stress.end())}});
@@ -252,8 +253,8 @@ std::string csv_of(const PartReport& report) {
   const auto number = [](const char* name, double value) { return fmt::format("{},{},,,,\n", name, value); };
   const auto peak = [&](const char* name, const Peak& one) {
     text += fmt::format("{},{},{},{},{},{}\n", name, one.value,
-                        std::isfinite(one.error) ? fmt::format("{}", one.error) : "", one.place.x(), one.place.y(),
-                        one.place.z());
+                        std::isfinite(one.error) ? fmt::format("{}", one.error) : "", one.position.x(),
+                        one.position.y(), one.position.z());
   };
   text += number("volume_m3", answer.volume) + number("mass_kg", answer.mass);
   peak("displacement_m", answer.displacement);
@@ -261,8 +262,8 @@ std::string csv_of(const PartReport& report) {
   if (answer.tension) peak("largest_principal_Pa", *answer.tension);
   if (answer.compression) peak("least_principal_Pa", *answer.compression);
   for (const SingularPlace& one : answer.singular) {
-    text +=
-        fmt::format("singular_von_mises_Pa,{},,{},{},{}\n", one.stress, one.place.x(), one.place.y(), one.place.z());
+    text += fmt::format("singular_von_mises_Pa,{},,{},{},{}\n", one.stress, one.position.x(), one.position.y(),
+                        one.position.z());
   }
   for (const PartAnswer::Reaction& reaction : answer.reactions) {
     const Vec3& force = reaction.force;
@@ -273,9 +274,9 @@ std::string csv_of(const PartReport& report) {
                         moment.z());
   }
   for (const PointAnswer& point : answer.points) {
-    peak("von_mises_Pa at", {{.value = point.von_mises.value, .error = point.von_mises.error}, point.place});
+    peak("von_mises_Pa at", {{.value = point.von_mises.value, .error = point.von_mises.error}, point.position});
     peak("displacement_m at",
-         {{.value = point.displacement.norm(), .error = std::numeric_limits<double>::infinity()}, point.place});
+         {{.value = point.displacement.norm(), .error = std::numeric_limits<double>::infinity()}, point.position});
   }
   const auto estimate = [&](const std::string& name, const Estimate& one) {
     text += fmt::format("{},{},{},,,\n", name, one.value, std::isfinite(one.error) ? fmt::format("{}", one.error) : "");

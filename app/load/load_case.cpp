@@ -55,11 +55,11 @@ std::string joined(const std::vector<std::string>& fields, std::size_t count) {
 /// Axes of the file, "xz", as axes of the scene.
 std::optional<Axes> axes_from(const std::string& text, const Mat3& world_from_file) {
   if (text.empty() || text.find_first_not_of("xyz") != std::string::npos) return std::nullopt;
-  Axes axes{.held = {false, false, false}};
+  Axes axes{.fixed = {false, false, false}};
   for (const char c : text) {
     Eigen::Index axis = 0;
     world_from_file.col(c - 'x').cwiseAbs().maxCoeff(&axis);
-    axes.held[std::size_t(axis)] = true;
+    axes.fixed[std::size_t(axis)] = true;
   }
   return axes;
 }

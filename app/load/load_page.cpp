@@ -75,8 +75,8 @@ std::string viewer_of(const PartReport& report, const PartSolution& coarse, doub
     const int first_brick = take.add_bricks(body.grid, nodes);
     nodes += body.node_count();
     field.add(von_mises(recover_stress(body, body.positions, measure)) / highest);
-    const Points places = body.skin_positions(body.rest_positions);
-    const Eigen::Index count = places.rows();
+    const Points positions = body.skin_positions(body.rest_positions);
+    const Eigen::Index count = positions.rows();
     ViewerMesh& mesh = take.meshes.emplace_back();
     mesh.brick.resize(count);
     mesh.local.resize(count, 3);
@@ -85,9 +85,9 @@ std::string viewer_of(const PartReport& report, const PartSolution& coarse, doub
     place_vertices(mesh, rows, body.skin_embedding, first_brick);
     meshes.push_back({.name = fmt::format("body {}", take.meshes.size()),
                       .rest = &body.skin,
-                      .positions = places,
+                      .positions = positions,
                       .normals = body.skin.normals});
-    box.extend(bounding_box(places));
+    box.extend(bounding_box(positions));
   }
   for (const double share : take.at) {
     std::vector<Floats3> moved;

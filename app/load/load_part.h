@@ -19,8 +19,8 @@ struct LoadPart {
   Mat3 world_from_file = Mat3::Identity();
 
   /// A point of the loaded body in the file, and back.
-  [[nodiscard]] Vec3 file_from_rest(const Vec3& place) const { return loaded.file_from_rest * place; }
-  [[nodiscard]] Vec3 rest_from_file(const Vec3& place) const { return loaded.file_from_rest.inverse() * place; }
+  [[nodiscard]] Vec3 file_from_rest(const Vec3& position) const { return loaded.file_from_rest * position; }
+  [[nodiscard]] Vec3 rest_from_file(const Vec3& position) const { return loaded.file_from_rest.inverse() * position; }
   /// The vertical of the file, upwards.
   [[nodiscard]] Vec3 up() const { return world_from_file.transpose() * Vec3::UnitY(); }
 };

@@ -118,7 +118,7 @@ std::vector<LoadPicture::Spot> LoadPicture::spots_on(const PartFace& face) const
     if (!spots.empty() && distances[next] < kApart * longest_) break;
     spots.push_back(candidates[next]);
     for (std::size_t i = 0; i < candidates.size(); ++i) {
-      distances[i] = std::min(distances[i], (candidates[i].place - spots.back().place).norm());
+      distances[i] = std::min(distances[i], (candidates[i].position - spots.back().position).norm());
     }
   }
   return spots;
@@ -129,7 +129,7 @@ void LoadPicture::add_supports() {
   for (const PartFix& fix : report_.loads.fixes) {
     for (const Spot& spot : spots_on(fix.face)) {
       const Vec3 along = -kCone * longest_ * spot.outward;
-      symbols.add_cone(spot.place - along, along, 0.4 * kCone * longest_);
+      symbols.add_cone(spot.position - along, along, 0.4 * kCone * longest_);
     }
   }
   if (!symbols.empty()) add(symbols.skin(), kSupportColor, false);
@@ -138,8 +138,8 @@ void LoadPicture::add_supports() {
 void LoadPicture::add_loads() {
   Symbols symbols;
   const double length = kArrow * longest_;
-  const auto add_arrow = [&](const Vec3& place, const Vec3& way, bool comes, int heads) {
-    symbols.add_arrow(comes ? place - way : place, comes ? place : Vec3(place + way), heads);
+  const auto add_arrow = [&](const Vec3& position, const Vec3& way, bool comes, int heads) {
+    symbols.add_arrow(comes ? position - way : position, comes ? position : Vec3(position + way), heads);
   };
   for (const PartLoad& load : report_.loads.loads) {
     const Vec3 way = length * (report_.part.world_from_file * load.direction);
@@ -153,12 +153,12 @@ void LoadPicture::add_loads() {
     std::vector<Spot> spots = spots_on(*load.face);
     if (heads == 2 && spots.size() > 1) {
       Vec3 centre = Vec3::Zero();
-      for (const Spot& spot : spots) centre += spot.place / double(spots.size());
+      for (const Spot& spot : spots) centre += spot.position / double(spots.size());
       spots = {{centre, spots.front().outward}};
     }
     for (const Spot& spot : spots) {
       const Vec3 here = load.dimension == Dimension::kPressure ? Vec3(-length * spot.outward) : way;
-      add_arrow(spot.place, here, here.dot(spot.outward) < -0.1 * length, heads);
+      add_arrow(spot.position, here, here.dot(spot.outward) < -0.1 * length, heads);
     }
   }
   if (!symbols.empty()) add(symbols.skin(), kLoadColor, false);
@@ -166,17 +166,17 @@ void LoadPicture::add_loads() {
 
 void LoadPicture::add_worst_place() {
   if (!report_.answer.von_mises) return;
-  const Vec3 place = report_.part.rest_from_file(report_.answer.von_mises->place);
+  const Vec3 position = report_.part.rest_from_file(report_.answer.von_mises->position);
   double nearest = 1e300;
   for (std::size_t row = 0; row < drawn_.size(); ++row) {
     Eigen::Index vertex = 0;
-    const double distance = (at_rest_[row].rowwise() - place.transpose()).rowwise().squaredNorm().minCoeff(&vertex);
+    const double distance = (at_rest_[row].rowwise() - position.transpose()).rowwise().squaredNorm().minCoeff(&vertex);
     if (distance >= nearest) continue;
     nearest = distance;
     worst_ = Spot{drawn_[row].row(vertex), skins_[row].normals.row(vertex).normalized()};
   }
   Symbols symbols;
-  symbols.add_ball(worst_->place, kBall * longest_);
+  symbols.add_ball(worst_->position, kBall * longest_);
   add(symbols.skin(), kWorstColor, false);
 }
 
@@ -201,7 +201,7 @@ Vec3 towards_viewer(double azimuth, double elevation) {
 }  // namespace
 
 bool LoadPicture::is_seen(const Spot& spot, const Vec3& viewer) const {
-  return sight_->is_open(spot.place, spot.outward, viewer);
+  return sight_->is_open(spot.position, spot.outward, viewer);
 }
 
 /// From where most of the largest stress, the loads and the supports is seen; from below where that shows much more.
@@ -274,8 +274,8 @@ void LoadPicture::write_labels(Image& image, const Camera& camera) const {
     const Eigen::Vector2d at = projected(axis_tips_[axis], camera);
     font.write(image, at.x() - 0.3 * size, at.y() + 0.3 * size, size, std::string(1, "xyz"[axis]), kInk);
   }
-  if (!worst_ || !is_seen(*worst_, (camera.eye - worst_->place).normalized())) return;
-  const Eigen::Vector2d at = projected(worst_->place, camera);
+  if (!worst_ || !is_seen(*worst_, (camera.eye - worst_->position).normalized())) return;
+  const Eigen::Vector2d at = projected(worst_->position, camera);
   const std::string text = readable(answer.von_mises->value, Dimension::kPressure);
   const double left = std::clamp(at.x() + 0.6 * size, 0.0, image.width - font.width(text, size));
   font.write(image, left, at.y() - 0.4 * size, size, text, kInk);
@@ -318,8 +318,8 @@ void LoadPicture::place_axes(const Camera& camera) {
   }
 }
 
-Eigen::Vector2d LoadPicture::projected(const Vec3& place, const Camera& camera) const {
-  const Vec3 arm = axes_of(camera).transpose() * (place - camera.eye);
+Eigen::Vector2d LoadPicture::projected(const Vec3& position, const Camera& camera) const {
+  const Vec3 arm = axes_of(camera).transpose() * (position - camera.eye);
   const double half = slope_of(camera) * arm.z();
   return {(1 + arm.x() / (half * width_ / height_) + camera.shift) / 2 * width_, (1 - arm.y() / half) / 2 * height_};
 }

@@ -29,8 +29,8 @@ class LoadPicture {
  private:
   /// A point of a drawn skin.
   struct Spot {
-    Vec3 place;    // m
-    Vec3 outward;  // unit
+    Vec3 position;  // m
+    Vec3 outward;   // unit
   };
 
   void add_bodies();
@@ -50,7 +50,7 @@ class LoadPicture {
   void add_axes();
   void place_axes(const Camera& camera);
   /// A point of the stage in the picture, pixels from the top left.
-  [[nodiscard]] Eigen::Vector2d projected(const Vec3& place, const Camera& camera) const;
+  [[nodiscard]] Eigen::Vector2d projected(const Vec3& position, const Camera& camera) const;
   void write_labels(Image& image, const Camera& camera) const;
 
   const PartReport& report_;

@@ -34,12 +34,12 @@ struct SkinScalar {
   std::vector<Eigen::VectorXd> values;  // by grid
 
   /// The largest within some bricks of a place; 0 where nothing is.
-  [[nodiscard]] double around(std::size_t grid, const Vec3& place) const {
+  [[nodiscard]] double around(std::size_t grid, const Vec3& position) const {
     const double reach = std::pow(kAround * sizes[grid], 2);
     double largest = 0;
     for (Eigen::Index row = 0; row < values[grid].size(); ++row) {
       if (values[grid][row] <= largest) continue;
-      if ((skins[grid].places.row(row).transpose() - place).squaredNorm() <= reach) largest = values[grid][row];
+      if ((skins[grid].positions.row(row).transpose() - position).squaredNorm() <= reach) largest = values[grid][row];
     }
     return largest;
   }
@@ -50,8 +50,8 @@ class SingularLines {
  public:
   SingularLines(const LoadPart& part, const PartSolution& solution);
   /// Within `reach` (m) of one; `place` (m) in the frame of LoadedBody.
-  [[nodiscard]] bool is_near(const Vec3& place, double reach) const {
-    return ((points_.rowwise() - place.transpose()).rowwise().squaredNorm().array() <= reach * reach).any();
+  [[nodiscard]] bool is_near(const Vec3& position, double reach) const {
+    return ((points_.rowwise() - position.transpose()).rowwise().squaredNorm().array() <= reach * reach).any();
   }
 
  private:
@@ -76,8 +76,8 @@ SingularLines::SingularLines(const LoadPart& part, const PartSolution& solution)
   }
   for (const SoftBody& body : solution.simulation.world.bodies) {
     for (const PinnedSkin& skin : body.origin.pinned_skins) {
-      const Points held = part_from_world(solution, part, deform_points(body.grid, skin.points, body.rest_positions));
-      for (const auto& point : held.rowwise()) points.emplace_back(point.transpose());
+      const Points pinned = part_from_world(solution, part, deform_points(body.grid, skin.points, body.rest_positions));
+      for (const auto& point : pinned.rowwise()) points.emplace_back(point.transpose());
     }
   }
   points_.resize(Eigen::Index(points.size()), 3);
@@ -88,7 +88,7 @@ SingularLines::SingularLines(const LoadPart& part, const PartSolution& solution)
 FoundPeak find_peak(const SkinScalar& scalar, const SingularLines& lines, const LoadPart& part) {
   FoundPeak found;
   const Eigen::VectorXd& fine = scalar.values.front();
-  const Points& places = scalar.skins.front().places;
+  const Points& positions = scalar.skins.front().positions;
   const std::size_t coarsest = scalar.values.size() - 1;
   const double ratio = scalar.sizes[coarsest] / scalar.sizes.front();
   const double left_out = std::pow(kLeftOut * scalar.sizes[coarsest], 2);
@@ -97,30 +97,30 @@ FoundPeak find_peak(const SkinScalar& scalar, const SingularLines& lines, const 
   std::stable_sort(rows.begin(), rows.end(), [&](int a, int b) { return fine[a] > fine[b]; });
   std::vector<Vec3> singular;
   for (const int row : rows) {
-    const Vec3 place = places.row(row);
+    const Vec3 position = positions.row(row);
     if (!(fine[row] > 0)) break;
     if (std::any_of(singular.begin(), singular.end(),
-                    [&](const Vec3& one) { return (one - place).squaredNorm() < left_out; })) {
+                    [&](const Vec3& one) { return (one - position).squaredNorm() < left_out; })) {
       continue;
     }
-    Peak peak{{.value = fine[row], .error = std::numeric_limits<double>::infinity()}, part.file_from_rest(place)};
+    Peak peak{{.value = fine[row], .error = std::numeric_limits<double>::infinity()}, part.file_from_rest(position)};
     if (coarsest == 0) {
       found.peak = peak;
       return found;
     }
-    const double exponent = std::log(fine[row] / std::max(scalar.around(coarsest, place), 1e-300)) / std::log(ratio);
+    const double exponent = std::log(fine[row] / std::max(scalar.around(coarsest, position), 1e-300)) / std::log(ratio);
     const double least = singular.empty() ? kSingular : kSingular / 2;  // the rest of a line that is known to be one
-    if (exponent < least || !lines.is_near(place, kAround * scalar.sizes[coarsest])) {
+    if (exponent < least || !lines.is_near(position, kAround * scalar.sizes[coarsest])) {
       peak.error = 0;
       for (std::size_t grid = 1; grid <= coarsest; ++grid) {
-        peak.error = std::max(peak.error, convergence_index(fine[row], scalar.around(grid, place),
+        peak.error = std::max(peak.error, convergence_index(fine[row], scalar.around(grid, position),
                                                             scalar.sizes[grid] / scalar.sizes.front()));
       }
       found.peak = peak;
       return found;
     }
-    singular.push_back(place);
-    found.singular.push_back({.place = peak.place, .stress = fine[row], .exponent = exponent});
+    singular.push_back(position);
+    found.singular.push_back({.position = peak.position, .stress = fine[row], .exponent = exponent});
     if (int(singular.size()) == kMostSingular) return found;
   }
   return found;
@@ -141,7 +141,7 @@ Peak largest_displacement(const std::vector<PartSkin>& skins, const std::vector<
     error = std::max(error, convergence_index(peak.value, coarse[grid - 1], sizes[grid] / sizes[0]));
   }
   peak.error = error;
-  peak.place = part.file_from_rest(skins[0].places.row(row));
+  peak.position = part.file_from_rest(skins[0].positions.row(row));
   vector = skins[0].displacements.row(row);
   return peak;
 }
@@ -214,9 +214,9 @@ PartAnswer answer_of(const std::vector<PartSolution>& solutions, const LoadPart&
 namespace {
 
 /// At a point in the frame of LoadedBody, of one grid; none where it is in none of the bricks.
-std::optional<PointAnswer> answer_at(const Vec3& place, const PartSolution& solution, const LoadPart& part) {
+std::optional<PointAnswer> answer_at(const Vec3& position, const PartSolution& solution, const LoadPart& part) {
   for (const SoftBody& body : solution.simulation.world.bodies) {
-    const Embedding seat = embed(body.grid, place.transpose());
+    const Embedding seat = embed(body.grid, position.transpose());
     if (seat.outside > 0) continue;
     const auto& nodes = body.grid.nodes[std::size_t(seat.brick[0])];
     const StressTensors corners =
@@ -238,16 +238,16 @@ std::vector<PointAnswer> answers_at(const std::vector<Vec3>& points, const std::
                                     const LoadPart& part) {
   std::vector<PointAnswer> answers;
   for (const Vec3& point : points) {
-    const Vec3 place = part.rest_from_file(point);
-    std::optional<PointAnswer> answer = answer_at(place, solutions.front(), part);
+    const Vec3 position = part.rest_from_file(point);
+    std::optional<PointAnswer> answer = answer_at(position, solutions.front(), part);
     if (!answer) {
       throw Error(ErrorKind::kUsage, fmt::format("--at {:g},{:g},{:g}: the point is not in {}", point.x(), point.y(),
                                                  point.z(), part.loaded.name));
     }
-    answer->place = point;
+    answer->position = point;
     answer->von_mises.error = solutions.size() == 1 ? std::numeric_limits<double>::infinity() : 0;
     for (std::size_t grid = 1; grid < solutions.size(); ++grid) {
-      const std::optional<PointAnswer> coarse = answer_at(place, solutions[grid], part);
+      const std::optional<PointAnswer> coarse = answer_at(position, solutions[grid], part);
       if (!coarse) continue;
       answer->von_mises.error = std::max(answer->von_mises.error,
                                          convergence_index(answer->von_mises.value, coarse->von_mises.value,

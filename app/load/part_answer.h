@@ -15,20 +15,20 @@ struct Estimate {
 
 /// Where a quantity is largest.
 struct Peak : Estimate {
-  Vec3 place = Vec3::Zero();  // in the file
+  Vec3 position = Vec3::Zero();  // in the file
 };
 
 /// A stress that grows with the number of bricks: at a re-entrant corner, or where a support or a load ends, the exact
 /// solution has no bound.
 struct SingularPlace {
-  Vec3 place = Vec3::Zero();  // in the file
-  double stress = 0;          // von Mises, Pa, with the finest bricks
-  double exponent = 0;        // a of stress ~ size^-a
+  Vec3 position = Vec3::Zero();  // in the file
+  double stress = 0;             // von Mises, Pa, with the finest bricks
+  double exponent = 0;           // a of stress ~ size^-a
 };
 
 /// At a point that was asked for. In the axes of the file.
 struct PointAnswer {
-  Vec3 place = Vec3::Zero();                                                 // in the file
+  Vec3 position = Vec3::Zero();                                              // in the file
   Vec3 displacement = Vec3::Zero();                                          // m
   Eigen::Matrix<double, 6, 1> stress = Eigen::Matrix<double, 6, 1>::Zero();  // xx, yy, zz, xy, yz, zx, Pa
   Estimate von_mises;                                                        // Pa

@@ -44,7 +44,7 @@ constexpr double kPatience = 45;     // s, that a grid may be forecast to take w
 constexpr double kGrowthOfTime = 4;  // power of the ratio of brick sizes: somewhat more than their number
 
 /// Each solid has to be held by itself.
-void check_held(const PartSolution& solution, const LoadPart& part) {
+void check_supported(const PartSolution& solution, const LoadPart& part) {
   const std::vector<SoftBody>& bodies = solution.simulation.world.bodies;
   for (std::size_t row = 0; row < bodies.size(); ++row) {
     if (!bodies[row].origin.pinned_skins.empty()) continue;
@@ -83,7 +83,7 @@ std::vector<PartSolution> solve_part(const LoadPart& part, const LoadCase& loads
     const auto began = std::chrono::steady_clock::now();
     solution.scene = scene_of(part, loads, solution.brick_size, linear);
     solution.simulation = prepare_simulation(solution.scene, quiet);
-    check_held(solution, part);
+    check_supported(solution, part);
     try {
       solution.recording = simulate(solution.simulation, solution.scene, quiet);
     } catch (const Error& error) {
@@ -130,13 +130,13 @@ PartSkin skin_of(const PartSolution& solution, const LoadPart& part) {
   long count = 0;
   for (const SoftBody& body : bodies) count += body.skin_embedding.local.rows();
   const Mat3& turned = part.world_from_file;
-  PartSkin skin{.places = Points(count, 3), .displacements = Points(count, 3), .stresses = StressTensors(count, 6)};
+  PartSkin skin{.positions = Points(count, 3), .displacements = Points(count, 3), .stresses = StressTensors(count, 6)};
   long row = 0;
   for (const SoftBody& body : bodies) {
     const long rows = body.skin_embedding.local.rows();
     const Points rest = body.skin_positions(body.rest_positions);
     const Points now = body.skin_positions(body.positions);
-    skin.places.middleRows(row, rows) = part_from_world(solution, part, rest);
+    skin.positions.middleRows(row, rows) = part_from_world(solution, part, rest);
     skin.displacements.middleRows(row, rows) = (now - rest) * turned;
     skin.stresses.middleRows(row, rows) = skin_stress(solution, body);
     row += rows;

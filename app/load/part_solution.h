@@ -25,7 +25,7 @@ struct PartSolution {
 
 /// The skins of all bodies of a solution, one after the other.
 struct PartSkin {
-  Points places;           // n x 3, m: at rest, in the frame of LoadedBody
+  Points positions;        // n x 3, m: at rest, in the frame of LoadedBody
   Points displacements;    // n x 3, m, likewise
   StressTensors stresses;  // n x 6, Pa, likewise
 };

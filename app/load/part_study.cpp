@@ -146,9 +146,9 @@ void warn_of_faces(const LoadPart& part, const LoadCase& loads, const Observer& 
   };
   for (const PartFix& fix : loads.fixes) {
     check("--fix", fix.text, fix.face);
-    const std::array<bool, 3>& held = fix.pin.axes.held;
+    const std::array<bool, 3>& fixed = fix.pin.axes.fixed;
     for (const PartLoad& load : loads.loads) {
-      if (!load.face || fix.pin.normal || !(held[0] && held[1] && held[2])) continue;
+      if (!load.face || fix.pin.normal || !(fixed[0] && fixed[1] && fixed[2])) continue;
       const double apart = (load.face->centre - fix.face.centre).norm();
       if (apart > kSame * std::sqrt(surface) || std::abs(load.face->area - fix.face.area) > kSame * surface) continue;
       observer.warn(fmt::format("--load '{}' acts on what --fix '{}' holds, and does nothing", load.text, fix.text));

@@ -49,9 +49,9 @@ SightLines::SightLines(const std::vector<Points>& points, const std::vector<cons
       triangles_(joined(points, triangles)),
       grid_(points_, triangles_, (bounds_of(points).sizes() / cell_).array().ceil().max(1).cast<int>()) {}
 
-bool SightLines::is_open(const Vec3& place, const Vec3& outward, const Vec3& viewer) const {
+bool SightLines::is_open(const Vec3& position, const Vec3& outward, const Vec3& viewer) const {
   if (outward.dot(viewer) < kGrazing) return false;
-  return std::isinf(grid_.cast_ray((place - low_) / cell_ + kAbove * outward, viewer));
+  return std::isinf(grid_.cast_ray((position - low_) / cell_ + kAbove * outward, viewer));
 }
 
 }  // namespace sprung

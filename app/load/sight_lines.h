@@ -16,7 +16,7 @@ class SightLines {
 
   /// Whether nothing lies between a point of them and infinity; `outward` and `viewer` (unit): the surface's normal
   /// there and the direction to where it is looked at from.
-  [[nodiscard]] bool is_open(const Vec3& place, const Vec3& outward, const Vec3& viewer) const;
+  [[nodiscard]] bool is_open(const Vec3& position, const Vec3& outward, const Vec3& viewer) const;
 
  private:
   Vec3 low_ = Vec3::Zero();  // m, where the lattice starts

@@ -46,7 +46,7 @@ class DictText {
     for (; line > 1; --line) offset = text_.find('\n', offset) + 1;
     offset += column - 1;
     const auto beyond = std::upper_bound(places_.begin(), places_.end(), offset,
-                                         [](std::size_t place, const auto& known) { return place < known.first; });
+                                         [](std::size_t index, const auto& known) { return index < known.first; });
     return beyond == places_.begin() ? "scene" : std::prev(beyond)->second;
   }
 
@@ -136,7 +136,7 @@ Film parse_dict(const py::dict& keys) {
   }
 }
 
-/// By frame, then by actor: m x 3.
+/// By frame, then by body: m x 3.
 using Frames = std::vector<std::vector<Points>>;
 
 /// The result of simulate() or read_run().

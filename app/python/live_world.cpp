@@ -171,17 +171,17 @@ void LiveWorld::settle(std::size_t row, bool linear, const Between& between) {
 void LiveWorld::pin(std::size_t row, const std::vector<long>& nodes) {
   SoftBody& body = simulation_.world.bodies[row];
   const int count = body.node_count();
-  std::vector<bool> is_held(count);
+  std::vector<bool> is_pinned(count);
   for (const long node : nodes) {
     if (node < 0 || node >= count) {
       throw Error(ErrorKind::kBadInput,
                   fmt::format("there is no node {} to pin: the body's nodes are 0 to {}", node, count - 1));
     }
-    is_held[node] = true;
+    is_pinned[node] = true;
   }
   body.pinned.clear();
   for (int node = 0; node < count; ++node) {
-    if (!is_held[node]) continue;
+    if (!is_pinned[node]) continue;
     body.pinned.push_back({.node = node});
     body.velocities.row(node).setZero();
   }

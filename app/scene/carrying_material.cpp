@@ -23,14 +23,14 @@ constexpr int kBricks = 16;           // along the longest side,
 constexpr double kManyBricks = 1500;  // but not many more than these in all, since compact bodies need no fine ones
 constexpr double kManyBricksInFilm = 2500;
 constexpr double kSag = 0.04;
-constexpr double kOverload = 2;          // times the weight, which must not buckle it:
-constexpr double kOverloadResponse = 3;  // times the displacement, at most
-constexpr double kKeptMargin = 0.6;      // of the way from the centre of mass to the edge of the feet
-constexpr double kHopeless = 2;          // times the sag by the linear solution: not worth a nonlinear one
-constexpr int kHalvings = 4;             // of the size
-constexpr double kHeldFraction = 0.08;   // of the height, ...
-constexpr double kHeldBricks = 0.5;      // ... but at least so many bricks: these may be askew
-constexpr double kFill = 0.25;           // a brick is taken to be at least that full
+constexpr double kOverload = 2;              // times the weight, which must not buckle it:
+constexpr double kOverloadResponse = 3;      // times the displacement, at most
+constexpr double kKeptMargin = 0.6;          // of the way from the centre of mass to the edge of the feet
+constexpr double kHopeless = 2;              // times the sag by the linear solution: not worth a nonlinear one
+constexpr int kHalvings = 4;                 // of the size
+constexpr double kSupportedFraction = 0.08;  // of the height, ...
+constexpr double kSupportedBricks = 0.5;     // ... but at least so many bricks: these may be askew
+constexpr double kFill = 0.25;               // a brick is taken to be at least that full
 
 // What does not come to rest quickly is near buckling.
 const StaticOptions kQuick{.tolerance = 1e-4, .max_iterations = 20, .max_load_steps = 1};
@@ -86,11 +86,11 @@ Supports supports_at_end(const Body& body, Support support, const Vec3& down) {
   const Eigen::VectorXd heights = body.rest_positions * -down.normalized();
   const double low = heights.minCoeff();
   const double high = heights.maxCoeff();
-  const double part = std::max(kHeldFraction * (high - low), kHeldBricks * body.grid.brick_size);
+  const double part = std::max(kSupportedFraction * (high - low), kSupportedBricks * body.grid.brick_size);
   Supports supports(body.node_count());
   for (int node = 0; node < body.node_count(); ++node) {
-    const bool is_held = support == Support::kStands ? heights[node] <= low + part : heights[node] >= high - part;
-    for (int axis = 0; is_held && axis < 3; ++axis) supports.fix(node, axis);
+    const bool is_supported = support == Support::kStands ? heights[node] <= low + part : heights[node] >= high - part;
+    for (int axis = 0; is_supported && axis < 3; ++axis) supports.fix(node, axis);
   }
   return supports;
 }
@@ -100,7 +100,7 @@ Supports supports_by_pins(const Body& body, std::size_t solid, const std::vector
   for (const Pin& pin : pins) {
     for (const int node : selector.nodes(pin, body.rest_positions, solid)) {
       for (int axis = 0; axis < 3; ++axis) {
-        if (pin.axes.held[axis]) supports.fix(node, axis);
+        if (pin.axes.fixed[axis]) supports.fix(node, axis);
       }
     }
   }

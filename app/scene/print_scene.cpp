@@ -118,9 +118,9 @@ struct Printer : FieldVisitor {
 
 }  // namespace
 
-std::string print_scene(const Film& scene) {
+std::string print_scene(const Film& film) {
   std::string text;
-  Printer("", text).print(scene);
+  Printer("", text).print(film);
   return text;
 }
 

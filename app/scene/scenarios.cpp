@@ -20,7 +20,7 @@ constexpr double kTumbleHeight = 0.4;  // in sizes above the ground
 constexpr double kHangHeight = 0.5;    // in sizes above the ground: near enough to see, far enough to stretch
 constexpr double kSwing = 0.6;         // sizes to the side, in a time
 constexpr double kSwingTime = 0.36;    // s: what hangs follows late and swings
-constexpr double kHeldFraction = 0.08;
+constexpr double kPinnedFraction = 0.08;
 constexpr double kStretch = 0.6;      // heights
 constexpr double kPlate = 0.08;       // sizes, thick
 constexpr double kPlateSide = 1.5;    // sizes
@@ -43,7 +43,7 @@ Pin bottom_pin(UpAxis up) {
   Pin pin;
   pin.name = "bottom";
   pin.box = Box{};
-  pin.box->max[row_of(up)] = kHeldFraction;
+  pin.box->max[row_of(up)] = kPinnedFraction;
   return pin;
 }
 
@@ -51,7 +51,7 @@ Pin top_pin(UpAxis up) {
   Pin pin;
   pin.name = "top";
   pin.box = Box{};
-  pin.box->min[row_of(up)] = 1 - kHeldFraction;
+  pin.box->min[row_of(up)] = 1 - kPinnedFraction;
   pin.interpolation = Interpolation::kSmooth;
   return pin;
 }
@@ -88,11 +88,11 @@ SceneObstacle plate(double size, double bottom, double way) {
 }
 
 /// Pressed between two plates.
-void stage_squash(Film& scene, SceneBody& body, double size, double height) {
+void stage_squash(Film& film, SceneBody& body, double size, double height) {
   const double low = kPlateHeight * size;
   body.position.y() = low + kPlate * size;
-  scene.obstacles.push_back(plate(size, low, kSquash * height));
-  scene.obstacles.push_back(plate(size, body.position.y() + height, -kSquash * height));
+  film.obstacles.push_back(plate(size, low, kSquash * height));
+  film.obstacles.push_back(plate(size, body.position.y() + height, -kSquash * height));
 }
 
 void stage_twist(SceneBody& body, UpAxis up) {
@@ -126,11 +126,11 @@ Scenario scenario_from_name(std::string_view name) {
   throw Error(ErrorKind::kUsage, fmt::format("there is no scenario '{}'{}", name, did_you_mean(name, kScenarioNames)));
 }
 
-void stage_scenario(Film& scene, Scenario scenario, double height, UpAxis up, double drop) {
+void stage_scenario(Film& film, Scenario scenario, double height, UpAxis up, double drop) {
   SceneObstacle ground;
   ground.plane = Plane{};
-  scene.obstacles = {ground};
-  for (SceneBody& body : scene.bodies) {
+  film.obstacles = {ground};
+  for (SceneBody& body : film.bodies) {
     const double size = body.size.value_or(kDefaultSize);
     switch (scenario) {
       case Scenario::kDrop:
@@ -144,7 +144,7 @@ void stage_scenario(Film& scene, Scenario scenario, double height, UpAxis up, do
         stage_hang(body, size, up);
         break;
       case Scenario::kSquash:
-        stage_squash(scene, body, size, height);
+        stage_squash(film, body, size, height);
         break;
       case Scenario::kStretch:
         stage_stretch(body, height, up);
@@ -156,15 +156,15 @@ void stage_scenario(Film& scene, Scenario scenario, double height, UpAxis up, do
         stage_wobble(body, height, up);
         break;
       case Scenario::kThrow:
-        stage_throw(body, size, scene.gravity.norm());
+        stage_throw(body, size, film.gravity.norm());
         break;
     }
   }
 }
 
-void stage_at_rest(Film& scene, UpAxis up) {
-  std::erase_if(scene.obstacles, [](const SceneObstacle& obstacle) { return obstacle.plane.has_value(); });
-  for (SceneBody& body : scene.bodies) {
+void stage_at_rest(Film& film, UpAxis up) {
+  std::erase_if(film.obstacles, [](const SceneObstacle& obstacle) { return obstacle.plane.has_value(); });
+  for (SceneBody& body : film.bodies) {
     body.velocity.setZero();
     body.spin.setZero();
     if (body.pins.empty()) body.pins = {bottom_pin(up)};

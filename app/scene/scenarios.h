@@ -32,10 +32,10 @@ enum class UpAxis { kY, kZ };
 /// Sets what the scenario needs for bodies that are `height` (m) high; times do not depend on the film's
 /// duration, so that a shorter film is the beginning of a longer one. Precondition: gravity and the size of the bodies
 /// are set. `drop`: the height in sizes that kDrop falls from.
-void stage_scenario(Film& scene, Scenario scenario, double height, UpAxis up = UpAxis::kY, double drop = kDropHeight);
+void stage_scenario(Film& film, Scenario scenario, double height, UpAxis up = UpAxis::kY, double drop = kDropHeight);
 
 /// What a scenario is for a body that does not move but is in equilibrium: without the ground, and held at its lowest
 /// part where nothing else holds it.
-void stage_at_rest(Film& scene, UpAxis up);
+void stage_at_rest(Film& film, UpAxis up);
 
 }  // namespace sprung

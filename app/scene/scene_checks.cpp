@@ -49,26 +49,26 @@ void check_direction(const Vec3& direction, KeyPlace place, const std::string& n
   if (direction.isZero(0)) report(place, name + ": must point somewhere");
 }
 
-void check_glue(const Film& scene, const Report& report) {
-  for (int i = 0; i < isize(scene.glue); ++i) {
-    const auto& bodies = scene.glue[i].bodies;
+void check_glue(const Film& film, const Report& report) {
+  for (int i = 0; i < isize(film.glue); ++i) {
+    const auto& bodies = film.glue[i].bodies;
     for (const int body : bodies) {
-      if (body > isize(scene.bodies)) report({"glue", i}, fmt::format("glue.bodies: there is no body {}", body));
+      if (body > isize(film.bodies)) report({"glue", i}, fmt::format("glue.bodies: there is no body {}", body));
     }
     const bool is_alone =
-        bodies[0] == bodies[1] && bodies[0] <= isize(scene.bodies) && copy_count(scene.bodies[bodies[0] - 1]) == 1;
+        bodies[0] == bodies[1] && bodies[0] <= isize(film.bodies) && copy_count(film.bodies[bodies[0] - 1]) == 1;
     if (is_alone) report({"glue", i}, fmt::format("glue.bodies: body {} has no copies", bodies[0]));
   }
 }
 
-void check_probes(const Film& scene, const Report& report) {
-  for (int i = 0; i < isize(scene.probes); ++i) {
-    const Probe& probe = scene.probes[i];
-    if (probe.body < 1 || probe.body > isize(scene.bodies)) {
+void check_probes(const Film& film, const Report& report) {
+  for (int i = 0; i < isize(film.probes); ++i) {
+    const Probe& probe = film.probes[i];
+    if (probe.body < 1 || probe.body > isize(film.bodies)) {
       report({"probe", i}, fmt::format("probe.body: there is no body {}", probe.body));
     } else if (!probe.pin.empty()) {
       std::vector<std::string_view> names;
-      for (const Pin& pin : scene.bodies[probe.body - 1].pins) names.push_back(pin.name);
+      for (const Pin& pin : film.bodies[probe.body - 1].pins) names.push_back(pin.name);
       if (std::find(names.begin(), names.end(), probe.pin) != names.end()) continue;
       report({"probe", i},
              fmt::format("probe.pin: the body has no pin '{}'{}", probe.pin, did_you_mean(probe.pin, names)));
@@ -77,25 +77,25 @@ void check_probes(const Film& scene, const Report& report) {
 }
 
 /// In a state of rest there are weights, pins and forces only, and no events in time.
-void check_rest(const Film& scene, const Report& report) {
-  for (const MotionOnly& part : motion_only(scene)) {
+void check_rest(const Film& film, const Report& report) {
+  for (const MotionOnly& part : motion_only(film)) {
     report({part.key, part.key == "body" ? int(part.row) : -1},
            fmt::format("only in a motion {} can there be {}", kMotions, part.what));
   }
-  for (int i = 0; i < isize(scene.bodies); ++i) {
-    const std::vector<Pin>& pins = scene.bodies[i].pins;
+  for (int i = 0; i < isize(film.bodies); ++i) {
+    const std::vector<Pin>& pins = film.bodies[i].pins;
     const auto is_timed = [](const Pin& pin) { return pin.from > 0 || pin.until; };
     if (std::none_of(pins.begin(), pins.end(), is_timed)) continue;
     report({"body", i},
            fmt::format("body.pin: only in a motion {} can a pin begin late or release its nodes", kMotions));
   }
-  if (!scene.obstacles.empty())
+  if (!film.obstacles.empty())
     report({"obstacle", 0}, fmt::format("only a motion {} can have an [[obstacle]]", kMotions));
 }
 
-void check_motion(const Film& scene, const Report& report) {
-  for (int i = 0; i < isize(scene.bodies); ++i) {
-    const std::vector<Pin>& pins = scene.bodies[i].pins;
+void check_motion(const Film& film, const Report& report) {
+  for (int i = 0; i < isize(film.bodies); ++i) {
+    const std::vector<Pin>& pins = film.bodies[i].pins;
     if (std::none_of(pins.begin(), pins.end(), [](const Pin& pin) { return pin.on_surface; })) continue;
     report({"body", i}, "body.pin: on_surface is for scheme static, linear and modes; in a motion pins hold nodes");
   }
@@ -108,14 +108,14 @@ void check_rules(const std::vector<KeyRule>& rules, const std::vector<std::strin
   for (const KeyRule& rule : rules) check_rule(rule, given, path, report);
 }
 
-void check_table(const Film& scene, const std::string&, const Report& report) {
-  check_probes(scene, report);
-  check_glue(scene, report);
-  check_times(scene.gravity_keyframes, "gravity_keyframes", "scene", report);
-  if (is_motion(scene)) {
-    check_motion(scene, report);
+void check_table(const Film& film, const std::string&, const Report& report) {
+  check_probes(film, report);
+  check_glue(film, report);
+  check_times(film.gravity_keyframes, "gravity_keyframes", "scene", report);
+  if (is_motion(film)) {
+    check_motion(film, report);
   } else {
-    check_rest(scene, report);
+    check_rest(film, report);
   }
 }
 
@@ -147,8 +147,8 @@ void check_table(const Pin& pin, const std::string& path, const Report& report) 
   if (pin.normal) {
     check_direction(*pin.normal, {}, path + ".normal", report);
     if (!pin.on_surface) report({"normal"}, fmt::format("{}: normal is for a pin with on_surface = true", path));
-    const std::array<bool, 3>& held = pin.axes.held;
-    if (!(held[0] && held[1] && held[2])) report({"axes"}, fmt::format("{}: give axes or normal, not both", path));
+    const std::array<bool, 3>& fixed = pin.axes.fixed;
+    if (!(fixed[0] && fixed[1] && fixed[2])) report({"axes"}, fmt::format("{}: give axes or normal, not both", path));
   }
   if (pin.keyframes.empty()) return;
   check_times(pin.keyframes, "keyframes", path, report);

@@ -22,7 +22,7 @@ void check_rules(const std::vector<KeyRule>& rules, const std::vector<std::strin
                  const Report& report);
 
 /// Reports what is wrong with the values of a table taken together, each by itself being right.
-void check_table(const Film& scene, const std::string& path, const Report& report);
+void check_table(const Film& film, const std::string& path, const Report& report);
 void check_table(const SceneBody& body, const std::string& path, const Report& report);
 void check_table(const Box& box, const std::string& path, const Report& report);
 void check_table(const HalfSpace& half, const std::string& path, const Report& report);

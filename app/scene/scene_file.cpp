@@ -306,18 +306,18 @@ KeyIsSaid said_in(const toml::table& table, std::string_view path) {
 
 }  // namespace
 
-void set_where_open(Film& scene, const std::filesystem::path& file, std::string_view path, std::string_view text) {
+void set_where_open(Film& film, const std::filesystem::path& file, std::string_view path, std::string_view text) {
   Mistakes mistakes(file.string());
   const toml::table table = parse_toml(read_file(file), mistakes);
   constexpr std::string_view kBody = "body.";
-  if (!path.starts_with(kBody)) return set_scene_key(scene, path, text, said_in(table, path));
+  if (!path.starts_with(kBody)) return set_scene_key(film, path, text, said_in(table, path));
   const toml::array* rows = table["body"].as_array();
-  for (std::size_t row = 0; row < scene.bodies.size(); ++row) {
+  for (std::size_t row = 0; row < film.bodies.size(); ++row) {
     Film single;
-    single.library = scene.library;
-    single.bodies = {std::move(scene.bodies[row])};
+    single.library = film.library;
+    single.bodies = {std::move(film.bodies[row])};
     set_scene_key(single, path, text, said_in(*(*rows)[row].as_table(), path.substr(kBody.size())));
-    scene.bodies[row] = std::move(single.bodies.front());
+    film.bodies[row] = std::move(single.bodies.front());
   }
 }
 

@@ -25,17 +25,17 @@ enum class SceneFiles { kPresent, kAnywhere };
                                const MaterialLibrary& library = *built_in_materials());
 
 /// The scene as TOML in SI units that parses to the same scene. A built-in material is written by its name.
-[[nodiscard]] std::string print_scene(const Film& scene);
+[[nodiscard]] std::string print_scene(const Film& film);
 
 /// Sets one key by its path and the words for its value: "render.resolution", "1280x720". Below "body" the key of
 /// every body is set; "body.material.young" makes the material a custom one. Of two keys that exclude each other the
 /// one set here stays. Throws Error(kBadInput).
 /// Where the last key of the path, or one that excludes it, `is_said`, the scene stays as it is.
 using KeyIsSaid = std::function<bool(std::string_view key)>;
-void set_scene_key(Film& scene, std::string_view path, std::string_view text, const KeyIsSaid& is_said = {});
+void set_scene_key(Film& film, std::string_view path, std::string_view text, const KeyIsSaid& is_said = {});
 
 /// The same for a scene as it was read from that file, where the file says neither the key nor one that excludes it: of
 /// each body by itself.
-void set_where_open(Film& scene, const std::filesystem::path& file, std::string_view path, std::string_view text);
+void set_where_open(Film& film, const std::filesystem::path& file, std::string_view path, std::string_view text);
 
 }  // namespace sprung

@@ -94,13 +94,13 @@ void parse_value(std::string_view text, const KeyInfo&, std::string& value) {
 }
 
 void parse_value(std::string_view text, const KeyInfo&, Axes& value) {
-  value.held = {false, false, false};
+  value.fixed = {false, false, false};
   for (const char letter : text) {
     const auto axis = kAxisNames.find(letter);
-    if (axis == std::string_view::npos || value.held[axis]) {
+    if (axis == std::string_view::npos || value.fixed[axis]) {
       throw Error(ErrorKind::kBadInput, fmt::format("'{}' are not directions; write some of \"xyz\"", text));
     }
-    value.held[axis] = true;
+    value.fixed[axis] = true;
   }
   if (text.empty()) throw Error(ErrorKind::kBadInput, "must name at least one direction: some of \"xyz\"");
 }
@@ -161,7 +161,7 @@ std::string toml_text(Model value) { return toml_text(model_name(value)); }
 std::string toml_text(const Axes& value) {
   std::string names;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (value.held[axis]) names += kAxisNames[axis];
+    if (value.fixed[axis]) names += kAxisNames[axis];
   }
   return toml_text(std::string_view(names));
 }

@@ -188,12 +188,12 @@ void set_key(Owner& owner, std::string_view path, const Given& given) {
 
 }  // namespace
 
-void set_scene_key(Film& scene, std::string_view path, std::string_view text, const KeyIsSaid& is_said) {
+void set_scene_key(Film& film, std::string_view path, std::string_view text, const KeyIsSaid& is_said) {
   if (path == "materials") refuse(path);  // they would come too late for the bodies
   const bool is_quoted =
       text.size() > 1 && (text[0] == '"' || text[0] == '\'') && text.find(text[0], 1) == text.size() - 1;
   if (is_quoted) text = text.substr(1, text.size() - 2);  // as a scene file has it
-  set_key(scene, path, {.text = text, .library = *scene.library, .is_said = is_said});
+  set_key(film, path, {.text = text, .library = *film.library, .is_said = is_said});
 }
 
 }  // namespace sprung

@@ -19,12 +19,12 @@ CutPart probed_part(const Scene& scene, const std::string& bricks, int axis, Cut
   return {bricks, scene.bodies[0].material.poisson, {std::move(figure)}, probed};
 }
 
-Held held_at(const Body& body, int axis, const Vec3& acceleration) {
-  Held held{.supports = Supports(body.node_count()), .loads = body.masses * acceleration.transpose()};
+SupportedBody supported_at(const Body& body, int axis, const Vec3& acceleration) {
+  SupportedBody supported{.supports = Supports(body.node_count()), .loads = body.masses * acceleration.transpose()};
   for (int node = 0; node < body.node_count(); ++node) {
-    if (body.grid.lattice[node][axis] == 0) held.supports.fix(node);
+    if (body.grid.lattice[node][axis] == 0) supported.supports.fix(node);
   }
-  return held;
+  return supported;
 }
 
 CaseResult run_cut(const Choice& choice, const Observer& observer) {

@@ -32,13 +32,13 @@ struct CutPart {
 [[nodiscard]] CutPart probed_part(const Scene& scene, const std::string& bricks, int axis, CutFigure figure);
 
 /// Held at every node of a side; the weights of all nodes as loads.
-struct Held {
+struct SupportedBody {
   Supports supports;
   Points loads;
 };
 
 /// The low side of a box of bricks across an axis; `acceleration`: m/s^2.
-[[nodiscard]] Held held_at(const Body& body, int axis, const Vec3& acceleration);
+[[nodiscard]] SupportedBody supported_at(const Body& body, int axis, const Vec3& acceleration);
 
 /// Plates, beams, rods, shells and walls, thin or slanted.
 [[nodiscard]] std::vector<CutPart> thin_parts();

@@ -66,7 +66,7 @@ std::vector<double> standing_cube(Model model, double poisson) {
   Material material = light_material(5e3, poisson);
   material.density = 1000;
   Body body = make_body(make_box_grid({kAcross, kAcross, kAcross}, 0.2 / kAcross), model, material);
-  const auto [supports, loads] = held_at(body, 2, Vec3(0, 0, -9.81));
+  const auto [supports, loads] = supported_at(body, 2, Vec3(0, 0, -9.81));
   const auto system = make_default_solver();
   const StaticReport report = solve_static(body, supports, loads, body.rest_positions, *system);
   const auto top =

@@ -30,7 +30,7 @@ double plate_sag(Model model, double thickness, double low, double poisson) {
   split_pieces(find_solids(mesh, "plate").solids.at(0), grid);
   grid.moments = solid_moments(grid);
   const Body body = make_body(std::move(grid), model, light_material(1e6, poisson));
-  const auto [supports, loads] = held_at(body, 0, Vec3(0, 0, -1e-3));
+  const auto [supports, loads] = supported_at(body, 0, Vec3(0, 0, -1e-3));
   const auto system = make_direct_solver();
   const Eigen::VectorXd u = solve_linear(body, supports, loads, *system);
   double sag = 0;

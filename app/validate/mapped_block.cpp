@@ -68,7 +68,7 @@ class BlockMesher {
 
 }  // namespace
 
-SurfaceMesh mapped_block(const std::array<int, 3>& divisions, const std::function<Vec3(const Vec3& place)>& map) {
+SurfaceMesh mapped_block(const std::array<int, 3>& divisions, const std::function<Vec3(const Vec3& position)>& map) {
   BlockMesher mesher(divisions);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     mesher.add_face(axis, false);

@@ -191,21 +191,21 @@ Eigen::VectorXd forces_at(const Membrane& membrane, const Points2& displacements
 
 /// Displacements in equilibrium with the outer nodes displaced as in `uniform`.
 Points2 solve_patch(MembraneRun& run, const Points2& uniform) {
-  Points2 held = uniform;
+  Points2 start = uniform;
   for (int row = 0; row <= run.rows(); ++row) {
     for (int column = 0; column <= run.columns(); ++column) {
       const int node = run.node(column, row);
       const bool is_inner = row > 0 && row < run.rows() && column > 0 && column < run.columns();
       if (is_inner) {
-        held.row(node).setZero();
+        start.row(node).setZero();
       } else {
         run.clamp(node);
       }
     }
   }
-  const Eigen::VectorXd forces = forces_at(run.membrane, held);
+  const Eigen::VectorXd forces = forces_at(run.membrane, start);
   run.loads = -Eigen::Map<const Points2>(forces.data(), run.membrane.node_count(), 2);
-  return held + run.displacements();
+  return start + run.displacements();
 }
 
 /// The worst of the three strains: the error of the inner displacements, and the energy.

@@ -72,19 +72,19 @@ double NodeErrors::rms_error() const {
 }
 
 NodeErrors node_errors(const Body& body, const Mat3& bricks_from_rest, const KnownSolution& known) {
-  const Embedding points = embed(body.grid, known.places * bricks_from_rest.transpose());
+  const Embedding points = embed(body.grid, known.positions * bricks_from_rest.transpose());
   const Points moved =
       deform_points(body.grid, points, body.positions) - deform_points(body.grid, points, body.rest_positions);
-  const double low = known.places.col(0).minCoeff();
-  const double length = known.places.col(0).maxCoeff() - low;
+  const double low = known.positions.col(0).minCoeff();
+  const double length = known.positions.col(0).maxCoeff() - low;
   NodeErrors errors;
   errors.largest = known.displacements.rowwise().norm().maxCoeff();
-  for (Eigen::Index i = 0; i < known.places.rows(); ++i) {
+  for (Eigen::Index i = 0; i < known.positions.rows(); ++i) {
     const auto local = points.local.row(i).array();
     if (((local - local.round()).abs() > kAtNode).any()) continue;
     const Vec3 expected = known.displacements.row(i);
     errors.nodes.push_back(
-        {.along = (known.places(i, 0) - low) / length, .known = expected, .error = Vec3(moved.row(i)) - expected});
+        {.along = (known.positions(i, 0) - low) / length, .known = expected, .error = Vec3(moved.row(i)) - expected});
   }
   if (errors.nodes.empty()) throw Error(ErrorKind::kBadInput, "the bricks have no node where the solution is known");
   return errors;

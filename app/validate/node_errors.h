@@ -10,7 +10,7 @@ namespace sprung {
 /// Displacements at points of a body, from an independent solution.
 struct KnownSolution {
   double poisson = 0;
-  Points places;         // n x 3, m, at rest, from the centre of the body's bounding box
+  Points positions;      // n x 3, m, at rest, from the centre of the body's bounding box
   Points displacements;  // n x 3, m
 };
 

@@ -77,8 +77,8 @@ Film with_variant(Film scene, const Variant& variant) {
   return scene;
 }
 
-Eigen::Vector3i grid_counts(const Film& scene, const Variant& variant) {
-  const SceneBody& body = scene.bodies.front();
+Eigen::Vector3i grid_counts(const Film& film, const Variant& variant) {
+  const SceneBody& body = film.bodies.front();
   if (!body.box) return Eigen::Vector3i::Constant(variant.bricks);
   return (*body.box * variant.bricks / body.box->maxCoeff()).array().round().cast<int>();
 }
@@ -146,9 +146,9 @@ struct Outcome {
 /// Collects the checks of an experiment run by run.
 class Runs {
  public:
-  Runs(const std::string& name, const Film& scene, const Observer& observer)
-      : name_(name), scene_(scene), observer_(observer) {
-    if (!scene.experiment.nodes.empty()) known_ = read_known_solutions(scene.experiment.nodes);
+  Runs(const std::string& name, const Film& film, const Observer& observer)
+      : name_(name), scene_(film), observer_(observer) {
+    if (!film.experiment.nodes.empty()) known_ = read_known_solutions(film.experiment.nodes);
   }
 
   /// With `is_chosen`, quantities that no expectation covers are reported as well.
@@ -208,9 +208,9 @@ class Runs {
     const Observer silent;
     Outcome outcome;
     try {
-      const Film scene = with_variant(scene_, variant);
-      Simulation simulation = prepare_simulation(scene, silent);
-      outcome.recording = simulate(simulation, scene, silent);
+      const Film film = with_variant(scene_, variant);
+      Simulation simulation = prepare_simulation(film, silent);
+      outcome.recording = simulate(simulation, film, silent);
       const auto& body = simulation.world.bodies.front();
       for (const KnownSolution& known : known_) {
         if (known.poisson != variant.poisson) continue;
@@ -275,10 +275,10 @@ class Runs {
   std::map<Model, Volume> volumes_;
 };
 
-CaseResult run_experiment(const std::string& name, const Film& scene, const Choice& choice, const Observer& observer) {
-  const SceneBody& body = scene.bodies.front();
-  const Experiment& varied = scene.experiment;
-  Runs runs(name, scene, observer);
+CaseResult run_experiment(const std::string& name, const Film& film, const Choice& choice, const Observer& observer) {
+  const SceneBody& body = film.bodies.front();
+  const Experiment& varied = film.experiment;
+  Runs runs(name, film, observer);
   for (const double poisson : values_to_run(choice.poisson, varied.poisson, body.material.poisson)) {
     for (const Model model : values_to_run(choice.model, varied.models, body.model)) {
       for (const int bricks : values_to_run(choice.bricks, varied.bricks, own_bricks(body))) {

@@ -142,8 +142,8 @@ TableCase kirsch() {
     const double angle = kPi / 2 * p.y();
     const Vec3 hole(std::cos(angle), std::sin(angle), 0);
     const Vec3 side = hole * (10 / std::max(hole.x(), hole.y()));
-    const Vec3 place = hole + p.x() * (side - hole);
-    return Vec3(place.x(), place.y(), 0.25 * p.z());
+    const Vec3 position = hole + p.x() * (side - hole);
+    return Vec3(position.x(), position.y(), 0.25 * p.z());
   };
   TableScene scene(mapped_block({1, 90, 1}, quarter), 0.125, 1e5, 0.3);
   scene.hold("x-low", "x").hold("y-low", "y").hold("z-low", "z");

@@ -86,8 +86,8 @@ class TableScene {
   }
 
   /// A point in the frame of the table; moved into the body by a ten-thousandth of it.
-  TableScene& probe(const std::string& name, const Vec3& place) {
-    const Vec3 from_middle = (1 - 1e-4) * (place - box_.center());
+  TableScene& probe(const std::string& name, const Vec3& position) {
+    const Vec3 from_middle = (1 - 1e-4) * (position - box_.center());
     scene_.probes.push_back({.name = name, .body = 1, .point = from_middle, .pin = {}, .selection = {}});
     return *this;
   }
@@ -106,7 +106,7 @@ class TableScene {
   }
 
   TableScene& add(Pin pin, const std::string& axes) {
-    for (std::size_t axis = 0; axis < 3; ++axis) pin.axes.held[axis] = axes.find("xyz"[axis]) != std::string::npos;
+    for (std::size_t axis = 0; axis < 3; ++axis) pin.axes.fixed[axis] = axes.find("xyz"[axis]) != std::string::npos;
     pin.name = fmt::format("pin {}", body().pins.size() + 1);
     body().pins.push_back(std::move(pin));
     return *this;

@@ -224,42 +224,42 @@ class TileMaker {
   }
 
  private:
-  [[nodiscard]] std::size_t slot(int plane, int place) const {
-    return std::size_t(plane) * std::size_t(places_) + std::size_t(place);
+  [[nodiscard]] std::size_t slot(int plane, int index) const {
+    return std::size_t(plane) * std::size_t(places_) + std::size_t(index);
   }
 
   void put(const BrickGrid& grid, int brick) {
     const std::size_t b = brick;
     const Cell cell = grid.cells[b] - box_.low;
-    const int place = kFirstPlace + cell.y() * tile_.pitch + cell.x();
-    bricks_[slot(cell.z(), place)] = brick;
+    const int index = kFirstPlace + cell.y() * tile_.pitch + cell.x();
+    bricks_[slot(cell.z(), index)] = brick;
     for (int corner = 0; corner < 8; ++corner) {
-      const int there = place + (on_high_side(corner, 0) ? 1 : 0) + (on_high_side(corner, 1) ? tile_.pitch : 0);
+      const int there = index + (on_high_side(corner, 0) ? 1 : 0) + (on_high_side(corner, 1) ? tile_.pitch : 0);
       nodes_[slot(cell.z() + (on_high_side(corner, 2) ? 1 : 0), there)] = grid.nodes[b][corner];
     }
     if (faces_.high[0].empty()) return;
-    last_faces_[0][slot(cell.z() + 1, place)] = faces_.high[2][b];
-    last_faces_[1][slot(cell.z(), place + tile_.pitch)] = faces_.high[1][b];
-    last_faces_[2][slot(cell.z(), place + 1)] = faces_.high[0][b];
+    last_faces_[0][slot(cell.z() + 1, index)] = faces_.high[2][b];
+    last_faces_[1][slot(cell.z(), index + tile_.pitch)] = faces_.high[1][b];
+    last_faces_[2][slot(cell.z(), index + 1)] = faces_.high[0][b];
   }
 
   /// Lists are made in the order of RunKind, plane by plane.
   void close_list() { tile_.first_run.push_back(isize(tile_.runs)); }
 
-  /// Calls visit(place, count) for packs that hold all such places, as long as they follow each other. They begin at
+  /// Calls visit(index, count) for packs that hold all such places, as long as they follow each other. They begin at
   /// multiples of a pack, where fewer loads lie across two cache lines, but for a short row that takes one less so.
   template <class IsIn, class Visit>
   void each_run_of_packs(const IsIn& is_in, const Visit& visit) const {
     int begin = 0;
     int end = 0;
-    for (int place = 0; place < places_; ++place) {
-      if (place < end || !is_in(place)) continue;
-      int row_end = place + 1;
+    for (int index = 0; index < places_; ++index) {
+      if (index < end || !is_in(index)) continue;
+      int row_end = index + 1;
       while (row_end < places_ && is_in(row_end)) ++row_end;
       const auto packs_from = [&](int first) { return parts_of(row_end - first, kPackPadding); };
-      const int aligned = place & -kPackPadding;
-      const bool is_short = row_end - place <= kShortRow && packs_from(place) < packs_from(aligned);
-      const int first = is_short || aligned < end ? place : aligned;
+      const int aligned = index & -kPackPadding;
+      const bool is_short = row_end - index <= kShortRow && packs_from(index) < packs_from(aligned);
+      const int first = is_short || aligned < end ? index : aligned;
       if (first > end) {
         if (end > begin) visit(begin, end - begin);
         begin = first;
@@ -270,27 +270,27 @@ class TileMaker {
     if (end > begin) visit(begin, end - begin);
   }
 
-  void add_run(int place, int count, std::size_t first, int node = 0) {
-    tile_.runs.push_back({.place = place, .count = count, .first = int(first), .node = node});
+  void add_run(int index, int count, std::size_t first, int node = 0) {
+    tile_.runs.push_back({.index = index, .count = count, .first = int(first), .node = node});
   }
 
-  /// Calls visit(place, count) for nodes that follow each other in the plane and in the body.
+  /// Calls visit(index, count) for nodes that follow each other in the plane and in the body.
   template <class IsIn, class Visit>
   void each_run_of_nodes(int plane, const IsIn& is_in, const Visit& visit) const {
-    const auto node_at = [&](int place) { return nodes_[slot(plane, place)]; };
-    const auto has = [&](int place) { return place < places_ && node_at(place) >= 0 && is_in(node_at(place)); };
-    for (int place = 0; place < places_; ++place) {
-      if (!has(place)) continue;
-      const int begin = place;
-      while (has(place + 1) && node_at(place + 1) == node_at(place) + 1) ++place;
-      visit(begin, place + 1 - begin);
+    const auto node_at = [&](int index) { return nodes_[slot(plane, index)]; };
+    const auto has = [&](int index) { return index < places_ && node_at(index) >= 0 && is_in(node_at(index)); };
+    for (int index = 0; index < places_; ++index) {
+      if (!has(index)) continue;
+      const int begin = index;
+      while (has(index + 1) && node_at(index + 1) == node_at(index) + 1) ++index;
+      visit(begin, index + 1 - begin);
     }
   }
 
   void list_nodes(int plane) {
     close_list();
     const auto all = [](int) { return true; };
-    each_run_of_nodes(plane, all, [&](int place, int count) { add_run(place, count, 0, nodes_[slot(plane, place)]); });
+    each_run_of_nodes(plane, all, [&](int index, int count) { add_run(index, count, 0, nodes_[slot(plane, index)]); });
   }
 
   /// Nodes that this tile alone pulls at, or those that others pull at too.
@@ -309,19 +309,19 @@ class TileMaker {
 
   void list_places(int plane) {
     close_list();
-    each_run_of_packs([&](int place) { return nodes_[slot(plane, place)] >= 0; },
-                      [&](int place, int count) { add_run(place, count, 0); });
+    each_run_of_packs([&](int index) { return nodes_[slot(plane, index)] >= 0; },
+                      [&](int index, int count) { add_run(index, count, 0); });
   }
 
   void list_bricks(int plane) {
     close_list();
-    const auto brick_at = [&](int place) { return bricks_[slot(plane, place)]; };
-    each_run_of_packs([&](int place) { return brick_at(place) >= 0; },
+    const auto brick_at = [&](int index) { return bricks_[slot(plane, index)]; };
+    each_run_of_packs([&](int index) { return brick_at(index) >= 0; },
                       [&](int begin, int count) {
                         add_run(begin, count, tile_.packs.size());
-                        for (int place = begin; place < begin + count; place += kPackPadding) {
+                        for (int index = begin; index < begin + count; index += kPackPadding) {
                           std::array<int, kPackPadding> pack{};
-                          for (int i = 0; i < kPackPadding; ++i) pack[i] = brick_at(place + i);
+                          for (int i = 0; i < kPackPadding; ++i) pack[i] = brick_at(index + i);
                           tile_.packs.push_back(keep(numbers_(pack)));
                         }
                       });
@@ -337,11 +337,11 @@ class TileMaker {
   /// Faces on the high side of a brick where no brick follows.
   void list_faces(int plane, const std::vector<double>& shares) {
     close_list();
-    const auto share_at = [&](int place) { return shares[slot(plane, place)]; };
-    each_run_of_packs([&](int place) { return share_at(place) > 0; },
+    const auto share_at = [&](int index) { return shares[slot(plane, index)]; };
+    each_run_of_packs([&](int index) { return share_at(index) > 0; },
                       [&](int begin, int count) {
                         add_run(begin, count, tile_.shares.size());
-                        for (int place = begin; place < begin + count; ++place) tile_.shares.push_back(share_at(place));
+                        for (int index = begin; index < begin + count; ++index) tile_.shares.push_back(share_at(index));
                       });
   }
 

@@ -81,7 +81,7 @@ Slopes slopes_within(const BrickColumns& x, const Mat3& reference, double h, dou
 
 /// A line through the states of a brick and its neighbours.
 struct Line {
-  Vec3 place = Vec3::Zero();  // m, in the frame of the grid
+  Vec3 position = Vec3::Zero();  // m, in the frame of the grid
   State state{Eigen::Matrix<double, 15, 1>::Zero()};
   Slopes slopes = Slopes::Zero();
 };
@@ -130,12 +130,12 @@ class Recovery {
   /// Cauchy stress, by the lines of the node's bricks.
   [[nodiscard]] Eigen::RowVector<double, 6> mean_at(int node, const std::vector<Line>& lines) const {
     const BrickGrid& grid = body_.grid;
-    const Vec3 place = grid.origin + grid.brick_size * grid.lattice[node].cast<double>();
+    const Vec3 position = grid.origin + grid.brick_size * grid.lattice[node].cast<double>();
     State mean{Eigen::Matrix<double, 15, 1>::Zero()};
     double weights = 0;
     for (const int brick : bricks_at(std::span(&node, 1))) {
       const Line& line = lines[brick];
-      mean.numbers += grid.fill[brick] * (line.state.numbers + line.slopes * (place - line.place));
+      mean.numbers += grid.fill[brick] * (line.state.numbers + line.slopes * (position - line.position));
       weights += grid.fill[brick];
     }
     mean.numbers /= weights;
@@ -188,17 +188,17 @@ class Recovery {
     for (const int other : near) {
       const double weight = weight_of(other);
       weights += weight;
-      line.place += weight * middle_of(other);
+      line.position += weight * middle_of(other);
       line.state.numbers += weight * state_of(other).numbers;
     }
-    line.place /= weights;
+    line.position /= weights;
     line.state.numbers /= weights;
     Mat3 spread = Mat3::Zero();
     Slopes together = Slopes::Zero();
     Slopes within = Slopes::Zero();
     for (const int other : near) {
       const double weight = weight_of(other) / weights;
-      const Vec3 way = middle_of(other) - line.place;
+      const Vec3 way = middle_of(other) - line.position;
       spread += weight * way * way.transpose();
       together += weight * (state_of(other).numbers - line.state.numbers) * way.transpose();
       within += weight * slopes_of(other);

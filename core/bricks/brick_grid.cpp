@@ -210,8 +210,8 @@ CornerLists list_corners(const std::vector<std::array<int, 8>>& bricks, int node
   int corner = 0;
   for (const std::array<int, 8>& brick : bricks) {
     for (const int node : brick) {
-      int& place = next[node];
-      lists.corners[place++] = corner++;
+      int& index = next[node];
+      lists.corners[index++] = corner++;
     }
   }
   return lists;

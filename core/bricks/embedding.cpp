@@ -21,8 +21,8 @@ class BrickFinder {
   explicit BrickFinder(const BrickGrid& grid) : grid_(grid), index_(grid) {}
 
   /// `place` in lattice units. -1: no brick contains it.
-  [[nodiscard]] int holding(const Vec3& place) const {
-    const Cell cell = place.array().floor().cast<int>();
+  [[nodiscard]] int holding(const Vec3& position) const {
+    const Cell cell = position.array().floor().cast<int>();
     if (const int brick = index_.at(cell); brick >= 0) return brick;
     // A point on a face, an edge or a corner belongs to the cells on both sides.
     for (int side = 1; side < 8; ++side) {
@@ -30,22 +30,22 @@ class BrickFinder {
       bool on_border = true;
       for (int axis = 0; axis < 3; ++axis) {
         if (((side >> axis) & 1) == 0) continue;
-        const double rounded = std::round(place[axis]);
-        on_border = on_border && std::abs(place[axis] - rounded) < kRounding;
-        neighbour[axis] = rounded > place[axis] ? cell[axis] + 1 : cell[axis] - 1;
+        const double rounded = std::round(position[axis]);
+        on_border = on_border && std::abs(position[axis] - rounded) < kRounding;
+        neighbour[axis] = rounded > position[axis] ? cell[axis] + 1 : cell[axis] - 1;
       }
       if (const int brick = on_border ? index_.at(neighbour) : -1; brick >= 0) return brick;
     }
     return -1;
   }
 
-  [[nodiscard]] int nearest(const Vec3& place) const {
-    const Cell centre = place.array().floor().cast<int>();
+  [[nodiscard]] int nearest(const Vec3& position) const {
+    const Cell centre = position.array().floor().cast<int>();
     constexpr int kRings = 3;
     int best = -1;
     double best_distance = std::numeric_limits<double>::infinity();
     const auto consider = [&](int brick) {
-      const double distance = distance_squared(place, grid_.cells[brick]);
+      const double distance = distance_squared(position, grid_.cells[brick]);
       if (distance < best_distance) {
         best = brick;
         best_distance = distance;
@@ -64,9 +64,9 @@ class BrickFinder {
   }
 
  private:
-  static double distance_squared(const Vec3& place, const Cell& cell) {
+  static double distance_squared(const Vec3& position, const Cell& cell) {
     const Vec3 low = cell.cast<double>();
-    return (place - place.cwiseMax(low).cwiseMin(low + Vec3::Ones())).squaredNorm();
+    return (position - position.cwiseMax(low).cwiseMin(low + Vec3::Ones())).squaredNorm();
   }
 
   const BrickGrid& grid_;
@@ -121,13 +121,13 @@ Embedding embed(const BrickGrid& grid, const Points& points, const Points& outwa
   embedding.brick.resize(points.rows());
   embedding.local.resize(points.rows(), 3);
   for (int i = 0; i < points.rows(); ++i) {
-    const Vec3 place = (points.row(i).transpose() - grid.origin) / grid.brick_size;
+    const Vec3 position = (points.row(i).transpose() - grid.origin) / grid.brick_size;
     const Vec3 inward = outward.rows() == 0 ? Vec3::Zero() : Vec3(-outward.row(i).transpose().stableNormalized());
-    int brick = solid.under(place, inward);
+    int brick = solid.under(position, inward);
     const bool is_beyond = brick < 0;
-    if (brick < 0) brick = finder.holding(place);
-    if (brick < 0) brick = finder.nearest(place);
-    const Vec3 local = place - grid.cells[brick].cast<double>();
+    if (brick < 0) brick = finder.holding(position);
+    if (brick < 0) brick = finder.nearest(position);
+    const Vec3 local = position - grid.cells[brick].cast<double>();
     embedding.brick[i] = brick;
     embedding.local.row(i) = local;
     const double distance = distance_from_brick(local);

@@ -156,9 +156,9 @@ class Linker {
     const std::vector<PieceItem> high = items_near(other, axis, face);
     for (const PieceItem& a : low) {
       for (const PieceItem& b : high) {
-        const bool is_far = (a.place - b.place).squaredNorm() > kReach * kReach * kSamplePitch * kSamplePitch;
+        const bool is_far = (a.position - b.position).squaredNorm() > kReach * kReach * kSamplePitch * kSamplePitch;
         if (is_far || are_joined(a.piece, b.piece)) continue;
-        if (list_.samples().sees(a.place, b.place)) join(a.piece, b.piece, axis);
+        if (list_.samples().sees(a.position, b.position)) join(a.piece, b.piece, axis);
       }
     }
   }
@@ -166,8 +166,9 @@ class Linker {
   /// Near the face of a cell across `axis` at `face`.
   [[nodiscard]] std::vector<PieceItem> items_near(int brick, int axis, double face) const {
     std::vector<PieceItem> items = list_.items(brick);
-    std::erase_if(
-        items, [&](const PieceItem& item) { return std::abs(item.place[axis] - face) >= kFaceReach * kSamplePitch; });
+    std::erase_if(items, [&](const PieceItem& item) {
+      return std::abs(item.position[axis] - face) >= kFaceReach * kSamplePitch;
+    });
     return items;
   }
 
@@ -216,7 +217,7 @@ class Linker {
     std::vector<Vec3> places;
     const int brick = list_.brick_of(piece);
     for (const PieceItem& item : list_.items(brick)) {
-      if (item.piece == piece) places.push_back(item.place);
+      if (item.piece == piece) places.push_back(item.position);
     }
     return places;
   }
@@ -317,8 +318,8 @@ SolidPatch patch_of(const PieceList& list, int piece, int row) {
     if (sample < patch.samples.size()) {
       patch.samples.set(sample);
     } else {
-      const Vec3 place = list.samples().place_of(cell, int(sample));
-      patch.spots.emplace_back((place - at.cast<double>()).cast<float>());
+      const Vec3 position = list.samples().place_of(cell, int(sample));
+      patch.spots.emplace_back((position - at.cast<double>()).cast<float>());
     }
   }
   return patch;

@@ -16,7 +16,7 @@ struct Piece {
 
 /// A sample or spot of a piece; in a full cell, any sample.
 struct PieceItem {
-  Vec3 place;  // in cells
+  Vec3 position;  // in cells
   int piece;
 };
 

@@ -110,10 +110,10 @@ int absorb_specks(BrickGrid& grid) {
   return int(std::count(gone.begin(), gone.end(), true));
 }
 
-bool are_on_a_line(const std::vector<Eigen::Vector3i>& places) {
+bool are_on_a_line(const std::vector<Eigen::Vector3i>& positions) {
   Eigen::Vector3i along = Eigen::Vector3i::Zero();
-  for (const Eigen::Vector3i& place : places) {
-    const Eigen::Vector3i way = place - places.front();
+  for (const Eigen::Vector3i& position : positions) {
+    const Eigen::Vector3i way = position - positions.front();
     if (along.isZero()) along = way;
     if (!along.cross(way).isZero()) return false;
   }
@@ -146,7 +146,7 @@ int absorb_hinged(BrickGrid& grid) {
     int beyond = -1;  // the part that it hangs at
     bool is_one = true;
     int heir = -1;
-    std::vector<Eigen::Vector3i> places;
+    std::vector<Eigen::Vector3i> positions;
   };
   std::map<int, Hinge> hinges;  // by part
   for (int node = 0; node < grid.node_count(); ++node) {
@@ -160,13 +160,13 @@ int absorb_hinged(BrickGrid& grid) {
         if (hinge.beyond < 0) hinge.beyond = parts.find(other);
         hinge.is_one = hinge.is_one && hinge.beyond == parts.find(other);
         if (hinge.heir < 0 || grid.fill[other] > grid.fill[hinge.heir]) hinge.heir = other;
-        hinge.places.push_back(grid.lattice[node]);
+        hinge.positions.push_back(grid.lattice[node]);
       }
     }
   }
   /// Of two that hang at nothing but each other the smaller one goes.
   const auto goes = [&](int part, const Hinge& hinge) {
-    if (!hinge.is_one || !are_on_a_line(hinge.places)) return false;
+    if (!hinge.is_one || !are_on_a_line(hinge.positions)) return false;
     const auto other = hinges.find(hinge.beyond);
     if (other == hinges.end() || !other->second.is_one) return true;
     return std::pair(volumes[part], -part) < std::pair(volumes[hinge.beyond], -hinge.beyond);

@@ -12,7 +12,7 @@ namespace sprung {
 int absorb_slivers(BrickGrid& grid, double least_fill = 0.1);
 
 /// Adds each brick with less than `least_share` of what the fullest one at its nodes holds to the fullest of its face
-/// neighbours, if these hang together around it without it, and removes it: for laws that know where their solid lies
+/// neighbours, if these are connected around it without it, and removes it: for laws that know where their solid lies
 /// (BrickGrid::moments), to which such a brick would lend nodes that next to nothing holds. Returns the number of
 /// removed bricks.
 int absorb_loose_bricks(BrickGrid& grid, double least_share = 0.1);

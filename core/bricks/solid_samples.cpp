@@ -110,9 +110,9 @@ double cost_of(const Vec3& way, const Vec3& inward) {
   return way.squaredNorm() + (along < 0 ? kOutward * along * along : 0);
 }
 
-double cost_to(const SolidPatch& patch, const Vec3& place, const Vec3& inward) {
+double cost_to(const SolidPatch& patch, const Vec3& position, const Vec3& inward) {
   double least = std::numeric_limits<double>::infinity();
-  const Vec3 local = place - patch.cell.cast<double>();
+  const Vec3 local = position - patch.cell.cast<double>();
   for (std::size_t i = patch.samples._Find_first(); i < patch.samples.size(); i = patch.samples._Find_next(i)) {
     const Vec3 sample = (Vec3(double(i & 7), double(i >> 3 & 7), double(i >> 6)).array() + 0.5) / 8;
     least = std::min(least, cost_of(sample - local, inward));
@@ -125,7 +125,8 @@ double cost_to(const SolidPatch& patch, const Vec3& place, const Vec3& inward) {
 
 SolidFinder::SolidFinder(const BrickGrid& grid) : grid_(grid), bricks_(grid.cells), patches_(cells_of(grid.patches)) {}
 
-void SolidFinder::consider(const Eigen::Vector3i& cell, const Vec3& place, const Vec3& inward, Nearest& nearest) const {
+void SolidFinder::consider(const Eigen::Vector3i& cell, const Vec3& position, const Vec3& inward,
+                           Nearest& nearest) const {
   const auto offer = [&](int brick, double cost) {
     if (cost < nearest.cost) nearest = {brick, cost};
   };
@@ -133,23 +134,23 @@ void SolidFinder::consider(const Eigen::Vector3i& cell, const Vec3& place, const
   if (first < 0) {
     const int brick = bricks_.at(cell);
     const Vec3 low = cell.cast<double>();
-    if (brick >= 0) offer(brick, cost_of(place.cwiseMax(low).cwiseMin(low + Vec3::Ones()) - place, inward));
+    if (brick >= 0) offer(brick, cost_of(position.cwiseMax(low).cwiseMin(low + Vec3::Ones()) - position, inward));
     return;
   }
   for (auto i = std::size_t(first); i < grid_.patches.size() && grid_.patches[i].cell == cell; ++i) {
-    offer(grid_.patches[i].brick, cost_to(grid_.patches[i], place, inward));
+    offer(grid_.patches[i].brick, cost_to(grid_.patches[i], position, inward));
   }
 }
 
-int SolidFinder::under(const Vec3& place, const Vec3& inward) const {
+int SolidFinder::under(const Vec3& position, const Vec3& inward) const {
   if (grid_.patches.empty()) return -1;
-  const Eigen::Vector3i centre = (place + kNudge * inward).array().floor().cast<int>();
+  const Eigen::Vector3i centre = (position + kNudge * inward).array().floor().cast<int>();
   Nearest nearest{.cost = std::numeric_limits<double>::infinity()};
-  consider(centre, place, inward, nearest);
+  consider(centre, position, inward, nearest);
   if (nearest.cost <= kNear * kNear) return nearest.brick;
   for (int i = 0; i < 27; ++i) {
     const Eigen::Vector3i offset(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
-    if (i != 13) consider(centre + offset, place, inward, nearest);
+    if (i != 13) consider(centre + offset, position, inward, nearest);
   }
   return nearest.brick;
 }
@@ -264,7 +265,7 @@ int SolidSamples::brick_at(const Eigen::Vector3i& cell) const {
 }
 
 Vec3 SolidSamples::place_of(const CutCell& cell, int sample) const {
-  if (sample >= kSamples) return cell.spots[sample - kSamples].place;
+  if (sample >= kSamples) return cell.spots[sample - kSamples].position;
   const Vec3 local(along(sample, 0) + 0.5, along(sample, 1) + 0.5, along(sample, 2) + 0.5);
   return grid_.cells[cell.brick].cast<double>() + local * kSamplePitch;
 }
@@ -405,10 +406,10 @@ void SolidSamples::join_diagonally(const CutCell& cell, DisjointSets& sets) cons
   const Vec3 corner = grid_.cells[cell.brick].cast<double>();
   for (int sample = 0; sample < kSamples; ++sample) {
     if (!is_inside(cell, sample)) continue;
-    const Vec3 place = place_of(cell, sample);
-    for_each_near(place - corner, 1.01, [&](int other) {
+    const Vec3 position = place_of(cell, sample);
+    for_each_near(position - corner, 1.01, [&](int other) {
       if (other <= sample || !is_inside(cell, other) || sets.find(other) == sets.find(sample)) return;
-      if (sees(place, place_of(cell, other))) sets.merge(sample, other);
+      if (sees(position, place_of(cell, other))) sets.merge(sample, other);
     });
   }
 }
@@ -417,15 +418,15 @@ void SolidSamples::join_spots(const CutCell& cell, DisjointSets& sets) const {
   const Vec3 corner = grid_.cells[cell.brick].cast<double>();
   for (std::size_t i = 0; i < cell.spots.size(); ++i) {
     const int item = kSamples + int(i);
-    const Vec3& place = cell.spots[i].place;
+    const Vec3& position = cell.spots[i].position;
     const auto join = [&](int other) {
-      if (sets.find(other) != sets.find(item) && sees(place, place_of(cell, other))) sets.merge(item, other);
+      if (sets.find(other) != sets.find(item) && sees(position, place_of(cell, other))) sets.merge(item, other);
     };
-    for_each_near(place - corner, 1.5, [&](int other) {
+    for_each_near(position - corner, 1.5, [&](int other) {
       if (is_inside(cell, other)) join(other);
     });
     for (std::size_t j = 0; j < i; ++j) {
-      if ((cell.spots[j].place - place).norm() < kSpotReach * kSamplePitch) join(kSamples + int(j));
+      if ((cell.spots[j].position - position).norm() < kSpotReach * kSamplePitch) join(kSamples + int(j));
     }
   }
 }

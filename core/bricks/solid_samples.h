@@ -34,14 +34,14 @@ class SolidFinder {
   explicit SolidFinder(const BrickGrid& grid);
 
   /// `place` and `inward` (unit, or zero where unknown) in lattice units. -1: no patch near the place.
-  [[nodiscard]] int under(const Vec3& place, const Vec3& inward) const;
+  [[nodiscard]] int under(const Vec3& position, const Vec3& inward) const;
 
  private:
   struct Nearest {
     int brick = -1;
     double cost;  // squared bricks
   };
-  void consider(const Eigen::Vector3i& cell, const Vec3& place, const Vec3& inward, Nearest& nearest) const;
+  void consider(const Eigen::Vector3i& cell, const Vec3& position, const Vec3& inward, Nearest& nearest) const;
 
   const BrickGrid& grid_;
   CellIndex bricks_;
@@ -50,8 +50,8 @@ class SolidFinder {
 
 /// An interval inside the surface, in one cell, too short to contain a sample.
 struct Spot {
-  Vec3 place;    // its middle, in cells
-  float weight;  // amount of solid, in samples
+  Vec3 position;  // its middle, in cells
+  float weight;   // amount of solid, in samples
 };
 
 /// The samples of a cell that the surface cuts. Sample x + 8 y + 64 z is at (x, y, z) + 1/2 eighths of the cell; spot i

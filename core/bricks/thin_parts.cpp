@@ -17,13 +17,13 @@ using Lists = std::vector<std::vector<int>>;
 
 /// The samples in each brick.
 Lists samples_by_brick(const BrickGrid& grid, const std::vector<WallSample>& samples) {
-  Points places(samples.size(), 3);
-  Points normals(places.rows(), 3);
-  for (Eigen::Index i = 0; i < places.rows(); ++i) {
-    places.row(i) = samples[i].place;
+  Points positions(samples.size(), 3);
+  Points normals(positions.rows(), 3);
+  for (Eigen::Index i = 0; i < positions.rows(); ++i) {
+    positions.row(i) = samples[i].position;
     normals.row(i) = samples[i].outward;
   }
-  const Embedding embedding = embed(grid, places, normals);
+  const Embedding embedding = embed(grid, positions, normals);
   Lists lists(grid.cells.size());
   for (std::size_t i = 0; i < samples.size(); ++i) {
     lists[embedding.brick[i]].push_back(int(i));
@@ -67,7 +67,7 @@ ThinPart measured(std::vector<int> bricks, const std::vector<double>& medians, c
     const std::size_t row = brick;
     if (medians[row] >= part.thickness || in_brick[row].empty()) continue;
     part.thickness = medians[row];
-    part.place = samples[in_brick[row].front()].place;
+    part.position = samples[in_brick[row].front()].position;
   }
   return part;
 }

@@ -8,9 +8,9 @@ namespace sprung {
 
 /// Connected bricks whose solid is thinner than a brick.
 struct ThinPart {
-  std::vector<int> bricks;    // rows of the grid
-  double thickness = 0;       // m, where it is thinnest: the median around a brick
-  Vec3 place = Vec3::Zero();  // a point of the surface there
+  std::vector<int> bricks;       // rows of the grid
+  double thickness = 0;          // m, where it is thinnest: the median around a brick
+  Vec3 position = Vec3::Zero();  // a point of the surface there
 };
 
 /// The parts of a body that are thinner than its bricks, thinnest first. A brick counts where most of the surface in it

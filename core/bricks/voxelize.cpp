@@ -76,14 +76,15 @@ class Filler {
     });
   }
 
-  [[nodiscard]] double winding(const Vec3& place) const { return std::abs(tree_.at(place)); }
-  [[nodiscard]] double inside(const Vec3& place) const { return winding(place) > 0.5 ? 1 : 0; }
+  [[nodiscard]] double winding(const Vec3& position) const { return std::abs(tree_.at(position)); }
+  [[nodiscard]] double inside(const Vec3& position) const { return winding(position) > 0.5 ? 1 : 0; }
 
   [[nodiscard]] double sampled(const Eigen::Vector3i& cell) const {
     double sum = 0;
     for (int i = 0; i < kFillSamples * kFillSamples * kFillSamples; ++i) {
-      const Eigen::Array3i place(i % kFillSamples, i / kFillSamples % kFillSamples, i / (kFillSamples * kFillSamples));
-      sum += inside(cell.cast<double>().array() + (place.cast<double>() + 0.5) / kFillSamples);
+      const Eigen::Array3i position(i % kFillSamples, i / kFillSamples % kFillSamples,
+                                    i / (kFillSamples * kFillSamples));
+      sum += inside(cell.cast<double>().array() + (position.cast<double>() + 0.5) / kFillSamples);
     }
     return sum / (kFillSamples * kFillSamples * kFillSamples);
   }
@@ -111,11 +112,11 @@ constexpr std::uint64_t kAll = ~std::uint64_t{0};
 
 using Corners = std::array<Vec3, 3>;
 
-double squared_distance_to_side(const Vec3& a, const Vec3& b, const Vec3& place) {
+double squared_distance_to_side(const Vec3& a, const Vec3& b, const Vec3& position) {
   const Vec3 along = b - a;
   const double length = along.squaredNorm();
-  const double share = length > 0 ? std::clamp((place - a).dot(along) / length, 0.0, 1.0) : 0.0;
-  return (a + share * along - place).squaredNorm();
+  const double share = length > 0 ? std::clamp((position - a).dot(along) / length, 0.0, 1.0) : 0.0;
+  return (a + share * along - position).squaredNorm();
 }
 
 /// A triangle prepared for distance queries.
@@ -126,22 +127,22 @@ class Triangle {
     if (normal_.norm() > 0) normal_.normalize();
   }
 
-  [[nodiscard]] double squared_distance(const Vec3& place) const {
-    if (is_above(place)) {
-      const double height = normal_.dot(place - corners_[0]);
+  [[nodiscard]] double squared_distance(const Vec3& position) const {
+    if (is_above(position)) {
+      const double height = normal_.dot(position - corners_[0]);
       return height * height;
     }
-    return std::min({squared_distance_to_side(corners_[0], corners_[1], place),
-                     squared_distance_to_side(corners_[1], corners_[2], place),
-                     squared_distance_to_side(corners_[2], corners_[0], place)});
+    return std::min({squared_distance_to_side(corners_[0], corners_[1], position),
+                     squared_distance_to_side(corners_[1], corners_[2], position),
+                     squared_distance_to_side(corners_[2], corners_[0], position)});
   }
 
  private:
-  [[nodiscard]] bool is_above(const Vec3& place) const {
+  [[nodiscard]] bool is_above(const Vec3& position) const {
     if (normal_.isZero(0)) return false;
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3 side = corners_[(k + 1) % 3] - corners_[k];
-      if (normal_.cross(side).dot(place - corners_[k]) < 0) return false;
+      if (normal_.cross(side).dot(position - corners_[k]) < 0) return false;
     }
     return true;
   }
@@ -160,8 +161,8 @@ std::uint64_t near_samples(const Triangle& triangle, const Vec3& low, double rea
   for (int i = 0; i < kFillSamples * kFillSamples * kFillSamples; ++i) {
     const std::uint64_t bit = std::uint64_t{1} << i;
     if ((known & bit) != 0) continue;
-    const Eigen::Array3i place(i % kFillSamples, i / kFillSamples % kFillSamples, i / (kFillSamples * kFillSamples));
-    if (triangle.squared_distance(low.array() + (place.cast<double>() + 0.5) / kFillSamples) <= reach * reach)
+    const Eigen::Array3i position(i % kFillSamples, i / kFillSamples % kFillSamples, i / (kFillSamples * kFillSamples));
+    if (triangle.squared_distance(low.array() + (position.cast<double>() + 0.5) / kFillSamples) <= reach * reach)
       known |= bit;
   }
   return known;

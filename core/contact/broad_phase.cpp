@@ -125,9 +125,9 @@ std::vector<std::pair<std::size_t, std::size_t>> broad_phase(const World& world,
 
 double max_step_size(const World& world, const Group& group, double dt) {
   std::vector<const ContactSurface*> skins;
-  for (SoftBody* actor : group) skins.push_back(&contact_surface_of(*actor));
+  for (SoftBody* body : group) skins.push_back(&contact_surface_of(*body));
   double fastest = 0;
-  for (const SoftBody* actor : group) fastest = std::max(fastest, actor->velocities.rowwise().norm().maxCoeff());
+  for (const SoftBody* body : group) fastest = std::max(fastest, body->velocities.rowwise().norm().maxCoeff());
   double stride = dt;
   for (const auto& [a, b] : broad_phase(world, group, 2 * (fastest + world.gravity.norm() * dt) * dt)) {
     ContactCandidates pairs(skins, a, b);
@@ -165,7 +165,7 @@ std::vector<std::vector<std::size_t>> contact_groups(const World& world, double 
   DisjointSets sets(count);
   if (world.bodies_collide && count > 1) {
     std::vector<AlignedBox> boxes;
-    for (const SoftBody& actor : world.bodies) boxes.push_back(reach_of(actor, world.gravity, time));
+    for (const SoftBody& body : world.bodies) boxes.push_back(reach_of(body, world.gravity, time));
     for (const auto& [a, b] : overlapping_boxes(boxes)) sets.merge(a, b);
   }
   for (const GluedPoint& point : world.glue) {

@@ -18,18 +18,18 @@ AlignedBox box_of(const Body& body, int brick) {
 
 }  // namespace
 
-ContactCandidates::ContactCandidates(const std::vector<const ContactSurface*>& skins, std::size_t actor,
+ContactCandidates::ContactCandidates(const std::vector<const ContactSurface*>& skins, std::size_t body,
                                      std::size_t other)
     : skins_(skins) {
   const auto add = [&](std::size_t which) {
     const std::size_t count = skins[which]->points.size();
-    sides_.push_back({.actor = which,
+    sides_.push_back({.body = which,
                       .positions = Points(count, 3),
                       .finds = std::vector<long>(count, 0),
                       .tracked = std::vector<int>(count, -1)});
   };
-  add(actor);
-  if (other != actor) add(other);
+  add(body);
+  if (other != body) add(other);
 }
 
 bool ContactCandidates::may_touch(const Place& a, const Place& b) const {
@@ -42,7 +42,7 @@ bool ContactCandidates::may_touch(const Place& a, const Place& b) const {
 }
 
 void ContactCandidates::add_places(const Group& group, std::size_t side, const AlignedBox& near) {
-  const Body& body = *group[sides_[side].actor];
+  const Body& body = *group[sides_[side].body];
   const ContactSurface& skin = skin_of(sides_[side]);
   const AlignedBox near_bricks = widened(near, body.grid.brick_size);  // skins may lie a little outside them
   for (std::size_t row = 0; row < skin.bricks.size(); ++row) {
@@ -62,7 +62,7 @@ void ContactCandidates::seek(const Group& group, double margin) {
   ++finds_;
   places_.clear();
   for (std::size_t side = 0; side < sides_.size(); ++side) {
-    const Body& facing = *group[sides_[sides_.size() - 1 - side].actor];
+    const Body& facing = *group[sides_[sides_.size() - 1 - side].body];
     add_places(group, side, widened(bounding_box(facing.positions), margin + facing.grid.brick_size));
   }
   std::vector<AlignedBox> boxes;
@@ -75,13 +75,13 @@ void ContactCandidates::seek(const Group& group, double margin) {
 void ContactCandidates::keep_near_places() {
   std::vector<int> row_of(places_.size(), -1);
   std::vector<Place> kept;
-  const auto keep = [&](int& place) {
-    int& row = row_of[place];
+  const auto keep = [&](int& index) {
+    int& row = row_of[index];
     if (row < 0) {
       row = isize(kept);
-      kept.push_back(places_[place]);
+      kept.push_back(places_[index]);
     }
-    place = row;
+    index = row;
   };
   for (auto& [first, second] : near_) {
     keep(first);
@@ -93,7 +93,7 @@ void ContactCandidates::keep_near_places() {
 void ContactCandidates::find(const Group& group, Place& place) {
   const ContactSurface& skin = skin_of(place);
   Side& side = sides_[place.side];
-  const Body& body = *group[side.actor];
+  const Body& body = *group[side.body];
   place.box.setEmpty();
   const auto add = [&](int point) {
     long& found = side.finds[point];
@@ -111,13 +111,13 @@ void ContactCandidates::find(const Group& group, Place& place) {
 
 RigidMotion ContactCandidates::rigid_motion(const Group& group) const {
   Group both;
-  for (const Side& side : sides_) both.push_back(group[side.actor]);
+  for (const Side& side : sides_) both.push_back(group[side.body]);
   return rigid_motion_of(both);
 }
 
 double ContactCandidates::fastest_of(const Group& group, std::size_t side, std::size_t row,
                                      const RigidMotion& rigid) const {
-  const Body& body = *group[sides_[side].actor];
+  const Body& body = *group[sides_[side].body];
   const ContactSurface& skin = skin_of(sides_[side]);
   double most = 0;
   for (int i = skin.first_point[row]; i < skin.first_point[row + 1]; ++i) {
@@ -147,7 +147,7 @@ double ContactCandidates::fastest_near(const Group& group) const {
 
 double ContactCandidates::closing_speed(const Group& group, double dt) const {
   const auto velocity_of = [&](const Place& place) {
-    const Body& body = *group[sides_[place.side].actor];
+    const Body& body = *group[sides_[place.side].body];
     const int brick = skin_of(place).bricks[place.row];
     return carried(body, brick, CornerWeights::Constant(0.125), body.velocities);
   };
@@ -170,10 +170,10 @@ int ContactCandidates::tracked_row(const Group& group, std::size_t side, int poi
   int& row = sides_[side].tracked[point];
   if (row < 0) {
     row = isize(tracked_);
-    const std::size_t actor = sides_[side].actor;
-    const ContactSurface& skin = *skins_[actor];
+    const std::size_t body = sides_[side].body;
+    const ContactSurface& skin = *skins_[body];
     const int brick = skin.points[point].brick;
-    tracked_.push_back({actor, point, carried_normal(*group[actor], brick, skin.normals.row(point))});
+    tracked_.push_back({body, point, carried_normal(*group[body], brick, skin.normals.row(point))});
   }
   return row;
 }
@@ -182,20 +182,20 @@ void ContactCandidates::pair_up(const Group& group, const ContactRange& reach, c
                                 int point) {
   const ContactSurface& across = skin_of(facing);
   const Points& corners = sides_[facing.side].positions;
-  const Vec3 place = sides_[side].positions.row(point);
+  const Vec3 position = sides_[side].positions.row(point);
   const int brick = skin_of(sides_[side]).points[point].brick;
   const auto hangs_together = [&](int corner) {
-    return share_a_node(*group[sides_[side].actor], brick, across.points[corner].brick);
+    return share_a_node(*group[sides_[side].body], brick, across.points[corner].brick);
   };
   for (int t = across.first_triangle[facing.row]; t < across.first_triangle[facing.row + 1]; ++t) {
     const std::array<int, 3>& triangle = across.triangles[t];
     const Vec3 a = corners.row(triangle[0]);
     const Vec3 b = corners.row(triangle[1]);
     const Vec3 c = corners.row(triangle[2]);
-    if (((a.cwiseMin(b).cwiseMin(c) - place).array() > reach.margin).any()) continue;
-    if (((place - a.cwiseMax(b).cwiseMax(c)).array() > reach.margin).any()) continue;
+    if (((a.cwiseMin(b).cwiseMin(c) - position).array() > reach.margin).any()) continue;
+    if (((position - a.cwiseMax(b).cwiseMax(c)).array() > reach.margin).any()) continue;
     const Vec3 area = (b - a).cross(c - a);
-    if (area.dot(place - a) < -(reach.deepest + reach.margin) * area.norm()) continue;
+    if (area.dot(position - a) < -(reach.deepest + reach.margin) * area.norm()) continue;
     const int row = tracked_row(group, side, point);
     if (tracked(row).normal.dot(area) > kFacing * area.norm()) continue;
     if (side == facing.side && std::any_of(triangle.begin(), triangle.end(), hangs_together)) continue;
@@ -233,7 +233,7 @@ void ContactCandidates::look(const Group& group, const ContactRange& reach) {
   }
   const auto order = [&](const CandidatePair& pair) {
     const TrackedPoint& point = tracked(pair.point);
-    return std::tuple(point.actor, point.point, tracked(pair.corners[0]).actor, pair.corners);
+    return std::tuple(point.body, point.point, tracked(pair.corners[0]).body, pair.corners);
   };
   std::sort(pairs_.begin(), pairs_.end(),
             [&](const CandidatePair& a, const CandidatePair& b) { return order(a) < order(b); });
@@ -264,17 +264,17 @@ void ContactCandidates::take(const Group& group, const std::vector<std::vector<F
 
 void ContactCandidates::turn(const Group& group) {
   for (TrackedPoint& tracked : tracked_) {
-    const ContactSurface& skin = *skins_[tracked.actor];
+    const ContactSurface& skin = *skins_[tracked.body];
     tracked.normal =
-        carried_normal(*group[tracked.actor], skin.points[tracked.point].brick, skin.normals.row(tracked.point));
+        carried_normal(*group[tracked.body], skin.points[tracked.point].brick, skin.normals.row(tracked.point));
   }
 }
 
 void ContactCandidates::follow(const Group& group) {
   for (TrackedPoint& tracked : tracked_) {
-    const ContactPoint& point = skins_[tracked.actor]->points[tracked.point];
-    const Body& body = *group[tracked.actor];
-    tracked.place = carried(body, point, body.positions);
+    const ContactPoint& point = skins_[tracked.body]->points[tracked.point];
+    const Body& body = *group[tracked.body];
+    tracked.position = carried(body, point, body.positions);
     tracked.velocity = carried(body, point, body.velocities);
   }
 }

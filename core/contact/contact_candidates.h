@@ -12,10 +12,10 @@ namespace sprung {
 
 /// A point of a skin that is watched.
 struct TrackedPoint {
-  std::size_t actor;  // of the group
-  int point;          // of its skin
-  Vec3 normal;        // of the skin there, when last looked
-  Vec3 place = Vec3::Zero();
+  std::size_t body;  // of the group
+  int point;         // of its skin
+  Vec3 normal;       // of the skin there, when last looked
+  Vec3 position = Vec3::Zero();
   Vec3 velocity = Vec3::Zero();
 };
 
@@ -26,12 +26,12 @@ struct CandidatePair {
 };
 
 /// Points and triangles of two skins of a group, or of one skin, that are near and face each other; within one they
-/// must not hang together through a common neighbour of their bricks. Bricks are compared first, by their boxes and by
+/// must not be connected through a common neighbour of their bricks. Bricks are compared first, by their boxes and by
 /// where their normals may point: that is sought from further away, and less often.
 class ContactCandidates {
  public:
   /// Of two bodies of the group, or of one with itself.
-  ContactCandidates(const std::vector<const ContactSurface*>& skins, std::size_t actor, std::size_t other);
+  ContactCandidates(const std::vector<const ContactSurface*>& skins, std::size_t body, std::size_t other);
 
   /// Seeks the bricks whose skins are within `margin` (m) of each other. Deterministic.
   void seek(const Group& group, double margin);
@@ -64,13 +64,13 @@ class ContactCandidates {
   [[nodiscard]] double nearest_beyond() const { return nearest_beyond_; }
 
   [[nodiscard]] const TrackedPoint& tracked(int row) const { return tracked_[row]; }
-  /// Grouped by the point and, for each, by the actor of the triangle.
+  /// Grouped by the point and, for each, by the body of the triangle.
   [[nodiscard]] const std::vector<CandidatePair>& pairs() const { return pairs_; }
 
  private:
   /// One of the skins.
   struct Side {
-    std::size_t actor;
+    std::size_t body;
     Points positions;          // of its points, as far as they were found
     std::vector<long> finds;   // by point: the search that found it
     std::vector<int> tracked;  // by point: row in tracked_, or -1
@@ -86,7 +86,7 @@ class ContactCandidates {
     double sine;
   };
 
-  [[nodiscard]] const ContactSurface& skin_of(const Side& side) const { return *skins_[side.actor]; }
+  [[nodiscard]] const ContactSurface& skin_of(const Side& side) const { return *skins_[side.body]; }
   [[nodiscard]] const ContactSurface& skin_of(const Place& place) const { return skin_of(sides_[place.side]); }
   [[nodiscard]] RigidMotion rigid_motion(const Group& group) const;
   [[nodiscard]] double fastest_of(const Group& group, std::size_t side, std::size_t row,
@@ -100,7 +100,7 @@ class ContactCandidates {
   void pair_up(const Group& group, const ContactRange& reach, const Place& facing, std::size_t side, int point);
   int tracked_row(const Group& group, std::size_t side, int point);
 
-  const std::vector<const ContactSurface*>& skins_;  // by actor of the group
+  const std::vector<const ContactSurface*>& skins_;  // by body of the group
   std::vector<Side> sides_;                          // two, or one
   std::vector<Place> places_;                        // of bricks that are near others
   std::vector<std::pair<int, int>> near_;            // rows of places_

@@ -11,9 +11,9 @@ namespace sprung {
 namespace {
 
 constexpr int kMostSweeps = 30;
-constexpr int kMostSweepsOfSqueezes = 100;  // rare, and what they miss grows
-constexpr double kTolerance = 1e-4;         // bricks that a point may miss its limit by in a step
-constexpr double kLeastFree = 0.05;         // of a contact's weights: what nodes that are held carry, none moves
+constexpr int kMostSweepsWithInversions = 100;  // rare, and what they miss grows
+constexpr double kTolerance = 1e-4;             // bricks that a point may miss its constraint by in a step
+constexpr double kLeastFree = 0.05;             // of a contact's weights: what pinned nodes carry cannot be moved
 
 double dot(double a, double b) { return a * b; }
 double dot(const Vec3& a, const Vec3& b) { return a.dot(b); }
@@ -31,28 +31,28 @@ ContactSolver::ContactSolver(Group group, std::vector<Eigen::VectorXd> inverse_m
       obstacle_contact_(skins_),
       skin_contacts_(skin_contacts ? std::move(skin_contacts)
                                    : std::make_shared<SkinContacts>(group_, ContactSearch::kInTime)),
-      squeeze_watches_(group_.size()) {
-  for (SoftBody* actor : group_) {
-    skins_.push_back(&contact_surface_of(*actor));
-    places_.emplace_back(actor->node_count(), -1);
+      inversion_guards_(group_.size()) {
+  for (SoftBody* body : group_) {
+    skins_.push_back(&contact_surface_of(*body));
+    rows_.emplace_back(body->node_count(), -1);
   }
 }
 
-Vec3 ContactSolver::ContactConstraint::residual(const Nodes& all, Vec3 Pushed::*velocity) const {
+Vec3 ContactSolver::ContactConstraint::residual(const Nodes& all, Vec3 SolverNode::*velocity) const {
   Vec3 result = goal;
-  for (const Part& part : parts) result -= part.weight * all[part.place].*velocity;
+  for (const JacobianEntry& entry : entries) result -= entry.weight * all[entry.index].*velocity;
   return result;
 }
 
 void ContactSolver::ContactConstraint::push(const Vec3& size, Nodes& all) const {
-  for (const Part& part : parts) all[part.place].now += part.weight * size;
+  for (const JacobianEntry& entry : entries) all[entry.index].now += entry.weight * size;
 }
 
 Vec3 ContactSolver::ContactConstraint::allowed(const Vec3& size) const {
   return is_glue ? size : within_friction_cone(size, normal, friction);
 }
 
-double ContactSolver::InversionConstraint::residual(const Nodes& all, Vec3 Pushed::*velocity) const {
+double ContactSolver::InversionConstraint::residual(const Nodes& all, Vec3 SolverNode::*velocity) const {
   double result = least_speed;
   for (std::size_t i = 0; i < node_count; ++i) result -= gradients[i].dot(all[nodes[i]].*velocity);
   return result;
@@ -64,37 +64,37 @@ void ContactSolver::InversionConstraint::push(double size, Nodes& all) const {
 
 double ContactSolver::InversionConstraint::allowed(double size) { return std::max(0.0, size); }
 
-std::size_t ContactSolver::place_of(std::size_t actor, int node) {
-  int& place = places_[actor][node];
-  if (place < 0) {
-    place = isize(nodes_);
-    const Vec3 velocity = group_[actor]->velocities.row(node);
-    nodes_.push_back({.actor = actor,
+std::size_t ContactSolver::row_of(std::size_t body, int node) {
+  int& index = rows_[body][node];
+  if (index < 0) {
+    index = isize(nodes_);
+    const Vec3 velocity = group_[body]->velocities.row(node);
+    nodes_.push_back({.body = body,
                       .node = node,
-                      .inverse_mass = inverse_masses_[actor][node],
+                      .inverse_mass = inverse_masses_[body][node],
                       .free_velocity = velocity,
                       .velocity = velocity});
   }
-  return place;
+  return index;
 }
 
-void ContactSolver::forget_limits() {
-  for (const Pushed& node : nodes_) places_[node.actor][node.node] = -1;
+void ContactSolver::clear_constraints() {
+  for (const SolverNode& node : nodes_) rows_[node.body][node.node] = -1;
   nodes_.clear();
-  std::swap(touches_, touches_before_);
-  std::swap(squeezed_, squeezed_before_);
-  touches_.clear();
-  squeezed_.clear();
+  std::swap(contacts_, contacts_before_);
+  std::swap(inversions_, inversions_before_);
+  contacts_.clear();
+  inversions_.clear();
 }
 
-bool ContactSolver::can_be_moved(std::span<const Part> parts) const {
+bool ContactSolver::can_be_moved(std::span<const JacobianEntry> entries) const {
   double all = 0;
-  double free = 0;
-  for (const Part& part : parts) {
-    all += std::abs(part.weight);
-    if (nodes_[part.place].inverse_mass > 0) free += std::abs(part.weight);
+  double movable = 0;
+  for (const JacobianEntry& entry : entries) {
+    all += std::abs(entry.weight);
+    if (nodes_[entry.index].inverse_mass > 0) movable += std::abs(entry.weight);
   }
-  return free > kLeastFree * all;
+  return movable > kLeastFree * all;
 }
 
 void ContactSolver::find_contacts(const World& world, double elapsed, double dt) {
@@ -107,84 +107,86 @@ void ContactSolver::find_contacts(const World& world, double elapsed, double dt)
   skin_contacts_->find(world, dt, group_, found_);
   add_glue(glue_, group_, dt, found_);
   std::sort(found_.list.begin(), found_.list.end(), [](const Contact& a, const Contact& b) { return a.key < b.key; });
-  parts_.clear();
+  entries_.clear();
   for (const Share& share : found_.shares) {
-    parts_.push_back({place_of(share.actor, share.node), share.weight});
+    entries_.push_back({row_of(share.body, share.node), share.weight});
   }
-  for (const Contact& touch : found_.list) {
-    const std::span<const Part> parts = std::span(parts_).subspan(touch.first, touch.last - touch.first);
-    if (!can_be_moved(parts)) continue;
-    touches_.push_back({.key = touch.key,
-                        .parts = parts,
-                        .normal = touch.normal,
-                        .goal = touch.goal,
-                        .friction = touch.friction,
-                        .is_glue = touch.is_glue});
+  for (const Contact& contact : found_.list) {
+    const std::span<const JacobianEntry> entries =
+        std::span(entries_).subspan(contact.first, contact.last - contact.first);
+    if (!can_be_moved(entries)) continue;
+    contacts_.push_back({.key = contact.key,
+                         .entries = entries,
+                         .normal = contact.normal,
+                         .goal = contact.goal,
+                         .friction = contact.friction,
+                         .is_glue = contact.is_glue});
   }
 }
 
 void ContactSolver::find_inversions(double dt) {
   std::vector<const std::vector<InversionRate>*> found(group_.size());
   tbb::parallel_for(std::size_t{0}, group_.size(),
-                    [&](std::size_t actor) { found[actor] = &squeeze_watches_[actor].find(*group_[actor], dt); });
-  for (std::size_t actor = 0; actor < group_.size(); ++actor) add_inversions(actor, *found[actor]);
+                    [&](std::size_t body) { found[body] = &inversion_guards_[body].find(*group_[body], dt); });
+  for (std::size_t body = 0; body < group_.size(); ++body) add_inversions(body, *found[body]);
 }
 
-void ContactSolver::add_inversions(std::size_t actor, const std::vector<InversionRate>& squeezes) {
-  const Body& body = *group_[actor];
-  for (const InversionRate& squeeze : squeezes) {
-    const auto& nodes = body.grid.nodes[squeeze.brick];
-    const double size = body.grid.brick_size;  // so that both kinds of limit measure speeds
-    const Eigen::Matrix<double, 3, 8> gradients = size * corner_gradients(squeeze);
-    InversionConstraint limit{
-        .key = touch_key(0, actor, squeeze.brick, 0) * 2 + static_cast<std::uint64_t>(squeeze.corner),
-        .least_speed = squeeze.least_rate * size};
+void ContactSolver::add_inversions(std::size_t row, const std::vector<InversionRate>& rates) {
+  const Body& body = *group_[row];
+  for (const InversionRate& rate : rates) {
+    const auto& nodes = body.grid.nodes[rate.brick];
+    const double size = body.grid.brick_size;  // so that both kinds of constraint measure speeds
+    const Eigen::Matrix<double, 3, 8> gradients = size * corner_gradients(rate);
+    InversionConstraint constraint{
+        .key = contact_key(0, row, rate.brick, 0) * 2 + static_cast<std::uint64_t>(rate.corner),
+        .least_speed = rate.least_rate * size};
     for (int corner = 0; corner < 8; ++corner) {
       if (gradients.col(corner).isZero(0)) continue;
-      limit.gradients[limit.node_count] = gradients.col(corner);
-      limit.nodes[limit.node_count] = place_of(actor, nodes[corner]);
-      ++limit.node_count;
+      constraint.gradients[constraint.node_count] = gradients.col(corner);
+      constraint.nodes[constraint.node_count] = row_of(row, nodes[corner]);
+      ++constraint.node_count;
     }
-    squeezed_.push_back(limit);
+    inversions_.push_back(constraint);
   }
 }
 
 void ContactSolver::compute_row_sums() {
-  each_limit([&](const auto& limit) {
-    for (std::size_t i = 0; i < limit.count(); ++i) nodes_[limit.place(i)].pull += limit.pull(i);
+  each_constraint([&](const auto& constraint) {
+    for (std::size_t i = 0; i < constraint.count(); ++i) nodes_[constraint.index(i)].row_sum += constraint.weight(i);
   });
-  each_limit([&](auto& limit) {
-    for (std::size_t i = 0; i < limit.count(); ++i) {
-      const Pushed& node = nodes_[limit.place(i)];
-      limit.inverse_mass += limit.pull(i) * node.inverse_mass * node.pull;
+  each_constraint([&](auto& constraint) {
+    for (std::size_t i = 0; i < constraint.count(); ++i) {
+      const SolverNode& node = nodes_[constraint.index(i)];
+      constraint.inverse_mass += constraint.weight(i) * node.inverse_mass * node.row_sum;
     }
   });
 }
 
 void ContactSolver::warm_start() {
-  const auto take_over = [](const auto& before, auto& limits) {
+  const auto take_over = [](const auto& before, auto& constraints) {
     auto old = before.begin();
-    for (auto& limit : limits) {
-      while (old != before.end() && old->key < limit.key) ++old;
-      if (old != before.end() && old->key == limit.key && limit.inverse_mass > 0) limit.impulse = old->impulse;
+    for (auto& constraint : constraints) {
+      while (old != before.end() && old->key < constraint.key) ++old;
+      if (old != before.end() && old->key == constraint.key && constraint.inverse_mass > 0)
+        constraint.impulse = old->impulse;
     }
   };
-  take_over(touches_before_, touches_);
-  take_over(squeezed_before_, squeezed_);
+  take_over(contacts_before_, contacts_);
+  take_over(inversions_before_, inversions_);
   // The best share of these impulses is that whose residual has least energy; it has no more than without impulses.
   double wanted = 0;
-  each_limit([&](const auto& limit) {
-    wanted += dot(limit.residual(nodes_, &Pushed::free_velocity), limit.impulse.last);
-    limit.push(limit.impulse.last, nodes_);
+  each_constraint([&](const auto& constraint) {
+    wanted += dot(constraint.residual(nodes_, &SolverNode::free_velocity), constraint.impulse.last);
+    constraint.push(constraint.impulse.last, nodes_);
   });
-  double answered = 0;
-  for (const Pushed& node : nodes_) answered += node.inverse_mass * node.now.squaredNorm();
-  const double share = answered > 0 ? std::clamp(wanted / answered, 0.0, 1.0) : 0;
-  each_limit([&](auto& limit) {
-    limit.impulse.last *= share;
-    limit.impulse.ahead = limit.impulse.last;
+  double response = 0;
+  for (const SolverNode& node : nodes_) response += node.inverse_mass * node.now.squaredNorm();
+  const double share = response > 0 ? std::clamp(wanted / response, 0.0, 1.0) : 0;
+  each_constraint([&](auto& constraint) {
+    constraint.impulse.last *= share;
+    constraint.impulse.ahead = constraint.impulse.last;
   });
-  for (Pushed& node : nodes_) {
+  for (SolverNode& node : nodes_) {
     node.last = share * node.now;
     node.velocity = node.free_velocity + node.inverse_mass * node.last;
     node.now.setZero();
@@ -193,16 +195,16 @@ void ContactSolver::warm_start() {
 
 ContactSolver::Sweep ContactSolver::sweep() {
   Sweep result;
-  each_limit([&](auto& limit) {
-    if (limit.inverse_mass <= 0) return;
-    auto& [last, ahead] = limit.impulse;
+  each_constraint([&](auto& constraint) {
+    if (constraint.inverse_mass <= 0) return;
+    auto& [last, ahead] = constraint.impulse;
     using Impulse = std::remove_reference_t<decltype(last)>;
-    const Impulse wanted = ahead + limit.residual(nodes_, &Pushed::velocity) / limit.inverse_mass;
-    const Impulse size = limit.allowed(wanted);
-    limit.push(size, nodes_);
+    const Impulse wanted = ahead + constraint.residual(nodes_, &SolverNode::velocity) / constraint.inverse_mass;
+    const Impulse size = constraint.allowed(wanted);
+    constraint.push(size, nodes_);
     const Impulse change = size - ahead;
-    result.furthest = std::max(result.furthest, largest(change) * limit.inverse_mass);
-    result.uphill -= dot(change, Impulse(size - last)) * limit.inverse_mass;
+    result.furthest = std::max(result.furthest, largest(change) * constraint.inverse_mass);
+    result.uphill -= dot(change, Impulse(size - last)) * constraint.inverse_mass;
     ahead = last;
     last = size;
   });
@@ -211,11 +213,11 @@ ContactSolver::Sweep ContactSolver::sweep() {
 
 void ContactSolver::extrapolate(double lead) {
   // What is ahead still holds the sweep before.
-  each_limit([&](auto& limit) {
-    auto& [last, ahead] = limit.impulse;
+  each_constraint([&](auto& constraint) {
+    auto& [last, ahead] = constraint.impulse;
     ahead = last + lead * (last - ahead);
   });
-  for (Pushed& node : nodes_) {
+  for (SolverNode& node : nodes_) {
     node.velocity = node.free_velocity + node.inverse_mass * (node.now + lead * (node.now - node.last));
     node.last = node.now;
     node.now.setZero();
@@ -223,13 +225,13 @@ void ContactSolver::extrapolate(double lead) {
 }
 
 void ContactSolver::apply(const World& world, double elapsed, double dt) {
-  forget_limits();
+  clear_constraints();
   find_contacts(world, elapsed, dt);
   find_inversions(dt);
   if (nodes_.empty()) return;
   compute_row_sums();
   warm_start();
-  const int most = squeezed_.empty() ? kMostSweeps : kMostSweepsOfSqueezes;
+  const int most = inversions_.empty() ? kMostSweeps : kMostSweepsWithInversions;
   const double tolerance = kTolerance * smallest_brick_ / dt;
   double momentum = 1;  // Nesterov's sequence
   for (int i = 0; i < most; ++i) {
@@ -241,7 +243,7 @@ void ContactSolver::apply(const World& world, double elapsed, double dt) {
     if (is_last) break;
     momentum = next;
   }
-  for (const Pushed& node : nodes_) group_[node.actor]->velocities.row(node.node) = node.velocity.transpose();
+  for (const SolverNode& node : nodes_) group_[node.body]->velocities.row(node.node) = node.velocity.transpose();
 }
 
 }  // namespace sprung

@@ -48,13 +48,13 @@ void ContactSweep::stop_inversions(const std::vector<Eigen::VectorXd>& inverse_m
         const auto& nodes = body.grid.nodes[one.brick];
         const Eigen::Matrix<double, 3, 8> gradients = corner_gradients(one);
         double rate = 0;
-        double answer = 0;
+        double response = 0;
         for (int corner = 0; corner < 8; ++corner) {
           rate += gradients.col(corner).dot(body.velocities.row(nodes[corner]));
-          answer += gradients.col(corner).squaredNorm() * inverse_masses[row][nodes[corner]];
+          response += gradients.col(corner).squaredNorm() * inverse_masses[row][nodes[corner]];
         }
-        if (!(rate < one.least_rate) || !(answer > 0)) continue;
-        const double size = (one.least_rate - rate) / answer;
+        if (!(rate < one.least_rate) || !(response > 0)) continue;
+        const double size = (one.least_rate - rate) / response;
         for (int corner = 0; corner < 8; ++corner) {
           const double share = size * inverse_masses[row][nodes[corner]];
           body.velocities.row(nodes[corner]) += share * gradients.col(corner).transpose();
@@ -195,22 +195,22 @@ void ContactSweep::push(const Row& row, const Vec3& impulse) {
 
 void ContactSweep::warm_start(double scale) {
   double wanted = 0;
-  double answered = 0;
+  double response = 0;
   for (Row& row : rows_) {
     if (row.impulse->isZero(0)) continue;
     *row.impulse *= scale;
     if (!row.is_glue) *row.impulse = within_friction_cone(*row.impulse, row.normal, row.friction);
     const Vec3 velocity = velocity_of(row);
     wanted += row.impulse->dot(row.least_speed * row.normal - velocity);
-    answered -= row.impulse->dot(velocity);
+    response -= row.impulse->dot(velocity);
   }
   for (const Row& row : rows_) {
     if (!row.impulse->isZero(0)) push(row, *row.impulse);
   }
   for (const Row& row : rows_) {
-    if (!row.impulse->isZero(0)) answered += row.impulse->dot(velocity_of(row));
+    if (!row.impulse->isZero(0)) response += row.impulse->dot(velocity_of(row));
   }
-  const double share = answered > 0 ? std::clamp(wanted / answered, 0.0, 1.0) : 0;
+  const double share = response > 0 ? std::clamp(wanted / response, 0.0, 1.0) : 0;
   if (share == 1) return;
   for (const Row& row : rows_) {
     if (row.impulse->isZero(0)) continue;

@@ -17,20 +17,19 @@ RigidMotion rigid_motion_of(const Group& group) {
   Vec3 middle = Vec3::Zero();
   Vec3 momentum = Vec3::Zero();
   double mass = 0;
-  for (const SoftBody* actor : group) {
-    middle += actor->positions.transpose() * actor->masses;
-    momentum += actor->velocities.transpose() * actor->masses;
-    mass += actor->masses.sum();
+  for (const SoftBody* body : group) {
+    middle += body->positions.transpose() * body->masses;
+    momentum += body->velocities.transpose() * body->masses;
+    mass += body->masses.sum();
   }
   middle /= mass;
   Mat3 inertia = Mat3::Zero();
   Vec3 angular_momentum = Vec3::Zero();
-  for (const SoftBody* actor : group) {
-    const Body& body = *actor;
-    for (int node = 0; node < body.node_count(); ++node) {
-      const Vec3 arm = body.positions.row(node).transpose() - middle;
-      inertia += body.masses[node] * (arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose());
-      angular_momentum += body.masses[node] * arm.cross(Vec3(body.velocities.row(node)));
+  for (const SoftBody* body : group) {
+    for (int node = 0; node < body->node_count(); ++node) {
+      const Vec3 arm = body->positions.row(node).transpose() - middle;
+      inertia += body->masses[node] * (arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose());
+      angular_momentum += body->masses[node] * arm.cross(Vec3(body->velocities.row(node)));
     }
   }
   const Vec3 spin = inertia.ldlt().solve(angular_momentum);
@@ -40,18 +39,18 @@ RigidMotion rigid_motion_of(const Group& group) {
 void ContactList::append(const ContactList& other) {
   const std::size_t start = shares.size();
   shares.insert(shares.end(), other.shares.begin(), other.shares.end());
-  for (Contact touch : other.list) {
-    touch.first += start;
-    touch.last += start;
-    list.push_back(touch);
+  for (Contact contact : other.list) {
+    contact.first += start;
+    contact.last += start;
+    list.push_back(contact);
   }
 }
 
-void add_shares(const Group& group, std::size_t actor, int brick, const CornerWeights& weights, ContactList& touches) {
-  const auto& nodes = group[actor]->grid.nodes[brick];
+void add_shares(const Group& group, std::size_t body, int brick, const CornerWeights& weights, ContactList& contacts) {
+  const auto& nodes = group[body]->grid.nodes[brick];
   for (int i = 0; i < 8; ++i) {
     if (weights[i] == 0) continue;
-    touches.shares.push_back({int(actor), nodes[i], weights[i]});
+    contacts.shares.push_back({int(body), nodes[i], weights[i]});
   }
 }
 

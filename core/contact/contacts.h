@@ -14,7 +14,7 @@ namespace sprung {
 
 /// How much of a node's velocity counts in a touch.
 struct Share {
-  int actor;  // of the group
+  int body;  // of the group
   int node;
   double weight;
 };
@@ -35,8 +35,8 @@ struct ContactList {
   std::vector<Contact> list;
   std::vector<Share> shares;
 
-  [[nodiscard]] std::span<const Share> shares_of(const Contact& touch) const {
-    return std::span(shares).subspan(touch.first, touch.last - touch.first);
+  [[nodiscard]] std::span<const Share> shares_of(const Contact& contact) const {
+    return std::span(shares).subspan(contact.first, contact.last - contact.first);
   }
   void clear() {
     list.clear();
@@ -46,11 +46,11 @@ struct ContactList {
 };
 
 /// Appends the shares of a point that rides in a brick, without those that are zero.
-void add_shares(const Group& group, std::size_t actor, int brick, const CornerWeights& weights, ContactList& touches);
+void add_shares(const Group& group, std::size_t body, int brick, const CornerWeights& weights, ContactList& contacts);
 
 /// What touches what near which corner of which brick; `other` counts obstacles, then bodies.
-[[nodiscard]] inline std::uint64_t touch_key(std::size_t other, std::size_t actor, int brick, int corner) {
-  return std::uint64_t{other} << 50 | std::uint64_t{actor} << 36 | std::uint64_t(brick) << 3 | std::uint64_t(corner);
+[[nodiscard]] inline std::uint64_t contact_key(std::size_t other, std::size_t body, int brick, int corner) {
+  return std::uint64_t{other} << 50 | std::uint64_t{body} << 36 | std::uint64_t(brick) << 3 | std::uint64_t(corner);
 }
 
 /// What a contact may push: friction gives as much sideways as its coefficient allows for what presses.

@@ -27,19 +27,19 @@ Pose pose_of(const Body& body) {
 }
 
 /// Of the points within the distance of a surface the nearest at each corner of a brick, by its row.
-std::vector<int> nearest_points(const SoftBody& actor, const Points& places, const MeshDistance& surface,
+std::vector<int> nearest_points(const SoftBody& body, const Points& positions, const MeshDistance& surface,
                                 double distance) {
   struct Candidate {
     int row;
     double gap;
   };
   std::map<std::pair<int, int>, Candidate> nearest;
-  for (int row = 0; row < places.rows(); ++row) {
-    const double gap = std::abs(surface.nearest(places.row(row)).distance);
+  for (int row = 0; row < positions.rows(); ++row) {
+    const double gap = std::abs(surface.nearest(positions.row(row)).distance);
     if (gap > distance) continue;
     int corner = 0;
-    trilinear_weights(actor.contacts.local.row(row)).maxCoeff(&corner);
-    const auto key = std::pair(actor.contacts.brick[row], corner);
+    trilinear_weights(body.contacts.local.row(row)).maxCoeff(&corner);
+    const auto key = std::pair(body.contacts.brick[row], corner);
     const auto [place, is_new] = nearest.try_emplace(key, Candidate{row, gap});
     if (!is_new && gap < place->second.gap) place->second = {row, gap};
   }
@@ -57,10 +57,10 @@ std::vector<GluedPoint> glue_between(const World& world, std::size_t a, std::siz
   const SoftBody& other = world.bodies[b];
   if (other.contact_triangles.rows() == 0) return {};
   const MeshDistance surface(deform_points(other.grid, other.contacts, other.positions), other.contact_triangles);
-  const Points places = deform_points(one.grid, one.contacts, one.positions);
-  const std::vector<int> rows = nearest_points(one, places, surface, distance);
+  const Points positions = deform_points(one.grid, one.contacts, one.positions);
+  const std::vector<int> rows = nearest_points(one, positions, surface, distance);
   const Pose pose = pose_of(other);
-  const Points there = (places(rows, Eigen::all).rowwise() - pose.translation.transpose()) * pose.rotation;
+  const Points there = (positions(rows, Eigen::all).rowwise() - pose.translation.transpose()) * pose.rotation;
   const Embedding embedding = embed(other.grid, there);
   std::vector<GluedPoint> glue;
   glue.reserve(rows.size());
@@ -86,24 +86,24 @@ std::vector<GluedPoint> glue_within(const World& world, std::span<const std::siz
   return within;
 }
 
-void add_glue(const std::vector<GluedPoint>& glue, const Group& group, double dt, ContactList& touches) {
+void add_glue(const std::vector<GluedPoint>& glue, const Group& group, double dt, ContactList& contacts) {
   for (std::size_t i = 0; i < glue.size(); ++i) {
     const GluedPoint& point = glue[i];
-    const std::size_t first = touches.shares.size();
+    const std::size_t first = contacts.shares.size();
     Vec3 apart = Vec3::Zero();
     for (std::size_t side = 0; side < 2; ++side) {
       const double sign = side == 0 ? 1 : -1;
       const Body& body = *group[point.bodies[side]];
       apart += sign * carried(body, point.bricks[side], point.weights[side], body.positions);
-      add_shares(group, point.bodies[side], point.bricks[side], sign * point.weights[side], touches);
+      add_shares(group, point.bodies[side], point.bricks[side], sign * point.weights[side], contacts);
     }
-    touches.list.push_back({.key = touch_key(kGlue, 0, 0, 0) + i,
-                            .first = first,
-                            .last = touches.shares.size(),
-                            .normal = Vec3::Zero(),
-                            .goal = -apart / (kRejoinSteps * dt),
-                            .friction = 0,
-                            .is_glue = true});
+    contacts.list.push_back({.key = contact_key(kGlue, 0, 0, 0) + i,
+                             .first = first,
+                             .last = contacts.shares.size(),
+                             .normal = Vec3::Zero(),
+                             .goal = -apart / (kRejoinSteps * dt),
+                             .friction = 0,
+                             .is_glue = true});
   }
 }
 

@@ -55,12 +55,12 @@ double impact_speed(const World& world) {
   const bool is_alone = world.obstacles.empty() && (world.bodies.size() < 2 || !world.bodies_collide);
   if (is_alone) return 0;
   double lowest = std::numeric_limits<double>::infinity();
-  for (const SoftBody& actor : world.bodies) lowest = std::min(lowest, actor.positions.col(1).minCoeff());
+  for (const SoftBody& body : world.bodies) lowest = std::min(lowest, body.positions.col(1).minCoeff());
   double highest = lowest;
   double fastest = 0;
-  for (const SoftBody& actor : world.bodies) {
-    highest = std::max(highest, actor.positions.col(1).minCoeff());
-    fastest = std::max(fastest, largest_speed(actor));
+  for (const SoftBody& body : world.bodies) {
+    highest = std::max(highest, body.positions.col(1).minCoeff());
+    fastest = std::max(fastest, largest_speed(body));
   }
   for (const Obstacle& obstacle : world.obstacles) lowest = std::min(lowest, obstacle.pose.translation.y());
   return std::sqrt(fastest * fastest + 2 * world.gravity.norm() * (highest - lowest));
@@ -118,15 +118,14 @@ const std::vector<InversionRate>& InversionGuard::find(const Body& body, double 
   return found_;
 }
 
-Eigen::Matrix<double, 3, 8> corner_gradients(const InversionRate& squeeze) {
+Eigen::Matrix<double, 3, 8> corner_gradients(const InversionRate& rate) {
   Eigen::Matrix<double, 3, 8> gradients = Eigen::Matrix<double, 3, 8>::Zero();
   for (int axis = 0; axis < 3; ++axis) {
     for (int corner = 0; corner < 8; ++corner) {
-      const bool is_end =
-          squeeze.corner == InversionRate::kMeanAxes || (corner | 1 << axis) == (squeeze.corner | 1 << axis);
+      const bool is_end = rate.corner == InversionRate::kMeanAxes || (corner | 1 << axis) == (rate.corner | 1 << axis);
       if (!is_end) continue;
-      const double share = squeeze.corner == InversionRate::kMeanAxes ? 0.25 : 1;
-      gradients.col(corner) += (on_high_side(corner, axis) ? share : -share) * squeeze.gradient.col(axis);
+      const double share = rate.corner == InversionRate::kMeanAxes ? 0.25 : 1;
+      gradients.col(corner) += (on_high_side(corner, axis) ? share : -share) * rate.gradient.col(axis);
     }
   }
   return gradients;

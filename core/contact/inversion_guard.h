@@ -40,7 +40,7 @@ struct InversionRate {
 };
 
 /// Of the limited volume ratio by the brick's corners, 1/m.
-[[nodiscard]] Eigen::Matrix<double, 3, 8> corner_gradients(const InversionRate& squeeze);
+[[nodiscard]] Eigen::Matrix<double, 3, 8> corner_gradients(const InversionRate& rate);
 
 /// Watches for bricks that are about to be turned inside out. All bricks are looked at every few steps only, those
 /// found flat or collapsing then in every step: in ordinary motion it costs little.

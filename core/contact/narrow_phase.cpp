@@ -14,11 +14,11 @@ bool stand(const ContactCandidates& pairs, const CandidatePair& pair, double dep
   const TrackedPoint& point = pairs.tracked(pair.point);
   std::array<const TrackedPoint*, 3> corners{};
   for (std::size_t i = 0; i < 3; ++i) corners[i] = &pairs.tracked(pair.corners[i]);
-  const Vec3 ahead = corners[1]->place - corners[0]->place;
-  const Vec3 aside = corners[2]->place - corners[0]->place;
+  const Vec3 ahead = corners[1]->position - corners[0]->position;
+  const Vec3 aside = corners[2]->position - corners[0]->position;
   const Vec3 area = ahead.cross(aside);
   const double size = area.norm();
-  const Vec3 off = point.place - corners[0]->place;
+  const Vec3 off = point.position - corners[0]->position;
   stance.pair = &pair;
   stance.normal = area / size;
   stance.gap = stance.normal.dot(off);
@@ -60,19 +60,19 @@ PointTriangleContact closest_triangle(const ContactCandidates& pairs, SkinRun& r
 
 TriangleStencil contact_stencil(const ContactCandidates& pairs, const ContactSurface& skin,
                                 const PointTriangleContact& stance) {
-  TriangleStencil ride;
+  TriangleStencil stencil;
   for (std::size_t i = 0; i < 3; ++i) {
     const int row = pairs.tracked(stance.pair->corners[i]).point;
     const ContactPoint& corner = skin.points[row];
-    const auto begin = ride.bricks.begin();
-    const auto same = std::size_t(std::find(begin, begin + std::ptrdiff_t(ride.count), corner.brick) - begin);
-    if (same == ride.count) {
-      ride.bricks[ride.count] = corner.brick;
-      ride.weights[ride.count++].setZero();
+    const auto begin = stencil.bricks.begin();
+    const auto same = std::size_t(std::find(begin, begin + std::ptrdiff_t(stencil.count), corner.brick) - begin);
+    if (same == stencil.count) {
+      stencil.bricks[stencil.count] = corner.brick;
+      stencil.weights[stencil.count++].setZero();
     }
-    ride.weights[same] -= stance.weights[i] * corner.weights;
+    stencil.weights[same] -= stance.weights[i] * corner.weights;
   }
-  return ride;
+  return stencil;
 }
 
 }  // namespace sprung

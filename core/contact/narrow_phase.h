@@ -14,16 +14,16 @@ struct PointTriangleContact {
   Vec3 weights;    // of the triangle's corners at the place below the point
 };
 
-/// The pairs of one point with triangles of one actor, and where it stood last.
+/// The pairs of one point with triangles of one body, and where it stood last.
 struct SkinRun {
   std::size_t first;
   std::size_t end;
   std::size_t last;
 };
 
-/// The actor that a pair's triangle belongs to.
+/// The body that a pair's triangle belongs to.
 [[nodiscard]] inline std::size_t other_of(const ContactCandidates& pairs, const CandidatePair& pair) {
-  return pairs.tracked(pair.corners[0]).actor;
+  return pairs.tracked(pair.corners[0]).body;
 }
 
 [[nodiscard]] std::vector<SkinRun> runs_of(const ContactCandidates& pairs);

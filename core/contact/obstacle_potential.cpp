@@ -8,7 +8,7 @@
 namespace sprung {
 namespace {
 
-constexpr double kHardness = 20;        // times E h of the brick
+constexpr double kStiffness = 20;       // times E h of the brick
 constexpr double kPointsInContact = 4;  // of a brick, that share its hardness: more are softer each
 
 /// Pa, of a brick in its region; what is cut by the surface is as hard as a full one.
@@ -18,51 +18,50 @@ double young_at(const Body& body, int brick) {
 
 }  // namespace
 
-std::vector<double> contact_stiffness(const SoftBody& actor, const ContactSurface& skin) {
-  const Body& body = actor;
-  std::vector<double> hardness(skin.points.size());
+std::vector<double> contact_stiffness(const SoftBody& body, const ContactSurface& skin) {
+  std::vector<double> stiffness(skin.points.size());
   for (std::size_t i = 0; i < skin.bricks.size(); ++i) {
     const double count = skin.first_point[i + 1] - skin.first_point[i];
-    const double whole = kHardness * young_at(body, skin.bricks[i]) * body.grid.brick_size;
+    const double whole = kStiffness * young_at(body, skin.bricks[i]) * body.grid.brick_size;
     for (int p = skin.first_point[i]; p < skin.first_point[i + 1]; ++p) {
-      hardness[p] = whole / std::max(1.0, count / kPointsInContact);
+      stiffness[p] = whole / std::max(1.0, count / kPointsInContact);
     }
   }
-  return hardness;
+  return stiffness;
 }
 
-double pair_stiffness(double hardness, const Body& body, int brick, const Body& other, int other_brick) {
-  return hardness * std::min(1.0, young_at(other, other_brick) / young_at(body, brick));
+double pair_stiffness(double stiffness, const Body& body, int brick, const Body& other, int other_brick) {
+  return stiffness * std::min(1.0, young_at(other, other_brick) / young_at(body, brick));
 }
 
 double glue_stiffness(const Body& body, int brick, const Body& other, int other_brick) {
-  const double whole = kHardness * young_at(body, brick) * body.grid.brick_size;
+  const double whole = kStiffness * young_at(body, brick) * body.grid.brick_size;
   return pair_stiffness(whole, body, brick, other, other_brick);
 }
 
-ObstaclePotential::ObstaclePotential(SoftBody& actor, const Obstacle& obstacle, double slip_speed)
-    : actor_(actor),
+ObstaclePotential::ObstaclePotential(SoftBody& body, const Obstacle& obstacle, double slip_speed)
+    : body_(body),
       obstacle_(obstacle),
-      skin_(contact_surface_of(actor)),
+      skin_(contact_surface_of(body)),
       slip_speed_(slip_speed),
       points_(skin_.points.size()),
       asked_(skin_.bricks.size()) {
-  const std::vector<double> hardness = contact_stiffness(actor, skin_);
-  for (std::size_t p = 0; p < points_.size(); ++p) points_[p].stiffness = hardness[p];
+  const std::vector<double> stiffness = contact_stiffness(body, skin_);
+  for (std::size_t p = 0; p < points_.size(); ++p) points_[p].stiffness = stiffness[p];
 }
 
 /// Distances are asked for again only where the brick may have come near since.
 bool ObstaclePotential::is_far(std::size_t brick, const Points& positions) {
   AlignedBox box;
-  for (const int node : actor_.grid.nodes[skin_.bricks[brick]]) {
+  for (const int node : body_.grid.nodes[skin_.bricks[brick]]) {
     box.extend(Vec3(positions.row(node)));
   }
   // Points lie in the hull of the corners, or a little outside where the surface has no brick of its own.
   const double reach = box.diagonal().norm();
   const Vec3 middle = pose_.rotation.transpose() * (box.center() - pose_.translation);
   Asked& asked = asked_[brick];
-  if (asked.distance - (middle - asked.place).norm() > reach) return true;
-  asked = {.place = middle, .distance = signed_distance(obstacle_.shape, {}, middle).distance};
+  if (asked.distance - (middle - asked.position).norm() > reach) return true;
+  asked = {.position = middle, .distance = signed_distance(obstacle_.shape, {}, middle).distance};
   return asked.distance > reach;
 }
 
@@ -75,7 +74,7 @@ void ObstaclePotential::for_touching_points(const Points& positions, const Visit
     const std::size_t last = skin_.first_point[i + 1];
     for (auto p = std::size_t(skin_.first_point[i]); p < last; ++p) {
       if (far && points_[p].pressing == 0) continue;
-      const Vec3 place = carried(actor_, skin_.points[p], positions);
+      const Vec3 place = carried(body_, skin_.points[p], positions);
       const Gap gap = signed_distance(obstacle_.shape, pose_, place);
       if (gap.distance < 0 || points_[p].pressing > 0) visit(points_[p], skin_.points[p], place, gap);
     }
@@ -88,8 +87,8 @@ void ObstaclePotential::begin(const Points& positions, double elapsed, double dt
   pose_ = pose_after(obstacle_, elapsed + dt);
   const Mat3 turn = pose_.rotation * before.rotation.transpose();
   for (std::size_t p = 0; p < points_.size(); ++p) {
-    const Vec3 place = carried(actor_, skin_.points[p], positions);
-    points_[p].start = pose_.translation + turn * (place - before.translation);
+    const Vec3 position = carried(body_, skin_.points[p], positions);
+    points_[p].start = pose_.translation + turn * (position - before.translation);
   }
   update_friction(positions);
 }
@@ -111,27 +110,27 @@ double ObstaclePotential::largest_normal_force() const {
   return largest;
 }
 
-FrictionPotential ObstaclePotential::grip(const Point& point, const Vec3& place) const {
-  return {place - point.start, point.normal, obstacle_.friction * point.pressing, slip_};
+FrictionPotential ObstaclePotential::friction_at(const Point& point, const Vec3& position) const {
+  return {position - point.start, point.normal, obstacle_.friction * point.pressing, slip_};
 }
 
 double ObstaclePotential::add_forces(const Points& positions, Points& forces) {
   double energy = 0;
-  for_touching_points(positions, [&](Point& point, const ContactPoint& at, const Vec3& place, const Gap& gap) {
+  for_touching_points(positions, [&](Point& point, const ContactPoint& at, const Vec3& position, const Gap& gap) {
     const double depth = std::max(0.0, -gap.distance);
-    const FrictionPotential held = grip(point, place);
+    const FrictionPotential friction = friction_at(point, position);
     energy += 0.5 * point.stiffness * depth * depth;
-    energy += held.energy();
-    const Vec3 force = point.stiffness * depth * gap.normal + held.force();
-    const auto& nodes = actor_.grid.nodes[at.brick];
+    energy += friction.energy();
+    const Vec3 force = point.stiffness * depth * gap.normal + friction.force();
+    const auto& nodes = body_.grid.nodes[at.brick];
     for (std::size_t c = 0; c < 8; ++c) forces.row(nodes[c]) += at.weights[c] * force.transpose();
   });
   return energy;
 }
 
 void ObstaclePotential::add_stiffness(const Points& positions, std::vector<PointStiffness>& points) {
-  for_touching_points(positions, [&](Point& point, const ContactPoint& at, const Vec3& place, const Gap& gap) {
-    Mat3 stiffness = grip(point, place).stiffness();
+  for_touching_points(positions, [&](Point& point, const ContactPoint& at, const Vec3& position, const Gap& gap) {
+    Mat3 stiffness = friction_at(point, position).stiffness();
     if (gap.distance < 0) stiffness += point.stiffness * gap.normal * gap.normal.transpose();
     points.push_back({.brick = at.brick, .weights = at.weights, .stiffness = stiffness});
   });

@@ -10,7 +10,7 @@ namespace sprung {
 
 /// What pushes back a contact point of a body that is inside something, in steps that have contact as an energy, N/m
 /// by point: twenty times the stiffness E h of its brick, shared among the points of the brick.
-[[nodiscard]] std::vector<double> contact_stiffness(const SoftBody& actor, const ContactSurface& skin);
+[[nodiscard]] std::vector<double> contact_stiffness(const SoftBody& body, const ContactSurface& skin);
 
 /// The same of two bodies that touch: by the softer of the bricks.
 [[nodiscard]] double pair_stiffness(double hardness, const Body& body, int brick, const Body& other, int other_brick);
@@ -60,7 +60,7 @@ class FrictionPotential {
 class ObstaclePotential {
  public:
   /// `slip_speed` in m/s. Both have to outlive it.
-  ObstaclePotential(SoftBody& actor, const Obstacle& obstacle, double slip_speed);
+  ObstaclePotential(SoftBody& body, const Obstacle& obstacle, double slip_speed);
 
   /// Before a step of dt that begins when the obstacle has moved by itself for `elapsed` (s): friction is measured from
   /// where its material carries the points meanwhile.
@@ -83,16 +83,16 @@ class ObstaclePotential {
   };
   /// What was last asked about a brick's middle, in the obstacle's frame.
   struct Asked {
-    Vec3 place = Vec3::Zero();
+    Vec3 position = Vec3::Zero();
     double distance = 0;  // m; 0: nothing was asked
   };
 
   [[nodiscard]] bool is_far(std::size_t brick, const Points& positions);
-  [[nodiscard]] FrictionPotential grip(const Point& point, const Vec3& place) const;
+  [[nodiscard]] FrictionPotential friction_at(const Point& point, const Vec3& position) const;
   template <class Visit>
   void for_touching_points(const Points& positions, const Visit& visit);
 
-  const SoftBody& actor_;
+  const SoftBody& body_;
   const Obstacle& obstacle_;
   const ContactSurface& skin_;
   double slip_speed_;

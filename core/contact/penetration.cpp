@@ -11,16 +11,16 @@ namespace sprung {
 namespace {
 
 /// Where the contact points that can move are, m.
-Points free_points(const SoftBody& actor) {
-  std::vector<bool> is_held(actor.node_count());
-  for (const KinematicNode& held : actor.pinned) is_held[held.node] = true;
-  const Points points = deform_points(actor.grid, actor.contacts, actor.positions);
+Points free_points(const SoftBody& body) {
+  std::vector<bool> is_pinned(body.node_count());
+  for (const KinematicNode& pinned : body.pinned) is_pinned[pinned.node] = true;
+  const Points points = deform_points(body.grid, body.contacts, body.positions);
   std::vector<int> rows;
   rows.reserve(points.rows());
   for (int point = 0; point < points.rows(); ++point) {
-    const std::size_t brick = actor.contacts.brick[point];
-    const auto& nodes = actor.grid.nodes[brick];
-    const bool is_free = std::any_of(nodes.begin(), nodes.end(), [&](int node) { return !is_held[node]; });
+    const std::size_t brick = body.contacts.brick[point];
+    const auto& nodes = body.grid.nodes[brick];
+    const bool is_free = std::any_of(nodes.begin(), nodes.end(), [&](int node) { return !is_pinned[node]; });
     if (is_free) rows.push_back(point);
   }
   return points(rows, Eigen::all);
@@ -42,10 +42,10 @@ Points brick_middles(const Body& body) {
 /// The surface of a body as it is now.
 class Surface {
  public:
-  /// `actor` has contact triangles.
-  explicit Surface(const SoftBody& actor)
-      : points_(deform_points(actor.grid, actor.contacts, actor.positions)),
-        triangles_(actor.contact_triangles),
+  /// `body` has contact triangles.
+  explicit Surface(const SoftBody& body)
+      : points_(deform_points(body.grid, body.contacts, body.positions)),
+        triangles_(body.contact_triangles),
         box_(bounding_box(points_)),
         distance_(points_, triangles_) {}
 
@@ -74,21 +74,21 @@ class Surface {
 
 }  // namespace
 
-double penetration_depth(const Obstacle& obstacle, const SoftBody& actor) {
+double penetration_depth(const Obstacle& obstacle, const SoftBody& body) {
   double depth = 0;
-  const Points points = free_points(actor);
+  const Points points = free_points(body);
   for (const auto& row : points.rowwise()) {
     depth = std::max(depth, -signed_distance(obstacle.shape, obstacle.pose, row).distance);
   }
   return depth;
 }
 
-double penetration_depth(const SoftBody& other, const SoftBody& actor) {
+double penetration_depth(const SoftBody& other, const SoftBody& body) {
   if (other.contact_triangles.rows() == 0) return 0;
-  const Points points = free_points(actor);
+  const Points points = free_points(body);
   if (points.rows() == 0) return 0;
   const Surface surface(other);
-  return std::max(surface.depth_of(points), surface.depth_of(brick_middles(actor)));
+  return std::max(surface.depth_of(points), surface.depth_of(brick_middles(body)));
 }
 
 }  // namespace sprung

@@ -25,44 +25,45 @@ constexpr double kSkinFlat = 0.15;   // ... nor held by that of its own body
 
 }  // namespace
 
-SkinContact::SkinContact(const std::vector<const ContactSurface*>& skins, const Group& group, std::size_t actor,
+SkinContact::SkinContact(const std::vector<const ContactSurface*>& skins, const Group& group, std::size_t body,
                          std::size_t other)
     : skins_(skins),
-      actors_{actor, other},
-      pairs_(skins, actor, other),
-      brick_(std::min(group[actor]->grid.brick_size, group[other]->grid.brick_size)) {}
+      bodies_{body, other},
+      pairs_(skins, body, other),
+      brick_(std::min(group[body]->grid.brick_size, group[other]->grid.brick_size)) {}
 
 void SkinContact::add_front(SurfaceTree& tree, SurfaceTree& other_tree) {
   facing_.emplace(tree, other_tree, kSkinDeepest * brick_);
   front_.emplace(tree, other_tree, kSkinMargin * brick_, *facing_);
 }
 
-void SkinContact::add(const Group& group, const Held& held, ContactList& touches) const {
-  const std::size_t first = touches.shares.size();
-  const PointTriangleContact& stance = held.stance;
+void SkinContact::add(const Group& group, const ActiveContact& active, ContactList& contacts) const {
+  const std::size_t first = contacts.shares.size();
+  const PointTriangleContact& stance = active.stance;
   const TrackedPoint& point = pairs_.tracked(stance.pair->point);
-  const ContactPoint& at = skins_[point.actor]->points[point.point];
-  add_shares(group, point.actor, at.brick, at.weights, touches);
+  const ContactPoint& at = skins_[point.body]->points[point.point];
+  add_shares(group, point.body, at.brick, at.weights, contacts);
   const std::size_t other = other_of(pairs_, *stance.pair);
-  const TriangleStencil ride = contact_stencil(pairs_, *skins_[other], stance);
-  for (std::size_t i = 0; i < ride.count; ++i) add_shares(group, other, ride.bricks[i], ride.weights[i], touches);
+  const TriangleStencil stencil = contact_stencil(pairs_, *skins_[other], stance);
+  for (std::size_t i = 0; i < stencil.count; ++i)
+    add_shares(group, other, stencil.bricks[i], stencil.weights[i], contacts);
   const double other_friction = group[other]->friction;
-  touches.list.push_back({.key = held.key,
-                          .first = first,
-                          .last = touches.shares.size(),
-                          .normal = stance.normal,
-                          .goal = held.least_speed * stance.normal,
-                          .friction = std::sqrt(group[point.actor]->friction * other_friction)});
+  contacts.list.push_back({.key = active.key,
+                           .first = first,
+                           .last = contacts.shares.size(),
+                           .normal = stance.normal,
+                           .goal = active.least_speed * stance.normal,
+                           .friction = std::sqrt(group[point.body]->friction * other_friction)});
 }
 
-/// Pushed out of each other, skins of bricks that have no room left would press those flat, and for ever: the guard
+/// If pushed out of each other, skins of bricks that have no room left would press those flat, and for ever: the guard
 /// against that pushes back, and each gives energy to the other. They are kept from going deeper, no more; and where
 /// not even that can be had, a body had rather lie in itself than turn inside out.
 double SkinContact::room_of(const Group& group, const CandidatePair& pair) const {
   const auto of = [&](int row) {
     const TrackedPoint& point = pairs_.tracked(row);
-    const Body& body = *group[point.actor];
-    const int brick = skins_[point.actor]->points[point.point].brick;
+    const Body& body = *group[point.body];
+    const int brick = skins_[point.body]->points[point.point].brick;
     const Mat3 axes = mean_axes_of(columns_of(body.grid.nodes[brick], body.positions));
     return axes.determinant() / body.grid.brick_volume();
   };
@@ -71,8 +72,8 @@ double SkinContact::room_of(const Group& group, const CandidatePair& pair) const
   return least;
 }
 
-bool SkinContact::has_to_be_held(const World& world, double dt, const Group& group, Held& held) const {
-  const PointTriangleContact& stance = held.stance;
+bool SkinContact::is_active(const World& world, double dt, const Group& group, ActiveContact& active) const {
+  const PointTriangleContact& stance = active.stance;
   const TrackedPoint& point = pairs_.tracked(stance.pair->point);
   Vec3 velocity = point.velocity;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -81,11 +82,11 @@ bool SkinContact::has_to_be_held(const World& world, double dt, const Group& gro
   const double speed = stance.normal.dot(velocity);
   if (!(stance.gap + dt * speed <= 0)) return false;
   const double room = stance.gap >= 0 ? 1 : room_of(group, *stance.pair);
-  if (room < kSkinFlat && actors_[0] == actors_[1]) return false;
-  held.least_speed = room > kPressed ? least_speed(stance.gap, world.gravity.norm(), dt) : 0;
-  held.pull = held.least_speed - speed;
-  const ContactPoint& at = skins_[point.actor]->points[point.point];
-  held.key = touch_key(world.obstacles.size() + other_of(pairs_, *stance.pair), point.actor, at.brick, at.corner);
+  if (room < kSkinFlat && bodies_[0] == bodies_[1]) return false;
+  active.least_speed = room > kPressed ? least_speed(stance.gap, world.gravity.norm(), dt) : 0;
+  active.urgency = active.least_speed - speed;
+  const ContactPoint& at = skins_[point.body]->points[point.point];
+  active.key = contact_key(world.obstacles.size() + other_of(pairs_, *stance.pair), point.body, at.brick, at.corner);
   return true;
 }
 
@@ -93,29 +94,33 @@ bool SkinContact::find_inside(const Group& group, const PointTriangleContact& st
   const std::size_t other = other_of(pairs_, *stance.pair);
   const TrackedPoint& point = pairs_.tracked(stance.pair->point);
   // A point of the surface itself is looked at from just outside.
-  const double off = point.actor == other ? kSuspicious / 2 * group[other]->grid.brick_size : 0;
-  const Vec3 place = point.place + off * point.normal;
+  const double off = point.body == other ? kSuspicious / 2 * group[other]->grid.brick_size : 0;
+  const Vec3 position = point.position + off * point.normal;
   const ContactSurface& surface = *skins_[other];
-  std::vector<Vec3> places;
-  for (const ContactPoint& at : surface.points) places.push_back(carried(*group[other], at, group[other]->positions));
+  std::vector<Vec3> positions;
+  for (const ContactPoint& at : surface.points)
+    positions.push_back(carried(*group[other], at, group[other]->positions));
   double angle = 0;
-  for (const auto& [a, b, c] : surface.triangles) angle += solid_angle(places[a], places[b], places[c], place);
+  for (const auto& [a, b, c] : surface.triangles)
+    angle += solid_angle(positions[a], positions[b], positions[c], position);
   return angle > kNotInside * 4 * std::numbers::pi;
 }
 
 bool SkinContact::is_inside(const Group& group, const PointTriangleContact& stance) {
   const TrackedPoint& point = pairs_.tracked(stance.pair->point);
-  const std::tuple key(point.actor, point.point, other_of(pairs_, *stance.pair));
+  const std::tuple key(point.body, point.point, other_of(pairs_, *stance.pair));
   const auto before = insides_before_.find(key);
   return insides_.try_emplace(key, before != insides_before_.end() ? before->second : find_inside(group, stance))
       .first->second;
 }
 
 void SkinContact::keep_hardest() {
-  std::stable_sort(held_.begin(), held_.end(),
-                   [](const Held& a, const Held& b) { return std::pair(a.key, -a.pull) < std::pair(b.key, -b.pull); });
-  const auto end = std::unique(held_.begin(), held_.end(), [](const Held& a, const Held& b) { return a.key == b.key; });
-  held_.erase(end, held_.end());
+  std::stable_sort(active_.begin(), active_.end(), [](const ActiveContact& a, const ActiveContact& b) {
+    return std::pair(a.key, -a.urgency) < std::pair(b.key, -b.urgency);
+  });
+  const auto end = std::unique(active_.begin(), active_.end(),
+                               [](const ActiveContact& a, const ActiveContact& b) { return a.key == b.key; });
+  active_.erase(end, active_.end());
 }
 
 void SkinContact::look(const Group& group) {
@@ -142,23 +147,23 @@ void SkinContact::look_in_time(const Group& group, double gravity, double dt) {
   --steps_to_update_;
 }
 
-void SkinContact::find(const World& world, double dt, const Group& group, ContactList& touches) {
+void SkinContact::find(const World& world, double dt, const Group& group, ContactList& contacts) {
   if (!front_) look_in_time(group, world.gravity.norm(), dt);
   pairs_.follow(group);
-  held_.clear();
+  active_.clear();
   std::swap(insides_, insides_before_);
   insides_.clear();
   const double depth = kSkinDeepest * brick_;
   for (SkinRun& run : runs_) {
-    Held nearest{.stance = closest_triangle(pairs_, run, depth)};
+    ActiveContact nearest{.stance = closest_triangle(pairs_, run, depth)};
     if (nearest.stance.pair == nullptr) continue;
     const bool is_beside = nearest.stance.weights.minCoeff() < -kBarelyBeside;
     const double suspicious = is_beside ? kSuspiciousBeside : kSuspicious;
     if (nearest.stance.gap < -suspicious * brick_ && !is_inside(group, nearest.stance)) continue;
-    if (has_to_be_held(world, dt, group, nearest)) held_.push_back(nearest);
+    if (is_active(world, dt, group, nearest)) active_.push_back(nearest);
   }
   keep_hardest();
-  for (const Held& held : held_) add(group, held, touches);
+  for (const ActiveContact& active : active_) add(group, active, contacts);
 }
 
 namespace {
@@ -172,11 +177,10 @@ constexpr double kBodyMargin = 2;   // bricks: bodies nearer than that are watch
 double fastest(const Group& group) {
   const RigidMotion rigid = rigid_motion_of(group);
   double most = 0;
-  for (const SoftBody* actor : group) {
-    const Body& body = *actor;
-    for (int node = 0; node < body.node_count(); ++node) {
-      const Vec3 velocity = body.velocities.row(node);
-      most = std::max(most, (velocity - rigid.at(body.positions.row(node))).squaredNorm());
+  for (const SoftBody* body : group) {
+    for (int node = 0; node < body->node_count(); ++node) {
+      const Vec3 velocity = body->velocities.row(node);
+      most = std::max(most, (velocity - rigid.at(body->positions.row(node))).squaredNorm());
     }
   }
   return std::sqrt(most);
@@ -193,8 +197,8 @@ SkinContacts::SkinContacts(const Group& group, ContactSearch search) : group_(gr
 
 bool SkinContacts::is_of(const Group& group) const {
   if (group != group_) return false;
-  for (std::size_t actor = 0; actor < group.size(); ++actor) {
-    if (group[actor]->contact_surface.get() != skins_[actor]) return false;
+  for (std::size_t body = 0; body < group.size(); ++body) {
+    if (group[body]->contact_surface.get() != skins_[body]) return false;
   }
   return true;
 }
@@ -228,12 +232,12 @@ void SkinContacts::look(const std::vector<SkinContact*>& contacts, double gravit
   const bool is_slow = 2 * fastest * dt * kMostStepsAhead <= way;
   steps_to_look_ = is_slow ? kMostStepsAhead : std::max(1, int(way / (2 * fastest * dt)));
   const double time = steps_to_look_ * dt;
-  const auto follow = [&](std::size_t actor) { trees_[actor]->follow(kFaster * time, gravity * time * time); };
+  const auto follow = [&](std::size_t body) { trees_[body]->follow(kFaster * time, gravity * time * time); };
   tbb::parallel_for(std::size_t{0}, trees_.size(), follow);
   for (SkinContact* contact : contacts) contact->look(group_);
 }
 
-void SkinContacts::find(const World& world, double dt, const Group& group, ContactList& touches) {
+void SkinContacts::find(const World& world, double dt, const Group& group, ContactList& found) {
   if (steps_to_seek_ == 0) seek(world, group, dt);
   --steps_to_seek_;
   std::vector<SkinContact*> contacts;
@@ -247,7 +251,7 @@ void SkinContacts::find(const World& world, double dt, const Group& group, Conta
     found_[i].clear();
     contacts[i]->find(world, dt, group, found_[i]);
   });
-  for (const ContactList& found : found_) touches.append(found);
+  for (const ContactList& list : found_) found.append(list);
 }
 
 }  // namespace sprung

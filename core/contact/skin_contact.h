@@ -20,8 +20,7 @@ namespace sprung {
 class SkinContact {
  public:
   /// Of two bodies of the group, or of one with itself.
-  SkinContact(const std::vector<const ContactSurface*>& skins, const Group& group, std::size_t actor,
-              std::size_t other);
+  SkinContact(const std::vector<const ContactSurface*>& skins, const Group& group, std::size_t body, std::size_t other);
 
   /// Lets a front through their trees, which have to outlive it, list its pairs.
   void add_front(SurfaceTree& tree, SurfaceTree& other_tree);
@@ -30,15 +29,15 @@ class SkinContact {
 
   /// Appends, ordered by key, the points that moving by dt would leave inside another skin, at most one near each
   /// corner of a brick and for each body that it touches: the one that is held hardest.
-  void find(const World& world, double dt, const Group& group, ContactList& touches);
+  void find(const World& world, double dt, const Group& group, ContactList& contacts);
 
  private:
   /// What a point needs that has to be held.
-  struct Held {
+  struct ActiveContact {
     PointTriangleContact stance;
     std::uint64_t key = 0;
     double least_speed = 0;
-    double pull = 0;  // along the normal, that meeting its limit takes, m/s
+    double urgency = 0;  // along the normal, that meeting its limit takes, m/s
   };
 
   /// Without a front: what is due of seeking and looking.
@@ -53,18 +52,18 @@ class SkinContact {
   /// Least of both sides: volume of a brick over that at rest.
   [[nodiscard]] double room_of(const Group& group, const CandidatePair& pair) const;
   /// Whether moving by dt would leave it inside; then what it needs.
-  [[nodiscard]] bool has_to_be_held(const World& world, double dt, const Group& group, Held& held) const;
-  void add(const Group& group, const Held& held, ContactList& touches) const;
+  [[nodiscard]] bool is_active(const World& world, double dt, const Group& group, ActiveContact& active) const;
+  void add(const Group& group, const ActiveContact& active, ContactList& contacts) const;
 
-  const std::vector<const ContactSurface*>& skins_;  // by actor of the group
-  std::array<std::size_t, 2> actors_;
+  const std::vector<const ContactSurface*>& skins_;  // by body of the group
+  std::array<std::size_t, 2> bodies_;
   ContactCandidates pairs_;
   double brick_;  // m, of the finer of the two
   std::optional<FacingLists> facing_;
   std::optional<ContactFront> front_;
   std::vector<SkinRun> runs_;
-  std::vector<Held> held_;  // of this step
-  /// By actor, point of its skin and other actor: whether it is inside; of what was deep in the last step, and in this.
+  std::vector<ActiveContact> active_;  // of this step
+  /// By body, point of its skin and other body: whether it is inside; of what was deep in the last step, and in this.
   std::map<std::tuple<std::size_t, int, std::size_t>, bool> insides_before_;
   std::map<std::tuple<std::size_t, int, std::size_t>, bool> insides_;
   int steps_to_seek_ = 0;
@@ -91,7 +90,7 @@ class SkinContacts {
   void begin_frame();
 
   /// Appends what SkinContact finds, ordered by pair, itself by key.
-  void find(const World& world, double dt, const Group& group, ContactList& touches);
+  void find(const World& world, double dt, const Group& group, ContactList& contacts);
 
  private:
   /// Brings all lists up to date, for as many steps as speeds allow.
@@ -100,7 +99,7 @@ class SkinContacts {
   void seek(const World& world, const Group& group, double dt);
 
   Group group_;
-  std::vector<const ContactSurface*> skins_;                             // by actor of the group
+  std::vector<const ContactSurface*> skins_;                             // by body of the group
   std::vector<std::unique_ptr<SurfaceTree>> trees_;                      // likewise; none without fronts
   std::map<std::pair<std::size_t, std::size_t>, SkinContact> contacts_;  // bodies of the group; twice the same: itself
   std::vector<ContactList> found_;                                       // by pair

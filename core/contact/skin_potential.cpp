@@ -17,9 +17,9 @@ constexpr double kStepDeepest = 1;  // bricks: what is deeper came from the othe
 SkinPotential::SkinPotential(const World& world, const Group& group, const std::vector<GluedPoint>& glue,
                              const Step& step, const std::vector<Eigen::VectorXd*>& pushed_in)
     : group_(group), glue_(glue), slip_(step.slip) {
-  for (SoftBody* actor : group) {
-    skins_.push_back(&contact_surface_of(*actor));
-    starts_.push_back(actor->positions);
+  for (SoftBody* body : group) {
+    skins_.push_back(&contact_surface_of(*body));
+    starts_.push_back(body->positions);
   }
   watch(world, pushed_in);
   refresh();
@@ -35,9 +35,9 @@ void SkinPotential::lift(double gravity, double dt) {
 }
 
 void SkinPotential::watch(const World& world, const std::vector<Eigen::VectorXd*>& pushed_in) {
-  std::vector<std::vector<double>> hardness(group_.size());
+  std::vector<std::vector<double>> stiffness(group_.size());
   double largest_brick = 0;
-  for (const SoftBody* actor : group_) largest_brick = std::max(largest_brick, actor->grid.brick_size);
+  for (const SoftBody* body : group_) largest_brick = std::max(largest_brick, body->grid.brick_size);
   for (const auto& [a, b] : broad_phase(world, group_, kStepMargin * largest_brick)) {
     const double brick = std::min(group_[a]->grid.brick_size, group_[b]->grid.brick_size);
     ContactCandidates& pairs = pairs_.emplace_back(skins_, a, b);
@@ -46,15 +46,14 @@ void SkinPotential::watch(const World& world, const std::vector<Eigen::VectorXd*
     for (const SkinRun& run : runs_of(pairs)) {
       const CandidatePair& pair = pairs.pairs()[run.first];
       const TrackedPoint& point = pairs.tracked(pair.point);
-      std::vector<double>& own = hardness[point.actor];
-      if (own.empty()) own = contact_stiffness(*group_[point.actor], *skins_[point.actor]);
-      watches_.push_back(
-          {.pairs = &pairs,
-           .run = run,
-           .depth = kStepDeepest * brick,
-           .hardness = own[point.point],
-           .friction = std::sqrt(group_[point.actor]->friction * group_[other_of(pairs, pair)]->friction),
-           .pushed_in = (*pushed_in[point.actor])[point.point]});
+      std::vector<double>& own = stiffness[point.body];
+      if (own.empty()) own = contact_stiffness(*group_[point.body], *skins_[point.body]);
+      watches_.push_back({.pairs = &pairs,
+                          .run = run,
+                          .depth = kStepDeepest * brick,
+                          .stiffness = own[point.point],
+                          .friction = std::sqrt(group_[point.body]->friction * group_[other_of(pairs, pair)]->friction),
+                          .pushed_in = (*pushed_in[point.body])[point.point]});
     }
   }
 }
@@ -64,7 +63,7 @@ void SkinPotential::refresh() {
     for (Watch& watch : watches_) watch.pushed_in = 0;
   }
   for (const Hold& hold : holds_) {
-    if (!hold.is_glue) watches_[hold.watch].pushed_in = depth(hold, sum(hold.place, false));
+    if (!hold.is_glue) watches_[hold.watch].pushed_in = depth(hold, sum(hold.coupling, false));
   }
   holds_.clear();
   add_glue();
@@ -80,17 +79,17 @@ void SkinPotential::refresh() {
 
 void SkinPotential::add_glue() {
   for (const GluedPoint& point : glue_) {
-    Coupling place;
+    Coupling coupling;
     for (std::size_t side = 0; side < 2; ++side) {
-      place.corners.push_back({.body = point.bodies[side],
-                               .brick = point.bricks[side],
-                               .weights = (side == 0 ? 1 : -1) * point.weights[side]});
+      coupling.corners.push_back({.body = point.bodies[side],
+                                  .brick = point.bricks[side],
+                                  .weights = (side == 0 ? 1 : -1) * point.weights[side]});
     }
     const double stiffness =
         glue_stiffness(*group_[point.bodies[0]], point.bricks[0], *group_[point.bodies[1]], point.bricks[1]);
     holds_.push_back({.watch = 0,
                       .is_glue = true,
-                      .place = std::move(place),
+                      .coupling = std::move(coupling),
                       .stiffness = stiffness,
                       .normal = Vec3::Zero(),
                       .start = Vec3::Zero()});
@@ -100,28 +99,28 @@ void SkinPotential::add_glue() {
 void SkinPotential::add_contact(std::size_t watch, const PointTriangleContact& stance) {
   const ContactCandidates& pairs = *watches_[watch].pairs;
   const TrackedPoint& point = pairs.tracked(stance.pair->point);
-  const ContactPoint& at = skins_[point.actor]->points[point.point];
+  const ContactPoint& at = skins_[point.body]->points[point.point];
   const std::size_t other = other_of(pairs, *stance.pair);
-  const TriangleStencil ride = contact_stencil(pairs, *skins_[other], stance);
-  Coupling place;
-  place.corners.push_back({.body = point.actor, .brick = at.brick, .weights = at.weights});
-  for (std::size_t i = 0; i < ride.count; ++i) {
-    place.corners.push_back({.body = other, .brick = ride.bricks[i], .weights = ride.weights[i]});
+  const TriangleStencil stencil = contact_stencil(pairs, *skins_[other], stance);
+  Coupling coupling;
+  coupling.corners.push_back({.body = point.body, .brick = at.brick, .weights = at.weights});
+  for (std::size_t i = 0; i < stencil.count; ++i) {
+    coupling.corners.push_back({.body = other, .brick = stencil.bricks[i], .weights = stencil.weights[i]});
   }
   const double stiffness =
-      pair_stiffness(watches_[watch].hardness, *group_[point.actor], at.brick, *group_[other], ride.bricks[0]);
-  const Vec3 start = sum(place, true);
+      pair_stiffness(watches_[watch].stiffness, *group_[point.body], at.brick, *group_[other], stencil.bricks[0]);
+  const Vec3 start = sum(coupling, true);
   holds_.push_back({.watch = watch,
                     .is_glue = false,
-                    .place = std::move(place),
+                    .coupling = std::move(coupling),
                     .stiffness = stiffness,
                     .normal = stance.normal,
                     .start = start});
 }
 
-Vec3 SkinPotential::sum(const Coupling& place, bool at_start) const {
+Vec3 SkinPotential::sum(const Coupling& coupling, bool at_start) const {
   Vec3 sum = Vec3::Zero();
-  for (const CoupledCorners& corners : place.corners) {
+  for (const CoupledCorners& corners : coupling.corners) {
     const Body& body = *group_[corners.body];
     sum += carried(body, corners.brick, corners.weights, at_start ? starts_[corners.body] : body.positions);
   }
@@ -141,8 +140,8 @@ void SkinPotential::remember(const std::vector<Eigen::VectorXd*>& pushed_in) con
     if (hold.is_glue) continue;
     const ContactCandidates& pairs = *watches_[hold.watch].pairs;
     const TrackedPoint& point = pairs.tracked(watches_[hold.watch].pair->point);
-    double& deepest = (*pushed_in[point.actor])[point.point];
-    deepest = std::max(deepest, depth(hold, sum(hold.place, false)));
+    double& deepest = (*pushed_in[point.body])[point.point];
+    deepest = std::max(deepest, depth(hold, sum(hold.coupling, false)));
   }
 }
 
@@ -151,7 +150,7 @@ double SkinPotential::update_friction() {
   std::vector<double> pressing(watches_.size());
   for (const Hold& hold : holds_) {
     if (hold.is_glue) continue;
-    pressing[hold.watch] = hold.stiffness * depth(hold, sum(hold.place, false));
+    pressing[hold.watch] = hold.stiffness * depth(hold, sum(hold.coupling, false));
   }
   for (std::size_t i = 0; i < watches_.size(); ++i) {
     if (watches_[i].friction > 0) change = std::max(change, std::abs(pressing[i] - watches_[i].pressing));
@@ -166,7 +165,7 @@ double SkinPotential::largest_normal_force() const {
   return largest;
 }
 
-FrictionPotential SkinPotential::grip(const Hold& hold, const Vec3& now) const {
+FrictionPotential SkinPotential::friction_at(const Hold& hold, const Vec3& now) const {
   const Watch& watch = watches_[hold.watch];
   return {now - hold.start, hold.normal, watch.friction * watch.pressing, slip_};
 }
@@ -174,7 +173,7 @@ FrictionPotential SkinPotential::grip(const Hold& hold, const Vec3& now) const {
 double SkinPotential::add_forces(const std::vector<Points*>& forces) const {
   double energy = 0;
   for (const Hold& hold : holds_) {
-    const Vec3 now = sum(hold.place, false);
+    const Vec3 now = sum(hold.coupling, false);
     Vec3 force;
     if (hold.is_glue) {
       energy += 0.5 * hold.stiffness * now.squaredNorm();
@@ -182,12 +181,12 @@ double SkinPotential::add_forces(const std::vector<Points*>& forces) const {
     } else {
       const double deep = depth(hold, now);
       if (deep == 0 && watches_[hold.watch].pressing == 0) continue;
-      const FrictionPotential held = grip(hold, now);
+      const FrictionPotential friction = friction_at(hold, now);
       energy += 0.5 * hold.stiffness * deep * deep;
-      energy += held.energy();
-      force = hold.stiffness * deep * hold.normal + held.force();
+      energy += friction.energy();
+      force = hold.stiffness * deep * hold.normal + friction.force();
     }
-    for (const CoupledCorners& corners : hold.place.corners) {
+    for (const CoupledCorners& corners : hold.coupling.corners) {
       const auto& nodes = group_[corners.body]->grid.nodes[corners.brick];
       for (std::size_t c = 0; c < 8; ++c) {
         forces[corners.body]->row(nodes[c]) += corners.weights[c] * force.transpose();
@@ -200,17 +199,17 @@ double SkinPotential::add_forces(const std::vector<Points*>& forces) const {
 std::vector<Coupling> SkinPotential::couplings() const {
   std::vector<Coupling> couplings;
   for (const Hold& hold : holds_) {
-    const Vec3 now = sum(hold.place, false);
+    const Vec3 now = sum(hold.coupling, false);
     Mat3 stiffness = Mat3::Zero();
     if (hold.is_glue) {
       stiffness = hold.stiffness * Mat3::Identity();
     } else {
-      const bool touches = depth(hold, now) > 0;
-      if (!touches && watches_[hold.watch].pressing == 0) continue;
-      stiffness = grip(hold, now).stiffness();
-      if (touches) stiffness += hold.stiffness * hold.normal * hold.normal.transpose();
+      const bool is_in_contact = depth(hold, now) > 0;
+      if (!is_in_contact && watches_[hold.watch].pressing == 0) continue;
+      stiffness = friction_at(hold, now).stiffness();
+      if (is_in_contact) stiffness += hold.stiffness * hold.normal * hold.normal.transpose();
     }
-    couplings.push_back({.corners = hold.place.corners, .stiffness = stiffness});
+    couplings.push_back({.corners = hold.coupling.corners, .stiffness = stiffness});
   }
   return couplings;
 }

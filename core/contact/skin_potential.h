@@ -24,7 +24,7 @@ class SkinPotential {
     double slip;  // m, that a point may creep before it slides
   };
   /// For a step from where the bodies are, in which nothing near anything moves by more than half a brick. `glue` by
-  /// rows of the group; `pushed_in` by actor and point of its skin, from remember(). All have to outlive it.
+  /// rows of the group; `pushed_in` by body and point of its skin, from remember(). All have to outlive it.
   SkinPotential(const World& world, const Group& group, const std::vector<GluedPoint>& glue, const Step& step,
                 const std::vector<Eigen::VectorXd*>& pushed_in);
   SkinPotential(const SkinPotential&) = delete;
@@ -39,7 +39,7 @@ class SkinPotential {
   double update_friction();
   [[nodiscard]] double largest_normal_force() const;
 
-  /// J; adds forces (m x 3, N), by actor of the group.
+  /// J; adds forces (m x 3, N), by body of the group.
   double add_forces(const std::vector<Points*>& forces) const;
   [[nodiscard]] std::vector<Coupling> couplings() const;
 
@@ -47,23 +47,23 @@ class SkinPotential {
   void remember(const std::vector<Eigen::VectorXd*>& pushed_in) const;
 
  private:
-  /// A point that may touch triangles of an actor.
+  /// A point that may touch triangles of a body.
   struct Watch {
     const ContactCandidates* pairs;
     SkinRun run;
     double depth;                         // m, below which what is inside came from the other side
-    double hardness;                      // N/m, of the point by itself
+    double stiffness;                     // N/m, of the point by itself
     double friction;                      // Coulomb's coefficient
     double pushed_in;                     // m, when last looked at
     double initial_penetration = 0;       // m, of the depth
     const CandidatePair* pair = nullptr;  // that it stood at then
     double pressing = 0;                  // N, for friction
   };
-  /// What holds a place now.
+  /// What holds a coupling now.
   struct Hold {
     std::size_t watch;  // in watches_; not read where it is glue
     bool is_glue;
-    Coupling place;  // without its stiffness
+    Coupling coupling;  // without its stiffness
     double stiffness;
     Vec3 normal;
     Vec3 start;  // m, when the step began
@@ -74,14 +74,14 @@ class SkinPotential {
   [[nodiscard]] double depth(const Hold& hold, const Vec3& now) const;
   void add_glue();
   void add_contact(std::size_t watch, const PointTriangleContact& stance);
-  [[nodiscard]] Vec3 sum(const Coupling& place, bool at_start) const;
-  [[nodiscard]] FrictionPotential grip(const Hold& hold, const Vec3& now) const;
+  [[nodiscard]] Vec3 sum(const Coupling& coupling, bool at_start) const;
+  [[nodiscard]] FrictionPotential friction_at(const Hold& hold, const Vec3& now) const;
 
   const Group& group_;
   const std::vector<GluedPoint>& glue_;
   double slip_;
-  std::vector<const ContactSurface*> skins_;  // by actor
-  std::vector<Points> starts_;                // by actor, m x 3, m
+  std::vector<const ContactSurface*> skins_;  // by body
+  std::vector<Points> starts_;                // by body, m x 3, m
   std::list<ContactCandidates> pairs_;
   std::vector<Watch> watches_;
   std::vector<Hold> holds_;

@@ -20,8 +20,8 @@ constexpr double kStiffForMass = 50;  // times that of most bricks
 
 std::string length(double value) { return readable(value, Dimension::kLength); }
 
-std::string remedy_for_overlaps(const World& world, std::size_t actor) {
-  const SoftBody& body = world.bodies[actor];
+std::string remedy_for_overlaps(const World& world, std::size_t index) {
+  const SoftBody& body = world.bodies[index];
   const double deep = kDeep * body.grid.brick_size;
   for (std::size_t row = 0; row < world.obstacles.size(); ++row) {
     const double depth = penetration_depth(world.obstacles[row], body);
@@ -31,14 +31,14 @@ std::string remedy_for_overlaps(const World& world, std::size_t actor) {
     }
   }
   for (std::size_t other = 0; world.bodies_collide && other < world.bodies.size(); ++other) {
-    if (other == actor) continue;
+    if (other == index) continue;
     const double depth =
         std::max(penetration_depth(world.bodies[other], body), penetration_depth(body, world.bodies[other]));
     if (depth <= deep) continue;
     return fmt::format(
         "bodies {} and {} lie {} deep in each other: move them apart at the start, or let bodies not "
         "touch each other ([contact] bodies = false)",
-        std::min(actor, other) + 1, std::max(actor, other) + 1, length(depth));
+        std::min(index, other) + 1, std::max(index, other) + 1, length(depth));
   }
   return "";
 }
@@ -109,11 +109,10 @@ std::size_t worst_brick_of(const Body& body) {
   return worst;
 }
 
-std::string remedy_for_divergence(const World& world, std::size_t actor, std::size_t brick) {
-  const SoftBody& body = world.bodies[actor];
-  for (const std::string& remedy :
-       {remedy_for_overlaps(world, actor), remedy_for_speed(body), remedy_for_crushing(body),
-        remedy_for_stiff_springs(body, brick), remedy_for_thinness(body, brick)}) {
+std::string remedy_for_divergence(const World& world, std::size_t row, std::size_t brick) {
+  const SoftBody& body = world.bodies[row];
+  for (const std::string& remedy : {remedy_for_overlaps(world, row), remedy_for_speed(body), remedy_for_crushing(body),
+                                    remedy_for_stiff_springs(body, brick), remedy_for_thinness(body, brick)}) {
     if (!remedy.empty()) return remedy;
   }
   return "use more bricks, a stiffer material, more damping or a shorter fall";

@@ -11,6 +11,6 @@ namespace sprung {
 /// What would help a motion that diverges at a brick of a body, as an order: "move bodies 1 and 2 apart, ...", by what
 /// the world is like just before: skins that lie in each other, a speed near that of sound in the material, bricks
 /// pressed flat, springs too stiff for the mass that they move, a part of a single layer of bricks; else in general.
-[[nodiscard]] std::string remedy_for_divergence(const World& world, std::size_t actor, std::size_t brick);
+[[nodiscard]] std::string remedy_for_divergence(const World& world, std::size_t body, std::size_t brick);
 
 }  // namespace sprung

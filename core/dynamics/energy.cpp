@@ -13,10 +13,10 @@ namespace {
 constexpr double kMostGain = 0.3;  // of what moves and strains a body, that a frame's rounding of time may add
 
 /// Whether something moves it that may give energy.
-bool is_driven(const SoftBody& actor) {
-  if (!actor.loads.empty()) return true;
-  return std::any_of(actor.pinned.begin(), actor.pinned.end(),
-                     [](const KinematicNode& held) { return !held.velocity.isZero(); });
+bool is_driven(const SoftBody& body) {
+  if (!body.loads.empty()) return true;
+  return std::any_of(body.pinned.begin(), body.pinned.end(),
+                     [](const KinematicNode& pinned) { return !pinned.velocity.isZero(); });
 }
 
 Energy sum_of(const std::vector<Energy>& all, std::span<const std::size_t> bodies) {
@@ -51,7 +51,7 @@ Energy energy_of(const Body& body, const Vec3& gravity) {
 
 std::vector<Energy> energies_of(const World& world) {
   std::vector<Energy> all;
-  for (const SoftBody& actor : world.bodies) all.push_back(energy_of(actor, world.gravity));
+  for (const SoftBody& body : world.bodies) all.push_back(energy_of(body, world.gravity));
   return all;
 }
 

@@ -8,7 +8,7 @@
 
 namespace sprung {
 
-/// Energy of an actor without what the ground is the zero of: kinetic + elastic + potential in the world's gravity
+/// Energy of a body without what the ground is the zero of: kinetic + elastic + potential in the world's gravity
 /// (about y = 0), J.
 struct Energy {
   double kinetic = 0;
@@ -17,7 +17,7 @@ struct Energy {
   [[nodiscard]] double sum() const { return kinetic + elastic + potential; }
 };
 [[nodiscard]] Energy energy_of(const Body& body, const Vec3& gravity);
-/// By actor of the world, all or some of them.
+/// By body of the world, all or some of them.
 [[nodiscard]] std::vector<Energy> energies_of(const World& world);
 [[nodiscard]] std::vector<Energy> energies_of(const World& world, std::span<const std::size_t> bodies);
 

@@ -41,8 +41,8 @@ struct SelectedSkin {
 };
 
 SelectedSkin select_skin(const Embedding& embedding, const Triangles& triangles, const Selection& selection,
-                         const Selector& selector, const SoftBody& actor, std::size_t solid) {
-  SelectedSkin skin{.points = deform_points(actor.grid, embedding, actor.grid.rest_positions()),
+                         const Selector& selector, const SoftBody& body, std::size_t solid) {
+  SelectedSkin skin{.points = deform_points(body.grid, embedding, body.grid.rest_positions()),
                     .embedding = embedding,
                     .triangles = triangles,
                     .pieces = {}};
@@ -66,8 +66,8 @@ void spread(const SelectedSkin& skin, const BrickGrid& grid, ForcedPart& part) {
     const double area = area_of(corners) * piece.share() / 3;  // of each middle of an edge
     for (int edge = 0; edge < 3; ++edge) {
       const Vec3 at = (piece.corners.col(edge) + piece.corners.col((edge + 1) % 3)) / 2;
-      const Vec3 place = corners * at;
-      part.second += area * place * place.transpose();
+      const Vec3 position = corners * at;
+      part.second += area * position * position.transpose();
       for (int corner = 0; corner < 3; ++corner) {
         const int point = skin.triangles(piece.triangle, corner);
         const CornerWeights weights = trilinear_weights(skin.embedding.local.row(point));
@@ -75,7 +75,7 @@ void spread(const SelectedSkin& skin, const BrickGrid& grid, ForcedPart& part) {
         for (int brick_corner = 0; brick_corner < 8; ++brick_corner) {
           const double share = area * at[corner] * weights[brick_corner];
           part.shares[nodes[brick_corner]] += share;
-          part.arms.row(nodes[brick_corner]) += share * place.transpose();
+          part.arms.row(nodes[brick_corner]) += share * position.transpose();
         }
       }
     }
@@ -101,22 +101,21 @@ SkinPart part_of(const std::vector<SkinPiece>& pieces) {
 }  // namespace
 
 std::vector<ForcedPart> place_forces(const std::vector<BodyForce>& forces, const Selector& selector,
-                                     const SoftBody& actor, std::size_t solid) {
+                                     const SoftBody& body, std::size_t solid) {
   std::vector<ForcedPart> parts;
   for (std::size_t row = 0; row < forces.size(); ++row) {
     const BodyForce& force = forces[row];
     ForcedPart part{.force = row};
     if (force.pressure) {
-      const LoadedSkin loaded = loaded_skin(actor);
+      const LoadedSkin loaded = loaded_skin(body);
       part.skin = std::make_shared<const SkinPart>(
-          part_of(select_skin(loaded.points, loaded.triangles, force, selector, actor, solid).pieces));
+          part_of(select_skin(loaded.points, loaded.triangles, force, selector, body, solid).pieces));
       if (part.skin->triangles.empty()) continue;
     } else {
       if (acts_on_skin(force)) {
-        spread(select_skin(actor.skin_embedding, actor.skin.triangles, force, selector, actor, solid), actor.grid,
-               part);
+        spread(select_skin(body.skin_embedding, body.skin.triangles, force, selector, body, solid), body.grid, part);
       } else {
-        part.shares = volumes_of(selector.touched_bricks(force, actor.grid, solid), actor.grid);
+        part.shares = volumes_of(selector.touched_bricks(force, body.grid, solid), body.grid);
       }
       if (part.shares.isZero(0)) continue;
     }
@@ -134,10 +133,10 @@ void place(ForcedPart& part, const Mat3& rotation, const Vec3& translation) {
 }
 
 std::vector<MusclePart> place_muscles(const std::vector<BodyMuscle>& muscles, const Selector& selector,
-                                      const SoftBody& actor, std::size_t solid, const Mat3& bricks_from_rest) {
+                                      const SoftBody& body, std::size_t solid, const Mat3& bricks_from_rest) {
   std::vector<MusclePart> parts;
   for (std::size_t muscle = 0; muscle < muscles.size(); ++muscle) {
-    std::vector<int> bricks = selector.touched_bricks(muscles[muscle], actor.grid, solid);
+    std::vector<int> bricks = selector.touched_bricks(muscles[muscle], body.grid, solid);
     if (bricks.empty()) continue;
     parts.push_back({.muscle = muscle,
                      .full = {.bricks = std::move(bricks),
@@ -218,9 +217,9 @@ void add_load(const BodyForce& force, const ForcedPart& part, const ForcedWhole&
   loads.forces += strength * dead_forces(force, part, whole);
 }
 
-Loads loads_and_weight(const Scene& scene, const World& world, std::size_t actor,
+Loads loads_and_weight(const Scene& scene, const World& world, std::size_t row,
                        const std::vector<ForcedWhole>& wholes) {
-  const SoftBody& body = world.bodies[actor];
+  const SoftBody& body = world.bodies[row];
   Loads loads;
   loads.forces = body.masses * world.gravity.transpose();
   for (const ForcedPart& part : body.origin.forces) {

@@ -9,11 +9,11 @@ namespace sprung {
 /// Where the forces of a scene body act on one of its solids, which is still in the place of its grid; forces that do
 /// not act on it are left out. Throws Error(kBadInput) where a part does not exist.
 [[nodiscard]] std::vector<ForcedPart> place_forces(const std::vector<BodyForce>& forces, const Selector& selector,
-                                                   const SoftBody& actor, std::size_t solid);
+                                                   const SoftBody& body, std::size_t solid);
 
 /// The same for its muscles. `bricks_from_rest`: see LoadedBody.
 [[nodiscard]] std::vector<MusclePart> place_muscles(const std::vector<BodyMuscle>& muscles, const Selector& selector,
-                                                    const SoftBody& actor, std::size_t solid,
+                                                    const SoftBody& body, std::size_t solid,
                                                     const Mat3& bricks_from_rest);
 
 /// Turns (then moves) where a force acts.
@@ -34,7 +34,7 @@ struct ForcedWhole {
 
 /// The loads at full strength on a body of the world and its weight, as forces, its muscles left out. `wholes`: of this
 /// body.
-[[nodiscard]] Loads loads_and_weight(const Scene& scene, const World& world, std::size_t actor,
+[[nodiscard]] Loads loads_and_weight(const Scene& scene, const World& world, std::size_t body,
                                      const std::vector<ForcedWhole>& wholes);
 
 /// Adds one of them, times a strength.

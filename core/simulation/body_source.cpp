@@ -170,12 +170,12 @@ void refuse_giant_shell(const SceneBody& body, const LoadedBody& loaded) {
 
 /// Reports repairs. Bricks do not need a surface without self-intersections, but overlapping parts merge.
 void report_repairs(const Solids& found, const Observer& observer, const LoadedBody& loaded) {
-  const Vec3 place = loaded.file_from_rest * (loaded.bricks_from_rest.transpose() * found.crossing);
+  const Vec3 position = loaded.file_from_rest * (loaded.bricks_from_rest.transpose() * found.crossing);
   for (const Repair& repair : found.repairs) {
-    const std::string where =
-        repair.kind == "self_intersection"
-            ? fmt::format("; the first near ({:.4g}, {:.4g}, {:.4g}) of the file", place.x(), place.y(), place.z())
-            : "";
+    const std::string where = repair.kind == "self_intersection"
+                                  ? fmt::format("; the first near ({:.4g}, {:.4g}, {:.4g}) of the file", position.x(),
+                                                position.y(), position.z())
+                                  : "";
     const std::string text = fmt::format("{}: {}{}", loaded.name, repair.text, where);
     if (repair.harmless) {
       observer.detail(text);

@@ -83,34 +83,34 @@ void carry_file_vertices(const LoadedBody& loaded, std::size_t solid, const std:
 }
 
 /// Every node pinned at the start, once, with the axes of all its pins.
-std::vector<KinematicNode> held_nodes(const std::vector<PinnedNodes>& pinned, const std::vector<Pin>& pins) {
-  std::map<int, KinematicNode> held;
-  for (const PinnedNodes& group : pinned) {
+std::vector<KinematicNode> kinematic_nodes(const std::vector<PinnedNodes>& groups, const std::vector<Pin>& pins) {
+  std::map<int, KinematicNode> pinned;
+  for (const PinnedNodes& group : groups) {
     if (pins[group.pin].from > 0) continue;
     for (const int node : group.nodes) {
-      const auto [place, is_new] = held.try_emplace(node, KinematicNode{.node = node, .axes = {false, false, false}});
+      const auto [entry, is_new] = pinned.try_emplace(node, KinematicNode{.node = node, .axes = {false, false, false}});
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (pins[group.pin].axes.held[axis]) place->second.axes[axis] = true;
+        if (pins[group.pin].axes.fixed[axis]) entry->second.axes[axis] = true;
       }
     }
   }
   std::vector<KinematicNode> list;
-  list.reserve(held.size());
-  for (const auto& [node, entry] : held) list.push_back(entry);
+  list.reserve(pinned.size());
+  for (const auto& [node, entry] : pinned) list.push_back(entry);
   return list;
 }
 
 /// m/s, at the start; pinned nodes are at rest.
-Points velocities_of(const SceneBody& scene_body, const SoftBody& actor, const Vec3& middle) {
-  Points velocities(actor.node_count(), 3);
+Points velocities_of(const SceneBody& scene_body, const SoftBody& body, const Vec3& middle) {
+  Points velocities(body.node_count(), 3);
   const Vec3 spin = scene_body.spin * std::numbers::pi / 180;
   for (int node = 0; node < velocities.rows(); ++node) {
-    const Vec3 arm = actor.positions.row(node).transpose() - middle;
+    const Vec3 arm = body.positions.row(node).transpose() - middle;
     velocities.row(node) = (scene_body.velocity + spin.cross(arm)).transpose();
   }
-  for (const KinematicNode& held : actor.pinned) {
+  for (const KinematicNode& pinned : body.pinned) {
     for (int axis = 0; axis < 3; ++axis) {
-      if (held.axes[axis]) velocities(held.node, axis) = 0;
+      if (pinned.axes[axis]) velocities(pinned.node, axis) = 0;
     }
   }
   return velocities;
@@ -257,8 +257,8 @@ SoftBody BodyBuilder::fill(std::size_t solid) {
   origin.forces = place_forces(body_.forces, selector_, body, solid);
   origin.muscles = place_muscles(body_.muscles, selector_, body, solid, loaded_.bricks_from_rest);
   origin.probed = find_probed(body, solid);
-  body.pinned = held_nodes(origin.pins, body_.pins);
-  held_solids_ += origin.pins.empty() && origin.pinned_skins.empty() ? 0 : 1;
+  body.pinned = kinematic_nodes(origin.pins, body_.pins);
+  pinned_solids_ += origin.pins.empty() && origin.pinned_skins.empty() ? 0 : 1;
   return body;
 }
 
@@ -353,10 +353,10 @@ void BodyBuilder::tell(const Observer& observer) const {
     if (std::any_of(filled_.begin(), filled_.end(), holds)) continue;
     const std::string reason = fmt::format("{}: {} holds no node; {}", loaded_.name, pin_name(body_.pins, pin),
                                            remedy_for_pin(body_.pins[pin], loaded_));
-    if (held_solids_ == 0) throw Error(ErrorKind::kBadInput, reason);
+    if (pinned_solids_ == 0) throw Error(ErrorKind::kBadInput, reason);
     observer.warn(reason);
   }
-  const int free_solids = isize(loaded_.solids) - held_solids_;
+  const int free_solids = isize(loaded_.solids) - pinned_solids_;
   if (free_solids == 0) return;
   observer.warn(fmt::format("{}: {} of {} solids are not held by the pins and will fall", loaded_.name, free_solids,
                             loaded_.solids.size()));
@@ -407,10 +407,11 @@ std::vector<Pose> poses_of(const SceneBody& body, const LoadedBody& loaded) {
   for (int k = 0; k < copies.count[2]; ++k) {
     for (int j = 0; j < copies.count[1]; ++j) {
       for (int i = 0; i < copies.count[0]; ++i) {
-        const Vec3 place = body.position + Vec3(i, j, k).cwiseProduct(copies.spacing) + chance.in_cube(copies.scatter);
+        const Vec3 position =
+            body.position + Vec3(i, j, k).cwiseProduct(copies.spacing) + chance.in_cube(copies.scatter);
         const double turn = chance.between(0, copies.turn) * std::numbers::pi / 180;
         const Vec3 axis = chance.direction();
-        poses.push_back(pose_at(place, Eigen::AngleAxisd(turn, axis) * rotation, loaded));
+        poses.push_back(pose_at(position, Eigen::AngleAxisd(turn, axis) * rotation, loaded));
       }
     }
   }

@@ -93,7 +93,7 @@ class BodyBuilder {
   bool collides_with_itself_;
   Selector selector_;
   FillReport report_;
-  int held_solids_ = 0;
+  int pinned_solids_ = 0;
   std::vector<int> solid_of_vertex_;  // of the mesh
   std::vector<SoftBody> filled_;      // by solid
 };

@@ -16,12 +16,12 @@ inline constexpr const char* kHashName = "/frames/state_hash";
 inline constexpr const char* kSecondsName = "/frames/seconds";
 inline constexpr const char* kMemoryName = "/frames/memory";  // of frame f in row f % 2
 
-/// In the folder of an actor: the exact positions, then velocities of all nodes, of frame f in row f % 2; no columns
+/// In the folder of a body: the exact positions, then velocities of all nodes, of frame f in row f % 2; no columns
 /// where the frames themselves are exact.
 inline constexpr const char* kExactName = "/exact_state";
 
 /// Counted from 1.
-[[nodiscard]] inline std::string actor_folder(std::size_t actor) { return "/actors/" + std::to_string(actor + 1); }
+[[nodiscard]] inline std::string body_folder(std::size_t body) { return "/actors/" + std::to_string(body + 1); }
 [[nodiscard]] inline std::string mesh_folder(std::size_t body) { return "/meshes/" + std::to_string(body + 1); }
 [[nodiscard]] inline std::string obstacle_folder(std::size_t obstacle) {
   return "/obstacles/" + std::to_string(obstacle + 1);

@@ -128,7 +128,7 @@ CacheHeader read_header(const Hdf5Reader& hdf5) {
   const std::size_t bodies = hdf5.read<int>("/actor_count").values.at(0);
   const std::size_t obstacles = hdf5.read<int>("/obstacle_count").values.at(0);
   for (std::size_t i = 0; i < meshes; ++i) simulation.meshes.push_back(read_skin(hdf5, mesh_folder(i)));
-  for (std::size_t i = 0; i < bodies; ++i) simulation.world.bodies.push_back(read_body(hdf5, actor_folder(i)));
+  for (std::size_t i = 0; i < bodies; ++i) simulation.world.bodies.push_back(read_body(hdf5, body_folder(i)));
   for (std::size_t i = 0; i < obstacles; ++i) simulation.obstacles.push_back(read_obstacle(hdf5, obstacle_folder(i)));
   return header;
 }
@@ -181,7 +181,7 @@ std::vector<double> CacheReader::memory(std::size_t frame) const {
 std::vector<Points> CacheReader::states(const char* name, std::size_t frame) const {
   std::vector<Points> all;
   for (std::size_t i = 0; i < header_.simulation.world.bodies.size(); ++i) {
-    const std::string path = actor_folder(i) + name;
+    const std::string path = body_folder(i) + name;
     all.push_back(matrix_from<Points>(hdf5_.read_row<double>(path, frame), path));
   }
   return all;
@@ -190,7 +190,7 @@ std::vector<Points> CacheReader::states(const char* name, std::size_t frame) con
 std::vector<Points> CacheReader::exact_states(std::size_t which, std::size_t frame) const {
   std::vector<Points> all;
   for (std::size_t i = 0; i < header_.simulation.world.bodies.size(); ++i) {
-    const std::vector<double> row = hdf5_.read_row<double>(actor_folder(i) + kExactName, frame % 2).values;
+    const std::vector<double> row = hdf5_.read_row<double>(body_folder(i) + kExactName, frame % 2).values;
     const Eigen::Index nodes = header_.simulation.world.bodies[i].rest_positions.rows();
     all.emplace_back(Eigen::Map<const Points>(row.data() + Eigen::Index(which) * 3 * nodes, nodes, 3));
   }

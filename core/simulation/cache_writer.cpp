@@ -130,7 +130,7 @@ void write_header(Hdf5Writer& hdf5, const CacheHeader& header) {
   write_number(hdf5, "/obstacle_count", isize(simulation.obstacles));
   for (std::size_t i = 0; i < simulation.meshes.size(); ++i) write_skin(hdf5, mesh_folder(i), simulation.meshes[i]);
   for (std::size_t i = 0; i < bodies.size(); ++i)
-    write_body(hdf5, actor_folder(i), bodies[i], header.position_error == 0);
+    write_body(hdf5, body_folder(i), bodies[i], header.position_error == 0);
   for (std::size_t i = 0; i < simulation.obstacles.size(); ++i) {
     write_obstacle(hdf5, obstacle_folder(i), simulation.obstacles[i]);
   }
@@ -160,7 +160,7 @@ void CacheWriter::append(const CachedFrame& frame, const std::vector<const Point
                 fmt::format("'{}' was removed or replaced while it was being written", file_.path().string()));
   }
   for (std::size_t i = 0; i < positions.size(); ++i) {
-    const std::string folder = actor_folder(i);
+    const std::string folder = body_folder(i);
     append_rounded(hdf5_, folder + "/positions", *positions[i], position_error_);
     append_rounded(hdf5_, folder + "/velocities", *velocities[i], velocity_error_);
     if (position_error_ == 0) continue;

@@ -174,7 +174,7 @@ CrossingDepth CrossingWatch::depth_of(const Task& task, const RowPairs& pairs, d
   for (const auto& pair : pairs) {
     for (const int point : surface.triangles().row(pair[0])) {
       const double depth = -plane.height(surface.points().row(point));
-      if (depth > deepest.depth) deepest = {.depth = depth, .place = surface.points().row(point)};
+      if (depth > deepest.depth) deepest = {.depth = depth, .position = surface.points().row(point)};
     }
   }
   return deepest;
@@ -206,7 +206,7 @@ Crossings CrossingWatch::look(const std::vector<const Points*>& nodes, int frame
     crossings.pairs_at_start += found[i].at_start;
     if (!found[i].pairs.empty() && (crossings.skins[0] < 0 || found[i].depth.depth > crossings.depth)) {
       crossings.depth = found[i].depth.depth;
-      crossings.place = found[i].depth.place;
+      crossings.position = found[i].depth.position;
       crossings.skins = tasks_[i].skins;
     }
     add_corners(tasks_[i], found[i].pairs, corners);

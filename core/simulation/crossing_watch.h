@@ -51,7 +51,7 @@ class CrossingWatch {
   struct Plane {
     Vec3 normal;
     double offset;  // m
-    [[nodiscard]] double height(const Vec3& place) const { return normal.dot(place) - offset; }
+    [[nodiscard]] double height(const Vec3& position) const { return normal.dot(position) - offset; }
   };
 
   [[nodiscard]] bool is_plane(int skin) const;

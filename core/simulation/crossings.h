@@ -15,7 +15,7 @@ struct Crossings {
   long pairs_at_start = 0;           // not counted in `pairs`: beside such that crossed at the start
   double depth = 0;                  // m, at the deepest place of `pairs`
   double share = 0;                  // of the largest body's size, that this is
-  Vec3 place = Vec3::Zero();         // m, there
+  Vec3 position = Vec3::Zero();      // m, there
   std::array<int, 2> skins{-1, -1};  // there: rows of the world's bodies, then of its obstacles; twice the same: itself
   std::string names{};               // of them: "body 1 (a.obj) and obstacle 2"
 };

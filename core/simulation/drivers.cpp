@@ -86,11 +86,11 @@ void LoadDriver::aim(double begin, double end) {
                   .density = scene_.wind->density,
                   .drag = scene_.wind->drag};
   }
-  for (std::size_t actor = 0; actor < world.bodies.size(); ++actor) world.bodies[actor].loads = loads_at(actor, time);
+  for (std::size_t body = 0; body < world.bodies.size(); ++body) world.bodies[body].loads = loads_at(body, time);
 }
 
-Loads LoadDriver::loads_at(std::size_t actor, double time) const {
-  const Origin& origin = simulation_.world.bodies[actor].origin;
+Loads LoadDriver::loads_at(std::size_t row, double time) const {
+  const Origin& origin = simulation_.world.bodies[row].origin;
   const SceneBody& body = scene_.bodies[origin.body];
   const BodyCurves& curves = bodies_[origin.body];
   Loads loads;
@@ -98,7 +98,7 @@ Loads LoadDriver::loads_at(std::size_t actor, double time) const {
     const BodyForce& force = body.forces[part.force];
     const double strength = curves.forces[part.force].strength(time);
     if (strength == 0) continue;
-    add_load(force, part, wholes_[actor][part.force], strength, loads);
+    add_load(force, part, wholes_[row][part.force], strength, loads);
   }
   for (const MusclePart& part : origin.muscles) {
     const double strength = curves.muscles[part.muscle].strength(time);
@@ -142,12 +142,12 @@ SceneDriver::SceneDriver(const Scene& scene, Simulation& simulation)
       pins_(simulation.world.bodies.size()),
       moments_(loads_.moments()) {
   loads_.aim(0, 0);
-  for (std::size_t actor = 0; actor < pins_.size(); ++actor) {
-    const Origin& origin = simulation.world.bodies[actor].origin;
+  for (std::size_t body = 0; body < pins_.size(); ++body) {
+    const Origin& origin = simulation.world.bodies[body].origin;
     for (const PinnedNodes& pinned : origin.pins) {
       const Pin& pin = scene.bodies[origin.body].pins[pinned.pin];
-      pins_[actor].push_back({.source = &pin, .pinned = &pinned, .movement = movement_of(pin, scene)});
-      add_moments(pin, pins_[actor].back().movement, moments_);
+      pins_[body].push_back({.source = &pin, .pinned = &pinned, .movement = movement_of(pin, scene)});
+      add_moments(pin, pins_[body].back().movement, moments_);
     }
   }
   for (const StageObstacle& obstacle : simulation.obstacles) {
@@ -179,17 +179,17 @@ void SceneDriver::aim(double begin, double end) {
   }
   for (std::size_t i = 0; i < pins_.size(); ++i) {
     if (pins_[i].empty()) continue;
-    SoftBody& actor = simulation_.world.bodies[i];
-    std::map<int, KinematicNode> held;
+    SoftBody& body = simulation_.world.bodies[i];
+    std::map<int, KinematicNode> pinned;
     for (PinMotion& pin : pins_[i]) {
       if (holds(*pin.source, begin)) {
-        carry(pin, actor, begin, end, held);
+        carry(pin, body, begin, end, pinned);
       } else {
         pin.capture.reset();
       }
     }
-    actor.pinned.clear();
-    for (const auto& [node, entry] : held) actor.pinned.push_back(entry);
+    body.pinned.clear();
+    for (const auto& [node, entry] : pinned) body.pinned.push_back(entry);
   }
 }
 
@@ -209,10 +209,10 @@ void SceneDriver::serialize(IntegratorState& state) {
   }
 }
 
-void SceneDriver::carry(PinMotion& pin, SoftBody& actor, double begin, double end,
-                        std::map<int, KinematicNode>& held) const {
+void SceneDriver::carry(PinMotion& pin, SoftBody& soft_body, double begin, double end,
+                        std::map<int, KinematicNode>& pinned) const {
   const std::vector<int>& nodes = pin.pinned->nodes;
-  Body& body = actor;
+  Body& body = soft_body;
   if (!pin.capture) {
     pin.capture = Capture{.time = begin, .centre = pin.pinned->centre, .positions = body.positions(nodes, Eigen::all)};
     if (begin > kMoment) pin.capture->centre = pin.capture->positions.colwise().mean();
@@ -222,9 +222,9 @@ void SceneDriver::carry(PinMotion& pin, SoftBody& actor, double begin, double en
     const Vec3 start = pin.capture->positions.row(k);
     const Vec3 goal = start + placement.way(start - pin.capture->centre);
     const auto [place, is_new] =
-        held.try_emplace(nodes[k], KinematicNode{.node = nodes[k], .axes = {false, false, false}});
+        pinned.try_emplace(nodes[k], KinematicNode{.node = nodes[k], .axes = {false, false, false}});
     for (int axis = 0; axis < 3; ++axis) {
-      if (!pin.source->axes.held[axis]) continue;
+      if (!pin.source->axes.fixed[axis]) continue;
       place->second.axes[axis] = true;
       place->second.velocity[axis] = (goal[axis] - body.positions(nodes[k], axis)) / (end - begin);
       body.velocities(nodes[k], axis) = place->second.velocity[axis];
@@ -249,9 +249,9 @@ Movement movement_of(const Pin& pin, const Scene& scene) {
       Interpolation::kLinear};
 }
 
-Points pin_movements(const Scene& scene, const Simulation& simulation, std::size_t actor, double time, bool small) {
-  const Origin& origin = simulation.world.bodies[actor].origin;
-  const Points& start = simulation.world.bodies[actor].rest_positions;
+Points pin_movements(const Scene& scene, const Simulation& simulation, std::size_t body, double time, bool small) {
+  const Origin& origin = simulation.world.bodies[body].origin;
+  const Points& start = simulation.world.bodies[body].rest_positions;
   Points moved = Points::Zero(start.rows(), 3);
   for (const PinnedNodes& pinned : origin.pins) {
     const Pin& pin = scene.bodies[origin.body].pins[pinned.pin];
@@ -259,18 +259,18 @@ Points pin_movements(const Scene& scene, const Simulation& simulation, std::size
     for (const int node : pinned.nodes) {
       const Vec3 moves = way(movement, time, start.row(node).transpose() - pinned.centre, small);
       for (int axis = 0; axis < 3; ++axis) {
-        if (pin.axes.held[axis]) moved(node, axis) = moves[axis];
+        if (pin.axes.fixed[axis]) moved(node, axis) = moves[axis];
       }
     }
   }
   return moved;
 }
 
-Supports supports_of(const SoftBody& actor) {
-  Supports supports(actor.node_count());
-  for (const KinematicNode& held : actor.pinned) {
+Supports supports_of(const SoftBody& body) {
+  Supports supports(body.node_count());
+  for (const KinematicNode& pinned : body.pinned) {
     for (int axis = 0; axis < 3; ++axis) {
-      if (held.axes[axis]) supports.fix(held.node, axis);
+      if (pinned.axes[axis]) supports.fix(pinned.node, axis);
     }
   }
   return supports;

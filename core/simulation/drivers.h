@@ -46,7 +46,7 @@ class LoadDriver {
     std::vector<Curve> muscles;
   };
 
-  [[nodiscard]] Loads loads_at(std::size_t actor, double time) const;
+  [[nodiscard]] Loads loads_at(std::size_t body, double time) const;
 
   const Scene& scene_;
   Simulation& simulation_;
@@ -82,7 +82,7 @@ class SceneDriver {
     Vec3 centre = Vec3::Zero();  // m
     Points positions;            // m, in the order of the nodes
   };
-  /// A pin and its nodes of one actor.
+  /// A pin and its nodes of one body.
   struct PinMotion {
     const Pin* source;
     const PinnedNodes* pinned;
@@ -90,24 +90,24 @@ class SceneDriver {
     std::optional<Capture> capture{};
   };
 
-  void carry(PinMotion& pin, SoftBody& actor, double begin, double end, std::map<int, KinematicNode>& held) const;
+  void carry(PinMotion& pin, SoftBody& body, double begin, double end, std::map<int, KinematicNode>& pinned) const;
 
   const Scene& scene_;
   Simulation& simulation_;
   LoadDriver loads_;
-  std::vector<std::vector<PinMotion>> pins_;  // by actor
+  std::vector<std::vector<PinMotion>> pins_;  // by body
   std::vector<double> moments_;               // s, ascending: where pieces end
 };
 
 /// The movement of a pin: by its keyframes, or linear from the start of the film to its end.
 [[nodiscard]] Movement movement_of(const Pin& pin, const Scene& scene);
 
-/// The displacement of each node of an actor (m x 3, m) by pins that hold from the start, at a time (s) of the film;
+/// The displacement of each node of an body (m x 3, m) by pins that hold from the start, at a time (s) of the film;
 /// zero along free axes. With `small`, to first order: rotated nodes move along tangents.
-[[nodiscard]] Points pin_movements(const Scene& scene, const Simulation& simulation, std::size_t actor, double time,
+[[nodiscard]] Points pin_movements(const Scene& scene, const Simulation& simulation, std::size_t body, double time,
                                    bool small);
 
-/// The supports by the pins of an actor.
-[[nodiscard]] Supports supports_of(const SoftBody& actor);
+/// The supports by the pins of an body.
+[[nodiscard]] Supports supports_of(const SoftBody& body);
 
 }  // namespace sprung

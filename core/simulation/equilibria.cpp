@@ -27,8 +27,8 @@ class Loading {
  public:
   Loading(Simulation& simulation, const Scene& scene)
       : simulation_(simulation), scene_(scene), is_linear_(scene.solver.scheme == Solver::kLinear) {
-    for (const SoftBody& actor : simulation.world.bodies) {
-      if (!actor.pinned.empty() || !actor.origin.pinned_skins.empty()) continue;
+    for (const SoftBody& body : simulation.world.bodies) {
+      if (!body.pinned.empty() || !body.origin.pinned_skins.empty()) continue;
       throw Error(ErrorKind::kBadInput,
                   "a body without pins cannot come to rest; give it a [[body.pin]], or use "
                   "solver.scheme euler or verlet");
@@ -41,7 +41,7 @@ class Loading {
     }
   }
 
-  /// The shapes under a fraction of the weight, with the pins as at a time (s). Reactions by actor, m x 3, N.
+  /// The shapes under a fraction of the weight, with the pins as at a time (s). Reactions by body, m x 3, N.
   std::vector<Points> apply(double share, double time, const std::function<void()>& between) {
     std::vector<Points> reactions_of_all;
     for (std::size_t row = 0; row < simulation_.world.bodies.size(); ++row) {
@@ -79,7 +79,7 @@ class Loading {
   Simulation& simulation_;
   const Scene& scene_;
   bool is_linear_;
-  std::vector<std::unique_ptr<LinearSolver>> systems_;  // by actor
+  std::vector<std::unique_ptr<LinearSolver>> systems_;  // by body
   std::vector<Loads> full_;                             // the same
   int iterations_ = 0;
 };
@@ -102,15 +102,15 @@ namespace {
 
 /// Forces and moments of loads and reactions (m x 3, N) at `places` (m x 3, m) have to cancel: found by sums alone, of
 /// whatever solver. A millionth of them may be left.
-void check_balance(const Points& places, const Points& loads, const Points& reactions) {
+void check_balance(const Points& positions, const Points& loads, const Points& reactions) {
   constexpr double kLeft = 1e-6;
-  const Vec3 middle = places.colwise().mean();
+  const Vec3 middle = positions.colwise().mean();
   Vec3 force = Vec3::Zero();
   Vec3 moment = Vec3::Zero();
   double forces = 0;
   double moments = 0;
-  for (Eigen::Index node = 0; node < places.rows(); ++node) {
-    const Vec3 arm = places.row(node).transpose() - middle;
+  for (Eigen::Index node = 0; node < positions.rows(); ++node) {
+    const Vec3 arm = positions.row(node).transpose() - middle;
     for (const Points* kind : {&loads, &reactions}) {
       const Vec3 here = kind->row(node);
       force += here;
@@ -148,11 +148,11 @@ Points settle(SoftBody& body, const Supports& supports, const Loads& loads, cons
   for (int turn = 0; turn < kMostTurns; ++turn) {
     const Points forces = loads.forces + pressures;
     newton_steps += solve_static(body, supports, forces, start, solver, {.between = between}).iterations;
-    Points held = reactions(body, supports, forces);
+    Points pin_forces = reactions(body, supports, forces);
     const Points turned = pressure_forces(body, loads.pressures);
-    if ((turned - pressures).norm() <= kTurned * (forces.norm() + held.norm())) {
-      check_balance(body.positions, forces, held);
-      return held;
+    if ((turned - pressures).norm() <= kTurned * (forces.norm() + pin_forces.norm())) {
+      check_balance(body.positions, forces, pin_forces);
+      return pin_forces;
     }
     pressures = turned;
     start = body.positions;
@@ -196,10 +196,10 @@ Recording record_modes(Simulation& simulation, const Scene& scene, const Observe
                 fmt::format("modes are those of one body, the scene has {}", simulation.world.bodies.size()));
   }
   Progress progress(observer, "modes");
-  SoftBody& actor = simulation.world.bodies[0];
-  Supports supports = supports_of(actor);
-  add_skin_supports(scene, actor, 0, true, supports);
-  const Modes modes = natural_modes(actor, supports, scene.solver.modes, [&] { observer.check_interrupt(); });
+  SoftBody& body = simulation.world.bodies[0];
+  Supports supports = supports_of(body);
+  add_skin_supports(scene, body, 0, true, supports);
+  const Modes modes = natural_modes(body, supports, scene.solver.modes, [&] { observer.check_interrupt(); });
   const int frames = frame_count(scene);
   const int count = scene.solver.modes;
   Recorder recorder(scene, simulation, "mode", cache);
@@ -209,8 +209,8 @@ Recording record_modes(Simulation& simulation, const Scene& scene, const Observe
     const int mode = std::min(int(place), count - 1);
     const Eigen::VectorXd shape = modes.shapes.col(mode) / modes.shapes.col(mode).cwiseAbs().maxCoeff();
     const double swing = kModeSwing * simulation.size * std::sin(2 * std::numbers::pi * (place - mode));
-    actor.positions = actor.rest_positions;
-    Eigen::Map<Eigen::VectorXd>(actor.positions.data(), shape.size()) += swing * shape;
+    body.positions = body.rest_positions;
+    Eigen::Map<Eigen::VectorXd>(body.positions.data(), shape.size()) += swing * shape;
     recorder.add(mode + 1, {}, 0, true);
     observer.finish_frame(frame, mode + 1, simulation.world);
   }

@@ -63,11 +63,11 @@ void PartMeasures::add(const SoftBody& body, const ProbedPart& part, StrainMeasu
   for (const int brick : part.bricks) {
     const auto& nodes = body.grid.nodes[brick];
     const double volume = body.grid.fill[brick] * body.grid.brick_volume();
-    const Vec3 place = columns_of(nodes, body.positions).rowwise().mean();
+    const Vec3 position = columns_of(nodes, body.positions).rowwise().mean();
     const Vec3 start = columns_of(nodes, body.rest_positions).rowwise().mean();
     volume_ += volume;
-    sums_.position += volume * place;
-    sums_.displacement += volume * (place - start);
+    sums_.position += volume * position;
+    sums_.displacement += volume * (position - start);
     sums_.volume += volume * ratios[brick];
     sums_.mean_stress += volume * stresses[brick];
     sums_.mean_strain += volume * strains[brick];

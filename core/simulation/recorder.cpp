@@ -33,11 +33,11 @@ Recorder::Recorder(const Scene& scene, const Simulation& simulation, std::string
 }
 
 Recorder::PointSeat Recorder::seat_of(const Probe& probe) const {
-  for (std::size_t actor = 0; actor < simulation_.world.bodies.size(); ++actor) {
-    const Origin& origin = simulation_.world.bodies[actor].origin;
+  for (std::size_t row = 0; row < simulation_.world.bodies.size(); ++row) {
+    const Origin& origin = simulation_.world.bodies[row].origin;
     if (origin.body != std::size_t(probe.body - 1)) continue;
-    const Body& body = simulation_.world.bodies[actor];
-    PointSeat seat{.actor = actor, .embedding = embed(body.grid, (origin.bricks_from_rest * *probe.point).transpose())};
+    const Body& body = simulation_.world.bodies[row];
+    PointSeat seat{.body = row, .embedding = embed(body.grid, (origin.bricks_from_rest * *probe.point).transpose())};
     if (seat.embedding.outside > 0) continue;
     seat.start = deform_points(body.grid, seat.embedding, body.rest_positions).row(0);
     return seat;
@@ -84,7 +84,7 @@ void Recorder::add(double progress, const std::vector<Points>& reactions, double
                    const IntegratorState& state) {
   if (cache_ == nullptr) {
     std::vector<Floats3>& frame = recording_.frames.emplace_back();
-    for (const SoftBody& actor : simulation_.world.bodies) frame.emplace_back(actor.positions.cast<float>());
+    for (const SoftBody& body : simulation_.world.bodies) frame.emplace_back(body.positions.cast<float>());
   }
   recording_.progress.push_back(progress);
   const auto now = std::chrono::steady_clock::now();
@@ -114,7 +114,7 @@ void Recorder::add(double progress, const std::vector<Points>& reactions, double
 }
 
 ProbeSample Recorder::point_sample(const PointSeat& seat, bool small) const {
-  const Body& body = simulation_.world.bodies[seat.actor];
+  const Body& body = simulation_.world.bodies[seat.body];
   ProbeSample sample;
   sample.position = deform_points(body.grid, seat.embedding, body.positions).row(0);
   sample.displacement = sample.position - seat.start;
@@ -133,11 +133,10 @@ ProbeSample Recorder::pin_sample(const Probe& probe, const std::vector<Points>& 
   const SceneBody& scene_body = scene_.bodies[row];
   ProbeSample sample;
   double count = 0;
-  for (std::size_t actor = 0; actor < simulation_.world.bodies.size(); ++actor) {
-    if (simulation_.world.bodies[actor].origin.body != row) continue;
-    const SoftBody& soft = simulation_.world.bodies[actor];
-    const Body& body = soft;
-    for (const PinnedNodes& pinned : soft.origin.pins) {
+  for (std::size_t i = 0; i < simulation_.world.bodies.size(); ++i) {
+    if (simulation_.world.bodies[i].origin.body != row) continue;
+    const SoftBody& body = simulation_.world.bodies[i];
+    for (const PinnedNodes& pinned : body.origin.pins) {
       if (!is_pin_of(pinned, scene_body, probe.pin)) continue;
       const Pin& pin = scene_body.pins[pinned.pin];
       const Vec3 shift = movement_of(pin, scene_).placement(time).shift;
@@ -147,16 +146,16 @@ ProbeSample Recorder::pin_sample(const Probe& probe, const std::vector<Points>& 
         sample.position += body.positions.row(node).transpose();
         sample.displacement += (body.positions.row(node) - body.rest_positions.row(node)).transpose();
         if (reactions.empty()) continue;
-        Vec3 force = reactions[actor].row(node);
-        for (int axis = 0; axis < 3; ++axis) force[axis] *= pin.axes.held[axis] ? 1 : 0;
+        Vec3 force = reactions[i].row(node);
+        for (int axis = 0; axis < 3; ++axis) force[axis] *= pin.axes.fixed[axis] ? 1 : 0;
         const Vec3 arm = (small ? body.rest_positions : body.positions).row(node).transpose() - centre;
         sample.force += force;
         sample.torque += arm.cross(force);
       }
     }
-    for (const PinnedSkin& skin : soft.origin.pinned_skins) {
+    for (const PinnedSkin& skin : body.origin.pinned_skins) {
       if (scene_body.pins[skin.pin].name != probe.pin) continue;
-      const SkinReaction reaction = reaction_of(skin, scene_, soft, time, small);
+      const SkinReaction reaction = reaction_of(skin, scene_, body, time, small);
       count += reaction.area;
       sample.position += reaction.position;
       sample.displacement += reaction.displacement;
@@ -191,9 +190,9 @@ std::uint64_t state_hash(const World& world) {
   const auto add = [&](const Points& points) {
     hash = hash_of(std::as_bytes(std::span(points.data(), points.size())), hash);
   };
-  for (const SoftBody& actor : world.bodies) {
-    add(actor.positions);
-    add(actor.velocities);
+  for (const SoftBody& body : world.bodies) {
+    add(body.positions);
+    add(body.velocities);
   }
   return hash;
 }

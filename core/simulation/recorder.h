@@ -23,7 +23,7 @@ class RunCache;
 
 /// The results of a run.
 struct Recording {
-  std::vector<std::vector<Floats3>> frames;  // [frame][actor], nodes x 3, m; floats suffice for drawing;
+  std::vector<std::vector<Floats3>> frames;  // [frame][body], nodes x 3, m; floats suffice for drawing;
                                              // none where a cache has them
   std::vector<double> progress;              // of every frame: time (s), or fraction of the load, or number of the mode
   std::vector<double> seconds;               // likewise: wall-clock time that it took
@@ -45,7 +45,7 @@ class Recorder {
   /// and restores the integrator by `serialize`. Returns their number. Call before the first add().
   int take_up(World& world, const std::function<void(IntegratorState&)>& serialize);
 
-  /// Records the current state. `reactions`: of the pins' nodes by actor (m x 3, N); none: no forces. `time`: of the
+  /// Records the current state. `reactions`: of the pins' nodes by body (m x 3, N); none: no forces. `time`: of the
   /// film (s), for the pins' movements; with `small`, displacements are small: torques
   /// refer to the rest shape, stresses to small strains.
   void add(double progress, const std::vector<Points>& reactions, double time, bool small,
@@ -57,7 +57,7 @@ class Recorder {
 
  private:
   struct PointSeat {
-    std::size_t actor = 0;
+    std::size_t body = 0;
     Embedding embedding;
     Vec3 start = Vec3::Zero();
   };

@@ -208,9 +208,9 @@ void RunCache::append(const Waiting& frame) {
 
 void RunCache::add(const CachedFrame& frame, const IntegratorState& state) {
   Waiting now{.frame = frame, .positions = {}, .velocities = {}, .memory = state.row()};
-  for (const SoftBody& actor : simulation_->world.bodies) {
-    now.positions.push_back(actor.positions);
-    now.velocities.push_back(actor.velocities);
+  for (const SoftBody& body : simulation_->world.bodies) {
+    now.positions.push_back(body.positions);
+    now.velocities.push_back(body.velocities);
   }
   ++frame_count_;
   if (writer_ != nullptr) {

@@ -32,7 +32,7 @@ struct SceneRecord {
 /// Its frames and probe values. `scene`: its own.
 [[nodiscard]] Recording cached_recording(const CacheReader& cache, const Scene& scene);
 
-/// One frame of it, by actor.
+/// One frame of it, by body.
 [[nodiscard]] std::vector<Floats3> cached_nodes(const CacheReader& cache, std::size_t frame);
 
 /// Stores the frames of a run, and resumes from those of an earlier run of the same scene.
@@ -59,7 +59,7 @@ class RunCache {
   /// Appends the current state as the next frame. Throws Error(kFailed); existing frames stay readable.
   void add(const CachedFrame& frame, const IntegratorState& state);
 
-  /// The nodes in all frames, by actor, from memory or from the file, which is closed.
+  /// The nodes in all frames, by body, from memory or from the file, which is closed.
   [[nodiscard]] std::vector<std::vector<Floats3>> take_frames();
 
   /// Closes the file.
@@ -75,7 +75,7 @@ class RunCache {
   /// A frame that is not in the file yet.
   struct Waiting {
     CachedFrame frame;
-    std::vector<Points> positions;  // by actor
+    std::vector<Points> positions;  // by body
     std::vector<Points> velocities;
     std::vector<double> memory;
   };

@@ -61,7 +61,7 @@ enum class SkinInterpolation {
 
 /// Axes of the world.
 struct Axes {
-  std::array<bool, 3> held{true, true, true};
+  std::array<bool, 3> fixed{true, true, true};
 };
 
 /// Holds the nodes of a part along some axes of the world and moves them along these: through keyframes, or linearly in

@@ -39,21 +39,21 @@ std::vector<int> rows_where(const Points& points, const std::function<bool(const
   return rows;
 }
 
-std::vector<int> row_nearest_to(const Vec3& place, const Points& points) {
+std::vector<int> row_nearest_to(const Vec3& position, const Points& points) {
   Eigen::Index row = 0;
   if (points.rows() == 0) return {};
-  (points.rowwise() - place.transpose()).rowwise().squaredNorm().minCoeff(&row);
+  (points.rowwise() - position.transpose()).rowwise().squaredNorm().minCoeff(&row);
   return {int(row)};
 }
 
 }  // namespace
 
-std::vector<int> Selector::nodes(const Selection& selection, const Points& places, std::size_t solid) const {
+std::vector<int> Selector::nodes(const Selection& selection, const Points& positions, std::size_t solid) const {
   if (selection.nearest) {
-    const Vec3 place = place_of(*selection.nearest);
-    return solid_nearest_to(place) == solid ? row_nearest_to(place, places) : std::vector<int>{};
+    const Vec3 position = place_of(*selection.nearest);
+    return solid_nearest_to(position) == solid ? row_nearest_to(position, positions) : std::vector<int>{};
   }
-  return rows_where(places, test_of(selection, kAlmostHalf * body_.brick_size, body_.brick_size));
+  return rows_where(positions, test_of(selection, kAlmostHalf * body_.brick_size, body_.brick_size));
 }
 
 Points brick_middles(const BrickGrid& grid) {
@@ -72,8 +72,8 @@ std::vector<int> Selector::bricks(const Selection& selection, const BrickGrid& g
     return all;
   }
   if (selection.nearest) {
-    const Vec3 place = place_of(*selection.nearest);
-    return solid_nearest_to(place) == solid ? row_nearest_to(place, middles) : std::vector<int>{};
+    const Vec3 position = place_of(*selection.nearest);
+    return solid_nearest_to(position) == solid ? row_nearest_to(position, middles) : std::vector<int>{};
   }
   const double margin = kSelectionRounding * body_.extent.maxCoeff();
   return rows_where(middles, test_of(selection, margin, std::numeric_limits<double>::infinity()));
@@ -90,9 +90,9 @@ std::vector<SkinPiece> Selector::skin_pieces(const Selection& selection, const P
                                              const Triangles& triangles, std::size_t solid) const {
   if (is_whole(selection)) return pieces_where(points, triangles, 0, [](const Vec3&) { return true; });
   if (selection.nearest) {
-    const Vec3 place = place_of(*selection.nearest);
-    if (solid_nearest_to(place) != solid || triangles.rows() == 0) return {};
-    return {{.triangle = NearestTriangle(points, triangles).at(place).triangle}};
+    const Vec3 position = place_of(*selection.nearest);
+    if (solid_nearest_to(position) != solid || triangles.rows() == 0) return {};
+    return {{.triangle = NearestTriangle(points, triangles).at(position).triangle}};
   }
   const bool has_border = selection.box || selection.sphere || selection.half_space;
   return pieces_where(points, triangles, has_border ? kBorderCuts : 0,
@@ -117,14 +117,14 @@ Selector::Test Selector::test_of(const Selection& selection, double margin, doub
   if (selection.box) return test_of(*selection.box, margin);
   if (selection.sphere) {
     const double reach = selection.sphere->radius * body_.extent.maxCoeff() + margin;
-    return [reach, centre = place_of(selection.sphere->centre)](const Vec3& place) {
-      return (place - centre).norm() <= reach;
+    return [reach, centre = place_of(selection.sphere->centre)](const Vec3& position) {
+      return (position - centre).norm() <= reach;
     };
   }
   if (selection.half_space) {
     const Vec3 normal = body_.bricks_from_rest * selection.half_space->normal.normalized();
-    return [margin, normal, point = place_of(selection.half_space->point)](const Vec3& place) {
-      return normal.dot(place - point) >= -margin;
+    return [margin, normal, point = place_of(selection.half_space->point)](const Vec3& position) {
+      return normal.dot(position - point) >= -margin;
     };
   }
   if (!selection.part.empty()) return nearest_to(triangles_of(selection.part), depth);
@@ -139,8 +139,8 @@ Selector::Test Selector::test_of(const Box& box, double margin) const {
       body_.extent.array().max(kSelectionRounding * body_.extent.maxCoeff());  // a sheet has none
   const Eigen::Array3d low = box.min.array() - margin / extent;
   const Eigen::Array3d high = box.max.array() + margin / extent;
-  return [low, high, extent, rest_from_bricks = Mat3(body_.bricks_from_rest.transpose())](const Vec3& place) {
-    const Eigen::Array3d fractions = ((rest_from_bricks * place).array() / extent + 0.5).max(0).min(1);
+  return [low, high, extent, rest_from_bricks = Mat3(body_.bricks_from_rest.transpose())](const Vec3& position) {
+    const Eigen::Array3d fractions = ((rest_from_bricks * position).array() / extent + 0.5).max(0).min(1);
     return (fractions >= low).all() && (fractions <= high).all();
   };
 }
@@ -154,16 +154,16 @@ const NearestTriangle& Selector::surface() const {
 Selector::Test Selector::nearest_to(const Triangles& triangles, double depth) const {
   const auto nearest = std::make_shared<NearestTriangle>(body_.mesh.positions, triangles);
   const double rounding = kSelectionRounding * body_.extent.maxCoeff();
-  return [this, nearest, rounding, deepest = depth + rounding](const Vec3& place) {
-    const double distance = nearest->at(place).distance;
-    return distance <= deepest && distance <= surface().at(place).distance + rounding;
+  return [this, nearest, rounding, deepest = depth + rounding](const Vec3& position) {
+    const double distance = nearest->at(position).distance;
+    return distance <= deepest && distance <= surface().at(position).distance + rounding;
   };
 }
 
 Selector::Test Selector::nearest_to_paint(const Color& paint, double depth) const {
   const double deepest = depth + kSelectionRounding * body_.extent.maxCoeff();
-  return [this, deepest, chosen = vertices_of(paint)](const Vec3& place) {
-    const SurfacePlace found = surface().at(place);
+  return [this, deepest, chosen = vertices_of(paint)](const Vec3& position) {
+    const SurfacePlace found = surface().at(position);
     return found.distance <= deepest && chosen[nearest_vertex(found)];
   };
 }
@@ -186,8 +186,8 @@ Triangles Selector::triangles_of(const std::string& part) const {
   throw Error(ErrorKind::kBadInput, fmt::format("{}: has no part '{}'{}", body_.name, part, did_you_mean(part, names)));
 }
 
-Triangles Selector::face_at(const Vec3& place) const {
-  const std::vector<int> rows = find_face(body_.mesh.positions, body_.mesh.triangles, surface().at(place).triangle);
+Triangles Selector::face_at(const Vec3& position) const {
+  const std::vector<int> rows = find_face(body_.mesh.positions, body_.mesh.triangles, surface().at(position).triangle);
   return body_.mesh.triangles(rows, Eigen::all);
 }
 
@@ -223,17 +223,18 @@ Selector::Test Selector::enclosed_by(const std::filesystem::path& mesh) const {
   const auto solids = std::make_shared<Solids>(find_solids(read_enclosure(mesh), mesh.string()));
   const auto trees = std::make_shared<std::vector<WindingTree>>();
   for (const Solid& solid : solids->solids) trees->emplace_back(solid.points, solid.triangles);
-  return [solids, trees](const Vec3& place) {
-    return std::any_of(trees->begin(), trees->end(), [&](const WindingTree& tree) { return tree.at(place) > kInside; });
+  return [solids, trees](const Vec3& position) {
+    return std::any_of(trees->begin(), trees->end(),
+                       [&](const WindingTree& tree) { return tree.at(position) > kInside; });
   };
 }
 
-std::size_t Selector::solid_nearest_to(const Vec3& place) const {
+std::size_t Selector::solid_nearest_to(const Vec3& position) const {
   std::size_t nearest = 0;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t solid = 0; solid < body_.solids.size(); ++solid) {
     const double distance =
-        (body_.solids[solid].points.rowwise() - place.transpose()).rowwise().squaredNorm().minCoeff();
+        (body_.solids[solid].points.rowwise() - position.transpose()).rowwise().squaredNorm().minCoeff();
     if (distance >= least) continue;
     least = distance;
     nearest = solid;
@@ -259,13 +260,13 @@ void check_ratio(const Material& material, const Material& body) {
 }
 
 /// The material of a region at a point.
-Stuff stuff_at(const Region& region, const Selector& selector, const Vec3& place) {
+Stuff stuff_at(const Region& region, const Selector& selector, const Vec3& position) {
   const Material& first = region.material;
   if (!region.gradient) return {.young = first.young, .density = first.density};
   const Material& second = region.gradient->material;
   const Vec3 from = selector.place_of(region.gradient->from);
   const Vec3 way = selector.place_of(region.gradient->to) - from;
-  const double share = std::clamp(way.dot(place - from) / way.squaredNorm(), 0.0, 1.0);
+  const double share = std::clamp(way.dot(position - from) / way.squaredNorm(), 0.0, 1.0);
   return {.young = std::lerp(first.young, second.young, share),
           .density = std::lerp(first.density, second.density, share)};
 }

@@ -20,7 +20,7 @@ class Selector {
   /// staircase of the selected nodes is centred on the border of the part. Parts chosen by the surface (by name or
   /// paint) select the nodes within a brick of the surface. Rows, ascending. Throws Error(kBadInput) where the mesh has
   /// no such part or paint, or a file cannot be read.
-  [[nodiscard]] std::vector<int> nodes(const Selection& selection, const Points& places, std::size_t solid) const;
+  [[nodiscard]] std::vector<int> nodes(const Selection& selection, const Points& positions, std::size_t solid) const;
 
   /// The bricks of one of the body's solids with centres in the part. Rows, ascending. Throws like nodes().
   [[nodiscard]] std::vector<int> bricks(const Selection& selection, const BrickGrid& grid, std::size_t solid) const;
@@ -41,7 +41,7 @@ class Selector {
   [[nodiscard]] Vec3 place_of(const Vec3& fractions) const;
 
  private:
-  using Test = std::function<bool(const Vec3& place)>;
+  using Test = std::function<bool(const Vec3& position)>;
 
   /// `margin`: how far outside (m) still counts; `depth`: how deep below the surface (m), for parts chosen by it.
   [[nodiscard]] Test test_of(const Selection& selection, double margin, double depth) const;
@@ -51,10 +51,10 @@ class Selector {
   [[nodiscard]] Test enclosed_by(const std::filesystem::path& mesh) const;
   [[nodiscard]] const NearestTriangle& surface() const;
   [[nodiscard]] Triangles triangles_of(const std::string& part) const;
-  [[nodiscard]] Triangles face_at(const Vec3& place) const;
+  [[nodiscard]] Triangles face_at(const Vec3& position) const;
   [[nodiscard]] std::vector<bool> vertices_of(const Color& paint) const;
-  [[nodiscard]] int nearest_vertex(const SurfacePlace& place) const;
-  [[nodiscard]] std::size_t solid_nearest_to(const Vec3& place) const;
+  [[nodiscard]] int nearest_vertex(const SurfacePlace& position) const;
+  [[nodiscard]] std::size_t solid_nearest_to(const Vec3& position) const;
   [[nodiscard]] SurfaceMesh read_enclosure(const std::filesystem::path& mesh) const;
 
   const LoadedBody& body_;

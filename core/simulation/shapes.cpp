@@ -63,8 +63,8 @@ constexpr int kAround = 96;  // corners of a circle
 
 /// A point of the profile of a surface of revolution about the y axis.
 struct ProfilePoint {
-  Eigen::Vector2d place;   // m; distance from the axis, height
-  Eigen::Vector2d normal;  // outward, unit
+  Eigen::Vector2d position;  // m; distance from the axis, height
+  Eigen::Vector2d normal;    // outward, unit
 };
 
 /// Point `i` of a full circle in `count` parts; exact at its quarters.
@@ -95,8 +95,8 @@ SurfaceMesh revolve(const std::vector<ProfilePoint>& profile, const std::string&
   }
   std::vector<Eigen::RowVector3i> triangles;
   for (int ring = 0; ring + 1 < rings; ++ring) {
-    const Eigen::Vector2d& low = profile[ring].place;
-    const Eigen::Vector2d& high = profile[ring + 1].place;
+    const Eigen::Vector2d& low = profile[ring].position;
+    const Eigen::Vector2d& high = profile[ring + 1].position;
     if (low == high) continue;
     for (int k = 0; k < kAround; ++k) {
       const int here = ring * kAround + k;
@@ -117,7 +117,7 @@ SurfaceMesh mesh_of(const SphereShape& sphere) {
   std::vector<ProfilePoint> profile;
   for (int step = -kAround / 4; step <= kAround / 4; ++step) {
     const Eigen::Vector2d outward = on_circle(step, kAround);
-    profile.push_back({.place = sphere.radius * outward, .normal = outward});
+    profile.push_back({.position = sphere.radius * outward, .normal = outward});
   }
   return revolve(profile, "sphere");
 }
@@ -139,7 +139,7 @@ SurfaceMesh mesh_of(const TorusShape& torus) {
   std::vector<ProfilePoint> profile;
   for (int step = 0; step <= kAlong; ++step) {
     const Eigen::Vector2d outward = on_circle(step, kAlong);
-    profile.push_back({.place = Eigen::Vector2d(torus.radius, 0) + torus.tube * outward, .normal = outward});
+    profile.push_back({.position = Eigen::Vector2d(torus.radius, 0) + torus.tube * outward, .normal = outward});
   }
   return revolve(profile, "torus");
 }
@@ -151,7 +151,7 @@ SurfaceMesh mesh_of(const CapsuleShape& capsule) {
     for (int step = first; step <= first + kAround / 4; ++step) {
       const Eigen::Vector2d outward = on_circle(step, kAround);
       profile.push_back(
-          {.place = capsule.radius * outward + Eigen::Vector2d(0, end * capsule.height), .normal = outward});
+          {.position = capsule.radius * outward + Eigen::Vector2d(0, end * capsule.height), .normal = outward});
     }
   }
   return revolve(profile, "capsule");

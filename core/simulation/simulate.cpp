@@ -24,7 +24,7 @@ constexpr double kSeen = 0.001;  // of the largest body's size: crossings that a
 
 int inverted_bricks(const World& world) {
   int count = 0;
-  for (const SoftBody& actor : world.bodies) count += inverted_bricks(actor);
+  for (const SoftBody& body : world.bodies) count += inverted_bricks(body);
   return count;
 }
 
@@ -43,7 +43,7 @@ void warn_of_crossings(const std::vector<Crossings>& frames, const Observer& obs
       "in frame {} skins cross in {} of triangles, {} deep ({:.2g} % of the size): {}, at [{:.4g}, {:.4g}, {:.4g}] m; "
       "smaller bricks (bricks) or slower impacts keep them apart",
       deepest->frame + 1, count_of(deepest->pairs, "pair"), readable(deepest->depth, Dimension::kLength),
-      100 * deepest->share, deepest->names, deepest->place.x(), deepest->place.y(), deepest->place.z()));
+      100 * deepest->share, deepest->names, deepest->position.x(), deepest->position.y(), deepest->position.z()));
 }
 
 void forecast(const StepPlan& plan, double brick_steps, const Observer& observer) {

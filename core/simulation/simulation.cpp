@@ -121,7 +121,7 @@ class ThinParts {
 
   void warn(const Observer& observer) const {
     if (count_ == 0) return;
-    const Vec3 place = body_.file_from_rest * (body_.bricks_from_rest.transpose() * thinnest_.place);
+    const Vec3 place = body_.file_from_rest * (body_.bricks_from_rest.transpose() * thinnest_.position);
     observer.warn(fmt::format(
         "{}: {} thinner than a brick ({}), in {}: stiffer and blunter than they should be; the thinnest, near ({:.4g}, "
         "{:.4g}, {:.4g}) of the file, is about {} thick: bricks of that size would hold it",
@@ -139,12 +139,12 @@ class ThinParts {
 
 void find_thin_parts(const Scene& scene, Preparation& prepared, const Observer& observer) {
   const World& world = prepared.simulation.world;
-  std::size_t actor = 0;
+  std::size_t soft_body = 0;
   for (std::size_t body = 0; body < prepared.bodies.size(); ++body) {
     ThinParts parts(prepared.bodies[body]);
     const std::size_t copies = copy_count(scene.bodies[body]);
-    for (std::size_t solid = 0; solid < prepared.bodies[body].solids.size(); ++solid, actor += copies) {
-      const std::vector<ThinPart> found = parts.find(world.bodies[actor].grid, solid);
+    for (std::size_t solid = 0; solid < prepared.bodies[body].solids.size(); ++solid, soft_body += copies) {
+      const std::vector<ThinPart> found = parts.find(world.bodies[soft_body].grid, solid);
       prepared.thin_parts.insert(prepared.thin_parts.end(), copies, found);
     }
     parts.warn(observer);
@@ -214,10 +214,10 @@ Preparation prepare(const Scene& scene, const Observer& observer) {
   int bricks = 0;
   int nodes = 0;
   double mass = 0;
-  for (const SoftBody& actor : prepared.simulation.world.bodies) {
-    bricks += actor.grid.brick_count();
-    nodes += actor.node_count();
-    mass += actor.masses.sum();
+  for (const SoftBody& body : prepared.simulation.world.bodies) {
+    bricks += body.grid.brick_count();
+    nodes += body.node_count();
+    mass += body.masses.sum();
   }
   progress.finish(fmt::format("{} of {}, {} nodes, {:.4g} kg", count_of(bricks, "brick"), brick_sizes(prepared.bodies),
                               nodes, mass));
@@ -232,7 +232,7 @@ namespace {
 
 constexpr double kNear = 0.5;  // of the smaller bricks
 
-std::vector<std::size_t> actors_of(const Simulation& simulation, int body) {
+std::vector<std::size_t> soft_bodies_of(const Simulation& simulation, int body) {
   std::vector<std::size_t> bodies;
   for (std::size_t i = 0; i < simulation.world.bodies.size(); ++i) {
     if (simulation.world.bodies[i].origin.body + 1 == std::size_t(body)) bodies.push_back(i);
@@ -247,8 +247,8 @@ void glue_bodies(const Scene& scene, std::size_t row, Simulation& simulation) {
   World& world = simulation.world;
   double distance = 0;
   const std::size_t before = world.glue.size();
-  for (const std::size_t a : actors_of(simulation, glue.bodies[0])) {
-    for (const std::size_t b : actors_of(simulation, glue.bodies[1])) {
+  for (const std::size_t a : soft_bodies_of(simulation, glue.bodies[0])) {
+    for (const std::size_t b : soft_bodies_of(simulation, glue.bodies[1])) {
       if (glue.bodies[0] == glue.bodies[1] && b <= a) continue;
       const double brick = std::min(world.bodies[a].grid.brick_size, world.bodies[b].grid.brick_size);
       distance = glue.distance.value_or(kNear * brick);
@@ -265,16 +265,15 @@ void glue_bodies(const Scene& scene, std::size_t row, Simulation& simulation) {
 
 namespace {
 
-std::string allowance(const SoftBody& actor) {
-  return fmt::format("may overlap it by one brick ({}) at most", readable(actor.grid.brick_size, Dimension::kLength));
+std::string allowance(const SoftBody& body) {
+  return fmt::format("may overlap it by one brick ({}) at most", readable(body.grid.brick_size, Dimension::kLength));
 }
 
-void check_obstacle(const Scene& scene, const Simulation& simulation, std::size_t actor, std::size_t row) {
+void check_obstacle(const Scene& scene, const Simulation& simulation, const SoftBody& body, std::size_t row) {
   const Obstacle& obstacle = simulation.world.obstacles[row];
-  const SoftBody& body = simulation.world.bodies[actor];
   const double depth = penetration_depth(obstacle, body);
   if (depth <= body.grid.brick_size) return;
-  const std::size_t index = simulation.world.bodies[actor].origin.body;
+  const std::size_t index = body.origin.body;
   const std::string deep = readable(depth, Dimension::kLength);
   const std::optional<double> ground = ground_height(obstacle);
   if (!ground) {
@@ -309,7 +308,8 @@ void check_start(const Scene& scene, const Simulation& simulation) {
   std::vector<AlignedBox> boxes;
   for (std::size_t i = 0; i < world.bodies.size(); ++i) {
     boxes.push_back(bounding_box(world.bodies[i].positions));
-    for (std::size_t row = 0; row < world.obstacles.size(); ++row) check_obstacle(scene, simulation, i, row);
+    for (std::size_t row = 0; row < world.obstacles.size(); ++row)
+      check_obstacle(scene, simulation, world.bodies[i], row);
   }
   if (!world.bodies_collide) return;
   for (const auto& [a, b] : overlapping_boxes(boxes)) {

@@ -41,7 +41,7 @@ class Cutter {
 }  // namespace
 
 std::vector<SkinPiece> pieces_where(const Points& points, const Triangles& triangles, int cuts,
-                                    const std::function<bool(const Vec3& place)>& test) {
+                                    const std::function<bool(const Vec3& position)>& test) {
   std::vector<SkinPiece> pieces;
   for (int row = 0; row < triangles.rows(); ++row) {
     Mat3 places;

@@ -19,6 +19,6 @@ struct SkinPiece {
 /// The part of a surface (`points` n x 3, m) that a test selects. Triangles that cross its border are cut in four up to
 /// `cuts` times; the last pieces count by their centroids.
 [[nodiscard]] std::vector<SkinPiece> pieces_where(const Points& points, const Triangles& triangles, int cuts,
-                                                  const std::function<bool(const Vec3& place)>& test);
+                                                  const std::function<bool(const Vec3& position)>& test);
 
 }  // namespace sprung

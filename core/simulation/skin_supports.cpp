@@ -17,7 +17,7 @@ Vec3 normal_area(const Points& points, const Triangles& triangles, int row) {
 /// One point for each triangle of which pieces are held: their centroid.
 PinnedSkin skin_of(const std::vector<SkinPiece>& pieces, const Points& points, const SoftBody& body) {
   const Triangles& triangles = body.skin.triangles;
-  std::vector<Vec3> places;
+  std::vector<Vec3> positions;
   std::vector<Vec3> normals;
   std::vector<double> areas;
   int last = -1;
@@ -27,20 +27,20 @@ PinnedSkin skin_of(const std::vector<SkinPiece>& pieces, const Points& points, c
     if (!(area > 0)) continue;
     if (piece.triangle != last) {
       last = piece.triangle;
-      places.emplace_back(Vec3::Zero());
+      positions.emplace_back(Vec3::Zero());
       normals.push_back(normal);
       areas.push_back(0);
     }
     const Vec3 at = piece.corners.rowwise().mean();
     for (int corner = 0; corner < 3; ++corner) {
-      places.back() += area * at[corner] * points.row(triangles(piece.triangle, corner)).transpose();
+      positions.back() += area * at[corner] * points.row(triangles(piece.triangle, corner)).transpose();
     }
     areas.back() += area;
   }
-  Points middles(isize(places), 3);
-  Points outward(isize(places), 3);
-  for (int row = 0; row < isize(places); ++row) {
-    middles.row(row) = places[row].transpose() / areas[row];
+  Points middles(isize(positions), 3);
+  Points outward(isize(positions), 3);
+  for (int row = 0; row < isize(positions); ++row) {
+    middles.row(row) = positions[row].transpose() / areas[row];
     outward.row(row) = normals[row].transpose();
   }
   return {.points = embed(body.grid, middles, outward),
@@ -48,27 +48,27 @@ PinnedSkin skin_of(const std::vector<SkinPiece>& pieces, const Points& points, c
 }
 
 /// Onto the directions that a pin holds.
-Mat3 held_directions(const Pin& pin) {
+Mat3 pinned_directions(const Pin& pin) {
   if (pin.normal) return pin.normal->normalized() * pin.normal->normalized().transpose();
-  return Vec3(pin.axes.held[0], pin.axes.held[1], pin.axes.held[2]).asDiagonal();
+  return Vec3(pin.axes.fixed[0], pin.axes.fixed[1], pin.axes.fixed[2]).asDiagonal();
 }
 
 std::vector<SpringSupport> springs_of(const PinnedSkin& skin, const Scene& scene, const SoftBody& body, double time,
                                       bool small) {
   const Pin& pin = scene.bodies[body.origin.body].pins[skin.pin];
-  const Mat3 held = held_directions(pin);
+  const Mat3 projection = pinned_directions(pin);
   const Movement movement = movement_of(pin, scene);
   const Points rest = deform_points(body.grid, skin.points, body.rest_positions);
   std::vector<SpringSupport> springs(skin.points.brick.size());
   for (std::size_t row = 0; row < springs.size(); ++row) {
     const int brick = skin.points.brick[row];
     const double young = body.material.young * body.stiffness_scale[brick] / body.grid.fill[brick];
-    const Vec3 place = rest.row(Eigen::Index(row));
-    const Vec3 arm = place - skin.centre;
+    const Vec3 position = rest.row(Eigen::Index(row));
+    const Vec3 arm = position - skin.centre;
     springs[row] = {
         .spring = {.brick = brick,
                    .weights = trilinear_weights(skin.points.local.row(Eigen::Index(row))),
-                   .stiffness = kFoundation * young / body.grid.brick_size * skin.areas[row] * held},
+                   .stiffness = kFoundation * young / body.grid.brick_size * skin.areas[row] * projection},
         .displacement = small ? movement.small_placement(time).velocity(arm) : movement.placement(time).way(arm)};
   }
   return springs;
@@ -110,13 +110,13 @@ SkinReaction reaction_of(const PinnedSkin& skin, const Scene& scene, const SoftB
     const Vec3 start = rest.row(Eigen::Index(row));
     const Vec3 moved = displaced.row(Eigen::Index(row));
     const Vec3 force = springs[row].spring.stiffness * (springs[row].displacement - moved);
-    const Vec3 place = start + moved;
+    const Vec3 position = start + moved;
     const double area = skin.areas[Eigen::Index(row)];
     reaction.area += area;
-    reaction.position += area * place;
+    reaction.position += area * position;
     reaction.displacement += area * moved;
     reaction.force += force;
-    reaction.torque += ((small ? start : place) - centre).cross(force);
+    reaction.torque += ((small ? start : position) - centre).cross(force);
   }
   return reaction;
 }

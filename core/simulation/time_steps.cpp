@@ -26,10 +26,10 @@ constexpr double kWorthwhile = 2;  // times faster, to accept the numerical damp
 /// s; the slowest vibration of all bodies (estimated as in rayleigh_from_damping()).
 double shortest_period(const World& world) {
   double shortest = std::numeric_limits<double>::infinity();
-  for (const SoftBody& actor : world.bodies) {
-    const Points& rest = actor.rest_positions;
+  for (const SoftBody& body : world.bodies) {
+    const Points& rest = body.rest_positions;
     const double length = (rest.colwise().maxCoeff() - rest.colwise().minCoeff()).maxCoeff();
-    const Material& material = actor.material;
+    const Material& material = body.material;
     shortest = std::min(shortest, 2 * length / std::sqrt(material.shear_modulus() / material.density));
   }
   return shortest;
@@ -84,13 +84,13 @@ StepPlan plan_steps(const World& world, const Scene& scene) {
                                                   why_not));
   }
   if (plan.scheme == Solver::kAuto) {
-    const double dear = implicit_cost(world) * double(long_ones);
-    const bool is_implicit = why_not.empty() && brick_steps > kWorthwhile * dear * bricks;
+    const double step_cost = implicit_cost(world) * double(long_ones);
+    const bool is_implicit = why_not.empty() && brick_steps > kWorthwhile * step_cost * bricks;
     plan.scheme = is_implicit ? Solver::kBdf2 : Solver::kEuler;
     plan.reason = fmt::format(
         "{}: {} explicit steps a frame against {} implicit ones, which take as long as about "
         "{:.0f} explicit ones{}",
-        is_implicit ? "bdf2" : "euler", std::lround(brick_steps / bricks), long_ones, dear,
+        is_implicit ? "bdf2" : "euler", std::lround(brick_steps / bricks), long_ones, step_cost,
         why_not.empty() ? "" : fmt::format("; {}, which needs explicit ones", why_not));
   }
   plan.steps = short_ones;

@@ -47,10 +47,10 @@ struct Facet {
   Eigen::RowVector3d area;  // m^2, outward
 };
 
-Facet facet_of(const Triangles& triangles, int row, const Points& places) {
+Facet facet_of(const Triangles& triangles, int row, const Points& positions) {
   const std::array<int, 3> at{triangles(row, 0), triangles(row, 1), triangles(row, 2)};
-  const Vec3 ahead = places.row(at[1]) - places.row(at[0]);
-  const Vec3 aside = places.row(at[2]) - places.row(at[0]);
+  const Vec3 ahead = positions.row(at[1]) - positions.row(at[0]);
+  const Vec3 aside = positions.row(at[2]) - positions.row(at[0]);
   return {at, 0.5 * ahead.cross(aside).transpose()};
 }
 
@@ -59,12 +59,12 @@ void press(const Facet& facet, const Eigen::RowVector3d& force, Points& at_point
 }
 
 /// `places`: of the points of the loaded skin, m.
-void add_pressures(const std::vector<SkinPressure>& pressures, const Triangles& triangles, const Points& places,
+void add_pressures(const std::vector<SkinPressure>& pressures, const Triangles& triangles, const Points& positions,
                    Points& at_points) {
   for (const SkinPressure& pressure : pressures) {
     const SkinPart& part = *pressure.part;
     for (std::size_t row = 0; row < part.triangles.size(); ++row) {
-      const Facet facet = facet_of(triangles, part.triangles[row], places);
+      const Facet facet = facet_of(triangles, part.triangles[row], positions);
       for (int corner = 0; corner < 3; ++corner) {
         at_points.row(facet.corners[corner]) -= part.weights(row, corner) * pressure.pressure * facet.area;
       }
@@ -74,25 +74,25 @@ void add_pressures(const std::vector<SkinPressure>& pressures, const Triangles& 
 
 }  // namespace
 
-LoadedSkin loaded_skin(const SoftBody& actor) {
-  if (actor.contact_triangles.rows() > 0) return {actor.contacts, actor.contact_triangles};
-  return {actor.skin_embedding, actor.skin.triangles};
+LoadedSkin loaded_skin(const SoftBody& body) {
+  if (body.contact_triangles.rows() > 0) return {body.contacts, body.contact_triangles};
+  return {body.skin_embedding, body.skin.triangles};
 }
 
-Points pressure_forces(const SoftBody& actor, const std::vector<SkinPressure>& pressures) {
-  Points forces = Points::Zero(actor.node_count(), 3);
+Points pressure_forces(const SoftBody& body, const std::vector<SkinPressure>& pressures) {
+  Points forces = Points::Zero(body.node_count(), 3);
   if (pressures.empty()) return forces;
-  const LoadedSkin skin = loaded_skin(actor);
-  const Points places = deform_points(actor.grid, skin.points, actor.positions);
-  Points at_points = Points::Zero(places.rows(), 3);
-  add_pressures(pressures, skin.triangles, places, at_points);
-  add_carried(actor, skin.points, at_points, forces);
+  const LoadedSkin skin = loaded_skin(body);
+  const Points positions = deform_points(body.grid, skin.points, body.positions);
+  Points at_points = Points::Zero(positions.rows(), 3);
+  add_pressures(pressures, skin.triangles, positions, at_points);
+  add_carried(body, skin.points, at_points, forces);
   return forces;
 }
 
 const Points& LoadForces::forces() {
   static_cast<void>(forces_beside_muscles());
-  for (const Muscle& muscle : actor_.loads.muscles) add_muscle(muscle);
+  for (const Muscle& muscle : body_.loads.muscles) add_muscle(muscle);
   return forces_;
 }
 
@@ -100,22 +100,22 @@ const Points& LoadForces::forces_beside_muscles() {
   if (steps_to_update_ == 0) find_skin_forces();
   steps_to_update_ = (steps_to_update_ + 1) % kStepsBetweenLooks;
   forces_ = skin_forces_;
-  if (actor_.loads.forces.rows() > 0) forces_ += actor_.loads.forces;
+  if (body_.loads.forces.rows() > 0) forces_ += body_.loads.forces;
   return forces_;
 }
 
 void LoadForces::find_skin_forces() {
-  const Body& body = actor_;
+  const Body& body = body_;
   skin_forces_ = Points::Zero(body.node_count(), 3);
-  if (actor_.loads.pressures.empty() && !world_.wind.blows()) return;
-  const LoadedSkin skin = loaded_skin(actor_);
-  const Points places = deform_points(body.grid, skin.points, body.positions);
-  Points at_points = Points::Zero(places.rows(), 3);
-  add_pressures(actor_.loads.pressures, skin.triangles, places, at_points);
+  if (body_.loads.pressures.empty() && !world_.wind.blows()) return;
+  const LoadedSkin skin = loaded_skin(body_);
+  const Points positions = deform_points(body.grid, skin.points, body.positions);
+  Points at_points = Points::Zero(positions.rows(), 3);
+  add_pressures(body_.loads.pressures, skin.triangles, positions, at_points);
   if (world_.wind.blows()) {
     const Points speeds = deform_points(body.grid, skin.points, body.velocities);
     for (int row = 0; row < skin.triangles.rows(); ++row) {
-      const Facet facet = facet_of(skin.triangles, row, places);
+      const Facet facet = facet_of(skin.triangles, row, positions);
       const auto& at = facet.corners;
       const Eigen::RowVector3d seen =
           world_.wind.velocity.transpose() - (speeds.row(at[0]) + speeds.row(at[1]) + speeds.row(at[2])) / 3;
@@ -129,7 +129,7 @@ void LoadForces::find_skin_forces() {
 }
 
 void LoadForces::add_muscle(const Muscle& muscle) {
-  const Body& body = actor_;
+  const Body& body = body_;
   const double h = body.grid.brick_size;
   const auto [frame, stress] = tension_of(muscle, body.material);
   for (const int brick : muscle.bricks) {

@@ -9,20 +9,20 @@ struct LoadedSkin {
   const Triangles& triangles;
 };
 
-[[nodiscard]] LoadedSkin loaded_skin(const SoftBody& actor);
+[[nodiscard]] LoadedSkin loaded_skin(const SoftBody& body);
 
 /// The nodal forces of pressures on a body where it is; m x 3, N.
-[[nodiscard]] Points pressure_forces(const SoftBody& actor, const std::vector<SkinPressure>& pressures);
+[[nodiscard]] Points pressure_forces(const SoftBody& body, const std::vector<SkinPressure>& pressures);
 
 /// The nodal forces of a body's loads and of the wind. Those on the skin are updated every few steps only, since they
 /// change as slowly as the skin turns.
 class LoadForces {
  public:
   /// Both must outlive it.
-  LoadForces(const SoftBody& actor, const World& world) : actor_(actor), world_(world) {}
+  LoadForces(const SoftBody& body, const World& world) : body_(body), world_(world) {}
 
   /// Whether there are any loads or wind.
-  [[nodiscard]] bool any() const { return !actor_.loads.empty() || world_.wind.blows(); }
+  [[nodiscard]] bool any() const { return !body_.loads.empty() || world_.wind.blows(); }
 
   /// For the body's current positions and velocities; m x 3, N. Call once per step.
   [[nodiscard]] const Points& forces();
@@ -33,7 +33,7 @@ class LoadForces {
   void find_skin_forces();
   void add_muscle(const Muscle& muscle);
 
-  const SoftBody& actor_;
+  const SoftBody& body_;
   const World& world_;
   Points skin_forces_;  // m x 3, N
   Points forces_;       // m x 3, N

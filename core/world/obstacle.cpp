@@ -15,14 +15,14 @@ namespace {
 constexpr double kOnSide = 1e-9;  // barycentric coordinates below this are on a side
 
 /// Barycentric coordinates of a point in the plane of a triangle.
-Vec3 barycentric(const std::array<Vec3, 3>& x, const Vec3& place) {
+Vec3 barycentric(const std::array<Vec3, 3>& x, const Vec3& position) {
   const Vec3 normal = (x[1] - x[0]).cross(x[2] - x[0]);
   const double area = normal.squaredNorm();
   Vec3 weights;
   for (std::size_t i = 0; i < 3; ++i) {
     const Vec3& a = x[(i + 1) % 3];
     const Vec3& b = x[(i + 2) % 3];
-    weights[i] = (b - a).cross(place - a).dot(normal) / area;
+    weights[i] = (b - a).cross(position - a).dot(normal) / area;
   }
   return weights;
 }
@@ -58,10 +58,10 @@ class MeshDistance::Tree {
   [[nodiscard]] const Points& positions() const { return positions_; }
   [[nodiscard]] const Triangles& triangles() const { return triangles_; }
 
-  [[nodiscard]] Nearest nearest(const Vec3& place) const {
-    const SurfacePlace found = surface_.at(place);
+  [[nodiscard]] Nearest nearest(const Vec3& position) const {
+    const SurfacePlace found = surface_.at(position);
     const Vec3 outward = normal_at(found.triangle, found.point);
-    const Vec3 off = place - found.point;
+    const Vec3 off = position - found.point;
     const double distance = found.distance;
     const double sign = off.dot(outward) < 0 ? -1 : 1;
     // On the surface itself the direction to it is undefined.
@@ -104,7 +104,7 @@ MeshDistance::MeshDistance(const Points& positions, const Triangles& triangles)
 
 MeshDistance::~MeshDistance() = default;
 
-MeshDistance::Nearest MeshDistance::nearest(const Vec3& place) const { return tree_->nearest(place); }
+MeshDistance::Nearest MeshDistance::nearest(const Vec3& position) const { return tree_->nearest(position); }
 
 const Points& MeshDistance::positions() const { return tree_->positions(); }
 
@@ -199,12 +199,12 @@ void move_obstacles(std::vector<Obstacle>& obstacles, double time) {
   for (Obstacle& obstacle : obstacles) obstacle.pose = pose_after(obstacle, time);
 }
 
-Vec3 velocity_at(const Obstacle& obstacle, const Pose& pose, const Vec3& place) {
-  return obstacle.velocity + obstacle.spin.cross(place - pose.translation);
+Vec3 velocity_at(const Obstacle& obstacle, const Pose& pose, const Vec3& position) {
+  return obstacle.velocity + obstacle.spin.cross(position - pose.translation);
 }
 
-Gap signed_distance(const Shape& shape, const Pose& pose, const Vec3& place) {
-  const Vec3 x = pose.rotation.transpose() * (place - pose.translation);
+Gap signed_distance(const Shape& shape, const Pose& pose, const Vec3& position) {
+  const Vec3 x = pose.rotation.transpose() * (position - pose.translation);
   Gap gap = std::visit([&](const auto& solid) { return gap_in_frame(solid, x); }, shape);
   gap.normal = pose.rotation * gap.normal;
   return gap;

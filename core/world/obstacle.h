@@ -25,7 +25,7 @@ class MeshDistance {
   /// The sign follows from the normal at the closest point of the surface, at edges and vertices from the
   /// angle-weighted mean of the adjacent normals (J. Baerentzen and H. Aanaes, "Signed distance computation using the
   /// angle weighted pseudonormal", IEEE TVCG 11(3), 2005).
-  [[nodiscard]] Nearest nearest(const Vec3& place) const;
+  [[nodiscard]] Nearest nearest(const Vec3& position) const;
 
   [[nodiscard]] const Points& positions() const;
   [[nodiscard]] const Triangles& triangles() const;
@@ -92,7 +92,7 @@ struct Obstacle {
 void move_obstacles(std::vector<Obstacle>& obstacles, double time);
 
 /// The velocity of the obstacle's material at a point of the world, m/s.
-[[nodiscard]] Vec3 velocity_at(const Obstacle& obstacle, const Pose& pose, const Vec3& place);
+[[nodiscard]] Vec3 velocity_at(const Obstacle& obstacle, const Pose& pose, const Vec3& position);
 
 /// The distance of a point from a solid, m, negative inside, and its gradient, the outward normal. Never more than the
 /// true distance.
@@ -100,6 +100,6 @@ struct Gap {
   double distance;
   Vec3 normal;
 };
-[[nodiscard]] Gap signed_distance(const Shape& shape, const Pose& pose, const Vec3& place);
+[[nodiscard]] Gap signed_distance(const Shape& shape, const Pose& pose, const Vec3& position);
 
 }  // namespace sprung

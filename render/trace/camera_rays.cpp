@@ -27,9 +27,9 @@ CameraRays::CameraRays(const Camera& camera, const StageSpace& space, double asp
   half_width_ = half_height_ * float(aspect);
 }
 
-Ray CameraRays::through(const Eigen::Vector2f& place, const Eigen::Vector2f& lens) const {
+Ray CameraRays::through(const Eigen::Vector2f& position, const Eigen::Vector2f& lens) const {
   const Eigen::Vector3f aside =
-      half_width_ * (2 * place.x() - 1 - shift_) * right_ + half_height_ * (1 - 2 * place.y()) * up_;
+      half_width_ * (2 * position.x() - 1 - shift_) * right_ + half_height_ * (1 - 2 * position.y()) * up_;
   Ray ray;
   ray.origin = is_parallel_ ? (eye_ + aside).eval() : eye_;
   ray.direction = is_parallel_ ? ahead_ : (ahead_ + aside).eval();

@@ -14,7 +14,7 @@ class CameraRays {
   CameraRays(const Camera& camera, const StageSpace& space, double aspect);
 
   /// Through (x, y) of the picture, 0 to 1 from the top left, and a point of the lens (both random, 0 to 1).
-  [[nodiscard]] Ray through(const Eigen::Vector2f& place, const Eigen::Vector2f& lens) const;
+  [[nodiscard]] Ray through(const Eigen::Vector2f& position, const Eigen::Vector2f& lens) const;
   [[nodiscard]] bool has_lens() const { return lens_radius_ > 0; }
 
  private:

@@ -86,13 +86,13 @@ TEST_F(CrossingsOfARun, AreNotOfMeshesNorOfStatics) {
   EXPECT_NE(run("inspect beam.h5 --crossings").err.find("is about motions"), std::string::npos);
 }
 
-Simulation boxes(const std::string& contact, Film& scene) {
-  scene = parse_scene(contact +
-                          "[[body]]\nbox = [0.04, 0.04, 0.04]\nbrick_size = 0.01\nmaterial = \"silicone-a20\"\n"
-                          "copies = { count = [1, 2, 1], spacing = [0, 0.039, 0] }\n[[obstacle]]\nplane = {}\n",
-                      "/scene.toml", SceneFiles::kAnywhere);
+Simulation boxes(const std::string& contact, Film& film) {
+  film = parse_scene(contact +
+                         "[[body]]\nbox = [0.04, 0.04, 0.04]\nbrick_size = 0.01\nmaterial = \"silicone-a20\"\n"
+                         "copies = { count = [1, 2, 1], spacing = [0, 0.039, 0] }\n[[obstacle]]\nplane = {}\n",
+                     "/scene.toml", SceneFiles::kAnywhere);
   const Observer silent;
-  return prepare_simulation(scene, silent);
+  return prepare_simulation(film, silent);
 }
 
 /// The two boxes overlap by 1 mm in the beginning.

@@ -125,7 +125,7 @@ TEST_P(EveryMesh, BehavesAsTheTableSays) {
   EXPECT_NE(report.find(row.is_closed ? "\"closed\": true" : "\"closed\": false"), std::string::npos) << report;
   EXPECT_EQ(number_at(report, {"mesh", "solids"}), row.solids);
   if (!test::kSanitized) {
-    EXPECT_EQ(number_at(report, {"bricks", "solids"}), row.solids) << "parts came apart, or hang together";
+    EXPECT_EQ(number_at(report, {"bricks", "solids"}), row.solids) << "parts came apart, or stayed connected";
   }
   if (row.volume) {
     EXPECT_NEAR(number_at(report, {"mesh", "volume"}) / *row.volume, 1, 1e-3);

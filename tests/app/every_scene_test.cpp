@@ -33,9 +33,9 @@ TEST_P(EveryScene, BeginsSoundly) {
   EXPECT_EQ(recording.frames.size(), 2U);
   EXPECT_LT(silent.deepest(), 0.01 * simulation.size);
   for (const Crossings& frame : recording.crossings) EXPECT_LT(frame.depth, 0.01 * simulation.size);
-  for (const SoftBody& actor : simulation.world.bodies) {
-    EXPECT_EQ(inverted_bricks(actor), 0);
-    EXPECT_NE(actor.positions, actor.rest_positions) << "nothing moves";
+  for (const SoftBody& body : simulation.world.bodies) {
+    EXPECT_EQ(inverted_bricks(body), 0);
+    EXPECT_NE(body.positions, body.rest_positions) << "nothing moves";
   }
 }
 

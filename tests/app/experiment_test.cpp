@@ -34,10 +34,10 @@ pin = "root"
 Film scene_of(const std::string& text) { return parse_scene(text, "/scene.toml"); }
 
 /// What simulate() makes of a scene.
-Recording record(const Film& scene, Simulation& simulation) {
+Recording record(const Film& film, Simulation& simulation) {
   const Observer silent;
-  simulation = prepare_simulation(scene, silent);
-  return simulate(simulation, scene, silent);
+  simulation = prepare_simulation(film, silent);
+  return simulate(simulation, film, silent);
 }
 Recording record(const std::string& text) {
   Simulation simulation;
@@ -115,8 +115,8 @@ TEST(Experiment, MovedPinsArriveInMotionAndAtRest) {
     const Body& body = simulation.world.bodies.at(0);
     const Points goal =
         body.rest_positions + pin_movements(scene_of("duration = 0.25\n" + text), simulation, 0, 0.25, false);
-    for (const KinematicNode& held : simulation.world.bodies.at(0).pinned) {
-      EXPECT_LT((body.positions.row(held.node) - goal.row(held.node)).norm(), 1e-9) << scheme;
+    for (const KinematicNode& pinned : simulation.world.bodies.at(0).pinned) {
+      EXPECT_LT((body.positions.row(pinned.node) - goal.row(pinned.node)).norm(), 1e-9) << scheme;
     }
   }
 }

@@ -30,12 +30,12 @@ std::vector<Vec3> path(const std::string& text) {
   const Film scene = parse_scene(text, "/scene.toml");
   const Observer silent;
   Simulation simulation = prepare_simulation(scene, silent);
-  std::vector<Vec3> places;
+  std::vector<Vec3> displacements;
   const Recording recording = simulate(simulation, scene, silent);
   for (const ProbeSample& sample : recording.probes.at(0).samples) {
-    places.push_back(sample.displacement);
+    displacements.push_back(sample.displacement);
   }
-  return places;
+  return displacements;
 }
 
 TEST(Handles, NodesAreAtTheirKeyframesInEveryFrame) {
@@ -43,51 +43,51 @@ TEST(Handles, NodesAreAtTheirKeyframesInEveryFrame) {
       "keyframes = [{ t = 0.12, translate = [0.3, 0, 0] }, { t = 0.2 }, { t = 0.5, rotate = [0, 90, 0], scale = 1.2, "
       "translate = [0, 0.1, 0] }]\n";
   for (const std::string scheme : {"euler", "verlet", "bdf2"}) {
-    const std::vector<Vec3> places = path(kCube + keyframes + "[solver]\nscheme = \"" + scheme + "\"\n");
-    ASSERT_EQ(places.size(), 11U);
-    EXPECT_LT((places[2] - Vec3(0.25, 0, 0)).norm(), 1e-9) << scheme;
-    EXPECT_LT((places[3] - Vec3(0.3 * 5 / 8, 0, 0)).norm(), 1e-9) << scheme;
-    EXPECT_LT(places[4].norm(), 1e-9) << scheme;
-    EXPECT_LT((places[7] - Vec3(0, 0.05, 0)).norm(), 1e-9) << scheme;
-    EXPECT_LT((places[10] - Vec3(0, 0.1, 0)).norm(), 1e-9) << scheme;
+    const std::vector<Vec3> displacements = path(kCube + keyframes + "[solver]\nscheme = \"" + scheme + "\"\n");
+    ASSERT_EQ(displacements.size(), 11U);
+    EXPECT_LT((displacements[2] - Vec3(0.25, 0, 0)).norm(), 1e-9) << scheme;
+    EXPECT_LT((displacements[3] - Vec3(0.3 * 5 / 8, 0, 0)).norm(), 1e-9) << scheme;
+    EXPECT_LT(displacements[4].norm(), 1e-9) << scheme;
+    EXPECT_LT((displacements[7] - Vec3(0, 0.05, 0)).norm(), 1e-9) << scheme;
+    EXPECT_LT((displacements[10] - Vec3(0, 0.1, 0)).norm(), 1e-9) << scheme;
   }
 }
 
 /// Between frames: the pin lets go at 0.12 s, and the frame at 0.15 s shows 0.03 s of flight.
 TEST(Handles, WhatIsLetGoFliesOnWithItsVelocity) {
-  const std::vector<Vec3> places =
+  const std::vector<Vec3> displacements =
       path(kCube + "keyframes = [{ t = 1, translate = [2, 0, 0] }]\nuntil = 0.12\n[solver]\nscheme = \"verlet\"\n");
-  EXPECT_LT((places[2] - Vec3(0.2, 0, 0)).norm(), 1e-9);
+  EXPECT_LT((displacements[2] - Vec3(0.2, 0, 0)).norm(), 1e-9);
   for (const auto frame : {3, 6, 10}) {
     const double flight = 0.05 * frame - 0.12;
     const Vec3 expected(2 * 0.05 * frame, -5 * flight * flight, 0);
-    EXPECT_LT((places[frame] - expected).norm(), 1e-9) << frame;
+    EXPECT_LT((displacements[frame] - expected).norm(), 1e-9) << frame;
   }
 }
 
 TEST(Handles, WhatIsCaughtLateStaysWhereItIs) {
-  const std::vector<Vec3> places = path(kCube + "from = 0.3\n");
-  EXPECT_NEAR(places[6].y(), -5 * 0.09, 2e-3);
-  EXPECT_NEAR(places[10].y(), places[6].y(), 1e-9);
+  const std::vector<Vec3> displacements = path(kCube + "from = 0.3\n");
+  EXPECT_NEAR(displacements[6].y(), -5 * 0.09, 2e-3);
+  EXPECT_NEAR(displacements[10].y(), displacements[6].y(), 1e-9);
 }
 
 /// The rest of a movement is made from where a pin takes its nodes.
 TEST(Handles, WhatIsCaughtLateIsCarriedOn) {
-  const std::vector<Vec3> places = path("gravity = [0, 0, 0]\n" + kCube.substr(kCube.find("[[body]]")) +
-                                        "from = 1\nkeyframes = [{ t = 2, translate = [2, 0, 0] }]\n");
-  EXPECT_LT(places[24].norm(), 1e-12);
-  EXPECT_LT((places[36] - Vec3(0.5, 0, 0)).norm(), 1e-9);
-  EXPECT_LT((places[71] - Vec3(1, 0, 0)).norm(), 1e-9);
+  const std::vector<Vec3> displacements = path("gravity = [0, 0, 0]\n" + kCube.substr(kCube.find("[[body]]")) +
+                                               "from = 1\nkeyframes = [{ t = 2, translate = [2, 0, 0] }]\n");
+  EXPECT_LT(displacements[24].norm(), 1e-12);
+  EXPECT_LT((displacements[36] - Vec3(0.5, 0, 0)).norm(), 1e-9);
+  EXPECT_LT((displacements[71] - Vec3(1, 0, 0)).norm(), 1e-9);
 }
 
 TEST(Handles, StaticsTakeKeyframesAtTheirShareOfTheFilm) {
-  const std::vector<Vec3> places =
+  const std::vector<Vec3> displacements =
       path("duration = 2\n" + kCube.substr(kCube.find("gravity")) +
            "keyframes = [{ t = 1, translate = [0.1, 0, 0] }]\n[solver]\nscheme = \"static\"\nload_steps = 4\n");
-  ASSERT_EQ(places.size(), 5U);
-  EXPECT_NEAR(places[1].x(), 0.05, 1e-9);
-  EXPECT_NEAR(places[2].x(), 0.1, 1e-9);
-  EXPECT_NEAR(places[4].x(), 0.1, 1e-9);
+  ASSERT_EQ(displacements.size(), 5U);
+  EXPECT_NEAR(displacements[1].x(), 0.05, 1e-9);
+  EXPECT_NEAR(displacements[2].x(), 0.1, 1e-9);
+  EXPECT_NEAR(displacements[4].x(), 0.1, 1e-9);
 }
 
 TEST(Handles, ScenesThatCannotBeAreRefused) {

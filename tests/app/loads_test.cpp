@@ -41,18 +41,18 @@ Recording record(const std::string& text) {
 }
 
 std::vector<Vec3> path_of_load(const std::string& text) {
-  std::vector<Vec3> places;
+  std::vector<Vec3> positions;
   const Recording recording = record(text);
-  for (const ProbeSample& sample : recording.probes.at(0).samples) places.push_back(sample.displacement);
-  return places;
+  for (const ProbeSample& sample : recording.probes.at(0).samples) positions.push_back(sample.displacement);
+  return positions;
 }
 
 TEST(SceneLoads, ForceActsFromItsKeyframeOn) {
-  const std::vector<Vec3> places =
+  const std::vector<Vec3> positions =
       path_of_load(kLoadedCube + "[[body.force]]\ntotal = [2, 0, 0]\ninterpolation = \"held\"\n" +
                    "keyframes = [{ t = 0, strength = 0 }, { t = 0.2, strength = 1 }]\n[solver]\nscheme = \"verlet\"\n");
-  EXPECT_LT(places[4].norm(), 1e-9);
-  EXPECT_NEAR(places[10].x(), 0.5 * 2 * 0.3 * 0.3, 1e-4);
+  EXPECT_LT(positions[4].norm(), 1e-9);
+  EXPECT_NEAR(positions[10].x(), 0.5 * 2 * 0.3 * 0.3, 1e-4);
 }
 
 /// Flat boxes: the cube held by its foot and pulled by its top, which no brick has its middle in.
@@ -75,9 +75,9 @@ TEST(SceneLoads, TotalIsSharedOutByVolumeAndPerVolumeIsNot) {
 }
 
 TEST(SceneLoads, GravityFollowsItsKeyframes) {
-  const std::vector<Vec3> places = path_of_load(
+  const std::vector<Vec3> positions = path_of_load(
       "gravity_keyframes = [{ t = 0, gravity = [0, -10, 0] }, { t = 0.5, gravity = [0, 0, 0] }]\n" + kLoadedCube);
-  EXPECT_NEAR(places[10].y(), -10 * 0.25 / 2 + 20 * 0.125 / 6, 2e-3);
+  EXPECT_NEAR(positions[10].y(), -10 * 0.25 / 2 + 20 * 0.125 / 6, 2e-3);
 }
 
 /// In motion that has died away, and at rest by statics: what holds the foot answers the force.

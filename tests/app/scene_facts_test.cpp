@@ -34,42 +34,42 @@ class FilmFacts {
   [[nodiscard]] int last() const { return isize(recording_.frames) - 1; }
   [[nodiscard]] int frame_at(double time) const { return int(std::lround(time * scene_.fps)); }
   [[nodiscard]] std::size_t bodies() const { return simulation_->world.bodies.size(); }
-  [[nodiscard]] const Body& body(std::size_t actor) const { return simulation_->world.bodies[actor]; }
+  [[nodiscard]] const Body& body(std::size_t row) const { return simulation_->world.bodies[row]; }
   [[nodiscard]] const Recording& recording() const { return recording_; }
 
-  [[nodiscard]] Points nodes(int frame, std::size_t actor = 0) const {
-    return recording_.frames.at(frame).at(actor).cast<double>();
+  [[nodiscard]] Points nodes(int frame, std::size_t row = 0) const {
+    return recording_.frames.at(frame).at(row).cast<double>();
   }
-  [[nodiscard]] Points skin(int frame, std::size_t actor = 0) const {
-    return simulation_->world.bodies[actor].skin_positions(nodes(frame, actor));
+  [[nodiscard]] Points skin(int frame, std::size_t row = 0) const {
+    return simulation_->world.bodies[row].skin_positions(nodes(frame, row));
   }
   /// Centre of mass.
-  [[nodiscard]] Vec3 middle(int frame, std::size_t actor = 0) const {
-    const auto& masses = body(actor).masses;
-    return (masses.transpose() * nodes(frame, actor)).transpose() / masses.sum();
+  [[nodiscard]] Vec3 middle(int frame, std::size_t row = 0) const {
+    const auto& masses = body(row).masses;
+    return (masses.transpose() * nodes(frame, row)).transpose() / masses.sum();
   }
-  /// Of the body that moves fastest as a whole, m/s.
+  /// Speed of the body that moves fastest as a whole, m/s.
   [[nodiscard]] double travel_speed(int frame) const {
     double most = 0;
-    for (std::size_t actor = 0; actor < bodies(); ++actor) {
-      most = std::max(most, (middle(frame, actor) - middle(frame - 1, actor)).norm() * scene_.fps);
+    for (std::size_t row = 0; row < bodies(); ++row) {
+      most = std::max(most, (middle(frame, row) - middle(frame - 1, row)).norm() * scene_.fps);
     }
     return most;
   }
   /// Of the fastest node of all bodies between this frame and the one before, m/s.
   [[nodiscard]] double speed(int frame) const {
     double most = 0;
-    for (std::size_t actor = 0; actor < bodies(); ++actor) {
-      most = std::max(most, (nodes(frame, actor) - nodes(frame - 1, actor)).rowwise().norm().maxCoeff() * scene_.fps);
+    for (std::size_t row = 0; row < bodies(); ++row) {
+      most = std::max(most, (nodes(frame, row) - nodes(frame - 1, row)).rowwise().norm().maxCoeff() * scene_.fps);
     }
     return most;
   }
   /// Of the nodes in a part of the body at rest (fractions of its bounding box), the mean place.
-  [[nodiscard]] Vec3 part(int frame, std::size_t actor, const Vec3& low, const Vec3& high) const {
-    const Points first = nodes(0, actor);
+  [[nodiscard]] Vec3 part(int frame, std::size_t row, const Vec3& low, const Vec3& high) const {
+    const Points first = nodes(0, row);
     const Vec3 origin = first.colwise().minCoeff();
     const Vec3 extent = first.colwise().maxCoeff() - first.colwise().minCoeff();
-    const Points now = nodes(frame, actor);
+    const Points now = nodes(frame, row);
     Vec3 sum = Vec3::Zero();
     int count = 0;
     for (int node = 0; node < first.rows(); ++node) {
@@ -86,7 +86,7 @@ class FilmFacts {
   /// skins).
   void expect_sound() const {
     int inverted = 0;
-    for (const SoftBody& actor : simulation_->world.bodies) inverted += inverted_bricks(actor);
+    for (const SoftBody& body : simulation_->world.bodies) inverted += inverted_bricks(body);
     EXPECT_EQ(inverted, 0);
     EXPECT_LT(observer_.deepest(), 0.01 * simulation_->size);
     for (const Crossings& frame : recording_.crossings) EXPECT_LT(frame.depth, 0.05 * simulation_->size);
@@ -187,10 +187,10 @@ TEST_F(SceneFacts, TwentyBodiesComeToRestInTheBowl) {
   film.expect_sound();
   EXPECT_EQ(film.bodies(), 20U);
   EXPECT_LT(film.travel_speed(film.last()), 0.02);
-  for (std::size_t actor = 0; actor < film.bodies(); ++actor) {
-    const Vec3 middle = film.middle(film.last(), actor);
-    EXPECT_LT(std::max(std::abs(middle.x()), std::abs(middle.z())), 0.12) << actor;
-    EXPECT_GT(middle.y(), 0.005) << actor;
+  for (std::size_t body = 0; body < film.bodies(); ++body) {
+    const Vec3 middle = film.middle(film.last(), body);
+    EXPECT_LT(std::max(std::abs(middle.x()), std::abs(middle.z())), 0.12) << body;
+    EXPECT_GT(middle.y(), 0.005) << body;
   }
 }
 
@@ -201,11 +201,11 @@ TEST_F(SceneFacts, StackOfFiveStands) {
   double fastest = 0;  // of the last quarter of a second: all five swing together
   for (int back = 0; back < 6; ++back) fastest = std::max(fastest, film.travel_speed(film.last() - back));
   EXPECT_LT(fastest, 0.02);
-  for (std::size_t actor = 0; actor < 5; ++actor) {
-    const Vec3 shift = film.middle(film.last(), actor) - film.middle(0, actor);
-    EXPECT_LT(std::hypot(shift.x(), shift.z()), 0.01 * 0.08) << actor;
-    if (actor == 0) continue;
-    EXPECT_GT(film.middle(film.last(), actor).y(), film.middle(film.last(), actor - 1).y() + 0.04);
+  for (std::size_t body = 0; body < 5; ++body) {
+    const Vec3 shift = film.middle(film.last(), body) - film.middle(0, body);
+    EXPECT_LT(std::hypot(shift.x(), shift.z()), 0.01 * 0.08) << body;
+    if (body == 0) continue;
+    EXPECT_GT(film.middle(film.last(), body).y(), film.middle(film.last(), body - 1).y() + 0.04);
   }
 }
 
@@ -244,9 +244,9 @@ TEST_F(SceneFacts, FingersCloseOnEachOther) {
 TEST_F(SceneFacts, GlueHoldsASoftAndAStiffBlock) {
   const FilmFacts film("glue", {{"duration", "1.2"}});
   film.expect_sound();
-  const auto height = [&](int frame, std::size_t actor) {
-    return film.part(frame, actor, Vec3(0, 1, 0), Vec3(1, 1, 1)).y() -
-           film.part(frame, actor, Vec3(0, 0, 0), Vec3(1, 0, 1)).y();
+  const auto height = [&](int frame, std::size_t body) {
+    return film.part(frame, body, Vec3(0, 1, 0), Vec3(1, 1, 1)).y() -
+           film.part(frame, body, Vec3(0, 0, 0), Vec3(1, 0, 1)).y();
   };
   const int hanging = film.frame_at(0.55);
   EXPECT_GT(height(hanging, 0), 1.02 * height(0, 0));

@@ -82,11 +82,11 @@ class SelectorTest : public testing::Test {
   }
 
   /// Where the nodes are that the only pin holds, of a body whose middle is at (0, half its height, 0).
-  [[nodiscard]] std::vector<Vec3> held(const std::string& body, const std::string& selection) const {
+  [[nodiscard]] std::vector<Vec3> pinned(const std::string& body, const std::string& selection) const {
     const Simulation simulation = produce(body + "[[body.pin]]\n" + selection);
-    const SoftBody& actor = simulation.world.bodies.at(0);
+    const SoftBody& made = simulation.world.bodies.at(0);
     std::vector<Vec3> places;
-    for (const KinematicNode& node : actor.pinned) places.emplace_back(actor.rest_positions.row(node.node));
+    for (const KinematicNode& node : made.pinned) places.emplace_back(made.rest_positions.row(node.node));
     return places;
   }
 
@@ -101,9 +101,9 @@ class SelectorTest : public testing::Test {
 };
 
 TEST_F(SelectorTest, BallsHalfSpacesAndSingleNodes) {
-  EXPECT_EQ(held(kBox, "sphere = { center = [0, 0, 0], radius = 0.3 }").size(), 7U);
-  EXPECT_EQ(held(kBox, "half_space = { point = [0.5, 0.75, 0.5], normal = [0, 2, 0] }").size(), 50U);
-  const std::vector<Vec3> corner = held(kBox, "nearest = [0.9, 1, 1.2]");
+  EXPECT_EQ(pinned(kBox, "sphere = { center = [0, 0, 0], radius = 0.3 }").size(), 7U);
+  EXPECT_EQ(pinned(kBox, "half_space = { point = [0.5, 0.75, 0.5], normal = [0, 2, 0] }").size(), 50U);
+  const std::vector<Vec3> corner = pinned(kBox, "nearest = [0.9, 1, 1.2]");
   ASSERT_EQ(corner.size(), 1U);
   EXPECT_LT((corner[0] - Vec3(0.5, 1, 0.5)).norm(), 1e-12);
 }
@@ -120,10 +120,12 @@ TEST_F(SelectorTest, NamedPartsAndPaint) {
   for (const auto& [body, selection] : {std::pair{mesh_body("parts.obj", kTwoPartsObj), "part = \"lid\"\n"},
                                         std::pair{mesh_body("paint.ply", kPaintedPly), "painted = \"#ff0000\"\n"}}) {
     // What is nearest to the lid: a pyramid down to the middle; to the paint: the upper half. Pins only hold its skin.
-    const std::vector<Vec3> places = held(body, selection);
-    EXPECT_GE(places.size(), 25U) << selection;
-    for (const Vec3& place : places) EXPECT_GE(place.y(), 1) << selection;
-    EXPECT_EQ(std::count_if(places.begin(), places.end(), [](const Vec3& place) { return place.y() > 1.99; }), 25);
+    const std::vector<Vec3> positions = pinned(body, selection);
+    EXPECT_GE(positions.size(), 25U) << selection;
+    for (const Vec3& position : positions) EXPECT_GE(position.y(), 1) << selection;
+    EXPECT_EQ(
+        std::count_if(positions.begin(), positions.end(), [](const Vec3& position) { return position.y() > 1.99; }),
+        25);
   }
   EXPECT_EQ(stiff_bricks(mesh_body("paint.ply", kPaintedPly), "painted = \"#ff0000\"\n"), 32);
 }
@@ -147,7 +149,7 @@ f 5 8 7 6
   const std::string body = mesh_body("parts.obj", kTwoPartsObj);
   EXPECT_EQ(stiff_bricks(body, "mesh = \"part.obj\"\n"), 32);
   EXPECT_EQ(stiff_bricks(body + "rotation = [10, 20, 30]\nbrick_rotation = [0, 90, 0]\n", "mesh = \"part.obj\"\n"), 32);
-  for (const Vec3& place : held(body, "mesh = \"part.obj\"\n")) EXPECT_LT(place.x(), 0.02);
+  for (const Vec3& position : pinned(body, "mesh = \"part.obj\"\n")) EXPECT_LT(position.x(), 0.02);
 }
 
 TEST_F(SelectorTest, GradientsAreLinearBetweenTwoMaterials) {

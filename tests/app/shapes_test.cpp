@@ -76,20 +76,20 @@ TEST(Start, SpinTurnsABodyAboutItsMiddle) {
 }
 
 std::vector<Vec3> middles(const Simulation& simulation) {
-  std::vector<Vec3> places;
-  for (const SoftBody& actor : simulation.world.bodies) places.emplace_back(actor.positions.colwise().mean());
-  return places;
+  std::vector<Vec3> positions;
+  for (const SoftBody& body : simulation.world.bodies) positions.emplace_back(body.positions.colwise().mean());
+  return positions;
 }
 
 TEST(Copies, StandInRows) {
-  const std::vector<Vec3> places =
+  const std::vector<Vec3> positions =
       middles(produce("box = [0.1, 0.1, 0.1]\nbricks = 1\nposition = [1, 0, 0]\ncopies = { count = [2, 3, 1], spacing "
                       "= [0.5, 0.2, 0] }\n"
                       "[[body.pin]]\nbox = { min = [0, 0, 0], max = [1, 0.1, 1] }\n"));
-  ASSERT_EQ(places.size(), 6U);
+  ASSERT_EQ(positions.size(), 6U);
   for (std::size_t i = 0; i < 6; ++i) {
     const Vec3 expected(1 + 0.5 * double(i % 2), 0.05 + 0.2 * double(i / 2), 0);
-    EXPECT_LT((places[i] - expected).norm(), 1e-12);
+    EXPECT_LT((positions[i] - expected).norm(), 1e-12);
   }
 }
 
@@ -100,12 +100,12 @@ TEST(Copies, AreScatteredByTheirSeed) {
                 "= 0.2, turn = 180, seed = " +
                 seed + " }\n"));
   };
-  const std::vector<Vec3> places = scattered("3");
-  EXPECT_EQ(places, scattered("3"));
-  EXPECT_NE(places, scattered("4"));
+  const std::vector<Vec3> positions = scattered("3");
+  EXPECT_EQ(positions, scattered("3"));
+  EXPECT_NE(positions, scattered("4"));
   double furthest = 0;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const double shift = places[i].x() - double(i % 5);
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const double shift = positions[i].x() - double(i % 5);
     EXPECT_LE(std::abs(shift), 0.2);
     furthest = std::max(furthest, std::abs(shift));
   }

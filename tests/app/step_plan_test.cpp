@@ -35,7 +35,7 @@ TEST(StepPlanning, AutoTakesWhatIsForecastToBeQuicker) {
   EXPECT_NE(stiff.reason.find("explicit steps a frame"), std::string::npos);
 }
 
-/// A second block that may touch the first one makes implicit steps dearer, but does not forbid them.
+/// A second block that may touch the first one makes implicit steps more expensive, but does not forbid them.
 TEST(StepPlanning, BodiesThatTouchAreForecastDearer) {
   const Film scene = scene_by(Solver::kAuto);
   const auto two_blocks = [](double young) {
@@ -50,7 +50,7 @@ TEST(StepPlanning, BodiesThatTouchAreForecastDearer) {
   EXPECT_EQ(plan_steps(two_blocks(young), scene).scheme, Solver::kEuler);
 }
 
-/// Contact makes implicit steps dearer.
+/// Contact makes implicit steps more expensive.
 TEST(StepPlanning, BodiesThatMeetNothingOrHangAreForecastCheaper) {
   const Film scene = scene_by(Solver::kAuto);
   const auto alone = [](World world) {

@@ -76,7 +76,7 @@ void print_table(const std::filesystem::path& file) {
   const Frames all = frames_of(cache);
   const double fps = all.frames.size() > 1 ? 1 / (all.frames[1].progress - all.frames[0].progress) : 24;
   long nodes = 0;
-  for (const SoftBody& actor : cache.header().simulation.world.bodies) nodes += actor.grid.node_count();
+  for (const SoftBody& body : cache.header().simulation.world.bodies) nodes += body.grid.node_count();
   fmt::print("{} nodes, {} frames\n", nodes, all.frames.size());
   fmt::print(
       "| error allowed | kB without frames | kB a frame | times smaller than in memory | MB/s written | MB/s read |\n");

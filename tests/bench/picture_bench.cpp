@@ -50,7 +50,7 @@ Recording as_they_start(const Simulation& simulation) {
   Recording recording;
   recording.progress = {0};
   std::vector<Floats3>& nodes = recording.frames.emplace_back();
-  for (const SoftBody& actor : simulation.world.bodies) nodes.emplace_back(actor.positions.cast<float>());
+  for (const SoftBody& body : simulation.world.bodies) nodes.emplace_back(body.positions.cast<float>());
   return recording;
 }
 

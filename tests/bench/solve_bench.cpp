@@ -45,51 +45,53 @@ Body bear(int n, Model model) {
 struct BenchShape {
   const char* name;
   Body (*make)(int n, Model model);
-  int held_axis;  // where the lattice is lowest along it
+  int pinned_axis;  // where the lattice is lowest along it
 };
 constexpr std::array kShapes{BenchShape{"cantilever", cantilever, 0}, BenchShape{"bear", bear, 1}};
 
 constexpr std::array kModels{Model::kCalibrated, Model::kNeoHooke};
 
-struct Held {
-  SoftBody actor;
+struct SupportedBody {
+  SoftBody body;
   Supports supports;
   Points loads;
 
-  Held(const BenchShape& shape, int n, Model model)
-      : actor(shape.make(n, model)), supports(actor.node_count()), loads(actor.masses * Vec3(0, -1, 0).transpose()) {
-    const std::vector<Eigen::Vector3i>& lattice = actor.grid.lattice;
-    int low = lattice.front()[shape.held_axis];
-    for (const Eigen::Vector3i& place : lattice) low = std::min(low, place[shape.held_axis]);
-    for (int node = 0; node < actor.node_count(); ++node) {
-      if (lattice[node][shape.held_axis] != low) continue;
+  SupportedBody(const BenchShape& shape, int n, Model model)
+      : body(shape.make(n, model)), supports(body.node_count()), loads(body.masses * Vec3(0, -1, 0).transpose()) {
+    const std::vector<Eigen::Vector3i>& lattice = body.grid.lattice;
+    int low = lattice.front()[shape.pinned_axis];
+    for (const Eigen::Vector3i& place : lattice) low = std::min(low, place[shape.pinned_axis]);
+    for (int node = 0; node < body.node_count(); ++node) {
+      if (lattice[node][shape.pinned_axis] != low) continue;
       supports.fix(node);
-      actor.pinned.push_back({.node = node});
+      body.pinned.push_back({.node = node});
     }
   }
 };
 
-double static_solve(Held held, LinearSolver& system) {
-  const Points start = held.actor.positions;
-  return seconds([&] { solve_static(held.actor, held.supports, held.loads, start, system, {.tolerance = 1e-6}); });
+double static_solve(SupportedBody supported, LinearSolver& system) {
+  const Points start = supported.body.positions;
+  return seconds(
+      [&] { solve_static(supported.body, supported.supports, supported.loads, start, system, {.tolerance = 1e-6}); });
 }
 
 /// Linearize and solve once.
-double linear_solve(const Held& held, LinearSolver& system, double tolerance) {
+double linear_solve(const SupportedBody& supported, LinearSolver& system, double tolerance) {
   const StepTerms none;
-  const Eigen::Map<const Eigen::VectorXd> forces(held.loads.data(), held.loads.size());
+  const Eigen::Map<const Eigen::VectorXd> forces(supported.loads.data(), supported.loads.size());
   return seconds([&] {
-    if (!system.linearize(held.actor, held.supports, false, none) || system.solve(forces, tolerance).size() == 0) {
+    if (!system.linearize(supported.body, supported.supports, false, none) ||
+        system.solve(forces, tolerance).size() == 0) {
       std::abort();
     }
   });
 }
 
-double diagonal_solve(const Held& held) {
-  const FreeDofs dofs(held.supports);
-  const Eigen::Map<const Eigen::VectorXd> forces(held.loads.data(), held.loads.size());
+double diagonal_solve(const SupportedBody& supported) {
+  const FreeDofs dofs(supported.supports);
+  const Eigen::Map<const Eigen::VectorXd> forces(supported.loads.data(), supported.loads.size());
   return seconds([&] {
-    const Eigen::SparseMatrix<double> matrix = stiffness_matrix(held.actor, dofs, false, {});
+    const Eigen::SparseMatrix<double> matrix = stiffness_matrix(supported.body, dofs, false, {});
     Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower> solver(matrix);
     solver.setTolerance(1e-6);
     if (solver.solve(dofs.gather(forces)).size() == 0) std::abort();
@@ -97,9 +99,9 @@ double diagonal_solve(const Held& held) {
 }
 
 /// Of the second of two steps, and how many Newton iterations it took.
-std::pair<double, long> implicit_step(Held held) {
+std::pair<double, long> implicit_step(SupportedBody supported) {
   World world;
-  world.bodies.push_back(std::move(held.actor));
+  world.bodies.push_back(std::move(supported.body));
   world.gravity = {0, -1, 0};
   ImplicitMotion motion(world, {});
   motion.advance(0.01, 1, 0);
@@ -108,8 +110,8 @@ std::pair<double, long> implicit_step(Held held) {
   return {time, motion.report().newton_iterations - before};
 }
 
-void print_row(const char* name, const Held& body, int direct_up_to) {
-  const int bricks = body.actor.grid.brick_count();
+void print_row(const char* name, const SupportedBody& body, int direct_up_to) {
+  const int bricks = body.body.grid.brick_count();
   const double linear = linear_solve(body, *make_multigrid_solver(), 1e-6);
   const double still = static_solve(body, *make_multigrid_solver());
   const auto [step, iterations] = implicit_step(body);
@@ -117,9 +119,9 @@ void print_row(const char* name, const Held& body, int direct_up_to) {
   const double direct = has_direct ? linear_solve(body, *make_direct_solver(), 0) : 0;
   const double still_direct = has_direct ? static_solve(body, *make_direct_solver()) : 0;
   const auto time = [](bool is_there, double value) { return is_there ? fmt::format("{:.3g}", value) : "-"; };
-  fmt::print("| {} | {} | {} | {:.3g} | {} | {:.3g} | {:.3g} | {} | {:.3g} | {} |\n", name,
-             model_name(body.actor.model), bricks, linear, time(has_direct, direct), diagonal_solve(body), still,
-             time(has_direct, still_direct), step, iterations);
+  fmt::print("| {} | {} | {} | {:.3g} | {} | {:.3g} | {:.3g} | {} | {:.3g} | {} |\n", name, model_name(body.body.model),
+             bricks, linear, time(has_direct, direct), diagonal_solve(body), still, time(has_direct, still_direct),
+             step, iterations);
   std::fflush(stdout);
 }
 
@@ -146,7 +148,7 @@ int main(int argc, char** argv) {
       "| implicit step, s | Newton iterations |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
   for (const BenchShape& shape : kShapes) {
     for (const int n : sizes) {
-      for (const Model model : kModels) print_row(shape.name, Held(shape, n, model), direct_up_to);
+      for (const Model model : kModels) print_row(shape.name, SupportedBody(shape, n, model), direct_up_to);
     }
   }
 }

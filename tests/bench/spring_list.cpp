@@ -73,9 +73,9 @@ void SpringList::couple(const Body& body, const Brick& brick, Points& forces) {
   CornerVectors<double> force{};
   for (std::size_t corner = 0; corner < 8; ++corner) {
     for (int k = 0; k < 3; ++k) {
-      const std::size_t place = 3 * corner + std::size_t(k);
-      x[place] = body.positions(brick.nodes[corner], k);
-      rates[place] = body.damping.beta * body.velocities(brick.nodes[corner], k);
+      const std::size_t index = 3 * corner + std::size_t(k);
+      x[index] = body.positions(brick.nodes[corner], k);
+      rates[index] = body.damping.beta * body.velocities(brick.nodes[corner], k);
     }
   }
   detail::axes_energy(body.law, body.grid.brick_size, x, body.damping.beta > 0 ? &rates : nullptr, force);

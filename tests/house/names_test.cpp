@@ -6,9 +6,12 @@
 #include <regex>
 #include <sstream>
 #include <string>
+#include <utility>
+#include <vector>
 
-/// Every type has a name of its own. Two of one name in one namespace are one to the linker, whichever it meets first,
-/// and no compiler says so: no file need include both.
+/// The words of the house. Every type has a name of its own: two of one name in one namespace are one to the linker,
+/// whichever it meets first, and no compiler says so, since no file need include both. And the field has a word for
+/// each thing, which sources and documentation use.
 namespace sprung {
 namespace {
 
@@ -45,6 +48,90 @@ TEST(Names, EveryTypeHasItsOwn) {
     }
   }
   EXPECT_GT(file_of.size(), 100U);
+}
+
+/// What was once written, and what the field says.
+const std::vector<std::pair<std::string, std::string>> kWords{
+    {"actors?", "body"},  // the cache's folders keep their names: /actors/1
+    {"HeldNode|held_nodes", "KinematicNode"},
+    {"Squeeze\\w*|squeeze_\\w+", "inversion"},
+    {"SkinStance|nearest_stance", "PointTriangleContact, closest_triangle"},
+    {"SkinPairs|near_skins", "ContactCandidates, broad_phase"},
+    {"start_from_before", "warm_start"},
+    {"look_ahead", "predict, extrapolate"},
+    {"Grip|grip", "friction"},
+    {"CarefulMotion", "AdaptiveIntegrator"},
+    {"MotionMemory", "IntegratorState"},
+    {"energy_from_nowhere|[Ee]nergy from nowhere", "energy gain"},
+    {"why_not_implicit", "check_implicit_support"},
+    {"\\w+_hardness", "stiffness"},
+    {"Mender|mended?|mending", "repair"},
+    {"mix_at_points", "interpolate"},
+    {"bound_answers", "compute_row_sums"},
+    {"longest_stride", "max_step_size"},
+    {"free_way", "cast_ray"},
+    {"few_words", "summary"},
+    {"gone_direct|will_do|WillDo", "fallbacks, fallback_tolerance"},
+    {"Pushed", "SolverNode, JacobianEntry"},
+    {"dear|dearer", "expensive"},
+    {"[Hh]angs? together|hung together", "connected"},
+    {"finds? no end|comes? to no end", "does not converge"},
+    {"may touch whom", "contact groups"},
+    {"no trouble pass", "retries"},
+    {"quick system", "default linear solver"},
+    {"cut in halves|made again in halves", "retried with half the step"},
+    {"clean boundary", "defective mesh"},
+};
+
+struct WordFound {
+  int line;
+  std::string word;
+  std::string field;
+};
+
+std::vector<WordFound> words_to_change(std::istream& file) {
+  static const std::vector<std::pair<std::regex, std::string>> kPatterns = [] {
+    std::vector<std::pair<std::regex, std::string>> patterns;
+    for (const auto& [word, field] : kWords) patterns.emplace_back("(?:^|[^/\\w])(" + word + ")\\b", field);
+    return patterns;
+  }();
+  std::vector<WordFound> found;
+  int number = 0;
+  for (std::string line; std::getline(file, line);) {
+    ++number;
+    std::smatch match;
+    for (const auto& [pattern, field] : kPatterns) {
+      if (std::regex_search(line, match, pattern)) found.push_back({number, match[1], field});
+    }
+  }
+  return found;
+}
+
+TEST(Names, AreTheWordsOfTheField) {
+  int count = 0;
+  for (const char* folder : {"core", "render", "app", "tests", "assets/docs"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(SPRUNG_SOURCE_DIR) / folder)) {
+      const std::string kind = entry.path().extension();
+      if (kind != ".h" && kind != ".cpp" && kind != ".py" && kind != ".md") continue;
+      if (entry.path().filename() == "names_test.cpp") continue;
+      std::ifstream file(entry.path());
+      for (const WordFound& found : words_to_change(file)) {
+        ADD_FAILURE() << fs::relative(entry.path(), SPRUNG_SOURCE_DIR).string() << ":" << found.line << ": '"
+                      << found.word << "' is not the field's word; say: " << found.field;
+      }
+      ++count;
+    }
+  }
+  EXPECT_GT(count, 500);
+}
+
+TEST(Names, WordsAreSeen) {
+  std::istringstream text("int factor = 1;\n// An actor.\nread(\"/actors/1\");\nparts hang together\n");
+  const std::vector<WordFound> found = words_to_change(text);
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[0].line, 2);
+  EXPECT_EQ(found[0].word, "actor");
+  EXPECT_EQ(found[1].word, "hang together");
 }
 
 TEST(Names, DefinitionsAreSeen) {

@@ -95,10 +95,10 @@ TEST(Passes, HoldTogetherInEveryPixel) {
 }
 
 /// From the middle of the picture, to the right and up, of a place that a camera with its target in the middle sees.
-Eigen::Vector2d seen_by(const Camera& camera, const Vec3& place) {
+Eigen::Vector2d seen_by(const Camera& camera, const Vec3& position) {
   const Vec3 ahead = (camera.target - camera.eye).normalized();
   const Vec3 right = ahead.cross(Vec3::UnitY()).normalized();
-  const Vec3 way = place - camera.eye;
+  const Vec3 way = position - camera.eye;
   const double scale = 0.5 * 91 / std::tan(camera.vertical_field_of_view * std::numbers::pi / 360) / ahead.dot(way);
   return {scale * right.dot(way), scale * right.cross(ahead).dot(way)};
 }
@@ -119,13 +119,13 @@ TEST(Passes, SayHowFarEverythingMovesInThePicture) {
   const Passes passes = renderer.draw_passes({now, camera}, {before, camera}, {after, later});
   std::array<int, 3> count{};
   for (std::size_t i = 0; i < passes.id.size(); ++i) {
-    const Vec3 place = Pixel{passes, i}.position();
+    const Vec3 position = Pixel{passes, i}.position();
     const auto id = std::size_t(passes.id[i]);
     ++count[id];
     const Vec3 way = id == 1 ? step : Vec3(0, 0, 0);
-    const Eigen::Vector2d here = seen_by(camera, place);
-    const Eigen::Vector2d from = seen_by(camera, place - way) - here;
-    const Eigen::Vector2d to = here - seen_by(later, place + 2 * way);
+    const Eigen::Vector2d here = seen_by(camera, position);
+    const Eigen::Vector2d from = seen_by(camera, position - way) - here;
+    const Eigen::Vector2d to = here - seen_by(later, position + 2 * way);
     for (std::size_t k = 0; k < 2; ++k) {
       EXPECT_NEAR(passes.motion[k][i], from[k], 2e-3) << i;
       EXPECT_NEAR(passes.motion[k + 2][i], to[k], 2e-3) << i;

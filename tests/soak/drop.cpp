@@ -44,12 +44,12 @@ SurfaceMesh mesh_of_shape(Shape shape, Dice& dice) {
 }
 
 /// A body of that size (m), as the program makes it; of bricks alone it touches by their corners.
-SoftBody make_actor(Shape shape, double size, Model model, const Material& material, Dice& dice) {
+SoftBody make_soft_body_of(Shape shape, double size, Model model, const Material& material, Dice& dice) {
   if (shape == Shape::kBricks) {
     const Eigen::Vector3i counts(dice.whole(1, 5), dice.whole(1, 5), dice.whole(1, 5));
-    SoftBody actor(make_body(make_box_grid(counts, size / counts.maxCoeff()), model, material));
-    actor.contacts = embed(actor.grid, actor.grid.rest_positions());
-    return actor;
+    SoftBody body(make_body(make_box_grid(counts, size / counts.maxCoeff()), model, material));
+    body.contacts = embed(body.grid, body.grid.rest_positions());
+    return body;
   }
   SurfaceMesh mesh = mesh_of_shape(shape, dice);
   mesh.positions = mesh.positions * dice.rotation().transpose();
@@ -60,8 +60,8 @@ SoftBody make_actor(Shape shape, double size, Model model, const Material& mater
   return make_soft_body(mesh, solid, std::move(filled.grid), model, material);
 }
 
-double lowest_point(const SoftBody& actor) {
-  return deform_points(actor.grid, actor.contacts, actor.positions).col(1).minCoeff();
+double lowest_point(const SoftBody& body) {
+  return deform_points(body.grid, body.contacts, body.positions).col(1).minCoeff();
 }
 
 }  // namespace
@@ -79,51 +79,51 @@ Drop random_drop(std::uint32_t seed, std::uint32_t index, Model model, double le
   Drop drop;
   drop.world.gravity = Vec3(0, -kGravity, 0);
   drop.world.obstacles = {level_ground(0, dice.between(0, 1))};
-  drop.world.bodies.push_back(make_actor(shape, size, model, material, dice));
-  SoftBody& actor = drop.world.bodies.front();
-  place(actor, dice.rotation(), Vec3::Zero());
+  drop.world.bodies.push_back(make_soft_body_of(shape, size, model, material, dice));
+  SoftBody& body = drop.world.bodies.front();
+  place(body, dice.rotation(), Vec3::Zero());
   const double gap = dice.between(0, 0.02) * size;
-  place(actor, Mat3::Identity(), Vec3(0, gap - lowest_point(actor), 0));
+  place(body, Mat3::Identity(), Vec3(0, gap - lowest_point(body), 0));
   const double speed = dice.whole(0, 4) == 0 ? 0 : dice.between(0, 10);
   const Vec3 velocity = speed * Vec3(dice.between(-0.5, 0.5), -1, dice.between(-0.5, 0.5));
-  actor.velocities.rowwise() = velocity.transpose();
-  stiffen_volume_guard(actor, kGravity, impact_speed(drop.world));
+  body.velocities.rowwise() = velocity.transpose();
+  stiffen_volume_guard(body, kGravity, impact_speed(drop.world));
   drop.size = size;
   drop.period = 2 * size / std::sqrt(material.shear_modulus() / material.density);
   const double fall = gap / std::max(speed, std::sqrt(kGravity * gap / 2));
   drop.duration = fall + kPeriods * drop.period;
   drop.description = fmt::format(
       "{} of {} bricks, {:.3g} m, E {:.3g} Pa, nu {:.3g}, {:.4g} kg/m^3, damping {:.3g}, {:.3g} m/s, friction {:.2g}",
-      kShapeNames[std::size_t(shape)], actor.grid.brick_count(), size, material.young, material.poisson,
+      kShapeNames[std::size_t(shape)], body.grid.brick_count(), size, material.young, material.poisson,
       material.density, material.damping, speed, drop.world.obstacles[0].friction);
   return drop;
 }
 
 DropResult run_drop(Drop& drop) {
   DropResult result;
-  const SoftBody& actor = drop.world.bodies.front();
+  const SoftBody& body = drop.world.bodies.front();
   const int frames = int(std::ceil(drop.duration / drop.period * kFramesPerPeriod));
   const double frame = drop.duration / frames;
-  const double scale = actor.masses.sum() * kGravity * actor.grid.brick_size;
-  const double first = energy_of(actor, drop.world.gravity).sum();
+  const double scale = body.masses.sum() * kGravity * body.grid.brick_size;
+  const double first = energy_of(body, drop.world.gravity).sum();
   AdaptiveIntegrator motion(drop.world, Scheme::kSymplecticEuler);
   try {
     for (int i = 0; i < frames; ++i) {
       const std::vector<GroupSteps> groups = motion.advance_frame(
           i * frame, frame, [](double) {}, [&](const std::string&) { ++result.halvings; });
-      result.brick_steps += groups[0].steps.count * actor.grid.brick_count();
-      result.deepest = std::max(result.deepest, -lowest_point(actor) / drop.size);
+      result.brick_steps += groups[0].steps.count * body.grid.brick_count();
+      result.deepest = std::max(result.deepest, -lowest_point(body) / drop.size);
       result.energy_gain =
-          std::max(result.energy_gain, (energy_of(actor, drop.world.gravity).sum() - first) / (first + scale));
-      result.inverted_on_the_way = std::max(result.inverted_on_the_way, inverted_bricks(actor));
+          std::max(result.energy_gain, (energy_of(body, drop.world.gravity).sum() - first) / (first + scale));
+      result.inverted_on_the_way = std::max(result.inverted_on_the_way, inverted_bricks(body));
     }
   } catch (const Error& error) {
     result.fault = error.what();
     return result;
   }
-  result.inverted_bricks = inverted_bricks(actor);
-  result.is_crushed = is_crushed(actor);
-  result.smallest_volume = smallest_volume_ratio(actor);
+  result.inverted_bricks = inverted_bricks(body);
+  result.is_crushed = is_crushed(body);
+  result.smallest_volume = smallest_volume_ratio(body);
   if (result.inverted_bricks > 0) result.fault = fmt::format("{} inverted bricks at the end", result.inverted_bricks);
   if (result.deepest > kMostDepth) result.fault += fmt::format("; {:.3g} of its size below the ground", result.deepest);
   if (result.energy_gain > kMostGain) result.fault += fmt::format("; {:.3g} more energy", result.energy_gain);

@@ -8,7 +8,7 @@ namespace sprung::test {
 
 /// A body of random shape, size, material, damping, place and speed over the ground.
 struct Drop {
-  World world;          // one actor
+  World world;          // one body
   double size = 0;      // m, longest side of the body
   double period = 0;    // s, of its slowest vibration, estimated
   double duration = 0;  // s: the fall, and a few periods

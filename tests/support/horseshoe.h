@@ -17,15 +17,15 @@ inline SoftBody closing_horseshoe(double h) {
   }
   grid.fill.assign(grid.cells.size(), 1.0);
   number_nodes(grid);
-  SoftBody actor(make_body(grid, Model::kCalibrated, test_material(0.3, 2e4)));
-  const SurfaceMesh surface = surface_of(actor.grid);
-  actor.contacts = embed(actor.grid, surface.positions);
-  actor.contact_triangles = surface.triangles;
-  for (int node = 0; node < actor.node_count(); ++node) {
-    const Vec3 x = actor.positions.row(node);
-    if (x.y() > 2 * h) actor.velocities(node, 0) = (x.x() < 3 * h ? 1.0 : -1.0) * 8 * (x.y() - 2 * h);
+  SoftBody body(make_body(grid, Model::kCalibrated, test_material(0.3, 2e4)));
+  const SurfaceMesh surface = surface_of(body.grid);
+  body.contacts = embed(body.grid, surface.positions);
+  body.contact_triangles = surface.triangles;
+  for (int node = 0; node < body.node_count(); ++node) {
+    const Vec3 x = body.positions.row(node);
+    if (x.y() > 2 * h) body.velocities(node, 0) = (x.x() < 3 * h ? 1.0 : -1.0) * 8 * (x.y() - 2 * h);
   }
-  return actor;
+  return body;
 }
 
 /// Between the inner sides of its arms, at the nodes where they are nearest to each other, m; below 0 where they cross.

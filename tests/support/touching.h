@@ -9,12 +9,12 @@ namespace sprung::test {
 /// A body of full bricks whose outer faces touch.
 inline SoftBody touching_box(const Eigen::Vector3i& counts, double brick_size, const Material& material,
                              const Vec3& position) {
-  SoftBody actor(make_body(make_box_grid(counts, brick_size), Model::kCalibrated, material));
-  const SurfaceMesh surface = surface_of(actor.grid);
-  actor.contacts = embed(actor.grid, surface.positions);
-  actor.contact_triangles = surface.triangles;
-  place(actor, Mat3::Identity(), position);
-  return actor;
+  SoftBody body(make_body(make_box_grid(counts, brick_size), Model::kCalibrated, material));
+  const SurfaceMesh surface = surface_of(body.grid);
+  body.contacts = embed(body.grid, surface.positions);
+  body.contact_triangles = surface.triangles;
+  place(body, Mat3::Identity(), position);
+  return body;
 }
 
 }  // namespace sprung::test

@@ -31,16 +31,16 @@ struct Place {
 
   /// The compiler is kept from knowing where that is: it would keep a hundred addresses at hand instead of one and the
   /// distances from it.
-  [[nodiscard]] [[gnu::always_inline]] Place seen_from(int place) const {
-    double* there = values + place;
+  [[nodiscard]] [[gnu::always_inline]] Place seen_from(int index) const {
+    double* there = values + index;
     asm("" : "+r"(there));
     return {there};
   }
-  [[nodiscard]] [[gnu::always_inline]] double* at(int array, int place = 0) const {
-    return values + array * kArraySize + place;
+  [[nodiscard]] [[gnu::always_inline]] double* at(int array, int index = 0) const {
+    return values + array * kArraySize + index;
   }
-  [[nodiscard]] [[gnu::always_inline]] Pack3 three(int array, int place = 0) const {
-    return {load(at(array, place)), load(at(array + 1, place)), load(at(array + 2, place))};
+  [[nodiscard]] [[gnu::always_inline]] Pack3 three(int array, int index = 0) const {
+    return {load(at(array, index)), load(at(array + 1, index)), load(at(array + 2, index))};
   }
   [[gnu::always_inline]] void set_three(int array, const Pack3& pack) const {
     store(pack.x, at(array));
@@ -50,8 +50,8 @@ struct Place {
 };
 
 using Energy = EnergyLanes;
-[[gnu::always_inline]] inline void add_energy(Energy& sums, int place, const Pack& energy) {
-  add(energy, sums.data() + place % kPackPadding);
+[[gnu::always_inline]] inline void add_energy(Energy& sums, int index, const Pack& energy) {
+  add(energy, sums.data() + index % kPackPadding);
 }
 
 /// All springs of one length at rest.
@@ -74,21 +74,21 @@ constexpr bool is_damped(Part part) { return part == Part::kElasticAndDamping ||
 
 constexpr bool reads_velocities(Part part) { return is_damped(part) || part == Part::kProduct; }
 
-/// What a spring without coupling makes of its ends: tension / length over its stiffness, (L - rest) / L + damping. And
-/// stretch / rest, for the energy.
-struct Answer {
-  Pack pull;
-  Pack stretch;
+/// A spring's force over its stiffness and the vector between its ends, (L - rest) / L + damping, without coupling; and
+/// its strain (L - rest) / rest, for the energy.
+struct SpringForce {
+  Pack per_length;
+  Pack strain;
 };
 
 /// `rate` gives the ends' difference of velocity, where it is asked.
 template <Part kPart, class Rate>
-[[gnu::always_inline]] inline Answer answer(const Kind& kind, const Pack3& d, const Rate& rate) {
+[[gnu::always_inline]] inline SpringForce spring_force(const Kind& kind, const Pack3& d, const Rate& rate) {
   const Pack squared = dot(d, d) + kind.shortest;
   const Pack inverse = inverse_root(squared);
-  Answer result{kPart == Part::kDamping ? Pack(0.0) : 1.0 - kind.rest * inverse, {}};
-  if constexpr (kPart == Part::kEnergy) result.stretch = kind.per_rest * (squared * inverse) - 1.0;
-  if constexpr (is_damped(kPart)) result.pull += (kind.lag * kind.rest) * (inverse * inverse) * dot(d, rate());
+  SpringForce result{kPart == Part::kDamping ? Pack(0.0) : 1.0 - kind.rest * inverse, {}};
+  if constexpr (kPart == Part::kEnergy) result.strain = kind.per_rest * (squared * inverse) - 1.0;
+  if constexpr (is_damped(kPart)) result.per_length += (kind.lag * kind.rest) * (inverse * inverse) * dot(d, rate());
   return result;
 }
 
@@ -101,8 +101,8 @@ struct Ends {
   Place from;
   Place to;
 
-  [[nodiscard]] [[gnu::always_inline]] Ends seen_from(int place) const {
-    return {from.seen_from(place), to.seen_from(place)};
+  [[nodiscard]] [[gnu::always_inline]] Ends seen_from(int index) const {
+    return {from.seen_from(index), to.seen_from(index)};
   }
   [[nodiscard]] [[gnu::always_inline]] Pack3 between(int array) const {
     return to.three(array, kShift == Shift::kTo ? 1 : 0) - from.three(array, kShift == Shift::kFrom ? 1 : 0);
@@ -158,13 +158,13 @@ template <Part kPart, Shift kShift>
 void pull_diagonals(const Kind& kind, double stiffness, const Ends<kShift>& diagonals, const RunPart& part,
                     const double* shares, Energy& energy) {
   for (int i = part.begin; i < part.end; i += kLanes) {
-    const Ends<kShift> ends = diagonals.seen_from(part.run.place + i);
+    const Ends<kShift> ends = diagonals.seen_from(part.run.index + i);
     const Pack share = stiffness * load(shares + part.run.first + i);
     const Pack3 d = ends.between(kPosition);
-    const Answer result = answer<kPart>(kind, d, [&] { return ends.between(kVelocity); });
-    ends.pull(share * result.pull * d);
+    const SpringForce result = spring_force<kPart>(kind, d, [&] { return ends.between(kVelocity); });
+    ends.pull(share * result.per_length * d);
     if constexpr (kPart == Part::kEnergy) {
-      add_energy(energy, i, (0.5 * kind.rest * kind.rest) * share * result.stretch * result.stretch);
+      add_energy(energy, i, (0.5 * kind.rest * kind.rest) * share * result.strain * result.strain);
     }
   }
 }
@@ -290,9 +290,9 @@ struct BrickRows {
   BrickRows(const Place& low, const Place& high, int pitch)
       : rows{low, {low.values + pitch}, high, {high.values + pitch}} {}
 
-  [[nodiscard]] [[gnu::always_inline]] BrickRows seen_from(int place) const {
+  [[nodiscard]] [[gnu::always_inline]] BrickRows seen_from(int index) const {
     BrickRows seen = *this;
-    for (Place& row : seen.rows) row = row.seen_from(place);
+    for (Place& row : seen.rows) row = row.seen_from(index);
     return seen;
   }
   [[nodiscard]] [[gnu::always_inline]] Place operator[](std::size_t row) const { return rows[row]; }
@@ -303,9 +303,9 @@ struct BrickRows {
 template <Layout kLayout, Part kPart>
 class PackForces {
  public:
-  [[gnu::always_inline]] PackForces(const BrickSprings& springs, const BrickRows& rows, const Pack& share, int place,
+  [[gnu::always_inline]] PackForces(const BrickSprings& springs, const BrickRows& rows, const Pack& share, int index,
                                     Energy& energy)
-      : springs_(springs), rows_(rows), share_(share), place_(place), energy_(energy) {}
+      : springs_(springs), rows_(rows), share_(share), place_(index), energy_(energy) {}
 
   /// Stiffnesses of the low faces in N/m.
   [[gnu::always_inline]] void pull(const Pack& xy, const Pack& zx, const Pack& yz) {
@@ -370,11 +370,11 @@ class PackForces {
   /// Force of a spring without coupling, from its low end to its high one.
   [[nodiscard]] [[gnu::always_inline]] Pack3 force_of(const Kind& kind, CornerPair pair, const Pack3& d,
                                                       const Pack& stiffness) const {
-    const Answer result = answer<kPart>(kind, d, [&] { return between(pair, kVelocity); });
+    const SpringForce result = spring_force<kPart>(kind, d, [&] { return between(pair, kVelocity); });
     if constexpr (kPart == Part::kEnergy) {
-      add_energy(energy_, place_, (0.5 * kind.rest * kind.rest) * stiffness * result.stretch * result.stretch);
+      add_energy(energy_, place_, (0.5 * kind.rest * kind.rest) * stiffness * result.strain * result.strain);
     }
-    return (stiffness * result.pull) * d;
+    return (stiffness * result.per_length) * d;
   }
 
   [[gnu::always_inline]] void pull_face(CornerPair pair, const Pack& stiffness) {
@@ -461,7 +461,7 @@ template <Layout kLayout, Part kPart>
 void brick_run(const BrickSprings& springs, const BrickRows& rows, const RunPart& part, const TileView& tile,
                Energy& energy) {
   for (int i = part.begin; i < part.end; i += kLanes) {
-    const BrickRows here = rows.seen_from(part.run.place + i);
+    const BrickRows here = rows.seen_from(part.run.index + i);
     const double* own = tile.shares + tile.packs[part.run.first + i / kPackPadding] + i % kPackPadding;
     const auto face = [&](int list) {
       return kLayout.faces ? Pack(springs.law.face * load(own + list * kPackPadding)) : Pack();

@@ -481,7 +481,7 @@ template <Part kPart>
 void solid_run(const SolidLaw& law, double beta, const BrickRows& rows, const RunPart& part, const TileView& tile,
                Energy& energy) {
   for (int i = part.begin; i < part.end; i += kLanes) {
-    const BrickRows here = rows.seen_from(part.run.place + i);
+    const BrickRows here = rows.seen_from(part.run.index + i);
     const double* own = tile.shares + tile.packs[part.run.first + i / kPackPadding] + i % kPackPadding;
     const auto act = [&](const auto& bricks) __attribute__((always_inline)) {
       if constexpr (kPart == Part::kEnergy) {

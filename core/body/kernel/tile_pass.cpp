@@ -20,7 +20,7 @@ namespace {
 constexpr int kStride = 96;  // places
 
 /// Packs that begin before this have their neighbours, a row and a place further on, before `place`.
-int before_neighbours(int place, int pitch) { return place - pitch - kPackPadding; }
+int before_neighbours(int index, int pitch) { return index - pitch - kPackPadding; }
 
 /// Goes through a tile from low to high z with two planes of nodes at hand. Within a plane, edges are measured where
 /// the nodes are in, bricks follow where their edges are measured, and the nodes below are done with where all their
@@ -95,7 +95,7 @@ class Walk {
   /// Behind the last place of a plane.
   [[nodiscard]] int end_of(int index) const {
     const Run& last = tile_.runs[tile_.first_run[index * kRunKinds + kPlaces + 1] - 1];
-    return last.place + last.count;
+    return last.index + last.count;
   }
 
   template <class Visit>
@@ -122,7 +122,7 @@ class Walk {
     const Place to = plane(entry.plane);
     entry.sums.go_to(nodes_to, [&](const RunPart& part) {
       if (part.begin == 0) {
-        for (int array = kForceHigh; array < kSums; ++array) *to.at(array, part.place() - 1) = 0;
+        for (int array = kForceHigh; array < kSums; ++array) *to.at(array, part.index() - 1) = 0;
       }
       part.each_pack([&](int place) {
         const Place here = to.seen_from(place);
@@ -141,7 +141,7 @@ class Walk {
   void copy_in(const Place& to, const RunPart& part) const {
     const std::ptrdiff_t first = 3 * std::ptrdiff_t(part.run.node + part.begin);
     take_apart<reads_velocities(kPart)>(input_.positions + first, input_.velocities + first, input_.drift, part.count(),
-                                        three(to, kPosition, part.place()), three(to, kVelocity, part.place()));
+                                        three(to, kPosition, part.index()), three(to, kVelocity, part.index()));
   }
 
   static Three<double> three(const Place& from, int array, int place) {
@@ -195,13 +195,13 @@ class Walk {
     const int whole = to - kPackPadding + 1;  // packs that begin before this end before `to`
     exit.edges.go_to(whole, [&](const RunPart& part) { pull_edges_of<kHasLayer>(exit.plane, part); });
     exit.nodes.go_to(whole, [&](const RunPart& part) {
-      const Three<double> forces = three(from, kForceLow, part.place());
+      const Three<double> forces = three(from, kForceLow, part.index());
       finish_nodes(input_, part.run.node + part.begin, part.count(), {forces.x, forces.y, forces.z});
     });
     exit.shared_nodes.go_to(whole, [&](const RunPart& part) {
       double* sums = shared_ + part.run.first + part.begin;
       const std::ptrdiff_t count = part.run.count;
-      const Three<double> forces = three(from, kForceLow, part.place());
+      const Three<double> forces = three(from, kForceLow, part.index());
       std::copy_n(forces.x, part.count(), sums);
       std::copy_n(forces.y, part.count(), sums + count);
       std::copy_n(forces.z, part.count(), sums + 2 * count);

@@ -8,7 +8,7 @@ namespace sprung {
 
 /// Places side by side in a plane of a tile.
 struct Run {
-  int place;  // of the first
+  int index;  // of the first
   int count;
   int first;  // of bricks: in `packs`; of faces: in `shares`; of shared nodes: in the shared forces
   int node;   // runs of nodes: the body's node that comes first; the others follow it

@@ -14,13 +14,13 @@ struct RunPart {
   int begin;
   int end;
 
-  [[nodiscard]] int place() const { return run.place + begin; }
+  [[nodiscard]] int index() const { return run.index + begin; }
   [[nodiscard]] int count() const { return end - begin; }
 
   /// Calls visit(place) for each pack.
   template <class Visit>
   void each_pack(const Visit& visit) const {
-    for (int i = begin; i < end; i += kLanes) visit(run.place + i);
+    for (int i = begin; i < end; i += kLanes) visit(run.index + i);
   }
 };
 
@@ -34,9 +34,9 @@ class RunCursor {
 
   /// Calls visit(part) for all nodes, or packs, that begin before this place and were not visited yet.
   template <class Visit>
-  void go_to(int place, const Visit& visit) {
-    while (run_ != last_ && run_->place + done_ < place) {
-      const int end = std::min(run_->count, (place - run_->place + unit_ - 1) & -unit_);
+  void go_to(int index, const Visit& visit) {
+    while (run_ != last_ && run_->index + done_ < index) {
+      const int end = std::min(run_->count, (index - run_->index + unit_ - 1) & -unit_);
       visit(RunPart{*run_, done_, end});
       done_ = end;
       if (end < run_->count) return;

@@ -13,7 +13,7 @@ constexpr int kMostRounds = 400;       // ... and of nodes that move as one, mor
 constexpr double kShareOfEach = 0.45;  // of what two features may come closer, that each may use
 
 /// m, that two features may come closer in a step; below 0: that they have to get apart.
-double free_way(const AwakePair& pair, double brick) {
+double allowed_approach(const AwakePair& pair, double brick) {
   return pair.gap < 0 ? 0 : kFreeShare * (pair.gap - kLeastGap * brick);
 }
 
@@ -47,7 +47,7 @@ void CrossingGuard::apply(const World& world, const std::vector<Eigen::VectorXd>
 bool CrossingGuard::may_meet(const AwakePair& pair, const Eigen::Vector4d& speeds, double dt) const {
   const int count = pair.pair.count;
   const double closing = speeds.tail(4 - count).maxCoeff() - speeds.head(count).minCoeff();
-  return closing * dt > free_way(pair, near_.brick());
+  return closing * dt > allowed_approach(pair, near_.brick());
 }
 
 bool CrossingGuard::find_met(double dt) {
@@ -86,7 +86,7 @@ bool CrossingGuard::keep_apart(double dt) {
         if (!may_meet(pair, speeds, dt)) continue;
         is_kept = false;
         if (round < kImpulseRounds) {
-          const bool is_at_places = -pair.weights.dot(speeds) * dt > free_way(pair, near_.brick());
+          const bool is_at_places = -pair.weights.dot(speeds) * dt > allowed_approach(pair, near_.brick());
           push(pair, speeds, is_at_places ? pair.weights : worst_corners(pair, speeds), dt);
         } else if (round < kSlowRounds) {
           slow_nodes(pair, speeds, dt);
@@ -99,54 +99,54 @@ bool CrossingGuard::keep_apart(double dt) {
   return has_changed;
 }
 
-bool CrossingGuard::is_held(const AwakePair& pair, int corner) const {
-  bool is_held = true;
-  near_.each_node(pair, corner, [&](std::size_t row, int node, double) { is_held &= inverse_mass(row, node) == 0; });
-  return is_held;
+bool CrossingGuard::is_pinned(const AwakePair& pair, int corner) const {
+  bool is_pinned = true;
+  near_.each_node(pair, corner, [&](std::size_t row, int node, double) { is_pinned &= inverse_mass(row, node) == 0; });
+  return is_pinned;
 }
 
 void CrossingGuard::push(const AwakePair& pair, const Eigen::Vector4d& speeds, const Eigen::Vector4d& weights,
                          double dt) {
-  struct Pushed {
+  struct JacobianEntry {
     std::size_t row;
     int node;
     double weight;
   };
-  std::array<Pushed, 32> parts;
+  std::array<JacobianEntry, 32> entries;
   std::size_t count = 0;
   for (int corner = 0; corner < 4; ++corner) {
     if (weights[corner] == 0) continue;
     near_.each_node(pair, corner, [&](std::size_t row, int node, double weight) {
       if (inverse_mass(row, node) == 0) return;
-      const auto end = parts.begin() + count;
-      const auto known =
-          std::find_if(parts.begin(), end, [&](const Pushed& part) { return part.node == node && part.row == row; });
-      if (known == end) parts[count++] = {row, node, 0};
+      const auto end = entries.begin() + count;
+      const auto known = std::find_if(
+          entries.begin(), end, [&](const JacobianEntry& entry) { return entry.node == node && entry.row == row; });
+      if (known == end) entries[count++] = {row, node, 0};
       known->weight += weights[corner] * weight;
     });
   }
-  double answer = 0;  // 1/kg
+  double response = 0;  // 1/kg
   for (std::size_t i = 0; i < count; ++i) {
-    answer += parts[i].weight * parts[i].weight * inverse_mass(parts[i].row, parts[i].node);
+    response += entries[i].weight * entries[i].weight * inverse_mass(entries[i].row, entries[i].node);
   }
-  if (!(answer > 0)) return;
-  const double way = free_way(pair, near_.brick());
-  const double impulse = ((way > 0 ? -0.5 * way : -way) / dt - weights.dot(speeds)) / answer;
+  if (!(response > 0)) return;
+  const double approach = allowed_approach(pair, near_.brick());
+  const double impulse = ((approach > 0 ? -0.5 * approach : -approach) / dt - weights.dot(speeds)) / response;
   for (std::size_t i = 0; i < count; ++i) {
-    const double change = impulse * parts[i].weight * inverse_mass(parts[i].row, parts[i].node);
-    near_.body(parts[i].row).velocities.row(parts[i].node) += (change * pair.normal).transpose();
+    const double change = impulse * entries[i].weight * inverse_mass(entries[i].row, entries[i].node);
+    near_.body(entries[i].row).velocities.row(entries[i].node) += (change * pair.normal).transpose();
   }
 }
 
 void CrossingGuard::slow_nodes(const AwakePair& pair, const Eigen::Vector4d& speeds, double dt) {
   const int count = pair.pair.count;
-  const bool is_first_held = is_held(pair, 0) && (count == 1 || is_held(pair, 1));
-  const bool is_second_held = is_held(pair, 2) && is_held(pair, 3) && (count == 2 || is_held(pair, 1));
+  const bool is_first_pinned = is_pinned(pair, 0) && (count == 1 || is_pinned(pair, 1));
+  const bool is_second_pinned = is_pinned(pair, 2) && is_pinned(pair, 3) && (count == 2 || is_pinned(pair, 1));
   double together = speeds.mean();
-  if (is_first_held) together = speeds.head(count).minCoeff();
-  if (is_second_held) together = speeds.tail(4 - count).maxCoeff();
-  const double share = is_first_held || is_second_held ? 2 * kShareOfEach : kShareOfEach;
-  const double most = share * std::max(0.0, free_way(pair, near_.brick())) / dt;
+  if (is_first_pinned) together = speeds.head(count).minCoeff();
+  if (is_second_pinned) together = speeds.tail(4 - count).maxCoeff();
+  const double share = is_first_pinned || is_second_pinned ? 2 * kShareOfEach : kShareOfEach;
+  const double most = share * std::max(0.0, allowed_approach(pair, near_.brick())) / dt;
   for (int corner = 0; corner < 4; ++corner) {
     const double sign = corner < count ? 1 : -1;
     near_.each_node(pair, corner, [&](std::size_t row, int node, double) {
@@ -170,12 +170,12 @@ std::size_t CrossingGuard::weld_of(std::size_t row, int node) {
 
 void CrossingGuard::weld(const AwakePair& pair) {
   std::vector<std::size_t> parts;
-  Vec3 held_velocity = Vec3::Zero();
-  int held = 0;
+  Vec3 pinned_velocity = Vec3::Zero();
+  int pinned = 0;
   for (int corner = 0; corner < 4; ++corner) {
-    if (is_held(pair, corner)) {
-      held_velocity += near_.velocity(pair, corner);
-      ++held;
+    if (is_pinned(pair, corner)) {
+      pinned_velocity += near_.velocity(pair, corner);
+      ++pinned;
       continue;
     }
     near_.each_node(pair, corner, [&](std::size_t row, int node, double) {
@@ -192,11 +192,11 @@ void CrossingGuard::weld(const AwakePair& pair) {
     all.nodes.insert(all.nodes.end(), part.nodes.begin(), part.nodes.end());
     all.momentum += part.momentum;
     all.mass += part.mass;
-    if (!all.held_velocity) all.held_velocity = part.held_velocity;
+    if (!all.pinned_velocity) all.pinned_velocity = part.pinned_velocity;
     part = {};
   }
-  if (held > 0 && !all.held_velocity) all.held_velocity = held_velocity / held;
-  const Vec3 velocity = all.held_velocity.value_or(Vec3(all.momentum / all.mass));
+  if (pinned > 0 && !all.pinned_velocity) all.pinned_velocity = pinned_velocity / pinned;
+  const Vec3 velocity = all.pinned_velocity.value_or(Vec3(all.momentum / all.mass));
   for (const auto& [row, node] : all.nodes) near_.body(row).velocities.row(node) = velocity.transpose();
 }
 

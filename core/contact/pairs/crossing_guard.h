@@ -35,7 +35,7 @@ class CrossingGuard {
     return row < near_.group_size() ? (*inverse_masses_)[row][node] : 0;
   }
   /// Whether nothing can push it.
-  [[nodiscard]] bool is_held(const AwakePair& pair, int corner) const;
+  [[nodiscard]] bool is_pinned(const AwakePair& pair, int corner) const;
   /// Whether velocities were changed and what they lead to has to be looked at; not where it lets go.
   bool keep_apart(double dt);
   [[nodiscard]] bool may_meet(const AwakePair& pair, const Eigen::Vector4d& speeds, double dt) const;
@@ -50,7 +50,7 @@ class CrossingGuard {
     std::vector<std::pair<std::size_t, int>> nodes{};  // body and node
     Vec3 momentum = Vec3::Zero();
     double mass = 0;
-    std::optional<Vec3> held_velocity{};  // m/s, of what is held among them
+    std::optional<Vec3> pinned_velocity{};  // m/s, of what is held among them
   };
   [[nodiscard]] std::size_t weld_of(std::size_t row, int node);
   void weld(const AwakePair& pair);

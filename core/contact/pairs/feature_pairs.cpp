@@ -66,7 +66,7 @@ bool FeaturePairs::clear(int list) {
   return true;
 }
 
-bool FeaturePairs::hangs_together(std::size_t point, std::size_t other) const {
+bool FeaturePairs::are_connected(std::size_t point, std::size_t other) const {
   if (!is_self()) return false;
   const SurfaceTree& tree = trees_[0];
   const std::vector<ContactPoint>& points = tree.skin().points;
@@ -84,7 +84,7 @@ void FeaturePairs::list_points(std::size_t side, int points_of, int triangles_of
       const auto& [a, b, c] = other.triangles[t];
       const std::array<Vec3, 3> corners{across.place_of(a), across.place_of(b), across.place_of(c)};
       if (!are_near(place, corners, margin)) continue;
-      if (hangs_together(point, a) || hangs_together(point, b) || hangs_together(point, c)) continue;
+      if (are_connected(point, a) || are_connected(point, b) || are_connected(point, c)) continue;
       list.sleepers.push_back({.pair = {.count = 1, .corners = {point, a, b, c}, .first = side}});
     }
   }
@@ -101,7 +101,7 @@ void FeaturePairs::list_edges(int edges_of, int others_of, double margin, NearLi
     for (int e = other.first_edge[others_of]; e < other.first_edge[others_of + 1]; ++e) {
       const auto& [c, d] = other.edges[e];
       if (!are_near(ends, std::array<Vec3, 2>{across.place_of(c), across.place_of(d)}, margin)) continue;
-      if (hangs_together(a, c) || hangs_together(a, d) || hangs_together(b, c) || hangs_together(b, d)) continue;
+      if (are_connected(a, c) || are_connected(a, d) || are_connected(b, c) || are_connected(b, d)) continue;
       list.sleepers.push_back({.pair = {.count = 2, .corners = {a, b, c, d}, .first = 0}});
     }
   }

@@ -55,7 +55,7 @@ class FeaturePairs : private NearLists {
   [[nodiscard]] bool have_crossed(const AwakePair& edges);
   /// Turns it round where the point is behind the triangle; false where that tells nothing, beside the triangle.
   [[nodiscard]] bool tell_inside(AwakePair& pair);
-  [[nodiscard]] bool hangs_together(std::size_t point, std::size_t other) const;
+  [[nodiscard]] bool are_connected(std::size_t point, std::size_t other) const;
   /// One that is due: it goes on sleeping, or is woken, where it is not left alone.
   void look_at(Sleeper& sleeper, double closer, double coming);
   struct Woken {

@@ -93,13 +93,13 @@ void NearFeatures::begin_step(const World& world, double elapsed, double dt) {
   for (std::size_t i = 0; i < obstacles_.size(); ++i) {
     move_surface(world.obstacles[obstacle_rows_[i]], elapsed, dt, *obstacles_[i]);
   }
-  if (seen_.empty()) look_ahead(world, dt, kSlack);
+  if (seen_.empty()) predict(world, dt, kSlack);
   measure(world);
 }
 
 bool NearFeatures::look_again(const World& world, double dt) {
   if (surprise(dt) <= slack_) return false;
-  look_ahead(world, dt, kSlack * std::pow(kMoreSlack, looks_again_++));
+  predict(world, dt, kSlack * std::pow(kMoreSlack, looks_again_++));
   measure(world);
   return true;
 }
@@ -116,7 +116,7 @@ double NearFeatures::surprise(double dt) const {
   return furthest / brick_;
 }
 
-void NearFeatures::look_ahead(const World& world, double dt, double slack) {
+void NearFeatures::predict(const World& world, double dt, double slack) {
   double fastest = 0;
   for (const auto& tree : trees_) fastest = std::max(fastest, tree->fastest());
   const double steps = std::floor(kWayAhead * brick_ / (2 * fastest * dt));

@@ -66,7 +66,7 @@ class NearFeatures {
   /// was looked.
   [[nodiscard]] double surprise(double dt) const;
   /// `slack`: bricks that nodes may be away from where they are foreseen to go.
-  void look_ahead(const World& world, double dt, double slack);
+  void predict(const World& world, double dt, double slack);
   void measure(const World& world);
 
   Group group_;

@@ -28,8 +28,8 @@ void ShapePairs::wake(const Obstacle& obstacle, const Pose& pose, double time) {
   const Vec3 shifted = is_new_ ? Vec3(Vec3::Zero()) : Vec3(pose.translation - pose_before_.translation);
   double reach = 0;  // m, of the body about the obstacle's centre of rotation
   if (!obstacle.spin.isZero(0)) {
-    const Points& places = tree_.body().positions;
-    reach = std::sqrt((places.rowwise() - pose.translation.transpose()).rowwise().squaredNorm().maxCoeff()) + brick_;
+    const Points& positions = tree_.body().positions;
+    reach = std::sqrt((positions.rowwise() - pose.translation.transpose()).rowwise().squaredNorm().maxCoeff()) + brick_;
   }
   const double turned = is_new_ ? 0 : Eigen::AngleAxisd(pose_before_.rotation.transpose() * pose.rotation).angle();
   pose_before_ = pose;
@@ -77,14 +77,14 @@ void ShapePairs::look_at(int leaf, const Obstacle& obstacle, const Pose& pose, d
 
 void ShapePairs::measure(const Obstacle& obstacle, const Pose& pose, std::vector<AwakePair>& awake) {
   for (const int point : awake_) {
-    const Vec3& place = tree_.place_of(point);
-    const Gap gap = signed_distance(obstacle.shape, pose, place);
+    const Vec3& position = tree_.place_of(point);
+    const Gap gap = signed_distance(obstacle.shape, pose, position);
     awake.push_back({.pair = {.count = 1, .corners = {point, -1, -1, -1}, .first = 0},
                      .bodies = {body_, AwakePair::kNoBody},
                      .normal = gap.normal,
                      .gap = gap.distance,
                      .weights = {1, -1, 0, 0},
-                     .obstacle_velocity = velocity_at(obstacle, pose, place),
+                     .obstacle_velocity = velocity_at(obstacle, pose, position),
                      .friction = obstacle.friction,
                      .restitution = obstacle.restitution,
                      .impulse = &impulses_[point],

@@ -67,13 +67,13 @@ std::vector<std::vector<int>> neighbours_among(const std::vector<int>& bricks, c
 
 }  // namespace
 
-ContactSurface::ContactSurface(const SoftBody& actor) {
-  add_triangles(actor, add_points(actor.contacts));
+ContactSurface::ContactSurface(const SoftBody& body) {
+  add_triangles(body, add_points(body.contacts));
   add_edges();
   for (std::size_t row = 0; row < bricks.size(); ++row) {
     cones.push_back(cone_of(normals.middleRows(first_point[row], first_point[row + 1] - first_point[row])));
   }
-  neighbours = neighbours_among(bricks, actor);
+  neighbours = neighbours_among(bricks, body);
 }
 
 std::vector<int> ContactSurface::add_points(const Embedding& embedding) {
@@ -96,11 +96,11 @@ std::vector<int> ContactSurface::add_points(const Embedding& embedding) {
   return place_of;
 }
 
-void ContactSurface::add_triangles(const SoftBody& actor, const std::vector<int>& place_of) {
-  for (int row = 0; row < actor.contact_triangles.rows(); ++row) {
+void ContactSurface::add_triangles(const SoftBody& body, const std::vector<int>& place_of) {
+  for (int row = 0; row < body.contact_triangles.rows(); ++row) {
     std::array<int, 3> corners{};
     for (int i = 0; i < 3; ++i) {
-      corners[i] = place_of[actor.contact_triangles(row, i)];
+      corners[i] = place_of[body.contact_triangles(row, i)];
     }
     triangles.push_back(corners);
   }
@@ -113,7 +113,7 @@ void ContactSurface::add_triangles(const SoftBody& actor, const std::vector<int>
     brick_of_triangle.push_back(owner(corners));
     std::array<Vec3, 3> x;
     for (std::size_t i = 0; i < 3; ++i) {
-      x[i] = carried(actor, points[corners[i]], actor.rest_positions);
+      x[i] = carried(body, points[corners[i]], body.rest_positions);
     }
     const Vec3 area = (x[1] - x[0]).cross(x[2] - x[0]);
     for (const int corner : corners) normals.row(corner) += area.transpose();
@@ -151,9 +151,9 @@ bool share_a_node(const Body& body, int a, int b) {
                      [&](int node) { return std::find(nodes.begin(), nodes.end(), node) != nodes.end(); });
 }
 
-const ContactSurface& contact_surface_of(SoftBody& actor) {
-  if (!actor.contact_surface) actor.contact_surface = std::make_shared<const ContactSurface>(actor);
-  return *actor.contact_surface;
+const ContactSurface& contact_surface_of(SoftBody& body) {
+  if (!body.contact_surface) body.contact_surface = std::make_shared<const ContactSurface>(body);
+  return *body.contact_surface;
 }
 
 }  // namespace sprung

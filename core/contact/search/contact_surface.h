@@ -21,7 +21,7 @@ struct NormalCone {
 
 /// What touches on a body's behalf, arranged by brick.
 struct ContactSurface {
-  explicit ContactSurface(const SoftBody& actor);
+  explicit ContactSurface(const SoftBody& body);
 
   std::vector<int> bricks;                    // b; that hold points, ascending
   std::vector<ContactPoint> points;           // n; grouped by brick
@@ -32,14 +32,14 @@ struct ContactSurface {
   std::vector<int> first_edge;                // b + 1
   Points normals;                             // n x 3, at rest, unit, outward; 0 where no triangle is
   std::vector<NormalCone> cones;              // b
-  /// By row of a brick, ascending: the rows of those that hang together with it or have such a neighbour in common.
+  /// By row of a brick, ascending: the rows of those that are connected to it or have such a neighbour in common.
   /// Their skins cannot meet without a fold within a brick or two.
   std::vector<std::vector<int>> neighbours;  // b
 
  private:
   /// Returns where in points each of the embedding's is.
   [[nodiscard]] std::vector<int> add_points(const Embedding& embedding);
-  void add_triangles(const SoftBody& actor, const std::vector<int>& place_of);
+  void add_triangles(const SoftBody& body, const std::vector<int>& place_of);
   void add_edges();
 };
 
@@ -55,7 +55,7 @@ inline constexpr double kBent = 0.5;
 [[nodiscard]] bool share_a_node(const Body& body, int a, int b);
 
 /// Made when it is first asked for: contacts, their triangles and the rest shape do not change after that.
-[[nodiscard]] const ContactSurface& contact_surface_of(SoftBody& actor);
+[[nodiscard]] const ContactSurface& contact_surface_of(SoftBody& body);
 
 /// What a point has of what its brick's corners have (m x 3, per node of the body).
 [[nodiscard]] inline Vec3 carried(const Body& body, int brick, const CornerWeights& weights, const Points& values) {

@@ -31,8 +31,8 @@ void FacingLists::list_side(std::size_t side, int points_of, int triangles_of, d
   const ContactSurface& skin = ours.skin();
   const ContactSurface& other = across.skin();
   for (int point = skin.first_point[points_of]; point < skin.first_point[points_of + 1]; ++point) {
-    const Vec3& place = ours.place_of(point);
-    const auto hangs_together = [&](int corner) {
+    const Vec3& position = ours.place_of(point);
+    const auto is_connected = [&](int corner) {
       return share_a_node(ours.body(), skin.points[point].brick, other.points[corner].brick);
     };
     for (int t = other.first_triangle[triangles_of]; t < other.first_triangle[triangles_of + 1]; ++t) {
@@ -40,12 +40,12 @@ void FacingLists::list_side(std::size_t side, int points_of, int triangles_of, d
       const Vec3& a = across.place_of(triangle[0]);
       const Vec3& b = across.place_of(triangle[1]);
       const Vec3& c = across.place_of(triangle[2]);
-      if (((a.cwiseMin(b).cwiseMin(c) - place).array() > margin).any()) continue;
-      if (((place - a.cwiseMax(b).cwiseMax(c)).array() > margin).any()) continue;
+      if (((a.cwiseMin(b).cwiseMin(c) - position).array() > margin).any()) continue;
+      if (((position - a.cwiseMax(b).cwiseMax(c)).array() > margin).any()) continue;
       const Vec3 area = (b - a).cross(c - a);
-      if (area.dot(place - a) < -(deepest_ + margin) * area.norm()) continue;
+      if (area.dot(position - a) < -(deepest_ + margin) * area.norm()) continue;
       if (ours.normal_of(point).dot(area) > kMayFace * area.norm()) continue;
-      if (is_self() && std::any_of(triangle.begin(), triangle.end(), hangs_together)) continue;
+      if (is_self() && std::any_of(triangle.begin(), triangle.end(), is_connected)) continue;
       list.push_back({side, point, t});
     }
   }

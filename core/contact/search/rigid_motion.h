@@ -7,7 +7,7 @@ namespace sprung {
 struct RigidMotion {
   Vec3 shift;  // m/s
   Vec3 spin;   // rad/s
-  [[nodiscard]] Vec3 at(const Vec3& place) const { return shift + spin.cross(place); }
+  [[nodiscard]] Vec3 at(const Vec3& position) const { return shift + spin.cross(position); }
 };
 
 }  // namespace sprung

@@ -37,21 +37,21 @@ NormalCone enclosing(const NormalCone& a, const NormalCone& b) {
 constexpr Eigen::Index kFitted = 64;  // about so many places tell it well enough
 
 /// The rigid motion nearest to vectors at some of these places, in the mean of squares.
-RigidMotion rigid_fit(const Points& places, const Points& vectors) {
-  const Eigen::Index stride = std::max(Eigen::Index{1}, places.rows() / kFitted);
+RigidMotion rigid_fit(const Points& positions, const Points& vectors) {
+  const Eigen::Index stride = std::max(Eigen::Index{1}, positions.rows() / kFitted);
   Vec3 middle = Vec3::Zero();
   Vec3 mean = Vec3::Zero();
-  for (Eigen::Index row = 0; row < places.rows(); row += stride) {
-    middle += places.row(row);
+  for (Eigen::Index row = 0; row < positions.rows(); row += stride) {
+    middle += positions.row(row);
     mean += vectors.row(row);
   }
-  const Eigen::Index count = (places.rows() + stride - 1) / stride;
+  const Eigen::Index count = (positions.rows() + stride - 1) / stride;
   middle /= double(count);
   mean /= double(count);
   Mat3 second = Mat3::Zero();
   Vec3 moment = Vec3::Zero();
-  for (Eigen::Index row = 0; row < places.rows(); row += stride) {
-    const Vec3 arm = places.row(row).transpose() - middle;
+  for (Eigen::Index row = 0; row < positions.rows(); row += stride) {
+    const Vec3 arm = positions.row(row).transpose() - middle;
     second += arm * arm.transpose();
     moment += arm.cross(Vec3(vectors.row(row)));
   }

@@ -37,11 +37,11 @@ Facet facet_of(const DrawnSurface& surface, int row) {
   return {corner(0), corner(1), corner(2)};
 }
 
-double distance_to(const Facet& facet, const Vec3& place) {
+double distance_to(const Facet& facet, const Vec3& position) {
   using Kernel = CGAL::Simple_cartesian<double>;
   const auto point = [](const Vec3& p) { return Kernel::Point_3(p.x(), p.y(), p.z()); };
   const Kernel::Triangle_3 triangle(point(facet.a), point(facet.b), point(facet.c));
-  return std::sqrt(CGAL::squared_distance(point(place), triangle));
+  return std::sqrt(CGAL::squared_distance(point(position), triangle));
 }
 
 /// From the first vertex of the edge: its share up to the facet.
@@ -51,9 +51,9 @@ std::optional<double> way_to(const Facet& facet, const Vec3& from, const Vec3& t
   const double after = normal.dot(to - facet.a);
   if ((before > 0) == (after > 0)) return std::nullopt;
   const double share = before / (before - after);
-  const Vec3 place = from + share * (to - from) - facet.a;
-  const double beside_c = (facet.b - facet.a).cross(place).dot(normal);
-  const double beside_b = place.cross(facet.c - facet.a).dot(normal);
+  const Vec3 position = from + share * (to - from) - facet.a;
+  const double beside_c = (facet.b - facet.a).cross(position).dot(normal);
+  const double beside_b = position.cross(facet.c - facet.a).dot(normal);
   constexpr double kRounding = 1e-9;
   const double slack = kRounding * normal.squaredNorm();
   if (beside_b < -slack || beside_c < -slack || beside_b + beside_c > normal.squaredNorm() + slack) return std::nullopt;
@@ -86,9 +86,9 @@ class InnerPart {
 
   [[nodiscard]] const std::vector<int>& vertices() const { return vertices_; }
   [[nodiscard]] const std::map<Edge, std::vector<Passage>>& passages() const { return passages_; }
-  [[nodiscard]] bool is_inside(const Vec3& place) const {
+  [[nodiscard]] bool is_inside(const Vec3& position) const {
     // What lies on the surface itself has half a turn from there.
-    return other_.box().contains(place) && other_.winding().at(place) > (is_self() ? 1 : 0.5);
+    return other_.box().contains(position) && other_.winding().at(position) > (is_self() ? 1 : 0.5);
   }
 
  private:
@@ -158,21 +158,21 @@ class Distance {
   explicit Distance(const DrawnSurface& surface) : surface_(surface) {}
 
   /// Of those triangles only that face a surface of this normal; zero: of all.
-  [[nodiscard]] double from(const Vec3& place, const Vec3& normal) const {
+  [[nodiscard]] double from(const Vec3& position, const Vec3& normal) const {
     double nearest = std::numeric_limits<double>::infinity();
-    descend(0, place, normal, nearest);
+    descend(0, position, normal, nearest);
     return nearest;
   }
 
  private:
-  void descend(int row, const Vec3& place, const Vec3& normal, double& nearest) const {
+  void descend(int row, const Vec3& position, const Vec3& normal, double& nearest) const {
     const DrawnSurface::Node& node = surface_.nodes()[row];
     if (node.cell < 0) {
       std::array<int, 2> children{row + 1, node.second_child};
-      const auto way = [&](int child) { return surface_.nodes()[child].box.exteriorDistance(place); };
+      const auto way = [&](int child) { return surface_.nodes()[child].box.exteriorDistance(position); };
       if (way(children[1]) < way(children[0])) std::swap(children[0], children[1]);
       for (const int child : children) {
-        if (way(child) < nearest) descend(child, place, normal, nearest);
+        if (way(child) < nearest) descend(child, position, normal, nearest);
       }
       return;
     }
@@ -180,9 +180,9 @@ class Distance {
     for (int triangle = cell.first; triangle < cell.last; ++triangle) {
       const Facet facet = facet_of(surface_, triangle);
       const double reach = std::max((facet.b - facet.a).norm(), (facet.c - facet.a).norm());
-      if ((facet.a - place).norm() - reach >= nearest) continue;
+      if ((facet.a - position).norm() - reach >= nearest) continue;
       if (!normal.isZero(0) && !(facet.normal().dot(normal) < 0)) continue;
-      nearest = std::min(nearest, distance_to(facet, place));
+      nearest = std::min(nearest, distance_to(facet, position));
     }
   }
 
@@ -196,9 +196,9 @@ void measure(const DrawnSurface& surface, const DrawnSurface& other, const RowPa
   const bool is_self = &surface == &other;
   const Points normals = is_self ? normals_of(surface) : Points();
   const Distance distance(other);
-  const auto keep_deeper = [&](const Vec3& place, const Vec3& normal) {
-    const double depth = distance.from(place, normal);
-    if (std::isfinite(depth) && depth > deepest.depth) deepest = {.depth = depth, .place = place};
+  const auto keep_deeper = [&](const Vec3& position, const Vec3& normal) {
+    const double depth = distance.from(position, normal);
+    if (std::isfinite(depth) && depth > deepest.depth) deepest = {.depth = depth, .position = position};
   };
   const auto normal_at = [&](int vertex) { return is_self ? Vec3(normals.row(vertex)) : Vec3(Vec3::Zero()); };
   for (const int vertex : inner.vertices()) keep_deeper(surface.points().row(vertex), normal_at(vertex));
@@ -206,8 +206,8 @@ void measure(const DrawnSurface& surface, const DrawnSurface& other, const RowPa
     const Vec3 from = surface.points().row(edge.first);
     const Vec3 to = surface.points().row(edge.second);
     for (std::size_t i = 0; i + 1 < through.size(); ++i) {
-      const Vec3 place = from + (through[i].share + through[i + 1].share) / 2 * (to - from);
-      if (inner.is_inside(place)) keep_deeper(place, normal_at(edge.first) + normal_at(edge.second));
+      const Vec3 position = from + (through[i].share + through[i + 1].share) / 2 * (to - from);
+      if (inner.is_inside(position)) keep_deeper(position, normal_at(edge.first) + normal_at(edge.second));
     }
   }
 }

@@ -6,7 +6,7 @@ namespace sprung {
 /// How deep surfaces are in each other, and where the deepest point is.
 struct CrossingDepth {
   double depth = 0;  // m
-  Vec3 place = Vec3::Zero();
+  Vec3 position = Vec3::Zero();
 };
 
 /// Of two surfaces whose triangles cross in these pairs (one or more; see crossing_pairs()); both may be the same one,

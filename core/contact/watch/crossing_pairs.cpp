@@ -45,7 +45,7 @@ double scale_of(const Corners& corners) {
   return scale;
 }
 
-Kernel::Point_3 point_of(const Vec3& place) { return {place.x(), place.y(), place.z()}; }
+Kernel::Point_3 point_of(const Vec3& position) { return {position.x(), position.y(), position.z()}; }
 
 bool is_flat(const Corners& a) { return CGAL::collinear(point_of(a[0]), point_of(a[1]), point_of(a[2])); }
 

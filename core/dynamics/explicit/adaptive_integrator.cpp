@@ -29,7 +29,7 @@ struct State {
 
 std::vector<State> state_of(const World& world) {
   std::vector<State> states;
-  for (const SoftBody& actor : world.bodies) states.push_back({actor.positions, actor.velocities});
+  for (const SoftBody& body : world.bodies) states.push_back({body.positions, body.velocities});
   return states;
 }
 
@@ -40,9 +40,9 @@ void restore(const std::vector<State>& states, World& world) {
   }
 }
 
-/// What is wrong with an actor, and the brick where it is worst.
+/// What is wrong with an body, and the brick where it is worst.
 struct Trouble {
-  std::size_t actor;
+  std::size_t body;
   std::size_t brick;
   std::string what;
 };
@@ -69,17 +69,17 @@ std::optional<Trouble> find_trouble(const World& world, const std::vector<Energy
 
 /// "body 1, brick 12 at (0.1, 0.02, 0) m at rest".
 std::string place_of(const World& world, const Trouble& trouble) {
-  const Body& body = world.bodies[trouble.actor];
+  const Body& body = world.bodies[trouble.body];
   Vec3 middle = Vec3::Zero();
   for (const int node : body.grid.nodes[trouble.brick]) middle += body.rest_positions.row(node).transpose() / 8;
-  return fmt::format("body {}, brick {} at ({:.4g}, {:.4g}, {:.4g}) m at rest", trouble.actor + 1, trouble.brick + 1,
+  return fmt::format("body {}, brick {} at ({:.4g}, {:.4g}, {:.4g}) m at rest", trouble.body + 1, trouble.brick + 1,
                      middle.x(), middle.y(), middle.z());
 }
 
-/// s, that an actor took.
-double step_of(std::span<const GroupSteps> groups, std::size_t actor) {
+/// s, that an body took.
+double step_of(std::span<const GroupSteps> groups, std::size_t body) {
   const auto group = std::find_if(groups.begin(), groups.end(), [&](const GroupSteps& one) {
-    return std::find(one.bodies.begin(), one.bodies.end(), actor) != one.bodies.end();
+    return std::find(one.bodies.begin(), one.bodies.end(), body) != one.bodies.end();
   });
   return group->steps.dt;
 }
@@ -164,7 +164,7 @@ std::vector<GroupSteps> AdaptiveIntegrator::advance_frame(double time, double du
     begin_contacts(groups);
     const std::optional<Diverged> end = run(groups, time, between);
     std::optional<Trouble> trouble = find_trouble(world_, before, groups);
-    if (end && !trouble) trouble = Trouble{end->actor(), worst_brick_of(world_.bodies[end->actor()]), end->what()};
+    if (end && !trouble) trouble = Trouble{end->body(), worst_brick_of(world_.bodies[end->body()]), end->what()};
     if (!trouble) {
       move_obstacles(world_.obstacles, duration);
       return groups;
@@ -172,10 +172,10 @@ std::vector<GroupSteps> AdaptiveIntegrator::advance_frame(double time, double du
     const std::string what = fmt::format("{} between t = {:.6g} s and {:.6g} s: {}", place_of(world_, *trouble), time,
                                          time + duration, trouble->what);
     restore(start, world_);
-    const double dt = step_of(groups, trouble->actor);
+    const double dt = step_of(groups, trouble->body);
     if (halvings_ == kMostHalvings) {
-      throw Diverged(trouble->actor, what + fmt::format(", with steps of {:.3g} s too: the motion diverged; {}", dt,
-                                                        remedy_for_divergence(world_, trouble->actor, trouble->brick)));
+      throw Diverged(trouble->body, what + fmt::format(", with steps of {:.3g} s too: the motion diverged; {}", dt,
+                                                       remedy_for_divergence(world_, trouble->body, trouble->brick)));
     }
     ++halvings_;
     tell(what + fmt::format("; the frame is done again in steps half as long, {:.3g} s", dt / 2));

@@ -30,20 +30,20 @@ void ImplicitDamping::pass(double dt) {
 }
 
 void ImplicitDamping::multiply(const Eigen::VectorXd& u, Eigen::VectorXd& product) {
-  multiply_damping(actor_, actor_.positions, due_ * beta_, u, workspace_, product);
-  for (const KinematicNode& held : actor_.pinned) {
+  multiply_damping(body_, body_.positions, due_ * beta_, u, workspace_, product);
+  for (const KinematicNode& pinned : body_.pinned) {
     for (int axis = 0; axis < 3; ++axis) {
-      if (held.axes[axis]) product[3 * held.node + axis] = 0;
+      if (pinned.axes[axis]) product[3 * pinned.node + axis] = 0;
     }
   }
 }
 
 void ImplicitDamping::settle() {
   if (due_ == 0) return;
-  auto v = flat(actor_.velocities);
+  auto v = flat(body_.velocities);
   Eigen::VectorXd masses(v.size());
-  for (Eigen::Index node = 0; node < actor_.masses.size(); ++node) {
-    masses.segment<3>(3 * node).setConstant(actor_.masses[node]);
+  for (Eigen::Index node = 0; node < body_.masses.size(); ++node) {
+    masses.segment<3>(3 * node).setConstant(body_.masses[node]);
   }
   Eigen::VectorXd residual;
   Eigen::VectorXd product;

@@ -23,8 +23,8 @@ struct DampingShares {
 /// stop, both momenta of a free body are kept. Deterministic for any number of threads.
 class ImplicitDamping {
  public:
-  /// `beta` in s; 0 costs nothing. The actor has to outlive it.
-  ImplicitDamping(SoftBody& actor, double beta) : actor_(actor), beta_(beta) {}
+  /// `beta` in s; 0 costs nothing. The body has to outlive it.
+  ImplicitDamping(SoftBody& body, double beta) : body_(body), beta_(beta) {}
 
   /// Lets a step (s) pass; every few the velocities follow.
   void pass(double dt);
@@ -36,7 +36,7 @@ class ImplicitDamping {
   /// T beta K u, zero at what is held.
   void multiply(const Eigen::VectorXd& u, Eigen::VectorXd& product);
 
-  SoftBody& actor_;
+  SoftBody& body_;
   double beta_;
   double due_ = 0;  // s
   int passed_ = 0;

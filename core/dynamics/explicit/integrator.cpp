@@ -80,26 +80,26 @@ double stable_step(const Body& body, double safety) {
 
 double stable_step(const World& world, double safety) {
   double step = std::numeric_limits<double>::infinity();
-  for (const SoftBody& actor : world.bodies) step = std::min(step, stable_step(actor, safety));
+  for (const SoftBody& body : world.bodies) step = std::min(step, stable_step(body, safety));
   return step;
 }
 
 namespace {
 
-/// One actor on its way through a number of steps.
+/// One body on its way through a number of steps.
 class Mover {
  public:
-  Mover(SoftBody& actor, const World& world)
-      : actor_(actor),
+  Mover(SoftBody& body, const World& world)
+      : body_(body),
         world_(world),
-        inverse_masses_(actor.masses.cwiseInverse()),
-        damping_(damping_shares(actor, largest_frequency_squared(actor))),
-        implicit_damping_(actor, damping_.implicit_beta),
-        loads_(actor, world) {}
+        inverse_masses_(body.masses.cwiseInverse()),
+        damping_(damping_shares(body, largest_frequency_squared(body))),
+        implicit_damping_(body, damping_.implicit_beta),
+        loads_(body, world) {}
 
   /// velocities += dt (forces / m + gravity - alpha v); held nodes keep their velocity.
   void kick(double dt) {
-    Body& body = actor_;
+    Body& body = body_;
     if (loads_.any()) {
       settle();
       body.velocities += dt * (inverse_masses_.asDiagonal() * loads_.forces());
@@ -116,9 +116,9 @@ class Mover {
           inverse_masses_);
       pending_drift_ = 0;
     }
-    for (const KinematicNode& held : actor_.pinned) {
+    for (const KinematicNode& pinned : body_.pinned) {
       for (int axis = 0; axis < 3; ++axis) {
-        if (held.axes[axis]) body.velocities(held.node, axis) = held.velocity[axis];
+        if (pinned.axes[axis]) body.velocities(pinned.node, axis) = pinned.velocity[axis];
       }
     }
     implicit_damping_.pass(dt);  // what is held has its velocity: it leads the rest
@@ -135,12 +135,12 @@ class Mover {
 
   /// Does what was put off.
   void settle() {
-    if (pending_drift_ != 0) actor_.positions += pending_drift_ * actor_.velocities;
+    if (pending_drift_ != 0) body_.positions += pending_drift_ * body_.velocities;
     pending_drift_ = 0;
   }
 
  private:
-  SoftBody& actor_;
+  SoftBody& body_;
   const World& world_;
   Eigen::VectorXd inverse_masses_;
   DampingShares damping_;
@@ -152,9 +152,9 @@ class Mover {
 };
 
 /// 1/kg, per node; nothing pushes what is held.
-Eigen::VectorXd pushed_inverse_masses(const SoftBody& actor) {
-  Eigen::VectorXd inverse_masses = actor.masses.cwiseInverse();
-  for (const KinematicNode& held : actor.pinned) inverse_masses[held.node] = 0;
+Eigen::VectorXd pushed_inverse_masses(const SoftBody& body) {
+  Eigen::VectorXd inverse_masses = body.masses.cwiseInverse();
+  for (const KinematicNode& pinned : body.pinned) inverse_masses[pinned.node] = 0;
   return inverse_masses;
 }
 

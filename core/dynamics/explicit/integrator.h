@@ -8,7 +8,7 @@ namespace sprung {
 
 class ContactStates;
 
-/// Largest step (s) that is stable for every actor: by largest_frequency_squared() with the damping that explicit steps
+/// Largest step (s) that is stable for every body: by largest_frequency_squared() with the damping that explicit steps
 /// have and `safety` taken off. Bricks that are pressed flat one way and drawn out another are stiffer: it is for the
 /// state that the bodies are in.
 [[nodiscard]] double stable_step(const World& world, double safety = 0.7);

@@ -6,7 +6,8 @@ namespace sprung {
 namespace {
 
 constexpr int kMostIterations = 300;
-constexpr double kWillDo = 1e-2;  // of the forces, left over when the iterations run out: Newton's next step mends it
+constexpr double kFallbackTolerance =
+    1e-2;  // of the forces, left over when the iterations run out: Newton's next step mends it
 
 class CoupledSystem {
  public:
@@ -31,9 +32,9 @@ class CoupledSystem {
     release_held(product);
   }
 
-  void precondition(const Eigen::VectorXd& residual, Eigen::VectorXd& answer) {
-    answer.resize(residual.size());
-    each_part(residual, answer, [&](IterativeSolver& system) { system.precondition(part_, answer_); });
+  void precondition(const Eigen::VectorXd& residual, Eigen::VectorXd& correction) {
+    correction.resize(residual.size());
+    each_part(residual, correction, [&](IterativeSolver& system) { system.precondition(part_, answer_); });
   }
 
   void release_held(Eigen::VectorXd& vector) const {
@@ -100,9 +101,9 @@ Eigen::VectorXd solve_coupled(std::span<const CoupledBody> bodies, const std::ve
   Eigen::VectorXd free = forces;
   system.release_held(free);
   return conjugate_gradients(
-      free, {.tolerance = tolerance, .fallback_tolerance = kWillDo, .max_iterations = kMostIterations},
+      free, {.tolerance = tolerance, .fallback_tolerance = kFallbackTolerance, .max_iterations = kMostIterations},
       [&](const auto& x, auto& product) { system.multiply(x, product); },
-      [&](const auto& residual, auto& answer) { system.precondition(residual, answer); }, report);
+      [&](const auto& residual, auto& correction) { system.precondition(residual, correction); }, report);
 }
 
 }  // namespace sprung

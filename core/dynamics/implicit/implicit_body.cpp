@@ -12,13 +12,12 @@ namespace sprung {
 
 void MusclePotential::begin() {
   tensions_.clear();
-  for (const Muscle& muscle : actor_.loads.muscles) tensions_.push_back(tension_of(muscle, actor_.material));
+  for (const Muscle& muscle : body_.loads.muscles) tensions_.push_back(tension_of(muscle, body_.material));
 }
 
 template <class Visit>
 void MusclePotential::for_draws(const Visit& visit) const {
-  const Body& body = actor_;
-  const double h = body.grid.brick_size;
+  const double h = body_.grid.brick_size;
   for (std::size_t m = 0; m < tensions_.size(); ++m) {
     const MuscleTension& tension = tensions_[m];
     Eigen::Matrix<double, 8, 3> weights;
@@ -27,14 +26,14 @@ void MusclePotential::for_draws(const Visit& visit) const {
       for (int axis = 0; axis < 3; ++axis) sides[axis] = on_high_side(corner, axis) ? 1 : -1;
       weights.row(corner) = sides.transpose() * tension.frame / (4 * h);
     }
-    for (const int brick : actor_.loads.muscles[m].bricks) {
+    for (const int brick : body_.loads.muscles[m].bricks) {
       const std::size_t b = brick;
-      const double volume = body.stiffness_scale[b] * body.grid.brick_volume();
+      const double volume = body_.stiffness_scale[b] * body_.grid.brick_volume();
       for (int i = 0; i < 3; ++i) {
         Draw draw{
             .brick = brick, .weights = weights.col(i), .along = Vec3::Zero(), .energy = volume * tension.stress[i]};
         for (std::size_t c = 0; c < 8; ++c) {
-          draw.along += draw.weights[c] * body.positions.row(body.grid.nodes[b][c]).transpose();
+          draw.along += draw.weights[c] * body_.positions.row(body_.grid.nodes[b][c]).transpose();
         }
         visit(draw);
       }
@@ -48,7 +47,7 @@ double MusclePotential::add_forces(Points& forces) const {
     const double length = draw.along.norm();
     energy += draw.energy * length;
     const Vec3 pull = draw.energy / length * draw.along;
-    const auto& nodes = actor_.grid.nodes[draw.brick];
+    const auto& nodes = body_.grid.nodes[draw.brick];
     for (std::size_t c = 0; c < 8; ++c) forces.row(nodes[c]) -= draw.weights[c] * pull.transpose();
   });
   return energy;
@@ -77,18 +76,17 @@ double longest_side(const Points& points) {
 
 }  // namespace
 
-ImplicitBody::ImplicitBody(SoftBody& actor, const World& world, const ImplicitOptions& options)
-    : actor_(actor),
-      body_(actor),
+ImplicitBody::ImplicitBody(SoftBody& body, const World& world, const ImplicitOptions& options)
+    : body_(body),
       world_(world),
       options_(options),
       supports_(body_.node_count()),
       size_(longest_side(body_.rest_positions)),
       slip_speed_(kSlip * size_),
       stiffness_(largest_brick_stiffness(body_)),
-      muscles_(actor) {
-  for (const Obstacle& obstacle : world.obstacles) obstacles_.emplace_back(actor, obstacle, slip_speed_);
-  history_.pushed_in.setZero(contact_surface_of(actor).points.size());
+      muscles_(body) {
+  for (const Obstacle& obstacle : world.obstacles) obstacles_.emplace_back(body, obstacle, slip_speed_);
+  history_.pushed_in.setZero(contact_surface_of(body).points.size());
 }
 
 void ImplicitBody::serialize(IntegratorState& state) {
@@ -109,8 +107,8 @@ void ImplicitBody::begin(double elapsed, double dt) {
   for (ObstaclePotential& obstacle : obstacles_) obstacle.begin(body_.positions, elapsed, dt);
   muscles_.begin();
   hold(dt);
-  held_ = body_.positions;
-  reach_ = held_.cwiseAbs().maxCoeff();
+  pinned_start_ = body_.positions;
+  reach_ = pinned_start_.cwiseAbs().maxCoeff();
   body_.velocities.setZero();
 }
 
@@ -126,7 +124,7 @@ void ImplicitBody::aim(double dt) {
   goal_ = origin_ + span_ * speed;
   goal_.rowwise() += span_ * span_ * world_.gravity.transpose();
   weight_ = std::sqrt(body_.masses.squaredNorm()) * world_.gravity.norm();
-  if (LoadForces acting(actor_, world_); acting.any()) {
+  if (LoadForces acting(body_, world_); acting.any()) {
     const Points& loads = acting.forces_beside_muscles();
     goal_ += span_ * span_ * (body_.masses.cwiseInverse().asDiagonal() * loads);
     weight_ += loads.norm();
@@ -141,29 +139,29 @@ void ImplicitBody::aim(double dt) {
 
 void ImplicitBody::hold(double dt) {
   std::fill(supports_.fixed.begin(), supports_.fixed.end(), false);
-  for (const KinematicNode& held : actor_.pinned) {
+  for (const KinematicNode& pinned : body_.pinned) {
     for (int axis = 0; axis < 3; ++axis) {
-      if (!held.axes[axis]) continue;
-      supports_.fix(held.node, axis);
-      body_.positions(held.node, axis) += dt * held.velocity[axis];
+      if (!pinned.axes[axis]) continue;
+      supports_.fix(pinned.node, axis);
+      body_.positions(pinned.node, axis) += dt * pinned.velocity[axis];
     }
   }
 }
 
 void ImplicitBody::drift() {
-  for (Eigen::Index i = 0; i < held_.size(); ++i) {
+  for (Eigen::Index i = 0; i < pinned_start_.size(); ++i) {
     if (supports_.fixed[i]) continue;
     body_.positions.data()[i] = terms_.damping_positions.data()[i];
   }
 }
 
-void ImplicitBody::stay() { body_.positions = held_; }
+void ImplicitBody::stay() { body_.positions = pinned_start_; }
 
 void ImplicitBody::finish(double dt) {
   body_.velocities = (body_.positions - origin_) / span_;
-  for (const KinematicNode& held : actor_.pinned) {
+  for (const KinematicNode& pinned : body_.pinned) {
     for (int axis = 0; axis < 3; ++axis) {
-      if (held.axes[axis]) body_.velocities(held.node, axis) = held.velocity[axis];
+      if (pinned.axes[axis]) body_.velocities(pinned.node, axis) = pinned.velocity[axis];
     }
   }
   history_ = {.is_there = true,

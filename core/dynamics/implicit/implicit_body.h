@@ -18,8 +18,8 @@ inline constexpr double kSettledFriction = 0.05;
 /// The muscles of a body as an energy, for steps that look for a minimum; see MuscleTension.
 class MusclePotential {
  public:
-  /// The actor has to outlive it.
-  explicit MusclePotential(const SoftBody& actor) : actor_(actor) {}
+  /// The body has to outlive it.
+  explicit MusclePotential(const SoftBody& body) : body_(body) {}
 
   /// Before a step: the muscles contract as they do now.
   void begin();
@@ -40,16 +40,16 @@ class MusclePotential {
   template <class Visit>
   void for_draws(const Visit& visit) const;
 
-  const SoftBody& actor_;
+  const SoftBody& body_;
   std::vector<MuscleTension> tensions_;  // by muscle
 };
 
-/// What one actor adds to the potential that an implicit step minimises, see ImplicitMotion: everything but contact
+/// What one body adds to the potential that an implicit step minimises, see ImplicitMotion: everything but contact
 /// with other bodies and itself, and glue.
 class ImplicitBody {
  public:
   /// All have to outlive it.
-  ImplicitBody(SoftBody& actor, const World& world, const ImplicitOptions& options);
+  ImplicitBody(SoftBody& body, const World& world, const ImplicitOptions& options);
 
   /// Before a step of dt; obstacles have moved by themselves for `elapsed` (s) when it begins. What is held is then at
   /// the end of its way, the rest where it was; velocities are zero: damping comes from the potential.
@@ -82,7 +82,7 @@ class ImplicitBody {
   /// What the next step depends on beside positions and velocities.
   void serialize(IntegratorState& state);
 
-  [[nodiscard]] SoftBody& actor() const { return actor_; }
+  [[nodiscard]] SoftBody& body() const { return body_; }
   [[nodiscard]] const Supports& supports() const { return supports_; }
   [[nodiscard]] double slip_speed() const { return slip_speed_; }
   [[nodiscard]] SolveReport solves() const { return alone_->report(); }
@@ -103,8 +103,7 @@ class ImplicitBody {
   void hold(double dt);
   void take_terms(bool definite);
 
-  SoftBody& actor_;
-  Body& body_;
+  SoftBody& body_;
   const World& world_;
   const ImplicitOptions& options_;
   Supports supports_;
@@ -122,7 +121,7 @@ class ImplicitBody {
   double reach_ = 0;        // m, from the origin
   Points positions_;        // before it
   Points velocities_;       // before it
-  Points held_;             // where nodes stay but for what is held
+  Points pinned_start_;     // where nodes stay but for what is held
   Points origin_;           // x0
   Points goal_;             // where inertia and gravity alone lead
   double mass_factor_ = 0;  // 1/s^2

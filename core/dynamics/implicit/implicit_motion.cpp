@@ -34,7 +34,7 @@ ImplicitMotion::ImplicitMotion(World& world, const ImplicitOptions& options)
         ErrorKind::kBadInput,
         fmt::format("{}, which implicit steps know nothing of: use an explicit scheme, euler or verlet", why_not));
   }
-  for (SoftBody& actor : world.bodies) bodies_.push_back(std::make_unique<ImplicitBody>(actor, world, options_));
+  for (SoftBody& body : world.bodies) bodies_.push_back(std::make_unique<ImplicitBody>(body, world, options_));
 }
 
 ImplicitMotion::~ImplicitMotion() = default;
@@ -55,7 +55,7 @@ void ImplicitMotion::advance(double dt, long steps, double time) {
 }
 
 void ImplicitMotion::advance(const Together& group, const Span& span) {
-  double done = 0;  // of the step: one that is not found, or leads too far, is cut in halves
+  double done = 0;  // of the step: one that is not found, or leads too far, is halved
   double stride = 1;
   while (done < 1) {
     const double most = max_step_size(world_, group.members, stride * span.dt);

@@ -72,7 +72,7 @@ class ImplicitMotion {
   ImplicitOptions options_;
   long halvings_ = 0;
   std::unique_ptr<ImplicitCounts> counts_;
-  std::vector<std::unique_ptr<ImplicitBody>> bodies_;  // by actor
+  std::vector<std::unique_ptr<ImplicitBody>> bodies_;  // by body
 };
 
 /// What a world has that implicit steps cannot do: obstacles with a restitution. Empty: nothing.

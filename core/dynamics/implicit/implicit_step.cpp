@@ -112,7 +112,7 @@ bool ImplicitStep::newton_step(double& potential, ImplicitCounts& counts) {
   std::vector<Points> starts;
   for (const ImplicitBody* body : bodies_) {
     noise += body->noise();
-    starts.push_back(body->actor().positions);
+    starts.push_back(body->body().positions);
   }
   for (double share = 1; share > 1e-6; share /= 2) {
     move_from(starts, share * way);
@@ -129,7 +129,7 @@ void ImplicitStep::move_from(const std::vector<Points>& starts, const Eigen::Vec
   Eigen::Index at = 0;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const Eigen::Index rows = starts[i].rows();
-    bodies_[i]->actor().positions = starts[i] + Eigen::Map<const Points>(way.data() + at, rows, 3);
+    bodies_[i]->body().positions = starts[i] + Eigen::Map<const Points>(way.data() + at, rows, 3);
     at += 3 * rows;
   }
 }
@@ -161,7 +161,7 @@ Eigen::VectorXd ImplicitStep::direction(bool definite, const std::vector<Couplin
   std::vector<CoupledBody> coupled;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (!bodies_[i]->linearize(definite, std::move(own[i]))) return {};
-    coupled.push_back({&bodies_[i]->actor(), &bodies_[i]->supports(), &bodies_[i]->system()});
+    coupled.push_back({&bodies_[i]->body(), &bodies_[i]->supports(), &bodies_[i]->system()});
   }
   return solve_coupled(coupled, couplings, all_forces(), kSolveTolerance, counts.coupled);
 }

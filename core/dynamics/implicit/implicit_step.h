@@ -16,7 +16,7 @@ struct ImplicitCounts {
 /// One implicit step of a group of bodies, see ImplicitMotion: a minimum by Newton's method with a line search.
 class ImplicitStep {
  public:
-  /// By actor of the group; `glue` by its rows. All have to outlive it.
+  /// By body of the group; `glue` by its rows. All have to outlive it.
   ImplicitStep(const World& world, std::vector<ImplicitBody*> bodies, const Group& group,
                const std::vector<GluedPoint>& glue, const ImplicitOptions& options, double dt);
 

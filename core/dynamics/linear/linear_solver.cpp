@@ -72,10 +72,10 @@ class DefaultSolver : public LinearSolver {
 
   [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& forces, double tolerance) override {
     const long indefinite = multigrid_->report().indefinite;
-    Eigen::VectorXd answer = now().solve(forces, tolerance);
+    Eigen::VectorXd solution = now().solve(forces, tolerance);
     // What is definite is seen not to be so by rounding only.
-    const bool is_lost = answer.size() == 0 && (definite_ || multigrid_->report().indefinite == indefinite);
-    if (is_direct_ || !is_lost || body_->grid.brick_count() > kManyBricks) return answer;
+    const bool is_lost = solution.size() == 0 && (definite_ || multigrid_->report().indefinite == indefinite);
+    if (is_direct_ || !is_lost || body_->grid.brick_count() > kManyBricks) return solution;
     if (!direct_->linearize(*body_, *supports_, definite_, *terms_)) return {};
     ++gone_direct_;
     return direct_->solve(forces, tolerance);

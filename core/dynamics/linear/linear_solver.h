@@ -93,7 +93,7 @@ class IterativeSolver : public LinearSolver {
 [[nodiscard]] std::unique_ptr<LinearSolver> make_direct_solver();
 
 /// Conjugate gradients preconditioned by geometric multigrid on the hierarchy of bricks: Galerkin's coarse bricks, each
-/// of up to eight children that hang together, Chebyshev-Jacobi smoothing, the cycle in single precision, the products
+/// of up to eight connected children, Chebyshev-Jacobi smoothing, the cycle in single precision, the products
 /// outside it exact and in double. Time and memory (some 2 kB a brick) grow with the body. Gives up after
 /// `max_iterations` of a solve.
 [[nodiscard]] std::unique_ptr<IterativeSolver> make_multigrid_solver(int max_iterations = 150);
@@ -113,8 +113,8 @@ struct StoppingCriterion {
 };
 
 /// Solves A x = forces by flexible conjugate gradients (Polak-Ribiere: rounding makes a preconditioner not quite the
-/// same in each iteration), by multiply(x, product) and precondition(residual, answer). `forces` and what these give
-/// are zero where A is. Empty where A is not positive definite, or no answer is found. `downhill`: as
+/// same in each iteration), by multiply(x, product) and precondition(residual, correction). `forces` and what these
+/// give are zero where A is. Empty where A is not positive definite, or no answer is found. `downhill`: as
 /// LinearSolver::downhill() has it.
 template <class Multiply, class Precondition>
 Eigen::VectorXd conjugate_gradients(const Eigen::VectorXd& forces, const StoppingCriterion& end,

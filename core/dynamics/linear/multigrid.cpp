@@ -76,7 +76,7 @@ class MultigridSolver : public IterativeSolver {
       products_ = ProductWorkspace();
       cycle_ = std::make_unique<multigrid::Cycle>(layouts_);
     }
-    held_ = supports.fixed;
+    fixed_ = supports.fixed;
     fill_finest();
     return cycle_->prepare(smoothing_steps(body), fastest_of_brick());
   }
@@ -105,11 +105,11 @@ class MultigridSolver : public IterativeSolver {
   const StepTerms* terms_ = nullptr;
   bool definite_ = false;
   std::atomic<bool> is_guarded_ = false;  // any brick pressed so flat that its guard is at work
-  std::vector<bool> held_;
+  std::vector<bool> fixed_;
   int coarsest_nodes_ = 0;
   std::vector<multigrid::Layout> layouts_;
   std::unique_ptr<multigrid::Cycle> cycle_;
-  std::vector<char> is_held_node_;
+  std::vector<char> is_pinned_node_;
   std::vector<std::vector<const PointStiffness*>> points_of_brick_;  // empty where there are none at all
   ProductWorkspace products_;
   Eigen::VectorXd damping_product_;
@@ -121,9 +121,9 @@ class MultigridSolver : public IterativeSolver {
 
 void MultigridSolver::fill_finest() {
   const std::size_t nodes = body_->node_count();
-  is_held_node_.assign(nodes, 0);
-  for (std::size_t i = 0; i < held_.size(); ++i) {
-    if (held_[i]) is_held_node_[i / 3] = 1;
+  is_pinned_node_.assign(nodes, 0);
+  for (std::size_t i = 0; i < fixed_.size(); ++i) {
+    if (fixed_[i]) is_pinned_node_[i / 3] = 1;
   }
   points_of_brick_.clear();
   if (!terms_->points.empty() || !terms_->coupled.empty()) points_of_brick_.resize(body_->grid.nodes.size());
@@ -131,7 +131,7 @@ void MultigridSolver::fill_finest() {
     for (const PointStiffness& point : *points) points_of_brick_[point.brick].push_back(&point);
   }
   multigrid::Level& finest = cycle_->finest();
-  finest.held.assign(held_.begin(), held_.end());
+  finest.fixed.assign(fixed_.begin(), fixed_.end());
   finest.clear_pulls();
   for (int block = 0; block < finest.block_count(); ++block) {
     if (needs_pull(block)) finest.add_pull(block);
@@ -162,7 +162,7 @@ bool MultigridSolver::needs_pull(int block) const {
   for (std::size_t brick = first; brick < last; ++brick) {
     if (!points_of_brick_.empty() && !points_of_brick_[brick].empty()) return true;
     for (const int node : body_->grid.nodes[brick]) {
-      if (is_held_node_[node] != 0) return true;
+      if (is_pinned_node_[node] != 0) return true;
     }
   }
   return false;
@@ -172,7 +172,7 @@ bool MultigridSolver::is_peculiar(std::size_t brick, double volume_ratio) const 
   if (volume_ratio < body_->law.guard_ratio || definite_ || !has_tiles(body_->model)) return true;
   if (!points_of_brick_.empty() && !points_of_brick_[brick].empty()) return true;
   return std::any_of(body_->grid.nodes[brick].begin(), body_->grid.nodes[brick].end(),
-                     [&](int node) { return is_held_node_[node] != 0; });
+                     [&](int node) { return is_pinned_node_[node] != 0; });
 }
 
 void MultigridSolver::fill_block(int block, const EdgeCoupling& coupling) {
@@ -219,7 +219,7 @@ BrickMatrix MultigridSolver::peculiar_matrix(std::size_t brick) const {
   }
   for (int i = 0; i < 24; ++i) {
     const int node = body_->grid.nodes[brick][i / 3];
-    if (!held_[3 * node + i % 3]) continue;
+    if (!fixed_[3 * node + i % 3]) continue;
     matrix.row(i).setZero();
     matrix.col(i).setZero();
   }
@@ -228,7 +228,7 @@ BrickMatrix MultigridSolver::peculiar_matrix(std::size_t brick) const {
 
 void MultigridSolver::release_held(Eigen::VectorXd& vector) const {
   for (Eigen::Index i = 0; i < vector.size(); ++i) {
-    if (held_[i]) vector[i] = 0;
+    if (fixed_[i]) vector[i] = 0;
   }
 }
 
@@ -257,15 +257,15 @@ void MultigridSolver::multiply_exactly(const Eigen::VectorXd& x, Eigen::VectorXd
   for (const PointStiffness& point : terms_->points) add_point_product(*body_, point, x, product);
 }
 
-void MultigridSolver::precondition(const Eigen::VectorXd& residual, Eigen::VectorXd& answer) {
+void MultigridSolver::precondition(const Eigen::VectorXd& residual, Eigen::VectorXd& correction) {
   const double largest = residual.lpNorm<Eigen::Infinity>();  // brings single precision into its range
   if (largest == 0) {
-    answer.setZero(residual.size());
+    correction.setZero(residual.size());
     return;
   }
   single_residual_ = (residual / largest).cast<float>();
   cycle_->apply(single_residual_, single_answer_);
-  answer = largest * single_answer_.cast<double>();
+  correction = largest * single_answer_.cast<double>();
 }
 
 Eigen::VectorXd MultigridSolver::solve(const Eigen::VectorXd& forces, double tolerance) {
@@ -275,7 +275,7 @@ Eigen::VectorXd MultigridSolver::solve(const Eigen::VectorXd& forces, double tol
   return conjugate_gradients(
       free, {.tolerance = tolerance, .max_iterations = max_iterations_},
       [&](const auto& x, auto& product) { multiply(x, product); },
-      [&](const auto& residual, auto& answer) { precondition(residual, answer); }, report_, &downhill_);
+      [&](const auto& residual, auto& correction) { precondition(residual, correction); }, report_, &downhill_);
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ bool share_a_node(const BrickNodes& a, const BrickNodes& b) {
   return std::any_of(a.begin(), a.end(), [&](int node) { return std::find(b.begin(), b.end(), node) != b.end(); });
 }
 
-/// The children of one coarse cell, in groups that hang together.
+/// The children of one coarse cell, in connected groups.
 std::vector<std::vector<int>> hanging_together(const std::vector<int>& children, const Layout& fine) {
   DisjointSets sets(children.size());
   for (std::size_t a = 0; a < children.size(); ++a) {
@@ -44,8 +44,8 @@ std::vector<std::vector<int>> hanging_together(const std::vector<int>& children,
   return groups;
 }
 
-/// Adds a brick's child; to a new brick at the same cell where another child has its place already (two that do not
-/// hang together on the finest level may do so on a coarser one).
+/// Adds a brick's child; to a new brick at the same cell where another child has its place already (two that are not
+/// connected on the finest level may be connected on a coarser one).
 void add_child(const Layout& fine, int child, std::size_t first_brick, Layout& coarse, std::vector<int>& parents) {
   const Eigen::Vector3i& place = fine.cells[child];
   const std::size_t octant = octant_of(place);
@@ -85,9 +85,9 @@ std::vector<int> supports(int octant, int corner) {
   for (int support = 0; support < 8; ++support) {
     bool counts = true;
     for (int axis = 0; axis < 3; ++axis) {
-      const int place = (octant >> axis & 1) + (corner >> axis & 1);  // in half coarse bricks
+      const int index = (octant >> axis & 1) + (corner >> axis & 1);  // in half coarse bricks
       const bool high = on_high_side(support, axis);
-      counts = counts && (high ? place > 0 : place < 2);
+      counts = counts && (high ? index > 0 : index < 2);
     }
     if (counts) found.push_back(support);
   }
@@ -155,8 +155,8 @@ void list_fine_nodes(Interpolation& hang, int coarse_nodes) {
   hang.fine_nodes.resize(hang.first_fine.back());
   for (std::size_t node = 0; node < hang.counts.size(); ++node) {
     for (std::size_t i = 0; i < hang.counts[node]; ++i) {
-      int& place = next[hang.coarse_nodes[node][i]];
-      hang.fine_nodes[place++] = int(node);
+      int& index = next[hang.coarse_nodes[node][i]];
+      hang.fine_nodes[index++] = int(node);
     }
   }
 }

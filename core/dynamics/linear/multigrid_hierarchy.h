@@ -34,7 +34,7 @@ struct LastLevel {
 };
 
 /// The grid's own bricks, then ever coarser ones of two by two by two, down to `last` or to bricks that have nothing
-/// left to join. A coarse brick joins only children that hang together by their nodes: where a gap runs
+/// left to join. A coarse brick joins only children that are connected by their nodes: where a gap runs
 /// through a cell it holds several bricks, and bricks share a coarse node only where their children share a node. So
 /// the parts of a body that a gap divides stay free of each other on every level.
 [[nodiscard]] std::vector<Layout> make_hierarchy(const BrickGrid& grid, const LastLevel& last);

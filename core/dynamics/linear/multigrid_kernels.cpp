@@ -149,13 +149,13 @@ template <class Number>
       }
     }
   }
-  std::size_t place = 0;
+  std::size_t index = 0;
   for (std::size_t corner = 0; corner < 8; ++corner) {
     for (std::size_t r = 0; r < 3; ++r) {
-      for (std::size_t k = r; k < 3; ++k, ++place) {
+      for (std::size_t k = r; k < 3; ++k, ++index) {
         const std::size_t base = 3 * (corner - 1);
         store(corner == 0 ? all[r][k] : load<Floats>(block.matrix + anchored_index(base + k, base + r) * kLanes),
-              blocks + place * kLanes);
+              blocks + index * kLanes);
       }
     }
   }

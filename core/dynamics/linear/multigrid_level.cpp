@@ -22,16 +22,16 @@ void for_nodes(int count, const Body& body) {
 }
 
 /// The inverse between the axes that are free, zero in the others.
-Eigen::Matrix3f inverse_of_free(Eigen::Matrix3d block, const char* held) {
+Eigen::Matrix3f inverse_of_free(Eigen::Matrix3d block, const char* fixed) {
   for (int k = 0; k < 3; ++k) {
-    if (held[k] == 0) continue;
+    if (fixed[k] == 0) continue;
     block.row(k).setZero();
     block.col(k).setZero();
     block(k, k) = 1;
   }
   Eigen::Matrix3d inverse = block.inverse();
   for (int k = 0; k < 3; ++k) {
-    if (held[k] != 0) inverse(k, k) = 0;
+    if (fixed[k] != 0) inverse(k, k) = 0;
   }
   return inverse.cast<float>();
 }
@@ -43,7 +43,7 @@ Level::Level(const Layout& layout) : layout_(&layout) {
   matrices_.assign(kAnchoredSize * kLanes * blocks, 0);
   pull_of_block_.assign(blocks, -1);
   diagonal.assign(layout.node_count, 0);
-  held.assign(3 * std::size_t(layout.node_count), 0);
+  fixed.assign(3 * std::size_t(layout.node_count), 0);
   corner_forces_.resize(24 * kLanes * blocks);
   corner_places_.reserve(layout.corners.corners.size());
   for (const int corner : layout.corners.corners) {
@@ -97,21 +97,21 @@ void Level::coarsen(const Level& fine) {
   const Interpolation& hang = fine.layout().to_coarse;
   for (std::size_t node = 0; node < diagonal.size(); ++node) {
     double sum = 0;
-    std::array<char, 3> all_held{1, 1, 1};
+    std::array<char, 3> all_fixed{1, 1, 1};
     for (int i = hang.first_fine[node]; i < hang.first_fine[node + 1]; ++i) {
       const std::size_t from = hang.fine_nodes[i];
       sum += fine.diagonal[from] / hang.counts[from];
-      for (std::size_t k = 0; k < 3; ++k) all_held[k] = all_held[k] != 0 && fine.held[3 * from + k] != 0 ? 1 : 0;
+      for (std::size_t k = 0; k < 3; ++k) all_fixed[k] = all_fixed[k] != 0 && fine.fixed[3 * from + k] != 0 ? 1 : 0;
     }
     diagonal[node] = sum;
-    std::copy(all_held.begin(), all_held.end(), &held[3 * node]);
+    std::copy(all_fixed.begin(), all_fixed.end(), &fixed[3 * node]);
   }
 }
 
 void Level::release_held(Floats& x) const {
   for_nodes(layout_->node_count, [&](int node) {
     for (int i = 3 * node; i < 3 * node + 3; ++i) {
-      if (held[i] != 0) x[i] = 0;
+      if (fixed[i] != 0) x[i] = 0;
     }
   });
 }
@@ -188,7 +188,7 @@ void Level::prepare_smoother(double fastest_of_brick) {
         for (int c = r; c < 3; ++c, entry += kLanes) sum(c, r) += double(*entry);
       }
     }
-    inverse_blocks_[n] = inverse_of_free(sum.selfadjointView<Eigen::Lower>(), &held[3 * n]);
+    inverse_blocks_[n] = inverse_of_free(sum.selfadjointView<Eigen::Lower>(), &fixed[3 * n]);
   });
   fastest_ = float(fastest_of_brick);
   if (fastest_of_brick == 0) find_fastest();
@@ -234,12 +234,12 @@ Eigen::SparseMatrix<double> Level::sparse() const {
       const int to = 3 * layout_->bricks[brick][row / 3] + int(row % 3);
       for (std::size_t column = 0; column < 24; ++column) {
         const int from = 3 * layout_->bricks[brick][column / 3] + int(column % 3);
-        if (from > to || held[from] != 0 || held[to] != 0) continue;
+        if (from > to || fixed[from] != 0 || fixed[to] != 0) continue;
         entries.emplace_back(to, from, entry(brick, row, column));
       }
     }
   }
-  for (Eigen::Index i = 0; i < size; ++i) entries.emplace_back(i, i, held[i] == 0 ? diagonal[i / 3] : 1);
+  for (Eigen::Index i = 0; i < size; ++i) entries.emplace_back(i, i, fixed[i] == 0 ? diagonal[i / 3] : 1);
   Eigen::SparseMatrix<double> matrix(size, size);
   matrix.setFromTriplets(entries.begin(), entries.end());
   return matrix;

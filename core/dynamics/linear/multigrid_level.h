@@ -31,7 +31,7 @@ class Level {
   std::vector<double> diagonal;
 
   /// 3 m, degrees of freedom that do not move. (Rounding leaves them traces of stiffness.)
-  std::vector<char> held;
+  std::vector<char> fixed;
   void release_held(Floats& x) const;
 
   /// To be called when matrices and diagonal are set: the inverse of the nodes' own 3 x 3 blocks and the fastest

@@ -93,10 +93,10 @@ class BucklingProblem {
 
   [[nodiscard]] Vector compliance(const Vector& forces) const {
     if (between_) between_();
-    const Vector answer = solver_->solve(dofs_.scatter(forces), kSolved);
-    if (answer.size() == 0)
+    const Vector solution = solver_->solve(dofs_.scatter(forces), kSolved);
+    if (solution.size() == 0)
       throw Error(ErrorKind::kFailed, "a linear system of the search for buckling was not solved");
-    return dofs_.gather(answer);
+    return dofs_.gather(solution);
   }
 
  private:

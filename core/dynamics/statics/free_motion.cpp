@@ -35,9 +35,9 @@ Eigen::VectorXd softest_motion(const Body& body, const Supports& supports, Linea
   return motion.normalized();
 }
 
-std::string place_text(const Vec3& place) {
+std::string place_text(const Vec3& position) {
   const auto coordinate = [](double value) { return readable(std::round(value * 1e4) / 1e4, Dimension::kLength); };
-  return fmt::format("({}, {}, {})", coordinate(place.x()), coordinate(place.y()), coordinate(place.z()));
+  return fmt::format("({}, {}, {})", coordinate(position.x()), coordinate(position.y()), coordinate(position.z()));
 }
 
 std::string direction_text(Vec3 direction) {

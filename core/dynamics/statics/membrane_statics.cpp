@@ -29,11 +29,11 @@ void release_supported(const Membrane& membrane, Eigen::VectorXd& forces) {
 /// The stiffness with supported degrees of freedom held one by one: unknowns keep their numbers.
 Eigen::SparseMatrix<double> supported_stiffness(const Membrane& membrane, bool definite) {
   Eigen::SparseMatrix<double> matrix = stiffness_matrix(membrane, definite);
-  const double held = matrix.diagonal().maxCoeff();
+  const double pinned_diagonal = matrix.diagonal().maxCoeff();
   for (int column = 0; column < matrix.outerSize(); ++column) {
     for (Eigen::SparseMatrix<double>::InnerIterator entry(matrix, column); entry; ++entry) {
       const bool fixed = membrane.fixed[entry.row()] || membrane.fixed[column];
-      if (fixed) entry.valueRef() = entry.row() == column ? held : 0;
+      if (fixed) entry.valueRef() = entry.row() == column ? pinned_diagonal : 0;
     }
   }
   return matrix;
@@ -144,11 +144,11 @@ StaticReport solve_static(Membrane& membrane, const Points2& loads, const Static
 }
 
 Points2 reactions(const Membrane& membrane, const Points2& loads) {
-  Points2 held = -(spring_forces(membrane) + loads);
-  for (Eigen::Index i = 0; i < held.size(); ++i) {
-    if (!membrane.fixed[i]) held.data()[i] = 0;
+  Points2 pin_forces = -(spring_forces(membrane) + loads);
+  for (Eigen::Index i = 0; i < pin_forces.size(); ++i) {
+    if (!membrane.fixed[i]) pin_forces.data()[i] = 0;
   }
-  return held;
+  return pin_forces;
 }
 
 }  // namespace sprung

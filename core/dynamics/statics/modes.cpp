@@ -73,7 +73,8 @@ class ScaledStiffness {
   /// About the inverse.
   [[nodiscard]] Matrix precondition(const Matrix& columns) const {
     return each(
-        columns, [&](const Vector& all, Vector& answer) { system_->precondition(all, answer); }, scale_.cwiseInverse());
+        columns, [&](const Vector& all, Vector& correction) { system_->precondition(all, correction); },
+        scale_.cwiseInverse());
   }
 
   [[nodiscard]] Vector shape_of(const Vector& scaled) const { return dofs_.scatter(scale_.cwiseProduct(scaled)); }
@@ -182,7 +183,7 @@ Modes natural_modes(const Body& body, const Supports& supports, int count, const
   Modes modes;
   while (modes.rigid < all && found->values[modes.rigid] - shift < kRigid * shift) ++modes.rigid;
   if (modes.rigid + count > all) {
-    throw Error(ErrorKind::kFailed, "the body has more than six rigid motions: its parts do not hang together");
+    throw Error(ErrorKind::kFailed, "the body has more than six rigid motions: its parts are not connected");
   }
   modes.frequencies.resize(count);
   modes.shapes.resize(3 * body.node_count(), count);

@@ -292,15 +292,15 @@ Eigen::VectorXd solve_linear(const Body& body, const Supports& supports, const P
   }
   // Motions that meet (almost) no resistance, such as a thin bar of plain springs that may twist, do no harm where no
   // load drives them. What is held slightly is a good preconditioner for what is not.
-  const std::unique_ptr<LinearSolver> held = make_robust_solver(body);
-  if (held->linearize(body, supports, true, terms)) {
+  const std::unique_ptr<LinearSolver> definite_solver = make_robust_solver(body);
+  if (definite_solver->linearize(body, supports, true, terms)) {
     SolveReport report;
     Eigen::VectorXd displacement = conjugate_gradients(
         forces, {.tolerance = kLinearTolerance, .fallback_tolerance = kLinearTolerance, .max_iterations = 200},
         [&](const Eigen::VectorXd& x, Eigen::VectorXd& product) { product = stiffness.times(x); },
-        [&](const Eigen::VectorXd& residual, Eigen::VectorXd& answer) {
-          answer = held->solve(residual, kNewtonTolerance);
-          if (answer.size() == 0) answer.setZero(residual.size());
+        [&](const Eigen::VectorXd& residual, Eigen::VectorXd& correction) {
+          correction = definite_solver->solve(residual, kNewtonTolerance);
+          if (correction.size() == 0) correction.setZero(residual.size());
         },
         report);
     if (stiffness.is_solution(displacement, forces)) return displacement;
@@ -361,12 +361,12 @@ Points reactions(const Body& body, const Supports& supports, const Points& loads
   ForceWorkspace workspace;
   Points forces;
   spring_forces(body, workspace, forces);
-  Points held = -(forces + loads);
-  for (int i = 0; i < held.size(); ++i) {
-    if (!supports.fixed[i]) held.data()[i] = 0;
+  Points pin_forces = -(forces + loads);
+  for (int i = 0; i < pin_forces.size(); ++i) {
+    if (!supports.fixed[i]) pin_forces.data()[i] = 0;
   }
-  add_spring_reactions(body, supports, body.positions - body.rest_positions, held);
-  return held;
+  add_spring_reactions(body, supports, body.positions - body.rest_positions, pin_forces);
+  return pin_forces;
 }
 
 }  // namespace sprung

@@ -295,7 +295,7 @@ struct VertexPlaces {
 
 template <std::size_t n>
 bool has_all(const std::array<int, n>& places) {
-  return std::all_of(places.begin(), places.end(), [](int place) { return place >= 0; });
+  return std::all_of(places.begin(), places.end(), [](int index) { return index >= 0; });
 }
 
 /// Integer colours have 8 or 16 bits.

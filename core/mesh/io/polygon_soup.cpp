@@ -238,9 +238,9 @@ void add_normal(PolygonSoup& soup, const Vec3& normal) {
 
 std::string no_faces(long points, long lines) {
   if (points == 0) return "no vertices and no faces: not a mesh of this format, or an empty one";
-  const std::string held = count_of(points, "point");
-  if (lines == 0) return fmt::format("no faces (a point cloud); it holds {}", held);
-  return fmt::format("no faces (lines only); it holds {} and {}", held, count_of(lines, "line"));
+  const std::string contents = count_of(points, "point");
+  if (lines == 0) return fmt::format("no faces (a point cloud); it holds {}", contents);
+  return fmt::format("no faces (lines only); it holds {} and {}", contents, count_of(lines, "line"));
 }
 
 SurfaceMesh mesh_from(PolygonSoup soup, std::string_view name) {

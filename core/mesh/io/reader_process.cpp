@@ -214,7 +214,7 @@ constexpr const char* kAdvice =
     "and export it as OBJ, PLY or GLB";
 
 /// The first byte that the child sends; the rest is the mesh or the message.
-enum class Answer : char { kMesh = 'M', kError = 'E', kNoMemory = 'N' };
+enum class Reply : char { kMesh = 'M', kError = 'E', kNoMemory = 'N' };
 
 void set_limit(decltype(RLIMIT_AS) resource, rlim_t soft, rlim_t hard) {
   rlimit given{};
@@ -262,8 +262,8 @@ void write_all(int pipe, std::span<const std::byte> bytes) {
   }
 }
 
-void send(int pipe, Answer answer, std::span<const std::byte> bytes) {
-  write_all(pipe, std::as_bytes(std::span(&answer, 1)));
+void send(int pipe, Reply reply, std::span<const std::byte> bytes) {
+  write_all(pipe, std::as_bytes(std::span(&reply, 1)));
   write_all(pipe, bytes);
 }
 
@@ -276,11 +276,11 @@ void send(int pipe, Answer answer, std::span<const std::byte> bytes) {
   limit_this_process(limits);
   try {
     const std::vector<std::byte> bytes = bytes_from_mesh(read());
-    send(pipe, Answer::kMesh, bytes);
+    send(pipe, Reply::kMesh, bytes);
   } catch (const std::bad_alloc&) {
-    send(pipe, Answer::kNoMemory, {});
+    send(pipe, Reply::kNoMemory, {});
   } catch (const std::exception& error) {
-    send(pipe, Answer::kError, std::as_bytes(std::span(error.what(), std::strlen(error.what()))));
+    send(pipe, Reply::kError, std::as_bytes(std::span(error.what(), std::strlen(error.what()))));
   }
   _exit(0);
 }
@@ -354,7 +354,7 @@ class Reading {
     const auto bytes = child.receive(Clock::now() + std::chrono::seconds(limits_.wall_time));
     if (!bytes) refuse(fmt::format("gave up reading it after {} s; {}", limits_.wall_time, kAdvice));
     check_end(child.wait());
-    return open_answer(*bytes);
+    return open_reply(*bytes);
   }
 
  private:
@@ -383,12 +383,12 @@ class Reading {
     refuse(fmt::format("the reader crashed on this file (signal {}); {}", name, kAdvice));
   }
 
-  [[nodiscard]] SurfaceMesh open_answer(std::span<const std::byte> bytes) const {
+  [[nodiscard]] SurfaceMesh open_reply(std::span<const std::byte> bytes) const {
     if (bytes.empty()) refuse(fmt::format("the reader gave no answer; {}", kAdvice));
-    const auto answer = static_cast<Answer>(bytes[0]);
+    const auto reply = static_cast<Reply>(bytes[0]);
     bytes = bytes.subspan(1);
-    if (answer == Answer::kMesh) return mesh_from_bytes(bytes);
-    if (answer == Answer::kNoMemory) {
+    if (reply == Reply::kMesh) return mesh_from_bytes(bytes);
+    if (reply == Reply::kNoMemory) {
       refuse(fmt::format("reading it takes more than {} MB of memory, too much for a file of its size; {}",
                          limits_.memory >> 20, kAdvice));
     }

@@ -33,7 +33,7 @@ class Primitive {
   const Facet* facet_;
 };
 
-Kernel::Point_3 point_of(const Vec3& place) { return {place.x(), place.y(), place.z()}; }
+Kernel::Point_3 point_of(const Vec3& position) { return {position.x(), position.y(), position.z()}; }
 
 }  // namespace
 
@@ -53,10 +53,10 @@ class NearestTriangle::Tree {
     tree_.accelerate_distance_queries();
   }
 
-  [[nodiscard]] SurfacePlace at(const Vec3& place) const {
-    const auto [point, row] = tree_.closest_point_and_primitive(point_of(place));
+  [[nodiscard]] SurfacePlace at(const Vec3& position) const {
+    const auto [point, row] = tree_.closest_point_and_primitive(point_of(position));
     const Vec3 nearest(point.x(), point.y(), point.z());
-    return {.triangle = row, .point = nearest, .distance = (place - nearest).norm()};
+    return {.triangle = row, .point = nearest, .distance = (position - nearest).norm()};
   }
 
  private:
@@ -70,6 +70,6 @@ NearestTriangle::~NearestTriangle() = default;
 NearestTriangle::NearestTriangle(NearestTriangle&&) noexcept = default;
 NearestTriangle& NearestTriangle::operator=(NearestTriangle&&) noexcept = default;
 
-SurfacePlace NearestTriangle::at(const Vec3& place) const { return tree_->at(place); }
+SurfacePlace NearestTriangle::at(const Vec3& position) const { return tree_->at(position); }
 
 }  // namespace sprung

@@ -22,7 +22,7 @@ class NearestTriangle {
   NearestTriangle(NearestTriangle&&) noexcept;
   NearestTriangle& operator=(NearestTriangle&&) noexcept;
 
-  [[nodiscard]] SurfacePlace at(const Vec3& place) const;
+  [[nodiscard]] SurfacePlace at(const Vec3& position) const;
 
  private:
   class Tree;

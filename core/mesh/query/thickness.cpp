@@ -64,10 +64,10 @@ std::vector<WallSample> sample_thickness(const Solid& solid, int count) {
     const auto found = std::lower_bound(areas.begin(), areas.end(), at);
     const auto t = int(found - areas.begin());
     const Vec3 outward = area_vector(solid, t).stableNormalized();
-    const Vec3 place = point_in(solid, t, i);
-    const double way = kInside + triangles.cast_ray((place - low) / cell - kInside * outward, -outward);
+    const Vec3 position = point_in(solid, t, i);
+    const double way = kInside + triangles.cast_ray((position - low) / cell - kInside * outward, -outward);
     const double thickness = solid.thickness > 0 ? solid.thickness : way * cell;
-    if (std::isfinite(thickness)) samples.push_back({place, outward, thickness});
+    if (std::isfinite(thickness)) samples.push_back({position, outward, thickness});
   }
   return samples;
 }

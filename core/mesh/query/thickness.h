@@ -7,7 +7,7 @@ namespace sprung {
 
 /// A point of a solid's surface and the thickness of the solid there.
 struct WallSample {
-  Vec3 place = Vec3::Zero();
+  Vec3 position = Vec3::Zero();
   Vec3 outward = Vec3::Zero();  // unit normal
   double thickness = 0;         // distance along the inward normal to the opposite wall
 };

@@ -9,8 +9,8 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-Eigen::Vector3i cell_of(const Vec3& place, const Eigen::Vector3i& counts) {
-  return place.array().floor().cast<int>().max(0).min(counts.array() - 1);
+Eigen::Vector3i cell_of(const Vec3& position, const Eigen::Vector3i& counts) {
+  return position.array().floor().cast<int>().max(0).min(counts.array() - 1);
 }
 
 std::size_t number_of(const Eigen::Vector3i& cell, const Eigen::Vector3i& counts) {

@@ -24,10 +24,10 @@ std::vector<int> all_rows(const Triangles& triangles) {
 
 }  // namespace
 
-double solid_angle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& place) {
-  const Vec3 u = a - place;
-  const Vec3 v = b - place;
-  const Vec3 w = c - place;
+double solid_angle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& position) {
+  const Vec3 u = a - position;
+  const Vec3 v = b - position;
+  const Vec3 w = c - position;
   const double lu = u.norm();
   const double lv = v.norm();
   const double lw = w.norm();
@@ -96,27 +96,27 @@ void WindingTree::measure(Node& node) const {
   }
 }
 
-double WindingTree::near(const Node& node, const Vec3& place) const {
+double WindingTree::near(const Node& node, const Vec3& position) const {
   double angle = 0;
   for (int i = node.first; i < node.first + node.count; ++i) {
     const auto corners = triangles_.row(rows_[i]);
-    angle += solid_angle(points_.row(corners[0]), points_.row(corners[1]), points_.row(corners[2]), place);
+    angle += solid_angle(points_.row(corners[0]), points_.row(corners[1]), points_.row(corners[2]), position);
   }
   return angle;
 }
 
-double WindingTree::at(const Vec3& place) const {
+double WindingTree::at(const Vec3& position) const {
   double angle = 0;
   std::array<int, 64> stack{};  // halving leaves no more than 32 levels of one node each
   std::size_t depth = 1;
   while (depth > 0) {
     const Node& node = nodes_[stack[--depth]];
-    const Vec3 away = node.centre - place;
+    const Vec3 away = node.centre - position;
     const double distance = away.norm();
     if (distance > kFar * node.reach) {
       angle += away.dot(node.normal) / (distance * distance * distance);
     } else if (node.children < 0) {
-      angle += near(node, place);
+      angle += near(node, position);
     } else {
       stack[depth++] = node.children;
       stack[depth++] = node.children + 1;

@@ -19,7 +19,7 @@ class WindingTree {
   WindingTree(const Points& points, const Triangles& triangles);
 
   /// A triangle contributes nothing at points on it.
-  [[nodiscard]] double at(const Vec3& place) const;
+  [[nodiscard]] double at(const Vec3& position) const;
 
  private:
   struct Node {
@@ -32,7 +32,7 @@ class WindingTree {
   };
   void build(int node);
   void measure(Node& node) const;
-  [[nodiscard]] double near(const Node& node, const Vec3& place) const;
+  [[nodiscard]] double near(const Node& node, const Vec3& position) const;
 
   const Points& points_;
   const Triangles& triangles_;
@@ -42,6 +42,6 @@ class WindingTree {
 
 /// The solid angle of a triangle seen from `place`, positive from behind (Van Oosterom and Strackee 1983); 0 within its
 /// plane.
-[[nodiscard]] double solid_angle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& place);
+[[nodiscard]] double solid_angle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& position);
 
 }  // namespace sprung

@@ -42,8 +42,8 @@ CoarseSurface surface_of(const Mesh& mesh) {
   CoarseSurface surface{.points = Points(mesh.number_of_vertices(), 3),
                         .triangles = Triangles(mesh.number_of_faces(), 3)};
   for (const auto vertex : mesh.vertices()) {
-    const Point& place = mesh.point(vertex);
-    surface.points.row(vertex.idx()) << place.x(), place.y(), place.z();
+    const Point& position = mesh.point(vertex);
+    surface.points.row(vertex.idx()) << position.x(), position.y(), position.z();
   }
   for (const auto face : mesh.faces()) {
     int corner = 0;

@@ -205,12 +205,12 @@ TEST(FilmPictures, WritesPassesBesideItsPictures) {
 
 TEST(FilmGolden, Looks) {
   std::string more = "[camera]\nelevation = 20\n";
-  int place = 0;
+  int index = 0;
   for (const char* look : {"gelatin", "rubber", "steel"}) {
     more += "[[body]]\nsphere = { radius = \"6 cm\" }\nbricks = 4\nlook = \"" + std::string(look) + "\"\ncolor = \"" +
-            (place == 2 ? "#c8ccd2" : "#c8382e") + "\"\nposition = [" + std::to_string(-0.14 + 0.14 * place) +
+            (index == 2 ? "#c8ccd2" : "#c8382e") + "\"\nposition = [" + std::to_string(-0.14 + 0.14 * index) +
             ", 0, 0.16]\n";
-    ++place;
+    ++index;
   }
   const Film scene = parse_scene(kBar + more, "/scene.toml");
   FilmUnderTest film("");
@@ -219,8 +219,8 @@ TEST(FilmGolden, Looks) {
   film.recording = {};
   film.recording.progress = {0};
   film.recording.frames.emplace_back();
-  for (const SoftBody& actor : film.simulation.world.bodies) {
-    film.recording.frames[0].emplace_back(actor.rest_positions.cast<float>());
+  for (const SoftBody& body : film.simulation.world.bodies) {
+    film.recording.frames[0].emplace_back(body.rest_positions.cast<float>());
   }
   expect_golden(film.picture(1), "film_looks");
 }

@@ -148,7 +148,7 @@ TEST_F(SceneFile, ReadsWhatIsMeasuredAndExpected) {
   EXPECT_EQ(scene.solver.modes, 3);
   const Pin& pin = scene.bodies[0].pins.at(0);
   EXPECT_EQ(pin.name, "foot");
-  EXPECT_EQ(pin.axes.held, (std::array<bool, 3>{true, false, true}));
+  EXPECT_EQ(pin.axes.fixed, (std::array<bool, 3>{true, false, true}));
   EXPECT_EQ(pin.translate, Vec3(0, 0, 0.01));
   EXPECT_EQ(pin.rotate, Vec3(0, 90, 0));
   EXPECT_DOUBLE_EQ(scene.bodies[0].regions.at(0).material.young, 80e3);

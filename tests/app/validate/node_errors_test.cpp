@@ -17,8 +17,8 @@ Body centred_bar() {
 
 /// Known at two of the bar's nodes and at a point between nodes, which does not count.
 KnownSolution known_by_hand() {
-  KnownSolution known{.poisson = 0.3, .places = Points(3, 3), .displacements = Points::Zero(3, 3)};
-  known.places << -0.2, -0.05, 0.05, 0.2, 0.05, 0.05, 0.03, 0, 0;
+  KnownSolution known{.poisson = 0.3, .positions = Points(3, 3), .displacements = Points::Zero(3, 3)};
+  known.positions << -0.2, -0.05, 0.05, 0.2, 0.05, 0.05, 0.03, 0, 0;
   known.displacements.row(1) << 0, -0.02, 0;
   known.displacements.row(2) << 0, -0.01, 0;
   return known;
@@ -41,7 +41,7 @@ TEST(NodeErrors, AreThoseAtSharedNodes) {
 
 TEST(NodeErrors, NeedANodeToCompare) {
   KnownSolution known = known_by_hand();
-  known.places.array() += 0.01;
+  known.positions.array() += 0.01;
   EXPECT_NE(error_message([&] { static_cast<void>(node_errors(centred_bar(), Mat3::Identity(), known)); }), "");
 }
 
@@ -52,7 +52,7 @@ TEST(NodeErrors, TableIsReadByRatio) {
   const std::vector<KnownSolution> known = read_known_solutions(file);
   ASSERT_EQ(known.size(), 2U);
   EXPECT_EQ(known[0].poisson, 0);
-  EXPECT_EQ(known[1].places.rows(), 2);
+  EXPECT_EQ(known[1].positions.rows(), 2);
   EXPECT_EQ(known[1].displacements(0, 2), -6e-3);
   for (const char* line : {"1,2,3", "0,1,2,3,4,5,6,7", "0,1,2,3,4,5,x", "0,1,2,3,4,5,6m", "0,1,2,,4,5,6"}) {
     const auto wrong = folder.write("wrong.csv", std::string("poisson,x,y,z,ux,uy,uz\n0,1,2,3,4,5,6\n") + line + "\n");
@@ -66,12 +66,12 @@ TEST(NodeErrors, ReferenceOfTheCantileverHasItsTips) {
   const auto known = read_known_solutions(SPRUNG_SOURCE_DIR "/assets/experiments/cantilever_nodes.csv");
   ASSERT_EQ(known.size(), 3U);
   for (const KnownSolution& one : known) {
-    ASSERT_EQ(one.places.rows(), 17 * 5 * 5);
-    for (Eigen::Index i = 0; i < one.places.rows(); ++i) {
-      if (one.places(i, 0) < -0.1999) {
+    ASSERT_EQ(one.positions.rows(), 17 * 5 * 5);
+    for (Eigen::Index i = 0; i < one.positions.rows(); ++i) {
+      if (one.positions(i, 0) < -0.1999) {
         EXPECT_EQ(one.displacements.row(i).norm(), 0);
       }
-      const bool is_tip = one.places.row(i).isApprox(Eigen::RowVector3d(0.2, 0, 0), 1e-9);
+      const bool is_tip = one.positions.row(i).isApprox(Eigen::RowVector3d(0.2, 0, 0), 1e-9);
       if (is_tip && one.poisson == 0.3) {
         EXPECT_EQ(one.displacements(i, 1), -0.004004546);
       }

@@ -25,10 +25,10 @@ double brick_energy(const BrickLaw& law, double h, const CornerVectors<double>& 
 }
 
 /// A brick pulled out of shape at random, some of them far enough for the volume guard to act.
-CornerVectors<double> crushed_brick(double h, double squeeze, std::mt19937& random) {
+CornerVectors<double> crushed_brick(double h, double compression, std::mt19937& random) {
   std::uniform_real_distribution<double> distance(-0.15 * h, 0.15 * h);
   CornerVectors<double> x = rest_brick(h);
-  for (std::size_t i = 0; i < 24; ++i) x[i] = (i % 3 == 1 ? squeeze * x[i] : x[i]) + distance(random);
+  for (std::size_t i = 0; i < 24; ++i) x[i] = (i % 3 == 1 ? compression * x[i] : x[i]) + distance(random);
   return x;
 }
 
@@ -36,9 +36,9 @@ TEST(BrickForces, AreTheGradientOfTheEnergy) {
   std::mt19937 random(7);
   const double h = 0.1;
   for (const Model model : kCorrectedModels) {
-    for (const double squeeze : {1.4, 1.0, 0.2, -0.3}) {
+    for (const double compression : {1.4, 1.0, 0.2, -0.3}) {
       const BrickLaw law = brick_law(model, test_material(0.35), h);
-      const CornerVectors<double> x = crushed_brick(h, squeeze, random);
+      const CornerVectors<double> x = crushed_brick(h, compression, random);
       CornerVectors<double> force{};
       brick_forces<double>(law, h, x, nullptr, force);
       Eigen::Matrix<double, 24, 1> difference;
@@ -50,7 +50,7 @@ TEST(BrickForces, AreTheGradientOfTheEnergy) {
         low[i] -= step;
         difference[int(i)] = -(brick_energy(law, h, high) - brick_energy(law, h, low)) / (2 * step);
       }
-      EXPECT_LT((as_vector(force) - difference).norm(), 1e-7 * difference.norm()) << squeeze;
+      EXPECT_LT((as_vector(force) - difference).norm(), 1e-7 * difference.norm()) << compression;
     }
   }
 }
@@ -80,9 +80,9 @@ TEST(BrickForces, HaveTheHessianAsTheirDerivative) {
   std::mt19937 random(11);
   const double h = 0.1;
   for (const Model model : kCorrectedModels) {
-    for (const double squeeze : {1.4, 1.0, 0.2, -0.3}) {
+    for (const double compression : {1.4, 1.0, 0.2, -0.3}) {
       const BrickLaw law = brick_law(model, test_material(0.35), h);
-      const CornerVectors<double> x = crushed_brick(h, squeeze, random);
+      const CornerVectors<double> x = crushed_brick(h, compression, random);
       BrickMatrix difference;
       for (std::size_t i = 0; i < 24; ++i) {
         const double step = 1e-6 * h;
@@ -96,8 +96,8 @@ TEST(BrickForces, HaveTheHessianAsTheirDerivative) {
         difference.col(int(i)) = -(as_vector(high) - as_vector(low)) / (2 * step);
       }
       const BrickMatrix hessian = brick_hessian(law, h, x);
-      EXPECT_LT((hessian - difference).norm(), 1e-7 * hessian.norm()) << squeeze;
-      EXPECT_LT((hessian - hessian.transpose()).norm(), 1e-13 * hessian.norm()) << squeeze;
+      EXPECT_LT((hessian - difference).norm(), 1e-7 * hessian.norm()) << compression;
+      EXPECT_LT((hessian - hessian.transpose()).norm(), 1e-13 * hessian.norm()) << compression;
     }
   }
 }

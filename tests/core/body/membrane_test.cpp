@@ -142,14 +142,14 @@ TEST(Membrane, ThinStripFollowsTheElastica) {
     EXPECT_NEAR((height / 2 - tip.y()) / length, drop, 2e-3 * drop) << load;
     EXPECT_NEAR(1 - tip.x() / length, shortening, 2e-3) << load;
 
-    const Points2 held = reactions(membrane, loads);
-    const Vec2 total = held.colwise().sum().transpose();
+    const Points2 pin_forces = reactions(membrane, loads);
+    const Vec2 total = pin_forces.colwise().sum().transpose();
     EXPECT_NEAR(total.x(), 0, 1e-6 * force);
     EXPECT_NEAR(total.y(), force, 1e-6 * force);
     double moment = 0;  // about the root, it balances the force at the tip
     for (const int node : {0, columns + 1}) {
       const Vec2 arm = membrane.positions.row(node).transpose() - Vec2(0, height / 2);
-      moment += arm.x() * held(node, 1) - arm.y() * held(node, 0);
+      moment += arm.x() * pin_forces(node, 1) - arm.y() * pin_forces(node, 0);
     }
     EXPECT_NEAR(moment, force * tip.x(), 1e-5 * force);
   }
@@ -180,8 +180,8 @@ TEST(Membrane, SupportsCanBeMoved) {
   }
   const Points2 none = Points2::Zero(membrane.node_count(), 2);
   solve_static(membrane, none);
-  const Points2 held = reactions(membrane, none);
-  EXPECT_NEAR(held(4, 0) + held(9, 0) + held(14, 0), material.young * strain * 0.2,
+  const Points2 pin_forces = reactions(membrane, none);
+  EXPECT_NEAR(pin_forces(4, 0) + pin_forces(9, 0) + pin_forces(14, 0), material.young * strain * 0.2,
               1e-4 * material.young * strain * 0.2);
   EXPECT_NEAR((membrane.positions(12, 1) - membrane.positions(2, 1)) / 0.2 - 1, -0.2 * strain, 1e-4 * strain);
 }

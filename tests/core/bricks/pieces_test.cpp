@@ -27,7 +27,7 @@ BrickGrid split(const Solid& solid, double size, PieceReport* report = nullptr) 
 
 Solid only(const SurfaceMesh& mesh) { return find_solids(mesh, "test").solids.at(0); }
 
-/// For each brick a number of the piece it hangs together in, when those for which `is_out` holds are taken away; -1
+/// For each brick a number of the piece it is connected to, when those for which `is_out` holds are taken away; -1
 /// for these. Pieces are counted from 0.
 template <class IsOut>
 std::vector<int> pieces_without(const BrickGrid& grid, const IsOut& is_out) {
@@ -137,7 +137,7 @@ TEST(SplitPieces, HoldsHoweverTheFingersLie) {
 }
 
 /// The teeth's piece of every brick above the back, by the x of the tooth that is there: names of the tooth.
-class Ride : public ::testing::Test {
+class PieceEmbedding : public ::testing::Test {
  protected:
   const Solid solid_ = only(comb_mesh({{0, 2.4}, {2.45, 4.7}}, 1.5, 6.2, 1.7));
   BrickGrid grid_ = split(solid_, 1);
@@ -185,9 +185,9 @@ class Ride : public ::testing::Test {
   }
 };
 
-TEST_F(Ride, EveryPointOfAFingerRidesInItsOwnBricks) { expect_own_bricks(); }
+TEST_F(PieceEmbedding, EveryPointOfAFingerIsInItsOwnBricks) { expect_own_bricks(); }
 
-TEST_F(Ride, AlsoWhereSliversWereGivenAway) {
+TEST_F(PieceEmbedding, AlsoWhereSliversWereGivenAway) {
   EXPECT_GT(absorb_slivers(grid_, 0.5), 0);
   EXPECT_NEAR(grid_.volume(), solid_.volume, 1e-9 * solid_.volume);
   expect_in_order(grid_);

@@ -61,9 +61,9 @@ TEST(Slivers, ChainsOfSpecksDoNotAllGoToOneBrick) {
   Points points(3 * 121, 3);
   for (int axis = 0; axis < 3; ++axis) {
     for (int i = 0; i <= 120; ++i) {
-      Vec3 place = high;
-      place[axis] *= i / 120.0;
-      points.row(121 * axis + i) = place.transpose();
+      Vec3 position = high;
+      position[axis] *= i / 120.0;
+      points.row(121 * axis + i) = position.transpose();
     }
   }
   const Embedding embedding = embed(filled.grid, points);

@@ -70,14 +70,14 @@ TEST(SmoothEmbedding, GoesThroughTheNodesAndNearTheRest) {
 TEST(SmoothEmbedding, NormalsStandOnTheSurface) {
   const BrickGrid grid = bar();
   const Points nodes = bent(grid.rest_positions());
-  const SmoothEmbedding ride(grid, nodes);
+  const SmoothEmbedding embedding(grid, nodes);
   const double step = 1e-6;
   Points patch(3, 3);
   patch << 0.13, 0.1, 0.04, 0.13 + step, 0.1, 0.04, 0.13, 0.1, 0.04 + step;
-  const Points there = ride.points(embed(grid, patch));
+  const Points there = embedding.points(embed(grid, patch));
   const Vec3 across = (there.row(2) - there.row(0)).cross(there.row(1) - there.row(0)).transpose().normalized();
   const Points up = Eigen::RowVector3d(0, 1, 0);
-  const Vec3 normal = ride.normals(embed(grid, patch.topRows(1)), up).row(0).transpose().normalized();
+  const Vec3 normal = embedding.normals(embed(grid, patch.topRows(1)), up).row(0).transpose().normalized();
   EXPECT_LT((normal - across).norm(), 1e-5);
 }
 

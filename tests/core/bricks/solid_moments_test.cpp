@@ -91,8 +91,8 @@ TEST(SolidMoments, AreThoseOfInclinedPlates) {
       SolidIntegrals sum;
       constexpr int kFine = 120;
       for (int i = 0; i < kFine * kFine * kFine; ++i) {
-        const Vec3 place = (Vec3(i % kFine, i / kFine % kFine, i / kFine / kFine).array() + 0.5) / kFine - 0.5;
-        if (std::abs(turn.col(2).dot(place)) < thickness / 2) sum += integrals_of(1, {place, Mat3::Zero()});
+        const Vec3 position = (Vec3(i % kFine, i / kFine % kFine, i / kFine / kFine).array() + 0.5) / kFine - 0.5;
+        if (std::abs(turn.col(2).dot(position)) < thickness / 2) sum += integrals_of(1, {position, Mat3::Zero()});
       }
       const SolidMoments expected = sum.moments();
       EXPECT_LT((found.centroid - expected.centroid).norm(), 5e-3) << degrees << ' ' << thickness;

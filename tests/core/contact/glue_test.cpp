@@ -51,7 +51,7 @@ TEST(Glue, HoldsWhereSkinsLieTogether) {
 TEST(Glue, KeepsTogetherWhatIsDrawnApart) {
   World world = two_cubes();
   world.glue = glue_between(world, 0, 1, 0.001);
-  for (SoftBody& actor : world.bodies) actor.damping = {.alpha = 0, .beta = 1e-4};
+  for (SoftBody& body : world.bodies) body.damping = {.alpha = 0, .beta = 1e-4};
   world.bodies[1].velocities.col(0).setConstant(0.5);
   const auto momentum = [&] { return Vec3(linear_momentum(world.bodies[0]) + linear_momentum(world.bodies[1])); };
   const Vec3 before = momentum();

@@ -54,9 +54,9 @@ TEST(InversionRate, CrushedBricksGiveNoEnergy) {
     if (wall.positions(node, 1) < 0.005) wall.pinned.push_back({.node = node});
   }
   world.bodies[1].velocities.col(0).setConstant(10);
-  for (SoftBody& actor : world.bodies) {
-    actor.damping = {};
-    stiffen_volume_guard(actor, 0, impact_speed(world));
+  for (SoftBody& body : world.bodies) {
+    body.damping = {};
+    stiffen_volume_guard(body, 0, impact_speed(world));
   }
   const auto energy = [&] {
     return energy_of(wall, world.gravity).sum() + energy_of(world.bodies[1], world.gravity).sum();
@@ -80,8 +80,8 @@ TEST(InversionRate, BrickTurnedOverBetweenItsCornersIsFound) {
   for (int corner = 0; corner < 8; ++corner) {
     const double turn = (corner & 4) != 0 ? 2.6 : 0;  // rad, of the high face about z
     const Vec3 middle(0.01, 0.01, 0);
-    const Vec3 place = body.positions.row(nodes[corner]);
-    const Vec3 flipped = middle + Eigen::AngleAxisd(turn, Vec3::UnitZ()) * (place - middle);
+    const Vec3 position = body.positions.row(nodes[corner]);
+    const Vec3 flipped = middle + Eigen::AngleAxisd(turn, Vec3::UnitZ()) * (position - middle);
     body.positions.row(nodes[corner]) = flipped.transpose();
   }
   InversionGuard watch;

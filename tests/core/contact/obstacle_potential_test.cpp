@@ -35,12 +35,12 @@ class ObstaclePotentialOf : public testing::TestWithParam<Shape> {};
 /// Forces are minus the gradient of the energy, along a way of all nodes.
 TEST_P(ObstaclePotentialOf, FollowsFromItsEnergy) {
   Touching touching(GetParam());
-  SoftBody& actor = touching.world.bodies[0];
+  SoftBody& body = touching.world.bodies[0];
   std::mt19937 random(7);
   std::uniform_real_distribution<double> part(-1, 1);
   for (const double slip_speed : {1.0, 1e-3}) {  // sticks, slides
-    ObstaclePotential potential(actor, touching.obstacle, slip_speed);
-    potential.begin(actor.positions, 0.01, 0.02);
+    ObstaclePotential potential(body, touching.obstacle, slip_speed);
+    potential.begin(body.positions, 0.01, 0.02);
     potential.update_friction(touching.now);
     const Points way = Points::NullaryExpr(touching.now.rows(), 3, [&] { return part(random); }).matrix().normalized();
     const double step = 1e-7;

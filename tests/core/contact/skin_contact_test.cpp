@@ -23,23 +23,23 @@ using test::touching_box;
 /// Of a whole world.
 Vec3 momentum_of(const World& world) {
   Vec3 sum = Vec3::Zero();
-  for (const SoftBody& actor : world.bodies) sum += linear_momentum(actor);
+  for (const SoftBody& body : world.bodies) sum += linear_momentum(body);
   return sum;
 }
 
 Vec3 angular_momentum_of(const World& world) {
   Vec3 sum = Vec3::Zero();
-  for (const SoftBody& actor : world.bodies) sum += angular_momentum(actor);
+  for (const SoftBody& body : world.bodies) sum += angular_momentum(body);
   return sum;
 }
 
 double energy(const World& world) {
   double sum = 0;
-  for (const SoftBody& actor : world.bodies) sum += energy_of(actor, world.gravity).sum();
+  for (const SoftBody& body : world.bodies) sum += energy_of(body, world.gravity).sum();
   return sum;
 }
 
-Vec3 centre_of(const SoftBody& actor) { return actor.positions.transpose() * actor.masses / actor.masses.sum(); }
+Vec3 centre_of(const SoftBody& body) { return body.positions.transpose() * body.masses / body.masses.sum(); }
 
 void run(World& world, double duration, double fps = 50, ContactSearch search = ContactSearch::kInTime) {
   AdaptiveIntegrator motion(world, Scheme::kSymplecticEuler, search);
@@ -154,18 +154,18 @@ TEST(SkinContact, HeapOfPressedBricksGivesNoEnergy) {
   World world;
   world.obstacles = {level_ground(0)};
   world.bodies.push_back(closing_horseshoe(4));
-  SoftBody& actor = world.bodies[0];
-  actor.velocities.col(0) *= 0.2;
-  actor.damping.beta = 2e-3;
-  stiffen_volume_guard(actor, world.gravity.norm(), impact_speed(world));
+  SoftBody& body = world.bodies[0];
+  body.velocities.col(0) *= 0.2;
+  body.damping.beta = 2e-3;
+  stiffen_volume_guard(body, world.gravity.norm(), impact_speed(world));
   double before = energy(world);
   for (int frame = 0; frame < 40; ++frame) {
     run(world, 0.7, 1 / 0.7);
     EXPECT_LT(energy(world), 1.01 * before) << frame;
-    EXPECT_EQ(inverted_bricks(actor), 0) << frame;
+    EXPECT_EQ(inverted_bricks(body), 0) << frame;
     before = energy(world);
   }
-  EXPECT_TRUE(is_crushed(actor));
+  EXPECT_TRUE(is_crushed(body));
 }
 
 }  // namespace

@@ -23,16 +23,16 @@ class SkinPotentialTest : public ::testing::Test {
     world_.bodies.push_back(touching_box({3, 3, 3}, 0.02, test_material(0.3, 3e4), Vec3(0.0601, 0, 0)));
     glue_ = glue_between(world_, 0, 1, 0.001);
     glue_.resize(3);
-    for (SoftBody& actor : world_.bodies) group_.push_back(&actor);
+    for (SoftBody& body : world_.bodies) group_.push_back(&body);
     std::mt19937 random(7);
-    for (SoftBody& actor : world_.bodies) test::shake(actor, 0.05, random);
+    for (SoftBody& body : world_.bodies) test::shake(body, 0.05, random);
     for (std::size_t i = 0; i < 2; ++i) {
       const std::size_t points = contact_surface_of(world_.bodies[i]).points.size();
       pushed_in_[i].setConstant(points, 1);  // nothing to be forgiven
     }
     potential_.emplace(world_, group_, glue_, SkinPotential::Step{.dt = 0.01, .slip = 1e-5},
                        std::vector{&pushed_in_[0], &pushed_in_[1]});
-    for (SoftBody& actor : world_.bodies) test::shake(actor, 0.05, random);
+    for (SoftBody& body : world_.bodies) test::shake(body, 0.05, random);
     potential_->refresh();
     potential_->update_friction();
   }
@@ -40,7 +40,7 @@ class SkinPotentialTest : public ::testing::Test {
   double evaluate() {
     forces_.clear();
     std::vector<Points*> all;
-    for (const SoftBody& actor : world_.bodies) forces_.push_back(Points::Zero(actor.node_count(), 3));
+    for (const SoftBody& body : world_.bodies) forces_.push_back(Points::Zero(body.node_count(), 3));
     for (Points& forces : forces_) all.push_back(&forces);
     return potential_->add_forces(all);
   }
@@ -60,8 +60,8 @@ TEST_F(SkinPotentialTest, ForceIsTheSlopeOfTheEnergy) {
   double largest = 0;
   for (const Points& all : forces) largest = std::max(largest, all.cwiseAbs().maxCoeff());
   const double by = 1e-9;
-  for (std::size_t actor = 0; actor < 2; ++actor) {
-    Points& positions = world_.bodies[actor].positions;
+  for (std::size_t body = 0; body < 2; ++body) {
+    Points& positions = world_.bodies[body].positions;
     for (Eigen::Index i = 0; i < positions.size(); ++i) {
       const double place = positions.data()[i];
       positions.data()[i] = place + by;
@@ -69,7 +69,7 @@ TEST_F(SkinPotentialTest, ForceIsTheSlopeOfTheEnergy) {
       positions.data()[i] = place - by;
       const double below = evaluate();
       positions.data()[i] = place;
-      EXPECT_NEAR(forces[actor].data()[i], -(above - below) / (2 * by), 1e-3 * largest);
+      EXPECT_NEAR(forces[body].data()[i], -(above - below) / (2 * by), 1e-3 * largest);
     }
   }
 }

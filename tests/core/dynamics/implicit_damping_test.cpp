@@ -29,9 +29,9 @@ World damped_bar(double damping) {
 /// Twisted about its axis as its slowest torsional vibration is.
 void twist(Body& body) {
   for (int node = 0; node < body.node_count(); ++node) {
-    const Vec3 place = body.positions.row(node);
-    const Vec3 arm(0, place.y() - 0.02, place.z() - 0.02);
-    const double spin = 5 * std::cos(std::numbers::pi * place.x() / kLength);
+    const Vec3 position = body.positions.row(node);
+    const Vec3 arm(0, position.y() - 0.02, position.z() - 0.02);
+    const double spin = 5 * std::cos(std::numbers::pi * position.x() / kLength);
     body.velocities.row(node) = (spin * Vec3::UnitX().cross(arm)).transpose();
   }
 }
@@ -79,19 +79,19 @@ TEST(ImplicitDamping, FreeBodyKeepsItsMomenta) {
 /// What is held keeps its velocity; the rest comes to follow it.
 TEST(ImplicitDamping, HeldNodesLead) {
   World world = damped_bar(5);
-  SoftBody& actor = world.bodies[0];
-  for (int node = 0; node < actor.node_count(); ++node) {
-    if (actor.positions(node, 0) > 1e-9) continue;
-    actor.pinned.push_back({.node = node, .velocity = {0.01, 0, 0}});
-    actor.velocities(node, 0) = 0.01;
+  SoftBody& body = world.bodies[0];
+  for (int node = 0; node < body.node_count(); ++node) {
+    if (body.positions(node, 0) > 1e-9) continue;
+    body.pinned.push_back({.node = node, .velocity = {0.01, 0, 0}});
+    body.velocities(node, 0) = 0.01;
   }
-  ImplicitDamping damping(actor, actor.damping.beta);
-  const double before = actor.velocities.col(0).sum();
+  ImplicitDamping damping(body, body.damping.beta);
+  const double before = body.velocities.col(0).sum();
   damping.pass(1e-3);
   damping.settle();
-  EXPECT_GT(actor.velocities.col(0).sum(), before);
-  for (const KinematicNode& held : actor.pinned) EXPECT_EQ(actor.velocities(held.node, 0), 0.01);
-  EXPECT_LE(actor.velocities.maxCoeff(), 0.0100001);
+  EXPECT_GT(body.velocities.col(0).sum(), before);
+  for (const KinematicNode& pinned : body.pinned) EXPECT_EQ(body.velocities(pinned.node, 0), 0.01);
+  EXPECT_LE(body.velocities.maxCoeff(), 0.0100001);
 }
 
 }  // namespace

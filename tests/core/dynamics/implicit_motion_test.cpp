@@ -24,9 +24,9 @@ using test::world_of;
 
 constexpr double kStandardGravity = 9.81;
 
-void pin_left_end(SoftBody& actor) {
-  for (int node = 0; node < actor.node_count(); ++node) {
-    if (actor.grid.lattice[node].x() == 0) actor.pinned.push_back({.node = node});
+void pin_left_end(SoftBody& body) {
+  for (int node = 0; node < body.node_count(); ++node) {
+    if (body.grid.lattice[node].x() == 0) body.pinned.push_back({.node = node});
   }
 }
 
@@ -144,35 +144,35 @@ TEST(Implicit, EnergyNeverGrows) {
 
 TEST(Implicit, LongStepsEndInTheStaticEquilibrium) {
   World world = world_of(calibrated_box({12, 3, 3}, 0.02, 0.3, 5e4), {0, -kStandardGravity, 0});
-  SoftBody& actor = world.bodies[0];
-  pin_left_end(actor);
-  Body still = actor;
+  SoftBody& body = world.bodies[0];
+  pin_left_end(body);
+  Body still = body;
   Supports supports(still.node_count());
-  for (const KinematicNode& held : actor.pinned) supports.fix(held.node);
+  for (const KinematicNode& pinned : body.pinned) supports.fix(pinned.node);
   const Points loads = still.masses * world.gravity.transpose();
   const auto system = make_direct_solver();
   const Points start = still.positions;
   solve_static(still, supports, loads, start, *system);
   ImplicitMotion(world, {.scheme = ImplicitScheme::kEuler, .tolerance = 1e-9}).advance(1, 12, 0);
-  EXPECT_LT((actor.positions - still.positions).norm(), 1e-6 * (start - still.positions).norm());
-  EXPECT_LT(actor.velocities.norm(), 1e-6);
+  EXPECT_LT((body.positions - still.positions).norm(), 1e-6 * (start - still.positions).norm());
+  EXPECT_LT(body.velocities.norm(), 1e-6);
 }
 
 TEST(Implicit, HandlesMoveAsTold) {
   World world = world_of(calibrated_box({4, 2, 2}, 0.02, 0.3));
-  SoftBody& actor = world.bodies[0];
-  pin_left_end(actor);
-  for (KinematicNode& held : actor.pinned) {
-    held.velocity = {0.1, 0.2, 0};
-    held.axes = {true, true, false};
+  SoftBody& body = world.bodies[0];
+  pin_left_end(body);
+  for (KinematicNode& pinned : body.pinned) {
+    pinned.velocity = {0.1, 0.2, 0};
+    pinned.axes = {true, true, false};
   }
-  const Points start = actor.positions;
+  const Points start = body.positions;
   ImplicitMotion(world, {}).advance(0.01, 10, 0);
-  for (const KinematicNode& held : actor.pinned) {
-    EXPECT_NEAR(actor.positions(held.node, 0), start(held.node, 0) + 0.01, 1e-12);
-    EXPECT_NEAR(actor.positions(held.node, 1), start(held.node, 1) + 0.02, 1e-12);
+  for (const KinematicNode& pinned : body.pinned) {
+    EXPECT_NEAR(body.positions(pinned.node, 0), start(pinned.node, 0) + 0.01, 1e-12);
+    EXPECT_NEAR(body.positions(pinned.node, 1), start(pinned.node, 1) + 0.02, 1e-12);
   }
-  EXPECT_GT((actor.positions - start).col(1).mean(), 0.005);
+  EXPECT_GT((body.positions - start).col(1).mean(), 0.005);
 }
 
 /// Explicit and implicit steps of the same fall agree.
@@ -194,21 +194,21 @@ TEST(Implicit, AgreesWithExplicitStepsOnABendingBeam) {
 
 TEST(Implicit, ForcesBendABeamAsTheStaticsDo) {
   World world = world_of(calibrated_box({8, 2, 2}, 0.02, 0.3, 5e4), {0, 0, 0});
-  SoftBody& actor = world.bodies[0];
-  pin_left_end(actor);
-  actor.loads.forces = Points::Zero(actor.node_count(), 3);
-  for (int node = 0; node < actor.node_count(); ++node) {
-    if (actor.grid.lattice[node].x() == 8) actor.loads.forces(node, 1) = -2e-3;
+  SoftBody& body = world.bodies[0];
+  pin_left_end(body);
+  body.loads.forces = Points::Zero(body.node_count(), 3);
+  for (int node = 0; node < body.node_count(); ++node) {
+    if (body.grid.lattice[node].x() == 8) body.loads.forces(node, 1) = -2e-3;
   }
-  Body still = actor;
+  Body still = body;
   Supports supports(still.node_count());
-  for (const KinematicNode& held : actor.pinned) supports.fix(held.node);
+  for (const KinematicNode& pinned : body.pinned) supports.fix(pinned.node);
   const auto system = make_direct_solver();
-  solve_static(still, supports, actor.loads.forces, Points(still.positions), *system);
+  solve_static(still, supports, body.loads.forces, Points(still.positions), *system);
   ImplicitMotion(world, {.scheme = ImplicitScheme::kEuler, .tolerance = 1e-9}).advance(1, 12, 0);
   const double way = (still.positions - still.rest_positions).norm();
   EXPECT_GT(way, 0.01);
-  EXPECT_LT((actor.positions - still.positions).norm(), 1e-3 * way);
+  EXPECT_LT((body.positions - still.positions).norm(), 1e-3 * way);
 }
 
 /// Each brick of a beam pulls along a direction of its own frame, on one side only: the beam curls up by more than its
@@ -216,14 +216,14 @@ TEST(Implicit, ForcesBendABeamAsTheStaticsDo) {
 TEST(Implicit, MusclesCurlABeamAsInExplicitSteps) {
   const auto make = [] {
     World world = world_of(calibrated_box({10, 2, 2}, 0.02, 0.3, 5e4));
-    SoftBody& actor = world.bodies[0];
-    pin_left_end(actor);
-    actor.damping = {.alpha = 6, .beta = 2e-3};
+    SoftBody& body = world.bodies[0];
+    pin_left_end(body);
+    body.damping = {.alpha = 6, .beta = 2e-3};
     Muscle muscle{.bricks = {}, .direction = Vec3::UnitX(), .contraction = 0.25};
-    for (int brick = 0; brick < actor.grid.brick_count(); ++brick) {
-      if (actor.grid.cells[brick].y() == 1) muscle.bricks.push_back(brick);
+    for (int brick = 0; brick < body.grid.brick_count(); ++brick) {
+      if (body.grid.cells[brick].y() == 1) muscle.bricks.push_back(brick);
     }
-    actor.loads.muscles = {muscle};
+    body.loads.muscles = {muscle};
     return world;
   };
   World explicit_world = make();

@@ -20,11 +20,11 @@ namespace {
 using test::test_material;
 using test::touching_box;
 
-Vec3 centre_of(const SoftBody& actor) { return actor.positions.transpose() * actor.masses / actor.masses.sum(); }
+Vec3 centre_of(const SoftBody& body) { return body.positions.transpose() * body.masses / body.masses.sum(); }
 
 double energy(const World& world) {
   double sum = 0;
-  for (const SoftBody& actor : world.bodies) sum += energy_of(actor, world.gravity).sum();
+  for (const SoftBody& body : world.bodies) sum += energy_of(body, world.gravity).sum();
   return sum;
 }
 
@@ -42,7 +42,7 @@ World two_stacked() {
   world.obstacles = {level_ground(0)};
   world.bodies.push_back(touching_box({3, 2, 3}, 0.02, test_material(0.3, 2e4), {0, 0.001, 0}));
   world.bodies.push_back(touching_box({3, 3, 3}, 0.015, test_material(0.3, 1e5), {0.005, 0.043, 0.004}));
-  for (SoftBody& actor : world.bodies) actor.damping = {.alpha = 8, .beta = 2e-3};
+  for (SoftBody& body : world.bodies) body.damping = {.alpha = 8, .beta = 2e-3};
   return world;
 }
 
@@ -147,7 +147,7 @@ TEST(ImplicitTouch, GlueHoldsWhatHangs) {
     for (int node = 0; node < upper.node_count(); ++node) {
       if (upper.grid.lattice[node].y() == 3) upper.pinned.push_back({.node = node});
     }
-    for (SoftBody& actor : world.bodies) actor.damping = {.alpha = 8, .beta = 2e-3};
+    for (SoftBody& body : world.bodies) body.damping = {.alpha = 8, .beta = 2e-3};
     return world;
   };
   World explicit_world = make();
@@ -184,7 +184,7 @@ TEST(ImplicitTouch, WhatBeginsInsideIsLifted) {
   const Points& left = world.bodies[0].positions;
   const Points& right = world.bodies[1].positions;
   EXPECT_GT(right.col(0).minCoeff() - left.col(0).maxCoeff(), -0.0005);
-  for (const SoftBody& actor : world.bodies) EXPECT_LT(largest_speed(actor), 0.05);
+  for (const SoftBody& body : world.bodies) EXPECT_LT(largest_speed(body), 0.05);
 }
 
 /// A stiff block that begins in the ground would shoot out of it.

@@ -255,7 +255,7 @@ TEST(AdaptiveIntegrator, GivesUpWithTimeBodyAndRemedy) {
     FAIL() << "a velocity that is not finite went by unseen";
   } catch (const Diverged& error) {
     EXPECT_EQ(error.kind(), ErrorKind::kDiverged);
-    EXPECT_EQ(error.actor(), 0);
+    EXPECT_EQ(error.body(), 0);
     for (const char* part : {"body 1, brick", "0.25", "use more bricks"}) {
       EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
     }
@@ -265,15 +265,15 @@ TEST(AdaptiveIntegrator, GivesUpWithTimeBodyAndRemedy) {
 
 TEST(Motion, PinnedNodesStay) {
   World world = world_of(box_body({4, 1, 1}, 0.02, Model::kCalibrated, 0.3), {0, -9.81, 0});
-  SoftBody& actor = world.bodies[0];
-  for (int i = 0; i < actor.node_count(); ++i) {
-    if (actor.rest_positions(i, 0) < 1e-9) actor.pinned.push_back({.node = i});
+  SoftBody& body = world.bodies[0];
+  for (int i = 0; i < body.node_count(); ++i) {
+    if (body.rest_positions(i, 0) < 1e-9) body.pinned.push_back({.node = i});
   }
-  ASSERT_EQ(actor.pinned.size(), 4U);
-  const Points rest = actor.positions;
+  ASSERT_EQ(body.pinned.size(), 4U);
+  const Points rest = body.positions;
   advance(world, Scheme::kVerlet, stable_step(world), 500, 0);
-  for (const KinematicNode& held : actor.pinned) EXPECT_EQ(actor.positions.row(held.node), rest.row(held.node));
-  EXPECT_LT(actor.positions.col(1).minCoeff(), -1e-5);
+  for (const KinematicNode& pinned : body.pinned) EXPECT_EQ(body.positions.row(pinned.node), rest.row(pinned.node));
+  EXPECT_LT(body.positions.col(1).minCoeff(), -1e-5);
 }
 
 /// What lies below the ground by nearly nothing but held nodes stays there, and throws nobody up.
@@ -281,16 +281,16 @@ TEST(Motion, GroundPushesNothingThatIsHeld) {
   const double h = 0.02;
   World world = world_of(box_body({2, 2, 2}, h, Model::kCalibrated, 0.3), {0, -9.81, 0});
   world.obstacles = {level_ground(1e-4 * h)};
-  SoftBody& actor = world.bodies[0];
-  Points places = actor.rest_positions;
-  for (int i = 0; i < actor.node_count(); ++i) {
-    if (places(i, 1) > 1e-9) continue;
-    actor.pinned.push_back({.node = i});
-    places(i, 1) = 1e-9 * h;  // of which the free nodes above carry a thousand-millionth
+  SoftBody& body = world.bodies[0];
+  Points positions = body.rest_positions;
+  for (int i = 0; i < body.node_count(); ++i) {
+    if (positions(i, 1) > 1e-9) continue;
+    body.pinned.push_back({.node = i});
+    positions(i, 1) = 1e-9 * h;  // of which the free nodes above carry a thousand-millionth
   }
-  actor.contacts = embed(actor.grid, places);
+  body.contacts = embed(body.grid, positions);
   advance(world, Scheme::kVerlet, stable_step(world), 100, 0);
-  EXPECT_LT((actor.positions - actor.rest_positions).cwiseAbs().maxCoeff(), 0.1 * h);
+  EXPECT_LT((body.positions - body.rest_positions).cwiseAbs().maxCoeff(), 0.1 * h);
 }
 
 TEST(Motion, NonFiniteStateIsNamed) {

@@ -86,9 +86,9 @@ TEST(Statics, LargeLoadsReachEquilibrium) {
   double drop = 0;
   for (const int node : beam.tip) drop += (start(node, 1) - beam.body.positions(node, 1)) / 4;
   EXPECT_NEAR(drop / 0.2407501, 0.968, 1e-3);  // neo-Hooke by CalculiX: 60 % of the length
-  const Points held = reactions(beam.body, beam.supports, loads);
-  EXPECT_NEAR(held.col(1).sum(), -loads.col(1).sum(), 1e-9 * -loads.col(1).sum());
-  EXPECT_NEAR(held.col(0).sum(), 0, 1e-9 * -loads.col(1).sum());
+  const Points pin_forces = reactions(beam.body, beam.supports, loads);
+  EXPECT_NEAR(pin_forces.col(1).sum(), -loads.col(1).sum(), 1e-9 * -loads.col(1).sum());
+  EXPECT_NEAR(pin_forces.col(0).sum(), 0, 1e-9 * -loads.col(1).sum());
 }
 
 /// A column that is pressed to 0.8 of its length, from where it is straight: Newton's method begins on a ridge. With
@@ -123,10 +123,10 @@ TEST(Statics, MovedSupportsPullTheBodyAlong) {
   const Points no_loads = Points::Zero(bar.node_count(), 3);
   solve_static(bar, supports, no_loads, start, *system);
   double pull = 0;
-  const Points held = reactions(bar, supports, no_loads);
+  const Points pin_forces = reactions(bar, supports, no_loads);
   for (int node = 0; node < bar.node_count(); ++node) {
     EXPECT_NEAR(bar.positions(node, 0), (1 + 1e-5) * start(node, 0), 1e-12);
-    if (bar.grid.lattice[node].x() == 4) pull += held(node, 0);
+    if (bar.grid.lattice[node].x() == 4) pull += pin_forces(node, 0);
   }
   EXPECT_NEAR(pull, 1000 * 0.01 * 1e-5, 1e-5 * 1e-4);  // E A strain
 }

@@ -69,14 +69,13 @@ class TwoFingers : public ::testing::Test {
 
   static World world_of_pulled() {
     World world;
-    Body body = make(true);
-    SoftBody actor(std::move(body));
-    for (const int node : foot_nodes(actor)) actor.pinned.push_back({.node = node});
-    for (const int node : end_nodes(actor, true)) {
-      actor.pinned.push_back({.node = node, .velocity = Vec3(-1, 0, 0)});
+    SoftBody body(make(true));
+    for (const int node : foot_nodes(body)) body.pinned.push_back({.node = node});
+    for (const int node : end_nodes(body, true)) {
+      body.pinned.push_back({.node = node, .velocity = Vec3(-1, 0, 0)});
     }
-    actor.damping.alpha = 5;
-    world.bodies.push_back(std::move(actor));
+    body.damping.alpha = 5;
+    world.bodies.push_back(std::move(body));
     world.gravity.setZero();
     return world;
   }

@@ -200,11 +200,11 @@ TEST(Xdmf, NamesWhatIsInItsFileOfNumbers) {
   EXPECT_NEAR(tensor.at(3) - tensor.at(5), 0, 1e-4 * stress);       // yy - zz
   EXPECT_NEAR(tensor.at(1), 0, 1e-4 * stress);
   const std::string text = text_of(folder.path() / "run.xdmf");
-  std::size_t place = 0;
+  std::size_t index = 0;
   int items = 0;
-  while ((place = text.find("run.xdmf.h5:", place)) != std::string::npos) {
-    place += 12;
-    EXPECT_TRUE(numbers.has(text.substr(place, text.find('<', place) - place)));
+  while ((index = text.find("run.xdmf.h5:", index)) != std::string::npos) {
+    index += 12;
+    EXPECT_TRUE(numbers.has(text.substr(index, text.find('<', index) - index)));
     ++items;
   }
   EXPECT_EQ(items, 2 * (2 + 5 + 2 + 2));

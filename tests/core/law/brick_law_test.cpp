@@ -129,8 +129,8 @@ TEST(BrickLaw, GuardResistsTheLossOfVolume) {
     unguarded.guard = 0;
     const double unit = material.young * kSide * kSide * kSide;
     for (const double volume : {0.31, 0.2, -0.1}) {
-      const double lack = std::max(0.0, 0.3 - volume);
-      EXPECT_NEAR(squashed_energy(law, volume) - squashed_energy(unguarded, volume), 0.5 * 5 * unit * lack * lack,
+      const double deficit = std::max(0.0, 0.3 - volume);
+      EXPECT_NEAR(squashed_energy(law, volume) - squashed_energy(unguarded, volume), 0.5 * 5 * unit * deficit * deficit,
                   1e-12 * unit)
           << model_name(model) << " at " << volume;
     }
@@ -188,9 +188,9 @@ TEST(BrickLaw, OnlyTheNegativePartOfTheAxialCorrectionIsOnTheMeanAxes) {
       const double on_edges = law.axial_self + 2 * law.axial_cross + 4 * law.edge;
       // 3 K h less what the diagonals give.
       const double bulk = material.young / (3 * (1 - 2 * poisson));
-      const double lack = kSide * 3 * bulk - 4 * law.inner - 8 * law.face;
-      EXPECT_NEAR(3 * law.axes, std::min(lack, 0.0), 1e-12 * material.young * kSide) << poisson;
-      EXPECT_NEAR(on_edges, std::max(lack, 0.0), 1e-12 * material.young * kSide) << poisson;
+      const double deficit = kSide * 3 * bulk - 4 * law.inner - 8 * law.face;
+      EXPECT_NEAR(3 * law.axes, std::min(deficit, 0.0), 1e-12 * material.young * kSide) << poisson;
+      EXPECT_NEAR(on_edges, std::max(deficit, 0.0), 1e-12 * material.young * kSide) << poisson;
     }
   }
 }

@@ -242,7 +242,7 @@ TEST(WindingTree, AgreesWithTheSolidAngles) {
   }
 }
 
-/// Whether all bricks hang together by their faces.
+/// Whether all bricks are connected by their faces.
 bool hangs_together(const BrickGrid& grid) {
   std::set<std::array<int, 3>> left;
   for (const auto& cell : grid.cells) left.insert({cell.x(), cell.y(), cell.z()});

@@ -14,7 +14,7 @@
 namespace sprung {
 namespace {
 
-/// Clean surfaces: nothing is to be mended.
+/// Clean surfaces: nothing is to be repaired.
 constexpr std::array kSound{"spot_triangulated.obj",       "bunny.obj",          "eight.off",   "bob_small.ply",
                             "scorpion_low_resolution.obj", "test_pos_color.ply", "scallop.glb", "unit_cube.STL",
                             "large_block_obb.STL",         "plate_holes.STL",    "sphere.dae",  "huesitos.fbx",

@@ -61,7 +61,7 @@ TEST(ThinParts, AreTheFinsAndNotTheEdgesOfTheBlock) {
   ASSERT_EQ(parts.size(), 2U);
   for (const ThinPart& part : parts) {
     EXPECT_NEAR(part.thickness, 0.3, 1e-9);
-    EXPECT_GT(part.place.y(), 1);
+    EXPECT_GT(part.position.y(), 1);
     for (const int brick : part.bricks) EXPECT_GE(grid.cells[brick].y(), 1);
   }
   EXPECT_TRUE(find_thin_parts(voxelize(solid, 0.25), sample_thickness(solid, 5000)).empty());
@@ -81,7 +81,7 @@ TEST(ThinParts, AreHeldByBricksOfTheSizeNamed) {
   ASSERT_EQ(parts.size(), 1U);
   EXPECT_GT(parts[0].thickness, 0.15);
   EXPECT_LT(parts[0].thickness, 0.35);
-  EXPECT_GT(parts[0].place.x(), 8);
+  EXPECT_GT(parts[0].position.x(), 8);
   EXPECT_TRUE(find_thin_parts(voxelize(solid, 0.8 * parts[0].thickness), samples).empty());
 }
 

@@ -17,17 +17,17 @@ namespace {
 using test::test_material;
 using test::touching_box;
 
-World weightless(SoftBody actor) {
+World weightless(SoftBody body) {
   World world;
   world.gravity.setZero();
-  world.bodies.push_back(std::move(actor));
+  world.bodies.push_back(std::move(body));
   return world;
 }
 
-std::shared_ptr<const SkinPart> whole_skin(const SoftBody& actor) {
+std::shared_ptr<const SkinPart> whole_skin(const SoftBody& body) {
   SkinPart part;
-  for (int row = 0; row < actor.contact_triangles.rows(); ++row) part.triangles.push_back(row);
-  part.weights = Points::Constant(actor.contact_triangles.rows(), 3, 1.0 / 3);
+  for (int row = 0; row < body.contact_triangles.rows(); ++row) part.triangles.push_back(row);
+  part.weights = Points::Constant(body.contact_triangles.rows(), 3, 1.0 / 3);
   return std::make_shared<const SkinPart>(std::move(part));
 }
 
@@ -47,28 +47,28 @@ TEST(Loads, ForceAcceleratesAFreeBody) {
 /// Pressure on a closed skin pushes nothing along, and does the work p dV where the body swells.
 TEST(Loads, PressureOnAClosedSkinDoesTheWorkOfItsVolume) {
   World world = weightless(touching_box({3, 2, 2}, 0.01, test_material(0.3, 2e4), Vec3::Zero()));
-  SoftBody& actor = world.bodies[0];
-  actor.loads.pressures.push_back({.part = whole_skin(actor), .pressure = 700});
-  const Points forces = LoadForces(actor, world).forces();
+  SoftBody& body = world.bodies[0];
+  body.loads.pressures.push_back({.part = whole_skin(body), .pressure = 700});
+  const Points forces = LoadForces(body, world).forces();
   EXPECT_LT(forces.colwise().sum().norm(), 1e-12);
   const double strain = 1e-3;
-  const Points displacements = strain * actor.positions;  // swells alike in all directions
+  const Points displacements = strain * body.positions;  // swells alike in all directions
   const double work = forces.cwiseProduct(displacements).sum();
-  EXPECT_NEAR(work, -700 * 3 * strain * actor.grid.volume(), 1e-12);
+  EXPECT_NEAR(work, -700 * 3 * strain * body.grid.volume(), 1e-12);
 }
 
 /// Pressed from all sides a body loses the share p / K of its volume, K = E / (3 (1 - 2 nu)).
 TEST(Loads, PressureShrinksABodyByItsBulkModulus) {
   World world = weightless(touching_box({4, 4, 4}, 0.01, test_material(0.3, 2e4), Vec3::Zero()));
-  SoftBody& actor = world.bodies[0];
+  SoftBody& body = world.bodies[0];
   const double pressure = 100;
-  actor.loads.pressures.push_back({.part = whole_skin(actor), .pressure = pressure});
-  actor.damping = {.alpha = 30, .beta = 0};
+  body.loads.pressures.push_back({.part = whole_skin(body), .pressure = pressure});
+  body.damping = {.alpha = 30, .beta = 0};
   advance(world, Scheme::kSymplecticEuler, stable_step(world), 6000, 0);
   const double bulk = 2e4 / (3 * (1 - 0.6));
   double volume = 0;
-  for (const auto& nodes : actor.grid.nodes) {
-    volume += mean_axes_of(columns_of(nodes, actor.positions)).determinant();
+  for (const auto& nodes : body.grid.nodes) {
+    volume += mean_axes_of(columns_of(nodes, body.positions)).determinant();
   }
   EXPECT_NEAR(1 - volume / std::pow(0.04, 3), pressure / bulk, 0.03 * pressure / bulk);
 }
@@ -77,11 +77,11 @@ TEST(Loads, PressureShrinksABodyByItsBulkModulus) {
 TEST(Loads, WindPressesOnWhatFacesIt) {
   World world = weightless(touching_box({1, 6, 5}, 0.01, test_material(0.3, 2e4), Vec3::Zero()));
   world.wind = {.velocity = {8, 0, 0}, .density = 1.2, .drag = 1.1};
-  SoftBody& actor = world.bodies[0];
-  const Vec3 at_rest = LoadForces(actor, world).forces().colwise().sum();
+  SoftBody& body = world.bodies[0];
+  const Vec3 at_rest = LoadForces(body, world).forces().colwise().sum();
   EXPECT_LT((at_rest - Vec3(0.5 * 1.2 * 1.1 * 64 * 0.06 * 0.05, 0, 0)).norm(), 1e-12);
-  actor.velocities.col(0).setConstant(8);
-  EXPECT_LT(LoadForces(actor, world).forces().norm(), 1e-12);
+  body.velocities.col(0).setConstant(8);
+  EXPECT_LT(LoadForces(body, world).forces().norm(), 1e-12);
 }
 
 /// Nothing resists: every brick takes the muscle's shape, and the body as a whole stays where it is. Across the edges
@@ -89,11 +89,10 @@ TEST(Loads, WindPressesOnWhatFacesIt) {
 TEST(Loads, FreeMuscleContractsAndKeepsItsVolume) {
   for (const auto& [direction, accuracy] : {std::pair(Vec3(1, 0, 0), 0.01), std::pair(Vec3(0.6, 0.8, 0), 0.035)}) {
     World world = weightless(touching_box({5, 2, 2}, 0.01, test_material(0.4, 2e4), Vec3::Zero()));
-    SoftBody& actor = world.bodies[0];
-    Body& body = actor;
+    SoftBody& body = world.bodies[0];
     Muscle muscle{.bricks = {}, .direction = direction, .contraction = 0.2};
     for (int brick = 0; brick < body.grid.brick_count(); ++brick) muscle.bricks.push_back(brick);
-    actor.loads.muscles = {muscle};
+    body.loads.muscles = {muscle};
     body.damping = {.alpha = 40, .beta = 0};
     const Vec3 middle = body.masses.transpose() * body.positions;
     advance(world, Scheme::kSymplecticEuler, stable_step(world), 6000, 0);

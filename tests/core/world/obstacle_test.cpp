@@ -169,13 +169,13 @@ TEST(Obstacle, PointsThatShareACornerAreBothHeld) {
   World world;
   world.obstacles = {level_ground(0)};
   world.bodies.push_back(touching_box({1, 2, 1}, h, test_material(0, 1.3e5), Vec3::Zero()));
-  SoftBody& actor = world.bodies[0];
-  actor.damping.beta = 5e-3;
-  actor.velocities.col(1).setConstant(-4);
+  SoftBody& body = world.bodies[0];
+  body.damping.beta = 5e-3;
+  body.velocities.col(1).setConstant(-4);
   Points feet(4, 3);
   feet << 0.05, 0, 0.45, 0.45, 0, 0.05, 0.95, 0, 0.55, 0.55, 0, 0.95;
-  actor.contacts = embed(actor.grid, h * feet);
-  actor.contact_triangles.resize(0, 3);
+  body.contacts = embed(body.grid, h * feet);
+  body.contact_triangles.resize(0, 3);
   for (int tenth = 1; tenth <= 4; ++tenth) {
     run(world, 0.1, 10);
     EXPECT_LT(test::deepest_contact_point(world), 0.04 * h) << tenth;

@@ -22,11 +22,11 @@ using test::touching_box;
 
 /// A contact surface where it is.
 struct PlacedSurface {
-  std::vector<Vec3> places;
+  std::vector<Vec3> positions;
   const ContactSurface* skin;
 
   explicit PlacedSurface(SoftBody& body) : skin(&contact_surface_of(body)) {
-    for (const ContactPoint& point : skin->points) places.push_back(carried(body, point, body.positions));
+    for (const ContactPoint& point : skin->points) positions.push_back(carried(body, point, body.positions));
   }
 };
 
@@ -48,9 +48,11 @@ int crossings_through(const PlacedSurface& edges_of, const PlacedSurface& triang
       const int q = from[(side + 1) % 3];
       for (const auto& [a, b, c] : triangles_of.skin->triangles) {
         if (edges_of.skin == triangles_of.skin && (p == a || p == b || p == c || q == a || q == b || q == c)) continue;
-        const Vec3& start = edges_of.places[p];
-        const Vec3& end = edges_of.places[q];
-        count += crosses(start, end, triangles_of.places[a], triangles_of.places[b], triangles_of.places[c]) ? 1 : 0;
+        const Vec3& start = edges_of.positions[p];
+        const Vec3& end = edges_of.positions[q];
+        count += crosses(start, end, triangles_of.positions[a], triangles_of.positions[b], triangles_of.positions[c])
+                     ? 1
+                     : 0;
       }
     }
   }

@@ -40,10 +40,10 @@ long missed_points(Obstacle obstacle, unsigned seed, long& near) {
       std::set<int> points;
       for (const AwakePair& pair : awake) points.insert(pair.pair.corners[0]);
       for (int point = 0; point < isize(tree.skin().points); ++point) {
-        const Vec3 place = carried(body, tree.skin().points[point], body.positions);
+        const Vec3 position = carried(body, tree.skin().points[point], body.positions);
         const Vec3 velocity = carried(body, tree.skin().points[point], body.velocities);
-        const Gap gap = signed_distance(obstacle.shape, pose, place);
-        const double closing = gap.normal.dot(velocity_at(obstacle, pose, place) - velocity);
+        const Gap gap = signed_distance(obstacle.shape, pose, position);
+        const double closing = gap.normal.dot(velocity_at(obstacle, pose, position) - velocity);
         if (gap.distance > 0.01 || closing * kStep <= kFreeShare * (gap.distance - kLeastGap * 0.02)) continue;
         ++near;
         if (!points.contains(point)) ++missed;

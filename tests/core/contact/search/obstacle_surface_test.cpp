@@ -23,20 +23,21 @@ TEST(ObstacleSurface, IsThatOfTheBoxWhereverItIs) {
   const ContactSurface& skin = contact_surface_of(*surface);
   const Pose pose = pose_after(box, 0.1);
   const Pose next = pose_after(box, 0.11);
-  std::vector<Vec3> places;
+  std::vector<Vec3> positions;
   double furthest = 0;
   for (const ContactPoint& point : skin.points) {
-    places.push_back(carried(*surface, point, surface->positions));
-    furthest = std::max(furthest, std::abs(signed_distance(box.shape, pose, places.back()).distance));
-    const Vec3 moved = places.back() + 0.01 * carried(*surface, point, surface->velocities);
+    positions.push_back(carried(*surface, point, surface->positions));
+    furthest = std::max(furthest, std::abs(signed_distance(box.shape, pose, positions.back()).distance));
+    const Vec3 moved = positions.back() + 0.01 * carried(*surface, point, surface->velocities);
     furthest = std::max(furthest, std::abs(signed_distance(box.shape, next, moved).distance));
   }
   EXPECT_LT(furthest, 1e-12);
   double volume = 0;
   for (const auto& [a, b, c] : skin.triangles) {
-    volume +=
-        (places[a] - pose.translation).dot((places[b] - pose.translation).cross(places[c] - pose.translation)) / 6;
-    EXPECT_LT((places[a] - places[b]).norm(), 0.09);
+    volume += (positions[a] - pose.translation)
+                  .dot((positions[b] - pose.translation).cross(positions[c] - pose.translation)) /
+              6;
+    EXPECT_LT((positions[a] - positions[b]).norm(), 0.09);
   }
   EXPECT_NEAR(volume, 8 * 0.3 * 0.1 * 0.05, 1e-12);
 }

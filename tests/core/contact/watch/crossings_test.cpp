@@ -85,8 +85,8 @@ TEST(Crossings, BallsInEachOtherAreAsDeepAsTheirLens) {
   const Skin other = turned(ball, {0, 40, 0}, {0, 0.092, 0});
   const CrossingDepth found = depth_between(ball, other);
   EXPECT_NEAR(found.depth, 0.008, 0.0002);
-  EXPECT_LT(std::hypot(found.place.x(), found.place.z()), 0.005);
-  EXPECT_GT(found.place.y(), 0.04);
+  EXPECT_LT(std::hypot(found.position.x(), found.position.z()), 0.005);
+  EXPECT_GT(found.position.y(), 0.04);
   EXPECT_NEAR(depth_within(joined(ball, other)).depth, found.depth, 0.0005);
 }
 
