@@ -20,7 +20,7 @@ int exit_code(int argc, const char* const* argv) {
   static Console console = Console::of_process();  // for whatever ends the program
   const std::span words(argv, argc);
   console.log_json =
-      std::count(words.begin(), words.end(), std::string_view("--log-json")) > 0;  // of mistakes in the others too
+      std::count(words.begin(), words.end(), std::string_view("--log-json")) > 0;  // for mistakes in the others too
   catch_interrupts(console);
   hold_standard_files();
   try {
@@ -31,7 +31,7 @@ int exit_code(int argc, const char* const* argv) {
     tell_interruption(console);
     return interrupted_exit_code();
   } catch (const Error& error) {
-    if (is_interrupted()) {  // which is the reason of whatever failed
+    if (is_interrupted()) {  // which caused the failure
       tell_interruption(console);
       return interrupted_exit_code();
     }

@@ -9,13 +9,13 @@ namespace sprung {
 /// The background of a stage, and its floor where no body changes the light.
 class Backdrop {
  public:
-  /// `defines`: of what pixels hold.
+  /// `defines`: macros that say what pixels hold.
   Backdrop(const GlFunctions& gl, int width, int height, const TextureFormat& format, const Floor& floor,
            const std::optional<Environment>& environment, const std::string& defines);
-  /// Drawn anew only if the view needs that: without a horizon, pattern and panorama it stays the same while the camera
+  /// Redrawn only if the view requires it: without a horizon, pattern and panorama it stays the same while the camera
   /// orbits about the vertical. `shows_floor`: whether the eye is above it.
   void draw(const View& view, bool shows_floor);
-  /// What was drawn; as large as the picture.
+  /// The result; as large as the picture.
   [[nodiscard]] const GlFramebuffer& target() const { return target_; }
   [[nodiscard]] const GlTexture& picture() const { return picture_; }
 
@@ -24,7 +24,7 @@ class Backdrop {
   struct Sight {
     Eigen::Vector3f height;
     Eigen::Vector2f slopes;
-    Eigen::Matrix4f stage_from_clip = Eigen::Matrix4f::Zero();  // where the direction matters too
+    Eigen::Matrix4f stage_from_clip = Eigen::Matrix4f::Zero();  // if the direction matters too
     bool operator==(const Sight&) const = default;
   };
 

@@ -38,7 +38,7 @@ struct BodyPicture {
 };
 
 /// The bricks of a body at body.positions, edges a little darker. Bricks cut by the surface are drawn whole. Throws
-/// Error(kFailed) where no OpenGL context can be made.
+/// Error(kFailed) if no OpenGL context can be made.
 [[nodiscard]] BodyPicture draw_body(const Body& body, const BodyPictureOptions& options = {});
 
 /// A membrane likewise, seen from the front, coloured by its displacements.

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kRim = 0.055;      // of a face, at each side
 constexpr float kRimShade = 0.55F;  // of a face's colour
-constexpr double kGap = 0.16;       // of a brick, at each side, where they are exploded
+constexpr double kGap = 0.16;       // of a brick, at each side, if they are exploded
 constexpr int kCells = 3;           // of a face along each side: rim, face, rim
 constexpr int kFaceVertices = 4 * kCells * kCells;
 

@@ -12,13 +12,13 @@ namespace sprung {
 /// together, or every cube by itself, shrunk towards its middle so that gaps open between them.
 class BrickCubes {
  public:
-  /// Of the bricks that are `shown`; `colors` (sRGB) one a brick. The grid outlives it.
+  /// Cubes of the bricks that are `shown`; `colors` (sRGB): one per brick. The grid outlives it.
   BrickCubes(const BrickGrid& grid, const std::vector<bool>& shown, bool exploded,
              const std::vector<Eigen::Vector3f>& colors);
 
   /// Triangles and colours, without positions and normals: those of a shape().
   [[nodiscard]] const Skin& skin() const { return skin_; }
-  /// For these positions of the nodes (m x 3, m); `coordinates` of the nodes on the colour map, or none.
+  /// The shape for these positions of the nodes (m x 3, m); `coordinates` of the nodes on the colour map, or none.
   [[nodiscard]] SkinShape shape(const Points& nodes, const Eigen::VectorXd& coordinates = {}) const;
 
  private:

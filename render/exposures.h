@@ -9,17 +9,17 @@ namespace sprung {
 class Exposures {
  public:
   Exposures(const GlFunctions& gl, int width, int height, bool transparent);
-  /// Before the first exposure.
+  /// To be called before the first exposure.
   void clear() const;
   /// `light`: linear; the parts of all exposures add up to 1.
   void add(const GlTexture& light, double part) const;
-  /// The same through a lens; `circles`: of confusion, see circles.frag; `largest` that counts.
+  /// The same through a lens; `circles`: of confusion, see circles.frag; `largest`: the largest one considered.
   void add(const GlTexture& light, const GlTexture& circles, double largest, double part) const;
-  /// In place of clear() and add(): the mean light by pixel, as mean() has it.
+  /// Instead of clear() and add(): the mean light by pixel, as mean() has it.
   void set_mean(const std::vector<Eigen::Vector4f>& light);
-  /// Framebuffer of the mean light, red, green, blue and opacity, multiplied by it where transparent.
+  /// Framebuffer of the mean light, red, green, blue and opacity, premultiplied if transparent.
   [[nodiscard]] GLuint mean() const { return mean_target_.name(); }
-  /// Leaves the picture, 8-bit sRGB, in the framebuffer that is bound.
+  /// Writes the picture, 8-bit sRGB, to the bound framebuffer.
   void develop() const;
 
  private:

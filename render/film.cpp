@@ -40,8 +40,8 @@ const Container* container_of(const std::filesystem::path& file) {
   return found == kContainers.end() ? nullptr : found;
 }
 
-/// To BT.709, with the last row and column repeated where sides have to be even. Left alone, ffmpeg would convert by
-/// BT.601 and tag nothing, and players would guess.
+/// Converts to BT.709, with the last row and column repeated if sides have to be even. Left alone, ffmpeg would convert
+/// by BT.601 and tag nothing, and players would guess.
 RawOptions in_video_colors(const Container& container, const FilmWriter::Format& format, std::string_view pixels) {
   std::string filter;
   const int right = format.width % 2;
@@ -77,7 +77,7 @@ RawOptions encoder(const Container& container, const FilmWriter::Format& format)
   }
   if (container.extension == ".y4m") return joined(colors("yuv444p", ""), {"-f", "yuv4mpegpipe"});
   if (container.extension == ".webm") {
-    // The alternative reference frames of VP9 are not made for films with alpha.
+    // The alternative reference frames of VP9 do not support films with alpha.
     return joined(colors("yuv420p", "yuva420p"), {"-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-cpu-used", "4",
                                                   "-row-mt", "1", "-auto-alt-ref", format.has_alpha ? "0" : "1"});
   }
@@ -85,7 +85,7 @@ RawOptions encoder(const Container& container, const FilmWriter::Format& format)
                 {"-c:v", "libx264", "-preset", "veryfast", "-crf", "16", "-movflags", "+faststart"});
 }
 
-/// 24000/1001 for 23.976 and 23.98, and so on: the rates of NTSC are written in decimals, but meant so.
+/// 24000/1001 for 23.976 and 23.98, and so on: rates of NTSC are written in decimals, but mean these fractions.
 std::string exact_rate(double fps) {
   const double base = std::round(fps * 1.001);
   const bool is_whole = std::abs(fps - std::round(fps)) < 1e-6;

@@ -6,19 +6,19 @@
 
 namespace sprung {
 
-/// True where `file` names a film by its ending: .mp4, .webm, .mov, .gif, .y4m (any case).
+/// True if `file` names a film by its ending: .mp4, .webm, .mov, .gif, .y4m (any case).
 [[nodiscard]] bool is_film(const std::filesystem::path& file);
 
-/// True where the film gets an extra column or row of pixels: MP4 and WebM need even sides.
+/// True if the film gets an extra column or row of pixels: MP4 and WebM need even sides.
 [[nodiscard]] bool is_padded(const std::filesystem::path& file, int width, int height);
 
-/// True where the film can be transparent: .webm (VP9) and .mov (ProRes 4444).
+/// True if the film can be transparent: .webm (VP9) and .mov (ProRes 4444).
 [[nodiscard]] bool holds_alpha(const std::filesystem::path& file);
 
 /// True while a FilmWriter of any process writes that file.
 [[nodiscard]] bool is_film_being_written(const std::filesystem::path& file);
 
-/// Throws Error(kFailed) where ffmpeg is not on the path; the message says how to install it.
+/// Throws Error(kFailed) if ffmpeg is not on the path; the message says how to install it.
 void require_ffmpeg();
 
 /// Pipes raw pictures to an ffmpeg child process. BT.709, odd sizes padded. The film appears under its name when
@@ -32,7 +32,7 @@ class FilmWriter {
     double fps;
     bool has_alpha = false;
   };
-  /// Throws Error(kFailed) where the file cannot be written or another process writes it, Error(kUsage) where it is no
+  /// Throws Error(kFailed) if the file cannot be written or another process writes it, Error(kUsage) if it is not a
   /// film or cannot hold alpha.
   FilmWriter(const std::filesystem::path& file, const Format& format);
   /// YUV4MPEG2 (.y4m) to the standard output.
@@ -43,7 +43,7 @@ class FilmWriter {
   FilmWriter(FilmWriter&&) noexcept;
   FilmWriter& operator=(FilmWriter&&) = delete;
 
-  /// Throws Error(kFailed) with ffmpeg's message where the child has ended.
+  /// Throws Error(kFailed) with ffmpeg's message if the child has ended.
   void write(const Image& image);
   void close();
 

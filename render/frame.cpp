@@ -128,7 +128,7 @@ Eigen::Matrix4d view_from_stage(const Vec3& eye, const Vec3& target, const Vec3&
   return view;
 }
 
-/// With a slope for x and one for y (downwards: pictures begin at the top) at a distance of 1.
+/// A projection with a slope for x and one for y (downwards: pictures begin at the top) at a distance of 1.
 Eigen::Matrix4d perspective(const Eigen::Vector2d& slopes, double shift, double near, double far) {
   Eigen::Matrix4d clip = Eigen::Matrix4d::Zero();
   clip(0, 0) = 1 / slopes.x();

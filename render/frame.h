@@ -35,7 +35,7 @@ struct LightFrame {
 [[nodiscard]] LightFrame fit_light(const std::vector<SkinShape>& shapes, const StageSpace& space, double body_radius,
                                    double ground_height, const Vec3& to_key);
 
-/// What the shaders share within one frame.
+/// The values that the shaders share within one frame.
 struct DrawFrame {
   StageSpace space;
   LightFrame light;
@@ -43,7 +43,7 @@ struct DrawFrame {
   double ground_height;  // stage space
   bool has_ground;
   Lighting lighting;
-  double motion = 0;  // of any point, away from where the light maps have it; stage space
+  double motion = 0;  // largest, of any point from its position in the light maps; stage space
 
   /// Sets the uniforms of every program that draws a skin or a light map.
   void set_common(const GlProgram& program) const;
@@ -63,8 +63,7 @@ struct View {
   Eigen::Matrix4d clip_from_stage = Eigen::Matrix4d::Identity();
   /// (x d + y) / (z d + w) is the distance along the camera's axis at depth d, 0 to 1.
   Eigen::Vector4d distance_terms = Eigen::Vector4d::Zero();
-  /// Times (x, y, 1) in clip space: the direction of the line of sight, a step of 1 ahead; and how much that leans
-  /// sideways.
+  /// Times (x, y, 1) in clip space: the line of sight, of length 1 along the camera's axis; and its sideways slopes.
   Mat3 sight = Mat3::Zero();
   Eigen::Vector2d sight_slopes = Eigen::Vector2d::Zero();
   double lens = 0;   // circle of confusion of a point at infinity: its radius over the height of the picture

@@ -33,13 +33,13 @@ class MapBrush {
  public:
   explicit MapBrush(const GlFunctions& gl);
 
-  /// Without colours where `color` is null.
+  /// Without colours if `color` is null.
   [[nodiscard]] LightMap make_map(int size, const TextureFormat* color, bool depth) const;
   /// Runs the current program over the whole map.
   void fill(const LightMap& map) const;
   void clear(const LightMap& map) const;
   void make_mipmaps(const GlTexture& texture) const;
-  /// Separable Gaussian by way of `pass`, which is as large as `to`. `reach`: three standard deviations, in texture
+  /// Separable Gaussian via `pass`, which is as large as `to`. `reach`: three standard deviations, in texture
   /// coordinates.
   void blur(const LightMap& from, const LightMap& pass, const LightMap& to, const Eigen::Vector2f& reach) const;
   /// Depth of all bodies in a parallel projection.
@@ -62,10 +62,10 @@ class GroundMaps {
  public:
   /// `key`: the depth map of the key light.
   GroundMaps(const GlFunctions& gl, const MapBrush& brush, const RenderOptions& options, const LightMap& key);
-  /// All but the tint.
+  /// Draws all but the tint.
   void draw(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const DrawFrame& frame,
             PassClock& clock) const;
-  /// With what bodies do to the ground, where rays gather it.
+  /// Draws the tint, with the bodies' effect on the ground if rays gather it.
   void draw_tint(const DrawFrame& frame, const GroundGlow* glow);
 
   void bind_glow(const GlProgram& program, int unit) const;
@@ -74,7 +74,7 @@ class GroundMaps {
   [[nodiscard]] const GlTexture& light() const { return light_.color; }
   [[nodiscard]] const GlTexture& tint() const { return tint_.color; }
   [[nodiscard]] const GlTexture& far_light() const { return far_light_.color; }
-  /// Of a frame that was drawn.
+  /// Reads back the light of a frame that was drawn.
   [[nodiscard]] GroundLight read_light(const DrawFrame& frame) const;
 
  private:
@@ -97,7 +97,7 @@ class GroundMaps {
   LightMap far_light_pass_;
   LightMap far_light_;
   LightMap tint_;
-  GlTexture glow_;  // light from bodies, where it is gathered
+  GlTexture glow_;  // light from bodies, if it is gathered
   SkinPrograms underside_programs_;
   GlProgram underside_filter_program_;
   GlProgram sky_program_;
@@ -110,7 +110,7 @@ class GroundMaps {
 
 /// Everything that is rendered before the picture itself: the light on the ground, and
 /// - key: depth along the key light, for soft shadows of the bodies on themselves and each other
-/// - zenith: blurred heights seen from above, for the fraction of the sky that is visible, where rays do not gather it
+/// - zenith: blurred heights seen from above, for the fraction of the sky that is visible, unless rays gather it
 class LightMaps {
  public:
   static constexpr int kUnits = 5;  // texture units that bind() uses

@@ -19,7 +19,7 @@ using FloatPixels = std::vector<Eigen::Vector4f>;
 constexpr TextureFormat kNumbers{GL_RGBA32F, GL_RGBA, GL_FLOAT, false, false, GL_CLAMP_TO_EDGE};
 constexpr TextureFormat kDepth{GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, false, false, GL_CLAMP_TO_EDGE};
 
-/// What is visible in a pixel; places in stage space.
+/// What is visible in a pixel; positions in stage space.
 struct Sight {
   Vec3 position;
   Vec3 before;  // where it is one frame earlier ...
@@ -41,7 +41,7 @@ Line line_of_sight(const Eigen::Matrix4d& stage_from_clip, double x, double y) {
   return {near, far - near};
 }
 
-/// Of a place in the picture, from its middle, to the right and up.
+/// The offset of a position from the picture's middle, to the right and up.
 Eigen::Vector2d pixels_of(const View& view, const Vec3& position, int width, int height) {
   const Vec3 clip = (view.clip_from_stage * position.homogeneous()).hnormalized();
   return {0.5 * width * clip.x(), -0.5 * height * clip.y()};
@@ -71,7 +71,7 @@ void set(Passes& passes, std::size_t pixel, const Sight& sight, const PassViews&
   }
 }
 
-/// Where the lines of sight through pixels' centres meet the ground, in stage space.
+/// Finds where the lines of sight through pixels' centres meet the ground, in stage space.
 class GroundSight {
  public:
   GroundSight(const View& view, int width, int height)
@@ -100,7 +100,7 @@ class GroundSight {
   int height_;
 };
 
-/// With the picture shifted by parts of a pixel.
+/// The view with its picture shifted by fractions of a pixel.
 View shifted(View view, double right, double down, int width, int height) {
   Eigen::Matrix4d shift = Eigen::Matrix4d::Identity();
   shift(0, 3) = 2 * right / width;

@@ -62,7 +62,7 @@ Motion motion_of(const std::vector<Exposure>& exposures) {
 int rays_of(Quality quality) { return quality == Quality::kHigh ? 64 : 32; }
 int probes_of(Quality quality) { return quality == Quality::kHigh ? 32000 : 16000; }
 
-/// Of what the shaders draw, which of a traced picture is its passes.
+/// The options for what the shaders draw: of a traced picture, its passes.
 RenderOptions options_of_shaders(RenderOptions options) {
   if (options.quality == Quality::kPreview || !RayScene::is_available()) options.gathers_light = false;
   if (options.quality != Quality::kFinal) return options;
@@ -75,7 +75,7 @@ RenderOptions options_of_shaders(RenderOptions options) {
 
 }  // namespace
 
-/// Draws by tracing the paths of light; OpenGL only makes the picture of the light.
+/// Draws by path tracing; OpenGL only turns the light into a picture.
 struct Renderer::Tracing {
   PathTracer tracer;
   Exposures picture;
@@ -113,7 +113,7 @@ struct Renderer::Device {
   std::optional<PassDrawer> passes;  // made with the first ones, as the next two
   std::optional<Screen> light_screen;
   std::optional<Screen> share_screen;
-  std::optional<Tracing> tracing;  // where pictures are traced
+  std::optional<Tracing> tracing;  // if pictures are traced
 
   Device(const Stage& stage, const RenderOptions& wanted)
       : gl(context.gl()),
@@ -173,7 +173,7 @@ struct Renderer::Device {
             .lighting = lighting};
   }
 
-  /// Its light is that of the middle.
+  /// Lit as in the middle of the exposure.
   DrawFrame frame(const Exposure& exposure, const std::vector<SkinShape>& shapes) {
     AlignedBox bodies = frame(exposure.first).light.bodies;
     bodies.extend(frame(exposure.last).light.bodies);

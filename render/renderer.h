@@ -8,17 +8,17 @@
 
 namespace sprung {
 
-/// Samples per pixel that other qualities than kFinal know: 1, 4 and 16.
+/// Whether qualities other than kFinal support that many samples per pixel: 1, 4 and 16.
 [[nodiscard]] bool is_raster_samples(int samples);
 
-/// Throws Error(kFailed) where this program was built without what Quality::kFinal needs.
+/// Throws Error(kFailed) if this program was built without what Quality::kFinal needs.
 void require_path_tracer();
 
 /// Draws a stage off-screen with OSMesa, in final quality with Embree: no display, no GPU. Deterministic on one machine
 /// for any number of threads.
 class Renderer {
  public:
-  /// Throws Error(kFailed) where no OpenGL 3.3 context can be made.
+  /// Throws Error(kFailed) if no OpenGL 3.3 context can be made.
   Renderer(const Stage& stage, const RenderOptions& options);
   ~Renderer();
   Renderer(const Renderer&) = delete;
@@ -30,11 +30,11 @@ class Renderer {
   /// The mean light of some exposures; needs RenderOptions::exposes.
   [[nodiscard]] Image draw(const std::vector<Exposure>& exposures);
 
-  /// What a compositor needs beside the picture of `now`; `before` and `after`: one frame earlier and later. With
-  /// RenderOptions::exposes the beauty is of the exposures drawn last, which should be those of `now`.
+  /// What a compositor needs in addition to the picture of `now`; `before` and `after`: one frame earlier and later.
+  /// With RenderOptions::exposes the beauty is of the exposures drawn last, which should be those of `now`.
   [[nodiscard]] Passes draw_passes(const Moment& now, const Moment& before, const Moment& after);
 
-  /// What each pass took, of all pictures so far; empty unless it was to be measured.
+  /// The time of each pass over all pictures so far; empty unless measured.
   [[nodiscard]] const std::vector<PassTime>& pass_times() const;
 
   /// Name and version of the driver, for reports.

@@ -139,7 +139,7 @@ Screen::Screen(const GlFunctions& gl, const RenderOptions& options, const Floor&
   circles_program_ = load("circles.frag", options);
 }
 
-/// Nothing where less is gathered.
+/// Empty if less is gathered.
 GlTexture Screen::make_gathered(Gathering least) const {
   return gathering_ < least ? GlTexture() : make_texture(gl_, side_ * width_, side_ * height_, kGatheredFormat);
 }

@@ -25,43 +25,42 @@ class EnvironmentTexture {
   GlTexture reflections_;
 };
 
-/// What the pixels of a screen hold: colours; linear light; or, in place of red and green, the fraction of the key
-/// light that reaches what is seen and the fraction of the sky that is open above it.
+/// What the pixels of a screen hold: colours; linear light; or, instead of red and green, the fraction of the key light
+/// that reaches what is seen and the fraction of the sky that is open above it.
 enum class ScreenOutput { kPicture, kLight, kShares };
 
-/// What rays gather for the vertices of skins: nothing; the light around them; that, and what comes through translucent
+/// What rays gather for the vertices of skins: nothing; the surrounding light; that, and light through translucent
 /// bodies.
 enum class Gathering { kNothing, kAround, kThrough };
 
 /// Samples along each side of a pixel.
 [[nodiscard]] constexpr int sample_side(int samples) { return samples == 16 ? 4 : samples == 4 ? 2 : 1; }
 
-/// Turns in which the samples of an exposure are taken, one after the other, as bodies move.
+/// The number of turns in which the samples of an exposure are taken as bodies move.
 inline constexpr int kTurns = 8;
 inline constexpr int kAllTurns = -1;
 
-/// The picture in the framebuffer that is bound.
+/// The picture in the bound framebuffer.
 [[nodiscard]] Image read_picture(const GlFunctions& gl, int width, int height, bool is_transparent);
 
 /// Deferred shading of what a camera sees, given the light maps: first the skins' surface in every sample of every
 /// pixel, then their light.
 class Screen {
  public:
-  /// Without an environment the studio lights it. Pictures that have exposures are of light.
+  /// Without an environment the studio lights it. Pictures with exposures hold light.
   Screen(const GlFunctions& gl, const RenderOptions& options, const Floor& floor,
          const std::optional<Environment>& environment, ScreenOutput output, Gathering gathering);
   void clear_surfaces() const;
-  /// In the samples of one turn, where options say that pictures have exposures, or in all.
+  /// Draws in the samples of one turn, if the options ask for exposures, or in all.
   void draw_surfaces(const std::vector<SkinBuffers>& skins, const TextureSet& textures, const View& view,
                      float least_opacity, int turn = kAllTurns) const;
   /// The picture, or one exposure of it.
   void draw_light(const LightMaps& maps, const View& view, PassClock& clock);
-  /// For options that say that pictures have exposures, whose parts add up to 1.
+  /// For options that ask for exposures, whose parts add up to 1.
   void clear_exposures() const { exposures_.value().clear(); }
   void add_exposure(const LightMaps& maps, const View& view, double part) const;
   [[nodiscard]] Image read() const;
-  /// Red, green, blue and opacity of every pixel, for other outputs than kPicture; colours are multiplied by the
-  /// opacity.
+  /// Red, green, blue and opacity of every pixel, for outputs other than kPicture; colours are premultiplied.
   [[nodiscard]] std::vector<Eigen::Vector4f> read_numbers() const;
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] int height() const { return height_; }
@@ -87,12 +86,12 @@ class Screen {
   GlTexture surface_color_;
   GlTexture surface_normal_;
   GlTexture surface_depth_;
-  GlTexture surface_light_;    // where it is gathered
+  GlTexture surface_light_;    // if it is gathered
   GlTexture surface_through_;  // the same
   GlFramebuffer surface_;
   GlTexture picture_;  // top row first
   GlTexture kinds_;    // of pixels, as depths
-  GlTexture circles_;  // of confusion, where pictures have exposures
+  GlTexture circles_;  // of confusion, if pictures have exposures
   GlFramebuffer developed_;
   Backdrop backdrop_;
   std::optional<EnvironmentTexture> environment_;

@@ -6,7 +6,7 @@
 
 namespace sprung {
 
-/// The text of a file in render/shaders; empty where there is none of that name.
+/// The text of a file in render/shaders; empty if there is none of that name.
 [[nodiscard]] std::string_view shader_text(std::string_view name);
 
 /// A program of two files in render/shaders. Both are preceded by the version, `defines` (lines of "#define") and

@@ -187,7 +187,7 @@ void SkinBuffers::update(const SkinShape& shape) {
   assert(!is_faint_ || shape.positions.rows() == shape.opacities.rows());
 }
 
-/// One a vertex, or none; returns whether there are any.
+/// One number per vertex, or none; returns whether there are any.
 bool SkinBuffers::upload_number(const GlBuffer& buffer, const Eigen::VectorXf& numbers, int attribute) const {
   if (numbers.size() == 0) return false;
   gl_.BindVertexArray(array_.name());

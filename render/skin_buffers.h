@@ -16,7 +16,7 @@ namespace sprung {
 class TextureSet {
  public:
   TextureSet(const GlFunctions& gl, ColorMap map);
-  /// Index of the texture in the set; 0, a white one, for an empty picture. Throws Error(kBadInput) where the picture
+  /// Index of the texture in the set; 0, a white one, for an empty picture. Throws Error(kBadInput) if the picture
   /// cannot be decoded.
   [[nodiscard]] int add(const SurfaceMaterial& material);
   [[nodiscard]] const GlTexture& color_map() const { return color_map_; }
@@ -49,13 +49,13 @@ class SkinBuffers {
               TextureSet& textures);
 
   void update(const SkinShape& shape);
-  /// Where the vertices are one frame earlier and later, for a program that asks.
+  /// The vertices' positions one frame earlier and later, for programs that use them.
   void update_motion(const Floats3& before, const Floats3& after);
   /// `light`: n x 4, of vertices, as GatheredLight has it, for programs with GATHERED defined.
   void update_light(const VertexLight& light);
-  /// For programs with THROUGH defined.
+  /// The same for programs with THROUGH defined.
   void update_through(const ThroughLight& light);
-  /// For a program that needs positions only.
+  /// Draws with a program that needs positions only.
   void draw(Detail detail) const;
   /// Part by part; sets base_color and base_texture (unit `unit`) of the programs.
   void draw(const SkinPrograms& programs, const TextureSet& textures, int unit, Detail detail) const;

@@ -42,7 +42,7 @@ std::filesystem::path beside(const Output& output, const char* name) {
 
 std::filesystem::path picture_of_diverged(const Output& output) { return beside(output, "diverged.png"); }
 
-/// The film without what comes after a frame, where that does not change what comes before.
+/// The film truncated after a frame, if that does not change the frames before it.
 Film up_to(Film film, int frame) {
   const int frames = frame_count(film);
   if (!is_motion(film) || frame >= frames) return film;
@@ -59,7 +59,7 @@ struct AnimateOptions {
   std::string keep_after = "30s";
   bool overwrite = false;
 
-  /// s. Throws Error(kUsage).
+  /// How long a simulation must take to be kept, s. Throws Error(kUsage).
   [[nodiscard]] double patience() const {
     try {
       return parse_quantity(keep_after, Dimension::kTime);
@@ -69,7 +69,7 @@ struct AnimateOptions {
   }
 };
 
-/// Where a long motion is kept until its film is whole.
+/// The file in which a long motion is kept until its film is complete.
 std::filesystem::path motion_file(const Output& output) { return beside(output, "unfinished.h5"); }
 
 /// Whether the file holds a motion of that scene by this program, or a part of it.
@@ -84,7 +84,7 @@ bool holds_motion(const std::filesystem::path& file, const Film& film, const Sce
   }
 }
 
-/// Does `work`; where it fails, says what it leaves behind.
+/// Runs `work`; if it fails, reports what it leaves behind.
 void with_motion_kept(const RunCache& motion, const Console& console, const std::function<void()>& work) {
   try {
     work();
@@ -108,7 +108,7 @@ void animate(const CLI::App& command, const AnimateOptions& options, const Conso
     const std::vector<Output> outputs = parse_outputs(options.outputs.names);
     const bool has_passes = std::any_of(outputs.begin(), outputs.end(), [](const Output& output) {
       return output.kind == Output::Kind::kPasses;
-    });  // which tell the motion to the next frame
+    });  // which include the motion to the next frame
     const Film scene = up_to(whole, choice.range.last + int(has_passes));
     check_outputs(scene, 1, choice, outputs);
     for (const Output& output : outputs) check_output(output, options.overwrite);

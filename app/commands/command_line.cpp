@@ -18,7 +18,7 @@
 namespace sprung {
 namespace {
 
-/// Printed where the name of the program is typed alone.
+/// Printed if only the program's name is typed.
 constexpr const char* kGreeting =
     "sprung turns a surface mesh into the animation of a soft body of real material.\n\n"
     "  sprung animate bunny.obj -o bunny.mp4    a film of your mesh\n"
@@ -40,8 +40,8 @@ std::string strange_word(const std::vector<std::string>& extras) {
   return found == extras.end() ? extras.front() : found->substr(0, found->find('='));
 }
 
-/// "--log-json comes after the command: sprung animate --log-json", where the given command (or any, where none is
-/// given) has it.
+/// "--log-json comes after the command: sprung animate --log-json", if the given command (or any, if none is given) has
+/// it.
 std::string known_behind(const CLI::App& app, const std::string& option) {
   const std::vector<CLI::App*> given = app.get_subcommands();
   std::vector<const CLI::App*> commands(given.begin(), given.end());
@@ -53,7 +53,7 @@ std::string known_behind(const CLI::App& app, const std::string& option) {
   return "";
 }
 
-/// "sprung film has no --size; it is an option of sprung animate", where another command has it.
+/// "sprung film has no --size; it is an option of sprung animate", if another command has it.
 std::string known_elsewhere(const CLI::App& command, const std::string& option) {
   if (command.get_parent() == nullptr) return known_behind(command, option);
   for (const CLI::App* other : command.get_parent()->get_subcommands({})) {
@@ -69,7 +69,7 @@ std::string known_elsewhere(const CLI::App& command, const std::string& option) 
 void refuse_extras(const CLI::App& app, std::string_view kind) {
   const std::vector<std::string> extras = app.remaining();
   if (extras.empty()) return;
-  // What stands in the place of the command is no command, whatever options come after it.
+  // A word in the position of the command is no command, whatever options follow it.
   const std::string word = app.get_parent() == nullptr ? extras.front() : strange_word(extras);
   const bool is_option = word.starts_with('-');
   std::vector<std::string> known;
@@ -145,8 +145,8 @@ void check_default(const CLI::App& app, const Invocation& invocation, const Opti
   }
 }
 
-/// Gives options that were not typed what the site or project wants. Those that stand for keys of the scene take it by
-/// themselves, below what a scene file says.
+/// Gives options that were not typed the defaults of the site or project. Those that stand for keys of the scene apply
+/// theirs themselves, with lower priority than a scene file.
 void apply_defaults(CLI::App& app, const Invocation& invocation) {
   const OptionDefaults& defaults = invocation.defaults;
   for (const OptionDefault& one : defaults.list) check_default(app, invocation, one);
@@ -194,7 +194,7 @@ int run_command_line(int argc, const char* const* argv, Console& console) {
   const std::span words(argv, argc);
   const bool asks_for_help = argc == 1 || std::any_of(words.begin(), words.end(), [](std::string_view word) {
                                return word == "help" || word == "--help" || word == "-h" || word == "--version";
-                             });  // which no mistake in a file of defaults keeps back
+                             });  // which no mistake in a file of defaults prevents
   Invocation invocation{.console = console,
                         .command = command_of(argc, argv),
                         .defaults = asks_for_help ? OptionDefaults{} : option_defaults()};

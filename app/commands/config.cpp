@@ -11,7 +11,7 @@
 namespace sprung {
 namespace {
 
-/// Keys of pictures too, which caches record.
+/// Includes keys of pictures, which caches record.
 bool makes_scenes_with(const CLI::App& command, const OptionDefault& one) {
   const bool is_of_scenes = std::any_of(key_options().begin(), key_options().end(),
                                         [&](const KeyOption& key) { return key.option == one.option; });

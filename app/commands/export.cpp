@@ -20,7 +20,7 @@ namespace {
 
 struct ExportOptions {
   OutputOptions outputs;
-  std::vector<std::string> takes;  // caches beside the input
+  std::vector<std::string> takes;  // caches in addition to the input
   std::string frames;              // "1:48:2"
   bool quantize = false;
   bool list = false;

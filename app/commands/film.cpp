@@ -36,7 +36,7 @@ int last_number(const Output& pictures) {
   return last;
 }
 
-/// The missing pictures, "25:48, 70"; empty where there are none.
+/// The missing pictures, "25:48, 70"; empty if there are none.
 std::string gaps_in(const Output& pictures, const FrameRange& range) {
   std::string gaps;
   const auto is_missing = [&](int number) { return number <= range.last && !fs::exists(pictures.picture(number)); };

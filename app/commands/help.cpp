@@ -24,7 +24,7 @@ std::vector<std::string> split(std::string_view text, std::string_view separator
   return parts;
 }
 
-/// The names that a key of the scene takes.
+/// The names that a key of the scene accepts.
 std::vector<std::string> names_of_key(std::string_view path) {
   constexpr std::string_view kNames = "one of ";
   const std::string_view table = path.substr(0, path.find('.'));
@@ -60,7 +60,7 @@ std::vector<std::string> settable_keys() {
   return names;
 }
 
-/// The names that an option takes; empty where it takes no names, or any.
+/// The names that an option accepts; empty if it accepts none, or any.
 std::vector<std::string> named_choices(const CLI::Option& option) {
   const std::string& text = option.get_option_text();
   if (text.find('|') != std::string::npos) {

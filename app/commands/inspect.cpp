@@ -53,13 +53,13 @@ void inspect_scene(const InspectOptions& options, const Console& console) {
   });
 }
 
-/// What is printed about a cache.
+/// The facts that are printed about a cache.
 struct CacheFacts {
   std::string version;
   std::string build;
   std::size_t frames = 0;
   int planned = 0;           // by the scene
-  bool may_be_less = false;  // where the film ends once nothing moves
+  bool may_be_less = false;  // if the film ends once nothing moves
   double progress = 0;
   std::string progress_name;
   std::uint64_t state_hash = 0;  // of the last frame

@@ -21,7 +21,7 @@
 namespace sprung {
 namespace {
 
-/// As typed.
+/// The options as typed.
 struct LoadOptions {
   std::string input;
   std::vector<Setting> defaults;
@@ -50,7 +50,7 @@ bool is_of_part(const KeyOption& key) {
   return std::find(kKeys.begin(), kKeys.end(), key.option) != kKeys.end();
 }
 
-/// The part as the options have it; usually of kUsualPartMaterial.
+/// The part that the options describe; by default of kUsualPartMaterial.
 Film scene_of(const LoadOptions& options, const Console& console) {
   SceneRequest request{.input = options.input, .settings = options.keys.settings(), .defaults = options.defaults};
   const bool has_material = std::any_of(request.settings.begin(), request.settings.end(), [](const Setting& setting) {
@@ -81,7 +81,7 @@ PartQuestion question_of(const LoadOptions& options, const SceneBody& body) {
   return question;
 }
 
-/// A positive value of an option; none where it is not given. Throws Error(kUsage).
+/// A positive value of an option; none if it is not given. Throws Error(kUsage).
 std::optional<double> limit_from(const char* option, const std::string& text, Dimension dimension) {
   if (text.empty()) return std::nullopt;
   try {
@@ -96,7 +96,7 @@ std::optional<double> limit_from(const char* option, const std::string& text, Di
 constexpr int kTurntableFrames = 96;
 constexpr double kTurntableRate = 24;  // frames/s
 
-/// What goes into the folder.
+/// The files written to the folder.
 struct LoadFiles {
   std::filesystem::path folder;
   bool turntable;

@@ -19,7 +19,7 @@
 namespace sprung {
 namespace {
 
-constexpr double kShortestDrop = 2;  // s, between which it ends when it has come to rest
+constexpr double kShortestDrop = 2;  // s; between these it ends once it has come to rest
 constexpr double kLongestDrop = 4;
 constexpr double kLowestDrop = 0.03;   // sizes
 constexpr double kWorthTelling = 0.2;  // rad, of a rotation
@@ -43,8 +43,8 @@ std::shared_ptr<const MaterialLibrary> library_of(const SceneRequest& request) {
   return library;
 }
 
-/// Sets the softest material that carries the body of a bare mesh, its size where even the stiffest does not, and the
-/// time steps that are faster for it.
+/// Sets the softest material that supports the body of a bare mesh, its size if even the stiffest does not, and the
+/// faster time stepping for it.
 void choose_material(Film& film, const SceneRequest& request, Scenario scenario, const Observer& observer) {
   SceneBody& body = film.bodies[0];
   const bool is_sized = body.size || body.scale;
@@ -107,7 +107,7 @@ Placement put_down(const std::filesystem::path& file, UpAxis up, bool may_lie) {
   return placement;
 }
 
-/// Flat bodies are looked at from higher up, and bodies at rest fill a good part of the picture.
+/// Flat bodies are viewed from higher up, and bodies at rest fill a good part of the picture.
 void place_camera(SceneCamera& camera, const Vec3& sides) {
   constexpr double kFlatness = 0.6;  // height over width below which the camera rises
   constexpr double kRise = 22;       // degrees, for a body without height
@@ -117,7 +117,7 @@ void place_camera(SceneCamera& camera, const Vec3& sides) {
   camera.body_height = kBodyHeight;
 }
 
-/// What the options say of a scene, but its materials, which make_scene() reads first.
+/// Applies the options to a scene, except its materials, which make_scene() reads first.
 void apply_settings(const SceneRequest& request, Film& film) {
   if (request.view) {
     film.camera.azimuth = request.view->azimuth;
@@ -129,7 +129,7 @@ void apply_settings(const SceneRequest& request, Film& film) {
   }
 }
 
-/// The request for a bare mesh, of which no file says anything: its defaults are typed first, as it were.
+/// The request for a bare mesh, which no scene file describes: its defaults count as typed first.
 SceneRequest without_defaults(SceneRequest request) {
   request.settings.insert(request.settings.begin(), request.defaults.begin(), request.defaults.end());
   request.defaults.clear();
@@ -191,7 +191,7 @@ void apply(const Setting& setting, Film& film) {
   }
 }
 
-/// STL and 3MF come from printing, where z is up as in Blender; readers turn files that name an axis.
+/// STL and 3MF come from printing, where z is up as in Blender; readers rotate files that name an axis.
 UpAxis usual_up(const std::filesystem::path& mesh) {
   const std::string extension = lower_extension(mesh);
   return extension == ".stl" || extension == ".3mf" || extension == ".blend" ? UpAxis::kZ : UpAxis::kY;

@@ -24,11 +24,11 @@ void apply(const Setting& setting, Film& film);
 
 struct SceneRequest;
 
-/// One body of a mesh as it stands in its file, with what the settings say, and the materials they name. Throws as
+/// A scene of one body, its mesh oriented as in its file, with the settings and the materials they name. Throws as
 /// make_scene() does.
 [[nodiscard]] Film make_part_scene(const SceneRequest& request);
 
-/// From where the camera looks.
+/// The direction from which the camera looks.
 struct CameraDirection {
   double azimuth = 0;               // degrees
   std::optional<double> elevation;  // degrees; none: as the scene has it
@@ -38,16 +38,16 @@ struct CameraDirection {
 struct SceneRequest {
   std::string input;
   std::vector<Setting> settings{};
-  std::vector<Setting> defaults{};        // of what neither the settings nor a scene file say
+  std::vector<Setting> defaults{};        // for what neither the settings nor a scene file state
   std::optional<Scenario> scenario{};     // of a bare mesh
   std::optional<UpAxis> up{};             // of a bare mesh; none: z for STL, 3MF and BLEND, else y
   std::optional<CameraDirection> view{};  // from where the camera looks
 };
 
-/// Options before scene file before the request's defaults before those of all scenes. Throws Error(kUsage) naming the
-/// option whose value is wrong, Error(kBadInput) for what is wrong in the scene file or the mesh and for an unknown
+/// In order of priority: options, scene file, the request's defaults, those of all scenes. Throws Error(kUsage) naming
+/// the option whose value is wrong, Error(kBadInput) for what is wrong in the scene file or the mesh and for an unknown
 /// material. Bodies for which no material is named get the softest elastomer in which they keep their shape, and a bare
-/// mesh that is dropped and would tip over is laid down; the observer hears of both.
+/// mesh that is dropped and would tip over is laid down; both are reported to the observer.
 [[nodiscard]] Film make_scene(const SceneRequest& request, const Observer& observer = {});
 
 }  // namespace sprung

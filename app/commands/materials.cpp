@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// As typed.
+/// The options as typed.
 struct MaterialsOptions {
   std::vector<std::string> words;  // each has to be in a material's name or class
   std::string material_class;
@@ -85,13 +85,13 @@ std::vector<LibraryMaterial> asked_for(const MaterialsOptions& options, const Ma
   return found;
 }
 
-/// "±20%"; nothing where it is not known.
+/// "±20%"; nothing if it is not known.
 std::string percent(double share) { return share > 0 ? fmt::format("±{:.0f}%", 100 * share) : ""; }
 
-/// "276 MPa"; a dash where there is none or it is not known.
+/// "276 MPa"; a dash if there is none or it is not known.
 std::string strength_text(double strength) { return strength > 0 ? readable(strength, Dimension::kPressure) : "-"; }
 
-/// "17%"; a dash where it is not known.
+/// "17%"; a dash if it is not known.
 std::string elongation_text(double strain) { return strain > 0 ? fmt::format("{:g}%", 100 * strain) : "-"; }
 
 std::string row(const LibraryMaterial& material) {

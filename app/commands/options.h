@@ -20,18 +20,18 @@
 
 namespace sprung {
 
-// Options that several commands have. CLI11 writes into these structs: they must not move once add_to() was called.
+// Options shared by several commands. CLI11 writes into these structs: they must not move once add_to() was called.
 
 /// The group of options that --help leaves out; `sprung help COMMAND` names them too.
 inline constexpr const char* kMoreOptions = "More options";
 
-/// --quiet, --verbose and --log-json, straight into the console.
+/// --quiet, --verbose and --log-json, which set the console directly.
 void add_messages(CLI::App& command, Console& console, const std::string& verbose = "more about every stage");
 
-/// A whole number from 1, given as text for the option of that name; 0 where there is no text. Throws Error(kUsage).
+/// A whole number, at least 1, given as text for the option of that name; 0 if the text is empty. Throws Error(kUsage).
 [[nodiscard]] int count_in(std::string_view option, const std::string& text);
 
-/// A value of a key of the scene, given as text for an option; none where it is not given. Throws Error(kUsage).
+/// A value of a key of the scene, given as text for an option; none if it is not given. Throws Error(kUsage).
 template <class Value>
 [[nodiscard]] std::optional<Value> key_value(const CLI::Option& option, std::string_view key, const std::string& text) {
   if (option.count() == 0) return std::nullopt;
@@ -44,7 +44,7 @@ template <class Value>
   }
 }
 
-/// Throws Error(kUsage) where `file` exists and may not be replaced.
+/// Throws Error(kUsage) if `file` exists and may not be replaced.
 void refuse_existing(const std::filesystem::path& file, bool overwrite,
                      std::string_view remedy = "--overwrite to replace it");
 
@@ -59,7 +59,7 @@ struct FrameOptions {
   std::string start_number;
 
   void add_to(CLI::App& command);
-  /// Of a film of so many frames, so many of them a second. Throws Error(kUsage).
+  /// For a film of that many frames at that rate. Throws Error(kUsage).
   [[nodiscard]] FrameChoice choice(std::size_t frames_in_film, double fps) const;
   [[nodiscard]] bool is_whole_film() const { return frames.empty() && frame.empty() && time.empty(); }
 };
@@ -71,13 +71,13 @@ struct OutputOptions {
   std::vector<std::string> names;  // as typed
 
   void add_to(CLI::App& command, const std::string& help, const char* placeholder = "OUT");
-  /// Throws Error(kUsage) with the example where none is given.
+  /// Throws Error(kUsage) with the example if none is given.
   void require(const CLI::App& command, std::string_view example) const;
   /// Names what was written, but not among pictures on the standard output.
   void print() const;
 };
 
-/// Throws Error(kUsage) where there is no input: "a mesh or a scene".
+/// Throws Error(kUsage) if there is no input: "a mesh or a scene".
 void require_input(const CLI::App& command, const std::string& input, std::string_view what);
 
 /// --jobs.
@@ -85,7 +85,7 @@ struct JobOptions {
   std::string text;
 
   CLI::Option* add_to(CLI::App& command);
-  /// Processes that draw; 0: as many as pay.
+  /// Number of drawing processes; 0: as many as are worthwhile.
   [[nodiscard]] int count() const { return count_in("--jobs", text); }
 };
 
@@ -95,7 +95,7 @@ struct KeyOption {
   std::string_view key;
   const char* example;
   struct Use {
-    bool is_of_pictures = false;  // of no use where none are drawn
+    bool is_of_pictures = false;  // useless if none are drawn
     bool is_common = false;       // named by --help; the others by sprung help COMMAND
   } use{};
 };
@@ -103,19 +103,19 @@ struct KeyOption {
 /// Every such option, in the order of its help.
 [[nodiscard]] std::span<const KeyOption> key_options();
 
-/// The defaults of options that stand for keys of the scene, for a command: of all, as it makes a scene that a cache
-/// may record for others, and of --set; or of those for which `is_meant` holds. Throws Error(kUsage).
+/// The defaults of a command's options that stand for keys of the scene: of all of them and of --set, since a cache may
+/// record the scene for other commands; or only of those for which `is_meant` holds. Throws Error(kUsage).
 [[nodiscard]] std::vector<Setting> default_settings(const OptionDefaults& defaults, std::string_view command);
 [[nodiscard]] std::vector<Setting> default_settings(const OptionDefaults& defaults, std::string_view command,
                                                     const std::function<bool(const KeyOption&)>& is_meant);
 
 /// Options that stand for keys of the scene, and --set.
 struct SettingOptions {
-  /// Those key options for which `is_meant` holds.
+  /// Adds the key options for which `is_meant` holds.
   void add_keys(CLI::App& command, Invocation& invocation, const std::function<bool(const KeyOption&)>& is_meant);
   void add_set(CLI::App& command, Invocation& invocation, const std::string& help,
                const char* placeholder = "KEY=VALUE");
-  /// What was typed, --set last. Throws Error(kUsage).
+  /// The settings as typed, --set last. Throws Error(kUsage).
   [[nodiscard]] std::vector<Setting> settings() const;
 
  private:
@@ -132,7 +132,7 @@ struct SettingOptions {
 struct SceneOptions {
   std::string input;
   SettingOptions keys;
-  std::vector<Setting> defaults;  // of a site or project: of keys of pictures too, which caches record
+  std::vector<Setting> defaults;  // of a site or project, including keys of pictures, which caches record
   std::string scenario;
   std::string unit;
   std::string up;
@@ -143,12 +143,11 @@ struct SceneOptions {
   void add_to(CLI::App& command, Invocation& invocation, bool has_pictures,
               const std::string& input_help = "a mesh file, or a scene (.toml)");
   [[nodiscard]] SceneRequest request() const;
-  /// Does `work` with the scene on as many threads as the options say; or prints the scene where that is all that was
-  /// asked for.
+  /// Runs `work` on the scene with as many threads as the options say, or just prints the scene if that was requested.
   void with_scene(const Console& console, const std::function<void(const Film&)>& work) const;
 };
 
-/// `examples`, and what holds for every command that takes a scene.
+/// `examples`, followed by what applies to every command that takes a scene.
 [[nodiscard]] std::string scene_footer(const CLI::App& command, const std::string& examples);
 
 }  // namespace sprung

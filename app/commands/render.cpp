@@ -73,7 +73,7 @@ struct CachedFilm {
   std::string name;
 };
 
-/// Names the runs by their files, and by brick law and material where those differ.
+/// Names the runs by their files, and by brick law and material if those differ.
 void name_runs(std::vector<CachedFilm>& films) {
   const auto add = [&films](auto&& word) {
     std::vector<std::string> words;

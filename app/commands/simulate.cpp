@@ -53,7 +53,7 @@ double position_error_of(const SimulateOptions& options) {
   throw Error(ErrorKind::kUsage, fmt::format("--position-error is a length above 0, not {}", options.position_error));
 }
 
-/// Where the results go.
+/// The destinations of the results.
 struct Places {
   std::optional<fs::path> folder;  // of probes.csv, probes.json and manifest.json
   std::optional<fs::path> cache;
@@ -93,7 +93,7 @@ fs::path picture_of_diverged(const Places& places) {
   return fs::path(*places.cache).replace_extension("diverged.png");
 }
 
-/// The command that goes on with what was begun.
+/// The command that resumes the run.
 std::string resuming_command(const SimulateOptions& options, std::string command) {
   if (options.resume) return command;
   const std::string_view overwrite = " --overwrite";
@@ -101,7 +101,7 @@ std::string resuming_command(const SimulateOptions& options, std::string command
   return command + " --resume";
 }
 
-/// Does `work`; where it fails, says how to go on from the cache.
+/// Runs `work`; if it fails, says how to resume from the cache.
 Recording with_advice(const RunCache* cache, const std::string& advice, const Console& console,
                       const std::function<Recording()>& work) {
   try {
@@ -132,7 +132,7 @@ void print_summary(const Recording& recording) {
   }
 }
 
-/// One line a frame under a line of names: "time_s,tip.position.x_m,...,end.torque.z_Nm".
+/// One line per frame under a line of names: "time_s,tip.position.x_m,...,end.torque.z_Nm".
 std::string probes_csv(const Recording& recording) {
   std::string text = recording.progress_name;
   for (const ProbeTrack& track : recording.probes) {
@@ -153,7 +153,7 @@ std::string probes_csv(const Recording& recording) {
   return text;
 }
 
-/// The same by probe, with the frequencies of modes and the state hash.
+/// The same organised by probe, with the frequencies of modes and the state hash.
 Json probes_json(const Recording& recording) {
   Json tracks = Json::array();
   for (const ProbeTrack& track : recording.probes) {
@@ -174,8 +174,8 @@ Json probes_json(const Recording& recording) {
 }
 
 /// How a run came about: version and build of the program, the scene as resolved, a hash of each mesh file it names and
-/// of the state in the last frame, and how long each frame took (s, wall clock; those of an earlier run that this one
-/// went on from included).
+/// of the state in the last frame, and how long each frame took (s, wall clock; including those of an earlier run that
+/// this one resumed).
 std::string manifest_json(const Film& film, const Recording& recording) {
   Json hashes = Json::object();
   std::set<std::string> files;

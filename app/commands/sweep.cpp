@@ -49,7 +49,7 @@ std::vector<SweptValues> choices_of(const std::vector<Setting>& settings) {
   return choices;
 }
 
-/// Of the same length for every run, so that they sort.
+/// Names of equal length for all runs, so that they sort.
 std::string name_of_run(std::size_t run) { return fmt::format("{:03}", run + 1); }
 
 std::string quoted(const fs::path& path) { return shell_quoted(path.string()); }

@@ -24,7 +24,7 @@ struct ValidateOptions {
   bool json = false;
 };
 
-/// False where a check fails.
+/// False if a check fails.
 bool validate(const ValidateOptions& options, const Choice& choice, const Console& console) {
   const std::vector<Case> cases = find_cases(options.list ? std::vector<std::string>{} : options.cases);
   if (options.list) {

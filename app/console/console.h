@@ -9,8 +9,8 @@
 namespace sprung {
 
 /// The messages of the program on stderr; results go to stdout, not through here. On a terminal a stage of work has a
-/// progress bar with its rate and the time to go, redrawn at most ten times a second; messages replace it. Every stage
-/// ends with one plain line. With log_json every line is an object, see README.md. Interrupts by signals stop the
+/// progress bar with its rate and the remaining time, redrawn at most ten times a second; messages replace it. Every
+/// stage ends with one plain line. With log_json every line is an object, see README.md. Interrupts by signals stop the
 /// work.
 class Console : public Observer {
  public:
@@ -18,12 +18,12 @@ class Console : public Observer {
   bool has_color = false;                        // such a terminal, and NO_COLOR is not set
   bool quiet = false;                            // errors and warnings only
   bool verbose = false;                          // details too
-  bool log_json = false;                         // a JSON object a line, in place of words
-  std::vector<std::string>* warnings = nullptr;  // where set, collects what is passed to warn()
+  bool log_json = false;                         // one JSON object per line instead of text
+  std::vector<std::string>* warnings = nullptr;  // if set, collects what is passed to warn()
 
-  /// Colours and terminal as they are for this process.
+  /// A console with the terminal and colours of this process.
   [[nodiscard]] static Console of_process();
-  /// One that says errors and warnings only.
+  /// A console that prints errors and warnings only.
   [[nodiscard]] static Console of_few_words();
 
   /// "sprung: error: ..." for every line of the message.
@@ -31,7 +31,7 @@ class Console : public Observer {
   void warn(std::string_view message) const override;
   void note(std::string_view message) const override;
   void detail(std::string_view message) const override;
-  /// With log_json only.
+  /// Prints with log_json only.
   void look_at(const Crossings& crossings) const override;
   void show(const Progress& progress) const override;
   void finish(const Progress& progress, std::string_view result) const override;

@@ -28,7 +28,7 @@ constexpr int kTimeIsUp = -1;
 
 /// Why the work has to stop: the number of the first signal, or kTimeIsUp; 0: it need not.
 std::atomic<int> cause{0};
-static_assert(decltype(cause)::is_always_lock_free);  // as handlers of signals need it
+static_assert(decltype(cause)::is_always_lock_free);  // as signal handlers require
 
 sem_t is_caused;        // posted with it
 double time_limit = 0;  // s; set before its watch starts
@@ -40,7 +40,8 @@ void stop_because_of(int why) {
 
 extern "C" void on_interrupt(int signal) { stop_because_of(signal); }
 
-/// Waits for a reason to stop and gives the work the time to do so. Whoever holds stderr then may never let it go.
+/// Waits for a reason to stop and gives the work the time to do so. A thread that holds the lock of stderr then may
+/// never release it.
 void end_what_does_not_stop(const Console& console) {
   while (sem_wait(&is_caused) != 0) {
   }

@@ -3,35 +3,35 @@
 
 namespace sprung {
 
-/// From here on a Ctrl-C (SIGINT), SIGTERM or SIGHUP asks the work to stop. Work that does not within a third of a
-/// second, such as a library that is not to be interrupted, is ended with the program: unfinished files are removed,
-/// and the console, which must live as long as the program, tells why. Signals that whoever started the program has it
-/// ignore stay ignored. A reader that went away is an error of the write instead of the end of the program.
+/// From here on Ctrl-C (SIGINT), SIGTERM and SIGHUP ask the work to stop. If it does not within a third of a second, as
+/// in a library that cannot be interrupted, the program is terminated: unfinished files are removed, and the console,
+/// which must live as long as the program, says why. Signals that the parent process set to be ignored stay ignored. A
+/// broken pipe makes the write fail instead of ending the program.
 void catch_interrupts(const Console& console);
 
-/// Work that takes longer than this (s, from now) is stopped likewise. After catch_interrupts().
+/// Work that takes longer than this (s, from now) is stopped likewise. To be called after catch_interrupts().
 void limit_time(double seconds);
 
 /// True once the work has to stop.
 [[nodiscard]] bool is_interrupted();
 
-/// As whoever started the program expects it: 128 and the number of the signal; 1 where its time was up.
+/// As shells expect it: 128 plus the number of the signal; 1 if the time limit was reached.
 [[nodiscard]] int interrupted_exit_code();
 
 /// Says why the work stops.
 void tell_interruption(const Console& console);
 
-/// Thrown where the work stops.
+/// Thrown to stop the work.
 struct Interrupted {};
 
 /// Throws Interrupted once the work has to stop.
 void stop_if_interrupted();
 
-/// Puts something in the place of standard files that are closed, so that no file opened later gets their numbers and
-/// is written into by mistake. What is written to a closed stdout then still fails.
+/// Opens substitutes for standard streams that are closed, so that no file opened later gets their descriptors and is
+/// written to by mistake. Writing to a closed stdout still fails.
 void hold_standard_files();
 
-/// Throws Error(kFailed) where what was printed to stdout cannot be written: closed, a full disk, a reader that left.
+/// Throws Error(kFailed) if what was printed to stdout cannot be written: closed, disk full, broken pipe.
 void flush_results();
 
 }  // namespace sprung

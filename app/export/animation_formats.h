@@ -14,7 +14,7 @@
 
 namespace sprung {
 
-/// A film in a cache. All must outlive it.
+/// A film in a cache. The objects that it refers to must outlive it.
 struct CachedFilmView {
   const Simulation& simulation;
   const CacheReader& cache;
@@ -22,12 +22,12 @@ struct CachedFilmView {
   std::string name;  // among several takes
 };
 
-/// What to write of a film, and where.
+/// Which part of a film to write, and to which file.
 struct AnimationJob {
   const std::filesystem::path& file;
-  std::span<const CachedFilmView> takes;  // one, or more where the format holds_takes
+  std::span<const CachedFilmView> takes;  // one, or more if the format holds_takes
   const FrameRange& range;
-  bool quantize = false;  // for those that can
+  bool quantize = false;  // for formats that can
   const Console& console;
 
   [[nodiscard]] const CachedFilmView& film() const { return takes.front(); }
@@ -38,14 +38,14 @@ struct AnimationFormat {
   std::string_view extension;  // ".glb"
   std::string_view example;    // "film.glb"
   std::string_view what;       // for messages
-  bool is_per_mesh = false;    // several files where a film has several meshes
+  bool is_per_mesh = false;    // several files if a film has several meshes
   bool can_quantize = false;
   bool holds_takes = false;                          // several films in one file
   void (*write)(const AnimationJob& job) = nullptr;  // throws Error, Interrupted
 };
 [[nodiscard]] std::span<const AnimationFormat> animation_formats();
 
-/// By the extension of a file, ignoring case; null for an unknown one.
+/// Finds the format by the extension of a file, ignoring case; null for an unknown one.
 [[nodiscard]] const AnimationFormat* find_animation_format(const std::filesystem::path& file);
 
 /// points.pc2, or points_1.pc2 ... for several meshes.

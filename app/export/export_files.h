@@ -11,7 +11,7 @@
 
 namespace sprung {
 
-/// Where exported frames go: all of them to one file (or one for each mesh), or each to one of its own.
+/// The destination of exported frames: one file for all (or one for each mesh), or one file for each.
 struct ExportTarget {
   const AnimationFormat* animation = nullptr;  // null: a mesh file for each frame
   std::filesystem::path file;                  // of the animation, or of a single frame
@@ -29,7 +29,7 @@ struct ExportTarget {
 [[nodiscard]] std::vector<std::filesystem::path> files_of(const ExportTarget& target, const Film& film,
                                                           const FrameRange& range);
 
-/// Writes every file under a temporary name and renames it. Several takes: for formats that hold them. Throws Error,
+/// Writes every file under a temporary name and renames it. Several takes need a format that holds them. Throws Error,
 /// Interrupted.
 void export_files(const ExportTarget& target, std::span<const CachedFilmView> takes, const FrameRange& range,
                   const Console& console);

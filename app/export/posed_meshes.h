@@ -12,7 +12,7 @@ namespace sprung {
 [[nodiscard]] std::vector<PosedMesh> posed_meshes(const Simulation& simulation, const Film& film,
                                                   const std::vector<Points>& nodes);
 
-/// The row among them of the mesh that each body of the world carries, or a part of it.
+/// For each body of the world, the index in posed_meshes() of the mesh that it deforms, whole or in part.
 [[nodiscard]] std::vector<std::size_t> meshes_of_bodies(const Simulation& simulation);
 
 /// How many meshes a film has.

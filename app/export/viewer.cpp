@@ -20,7 +20,7 @@ std::string text_of(const Items& items) {
   return base64(std::as_bytes(std::span(items.data(), std::size_t(items.size()))));
 }
 
-/// Whole numbers of steps from the low corner of everything in a take.
+/// Quantises positions to whole steps from the low corner of everything in a take.
 class Lattice {
  public:
   explicit Lattice(const ViewerTake& take) {
@@ -123,7 +123,7 @@ Json json_of(const ViewerTake& take) {
   return json;
 }
 
-/// Ends no script element, wherever it stands in it.
+/// JSON escaped so that it cannot end the script element around it.
 std::string in_script(const std::string& json) {
   std::string text;
   text.reserve(json.size());

@@ -20,22 +20,22 @@ struct ViewerField {
   std::vector<std::uint8_t> steps;  // nodes of the first frame, then of the next, ...; 0: low, 255: high. A single
                                     // frame holds for all
 
-  /// Further nodes: 0 is low, 1 high; what is beyond them is clamped.
+  /// Appends nodes: 0 is low, 1 high; values beyond are clamped.
   void add(const Eigen::VectorXd& coordinates);
 };
 
-/// A mesh of a take: vertices that bricks carry, or those of an obstacle.
+/// A mesh of a take: vertices embedded in bricks, or those of an obstacle.
 struct ViewerMesh {
   std::vector<int> brick;         // rows of the take's bricks; none for an obstacle
   Floats3 local;                  // coordinates in the brick, see Embedding
-  std::vector<Floats3> obstacle;  // by frame, m; a single one: it stays where it is
+  std::vector<Floats3> obstacle;  // by frame, m; a single one: it does not move
 };
 
 /// A film as the page shows it.
 struct ViewerTake {
   std::string name;
   double fps = 24;
-  int first_frame = 1;  // number of the first frame in the film, and what is added from one to the next
+  int first_frame = 1;  // number of the first frame in the film, and the increment to the next
   int frame_step = 1;
   std::string progress = "time_s";  // of a frame: time_s, load or mode
   std::vector<double> at;           // by frame: time (s), fraction of the load or number of the mode
@@ -50,24 +50,23 @@ struct ViewerTake {
   Eigen::VectorXf rest_lengths;          // of the springs, m
   std::optional<Legend> spring_stretch;  // legend, percent
   std::vector<ViewerField> fields;
-  int shown_field = -1;  // of them, at the start; -1: the skin's own colours
+  int shown_field = -1;  // index of the one shown at the start; -1: the skin's own colours
 
-  /// Adds the bricks of a grid whose nodes come next, and returns the row of the first of them.
+  /// Adds the bricks of a grid whose nodes come next, and returns the index of the first.
   int add_bricks(const BrickGrid& grid, int first_node);
   /// Adds a frame: the nodes of each body, m.
   void add_frame(const std::vector<Floats3>& bodies);
 };
 
-/// Those of a take's vertices that a grid carries, from row `first_brick` of the take's bricks on, in place of these
-/// rows of the mesh.
+/// Embeds these rows of a take's vertices in a grid whose bricks start at row `first_brick` of the take's bricks.
 void place_vertices(ViewerMesh& mesh, const std::vector<int>& rows, const Embedding& embedding, int first_brick);
 
-/// A page that shows films in three dimensions in any browser with WebGL, with three.js and its licence in it: plays,
-/// turns, colours by field, bricks, springs, wireframe, axes. It needs no other file. Positions are rounded to 1/65535
-/// of a take's longest side.
+/// A page that shows films in 3D in any browser with WebGL: playback, rotation, colours by field, bricks, springs,
+/// wireframe, axes. It contains three.js and its licence and needs no other file. Positions are rounded to 1/65535 of a
+/// take's longest side.
 [[nodiscard]] std::string viewer_page(std::span<const ViewerTake> takes);
 
-/// The page without films; they go, as a JavaScript array, in place of kViewerTakes.
+/// The page without films; as a JavaScript array they replace kViewerTakes.
 inline constexpr std::string_view kViewerTakes = "/*TAKES*/";
 [[nodiscard]] std::string_view viewer_template();
 

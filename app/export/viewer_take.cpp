@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::array kFields{Field::kDisplacement, Field::kSpeed, Field::kStrain, Field::kStress};
 
-/// Collects a take, which points into nothing.
+/// Collects a take, which holds no references.
 class TakeMaker {
  public:
   TakeMaker(const CachedFilmView& view, const FrameRange& range)
@@ -129,7 +129,7 @@ class TakeMaker {
     return mesh;
   }
 
-  /// With one range for all frames.
+  /// The film coloured by that field, with one range for all frames.
   [[nodiscard]] Film coloured_by(Field field) const {
     Film film = view_.film;
     SceneRender& render = film.render;

@@ -7,8 +7,8 @@
 
 namespace sprung {
 
-/// These frames of each film, or those of them that it has, with its obstacles, and with displacement, speed, strain,
-/// stress, and the field that its scene is coloured by, each with one range for all films. Throws Interrupted.
+/// These frames of each film, as far as it has them, with its obstacles, and with displacement, speed, strain, stress,
+/// and the field that its scene is coloured by, each with one range for all films. Throws Interrupted.
 [[nodiscard]] std::vector<ViewerTake> viewer_takes(std::span<const CachedFilmView> views, const FrameRange& range);
 
 }  // namespace sprung

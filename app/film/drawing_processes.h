@@ -25,7 +25,7 @@ class DrawingProcesses {
   DrawingProcesses(const DrawingProcesses&) = delete;
   DrawingProcesses& operator=(const DrawingProcesses&) = delete;
 
-  /// Waits for the next picture of that child, without alpha. Throws what its work threw, Error(kFailed) where it ended
+  /// Waits for the next picture of that child, without alpha. Throws what its work threw, Error(kFailed) if it ended
   /// without a message, Interrupted.
   [[nodiscard]] Image receive(std::size_t process);
   /// Waits for all children. Throws likewise.
@@ -42,7 +42,7 @@ class DrawingProcesses {
   std::vector<Child> children_;
 };
 
-/// Ends idle worker threads; the next tasks start new ones. False where that is impossible.
+/// Ends idle worker threads; the next tasks start new ones. False if that is impossible.
 [[nodiscard]] bool end_worker_threads();
 
 }  // namespace sprung

@@ -163,7 +163,7 @@ FieldColors::FieldColors(const Film& film, const Simulation& simulation, const R
       measure_(strain_measure(film)),
       ranges_(std::move(ranges)) {}
 
-/// Over the frames from the first up to the last, which is not among them.
+/// The range over the frames from the first up to, but not including, the last.
 ColorRange FieldColors::range_over(std::size_t first, std::size_t last) const {
   std::size_t count = 0;
   for (const SoftBody& body : simulation_.world.bodies) count += std::size_t(body.node_count());

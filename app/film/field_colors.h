@@ -10,12 +10,13 @@ namespace sprung {
 
 /// A field at the nodes of one body in one frame, SI: displacement from the first frame (m), speed by differences
 /// between frames (m/s), largest principal stretch, von Mises strain, von Mises stress (Pa), volume over rest volume,
-/// fill, or Young's modulus (Pa) for kRegion. Not for kSkin. `measure`: of the strain that the stress follows from.
+/// fill, or Young's modulus (Pa) for kRegion. Not for kSkin. `measure`: of the strain from which the stress is
+/// computed.
 [[nodiscard]] Eigen::VectorXd field_values(Field field, const Simulation& simulation, const Recording& recording,
                                            std::size_t frame, std::size_t body, double fps,
                                            StrainMeasure measure = StrainMeasure::kFinite);
 
-/// True where the field changes over time.
+/// True if the field changes over time.
 [[nodiscard]] bool is_moving(Field field);
 
 /// The values of the first and the last colour, SI.
@@ -28,7 +29,7 @@ struct ColorRange {
 using ColorRanges = std::vector<ColorRange>;
 
 [[nodiscard]] const ColorRange& range_in(const ColorRanges& ranges, std::size_t frame);
-/// Those that show what both show; the last one of a shorter film counts for the frames after it.
+/// Ranges that cover both; the last one of a shorter film applies to the frames after it.
 [[nodiscard]] ColorRanges merged(const ColorRanges& a, const ColorRanges& b);
 /// Whether each frame has its own range.
 [[nodiscard]] bool has_range_per_frame(const SceneRender& render);
@@ -45,7 +46,7 @@ class FieldColors {
   [[nodiscard]] const ColorRanges& ranges() const { return ranges_; }
   /// Coordinates of a body's nodes on the colour map, 0 to 1 within the range.
   [[nodiscard]] Eigen::VectorXd map_coordinates(std::size_t frame, std::size_t body) const;
-  /// In a unit with short numbers, the same in all frames.
+  /// In a unit that keeps numbers short, the same in all frames.
   [[nodiscard]] Legend legend(std::size_t frame) const;
 
  private:

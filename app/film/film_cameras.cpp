@@ -81,7 +81,7 @@ Points flipped(const Points& points, const Vec3& center, double degrees) {
   return ((points.rowwise() - center.transpose()) * turn.transpose()).rowwise() + center.transpose();
 }
 
-/// All points that have to be in view, relative to the followed centroid where the camera follows.
+/// All points that have to be in view, relative to the followed centroid if the camera follows.
 Points points_to_see(const Film& film, const Reach& reach, const Vec3& center) {
   if (!film.camera.follow) return with_ground(stacked({stacked(reach.bodies), reach.around}), reach.ground);
   std::vector<Points> parts;
@@ -91,7 +91,7 @@ Points points_to_see(const Film& film, const Reach& reach, const Vec3& center) {
   return stacked(parts);
 }
 
-/// Between two keyframes, at rest at both.
+/// Interpolates between two keyframes, at rest at both.
 CameraKeyframe placed(const std::vector<CameraKeyframe>& keyframes, double time) {
   const auto later = std::find_if(keyframes.begin(), keyframes.end(),
                                   [&](const CameraKeyframe& keyframe) { return keyframe.time >= time; });

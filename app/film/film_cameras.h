@@ -5,8 +5,8 @@
 
 namespace sprung {
 
-/// What the cameras of a film have to see: the bounds of the whole motion, and for each frame the extreme points in 26
-/// directions and the ground below them, where shadows fall.
+/// What must be visible to the cameras of a film: the bounds of the whole motion, and for each frame the extreme points
+/// in 26 directions and the ground below them, where shadows fall.
 struct Reach {
   AlignedBox bounds;
   std::vector<Points> bodies;  // by frame
@@ -18,11 +18,11 @@ struct Reach {
 
 [[nodiscard]] Reach reach_of(const Simulation& simulation, const Recording& recording);
 
-/// The union of one or more runs; those that end early stay where they are.
+/// The union of one or more runs; those that end early stay in their last frame.
 [[nodiscard]] Reach joined(const std::vector<Reach>& runs);
 
-/// One camera per frame, from the direction that the scene states, which shows the whole motion (or, where it follows
-/// the bodies, that frame) as large as possible, without the fraction `reserved` of the picture's width at its right
+/// One camera per frame, from the direction that the scene states, which shows the whole motion (or, if it follows the
+/// bodies, that frame) as large as possible, leaving free the fraction `reserved` of the picture's width at its right
 /// edge.
 [[nodiscard]] std::vector<Camera> cameras_of(const Film& film, const Reach& reach, double reserved);
 

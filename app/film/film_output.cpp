@@ -31,7 +31,7 @@ constexpr std::array<std::string_view, 7> kEndings{".mp4", ".webm", ".mov", ".gi
   throw Error(ErrorKind::kUsage, fmt::format("--output {}: {}; {}", words, reason, kExamples));
 }
 
-/// Of files with that ending; none where these hold no pictures.
+/// The kind of files with that ending; none if these hold no pictures.
 std::optional<Output::Kind> kind_of(const std::string& name) {
   const std::string ending = lower_extension(name);
   if (ending == ".png") return Output::Kind::kPictures;
@@ -39,7 +39,7 @@ std::optional<Output::Kind> kind_of(const std::string& name) {
   return std::nullopt;
 }
 
-/// Of the standard output; none where that is not meant.
+/// The format of the standard output; none if that is not meant.
 std::optional<Output::Stream> stream_of(std::string_view words) {
   if (words == "-") return Output::Stream::kAny;
   if (words == "-.png") return Output::Stream::kPng;
@@ -72,7 +72,7 @@ bool is_below(const fs::path& path, const fs::path& above) {
   return std::mismatch(above.begin(), above.end(), path.begin(), path.end()).first == above.end();
 }
 
-/// True where one would replace the other or block its path.
+/// True if one would replace the other or block its path.
 bool collide(const Output& a, const Output& b) {
   const bool a_is_stream = a.kind == Output::Kind::kStream;
   const bool b_is_stream = b.kind == Output::Kind::kStream;
@@ -189,7 +189,7 @@ constexpr std::size_t kMostWaiting = 4;
 
 }  // namespace
 
-/// How pictures that follow each other in one place are written there.
+/// Writes successive pictures to one file or stream.
 class SequenceWriter {
  public:
   virtual ~SequenceWriter() = default;
@@ -210,7 +210,7 @@ class EncodedSequence : public SequenceWriter {
   FilmWriter film_;
 };
 
-/// To the standard output, picture by picture.
+/// Writes to the standard output, picture by picture.
 class StreamedPictures : public SequenceWriter {
  public:
   explicit StreamedPictures(bool as_png) : as_png_(as_png) {}

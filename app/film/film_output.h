@@ -18,8 +18,8 @@
 
 namespace sprung {
 
-/// Where pictures go: numbered PNG files in a folder, or a single one, or a film, or the standard output; or their
-/// passes: EXR files.
+/// The destination of pictures: numbered PNG files in a folder, or a single one, or a film, or the standard output; or
+/// of their passes: EXR files.
 struct Output {
   enum class Kind { kPictures, kPasses, kFilm, kStream };
   enum class Stream { kAny, kPng, kY4m, kRgb };  // kAny: PNG of a single picture, else YUV4MPEG2
@@ -32,14 +32,14 @@ struct Output {
   Stream stream = Stream::kAny;  // of kStream
 
   [[nodiscard]] bool is_numbered() const { return file.empty() && kind != Kind::kStream; }
-  /// Whether all its pictures go to one place, in order.
+  /// Whether all its pictures go to one file or stream, in order.
   [[nodiscard]] bool is_sequence() const { return kind == Kind::kFilm || kind == Kind::kStream; }
   /// The file of the picture, or of its passes, with this number; the first is 1.
   [[nodiscard]] std::filesystem::path picture(int number) const;
 };
 
-/// Throws Error(kUsage) where the value of --output has an ending but none of these, like "film.xyz", unless a folder
-/// of that name exists. `examples` ends the message.
+/// Throws Error(kUsage) if the value of --output has an ending but none of these, like "film.xyz", unless a folder of
+/// that name exists. `examples` ends the message.
 void check_folder_name(std::string_view words, std::span<const std::string_view> endings, std::string_view examples);
 
 /// The value of --output: "dir/" or "dir" (frame_0001.png ... in it), "dir/f_{:04}.png" or "{:04d}" or
@@ -48,7 +48,7 @@ void check_folder_name(std::string_view words, std::span<const std::string_view>
 /// ending, unless such a folder exists.
 [[nodiscard]] Output parse_output(std::string_view words);
 
-/// All of them. Throws Error(kUsage) where two would write to the same place.
+/// Parses all of them. Throws Error(kUsage) if two would write to the same file.
 [[nodiscard]] std::vector<Output> parse_outputs(const std::vector<std::string>& words);
 
 /// The existing pictures of this output, sorted by name.
@@ -57,8 +57,8 @@ void check_folder_name(std::string_view words, std::span<const std::string_view>
 /// Removes the numbered files of this output beyond `last`, which an earlier, longer film left. Returns how many.
 int remove_beyond(const Output& output, int last);
 
-/// Checks before any work is done that the output can be written; leaves no files. Throws Error(kUsage) where it exists
-/// and `overwrite` is not set, Error(kFailed) where its folder cannot be written or ffmpeg is missing.
+/// Checks before any work is done that the output can be written; leaves no files. Throws Error(kUsage) if it exists
+/// and `overwrite` is not set, Error(kFailed) if its folder cannot be written or ffmpeg is missing.
 void check_output(const Output& output, bool overwrite);
 
 /// One frame, as drawn.

@@ -75,7 +75,7 @@ std::optional<Legend> first_legend(const FilmRun& run, const ColorRanges& ranges
 
 }  // namespace
 
-/// Of what all runs show; none where colours show no field.
+/// Ranges over all runs; empty if colours show no field.
 ColorRanges FilmPipeline::common_ranges(const std::vector<FilmRun>& runs) {
   ColorRanges ranges;
   const SceneRender& render = runs.front().film.render;

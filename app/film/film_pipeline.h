@@ -13,7 +13,7 @@
 
 namespace sprung {
 
-/// A run that a film shows. All must outlive the film.
+/// A run that a film shows. The objects that it refers to must outlive the film.
 struct FilmRun {
   const Film& film;
   const Simulation& simulation;
@@ -26,10 +26,11 @@ struct FilmRun {
 /// OpenGL starts with the first picture, so a process may fork before that.
 class FilmPipeline {
  public:
-  /// Shapes of the skins by run and time: one time per picture, or those where the exposures of its motion blur meet.
+  /// Shapes of the skins by run and time: one time per picture, or those that separate the exposures of its motion
+  /// blur.
   using Moments = std::vector<std::vector<std::vector<SkinShape>>>;
 
-  /// `surroundings` light all runs and must outlive it; none: the studio.
+  /// `surroundings` lights all runs and must outlive it; none: the studio.
   FilmPipeline(const std::vector<FilmRun>& runs, const std::optional<Environment>& surroundings);
 
   [[nodiscard]] std::size_t frames() const { return cameras_.size(); }
@@ -38,7 +39,7 @@ class FilmPipeline {
 
   [[nodiscard]] Moments moments(std::size_t frame) const;
   [[nodiscard]] Image draw(std::size_t frame, const Moments& moments);
-  /// Of the first run and the first time.
+  /// The passes of the first run at the first time.
   [[nodiscard]] Passes passes(std::size_t frame, const Moments& moments);
   /// The pictures in rows and columns, with the legend.
   [[nodiscard]] Image sheet(const std::vector<Image>& pictures) const;
@@ -78,8 +79,8 @@ class FilmPipeline {
 /// more pixels at the right edge continue the background.
 [[nodiscard]] Image sheet_of(const std::vector<Image>& pictures, int columns, int gutter, int margin);
 
-/// The environment of the scene's panorama, if it has one. Throws Error(kBadInput) naming the file where it cannot be
-/// read or is black.
+/// The environment of the scene's panorama, if it has one. Throws Error(kBadInput) naming the file if it cannot be read
+/// or is black.
 [[nodiscard]] std::optional<Environment> read_surroundings(const SceneRender& render);
 
 }  // namespace sprung

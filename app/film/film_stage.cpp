@@ -36,10 +36,10 @@ constexpr double kMostEdges = 60;        // across an obstacle
 constexpr double kFloorSize = 0.5;       // of the largest body: the most that a square or a board of the floor has
 constexpr double kUtmost = 0.01;         // fraction of the springs that may exceed the range of colours
 
-/// By default blue in compression, red in tension, pale at rest.
+/// The default is blue in compression, red in tension, pale at rest.
 ColorMap spring_colors(const SceneRender& render) { return render.color_map.value_or(ColorMap::kEmber); }
 
-/// Of a spring that is stretched or pressed by that share of what the ends of the colours stand for.
+/// The opacity of a spring, given its stretch over that at the ends of the colours.
 double spring_opacity(double share) {
   const double wanted = std::lerp(kOpacities.front(), 1.0, share / kOpaqueSpring);
   const auto more = std::find_if(kOpacities.begin() + 1, kOpacities.end(), [&](double o) { return o > wanted; });
@@ -183,7 +183,7 @@ Eigen::VectorXd FilmStage::map_coordinates(const Moment& moment, std::size_t bod
                                                        : Eigen::VectorXd();
 }
 
-/// Edges are those of the triangles that the mesh has.
+/// The edges drawn are those of the mesh's own triangles.
 bool FilmStage::is_smooth() const { return scene_.render.smooth && !scene_.render.edges && std::isfinite(pixel_); }
 
 FilmStage::DrawnSkin FilmStage::drawn_skin(const SoftBody& body) {
@@ -270,7 +270,7 @@ ColorRanges FilmStage::stretch_ranges() const {
   return {*std::max_element(ranges.begin(), ranges.end(), is_less)};
 }
 
-/// Of the triangles of a body's skin.
+/// Adds the edges of the triangles of a body's skin.
 void FilmStage::add_edges(std::size_t row) {
   const SoftBody& body = simulation_.world.bodies[row];
   const std::vector<std::array<int, 2>> edges = edges_of(body.skin.triangles);

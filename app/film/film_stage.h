@@ -11,31 +11,31 @@
 
 namespace sprung {
 
-/// As the renderer takes colours: sRGB, 0 to 1.
+/// A colour as the renderer expects it: sRGB, 0 to 1.
 [[nodiscard]] Eigen::Vector3f srgb(const Color& color);
 
-/// A skin embedded in bricks for these positions of their nodes, m.
+/// The shape of a skin embedded in bricks, for these positions of their nodes (m).
 [[nodiscard]] SkinShape shape_of(const BrickGrid& grid, const Skin& skin, const Embedding& embedding,
                                  const Points& nodes, SkinInterpolation interpolation = SkinInterpolation::kBricks);
 
-/// A skin of an obstacle at that time of the film (s).
+/// The shape of an obstacle's skin at that time of the film (s).
 [[nodiscard]] SkinShape shape_of(const StageObstacle& obstacle, const Skin& skin, double time);
 
-/// Everything that a film shows, in any frame or between two: skins, or bricks or springs in their place, obstacles,
-/// and overlays.
+/// Everything that a film shows, in any frame or between two: skins, or bricks or springs instead, obstacles, and
+/// overlays.
 class FilmStage {
  public:
-  /// All must outlive it. `pixel`: what one shows of the nearest body, m; skins of coarse meshes are drawn smooth to
-  /// within a part of that, if the scene wants it; infinity: never. `ranges`: of the colours; none: those that the film
-  /// finds.
+  /// All must outlive it. `pixel`: size of a pixel at the nearest body, m; skins of coarse meshes are drawn smooth to
+  /// within a fraction of it, if the scene asks for that; infinity: never. `ranges`: of the colours; none: those of the
+  /// film.
   FilmStage(const Film& film, const Simulation& simulation, const Recording& recording,
             double pixel = std::numeric_limits<double>::infinity(), ColorRanges ranges = {});
 
-  /// `bounds`: of the whole motion, m. Lit by the studio where there is no environment.
+  /// `bounds`: of the whole motion, m. Lit by the studio if there is no environment.
   [[nodiscard]] Stage stage(const AlignedBox& bounds, const std::optional<Environment>& environment) const;
   /// One shape for each of the stage's skins, interpolated by `part` (0 to 1) towards the next frame.
   [[nodiscard]] std::vector<SkinShape> shapes(std::size_t frame, double part = 0) const;
-  /// None where colours show no field.
+  /// Empty if colours show no field.
   [[nodiscard]] ColorRanges color_ranges() const;
   [[nodiscard]] std::optional<Legend> legend(std::size_t frame) const;
 
@@ -57,7 +57,7 @@ class FilmStage {
     double mean_free_path = 0;  // m
   };
 
-  /// What is drawn of a body.
+  /// The skin that is drawn for a body, and its embedding.
   struct DrawnSkin {
     std::shared_ptr<const Skin> skin;
     std::shared_ptr<const Embedding> embedding;

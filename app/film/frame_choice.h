@@ -13,7 +13,7 @@ struct FrameRange {
 
   [[nodiscard]] int count() const { return (last - first) / step + 1; }
   [[nodiscard]] std::vector<int> frames() const;
-  /// Its frames that a shorter film has, or that one's last.
+  /// Its frames that a shorter film has, or else that film's last.
   [[nodiscard]] FrameRange within(int frames_in_film) const;
 };
 
@@ -24,14 +24,14 @@ struct FrameRange {
 /// film does not have.
 [[nodiscard]] FrameRange parse_frame_range(std::string_view words, std::size_t frames);
 
-/// The frame at a time ("0.5 s") of a film of so many frames, so many of them a second. Throws Error(kUsage) as above.
+/// The frame at a time ("0.5 s") of a film of that many frames at that rate. Throws Error(kUsage) as above.
 [[nodiscard]] FrameRange parse_frame_time(std::string_view words, std::size_t frames, double fps);
 
 /// Frames of a film that are drawn, and the numbers of their pictures.
 struct FrameChoice {
   FrameRange range;
   int start_number = 1;         // of the pictures of the film's first frame
-  bool skips_existing = false;  // draws only frames of which a picture, or passes, are missing
+  bool skips_existing = false;  // draws only frames whose picture or passes are missing
 
   [[nodiscard]] int number(int frame) const { return frame + start_number - 1; }
 };

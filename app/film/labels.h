@@ -19,16 +19,16 @@ class Labels {
   /// Pixels reserved for the legend at the right edge of a picture of that size.
   [[nodiscard]] int reserved(int width, int height) const;
   void write_name(Image& image, const std::string& name) const;
-  /// `frame` counts from 0; `time` in s. In a sheet the time is told in any case.
+  /// `frame` counts from 0; `time` in s. A sheet always shows the time.
   void write_frame(Image& image, const Camera& camera, std::size_t frame, std::size_t frames, double time) const;
-  /// As wide as the one it was made with.
+  /// Draws the legend as wide as the one passed to the constructor.
   void write_legend(Image& image, const std::optional<Legend>& legend) const;
   void write_plot(Image& image, const Plot& plot) const;
 
  private:
   SceneRender render_;
   std::optional<Legend> legend_;
-  std::optional<Font> font_;  // none where nothing is written
+  std::optional<Font> font_;  // none if nothing is written
 };
 
 /// sRGB of a probe's trace and curve, by its index.

@@ -7,8 +7,8 @@
 
 namespace sprung {
 
-/// Names of what passes tell apart, by Stage::ids: the ground, the bodies, then the obstacles that are drawn. That of
-/// a file without its ending, or of a shape; the second of the same name is "octopus.002".
+/// Names of the objects that passes distinguish, by Stage::ids: the ground, the bodies, then the drawn obstacles. Each
+/// is a file's name without its extension, or a shape's; the second of the same name is "octopus.002".
 [[nodiscard]] std::vector<std::string> matte_names(const Film& film, const Simulation& simulation);
 
 }  // namespace sprung

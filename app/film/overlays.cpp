@@ -45,7 +45,7 @@ RoundShape round_shape(int divisions) {
   return shape;
 }
 
-/// The roundest of so many balls that can be drawn in a moment.
+/// The finest subdivision at which that many balls are drawn quickly.
 int divisions_of(std::size_t balls) {
   constexpr std::size_t kManyTriangles = 200'000;
   int divisions = 3;
@@ -87,7 +87,7 @@ SkinShape Rods::shape(const Points& from, const Points& to, const RodLooks& look
   shape.opacities = of_vertices(looks.opacities);
   for (Eigen::Index rod = 0; rod < from.rows(); ++rod) {
     Vec3 way = to.row(rod) - from.row(rod);
-    if (way.isZero(0)) way = Vec3::UnitX();  // of no length: nothing to see, but finite
+    if (way.isZero(0)) way = Vec3::UnitX();  // zero length: invisible, but finite
     const double radius = looks.widths.size() > 0 ? looks.widths[rod] * radius_ : radius_;
     const Vec3 across = way.unitOrthogonal();
     const Vec3 third = way.stableNormalized().cross(across);

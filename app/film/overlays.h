@@ -12,7 +12,7 @@
 
 namespace sprung {
 
-/// One number a rod each, or none.
+/// One number per rod each, or none.
 struct RodLooks {
   Eigen::VectorXd coordinates{};  // on the colour map
   Eigen::VectorXd widths{};       // factors of the radius
@@ -36,7 +36,7 @@ class Rods {
   Skin skin_;
 };
 
-/// Each once.
+/// Each edge once.
 [[nodiscard]] std::vector<std::array<int, 2>> edges_of(const Triangles& triangles);
 
 /// Points and triangles of a sphere of radius 1.

@@ -21,14 +21,14 @@
 namespace sprung {
 namespace {
 
-/// Of the lowest vertex in any frame, m; none without a ground.
+/// Depth of the lowest vertex in any frame, m; none without a ground.
 std::optional<double> depth_below_ground(const Simulation& simulation, double lowest) {
   const std::optional<double> ground = ground_height(simulation.world.obstacles);
   if (!ground) return std::nullopt;
   return std::max(0.0, *ground - lowest);
 }
 
-/// What is seen of that.
+/// Warns if that is visible.
 void warn_of_depth(const Simulation& simulation, double lowest, const Console& console) {
   constexpr double kSeen = 0.01;  // of the size
   const double depth = depth_below_ground(simulation, lowest).value_or(0);
@@ -48,7 +48,7 @@ std::string ground_report(const Simulation& simulation, double lowest) {
                      100 * depth / simulation.size);
 }
 
-/// Whether all its files are there.
+/// Whether all its files exist.
 bool exists(const std::vector<Output>& outputs, int number) {
   return std::all_of(outputs.begin(), outputs.end(),
                      [number](const Output& output) { return std::filesystem::exists(output.picture(number)); });
@@ -79,7 +79,7 @@ bool has(const std::vector<Output>& outputs, Output::Kind kind) {
 constexpr std::size_t kLeastFrames = 24;    // that justify a process
 constexpr std::size_t kMostProcesses = 16;  // by default: each needs memory for its own pictures
 
-/// What to draw, and where it goes.
+/// The frames to draw, and the outputs.
 struct Task {
   const FrameChoice& choice;
   const std::vector<int> frames;
@@ -169,7 +169,7 @@ void draw_by_processes(const Task& task, FilmPipeline& pipeline, std::size_t cou
 /// Number of drawing processes.
 std::size_t processes_for(const Task& task, int jobs) {
   const std::size_t frames = task.frames.size();
-  if (task.render.sheet || task.render.quality == Quality::kFinal) return 1;  // which takes all cores for each picture
+  if (task.render.sheet || task.render.quality == Quality::kFinal) return 1;  // which uses all cores for each picture
   if (jobs > 0) return std::min<std::size_t>(frames, jobs);
   const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
   return std::clamp(frames / kLeastFrames, std::size_t{1}, std::min(cores, kMostProcesses));
@@ -197,7 +197,7 @@ void draw_film(const std::vector<FilmRun>& runs, const std::optional<Environment
   warn_of_depth(runs.front().simulation, pipeline.lowest(), console);
 }
 
-constexpr int kSheetSide = 3;  // rows and columns of a sheet that nobody asked for otherwise
+constexpr int kSheetSide = 3;  // rows and columns of a sheet whose layout is not given
 
 /// The scene with its film in one picture of the film's shape.
 Film as_sheet(Film scene, int frames) {
@@ -206,7 +206,7 @@ Film as_sheet(Film scene, int frames) {
   return scene;
 }
 
-/// Outputs that show the film in a single picture though the scene does not say how.
+/// Outputs that show the film in a single picture although the scene does not say how.
 std::vector<Output> sheets_among(const std::vector<Output>& outputs, const SceneRender& render,
                                  const FrameChoice& choice, bool wanted) {
   std::vector<Output> some;
@@ -217,7 +217,7 @@ std::vector<Output> sheets_among(const std::vector<Output>& outputs, const Scene
   return some;
 }
 
-/// What "-" means.
+/// Chooses the format of "-".
 std::vector<Output> with_streams_chosen(std::vector<Output> outputs, const SceneRender& render,
                                         const FrameChoice& choice) {
   const bool is_picture = render.sheet || choice.range.count() == 1;

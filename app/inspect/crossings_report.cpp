@@ -23,7 +23,7 @@ constexpr int kHalfWidth = 900;    // pixels
 constexpr double kAround = 3;      // depths that are shown around the deepest place ...
 constexpr double kAtLeast = 0.04;  // ... or this share of the size
 constexpr double kBall = 0.03;     // radius of the mark at the deepest place, over half of what is shown there
-constexpr double kLifted = 2e-4;   // of the size: so far triangles are drawn before the skin that they are part of
+constexpr double kLifted = 2e-4;   // of the size: distance at which triangles are drawn in front of their skin
 
 const Eigen::Vector3f kCrossing(0.86F, 0.12F, 0.10F);
 const Eigen::Vector3f kDeepest(0.05F, 0.05F, 0.06F);
@@ -73,7 +73,7 @@ Skin skin_of(const Points& corners, double lifted) {
   return skin;
 }
 
-/// `marks`: drawn even where the skins are ghosts.
+/// `marks`: drawn even if the skins are ghosts.
 Image draw(const Drawn& drawn, const Drawn& marks, bool ghosts, double ground, const Camera& camera) {
   Stage stage;
   std::vector<SkinShape> shapes;

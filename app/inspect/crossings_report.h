@@ -10,18 +10,18 @@
 
 namespace sprung {
 
-/// Where the skins of a recorded motion cross.
+/// The crossings of skins in a recorded motion.
 struct CrossingsReport {
-  std::vector<Crossings> frames;  // but the first, which is the start
-  Image picture;                  // of the deepest place; empty: none was asked for, or nothing crosses
+  std::vector<Crossings> frames;  // all but the first, which is the start
+  Image picture;                  // of the deepest crossing; empty: not requested, or nothing crosses
 };
 
-/// Of all frames of a cache; with `draws`, with a picture: the whole frame on the left, the place from near on the
-/// right; triangles of bodies that cross are red, the place is a black ball. Throws Error(kBadInput) where the cache
-/// holds no motion, Error(kFailed) where no picture can be drawn.
+/// Checks all frames of a cache; with `draws`, adds a picture: the whole frame on the left, a close-up of the crossing
+/// on the right; triangles of bodies that cross are red, a black ball marks the crossing. Throws Error(kBadInput) if
+/// the cache holds no motion, Error(kFailed) if no picture can be drawn.
 [[nodiscard]] CrossingsReport find_crossings(const CacheReader& cache, bool draws, const Observer& observer);
 
-/// A table of the frames in which skins cross, and a line about the deepest place.
+/// A table of the frames in which skins cross, and a line about the deepest crossing.
 [[nodiscard]] std::string text_of(const std::vector<Crossings>& frames);
 
 }  // namespace sprung

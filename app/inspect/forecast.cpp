@@ -38,7 +38,7 @@ double seconds_of_implicit_frame(World world, const StepPlan& plan) {
   return seconds_since(start) * double(plan.steps.count);
 }
 
-/// Of explicit time steps of all bodies: seconds per call, and per step.
+/// Measures explicit time steps of all bodies: seconds per call, and per step.
 double seconds_of_explicit_frame(World world, const StepPlan& plan) {
   const Scheme scheme = plan.scheme == Solver::kVerlet ? Scheme::kVerlet : Scheme::kSymplecticEuler;
   double bricks = 0;
@@ -71,12 +71,12 @@ class FrameClock : public Observer {
     if (seconds_since(start_) > most_) throw Error(ErrorKind::kFailed, "enough is measured");
   }
   void finish_frame(int frame, double, const World&) const override {
-    if (frame == 0) start_ = std::chrono::steady_clock::now();  // what comes before is no part of a frame
+    if (frame == 0) start_ = std::chrono::steady_clock::now();  // what comes before belongs to no frame
     ends_.push_back(seconds_since(start_));
   }
 
-  /// s a frame of a film of so many, of which the rest is as the last third of what was measured; none where that is no
-  /// frame.
+  /// Seconds per frame of a film of that many, if the rest is like the last third of those measured; none if there are
+  /// none.
   [[nodiscard]] std::optional<double> mean(int frames) const {
     if (ends_.size() < 2) return std::nullopt;
     const std::size_t done = ends_.size() - 1;
@@ -116,13 +116,13 @@ double count_of_contact_points(const World& world) {
 }
 
 struct CoarseRun {
-  double seconds = 0;  // a frame on the mean
-  int frames = 0;      // fewer than the scene's where it came to rest before
+  double seconds = 0;  // mean per frame
+  int frames = 0;      // fewer than the scene's if it came to rest before
 };
 
-/// What contact adds to a frame, by a run of the whole scene in coarse bricks: contact takes time in
-/// proportion to its points and steps. Of implicit steps, whose Newton iterations grow with it, what they take in all.
-/// None where the scene cannot be coarsened.
+/// The time that contact adds to a frame, from a run of the whole scene with coarse bricks: it grows in proportion to
+/// its points and steps. For implicit steps, whose Newton iterations grow with it, their total time. None if the scene
+/// cannot be coarsened.
 std::optional<CoarseRun> coarse_run(const Simulation& simulation, const Film& film, const StepPlan& plan) {
   constexpr double kMost = 4;  // s: of a heap that falls, the impact and some of what follows
   const FrameClock clock(kMost);

@@ -17,14 +17,14 @@ struct Forecast {
   std::optional<StepPlan> plan;  // for motions
 };
 
-/// Measures it: advances a copy of the world briefly, lets the scene run in bricks twice as large for up to 2 s, for
-/// what contact takes, and draws one picture. Throws Error where that fails.
+/// Measures it: advances a copy of the world briefly, runs the scene with bricks twice as large for up to 4 s to time
+/// contact, and draws one picture. Throws Error if that fails.
 [[nodiscard]] Forecast make_forecast(const Simulation& simulation, const Film& film);
 
 /// Bytes, estimated from the numbers of bricks, vertices and pixels.
 [[nodiscard]] double memory_forecast(const Simulation& simulation, const Film& film);
 
-/// A warning where this machine has less memory than that, else empty.
+/// A warning if this machine has less memory than that, else empty.
 [[nodiscard]] std::string warning_of_memory(double bytes);
 
 /// Prints that warning before a film is made.

@@ -20,7 +20,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Whether every edge between places has two triangles or more; triangles without three corners do not count.
+/// Whether every edge between positions has two triangles or more; triangles without three distinct corners do not
+/// count.
 bool is_closed(const Triangles& triangles, const std::vector<int>& place_of) {
   std::vector<std::array<int, 2>> edges;
   for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
@@ -114,7 +115,7 @@ Inspection inspect(const Preparation& prepared, const Film& film) {
 
 namespace {
 
-/// In the unit with the shortest number: "1.2 cm3".
+/// The volume in the unit with the shortest number: "1.2 cm3".
 std::string readable_volume(double volume) {
   if (volume >= 1) return fmt::format("{:.4g} m3", volume);
   if (volume >= 1e-6) return fmt::format("{:.4g} cm3", volume * 1e6);
@@ -180,7 +181,7 @@ std::string forecast_lines(const Inspection& inspection) {
   return text + "\n";
 }
 
-/// Null where the value is not known.
+/// Null if the value is not known.
 Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
 Json or_null(double thickness) { return thickness > 0 ? Json(thickness) : Json(); }
 

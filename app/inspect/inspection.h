@@ -17,7 +17,7 @@ struct MeshFacts {
   long solids = 0;
   bool is_closed = false;  // as read: every edge has two or more triangles
   double volume = 0;       // of the solids
-  double thin = 0;         // thickness that 1 % of the surface is below, over the longest side
+  double thin = 0;         // thickness below which 1 % of the surface is, over the longest side
   double median = 0;       // median thickness, likewise
   std::vector<Repair> repairs;
 };
@@ -54,7 +54,7 @@ struct Inspection {
 /// Everything but the warnings.
 [[nodiscard]] Inspection inspect(const Preparation& prepared, const Film& film);
 
-/// For people: a few lines per body.
+/// Human-readable: a few lines per body.
 [[nodiscard]] std::string inspection_text(const Inspection& inspection);
 
 /// One JSON object. `mesh` and `bricks` are sums over the bodies (of sizes the smallest), `bodies` lists each.
@@ -62,7 +62,7 @@ struct Inspection {
 
 /// The bodies at the start, their skins on the left and their bricks on the right. Bricks of parts thinner than a brick
 /// are orange, those that share their cell with another component blue, those where a hole was closed purple, those
-/// that are less than half full slightly darker. Throws Error(kFailed) where no picture can be drawn.
+/// that are less than half full slightly darker. Throws Error(kFailed) if no picture can be drawn.
 [[nodiscard]] Image draw_bricks(const Preparation& prepared);
 
 }  // namespace sprung

@@ -7,25 +7,25 @@
 
 namespace sprung {
 
-/// What a part must not exceed; none: nothing was asked for.
+/// Limits that a part must meet; none: not requested.
 struct PartLimits {
   std::optional<double> displacement;  // m
   std::optional<double> safety;        // strength over stress
 };
 
-/// Whether it does.
+/// Whether a part meets its limits.
 struct PartVerdict {
   bool holds = true;
-  std::optional<double> safety;  // strength over the largest stress away from singular places; none: one is unknown
+  std::optional<double> safety;  // strength over the largest stress away from singularities; none: one is unknown
   std::string strength;          // which: "yield strength"
   double strength_value = 0;     // Pa
 };
 
-/// By von Mises stress against the yield strength; where the material has none, by the largest tension against the
-/// ultimate strength. `material`: null where it is none of the library.
+/// Compares the von Mises stress with the yield strength or, if the material has none, the largest tension with the
+/// ultimate strength. `material`: null if it is not in the library.
 [[nodiscard]] PartVerdict judge(const PartAnswer& answer, const LibraryMaterial* material, const PartLimits& limits);
 
-/// All that a report says.
+/// The contents of a report.
 struct PartReport {
   const LoadPart& part;
   const LoadCase& loads;
@@ -38,7 +38,7 @@ struct PartReport {
 /// "80 mm x 60 mm x 30 mm".
 [[nodiscard]] std::string sides_text(const Vec3& sides);
 
-/// For a person, as JSON and as CSV ("quantity,value,error,x,y,z"); the last two in SI units, places in those of the
+/// The report as text, JSON and CSV ("quantity,value,error,x,y,z"); the last two in SI units, positions in those of the
 /// file.
 [[nodiscard]] std::string text_of(const PartReport& report);
 [[nodiscard]] std::string json_of(const PartReport& report);

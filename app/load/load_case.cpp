@@ -20,7 +20,7 @@ struct Quantity {
   double amount;
 };
 
-/// "50N", with its unit. None where it is not a load.
+/// "50N", with its unit. None if it is not a load.
 std::optional<Quantity> quantity_from(const std::string& text) {
   if (std::none_of(text.begin(), text.end(), [](unsigned char c) { return std::isalpha(c) != 0; })) return std::nullopt;
   for (const Dimension dimension : {Dimension::kForce, Dimension::kPressure, Dimension::kMass, Dimension::kTorque,
@@ -93,7 +93,7 @@ PartFix fix_from(const std::string& text, const LoadPart& part) {
 constexpr const char* kLoadForms =
     "write WHERE:50N[:-z], WHERE:2MPa, WHERE:3kg, WHERE:1.5Nm:+x, WHERE:1mm:-y, weight, or acceleration:20m/s2:-y";
 
-/// Where a mass draws to: downwards.
+/// The direction of a load without one: down for a mass, inward for a force.
 Vec3 usual_direction(const Quantity& quantity, const PartFace& face, const LoadPart& part, const std::string& text) {
   if (quantity.dimension == Dimension::kMass) return -part.up();
   if (quantity.dimension == Dimension::kPressure) return Vec3::Zero();

@@ -27,7 +27,7 @@ struct PartLoad {
   [[nodiscard]] std::string description() const;  // "50 N along (0, -1, 0)"
 };
 
-/// What is done to a part.
+/// The supports and loads of a part.
 struct LoadCase {
   std::vector<PartFix> fixes;
   std::vector<PartLoad> loads;
@@ -36,11 +36,11 @@ struct LoadCase {
 
 /// Reads "WHERE", "WHERE:xz" (held along these axes of the file only) or "WHERE:slide" (along its normal only) for each
 /// fix, and for each load
-///   WHERE:AMOUNT[:DIRECTION]  a force (N, towards the inside where no direction is named), a pressure (MPa, inward), a
+///   WHERE:AMOUNT[:DIRECTION]  a force (N, towards the inside if no direction is named), a pressure (MPa, inward), a
 ///                             mass that hangs there (kg, down), a torque (N m, about the direction) or a displacement
 ///                             (mm)
 ///   weight                    the part's own
-///   acceleration:AMOUNT:DIR   the part's inertia, as if gravity drew it that way
+///   acceleration:AMOUNT:DIR   the part's inertia, as if gravity pulled it that way
 /// Throws Error(kUsage) naming the text and what to write.
 [[nodiscard]] LoadCase parse_load_case(const std::vector<std::string>& fixes, const std::vector<std::string>& loads,
                                        const LoadPart& part);

@@ -23,7 +23,7 @@ constexpr std::array<std::string_view, 6> kSides{"x-low", "x-high", "y-low", "y-
 constexpr double kFinest = 0.01;   // of the longest side: triangles in which regions are looked for
 constexpr double kFarAway = 0.05;  // of it: a face further from a point is not meant
 
-/// "1,2,3". Empty where it is no list of so many numbers.
+/// "1,2,3". Empty if it is no list of so many numbers.
 std::vector<double> numbers_in(std::string_view text, std::size_t count) {
   std::vector<double> numbers;
   while (true) {
@@ -47,7 +47,7 @@ std::vector<double> region_numbers(const std::string& text, std::string_view wor
   throw Error(ErrorKind::kUsage, fmt::format("'{}': write {}{}, numbers in the unit of the file", text, word, form));
 }
 
-/// In fractions of the bounding box.
+/// A point of the file in fractions of the bounding box.
 Vec3 fractions_of(const LoadPart& part, const double* file) {
   const Vec3 rest = part.rest_from_file(Vec3(file[0], file[1], file[2]));
   const Eigen::Array3d extent = part.loaded.extent.array().max(1e-9 * part.loaded.extent.maxCoeff());
@@ -122,7 +122,7 @@ Selection selection_from(const LoadPart& part, const std::string& text) {
   return selection;
 }
 
-/// Adds what a selection has of one solid's surface.
+/// Adds the part of one solid's surface that a selection covers.
 void add_pieces(const Skin& skin, const std::vector<SkinPiece>& pieces, PartFace& face) {
   for (const SkinPiece& piece : pieces) {
     Mat3 corners;

@@ -26,15 +26,15 @@ constexpr double kCone = 0.045;
 constexpr double kBall = 0.011;
 constexpr double kApart = 0.13;  // symbols on a face
 constexpr std::size_t kMostSymbols = 12;
-constexpr double kUtmost = 0.002;  // of the stresses that may lie beyond the colours, where the peak is singular
+constexpr double kUtmost = 0.002;  // of the stresses that may lie beyond the colours if the peak is singular
 constexpr double kAzimuth = 35;
 constexpr double kElevation = 22;
 constexpr int kDirections = 8;      // to look from
-constexpr double kFromBelow = 0.6;  // of a direction's worth
+constexpr double kFromBelow = 0.6;  // factor on a direction's score
 constexpr double kForText = 0.09;   // of the picture's width, at its left edge
 constexpr int kStops = 24;          // of a turntable, from which everything has to be in view
 
-/// 1, 2 or 5 times a power of ten, at most so much; 1 where that is less than 2.
+/// 1, 2 or 5 times a power of ten, at most `most`; 1 if that is less than 2.
 double round_magnification(double most) { return most < 2 ? 1 : round_length(most); }
 
 }  // namespace
@@ -204,9 +204,9 @@ bool LoadPicture::is_seen(const Spot& spot, const Vec3& viewer) const {
   return sight_->is_open(spot.position, spot.outward, viewer);
 }
 
-/// From where most of the largest stress, the loads and the supports is seen; from below where that shows much more.
+/// The direction that shows most of the largest stress, the loads and the supports; from below if that shows much more.
 void LoadPicture::choose_direction() {
-  std::vector<std::pair<double, Spot>> seen;  // what it is worth
+  std::vector<std::pair<double, Spot>> seen;  // with its score
   if (worst_) seen.emplace_back(2, *worst_);
   const auto add = [&](const PartFace& face, double worth) {
     const std::vector<Spot> spots = spots_on(face);

@@ -12,18 +12,18 @@
 namespace sprung {
 
 /// Draws a loaded part: its magnified shape coloured by von Mises stress, a ghost of its rest shape, arrows where loads
-/// act, cones where it is held, and the place of the largest stress.
+/// act, cones at supports, and the location of the largest stress.
 class LoadPicture {
  public:
   /// `solution`: the finest. All must outlive it.
   LoadPicture(const PartReport& report, const PartSolution& solution, int width = 1600, int height = 900);
 
-  /// From the side of the largest stress, as large as it fits.
+  /// Seen from the side of the largest stress, as large as fits.
   [[nodiscard]] Image draw();
-  /// Turned by some degrees about the vertical from there, as large as fits at any turn.
+  /// Rotated from there by some degrees about the vertical, as large as fits at any angle.
   [[nodiscard]] Image draw_turned(double degrees);
 
-  /// By which displacements are drawn.
+  /// The factor by which displacements are drawn.
   [[nodiscard]] double magnification() const { return magnification_; }
 
  private:
@@ -38,12 +38,12 @@ class LoadPicture {
   void add_loads();
   void add_worst_place();
   void add(Skin skin, const Eigen::Vector3f& color, bool is_ghost);
-  /// Spread over what a face is of the skins.
+  /// Spread over the parts of the skins that a face covers.
   [[nodiscard]] std::vector<Spot> spots_on(const PartFace& face) const;
-  /// From far away, `viewer` (unit) being the direction to there.
+  /// Whether it is visible from far away in the direction `viewer` (unit).
   [[nodiscard]] bool is_seen(const Spot& spot, const Vec3& viewer) const;
   void choose_direction();
-  /// Sees everything, at any turn about the vertical, or at none.
+  /// A camera that sees everything, at any rotation about the vertical if it `turns`.
   [[nodiscard]] Camera framed(bool turns) const;
   [[nodiscard]] Image draw(const Camera& camera);
   /// The axes of the file, at the lower left of the picture.

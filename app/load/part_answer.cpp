@@ -15,7 +15,7 @@ namespace sprung {
 namespace {
 
 constexpr double kSafetyOfTwoGrids = 3;  // Roache's
-constexpr double kAround = 1.5;          // bricks of the coarser grid, in which its value at a place is looked for
+constexpr double kAround = 1.5;          // bricks of the coarser grid: search radius for its value at a position
 constexpr double kLeftOut = 3;           // of its bricks, around a singular place
 constexpr int kMostSingular = 60;        // places; beyond that nothing is resolved
 
@@ -33,7 +33,7 @@ struct SkinScalar {
   const std::vector<double>& sizes;     // m
   std::vector<Eigen::VectorXd> values;  // by grid
 
-  /// The largest within some bricks of a place; 0 where nothing is.
+  /// The largest within some bricks of a position; 0 if there is nothing.
   [[nodiscard]] double around(std::size_t grid, const Vec3& position) const {
     const double reach = std::pow(kAround * sizes[grid], 2);
     double largest = 0;
@@ -45,11 +45,11 @@ struct SkinScalar {
   }
 };
 
-/// Where the exact stress has no bound: along sharp inner edges, and at supports, which end somewhere.
+/// Lines along which the exact stress is unbounded: sharp re-entrant edges, and supports, which end somewhere.
 class SingularLines {
  public:
   SingularLines(const LoadPart& part, const PartSolution& solution);
-  /// Within `reach` (m) of one; `place` (m) in the frame of LoadedBody.
+  /// Within `reach` (m) of one; `position` (m) in the frame of LoadedBody.
   [[nodiscard]] bool is_near(const Vec3& position, double reach) const {
     return ((points_.rowwise() - position.transpose()).rowwise().squaredNorm().array() <= reach * reach).any();
   }
@@ -84,7 +84,7 @@ SingularLines::SingularLines(const LoadPart& part, const PartSolution& solution)
   for (std::size_t i = 0; i < points.size(); ++i) points_.row(Eigen::Index(i)) = points[i].transpose();
 }
 
-/// The largest value that does not grow with the bricks; the scalar is positive where it matters.
+/// The largest value that does not grow under refinement; the scalar is positive where it matters.
 FoundPeak find_peak(const SkinScalar& scalar, const SingularLines& lines, const LoadPart& part) {
   FoundPeak found;
   const Eigen::VectorXd& fine = scalar.values.front();
@@ -109,7 +109,7 @@ FoundPeak find_peak(const SkinScalar& scalar, const SingularLines& lines, const 
       return found;
     }
     const double exponent = std::log(fine[row] / std::max(scalar.around(coarsest, position), 1e-300)) / std::log(ratio);
-    const double least = singular.empty() ? kSingular : kSingular / 2;  // the rest of a line that is known to be one
+    const double least = singular.empty() ? kSingular : kSingular / 2;  // the rest of a known singular line
     if (exponent < least || !lines.is_near(position, kAround * scalar.sizes[coarsest])) {
       peak.error = 0;
       for (std::size_t grid = 1; grid <= coarsest; ++grid) {
@@ -146,7 +146,7 @@ Peak largest_displacement(const std::vector<PartSkin>& skins, const std::vector<
   return peak;
 }
 
-/// Of the finest grid.
+/// The reactions on the finest grid.
 std::vector<PartAnswer::Reaction> reactions_of(const PartSolution& solution, const LoadPart& part,
                                                const LoadCase& loads) {
   std::vector<PartAnswer::Reaction> reactions;
@@ -213,7 +213,7 @@ PartAnswer answer_of(const std::vector<PartSolution>& solutions, const LoadPart&
 
 namespace {
 
-/// At a point in the frame of LoadedBody, of one grid; none where it is in none of the bricks.
+/// The solution of one grid at a point in the frame of LoadedBody; none if it is in none of the bricks.
 std::optional<PointAnswer> answer_at(const Vec3& position, const PartSolution& solution, const LoadPart& part) {
   for (const SoftBody& body : solution.simulation.world.bodies) {
     const Embedding seat = embed(body.grid, position.transpose());

@@ -7,26 +7,26 @@
 
 namespace sprung {
 
-/// A quantity and how far the true one may lie from it, by the grid.
+/// A quantity and its estimated discretisation error.
 struct Estimate {
   double value = 0;
   double error = 0;
 };
 
-/// Where a quantity is largest.
+/// The largest value of a quantity, and its position.
 struct Peak : Estimate {
   Vec3 position = Vec3::Zero();  // in the file
 };
 
-/// A stress that grows with the number of bricks: at a re-entrant corner, or where a support or a load ends, the exact
-/// solution has no bound.
+/// A singular stress, which grows with the number of bricks: at a re-entrant corner, or where a support or a load ends,
+/// the exact solution is unbounded.
 struct SingularPlace {
   Vec3 position = Vec3::Zero();  // in the file
   double stress = 0;             // von Mises, Pa, with the finest bricks
   double exponent = 0;           // a of stress ~ size^-a
 };
 
-/// At a point that was asked for. In the axes of the file.
+/// The solution at a requested point, in the axes of the file.
 struct PointAnswer {
   Vec3 position = Vec3::Zero();                                              // in the file
   Vec3 displacement = Vec3::Zero();                                          // m
@@ -34,7 +34,7 @@ struct PointAnswer {
   Estimate von_mises;                                                        // Pa
 };
 
-/// What a part does under its loads. SI; vectors in the axes of the file, places in the file.
+/// The response of a part to its loads. SI; vectors in the axes of the file, positions in the file.
 struct PartAnswer {
   Vec3 extent = Vec3::Zero();  // m
   double volume = 0;           // m^3, of the mesh
@@ -46,10 +46,10 @@ struct PartAnswer {
 
   Peak displacement;
   Vec3 displacement_vector = Vec3::Zero();  // m, there
-  std::optional<Peak> von_mises;            // Pa; none where all large stresses are singular
+  std::optional<Peak> von_mises;            // Pa; none if all large stresses are singular
   std::optional<Peak> tension;              // Pa, the largest principal stress
   std::optional<Peak> compression;          // Pa, the least principal stress, negative
-  std::vector<SingularPlace> singular;      // of von Mises, that are above the largest away from them
+  std::vector<SingularPlace> singular;      // of von Mises, those that exceed the largest away from them
 
   std::vector<PointAnswer> points;  // as asked for
 
@@ -59,20 +59,20 @@ struct PartAnswer {
     Vec3 force = Vec3::Zero(), moment = Vec3::Zero();  // N, N m about the centre of the face
     Vec3 centre = Vec3::Zero();                        // in the file
   };
-  std::vector<Estimate> frequencies;        // Hz, slowest first, where asked for
-  bool has_buckling = false;                // whether that was asked for
-  std::optional<Estimate> buckling_factor;  // of all loads; none: they never make it buckle
+  std::vector<Estimate> frequencies;        // Hz, lowest first, if requested
+  bool has_buckling = false;                // whether it was requested
+  std::optional<Estimate> buckling_factor;  // of all loads; none: they never cause buckling
   std::vector<Reaction> reactions;          // of fixes, then of loads that prescribe a displacement
 };
 
-/// 3 |fine - coarse| / (ratio^2 - 1), `ratio` of the bricks.
+/// 3 |fine - coarse| / (ratio^2 - 1), `ratio`: of the brick sizes.
 [[nodiscard]] double convergence_index(double fine, double coarse, double ratio);
 
-/// Of solutions on ever coarser grids, the finest first. The error of a quantity is bounded by the grid convergence
-/// index, 3 |f_1 - f_k| / ((h_k / h_1)^2 - 1), the largest of all coarser grids k (Roache, J. Fluids Eng. 116 (1994)
-/// 405); a single grid leaves it unknown (infinite). Stresses are singular where, at a sharp inner edge or a support,
-/// they grow like size^-kSingular or faster from the coarsest grid to the finest (half of that beside others); what
-/// lies within three of its bricks of such a place is left out.
+/// The results of solutions on successively coarser grids, finest first. The error of a quantity is bounded by the grid
+/// convergence index, 3 |f_1 - f_k| / ((h_k / h_1)^2 - 1), the largest of all coarser grids k (Roache, J. Fluids Eng.
+/// 116 (1994) 405); a single grid leaves it unknown (infinite). Stresses are singular where, at a sharp re-entrant edge
+/// or a support, they grow like size^-kSingular or faster from the coarsest grid to the finest (half of that next to
+/// others); stresses within three of its bricks of a singularity are left out.
 [[nodiscard]] PartAnswer answer_of(const std::vector<PartSolution>& solutions, const LoadPart& part,
                                    const LoadCase& loads, const PartBricks& bricks);
 

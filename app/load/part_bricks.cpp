@@ -16,7 +16,7 @@ constexpr double kSurfaceBricks = 0.6;  // bricks per brick-sized square of the 
 constexpr int kSizesTried = 300;        // in a range
 constexpr double kWorthOfSize = 0.001;  // of a size twice as far from the goal, in squared bricks
 
-/// A plane across an axis in which flat faces lie, above the low end of their solid's lattice.
+/// A plane normal to an axis that contains flat faces, above the low end of their solid's lattice.
 struct FlatFace {
   double height;  // m
   double weight;  // root of their area, m: small ones count too
@@ -61,7 +61,7 @@ double misfit(const std::vector<FlatFace>& faces, double size) {
   return weights > 0 ? sum / weights : 0;
 }
 
-/// The size between `low` and `high` that fits best, near `goal` where others fit as well.
+/// The size between `low` and `high` that fits best, near `goal` if others fit as well.
 double best_size(const std::vector<FlatFace>& faces, double low, double high, double goal) {
   double best = goal;
   double least = 1e300;

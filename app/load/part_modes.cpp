@@ -27,7 +27,7 @@ Supports supports_at_rest(const PartSolution& solution, const SoftBody& body) {
   return supports;
 }
 
-/// The coarser grids, the finer one first; the only one where there is no coarser one.
+/// The coarser grids, the finer one first; the only one if there is no coarser one.
 std::vector<const PartSolution*> coarser(const std::vector<PartSolution>& solutions) {
   std::vector<const PartSolution*> some;
   for (std::size_t grid = solutions.size() > 1 ? 1 : 0; grid < solutions.size(); ++grid)
@@ -35,7 +35,7 @@ std::vector<const PartSolution*> coarser(const std::vector<PartSolution>& soluti
   return some;
 }
 
-/// By the last of the coarser grids.
+/// The estimate from the last of the coarser grids.
 Estimate estimate_of(double fine, double coarse, const std::vector<const PartSolution*>& grids) {
   if (grids.size() == 1) return {.value = fine, .error = std::numeric_limits<double>::infinity()};
   return {.value = fine,

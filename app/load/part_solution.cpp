@@ -40,10 +40,10 @@ Film scene_of(const LoadPart& part, const LoadCase& loads, double brick_size, bo
 
 namespace {
 
-constexpr double kPatience = 45;     // s, that a grid may be forecast to take which nobody asked for
+constexpr double kPatience = 45;     // s; the most that a grid that was not requested may be forecast to take
 constexpr double kGrowthOfTime = 4;  // power of the ratio of brick sizes: somewhat more than their number
 
-/// Each solid has to be held by itself.
+/// Each solid needs supports of its own.
 void check_supported(const PartSolution& solution, const LoadPart& part) {
   const std::vector<SoftBody>& bodies = solution.simulation.world.bodies;
   for (std::size_t row = 0; row < bodies.size(); ++row) {
@@ -64,9 +64,9 @@ std::vector<PartSolution> solve_part(const LoadPart& part, const LoadCase& loads
                                      const Observer& observer) {
   Progress progress(observer, "load", double(bricks.sizes.size()));
   std::vector<PartSolution> solutions(bricks.sizes.size());
-  double seconds = 0;  // of the grid before
+  double seconds = 0;  // of the previous grid
   for (std::size_t done = 0; done < solutions.size(); ++done) {
-    const std::size_t grid = solutions.size() - 1 - done;  // the coarsest first: it finds soon what is wrong
+    const std::size_t grid = solutions.size() - 1 - done;  // the coarsest first: it finds mistakes early
     const QuietObserver quiet(observer, grid == 0);
     PartSolution& solution = solutions[grid];
     solution.brick_size = bricks.sizes[grid];

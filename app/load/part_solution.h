@@ -12,7 +12,7 @@
 
 namespace sprung {
 
-/// A loaded part at rest in one size of brick.
+/// The equilibrium of a loaded part at one brick size.
 struct PartSolution {
   Film scene;
   Simulation simulation{};
@@ -33,7 +33,7 @@ struct PartSkin {
 /// The scene of a part under a load case, with bricks of that size.
 [[nodiscard]] Film scene_of(const LoadPart& part, const LoadCase& loads, double brick_size, bool linear);
 
-/// Lets the stages of each grid go unseen, and warnings be heard of the finest only.
+/// Hides the stages of each grid, and all warnings but those of the finest.
 class QuietObserver : public Observer {
  public:
   QuietObserver(const Observer& observer, bool warns) : observer_(observer), warns_(warns) {}
@@ -49,17 +49,17 @@ class QuietObserver : public Observer {
 };
 
 /// Fills the part with bricks of each size, finest first, and finds its equilibria: by linear statics, or with large
-/// displacements. Throws Error(kBadInput) where it is not held, what simulate() does.
+/// displacements. Throws Error(kBadInput) if it is not supported, and what simulate() throws.
 [[nodiscard]] std::vector<PartSolution> solve_part(const LoadPart& part, const LoadCase& loads,
                                                    const PartBricks& bricks, bool linear, const Observer& observer);
 
-/// Points of the world (n x 3, m) of a solution at rest, in the frame of LoadedBody.
+/// Converts points of a solution at rest (n x 3, m) from the world to the frame of LoadedBody.
 [[nodiscard]] Points part_from_world(const PartSolution& solution, const LoadPart& part, const Points& points);
 
-/// Stresses in the axes of the world, in those of the file.
+/// Rotates stresses from the axes of the world to those of the file.
 [[nodiscard]] StressTensors turned_back(StressTensors stresses, const Mat3& world_from_file);
 
-/// At the vertices of a body's skin (n x 6, Pa), in the axes of the world.
+/// Stresses at the vertices of a body's skin (n x 6, Pa), in the axes of the world.
 [[nodiscard]] StressTensors skin_stress(const PartSolution& solution, const SoftBody& body);
 
 [[nodiscard]] PartSkin skin_of(const PartSolution& solution, const LoadPart& part);

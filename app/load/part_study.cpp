@@ -19,11 +19,11 @@
 namespace sprung {
 namespace {
 
-constexpr double kLargeDisplacement = 0.1;  // of the longest side, where small ones are 1 % off in a cantilever
-constexpr double kTooLarge = 0.2;           // likewise, of which a linear answer warns
+constexpr double kLargeDisplacement = 0.1;  // of the longest side, at which linear theory is 1 % off in a cantilever
+constexpr double kTooLarge = 0.2;           // likewise, from which a linear solution warns
 constexpr double kFewBricks = 10000;
 constexpr double kMostBricks = 250000;    // of the finest grid, by default: some seconds
-constexpr double kMostNonlinear = 60000;  // where each takes some ten solves
+constexpr double kMostNonlinear = 60000;  // since each takes some ten solves
 
 /// Passes each warning on once: the mesh is read anew for every grid.
 class OnceObserver : public Observer {
@@ -49,7 +49,7 @@ struct FileUnit {
   bool is_guess = false;
 };
 
-/// Where the file does not say, millimetres, as is usual in design and printing.
+/// Millimetres, as is usual in design and printing, unless the file says otherwise.
 FileUnit usual_unit(const std::filesystem::path& file) {
   const std::string stated = stated_unit(file);
   return stated.empty() ? FileUnit{"mm", true} : FileUnit{stated, false};
@@ -109,9 +109,9 @@ PartBricks bricks_for(const LoadPart& part, bool linear) {
   return choose_part_bricks(part.loaded, linear ? kMostBricks : kMostNonlinear);
 }
 
-/// Whether small displacements are meant, or, by the coarsest grid, do.
+/// Whether linear theory is requested or, according to the coarsest grid, suffices.
 bool is_small(const PartQuestion& question, const LoadPart& part, const LoadCase& loads, const Observer& observer) {
-  if (question.analysis == PartAnalysis::kAuto && question.buckling) return true;  // which starts from there
+  if (question.analysis == PartAnalysis::kAuto && question.buckling) return true;  // which requires it
   if (question.analysis != PartAnalysis::kAuto) return question.analysis == PartAnalysis::kLinear;
   PartBricks coarse = choose_part_bricks(part.loaded, kFewBricks);
   coarse.sizes = {coarse.sizes.back()};
@@ -132,7 +132,7 @@ double surface_of(const LoadPart& part) {
   return area;
 }
 
-/// Of what is hardly meant: most of the surface, and loads on what is held.
+/// Warns of likely mistakes: faces that are most of the surface, and loads on supports.
 void warn_of_faces(const LoadPart& part, const LoadCase& loads, const Observer& observer) {
   constexpr double kMost = 0.5;  // of the surface
   constexpr double kSame = 1e-3;

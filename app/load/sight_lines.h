@@ -6,7 +6,7 @@
 
 namespace sprung {
 
-/// Whether points of surfaces are seen from far away.
+/// Finds whether points of surfaces are visible from far away.
 class SightLines {
  public:
   /// One or more surfaces (m).
@@ -15,7 +15,7 @@ class SightLines {
   SightLines& operator=(const SightLines&) = delete;
 
   /// Whether nothing lies between a point of them and infinity; `outward` and `viewer` (unit): the surface's normal
-  /// there and the direction to where it is looked at from.
+  /// there and the direction to the viewer.
   [[nodiscard]] bool is_open(const Vec3& position, const Vec3& outward, const Vec3& viewer) const;
 
  private:

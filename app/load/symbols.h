@@ -6,7 +6,7 @@
 
 namespace sprung {
 
-/// Solid arrows and cones, gathered into one skin: what is drawn of loads and supports.
+/// Solid arrows and cones, gathered into one skin: the symbols of loads and supports.
 class Symbols {
  public:
   /// A cone; `along` from the middle of its base to its tip, m.

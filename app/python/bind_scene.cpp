@@ -26,7 +26,7 @@ namespace py = pybind11;
 namespace sprung {
 namespace {
 
-/// A scene dict as TOML, and which of its values stands where.
+/// A scene dict as TOML, and where in it each value is.
 class DictText {
  public:
   explicit DictText(const py::dict& keys) {
@@ -40,7 +40,7 @@ class DictText {
 
   [[nodiscard]] const std::string& text() const { return text_; }
 
-  /// "body[1].pin[0].box", of what is at a line and a column (from 1).
+  /// "body[1].pin[0].box": the path of what is at a line and a column (from 1).
   [[nodiscard]] std::string path_at(std::size_t line, std::size_t column) const {
     std::size_t offset = 0;
     for (; line > 1; --line) offset = text_.find('\n', offset) + 1;
@@ -108,7 +108,7 @@ class DictText {
   std::vector<std::pair<std::size_t, std::string>> places_;  // by offset in the text, ascending
 };
 
-/// The mistakes in a scene, "FILE:LINE:COLUMN: what", each with the path of its key for its place.
+/// The mistakes in a scene, "FILE:LINE:COLUMN: what", each with the path of its key instead of its position.
 std::string with_paths(const std::string& mistakes, const std::string& file, const DictText& scene) {
   std::string text;
   std::istringstream lines(mistakes);
@@ -136,7 +136,7 @@ Film parse_dict(const py::dict& keys) {
   }
 }
 
-/// By frame, then by body: m x 3.
+/// Indexed by frame, then by body: m x 3.
 using Frames = std::vector<std::vector<Points>>;
 
 /// The result of simulate() or read_run().
@@ -148,7 +148,7 @@ struct SceneRun {
   Frames velocities;  // m/s
 };
 
-/// Lets Ctrl-C end a simulation, and Python hear of it.
+/// Lets Ctrl-C end a simulation and reports it to Python.
 class PythonObserver : public Observer {
  public:
   PythonObserver() = default;
@@ -250,7 +250,7 @@ std::vector<Triangles> run_triangles_of(const SceneRun& run) {
   return triangles;
 }
 
-/// By probe, then by quantity: (frames, 3), or (frames,) where it is one number.
+/// Keyed by probe, then by quantity: (frames, 3), or (frames,) if it is one number.
 py::dict probes_of(const SceneRun& run) {
   py::dict probes;
   for (const ProbeTrack& track : run.recording.probes) {

@@ -52,7 +52,7 @@ pybind11::array view(const Number* first, const std::vector<pybind11::ssize_t>& 
 /// A body from a dict of keys of [[body]]. Throws Error(kBadInput).
 [[nodiscard]] SceneBody body_from(const pybind11::dict& keys);
 
-/// Runs pending signal handlers of Python, such as Ctrl-C's; takes Python's lock. Throws where one raises.
+/// Runs pending signal handlers of Python, such as Ctrl-C's; takes Python's lock. Throws if one raises.
 void check_signals();
 
 void bind_scene(pybind11::module_& module);

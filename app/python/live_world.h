@@ -12,7 +12,7 @@
 namespace sprung {
 
 /// A scene that a script builds, moves and reads while it holds views of its state: the memory of a body's state,
-/// bricks and skin never moves. Where a call throws, the world is as it was before.
+/// bricks and skin never moves. If a call throws, the world is left unchanged.
 class LiveWorld {
  public:
   /// Called regularly while the world moves; may throw to stop it.
@@ -29,14 +29,15 @@ class LiveWorld {
   /// Adds a body for every solid; returns their rows. Throws Error(kBadInput).
   std::vector<std::size_t> add(const SceneBody& body);
 
-  /// By `duration` (s), with the scheme, pins, loads and obstacles of the scene. Throws Error(kBadInput, kDiverged).
+  /// Advances by `duration` (s), with the scheme, pins, loads and obstacles of the scene. Throws Error(kBadInput,
+  /// kDiverged).
   void advance(double duration, const Between& between);
   /// Exactly `count` explicit steps of `dt` (s); pins and loads do not follow their keyframes. Throws Error(kBadInput,
   /// kDiverged).
   void step(double dt, long count, const Between& between);
   /// Moves a body into equilibrium under gravity and the constant forces of the scene, its pinned nodes fixed where
-  /// they are; `linear`: for small displacements. Throws Error(kBadInput) where no node is pinned, or the scene has
-  /// other loads, Error(kDiverged).
+  /// they are; `linear`: for small displacements. Throws Error(kBadInput) if no node is pinned, or the scene has other
+  /// loads, Error(kDiverged).
   void settle(std::size_t body, bool linear, const Between& between);
   /// Fixes these nodes where they are, and no others. Throws Error(kBadInput).
   void pin(std::size_t body, const std::vector<long>& nodes);

@@ -23,16 +23,16 @@ constexpr int kBricks = 16;           // along the longest side,
 constexpr double kManyBricks = 1500;  // but not many more than these in all, since compact bodies need no fine ones
 constexpr double kManyBricksInFilm = 2500;
 constexpr double kSag = 0.04;
-constexpr double kOverload = 2;              // times the weight, which must not buckle it:
-constexpr double kOverloadResponse = 3;      // times the displacement, at most
-constexpr double kKeptMargin = 0.6;          // of the way from the centre of mass to the edge of the feet
-constexpr double kHopeless = 2;              // times the sag by the linear solution: not worth a nonlinear one
-constexpr int kHalvings = 4;                 // of the size
-constexpr double kSupportedFraction = 0.08;  // of the height, ...
-constexpr double kSupportedBricks = 0.5;     // ... but at least so many bricks: these may be askew
-constexpr double kFill = 0.25;               // a brick is taken to be at least that full
+constexpr double kOverload = 2;          // times the weight, which must not buckle it:
+constexpr double kOverloadResponse = 3;  // times the displacement, at most
+constexpr double kKeptMargin = 0.6;      // of the distance from the centre of mass to the edge of the feet
+constexpr double kHopeless = 2;          // times the sag by the linear solution: not worth a nonlinear one
+constexpr int kHalvings = 4;             // of the size
+constexpr double kSupportedFraction = 0.08;   // of the height, ...
+constexpr double kSupportedBricks = 0.5;      // ... but at least so many bricks: these may be askew
+constexpr double kFill = 0.25;           // a brick is taken to be at least that full
 
-// What does not come to rest quickly is near buckling.
+// What does not converge quickly is near buckling.
 const StaticOptions kQuick{.tolerance = 1e-4, .max_iterations = 20, .max_load_steps = 1};
 
 /// Elastomers, the softest first.
@@ -56,7 +56,7 @@ double count_of_bricks(const std::vector<BrickGrid>& grids) {
   return count;
 }
 
-/// Along the longest side, so that a film is a matter of seconds; `count`: of bricks where kBricks are along it.
+/// Along the longest side, so that a film takes seconds; `count`: of bricks where kBricks are along it.
 int bricks_for_film(double count) {
   const double most = kBricks * std::cbrt(kManyBricksInFilm / count);
   return std::clamp(int(most), kBricks * 3 / 4, kDefaultBricks);
@@ -74,7 +74,7 @@ std::vector<Body> standing_bodies(std::vector<BrickGrid> grids, Model model, con
   std::vector<Body> bodies;
   for (BrickGrid& grid : grids) {
     Body& body = bodies.emplace_back(make_body(std::move(grid), model, material));
-    // What is hardly filled would sag by itself.
+    // Hardly filled bricks would sag by themselves.
     for (double& scale : body.stiffness_scale) scale = std::max(scale, kFill);
     build_tiles(body);
   }
@@ -107,7 +107,7 @@ Supports supports_by_pins(const Body& body, std::size_t solid, const std::vector
   return supports;
 }
 
-/// Finds the equilibria of the held solids of a body under multiples of its weight. `gravity`: in its frame.
+/// Finds the equilibria of the supported solids of a body under multiples of its weight. `gravity`: in its frame.
 class StandingBody {
  public:
   StandingBody(std::vector<Body> solids, Support support, const std::vector<Pin>& pins, const Selector& selector,
@@ -120,7 +120,7 @@ class StandingBody {
     }
   }
 
-  /// The largest displacement of a node, m; none where there is no equilibrium.
+  /// The largest displacement of a node, m; none if there is no equilibrium.
   std::optional<double> displacement(double weight, bool is_linear) {
     double largest = 0;
     for (std::size_t row = 0; row < solids_.size(); ++row) {
@@ -142,8 +142,8 @@ class StandingBody {
     return largest;
   }
 
-  /// The largest displacement of a node, m, where the body keeps its shape: it is no more than `most`, and one solid
-  /// does not lean so far that it would fall.
+  /// The largest displacement of a node, m, if the body keeps its shape: it is no more than `most`, and a single solid
+  /// does not lean so far that it would topple.
   std::optional<double> carried_displacement(double weight, double most) {
     const std::optional<double> once = displacement(weight, false);
     if (!once || *once > most) return std::nullopt;
@@ -156,8 +156,8 @@ class StandingBody {
   }
 
  private:
-  /// Along the ground, from the centre of mass to the nearest edge of the convex hull of what is held, m; below 0 where
-  /// it is outside.
+  /// Along the ground, from the centre of mass to the nearest edge of the convex hull of the fixed nodes, m; negative
+  /// if it is outside.
   [[nodiscard]] double margin(const Body& body, const Points& positions) const {
     constexpr int kDirections = 32;
     const Vec3 centre = positions.transpose() * body.masses / body.masses.sum();
@@ -215,7 +215,7 @@ std::optional<CarryingMaterial> softest_carrying(const SceneBody& body, Support 
     double sag = 0;  // m, at full size and of the softest that was seen to carry
     const auto fails = [&](const LibraryMaterial* material) {
       observer.check_interrupt();
-      // Of the reference material and at full size, that displaces the body as much.
+      // The weight that displaces the reference material at full size as much.
       const double weight = scale * material->density / reference.density * reference.young / material->young;
       if (weight * *linear > kHopeless * kSag * size) return true;
       const std::optional<double> carried = standing.carried_displacement(weight, kSag * size);

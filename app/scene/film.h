@@ -15,7 +15,7 @@ namespace sprung {
 /// A body of kAutoMaterial.
 [[nodiscard]] SceneBody default_body();
 
-/// What an experiment varies; what is empty stays as in the scene.
+/// What an experiment varies; empty members stay as in the scene.
 struct Experiment {
   std::string title;
   std::string about;            // sentences for the report
@@ -29,12 +29,12 @@ struct Experiment {
 struct Gate {
   std::vector<Model> models;
   std::vector<int> bricks;
-  std::optional<double> tolerance;     // relative; absolute where 0 is expected; or
+  std::optional<double> tolerance;     // relative; absolute if 0 is expected; or
   std::optional<Model> no_worse_than;  // the error that this model makes on the same grid
 };
 
-/// What a quantity should be in the last frame: "tip.displacement.y", "end.torque.x", "frequency.1". Where it speaks
-/// of Poisson's ratios, grids or models, for those only.
+/// The expected value of a quantity in the last frame: "tip.displacement.y", "end.torque.x", "frequency.1". If it lists
+/// Poisson's ratios, grids or models, it holds for those only.
 struct Expectation {
   std::string quantity;
   double value = 0;  // SI
@@ -58,10 +58,11 @@ struct Film : Scene {
 /// The look of a body: its own, or that of its material.
 [[nodiscard]] Look look_of(const SceneBody& body, const MaterialLibrary& library);
 
-/// The colour of a body whose mesh file gives none: its own, or that of its material; none where neither has one.
+/// The colour of a body whose mesh file gives none: its own, or that of its material; none if neither has one.
 [[nodiscard]] std::optional<Color> color_of(const SceneBody& body, const MaterialLibrary& library);
 
-/// m, of light inside the body; 0: no light enters. That of its material, or of gelatin if the body is to look like it.
+/// Mean free path of light inside the body, m; 0: no light enters. That of its material, or of gelatin if the body is
+/// to look like it.
 [[nodiscard]] double mean_free_path_of(const SceneBody& body, const MaterialLibrary& library);
 
 /// The film with the size, the bricks and the material of its bodies filled in where it leaves them open, and with the

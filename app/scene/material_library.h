@@ -14,8 +14,8 @@ namespace sprung {
 
 enum class MaterialClass { kGelatin, kSilicone, kRubber, kFoam, kWood, kTissue, kPlastic, kMetal, kOther };
 
-/// A material with the sources and uncertainties of its values. SI units. An uncertainty is how far the value of
-/// another piece, maker or measurement may lie from the one here; 0 where nothing is known.
+/// A material with the sources and uncertainties of its values. SI units. An uncertainty is how much another specimen,
+/// manufacturer or measurement may differ from the value here; 0 if unknown.
 struct LibraryMaterial {
   std::string name;
   MaterialClass material_class = MaterialClass::kOther;
@@ -32,7 +32,7 @@ struct LibraryMaterial {
   double damping = 0.02;           // ratio of critical damping
   double damping_uncertainty = 0;  // relative
   std::string damping_source;
-  double yield_strength = 0;              // Pa; beyond it the material stays deformed; 0: none, or not known
+  double yield_strength = 0;              // Pa; beyond it deformation is permanent; 0: none, or not known
   double yield_strength_uncertainty = 0;  // relative
   std::string yield_strength_source;
   double ultimate_strength = 0;              // Pa; the greatest engineering stress in tension; 0: not known
@@ -53,7 +53,7 @@ struct LibraryMaterial {
 };
 
 inline constexpr std::string_view kDefaultMaterial = "gelatin";
-/// Of a body that names no material, until choose_materials() finds the softest that carries it.
+/// The material of a body that names none, until choose_materials() finds the softest that supports it.
 inline constexpr std::string_view kAutoMaterial = "auto";
 
 /// Materials by name: those built into the program, and those of the user's files.
@@ -61,22 +61,23 @@ class MaterialLibrary {
  public:
   MaterialLibrary() = default;
 
-  /// Adds the materials of a TOML text that stands in (or for) a file. Throws one Error(kBadInput) with a line
+  /// Adds the materials of a TOML text read from (or standing for) a file. Throws one Error(kBadInput) with a line
   /// "file:line:column: key: what is wrong" for every mistake in it; a name that exists already is one.
   void add(std::string_view text, const std::filesystem::path& file);
-  /// The same of a file.
+  /// The same for a file.
   void add_file(const std::filesystem::path& file);
 
   [[nodiscard]] std::span<const LibraryMaterial> materials() const { return materials_; }
-  /// Of that name, else of that name in other letters ("ABS"); null where there is none.
+  /// The material of that name, else ignoring case ("ABS"); null if there is none.
   [[nodiscard]] const LibraryMaterial* find_if_known(std::string_view name) const;
-  /// Throws Error(kBadInput) with the nearest name where there is none.
+  /// Throws Error(kBadInput) with the nearest name if there is none.
   [[nodiscard]] const LibraryMaterial& find(std::string_view name) const;
-  /// What a scene means by a name: its properties; for kAutoMaterial those of kDefaultMaterial. Throws like find().
+  /// The properties of the material that a scene names; for kAutoMaterial those of kDefaultMaterial. Throws like
+  /// find().
   [[nodiscard]] Material named(std::string_view name) const;
 
  private:
-  std::vector<LibraryMaterial> materials_;  // as they were added
+  std::vector<LibraryMaterial> materials_;  // in the order added
 };
 
 /// assets/materials.toml as it was when the program was built.

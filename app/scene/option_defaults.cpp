@@ -23,7 +23,7 @@ std::string text_of(const toml::node& node) {
   return words.str();
 }
 
-/// Several values where an option may be given several times: an array of strings.
+/// Several values if an option may be given several times: an array of strings.
 std::vector<std::string> values_of(const toml::node& node) {
   const toml::array* array = node.as_array();
   if (array == nullptr || !array->is_homogeneous(toml::node_type::string)) return {text_of(node)};

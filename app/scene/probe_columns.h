@@ -6,7 +6,7 @@
 
 namespace sprung {
 
-/// What tables call a number with a unit: "position.x_m", "torque_Nm", "max_strain".
+/// The column name of a number with a unit: "position.x_m", "torque_Nm", "max_strain".
 [[nodiscard]] std::string column_name(std::string_view name, std::string_view unit);
 
 /// Calls visit(quantity, number) for each number that a probe of a kind measures, in the order of the columns.

@@ -12,7 +12,7 @@ namespace {
 constexpr double kTilt = 15;          // degrees
 constexpr double kFinestTilt = 0.02;  // degrees
 constexpr int kDirections = 16;       // in which a body is tilted
-constexpr double kNeutral = 0.02;     // of the height of the centre of mass: a sphere is not said to fall
+constexpr double kNeutral = 0.02;     // of the height of the centre of mass: a sphere does not count as falling
 constexpr Eigen::Index kMostPoints = 20000;
 
 /// A body and the ground, in the frame of the body.
@@ -26,7 +26,7 @@ class BodyOnGround {
     }
   }
 
-  /// Of the centre of mass above the ground that touches the body where `down` points.
+  /// Height of the centre of mass above ground that touches the body in the direction `down`.
   double height(const Vec3& down) const { return (spokes_ * down).maxCoeff(); }
 
   /// `down` tilted by an angle (degrees) to one of kDirections.
@@ -41,7 +41,7 @@ class BodyOnGround {
     Vec3 down;
     double height;
   };
-  /// Among the directions that are tilted by an angle (degrees).
+  /// The lowest among the directions that are tilted by an angle (degrees).
   Lowest lowest_tilted(const Vec3& down, double angle) const {
     Lowest lowest{down, std::numeric_limits<double>::max()};
     for (int k = 0; k < kDirections; ++k) {

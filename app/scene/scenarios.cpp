@@ -30,7 +30,7 @@ constexpr double kTwist = 180;        // degrees
 constexpr double kBend = 0.3;         // heights
 constexpr double kBendTime = 0.45;    // s
 constexpr double kLetGo = 0.6;        // s
-constexpr double kThere = 1.2;        // s: where something is done and undone, it is done by then,
+constexpr double kThere = 1.2;        // s: what is done and undone is done by then,
 constexpr double kStay = 1.8;         // s: is held until then
 constexpr double kBack = 3.0;         // s: and is undone by then
 constexpr double kThrowHeight = 0.3;
@@ -108,7 +108,7 @@ void stage_wobble(SceneBody& body, double height, UpAxis up) {
   body.pins = {bottom_pin(up), top};
 }
 
-/// On a trajectory that scales with the size.
+/// Thrown on a trajectory that scales with the size.
 void stage_throw(SceneBody& body, double size, double gravity) {
   const double speed = std::sqrt(gravity * size);
   body.position = Vec3(-0.7 * size, kThrowHeight * size, 0);

@@ -14,11 +14,11 @@ enum class Scenario {
   kStretch,  // its top is pulled up by 0.6 of its height, held, and brought back
   kTwist,    // its top is turned by half a turn, and back
   kWobble,   // its top is bent to the side by 0.3 of its height and let go
-  kThrow,    // flies in a bow, tumbling, and lands
+  kThrow,    // flies in an arc, tumbling, and lands
   kTumble    // falls, a little tilted, from 0.4 of its size
 };
 
-/// By name, in the order above.
+/// The names, in the order above.
 [[nodiscard]] std::span<const std::string_view> scenario_names();
 
 /// Throws Error(kUsage) with the nearest name.
@@ -34,8 +34,8 @@ enum class UpAxis { kY, kZ };
 /// are set. `drop`: the height in sizes that kDrop falls from.
 void stage_scenario(Film& film, Scenario scenario, double height, UpAxis up = UpAxis::kY, double drop = kDropHeight);
 
-/// What a scenario is for a body that does not move but is in equilibrium: without the ground, and held at its lowest
-/// part where nothing else holds it.
+/// The counterpart of a scenario for statics: no ground, and the body is pinned at its lowest part if nothing else pins
+/// it.
 void stage_at_rest(Film& film, UpAxis up);
 
 }  // namespace sprung

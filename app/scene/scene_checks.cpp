@@ -76,7 +76,7 @@ void check_probes(const Film& film, const Report& report) {
   }
 }
 
-/// In a state of rest there are weights, pins and forces only, and no events in time.
+/// Statics has weights, pins and forces only, and no events in time.
 void check_rest(const Film& film, const Report& report) {
   for (const MotionOnly& part : motion_only(film)) {
     report({part.key, part.key == "body" ? int(part.row) : -1},

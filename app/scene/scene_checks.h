@@ -9,7 +9,7 @@
 
 namespace sprung {
 
-/// Where in a table a mistake is: at the table itself; at a key; in one row of the array of a key.
+/// The location of a mistake in a table: the table itself, a key, or one row of a key's array.
 struct KeyPlace {
   std::string_view key{};
   int row = -1;
@@ -21,7 +21,7 @@ using Report = std::function<void(KeyPlace place, std::string text)>;
 void check_rules(const std::vector<KeyRule>& rules, const std::vector<std::string_view>& given, const std::string& path,
                  const Report& report);
 
-/// Reports what is wrong with the values of a table taken together, each by itself being right.
+/// Reports what is wrong with the combination of a table's values, each valid by itself.
 void check_table(const Film& film, const std::string& path, const Report& report);
 void check_table(const SceneBody& body, const std::string& path, const Report& report);
 void check_table(const Box& box, const std::string& path, const Report& report);

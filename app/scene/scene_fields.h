@@ -8,18 +8,18 @@
 #include "app/scene/film.h"
 #include "core/units.h"
 
-// What a scene file may say: one function for each table, which names its keys once for the reader, the writer, --set,
+// The keys of a scene file: one function for each table, which names its keys once for the reader, the writer, --set,
 // the reference and the schema. fields(visit, owner) calls visit.table(name, rules) and then visit(key, owner.member)
 // for every key; the value of a new owner is the default of the key.
 
 namespace sprung {
 
-/// What a file of materials says.
+/// The contents of a file of materials.
 struct MaterialFile {
   std::vector<LibraryMaterial> materials;
 };
 
-/// The numbers that a key takes.
+/// The numbers that a key accepts.
 struct Range {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
@@ -33,7 +33,7 @@ struct KeyInfo {
   Dimension dimension = Dimension::kNone;
   Range range{};
   bool required = false;
-  std::span<const int> choices{};  // where not empty: the only numbers it takes
+  std::span<const int> choices{};  // if not empty: the only numbers it accepts
 };
 
 [[nodiscard]] inline KeyInfo required(KeyInfo key) {
@@ -53,7 +53,7 @@ struct KeyRule {
   std::vector<std::string_view> keys;
 };
 
-/// Base of visitors that have no use for the name and the rules of a table.
+/// Base of visitors that ignore the name and the rules of a table.
 struct FieldVisitor {
   void table(std::string_view /*name*/, const std::vector<KeyRule>& /*rules*/ = {}) {}
 };
@@ -68,7 +68,7 @@ concept Table = requires(Value& value, FieldVisitor& visit) {
 template <class Value, class Owner>
 concept Is = std::is_same_v<std::remove_const_t<Value>, Owner>;
 
-/// What a table has in it where a file leaves out all keys.
+/// A table's contents if a file omits all its keys.
 template <Table Owner>
 [[nodiscard]] Owner default_table() {
   if constexpr (Is<Owner, SceneBody>) return default_body();
@@ -85,7 +85,7 @@ inline constexpr int kSampleCounts[] = {1, 4, 8, 16, 32, 64, 128, 256, 512, 1024
 inline const std::vector<std::string_view> kSelectionKeys{"box",     "sphere", "half_space", "part",
                                                           "painted", "face",   "nearest",    "mesh"};
 
-/// How a part of a body is chosen, whatever is done with it.
+/// The keys that select a part of a body, for any purpose.
 void selection_fields(auto& visit, auto& part) {
   visit({"box", "the part in a box, in fractions of the body's bounding box"}, part.box);
   visit({"sphere", "the part in a ball, in fractions of the body's bounding box"}, part.sphere);
@@ -104,7 +104,7 @@ void selection_fields(auto& visit, auto& part) {
   visit({"mesh", "what a closed mesh encloses: its file, in units and frame of the body's own mesh"}, part.mesh);
 }
 
-/// How strong a load is over time, whatever the load is.
+/// The keys for the strength of any load over time.
 void curve_fields(auto& visit, auto& load) {
   visit({"keyframes", "strength over time"}, load.keyframes);
   visit({"interpolation", "between keyframes: linear, smooth or held"}, load.interpolation);

@@ -19,7 +19,7 @@
 namespace sprung {
 namespace {
 
-/// Everything that is wrong with a file, each with its place.
+/// All mistakes in a file, each with its location.
 class Mistakes {
  public:
   explicit Mistakes(std::string file) : file_(std::move(file)) {}
@@ -89,7 +89,7 @@ const toml::array& array_in(const toml::node& node, std::size_t size, std::strin
   return *array;
 }
 
-/// The node of that place, or the nearest one above it.
+/// The node at that location, or its nearest ancestor.
 toml::source_region find_place(const toml::table& table, const KeyPlace& place) {
   const toml::node* node = table.get(place.key);
   if (node == nullptr) return table.source();
@@ -102,7 +102,7 @@ std::string join_path(const std::string& path, std::string_view key) {
   return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key);
 }
 
-/// Reads tables into structs by their fields(). What it refers to has to outlive it.
+/// Reads tables into structs by their fields(). The objects that it refers to must outlive it.
 class TableReader {
  public:
   TableReader(Mistakes& mistakes, std::filesystem::path folder, SceneFiles files, const MaterialLibrary& library)
@@ -250,7 +250,7 @@ class TableReader {
   const MaterialLibrary& library_;
 };
 
-/// Bodies may name the materials of this file. Where it cannot be read, the reader reports so at the key.
+/// Bodies may name the materials of this file. If it cannot be read, the reader reports that at the key.
 void add_materials(const toml::table& table, const std::filesystem::path& folder, MaterialLibrary& library) {
   const toml::value<std::string>* name = table["materials"].as_string();
   if (name == nullptr) return;

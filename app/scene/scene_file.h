@@ -8,18 +8,18 @@
 
 namespace sprung {
 
-/// True where the file's name ends in .toml.
+/// True if the file's name ends in .toml.
 [[nodiscard]] bool is_scene_file(const std::filesystem::path& file);
 
 /// The scene in a TOML file. Throws one Error(kBadInput) with a line "file:line:column: key: what is wrong" for every
-/// mistake in it. `library`: the materials known by name, beside those of a file that the scene itself names.
+/// mistake in it. `library`: the materials known by name, in addition to those of a file that the scene itself names.
 [[nodiscard]] Film read_scene(const std::filesystem::path& file,
                               const MaterialLibrary& library = *built_in_materials());
 
-/// Whether the files that a scene names have to be there.
+/// Whether the files that a scene names have to exist.
 enum class SceneFiles { kPresent, kAnywhere };
 
-/// The same for text that stands in (or for) a file; mesh paths are relative to the file's folder.
+/// The same for text read from (or standing for) a file; mesh paths are relative to the file's folder.
 [[nodiscard]] Film parse_scene(std::string_view text, const std::filesystem::path& file,
                                SceneFiles files = SceneFiles::kPresent,
                                const MaterialLibrary& library = *built_in_materials());
@@ -30,12 +30,12 @@ enum class SceneFiles { kPresent, kAnywhere };
 /// Sets one key by its path and the words for its value: "render.resolution", "1280x720". Below "body" the key of
 /// every body is set; "body.material.young" makes the material a custom one. Of two keys that exclude each other the
 /// one set here stays. Throws Error(kBadInput).
-/// Where the last key of the path, or one that excludes it, `is_said`, the scene stays as it is.
+/// If the last key of the path, or one that excludes it, `is_said`, the scene is left unchanged.
 using KeyIsSaid = std::function<bool(std::string_view key)>;
 void set_scene_key(Film& film, std::string_view path, std::string_view text, const KeyIsSaid& is_said = {});
 
-/// The same for a scene as it was read from that file, where the file says neither the key nor one that excludes it: of
-/// each body by itself.
+/// The same for a scene as read from that file, if the file states neither the key nor one that excludes it; decided
+/// for each body separately.
 void set_where_open(Film& film, const std::filesystem::path& file, std::string_view path, std::string_view text);
 
 }  // namespace sprung

@@ -61,7 +61,7 @@ void add_bounds(Json& schema, const Range& range) {
   if (std::isfinite(range.high)) schema[range.without_high ? "exclusiveMaximum" : "maximum"] = number(range.high);
 }
 
-/// ", above 0 m"; nothing where all numbers are allowed.
+/// ", above 0 m"; nothing if all numbers are allowed.
 std::string range_suffix(const KeyInfo& key) {
   const bool is_limited = std::isfinite(key.range.low) || std::isfinite(key.range.high);
   return is_limited ? fmt::format(", {}", range_text(key)) : "";
@@ -151,7 +151,7 @@ Described describe(const std::vector<Value>&, const KeyInfo& key) {
   return {Table<Value> ? "tables" : fmt::format("list: {}", item.type), {{"type", "array"}, {"items", item.schema}}};
 }
 
-/// As TOML; empty where the value is left out or is a table.
+/// As TOML; empty if the value is left out or is a table.
 template <class Value>
 std::string default_text(const Value& value) {
   if constexpr (std::is_same_v<Value, Material>) return value.name.empty() ? "" : toml_text(value.name);

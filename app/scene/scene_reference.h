@@ -20,7 +20,7 @@ struct KeyText {
 /// A table of a scene: the scene itself, a body, a box ...
 struct TableText {
   std::string name;                // unique: "scene", "body"
-  std::vector<std::string> paths;  // where it may stand: "[[body]]", "[body.pin.box]"; none for the scene itself
+  std::vector<std::string> paths;  // where it may appear: "[[body]]", "[body.pin.box]"; none for the scene itself
   std::vector<KeyText> keys;
   std::vector<KeyRule> rules;
 };
@@ -31,11 +31,11 @@ struct TableText {
 /// A key of a scene by its path: "body.material.young". Precondition: there is one.
 [[nodiscard]] KeyInfo key_at(std::string_view path);
 
-/// Every key of a scene for people: Markdown that reads well as plain text too.
+/// A readable reference to every key of a scene: Markdown that reads well as plain text too.
 [[nodiscard]] std::string scene_reference();
 
 /// A JSON Schema (2020-12) of scene files, for editors and pipelines: names, types, ranges and the rules between keys.
-/// It accepts every scene that parse_scene() accepts. Of strings with units it knows the sign of the number only; it
+/// It accepts every scene that parse_scene() accepts. In strings with units it checks only the sign of the number; it
 /// does not compare values with each other.
 [[nodiscard]] std::string scene_schema();
 

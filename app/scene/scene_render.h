@@ -21,7 +21,7 @@ struct CameraKeyframe {
   double zoom = 1;        // magnification; at 1 everything fits in the picture
 };
 
-/// Distance and target of the camera follow from what is to be seen.
+/// The camera's distance and target follow from what must be visible.
 struct SceneCamera {
   double azimuth = 30;    // degrees about y; 0 looks along -z
   double elevation = 14;  // degrees above the horizon
@@ -31,28 +31,28 @@ struct SceneCamera {
   bool orthographic = false;
   double aperture = 0;                    // m, diameter of the lens; what is out of focus is blurred
   std::vector<CameraKeyframe> keyframes;  // instead of azimuth, elevation, orbit and zoom
-  std::optional<double> body_height{};    // most of the picture's height that bodies take in the last frame, a fraction
+  std::optional<double> body_height{};    // largest fraction of the picture's height that bodies fill in the last frame
 };
 
 /// The field that the colours of the bodies show.
 enum class Field { kSkin, kDisplacement, kSpeed, kStretch, kStrain, kStress, kVolume, kFill, kRegion };
 
-/// What a range of colours spans.
+/// What a colour range covers.
 enum class RangeOver { kFilm, kFrame };
 
-/// Bricks in place of the skins.
+/// Bricks drawn instead of the skins.
 enum class BrickView {
   kNone,
   kWhole,    // without gaps
   kExploded  // with gaps between them
 };
 
-/// What differs from the key light of the preset.
+/// Changes to the key light of the preset.
 struct SceneKeyLight {
   std::optional<double> azimuth{};    // degrees about y, as a camera's
   std::optional<double> elevation{};  // degrees above the horizon
-  std::optional<double> size{};       // degrees across, as bodies see it
-  std::optional<Color> color{};       // as bright as the preset's where it is white
+  std::optional<double> size{};       // angular diameter seen from the bodies, degrees
+  std::optional<Color> color{};       // as bright as the preset's if it is white
   double strength = 1;
 };
 

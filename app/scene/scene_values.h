@@ -117,7 +117,7 @@ template <InNames Value>
   return std::find_if(values.begin(), values.end(), [&](const auto& named) { return named.second == wanted; })->first;
 }
 
-/// Throws Error(kBadInput) naming the value and the range where the number is outside it.
+/// Throws Error(kBadInput) naming the value and the range if the number is outside it.
 void check_range(double value, const KeyInfo& key);
 
 /// "above 0 m and at most 3600 s"; of a key whose numbers are limited.
@@ -130,7 +130,7 @@ template <HasNames Value>
 requires std::is_same_v<Value, Model>
 [[nodiscard]] std::vector<std::string_view> value_names() { return {model_names().begin(), model_names().end()}; }
 
-/// Throws Error(kBadInput) that there is no thing of this name, with the nearest name.
+/// Throws Error(kBadInput) saying that there is no thing of this name, with the nearest name.
 [[noreturn]] void refuse_name(std::string_view thing, std::string_view name,
                               const std::vector<std::string_view>& names);
 

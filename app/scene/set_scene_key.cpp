@@ -14,7 +14,7 @@
 namespace sprung {
 namespace {
 
-/// What a key is set to.
+/// The value to which a key is set.
 struct Given {
   std::string_view text;
   const MaterialLibrary& library;
@@ -98,14 +98,14 @@ void set_value(Value& value, const KeyInfo& key, std::string_view rest, const Gi
       parse_value(given.text, key, value);
     }
     if constexpr (std::is_same_v<Value, std::filesystem::path>) {
-      // From where the program runs; a scene file's own paths are from where it lies.
+      // Relative to the working folder; a scene file's own paths are relative to its folder.
       value = std::filesystem::absolute(value).lexically_normal();
       check_readable(value);
     }
   }
 }
 
-/// "; did you mean 'body.material.young'?" where a key of nearly that name is in another table; at most three.
+/// "; did you mean 'body.material.young'?" if a key of nearly that name is in another table; at most three.
 std::string did_you_mean_elsewhere(std::string_view name) {
   const std::vector<TableText> tables = scene_tables();
   std::vector<std::string_view> names;

@@ -1,9 +1,9 @@
 #pragma once
-// toml++, for the sources that parse TOML: it takes long to compile.
+// toml++, for the sources that parse TOML: it is slow to compile.
 
-// toml++ 3.3 asserts on texts like "[ ,a]", although it goes on to say what is wrong with them.
+// toml++ 3.3 asserts on texts like "[ ,a]", although it then reports what is wrong with them.
 #define TOML_ASSERT(expression) static_cast<void>(0)
-// It calls unreachable what letters like U+03E2 reach outside of strings: there they are none of those it asks for.
+// It marks as unreachable code that letters like U+03E2 do reach outside strings: there they match no case.
 #include <toml++/impl/preprocessor.h>
 #undef TOML_UNREACHABLE
 #define TOML_UNREACHABLE return false

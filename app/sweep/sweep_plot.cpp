@@ -50,7 +50,7 @@ std::string label_of(const Column& column) {
   return column.unit.empty() ? column.name : fmt::format("{} ({})", column.name, column.unit);
 }
 
-/// Where each run stands on the axis of a key.
+/// The position of each run on the axis of a key.
 struct Places {
   Axis axis;
   std::vector<double> of_runs;
@@ -76,7 +76,7 @@ Places places_of(const Column& key) {
   return places;
 }
 
-/// What else was set in a run: "gravity = [0,0,0], body.bricks = 8".
+/// The other settings of a run: "gravity = [0,0,0], body.bricks = 8".
 std::string others_of(const SweepTable& table, std::size_t run, const Column& key) {
   std::string text;
   for (std::size_t i = 1; i <= table.swept; ++i) {

@@ -27,7 +27,7 @@ Dimension dimension_of(const std::string& key) {
   }
 }
 
-/// In the unit of its column, where it is a quantity.
+/// Converts a value to the unit of its column, if it is a quantity.
 std::string in_base_unit(const std::string& value, Dimension dimension) {
   if (dimension == Dimension::kNone) return value;
   try {

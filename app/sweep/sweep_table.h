@@ -20,10 +20,11 @@ struct SweepTable {
   std::size_t swept = 0;  // of these: the keys that were set, after the column of the runs' names
 };
 
-/// Of the runs that have begun; warns of the others. Throws Error(kBadInput) where the folder is not that of a sweep.
+/// The table of the runs that have begun; warns about the others. Throws Error(kBadInput) if the folder is not that of
+/// a sweep.
 [[nodiscard]] SweepTable read_sweep_table(const std::filesystem::path& folder, const Console& console);
 
-/// A line of names with units, then a line a run.
+/// A line of names with units, then a line per run.
 [[nodiscard]] std::string csv_text(const SweepTable& table);
 
 }  // namespace sprung

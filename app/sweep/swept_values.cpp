@@ -27,7 +27,7 @@ std::optional<Number> number_in(std::string_view text) {
   return number;
 }
 
-/// First, last and step; none where the text is no range.
+/// First, last and step; none if the text is no range.
 std::optional<std::array<Number, 3>> range_in(std::string_view text) {
   std::array<Number, 3> range;
   for (std::size_t i = 0; i < 3; ++i) {

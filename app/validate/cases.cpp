@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// An installed program has its assets beside it; one that is not uses those of the source tree it was built from.
+/// An installed program has its assets next to it; any other uses those of the source tree it was built from.
 fs::path experiment_folder() {
   std::error_code failure;
   const fs::path program = fs::read_symlink("/proc/self/exe", failure);

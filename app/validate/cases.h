@@ -22,7 +22,7 @@ struct Case {
   std::string name{};
   std::string title{};  // one line
   std::string about{};  // a paragraph for the report
-  /// No checks where the case does not cover the choice.
+  /// No checks if the case does not cover the choice.
   std::function<CaseResult(const Choice& choice, const Observer& observer)> run{};
   std::function<CasePicture()> draw{};  // empty: no picture
 };
@@ -33,16 +33,16 @@ struct Case {
 /// The case of a scene file, named after it. Runs the scene with every model, Poisson's ratio and grid of its
 /// experiment and compares with its expectations. Checks of runs that fail measure NaN and say why. One more check per
 /// spring model compares the smallest volume of any brick in any frame with the bound below which the volume guard
-/// acts: if it passes, the guard had no influence. Throws Error(kBadInput) where the scene is wrong or expects nothing;
-/// running it, also where it expects a quantity that it does not have.
+/// acts: if it passes, the guard had no influence. Throws Error(kBadInput) if the scene is wrong or expects nothing;
+/// running it throws also if it expects a quantity that it does not have.
 [[nodiscard]] Case scene_case(const std::filesystem::path& file);
 
-/// The cases of these names or scene files, scenes first; all that come with the program if there are no words.
-/// Throws Error(kUsage) with the nearest name, Error(kBadInput) for a scene without expectations, Error(kFailed) where
-/// the folder of the program's scenes is missing.
+/// The cases of these names or scene files, scenes first; all that come with the program if there are no words. Throws
+/// Error(kUsage) with the nearest name, Error(kBadInput) for a scene without expectations, Error(kFailed) if the folder
+/// of the program's scenes is missing.
 [[nodiscard]] std::vector<Case> find_cases(const std::vector<std::string>& words);
 
-/// The names of all cases that come with the program; without the scenes where their folder is missing.
+/// The names of all cases that come with the program; without the scenes if their folder is missing.
 [[nodiscard]] std::vector<std::string> case_names();
 
 /// Built-in cases.

@@ -19,15 +19,15 @@ struct Check {
   double poisson = 0;
   std::string grid{};        // bricks along x, y, z: "8x2x2"
   double bricks_across = 0;  // over the thickness
-  double measured = kNaN;    // NaN where the run failed
+  double measured = kNaN;    // NaN if the run failed
   double expected = 0;
   std::string unit{};
   std::string source{};     // of the expected value
-  double tolerance = kNaN;  // relative (absolute where 0 is expected); NaN: reported only
+  double tolerance = kNaN;  // relative (absolute if 0 is expected); NaN: reported only
   bool is_least = false;    // `expected` is a lower bound
   std::string trouble{};    // why the run failed
 
-  /// measured / expected - 1; the difference where 0 is expected; 0 where a lower bound is met.
+  /// measured / expected - 1; the difference if 0 is expected; 0 if a lower bound is met.
   [[nodiscard]] double error() const;
   /// Whether the check has a tolerance and can fail.
   [[nodiscard]] bool is_gate() const;
@@ -58,7 +58,7 @@ struct CaseResult {
 
 /// Six digits; "-" for NaN, as in all of these.
 [[nodiscard]] std::string number_text(double value);
-/// "1.23 %", "2e-05 %"; a plain number where 0 is expected.
+/// "1.23 %", "2e-05 %"; a plain number if 0 is expected.
 [[nodiscard]] std::string error_text(const Check& check);
 [[nodiscard]] std::string tolerance_text(const Check& check);
 /// The source of the expected value, and why the run failed if it did.
@@ -68,7 +68,7 @@ struct CaseResult {
 /// result, source.
 [[nodiscard]] std::string check_line(const Check& check);
 
-/// The table in aligned columns, a line a row; empty where it has no rows.
+/// The table in aligned columns, one line per row; empty if it has no rows.
 [[nodiscard]] std::string table_text(const TextTable& table);
 
 /// All checks as a JSON array; numbers that are not finite are null, and so is `passed` of checks without a tolerance.

@@ -11,7 +11,7 @@ namespace sprung {
 
 inline const std::string kCalculix = "finite elements (CalculiX C3D20R, tests/references/curved.py)";
 
-/// A figure of a part, and what it should be.
+/// A figure of a part, and its expected value.
 struct CutFigure {
   std::string quantity;
   double expected = 0;
@@ -20,7 +20,7 @@ struct CutFigure {
   double tolerance = kNaN;  // of neo-hooke
 };
 
-/// A part, whose figures a model has all at once.
+/// A part whose figures are all measured at once for a model.
 struct CutPart {
   std::string bricks;
   double poisson = 0;
@@ -31,7 +31,7 @@ struct CutPart {
 /// A scene whose probe's displacement along an axis is the figure, m.
 [[nodiscard]] CutPart probed_part(const Scene& scene, const std::string& bricks, int axis, CutFigure figure);
 
-/// Held at every node of a side; the weights of all nodes as loads.
+/// Supports at every node of a side, and the weights of all nodes as loads.
 struct SupportedBody {
   Supports supports;
   Points loads;

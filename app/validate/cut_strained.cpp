@@ -10,8 +10,8 @@
 namespace sprung {
 namespace {
 
-/// Whole bricks, two across: what is left is the clamp, which such bricks resolve the worse the less the solid gives
-/// way sideways.
+/// Whole bricks, two across: the remaining error is that of the clamp, which such bricks resolve worse the less
+/// compressible the solid is.
 void add_clamped(std::vector<CutPart>& parts) {
   const auto add = [&](double poisson, double expected, const std::string& source) {
     parts.push_back(
@@ -59,7 +59,7 @@ void add_bonded(std::vector<CutPart>& parts) {
   }
 }
 
-/// A cube of 5 kPa, 20 cm, whose base is held, under its weight.
+/// A cube of 5 kPa, 20 cm, whose base is fixed, under its weight.
 /// Height (m) of its middle, inverted bricks, steps of Newton's method.
 std::vector<double> standing_cube(Model model, double poisson) {
   constexpr int kAcross = 8;
@@ -85,8 +85,7 @@ void add_standing_cubes(std::vector<CutPart>& parts) {
   }
 }
 
-/// Of one brick, whose nodes are held where a deformation puts them but along the axes that are free: nominal stress
-/// over E.
+/// Nominal stress over E of one brick whose nodes follow a deformation, except along the axes that are free.
 double brick_stress(Model model, double poisson, const Mat3& gradient, const Eigen::Array<bool, 3, 1>& free, int row,
                     int column) {
   Body body = make_body(make_box_grid({1, 1, 1}, 1), model, light_material(1, poisson));

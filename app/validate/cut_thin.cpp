@@ -112,7 +112,7 @@ void add_rods(std::vector<CutPart>& parts) {
   }
 }
 
-/// Half a brick thick, on no line of the bricks, held by the skin: the nodes near it would be a hinge.
+/// Half a brick thick, off the lattice, pinned at the skin: pinning the nodes near it would make a hinge.
 void add_shells(std::vector<CutPart>& parts) {
   constexpr double kPoisson = 0.3;
   const auto ring = [](const Vec3& p) {

@@ -51,7 +51,7 @@ FreeVibration free_vibration(const Body& body, double length, double expected) {
   return found;
 }
 
-/// Free of all supports, so that no clamp stands between the law and theory.
+/// Free of all supports, so that no clamp obscures the comparison with theory.
 void add_free(std::vector<CutPart>& parts) {
   struct Free {
     std::string name;

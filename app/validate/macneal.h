@@ -4,7 +4,7 @@
 namespace sprung {
 
 /// Two beams of MacNeal and Harder, "A Proposed Standard Set of Problems to Test Finite Element Accuracy", Finite
-/// Elements in Analysis and Design 1 (1985), in its units, held at the root; a unit force along `axis` at the end,
+/// Elements in Analysis and Design 1 (1985), in its units, clamped at the root; a unit force along `axis` at the end,
 /// where the probe is.
 
 /// A quarter of a ring, of radius 4.12 to 4.32 and thickness 0.1; three bricks through that.

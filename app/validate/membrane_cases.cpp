@@ -69,7 +69,7 @@ struct Variant {
   [[nodiscard]] bool is_exact() const { return model != RectangleModel::kPlain || std::abs(poisson - kThird) < 1e-12; }
 };
 
-/// Throws Error(kBadInput) where the model does not support the shape of the rectangles.
+/// Throws Error(kBadInput) if the model does not support the shape of the rectangles.
 MembraneRun make_run(const Variant& variant, const Vec2& size = {kLength, kHeight}) {
   Membrane membrane = make_membrane(variant.counts[0], variant.counts[1], size, variant.model,
                                     light_material(kMembraneYoung, variant.poisson));

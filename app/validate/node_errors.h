@@ -40,7 +40,7 @@ struct NodeErrors {
 };
 
 /// The errors of body.positions at the known points that coincide with a node; `bricks_from_rest` rotates the points
-/// into the frame of the grid. Throws Error(kBadInput) where no node coincides with any of them.
+/// into the frame of the grid. Throws Error(kBadInput) if no node coincides with any of them.
 [[nodiscard]] NodeErrors node_errors(const Body& body, const Mat3& bricks_from_rest, const KnownSolution& known);
 
 }  // namespace sprung

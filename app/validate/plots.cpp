@@ -14,7 +14,7 @@ namespace sprung {
 namespace {
 
 constexpr double kReferenceError = 0.02;  // %
-constexpr double kMechanism = 100;        // %, the error of bricks that hold nothing
+constexpr double kMechanism = 100;        // %, the error of bricks without stiffness
 constexpr double kShownRatio = 0.3;       // Poisson's
 
 /// The look of a model in every plot.
@@ -77,7 +77,7 @@ void share_y_axis(std::vector<SvgPlot>& plots) {
   }
 }
 
-/// Adds the errors of one grid in per cent, negative where the deflection is too small: the mean of each section as a
+/// Adds the errors of one grid in per cent, negative if the deflection is too small: the mean of each section as a
 /// curve, which is drawn on top, and every node as a dot.
 void add_node_errors(const NodeErrors& errors, SvgPlot& plot) {
   constexpr std::array<std::string_view, 4> kColors{ink::kOrange, ink::kGreen, ink::kSky, ink::kBlack};

@@ -7,7 +7,7 @@
 namespace sprung {
 
 /// Error of the tip of the cantilever over the bricks across the beam, for each model, log-log: nu = 0.3 large, 0 and
-/// 0.49 beside it. `checks` are those of the cantilever. Errors above 100 % (mechanisms) and failed runs are left out;
+/// 0.49 next to it. `checks` are those of the cantilever. Errors above 100 % (mechanisms) and failed runs are left out;
 /// errors below 0.02 %, the accuracy of the reference, are drawn there.
 [[nodiscard]] Figure convergence_figure(const std::vector<Check>& checks);
 

@@ -177,7 +177,7 @@ struct Matrix {
   bool is_unique = true;
 };
 
-/// The shortest useful matrix of errors, if there is one, and the table of all checks, folded where it is long.
+/// The shortest useful matrix of errors, if there is one, and the table of all checks, folded if it is long.
 std::string html_checks(const std::vector<Check>& checks) {
   if (checks.empty()) return "";
   std::optional<Matrix> best;

@@ -19,8 +19,8 @@ struct UniaxialResponse {
 };
 
 /// One brick at the stretch s along x. The sideways stretch t(s) at which the force on the sides vanishes is found by
-/// Newton's method. Springs are linear in their true stretch, so they have a hyperelastic law of their own. NaN where
-/// no t is found.
+/// Newton's method. Springs are linear in their true stretch, so they have a hyperelastic law of their own. NaN if no t
+/// is found.
 [[nodiscard]] UniaxialResponse brick_uniaxial(Model model, const Material& material, double stretch);
 
 /// St. Venant-Kirchhoff, W = lambda/2 tr(e)^2 + G e:e with Green's strain e: here stress = E s (s^2 - 1) / 2 and
@@ -38,7 +38,7 @@ struct UniaxialLaw {
   std::function<UniaxialResponse(double stretch)> response{};
 };
 
-/// The laws of one brick of these models, and the two textbook laws. Throws on evaluation, not here, where a model does
+/// The laws of one brick of these models, and the two textbook laws. Throws on evaluation, not here, if a model does
 /// not support the material.
 [[nodiscard]] std::vector<UniaxialLaw> uniaxial_laws(std::span<const Model> models, const Material& material);
 

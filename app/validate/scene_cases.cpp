@@ -136,7 +136,7 @@ Measurement measure(const Recording& recording, const std::optional<NodeErrors>&
                   quantity));
 }
 
-/// The result of a run; only `trouble` where it failed.
+/// The result of a run; only `trouble` if it failed.
 struct Outcome {
   std::optional<Recording> recording;
   std::optional<NodeErrors> node_errors;

@@ -23,7 +23,7 @@ double text_width(std::string_view text, double size) {
   return 0.58 * size * double(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
 }
 
-/// Where a plot's data are drawn, px, and what its axes show.
+/// The rectangle of a plot's data, px, and the ranges of its axes.
 struct PlotField {
   double left, top, right, bottom;
   AxisRange x, y;

@@ -49,7 +49,7 @@ struct SvgPlot {
   std::vector<Curve> curves{};        // the first is drawn on top
   std::optional<double> reference{};  // y of a dashed horizontal line
   bool has_legend = true;             // names of curves beside their ends
-  double left = 14;                   // px, place in the figure, axes and labels included
+  double left = 14;                   // px, position in the figure, axes and labels included
   double top = 64;
   double width = 0;  // 0: to the figure's edge; height likewise
   double height = 0;
@@ -72,10 +72,10 @@ struct Figure {
 /// Text with the characters replaced that XML and HTML would misread.
 [[nodiscard]] std::string escaped(std::string_view text);
 
-/// Text with real minus signs in place of hyphens.
+/// Text with real minus signs instead of hyphens.
 [[nodiscard]] std::string with_minus(std::string text);
 
-/// What an axis shows: [low, high] with labelled ticks and further grid lines without labels.
+/// The range of an axis: [low, high] with labelled ticks and further grid lines without labels.
 struct AxisRange {
   Scale scale = Scale::kLinear;
   double low = 0;

@@ -209,8 +209,8 @@ TableCase plate_on_edges(bool on_lines) {
             {frequency(1, 0.0932 * scale), frequency(2, 0.2226 * scale), frequency(3, 0.2226 * scale)}};
   }
   for (const char* side : {"x-low", "x-high", "y-low", "y-high"}) scene.hold_edge(side, "z-low", "z");
-  // Modes 1 to 3 of the source are rigid. A solid gives way along a line that holds it, the more the finer the bricks
-  // are; what does not bend is held by nothing, and is compared.
+  // Modes 1 to 3 of the source are rigid. A solid yields along a line support, the more the finer the bricks are; modes
+  // that do not bend are not supported by it, and are compared.
   return {"FV52, solid plate supported along lines",
           kNafems,
           scene.scene(),

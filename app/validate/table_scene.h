@@ -40,26 +40,26 @@ class TableScene {
     return *this;
   }
 
-  /// Holds a side of the bounding box ("x-low") along some axes.
+  /// Pins a side of the bounding box ("x-low") along some axes.
   TableScene& hold(const std::string& side, const std::string& axes = "xyz") {
     Pin pin;
     pin.box = side_of(side);
     return add(std::move(pin), axes);
   }
-  /// Holds a part of the mesh.
+  /// Pins a part of the mesh.
   TableScene& hold_part(const std::string& part, const std::string& axes = "xyz") {
     Pin pin;
     pin.part = part;
     return add(std::move(pin), axes);
   }
-  /// Holds the skin of a part, wherever the bricks lie.
+  /// Pins the skin of a part, wherever the bricks lie.
   TableScene& hold_surface(const std::string& part) {
     Pin pin;
     pin.part = part;
     pin.on_surface = true;
     return add(std::move(pin), "xyz");
   }
-  /// Holds the edge where two sides of the bounding box meet.
+  /// Pins the edge where two sides of the bounding box meet.
   TableScene& hold_edge(const std::string& one, const std::string& other, const std::string& axes) {
     const Box a = side_of(one);
     const Box b = side_of(other);

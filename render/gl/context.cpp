@@ -55,7 +55,7 @@ void throw_missing_function(const char* name) {
 GlContext::GlContext() : source_(make_source()) {
   make_current();
   gl_.load([this](const char* name) { return source_->function(name); });
-  // Where another libGL comes first at link time, every call silently does nothing.
+  // If another libGL comes first at link time, every call silently does nothing.
   if (gl_.GetString(GL_RENDERER) == nullptr) throw Error(ErrorKind::kFailed, "OpenGL calls do not reach their driver");
 }
 

@@ -6,19 +6,19 @@
 
 namespace sprung {
 
-/// An OpenGL 3.3 core context without a window. It comes from OSMesa or, where that fails, from EGL's software; the
-/// environment variable SPRUNG_GL decides: "osmesa", "egl", or "gpu" for whatever driver EGL finds.
+/// An OpenGL 3.3 core context without a window. It comes from OSMesa or, if that fails, from EGL's software renderer;
+/// the environment variable SPRUNG_GL decides: "osmesa", "egl", or "gpu" for whatever driver EGL finds.
 class GlContext {
  public:
-  /// Makes it current in the calling thread. Throws Error(kFailed) where there is none, Error(kUsage) for another value
-  /// of SPRUNG_GL.
+  /// Makes it current in the calling thread. Throws Error(kFailed) if there is none, Error(kUsage) for another value of
+  /// SPRUNG_GL.
   GlContext();
 
-  /// In the calling thread. Throws Error(kFailed).
+  /// Makes it current in the calling thread. Throws Error(kFailed).
   void make_current();
-  /// The same; false in place of an error.
+  /// The same; false instead of an error.
   [[nodiscard]] bool try_make_current() noexcept { return source_->make_current(); }
-  /// So that another thread can have it.
+  /// Releases it, so that another thread can use it.
   void release() noexcept { source_->release(); }
 
   [[nodiscard]] const GlFunctions& gl() const { return gl_; }
@@ -30,7 +30,7 @@ class GlContext {
   GlFunctions gl_;
 };
 
-/// Has a context in the calling thread while it lives.
+/// Keeps a context current in the calling thread during its lifetime.
 class CurrentContext {
  public:
   /// Throws Error(kFailed).

@@ -81,14 +81,14 @@ namespace sprung {
 
 using GlProc = void (*)();
 
-/// OpenGL by pointers, so that the code is tied to no library that exports it.
+/// OpenGL through function pointers, so that the code depends on no library that exports it.
 struct GlFunctions {
 #define SPRUNG_GL_MEMBER(type, name) type name = nullptr;
   SPRUNG_GL_FUNCTIONS(SPRUNG_GL_MEMBER)
 #undef SPRUNG_GL_MEMBER
 
   /// `find` gives the address of a function by its full name. Throws Error(kFailed) naming the first that is missing.
-  /// Mesa gives a stub for any name: the context's version has to be checked besides.
+  /// Mesa gives a stub for any name: the context's version has to be checked as well.
   template <class Find>
   void load(Find find);
 };

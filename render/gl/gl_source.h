@@ -15,22 +15,22 @@ class GlSource {
   GlSource(const GlSource&) = delete;
   GlSource& operator=(const GlSource&) = delete;
 
-  /// In the calling thread; false where that fails.
+  /// Makes it current in the calling thread; false if that fails.
   [[nodiscard]] virtual bool make_current() noexcept = 0;
-  /// So that another thread may have it; the calling one has it.
+  /// Releases it from the calling thread, where it is current, so that another may use it.
   virtual void release() noexcept = 0;
-  /// Null where there is none of that name, which begins with "gl".
+  /// Null if there is none of that name, which begins with "gl".
   [[nodiscard]] virtual GlProc function(const char* name) const = 0;
 };
 
-/// By Mesa's OSMesa, which draws in software. Throws Error(kFailed) where it is too old, or where this program was
+/// A context of Mesa's OSMesa, a software renderer. Throws Error(kFailed) if it is too old, or if this program was
 /// built without it.
 [[nodiscard]] std::unique_ptr<GlSource> make_osmesa_source();
 
 enum class GlDevice { kSoftware, kAny };
 
-/// By EGL without a surface (EGL_MESA_platform_surfaceless), whose software gives the same bits as OSMesa. Throws
-/// Error(kFailed) where there is none, or where this program was built without it.
+/// A context of EGL without a surface (EGL_MESA_platform_surfaceless), whose software renderer gives the same bits as
+/// OSMesa. Throws Error(kFailed) if there is none, or if this program was built without it.
 [[nodiscard]] std::unique_ptr<GlSource> make_egl_source(GlDevice device);
 
 }  // namespace sprung

@@ -1,7 +1,7 @@
 #include "core/error.h"
 #include "render/gl/gl_source.h"
 
-// In place of egl_source.cpp where EGL is missing.
+// Replaces egl_source.cpp if EGL is missing.
 namespace sprung {
 
 std::unique_ptr<GlSource> make_egl_source(GlDevice /*device*/) {

@@ -1,7 +1,7 @@
 #include "core/error.h"
 #include "render/gl/gl_source.h"
 
-// In place of osmesa_source.cpp where OSMesa is missing.
+// Replaces osmesa_source.cpp if OSMesa is missing.
 namespace sprung {
 
 std::unique_ptr<GlSource> make_osmesa_source() {

@@ -65,19 +65,19 @@ struct TextureFormat {
 [[nodiscard]] GlTexture make_texture(const GlFunctions& gl, int width, int height, const TextureFormat& format,
                                      const void* data = nullptr);
 
-/// From levels of RGB floats, each half as large as the one before; stored in bytes unless `internal` says otherwise.
-/// Repeats horizontally; sampled trilinearly.
+/// A texture from levels of RGB floats, each half as large as the one before; stored in bytes unless `internal` says
+/// otherwise. Repeats horizontally; sampled trilinearly.
 [[nodiscard]] GlTexture make_level_texture(const GlFunctions& gl, int width, int height,
                                            std::span<const float* const> levels, GLenum internal = GL_RGBA8);
 
 /// Samples a depth texture as a sampler2DShadow: the fraction of the four nearest texels that pass the comparison; of
-/// the nearest level, where there are `mipmaps`.
+/// the nearest level, if there are `mipmaps`.
 [[nodiscard]] GlSampler make_comparing_sampler(const GlFunctions& gl, GLenum comparison, bool mipmaps = false);
 
 /// Samples the nearest level of a texture.
 [[nodiscard]] GlSampler make_level_sampler(const GlFunctions& gl);
 
-/// A framebuffer with level 0 of these textures; null for none. Throws Error(kFailed) where it is incomplete.
+/// A framebuffer with level 0 of these textures; null for none. Throws Error(kFailed) if it is incomplete.
 [[nodiscard]] GlFramebuffer make_texture_target(const GlFunctions& gl, const GlTexture* color, const GlTexture* depth);
 /// The same with several colour attachments, eight at most.
 [[nodiscard]] GlFramebuffer make_colors_target(const GlFunctions& gl, std::span<const GlTexture* const> colors,

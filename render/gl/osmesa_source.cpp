@@ -38,7 +38,7 @@ class OsmesaSource : public GlSource {
   [[nodiscard]] bool make_current() noexcept override {
     return OSMesaMakeCurrent(context_.get(), dummy_.data(), GL_UNSIGNED_BYTE, 1, 1) != GL_FALSE;
   }
-  void release() noexcept override {}  // another thread may have it all the same
+  void release() noexcept override {}  // other threads may use it anyway
   [[nodiscard]] GlProc function(const char* name) const override { return OSMesaGetProcAddress(name); }
 
  private:

@@ -7,7 +7,7 @@
 
 namespace sprung {
 
-/// MurmurHash3 (x86, 32 bits, seed 0) of A. Appleby, by which Cryptomatte tells names.
+/// MurmurHash3 (x86, 32 bits, seed 0) of A. Appleby, by which Cryptomatte identifies names.
 [[nodiscard]] std::uint32_t murmur_hash(std::string_view text);
 
 /// A name as a number in a picture: the bits of its hash as a float that is neither denormal nor infinite nor NaN.

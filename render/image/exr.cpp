@@ -67,7 +67,7 @@ std::vector<Channel> channels_of(Passes& passes, std::array<Passes::Plane, Passe
   return channels;
 }
 
-/// The mattes by the numbers of their names; 0 where there is nothing.
+/// The mattes by the numbers of their names; 0 if there is nothing.
 std::array<Passes::Plane, Passes::kRanks> numbers_of(const Passes& passes) {
   std::vector<float> by_id;
   for (const std::string& name : passes.names) by_id.push_back(matte_number(name));

@@ -19,7 +19,7 @@ struct Image {
   Image(int w, int h) : width(w), height(h), pixels(3U * std::size_t(w) * std::size_t(h)) {}
 };
 
-/// RGB, or RGBA where the picture has alpha, pixel by pixel.
+/// RGB, or RGBA if the picture has alpha, pixel by pixel.
 [[nodiscard]] std::vector<std::uint8_t> interleaved(const Image& image);
 
 /// kPreview takes one sample per pixel and coarse shadows, kDefault four, kHigh sixteen and fine shadows; kFinal traces
@@ -38,7 +38,7 @@ struct PassTime {
   double processor = 0;  // s, of all threads
 };
 
-/// The passes that a compositor needs beside a picture, rows from the top. Beauty, shadow and occlusion are
+/// The passes that a compositor needs in addition to a picture, rows from the top. Beauty, shadow and occlusion are
 /// antialiased; the others are sampled at pixel centres and leave ghosts out.
 struct Passes {
   using Plane = std::vector<float>;  // width * height
@@ -52,13 +52,13 @@ struct Passes {
   std::array<Plane, 3> normal;    // x, y, z: unit, world space, towards the camera; 0 for the background
   std::array<Plane, 3> position;  // x, y, z: m, world space; 0 for the background
   Plane id;                       // Stage::ids; 0 for the ground and the background
-  std::array<Plane, 3> uv;        // u, v of the skin's texture, 0 where there is none; and 1 on skins
-  /// Pixels, to the right and up, by which what is seen here moved: from here to where it was one frame before (the
-  /// first two), and from where it will be one frame later to here, as Cycles has it. 0 for the background.
+  std::array<Plane, 3> uv;        // u, v of the skin's texture, 0 if there is none; and 1 on skins
+  /// Pixels, to the right and up, by which the visible point moved: from here to where it was one frame before (the
+  /// first two), and from where it will be one frame later to here, as in Cycles. 0 for the background.
   std::array<Plane, 4> motion;
 
   /// Stage::ids of what covers most of the pixel, of what covers the next largest part, and so on, 0 being the ground;
-  /// and these parts, of 1. Behind them -1 and 0.
+  /// and these parts, of 1. Unused entries are -1 and 0.
   static constexpr std::size_t kRanks = 6;
   std::array<Plane, kRanks> matte;
   std::array<Plane, kRanks> coverage;

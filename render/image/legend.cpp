@@ -97,7 +97,7 @@ std::vector<double> round_ticks(double low, double high, double most) {
 
 namespace {
 
-/// Of its title, bar and numbers, or names.
+/// The width of its title, bar and numbers, or names.
 double content_width(const Legend& legend, int height, const Font& font) {
   const double size = letters_height(height);
   double content = font.width(legend.title, size);

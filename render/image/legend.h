@@ -28,25 +28,25 @@ inline constexpr double kLabelMargin = 0.035;
 /// A pale panel behind labels; pixels.
 void fill_panel(Image& image, double left, double top, double right, double bottom);
 
-/// At the right edge, centred vertically, on a panel.
+/// Draws it at the right edge, centred vertically, on a panel.
 void draw_legend(Image& image, const Legend& legend, const Font& font);
 
 /// Pixels to reserve for it at the right edge of a picture of that height.
 [[nodiscard]] double legend_width(const Legend& legend, int height, const Font& font);
 
-/// A line of text as it fits into so many pixels: in letters down to two thirds of the size, then with "\u2026" in
-/// place of its middle.
+/// A line of text made to fit into that many pixels: in letters down to two thirds of the size, then with "\u2026"
+/// instead of its middle.
 struct FittedText {
   std::string text;
   double size;  // pixels
 };
 [[nodiscard]] FittedText fitted(const std::string& text, double size, double room, const Font& font);
 
-/// A line of text at the top, centred; below where a caption is, if there is one.
+/// A line of text at the top, centred; below the caption, if there is one.
 void draw_name(Image& image, const std::string& text, const Font& font, bool has_caption);
 
-/// A line of text at the top left, one at the bottom left, and at the bottom right a scale bar `pixels` long; none runs
-/// out of the picture. `reserved`: pixels at the right edge that the footer leaves to the scale bar.
+/// A line of text at the top left, one at the bottom left, and at the bottom right a scale bar `pixels` long; none
+/// extends beyond the picture. `reserved`: pixels at the right edge that the footer leaves to the scale bar.
 void draw_caption(Image& image, const std::string& text, const Font& font);
 void draw_footer(Image& image, const std::string& text, const Font& font, double reserved = 0);
 void draw_scale_bar(Image& image, double pixels, const std::string& length, const Font& font);

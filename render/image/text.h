@@ -15,7 +15,7 @@ using Ink = std::array<std::uint8_t, 3>;
 /// Inter, a typeface for screens under the SIL Open Font License, which Debian packages.
 class Font {
  public:
-  /// Throws Error(kFailed) where the font is not installed.
+  /// Throws Error(kFailed) if the font is not installed.
   Font();
   ~Font();
   Font(const Font&) = delete;

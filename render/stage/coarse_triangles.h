@@ -15,7 +15,7 @@ struct CoarseTriangles {
 };
 [[nodiscard]] CoarseTriangles coarse_triangles(const Skin& skin, double cell);
 
-/// All triangles where fewer than a hundredth would be left: the skin then consists of thin parts.
+/// All triangles if fewer than a hundredth would be left: the skin then consists of thin parts.
 [[nodiscard]] CoarseTriangles coarse_or_all_triangles(const Skin& skin, double cell);
 
 /// Half the diagonal of the bounding box, m; 0 without vertices.

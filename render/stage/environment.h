@@ -30,10 +30,10 @@ struct Environment {
   float scale = 1;                               // from the panorama's light to that of the stage
 
   /// Scales the panorama so that level ground is as bright as under the studio's sky, or what faces its sun as bright
-  /// as what faces the studio's key light. Throws Error(kBadInput) where it is not twice as wide as high, or black
-  /// above the horizon. Deterministic.
+  /// as what faces the studio's key light. Throws Error(kBadInput) if it is not twice as wide as high, or black above
+  /// the horizon. Deterministic.
   explicit Environment(const Panorama& panorama, const EnvironmentUse& use = {});
-  /// Of a surface whose unit normal is `direction`.
+  /// The irradiance of a surface whose unit normal is `direction`.
   [[nodiscard]] Eigen::Vector3f irradiance_on(const Eigen::Vector3f& direction) const;
 };
 

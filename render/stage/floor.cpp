@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector3f;
 
-/// From 0 up to 1, the same for the same numbers.
+/// A hash from 0 up to 1.
 float hashed(std::uint32_t x, std::uint32_t y, std::uint32_t seed) {
   std::uint32_t h = x * 0x9e3779b1U ^ y * 0x85ebca77U ^ seed * 0xc2b2ae3dU;
   h = (h ^ (h >> 15)) * 0x2c1b3c6dU;
@@ -31,7 +31,7 @@ float noise(float x, float y, int period, std::uint32_t seed) {
   return std::lerp(below, above, eased(y - float(low)));
 }
 
-/// Linear light of the bytes of sRGB.
+/// Linear light of sRGB bytes.
 const std::array<float, 256>& linear_bytes() {
   static const std::array<float, 256> table = [] {
     std::array<float, 256> values{};
@@ -78,7 +78,7 @@ Vector3f wood_at(float x, float y) {
   const Vector3f brown(0.38F, 0.235F, 0.12F);
   const float across = y * kRows;
   const auto row = std::uint32_t(across);
-  const float shifted = x * kLength + kLength * hashed(row, 7, 1);  // the joints of rows are not in line
+  const float shifted = x * kLength + kLength * hashed(row, 7, 1);  // the joints of the rows are staggered
   const float along = shifted - kLength * std::floor(shifted / kLength);
   const auto board = 2 * row + (along < kLength / 2 ? 0U : 1U);
   const float in_row = across - float(row);

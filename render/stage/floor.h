@@ -12,7 +12,7 @@ enum class FloorKind {
   kPlain,    // level, up to a horizon
   kChecker,  // squares of two greys
   kWood,     // boards along x
-  kNone      // nothing is seen of the ground
+  kNone      // the ground is invisible
 };
 
 /// A picture that repeats over the floor, from the origin of the world.
@@ -23,7 +23,7 @@ struct FloorPattern {
   std::vector<std::uint8_t> rgba;  // 8-bit sRGB, rows along x
   Eigen::Vector3f mean;            // linear; the fraction of light that the floor reflects
 
-  /// Linear, at a place of the world, m; bilinear.
+  /// Linear, at a position in the world, m; bilinear.
   [[nodiscard]] Eigen::Vector3f albedo(double x, double z) const;
 };
 
@@ -31,8 +31,7 @@ struct Floor {
   bool has_horizon = false;
   std::shared_ptr<const FloorPattern> pattern{};  // none: even
 
-  /// Sines of the line of sight's elevation between which the floor goes over into the background, if that is not of
-  /// one piece with it.
+  /// Sines of the line of sight's elevation between which the floor blends into the background, unless the two are one.
   [[nodiscard]] Eigen::Vector2f end() const;
 };
 

@@ -26,7 +26,7 @@ struct SkinShape {
   [[nodiscard]] bool is_faint() const { return opacities.size() > 0; }
 };
 
-/// Shapes by time, at equal steps while the shutter is open, and skin; a single one is of a moment.
+/// Shapes by time, at equal steps while the shutter is open, and skin; a single time is an instant.
 using Motion = std::vector<const std::vector<SkinShape>*>;
 
 struct GroundPlane {
@@ -41,22 +41,23 @@ struct RenderOptions {
   Quality quality = Quality::kDefault;  // of light
   bool transparent = false;             // pictures with alpha: bodies without a background
   bool exposes = false;                 // pictures are of several exposures
-  /// Light from around is gathered by rays, for bodies that hide it from each other and themselves. Needs Embree;
-  /// preview and final quality do without.
+  /// Rays gather the surrounding light, so that bodies occlude it from each other and themselves. Needs Embree; not
+  /// used in preview and final quality.
   bool gathers_light = true;
 };
 
 inline constexpr double kGhostOpacity = 0.28;
 
-/// That something in a picture can have.
+/// The opacities that objects in a picture can have.
 inline constexpr std::array kOpacities{0.18, kGhostOpacity, 0.6, 1.0};
 
-/// What does not change during a film: the skins at rest (indices, UVs, colours, textures), ground and light.
+/// Everything that does not change during a film: the skins at rest (indices, UVs, colours, textures), ground and
+/// light.
 struct Stage {
   std::vector<const Skin*> skins;               // must outlive the renderer
   std::vector<Eigen::Vector3f> default_colors;  // sRGB, one per skin: for parts without material, colours or texture
   std::vector<Look> looks{};                    // one per skin; none: plastic
-  /// m, one per skin: of light inside before it is scattered. None or 0: no light enters.
+  /// Mean free paths of light inside, m, one per skin. None or 0: no light enters.
   std::vector<double> mean_free_paths{};
   std::vector<bool> ghosts{};  // one per skin; none: no ghosts. They are faint and cast no shadow
   std::vector<int> ids{};      // one per skin, for passes; none: 1, 2, ...
@@ -70,20 +71,20 @@ struct Stage {
 };
 
 /// A part of the time that a shutter is open. Skins move from the first shapes to the last, and each sample of a pixel
-/// sees them at another time.
+/// sees them at a different time.
 struct Exposure {
   const std::vector<SkinShape>& first;
   const std::vector<SkinShape>& last;  // the same ones: at rest
   Camera camera;
 };
 
-/// Everything as it is at a time.
+/// The state at one time.
 struct Moment {
   const std::vector<SkinShape>& shapes;
   Camera camera;
 };
 
-/// That of the stage, with the sky of its environment and the colour of its floor.
+/// The lighting of the stage, with the sky of its environment and the colour of its floor.
 [[nodiscard]] Lighting lighting_of(const Stage& stage);
 
 }  // namespace sprung

@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr double kReach = 6;    // degrees around the brightest spot that its light may have
+constexpr double kReach = 6;    // degrees around the brightest spot to which its light may extend
 constexpr double kAround = 9;   // degrees up to which there is the sky around it
 constexpr double kLeast = 0.3;  // of the irradiance that the sky gives
 constexpr double kLowest = 5;   // degrees of elevation, as of any key light
@@ -35,7 +35,7 @@ void for_each_above(const Panorama& panorama, const Visit& visit) {
 
 struct Spot {
   std::vector<std::size_t> texels;
-  Vector3f around = Vector3f::Zero();  // mean light beside it
+  Vector3f around = Vector3f::Zero();  // mean light next to it
 };
 
 Spot spot_around(const Panorama& panorama, const Vector3f& middle) {

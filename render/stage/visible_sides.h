@@ -30,7 +30,7 @@ template <class Key>
 /// Which sides of a skin's triangles are visible.
 enum class Sides { kBoth, kFront, kBack };
 
-/// One side where the triangles enclose a solid: every edge has as many triangles on its left as on its right. Vertices
+/// One side if the triangles enclose a solid: every edge has as many triangles on its left as on its right. Vertices
 /// that differ by rounding only count as one.
 [[nodiscard]] Sides visible_sides(const Skin& skin);
 

@@ -7,7 +7,7 @@ namespace sprung {
 namespace {
 
 // Distances from a body on the floor, in its radii.
-constexpr float kWhole = 0.6F;  // so far everything is shown,
+constexpr float kWhole = 0.6F;  // up to here everything is shown,
 constexpr float kReach = 1.6F;  // from here on nothing
 constexpr float kMargin = 0.05F;
 constexpr float kSmallest = 1e-6F;  // radius

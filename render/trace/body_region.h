@@ -8,16 +8,16 @@
 
 namespace sprung {
 
-/// Where bodies are, and where on the floor they are felt: around them and their shadows. Stage space.
+/// The regions of the bodies, and of the floor whose light they affect: around them and their shadows. Stage space.
 class BodyRegion {
  public:
   BodyRegion() = default;
   /// `height`: of the floor.
   BodyRegion(const Motion& motion, const StageSpace& space, double height, const Vec3& to_key);
 
-  /// How much of what bodies do to the light at a point of the floor is shown: 1 near them, 0 far away.
+  /// The weight of the bodies' effect on the light at a point of the floor: 1 near them, 0 far away.
   [[nodiscard]] float weight_on_floor(const Eigen::Vector3f& point) const;
-  /// False where the ray certainly meets no body.
+  /// False if the ray certainly meets no body.
   [[nodiscard]] bool is_met_by(const Ray& ray) const;
 
  private:
@@ -26,7 +26,7 @@ class BodyRegion {
     Eigen::AlignedBox2f rectangle;  // x, z
     float radius;                   // of the body
   };
-  /// To the nearest body, in its radii; 0 beneath it.
+  /// Distance to the nearest body, in its radii; 0 beneath it.
   [[nodiscard]] float distance_on_floor(const Eigen::Vector3f& point) const;
 
   Eigen::AlignedBox3f bodies_;

@@ -12,7 +12,7 @@ namespace {
 using Eigen::Vector3f;
 
 constexpr int kMostSteps = 512;
-constexpr int kSureSteps = 4;  // before a walk may end by chance
+constexpr int kSureSteps = 4;  // before Russian roulette may end a walk
 
 Vector3f on_sphere(const Eigen::Vector2f& random) {
   const float height = 1 - 2 * random.x();
@@ -29,7 +29,7 @@ SurfacePoint from_outside(SurfacePoint point) {
   return point;
 }
 
-/// Back into the body or out of it, by chance.
+/// Chooses at random between reflection back into the body and leaving it.
 bool leaves(Ray& ray, const SurfacePoint& point, Sampler& sampler) {
   const float cosine = std::max(-ray.direction.dot(point.normal), 1e-3F);
   const std::optional<Vector3f> out = refracted(ray.direction, point.normal, 1 / Medium::kIndex);

@@ -31,14 +31,14 @@ struct TangentFrame {
   return Eigen::Vector2f(float(i % side) + 0.5F, float(row) + 0.5F) / float(side);
 }
 
-/// Evenly over the unit disc.
+/// Samples the unit disc uniformly.
 [[nodiscard]] inline Eigen::Vector2f on_disc(const Eigen::Vector2f& random) {
   const float radius = std::sqrt(random.x());
   const float turn = 2 * std::numbers::pi_v<float> * random.y();
   return {radius * std::cos(turn), radius * std::sin(turn)};
 }
 
-/// Over the hemisphere about z, with a density of its cosine over pi.
+/// Samples the hemisphere about z, with a density of its cosine over pi.
 [[nodiscard]] inline Eigen::Vector3f on_cosine_hemisphere(const Eigen::Vector2f& random) {
   const Eigen::Vector2f disc = on_disc(random);
   return {disc.x(), disc.y(), std::sqrt(std::max(0.0F, 1 - random.x()))};

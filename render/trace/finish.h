@@ -6,28 +6,28 @@
 
 namespace sprung {
 
-/// What a surface makes of light from one direction: factors of its radiance, with the cosine and one over the density
-/// of the direction where that was sampled.
+/// How a surface reflects light from one direction: factors of its radiance, with the cosine and, if the direction was
+/// sampled, one over its density.
 struct Reflected {
   Eigen::Vector3f base = Eigen::Vector3f::Zero();  // by the base, as if it were white
   Eigen::Vector3f specular = Eigen::Vector3f::Zero();
 };
 
-/// What a surface does with light from one direction.
+/// The response of a surface to light from one direction.
 struct Response {
   Reflected reflected{};
   float density = 0;  // of Finish::sample() over the solid angle
 };
 
 /// How surfaces of a look scatter light: a rough specular layer (GGX with Smith's shadowing, Schlick's Fresnel term)
-/// over a Lambert base, which gets what the layer leaves to it (C. Kelemen and L. Szirmay-Kalos, "A Microfacet Based
-/// Coupled Specular-Matte BRDF Model with Importance Sampling", 2001). A metal has no base; light that its facets
+/// over a Lambert base, which receives what the layer does not reflect (C. Kelemen and L. Szirmay-Kalos, "A Microfacet
+/// Based Coupled Specular-Matte BRDF Model with Importance Sampling", 2001). A metal has no base; light that its facets
 /// reflect more than once is added by E. Turquin, "Practical multiple scattering compensation for microfacet models"
 /// (2019). Reciprocal up to that; a white surface absorbs nothing. Directions are unit vectors in a frame whose z axis
 /// is the normal, away from the surface.
 class Finish {
  public:
-  /// Without a specular layer where the roughness is 1 or more.
+  /// Without a specular layer if the roughness is 1 or more.
   struct Properties {
     float roughness;  // the square root of GGX's alpha
     bool is_metal = false;
@@ -40,16 +40,16 @@ class Finish {
 
   /// The same with at least that roughness.
   [[nodiscard]] Finish no_sharper_than(float roughness) const;
-  /// The specular layer alone, for a body that light enters: what it leaves comes out elsewhere.
+  /// The specular layer alone, for a translucent body: transmitted light emerges elsewhere.
   [[nodiscard]] Finish without_base() const;
 
   /// `color`: of a metal.
   [[nodiscard]] Response respond(const Eigen::Vector3f& to_eye, const Eigen::Vector3f& to_light,
                                  const Eigen::Vector3f& color) const;
-  /// A direction to trace on; it may lie below the surface, where nothing is reflected to.
+  /// A direction in which to continue; it may lie below the surface, where nothing is reflected.
   [[nodiscard]] Eigen::Vector3f sample(const Eigen::Vector3f& to_eye, const Eigen::Vector2f& random,
                                        float choice) const;
-  /// Whether that choice is the base's.
+  /// Whether that choice selects the base.
   [[nodiscard]] bool picks_base(float choice) const { return choice >= specular_choice_; }
   /// Whether light that meets a surface without a base enters; otherwise sample() says where it goes.
   [[nodiscard]] bool is_let_in(float choice) const { return !has_base_ && choice >= specular_choice_; }
@@ -59,7 +59,7 @@ class Finish {
     return half_vector(to_eye, random);
   }
   [[nodiscard]] float let_in(float cosine) const { return left_to_base(cosine) / (1 - specular_choice_); }
-  /// Of light that comes out in all directions alike: factor of its radiance in one that has that cosine to the normal.
+  /// The factor of the radiance of light that emerges isotropically, in a direction with that cosine to the normal.
   [[nodiscard]] float let_out(float cosine) const { return left_to_base(cosine) / mean_left_to_base_; }
   [[nodiscard]] float glow() const { return glow_; }
 

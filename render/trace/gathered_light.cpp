@@ -21,11 +21,11 @@ using Eigen::Vector4f;
 
 constexpr double kLift = 0.004;         // of the skin's radius
 constexpr double kGroove = 2;           // depth of grooves over the sides of coarse triangles
-constexpr float kLittle = 1e-3F;        // of a groove, by which rays go on behind it
+constexpr float kLittle = 1e-3F;        // of a groove, by which rays continue behind it
 constexpr double kChord = 0.1;          // lift over the sides of coarse triangles
 constexpr float kTurned = 0.1F;         // sine of an angle by which triangles may be turned away
 constexpr std::size_t kFewProbes = 5;   // times fewer than the most: each then gets more rays
-constexpr int kMostRays = 8;            // times as many from a probe, where there are few probes
+constexpr int kMostRays = 8;            // times as many from a probe, if there are few probes
 constexpr double kMirrorSpacing = 0.5;  // of the probes of metals, over that of others
 constexpr int kMirrorRays = 8;
 constexpr float kMirrorBlur = 0.06F;     // tangent of an angle: about that of steel's roughness
@@ -93,7 +93,7 @@ GatheredLight::GatheredLight(const Stage& stage, int rays, int most_probes)
   }
 }
 
-/// Rays need no finer triangles than there are probes.
+/// Rays need no triangles finer than the spacing of probes.
 void GatheredLight::set_triangles(SkinLight& light, const Skin& skin, double cell) const {
   CoarseTriangles coarse = coarse_or_all_triangles(skin, cell);
   for (int t = 0; t < skin.triangles.rows(); ++t) {
@@ -236,7 +236,7 @@ const GroundGlow& GatheredLight::onto_ground(const GroundLight& ground) {
   return *glow_;
 }
 
-/// Irradiance over pi of level ground there, and the fraction of the light from above that bodies hide.
+/// Irradiance over pi of level ground there, and the fraction of the light from above that bodies occlude.
 /// `set`: which of twice kTurns sets of rays; the second half of them are the first ones turned about the vertical.
 Vector4f GatheredLight::from_bodies(const Vector3f& origin, int set) const {
   const float side = std::size_t(set) < kTurns ? 1 : -1;
@@ -264,8 +264,8 @@ bool GatheredLight::is_inside(const Ray& ray, const RayHit& hit) const {
   return sides != Sides::kBoth && (sides == Sides::kBack ? along < 0 : along > 0);
 }
 
-/// Ignores the skin where the ray begins on its wrong side: in a groove a probe may lie beneath the coarse triangles,
-/// on a ridge above them.
+/// Ignores the skin if the ray begins on its wrong side: in a groove a probe may lie beneath the coarse triangles, on a
+/// ridge above them.
 std::optional<RayHit> GatheredLight::first_hit(Ray ray, std::size_t own, bool is_outside) const {
   std::optional<RayHit> hit = rays_->first_hit(ray);
   const float reach = skins_[own].groove;
@@ -279,7 +279,7 @@ std::optional<RayHit> GatheredLight::first_hit(Ray ray, std::size_t own, bool is
   return hit;
 }
 
-/// The rays measure which fraction of the light around is hidden: without anything that hides it the answer is exact.
+/// The rays measure the occluded fraction of the surrounding light: without occluders the result is exact.
 Vector4f GatheredLight::gather(const Place& place, const GroundLight& ground) const {
   Ray ray;
   ray.origin = place.origin;
@@ -316,7 +316,7 @@ Vector4f GatheredLight::gather(const Place& place, const GroundLight& ground) co
   return {light.x(), light.y(), light.z(), open / weights};
 }
 
-/// Along rays inwards: what arrives where they leave the body.
+/// Follows rays inwards: what arrives where they leave the body.
 Vector4f GatheredLight::come_through(const Place& place, const GroundLight& ground) const {
   const std::vector<Direction>& directions = directions_[place.turn];
   const std::size_t step = std::max(directions.size() / (2 * kInwardRays), std::size_t(1));
@@ -345,7 +345,7 @@ Vector4f GatheredLight::come_through(const Place& place, const GroundLight& grou
   return {sum.x(), sum.y(), sum.z(), kept / weights};
 }
 
-/// Of the directions of the place those around the mirrored one, as a rough mirror shows them.
+/// Averages the directions of the place around the mirrored one, as a rough mirror does.
 Vector4f GatheredLight::mirror(const Place& place, const Vector3f& eye) const {
   const Vector3f from_eye = (place.origin - eye).normalized();
   const Vector3f mirrored = from_eye - 2 * from_eye.dot(place.normal) * place.normal;

@@ -17,23 +17,24 @@
 
 namespace sprung {
 
-/// Gathers the light that reaches skins from around them, other than the key light: from the sky, the floor, and after
-/// one reflection from other skins and themselves. A fixed set of rays leaves each probe, so that nothing flickers; the
-/// answers depend on neither the number of threads nor on earlier ones.
+/// Gathers the light that reaches skins from their surroundings, other than the key light: from the sky, the floor, and
+/// after one reflection from other skins and themselves. A fixed set of rays leaves each probe, so that nothing
+/// flickers; results depend neither on the number of threads nor on earlier results.
 class GatheredLight {
  public:
-  /// `rays`: about so many leave a probe, more where there are few probes. `most_probes`: of all skins. Throws
-  /// Error(kFailed) where this program was built without Embree.
+  /// `rays`: approximate number per probe, more if there are few probes. `most_probes`: of all skins. Throws
+  /// Error(kFailed) if this program was built without Embree.
   GatheredLight(const Stage& stage, int rays, int most_probes);
 
-  /// Of all vertices of triangles that `eye` (stage space) may see; the others' light says nothing. What was gathered
-  /// is kept as long as the shapes stay the same.
+  /// Gathers for all vertices of triangles that `eye` (stage space) may see; the light of others is meaningless.
+  /// Results are kept as long as the shapes stay the same.
   void update(const std::vector<SkinShape>& shapes, const Eigen::Vector3f& eye, const GroundLight& ground);
 
   [[nodiscard]] const VertexLight& of_vertices(std::size_t skin) const { return skins_[skin].of_vertices; }
-  /// None where has_through() is false.
+  /// None if has_through() is false.
   [[nodiscard]] const ThroughLight& through_to_vertices(std::size_t skin) const { return skins_[skin].through; }
-  /// What bodies reflect onto that rectangle of the ground, in texels of its own; of the shapes of the last update.
+  /// The light that bodies reflect onto that rectangle of the ground, in texels of its own, for the shapes of the last
+  /// update.
   [[nodiscard]] const GroundGlow& onto_ground(const GroundLight& ground);
   /// Whether light enters any body, or a metal mirrors others.
   [[nodiscard]] bool has_through() const { return media_.any() || has_metals_; }
@@ -43,9 +44,9 @@ class GatheredLight {
 
   struct Direction {
     Eigen::Vector3f towards;   // unit
-    Eigen::Vector3f radiance;  // from there, where it meets nothing
+    Eigen::Vector3f radiance;  // from there, if it meets nothing
   };
-  /// Of a probe.
+  /// The geometry of a probe.
   struct Place {
     Eigen::Vector3f origin;  // of its rays, stage space
     Eigen::Vector3f normal;  // unit
@@ -57,10 +58,10 @@ class GatheredLight {
     Sides sides;
     bool is_metal;
     float groove;                            // depth, stage space
-    float lift;                              // of the places where rays start or end, off the surface; stage space
+    float lift;                              // of the points where rays start or end, off the surface; stage space
     Triangles triangles;                     // coarse, for the rays
     std::vector<int> sources;                // the skin's triangle, by coarse one
-    std::vector<Eigen::Vector3f> colors;     // linear, by coarse triangle, where no map colours the skin
+    std::vector<Eigen::Vector3f> colors;     // linear, by coarse triangle, if no map colours the skin
     Floats3 positions;                       // of vertices, stage space
     Floats3 normals;                         // unit
     std::vector<bool> is_needed;             // by probe

@@ -4,8 +4,7 @@
 
 namespace sprung {
 
-/// Light on a rectangle of level ground, irradiance over pi, by rows of z. Beyond the rectangle it stays as on its
-/// border.
+/// Light on a rectangle of level ground, irradiance over pi, by rows of z. Beyond the rectangle it is as on its border.
 struct GroundLight {
   double height;        // stage space
   Eigen::Vector2f low;  // corner x, z
@@ -17,8 +16,8 @@ struct GroundLight {
   [[nodiscard]] Eigen::Vector3f at(float x, float z) const;
 };
 
-/// What bodies do to level ground: light that they reflect onto it, irradiance over pi, and the fraction of the light
-/// from above that they hide; by rows of z.
+/// The effect of bodies on level ground: light that they reflect onto it, irradiance over pi, and the fraction of the
+/// light from above that they occlude; by rows of z.
 struct GroundGlow {
   Eigen::Vector2f low;  // corner x, z; stage space
   Eigen::Vector2f sides;

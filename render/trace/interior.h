@@ -8,7 +8,7 @@
 
 namespace sprung {
 
-/// What light meets inside the bodies of a stage.
+/// The media inside the bodies of a stage.
 class Media {
  public:
   Media(const Stage& stage, const StageSpace& space);
@@ -16,13 +16,13 @@ class Media {
   /// Whether light enters any body, or that of a skin.
   [[nodiscard]] bool any() const { return any_; }
   [[nodiscard]] bool is_entered(int skin) const { return scatterings_[std::size_t(skin)] > 0; }
-  /// Per unit of length in stage space; 0 where no light enters.
+  /// Per unit of length in stage space; 0 if no light enters.
   [[nodiscard]] float scattering(int skin) const { return scatterings_[std::size_t(skin)]; }
-  /// Behind a point of a skin that light enters, of the colour there.
+  /// The medium behind a point of a translucent skin, of the colour there.
   [[nodiscard]] Medium behind(const SurfacePoint& point) const {
     return {point.color, scatterings_[std::size_t(point.skin)]};
   }
-  /// At rest, of the box around it.
+  /// The size of its bounding box at rest.
   [[nodiscard]] float size(int skin) const { return sizes_[std::size_t(skin)]; }
 
  private:
@@ -31,7 +31,7 @@ class Media {
   bool any_ = false;
 };
 
-/// The bodies that a ray is inside of. Where some overlap, the smallest is there: a cherry in a jelly; in one skin the
+/// The bodies that a ray is inside. Where some overlap, the smallest counts: a cherry in a jelly; within one skin the
 /// part that was entered last.
 class Interior {
  public:
@@ -40,10 +40,10 @@ class Interior {
   [[nodiscard]] bool is_empty() const { return count_ == 0; }
   /// Whether leaving that skin leads outside.
   [[nodiscard]] bool is_only(int skin) const { return count_ == 1 && layers_[0].skin == skin; }
-  /// Not where it is empty.
+  /// Precondition: not empty.
   [[nodiscard]] const Medium& medium() const { return layers_[top_].medium; }
   void enter(const SurfacePoint& point);
-  /// Nothing happens where the ray is not inside that skin.
+  /// Does nothing if the ray is not inside that skin.
   void leave(int skin);
 
  private:

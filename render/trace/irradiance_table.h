@@ -6,7 +6,7 @@
 
 namespace sprung {
 
-/// Irradiance over pi of surfaces that nothing hides, from all light around but the key light.
+/// Irradiance over pi of unoccluded surfaces, from all surrounding light but the key light.
 class IrradianceTable {
  public:
   explicit IrradianceTable(const StageLight& light);

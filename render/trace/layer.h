@@ -12,8 +12,8 @@ struct Layer {
   Eigen::Vector3f reflected;    // fractions of the light that falls on it
   Eigen::Vector3f let_through;  // of the light on its other side
 
-  /// `base`: what it reflects where it is infinitely thick. `thickness`: times the coefficient of scattering. The same
-  /// as layer() of shaders/skin_light.glsl.
+  /// `base`: what it reflects if infinitely thick. `thickness`: times the coefficient of scattering. The same as
+  /// layer() of shaders/skin_light.glsl.
   Layer(const Eigen::Vector3f& base, float thickness);
 };
 

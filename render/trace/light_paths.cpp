@@ -13,12 +13,12 @@ namespace {
 using Eigen::Vector3f;
 
 constexpr int kMostBounces = 64;
-/// Roughness from which on a surface is seen by way of a matt one. Sharper reflections of the key light there, which
-/// are caustics, would be found too seldom: A. Kaplanyan and C. Dachsbacher, "Path Space Regularization for Holistic
-/// and Robust Light Transport" (2013).
+/// Least roughness with which a surface is seen via a matt one. Sharper reflections of the key light there, which are
+/// caustics, would be sampled too rarely: A. Kaplanyan and C. Dachsbacher, "Path Space Regularization for Holistic and
+/// Robust Light Transport" (2013).
 constexpr float kBlurred = 0.6F;
-constexpr int kSureBounces = 1;        // before a path may end by chance
-constexpr float kLeastFacing = 1e-2F;  // cosine between a smooth normal and the way to the eye
+constexpr int kSureBounces = 1;        // before Russian roulette may end a path
+constexpr float kLeastFacing = 1e-2F;  // cosine between a smooth normal and the direction to the eye
 
 Reflected times(const Reflected& reflected, const Vector3f& light) {
   return {reflected.base.cwiseProduct(light), reflected.specular.cwiseProduct(light)};
@@ -26,11 +26,11 @@ Reflected times(const Reflected& reflected, const Vector3f& light) {
 
 Reflected sum(const Reflected& a, const Reflected& b) { return {a.base + b.base, a.specular + b.specular}; }
 
-/// What light out of a translucent body is divided by, so that smoothing it does not blur the paint. Not too dark:
-/// where colours meet within a pixel, light of the darker one is multiplied by more than that.
+/// The divisor of light out of a translucent body, so that smoothing it does not blur the paint. Not too dark: where
+/// colours meet within a pixel, light of the darker one is multiplied by more than that.
 Vector3f divisor(const Vector3f& color) { return color.cwiseMax(0.25F); }
 
-/// Of a density that found the light, beside another one that could have (balance heuristic).
+/// The weight of a density that found the light against another that could have (balance heuristic).
 float balance(float density, float other) { return density / (density + other); }
 
 /// A smooth normal that the eye sees from above, however it grazes the surface.
@@ -77,7 +77,7 @@ void LightPaths::update(const Motion& motion) {
   region_ = BodyRegion(motion, space_, ground_height_, light_.to_key().cast<double>());
 }
 
-/// None where the ray does not come from above.
+/// None if the ray does not come from above.
 std::optional<float> LightPaths::way_to_floor(const Ray& ray) const {
   if (!has_ground_ || ray.direction.y() >= 0 || ray.origin.y() <= ground_height_) return std::nullopt;
   return (ground_height_ - ray.origin.y()) / ray.direction.y();
@@ -122,7 +122,7 @@ Vector3f LightPaths::base_color(const Meeting& meeting) const {
   return is_entered(meeting) ? divisor(meeting.point.color) : meeting.point.color;
 }
 
-/// The share of light along a ray that nothing hides; what goes through translucent bodies goes straight.
+/// The fraction of light along a ray that is not occluded; it passes straight through translucent bodies.
 Vector3f LightPaths::reaching(Ray ray) const {
   constexpr int kMostSkins = 32;
   if (!is_blocked(ray)) return Vector3f::Ones();
@@ -190,7 +190,7 @@ LightPaths::Scattering LightPaths::scatter(const Way& way, const Meeting& meetin
   return result;
 }
 
-/// What goes into a translucent body and comes out elsewhere. It counts as light of the base, which has the colour.
+/// Light that enters a translucent body and leaves it elsewhere. It counts as light of the base, which has the colour.
 void LightPaths::pass_through(const Ray& ray, const SurfacePoint& entry, const Finish& coat,
                               const Eigen::Vector2f& random, Sampler& sampler, Scattering& result) const {
   const TangentFrame frame(facing(entry.normal, -ray.direction));
@@ -228,7 +228,7 @@ void LightPaths::pass_through(const Ray& ray, const SurfacePoint& entry, const F
   result.onward.is_matt = true;
 }
 
-/// From where there are no surfaces.
+/// Light from beyond all surfaces.
 Vector3f LightPaths::beyond(const Way& way) const {
   Vector3f light = light_.around(way.ray.direction);
   if (way.density > 0 && light_.is_key(way.ray.direction)) {
@@ -271,8 +271,8 @@ Reflected LightPaths::reflected(const Scattering& scattering, Sampler& sampler) 
   return sum(scattering.from_key, times(factor, arriving(scattering.onward, meet(scattering.onward.ray), sampler)));
 }
 
-/// Over that without bodies. What the same rays would have found there is subtracted, so that a floor without bodies is
-/// without noise.
+/// Relative to that without bodies. What the same rays would have found there is subtracted, so that a floor without
+/// bodies has no noise.
 Vector3f LightPaths::floor_light(const Ray& ray, const Meeting& meeting, Sampler& sampler) const {
   const float weight = region_.weight_on_floor(meeting.point.position);
   if (weight == 0) return Vector3f::Ones();

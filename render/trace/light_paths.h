@@ -18,7 +18,7 @@ using Finishes = std::array<Finish, 5>;  // by look
 
 enum class Seen { kBackground, kFloor, kSkin };
 
-/// What one ray of the camera has found.
+/// The result of one camera ray.
 struct PathSample {
   Seen seen = Seen::kBackground;
   Reflected light{};                                      // of a skin
@@ -29,27 +29,27 @@ struct PathSample {
   Eigen::Vector3f color = Eigen::Vector3f::Zero();        // of a skin, linear
 };
 
-/// Follows light backwards from the eye over skins and floor. At each surface it looks for the key light, and goes on
-/// in a direction that the surface reflects to; what it finds there counts by multiple importance sampling
+/// Follows light backwards from the eye over skins and floor. At each surface it samples the key light, and continues
+/// in a direction in which the surface reflects; the two are combined by multiple importance sampling
 /// (E. Veach, 1997).
 class LightPaths {
  public:
-  /// Throws Error(kFailed) where this program was built without Embree.
+  /// Throws Error(kFailed) if this program was built without Embree.
   explicit LightPaths(const Stage& stage);
-  /// In another light, with other finishes of the looks, in their order.
+  /// With a different light, and different finishes of the looks, in their order.
   LightPaths(const Stage& stage, const StageLight& light, const Finishes& finishes);
 
-  /// The shapes must stay as they are until the next.
+  /// The shapes must not change until the next update.
   void update(const Motion& motion);
   [[nodiscard]] const StageSpace& space() const { return space_; }
-  /// Whether ghosts, or anything else that is not opaque, is to be seen.
+  /// Whether ghosts, or anything else that is not opaque, is visible.
   [[nodiscard]] bool has_faint() const { return has_ghosts_ || has_faint_skins_; }
   /// Whether the floor looks different from pixel to pixel.
   [[nodiscard]] bool has_pattern() const { return pattern_ != nullptr; }
 
   /// Whether the ray certainly meets no body and nothing that one does to the floor.
   [[nodiscard]] bool sees_nothing(const Ray& from_eye) const;
-  /// However faint.
+  /// Whether it meets a skin, however faint.
   [[nodiscard]] bool sees_skin(const Ray& from_eye) const { return meet(from_eye, 0).seen == Seen::kSkin; }
   /// `opacity`: as for RayScene::first_hit(). May run on several threads.
   [[nodiscard]] PathSample sample(const Ray& from_eye, float opacity, Sampler& sampler) const;
@@ -68,18 +68,18 @@ class LightPaths {
     Finishes opaque;
     Finishes coats;  // of translucent bodies
   };
-  /// A way on which light may arrive.
+  /// A path along which light may arrive.
   struct Way {
     Ray ray{};
     float density = 0;     // with which the ray was sampled, over the solid angle; 0: it does not see the key light
-    bool is_matt = false;  // a matt surface, or scattering, is on the way from here to the eye
+    bool is_matt = false;  // a matt surface, or scattering, is on the path from here to the eye
   };
-  /// What a surface reflects to where a ray came from, and the way on which to look for more of it.
+  /// What a surface reflects towards a ray's origin, and the path along which to look for more of it.
   struct Scattering {
     Reflected from_key;  // light of the key light
-    Reflected unhidden;  // of the key light, if nothing hid it
+    Reflected unhidden;  // of the key light, if nothing occluded it
     Way onward;
-    Reflected factor;  // of the light that arrives on it
+    Reflected factor;  // of the light that arrives along it
   };
 
   [[nodiscard]] std::optional<float> way_to_floor(const Ray& ray) const;
@@ -91,7 +91,7 @@ class LightPaths {
   void pass_through(const Ray& ray, const SurfacePoint& entry, const Finish& coat, const Eigen::Vector2f& random,
                     Sampler& sampler, Scattering& result) const;
   [[nodiscard]] bool is_entered(const Meeting& meeting) const;
-  /// That Reflected::base is to be multiplied with.
+  /// The colour by which Reflected::base is to be multiplied.
   [[nodiscard]] Eigen::Vector3f base_color(const Meeting& meeting) const;
   [[nodiscard]] Eigen::Vector3f reaching(Ray ray) const;
   [[nodiscard]] Eigen::Vector3f beyond(const Way& way) const;
@@ -105,7 +105,7 @@ class LightPaths {
   Media media_;
   std::vector<Look> looks_;  // by skin
   Surfaces surfaces_;
-  Surfaces blurred_;  // as they are seen by way of a matt surface
+  Surfaces blurred_;  // as they are seen via a matt surface
   Finish floor_finish_ = Finish::matt();
   std::shared_ptr<const FloorPattern> pattern_;
   bool has_ground_;

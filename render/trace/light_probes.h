@@ -15,12 +15,11 @@ struct LightProbes {
 
 /// One probe represents all vertices in a cell of side `least_spacing` (m, > 0; more where vertices are sparse) whose
 /// normals pass through the same side of a cube. Vertices take their light from the probes around them whose normals
-/// are within a right angle of theirs, so that the two sides of a thin part have nothing to do with each other.
-/// Deterministic.
+/// are within a right angle of theirs, so that the two sides of a thin part do not affect each other. Deterministic.
 [[nodiscard]] LightProbes place_probes(const Skin& skin, double least_spacing);
 
-/// A distance between probes at which each skin gets about as many as its size deserves and all together no more than
-/// about `most`; m, by skin.
+/// A distance between probes at which each skin gets about as many as suit its size and all together no more than about
+/// `most`; m, by skin.
 [[nodiscard]] std::vector<double> probe_spacings(const std::vector<const Skin*>& skins, int most);
 
 }  // namespace sprung

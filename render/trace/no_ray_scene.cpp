@@ -1,7 +1,7 @@
 #include "core/error.h"
 #include "render/trace/ray_scene.h"
 
-// In place of ray_scene.cpp where Embree is missing.
+// Replaces ray_scene.cpp if Embree is missing.
 namespace sprung {
 
 struct RayScene::Embree {};

@@ -13,9 +13,9 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr int kBlock = 4;         // pixels: a square of them is sampled further as one
+constexpr int kBlock = 4;         // pixels: squares of this side are refined together
 constexpr int kTile = 4;          // blocks
-constexpr int kFirstShare = 6;    // so many times fewer samples say whether more are needed
+constexpr int kFirstShare = 6;    // this many times fewer samples show whether more are needed
 constexpr float kLittle = 0.12F;  // noise of a pixel of the floor, over its light without bodies
 
 /// Mean and variance of what some samples of a pixel saw.
@@ -29,7 +29,7 @@ class LayerSum {
     ++count_;
   }
   [[nodiscard]] int count() const { return count_; }
-  /// Of the mean.
+  /// The variance of the mean.
   [[nodiscard]] float variance() const {
     const auto count = float(std::max(count_, 1));
     const float mean = brightness_ / count;
@@ -49,7 +49,7 @@ class LayerSum {
   int count_ = 0;
 };
 
-/// What the samples of a pixel saw.
+/// Sums over the samples of a pixel.
 class PixelSum {
  public:
   void add(const PathSample& sample) {
@@ -160,7 +160,7 @@ class PixelSampler {
     return false;
   }
 
-  /// Up to so many in all.
+  /// Samples it up to that many times in all.
   void sample_pixel(int x, int y, int samples, PixelSum& sum) const {
     while (sum.samples() < samples) {
       Sampler sampler(x, y, sum.samples(), samples_);

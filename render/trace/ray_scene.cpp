@@ -118,7 +118,7 @@ void RayScene::update(const std::vector<std::vector<Floats3>>& positions, std::v
     }
     rtcCommitGeometry(embree_->geometries[i]);
   }
-  // By one thread: the order of triangles in the tree, and so which of two at the same distance is found, is then
+  // Built by one thread: the order of triangles in the tree, and so which of two at the same distance is found, is then
   // always the same.
   tbb::task_arena(1).execute([this] {
     for (const RTCScene scene : {embree_->bodies, embree_->ghosts}) rtcJoinCommitScene(scene);
@@ -130,7 +130,7 @@ void RayScene::update(const std::vector<std::vector<Floats3>>& positions, std::v
 
 namespace {
 
-/// Embree ends the program otherwise.
+/// Embree crashes otherwise.
 bool is_finite(const Ray& ray) { return ray.origin.allFinite() && ray.direction.allFinite(); }
 
 }  // namespace

@@ -49,7 +49,7 @@ struct Point {
   std::uint32_t x, y;  // over 2^32
 };
 
-/// Sobol sequences, each in another order and scrambled in another way: all their first points, all their second
+/// Sobol sequences, each in a different order and scrambled differently: all their first points, all their second
 /// ones...
 std::vector<Point> make_sequences() {
   std::vector<Point> points(kSequences * kSamples);
@@ -64,7 +64,7 @@ std::vector<Point> make_sequences() {
   return points;
 }
 
-/// With a zero before each of the 16 bits.
+/// Inserts a zero before each of the 16 bits.
 std::uint64_t spaced_bits(int value) {
   auto x = std::uint32_t(value) & 0xffffU;
   x = (x | x << 8U) & 0x00ff00ffU;

@@ -11,9 +11,9 @@ namespace sprung {
 class Sampler {
  public:
   explicit Sampler(std::uint64_t number);
-  /// For one of some samples of a pixel. Pixels are numbered along a Z-shaped curve, so that those of a neighbourhood,
-  /// which are smoothed together, also sample evenly together: A. Ahmed and P. Wonka, "Screen-Space Blue-Noise
-  /// Diffusion of Monte Carlo Sampling Error via Hierarchical Ordering of Pixels" (2020).
+  /// A sampler for one of the samples of a pixel. Pixels are numbered along a Z-shaped curve, so that those of a
+  /// neighbourhood, which are smoothed together, also sample evenly together: A. Ahmed and P. Wonka, "Screen-Space
+  /// Blue-Noise Diffusion of Monte Carlo Sampling Error via Hierarchical Ordering of Pixels" (2020).
   Sampler(int x, int y, int sample, int samples);
 
   [[nodiscard]] Eigen::Vector2f pair();

@@ -12,7 +12,7 @@ namespace sprung {
 /// The pictures of textures, in linear light and without duplicates.
 class TexturePictures {
  public:
-  /// Null for an empty picture. Throws Error(kBadInput) where the picture cannot be decoded.
+  /// Null for an empty picture. Throws Error(kBadInput) if the picture cannot be decoded.
   [[nodiscard]] const Pixels* add(const SurfaceMaterial& material);
 
  private:
@@ -26,7 +26,7 @@ class TexturePictures {
 /// The colours of a skin, as surface.frag has them.
 class SkinPaint {
  public:
-  /// `default_color`: sRGB, where the skin has none of its own.
+  /// `default_color`: sRGB, if the skin has none of its own.
   SkinPaint(const Skin& skin, const Eigen::Vector3f& default_color, ColorMap map, TexturePictures& pictures);
 
   /// Linear, 0 to 1, in a triangle at the weights (sum 1) of its corners. `map_coordinates`: as in SkinShape.

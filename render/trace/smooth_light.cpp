@@ -12,15 +12,15 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr std::array kSteps = {1, 2, 4, 8, 16, 1};  // pixels; the last one takes away the pattern of those before
-constexpr float kBend = 20;           // how much less two pixels count per 1 - cosine between their normals
-constexpr float kOffPlane = 6;        // and per sine of the angle between the surface and the way from one to the other
-constexpr float kPaint = 8;           // and per difference of colours
-constexpr float kSkinDeviations = 4;  // of the light's noise that still count as alike
-constexpr float kFloorDeviations = 3;  // less, since nothing else tells where a body stands on it
+constexpr std::array kSteps = {1, 2, 4, 8, 16, 1};  // pixels; the last one removes the pattern of those before
+constexpr float kBend = 20;            // how much less two pixels count per 1 - cosine between their normals
+constexpr float kOffPlane = 6;         // and per sine of the angle between the surface and the line between them
+constexpr float kPaint = 8;            // and per difference of colours
+constexpr float kSkinDeviations = 4;   // of the light's noise that still count as similar
+constexpr float kFloorDeviations = 3;  // less, since nothing else shows where a body stands on it
 constexpr float kSameLight = 1e-3F;
 
-/// What is alike in neighbours, by pixel; nothing on the floor, which is flat.
+/// Features compared between neighbours, by pixel; none on the floor, which is flat.
 struct Guides {
   std::vector<Vector3f> normal;  // unit
   std::vector<Vector3f> position;

@@ -14,18 +14,18 @@ class StageLight {
  public:
   explicit StageLight(const Stage& stage);
   StageLight(const Lighting& lighting, const std::optional<Environment>& environment, Floor floor = {});
-  /// The same from everywhere and no key light: what a white surface disappears in.
+  /// Uniform, without a key light: a white furnace.
   [[nodiscard]] static StageLight even(const Eigen::Vector3f& radiance);
 
-  /// From that direction (unit), without the key light; from below as much as the open floor reflects.
+  /// The radiance from that direction (unit), without the key light; from below as much as the open floor reflects.
   [[nodiscard]] Eigen::Vector3f around(const Eigen::Vector3f& direction) const;
-  /// Irradiance over pi of an unhidden surface from all of around(), by side x side directions.
+  /// Irradiance over pi of an unoccluded surface from all of around(), by side x side directions.
   [[nodiscard]] Eigen::Vector3f from_around(const Eigen::Vector3f& normal, int side) const;
   /// What the camera sees where there is nothing.
   [[nodiscard]] Eigen::Vector3f background(const Eigen::Vector3f& direction) const;
-  /// What it sees where there is the floor, of that albedo, and no body.
+  /// What it sees of the floor, of that albedo, without bodies.
   [[nodiscard]] Eigen::Vector3f floor(const Eigen::Vector3f& direction, const Eigen::Vector3f& albedo) const;
-  /// Irradiance over pi of level ground that nothing hides, as it follows from around() and the key light.
+  /// Irradiance over pi of unoccluded level ground, as it follows from around() and the key light.
   [[nodiscard]] const Eigen::Vector3f& on_open_floor() const { return on_open_floor_; }
   /// The mean fraction of the light that the floor reflects.
   [[nodiscard]] const Eigen::Vector3f& floor_albedo() const { return lighting_.floor; }

@@ -14,7 +14,7 @@ struct LightLayer {
   explicit LightLayer(std::size_t pixels) : light(pixels, Eigen::Vector3f::Zero()), variance(pixels), share(pixels) {}
 };
 
-/// What rays have found, by pixel, rows from the top: layers that are smoothed each by itself, and what needs no
+/// The light found by rays, by pixel, rows from the top: layers that are smoothed separately, and what needs no
 /// smoothing.
 struct TracedLight {
   int width;

@@ -99,7 +99,7 @@ SurfacePoint TracedSkins::surface(const Ray& ray, const RayHit& hit) const {
   point.normal = smooth.squaredNorm() > 1e-6F ? (side * smooth.normalized()).eval() : point.face_normal;
   point.position = points * weights;
   point.behind = point.position - kOff * point.face_normal;
-  // Onto the curved surface that the normals tell of, so that light which grazes the triangle is not blocked by its
+  // Onto the curved surface that the normals imply, so that light which grazes the triangle is not blocked by its
   // neighbours: J. Hanika, "Hacking the Shadow Terminator" (2021).
   Vector3f lift = Vector3f::Zero();
   for (int k = 0; k < 3; ++k) {

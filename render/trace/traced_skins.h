@@ -14,7 +14,7 @@ struct SurfacePoint {
   int skin = 0;
   float distance = 0;                                  // from the ray's origin
   Eigen::Vector3f position = Eigen::Vector3f::Zero();  // a little off the surface, towards where the ray came from
-  Eigen::Vector3f behind = Eigen::Vector3f::Zero();    // a little behind it, for rays that go on
+  Eigen::Vector3f behind = Eigen::Vector3f::Zero();    // a little behind it, for rays that continue
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();    // unit, smooth
   Eigen::Vector3f face_normal =
       Eigen::Vector3f::Zero();                      // unit, of the triangle; both point to where the ray came from
@@ -30,10 +30,10 @@ class TracedSkins {
  public:
   TracedSkins(const Stage& stage, const StageSpace& space);
 
-  /// The shapes must stay as they are until the next.
+  /// The shapes must not change until the next update.
   void update(const Motion& motion);
 
-  /// As RayScene::first_hit().
+  /// Like RayScene::first_hit().
   [[nodiscard]] std::optional<SurfacePoint> first_hit(const Ray& ray, float opacity = 1) const;
   [[nodiscard]] bool is_blocked(const Ray& ray) const { return rays_.is_blocked(ray); }
 

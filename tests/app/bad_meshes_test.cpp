@@ -4,7 +4,8 @@
 
 #include "tests/support/refusal.h"
 
-/// Files that are no mesh, given to the built program: each ends soon, small, with exit code 3 and one clear line.
+/// Files that are not meshes, given to the built program: each run ends quickly, with little memory, exit code 3 and
+/// one clear line.
 namespace sprung {
 namespace {
 
@@ -13,7 +14,7 @@ struct BadFile {
   std::string reason;
 };
 
-/// As GoogleTest wants the names of its tests.
+/// A name that GoogleTest accepts for a test.
 std::string test_name(std::string file) {
   std::replace(file.begin(), file.end(), '.', '_');
   return file;
@@ -30,7 +31,7 @@ TEST_P(BadMesh, IsRefusedInOneLine) {
 
 const std::string kPlyStart = "ply\nformat ascii 1.0\nelement vertex 3\n";
 
-/// A Collada file with one triangle that refers to vertices that are not there.
+/// A Collada file with one triangle that refers to vertices that do not exist.
 const std::string kDae =
     "<COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" version=\"1.4.1\"><library_geometries>"
     "<geometry id=\"g\"><mesh><source id=\"p\"><float_array id=\"a\" count=\"9\">0 0 0 1 0 0 0 1 0</float_array>"
@@ -39,7 +40,7 @@ const std::string kDae =
     "<input semantic=\"VERTEX\" source=\"#v\" offset=\"0\"/><p>0 1 7</p></triangles></mesh></geometry>"
     "</library_geometries></COLLADA>";
 
-/// Two triangles, the second of which refers to a vertex that is not there: what assimp leaves out in silence.
+/// Two triangles, the second of which refers to a vertex that does not exist: assimp omits it silently.
 const std::string kGltf =
     R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],)"
     R"("meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],)"

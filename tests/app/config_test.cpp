@@ -13,7 +13,7 @@ class Config : public testing::Test {
     static_cast<void>(
         folder_.write("shot/scene.toml", "fps = 12\n[[body]]\nmesh = \"cube.obj\"\nsize = 0.2\nbricks = 4\n"));
   }
-  /// In the folder of the shot.
+  /// Runs the program in the folder of the shot.
   [[nodiscard]] ProgramRun run(const std::string& words, const std::string& before = "") const {
     return run_program(folder_, words, "env -C shot " + before);
   }

@@ -13,7 +13,7 @@ namespace {
 
 using nlohmann::json;
 
-/// A ball comes down on a needle, which goes in.
+/// A ball comes down on a needle, which pierces it.
 constexpr const char* kNeedle = R"(duration = 0.2
 fps = 50
 [[body]]
@@ -106,7 +106,7 @@ TEST(CrossingWatch, TellsWhatCrossedAtTheStartApart) {
   EXPECT_GT(still.pairs_at_start, 0);
   nodes[1].col(1).array() += 0.01;
   EXPECT_EQ(watch.look({&nodes[0], &nodes[1]}, 2, 0).pairs_at_start, 0) << "apart";
-  // Another side than at the start comes into the other one.
+  // A different side than at the start enters the other box.
   nodes[1].col(0).array() += 0.038;
   nodes[1].col(1).array() -= 0.044;
   const Crossings beside = watch.look({&nodes[0], &nodes[1]}, 3, 0);

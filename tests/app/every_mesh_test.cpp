@@ -14,7 +14,7 @@
 namespace sprung {
 namespace {
 
-/// What a file of the shared meshes is and what a good tool does with it.
+/// The properties of a shared mesh and what a good tool does with it.
 struct Row {
   const char* file;
   double vertices;  // 0: the file must be refused
@@ -48,8 +48,8 @@ const std::vector<Row>& rows() {
       {"bob_small.ply", 250, 500, true, 1, 0.6791, {}, ""},
       {"scorpion_low_resolution.obj", 6315, 12626, true, 1, 12.18, {}, "thinner than a brick"},
       {"cube_gears.3mf", 12852, 25692, true, 17, 1.124e5, {"degenerate", "self_intersection"}, "924 pairs"},
-      // The table's 0.148 is the signed volume, which counts what is enclosed twice twice; the union is what finer and
-      // finer bricks hold.
+      // The table's 0.148 is the signed volume, which counts what is enclosed twice twice; finer and finer bricks
+      // converge to the union.
       {"self_intersectA.obj", 8582, 17160, true, 1, 0.1427, {"self_intersection"}, "338 pairs"},
       {"openscad-nonmanifold-crash.obj",
        658,
@@ -115,7 +115,7 @@ TEST_P(EveryMesh, BehavesAsTheTableSays) {
   const std::string file = std::filesystem::canonical(test::shared_mesh(row.file)).string();
   if (row.vertices == 0) return expect_refusal(folder_, file, row.words);
 
-  // Sanitizers make it ten times slower: then with bricks too coarse to tell how many solids there are.
+  // Sanitizers make it ten times slower: then bricks are too coarse to count the solids.
   const std::string bricks = test::kSanitized ? "16" : "48";
   const ProgramRun made = run_program(folder_, "inspect '" + file + "' --json --resolution 160x120 --bricks " + bricks);
   ASSERT_EQ(made.exit_code, 0) << made.err;

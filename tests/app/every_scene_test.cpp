@@ -21,7 +21,7 @@ std::vector<fs::path> scenes() {
   return files;
 }
 
-/// The first frame of every scene of assets/scenes with all its bricks; scene_facts_test.cpp sees the rest.
+/// The first frame of every scene of assets/scenes with all its bricks; scene_facts_test.cpp checks the rest.
 class EveryScene : public testing::TestWithParam<fs::path> {};
 
 TEST_P(EveryScene, BeginsSoundly) {

@@ -33,7 +33,7 @@ pin = "root"
 
 Film scene_of(const std::string& text) { return parse_scene(text, "/scene.toml"); }
 
-/// What simulate() makes of a scene.
+/// The recording of a scene by simulate().
 Recording record(const Film& film, Simulation& simulation) {
   const Observer silent;
   simulation = prepare_simulation(film, silent);
@@ -70,7 +70,7 @@ TEST(Experiment, StaticSceneIsTheStaticSolution) {
 TEST(Experiment, PinsCarryTheWeight) {
   const Recording recording = record(kBeam + "[solver]\nscheme = \"static\"\nload_steps = 2\n");
   const ProbeTrack& root = recording.probes.at(1);
-  const double free_weight = 0.4 * 0.1 * 0.1 * 40;  // in the reaction: all of it, held nodes included
+  const double free_weight = 0.4 * 0.1 * 0.1 * 40;  // in the reaction: all of it, pinned nodes included
   EXPECT_NEAR(root.samples.at(2).force.y(), free_weight, 1e-9);
   EXPECT_NEAR(root.samples.at(1).force.y(), free_weight / 2, 1e-9);
   EXPECT_NEAR(root.samples.at(2).force.x(), 0, 1e-9);
@@ -284,7 +284,7 @@ TEST_F(ExperimentProgram, RefusesWhatItsSolversCannotDo) {
   EXPECT_NE(ground.err.find("only a motion (scheme euler or verlet) meets obstacles"), std::string::npos) << ground.err;
 }
 
-/// Held at its lowest part or, in the scenario hang, its highest; no ground.
+/// Pinned at its lowest part or, in the scenario hang, its highest; no ground.
 TEST_F(ExperimentProgram, ABareMeshRestsInAStaticScheme) {
   static_cast<void>(folder_.write("cube.obj", kCubeObj));
   for (const std::string scenario : {"drop", "hang", "tumble"}) {

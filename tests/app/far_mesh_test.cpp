@@ -7,7 +7,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/run_program.h"
 
-/// Nothing in a mesh is absolute: scaled by any factor and moved far away it gives the same bricks.
+/// Meshes have no absolute scale: scaled by any factor and moved far away they give the same bricks.
 namespace sprung {
 namespace {
 

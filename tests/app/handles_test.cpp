@@ -5,7 +5,7 @@
 #include "core/simulation/simulation.h"
 #include "tests/support/error_message.h"
 
-/// What pins of a scene hold, carry and let go of, and when.
+/// Which nodes the pins of a scene hold, move and release, and when.
 namespace sprung {
 namespace {
 
@@ -25,7 +25,7 @@ point = [0, 0, 0]
 box = { min = [0, 0, 0], max = [1, 1, 1] }
 )";
 
-/// Where the middle of the cube has gone, frame by frame.
+/// The path of the cube's middle, frame by frame.
 std::vector<Vec3> path(const std::string& text) {
   const Film scene = parse_scene(text, "/scene.toml");
   const Observer silent;
@@ -71,7 +71,7 @@ TEST(Handles, WhatIsCaughtLateStaysWhereItIs) {
   EXPECT_NEAR(displacements[10].y(), displacements[6].y(), 1e-9);
 }
 
-/// The rest of a movement is made from where a pin takes its nodes.
+/// The rest of a movement starts where the pin catches its nodes.
 TEST(Handles, WhatIsCaughtLateIsCarriedOn) {
   const std::vector<Vec3> displacements = path("gravity = [0, 0, 0]\n" + kCube.substr(kCube.find("[[body]]")) +
                                                "from = 1\nkeyframes = [{ t = 2, translate = [2, 0, 0] }]\n");

@@ -5,7 +5,7 @@
 #include "core/simulation/simulation.h"
 #include "tests/support/error_message.h"
 
-/// What acts on bodies in a scene, and when.
+/// Loads on bodies in a scene, and their timing.
 namespace sprung {
 namespace {
 
@@ -55,14 +55,14 @@ TEST(SceneLoads, ForceActsFromItsKeyframeOn) {
   EXPECT_NEAR(positions[10].x(), 0.5 * 2 * 0.3 * 0.3, 1e-4);
 }
 
-/// Flat boxes: the cube held by its foot and pulled by its top, which no brick has its middle in.
+/// Flat boxes: the cube pinned at its foot and pulled at its top, which contain no brick's middle.
 TEST(SceneLoads, FacesAreHeldAndPulled) {
   const Recording pulled =
       record(kLoadedCube + kHeld +
              "[[body.pin]]\nname = \"foot\"\nbox = { min = [0, 0, 0], max = [1, 0, 1] }\n[[body.force]]\n"
              "total = [0, 1, 0]\nbox = { min = [0, 1, 0], max = [1, 1, 1] }\n[solver]\nscheme = \"linear\"\n");
   EXPECT_NEAR(pulled.probes.at(1).samples.back().force.y(), -1, 1e-9);
-  // sigma L / (2 E), and a little less since the upper layer of bricks is pulled by its middle and held sideways below.
+  // sigma L / (2 E), and a little less since the top layer of bricks is pulled at its middle and held sideways below.
   EXPECT_NEAR(pulled.probes.at(0).samples.back().displacement.y(), 100 * 0.05 / 1e5, 1e-5);
 }
 
@@ -80,7 +80,7 @@ TEST(SceneLoads, GravityFollowsItsKeyframes) {
   EXPECT_NEAR(positions[10].y(), -10 * 0.25 / 2 + 20 * 0.125 / 6, 2e-3);
 }
 
-/// In motion that has died away, and at rest by statics: what holds the foot answers the force.
+/// After the motion has died away, and in statics: the reaction at the foot balances the force.
 TEST(SceneLoads, WhatHoldsABodyAnswersTheForce) {
   for (const std::string solver :
        {"scheme = \"static\"\nload_steps = 2\n", "scheme = \"euler\"\n", "scheme = \"bdf2\"\n"}) {
@@ -110,7 +110,7 @@ TEST(SceneLoads, ActInImplicitStepsToo) {
   }
 }
 
-/// Though they begin late: that is said, not passed over.
+/// Even if they begin late: that is reported, not ignored.
 TEST(SceneLoads, WhatCannotBeIsRefused) {
   const std::string late = "keyframes = [{ t = 0, strength = 0 }, { t = 0.3, strength = 1 }]\n";
   const std::string wind = "[wind]\nvelocity = [3, 0, 0]\n" + late;

@@ -39,7 +39,7 @@ name = "high"
 box = { min = [0.25, -1, -1], max = [2, 2, 2] }
 )";
 
-/// What simulate() makes of a scene.
+/// The result of simulate() for a scene.
 struct PartRun {
   Simulation simulation;
   Recording recording;
@@ -84,7 +84,7 @@ TEST_P(PulledBar, PartsAddUp) {
 
 INSTANTIATE_TEST_SUITE_P(EverySolver, PulledBar, testing::Values("static", "linear"));
 
-/// Copies count together, and all of a body is what energy_of() says.
+/// Copies count together, and the whole body has the energy of energy_of().
 TEST(PartProbes, EnergiesInMotionAreThoseOfTheBodies) {
   const PartRun run(R"(
 duration = 0.1

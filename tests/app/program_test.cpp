@@ -3,7 +3,7 @@
 #include "render/image/png.h"
 #include "tests/support/run_program.h"
 
-/// The built program as a person meets it.
+/// The built program as a user sees it.
 namespace sprung {
 namespace {
 
@@ -14,7 +14,7 @@ class Program : public testing::Test {
   [[nodiscard]] ProgramRun run(const std::string& words) const { return run_program(folder_, words); }
   [[nodiscard]] bool exists(const std::string& name) const { return std::filesystem::exists(folder_.path() / name); }
 
-  /// Runs, and expects an end with one line "sprung: error: ..." that has `part` in it.
+  /// Runs, and expects it to end with one line "sprung: error: ..." that has `part` in it.
   void expect_error(const std::string& words, int exit_code, const std::string& part) const {
     const ProgramRun ended = run(words);
     EXPECT_EQ(ended.exit_code, exit_code) << words << "\n" << ended.err;
@@ -133,7 +133,7 @@ TEST_F(Program, ResultsThatCannotBeWrittenAreAnError) {
   }
 }
 
-/// In a terminal of its own; what it shows is `out`.
+/// Runs in a terminal of its own, whose contents are `out`.
 TEST_F(Program, ColourAndBarsOnlyWhereTheTerminalHasThem) {
   const auto shown = [&](const std::string& environment, const std::string& words) {
     return run_program(folder_, words + "\" /dev/null", environment + " script -qec \"").out;

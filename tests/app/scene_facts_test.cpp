@@ -12,13 +12,13 @@
 #include "tests/support/sanitized.h"
 
 /// What happens in every scene of assets/scenes, as its first line says. With bricks so coarse that it takes seconds;
-/// SPRUNG_FULL_SCENES=1 takes the scenes as they are, which takes a quarter of an hour.
+/// SPRUNG_FULL_SCENES=1 uses the scenes unchanged, which takes a quarter of an hour.
 namespace sprung {
 namespace {
 
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
-/// A scene and what became of it.
+/// A scene and its result.
 class FilmFacts {
  public:
   explicit FilmFacts(const std::string& name, const Settings& coarser, const std::function<void(Film&)>& change = {})
@@ -56,7 +56,7 @@ class FilmFacts {
     }
     return most;
   }
-  /// Of the fastest node of all bodies between this frame and the one before, m/s.
+  /// Speed of the fastest node of all bodies between the previous frame and this one, m/s.
   [[nodiscard]] double speed(int frame) const {
     double most = 0;
     for (std::size_t row = 0; row < bodies(); ++row) {
@@ -64,7 +64,7 @@ class FilmFacts {
     }
     return most;
   }
-  /// Of the nodes in a part of the body at rest (fractions of its bounding box), the mean place.
+  /// Mean position of the nodes in a part of the body at rest (fractions of its bounding box).
   [[nodiscard]] Vec3 part(int frame, std::size_t row, const Vec3& low, const Vec3& high) const {
     const Points first = nodes(0, row);
     const Vec3 origin = first.colwise().minCoeff();
@@ -81,9 +81,8 @@ class FilmFacts {
     return sum / count;
   }
 
-  /// What holds for every scene: no brick is inside out, no contact point is deeper than 1 % of the largest body in
-  /// what it touches, and skins cross by less than 5 % (the edges of obstacles go in between the points of coarse
-  /// skins).
+  /// What holds for every scene: no brick is inverted, no contact point penetrates by more than 1 % of the largest
+  /// body, and skins cross by less than 5 % (edges of obstacles enter between the points of coarse skins).
   void expect_sound() const {
     int inverted = 0;
     for (const SoftBody& body : simulation_->world.bodies) inverted += inverted_bricks(body);
@@ -119,7 +118,7 @@ TEST_F(SceneFacts, OctopusLandsOnItsTentacles) {
   EXPECT_LT(film.middle(film.last()).y(), film.middle(0).y() - 0.05);
 }
 
-/// What was pressed flat has in the end the shape that it has where no plate ever came; it may have rolled.
+/// In the end the squashed body has the shape that it has without any plate; it may have rolled.
 TEST_F(SceneFacts, SquashedDoughnutReturnsToItsShape) {
   const Settings coarser{{"body.bricks", "10"}};
   const FilmFacts film("squash", coarser);
@@ -149,7 +148,7 @@ TEST_F(SceneFacts, BarIsDrawnToTwiceItsLength) {
   EXPECT_LT((film.nodes(film.last()) - film.nodes(0)).rowwise().norm().maxCoeff(), 0.01 * 0.16);
 }
 
-/// Its tip sinks, what is held does not.
+/// Its tip sinks, its clamped end does not.
 TEST_F(SceneFacts, BarSagsUnderItsWeight) {
   const FilmFacts film("sag", {});
   film.expect_sound();
@@ -240,7 +239,7 @@ TEST_F(SceneFacts, FingersCloseOnEachOther) {
   EXPECT_GT(gap(film.last()), 0.05);
 }
 
-/// The soft one is drawn long, the stiff one is not, and what is glued stays together.
+/// The soft one is stretched, the stiff one is not, and the glued faces stay together.
 TEST_F(SceneFacts, GlueHoldsASoftAndAStiffBlock) {
   const FilmFacts film("glue", {{"duration", "1.2"}});
   film.expect_sound();
@@ -259,7 +258,7 @@ TEST_F(SceneFacts, GlueHoldsASoftAndAStiffBlock) {
   for (int frame = 0; frame <= film.last(); ++frame) EXPECT_NEAR(joint(frame), joint(0), 0.002) << frame;
 }
 
-/// What of the wheel is on the ground stays where it is: it rolls.
+/// The part of the wheel on the ground does not move: it rolls.
 TEST_F(SceneFacts, WheelRolls) {
   const FilmFacts film("wheel", {{"body.bricks", "12"}});
   film.expect_sound();
@@ -292,7 +291,7 @@ TEST_F(SceneFacts, WindBendsTheSheet) {
   EXPECT_GT(end(0.8).z() - end(0).z(), 0.03);
 }
 
-/// The wall gives way, swings back and throws the ball where it came from.
+/// The wall yields, swings back and throws the ball back.
 TEST_F(SceneFacts, WallThrowsABallBack) {
   const FilmFacts film("wall", {});
   film.expect_sound();
@@ -300,7 +299,7 @@ TEST_F(SceneFacts, WallThrowsABallBack) {
   double most = 0;
   for (int frame = 0; frame <= film.last(); ++frame) most = std::max(most, shift(frame));
   EXPECT_GT(most, 0.01);
-  EXPECT_LT(shift(film.frame_at(0.85)), -0.01);  // back again, and past where it stood
+  EXPECT_LT(shift(film.frame_at(0.85)), -0.01);  // back, and past its initial position
   double furthest = 0;
   for (int frame = 0; frame <= film.last(); ++frame) furthest = std::min(furthest, film.middle(frame, 1).x());
   EXPECT_LT(furthest, film.middle(0, 1).x() - 0.05);  // back to where it came from, and further

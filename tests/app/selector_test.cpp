@@ -8,7 +8,7 @@
 #include "tests/support/error_message.h"
 #include "tests/support/temp_folder.h"
 
-/// Which part of a body pins, regions and cuts mean.
+/// The part of a body that pins, regions and cuts select.
 namespace sprung {
 namespace {
 
@@ -81,7 +81,7 @@ class SelectorTest : public testing::Test {
            "density = 100 }\n";
   }
 
-  /// Where the nodes are that the only pin holds, of a body whose middle is at (0, half its height, 0).
+  /// Positions of the nodes that the only pin holds, in a body whose middle is at (0, half its height, 0).
   [[nodiscard]] std::vector<Vec3> pinned(const std::string& body, const std::string& selection) const {
     const Simulation simulation = produce(body + "[[body.pin]]\n" + selection);
     const SoftBody& made = simulation.world.bodies.at(0);

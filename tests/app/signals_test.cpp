@@ -68,8 +68,8 @@ class Signals : public testing::TestWithParam<LongCommand> {
   TempFolder folder_;
 };
 
-/// At random moments, from the first instant on: the program ends soon and says why by its exit code; what it leaves is
-/// whole.
+/// At random moments, from the first instant on: the program ends soon and its exit code says why; the files it leaves
+/// are complete.
 TEST_P(Signals, AreHeardSoonAtAnyMoment) {
   const LongCommand& command = GetParam();
   if (command.words.find("made.h5") != std::string::npos) {
@@ -89,7 +89,7 @@ TEST_P(Signals, AreHeardSoonAtAnyMoment) {
     program.signal(number);
     const ProgramRun ended = program.wait();
     EXPECT_LT(Clock::now() - begin, kSoon) << ended.err;
-    // Before it listens a signal ends it as it does any program.
+    // Before its handlers are installed a signal ends it like any program.
     EXPECT_TRUE(ended.exit_code == 128 + number || ended.exit_code == -1) << ended.exit_code << ended.err;
     EXPECT_TRUE(unfinished().empty()) << unfinished().front();
     if (command.file.empty()) continue;
@@ -108,7 +108,7 @@ TEST_P(Signals, AreHeardSoonAtAnyMoment) {
 INSTANTIATE_TEST_SUITE_P(All, Signals, testing::ValuesIn(kCommands),
                          [](const auto& one) { return std::string(one.param.name); });
 
-/// Where no forecast can be made.
+/// If no forecast can be made.
 TEST(TimeLimit, EndsWhateverTakesLonger) {
   const TempFolder folder;
   const auto begin = Clock::now();

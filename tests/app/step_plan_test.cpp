@@ -35,7 +35,7 @@ TEST(StepPlanning, AutoTakesWhatIsForecastToBeQuicker) {
   EXPECT_NE(stiff.reason.find("explicit steps a frame"), std::string::npos);
 }
 
-/// A second block that may touch the first one makes implicit steps more expensive, but does not forbid them.
+/// A second block that may touch the first one makes implicit steps more expensive, but does not rule them out.
 TEST(StepPlanning, BodiesThatTouchAreForecastDearer) {
   const Film scene = scene_by(Solver::kAuto);
   const auto two_blocks = [](double young) {
@@ -45,7 +45,7 @@ TEST(StepPlanning, BodiesThatTouchAreForecastDearer) {
     return world;
   };
   EXPECT_EQ(plan_steps(two_blocks(2e9), scene).scheme, Solver::kBdf2);
-  double young = 2e4;  // the first at which a block by itself is moved by implicit steps
+  double young = 2e4;  // the lowest at which a single block is moved by implicit steps
   while (plan_steps(block(young), scene).scheme == Solver::kEuler) young *= 1.2;
   EXPECT_EQ(plan_steps(two_blocks(young), scene).scheme, Solver::kEuler);
 }

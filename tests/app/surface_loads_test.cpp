@@ -8,7 +8,7 @@
 #include "core/simulation/simulation.h"
 #include "tests/support/error_message.h"
 
-/// Loads on faces: their resultants are exact, wherever the grid lies.
+/// Loads on faces: their resultants are exact, regardless of the grid.
 namespace sprung {
 namespace {
 
@@ -50,7 +50,7 @@ AlignedBox box_of(const Done& done) {
   return bounding_box(body.skin_positions(body.rest_positions));
 }
 
-/// The end of a beam that lies askew in its bricks.
+/// The end of a beam that is not aligned with its bricks.
 TEST(SurfaceLoads, ResultantsAreExactOnCutBricks) {
   const Done total = run(scene_with(kAskew, kEnd + "total = [1, -2, 3]\n"));
   EXPECT_LT((total.probe().force + Vec3(1, -2, 3)).norm(), 1e-6);
@@ -101,7 +101,7 @@ TEST(SurfaceLoads, MeanTheSameInMotion) {
   EXPECT_LT((motion.probe().torque - rest.probe().torque).norm(), 0.01 * rest.probe().torque.norm());
 }
 
-/// The reaction is the pressure times the area of the drawn skin, as it then stands.
+/// The reaction is the pressure times the area of the skin in its stretched state.
 TEST(SurfaceLoads, PressureFollowsTheSkinInStatics) {
   const Done done =
       run(scene_with(kBeam, "[[body.force]]\nbox = { min = [0, 1, 0], max = [1, 1, 1] }\npressure = 1500\n", "static"));

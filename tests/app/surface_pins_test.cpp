@@ -40,13 +40,13 @@ std::vector<ProbeSample> last_samples(const std::string& text) {
   return last;
 }
 
-/// Held at the end where the last bricks are cut, more or less.
+/// Pinned at the end where the last bricks are cut, more or less.
 TEST(SurfacePins, DoNotMoveWithTheGrid) {
   const double stretch = kBarLength / (kBarYoung * kBarSide * kBarSide);
   for (const double brick : {0.0112, 0.0123, 0.0145, 0.0171, 0.0198}) {
     for (const char* scheme : {"linear", "static"}) {
       const auto probes = last_samples(beam(fmt::format("brick_size = {}", brick), scheme, 0) + kFoot + kPull);
-      // Of 2.5 bricks across, the cut ones bend by themselves.
+      // With 2.5 bricks across, the cut ones bend by themselves.
       EXPECT_NEAR(probes[1].displacement.x(), -stretch, (brick < 0.018 ? 0.005 : 0.025) * stretch)
           << brick << " " << scheme;
       EXPECT_NEAR(probes[0].force.x(), 1, 1e-5) << brick << " " << scheme;
@@ -92,7 +92,7 @@ TEST(SurfacePins, MovementsHaveTheirReactions) {
   EXPECT_NEAR(turned[0].force.x(), 0, 1e-4);
 }
 
-/// f = 1.8751^2 / (2 pi L^2) sqrt(E I / (rho A)), less what shear takes: as with whole bricks and pinned nodes.
+/// f = 1.8751^2 / (2 pi L^2) sqrt(E I / (rho A)), reduced by shear: as with whole bricks and pinned nodes.
 TEST(SurfacePins, HoldVibrations) {
   const auto first = [](const std::string& text) {
     const Film scene = parse_scene(text, "/scene.toml");

@@ -34,7 +34,7 @@ BrickGrid ball_shell(double bricks) {
   return grid;
 }
 
-/// In as many bricks, scaled to the usual brick.
+/// A model in that many bricks, scaled to the usual brick.
 BrickGrid model_grid(const std::string& model, double bricks, BricksFor law) {
   const Solid solid = bench_solid(model);
   const double brick_size = std::cbrt(solid.volume / bricks);

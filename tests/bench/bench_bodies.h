@@ -6,8 +6,8 @@
 
 namespace sprung::test {
 
-/// A body of about `bricks` bricks, a hundredth out of shape and on the move. `shape`: "box" (a cube), "shell" (a
-/// hollow ball two bricks thick) or the name of a model of assets/models.
+/// A body of about `bricks` bricks, deformed by a hundredth and in motion. `shape`: "box" (a cube), "shell" (a hollow
+/// ball two bricks thick) or the name of a model of assets/models.
 [[nodiscard]] Body bench_body(const std::string& shape, double bricks, Model model);
 
 /// Names the boxes by their side too: "box64" has 64^3 bricks.

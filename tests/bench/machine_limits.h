@@ -4,7 +4,7 @@ namespace sprung::test {
 
 struct SpringRows;
 
-/// What this machine does at most, measured on the spot, by a number of threads together.
+/// The peak performance of this machine, measured on the spot, with a number of threads.
 struct MachineLimits {
   double bandwidth = 0;   // bytes/s, two arrays read and one written, far beyond the caches
   double operations = 0;  // additions and multiplications in double a second, as many of each, not fused
@@ -22,9 +22,9 @@ struct LimitLoops {
   void (*rows)(SpringRows& rows, double dt) = nullptr;
 };
 
-/// For the instructions that the kernels use.
+/// The loops for the instruction set that the kernels use.
 [[nodiscard]] LimitLoops best_loops();
 
-inline constexpr int kChains = 10;  // enough to hide what one operation takes, few enough for the registers
+inline constexpr int kChains = 10;  // enough to hide the latency of an operation, few enough for the registers
 
 }  // namespace sprung::test

@@ -1,7 +1,7 @@
-// Draws a scene's bodies as they start, some pictures of 1280 x 720, and prints what each stage of a picture takes:
+// Draws a scene's bodies as they start, some pictures of 1280 x 720, and prints the time of each stage of a picture:
 // skins, every pass of the renderer, PNG, a film's encoder, and one picture in final quality. Arguments: the scene (a
-// .toml file), whose quality is taken, and the number of pictures. Measured pass by pass, so that nothing overlaps;
-// only the line "overlapping" is a picture with everything at once.
+// .toml file), whose quality is used, and the number of pictures. Measured pass by pass, so that nothing overlaps; only
+// the line "overlapping" is a picture with everything at once.
 #include <fmt/format.h>
 
 #include <array>
@@ -74,7 +74,7 @@ struct Subject {
     stage = film.stage(bounds, std::nullopt);
     camera = frame_bounds(bounds, 16.0 / 9);
   }
-  /// Moved by a hair in every second picture, so that nothing is kept from one to the next.
+  /// Moved slightly in every second picture, so that nothing is reused from one to the next.
   [[nodiscard]] std::vector<SkinShape> shapes_of(int picture) const {
     std::vector<SkinShape> moved = film.shapes(0);
     for (SkinShape& shape : moved) shape.positions *= picture % 2 == 0 ? 1 + 1e-6F : 1;
@@ -95,7 +95,7 @@ void print_passes(const std::vector<PassTime>& first, const std::vector<PassTime
   Stopwatch::row("drawing, all passes", wall, processor);
 }
 
-/// As a film is made: skins, drawing, PNG and film at once.
+/// Overlapped, as when a film is made: skins, drawing, PNG and film at once.
 void overlapped(const Subject& subject, const std::filesystem::path& folder, int pictures) {
   const std::vector<Output> outputs = parse_outputs({(folder / "p").string(), (folder / "q.mp4").string()});
   RenderOptions options = options_of(subject.scene.render.quality);

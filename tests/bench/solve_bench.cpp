@@ -1,4 +1,4 @@
-// Solves the stiffness of cantilevers and of bears on held feet under gravity and prints a table: multigrid beside
+// Solves the stiffness of cantilevers and of bears with pinned feet under gravity and prints a table: multigrid against
 // CHOLMOD and conjugate gradients with the diagonal, two models, all in one run, so that ratios hold on a busy machine.
 // Options: the bricks along the longest sides, and "--direct-up-to N" bricks (default 20 000; beyond, the direct solver
 // takes minutes and gigabytes).
@@ -34,7 +34,7 @@ Body cantilever(int n, Model model) {
                    {.name = "bench", .young = 1000, .poisson = 0.3, .density = 1, .damping = 0.02, .source = ""});
 }
 
-/// At rest, of about as many bricks as that cantilever.
+/// A bear at rest, with about as many bricks as that cantilever.
 Body bear(int n, Model model) {
   Body body = test::bench_body("bear", n * (n / 4) * (n / 4), model);
   body.positions = body.rest_positions;
@@ -98,7 +98,7 @@ double diagonal_solve(const SupportedBody& supported) {
   });
 }
 
-/// Of the second of two steps, and how many Newton iterations it took.
+/// The time of the second of two steps, and its number of Newton iterations.
 std::pair<double, long> implicit_step(SupportedBody supported) {
   World world;
   world.bodies.push_back(std::move(supported.body));

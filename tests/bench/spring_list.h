@@ -6,14 +6,14 @@
 
 namespace sprung::test {
 
-/// The plainest way to compute a body's springs: a list of them, each adding its force to its two nodes, and for every
+/// The simplest computation of a body's springs: a list of them, each adding its force to its two nodes, and for every
 /// brick its corrections. One thread, one spring at a time. The oracle of the kernels and what their
 /// speed is compared with.
 class SpringList {
  public:
   explicit SpringList(const Body& body);
 
-  /// As spring_forces(): m x 3, N.
+  /// Like spring_forces(): m x 3, N.
   void forces(const Body& body, Points& forces);
 
  private:

@@ -6,8 +6,8 @@
 namespace sprung::test {
 
 /// A full box of bricks of size 1 whose edges and inner diagonals are springs of stiffness 1 between nodes of mass 1:
-/// the rows of springs along x that SpringSystem is made of, without all that a material, a body of any shape and
-/// threads need. What it reaches is what this machine makes of springs.
+/// the rows of springs along x that SpringSystem is made of, without the overhead of materials, bodies of any shape and
+/// threads. Its speed is what this machine can achieve with springs.
 struct SpringRows {
   std::array<int, 3> nodes;  // along x, y and z; along x a multiple of 8
   std::array<std::vector<double>, 3> positions;

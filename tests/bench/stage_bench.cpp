@@ -25,8 +25,8 @@ void voxelisation(benchmark::State& state, const std::string& model) {
   state.counters["things"] = bricks;
 }
 
-/// From bricks to a body ready to move, in fresh memory, as programs make it. Without that, bodies small enough for
-/// the allocator to keep their memory would be spared what it takes to get it: half of the time.
+/// From bricks to a body ready to move, in fresh memory, as programs make it. Without that, bodies small enough for the
+/// allocator to keep their memory would be spared the cost of obtaining it: half of the time.
 void body_making(benchmark::State& state, double side) {
   const BrickGrid grid = make_box_grid(Eigen::Vector3i::Constant(int(side)), 0.01);
   const Material material{.name = "bench", .young = 1e4, .poisson = 0.3, .density = 1000, .damping = 0, .source = ""};

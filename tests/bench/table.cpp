@@ -44,7 +44,7 @@ bool is_explicit(const std::vector<std::string>& parts) {
   return parts[0] == "explicit" || parts[0] == "list" || parts[0] == "rows";
 }
 
-/// A ratio, or nothing where one of the two was not measured.
+/// A ratio, or nothing if one of the two was not measured.
 std::string ratio(double value, double by) { return value > 0 && by > 0 ? fmt::format("{:.2f}", value / by) : "-"; }
 
 }  // namespace

@@ -8,8 +8,8 @@
 
 namespace sprung::test {
 
-/// Keeps the best of every benchmark's repetitions; print() writes them as tables in Markdown, each beside what the
-/// machine could do.
+/// Keeps the best of every benchmark's repetitions; print() writes them as tables in Markdown, each next to the
+/// machine's limit.
 class TableReporter : public benchmark::BenchmarkReporter {
  public:
   bool ReportContext(const Context& context) override;

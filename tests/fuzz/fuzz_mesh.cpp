@@ -11,7 +11,7 @@
 namespace sprung {
 namespace {
 
-/// Reading may end by an Error of the input; a mesh it gives must be whole.
+/// Reading may throw an Error about the input; a mesh that it returns must be valid.
 template <class Read>
 void expect_mesh_or_error(const Read& read) {
   try {
@@ -33,8 +33,8 @@ void expect_error_or_none(const Check& check) {
 }  // namespace
 }  // namespace sprung
 
-/// The same bytes to every reader and check that runs in this program's own code; each tells its format by the first
-/// words.
+/// The same bytes to every reader and check that runs in this program's own code; each recognises its format by the
+/// first words.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace sprung;
   const std::string name = "fuzz";

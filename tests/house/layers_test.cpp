@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-/// Every folder of the house has a place, and includes only what stands before it.
+/// Every folder has a position in the order, and includes only folders before it.
 namespace sprung {
 namespace {
 
@@ -77,14 +77,14 @@ std::vector<Include> includes_of(const fs::path& top) {
   return includes;
 }
 
-/// Where the folder of a file stands in the order; -1 where it is not in it.
+/// The position of a file's folder in the order; -1 if it is not in it.
 int rank(const std::string& file) {
   const std::string folder = fs::path(file).parent_path();
   const auto found = std::find(kFolders.begin(), kFolders.end(), folder);
   return found == kFolders.end() ? -1 : int(found - kFolders.begin());
 }
 
-/// Empty where the include is allowed, else what is wrong with it.
+/// Empty if the include is allowed, else what is wrong with it.
 std::string fault(const Include& include) {
   const int from = rank(include.from);
   const int to = rank(include.to);

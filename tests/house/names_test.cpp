@@ -10,14 +10,14 @@
 #include <vector>
 
 /// The words of the house. Every type has a name of its own: two of one name in one namespace are one to the linker,
-/// whichever it meets first, and no compiler says so, since no file need include both. And the field has a word for
-/// each thing, which sources and documentation use.
+/// which keeps the first it meets, and no compiler reports it, since no file need include both. And sources and
+/// documentation use the field's word for each thing.
 namespace sprung {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// With their namespace; those at the margin of a file, where other files can see them.
+/// Their names with namespace; only types at namespace scope, where other files can see them.
 std::vector<std::string> types_defined_in(std::istream& file) {
   static const std::regex kDefinition(R"re(^(?:struct|class|enum class|union) (\w+)(?: final)?(?: [:{].*)?$)re");
   static const std::regex kNamespace(R"re(^namespace ([\w:]+) \{$)re");

@@ -63,8 +63,8 @@ TEST(Environment, AnEvenSkyLightsBySlope) {
   }
 }
 
-/// What a steel ball reflects of the light from above, seen from there: weighted by the cosine of its direction, as
-/// level ground sees it.
+/// The light from above that a steel ball reflects back up: weighted by the cosine of its direction, as for level
+/// ground.
 double reflected_sky(const std::optional<Environment>& environment) {
   StillLife scene = ball_on_ground();
   scene.colors = {{0.9F, 0.9F, 0.9F}};
@@ -262,7 +262,7 @@ TEST(RenderGolden, WoodenFloor) {
   expect_golden(Balls().picture(std::nullopt, floor_of(FloorKind::kWood, 0.4)), "render_wood");
 }
 
-// Shaders and paths of light have floor and background from the same values, but each their own code. At the left edge,
+// Shaders and the path tracer take floor and background from the same values, but have separate code. At the left edge,
 // where bodies do not change the light; a mean over some pixels, since edges of squares have few paths.
 TEST(Renderer, FloorsAndBackgroundsAreTheSameInAllQualities) {
   const Environment landscape = seen_landscape();

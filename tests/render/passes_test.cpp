@@ -94,7 +94,7 @@ TEST(Passes, HoldTogetherInEveryPixel) {
   for (const int pixels : count) EXPECT_GT(pixels, 100);
 }
 
-/// From the middle of the picture, to the right and up, of a place that a camera with its target in the middle sees.
+/// The offset from the picture's middle, to the right and up, of a position seen by a camera with its target there.
 Eigen::Vector2d seen_by(const Camera& camera, const Vec3& position) {
   const Vec3 ahead = (camera.target - camera.eye).normalized();
   const Vec3 right = ahead.cross(Vec3::UnitY()).normalized();

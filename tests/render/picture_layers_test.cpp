@@ -31,7 +31,7 @@ Image drawn(const StillLife& scene, const std::vector<SkinShape>& shapes, const 
   return Renderer(stage, options).draw(shapes, frame_bounds(stage.bounds, 16.0 / 9, 0, 0));
 }
 
-/// Of the share of what is in the middle of the picture.
+/// The opacity of the object in the middle of the picture.
 double opacity_of(const Image& picture, const Image& nothing, const Image& all) {
   const auto middle = [](const Image& image) { return pixel(image, image.width / 2, image.height / 2).sum(); };
   return (middle(picture) - middle(nothing)) / (middle(all) - middle(nothing));
@@ -82,7 +82,7 @@ TEST(PictureLayers, AreThoseOfTracedPictures) {
   EXPECT_LT(compare_images(raster, traced).mean, 5);
 }
 
-// What is faint does not darken the floor, nor what is opaque.
+// Faint objects darken neither the floor nor opaque objects.
 TEST(PictureLayers, NothingFaintCastsAShadow) {
   StillLife scene = two_balls(0);
   scene.has_ground = true;

@@ -123,7 +123,7 @@ TEST(Renderer, TheLitSideIsLighterThanTheOther) {
   EXPECT_GT(dark.x(), 90);  // and is not black: the sky and the ground light it
 }
 
-/// Of a ball in that light, without a lens and in few pixels.
+/// A small picture of a ball in that light, without a lens.
 Image lit_ball(const Lighting& lighting, Quality quality) {
   const StillLife scene = ball_on_ground();
   Stage stage = scene.stage();
@@ -132,7 +132,7 @@ Image lit_ball(const Lighting& lighting, Quality quality) {
   return renderer.draw(scene.shapes(), frame_bounds(stage.bounds, 16.0 / 9));
 }
 
-// Shaders and paths of light have their light from the same values, but each their own code.
+// Shaders and the path tracer take their light from the same values, but have separate code.
 TEST(Renderer, EveryPresetOfLightIsTheSameInAllQualities) {
   for (const LightPreset preset : {LightPreset::kStudio, LightPreset::kSoftbox, LightPreset::kSunset,
                                    LightPreset::kOvercast, LightPreset::kNight}) {
@@ -154,7 +154,7 @@ TEST(Renderer, TheKeyLightMaySitAnywhere) {
   const Image from_right = lit_ball(lighting, Quality::kDefault);
   for (const int x : {60, 70, 90, 100}) {
     EXPECT_NEAR(pixel(from_left, x, 45).x(), pixel(from_right, 159 - x, 45).x(), 18)
-        << x;  // the window stays where it is
+        << x;  // the window keeps its position
   }
   EXPECT_GT(pixel(from_left, 65, 45).x(), pixel(from_left, 95, 45).x() + 20);
 }
@@ -170,7 +170,7 @@ TEST(Renderer, TheBodyCastsItsShadowOnTheGround) {
   EXPECT_NEAR(open, 1, 0.01);  // the floor far from the body is the background
 }
 
-// The end of the shadow is as far from what casts it as a stack is high, not as one of its bodies is.
+// The shadow ends as far from its caster as the whole stack is high, not one of its bodies.
 TEST(Renderer, TheShadowOfAStackFadesOut) {
   StillLife scene;
   for (int i = 0; i < 6; ++i) scene.add(make_box_skin({-0.2, 0.25 * i, -0.2}, {0.2, 0.25 * (i + 1), 0.2}), kCream);

@@ -43,7 +43,7 @@ SurfaceMesh mesh_of_shape(Shape shape, Dice& dice) {
   return box_mesh(Vec3::Zero(), Vec3(1, dice.between(0.2, 1), dice.between(0.2, 1)));
 }
 
-/// A body of that size (m), as the program makes it; of bricks alone it touches by their corners.
+/// A body of that size (m), as the program makes it; of bricks alone: contact is at their corners.
 SoftBody make_soft_body_of(Shape shape, double size, Model model, const Material& material, Dice& dice) {
   if (shape == Shape::kBricks) {
     const Eigen::Vector3i counts(dice.whole(1, 5), dice.whole(1, 5), dice.whole(1, 5));

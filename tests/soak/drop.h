@@ -6,7 +6,7 @@
 
 namespace sprung::test {
 
-/// A body of random shape, size, material, damping, place and speed over the ground.
+/// A body of random shape, size, material, damping, position and speed above the ground.
 struct Drop {
   World world;          // one body
   double size = 0;      // m, longest side of the body
@@ -18,16 +18,16 @@ struct Drop {
 /// Drop number `index` of a series; the same for the same numbers. Poisson's ratio is `least_poisson` to 0.49.
 [[nodiscard]] Drop random_drop(std::uint32_t seed, std::uint32_t index, Model model, double least_poisson);
 
-/// What a drop did.
+/// The outcome of a drop.
 struct DropResult {
   std::string fault;            // empty: none
   double deepest = 0;           // share of the size that a contact point was below the ground
   double energy_gain = 0;       // highest energy over the first, share of the first
-  bool is_crushed = false;      // at the end its guard carries it, not its springs
+  bool is_crushed = false;      // at the end its guard supports it, not its springs
   int inverted_bricks = 0;      // at the end
-  int inverted_on_the_way = 0;  // most, at the looks
+  int inverted_on_the_way = 0;  // most, at the checks
   double smallest_volume = 0;   // of a brick over that at rest, at the end
-  int halvings = 0;             // frames taken back
+  int halvings = 0;             // frames rolled back
   long brick_steps = 0;
 };
 

@@ -47,7 +47,7 @@ std::string bytes_of(const fs::path& file) {
 
 std::vector<Sample> samples_in(const TempFolder& folder) {
   std::vector<fs::path> files = write_mesh_corpus(folder.path());
-  for (const fs::path& file : files) static_cast<void>(read_mesh(file));  // throws where one is no sound file at all
+  for (const fs::path& file : files) static_cast<void>(read_mesh(file));  // throws if one is not a sound file at all
   if (fs::exists(shared_mesh(""))) {
     for (const auto& entry : fs::recursive_directory_iterator(shared_mesh(""))) {
       const std::string extension = entry.path().extension().string();
@@ -67,7 +67,7 @@ long peak_kilobytes(decltype(RUSAGE_SELF) whose) {
   return usage.ru_maxrss;
 }
 
-/// In one word, how reading ended; `fault` says what must not be.
+/// How reading ended, in one word; `fault` describes what must not happen.
 std::string read(const fs::path& file, std::string& fault) {
   try {
     static_cast<void>(read_mesh(file));

@@ -1,6 +1,6 @@
-// Random parts, pins and loads in statics: every case must come to an equilibrium whose reactions carry its loads and
-// which, for small displacements, is that of a direct solver, or end with a reason. Prints the cases that did neither,
-// and those that took over 20 times as long as others of their size.
+// Random parts, pins and loads in statics: every case must converge to an equilibrium whose reactions carry its loads
+// and which, for small displacements, is that of a direct solver, or end with a reason. Prints the cases that did
+// neither, and those that took over 20 times as long as others of their size.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -107,7 +107,7 @@ struct Case {
   Scene scene;
 };
 
-constexpr int kMostDirect = 20000;  // bricks, up to which a direct solver checks the answer
+constexpr int kMostDirect = 20000;  // bricks, up to which a direct solver checks the solution
 constexpr double kWrong = 1e-5;     // a direct solver's own rounding in slender bodies is a tenth of that
 
 Case random_case(std::uint32_t seed, std::uint32_t index) {
@@ -144,7 +144,7 @@ Case random_case(std::uint32_t seed, std::uint32_t index) {
   const double opposite = dice.between(0.02, 0.3);
   force.half_space =
       HalfSpace{.point = Vec3::Constant(sign > 0 ? opposite : 1 - opposite), .normal = -sign * Vec3::Unit(axis)};
-  // What shears a cube of the size by some parts in a million to percent.
+  // Shears a cube of that size by some parts in a million to percent.
   const double strength = body.material.young * 1e-2 * dice.log_between(1e-8, 1e-4);
   force.total = strength * Vec3(dice.between(-1, 1), dice.between(-1, 1), dice.between(-1, 1));
   body.forces.push_back(force);
@@ -156,7 +156,7 @@ Case random_case(std::uint32_t seed, std::uint32_t index) {
   return made;
 }
 
-/// Of small displacements: how far they are from those of a direct solver in double precision, relative to the largest.
+/// The deviation of small displacements from those of a direct solver in double precision, relative to the largest.
 double error_of_displacements(const Simulation& simulation, const Scene& scene) {
   Body body = simulation.world.bodies[0];
   const Points found = body.positions - body.rest_positions;

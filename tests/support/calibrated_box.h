@@ -6,12 +6,12 @@
 
 namespace sprung::test {
 
-/// Of the calibrated model; h in m, young in Pa.
+/// A box of the calibrated model; h in m, young in Pa.
 inline Body calibrated_box(const Eigen::Vector3i& counts, double h, double poisson, double young = 1e4) {
   return make_body(make_box_grid(counts, h), Model::kCalibrated, test_material(poisson, young));
 }
 
-/// By as few explicit steps of equal length as are stable at the start; duration in s.
+/// Advances by as few equal explicit steps as are stable at the start; duration in s.
 inline void advance_by_stable_steps(World& world, Scheme scheme, double duration) {
   const auto steps = long(std::ceil(duration / stable_step(world)));
   advance(world, scheme, duration / double(steps), steps, 0);

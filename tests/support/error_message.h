@@ -7,7 +7,7 @@
 
 namespace sprung {
 
-/// What the Error says that `work` throws; empty where it throws none.
+/// The message of the Error that `work` throws; empty if it throws none.
 template <class Work>
 std::string error_message(const Work& work) {
   try {

@@ -28,7 +28,7 @@ inline SoftBody closing_horseshoe(double h) {
   return body;
 }
 
-/// Between the inner sides of its arms, at the nodes where they are nearest to each other, m; below 0 where they cross.
+/// The gap between the inner sides of its arms at their nearest nodes, m; negative if they cross.
 inline double gap_of_horseshoe(const Body& body) {
   double least = std::numeric_limits<double>::infinity();
   for (int node = 0; node < body.node_count(); ++node) {

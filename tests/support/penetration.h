@@ -7,7 +7,7 @@
 
 namespace sprung::test {
 
-/// How deep (m) any contact point is in an obstacle, or in another body where bodies touch each other.
+/// How deep (m) any contact point is in an obstacle, or in another body if bodies are in contact.
 inline double deepest_contact_point(const World& world) {
   double depth = 0;
   for (const SoftBody& body : world.bodies) {
@@ -21,7 +21,7 @@ inline double deepest_contact_point(const World& world) {
   return depth;
 }
 
-/// Remembers that of all frames of a run.
+/// Records that over all frames of a run.
 class PenetrationObserver : public Observer {
  public:
   void finish_frame(int frame, double, const World& world) const override {

@@ -11,15 +11,15 @@
 
 namespace sprung {
 
-/// The most memory that one of the processes took that have ended so far; only rises.
+/// The peak memory of the child processes that have ended so far; it only rises.
 inline long peak_kilobytes() {
   rusage usage{};
   getrusage(RUSAGE_CHILDREN, &usage);
   return usage.ru_maxrss;
 }
 
-/// A file that is no mesh ends the program soon and small, with exit code 3 and one line of file and reason. Sanitizers
-/// take time and memory of their own: they are not judged then.
+/// A file that is not a mesh ends the program quickly, with little memory, exit code 3 and one line of file and reason.
+/// Sanitizers take time and memory of their own: these are not checked then.
 inline void expect_refusal(const TempFolder& folder, const std::string& file, const std::string& reason) {
   constexpr double kMostSeconds = 5;
   constexpr long kMostKilobytes = 500'000;

@@ -8,8 +8,7 @@
 /// Made-up checks, and readers of SVG and HTML text, for tests of plots and reports.
 namespace sprung::test {
 
-/// What is wrong with a piece of XML: tags that do not match, attributes without quotes, a stray < or &. Empty:
-/// nothing.
+/// The error in a piece of XML: tags that do not match, attributes without quotes, a stray < or &. Empty: none.
 inline std::string xml_fault(const std::string& xml) {
   std::vector<std::string> open;
   for (std::size_t at = 0; at < xml.size(); ++at) {

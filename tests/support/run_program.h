@@ -10,7 +10,7 @@
 
 namespace sprung {
 
-/// How the built program ended and what it said.
+/// How the built program ended and what it printed.
 struct ProgramRun {
   int exit_code = -1;
   std::string out;

@@ -12,7 +12,7 @@
 
 namespace sprung {
 
-/// build/.../sprung on its way, in a folder, with these words; what it says goes to program.err there.
+/// build/.../sprung running in a folder, with these words; its messages go to program.err there.
 class RunningProgram {
  public:
   RunningProgram(const TempFolder& folder, std::vector<std::string> words) : folder_(folder) {
@@ -35,7 +35,7 @@ class RunningProgram {
   RunningProgram(const RunningProgram&) = delete;
   RunningProgram& operator=(const RunningProgram&) = delete;
 
-  /// False where the file does not come, or the program ends before it does.
+  /// False if the file does not appear, or the program ends before it does.
   [[nodiscard]] bool wait_for(const std::filesystem::path& file) const {
     constexpr int kLooks = 120000;
     for (int look = 0; look < kLooks; ++look) {

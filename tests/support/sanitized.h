@@ -1,6 +1,6 @@
 #pragma once
 
-/// Which sanitizer is built in: a test leaves out by it what the sanitizer itself changes: memory, time, how a process
+/// Which sanitizer is built in: tests use it to skip what the sanitizer itself changes: memory, time, how a process
 /// ends.
 namespace sprung::test {
 

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
 
-/// A grid of columns x rows cells over (u, v) in [0, 1]^2, with places and normals by the two functions.
+/// A grid of columns x rows cells over (u, v) in [0, 1]^2, with positions and normals from the two functions.
 Skin make_grid(int columns, int rows, const std::function<Vec3(double, double)>& place,
                const std::function<Vec3(double, double)>& normal) {
   Skin skin;

@@ -18,7 +18,7 @@ inline constexpr RenderOptions kSmall{320, 180, 4};
 [[nodiscard]] Skin make_ring_skin(const Vec3& center, double radius, double thickness);
 /// A box with uvs that show the whole picture on each side, upright on the four around.
 [[nodiscard]] Skin make_box_skin(const Vec3& low, const Vec3& high);
-/// With edges of that length at most, m.
+/// The skin with edges of that length at most, m.
 [[nodiscard]] Skin refined(Skin skin, double max_edge);
 /// One material with a texture for all triangles.
 void set_texture(Skin& skin, const Image& picture);

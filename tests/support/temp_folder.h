@@ -7,7 +7,7 @@
 
 namespace sprung {
 
-/// A folder of its own for a test; gone with it.
+/// A folder of its own for a test, removed with it.
 class TempFolder {
  public:
   TempFolder() {

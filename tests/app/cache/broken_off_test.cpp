@@ -42,7 +42,7 @@ class BrokenOff : public testing::Test {
     EXPECT_EQ(run_program(folder_, kShortFrames + "straight.h5").exit_code, 0);
   }
 
-  /// What there is can be read, and the command that the program gave leads to the end of the straight run.
+  /// The cache so far can be read, and the command that the program gave completes it as an uninterrupted run would.
   void expect_goes_on(const std::string& err, const fs::path& cache) const {
     const fs::path file = folder_.path() / cache;
     EXPECT_GE(CacheReader(file).frame_count(), 1U);
@@ -84,7 +84,7 @@ TEST_F(BrokenOff, InALongFrameItStopsAtOnceAndStaysReadable) {
   EXPECT_GT(cache.positions(0).at(0).rows(), 8);
 }
 
-/// Of a film whose encoder ends, or that is interrupted, the motion stays, and the same command goes on with it.
+/// If a film's encoder ends, or the film is interrupted, its motion is kept, and the same command resumes from it.
 TEST_F(BrokenOff, AFilmKeepsItsMotionUntilItIsWhole) {
   const std::string words =
       "animate cube.obj --material gelatin --bricks " + kFew + " --duration 1 --resolution 320x180 -o film.mp4 ";
@@ -124,7 +124,7 @@ TEST_F(BrokenOff, ByAVanishedFolderItSaysSo) {
   expect_goes_on(ended.err, "shelf/run.h5");
 }
 
-/// A disk of its own where this process may mount one, else a limit on the size of files.
+/// A disk of its own if this process may mount one, else a limit on the size of files.
 TEST_F(BrokenOff, ByAFullDiskItSaysSo) {
   const auto run_on_small_disk = [&](const std::string& before, const std::string& after) {
     fs::create_directories(folder_.path() / "disk");
@@ -146,7 +146,7 @@ TEST_F(BrokenOff, ByAFullDiskItSaysSo) {
   expect_goes_on(err, "disk/run.h5");
 }
 
-/// What keeps this process, root or not, from writing where its file modes say no.
+/// A prefix that makes file modes apply to this process even if it is root.
 std::string without_privileges() { return geteuid() == 0 ? "setpriv --bounding-set=-dac_override " : ""; }
 
 TEST_F(BrokenOff, InAReadOnlyFolderItDoesNotBegin) {

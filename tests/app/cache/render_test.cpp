@@ -111,13 +111,13 @@ TEST(Render, DrawsOnePictureOrASheetOfMoments) {
   const ProgramRun still = run_program(folder, "render run.h5 -o still.png --time 0.25s" + small);
   EXPECT_EQ(still.exit_code, 0) << still.err;
   EXPECT_EQ(text_of(folder.path() / "still.png"), text_of(folder.path() / "film" / "frame_0004.png"));
-  // Simulated up to there only, and framed for what moved up to there.
+  // Simulated only up to that frame, and framed for the motion up to it.
   const ProgramRun from_mesh = run_program(folder, "animate " + motion + "-o early.png --frame 4" + small);
   EXPECT_EQ(from_mesh.exit_code, 0) << from_mesh.err;
   EXPECT_NE(from_mesh.err.find("  4 frames"), std::string::npos) << from_mesh.err;
   const ProgramRun passes = run_program(folder, "animate " + motion + "-o p.exr --frame 4" + small);
   EXPECT_EQ(passes.exit_code, 0) << passes.err;
-  EXPECT_NE(passes.err.find("  5 frames"), std::string::npos) << passes.err;  // they tell the motion to the next one
+  EXPECT_NE(passes.err.find("  5 frames"), std::string::npos) << passes.err;  // they include the motion to the next one
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "p.exr"));
   const ProgramRun sheet = run_program(folder, "render run.h5 -o sheet.png -o film.gif" + small);
   EXPECT_EQ(sheet.exit_code, 0) << sheet.err;

@@ -91,7 +91,7 @@ TEST(Sweep, RangesStandForTheirValues) {
   EXPECT_EQ(values_in("3:1:-1"), (std::vector<std::string>{"3", "2", "1"}));
   EXPECT_EQ(values_in("a:b:c"), std::vector<std::string>{"a:b:c"});
   EXPECT_EQ(values_in("1kPa:2Pa:1kPa"),
-            std::vector<std::string>{"1kPa:2Pa:1kPa"});  // no value of any key: refused there
+            std::vector<std::string>{"1kPa:2Pa:1kPa"});  // not a value of any key: refused there
   for (const char* endless : {"1:3:0", "1:3:-1", "0:1:1e-9"}) EXPECT_THROW(values_in(endless), Error) << endless;
 }
 

@@ -13,7 +13,7 @@ constexpr double kStretch = 1.2;
 constexpr double kYoung = 20e3;
 constexpr double kFps = 4;
 
-/// A bar that is drawn along x, by kStretch, and has gone 10 cm further in the frame after.
+/// A bar that is stretched along x, by kStretch, and has moved 10 cm further in the next frame.
 struct DrawnBar {
   Simulation simulation;
   Recording recording;
@@ -55,7 +55,7 @@ TEST(FieldValues, AreThoseOfADrawnBar) {
   EXPECT_NEAR(bar.values(Field::kDisplacement).minCoeff(), 0, 1e-6);
 }
 
-// The bar is drawn twice as far in its last frame.
+// The bar is stretched twice as far in its last frame.
 TEST(FieldColors, SpanTheFilmOrEachFrame) {
   DrawnBar bar;
   Points nodes = bar.simulation.world.bodies[0].rest_positions;
@@ -79,7 +79,7 @@ TEST(FieldColors, SpanTheFilmOrEachFrame) {
   EXPECT_NEAR(highest(0), 1.4, 1e-5);
 }
 
-// A film of two frames beside one of three.
+// A film of two frames next to one of three.
 TEST(FieldColors, OfSeveralFilmsShowWhatAllShow) {
   const ColorRanges both = merged({{0, 2}, {1, 3}}, {{1, 4}, {0, 1}, {-1, 2}});
   ASSERT_EQ(both.size(), 3);

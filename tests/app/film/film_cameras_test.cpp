@@ -64,7 +64,7 @@ TEST(FilmCameras, FollowTheBodies) {
     EXPECT_TRUE(still[frame].eye.isApprox(still[0].eye));
     EXPECT_TRUE((following[frame].eye - following[0].eye).isApprox(reach.middles[frame] - reach.middles[0], 1e-9));
   }
-  EXPECT_LT(distance_of(following[0]), 0.5 * distance_of(still[0]));  // what follows may be nearer
+  EXPECT_LT(distance_of(following[0]), 0.5 * distance_of(still[0]));  // a following camera may be nearer
 }
 
 TEST(FilmCameras, ParallelLinesSeeEverything) {

@@ -52,7 +52,7 @@ TEST_F(HelpText, HasNoLineOfMoreThanAHundredColumns) {
     std::istringstream lines(text(words));
     for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100U) << words << "\n" << line;
   }
-  // What is broken goes on below its beginning.
+  // Broken lines continue below their beginning.
   EXPECT_NE(text("help animate").find("strain or\n                                  stress (von Mises), volume"),
             std::string::npos);
 }
@@ -62,7 +62,7 @@ TEST_F(HelpText, OnACommandNamesWhatTheShortOneLeavesOut) {
   EXPECT_NE(text("help animate").find("--poisson"), std::string::npos);
 }
 
-/// Each option of each command is in the manual and in what completes it.
+/// Each option of each command is in the manual and in the completions.
 TEST_F(HelpText, ManualAndCompletionsHaveEveryOption) {
   std::string manual = text("help man");
   manual = std::regex_replace(manual, std::regex(R"(\\-)"), "-");

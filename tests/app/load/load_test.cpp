@@ -94,7 +94,7 @@ TEST_F(Load, BeamBendsByItsFormula) {
   EXPECT_NEAR(moved, expected, 0.01 * expected);
   EXPECT_NEAR(moved, expected, number(made, "/displacement_m/error") + 0.003 * expected);
   EXPECT_NEAR(number(made, "/mass_kg"), 7850 * 8e-6, 1e-6);
-  // The supported end is singular; beside it the stress is M y / I at some 3 bricks.
+  // The supported end is singular; next to it, some 3 bricks away, the stress is M y / I.
   const double stress = number(made, "/von_mises_Pa/value");
   const double root = 100 * 0.1 * 5e-3 / (8e-3 * 1e-6 / 12);
   EXPECT_NEAR(stress, root, 0.1 * root);
@@ -117,13 +117,13 @@ TEST_F(Load, EveryKindOfLoadHasItsReaction) {
   EXPECT_NEAR(reaction("x-high:0.01mm:+x", "force_N", 0), -1e-5 * 200e9 * 80e-6 / 0.1, 40);
 }
 
-/// Timoshenko: the middle of a bar between two slides under its own weight is where symmetry says.
+/// Timoshenko: the middle of a bar between two slides under its own weight moves as symmetry requires.
 TEST_F(Load, SlidesHoldAcrossTheirPlaneOnly) {
   const nlohmann::json made =
       answer("bar.obj --fix x-low:slide --fix y-low:slide --fix z-low:slide --load x-high:800N:out" + kSteel);
   const double strain = 800 / 80e-6 / 200e9;
   EXPECT_NEAR(number(made, "/displacement_m/vector/0"), strain * 0.1, 0.002 * strain * 0.1);
-  EXPECT_NEAR(number(made, "/von_mises_Pa/value"), 1e7, 3e5);  // at the foundation, which is not quite even
+  EXPECT_NEAR(number(made, "/von_mises_Pa/value"), 1e7, 3e5);  // at the foundation, where it is not quite uniform
 }
 
 /// Kirsch: three times the stress far away, at the hole; a plate ten times as wide as the hole has 3.03 (Howland,
@@ -172,7 +172,7 @@ TEST_F(Load, ColumnBucklesLikeEulers) {
   EXPECT_TRUE(pulled.at("buckling_factor").is_null() || number(pulled, "/buckling_factor/value") > 100 * expected);
 }
 
-/// Whichever way the bar and the vertical point.
+/// For all directions of the bar and of the vertical.
 TEST_F(Load, ColumnsBuckleAlikeAlongAllAxes) {
   for (const auto& [axis, up] : std::vector<std::pair<int, std::string>>{{1, "y"}, {2, "z"}, {2, "y"}, {1, "z"}}) {
     Vec3 sides = Vec3::Constant(10);
@@ -189,7 +189,7 @@ TEST_F(Load, ColumnsBuckleAlikeAlongAllAxes) {
   }
 }
 
-/// About the centroid of the face, where that is not the middle of the side: M = F a.
+/// About the centroid of the face, if that is not the middle of the side: M = F a.
 TEST_F(Load, MomentsOfSupportsAreAboutTheirCentroids) {
   const nlohmann::json made =
       answer(SPRUNG_SOURCE_DIR "/assets/models/bracket.stl --bricks 40 --fix y-high --load x-high:30N:-y");

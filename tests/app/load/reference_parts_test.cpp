@@ -24,7 +24,7 @@ class ReferenceParts : public testing::TestWithParam<PartCase> {};
 
 Json references() { return Json::parse(text_of(SPRUNG_SOURCE_DIR "/tests/references/parts.json")).at("parts"); }
 
-/// Points in the middle of walls carry little: their references are good to 10 % only.
+/// Points in the middle of walls carry little stress: their references are accurate to 10 % only.
 bool is_in_the_middle(const std::string& point) { return point.find("mid_") != std::string::npos; }
 
 TEST_P(ReferenceParts, DisplacementsStressesAndReactions) {
@@ -62,7 +62,7 @@ TEST_P(ReferenceParts, DisplacementsStressesAndReactions) {
   for (const auto& [name, point] : expected.at("points").items()) {
     const Json& here = answer.at("points").at(row++);
     const double stress = 1e6 * point.at("von_mises").get<double>();
-    // Of the peak, where a point carries little beside it.
+    // Relative to the peak, if a point carries little compared with it.
     const double allowed = std::max(0.1 * stress, 0.03 * 1e6 * peak);
     const double found = here.at("von_mises_Pa").at("value");
     if (is_in_the_middle(name)) continue;

@@ -70,7 +70,7 @@ TEST(MaterialLibrary, AllButGelsAndSomeTissuesHaveAStrength) {
   EXPECT_EQ(without, kWithoutStrength);
 }
 
-/// What springs back from every strain it survives has no yield; metals and woods stay deformed.
+/// Materials that recover from every strain they survive have no yield strength; metals and woods stay deformed.
 TEST(MaterialLibrary, ElastomersHaveNoYieldAndMetalsAndWoodsDo) {
   for (const LibraryMaterial& material : built_in_materials()->materials()) {
     const bool has_yield = material.yield_strength > 0;
@@ -93,8 +93,8 @@ TEST(MaterialLibrary, ElastomersHaveNoYieldAndMetalsAndWoodsDo) {
   }
 }
 
-/// What does not stiffen stretches at least along the line of its modulus; rubbers and foams stiffen, but not without
-/// end. A figure in a wrong unit is off both.
+/// Materials that do not stiffen stretch at least as their modulus predicts; rubbers and foams stiffen, but not without
+/// limit. A figure in a wrong unit violates both.
 TEST(MaterialLibrary, StrengthsAndStrainsFitTheirModuli) {
   for (const LibraryMaterial& material : built_in_materials()->materials()) {
     const MaterialClass kind = material.material_class;
@@ -140,7 +140,7 @@ TEST(MaterialLibrary, StrengthsThatCannotBeAreRefused) {
             std::string::npos);
 }
 
-/// Gent's formula, from which these moduli are.
+/// Gent's formula, from which these moduli are derived.
 TEST(MaterialLibrary, SiliconesFollowTheirHardness) {
   const auto young = [](double hardness) {
     return 0.0981e6 * (56 + 7.62336 * hardness) / (0.137505 * (254 - 2.54 * hardness));
@@ -153,7 +153,7 @@ TEST(MaterialLibrary, SiliconesFollowTheirHardness) {
   EXPECT_NEAR(library.find("silicone").young / young(30), 1, 3e-3);
 }
 
-/// By weight, of water and dry gelatin of 1350 kg/m3.
+/// Mixtures by weight of water and dry gelatin of 1350 kg/m3.
 TEST(MaterialLibrary, GelatinsWeighWhatTheirMixturesDo) {
   for (const auto& [name, share] : {std::pair{"soft-gelatin", 0.03}, {"gelatin", 0.06}, {"ballistic-gelatin", 0.1}}) {
     const LibraryMaterial& gel = built_in_materials()->find(name);

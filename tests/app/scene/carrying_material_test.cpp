@@ -25,8 +25,8 @@ Pin foot() {
 
 const Vec3 kGravity(0, -9.81, 0);
 
-/// What it chose carries the body, found again by a scene of finer bricks and by the ordinary way of a static scheme;
-/// the next softer elastomer of the library does not.
+/// The chosen material supports the body, as confirmed by a scene with finer bricks and the ordinary static scheme; the
+/// next softer elastomer of the library does not.
 TEST(CarryingMaterial, IsTheSoftestInWhichTheBodyKeepsItsShape) {
   const auto chosen =
       softest_carrying(column(0.1, 0.32), Support::kStands, kGravity, false, *built_in_materials(), Observer());
@@ -63,20 +63,19 @@ TEST(CarryingMaterial, IsTheSoftestInWhichTheBodyKeepsItsShape) {
 constexpr double kLength = 0.2;          // m
 constexpr double kWidth = kLength / 16;  // m
 
-/// Hardly off the vertical, so that it buckles where it can.
+/// Hardly off the vertical, so that it buckles if it can.
 SceneBody leaning_rod() {
   SceneBody rod = column(kWidth, kLength);
   rod.rotation.z() = 0.1;
   return rod;
 }
 
-/// A clamped column buckles under its own weight where rho g A L^3 / (E I) > 7.84 (Greenhill 1881). Of twice its
-/// weight.
+/// A clamped column buckles under its own weight if rho g A L^3 / (E I) > 7.84 (Greenhill 1881). For twice its weight.
 double buckling_load(const CarryingMaterial& chosen, double gravity) {
   return 2 * gravity * chosen.material->density * 12 * chosen.size * std::pow(kLength / kWidth, 2) /
          chosen.material->young;
 }
-constexpr double kBuckling = 7.84 * 1.2;  // its foot is held, so the free length is a little shorter
+constexpr double kBuckling = 7.84 * 1.2;  // its foot is fixed, so the free length is a little shorter
 
 TEST(CarryingMaterial, CarriesTwiceItsWeightWithoutBuckling) {
   const auto chosen =
@@ -85,7 +84,7 @@ TEST(CarryingMaterial, CarriesTwiceItsWeightWithoutBuckling) {
   EXPECT_LT(buckling_load(*chosen, 9.81), kBuckling);
 }
 
-/// A rod that no elastomer carries at 20 cm stands where it is smaller: sag grows with the size.
+/// A rod that no elastomer supports at 20 cm stands if it is smaller: sag grows with the size.
 TEST(CarryingMaterial, MakesSlenderBodiesSmaller) {
   const Vec3 heavy = 10 * kGravity;
   EXPECT_FALSE(softest_carrying(leaning_rod(), Support::kStands, heavy, false, *built_in_materials(), Observer()));
@@ -96,7 +95,7 @@ TEST(CarryingMaterial, MakesSlenderBodiesSmaller) {
   EXPECT_LT(buckling_load(*smaller, 98.1), kBuckling);
 }
 
-/// What hangs does not buckle, so a softer material carries it.
+/// Hanging bodies do not buckle, so a softer material supports them.
 TEST(CarryingMaterial, HangsInASofterOneThanItStandsIn) {
   const auto standing =
       softest_carrying(leaning_rod(), Support::kStands, kGravity, false, *built_in_materials(), Observer());
@@ -106,7 +105,7 @@ TEST(CarryingMaterial, HangsInASofterOneThanItStandsIn) {
   EXPECT_LT(hanging->material->young, 0.5 * standing->material->young);
 }
 
-/// Of a bare mesh for which no material is named.
+/// For a bare mesh for which no material is named.
 TEST(CarryingMaterial, IsWrittenIntoTheScene) {
   const TempFolder folder;
   static_cast<void>(folder.write("cube.obj", kCubeObj));
@@ -122,7 +121,7 @@ TEST(CarryingMaterial, IsWrittenIntoTheScene) {
   EXPECT_EQ(named.err.find("the softest"), std::string::npos) << named.err;
 }
 
-/// Bodies of a scene that name none: one stands, a like one hangs by a pin. Those with regions or a name keep it.
+/// Bodies of a scene that name none: one stands, a similar one hangs by a pin. Those with regions or a name keep it.
 TEST(CarryingMaterial, IsChosenForTheBodiesOfASceneThatNameNone) {
   const TempFolder folder;
   const std::string rod = "[[body]]\nbox = [0.0125, 0.2, 0.0125]\nbricks = 16\nrotation = [0, 0, 0.1]\n";

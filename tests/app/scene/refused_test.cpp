@@ -8,7 +8,7 @@
 #include "tests/support/error_message.h"
 #include "tests/support/run_program.h"
 
-/// What is wrong with scenes, and that schema and reference say the same as the parser.
+/// Mistakes in scenes; schema and reference agree with the parser.
 namespace sprung {
 namespace {
 

@@ -83,7 +83,7 @@ TEST(RestingPose, TheCentreOfMassIsThatOfTheVolumeOrElseOfTheArea) {
   EXPECT_TRUE(centre_of_mass(sheet).isApprox(Vec3(1, 5, 1), 1e-12));
 }
 
-/// A plate that stands on its edge in the file: laid flat, unless one says how it is turned.
+/// A plate that stands on its edge in the file: laid flat, unless its rotation is given.
 TEST(RestingPose, IsWrittenIntoTheSceneOfADroppedMesh) {
   const TempFolder folder;
   static_cast<void>(folder.write("plate.obj",

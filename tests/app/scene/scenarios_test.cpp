@@ -37,7 +37,7 @@ Recording record(Scenario scenario) {
   return simulate(simulation, scene, silent);
 }
 
-/// Where the probe is at a time, from its start, m.
+/// The displacement of the probe at a time, m.
 Vec3 at(const Recording& recording, std::size_t probe, double time) {
   return recording.probes.at(probe).samples.at(std::size_t(time * 24)).displacement;
 }

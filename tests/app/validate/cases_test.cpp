@@ -7,7 +7,7 @@
 namespace sprung {
 namespace {
 
-/// What the gates of a case are on, and that they hold.
+/// The checks that are gates of a case; expects that they pass.
 std::vector<const Check*> held_gates(const CaseResult& result) {
   std::vector<const Check*> gates;
   for (const Check& check : result.checks) {
@@ -85,7 +85,7 @@ TEST(UniaxialCase, HoldsItsGatesAndKeepsToTheChoice) {
   EXPECT_EQ(run_uniaxial({.model = Model::kM1, .poisson = -0.1, .bricks = {}}).table.head.size(), 3U);
 }
 
-/// Others' numbers, each measured; a choice of a grid is none of theirs.
+/// Published numbers, each measured; they exclude a choice of grid.
 TEST(Tables, HoldTheirGates) {
   const CaseResult result = run_tables({}, Observer());
   for (const Check& check : result.checks) EXPECT_EQ(check.trouble, "") << check.quantity;

@@ -63,7 +63,7 @@ TEST(HtmlReport, CountsAndMarksResults) {
   EXPECT_EQ(html.find("nan"), std::string::npos);
 }
 
-/// Two models on three grids are two rows, and all six measurements stay to be unfolded.
+/// Two models on three grids are two rows, and all six measurements can still be unfolded.
 TEST(HtmlReport, ShowsErrorsOverTheGridsInAMatrix) {
   std::vector<Check> checks;
   for (const char* model : {"calibrated", "fem"}) {
@@ -86,7 +86,7 @@ TEST(HtmlReport, ShowsErrorsOverTheGridsInAMatrix) {
   EXPECT_NE(html.find("theory; not measured: it broke"), std::string::npos);
 }
 
-/// The folder is made, figures are files of their own as well, and nothing half-written stays.
+/// The folder is created, figures are files of their own as well, and no partial files remain.
 TEST(HtmlReport, IsWrittenWithItsFigures) {
   const TempFolder folder;
   const std::filesystem::path out = folder.path() / "a/report";

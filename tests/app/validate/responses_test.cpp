@@ -9,7 +9,7 @@
 namespace sprung {
 namespace {
 
-/// Every law answers small strains with E and nu.
+/// Every law responds to small strains with E and nu.
 TEST(Uniaxial, SlopeAtRestIsYoungsModulus) {
   constexpr double kStep = 1e-4;
   for (const double poisson : {-0.2, 0.0, 0.25, 0.3, 0.45, 0.49}) {

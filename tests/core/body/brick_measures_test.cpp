@@ -17,7 +17,7 @@ Body box() {
   return make_body(make_box_grid({3, 2, 2}, 0.1), Model::kCalibrated, test::test_material(kPoisson, kYoung));
 }
 
-/// Of every brick, under an affine map of the nodes; expects them to be equal.
+/// The measure of every brick under an affine map of the nodes; expects all to be equal.
 double measured(BrickMeasure measure, const Mat3& map) {
   const Body body = box();
   const Eigen::VectorXd values = measure_bricks(body, measure, body.rest_positions * map.transpose());
@@ -48,7 +48,7 @@ TEST(BrickMeasures, FollowTheClosedFormsOfAStretch) {
   EXPECT_NEAR(measured(BrickMeasure::kStress, map), along - across, 1e-8 * along);
 }
 
-// To first order the stress of a bar that is drawn out is E times its strain.
+// To first order the stress of a stretched bar is E times its strain.
 TEST(BrickMeasures, GiveHookesLawForSmallPulls) {
   const double strain = 1e-6;
   const Vec3 stretches(1 + strain, 1 - kPoisson * strain, 1 - kPoisson * strain);

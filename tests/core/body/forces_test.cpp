@@ -24,7 +24,7 @@ double brick_energy(const BrickLaw& law, double h, const CornerVectors<double>& 
   return brick_forces<double>(law, h, x, nullptr, force);
 }
 
-/// A brick pulled out of shape at random, some of them far enough for the volume guard to act.
+/// A randomly deformed brick, some of them far enough for the volume guard to act.
 CornerVectors<double> crushed_brick(double h, double compression, std::mt19937& random) {
   std::uniform_real_distribution<double> distance(-0.15 * h, 0.15 * h);
   CornerVectors<double> x = rest_brick(h);

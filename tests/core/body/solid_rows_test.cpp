@@ -15,8 +15,8 @@ namespace {
 using test::shake;
 using test::test_material;
 
-/// Whole bricks, bricks of which but the fill is known, and cut ones, in packs of their own and mixed, with holes
-/// between them; two materials; far out of shape, some turned inside out, and on the move.
+/// Whole bricks, bricks of which only the fill is known, and cut ones, in packs of their own and mixed, with holes
+/// between them; two materials; strongly deformed, some inverted, and in motion.
 Body ragged_solid(double poisson) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> between(-1, 1);

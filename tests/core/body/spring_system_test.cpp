@@ -28,7 +28,7 @@ BrickGrid ragged_grid(std::mt19937& random) {
   return ragged;
 }
 
-/// Far out of shape, some bricks far enough for the volume guard to act, and on the move.
+/// Strongly deformed, some bricks far enough for the volume guard to act, and in motion.
 Body shaken_body(Model model, double poisson = 0.4) {
   std::mt19937 random(5);
   Body body = make_body(ragged_grid(random), model, test_material(poisson));
@@ -123,7 +123,7 @@ TEST(SpringSystem, ProngsInTheSameCellsPullLikeTheListOfSprings) {
   EXPECT_LT((forces - expected).cwiseAbs().maxCoeff(), 1e-12 * expected.cwiseAbs().maxCoeff());
 }
 
-/// Where Poisson's ratio is low, part of the axial correction pulls along the mean axes.
+/// If Poisson's ratio is low, part of the axial correction pulls along the mean axes.
 TEST(SpringSystem, PullsAlongTheMeanAxesLikeTheListOfSprings) {
   Body body = shaken_body(Model::kCalibrated, -0.2);
   EXPECT_LT(body.law.axes, 0);
@@ -216,7 +216,7 @@ TEST(SpringSystem, MoveIsDriftThenKick) {
             1e-14 * expected.velocities.cwiseAbs().maxCoeff());
 }
 
-/// A stretch of 1e-9 has seven digits left where the body is near the origin: what its positions themselves resolve.
+/// A stretch of 1e-9 keeps seven digits if the body is near the origin: the resolution of the positions themselves.
 TEST(SpringSystem, SmallStrainsSurviveRounding) {
   Body body = make_body(make_box_grid({4, 3, 2}, 1), Model::kCalibrated, test_material(0.3));
   const double strain = 1e-9;

@@ -7,7 +7,7 @@
 
 #include "tests/support/bodies.h"
 
-/// Stresses at nodes and points, by displacements whose stresses are known.
+/// Stresses at nodes and points, from displacements whose stresses are known.
 namespace sprung {
 namespace {
 
@@ -65,7 +65,7 @@ TEST(Stress, OfPureBendingIsRightAtTheFaces) {
   }
 }
 
-/// Displacements of linear statics are no motion: a small rotation, taken to first order, strains nothing.
+/// Displacements of linear statics are infinitesimal: a small rotation, to first order, causes no strain.
 TEST(Stress, OfSmallStrainsIsLinearInTheDisplacements) {
   Body body = block({4, 3, 2});
   place(body, rotation_matrix({10, -20, 30}), {0.1, 0, 0});

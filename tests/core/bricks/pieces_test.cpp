@@ -27,8 +27,8 @@ BrickGrid split(const Solid& solid, double size, PieceReport* report = nullptr) 
 
 Solid only(const SurfaceMesh& mesh) { return find_solids(mesh, "test").solids.at(0); }
 
-/// For each brick a number of the piece it is connected to, when those for which `is_out` holds are taken away; -1
-/// for these. Pieces are counted from 0.
+/// For each brick the number, from 0, of its connected component once those for which `is_out` holds are removed; -1
+/// for these.
 template <class IsOut>
 std::vector<int> pieces_without(const BrickGrid& grid, const IsOut& is_out) {
   DisjointSets sets(grid.lattice.size());
@@ -51,7 +51,7 @@ std::vector<int> pieces_without(const BrickGrid& grid, const IsOut& is_out) {
 
 int count_of_pieces(const std::vector<int>& piece) { return 1 + *std::max_element(piece.begin(), piece.end()); }
 
-/// What BrickGrid promises of its rows.
+/// The guarantees of BrickGrid about its rows.
 void expect_in_order(const BrickGrid& grid) {
   const auto before = [](const Eigen::Vector3i& a, const Eigen::Vector3i& b) {
     return std::tuple(a.z(), a.y(), a.x()) < std::tuple(b.z(), b.y(), b.x());
@@ -136,7 +136,7 @@ TEST(SplitPieces, HoldsHoweverTheFingersLie) {
   }
 }
 
-/// The teeth's piece of every brick above the back, by the x of the tooth that is there: names of the tooth.
+/// The tooth of every brick above the back, by the x of the tooth at its position.
 class PieceEmbedding : public ::testing::Test {
  protected:
   const Solid solid_ = only(comb_mesh({{0, 2.4}, {2.45, 4.7}}, 1.5, 6.2, 1.7));

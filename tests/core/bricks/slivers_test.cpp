@@ -52,7 +52,7 @@ TEST(Slivers, SpecksGoToThePartAtWhichTheyHang) {
   EXPECT_NEAR(grid.volume(), volume, 1e-18);
 }
 
-/// A box a little larger than whole bricks, whose edges are chains of specks: its surface follows bricks beside it.
+/// A box a little larger than whole bricks, whose edges are chains of specks: its surface follows neighbouring bricks.
 TEST(Slivers, ChainsOfSpecksDoNotAllGoToOneBrick) {
   const Vec3 high(11.015, 30.15, 20.08);
   const Solids solids = find_solids(test::box_mesh(Vec3::Zero(), high), "box");
@@ -89,7 +89,7 @@ TEST(Slivers, WhatHangsByAHingeGoesToTheBody) {
   EXPECT_EQ(absorb_slivers(grid), 1);
   EXPECT_EQ(grid.brick_count(), 125);
   EXPECT_NEAR(grid.volume(), volume, 1e-15);
-  // Beside a corner that is missing: held by three edges.
+  // Next to a missing corner: held by three edges.
   BrickGrid bridge = make_box_grid({6, 6, 6}, 0.1);
   std::erase_if(bridge.cells, [](const Eigen::Vector3i& cell) {
     return (cell.x() > 3 && cell.y() > 3) && cell != Eigen::Vector3i(4, 4, 2);
@@ -109,7 +109,7 @@ TEST(Slivers, AChainOfHingesGoesFromItsEnd) {
   EXPECT_NEAR(grid.volume(), 346 * 0.5 * 1e-3, 1e-12);
 }
 
-/// As large as that, it is a part, and the supports have to hold it.
+/// A piece of that size is a part, and the supports have to hold it.
 TEST(Slivers, ALargePartThatHangsByAHingeStays) {
   BrickGrid grid;
   grid.brick_size = 0.1;
@@ -119,7 +119,7 @@ TEST(Slivers, ALargePartThatHangsByAHingeStays) {
   EXPECT_EQ(absorb_slivers(grid), 0);
 }
 
-/// A thin part has no full brick, but bricks that hold next to nothing beside others.
+/// A thin part has no full brick, but bricks that are nearly empty next to others.
 TEST(LooseBricks, GoToTheFullestFaceNeighbourOfAThinPart) {
   BrickGrid grid = row({0.3, 0.25, 0.02});
   EXPECT_EQ(absorb_slivers(grid), 0);

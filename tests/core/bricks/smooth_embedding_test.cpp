@@ -66,7 +66,7 @@ TEST(SmoothEmbedding, GoesThroughTheNodesAndNearTheRest) {
   EXPECT_LT((smooth - deform_points(grid, embedding, nodes)).cwiseAbs().maxCoeff(), 0.1 * grid.brick_size);
 }
 
-// By differences of the points that a normal stands on.
+// Checked by differences of the points around a normal.
 TEST(SmoothEmbedding, NormalsStandOnTheSurface) {
   const BrickGrid grid = bar();
   const Points nodes = bent(grid.rest_positions());

@@ -20,7 +20,7 @@ using test::box_mesh;
 
 Solid only_solid(const SurfaceMesh& mesh) { return find_solids(mesh, "test").solids.at(0); }
 
-/// The bricks of a box of the lattice, in which the solid lies anywhere.
+/// The bricks of a box of the lattice, in which the solid may lie anywhere.
 BrickGrid bricks_around(const Solid& solid, const Eigen::Vector3i& counts) {
   BrickGrid grid = make_box_grid(counts, 1);
   split_pieces(solid, grid);

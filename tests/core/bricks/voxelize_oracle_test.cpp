@@ -1,4 +1,4 @@
-// Independent judge of the bricks: CGAL's exact point-in-solid test.
+// Independent check of the bricks: CGAL's exact point-in-solid test.
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Side_of_triangle_mesh.h>

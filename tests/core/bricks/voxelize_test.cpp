@@ -46,7 +46,7 @@ TEST(Voxelize, GridAlignedBoxIsExactlyItsCells) {
 }
 
 TEST(Voxelize, BeamOfFloatCornersGetsNoExtraLayer) {
-  // As a file that stores single precision holds 0.4 x 0.1 x 0.1 m.
+  // As 0.4 x 0.1 x 0.1 m is stored by a file in single precision.
   const BrickGrid grid = voxelize(solid_of(box_mesh(Vec3::Zero(), Vec3(0.4F, 0.1F, 0.1F))), 0.0125);
   EXPECT_EQ(grid.brick_count(), 32 * 8 * 8);
   EXPECT_TRUE(all_full(grid));

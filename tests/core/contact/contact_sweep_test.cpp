@@ -76,8 +76,8 @@ TEST(ContactSweep, FrictionHoldsUpToItsAngle) {
   }
 }
 
-/// Without damping, friction and gravity, two blocks meet off centre: what they have together stays but for energy,
-/// which only goes.
+/// Without damping, friction and gravity, two blocks meet off centre: their total momenta are conserved, and energy
+/// only decreases.
 TEST(ContactSweep, KeepsMomentaAndGivesNoEnergy) {
   World world;
   world.gravity.setZero();
@@ -101,7 +101,7 @@ TEST(ContactSweep, KeepsMomentaAndGivesNoEnergy) {
   EXPECT_GT(world.bodies[1].velocities.col(0).mean(), 0.1);
 }
 
-/// Blocks that start a little within each other part slowly, and are held from then on.
+/// Blocks that start slightly overlapping separate slowly, and stay separated from then on.
 TEST(ContactSweep, LetsOutWhatStartsInside) {
   World world = block_on_ground(0.5, {0, -9.81, 0});
   world.bodies.push_back(touching_box({4, 2, 4}, kBrick, test_material(0.3, 2e5), Vec3(0.004, 1.97 * kBrick, 0.003)));
@@ -160,7 +160,7 @@ TEST(ContactSweep, RestitutionIsThatOfTheGround) {
       const bool is_low = world.bodies[0].positions(node, 1) < 0.5 * kBrick;
       const double speed = world.bodies[0].velocities(node, 1);
       if (is_low && restitution == 0) {
-        EXPECT_NEAR(speed, -0.03, 1e-9);  // half of the way to where it is held
+        EXPECT_NEAR(speed, -0.03, 1e-9);  // half of the distance to where it is held
       } else {
         EXPECT_NEAR(speed, is_low ? 0.3 * restitution : -0.3, 1e-9) << restitution;
       }

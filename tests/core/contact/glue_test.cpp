@@ -15,7 +15,7 @@ namespace {
 using test::test_material;
 using test::touching_box;
 
-/// Two cubes of unlike bricks, one beside the other.
+/// Two cubes of different bricks, side by side.
 World two_cubes() {
   World world;
   world.gravity.setZero();
@@ -47,7 +47,7 @@ TEST(Glue, HoldsWhereSkinsLieTogether) {
   EXPECT_EQ(flipped.size(), world.glue.size());
 }
 
-/// One is drawn away: the other follows, they stay together, and what they do to each other cancels.
+/// One is pulled away: the other follows, they stay together, and their mutual forces cancel.
 TEST(Glue, KeepsTogetherWhatIsDrawnApart) {
   World world = two_cubes();
   world.glue = glue_between(world, 0, 1, 0.001);

@@ -20,7 +20,7 @@ using test::test_material;
 using test::touching_box;
 using test::world_of;
 
-/// Bricks far too soft for their own weight are pressed to the limit, not through themselves.
+/// Bricks far too soft for their own weight are compressed to the limit, but not inverted.
 TEST(Motion, CollapsingBodyKeepsNoBrickInverted) {
   for (const double poisson : {0.1, 0.3, 0.45}) {
     World world = world_of(make_body(make_box_grid({4, 4, 4}, 0.05), Model::kCalibrated, test_material(poisson, 100)),
@@ -38,8 +38,8 @@ TEST(Motion, CollapsingBodyKeepsNoBrickInverted) {
   }
 }
 
-/// A wall is struck by what is far too heavy and fast for it: its bricks are crushed and come back, and none of that
-/// gives energy.
+/// A wall is struck by a body far too heavy and fast for it: its bricks are crushed and recover, and none of that adds
+/// energy.
 TEST(InversionRate, CrushedBricksGiveNoEnergy) {
   Material soft = test_material(0.3, 5e3);
   soft.density = 500;
@@ -71,8 +71,8 @@ TEST(InversionRate, CrushedBricksGiveNoEnergy) {
   }
 }
 
-/// One face turned against the opposite one by more than a right angle: the corners may be in order, but between the
-/// mean axes no volume is left.
+/// One face turned against the opposite one by more than a right angle: the corners may be in order, but the mean axes
+/// span no volume.
 TEST(InversionRate, BrickTurnedOverBetweenItsCornersIsFound) {
   World world = world_of(box_body({1, 1, 1}, 0.02, Model::kCalibrated, 0.3));
   Body& body = world.bodies[0];

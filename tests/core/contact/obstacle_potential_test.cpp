@@ -11,7 +11,7 @@
 namespace sprung {
 namespace {
 
-/// A cube that every kind of solid reaches into, and that has moved along it since the step began.
+/// A cube that every kind of solid penetrates, and that has slid along it since the step began.
 struct Touching {
   explicit Touching(const Shape& shape) {
     obstacle.shape = shape;
@@ -32,7 +32,7 @@ struct Touching {
 
 class ObstaclePotentialOf : public testing::TestWithParam<Shape> {};
 
-/// Forces are minus the gradient of the energy, along a way of all nodes.
+/// Forces are minus the gradient of the energy, along a displacement of all nodes.
 TEST_P(ObstaclePotentialOf, FollowsFromItsEnergy) {
   Touching touching(GetParam());
   SoftBody& body = touching.world.bodies[0];

@@ -20,7 +20,7 @@ using test::gap_of_horseshoe;
 using test::test_material;
 using test::touching_box;
 
-/// Of a whole world.
+/// The momentum of a whole world.
 Vec3 momentum_of(const World& world) {
   Vec3 sum = Vec3::Zero();
   for (const SoftBody& body : world.bodies) sum += linear_momentum(body);
@@ -90,7 +90,7 @@ TEST_P(SkinContactBy, StackComesToRest) {
     EXPECT_LT(std::sqrt(body.velocities.rowwise().squaredNorm().maxCoeff()), 0.002) << i;
     EXPECT_EQ(inverted_bricks(body), 0);
   }
-  // No deeper in each other than a small part of a brick.
+  // They overlap by no more than a small fraction of a brick.
   for (int i = 0; i < 2; ++i) {
     const double top = world.bodies[i].positions.col(1).maxCoeff();
     const double bottom = world.bodies[i + 1].positions.col(1).minCoeff();
@@ -98,7 +98,7 @@ TEST_P(SkinContactBy, StackComesToRest) {
   }
 }
 
-/// The arms stop at each other.
+/// The arms stop each other.
 TEST_P(SkinContactBy, BodyDoesNotGoThroughItself) {
   const double h = 0.01;
   const auto least_gap = [&](bool collides_with_itself) {
@@ -117,8 +117,8 @@ TEST_P(SkinContactBy, BodyDoesNotGoThroughItself) {
   EXPECT_GT(least_gap(true), -0.05 * h);
 }
 
-/// What is found in a frame does not depend on the frames before: a motion can be taken up where it was left. Between
-/// two frames a body is put elsewhere, as where a frame is taken back.
+/// Contacts found in a frame do not depend on earlier frames: a motion can be resumed where it was left. Between two
+/// frames a body is put elsewhere, as when a frame is rolled back.
 TEST(SkinContact, FrontsBeginAnewWithEveryFrame) {
   const auto positions_after = [](bool keeps_integrator) {
     World world;
@@ -148,8 +148,8 @@ TEST(SkinContact, FrontsBeginAnewWithEveryFrame) {
   EXPECT_GT(kept.col(1).minCoeff(), -0.001) << "nothing in the ground";
 }
 
-/// A horseshoe far too soft for its weight falls into a heap. Skins that lie in each other there are not pushed apart
-/// against bricks that have no room: that would give energy for ever, and turn bricks inside out.
+/// A horseshoe far too soft for its weight falls into a heap. Overlapping skins are not pushed apart there against
+/// bricks that have no room: that would add energy for ever, and invert bricks.
 TEST(SkinContact, HeapOfPressedBricksGivesNoEnergy) {
   World world;
   world.obstacles = {level_ground(0)};

@@ -28,7 +28,7 @@ class SkinPotentialTest : public ::testing::Test {
     for (SoftBody& body : world_.bodies) test::shake(body, 0.05, random);
     for (std::size_t i = 0; i < 2; ++i) {
       const std::size_t points = contact_surface_of(world_.bodies[i]).points.size();
-      pushed_in_[i].setConstant(points, 1);  // nothing to be forgiven
+      pushed_in_[i].setConstant(points, 1);  // no tolerated initial overlap
     }
     potential_.emplace(world_, group_, glue_, SkinPotential::Step{.dt = 0.01, .slip = 1e-5},
                        std::vector{&pushed_in_[0], &pushed_in_[1]});
@@ -82,7 +82,7 @@ TEST_F(SkinPotentialTest, ForcesAddUpToNothing) {
   EXPECT_LT(sum.norm(), 1e-12);
 }
 
-/// What the couplings are in one body alone is no more than the parts that stand for them there.
+/// Within one body, the couplings are bounded by the parts that represent them.
 TEST_F(SkinPotentialTest, OwnPartsBoundTheCouplings) {
   const std::vector<Coupling> couplings = potential_->couplings();
   ASSERT_GT(couplings.size(), 3U);
@@ -110,7 +110,7 @@ TEST_F(SkinPotentialTest, OwnPartsBoundTheCouplings) {
       }
       EXPECT_LE(coupled, bound * (1 + 1e-9)) << trial;
       if (trial > 0) continue;
-      EXPECT_NEAR(coupled, bound, 0.25 * bound);  // corners a little beside a triangle count twice
+      EXPECT_NEAR(coupled, bound, 0.25 * bound);  // corners just outside a triangle count twice
     }
   }
 }

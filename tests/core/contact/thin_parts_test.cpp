@@ -20,7 +20,7 @@ SurfaceMesh hull() {
   return mesh;
 }
 
-/// Without forces nothing happens: what is beyond a thin part is not taken to be inside it and pushed out.
+/// Without forces nothing happens: points beyond a thin part are not mistaken for being inside it and pushed out.
 TEST(ThinPartContact, CloseToEachOtherAreLeftAlone) {
   Scene scene;
   scene.duration = 0.2;

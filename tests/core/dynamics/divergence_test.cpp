@@ -61,7 +61,7 @@ TEST(Divergence, OfASingleLayerIsHelpedByMoreBricks) {
   expect_remedy(world_of_box({4, 1, 4}), "one brick of 5 cm thick: use more bricks");
 }
 
-/// The integrator gives it.
+/// The integrator reports it.
 TEST(Divergence, IsTold) {
   World world = world_of_box();
   world.bodies[0].velocities(0, 1) = 1e300;

@@ -10,7 +10,7 @@
 #include "tests/support/sanitized.h"
 #include "tests/support/worlds.h"
 
-/// Bodies that meet obstacles in implicit steps.
+/// Contact of bodies with obstacles in implicit steps.
 namespace sprung {
 namespace {
 
@@ -96,7 +96,7 @@ TEST(ImplicitContact, PlatesPressAsInExplicitSteps) {
   EXPECT_LT((explicit_world.bodies[0].positions - body.positions).norm(), 0.05 * pressed);
 }
 
-/// A belt takes a block along: by friction up to its own speed, no faster than mu g.
+/// A belt carries a block along: friction accelerates it up to the belt's speed, by at most mu g.
 TEST(ImplicitContact, AMovingBeltTakesABlockAlong) {
   Body block = calibrated_box({4, 2, 4}, 0.02, 0.3, 2e5);
   block.damping.beta = 1e-3;

@@ -60,7 +60,7 @@ TEST(ImplicitDamping, VibrationDiesAwayAsInImplicitMotion) {
   }
 }
 
-/// A rigid motion is none of its business, and no momentum goes however early the iterations stop.
+/// A rigid motion is not damped, and momenta are conserved however early the iterations stop.
 TEST(ImplicitDamping, FreeBodyKeepsItsMomenta) {
   World world = damped_bar(0.3);
   Body& body = world.bodies[0];
@@ -76,7 +76,7 @@ TEST(ImplicitDamping, FreeBodyKeepsItsMomenta) {
   EXPECT_LT((angular_momentum(body) - angular).norm(), 1e-9 * angular.norm());
 }
 
-/// What is held keeps its velocity; the rest comes to follow it.
+/// Pinned nodes keep their velocity; the rest comes to follow them.
 TEST(ImplicitDamping, HeldNodesLead) {
   World world = damped_bar(5);
   SoftBody& body = world.bodies[0];

@@ -76,7 +76,7 @@ void runge_kutta(Body& body, double dt, long steps) {
   }
 }
 
-/// A stretched, turning, damped bar let go.
+/// A stretched, rotating, damped bar, released.
 Body released() {
   Body body = calibrated_box({4, 1, 1}, 0.02, 0.3);
   body.damping = {.alpha = 2, .beta = 2e-4};

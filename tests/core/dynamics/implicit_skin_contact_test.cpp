@@ -46,7 +46,7 @@ World two_stacked() {
   return world;
 }
 
-/// What they are pressed together by themselves is some 0.9 mm of the lower one.
+/// Their own weight compresses the lower one by some 0.9 mm.
 TEST(ImplicitTouch, StackRestsAtTheHeightsOfExplicitSteps) {
   World explicit_world = two_stacked();
   run_by_explicit_steps(explicit_world, 50);
@@ -104,7 +104,7 @@ TEST(ImplicitTouch, FastPlatesMeetInLongSteps) {
   EXPECT_LT(linear_momentum(world.bodies[0]).x(), 0.5 * 3 * world.bodies[0].masses.sum());
 }
 
-/// The arms of a horseshoe stop at each other.
+/// The arms of a horseshoe stop each other.
 TEST(ImplicitTouch, BodyDoesNotGoThroughItself) {
   const double h = 0.01;
   const auto least_gap = [&](bool collides_with_itself) {
@@ -136,7 +136,7 @@ double furthest_apart(const World& world) {
   return furthest;
 }
 
-/// A block hangs by its glue from another that is held, and hangs as low as by explicit steps.
+/// A block hangs by its glue from another that is pinned, as low as in explicit steps.
 TEST(ImplicitTouch, GlueHoldsWhatHangs) {
   const auto make = [] {
     World world;
@@ -174,7 +174,7 @@ TEST(ImplicitTouch, SameBitsForAnyNumberOfThreads) {
   EXPECT_EQ(one, run(4));
 }
 
-/// Blocks that begin a third of a brick inside each other come apart slowly, not by a blow.
+/// Blocks that start a third of a brick inside each other separate slowly, without an impulse.
 TEST(ImplicitTouch, WhatBeginsInsideIsLifted) {
   World world;
   world.obstacles = {level_ground(0)};
@@ -187,7 +187,7 @@ TEST(ImplicitTouch, WhatBeginsInsideIsLifted) {
   for (const SoftBody& body : world.bodies) EXPECT_LT(largest_speed(body), 0.05);
 }
 
-/// A stiff block that begins in the ground would shoot out of it.
+/// A stiff block that starts inside the ground would shoot out of it.
 TEST(ImplicitTouch, EnergyFromNowhereIsNotLetPass) {
   World world;
   world.gravity.setZero();

@@ -186,7 +186,7 @@ TEST(Motion, SymmetricCubeBouncesWithoutTumbling) {
   }
 }
 
-/// What starts a little below the ground comes up, and no higher than a throw from there would.
+/// A body that starts a little below the ground rises, but no higher than if thrown from there.
 TEST(Motion, SlightOverlapWithTheGroundIsLiftedGently) {
   const double h = 0.02;
   World world = world_of(box_body({4, 4, 4}, h, Model::kCalibrated, 0.3), {0, -9.81, 0});
@@ -204,8 +204,8 @@ TEST(Motion, SlightOverlapWithTheGroundIsLiftedGently) {
   EXPECT_GT(body.positions.col(1).minCoeff(), -0.01 * h);
 }
 
-/// A node with hardly any mass makes the step, which counts on lumped masses, too long: found within the frame, said,
-/// and cured by halving it.
+/// A node with hardly any mass makes the step, which counts on lumped masses, too long: detected within the frame,
+/// reported, and cured by halving it.
 TEST(AdaptiveIntegrator, HalvesTheStepWhereEnergyComesFromNowhere) {
   World world = world_of(box_body({3, 2, 2}, 0.02, Model::kCalibrated, 0.3));
   Body& body = world.bodies[0];
@@ -276,7 +276,7 @@ TEST(Motion, PinnedNodesStay) {
   EXPECT_LT(body.positions.col(1).minCoeff(), -1e-5);
 }
 
-/// What lies below the ground by nearly nothing but held nodes stays there, and throws nobody up.
+/// A body of which hardly more than pinned nodes is below the ground stays there, and is not thrown up.
 TEST(Motion, GroundPushesNothingThatIsHeld) {
   const double h = 0.02;
   World world = world_of(box_body({2, 2, 2}, h, Model::kCalibrated, 0.3), {0, -9.81, 0});

@@ -95,7 +95,7 @@ TEST(Multigrid, EqualsTheDirectSolverFarFromRest) {
   PointStiffness point{.brick = 40, .weights = CornerWeights::Constant(0.125)};
   point.stiffness = 1e3 * Mat3::Identity();
   problem.terms.points.push_back(point);
-  // Half turned over: the guard is at work.
+  // Half inverted: the guard is active.
   const auto& nodes = problem.body.grid.nodes[60];
   for (const int corner : {1, 3, 5, 7}) {
     problem.body.positions(nodes[corner], 0) -= 0.8 * problem.body.grid.brick_size;
@@ -107,7 +107,7 @@ TEST(Multigrid, EqualsTheDirectSolverFarFromRest) {
 
 TEST(Multigrid, SaysThatAMatrixIsNotPositiveDefinite) {
   Problem problem = cantilever(16, 0.3);
-  problem.body.positions.col(0) *= 0.5;  // pressed lengthwise: it would buckle
+  problem.body.positions.col(0) *= 0.5;  // compressed lengthwise: it would buckle
   const auto direct = make_direct_solver();
   EXPECT_FALSE(direct->linearize(problem.body, problem.supports, false, problem.terms));
   const auto multigrid = make_multigrid_solver();
@@ -118,7 +118,7 @@ TEST(Multigrid, SaysThatAMatrixIsNotPositiveDefinite) {
   EXPECT_GT(solve(*multigrid, problem, 1e-4, true).size(), 0);
 }
 
-/// By plain conjugate gradients; fills `downhill`.
+/// Solves by plain conjugate gradients; fills `downhill`.
 Eigen::VectorXd solve_dense(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& forces, Eigen::VectorXd& downhill) {
   SolveReport report;
   return conjugate_gradients(
@@ -127,7 +127,7 @@ Eigen::VectorXd solve_dense(const Eigen::MatrixXd& matrix, const Eigen::VectorXd
       [](const Eigen::VectorXd& residual, Eigen::VectorXd& answer) { answer = residual; }, report, &downhill);
 }
 
-// Of 1/2 x.A x - f.x, for random matrices with one negative eigenvalue.
+// Descent directions of 1/2 x.A x - f.x, for random matrices with one negative eigenvalue.
 TEST(ConjugateGradients, LeadDownhillWhereAMatrixIsNotPositiveDefinite) {
   std::mt19937 random(7);
   std::normal_distribution<double> normal;
@@ -178,7 +178,7 @@ TEST(Multigrid, ThinPartsAndTwoMaterialsTakeFewIterations) {
   EXPECT_LT(count(lumps), 25);
 }
 
-/// Octopuses have thin arms, and bricks cut to slivers that feel next to nothing beside whole ones.
+/// Octopuses have thin arms, and bricks cut to slivers whose stiffness is negligible next to whole ones.
 TEST(Multigrid, CutBricksTakeFewIterations) {
   const std::string name = SPRUNG_SOURCE_DIR "/assets/models/octopus.ply";
   const SurfaceMesh mesh = read_mesh(name);
@@ -193,7 +193,7 @@ TEST(Multigrid, CutBricksTakeFewIterations) {
   }
 }
 
-/// Their bending meets so little stiffness that hardly any rounding of it is small enough.
+/// Their bending stiffness is so low that hardly any rounding error is small compared with it.
 TEST(Multigrid, SlenderBeamsTakeFewIterations) {
   const auto count = [](const Eigen::Vector3i& counts) {
     Problem problem(make_box_grid(counts, 0.01));
@@ -239,7 +239,7 @@ void make_symmetric(float* pull) {
   }
 }
 
-/// All bricks; the places of the last block that hold none are left empty.
+/// All bricks; the unused slots of the last block are left empty.
 void fill_at_random(multigrid::Level& level, int bricks) {
   std::mt19937 random(7);
   std::uniform_real_distribution<float> value(-1, 1);

@@ -91,8 +91,8 @@ TEST(Statics, LargeLoadsReachEquilibrium) {
   EXPECT_NEAR(pin_forces.col(0).sum(), 0, 1e-9 * -loads.col(1).sum());
 }
 
-/// A column that is pressed to 0.8 of its length, from where it is straight: Newton's method begins on a ridge. With
-/// the positive part of the curvature alone it takes 102 iterations.
+/// A straight column that is compressed to 0.8 of its length: Newton's method begins on a ridge. With the positive part
+/// of the curvature alone it takes 102 iterations.
 TEST(Statics, APressedColumnLeavesTheRidgeItStandsOn) {
   Cantilever column(Model::kNeoHooke, 0.3, 4);
   Body& body = column.body;
@@ -147,7 +147,7 @@ std::string reason_of(const std::function<void()>& work) {
   return "none";
 }
 
-/// Held along one edge only; its weight turns it about that.
+/// Supported along one edge only; its weight turns it about that edge.
 TEST(Statics, AFreeMotionIsNamed) {
   Cantilever beam(Model::kCalibrated, 0.3, 2);
   Supports hinge(beam.body.node_count());
@@ -161,7 +161,7 @@ TEST(Statics, AFreeMotionIsNamed) {
   EXPECT_NE(reason.find("the supports leave the body free to move; "), std::string::npos) << reason;
   EXPECT_NE(reason.find(turn), std::string::npos) << reason;
   EXPECT_EQ(natural_modes(beam.body, hinge, 3).rigid, 1);
-  // What does not drive the motion is carried all the same.
+  // Loads that do not drive the motion are carried all the same.
   Points along = Points::Zero(beam.body.node_count(), 3);
   along.col(2) = beam.body.masses;
   const Eigen::VectorXd sideways = solve_linear(beam.body, hinge, along, *system);
@@ -198,8 +198,8 @@ TEST(Modes, AFreeBeamSwingsAtTheFrequencyOfTheory) {
   }
 }
 
-/// By multigrid, checked with the matrix: a body of more coordinates than are solved densely, held and free. More modes
-/// begin with the same ones.
+/// By multigrid, checked with the matrix: a body of more coordinates than are solved densely, supported and free. More
+/// modes begin with the same ones.
 TEST(Modes, OfALargerBodyAreEigenvectorsAndNoneIsMissed) {
   const Body block = make_body(make_box_grid({8, 9, 10}, 0.01), Model::kCalibrated, test_material(0.4, 1e5));
   Supports foot(block.node_count());

@@ -12,7 +12,7 @@
 #include "tests/support/bodies.h"
 #include "tests/support/comb.h"
 
-/// Two fingers a twentieth of a brick apart, on a back that is held at its foot.
+/// Two fingers a twentieth of a brick apart, on a back that is clamped at its foot.
 namespace sprung {
 namespace {
 
@@ -52,7 +52,7 @@ class TwoFingers : public ::testing::Test {
     return sum / double(nodes.size());
   }
 
-  /// How far the right finger's end comes along, over the way of the left one's.
+  /// How far the right finger's end moves along, over the displacement of the left one's.
   static double share(const Body& body, const Points& moved) {
     return mean_x(moved, end_nodes(body, false)) / mean_x(moved, end_nodes(body, true));
   }

@@ -13,8 +13,8 @@
 namespace sprung {
 namespace {
 
-/// A grid of n x n vertices with everything that a mesh can have, two parts of two materials; and two vertices in one
-/// place, which no writer may make one of.
+/// A grid of n x n vertices with everything that a mesh can have, two parts of two materials; and two coincident
+/// vertices, which no writer may merge.
 Skin sheet(int n) {
   Skin skin;
   const auto count = Eigen::Index(n) * n;
@@ -73,7 +73,7 @@ TEST_P(MeshExport, ComesBackAsItWas) {
   const Points found = corners_of(read.positions, read.triangles);
   EXPECT_LT((expected - found).cwiseAbs().maxCoeff(), 1e-6 * expected.cwiseAbs().maxCoeff());
   if (GetParam().extension == ".stl") return;
-  // Every frame has as many vertices, whatever places coincide in it.
+  // Every frame has as many vertices, whichever positions coincide in it.
   PosedMesh flat = mesh;
   flat.positions.col(0).setZero();
   flat.positions.col(2).setZero();

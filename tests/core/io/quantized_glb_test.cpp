@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-/// A ball of 400 points with their normals, that is carried off, pulled long and turned about z, by so much in all.
+/// A ball of 400 points with their normals, that is translated, stretched and rotated about z, by that angle in all.
 AnimatedMesh turning_ball(const Skin& ball, double degrees) {
   AnimatedMesh film{.first = {.name = "ball", .rest = &ball, .positions = ball.positions, .normals = ball.normals},
                     .positions = {},

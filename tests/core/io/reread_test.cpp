@@ -20,8 +20,8 @@ constexpr std::array<unsigned char, 67> kPixel{
     0x00, 0x00, 0x0a, 0x49, 0x44, 0x41, 0x54, 0x78, 0x9c, 0x63, 0x68, 0x00, 0x00, 0x00, 0x82, 0x00, 0x81,
     0x77, 0xcd, 0x72, 0xb6, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
 
-/// A strip of n squares with everything that a mesh can have, in two parts of two materials; and two vertices in one
-/// place, which no writer may make one of.
+/// A strip of n squares with everything that a mesh can have, in two parts of two materials; and two coincident
+/// vertices, which no writer may merge.
 Skin strip(int n) {
   std::srand(1);  // where Eigen's random numbers come from
   Skin skin;

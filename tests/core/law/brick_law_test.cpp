@@ -177,8 +177,8 @@ TEST(BrickLaw, CalibratedIsStableForAuxeticMaterials) {
   EXPECT_THROW((void)brick_law(Model::kTensile, test_material(-0.3), kSide), Error);
 }
 
-/// What the edges' springs and their correction answer to a common stretch of the edges is never below zero: what would
-/// be is on the mean axes, and nothing else is.
+/// The response of the edge springs and their correction to a common stretch of the edges is never negative: the part
+/// that would be is on the mean axes, and nothing else is.
 TEST(BrickLaw, OnlyTheNegativePartOfTheAxialCorrectionIsOnTheMeanAxes) {
   for (const double poisson : {-0.2, 0.0, 0.1, 0.15, 0.16, 0.3, 0.49}) {
     const Material material = test_material(poisson);
@@ -195,7 +195,7 @@ TEST(BrickLaw, OnlyTheNegativePartOfTheAxialCorrectionIsOnTheMeanAxes) {
   }
 }
 
-/// A correction that is negative in any combination of its lengths has no least energy far from rest.
+/// A correction that is negative in any combination of its lengths has no energy minimum far from rest.
 TEST(BrickLaw, NoCorrectionOfTheCalibratedBrickIsNegative) {
   for (double poisson = -0.9; poisson < 0.499; poisson += 0.1) {
     const Material material = test_material(poisson);

@@ -1,4 +1,4 @@
-// What a brick's constants can and cannot mend: the figures of core/law/brick_law.h.
+// What a brick's constants can and cannot correct: the figures of core/law/brick_law.h.
 #include <gtest/gtest.h>
 
 #include <algorithm>

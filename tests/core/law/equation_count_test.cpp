@@ -79,7 +79,7 @@ TEST(EquationCount, CorrectionsFitEveryRatio) {
   }
 }
 
-/// What the stiffnesses of a law leave unanswered in the equations of one kind, Pa, for E = 1 Pa.
+/// The residual of the equations of one kind for the stiffnesses of a law, Pa, for E = 1 Pa.
 double misfit(const SpringEquations& equations, const Eigen::VectorXd& stiffnesses, EquationKind kind) {
   const Eigen::VectorXd left = equations.matrix * stiffnesses - equations.right;
   double worst = 0;
@@ -99,7 +99,7 @@ void expect_only_poisson_fails(const SpringEquations& equations, const Eigen::Ve
   }
 }
 
-/// The paper answers Young and shear and leaves Poisson's equations to the correction. So must its stiffnesses.
+/// The paper satisfies the Young and shear equations and leaves Poisson's to the correction. So must its stiffnesses.
 TEST(EquationCount, LawsOfTheElementsAnswerTheEquations) {
   for (const double poisson : {0.1, 0.25, 1.0 / 3, 0.4}) {
     const Material unit = test::test_material(poisson, 1);

@@ -38,7 +38,7 @@ class ReadMesh : public ::testing::Test {
       fmt::format("sprung_read_mesh_{}_{}", getpid(), ::testing::UnitTest::GetInstance()->current_test_info()->name());
 };
 
-/// The message that reading `file` ends with; it must come at once and be about the input.
+/// The message that reading `file` ends with; it must come at once and concern the input.
 std::string refusal(const fs::path& file) {
   const auto start = std::chrono::steady_clock::now();
   try {

@@ -5,7 +5,7 @@
 #include "core/mesh/io/text_scanner.h"
 #include "tests/support/error_message.h"
 
-/// What the readers of OBJ, PLY, STL and OFF make of texts that are unusual or damaged.
+/// How the readers of OBJ, PLY, STL and OFF handle texts that are unusual or damaged.
 namespace sprung {
 namespace {
 
@@ -197,7 +197,7 @@ TEST(ReadStl, TakesTextInDoublePrecisionAndAPartForEachSolid) {
                  "facet 1 is followed by an 'end' of nothing");
 }
 
-/// As programs write it that do not keep to the letter of the format.
+/// As written by programs that do not follow the format to the letter.
 TEST(ReadStl, TakesCommonVariantsOfItsText) {
   const std::string corners = "vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n";
   for (const std::string& text : std::initializer_list<std::string>{

@@ -14,7 +14,7 @@
 namespace sprung {
 namespace {
 
-/// Clean surfaces: nothing is to be repaired.
+/// Clean surfaces: nothing needs repair.
 constexpr std::array kSound{"spot_triangulated.obj",       "bunny.obj",          "eight.off",   "bob_small.ply",
                             "scorpion_low_resolution.obj", "test_pos_color.ply", "scallop.glb", "unit_cube.STL",
                             "large_block_obb.STL",         "plate_holes.STL",    "sphere.dae",  "huesitos.fbx",
@@ -89,7 +89,7 @@ TEST_P(SharedMeshes, AreTheSameAtAnyScale) {
 INSTANTIATE_TEST_SUITE_P(Sound, SharedMeshes, ::testing::ValuesIn(kSound), test_name);
 INSTANTIATE_TEST_SUITE_P(Mended, SharedMeshes, ::testing::ValuesIn(kMended), test_name);
 
-/// What the mesh's bricks hold above a height, as a share of all.
+/// The fraction of the bricks' volume above a height.
 double volume_above(const BrickGrid& grid, double share_of_height) {
   int top = 0;
   for (const auto& cell : grid.cells) top = std::max(top, cell.y());

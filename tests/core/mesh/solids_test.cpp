@@ -86,7 +86,7 @@ TEST(FindSolids, DropsTrianglesWithoutAreaAndRepeatedOnes) {
 }
 
 TEST(FindSolids, KeepsSliversThatHoldTheSurfaceTogether) {
-  // The edge 4-6 of the box gets a middle point that only one of its two triangles knows: a sliver closes the gap.
+  // The edge 4-6 of the box gets a midpoint that only one of its two triangles has: a sliver closes the gap.
   SurfaceMesh mesh = box_mesh(Vec3::Zero(), kOne);
   mesh.positions.conservativeResize(9, 3);
   mesh.positions.row(8) = 0.5 * (mesh.positions.row(4) + mesh.positions.row(6));

@@ -138,7 +138,7 @@ double border_of(const Skin& skin) {
   return length;
 }
 
-/// Bevels are slivers, and their neighbours wide: both are cut at the same places, and the slivers into hardly more
+/// Bevels are slivers, and their neighbours wide: both are cut at the same points, and the slivers into hardly more
 /// triangles than a strip has.
 TEST(Skin, RefiningDoesWithoutParts) {
   Skin with_parts = make_skin(cube_mesh(), {.max_edge = 0, .crease_angle = 40});
@@ -156,7 +156,7 @@ TEST(Skin, RefiningCutsSliversAcross) {
   SurfaceMesh mesh = bevelled_square(45);
   mesh.parts = {{.name = "all", .first_triangle = 0, .triangle_count = 12}};
   Skin skin = make_skin(mesh, {.max_edge = 1e9, .crease_angle = 10});
-  // On one vertex a place, as creases have vertices of their own.
+  // With one vertex per position, since creases have vertices of their own.
   Skin whole = make_skin(mesh, {.max_edge = 1e9, .crease_angle = 180});
   const double area = area_of(whole);
   const double border = border_of(whole);
@@ -192,7 +192,7 @@ SurfaceMesh mesh_of(const Points& positions, const Triangles& triangles) {
   return mesh;
 }
 
-/// On the unit sphere.
+/// Its vertices are on the unit sphere.
 SurfaceMesh icosahedron() {
   const double g = std::numbers::phi;
   Points positions(12, 3);
@@ -266,7 +266,7 @@ TEST(RefineCurves, LeavesBlocksOfFewSides) {
   }
 }
 
-/// As some files have them.
+/// Some files contain such normals.
 TEST(RefineCurves, LeavesEdgesWhoseNormalsAreNoNumbersStraight) {
   Skin skin = make_skin(icosahedron(), {.is_smooth = true});
   skin.normals.setConstant(std::numeric_limits<double>::quiet_NaN());

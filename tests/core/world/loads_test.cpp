@@ -44,7 +44,7 @@ TEST(Loads, ForceAcceleratesAFreeBody) {
   EXPECT_LT((linear_momentum(body) - expected).norm(), 1e-10 * expected.norm());
 }
 
-/// Pressure on a closed skin pushes nothing along, and does the work p dV where the body swells.
+/// Pressure on a closed skin has no resultant, and does the work p dV if the body swells.
 TEST(Loads, PressureOnAClosedSkinDoesTheWorkOfItsVolume) {
   World world = weightless(touching_box({3, 2, 2}, 0.01, test_material(0.3, 2e4), Vec3::Zero()));
   SoftBody& body = world.bodies[0];
@@ -73,7 +73,7 @@ TEST(Loads, PressureShrinksABodyByItsBulkModulus) {
   EXPECT_NEAR(1 - volume / std::pow(0.04, 3), pressure / bulk, 0.03 * pressure / bulk);
 }
 
-/// On a plate across the wind acts density drag area v^2 / 2; along it nothing but what meets its edge.
+/// A plate normal to the wind feels density drag area v^2 / 2; one along it only the wind on its edge.
 TEST(Loads, WindPressesOnWhatFacesIt) {
   World world = weightless(touching_box({1, 6, 5}, 0.01, test_material(0.3, 2e4), Vec3::Zero()));
   world.wind = {.velocity = {8, 0, 0}, .density = 1.2, .drag = 1.1};
@@ -84,7 +84,7 @@ TEST(Loads, WindPressesOnWhatFacesIt) {
   EXPECT_LT(LoadForces(body, world).forces().norm(), 1e-12);
 }
 
-/// Nothing resists: every brick takes the muscle's shape, and the body as a whole stays where it is. Across the edges
+/// Nothing resists: every brick takes the muscle's shape, and the body as a whole does not move. Across the edges
 /// diagonals carry more of it, whose directions turn: there it is a little off.
 TEST(Loads, FreeMuscleContractsAndKeepsItsVolume) {
   for (const auto& [direction, accuracy] : {std::pair(Vec3(1, 0, 0), 0.01), std::pair(Vec3(0.6, 0.8, 0), 0.035)}) {

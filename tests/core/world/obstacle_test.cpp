@@ -105,7 +105,7 @@ TEST(Obstacle, BlockOnASlopeStaysOrSlides) {
   }
 }
 
-/// A plate comes down on a cube, presses it to two thirds, and goes up again: the cube is then as it was.
+/// A plate comes down on a cube, compresses it to two thirds, and rises again: the cube then recovers its shape.
 TEST(Obstacle, SquashedCubeComesBack) {
   World world;
   world.gravity.setZero();
@@ -151,7 +151,7 @@ TEST(Obstacle, TurningCylinderCarriesABodyAround) {
   EXPECT_NEAR(flipped, 1.5, 0.05);
 }
 
-/// Soft and at rest it takes long steps; a few of them are a fall through most of a brick. It is found as it lands.
+/// Soft and at rest it takes long steps; in a few of them it falls through most of a brick. Its landing is detected.
 TEST(Obstacle, WhatBeginsToFallIsFoundInTime) {
   const double h = 0.0266;
   Material soft = test_material(0.4, 1800);
@@ -163,7 +163,7 @@ TEST(Obstacle, WhatBeginsToFallIsFoundInTime) {
   EXPECT_LT(test::deepest_contact_point(world), 0.01 * h);
 }
 
-/// Two points near one corner of a brick press alike: held by turns only, both would sink in.
+/// Two points near one corner of a brick press equally: if held only in turns, both would sink in.
 TEST(Obstacle, PointsThatShareACornerAreBothHeld) {
   const double h = 0.8;
   World world;
@@ -182,7 +182,7 @@ TEST(Obstacle, PointsThatShareACornerAreBothHeld) {
   }
 }
 
-/// As fast as it may be: nothing goes through a plate a tenth of a brick thick.
+/// At the highest permitted speed nothing passes through a plate a tenth of a brick thick.
 TEST(Obstacle, FastBodyDoesNotTunnel) {
   World world;
   world.gravity.setZero();

@@ -98,7 +98,7 @@ json medium_of(const Vector3f& color, double mean_free_path) {
   return {{"scattering", medium.scattering}, {"absorption", listed(medium.absorption)}, {"index", Medium::kIndex}};
 }
 
-/// m, of each corner and colour: the mean way to a scattering or an absorption.
+/// m, of each corner and colour: the mean free path to a scattering or an absorption.
 std::vector<float> extinction_lengths(const std::vector<float>& colors, double mean_free_path) {
   std::vector<float> lengths;
   for (std::size_t i = 0; i < colors.size(); i += 3) {

@@ -62,7 +62,7 @@ TEST(Finish, NoLookReflectsMoreThanItGets) {
   }
 }
 
-/// H. von Helmholtz: light may run both ways.
+/// H. von Helmholtz: light paths are reversible.
 TEST(Finish, IsReciprocal) {
   for (const Look look : {Look::kPlastic, Look::kRubber}) {
     const Finish finish = Finish::of(look);
@@ -104,7 +104,7 @@ TEST(Finish, AMirrorReflectsToTheOtherSide) {
   EXPECT_LT((next - direction(0.6F, kPi)).norm(), 0.01);
 }
 
-/// At right angles (n - 1)^2 / (n + 1)^2, along the surface everything.
+/// Reflects (n - 1)^2 / (n + 1)^2 at normal incidence, everything at grazing incidence.
 TEST(Finish, FresnelsLawAtItsEnds) {
   const Finish glossy({.roughness = 0.2F});
   const double at_right_angles = reflected(glossy, 1, Vector3f::Zero());

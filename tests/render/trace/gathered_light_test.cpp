@@ -66,7 +66,7 @@ class Gathering {
     return light_.of_vertices(0);
   }
   [[nodiscard]] const std::vector<SkinShape>& shapes() const { return shapes_; }
-  /// In the middle of the ground.
+  /// The light in the middle of the ground.
   Vector4f onto_ground() {
     light_.update(shapes_, kEye, open_ground(stage_));
     const GroundGlow& glow = light_.onto_ground(open_ground(stage_));
@@ -85,7 +85,7 @@ int nearest(const Skin& skin, const Vec3& point) {
   return int(vertex);
 }
 
-/// Irradiance over pi of a surface that nothing hides.
+/// Irradiance over pi of an unoccluded surface.
 Vector3f unhidden(const Vector3f& normal) {
   const StageLight light(lighting_of(LightPreset::kStudio), std::nullopt);
   const TangentFrame frame(normal);
@@ -231,7 +231,7 @@ TEST(GatheredLight, OfAMetalHasItsMirroredNeighbours) {
   EXPECT_LT(mirrored(Vec3(-1, 0, 1).normalized()).w(), 0.05F);
 }
 
-// As a file or a flattened triangle may have them.
+// Such normals may come from a file or a flattened triangle.
 TEST(GatheredLight, NormalsThatAreNoNumbersHaveNoLight) {
   StillLife scene;
   scene.add(make_sphere_skin({0, 1, 0}, 0.4), kCream);

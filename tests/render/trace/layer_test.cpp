@@ -15,7 +15,7 @@ TEST(Layer, ThickOnesReflectTheirColour) {
   EXPECT_LT(thick.let_through.maxCoeff(), 1e-6F);
 }
 
-// Two surfaces and nothing between them: light goes to and fro, and half of it comes out at each turn.
+// Two surfaces and nothing between them: light bounces to and fro, and half of it leaves at each bounce.
 TEST(Layer, OneOfNoThicknessIsItsTwoSurfaces) {
   const Layer thin(kBase, 1e-6F);
   for (int k = 0; k < 3; ++k) {

@@ -44,7 +44,7 @@ struct Ball {
   [[nodiscard]] float scale() const { return float(StageSpace(scene.stage().bounds).scale); }
 };
 
-/// The white furnace: in an even light a white body cannot be told from the background.
+/// The white furnace: in uniform light a white body cannot be distinguished from the background.
 TEST(LightPaths, AWhiteBodyDisappearsInAnEvenLight) {
   const Ball ball(kWhitePaint);
   for (const Look look : kLooks) {
@@ -74,7 +74,7 @@ TEST(LightPaths, AWhiteTranslucentBodyDisappearsToo) {
   }
 }
 
-/// A ball of the same colour is lighter where light goes through more easily.
+/// A ball of the same colour is lighter if light passes through it more easily.
 TEST(LightPaths, TranslucentBodiesAreOfTheirColourWhereTheyAreThick) {
   const Ball ball({0.9F, 0.4F, 0.3F});
   const auto light = [&](double mean_free_path) {
@@ -82,7 +82,7 @@ TEST(LightPaths, TranslucentBodiesAreOfTheirColourWhereTheyAreThick) {
     stage.mean_free_paths = {mean_free_path};
     LightPaths paths(stage, StageLight::even({1, 1, 1}), all_of(Finish::of(Look::kGelatin)));
     paths.update({&ball.shapes});
-    constexpr int kRays = 24;  // evenly over the ball's disc: what even light enters is seen from everywhere alike
+    constexpr int kRays = 24;  // evenly over the ball's disc: in uniform light it looks the same from all sides
     Vector3f sum = Vector3f::Zero();
     for (int i = 0; i < kRays; ++i) {
       const float height = 0.577F * std::sqrt((float(i) + 0.5F) / kRays);
@@ -107,7 +107,7 @@ struct CherryInJelly {
     scene.add(make_sphere_skin(Vec3::Zero(), 1), kCream);
     if (!is_first) scene.add(make_sphere_skin(Vec3::Zero(), 0.6), cherry);
   }
-  /// Straight on the middle, under the studio's light.
+  /// Aimed at the middle, under the studio's light.
   [[nodiscard]] Vector3f light() const {
     const std::vector<SkinShape> shapes = scene.shapes();
     Stage stage = scene.stage();
@@ -208,7 +208,7 @@ TEST(LightPaths, AMirrorShowsWhatLiesThere) {
   EXPECT_GT((found - light.around(normal)).norm(), 0.2F * found.norm());
 }
 
-/// What a look reflects never exceeds the brightest that lights it, though it may be lit from everywhere.
+/// What a look reflects never exceeds the brightest light on it, even if it is lit from everywhere.
 TEST(LightPaths, ColoursOnlyTakeLightAway) {
   for (const Look look : kLooks) {
     const Ball ball({0.9F, 0.5F, 0.2F});

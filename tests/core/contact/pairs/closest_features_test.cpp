@@ -20,7 +20,7 @@ std::array<Vec3, 4> random_corners(std::mt19937& random) {
   return x;
 }
 
-/// The least distance over a lattice of places of both features; `step`: of their weights.
+/// The least distance over a lattice of points of both features; `step`: of their weights.
 double sampled_distance(const std::array<Vec3, 4>& x, bool is_point, double step) {
   double least = 1e300;
   for (double u = 0; u <= 1 + 1e-9; u += step) {

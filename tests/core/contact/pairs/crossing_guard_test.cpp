@@ -13,14 +13,14 @@
 #include "tests/support/horseshoe.h"
 #include "tests/support/touching.h"
 
-/// Whether surfaces cross is told by every edge of one and every triangle of the other.
+/// Crossings of surfaces are found by testing every edge of one against every triangle of the other.
 namespace sprung {
 namespace {
 
 using test::test_material;
 using test::touching_box;
 
-/// A contact surface where it is.
+/// A contact surface at its position.
 struct PlacedSurface {
   std::vector<Vec3> positions;
   const ContactSurface* skin;
@@ -39,7 +39,7 @@ bool crosses(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const V
   return (volume(p, q, b, c) > 0) == side && (volume(p, q, c, a) > 0) == side;
 }
 
-/// Of edges of one through triangles of the other; within one surface only those without a common corner.
+/// Crossings of edges of one through triangles of the other; within one surface only those without a common corner.
 int crossings_through(const PlacedSurface& edges_of, const PlacedSurface& triangles_of) {
   int count = 0;
   for (const std::array<int, 3>& from : edges_of.skin->triangles) {
@@ -190,7 +190,7 @@ TEST(CrossingGuard, MovingObstaclesPushWithoutEntering) {
   EXPECT_GT(linear_momentum(world.bodies[0]).norm() / world.bodies[0].masses.sum(), 0.1);
 }
 
-/// The same bits, whatever was done before, on every thread count.
+/// The same bits, regardless of earlier frames, on every thread count.
 TEST(CrossingGuard, AFrameDependsOnItsStartOnly) {
   World world = crossed_edges();
   EXPECT_EQ(run_and_count(world, 0.05), 0);

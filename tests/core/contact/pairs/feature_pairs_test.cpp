@@ -22,7 +22,7 @@ using test::Waves;
 
 using Key = std::array<int, 6>;  // count, side of the first feature, corners
 
-/// Two surfaces, or one, on random ways, and all pairs of their features.
+/// Two surfaces, or one, on random trajectories, and all pairs of their features.
 class FeatureRace {
  public:
   FeatureRace(SoftBody& a, SoftBody& b, double dt)
@@ -31,8 +31,8 @@ class FeatureRace {
         pairs_(trees_[0], trees_[is_self() ? 0 : 1], {0, 1}, 0.5),
         dt_(dt) {}
 
-  /// Looks ahead for some steps in which velocities stay as they are. Returns how many pairs might be crossed in one of
-  /// them and sleep; adds those that might to `near`.
+  /// Looks ahead for some steps of constant velocities. Returns how many pairs might cross in one of them and sleep;
+  /// adds those that might to `near`.
   long look(int steps, long& near) {
     for (int i = 0; i < (is_self() ? 1 : 2); ++i) trees_[i].follow(steps * dt_, 0);
     pairs_.wake();
@@ -56,7 +56,7 @@ class FeatureRace {
 
  private:
   [[nodiscard]] bool is_self() const { return bodies_[0] == bodies_[1]; }
-  /// Two edges of one surface may be listed either way.
+  /// Two edges of one surface may be listed in either order.
   [[nodiscard]] Key key_of(const FeaturePair& pair) const {
     const auto& [a, b, c, d] = pair.corners;
     if (is_self() && pair.count == 2 && std::pair(c, d) < std::pair(a, b)) return {2, 0, c, d, a, b};
@@ -84,7 +84,7 @@ class FeatureRace {
     }
     return (most - least) * dt_ > kFreeShare * (gap - kLeastGap * bodies_[0]->grid.brick_size);
   }
-  /// What has crossed when it is looked at is left alone.
+  /// Pairs that have already crossed when they are checked are ignored.
   void find_crossed() {
     crossed_.clear();
     each_pair([&](const FeaturePair& pair) {

@@ -17,7 +17,7 @@ using test::test_material;
 using test::touching_box;
 using test::Waves;
 
-/// On random ways of a body and an obstacle: every point that a step may bring into it is awake.
+/// On random trajectories of a body and an obstacle: every point that a step may bring into it is awake.
 long missed_points(Obstacle obstacle, unsigned seed, long& near) {
   constexpr double kStep = 1e-3;
   constexpr int kAhead = 4;

@@ -30,7 +30,7 @@ double distance_to_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const V
   return std::min({to_segment(a, b), to_segment(b, c), to_segment(c, a)});
 }
 
-/// Two surfaces, or one, on random ways, a front between them, and all pairs of points and triangles.
+/// Two surfaces, or one, on random trajectories, a front between them, and all pairs of points and triangles.
 class FrontRace {
  public:
   FrontRace(SoftBody& a, SoftBody& b, double dt)
@@ -42,7 +42,7 @@ class FrontRace {
         front_(tree_a_, is_self() ? tree_a_ : tree_b_, 0.3 * a.grid.brick_size, lists_),
         dt_(dt) {}
 
-  /// Returns how many pairs come as near in this step as touching and are in no list; adds those that are to near.
+  /// Returns how many pairs come into contact range in this step and are in no list; adds those that are to near.
   long step(long& near) {
     tree_a_.follow(dt_, 0);
     if (!is_self()) tree_b_.follow(dt_, 0);
@@ -160,7 +160,7 @@ TEST(ContactFront, NoPairOfABodyWithItselfSleepsThatCanTouch) {
   EXPECT_EQ(missed, 0);
 }
 
-/// What falls and turns together is looked at once.
+/// Bodies that fall and rotate together are checked once.
 TEST(ContactFront, BodiesThatMoveTogetherCostNothing) {
   SoftBody a = touching_box({3, 3, 3}, 0.02, test_material(0.3), Vec3::Zero());
   SoftBody b = touching_box({3, 3, 3}, 0.02, test_material(0.3), Vec3(0, 0.065, 0));

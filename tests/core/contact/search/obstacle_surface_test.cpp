@@ -9,7 +9,7 @@
 namespace sprung {
 namespace {
 
-/// All points lie on the box, and every area outward: the volume is that of the box.
+/// All points lie on the box, and every area vector points outward: the volume is that of the box.
 TEST(ObstacleSurface, IsThatOfTheBoxWhereverItIs) {
   Obstacle box;
   box.shape = SolidBox{Vec3(0.3, 0.1, 0.05)};

@@ -11,7 +11,7 @@
 #include "core/simulation/shapes.h"
 #include "core/simulation/simulate.h"
 
-/// What crosses, against all pairs of triangles compared with exact numbers.
+/// Crossings, checked against all pairs of triangles in exact arithmetic.
 namespace sprung {
 namespace {
 
@@ -75,7 +75,7 @@ long count_within(const std::vector<Facet>& all) {
   return count;
 }
 
-/// Of a simulation as it is now, but for planes.
+/// The crossings of a simulation in its present state, except those of planes.
 long count_all(const Simulation& simulation, bool bodies_touch, double time) {
   std::vector<std::vector<Facet>> facets;
   for (const SoftBody& body : simulation.world.bodies) {

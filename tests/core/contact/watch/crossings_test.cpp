@@ -97,7 +97,7 @@ TEST(Crossings, NeedleThroughAPlateIsHalfAsDeepAsThePlate) {
   EXPECT_NEAR(depth_between(plate, needle).depth, 0.002, 1e-9);
 }
 
-/// Of three boxes in one skin two overlap from the start, and the third comes into one of these.
+/// Of three boxes in one skin two overlap from the start, and the third enters one of these.
 TEST(Crossings, WhatIsTangledAtTheStartCanBeLeftAlone) {
   const Skin box = skin_of(box_mesh({0.1, 0.1, 0.1}), 0.02);
   const Skin bar = skin_of(box_mesh({0.1, 0.05, 0.05}), 0.02);

@@ -29,7 +29,7 @@ Mat3 random_matrix(double size, Random& random) {
   return Mat3::NullaryExpr([&] { return between(-size, size, random); });
 }
 
-/// Of points anywhere in the brick.
+/// Moments of points anywhere in the brick.
 SolidMoments random_moments(Random& random) {
   SolidIntegrals sum;
   for (int i = 0; i < 4; ++i) {
@@ -141,7 +141,7 @@ TEST(NeoHooke, BearsEveryLoadInCompression) {
     const NeoHooke law(test::test_material(poisson, 1));
     double least = 0;
     for (double stretch = 0.99; stretch > 0.05; stretch -= 0.01) {
-      // Confined, which is the least a solid with free sides is held by.
+      // Confined, the least support of a solid with free sides.
       const double stress = law.stress(Vec3(stretch, 1, 1).asDiagonal())(0, 0);
       EXPECT_LT(stress, least) << poisson << ' ' << stretch;
       least = stress;
@@ -222,7 +222,7 @@ TEST(SolidBrick, HasADefiniteHessianToo) {
       EXPECT_GT(Eigen::SelfAdjointEigenSolver<BrickMatrix>(definite).eigenvalues()[0], -1e-12 * definite.norm());
     }
   }
-  // Where there is nothing negative, nothing is changed.
+  // If nothing is negative, nothing is changed.
   const SolidBrick brick(test::test_material(0.3), kSide, 1, {});
   const BrickVector x = deformed(1.1 * Mat3::Identity(), kSide);
   EXPECT_LT((brick.hessian(x, true) - brick.hessian(x, false)).norm(), 1e-12 * brick.hessian(x, false).norm());
