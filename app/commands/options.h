@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/commands/commands.h"
 #include "app/commands/make_scene.h"
 #include "app/console/console.h"
 #include "app/film/film_output.h"

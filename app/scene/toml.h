@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>  // which parts of toml++ need, and do not include
 // toml++, for the sources that parse TOML: it is slow to compile.
 
 // toml++ 3.3 asserts on texts like "[ ,a]", although it then reports what is wrong with them.
