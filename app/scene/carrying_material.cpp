@@ -23,14 +23,14 @@ constexpr int kBricks = 16;           // along the longest side,
 constexpr double kManyBricks = 1500;  // but not many more than these in all, since compact bodies need no fine ones
 constexpr double kManyBricksInFilm = 2500;
 constexpr double kSag = 0.04;
-constexpr double kOverload = 2;          // times the weight, which must not buckle it:
-constexpr double kOverloadResponse = 3;  // times the displacement, at most
-constexpr double kKeptMargin = 0.6;      // of the distance from the centre of mass to the edge of the feet
-constexpr double kHopeless = 2;          // times the sag by the linear solution: not worth a nonlinear one
-constexpr int kHalvings = 4;             // of the size
-constexpr double kSupportedFraction = 0.08;   // of the height, ...
-constexpr double kSupportedBricks = 0.5;      // ... but at least so many bricks: these may be askew
-constexpr double kFill = 0.25;           // a brick is taken to be at least that full
+constexpr double kOverload = 2;              // times the weight, which must not buckle it:
+constexpr double kOverloadResponse = 3;      // times the displacement, at most
+constexpr double kKeptMargin = 0.6;          // of the distance from the centre of mass to the edge of the feet
+constexpr double kHopeless = 2;              // times the sag by the linear solution: not worth a nonlinear one
+constexpr int kHalvings = 4;                 // of the size
+constexpr double kSupportedFraction = 0.08;  // of the height, ...
+constexpr double kSupportedBricks = 0.5;     // ... but at least so many bricks: these may be askew
+constexpr double kFill = 0.25;               // a brick is taken to be at least that full
 
 // What does not converge quickly is near buckling.
 const StaticOptions kQuick{.tolerance = 1e-4, .max_iterations = 20, .max_load_steps = 1};

@@ -147,11 +147,15 @@ Box bounds_of(const BrickGrid& grid, std::span<const int> bricks) {
 /// Into how many equal parts of at most `most` a length is cut.
 int parts_of(int length, int most) { return (length + most - 1) / most; }
 
+/// Indices from one row of nodes to the next. No pack of any width holds nodes of two rows, else the order in which the
+/// forces on a node add up would depend on the width, and so would the last bits.
+int pitch_of(int bricks_along_x) { return std::max(bricks_along_x + 1, kPackPadding); }
+
 /// The parts of a box of this size along each axis: two planes of nodes fit a core's own cache.
 Cell cuts_of(const Cell& size) {
   const int x = parts_of(size.x(), kMostWide);
   const int wide = parts_of(size.x(), x);
-  const int y = parts_of(size.y(), kMostPlaces / (wide + 1) - 1);
+  const int y = parts_of(size.y(), kMostPlaces / pitch_of(wide) - 1);
   const int rows = parts_of(size.y(), y);
   return {x, y, parts_of(size.z(), std::max(kMostBricks / (wide * rows), kLeastDeep))};
 }
@@ -200,7 +204,7 @@ class TileMaker {
   TileMaker(const BrickGrid& grid, const PackNumbers& numbers, const FaceShares& faces, const std::vector<int>& bricks)
       : numbers_(numbers), faces_(faces), box_(bounds_of(grid, bricks)) {
     const Cell size = box_.high - box_.low;
-    tile_.pitch = size.x() + 1;
+    tile_.pitch = pitch_of(size.x());
     tile_.planes = size.z() + 1;
     places_ = kFirstPlace + (size.y() + 1) * tile_.pitch + kPackPadding;
     const auto all = std::size_t(tile_.planes) * std::size_t(places_);

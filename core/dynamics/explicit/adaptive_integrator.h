@@ -12,10 +12,10 @@
 
 namespace sprung {
 
-/// The groups of bodies that may come into contact within `time` (s), and for each the longest steps that are stable and
-/// in which nothing can run through what it meets: at the speed it has, with what gravity can add in that time, no node
-/// moves further than a quarter of the group's smallest brick in a step. Throws Diverged if that would be more steps
-/// than can be done.
+/// The groups of bodies that may come into contact within `time` (s), and for each the longest steps that are stable
+/// and in which nothing can run through what it meets: at the speed it has, with what gravity can add in that time, no
+/// node moves further than a quarter of the group's smallest brick in a step. Throws Diverged if that would be more
+/// steps than can be done.
 [[nodiscard]] std::vector<GroupSteps> choose_steps(const World& world, double time);
 
 /// Moves a world frame by frame. A number that is not finite, or a spurious gain of energy, is found in the frame in

@@ -254,6 +254,26 @@ TEST(SpringSystem, BricksFlattenedToNothingPullWithFiniteForces) {
   EXPECT_TRUE(forces.allFinite());
 }
 
+/// Near rest, where what is left of large forces shows the order in which they were added up.
+TEST(BrickTiles, NarrowBodiesHaveTheSameBitsOnEveryInstructionSet) {
+  for (const Model model : {Model::kCalibrated, Model::kNeoHooke}) {
+    for (int wide = 1; wide <= 8; ++wide) {
+      Body body = make_body(make_box_grid({wide, 4, 3}, 0.02), model, test_material(0.3));
+      std::mt19937 random(3);
+      shake(body, 1e-6, random);
+      for (const BrickTile& tile : body.tiles->tiles) EXPECT_GE(tile.pitch, kPackPadding);
+      std::optional<Points> first;
+      for (const SpringKernel& kernel : all_spring_kernels()) {
+        if (kernel.tile == nullptr || kernel.name == std::string("plain")) continue;  // it does not fuse operations
+        Points forces;
+        SpringSystem(kernel).forces(body, forces);
+        if (first) EXPECT_EQ(forces, *first) << wide << kernel.name;
+        first = forces;
+      }
+    }
+  }
+}
+
 TEST(BrickTiles, FollowAChangeOfStiffness) {
   Body body = make_body(make_box_grid({3, 2, 2}, 0.1), Model::kCalibrated, test_material(0.3));
   body.positions *= 1.1;
