@@ -8,7 +8,7 @@ namespace sprung {
 /// The kind of an error, as far as callers distinguish it; the value is the program's exit code.
 enum class ErrorKind { kFailed = 1, kUsage = 2, kBadInput = 3, kDiverged = 4 };
 
-/// The one exception that sprung throws at its borders. The message names the place, the value and what to do.
+/// The one exception that sprung throws at its interfaces. The message names the location, the value and what to do.
 class Error : public std::runtime_error {
  public:
   Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}

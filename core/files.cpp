@@ -36,7 +36,7 @@ namespace fs = std::filesystem;
   throw Error(ErrorKind::kFailed, fmt::format("cannot write '{}': {}", file.string(), reason));
 }
 
-/// "; did you mean 'bear.ply'?" where the folder holds a file of a similar name.
+/// "; did you mean 'bear.ply'?" if the folder holds a file of a similar name.
 std::string suggest_file(const fs::path& file) {
   std::error_code error;
   const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
@@ -247,7 +247,7 @@ namespace {
 
 /// With the only run of # in the file name as the number.
 std::string with_hashes_as_braces(std::string_view text) {
-  const auto name = text.rfind('/') + 1;  // 0 where there is no folder
+  const auto name = text.rfind('/') + 1;  // 0 if there is no folder
   const auto open = text.find('#', name);
   if (open == std::string_view::npos || has_number(text)) return std::string(text);
   const auto end = std::min(text.find_first_not_of('#', open), text.size());

@@ -32,7 +32,7 @@ class PartialFile {
   explicit PartialFile(std::filesystem::path file);
   /// With a temporary name other than temporary_name().
   PartialFile(std::filesystem::path file, std::filesystem::path temporary);
-  /// Removes the temporary file. Take a FileLock on it first where other processes may be writing it.
+  /// Removes the temporary file. Take a FileLock on it first if other processes may be writing it.
   ~PartialFile();
   PartialFile(const PartialFile&) = delete;
   PartialFile& operator=(const PartialFile&) = delete;
@@ -65,7 +65,7 @@ void write_file(const std::filesystem::path& file, std::initializer_list<std::st
 /// Keeps other processes from writing a file; the system releases the lock even when the process is killed.
 class FileLock {
  public:
-  /// Creates the file if it is missing. Throws Error(kFailed) where it cannot be written or is locked already.
+  /// Creates the file if it is missing. Throws Error(kFailed) if it cannot be written or is locked already.
   explicit FileLock(const std::filesystem::path& file);
   ~FileLock();
   FileLock(const FileLock&) = delete;
@@ -106,7 +106,7 @@ struct NumberedName {
 /// FNV-1a (64 bits) of bytes that follow those of `hash`.
 [[nodiscard]] std::uint64_t hash_of(std::span<const std::byte> bytes, std::uint64_t hash = 0xcbf29ce484222325U);
 
-/// That of a file's bytes, in hexadecimal; that of no bytes where it cannot be read.
+/// That of a file's bytes, in hexadecimal; that of no bytes if it cannot be read.
 [[nodiscard]] std::string file_hash(const std::filesystem::path& file);
 
 /// The hash of this program's own executable: tells builds apart.

@@ -4,7 +4,7 @@
 
 namespace sprung {
 
-/// Each row over its length; zero where that is 0 or no number.
+/// Each row divided by its length; zero if that is 0 or NaN.
 template <class Rows>
 [[nodiscard]] typename Rows::PlainObject unit_rows(const Eigen::MatrixBase<Rows>& rows) {
   typename Rows::PlainObject units = rows;

@@ -19,8 +19,8 @@
 namespace sprung {
 namespace {
 
-/// How a brick's mass falls to its corners: in eighths, or where its solid is known, to those that are nearer it. All
-/// the way to its centroid, corners far from it would be left with next to nothing.
+/// How a brick's mass is lumped at its corners: in eighths, or, where its solid is known, weighted towards the nearer
+/// ones. With weights exactly at its centroid, corners far from it would be left with next to nothing.
 CornerWeights corner_shares(const Body& body, std::size_t brick) {
   constexpr double kLean = 0.8;
   if (body.solids.empty()) return trilinear_weights(Vec3::Constant(0.5));

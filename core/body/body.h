@@ -25,7 +25,8 @@ struct Rayleigh {
 /// back, f = sqrt(G/rho) / (2 length)) at material.damping of critical.
 [[nodiscard]] Rayleigh rayleigh_from_damping(const Material& material, double length);
 
-/// How a brick's solid lies in it, as its law bears it, and how it bends for that; whole bricks share the latter.
+/// How the solid is distributed in a brick, within the bounds of its law, and how it bends accordingly; full bricks
+/// share the latter.
 struct BodySolid {
   SolidMoments moments;
   std::shared_ptr<const CurvedSolid> curved;
@@ -50,31 +51,30 @@ struct Body {
   [[nodiscard]] int node_count() const { return int(positions.rows()); }
 };
 
-/// A brick keeps at least this share of a full brick's stiffness and mass: slivers would cost step size for nothing.
+/// A brick keeps at least this share of a full brick's stiffness and mass: slivers would only shorten the time step.
 inline constexpr double kStiffnessFloor = 0.01;
 
-/// A body at rest at its grid's place. Masses are lumped, fill rho h^3 / 8 a corner (of solid bricks more where their
-/// solid lies), and scaled so that their sum is density * grid.volume().
+/// A body at rest at the position of its grid. Masses are lumped, fill rho h^3 / 8 per corner (in solid bricks more
+/// where their solid lies), and scaled so that their sum is density * grid.volume().
 [[nodiscard]] Body make_body(BrickGrid grid, Model model, const Material& material);
 
-/// Cuts the body's bricks into tiles anew: due after a change of its stiffness_scale or its solids. make_body() has
-/// done it already.
+/// Rebuilds the body's tiles; required after a change of its stiffness_scale or its solids. make_body() does this too.
 void build_tiles(Body& body);
 
-/// Turns (then moves) the whole body, rest shape and state; rotation is applied about the origin.
+/// Rotates (then translates) the whole body, rest shape and state; the rotation is about the origin.
 void place(Body& body, const Mat3& rotation, const Vec3& translation);
 
-/// Where a brick's corners are, x y z corner by corner, m.
+/// Positions of a brick's corners, x y z corner by corner, m.
 [[nodiscard]] std::array<double, 24> brick_corners(const Body& body, std::size_t brick);
 
 /// Smallest signed volume of any brick over its rest volume, by the mean axes; below zero: inverted.
 [[nodiscard]] double smallest_volume_ratio(const Body& body);
-/// How many bricks are turned inside out.
+/// The number of inverted bricks.
 [[nodiscard]] int inverted_bricks(const Body& body);
-/// How many bricks keep at most that share of their volume.
+/// The number of bricks that keep at most this share of their volume.
 [[nodiscard]] int flattened_bricks(const Body& body, double ratio);
 
-/// What the eight corners of a brick have (places in m, velocities in m/s), a column each.
+/// A quantity at the eight corners of a brick (positions in m, velocities in m/s), a column each.
 using BrickColumns = Eigen::Matrix<double, 3, 8>;
 
 /// `nodes`: of the brick, by corner; `values`: per node of the body, m x 3.
@@ -97,21 +97,21 @@ using BrickColumns = Eigen::Matrix<double, 3, 8>;
   return axes;
 }
 
-/// Areas that three axes span two by two: the gradient of their determinant, and what carries normals along.
+/// Areas spanned by pairs of the three axes: the gradient of their determinant; this matrix also transforms normals.
 [[nodiscard]] inline Mat3 areas_of(const Mat3& axes) {
   Mat3 areas;
   areas << axes.col(1).cross(axes.col(2)), axes.col(2).cross(axes.col(0)), axes.col(0).cross(axes.col(1));
   return areas;
 }
 
-/// Sums at nodes of what is known at the corners of bricks, in the order of the bricks: the same bits for any number of
+/// Sums values at the corners of bricks to their nodes, in the order of the bricks: the same bits for any number of
 /// threads. For one body; kept from step to step.
 class CornerSums {
  public:
-  /// Room for x y z at each corner, 24 numbers a brick.
+  /// Storage for x y z at each corner, 24 numbers per brick.
   [[nodiscard]] double* room(const BrickGrid& grid);
 
-  /// x y z a node, to `sums`.
+  /// Writes x y z per node to `sums`.
   void sum(double* sums) const;
 
  private:

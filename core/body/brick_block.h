@@ -9,14 +9,14 @@ struct Body;
 
 inline constexpr int kBricksPerBlock = 8;  // computed side by side
 
-/// What loops over blocks of bricks read, as plain arrays: no library whose code would depend on the instruction set.
+/// Input of loops over blocks of bricks, as plain arrays: no library whose code would depend on the instruction set.
 struct BlockInput {
   const BrickLaw* law;
   double brick_size;  // m
   int brick_count;
-  const std::array<int, 8>* nodes;  // a brick
-  const double* stiffness_scale;    // a brick
-  const double* positions;          // x y z a node, m
+  const std::array<int, 8>* nodes;  // per brick
+  const double* stiffness_scale;    // per brick
+  const double* positions;          // x y z per node, m
 };
 
 /// The arrays of a body, which must outlive it.

@@ -11,7 +11,7 @@ inline constexpr std::size_t kSpringsOfBrick = 31;
 template <class T>
 using SpringDirections = std::array<std::array<T, 3>, kSpringsOfBrick>;
 
-/// Of bricks of side h with corners at x (m).
+/// For bricks of side h with corners at x (m).
 template <class T>
 SpringDirections<T> spring_directions(double h, const CornerVectors<T>& x) {
   SpringDirections<T> directions;
@@ -26,8 +26,8 @@ SpringDirections<T> spring_directions(double h, const CornerVectors<T>& x) {
   return directions;
 }
 
-/// Adds K_along u (N) to `product`: the stiffness of the springs of full bricks along themselves, as damping sees it,
-/// without what their tensions add by turning and without the guard.
+/// Adds K_along u (N) to `product`: the axial stiffness of the springs of full bricks, as used by damping, without the
+/// geometric stiffness of their tensions and without the guard.
 template <class T>
 void damping_product(const BrickLaw& law, const SpringDirections<T>& directions, const CornerVectors<T>& u,
                      CornerVectors<T>& product) {

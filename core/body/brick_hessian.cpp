@@ -67,7 +67,7 @@ Mat3 cross_matrix(const Vec3& v) {
   return m;
 }
 
-using AxesMatrix = Eigen::Matrix<double, 9, 9>;  // by the three mean axes
+using AxesMatrix = Eigen::Matrix<double, 9, 9>;  // in the three mean axes
 
 void add_axes_correction(AxesMatrix& second, const BrickLaw& law, double h,
                          const std::array<std::array<double, 3>, 3>& axes) {

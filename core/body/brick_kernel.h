@@ -98,7 +98,7 @@ std::array<std::array<T, 3>, 3> mean_axes(const CornerVectors<T>& x) {
   return axes;
 }
 
-/// Adds the forces on the corners that a pull along each mean axis makes: a quarter of it in each of its edges.
+/// Adds the corner forces of a tension along each mean axis: a quarter of it in each of its edges.
 template <class T>
 void pull_axes(CornerVectors<T>& force, const std::array<std::array<T, 3>, 3>& pulls) {
   for (int corner = 0; corner < 8; ++corner) {
@@ -111,8 +111,8 @@ void pull_axes(CornerVectors<T>& force, const std::array<std::array<T, 3>, 3>& p
   }
 }
 
-/// The energy of what depends on the mean axes only, their own correction and the volume guard; adds their forces.
-/// `rates` as in brick_forces.
+/// The energy terms of the mean axes only, their own correction and the volume guard; adds their forces. `rates` as in
+/// brick_forces.
 template <class T>
 T axes_energy(const BrickLaw& law, double h, const CornerVectors<T>& x, const CornerVectors<T>* rates,
               CornerVectors<T>& force) {
@@ -148,8 +148,8 @@ T axes_energy(const BrickLaw& law, double h, const CornerVectors<T>& x, const Co
 }  // namespace detail
 
 /// Elastic energy (J) of full bricks of side h with corners at x (m), guard included; adds the forces (N) to `force`.
-/// Where `rates` is given, it holds beta times the corner velocities (m): each spring's tension then follows stretch +
-/// beta * rate of stretch. The energy does not count that part.
+/// If `rates` is given, it holds beta times the corner velocities (m): each spring's tension then follows stretch +
+/// beta * rate of stretch. The energy excludes that part.
 template <class T>
 T brick_forces(const BrickLaw& law, double h, const CornerVectors<T>& x, const CornerVectors<T>* rates,
                CornerVectors<T>& force) {

@@ -11,7 +11,7 @@
 namespace sprung {
 namespace {
 
-constexpr double kSmallestVolume = 0.05;  // that a stress is divided by
+constexpr double kSmallestVolume = 0.05;  // as the divisor of a stress
 
 Mat3 gradient_of(const Body& body, std::size_t brick, const Points& positions) {
   return brick_model(body.model).gradient(body, brick, at_corners(body, brick, positions));

@@ -3,7 +3,7 @@
 
 namespace sprung {
 
-/// What the deformation gradient F of a brick says (BrickModel::gradient()). E = (F^T F - 1) / 2, J = det F.
+/// Measures of the deformation gradient F of a brick (BrickModel::gradient()). E = (F^T F - 1) / 2, J = det F.
 enum class BrickMeasure {
   kStretch,  // largest principal stretch: greatest length over length at rest
   kStrain,   // von Mises: sqrt(2/3 dev E : dev E)
@@ -14,7 +14,7 @@ enum class BrickMeasure {
 /// Which strain is measured.
 enum class StrainMeasure {
   kFinite,  // Green's, see above
-  kSmall    // to first order in the displacements, and the stress by Hooke's law: of linear statics
+  kSmall    // to first order in the displacements, with the stress by Hooke's law: for linear statics
 };
 
 /// lambda tr(strain) + 2 mu strain, Pa.
@@ -24,13 +24,13 @@ enum class StrainMeasure {
 /// sqrt(3/2 dev s : dev s).
 [[nodiscard]] double von_mises(const Mat3& stress);
 
-/// One number a brick for these positions of the body's nodes (m x 3, m). kStress counts the stiffness of the brick's
-/// region; J is taken as at least 0.05 in it. Small strains change kStrain, kStress and kVolume (1 + tr E).
+/// One number per brick for these positions of the body's nodes (m x 3, m). kStress includes the stiffness of the
+/// brick's region and takes J as at least 0.05. Small strains change kStrain, kStress and kVolume (1 + tr E).
 /// Deterministic for any number of threads.
 [[nodiscard]] Eigen::VectorXd measure_bricks(const Body& body, BrickMeasure measure, const Points& positions,
                                              StrainMeasure strain = StrainMeasure::kFinite);
 
-/// One number a node: the mean of its bricks, weighted by their fill.
+/// One number per node: the mean of its bricks, weighted by their fill.
 [[nodiscard]] Eigen::VectorXd node_means(const BrickGrid& grid, const Eigen::VectorXd& of_bricks);
 
 /// Young's modulus of each brick, Pa.

@@ -82,7 +82,7 @@ class SpringModel : public BrickModel {
     return body.stiffness_scale[brick] * brick_hessian(body.law, body.grid.brick_size, as_corners(x));
   }
 
-  /// Along the springs.
+  /// Axial stiffness of the springs only.
   [[nodiscard]] BrickMatrix damping(const Body& body, std::size_t brick, const BrickVector& x) const override {
     const auto directions = spring_directions(body.grid.brick_size, as_corners(x));
     BrickMatrix matrix;
@@ -147,7 +147,7 @@ class HexahedronModel : public BrickModel {
   }
 };
 
-/// Bricks by the moments of their solid.
+/// Bricks with the moments of their solid.
 class SolidModel : public BrickModel {
  public:
   [[nodiscard]] double energy(const Body& body, std::size_t brick, const BrickVector& x) const override {
@@ -185,7 +185,7 @@ class SolidModel : public BrickModel {
     return body.solids[brick].moments.centroid;
   }
 
-  /// F^-1 P, where the solid is not turned inside out.
+  /// F^-1 P, unless the solid is inverted.
   [[nodiscard]] Mat3 second_stress(const Body& body, const Mat3& gradient, double young) const override {
     constexpr double kFlat = 0.05;  // volume ratio
     if (gradient.determinant() < kFlat) return BrickModel::second_stress(body, gradient, young);

@@ -115,7 +115,7 @@ void stiffness_product(const BrickLaw& law, double h, const CornerVectors<T>& x,
 
 namespace detail {
 
-/// Adds what the tensions of coupled edges give: sum over edges e, f of coupling_ef d_e d_f^T at their corners.
+/// Adds the terms of coupled edge tensions: sum over edges e, f of coupling_ef d_e d_f^T at their corners.
 template <class T>
 void add_coupled_edges(const EdgeCoupling& coupling, double material, const std::array<Spring<T>, 12>& edges,
                        std::array<T, kAnchoredSize>& matrix) {
@@ -149,7 +149,7 @@ void add_coupled_edges(const EdgeCoupling& coupling, double material, const std:
   }
 }
 
-/// Adds what the correction on the mean axes gives.
+/// Adds the terms of the correction on the mean axes.
 template <class T>
 void add_axes(const BrickLaw& law, double h, double material, const CornerVectors<T>& x,
               std::array<T, kAnchoredSize>& matrix) {
@@ -214,7 +214,7 @@ void add_spring(CornerPair pair, const std::array<T, 3>& d, const T& along, cons
 
 }  // namespace detail
 
-/// K of full bricks of side h with corners at x, as an anchored matrix, N/m; the part along the springs times
+/// K of full bricks of side h with corners at x, as an anchored matrix, N/m; the axial part of the springs times
 /// `material`. Without the guard.
 template <class T>
 void anchored_stiffness(const BrickLaw& law, const EdgeCoupling& coupling, double h, double material,

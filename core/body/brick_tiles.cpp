@@ -28,7 +28,7 @@ bool are_joined(const BrickGrid& grid, std::size_t brick, std::size_t next, int 
   return true;
 }
 
-/// The first brick behind this one, or the number of bricks. `from` is where the search begins: not behind the result.
+/// The first brick behind this one, or the number of bricks. `from`: where the search begins, at or before the result.
 std::size_t brick_behind(const BrickGrid& grid, std::size_t brick, int axis, std::size_t& from) {
   const Eigen::Vector3i cell = grid.cells[brick] + Eigen::Vector3i::Unit(axis);
   while (from < grid.cells.size() && comes_before(grid.cells[from], cell)) ++from;
@@ -44,7 +44,8 @@ FaceShares share_faces(const BrickGrid& grid, const std::vector<double>& shares)
   FaceShares faces;
   faces.low.fill(shares);
   faces.high.fill(std::vector<double>(shares.size(), 0));
-  // Cells ascend, and so do those behind them. All axes at once: a large body's bricks come from memory only once.
+  // Cells ascend, and so do those behind them. All axes at once: a large body's bricks are loaded from memory only
+  // once.
   std::array<std::size_t, 3> from{};
   for (std::size_t brick = 0; brick < shares.size(); ++brick) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -57,7 +58,7 @@ FaceShares share_faces(const BrickGrid& grid, const std::vector<double>& shares)
 
 namespace {
 
-/// Numbers the places of a lattice whose nodes are in its order.
+/// Numbers the points of a lattice whose nodes are in its order.
 std::vector<int> places_of(const std::vector<Eigen::Vector3i>& lattice) {
   std::vector<int> places(lattice.size(), 0);
   for (std::size_t i = 1; i < lattice.size(); ++i) {
@@ -66,12 +67,12 @@ std::vector<int> places_of(const std::vector<Eigen::Vector3i>& lattice) {
   return places;
 }
 
-/// What holds a place of the lattice in each layer.
+/// The occupant of a lattice point in each layer.
 class Holders {
  public:
   explicit Holders(const std::vector<Eigen::Vector3i>& lattice) : places_(places_of(lattice)) {}
 
-  /// The first layer in which these nodes meet none but themselves.
+  /// The first layer in which these nodes meet no others.
   [[nodiscard]] std::size_t layer_for(const std::array<int, 8>& nodes) const {
     std::size_t layer = 0;
     while (layer < holders_.size() && !is_free(holders_[layer], nodes)) ++layer;
@@ -129,7 +130,7 @@ struct Box {
 
 constexpr int kMostWide = 96;      // bricks along x
 constexpr int kMostBricks = 8192;  // of a tile
-constexpr int kLeastDeep = 4;      // bricks along z, for planes between tiles are computed twice
+constexpr int kLeastDeep = 4;      // bricks along z, since planes between tiles are computed twice
 constexpr int kShortRow = 24;      // places
 
 constexpr int kShared = -2;  // owner of nodes that more than one tile has
@@ -144,7 +145,7 @@ Box bounds_of(const BrickGrid& grid, std::span<const int> bricks) {
   return box;
 }
 
-/// Into how many equal parts of at most `most` a length is cut.
+/// The number of equal parts of at most `most` into which a length is divided.
 int parts_of(int length, int most) { return (length + most - 1) / most; }
 
 /// Indices from one row of nodes to the next. No pack of any width holds nodes of two rows, else the order in which the
@@ -191,7 +192,7 @@ std::vector<int> owners_of(const BrickGrid& grid, const std::vector<std::vector<
   return owners;
 }
 
-/// A tile, and its parts of the nodes that others have too: offsets count from the tile's own.
+/// A tile, and its contributions to shared nodes: offsets count from the tile's own.
 struct MadeTile {
   BrickTile tile;
   std::vector<SharedPart> parts;
@@ -251,7 +252,7 @@ class TileMaker {
   void close_list() { tile_.first_run.push_back(isize(tile_.runs)); }
 
   /// Calls visit(index, count) for packs that hold all such places, as long as they follow each other. They begin at
-  /// multiples of a pack, where fewer loads lie across two cache lines, but for a short row that takes one less so.
+  /// multiples of a pack, where fewer loads straddle two cache lines, except for a short row that then takes one less.
   template <class IsIn, class Visit>
   void each_run_of_packs(const IsIn& is_in, const Visit& visit) const {
     int begin = 0;
@@ -297,7 +298,7 @@ class TileMaker {
     each_run_of_nodes(plane, all, [&](int index, int count) { add_run(index, count, 0, nodes_[slot(plane, index)]); });
   }
 
-  /// Nodes that this tile alone pulls at, or those that others pull at too.
+  /// Nodes that only this tile contributes to, or shared ones.
   void list_pulled(int plane, const std::vector<int>& owners, bool shared) {
     close_list();
     each_run_of_nodes(
@@ -331,14 +332,14 @@ class TileMaker {
                       });
   }
 
-  /// Where these numbers are; those that came before are not kept again.
+  /// The offset of these numbers; repeated ones are stored once.
   int keep(std::vector<double> pack) {
     const auto [known, is_new] = kept_.try_emplace(std::move(pack), isize(tile_.shares));
     if (is_new) tile_.shares.insert(tile_.shares.end(), known->first.begin(), known->first.end());
     return known->second;
   }
 
-  /// Faces on the high side of a brick where no brick follows.
+  /// Faces on the high side of bricks without a neighbour there.
   void list_faces(int plane, const std::vector<double>& shares) {
     close_list();
     const auto share_at = [&](int index) { return shares[slot(plane, index)]; };
@@ -371,7 +372,7 @@ void add(MadeTile made, BrickTiles& tiles) {
   tiles.tiles.push_back(std::move(made.tile));
 }
 
-/// Parts that overlap become one list of nodes to sum.
+/// Merges overlapping parts into one list of nodes to sum.
 void join_parts(BrickTiles& tiles) {
   std::stable_sort(tiles.parts.begin(), tiles.parts.end(),
                    [](const SharedPart& a, const SharedPart& b) { return a.node < b.node; });

@@ -9,21 +9,21 @@
 
 namespace sprung {
 
-/// How stiff the springs in the bricks' faces are, in full bricks: the bricks on both sides of a face add up, and the
-/// face counts for one of them. Face a is the one across axis a; bricks are on two sides of it where they have all four
-/// of its nodes in common.
+/// Stiffness of the springs in the bricks' faces, in multiples of a full brick's: the bricks on both sides of a face
+/// add up, and the face is assigned to one of them. Face a is normal to axis a; two bricks share it if they have all
+/// four of its nodes in common.
 struct FaceShares {
   std::array<std::vector<double>, 3> low;   // of each brick's face on the low side
-  std::array<std::vector<double>, 3> high;  // on the high side; 0 where it counts for the brick behind it
+  std::array<std::vector<double>, 3> high;  // on the high side; 0 if it is assigned to the brick behind it
 };
 
-/// `shares` per brick: of how many full bricks it has the stiffness. Cost: linear in the bricks but for a search in a
-/// row of them.
+/// `shares` per brick: its stiffness in multiples of a full brick's. Cost: linear in the bricks, except for a search
+/// within a row.
 [[nodiscard]] FaceShares share_faces(const BrickGrid& grid, const std::vector<double>& shares);
 
-/// Bricks that share no cell, and whose nodes share no place of the lattice, by their rows in the grid, ascending: most
-/// grids are one such layer; where parts of a body pass through the same cells, they fall into several. Every brick is
-/// in one. Cost: linear in the bricks.
+/// Sets of bricks that share no cell and whose nodes share no lattice point, as rows of the grid, ascending. Most grids
+/// are a single layer; if parts of a body pass through the same cells, there are several. Every brick is in one. Cost:
+/// linear in the bricks.
 [[nodiscard]] std::vector<std::vector<int>> layers_of(const BrickGrid& grid);
 
 /// A part of a body's bricks for one thread at a time, see TileView.
@@ -41,11 +41,11 @@ struct BrickTile {
   }
 };
 
-/// What the kernel is told of kPackPadding bricks side by side (-1 where there is none), see TileView::shares.
+/// The kernel's parameters of kPackPadding bricks side by side (-1: none), see TileView::shares.
 using PackNumbers = std::function<std::vector<double>(const std::array<int, kPackPadding>& bricks)>;
 
-/// A body's bricks cut into tiles whose nodes stay in a core's cache while they are computed. The cut depends on the
-/// bricks alone, and so does the order of every sum: not on the number of threads.
+/// A body's bricks cut into tiles whose nodes stay in a core's cache while they are computed. The tiles and the order
+/// of every sum depend on the bricks alone, not on the number of threads.
 struct BrickTiles {
   std::vector<BrickTile> tiles;
   std::vector<SharedNodes> shared;
@@ -53,11 +53,11 @@ struct BrickTiles {
   std::size_t shared_size = 0;  // doubles
 };
 
-/// `faces`: of springs only, else empty. Bricks and nodes may lie at the same place several times. Cost: linear in the
-/// boxes around the tiles.
+/// `faces`: for springs only, else empty. Several bricks and nodes may coincide. Cost: linear in the boxes around the
+/// tiles.
 [[nodiscard]] BrickTiles make_brick_tiles(const BrickGrid& grid, const PackNumbers& numbers, const FaceShares& faces);
 
-/// Of springs. `stiffness_scale` per brick: of how many full bricks it has the stiffness, above 0.
+/// Tiles for springs. `stiffness_scale` per brick: its stiffness in multiples of a full brick's, above 0.
 [[nodiscard]] BrickTiles make_spring_tiles(const BrickGrid& grid, const std::vector<double>& stiffness_scale);
 
 }  // namespace sprung

@@ -16,7 +16,7 @@ namespace sprung {
 namespace {
 
 constexpr int kSharedPerTask = 256;  // rows
-constexpr int kFewBricks = 4000;     // done sooner by one thread than another one wakes up
+constexpr int kFewBricks = 4000;     // faster on one thread than waking another
 
 PassInput input_of(const Body& body, Pass pass) {
   PassInput input;
@@ -32,7 +32,7 @@ PassInput input_of(const Body& body, Pass pass) {
   return input;
 }
 
-/// Calls visit(0 .. count - 1), in parallel where that is worth it.
+/// Calls visit(0 .. count - 1), in parallel if that is worth it.
 template <class Visit>
 void each(std::size_t count, std::size_t per_task, const Visit& visit) {
   const auto visit_range = [&](const tbb::blocked_range<std::size_t>& range) {
@@ -56,7 +56,7 @@ void SpringSystem::run(const Body& body, const PassInput& input) {
   scratch_.resize(tbb::this_task_arena::max_concurrency());
   each(tiles.tiles.size(), tiles_per_task, [&](std::size_t i) {
     const BrickTile& tile = tiles.tiles[i];
-    // Below 0: a thread that has met no task yet.
+    // Below 0: a thread that has had no task yet.
     const int thread = std::max(0, tbb::this_task_arena::current_thread_index());
     std::vector<CacheLine>& scratch = scratch_[thread];
     if (scratch.empty()) scratch.resize(kScratchSize / 8);
@@ -72,7 +72,7 @@ void SpringSystem::forces(const Body& body, Points& forces) {
   forces.resize(body.node_count(), 3);
   input.forces = forces.data();
   run(body, input);
-  // Numbers that are not finite must not wait in the scratch: lanes behind a run are computed too, times zero.
+  // The scratch must not contain non-finite numbers: lanes behind a run are computed too, times zero.
   if (!forces.allFinite()) scratch_.clear();
 }
 
@@ -132,7 +132,7 @@ void sum_brick_forces(const Body& body, CornerSums& sums, Points& forces) {
   sums.sum(forces.data());
 }
 
-/// A number of each brick, summed in their order.
+/// Sums one number per brick, in the order of the bricks.
 template <class Number>
 double sum_over_bricks(const Body& body, const Number& number) {
   std::vector<double> numbers(body.grid.cells.size());

@@ -6,9 +6,9 @@
 
 namespace sprung {
 
-/// The springs of a body at work, or its solid bricks, with the room they need, kept from step to step. Tiles are
-/// computed in parallel and what they add to shared nodes is summed in a fixed order: the same bits for any number of
-/// threads. Only for models that has_tiles().
+/// Evaluates the springs of a body, or its solid bricks, in a workspace kept from step to step. Tiles are computed in
+/// parallel and their contributions to shared nodes are summed in a fixed order: the same bits for any number of
+/// threads. Only for models with has_tiles().
 class SpringSystem {
  public:
   explicit SpringSystem(const SpringKernel& kernel = best_spring_kernel()) : kernel_(kernel) {}
@@ -16,23 +16,23 @@ class SpringSystem {
   /// Forces on the nodes, m x 3, N, as spring_forces().
   void forces(const Body& body, Points& forces);
 
-  /// The second derivative of the elastic energy times u (3 m). Of solid bricks only.
+  /// The second derivative of the elastic energy times u (3 m). Solid bricks only.
   void multiply(const Body& body, const Eigen::VectorXd& u, Eigen::VectorXd& product);
 
-  /// `factor` times the stiffness of the springs along themselves times u (3 m), without the guard and without what
-  /// tensions add by turning, or times what BrickModel::damping() is: the damping forces of rates u, with nodes at
-  /// `positions` (m x 3, m), times -factor / beta.
+  /// `factor` times the axial stiffness of the springs (without the guard and the geometric stiffness), or times
+  /// BrickModel::damping(), times u (3 m): the damping forces of rates u, with nodes at `positions` (m x 3, m), times
+  /// -factor / beta.
   void multiply_along(const Body& body, const Points& positions, double factor, const Eigen::VectorXd& u,
                       Eigen::VectorXd& product);
 
   /// J, as elastic_energy().
   [[nodiscard]] double energy(const Body& body);
 
-  /// What happens in a step.
+  /// The parameters of a step.
   struct Step {
     double drift = 0;             // s
     double kick = 0;              // s
-    Rayleigh damping{};           // in place of the body's
+    Rayleigh damping{};           // instead of the body's
     Vec3 gravity = Vec3::Zero();  // m/s^2
   };
 
@@ -44,18 +44,18 @@ class SpringSystem {
   void run(const Body& body, const PassInput& input);
   void run_product(const Body& body, PassInput input, const Eigen::VectorXd& u, Eigen::VectorXd& product);
 
-  /// Scratch in whole cache lines: a pack that lies across two costs twice.
+  /// Scratch in whole cache lines: a pack that straddles two costs twice as much.
   struct alignas(64) CacheLine {
     double values[8] = {};
   };
 
   SpringKernel kernel_;
   std::vector<double> shared_;                   // forces
-  std::vector<EnergyLanes> energies_;            // a tile
-  std::vector<std::vector<CacheLine>> scratch_;  // a thread
+  std::vector<EnergyLanes> energies_;            // per tile
+  std::vector<std::vector<CacheLine>> scratch_;  // per thread
 };
 
-/// Room for the forces of one body, kept between steps.
+/// Workspace for the forces of one body, kept between steps.
 struct ForceWorkspace {
   SpringSystem springs;
   CornerSums bricks;  // models without springs
@@ -69,16 +69,17 @@ void spring_forces(const Body& body, ForceWorkspace& workspace, Points& forces);
 [[nodiscard]] double elastic_energy(const Body& body, ForceWorkspace& workspace);
 [[nodiscard]] double elastic_energy(const Body& body);
 
-/// Of some bricks, where the body's nodes are at `positions` (m x 3, m), J; that of all adds up to elastic_energy().
+/// Energies of some bricks, with the body's nodes at `positions` (m x 3, m), J; those of all add up to
+/// elastic_energy().
 [[nodiscard]] Eigen::VectorXd brick_energies(const Body& body, const std::vector<int>& bricks, const Points& positions);
 
-/// Sum of the sizes of what every brick pulls at its corners, component by component, N.
+/// Sum of the absolute values of all force components of every brick at its corners, N.
 [[nodiscard]] double corner_force_sum(const Body& body);
 
 /// 1/2 sum m v^2, J.
 [[nodiscard]] double kinetic_energy(const Body& body);
 
-/// Of the fastest node, m/s.
+/// The speed of the fastest node, m/s.
 [[nodiscard]] double largest_speed(const Body& body);
 
 /// Sum of m v, kg m/s, and sum of x cross m v about the world's origin, kg m^2/s.

@@ -27,9 +27,8 @@ struct Membrane {
   void fix(int node, int axis) { fixed[2 * std::size_t(node) + axis] = true; }
 };
 
-/// A free membrane at rest of the given size (m), low corner at the origin, cut in columns x rows rectangles. Node
-/// column
-/// + row (columns + 1) is the one of that column and row. Throws Error(kBadInput) as rectangle_law does.
+/// A free membrane at rest of the given size (m), low corner at the origin, divided into columns x rows rectangles.
+/// Node column + row (columns + 1) is at that column and row. Throws Error(kBadInput) as rectangle_law does.
 [[nodiscard]] Membrane make_membrane(int columns, int rows, const Vec2& size, RectangleModel model,
                                      const Material& material);
 
@@ -43,7 +42,7 @@ struct Membrane {
 /// ignored; with `definite`, each rectangle's without its negative curvature.
 [[nodiscard]] Eigen::SparseMatrix<double> stiffness_matrix(const Membrane& membrane, bool definite);
 
-/// A membrane as it is drawn: its nodes in the plane z = 0 and two triangles a rectangle, facing +z.
+/// A membrane for drawing: its nodes in the plane z = 0 and two triangles per rectangle, facing +z.
 struct MembraneSurface {
   Points positions;  // m x 3, m
   Triangles triangles;

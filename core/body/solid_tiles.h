@@ -4,13 +4,13 @@
 
 namespace sprung {
 
-/// Of a body's full brick.
+/// The law of a body's full brick.
 [[nodiscard]] SolidLaw solid_law(const Material& material, double h);
 
-/// Of a body with model kNeoHooke. Cost: linear in the bricks.
+/// The tiles of a body with model kNeoHooke. Cost: linear in the bricks.
 [[nodiscard]] BrickTiles make_solid_tiles(const Body& body);
 
-/// The second derivatives of the energy of bricks `first` to `first` + kPackPadding - 1 where they stand, see
+/// The second derivatives of the energy of bricks `first` to `first` + kPackPadding - 1 at their current positions, see
 /// SolidMatrices; zero for rows beyond the last brick.
 void solid_matrices(const Body& body, int first, double* matrices, const SpringKernel& kernel = best_spring_kernel());
 

@@ -17,13 +17,13 @@
 namespace sprung {
 namespace {
 
-constexpr double kLayer = 0.1;           // variance of places, in squared bricks, that makes a slope
+constexpr double kLayer = 0.1;           // variance of positions, in squared bricks, needed for a slope
 constexpr double kSameStiffness = 1e-6;  // relative
 
 using Six = Eigen::Matrix<double, 6, 1>;
 
-/// What is fitted: the second Piola-Kirchhoff stress in the axes of the grid, which rotations leave alone, and the
-/// deformation gradient.
+/// The fitted quantities: the second Piola-Kirchhoff stress in the axes of the grid, which is invariant under
+/// rotations, and the deformation gradient.
 struct State {
   Eigen::Matrix<double, 15, 1> numbers;
 
@@ -52,8 +52,8 @@ Mat3 tensor_of(const Row& six) {
   return tensor;
 }
 
-/// By the bending and twist of the brick: along each axis as in a plate across it, whose faces are free. `reference`:
-/// times the transpose of which a change of the gradient is one of the strain.
+/// Slopes from the bending and twist of the brick: along each axis as in a plate normal to it, with free faces.
+/// `reference`: its transpose times a change of the gradient is a change of strain.
 Slopes slopes_within(const BrickColumns& x, const Mat3& reference, double h, double young, double poisson) {
   const double plate = young / (1 - poisson * poisson);
   const double shear = young / (1 + poisson);
@@ -79,7 +79,7 @@ Slopes slopes_within(const BrickColumns& x, const Mat3& reference, double h, dou
   return slopes;
 }
 
-/// A line through the states of a brick and its neighbours.
+/// A linear fit through the states of a brick and its neighbours.
 struct Line {
   Vec3 position = Vec3::Zero();  // m, in the frame of the grid
   State state{Eigen::Matrix<double, 15, 1>::Zero()};
@@ -127,7 +127,7 @@ class Recovery {
     return bricks;
   }
 
-  /// Cauchy stress, by the lines of the node's bricks.
+  /// Cauchy stress, from the fits of the node's bricks.
   [[nodiscard]] Eigen::RowVector<double, 6> mean_at(int node, const std::vector<Line>& lines) const {
     const BrickGrid& grid = body_.grid;
     const Vec3 position = grid.origin + grid.brick_size * grid.lattice[node].cast<double>();
@@ -215,7 +215,7 @@ class Recovery {
     return line;
   }
 
-  /// What a cut brick says counts less.
+  /// Cut bricks have less weight.
   [[nodiscard]] double weight_of(int brick) const { return body_.grid.fill[brick] * body_.grid.fill[brick]; }
 
   const Body& body_;

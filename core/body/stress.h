@@ -10,11 +10,11 @@ namespace sprung {
 /// n x 6: xx, yy, zz, xy, yz, zx of a symmetric tensor per row.
 using StressTensors = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;
 
-/// Cauchy stress (Pa, in the axes of the world) at a body's nodes where these are at `positions` (m x 3, m), recovered.
-/// The stress of a brick is that in its middle; a line fitted through its neighbours of the same material continues it
-/// to its corners, where the neighbours' are averaged. Where a part is one brick thick, and there is no neighbour, the
-/// bending and twist of the brick itself do. Linear stress fields are exact, in bricks that solid fills. At the border
-/// of two materials it is the mean of both sides. Deterministic.
+/// Cauchy stress (Pa, in the axes of the world) at a body's nodes with these at `positions` (m x 3, m), recovered. The
+/// stress of a brick is evaluated at its centre and extrapolated to its corners by a linear fit through its neighbours
+/// of the same material; nodes average their bricks. Without neighbours, where a part is one brick thick, the bending
+/// and twist of the brick itself are used. Linear stress fields are exact, in full bricks. At the interface of two
+/// materials it is the mean of both sides. Deterministic.
 [[nodiscard]] StressTensors recover_stress(const Body& body, const Points& positions,
                                            StrainMeasure measure = StrainMeasure::kFinite);
 /// At some nodes only, a row for each.

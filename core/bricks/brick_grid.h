@@ -18,7 +18,7 @@ struct SolidPatch {
   int brick = 0;
   std::bitset<512> samples;            // bit x + 8 y + 64 z: the point at (x, y, z) + 1/2 eighths of the cell
   std::vector<Eigen::Vector3f> spots;  // points of solid too thin for samples, in [0, 1]^3 of the cell
-  SolidIntegrals solid;                // from the middle of the cell
+  SolidIntegrals solid;                // relative to the middle of the cell
 };
 
 /// The bricks of one body: the cells of a cubic lattice that hold solid, and the nodes at their corners. Corner c of a
@@ -34,7 +34,7 @@ struct BrickGrid {
   std::vector<std::array<int, 8>> nodes;  // n; rows of lattice, by corner
   std::vector<Eigen::Vector3i> lattice;   // m; lattice coordinates of each node, ordered by z, then y, then x
   std::vector<SolidPatch> patches;        // of the cells that the surface cuts, ordered as cells; empty: not computed
-  std::vector<SolidMoments> moments;      // n; empty: not known, all as of a full brick
+  std::vector<SolidMoments> moments;      // n; empty: unknown, all as for a full brick
 
   [[nodiscard]] int brick_count() const { return isize(cells); }
   [[nodiscard]] int node_count() const { return isize(lattice); }
@@ -94,8 +94,8 @@ class CellIndex {
   std::unordered_map<std::uint64_t, int> row_of_cell_;
 };
 
-/// The neighbours of a brick by side (2 axis, + 1 on the high side); -1: none. Of several the first. `index`: of this
-/// grid.
+/// The neighbours of a brick by side (2 axis, + 1 on the high side); -1: none. If there are several, the first.
+/// `index`: of this grid.
 [[nodiscard]] std::array<int, 6> face_neighbours(const BrickGrid& grid, const CellIndex& index, std::size_t brick);
 
 /// The brick corners (8 brick + corner) at each node, in the order of the bricks: those of node i are corners[first[i]]

@@ -3,7 +3,7 @@
 
 namespace sprung {
 
-/// Corner c of a brick lies on the high side of axis i where bit i of c is set.
+/// Corner c of a brick lies on the high side of axis i if bit i of c is set.
 [[nodiscard]] constexpr bool on_high_side(int corner, int axis) { return ((corner >> axis) & 1) != 0; }
 
 /// A spring of a brick: the corners it joins; `to` is on the high side of the spring's (first) axis.

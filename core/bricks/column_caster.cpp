@@ -13,7 +13,7 @@ constexpr std::int64_t kRays = 16;
 constexpr std::int64_t kRayPitch = kSnap / kRays;
 constexpr std::int64_t kShuffle = 5;
 
-/// The weight of a direction whose rays do not cross the surface in a cell: decisive only where none do.
+/// The weight of a direction whose rays do not cross the surface in a cell: decisive only if none do.
 constexpr float kLeastWeight = 1e-6F;
 
 struct Intersection {

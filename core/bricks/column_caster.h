@@ -60,7 +60,7 @@ class SnappedTriangle {
     std::swap(depths_[1], depths_[2]);
   }
 
-  /// Parallel to the lines: none crosses it.
+  /// True if parallel to the lines: none crosses it.
   [[nodiscard]] bool is_empty() const { return area_ == 0; }
   /// +1 where lines enter, -1 where they leave: an outward triangle seen counter-clockwise along the axis faces
   /// forward.
@@ -74,7 +74,7 @@ class SnappedTriangle {
             std::max({corners_[0].v, corners_[1].v, corners_[2].v})};
   }
 
-  /// Where the line at `place` crosses it, in cells; nothing where it misses.
+  /// Where the line at `place` crosses it, in cells; nothing if it misses.
   [[nodiscard]] std::optional<double> depth_at(const SnappedPlace& place) const {
     double weighted = 0;
     double sum = 0;

@@ -20,7 +20,7 @@ class BrickFinder {
  public:
   explicit BrickFinder(const BrickGrid& grid) : grid_(grid), index_(grid) {}
 
-  /// `place` in lattice units. -1: no brick contains it.
+  /// `position` in lattice units. -1: no brick contains it.
   [[nodiscard]] int holding(const Vec3& position) const {
     const Cell cell = position.array().floor().cast<int>();
     if (const int brick = index_.at(cell); brick >= 0) return brick;

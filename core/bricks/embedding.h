@@ -7,11 +7,11 @@
 namespace sprung {
 
 /// Points embedded in bricks: each in one brick, by trilinear weights of its eight corners. Points outside their brick
-/// are extrapolated: those in the cell of a sliver that their brick has taken over (absorb_slivers), and those in no
-/// cell of the solid at all, which `outside` counts.
+/// are extrapolated: those in the cell of a sliver that their brick has absorbed (absorb_slivers), and those in no cell
+/// of the solid at all, which `outside` counts.
 struct Embedding {
   std::vector<int> brick;  // n
-  Points local;            // n x 3; coordinates in the brick, in [0, 1] where the point is inside
+  Points local;            // n x 3; coordinates in the brick, in [0, 1] if the point is inside
   int outside = 0;
   double furthest = 0;  // largest distance of these from their bricks, in bricks
 };
@@ -23,8 +23,8 @@ struct Embedding {
 [[nodiscard]] Eigen::Matrix<double, 8, 3> trilinear_gradients(const Vec3& local);
 
 /// Embeds `points` (grid's frame, m) with outward normals `outward` (n x 3, any length; or 0 rows: unknown). Where a
-/// cell has several bricks, a point belongs to that of the nearest solid (BrickGrid::patches); where its normal is
-/// known, of the nearest solid on its inward side.
+/// cell has several bricks, a point belongs to that of the nearest solid (BrickGrid::patches); if its normal is known,
+/// of the nearest solid on its inward side.
 [[nodiscard]] Embedding embed(const BrickGrid& grid, const Points& points, const Points& outward = Points(0, 3));
 
 /// The embedded points for these node positions; n x 3, m. They follow affine motions of the nodes exactly.

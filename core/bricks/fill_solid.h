@@ -3,14 +3,14 @@
 
 namespace sprung {
 
-/// A solid filled with bricks that are ready for a body, and what was done to them.
+/// A solid filled with bricks that are ready for a body, and a report.
 struct FilledSolid {
   BrickGrid grid;
   PieceReport pieces;
-  int slivers = 0;  // nearly empty bricks that are a part of others now
+  int slivers = 0;  // nearly empty bricks merged into others
 };
 
-/// For laws that scale a whole brick's, or that know where the solid of a brick lies.
+/// kFill: for laws that scale a whole brick's; kMoments: for laws that know where the solid of a brick lies.
 enum class BricksFor { kFill, kMoments };
 
 /// voxelize(), split_pieces() and absorb_slivers(); for kMoments absorb_loose_bricks() too. `brick_size`: in units of

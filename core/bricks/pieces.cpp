@@ -72,7 +72,7 @@ std::vector<PieceItem> PieceList::items(int brick) const {
 
 namespace {
 
-constexpr double kFaceReach = 1.5;   // pitches: how near to a face links through it are sought ...
+constexpr double kFaceReach = 1.5;   // pitches: how near to a face links through it are searched ...
 constexpr double kReach = 2.2;       // ... and how far apart linked items may be
 constexpr double kUnknownGap = 0.5;  // cells, between two pieces of which one has no samples
 
@@ -142,7 +142,7 @@ class Linker {
     join_by_sight(brick, other, axis);
   }
 
-  /// Of pieces joined by no line.
+  /// Links pieces that no line joins.
   void join_by_sight(int brick, int other, int axis) {
     bool are_all_joined = true;
     for (int low = list_.first(brick); low < list_.first(brick + 1); ++low) {
@@ -163,7 +163,7 @@ class Linker {
     }
   }
 
-  /// Near the face of a cell across `axis` at `face`.
+  /// Items near the face of a cell across `axis` at `face`.
   [[nodiscard]] std::vector<PieceItem> items_near(int brick, int axis, double face) const {
     std::vector<PieceItem> items = list_.items(brick);
     std::erase_if(items, [&](const PieceItem& item) {
@@ -307,7 +307,7 @@ PieceLinks link_pieces(const PieceList& list) { return Linker(list).run(); }
 
 namespace {
 
-/// Records the solid of each piece, by which points are assigned to bricks.
+/// Records the solid of each piece, used to assign points to bricks.
 SolidPatch patch_of(const PieceList& list, int piece, int row) {
   const int brick = list.brick_of(piece);
   const CutCell& cell = *list.cut(brick);

@@ -34,7 +34,7 @@ class PieceList {
   /// The pieces of a brick are first(brick) .. first(brick + 1) - 1.
   [[nodiscard]] int first(int brick) const { return first_[brick]; }
   [[nodiscard]] int brick_of(int piece) const { return pieces_[piece].brick; }
-  /// The samples of a brick, or null where the surface does not cut it.
+  /// The samples of a brick, or null if the surface does not cut it.
   [[nodiscard]] const CutCell* cut(int brick) const;
   /// Whether all of its samples are inside.
   [[nodiscard]] bool is_whole(int brick) const;
@@ -80,7 +80,7 @@ struct PieceReport {
 /// solid continues through their common face. Connectivity is found from 8 x 8 x 8 samples per cut cell, the lines
 /// between them and, where these are inconclusive, straight lines that meet no triangle: gaps separate however narrow
 /// they are, solid connects down to about a twentieth of a brick. A piece of fewer than 4 samples is added to the fill
-/// of a larger one beside it. The volume is preserved. After Nesme, Kry, Jerabkova and Faure, "Preserving topology and
+/// of a larger one next to it. The volume is preserved. After Nesme, Kry, Jerabkova and Faure, "Preserving topology and
 /// elasticity for embedded deformable models" (2009). `grid`: voxelize()'s for the same solid; that of a shell or of
 /// unconnected triangles stays unchanged. Deterministic.
 PieceReport split_pieces(const Solid& solid, BrickGrid& grid);

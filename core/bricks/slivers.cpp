@@ -17,7 +17,7 @@ constexpr double kStrongFill = 0.5;
 
 using Neighbours = std::array<int, 6>;
 
-/// The fullest neighbour, or -1 where none is strong enough.
+/// The fullest neighbour, or -1 if none is strong enough.
 int strongest(const BrickGrid& grid, const Neighbours& neighbours) {
   int best = -1;
   double best_fill = kStrongFill;
@@ -30,7 +30,7 @@ int strongest(const BrickGrid& grid, const Neighbours& neighbours) {
 }
 
 constexpr double kSpeckFill = 0.002;
-constexpr double kHingedShare = 0.01;  // of the body, up to which a part that hangs by a hinge is given up
+constexpr double kHingedShare = 0.01;  // of the body, up to which a part attached by a hinge is given up
 
 /// Bricks that are connected without the others, by their nodes.
 DisjointSets connected(const BrickGrid& grid, const std::function<bool(std::size_t)>& is_meant) {
@@ -42,8 +42,8 @@ DisjointSets connected(const BrickGrid& grid, const std::function<bool(std::size
   return nodes;
 }
 
-/// For each brick that goes, the fullest of those that stay at its own nodes (`fullest_at_node`: -1: none); where there
-/// is none, that of a brick that goes beside it.
+/// For each removed brick, the fullest of those kept at its own nodes (`fullest_at_node`: -1: none); if there is none,
+/// that of a removed neighbour.
 std::vector<int> heirs_of(const BrickGrid& grid, const std::vector<bool>& gone, std::vector<int> fullest_at_node) {
   std::vector<int> heir(grid.cells.size(), -1);
   for (bool is_done = false; !is_done;) {
@@ -67,10 +67,10 @@ std::vector<int> heirs_of(const BrickGrid& grid, const std::vector<bool>& gone, 
   return heir;
 }
 
-/// What absorb_slivers() leaves because no face neighbour is full, down to almost nothing: such bricks hang on the body
-/// by a hinge or a chain of their kind. They go to the fullest brick that they touch, or that those touch that they
-/// touch, unless they link parts that are not connected otherwise. Not all of a chain to one: its points follow that
-/// brick, and would be extrapolated from afar.
+/// Removes almost empty bricks that absorb_slivers() leaves because no face neighbour is full: they are attached to the
+/// body by a hinge or a chain of their kind. They are merged into the fullest brick that they touch, or that their
+/// neighbours touch, unless they connect parts that are not connected otherwise. A chain is not merged into one brick:
+/// its points follow that brick and would be extrapolated from afar.
 int absorb_specks(BrickGrid& grid) {
   const auto is_speck = [&](std::size_t brick) { return grid.fill[brick] < kSpeckFill; };
   DisjointSets groups = connected(grid, is_speck);
@@ -89,7 +89,7 @@ int absorb_specks(BrickGrid& grid) {
       take_fuller(fullest_at_node[node], brick);
     }
   }
-  std::vector<int> part(grid.lattice.size(), kNone);  // at which a group hangs, by the root of the group
+  std::vector<int> part(grid.lattice.size(), kNone);  // to which a group is attached, by the root of the group
   for (int brick = 0; brick < grid.brick_count(); ++brick) {
     if (!is_speck(brick)) continue;
     const int group = groups.find(grid.nodes[brick][0]);
@@ -132,8 +132,8 @@ DisjointSets connected_by_faces(const BrickGrid& grid) {
   return parts;
 }
 
-/// Small parts that touch one other part only in nodes on a line are free to turn about it, which nothing resists, so
-/// that no equilibrium can be found. They go to the fullest brick at the hinge. Returns how many bricks.
+/// Small parts that touch one other part only in nodes on a line can turn about it without resistance, so that no
+/// equilibrium can be found. They are merged into the fullest brick at the hinge. Returns the number of bricks.
 int absorb_hinged(BrickGrid& grid) {
   const std::size_t count = grid.cells.size();
   DisjointSets parts = connected_by_faces(grid);
@@ -143,7 +143,7 @@ int absorb_hinged(BrickGrid& grid) {
   const CornerLists lists = list_corners(grid.nodes, grid.node_count());
 
   struct Hinge {
-    int beyond = -1;  // the part that it hangs at
+    int beyond = -1;  // the part that it is attached to
     bool is_one = true;
     int heir = -1;
     std::vector<Eigen::Vector3i> positions;
@@ -164,7 +164,7 @@ int absorb_hinged(BrickGrid& grid) {
       }
     }
   }
-  /// Of two that hang at nothing but each other the smaller one goes.
+  /// Of two that are attached to nothing but each other the smaller one is removed.
   const auto goes = [&](int part, const Hinge& hinge) {
     if (!hinge.is_one || !are_on_a_line(hinge.positions)) return false;
     const auto other = hinges.find(hinge.beyond);
@@ -179,7 +179,7 @@ int absorb_hinged(BrickGrid& grid) {
     gone[brick] = true;
     heir[brick] = found->second.heir;
   }
-  // Chains of such parts go one after the other, from their end.
+  // Chains of such parts are removed one after the other, from their end.
   const std::vector<bool> hinged = gone;
   for (std::size_t brick = 0; brick < count; ++brick) gone[brick] = hinged[brick] && !hinged[heir[brick]];
   for (std::size_t brick = 0; brick < count; ++brick) {
@@ -220,7 +220,7 @@ int absorb_slivers(BrickGrid& grid, double least_fill) {
 
 namespace {
 
-/// One brick after the other is given up, the emptiest first.
+/// Bricks are given up one after the other, the emptiest first.
 class LooseBricks {
  public:
   explicit LooseBricks(const BrickGrid& grid) : grid_(grid), fill_(grid.fill), heir_(grid.cells.size(), -1) {
@@ -237,7 +237,7 @@ class LooseBricks {
     }
   }
 
-  /// The heir of each brick that goes; -1: it stays.
+  /// The heir of each removed brick; -1: it stays.
   std::vector<int> give_up(double least_share) {
     std::vector<double> share;
     for (std::size_t brick = 0; brick < grid_.cells.size(); ++brick) {
@@ -250,7 +250,7 @@ class LooseBricks {
     std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return share[a] < share[b]; });
     for (const int brick : order) {
       if (share[brick] >= least_share) break;
-      // One that has taken over others stays: what they held is far away enough.
+      // A brick that has absorbed others stays: their solid is far enough away.
       if (fill_[brick] > grid_.fill[brick] || !hang_together(brick)) continue;
       const std::vector<int> sides = sides_of(brick);
       const int heir = *std::max_element(sides.begin(), sides.end(), [&](int a, int b) { return fill_[a] < fill_[b]; });
@@ -260,7 +260,7 @@ class LooseBricks {
     return heir_;
   }
 
-  /// What the bricks hold then.
+  /// What the bricks then contain.
   [[nodiscard]] const std::vector<double>& fill() const { return fill_; }
 
  private:

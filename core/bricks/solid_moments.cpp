@@ -8,7 +8,7 @@
 namespace sprung {
 namespace {
 
-constexpr double kOwnAxis = 64;       // times what a direction is trusted across its lines
+constexpr double kOwnAxis = 64;       // weight along a direction's lines, relative to across them
 constexpr double kLeastTrust = 1e-6;  // decides where no line crosses the surface
 
 }  // namespace

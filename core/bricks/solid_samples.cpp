@@ -170,7 +170,7 @@ bool is_inside(const CutCell& cell, int sample) { return inside_bits(cell, sampl
 
 int along(int sample, int axis) { return sample / kStride[axis] % kSamplesAlong; }
 
-/// Calls visit(sample) for the samples of the cell within `reach` pitches of a place along every axis.
+/// Calls visit(sample) for the samples of the cell within `reach` pitches of a position along every axis.
 template <class Visit>
 void for_each_near(const Vec3& local, double reach, const Visit& visit) {
   const Eigen::Array3d middle = local.array() * kSamplesAlong - 0.5;
@@ -211,7 +211,7 @@ float weight_of(const CutCell& cell, int item) {
 
 bool is_solid(const CutCell& cell, int item) { return item >= kSamples || is_inside(cell, item); }
 
-/// Numbers the sets in the order of their first members; small ones beside a larger one are 0.
+/// Numbers the sets in the order of their first members; small ones next to a larger one are 0.
 void number_pieces(DisjointSets& sets, CutCell& cell) {
   const int count = isize(sets);
   std::vector<float> weights(sets.size(), 0);
@@ -359,8 +359,8 @@ SolidSamples::Stretch SolidSamples::add_spot(const InsideRun& run, int axis, int
   return {spot, spot};
 }
 
-/// Adds what a run holds of the pieces of the cells that it passes. Runs come in the order in which they made their
-/// spots, of which `spots_passed` counts those of each cell.
+/// Adds a run's share of the pieces of the cells that it passes. Runs come in the order in which they made their spots;
+/// `spots_passed` counts these per cell.
 void SolidSamples::integrate(const InsideRun& run, int axis, std::vector<int>& spots_passed) {
   const int last_cell = std::min(int(std::ceil(run.to)), counts_[axis]) - 1;
   for (int c = int(run.from); c <= last_cell; ++c) {

@@ -33,7 +33,7 @@ class SolidFinder {
  public:
   explicit SolidFinder(const BrickGrid& grid);
 
-  /// `place` and `inward` (unit, or zero where unknown) in lattice units. -1: no patch near the place.
+  /// `position` and `inward` (unit, or zero if unknown) in lattice units. -1: no patch nearby.
   [[nodiscard]] int under(const Vec3& position, const Vec3& inward) const;
 
  private:
@@ -82,7 +82,7 @@ class SolidSamples {
  public:
   SolidSamples(const CellSurface& surface, const BrickGrid& grid);
 
-  /// The cut cell of a brick, or -1 where the surface does not cut it.
+  /// The cut cell of a brick, or -1 if the surface does not cut it.
   [[nodiscard]] int cut_cell_of(int brick) const { return cut_cell_of_[brick]; }
   [[nodiscard]] const std::vector<CutCell>& cut_cells() const { return cut_cells_; }
   [[nodiscard]] const std::vector<SpotLink>& spot_links() const { return spot_links_; }

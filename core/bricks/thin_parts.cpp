@@ -58,7 +58,7 @@ std::vector<double> median_thickness(const BrickGrid& grid, const std::vector<Wa
   return medians;
 }
 
-/// The thinnest place is where the median thickness around a brick is smallest, since a few samples at a sharp edge
+/// The thinnest point is where the median thickness around a brick is smallest, since a few samples at a sharp edge
 /// mean nothing.
 ThinPart measured(std::vector<int> bricks, const std::vector<double>& medians, const std::vector<WallSample>& samples,
                   const Lists& in_brick) {

@@ -13,7 +13,7 @@ struct ThinPart {
   Vec3 position = Vec3::Zero();  // a point of the surface there
 };
 
-/// The parts of a body that are thinner than its bricks, thinnest first. A brick counts where most of the surface in it
+/// The parts of a body that are thinner than its bricks, thinnest first. A brick counts if most of the surface in it
 /// and its neighbours is less than a brick from the opposite wall, which excludes the edges of thick parts; groups of
 /// fewer than four bricks are left out of larger bodies. `samples` in the grid's frame.
 [[nodiscard]] std::vector<ThinPart> find_thin_parts(const BrickGrid& grid, const std::vector<WallSample>& samples);

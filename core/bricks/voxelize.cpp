@@ -264,7 +264,7 @@ void collect_cells(const CellSums& sums, const Eigen::Vector3i& counts, BrickGri
 }
 
 /// Scales the fill of partly filled bricks by one factor, but none beyond 1, to make the volume `volume`. Changes
-/// nothing where the difference is more than sampling error.
+/// nothing if the difference is more than sampling error.
 void match_volume(double volume, BrickGrid& grid) {
   const double target = volume / grid.brick_volume();
   for (int pass = 0; pass < 8; ++pass) {

@@ -19,12 +19,12 @@ void fill_shell(const CellSurface& surface, double thickness, CellSums& sums);
 /// The bricks of side `brick_size` that overlap a solid, with the fraction of each that is solid. The lattice starts at
 /// the low corner of the solid's bounding box; a box a whole number of bricks long gets exactly those. Cells with a
 /// fill below 1e-6 are dropped. Deterministic. Cost: one pass over the triangles and the cells. Memory: 8 bytes per
-/// cell of the bounding box. Volume: exact (the fill of cut bricks is scaled by one factor) where the samples agree
-/// with solid.volume within 0.5 % and the surface does not overlap itself; else the volume of non-zero winding number.
+/// cell of the bounding box. Volume: exact (the fill of cut bricks is scaled by one factor) if the samples agree with
+/// solid.volume within 0.5 % and the surface does not overlap itself; else the volume of non-zero winding number.
 /// Unconnected triangles (not solid.closed) are filled by winding number (fill_by_winding); a shell of solid.thickness
 /// is centred on its triangles (fill_shell), its lattice starts half of that lower, and its bricks are connected
-/// through faces. Precondition: brick_size > 0. Throws Error(kBadInput) where the box would be more than 2^16 cells
-/// long or hold more than 2^31.
+/// through faces. Precondition: brick_size > 0. Throws Error(kBadInput) if the box would be more than 2^16 cells long
+/// or hold more than 2^31.
 [[nodiscard]] BrickGrid voxelize(const Solid& solid, double brick_size);
 
 /// The volume enclosed by a solid, overlaps counted once: solid.volume unless it overlaps itself or is not closed; then

@@ -100,7 +100,7 @@ namespace {
 
 constexpr double kFurthestMove = 0.5;  // of a brick
 
-/// s, until something that moves at a speed and is accelerated by gravity has come that far.
+/// s, until something with this speed and accelerated by gravity has moved that far.
 double time_to_move(double way, double speed, double gravity, double most) {
   if (speed * most + gravity * most * most / 2 <= way) return most;
   return 2 * way / (speed + std::sqrt(speed * speed + 2 * gravity * way));
@@ -132,8 +132,8 @@ double max_step_size(const World& world, const Group& group, double dt) {
   for (const auto& [a, b] : broad_phase(world, group, 2 * (fastest + world.gravity.norm() * dt) * dt)) {
     ContactCandidates pairs(skins, a, b);
     const double brick = std::min(group[a]->grid.brick_size, group[b]->grid.brick_size);
-    const double gravity = a == b ? 0 : world.gravity.norm();  // all of a body falls alike
-    // Two that come from either side are twice as fast.
+    const double gravity = a == b ? 0 : world.gravity.norm();  // all of a body falls equally
+    // Two approaching each other are twice as fast.
     pairs.seek(group, brick + 2 * pairs.fastest(group) * dt + gravity * dt * dt / 2);
     if (!pairs.has_near_bricks()) continue;
     stride = std::min(stride, time_to_move(kFurthestMove * brick, pairs.closing_speed(group, dt), gravity, dt));
@@ -143,7 +143,7 @@ double max_step_size(const World& world, const Group& group, double dt) {
 
 namespace {
 
-/// All that a body can reach, m: it is carried along as a whole, and its nodes move about in it.
+/// The region that a body can reach, m: it moves as a whole, and its nodes move relative to it.
 AlignedBox reach_of(const Body& body, const Vec3& gravity, double time) {
   const Vec3 mean = linear_momentum(body) / body.masses.sum();
   const double about = std::sqrt((body.velocities.rowwise() - mean.transpose()).rowwise().squaredNorm().maxCoeff());

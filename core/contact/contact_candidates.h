@@ -10,56 +10,57 @@
 
 namespace sprung {
 
-/// A point of a skin that is watched.
+/// A tracked point of a skin.
 struct TrackedPoint {
   std::size_t body;  // of the group
   int point;         // of its skin
-  Vec3 normal;       // of the skin there, when last looked
+  Vec3 normal;       // of the skin there, when last updated
   Vec3 position = Vec3::Zero();
   Vec3 velocity = Vec3::Zero();
 };
 
-/// A point and a triangle near it: rows of what is watched.
+/// A point and a triangle near it, as rows of tracked points.
 struct CandidatePair {
   int point;
   std::array<int, 3> corners;
 };
 
-/// Points and triangles of two skins of a group, or of one skin, that are near and face each other; within one they
-/// must not be connected through a common neighbour of their bricks. Bricks are compared first, by their boxes and by
-/// where their normals may point: that is sought from further away, and less often.
+/// Points and triangles of two skins of a group, or of one skin, that are near and face each other; within one skin,
+/// their bricks must not be connected through a common neighbour. Bricks are compared first, by their boxes and the
+/// ranges of their normals, with a larger margin and less often.
 class ContactCandidates {
  public:
-  /// Of two bodies of the group, or of one with itself.
+  /// For two bodies of the group, or of one with itself.
   ContactCandidates(const std::vector<const ContactSurface*>& skins, std::size_t body, std::size_t other);
 
-  /// Seeks the bricks whose skins are within `margin` (m) of each other. Deterministic.
+  /// Finds the bricks whose skins are within `margin` (m) of each other. Deterministic.
   void seek(const Group& group, double margin);
 
-  /// Of all points, and of those in bricks found so, m/s, seen from the rigid motion that is nearest to the bodies'.
+  /// The largest speed of all points, and of those in bricks found so, m/s, relative to the rigid motion nearest to the
+  /// bodies'.
   [[nodiscard]] double fastest(const Group& group) const;
   [[nodiscard]] double fastest_near(const Group& group) const;
 
-  /// Of those of the bricks that may meet within dt (s) as they move, how fast they come closer at most, m/s.
+  /// The largest approach speed of those bricks that may meet within dt (s), m/s.
   [[nodiscard]] double closing_speed(const Group& group, double dt) const;
 
   /// Finds points and triangles among those bricks. Deterministic.
   void look(const Group& group, const ContactRange& reach);
 
-  /// Takes those of a front instead. Deterministic.
+  /// Takes the pairs of a front instead. Deterministic.
   void take(const Group& group, const std::vector<std::vector<FacingPair>>& lists);
 
-  /// Takes down how the skin is turned at the watched points; take() has done so.
+  /// Updates the skin's normals at the tracked points; take() has done so.
   void turn(const Group& group);
 
-  /// Takes down where the watched points are, and how fast.
+  /// Updates the positions and velocities of the tracked points.
   void follow(const Group& group);
 
-  /// Whether pairs need not face each other: where they were taken from a front.
+  /// Whether pairs need not face each other: true if they come from a front.
   [[nodiscard]] bool may_look_away() const { return may_look_away_; }
 
-  /// Whether any bricks are near each other, and how near (m) those are whose points and triangles make no pairs: at
-  /// least this.
+  /// Whether any bricks are near each other, and a lower bound (m) on the distance of points and triangles that form no
+  /// pair.
   [[nodiscard]] bool has_near_bricks() const { return !near_.empty(); }
   [[nodiscard]] double nearest_beyond() const { return nearest_beyond_; }
 
@@ -81,7 +82,7 @@ class ContactCandidates {
     std::size_t row;  // in the skin's bricks
     AlignedBox box;   // m, of its points and triangles
     Vec3 normal;      // the axis of its normals
-    double turn;      // rad: those of two bricks may touch whose axes are further apart than their turns add up to
+    double turn;      // rad: two bricks may touch if their axes are further apart than the sum of their turns
     double cosine;    // of the turn
     double sine;
   };
@@ -91,7 +92,7 @@ class ContactCandidates {
   [[nodiscard]] RigidMotion rigid_motion(const Group& group) const;
   [[nodiscard]] double fastest_of(const Group& group, std::size_t side, std::size_t row,
                                   const RigidMotion& rigid) const;
-  /// The bricks of a side that are near the box, and where they are.
+  /// Adds the bricks of a side that are near the box, with their positions.
   void add_places(const Group& group, std::size_t side, const AlignedBox& near);
   void keep_near_places();
   void find(const Group& group, Place& place);

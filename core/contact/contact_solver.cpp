@@ -11,7 +11,7 @@ namespace sprung {
 namespace {
 
 constexpr int kMostSweeps = 30;
-constexpr int kMostSweepsWithInversions = 100;  // rare, and what they miss grows
+constexpr int kMostSweepsWithInversions = 100;  // rare, and their errors grow
 constexpr double kTolerance = 1e-4;             // bricks that a point may miss its constraint by in a step
 constexpr double kLeastFree = 0.05;             // of a contact's weights: what pinned nodes carry cannot be moved
 
@@ -173,7 +173,7 @@ void ContactSolver::warm_start() {
   };
   take_over(contacts_before_, contacts_);
   take_over(inversions_before_, inversions_);
-  // The best share of these impulses is that whose residual has least energy; it has no more than without impulses.
+  // The best multiple of these impulses has the residual of least energy, no more than without impulses.
   double wanted = 0;
   each_constraint([&](const auto& constraint) {
     wanted += dot(constraint.residual(nodes_, &SolverNode::free_velocity), constraint.impulse.last);
@@ -212,7 +212,7 @@ ContactSolver::Sweep ContactSolver::sweep() {
 }
 
 void ContactSolver::extrapolate(double lead) {
-  // What is ahead still holds the sweep before.
+  // `ahead` still holds the previous sweep.
   each_constraint([&](auto& constraint) {
     auto& [last, ahead] = constraint.impulse;
     ahead = last + lead * (last - ahead);

@@ -10,16 +10,16 @@
 
 namespace sprung {
 
-/// Keeps the bodies of a group out of obstacles, each other and themselves, what is glued together, and their bricks
-/// from being pressed flat or inside out, by impulses on the nodes. The impulse that stops a point carries Coulomb
-/// friction, which holds the point entirely below the friction angle; between bodies it pushes both alike. The impulse
-/// that stops a brick's collapse goes along the gradient of its volume, which neither moves nor turns the body: linear
-/// and angular momentum are kept exactly; like any inelastic impact it takes energy, never gives it.
+/// Keeps the bodies of a group from penetrating obstacles, each other and themselves, keeps glued points together, and
+/// bricks from being flattened or inverted, by impulses on the nodes. The impulse that stops a point includes Coulomb
+/// friction, which sticks entirely below the friction angle; between bodies it acts equally on both. The impulse that
+/// stops a brick's collapse is along the gradient of its volume, which neither moves nor turns the body: linear and
+/// angular momentum are conserved exactly; like any inelastic impact it dissipates energy, never adds it.
 ///
-/// All constraints are met together by accelerated projected gradients (H. Mazhar, T. Heyn, D. Negrut, A. Tasora,
+/// All constraints are solved together by accelerated projected gradients (H. Mazhar, T. Heyn, D. Negrut, A. Tasora,
 /// "Using Nesterov's method to accelerate multibody dynamics with friction and contact", ACM Transactions on Graphics
-/// 34(3), 2015), with the row sums of the constraints' coupling as their step. In a sweep each constraint sees the same
-/// velocities, so that the order of the constraints does not matter: a symmetric impact stays symmetric but for
+/// 34(3), 2015), with step sizes from the row sums of the constraints' coupling. In a sweep each constraint sees the
+/// same velocities, so that the order of the constraints does not matter: a symmetric impact stays symmetric up to
 /// rounding. Deterministic.
 class ContactSolver {
  public:
@@ -28,28 +28,28 @@ class ContactSolver {
   ContactSolver(Group group, std::vector<Eigen::VectorXd> inverse_masses, std::vector<GluedPoint> glue = {},
                 std::shared_ptr<SkinContacts> skin_contacts = nullptr);
 
-  /// Changes the bodies' velocities so that moving by dt keeps every constraint. `elapsed`: since the obstacles were
-  /// where the world has them, s.
+  /// Changes the bodies' velocities so that a step of dt satisfies every constraint. `elapsed`: since the obstacles had
+  /// the world's poses, s.
   void apply(const World& world, double elapsed, double dt);
 
  private:
-  /// One of the nodes that constraints push.
+  /// A node that constraints act on.
   struct SolverNode {
     std::size_t body;
     int node;
     double inverse_mass;
     double row_sum = 0;        // of all constraints, for a unit of impulse each
     Vec3 free_velocity;        // without impulses
-    Vec3 velocity;             // with those ahead
-    Vec3 last = Vec3::Zero();  // impulse of the sweep before
+    Vec3 velocity;             // with the extrapolated ones
+    Vec3 last = Vec3::Zero();  // impulse of the previous sweep
     Vec3 now = Vec3::Zero();   // and of this one
   };
   using Nodes = std::vector<SolverNode>;
-  /// What a constraint pushes.
+  /// The impulse of a constraint.
   template <class Impulse>
   struct Iterate {
-    Impulse last;   // in the sweep before
-    Impulse ahead;  // where the sweeps lead
+    Impulse last;   // in the previous sweep
+    Impulse ahead;  // extrapolated
   };
   /// A node's share in a contact.
   struct JacobianEntry {
@@ -57,7 +57,7 @@ class ContactSolver {
     double weight;
   };
   struct ContactConstraint {
-    std::uint64_t key;                       // of the node it works at, increasing
+    std::uint64_t key;                       // of the node it acts on, increasing
     std::span<const JacobianEntry> entries;  // in entries_
     Vec3 normal;
     Vec3 goal;  // m/s
@@ -69,14 +69,14 @@ class ContactSolver {
     [[nodiscard]] std::size_t count() const { return entries.size(); }
     [[nodiscard]] std::size_t index(std::size_t i) const { return entries[i].index; }
     [[nodiscard]] double weight(std::size_t i) const { return std::abs(entries[i].weight); }
-    /// Of velocity to what the constraint asks, sideways too.
+    /// The velocity relative to the constraint's goal, including the tangential part.
     [[nodiscard]] Vec3 residual(const Nodes& all, Vec3 SolverNode::*velocity) const;
     void push(const Vec3& size, Nodes& all) const;
-    /// What it may push.
+    /// Projects an impulse onto the admissible ones.
     [[nodiscard]] Vec3 allowed(const Vec3& size) const;
   };
   struct InversionConstraint {
-    std::uint64_t key;                   // of the node it works at, increasing
+    std::uint64_t key;                   // of the node it acts on, increasing
     std::array<std::size_t, 8> nodes{};  // rows of nodes_
     std::array<Vec3, 8> gradients{};
     double least_speed;
@@ -94,28 +94,28 @@ class ContactSolver {
 
   std::size_t row_of(std::size_t body, int node);
   void clear_constraints();
-  /// Whether free nodes carry more than a trace of its weights; the impulse that moves the rest would be unbounded
-  /// where pinned nodes carry nearly all.
+  /// Whether free nodes carry more than a trace of its weights; the impulse that moves the rest would be unbounded if
+  /// pinned nodes carried nearly all.
   [[nodiscard]] bool can_be_moved(std::span<const JacobianEntry> entries) const;
   void find_contacts(const World& world, double elapsed, double dt);
   void find_inversions(double dt);
   void add_inversions(std::size_t body, const std::vector<InversionRate>& rates);
   void compute_row_sums();
-  /// Takes over the best share of the step before's impulses.
+  /// Reuses the best multiple of the previous step's impulses.
   void warm_start();
-  /// How far a sweep changed the impulses, as speeds (m/s), and whether the acceleration still points downhill.
+  /// How far a sweep changed the impulses, as speeds (m/s), and whether the acceleration is still a descent direction.
   struct Sweep {
     double furthest = 0;
     double uphill = 0;
   };
   [[nodiscard]] Sweep sweep();
-  /// Does the same to every constraint of either kind.
+  /// Calls `visit` for every constraint of either kind.
   template <class Visit>
   void each_constraint(const Visit& visit) {
     for (ContactConstraint& constraint : contacts_) visit(constraint);
     for (InversionConstraint& constraint : inversions_) visit(constraint);
   }
-  /// The next sweep starts ahead of this one's end by `lead` times what it changed.
+  /// Starts the next sweep ahead of this one's result by `lead` times its change.
   void extrapolate(double lead);
 
   Group group_;
@@ -130,7 +130,7 @@ class ContactSolver {
   std::vector<JacobianEntry> entries_;
   std::vector<ContactConstraint> contacts_;
   std::vector<InversionConstraint> inversions_;
-  std::vector<ContactConstraint> contacts_before_;  // in the step before, without their entries
+  std::vector<ContactConstraint> contacts_before_;  // of the previous step, without their entries
   std::vector<InversionConstraint> inversions_before_;
   Nodes nodes_;
   std::vector<std::vector<int>> rows_;  // by body, by node: in nodes_, or -1

@@ -8,21 +8,21 @@
 
 namespace sprung {
 
-/// What is kept of a group's contacts from one chunk of steps to the next.
+/// Contact data of a group kept from one chunk of steps to the next.
 struct GroupContacts {
   std::shared_ptr<SkinContacts> skins{};   // none: found anew in every chunk
   std::shared_ptr<SweptContacts> swept{};  // none: ContactSolver
 };
 
-/// The contacts of each group of bodies, which live as long as the group does. What is found in a frame depends on that
-/// frame only, so that a motion can go on without them.
+/// The contacts of each group of bodies, which live as long as the group does. Results of a frame depend on that frame
+/// only, so that a motion can be resumed without them.
 class ContactStates {
  public:
-  /// Groups are rows of the world's bodies. Those that were there in the last frame keep what they have; a frame that
-  /// is done again begins anew too.
+  /// Groups are rows of the world's bodies. Those that existed in the last frame keep their contacts; a repeated frame
+  /// also starts afresh.
   void begin_frame(World& world, const std::vector<std::vector<std::size_t>>& groups, ContactSearch search);
 
-  /// Nothing where begin_frame() had no such group.
+  /// Empty if begin_frame() had no such group.
   [[nodiscard]] GroupContacts of(const std::vector<std::size_t>& group) const;
 
  private:

@@ -10,14 +10,14 @@
 namespace sprung {
 namespace {
 
-constexpr double kApproach = 0.5;         // of the way to where a contact holds, that its features may go in a step
-constexpr double kRecovery = 0.05;        // of how much too near they are, that they part in a step ...
+constexpr double kApproach = 0.5;         // of the way to the contact distance, by which features may approach per step
+constexpr double kRecovery = 0.05;        // of the excess approach, that they separate per step ...
 constexpr double kRecoveryHeight = 0.01;  // ... but no faster than from a fall by that part of it
-constexpr double kLeastFree = 0.05;       // of a contact's weights: what nodes that are held carry, none moves
-constexpr double kSupported = 0.5;  // of where contacts hold, from where on a point has to be held though its node is
+constexpr double kLeastFree = 0.05;       // of a contact's weights: the share of pinned nodes cannot be moved
+constexpr double kSupported = 0.5;  // of the contact distance, below which a point needs support though its node has it
 constexpr int kInversionSweeps = 4;
 
-/// m/s, along the normal, that is asked of two features whose contact holds them `reach` (m) apart, if they move at
+/// The least speed (m/s) along the normal of two features whose contact keeps them `reach` (m) apart, if they move at
 /// `speed` (m/s).
 double least_speed(const AwakePair& pair, double reach, double speed, double gravity, double dt) {
   const double rest = pair.gap - reach;

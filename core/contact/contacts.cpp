@@ -9,7 +9,7 @@ namespace sprung {
 namespace {
 
 constexpr double kRecoverySteps = 20;
-constexpr double kMostSteps = 24;  // what is pressed together can be fast within a few steps
+constexpr double kMostSteps = 24;  // compressed bodies can be fast within a few steps
 
 }  // namespace
 

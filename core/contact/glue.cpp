@@ -11,9 +11,9 @@
 namespace sprung {
 namespace {
 
-constexpr std::size_t kGlue = (1U << 14U) - 1;  // in place of what touches, in a key: above all of that
+constexpr std::size_t kGlue = (1U << 14U) - 1;  // instead of the other surface in a key: above all of those
 
-/// Where the grid of a body that is not bent yet lies in the world.
+/// The pose of an undeformed body's grid in the world.
 Pose pose_of(const Body& body) {
   Pose pose;
   const auto& nodes = body.grid.nodes[0];
@@ -26,7 +26,7 @@ Pose pose_of(const Body& body) {
   return pose;
 }
 
-/// Of the points within the distance of a surface the nearest at each corner of a brick, by its row.
+/// Of the points within the distance of a surface, the nearest at each corner of a brick, by its row.
 std::vector<int> nearest_points(const SoftBody& body, const Points& positions, const MeshDistance& surface,
                                 double distance) {
   struct Candidate {
@@ -77,7 +77,7 @@ std::vector<GluedPoint> glue_within(const World& world, std::span<const std::siz
   std::vector<GluedPoint> within;
   for (GluedPoint point : world.glue) {
     const auto first = std::find(bodies.begin(), bodies.end(), point.bodies[0]);
-    if (first == bodies.end()) continue;  // what is glued together is in one group
+    if (first == bodies.end()) continue;  // glued bodies are in one group
     const auto second = std::find(bodies.begin(), bodies.end(), point.bodies[1]);
     point.bodies[0] = std::size_t(first - bodies.begin());
     point.bodies[1] = std::size_t(second - bodies.begin());

@@ -17,9 +17,9 @@ constexpr int kStepsBetweenLooks = 8;
 constexpr std::size_t kBricksPerTask = 512;
 constexpr double kSuspectVolume = 0.4;
 constexpr double kCrushedShare = 0.05;  // of the bricks
-constexpr double kUnfoldSteps = 20;     // a brick found too flat or inside out comes back within about that many steps
+constexpr double kUnfoldSteps = 20;     // a brick found too flat or inverted recovers within about this many steps
 constexpr double kFastestRecovery =
-    0.02;  // of the speed of sound, that its corners come apart at: that gives no energy worth the name
+    0.02;  // of the speed of sound, at which its corners separate: adds negligible energy
 
 /// The three edges at a corner, or the mean axes, as columns, each from its low to its high end.
 Mat3 edges_at(int corner, const BrickColumns& x) {
@@ -29,7 +29,7 @@ Mat3 edges_at(int corner, const BrickColumns& x) {
   return edges;
 }
 
-/// Of the volumes that the edges span at the eight corners and the mean axes between them.
+/// The volumes that the edges span at the eight corners, and the mean axes between them.
 double smallest_volume(const BrickColumns& x) {
   std::array<Vec3, 12> edges;
   for (std::size_t i = 0; i < edges.size(); ++i) edges[i] = x.col(kEdges[i].to) - x.col(kEdges[i].from);
@@ -111,7 +111,7 @@ const std::vector<InversionRate>& InversionGuard::find(const Body& body, double 
       const double rate = edges_at(corner, v).cwiseProduct(areas).sum();
       const double recovery = std::min(deficit / kUnfoldSteps, fastest * areas.norm());
       const double least_rate = (deficit > 0 ? recovery : deficit) / dt;
-      if (!(rate < least_rate)) continue;  // nor where a number is not finite
+      if (!(rate < least_rate)) continue;  // nor if a number is not finite
       found_.push_back({.brick = brick, .corner = corner, .gradient = areas, .least_rate = least_rate});
     }
   }

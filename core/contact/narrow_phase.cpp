@@ -6,10 +6,10 @@
 namespace sprung {
 namespace {
 
-constexpr double kBeside = 0.05;    // of a triangle: what stands a little beside it counts as over it
-constexpr double kTouching = 0.15;  // of the depth: what is that near to a triangle that it stands over touches it
+constexpr double kBeside = 0.05;    // of a triangle: points slightly outside count as over it
+constexpr double kTouching = 0.15;  // of the depth: points this near to the triangle below them touch it
 
-/// False where the point does not stand over the triangle.
+/// False if the point does not project onto the triangle.
 bool stand(const ContactCandidates& pairs, const CandidatePair& pair, double depth, PointTriangleContact& stance) {
   const TrackedPoint& point = pairs.tracked(pair.point);
   std::array<const TrackedPoint*, 3> corners{};
@@ -26,7 +26,7 @@ bool stand(const ContactCandidates& pairs, const CandidatePair& pair, double dep
   stance.weights.z() = ahead.cross(off).dot(area) / (size * size);
   stance.weights.x() = 1 - stance.weights.y() - stance.weights.z();
   if (pairs.may_look_away() && point.normal.dot(stance.normal) > kFacing) return false;
-  return stance.gap > -depth && stance.weights.minCoeff() > -kBeside;  // not where the triangle has no area
+  return stance.gap > -depth && stance.weights.minCoeff() > -kBeside;  // not if the triangle has no area
 }
 
 }  // namespace

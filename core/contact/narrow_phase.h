@@ -6,15 +6,15 @@
 
 namespace sprung {
 
-/// How a point of a skin stands to a triangle.
+/// A point of a skin relative to a triangle.
 struct PointTriangleContact {
   const CandidatePair* pair = nullptr;
   double gap = 0;  // m, from the triangle's plane
   Vec3 normal;     // of the triangle
-  Vec3 weights;    // of the triangle's corners at the place below the point
+  Vec3 weights;    // of the triangle's corners at the point's projection
 };
 
-/// The pairs of one point with triangles of one body, and where it stood last.
+/// The pairs of one point with triangles of one body, and its last triangle.
 struct SkinRun {
   std::size_t first;
   std::size_t end;
@@ -28,12 +28,12 @@ struct SkinRun {
 
 [[nodiscard]] std::vector<SkinRun> runs_of(const ContactCandidates& pairs);
 
-/// To the nearest of the triangles that the point stands over, where ContactCandidates::follow() saw them; without a
-/// pair where there is none. What is further inside than `depth` (m) came from the other side. While a point that
-/// touches stays over a triangle, it is not compared with the others.
+/// The contact with the nearest of the triangles that the point projects onto, at the positions of
+/// ContactCandidates::follow(); without a pair if there is none. Points deeper than `depth` (m) came from the other
+/// side. While a point in contact stays over a triangle, it is not compared with the others.
 [[nodiscard]] PointTriangleContact closest_triangle(const ContactCandidates& pairs, SkinRun& run, double depth);
 
-/// Weights of the corners of the bricks that a triangle's place rides in, brick by brick.
+/// Weights of the corners of the bricks that carry a point of a triangle, brick by brick.
 struct TriangleStencil {
   std::array<int, 3> bricks{};
   std::array<CornerWeights, 3> weights;

@@ -10,16 +10,16 @@
 namespace sprung {
 namespace {
 
-constexpr double kCornerFirst = 0.25;  // of points about as deep the one nearest to the corner holds the others best
-constexpr double kMargin = 0.3;        // bricks: what is nearer than that is watched
-constexpr double kCurved = 0.1;        // bricks that a surface may bend away from flat across a brick
-constexpr double kFlat = 0.02;         // bricks that a point may move before the surface under it is asked for anew
-constexpr double kLeftIn = 0.03;       // bricks that a point may lie inside while another holds it
-constexpr int kPointsACorner = 2;      // of a brick, the nearest: others are held by them or found when next looked
+constexpr double kCornerFirst = 0.25;  // of points about as deep, the one nearest the corner supports the others best
+constexpr double kMargin = 0.3;        // bricks: points nearer than that are tracked
+constexpr double kCurved = 0.1;        // bricks that a surface may deviate from flat across a brick
+constexpr double kFlat = 0.02;         // bricks that a point may move before the surface under it is queried again
+constexpr double kLeftIn = 0.03;       // bricks that a point may lie inside while another supports it
+constexpr int kPointsACorner = 2;      // of a brick, the nearest: they support the others, or these are found next time
 constexpr double kOutside = 1.5;       // embedded points lie in the hull of the corners, or a little outside it where
                                        // the surface has no brick
 
-/// Around its middle (m), of what rides in a brick.
+/// About its middle (m), of points embedded in a brick.
 double reach_of(const BrickColumns& x, const Vec3& middle) {
   return kOutside * std::sqrt((x.colwise() - middle).colwise().squaredNorm().maxCoeff());
 }
@@ -41,7 +41,7 @@ void ObstacleContact::look_at_brick(const Shape& shape, const Pose& pose, const 
   if (asked.least(here) > far) return;
   asked = {here, signed_distance(shape, {}, here)};
   if (asked.gap.distance > far) return;
-  // Which points are nearest, and about how near, is told as if the surface were flat across a brick.
+  // Which points are nearest, and about how near, is estimated as if the surface were flat across a brick.
   std::vector<NearPoint> nearest;
   for (int i = skin.first_point[at]; i < skin.first_point[at + 1]; ++i) {
     const ContactPoint& point = skin.points[i];
@@ -103,7 +103,7 @@ bool ObstacleContact::is_active(const BrickMotion& motion, const Hold& hold, Nea
   Gap gap = gap_now(hold.obstacle.shape, motion.brick_size, there, near);
   gap.normal = hold.pose.rotation * gap.normal;
   const double speed = gap.normal.dot(velocity);
-  if (!(gap.distance + hold.dt * speed <= 0)) return false;  // nor where a number is not finite
+  if (!(gap.distance + hold.dt * speed <= 0)) return false;  // nor if a number is not finite
   double least = least_speed(gap.distance, hold.gravity, hold.dt);
   if (gap.distance <= 0 && hold.obstacle.restitution > 0) least = std::max(least, -hold.obstacle.restitution * speed);
   active = {.point = &point,

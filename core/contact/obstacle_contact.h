@@ -7,27 +7,27 @@
 
 namespace sprung {
 
-/// Finds the contact points of a group's bodies that obstacles have to hold. All are looked at every few steps only,
-/// those near an obstacle then in every step.
+/// Finds the contact points of a group's bodies that obstacles must support. All are checked every few steps only,
+/// those near an obstacle in every step.
 class ObstacleContact {
  public:
   explicit ObstacleContact(const std::vector<const ContactSurface*>& skins) : skins_(skins) {}
 
-  /// Appends the points that moving by dt would leave inside an obstacle, near each corner of a brick the one that lies
-  /// deepest. Others are held by it or found in the next step; one that lies too deep in spite of that is appended too:
-  /// two points that press alike would take turns and both sink in. `poses`: where the obstacles are now.
+  /// Appends the points that would be inside an obstacle after a step of dt, the deepest one near each corner of a
+  /// brick. The others are supported by it or found in the next step; one that is too deep nevertheless is appended
+  /// too: two equally loaded points would alternate and both sink in. `poses`: the obstacles' current poses.
   void find(const World& world, const std::vector<Pose>& poses, double dt, const Group& group, ContactList& contacts);
 
  private:
-  /// What was last asked about a position, in the obstacle's frame.
+  /// The last gap query of a point, in the obstacle's frame.
   struct Asked {
     Vec3 position = Vec3::Zero();  // m
     Gap gap{-1, Vec3::Zero()};
-    /// No less than the gap is now: it cannot shrink by more than the place has moved.
+    /// A lower bound of the current gap: it cannot shrink by more than the point has moved.
     [[nodiscard]] double least(const Vec3& now) const { return gap.distance - (now - position).norm(); }
   };
-  /// A point near an obstacle. Where it was asked for itself the surface is taken to be flat from there on while the
-  /// point moves by no more than a small part of a brick.
+  /// A point near an obstacle. After a query of its own, the surface is taken to be flat while the point moves by no
+  /// more than a small part of a brick.
   struct NearPoint {
     const ContactPoint* point;
     Asked asked;
@@ -42,24 +42,24 @@ class ObstacleContact {
     std::size_t first;  // of its points in points_
     std::size_t last;   // one past them
   };
-  /// How a brick moves.
+  /// The motion of a brick.
   struct BrickMotion {
     BrickColumns x;     // m
     BrickColumns v;     // m/s
     double brick_size;  // m
   };
-  /// What holds it.
+  /// The obstacle in contact.
   struct Hold {
     const Obstacle& obstacle;
     const Pose& pose;
     double gravity;  // m/s^2
     double dt;       // s
   };
-  /// A point that has to be held.
+  /// A point that must be supported.
   struct ActiveContact {
     const ContactPoint* point = nullptr;
-    double urgency = 0;  // along the normal, that meeting its limit takes, m/s; more where it is near its corner
-    double gap = 0;      // m
+    double urgency = 0;  // along the normal, to satisfy its constraint, m/s; more near its corner
+    double gap = 0;   // m
     Vec3 normal;
     Vec3 goal;  // m/s
   };
@@ -73,7 +73,7 @@ class ObstacleContact {
   const std::vector<const ContactSurface*>& skins_;  // by body of the group
   std::vector<Near> near_;
   std::vector<NearPoint> points_;
-  std::vector<std::vector<std::vector<Asked>>> middles_;  // by obstacle, body and place in the skin's bricks
+  std::vector<std::vector<std::vector<Asked>>> middles_;  // by obstacle, body and index in the skin's bricks
   int steps_to_update_ = 0;
 };
 

@@ -8,10 +8,10 @@
 namespace sprung {
 namespace {
 
-constexpr double kStiffness = 20;       // times E h of the brick
-constexpr double kPointsInContact = 4;  // of a brick, that share its hardness: more are softer each
+constexpr double kStiffness = 20;        // times E h of the brick
+constexpr double kPointsInContact = 4;  // of a brick, that share its stiffness: more are softer each
 
-/// Pa, of a brick in its region; what is cut by the surface is as hard as a full one.
+/// Pa, of a brick in its region; a brick cut by the surface is as stiff as a full one.
 double young_at(const Body& body, int brick) {
   return body.material.young * std::max(1.0, body.stiffness_scale[brick]);
 }
@@ -50,7 +50,7 @@ ObstaclePotential::ObstaclePotential(SoftBody& body, const Obstacle& obstacle, d
   for (std::size_t p = 0; p < points_.size(); ++p) points_[p].stiffness = stiffness[p];
 }
 
-/// Distances are asked for again only where the brick may have come near since.
+/// Distances are queried again only if the brick may have come near since.
 bool ObstaclePotential::is_far(std::size_t brick, const Points& positions) {
   AlignedBox box;
   for (const int node : body_.grid.nodes[skin_.bricks[brick]]) {
@@ -65,7 +65,7 @@ bool ObstaclePotential::is_far(std::size_t brick, const Points& positions) {
   return asked.distance > reach;
 }
 
-/// Calls visit(point, its brick and weights, place, gap) for the points that are inside the obstacle or were when
+/// Calls visit(point, its brick and weights, position, gap) for the points that are inside the obstacle or were when
 /// friction was last updated.
 template <class Visit>
 void ObstaclePotential::for_touching_points(const Points& positions, const Visit& visit) {

@@ -10,7 +10,7 @@
 namespace sprung {
 namespace {
 
-/// Where the contact points that can move are, m.
+/// Positions of the contact points that can move, m.
 Points free_points(const SoftBody& body) {
   std::vector<bool> is_pinned(body.node_count());
   for (const KinematicNode& pinned : body.pinned) is_pinned[pinned.node] = true;
@@ -39,7 +39,7 @@ Points brick_middles(const Body& body) {
   return rows;
 }
 
-/// The surface of a body as it is now.
+/// The current surface of a body.
 class Surface {
  public:
   /// `body` has contact triangles.
@@ -49,8 +49,8 @@ class Surface {
         box_(bounding_box(points_)),
         distance_(points_, triangles_) {}
 
-  /// Of the deepest point. Where a part is thinner than its triangles, the nearest of them may say inside of what is
-  /// not: then the winding number decides.
+  /// Of the deepest point. Where a part is thinner than its triangles, the nearest of them may wrongly indicate inside:
+  /// then the winding number decides.
   [[nodiscard]] double depth_of(const Points& points) const {
     double depth = 0;
     std::optional<WindingTree> winding;

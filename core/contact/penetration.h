@@ -3,12 +3,12 @@
 
 namespace sprung {
 
-/// How deep (m) the contact points of a body are in something at most; 0 where none is. Points that are held where they
-/// are, since all corners of their brick are, are in nobody's way and do not count.
+/// Largest depth (m) of a body's contact points in an obstacle; 0 if none is inside. Points that cannot move, since all
+/// corners of their brick are pinned, do not count.
 [[nodiscard]] double penetration_depth(const Obstacle& obstacle, const SoftBody& body);
 
-/// In another body, whose contact triangles enclose it; 0 where it has none. The middles of bricks count too: the skins
-/// of two bodies at the same place do not lie in each other, they are the same.
+/// Depth in another body, whose contact triangles enclose it; 0 if it has none. Middles of bricks count too: the skins
+/// of two coincident bodies are not inside each other.
 [[nodiscard]] double penetration_depth(const SoftBody& other, const SoftBody& body);
 
 }  // namespace sprung

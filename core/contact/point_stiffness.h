@@ -6,22 +6,22 @@
 
 namespace sprung {
 
-/// Something that holds what moves as a weighted sum of a brick's corners, such as a contact.
+/// A stiffness against the motion of a weighted sum of a brick's corners, such as a contact.
 struct PointStiffness {
   int brick = 0;
   CornerWeights weights;          // of the brick's corners in the point
-  Mat3 stiffness = Mat3::Zero();  // N/m, symmetric; no negative eigenvalue where a system is to be definite
+  Mat3 stiffness = Mat3::Zero();  // N/m, symmetric; no negative eigenvalue if a system must be definite
 };
 
-/// A part of a coupled place: the corners of a brick of one body, by their weights.
+/// A part of a coupled point: the corners of a brick of one body, by their weights.
 struct CoupledCorners {
   std::size_t body;
   int brick;
   CornerWeights weights;
 };
 
-/// Holds the weighted sum of nodes' places of several bodies, such as where a point of one skin stands to a triangle of
-/// another. First comes what is on one side, by itself, then what is on the other.
+/// A stiffness of a weighted sum of node positions of several bodies, such as a point of one skin relative to a
+/// triangle of another. The first part is one side; the others are the other side.
 struct Coupling {
   std::vector<CoupledCorners> corners;
   Mat3 stiffness = Mat3::Zero();  // N/m, symmetric, no negative eigenvalue

@@ -13,15 +13,15 @@
 namespace sprung {
 namespace {
 
-constexpr double kSkinMargin = 0.3;         // bricks: what is nearer than that is watched
-constexpr double kFarMargin = 1;            // bricks: what may soon be that near is looked at
+constexpr double kSkinMargin = 0.3;         // bricks: what is nearer than that is tracked
+constexpr double kFarMargin = 1;            // bricks: what may soon be that near is checked
 constexpr double kSkinDeepest = 0.7;        // bricks: what is deeper came from the other side
 constexpr double kSuspicious = 0.1;         // bricks: what is deeper may be outside, beyond a part thinner than that
-constexpr double kSuspiciousBeside = 0.01;  // likewise where it stands beside the triangle
-constexpr double kBarelyBeside = 1e-3;      // of a triangle: what stands further beside it may be outside too
+constexpr double kSuspiciousBeside = 0.01;  // likewise if it is beside the triangle
+constexpr double kBarelyBeside = 1e-3;      // of a triangle: what is further beside it may be outside too
 constexpr double kNotInside = 0.05;  // winding number of a closed surface up to which a point is outside, not on it
-constexpr double kPressed = 0.4;     // of its volume, that a brick keeps: what it carries is pushed out of no skin ...
-constexpr double kSkinFlat = 0.15;   // ... nor held by that of its own body
+constexpr double kPressed = 0.4;     // of its volume, that a brick keeps: its points are not pushed out of any skin ...
+constexpr double kSkinFlat = 0.15;   // ... nor supported by that of its own body
 
 }  // namespace
 
@@ -56,9 +56,9 @@ void SkinContact::add(const Group& group, const ActiveContact& active, ContactLi
                            .friction = std::sqrt(group[point.body]->friction * other_friction)});
 }
 
-/// If pushed out of each other, skins of bricks that have no room left would press those flat, and for ever: the guard
-/// against that pushes back, and each gives energy to the other. They are kept from going deeper, no more; and where
-/// not even that can be had, a body had rather lie in itself than turn inside out.
+/// Pushing skins of fully compressed bricks out of each other would flatten these without end: the inversion guard
+/// pushes back, and both add energy. They are only kept from going deeper; and if even that is impossible,
+/// self-penetration is preferred to inversion.
 double SkinContact::room_of(const Group& group, const CandidatePair& pair) const {
   const auto of = [&](int row) {
     const TrackedPoint& point = pairs_.tracked(row);
@@ -93,7 +93,7 @@ bool SkinContact::is_active(const World& world, double dt, const Group& group, A
 bool SkinContact::find_inside(const Group& group, const PointTriangleContact& stance) const {
   const std::size_t other = other_of(pairs_, *stance.pair);
   const TrackedPoint& point = pairs_.tracked(stance.pair->point);
-  // A point of the surface itself is looked at from just outside.
+  // A point of the surface itself is tested from just outside.
   const double off = point.body == other ? kSuspicious / 2 * group[other]->grid.brick_size : 0;
   const Vec3 position = point.position + off * point.normal;
   const ContactSurface& surface = *skins_[other];
@@ -168,12 +168,12 @@ void SkinContact::find(const World& world, double dt, const Group& group, Contac
 
 namespace {
 
-constexpr double kLookAhead = 0.1;  // bricks that bodies may move until contacts are looked for again
+constexpr double kLookAhead = 0.1;  // bricks that bodies may move until contacts are searched for again
 constexpr int kMostStepsAhead = 8;  // until then
 constexpr double kFaster = 1.5;     // times, that speeds may grow until then
-constexpr double kBodyMargin = 2;   // bricks: bodies nearer than that are watched
+constexpr double kBodyMargin = 2;   // bricks: bodies nearer than that are tracked
 
-/// Of any node, m/s, seen from the rigid motion of all.
+/// The largest speed of any node, m/s, relative to the rigid motion of all.
 double fastest(const Group& group) {
   const RigidMotion rigid = rigid_motion_of(group);
   double most = 0;

@@ -13,45 +13,45 @@
 
 namespace sprung {
 
-/// Finds where the skins of two bodies of a group touch each other, or where one touches itself: contact points against
-/// triangles, both ways. Pairs of them are looked for every few steps only, or where a front through their trees says
-/// so, and then watched in every step. Limits: edges that cross between their points are held by those points only;
-/// what lies deeper in another body than 0.7 bricks is not found.
+/// Finds contacts between the skins of two bodies of a group, or of one with itself: contact points against triangles,
+/// both ways. Pairs are searched for every few steps only, or when a front through their trees requires it, and then
+/// checked in every step. Limits: edges that cross between their points are resisted by those points only; what lies
+/// deeper in another body than 0.7 bricks is not found.
 class SkinContact {
  public:
-  /// Of two bodies of the group, or of one with itself.
+  /// For two bodies of the group, or of one with itself.
   SkinContact(const std::vector<const ContactSurface*>& skins, const Group& group, std::size_t body, std::size_t other);
 
-  /// Lets a front through their trees, which have to outlive it, list its pairs.
+  /// Takes its pairs from a front through their trees, which must outlive it.
   void add_front(SurfaceTree& tree, SurfaceTree& other_tree);
-  /// Brings the lists up to date with where the trees are.
+  /// Updates the lists to the current state of the trees.
   void look(const Group& group);
 
-  /// Appends, ordered by key, the points that moving by dt would leave inside another skin, at most one near each
-  /// corner of a brick and for each body that it touches: the one that is held hardest.
+  /// Appends, ordered by key, the points that would be inside another skin after a step of dt, at most one near each
+  /// corner of a brick and for each body that it touches: the one with the largest `pull`.
   void find(const World& world, double dt, const Group& group, ContactList& contacts);
 
  private:
-  /// What a point needs that has to be held.
+  /// The data of a point that must be supported.
   struct ActiveContact {
     PointTriangleContact stance;
     std::uint64_t key = 0;
     double least_speed = 0;
-    double urgency = 0;  // along the normal, that meeting its limit takes, m/s
+    double urgency = 0;  // along the normal, to satisfy its constraint, m/s
   };
 
-  /// Without a front: what is due of seeking and looking.
+  /// Without a front: updates the candidates when due.
   void look_in_time(const Group& group, double gravity, double dt);
-  /// Of what stands near the same corner of the same brick, that which is held hardest.
+  /// Of the points near the same corner of the same brick, keeps the one with the largest `pull`.
   void keep_hardest();
-  /// Whether the point of a stance that is deep is inside the surface of the other body, of its own where it is the
-  /// same. It stays so for as long as it is deep.
+  /// Whether a deep point is inside the surface of the other body, or of its own for self-contact. It stays so for as
+  /// long as it is deep.
   [[nodiscard]] bool is_inside(const Group& group, const PointTriangleContact& stance);
   /// By the winding number of the whole surface.
   [[nodiscard]] bool find_inside(const Group& group, const PointTriangleContact& stance) const;
-  /// Least of both sides: volume of a brick over that at rest.
+  /// The smaller of both sides' ratios of a brick's volume to that at rest.
   [[nodiscard]] double room_of(const Group& group, const CandidatePair& pair) const;
-  /// Whether moving by dt would leave it inside; then what it needs.
+  /// Whether it would be inside after a step of dt; then fills in its data.
   [[nodiscard]] bool is_active(const World& world, double dt, const Group& group, ActiveContact& active) const;
   void add(const Group& group, const ActiveContact& active, ContactList& contacts) const;
 
@@ -63,22 +63,23 @@ class SkinContact {
   std::optional<ContactFront> front_;
   std::vector<SkinRun> runs_;
   std::vector<ActiveContact> active_;  // of this step
-  /// By body, point of its skin and other body: whether it is inside; of what was deep in the last step, and in this.
+  /// By body, point of its skin and other body: whether it is inside; of points that were deep in the last step, and in
+  /// this one.
   std::map<std::tuple<std::size_t, int, std::size_t>, bool> insides_before_;
   std::map<std::tuple<std::size_t, int, std::size_t>, bool> insides_;
   int steps_to_seek_ = 0;
   int steps_to_update_ = 0;
 };
 
-/// How pairs of points and triangles are sought. Fronts miss none that is near (see ContactFront), and are faster where
-/// bodies lie on each other, slower where they roll: an experiment.
+/// How pairs of points and triangles are found. Fronts miss none that is near (see ContactFront), and are faster for
+/// bodies at rest on each other, slower for rolling ones: an experiment.
 enum class ContactSearch { kInTime, kFronts };
 
-/// Where the skins of a group's bodies touch each other and themselves: looks after which bodies are near each other,
-/// each pair of them at its own pace.
+/// Finds the contacts of the skins of a group's bodies with each other and themselves: tracks which bodies are near
+/// each other, each pair of them at its own rate.
 class SkinContacts {
  public:
-  /// The bodies have to outlive it.
+  /// The bodies must outlive it.
   SkinContacts(const Group& group, ContactSearch search);
   SkinContacts(const SkinContacts&) = delete;
   SkinContacts& operator=(const SkinContacts&) = delete;
@@ -86,16 +87,16 @@ class SkinContacts {
   /// Whether it was made for these bodies, as they are.
   [[nodiscard]] bool is_of(const Group& group) const;
 
-  /// What it finds from now on does not depend on what came before.
+  /// Makes further results independent of earlier ones.
   void begin_frame();
 
-  /// Appends what SkinContact finds, ordered by pair, itself by key.
+  /// Appends the results of SkinContact, ordered by pair, then by key.
   void find(const World& world, double dt, const Group& group, ContactList& contacts);
 
  private:
-  /// Brings all lists up to date, for as many steps as speeds allow.
+  /// Updates all lists, for as many steps as speeds allow.
   void look(const std::vector<SkinContact*>& contacts, double gravity, double dt);
-  /// Bodies that may come to touch before the next time.
+  /// Finds the bodies that may come into contact before the next time.
   void seek(const World& world, const Group& group, double dt);
 
   Group group_;

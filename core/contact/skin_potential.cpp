@@ -127,7 +127,7 @@ Vec3 SkinPotential::sum(const Coupling& coupling, bool at_start) const {
   return sum;
 }
 
-/// m, that the point has been pushed in.
+/// How far the point has been pushed in, m.
 double SkinPotential::depth(const Hold& hold, const Vec3& now) const {
   return std::max(0.0, -hold.normal.dot(now) - watches_[hold.watch].initial_penetration);
 }

@@ -9,33 +9,34 @@
 
 namespace sprung {
 
-/// Contact of the bodies of a group with each other and themselves, and their glue, as an energy, for a step that looks
-/// for a minimum. The law is ObstaclePotential's: a point of a skin that is inside another is pushed back by k times
-/// its depth below the triangle that it stands over, k by the softer of both; friction is Coulomb's with the normal
-/// force of the iteration before. What is glued is held by k times its distance. Which triangle a point stands over,
-/// and where it points to, is taken anew before each of Newton's directions; in between the surfaces are flat. What
-/// is found inside without having been pushed in, as where edges have crossed between their points, is forgiven that
-/// depth, and lifted by least_speed(): contact makes no energy. Forces add up to nothing: momentum is kept.
+/// Contact of the bodies of a group with each other and themselves, and their glue, as an energy, for steps that
+/// minimise a potential. The law is ObstaclePotential's: a point of a skin that is inside another is pushed back by k
+/// times its depth below the nearest triangle, k that of the softer one; friction is Coulomb's with the normal force of
+/// the previous iteration. Glued points attract each other by k times their distance. The triangle of each point and
+/// its normal are updated before each of Newton's directions; in between the surfaces are flat. A point found inside
+/// without having been pushed in, such as where edges have crossed between their points, feels no force from that depth
+/// but is lifted by least_speed(): contact adds no energy. Forces sum to zero: momentum is conserved.
 class SkinPotential {
  public:
-  /// Of a step.
+  /// The parameters of a step.
   struct Step {
     double dt;    // s
     double slip;  // m, that a point may creep before it slides
   };
-  /// For a step from where the bodies are, in which nothing near anything moves by more than half a brick. `glue` by
-  /// rows of the group; `pushed_in` by body and point of its skin, from remember(). All have to outlive it.
+  /// For a step from the bodies' current positions, in which nothing near another surface moves by more than half a
+  /// brick. `glue` by rows of the group; `pushed_in` by body and point of its skin, from remember(). All must outlive
+  /// it.
   SkinPotential(const World& world, const Group& group, const std::vector<GluedPoint>& glue, const Step& step,
                 const std::vector<Eigen::VectorXd*>& pushed_in);
   SkinPotential(const SkinPotential&) = delete;
   SkinPotential& operator=(const SkinPotential&) = delete;
 
-  /// Whether there is anything that could hold.
+  /// Whether there are any possible contacts or glue.
   [[nodiscard]] bool any() const { return !glue_.empty() || !watches_.empty(); }
 
-  /// Takes triangles and normals from where the bodies are now.
+  /// Updates triangles and normals to the bodies' current positions.
   void refresh();
-  /// Takes normal forces, for friction, likewise. Returns the largest change of one, N, where there is friction.
+  /// Updates normal forces, for friction, likewise. Returns the largest change of one, N, if there is friction.
   double update_friction();
   [[nodiscard]] double largest_normal_force() const;
 
@@ -43,7 +44,7 @@ class SkinPotential {
   double add_forces(const std::vector<Points*>& forces) const;
   [[nodiscard]] std::vector<Coupling> couplings() const;
 
-  /// How far points have been pushed into what they touch, m, for the step to come.
+  /// Stores how far points have been pushed into what they touch, m, for the coming step.
   void remember(const std::vector<Eigen::VectorXd*>& pushed_in) const;
 
  private:
@@ -54,14 +55,14 @@ class SkinPotential {
     double depth;                         // m, below which what is inside came from the other side
     double stiffness;                     // N/m, of the point by itself
     double friction;                      // Coulomb's coefficient
-    double pushed_in;                     // m, when last looked at
+    double pushed_in;                     // m, at the last update
     double initial_penetration = 0;       // m, of the depth
-    const CandidatePair* pair = nullptr;  // that it stood at then
+    const CandidatePair* pair = nullptr;  // the nearest one then
     double pressing = 0;                  // N, for friction
   };
-  /// What holds a coupling now.
+  /// An active coupling.
   struct Hold {
-    std::size_t watch;  // in watches_; not read where it is glue
+    std::size_t watch;  // in watches_; unused for glue
     bool is_glue;
     Coupling coupling;  // without its stiffness
     double stiffness;

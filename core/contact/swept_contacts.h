@@ -4,14 +4,14 @@
 
 namespace sprung {
 
-/// The contacts of a group's bodies where World::guards_crossings: what may meet is found (NearFeatures), held by one
-/// sweep of impulses (ContactSweep), and kept from crossing by a guarantee (CrossingGuard).
+/// The contacts of a group's bodies if World::guards_crossings is set: nearby features are found (NearFeatures), kept
+/// apart by one sweep of impulses (ContactSweep), and guaranteed not to cross (CrossingGuard).
 class SweptContacts {
  public:
-  /// The bodies have to outlive it. `glue` by rows of the group.
+  /// The bodies must outlive it. `glue` by rows of the group.
   SweptContacts(const Group& group, const World& world, std::vector<GluedPoint> glue)
       : group_(group), near_(group, world), sweep_(group, std::move(glue)), guard_(near_) {}
-  /// Of the same bodies, whose surfaces `before` has arranged already.
+  /// For the same bodies, reusing the surfaces of `before`.
   SweptContacts(SweptContacts&& before, const World& world, std::vector<GluedPoint> glue)
       : group_(before.group_),
         near_(group_, world, std::move(before.near_).take_trees()),
@@ -21,8 +21,8 @@ class SweptContacts {
   /// Whether it was made for these bodies, as they are.
   [[nodiscard]] bool is_of(const Group& group) const { return group == group_ && near_.is_of_surfaces(); }
 
-  /// Changes the bodies' velocities so that moving by dt keeps every limit. `inverse_masses` by body of the group and
-  /// node, 1/kg, 0 for nodes that are held; `elapsed`: since the obstacles were where the world has them, s.
+  /// Changes the bodies' velocities so that a step of dt satisfies every constraint. `inverse_masses` by body of the
+  /// group and node, 1/kg, 0 for pinned nodes; `elapsed`: since the obstacles had the world's poses, s.
   void apply(const World& world, const std::vector<Eigen::VectorXd>& inverse_masses, double elapsed, double dt) {
     near_.begin_step(world, elapsed, dt);
     sweep_.apply(near_, inverse_masses, world.gravity.norm(), dt);

@@ -61,7 +61,7 @@ std::string remedy_for_crushing(const SoftBody& body) {
       guarded_bricks(body), body.grid.brick_count());
 }
 
-/// Stiffness of a brick over the mass of its lightest corner, but for a factor common to the body.
+/// Stiffness of a brick over the mass of its lightest corner, up to a factor common to the body.
 double stiffness_for_mass(const SoftBody& body, std::size_t brick) {
   double lightest = body.masses[body.grid.nodes[brick][0]];
   for (const int node : body.grid.nodes[brick]) lightest = std::min(lightest, body.masses[node]);

@@ -8,9 +8,10 @@ namespace sprung {
 /// The first brick with a number that is not finite; else the one whose corners move fastest.
 [[nodiscard]] std::size_t worst_brick_of(const Body& body);
 
-/// What would help a motion that diverges at a brick of a body, as an order: "move bodies 1 and 2 apart, ...", by what
-/// the world is like just before: skins that lie in each other, a speed near that of sound in the material, bricks
-/// pressed flat, springs too stiff for the mass that they move, a part of a single layer of bricks; else in general.
+/// A remedy for a motion that diverges at a brick of a body, as an instruction: "move bodies 1 and 2 apart, ...", from
+/// the state of the world just before: skins that penetrate each other, a speed near that of sound in the material,
+/// flattened bricks, springs too stiff for the mass that they move, a part of a single layer of bricks; else a general
+/// one.
 [[nodiscard]] std::string remedy_for_divergence(const World& world, std::size_t body, std::size_t brick);
 
 }  // namespace sprung

@@ -10,9 +10,9 @@
 namespace sprung {
 namespace {
 
-constexpr double kMostGain = 0.3;  // of what moves and strains a body, that a frame's rounding of time may add
+constexpr double kMostGain = 0.3;  // of kinetic and strain energy, that a frame's time discretisation may add
 
-/// Whether something moves it that may give energy.
+/// Whether something that may add energy moves it.
 bool is_driven(const SoftBody& body) {
   if (!body.loads.empty()) return true;
   return std::any_of(body.pinned.begin(), body.pinned.end(),
@@ -45,7 +45,7 @@ bool has_gained(const Energy& before, const Energy& after, const World& world, s
 
 Energy energy_of(const Body& body, const Vec3& gravity) {
   return {.kinetic = kinetic_energy(body),
-          .elastic = std::max(0.0, elastic_energy(body)),  // far from its rest a folded brick's can be negative
+          .elastic = std::max(0.0, elastic_energy(body)),  // far from rest a folded brick's can be negative
           .potential = -body.masses.dot(body.positions * gravity)};
 }
 

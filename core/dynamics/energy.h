@@ -8,8 +8,7 @@
 
 namespace sprung {
 
-/// Energy of a body without what the ground is the zero of: kinetic + elastic + potential in the world's gravity
-/// (about y = 0), J.
+/// Energy of a body: kinetic + elastic + potential in the world's gravity (relative to y = 0), J.
 struct Energy {
   double kinetic = 0;
   double elastic = 0;
@@ -21,9 +20,9 @@ struct Energy {
 [[nodiscard]] std::vector<Energy> energies_of(const World& world);
 [[nodiscard]] std::vector<Energy> energies_of(const World& world, std::span<const std::size_t> bodies);
 
-/// What is wrong where bodies that move together have more energy after a while than they can have got, in words; else
-/// empty, also where a handle, a load, the wind or an obstacle on its way may have given it. Obstacles at rest and what
-/// holds a body still take energy and give none, but for lifting what starts a little too deep; bodies hand it on.
+/// A message if bodies that move together have more energy after a while than they can have received; else empty, also
+/// if a handle, a load, the wind or a moving obstacle may have supplied it. Obstacles at rest and supports dissipate
+/// energy and add none, except for lifting what starts a little too deep; bodies pass it on.
 [[nodiscard]] std::string energy_gain(const World& world, std::span<const std::size_t> bodies,
                                       const std::vector<Energy>& before, const std::vector<Energy>& after);
 

@@ -6,13 +6,13 @@
 
 namespace sprung {
 
-/// What a motion carries on from frame to frame beside positions and velocities, as a row of numbers: one function of
-/// a motion passes all it has, in the same order whether it puts it in or takes it out.
+/// The state of a motion besides positions and velocities, as a row of numbers: one function of a motion serializes all
+/// of it, in the same order for writing and reading.
 class IntegratorState {
  public:
-  /// Puts in.
+  /// For writing.
   IntegratorState() = default;
-  /// Takes out. Asserts that there is as much as is asked for.
+  /// For reading. Asserts that the row is long enough.
   explicit IntegratorState(std::vector<double> row) : row_(std::move(row)), next_(0) {}
 
   void serialize(double& value) {
@@ -40,7 +40,7 @@ class IntegratorState {
 
  private:
   std::vector<double> row_;
-  std::optional<std::size_t> next_;  // to take out
+  std::optional<std::size_t> next_;  // of the number to read next
 };
 
 }  // namespace sprung

@@ -29,9 +29,9 @@ inline constexpr std::size_t kMostTargets = 250;
 enum class GlbPrecision { kFloat, kQuantized };  // kQuantized: half the bytes, see add_quantized() in glb_buffer.h
 
 /// One glTF 2 file (.glb): each mesh in its first frame, one morph target (positions and normals) per later frame, and
-/// an animation of their weights, linear between frames. (assimp drops such animations.)
-/// `times`: s, ascending. Returns the largest error of a coordinate (m) beyond the rounding of floats.
-/// Throws Error(kBadInput) where the file would exceed the format's 4 GB.
+/// an animation of their weights, linear between frames. (assimp drops such animations.) `times`: s, ascending. Returns
+/// the largest error of a coordinate (m) beyond the rounding of floats. Throws Error(kBadInput) if the file would
+/// exceed the format's 4 GB.
 double write_animated_glb(const std::vector<AnimatedMesh>& meshes, const std::vector<double>& times,
                           const std::filesystem::path& file, GlbPrecision precision = GlbPrecision::kFloat);
 

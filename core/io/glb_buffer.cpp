@@ -76,7 +76,7 @@ float fitting_length(const Eigen::RowVector3f& normal, const Eigen::RowVector3f&
 
 Bytes3 bytes_of(const Floats3& normals) { return (kMostByte * normals).array().round().cast<std::int8_t>(); }
 
-/// The targets that take the base to these normals; nothing where they do not fit.
+/// The targets that take the base to these normals; nothing if they do not fit.
 std::optional<Bytes3> normal_targets(const Floats3& normals, const Floats3& base) {
   Floats3 targets(normals.rows(), 3);
   for (Eigen::Index i = 0; i < normals.rows(); ++i) {

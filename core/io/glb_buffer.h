@@ -55,9 +55,9 @@ struct GlbVertices {
 
 [[nodiscard]] GlbVertices add_floats(GlbBuffer& buffer, const AnimatedMesh& mesh);
 
-/// By KHR_mesh_quantization. Positions are multiples of a step, 16 bits, off by at most half of it in every frame.
-/// A normal's target is s n - n_0, which takes n_0 to the direction of n for any s > 0: where that fits into [-1, 1]
-/// with s >= 1/4 at all vertices of a frame, normals have 8 bits and are off by at most 1.6 degrees, else floats.
+/// By KHR_mesh_quantization. Positions are multiples of a step, 16 bits, off by at most half of it in every frame. A
+/// normal's target is s n - n_0, which takes n_0 to the direction of n for any s > 0: if that fits into [-1, 1] with s
+/// >= 1/4 at all vertices of a frame, normals have 8 bits and are off by at most 1.6 degrees, else floats.
 [[nodiscard]] GlbVertices add_quantized(GlbBuffer& buffer, const AnimatedMesh& mesh);
 
 }  // namespace sprung

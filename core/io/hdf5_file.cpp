@@ -168,7 +168,7 @@ Hdf5Reader::Hdf5Reader(std::filesystem::path file) : open_(std::make_unique<Open
   // for ever where a writer was killed in the middle of it. These take a tenth of a second.
   constexpr unsigned kAttempts = 26;
   H5Pset_metadata_read_attempts(access.get(), kAttempts);
-  // As a reader beside a writer even if there is none: a writer that was killed leaves its mark in the file.
+  // As a reader concurrent with a writer, even if there is none: a killed writer leaves its mark in the file.
   const hid_t id = H5Fopen(open_->path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access.get());
   open_->file = {open_->check(id, ""), H5Fclose};
 }

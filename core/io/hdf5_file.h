@@ -63,7 +63,7 @@ class Hdf5Writer {
   std::unique_ptr<Open> open_;
 };
 
-/// All functions throw Error(kBadInput) where the file is not HDF5 or lacks the dataset.
+/// All functions throw Error(kBadInput) if the file is not HDF5 or lacks the dataset.
 class Hdf5Reader {
  public:
   explicit Hdf5Reader(std::filesystem::path file);
@@ -97,7 +97,7 @@ void write_matrix(Hdf5Writer& hdf5, const std::string& name, const Matrix& matri
   hdf5.write(name, flat_values(matrix), {std::size_t(matrix.rows()), std::size_t(matrix.cols())});
 }
 
-/// Throws Error(kBadInput) where the number of columns differs.
+/// Throws Error(kBadInput) if the number of columns differs.
 template <class Matrix>
 [[nodiscard]] Matrix matrix_from(const Array<typename Matrix::Scalar>& array, const std::string& name) {
   const std::size_t columns = array.shape.size() == 2 ? array.shape[1] : 1;

@@ -29,13 +29,13 @@ struct PosedPart {
 };
 [[nodiscard]] std::vector<PosedPart> parts_of(const PosedMesh& mesh);
 
-/// Of all materials, where a format has it.
+/// The roughness of all materials, in formats that have it.
 inline constexpr float kExportedRoughness = 0.6F;
 
-/// ".png" or ".jpg" by the first bytes of the texture; "" where it is neither.
+/// ".png" or ".jpg" by the first bytes of the texture; "" if it is neither.
 [[nodiscard]] std::string texture_extension(const SurfaceMaterial& material);
 
-/// The mesh's own normals; where it has none, area-weighted vertex normals.
+/// The mesh's own normals; if it has none, area-weighted vertex normals.
 [[nodiscard]] Points shading_normals(const PosedMesh& mesh);
 
 /// What a mesh may have besides positions and triangles.
@@ -72,14 +72,14 @@ struct UnsupportedFormat {
 };
 [[nodiscard]] std::span<const UnsupportedFormat> unsupported_formats();
 
-/// What these meshes have and the format cannot hold: "textures, part names"; empty where nothing is lost.
+/// What these meshes have and the format cannot hold: "textures, part names"; empty if nothing is lost.
 [[nodiscard]] std::string lost_content(const MeshFormat& format, const std::vector<PosedMesh>& meshes);
 
 /// By the extension of a file, ignoring case; null for an unknown one.
 [[nodiscard]] const MeshFormat* find_mesh_format(const std::filesystem::path& file);
 
 /// Writes by way of a PartialFile; textures and materials that the format keeps in separate files go beside it.
-/// Throws Error(kFailed), Error(kBadInput) where the meshes exceed the limits of the format.
+/// Throws Error(kFailed), Error(kBadInput) if the meshes exceed the limits of the format.
 void export_meshes(const std::vector<PosedMesh>& meshes, const std::filesystem::path& file);
 
 /// OBJ with a material library (.mtl) of the same name. assimp's writer would merge equal positions.
@@ -88,8 +88,8 @@ void write_obj(const std::vector<PosedMesh>& meshes, const std::filesystem::path
 /// All other formats.
 void write_by_assimp(const std::vector<PosedMesh>& meshes, const MeshFormat& format, const std::filesystem::path& file);
 
-/// Writes the texture of a part beside a file and returns its name; "" where the part has none of a known format.
-/// Frames of one animation share it.
+/// Writes the texture of a part beside a file and returns its name; "" if the part has none of a known format. Frames
+/// of one animation share it.
 [[nodiscard]] std::string write_texture(const PosedPart& part, const std::filesystem::path& file);
 
 }  // namespace sprung

@@ -11,7 +11,7 @@
 
 namespace sprung {
 
-/// The path of a program as a shell would find it; nothing where it is not on PATH.
+/// The path of a program as a shell would find it; nothing if it is not on PATH.
 [[nodiscard]] std::optional<std::filesystem::path> find_program(std::string_view name);
 
 /// A running program that reads from us on its standard input. It has its own process group, so Ctrl-C in a terminal
@@ -20,7 +20,7 @@ class ChildProcess {
  public:
   enum class Output { kNone, kOurs };  // where its standard output goes
 
-  /// `arguments` begin with the program. Throws Error(kFailed) where it cannot be started.
+  /// `arguments` begin with the program. Throws Error(kFailed) if it cannot be started.
   explicit ChildProcess(const std::vector<std::string>& arguments, Output output = Output::kNone);
   /// Kills the program if it is still running.
   ~ChildProcess();

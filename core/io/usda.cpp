@@ -51,7 +51,7 @@ class UsdText {
     fmt::format_to(std::back_inserter(text_), "{}\n", more);
   }
 
-  /// "name.timeSamples = { 1: [...], ... }", or a plain value where there is one only.
+  /// "name.timeSamples = { 1: [...], ... }", or a plain value if there is only one.
   template <class Rows>
   void samples(std::string_view name, const std::vector<Rows>& frames, std::span<const double> codes) {
     if (frames.size() == 1) return rows(name, frames.front());

@@ -16,8 +16,8 @@ constexpr std::array<std::string_view, 7> kModelNames{"calibrated", "tensile", "
 
 constexpr double kGuardStiffness = 5;  // in units of E h^3
 
-/// What the continuum asks of the mean stretches, less what the plain springs already give: with springs alone a
-/// uniform stretch meets (4 edge I + 4/3 inner J + 2 face (I + J)).
+/// The continuum's stiffness of the mean stretches, minus that of the plain springs: with springs alone it is (4 edge I
+/// + 4/3 inner J + 2 face (I + J)).
 void calibrate_stretch(BrickLaw& law, const Material& material, double h) {
   const double springs_cross = 4.0 / 3.0 * law.inner + 2 * law.face;
   const double springs_self = springs_cross + 4 * law.edge + 2 * law.face;
@@ -34,7 +34,7 @@ void calibrate_stretch(BrickLaw& law, const Material& material, double h) {
 BrickLaw calibrated_law(const Material& material, double h) {
   const double plate = material.young / (1 - material.poisson * material.poisson);
   BrickLaw law;
-  // Twist asks for G h / 6. Below a ratio of 0 bending in one sense about both axes allows only plate h (1 + nu) / 12:
+  // Twist requires G h / 6. Below a ratio of 0 bending in one sense about both axes allows only plate h (1 + nu) / 12:
   // with more its correction would be negative, and the energy without bound.
   law.face = std::min(material.shear_modulus() * h / 6, plate * (1 + material.poisson) * h / 12);
   law.inner = 0.75 * (material.shear_modulus() * h - 2 * law.face);
@@ -44,7 +44,7 @@ BrickLaw calibrated_law(const Material& material, double h) {
   return law;
 }
 
-/// Of the volume term of NeoHooke below that.
+/// The volume term of NeoHooke below that.
 void check_dilation(double poisson) {
   if (poisson >= -0.5) return;
   throw Error(

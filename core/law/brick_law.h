@@ -14,7 +14,7 @@ enum class Model {
   kM2Plain,     // M2 without corrections: right at nu = 1/4 only
   kM1Plain,     // M1 without corrections: right at nu = 1/4 only
   kFem,         // no springs: the trilinear hexahedron, small strains, to compare with (see hexahedron.h)
-  kNeoHooke     // no springs alone: neo-Hookean, by the moments of what a brick holds (see neo_hooke/solid_brick.h)
+  kNeoHooke     // not springs alone: neo-Hookean, by the moments of a brick's solid (see neo_hooke/solid_brick.h)
 };
 
 [[nodiscard]] std::string_view model_name(Model model);
@@ -36,9 +36,9 @@ enum class Model {
 ///     + 1/2 axes (a_x + a_y + a_z)^2
 ///     + 1/2 sum over the gradient direction j of (b_ij, b_kj) bending (b_ij, b_kj)^T      i, k != j
 /// Every term is a set of tensions along edges, mean axes and diagonals, so momentum is conserved whatever the
-/// constants. To first order, and in every homogeneous deformation, a_i = e_i. Only what is left to correct of (e_x +
-/// e_y + e_z)^2 below zero (where nu is low) goes to the mean axes: a brick that folds like an hourglass lengthens its
-/// edges, but not the mean of their vectors, and on edges that part would pull it apart without end.
+/// constants. To first order, and in every homogeneous deformation, a_i = e_i. Only a negative remainder of the
+/// correction in (e_x + e_y + e_z)^2 (at low nu) acts on the mean axes: a brick that folds like an hourglass lengthens
+/// its edges, but not the mean of their vectors, and on edges that part would pull it apart without end.
 struct BrickLaw {
   double edge = 0;
   double face = 0;
@@ -55,10 +55,10 @@ struct BrickLaw {
 /// Every model by name, in the order above.
 [[nodiscard]] std::span<const std::string_view> model_names();
 
-/// The law of a brick of side h (m). Throws Error(kBadInput) where the model cannot represent the material (M2 needs
-/// -1/4 < nu, M1 0 <= nu: an edge spring must not push; kNeoHooke -1/2 <= nu). A model without springs gets an empty
-/// law. Source of kTensile and kM1 (the paper): Baudet, Beuve, Jaillet, Shariat, Zara, "Integrating Tensile Parameters
-/// in Hexahedral Mass-Spring System for Simulation", WSCG 2009: inner = 3 E h / (8 (1+nu)), edge = E h (4 nu + 1) / (8
+/// The law of a brick of side h (m). Throws Error(kBadInput) if the model cannot represent the material (M2 needs -1/4
+/// < nu, M1 0 <= nu: an edge spring must not push; kNeoHooke -1/2 <= nu). A model without springs gets an empty law.
+/// Source of kTensile and kM1 (the paper): Baudet, Beuve, Jaillet, Shariat, Zara, "Integrating Tensile Parameters in
+/// Hexahedral Mass-Spring System for Simulation", WSCG 2009: inner = 3 E h / (8 (1+nu)), edge = E h (4 nu + 1) / (8
 /// (1+nu)), and their correction forces as the potential axial = h (lambda J + 2 G I) - 4 edge I - (4/3) inner J - 2
 /// face (I + J). M1: face = G h / 2, edge = nu G h. kCalibrated: torsion gives face = G h / 6, shear then inner = 3/4
 /// (G h - 2 face), edge = 0, and two bending experiments give bending = (h/3) E/(1-nu^2) [[1, nu], [nu, 1]] - 2 face
@@ -67,20 +67,20 @@ struct BrickLaw {
 /// brick is (1+nu) / (1-nu) of what it should be; stretch, shear and bending are exact still.
 ///
 /// What is left free. Of a brick's 24 modes 6 are rigid, 6 uniform strain, 6 bending (u_x = xy and the like), 3 are u_x
-/// = a yz, u_y = b zx, u_z = c xy, and 3 xyz. Uniform strain and cylindrical and anticlastic bending fix theirs.
-/// (a, b, c) has two constants, for a + b + c = 0 (twist about an axis) and a = b = c; a plate's twist (-1, -1, 1) ties
-/// them together and leaves one. It could make the torsion of a bar of one brick exact, whose section warps between the
-/// nodes (18 % too stiff now), by a coupling of the twists of the three pairs of faces. That would mend bars two and
+/// = a yz, u_y = b zx, u_z = c xy, and 3 xyz. Uniform strain and cylindrical and anticlastic bending fix theirs. (a, b,
+/// c) has two constants, for a + b + c = 0 (twist about an axis) and a = b = c; a plate's twist (-1, -1, 1) ties them
+/// together and leaves one. It could make the torsion of a bar of one brick exact, whose section warps between the
+/// nodes (18 % too stiff now), by a coupling of the twists of the three pairs of faces. That would improve bars two and
 /// four across only from 18 to 13 % and from 5 to 4 %, make the twist of a brick within a thick body 16 % too soft, and
-/// the frequencies of torsion, too low already because masses at the corners turn too heavily, lower still (38 to 43 %,
-/// 12 to 13 %). So it is not done. The xyz modes have their stiffness and, by the inner diagonals, a coupling with
-/// shear: neighbours cancel it, the eight corners of a body do not. A free cube of 1, 2, 4 bricks a side under shear
-/// tractions yields 3.00, 1.08, 1.01 of what it should. With the xyz modes of the trilinear hexahedron it would be
-/// exact, but the L-bracket at a pitch of 0.1, 0.05, 0.025 m falls from 0.998, 0.921, 0.957 to 0.858, 0.899, 0.951.
-/// That error is the singularity of the re-entrant edge: it falls with h^1.1 (twice 0.54, the exponent of the
-/// displacements there), and no constant of the brick moves it. The bricks at the edge at 0.8 of their stiffness bring
-/// both finer pitches within 1 %, but no longer answer uniform strain, and a staircase in a curved surface is no edge.
-/// tests/core/law/brick_limits_test.cpp measures the statics of this.
+/// the frequencies of torsion, too low already because masses at the corners have too much rotary inertia, lower still
+/// (38 to 43 %, 12 to 13 %). So it is not done. The xyz modes have their stiffness and, by the inner diagonals, a
+/// coupling with shear: neighbours cancel it, the eight corners of a body do not. A free cube of 1, 2, 4 bricks a side
+/// under shear tractions deforms by 3.00, 1.08, 1.01 of what it should. With the xyz modes of the trilinear hexahedron
+/// it would be exact, but the L-bracket at a pitch of 0.1, 0.05, 0.025 m falls from 0.998, 0.921, 0.957 to 0.858,
+/// 0.899, 0.951. That error is the singularity of the re-entrant edge: it falls with h^1.1 (twice 0.54, the exponent of
+/// the displacements there), and no constant of the brick moves it. The bricks at the edge at 0.8 of their stiffness
+/// bring both finer pitches within 1 %, but no longer reproduce uniform strain, and a staircase in a curved surface is
+/// no edge. tests/core/law/brick_limits_test.cpp measures the statics of this.
 [[nodiscard]] BrickLaw brick_law(Model model, const Material& material, double h);
 
 }  // namespace sprung

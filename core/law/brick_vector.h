@@ -3,9 +3,9 @@
 
 namespace sprung {
 
-/// What the eight corners of a brick have, x y z corner by corner: places in m, forces in N.
+/// A quantity at the eight corners of a brick, x y z corner by corner: positions in m, forces in N.
 using BrickVector = Eigen::Matrix<double, 24, 1>;
-/// A stiffness by these, N/m.
+/// A stiffness between these, N/m.
 using BrickMatrix = Eigen::Matrix<double, 24, 24>;
 
 }  // namespace sprung

@@ -19,9 +19,9 @@ constexpr double kSame = 1e-9;       // relative: numbers closer than that are t
 constexpr double kAnyPoisson = 0.3;  // the counts do not depend on it
 constexpr double kLeastPoisson = -0.9;
 constexpr double kMostPoisson = 0.49;
-constexpr int kScan = 140;  // ratios looked at between the two
+constexpr int kScan = 140;  // ratios tested between the two
 
-/// What symmetry can tell apart: the sides that a spring spans; for an entry of M a negative mark, then its sides.
+/// What symmetry can distinguish: the sides that a spring spans; for an entry of M a negative mark, then its sides.
 using UnknownClass = std::vector<double>;
 
 /// The springs of one element, and which unknown each of them has for its stiffness.
@@ -150,7 +150,7 @@ class Equations {
   SpringEquations found_;
 };
 
-/// What the best stiffnesses leave unanswered, relative; zero where there is a solution.
+/// The relative residual of the best stiffnesses; zero if there is a solution.
 double misfit(const SpringConfiguration& configuration, double poisson) {
   const SpringEquations equations = spring_equations(configuration, poisson);
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;

@@ -19,14 +19,14 @@ struct SpringConfiguration {
 
 enum class EquationKind { kYoung, kPoisson, kShear };
 
-/// Asks a configuration to answer the uniform strains of the classical experiments like isotropic elasticity with E = 1
-/// Pa: matrix * stiffnesses = right, stiffnesses in N/m, every equation once (none that holds for any stiffness, none
-/// twice). Derivation: under a uniform strain a spring along v is stretched by s = v^T strain v / |v|, so the mean
-/// stress (in direction of a second strain, Pa) is sum of k s s' / volume; M adds e_i M_ij e_j' / volume, e_i = side_i
-/// strain_ii. The strains: along each axis 1, across it -nu (stress along it E: kYoung; across it 0: kPoisson), and for
-/// each plane a unit shear (stress G: kShear).
-/// The unknowns are the stiffnesses that symmetry does not make equal: springs that span the same sides share one;
-/// edges first, each kind in the order of the axes, then M, its diagonal first.
+/// Requires a configuration to respond to the uniform strains of the classical experiments like isotropic elasticity
+/// with E = 1 Pa: matrix * stiffnesses = right, stiffnesses in N/m, every equation once (none that holds for any
+/// stiffness, none twice). Derivation: under a uniform strain a spring along v is stretched by s = v^T strain v / |v|,
+/// so the mean stress (in direction of a second strain, Pa) is sum of k s s' / volume; M adds e_i M_ij e_j' / volume,
+/// e_i = side_i strain_ii. The strains: along each axis 1, across it -nu (stress along it E: kYoung; across it 0:
+/// kPoisson), and for each plane a unit shear (stress G: kShear). The unknowns are the stiffnesses that symmetry does
+/// not make equal: springs that span the same sides share one; edges first, each kind in the order of the axes, then M,
+/// its diagonal first.
 struct SpringEquations {
   Eigen::MatrixXd matrix;  // equations x unknowns, 1/m
   Eigen::VectorXd right;   // Pa
@@ -43,9 +43,9 @@ struct EquationCount {
   int young_equations = 0;
   int poisson_equations = 0;
   int shear_equations = 0;
-  int rank = 0;                   // of the matrix: how many stiffnesses the equations tell apart
+  int rank = 0;                   // of the matrix: how many stiffnesses the equations determine
   bool solvable = false;          // for every Poisson's ratio
-  std::optional<double> poisson;  // where not solvable: the one ratio at which it is, if there is one
+  std::optional<double> poisson;  // if not solvable: the one ratio at which it is, if there is one
 };
 
 /// Forms the equations of each configuration, counts them, and looks for the ratios (-0.9 to 0.49) that they allow.

@@ -17,7 +17,7 @@ Eigen::Matrix<double, 6, 6> elasticity(const Material& material) {
 
 namespace {
 
-/// Strain by corner displacements at a place in the unit cube, for a cube of side h.
+/// Strain by corner displacements at a point in the unit cube, for a cube of side h.
 Eigen::Matrix<double, 6, 24> strain_by_corner(const Vec3& local, double h) {
   const Eigen::Matrix<double, 8, 3> slope = trilinear_gradients(local) / h;
   Eigen::Matrix<double, 6, 24> matrix = Eigen::Matrix<double, 6, 24>::Zero();

@@ -68,7 +68,7 @@ Eigen::Matrix<double, 6, 8> length_gradients(const Springs& springs) {
   return gradients;
 }
 
-/// The paper's springs; those of edges may come out negative.
+/// The paper's springs; those of edges may be negative.
 RectangleLaw paper_springs(const Material& material, const std::array<double, 2>& sides) {
   const double l = sides[0];
   const double h = sides[1];

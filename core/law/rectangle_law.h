@@ -20,7 +20,7 @@ enum class RectangleModel {
 /// its energy is
 ///   W = 1/2 sum_i edge_i (s_low^2 + s_high^2) + 1/2 diagonal (sum of both squared diagonal stretches)
 ///     + 1/2 e^T axial e + 1/2 sum_i bending_i b_i^2         axial_ii = axial_self[i], axial_01 = axial_cross
-/// It has no guard: a rectangle turned inside out stays so.
+/// It has no guard: an inverted rectangle stays inverted.
 struct RectangleLaw {
   std::array<double, 2> sides{};  // l, h at rest, m
   std::array<double, 2> edge{};
@@ -32,8 +32,7 @@ struct RectangleLaw {
 
 /// The law of a rectangle with the given sides (m). With d^2 = l^2 + h^2:
 /// Springs (the paper, see brick_law.h): shear gives diagonal = E d^2 / (4 l h (1+nu)), elongation edge_l = E (h^2 (3
-/// nu
-/// + 2) - l^2) / (4 l h (1+nu)), edge_h with l and h exchanged. Throws Error(kBadInput) where one of them would push
+/// nu + 2) - l^2) / (4 l h (1+nu)), edge_h with l and h exchanged. Throws Error(kBadInput) if one of them would push
 /// (kPlain, kCorrected: a rectangle too slender for nu).
 /// Stretch: a uniform strain costs l h / 2 (stress : strain); in mean stretches that is 1/2 e^T D e with D_ll = E h /
 /// (l (1-nu^2)), D_hh = E l / (h (1-nu^2)), D_lh = E nu / (1-nu^2). The springs give A_ll = 2 edge_l + 2 diagonal

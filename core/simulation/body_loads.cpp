@@ -54,7 +54,7 @@ double area_of(const Mat3& corners) {
   return (corners.col(1) - corners.col(0)).cross(corners.col(2) - corners.col(0)).norm() / 2;
 }
 
-/// What nodes carry of a force that is spread evenly over the pieces. Exact: quadratic in each.
+/// The nodal shares of a force spread evenly over the pieces. Exact: quadratic in each.
 void spread(const SelectedSkin& skin, const BrickGrid& grid, ForcedPart& part) {
   part.shares = Eigen::VectorXd::Zero(grid.node_count());
   part.arms = Points::Zero(grid.node_count(), 3);

@@ -6,8 +6,8 @@
 
 namespace sprung {
 
-/// Where the forces of a scene body act on one of its solids, which is still in the place of its grid; forces that do
-/// not act on it are left out. Throws Error(kBadInput) where a part does not exist.
+/// Where the forces of a scene body act on one of its solids, which is still at the position of its grid; forces that
+/// do not act on it are left out. Throws Error(kBadInput) if a part does not exist.
 [[nodiscard]] std::vector<ForcedPart> place_forces(const std::vector<BodyForce>& forces, const Selector& selector,
                                                    const SoftBody& body, std::size_t solid);
 
@@ -16,10 +16,10 @@ namespace sprung {
                                                     const SoftBody& body, std::size_t solid,
                                                     const Mat3& bricks_from_rest);
 
-/// Turns (then moves) where a force acts.
+/// Rotates (then translates) where a force acts.
 void place(ForcedPart& part, const Mat3& rotation, const Vec3& translation);
 
-/// Throws Error(kBadInput) where a force or a muscle of a body of the scene acts on none of its bodies.
+/// Throws Error(kBadInput) if a force or a muscle of a body of the scene acts on none of its bodies.
 void check_loads(const Scene& scene, std::size_t body, const World& world);
 
 /// What a force is spread over: all solids of one copy of a body.

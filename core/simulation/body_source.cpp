@@ -82,7 +82,7 @@ void put_on_texture(const SceneBody& body, SurfaceMesh& mesh) {
   for (Part& part : mesh.parts) part.material = 0;
 }
 
-/// m; the default where it is yet to be chosen.
+/// m; the default if it is yet to be chosen.
 double wanted_brick_size(const SceneBody& body, const Vec3& extent) {
   const BrickCount count = body.bricks.value_or(kDefaultBricks);
   return body.brick_size.value_or(extent.maxCoeff() / (count.is_auto() ? kDefaultBricks : count.along));

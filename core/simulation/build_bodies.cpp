@@ -42,7 +42,7 @@ constexpr std::array<Color, 8> kPalette{{{0x5e, 0x9c, 0xa0},
                                          {0xe3, 0xc8, 0x78},
                                          {0xb5, 0x8b, 0xb8}}};
 
-/// The solid of each vertex of a mesh; the first, where it belongs to none.
+/// The solid of each vertex of a mesh; the first, if it belongs to none.
 std::vector<int> solids_of_vertices(const LoadedBody& loaded) {
   std::vector<int> owners(loaded.mesh.positions.rows(), -1);
   for (std::size_t solid = 0; solid < loaded.solids.size(); ++solid) {
@@ -318,7 +318,7 @@ std::vector<ProbedPart> BodyBuilder::find_probed(const SoftBody& body, std::size
 
 namespace {
 
-/// "pin 'left'" or "pin 2"; "the pin" where there is only one.
+/// "pin 'left'" or "pin 2"; "the pin" if there is only one.
 std::string pin_name(const std::vector<Pin>& pins, std::size_t pin) {
   if (!pins[pin].name.empty()) return fmt::format("pin '{}'", pins[pin].name);
   return pins.size() == 1 ? "the pin" : fmt::format("pin {}", pin + 1);

@@ -11,7 +11,7 @@
 
 namespace sprung {
 
-/// `grid`: the bricks of one solid of the mesh (m). The body is at rest in the place of its grid; its contact points
+/// `grid`: the bricks of one solid of the mesh (m). The body is at rest at the position of its grid; its contact points
 /// are those of its skin, as fine as its bricks can follow; none without `can_touch`. Deterministic.
 [[nodiscard]] SoftBody make_soft_body(const SurfaceMesh& mesh, const Solid& solid, BrickGrid grid, Model model,
                                       const Material& material, bool can_touch = true);
@@ -63,21 +63,21 @@ class BodyBuilder {
   /// Body `index` of the scene. All must outlive it.
   BodyBuilder(const Scene& scene, std::size_t index, const LoadedBody& loaded, Simulation& simulation);
 
-  /// Changes nothing but this builder, so that several may run concurrently. Throws Error(kBadInput) where a region, a
-  /// pin or a cut refers to a part that does not exist.
+  /// Changes nothing but this builder, so that several may run concurrently. Throws Error(kBadInput) if a region, a pin
+  /// or a cut refers to a part that does not exist.
   void fill_solids();
 
   /// Adds the filled solids to the simulation.
   void add_solids();
 
-  /// Reports how well the bricks fill the body, and unpinned solids. Throws Error(kBadInput) where no pin holds a node.
+  /// Reports how well the bricks fill the body, and unpinned solids. Throws Error(kBadInput) if no pin holds a node.
   void tell(const Observer& observer) const;
 
  private:
-  /// Still in the place of its grid.
+  /// Still at the position of its grid.
   [[nodiscard]] SoftBody fill(std::size_t solid);
   [[nodiscard]] BrickGrid make_grid(const Solid& solid);
-  /// Throws Error(kBadInput) where one reaches no brick.
+  /// Throws Error(kBadInput) if one reaches no brick.
   void check_regions() const;
   [[nodiscard]] std::vector<PinnedNodes> find_pins(const Body& body, std::size_t solid) const;
   void put(SoftBody body, const Pose& pose, int copy);

@@ -42,7 +42,7 @@ class CacheWriter {
   /// velocities, `memory_size` numbers. Throws Error(kFailed).
   CacheWriter(std::filesystem::path file, const CacheHeader& header, std::size_t memory_size);
 
-  /// Positions and velocities by body (m x 3, m and m/s). Throws Error(kFailed) where the file cannot be written, was
+  /// Positions and velocities by body (m x 3, m and m/s). Throws Error(kFailed) if the file cannot be written, was
   /// removed or replaced; frames appended before stay.
   void append(const CachedFrame& frame, const std::vector<const Points*>& positions,
               const std::vector<const Points*>& velocities, const std::vector<double>& memory);
@@ -63,7 +63,7 @@ class CacheWriter {
 
 class CacheReader {
  public:
-  /// Throws Error(kBadInput) where the file is not a cache, or one of another layout.
+  /// Throws Error(kBadInput) if the file is not a cache, or one of another layout.
   explicit CacheReader(const std::filesystem::path& file);
 
   [[nodiscard]] const CacheHeader& header() const { return header_; }

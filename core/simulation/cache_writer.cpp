@@ -105,7 +105,7 @@ void write_obstacle(Hdf5Writer& hdf5, const std::string& folder, const StageObst
   write_skin(hdf5, folder + "/skin", obstacle.skin);
 }
 
-/// Rounds to multiples of the largest power of two that respects the error; not at all where that is 0.
+/// Rounds to multiples of the largest power of two that respects the error; not at all if that is 0.
 void append_rounded(Hdf5Writer& hdf5, const std::string& name, const Points& values, double error) {
   if (error == 0) return hdf5.append(name, flat_values(values));
   const double step = std::exp2(std::floor(std::log2(2 * error)));

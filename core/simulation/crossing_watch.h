@@ -13,22 +13,20 @@
 
 namespace sprung {
 
-/// Looks at the skins that are exported and drawn, not at the points that contact works with, and shares no code with
-/// what keeps them apart. Every pair of bodies (where bodies touch each other), every body with itself and with every
-/// obstacle is tested, exactly. Limits: a skin wholly inside another crosses nothing; of two triangles of one skin
-/// that share a vertex nothing is known, nor of two that belonged to the same tangle at the start; curves
-/// that pictures add to coarse skins are not looked at. Neighbouring bricks that are hardly deformed are taken at their
-/// word that what they carry does not cross: see CellBricks.
+/// Checks the skins that are exported and drawn, not the points that contact uses, and shares no code with contact.
+/// Every pair of bodies (if bodies collide), every body with itself and with every obstacle is tested, exactly. Limits:
+/// a skin wholly inside another crosses nothing; two triangles of one skin that share a vertex are not tested, nor are
+/// two that belonged to the same tangle at the start; curves that pictures add to coarse skins are not checked.
+/// Neighbouring bricks that are hardly deformed are assumed to carry no crossing: see CellBricks.
 class CrossingWatch {
  public:
-  /// Of a simulation at its start: what crosses now is told apart later. Both must outlive it.
+  /// For a simulation at its start: what crosses now is distinguished later. Both must outlive it.
   CrossingWatch(const Scene& scene, const Simulation& simulation);
 
-  /// With the nodes (by body, m x 3, m) where they are in that frame, at that time of the film (s). Deterministic.
+  /// Checks the nodes (by body, m x 3, m) of that frame, at that time of the film (s). Deterministic.
   [[nodiscard]] Crossings look(const std::vector<const Points*>& nodes, int frame, double time);
 
-  /// Triangles of bodies that crossed where the watch last looked, three rows of points (m) each; not those of the
-  /// start.
+  /// Triangles of bodies that crossed at the last check, three rows of points (m) each; not those of the start.
   [[nodiscard]] const Points& crossing_triangles() const { return crossing_triangles_; }
 
  private:
@@ -37,10 +35,10 @@ class CrossingWatch {
   struct Task {
     std::array<int, 2> skins;
     std::unordered_set<VertexPair> at_start{};  // vertices of triangles that crossed then
-    std::vector<int> tangles_at_start{};        // of a skin with itself, in place of these: tangles_of()
+    std::vector<int> tangles_at_start{};        // of a skin with itself, instead of these: tangles_of()
     [[nodiscard]] bool is_self() const { return skins[0] == skins[1]; }
   };
-  /// What was found of a task.
+  /// The crossings found in a task.
   struct Found {
     RowPairs pairs;  // rows of the triangles; of planes: the triangle, twice
     long at_start = 0;

@@ -69,7 +69,7 @@ class SceneDriver {
   [[nodiscard]] std::vector<double> pieces(double begin, double end) const;
 
   /// Sets the loads and pinned nodes from `begin` to `end` (s), and the constant velocities that take pinned nodes and
-  /// obstacles exactly to their places at `end`.
+  /// obstacles exactly to their positions at `end`.
   void aim(double begin, double end);
 
   /// The state of the pins that hold nodes now.
@@ -102,12 +102,12 @@ class SceneDriver {
 /// The movement of a pin: by its keyframes, or linear from the start of the film to its end.
 [[nodiscard]] Movement movement_of(const Pin& pin, const Scene& scene);
 
-/// The displacement of each node of an body (m x 3, m) by pins that hold from the start, at a time (s) of the film;
-/// zero along free axes. With `small`, to first order: rotated nodes move along tangents.
+/// The displacement of each node of a body (m x 3, m) by pins that hold from the start, at a time (s) of the film; zero
+/// along free axes. With `small`, to first order: rotated nodes move along tangents.
 [[nodiscard]] Points pin_movements(const Scene& scene, const Simulation& simulation, std::size_t body, double time,
                                    bool small);
 
-/// The supports by the pins of an body.
+/// The supports by the pins of a body.
 [[nodiscard]] Supports supports_of(const SoftBody& body);
 
 }  // namespace sprung

@@ -100,8 +100,8 @@ void check_rests(const Scene& scene) {
 
 namespace {
 
-/// Forces and moments of loads and reactions (m x 3, N) at `places` (m x 3, m) have to cancel: found by sums alone, of
-/// whatever solver. A millionth of them may be left.
+/// Forces and moments of loads and reactions (m x 3, N) at `positions` (m x 3, m) must cancel: checked by sums alone,
+/// independently of the solver. A millionth may remain.
 void check_balance(const Points& positions, const Points& loads, const Points& reactions) {
   constexpr double kLeft = 1e-6;
   const Vec3 middle = positions.colwise().mean();

@@ -11,9 +11,8 @@ namespace sprung {
 /// Finds the equilibrium of a body under loads (forces of as many rows as it has nodes, and pressures) with its fixed
 /// nodes displaced from rest by `movements` (m x 3, m; ignored for other nodes); with `linear`, for small
 /// displacements. Pressures follow the skin, with `linear` that at rest. Returns the reactions of the supports (m x 3,
-/// N). `between` is called before each of Newton's iterations and may throw. Throws Error(kDiverged),
-/// Error(kBadInput) where the pins leave it free, Error(kFailed) where reactions and loads do not balance to a
-/// millionth.
+/// N). `between` is called before each of Newton's iterations and may throw. Throws Error(kDiverged), Error(kBadInput)
+/// if the pins leave it free, Error(kFailed) if reactions and loads do not balance to a millionth.
 Points settle(SoftBody& body, const Supports& supports, const Loads& loads, const Points& movements, bool linear,
               LinearSolver& solver, int& newton_steps, const std::function<void()>& between);
 

@@ -18,7 +18,7 @@ class SceneMotion {
   using Between = AdaptiveIntegrator::Between;
   using Tell = AdaptiveIntegrator::Tell;
 
-  /// Both must outlive it. Throws Error(kBadInput) where the scheme does not support the scene.
+  /// Both must outlive it. Throws Error(kBadInput) if the scheme does not support the scene.
   SceneMotion(Simulation& simulation, const Scene& scene);
 
   /// From `begin` to `end` (s). `duration` is their difference, given so that equal frames have it bit-identical.

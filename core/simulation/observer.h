@@ -62,9 +62,9 @@ class Progress {
   [[nodiscard]] double seconds() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }
-  /// At the rate so far; 0 where unknown.
+  /// At the rate so far; 0 if unknown.
   [[nodiscard]] double seconds_to_go() const { return done_ > 0 ? seconds() * (total_ - done_) / done_ : 0; }
-  /// Times `scale`, per second; 0 where unknown or without a unit.
+  /// Times `scale`, per second; 0 if unknown or without a unit.
   [[nodiscard]] double rate() const { return rate_unit_.empty() || done_ <= 0 ? 0 : scale_ * done_ / seconds(); }
   [[nodiscard]] const std::string& rate_unit() const { return rate_unit_; }
 

@@ -19,7 +19,7 @@ struct StageObstacle {
 };
 
 /// Makes the obstacles of a scene. `room` (m): half the side of the drawn square of a plane other than level ground.
-/// Throws Error(kBadInput) where a mesh does not enclose a volume.
+/// Throws Error(kBadInput) if a mesh does not enclose a volume.
 [[nodiscard]] std::vector<StageObstacle> make_obstacles(const Scene& scene, double room, const Observer& observer);
 
 /// Its pose at a time of the film (s).
@@ -28,7 +28,7 @@ struct StageObstacle {
 /// Vertices of its skin at that time (s), m.
 [[nodiscard]] Points skin_positions(const StageObstacle& obstacle, double time);
 
-/// The obstacle of a world at `begin` (s), moving uniformly to its pose at `end`; at rest where both are equal.
+/// The obstacle of a world at `begin` (s), moving uniformly to its pose at `end`; at rest if both are equal.
 [[nodiscard]] Obstacle obstacle_between(const StageObstacle& staged, const SceneObstacle& obstacle, double begin,
                                         double end);
 

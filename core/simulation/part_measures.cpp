@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kSmallDisplacement = 1e-5;  // bricks, at which an energy is quadratic to that share
 
-/// J, of the part's bricks. Small: as it grows with the square of the displacement where that is small.
+/// J, of the part's bricks. Small: by its quadratic growth at small displacements.
 double elastic_energy_of(const SoftBody& body, const ProbedPart& part, StrainMeasure strain) {
   if (strain == StrainMeasure::kFinite) return brick_energies(body, part.bricks, body.positions).sum();
   const Points displacement = body.positions - body.rest_positions;

@@ -11,7 +11,8 @@ class PartMeasures {
   /// With small strains, energy and volume are also those of small displacements.
   void add(const SoftBody& body, const ProbedPart& part, StrainMeasure strain);
 
-  /// Of all that was added. A brick counts by its fill, a node by how much of the fill around it is in the part.
+  /// The measures of all parts added. A brick counts by its fill, a node by how much of the fill around it is in the
+  /// part.
   [[nodiscard]] ProbeSample sample() const;
 
  private:

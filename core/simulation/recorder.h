@@ -24,7 +24,7 @@ class RunCache;
 /// The results of a run.
 struct Recording {
   std::vector<std::vector<Floats3>> frames;  // [frame][body], nodes x 3, m; floats suffice for drawing;
-                                             // none where a cache has them
+                                             // none if a cache has them
   std::vector<double> progress;              // of every frame: time (s), or fraction of the load, or number of the mode
   std::vector<double> seconds;               // likewise: wall-clock time that it took
   std::string progress_name;                 // "time_s", "load", "mode"
@@ -37,8 +37,8 @@ struct Recording {
 /// Records the frames of a simulation.
 class Recorder {
  public:
-  /// Frames go to the cache if there is one. Throws Error(kBadInput) where a probe's point is in no brick or its part
-  /// has none.
+  /// Frames go to the cache if there is one. Throws Error(kBadInput) if a probe's point is in no brick or its part has
+  /// none.
   Recorder(const Scene& scene, const Simulation& simulation, std::string progress_name, RunCache* cache);
 
   /// Resumes from the frames in the cache: sets the world, that of the simulation, to its state after the last of them

@@ -39,7 +39,7 @@ CacheHeader cache_header(const Scene& scene, const Simulation& simulation, const
   return header;
 }
 
-/// Why one run cannot resume another: the first difference, with both values; empty where there is none.
+/// Why one run cannot resume another: the first difference, with both values; empty if there is none.
 std::string difference(const CacheHeader& cached, const CacheHeader& now, const SceneRecord& record) {
   if (cached.version != now.version) {
     return fmt::format("it was made by sprung {}, this is sprung {}", cached.version, now.version);

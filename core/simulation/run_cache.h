@@ -17,8 +17,8 @@ namespace sprung {
 /// The text of a scene, as stored in a cache.
 struct SceneRecord {
   std::string text{};
-  /// The first difference to the scene text of another cache, with both values; empty where its run can be resumed.
-  /// None: scenes are not compared.
+  /// The first difference to the scene text of another cache, with both values; empty if its run can be resumed. None:
+  /// scenes are not compared.
   std::function<std::string(const std::string& cached_text)> difference{};
 };
 
@@ -39,15 +39,15 @@ struct SceneRecord {
 class RunCache {
  public:
   /// With `resume` the frames of an existing file are kept, else it is replaced. Positions are stored to within
-  /// `position_error` (m), velocities to within that per frame; 0: exactly. Throws Error(kBadInput) where the file is
-  /// not a cache, Error(kFailed) where another run is writing it.
+  /// `position_error` (m), velocities to within that per frame; 0: exactly. Throws Error(kBadInput) if the file is not
+  /// a cache, Error(kFailed) if another run is writing it.
   RunCache(std::filesystem::path file, SceneRecord record, bool resume, double position_error = 0);
   /// Frames stay in memory until the run has taken `patience` (s); one that ends before that leaves no file.
   void wait_for(double patience) { patience_ = patience; }
   ~RunCache();
 
   /// Prepares for the frames of a run and returns the number of existing ones. Both must outlive this. Throws
-  /// Error(kBadInput) naming the difference where those are of another run, Error(kFailed).
+  /// Error(kBadInput) naming the difference if those are of another run, Error(kFailed).
   int begin(const Scene& scene, const Simulation& simulation, const std::string& progress_name,
             std::size_t memory_size);
 

@@ -165,13 +165,13 @@ struct BrickCount {
 
 /// A mesh file or a built-in shape, and how it enters the scene. Every solid in a file becomes a soft body of its own.
 struct SceneBody {
-  std::shared_ptr<const SurfaceMesh> surface;  // a mesh in memory, in place of that in a file; or
+  std::shared_ptr<const SurfaceMesh> surface;  // a mesh in memory, instead of that in a file; or
   std::filesystem::path mesh;                  // absolute; or
   std::optional<Vec3> box;                     // m, sides of a box, each a whole number of bricks; or
   std::optional<SphereShape> sphere;
   std::optional<CylinderShape> cylinder;
   std::optional<TorusShape> torus;
-  std::filesystem::path texture;  // absolute; an image for the whole skin, in place of the file's
+  std::filesystem::path texture;  // absolute; an image for the whole skin, instead of the file's
   std::vector<Cut> cuts;          // of a box
   std::optional<double> size;     // m, longest side of the bounding box; or
   std::optional<double> scale;    // m per unit of the file
@@ -219,7 +219,7 @@ struct SceneSolver {
   double time_limit = 24 * 3600;  // s of computing time that a motion may be forecast to take
 };
 
-/// Who measures: a point of a body, one of its pins, or a part of it.
+/// What is measured: a point of a body, one of its pins, or a part of it.
 enum class ProbeKind { kPoint, kPin, kPart };
 
 /// Quantities recorded in every frame: of a point of a body, of a pin, or of a part of a body, else of all of it.
@@ -297,7 +297,7 @@ struct Scene {
   std::optional<double> until_still;  // s: from then on a motion ends before that, once it has come to rest
   double fps = 24;
   Vec3 gravity{0, -9.81, 0};
-  std::vector<GravityKeyframe> gravity_keyframes;  // in place of gravity
+  std::vector<GravityKeyframe> gravity_keyframes;  // instead of gravity
   std::optional<SceneWind> wind;
   SceneSolver solver;
   SceneContact contact;
@@ -310,7 +310,7 @@ struct Scene {
 /// Whether the frames are a motion in time; else they are equilibria or vibration modes.
 [[nodiscard]] bool is_motion(const Scene& scene);
 
-/// What strains are to be taken as in the results: displacements of linear statics and of modes are small.
+/// The strain measure of the results: displacements of linear statics and of modes are small.
 [[nodiscard]] StrainMeasure strain_measure(const Scene& scene);
 
 /// The number of frames of the film: frame i (from 0) is at t = i / fps. At least 1; one more than the load steps.

@@ -16,16 +16,16 @@ class Selector {
   /// The body must outlive it.
   explicit Selector(const LoadedBody& body) : body_(body) {}
 
-  /// The nodes (`places`, n x 3) of one of the body's solids in the part or within half a brick of it, so that the
+  /// The nodes (`positions`, n x 3) of one of the body's solids in the part or within half a brick of it, so that the
   /// staircase of the selected nodes is centred on the border of the part. Parts chosen by the surface (by name or
-  /// paint) select the nodes within a brick of the surface. Rows, ascending. Throws Error(kBadInput) where the mesh has
-  /// no such part or paint, or a file cannot be read.
+  /// paint) select the nodes within a brick of the surface. Rows, ascending. Throws Error(kBadInput) if the mesh has no
+  /// such part or paint, or a file cannot be read.
   [[nodiscard]] std::vector<int> nodes(const Selection& selection, const Points& positions, std::size_t solid) const;
 
   /// The bricks of one of the body's solids with centres in the part. Rows, ascending. Throws like nodes().
   [[nodiscard]] std::vector<int> bricks(const Selection& selection, const BrickGrid& grid, std::size_t solid) const;
 
-  /// The same; where that is none, since the part is thin, those with centres within half a brick of it.
+  /// The same; if there are none, since the part is thin, those with centres within half a brick of it.
   [[nodiscard]] std::vector<int> touched_bricks(const Selection& selection, const BrickGrid& grid,
                                                 std::size_t solid) const;
 
@@ -64,9 +64,9 @@ class Selector {
 /// n x 3, m, in the frame of the grid.
 [[nodiscard]] Points brick_middles(const BrickGrid& grid);
 
-/// Gives the bricks of the regions of a body their stiffness and mass; where regions overlap the last one counts. The
-/// body is still where its grid is. Returns for each brick which region it is in, counted from 1; 0: in none.
-/// Throws Error(kBadInput) where a material has another Poisson's ratio than the body, and as Selector does.
+/// Gives the bricks of the regions of a body their stiffness and mass; if regions overlap, the last one counts. The
+/// body is still where its grid is. Returns for each brick which region it is in, counted from 1; 0: in none. Throws
+/// Error(kBadInput) if a material has another Poisson's ratio than the body, and as Selector does.
 std::vector<int> apply_regions(const std::vector<Region>& regions, const Selector& selector, Body& body,
                                std::size_t solid);
 

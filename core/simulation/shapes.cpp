@@ -77,8 +77,8 @@ Eigen::Vector2d on_circle(int step, int count) {
   return {cosine(step), cosine(step - count / 4)};
 }
 
-/// A circle at each point of the profile (outside on its right, going up), and triangles between two that follow each
-/// other and are not a crease: those are at one place.
+/// A circle at each point of the profile (outside on its right, going up), and triangles between consecutive ones,
+/// except for creases: those coincide.
 SurfaceMesh revolve(const std::vector<ProfilePoint>& profile, const std::string& name) {
   const auto rings = isize(profile);
   SurfaceMesh mesh;

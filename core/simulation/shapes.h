@@ -5,8 +5,8 @@
 
 namespace sprung {
 
-/// The bricks of a box (sides in m) centred at the origin. Throws Error(kBadInput) where a side is not a whole number
-/// of bricks.
+/// The bricks of a box (sides in m) centred at the origin. Throws Error(kBadInput) if a side is not a whole number of
+/// bricks.
 [[nodiscard]] BrickGrid box_grid(const Vec3& sides, double brick_size);
 
 /// The outer faces of bricks, two triangles each, m.

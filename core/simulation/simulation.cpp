@@ -94,7 +94,7 @@ std::vector<LoadedBody> load_bodies(const Scene& scene, const Observer& observer
   return bodies;
 }
 
-/// "1.2 cm", or "1.1 cm to 1.2 cm" where the bodies differ.
+/// "1.2 cm", or "1.1 cm to 1.2 cm" if the bodies differ.
 std::string brick_sizes(const std::vector<LoadedBody>& bodies) {
   const auto by_size = [](const LoadedBody& a, const LoadedBody& b) { return a.brick_size < b.brick_size; };
   const auto [smallest, largest] = std::minmax_element(bodies.begin(), bodies.end(), by_size);

@@ -19,8 +19,8 @@ struct Simulation {
   double size = 0;                       // m, longest side of the largest body
 };
 
-/// Fills the bodies' solids with bricks, places them and finds the pinned nodes. Throws Error(kBadInput) where a pin
-/// holds no node or a body starts more than a brick deep in an obstacle or another body.
+/// Fills the bodies' solids with bricks, places them and finds the pinned nodes. Throws Error(kBadInput) if a pin holds
+/// no node or a body starts more than a brick deep in an obstacle or another body.
 [[nodiscard]] Simulation build_world(const Scene& scene, const std::vector<LoadedBody>& bodies,
                                      const Observer& observer);
 
@@ -47,7 +47,7 @@ struct Preparation {
 [[nodiscard]] Simulation prepare_simulation(const Scene& scene, const Observer& observer);
 
 /// Glues two bodies of the scene, or the copies of one, where their skins are near each other, by Scene::glue[row].
-/// Throws Error(kBadInput) where they are nowhere near.
+/// Throws Error(kBadInput) if they are nowhere near.
 void glue_bodies(const Scene& scene, std::size_t row, Simulation& simulation);
 
 /// A small initial penetration is resolved gently; a deeper one would eject the body. Pinned nodes are ignored. Throws

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kManySteps = 20000;  // per frame, from which on there is a warning
 // Cost of an implicit step, in explicit steps.
-constexpr double kFreeCost = 120;      // of bodies that meet nothing, or hang
+constexpr double kFreeCost = 120;      // of bodies without contact, or hanging
 constexpr double kObstacleCost = 300;  // of those that may come to lie on obstacles
 constexpr double kCoupledCost = 600;   // of bodies that may collide or are glued
 constexpr double kStepsAVibration = 20;

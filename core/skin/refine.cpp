@@ -46,7 +46,7 @@ Vec3 slope(const Vec3& chord, const Vec3& left, const Vec3& right) {
   const Vec3 along =
       left.dot(right) > kSeamCosine ? Vec3(chord - chord.dot(mean) * mean) : Vec3(chord.dot(crease) * crease);
   const double cosine = along.norm() / std::max(chord.norm(), std::numeric_limits<double>::min());
-  const bool is_shallow = cosine >= kSteepCosine;  // false where a file's normals are no numbers
+  const bool is_shallow = cosine >= kSteepCosine;  // false if a file's normals are no numbers
   return !is_shallow ? chord : Vec3(along * (2 / (cosine * (1 + cosine))));
 }
 
@@ -103,16 +103,16 @@ class EdgeCurves {
 /// The middle vertices of edges, by edge_key() of their ends.
 using Middles = std::unordered_map<std::uint64_t, int>;
 
-/// One pass: every long edge of the skin is halved once; where there are curves, those that are further than
-/// `tolerance` from their curve, in its middle. Slivers, whose two long sides would multiply by three with every
-/// halving, are cut across at once, at the same middles of middles as their neighbours will be.
+/// One pass: every long edge of the skin is halved once; if there are curves, those that are further than `tolerance`
+/// from their curve, in its middle. Slivers, whose two long sides would multiply by three with every halving, are cut
+/// across at once, at the same middles of middles as their neighbours will be.
 class Refiner {
  public:
   /// `middles`: kept from pass to pass.
   Refiner(const Skin& skin, double max_edge, Middles& middles, const EdgeCurves* curves = nullptr, double tolerance = 0)
       : skin_(skin), max_squared_(max_edge * max_edge), middles_(middles), curves_(curves), tolerance_(tolerance) {}
 
-  /// False where no edge was too long.
+  /// False if no edge was too long.
   bool run(Skin& refined) {
     if (skin_.parts.empty()) {
       for (int t = 0; t < skin_.triangles.rows(); ++t) split_triangle(t);
@@ -139,7 +139,7 @@ class Refiner {
     return true;
   }
 
-  /// Of what the vertices have, after run().
+  /// Vertex attributes with those of the midpoints, after run().
   template <class Rows>
   [[nodiscard]] Rows with_midpoints(const Rows& rows) const {
     Rows all(rows.rows() + isize(ends_), rows.cols());
@@ -168,7 +168,7 @@ class Refiner {
     return curves_ == nullptr || (*curves_)(a, b).height() > tolerance_;
   }
 
-  /// The middle vertex of an edge, or -1 where it is not halved.
+  /// The middle vertex of an edge, or -1 if it is not halved.
   int middle(int a, int b) {
     if (!is_long(a, b)) return -1;
     const int next = int(skin_.positions.rows()) + isize(ends_);
@@ -198,7 +198,7 @@ class Refiner {
     return along.cross(aside).squaredNorm() <= kSliverWidth * kSliverWidth * max_squared_ * along.squaredNorm();
   }
 
-  /// Appends what follows `a` on an edge up to `b`, which is halved until no part of it is long.
+  /// Appends the vertices after `a` on an edge up to `b`, which is halved until no part of it is long.
   void add_chain(int a, int b, std::vector<int>& chain) {
     const int between = middle(a, b);
     if (between < 0) {
@@ -299,7 +299,7 @@ void refine(Skin& skin, double max_edge) {
 
 void refine_curves(Skin& skin, double tolerance) {
   const double max_edge = kShortestEdge * tolerance;
-  Points interpolated = skin.normals;  // look smoother than normals of the curves, which dent at every edge
+  Points interpolated = skin.normals;  // look smoother than normals of the curves, which show dents at every edge
   for (int pass = 0; pass < kMostPasses; ++pass) {
     if (skin.triangles.rows() > kMostTriangles || !has_edge_longer_than(skin, max_edge)) break;
     const EdgeCurves curves(skin);

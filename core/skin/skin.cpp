@@ -139,7 +139,7 @@ std::vector<FlatFace> flat_faces(const Triangles& triangles, const Points& faces
   return all;
 }
 
-/// True where a mesh was saved with flat shading: all its normals are those of its triangles.
+/// True if a mesh was saved with flat shading: all its normals are those of its triangles.
 bool has_normals_of_triangles(const SurfaceMesh& mesh, const Points& faces) {
   constexpr double kSame = 0.9995;  // 1.8 degrees: some files have few digits
   for (int t = 0; t < mesh.triangles.rows(); ++t) {

@@ -58,7 +58,7 @@ void press(const Facet& facet, const Eigen::RowVector3d& force, Points& at_point
   for (const int corner : facet.corners) at_points.row(corner) += force / 3;
 }
 
-/// `places`: of the points of the loaded skin, m.
+/// `positions`: of the points of the loaded skin, m.
 void add_pressures(const std::vector<SkinPressure>& pressures, const Triangles& triangles, const Points& positions,
                    Points& at_points) {
   for (const SkinPressure& pressure : pressures) {

@@ -11,7 +11,7 @@ struct LoadedSkin {
 
 [[nodiscard]] LoadedSkin loaded_skin(const SoftBody& body);
 
-/// The nodal forces of pressures on a body where it is; m x 3, N.
+/// The nodal forces of pressures on a body at its current positions; m x 3, N.
 [[nodiscard]] Points pressure_forces(const SoftBody& body, const std::vector<SkinPressure>& pressures);
 
 /// The nodal forces of a body's loads and of the wind. Those on the skin are updated every few steps only, since they

@@ -96,7 +96,7 @@ class MeshDistance::Tree {
   NearestTriangle surface_;
   Points vertex_normals_;                             // angle-weighted, any length
   std::map<std::pair<int, int>, Vec3> edge_normals_;  // any length
-  Points normals_;                                    // unit; 0 where there is no area
+  Points normals_;                                    // unit; 0 if there is no area
 };
 
 MeshDistance::MeshDistance(const Points& positions, const Triangles& triangles)

@@ -42,9 +42,9 @@ struct PinnedSkin {
 struct ForcedPart {
   std::size_t force = 0;                   // row in SceneBody::forces
   Eigen::VectorXd shares{};                // per node: of the volume of the part, m^3, or of the area of its skin, m^2
-  Points arms{};                           // m x 3, m^3: those of the area times their places; 0 rows: not of an area
-  Mat3 second = Mat3::Zero();              // m^4: place place^T over the area
-  std::shared_ptr<const SkinPart> skin{};  // of a pressure, in place of these
+  Points arms{};                           // m x 3, m^3: of the area times positions; 0 rows: not of an area
+  Mat3 second = Mat3::Zero();              // m^4: position position^T over the area
+  std::shared_ptr<const SkinPart> skin{};  // of a pressure, instead of these
 };
 
 /// The bricks of a body that form a muscle of the scene.
@@ -82,7 +82,7 @@ struct SoftBody : Body {
   Triangles contact_triangles{};                            // rows of contacts; none: contact with obstacles only
   std::shared_ptr<const ContactSurface> contact_surface{};  // of the contacts when first used; see there
   double friction = 0.5;                                    // on another body: the geometric mean of both
-  bool collides_with_itself = true;                         // not where it overlaps itself at rest
+  bool collides_with_itself = true;                         // not if it overlaps itself at rest
   std::vector<KinematicNode> pinned;                        // each node once; no contact can push it
   Loads loads{};
 

@@ -10,27 +10,28 @@
 
 namespace sprung::SPRUNG_INSTRUCTION_SET {
 
-/// The arrays of a plane of the scratch, for each node. Those it owns are the springs to higher nodes. What a brick
-/// adds at its corners on the high side in x is kept apart, one place lower, so that no sum waits for its neighbour's.
+/// The arrays of a scratch plane, per node. A node owns the springs to higher nodes. A brick's contributions to its
+/// corners on the high side in x are stored separately, at the index one lower, so that no sum waits for its
+/// neighbour's.
 enum PlaneArray : int {
   kForceLow = 0,       // x y z
   kTensionLow = 3,     // of edges along x, y and z, over their length at rest
   kForceHigh = 6,      // x y z; on the next node along x
   kTensionHigh = 9,    // of edges along y and z that begin at the next node along x
-  kSums = 11,          // the arrays above begin at zero
+  kSums = 11,          // the arrays above are zeroed first
   kPosition = 11,      // x y z
-  kVelocity = 14,      // x y z; where there is damping
+  kVelocity = 14,      // x y z; with damping
   kStretch = 17,       // of edges along x, y and z, over their length at rest; beta times its rate included
   kInverseLength = 20  // of edges along x, y and z, times their length at rest
 };
 static_assert(kInverseLength + 3 == kPlaneArrays);
 
-/// A plane of nodes as seen from a place in it.
+/// A plane of nodes relative to a place in it.
 struct Place {
   double* values;
 
-  /// The compiler is kept from knowing where that is: it would keep a hundred addresses at hand instead of one and the
-  /// distances from it.
+  /// Hides that address from the compiler, which would otherwise keep a hundred addresses in registers instead of one
+  /// and the offsets from it.
   [[nodiscard]] [[gnu::always_inline]] Place seen_from(int index) const {
     double* there = values + index;
     asm("" : "+r"(there));
@@ -58,7 +59,7 @@ using Energy = EnergyLanes;
 struct Kind {
   double rest;      // m
   double per_rest;  // 1/m
-  double shortest;  // m^2, added to squared lengths: none is zero, and what is no number stays none
+  double shortest;  // m^2, added to squared lengths: none is zero, and NaN stays NaN
   double lag;       // beta / rest, s/m
 
   Kind(double rest_squared, double beta)
@@ -67,7 +68,7 @@ struct Kind {
   static constexpr double kShortest = 1e-20;
 };
 
-/// What of the springs is asked for.
+/// The quantity to compute from the springs.
 enum class Part { kElastic, kElasticAndDamping, kDamping, kEnergy, kProduct };
 
 constexpr bool is_damped(Part part) { return part == Part::kElasticAndDamping || part == Part::kDamping; }
@@ -81,7 +82,7 @@ struct SpringForce {
   Pack strain;
 };
 
-/// `rate` gives the ends' difference of velocity, where it is asked.
+/// `rate` returns the relative velocity of the ends, if it is needed.
 template <Part kPart, class Rate>
 [[gnu::always_inline]] inline SpringForce spring_force(const Kind& kind, const Pack3& d, const Rate& rate) {
   const Pack squared = dot(d, d) + kind.shortest;
@@ -92,7 +93,7 @@ template <Part kPart, class Rate>
   return result;
 }
 
-/// Which end of a spring is one further along x than the other.
+/// Which end of a spring is one node further along x.
 enum class Shift { kNone, kTo, kFrom };
 
 /// The rows of a spring's two ends.
@@ -119,7 +120,7 @@ struct Ends {
 template <int kAxis>
 using EdgeEnds = Ends<kAxis == 0 ? Shift::kTo : Shift::kNone>;
 
-/// Stretch and inverse length of a pack of edges, kept where they begin.
+/// Stretch and inverse length of a pack of edges, stored at their first nodes.
 template <Part kPart, int kAxis>
 [[gnu::always_inline]] inline void measure_edges(const Kind& kind, const EdgeEnds<kAxis>& ends) {
   const Pack3 d = ends.between(kPosition);
@@ -131,7 +132,8 @@ template <Part kPart, int kAxis>
   store(kind.rest * inverse, ends.from.at(kInverseLength + kAxis));
 }
 
-/// Pulls at both ends of the edges that begin at a pack of nodes, once all bricks have added their tensions.
+/// Applies the forces at both ends of the edges that begin at a pack of nodes, once all bricks have added their
+/// tensions.
 template <bool kUpward>
 [[gnu::always_inline]] inline void pull_edges(const Place& here, const Place& next_row, const Place& above) {
   const Pack3 position = here.three(kPosition);
@@ -169,7 +171,7 @@ void pull_diagonals(const Kind& kind, double stiffness, const Ends<kShift>& diag
   }
 }
 
-/// Which of its springs and corrections a law has, or that its bricks are solid: without any of them.
+/// Which springs and corrections a law has; solid bricks have none of them.
 struct Layout {
   bool solid = false;
   bool edges = false;
@@ -272,8 +274,8 @@ using Diagonals = std::array<Pack3, 4>;
   return {(d[0] - d[1]) + (d[2] - d[3]), low - high, low + high};
 }
 
-/// What pulls along the mean axes, off all corners on the high side of each and to those on the low, as forces at the
-/// low ends of the inner diagonals; at the high ends they are the opposite.
+/// Forces of tensions along the mean axes, from all corners on the high side of each towards those on the low side, at
+/// the low ends of the inner diagonals; those at the high ends are opposite.
 [[gnu::always_inline]] inline void add_axes(const Axes& pulls, Diagonals& forces) {
   const Pack3 both = pulls.x + pulls.y;
   const Pack3 only = pulls.y - pulls.x;
@@ -298,8 +300,8 @@ struct BrickRows {
   [[nodiscard]] [[gnu::always_inline]] Place operator[](std::size_t row) const { return rows[row]; }
 };
 
-/// What a pack of bricks pulls at its corners, in an order that needs few registers: the force at a corner goes to the
-/// node's sum as soon as it is whole.
+/// The forces of a pack of bricks on its corners, in an order that needs few registers: the force at a corner is added
+/// to the node's sum as soon as it is complete.
 template <Layout kLayout, Part kPart>
 class PackForces {
  public:
@@ -334,17 +336,17 @@ class PackForces {
     return at(pair.to) - at(pair.from);
   }
 
-  /// The compiler forgets which positions it has in registers: they are short, loads are not.
+  /// Makes the compiler reload positions: registers are scarce, loads are not.
   [[gnu::always_inline]] void read_again() { rows_ = rows_.seen_from(0); }
 
-  /// To the sum at the node.
+  /// Adds to the sum at the node.
   [[gnu::always_inline]] void give(int corner) const {
     const int array = (corner & 1) == 0 ? kForceLow : kForceHigh;
     const Place row = rows_[std::size_t(corner) >> 1];
     row.set_three(array, row.three(array) + forces_[corner]);
   }
 
-  /// To the sums at the edges.
+  /// Adds to the sums at the edges.
   [[gnu::always_inline]] void add_tensions() const {
     std::array<Pack, 12> stretches;
 #pragma GCC unroll 12
@@ -386,7 +388,7 @@ class PackForces {
     to = to - force;
   }
 
-  /// All that pulls the same at both ends of an inner diagonal: their springs, the mean axes, the guard.
+  /// All forces that are equal and opposite at the ends of an inner diagonal: springs, mean axes, guard.
   [[gnu::always_inline]] void pull_inner() {
     const Pack stiffness = springs_.law.inner * share_;
     Diagonals d;
@@ -434,7 +436,7 @@ class PackForces {
     add_axes({quarter * x * axes.x, quarter * y * axes.y, quarter * z * axes.z}, forces);
   }
 
-  /// The guard of brick_kernel.h. Where no brick of the pack is squeezed that far, it ends with the one comparison.
+  /// The guard of brick_kernel.h. If no brick of the pack is compressed that far, it costs one comparison.
   [[gnu::always_inline]] void guard(const Diagonals& d, Diagonals& forces) const {
     const Axes axes = axes_of(d);
     const Pack3 area_x = cross(axes.y, axes.z);

@@ -1,7 +1,7 @@
 #pragma once
 
-// Compiled once for each instruction set: SPRUNG_INSTRUCTION_SET names the one at hand and the namespace of all that is
-// made for it, so that the linker cannot take a function made for another.
+// Compiled once for each instruction set: SPRUNG_INSTRUCTION_SET names the current one and the namespace of everything
+// compiled for it, so that the linker cannot pick a function compiled for another.
 #pragma once
 #include <experimental/simd>
 
@@ -13,9 +13,9 @@ namespace sprung::SPRUNG_INSTRUCTION_SET {
 
 namespace simd = std::experimental;
 
-/// As many neighbours along x as this processor computes at once. Each lane is computed by itself and only with
-/// operations that IEEE 754 defines to the last bit, so the width never shows in a result; whether the processor fuses
-/// products and sums does.
+/// As many neighbours along x as this processor computes at once. Lanes are independent and use only operations that
+/// IEEE 754 defines to the last bit, so results do not depend on the width; they do depend on whether the processor
+/// fuses products and sums.
 using Pack = simd::native_simd<double>;
 using FloatPack = simd::rebind_simd_t<float, Pack>;
 inline constexpr int kLanes = int(Pack::size());
@@ -61,8 +61,8 @@ struct Pack3 {
 
 namespace sprung {
 
-/// While it lives, numbers too small for full precision count as zero on this thread: they cost a hundred times as much
-/// and come by the million where a motion dies away.
+/// While it lives, denormal numbers are flushed to zero on this thread: they cost a hundred times as much and occur by
+/// the million as a motion dies away.
 class FlushDenormals {
  public:
 #if defined(__SSE2__)

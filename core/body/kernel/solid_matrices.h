@@ -17,7 +17,7 @@ template <class Join>
   }
 }
 
-/// Of each pair the sum and the difference.
+/// The sum and the difference of each pair.
 [[nodiscard]] [[gnu::always_inline]] inline TrilinearMap map_of_corners(TrilinearMap values) {
   join_pairs(
       values, [](Pack3 & low, Pack3 & high) __attribute__((always_inline)) {
@@ -39,7 +39,7 @@ template <class Join>
   return values;
 }
 
-/// The map of bricks of which one corner moves by one along an axis and all others rest.
+/// The map of bricks with one corner displaced by one along an axis and all others fixed.
 [[nodiscard]] inline TrilinearMap move_of(std::size_t corner, std::size_t axis) {
   TrilinearMap corners;
   corners.fill({Pack(0.0), Pack(0.0), Pack(0.0)});
@@ -47,7 +47,7 @@ template <class Join>
   return map_of_corners(corners);
 }
 
-/// See SolidMatrices: of the bricks in the lanes from `own`, `corners` and `matrices` on.
+/// See SolidMatrices; for the bricks in the lanes from `own`, `corners` and `matrices` on.
 template <bool kCut>
 void write_matrices(const SolidLaw& law, const double* own, const double* corners, double* matrices) {
   const auto corner = [&](std::size_t index) {

@@ -11,8 +11,8 @@
 
 namespace sprung::SPRUNG_INSTRUCTION_SET {
 
-/// The trilinear map of bricks, x(s) = 1/8 sum over n of g_n s^n with s = -1, +1 at the corners: what is constant,
-/// along x, y, xy, z, xz, yz and xyz, the bits of n. The squared lengths of edges and diagonals that the law knows
+/// The trilinear map of bricks, x(s) = 1/8 sum over n of g_n s^n with s = -1, +1 at the corners: the coefficients of 1,
+/// x, y, xy, z, xz, yz and xyz, by the bits of n. The squared lengths of edges and diagonals that the law uses
 /// (StrainDifferences) are products of two of these vectors, without a square root.
 using TrilinearMap = std::array<Pack3, 8>;
 
@@ -44,7 +44,7 @@ using TrilinearMap = std::array<Pack3, 8>;
   return map;
 }
 
-/// Pulls at the corners: `pull[n]` goes to each with the sign of s^n there.
+/// Adds corner forces: `pull[n]` contributes to each with the sign of s^n there.
 [[gnu::always_inline]] inline void give_corners(const TrilinearMap& pull, const BrickRows& rows) {
 #pragma GCC unroll 2
   for (std::size_t z = 0; z < 2; ++z) {
@@ -67,7 +67,7 @@ using TrilinearMap = std::array<Pack3, 8>;
   }
 }
 
-/// Products of two vectors of the map that the differences are sums of two of.
+/// Products of two vectors of the map; each difference is a sum of two of them.
 inline constexpr std::array<std::pair<int, int>, 18> kProducts{{{1, 3},
                                                                 {1, 5},
                                                                 {2, 6},
@@ -105,7 +105,7 @@ inline constexpr std::array<std::pair<int, int>, kProducts.size()> kAskedBy = []
   return asked;
 }();
 
-/// Differences without a unit: h b, h t and h^2 q; what pulls at them, J.
+/// Dimensionless differences: h b, h t and h^2 q; their conjugate forces, J.
 using Differences = std::array<Pack, kDifferences>;
 
 /// Three columns.
@@ -123,7 +123,7 @@ struct Gradient {
   return {factor * f.x, factor * f.y, factor * f.z};
 }
 
-/// What two of three columns span: the derivative of their determinant, which is linear in each.
+/// Cross products of pairs of three columns: the derivative of their determinant, which is linear in each.
 [[nodiscard]] [[gnu::always_inline]] inline Gradient areas(const Gradient& a, const Gradient& b) {
   return {cross(a.y, b.z), cross(a.z, b.x), cross(a.x, b.y)};
 }
@@ -143,8 +143,9 @@ template <bool kCut>
   return f + sheared(f, s);
 }
 
-/// What the kernel is told of eight bricks. Whole ones: how many of the body's full bricks each is, by its material and
-/// its fill. Where one of them is cut: less than nothing, then the same and what its solid is like, see SolidNumber.
+/// The kernel's parameters of eight bricks. Whole ones: their stiffness in multiples of the body's full brick, by
+/// material and fill. If one of them is cut: a negative number, then the same and the parameters of its solid, see
+/// SolidNumber.
 template <bool kCut>
 class SolidNumbers {
  public:
@@ -193,12 +194,12 @@ class PackOfSolids {
     give_corners(pull, rows);
   }
 
-  /// How that changes while the corners move by what is in place of velocities: the second derivative times it.
+  /// The second derivative times the displacements stored in place of velocities.
   [[gnu::always_inline]] void multiply(const BrickRows& rows) const {
     give_corners(product(state(trilinear_map(rows, kPosition)), trilinear_map(rows, kVelocity)), rows);
   }
 
-  /// What the second derivative depends on.
+  /// The quantities that determine the second derivative.
   struct State {
     TrilinearMap map;
     Gradient f;
@@ -228,7 +229,7 @@ class PackOfSolids {
     return at;
   }
 
-  /// The second derivative times what the map's vectors move by.
+  /// The second derivative times a change of the map's vectors.
   [[nodiscard]] [[gnu::always_inline]] TrilinearMap product(const State& at, const TrilinearMap& moves) const {
     const Differences change = changes(at.map, moves);
     const Gradient f_change = secant(moves);
@@ -281,7 +282,7 @@ class PackOfSolids {
             quarter * g[4] + half.x * g[5] + half.y * g[6] + whole.z * g[7]};
   }
 
-  /// Its transpose: what a stress P asks of the map.
+  /// Its transpose: the forces of a stress P on the map.
   [[nodiscard]] [[gnu::always_inline]] TrilinearMap secant_pull(const Gradient& p) const {
     const Pack quarter(0.25 * law_.per_size);
     const Pack3 none{Pack(0.0), Pack(0.0), Pack(0.0)};
@@ -457,7 +458,7 @@ class PackOfSolids {
     return times(law_.shear, f) + times(slope, area);
   }
 
-  /// The Kelvin-Voigt solid's.
+  /// That of the Kelvin-Voigt solid.
   [[nodiscard]] [[gnu::always_inline]] Gradient viscous_stress(const Gradient& f, const Gradient& rate,
                                                                double beta) const {
     const Pack xx = dot(f.x, rate.x);
@@ -493,7 +494,7 @@ void solid_run(const SolidLaw& law, double beta, const BrickRows& rows, const Ru
       }
     };
     if (*own < 0) {
-      // Of a large body they come from memory, too few pages at a time for the processor to see them coming.
+      // Of a large body they come from memory, too few pages at a time for the hardware prefetcher.
       const double* next = own + kSolidNumbers * kPackPadding;
 #pragma GCC unroll 4
       for (int line = 0; line < kSolidNumbers; ++line) __builtin_prefetch(next + line * kPackPadding);

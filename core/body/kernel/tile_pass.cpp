@@ -16,15 +16,15 @@ namespace sprung::SPRUNG_INSTRUCTION_SET {
 
 namespace {
 
-/// How many nodes are copied in at a time: what follows finds them in the nearest cache.
+/// How many nodes are copied in at a time, so that later stages find them in the L1 cache.
 constexpr int kStride = 96;  // places
 
-/// Packs that begin before this have their neighbours, a row and a place further on, before `place`.
+/// Packs that begin before this have their neighbours, a row and a place further on, before `index`.
 int before_neighbours(int index, int pitch) { return index - pitch - kPackPadding; }
 
-/// Goes through a tile from low to high z with two planes of nodes at hand. Within a plane, edges are measured where
-/// the nodes are in, bricks follow where their edges are measured, and the nodes below are done with where all their
-/// bricks have been. Solid bricks have no edges of their own.
+/// Sweeps a tile from low to high z with two planes of nodes in the scratch. Within a plane, edges are measured once
+/// their nodes are loaded, bricks follow once their edges are measured, and the nodes below are finished once all their
+/// bricks are. Solid bricks have no edges of their own.
 template <Layout kLayout, Part kPart>
 class Walk {
  public:
@@ -46,7 +46,7 @@ class Walk {
   }
 
  private:
-  /// How far a plane's nodes and edges are in.
+  /// How far a plane's nodes and edges have been loaded.
   struct Entry {
     int plane;
     RunCursor nodes;
@@ -57,7 +57,7 @@ class Walk {
         : plane(index), nodes(tile, index, kNodes), sums(tile, index, kPlaces), edges(tile, index, kPlaces) {}
   };
 
-  /// How far what lies between a plane and the next is done.
+  /// How far the bricks between a plane and the next have been computed.
   struct Layer {
     int plane;
     RunCursor edges;
@@ -73,7 +73,7 @@ class Walk {
           yz_faces(tile, index, kYzFaces) {}
   };
 
-  /// How far a plane is done with.
+  /// How far a plane is finished.
   struct Exit {
     int plane;
     RunCursor faces;
@@ -117,7 +117,7 @@ class Walk {
     }
   }
 
-  /// With sums of nothing; what pulls at a run's first node from the node before it is kept one place lower.
+  /// With zeroed sums; contributions to a run's first node from the node before it are stored one place lower.
   void enter(Entry& entry, int nodes_to, int edges_to) {
     const Place to = plane(entry.plane);
     entry.sums.go_to(nodes_to, [&](const RunPart& part) {
@@ -153,7 +153,7 @@ class Walk {
     pull_diagonals<kPart>(springs_.face, input_.law.face, diagonals, part, tile_.shares, energy_);
   }
 
-  /// Both diagonals of faces along x.
+  /// Both face diagonals along x.
   void pull_faces(const Place& low, const Place& high, const RunPart& part) {
     pull_diagonals_of(Ends<Shift::kTo>{low, high}, part);
     pull_diagonals_of(Ends<Shift::kFrom>{low, high}, part);
@@ -208,7 +208,7 @@ class Walk {
     });
   }
 
-  /// Then sums of nodes are whole.
+  /// Sums of nodes are then complete.
   template <bool kHasLayer>
   void pull_edges_of(int index, const RunPart& part) const {
     const Place from = plane(index);
@@ -248,7 +248,7 @@ void walk(const TileView& tile, const PassInput& input, double* scratch, double*
   }
 }
 
-/// One walk for solid bricks and for each layout of springs; the law's zeros tell these apart.
+/// One pass for solid bricks and for each layout of springs, which follows from the zeros of the law.
 void run_tile(const TileView& tile, const PassInput& input, double* scratch, double* shared, Energy& energy) {
   if (input.is_solid) return walk<Layout{.solid = true}>(tile, input, scratch, shared, energy);
   const BrickLaw& law = input.law;

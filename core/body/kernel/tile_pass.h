@@ -14,11 +14,11 @@ struct Run {
   int node;   // runs of nodes: the body's node that comes first; the others follow it
 };
 
-/// The kinds of runs of a plane of nodes. All but those of nodes are a multiple of kPackPadding long and may hold
-/// places that are none of theirs.
+/// The kinds of runs of a plane of nodes. All but those of nodes are a multiple of kPackPadding long and may include
+/// places that are not theirs.
 enum RunKind : int {
   kNodes,        // all
-  kOwnNodes,     // no other tile pulls at them
+  kOwnNodes,     // no other tile contributes to them
   kSharedNodes,  // other tiles do
   kPlaces,       // all that hold nodes
   kBricks,       // between this plane and the next
@@ -28,18 +28,18 @@ enum RunKind : int {
   kRunKinds
 };
 
-/// More than any vector of numbers that is computed at once.
+/// No vector of numbers that is computed at once is wider.
 inline constexpr int kPackPadding = 8;
 
-/// A box of lattice cells with some of a body's bricks; each brick is in one tile. Its planes of nodes lie one row
-/// after the other along x in `pitch` places each, so the places next to one in x, y and z are place + 1, place + pitch
-/// and the same one in the next plane, and runs go on from row to row. Plain arrays, for code that is compiled once for
-/// each instruction set.
+/// A box of lattice cells with some of a body's bricks; each brick is in one tile. Its planes of nodes are stored row
+/// by row along x with `pitch` places per row, so the neighbours of a place in x, y and z are place + 1, place + pitch
+/// and the same one in the next plane, and runs continue from row to row. Plain arrays, for code that is compiled once
+/// for each instruction set.
 ///
-/// `shares` says of how many full bricks a run's bricks or faces are, 0 at the places that are none. Those of bricks
-/// lie pack by pack of kPackPadding places: of springs their own shares, then those of their low xy, zx and yz faces,
-/// which a face's two bricks add up to, of solid bricks see SolidNumber; `packs` says where each begins, and those that
-/// are alike, as inside a body, lie there once. Those of faces are one list.
+/// `shares`: the stiffness of a run's bricks or faces in multiples of a full brick's, 0 at places without one. Those of
+/// bricks are stored in packs of kPackPadding places: for springs their own shares, then those of their low xy, zx and
+/// yz faces, the sum over a face's two bricks; for solid bricks see SolidNumber. `packs` holds the offset of each pack;
+/// identical packs, as inside a body, are stored once. Those of faces are one list.
 struct TileView {
   int pitch;
   int planes;  // of nodes
@@ -49,8 +49,8 @@ struct TileView {
   const int* packs;
 };
 
-/// What one tile adds to the forces on a run of nodes that other tiles pull at too: x, y and z of the run one after the
-/// other.
+/// One tile's contribution to the forces on a run of nodes that other tiles contribute to as well: x, y and z of the
+/// run one after the other.
 struct SharedPart {
   int node;  // first
   int count;
@@ -65,8 +65,8 @@ struct SharedNodes {
   std::size_t last_part;  // one past
 };
 
-/// A tile's planes of nodes in the scratch: kPlaneArrays arrays each, an odd number of cache lines long, for arrays
-/// that lie powers of two apart would fight for the same places in the cache. Before kFirstPlace no node lies.
+/// A tile's planes of nodes in the scratch: kPlaneArrays arrays each, an odd number of cache lines long, since arrays
+/// at power-of-two distances would compete for the same cache lines. There is no node before kFirstPlace.
 inline constexpr int kFirstPlace = 8;
 inline constexpr int kMostPlaces = 760;  // of a plane, with room for a pack, a row and a place behind the last brick
 inline constexpr int kArraySize = 776;
@@ -77,9 +77,9 @@ static_assert(kArraySize % 16 == 8 && kArraySize >= kFirstPlace + kMostPlaces + 
 /// Doubles of scratch for a tile.
 inline constexpr int kScratchSize = 2 * kPlaneSize;
 
-/// The law of solid bricks (SolidBrick): Young's modulus and Lame's constants in J, times h^3, and what a whole brick
-/// answers to differences of its springs over E h^3: the stiffness of a bend to itself and to the bend of the same
-/// plate across it, of a twist and of warping.
+/// The law of solid bricks (SolidBrick): Young's modulus and Lame's constants in J, times h^3, and a whole brick's
+/// stiffnesses against differences of its springs over E h^3: of a bend with itself and with the transverse bend of the
+/// same plate, of a twist and of warping.
 struct SolidLaw {
   double per_size = 0;  // 1 / h, 1/m
   double young = 0;
@@ -91,11 +91,11 @@ struct SolidLaw {
   double warping = 0;
 };
 
-/// The numbers of a pack of solid bricks where one of them is cut, kPackPadding each. Before them -1; a pack of whole
-/// bricks has but their shares.
+/// The parameters of a pack of solid bricks if one of them is cut, kPackPadding each, preceded by -1; a pack of whole
+/// bricks has only their shares.
 enum SolidNumber : int {
   kSolidIsCut = 0,
-  kSolidShare = 1,      // of how many of the body's full bricks it is, by its material and fill
+  kSolidShare = 1,      // stiffness in multiples of the body's full brick, by material and fill
   kSolidCentroid = 2,   // x y z, in brick lengths from the middle
   kSolidStiffness = 5,  // of the nine gradients, over E h^3: the upper triangle row by row
   kSolidWarping = 50,   // of q, likewise
@@ -105,48 +105,48 @@ enum SolidNumber : int {
 
 enum class Pass {
   kForces,   // writes the springs' forces, N
-  kDamping,  // writes what of them is damping, N
-  kProduct,  // writes the second derivative of the energy times what is in place of velocities, N; solid bricks only
+  kDamping,  // writes their damping part, N
+  kProduct,  // writes the second derivative of the energy times the vector in place of velocities, N; solid bricks only
   kEnergy,   // adds up their energy, J
   kMove      // positions += drift * velocities, then velocities += kick * (forces / mass + gravity - alpha velocities)
 };
 
-/// What a pass over a body's tiles reads and writes; arrays hold x y z a node.
+/// Input and output of a pass over a body's tiles; arrays hold x y z per node.
 struct PassInput {
   Pass pass = Pass::kForces;
   BrickLaw law;
-  bool is_solid = false;  // then bricks answer by `solid`, not by `law`
+  bool is_solid = false;  // then bricks follow `solid`, not `law`
   SolidLaw solid;
   double brick_size = 0;                   // m
   double beta = 0;                         // s
   double* positions = nullptr;             // m; written by kMove only
   double* velocities = nullptr;            // m/s; written by kMove only
   double* forces = nullptr;                // N; kForces, kDamping and kProduct
-  const double* inverse_masses = nullptr;  // a node, 1/kg; kMove
+  const double* inverse_masses = nullptr;  // per node, 1/kg; kMove
   double drift = 0;                        // s; kMove
   double kick = 0;                         // s; kMove
   double keep = 1;                         // 1 - kick * alpha
   std::array<double, 3> gravity_kick{};    // kick * gravity, m/s
 };
 
-/// Sums of energy, J: always the same bricks' in the same place.
+/// Partial sums of energy, J: each lane always sums the same bricks.
 using EnergyLanes = std::array<double, kPackPadding>;
 
-/// Computes all springs of a tile. Nodes of its own are then done with; what it adds to the forces on shared nodes goes
+/// Computes all springs of a tile. Its own nodes are then finished; its contributions to the forces on shared nodes go
 /// to `shared`. `scratch` holds kScratchSize finite numbers. The energy is added lane by lane.
 using TilePass = void (*)(const TileView& tile, const PassInput& input, double* scratch, double* shared,
                           EnergyLanes& energy);
 
-/// Sums the parts of the forces on shared nodes and does the rest for them.
+/// Sums the contributions to the forces on shared nodes and finishes those nodes.
 using SharedPass = void (*)(const SharedNodes& nodes, const SharedPart* parts, const double* shared,
                             const PassInput& input);
 
-/// The second derivatives of the energy of kPackPadding solid bricks by what their corners 1 to 7 do, N/m: entry
-/// anchored_index(a, b) of each side by side. `own`: as a run's bricks have them, see TileView; `corners`: x y z of
-/// each corner, m, those of all bricks side by side.
+/// The second derivatives of the energy of kPackPadding solid bricks with respect to their corners 1 to 7, N/m: entry
+/// anchored_index(a, b) of each side by side. `own`: their parameters, see TileView; `corners`: x y z of each corner,
+/// m, those of all bricks side by side.
 using SolidMatrices = void (*)(const SolidLaw& law, const double* own, const double* corners, double* matrices);
 
-/// The innermost loops, compiled for one instruction set; null where the processor cannot run them.
+/// The innermost loops, compiled for one instruction set; null if the processor cannot run them.
 struct SpringKernel {
   const char* name = "";
   TilePass tile = nullptr;

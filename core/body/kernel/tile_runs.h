@@ -60,7 +60,7 @@ struct Three {
   Number* z;
 };
 
-/// Takes `count` points x y z x y z ... apart, `drift` times their rates added. The rates as well where they are asked.
+/// Deinterleaves `count` points x y z x y z ..., with `drift` times their rates added; the rates as well if requested.
 template <bool kRates>
 void take_apart(const double* __restrict points, const double* __restrict rates, double drift, int count,
                 const Three<double>& to, const Three<double>& rates_to) {
@@ -87,7 +87,7 @@ inline void add_rates(double* __restrict values, const double* __restrict rates,
   for (int i = 0; i < count; ++i) values[i] += factor * rates[i];
 }
 
-/// What is left to do for nodes once their forces are known.
+/// Finishes nodes once their forces are known.
 inline void finish_nodes(const PassInput& input, int node, int count, const Three<const double>& forces) {
   const std::ptrdiff_t first = 3 * std::ptrdiff_t(node);
   const double* __restrict x = forces.x;

@@ -3,16 +3,17 @@
 
 namespace sprung {
 
-/// How two convex features of surfaces lie to each other: a point and a triangle, or two edges.
+/// The relative position of two convex features of surfaces: a point and a triangle, or two edges.
 struct FeatureDistance {
-  Vec3 apart;               // m, from the nearest place of the second to that of the first
+  Vec3 apart;               // m, from the nearest point of the second to that of the first
   Eigen::Vector4d weights;  // of the four corners, those of the second negative: they add up to `apart`
 };
 
 /// After C. Ericson, Real-Time Collision Detection (2005), 5.1.5.
 [[nodiscard]] FeatureDistance point_to_triangle(const Vec3& point, const Vec3& a, const Vec3& b, const Vec3& c);
 
-/// Of the edges from `a` to `b` and from `c` to `d`; of parallel ones some nearest places. Ericson, 5.1.9.
+/// Between the edges from `a` to `b` and from `c` to `d`; for parallel ones, some pair of nearest points. Ericson,
+/// 5.1.9.
 [[nodiscard]] FeatureDistance edge_to_edge(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
 }  // namespace sprung

@@ -6,21 +6,21 @@
 namespace sprung {
 namespace {
 
-constexpr int kMostLooks = 20;         // in a step, after each of which something moved in a way that was not foreseen
+constexpr int kMostLooks = 20;         // in a step, each after something deviated from the prediction
 constexpr int kImpulseRounds = 12;     // of impulses between corners ...
 constexpr int kSlowRounds = 36;        // ... then, up to here, of nodes that are slowed down ...
 constexpr int kMostRounds = 400;       // ... and of nodes that move as one, more from round to round
-constexpr double kShareOfEach = 0.45;  // of what two features may come closer, that each may use
+constexpr double kShareOfEach = 0.45;  // of the allowed approach of two features, that each may use
 
-/// m, that two features may come closer in a step; below 0: that they have to get apart.
+/// How far two features may approach in a step, m; below 0: they must separate.
 double allowed_approach(const AwakePair& pair, double brick) {
   return pair.gap < 0 ? 0 : kFreeShare * (pair.gap - kLeastGap * brick);
 }
 
-/// What has crossed another surface comes out by contact.
+/// What has crossed another surface is moved out by contact.
 bool is_left_alone(const AwakePair& pair) { return pair.gap < 0 && pair.bodies[1] != AwakePair::kNoBody; }
 
-/// The weights of the corners that come closest.
+/// The weights of the corners that approach most.
 Eigen::Vector4d worst_corners(const AwakePair& pair, const Eigen::Vector4d& speeds) {
   const int count = pair.pair.count;
   Eigen::Index slowest = 0;

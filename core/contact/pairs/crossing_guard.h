@@ -8,41 +8,40 @@
 
 namespace sprung {
 
-/// Lets no contact surface of a group's bodies pass through another one, itself, or an obstacle: points through
-/// triangles or into obstacles without edges, and edges through edges. The normal between the nearest places of two
-/// such features separates them, and stays between them while moving by dt as long as
+/// Prevents contact surfaces of a group's bodies from passing through each other, themselves, or an obstacle: points
+/// through triangles or into obstacles without edges, and edges through edges. The normal between the nearest points of
+/// two such features separates them, and still does after a step of dt if
 ///
 ///   dt (least speed of the first's corners along it - greatest of the second's) > -0.8 gap.
 ///
-/// Where that is not so, an impulse acts between the nearest places, or, where that is not enough, the corners that
-/// break it; the first keeps momentum and angular momentum, the other momentum. Where these do not come to an end,
-/// nodes are slowed down one by one, and at last all nodes of what still meets move as one, with their momentum, or
-/// with what is held among them. Sliding stays free. Explicit steps only; what has crossed at the start is left alone
-/// until it is apart. It lets go only where what is held on two sides meets. Deterministic.
+/// If that is violated, an impulse acts between the nearest points or, if that is not enough, on the corners that
+/// violate it; the first conserves momentum and angular momentum, the other momentum. If these do not converge, nodes
+/// are slowed down one by one, and finally all nodes of features that still meet move as one, with their momentum, or
+/// with the pinned nodes among them. Sliding stays free. Explicit steps only; what has crossed at the start is ignored
+/// until it has separated. It fails only where parts pinned on both sides meet. Deterministic.
 class CrossingGuard {
  public:
-  /// What may meet must outlive it.
+  /// `near` must outlive it.
   explicit CrossingGuard(NearFeatures& near) : near_(near) {}
 
-  /// Changes velocities so that nothing is crossed when all move by dt, after NearFeatures::begin_step()
-  /// and whatever has changed them since. `inverse_masses` by body of the group and node, 1/kg, 0 for nodes that are
-  /// held.
+  /// Changes velocities so that nothing crosses in a step of dt; call after NearFeatures::begin_step() and all other
+  /// changes of velocities. `inverse_masses` by body of the group and node, 1/kg, 0 for pinned nodes.
   void apply(const World& world, const std::vector<Eigen::VectorXd>& inverse_masses, double dt);
 
  private:
-  /// 1/kg; 0 for what is held.
+  /// 1/kg; 0 for pinned nodes.
   [[nodiscard]] double inverse_mass(std::size_t row, int node) const {
     return row < near_.group_size() ? (*inverse_masses_)[row][node] : 0;
   }
-  /// Whether nothing can push it.
+  /// Whether no impulse can move it.
   [[nodiscard]] bool is_pinned(const AwakePair& pair, int corner) const;
-  /// Whether velocities were changed and what they lead to has to be looked at; not where it lets go.
+  /// Whether velocities were changed and the pairs must be checked again; false if it fails.
   bool keep_apart(double dt);
   [[nodiscard]] bool may_meet(const AwakePair& pair, const Eigen::Vector4d& speeds, double dt) const;
-  /// Lists the pairs that may meet, beside those that did before; false: there are none now.
+  /// Lists the pairs that may meet, in addition to earlier ones; false: there are none now.
   bool find_met(double dt);
-  /// By an impulse between places of the two features, given by the corners' weights, so that these get away from each
-  /// other as they must.
+  /// Applies an impulse between points of the two features, given by the corners' weights, so that they separate as
+  /// required.
   void push(const AwakePair& pair, const Eigen::Vector4d& speeds, const Eigen::Vector4d& weights, double dt);
   void slow_nodes(const AwakePair& pair, const Eigen::Vector4d& speeds, double dt);
   /// Nodes that move as one.
@@ -50,7 +49,7 @@ class CrossingGuard {
     std::vector<std::pair<std::size_t, int>> nodes{};  // body and node
     Vec3 momentum = Vec3::Zero();
     double mass = 0;
-    std::optional<Vec3> pinned_velocity{};  // m/s, of what is held among them
+    std::optional<Vec3> pinned_velocity{};  // m/s, of the pinned nodes among them
   };
   [[nodiscard]] std::size_t weld_of(std::size_t row, int node);
   void weld(const AwakePair& pair);

@@ -8,17 +8,17 @@ namespace sprung {
 namespace {
 
 constexpr double kNear = 0.35;    // bricks within which features are listed
-constexpr double kBeside = 1e-6;  // of a feature's corners: the nearest place is on its edge where one has less weight
+constexpr double kBeside = 1e-6;  // of a feature's corners: the nearest point is on its edge if one has less weight
 constexpr double kStill = 0.4;    // of its gap, that a point may move while only one of the triangles about it is awake
-constexpr double kBorne = 0.5;    // of where contacts hold, from where on a point has to be held itself ...
+constexpr double kBorne = 0.5;    // of the contact distance, below which a point must be supported itself ...
 constexpr double kDoze =
-    0.45;  // ... and of its gap that it may lose meanwhile, where one at the same node bears a load
+    0.45;  // ... and of its gap that it may lose meanwhile, if another at the same node carries a load
 constexpr double kSame = 1e-3;  // bricks by which two triangles are about as near to a point
 
-/// Whether the nearest places of two edges are at an end of one: points hold these.
+/// Whether the nearest points of two edges are at an end of one: such contacts are left to points.
 bool is_at_end(const AwakePair& edges) { return edges.weights.cwiseAbs().minCoeff() <= kBeside; }
 
-/// Whether a box about some places comes within `margin` of one about others.
+/// Whether the boxes around two sets of points come within `margin` of each other.
 template <std::size_t N, std::size_t M>
 bool are_near(const std::array<Vec3, N>& a, const std::array<Vec3, M>& b, double margin) {
   for (int axis = 0; axis < 3; ++axis) {
@@ -195,7 +195,8 @@ void FeaturePairs::measure(std::vector<AwakePair>& awake) {
   for (Sleeper* sleeper : awake_) {
     AwakePair pair = measure(sleeper->pair);
     const AwakePair outside = pair;
-    // What has passed by the edge of its triangle since it was woken cannot be held by it, but still must not cross it.
+    // A point that has passed the edge of its triangle since it was woken cannot be supported by it, but still must not
+    // cross it.
     const bool is_beside = pair.pair.count == 1 && !tell_inside(pair);
     measured_.push_back(is_beside ? outside : pair);
     measured_.back().may_hold = !is_beside;
@@ -217,7 +218,7 @@ void FeaturePairs::choose_holders(std::vector<AwakePair>& pairs) {
     const AwakePair& pair = pairs[row];
     if (pair.pair.count == 2 || !pair.may_hold) continue;
     Nearest& nearest = nearest_of(pair);
-    // What bears the load already keeps it among triangles that are as near.
+    // Among equally near triangles, the one that carries the load keeps it.
     const double slack = kSame * brick_ * (int(nearest.is_loaded) - int(pair.is_loaded));
     if (nearest.step == step_ && !(std::abs(pair.gap) < nearest.distance - slack)) continue;
     nearest = {step_, std::abs(pair.gap), row, pair.is_loaded};

@@ -8,25 +8,25 @@
 namespace sprung {
 
 /// The points and triangles, and the edges, of two surfaces, or of one with itself, that may meet in the steps to come.
-/// Those that are further apart sleep for as long as the front says that they cannot have come closer by more than
-/// way_until_due(), unless they bear a load. Left out: features of one surface whose bricks share a node, and edges
-/// that have crossed. A point that is behind its triangle is inside of the surface where that is the nearest one.
+/// Those further apart sleep until the front can no longer exclude that they have come closer by more than
+/// way_until_due(), unless they carry a load. Excluded: features of one surface whose bricks share a node, and edges
+/// that have crossed. A point behind its triangle is inside the surface if that triangle is the nearest one.
 class FeaturePairs : private NearLists {
  public:
-  /// Of bodies `bodies`; their trees, the same twice for one with itself, must outlive it.
+  /// For the bodies `bodies`; their trees, the same twice for one with itself, must outlive it.
   FeaturePairs(SurfaceTree& a, SurfaceTree& b, std::array<std::size_t, 2> bodies, double friction);
   FeaturePairs(const FeaturePairs&) = delete;
   FeaturePairs& operator=(const FeaturePairs&) = delete;
 
-  /// To be called after SurfaceTree::follow(): finds those that may meet until it is called again.
+  /// Call after SurfaceTree::follow(): finds the pairs that may meet until the next call.
   void wake();
-  /// Appends these as they are now, in a fixed order. To be called after SurfaceTree::refresh().
+  /// Appends these with their current geometry, in a fixed order. Call after SurfaceTree::refresh().
   void measure(std::vector<AwakePair>& awake);
 
  private:
   struct Sleeper {
     FeaturePair pair;
-    double wake = 0;              // m, by which its block may have come closer before it has to be looked at
+    double wake = 0;              // m, by which its block may come closer before it must be checked
     Vec3 impulse = Vec3::Zero();  // N s
   };
   struct NearList {
@@ -53,21 +53,21 @@ class FeaturePairs : private NearLists {
   [[nodiscard]] AwakePair measure(const FeaturePair& pair);
   /// Whether two edges have crossed.
   [[nodiscard]] bool have_crossed(const AwakePair& edges);
-  /// Turns it round where the point is behind the triangle; false where that tells nothing, beside the triangle.
+  /// Flips the pair if the point is behind the triangle; false if that is undecided, beside the triangle.
   [[nodiscard]] bool tell_inside(AwakePair& pair);
   [[nodiscard]] bool are_connected(std::size_t point, std::size_t other) const;
-  /// One that is due: it goes on sleeping, or is woken, where it is not left alone.
+  /// Checks a pair that is due: it continues to sleep, or is woken unless it is excluded.
   void look_at(Sleeper& sleeper, double closer, double coming);
   struct Woken {
     Sleeper* sleeper;
     double coming;  // m, that the two may come closer until woken again
   };
-  /// The step in which a pair bore a load at the node nearest to the point of this one.
+  /// The step in which a pair carried a load at the node nearest to the point of this one.
   [[nodiscard]] long& loaded_at(const AwakePair& pair);
-  /// Whether one that was woken need not be looked at until it is woken again, since another one holds its point, or
-  /// its node.
+  /// Whether a woken pair need not be checked until it is woken again, since another one supports its point or its
+  /// node.
   [[nodiscard]] bool may_doze(const AwakePair& pair, const Woken& woken);
-  /// Lets the nearest triangle hold a point where it is at the edge of that, and where it is inside.
+  /// Points at the edge of a triangle, or inside, are supported by the nearest triangle only.
   void choose_holders(std::vector<AwakePair>& pairs);
 
   std::array<std::reference_wrapper<SurfaceTree>, 2> trees_;

@@ -9,23 +9,23 @@
 namespace sprung {
 
 /// All features of a group's bodies, and of the obstacles about them, that may meet in a step: points and triangles,
-/// edges, and points and obstacles without edges. Looks some steps ahead, and again where nodes leave the way that was
-/// foreseen. Deterministic: what it finds depends on what the bodies did since it was made.
+/// edges, and points and obstacles without edges. Predicts some steps ahead, and again if nodes leave the predicted
+/// path. Deterministic: the results depend on the bodies' motion since construction.
 class NearFeatures {
  public:
   using Trees = std::vector<std::unique_ptr<SurfaceTree>>;
-  /// The bodies have to outlive it. `trees`: of the same bodies with the same surfaces, from one before; or none. What
-  /// it finds does not depend on them.
+  /// The bodies must outlive it. `trees`: of the same bodies with the same surfaces, from an earlier instance; or none.
+  /// Results do not depend on them.
   NearFeatures(const Group& group, const World& world, Trees trees = {});
   [[nodiscard]] Trees take_trees() &&;
-  /// Whether the bodies have the surfaces that they had.
+  /// Whether the bodies still have the same surfaces.
   [[nodiscard]] bool is_of_surfaces() const;
 
-  /// Measures what may meet in a step of dt, as far as was foreseen in the last one. `elapsed`: since the obstacles
-  /// were where the world has them, s.
+  /// Measures the pairs that may meet in a step of dt, as predicted in the last one. `elapsed`: since the obstacles had
+  /// the world's poses, s.
   void begin_step(const World& world, double elapsed, double dt);
-  /// When velocities are those of the step: finds and measures all that may meet, where something moves in a way that
-  /// was not foreseen. Returns whether it did.
+  /// Once velocities are those of the step: finds and measures all pairs that may meet, if something deviates from the
+  /// prediction. Returns whether it did.
   [[nodiscard]] bool look_again(const World& world, double dt);
   void end_step(double dt) { since_look_ += dt; }
 
@@ -37,11 +37,11 @@ class NearFeatures {
   [[nodiscard]] SoftBody& body(std::size_t row) const;
   [[nodiscard]] std::size_t group_size() const { return group_.size(); }
 
-  /// Of a pair's corner, m/s: as it was after begin_step() or refresh_velocities(), or now.
+  /// The velocity of a pair's corner, m/s: as it was after begin_step() or refresh_velocities(), or now.
   [[nodiscard]] Vec3 known_velocity(const AwakePair& pair, int corner);
   [[nodiscard]] Vec3 velocity(const AwakePair& pair, int corner) const;
   void refresh_velocities();
-  /// That carries most of a pair's first corner.
+  /// The node that carries most of a pair's first corner.
   [[nodiscard]] int nearest_node(const AwakePair& pair) const;
   /// Calls visit(body, node, weight) for all nodes that carry a corner, none for an obstacle without edges.
   template <class Visit>
@@ -62,10 +62,9 @@ class NearFeatures {
     ShapePairs pairs;
   };
 
-  /// How far the next step of dt takes any node from where it was foreseen to go, bricks; infinite: further ahead than
-  /// was looked.
+  /// How far the next step of dt takes any node from its predicted position, bricks; infinite: beyond the prediction.
   [[nodiscard]] double surprise(double dt) const;
-  /// `slack`: bricks that nodes may be away from where they are foreseen to go.
+  /// `slack`: how far nodes may deviate from the prediction, bricks.
   void predict(const World& world, double dt, double slack);
   void measure(const World& world);
 
@@ -78,7 +77,7 @@ class NearFeatures {
   std::vector<Against> against_;
   std::vector<Pose> poses_;  // of all obstacles, in this step
   std::vector<AwakePair> awake_;
-  /// When last looked ahead: how far, and the nodes then.
+  /// At the last prediction: how far it reaches, and the nodes.
   struct Seen {
     Points positions;
     Points velocities;

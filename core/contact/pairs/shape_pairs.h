@@ -7,21 +7,21 @@
 namespace sprung {
 
 /// The points of a surface that may meet an obstacle without edges (a half-space, ball or capsule) in the steps to
-/// come: what FeaturePairs is to two surfaces. The surface is followed by its tree, the obstacle by its motion.
+/// come: the counterpart of FeaturePairs. The surface is followed by its tree, the obstacle by its motion.
 class ShapePairs {
  public:
-  /// Of body `body`; its tree must outlive it.
+  /// For body `body`; its tree must outlive it.
   ShapePairs(SurfaceTree& tree, std::size_t body);
 
-  /// To be called after SurfaceTree::follow(): finds those that may meet until it is called again, within `time` (s).
-  /// `pose`: of the obstacle now.
+  /// Call after SurfaceTree::follow(): finds the points that may meet until the next call, within `time` (s). `pose`:
+  /// of the obstacle now.
   void wake(const Obstacle& obstacle, const Pose& pose, double time);
-  /// Appends these as they are now, in a fixed order. To be called after SurfaceTree::refresh().
+  /// Appends these with their current geometry, in a fixed order. Call after SurfaceTree::refresh().
   void measure(const Obstacle& obstacle, const Pose& pose, std::vector<AwakePair>& awake);
 
  private:
-  /// How far a subtree and the obstacle come closer, m, if the one moves like a ball of vectors, and the other by
-  /// `shift` (m) and, beside that, by no more than `turned` (m).
+  /// How far a subtree and the obstacle come closer, m, if the displacements of the one lie in a ball of vectors, and
+  /// the other moves by `shift` (m) plus at most `turned` (m).
   [[nodiscard]] double closer(const Obstacle& obstacle, const Pose& pose, const VectorBall& moved, const Vec3& shift,
                               double turned) const;
   void look_at(int leaf, const Obstacle& obstacle, const Pose& pose, double coming);
@@ -31,7 +31,7 @@ class ShapePairs {
   double brick_;                     // m
   Pose pose_before_;                 // when last woken
   std::vector<double> ways_;         // by node of the tree: how far its cluster and the obstacle have come closer, m
-  std::vector<double> brick_wakes_;  // by brick of the skin: the way at which it has to be looked at
+  std::vector<double> brick_wakes_;  // by brick of the skin: the approach at which it must be checked
   std::vector<double> point_wakes_;  // by point, likewise
   std::vector<Vec3> impulses_;       // by point, N s
   std::vector<int> awake_;           // points

@@ -6,10 +6,10 @@
 namespace sprung {
 namespace {
 
-constexpr std::size_t kGrown = 2;  // times, with so many more: a front that has grown so far is made anew
+constexpr std::size_t kGrown = 2;  // times, plus a constant: a front that has grown this much is rebuilt
 constexpr std::size_t kGrownBy = 500;
 constexpr double kFar = 0.5;     // bricks: pairs of subtrees that are further apart stay whole
-constexpr double kTurned = 0.4;  // bricks that parts of bricks move by, at least, as these turn by a radian
+constexpr double kTurned = 0.4;  // bricks that parts of bricks move, at least, as these turn by a radian
 }  // namespace
 
 ContactFront::ContactFront(SurfaceTree& a, SurfaceTree& b, double margin, NearLists& lists, Facing facing)
@@ -102,7 +102,7 @@ void ContactFront::look(int a, int b, int list) {
   if (is_self() && a == b) return split(a, b);
   const double distance = a_.box(a).exteriorDistance(b_.box(b));
   const bool are_leaves = one.is_leaf() && other.is_leaf();
-  // What may be needed in this very step counts as near.
+  // Pairs that may be needed in this step count as near.
   const double needed = moving_closer(a, b);
   if (distance > std::max((are_leaves ? margin_ : kFar * brick_), needed)) {
     drop_list();

@@ -17,7 +17,7 @@ struct NearBricks {
   std::size_t block;  // see ContactFront::closer()
 };
 
-/// What a front has listed of bricks that are near each other.
+/// The lists that a front keeps of bricks that are near each other.
 class NearLists {
  public:
   NearLists() = default;
@@ -25,34 +25,34 @@ class NearLists {
   NearLists& operator=(const NearLists&) = delete;
   virtual ~NearLists() = default;
 
-  /// Fills a list anew; its number is at most one more than any before. Returns whether that is a change.
+  /// Refills a list; its number is at most one more than any before. Returns whether it changed.
   virtual bool fill(const NearBricks& bricks) = 0;
-  /// Empties one list. Returns whether that is a change.
+  /// Empties one list. Returns whether it changed.
   virtual bool clear(int list) = 0;
   /// Removes all lists.
   virtual void clear() = 0;
 };
 
-/// Whether surfaces have to face each other where they are to be near: bricks of one surface that look the same way are
-/// near each other without coming closer.
+/// Whether surfaces must face each other to be near: bricks of one surface with similar normals are near each other
+/// without approaching.
 enum class Facing { kNeeded, kIgnored };
 
 /// Which parts of two surfaces, or of one with itself, are near each other, and which points face which triangles
-/// there. Pairs of subtrees make up a front through the product of the two trees: each has a distance that its parts
-/// must come closer by before it has to be looked at again, and is charged with how far any two points of the
-/// two can have come closer: bodies that fall or turn together cost nothing. Where a pair's distance is used up, it is
-/// measured anew, and splits if it is near; pairs of bricks that are near are listed.
+/// there. Pairs of subtrees make up a front through the product of the two trees: each has a distance by which its
+/// parts must approach before it is checked again, and is charged with how far any two points of the two can have come
+/// closer: bodies that fall or turn together cost nothing. When a pair's distance is used up, it is measured again, and
+/// split if it is near; pairs of bricks that are near are listed.
 ///
 /// Rigorous: bricks whose points, edges or triangles can meet before the trees are followed again are listed, except
 /// that within one surface bricks with a neighbour in common are left out, and that normals may have to face each
-/// other, which is asked for again when they may have turned by kBent.
+/// other, which is checked again when they may have turned by kBent.
 class ContactFront {
  public:
   /// The trees, the same twice for one surface with itself, and the lists must outlive it. Bricks within `margin` (m)
   /// are near.
   ContactFront(SurfaceTree& a, SurfaceTree& b, double margin, NearLists& lists, Facing facing = Facing::kNeeded);
 
-  /// To be called after SurfaceTree::follow(). Returns whether any list has changed.
+  /// Call after SurfaceTree::follow(). Returns whether any list has changed.
   bool advance();
 
   /// How far (m) anything of two bricks of this block can have come closer since it was made, and may until the trees
@@ -65,7 +65,7 @@ class ContactFront {
  private:
   /// Two subtrees.
   struct Pair {
-    double wake;  // m, by which its block may have come closer before it is looked at again
+    double wake;  // m, by which its block may have come closer before it is checked again
     int a;
     int b;
     int list;  // its number; -1: none
@@ -90,7 +90,7 @@ class ContactFront {
   [[nodiscard]] double moving_closer(int a, int b) const;
   [[nodiscard]] std::size_t block_of(int a, int b);
   void keep(int a, int b, double budget, int list);
-  /// Keeps what a pair of subtrees that is due is to be replaced by; `list`: the one that it had.
+  /// Stores the replacements of a pair of subtrees that is due; `list`: its former list.
   void look(int a, int b, int list);
   void split(int a, int b);
   [[nodiscard]] int fill_list(int a, int b, double margin, int list);

@@ -19,7 +19,7 @@ struct NormalCone {
   double spread;
 };
 
-/// What touches on a body's behalf, arranged by brick.
+/// The contact geometry of a body, arranged by brick.
 struct ContactSurface {
   explicit ContactSurface(const SoftBody& body);
 
@@ -30,34 +30,34 @@ struct ContactSurface {
   std::vector<int> first_triangle;            // b + 1
   std::vector<std::array<int, 2>> edges;      // of the triangles, each once; grouped by the brick of the first point
   std::vector<int> first_edge;                // b + 1
-  Points normals;                             // n x 3, at rest, unit, outward; 0 where no triangle is
+  Points normals;                             // n x 3, at rest, unit, outward; 0 without triangles
   std::vector<NormalCone> cones;              // b
-  /// By row of a brick, ascending: the rows of those that are connected to it or have such a neighbour in common.
-  /// Their skins cannot meet without a fold within a brick or two.
+  /// By row of a brick, ascending: the rows of those connected to it or to a common neighbour. Their skins cannot meet
+  /// without a fold within a brick or two.
   std::vector<std::vector<int>> neighbours;  // b
 
  private:
-  /// Returns where in points each of the embedding's is.
+  /// Returns the index in points of each of the embedding's.
   [[nodiscard]] std::vector<int> add_points(const Embedding& embedding);
   void add_triangles(const SoftBody& body, const std::vector<int>& place_of);
   void add_edges();
 };
 
-/// The cosine between the normals of what touches, at most, and how far (rad) a brick's normals may turn, against each
-/// other and until they are looked at again.
+/// The largest cosine between the normals of features in contact, and how far (rad) a brick's normals may turn,
+/// relative to each other and until they are checked again.
 inline constexpr double kFacing = 0.2;
 inline constexpr double kBent = 0.5;
 
-/// A normal of the skin at rest carried along by its brick, unit.
+/// A normal of the skin at rest transformed with its brick, unit.
 [[nodiscard]] Vec3 carried_normal(const Body& body, int brick, const Vec3& normal);
 
 /// Whether two bricks share a node.
 [[nodiscard]] bool share_a_node(const Body& body, int a, int b);
 
-/// Made when it is first asked for: contacts, their triangles and the rest shape do not change after that.
+/// Built on first use: contacts, their triangles and the rest shape do not change after that.
 [[nodiscard]] const ContactSurface& contact_surface_of(SoftBody& body);
 
-/// What a point has of what its brick's corners have (m x 3, per node of the body).
+/// A nodal quantity (m x 3) at a point, interpolated from its brick's corners.
 [[nodiscard]] inline Vec3 carried(const Body& body, int brick, const CornerWeights& weights, const Points& values) {
   const auto& nodes = body.grid.nodes[brick];
   Vec3 sum = Vec3::Zero();

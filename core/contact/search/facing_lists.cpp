@@ -5,7 +5,7 @@
 namespace sprung {
 namespace {
 
-constexpr double kMayFace = 0.9;  // cosine between normals, at most, that may turn to kFacing while a list is good
+constexpr double kMayFace = 0.9;  // largest cosine between normals that may turn to kFacing while a list is valid
 
 }  // namespace
 

@@ -5,21 +5,22 @@
 
 namespace sprung {
 
-/// A contact point of one surface and a triangle of the other (of the same, where there is one) that may come to touch.
+/// A contact point of one surface and a triangle of the other (of the same, where there is one) that may come into
+/// contact.
 struct FacingPair {
   std::size_t side;  // of the point: 0 or 1; the triangle is of the other
   int point;
   int triangle;  // both: rows of their skins
 };
 
-/// How far apart points and triangles are that may come to touch, m.
+/// The distances of points and triangles that may come into contact, m.
 struct ContactRange {
   double margin;   // outside
   double deepest;  // inside: what is deeper came from the other side
 };
 
-/// The points and triangles of bricks that are near each other. A point and a triangle that can meet are in a list
-/// where their normals face each other; what is in a list beyond that depends on the steps since it was made.
+/// The points and triangles of bricks that are near each other. A point and a triangle that can meet are in a list if
+/// their normals face each other; what is in a list beyond that depends on the steps since it was made.
 class FacingLists : public NearLists {
  public:
   /// The trees of the front, which must outlive it; `deepest`: inside (m): what is deeper came from the other side.

@@ -7,7 +7,7 @@
 
 namespace sprung {
 
-/// Actors that may touch each other in the time to come and so move by the same steps.
+/// Bodies that may come into contact and therefore take the same steps.
 using Group = std::vector<SoftBody*>;
 
 /// Side of the smallest bricks, m.

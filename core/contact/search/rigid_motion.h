@@ -3,7 +3,7 @@
 
 namespace sprung {
 
-/// Velocity of a rigid body at a place: shift + spin x place.
+/// The velocity field of a rigid body: shift + spin x position.
 struct RigidMotion {
   Vec3 shift;  // m/s
   Vec3 spin;   // rad/s

@@ -14,7 +14,7 @@ namespace sprung {
 namespace {
 
 constexpr int kBricksOfCluster = 32;
-constexpr double kNormalWeight = 4;  // bricks that opposite normals count for, halved, as bricks are grouped
+constexpr double kNormalWeight = 4;  // bricks that opposite normals are worth, halved, in grouping bricks
 
 VectorBall enclosing(const VectorBall& a, const VectorBall& b) {
   const double apart = (a.centre - b.centre).norm();
@@ -34,9 +34,9 @@ NormalCone enclosing(const NormalCone& a, const NormalCone& b) {
   return {axis, std::min(std::max(spread(a), spread(b)), std::numbers::pi)};
 }
 
-constexpr Eigen::Index kFitted = 64;  // about so many places tell it well enough
+constexpr Eigen::Index kFitted = 64;  // about this many points suffice
 
-/// The rigid motion nearest to vectors at some of these places, in the mean of squares.
+/// The least-squares rigid motion of vectors at some of these positions.
 RigidMotion rigid_fit(const Points& positions, const Points& vectors) {
   const Eigen::Index stride = std::max(Eigen::Index{1}, positions.rows() / kFitted);
   Vec3 middle = Vec3::Zero();
@@ -171,7 +171,7 @@ void SurfaceTree::follow(double time, double more) {
 }
 
 void SurfaceTree::measure_own(const Points& moved, const Points& moving) {
-  // The body's rigid motion is taken off as a rotation, which is exact; of what is to come, as a velocity.
+  // The body's past rigid motion is removed as a rotation, which is exact; the coming one as a velocity.
   const Points before = body_.positions - moved;
   const RigidMotion turned = rigid_fit(before, moved);
   const double angle = turned.spin.norm();

@@ -10,7 +10,7 @@
 namespace sprung {
 namespace {
 
-constexpr double kOpposite = -0.17;  // cosine of normals that look away from each other or at each other
+constexpr double kOpposite = -0.17;  // cosine of normals that point away from or at each other
 constexpr double kRounding = 1e-13;  // of coordinates
 
 /// A triangle of the skin at rest.
@@ -33,7 +33,7 @@ std::vector<RestTriangle> rest_triangles(const Skin& skin, const CellTriangles& 
   return triangles;
 }
 
-/// Whether two triangles look at each other, or are back to back, and so near that tame bricks may let them cross.
+/// Whether two triangles face each other, or are back to back, and so near that tame bricks may let them cross.
 bool are_delicate(const RestTriangle& a, const RestTriangle& b, double brick) {
   if (a.normal.dot(b.normal) > kOpposite) return false;
   const Vec3 way = b.middle - a.middle;
@@ -71,8 +71,8 @@ bool are_delicate(const RestCell& a, const RestCell& b, double brick) {
   });
 }
 
-/// The rotation in a deformation gradient, by Newton's iteration for its polar decomposition (N. Higham, "Computing
-/// the polar decomposition", 1986); not one where the gradient is far from any.
+/// The rotation in a deformation gradient, by Newton's iteration for its polar decomposition (N. Higham, "Computing the
+/// polar decomposition", 1986); not one if the gradient is far from any.
 Mat3 nearest_rotation(const Mat3& gradient) {
   Mat3 rotation = gradient;
   for (int i = 0; i < 4; ++i) {
@@ -90,10 +90,10 @@ bool is_rotation(const Mat3& matrix) {
   return matrix.determinant() > 0 && (matrix.transpose() * matrix - Mat3::Identity()).cwiseAbs().maxCoeff() < kError;
 }
 
-/// Of two rotations: how far they move a unit vector apart at most.
+/// The largest distance by which two rotations move a unit vector apart.
 double turn_between(const Mat3& a, const Mat3& b) { return (a - b).norm() / std::sqrt(2.0); }
 
-/// By what a brick makes of a part of it: its corners enclose all else.
+/// From the deformed corners of a part of a brick, which enclose all of it.
 void extend(AlignedBox& box, const BrickColumns& x, const AlignedBox& part) {
   const auto along = [&](int axis, const Vec3& low, const Vec3& high, bool at_end) -> Vec3 {
     return low + (at_end ? part.max()[axis] : part.min()[axis]) * (high - low);

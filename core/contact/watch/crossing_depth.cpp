@@ -19,7 +19,7 @@ namespace {
 
 using Edge = std::pair<int, int>;  // vertices, the lower one first
 
-/// Where an edge passes through a triangle.
+/// A point where an edge passes through a triangle.
 struct Passage {
   double share;  // of the edge, from its first vertex
   int triangle;  // of the other surface
@@ -60,10 +60,10 @@ std::optional<double> way_to(const Facet& facet, const Vec3& from, const Vec3& t
   return share;
 }
 
-/// What of one surface is inside another, in one piece with the triangles that cross.
+/// The part of one surface inside another that is connected to the crossing triangles.
 class InnerPart {
  public:
-  /// `side`: whose of the pairs `surface` is.
+  /// `side`: that of `surface` in the pairs.
   InnerPart(const DrawnSurface& surface, const DrawnSurface& other, const RowPairs& pairs, std::size_t side,
             const std::vector<int>& tangles)
       : surface_(surface), other_(other), is_known_(surface.points().rows()) {
@@ -87,7 +87,7 @@ class InnerPart {
   [[nodiscard]] const std::vector<int>& vertices() const { return vertices_; }
   [[nodiscard]] const std::map<Edge, std::vector<Passage>>& passages() const { return passages_; }
   [[nodiscard]] bool is_inside(const Vec3& position) const {
-    // What lies on the surface itself has half a turn from there.
+    // A point on the surface itself gets half a turn from it.
     return other_.box().contains(position) && other_.winding().at(position) > (is_self() ? 1 : 0.5);
   }
 
@@ -113,7 +113,7 @@ class InnerPart {
     return found;
   }
 
-  /// That are not known yet.
+  /// Those not classified yet.
   std::vector<int> neighbours_of(const std::vector<int>& vertices) {
     std::vector<int> found;
     for (const int vertex : vertices) {
@@ -152,12 +152,12 @@ Points normals_of(const DrawnSurface& surface) {
   return normals.rowwise().normalized();
 }
 
-/// The distance of a place from a surface.
+/// The distance of a point from a surface.
 class Distance {
  public:
   explicit Distance(const DrawnSurface& surface) : surface_(surface) {}
 
-  /// Of those triangles only that face a surface of this normal; zero: of all.
+  /// Only from triangles that face a surface of this normal; zero: from all.
   [[nodiscard]] double from(const Vec3& position, const Vec3& normal) const {
     double nearest = std::numeric_limits<double>::infinity();
     descend(0, position, normal, nearest);
@@ -189,7 +189,7 @@ class Distance {
   const DrawnSurface& surface_;
 };
 
-/// Of what is of `surface` in the other.
+/// The deepest point of `surface` in the other.
 void measure(const DrawnSurface& surface, const DrawnSurface& other, const RowPairs& pairs, std::size_t side,
              const std::vector<int>& tangles, CrossingDepth& deepest) {
   const InnerPart inner(surface, other, pairs, side, tangles);

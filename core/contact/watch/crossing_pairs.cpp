@@ -17,7 +17,7 @@ Corners corners_of(const DrawnSurface& surface, int row) {
   return {corner(0), corner(1), corner(2)};
 }
 
-/// Whether the triangles lie on different sides along `axis`, by more than rounding can make of it.
+/// Whether the triangles lie on different sides along `axis`, by more than rounding errors.
 bool are_apart(const Vec3& axis, const Corners& a, const Corners& b, double scale) {
   const double a0 = axis.dot(a[0]);
   const double a1 = axis.dot(a[1]);
@@ -101,7 +101,7 @@ class CellSearch {
     }
   }
 
-  /// Neighbours in a body are looked at only where their bricks say so.
+  /// Neighbours in a body are checked only if their bricks require it.
   void add(int a, int b) {
     if (is_self_ && a > b) std::swap(a, b);
     if (is_self_ && a_.bricks() != nullptr && a_.bricks()->are_neighbours(a, b)) return;

@@ -13,12 +13,11 @@
 namespace sprung {
 
 /// A drawn skin as one surface: vertices of equal position at rest are one vertex. Its triangles are grouped into
-/// cells, those of a body by the bricks that carry them, and a tree of boxes stands over the cells. It follows the
-/// nodes of a body; vertices are placed only in those cells where they are asked for. Shares nothing with the search
-/// for contacts.
+/// cells, those of a body by the bricks that carry them, with a tree of boxes over the cells. It follows the nodes of a
+/// body; vertices are placed only in requested cells. Shares nothing with contact search.
 class DrawnSurface {
  public:
-  /// A node of the tree. Parents stand before their children.
+  /// A node of the tree. Parents precede their children.
   struct Node {
     AlignedBox box;
     int cell;          // of a leaf; -1: has two children, the next node and
@@ -30,14 +29,15 @@ class DrawnSurface {
     int last;
   };
 
-  /// Of a body, at rest. Triangles whose corners are not three different vertices are left out. It must outlive this.
+  /// The surface of a body at rest. Triangles whose corners are not three different vertices are left out. It must
+  /// outlive this.
   explicit DrawnSurface(const SoftBody& body);
-  /// Of a rigid skin, where it is, completely placed.
+  /// The surface of a rigid skin at its current position, completely placed.
   explicit DrawnSurface(const Skin& skin);
 
-  /// The nodes (m x 3, m) of the body are here now, and stay there until the next time. No vertex is placed.
+  /// Moves the nodes (m x 3, m) of the body here until the next call. No vertex is placed.
   void follow(const Points& nodes);
-  /// The vertices of the rigid skin (as many as it has, m) are here now.
+  /// Moves the vertices of the rigid skin (all of them, m) here.
   void move_to(const Points& vertices);
 
   /// Places the vertices of these cells.
@@ -53,9 +53,9 @@ class DrawnSurface {
   [[nodiscard]] AlignedBox box() const { return nodes_.empty() ? AlignedBox() : nodes_.front().box; }
   /// The vertices that share an edge with each, ascending.
   [[nodiscard]] const std::vector<std::vector<int>>& neighbours() const { return neighbours_; }
-  /// What is known of the bricks of its cells; null for rigid skins.
+  /// The bricks of its cells; null for rigid skins.
   [[nodiscard]] const CellBricks* bricks() const { return bricks_.get(); }
-  /// Since it was completed, it must not have moved.
+  /// It must not have moved since complete().
   [[nodiscard]] const WindingTree& winding() const { return *winding_; }
 
  private:

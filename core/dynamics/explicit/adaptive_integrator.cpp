@@ -19,9 +19,9 @@ namespace {
 constexpr double kFurthestMove = 0.25;  // of a brick, in a step
 constexpr int kMostHalvings = 4;
 constexpr double kBrickStepsBetween = 2e6;
-constexpr double kMostSteps = 1e12;  // at a time: more than anybody waits for
+constexpr double kMostSteps = 1e12;  // at a time: more than anyone would wait for
 
-/// What can be taken back.
+/// State that can be restored.
 struct State {
   Points positions;
   Points velocities;
@@ -40,7 +40,7 @@ void restore(const std::vector<State>& states, World& world) {
   }
 }
 
-/// What is wrong with an body, and the brick where it is worst.
+/// The fault of a body, and the brick where it is worst.
 struct Trouble {
   std::size_t body;
   std::size_t brick;
@@ -76,7 +76,7 @@ std::string place_of(const World& world, const Trouble& trouble) {
                      middle.x(), middle.y(), middle.z());
 }
 
-/// s, that an body took.
+/// s, that a body took.
 double step_of(std::span<const GroupSteps> groups, std::size_t body) {
   const auto group = std::find_if(groups.begin(), groups.end(), [&](const GroupSteps& one) {
     return std::find(one.bodies.begin(), one.bodies.end(), body) != one.bodies.end();

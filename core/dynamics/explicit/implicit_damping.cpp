@@ -5,10 +5,10 @@
 namespace sprung {
 namespace {
 
-constexpr double kFastestRatio = 0.25;  // damping ratio of the fastest vibration in every step: a fifth shorter
-constexpr int kStepsBetween = 12;       // the slow vibrations that are left to it hardly move in so many
+constexpr double kFastestRatio = 0.25;  // explicit damping ratio of the fastest vibration: steps a fifth shorter
+constexpr int kStepsBetween = 12;       // the slow vibrations left to it hardly move in this many
 constexpr int kMostIterations = 40;
-constexpr double kTolerance = 1e-2;  // of what is due of the damping: next time's share of it is as good
+constexpr double kTolerance = 1e-2;  // of the damping that is due: the next solve corrects the rest
 
 Eigen::Map<Eigen::VectorXd> flat(Points& points) { return {points.data(), points.size()}; }
 

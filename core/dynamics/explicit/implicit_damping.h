@@ -6,34 +6,34 @@
 
 namespace sprung {
 
-/// How explicit steps damp a body's springs. All of beta in every step would cost step size: a tenth of critical at the
-/// slowest vibration is many times critical at the fastest, and shortens steps by as much. So every step has what
-/// hardly shortens it, and the rest is done implicitly, for several steps at a time.
+/// How explicit steps damp a body's springs. All of beta in explicit steps would shorten them: a tenth of critical at
+/// the slowest vibration is many times critical at the fastest, and shortens steps by as much. So every step includes
+/// the part that hardly shortens it, and the rest is applied implicitly, for several steps at a time.
 struct DampingShares {
   Rayleigh explicit_part;
   double implicit_beta = 0;  // s
 };
 
-/// Of a body as it stands, whose fastest frequency (largest_frequency_squared()) is known. Small strains (Model::kFem)
-/// are all explicit.
+/// For a body in its current state, whose highest frequency (largest_frequency_squared()) is known. Small strains
+/// (Model::kFem) are damped explicitly only.
 [[nodiscard]] DampingShares damping_shares(const Body& body, double frequency_squared);
 
-/// Slows the rates of stretch by backward Euler: (M + T beta K) v' = M v, K what beta damping sees, T the steps
-/// since the last time. By conjugate gradients on the change of v, preconditioned by the masses: however early they
-/// stop, both momenta of a free body are kept. Deterministic for any number of threads.
+/// Damps the rates of stretch by backward Euler: (M + T beta K) v' = M v, K the stiffness used by beta damping, T the
+/// steps since the last solve. By conjugate gradients on the change of v, preconditioned by the masses: however early
+/// they stop, both momenta of a free body are conserved. Deterministic for any number of threads.
 class ImplicitDamping {
  public:
-  /// `beta` in s; 0 costs nothing. The body has to outlive it.
+  /// `beta` in s; 0 costs nothing. The body must outlive it.
   ImplicitDamping(SoftBody& body, double beta) : body_(body), beta_(beta) {}
 
-  /// Lets a step (s) pass; every few the velocities follow.
+  /// Advances by a step (s); velocities are updated every few steps.
   void pass(double dt);
 
-  /// Does what is still due.
+  /// Applies the damping that is still due.
   void settle();
 
  private:
-  /// T beta K u, zero at what is held.
+  /// T beta K u, zero at pinned nodes.
   void multiply(const Eigen::VectorXd& u, Eigen::VectorXd& product);
 
   SoftBody& body_;

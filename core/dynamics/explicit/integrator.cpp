@@ -27,12 +27,12 @@ namespace sprung {
 namespace {
 
 /// What the volume guard can add to a brick's stiffness, in units of guard / h^2: the squared gradient of the volume
-/// ratio of a brick pressed flat to the guard's threshold along one axis.
+/// ratio of a brick flattened to the guard's threshold along one axis.
 constexpr double kGuardGradient = 0.6;
 constexpr double kGuardAreas = 1.18;   // of that brick: the sum of its three faces' squared areas, in h^4
-constexpr double kMayBePressed = 0.6;  // bricks with less than that share of their volume may soon feel the guard
+constexpr double kMayBePressed = 0.6;  // bricks with less than that share of their volume may soon activate the guard
 
-/// How many times that gradient, squared, a brick has by now that is pressed one way and drawn out another.
+/// The factor of that squared gradient in a brick that is flattened along one axis and stretched along another.
 double guard_growth(const Body& body) {
   const double h = body.grid.brick_size;
   double largest = kGuardAreas;
@@ -44,7 +44,7 @@ double guard_growth(const Body& body) {
   return largest / kGuardAreas;
 }
 
-/// Of the fastest vibration of the body where it stands.
+/// The fastest vibration of the body in its current state.
 double fastest_vibration_squared(const Body& body) {
   SpringSystem bricks;
   const Eigen::Index nodes = body.node_count();
@@ -86,7 +86,7 @@ double stable_step(const World& world, double safety) {
 
 namespace {
 
-/// One body on its way through a number of steps.
+/// One body during a number of steps.
 class Mover {
  public:
   Mover(SoftBody& body, const World& world)
@@ -97,7 +97,7 @@ class Mover {
         implicit_damping_(body, damping_.implicit_beta),
         loads_(body, world) {}
 
-  /// velocities += dt (forces / m + gravity - alpha v); held nodes keep their velocity.
+  /// velocities += dt (forces / m + gravity - alpha v); pinned nodes keep their velocity.
   void kick(double dt) {
     Body& body = body_;
     if (loads_.any()) {
@@ -121,19 +121,19 @@ class Mover {
         if (pinned.axes[axis]) body.velocities(pinned.node, axis) = pinned.velocity[axis];
       }
     }
-    implicit_damping_.pass(dt);  // what is held has its velocity: it leads the rest
+    implicit_damping_.pass(dt);  // pinned nodes have their velocity and lead the rest
   }
 
-  /// positions += dt velocities: put off to the next kick, which has them at hand anyway.
+  /// positions += dt velocities: deferred to the next kick, which loads them anyway.
   void drift(double dt) { pending_drift_ += dt; }
 
-  /// The last of a number of steps is done.
+  /// Called after the last of a number of steps.
   void finish() {
     settle();
     implicit_damping_.settle();
   }
 
-  /// Does what was put off.
+  /// Applies the deferred drift.
   void settle() {
     if (pending_drift_ != 0) body_.positions += pending_drift_ * body_.velocities;
     pending_drift_ = 0;
@@ -151,14 +151,14 @@ class Mover {
   double pending_drift_ = 0;  // s
 };
 
-/// 1/kg, per node; nothing pushes what is held.
+/// 1/kg, per node; 0 for pinned nodes.
 Eigen::VectorXd pushed_inverse_masses(const SoftBody& body) {
   Eigen::VectorXd inverse_masses = body.masses.cwiseInverse();
   for (const KinematicNode& pinned : body.pinned) inverse_masses[pinned.node] = 0;
   return inverse_masses;
 }
 
-/// Actors that touch each other on their way through a number of steps.
+/// Bodies that touch each other, during a number of steps.
 class GroupMover {
  public:
   GroupMover(World& world, const GroupSteps& group, const ContactStates* states)

@@ -6,7 +6,7 @@
 
 namespace sprung {
 
-/// The parts that couplings have in single bodies, for StepTerms::coupled: no less than what they are there. By body.
+/// Each body's own part of the couplings, for StepTerms::coupled: an upper bound of it. By body.
 [[nodiscard]] std::vector<std::vector<PointStiffness>> own_parts(const std::vector<Coupling>& couplings,
                                                                  std::size_t bodies);
 
@@ -17,10 +17,10 @@ struct CoupledBody {
   IterativeSolver* system;
 };
 
-/// u for the forces (both one body after the other, 3 m each) with all bodies' K + terms and the couplings between
-/// them: by conjugate gradients, each body preconditioned by itself. Ends and what it gives as LinearSolver::solve(),
-/// but that it takes what it has, if that is nearly as good, where that takes too long. The same bits for any number of
-/// threads.
+/// Solves for u under the forces (both one body after the other, 3 m each) with all bodies' K + terms and the couplings
+/// between them: by conjugate gradients, each body preconditioned by itself. Stops and returns like
+/// LinearSolver::solve(), except that a nearly converged solution is accepted if that takes too long. The same bits for
+/// any number of threads.
 [[nodiscard]] Eigen::VectorXd solve_coupled(std::span<const CoupledBody> bodies, const std::vector<Coupling>& couplings,
                                             const Eigen::VectorXd& forces, double tolerance, SolveReport& report);
 

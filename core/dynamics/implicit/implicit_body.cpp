@@ -66,7 +66,7 @@ void MusclePotential::add_stiffness(bool definite, std::vector<PointStiffness>& 
 
 namespace {
 
-constexpr double kSlip = 5e-3;  // body lengths a second that a held point may creep
+constexpr double kSlip = 5e-3;  // body lengths per second that a sticking point may creep
 
 Eigen::Map<const Eigen::VectorXd> flat(const Points& points) { return {points.data(), points.size()}; }
 
@@ -206,7 +206,7 @@ void ImplicitBody::release_held() {
 }
 
 bool ImplicitBody::has_converged() const {
-  // What positions rounded to their last digit leave of forces.
+  // The forces due to positions rounded to their last digit.
   const double rounding = 8 * std::numeric_limits<double>::epsilon() * reach_ *
                           (stiffness_ + mass_factor_ * body_.masses.maxCoeff()) * std::sqrt(body_.node_count());
   return forces_.norm() <= std::max(options_.tolerance * work_, rounding);

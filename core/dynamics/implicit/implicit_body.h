@@ -15,18 +15,18 @@ namespace sprung {
 /// A relative change of a normal force below which friction needs no further pass.
 inline constexpr double kSettledFriction = 0.05;
 
-/// The muscles of a body as an energy, for steps that look for a minimum; see MuscleTension.
+/// The muscles of a body as an energy, for steps that minimise a potential; see MuscleTension.
 class MusclePotential {
  public:
-  /// The body has to outlive it.
+  /// The body must outlive it.
   explicit MusclePotential(const SoftBody& body) : body_(body) {}
 
-  /// Before a step: the muscles contract as they do now.
+  /// Begins a step, with the muscles' current contraction.
   void begin();
 
-  /// J, of the body where it stands; adds forces (m x 3, N).
+  /// The energy at the body's current positions, J; adds forces (m x 3, N).
   double add_forces(Points& forces) const;
-  /// What pulls stiffens a brick against turning, what pushes softens it; with `definite` that is left out.
+  /// Tension stiffens a brick against rotation, compression softens it; with `definite` the latter is left out.
   void add_stiffness(bool definite, std::vector<PointStiffness>& points) const;
 
  private:
@@ -44,30 +44,30 @@ class MusclePotential {
   std::vector<MuscleTension> tensions_;  // by muscle
 };
 
-/// What one body adds to the potential that an implicit step minimises, see ImplicitMotion: everything but contact
+/// One body's contribution to the potential that an implicit step minimises, see ImplicitMotion: everything but contact
 /// with other bodies and itself, and glue.
 class ImplicitBody {
  public:
-  /// All have to outlive it.
+  /// All must outlive it.
   ImplicitBody(SoftBody& body, const World& world, const ImplicitOptions& options);
 
-  /// Before a step of dt; obstacles have moved by themselves for `elapsed` (s) when it begins. What is held is then at
-  /// the end of its way, the rest where it was; velocities are zero: damping comes from the potential.
+  /// Begins a step of dt, after obstacles have moved for `elapsed` (s). Pinned nodes are then at their final positions,
+  /// the others unchanged; velocities are zero: damping comes from the potential.
   void begin(double elapsed, double dt);
-  /// Moves what is not held to where the velocities lead, or back.
+  /// Moves nodes that are not pinned along the velocities, or back.
   void drift();
   void stay();
 
   /// The potential (J) at the positions, and its forces; others' may be added to them.
   double evaluate();
   [[nodiscard]] Points& forces() { return forces_; }
-  /// Nothing pushes what is held.
+  /// Zeroes the forces on pinned nodes.
   void release_held();
-  /// Whether the forces left over are small beside those at work.
+  /// Whether the residual forces are small relative to those at work.
   [[nodiscard]] bool has_converged() const;
-  /// J, that rounding makes of the potential.
+  /// The rounding error of the potential, J.
   [[nodiscard]] double noise() const;
-  /// Takes normal forces, for friction, from where the body is; false where they changed by much.
+  /// Updates normal forces, for friction, at the current positions; false if they changed by much.
   [[nodiscard]] bool settle_friction();
 
   /// Newton's matrix at the positions, by itself or as a part of a coupled system.
@@ -76,10 +76,10 @@ class ImplicitBody {
   [[nodiscard]] Eigen::VectorXd solve(double tolerance);
 
   void finish(double dt);
-  /// Puts the body where it was before the step began, or was finished.
+  /// Restores the body to its state before the step began, or before it was finished.
   void undo();
 
-  /// What the next step depends on beside positions and velocities.
+  /// The state besides positions and velocities that the next step depends on.
   void serialize(IntegratorState& state);
 
   [[nodiscard]] SoftBody& body() const { return body_; }
@@ -90,7 +90,7 @@ class ImplicitBody {
   [[nodiscard]] IterativeSolver& system() { return *coupled_; }
 
  private:
-  /// Of a step that can be undone.
+  /// Data of a step that can be undone.
   struct History {
     bool is_there = false;
     double last_dt = 0;
@@ -116,24 +116,24 @@ class ImplicitBody {
   std::unique_ptr<IterativeSolver> coupled_ = make_multigrid_solver();
   StepTerms terms_;
 
-  // of the step at hand
-  double span_ = 0;         // s
-  double reach_ = 0;        // m, from the origin
-  Points positions_;        // before it
-  Points velocities_;       // before it
-  Points pinned_start_;     // where nodes stay but for what is held
-  Points origin_;           // x0
-  Points goal_;             // where inertia and gravity alone lead
+  // of the current step
+  double span_ = 0;        // s
+  double reach_ = 0;       // m, from the origin
+  Points positions_;       // before it
+  Points velocities_;      // before it
+  Points pinned_start_;            // where nodes stay, except for pinned ones
+  Points origin_;          // x0
+  Points goal_;            // positions by inertia and gravity alone
   double mass_factor_ = 0;  // 1/s^2
-  double weight_ = 0;       // N, and the size of the loads
+  double weight_ = 0;      // N, plus the magnitude of the loads
 
-  History history_;  // of the step before
-  History before_;   // as it was before the step at hand
+  History history_;  // of the previous step
+  History before_;   // as it was before the current step
 
   ForceWorkspace workspace_;
   ProductWorkspace products_;
   Points forces_;
-  double work_ = 0;  // size of the forces at work, N
+  double work_ = 0;  // magnitude of the forces at work, N
 };
 
 }  // namespace sprung

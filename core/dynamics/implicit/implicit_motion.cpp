@@ -55,7 +55,7 @@ void ImplicitMotion::advance(double dt, long steps, double time) {
 }
 
 void ImplicitMotion::advance(const Together& group, const Span& span) {
-  double done = 0;  // of the step: one that is not found, or leads too far, is halved
+  double done = 0;  // of the step: one without a solution, or that moves too far, is halved
   double stride = 1;
   while (done < 1) {
     const double most = max_step_size(world_, group.members, stride * span.dt);
@@ -77,7 +77,7 @@ void ImplicitMotion::advance(const Together& group, const Span& span) {
   }
 }
 
-/// Empty, or what is wrong; the bodies are then as before.
+/// Empty, or the failure; the bodies are then unchanged.
 std::string ImplicitMotion::try_step(const Together& group, double elapsed, double dt) {
   const std::vector<Energy> before = energies_of(world_, group.rows);
   ImplicitStep step(world_, group.bodies, group.members, group.glue, options_, dt);

@@ -11,9 +11,9 @@ namespace {
 
 constexpr double kSolveTolerance = 1e-4;  // of Newton's direction
 constexpr int kFrictionPasses = 3;
-constexpr int kRefreshes = 12;  // of what touches what, in a descent: it must come to an end
+constexpr int kRefreshes = 12;  // of the contact pairs in a descent, so that it terminates
 
-/// Of the least of them.
+/// The smallest of the bodies'.
 double slip_of(const std::vector<ImplicitBody*>& bodies, double dt) {
   double slowest = std::numeric_limits<double>::infinity();
   for (const ImplicitBody* body : bodies) slowest = std::min(slowest, body->slip_speed());

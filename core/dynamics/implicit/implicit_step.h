@@ -6,7 +6,7 @@
 
 namespace sprung {
 
-/// How the search for minima went so far.
+/// Statistics of the minimisations so far.
 struct ImplicitCounts {
   long steps = 0;
   long iterations = 0;
@@ -16,12 +16,12 @@ struct ImplicitCounts {
 /// One implicit step of a group of bodies, see ImplicitMotion: a minimum by Newton's method with a line search.
 class ImplicitStep {
  public:
-  /// By body of the group; `glue` by its rows. All have to outlive it.
+  /// By body of the group; `glue` by its rows. All must outlive it.
   ImplicitStep(const World& world, std::vector<ImplicitBody*> bodies, const Group& group,
                const std::vector<GluedPoint>& glue, const ImplicitOptions& options, double dt);
 
-  /// Obstacles have moved by themselves for `elapsed` (s) when it begins. False where no minimum was found; the bodies
-  /// are then as before.
+  /// `elapsed`: how far obstacles have moved before it begins, s. False if no minimum was found; the bodies are then
+  /// unchanged.
   [[nodiscard]] bool make(double elapsed, ImplicitCounts& counts);
 
  private:
@@ -29,9 +29,9 @@ class ImplicitStep {
   bool find_minimum(ImplicitCounts& counts);
   bool descend_to_minimum(ImplicitCounts& counts);
   [[nodiscard]] bool settle_friction();
-  /// The potential (J) at the positions; forces into the bodies.
+  /// The potential (J) at the positions; stores the forces in the bodies.
   double evaluate();
-  /// Moves on from that potential, and leaves the new one and its forces.
+  /// Takes a step from that potential, and leaves the new one and its forces.
   bool newton_step(double& potential, ImplicitCounts& counts);
   [[nodiscard]] Eigen::VectorXd direction(ImplicitCounts& counts);
   [[nodiscard]] Eigen::VectorXd direction(bool definite, const std::vector<Coupling>& couplings,

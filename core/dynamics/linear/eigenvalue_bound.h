@@ -10,9 +10,9 @@
 
 namespace sprung {
 
-/// A bound on the eigenvalues of B A, a tenth over what ten steps of Lanczos' method find from a random vector (a few
-/// per cent less than the largest, at worst). A and B are symmetric, B positive definite; multiply(x, product) sets A
-/// x, precondition(x, product) B x, of vectors of `size`; 0 where A is zero. Source: Saad, "Iterative Methods for
+/// A bound on the eigenvalues of B A, a tenth above the estimate of ten steps of Lanczos' method from a random vector
+/// (a few per cent less than the largest, at worst). A and B are symmetric, B positive definite; multiply(x, product)
+/// sets A x, precondition(x, product) B x, of vectors of `size`; 0 if A is zero. Source: Saad, "Iterative Methods for
 /// Sparse Linear Systems", 2nd ed., SIAM 2003, section 6.7.3: the tridiagonal matrix from the coefficients of conjugate
 /// gradients.
 template <class Vector, class Multiply, class Precondition>
@@ -40,7 +40,7 @@ double bound_on_eigenvalues(Eigen::Index size, const Multiply& multiply, const P
     multiply(direction, product);
     const double inverse_step = dot(direction, product) / descent;
     const double largest_rounding = diagonal.empty() ? 0 : rounding * std::abs(diagonal.front());
-    if (!(std::abs(inverse_step) > largest_rounding)) break;  // only what A takes to zero is left
+    if (!(std::abs(inverse_step) > largest_rounding)) break;  // only the null space of A is left
     diagonal.push_back(inverse_step + carried);
     residual -= Number(1 / inverse_step) * product;
     precondition(residual, ahead);

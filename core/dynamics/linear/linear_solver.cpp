@@ -42,8 +42,8 @@ std::unique_ptr<LinearSolver> make_direct_solver() { return std::make_unique<Dir
 
 namespace {
 
-constexpr int kFewBricks = 200;     // the direct solver is as quick up to there
-constexpr int kManyBricks = 40000;  // and needs gigabytes from there on
+constexpr int kFewBricks = 200;     // the direct solver is as fast up to here
+constexpr int kManyBricks = 40000;  // and needs gigabytes from here on
 
 }  // namespace
 
@@ -73,7 +73,7 @@ class DefaultSolver : public LinearSolver {
   [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& forces, double tolerance) override {
     const long indefinite = multigrid_->report().indefinite;
     Eigen::VectorXd solution = now().solve(forces, tolerance);
-    // What is definite is seen not to be so by rounding only.
+    // A definite matrix appears indefinite only by rounding.
     const bool is_lost = solution.size() == 0 && (definite_ || multigrid_->report().indefinite == indefinite);
     if (is_direct_ || !is_lost || body_->grid.brick_count() > kManyBricks) return solution;
     if (!direct_->linearize(*body_, *supports_, definite_, *terms_)) return {};
@@ -100,8 +100,8 @@ class DefaultSolver : public LinearSolver {
   const StepTerms* terms_ = nullptr;
   bool definite_ = false;
   bool is_direct_ = true;
-  long gone_direct_ = 0;  // solves that multigrid lost
-  long never_tried_ = 0;  // matrices that it could not take
+  long gone_direct_ = 0;  // solves that multigrid failed
+  long never_tried_ = 0;  // matrices that it rejected
 };
 
 }  // namespace

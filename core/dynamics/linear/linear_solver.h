@@ -9,14 +9,14 @@
 
 namespace sprung {
 
-/// Pulls a point of a body towards where a displacement would bring it, by a spring.
+/// A spring that pulls a point of a body towards a displaced position.
 struct SpringSupport {
   PointStiffness spring;
   Vec3 displacement = Vec3::Zero();  // m, from rest
 };
 
-/// Which of a body's 3 m degrees of freedom (3 node + axis) keep the value that its positions have, and which of its
-/// points springs hold.
+/// Which of a body's 3 m degrees of freedom (3 node + axis) keep their current values, and which of its points are held
+/// by springs.
 struct Supports {
   std::vector<bool> fixed;               // 3 m
   std::vector<SpringSupport> springs{};  // a LinearSolver sees them as StepTerms::points: support_terms()
@@ -28,11 +28,11 @@ struct Supports {
   }
 };
 
-/// What a step in time adds to the stiffness K of a body; as it comes, nothing.
+/// Terms that a time step adds to the stiffness K of a body; by default, none.
 struct StepTerms {
   double mass_factor = 0;              // 1/s^2: times the masses
-  double damping = 0;                  // times the springs' stiffness along themselves, without the guard ...
-  Points damping_positions;            // ... where the nodes are here (m x 3, m); not read where damping is zero
+  double damping = 0;                  // times the springs' axial stiffness, without the guard ...
+  Points damping_positions;            // ... with the nodes here (m x 3, m); unused if damping is zero
   std::vector<PointStiffness> points;  // contacts, muscles
   /// The body's own part of what couples it to others: in the preconditioner of an IterativeSolver only.
   std::vector<PointStiffness> coupled;
@@ -45,7 +45,7 @@ struct StepTerms {
   return terms;
 }
 
-/// How the solving went so far.
+/// Statistics of the solves so far.
 struct SolveReport {
   long solves = 0;
   long iterations = 0;  // of an iterative solver, all solves
@@ -54,68 +54,68 @@ struct SolveReport {
   long fallbacks = 0;   // solves that the iterative solver had to leave to the direct one
 };
 
-/// The linear systems that Newton's method and linear statics meet: (K + terms) u = f, with K the second derivative of
-/// the elastic energy at a body's positions and u zero where it is supported. The seam between the equations and the
-/// ways to solve them. The same bits for any number of threads.
+/// The linear systems of Newton's method and linear statics: (K + terms) u = f, with K the second derivative of the
+/// elastic energy at a body's positions and u zero at supports. The interface between the equations and their solvers.
+/// The same bits for any number of threads.
 class LinearSolver {
  public:
   virtual ~LinearSolver() = default;
 
-  /// Takes K at body.positions; with `definite`, each brick's K without its negative curvature, and
-  /// motions that meet no resistance held by a stiffness below rounding. Body and terms have to stay as they are until
-  /// the last solve(). False where the matrix is seen not to be positive definite, and then solve() must not be called.
+  /// Sets K at body.positions; with `definite`, each brick's K without its negative curvature, and motions without
+  /// resistance stabilised by a stiffness below rounding. Body and terms must not change until the last solve(). False
+  /// if the matrix is found not to be positive definite; then solve() must not be called.
   virtual bool linearize(const Body& body, const Supports& supports, bool definite, const StepTerms& terms) = 0;
 
-  /// u (3 m, m) for the forces f (3 m, N); entries of f at supports are ignored. An iterative solver stops where the
-  /// forces left over are `tolerance` of f (Euclidean norms). Empty where the matrix turns out not to be positive
-  /// definite, or no answer is found.
+  /// u (3 m, m) for the forces f (3 m, N); entries of f at supports are ignored. An iterative solver stops when the
+  /// residual is `tolerance` of f (Euclidean norms). Empty if the matrix turns out not to be positive definite, or no
+  /// solution is found.
   [[nodiscard]] virtual Eigen::VectorXd solve(const Eigen::VectorXd& forces, double tolerance) = 0;
 
-  /// After a solve() that met a direction of negative curvature: what it had found before, and that direction as far
-  /// as a curvature of the opposite sign would lead; the energy falls along both (Steihaug, SIAM J. Numer. Anal. 20,
-  /// 1983). Otherwise, and from solvers that meet none, empty.
+  /// After a solve() that met a direction of negative curvature: the iterate before it, and that direction scaled as
+  /// for curvature of the opposite sign; the energy decreases along both (Steihaug, SIAM J. Numer. Anal. 20, 1983).
+  /// Otherwise, and from solvers that detect none, empty.
   [[nodiscard]] virtual Eigen::VectorXd downhill() const { return {}; }
 
   [[nodiscard]] virtual SolveReport report() const = 0;
 };
 
-/// One that can be a part of a larger system.
+/// A solver that can be a part of a larger system.
 class IterativeSolver : public LinearSolver {
  public:
-  /// (K + terms) u, N, without what is coupled; zero at supports.
+  /// (K + terms) u, N, without the coupled terms; zero at supports.
   virtual void multiply(const Eigen::VectorXd& u, Eigen::VectorXd& forces) = 0;
-  /// About the u for the forces, zero at supports. Symmetric and positive definite but for rounding.
+  /// An approximate u for the forces, zero at supports. Symmetric and positive definite but for rounding.
   virtual void precondition(const Eigen::VectorXd& forces, Eigen::VectorXd& u) = 0;
 };
 
-/// Sparse Cholesky (CHOLMOD, supernodal): exact, for small bodies and as the oracle of others. Memory and time grow
+/// Sparse Cholesky (CHOLMOD, supernodal): exact, for small bodies and as the reference for others. Memory and time grow
 /// faster than the body: some 250 MB and 2 s at 16 000 bricks.
 [[nodiscard]] std::unique_ptr<LinearSolver> make_direct_solver();
 
 /// Conjugate gradients preconditioned by geometric multigrid on the hierarchy of bricks: Galerkin's coarse bricks, each
-/// of up to eight connected children, Chebyshev-Jacobi smoothing, the cycle in single precision, the products
-/// outside it exact and in double. Time and memory (some 2 kB a brick) grow with the body. Gives up after
-/// `max_iterations` of a solve.
+/// of up to eight connected children, Chebyshev-Jacobi smoothing, the cycle in single precision, the products outside
+/// it exact and in double. Time and memory (some 2 kB a brick) grow with the body. Gives up after `max_iterations` per
+/// solve.
 [[nodiscard]] std::unique_ptr<IterativeSolver> make_multigrid_solver(int max_iterations = 150);
 
-/// The direct solver where the body is not too large for it, else multigrid.
+/// The direct solver unless the body is too large for it, else multigrid.
 [[nodiscard]] std::unique_ptr<LinearSolver> make_robust_solver(const Body& body);
 
-/// The quicker of the two for the body's size; where multigrid gives up the direct solver answers, if the body is not
+/// The faster of the two for the body's size; if multigrid gives up, the direct solver takes over, unless the body is
 /// too large for it.
 [[nodiscard]] std::unique_ptr<LinearSolver> make_default_solver();
 
-/// When conjugate gradients end.
+/// The stopping criterion of conjugate gradients.
 struct StoppingCriterion {
-  double tolerance;               // of the forces, left over
-  double fallback_tolerance = 0;  // likewise, where the iterations run out
+  double tolerance;               // of the residual, relative to the forces
+  double fallback_tolerance = 0;  // likewise, if the iterations run out
   int max_iterations;
 };
 
 /// Solves A x = forces by flexible conjugate gradients (Polak-Ribiere: rounding makes a preconditioner not quite the
-/// same in each iteration), by multiply(x, product) and precondition(residual, correction). `forces` and what these
-/// give are zero where A is. Empty where A is not positive definite, or no answer is found. `downhill`: as
-/// LinearSolver::downhill() has it.
+/// same in each iteration), by multiply(x, product) and precondition(residual, correction). `forces` and their results
+/// are zero where A is. Empty if A is not positive definite, or no solution is found. `downhill`: see
+/// LinearSolver::downhill().
 template <class Multiply, class Precondition>
 Eigen::VectorXd conjugate_gradients(const Eigen::VectorXd& forces, const StoppingCriterion& end,
                                     const Multiply& multiply, const Precondition& precondition, SolveReport& report,

@@ -18,26 +18,26 @@ namespace {
 using multigrid::kLanes;
 
 constexpr int kCoarsestNodes = 100;
-constexpr int kCoarsestNodesAtRest = 2000;  // fewer levels, on each of which coarse bricks are too stiff for thin parts
-constexpr double kFactorFlops = 1e7;        // for the coarsest level, some 10 ms; or ...
+constexpr int kCoarsestNodesAtRest = 2000;    // fewer levels, since coarse bricks are too stiff for thin parts
+constexpr double kFactorFlops = 1e7;          // for the coarsest level, some 10 ms; or ...
 constexpr double kFactorFlopsPerBrick = 1e4;  // ... what the smoothing of a solve costs
 constexpr double kDiagonalShift = 1e-9;       // of the largest stiffness, as in linear_solver.cpp
 
-/// Coarse bricks are too stiff in bending the nearer the material is to incompressible; the smoother makes up for it.
-/// Solid bricks, slivers beside whole ones, have eigenvalues over twice the range.
+/// Coarse bricks are too stiff in bending, the more so the closer the material is to incompressible; the smoother
+/// compensates. Solid bricks, slivers next to whole ones, have eigenvalues over twice the range.
 int smoothing_steps(const Body& body) {
   if (!has_springs(body.model)) return body.material.poisson > 0.47 ? 8 : 5;
   if (body.material.poisson > 0.47) return 5;
   return body.material.poisson > 0.4 ? 3 : 2;
 }
 
-/// Thin parts are quick to factorize on many nodes, and need them; solid ones neither.
+/// Thin parts can be factorized fast with many nodes, and need them; neither holds for thick ones.
 multigrid::LastLevel last_level(const Body& body, int most_nodes) {
   return {.most_nodes = most_nodes,
           .most_flops = std::max(kFactorFlops, kFactorFlopsPerBrick * body.grid.brick_count())};
 }
 
-/// A whole brick matrix to its anchored part and its pull, in one lane of a block.
+/// Splits a whole brick matrix into its anchored part and its pull, in one lane of a block.
 void put(const BrickMatrix& whole, float* matrix, float* pull) {
   for (std::size_t a = 0; a < 21; ++a) {
     for (std::size_t b = 0; b <= a; ++b) {
@@ -68,7 +68,7 @@ class MultigridSolver : public IterativeSolver {
     body_ = &body;
     terms_ = &terms;
     definite_ = definite;
-    // Masses hold every part where it is, and then that takes longer than it saves.
+    // Masses stabilise every part, and then this takes longer than it saves.
     const int coarsest_nodes = terms.mass_factor > 0 ? kCoarsestNodes : kCoarsestNodesAtRest;
     if (!cycle_ || coarsest_nodes != coarsest_nodes_ || layouts_.front().bricks != body.grid.nodes) {
       coarsest_nodes_ = coarsest_nodes;
@@ -104,13 +104,13 @@ class MultigridSolver : public IterativeSolver {
   const Body* body_ = nullptr;
   const StepTerms* terms_ = nullptr;
   bool definite_ = false;
-  std::atomic<bool> is_guarded_ = false;  // any brick pressed so flat that its guard is at work
+  std::atomic<bool> is_guarded_ = false;  // any brick so flat that its guard is active
   std::vector<bool> fixed_;
   int coarsest_nodes_ = 0;
   std::vector<multigrid::Layout> layouts_;
   std::unique_ptr<multigrid::Cycle> cycle_;
   std::vector<char> is_pinned_node_;
-  std::vector<std::vector<const PointStiffness*>> points_of_brick_;  // empty where there are none at all
+  std::vector<std::vector<const PointStiffness*>> points_of_brick_;  // empty if there are none at all
   ProductWorkspace products_;
   Eigen::VectorXd damping_product_;
   multigrid::Floats single_residual_;
@@ -145,7 +145,7 @@ void MultigridSolver::fill_finest() {
   }
 }
 
-/// The fastest eigenvalue of a full brick at rest over its nodes' own blocks; 0 where bricks are too far from that.
+/// The largest eigenvalue of a full brick at rest relative to its nodes' own blocks; 0 if bricks are too far from rest.
 double MultigridSolver::fastest_of_brick() const {
   if (definite_ || !points_of_brick_.empty() || is_guarded_ || !has_springs(body_->model)) return 0;
   const BrickMatrix brick = brick_model(body_->model).full_brick_hessian(*body_);
@@ -197,7 +197,7 @@ void MultigridSolver::fill_block(int block, const EdgeCoupling& coupling) {
   }
 }
 
-/// Of solid bricks, in packs.
+/// Matrices of solid bricks, in packs.
 void MultigridSolver::fill_solids(int first, float* matrix) const {
   std::array<double, kAnchoredSize * kPackPadding> pack{};
   for (int lane = 0; lane < kLanes && first + lane < body_->grid.brick_count(); lane += kPackPadding) {
@@ -210,7 +210,7 @@ void MultigridSolver::fill_solids(int first, float* matrix) const {
   }
 }
 
-/// The matrix of a brick that is more than its springs, held degrees of freedom taken out.
+/// The matrix of a brick with more than its springs, fixed degrees of freedom removed.
 BrickMatrix MultigridSolver::peculiar_matrix(std::size_t brick) const {
   BrickMatrix matrix = (1 + terms_->damping) * body_brick_hessian(*body_, brick, definite_);
   if (definite_ && bends_downward(matrix)) matrix = without_negative_curvature(matrix);
@@ -258,7 +258,7 @@ void MultigridSolver::multiply_exactly(const Eigen::VectorXd& x, Eigen::VectorXd
 }
 
 void MultigridSolver::precondition(const Eigen::VectorXd& residual, Eigen::VectorXd& correction) {
-  const double largest = residual.lpNorm<Eigen::Infinity>();  // brings single precision into its range
+  const double largest = residual.lpNorm<Eigen::Infinity>();  // scales it into the range of single precision
   if (largest == 0) {
     correction.setZero(residual.size());
     return;

@@ -10,7 +10,7 @@ namespace sprung::multigrid::SPRUNG_INSTRUCTION_SET {
 using Matrix24 = std::array<std::array<Floats, 24>, 24>;
 using Pull = std::array<std::array<Floats, 3>, 24>;
 
-/// One octant's children of up to sixteen coarse bricks, a lane each.
+/// One octant's children of up to sixteen coarse bricks, one per lane.
 struct Octant {
   std::array<int, kLanes> blocks;   // of the finer level, -1: no child
   std::array<int, kLanes> pulls;    // -1: none
@@ -32,7 +32,7 @@ struct Octant {
     }
   }
 
-  /// One entry of `entries` of each child, 0 where there is none.
+  /// One entry of `entries` of each child, 0 if there is none.
   [[nodiscard]] Floats pick(const std::array<int, kLanes>& from, const float* values, std::size_t entries,
                             std::size_t entry) const {
     alignas(64) std::array<float, kLanes> picked{};
@@ -52,7 +52,7 @@ inline void pick_pulls(const FineMatrices& fine, const Octant& octant, Pull& pul
   }
 }
 
-/// Whole matrices: of the anchored part, and what of a row's pull the corners 1 .. 7 leave to corner 0.
+/// Whole matrices: the anchored part, and the part of a row's pull that corners 1 .. 7 leave to corner 0.
 inline void pick_matrices(const FineMatrices& fine, const Octant& octant, const Pull& pull, Matrix24& matrix) {
   for (std::size_t a = 0; a < 21; ++a) {
     for (std::size_t b = 0; b <= a; ++b) {
@@ -77,7 +77,7 @@ inline void pick_matrices(const FineMatrices& fine, const Octant& octant, const 
   }
 }
 
-/// Rows of corners to rows of the coarse brick's corners, which the child in that octant hangs between.
+/// Maps rows of corners to rows of the coarse brick's corners, between which the child in that octant is interpolated.
 template <std::size_t Columns>
 void restrict_rows(std::array<std::array<Floats, Columns>, 24>& rows, std::size_t octant) {
   for (std::size_t axis = 0; axis < 3; ++axis) {

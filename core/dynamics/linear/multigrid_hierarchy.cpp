@@ -44,8 +44,8 @@ std::vector<std::vector<int>> hanging_together(const std::vector<int>& children,
   return groups;
 }
 
-/// Adds a brick's child; to a new brick at the same cell where another child has its place already (two that are not
-/// connected on the finest level may be connected on a coarser one).
+/// Adds a brick's child; to a new brick at the same cell if another child occupies its octant already (two that are not
+/// connected on the finest level may be on a coarser one).
 void add_child(const Layout& fine, int child, std::size_t first_brick, Layout& coarse, std::vector<int>& parents) {
   const Eigen::Vector3i& place = fine.cells[child];
   const std::size_t octant = octant_of(place);
@@ -79,7 +79,8 @@ std::vector<int> join_bricks(const Layout& fine, Layout& coarse) {
   return parents;
 }
 
-/// The corners of a coarse brick that the corner of a child in `octant` hangs on, in the order of their places.
+/// The corners of a coarse brick from which the corner of a child in `octant` is interpolated, in the order of their
+/// positions.
 std::vector<int> supports(int octant, int corner) {
   std::vector<int> found;
   for (int support = 0; support < 8; ++support) {

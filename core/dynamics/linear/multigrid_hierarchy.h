@@ -8,16 +8,16 @@
 
 namespace sprung::multigrid {
 
-/// How the nodes of a level hang between those of the next coarser one: evenly between 1, 2, 4 or 8 of them, as they
-/// lie on a corner, an edge, a face or in the middle of a coarse brick.
+/// The interpolation of a level's nodes from those of the next coarser one: the mean of 1, 2, 4 or 8 of them, for nodes
+/// on a corner, an edge, a face or in the middle of a coarse brick.
 struct Interpolation {
   std::vector<std::array<int, 8>> coarse_nodes;  // by fine node
   std::vector<std::uint8_t> counts;              // how many of them count
-  std::vector<int> first_fine;                   // by coarse node: those fine nodes that hang on it ...
+  std::vector<int> first_fine;                   // by coarse node: the fine nodes interpolated from it ...
   std::vector<int> fine_nodes;
 };
 
-/// One level of bricks, and how it is made of the finer one.
+/// One level of bricks, and how it is derived from the finer one.
 struct Layout {
   std::vector<Eigen::Vector3i> cells;
   std::vector<BrickNodes> bricks;
@@ -34,9 +34,9 @@ struct LastLevel {
 };
 
 /// The grid's own bricks, then ever coarser ones of two by two by two, down to `last` or to bricks that have nothing
-/// left to join. A coarse brick joins only children that are connected by their nodes: where a gap runs
-/// through a cell it holds several bricks, and bricks share a coarse node only where their children share a node. So
-/// the parts of a body that a gap divides stay free of each other on every level.
+/// left to join. A coarse brick joins only children that are connected by their nodes: where a gap runs through a cell
+/// it holds several bricks, and bricks share a coarse node only where their children share a node. So the parts of a
+/// body that a gap divides stay free of each other on every level.
 [[nodiscard]] std::vector<Layout> make_hierarchy(const BrickGrid& grid, const LastLevel& last);
 
 }  // namespace sprung::multigrid

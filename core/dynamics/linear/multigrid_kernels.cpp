@@ -1,4 +1,4 @@
-// Compiled once for each instruction set; SPRUNG_INSTRUCTION_SET names the one at hand.
+// Compiled once for each instruction set; SPRUNG_INSTRUCTION_SET names the current one.
 #include "core/dynamics/linear/multigrid_kernels.h"
 
 #include <algorithm>
@@ -12,8 +12,8 @@ namespace sprung::multigrid::SPRUNG_INSTRUCTION_SET {
 
 namespace {
 
-/// Bricks side by side; the last one is repeated where there are fewer. In single precision the places are taken from
-/// the first corner, before they are rounded.
+/// Bricks side by side; the last one is repeated if there are fewer. In single precision, positions are relative to the
+/// first corner before they are rounded.
 template <class P>
 CornerVectors<P> gather(const BlockInput& input, const double* values, int first, int lanes) {
   using Number = typename P::Lanes::value_type;
@@ -61,15 +61,15 @@ CornerVectors<P> gather(const BlockInput& input, const double* values, int first
   store(brick_volume(x) * Floats(1 / (h * h * h)), volume_ratios);
 }
 
-/// A pack of entries. Those of the next block are asked for: what limits products is memory.
+/// A pack of entries. Those of the next block are prefetched: memory limits products.
 template <class P>
 P entries_at(const float* entries) {
   __builtin_prefetch(entries + kAnchoredSize * kLanes);
   return load<P>(entries);
 }
 
-/// C v by the anchored part, and what corner 0 feels for it. Three rows at a time: their sums do not wait for each
-/// other, and the columns are loaded once for all three.
+/// C v by the anchored part, and the reaction at corner 0. Three rows at a time: their sums are independent, and the
+/// columns are loaded once for all three.
 template <class P>
 void multiply_anchored(const float* matrix, const std::array<P, 24>& v, std::array<P, 24>& y) {
   const auto entry = [&](std::size_t a, std::size_t b) {

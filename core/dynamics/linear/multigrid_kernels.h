@@ -12,8 +12,8 @@ inline constexpr std::size_t kPullSize = 24 * 3;  // of a brick's pull: see Leve
 using BrickNodes = std::array<int, 8>;
 
 /// Sixteen bricks of one level, each a symmetric 24 x 24 matrix C kept as its anchored part (corners 1 .. 7), which
-/// resists no translation, and its pull C T (24 x 3, T the three translations), which is zero but where something
-/// outside the brick holds it. In single precision, a free brick's matrix still leaves translations entirely free.
+/// resists no translation, and its pull C T (24 x 3, T the three translations), which is zero unless something outside
+/// the brick holds it. In single precision, a free brick's matrix still leaves translations entirely free.
 struct LevelBlock {
   const float* matrix;  // kAnchoredSize x 16
   const float* pull;    // kPullSize x 16, or null: all zero
@@ -26,19 +26,19 @@ using Children = std::array<int, 8>;
 
 /// The bricks of the finer level, whole blocks.
 struct FineMatrices {
-  const float* matrices;     // kAnchoredSize x 16 a block
-  const float* pulls;        // kPullSize x 16 a block that has one
+  const float* matrices;     // kAnchoredSize x 16 per block
+  const float* pulls;        // kPullSize x 16 per block that has one
   const int* pull_of_block;  // which; -1: none
 };
 
 /// The innermost loops, once for each instruction set. All versions give the same bits.
 struct Kernels {
-  /// 24 products K u (N) a brick, corner by corner, `moves` x y z a node (u, m), for the kBricksPerBlock bricks from
-  /// `first` on.
+  /// 24 products K u (N) per brick, corner by corner, `moves` x y z per node (u, m), for the kBricksPerBlock bricks
+  /// from `first` on.
   void (*stiffness_product)(const BlockInput& block, const double* moves, int first, double* corner_products);
 
-  /// Anchored matrices (kAnchoredSize x 16) and volume ratios (16) of the bricks from `first` on, guard left out, the
-  /// springs along themselves times `material`; zero in lanes beyond the last brick.
+  /// Anchored matrices (kAnchoredSize x 16) and volume ratios (16) of the bricks from `first` on, without the guard,
+  /// the springs' axial stiffness times `material`; zero in lanes beyond the last brick.
   void (*stiffness_matrices)(const BlockInput& input, const EdgeCoupling& coupling, double material, int first,
                              float* matrix, float* volume_ratios);
 

@@ -21,7 +21,7 @@ void for_nodes(int count, const Body& body) {
   });
 }
 
-/// The inverse between the axes that are free, zero in the others.
+/// The inverse over the free axes, zero in the others.
 Eigen::Matrix3f inverse_of_free(Eigen::Matrix3d block, const char* fixed) {
   for (int k = 0; k < 3; ++k) {
     if (fixed[k] == 0) continue;
@@ -270,11 +270,11 @@ void add_from_coarse(const Interpolation& hang, const Floats& coarse, Floats& fi
 
 namespace {
 
-/// What the coarsest level's diagonal is raised by, relative: single precision leaves no more certain.
+/// The relative increase of the coarsest level's diagonal: the accuracy of single precision.
 constexpr double kRaise = 1e-7;
-constexpr double kMostRaise = 1e-4;  // where the rounding of soft bodies needs more
+constexpr double kMostRaise = 1e-4;  // if the rounding of soft bodies needs more
 
-/// Of the residual: a coarse level that the first step brings so low takes no second one.
+/// Of the residual: a coarse level reduced this far by the first step needs no second one.
 constexpr float kEnough = 0.25F;
 
 double dot(const Floats& a, const Floats& b) { return a.dot(b); }
@@ -283,8 +283,8 @@ double dot(const Floats& a, const Floats& b) { return a.dot(b); }
 
 namespace {
 
-/// Of the entries on the diagonal, by row: the largest of those that its entries join. Corners of coarse bricks that
-/// hardly any child reaches have less than the others' rounding.
+/// By row, the largest diagonal entry of the rows that its entries couple. Corners of coarse bricks that hardly any
+/// child reaches have less than the others' rounding.
 Eigen::VectorXd largest_around(const Eigen::SparseMatrix<double>& lower) {
   const Eigen::VectorXd diagonal = lower.diagonal();
   Eigen::VectorXd largest = diagonal;

@@ -7,7 +7,7 @@
 
 namespace sprung::multigrid {
 
-using Floats = Eigen::VectorXf;  // 3 a node
+using Floats = Eigen::VectorXf;  // 3 per node
 
 /// The matrix of one level, brick by brick, and the products with it: the same bits for any number of threads.
 /// A = sum of the bricks' matrices + diagonal. The layout must outlive it.
@@ -24,26 +24,27 @@ class Level {
   float* add_pull(int block);
   void clear_pulls();
 
-  /// Takes on Galerkin's matrices of the finer level, its diagonal lumped, and what of it is held entirely.
+  /// Sets Galerkin's matrices from the finer level, its diagonal lumped, and the degrees of freedom that are entirely
+  /// fixed.
   void coarsen(const Level& fine);
 
-  /// Per node, N/m: added to the matrix. Masses over the step squared, and what keeps a free body from drifting.
+  /// Per node, N/m: added to the matrix. Masses over the step squared, and a term that keeps a free body from drifting.
   std::vector<double> diagonal;
 
   /// 3 m, degrees of freedom that do not move. (Rounding leaves them traces of stiffness.)
   std::vector<char> fixed;
   void release_held(Floats& x) const;
 
-  /// To be called when matrices and diagonal are set: the inverse of the nodes' own 3 x 3 blocks and the fastest
-  /// eigenvalue of the matrix scaled by them. `fastest_of_brick` is that of a single brick, which bounds it; 0: it is
-  /// found by Lanczos' method.
+  /// Call when matrices and diagonal are set: computes the inverse of the nodes' own 3 x 3 blocks and the largest
+  /// eigenvalue of the matrix scaled by them. `fastest_of_brick` is that of a single brick, which bounds it; 0: found
+  /// by Lanczos' method.
   void prepare_smoother(double fastest_of_brick);
 
   void multiply(const Floats& x, Floats& product) const;
   void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& product) const;
 
   /// `steps` of Chebyshev's polynomial of the fourth kind (Lottes, "Optimal polynomial smoothers for multigrid
-  /// V-cycles", 2023) in block-Jacobi's matrix. `residual` goes with x: it is that of x before and after.
+  /// V-cycles", 2023) in block-Jacobi's matrix. `residual` is that of x, before and after.
   void smooth(int steps, Floats& x, Floats& residual) const;
 
   /// The same for a residual that is not needed afterwards: one product less.
@@ -64,7 +65,7 @@ class Level {
   std::vector<float> matrices_;
   std::vector<float> pulls_;
   std::vector<int> pull_of_block_;
-  std::vector<Eigen::Matrix3f> inverse_blocks_;  // per node; zero where nothing holds the node
+  std::vector<Eigen::Matrix3f> inverse_blocks_;  // per node; zero for nodes without stiffness
   float fastest_ = 1;
   std::vector<std::size_t> corner_places_;  // of the x component, in corner forces, as layout.corners.corners
   mutable Eigen::VectorXf corner_forces_;
@@ -89,9 +90,8 @@ class Cycle {
   [[nodiscard]] Level& finest() { return levels_.front(); }
   [[nodiscard]] const Level& finest() const { return levels_.front(); }
 
-  /// Makes all coarser levels. `steps` of the smoother before and after. `fastest_of_brick`:
-  /// see Level::prepare_smoother(). False where the coarsest level's matrix is not
-  /// positive definite.
+  /// Builds all coarser levels. `steps` of the smoother before and after. `fastest_of_brick`: see
+  /// Level::prepare_smoother(). False if the coarsest level's matrix is not positive definite.
   bool prepare(int steps, double fastest_of_brick);
 
   /// x for the right side b (both 3 m).
@@ -103,9 +103,9 @@ class Cycle {
   };
 
   void descend(std::size_t level, Floats& residual, Floats& x) const;
-  /// Two steps at most of conjugate gradients around descend(): where coarse bricks are too stiff, as they are for the
-  /// bending of thin parts, their levels do not make each other worse (Notay and Vassilevski, "Recursive Krylov-based
-  /// multigrid cycles", 2008).
+  /// At most two steps of conjugate gradients around descend(): if coarse bricks are too stiff, as for the bending of
+  /// thin parts, errors do not accumulate over the levels (Notay and Vassilevski, "Recursive Krylov-based multigrid
+  /// cycles", 2008).
   void solve_coarse(std::size_t level, const Floats& b, Floats& x) const;
   void solve_coarsest(const Floats& residual, Floats& x) const;
 

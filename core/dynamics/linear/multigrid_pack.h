@@ -1,5 +1,5 @@
-// Compiled once for each instruction set: SPRUNG_INSTRUCTION_SET names the one at hand and the namespace of all that is
-// made for it, so that the linker cannot take a function made for another.
+// Compiled once for each instruction set: SPRUNG_INSTRUCTION_SET names the current one and the namespace of everything
+// compiled for it, so that the linker cannot pick a function compiled for another.
 #pragma once
 #include <cstddef>
 #include <experimental/simd>
@@ -12,7 +12,7 @@
 
 namespace sprung::multigrid::SPRUNG_INSTRUCTION_SET {
 
-/// N bricks side by side. A type of its own, for the same reason: what brick_kernel.h makes of it is made for it alone.
+/// N bricks side by side. A type of its own for the same reason: what brick_kernel.h instantiates for it is unique.
 template <class Number, int N>
 struct Pack {
   using Lanes = std::experimental::fixed_size_simd<Number, N>;

@@ -92,7 +92,7 @@ namespace {
 
 constexpr int kBlocksPerTask = 32;
 
-/// `product`: of a brick, for what its corners move.
+/// `product`: of a brick, for the displacements of its corners.
 template <class Product>
 void multiply_bricks(const Body& body, const Eigen::VectorXd& u, const Product& product, double* products) {
   tbb::parallel_for(std::size_t{0}, body.grid.nodes.size(), [&](std::size_t brick) {

@@ -9,14 +9,14 @@
 
 namespace sprung {
 
-/// Adds what holds a point to the matrix of its brick.
+/// Adds a point stiffness to the matrix of its brick.
 void add_point_stiffness(const PointStiffness& point, BrickMatrix& matrix);
 
-/// Adds the forces (3 m, N) that hold the point while the nodes move by x (3 m, m).
+/// Adds the forces (3 m, N) of a point stiffness for displacements x of the nodes (3 m, m).
 void add_point_product(const Body& body, const PointStiffness& point, const Eigen::VectorXd& x,
                        Eigen::VectorXd& product);
 
-/// Numbers the degrees of freedom that are free to move: -1 where fixed.
+/// Numbers the degrees of freedom that are free to move: -1 if fixed.
 struct FreeDofs {
   std::vector<int> index;  // 3 m
   int count = 0;
@@ -26,24 +26,24 @@ struct FreeDofs {
   [[nodiscard]] Eigen::VectorXd scatter(const Eigen::VectorXd& free) const;
 };
 
-/// Lower triangle of the second derivative of the elastic energy at body.positions and of what a step adds to it, free
+/// Lower triangle of the second derivative of the elastic energy at body.positions and of the terms of a step, free
 /// degrees of freedom only, N/m.
 [[nodiscard]] Eigen::SparseMatrix<double> stiffness_matrix(const Body& body, const FreeDofs& dofs, bool definite,
                                                            const StepTerms& terms);
 
-/// Room for the products of one body, kept from one to the next.
+/// Workspace for the products of one body, kept between calls.
 struct ProductWorkspace {
   CornerSums sums;
   SpringSystem springs;
 };
 
-/// K u, 3 m, N: K the second derivative of a body's elastic energy where it stands. Exact, without any matrix; the same
-/// bits for any number of threads.
+/// K u, 3 m, N: K the second derivative of a body's elastic energy at its current positions. Exact, matrix-free; the
+/// same bits for any number of threads.
 void multiply_stiffness(const Body& body, const Eigen::VectorXd& u, ProductWorkspace& workspace,
                         Eigen::VectorXd& product);
 
-/// factor K_along u, likewise: K_along the stiffness that damping sees, that of the springs along themselves, without
-/// the guard, with nodes at `positions` (m x 3, m).
+/// factor K_along u, likewise: K_along the stiffness used by damping, the axial one of the springs, without the guard,
+/// with nodes at `positions` (m x 3, m).
 void multiply_damping(const Body& body, const Points& positions, double factor, const Eigen::VectorXd& u,
                       ProductWorkspace& workspace, Eigen::VectorXd& product);
 

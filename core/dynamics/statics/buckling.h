@@ -13,12 +13,12 @@ struct BucklingModes {
   Eigen::MatrixXd shapes;   // 3 m x n, largest entry 1
 };
 
-/// Of a body at rest in which the loads make the Cauchy stresses `stresses` at its nodes (m x 6, Pa; recover_stress()):
-/// (K + factor K_g) shape = 0 with the geometric stiffness of the solid in the bricks, K_g = sum over bricks of the
-/// integral of grad N_a . stress grad N_b (Bathe, Finite Element Procedures, 6.8.2). Loads keep their directions;
-/// negative factors, of loads the other way round, are left out. Fewer than `count` where there are no more, or only
-/// such as the search cannot tell from the pull of the loads. `between` may throw. Throws Error(kFailed) where the
-/// search does not converge, Error(kBadInput) where the supports leave the body free to move.
+/// For a body at rest in which the loads cause the Cauchy stresses `stresses` at its nodes (m x 6, Pa;
+/// recover_stress()): (K + factor K_g) shape = 0 with the geometric stiffness of the solid in the bricks, K_g = sum
+/// over bricks of the integral of grad N_a . stress grad N_b (Bathe, Finite Element Procedures, 6.8.2). Loads keep
+/// their directions; negative factors, for reversed loads, are left out. Fewer than `count` if there are no more, or
+/// only some that the search cannot tell from the effect of the loads. `between` may throw. Throws Error(kFailed) if
+/// the search does not converge, Error(kBadInput) if the supports leave the body free to move.
 [[nodiscard]] BucklingModes find_buckling(const Body& body, const Supports& supports, const StressTensors& stresses,
                                           int count, const std::function<void()>& between = {});
 

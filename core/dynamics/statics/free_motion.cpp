@@ -17,12 +17,12 @@ namespace sprung {
 namespace {
 
 constexpr int kIterations = 8;
-/// A motion that meets less than this share of the largest stiffness of a brick meets none: as little as the system
-/// that finds it adds.
+/// A motion resisted by less than this share of the largest stiffness of a brick counts as free: as little as the
+/// system that finds it adds.
 constexpr double kNoResistance = 1e-11;
 constexpr double kMovesAlong = 0.3;  // of the largest displacement
 
-/// The softest motion, 3 m, of length 1, by inverse iteration; empty where the solver fails.
+/// The softest motion, 3 m, of length 1, by inverse iteration; empty if the solver fails.
 Eigen::VectorXd softest_motion(const Body& body, const Supports& supports, LinearSolver& system) {
   const StepTerms terms = support_terms(supports);
   if (!system.linearize(body, supports, true, terms)) return {};

@@ -5,9 +5,9 @@
 
 namespace sprung {
 
-/// Throws Error(kBadInput) that names the softest motion which the supports leave a body at the positions it has:
-/// where, how many nodes, and whether they slide or turn. `doing`: what was to be done, "found no equilibrium". Returns
-/// where the body resists all motions.
+/// Throws Error(kBadInput) naming the softest motion that the supports leave a body at its current positions: where,
+/// how many nodes, and whether they slide or turn. `doing`: the failed task, "found no equilibrium". Returns if the
+/// body resists all motions.
 void throw_if_free(const Body& body, const Supports& supports, const std::string& doing);
 
 }  // namespace sprung

@@ -12,7 +12,7 @@ namespace {
 
 using Cholesky = Eigen::SimplicialLLT<Eigen::SparseMatrix<double>, Eigen::Lower>;
 
-constexpr double kLongestMembraneStep = 0.5;  // membrane lengths; a longer one leads nowhere
+constexpr double kLongestMembraneStep = 0.5;  // membrane lengths; a longer one is useless
 constexpr double kFreeMembrane = 1e4;         // a displacement of that many membrane lengths is no deformation
 constexpr double kShift = 1e-9;               // of the largest entry, where a matrix may be singular
 
@@ -26,7 +26,7 @@ void release_supported(const Membrane& membrane, Eigen::VectorXd& forces) {
   }
 }
 
-/// The stiffness with supported degrees of freedom held one by one: unknowns keep their numbers.
+/// The stiffness with supported degrees of freedom fixed one by one: unknowns keep their numbers.
 Eigen::SparseMatrix<double> supported_stiffness(const Membrane& membrane, bool definite) {
   Eigen::SparseMatrix<double> matrix = stiffness_matrix(membrane, definite);
   const double pinned_diagonal = matrix.diagonal().maxCoeff();
@@ -39,7 +39,7 @@ Eigen::SparseMatrix<double> supported_stiffness(const Membrane& membrane, bool d
   return matrix;
 }
 
-/// Displacements for forces (zero at supports), both 2 m. Empty where the stiffness is not positive definite.
+/// Displacements for forces (zero at supports), both 2 m. Empty if the stiffness is not positive definite.
 Eigen::VectorXd displacement(const Membrane& membrane, const Eigen::VectorXd& forces, bool definite) {
   const Eigen::SparseMatrix<double> matrix = supported_stiffness(membrane, definite);
   Cholesky cholesky;
@@ -65,7 +65,7 @@ double potential(const Membrane& membrane, const Points2& loads) {
   return elastic_energy(membrane) - flat(loads).dot(flat(membrane.positions));
 }
 
-/// One step downhill. False where no step lowers the energy any more.
+/// One step downhill. False if no step lowers the energy any more.
 bool step(Membrane& membrane, const Points2& loads, const Eigen::VectorXd& residual, double noise) {
   const Eigen::VectorXd direction = downhill(membrane, residual);
   if (direction.size() == 0) return false;
@@ -81,7 +81,7 @@ bool step(Membrane& membrane, const Points2& loads, const Eigen::VectorXd& resid
   return false;
 }
 
-/// Newton's method at one load. False where it does not converge; the membrane is then anywhere.
+/// Newton's method at one load. False if it does not converge; the membrane is then in an arbitrary state.
 bool find_equilibrium(Membrane& membrane, const Points2& loads, const StaticOptions& options, StaticReport& report) {
   const double rounding = 4 * std::numeric_limits<double>::epsilon() * extent(membrane);
   const double stiffness = rectangle_hessian(membrane.law, rest_corners(membrane.law)).trace();

@@ -29,10 +29,10 @@ constexpr int kRoundsToStart = 2;       // of inverse iteration, about
 constexpr int kMostRounds = 200;        // of corrections
 constexpr int kRoundsToRestart = 2;     // of corrections; each keeps as many vectors more
 constexpr int kRigidMotions = 6;
-constexpr double kSpectralShift = 1e-3;  // of what a wave needs along a free body, which makes its matrix definite
+constexpr double kSpectralShift = 1e-3;  // relative to a wave's rate along a free body; makes its matrix definite
 constexpr double kRigid = 1e-5;          // of the shift: less than that is rounding
 
-/// The square of the rate (1/s) at which a longitudinal wave runs along a body.
+/// The square of the rate (1/s) at which a longitudinal wave travels along a body.
 double wave_rate_squared(const Body& body) {
   const double length =
       (body.rest_positions.colwise().maxCoeff() - body.rest_positions.colwise().minCoeff()).maxCoeff();
@@ -62,7 +62,7 @@ class ScaledStiffness {
     return scale_.asDiagonal() * Matrix(lower.selfadjointView<Eigen::Lower>()) * scale_.asDiagonal();
   }
 
-  /// False where the matrix is seen not to be positive definite.
+  /// False if the matrix is found not to be positive definite.
   bool prepare() { return system_->linearize(body_, supports_, false, terms_); }
 
   [[nodiscard]] Matrix operator*(const Matrix& columns) const {
@@ -70,7 +70,7 @@ class ScaledStiffness {
         columns, [&](const Vector& all, Vector& product) { system_->multiply(all, product); }, scale_);
   }
 
-  /// About the inverse.
+  /// An approximate inverse.
   [[nodiscard]] Matrix precondition(const Matrix& columns) const {
     return each(
         columns, [&](const Vector& all, Vector& correction) { system_->precondition(all, correction); },
@@ -111,7 +111,7 @@ class Davidson : public Spectra::JDSymEigsBase<Davidson, ScaledStiffness> {
   Davidson(ScaledStiffness& matrix, int count, int start)
       : JDSymEigsBase(matrix, count, start, start + kRoundsToRestart * count) {}
 
-  /// Of those that are not good enough yet, one at least.
+  /// Corrections for those that have not converged yet, one at least.
   [[nodiscard]] Matrix calculate_correction_vector() const {
     const Matrix& residuals = m_ritz_pairs.residues();
     std::vector<int> rows;
@@ -132,7 +132,7 @@ Eigenpairs all_pairs(const ScaledStiffness& matrix, int count) {
   return {solver.eigenvalues().head(count), solver.eigenvectors().leftCols(count)};
 }
 
-/// None where the matrix is not positive definite, or has an eigenvalue that is `nothing` to it.
+/// None if the matrix is not positive definite, or has an eigenvalue of at most `nothing`.
 std::optional<Eigenpairs> smallest_pairs(ScaledStiffness& matrix, int count, double nothing) {
   if (!matrix.prepare()) return std::nullopt;
   const int start = count + kMoreToStart;
@@ -150,7 +150,7 @@ std::optional<Eigenpairs> smallest_pairs(ScaledStiffness& matrix, int count, dou
               fmt::format("the search for {} modes did not converge; hold more of the body or ask for fewer", count));
 }
 
-/// The same, in the way that the size asks for.
+/// The same, by the method that suits the size.
 std::optional<Eigenpairs> find_pairs(ScaledStiffness& matrix, int count, double nothing) {
   const bool is_small = matrix.rows() <= std::max(kDense, 4 * (count + kMoreToStart));
   std::optional<Eigenpairs> found = is_small ? all_pairs(matrix, count) : smallest_pairs(matrix, count, nothing);

@@ -5,7 +5,7 @@
 
 namespace sprung {
 
-/// The slowest natural vibrations of a body about the positions it has.
+/// The slowest natural vibrations of a body about its current positions.
 struct Modes {
   Eigen::VectorXd frequencies;  // k, Hz, slowest first
   int rigid = 0;                // motions, set aside: 6 of a free body
@@ -14,10 +14,9 @@ struct Modes {
 
 /// The `count` slowest vibrations of the supported, undamped body: K shape = (2 pi f)^2 M shape with lumped masses, by
 /// Davidson's method (Spectra) with multigrid: time and memory grow with the body. The squares of the frequencies are
-/// right to a ten-thousandth of the lowest, clusters included. Rigid motions that the
-/// supports leave, six of a free body, are set aside. `between` is called before each of the matrix's products and may
-/// throw. Throws Error(kBadInput) for more modes than free coordinates, Error(kFailed) where the iteration does not
-/// converge or a body falls apart.
+/// accurate to a ten-thousandth of the lowest, clusters included. Rigid motions that the supports leave, six of a free
+/// body, are set aside. `between` is called before each matrix product and may throw. Throws Error(kBadInput) for more
+/// modes than free coordinates, Error(kFailed) if the iteration does not converge or a body falls apart.
 [[nodiscard]] Modes natural_modes(const Body& body, const Supports& supports, int count,
                                   const std::function<void()>& between = {});
 

@@ -47,7 +47,7 @@ double spring_support_energy(const Body& body, const Supports& supports) {
   return energy;
 }
 
-/// K u: the forces (m x 3, N) that hold the displacements u, without supporting springs.
+/// K u: the forces (m x 3, N) that maintain the displacements u, without supporting springs.
 Points holding_forces(const Body& body, const Points& displacements) {
   Points forces = Points::Zero(body.node_count(), 3);
   for (std::size_t brick = 0; brick < body.grid.nodes.size(); ++brick) {
@@ -64,7 +64,7 @@ Points holding_forces(const Body& body, const Points& displacements) {
   return forces;
 }
 
-/// To what fixed degrees of freedom carry: their share of the springs included.
+/// Adds the springs' reactions at free degrees of freedom; those at fixed ones are included already.
 void add_spring_reactions(const Body& body, const Supports& supports, const Points& displacements, Points& reactions) {
   if (supports.springs.empty()) return;
   const Points forces = spring_support_forces(body, supports, displacements);
@@ -100,8 +100,8 @@ LinearResponse linear_response(const Body& body, const Supports& supports, const
 
 namespace {
 
-constexpr double kLongestStep = 0.5;       // body lengths; a longer one leads nowhere
-constexpr double kNewtonTolerance = 1e-4;  // of a direction; Newton's method takes care of what is left
+constexpr double kLongestStep = 0.5;       // body lengths; a longer one is useless
+constexpr double kNewtonTolerance = 1e-4;  // of a direction; Newton's method corrects the rest
 constexpr double kLinearTolerance = 1e-11;
 constexpr double kFirstMove = 0.1;  // bricks, along a direction of negative curvature
 constexpr double kFarthest = 1024;  // times as far
@@ -127,7 +127,7 @@ class Equilibrium {
         rounding_(4 * std::numeric_limits<double>::epsilon() * extent(body)),
         rounding_force_(8 * largest_brick_stiffness(body) * rounding_) {}
 
-  /// False where it does not converge; the body is then anywhere.
+  /// False if it does not converge; the body is then in an arbitrary state.
   bool find(StaticReport& report) {
     for (int iteration = 0; iteration < options_.max_iterations; ++iteration) {
       if (options_.between) options_.between();
@@ -162,9 +162,9 @@ class Equilibrium {
            flat(loads_).dot(flat(body_.positions));
   }
 
-  /// One step downhill: in Newton's direction where the curvature is positive; where it is not, along what curves
-  /// down, or in the direction that the positive part of the curvature gives: systems of springs have ridges from which
-  /// it leads down into crushed bricks. False where no step lowers the energy any more.
+  /// One descent step: in Newton's direction if the curvature is positive; otherwise along negative curvature, or in
+  /// the direction from the positive part of the curvature: in systems of springs, negative curvature can lead from
+  /// ridges into crushed bricks. False if no step lowers the energy any more.
   bool step(const Eigen::VectorXd& residual) {
     if (system_.linearize(body_, supports_, false, terms_)) {
       const Eigen::VectorXd direction = system_.solve(residual, kNewtonTolerance);
@@ -176,7 +176,7 @@ class Equilibrium {
     return direction.size() > 0 && search_along(direction, residual) > 0;
   }
 
-  /// By a direction of negative curvature, which does not say how far it leads down.
+  /// Steps along a direction of negative curvature, whose length is unknown.
   bool descend(const Eigen::VectorXd& downhill, const Eigen::VectorXd& residual) {
     if (!std::isfinite(length_of(downhill))) return false;
     const double bricks = downhill.cwiseAbs().maxCoeff() / body_.grid.brick_size;
@@ -194,8 +194,8 @@ class Equilibrium {
     return true;
   }
 
-  /// The first share of 1, 1/2, 1/4, ... of a direction that lowers the energy enough, gone to; 0: none, and the body
-  /// is where it was.
+  /// The first share of 1, 1/2, 1/4, ... of a direction that lowers the energy enough; the body is moved there. 0:
+  /// none, and the body is unchanged.
   double search_along(const Eigen::VectorXd& direction, const Eigen::VectorXd& residual) {
     const double slope = direction.dot(residual);
     const Points before = body_.positions;
@@ -216,14 +216,14 @@ class Equilibrium {
     Eigen::Map<Eigen::VectorXd>(body_.positions.data(), body_.positions.size()) += way;
   }
 
-  /// Over the longest step that leads anywhere; infinity for none, or one that is not finite.
+  /// Relative to the longest useful step; infinity for none, or one that is not finite.
   [[nodiscard]] double length_of(const Eigen::VectorXd& direction) const {
     if (direction.size() == 0 || !direction.allFinite()) return std::numeric_limits<double>::infinity();
     return direction.cwiseAbs().maxCoeff() / (kLongestStep * extent(body_));
   }
   [[nodiscard]] bool is_short(const Eigen::VectorXd& direction) const { return length_of(direction) <= 1; }
 
-  /// Empty where there is no such direction.
+  /// Empty if there is no such direction.
   [[nodiscard]] Eigen::VectorXd shortened(const Eigen::VectorXd& direction) const {
     const double length = length_of(direction);
     return std::isfinite(length) ? (direction / std::max(1.0, length)).eval() : Eigen::VectorXd();
@@ -236,14 +236,14 @@ class Equilibrium {
   const StepTerms terms_;
   const StaticOptions& options_;
   double rounding_;        // of a position, m
-  double rounding_force_;  // that it makes, N
+  double rounding_force_;  // that it causes, N
   ForceWorkspace workspace_;
   Points forces_;
   double largest_force_ = 0;
 };
 
-/// K and supporting springs at the positions the body has, in double precision and without anything added; zero at
-/// fixed supports.
+/// K and supporting springs at the body's current positions, in double precision and without added terms; zero at fixed
+/// supports.
 class ExactProduct {
  public:
   ExactProduct(const Body& body, const Supports& supports)
@@ -265,7 +265,7 @@ class ExactProduct {
     return free_part(std::move(product));
   }
 
-  /// Whether the forces are balanced, but for what rounded displacements leave; never with more than a millionth left.
+  /// Whether the forces are balanced up to rounded displacements; never with a residual of more than a millionth.
   [[nodiscard]] bool is_solution(const Eigen::VectorXd& displacement, const Eigen::VectorXd& forces) const {
     if (displacement.size() == 0 || !displacement.allFinite()) return false;
     const double rounding = 8 * std::numeric_limits<double>::epsilon() * largest_ * displacement.norm();
@@ -290,8 +290,8 @@ Eigen::VectorXd solve_linear(const Body& body, const Supports& supports, const P
     Eigen::VectorXd displacement = system.solve(forces, kLinearTolerance);
     if (stiffness.is_solution(displacement, forces)) return displacement;
   }
-  // Motions that meet (almost) no resistance, such as a thin bar of plain springs that may twist, do no harm where no
-  // load drives them. What is held slightly is a good preconditioner for what is not.
+  // Motions with (almost) no resistance, such as a thin bar of plain springs that may twist, do no harm if no load
+  // drives them. The slightly stiffened system is a good preconditioner for the original one.
   const std::unique_ptr<LinearSolver> definite_solver = make_robust_solver(body);
   if (definite_solver->linearize(body, supports, true, terms)) {
     SolveReport report;

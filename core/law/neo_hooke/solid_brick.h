@@ -9,10 +9,10 @@
 
 namespace sprung {
 
-/// A brick that knows how its solid lies in it. Its energy, with z = (b, t, q) the differences of its springs' squared
-/// lengths (StrainDifferences) and S, K those of its solid (CurvedSolid):
+/// A brick with a known distribution of its solid. Its energy, with z = (b, t, q) the differences of its springs'
+/// squared lengths (StrainDifferences) and S, K those of its solid (CurvedSolid):
 ///   W = V psi(F (I + S z)) + 1/2 E V h^2 (b, t)^T K (b, t) + 3/2 sum over i: E m_jj m_kk / V q_i^2
-/// F is the gradient of the trilinear map of the corners at the centroid. Full or cut by the surface, it is right to
+/// F is the gradient of the trilinear map of the corners at the centroid. Full or cut by the surface, it is accurate to
 /// first order and at any strain; momentum and angular momentum are conserved exactly. As an element, a uniform-strain
 /// hexahedron with physical hourglass stabilisation (Flanagan, Belytschko, Int. J. Numer. Meth. Engng 17, 1981; Puso,
 /// 49, 2000). Plain, one brick at a time.
@@ -30,10 +30,10 @@ class SolidBrick {
   [[nodiscard]] BrickVector forces(const BrickVector& x) const;
   /// The second derivative of the energy, N/m; `definite`: without negative curvature.
   [[nodiscard]] BrickMatrix hessian(const BrickVector& x, bool definite) const;
-  /// What stiffness-proportional damping sees, N/m: positive semidefinite, and zero for rigid motions wherever the
-  /// brick is. At rest the Hessian.
+  /// The matrix of stiffness-proportional damping, N/m: positive semidefinite, and zero for rigid motions in any state.
+  /// At rest, the Hessian.
   [[nodiscard]] BrickMatrix damping(const BrickVector& x) const;
-  /// The same times v, N/m times what v is.
+  /// The same times v, N/m times the unit of v.
   [[nodiscard]] BrickVector damping_product(const BrickVector& x, const BrickVector& v) const;
 
   /// The deformation gradient at the centroid of the solid, F (I + S z).
@@ -43,7 +43,7 @@ class SolidBrick {
   using Values = StrainDifferences::Values;
   using GradientRates = Eigen::Matrix<double, 9, 24>;  // of the nine entries of a gradient, by the corners
 
-  /// Where the corners are.
+  /// The deformation for given corners.
   struct Deformation {
     Values z;
     Mat3 secant;  // F
@@ -57,13 +57,13 @@ class SolidBrick {
   [[nodiscard]] Mat3 shear(const Values& z) const {
     return shear_matrix(tangent_ * z.head<StrainDifferences::kGradients>());
   }
-  /// The forces on the corners of a stress (first Piola-Kirchhoff, Pa) and of what the differences of the springs ask
-  /// for besides.
+  /// The forces on the corners of a stress (first Piola-Kirchhoff, Pa) plus those of forces on the springs'
+  /// differences.
   [[nodiscard]] BrickVector pull(const BrickVector& x, const Deformation& at, const Mat3& stress,
                                  const Values& besides) const;
-  /// What the stress F^T P (Pa) asks of the differences.
+  /// The forces of the stress F^T P (Pa) on the differences.
   [[nodiscard]] Values on_differences(const Mat3& stress) const;
-  /// Of gradient().
+  /// The rates of gradient().
   [[nodiscard]] GradientRates gradient_rates(const Deformation& at, const StrainDifferences::Rates& rates) const;
 
   NeoHooke law_;
@@ -74,10 +74,10 @@ class SolidBrick {
   Eigen::Matrix<double, 3, 9> tangent_;                                                // of (b, t), m
 };
 
-/// What warping costs, q_i^2 h^4 times this, over half E V.
+/// The energy of warping, over half E V, is q_i^2 h^4 times this.
 [[nodiscard]] Vec3 warping_stiffness(const SolidMoments& moments);
 
-/// Moments that the law can bear: in no direction is the solid thinner than `least_thickness`, in brick lengths.
+/// Moments admissible for the law: in no direction is the solid thinner than `least_thickness`, in brick lengths.
 [[nodiscard]] SolidMoments bounded_moments(const SolidMoments& moments, double least_thickness = 0.02);
 
 }  // namespace sprung

@@ -28,13 +28,13 @@ class StrainDifferences {
   StrainDifferences(double h, const Vec3& centroid);
 
   [[nodiscard]] Values values(const BrickVector& x) const;
-  /// By the corners.
+  /// Derivatives with respect to the corners.
   [[nodiscard]] Rates rates(const BrickVector& x) const;
   /// How values() change with v.
   [[nodiscard]] Values change(const BrickVector& x, const BrickVector& v) const;
   /// Forces on the corners, rates()^T times `force`.
   [[nodiscard]] BrickVector pull(const BrickVector& x, const Values& force) const;
-  /// The second derivatives of the values, each times its `force`; `definite`: of the springs that pull alone.
+  /// The second derivatives of the values, each times its `force`; `definite`: of springs in tension only.
   void add_curvature(const Values& force, bool definite, BrickMatrix& matrix) const;
 
  private:

@@ -53,7 +53,7 @@ GradientVector flat(const Mat3& m) { return Eigen::Map<const GradientVector>(m.d
 
 using AtMost3 = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3>;
 
-/// F = U diag(stretches) V^T with rotations U and V: of an F turned inside out the smallest stretch is negative.
+/// F = U diag(stretches) V^T with rotations U and V: for an inverted F the smallest stretch is negative.
 struct PrincipalStretches {
   Mat3 u;
   Mat3 v;

@@ -7,18 +7,18 @@
 
 namespace sprung {
 
-/// Of the nine entries of a deformation gradient, column by column.
+/// The nine entries of a deformation gradient, column by column.
 using GradientVector = Eigen::Matrix<double, 9, 1>;
 using GradientMatrix = Eigen::Matrix<double, 9, 9>;
 
 /// The strain-energy density of a compressible neo-Hookean solid,
 ///   psi = G/2 (F : F - 3) - G log J + lambda/2 (J - 1)^2,   J = det F,
-/// with Lame's constants of the material at rest. Below J = 0.2 the logarithm goes on as the parabola with its value,
-/// slope and curvature there: psi is finite and twice differentiable for every F, turned inside out too; a block
-/// pressed along one axis carries more and more until a fifth of its volume is left. Where lambda < 0 (nu < 0) the last
-/// term is lambda/2 (J - 1)^2 / (1 + (J - 1)^2): without a bound it would let a solid swell without end; with it psi
-/// grows with every dilation down to nu = -1/2. Source: Bonet, Wood, "Nonlinear Continuum Mechanics for Finite Element
-/// Analysis", section 6.4.3, with (J - 1)^2 in place of (log J)^2.
+/// with Lame's constants of the material at rest. Below J = 0.2 the logarithm continues as the parabola with its value,
+/// slope and curvature there: psi is finite and twice differentiable for every F, inverted ones too; a block compressed
+/// along one axis carries more and more until a fifth of its volume is left. Where lambda < 0 (nu < 0) the last term is
+/// lambda/2 (J - 1)^2 / (1 + (J - 1)^2): without a bound it would let a solid swell without end; with it psi grows with
+/// every dilation down to nu = -1/2. Source: Bonet, Wood, "Nonlinear Continuum Mechanics for Finite Element Analysis",
+/// section 6.4.3, with (J - 1)^2 instead of (log J)^2.
 class NeoHooke {
  public:
   explicit NeoHooke(const Material& material);
@@ -29,11 +29,12 @@ class NeoHooke {
   [[nodiscard]] Mat3 stress(const Mat3& gradient) const;
   /// d^2 psi / d F^2, Pa.
   [[nodiscard]] GradientMatrix hessian(const Mat3& gradient) const;
-  /// The same without its negative eigenvalues. They are known by the principal stretches, but for a 3 x 3 block.
-  /// Source: Smith, de Goes, Kim, "Analytic Eigensystems for Isotropic Distortion Energies", ACM TOG 38(1), 2019.
+  /// The same without its negative eigenvalues. These are closed-form in the principal stretches, except for a 3 x 3
+  /// block. Source: Smith, de Goes, Kim, "Analytic Eigensystems for Isotropic Distortion Energies", ACM TOG 38(1),
+  /// 2019.
   [[nodiscard]] GradientMatrix definite_hessian(const Mat3& gradient) const;
   /// The first Piola-Kirchhoff stress of a Kelvin-Voigt solid, F (lambda tr(E') + 2 G E'), E' = sym(F^T F') the rate of
-  /// Green's strain; Pa over the relaxation time. It is against every deformation, and none for rigid motions.
+  /// Green's strain; Pa over the relaxation time. It opposes every deformation and vanishes for rigid motions.
   [[nodiscard]] Mat3 viscous_stress(const Mat3& gradient, const Mat3& rate) const;
   /// The same as a matrix: positive semidefinite.
   [[nodiscard]] GradientMatrix viscosity(const Mat3& gradient) const;

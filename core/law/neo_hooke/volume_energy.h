@@ -2,7 +2,7 @@
 
 namespace sprung {
 
-/// The volume ratio below which the logarithm of NeoHooke goes on as a parabola.
+/// The volume ratio below which the logarithm of NeoHooke continues as a parabola.
 inline constexpr double kLowestVolume = 0.2;
 
 /// The part of psi that depends on the volume ratio, J/m^3, for Lame's constants in Pa.

@@ -195,7 +195,7 @@ class ObjReader {
     return int(std::max(row, 0L));
   }
 
-  /// The part of this group and material, created where there is none yet.
+  /// The part of this group and material, created if there is none yet.
   int part() {
     if (part_ >= 0) return part_;
     const auto [found, is_new] = parts_.try_emplace({group_, material_}, isize(soup_.parts));

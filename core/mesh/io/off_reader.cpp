@@ -82,7 +82,7 @@ Numbers rest_of_line(TextScanner& scanner) {
   return numbers;
 }
 
-/// Colours are bytes or, where a number has a decimal point, in [0, 1]; white for fewer than three numbers.
+/// Colours are bytes or, if a number has a decimal point, in [0, 1]; white for fewer than three numbers.
 Eigen::Vector4f color_of(std::span<const double> values, bool fractions) {
   Eigen::Vector4f color = Eigen::Vector4f::Ones();
   if (values.size() < 3) return color;

@@ -14,7 +14,7 @@ namespace sprung {
 /// appended to `triangles`: convex polygons by a fan, others by ear clipping in the plane of their area vector.
 void cut_polygon(const Points& points, std::span<const int> polygon, std::vector<std::array<int, 3>>& triangles);
 
-/// A corner of a polygon: rows of the soup's lists, counted from 0; -1 where the file gives none.
+/// A corner of a polygon: rows of the soup's lists, counted from 0; -1 if the file gives none.
 struct Corner {
   int position = 0;
   int uv = -1;
@@ -37,7 +37,7 @@ struct PolygonSoup {
   bool single_precision = false;
 };
 
-/// A position with the place of it in the message where it is not finite. Throws Error(kBadInput).
+/// Adds a position; the message names its location if it is not finite. Throws Error(kBadInput).
 void add_position(PolygonSoup& soup, const Vec3& position, std::string_view name);
 
 /// Adds a UV or a normal; non-finite ones become 0, since the shape does not depend on them. Normals are normalised.
@@ -49,7 +49,7 @@ void add_normal(PolygonSoup& soup, const Vec3& normal);
 
 /// The soup as a mesh: polygons are triangulated and ordered by part, vertices split where UVs or normals differ.
 /// Unused positions are kept; parts without triangles are dropped. Preconditions: rows of corners are in range. Throws
-/// Error(kBadInput) where there is no polygon, or more than an int can count.
+/// Error(kBadInput) if there is no polygon, or more than an int can count.
 [[nodiscard]] SurfaceMesh mesh_from(PolygonSoup soup, std::string_view name);
 
 }  // namespace sprung

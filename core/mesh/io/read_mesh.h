@@ -21,11 +21,10 @@ namespace sprung {
 [[nodiscard]] SurfaceMesh read_mesh_here(const std::filesystem::path& file);
 
 /// The unit that the file itself gives its lengths in, as metres_in() knows it: metres for glTF by its specification,
-/// what the model of a 3MF says, millimetres where it does not. Empty: the format has none, or the file is damaged.
+/// what the model of a 3MF says, millimetres if it says none. Empty: the format has none, or the file is damaged.
 [[nodiscard]] std::string stated_unit(const std::filesystem::path& file);
 
-/// The text of a small file that a mesh refers to, such as a material library; nothing where it is missing or too
-/// large.
+/// The text of a small file that a mesh refers to, such as a material library; nothing if it is missing or too large.
 [[nodiscard]] std::optional<std::string> read_companion(const std::string& name,
                                                         const std::filesystem::path& mesh_file);
 

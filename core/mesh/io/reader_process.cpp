@@ -223,7 +223,7 @@ void set_limit(decltype(RLIMIT_AS) resource, rlim_t soft, rlim_t hard) {
   setrlimit(resource, &limit);
 }
 
-/// Bytes of address space in use, to which the limit is added; 0 where unknown.
+/// Bytes of address space in use, to which the limit is added; 0 if unknown.
 std::uint64_t address_space() {
   std::uint64_t pages = 0;
   std::ifstream("/proc/self/statm") >> pages;
@@ -298,7 +298,7 @@ class Child {
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
-  /// What it sends until it closes the pipe; nothing where the deadline passes.
+  /// What it sends until it closes the pipe; nothing if the deadline passes.
   [[nodiscard]] std::optional<std::vector<std::byte>> receive(Clock::time_point deadline) const {
     std::vector<std::byte> bytes;
     std::vector<std::byte> chunk(std::size_t{1} << 20);
@@ -310,7 +310,7 @@ class Child {
     return std::nullopt;
   }
 
-  /// The status of waitpid; 0 where the child was reaped elsewhere.
+  /// The status of waitpid; 0 if the child was reaped elsewhere.
   int wait() {
     int status = 0;
     pid_t ended = 0;

@@ -10,7 +10,7 @@
 
 namespace sprung {
 
-/// Returns the text of a file that another one refers to; nothing where it is missing.
+/// Returns the text of a file that another one refers to; nothing if it is missing.
 using FindText = std::function<std::optional<std::string>(const std::string& name)>;
 
 /// The mesh in the text of an OBJ file: polygons with UVs, normals and colours of vertices; a part for each object or
@@ -52,7 +52,7 @@ void check_gltf(std::string_view bytes, const std::string& name);
 /// Rejects a 3MF archive that is truncated or contains no model. Throws Error(kBadInput).
 void check_3mf(std::string_view bytes, const std::string& name);
 
-/// The first bytes, at most `count`, of the model in a 3MF archive; empty where there is none or it is damaged.
+/// The first bytes, at most `count`, of the model in a 3MF archive; empty if there is none or it is damaged.
 [[nodiscard]] std::string start_of_3mf_model(std::string_view bytes, std::size_t count);
 
 }  // namespace sprung

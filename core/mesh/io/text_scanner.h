@@ -12,7 +12,7 @@ namespace sprung {
 /// A text without a leading UTF-8 byte order mark.
 [[nodiscard]] std::string_view without_byte_order_mark(std::string_view text);
 
-/// The subject of a message: "vertex 12", or the thing alone where it has no number.
+/// The subject of a message: "vertex 12", or the thing alone if it has no number.
 struct Named {
   std::string_view thing;
   long number = 0;

@@ -16,7 +16,7 @@ class TriangleGrid {
   /// Whether any triangle lies between the two points, which are at most a few cells apart.
   [[nodiscard]] bool is_blocked(const Vec3& from, const Vec3& to) const;
 
-  /// The distance to the first triangle along a ray, in units of |direction|; infinite where there is none.
+  /// The distance to the first triangle along a ray, in units of |direction|; infinite if there is none.
   [[nodiscard]] double cast_ray(const Vec3& from, const Vec3& direction) const;
 
  private:

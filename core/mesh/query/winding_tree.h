@@ -40,8 +40,8 @@ class WindingTree {
   std::vector<Node> nodes_;
 };
 
-/// The solid angle of a triangle seen from `place`, positive from behind (Van Oosterom and Strackee 1983); 0 within its
-/// plane.
+/// The solid angle of a triangle seen from `position`, positive from behind (Van Oosterom and Strackee 1983); 0 within
+/// its plane.
 [[nodiscard]] double solid_angle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& position);
 
 }  // namespace sprung

@@ -21,7 +21,7 @@ struct Cap {
 
 /// Fills a planar hole by a Delaunay triangulation, any other by the triangulation of least bending, which (from 8
 /// edges on) is refined to the density of the rim and faired to continue the surrounding surface (Liepa 2003). Never
-/// fails: where CGAL finds no triangulation, a fan is used. Deterministic.
+/// fails: if CGAL finds no triangulation, a fan is used. Deterministic.
 [[nodiscard]] Cap fill_hole(const Hole& given);
 
 /// What close_shells() did.

@@ -21,7 +21,7 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
 using Mesh = CGAL::Surface_mesh<Point>;
 
-/// False where the triangles are not a surface that Mesh can represent.
+/// False if the triangles are not a surface that Mesh can represent.
 bool make_mesh(const Points& points, const Triangles& triangles, Mesh& mesh) {
   std::vector<std::array<std::size_t, 3>> corners(triangles.rows());
   for (int row = 0; row < triangles.rows(); ++row) {

@@ -7,8 +7,8 @@
 namespace sprung {
 
 /// The face of a surface that a triangle belongs to, as a person would point at it: all triangles connected to it in
-/// its own plane (to a degree); where these are but a small share of what is connected without sharp edges (30
-/// degrees), as on a cylinder, all of that. Rows of `triangles`, ascending. Points of equal position count as one.
+/// its own plane (to a degree); if these are only a small share of what is connected without sharp edges (30 degrees),
+/// as on a cylinder, all of that. Rows of `triangles`, ascending. Points of equal position count as one.
 [[nodiscard]] std::vector<int> find_face(const Points& points, const Triangles& triangles, int triangle);
 
 /// The ends of the edges along which an oriented surface is concave and sharp (30 degrees): inner corners.

@@ -59,7 +59,7 @@ bool closes(const std::vector<Corners>& triangles, int corners) {
   return std::all_of(sides.begin(), sides.end(), [](const auto& side) { return side.second == 0; });
 }
 
-/// Without new points; empty where CGAL finds none.
+/// Without new points; empty if CGAL finds none.
 std::vector<Corners> triangulate(const Hole& hole, bool flat) {
   std::vector<CGAL::Triple<int, int, int>> found;
   try {
@@ -95,7 +95,7 @@ Cap fan(const Points& rim) {
 /// The cap with the ring of triangles around it, as a mesh of CGAL's.
 class Patch {
  public:
-  /// Nothing where cap and ring do not make a manifold surface.
+  /// Nothing if cap and ring do not make a manifold surface.
   static std::optional<Patch> make(const Hole& hole, const std::vector<Corners>& cap) {
     Patch patch;
     for (const Point& point : points_of(hole.rim)) patch.mesh_.add_vertex(point);

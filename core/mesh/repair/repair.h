@@ -29,7 +29,7 @@ struct Repair {
   bool harmless = false;  // usual in sound files: no warning, and no reason to refuse
 };
 
-/// Appends a repair where count > 0.
+/// Appends a repair if count > 0.
 inline void add_repair(std::vector<Repair>& repairs, const char* kind, long count, const std::string& text,
                        bool harmless = false) {
   if (count > 0) repairs.push_back({kind, int(count), text, harmless});
@@ -37,7 +37,7 @@ inline void add_repair(std::vector<Repair>& repairs, const char* kind, long coun
 
 /// How to treat a surface that does not bound solids as it is.
 enum class RepairMode {
-  kOff,    // take it as it is; refuse where its inside is ambiguous
+  kOff,    // take it as it is; refuse if its inside is ambiguous
   kAuto,   // repair it and report the repairs
   kStrict  // refuse whatever needs repair
 };

@@ -130,7 +130,7 @@ class MeshRepairer {
     find_oriented_shells();
   }
 
-  /// A hole is small beside its surface; what is as large is the rim of a cloth or a bowl.
+  /// A hole is small relative to its surface; one that is as large is the rim of a cloth or a bowl.
   void refuse_large_cap(double area) const {
     constexpr double kMost = 0.2;  // of the closed surface
     const double share = area / (area + given_area(mesh_, shells_.shells.front().triangles));

@@ -10,7 +10,7 @@ namespace sprung {
 struct Solids {
   std::vector<Solid> solids;     // largest volume first
   std::vector<Repair> repairs;   // what was changed, with counts
-  Vec3 crossing = Vec3::Zero();  // the first place where the surface intersects itself, if any
+  Vec3 crossing = Vec3::Zero();  // the first point where the surface intersects itself, if any
 };
 
 struct SolidOptions {
@@ -29,9 +29,8 @@ struct SolidOptions {
 /// volume and floating specks are dropped. Where most of the surface is disconnected pieces that enclose a volume only
 /// together, they form one solid, whose inside is decided by winding numbers.
 ///
-/// Throws Error(kBadInput), naming `name` and the reason, where nothing encloses a volume (flat, an open sheet,
-/// one-sided, triangles without an inside), or where `repair` forbids a necessary repair. All tolerances are relative.
-/// Deterministic.
+/// Throws Error(kBadInput), naming `name` and the reason, if nothing encloses a volume (flat, an open sheet, one-sided,
+/// triangles without an inside), or if `repair` forbids a necessary repair. All tolerances are relative. Deterministic.
 [[nodiscard]] Solids find_solids(const SurfaceMesh& mesh, const std::string& name, const SolidOptions& options = {});
 
 }  // namespace sprung

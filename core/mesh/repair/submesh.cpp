@@ -31,7 +31,7 @@ std::vector<Part> parts_of(const std::vector<Part>& parts, const std::vector<int
   return chosen;
 }
 
-/// For each point of the solid a vertex of the mesh, or -1 where only caps use it.
+/// For each point of the solid a vertex of the mesh, or -1 if only caps use it.
 std::vector<int> vertices_of_points(const SurfaceMesh& mesh, const Solid& solid) {
   std::vector<int> vertices(solid.points.rows(), -1);
   for (int t = 0; t < solid.triangles.rows(); ++t) {
