@@ -95,7 +95,7 @@ CacheFacts facts_of(const CacheReader& cache, const std::filesystem::path& file)
   for (const SoftBody& body : header.simulation.world.bodies) {
     facts.bricks += body.grid.brick_count();
     facts.nodes += body.grid.node_count();
-    facts.skin_vertices += body.skin.positions.rows();
+    facts.skin_vertices += body.drawn.skin.positions.rows();
   }
   return facts;
 }

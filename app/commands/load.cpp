@@ -144,7 +144,7 @@ void write_turntable(LoadPicture& picture, const std::filesystem::path& file, co
 /// The rest shape and the loaded one, for ParaView.
 void write_xdmf(const PartSolution& solution, const std::filesystem::path& file) {
   const World& world = solution.simulation.world;
-  XdmfWriter writer(file, world, strain_measure(solution.scene));
+  XdmfWriter writer(file, world, regions_of(solution.simulation.origins), strain_measure(solution.scene));
   std::vector<Points> rest;
   std::vector<Points> loaded;
   std::vector<Points> velocities;

@@ -90,7 +90,7 @@ void write_mdd_film(const AnimationJob& job) {
 
 void write_xdmf_film(const AnimationJob& job) {
   const CachedFilmView& view = job.film();
-  XdmfWriter writer(job.file, view.simulation.world, strain_measure(view.film));
+  XdmfWriter writer(job.file, view.simulation.world, regions_of(view.simulation.origins), strain_measure(view.film));
   for (const int frame : job.range.frames()) {
     stop_if_interrupted();
     const std::size_t row = frame - 1;

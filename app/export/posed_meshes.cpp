@@ -16,7 +16,7 @@ namespace {
 /// A body of the scene, or one of its copies.
 using BodyCopy = std::pair<std::size_t, int>;
 
-BodyCopy copy_of(const SoftBody& body) { return {body.origin.body, body.origin.copy}; }
+BodyCopy copy_of(const Origin& origin) { return {origin.body, origin.copy}; }
 
 std::string name_of(const Film& film, const BodyCopy& which) {
   const SceneBody& body = film.bodies[which.first];
@@ -43,14 +43,15 @@ std::vector<PosedMesh> posed_meshes(const Simulation& simulation, const Film& fi
   std::map<BodyCopy, PosedMesh> meshes;
   for (std::size_t row = 0; row < nodes.size(); ++row) {
     const SoftBody& body = simulation.world.bodies[row];
-    const BodyCopy which = copy_of(body);
-    if (!meshes.contains(which)) meshes[which] = empty_mesh(simulation, film, which, body.color);
+    const Origin& origin = simulation.origins[row];
+    const BodyCopy which = copy_of(origin);
+    if (!meshes.contains(which)) meshes[which] = empty_mesh(simulation, film, which, body.drawn.color);
     PosedMesh& mesh = meshes[which];
-    mesh.positions(body.file_vertices, Eigen::all) = deform_points(body.grid, body.file_embedding, nodes[row]);
+    mesh.positions(origin.file_vertices, Eigen::all) = deform_points(body.grid, origin.file_embedding, nodes[row]);
     if (mesh.normals.rows() == 0) continue;
-    const Points rest = mesh.rest->normals(body.file_vertices, Eigen::all);
-    mesh.normals(body.file_vertices, Eigen::all) =
-        unit_rows(deform_normals(body.grid, body.file_embedding, rest, nodes[row]));
+    const Points rest = mesh.rest->normals(origin.file_vertices, Eigen::all);
+    mesh.normals(origin.file_vertices, Eigen::all) =
+        unit_rows(deform_normals(body.grid, origin.file_embedding, rest, nodes[row]));
   }
   std::vector<PosedMesh> list;
   list.reserve(meshes.size());
@@ -60,10 +61,10 @@ std::vector<PosedMesh> posed_meshes(const Simulation& simulation, const Film& fi
 
 std::vector<std::size_t> meshes_of_bodies(const Simulation& simulation) {
   std::set<BodyCopy> copies;
-  for (const SoftBody& body : simulation.world.bodies) copies.insert(copy_of(body));
+  for (const Origin& origin : simulation.origins) copies.insert(copy_of(origin));
   std::vector<std::size_t> rows;
-  for (const SoftBody& body : simulation.world.bodies) {
-    rows.push_back(std::size_t(std::distance(copies.begin(), copies.find(copy_of(body)))));
+  for (const Origin& origin : simulation.origins) {
+    rows.push_back(std::size_t(std::distance(copies.begin(), copies.find(copy_of(origin)))));
   }
   return rows;
 }

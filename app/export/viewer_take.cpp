@@ -14,7 +14,6 @@
 #include "app/film/film_stage.h"
 #include "app/film/overlays.h"
 #include "core/io/animation.h"
-#include "core/simulation/build_bodies.h"
 #include "core/simulation/run_cache.h"
 
 namespace sprung {
@@ -52,7 +51,8 @@ class TakeMaker {
     int nodes = 0;
     for (std::size_t row = 0; row < bodies.size(); ++row) {
       const int first_brick = take_.add_bricks(bodies[row].grid, nodes);
-      place_vertices(take_.meshes[mesh_of[row]], bodies[row].file_vertices, bodies[row].file_embedding, first_brick);
+      const Origin& origin = view_.simulation.origins[row];
+      place_vertices(take_.meshes[mesh_of[row]], origin.file_vertices, origin.file_embedding, first_brick);
       nodes += bodies[row].node_count();
     }
     for (const int frame : frames_) {

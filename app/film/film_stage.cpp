@@ -9,7 +9,7 @@
 #include "app/film/overlays.h"
 #include "core/appearance.h"
 #include "core/bricks/embedding.h"
-#include "core/simulation/build_bodies.h"
+#include "core/simulation/soft_body.h"
 #include "render/brick_cubes.h"
 
 namespace sprung {
@@ -187,10 +187,10 @@ Eigen::VectorXd FilmStage::map_coordinates(const Moment& moment, std::size_t bod
 bool FilmStage::is_smooth() const { return scene_.render.smooth && !scene_.render.edges && std::isfinite(pixel_); }
 
 FilmStage::DrawnSkin FilmStage::drawn_skin(const SoftBody& body) {
-  if (!is_smooth() || body.surface == nullptr) {
-    return {not_owned(body.skin), not_owned(body.skin_embedding)};
+  if (!is_smooth() || body.drawn.mesh == nullptr) {
+    return {not_owned(body.drawn.skin), not_owned(body.drawn.embedding)};
   }
-  const auto [entry, is_new] = smooth_.try_emplace(body.surface.get());
+  const auto [entry, is_new] = smooth_.try_emplace(body.drawn.mesh.get());
   if (is_new) {
     const auto smooth = std::make_shared<const EmbeddedSkin>(smooth_skin(body, kSmoothness * pixel_));
     entry->second = {{smooth, &smooth->skin}, {smooth, &smooth->embedding}};
@@ -200,9 +200,9 @@ FilmStage::DrawnSkin FilmStage::drawn_skin(const SoftBody& body) {
 
 void FilmStage::add_skin(std::size_t row) {
   const SoftBody& body = simulation_.world.bodies[row];
-  const SceneBody& scene_body = scene_.bodies[body.origin.body];
+  const SceneBody& scene_body = scene_.bodies[simulation_.origins[row].body];
   const DrawnSkin drawn = drawn_skin(body);
-  const Color color = color_of(scene_body, *scene_.library).value_or(body.color);
+  const Color color = color_of(scene_body, *scene_.library).value_or(body.drawn.color);
   items_.push_back(
       {drawn.skin, srgb(color), colors_.is_mapped() ? Look::kChart : look_of(scene_body, *scene_.library), false,
        id_of(row),
@@ -223,7 +223,7 @@ void FilmStage::add_bricks(std::size_t row) {
   const bool exploded = scene_.render.bricks == BrickView::kExploded;
   const Eigen::Vector3f color = colors_.is_mapped() && !scene_.render.springs
                                     ? Eigen::Vector3f::Ones().eval()
-                                    : srgb(simulation_.world.bodies[row].color);
+                                    : srgb(simulation_.world.bodies[row].drawn.color);
   const auto cubes = std::make_shared<const BrickCubes>(body.grid, bricks_left(body.grid, scene_.render.cut), exploded,
                                                         std::vector(body.grid.cells.size(), color));
   const auto skin = std::make_shared<const Skin>(with_shape(cubes->skin(), cubes->shape(body.rest_positions)));
@@ -273,17 +273,17 @@ ColorRanges FilmStage::stretch_ranges() const {
 /// Adds the edges of the triangles of a body's skin.
 void FilmStage::add_edges(std::size_t row) {
   const SoftBody& body = simulation_.world.bodies[row];
-  const std::vector<std::array<int, 2>> edges = edges_of(body.skin.triangles);
+  const std::vector<std::array<int, 2>> edges = edges_of(body.drawn.skin.triangles);
   const double pixel = std::isfinite(pixel_) ? pixel_ : 0;
   const auto rods = std::make_shared<const Rods>(edges.size(), kEdgeRadius * pixel);
   Eigen::VectorXd widths(edges.size());
   for (Eigen::Index i = 0; i < widths.size(); ++i) {
-    const auto way = body.skin.positions.row(edges[i][0]) - body.skin.positions.row(edges[i][1]);
+    const auto way = body.drawn.skin.positions.row(edges[i][0]) - body.drawn.skin.positions.row(edges[i][1]);
     widths[i] = pixel > 0 ? std::min(1.0, way.norm() / (kShortEdge * pixel)) : 0;
   }
   const auto shape = [&body, rods, edges, widths,
-                      interpolation = scene_.bodies[body.origin.body].skin](const Points& nodes) {
-    const SkinShape skin = shape_of(body.grid, body.skin, body.skin_embedding, nodes, interpolation);
+                      interpolation = scene_.bodies[simulation_.origins[row].body].skin](const Points& nodes) {
+    const SkinShape skin = shape_of(body.grid, body.drawn.skin, body.drawn.embedding, nodes, interpolation);
     return rods->between(skin.positions.cast<double>(), edges, {.widths = widths});
   };
   const auto skin = std::make_shared<const Skin>(with_shape(rods->skin(), shape(body.rest_positions)));
@@ -314,7 +314,7 @@ void FilmStage::add_nodes(std::size_t body) {
 }
 
 void FilmStage::add_pins(std::size_t body) {
-  const std::vector<int> nodes = simulation_.world.bodies[body].origin.pinned_nodes();
+  const std::vector<int> nodes = simulation_.origins[body].pinned_nodes();
   if (nodes.empty()) return;
   add_balls(body, nodes, kPinRadius * simulation_.world.bodies[body].grid.brick_size, kPinColor);
 }
@@ -323,7 +323,7 @@ void FilmStage::add_ghost(std::size_t row) {
   const SoftBody& body = simulation_.world.bodies[row];
   const DrawnSkin drawn = drawn_skin(body);
   SkinShape shape = shape_of(body.grid, *drawn.skin, *drawn.embedding, body.rest_positions);
-  items_.push_back({drawn.skin, srgb(body.color), Look::kRubber, true, id_of(row),
+  items_.push_back({drawn.skin, srgb(body.drawn.color), Look::kRubber, true, id_of(row),
                     [shape = std::move(shape)](const Moment&) -> SkinShape { return SkinShape(shape); }});
 }
 

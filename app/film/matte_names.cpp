@@ -32,7 +32,7 @@ std::vector<std::string> matte_names(const Film& film, const Simulation& simulat
     const int count = ++counts[name];
     names.push_back(count == 1 ? name : fmt::format("{}.{:03}", name, count));
   };
-  for (const SoftBody& body : simulation.world.bodies) add(name_of(film.bodies[body.origin.body]));
+  for (const Origin& origin : simulation.origins) add(name_of(film.bodies[origin.body]));
   for (std::size_t row = 0; row < simulation.obstacles.size(); ++row) {
     if (simulation.obstacles[row].skin.positions.rows() > 0) add(name_of(film.obstacles[row]));
   }

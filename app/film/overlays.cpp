@@ -263,7 +263,7 @@ Points Contacts::at(const std::vector<Points>& nodes, double time) const {
     }
     for (std::size_t other = 0; other < nodes.size(); ++other) {
       if (other == body || !are_near(bounds[body], bounds[other], near)) continue;
-      const NearestTriangle surface(skins[other], simulation_.world.bodies[other].skin.triangles);
+      const NearestTriangle surface(skins[other], simulation_.world.bodies[other].drawn.skin.triangles);
       for (const auto& vertex : skins[body].rowwise()) {
         const Vec3 position = vertex.transpose();
         if (is_within(bounds[other], position, near) && surface.at(position).distance < near) found.add(position);

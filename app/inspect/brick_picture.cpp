@@ -80,10 +80,10 @@ Image draw_bricks(const Preparation& prepared) {
   }
   for (std::size_t i = 0; i < simulation.world.bodies.size(); ++i) {
     const SoftBody& body = simulation.world.bodies[i];
-    Skin& skin = skins.emplace_back(body.skin);
+    Skin& skin = skins.emplace_back(body.drawn.skin);
     skin.positions = body.skin_positions(body.positions);
-    skin.normals = deform_normals(body.grid, body.skin_embedding, body.skin.normals, body.positions);
-    colors.push_back(srgb(body.color));
+    skin.normals = deform_normals(body.grid, body.drawn.embedding, body.drawn.skin.normals, body.positions);
+    colors.push_back(srgb(body.drawn.color));
     const std::vector<bool> all(body.grid.cells.size(), true);
     const BrickCubes cubes(body.grid, all, false, brick_colors(body.grid, *solids[i], prepared.thin_parts[i]));
     bricks.push_back(with_shape(cubes.skin(), cubes.shape(body.positions)));

@@ -40,8 +40,9 @@ Drawn skins_of(const Simulation& simulation, const std::vector<Points>& nodes, d
   Drawn drawn;
   for (std::size_t row = 0; row < nodes.size(); ++row) {
     const SoftBody& body = simulation.world.bodies[row];
-    drawn.skins.push_back(with_shape(body.skin, shape_of(body.grid, body.skin, body.skin_embedding, nodes[row])));
-    drawn.colors.push_back(srgb(body.color));
+    drawn.skins.push_back(
+        with_shape(body.drawn.skin, shape_of(body.grid, body.drawn.skin, body.drawn.embedding, nodes[row])));
+    drawn.colors.push_back(srgb(body.drawn.color));
     drawn.bounds.extend(bounding_box(drawn.skins.back().positions));
   }
   for (const StageObstacle& obstacle : simulation.obstacles) {

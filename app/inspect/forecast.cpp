@@ -111,7 +111,7 @@ double count_of_bricks(const World& world) {
 
 double count_of_contact_points(const World& world) {
   double count = 0;
-  for (const SoftBody& body : world.bodies) count += double(body.contacts.brick.size());
+  for (const SoftBody& body : world.bodies) count += double(body.contact.points.brick.size());
   return count;
 }
 
@@ -153,11 +153,12 @@ std::optional<CoarseRun> coarse_run(const Simulation& simulation, const Film& fi
 double seconds_a_picture(const Simulation& simulation, const Film& film) {
   Stage stage;
   std::vector<SkinShape> shapes;
-  for (const SoftBody& drawn : simulation.world.bodies) {
-    stage.skins.push_back(&drawn.skin);
+  for (const SoftBody& body : simulation.world.bodies) {
+    const Skin& skin = body.drawn.skin;
+    stage.skins.push_back(&skin);
     stage.default_colors.emplace_back(Eigen::Vector3f::Constant(0.7F));
-    stage.bounds.extend(bounding_box(drawn.skin.positions));
-    shapes.push_back({drawn.skin.positions.cast<float>(), drawn.skin.normals.cast<float>()});
+    stage.bounds.extend(bounding_box(skin.positions));
+    shapes.push_back({skin.positions.cast<float>(), skin.normals.cast<float>()});
   }
   stage.has_ground = ground_height(simulation.world.obstacles).has_value();
   stage.ground.height = stage.bounds.min().y();
@@ -181,7 +182,7 @@ double memory_forecast(const Simulation& simulation, const Film& film) {
   double nodes = 0;
   for (std::size_t i = 0; i < simulation.world.bodies.size(); ++i) {
     bytes += bytes_a_brick * simulation.world.bodies[i].grid.brick_count();
-    bytes += kBytesASkinVertex * double(simulation.world.bodies[i].skin.positions.rows());
+    bytes += kBytesASkinVertex * double(simulation.world.bodies[i].drawn.skin.positions.rows());
     nodes += simulation.world.bodies[i].node_count();
   }
   const auto [width, height] = film.render.resolution;

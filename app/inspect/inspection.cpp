@@ -100,7 +100,8 @@ Inspection inspect(const Preparation& prepared, const Film& film) {
     facts.mesh = mesh_facts(body, facts.unit);
     facts.bricks.size = body.brick_size;
     for (std::size_t at = 0; at < bodies.size(); ++at) {
-      if (bodies[at].origin.body != row || bodies[at].origin.copy != 0) continue;
+      const Origin& origin = prepared.simulation.origins[at];
+      if (origin.body != row || origin.copy != 0) continue;
       add_bricks(bodies[at], prepared.thin_parts[at], facts.bricks);
     }
     double volume = 0;

@@ -82,11 +82,11 @@ std::string viewer_of(const PartReport& report, const PartSolution& coarse, doub
     mesh.local.resize(count, 3);
     std::vector<int> rows(count);
     std::iota(rows.begin(), rows.end(), 0);
-    place_vertices(mesh, rows, body.skin_embedding, first_brick);
+    place_vertices(mesh, rows, body.drawn.embedding, first_brick);
     meshes.push_back({.name = fmt::format("body {}", take.meshes.size()),
-                      .rest = &body.skin,
+                      .rest = &body.drawn.skin,
                       .positions = positions,
-                      .normals = body.skin.normals});
+                      .normals = body.drawn.skin.normals});
     box.extend(bounding_box(positions));
   }
   for (const double share : take.at) {

@@ -52,7 +52,7 @@ LoadPicture::LoadPicture(const PartReport& report, const PartSolution& solution,
   for (const Skin& skin : skins_) stage_.bounds.extend(bounding_box(skin.positions));
   middle_ = stage_.bounds.center();
   std::vector<const Triangles*> triangles;
-  for (const SoftBody& body : solution.simulation.world.bodies) triangles.push_back(&body.skin.triangles);
+  for (const SoftBody& body : solution.simulation.world.bodies) triangles.push_back(&body.drawn.skin.triangles);
   sight_.emplace(drawn_, triangles);
   choose_direction();
   add_axes();
@@ -72,8 +72,8 @@ void LoadPicture::add_bodies() {
   std::vector<double> all;
   for (const SoftBody& body : solution_.simulation.world.bodies) {
     const Points nodes = body.rest_positions + magnification_ * (body.positions - body.rest_positions);
-    Skin skin = body.skin;
-    SkinShape shape = shape_of(body.grid, body.skin, body.skin_embedding, nodes);
+    Skin skin = body.drawn.skin;
+    SkinShape shape = shape_of(body.grid, body.drawn.skin, body.drawn.embedding, nodes);
     skin.positions = shape.positions.cast<double>();
     skin.normals = shape.normals.cast<double>();
     drawn_.push_back(skin.positions);
@@ -90,8 +90,8 @@ void LoadPicture::add_bodies() {
     shapes_[row].map_coordinates = (stresses[row] / std::max(highest_, 1e-300)).cwiseMin(1.0).cast<float>();
   }
   for (const SoftBody& body : solution_.simulation.world.bodies) {
-    const SkinShape rest = shape_of(body.grid, body.skin, body.skin_embedding, body.rest_positions);
-    Skin skin = body.skin;
+    const SkinShape rest = shape_of(body.grid, body.drawn.skin, body.drawn.embedding, body.rest_positions);
+    Skin skin = body.drawn.skin;
     skin.positions = rest.positions.cast<double>();
     skin.normals = rest.normals.cast<double>();
     add(std::move(skin), kGhostColor, true);
@@ -102,7 +102,7 @@ std::vector<LoadPicture::Spot> LoadPicture::spots_on(const PartFace& face) const
   const Selector selector(report_.part.loaded);
   std::vector<Spot> candidates;
   for (std::size_t row = 0; row < drawn_.size(); ++row) {
-    const Triangles& triangles = solution_.simulation.world.bodies[row].skin.triangles;
+    const Triangles& triangles = solution_.simulation.world.bodies[row].drawn.skin.triangles;
     for (const SkinPiece& piece : selector.skin_pieces(face.selection, at_rest_[row], triangles, row)) {
       const auto corner = [&](int k) -> Vec3 { return drawn_[row].row(triangles(piece.triangle, k)); };
       const Vec3 outward = (corner(1) - corner(0)).cross(corner(2) - corner(0));

@@ -74,8 +74,10 @@ SingularLines::SingularLines(const LoadPart& part, const PartSolution& solution)
       for (int i = 0; i <= count; ++i) points.emplace_back(a + double(i) / count * (b - a));
     }
   }
-  for (const SoftBody& body : solution.simulation.world.bodies) {
-    for (const PinnedSkin& skin : body.origin.pinned_skins) {
+  const Simulation& simulation = solution.simulation;
+  for (std::size_t row = 0; row < simulation.origins.size(); ++row) {
+    const Body& body = simulation.world.bodies[row];
+    for (const PinnedSkin& skin : simulation.origins[row].pinned_skins) {
       const Points pinned = part_from_world(solution, part, deform_points(body.grid, skin.points, body.rest_positions));
       for (const auto& point : pinned.rowwise()) points.emplace_back(point.transpose());
     }
@@ -160,10 +162,12 @@ std::vector<PartAnswer::Reaction> reactions_of(const PartSolution& solution, con
     if (load.movement) add(load.text, *load.face);
   }
   const Mat3 here = part.world_from_file.transpose();
-  for (const SoftBody& body : solution.simulation.world.bodies) {
-    for (const PinnedSkin& skin : body.origin.pinned_skins) {
-      const SkinReaction reaction =
-          reaction_of(skin, solution.scene, body, time_of(solution.scene, 1), solution.is_linear);
+  const Simulation& simulation = solution.simulation;
+  for (std::size_t row = 0; row < simulation.origins.size(); ++row) {
+    const std::vector<Pin>& pins = solution.scene.bodies[simulation.origins[row].body].pins;
+    for (const PinnedSkin& skin : simulation.origins[row].pinned_skins) {
+      const SkinReaction reaction = reaction_of(skin, pins[skin.pin], solution.scene, simulation.world.bodies[row],
+                                                time_of(solution.scene, 1), solution.is_linear);
       PartAnswer::Reaction& sum = reactions[skin.pin];
       const Vec3 force = here * reaction.force;
       const Vec3 about = part_from_world(solution, part, skin.centre.transpose()).row(0);  // of the pin

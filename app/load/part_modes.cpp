@@ -23,7 +23,7 @@ const SoftBody& only_body(const PartSolution& solution) {
 
 Supports supports_at_rest(const PartSolution& solution, const SoftBody& body) {
   Supports supports = supports_of(body);
-  add_skin_supports(solution.scene, body, 0, true, supports);
+  add_skin_supports(solution.scene, solution.simulation.origins[0], body, 0, true, supports);
   return supports;
 }
 

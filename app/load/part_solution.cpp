@@ -47,7 +47,7 @@ constexpr double kGrowthOfTime = 4;  // power of the ratio of brick sizes: somew
 void check_supported(const PartSolution& solution, const LoadPart& part) {
   const std::vector<SoftBody>& bodies = solution.simulation.world.bodies;
   for (std::size_t row = 0; row < bodies.size(); ++row) {
-    if (!bodies[row].origin.pinned_skins.empty()) continue;
+    if (!solution.simulation.origins[row].pinned_skins.empty()) continue;
     const Points skin = part_from_world(solution, part, bodies[row].skin_positions(bodies[row].rest_positions));
     const Vec3 middle = part.file_from_rest(bounding_box(skin).center());
     throw Error(
@@ -121,19 +121,19 @@ StressTensors turned_back(StressTensors stresses, const Mat3& world_from_file) {
 }
 
 StressTensors skin_stress(const PartSolution& solution, const SoftBody& body) {
-  return stress_at(body.grid, body.skin_embedding,
+  return stress_at(body.grid, body.drawn.embedding,
                    recover_stress(body, body.positions, strain_measure(solution.scene)));
 }
 
 PartSkin skin_of(const PartSolution& solution, const LoadPart& part) {
   const std::vector<SoftBody>& bodies = solution.simulation.world.bodies;
   long count = 0;
-  for (const SoftBody& body : bodies) count += body.skin_embedding.local.rows();
+  for (const SoftBody& body : bodies) count += body.drawn.embedding.local.rows();
   const Mat3& turned = part.world_from_file;
   PartSkin skin{.positions = Points(count, 3), .displacements = Points(count, 3), .stresses = StressTensors(count, 6)};
   long row = 0;
   for (const SoftBody& body : bodies) {
-    const long rows = body.skin_embedding.local.rows();
+    const long rows = body.drawn.embedding.local.rows();
     const Points rest = body.skin_positions(body.rest_positions);
     const Points now = body.skin_positions(body.positions);
     skin.positions.middleRows(row, rows) = part_from_world(solution, part, rest);

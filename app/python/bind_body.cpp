@@ -47,7 +47,7 @@ py::array nodes_of(const py::object& self) {
 py::array triangles_of(const py::object& self) {
   const auto& handle = self.cast<const BodyHandle&>();
   return locked(*handle.world, [&] {
-    const Triangles& triangles = handle.world->body(handle.row).skin.triangles;
+    const Triangles& triangles = handle.world->body(handle.row).drawn.skin.triangles;
     return view(triangles.data(), {triangles.rows(), 3}, self);
   });
 }
@@ -78,7 +78,7 @@ StressTensors stress_of(const BodyHandle& handle, bool small) {
 StressTensors skin_stress_of(const BodyHandle& handle, bool small) {
   return locked_without_gil(*handle.world, [&] {
     const SoftBody& body = handle.world->body(handle.row);
-    return stress_at(body.grid, body.skin_embedding, recover_stress(body, body.positions, measure_of(small)));
+    return stress_at(body.grid, body.drawn.embedding, recover_stress(body, body.positions, measure_of(small)));
   });
 }
 

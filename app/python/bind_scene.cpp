@@ -246,7 +246,7 @@ std::vector<Points> skins_of(const SceneRun& run, long frame) {
 
 std::vector<Triangles> run_triangles_of(const SceneRun& run) {
   std::vector<Triangles> triangles;
-  for (const SoftBody& body : run.simulation.world.bodies) triangles.push_back(body.skin.triangles);
+  for (const SoftBody& body : run.simulation.world.bodies) triangles.push_back(body.drawn.skin.triangles);
   return triangles;
 }
 

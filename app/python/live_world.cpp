@@ -56,6 +56,7 @@ std::vector<std::size_t> LiveWorld::add(const SceneBody& body) {
   } catch (...) {
     scene_.bodies.pop_back();
     simulation_.world.bodies.erase(simulation_.world.bodies.begin() + long(first), simulation_.world.bodies.end());
+    simulation_.origins.resize(simulation_.world.bodies.size());
     throw;
   }
   std::vector<std::size_t> rows;
@@ -149,7 +150,7 @@ void LiveWorld::step(double dt, long count, const Between& between) {
 
 void LiveWorld::settle(std::size_t row, bool linear, const Between& between) {
   SoftBody& body = simulation_.world.bodies[row];
-  if (body.pinned.empty() && body.origin.pinned_skins.empty()) {
+  if (body.pinned.empty() && simulation_.origins[row].pinned_skins.empty()) {
     throw Error(ErrorKind::kBadInput, "a body without pinned nodes cannot come to rest: pin() some of them first");
   }
   if (const std::vector<MotionOnly> parts = motion_only(scene_); !parts.empty()) {
@@ -158,10 +159,10 @@ void LiveWorld::settle(std::size_t row, bool linear, const Between& between) {
   }
   keep_memory([&] {
     int newton_steps = 0;
-    const Loads loads = loads_and_weight(scene_, simulation_.world, row, forced_wholes(scene_, simulation_.world)[row]);
+    const Loads loads = loads_and_weight(scene_, simulation_, row, forced_wholes(scene_, simulation_.origins)[row]);
     const Points movements = body.positions - body.rest_positions;
     Supports supports = supports_of(body);
-    add_skin_supports(scene_, body, 0, linear, supports);
+    add_skin_supports(scene_, simulation_.origins[row], body, 0, linear, supports);
     static_cast<void>(
         sprung::settle(body, supports, loads, movements, linear, *make_default_solver(), newton_steps, between));
     body.velocities.setZero();
@@ -205,9 +206,9 @@ Image LiveWorld::draw(int width, int height, double azimuth, double elevation) c
     if (!positions.allFinite()) {
       throw Error(ErrorKind::kBadInput, fmt::format("body {} has a position that is not finite: nothing to draw", row));
     }
-    const Points normals = deform_normals(body.grid, body.skin_embedding, body.skin.normals, body.positions);
+    const Points normals = deform_normals(body.grid, body.drawn.embedding, body.drawn.skin.normals, body.positions);
     shapes.push_back({positions.cast<float>(), normals.cast<float>()});
-    stage.skins.push_back(&body.skin);
+    stage.skins.push_back(&body.drawn.skin);
     stage.default_colors.emplace_back(0.85F, 0.2F, 0.16F);
     stage.bounds.extend(bounding_box(positions));
   }

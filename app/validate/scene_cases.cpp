@@ -214,7 +214,8 @@ class Runs {
       const auto& body = simulation.world.bodies.front();
       for (const KnownSolution& known : known_) {
         if (known.poisson != variant.poisson) continue;
-        NodeErrors& errors = outcome.node_errors.emplace(node_errors(body, body.origin.bricks_from_rest, known));
+        NodeErrors& errors =
+            outcome.node_errors.emplace(node_errors(body, simulation.origins.front().bricks_from_rest, known));
         errors.model = model_name(variant.model);
         errors.poisson = variant.poisson;
         errors.grid = grid_text(variant);

@@ -115,7 +115,7 @@ std::vector<std::pair<std::size_t, std::size_t>> broad_phase(const World& world,
     const Body& body = *group[i];
     boxes.push_back(
         widened(bounding_box(body.positions), margin + body.grid.brick_size));  // skins may lie outside bricks
-    if (group[i]->collides_with_itself) near.emplace_back(i, i);
+    if (group[i]->contact.with_itself) near.emplace_back(i, i);
   }
   if (world.bodies_collide) {
     for (const auto& [a, b] : overlapping_boxes(boxes)) near.emplace_back(a, b);

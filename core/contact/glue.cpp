@@ -38,8 +38,8 @@ std::vector<int> nearest_points(const SoftBody& body, const Points& positions, c
     const double gap = std::abs(surface.nearest(positions.row(row)).distance);
     if (gap > distance) continue;
     int corner = 0;
-    trilinear_weights(body.contacts.local.row(row)).maxCoeff(&corner);
-    const auto key = std::pair(body.contacts.brick[row], corner);
+    trilinear_weights(body.contact.points.local.row(row)).maxCoeff(&corner);
+    const auto key = std::pair(body.contact.points.brick[row], corner);
     const auto [place, is_new] = nearest.try_emplace(key, Candidate{row, gap});
     if (!is_new && gap < place->second.gap) place->second = {row, gap};
   }
@@ -55,9 +55,9 @@ std::vector<GluedPoint> glue_between(const World& world, std::size_t a, std::siz
   if (world.bodies[b].grid.brick_size < world.bodies[a].grid.brick_size) std::swap(a, b);
   const SoftBody& one = world.bodies[a];
   const SoftBody& other = world.bodies[b];
-  if (other.contact_triangles.rows() == 0) return {};
-  const MeshDistance surface(deform_points(other.grid, other.contacts, other.positions), other.contact_triangles);
-  const Points positions = deform_points(one.grid, one.contacts, one.positions);
+  if (other.contact.triangles.rows() == 0) return {};
+  const MeshDistance surface(deform_points(other.grid, other.contact.points, other.positions), other.contact.triangles);
+  const Points positions = deform_points(one.grid, one.contact.points, one.positions);
   const std::vector<int> rows = nearest_points(one, positions, surface, distance);
   const Pose pose = pose_of(other);
   const Points there = (positions(rows, Eigen::all).rowwise() - pose.translation.transpose()) * pose.rotation;
@@ -65,10 +65,10 @@ std::vector<GluedPoint> glue_between(const World& world, std::size_t a, std::siz
   std::vector<GluedPoint> glue;
   glue.reserve(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    glue.push_back(
-        {.bodies = {a, b},
-         .bricks = {one.contacts.brick[rows[i]], embedding.brick[i]},
-         .weights = {trilinear_weights(one.contacts.local.row(rows[i])), trilinear_weights(embedding.local.row(i))}});
+    glue.push_back({.bodies = {a, b},
+                    .bricks = {one.contact.points.brick[rows[i]], embedding.brick[i]},
+                    .weights = {trilinear_weights(one.contact.points.local.row(rows[i])),
+                                trilinear_weights(embedding.local.row(i))}});
   }
   return glue;
 }

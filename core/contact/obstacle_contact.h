@@ -59,7 +59,7 @@ class ObstacleContact {
   struct ActiveContact {
     const ContactPoint* point = nullptr;
     double urgency = 0;  // along the normal, to satisfy its constraint, m/s; more near its corner
-    double gap = 0;   // m
+    double gap = 0;      // m
     Vec3 normal;
     Vec3 goal;  // m/s
   };

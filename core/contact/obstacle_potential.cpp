@@ -8,7 +8,7 @@
 namespace sprung {
 namespace {
 
-constexpr double kStiffness = 20;        // times E h of the brick
+constexpr double kStiffness = 20;       // times E h of the brick
 constexpr double kPointsInContact = 4;  // of a brick, that share its stiffness: more are softer each
 
 /// Pa, of a brick in its region; a brick cut by the surface is as stiff as a full one.

@@ -14,11 +14,11 @@ namespace {
 Points free_points(const SoftBody& body) {
   std::vector<bool> is_pinned(body.node_count());
   for (const KinematicNode& pinned : body.pinned) is_pinned[pinned.node] = true;
-  const Points points = deform_points(body.grid, body.contacts, body.positions);
+  const Points points = deform_points(body.grid, body.contact.points, body.positions);
   std::vector<int> rows;
   rows.reserve(points.rows());
   for (int point = 0; point < points.rows(); ++point) {
-    const std::size_t brick = body.contacts.brick[point];
+    const std::size_t brick = body.contact.points.brick[point];
     const auto& nodes = body.grid.nodes[brick];
     const bool is_free = std::any_of(nodes.begin(), nodes.end(), [&](int node) { return !is_pinned[node]; });
     if (is_free) rows.push_back(point);
@@ -44,8 +44,8 @@ class Surface {
  public:
   /// `body` has contact triangles.
   explicit Surface(const SoftBody& body)
-      : points_(deform_points(body.grid, body.contacts, body.positions)),
-        triangles_(body.contact_triangles),
+      : points_(deform_points(body.grid, body.contact.points, body.positions)),
+        triangles_(body.contact.triangles),
         box_(bounding_box(points_)),
         distance_(points_, triangles_) {}
 
@@ -84,7 +84,7 @@ double penetration_depth(const Obstacle& obstacle, const SoftBody& body) {
 }
 
 double penetration_depth(const SoftBody& other, const SoftBody& body) {
-  if (other.contact_triangles.rows() == 0) return 0;
+  if (other.contact.triangles.rows() == 0) return 0;
   const Points points = free_points(body);
   if (points.rows() == 0) return 0;
   const Surface surface(other);

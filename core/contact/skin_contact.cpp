@@ -47,18 +47,18 @@ void SkinContact::add(const Group& group, const ActiveContact& active, ContactLi
   const TriangleStencil stencil = contact_stencil(pairs_, *skins_[other], stance);
   for (std::size_t i = 0; i < stencil.count; ++i)
     add_shares(group, other, stencil.bricks[i], stencil.weights[i], contacts);
-  const double other_friction = group[other]->friction;
+  const double other_friction = group[other]->contact.friction;
   contacts.list.push_back({.key = active.key,
                            .first = first,
                            .last = contacts.shares.size(),
                            .normal = stance.normal,
                            .goal = active.least_speed * stance.normal,
-                           .friction = std::sqrt(group[point.body]->friction * other_friction)});
+                           .friction = std::sqrt(group[point.body]->contact.friction * other_friction)});
 }
 
-/// Pushing skins of fully compressed bricks out of each other would flatten these without end: the inversion guard
-/// pushes back, and both add energy. They are only kept from going deeper; and if even that is impossible,
-/// self-penetration is preferred to inversion.
+/// If pushed out of each other, skins of bricks that have no room left would press those flat, and for ever: the guard
+/// against that pushes back, and each gives energy to the other. They are kept from going deeper, no more; and where
+/// not even that can be had, a body had rather lie in itself than turn inside out.
 double SkinContact::room_of(const Group& group, const CandidatePair& pair) const {
   const auto of = [&](int row) {
     const TrackedPoint& point = pairs_.tracked(row);
@@ -198,7 +198,7 @@ SkinContacts::SkinContacts(const Group& group, ContactSearch search) : group_(gr
 bool SkinContacts::is_of(const Group& group) const {
   if (group != group_) return false;
   for (std::size_t body = 0; body < group.size(); ++body) {
-    if (group[body]->contact_surface.get() != skins_[body]) return false;
+    if (group[body]->contact.surface.get() != skins_[body]) return false;
   }
   return true;
 }

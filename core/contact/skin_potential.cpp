@@ -52,7 +52,8 @@ void SkinPotential::watch(const World& world, const std::vector<Eigen::VectorXd*
                           .run = run,
                           .depth = kStepDeepest * brick,
                           .stiffness = own[point.point],
-                          .friction = std::sqrt(group_[point.body]->friction * group_[other_of(pairs, pair)]->friction),
+                          .friction = std::sqrt(group_[point.body]->contact.friction *
+                                                group_[other_of(pairs, pair)]->contact.friction),
                           .pushed_in = (*pushed_in[point.body])[point.point]});
     }
   }

@@ -40,7 +40,8 @@ struct XdmfWriter::Item {
   bool is_integer = false;
 };
 
-XdmfWriter::XdmfWriter(fs::path file, const World& world, StrainMeasure measure)
+XdmfWriter::XdmfWriter(fs::path file, const World& world, const std::vector<std::vector<int>>& regions,
+                       StrainMeasure measure)
     : file_(std::move(file)),
       arrays_(fs::path(file_) += ".h5"),
       world_(world),
@@ -48,8 +49,8 @@ XdmfWriter::XdmfWriter(fs::path file, const World& world, StrainMeasure measure)
       hdf5_(arrays_.path()) {
   for (std::size_t row = 0; row < world_.bodies.size(); ++row) {
     const SoftBody& body = world_.bodies[row];
-    write_bricks(fmt::format("/bricks_{}", row + 1), body);
-    write_matrix(hdf5_, fmt::format("/skin_{}/triangles", row + 1), body.skin.triangles);
+    write_bricks(fmt::format("/bricks_{}", row + 1), body, regions[row]);
+    write_matrix(hdf5_, fmt::format("/skin_{}/triangles", row + 1), body.drawn.skin.triangles);
   }
 }
 
@@ -59,7 +60,7 @@ std::string XdmfWriter::item_text(const Item& item) const {
                      arrays_.final_path().filename().string(), item.name);
 }
 
-void XdmfWriter::write_bricks(const std::string& folder, const SoftBody& body) {
+void XdmfWriter::write_bricks(const std::string& folder, const Body& body, const std::vector<int>& regions) {
   Hexahedra hexahedra(body.grid.brick_count(), 8);
   Eigen::VectorXf fill(body.grid.brick_count());
   for (Eigen::Index brick = 0; brick < hexahedra.rows(); ++brick) {
@@ -72,7 +73,7 @@ void XdmfWriter::write_bricks(const std::string& folder, const SoftBody& body) {
   write_matrix(hdf5_, folder + "/hexahedra", hexahedra);
   write_matrix(hdf5_, folder + "/fill", fill);
   write_matrix(hdf5_, folder + "/young", Eigen::VectorXf(brick_youngs(body).cast<float>()));
-  hdf5_.write(folder + "/region", std::span<const int>(body.origin.regions), {body.origin.regions.size()});
+  hdf5_.write(folder + "/region", std::span<const int>(regions), {regions.size()});
 }
 
 std::string XdmfWriter::brick_grid(std::size_t row, const std::string& folder, const Points& nodes,
@@ -110,7 +111,7 @@ std::string XdmfWriter::brick_grid(std::size_t row, const std::string& folder, c
 std::string XdmfWriter::skin_grid(std::size_t row, const std::string& folder, const Points& nodes) {
   const SoftBody& body = world_.bodies[row];
   const Points skin = body.skin_positions(nodes);
-  const std::size_t triangles = body.skin.triangles.rows();
+  const std::size_t triangles = body.drawn.skin.triangles.rows();
   const std::string name = fmt::format("/skin_{}", row + 1);
   write_matrix(hdf5_, folder + name + "/positions", Floats3(skin.cast<float>()));
   return fmt::format(

@@ -15,8 +15,9 @@ namespace sprung {
 /// tensors (stress.h), and the skin as triangles. Floats, except for the regions.
 class XdmfWriter {
  public:
-  /// The world must outlive it. All functions throw Error(kFailed).
-  XdmfWriter(std::filesystem::path file, const World& world, StrainMeasure measure = StrainMeasure::kFinite);
+  /// The world must outlive it; `regions`: of each body's bricks. All functions throw Error(kFailed).
+  XdmfWriter(std::filesystem::path file, const World& world, const std::vector<std::vector<int>>& regions,
+             StrainMeasure measure = StrainMeasure::kFinite);
 
   /// Nodes (m) and their velocities (m/s), by body.
   void add_frame(double time, const std::vector<Points>& nodes, const std::vector<Points>& velocities);
@@ -26,7 +27,7 @@ class XdmfWriter {
  private:
   struct Item;
   [[nodiscard]] std::string item_text(const Item& item) const;
-  void write_bricks(const std::string& folder, const SoftBody& body);
+  void write_bricks(const std::string& folder, const Body& body, const std::vector<int>& regions);
   [[nodiscard]] std::string brick_grid(std::size_t row, const std::string& folder, const Points& nodes,
                                        const Points& velocities);
   [[nodiscard]] std::string skin_grid(std::size_t row, const std::string& folder, const Points& nodes);

@@ -113,7 +113,8 @@ std::vector<ForcedPart> place_forces(const std::vector<BodyForce>& forces, const
       if (part.skin->triangles.empty()) continue;
     } else {
       if (acts_on_skin(force)) {
-        spread(select_skin(body.skin_embedding, body.skin.triangles, force, selector, body, solid), body.grid, part);
+        spread(select_skin(body.drawn.embedding, body.drawn.skin.triangles, force, selector, body, solid), body.grid,
+               part);
       } else {
         part.shares = volumes_of(selector.touched_bricks(force, body.grid, solid), body.grid);
       }
@@ -146,13 +147,13 @@ std::vector<MusclePart> place_muscles(const std::vector<BodyMuscle>& muscles, co
   return parts;
 }
 
-void check_loads(const Scene& scene, std::size_t body, const World& world) {
+void check_loads(const Scene& scene, std::size_t body, const std::vector<Origin>& origins) {
   std::vector<bool> pushed(scene.bodies[body].forces.size());
   std::vector<bool> pulled(scene.bodies[body].muscles.size());
-  for (const SoftBody& one : world.bodies) {
-    if (one.origin.body != body) continue;
-    for (const ForcedPart& part : one.origin.forces) pushed[part.force] = true;
-    for (const MusclePart& part : one.origin.muscles) pulled[part.muscle] = true;
+  for (const Origin& origin : origins) {
+    if (origin.body != body) continue;
+    for (const ForcedPart& part : origin.forces) pushed[part.force] = true;
+    for (const MusclePart& part : origin.muscles) pulled[part.muscle] = true;
   }
   const auto check = [&](const std::vector<bool>& reached, std::string_view what) {
     const auto missed = std::find(reached.begin(), reached.end(), false);
@@ -166,12 +167,12 @@ void check_loads(const Scene& scene, std::size_t body, const World& world) {
   check(pulled, "muscle");
 }
 
-std::vector<std::vector<ForcedWhole>> forced_wholes(const Scene& scene, const World& world) {
+std::vector<std::vector<ForcedWhole>> forced_wholes(const Scene& scene, const std::vector<Origin>& origins) {
   std::map<std::pair<std::size_t, int>, std::vector<ForcedWhole>> by_copy;
-  for (const SoftBody& one : world.bodies) {
-    std::vector<ForcedWhole>& wholes = by_copy[{one.origin.body, one.origin.copy}];
-    wholes.resize(scene.bodies[one.origin.body].forces.size());
-    for (const ForcedPart& part : one.origin.forces) {
+  for (const Origin& origin : origins) {
+    std::vector<ForcedWhole>& wholes = by_copy[{origin.body, origin.copy}];
+    wholes.resize(scene.bodies[origin.body].forces.size());
+    for (const ForcedPart& part : origin.forces) {
       ForcedWhole& whole = wholes[part.force];
       whole.size += part.shares.sum();
       if (part.arms.rows() > 0) whole.arm += part.arms.colwise().sum().transpose();
@@ -179,7 +180,7 @@ std::vector<std::vector<ForcedWhole>> forced_wholes(const Scene& scene, const Wo
     }
   }
   std::vector<std::vector<ForcedWhole>> wholes;
-  for (const SoftBody& one : world.bodies) wholes.push_back(by_copy[{one.origin.body, one.origin.copy}]);
+  for (const Origin& origin : origins) wholes.push_back(by_copy[{origin.body, origin.copy}]);
   return wholes;
 }
 
@@ -217,13 +218,13 @@ void add_load(const BodyForce& force, const ForcedPart& part, const ForcedWhole&
   loads.forces += strength * dead_forces(force, part, whole);
 }
 
-Loads loads_and_weight(const Scene& scene, const World& world, std::size_t row,
+Loads loads_and_weight(const Scene& scene, const Simulation& simulation, std::size_t row,
                        const std::vector<ForcedWhole>& wholes) {
-  const SoftBody& body = world.bodies[row];
+  const Origin& origin = simulation.origins[row];
   Loads loads;
-  loads.forces = body.masses * world.gravity.transpose();
-  for (const ForcedPart& part : body.origin.forces) {
-    add_load(scene.bodies[body.origin.body].forces[part.force], part, wholes[part.force], 1, loads);
+  loads.forces = simulation.world.bodies[row].masses * simulation.world.gravity.transpose();
+  for (const ForcedPart& part : origin.forces) {
+    add_load(scene.bodies[origin.body].forces[part.force], part, wholes[part.force], 1, loads);
   }
   return loads;
 }

@@ -20,7 +20,7 @@ namespace sprung {
 void place(ForcedPart& part, const Mat3& rotation, const Vec3& translation);
 
 /// Throws Error(kBadInput) if a force or a muscle of a body of the scene acts on none of its bodies.
-void check_loads(const Scene& scene, std::size_t body, const World& world);
+void check_loads(const Scene& scene, std::size_t body, const std::vector<Origin>& origins);
 
 /// What a force is spread over: all solids of one copy of a body.
 struct ForcedWhole {
@@ -30,11 +30,12 @@ struct ForcedWhole {
 };
 
 /// By body of the world, and by force of its scene body.
-[[nodiscard]] std::vector<std::vector<ForcedWhole>> forced_wholes(const Scene& scene, const World& world);
+[[nodiscard]] std::vector<std::vector<ForcedWhole>> forced_wholes(const Scene& scene,
+                                                                  const std::vector<Origin>& origins);
 
 /// The loads at full strength on a body of the world and its weight, as forces, its muscles left out. `wholes`: of this
 /// body.
-[[nodiscard]] Loads loads_and_weight(const Scene& scene, const World& world, std::size_t body,
+[[nodiscard]] Loads loads_and_weight(const Scene& scene, const Simulation& simulation, std::size_t body,
                                      const std::vector<ForcedWhole>& wholes);
 
 /// Adds one of them, times a strength.

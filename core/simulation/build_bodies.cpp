@@ -4,25 +4,19 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
 #include <numbers>
 #include <numeric>
-#include <optional>
-#include <random>
-#include <span>
 
 #include "core/body/brick_model.h"
 #include "core/bricks/fill_solid.h"
-#include "core/bricks/voxelize.h"
 #include "core/error.h"
-#include "core/mesh/repair/coarsen.h"
-#include "core/mesh/repair/submesh.h"
-#include "core/mesh/repair/weld.h"
 #include "core/simulation/body_loads.h"
+#include "core/simulation/body_poses.h"
 #include "core/simulation/selector.h"
 #include "core/simulation/simulation.h"
 #include "core/simulation/skin_supports.h"
+#include "core/simulation/soft_body.h"
 #include "core/skin/skin.h"
 #include "core/text.h"
 #include "core/types.h"
@@ -73,13 +67,14 @@ Points outward_of(const SurfaceMesh& mesh, const Solid& solid) {
 }
 
 /// The vertices of the file's mesh that are embedded in a solid.
-void carry_file_vertices(const LoadedBody& loaded, std::size_t solid, const std::vector<int>& owners, SoftBody& body) {
+void carry_file_vertices(const LoadedBody& loaded, std::size_t solid, const std::vector<int>& owners,
+                         const BrickGrid& grid, Origin& origin) {
   for (std::size_t vertex = 0; vertex < owners.size(); ++vertex) {
-    if (owners[vertex] == int(solid)) body.file_vertices.push_back(int(vertex));
+    if (owners[vertex] == int(solid)) origin.file_vertices.push_back(int(vertex));
   }
   const Points outward = outward_of(loaded.mesh, loaded.solids[solid]);
-  body.file_embedding =
-      embed(body.grid, loaded.mesh.positions(body.file_vertices, Eigen::all), outward(body.file_vertices, Eigen::all));
+  origin.file_embedding =
+      embed(grid, loaded.mesh.positions(origin.file_vertices, Eigen::all), outward(origin.file_vertices, Eigen::all));
 }
 
 /// Every node pinned at the start, once, with the axes of all its pins.
@@ -118,84 +113,6 @@ Points velocities_of(const SceneBody& scene_body, const SoftBody& body, const Ve
 
 }  // namespace
 
-namespace {
-
-constexpr double kLongestSkinEdge =
-    0.75;  // in bricks: follows a bending brick, with enough contact points on the ground
-constexpr double kShortestContactEdge = 0.4;  // in bricks, except where the mesh has longer edges only
-constexpr double kShortestInThickness = 0.4;  // in thicknesses of a thin body: a plate keeps both of its sides
-
-/// Sums of the triangles' areas, with their normals, at each point.
-Points outward_at(const Points& points, const Triangles& triangles) {
-  Points sums = Points::Zero(points.rows(), 3);
-  for (const auto& corners : triangles.rowwise()) {
-    const Vec3 a = points.row(corners[0]);
-    const Vec3 b = points.row(corners[1]);
-    const Vec3 area = (b - a).cross(Vec3(points.row(corners[2])) - a);
-    for (const int corner : corners) sums.row(corner) += area.transpose();
-  }
-  return sums;
-}
-
-/// Of a plate its thickness, of other bodies some part of their width: twice the volume over the area.
-double thickness_of(const Points& points, const Triangles& triangles) {
-  double volume = 0;
-  double area = 0;
-  for (const auto& corners : triangles.rowwise()) {
-    const Vec3 a = points.row(corners[0]);
-    const Vec3 b = points.row(corners[1]);
-    const Vec3 c = points.row(corners[2]);
-    volume += a.dot(b.cross(c)) / 6;
-    area += (b - a).cross(c - a).norm() / 2;
-  }
-  return area > 0 ? 2 * std::abs(volume) / area : 0;
-}
-
-/// Makes the contact points: each position that triangles use, once, no finer than the bricks can follow.
-void add_contacts(const Skin& skin, SoftBody& body) {
-  const std::vector<int> point_of = weld_points(skin.positions);
-  const auto position_of = [&](int vertex) { return point_of[vertex]; };
-  std::vector<int> rows;
-  for (const int vertex : std::span(skin.triangles.data(), skin.triangles.size())) {
-    rows.push_back(position_of(vertex));
-  }
-  std::sort(rows.begin(), rows.end());
-  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
-  const Triangles triangles = skin.triangles.unaryExpr(
-      [&](int vertex) { return int(std::lower_bound(rows.begin(), rows.end(), position_of(vertex)) - rows.begin()); });
-  const Points points = skin.positions(rows, Eigen::all);
-  const double shortest =
-      std::min(kShortestContactEdge * body.grid.brick_size, kShortestInThickness * thickness_of(points, triangles));
-  const CoarseSurface surface = coarsen(points, triangles, shortest);
-  body.contacts = embed(body.grid, surface.points, outward_at(surface.points, surface.triangles));
-  body.contact_triangles = surface.triangles;
-}
-
-}  // namespace
-
-SoftBody make_soft_body(const SurfaceMesh& mesh, const Solid& solid, BrickGrid grid, Model model,
-                        const Material& material, bool can_touch) {
-  SoftBody body(make_body(std::move(grid), model, material));
-  body.surface = std::make_shared<const SurfaceMesh>(submesh(mesh, solid));
-  body.skin = make_skin(*body.surface, {.max_edge = kLongestSkinEdge * body.grid.brick_size});
-  body.skin_embedding = embed(body.grid, body.skin.positions, body.skin.normals);
-  if (can_touch) add_contacts(body.skin, body);
-  body.collides_with_itself = solid.closed && !solid.overlaps && solid.thickness == 0;
-  return body;
-}
-
-EmbeddedSkin smooth_skin(const SoftBody& body, double tolerance) {
-  const std::vector<Eigen::Vector3i>& cells = body.grid.cells;
-  const bool has_several_in_cell = std::adjacent_find(cells.begin(), cells.end()) != cells.end();
-  const bool can_embed = !body.grid.patches.empty() || !has_several_in_cell;  // caches have no patches
-  if (body.surface == nullptr || !can_embed) return {body.skin, body.skin_embedding};
-  EmbeddedSkin smooth{.skin = make_skin(*body.surface, {.is_smooth = true}), .embedding = {}};
-  refine_curves(smooth.skin, tolerance);
-  refine(smooth.skin, kLongestSkinEdge * body.grid.brick_size);
-  smooth.embedding = embed(body.grid, smooth.skin.positions, smooth.skin.normals);
-  return smooth;
-}
-
 BodyBuilder::BodyBuilder(const Scene& scene, std::size_t index, const LoadedBody& loaded, Simulation& simulation)
     : scene_(scene),
       body_(scene.bodies[index]),
@@ -215,8 +132,8 @@ void BodyBuilder::fill_solids() {
 
 void BodyBuilder::check_regions() const {
   for (std::size_t row = 0; row < body_.regions.size(); ++row) {
-    const auto has_bricks = [&, solid = std::size_t{0}](const SoftBody& body) mutable {
-      return !selector_.bricks(body_.regions[row], body.grid, solid++).empty();
+    const auto has_bricks = [&, solid = std::size_t{0}](const FilledBody& filled) mutable {
+      return !selector_.bricks(body_.regions[row], filled.body.grid, solid++).empty();
     };
     if (std::any_of(filled_.begin(), filled_.end(), has_bricks)) continue;
     throw Error(ErrorKind::kBadInput,
@@ -228,8 +145,8 @@ void BodyBuilder::check_regions() const {
 
 void BodyBuilder::add_solids() {
   const std::vector<Pose> poses = poses_of(body_, loaded_);
-  for (const SoftBody& body : filled_) {
-    for (std::size_t copy = 0; copy < poses.size(); ++copy) put(body, poses[copy], int(copy));
+  for (const FilledBody& filled : filled_) {
+    for (std::size_t copy = 0; copy < poses.size(); ++copy) put(filled, poses[copy], int(copy));
   }
   const SurfaceMesh& mesh = loaded_.mesh;
   simulation_.meshes.push_back({.positions = mesh.positions,
@@ -241,15 +158,15 @@ void BodyBuilder::add_solids() {
                                 .materials = mesh.materials});
 }
 
-SoftBody BodyBuilder::fill(std::size_t solid) {
+BodyBuilder::FilledBody BodyBuilder::fill(std::size_t solid) {
   const Solid& outline = loaded_.solids[solid];
   SoftBody body = make_soft_body(loaded_.mesh, outline, make_grid(outline), body_.model, body_.material, can_touch_);
-  body.friction = body_.friction;
-  body.collides_with_itself = body.collides_with_itself && collides_with_itself_;
-  report_.add(body.skin_embedding);
-  carry_file_vertices(loaded_, solid, solid_of_vertex_, body);
-  Origin& origin = body.origin;
+  body.contact.friction = body_.friction;
+  body.contact.with_itself = body.contact.with_itself && collides_with_itself_;
+  report_.add(body.drawn.embedding);
+  Origin origin;
   origin.body = index_;
+  carry_file_vertices(loaded_, solid, solid_of_vertex_, body.grid, origin);
   origin.bricks_from_rest = loaded_.bricks_from_rest;
   origin.regions = apply_regions(body_.regions, selector_, body, solid);
   origin.pins = find_pins(body, solid);
@@ -259,19 +176,21 @@ SoftBody BodyBuilder::fill(std::size_t solid) {
   origin.probed = find_probed(body, solid);
   body.pinned = kinematic_nodes(origin.pins, body_.pins);
   pinned_solids_ += origin.pins.empty() && origin.pinned_skins.empty() ? 0 : 1;
-  return body;
+  return {std::move(body), std::move(origin)};
 }
 
-void BodyBuilder::put(SoftBody body, const Pose& pose, int copy) {
+void BodyBuilder::put(FilledBody filled, const Pose& pose, int copy) {
+  auto& [body, origin] = filled;
   place(body, pose.rotation, pose.translation);
   body.velocities = velocities_of(body_, body, pose.translation);
-  for (ForcedPart& part : body.origin.forces) sprung::place(part, pose.rotation, pose.translation);
+  for (ForcedPart& part : origin.forces) sprung::place(part, pose.rotation, pose.translation);
   const auto move_centre = [&](auto& pinned) { pinned.centre = pose.rotation * pinned.centre + pose.translation; };
-  std::for_each(body.origin.pins.begin(), body.origin.pins.end(), move_centre);
-  std::for_each(body.origin.pinned_skins.begin(), body.origin.pinned_skins.end(), move_centre);
-  body.color = body_.color.value_or(kPalette[simulation_.world.bodies.size() % kPalette.size()]);
-  body.origin.copy = copy;
+  std::for_each(origin.pins.begin(), origin.pins.end(), move_centre);
+  std::for_each(origin.pinned_skins.begin(), origin.pinned_skins.end(), move_centre);
+  body.drawn.color = body_.color.value_or(kPalette[simulation_.world.bodies.size() % kPalette.size()]);
+  origin.copy = copy;
   simulation_.world.bodies.push_back(std::move(body));
+  simulation_.origins.push_back(std::move(origin));
 }
 
 BrickGrid BodyBuilder::make_grid(const Solid& solid) {
@@ -308,8 +227,8 @@ std::vector<ProbedPart> BodyBuilder::find_probed(const SoftBody& body, std::size
     if (part.bricks.empty()) continue;
     std::vector<bool> is_in_part(body.grid.cells.size(), false);
     for (const int brick : part.bricks) is_in_part[brick] = true;
-    for (std::size_t point = 0; point < body.skin_embedding.brick.size(); ++point) {
-      if (is_in_part[body.skin_embedding.brick[point]]) part.skin_points.push_back(int(point));
+    for (std::size_t point = 0; point < body.drawn.embedding.brick.size(); ++point) {
+      if (is_in_part[body.drawn.embedding.brick[point]]) part.skin_points.push_back(int(point));
     }
     parts.push_back(std::move(part));
   }
@@ -344,7 +263,7 @@ void BodyBuilder::tell(const Observer& observer) const {
   report_.tell(observer);
   if (body_.pins.empty()) return;
   for (std::size_t pin = 0; pin < body_.pins.size(); ++pin) {
-    const auto holds = [&](const SoftBody& solid) {
+    const auto holds = [&](const FilledBody& solid) {
       const auto is_of_pin = [&](const auto& pinned) { return pinned.pin == pin; };
       const Origin& origin = solid.origin;
       return std::any_of(origin.pins.begin(), origin.pins.end(), is_of_pin) ||
@@ -360,144 +279,6 @@ void BodyBuilder::tell(const Observer& observer) const {
   if (free_solids == 0) return;
   observer.warn(fmt::format("{}: {} of {} solids are not held by the pins and will fall", loaded_.name, free_solids,
                             loaded_.solids.size()));
-}
-
-namespace {
-
-/// Random numbers that are equal on all platforms, unlike those of the standard's distributions.
-class Chance {
- public:
-  explicit Chance(int seed) : engine_(static_cast<std::uint64_t>(seed)) {}
-
-  /// In [low, high).
-  double between(double low, double high) { return low + (high - low) * std::ldexp(engine_() >> 11U, -53); }
-  Vec3 in_cube(double reach) {
-    const double x = between(-reach, reach);
-    const double y = between(-reach, reach);
-    return {x, y, between(-reach, reach)};
-  }
-  Vec3 direction() {
-    const double height = between(-1, 1);
-    const double angle = between(0, 2 * std::numbers::pi);
-    const double radius = std::sqrt(1 - height * height);
-    return {radius * std::cos(angle), radius * std::sin(angle), height};
-  }
-
- private:
-  std::mt19937_64 engine_;
-};
-
-/// Moves the bottom centre of the rotated body's bounding box to `position`.
-Pose pose_at(const Vec3& position, const Mat3& rotation, const LoadedBody& loaded) {
-  const Points flipped = loaded.mesh.positions * rotation.transpose();
-  const Vec3 low = flipped.colwise().minCoeff();
-  const Vec3 high = flipped.colwise().maxCoeff();
-  const Vec3 middle = (low + high) / 2;
-  return {.rotation = rotation, .translation = position - Vec3(middle.x(), low.y(), middle.z())};
-}
-
-}  // namespace
-
-std::vector<Pose> poses_of(const SceneBody& body, const LoadedBody& loaded) {
-  const Mat3 rotation = rotation_matrix(body.rotation) * loaded.bricks_from_rest.transpose();
-  if (!body.copies) return {pose_at(body.position, rotation, loaded)};
-  const Copies& copies = *body.copies;
-  Chance chance(copies.seed);
-  std::vector<Pose> poses;
-  for (int k = 0; k < copies.count[2]; ++k) {
-    for (int j = 0; j < copies.count[1]; ++j) {
-      for (int i = 0; i < copies.count[0]; ++i) {
-        const Vec3 position =
-            body.position + Vec3(i, j, k).cwiseProduct(copies.spacing) + chance.in_cube(copies.scatter);
-        const double turn = chance.between(0, copies.turn) * std::numbers::pi / 180;
-        const Vec3 axis = chance.direction();
-        poses.push_back(pose_at(position, Eigen::AngleAxisd(turn, axis) * rotation, loaded));
-      }
-    }
-  }
-  return poses;
-}
-
-namespace {
-
-/// The relative error of the bricks' volume from which on there is a warning.
-constexpr double kVolumeError = 0.02;
-constexpr double kFarOutside = 0.1;   // bricks
-constexpr double kResolvedShell = 2;  // bricks: thicker shells are resolved
-
-double volume_error(const BrickGrid& grid, const Solid& solid) { return std::abs(grid.volume() / solid.volume - 1); }
-
-/// The first of half of the brick size, a quarter, ... that represents the solid's volume; none down to a 64th.
-std::optional<double> brick_size_for(const Solid& solid, double brick_size) {
-  for (int halving = 0; halving < 6; ++halving) {
-    brick_size /= 2;
-    if (volume_error(voxelize(solid, brick_size), solid) <= kVolumeError) return brick_size;
-  }
-  return std::nullopt;
-}
-
-}  // namespace
-
-void FillReport::add(const PieceReport& pieces, int slivers) {
-  pieces_.divided += pieces.divided;
-  pieces_.dropped += pieces.dropped;
-  pieces_.dropped_volume += pieces.dropped_volume;
-  pieces_.floating += pieces.floating;
-  slivers_ += slivers;
-}
-
-void FillReport::add(const Embedding& skin) {
-  outside_ += skin.outside;
-  furthest_outside_ = std::max(furthest_outside_, skin.furthest);
-}
-
-void FillReport::add_volume(const BrickGrid& grid, const Solid& solid) {
-  // For thick shells the bricks are more accurate: area times thickness counts overlaps twice.
-  if (solid.thickness > kResolvedShell * body_.brick_size) return;
-  if (volume_error(grid, solid) <= kVolumeError) return;
-  ++wrong_volumes_;
-  if (wrong_volumes_ > 1) return;
-  const std::optional<double> better = brick_size_for(solid, body_.brick_size);
-  volume_warning_ =
-      fmt::format("bricks of {} are too coarse: they hold {:.4g} kg, the mesh {:.4g} kg; {}",
-                  readable(body_.brick_size, Dimension::kLength), grid.volume() * density_, solid.volume * density_,
-                  better ? fmt::format("bricks of {} would suffice for the mass", readable(*better, Dimension::kLength))
-                         : "use much smaller ones");
-}
-
-void FillReport::tell(const Observer& observer) const {
-  if (furthest_outside_ > kFarOutside) {
-    observer.note(
-        fmt::format("{}: {} in no brick, up to {:.2g} bricks from the nearest, and {} what that does; more "
-                    "bricks hold them better",
-                    body_.name, count_of(outside_, "skin vertex is", "skin vertices are"), furthest_outside_,
-                    outside_ == 1 ? "continues" : "continue"));
-  }
-  if (slivers_ > 0) {
-    observer.detail(
-        fmt::format("{}: {} merged into fuller neighbours", body_.name, count_of(slivers_, "nearly empty brick")));
-  }
-  tell_pieces(observer);
-  if (wrong_volumes_ == 0) return;
-  const int more = wrong_volumes_ - 1;
-  observer.warn(fmt::format("{}: {}{}", body_.name, volume_warning_,
-                            more > 0 ? fmt::format("; so are those of {} more", count_of(more, "solid")) : ""));
-}
-
-void FillReport::tell_pieces(const Observer& observer) const {
-  if (pieces_.divided > 0) {
-    observer.detail(fmt::format("{}: {} several pieces of solid, each in a brick of its own", body_.name,
-                                count_of(pieces_.divided, "cell contains", "cells contain")));
-  }
-  if (pieces_.dropped > 0) {
-    observer.warn(fmt::format("{}: dropped {} of floating specks, {:.2g} kg together", body_.name,
-                              count_of(pieces_.dropped, "brick"), pieces_.dropped_volume * density_));
-  }
-  if (pieces_.floating > 0) {
-    observer.warn(fmt::format("{}: {} connected by parts too thin for bricks of {}; use smaller bricks", body_.name,
-                              count_of(pieces_.floating, "piece is", "pieces are"),
-                              readable(body_.brick_size, Dimension::kLength)));
-  }
 }
 
 }  // namespace sprung

@@ -62,31 +62,36 @@ SurfaceMesh read_surface(const Hdf5Reader& hdf5, const std::string& folder, cons
   return mesh;
 }
 
-SoftBody read_body(const Hdf5Reader& hdf5, const std::string& folder) {
-  SoftBody body;
-  body.origin.body = hdf5.read<int>(folder + "/body").values.at(0);
-  body.origin.copy = hdf5.read<int>(folder + "/copy").values.at(0);
-  body.origin.regions = hdf5.read<int>(folder + "/regions").values;
+Origin read_origin(const Hdf5Reader& hdf5, const std::string& folder) {
+  Origin origin;
+  origin.body = hdf5.read<int>(folder + "/body").values.at(0);
+  origin.copy = hdf5.read<int>(folder + "/copy").values.at(0);
+  origin.regions = hdf5.read<int>(folder + "/regions").values;
   if (hdf5.has(folder + "/pinned")) {
     std::vector<int> pinned = hdf5.read<int>(folder + "/pinned").values;
-    if (!pinned.empty()) body.origin.pins.push_back({.pin = 0, .nodes = std::move(pinned)});
+    if (!pinned.empty()) origin.pins.push_back({.pin = 0, .nodes = std::move(pinned)});
   }
-  body.color = read_color(hdf5, folder + "/color");
+  origin.file_vertices = hdf5.read<int>(folder + "/mesh/vertices").values;
+  origin.file_embedding.brick = hdf5.read<int>(folder + "/mesh/brick").values;
+  origin.file_embedding.local = read_matrix<Points>(hdf5, folder + "/mesh/place_in_brick");
+  return origin;
+}
+
+SoftBody read_body(const Hdf5Reader& hdf5, const std::string& folder) {
+  SoftBody body;
+  body.drawn.color = read_color(hdf5, folder + "/color");
   body.grid = read_grid(hdf5, folder);
   if (hdf5.has(folder + "/centroids")) body.grid.moments = read_moments(hdf5, folder);
   body.stiffness_scale = hdf5.read<double>(folder + "/stiffness_scale").values;
   body.masses = read_matrix<Numbers>(hdf5, folder + "/masses");
   body.rest_positions = read_matrix<Points>(hdf5, folder + "/rest_positions");
   body.positions = body.rest_positions;
-  body.skin = read_skin(hdf5, folder + "/skin");
-  body.skin_embedding.brick = hdf5.read<int>(folder + "/skin/brick").values;
-  body.skin_embedding.local = read_matrix<Points>(hdf5, folder + "/skin/place_in_brick");
+  body.drawn.skin = read_skin(hdf5, folder + "/skin");
+  body.drawn.embedding.brick = hdf5.read<int>(folder + "/skin/brick").values;
+  body.drawn.embedding.local = read_matrix<Points>(hdf5, folder + "/skin/place_in_brick");
   if (hdf5.has(folder + "/surface")) {
-    body.surface = std::make_shared<const SurfaceMesh>(read_surface(hdf5, folder + "/surface", body.skin));
+    body.drawn.mesh = std::make_shared<const SurfaceMesh>(read_surface(hdf5, folder + "/surface", body.drawn.skin));
   }
-  body.file_vertices = hdf5.read<int>(folder + "/mesh/vertices").values;
-  body.file_embedding.brick = hdf5.read<int>(folder + "/mesh/brick").values;
-  body.file_embedding.local = read_matrix<Points>(hdf5, folder + "/mesh/place_in_brick");
   return body;
 }
 
@@ -128,7 +133,10 @@ CacheHeader read_header(const Hdf5Reader& hdf5) {
   const std::size_t bodies = hdf5.read<int>("/actor_count").values.at(0);
   const std::size_t obstacles = hdf5.read<int>("/obstacle_count").values.at(0);
   for (std::size_t i = 0; i < meshes; ++i) simulation.meshes.push_back(read_skin(hdf5, mesh_folder(i)));
-  for (std::size_t i = 0; i < bodies; ++i) simulation.world.bodies.push_back(read_body(hdf5, body_folder(i)));
+  for (std::size_t i = 0; i < bodies; ++i) {
+    simulation.world.bodies.push_back(read_body(hdf5, body_folder(i)));
+    simulation.origins.push_back(read_origin(hdf5, body_folder(i)));
+  }
   for (std::size_t i = 0; i < obstacles; ++i) simulation.obstacles.push_back(read_obstacle(hdf5, obstacle_folder(i)));
   return header;
 }

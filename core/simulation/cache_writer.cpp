@@ -76,22 +76,25 @@ void write_moments(Hdf5Writer& hdf5, const std::string& folder, const std::vecto
   write_matrix(hdf5, folder + "/covariances", covariances);
 }
 
+void write_origin(Hdf5Writer& hdf5, const std::string& folder, const Origin& origin) {
+  write_number(hdf5, folder + "/body", int(origin.body));
+  write_number(hdf5, folder + "/copy", origin.copy);
+  write_list(hdf5, folder + "/regions", origin.regions);
+  write_list(hdf5, folder + "/pinned", origin.pinned_nodes());
+  write_list(hdf5, folder + "/mesh/vertices", origin.file_vertices);
+  write_embedding(hdf5, folder + "/mesh", origin.file_embedding);
+}
+
 void write_body(Hdf5Writer& hdf5, const std::string& folder, const SoftBody& body, bool is_exact) {
-  write_number(hdf5, folder + "/body", int(body.origin.body));
-  write_number(hdf5, folder + "/copy", body.origin.copy);
-  write_list(hdf5, folder + "/regions", body.origin.regions);
-  write_list(hdf5, folder + "/pinned", body.origin.pinned_nodes());
-  write_color(hdf5, folder + "/color", body.color);
+  write_color(hdf5, folder + "/color", body.drawn.color);
   write_grid(hdf5, folder, body.grid);
   if (body.model == Model::kNeoHooke) write_moments(hdf5, folder, body.grid.moments);
   write_list(hdf5, folder + "/stiffness_scale", body.stiffness_scale);
   hdf5.write(folder + "/masses", flat_values(body.masses), {std::size_t(body.masses.size())});
   write_matrix(hdf5, folder + "/rest_positions", body.rest_positions);
-  write_skin(hdf5, folder + "/skin", body.skin);
-  write_embedding(hdf5, folder + "/skin", body.skin_embedding);
-  if (body.surface != nullptr) write_surface(hdf5, folder + "/surface", *body.surface);
-  write_list(hdf5, folder + "/mesh/vertices", body.file_vertices);
-  write_embedding(hdf5, folder + "/mesh", body.file_embedding);
+  write_skin(hdf5, folder + "/skin", body.drawn.skin);
+  write_embedding(hdf5, folder + "/skin", body.drawn.embedding);
+  if (body.drawn.mesh != nullptr) write_surface(hdf5, folder + "/surface", *body.drawn.mesh);
   const ArrayShape state{std::size_t(body.rest_positions.rows()), 3};
   hdf5.make_series<double>(folder + "/positions", state);
   hdf5.make_series<double>(folder + "/velocities", state);
@@ -129,8 +132,10 @@ void write_header(Hdf5Writer& hdf5, const CacheHeader& header) {
   write_number(hdf5, "/actor_count", isize(bodies));
   write_number(hdf5, "/obstacle_count", isize(simulation.obstacles));
   for (std::size_t i = 0; i < simulation.meshes.size(); ++i) write_skin(hdf5, mesh_folder(i), simulation.meshes[i]);
-  for (std::size_t i = 0; i < bodies.size(); ++i)
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    write_origin(hdf5, body_folder(i), simulation.origins[i]);
     write_body(hdf5, body_folder(i), bodies[i], header.position_error == 0);
+  }
   for (std::size_t i = 0; i < simulation.obstacles.size(); ++i) {
     write_obstacle(hdf5, obstacle_folder(i), simulation.obstacles[i]);
   }

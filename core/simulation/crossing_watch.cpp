@@ -231,7 +231,7 @@ void CrossingWatch::add_corners(const Task& task, const RowPairs& pairs, std::ve
 std::string CrossingWatch::name_of(int skin) const {
   const int bodies = isize(simulation_.world.bodies);
   if (skin >= bodies) return fmt::format("obstacle {}", skin - bodies + 1);
-  const Origin& origin = simulation_.world.bodies[skin].origin;
+  const Origin& origin = simulation_.origins[skin];
   const std::string file = scene_.bodies[origin.body].mesh.filename().string();
   return fmt::format("body {}{}{}", origin.body + 1, origin.copy > 0 ? fmt::format(", copy {}", origin.copy + 1) : "",
                      file.empty() ? "" : fmt::format(" ({})", file));

@@ -47,7 +47,7 @@ void LoadDriver::Curve::add_moments(std::vector<double>& moments) const {
 }
 
 LoadDriver::LoadDriver(const Scene& scene, Simulation& simulation)
-    : scene_(scene), simulation_(simulation), wholes_(forced_wholes(scene, simulation.world)) {
+    : scene_(scene), simulation_(simulation), wholes_(forced_wholes(scene, simulation.origins)) {
   if (!scene.gravity_keyframes.empty()) gravity_.emplace_back(scene.gravity_keyframes);
   if (scene.wind) wind_.emplace_back(static_cast<const StrengthCurve&>(*scene.wind));
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
@@ -90,7 +90,7 @@ void LoadDriver::aim(double begin, double end) {
 }
 
 Loads LoadDriver::loads_at(std::size_t row, double time) const {
-  const Origin& origin = simulation_.world.bodies[row].origin;
+  const Origin& origin = simulation_.origins[row];
   const SceneBody& body = scene_.bodies[origin.body];
   const BodyCurves& curves = bodies_[origin.body];
   Loads loads;
@@ -143,7 +143,7 @@ SceneDriver::SceneDriver(const Scene& scene, Simulation& simulation)
       moments_(loads_.moments()) {
   loads_.aim(0, 0);
   for (std::size_t body = 0; body < pins_.size(); ++body) {
-    const Origin& origin = simulation.world.bodies[body].origin;
+    const Origin& origin = simulation.origins[body];
     for (const PinnedNodes& pinned : origin.pins) {
       const Pin& pin = scene.bodies[origin.body].pins[pinned.pin];
       pins_[body].push_back({.source = &pin, .pinned = &pinned, .movement = movement_of(pin, scene)});
@@ -250,7 +250,7 @@ Movement movement_of(const Pin& pin, const Scene& scene) {
 }
 
 Points pin_movements(const Scene& scene, const Simulation& simulation, std::size_t body, double time, bool small) {
-  const Origin& origin = simulation.world.bodies[body].origin;
+  const Origin& origin = simulation.origins[body];
   const Points& start = simulation.world.bodies[body].rest_positions;
   Points moved = Points::Zero(start.rows(), 3);
   for (const PinnedNodes& pinned : origin.pins) {

@@ -27,17 +27,16 @@ class Loading {
  public:
   Loading(Simulation& simulation, const Scene& scene)
       : simulation_(simulation), scene_(scene), is_linear_(scene.solver.scheme == Solver::kLinear) {
-    for (const SoftBody& body : simulation.world.bodies) {
-      if (!body.pinned.empty() || !body.origin.pinned_skins.empty()) continue;
+    for (std::size_t row = 0; row < simulation.origins.size(); ++row) {
+      if (!simulation.world.bodies[row].pinned.empty() || !simulation.origins[row].pinned_skins.empty()) continue;
       throw Error(ErrorKind::kBadInput,
                   "a body without pins cannot come to rest; give it a [[body.pin]], or use "
                   "solver.scheme euler or verlet");
     }
-    const World& world = simulation.world;
-    const auto wholes = forced_wholes(scene, world);
-    for (std::size_t i = 0; i < world.bodies.size(); ++i) {
+    const auto wholes = forced_wholes(scene, simulation.origins);
+    for (std::size_t i = 0; i < simulation.origins.size(); ++i) {
       systems_.push_back(make_default_solver());
-      full_.push_back(loads_and_weight(scene, world, i, wholes[i]));
+      full_.push_back(loads_and_weight(scene, simulation, i, wholes[i]));
     }
   }
 
@@ -51,7 +50,7 @@ class Loading {
       for (SkinPressure& pressure : loads.pressures) pressure.pressure *= share;
       const Points movements = pin_movements(scene_, simulation_, row, time, is_linear_);
       Supports supports = supports_of(body);
-      add_skin_supports(scene_, body, time, is_linear_, supports);
+      add_skin_supports(scene_, simulation_.origins[row], body, time, is_linear_, supports);
       reactions_of_all.push_back(
           settle(body, supports, loads, movements, is_linear_, *systems_[row], iterations_, between));
     }
@@ -198,7 +197,7 @@ Recording record_modes(Simulation& simulation, const Scene& scene, const Observe
   Progress progress(observer, "modes");
   SoftBody& body = simulation.world.bodies[0];
   Supports supports = supports_of(body);
-  add_skin_supports(scene, body, 0, true, supports);
+  add_skin_supports(scene, simulation.origins[0], body, 0, true, supports);
   const Modes modes = natural_modes(body, supports, scene.solver.modes, [&] { observer.check_interrupt(); });
   const int frames = frame_count(scene);
   const int count = scene.solver.modes;

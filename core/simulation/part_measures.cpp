@@ -41,14 +41,14 @@ double kinetic_energy_of(const SoftBody& body, const ProbedPart& part) {
 double largest_skin_stress(const SoftBody& body, const ProbedPart& part, StrainMeasure strain) {
   std::vector<int> nodes;
   for (const int point : part.skin_points) {
-    const auto& corners = body.grid.nodes[body.skin_embedding.brick[point]];
+    const auto& corners = body.grid.nodes[body.drawn.embedding.brick[point]];
     nodes.insert(nodes.end(), corners.begin(), corners.end());
   }
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   StressTensors of_nodes = StressTensors::Zero(body.node_count(), 6);
   of_nodes(nodes, Eigen::all) = recover_stress(body, body.positions, nodes, strain);
-  const Embedding& skin = body.skin_embedding;
+  const Embedding& skin = body.drawn.embedding;
   Embedding points{.brick = {}, .local = skin.local(part.skin_points, Eigen::all)};
   for (const int point : part.skin_points) points.brick.push_back(skin.brick[point]);
   return von_mises(stress_at(body.grid, points, of_nodes)).maxCoeff();

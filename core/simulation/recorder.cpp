@@ -34,7 +34,7 @@ Recorder::Recorder(const Scene& scene, const Simulation& simulation, std::string
 
 Recorder::PointSeat Recorder::seat_of(const Probe& probe) const {
   for (std::size_t row = 0; row < simulation_.world.bodies.size(); ++row) {
-    const Origin& origin = simulation_.world.bodies[row].origin;
+    const Origin& origin = simulation_.origins[row];
     if (origin.body != std::size_t(probe.body - 1)) continue;
     const Body& body = simulation_.world.bodies[row];
     PointSeat seat{.body = row, .embedding = embed(body.grid, (origin.bricks_from_rest * *probe.point).transpose())};
@@ -49,8 +49,8 @@ Recorder::PointSeat Recorder::seat_of(const Probe& probe) const {
 }
 
 void Recorder::check_part(std::size_t probe) const {
-  for (const SoftBody& body : simulation_.world.bodies) {
-    for (const ProbedPart& part : body.origin.probed) {
+  for (const Origin& origin : simulation_.origins) {
+    for (const ProbedPart& part : origin.probed) {
       if (part.probe == probe) return;
     }
   }
@@ -134,9 +134,9 @@ ProbeSample Recorder::pin_sample(const Probe& probe, const std::vector<Points>& 
   ProbeSample sample;
   double count = 0;
   for (std::size_t i = 0; i < simulation_.world.bodies.size(); ++i) {
-    if (simulation_.world.bodies[i].origin.body != row) continue;
+    if (simulation_.origins[i].body != row) continue;
     const SoftBody& body = simulation_.world.bodies[i];
-    for (const PinnedNodes& pinned : body.origin.pins) {
+    for (const PinnedNodes& pinned : simulation_.origins[i].pins) {
       if (!is_pin_of(pinned, scene_body, probe.pin)) continue;
       const Pin& pin = scene_body.pins[pinned.pin];
       const Vec3 shift = movement_of(pin, scene_).placement(time).shift;
@@ -153,9 +153,9 @@ ProbeSample Recorder::pin_sample(const Probe& probe, const std::vector<Points>& 
         sample.torque += arm.cross(force);
       }
     }
-    for (const PinnedSkin& skin : body.origin.pinned_skins) {
+    for (const PinnedSkin& skin : simulation_.origins[i].pinned_skins) {
       if (scene_body.pins[skin.pin].name != probe.pin) continue;
-      const SkinReaction reaction = reaction_of(skin, scene_, body, time, small);
+      const SkinReaction reaction = reaction_of(skin, scene_body.pins[skin.pin], scene_, body, time, small);
       count += reaction.area;
       sample.position += reaction.position;
       sample.displacement += reaction.displacement;
@@ -172,9 +172,10 @@ ProbeSample Recorder::pin_sample(const Probe& probe, const std::vector<Points>& 
 
 ProbeSample Recorder::part_sample(std::size_t probe, bool small) const {
   PartMeasures measures;
-  for (const SoftBody& body : simulation_.world.bodies) {
-    for (const ProbedPart& part : body.origin.probed) {
-      if (part.probe == probe) measures.add(body, part, small ? StrainMeasure::kSmall : StrainMeasure::kFinite);
+  for (std::size_t row = 0; row < simulation_.origins.size(); ++row) {
+    for (const ProbedPart& part : simulation_.origins[row].probed) {
+      if (part.probe == probe)
+        measures.add(simulation_.world.bodies[row], part, small ? StrainMeasure::kSmall : StrainMeasure::kFinite);
     }
   }
   return measures.sample();

@@ -19,8 +19,9 @@ std::string difference_of_bodies(const SoftBody& cached, const SoftBody& now) {
       cached.stiffness_scale != now.stiffness_scale || cached.rest_positions != now.rest_positions) {
     return "as many bricks, but others";
   }
-  if (cached.skin.positions.rows() != now.skin.positions.rows() || cached.skin.positions != now.skin.positions ||
-      cached.skin.triangles != now.skin.triangles) {
+  if (cached.drawn.skin.positions.rows() != now.drawn.skin.positions.rows() ||
+      cached.drawn.skin.positions != now.drawn.skin.positions ||
+      cached.drawn.skin.triangles != now.drawn.skin.triangles) {
     return "another skin";
   }
   return "";
@@ -63,7 +64,7 @@ std::string difference(const CacheHeader& cached, const CacheHeader& now, const 
   for (std::size_t i = 0; i < new_bodies.size(); ++i) {
     const std::string text = difference_of_bodies(old_bodies[i], new_bodies[i]);
     if (text.empty()) continue;
-    return fmt::format("the mesh of body {} has changed: {}", new_bodies[i].origin.body + 1, text);
+    return fmt::format("the mesh of body {} has changed: {}", now.simulation.origins[i].body + 1, text);
   }
   return "";
 }
@@ -78,11 +79,12 @@ std::string position_accuracy(const CacheHeader& header) {
 Simulation cached_simulation(const CacheHeader& header, const Scene& scene) {
   Simulation simulation = header.simulation;
   simulation.world.gravity = scene.gravity;
-  for (SoftBody& body : simulation.world.bodies) {
-    if (body.origin.body >= scene.bodies.size()) {
+  for (std::size_t row = 0; row < simulation.origins.size(); ++row) {
+    if (simulation.origins[row].body >= scene.bodies.size()) {
       throw Error(ErrorKind::kBadInput, "the cache is damaged: it has a body that is not in its scene");
     }
-    const SceneBody& scene_body = scene.bodies[body.origin.body];
+    const SceneBody& scene_body = scene.bodies[simulation.origins[row].body];
+    SoftBody& body = simulation.world.bodies[row];
     Body made = make_body(std::move(body.grid), scene_body.model, scene_body.material);
     made.masses = std::move(body.masses);
     made.rest_positions = std::move(body.rest_positions);

@@ -48,7 +48,7 @@ void add_bodies(const Scene& scene, std::size_t first, const std::vector<LoadedB
     if (failures[i]) std::rethrow_exception(failures[i]);
     builders[i].add_solids();
     builders[i].tell(observer);
-    check_loads(scene, first + i, simulation.world);
+    check_loads(scene, first + i, simulation.origins);
     simulation.size = std::max(simulation.size, bodies[i].extent.maxCoeff());
   }
 }
@@ -234,8 +234,8 @@ constexpr double kNear = 0.5;  // of the smaller bricks
 
 std::vector<std::size_t> soft_bodies_of(const Simulation& simulation, int body) {
   std::vector<std::size_t> bodies;
-  for (std::size_t i = 0; i < simulation.world.bodies.size(); ++i) {
-    if (simulation.world.bodies[i].origin.body + 1 == std::size_t(body)) bodies.push_back(i);
+  for (std::size_t i = 0; i < simulation.origins.size(); ++i) {
+    if (simulation.origins[i].body + 1 == std::size_t(body)) bodies.push_back(i);
   }
   return bodies;
 }
@@ -269,11 +269,12 @@ std::string allowance(const SoftBody& body) {
   return fmt::format("may overlap it by one brick ({}) at most", readable(body.grid.brick_size, Dimension::kLength));
 }
 
-void check_obstacle(const Scene& scene, const Simulation& simulation, const SoftBody& body, std::size_t row) {
+void check_obstacle(const Scene& scene, const Simulation& simulation, std::size_t body_row, std::size_t row) {
+  const SoftBody& body = simulation.world.bodies[body_row];
   const Obstacle& obstacle = simulation.world.obstacles[row];
   const double depth = penetration_depth(obstacle, body);
   if (depth <= body.grid.brick_size) return;
-  const std::size_t index = body.origin.body;
+  const std::size_t index = simulation.origins[body_row].body;
   const std::string deep = readable(depth, Dimension::kLength);
   const std::optional<double> ground = ground_height(obstacle);
   if (!ground) {
@@ -297,8 +298,8 @@ void check_pair(const Simulation& simulation, std::size_t a, std::size_t b) {
   throw Error(ErrorKind::kBadInput,
               fmt::format("body {} starts {} inside body {}; bodies may overlap by one brick ({}) at most: move them "
                           "apart, or let bodies not touch each other ([contact] bodies = false)",
-                          simulation.world.bodies[a].origin.body + 1, readable(depth, Dimension::kLength),
-                          simulation.world.bodies[b].origin.body + 1, readable(allowed, Dimension::kLength)));
+                          simulation.origins[a].body + 1, readable(depth, Dimension::kLength),
+                          simulation.origins[b].body + 1, readable(allowed, Dimension::kLength)));
 }
 
 }  // namespace
@@ -308,8 +309,7 @@ void check_start(const Scene& scene, const Simulation& simulation) {
   std::vector<AlignedBox> boxes;
   for (std::size_t i = 0; i < world.bodies.size(); ++i) {
     boxes.push_back(bounding_box(world.bodies[i].positions));
-    for (std::size_t row = 0; row < world.obstacles.size(); ++row)
-      check_obstacle(scene, simulation, world.bodies[i], row);
+    for (std::size_t row = 0; row < world.obstacles.size(); ++row) check_obstacle(scene, simulation, i, row);
   }
   if (!world.bodies_collide) return;
   for (const auto& [a, b] : overlapping_boxes(boxes)) {

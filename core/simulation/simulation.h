@@ -5,6 +5,7 @@
 #include "core/bricks/thin_parts.h"
 #include "core/simulation/body_source.h"
 #include "core/simulation/obstacles.h"
+#include "core/simulation/origin.h"
 #include "core/skin/skin.h"
 #include "core/world/world.h"
 
@@ -13,8 +14,9 @@ namespace sprung {
 /// A scene filled with bricks: its world, and what is drawn and exported of it.
 struct Simulation {
   World world;
-  std::vector<Skin> meshes;  // by body of the scene: its mesh with the vertices, order and triangles of the file, at
-                             // rest; its own normals or none
+  std::vector<Origin> origins;  // by body of the world
+  std::vector<Skin> meshes;     // by body of the scene: its mesh with the vertices, order and triangles of the file, at
+                                // rest; its own normals or none
   std::vector<StageObstacle> obstacles;  // of world.obstacles, and of the scene's
   double size = 0;                       // m, longest side of the largest body
 };

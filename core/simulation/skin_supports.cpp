@@ -16,7 +16,7 @@ Vec3 normal_area(const Points& points, const Triangles& triangles, int row) {
 
 /// One point for each triangle of which pieces are held: their centroid.
 PinnedSkin skin_of(const std::vector<SkinPiece>& pieces, const Points& points, const SoftBody& body) {
-  const Triangles& triangles = body.skin.triangles;
+  const Triangles& triangles = body.drawn.skin.triangles;
   std::vector<Vec3> positions;
   std::vector<Vec3> normals;
   std::vector<double> areas;
@@ -53,9 +53,8 @@ Mat3 pinned_directions(const Pin& pin) {
   return Vec3(pin.axes.fixed[0], pin.axes.fixed[1], pin.axes.fixed[2]).asDiagonal();
 }
 
-std::vector<SpringSupport> springs_of(const PinnedSkin& skin, const Scene& scene, const SoftBody& body, double time,
-                                      bool small) {
-  const Pin& pin = scene.bodies[body.origin.body].pins[skin.pin];
+std::vector<SpringSupport> springs_of(const PinnedSkin& skin, const Pin& pin, const Scene& scene, const Body& body,
+                                      double time, bool small) {
   const Mat3 projection = pinned_directions(pin);
   const Movement movement = movement_of(pin, scene);
   const Points rest = deform_points(body.grid, skin.points, body.rest_positions);
@@ -81,8 +80,8 @@ std::vector<PinnedSkin> find_pinned_skins(const std::vector<Pin>& pins, const Se
   std::vector<PinnedSkin> skins;
   for (std::size_t pin = 0; pin < pins.size(); ++pin) {
     if (!pins[pin].on_surface) continue;
-    const Points points = deform_points(body.grid, body.skin_embedding, body.grid.rest_positions());
-    const std::vector<SkinPiece> pieces = selector.skin_pieces(pins[pin], points, body.skin.triangles, solid);
+    const Points points = deform_points(body.grid, body.drawn.embedding, body.grid.rest_positions());
+    const std::vector<SkinPiece> pieces = selector.skin_pieces(pins[pin], points, body.drawn.skin.triangles, solid);
     PinnedSkin skin = skin_of(pieces, points, body);
     if (skin.areas.size() == 0) continue;
     skin.pin = pin;
@@ -92,19 +91,22 @@ std::vector<PinnedSkin> find_pinned_skins(const std::vector<Pin>& pins, const Se
   return skins;
 }
 
-void add_skin_supports(const Scene& scene, const SoftBody& body, double time, bool small, Supports& supports) {
-  for (const PinnedSkin& skin : body.origin.pinned_skins) {
-    const std::vector<SpringSupport> springs = springs_of(skin, scene, body, time, small);
+void add_skin_supports(const Scene& scene, const Origin& origin, const Body& body, double time, bool small,
+                       Supports& supports) {
+  const std::vector<Pin>& pins = scene.bodies[origin.body].pins;
+  for (const PinnedSkin& skin : origin.pinned_skins) {
+    const std::vector<SpringSupport> springs = springs_of(skin, pins[skin.pin], scene, body, time, small);
     supports.springs.insert(supports.springs.end(), springs.begin(), springs.end());
   }
 }
 
-SkinReaction reaction_of(const PinnedSkin& skin, const Scene& scene, const SoftBody& body, double time, bool small) {
+SkinReaction reaction_of(const PinnedSkin& skin, const Pin& pin, const Scene& scene, const Body& body, double time,
+                         bool small) {
   SkinReaction reaction;
-  const std::vector<SpringSupport> springs = springs_of(skin, scene, body, time, small);
+  const std::vector<SpringSupport> springs = springs_of(skin, pin, scene, body, time, small);
   const Points rest = deform_points(body.grid, skin.points, body.rest_positions);
   const Points displaced = deform_points(body.grid, skin.points, body.positions - body.rest_positions);
-  const Movement movement = movement_of(scene.bodies[body.origin.body].pins[skin.pin], scene);
+  const Movement movement = movement_of(pin, scene);
   const Vec3 centre = small ? skin.centre : Vec3(skin.centre + movement.placement(time).shift);
   for (std::size_t row = 0; row < springs.size(); ++row) {
     const Vec3 start = rest.row(Eigen::Index(row));

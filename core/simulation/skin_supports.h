@@ -1,5 +1,6 @@
 #pragma once
 #include "core/dynamics/linear/linear_solver.h"
+#include "core/simulation/origin.h"
 #include "core/simulation/selector.h"
 #include "core/world/keyframes.h"
 #include "core/world/world.h"
@@ -13,8 +14,9 @@ namespace sprung {
 
 /// Adds the springs that hold pinned skins of a body, moved by their pins from rest to a `time` (s) of the film; with
 /// `small`, to first order. A spring per area is kFoundation times as stiff as the outermost layer of bricks under it,
-/// E / h: it adds the compliance of a hundredth of a brick to a support, and still lets the solvers converge.
-void add_skin_supports(const Scene& scene, const SoftBody& body, double time, bool small, Supports& supports);
+/// E / h: it adds the give of a hundredth of a brick to a support, and still lets the solvers converge.
+void add_skin_supports(const Scene& scene, const Origin& origin, const Body& body, double time, bool small,
+                       Supports& supports);
 
 inline constexpr double kFoundation = 100;
 
@@ -28,7 +30,7 @@ struct SkinReaction {
 };
 
 /// For the body's current positions. `small`: torques refer to the rest shape.
-[[nodiscard]] SkinReaction reaction_of(const PinnedSkin& skin, const Scene& scene, const SoftBody& body, double time,
-                                       bool small);
+[[nodiscard]] SkinReaction reaction_of(const PinnedSkin& skin, const Pin& pin, const Scene& scene, const Body& body,
+                                       double time, bool small);
 
 }  // namespace sprung

@@ -75,8 +75,8 @@ void add_pressures(const std::vector<SkinPressure>& pressures, const Triangles& 
 }  // namespace
 
 LoadedSkin loaded_skin(const SoftBody& body) {
-  if (body.contact_triangles.rows() > 0) return {body.contacts, body.contact_triangles};
-  return {body.skin_embedding, body.skin.triangles};
+  if (body.contact.triangles.rows() > 0) return {body.contact.points, body.contact.triangles};
+  return {body.drawn.embedding, body.drawn.skin.triangles};
 }
 
 Points pressure_forces(const SoftBody& body, const std::vector<SkinPressure>& pressures) {

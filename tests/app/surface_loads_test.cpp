@@ -106,11 +106,11 @@ TEST(SurfaceLoads, PressureFollowsTheSkinInStatics) {
   const Done done =
       run(scene_with(kBeam, "[[body.force]]\nbox = { min = [0, 1, 0], max = [1, 1, 1] }\npressure = 1500\n", "static"));
   const SoftBody& body = done.simulation.world.bodies.at(0);
-  const Points rest = body.skin.positions;
+  const Points rest = body.drawn.skin.positions;
   const Points moved = body.skin_positions(body.positions);
   const double top = rest.col(1).maxCoeff();
   Vec3 area = Vec3::Zero();
-  for (const auto& corners : body.skin.triangles.rowwise()) {
+  for (const auto& corners : body.drawn.skin.triangles.rowwise()) {
     if (rest(corners[0], 1) < top - 1e-9 || rest(corners[1], 1) < top - 1e-9 || rest(corners[2], 1) < top - 1e-9) {
       continue;
     }

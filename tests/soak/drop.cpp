@@ -14,7 +14,7 @@
 #include "core/dynamics/explicit/adaptive_integrator.h"
 #include "core/error.h"
 #include "core/mesh/io/read_mesh.h"
-#include "core/simulation/build_bodies.h"
+#include "core/simulation/soft_body.h"
 #include "tests/soak/dice.h"
 #include "tests/support/meshes.h"
 
@@ -48,7 +48,7 @@ SoftBody make_soft_body_of(Shape shape, double size, Model model, const Material
   if (shape == Shape::kBricks) {
     const Eigen::Vector3i counts(dice.whole(1, 5), dice.whole(1, 5), dice.whole(1, 5));
     SoftBody body(make_body(make_box_grid(counts, size / counts.maxCoeff()), model, material));
-    body.contacts = embed(body.grid, body.grid.rest_positions());
+    body.contact.points = embed(body.grid, body.grid.rest_positions());
     return body;
   }
   SurfaceMesh mesh = mesh_of_shape(shape, dice);
@@ -61,7 +61,7 @@ SoftBody make_soft_body_of(Shape shape, double size, Model model, const Material
 }
 
 double lowest_point(const SoftBody& body) {
-  return deform_points(body.grid, body.contacts, body.positions).col(1).minCoeff();
+  return deform_points(body.grid, body.contact.points, body.positions).col(1).minCoeff();
 }
 
 }  // namespace

@@ -161,7 +161,7 @@ double error_of_displacements(const Simulation& simulation, const Scene& scene) 
   Body body = simulation.world.bodies[0];
   const Points found = body.positions - body.rest_positions;
   body.positions = body.rest_positions;
-  const Loads loads = loads_and_weight(scene, simulation.world, 0, forced_wholes(scene, simulation.world)[0]);
+  const Loads loads = loads_and_weight(scene, simulation, 0, forced_wholes(scene, simulation.origins)[0]);
   const auto system = make_direct_solver();
   const LinearResponse direct = linear_response(body, supports_of(simulation.world.bodies[0]), loads.forces,
                                                 Points::Zero(body.node_count(), 3), *system);

@@ -19,8 +19,8 @@ inline SoftBody closing_horseshoe(double h) {
   number_nodes(grid);
   SoftBody body(make_body(grid, Model::kCalibrated, test_material(0.3, 2e4)));
   const SurfaceMesh surface = surface_of(body.grid);
-  body.contacts = embed(body.grid, surface.positions);
-  body.contact_triangles = surface.triangles;
+  body.contact.points = embed(body.grid, surface.positions);
+  body.contact.triangles = surface.triangles;
   for (int node = 0; node < body.node_count(); ++node) {
     const Vec3 x = body.positions.row(node);
     if (x.y() > 2 * h) body.velocities(node, 0) = (x.x() < 3 * h ? 1.0 : -1.0) * 8 * (x.y() - 2 * h);

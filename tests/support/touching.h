@@ -11,8 +11,8 @@ inline SoftBody touching_box(const Eigen::Vector3i& counts, double brick_size, c
                              const Vec3& position) {
   SoftBody body(make_body(make_box_grid(counts, brick_size), Model::kCalibrated, material));
   const SurfaceMesh surface = surface_of(body.grid);
-  body.contacts = embed(body.grid, surface.positions);
-  body.contact_triangles = surface.triangles;
+  body.contact.points = embed(body.grid, surface.positions);
+  body.contact.triangles = surface.triangles;
   place(body, Mat3::Identity(), position);
   return body;
 }

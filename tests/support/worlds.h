@@ -8,7 +8,7 @@ namespace sprung::test {
 inline World world_of(Body body, const Vec3& gravity = Vec3::Zero()) {
   World world;
   SoftBody& added = world.bodies.emplace_back(std::move(body));
-  added.contacts = embed(added.grid, added.grid.rest_positions());
+  added.contact.points = embed(added.grid, added.grid.rest_positions());
   world.gravity = gravity;
   return world;
 }

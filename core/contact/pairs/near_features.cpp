@@ -41,11 +41,11 @@ NearFeatures::NearFeatures(const Group& group, const World& world, Trees trees)
   };
   for (std::size_t a = 0; a < group_.size(); ++a) {
     for (const std::size_t row : smooth) against_.push_back({.obstacle = row, .pairs = ShapePairs(*trees_[a], a)});
-    if (group_[a]->collides_with_itself) add(a, a, group_[a]->friction);
+    if (group_[a]->contact.with_itself) add(a, a, group_[a]->contact.friction);
     for (std::size_t b = a + 1; b < group_.size() && world.bodies_collide; ++b) {
-      add(a, b, std::sqrt(group_[a]->friction * group_[b]->friction));
+      add(a, b, std::sqrt(group_[a]->contact.friction * group_[b]->contact.friction));
     }
-    for (std::size_t b = group_.size(); b < trees_.size(); ++b) add(a, b, body(b).friction);
+    for (std::size_t b = group_.size(); b < trees_.size(); ++b) add(a, b, body(b).contact.friction);
   }
 }
 
@@ -56,7 +56,7 @@ NearFeatures::Trees NearFeatures::take_trees() && {
 
 bool NearFeatures::is_of_surfaces() const {
   for (std::size_t row = 0; row < group_.size(); ++row) {
-    if (group_[row]->contact_surface.get() != &trees_[row]->skin()) return false;
+    if (group_[row]->contact.surface.get() != &trees_[row]->skin()) return false;
   }
   return true;
 }

@@ -68,7 +68,7 @@ std::vector<std::vector<int>> neighbours_among(const std::vector<int>& bricks, c
 }  // namespace
 
 ContactSurface::ContactSurface(const SoftBody& body) {
-  add_triangles(body, add_points(body.contacts));
+  add_triangles(body, add_points(body.contact.points));
   add_edges();
   for (std::size_t row = 0; row < bricks.size(); ++row) {
     cones.push_back(cone_of(normals.middleRows(first_point[row], first_point[row + 1] - first_point[row])));
@@ -97,10 +97,10 @@ std::vector<int> ContactSurface::add_points(const Embedding& embedding) {
 }
 
 void ContactSurface::add_triangles(const SoftBody& body, const std::vector<int>& place_of) {
-  for (int row = 0; row < body.contact_triangles.rows(); ++row) {
+  for (int row = 0; row < body.contact.triangles.rows(); ++row) {
     std::array<int, 3> corners{};
     for (int i = 0; i < 3; ++i) {
-      corners[i] = place_of[body.contact_triangles(row, i)];
+      corners[i] = place_of[body.contact.triangles(row, i)];
     }
     triangles.push_back(corners);
   }
@@ -152,8 +152,8 @@ bool share_a_node(const Body& body, int a, int b) {
 }
 
 const ContactSurface& contact_surface_of(SoftBody& body) {
-  if (!body.contact_surface) body.contact_surface = std::make_shared<const ContactSurface>(body);
-  return *body.contact_surface;
+  if (!body.contact.surface) body.contact.surface = std::make_shared<const ContactSurface>(body);
+  return *body.contact.surface;
 }
 
 }  // namespace sprung

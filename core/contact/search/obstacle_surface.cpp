@@ -93,7 +93,7 @@ std::optional<SoftBody> obstacle_surface(const Obstacle& obstacle, double brick_
   grid.fill.assign(grid.cells.size(), 1);
   number_nodes(grid);
 
-  Embedding& points = surface.contacts;
+  Embedding& points = surface.contact.points;
   points.local.resize(skin.positions.rows(), 3);
   for (Eigen::Index row = 0; row < skin.positions.rows(); ++row) {
     const Eigen::Vector3i cell = cell_of(row);
@@ -102,12 +102,12 @@ std::optional<SoftBody> obstacle_surface(const Obstacle& obstacle, double brick_
     points.local.row(row) =
         (skin.positions.row(row) - low.transpose()) / grid.brick_size - cell.cast<double>().transpose();
   }
-  surface.contact_triangles = skin.triangles.unaryExpr([&](int vertex) { return point_of[vertex]; });
+  surface.contact.triangles = skin.triangles.unaryExpr([&](int vertex) { return point_of[vertex]; });
   surface.rest_positions = grid.rest_positions();
   surface.positions = surface.rest_positions;
   surface.velocities = Points::Zero(grid.node_count(), 3);
-  surface.friction = obstacle.friction;
-  surface.collides_with_itself = false;
+  surface.contact.friction = obstacle.friction;
+  surface.contact.with_itself = false;
   return surface;
 }
 

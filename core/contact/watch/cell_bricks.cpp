@@ -125,11 +125,11 @@ CellBricks::CellBricks(const SoftBody& body, const std::vector<CellTriangles>& c
     std::vector<Carrier>& carriers = carriers_[cell];
     for (const std::array<int, 3>& triangle : cells[cell]) {
       for (const int vertex : triangle) {
-        const int brick = body.skin_embedding.brick[vertex];
+        const int brick = body.drawn.embedding.brick[vertex];
         const auto known =
             std::find_if(carriers.begin(), carriers.end(), [&](const Carrier& at) { return at.brick == brick; });
         Carrier& carrier = known == carriers.end() ? carriers.emplace_back(Carrier{brick, {}}) : *known;
-        carrier.part.extend(Vec3(body.skin_embedding.local.row(vertex)));
+        carrier.part.extend(Vec3(body.drawn.embedding.local.row(vertex)));
       }
     }
     for (const Carrier& carrier : carriers) is_used_[carrier.brick] = 1;
@@ -146,7 +146,7 @@ void CellBricks::find_neighbours(const std::vector<CellTriangles>& cells) {
   }
   std::vector<RestCell> at_rest;
   at_rest.reserve(cells.size());
-  for (const CellTriangles& cell : cells) at_rest.push_back(rest_cell(body_.skin, cell));
+  for (const CellTriangles& cell : cells) at_rest.push_back(rest_cell(body_.drawn.skin, cell));
   neighbours_.resize(cells.size());
   for (std::size_t cell = 0; cell < cells.size(); ++cell) {
     std::vector<int>& around = neighbours_[cell];

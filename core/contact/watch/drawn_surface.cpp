@@ -25,7 +25,7 @@ int halve(std::vector<int>& rows, int first, int last, const Points& middles) {
 }  // namespace
 
 DrawnSurface::DrawnSurface(const SoftBody& body) : body_(&body) {
-  build(body.skin, body.skin_embedding.brick);
+  build(body.drawn.skin, body.drawn.embedding.brick);
   std::vector<CellTriangles> cells;
   for (const Cell& cell : cells_) {
     CellTriangles& triangles = cells.emplace_back();
@@ -155,7 +155,7 @@ void DrawnSurface::move_to(const Points& vertices) {
 
 void DrawnSurface::place(const std::vector<int>& cells) {
   if (body_ == nullptr) return;
-  const Embedding& embedding = body_->skin_embedding;
+  const Embedding& embedding = body_->drawn.embedding;
   for (const int cell : cells) {
     for (int row = cells_[cell].first; row < cells_[cell].last; ++row) {
       for (const int point : triangles_.row(row)) {

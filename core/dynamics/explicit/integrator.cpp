@@ -152,7 +152,7 @@ class Mover {
 };
 
 /// 1/kg, per node; 0 for pinned nodes.
-Eigen::VectorXd pushed_inverse_masses(const SoftBody& body) {
+Eigen::VectorXd inverse_masses_of(const SoftBody& body) {
   Eigen::VectorXd inverse_masses = body.masses.cwiseInverse();
   for (const KinematicNode& pinned : body.pinned) inverse_masses[pinned.node] = 0;
   return inverse_masses;
@@ -166,7 +166,7 @@ class GroupMover {
     Group bodies;
     for (const std::size_t i : group.bodies) {
       bodies.push_back(&world.bodies[i]);
-      inverse_masses_.push_back(pushed_inverse_masses(world.bodies[i]));
+      inverse_masses_.push_back(inverse_masses_of(world.bodies[i]));
       movers_.push_back(std::make_unique<Mover>(world.bodies[i], world));
     }
     const GroupContacts contacts = states != nullptr ? states->of(group.bodies) : GroupContacts{};
@@ -179,7 +179,7 @@ class GroupMover {
     each([&](Mover& mover) { mover.kick(dt); });
   }
 
-  void keep_limits(double dt) {
+  void apply_contact(double dt) {
     if (swept_) {
       swept_->apply(world_, inverse_masses_, elapsed_, dt);
     } else {
@@ -228,7 +228,7 @@ void check_finite(const World& world, double time) {
 void euler(GroupMover& mover, double dt, long steps) {
   for (long step = 0; step < steps; ++step) {
     mover.kick(dt);
-    mover.keep_limits(dt);
+    mover.apply_contact(dt);
     mover.drift(dt);
   }
 }
@@ -237,7 +237,7 @@ void euler(GroupMover& mover, double dt, long steps) {
 void verlet(GroupMover& mover, double dt, long steps) {
   for (long step = 0; step < steps; ++step) {
     mover.kick(step == 0 ? dt / 2 : dt);
-    mover.keep_limits(dt);
+    mover.apply_contact(dt);
     mover.drift(dt);
   }
   if (steps > 0) mover.kick(dt / 2);

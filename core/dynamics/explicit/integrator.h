@@ -6,6 +6,16 @@
 
 namespace sprung {
 
+// A frame of an explicit motion, from the outside in; each level runs the ones below it:
+//
+//   SceneMotion            splits the frame where pins, loads or gravity change, and moves the obstacles
+//     AdaptiveIntegrator     finds contact groups and their steps; checks the frame, and repeats it with half the step
+//       advance()              runs the groups in parallel, a chunk of steps at a time
+//         GroupMover             kick, contact, drift: one step of one group
+//           Mover                  springs, damping, loads and pins of one body
+//           ContactSolver          contact by projected gradients, or ...
+//           SweptContacts          ... by one sweep and a guarantee (World::guards_crossings)
+
 class ContactStates;
 
 /// Largest step (s) that is stable for every body: from largest_frequency_squared() with the damping of explicit steps,

@@ -86,7 +86,7 @@ TEST(ContactSweep, KeepsMomentaAndGivesNoEnergy) {
         touching_box({3, 3, 3}, kBrick, test_material(0.3, 2e5), Vec3(0.07 * i, 0.03 * i, 0.01 * i)));
     world.bodies[i].velocities.col(0).setConstant(i == 0 ? 0.5 : -0.5);
     world.bodies[i].damping = {};
-    world.bodies[i].friction = 0;
+    world.bodies[i].contact.friction = 0;
   }
   const auto momentum = [&] { return Vec3(linear_momentum(world.bodies[0]) + linear_momentum(world.bodies[1])); };
   const auto turning = [&] { return Vec3(angular_momentum(world.bodies[0]) + angular_momentum(world.bodies[1])); };

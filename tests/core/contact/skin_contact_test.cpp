@@ -105,7 +105,7 @@ TEST_P(SkinContactBy, BodyDoesNotGoThroughItself) {
     World world;
     world.gravity.setZero();
     world.bodies.push_back(closing_horseshoe(h));
-    world.bodies[0].collides_with_itself = collides_with_itself;
+    world.bodies[0].contact.with_itself = collides_with_itself;
     double least = std::numeric_limits<double>::infinity();
     for (int frame = 0; frame < 20; ++frame) {
       run(world, 0.005, 200, GetParam());

@@ -111,7 +111,7 @@ TEST(ImplicitTouch, BodyDoesNotGoThroughItself) {
     World world;
     world.gravity.setZero();
     world.bodies.push_back(test::closing_horseshoe(h));
-    world.bodies[0].collides_with_itself = collides_with_itself;
+    world.bodies[0].contact.with_itself = collides_with_itself;
     ImplicitMotion motion(world, {});
     double least = std::numeric_limits<double>::infinity();
     for (int step = 0; step < 20; ++step) {

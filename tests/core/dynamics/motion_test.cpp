@@ -288,7 +288,7 @@ TEST(Motion, GroundPushesNothingThatIsHeld) {
     body.pinned.push_back({.node = i});
     positions(i, 1) = 1e-9 * h;  // of which the free nodes above carry a thousand-millionth
   }
-  body.contacts = embed(body.grid, positions);
+  body.contact.points = embed(body.grid, positions);
   advance(world, Scheme::kVerlet, stable_step(world), 100, 0);
   EXPECT_LT((body.positions - body.rest_positions).cwiseAbs().maxCoeff(), 0.1 * h);
 }

@@ -174,11 +174,10 @@ TEST(Xdmf, NamesWhatIsInItsFileOfNumbers) {
   Points stretched = rest;
   stretched.col(0) *= 1.1;
   SoftBody& body = world.bodies[0];
-  body.origin.regions = {0, 3};
-  body.skin.positions = rest.topRows(3);
-  body.skin.triangles = Triangles{{0, 1, 2}};
-  body.skin_embedding = embed(body.grid, body.skin.positions);
-  XdmfWriter writer(folder.path() / "run.xdmf", world);
+  body.drawn.skin.positions = rest.topRows(3);
+  body.drawn.skin.triangles = Triangles{{0, 1, 2}};
+  body.drawn.embedding = embed(body.grid, body.drawn.skin.positions);
+  XdmfWriter writer(folder.path() / "run.xdmf", world, {{0, 3}});
   const Points still = Points::Zero(rest.rows(), 3);
   writer.add_frame(0, {rest}, {still});
   writer.add_frame(0.5, {stretched}, {(stretched - rest) * 2});

@@ -33,24 +33,25 @@ CacheHeader box_header(int side) {
   simulation.size = 0.5;
   SoftBody& body = simulation.world.bodies.emplace_back(
       make_body(make_box_grid({side, side, side}, 0.1), Model::kCalibrated, test::test_material(0.3)));
-  body.color = {1, 2, 3};
-  body.origin.regions.assign(body.grid.cells.size(), 2);
-  body.skin.positions = Points::Random(3, 3);
-  body.skin.normals = Points::Random(3, 3);
-  body.skin.uvs = Floats2::Random(3, 2);
-  body.skin.colors = Floats4::Random(3, 4);
-  body.skin.triangles = Triangles{{0, 1, 2}};
-  body.skin.parts = {{.name = "ear left", .first_triangle = 0, .triangle_count = 1, .material = 0}};
-  body.skin.materials = {
+  body.drawn.color = {1, 2, 3};
+  Origin& origin = simulation.origins.emplace_back();
+  origin.regions.assign(body.grid.cells.size(), 2);
+  body.drawn.skin.positions = Points::Random(3, 3);
+  body.drawn.skin.normals = Points::Random(3, 3);
+  body.drawn.skin.uvs = Floats2::Random(3, 2);
+  body.drawn.skin.colors = Floats4::Random(3, 4);
+  body.drawn.skin.triangles = Triangles{{0, 1, 2}};
+  body.drawn.skin.parts = {{.name = "ear left", .first_triangle = 0, .triangle_count = 1, .material = 0}};
+  body.drawn.skin.materials = {
       {.name = "fur", .texture = {std::byte{7}, std::byte{0}, std::byte{9}}, .texture_name = "f.png"}};
-  body.skin_embedding = embed(body.grid, body.skin.positions);
-  body.file_vertices = {2, 0, 1};
-  body.file_embedding = body.skin_embedding;
-  simulation.meshes.push_back(body.skin);
+  body.drawn.embedding = embed(body.grid, body.drawn.skin.positions);
+  origin.file_vertices = {2, 0, 1};
+  origin.file_embedding = body.drawn.embedding;
+  simulation.meshes.push_back(body.drawn.skin);
   StageObstacle& obstacle = simulation.obstacles.emplace_back();
   obstacle.color = {4, 5, 6};
   obstacle.start.translation = {1, 2, 3};
-  obstacle.skin = body.skin;
+  obstacle.skin = body.drawn.skin;
   return header;
 }
 
@@ -111,15 +112,15 @@ TEST(Cache, GivesBackEveryBit) {
   EXPECT_EQ(body.grid.cells, made.grid.cells);
   EXPECT_EQ(body.grid.lattice, made.grid.lattice);
   EXPECT_EQ(body.grid.fill, made.grid.fill);
-  EXPECT_EQ(body.origin.regions, made.origin.regions);
+  EXPECT_EQ(read.simulation.origins.at(0).regions, header.simulation.origins[0].regions);
   EXPECT_EQ(body.masses, made.masses);
-  EXPECT_EQ(body.skin_embedding.local, made.skin_embedding.local);
-  EXPECT_EQ(body.file_vertices, made.file_vertices);
-  EXPECT_EQ(read.simulation.meshes.at(0).triangles, made.skin.triangles);
-  EXPECT_EQ(body.skin.uvs, made.skin.uvs);
-  EXPECT_EQ(body.skin.colors, made.skin.colors);
-  EXPECT_EQ(body.skin.parts.at(0).name, "ear left");
-  EXPECT_EQ(body.skin.materials.at(0).texture, made.skin.materials[0].texture);
+  EXPECT_EQ(body.drawn.embedding.local, made.drawn.embedding.local);
+  EXPECT_EQ(read.simulation.origins.at(0).file_vertices, header.simulation.origins[0].file_vertices);
+  EXPECT_EQ(read.simulation.meshes.at(0).triangles, made.drawn.skin.triangles);
+  EXPECT_EQ(body.drawn.skin.uvs, made.drawn.skin.uvs);
+  EXPECT_EQ(body.drawn.skin.colors, made.drawn.skin.colors);
+  EXPECT_EQ(body.drawn.skin.parts.at(0).name, "ear left");
+  EXPECT_EQ(body.drawn.skin.materials.at(0).texture, made.drawn.skin.materials[0].texture);
   EXPECT_EQ(read.simulation.obstacles.at(0).start.translation, Vec3(1, 2, 3));
   EXPECT_EQ(read.simulation.obstacles.at(0).color.green, 5);
 }

@@ -26,8 +26,8 @@ World weightless(SoftBody body) {
 
 std::shared_ptr<const SkinPart> whole_skin(const SoftBody& body) {
   SkinPart part;
-  for (int row = 0; row < body.contact_triangles.rows(); ++row) part.triangles.push_back(row);
-  part.weights = Points::Constant(body.contact_triangles.rows(), 3, 1.0 / 3);
+  for (int row = 0; row < body.contact.triangles.rows(); ++row) part.triangles.push_back(row);
+  part.weights = Points::Constant(body.contact.triangles.rows(), 3, 1.0 / 3);
   return std::make_shared<const SkinPart>(std::move(part));
 }
 

@@ -174,8 +174,8 @@ TEST(Obstacle, PointsThatShareACornerAreBothHeld) {
   body.velocities.col(1).setConstant(-4);
   Points feet(4, 3);
   feet << 0.05, 0, 0.45, 0.45, 0, 0.05, 0.95, 0, 0.55, 0.55, 0, 0.95;
-  body.contacts = embed(body.grid, h * feet);
-  body.contact_triangles.resize(0, 3);
+  body.contact.points = embed(body.grid, h * feet);
+  body.contact.triangles.resize(0, 3);
   for (int tenth = 1; tenth <= 4; ++tenth) {
     run(world, 0.1, 10);
     EXPECT_LT(test::deepest_contact_point(world), 0.04 * h) << tenth;

@@ -79,7 +79,7 @@ long count_within(const std::vector<Facet>& all) {
 long count_all(const Simulation& simulation, bool bodies_touch, double time) {
   std::vector<std::vector<Facet>> facets;
   for (const SoftBody& body : simulation.world.bodies) {
-    facets.push_back(facets_of(body.skin, body.skin_positions(body.positions)));
+    facets.push_back(facets_of(body.drawn.skin, body.skin_positions(body.positions)));
   }
   const std::size_t bodies = facets.size();
   for (const StageObstacle& obstacle : simulation.obstacles) {
