@@ -23,9 +23,9 @@ int main(int count, char** words) {
 
   const SoftBody& body = simulation.world.bodies.front();  // of the largest of the mesh's solids
   const Points positions = body.skin_positions(body.positions);
-  const Points normals = deform_normals(body.grid, body.skin_embedding, body.skin.normals, body.positions);
+  const Points normals = deform_normals(body.grid, body.drawn.embedding, body.drawn.skin.normals, body.positions);
   const SkinShape shape{positions.cast<float>(), normals.cast<float>()};
-  Stage stage{.skins = {&body.skin}, .default_colors = {{0.85F, 0.2F, 0.16F}}};
+  Stage stage{.skins = {&body.drawn.skin}, .default_colors = {{0.85F, 0.2F, 0.16F}}};
   stage.bounds = bounding_box(positions);
   Renderer renderer(stage, {.width = 640, .height = 360});
   write_png(renderer.draw({shape}, frame_bounds(stage.bounds, 16. / 9)), words[2]);
