@@ -111,10 +111,7 @@ TEST(Multigrid, SaysThatAMatrixIsNotPositiveDefinite) {
   const auto direct = make_direct_solver();
   EXPECT_FALSE(direct->linearize(problem.body, problem.supports, false, problem.terms));
   const auto multigrid = make_multigrid_solver();
-  if (multigrid->linearize(problem.body, problem.supports, false, problem.terms)) {
-    EXPECT_EQ(multigrid->solve(problem.forces, 1e-6).size(), 0);
-    EXPECT_EQ(multigrid->report().indefinite, 1);
-  }
+  EXPECT_FALSE(multigrid->linearize(problem.body, problem.supports, false, problem.terms));
   EXPECT_GT(solve(*multigrid, problem, 1e-4, true).size(), 0);
 }
 

@@ -100,7 +100,7 @@ SurfaceMesh shifted_copy() {
 struct Damage {
   const char* name;
   std::function<SurfaceMesh()> make;
-  int most_wrong;  // of 20 700 cells; twice of what was measured, or a few
+  int most_wrong;  // of 20 700 cells; a fifth more than was measured, or a few
 };
 
 void PrintTo(const Damage& damage, std::ostream* out) { *out << damage.name; }
@@ -114,16 +114,16 @@ TEST_P(Damaged, HasAlmostTheSameCells) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Mesh, Damaged,
-                         ::testing::Values(Damage{"1 % deleted", [] { return with_deleted(0.01); }, 10},
-                                           Damage{"5 % deleted", [] { return with_deleted(0.05); }, 40},
-                                           Damage{"narrow cracks", [] { return with_cracks(1e-3); }, 180},
-                                           Damage{"wide cracks", [] { return with_cracks(0.005); }, 1000},
+                         ::testing::Values(Damage{"1 % deleted", [] { return with_deleted(0.01); }, 3},
+                                           Damage{"5 % deleted", [] { return with_deleted(0.05); }, 5},
+                                           Damage{"narrow cracks", [] { return with_cracks(1e-3); }, 110},
+                                           Damage{"wide cracks", [] { return with_cracks(0.005); }, 420},
                                            Damage{"10 % flipped", [] { return with_flipped(0.1); }, 0},
                                            Damage{"all flipped", [] { return test::inside_out(torus()); }, 0},
                                            Damage{"doubled", [] { return joined(torus(), torus()); }, 0},
                                            Damage{"doubled and turned",
                                                   [] { return joined(torus(), test::inside_out(torus())); }, 0},
-                                           Damage{"200 stray triangles", [] { return with_strays(200); }, 10}),
+                                           Damage{"200 stray triangles", [] { return with_strays(200); }, 3}),
                          [](const auto& damage) {
                            std::string name = damage.param.name;
                            std::erase_if(
@@ -141,7 +141,7 @@ TEST(Damage, TwoOverlappingCopiesAreTheirUnion) {
   for (const auto& cell : expected) wrong += cells.contains(cell) ? 0 : 1;
   for (const auto& cell : cells) wrong += expected.contains(cell) ? 0 : 1;
   std::printf("two copies: %d of %zu cells wrong\n", wrong, expected.size());
-  EXPECT_LE(wrong, 60) << "a cell that both fill by less than half may be more than half full";
+  EXPECT_LE(wrong, 35) << "a cell that both fill by less than half may be more than half full";
 }
 
 }  // namespace
