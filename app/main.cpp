@@ -22,17 +22,17 @@ int exit_code(int argc, const char* const* argv) {
   console.log_json =
       std::count(words.begin(), words.end(), std::string_view("--log-json")) > 0;  // for mistakes in the others too
   catch_interrupts(console);
-  hold_standard_files();
+  reserve_standard_files();
   try {
     const int code = run_command_line(argc, argv, console);
     flush_results();
     return is_interrupted() ? interrupted_exit_code() : code;
   } catch (const Interrupted&) {
-    tell_interruption(console);
+    report_interruption(console);
     return interrupted_exit_code();
   } catch (const Error& error) {
     if (is_interrupted()) {  // which caused the failure
-      tell_interruption(console);
+      report_interruption(console);
       return interrupted_exit_code();
     }
     console.error(error.what());

@@ -34,7 +34,7 @@ std::string command_of(int argc, const char* const* argv) {
 }
 
 /// The first unknown option, or else the first word.
-std::string strange_word(const std::vector<std::string>& extras) {
+std::string unknown_word(const std::vector<std::string>& extras) {
   const auto is_option = [](const std::string& word) { return word.starts_with('-'); };
   const auto found = std::find_if(extras.begin(), extras.end(), is_option);
   return found == extras.end() ? extras.front() : found->substr(0, found->find('='));
@@ -70,7 +70,7 @@ void refuse_extras(const CLI::App& app, std::string_view kind) {
   const std::vector<std::string> extras = app.remaining();
   if (extras.empty()) return;
   // A word in the position of the command is no command, whatever options follow it.
-  const std::string word = app.get_parent() == nullptr ? extras.front() : strange_word(extras);
+  const std::string word = app.get_parent() == nullptr ? extras.front() : unknown_word(extras);
   const bool is_option = word.starts_with('-');
   std::vector<std::string> known;
   if (is_option) {

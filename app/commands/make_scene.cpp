@@ -7,10 +7,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/scene/carrying_material.h"
 #include "app/scene/resting_pose.h"
 #include "app/scene/scene_file.h"
 #include "app/scene/scene_values.h"
+#include "app/scene/supporting_material.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/mesh/io/read_mesh.h"
@@ -49,8 +49,8 @@ void choose_material(Film& film, const SceneRequest& request, Scenario scenario,
   SceneBody& body = film.bodies[0];
   const bool is_sized = body.size || body.scale;
   const Support support = scenario == Scenario::kHang ? Support::kHangs : Support::kStands;
-  const std::optional<CarryingMaterial> found =
-      softest_carrying(body, support, film.gravity, !is_sized, *film.library, observer);
+  const std::optional<SupportingMaterial> found =
+      softest_supporting(body, support, film.gravity, !is_sized, *film.library, observer);
   if (!found) {
     body.material.name = kDefaultMaterial;
     observer.warn(fmt::format("material: no elastomer of the library carries {}; it stays {}",
@@ -141,7 +141,7 @@ void apply_defaults(const SceneRequest& request, Film& film) {
   for (const Setting& setting : request.defaults) {
     if (is_of_materials(setting)) continue;
     try {
-      set_where_open(film, request.input, setting.key, setting.value);
+      set_if_unset(film, request.input, setting.key, setting.value);
     } catch (const Error& error) {
       throw Error(ErrorKind::kBadInput, fmt::format("{}: {}", setting.option, error.what()));
     }

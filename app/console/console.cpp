@@ -58,7 +58,7 @@ Console Console::of_process() {
   return console;
 }
 
-Console Console::of_few_words() {
+Console Console::terse() {
   Console console;
   console.quiet = true;
   return console;

@@ -24,7 +24,7 @@ class Console : public Observer {
   /// A console with the terminal and colours of this process.
   [[nodiscard]] static Console of_process();
   /// A console that prints errors and warnings only.
-  [[nodiscard]] static Console of_few_words();
+  [[nodiscard]] static Console terse();
 
   /// "sprung: error: ..." for every line of the message.
   void error(std::string_view message) const;

@@ -49,7 +49,7 @@ void end_what_does_not_stop(const Console& console) {
   kill_child_processes();  // which might still be writing them
   remove_unfinished_files();
   if (ftrylockfile(stderr) == 0) {
-    tell_interruption(console);
+    report_interruption(console);
     std::fflush(stderr);
   }
   _exit(interrupted_exit_code());
@@ -79,7 +79,7 @@ bool is_interrupted() { return cause != 0; }
 
 int interrupted_exit_code() { return cause == kTimeIsUp ? int(ErrorKind::kFailed) : 128 + cause; }
 
-void tell_interruption(const Console& console) {
+void report_interruption(const Console& console) {
   if (cause == kTimeIsUp) {
     console.error(
         fmt::format("stopped after {}, the limit set by --time-limit", readable(time_limit, Dimension::kTime)));
@@ -92,7 +92,7 @@ void stop_if_interrupted() {
   if (is_interrupted()) throw Interrupted{};
 }
 
-void hold_standard_files() {
+void reserve_standard_files() {
   for (const int file : std::array{STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (fcntl(file, F_GETFD) != -1 || errno != EBADF) continue;
     static_cast<void>(open("/dev/null", file == STDERR_FILENO ? O_WRONLY : O_RDONLY));  // takes the lowest number

@@ -19,7 +19,7 @@ void limit_time(double seconds);
 [[nodiscard]] int interrupted_exit_code();
 
 /// Says why the work stops.
-void tell_interruption(const Console& console);
+void report_interruption(const Console& console);
 
 /// Thrown to stop the work.
 struct Interrupted {};
@@ -29,7 +29,7 @@ void stop_if_interrupted();
 
 /// Opens substitutes for standard streams that are closed, so that no file opened later gets their descriptors and is
 /// written to by mistake. Writing to a closed stdout still fails.
-void hold_standard_files();
+void reserve_standard_files();
 
 /// Throws Error(kFailed) if what was printed to stdout cannot be written: closed, disk full, broken pipe.
 void flush_results();

@@ -221,7 +221,7 @@ std::string json_of(const PartReport& report) {
   json["largest_principal_Pa"] = json_of(answer.tension);
   json["least_principal_Pa"] = json_of(answer.compression);
   json["singular"] = Json::array();
-  for (const SingularPlace& one : answer.singular) {
+  for (const Singularity& one : answer.singular) {
     json["singular"].push_back(
         {{"von_mises_Pa", one.stress}, {"place", json_of(one.position)}, {"exponent", one.exponent}});
   }
@@ -261,7 +261,7 @@ std::string csv_of(const PartReport& report) {
   if (answer.von_mises) peak("von_mises_Pa", *answer.von_mises);
   if (answer.tension) peak("largest_principal_Pa", *answer.tension);
   if (answer.compression) peak("least_principal_Pa", *answer.compression);
-  for (const SingularPlace& one : answer.singular) {
+  for (const Singularity& one : answer.singular) {
     text += fmt::format("singular_von_mises_Pa,{},,{},{},{}\n", one.stress, one.position.x(), one.position.y(),
                         one.position.z());
   }

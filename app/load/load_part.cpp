@@ -75,7 +75,7 @@ std::string reach_text(const LoadPart& part) {
 
 void check_nearness(const LoadPart& part, const std::string& text, const Vec3& point) {
   const NearestTriangle surface(part.loaded.mesh.positions, part.loaded.mesh.triangles);
-  const SurfacePlace nearest = surface.at(part.rest_from_file(point));
+  const SurfaceProjection nearest = surface.at(part.rest_from_file(point));
   if (nearest.distance <= kFarAway * part.loaded.extent.maxCoeff()) return;
   const Vec3 there = part.file_from_rest(nearest.point);
   throw Error(ErrorKind::kUsage,

@@ -60,7 +60,7 @@ class SingularLines {
 
 struct FoundPeak {
   std::optional<Peak> peak;
-  std::vector<SingularPlace> singular;
+  std::vector<Singularity> singular;
 };
 
 SingularLines::SingularLines(const LoadPart& part, const PartSolution& solution) {

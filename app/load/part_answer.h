@@ -20,7 +20,7 @@ struct Peak : Estimate {
 
 /// A singular stress, which grows with the number of bricks: at a re-entrant corner, or where a support or a load ends,
 /// the exact solution is unbounded.
-struct SingularPlace {
+struct Singularity {
   Vec3 position = Vec3::Zero();  // in the file
   double stress = 0;             // von Mises, Pa, with the finest bricks
   double exponent = 0;           // a of stress ~ size^-a
@@ -49,7 +49,7 @@ struct PartAnswer {
   std::optional<Peak> von_mises;            // Pa; none if all large stresses are singular
   std::optional<Peak> tension;              // Pa, the largest principal stress
   std::optional<Peak> compression;          // Pa, the least principal stress, negative
-  std::vector<SingularPlace> singular;      // of von Mises, those that exceed the largest away from them
+  std::vector<Singularity> singular;        // of von Mises, those that exceed the largest away from them
 
   std::vector<PointAnswer> points;  // as asked for
 

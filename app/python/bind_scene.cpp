@@ -14,9 +14,9 @@
 
 #include "app/python/bindings.h"
 #include "app/scene/cached_film.h"
-#include "app/scene/carrying_material.h"
 #include "app/scene/scene_file.h"
 #include "app/scene/scene_values.h"
+#include "app/scene/supporting_material.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/simulation/simulate.h"

@@ -45,7 +45,7 @@ void check_times(const std::vector<Keyframe>& keyframes, std::string_view key, c
   }
 }
 
-void check_direction(const Vec3& direction, KeyPlace place, const std::string& name, const Report& report) {
+void check_direction(const Vec3& direction, KeyLocation place, const std::string& name, const Report& report) {
   if (direction.isZero(0)) report(place, name + ": must point somewhere");
 }
 

@@ -10,12 +10,12 @@
 namespace sprung {
 
 /// The location of a mistake in a table: the table itself, a key, or one row of a key's array.
-struct KeyPlace {
+struct KeyLocation {
   std::string_view key{};
   int row = -1;
 };
 
-using Report = std::function<void(KeyPlace place, std::string text)>;
+using Report = std::function<void(KeyLocation place, std::string text)>;
 
 /// Reports which rules between the keys of a table the given keys break. `path` of the table for messages: "body.pin".
 void check_rules(const std::vector<KeyRule>& rules, const std::vector<std::string_view>& given, const std::string& path,

@@ -90,7 +90,7 @@ const toml::array& array_in(const toml::node& node, std::size_t size, std::strin
 }
 
 /// The node at that location, or its nearest ancestor.
-toml::source_region find_place(const toml::table& table, const KeyPlace& place) {
+toml::source_region find_place(const toml::table& table, const KeyLocation& place) {
   const toml::node* node = table.get(place.key);
   if (node == nullptr) return table.source();
   const toml::array* rows = node->as_array();
@@ -119,7 +119,7 @@ class TableReader {
       const std::string hint = did_you_mean(name.str(), reader.known);
       mistakes_.add(name.source(), fmt::format("unknown key '{}'{}", join_path(path, name.str()), hint));
     }
-    const Report report = [&](const KeyPlace& place, std::string text) {
+    const Report report = [&](const KeyLocation& place, std::string text) {
       mistakes_.add(find_place(table, place), std::move(text));
     };
     check_rules(reader.rules, given, path, report);
@@ -291,7 +291,7 @@ Film read_scene(const std::filesystem::path& file, const MaterialLibrary& librar
 namespace {
 
 /// Whether a table of a file has a key, given the path below it of the table that has it.
-KeyIsSaid said_in(const toml::table& table, std::string_view path) {
+KeyIsGiven given_in(const toml::table& table, std::string_view path) {
   const toml::node* node = &table;
   for (auto dot = path.find('.'); dot != std::string_view::npos; dot = path.find('.')) {
     const toml::table* parent = node->as_table();
@@ -306,17 +306,17 @@ KeyIsSaid said_in(const toml::table& table, std::string_view path) {
 
 }  // namespace
 
-void set_where_open(Film& film, const std::filesystem::path& file, std::string_view path, std::string_view text) {
+void set_if_unset(Film& film, const std::filesystem::path& file, std::string_view path, std::string_view text) {
   Mistakes mistakes(file.string());
   const toml::table table = parse_toml(read_file(file), mistakes);
   constexpr std::string_view kBody = "body.";
-  if (!path.starts_with(kBody)) return set_scene_key(film, path, text, said_in(table, path));
+  if (!path.starts_with(kBody)) return set_scene_key(film, path, text, given_in(table, path));
   const toml::array* rows = table["body"].as_array();
   for (std::size_t row = 0; row < film.bodies.size(); ++row) {
     Film single;
     single.library = film.library;
     single.bodies = {std::move(film.bodies[row])};
-    set_scene_key(single, path, text, said_in(*(*rows)[row].as_table(), path.substr(kBody.size())));
+    set_scene_key(single, path, text, given_in(*(*rows)[row].as_table(), path.substr(kBody.size())));
     film.bodies[row] = std::move(single.bodies.front());
   }
 }

@@ -30,12 +30,12 @@ enum class SceneFiles { kPresent, kAnywhere };
 /// Sets one key by its path and the words for its value: "render.resolution", "1280x720". Below "body" the key of
 /// every body is set; "body.material.young" makes the material a custom one. Of two keys that exclude each other the
 /// one set here stays. Throws Error(kBadInput).
-/// If the last key of the path, or one that excludes it, `is_said`, the scene is left unchanged.
-using KeyIsSaid = std::function<bool(std::string_view key)>;
-void set_scene_key(Film& film, std::string_view path, std::string_view text, const KeyIsSaid& is_said = {});
+/// If the last key of the path, or one that excludes it, `is_given`, the scene is left unchanged.
+using KeyIsGiven = std::function<bool(std::string_view key)>;
+void set_scene_key(Film& film, std::string_view path, std::string_view text, const KeyIsGiven& is_given = {});
 
 /// The same for a scene as read from that file, if the file states neither the key nor one that excludes it; decided
 /// for each body separately.
-void set_where_open(Film& film, const std::filesystem::path& file, std::string_view path, std::string_view text);
+void set_if_unset(Film& film, const std::filesystem::path& file, std::string_view path, std::string_view text);
 
 }  // namespace sprung

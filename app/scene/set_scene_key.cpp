@@ -18,7 +18,7 @@ namespace {
 struct Given {
   std::string_view text;
   const MaterialLibrary& library;
-  const KeyIsSaid& is_said;
+  const KeyIsGiven& is_given;
 };
 
 [[noreturn]] void refuse(std::string_view path) {
@@ -155,8 +155,8 @@ struct KeySetter {
     known.push_back(key.name);
     if (key.name != name) return;
     is_known = true;
-    is_open = !(rest.empty() && given.is_said) ||
-              !(given.is_said(name) || std::any_of(rivals.begin(), rivals.end(), given.is_said));
+    is_open = !(rest.empty() && given.is_given) ||
+              !(given.is_given(name) || std::any_of(rivals.begin(), rivals.end(), given.is_given));
     if (is_open) set_value(value, key, rest, given);
   }
 };
@@ -188,12 +188,12 @@ void set_key(Owner& owner, std::string_view path, const Given& given) {
 
 }  // namespace
 
-void set_scene_key(Film& film, std::string_view path, std::string_view text, const KeyIsSaid& is_said) {
+void set_scene_key(Film& film, std::string_view path, std::string_view text, const KeyIsGiven& is_given) {
   if (path == "materials") refuse(path);  // they would come too late for the bodies
   const bool is_quoted =
       text.size() > 1 && (text[0] == '"' || text[0] == '\'') && text.find(text[0], 1) == text.size() - 1;
   if (is_quoted) text = text.substr(1, text.size() - 2);  // as a scene file has it
-  set_key(film, path, {.text = text, .library = *film.library, .is_said = is_said});
+  set_key(film, path, {.text = text, .library = *film.library, .is_given = is_given});
 }
 
 }  // namespace sprung

@@ -56,7 +56,7 @@ class Caster {
 
  private:
   /// The position of the ray of row `row` in cell `cell_u` of that row.
-  static SnappedPlace place_of(std::int64_t cell_u, std::int64_t row) {
+  static SnappedPoint place_of(std::int64_t cell_u, std::int64_t row) {
     return {cell_u * kSnap + (row * kShuffle % kRays) * kRayPitch + kRayPitch / 2, row * kRayPitch + kRayPitch / 2};
   }
 

@@ -36,7 +36,7 @@ void cast_columns(const CellSurface& surface, int axis, CellSums& sums);
 inline constexpr std::int64_t kSnap = 4096;  // integer steps per cell, across the lines
 
 /// The position of a line along an axis: u along the next axis, v along the one after it, in steps of 1 / kSnap cells.
-struct SnappedPlace {
+struct SnappedPoint {
   std::int64_t u;
   std::int64_t v;
 };
@@ -65,22 +65,22 @@ class SnappedTriangle {
   /// +1 where lines enter, -1 where they leave: an outward triangle seen counter-clockwise along the axis faces
   /// forward.
   [[nodiscard]] int turn() const { return area_ > 0 ? -1 : 1; }
-  [[nodiscard]] SnappedPlace low() const {
+  [[nodiscard]] SnappedPoint low() const {
     return {std::min({corners_[0].u, corners_[1].u, corners_[2].u}),
             std::min({corners_[0].v, corners_[1].v, corners_[2].v})};
   }
-  [[nodiscard]] SnappedPlace high() const {
+  [[nodiscard]] SnappedPoint high() const {
     return {std::max({corners_[0].u, corners_[1].u, corners_[2].u}),
             std::max({corners_[0].v, corners_[1].v, corners_[2].v})};
   }
 
   /// Where the line at `place` crosses it, in cells; nothing if it misses.
-  [[nodiscard]] std::optional<double> depth_at(const SnappedPlace& place) const {
+  [[nodiscard]] std::optional<double> depth_at(const SnappedPoint& place) const {
     double weighted = 0;
     double sum = 0;
     for (std::size_t k = 0; k < 3; ++k) {
-      const SnappedPlace& a = corners_[(k + 1) % 3];
-      const SnappedPlace& b = corners_[(k + 2) % 3];
+      const SnappedPoint& a = corners_[(k + 1) % 3];
+      const SnappedPoint& b = corners_[(k + 2) % 3];
       const std::int64_t side = side_of(a, b, place);
       if (side < 0 || (side == 0 && !owns_edge(a, b))) return std::nullopt;
       weighted += double(side) * depths_[k];
@@ -91,13 +91,13 @@ class SnappedTriangle {
 
  private:
   /// Twice the signed area of a, b, p: positive where p is left of the line from a to b.
-  static std::int64_t side_of(const SnappedPlace& a, const SnappedPlace& b, const SnappedPlace& p) {
+  static std::int64_t side_of(const SnappedPoint& a, const SnappedPoint& b, const SnappedPoint& p) {
     return (b.u - a.u) * (p.v - a.v) - (b.v - a.v) * (p.u - a.u);
   }
   /// Of the two triangles at an edge, which traverse it in opposite directions, exactly one owns the points on it.
-  static bool owns_edge(const SnappedPlace& a, const SnappedPlace& b) { return b.v < a.v || (b.v == a.v && b.u < a.u); }
+  static bool owns_edge(const SnappedPoint& a, const SnappedPoint& b) { return b.v < a.v || (b.v == a.v && b.u < a.u); }
 
-  std::array<SnappedPlace, 3> corners_;
+  std::array<SnappedPoint, 3> corners_;
   std::array<double, 3> depths_;
   std::int64_t area_ = 0;
 };

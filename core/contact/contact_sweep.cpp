@@ -35,7 +35,7 @@ ContactSweep::ContactSweep(Group group, std::vector<GluedPoint> glue)
       inversions_(group_.size()) {
   for (const SoftBody* body : group_) {
     parts_of_nodes_.emplace_back(body->node_count(), -1);
-    holders_.emplace_back(body->node_count());
+    supports_.emplace_back(body->node_count());
   }
 }
 
@@ -101,7 +101,7 @@ void ContactSweep::add_contacts(NearFeatures& near, const std::vector<Eigen::Vec
                                 double dt, bool are_loaded) {
   for (const AwakePair& pair : near.awake()) {
     if (pair.is_loaded != are_loaded) continue;
-    if (!pair.may_hold) {
+    if (!pair.may_support) {
       if (pair.is_loaded) pair.impulse->setZero();
       continue;
     }
@@ -113,7 +113,7 @@ void ContactSweep::add_contacts(NearFeatures& near, const std::vector<Eigen::Vec
       }
     }
     const double least = least_speed(pair, reach, speed, gravity, dt);
-    const bool is_held = is_held_at_node(near, pair, !are_loaded);
+    const bool is_held = is_supported_at_node(near, pair, !are_loaded);
     if (!are_loaded && (!(speed < least - gravity * dt) || (is_held && pair.gap > kSupported * reach))) continue;
     Row row{.first = parts_.size(),
             .last = 0,
@@ -136,18 +136,18 @@ void ContactSweep::add_contacts(NearFeatures& near, const std::vector<Eigen::Vec
       });
     }
     finish_row(row);
-    if (!are_loaded) static_cast<void>(is_held_at_node(near, pair, false));
+    if (!are_loaded) static_cast<void>(is_supported_at_node(near, pair, false));
   }
 }
 
-bool ContactSweep::is_held_at_node(NearFeatures& near, const AwakePair& pair, bool is_asked) {
+bool ContactSweep::is_supported_at_node(NearFeatures& near, const AwakePair& pair, bool is_asked) {
   if (pair.pair.count == 2) return false;
   const std::size_t body = pair.body_of(0);
   if (body >= near.group_size()) return false;
   const std::size_t other = pair.body_of(1);
-  Holder& holder = holders_[body][near.nearest_node(pair)];
-  const bool is_held = holder.step == step_ && holder.other == other;
-  if (!is_asked) holder = {step_, other};
+  NodeSupport& support = supports_[body][near.nearest_node(pair)];
+  const bool is_held = support.step == step_ && support.other == other;
+  if (!is_asked) support = {step_, other};
   return is_held;
 }
 

@@ -46,7 +46,7 @@ class ContactSweep {
                     bool are_loaded);
   /// Whether a contact with the same other body carries a load at the node nearest to this one's point; if not
   /// `is_asked`, this one does from now on.
-  [[nodiscard]] bool is_held_at_node(NearFeatures& near, const AwakePair& pair, bool is_asked);
+  [[nodiscard]] bool is_supported_at_node(NearFeatures& near, const AwakePair& pair, bool is_asked);
   void add_glue_rows(const std::vector<Eigen::VectorXd>& inverse_masses, double dt);
   /// Adds a node's contribution to the row under construction.
   void add_part(std::size_t body, int node, double weight, double inverse_mass, Row& row);
@@ -66,11 +66,11 @@ class ContactSweep {
   std::vector<std::pair<std::size_t, int>> seen_;  // body and node of those parts
   std::vector<Part> parts_;
   std::vector<Row> rows_;
-  struct Holder {
+  struct NodeSupport {
     long step = -1;
     std::size_t other = 0;  // body
   };
-  std::vector<std::vector<Holder>> holders_;  // by body and node: its last contact
+  std::vector<std::vector<NodeSupport>> supports_;  // by body and node: its last contact
   long step_ = 0;
   double dt_before_ = 0;  // s
 };

@@ -55,12 +55,12 @@ void add_shares(const Group& group, std::size_t body, int brick, const CornerWei
 }
 
 Vec3 within_friction_cone(const Vec3& impulse, const Vec3& normal, double friction) {
-  const double pressing = impulse.dot(normal);
-  if (!(pressing > 0)) return Vec3::Zero();
-  const Vec3 sideways = impulse - pressing * normal;
+  const double normal_force = impulse.dot(normal);
+  if (!(normal_force > 0)) return Vec3::Zero();
+  const Vec3 sideways = impulse - normal_force * normal;
   const double length = sideways.norm();
-  const double most = friction * pressing;
-  return length > most ? Vec3(pressing * normal + most / length * sideways) : impulse;
+  const double most = friction * normal_force;
+  return length > most ? Vec3(normal_force * normal + most / length * sideways) : impulse;
 }
 
 double least_speed(double gap, double gravity, double dt) {

@@ -73,10 +73,10 @@ void ObstaclePotential::for_touching_points(const Points& positions, const Visit
     const bool far = is_far(i, positions);
     const std::size_t last = skin_.first_point[i + 1];
     for (auto p = std::size_t(skin_.first_point[i]); p < last; ++p) {
-      if (far && points_[p].pressing == 0) continue;
+      if (far && points_[p].normal_force == 0) continue;
       const Vec3 place = carried(body_, skin_.points[p], positions);
       const Gap gap = signed_distance(obstacle_.shape, pose_, place);
-      if (gap.distance < 0 || points_[p].pressing > 0) visit(points_[p], skin_.points[p], place, gap);
+      if (gap.distance < 0 || points_[p].normal_force > 0) visit(points_[p], skin_.points[p], place, gap);
     }
   }
 }
@@ -96,9 +96,9 @@ void ObstaclePotential::begin(const Points& positions, double elapsed, double dt
 double ObstaclePotential::update_friction(const Points& positions) {
   double change = 0;
   for_touching_points(positions, [&](Point& point, const ContactPoint&, const Vec3&, const Gap& gap) {
-    const double pressing = point.stiffness * std::max(0.0, -gap.distance);
-    change = std::max(change, std::abs(pressing - point.pressing));
-    point.pressing = pressing;
+    const double normal_force = point.stiffness * std::max(0.0, -gap.distance);
+    change = std::max(change, std::abs(normal_force - point.normal_force));
+    point.normal_force = normal_force;
     point.normal = gap.normal;
   });
   return obstacle_.friction > 0 ? change : 0;
@@ -106,12 +106,12 @@ double ObstaclePotential::update_friction(const Points& positions) {
 
 double ObstaclePotential::largest_normal_force() const {
   double largest = 0;
-  for (const Point& point : points_) largest = std::max(largest, point.pressing);
+  for (const Point& point : points_) largest = std::max(largest, point.normal_force);
   return largest;
 }
 
 FrictionPotential ObstaclePotential::friction_at(const Point& point, const Vec3& position) const {
-  return {position - point.start, point.normal, obstacle_.friction * point.pressing, slip_};
+  return {position - point.start, point.normal, obstacle_.friction * point.normal_force, slip_};
 }
 
 double ObstaclePotential::add_forces(const Points& positions, Points& forces) {

@@ -78,7 +78,7 @@ class ObstaclePotential {
   struct Point {
     double stiffness = 0;  // N/m
     Vec3 start = Vec3::Zero();
-    double pressing = 0;         // N, for friction
+    double normal_force = 0;     // N, for friction
     Vec3 normal = Vec3::Zero();  // likewise
   };
   /// The last distance query of a brick's middle, in the obstacle's frame.

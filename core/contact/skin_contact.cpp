@@ -59,7 +59,7 @@ void SkinContact::add(const Group& group, const ActiveContact& active, ContactLi
 /// If pushed out of each other, skins of bricks that have no room left would press those flat, and for ever: the guard
 /// against that pushes back, and each gives energy to the other. They are kept from going deeper, no more; and where
 /// not even that can be had, a body had rather lie in itself than turn inside out.
-double SkinContact::room_of(const Group& group, const CandidatePair& pair) const {
+double SkinContact::volume_ratio_of(const Group& group, const CandidatePair& pair) const {
   const auto of = [&](int row) {
     const TrackedPoint& point = pairs_.tracked(row);
     const Body& body = *group[point.body];
@@ -81,7 +81,7 @@ bool SkinContact::is_active(const World& world, double dt, const Group& group, A
   }
   const double speed = stance.normal.dot(velocity);
   if (!(stance.gap + dt * speed <= 0)) return false;
-  const double room = stance.gap >= 0 ? 1 : room_of(group, *stance.pair);
+  const double room = stance.gap >= 0 ? 1 : volume_ratio_of(group, *stance.pair);
   if (room < kSkinFlat && bodies_[0] == bodies_[1]) return false;
   active.least_speed = room > kPressed ? least_speed(stance.gap, world.gravity.norm(), dt) : 0;
   active.urgency = active.least_speed - speed;
@@ -114,7 +114,7 @@ bool SkinContact::is_inside(const Group& group, const PointTriangleContact& stan
       .first->second;
 }
 
-void SkinContact::keep_hardest() {
+void SkinContact::keep_largest_correction() {
   std::stable_sort(active_.begin(), active_.end(), [](const ActiveContact& a, const ActiveContact& b) {
     return std::pair(a.key, -a.urgency) < std::pair(b.key, -b.urgency);
   });
@@ -162,7 +162,7 @@ void SkinContact::find(const World& world, double dt, const Group& group, Contac
     if (nearest.stance.gap < -suspicious * brick_ && !is_inside(group, nearest.stance)) continue;
     if (is_active(world, dt, group, nearest)) active_.push_back(nearest);
   }
-  keep_hardest();
+  keep_largest_correction();
   for (const ActiveContact& active : active_) add(group, active, contacts);
 }
 

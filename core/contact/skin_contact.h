@@ -43,14 +43,14 @@ class SkinContact {
   /// Without a front: updates the candidates when due.
   void look_in_time(const Group& group, double gravity, double dt);
   /// Of the points near the same corner of the same brick, keeps the one with the largest `pull`.
-  void keep_hardest();
+  void keep_largest_correction();
   /// Whether a deep point is inside the surface of the other body, or of its own for self-contact. It stays so for as
   /// long as it is deep.
   [[nodiscard]] bool is_inside(const Group& group, const PointTriangleContact& stance);
   /// By the winding number of the whole surface.
   [[nodiscard]] bool find_inside(const Group& group, const PointTriangleContact& stance) const;
   /// The smaller of both sides' ratios of a brick's volume to that at rest.
-  [[nodiscard]] double room_of(const Group& group, const CandidatePair& pair) const;
+  [[nodiscard]] double volume_ratio_of(const Group& group, const CandidatePair& pair) const;
   /// Whether it would be inside after a step of dt; then fills in its data.
   [[nodiscard]] bool is_active(const World& world, double dt, const Group& group, ActiveContact& active) const;
   void add(const Group& group, const ActiveContact& active, ContactList& contacts) const;

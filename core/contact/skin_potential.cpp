@@ -15,13 +15,13 @@ constexpr double kStepDeepest = 1;  // bricks: what is deeper came from the othe
 }  // namespace
 
 SkinPotential::SkinPotential(const World& world, const Group& group, const std::vector<GluedPoint>& glue,
-                             const Step& step, const std::vector<Eigen::VectorXd*>& pushed_in)
+                             const Step& step, const std::vector<Eigen::VectorXd*>& penetrations)
     : group_(group), glue_(glue), slip_(step.slip) {
   for (SoftBody* body : group) {
     skins_.push_back(&contact_surface_of(*body));
     starts_.push_back(body->positions);
   }
-  watch(world, pushed_in);
+  watch(world, penetrations);
   refresh();
   lift(world.gravity.norm(), step.dt);
   update_friction();
@@ -34,7 +34,7 @@ void SkinPotential::lift(double gravity, double dt) {
   }
 }
 
-void SkinPotential::watch(const World& world, const std::vector<Eigen::VectorXd*>& pushed_in) {
+void SkinPotential::watch(const World& world, const std::vector<Eigen::VectorXd*>& penetrations) {
   std::vector<std::vector<double>> stiffness(group_.size());
   double largest_brick = 0;
   for (const SoftBody* body : group_) largest_brick = std::max(largest_brick, body->grid.brick_size);
@@ -54,17 +54,17 @@ void SkinPotential::watch(const World& world, const std::vector<Eigen::VectorXd*
                           .stiffness = own[point.point],
                           .friction = std::sqrt(group_[point.body]->contact.friction *
                                                 group_[other_of(pairs, pair)]->contact.friction),
-                          .pushed_in = (*pushed_in[point.body])[point.point]});
+                          .penetrations = (*penetrations[point.body])[point.point]});
     }
   }
 }
 
 void SkinPotential::refresh() {
   if (!holds_.empty()) {
-    for (Watch& watch : watches_) watch.pushed_in = 0;
+    for (Watch& watch : watches_) watch.penetrations = 0;
   }
   for (const Hold& hold : holds_) {
-    if (!hold.is_glue) watches_[hold.watch].pushed_in = depth(hold, sum(hold.coupling, false));
+    if (!hold.is_glue) watches_[hold.watch].penetrations = depth(hold, sum(hold.coupling, false));
   }
   holds_.clear();
   add_glue();
@@ -72,7 +72,7 @@ void SkinPotential::refresh() {
   for (std::size_t i = 0; i < watches_.size(); ++i) {
     Watch& watch = watches_[i];
     const PointTriangleContact stance = closest_triangle(*watch.pairs, watch.run, watch.depth);
-    if (stance.pair != watch.pair) watch.initial_penetration = std::max(0.0, -stance.gap - watch.pushed_in);
+    if (stance.pair != watch.pair) watch.initial_penetration = std::max(0.0, -stance.gap - watch.penetrations);
     watch.pair = stance.pair;
     if (stance.pair != nullptr) add_contact(i, stance);
   }
@@ -133,42 +133,42 @@ double SkinPotential::depth(const Hold& hold, const Vec3& now) const {
   return std::max(0.0, -hold.normal.dot(now) - watches_[hold.watch].initial_penetration);
 }
 
-void SkinPotential::remember(const std::vector<Eigen::VectorXd*>& pushed_in) const {
+void SkinPotential::remember(const std::vector<Eigen::VectorXd*>& penetrations) const {
   for (std::size_t i = 0; i < group_.size(); ++i) {
-    pushed_in[i]->setZero(skins_[i]->points.size());
+    penetrations[i]->setZero(skins_[i]->points.size());
   }
   for (const Hold& hold : holds_) {
     if (hold.is_glue) continue;
     const ContactCandidates& pairs = *watches_[hold.watch].pairs;
     const TrackedPoint& point = pairs.tracked(watches_[hold.watch].pair->point);
-    double& deepest = (*pushed_in[point.body])[point.point];
+    double& deepest = (*penetrations[point.body])[point.point];
     deepest = std::max(deepest, depth(hold, sum(hold.coupling, false)));
   }
 }
 
 double SkinPotential::update_friction() {
   double change = 0;
-  std::vector<double> pressing(watches_.size());
+  std::vector<double> normal_force(watches_.size());
   for (const Hold& hold : holds_) {
     if (hold.is_glue) continue;
-    pressing[hold.watch] = hold.stiffness * depth(hold, sum(hold.coupling, false));
+    normal_force[hold.watch] = hold.stiffness * depth(hold, sum(hold.coupling, false));
   }
   for (std::size_t i = 0; i < watches_.size(); ++i) {
-    if (watches_[i].friction > 0) change = std::max(change, std::abs(pressing[i] - watches_[i].pressing));
-    watches_[i].pressing = pressing[i];
+    if (watches_[i].friction > 0) change = std::max(change, std::abs(normal_force[i] - watches_[i].normal_force));
+    watches_[i].normal_force = normal_force[i];
   }
   return change;
 }
 
 double SkinPotential::largest_normal_force() const {
   double largest = 0;
-  for (const Watch& watch : watches_) largest = std::max(largest, watch.pressing);
+  for (const Watch& watch : watches_) largest = std::max(largest, watch.normal_force);
   return largest;
 }
 
 FrictionPotential SkinPotential::friction_at(const Hold& hold, const Vec3& now) const {
   const Watch& watch = watches_[hold.watch];
-  return {now - hold.start, hold.normal, watch.friction * watch.pressing, slip_};
+  return {now - hold.start, hold.normal, watch.friction * watch.normal_force, slip_};
 }
 
 double SkinPotential::add_forces(const std::vector<Points*>& forces) const {
@@ -181,7 +181,7 @@ double SkinPotential::add_forces(const std::vector<Points*>& forces) const {
       force = -hold.stiffness * now;
     } else {
       const double deep = depth(hold, now);
-      if (deep == 0 && watches_[hold.watch].pressing == 0) continue;
+      if (deep == 0 && watches_[hold.watch].normal_force == 0) continue;
       const FrictionPotential friction = friction_at(hold, now);
       energy += 0.5 * hold.stiffness * deep * deep;
       energy += friction.energy();
@@ -206,7 +206,7 @@ std::vector<Coupling> SkinPotential::couplings() const {
       stiffness = hold.stiffness * Mat3::Identity();
     } else {
       const bool is_in_contact = depth(hold, now) > 0;
-      if (!is_in_contact && watches_[hold.watch].pressing == 0) continue;
+      if (!is_in_contact && watches_[hold.watch].normal_force == 0) continue;
       stiffness = friction_at(hold, now).stiffness();
       if (is_in_contact) stiffness += hold.stiffness * hold.normal * hold.normal.transpose();
     }

@@ -24,10 +24,10 @@ class SkinPotential {
     double slip;  // m, that a point may creep before it slides
   };
   /// For a step from the bodies' current positions, in which nothing near another surface moves by more than half a
-  /// brick. `glue` by rows of the group; `pushed_in` by body and point of its skin, from remember(). All must outlive
-  /// it.
+  /// brick. `glue` by rows of the group; `penetrations` by body and point of its skin, from remember(). All must
+  /// outlive it.
   SkinPotential(const World& world, const Group& group, const std::vector<GluedPoint>& glue, const Step& step,
-                const std::vector<Eigen::VectorXd*>& pushed_in);
+                const std::vector<Eigen::VectorXd*>& penetrations);
   SkinPotential(const SkinPotential&) = delete;
   SkinPotential& operator=(const SkinPotential&) = delete;
 
@@ -45,7 +45,7 @@ class SkinPotential {
   [[nodiscard]] std::vector<Coupling> couplings() const;
 
   /// Stores how far points have been pushed into what they touch, m, for the coming step.
-  void remember(const std::vector<Eigen::VectorXd*>& pushed_in) const;
+  void remember(const std::vector<Eigen::VectorXd*>& penetrations) const;
 
  private:
   /// A point that may touch triangles of a body.
@@ -55,10 +55,10 @@ class SkinPotential {
     double depth;                         // m, below which what is inside came from the other side
     double stiffness;                     // N/m, of the point by itself
     double friction;                      // Coulomb's coefficient
-    double pushed_in;                     // m, at the last update
+    double penetrations;                  // m, at the last update
     double initial_penetration = 0;       // m, of the depth
     const CandidatePair* pair = nullptr;  // the nearest one then
-    double pressing = 0;                  // N, for friction
+    double normal_force = 0;              // N, for friction
   };
   /// An active coupling.
   struct Hold {
@@ -70,7 +70,7 @@ class SkinPotential {
     Vec3 start;  // m, when the step began
   };
 
-  void watch(const World& world, const std::vector<Eigen::VectorXd*>& pushed_in);
+  void watch(const World& world, const std::vector<Eigen::VectorXd*>& penetrations);
   void lift(double gravity, double dt);
   [[nodiscard]] double depth(const Hold& hold, const Vec3& now) const;
   void add_glue();

@@ -109,7 +109,7 @@ std::size_t worst_brick_of(const Body& body) {
   return worst;
 }
 
-std::string remedy_for_divergence(const World& world, std::size_t row, std::size_t brick) {
+std::string advice_for_divergence(const World& world, std::size_t row, std::size_t brick) {
   const SoftBody& body = world.bodies[row];
   for (const std::string& remedy : {remedy_for_overlaps(world, row), remedy_for_speed(body), remedy_for_crushing(body),
                                     remedy_for_stiff_springs(body, brick), remedy_for_thinness(body, brick)}) {

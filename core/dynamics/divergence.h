@@ -12,6 +12,6 @@ namespace sprung {
 /// the state of the world just before: skins that penetrate each other, a speed near that of sound in the material,
 /// flattened bricks, springs too stiff for the mass that they move, a part of a single layer of bricks; else a general
 /// one.
-[[nodiscard]] std::string remedy_for_divergence(const World& world, std::size_t body, std::size_t brick);
+[[nodiscard]] std::string advice_for_divergence(const World& world, std::size_t body, std::size_t brick);
 
 }  // namespace sprung

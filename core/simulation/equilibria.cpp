@@ -61,7 +61,7 @@ class Loading {
   [[nodiscard]] int iterations() const { return iterations_; }
 
   /// Reports the fallbacks of the linear solvers, if any.
-  void note_trouble(const Observer& observer) const {
+  void note_fallbacks(const Observer& observer) const {
     for (std::size_t i = 0; i < systems_.size(); ++i) {
       const SolveReport report = systems_[i]->report();
       observer.detail(fmt::format("body {}: {} linear solves, {} multigrid iterations, at most {} in one", i + 1,
@@ -168,7 +168,7 @@ Recording record_equilibria(Simulation& simulation, const Scene& scene, const Ob
   const int frames = frame_count(scene);
   Loading loading(simulation, scene);
   Recorder recorder(scene, simulation, "load", cache);
-  const int first = recorder.take_up(simulation.world, [](IntegratorState&) {});
+  const int first = recorder.resume_from_cache(simulation.world, [](IntegratorState&) {});
   Progress progress(observer, loading.is_linear() ? "linear" : "static", frames);
   for (int frame = first; frame < frames; ++frame) {
     observer.check_interrupt();
@@ -181,7 +181,7 @@ Recording record_equilibria(Simulation& simulation, const Scene& scene, const Ob
     observer.finish_frame(frame, share, simulation.world);
     progress.update(frame + 1);
   }
-  loading.note_trouble(observer);
+  loading.note_fallbacks(observer);
   progress.finish(loading.is_linear() ? fmt::format("{} frames", frames)
                                       : fmt::format("{} frames, {} Newton steps", frames, loading.iterations()));
   if (!loading.is_linear()) warn_of_crushed_bodies(simulation.world, observer);
@@ -202,7 +202,7 @@ Recording record_modes(Simulation& simulation, const Scene& scene, const Observe
   const int frames = frame_count(scene);
   const int count = scene.solver.modes;
   Recorder recorder(scene, simulation, "mode", cache);
-  const int first = recorder.take_up(simulation.world, [](IntegratorState&) {});
+  const int first = recorder.resume_from_cache(simulation.world, [](IntegratorState&) {});
   for (int frame = first; frame < frames; ++frame) {
     const double place = double(frame) * count / frames;
     const int mode = std::min(int(place), count - 1);

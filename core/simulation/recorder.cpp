@@ -60,7 +60,7 @@ void Recorder::check_part(std::size_t probe) const {
                           scene_.probes[probe].name, scene_.probes[probe].body));
 }
 
-int Recorder::take_up(World& world, const std::function<void(IntegratorState&)>& serialize) {
+int Recorder::resume_from_cache(World& world, const std::function<void(IntegratorState&)>& serialize) {
   if (cache_ == nullptr) return 0;
   IntegratorState empty;
   serialize(empty);

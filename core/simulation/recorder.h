@@ -43,7 +43,7 @@ class Recorder {
 
   /// Resumes from the frames in the cache: sets the world, that of the simulation, to its state after the last of them
   /// and restores the integrator by `serialize`. Returns their number. Call before the first add().
-  int take_up(World& world, const std::function<void(IntegratorState&)>& serialize);
+  int resume_from_cache(World& world, const std::function<void(IntegratorState&)>& serialize);
 
   /// Records the current state. `reactions`: of the pins' nodes by body (m x 3, N); none: no forces. `time`: of the
   /// film (s), for the pins' movements; with `small`, displacements are small: torques

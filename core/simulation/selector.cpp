@@ -163,7 +163,7 @@ Selector::Test Selector::nearest_to(const Triangles& triangles, double depth) co
 Selector::Test Selector::nearest_to_paint(const Color& paint, double depth) const {
   const double deepest = depth + kSelectionRounding * body_.extent.maxCoeff();
   return [this, deepest, chosen = vertices_of(paint)](const Vec3& position) {
-    const SurfacePlace found = surface().at(position);
+    const SurfaceProjection found = surface().at(position);
     return found.distance <= deepest && chosen[nearest_vertex(found)];
   };
 }
@@ -204,7 +204,7 @@ std::vector<bool> Selector::vertices_of(const Color& paint) const {
                                                 colors.rows() == 0 ? "; the mesh has no vertex colours at all" : ""));
 }
 
-int Selector::nearest_vertex(const SurfacePlace& place) const {
+int Selector::nearest_vertex(const SurfaceProjection& place) const {
   const Eigen::RowVector3i corners = body_.mesh.triangles.row(place.triangle);
   const auto distance = [&](int vertex) {
     return (body_.mesh.positions.row(vertex).transpose() - place.point).squaredNorm();

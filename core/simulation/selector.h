@@ -53,7 +53,7 @@ class Selector {
   [[nodiscard]] Triangles triangles_of(const std::string& part) const;
   [[nodiscard]] Triangles face_at(const Vec3& position) const;
   [[nodiscard]] std::vector<bool> vertices_of(const Color& paint) const;
-  [[nodiscard]] int nearest_vertex(const SurfacePlace& position) const;
+  [[nodiscard]] int nearest_vertex(const SurfaceProjection& position) const;
   [[nodiscard]] std::size_t solid_nearest_to(const Vec3& position) const;
   [[nodiscard]] SurfaceMesh read_enclosure(const std::filesystem::path& mesh) const;
 

@@ -189,7 +189,7 @@ Recording record_motion(Simulation& simulation, const Scene& scene, const Observ
   const int frames = frame_count(scene);
   Recorder recorder(scene, simulation, "time_s", cache);
   MotionRun run(simulation, scene, observer);
-  const int first = recorder.take_up(simulation.world, [&](IntegratorState& state) { run.serialize(state); });
+  const int first = recorder.resume_from_cache(simulation.world, [&](IntegratorState& state) { run.serialize(state); });
   run.begin_at(first);
   int frame = first;
   for (; frame < frames && !(frame > 0 && run.has_come_to_rest(frame - 1)); ++frame) {

@@ -59,7 +59,7 @@ class MeshDistance::Tree {
   [[nodiscard]] const Triangles& triangles() const { return triangles_; }
 
   [[nodiscard]] Nearest nearest(const Vec3& position) const {
-    const SurfacePlace found = surface_.at(position);
+    const SurfaceProjection found = surface_.at(position);
     const Vec3 outward = normal_at(found.triangle, found.point);
     const Vec3 off = position - found.point;
     const double distance = found.distance;

@@ -139,7 +139,7 @@ Environment::Environment(const Panorama& panorama, const EnvironmentUse& use) {
     for (Eigen::Vector3f& light : seen.light) light = light.cwiseMin(kMostSeen);
     background = std::make_shared<const Panorama>(std::move(seen));
   }
-  if (use.has_sun) sun = take_sun(around);
+  if (use.has_sun) sun = extract_sun(around);
   Panorama sky = upper_half(around, kHeight);
   irradiance = irradiance_of(sky);
   if (!sun && !(luminance(irradiance_on(Eigen::Vector3f::UnitY())) > 0)) {

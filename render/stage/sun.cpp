@@ -68,7 +68,7 @@ Vector3f brightest_direction(const Panorama& panorama) {
 
 }  // namespace
 
-std::optional<Sun> take_sun(Panorama& panorama) {
+std::optional<Sun> extract_sun(Panorama& panorama) {
   const Spot spot = spot_around(panorama, brightest_direction(panorama));
   Panorama without = panorama;
   for (const std::size_t i : spot.texels) without.light[i] = without.light[i].cwiseMin(spot.around);

@@ -16,7 +16,7 @@ struct Sun {
 /// Removes the sun from a panorama and fills the gap with the light of the sky around it. None, and the panorama
 /// unchanged, if the brightest spot above the horizon gives level ground less than three tenths of what all the rest
 /// gives.
-[[nodiscard]] std::optional<Sun> take_sun(Panorama& panorama);
+[[nodiscard]] std::optional<Sun> extract_sun(Panorama& panorama);
 
 /// The lighting with a sun as its key light.
 [[nodiscard]] Lighting lit_by(const Sun& sun, Lighting lighting);

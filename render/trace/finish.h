@@ -52,15 +52,15 @@ class Finish {
   /// Whether that choice selects the base.
   [[nodiscard]] bool picks_base(float choice) const { return choice >= specular_choice_; }
   /// Whether light that meets a surface without a base enters; otherwise sample() says where it goes.
-  [[nodiscard]] bool is_let_in(float choice) const { return !has_base_ && choice >= specular_choice_; }
+  [[nodiscard]] bool is_transmitted(float choice) const { return !has_base_ && choice >= specular_choice_; }
   /// The normal of a facet that light enters through, and the fraction of light that enters over the probability of
-  /// is_let_in().
+  /// is_transmitted().
   [[nodiscard]] Eigen::Vector3f facet(const Eigen::Vector3f& to_eye, const Eigen::Vector2f& random) const {
     return half_vector(to_eye, random);
   }
-  [[nodiscard]] float let_in(float cosine) const { return left_to_base(cosine) / (1 - specular_choice_); }
+  [[nodiscard]] float transmit_in(float cosine) const { return left_to_base(cosine) / (1 - specular_choice_); }
   /// The factor of the radiance of light that emerges isotropically, in a direction with that cosine to the normal.
-  [[nodiscard]] float let_out(float cosine) const { return left_to_base(cosine) / mean_left_to_base_; }
+  [[nodiscard]] float transmit_out(float cosine) const { return left_to_base(cosine) / mean_left_to_base_; }
   [[nodiscard]] float glow() const { return glow_; }
 
  private:

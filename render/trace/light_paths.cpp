@@ -173,7 +173,7 @@ LightPaths::Scattering LightPaths::scatter(const Way& way, const Meeting& meetin
 
   const Eigen::Vector2f random = sampler.pair();
   const float choice = sampler.number();
-  if (surface.is_let_in(choice)) {
+  if (surface.is_transmitted(choice)) {
     pass_through(way.ray, point, surface, random, sampler, result);
     return result;
   }
@@ -202,7 +202,7 @@ void LightPaths::pass_through(const Ray& ray, const SurfacePoint& entry, const F
   inside.direction = frame.to_world(*direction).normalized();
   const std::optional<Emergence> out = walk_through_body(skins_, media_, entry, inside, sampler);
   if (!out) return;
-  const Vector3f share = (coat.let_in(to_eye.z()) * out->share).cwiseQuotient(divisor(entry.color));
+  const Vector3f share = (coat.transmit_in(to_eye.z()) * out->share).cwiseQuotient(divisor(entry.color));
   Ray& onward = result.onward.ray;
   onward.origin = out->point.position;
   if (!out->is_scattered) {
@@ -218,12 +218,12 @@ void LightPaths::pass_through(const Ray& ray, const SurfacePoint& entry, const F
     Ray to_light = onward;
     to_light.direction = to_key;
     const float seen = balance(light_.key_density(), facing_key / kPi) / light_.key_density() *
-                       coat.let_out(facing_key) * facing_key / kPi;
+                       coat.transmit_out(facing_key) * facing_key / kPi;
     result.from_key.base += seen * share.cwiseProduct(reaching(to_light)).cwiseProduct(light_.key_radiance());
   }
   const Vector3f local = on_cosine_hemisphere(sampler.pair());
   onward.direction = there.to_world(local).normalized();
-  result.factor.base = coat.let_out(local.z()) * share;
+  result.factor.base = coat.transmit_out(local.z()) * share;
   result.onward.density = local.z() / kPi;
   result.onward.is_matt = true;
 }

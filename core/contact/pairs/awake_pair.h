@@ -29,7 +29,7 @@ struct AwakePair {
   Vec3 obstacle_velocity{Vec3::Zero()};  // m/s, there, of one without edges
   double friction = 0;                   // Coulomb's coefficient
   double restitution = 0;
-  bool may_hold = true;     // false if another pair supports the same point better
+  bool may_support = true;  // false if another pair supports the same point better
   Vec3* impulse = nullptr;  // N s, on the first feature, of the last step; kept with the pair while it is near
   bool is_loaded = false;   // when measured: whether that impulse was not zero
 
@@ -47,7 +47,7 @@ inline constexpr double kGuardedEdges = 0.6 * kGuardedGap;
 
 /// How far (m) two features may approach before they must be checked: they may then cross in a step, or be within
 /// `reach` (m), where contacts begin to act. `brick` in m.
-[[nodiscard]] inline double way_until_due(double gap, double reach, double brick) {
+[[nodiscard]] inline double distance_until_due(double gap, double reach, double brick) {
   return std::min(kFreeShare * (gap - kLeastGap * brick), gap - reach);
 }
 

@@ -38,9 +38,9 @@ Eigen::Vector4d worst_corners(const AwakePair& pair, const Eigen::Vector4d& spee
 void CrossingGuard::apply(const World& world, const std::vector<Eigen::VectorXd>& inverse_masses, double dt) {
   inverse_masses_ = &inverse_masses;
   near_.refresh_velocities();
-  static_cast<void>(near_.look_again(world, dt));
+  static_cast<void>(near_.recheck(world, dt));
   for (int look = 0; look < kMostLooks; ++look) {
-    if (!keep_apart(dt) || !near_.look_again(world, dt)) break;
+    if (!keep_apart(dt) || !near_.recheck(world, dt)) break;
   }
 }
 

@@ -11,7 +11,7 @@ constexpr double kNear = 0.35;    // bricks within which features are listed
 constexpr double kBeside = 1e-6;  // of a feature's corners: the nearest point is on its edge if one has less weight
 constexpr double kStill = 0.4;    // of its gap, that a point may move while only one of the triangles about it is awake
 constexpr double kBorne = 0.5;    // of the contact distance, below which a point must be supported itself ...
-constexpr double kDoze =
+constexpr double kSkipped =
     0.45;  // ... and of its gap that it may lose meanwhile, if another at the same node carries a load
 constexpr double kSame = 1e-3;  // bricks by which two triangles are about as near to a point
 
@@ -126,7 +126,7 @@ bool FeaturePairs::have_crossed(const AwakePair& edges) {
   return (normal(2) + normal(3) - normal(0) - normal(1)).dot(edges.normal) < 0;
 }
 
-bool FeaturePairs::tell_inside(AwakePair& pair) {
+bool FeaturePairs::flip_if_inside(AwakePair& pair) {
   const auto place = [&](int i) { return tree(pair.pair.side(i)).place_of(pair.pair.corners[i]); };
   const Vec3 outward = (place(2) - place(1)).cross(place(3) - place(1));
   if (outward.dot(pair.normal) >= 0) return true;
@@ -150,13 +150,13 @@ void FeaturePairs::wake() {
       list.first_wake = std::min(list.first_wake, sleeper.wake);
     }
   }
-  choose_holders(measured_);
+  choose_supports(measured_);
   for (std::size_t row = 0; row < woken_.size(); ++row) {
     if (measured_[row].is_loaded) loaded_at(measured_[row]) = step_;
   }
   awake_.clear();
   for (std::size_t row = 0; row < woken_.size(); ++row) {
-    if (!may_doze(measured_[row], woken_[row])) awake_.push_back(woken_[row].sleeper);
+    if (!may_skip(measured_[row], woken_[row])) awake_.push_back(woken_[row].sleeper);
   }
 }
 
@@ -166,13 +166,13 @@ long& FeaturePairs::loaded_at(const AwakePair& pair) {
   return loaded_[side][tree(side).body().grid.nodes[point.brick][point.corner]];
 }
 
-bool FeaturePairs::may_doze(const AwakePair& pair, const Woken& woken) {
+bool FeaturePairs::may_skip(const AwakePair& pair, const Woken& woken) {
   if (pair.pair.count == 2) return false;
-  if (!pair.may_hold) return pair.gap < 0 || woken.coming < kStill * pair.gap;
+  if (!pair.may_support) return pair.gap < 0 || woken.coming < kStill * pair.gap;
   if (pair.is_loaded || pair.gap < kBorne * kGuardedGap * brick_) return false;
   if (loaded_at(pair) != step_) return false;
-  if (!(woken.coming < kDoze * pair.gap)) return false;
-  woken.sleeper->wake += kDoze * pair.gap;
+  if (!(woken.coming < kSkipped * pair.gap)) return false;
+  woken.sleeper->wake += kSkipped * pair.gap;
   return true;
 }
 
@@ -180,8 +180,8 @@ void FeaturePairs::look_at(Sleeper& sleeper, double closer, double coming) {
   AwakePair pair = measure(sleeper.pair);
   const bool is_point = pair.pair.count == 1;
   const double reach = is_point ? kGuardedGap : is_at_end(pair) ? 0 : kGuardedEdges;
-  const double way = way_until_due(pair.gap, reach * brick_, brick_);
-  const bool is_told = is_point ? tell_inside(pair) : !have_crossed(pair);
+  const double way = distance_until_due(pair.gap, reach * brick_, brick_);
+  const bool is_told = is_point ? flip_if_inside(pair) : !have_crossed(pair);
   const bool is_asleep = way > coming && sleeper.impulse.isZero(0) && !(is_told && pair.gap < 0);
   sleeper.wake = is_asleep ? closer + way : closer;
   if (is_asleep || !is_told) return;
@@ -197,26 +197,26 @@ void FeaturePairs::measure(std::vector<AwakePair>& awake) {
     const AwakePair outside = pair;
     // A point that has passed the edge of its triangle since it was woken cannot be supported by it, but still must not
     // cross it.
-    const bool is_beside = pair.pair.count == 1 && !tell_inside(pair);
+    const bool is_beside = pair.pair.count == 1 && !flip_if_inside(pair);
     measured_.push_back(is_beside ? outside : pair);
-    measured_.back().may_hold = !is_beside;
+    measured_.back().may_support = !is_beside;
     measured_.back().is_loaded = !sleeper->impulse.isZero(0);
     measured_.back().impulse = &sleeper->impulse;
   }
-  choose_holders(measured_);
+  choose_supports(measured_);
   for (const AwakePair& pair : measured_) {
-    if (pair.gap > 0 || pair.may_hold) awake.push_back(pair);
+    if (pair.gap > 0 || pair.may_support) awake.push_back(pair);
   }
 }
 
-void FeaturePairs::choose_holders(std::vector<AwakePair>& pairs) {
+void FeaturePairs::choose_supports(std::vector<AwakePair>& pairs) {
   ++step_;
   const auto nearest_of = [&](const AwakePair& pair) -> Nearest& {
     return nearest_[pair.pair.first][pair.pair.corners[0]];
   };
   for (std::size_t row = 0; row < pairs.size(); ++row) {
     const AwakePair& pair = pairs[row];
-    if (pair.pair.count == 2 || !pair.may_hold) continue;
+    if (pair.pair.count == 2 || !pair.may_support) continue;
     Nearest& nearest = nearest_of(pair);
     // Among equally near triangles, the one that carries the load keeps it.
     const double slack = kSame * brick_ * (int(nearest.is_loaded) - int(pair.is_loaded));
@@ -226,10 +226,10 @@ void FeaturePairs::choose_holders(std::vector<AwakePair>& pairs) {
   for (std::size_t row = 0; row < pairs.size(); ++row) {
     AwakePair& pair = pairs[row];
     if (pair.pair.count == 2) {
-      pair.may_hold = !is_at_end(pair);
-    } else if (pair.may_hold) {
+      pair.may_support = !is_at_end(pair);
+    } else if (pair.may_support) {
       const bool is_beside = pair.weights.tail<3>().maxCoeff() > -kBeside;
-      pair.may_hold = nearest_of(pair).row == row || (pair.gap > 0 && !is_beside);
+      pair.may_support = nearest_of(pair).row == row || (pair.gap > 0 && !is_beside);
     }
   }
 }

@@ -9,8 +9,8 @@ namespace sprung {
 
 /// The points and triangles, and the edges, of two surfaces, or of one with itself, that may meet in the steps to come.
 /// Those further apart sleep until the front can no longer exclude that they have come closer by more than
-/// way_until_due(), unless they carry a load. Excluded: features of one surface whose bricks share a node, and edges
-/// that have crossed. A point behind its triangle is inside the surface if that triangle is the nearest one.
+/// distance_until_due(), unless they carry a load. Excluded: features of one surface whose bricks share a node, and
+/// edges that have crossed. A point behind its triangle is inside the surface if that triangle is the nearest one.
 class FeaturePairs : private NearLists {
  public:
   /// For the bodies `bodies`; their trees, the same twice for one with itself, must outlive it.
@@ -54,7 +54,7 @@ class FeaturePairs : private NearLists {
   /// Whether two edges have crossed.
   [[nodiscard]] bool have_crossed(const AwakePair& edges);
   /// Flips the pair if the point is behind the triangle; false if that is undecided, beside the triangle.
-  [[nodiscard]] bool tell_inside(AwakePair& pair);
+  [[nodiscard]] bool flip_if_inside(AwakePair& pair);
   [[nodiscard]] bool are_connected(std::size_t point, std::size_t other) const;
   /// Checks a pair that is due: it continues to sleep, or is woken unless it is excluded.
   void look_at(Sleeper& sleeper, double closer, double coming);
@@ -66,9 +66,9 @@ class FeaturePairs : private NearLists {
   [[nodiscard]] long& loaded_at(const AwakePair& pair);
   /// Whether a woken pair need not be checked until it is woken again, since another one supports its point or its
   /// node.
-  [[nodiscard]] bool may_doze(const AwakePair& pair, const Woken& woken);
+  [[nodiscard]] bool may_skip(const AwakePair& pair, const Woken& woken);
   /// Points at the edge of a triangle, or inside, are supported by the nearest triangle only.
-  void choose_holders(std::vector<AwakePair>& pairs);
+  void choose_supports(std::vector<AwakePair>& pairs);
 
   std::array<std::reference_wrapper<SurfaceTree>, 2> trees_;
   std::array<std::size_t, 2> bodies_;

@@ -87,7 +87,7 @@ void NearFeatures::refresh_velocities() {
 }
 
 void NearFeatures::begin_step(const World& world, double elapsed, double dt) {
-  looks_again_ = 0;
+  rechecks_ = 0;
   poses_.clear();
   for (const Obstacle& obstacle : world.obstacles) poses_.push_back(pose_after(obstacle, elapsed));
   for (std::size_t i = 0; i < obstacles_.size(); ++i) {
@@ -97,14 +97,14 @@ void NearFeatures::begin_step(const World& world, double elapsed, double dt) {
   measure(world);
 }
 
-bool NearFeatures::look_again(const World& world, double dt) {
-  if (surprise(dt) <= slack_) return false;
-  predict(world, dt, kSlack * std::pow(kMoreSlack, looks_again_++));
+bool NearFeatures::recheck(const World& world, double dt) {
+  if (deviation(dt) <= slack_) return false;
+  predict(world, dt, kSlack * std::pow(kMoreSlack, rechecks_++));
   measure(world);
   return true;
 }
 
-double NearFeatures::surprise(double dt) const {
+double NearFeatures::deviation(double dt) const {
   if (seen_.empty() || since_look_ + dt > horizon_ * (1 + 1e-9)) return std::numeric_limits<double>::infinity();
   double furthest = 0;
   for (std::size_t row = 0; row < seen_.size(); ++row) {

@@ -26,7 +26,7 @@ class NearFeatures {
   void begin_step(const World& world, double elapsed, double dt);
   /// Once velocities are those of the step: finds and measures all pairs that may meet, if something deviates from the
   /// prediction. Returns whether it did.
-  [[nodiscard]] bool look_again(const World& world, double dt);
+  [[nodiscard]] bool recheck(const World& world, double dt);
   void end_step(double dt) { since_look_ += dt; }
 
   /// As they were when last measured.
@@ -63,7 +63,7 @@ class NearFeatures {
   };
 
   /// How far the next step of dt takes any node from its predicted position, bricks; infinite: beyond the prediction.
-  [[nodiscard]] double surprise(double dt) const;
+  [[nodiscard]] double deviation(double dt) const;
   /// `slack`: how far nodes may deviate from the prediction, bricks.
   void predict(const World& world, double dt, double slack);
   void measure(const World& world);
@@ -86,7 +86,7 @@ class NearFeatures {
   double horizon_ = 0;      // s
   double slack_ = 0;        // bricks
   double since_look_ = 0;   // s
-  int looks_again_ = 0;     // in this step
+  int rechecks_ = 0;        // in this step
 };
 
 }  // namespace sprung

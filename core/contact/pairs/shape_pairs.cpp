@@ -56,8 +56,8 @@ void ShapePairs::look_at(int leaf, const Obstacle& obstacle, const Pose& pose, d
   const double reach = kGuardedGap * brick_;
   const AlignedBox& box = tree_.box(leaf);
   const double far = signed_distance(obstacle.shape, pose, box.center()).distance - box.diagonal().norm() / 2;
-  if (far > brick_ && way_until_due(far, reach, brick_) > coming) {
-    brick_wakes_[brick] = way + way_until_due(far, reach, brick_);
+  if (far > brick_ && distance_until_due(far, reach, brick_) > coming) {
+    brick_wakes_[brick] = way + distance_until_due(far, reach, brick_);
     return;
   }
   const ContactSurface& skin = tree_.skin();
@@ -65,7 +65,7 @@ void ShapePairs::look_at(int leaf, const Obstacle& obstacle, const Pose& pose, d
   for (int point = skin.first_point[brick]; point < skin.first_point[brick + 1]; ++point) {
     if (point_wakes_[point] <= way + coming) {
       const double gap = signed_distance(obstacle.shape, pose, tree_.place_of(point)).distance;
-      const double due = way_until_due(gap, reach, brick_);
+      const double due = distance_until_due(gap, reach, brick_);
       const bool is_asleep = gap > 0 && due > coming && impulses_[point].isZero(0);
       point_wakes_[point] = is_asleep ? way + due : way;
       if (!is_asleep) awake_.push_back(point);

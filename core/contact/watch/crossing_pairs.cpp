@@ -128,7 +128,7 @@ class CellComparison {
       for (const Facet& other : second_) {
         if (is_self_ && cell_a == cell_b && other.row <= one.row) continue;
         if (!one.box.intersects(other.box) || (is_self_ && share_a_vertex(one.row, other.row))) continue;
-        if (do_cross(one.corners, other.corners)) {
+        if (do_intersect(one.corners, other.corners)) {
           found.push_back(is_self_ ? std::array{std::min(one.row, other.row), std::max(one.row, other.row)}
                                    : std::array{one.row, other.row});
         }
@@ -177,7 +177,7 @@ class CellComparison {
 
 }  // namespace
 
-bool do_cross(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b) {
+bool do_intersect(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b) {
   const double scale = std::max(scale_of(a), scale_of(b));
   if (is_separated_by(a, b, scale) || is_separated_by(b, a, scale)) return false;
   const bool is_flat_a = is_flat(a);

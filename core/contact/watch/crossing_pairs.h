@@ -20,6 +20,6 @@ using RowPairs = std::vector<std::array<int, 2>>;
 
 /// Whether two triangles have a point in common. Exact. Triangles without area are treated as segments; those reduced
 /// to a point cross nothing.
-[[nodiscard]] bool do_cross(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b);
+[[nodiscard]] bool do_intersect(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b);
 
 }  // namespace sprung

@@ -175,7 +175,7 @@ std::vector<GroupSteps> AdaptiveIntegrator::advance_frame(double time, double du
     const double dt = step_of(groups, trouble->body);
     if (halvings_ == kMostHalvings) {
       throw Diverged(trouble->body, what + fmt::format(", with steps of {:.3g} s too: the motion diverged; {}", dt,
-                                                       remedy_for_divergence(world_, trouble->body, trouble->brick)));
+                                                       advice_for_divergence(world_, trouble->body, trouble->brick)));
     }
     ++halvings_;
     tell(what + fmt::format("; the frame is done again in steps half as long, {:.3g} s", dt / 2));

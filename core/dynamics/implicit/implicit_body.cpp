@@ -86,7 +86,7 @@ ImplicitBody::ImplicitBody(SoftBody& body, const World& world, const ImplicitOpt
       stiffness_(largest_brick_stiffness(body_)),
       muscles_(body) {
   for (const Obstacle& obstacle : world.obstacles) obstacles_.emplace_back(body, obstacle, slip_speed_);
-  history_.pushed_in.setZero(contact_surface_of(body).points.size());
+  history_.penetrations.setZero(contact_surface_of(body).points.size());
 }
 
 void ImplicitBody::serialize(IntegratorState& state) {
@@ -94,7 +94,7 @@ void ImplicitBody::serialize(IntegratorState& state) {
     if (points->rows() == 0) points->setZero(body_.node_count(), 3);
     state.serialize(*points);
   }
-  for (double& depth : history_.pushed_in) state.serialize(depth);
+  for (double& depth : history_.penetrations) state.serialize(depth);
   state.serialize(history_.last_dt);
   state.serialize_as_double(history_.is_there);
 }
@@ -168,7 +168,7 @@ void ImplicitBody::finish(double dt) {
               .last_dt = dt,
               .positions = positions_,
               .velocities = velocities_,
-              .pushed_in = history_.pushed_in};
+              .penetrations = history_.penetrations};
 }
 
 void ImplicitBody::undo() {

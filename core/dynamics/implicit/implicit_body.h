@@ -86,7 +86,7 @@ class ImplicitBody {
   [[nodiscard]] const Supports& supports() const { return supports_; }
   [[nodiscard]] double slip_speed() const { return slip_speed_; }
   [[nodiscard]] SolveReport solves() const { return alone_->report(); }
-  [[nodiscard]] Eigen::VectorXd& pushed_in() { return history_.pushed_in; }
+  [[nodiscard]] Eigen::VectorXd& penetrations() { return history_.penetrations; }
   [[nodiscard]] IterativeSolver& system() { return *coupled_; }
 
  private:
@@ -96,7 +96,7 @@ class ImplicitBody {
     double last_dt = 0;
     Points positions;
     Points velocities;
-    Eigen::VectorXd pushed_in;  // of its skin's points, m, see SkinPotential
+    Eigen::VectorXd penetrations;  // of its skin's points, m, see SkinPotential
   };
 
   void aim(double dt);

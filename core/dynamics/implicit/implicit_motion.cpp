@@ -73,7 +73,7 @@ void ImplicitMotion::advance(const Together& group, const Span& span) {
         fmt::format(
             "body {}: no step of {:.3g} s leads on from t = {:.6g} s: {}; {}", group.rows.front() + 1, stride * span.dt,
             span.begin + span.elapsed + done * span.dt, trouble,
-            remedy_for_divergence(world_, group.rows.front(), worst_brick_of(world_.bodies[group.rows.front()]))));
+            advice_for_divergence(world_, group.rows.front(), worst_brick_of(world_.bodies[group.rows.front()]))));
   }
 }
 

@@ -21,10 +21,10 @@ double slip_of(const std::vector<ImplicitBody*>& bodies, double dt) {
 }
 
 std::vector<Eigen::VectorXd*> pushed_in_of(const std::vector<ImplicitBody*>& bodies) {
-  std::vector<Eigen::VectorXd*> pushed_in;
-  pushed_in.reserve(bodies.size());
-  for (ImplicitBody* body : bodies) pushed_in.push_back(&body->pushed_in());
-  return pushed_in;
+  std::vector<Eigen::VectorXd*> penetrations;
+  penetrations.reserve(bodies.size());
+  for (ImplicitBody* body : bodies) penetrations.push_back(&body->penetrations());
+  return penetrations;
 }
 
 }  // namespace

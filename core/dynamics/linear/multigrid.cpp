@@ -114,7 +114,7 @@ class MultigridSolver : public IterativeSolver {
   ProductWorkspace products_;
   Eigen::VectorXd damping_product_;
   multigrid::Floats single_residual_;
-  multigrid::Floats single_answer_;
+  multigrid::Floats single_solution_;
   Eigen::VectorXd downhill_;
   SolveReport report_;
 };
@@ -264,8 +264,8 @@ void MultigridSolver::precondition(const Eigen::VectorXd& residual, Eigen::Vecto
     return;
   }
   single_residual_ = (residual / largest).cast<float>();
-  cycle_->apply(single_residual_, single_answer_);
-  correction = largest * single_answer_.cast<double>();
+  cycle_->apply(single_residual_, single_solution_);
+  correction = largest * single_solution_.cast<double>();
 }
 
 Eigen::VectorXd MultigridSolver::solve(const Eigen::VectorXd& forces, double tolerance) {

@@ -276,8 +276,8 @@ void PlyData::refuse(const std::string& reason) const {
 }
 
 /// The attributes of a vertex by the indices of their properties; -1: missing.
-struct VertexPlaces {
-  explicit VertexPlaces(const PlyElement& element)
+struct VertexIndices {
+  explicit VertexIndices(const PlyElement& element)
       : position{element.find({"x"}), element.find({"y"}), element.find({"z"})},
         normal{element.find({"nx", "normal_x"}), element.find({"ny", "normal_y"}), element.find({"nz", "normal_z"})},
         uv{element.find({"u", "s", "texture_u", "texture_s", "tx"}),
@@ -357,7 +357,7 @@ class PlyReader {
   [[nodiscard]] double number(int place) const { return entry_.numbers[place]; }
 
   void read_vertices(const PlyElement& element) {
-    const VertexPlaces places(element);
+    const VertexIndices places(element);
     if (!has_all(places.position)) data_.refuse("its vertices have no x, y and z");
     has_normals_ = has_all(places.normal);
     has_vertex_uvs_ = has_all(places.uv) && !has_corner_uvs();
@@ -374,7 +374,7 @@ class PlyReader {
     });
   }
 
-  void add_color(const VertexPlaces& places, double scale) {
+  void add_color(const VertexIndices& places, double scale) {
     Eigen::Vector4d color(number(places.color[0]), number(places.color[1]), number(places.color[2]),
                           places.alpha < 0 ? scale : number(places.alpha));
     color /= scale;

@@ -53,7 +53,7 @@ class NearestTriangle::Tree {
     tree_.accelerate_distance_queries();
   }
 
-  [[nodiscard]] SurfacePlace at(const Vec3& position) const {
+  [[nodiscard]] SurfaceProjection at(const Vec3& position) const {
     const auto [point, row] = tree_.closest_point_and_primitive(point_of(position));
     const Vec3 nearest(point.x(), point.y(), point.z());
     return {.triangle = row, .point = nearest, .distance = (position - nearest).norm()};
@@ -70,6 +70,6 @@ NearestTriangle::~NearestTriangle() = default;
 NearestTriangle::NearestTriangle(NearestTriangle&&) noexcept = default;
 NearestTriangle& NearestTriangle::operator=(NearestTriangle&&) noexcept = default;
 
-SurfacePlace NearestTriangle::at(const Vec3& position) const { return tree_->at(position); }
+SurfaceProjection NearestTriangle::at(const Vec3& position) const { return tree_->at(position); }
 
 }  // namespace sprung

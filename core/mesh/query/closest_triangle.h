@@ -6,7 +6,7 @@
 namespace sprung {
 
 /// A point of a surface.
-struct SurfacePlace {
+struct SurfaceProjection {
   int triangle = 0;           // its row
   Vec3 point = Vec3::Zero();  // in units of the surface
   double distance = 0;        // to the query point
@@ -22,7 +22,7 @@ class NearestTriangle {
   NearestTriangle(NearestTriangle&&) noexcept;
   NearestTriangle& operator=(NearestTriangle&&) noexcept;
 
-  [[nodiscard]] SurfacePlace at(const Vec3& position) const;
+  [[nodiscard]] SurfaceProjection at(const Vec3& position) const;
 
  private:
   class Tree;

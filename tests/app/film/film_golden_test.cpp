@@ -29,7 +29,7 @@ struct FilmUnderTest {
 
   /// `render`: further keys of [render], then tables.
   explicit FilmUnderTest(const std::string& render) : scene(parse_scene(kBar + render, "/scene.toml")) {
-    simulation = prepare_simulation(scene, Console::of_few_words());
+    simulation = prepare_simulation(scene, Console::terse());
     for (int frame = 0; frame < 3; ++frame) add_frame(0.5 * frame);
   }
 
@@ -50,7 +50,7 @@ struct FilmUnderTest {
     const TempFolder folder;
     render_film({{scene, simulation, recording}}, read_surroundings(scene.render),
                 {.range = {.first = frame, .last = frame}}, {parse_output((folder.path() / "p_{}.png").string())},
-                Console::of_few_words());
+                Console::terse());
     return read_png(folder.path() / ("p_" + std::to_string(frame) + ".png"));
   }
 };
@@ -105,7 +105,7 @@ TEST(FilmGolden, Sheet) {
   film.add_frame(1.5);
   const TempFolder folder;
   render_film({{film.scene, film.simulation, film.recording}}, std::nullopt, {.range = {.first = 1, .last = 4}},
-              {parse_output((folder.path() / "s_{}.png").string())}, Console::of_few_words());
+              {parse_output((folder.path() / "s_{}.png").string())}, Console::terse());
   expect_golden(read_png(folder.path() / "s_1.png"), "film_sheet");
 }
 
@@ -119,7 +119,7 @@ TEST(FilmGolden, SideBySide) {
   const std::vector<FilmRun> runs{{first.scene, first.simulation, first.recording, "bent"},
                                   {second.scene, second.simulation, second.recording, "half"}};
   render_film(runs, std::nullopt, {.range = {.first = 3, .last = 3}},
-              {parse_output((folder.path() / "p_{}.png").string())}, Console::of_few_words());
+              {parse_output((folder.path() / "p_{}.png").string())}, Console::terse());
   expect_golden(read_png(folder.path() / "p_3.png"), "film_side_by_side");
 }
 
@@ -192,8 +192,7 @@ TEST(FilmPictures, WritesPassesBesideItsPictures) {
   const FilmUnderTest film("");
   const TempFolder folder;
   render_film({{film.scene, film.simulation, film.recording}}, std::nullopt, {.range = {.first = 2, .last = 2}},
-              parse_outputs({folder.path().string() + "/", (folder.path() / "p_{}.exr").string()}),
-              Console::of_few_words());
+              parse_outputs({folder.path().string() + "/", (folder.path() / "p_{}.exr").string()}), Console::terse());
   ASSERT_TRUE(std::filesystem::exists(folder.path() / "frame_0002.png"));
   const Passes passes = read_exr(folder.path() / "p_2.exr");
   EXPECT_EQ(passes.width, 320);
@@ -215,7 +214,7 @@ TEST(FilmGolden, Looks) {
   const Film scene = parse_scene(kBar + more, "/scene.toml");
   FilmUnderTest film("");
   film.scene = scene;
-  film.simulation = prepare_simulation(scene, Console::of_few_words());
+  film.simulation = prepare_simulation(scene, Console::terse());
   film.recording = {};
   film.recording.progress = {0};
   film.recording.frames.emplace_back();
@@ -247,7 +246,7 @@ TEST(FilmTransparent, HasAlphaAndNoFloor) {
   const TempFolder folder;
   const Output output = parse_output((folder.path() / "p_{}.png").string());
   render_film({{film.scene, film.simulation, film.recording}}, std::nullopt, {.range = {.first = 1, .last = 1}},
-              {output}, Console::of_few_words());
+              {output}, Console::terse());
   const Image image = read_png(output.picture(1));
   ASSERT_EQ(image.alpha.size(), 320U * 180U);
   EXPECT_EQ(image.alpha.front(), 0);
@@ -257,7 +256,7 @@ TEST(FilmTransparent, HasAlphaAndNoFloor) {
   EXPECT_EQ(error_message([&] {
               render_film({{film.scene, film.simulation, film.recording}}, std::nullopt,
                           {.range = {.first = 1, .last = 1}}, {parse_output((folder.path() / "f.mp4").string())},
-                          Console::of_few_words());
+                          Console::terse());
             }),
             "render.transparent: of films only .mov and .webm have alpha; or give a folder for pictures");
 }
@@ -266,7 +265,7 @@ TEST(FilmFinal, IsDrawnAndOtherQualitiesRefuseItsSamples) {
   const auto draw = [](const std::string& render, const TempFolder& folder) {
     const FilmUnderTest film(render);
     render_film({{film.scene, film.simulation, film.recording}}, std::nullopt, {.range = {.first = 1, .last = 1}},
-                {parse_output((folder.path() / "p_{}.png").string())}, Console::of_few_words());
+                {parse_output((folder.path() / "p_{}.png").string())}, Console::terse());
     return read_png(folder.path() / "p_1.png");
   };
   const TempFolder folder;

@@ -89,7 +89,7 @@ brick_size = "1 cm"
 material = { young = "20 kPa", poisson = 0.4, density = 1000 }
 )");
   Film scene = read_scene(file);
-  const auto set = [&](std::string_view path, std::string_view text) { set_where_open(scene, file, path, text); };
+  const auto set = [&](std::string_view path, std::string_view text) { set_if_unset(scene, file, path, text); };
   set("fps", "25");
   set("duration", "2 s");
   set("render.caption", "ACME");

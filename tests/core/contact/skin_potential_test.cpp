@@ -110,7 +110,7 @@ TEST_F(SkinPotentialTest, OwnPartsBoundTheCouplings) {
       }
       EXPECT_LE(coupled, bound * (1 + 1e-9)) << trial;
       if (trial > 0) continue;
-      EXPECT_NEAR(coupled, bound, 0.25 * bound);  // corners just outside a triangle count twice
+      EXPECT_NEAR(coupled, bound, 0.05 * bound);  // corners just outside a triangle count twice
     }
   }
 }

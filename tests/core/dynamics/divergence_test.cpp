@@ -23,7 +23,7 @@ World world_of_box(const Eigen::Vector3i& counts = {4, 4, 4}) {
 }
 
 void expect_remedy(const World& world, const std::string& remedy, std::size_t brick = 0) {
-  const std::string given = remedy_for_divergence(world, 0, brick);
+  const std::string given = advice_for_divergence(world, 0, brick);
   EXPECT_NE(given.find(remedy), std::string::npos) << given;
 }
 

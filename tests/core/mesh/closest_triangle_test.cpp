@@ -13,7 +13,7 @@ TEST(NearestTriangle, FindsFacesEdgesAndCorners) {
   Triangles triangles(3, 3);
   triangles << 0, 1, 1, 0, 1, 2, 0, 2, 3;  // the first has no area
   const NearestTriangle surface(points, triangles);
-  const SurfacePlace face = surface.at(Vec3(0.25, 0.25, -2));
+  const SurfaceProjection face = surface.at(Vec3(0.25, 0.25, -2));
   EXPECT_EQ(face.triangle, 1);
   EXPECT_LT((face.point - Vec3(0.25, 0.25, 0)).norm(), 1e-12);
   EXPECT_NEAR(face.distance, 2, 1e-12);
@@ -33,7 +33,7 @@ TEST(NearestTriangle, NothingIsNearer) {
   const NearestTriangle surface(points, triangles);
   for (int round = 0; round < 200; ++round) {
     const Vec3 place(number(random), number(random), number(random));
-    const SurfacePlace found = surface.at(place);
+    const SurfaceProjection found = surface.at(place);
     EXPECT_NEAR((found.point - place).norm(), found.distance, 1e-12);
     for (int t = 0; t < 30; ++t) {
       const Vec3 middle = (points.row(3 * t) + points.row(3 * t + 1) + points.row(3 * t + 2)).transpose() / 3;

@@ -50,20 +50,20 @@ using Corners = std::array<Vec3, 3>;
 const Corners kFloor{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 0, 1)};
 
 TEST(Crossings, TrianglesCrossWhereTheyHaveAPointInCommon) {
-  EXPECT_TRUE(do_cross(kFloor, {Vec3(0.2, -1, 0.2), Vec3(0.2, 1, 0.2), Vec3(0.3, 1, 0.2)}));
-  EXPECT_FALSE(do_cross(kFloor, {Vec3(2, -1, 0.2), Vec3(2, 1, 0.2), Vec3(2.1, 1, 0.2)}));
-  EXPECT_TRUE(do_cross(kFloor, {Vec3(0.2, 0, 0.2), Vec3(0.2, 1, 0.2), Vec3(0.3, 1, 0.2)})) << "touches";
-  EXPECT_FALSE(do_cross(kFloor, {Vec3(0.2, 1e-17, 0.2), Vec3(0.2, 1, 0.2), Vec3(0.3, 1, 0.2)})) << "does not quite";
-  EXPECT_TRUE(do_cross(kFloor, {Vec3(0.1, 0, 0.1), Vec3(3, 0, 0.1), Vec3(3, 0, 3)})) << "in one plane";
-  EXPECT_FALSE(do_cross(kFloor, {Vec3(0.6, 0, 0.6), Vec3(3, 0, 0.6), Vec3(3, 0, 3)})) << "beside, in one plane";
+  EXPECT_TRUE(do_intersect(kFloor, {Vec3(0.2, -1, 0.2), Vec3(0.2, 1, 0.2), Vec3(0.3, 1, 0.2)}));
+  EXPECT_FALSE(do_intersect(kFloor, {Vec3(2, -1, 0.2), Vec3(2, 1, 0.2), Vec3(2.1, 1, 0.2)}));
+  EXPECT_TRUE(do_intersect(kFloor, {Vec3(0.2, 0, 0.2), Vec3(0.2, 1, 0.2), Vec3(0.3, 1, 0.2)})) << "touches";
+  EXPECT_FALSE(do_intersect(kFloor, {Vec3(0.2, 1e-17, 0.2), Vec3(0.2, 1, 0.2), Vec3(0.3, 1, 0.2)})) << "does not quite";
+  EXPECT_TRUE(do_intersect(kFloor, {Vec3(0.1, 0, 0.1), Vec3(3, 0, 0.1), Vec3(3, 0, 3)})) << "in one plane";
+  EXPECT_FALSE(do_intersect(kFloor, {Vec3(0.6, 0, 0.6), Vec3(3, 0, 0.6), Vec3(3, 0, 3)})) << "beside, in one plane";
 }
 
 TEST(Crossings, TrianglesWithoutAreaAreSegments) {
   const Corners needle{Vec3(0.2, -1, 0.2), Vec3(0.2, 1, 0.2), Vec3(0.2, 0.5, 0.2)};
-  EXPECT_TRUE(do_cross(kFloor, needle));
-  EXPECT_TRUE(do_cross(needle, kFloor));
-  EXPECT_TRUE(do_cross(needle, {Vec3(0, 0, 0.2), Vec3(1, 0, 0.2), Vec3(0.5, 0, 0.2)}));
-  EXPECT_FALSE(do_cross(kFloor, {Vec3(2, -1, 0.2), Vec3(2, 1, 0.2), Vec3(2, 0, 0.2)}));
+  EXPECT_TRUE(do_intersect(kFloor, needle));
+  EXPECT_TRUE(do_intersect(needle, kFloor));
+  EXPECT_TRUE(do_intersect(needle, {Vec3(0, 0, 0.2), Vec3(1, 0, 0.2), Vec3(0.5, 0, 0.2)}));
+  EXPECT_FALSE(do_intersect(kFloor, {Vec3(2, -1, 0.2), Vec3(2, 1, 0.2), Vec3(2, 0, 0.2)}));
 }
 
 TEST(Crossings, BoxesInEachOtherAreAsDeepAsTheyOverlap) {

@@ -1,4 +1,4 @@
-#include "app/scene/carrying_material.h"
+#include "app/scene/supporting_material.h"
 
 #include <gtest/gtest.h>
 
@@ -27,9 +27,9 @@ const Vec3 kGravity(0, -9.81, 0);
 
 /// The chosen material supports the body, as confirmed by a scene with finer bricks and the ordinary static scheme; the
 /// next softer elastomer of the library does not.
-TEST(CarryingMaterial, IsTheSoftestInWhichTheBodyKeepsItsShape) {
+TEST(SupportingMaterial, IsTheSoftestInWhichTheBodyKeepsItsShape) {
   const auto chosen =
-      softest_carrying(column(0.1, 0.32), Support::kStands, kGravity, false, *built_in_materials(), Observer());
+      softest_supporting(column(0.1, 0.32), Support::kStands, kGravity, false, *built_in_materials(), Observer());
   ASSERT_TRUE(chosen);
   EXPECT_LE(chosen->sag, 0.04);
   const auto sag_of = [](const LibraryMaterial& material, Solver scheme) {
@@ -71,42 +71,42 @@ SceneBody leaning_rod() {
 }
 
 /// A clamped column buckles under its own weight if rho g A L^3 / (E I) > 7.84 (Greenhill 1881). For twice its weight.
-double buckling_load(const CarryingMaterial& chosen, double gravity) {
+double buckling_load(const SupportingMaterial& chosen, double gravity) {
   return 2 * gravity * chosen.material->density * 12 * chosen.size * std::pow(kLength / kWidth, 2) /
          chosen.material->young;
 }
 constexpr double kBuckling = 7.84 * 1.2;  // its foot is fixed, so the free length is a little shorter
 
-TEST(CarryingMaterial, CarriesTwiceItsWeightWithoutBuckling) {
+TEST(SupportingMaterial, CarriesTwiceItsWeightWithoutBuckling) {
   const auto chosen =
-      softest_carrying(leaning_rod(), Support::kStands, kGravity, false, *built_in_materials(), Observer());
+      softest_supporting(leaning_rod(), Support::kStands, kGravity, false, *built_in_materials(), Observer());
   ASSERT_TRUE(chosen);
   EXPECT_LT(buckling_load(*chosen, 9.81), kBuckling);
 }
 
 /// A rod that no elastomer supports at 20 cm stands if it is smaller: sag grows with the size.
-TEST(CarryingMaterial, MakesSlenderBodiesSmaller) {
+TEST(SupportingMaterial, MakesSlenderBodiesSmaller) {
   const Vec3 heavy = 10 * kGravity;
-  EXPECT_FALSE(softest_carrying(leaning_rod(), Support::kStands, heavy, false, *built_in_materials(), Observer()));
+  EXPECT_FALSE(softest_supporting(leaning_rod(), Support::kStands, heavy, false, *built_in_materials(), Observer()));
   const auto smaller =
-      softest_carrying(leaning_rod(), Support::kStands, heavy, true, *built_in_materials(), Observer());
+      softest_supporting(leaning_rod(), Support::kStands, heavy, true, *built_in_materials(), Observer());
   ASSERT_TRUE(smaller);
   EXPECT_LT(smaller->size, 0.11);
   EXPECT_LT(buckling_load(*smaller, 98.1), kBuckling);
 }
 
 /// Hanging bodies do not buckle, so a softer material supports them.
-TEST(CarryingMaterial, HangsInASofterOneThanItStandsIn) {
+TEST(SupportingMaterial, HangsInASofterOneThanItStandsIn) {
   const auto standing =
-      softest_carrying(leaning_rod(), Support::kStands, kGravity, false, *built_in_materials(), Observer());
+      softest_supporting(leaning_rod(), Support::kStands, kGravity, false, *built_in_materials(), Observer());
   const auto hanging =
-      softest_carrying(leaning_rod(), Support::kHangs, kGravity, false, *built_in_materials(), Observer());
+      softest_supporting(leaning_rod(), Support::kHangs, kGravity, false, *built_in_materials(), Observer());
   ASSERT_TRUE(standing && hanging);
   EXPECT_LT(hanging->material->young, 0.5 * standing->material->young);
 }
 
 /// For a bare mesh for which no material is named.
-TEST(CarryingMaterial, IsWrittenIntoTheScene) {
+TEST(SupportingMaterial, IsWrittenIntoTheScene) {
   const TempFolder folder;
   static_cast<void>(folder.write("cube.obj", kCubeObj));
   const ProgramRun run = run_program(folder, "animate cube.obj --print-scene");
@@ -122,7 +122,7 @@ TEST(CarryingMaterial, IsWrittenIntoTheScene) {
 }
 
 /// Bodies of a scene that name none: one stands, a similar one hangs by a pin. Those with regions or a name keep it.
-TEST(CarryingMaterial, IsChosenForTheBodiesOfASceneThatNameNone) {
+TEST(SupportingMaterial, IsChosenForTheBodiesOfASceneThatNameNone) {
   const TempFolder folder;
   const std::string rod = "[[body]]\nbox = [0.0125, 0.2, 0.0125]\nbricks = 16\nrotation = [0, 0, 0.1]\n";
   static_cast<void>(

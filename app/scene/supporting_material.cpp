@@ -1,4 +1,4 @@
-#include "app/scene/carrying_material.h"
+#include "app/scene/supporting_material.h"
 
 #include <fmt/format.h>
 
@@ -186,9 +186,9 @@ class StandingBody {
 
 }  // namespace
 
-std::optional<CarryingMaterial> softest_carrying(const SceneBody& body, Support support, const Vec3& gravity,
-                                                 bool may_shrink, const MaterialLibrary& library,
-                                                 const Observer& observer) {
+std::optional<SupportingMaterial> softest_supporting(const SceneBody& body, Support support, const Vec3& gravity,
+                                                     bool may_shrink, const MaterialLibrary& library,
+                                                     const Observer& observer) {
   const std::vector<const LibraryMaterial*> materials = elastomers(library);
   if (materials.empty()) return std::nullopt;
   Progress progress(observer, "material");
@@ -224,7 +224,7 @@ std::optional<CarryingMaterial> softest_carrying(const SceneBody& body, Support 
     };
     const auto softest = std::partition_point(materials.begin(), materials.end(), fails);
     if (softest == materials.end()) continue;
-    return CarryingMaterial{
+    return SupportingMaterial{
         .material = *softest, .size = scale * size, .sag = sag / size, .bricks = bricks_for_film(count)};
   }
   return std::nullopt;
@@ -234,10 +234,10 @@ void choose_materials(Film& film, const Observer& observer) {
   for (std::size_t row = 0; row < film.bodies.size(); ++row) {
     SceneBody& body = film.bodies[row];
     if (body.material.name != kAutoMaterial) continue;
-    std::optional<CarryingMaterial> found;
+    std::optional<SupportingMaterial> found;
     if (body.regions.empty() && film.gravity.norm() > 0) {
       const Support support = body.pins.empty() ? Support::kStands : Support::kPins;
-      found = softest_carrying(body, support, film.gravity, false, *film.library, observer);
+      found = softest_supporting(body, support, film.gravity, false, *film.library, observer);
     }
     body.material = found ? found->material->material() : built_in_materials()->find(kDefaultMaterial).material();
     const std::string why = found ? fmt::format("the softest that keeps its shape (sags {:.1f} %)", 100 * found->sag)

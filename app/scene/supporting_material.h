@@ -7,7 +7,7 @@
 namespace sprung {
 
 /// The result of a search for the softest gelatin, silicone or rubber of a library in which a body keeps its shape.
-struct CarryingMaterial {
+struct SupportingMaterial {
   const LibraryMaterial* material = nullptr;
   double size = 0;  // m, longest side of the body: smaller than requested if no material supports it at that size
   double sag = 0;   // largest displacement of a node under its own weight over the size
@@ -28,14 +28,14 @@ enum class Support {
 /// bricks or fewer serves all materials and sizes, and bisection finds the heaviest load that is supported.
 /// `may_shrink`: whether the size (m) may be halved up to four times. None if nothing supports it. Throws
 /// Error(kBadInput) for a bad mesh.
-[[nodiscard]] std::optional<CarryingMaterial> softest_carrying(const SceneBody& body, Support support,
-                                                               const Vec3& gravity, bool may_shrink,
-                                                               const MaterialLibrary& library,
-                                                               const Observer& observer);
+[[nodiscard]] std::optional<SupportingMaterial> softest_supporting(const SceneBody& body, Support support,
+                                                                   const Vec3& gravity, bool may_shrink,
+                                                                   const MaterialLibrary& library,
+                                                                   const Observer& observer);
 
 /// Gives the bodies of kAutoMaterial the softest material that supports them at their size, fixed at their pins if they
 /// have any, else standing; those that none supports, that have regions of other materials, or that nothing pulls down,
-/// get kDefaultMaterial. The choice is reported to the observer. Throws like softest_carrying().
+/// get kDefaultMaterial. The choice is reported to the observer. Throws like softest_supporting().
 void choose_materials(Film& film, const Observer& observer);
 
 }  // namespace sprung
