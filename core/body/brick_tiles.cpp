@@ -148,9 +148,9 @@ Box bounds_of(const BrickGrid& grid, std::span<const int> bricks) {
 /// The number of equal parts of at most `most` into which a length is divided.
 int parts_of(int length, int most) { return (length + most - 1) / most; }
 
-/// Indices from one row of nodes to the next. No pack of any width holds nodes of two rows, else the order in which the
-/// forces on a node add up would depend on the width, and so would the last bits.
-int pitch_of(int bricks_along_x) { return std::max(bricks_along_x + 1, kPackPadding); }
+/// Indices from one row of nodes to the next. No pack of any width, with the neighbour behind it, holds nodes of two
+/// rows, else the order in which the forces on a node add up would depend on the width, and so would the last bits.
+int pitch_of(int bricks_along_x) { return std::max(bricks_along_x, kPackPadding) + 1; }
 
 /// The parts of a box of this size along each axis: two planes of nodes fit a core's own cache.
 Cell cuts_of(const Cell& size) {
