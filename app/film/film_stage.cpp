@@ -9,7 +9,7 @@
 #include "app/film/overlays.h"
 #include "core/appearance.h"
 #include "core/bricks/embedding.h"
-#include "core/simulation/soft_body.h"
+#include "core/world/make_soft_body.h"
 #include "render/brick_cubes.h"
 
 namespace sprung {

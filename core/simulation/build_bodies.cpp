@@ -16,11 +16,11 @@
 #include "core/simulation/selector.h"
 #include "core/simulation/simulation.h"
 #include "core/simulation/skin_supports.h"
-#include "core/simulation/soft_body.h"
 #include "core/skin/skin.h"
 #include "core/text.h"
 #include "core/types.h"
 #include "core/units.h"
+#include "core/world/make_soft_body.h"
 
 namespace sprung {
 namespace {

@@ -14,7 +14,7 @@
 #include "core/dynamics/explicit/adaptive_integrator.h"
 #include "core/error.h"
 #include "core/mesh/io/read_mesh.h"
-#include "core/simulation/soft_body.h"
+#include "core/world/make_soft_body.h"
 #include "tests/soak/dice.h"
 #include "tests/support/meshes.h"
 

@@ -1,4 +1,4 @@
-#include "core/simulation/soft_body.h"
+#include "core/world/make_soft_body.h"
 
 #include <algorithm>
 #include <cmath>
