@@ -1,5 +1,6 @@
 #pragma once
 #include "core/body/brick_measures.h"
+#include "core/simulation/origin.h"
 #include "core/simulation/probe_sample.h"
 #include "core/world/world.h"
 
