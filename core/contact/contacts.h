@@ -1,6 +1,5 @@
 #pragma once
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "core/contact/search/group.h"
@@ -35,9 +34,6 @@ struct ContactList {
   std::vector<Contact> list;
   std::vector<Share> shares;
 
-  [[nodiscard]] std::span<const Share> shares_of(const Contact& contact) const {
-    return std::span(shares).subspan(contact.first, contact.last - contact.first);
-  }
   void clear() {
     list.clear();
     shares.clear();

@@ -13,7 +13,7 @@ namespace sprung {
 [[nodiscard]] std::vector<double> contact_stiffness(const SoftBody& body, const ContactSurface& skin);
 
 /// The same for two bodies in contact: that of the softer brick.
-[[nodiscard]] double pair_stiffness(double hardness, const Body& body, int brick, const Body& other, int other_brick);
+[[nodiscard]] double pair_stiffness(double stiffness, const Body& body, int brick, const Body& other, int other_brick);
 
 /// The stiffness of a point that is glued to another body at these bricks, N/m.
 [[nodiscard]] double glue_stiffness(const Body& body, int brick, const Body& other, int other_brick);

@@ -8,7 +8,7 @@
 
 namespace sprung {
 
-/// The nodes of a body that a pin of the scene holds.
+/// The nodes of a body pinned by a pin of the scene.
 struct PinnedNodes {
   std::size_t pin = 0;  // row in SceneBody::pins
   std::vector<int> nodes;
@@ -27,9 +27,9 @@ struct PinnedSkin {
 struct ForcedPart {
   std::size_t force = 0;                   // row in SceneBody::forces
   Eigen::VectorXd shares{};                // per node: of the volume of the part, m^3, or of the area of its skin, m^2
-  Points arms{};                           // m x 3, m^3: those of the area times their places; 0 rows: not of an area
-  Mat3 second = Mat3::Zero();              // m^4: place place^T over the area
-  std::shared_ptr<const SkinPart> skin{};  // of a pressure, in place of these
+  Points arms{};                           // m x 3, m^3: of the area times positions; 0 rows: not of an area
+  Mat3 second = Mat3::Zero();              // m^4: position position^T over the area
+  std::shared_ptr<const SkinPart> skin{};  // of a pressure, instead of these
 };
 
 /// The bricks of a body that form a muscle of the scene.
@@ -63,7 +63,7 @@ struct Origin {
   [[nodiscard]] std::vector<int> pinned_nodes() const;
 };
 
-/// Those of the bricks, by body.
+/// The regions of the bricks, by body.
 [[nodiscard]] std::vector<std::vector<int>> regions_of(const std::vector<Origin>& origins);
 
 }  // namespace sprung

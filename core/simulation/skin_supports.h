@@ -14,7 +14,7 @@ namespace sprung {
 
 /// Adds the springs that hold pinned skins of a body, moved by their pins from rest to a `time` (s) of the film; with
 /// `small`, to first order. A spring per area is kFoundation times as stiff as the outermost layer of bricks under it,
-/// E / h: it adds the give of a hundredth of a brick to a support, and still lets the solvers converge.
+/// E / h: it adds the compliance of a hundredth of a brick to a support, and still lets the solvers converge.
 void add_skin_supports(const Scene& scene, const Origin& origin, const Body& body, double time, bool small,
                        Supports& supports);
 

@@ -6,7 +6,7 @@
 
 namespace sprung {
 
-/// `grid`: the bricks of one solid of the mesh (m). The body is at rest in the place of its grid; its contact points
+/// `grid`: the bricks of one solid of the mesh (m). The body is at rest in the pose of its grid; its contact points
 /// are those of its skin, as fine as its bricks can follow; none without `can_touch`. Deterministic.
 [[nodiscard]] SoftBody make_soft_body(const SurfaceMesh& mesh, const Solid& solid, BrickGrid grid, Model model,
                                       const Material& material, bool can_touch = true);
