@@ -59,7 +59,7 @@ bool CrossingGuard::find_met(double dt) {
     if (is_left_alone(pair)) continue;
     Eigen::Vector4d speeds;
     for (int corner = 0; corner < 4; ++corner) speeds[corner] = pair.normal.dot(near_.known_velocity(pair, corner));
-    if (!may_meet(pair, speeds, dt)) continue;
+    if (!may_meet(pair, speeds, dt) || !can_be_moved(pair)) continue;
     has_found = true;
     if (!is_met_[row]) met_.push_back(row);
     is_met_[row] = true;
@@ -103,6 +103,13 @@ bool CrossingGuard::is_pinned(const AwakePair& pair, int corner) const {
   bool is_pinned = true;
   near_.each_node(pair, corner, [&](std::size_t row, int node, double) { is_pinned &= inverse_mass(row, node) == 0; });
   return is_pinned;
+}
+
+bool CrossingGuard::can_be_moved(const AwakePair& pair) const {
+  for (int corner = 0; corner < 4; ++corner) {
+    if (!is_pinned(pair, corner)) return true;
+  }
+  return false;
 }
 
 void CrossingGuard::push(const AwakePair& pair, const Eigen::Vector4d& speeds, const Eigen::Vector4d& weights,

@@ -35,6 +35,7 @@ class CrossingGuard {
   }
   /// Whether no impulse can move it.
   [[nodiscard]] bool is_pinned(const AwakePair& pair, int corner) const;
+  [[nodiscard]] bool can_be_moved(const AwakePair& pair) const;
   /// Whether velocities were changed and the pairs must be checked again; false if it fails.
   bool keep_apart(double dt);
   [[nodiscard]] bool may_meet(const AwakePair& pair, const Eigen::Vector4d& speeds, double dt) const;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/contact/pairs/closest_features.h"
+#include "core/contact/search/segment_crossing.h"
 
 namespace sprung {
 namespace {
@@ -17,6 +18,11 @@ constexpr double kSame = 1e-3;  // bricks by which two triangles are about as ne
 
 /// Whether the nearest points of two edges are at an end of one: such contacts are left to points.
 bool is_at_end(const AwakePair& edges) { return edges.weights.cwiseAbs().minCoeff() <= kBeside; }
+
+/// Whether the nearest point of a triangle is on one of its sides.
+bool is_beside(const AwakePair& pair) { return pair.weights.tail<3>().maxCoeff() >= -kBeside; }
+
+const Vec3 kSkew(0.3713, 0.4832, 0.7931);  // of rays, which seldom meet an edge then
 
 /// Whether the boxes around two sets of points come within `margin` of each other.
 template <std::size_t N, std::size_t M>
@@ -38,6 +44,7 @@ FeaturePairs::FeaturePairs(SurfaceTree& a, SurfaceTree& b, std::array<std::size_
       friction_(friction),
       brick_(std::min(a.body().grid.brick_size, b.body().grid.brick_size)),
       nearest_{std::vector<Nearest>(a.skin().points.size()), std::vector<Nearest>(b.skin().points.size())},
+      inside_{std::vector<Inside>(a.skin().points.size()), std::vector<Inside>(b.skin().points.size())},
       loaded_{std::vector<long>(std::size_t(a.body().node_count()), -1),
               std::vector<long>(std::size_t(b.body().node_count()), -1)},
       front_(a, b, kNear * brick_, *this, &a == &b ? Facing::kNeeded : Facing::kIgnored) {}
@@ -121,22 +128,48 @@ AwakePair FeaturePairs::measure(const FeaturePair& pair) {
           .friction = friction_};
 }
 
-bool FeaturePairs::have_crossed(const AwakePair& edges) {
+bool FeaturePairs::pierces(const AwakePair& edges, int edge) {
+  const int other = 2 - edge;
+  const auto& corners = edges.pair.corners;
+  const auto place = [&](int i) { return tree(edges.pair.side(i)).place_of(corners[i]); };
+  SurfaceTree& across = tree(edges.pair.side(other));
+  const ContactSurface& skin = across.skin();
+  for (const int third : skin.opposite[skin.row_of_edge(corners[other], corners[other + 1])]) {
+    if (third < 0 || (is_self() && (third == corners[edge] || third == corners[edge + 1]))) continue;
+    const int crossing =
+        segment_crossing(place(edge), place(edge + 1), place(other), place(other + 1), across.place_of(third));
+    if (crossing != 0) return true;
+  }
+  return false;
+}
+
+bool FeaturePairs::face_apart(const AwakePair& edges) {
   const auto normal = [&](int i) { return tree(edges.pair.side(i)).normal_of(edges.pair.corners[i]); };
   return (normal(2) + normal(3) - normal(0) - normal(1)).dot(edges.normal) < 0;
 }
 
-bool FeaturePairs::flip_if_inside(AwakePair& pair) {
+Vec3 FeaturePairs::outward_normal(const AwakePair& pair) {
   const auto place = [&](int i) { return tree(pair.pair.side(i)).place_of(pair.pair.corners[i]); };
-  const Vec3 outward = (place(2) - place(1)).cross(place(3) - place(1));
-  if (outward.dot(pair.normal) >= 0) return true;
-  pair.normal = outward.normalized();
-  pair.gap = -pair.gap;
-  return pair.weights.tail<3>().maxCoeff() < -kBeside;
+  return (place(2) - place(1)).cross(place(3) - place(1));
+}
+
+bool FeaturePairs::is_inside(const AwakePair& pair) {
+  if (is_beside(pair) || outward_normal(pair).dot(pair.normal) >= 0) return false;
+  const int point = pair.pair.corners[0];
+  Inside& inside = inside_[pair.pair.first][point];
+  if (inside.look != look_) {
+    SurfaceTree& ours = tree(pair.pair.first);
+    const Vec3& place = ours.place_of(point);
+    const int turns = is_self() ? ours.winding_number(place, ours.normal_of(point), point)
+                                : tree(1 - pair.pair.first).winding_number(place, kSkew);
+    inside = {look_, turns > 0};
+  }
+  return inside.value;
 }
 
 void FeaturePairs::wake() {
   static_cast<void>(front_.advance());
+  ++look_;
   woken_.clear();
   measured_.clear();
   for (NearList& list : lists_) {
@@ -181,27 +214,35 @@ void FeaturePairs::look_at(Sleeper& sleeper, double closer, double coming) {
   const bool is_point = pair.pair.count == 1;
   const double reach = is_point ? kGuardedGap : is_at_end(pair) ? 0 : kGuardedEdges;
   const double way = distance_until_due(pair.gap, reach * brick_, brick_);
-  const bool is_told = is_point ? flip_if_inside(pair) : !have_crossed(pair);
-  const bool is_asleep = way > coming && sleeper.impulse.isZero(0) && !(is_told && pair.gap < 0);
+  if (is_point) {
+    sleeper.is_inside = is_inside(pair);
+    orient(pair, sleeper.is_inside);
+  }
+  const bool is_asleep = way > coming && sleeper.impulse.isZero(0) && pair.gap > 0;
   sleeper.wake = is_asleep ? closer + way : closer;
-  if (is_asleep || !is_told) return;
+  if (is_asleep || (!is_point && (pierces(pair, 0) || pierces(pair, 2)))) return;
   pair.is_loaded = !sleeper.impulse.isZero(0);
   woken_.push_back({&sleeper, coming});
   measured_.push_back(pair);
+}
+
+void FeaturePairs::orient(AwakePair& pair, bool is_inside) {
+  const Vec3 outward = outward_normal(pair);
+  if (outward.dot(pair.normal) >= 0) return;
+  pair.may_support = !is_beside(pair);
+  if (!is_inside || !pair.may_support) return;
+  pair.normal = outward.normalized();
+  pair.gap = -pair.gap;
 }
 
 void FeaturePairs::measure(std::vector<AwakePair>& awake) {
   measured_.clear();
   for (Sleeper* sleeper : awake_) {
     AwakePair pair = measure(sleeper->pair);
-    const AwakePair outside = pair;
-    // A point that has passed the edge of its triangle since it was woken cannot be supported by it, but still must not
-    // cross it.
-    const bool is_beside = pair.pair.count == 1 && !flip_if_inside(pair);
-    measured_.push_back(is_beside ? outside : pair);
-    measured_.back().may_support = !is_beside;
-    measured_.back().is_loaded = !sleeper->impulse.isZero(0);
-    measured_.back().impulse = &sleeper->impulse;
+    if (pair.pair.count == 1) orient(pair, sleeper->is_inside);
+    pair.is_loaded = !sleeper->impulse.isZero(0);
+    pair.impulse = &sleeper->impulse;
+    measured_.push_back(pair);
   }
   choose_supports(measured_);
   for (const AwakePair& pair : measured_) {
@@ -226,10 +267,9 @@ void FeaturePairs::choose_supports(std::vector<AwakePair>& pairs) {
   for (std::size_t row = 0; row < pairs.size(); ++row) {
     AwakePair& pair = pairs[row];
     if (pair.pair.count == 2) {
-      pair.may_support = !is_at_end(pair);
+      pair.may_support = !is_at_end(pair) && !face_apart(pair);
     } else if (pair.may_support) {
-      const bool is_beside = pair.weights.tail<3>().maxCoeff() > -kBeside;
-      pair.may_support = nearest_of(pair).row == row || (pair.gap > 0 && !is_beside);
+      pair.may_support = nearest_of(pair).row == row || (pair.gap > 0 && !is_beside(pair));
     }
   }
 }

@@ -10,7 +10,7 @@ namespace sprung {
 /// The points and triangles, and the edges, of two surfaces, or of one with itself, that may meet in the steps to come.
 /// Those further apart sleep until the front can no longer exclude that they have come closer by more than
 /// distance_until_due(), unless they carry a load. Excluded: features of one surface whose bricks share a node, and
-/// edges that have crossed. A point behind its triangle is inside the surface if that triangle is the nearest one.
+/// edges one of which passes through a triangle at the other: they have crossed.
 class FeaturePairs : private NearLists {
  public:
   /// For the bodies `bodies`; their trees, the same twice for one with itself, must outlive it.
@@ -28,6 +28,7 @@ class FeaturePairs : private NearLists {
     FeaturePair pair;
     double wake = 0;              // m, by which its block may come closer before it must be checked
     Vec3 impulse = Vec3::Zero();  // N s
+    bool is_inside = false;       // the point, in the other surface, when last looked at
   };
   struct NearList {
     std::size_t block = 0;
@@ -42,6 +43,12 @@ class FeaturePairs : private NearLists {
     bool is_loaded = false;
   };
 
+  /// By point of a skin: whether it is inside the other.
+  struct Inside {
+    long look = -1;
+    bool value = false;
+  };
+
   bool fill(const NearBricks& bricks) override;
   bool clear(int list) override;
   void clear() override { lists_.clear(); }
@@ -51,10 +58,19 @@ class FeaturePairs : private NearLists {
   void list_points(std::size_t side, int points_of, int triangles_of, double margin, NearList& list);
   void list_edges(int edges_of, int others_of, double margin, NearList& list);
   [[nodiscard]] AwakePair measure(const FeaturePair& pair);
-  /// Whether two edges have crossed.
-  [[nodiscard]] bool have_crossed(const AwakePair& edges);
-  /// Flips the pair if the point is behind the triangle; false if that is undecided, beside the triangle.
-  [[nodiscard]] bool flip_if_inside(AwakePair& pair);
+  /// Whether one of two edges passes through a triangle at the other: that of the pair's first corners if `edge` is 0,
+  /// of its last if it is 2.
+  [[nodiscard]] bool pierces(const AwakePair& edges, int edge);
+  /// Whether the surfaces at two edges face away from each other, so that one lies inside the other's.
+  [[nodiscard]] bool face_apart(const AwakePair& edges);
+  /// Of the pair's triangle, of any length.
+  [[nodiscard]] Vec3 outward_normal(const AwakePair& pair);
+  /// Whether the pair's point is behind the triangle and inside its surface. A point behind a triangle can be outside:
+  /// the body may have been flattened until it is inside out there.
+  [[nodiscard]] bool is_inside(const AwakePair& pair);
+  /// Turns a pair around whose point is inside. A point behind the triangle and beside it cannot be supported by it,
+  /// but still must not cross it.
+  void orient(AwakePair& pair, bool is_inside);
   [[nodiscard]] bool are_connected(std::size_t point, std::size_t other) const;
   /// Checks a pair that is due: it continues to sleep, or is woken unless it is excluded.
   void look_at(Sleeper& sleeper, double closer, double coming);
@@ -79,7 +95,9 @@ class FeaturePairs : private NearLists {
   std::vector<Woken> woken_;
   std::vector<AwakePair> measured_;
   std::array<std::vector<Nearest>, 2> nearest_;  // by side of the point
-  std::array<std::vector<long>, 2> loaded_;      // by side and node
+  std::array<std::vector<Inside>, 2> inside_;    // likewise
+  long look_ = 0;
+  std::array<std::vector<long>, 2> loaded_;  // by side and node
   long step_ = 0;
   ContactFront front_;
 };

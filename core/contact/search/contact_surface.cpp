@@ -134,6 +134,18 @@ void ContactSurface::add_edges() {
   std::vector<int> brick_of_edge;
   for (const auto& [low, high] : edges) brick_of_edge.push_back(points[low].brick);
   first_edge = starts_of(bricks, brick_of_edge);
+  opposite.assign(edges.size(), {-1, -1});
+  for (const std::array<int, 3>& corners : triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto [low, high] = std::minmax(corners[i], corners[(i + 1) % 3]);
+      auto& [first, second] = opposite[row_of_edge(low, high)];
+      (first < 0 ? first : second) = corners[(i + 2) % 3];
+    }
+  }
+}
+
+std::size_t ContactSurface::row_of_edge(int low, int high) const {
+  return std::lower_bound(edges.begin(), edges.end(), std::array{low, high}) - edges.begin();
 }
 
 Vec3 carried_normal(const Body& body, int brick, const Vec3& normal) {

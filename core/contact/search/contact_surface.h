@@ -30,11 +30,15 @@ struct ContactSurface {
   std::vector<int> first_triangle;            // b + 1
   std::vector<std::array<int, 2>> edges;      // of the triangles, each once; grouped by the brick of the first point
   std::vector<int> first_edge;                // b + 1
+  std::vector<std::array<int, 2>> opposite;   // by edge: the third corners of its two triangles; -1: none
   Points normals;                             // n x 3, at rest, unit, outward; 0 without triangles
   std::vector<NormalCone> cones;              // b
   /// By row of a brick, ascending: the rows of those connected to it or to a common neighbour. Their skins cannot meet
   /// without a fold within a brick or two.
   std::vector<std::vector<int>> neighbours;  // b
+
+  /// The row of the edge between two points, of which `low` is the smaller.
+  [[nodiscard]] std::size_t row_of_edge(int low, int high) const;
 
  private:
   /// Returns the index in points of each of the embedding's.

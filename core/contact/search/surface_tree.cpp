@@ -9,6 +9,7 @@
 
 #include "core/body/body.h"
 #include "core/contact/search/rigid_motion.h"
+#include "core/contact/search/segment_crossing.h"
 
 namespace sprung {
 namespace {
@@ -32,6 +33,24 @@ NormalCone enclosing(const NormalCone& a, const NormalCone& b) {
     return cone.spread + std::acos(std::clamp(cone.axis.dot(axis), -1.0, 1.0));
   };
   return {axis, std::min(std::max(spread(a), spread(b)), std::numbers::pi)};
+}
+
+/// Whether a segment passes through a box.
+bool meets(const AlignedBox& box, const Vec3& start, const Vec3& end) {
+  double first = 0;
+  double last = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double along = end[axis] - start[axis];
+    if (along == 0) {
+      if (start[axis] < box.min()[axis] || start[axis] > box.max()[axis]) return false;
+      continue;
+    }
+    const double at_min = (box.min()[axis] - start[axis]) / along;
+    const double at_max = (box.max()[axis] - start[axis]) / along;
+    first = std::max(first, std::min(at_min, at_max));
+    last = std::min(last, std::max(at_min, at_max));
+  }
+  return first <= last;
 }
 
 constexpr Eigen::Index kFitted = 64;  // about this many points suffice
@@ -231,6 +250,28 @@ const AlignedBox& SurfaceTree::box(int row) {
   }
   box = {now, step_};
   return box.value;
+}
+
+int SurfaceTree::winding_number(const Vec3& start, const Vec3& direction, int except) {
+  const AlignedBox& all = box(0);
+  const double far = (all.center() - start).norm() + all.diagonal().norm();
+  return crossings(0, start, start + far * direction.normalized(), except);
+}
+
+int SurfaceTree::crossings(int row, const Vec3& start, const Vec3& end, int except) {
+  if (!meets(box(row), start, end)) return 0;
+  const Node& node = nodes_[row];
+  if (!node.is_leaf()) {
+    return crossings(row + 1, start, end, except) + crossings(node.second_child, start, end, except);
+  }
+  const int brick = brick_of(node);
+  int sum = 0;
+  for (int i = skin_.first_triangle[brick]; i < skin_.first_triangle[brick + 1]; ++i) {
+    const auto& [a, b, c] = skin_.triangles[i];
+    if (a == except || b == except || c == except) continue;
+    sum += segment_crossing(start, end, place_of(a), place_of(b), place_of(c));
+  }
+  return sum;
 }
 
 const NormalCone& SurfaceTree::cone(int row) {

@@ -82,12 +82,18 @@ class SurfaceTree {
   [[nodiscard]] const Vec3& place_of(int point);
   [[nodiscard]] const Vec3& normal_of(int point);
   [[nodiscard]] const Vec3& velocity_of(int point);
+  /// How often more a ray from `start` leaves the surface than it enters it: for a closed surface its winding number,
+  /// at least 1 inside, 0 outside, and less where the body is inside out. `direction` of any length; triangles that
+  /// have the point `except` as a corner are left out.
+  [[nodiscard]] int winding_number(const Vec3& start, const Vec3& direction, int except = -1);
 
  private:
   /// By brick of the skin: its middle, and its normal times kNormalWeight, in bricks.
   using Features = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;
   void add_node(int first, int last, int cluster, const Features& features);
   void list_nodes_of_clusters();
+  /// Of the segment from `start` to `end` with the triangles of a subtree.
+  [[nodiscard]] int crossings(int node, const Vec3& start, const Vec3& end, int except);
   /// Computes the motion of every node of the tree from the past and coming displacements of the body's nodes.
   void measure(const Points& moved, const Points& moving, double more, std::vector<Motion>& motions) const;
   /// The same relative to the body's rigid motion.

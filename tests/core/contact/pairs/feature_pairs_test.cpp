@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
+#include <numbers>
 #include <random>
 #include <set>
 
 #include "core/contact/pairs/closest_features.h"
 #include "tests/support/horseshoe.h"
+#include "tests/support/passes_through.h"
 #include "tests/support/touching.h"
 #include "tests/support/waves.h"
 
@@ -20,6 +23,7 @@ using test::test_material;
 using test::touching_box;
 using test::Waves;
 
+constexpr double kPi = std::numbers::pi;
 using Key = std::array<int, 6>;  // count, side of the first feature, corners
 
 /// Two surfaces, or one, on random trajectories, and all pairs of their features.
@@ -84,20 +88,50 @@ class FeatureRace {
     }
     return (most - least) * dt_ > kFreeShare * (gap - kLeastGap * bodies_[0]->grid.brick_size);
   }
-  /// Pairs that have already crossed when they are checked are ignored.
+  /// Pairs that have already crossed when they are checked are ignored: an edge that passes through a triangle at the
+  /// other, and a point behind the triangle and inside its surface.
   void find_crossed() {
     crossed_.clear();
     each_pair([&](const FeaturePair& pair) {
-      const auto x = [&](int corner) { return at(pair, corner, false); };
-      const auto normal = [&](int corner) {
-        const SurfaceTree& tree = trees_[pair.side(corner)];
-        const ContactPoint& point = tree.skin().points[pair.corners[corner]];
-        return carried_normal(tree.body(), point.brick, tree.skin().normals.row(pair.corners[corner]));
-      };
-      const Vec3 outward = pair.count == 1 ? Vec3((x(2) - x(1)).cross(x(3) - x(1)))
-                                           : Vec3(normal(2) + normal(3) - normal(0) - normal(1));
-      if (outward.dot(distance(pair).apart) < 0) crossed_.insert(key_of(pair));
+      const FeatureDistance found = distance(pair);
+      if (found.apart.norm() > bodies_[0]->grid.brick_size) return;
+      const bool has_crossed = pair.count == 1 ? is_inside(pair, found) : pierces(pair, 0) || pierces(pair, 2);
+      if (has_crossed) crossed_.insert(key_of(pair));
     });
+  }
+  [[nodiscard]] bool is_inside(const FeaturePair& pair, const FeatureDistance& found) const {
+    const auto x = [&](int corner) { return at(pair, corner, false); };
+    if ((x(2) - x(1)).cross(x(3) - x(1)).dot(found.apart) >= 0) return false;
+    return is_self() || (found.weights.tail<3>().maxCoeff() < -1e-6 && solid_angle(x(0), pair.side(1)) > 2 * kPi);
+  }
+  /// Of a surface about a point, after van Oosterom and Strackee, IEEE Trans. Biomed. Eng. 30 (1983): 4 pi inside.
+  [[nodiscard]] double solid_angle(const Vec3& point, std::size_t side) const {
+    double sum = 0;
+    const ContactSurface& skin = trees_[side].skin();
+    for (const auto& corners : skin.triangles) {
+      std::array<Vec3, 3> x;
+      for (std::size_t i = 0; i < 3; ++i) {
+        x[i] = (carried(*bodies_[side], skin.points[corners[i]], bodies_[side]->positions) - point).normalized();
+      }
+      sum += 2 * std::atan2(x[0].dot(x[1].cross(x[2])), 1 + x[0].dot(x[1]) + x[1].dot(x[2]) + x[2].dot(x[0]));
+    }
+    return sum;
+  }
+  /// Whether the edge that begins with corner `edge` passes through a triangle at the other one.
+  [[nodiscard]] bool pierces(const FeaturePair& pair, int edge) const {
+    const int other = 2 - edge;
+    const std::size_t side = pair.side(other);
+    const ContactSurface& skin = trees_[side].skin();
+    for (const auto& corners : skin.triangles) {
+      const auto has = [&](int point) { return std::find(corners.begin(), corners.end(), point) != corners.end(); };
+      if (!has(pair.corners[other]) || !has(pair.corners[other + 1])) continue;
+      std::array<Vec3, 3> x;
+      for (std::size_t i = 0; i < 3; ++i) {
+        x[i] = carried(*bodies_[side], skin.points[corners[i]], bodies_[side]->positions);
+      }
+      if (test::passes_through(at(pair, edge, false), at(pair, edge + 1, false), x[0], x[1], x[2])) return true;
+    }
+    return false;
   }
   /// Within one surface, those whose bricks have no neighbour in common.
   template <class Visit>
