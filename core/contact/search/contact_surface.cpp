@@ -46,23 +46,31 @@ std::vector<int> bricks_around(const Body& body, const CornerLists& at_nodes, in
   return around;
 }
 
-std::vector<std::vector<int>> neighbours_among(const std::vector<int>& bricks, const Body& body) {
+/// By row of `bricks`: the rows of those connected to it by at most `links` shared nodes.
+std::vector<std::vector<int>> connected_among(const std::vector<int>& bricks, const Body& body, int links) {
   std::vector<int> row_of(body.grid.nodes.size(), -1);
   for (std::size_t row = 0; row < bricks.size(); ++row) {
     row_of[bricks[row]] = int(row);
   }
   const CornerLists at_nodes = list_corners(body.grid.nodes, body.node_count());
-  std::vector<std::vector<int>> neighbours(bricks.size());
+  std::vector<std::vector<int>> connected(bricks.size());
   for (std::size_t row = 0; row < bricks.size(); ++row) {
-    for (const int between : bricks_around(body, at_nodes, bricks[row])) {
-      for (const int brick : bricks_around(body, at_nodes, between)) {
-        const int other = row_of[brick];
-        if (other >= 0) neighbours[row].push_back(other);
+    std::vector<int> reached{bricks[row]};
+    for (int link = 0; link < links; ++link) {
+      std::vector<int> further;
+      for (const int brick : reached) {
+        const std::vector<int> around = bricks_around(body, at_nodes, brick);
+        further.insert(further.end(), around.begin(), around.end());
       }
+      make_unique(further);
+      reached = std::move(further);
     }
-    make_unique(neighbours[row]);
+    for (const int brick : reached) {
+      if (row_of[brick] >= 0) connected[row].push_back(row_of[brick]);
+    }
+    make_unique(connected[row]);
   }
-  return neighbours;
+  return connected;
 }
 
 }  // namespace
@@ -73,7 +81,8 @@ ContactSurface::ContactSurface(const SoftBody& body) {
   for (std::size_t row = 0; row < bricks.size(); ++row) {
     cones.push_back(cone_of(normals.middleRows(first_point[row], first_point[row + 1] - first_point[row])));
   }
-  neighbours = neighbours_among(bricks, body);
+  connected = connected_among(bricks, body, 1);
+  neighbours = connected_among(bricks, body, 2);
 }
 
 std::vector<int> ContactSurface::add_points(const Embedding& embedding) {

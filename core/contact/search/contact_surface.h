@@ -33,8 +33,10 @@ struct ContactSurface {
   std::vector<std::array<int, 2>> opposite;   // by edge: the third corners of its two triangles; -1: none
   Points normals;                             // n x 3, at rest, unit, outward; 0 without triangles
   std::vector<NormalCone> cones;              // b
-  /// By row of a brick, ascending: the rows of those connected to it or to a common neighbour. Their skins cannot meet
-  /// without a fold within a brick or two.
+  /// By row of a brick, ascending: the rows of those that share a node with it, itself included.
+  std::vector<std::vector<int>> connected;  // b
+  /// Likewise: the rows of those connected to it or to a common neighbour. Their skins cannot meet without a fold
+  /// within a brick or two.
   std::vector<std::vector<int>> neighbours;  // b
 
   /// The row of the edge between two points, of which `low` is the smaller.

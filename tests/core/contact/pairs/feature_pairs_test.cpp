@@ -133,14 +133,13 @@ class FeatureRace {
     }
     return false;
   }
-  /// Within one surface, those whose bricks have no neighbour in common.
+  /// Within one surface, those whose bricks share no node.
   template <class Visit>
   void each_pair(const Visit& visit) const {
     const ContactSurface& a = trees_[0].skin();
     const ContactSurface& b = trees_[1].skin();
     const auto is_left_out = [&](int row_a, int row_b) {
-      const std::vector<int>& neighbours = a.neighbours[row_a];
-      return is_self() && std::binary_search(neighbours.begin(), neighbours.end(), row_b);
+      return is_self() && std::binary_search(a.connected[row_a].begin(), a.connected[row_a].end(), row_b);
     };
     for (int i = 0; i < isize(a.bricks); ++i) {
       for (int j = 0; j < isize(b.bricks); ++j) {
