@@ -173,6 +173,15 @@ Json probes_json(const Recording& recording) {
           {"probes", tracks}};
 }
 
+/// In how many steps the guard against crossings acted, by its means.
+Json json_of(const GuardCounts& counts) {
+  return {{"steps", counts.steps},
+          {"with_impulses", counts.impulses},
+          {"with_slowed_nodes", counts.slowed},
+          {"with_nodes_moving_as_one", counts.welded},
+          {"failed", counts.failed}};
+}
+
 /// How a run came about: version and build of the program, the scene as resolved, a hash of each mesh file it names and
 /// of the state in the last frame, and how long each frame took (s, wall clock; including those of an earlier run that
 /// this one resumed).
@@ -227,6 +236,7 @@ void run_simulation(const CLI::App& command, const SimulateOptions& options, con
     if (!options.json) return print_summary(recording);
     Json json = probes_json(recording);
     json["crossings"] = json_of(recording.crossings);
+    if (recording.guard.steps > 0) json["guard"] = json_of(recording.guard);
     fmt::print("{}\n", json.dump(1));
   });
 }

@@ -35,4 +35,12 @@ GroupContacts ContactStates::of(const std::vector<std::size_t>& group) const {
   return known == by_group_.end() ? GroupContacts{} : known->second;
 }
 
+GuardCounts ContactStates::guard_counts() const {
+  GuardCounts sum;
+  for (const auto& [rows, contacts] : by_group_) {
+    if (contacts.swept) sum += contacts.swept->guard_counts();
+  }
+  return sum;
+}
+
 }  // namespace sprung

@@ -25,6 +25,9 @@ class ContactStates {
   /// Empty if begin_frame() had no such group.
   [[nodiscard]] GroupContacts of(const std::vector<std::size_t>& group) const;
 
+  /// Of all groups since begin_frame().
+  [[nodiscard]] GuardCounts guard_counts() const;
+
  private:
   std::map<std::vector<std::size_t>, GroupContacts> by_group_;
 };

@@ -30,6 +30,8 @@ class SweptContacts {
     near_.end_step(dt);
   }
 
+  [[nodiscard]] const GuardCounts& guard_counts() const { return guard_.counts(); }
+
  private:
   Group group_;
   NearFeatures near_;

@@ -30,6 +30,8 @@ class SceneMotion {
 
   /// With the steps of the last frame, of the body that took most.
   [[nodiscard]] const StepPlan& plan() const { return plan_; }
+  /// Of all steps so far; none unless the scene guards against crossings.
+  [[nodiscard]] const GuardCounts& guard_counts() const { return guard_counts_; }
   /// None for explicit steps.
   [[nodiscard]] std::optional<ImplicitMotion::Report> implicit_report() const;
   /// Reactions of the pins by body (m x 3, N) in the current state, without the inertia of the pinned nodes.
@@ -41,6 +43,7 @@ class SceneMotion {
   World& world_;
   SceneDriver driver_;
   StepPlan plan_;
+  GuardCounts guard_counts_;
   AdaptiveIntegrator explicit_;
   std::optional<ImplicitMotion> implicit_;
 };

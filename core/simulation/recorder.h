@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/contact/pairs/guard_counts.h"
 #include "core/dynamics/integrator_state.h"
 #include "core/simulation/crossings.h"
 #include "core/simulation/probe_sample.h"
@@ -31,6 +32,7 @@ struct Recording {
   std::vector<ProbeTrack> probes;
   Eigen::VectorXd frequencies;       // Hz, of modes
   std::vector<Crossings> crossings;  // of the frames of a motion that this run computed, but the first
+  GuardCounts guard;                 // of the steps that this run computed, if the scene guards against crossings
   std::uint64_t state_hash = 0;      // of the last frame's node positions and velocities
 };
 

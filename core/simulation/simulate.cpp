@@ -106,6 +106,7 @@ class MotionRun {
   /// Of `frames` frames, of which this run computed those from `first` on.
   void finish(int first, int frames) {
     note_implicit();
+    note_guard();
     const int inverted = inverted_bricks(world_);
     const bool has_more = !motion_.plan().is_implicit() && world_.bodies.size() > 1;  // each with its own steps
     const Steps& steps = motion_.plan().steps;
@@ -156,6 +157,20 @@ class MotionRun {
     }
   }
 
+  void note_guard() const {
+    const GuardCounts& counts = motion_.guard_counts();
+    if (counts.steps == 0) return;
+    observer_.detail(fmt::format(
+        "guard against crossings: acted in {} of {} steps, slowed nodes down in {}, let nodes move as one in {}",
+        counts.impulses, counts.steps, counts.slowed, counts.welded));
+    if (counts.failed > 0) {
+      observer_.warn(
+          fmt::format("the guard against crossings failed in {} of {} steps: parts that pins or obstacles "
+                      "move meet there; keep them apart",
+                      counts.failed, counts.steps));
+    }
+  }
+
   /// Once, when enough is done for an estimate.
   void judge_long_run() {
     if (is_judged_ || progress_->seconds() < kSecondsToEstimate) return;
@@ -203,6 +218,7 @@ Recording record_motion(Simulation& simulation, const Scene& scene, const Observ
   }
   run.finish(first, frame);
   recorder.recording().crossings = run.crossings();
+  recorder.recording().guard = run.motion().guard_counts();
   return recorder.finish();
 }
 

@@ -20,6 +20,12 @@ double allowed_approach(const AwakePair& pair, double brick) {
 /// What has crossed another surface is moved out by contact.
 bool is_left_alone(const AwakePair& pair) { return pair.gap < 0 && pair.bodies[1] != AwakePair::kNoBody; }
 
+/// At which any corners of the two features approach, m/s.
+double closing_speed(const AwakePair& pair, const Eigen::Vector4d& speeds) {
+  const int count = pair.pair.count;
+  return speeds.tail(4 - count).maxCoeff() - speeds.head(count).minCoeff();
+}
+
 /// The weights of the corners that approach most.
 Eigen::Vector4d worst_corners(const AwakePair& pair, const Eigen::Vector4d& speeds) {
   const int count = pair.pair.count;
@@ -39,15 +45,26 @@ void CrossingGuard::apply(const World& world, const std::vector<Eigen::VectorXd>
   inverse_masses_ = &inverse_masses;
   near_.refresh_velocities();
   static_cast<void>(near_.recheck(world, dt));
-  for (int look = 0; look < kMostLooks; ++look) {
-    if (!keep_apart(dt) || !near_.recheck(world, dt)) break;
+  do_pins_meet_ = false;
+  Outcome outcome = Outcome::kChanged;
+  int rounds = 0;
+  for (int look = 0; look < kMostLooks && outcome == Outcome::kChanged; ++look) {
+    outcome = keep_apart(dt, rounds);
+    if (outcome == Outcome::kChanged && !near_.recheck(world, dt)) outcome = Outcome::kUnchanged;
   }
+  count(rounds, do_pins_meet_ || outcome != Outcome::kUnchanged);
+}
+
+void CrossingGuard::count(int rounds, bool has_failed) {
+  counts_ += {.steps = 1,
+              .impulses = rounds > 0 ? 1 : 0,
+              .slowed = rounds > kImpulseRounds ? 1 : 0,
+              .welded = rounds > kSlowRounds ? 1 : 0,
+              .failed = has_failed ? 1 : 0};
 }
 
 bool CrossingGuard::may_meet(const AwakePair& pair, const Eigen::Vector4d& speeds, double dt) const {
-  const int count = pair.pair.count;
-  const double closing = speeds.tail(4 - count).maxCoeff() - speeds.head(count).minCoeff();
-  return closing * dt > allowed_approach(pair, near_.brick());
+  return closing_speed(pair, speeds) * dt > allowed_approach(pair, near_.brick());
 }
 
 bool CrossingGuard::find_met(double dt) {
@@ -59,7 +76,12 @@ bool CrossingGuard::find_met(double dt) {
     if (is_left_alone(pair)) continue;
     Eigen::Vector4d speeds;
     for (int corner = 0; corner < 4; ++corner) speeds[corner] = pair.normal.dot(near_.known_velocity(pair, corner));
-    if (!may_meet(pair, speeds, dt) || !can_be_moved(pair)) continue;
+    if (!may_meet(pair, speeds, dt)) continue;
+    if (!can_be_moved(pair)) {
+      const double gap = std::max(pair.gap, kLeastGap * near_.brick());
+      do_pins_meet_ = do_pins_meet_ || closing_speed(pair, speeds) * dt > kFreeShare * gap;
+      continue;
+    }
     has_found = true;
     if (!is_met_[row]) met_.push_back(row);
     is_met_[row] = true;
@@ -67,7 +89,7 @@ bool CrossingGuard::find_met(double dt) {
   return has_found;
 }
 
-bool CrossingGuard::keep_apart(double dt) {
+CrossingGuard::Outcome CrossingGuard::keep_apart(double dt, int& rounds) {
   met_.clear();
   is_met_.clear();
   welds_.clear();
@@ -77,7 +99,7 @@ bool CrossingGuard::keep_apart(double dt) {
   while (find_met(dt)) {
     has_changed = true;
     for (bool is_kept = false; !is_kept; ++round) {
-      if (round == kMostRounds) return false;
+      if (round == kMostRounds) return Outcome::kFailed;
       is_kept = true;
       for (const std::size_t row : met_) {
         const AwakePair& pair = near_.awake()[row];
@@ -85,6 +107,7 @@ bool CrossingGuard::keep_apart(double dt) {
         for (int corner = 0; corner < 4; ++corner) speeds[corner] = pair.normal.dot(near_.velocity(pair, corner));
         if (!may_meet(pair, speeds, dt)) continue;
         is_kept = false;
+        rounds = std::max(rounds, round + 1);
         if (round < kImpulseRounds) {
           const bool is_at_places = -pair.weights.dot(speeds) * dt > allowed_approach(pair, near_.brick());
           push(pair, speeds, is_at_places ? pair.weights : worst_corners(pair, speeds), dt);
@@ -96,7 +119,7 @@ bool CrossingGuard::keep_apart(double dt) {
       }
     }
   }
-  return has_changed;
+  return has_changed ? Outcome::kChanged : Outcome::kUnchanged;
 }
 
 bool CrossingGuard::is_pinned(const AwakePair& pair, int corner) const {

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/contact/pairs/guard_counts.h"
 #include "core/contact/pairs/near_features.h"
 
 namespace sprung {
@@ -18,7 +19,7 @@ namespace sprung {
 /// violate it; the first conserves momentum and angular momentum, the other momentum. If these do not converge, nodes
 /// are slowed down one by one, and finally all nodes of features that still meet move as one, with their momentum, or
 /// with the pinned nodes among them. Sliding stays free. Explicit steps only; what has crossed at the start is ignored
-/// until it has separated. It fails only where parts pinned on both sides meet. Deterministic.
+/// until it has separated. It fails only where parts meet that pins or obstacles move on both sides. Deterministic.
 class CrossingGuard {
  public:
   /// `near` must outlive it.
@@ -27,6 +28,8 @@ class CrossingGuard {
   /// Changes velocities so that nothing crosses in a step of dt; call after NearFeatures::begin_step() and all other
   /// changes of velocities. `inverse_masses` by body of the group and node, 1/kg, 0 for pinned nodes.
   void apply(const World& world, const std::vector<Eigen::VectorXd>& inverse_masses, double dt);
+  /// Of all calls of apply().
+  [[nodiscard]] const GuardCounts& counts() const { return counts_; }
 
  private:
   /// 1/kg; 0 for pinned nodes.
@@ -36,8 +39,10 @@ class CrossingGuard {
   /// Whether no impulse can move it.
   [[nodiscard]] bool is_pinned(const AwakePair& pair, int corner) const;
   [[nodiscard]] bool can_be_moved(const AwakePair& pair) const;
-  /// Whether velocities were changed and the pairs must be checked again; false if it fails.
-  bool keep_apart(double dt);
+  enum class Outcome { kUnchanged, kChanged, kFailed };
+  /// Whether velocities were changed and the pairs must be checked again. `rounds`: raised to the number it took.
+  [[nodiscard]] Outcome keep_apart(double dt, int& rounds);
+  void count(int rounds, bool has_failed);
   [[nodiscard]] bool may_meet(const AwakePair& pair, const Eigen::Vector4d& speeds, double dt) const;
   /// Lists the pairs that may meet, in addition to earlier ones; false: there are none now.
   bool find_met(double dt);
@@ -56,7 +61,9 @@ class CrossingGuard {
   void weld(const AwakePair& pair);
 
   NearFeatures& near_;
+  GuardCounts counts_;
   const std::vector<Eigen::VectorXd>* inverse_masses_ = nullptr;  // in a step
+  bool do_pins_meet_ = false;                                     // in this step: none of their points can be moved
   std::vector<std::size_t> met_;                                  // rows of awake pairs that were to meet in this step
   std::vector<char> is_met_;                                      // by such a row
   std::vector<Weld> welds_;

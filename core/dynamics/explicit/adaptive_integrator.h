@@ -34,6 +34,9 @@ class AdaptiveIntegrator {
   /// short enough.
   std::vector<GroupSteps> advance_frame(double time, double duration, const Between& between, const Tell& tell);
 
+  /// Of the last frame, if the world guards against crossings.
+  [[nodiscard]] GuardCounts guard_counts() const { return contacts_.guard_counts(); }
+
   /// The state besides positions and velocities that the next frame depends on.
   void serialize(IntegratorState& state) { state.serialize_as_double(halvings_); }
 

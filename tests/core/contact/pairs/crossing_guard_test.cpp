@@ -205,6 +205,53 @@ TEST(CrossingGuard, NothingCrossesHoweverHardBodiesMeet) {
   }
 }
 
+/// The guard's counts in a frame of 10 ms.
+GuardCounts counts_of_frame(World& world) {
+  world.guards_crossings = true;
+  AdaptiveIntegrator motion(world, Scheme::kSymplecticEuler);
+  static_cast<void>(motion.advance_frame(
+      0, 0.01, [](double) {}, [](const std::string& what) { ADD_FAILURE() << what; }));
+  return motion.guard_counts();
+}
+
+TEST(CrossingGuard, CountsTheStepsInWhichItActs) {
+  World world;
+  world.obstacles.push_back(knife());
+  world.bodies.push_back(touching_box({4, 4, 4}, 0.02, test_material(0.3), Vec3(-0.037, 0.001, -0.04)));
+  world.bodies[0].velocities.col(1).setConstant(-1.5);
+  const GuardCounts counts = counts_of_frame(world);
+  EXPECT_GT(counts.impulses, 0);
+  EXPECT_GE(counts.steps, counts.impulses);
+  EXPECT_GE(counts.impulses, counts.slowed);
+  EXPECT_GE(counts.slowed, counts.welded);
+  EXPECT_EQ(counts.failed, 0);
+}
+
+/// A box on the ground, whose lower nodes are pinned and move at `velocity` (m/s).
+World box_with_feet(double velocity) {
+  World world;
+  world.obstacles.emplace_back();
+  world.bodies.push_back(touching_box({3, 3, 3}, 0.02, test_material(0.3), Vec3::Zero()));
+  SoftBody& body = world.bodies[0];
+  for (int node = 0; node < body.node_count(); ++node) {
+    if (body.positions(node, 1) == 0) body.pinned.push_back({.node = node, .velocity = Vec3(0, velocity, 0)});
+  }
+  return world;
+}
+
+TEST(CrossingGuard, LeavesPinsAloneThatTouchTheGround) {
+  World world = box_with_feet(0);
+  const GuardCounts counts = counts_of_frame(world);
+  EXPECT_GT(counts.steps, 0);
+  EXPECT_EQ(counts.impulses, 0);
+  EXPECT_EQ(counts.failed, 0);
+}
+
+TEST(CrossingGuard, CountsAFailureWherePinsMoveIntoTheGround) {
+  World world = box_with_feet(-0.1);
+  EXPECT_GT(counts_of_frame(world).failed, 0);
+}
+
 /// The ends of a horseshoe come down on each other.
 TEST(CrossingGuard, ABodyDoesNotPassThroughItself) {
   World world;
