@@ -36,6 +36,20 @@ bool are_near(const std::array<Vec3, N>& a, const std::array<Vec3, M>& b, double
   return true;
 }
 
+/// The box around the corners of some triangles or edges of a surface, and `margin` about it.
+template <class Feature>
+AlignedBox box_around(SurfaceTree& tree, const std::vector<Feature>& features, int first, int last, double margin) {
+  AlignedBox box;
+  for (int row = first; row < last; ++row) {
+    for (const int corner : features[row]) box.extend(tree.place_of(corner));
+  }
+  if (!box.isEmpty()) {
+    box.min().array() -= margin;
+    box.max().array() += margin;
+  }
+  return box;
+}
+
 }  // namespace
 
 FeaturePairs::FeaturePairs(SurfaceTree& a, SurfaceTree& b, std::array<std::size_t, 2> bodies, double friction)
@@ -85,9 +99,13 @@ void FeaturePairs::list_points(std::size_t side, int points_of, int triangles_of
   SurfaceTree& across = is_self() ? ours : tree(1 - side);
   const ContactSurface& skin = ours.skin();
   const ContactSurface& other = across.skin();
+  const int first = other.first_triangle[triangles_of];
+  const int last = other.first_triangle[triangles_of + 1];
+  const AlignedBox around = box_around(across, other.triangles, first, last, margin);
   for (int point = skin.first_point[points_of]; point < skin.first_point[points_of + 1]; ++point) {
     const std::array<Vec3, 1> place{ours.place_of(point)};
-    for (int t = other.first_triangle[triangles_of]; t < other.first_triangle[triangles_of + 1]; ++t) {
+    if (!around.contains(place[0])) continue;
+    for (int t = first; t < last; ++t) {
       const auto& [a, b, c] = other.triangles[t];
       const std::array<Vec3, 3> corners{across.place_of(a), across.place_of(b), across.place_of(c)};
       if (!are_near(place, corners, margin)) continue;
@@ -102,10 +120,15 @@ void FeaturePairs::list_edges(int edges_of, int others_of, double margin, NearLi
   SurfaceTree& across = tree(1);
   const ContactSurface& skin = ours.skin();
   const ContactSurface& other = across.skin();
+  const int first = other.first_edge[others_of];
+  const int last = other.first_edge[others_of + 1];
+  const AlignedBox around = box_around(across, other.edges, first, last, margin);
   for (int edge = skin.first_edge[edges_of]; edge < skin.first_edge[edges_of + 1]; ++edge) {
     const auto& [a, b] = skin.edges[edge];
     const std::array<Vec3, 2> ends{ours.place_of(a), ours.place_of(b)};
-    for (int e = other.first_edge[others_of]; e < other.first_edge[others_of + 1]; ++e) {
+    AlignedBox box(ends[0]);
+    if (!around.intersects(box.extend(ends[1]))) continue;
+    for (int e = first; e < last; ++e) {
       const auto& [c, d] = other.edges[e];
       if (!are_near(ends, std::array<Vec3, 2>{across.place_of(c), across.place_of(d)}, margin)) continue;
       if (are_connected(a, c) || are_connected(a, d) || are_connected(b, c) || are_connected(b, d)) continue;
