@@ -1,6 +1,7 @@
 #include "core/contact/pairs/feature_pairs.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/contact/pairs/closest_features.h"
 #include "core/contact/search/segment_crossing.h"
@@ -241,12 +242,25 @@ void FeaturePairs::look_at(Sleeper& sleeper, double closer, double coming) {
     sleeper.is_inside = is_inside(pair);
     orient(pair, sleeper.is_inside);
   }
-  const bool is_asleep = way > coming && sleeper.impulse.isZero(0) && pair.gap > 0;
+  const bool may_sleep = sleeper.impulse.isZero(0) && pair.gap > 0;
+  const bool is_asleep = may_sleep && way > coming;
   sleeper.wake = is_asleep ? closer + way : closer;
-  if (is_asleep || (!is_point && (pierces(pair, 0) || pierces(pair, 2)))) return;
+  if (is_asleep || (may_sleep && way > coming_closer(pair.pair))) return;
+  if (!is_point && (pierces(pair, 0) || pierces(pair, 2))) return;
   pair.is_loaded = !sleeper.impulse.isZero(0);
   woken_.push_back({&sleeper, coming});
   measured_.push_back(pair);
+}
+
+double FeaturePairs::coming_closer(const FeaturePair& pair) {
+  const auto velocity = [&](int corner) { return tree(pair.side(corner)).velocity_of(pair.corners[corner]); };
+  double fastest = 0;  // squared
+  for (int i = 0; i < pair.count; ++i) {
+    for (int j = pair.count; j < 4; ++j) fastest = std::max(fastest, (velocity(i) - velocity(j)).squaredNorm());
+  }
+  const SurfaceTree& ours = trees_[0];
+  const SurfaceTree& others = trees_[1];
+  return ours.time_ahead() * std::sqrt(fastest) + ours.distance_ahead() + others.distance_ahead();
 }
 
 void FeaturePairs::orient(AwakePair& pair, bool is_inside) {

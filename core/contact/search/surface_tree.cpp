@@ -182,6 +182,8 @@ void SurfaceTree::measure(const Points& moved, const Points& moving, double more
 
 void SurfaceTree::follow(double time, double more) {
   refresh();
+  time_ahead_ = time;
+  distance_ahead_ = more;
   const Points moved = body_.positions - before_;
   const Points moving = time * body_.velocities;
   measure(moved, moving, more, motions_);

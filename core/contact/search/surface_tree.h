@@ -41,6 +41,9 @@ class SurfaceTree {
   /// Call every few steps, when velocities are those of the coming step; until the next call nothing may move further
   /// than `time` (s) at them plus `more` (m).
   void follow(double time, double more);
+  /// The time and the distance given to follow(), s and m.
+  [[nodiscard]] double time_ahead() const { return time_ahead_; }
+  [[nodiscard]] double distance_ahead() const { return distance_ahead_; }
   /// Call after the body has moved: for current positions, normals and velocities.
   void refresh() {
     ++step_;
@@ -114,6 +117,8 @@ class SurfaceTree {
   std::vector<Motion> motions_;                     // by node
   std::vector<Motion> own_motions_;
   Points before_;  // where the body's nodes were when last followed
+  double time_ahead_ = 0;      // s
+  double distance_ahead_ = 0;  // m
   long step_ = 0;
   long velocity_step_ = 0;
   std::vector<Cached<AlignedBox>> boxes_;  // by node
