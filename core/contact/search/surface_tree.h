@@ -116,7 +116,7 @@ class SurfaceTree {
   std::vector<double> spread_of_cluster_;           // its points' largest sum of absolute weights; 1: all inside
   std::vector<Motion> motions_;                     // by node
   std::vector<Motion> own_motions_;
-  Points before_;  // where the body's nodes were when last followed
+  Points before_;              // where the body's nodes were when last followed
   double time_ahead_ = 0;      // s
   double distance_ahead_ = 0;  // m
   long step_ = 0;
