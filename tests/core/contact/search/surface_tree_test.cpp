@@ -20,7 +20,7 @@ TEST(SegmentCrossing, TellsTheDirection) {
   EXPECT_EQ(segment_crossing(Vec3(0.6, 0.6, -1), Vec3(0.6, 0.6, 1), a, b, c), 0) << "beside it";
 }
 
-/// The winding number of a box about a point, and on each side of each of its points.
+/// The winding number of a box about two points, and how many of its own points count as inside.
 struct Windings {
   int about_middle;
   int about_outside;
