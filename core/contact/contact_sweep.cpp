@@ -14,7 +14,6 @@ constexpr double kApproach = 0.5;         // of the way to the contact distance,
 constexpr double kRecovery = 0.05;        // of the excess approach, that they separate per step ...
 constexpr double kRecoveryHeight = 0.01;  // ... but no faster than from a fall by that part of it
 constexpr double kLeastFree = 0.05;       // of a contact's weights: the share of pinned nodes cannot be moved
-constexpr double kSupported = 0.5;  // of the contact distance, below which a point needs support though its node has it
 constexpr int kInversionSweeps = 4;
 
 /// The least speed (m/s) along the normal of two features whose contact keeps them `reach` (m) apart, if they move at
@@ -114,7 +113,7 @@ void ContactSweep::add_contacts(NearFeatures& near, const std::vector<Eigen::Vec
     }
     const double least = least_speed(pair, reach, speed, gravity, dt);
     const bool is_held = is_supported_at_node(near, pair, !are_loaded);
-    if (!are_loaded && (!(speed < least - gravity * dt) || (is_held && pair.gap > kSupported * reach))) continue;
+    if (!are_loaded && (!(speed < least - gravity * dt) || (is_held && pair.gap > kBorne * reach))) continue;
     Row row{.first = parts_.size(),
             .last = 0,
             .normal = pair.normal,

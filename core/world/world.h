@@ -28,6 +28,7 @@ struct ContactSkin {
   Embedding points{};                               // each position once
   Triangles triangles{};                            // rows of points; none: contact with obstacles only
   std::shared_ptr<const ContactSurface> surface{};  // of these, when first used; see there
+  std::shared_ptr<const ContactSurface> outline{};  // of what is drawn, likewise
   double friction = 0.5;                            // on another body: the geometric mean of both
   bool with_itself = true;                          // not if it overlaps itself at rest
 };

@@ -45,6 +45,11 @@ inline constexpr double kLeastGap = 1e-5;
 inline constexpr double kGuardedGap = 0.03;
 inline constexpr double kGuardedEdges = 0.6 * kGuardedGap;
 
+/// The share of that gap below which a point must be supported itself, even if another at its node carries a load; and
+/// the share of its own gap that it may lose meanwhile without being checked.
+inline constexpr double kBorne = 0.5;
+inline constexpr double kSkipped = 0.45;
+
 /// How far (m) two features may approach before they must be checked: they may then cross in a step, or be within
 /// `reach` (m), where contacts begin to act. `brick` in m.
 [[nodiscard]] inline double distance_until_due(double gap, double reach, double brick) {

@@ -10,8 +10,8 @@
 namespace sprung {
 
 /// Prevents contact surfaces of a group's bodies from passing through each other, themselves, or an obstacle: points
-/// through triangles or into obstacles without edges, and edges through edges. The normal between the nearest points of
-/// two such features separates them, and still does after a step of dt if
+/// through triangles, and edges through edges; and what is drawn of the bodies from entering obstacles without edges.
+/// The normal between the nearest points of two such features separates them, and still does after a step of dt if
 ///
 ///   dt (least speed of the first's corners along it - greatest of the second's) > -0.8 gap.
 ///

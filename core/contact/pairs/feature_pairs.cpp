@@ -12,10 +12,7 @@ namespace {
 constexpr double kNear = 0.35;    // bricks within which features are listed
 constexpr double kBeside = 1e-6;  // of a feature's corners: the nearest point is on its edge if one has less weight
 constexpr double kStill = 0.4;    // of its gap, that a point may move while only one of the triangles about it is awake
-constexpr double kBorne = 0.5;    // of the contact distance, below which a point must be supported itself ...
-constexpr double kSkipped =
-    0.45;  // ... and of its gap that it may lose meanwhile, if another at the same node carries a load
-constexpr double kSame = 1e-3;  // bricks by which two triangles are about as near to a point
+constexpr double kSame = 1e-3;    // bricks by which two triangles are about as near to a point
 
 /// Whether the nearest points of two edges are at an end of one: such contacts are left to points.
 bool is_at_end(const AwakePair& edges) { return edges.weights.cwiseAbs().minCoeff() <= kBeside; }

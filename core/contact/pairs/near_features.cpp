@@ -20,9 +20,12 @@ constexpr double kMoreSlack = 4;        // times as far, each time that a step i
 
 }  // namespace
 
-NearFeatures::NearFeatures(const Group& group, const World& world, Trees trees)
-    : group_(group), brick_(smallest_brick(group)), trees_(std::move(trees)) {
-  for (const auto& tree : trees_) tree->begin();
+NearFeatures::NearFeatures(const Group& group, const World& world, BodyTrees trees)
+    : group_(group),
+      brick_(smallest_brick(group)),
+      trees_(std::move(trees.surfaces)),
+      outlines_(std::move(trees.outlines)) {
+  each_tree([](SurfaceTree& tree) { tree.begin(); });
   std::vector<std::size_t> smooth;
   for (std::size_t row = 0; row < world.obstacles.size(); ++row) {
     std::optional<SoftBody> surface = obstacle_surface(world.obstacles[row], brick_);
@@ -36,11 +39,14 @@ NearFeatures::NearFeatures(const Group& group, const World& world, Trees trees)
   for (std::size_t row = trees_.size(); row < group_.size() + obstacles_.size(); ++row) {
     trees_.push_back(std::make_unique<SurfaceTree>(contact_surface_of(body(row)), body(row)));
   }
+  for (std::size_t row = outlines_.size(); row < group_.size() && !smooth.empty(); ++row) {
+    outlines_.push_back(std::make_unique<SurfaceTree>(outline_of(*group_[row]), *group_[row]));
+  }
   const auto add = [&](std::size_t a, std::size_t b, double friction) {
     pairs_.push_back(std::make_unique<FeaturePairs>(*trees_[a], *trees_[b], std::array{a, b}, friction));
   };
   for (std::size_t a = 0; a < group_.size(); ++a) {
-    for (const std::size_t row : smooth) against_.push_back({.obstacle = row, .pairs = ShapePairs(*trees_[a], a)});
+    for (const std::size_t row : smooth) against_.push_back({.obstacle = row, .pairs = ShapePairs(*outlines_[a], a)});
     if (group_[a]->contact.with_itself) add(a, a, group_[a]->contact.friction);
     for (std::size_t b = a + 1; b < group_.size() && world.bodies_collide; ++b) {
       add(a, b, std::sqrt(group_[a]->contact.friction * group_[b]->contact.friction));
@@ -49,14 +55,16 @@ NearFeatures::NearFeatures(const Group& group, const World& world, Trees trees)
   }
 }
 
-NearFeatures::Trees NearFeatures::take_trees() && {
+NearFeatures::BodyTrees NearFeatures::take_trees() && {
   trees_.resize(group_.size());
-  return std::move(trees_);
+  return {.surfaces = std::move(trees_), .outlines = std::move(outlines_)};
 }
 
 bool NearFeatures::is_of_surfaces() const {
   for (std::size_t row = 0; row < group_.size(); ++row) {
-    if (group_[row]->contact.surface.get() != &trees_[row]->skin()) return false;
+    const ContactSkin& contact = group_[row]->contact;
+    if (contact.surface.get() != &trees_[row]->skin()) return false;
+    if (row < outlines_.size() && contact.outline.get() != &outlines_[row]->skin()) return false;
   }
   return true;
 }
@@ -66,24 +74,23 @@ SoftBody& NearFeatures::body(std::size_t row) const {
 }
 
 Vec3 NearFeatures::known_velocity(const AwakePair& pair, int corner) {
-  const std::size_t row = pair.body_of(corner);
-  return row == AwakePair::kNoBody ? pair.obstacle_velocity : trees_[row]->velocity_of(pair.pair.corners[corner]);
+  if (pair.body_of(corner) == AwakePair::kNoBody) return pair.obstacle_velocity;
+  return tree_of(pair, corner).velocity_of(pair.pair.corners[corner]);
 }
 
 Vec3 NearFeatures::velocity(const AwakePair& pair, int corner) const {
   const std::size_t row = pair.body_of(corner);
   if (row == AwakePair::kNoBody) return pair.obstacle_velocity;
-  return carried(body(row), trees_[row]->skin().points[pair.pair.corners[corner]], body(row).velocities);
+  return carried(body(row), point_of(pair, corner), body(row).velocities);
 }
 
 int NearFeatures::nearest_node(const AwakePair& pair) const {
-  const std::size_t row = pair.body_of(0);
-  const ContactPoint& point = trees_[row]->skin().points[pair.pair.corners[0]];
-  return body(row).grid.nodes[point.brick][point.corner];
+  const ContactPoint& point = point_of(pair, 0);
+  return body(pair.body_of(0)).grid.nodes[point.brick][point.corner];
 }
 
 void NearFeatures::refresh_velocities() {
-  for (const auto& tree : trees_) tree->refresh_velocities();
+  each_tree([](SurfaceTree& tree) { tree.refresh_velocities(); });
 }
 
 void NearFeatures::begin_step(const World& world, double elapsed, double dt) {
@@ -111,7 +118,8 @@ double NearFeatures::deviation(double dt) const {
     const Body& now = body(row);
     const Seen& seen = seen_[row];
     const auto off = now.positions + dt * now.velocities - seen.positions - (since_look_ + dt) * seen.velocities;
-    furthest = std::max(furthest, trees_[row]->spread() * std::sqrt(off.rowwise().squaredNorm().maxCoeff()));
+    const double spread = std::max(trees_[row]->spread(), row < outlines_.size() ? outlines_[row]->spread() : 0);
+    furthest = std::max(furthest, spread * std::sqrt(off.rowwise().squaredNorm().maxCoeff()));
   }
   return furthest / brick_;
 }
@@ -127,6 +135,7 @@ void NearFeatures::predict(const World& world, double dt, double slack) {
   tbb::parallel_for(std::size_t{0}, trees_.size(), [&](std::size_t row) {
     seen_[row] = {body(row).positions, body(row).velocities};
     trees_[row]->follow(horizon_, slack_ * brick_);
+    if (row < outlines_.size()) outlines_[row]->follow(horizon_, slack_ * brick_);
   });
   for (const auto& pairs : pairs_) pairs->wake();
   for (Against& against : against_) {
@@ -135,7 +144,7 @@ void NearFeatures::predict(const World& world, double dt, double slack) {
 }
 
 void NearFeatures::measure(const World& world) {
-  for (const auto& tree : trees_) tree->refresh();
+  each_tree([](SurfaceTree& tree) { tree.refresh(); });
   awake_.clear();
   for (Against& against : against_) {
     against.pairs.measure(world.obstacles[against.obstacle], poses_[against.obstacle], awake_);

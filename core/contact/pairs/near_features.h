@@ -14,10 +14,15 @@ namespace sprung {
 class NearFeatures {
  public:
   using Trees = std::vector<std::unique_ptr<SurfaceTree>>;
+  /// By body.
+  struct BodyTrees {
+    Trees surfaces;
+    Trees outlines;  // see outline_of(); none where there are only obstacles with edges
+  };
   /// The bodies must outlive it. `trees`: of the same bodies with the same surfaces, from an earlier instance; or none.
   /// Results do not depend on them.
-  NearFeatures(const Group& group, const World& world, Trees trees = {});
-  [[nodiscard]] Trees take_trees() &&;
+  NearFeatures(const Group& group, const World& world, BodyTrees trees = {});
+  [[nodiscard]] BodyTrees take_trees() &&;
   /// Whether the bodies still have the same surfaces.
   [[nodiscard]] bool is_of_surfaces() const;
 
@@ -48,7 +53,7 @@ class NearFeatures {
   void each_node(const AwakePair& pair, int corner, const Visit& visit) const {
     const std::size_t row = pair.body_of(corner);
     if (row == AwakePair::kNoBody) return;
-    const ContactPoint& at = trees_[row]->skin().points[pair.pair.corners[corner]];
+    const ContactPoint& at = point_of(pair, corner);
     const auto& nodes = body(row).grid.nodes[at.brick];
     for (int i = 0; i < 8; ++i) {
       if (at.weights[i] != 0) visit(row, nodes[i], at.weights[i]);
@@ -56,6 +61,19 @@ class NearFeatures {
   }
 
  private:
+  /// Those of its points, or of its contact surface.
+  [[nodiscard]] SurfaceTree& tree_of(const AwakePair& pair, int corner) const {
+    const std::size_t row = pair.body_of(corner);
+    return pair.bodies[1] == AwakePair::kNoBody ? *outlines_[row] : *trees_[row];
+  }
+  [[nodiscard]] const ContactPoint& point_of(const AwakePair& pair, int corner) const {
+    return tree_of(pair, corner).skin().points[pair.pair.corners[corner]];
+  }
+  template <class Visit>
+  void each_tree(const Visit& visit) const {
+    for (const auto& tree : trees_) visit(*tree);
+    for (const auto& tree : outlines_) visit(*tree);
+  }
   /// A body and an obstacle without edges.
   struct Against {
     std::size_t obstacle;  // row in the world
@@ -73,6 +91,7 @@ class NearFeatures {
   std::vector<std::size_t> obstacle_rows_;            // in the world
   double brick_;                                      // m
   Trees trees_;                                       // of the bodies, then of the obstacles
+  Trees outlines_;                                    // of the bodies, if there are obstacles without edges
   std::vector<std::unique_ptr<FeaturePairs>> pairs_;
   std::vector<Against> against_;
   std::vector<Pose> poses_;  // of all obstacles, in this step
@@ -82,7 +101,7 @@ class NearFeatures {
     Points positions;
     Points velocities;
   };
-  std::vector<Seen> seen_;  // by tree
+  std::vector<Seen> seen_;  // by body
   double horizon_ = 0;      // s
   double slack_ = 0;        // bricks
   double since_look_ = 0;   // s

@@ -15,7 +15,24 @@ ShapePairs::ShapePairs(SurfaceTree& tree, std::size_t body)
       ways_(tree.nodes().size(), 0),
       brick_wakes_(tree.skin().bricks.size(), 0),
       point_wakes_(tree.skin().points.size(), 0),
-      impulses_(tree.skin().points.size(), Vec3::Zero()) {}
+      impulses_(tree.skin().points.size(), Vec3::Zero()),
+      loaded_(std::size_t(tree.body().node_count()), -1) {
+  const ContactSurface& skin = tree.skin();
+  for (std::size_t brick = 0; brick < skin.bricks.size(); ++brick) {
+    double& spread = spreads_.emplace_back(1);
+    for (int point = skin.first_point[brick]; point < skin.first_point[brick + 1]; ++point) {
+      spread = std::max(spread, skin.points[point].weights.cwiseAbs().sum());
+    }
+  }
+}
+
+double ShapePairs::distance_to_brick(int brick, const Obstacle& obstacle, const Pose& pose) const {
+  AlignedBox box;
+  for (const int node : tree_.body().grid.nodes[tree_.skin().bricks[brick]]) {
+    box.extend(Vec3(tree_.body().positions.row(node)));
+  }
+  return signed_distance(obstacle.shape, pose, box.center()).distance - spreads_[brick] * box.diagonal().norm() / 2;
+}
 
 double ShapePairs::closer(const Obstacle& obstacle, const Pose& pose, const VectorBall& moved, const Vec3& shift,
                           double turned) const {
@@ -34,7 +51,8 @@ void ShapePairs::wake(const Obstacle& obstacle, const Pose& pose, double time) {
   const double turned = is_new_ ? 0 : Eigen::AngleAxisd(pose_before_.rotation.transpose() * pose.rotation).angle();
   pose_before_ = pose;
   is_new_ = false;
-  awake_.clear();
+  woken_.clear();
+  ++look_;
   double coming = 0;
   int cluster = -1;
   const std::vector<SurfaceTree::Node>& nodes = tree_.nodes();
@@ -48,14 +66,33 @@ void ShapePairs::wake(const Obstacle& obstacle, const Pose& pose, double time) {
     }
     if (brick_wakes_[tree_.brick_of(nodes[leaf])] <= ways_[cluster] + coming) look_at(leaf, obstacle, pose, coming);
   }
+  for (const Woken& woken : woken_) {
+    if (!impulses_[woken.point].isZero(0)) loaded_[nearest_node(woken.point)] = look_;
+  }
+  awake_.clear();
+  for (const Woken& woken : woken_) {
+    if (!may_skip(woken)) awake_.push_back(woken.point);
+  }
+}
+
+int ShapePairs::nearest_node(int point) const {
+  const ContactPoint& at = tree_.skin().points[point];
+  return tree_.body().grid.nodes[at.brick][at.corner];
+}
+
+bool ShapePairs::may_skip(const Woken& woken) {
+  if (!impulses_[woken.point].isZero(0) || woken.gap < kBorne * kGuardedGap * brick_) return false;
+  if (loaded_[nearest_node(woken.point)] != look_) return false;
+  if (!(woken.coming < kSkipped * woken.gap)) return false;
+  point_wakes_[woken.point] += kSkipped * woken.gap;
+  return true;
 }
 
 void ShapePairs::look_at(int leaf, const Obstacle& obstacle, const Pose& pose, double coming) {
   const int brick = tree_.brick_of(tree_.nodes()[leaf]);
   const double way = ways_[tree_.cluster_node(leaf)];
   const double reach = kGuardedGap * brick_;
-  const AlignedBox& box = tree_.box(leaf);
-  const double far = signed_distance(obstacle.shape, pose, box.center()).distance - box.diagonal().norm() / 2;
+  const double far = distance_to_brick(brick, obstacle, pose);
   if (far > brick_ && distance_until_due(far, reach, brick_) > coming) {
     brick_wakes_[brick] = way + distance_until_due(far, reach, brick_);
     return;
@@ -68,7 +105,7 @@ void ShapePairs::look_at(int leaf, const Obstacle& obstacle, const Pose& pose, d
       const double due = distance_until_due(gap, reach, brick_);
       const bool is_asleep = gap > 0 && due > coming && impulses_[point].isZero(0);
       point_wakes_[point] = is_asleep ? way + due : way;
-      if (!is_asleep) awake_.push_back(point);
+      if (!is_asleep) woken_.push_back({point, gap, coming});
     }
     first = std::min(first, point_wakes_[point]);
   }

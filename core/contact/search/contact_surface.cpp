@@ -7,6 +7,7 @@
 
 #include "core/body/body.h"
 #include "core/bricks/brick_grid.h"
+#include "core/mesh/repair/weld.h"
 
 namespace sprung {
 namespace {
@@ -46,6 +47,20 @@ std::vector<int> bricks_around(const Body& body, const CornerLists& at_nodes, in
   return around;
 }
 
+/// The vertices of a skin without those that have the place and the brick of another.
+Embedding distinct_points(const BodySkin& drawn) {
+  const Embedding& all = drawn.embedding;
+  const std::vector<int> point_of = weld_points(drawn.skin.positions);
+  std::vector<int> rows;
+  for (int row = 0; row < isize(point_of); ++row) {
+    const int first = point_of[row];
+    if (first == row || all.brick[first] != all.brick[row]) rows.push_back(row);
+  }
+  Embedding distinct{.brick = {}, .local = all.local(rows, Eigen::all)};
+  for (const int row : rows) distinct.brick.push_back(all.brick[row]);
+  return distinct;
+}
+
 /// By row of `bricks`: the rows of those connected to it by at most `links` shared nodes.
 std::vector<std::vector<int>> connected_among(const std::vector<int>& bricks, const Body& body, int links) {
   std::vector<int> row_of(body.grid.nodes.size(), -1);
@@ -75,8 +90,8 @@ std::vector<std::vector<int>> connected_among(const std::vector<int>& bricks, co
 
 }  // namespace
 
-ContactSurface::ContactSurface(const SoftBody& body) {
-  add_triangles(body, add_points(body.contact.points));
+ContactSurface::ContactSurface(const Body& body, const Embedding& embedding, const Triangles& corners) {
+  add_triangles(body, corners, add_points(embedding));
   add_edges();
   for (std::size_t row = 0; row < bricks.size(); ++row) {
     cones.push_back(cone_of(normals.middleRows(first_point[row], first_point[row + 1] - first_point[row])));
@@ -105,27 +120,23 @@ std::vector<int> ContactSurface::add_points(const Embedding& embedding) {
   return place_of;
 }
 
-void ContactSurface::add_triangles(const SoftBody& body, const std::vector<int>& place_of) {
-  for (int row = 0; row < body.contact.triangles.rows(); ++row) {
-    std::array<int, 3> corners{};
-    for (int i = 0; i < 3; ++i) {
-      corners[i] = place_of[body.contact.triangles(row, i)];
-    }
-    triangles.push_back(corners);
+void ContactSurface::add_triangles(const Body& body, const Triangles& corners, const std::vector<int>& place_of) {
+  for (const auto& row : corners.rowwise()) {
+    triangles.push_back({place_of[row[0]], place_of[row[1]], place_of[row[2]]});
   }
-  const auto owner = [&](const std::array<int, 3>& corners) { return points[corners[0]].brick; };
+  const auto owner = [&](const std::array<int, 3>& triangle) { return points[triangle[0]].brick; };
   std::stable_sort(triangles.begin(), triangles.end(),
                    [&](const auto& a, const auto& b) { return owner(a) < owner(b); });
   normals = Points::Zero(points.size(), 3);
   std::vector<int> brick_of_triangle;
-  for (const std::array<int, 3>& corners : triangles) {
-    brick_of_triangle.push_back(owner(corners));
+  for (const std::array<int, 3>& triangle : triangles) {
+    brick_of_triangle.push_back(owner(triangle));
     std::array<Vec3, 3> x;
     for (std::size_t i = 0; i < 3; ++i) {
-      x[i] = carried(body, points[corners[i]], body.rest_positions);
+      x[i] = carried(body, points[triangle[i]], body.rest_positions);
     }
     const Vec3 area = (x[1] - x[0]).cross(x[2] - x[0]);
-    for (const int corner : corners) normals.row(corner) += area.transpose();
+    for (const int corner : triangle) normals.row(corner) += area.transpose();
   }
   first_triangle = starts_of(bricks, brick_of_triangle);
   normals.rowwise().normalize();
@@ -173,8 +184,20 @@ bool share_a_node(const Body& body, int a, int b) {
 }
 
 const ContactSurface& contact_surface_of(SoftBody& body) {
-  if (!body.contact.surface) body.contact.surface = std::make_shared<const ContactSurface>(body);
-  return *body.contact.surface;
+  ContactSkin& contact = body.contact;
+  if (!contact.surface) {
+    contact.surface = std::make_shared<const ContactSurface>(body, contact.points, contact.triangles);
+  }
+  return *contact.surface;
+}
+
+const ContactSurface& outline_of(SoftBody& body) {
+  ContactSkin& contact = body.contact;
+  if (contact.outline) return *contact.outline;
+  const bool is_drawn = !contact.points.brick.empty() && !body.drawn.embedding.brick.empty();
+  contact.outline = std::make_shared<const ContactSurface>(
+      body, is_drawn ? distinct_points(body.drawn) : contact.points, Triangles(0, 3));
+  return *contact.outline;
 }
 
 }  // namespace sprung

@@ -19,9 +19,10 @@ struct NormalCone {
   double spread;
 };
 
-/// The contact geometry of a body, arranged by brick.
+/// Points embedded in a body and the triangles between them, if any, arranged by brick.
 struct ContactSurface {
-  explicit ContactSurface(const SoftBody& body);
+  /// `corners`: rows of `embedding`.
+  ContactSurface(const Body& body, const Embedding& embedding, const Triangles& corners);
 
   std::vector<int> bricks;                    // b; that hold points, ascending
   std::vector<ContactPoint> points;           // n; grouped by brick
@@ -45,7 +46,7 @@ struct ContactSurface {
  private:
   /// Returns the index in points of each of the embedding's.
   [[nodiscard]] std::vector<int> add_points(const Embedding& embedding);
-  void add_triangles(const SoftBody& body, const std::vector<int>& place_of);
+  void add_triangles(const Body& body, const Triangles& corners, const std::vector<int>& place_of);
   void add_edges();
 };
 
@@ -62,6 +63,10 @@ inline constexpr double kBent = 0.5;
 
 /// Built on first use: contacts, their triangles and the rest shape do not change after that.
 [[nodiscard]] const ContactSurface& contact_surface_of(SoftBody& body);
+
+/// The vertices of the drawn skin of a body with contact points, which are more than those; none: its contact points. A
+/// half-space that holds none of them holds nothing of that skin. Built on first use.
+[[nodiscard]] const ContactSurface& outline_of(SoftBody& body);
 
 /// A nodal quantity (m x 3) at a point, interpolated from its brick's corners.
 [[nodiscard]] inline Vec3 carried(const Body& body, int brick, const CornerWeights& weights, const Points& values) {

@@ -188,7 +188,7 @@ void SurfaceTree::follow(double time, double more) {
   const Points moving = time * body_.velocities;
   measure(moved, moving, more, motions_);
   before_ = body_.positions;
-  if (body_.contact.with_itself) measure_own(moved, moving);
+  if (body_.contact.with_itself && !skin_.triangles.empty()) measure_own(moved, moving);
 }
 
 void SurfaceTree::measure_own(const Points& moved, const Points& moving) {

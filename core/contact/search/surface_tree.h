@@ -70,7 +70,7 @@ class SurfaceTree {
   };
   [[nodiscard]] const Motion& motion(int node) const { return motions_[node]; }
   /// The same relative to the rigid motion of the body, which brings no two of its points closer; for bodies that
-  /// collide with themselves.
+  /// collide with themselves, and surfaces with triangles.
   [[nodiscard]] const Motion& own_motion(int node) const { return own_motions_[node]; }
   /// The topmost node that always has the same motions: that of its cluster, or itself.
   [[nodiscard]] int cluster_node(int node) const {

@@ -7,11 +7,14 @@
 #include <numbers>
 #include <random>
 
+#include "core/body/brick_model.h"
 #include "core/body/forces.h"
 #include "core/contact/search/obstacle_surface.h"
 #include "core/dynamics/explicit/adaptive_integrator.h"
 #include "core/mesh/surface_mesh.h"
+#include "core/world/make_soft_body.h"
 #include "tests/support/horseshoe.h"
+#include "tests/support/meshes.h"
 #include "tests/support/passes_through.h"
 #include "tests/support/touching.h"
 
@@ -274,6 +277,27 @@ TEST(CrossingGuard, MovingObstaclesPushWithoutEntering) {
   world.bodies.push_back(touching_box({3, 3, 3}, 0.02, test_material(0.3), Vec3(0.08, -0.03, -0.09)));
   EXPECT_EQ(run_and_count(world, 0.3), 0);
   EXPECT_GT(linear_momentum(world.bodies[0]).norm() / world.bodies[0].masses.sum(), 0.1);
+}
+
+/// A torus of coarse bricks, whose contact surface cuts its corners.
+TEST(CrossingGuard, WhatIsDrawnDoesNotEnterTheGround) {
+  const SurfaceMesh mesh = test::torus_mesh(0.05, 0.03);
+  const Solid solid = find_solids(mesh, "torus").solids.front();
+  FilledSolid filled = fill_solid(solid, 0.02, bricks_for(Model::kCalibrated));
+  World world;
+  world.bodies.push_back(
+      make_soft_body(mesh, solid, std::move(filled.grid), Model::kCalibrated, test_material(0.3, 2e4)));
+  SoftBody& torus = world.bodies[0];
+  place(torus, Eigen::AngleAxisd(1, Vec3(1, 0, 0.3).normalized()).toRotationMatrix(), Vec3(0, 0.09, 0));
+  torus.velocities.col(1).setConstant(-1.5);
+  world.obstacles.push_back(level_ground(0));
+  double lowest = 1;
+  for (int frame = 0; frame < 30; ++frame) {
+    static_cast<void>(run_and_count(world, 0.005, 200));
+    lowest = std::min(lowest, torus.skin_positions(torus.positions).col(1).minCoeff());
+  }
+  EXPECT_GT(lowest, 0);
+  EXPECT_LT(lowest, 1e-3) << "it does not land";
 }
 
 /// The same bits, regardless of earlier frames, on every thread count.
