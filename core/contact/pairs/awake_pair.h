@@ -17,6 +17,12 @@ struct FeaturePair {
   [[nodiscard]] std::size_t side(int corner) const { return corner < count ? first : 1 - first; }
 };
 
+/// At most how fast two features approach (m/s), given the corners' speeds along the normal from the second's nearest
+/// point to the first's: the features are convex, and it separates them.
+[[nodiscard]] inline double closing_speed(const FeaturePair& pair, const Eigen::Vector4d& speeds) {
+  return speeds.tail(4 - pair.count).maxCoeff() - speeds.head(pair.count).minCoeff();
+}
+
 /// A pair that may meet in the coming step.
 struct AwakePair {
   static constexpr std::size_t kNoBody = std::size_t(-1);

@@ -20,12 +20,6 @@ double allowed_approach(const AwakePair& pair, double brick) {
 /// What has crossed another surface is moved out by contact.
 bool is_left_alone(const AwakePair& pair) { return pair.gap < 0 && pair.bodies[1] != AwakePair::kNoBody; }
 
-/// At which any corners of the two features approach, m/s.
-double closing_speed(const AwakePair& pair, const Eigen::Vector4d& speeds) {
-  const int count = pair.pair.count;
-  return speeds.tail(4 - count).maxCoeff() - speeds.head(count).minCoeff();
-}
-
 /// The weights of the corners that approach most.
 Eigen::Vector4d worst_corners(const AwakePair& pair, const Eigen::Vector4d& speeds) {
   const int count = pair.pair.count;
@@ -64,7 +58,7 @@ void CrossingGuard::count(int rounds, bool has_failed) {
 }
 
 bool CrossingGuard::may_meet(const AwakePair& pair, const Eigen::Vector4d& speeds, double dt) const {
-  return closing_speed(pair, speeds) * dt > allowed_approach(pair, near_.brick());
+  return closing_speed(pair.pair, speeds) * dt > allowed_approach(pair, near_.brick());
 }
 
 bool CrossingGuard::find_met(double dt) {
@@ -79,7 +73,7 @@ bool CrossingGuard::find_met(double dt) {
     if (!may_meet(pair, speeds, dt)) continue;
     if (!can_be_moved(pair)) {
       const double gap = std::max(pair.gap, kLeastGap * near_.brick());
-      do_pins_meet_ = do_pins_meet_ || closing_speed(pair, speeds) * dt > kFreeShare * gap;
+      do_pins_meet_ = do_pins_meet_ || closing_speed(pair.pair, speeds) * dt > kFreeShare * gap;
       continue;
     }
     has_found = true;

@@ -242,22 +242,22 @@ void FeaturePairs::look_at(Sleeper& sleeper, double closer, double coming) {
   const bool may_sleep = sleeper.impulse.isZero(0) && pair.gap > 0;
   const bool is_asleep = may_sleep && way > coming;
   sleeper.wake = is_asleep ? closer + way : closer;
-  if (is_asleep || (may_sleep && way > coming_closer(pair.pair))) return;
+  if (is_asleep || (may_sleep && way > coming_closer(pair))) return;
   if (!is_point && (pierces(pair, 0) || pierces(pair, 2))) return;
   pair.is_loaded = !sleeper.impulse.isZero(0);
   woken_.push_back({&sleeper, coming});
   measured_.push_back(pair);
 }
 
-double FeaturePairs::coming_closer(const FeaturePair& pair) {
-  const auto velocity = [&](int corner) { return tree(pair.side(corner)).velocity_of(pair.corners[corner]); };
-  double fastest = 0;  // squared
-  for (int i = 0; i < pair.count; ++i) {
-    for (int j = pair.count; j < 4; ++j) fastest = std::max(fastest, (velocity(i) - velocity(j)).squaredNorm());
+double FeaturePairs::coming_closer(const AwakePair& pair) {
+  Eigen::Vector4d speeds;
+  for (int corner = 0; corner < 4; ++corner) {
+    speeds[corner] = pair.normal.dot(tree(pair.pair.side(corner)).velocity_of(pair.pair.corners[corner]));
   }
   const SurfaceTree& ours = trees_[0];
   const SurfaceTree& others = trees_[1];
-  return ours.time_ahead() * std::sqrt(fastest) + ours.distance_ahead() + others.distance_ahead();
+  return ours.time_ahead() * std::max(0.0, closing_speed(pair.pair, speeds)) + ours.distance_ahead() +
+         others.distance_ahead();
 }
 
 void FeaturePairs::orient(AwakePair& pair, bool is_inside) {

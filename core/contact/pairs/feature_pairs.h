@@ -74,9 +74,9 @@ class FeaturePairs : private NearLists {
   [[nodiscard]] bool are_connected(std::size_t point, std::size_t other) const;
   /// Checks a pair that is due: it continues to sleep, or is woken unless it is excluded.
   void look_at(Sleeper& sleeper, double closer, double coming);
-  /// How far (m) its two features may approach until the trees are followed again: less than their clusters may, in
-  /// which single nodes are fast.
-  [[nodiscard]] double coming_closer(const FeaturePair& pair);
+  /// How far (m) its two features may approach until the trees are followed again: along the normal that separates
+  /// them, and so less than any two points of their clusters may.
+  [[nodiscard]] double coming_closer(const AwakePair& pair);
   struct Woken {
     Sleeper* sleeper;
     double coming;  // m, that the two may come closer until woken again

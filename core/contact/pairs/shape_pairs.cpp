@@ -75,6 +75,12 @@ void ShapePairs::wake(const Obstacle& obstacle, const Pose& pose, double time) {
   }
 }
 
+double ShapePairs::coming_closer(int point, const Vec3& normal, const Obstacle& obstacle) {
+  if (!obstacle.spin.isZero(0)) return std::numeric_limits<double>::infinity();
+  const double speed = normal.dot(obstacle.velocity - tree_.velocity_of(point));
+  return tree_.time_ahead() * std::max(0.0, speed) + tree_.distance_ahead();
+}
+
 int ShapePairs::nearest_node(int point) const {
   const ContactPoint& at = tree_.skin().points[point];
   return tree_.body().grid.nodes[at.brick][at.corner];
@@ -101,11 +107,14 @@ void ShapePairs::look_at(int leaf, const Obstacle& obstacle, const Pose& pose, d
   double first = std::numeric_limits<double>::infinity();
   for (int point = skin.first_point[brick]; point < skin.first_point[brick + 1]; ++point) {
     if (point_wakes_[point] <= way + coming) {
-      const double gap = signed_distance(obstacle.shape, pose, tree_.place_of(point)).distance;
-      const double due = distance_until_due(gap, reach, brick_);
-      const bool is_asleep = gap > 0 && due > coming && impulses_[point].isZero(0);
+      const Gap gap = signed_distance(obstacle.shape, pose, tree_.place_of(point));
+      const double due = distance_until_due(gap.distance, reach, brick_);
+      const bool may_sleep = gap.distance > 0 && impulses_[point].isZero(0);
+      const bool is_asleep = may_sleep && due > coming;
       point_wakes_[point] = is_asleep ? way + due : way;
-      if (!is_asleep) woken_.push_back({point, gap, coming});
+      if (!is_asleep && !(may_sleep && due > coming_closer(point, gap.normal, obstacle))) {
+        woken_.push_back({point, gap.distance, coming});
+      }
     }
     first = std::min(first, point_wakes_[point]);
   }

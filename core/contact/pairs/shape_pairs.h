@@ -27,6 +27,9 @@ class ShapePairs {
   /// A lower bound of the distance between the points of a brick and the obstacle, m.
   [[nodiscard]] double distance_to_brick(int brick, const Obstacle& obstacle, const Pose& pose) const;
   void look_at(int leaf, const Obstacle& obstacle, const Pose& pose, double coming);
+  /// How far (m) a point may approach an obstacle until woken again: obstacles without edges are convex, and the plane
+  /// across the normal at the nearest point separates them. Infinite if the obstacle turns.
+  [[nodiscard]] double coming_closer(int point, const Vec3& normal, const Obstacle& obstacle);
   struct Woken {
     int point;
     double gap;     // m

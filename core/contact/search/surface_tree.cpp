@@ -14,7 +14,7 @@
 namespace sprung {
 namespace {
 
-constexpr int kBricksOfCluster = 32;
+constexpr int kBricksOfCluster = 8;
 constexpr double kNormalWeight = 4;  // bricks that opposite normals are worth, halved, in grouping bricks
 
 VectorBall enclosing(const VectorBall& a, const VectorBall& b) {
